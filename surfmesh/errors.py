@@ -1,0 +1,42 @@
+"""What can go wrong, in the user's words.
+
+Every error says what is wrong, where (a column of a formula, a (u, v) point, a side, a
+loop), and what to do about it. Each is also the builtin that a caller would expect to catch.
+"""
+
+
+class SurfmeshError(Exception):
+    """The parent of everything that surfmesh raises on purpose."""
+
+
+class SurfaceError(SurfmeshError, ValueError):
+    """The surface cannot be used: empty domain, values that are not finite, no area."""
+
+
+class FormulaError(SurfaceError):
+    """A formula was refused.
+
+    ``text`` is the formula, ``column`` the 1-based place in it, ``reason`` why. The message
+    shows the formula with a caret under the column.
+    """
+
+    def __init__(self, reason: str, text: str = "", column: int = 1) -> None:
+        self.reason, self.text, self.column = reason, text, column
+        shown, caret = text, column
+        if len(text) > 72:  # keep the neighbourhood of the column, not the whole text
+            start = max(0, column - 36)
+            shown, caret = text[start : start + 72], column - start
+        pointer = f"\n  {shown}\n  {' ' * (caret - 1)}^" if text else ""
+        super().__init__(f"{reason} (column {column}){pointer}")
+
+
+class SizingError(SurfmeshError, ValueError):
+    """A wish about sizes that cannot be met: unknown, contradictory, not positive."""
+
+
+class MeshingError(SurfmeshError, RuntimeError):
+    """No valid mesh could be made; the message names the place and the reason."""
+
+
+class FileFormatError(SurfmeshError, ValueError):
+    """A file cannot be read or written: unknown extension, wrong content."""
