@@ -81,7 +81,7 @@ def kernel(function: Callable | None = None, *, inline: bool = False) -> Callabl
     """Compile ``function`` in nopython mode, cached on disk; see the module's docstring."""
     if function is None:
         return lambda f: kernel(f, inline=inline)
-    options = {"error_model": "numpy", "inline": "always" if inline else "never"}
+    options = {"error_model": "numpy", "inline": "always" if inline else "never", "_nrt": False}
     dispatcher = numba.njit(**options)(function)
     if hasattr(dispatcher, "_cache"):  # a plain function under NUMBA_DISABLE_JIT
         dispatcher._cache = _KernelCache(function)

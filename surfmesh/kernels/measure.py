@@ -1,0 +1,116 @@
+"""Measures of a finished mesh: shapes of triangles, distances to a surface, connected parts."""
+
+import numpy as np
+
+from .jit import kernel
+
+
+@kernel
+def triangle_shapes(points, triangles):
+    """Shape of every triangle, measured in 3D.
+
+    Parameters
+    ----------
+    points: (n, 3) float64
+    triangles: (m, 3) int32
+
+    Returns
+    -------
+    (m, 5) float64: area; alpha = 4 sqrt(3) area / sum of squared edges; radius ratio
+    2 r_in / r_circum; smallest and largest angle in radians. 1 is best for alpha and the
+    radius ratio, 0 is a triangle without area.
+    """
+    shapes = np.zeros((len(triangles), 5))
+    for t in range(len(triangles)):
+        a, b, c = triangles[t, 0], triangles[t, 1], triangles[t, 2]
+        abx, aby, abz = (points[b, k] - points[a, k] for k in range(3))
+        acx, acy, acz = (points[c, k] - points[a, k] for k in range(3))
+        bcx, bcy, bcz = acx - abx, acy - aby, acz - abz
+        nx, ny, nz = aby * acz - abz * acy, abz * acx - abx * acz, abx * acy - aby * acx
+        twice_area = np.sqrt(nx * nx + ny * ny + nz * nz)
+        ab2 = abx * abx + aby * aby + abz * abz
+        ac2 = acx * acx + acy * acy + acz * acz
+        bc2 = bcx * bcx + bcy * bcy + bcz * bcz
+        total = ab2 + bc2 + ac2
+        if total <= 0.0:
+            continue
+        shapes[t, 0] = 0.5 * twice_area
+        shapes[t, 1] = 2.0 * np.sqrt(3.0) * twice_area / total
+        ab, ac, bc = np.sqrt(ab2), np.sqrt(ac2), np.sqrt(bc2)
+        product = ab * ac * bc * (ab + ac + bc)
+        if product > 0.0:  # r_in = 2 A / perimeter, r_circum = abc / 4 A
+            shapes[t, 2] = 4.0 * twice_area * twice_area / product
+        # cosines of the angles by the law of cosines, tangents by the area: atan2 is exact
+        # to rounding for needles and caps alike
+        at_a = np.arctan2(twice_area, 0.5 * (ab2 + ac2 - bc2))
+        at_b = np.arctan2(twice_area, 0.5 * (ab2 + bc2 - ac2))
+        at_c = np.pi - at_a - at_b
+        shapes[t, 3] = min(at_a, at_b, at_c)
+        shapes[t, 4] = max(at_a, at_b, at_c)
+    return shapes
+
+
+@kernel
+def tangent_plane_distances(points, feet, ru, rv):
+    """Where points lie relative to the tangent planes at feet near them.
+
+    Parameters
+    ----------
+    points, feet, ru, rv: (n, 3) float64; ``feet`` = r(u, v), with its two derivatives
+
+    Returns
+    -------
+    (n, 5) float64: unit normal along r_u x r_v (zero where there is none); distance along
+    it (the whole distance where there is none); distance within the tangent plane.
+    """
+    found = np.zeros((len(points), 5))
+    for i in range(len(points)):
+        nx = ru[i, 1] * rv[i, 2] - ru[i, 2] * rv[i, 1]
+        ny = ru[i, 2] * rv[i, 0] - ru[i, 0] * rv[i, 2]
+        nz = ru[i, 0] * rv[i, 1] - ru[i, 1] * rv[i, 0]
+        length = np.sqrt(nx * nx + ny * ny + nz * nz)
+        dx = points[i, 0] - feet[i, 0]
+        dy = points[i, 1] - feet[i, 1]
+        dz = points[i, 2] - feet[i, 2]
+        squared = dx * dx + dy * dy + dz * dz
+        if length > 0.0:
+            nx, ny, nz = nx / length, ny / length, nz / length
+            along = dx * nx + dy * ny + dz * nz
+            found[i, 0], found[i, 1], found[i, 2] = nx, ny, nz
+            found[i, 3] = abs(along)
+            found[i, 4] = np.sqrt(max(squared - along * along, 0.0))
+        else:
+            found[i, 3] = np.sqrt(squared)
+            found[i, 4] = found[i, 3]
+    return found
+
+
+@kernel
+def component_labels(count, pairs):
+    """Label ``count`` things by connected component: the smallest member of each.
+
+    Parameters
+    ----------
+    count: int
+    pairs: (k, 2) int32, things that belong together
+
+    Returns
+    -------
+    (count,) int32. Union-find with path halving, the smaller root wins.
+    """
+    parent = np.arange(count).astype(np.int32)
+    for i in range(len(pairs)):
+        a, b = pairs[i, 0], pairs[i, 1]
+        while parent[a] != a:
+            parent[a] = parent[parent[a]]
+            a = parent[a]
+        while parent[b] != b:
+            parent[b] = parent[parent[b]]
+            b = parent[b]
+        if a < b:
+            parent[b] = a
+        else:
+            parent[a] = b
+    for i in range(count):  # parents are smaller, so theirs are final already
+        parent[i] = parent[parent[i]]
+    return parent
