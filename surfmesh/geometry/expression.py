@@ -1,0 +1,429 @@
+"""Formulas as data: text to SymPy expressions through a whitelist, nothing executed as Python.
+
+    sum      = product {("+" | "-") product}
+    product  = signed {("*" | "/") signed}
+    signed   = ("+" | "-") signed | power
+    power    = atom [("**" | "^") signed]
+    atom     = number | name | function "(" sum {"," sum} ")" | "(" sum ")"
+
+Every constant part is worked out in floats first, so that no number beyond what a float
+holds ever reaches SymPy's exact arithmetic.
+"""
+
+from __future__ import annotations
+
+import math
+import re
+import unicodedata
+from collections.abc import Callable, Mapping, Sequence
+from typing import NamedTuple
+
+import sympy as sp
+
+from surfmesh.errors import FormulaError, SurfaceError
+from surfmesh.geometry import real_functions as real
+from surfmesh.geometry.compilation import FUNCTION_OPERATIONS, compiled
+
+LONGEST = 10_000  # characters of a formula
+DEEPEST = 64  # levels of parentheses, calls, signs and powers
+LARGEST_EXPONENT = 64  # of a power with a constant exponent
+MOST_DIGITS = 20_000  # binary digits of an exact power
+LARGEST_NUMBER = 1e300  # of any constant part; its square root and square stay near floats
+
+
+class Function(NamedTuple):
+    """A function that may stand in a formula."""
+
+    build: Callable  # SymPy arguments to a SymPy expression
+    value: Callable  # float arguments to a float; raises where it is undefined
+    fewest: int = 1
+    most: int = 1
+
+
+FUNCTIONS: dict[str, Function] = {
+    "sin": Function(sp.sin, math.sin),
+    "cos": Function(sp.cos, math.cos),
+    "tan": Function(sp.tan, math.tan),
+    "asin": Function(sp.asin, math.asin),
+    "acos": Function(sp.acos, math.acos),
+    "atan": Function(sp.atan, math.atan),
+    "atan2": Function(real.angle, math.atan2, 2, 2),
+    "sinh": Function(sp.sinh, math.sinh),
+    "cosh": Function(sp.cosh, math.cosh),
+    "tanh": Function(sp.tanh, math.tanh),
+    "asinh": Function(sp.asinh, math.asinh),
+    "acosh": Function(sp.acosh, math.acosh),
+    "atanh": Function(sp.atanh, math.atanh),
+    "sec": Function(lambda x: 1 / sp.cos(x), lambda x: 1 / math.cos(x)),
+    "csc": Function(lambda x: 1 / sp.sin(x), lambda x: 1 / math.sin(x)),
+    "cot": Function(lambda x: sp.cos(x) / sp.sin(x), lambda x: math.cos(x) / math.sin(x)),
+    "exp": Function(sp.exp, math.exp),
+    "log": Function(sp.log, math.log),
+    "ln": Function(sp.log, math.log),
+    "sqrt": Function(sp.sqrt, math.sqrt),
+    "cbrt": Function(real.cube_root, math.cbrt),
+    "erf": Function(sp.erf, math.erf),
+    "abs": Function(real.absolute, abs),
+    "sign": Function(real.signum, lambda x: (x > 0) - (x < 0)),
+    "min": Function(lambda *xs: real.folded(real.minimum, xs), min, 2, 16),
+    "max": Function(lambda *xs: real.folded(real.maximum, xs), max, 2, 16),
+}
+CONSTANTS: dict[str, sp.Expr] = {"pi": sp.pi, "e": sp.E, "tau": 2 * sp.pi}
+RESERVED = FUNCTIONS.keys() | CONSTANTS.keys()  # names that no variable or parameter may take
+
+_TOKEN = re.compile(
+    r"(?P<space>[ \t\r\n]+)"
+    r"|(?P<number>(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][+-]?[0-9]+)?)"
+    r"|(?P<name>[A-Za-z_][A-Za-z0-9_]*)"
+    r"|(?P<operator>\*\*|[-+*/^(),])"
+)
+_REASONS = {
+    ".": "attribute access is not part of a formula",
+    "=": "assignment and comparison are not part of a formula",
+    "<": "comparison is not part of a formula",
+    ">": "comparison is not part of a formula",
+    "!": "comparison and factorial are not part of a formula",
+    '"': "text in quotes is not part of a formula",
+    "'": "text in quotes is not part of a formula",
+    "[": "brackets [ ] are not part of a formula; group with ( )",
+    "{": "braces { } are not part of a formula; group with ( )",
+}
+
+
+def parse(
+    text: str | float | sp.Expr,
+    names: Sequence[str] = ("u", "v"),
+    parameters: Mapping[str, float] | None = None,
+) -> sp.Expr:
+    """A SymPy expression from a formula, a number or an expression that is already built.
+
+    names: the variables; they become real symbols. parameters: named numbers, put in at once.
+    Raises FormulaError with the column of what was refused.
+    """
+    if isinstance(text, sp.Basic):
+        return _checked(text, names, parameters or {})
+    return _Parser(_as_text(text), names, parameters or {}).formula().expression
+
+
+def parse_number(text: str | float | sp.Expr) -> float:
+    """A finite number from text such as "2*pi", from a number or a constant expression.
+
+    Raises FormulaError.
+    """
+    if isinstance(text, sp.Basic):
+        expression = _checked(text, (), {})
+        return _number(expression, str(expression), 1)
+    if isinstance(text, (int, float)) and not isinstance(text, bool):
+        if not math.isfinite(text):
+            raise FormulaError("a finite number is needed", str(text))
+        return float(text)
+    return _Parser(_as_text(text), (), {}).formula().value
+
+
+def symbol(name: str) -> sp.Symbol:
+    """The symbol that stands for a variable in every parsed expression."""
+    return sp.Symbol(name, real=True)
+
+
+class _Part(NamedTuple):
+    """A parsed piece: what it is, its value when it is constant, and where it starts."""
+
+    expression: sp.Expr
+    value: float | None
+    column: int
+
+
+class _Parser:
+    def __init__(self, text: str, names: Sequence[str], parameters: Mapping[str, float]) -> None:
+        self.text = text
+        self.variables = {name: symbol(name) for name in names}
+        self.parameters = parameters
+        if len(text) > LONGEST:
+            self._refuse(f"longer than {LONGEST} characters", LONGEST + 1)
+        self.tokens = list(self._tokens())
+        self.place = 0
+        self.depth = 0
+
+    def formula(self) -> _Part:
+        if not self.tokens:
+            self._refuse("the formula is empty", 1)
+        result = self._sum()
+        token = self._next()
+        if token is not None:
+            _, found, column = token
+            if found == ")":
+                self._refuse("this parenthesis was never opened", column)
+            if found == ",":
+                self._refuse("a comma outside a function's parentheses", column)
+            self._refuse(f"an operator is missing before {_shown(found)}", column)
+        if result.expression.has(sp.I, sp.zoo, sp.nan, sp.oo):
+            self._refuse("the formula is not a finite real number", 1)
+        # SymPy turns sqrt(u**2) into its own Abs(u)
+        return result._replace(expression=real.on_the_real_line(result.expression))
+
+    def _sum(self) -> _Part:
+        left = self._product()
+        while (sign := self._take("+", "-")) is not None:
+            right = self._product()
+            if sign == "+":
+                left = self._joined(left, right, lambda a, b: a + b)
+            else:
+                left = self._joined(left, right, lambda a, b: a - b)
+        return left
+
+    def _product(self) -> _Part:
+        left = self._signed()
+        while (sign := self._take("*", "/")) is not None:
+            right = self._signed()
+            if sign == "*":
+                left = self._joined(left, right, lambda a, b: a * b)
+                continue
+            if right.expression.is_zero or right.value == 0.0:
+                self._refuse("division by zero", right.column)
+            left = self._joined(left, right, lambda a, b: a / b)
+        return left
+
+    def _signed(self) -> _Part:
+        column = self._column()
+        sign = self._take("+", "-")
+        if sign is None:
+            return self._power()
+        self._enter(column)
+        part = self._signed()
+        self.depth -= 1
+        if sign == "+":
+            return part
+        return _Part(-part.expression, None if part.value is None else -part.value, column)
+
+    def _power(self) -> _Part:
+        base = self._atom()
+        column = self._column()
+        if self._take("**", "^") is None:
+            return base
+        self._enter(column)
+        exponent = self._signed()
+        self.depth -= 1
+        if exponent.value is not None and abs(exponent.value) > LARGEST_EXPONENT:
+            self._refuse(f"an exponent beyond {LARGEST_EXPONENT}", exponent.column)
+        coefficient = base.expression.as_coeff_Mul()[0]
+        if exponent.value is not None and _digits(coefficient) * abs(exponent.value) > MOST_DIGITS:
+            self._refuse("a power with too many digits", exponent.column)
+        if base.value is not None and exponent.value is not None:
+            self._value(math.pow, (base.value, exponent.value), base.column)
+        elif base.expression.is_zero and exponent.value is not None and exponent.value <= 0:
+            self._refuse("division by zero", base.column)
+        result = self._joined(base, exponent, lambda a, b: a**b)
+        factors = sp.Mul.make_args(result.expression)
+        exponents = [factor.exp for factor in factors if factor.is_Pow and factor.exp.is_Rational]
+        if any(abs(exponent) > LARGEST_EXPONENT for exponent in exponents):
+            self._refuse(f"an exponent beyond {LARGEST_EXPONENT}", column)  # (u**9)**9
+        if sp.I in factors:
+            self._refuse("the power is not a real number", base.column)
+        return result
+
+    def _atom(self) -> _Part:
+        token = self._next()
+        if token is None:
+            self._refuse("the formula ends where a value is expected", len(self.text.rstrip()) + 1)
+        kind, found, column = token
+        if kind == "number":
+            return self._literal(found, column)
+        if kind == "name":
+            return self._named(found, column)
+        if found == "(":
+            self._enter(column)
+            inner = self._sum()
+            self._close(column)
+            return inner
+        self._refuse(f"a value is expected, not {_shown(found)}", column)
+
+    def _literal(self, digits: str, column: int) -> _Part:
+        value = float(digits)
+        if value > LARGEST_NUMBER:
+            self._refuse("the number is too large", column)
+        short = len(digits) <= 30 and (value == 0.0 or 1e-30 < value < 1e30)
+        # decimals stay exact: u**0.5 is a square root, and derivatives have clean coefficients
+        return _Part(sp.Rational(digits if short else value), value, column)
+
+    def _named(self, name: str, column: int) -> _Part:
+        called = self.place < len(self.tokens) and self.tokens[self.place][1] == "("
+        if name in FUNCTIONS:
+            if not called:
+                self._refuse(f"{name} is a function: write {name}(...)", column)
+            return self._call(name, column)
+        if called:
+            known = name in self.variables or name in self.parameters or name in CONSTANTS
+            self._refuse(f"{name} is not a {'' if known else 'known '}function", column)
+        if name in self.variables:
+            return _Part(self.variables[name], None, column)
+        if name in self.parameters:
+            expression = _rational(self.parameters[name])
+            return _Part(expression, float(expression), column)
+        if name in CONSTANTS:
+            return _Part(CONSTANTS[name], float(CONSTANTS[name]), column)
+        known = ", ".join([*self.variables, *self.parameters, *CONSTANTS])
+        self._refuse(f"unknown name {_shown(name)}; known are {known} and functions", column)
+
+    def _call(self, name: str, column: int) -> _Part:
+        function = FUNCTIONS[name]
+        opening = self._next()[2]
+        self._enter(opening)
+        arguments = []
+        if not (self.place < len(self.tokens) and self.tokens[self.place][1] == ")"):
+            arguments.append(self._sum())
+            while self._take(",") is not None:
+                arguments.append(self._sum())
+        self._close(opening)
+        if not function.fewest <= len(arguments) <= function.most:
+            wanted = str(function.fewest)
+            if function.most > function.fewest:
+                wanted = f"{function.fewest} to {function.most}"
+            plural = "" if wanted == "1" else "s"
+            self._refuse(f"{name} takes {wanted} argument{plural}, not {len(arguments)}", column)
+        value = None
+        if all(argument.value is not None for argument in arguments):
+            value = self._value(function.value, [a.value for a in arguments], column)
+        expression = function.build(*(argument.expression for argument in arguments))
+        if sp.I in expression.args or (expression.is_Atom and expression.is_finite is False):
+            self._refuse(f"{name} is not a finite real number here", column)
+        return _Part(expression, value, column)
+
+    def _joined(self, left: _Part, right: _Part, operation: Callable) -> _Part:
+        """Two parts joined; constants are first worked out as floats and refused when too large."""
+        value = None
+        if left.value is not None and right.value is not None:
+            value = self._value(operation, (left.value, right.value), left.column)
+        expression = operation(left.expression, right.expression)
+        if value is None and expression.is_number:  # u - u
+            value = _number(expression, self.text, left.column)
+        return _Part(expression, value, left.column)
+
+    def _value(self, function: Callable, arguments: Sequence[float], column: int) -> float:
+        try:
+            value = function(*arguments)
+        except (ValueError, ZeroDivisionError):
+            self._refuse("not a finite real number", column)
+        except OverflowError:
+            self._refuse("the number is too large", column)
+        if isinstance(value, complex) or math.isnan(value):
+            self._refuse("not a finite real number", column)
+        if abs(value) > LARGEST_NUMBER:
+            self._refuse("the number is too large", column)
+        return float(value)
+
+    def _tokens(self):
+        position = 0
+        while position < len(self.text):
+            match = _TOKEN.match(self.text, position)
+            if match is None:
+                self._refuse(_stray(self.text[position]), position + 1)
+            if match.lastgroup != "space":
+                yield match.lastgroup, match.group(), position + 1
+            position = match.end()
+
+    def _next(self) -> tuple[str, str, int] | None:
+        if self.place == len(self.tokens):
+            return None
+        self.place += 1
+        return self.tokens[self.place - 1]
+
+    def _take(self, *operators: str) -> str | None:
+        """The next token if it is one of these operators."""
+        if self.place < len(self.tokens) and self.tokens[self.place][1] in operators:
+            return self._next()[1]
+        return None
+
+    def _column(self) -> int:
+        if self.place < len(self.tokens):
+            return self.tokens[self.place][2]
+        return len(self.text) + 1
+
+    def _enter(self, column: int) -> None:
+        self.depth += 1
+        if self.depth > DEEPEST:
+            self._refuse(f"nested deeper than {DEEPEST} levels", column)
+
+    def _close(self, opening: int) -> None:
+        self.depth -= 1
+        column = self._column()
+        if self._take(")") is not None:
+            return
+        token = self._next()
+        if token is None:
+            self._refuse("this parenthesis is never closed", opening)
+        if token[1] == ",":
+            self._refuse("a comma outside a function's parentheses", column)
+        self._refuse(f"an operator is missing before {_shown(token[1])}", column)
+
+    def _refuse(self, reason: str, column: int):
+        raise FormulaError(reason, self.text, column)
+
+
+def _as_text(text) -> str:
+    if isinstance(text, str):
+        # a line break would tear the caret from its column
+        return re.sub(r"[\r\n\t]", " ", text)
+    if isinstance(text, (int, float)) and not isinstance(text, bool):
+        return repr(text)
+    raise FormulaError(f"a formula is text, a number or a SymPy expression, not {text!r:.60}")
+
+
+def _stray(character: str) -> str:
+    if character.isascii():
+        if character in _REASONS:
+            return f"{_shown(character)}: {_REASONS[character]}"
+        return f"{character!r} is not part of a formula"
+    name = unicodedata.name(character, "unnamed")
+    return f"{_shown(character)} (U+{ord(character):04X}, {name.lower()}) is not a plain character"
+
+
+def _shown(token: str) -> str:
+    return f"'{token}'" if len(token) <= 20 else f"'{token[:20]}...'"
+
+
+def _rational(number) -> sp.Rational:
+    """The shortest decimal that a number prints as, exactly."""
+    if isinstance(number, bool) or not math.isfinite(number) or abs(number) > LARGEST_NUMBER:
+        raise SurfaceError(f"a parameter must be a finite number, not {number!r}")
+    return sp.Rational(repr(float(number)))
+
+
+def _digits(number: sp.Expr) -> int:
+    """Binary digits of a fraction, numerator and denominator together."""
+    return int(number.p).bit_length() + int(number.q).bit_length() if number.is_Rational else 0
+
+
+def _number(expression: sp.Expr, text: str, column: int) -> float:
+    """The value of an expression without variables, worked out in floats."""
+    if not expression.has(sp.I, sp.zoo, sp.nan, sp.oo):
+        tape = compiled([expression], ())
+        value = tape.constants[0] if tape.constants else math.nan
+        if abs(value) <= LARGEST_NUMBER:
+            return value
+    raise FormulaError("not a finite real number", text, column)
+
+
+def _checked(expression: sp.Expr, names: Sequence[str], parameters: Mapping[str, float]) -> sp.Expr:
+    """A ready-made expression over the same variables, functions and numbers as a formula."""
+    text = str(expression)
+    if not isinstance(expression, sp.Expr):
+        raise FormulaError("not a scalar expression", text)
+    expression = real.on_the_real_line(expression)
+    known = {}
+    for free in expression.free_symbols:
+        if free.name in names:
+            known[free] = symbol(free.name)
+        elif free.name in parameters:
+            known[free] = _rational(parameters[free.name])
+        else:
+            raise FormulaError(f"unknown name {_shown(free.name)}", text)
+    for number in expression.atoms(sp.Float):
+        if number.is_finite:
+            known[number] = sp.Rational(repr(float(number)))
+    expression = real.on_the_real_line(expression.xreplace(known))
+    for part in sp.preorder_traversal(expression):
+        allowed = part.is_Add or part.is_Mul or part.is_Pow or part.is_Symbol
+        allowed |= part.is_Rational or part.is_NumberSymbol
+        if not (allowed or part.func in FUNCTION_OPERATIONS):
+            raise FormulaError(f"{_shown(str(part))} is not part of a formula", text)
+    return expression

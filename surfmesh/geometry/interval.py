@@ -1,0 +1,173 @@
+"""Interval arithmetic on arrays: a function of an interval is an interval that holds its range.
+
+An interval is a pair (lo, hi) of float arrays or floats. Bounds hold up to round-off, over the part
+of the interval where the function is defined: sqrt([-1, 4]) is [0, 2]. Where nothing is known
+the bounds are infinite. Callers silence numpy's warnings (``numpy.errstate``).
+
+Source: Moore, Kearfott, Cloud, "Introduction to Interval Analysis", SIAM 2009, chapters 2-5.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+TAU = 2.0 * np.pi
+
+
+def known(lo, hi):
+    """(lo, hi) with everything undecided (nan, reversed) replaced by the whole line."""
+    undecided = ~(lo <= hi)
+    if np.any(undecided):
+        lo, hi = np.where(undecided, -np.inf, lo), np.where(undecided, np.inf, hi)
+    return lo, hi
+
+
+def add(a, b):
+    return known(a[0] + b[0], a[1] + b[1])
+
+
+def subtract(a, b):
+    return known(a[0] - b[1], a[1] - b[0])
+
+
+def negative(a):
+    return -a[1], -a[0]
+
+
+def multiply(a, b):
+    corners = (a[0] * b[0], a[0] * b[1], a[1] * b[0], a[1] * b[1])
+    lo = np.minimum(np.minimum(corners[0], corners[1]), np.minimum(corners[2], corners[3]))
+    hi = np.maximum(np.maximum(corners[0], corners[1]), np.maximum(corners[2], corners[3]))
+    return known(lo, hi)
+
+
+def reciprocal(a):
+    lo, hi = a
+    # 1/[0, b] = [1/b, inf] and 1/[a, 0] = [-inf, 1/a]; a zero inside leaves nothing known
+    low = np.where(hi == 0.0, -np.inf, 1.0 / hi)
+    high = np.where(lo == 0.0, np.inf, 1.0 / lo)
+    inside = (lo < 0.0) & (hi > 0.0)
+    return known(np.where(inside, -np.inf, low), np.where(inside, np.inf, high))
+
+
+def divide(a, b):
+    return multiply(a, reciprocal(b))
+
+
+def integer_power(a, n: int):
+    """a**n for an integer n >= 2; tighter than repeated products when a holds 0."""
+    low, high = np.power(a[0], n), np.power(a[1], n)
+    if n % 2:
+        return known(low, high)
+    holds_zero = (a[0] <= 0.0) & (a[1] >= 0.0)
+    return known(np.where(holds_zero, 0.0, np.minimum(low, high)), np.maximum(low, high))
+
+
+def power(a, b):
+    """a**b for a >= 0, monotone along both sides of the box; unknown where a is negative."""
+    base = np.where(a[1] < 0.0, np.nan, np.maximum(a[0], 0.0)), a[1]
+    corners = [np.power(x, y) for x in base for y in b]
+    lo = np.minimum(np.minimum(corners[0], corners[1]), np.minimum(corners[2], corners[3]))
+    hi = np.maximum(np.maximum(corners[0], corners[1]), np.maximum(corners[2], corners[3]))
+    # 0**0 = 1 stands alone beside 0**y = 0
+    return known(np.where((base[0] == 0.0) & (b[1] > 0.0), 0.0, lo), hi)
+
+
+def sqrt(a):
+    return known(np.sqrt(np.maximum(a[0], 0.0)), np.sqrt(a[1]))
+
+
+def log(a):
+    return known(np.log(np.maximum(a[0], 0.0)), np.log(a[1]))
+
+
+def exp(a):
+    return known(np.exp(a[0]), np.exp(a[1]))
+
+
+def absolute(a):
+    lo, hi = np.abs(a[0]), np.abs(a[1])
+    holds_zero = (a[0] <= 0.0) & (a[1] >= 0.0)
+    return known(np.where(holds_zero, 0.0, np.minimum(lo, hi)), np.maximum(lo, hi))
+
+
+def minimum(a, b):
+    return np.minimum(a[0], b[0]), np.minimum(a[1], b[1])
+
+
+def maximum(a, b):
+    return np.maximum(a[0], b[0]), np.maximum(a[1], b[1])
+
+
+def sin(a):
+    return _wave(a, np.sin, 0.25 * TAU)
+
+
+def cos(a):
+    return _wave(a, np.cos, 0.0)
+
+
+def _wave(a, function, crest: float):
+    """Range of a wave of period 2 pi with a crest (+1) at `crest` and a trough half way on."""
+    lo, hi = a
+    first, last = function(lo), function(hi)
+
+    def holds(phase):
+        # the widened ends keep a crest that sits on an end point, whatever its round-off
+        slack = 1e-15 * (1.0 + np.abs(lo) + np.abs(hi))
+        return np.ceil((lo - slack - phase) / TAU) * TAU + phase <= hi + slack
+
+    unknown = ~np.isfinite(lo) | ~np.isfinite(hi)
+    low = np.where(holds(crest + 0.5 * TAU) | unknown, -1.0, np.minimum(first, last))
+    high = np.where(holds(crest) | unknown, 1.0, np.maximum(first, last))
+    return low, high
+
+
+def tan(a):
+    lo, hi = a
+    branch = np.floor(lo / np.pi + 0.5) == np.floor(hi / np.pi + 0.5)
+    branch &= (hi - lo) < np.pi
+    return known(np.where(branch, np.tan(lo), -np.inf), np.where(branch, np.tan(hi), np.inf))
+
+
+def asin(a):
+    return known(np.arcsin(np.clip(a[0], -1.0, None)), np.arcsin(np.clip(a[1], None, 1.0)))
+
+
+def acos(a):
+    return known(np.arccos(np.clip(a[1], None, 1.0)), np.arccos(np.clip(a[0], -1.0, None)))
+
+
+def cosh(a):
+    lo, hi = absolute(a)
+    return known(np.cosh(lo), np.cosh(hi))
+
+
+def acosh(a):
+    return known(np.arccosh(np.maximum(a[0], 1.0)), np.arccosh(a[1]))
+
+
+def atanh(a):
+    return known(np.arctanh(np.maximum(a[0], -1.0)), np.arctanh(np.minimum(a[1], 1.0)))
+
+
+def angle(y, x):
+    """atan2 over a box: extremes are at corners unless the box meets the cut x <= 0, y = 0."""
+    corners = [np.arctan2(p, q) for p in y for q in x]
+    lo = np.minimum(np.minimum(corners[0], corners[1]), np.minimum(corners[2], corners[3]))
+    hi = np.maximum(np.maximum(corners[0], corners[1]), np.maximum(corners[2], corners[3]))
+    cut = (x[0] <= 0.0) & (y[0] <= 0.0) & (y[1] >= 0.0)
+    return known(np.where(cut, -np.pi, lo), np.where(cut, np.pi, hi))
+
+
+def increasing(function):
+    """The interval version of a function that increases everywhere."""
+
+    def over_interval(a):
+        return known(function(a[0]), function(a[1]))
+
+    return over_interval
+
+
+def step(a):
+    return np.heaviside(a[0], 0.5), np.heaviside(a[1], 0.5)

@@ -1,0 +1,261 @@
+"""Surfaces given by three formulas in u and v."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+import numpy as np
+
+from surfmesh.errors import FormulaError, SurfaceError
+from surfmesh.geometry.surface import Domain
+from surfmesh.geometry.tape import Tape
+
+NUDGE = 1e-9  # of the domain: how far inwards a derivative is taken where it is not finite
+NO_AREA = 1e-11  # sine of the angle between r_u and r_v: r_u x r_v is round-off below it
+SAMPLES = 48  # cells each way on which the formulas are tried; the points sit on their corners
+POLE_DEPTH = 52  # halvings of a cell before a value without bounds counts as a pole
+POLE_CELLS = 64  # cells followed at a time in the search for a pole
+
+
+class ParametricSurface:
+    """r(u, v) = (x, y, z), differentiated symbolically, evaluated by a tape. Immutable.
+
+    x, y, z: formulas as text, SymPy expressions or numbers. u, v: (first, last), numbers or
+    text such as "2*pi". parameters: names used in the formulas, with their values. loops:
+    polygons (k, 2) in (u, v) that trim the surface. description, sizing_defaults, facts: what
+    is known about the surface, kept for whoever asks.
+
+    Raises FormulaError for a formula that is refused, SurfaceError when the domain is empty,
+    a coordinate is not finite somewhere in it, or the surface has no area.
+    """
+
+    def __init__(
+        self,
+        x: Any,
+        y: Any,
+        z: Any,
+        u: tuple[Any, Any],
+        v: tuple[Any, Any],
+        parameters: Mapping[str, float] | None = None,
+        loops: Sequence[Any] = (),
+        name: str = "surface",
+        description: str = "",
+        sizing_defaults: Mapping[str, Any] | None = None,
+        facts: Mapping[str, Any] | None = None,
+    ) -> None:
+        fixed = {
+            "name": str(name),
+            "formulas": (str(x), str(y), str(z)),
+            "parameters": dict(parameters or {}),
+            "domain": (_bounds("u", u), _bounds("v", v)),
+            "description": str(description),
+            "sizing_defaults": dict(sizing_defaults or {}),
+            "facts": dict(facts or {}),
+        }
+        fixed["loops"] = tuple(_loop(number, loop) for number, loop in enumerate(loops))
+        fixed["_expressions"] = _parsed((x, y, z), fixed["parameters"])
+        fixed["_tapes"] = {}
+        self.__dict__.update(fixed)
+        _refuse_values_that_are_not_finite(self)
+        _refuse_no_area(self)
+
+    name: str
+    formulas: tuple[str, str, str]
+    parameters: dict[str, float]
+    domain: Domain
+    loops: tuple[np.ndarray, ...]
+    description: str
+    sizing_defaults: dict[str, Any]
+    facts: dict[str, Any]
+
+    def evaluate(self, uv: np.ndarray, order: int = 0) -> tuple[np.ndarray, ...]:
+        """(n, 2) float -> (n, 3) float arrays: (r,), (r, r_u, r_v) or up to r_uu, r_uv, r_vv.
+
+        Where a derivative is not finite (the apex of a cone) the derivatives are those a
+        billionth of the domain further inside. r itself is left as it is.
+        """
+        uv = np.asarray(uv, dtype=float).reshape(-1, 2)
+        values = self.tape(order).evaluate(uv)
+        if order == 0:
+            return values
+        if all(np.isfinite(value).all() for value in values[1:]):
+            return values
+        broken = ~_finite_rows(values[1:])
+        for nudge in (NUDGE, 1e3 * NUDGE):
+            inside = self.tape(order).evaluate(self._nudged(uv[broken], nudge))
+            for value, better in zip(values[1:], inside[1:]):
+                value[broken] = better
+            broken[broken] = ~_finite_rows(inside[1:])
+        for value in values[1:]:
+            value[broken] = 0.0
+        return values
+
+    def derivative_bounds(self, lo: np.ndarray, hi: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """Bounds of r_u, r_v, r_uu, r_uv, r_vv over cells by interval arithmetic.
+
+        lo, hi: (n, 2) corners of the cells -> lower, upper: (n, 5, 3), infinite where unknown.
+        """
+        lower, upper = self.tape(2).bounds(lo, hi)
+        return lower[:, 3:].reshape(-1, 5, 3), upper[:, 3:].reshape(-1, 5, 3)
+
+    def tape(self, order: int) -> Tape:
+        """The program behind `evaluate`, made when it is first needed."""
+        if order not in self._tapes:
+            # SymPy takes a third of a second to import: only where a formula is differentiated
+            from surfmesh.geometry.compilation import surface_tape
+            from surfmesh.geometry.expression import symbol
+
+            variables = (symbol("u"), symbol("v"))
+            self._tapes[order] = surface_tape(self._expressions, variables, order)
+        return self._tapes[order]
+
+    def _nudged(self, uv: np.ndarray, share: float) -> np.ndarray:
+        """Points moved towards the middle of the domain, those in the middle away from it."""
+        lo, hi = np.array(self.domain).T
+        towards = np.where(uv > 0.5 * (lo + hi), -1.0, 1.0)
+        return uv + towards * share * (hi - lo)
+
+    def __repr__(self) -> str:
+        formulas = ", ".join(f"{c}={f!r}" for c, f in zip("xyz", self.formulas))
+        (u0, u1), (v0, v1) = self.domain
+        more = "".join(f", {name}={value:g}" for name, value in self.parameters.items())
+        trimmed = f", loops={len(self.loops)}" if self.loops else ""
+        bounds = f"u=({u0:g}, {u1:g}), v=({v0:g}, {v1:g})"
+        return f"ParametricSurface({self.name!r}, {formulas}, {bounds}{more}{trimmed})"
+
+    def __setattr__(self, name: str, value: Any) -> None:
+        raise AttributeError(f"a surface does not change; make a new one to set {name!r}")
+
+    def __getstate__(self) -> dict[str, Any]:
+        # tapes travel, expressions do not: a worker process then never needs SymPy
+        for order in range(3):
+            self.tape(order)
+        return {key: value for key, value in self.__dict__.items() if key != "_expressions"}
+
+    def __setstate__(self, state: dict[str, Any]) -> None:
+        self.__dict__.update(state)
+
+
+def _finite_rows(values: Sequence[np.ndarray]) -> np.ndarray:
+    return np.logical_and.reduce([np.isfinite(value).all(axis=1) for value in values])
+
+
+def _bounds(variable: str, bounds: tuple[Any, Any]) -> tuple[float, float]:
+    from surfmesh.geometry.expression import parse_number
+
+    try:
+        first, last = bounds
+    except (TypeError, ValueError):
+        reason = f"the domain of {variable} is a pair (first, last), not {bounds!r}"
+        raise SurfaceError(reason) from None
+    try:
+        first, last = parse_number(first), parse_number(last)
+    except FormulaError as error:
+        reason = f"the domain of {variable}: {error.reason}"
+        raise FormulaError(reason, error.text, error.column) from None
+    if first == last:
+        raise SurfaceError(f"the domain of {variable} is empty: {first:g} to {last:g}")
+    if first > last:
+        raise SurfaceError(f"the domain of {variable} is reversed: {first:g} to {last:g}")
+    return first, last
+
+
+def _loop(number: int, points: Any) -> np.ndarray:
+    try:
+        loop = np.array(points, dtype=float)
+    except (TypeError, ValueError):
+        loop = np.empty(0)
+    if loop.ndim != 2 or loop.shape[1] != 2 or len(loop) < 3 or not np.isfinite(loop).all():
+        raise SurfaceError(f"loop {number} is not a list of three or more finite (u, v) points")
+    loop.setflags(write=False)
+    return loop
+
+
+def _parsed(coordinates: Sequence[Any], parameters: Mapping[str, float]) -> tuple:
+    from surfmesh.geometry.expression import RESERVED, parse
+
+    for name, value in parameters.items():
+        if not name.isidentifier() or not name.isascii():
+            raise SurfaceError(f"{name!r} cannot name a parameter: use letters, digits and _")
+        if name in RESERVED or name in ("u", "v"):
+            raise SurfaceError(f"the parameter {name!r} has the name of something known already")
+        if isinstance(value, bool) or not isinstance(value, (int, float, np.number)):
+            raise SurfaceError(f"the parameter {name!r} is not a number: {value!r}")
+        if not math.isfinite(value):
+            raise SurfaceError(f"the parameter {name!r} is not finite: {value!r}")
+    expressions = []
+    for axis, coordinate in zip("xyz", coordinates):
+        try:
+            expressions.append(parse(coordinate, ("u", "v"), parameters))
+        except FormulaError as error:
+            raise FormulaError(f"{axis}: {error.reason}", error.text, error.column) from None
+    return tuple(expressions)
+
+
+def _grid(domain: Domain, cells: int) -> np.ndarray:
+    """Corners of cells x cells cells that cover the domain: (cells + 1, cells + 1, 2)."""
+    lines = [np.linspace(first, last, cells + 1) for first, last in domain]
+    return np.stack(np.meshgrid(*lines, indexing="ij"), axis=-1)
+
+
+def _refuse_values_that_are_not_finite(surface: ParametricSurface) -> None:
+    """Try the corners of a grid, then look for poles in the cells that have no bounds."""
+    grid = _grid(surface.domain, SAMPLES)
+    points = grid.reshape(-1, 2)
+    (values,) = surface.evaluate(points)
+    finite = np.isfinite(values)
+    if not finite.all():
+        point, axis = np.argwhere(~finite)[0]
+        _refuse(surface, points[point], axis)
+    lo, hi = grid[:-1, :-1].reshape(-1, 2), grid[1:, 1:].reshape(-1, 2)
+    tape = surface.tape(0)
+    for depth in range(POLE_DEPTH):
+        unbounded = ~np.isfinite(np.hstack(tape.bounds(lo, hi))).all(axis=1)
+        if not unbounded.any():
+            return
+        keep = np.flatnonzero(unbounded)
+        if len(keep) > POLE_CELLS:  # a line of poles: follow a few of them, evenly spread
+            keep = keep[np.linspace(0, len(keep) - 1, POLE_CELLS).astype(int)]
+        lo, hi = _halved(lo[keep], hi[keep], axis=depth % 2)
+    bounds = np.hstack([np.abs(b) for b in tape.bounds(lo, hi)])
+    unbounded = np.argwhere(~np.isfinite(bounds))
+    if len(unbounded):
+        cell, axis = unbounded[0]
+        _refuse(surface, lo[cell], axis % 3)
+
+
+def _halved(lo: np.ndarray, hi: np.ndarray, axis: int) -> tuple[np.ndarray, np.ndarray]:
+    middle = 0.5 * (lo[:, axis] + hi[:, axis])
+    first_hi, second_lo = hi.copy(), lo.copy()
+    first_hi[:, axis] = middle
+    second_lo[:, axis] = middle
+    return np.concatenate([lo, second_lo]), np.concatenate([first_hi, hi])
+
+
+def _refuse(surface: ParametricSurface, place: np.ndarray, axis: int):
+    formula = surface.formulas[axis]
+    shown = formula if len(formula) <= 60 else formula[:57] + "..."
+    raise SurfaceError(
+        f"{'xyz'[axis]} = {shown} is not a finite real number at (u, v) = "
+        f"({place[0]:.6g}, {place[1]:.6g}); change the formula or the domain"
+    )
+
+
+def _refuse_no_area(surface: ParametricSurface) -> None:
+    points = _grid(surface.domain, SAMPLES).reshape(-1, 2)
+    r, r_u, r_v = surface.evaluate(points, 1)
+    if not np.ptp(r, axis=0).any():
+        raise SurfaceError("the surface is a single point: none of x, y, z changes with u or v")
+    # in parts of the domain, so that u and v may have different units
+    (u0, u1), (v0, v1) = surface.domain
+    r_u, r_v = r_u * (u1 - u0), r_v * (v1 - v0)
+    scale = max(np.abs(r_u).max(), np.abs(r_v).max(), np.finfo(float).tiny)
+    r_u, r_v = r_u / scale, r_v / scale  # squares neither overflow nor vanish
+    cross = np.linalg.norm(np.cross(r_u, r_v), axis=1)
+    lengths = np.linalg.norm(r_u, axis=1) * np.linalg.norm(r_v, axis=1)
+    if not (cross > NO_AREA * lengths).any():
+        raise SurfaceError(
+            "the surface has no area: x, y, z trace a curve; they must change with u and with v"
+        )
