@@ -2,29 +2,26 @@
 
 import numpy as np
 
-from .jit import kernel
+from surfmesh.kernels.jit import kernel
 
 
 @kernel
-def triangle_shapes(points, triangles):
+def triangle_shapes(points, triangles, shapes):
     """Shape of every triangle, measured in 3D.
 
     Parameters
     ----------
     points: (n, 3) float64
     triangles: (m, 3) int32
-
-    Returns
-    -------
-    (m, 5) float64: area; alpha = 4 sqrt(3) area / sum of squared edges; radius ratio
-    2 r_in / r_circum; smallest and largest angle in radians. 1 is best for alpha and the
-    radius ratio, 0 is a triangle without area.
+    shapes: (m, 5) float64, filled: area; alpha = 4 sqrt(3) area / sum of squared edges;
+        radius ratio 2 r_in / r_circum; smallest and largest angle in radians. 1 is best for
+        alpha and the radius ratio, 0 is a triangle without area.
     """
-    shapes = np.zeros((len(triangles), 5))
     for t in range(len(triangles)):
         a, b, c = triangles[t, 0], triangles[t, 1], triangles[t, 2]
-        abx, aby, abz = (points[b, k] - points[a, k] for k in range(3))
-        acx, acy, acz = (points[c, k] - points[a, k] for k in range(3))
+        abx, acx = points[b, 0] - points[a, 0], points[c, 0] - points[a, 0]
+        aby, acy = points[b, 1] - points[a, 1], points[c, 1] - points[a, 1]
+        abz, acz = points[b, 2] - points[a, 2], points[c, 2] - points[a, 2]
         bcx, bcy, bcz = acx - abx, acy - aby, acz - abz
         nx, ny, nz = aby * acz - abz * acy, abz * acx - abx * acz, abx * acy - aby * acx
         twice_area = np.sqrt(nx * nx + ny * ny + nz * nz)
@@ -32,7 +29,8 @@ def triangle_shapes(points, triangles):
         ac2 = acx * acx + acy * acy + acz * acz
         bc2 = bcx * bcx + bcy * bcy + bcz * bcz
         total = ab2 + bc2 + ac2
-        if total <= 0.0:
+        shapes[t, :] = 0.0
+        if not total > 0.0:
             continue
         shapes[t, 0] = 0.5 * twice_area
         shapes[t, 1] = 2.0 * np.sqrt(3.0) * twice_area / total
@@ -47,23 +45,42 @@ def triangle_shapes(points, triangles):
         at_c = np.pi - at_a - at_b
         shapes[t, 3] = min(at_a, at_b, at_c)
         shapes[t, 4] = max(at_a, at_b, at_c)
-    return shapes
 
 
 @kernel
-def tangent_plane_distances(points, feet, ru, rv):
+def interpolate(corner_values, corners, triangle, rule, weights, found):
+    """Values at barycentric places in triangles.
+
+    Parameters
+    ----------
+    corner_values: (n, d) float64
+    corners: (m, 3) int32, rows of ``corner_values``
+    triangle: (k,) int32, the triangle of each sample
+    rule: (k,) int32, the row of ``weights`` of each sample
+    weights: (w, 3) float64, barycentric
+    found: (k, d) float64, filled
+    """
+    for i in range(len(triangle)):
+        t, w = triangle[i], rule[i]
+        a, b, c = corners[t, 0], corners[t, 1], corners[t, 2]
+        wa, wb, wc = weights[w, 0], weights[w, 1], weights[w, 2]
+        for d in range(found.shape[1]):
+            found[i, d] = (
+                wa * corner_values[a, d] + wb * corner_values[b, d] + wc * corner_values[c, d]
+            )
+
+
+@kernel
+def tangent_plane_distances(points, feet, ru, rv, found):
     """Where points lie relative to the tangent planes at feet near them.
 
     Parameters
     ----------
     points, feet, ru, rv: (n, 3) float64; ``feet`` = r(u, v), with its two derivatives
-
-    Returns
-    -------
-    (n, 5) float64: unit normal along r_u x r_v (zero where there is none); distance along
-    it (the whole distance where there is none); distance within the tangent plane.
+    found: (n, 5) float64, filled: unit normal along r_u x r_v (zero where there is none);
+        distance along it (the whole distance where there is none); distance within the
+        tangent plane.
     """
-    found = np.zeros((len(points), 5))
     for i in range(len(points)):
         nx = ru[i, 1] * rv[i, 2] - ru[i, 2] * rv[i, 1]
         ny = ru[i, 2] * rv[i, 0] - ru[i, 0] * rv[i, 2]
@@ -73,6 +90,7 @@ def tangent_plane_distances(points, feet, ru, rv):
         dy = points[i, 1] - feet[i, 1]
         dz = points[i, 2] - feet[i, 2]
         squared = dx * dx + dy * dy + dz * dz
+        found[i, :3] = 0.0
         if length > 0.0:
             nx, ny, nz = nx / length, ny / length, nz / length
             along = dx * nx + dy * ny + dz * nz
@@ -82,23 +100,21 @@ def tangent_plane_distances(points, feet, ru, rv):
         else:
             found[i, 3] = np.sqrt(squared)
             found[i, 4] = found[i, 3]
-    return found
 
 
 @kernel
-def component_labels(count, pairs):
-    """Label ``count`` things by connected component: the smallest member of each.
+def component_labels(pairs, parent):
+    """Label things 0..count-1 by connected component: the smallest member of each.
 
     Parameters
     ----------
-    count: int
     pairs: (k, 2) int32, things that belong together
+    parent: (count,) int32, filled with the labels
 
-    Returns
-    -------
-    (count,) int32. Union-find with path halving, the smaller root wins.
+    Union-find with path halving, the smaller root wins.
     """
-    parent = np.arange(count).astype(np.int32)
+    for i in range(len(parent)):
+        parent[i] = i
     for i in range(len(pairs)):
         a, b = pairs[i, 0], pairs[i, 1]
         while parent[a] != a:
@@ -111,6 +127,5 @@ def component_labels(count, pairs):
             parent[b] = a
         else:
             parent[a] = b
-    for i in range(count):  # parents are smaller, so theirs are final already
+    for i in range(len(parent)):  # parents are smaller, so theirs are final already
         parent[i] = parent[parent[i]]
-    return parent

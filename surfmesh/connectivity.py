@@ -1,0 +1,56 @@
+"""Which triangles meet along which edges: unique edges and twins, from the triangles alone.
+
+Half-edge ``3 t + i`` runs from corner ``i`` of triangle ``t`` to corner ``i + 1``:
+
+              c                       triangles[t] = (a, b, c)
+             / \\
+     3t+2   /   \\  3t+1
+           /  t  \\
+          a ----- b
+             3t
+
+Nothing is assumed of the triangles: edges may bound one, two or more of them, and two
+neighbours may run along their common edge in the same direction (a Moebius strip).
+"""
+
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+
+class Connectivity(NamedTuple):
+    """The unique edges of a mesh and who shares them. Half-edges as in the module's docstring."""
+
+    edges: NDArray[np.int32]  # (ne, 2) vertex numbers, the smaller first
+    half_edges: NDArray[np.int32]  # (ne, 2) the first two that run along each edge, or -1
+    uses: NDArray[np.int32]  # (ne,) how many triangles use each edge: 1 on a boundary
+
+    @property
+    def boundary(self) -> NDArray[np.int32]:
+        """Edges of one triangle only, (nb, 2) vertex numbers."""
+        return self.edges[self.uses == 1]
+
+
+def connect(triangles: NDArray[np.int32]) -> Connectivity:
+    """Connectivity of ``triangles``, (m, 3) vertex numbers; one sort of 3 m keys.
+
+    Triangles with a repeated corner give loops (a, a), which are edges like any other here.
+    """
+    count = 3 * len(triangles)
+    starts, ends = triangles.reshape(-1), triangles[:, (1, 2, 0)].reshape(-1)
+    keys = np.minimum(starts, ends).astype(np.int64)
+    keys *= int(starts.max(initial=-1)) + 1
+    keys += np.maximum(starts, ends)
+    order = np.argsort(keys).astype(np.int32)
+    keys = keys[order]
+
+    first = np.flatnonzero(np.diff(keys, prepend=-1)).astype(np.int32)
+    del keys
+    uses = np.diff(first, append=np.int32(count)).astype(np.int32)
+    half_edges = np.empty((len(first), 2), np.int32)
+    half_edges[:, 0] = order[first]
+    half_edges[:, 1] = np.where(uses > 1, order[np.minimum(first + 1, count - 1)], -1)
+    edges = np.column_stack((starts[half_edges[:, 0]], ends[half_edges[:, 0]]))
+    edges.sort(axis=1)
+    return Connectivity(edges, half_edges, uses)

@@ -1,0 +1,113 @@
+"""The report as text: the verdict first, then one line for each thing a user asks about."""
+
+import textwrap
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from surfmesh.quality.report import Report
+
+WIDTH = 92
+_SHOWN_PROBLEMS, _SHOWN_WARNINGS, _SHOWN_STAGES = 5, 3, 8
+
+
+def summary(report: "Report") -> str:
+    """At most 25 lines of text about ``report``."""
+    verdict = "clean" if report.clean else f"NOT CLEAN: {_count(len(report.problems), 'problem')}"
+    name = f"{report.surface}: " if report.surface else ""
+    lines = [f"{name}{report.nodes:,} nodes, {report.triangles:,} triangles - {verdict}"]
+    lines += _listed(report.problems, _SHOWN_PROBLEMS, "problem")
+    rows = [
+        ("topology", _topology(report)),
+        ("size", _size(report)),
+        (
+            "shape",
+            f"alpha mean {report.alpha_mean:.4f}, 1 % below {report.alpha_p01:.4f}, "
+            f"smallest {report.alpha_min:.4f}",
+        ),
+        (
+            "",
+            f"radius ratio mean {report.radius_ratio_mean:.4f}, "
+            f"smallest {report.radius_ratio_min:.4f}",
+        ),
+        ("angles", f"{report.min_angle_deg:.2f}° to {report.max_angle_deg:.2f}°"),
+        (
+            "edges",
+            f"{report.edge_min:.4g} to {report.edge_max:.4g}, mean {report.edge_mean:.4g}; "
+            f"at a vertex up to 1 : {report.growth_max:.3g}",
+        ),
+    ]
+    if report.quasi_unit_share is not None:
+        rows.append(
+            (
+                "",
+                f"{100 * report.quasi_unit_share:.2f} % as wanted within a factor sqrt 2; "
+                f"length / wanted {report.length_mean:.3f} ± {report.length_std:.3f}",
+            )
+        )
+    rows.append(("deviation", _deviation(report)))
+    if report.seconds:
+        rows.append(("seconds", _seconds(report)))
+    lines += [
+        line
+        for title, text in rows
+        for line in textwrap.wrap(
+            text, WIDTH, initial_indent=f"  {title:<11}", subsequent_indent=" " * 13
+        )
+    ]
+    lines += _listed([f"warning: {text}" for text in report.warnings], _SHOWN_WARNINGS, "warning")
+    return "\n".join(lines)
+
+
+def _topology(report: "Report") -> str:
+    words = [
+        "closed" if report.closed else f"{_count(report.boundary_loops, 'boundary loop')}",
+        "manifold" if report.manifold else "not manifold",
+        "one-sided" if report.one_sided else "oriented" if report.oriented else "not oriented",
+        f"Euler number {report.euler}",
+        _count(report.components, "component"),
+    ]
+    if report.faces > 1:
+        words.append(_count(report.faces, "face"))
+    return ", ".join(words)
+
+
+def _size(report: "Report") -> str:
+    enclosed = "" if report.volume is None else f", volume {report.volume:.7g}"
+    return f"area {report.area:.7g}{enclosed}"
+
+
+def _deviation(report: "Report") -> str:
+    if report.deviation_max is None:
+        return "not known: the mesh carries no surface to compare with"
+    asked = ""
+    if report.chord:
+        asked = f" ({100 * report.deviation_max / report.chord:,.0f} % of chord {report.chord:.4g})"
+    place = ", ".join(f"{value:.4g}" for value in report.deviation_point)
+    return (
+        f"largest {report.deviation_max:.4g}{asked}, rms {report.deviation_rms:.4g}; "
+        f"largest in triangle {report.deviation_triangle} at ({place})"
+    )
+
+
+def _seconds(report: "Report") -> str:
+    total = sum(report.seconds.values())
+    rate = f", {report.triangles / total:,.0f} triangles a second" if total > 0 else ""
+    longest = sorted(report.seconds, key=report.seconds.get, reverse=True)[:_SHOWN_STAGES]
+    stages = ", ".join(
+        f"{stage} {taken:.3f}" for stage, taken in report.seconds.items() if stage in longest
+    )
+    return f"{total:.3f} in all ({stages}){rate}"
+
+
+def _listed(texts: "tuple[str, ...] | list[str]", shown: int, kind: str) -> list[str]:
+    lines = [
+        textwrap.shorten(f"  ! {text}", 2 * WIDTH, placeholder=" ...") for text in texts[:shown]
+    ]
+    lines = [f"  {line}" for line in lines]
+    if len(texts) > shown:
+        lines.append(f"  ! and {_count(len(texts) - shown, 'more ' + kind)}")
+    return lines
+
+
+def _count(number: int, word: str) -> str:
+    return f"{number:,} {word}{'' if number == 1 else 's'}"

@@ -1,0 +1,221 @@
+"""The result: an immutable triangle mesh on one or more surfaces.
+
+Connectivity is by index alone: where two sides or two faces meet they share vertex numbers,
+while each triangle keeps the surface parameters of its corners on its own face.
+
+    vertex numbers (triangles)              corner parameters (uv_triangles)
+
+        2 --- 5 --- 2                           8 --- 5 --- 2        a tube cut open: the
+        | \\   | \\   |       one seam,            | \\   | \\   |        seam has one row of
+        0 --- 3 --- 0       two images in uv    6 --- 3 --- 0        vertices, two of (u, v)
+"""
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field, fields
+from functools import cached_property
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from surfmesh.connectivity import Connectivity, connect
+
+if TYPE_CHECKING:
+    import meshio
+    import pyvista
+    import trimesh
+
+
+@dataclass(frozen=True, eq=False, repr=False, kw_only=True)
+class SurfaceMesh:
+    """Triangles on surfaces. Arrays are read-only; lengths are in model units.
+
+    Arrays of another type or layout are converted, the others are kept as they are and
+    become read-only. Raises ``ValueError`` when shapes do not agree; what the numbers say is
+    looked at by ``check`` alone, so that a broken mesh can be held and examined.
+    """
+
+    points: NDArray[np.float64]  # (n, 3) vertices
+    triangles: NDArray[np.int32]  # (m, 3) vertex numbers, counter-clockwise along r_u x r_v
+    uv_points: NDArray[np.float64] | None = None  # (k, 2) distinct corner parameters
+    uv_triangles: NDArray[np.int32] | None = None  # (m, 3) rows of uv_points; None: triangles
+    face_ids: NDArray[np.int32] | None = None  # (m,) surface of each triangle; None: all 0
+    surfaces: tuple[Any, ...] = ()  # by face_ids; empty when read from a file
+    sizes: NDArray[np.float64] | None = None  # (n,) wanted edge length at each vertex
+    sizing: Any = None  # the options it was made with
+    seconds: Mapping[str, float] = field(default_factory=dict)  # by stage
+    warnings: tuple[str, ...] = ()  # what the user should know
+    one_sided: bool = False  # no orientation exists (Moebius, Klein): none is demanded
+
+    def __post_init__(self) -> None:
+        def settle(name: str, value: ArrayLike, dtype: type, shape: tuple[int, ...]) -> None:
+            array = np.ascontiguousarray(value, dtype)
+            fits = array.ndim == len(shape) and all(
+                wanted in (-1, found) for wanted, found in zip(shape, array.shape)
+            )
+            if not fits:
+                raise ValueError(f"{name} has shape {array.shape}, expected {shape} (-1: any)")
+            array.setflags(write=False)
+            object.__setattr__(self, name, array)
+
+        settle("points", self.points, np.float64, (-1, 3))
+        settle("triangles", self.triangles, np.int32, (-1, 3))
+        n, m = len(self.points), len(self.triangles)
+        face_ids = np.zeros(m, np.int32) if self.face_ids is None else self.face_ids
+        settle("face_ids", face_ids, np.int32, (m,))
+        if self.uv_points is not None:
+            settle("uv_points", self.uv_points, np.float64, (-1, 2))
+            uv_triangles = self.triangles if self.uv_triangles is None else self.uv_triangles
+            settle("uv_triangles", uv_triangles, np.int32, (m, 3))
+        elif self.uv_triangles is not None:
+            raise ValueError("uv_triangles given without uv_points")
+        if self.sizes is not None:
+            settle("sizes", self.sizes, np.float64, (n,))
+        object.__setattr__(self, "surfaces", tuple(self.surfaces))
+        object.__setattr__(self, "warnings", tuple(self.warnings))
+        object.__setattr__(self, "seconds", dict(self.seconds))
+
+    @property
+    def uv(self) -> NDArray[np.float64] | None:
+        """(m, 3, 2) corner parameters of each triangle on its own face, expanded on demand."""
+        return None if self.uv_points is None else self.uv_points[self.uv_triangles]
+
+    @cached_property
+    def connectivity(self) -> Connectivity:
+        """Unique edges and the triangles they join."""
+        return connect(self.triangles)
+
+    @property
+    def edges(self) -> NDArray[np.int32]:
+        """(ne, 2) vertex numbers of the distinct edges, the smaller first."""
+        return self.connectivity.edges
+
+    @property
+    def boundary_edges(self) -> NDArray[np.int32]:
+        """(nb, 2) vertex numbers of the edges that bound one triangle only."""
+        return self.connectivity.boundary
+
+    def face_name(self, face: int) -> str:
+        """Name of face number ``face``: its surface's, or ``face 3`` when it has none."""
+        known = self.surfaces[face] if 0 <= face < len(self.surfaces) else None
+        return getattr(known, "name", None) or f"face {face}"
+
+    def check(self) -> str | None:
+        """The first broken invariant in words, or None: indices in range, all finite, no
+        corner twice in a triangle, no triangle twice, every vertex used, faces known.
+
+        Says nothing of shape or of the surface: that is ``surfmesh.check(mesh)``.
+        """
+        n, k = len(self.points), 0 if self.uv_points is None else len(self.uv_points)
+        for name, indices, limit in (
+            ("triangles", self.triangles, n),
+            ("uv_triangles", self.uv_triangles, k),
+        ):
+            if (
+                indices is not None
+                and indices.size
+                and not 0 <= indices.min() <= (indices.max()) < limit
+            ):
+                bad = int(np.flatnonzero(((indices < 0) | (indices >= limit)).any(axis=1))[0])
+                return f"{name}[{bad}] = {indices[bad].tolist()} is outside 0..{limit - 1}"
+        for name in ("points", "uv_points", "sizes"):
+            array = getattr(self, name)
+            if array is not None and not np.isfinite(array).all():
+                bad = int(np.flatnonzero(~np.isfinite(array).reshape(len(array), -1).all(1))[0])
+                return f"{name}[{bad}] = {array[bad].tolist()} is not finite"
+        if self.sizes is not None and n and self.sizes.min() <= 0:
+            bad = int(self.sizes.argmin())
+            return f"sizes[{bad}] = {self.sizes[bad]} is not positive"
+        a, b, c = self.triangles.T
+        repeated = np.flatnonzero((a == b) | (b == c) | (c == a))
+        if len(repeated):
+            bad = int(repeated[0])
+            return f"triangle {bad} = {self.triangles[bad].tolist()} repeats a corner"
+        twin = _first_duplicate(self.triangles)
+        if twin is not None:
+            return f"triangles {twin[0]} and {twin[1]} have the same corners"
+        used = np.zeros(n, bool)
+        used[self.triangles.reshape(-1)] = True
+        if not used.all():
+            return f"vertex {int(np.flatnonzero(~used)[0])} belongs to no triangle"
+        if self.surfaces and len(self.face_ids):
+            low, high = int(self.face_ids.min()), int(self.face_ids.max())
+            if low < 0 or high >= len(self.surfaces):
+                return f"face_ids run from {low} to {high}, surfaces are {len(self.surfaces)}"
+        return None
+
+    def save(self, path: str | Path) -> Path:
+        """Write to ``path``, format by extension; see ``surfmesh.io.save``."""
+        from surfmesh.io import save
+
+        return save(self, path)
+
+    def to_pyvista(self) -> "pyvista.PolyData":
+        """As PyVista PolyData with ``size``, ``face_id`` and ``alpha``; nothing is merged."""
+        from surfmesh.io.vtk_xml import to_pyvista
+
+        return to_pyvista(self)
+
+    def to_trimesh(self) -> "trimesh.Trimesh":
+        """As a trimesh.Trimesh with ``size`` and ``face_id``; nothing is merged."""
+        from surfmesh.io.trimesh_formats import to_trimesh
+
+        return to_trimesh(self)
+
+    def to_meshio(self) -> "meshio.Mesh":
+        """As a meshio.Mesh; ``ImportError`` that says what to install without meshio."""
+        from surfmesh.io.to_meshio import to_meshio
+
+        return to_meshio(self)
+
+    def show(self, by: str = "alpha") -> None:
+        """Open an interactive window, or a widget in a notebook; see ``surfmesh.view.show``."""
+        from surfmesh.view import show
+
+        show(self, by=by)
+
+    def plot(self, path: str | Path, by: str = "alpha", **options: Any) -> Path:
+        """Write a PNG without a display; see ``surfmesh.view.plot``."""
+        from surfmesh.view import plot
+
+        return plot(self, path, by=by, **options)
+
+    def __repr__(self) -> str:
+        faces = len(self.surfaces) or len(np.unique(self.face_ids))
+        return (
+            f"SurfaceMesh({len(self.points)} points, {len(self.triangles)} triangles, "
+            f"{faces} {'face' if faces == 1 else 'faces'})"
+        )
+
+    def _repr_html_(self) -> str:
+        from surfmesh.view.summary_html import summary_html
+
+        return summary_html(self)
+
+    def __getstate__(self) -> dict[str, Any]:  # without the cached connectivity
+        return {item.name: getattr(self, item.name) for item in fields(self)}
+
+    def __setstate__(self, state: dict[str, Any]) -> None:
+        for name, value in state.items():
+            object.__setattr__(self, name, value)
+        self.__post_init__()  # unpickled arrays are writeable again
+
+
+def _first_duplicate(triangles: NDArray[np.int32]) -> tuple[int, int] | None:
+    """Two triangles with the same three corners in any order, or None."""
+    a, b, c = triangles.T
+    low = np.minimum(np.minimum(a, b), c)
+    high = np.maximum(np.maximum(a, b), c)
+    keys = low.astype(np.int64) * (int(high.max(initial=0)) + 1) + high
+    order = np.argsort(keys)
+    keys = keys[order]
+    alike = keys[1:] == keys[:-1]  # few: the same smallest and largest corner
+    members = order[np.append(alike, False) | np.insert(alike, 0, False)]
+    corners = np.sort(triangles[members], axis=1)
+    ranked = np.lexsort(corners.T)
+    same = np.flatnonzero((corners[ranked[1:]] == corners[ranked[:-1]]).all(axis=1))
+    if not len(same):
+        return None
+    first, second = sorted(int(members[ranked[same[0] + i]]) for i in (0, 1))
+    return first, second
