@@ -1,14 +1,14 @@
 """Where r(u, v) comes from: surfaces, their forms and curvatures, sides, closest points.
 
-    surface             what every surface can do
-    expression          formulas as data: text -> SymPy, through a whitelist
-    real_functions      abs, min, cbrt ... with real derivatives
-    derivatives         the chain rule over shared subexpressions
-    compilation         SymPy -> tape
-    tape, interval      evaluation at points, bounds over cells
-    parametric          the surface of three formulas
-    formula_file        surfaces in TOML, the gallery
-    fundamental_forms   I, II, normals, principal curvatures
-    sides               sides of the rectangle that coincide or shrink to a point
-    projection          the closest point of a surface
+surface             what every surface can do
+expression          formulas as data: text -> SymPy, through a whitelist
+real_functions      abs, min, cbrt ... with real derivatives
+derivatives         the chain rule over shared subexpressions
+compilation         SymPy -> tape
+tape, interval      evaluation at points, bounds over cells
+parametric          the surface of three formulas
+formula_file        surfaces in TOML, the gallery
+fundamental_forms   I, II, normals, principal curvatures
+sides               sides of the rectangle that coincide or shrink to a point
+projection          the closest point of a surface
 """

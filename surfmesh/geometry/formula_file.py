@@ -1,16 +1,16 @@
 """Surfaces as TOML files, and the gallery of them.
 
-    name = "torus"                      x, y, z: formulas in u, v and the parameters
-    description = "one line"            [domain] numbers or text such as "2*pi"
-    x = "(R + r*cos(v)) * cos(u)"       loops: polygons in (u, v) that trim the surface
-    y = "(R + r*cos(v)) * sin(u)"       [sizing] defaults for meshing this surface
-    z = "r*sin(v)"                      [facts] what is known: area, volume, euler, closed,
-    [parameters]                            one_sided; gaussian and mean are formulas in u, v,
-    R = 3.0                                 for the normal along r_u x r_v
-    r = 1.0
-    [domain]
-    u = [0, "2*pi"]
-    v = [0, "2*pi"]
+name = "torus"                      x, y, z: formulas in u, v and the parameters
+description = "one line"            [domain] numbers or text such as "2*pi"
+x = "(R + r*cos(v)) * cos(u)"       loops: polygons in (u, v) that trim the surface
+y = "(R + r*cos(v)) * sin(u)"       [sizing] defaults for meshing this surface
+z = "r*sin(v)"                      [facts] what is known: area, volume, euler, closed,
+[parameters]                            one_sided; gaussian and mean are formulas in u, v,
+R = 3.0                                 for the normal along r_u x r_v
+r = 1.0
+[domain]
+u = [0, "2*pi"]
+v = [0, "2*pi"]
 """
 
 from __future__ import annotations
