@@ -24,12 +24,12 @@ class Background(NamedTuple):
     grid: np.ndarray  # (2,) int64: nx, ny
     child: np.ndarray  # (cells,) int32: first of four children, or -1 for a leaf
     corner: np.ndarray  # (cells, 4) int32 nodes
-    inverse_size: np.ndarray  # (nodes, 3) float64: A = H^-1
+    inverse_size: np.ndarray  # (nodes, 4) float64: A = H^-1, and 1 / h
 
 
 @kernel
-def inverse_size_at(background, x, y):
-    """A = H^-1 at (x, y), bilinear in the leaf; outside the box that of the nearest point."""
+def _leaf(background, x, y):
+    """Corner nodes and bilinear weights of the leaf at (x, y), or at the box's nearest point."""
     nx = background.grid[0]
     ny = background.grid[1]
     fx = min(max((x - background.box[0]) * background.box[2], 0.0), float(nx))
@@ -51,14 +51,18 @@ def inverse_size_at(background, x, y):
             first += 2
         cell = first
         first = background.child[cell]
-    n0 = background.corner[cell, 0]
-    n1 = background.corner[cell, 1]
-    n2 = background.corner[cell, 2]
-    n3 = background.corner[cell, 3]
+    corner = background.corner
     w3 = fx * fy
     w1 = fx - w3
     w2 = fy - w3
     w0 = 1.0 - fx - w2
+    return corner[cell, 0], corner[cell, 1], corner[cell, 2], corner[cell, 3], w0, w1, w2, w3
+
+
+@kernel
+def inverse_size_at(background, x, y):
+    """A = H^-1 at (x, y), bilinear in the leaf; outside the box that of the nearest point."""
+    n0, n1, n2, n3, w0, w1, w2, w3 = _leaf(background, x, y)
     a = background.inverse_size
     return (
         w0 * a[n0, 0] + w1 * a[n1, 0] + w2 * a[n2, 0] + w3 * a[n3, 0],
@@ -105,3 +109,25 @@ def sizes_at(background, xy, out):
     """H at many points: xy (n, 2) -> out (n, 3)."""
     for k in range(len(xy)):
         out[k, 0], out[k, 1], out[k, 2] = size_at(background, xy[k, 0], xy[k, 1])
+
+
+@kernel
+def inverse_sizes_at(background, xy, out):
+    """A = H^-1 at many points: xy (n, 2) -> out (n, 3)."""
+    for k in range(len(xy)):
+        out[k, 0], out[k, 1], out[k, 2] = inverse_size_at(background, xy[k, 0], xy[k, 1])
+
+
+@kernel
+def scalar_size_at(background, x, y):
+    """The wanted edge length h in 3D at (x, y), from the interpolated 1 / h."""
+    n0, n1, n2, n3, w0, w1, w2, w3 = _leaf(background, x, y)
+    a = background.inverse_size
+    return 1.0 / (w0 * a[n0, 3] + w1 * a[n1, 3] + w2 * a[n2, 3] + w3 * a[n3, 3])
+
+
+@kernel
+def scalar_sizes_at(background, xy, out):
+    """h at many points: xy (n, 2) -> out (n,)."""
+    for k in range(len(xy)):
+        out[k] = scalar_size_at(background, xy[k, 0], xy[k, 1])

@@ -197,7 +197,7 @@ def _try_place(p, a, b, x, y, h11, h12, h22, reach):
     """
     t = p.t
     e = t.adj[p.front.edge[a]]
-    start, barrier = locate(t, e, x, y)
+    start, barrier = locate(t, e, x, y, True)
     if barrier != NIL:
         v = t.tri[barrier]
         w = t.tri[next_half_edge(barrier)]

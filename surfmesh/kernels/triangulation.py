@@ -80,31 +80,33 @@ def side(xy, a, b, x, y):
 
 
 @kernel
-def locate(t, start, x, y):
-    """Walk from half-edge ``start`` (entered through it) towards (x, y).
+def locate(t, start, x, y, stop):
+    """Walk from half-edge ``start`` to the triangle of (x, y).
 
-    Returns (triangle, NIL), or (triangle, e) when the walk is stopped at a barrier e.
+    Returns (triangle, NIL), or (triangle, e) when ``stop`` is set and a barrier e is in the
+    way. The order in which the two other edges are tried varies, so that the walk cannot go
+    round in circles for ever.
     """
     e = start
-    for _ in range(WALK_LIMIT):
-        triangle = e // 3
+    if side(t.xy, t.tri[e], t.tri[next_half_edge(e)], x, y) < 0.0:
+        if stop and is_barrier(t, e):
+            return e // 3, e
+        e = t.adj[e]
+    dice = 12345
+    for _ in range(WALK_LIMIT):  # the point is on the left of e = (dice * 1103515245 + 12345) & 0x7FFFFFFF
         onward = NIL
-        f = e
-        for _k in range(2):
-            f = next_half_edge(f)
-            a = t.tri[f]
-            b = t.tri[next_half_edge(f)]
-            if a < 0 or b < 0:
-                continue
-            if orient(t.xy[a, 0], t.xy[a, 1], t.xy[b, 0], t.xy[b, 1], x, y) < 0.0:
+        f = next_half_edge(e) if dice & 0x10000 else prev_half_edge(e)
+        for k in range(2):
+            if k == 1:
+                f = prev_half_edge(e) if dice & 0x10000 else next_half_edge(e)
+            if side(t.xy, t.tri[f], t.tri[next_half_edge(f)], x, y) < 0.0:
                 onward = f
                 break
         if onward == NIL:
-            return triangle, NIL
-        twin = t.adj[onward]
-        if is_barrier(t, onward):
-            return triangle, onward
-        e = twin
+            return e // 3, NIL
+        if stop and is_barrier(t, onward):
+            return e // 3, onward
+        e = t.adj[onward]
     return e // 3, e
 
 

@@ -1,0 +1,184 @@
+"""The boundary of a surface in (u, v): sides and trimming loops cut to unit metric length.
+
+Step 1 of section 3: identify the segments. A side that coincides with another is cut once, and
+its nodes appear twice in (u, v) under one number; a side that is a single point in 3D is one
+segment whose ends are one node.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from surfmesh.errors import SurfaceError
+from surfmesh.geometry.sides import SideTopology
+from surfmesh.geometry.surface import Surface
+from surfmesh.kernels.background import inverse_sizes_at
+from surfmesh.sizing.size_field import SizeField
+
+_WALK = (1, 1, -1, -1)
+_CLOSED_SEGMENTS = 3
+"""Fewest segments of a side that is a closed curve in 3D, fewer are not a polygon."""
+
+
+@dataclass(frozen=True)
+class BoundaryLoops:
+    """Nodes and segments in (u, v), the inside on the left of every segment."""
+
+    uv: np.ndarray
+    """(k, 2) float, exact surface parameters of the nodes."""
+    segments: np.ndarray
+    """(s, 2) int32, pairs of nodes."""
+    identity: np.ndarray
+    """(k,) int64: the first node that is the same point in 3D, for most nodes itself."""
+
+
+def boundary_loops(surface: Surface, sides: SideTopology, field: SizeField) -> BoundaryLoops:
+    """Cut the sides, or the trimming loops, to unit metric length.
+
+    A counter-clockwise loop keeps what it encloses, a clockwise one removes it; while no loop
+    is counter-clockwise, the sides of the (u, v) rectangle are the outer boundary. Raises
+    ``SurfaceError`` for a loop without area or outside the domain.
+    """
+    loops = [np.asarray(loop, float) for loop in surface.loops]
+    for number, loop in enumerate(loops):
+        _check_loop(surface, number, loop)
+    parts: list[tuple[np.ndarray, np.ndarray]] = []
+    if not any(_signed_area(loop) > 0.0 for loop in loops):
+        parts.append(_sides_loop(sides, field))
+    for loop in loops:
+        uv = np.concatenate(
+            [
+                _cut(field, start, end, minimum=1)[1][:-1]
+                for start, end in zip(loop, np.roll(loop, -1, axis=0))
+            ]
+        )
+        parts.append((uv, np.arange(len(uv))))
+    segments, identity, first = [], [], 0
+    for uv, same in parts:
+        ring = first + np.arange(len(uv))
+        segments.append(np.stack([ring, np.roll(ring, -1)], axis=1))
+        identity.append(first + same)
+        first += len(uv)
+    return BoundaryLoops(
+        np.concatenate([uv for uv, _ in parts]),
+        np.concatenate(segments).astype(np.int32),
+        np.concatenate(identity),
+    )
+
+
+def _signed_area(loop: np.ndarray) -> float:
+    x, y = loop.T
+    return 0.5 * float(np.sum(x * np.roll(y, -1) - np.roll(x, -1) * y))
+
+
+def _check_loop(surface: Surface, number: int, loop: np.ndarray) -> None:
+    low, high = np.array(surface.domain).T
+    outside = ((loop < low) | (loop > high)).any(axis=1)
+    if outside.any():
+        u, v = loop[outside.argmax()]
+        raise SurfaceError(
+            f"loop {number} of {surface.name!r} leaves the (u, v) domain at ({u:g}, {v:g})"
+        )
+    if abs(_signed_area(loop)) <= 1e-14 * np.prod(high - low):
+        raise SurfaceError(f"loop {number} of {surface.name!r} encloses no area")
+
+
+def _sides_loop(sides: SideTopology, field: SizeField) -> tuple[np.ndarray, np.ndarray]:
+    """The rectangle walked counter-clockwise: uv (k, 2), identity (k,)."""
+    along = _side_parameters(sides, field)
+    uv, start = [], [0]
+    for side in range(4):
+        t = along[side][:: _WALK[side]][:-1]  # the next side brings the last corner
+        uv.append(sides.points(side, t))
+        start.append(start[-1] + len(t))
+    total = start[-1]
+
+    def node(side: int) -> np.ndarray:
+        """Loop nodes of a side in the order of its rising parameter."""
+        walked = (start[side] + np.arange(len(along[side]))) % total
+        return walked[:: _WALK[side]]
+
+    same = _Classes(total)
+    for side in range(4):
+        if sides.collapsed[side]:
+            same.join(node(side)[:1], node(side)[-1:])
+        elif sides.partner[side] > side:
+            other = node(sides.partner[side])
+            same.join(node(side), other[::-1] if sides.reversed[side] else other)
+    return np.concatenate(uv), same.first()
+
+
+def _side_parameters(sides: SideTopology, field: SizeField) -> list[np.ndarray]:
+    """Rising parameters of the nodes of each side, both ends included."""
+    along: list[np.ndarray] = []
+    for side in range(4):
+        partner = sides.partner[side]
+        if sides.collapsed[side]:
+            along.append(np.array([0.0, 1.0]))
+        elif 0 <= partner < side:
+            t = along[partner]
+            along.append(1.0 - t[::-1] if sides.reversed[side] else t)
+        else:
+            start, end = sides.points(side, np.array([0.0, 1.0]))
+            minimum = _CLOSED_SEGMENTS if partner >= 0 or _ends_meet(sides, side) else 1
+            along.append(_cut(field, start, end, minimum)[0])
+    return along
+
+
+def _ends_meet(sides: SideTopology, side: int) -> bool:
+    """Are the two ends of a side one point, because the neighbouring sides are joined?"""
+    before, after = (side - 1) % 4, (side + 1) % 4
+    return sides.partner[before] == after
+
+
+def _cut(
+    field: SizeField, start: np.ndarray, end: np.ndarray, minimum: int
+) -> tuple[np.ndarray, np.ndarray]:
+    """Cut a straight line of (u, v) into pieces of equal metric length near 1.
+
+    Returns t (n + 1,) from 0 to 1 and uv (n + 1, 2), whose ends are exact.
+    """
+    samples = 64
+    line = field.scaling.to_plane(np.stack([start, end]))
+    while True:
+        t = np.linspace(0.0, 1.0, samples + 1)
+        xy = line[0] + 0.5 * (t[1:] + t[:-1])[:, None] * (line[1] - line[0])
+        a = np.empty((samples, 3))
+        inverse_sizes_at(field.background, xy, a)
+        dx, dy = (line[1] - line[0]) / samples
+        step = np.hypot(a[:, 0] * dx + a[:, 1] * dy, a[:, 1] * dx + a[:, 2] * dy)
+        metric = np.concatenate([[0.0], np.cumsum(step)])
+        if samples >= 16 * metric[-1] or samples >= 1 << 22:
+            break
+        samples = 1 << int(np.ceil(np.log2(min(20 * metric[-1], 1 << 22))))
+    pieces = max(minimum, round(metric[-1]))
+    if metric[-1] > 0.0:
+        t = np.interp(np.linspace(0.0, metric[-1], pieces + 1), metric, t)
+    else:
+        t = np.linspace(0.0, 1.0, pieces + 1)
+    t[0], t[-1] = 0.0, 1.0
+    uv = start + t[:, None] * (end - start)
+    uv[-1] = end
+    return t, uv
+
+
+class _Classes:
+    """Equivalence classes of nodes (union-find)."""
+
+    def __init__(self, count: int) -> None:
+        self.parent = list(range(count))
+
+    def _root(self, k: int) -> int:
+        while self.parent[k] != k:
+            self.parent[k] = self.parent[self.parent[k]]
+            k = self.parent[k]
+        return k
+
+    def join(self, first: np.ndarray, second: np.ndarray) -> None:
+        for a, b in zip(first.tolist(), second.tolist()):
+            a, b = self._root(a), self._root(b)
+            self.parent[max(a, b)] = min(a, b)
+
+    def first(self) -> np.ndarray:
+        """The smallest member of each node's class."""
+        return np.array([self._root(k) for k in range(len(self.parent))], np.int64)

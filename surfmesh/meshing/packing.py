@@ -1,0 +1,76 @@
+"""Drive the packing kernel: room for its arrays, growing them when they are full."""
+
+import numpy as np
+
+from surfmesh.errors import MeshingError
+from surfmesh.kernels.background import Background
+from surfmesh.kernels.front import Front, empty_front
+from surfmesh.kernels.heap import Heap, empty_heap
+from surfmesh.kernels.packing import BAD_START, FULL, Packing, pack, start_packing
+from surfmesh.kernels.triangulation import Triangulation, empty_triangulation
+
+NO_LIMIT = 1 << 62
+
+
+def packed(
+    background: Background,
+    box: tuple[float, float, float, float],
+    origin: tuple[float, float],
+    expected: int,
+    wanted: int = NO_LIMIT,
+) -> Packing:
+    """Pack circles over the plane from ``origin`` until the front has left ``box``.
+
+    ``expected``: about how many circles there will be. Raises ``MeshingError`` when no three
+    circles can be placed about the origin.
+    """
+    packing = _room_for(int(1.1 * expected) + 1000, wanted, box, origin)
+    if start_packing(packing, background) == BAD_START:
+        raise MeshingError(f"no circles can be placed about the origin {origin}")
+    while pack(packing, background) == FULL:
+        packing = _grown(packing)
+    return packing
+
+
+def _room_for(
+    vertices: int,
+    wanted: int,
+    box: tuple[float, float, float, float],
+    origin: tuple[float, float],
+) -> Packing:
+    count = np.zeros(8, np.int64)
+    count[0] = wanted
+    edges = vertices // 4 + 5000
+    return Packing(
+        empty_triangulation(vertices),
+        empty_front(vertices),
+        empty_heap(edges),
+        np.empty((edges, 2), np.int32),
+        np.ones(vertices),
+        np.array([*origin, *box, 1.0, 0.0, 1.0, 0.0]),
+        count,
+    )
+
+
+def _grown(p: Packing) -> Packing:
+    """The same packing with half as much room again."""
+    vertices = len(p.t.xy) * 3 // 2
+    edges = len(p.heap.key) * 3 // 2
+    t = empty_triangulation(vertices)
+    return Packing(
+        Triangulation(*(_extended(old, len(new)) for old, new in zip(p.t, t))),
+        Front(*(_extended(old, vertices, -1) for old in p.front)),
+        Heap(_extended(p.heap.key, edges), _extended(p.heap.edge, edges), p.heap.count),
+        _extended(p.parked, edges),
+        _extended(p.radius, vertices, 1.0),
+        p.where,
+        p.count,
+    )
+
+
+def _extended(array: np.ndarray, length: int, fill: float = 0) -> np.ndarray:
+    if len(array) >= length:
+        return array
+    longer = np.full((length, *array.shape[1:]), fill, array.dtype)
+    longer[: len(array)] = array
+    return longer

@@ -1,0 +1,360 @@
+"""The size field of one surface: from its curvature and the user's wishes to a background.
+
+The background is built level by level. Every cell carries nine nodes (see kernels.gradation);
+at each level the sizes of all nodes are graded together, each cell is compared with its test
+nodes, and the cells that miss are split into four. The test nodes of a leaf are kept: they
+make the final field twice as fine as the one that was tested.
+
+Samples alone cannot see a feature that lies between them. Where the surface can bound its
+derivatives over a cell (formulas can, by interval arithmetic), a cell is split as well while
+the bound admits a curvature that would at least halve the size.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from surfmesh.errors import SizingError
+from surfmesh.geometry.fundamental_forms import curvatures, forms_from_derivatives
+from surfmesh.geometry.scaling import Scaling
+from surfmesh.geometry.sides import SideTopology
+from surfmesh.geometry.surface import Surface
+from surfmesh.kernels.background import Background, sizes_at
+from surfmesh.kernels.gradation import grade, patch_errors
+from surfmesh.sizing.curvature_size import angle_size, chord_size
+from surfmesh.sizing.sizing import Sizing
+
+ROOT_CELLS = 2304
+"""About how many cells the search starts with: a smooth surface needs no more."""
+
+DEPTH = 13
+"""Most splits of a root cell: a leaf may be as small as a 400,000th of the domain."""
+
+HIDDEN_DEPTH = 6
+"""Splits of a root cell within which features between the samples are looked for."""
+
+TEST_ERROR = 0.05
+"""Error at the test nodes that a cell may have; the leaf, twice as fine, has a quarter."""
+
+FINEST_EXTENT = 0.35
+"""A cell narrower than this many edges is not split: no circle would notice."""
+
+DEFAULT_CHORD = 1e-3
+DEFAULT_MAX_SIZE = 0.1
+"""Wishes that are not stated, relative to the diagonal of the bounding box."""
+
+MAX_CELLS = 4_000_000
+SWEEPS = 400
+
+
+@dataclass(frozen=True)
+class SizeField:
+    """Wanted sizes on one surface, ready for the kernels.
+
+    ``background`` gives size tensors in the scaled plane of ``scaling``; ``node_sizes`` are
+    the scalar sizes of its nodes.
+    """
+
+    scaling: Scaling
+    background: Background
+    diagonal: float
+    """Diagonal of the surface's bounding box."""
+
+    def tensors(self, xy: np.ndarray) -> np.ndarray:
+        """Size tensors (n, 3) at points xy (n, 2) of the scaled plane."""
+        out = np.empty((len(xy), 3))
+        sizes_at(self.background, np.ascontiguousarray(xy), out)
+        return out
+
+
+def size_field(surface: Surface, sizing: Sizing, sides: SideTopology | None = None) -> SizeField:
+    """Build the background for ``surface``; ``sides`` tells which sides are joined.
+
+    Raises ``SizingError`` when a size law gives something else than positive numbers, or when
+    the wanted sizes need an unreasonable number of cells.
+    """
+    builder = _Builder(surface, sizing, sides)
+    return builder.build()
+
+
+class _Builder:
+    def __init__(self, surface: Surface, sizing: Sizing, sides: SideTopology | None) -> None:
+        self.surface = surface
+        self.sides = sides
+        self.scaling = Scaling.of(surface)
+        width, height = self.scaling.extent
+        self.nx = int(np.clip(round(np.sqrt(ROOT_CELLS * width / height)), 4, ROOT_CELLS // 4))
+        self.ny = int(np.clip(round(ROOT_CELLS / self.nx), 4, ROOT_CELLS // 4))
+        self.root_step = np.array([width / self.nx, height / self.ny])
+        self.law = _SizeLaw(surface, sizing, self.scaling)
+        self.slope = sizing.gradient
+        # nodes, in order of creation; their keys also in sorted order
+        self.keys = np.empty(0, np.int64)
+        self.order = np.empty(0, np.int64)
+        self.size = np.empty(0)
+        self.root = np.empty((0, 3))
+        self.normal = np.empty((0, 3))
+        self.point = np.empty((0, 3))
+        self.joined = np.empty((0, 2), np.int64)
+
+    def build(self) -> SizeField:
+        cells = _Cells.roots(self.nx, self.ny)
+        patch = self._patches(cells)
+        fresh = np.ones(len(cells), bool)
+        total = len(cells)
+        tree: list[np.ndarray] = []  # the cells that were split, in the order of their children
+        while True:
+            self._grade(patch)
+            split = self._inaccurate(cells, patch)
+            split[fresh] |= self._may_hide(cells.chosen(fresh), patch[fresh])
+            split &= cells.depth < DEPTH
+            if not split.any():
+                break
+            parents = cells.chosen(split)
+            children = parents.split(total)
+            tree.append(parents.index)
+            total += len(children)
+            if total > MAX_CELLS:
+                raise SizingError(
+                    f"the sizes asked for on {self.surface.name!r} need more than {MAX_CELLS:,} "
+                    "cells to describe: raise min_size or growth"
+                )
+            fresh = np.concatenate([np.zeros((~split).sum(), bool), np.ones(len(children), bool)])
+            patch = np.concatenate([patch[~split], self._patches(children)])
+            cells = cells.chosen(~split).joined_with(children)
+        tree.append(cells.index)  # every leaf is split once more, onto its test nodes
+        return SizeField(self.scaling, self._background(tree, patch), self.law.diagonal)
+
+    # nodes
+
+    def _patches(self, cells: "_Cells") -> np.ndarray:
+        """The nine nodes of each cell (n, 9), creating those that do not exist yet."""
+        half = (1 << (DEPTH - cells.depth)).astype(np.int64)  # in units of the finest node grid
+        i = np.arange(9)
+        x = cells.x[:, None] + half[:, None] * (i % 3)
+        y = cells.y[:, None] + half[:, None] * (i // 3)
+        wanted = x * self._stride + y
+        unique, inverse = np.unique(wanted, return_inverse=True)
+        place = np.searchsorted(self.keys, unique)
+        known = np.zeros(len(unique), bool)
+        inside = place < len(self.keys)
+        known[inside] = self.keys[place[inside]] == unique[inside]
+        node = np.empty(len(unique), np.int64)
+        node[known] = self.order[place[known]]
+        new = unique[~known]
+        node[~known] = len(self.size) + np.arange(len(new))
+        self._create(new)
+        return node[inverse].reshape(-1, 9).astype(np.int32)
+
+    @property
+    def _stride(self) -> int:
+        return (self.ny << (DEPTH + 1)) + 1
+
+    def _plane(self, keys: np.ndarray) -> np.ndarray:
+        """xy (n, 2) of nodes; the far sides of the domain are met exactly."""
+        count = np.array([self.nx << (DEPTH + 1), self.ny << (DEPTH + 1)])
+        index = np.stack([keys // self._stride, keys % self._stride], axis=1)
+        return index / count * self.scaling.extent
+
+    def _create(self, keys: np.ndarray) -> None:
+        size, root, normal, point = self.law(self.scaling.to_uv(self._plane(keys)))
+        self.order = np.concatenate([self.order, len(self.size) + np.arange(len(keys))])
+        self.keys = np.concatenate([self.keys, keys])
+        sort = np.argsort(self.keys, kind="stable")
+        self.keys, self.order = self.keys[sort], self.order[sort]
+        self.size = np.concatenate([self.size, size])
+        self.root = np.concatenate([self.root, root])
+        self.normal = np.concatenate([self.normal, normal])
+        self.point = np.concatenate([self.point, point])
+        self.joined = self._joined_nodes()
+
+    def _joined_nodes(self) -> np.ndarray:
+        """Pairs of nodes on joined sides that are one point in 3D."""
+        pairs = [np.empty((0, 2), np.int64)]
+        if self.sides is None:
+            return pairs[0]
+        ends = (self.nx << (DEPTH + 1), self.ny << (DEPTH + 1))
+        x, y = self.keys // self._stride, self.keys % self._stride
+        on_side = [y == 0, x == ends[0], y == ends[1], x == 0]
+        along = [x / ends[0], y / ends[1], x / ends[0], y / ends[1]]
+        for a, b in enumerate(self.sides.partner):
+            if b < a:  # none, or seen from the other side
+                continue
+            ta, tb = along[a][on_side[a]], along[b][on_side[b]]
+            tb = 1.0 - tb if self.sides.reversed[a] else tb
+            _, ka, kb = np.intersect1d(np.round(ta, 9), np.round(tb, 9), return_indices=True)
+            node_a, node_b = self.order[on_side[a]][ka], self.order[on_side[b]][kb]
+            pairs.append(np.stack([node_a, node_b], axis=1))
+        return np.concatenate(pairs)
+
+    # cells
+
+    def _grade(self, patch: np.ndarray) -> None:
+        done = grade(patch, self.joined, self.point, self.slope, self.size, SWEEPS)
+        if done < 0:
+            raise SizingError(f"the sizes on {self.surface.name!r} could not be graded")
+
+    def _inaccurate(self, cells: "_Cells", patch: np.ndarray) -> np.ndarray:
+        step = self.root_step / (1 << cells.depth)[:, None]
+        error, extent = np.empty(len(patch)), np.empty(len(patch))
+        largest = self._largest
+        patch_errors(patch, self.root, self.size, step, largest, error, extent)
+        return (error > TEST_ERROR) & (extent > FINEST_EXTENT)
+
+    def _may_hide(self, cells: "_Cells", patch: np.ndarray) -> np.ndarray:
+        """Cells whose bounds admit curvature that would at least halve the sizes seen."""
+        hide = np.zeros(len(patch), bool)
+        if not self.law.follows_curvature:
+            return hide
+        shallow = np.flatnonzero(cells.depth < HIDDEN_DEPTH)
+        corners = patch[shallow][:, [0, 8]]
+        xy = np.stack([self._xy_of(corners[:, 0]), self._xy_of(corners[:, 1])])
+        bounds = self.surface.derivative_bounds(
+            self.scaling.to_uv(xy[0]), self.scaling.to_uv(xy[1])
+        )
+        if bounds is None:
+            return hide
+        nodes = patch[shallow]
+        normal = np.abs(self.normal[nodes[:, 4]])
+        fu, fv = self.scaling.factor
+        second = np.maximum(np.abs(bounds[0]), np.abs(bounds[1]))[:, 2:] / np.array(
+            [fu * fu, fu * fv, fv * fv]
+        ).reshape(1, 3, 1)
+        with np.errstate(over="ignore", invalid="ignore"):
+            form = np.einsum("nki,ni->nk", second, normal)  # |L|, |M|, |N| at most
+        root = self.root[nodes]
+        e = (root[..., 0] ** 2 + root[..., 1] ** 2).max(axis=1)
+        g = (root[..., 1] ** 2 + root[..., 2] ** 2).max(axis=1)
+        with np.errstate(divide="ignore", over="ignore", invalid="ignore"):
+            bound = np.sqrt(
+                (form[:, 0] / e) ** 2 + 2.0 * form[:, 1] ** 2 / (e * g) + (form[:, 2] / g) ** 2
+            )
+        possible = self.law.from_curvature(np.where(np.isnan(bound), np.inf, bound), 0.0)
+        hide[shallow] = possible < 0.5 * self.size[nodes].min(axis=1)
+        return hide
+
+    def _xy_of(self, nodes: np.ndarray) -> np.ndarray:
+        keys = np.empty(len(self.order), np.int64)
+        keys[self.order] = self.keys
+        return self._plane(keys[nodes])
+
+    @property
+    def _largest(self) -> float:
+        """Cap on a circle's size in the scaled plane, for degenerate points."""
+        return 16.0 * float(self.scaling.extent.max())
+
+    def _background(self, tree: list[np.ndarray], patch: np.ndarray) -> Background:
+        parents = np.concatenate(tree)
+        roots = self.nx * self.ny
+        child = np.full(roots + 4 * len(parents), -1, np.int32)
+        child[parents] = roots + 4 * np.arange(len(parents))
+        corner = np.zeros((len(child), 4), np.int32)
+        quarters = patch[:, [[0, 1, 3, 4], [1, 2, 4, 5], [3, 4, 6, 7], [4, 5, 7, 8]]]
+        corner[len(child) - 4 * len(patch) :] = quarters.reshape(-1, 4)
+        inverse = np.empty((len(self.size), 4))
+        inverse[:, :3] = self.root / self.size[:, None]
+        inverse[:, 3] = 1.0 / self.size
+        box = np.array([0.0, 0.0, *(1.0 / self.root_step), self._largest])
+        return Background(box, np.array([self.nx, self.ny]), child, corner, inverse)
+
+
+class _SizeLaw:
+    """The ungraded wish at points of one surface, with what the background stores there."""
+
+    def __init__(self, surface: Surface, sizing: Sizing, scaling: Scaling) -> None:
+        self.surface, self.scaling = surface, scaling
+        (u0, u1), (v0, v1) = surface.domain
+        grid = np.linspace(0.0, 1.0, 17)
+        t = np.stack(np.meshgrid(grid, grid), axis=-1).reshape(-1, 2)
+        (points,) = surface.evaluate(np.array([u0, v0]) + t * np.array([u1 - u0, v1 - v0]), 0)
+        self.diagonal = float(np.linalg.norm(points.max(axis=0) - points.min(axis=0)))
+        if sizing.chord is None and sizing.angle is None and sizing.size is None:
+            sizing = sizing.replaced(chord=DEFAULT_CHORD * self.diagonal)
+        self.sizing = sizing
+        coarsest = sizing.max_size or DEFAULT_MAX_SIZE * self.diagonal
+        if isinstance(sizing.size, float):
+            coarsest = min(coarsest, sizing.size) if sizing.max_size else sizing.size
+        finest = sizing.min_size or 0.0
+        self.clamp = (finest, max(coarsest, finest))
+
+    @property
+    def follows_curvature(self) -> bool:
+        return self.sizing.chord is not None or self.sizing.angle is not None
+
+    def from_curvature(self, k1: np.ndarray, k2: np.ndarray | float) -> np.ndarray:
+        """Clamped size (n,) for principal curvatures, before ``size`` and gradation."""
+        size = np.full(len(k1), np.inf)
+        if self.sizing.chord is not None:
+            size = np.minimum(size, chord_size(k1, k2, self.sizing.chord))
+        if self.sizing.angle is not None:
+            size = np.minimum(size, angle_size(k1, k2, self.sizing.angle))
+        return np.clip(size, *self.clamp)
+
+    def __call__(self, uv: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
+        """size (n,), I^(1/2) in the scaled plane (n, 3), unit normal (n, 3), point (n, 3)."""
+        derivatives = self.surface.evaluate(uv, 2)
+        forms = forms_from_derivatives(*derivatives[1:])
+        fu, fv = self.scaling.factor
+        e, f, g = forms.E / (fu * fu), forms.F / (fu * fv), forms.G / (fv * fv)
+        # square root of a symmetric 2 x 2 matrix: (I + s Id) / t, s^2 = det I, t^2 = tr I + 2 s
+        s = np.sqrt(np.maximum(e * g - f * f, 0.0))
+        t = np.sqrt(np.maximum(e + g + 2.0 * s, np.finfo(float).tiny))
+        root = np.stack([(e + s) / t, f / t, (g + s) / t], axis=1)
+        size = np.full(len(uv), self.clamp[1])
+        if self.follows_curvature:
+            k = curvatures(forms)
+            size = self.from_curvature(k.k1, k.k2)
+            # nothing is known at a pole or a cusp: gradation brings the neighbours' size
+            size[forms.degenerate] = self.clamp[1]
+        if callable(self.sizing.size):
+            wish = np.asarray(self.sizing.size(derivatives[0]), float)
+            if wish.shape != (len(uv),) or not (wish > 0.0).all():
+                raise SizingError(
+                    f"size law must give positive numbers of shape ({len(uv)},) for points "
+                    f"({len(uv)}, 3); it gave shape {wish.shape}"
+                    + (f", smallest {np.nanmin(wish):g}" if wish.size else "")
+                )
+            size = np.clip(np.minimum(size, wish), *self.clamp)
+        return size, root, forms.normal, derivatives[0]
+
+
+@dataclass(frozen=True)
+class _Cells:
+    """The leaves so far: lower left corner in units of the finest node grid, place in the tree."""
+
+    x: np.ndarray
+    y: np.ndarray
+    depth: np.ndarray
+    index: np.ndarray
+
+    @classmethod
+    def roots(cls, nx: int, ny: int) -> "_Cells":
+        index = np.arange(nx * ny, dtype=np.int64)
+        j, i = np.divmod(index, nx)
+        unit = 1 << (DEPTH + 1)
+        return cls(i * unit, j * unit, np.zeros(nx * ny, np.int64), index)
+
+    def __len__(self) -> int:
+        return len(self.index)
+
+    def chosen(self, mask: np.ndarray) -> "_Cells":
+        return _Cells(self.x[mask], self.y[mask], self.depth[mask], self.index[mask])
+
+    def joined_with(self, other: "_Cells") -> "_Cells":
+        return _Cells(
+            np.concatenate([self.x, other.x]),
+            np.concatenate([self.y, other.y]),
+            np.concatenate([self.depth, other.depth]),
+            np.concatenate([self.index, other.index]),
+        )
+
+    def split(self, first: int) -> "_Cells":
+        """The four children of every cell, numbered from ``first`` on."""
+        half = 1 << (DEPTH - self.depth)
+        i = np.arange(4)
+        return _Cells(
+            (self.x[:, None] + half[:, None] * (i % 2)).ravel(),
+            (self.y[:, None] + half[:, None] * (i // 2)).ravel(),
+            np.repeat(self.depth + 1, 4),
+            first + np.arange(4 * len(self)),
+        )
