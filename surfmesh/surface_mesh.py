@@ -159,7 +159,7 @@ class SurfaceMesh:
 
     def to_trimesh(self) -> "trimesh.Trimesh":
         """As a trimesh.Trimesh with ``size`` and ``face_id``; nothing is merged."""
-        from surfmesh.io.trimesh_formats import to_trimesh
+        from surfmesh.io.to_trimesh import to_trimesh
 
         return to_trimesh(self)
 

@@ -10,11 +10,11 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from surfmesh.surface_mesh import SurfaceMesh
 from surfmesh.quality.deviation import Deviation, deviation
 from surfmesh.quality.lengths import QUASI_UNIT, edge_lengths, growth, metric_lengths
 from surfmesh.quality.shape import Shapes, enclosed_volume, shapes
 from surfmesh.quality.topology import Topology, topology
+from surfmesh.surface_mesh import SurfaceMesh
 
 SCHEMA_VERSION = 1  # of to_dict(): raised when a field changes its meaning or goes away
 DEGENERATE = 1e-6  # alpha below which a triangle has no area to speak of

@@ -1,0 +1,73 @@
+"""Triangle meshes of curved surfaces by circle packing, checked against the true surface.
+
+    import surfmesh as sm
+
+    surface = sm.ParametricSurface("u", "v", "u**2 - v**2", u=(-1, 1), v=(-1, 1))
+    mesh = sm.mesh(surface, sm.Sizing(chord=1e-3))
+    print(sm.check(mesh))
+    mesh.save("saddle.vtu")
+
+Names are imported when they are first used: ``import surfmesh`` alone loads nothing heavy.
+"""
+
+from importlib import import_module
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from surfmesh import errors, io, view
+    from surfmesh.api import load, mesh
+    from surfmesh.geometry.formula_file import gallery
+    from surfmesh.geometry.parametric import ParametricSurface
+    from surfmesh.quality import Report, check
+    from surfmesh.sizing.sizing import Sizing
+    from surfmesh.surface_mesh import SurfaceMesh
+
+    __version__: str
+
+# No submodule may be called like a public name (mesh, check, load): importing it would put
+# the module where the function should be.
+_HOMES = {
+    "ParametricSurface": "surfmesh.geometry.parametric",
+    "Report": "surfmesh.quality",
+    "Sizing": "surfmesh.sizing.sizing",
+    "SurfaceMesh": "surfmesh.surface_mesh",
+    "check": "surfmesh.quality",
+    "gallery": "surfmesh.geometry.formula_file",
+    "load": "surfmesh.api",
+    "mesh": "surfmesh.api",
+}
+_MODULES = ("errors", "io", "view")
+
+__all__ = [
+    "ParametricSurface",
+    "Report",
+    "Sizing",
+    "SurfaceMesh",
+    "__version__",
+    "check",
+    "errors",
+    "gallery",
+    "io",
+    "load",
+    "mesh",
+    "view",
+]
+
+
+def __getattr__(name: str) -> Any:
+    if name in _HOMES:
+        value = getattr(import_module(_HOMES[name]), name)
+    elif name in _MODULES:
+        value = import_module(f"surfmesh.{name}")
+    elif name == "__version__":
+        from importlib.metadata import version
+
+        value = version("surfmesh")
+    else:
+        raise AttributeError(f"module 'surfmesh' has no attribute {name!r}")
+    globals()[name] = value
+    return value
+
+
+def __dir__() -> list[str]:
+    return sorted({*globals(), *__all__})

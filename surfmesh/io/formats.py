@@ -1,0 +1,81 @@
+"""Which module writes and reads which extension, and the two verbs."""
+
+from importlib import import_module
+from pathlib import Path
+from types import ModuleType
+
+from surfmesh.errors import FileFormatError
+from surfmesh.io.atomic import replacing
+from surfmesh.surface_mesh import SurfaceMesh
+
+# Each module has write(mesh, path) and read(path); it is imported when it is needed.
+FORMATS = {
+    ".vtu": "surfmesh.io.vtk_xml",
+    ".vtp": "surfmesh.io.vtk_xml",
+    ".stl": "surfmesh.io.stl",
+    ".obj": "surfmesh.io.obj",
+    ".ply": "surfmesh.io.ply",
+    ".glb": "surfmesh.io.glb",
+    ".msh": "surfmesh.io.msh",
+}
+
+
+def save(mesh: SurfaceMesh, path: str | Path) -> Path:
+    """Write ``mesh`` to ``path``; all of it or nothing. Returns the path.
+
+    What survives: points and triangles everywhere, in double precision but for .stl and
+    .glb; ``face_id`` in .vtu, .vtp, .ply, .obj and .msh; ``size`` and ``alpha`` in .vtu,
+    .vtp, .ply and .msh; corner parameters ``uv`` in .vtu and .vtp.
+
+    Raises ``FileFormatError`` for an extension that is not known, a folder that is not
+    there, a place that cannot be written, a mesh without triangles.
+    """
+    path = Path(path)
+    module = _module(path)
+    if not len(mesh.triangles):
+        raise FileFormatError(f"{path}: nothing to write, the mesh has no triangles")
+    with replacing(path) as temporary:
+        module.write(mesh, temporary)
+    return path
+
+
+def read(path: str | Path) -> SurfaceMesh:
+    """Read a triangle mesh. It carries no surface, so its deviation cannot be known.
+
+    Raises ``FileFormatError`` for a file that is missing, that cannot be understood, or that
+    holds anything but triangles.
+    """
+    path = Path(path)
+    module = _module(path)
+    if not path.is_file():
+        raise FileFormatError(f"{path}: {'not a file' if path.exists() else 'no such file'}")
+    try:
+        mesh = module.read(path)
+    except FileFormatError:
+        raise
+    except MemoryError:
+        raise
+    except Exception as error:  # parsers of foreign formats raise whatever they like
+        reason = f"not a readable {path.suffix} file: {_brief(error)}"
+        raise FileFormatError(f"{path}: {reason}") from error
+    if not len(mesh.triangles):
+        raise FileFormatError(f"{path}: there are no triangles in it")
+    broken = mesh.check()
+    if broken and "is outside" in broken:
+        raise FileFormatError(f"{path}: {broken}")
+    return mesh
+
+
+def _module(path: Path) -> ModuleType:
+    try:
+        return import_module(FORMATS[path.suffix.lower()])
+    except KeyError:
+        known = " ".join(FORMATS)
+        found = f"extension '{path.suffix}' is not known" if path.suffix else "has no extension"
+        raise FileFormatError(f"{path}: {found}; known are {known}") from None
+
+
+def _brief(error: Exception) -> str:
+    """The first line of what ``error`` says, or its name when it says nothing."""
+    said = str(error).strip().splitlines()
+    return said[0][:200] if said else type(error).__name__

@@ -1,0 +1,26 @@
+"""As a trimesh.Trimesh, and from what trimesh reads."""
+
+from pathlib import Path
+
+import numpy as np
+import trimesh
+
+from surfmesh.surface_mesh import SurfaceMesh
+
+
+def to_trimesh(mesh: SurfaceMesh) -> trimesh.Trimesh:
+    """Trimesh with vertex attribute ``size`` and face attribute ``face_id``; nothing merged."""
+    sizes = {} if mesh.sizes is None else {"size": mesh.sizes.copy()}
+    return trimesh.Trimesh(
+        vertices=mesh.points.copy(),
+        faces=mesh.triangles.astype(np.int64),
+        vertex_attributes=sizes,
+        face_attributes={"face_id": mesh.face_ids.copy()},
+        process=False,
+        validate=False,
+    )
+
+
+def read_with_trimesh(path: Path) -> trimesh.Trimesh:
+    """What trimesh finds in ``path`` as one mesh, vertices kept in their order."""
+    return trimesh.load_mesh(path, process=False, maintain_order=True)
