@@ -73,10 +73,11 @@ def _loaded(path: Path, reader: vtkXMLReader) -> pyvista.DataSet:
     console = vtkOutputWindow.GetInstance()
     vtkOutputWindow.SetInstance(vtkStringOutputWindow())  # the XML parser has no observers
     try:
-        if not reader.CanReadFile(str(path)):
-            raise FileFormatError(f"{path}: not a {path.suffix} file")
-        reader.SetFileName(str(path))
-        reader.Update()
+        with pyvista.vtk_verbosity("off"):
+            if not reader.CanReadFile(str(path)):
+                raise FileFormatError(f"{path}: not a {path.suffix} file")
+            reader.SetFileName(str(path))
+            reader.Update()
     finally:
         vtkOutputWindow.SetInstance(console)
     if complaints or reader.GetErrorCode():
