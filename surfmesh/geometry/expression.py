@@ -162,26 +162,23 @@ class _Parser:
         return result._replace(expression=real.on_the_real_line(result.expression))
 
     def _sum(self) -> _Part:
-        left = self._product()
+        parts = [self._product()]
         while (sign := self._take("+", "-")) is not None:
-            right = self._product()
-            if sign == "+":
-                left = self._joined(left, right, lambda a, b: a + b)
-            else:
-                left = self._joined(left, right, lambda a, b: a - b)
-        return left
+            part = self._product()
+            parts.append(part if sign == "+" else _negative(part))
+        return self._joined(parts, sp.Add, lambda a, b: a + b)
 
     def _product(self) -> _Part:
-        left = self._signed()
+        parts = [self._signed()]
         while (sign := self._take("*", "/")) is not None:
-            right = self._signed()
-            if sign == "*":
-                left = self._joined(left, right, lambda a, b: a * b)
-                continue
-            if right.expression.is_zero or right.value == 0.0:
-                self._refuse("division by zero", right.column)
-            left = self._joined(left, right, lambda a, b: a / b)
-        return left
+            part = self._signed()
+            if sign == "/":
+                if part.expression.is_zero or part.value == 0.0:
+                    self._refuse("division by zero", part.column)
+                value = None if part.value is None else 1.0 / part.value
+                part = _Part(1 / part.expression, value, part.column)
+            parts.append(part)
+        return self._joined(parts, sp.Mul, lambda a, b: a * b)
 
     def _signed(self) -> _Part:
         column = self._column()
@@ -191,9 +188,7 @@ class _Parser:
         self._enter(column)
         part = self._signed()
         self.depth -= 1
-        if sign == "+":
-            return part
-        return _Part(-part.expression, None if part.value is None else -part.value, column)
+        return part if sign == "+" else _negative(part)._replace(column=column)
 
     def _power(self) -> _Part:
         base = self._atom()
@@ -212,7 +207,7 @@ class _Parser:
             self._value(math.pow, (base.value, exponent.value), base.column)
         elif base.expression.is_zero and exponent.value is not None and exponent.value <= 0:
             self._refuse("division by zero", base.column)
-        result = self._joined(base, exponent, lambda a, b: a**b)
+        result = self._joined([base, exponent], sp.Pow, lambda a, b: a**b)
         factors = sp.Mul.make_args(result.expression)
         exponents = [factor.exp for factor in factors if factor.is_Pow and factor.exp.is_Rational]
         if any(abs(exponent) > LARGEST_EXPONENT for exponent in exponents):
@@ -288,15 +283,20 @@ class _Parser:
             self._refuse(f"{name} is not a finite real number here", column)
         return _Part(expression, value, column)
 
-    def _joined(self, left: _Part, right: _Part, operation: Callable) -> _Part:
-        """Two parts joined; constants are first worked out as floats and refused when too large."""
+    def _joined(self, parts: list[_Part], build: Callable, operation: Callable) -> _Part:
+        """Parts put together at once; constants are first worked out as floats, left to right."""
+        if len(parts) == 1:
+            return parts[0]
+        column = parts[0].column
         value = None
-        if left.value is not None and right.value is not None:
-            value = self._value(operation, (left.value, right.value), left.column)
-        expression = operation(left.expression, right.expression)
+        if all(part.value is not None for part in parts):
+            value = parts[0].value
+            for part in parts[1:]:
+                value = self._value(operation, (value, part.value), column)
+        expression = build(*(part.expression for part in parts))
         if value is None and expression.is_number:  # u - u
-            value = _number(expression, self.text, left.column)
-        return _Part(expression, value, left.column)
+            value = _number(expression, self.text, column)
+        return _Part(expression, value, column)
 
     def _value(self, function: Callable, arguments: Sequence[float], column: int) -> float:
         try:
@@ -357,6 +357,12 @@ class _Parser:
 
     def _refuse(self, reason: str, column: int):
         raise FormulaError(reason, self.text, column)
+
+
+def _negative(part: _Part) -> _Part:
+    return part._replace(
+        expression=-part.expression, value=None if part.value is None else -part.value
+    )
 
 
 def _as_text(text) -> str:

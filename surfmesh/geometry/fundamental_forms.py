@@ -13,7 +13,6 @@ from typing import NamedTuple
 
 import numpy as np
 
-from surfmesh.errors import SurfaceError
 from surfmesh.geometry.surface import Surface
 
 DEGENERATE = 1e-10  # |r_u x r_v| / (E + G): the sine of r_u and r_v times their ratio; below

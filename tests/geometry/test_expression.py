@@ -1,0 +1,187 @@
+"""Formulas are data: what is accepted means what mathematics says, the rest is refused."""
+
+import math
+import time
+
+import numpy as np
+import pytest
+import sympy as sp
+
+from surfmesh.errors import FormulaError, SurfaceError
+from surfmesh.geometry.compilation import compiled
+from surfmesh.geometry.expression import FUNCTIONS, parse, parse_number, symbol
+
+U, V = symbol("u"), symbol("v")
+
+# formula, column that the message points at, a word of the reason
+HOSTILE = [
+    ("__import__('os')", 12, "quotes"),
+    ("__import__(u)", 1, "not a known function"),
+    ("u.__class__", 2, "attribute"),
+    ("(u).real", 4, "attribute"),
+    ("1..real", 3, "attribute"),
+    ("1.__class__", 3, "operator is missing"),
+    ("lambda: 0", 7, "':'"),
+    ("(lambda x: x)(u)", 10, "':'"),
+    ('exec("")', 6, "quotes"),
+    ("f'{u}'", 2, "quotes"),
+    ("9**9**9**9", 7, "exponent"),
+    ("u**-65", 4, "exponent"),
+    ("u**1e9", 4, "exponent"),
+    ("(u**9)**9", 7, "exponent"),
+    ("10**400", 5, "exponent"),
+    ("((((1+1/10**60)**60)**60)**60)**60", 18, "digits"),
+    ("((10**60)**60)", 3, "too large"),
+    ("exp(exp(exp(1000)))", 9, "too large"),
+    ("u + exp(1000 + v - v)", 5, "too large"),
+    ("9" * 400, 1, "too large"),
+    ("1e400", 1, "too large"),
+    ("(" * 1000, 65, "nested"),
+    ("-" * 100 + "u", 65, "nested"),
+    ("sin(" * 100 + "u" + ")" * 100, 260, "nested"),
+    ("u+" * 6000 + "u", 10_001, "longer"),
+    ("u if v else 0", 3, "operator is missing"),
+    ("[u]", 1, "brackets"),
+    ("{u}", 1, "braces"),
+    ("u;v", 2, "';'"),
+    ("u,v", 2, "comma"),
+    ("(u,v)", 3, "comma"),
+    ("u := 1", 3, "':'"),
+    ("u = 1", 3, "comparison"),
+    ("u < v", 3, "comparison"),
+    ("u != v", 3, "comparison"),
+    ("u // v", 4, "value is expected"),
+    ("u %v", 3, "'%'"),
+    ("u\\v", 2, "not part"),
+    ("u\0", 2, "not part"),
+    ("u − v", 3, "minus sign"),
+    ("ｕ", 1, "fullwidth"),
+    ("2·u", 2, "middle dot"),
+    ("", 1, "empty"),
+    ("   ", 1, "empty"),
+    ("u +", 4, "ends where a value"),
+    ("* u", 1, "value is expected"),
+    ("u * (v", 5, "never closed"),
+    ("cos(u", 4, "never closed"),
+    ("u)", 2, "never opened"),
+    ("sin", 1, "is a function"),
+    ("sin u", 1, "is a function"),
+    ("sin()", 1, "1 argument, not 0"),
+    ("sin(u, v)", 1, "1 argument, not 2"),
+    ("1 + atan2(u)", 5, "2 arguments, not 1"),
+    ("max(u)", 1, "2 to 16"),
+    ("foo(u)", 1, "not a known function"),
+    ("u + w", 5, "unknown name"),
+    ("u(3)", 1, "not a function"),
+    ("pi(3)", 1, "not a function"),
+    ("2u", 2, "operator is missing"),
+    ("(u)(v)", 4, "operator is missing"),
+    ("1/0", 3, "division by zero"),
+    ("u/(v - v)", 4, "division by zero"),
+    ("0**-1", 1, "finite real"),
+    ("sqrt(-1)", 1, "finite real"),
+    ("u*log(0)", 3, "finite real"),
+    ("(-8)**(1/3)", 2, "finite real"),
+    ("asin(2)", 1, "finite real"),
+    ("sqrt(-u**2)", 1, "finite real"),
+]
+
+
+@pytest.mark.parametrize("text, column, reason", HOSTILE, ids=lambda x: str(x)[:20])
+def test_refused_at_the_right_column(text, column, reason):
+    start = time.perf_counter()
+    with pytest.raises(FormulaError) as caught:
+        parse(text)
+    assert (caught.value.column, caught.value.text) == (column, text)
+    assert reason in caught.value.reason
+    assert time.perf_counter() - start < 1.0
+
+
+MEANING = [
+    ("-u**2", -(U**2)),
+    ("(-u)^2", U**2),
+    ("2^3^2/512", sp.Integer(1)),
+    ("u - v - 1", U - V - 1),
+    ("u/v/2", U / V / 2),
+    ("2**-1", sp.Rational(1, 2)),
+    ("- -u", U),
+    ("0.1*u", U / 10),
+    ("1.5e-3*u", 3 * U / 2000),
+    (".5*u + 2.", U / 2 + 2),
+    ("u**0.5", sp.sqrt(U)),
+    ("e**u + ln(v)", sp.exp(U) + sp.log(V)),
+    ("tau - 2*pi", sp.Integer(0)),
+    ("sec(u)*cos(u) + cot(u)*tan(u)", 1 + sp.cos(U) * sp.tan(U) / sp.sin(U)),
+    ("u\n + v", U + V),
+    ("a*u + n", sp.Rational(1, 10) * U + 3),
+    (2, sp.Integer(2)),
+    (0.25, sp.Rational(1, 4)),
+]
+
+
+@pytest.mark.parametrize("text, meaning", MEANING, ids=lambda x: repr(x)[:20])
+def test_means_what_mathematics_says(text, meaning):
+    assert parse(text, parameters={"a": 0.1, "n": 3}) == meaning
+
+
+@pytest.mark.parametrize("name", sorted(FUNCTIONS))
+def test_every_function_has_its_value_and_its_derivative(name):
+    function = FUNCTIONS[name]
+    places = np.array([[0.31, 0.72], [0.62, 0.15]])
+    if name == "acosh":
+        places = places + 1.5
+    arguments = ["u", "v"][: function.fewest]
+    expression = parse(f"{name}({', '.join(arguments)})")
+    values = _values(expression, places)
+    expected = [function.value(*place[: function.fewest]) for place in places.tolist()]
+    assert values == pytest.approx(expected, rel=1e-14)
+
+    h = 1e-6
+    ahead, behind = _values(expression, places + [h, 0]), _values(expression, places - [h, 0])
+    slope = _values(sp.diff(expression, U), places)
+    assert slope == pytest.approx((ahead - behind) / (2 * h), rel=1e-7, abs=1e-9)
+
+
+def test_long_formulas_are_quick():
+    start = time.perf_counter()
+    parse("+".join(f"sin(u + {i}*v)" for i in range(500)))
+    assert time.perf_counter() - start < 2.0
+
+
+def test_expressions_that_are_already_built():
+    u, v, a = sp.symbols("u v a")  # not known to be real: replaced by name
+    built = 0.5 * sp.Max(u, v) + sp.Abs(u) ** 3 + sp.atan2(v, u) + sp.sec(u) + a
+    twin = parse("0.5*max(u, v) + abs(u)**3 + atan2(v, u) + sec(u) + 0.1")
+    places = np.array([[0.3, 0.8], [-0.7, 0.2]])
+    assert _values(parse(built, parameters={"a": 0.1}), places) == pytest.approx(
+        _values(twin, places), rel=1e-15
+    )
+    for refused in (
+        sp.gamma(u),
+        sp.I * u,
+        sp.Symbol("w"),
+        u > 0,
+        sp.Piecewise((u, u > 0), (0, True)),
+    ):
+        with pytest.raises(FormulaError):
+            parse(refused)
+
+
+def test_numbers_for_bounds():
+    assert parse_number("2*pi") == math.tau
+    assert parse_number("-sqrt(2)/2") == -math.sqrt(2) / 2
+    assert parse_number(3) == 3.0
+    assert parse_number(2 * sp.pi) == math.tau
+    for refused in ("u", "inf", "nan", math.inf, math.nan, "1/0", "", None, True, [1]):
+        with pytest.raises(FormulaError):
+            parse_number(refused)
+
+
+def test_parameters_must_be_finite():
+    with pytest.raises(SurfaceError):
+        parse("a*u", parameters={"a": math.nan})
+
+
+def _values(expression, places):
+    """Values of one expression at places (n, 2)."""
+    return compiled([expression] * 3, (U, V)).evaluate(places)[0][:, 0]

@@ -1,0 +1,200 @@
+"""Tapes against slow twins: one node at a time in 30 digits, and samples inside every interval."""
+
+import pickle
+
+import mpmath
+import numpy as np
+import pytest
+import sympy as sp
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from surfmesh.geometry.compilation import compiled, surface_tape
+from surfmesh.geometry.expression import parse, symbol
+from surfmesh.geometry.tape import BLOCK, integer_power
+
+U, V = VARIABLES = symbol("u"), symbol("v")
+ORDERS = ((), (U,), (V,), (U, U), (U, V), (V, V))
+
+_leaf = st.sampled_from(["u", "v", "2", "0.3", "pi"])
+
+
+def _grown(inner):
+    one = st.sampled_from(
+        ["sin", "cos", "tan", "exp", "atan", "tanh", "sqrt", "log", "cosh", "asinh", "abs", "cbrt"]
+    )
+    return st.one_of(
+        st.builds("({} {} {})".format, inner, st.sampled_from("+-*/"), inner),
+        st.builds("{}({})".format, one, inner),
+        st.builds("({})**{}".format, inner, st.sampled_from(["2", "3", "4", "-1", "0.5", "1.5"])),
+        st.builds("{}({}, {})".format, st.sampled_from(["min", "max", "atan2"]), inner, inner),
+    )
+
+
+formulas = st.recursive(_leaf, _grown, max_leaves=8)
+
+
+def _parsed(text):
+    try:
+        return parse(text)
+    except ValueError:  # a constant part that is not finite
+        return sp.Integer(1)
+
+
+@given(st.tuples(formulas, formulas, formulas))
+@settings(max_examples=60, deadline=None)
+def test_values_and_derivatives_agree_with_the_slow_twin(texts):
+    coordinates = [_parsed(text) for text in texts]
+    tape = surface_tape(coordinates, VARIABLES, 2)
+    assert tape.check() == ""
+    mpmath.mp.dps = 30
+    point = (0.371, 0.823)
+    results = tape.evaluate(np.array([point]))
+    for result, order in zip(results, ORDERS):
+        for axis, coordinate in enumerate(coordinates):
+            derivative = sp.diff(coordinate, *order) if order else coordinate
+            expected = _slow_value(derivative, point)
+            if expected is not None and abs(expected) < 1e8:
+                assert result[0, axis] == pytest.approx(expected, rel=1e-8, abs=1e-8)
+
+
+NAIVE = {
+    "absolute": abs,
+    "signum": mpmath.sign,
+    "step": lambda x: (1 + mpmath.sign(x)) / 2,
+    "minimum": min,
+    "maximum": max,
+    "cube_root": lambda x: mpmath.sign(x) * mpmath.cbrt(abs(x)),
+    "angle": mpmath.atan2,
+}
+
+
+def _slow_value(expression, point):
+    """The twin: one node at a time in 30 digits; None where it is not finite or not real."""
+    values = {U: mpmath.mpf(point[0]), V: mpmath.mpf(point[1])}
+    for node in sp.postorder_traversal(expression):
+        if node in values:
+            continue
+        arguments = [values[part] for part in node.args]
+        try:
+            if node.is_Rational:
+                value = mpmath.mpf(int(node.p)) / int(node.q)
+            elif node.is_NumberSymbol:
+                value = {sp.pi: +mpmath.pi, sp.E: mpmath.e + 0}[node]
+            elif node.is_Add:
+                value = mpmath.fsum(arguments)
+            elif node.is_Mul:
+                value = mpmath.fprod(arguments)
+            elif node.is_Pow:
+                value = mpmath.power(*arguments)
+            else:
+                name = node.func.__name__
+                value = (NAIVE.get(name) or getattr(mpmath, name))(*arguments)
+        except (ZeroDivisionError, OverflowError, ValueError):
+            return None
+        if not isinstance(value, mpmath.mpf) or not abs(value) < 1e12:
+            return None
+        values[node] = value
+    return float(values[expression])
+
+
+@given(formulas, st.tuples(*[st.floats(-2, 2)] * 2), st.tuples(*[st.floats(0, 1.5)] * 2))
+@settings(max_examples=150, deadline=None)
+def test_bounds_hold_every_sample(text, corner, size):
+    tape = surface_tape([_parsed(text), U, V], VARIABLES, 2)
+    lo = np.array([corner])
+    hi = lo + np.array([size])
+    lower, upper = tape.bounds(lo, hi)
+    share = np.linspace(0, 1, 13)
+    grid = np.stack(np.meshgrid(share, share), axis=-1).reshape(-1, 2)
+    values = np.hstack(tape.evaluate(lo + grid * (hi - lo)))
+    defined = np.isfinite(values)
+    assert not np.isnan(lower).any() and not np.isnan(upper).any()
+    slack = 1e-9 * (1 + np.abs(np.where(defined, values, 0)))
+    assert ((values >= lower - slack) | ~defined).all()
+    assert ((values <= upper + slack) | ~defined).all()
+
+
+@pytest.mark.parametrize(
+    "text, low, high",
+    [
+        ("sin(u)", -1, 1),
+        ("cos(u)", np.cos(2), 1),
+        ("u**2", 0, 4),
+        ("u**3", -1, 8),
+        ("abs(u)", 0, 2),
+        ("sqrt(u + 1)", 0, np.sqrt(3)),
+        ("exp(u)", np.exp(-1), np.exp(2)),
+        ("1/(u + 2)", 0.25, 1),
+        ("1/u", -np.inf, np.inf),
+        ("log(u)", -np.inf, np.log(2)),
+        ("tan(u)", -np.inf, np.inf),
+        ("atan2(u, -v)", -np.pi, np.pi),
+        ("min(u, v)", -1, 2),
+        ("(v - 2)**v", 0, 1),
+    ],
+)
+def test_bounds_are_tight_where_a_variable_stands_once(text, low, high):
+    box_lo, box_hi = [[-1, 2]], [[2, 3]]
+    if text == "sin(u)":
+        box_lo, box_hi = [[-2, 2]], [[2, 3]]
+    tape = compiled([parse(text)], VARIABLES)
+    lower, upper = tape.bounds(np.array(box_lo), np.array(box_hi))
+    assert lower[0, 0] == pytest.approx(low, rel=1e-12, abs=1e-12)
+    assert upper[0, 0] == pytest.approx(high, rel=1e-12, abs=1e-12)
+
+
+def test_bounds_close_in_at_first_order():
+    """Halving a cell at least halves the excess: what proves that nothing hides in it."""
+    tape = compiled([parse("(u + 3*v)**2 * exp(1 - u**2 - v**2)")], VARIABLES)
+    widths = []
+    for size in (0.1, 0.05, 0.025):
+        lower, upper = tape.bounds(np.array([[0.4, 0.6]]), np.array([[0.4 + size, 0.6 + size]]))
+        widths.append(upper[0, 0] - lower[0, 0])
+    assert widths[1] < 0.55 * widths[0] and widths[2] < 0.55 * widths[1]
+
+
+@pytest.mark.parametrize("n", range(2, 65))
+def test_integer_powers(n):
+    x = np.linspace(-1.5, 1.5, 31)
+    out = np.empty_like(x)
+    integer_power(x, n, out=out)
+    assert out == pytest.approx(x**n, rel=1e-13)
+
+
+def test_blocks_do_not_show():
+    tape = surface_tape([parse("u*v"), parse("sin(u)"), parse("3")], VARIABLES, 1)
+    points = np.random.default_rng(1).uniform(-1, 1, (2 * BLOCK + 17, 2))
+    r, r_u, r_v = tape.evaluate(points)
+    assert np.array_equal(r[:, 0], points[:, 0] * points[:, 1])
+    assert np.array_equal(r[:, 1], np.sin(points[:, 0]))
+    assert np.array_equal(r[:, 2], np.full(len(points), 3.0))
+    assert np.array_equal(r_u[:, 0], points[:, 1]) and not r_v[:, 1:].any()
+    assert all(array.flags.c_contiguous for array in (r, r_u, r_v))
+    assert [len(a) for a in tape.evaluate(np.empty((0, 2)))] == [0, 0, 0]
+
+
+def test_shared_subexpressions_are_computed_once():
+    tape = surface_tape([parse("exp(u*v)"), parse("exp(u*v) + 1"), parse("sin(u)")], VARIABLES, 2)
+    operations = [step.operation for step in tape.instructions]
+    assert operations.count("exp") == 1
+    assert operations.count("sin") == 1
+
+
+def test_a_long_product_is_differentiated_in_time_linear_in_its_length():
+    text = "*".join(f"(1 + u/{i} + v)" for i in range(2, 80))
+    tape = surface_tape([parse(text), U, V], VARIABLES, 2)
+    assert len(tape.instructions) < 80 * 25
+    r, r_u = tape.evaluate(np.array([[0.01, 0.002]]))[:2]
+    factors = [1 + 0.01 / i + 0.002 for i in range(2, 80)]
+    assert r[0, 0] == pytest.approx(np.prod(factors), rel=1e-12)
+    slope = np.prod(factors) * sum(1 / i / f for i, f in zip(range(2, 80), factors))
+    assert r_u[0, 0] == pytest.approx(slope, rel=1e-12)
+
+
+def test_tapes_can_be_pickled_and_broken_ones_are_noticed():
+    tape = surface_tape([parse("sin(cos(u))"), parse("v"), parse("u + v")], VARIABLES, 2)
+    assert pickle.loads(pickle.dumps(tape)) == tape
+    assert "before it is written" in tape._replace(instructions=tape.instructions[1:]).check()
+    assert "never written" in tape._replace(instructions=()).check()
+    assert "outside the registers" in tape._replace(registers=0).check()
