@@ -5,7 +5,7 @@ from pathlib import Path
 from types import ModuleType
 
 from surfmesh.errors import FileFormatError
-from surfmesh.io.atomic import replacing
+from surfmesh.io.atomic import replacing, require_place
 from surfmesh.surface_mesh import SurfaceMesh
 
 # Each module has write(mesh, path) and read(path); it is imported when it is needed.
@@ -66,9 +66,27 @@ def read(path: str | Path) -> SurfaceMesh:
     return mesh
 
 
+def require_writable(path: str | Path, extension: str | None = None) -> None:
+    """Raise what ``save`` would raise for this place, before any work is done.
+
+    extension: the only one that will do; None: any of ``FORMATS``.
+    """
+    path = Path(path)
+    if extension is None:
+        _home(path)
+    elif path.suffix.lower() != extension:
+        raise FileFormatError(f"{path}: the extension must be {extension}")
+    require_place(path)
+
+
 def _module(path: Path) -> ModuleType:
+    return import_module(_home(path))
+
+
+def _home(path: Path) -> str:
+    """Name of the module for ``path``."""
     try:
-        return import_module(FORMATS[path.suffix.lower()])
+        return FORMATS[path.suffix.lower()]
     except KeyError:
         known = " ".join(FORMATS)
         found = f"extension '{path.suffix}' is not known" if path.suffix else "has no extension"

@@ -1,0 +1,129 @@
+"""What can be typed: commands, options, and their help. Nothing heavy is imported here."""
+
+import argparse
+import math
+from collections.abc import Sequence
+from typing import NoReturn
+
+_FORMULAS = {"--x": 1, "--y": 1, "--z": 1, "--u": 2, "--v": 2}  # option -> values it takes
+_EXAMPLES = """examples:
+  surfmesh mesh wavy -o wavy.vtu --chord 0.05 --picture wavy.png
+  surfmesh mesh my_surface.toml -o my_surface.stl --size 0.1
+  surfmesh mesh --x u --y v --z "u**2 - v**2" --u -1 1 --v -1 1 -o saddle.ply
+  surfmesh check wavy.vtu --surface wavy
+  surfmesh gallery
+
+exit status: 0 done and valid, 1 a mesh was made but its report is not clean, 2 bad input"""
+
+
+class _Parser(argparse.ArgumentParser):
+    def error(self, message: str) -> NoReturn:
+        """One line, where argparse would print the usage too."""
+        self.exit(2, f"surfmesh: {message} (see {self.prog} --help)\n")
+
+
+def parse(argv: Sequence[str]) -> argparse.Namespace:
+    """Options with ``command``, one of mesh, check, view, gallery. Exits on bad usage."""
+    return _parser().parse_args(_formulas_shielded(argv))
+
+
+def _formulas_shielded(argv: Sequence[str]) -> list[str]:
+    """A space before formulas that begin with a minus, which argparse takes for options."""
+    shielded, values = [], 0
+    for word in argv:
+        shielded.append(f" {word}" if values and word.startswith("-") else word)
+        values = values - 1 if values else _FORMULAS.get(word, 0)
+    return shielded
+
+
+def _parser() -> _Parser:
+    parser = _Parser(
+        prog="surfmesh",
+        description="Triangle meshes of curved surfaces, checked against the true surface.",
+        epilog=_EXAMPLES,
+        formatter_class=argparse.RawDescriptionHelpFormatter,
+    )
+    parser.add_argument("--version", action=_Version)
+    commands = parser.add_subparsers(dest="command", required=True, metavar="COMMAND")
+
+    mesh = commands.add_parser("mesh", help="mesh a surface, check it, write it")
+    mesh.add_argument("input", nargs="?", metavar="INPUT", help="formula file or gallery name")
+    mesh.add_argument("-o", "--output", required=True, metavar="OUT", help="mesh file to write")
+    formulas = mesh.add_argument_group("a surface by formulas in u and v, instead of INPUT")
+    for axis in "xyz":
+        formulas.add_argument(f"--{axis}", metavar="FORMULA")
+    for variable in "uv":
+        formulas.add_argument(f"--{variable}", nargs=2, metavar=("FROM", "TO"))
+    formulas.add_argument(
+        "--param", action="append", default=[], metavar="NAME=VALUE", help="a named number"
+    )
+    sizes = mesh.add_argument_group(
+        "sizes, in model units; any of them sets aside the sizes that INPUT brings"
+    )
+    sizes.add_argument("--chord", type=_positive, help="largest distance from the surface")
+    sizes.add_argument("--angle", type=_positive, help="largest angle between neighbours, degrees")
+    sizes.add_argument("--size", type=_positive, help="wanted edge length")
+    sizes.add_argument("--min-size", type=_positive, help="no edge is wanted shorter")
+    sizes.add_argument("--max-size", type=_positive, help="no edge is wanted longer")
+    sizes.add_argument("--growth", type=_positive, help="largest ratio of neighbouring sizes")
+    sizes.add_argument("--anisotropy", type=_positive, help="largest stretch; 1 is isotropic")
+    mesh.add_argument("--no-optimise", action="store_true", help="the raw packing, for comparison")
+    mesh.add_argument("--jobs", type=_count, default=1, help="faces meshed at once (default 1)")
+    mesh.add_argument("--picture", metavar="PNG", help="write a picture too")
+    mesh.add_argument("--by", default="alpha", choices=_COLOURS, help="colour of the picture")
+    mesh.add_argument("--report", metavar="JSON", help="write the report too")
+    _add_json(mesh)
+
+    check = commands.add_parser("check", help="report on a mesh file")
+    check.add_argument("input", metavar="MESH", help="mesh file")
+    check.add_argument(
+        "--surface", metavar="INPUT", help="formula file or gallery name it was made from"
+    )
+    _add_json(check)
+
+    view = commands.add_parser("view", help="show a mesh or a surface")
+    view.add_argument("input", metavar="INPUT", help="mesh file, formula file or gallery name")
+    view.add_argument("-o", "--output", metavar="PNG", help="a picture instead of a window")
+    view.add_argument("--by", default="alpha", choices=_COLOURS, help="colour")
+
+    gallery = commands.add_parser("gallery", help="list the ready-made surfaces")
+    _add_json(gallery)
+    return parser
+
+
+_COLOURS = ("alpha", "size", "deviation", "face", "curvature")
+
+
+def _add_json(parser: argparse.ArgumentParser) -> None:
+    parser.add_argument(
+        "--json", action="store_true", help="one JSON object on standard output, nothing else"
+    )
+
+
+def _positive(text: str) -> float:
+    try:
+        value = float(text)
+    except ValueError:
+        value = math.nan
+    if not 0 < value < math.inf:
+        raise argparse.ArgumentTypeError(f"must be a positive number, not '{text}'")
+    return value
+
+
+def _count(text: str) -> int:
+    if not text.isdecimal() or int(text) < 1:
+        raise argparse.ArgumentTypeError(f"must be a whole number from 1, not '{text}'")
+    return int(text)
+
+
+class _Version(argparse.Action):
+    """Looks the version up only when it is asked for."""
+
+    def __init__(self, option_strings: list[str], dest: str) -> None:
+        super().__init__(option_strings, dest, nargs=0, help="print the version")
+
+    def __call__(self, parser: argparse.ArgumentParser, *_: object) -> NoReturn:
+        import surfmesh
+
+        print(f"surfmesh {surfmesh.__version__}")
+        parser.exit(0)

@@ -1,0 +1,192 @@
+"""What each command does. Every one returns whether all is well."""
+
+import json
+import sys
+import tomllib
+from argparse import Namespace
+from dataclasses import replace
+from difflib import get_close_matches
+from pathlib import Path
+from time import perf_counter
+from typing import Any
+
+from surfmesh.cli.progress import ProgressBar, announce_compilation
+from surfmesh.errors import FileFormatError, SurfaceError, SurfmeshError
+
+SIZES = ("chord", "angle", "size", "min_size", "max_size", "growth", "anisotropy")
+
+
+def mesh(options: Namespace) -> bool:
+    """Mesh, check, write; the files are looked at before the work is done."""
+    from surfmesh.io.formats import require_writable
+
+    require_writable(options.output)
+    for path, extension in ((options.picture, ".png"), (options.report, ".json")):
+        if path:
+            require_writable(path, extension)
+    surface = _surface(options)
+
+    from surfmesh import api
+    from surfmesh.io import save
+    from surfmesh.quality import check as checked
+    from surfmesh.sizing.sizing import Sizing
+
+    given = {name: getattr(options, name) for name in SIZES if getattr(options, name) is not None}
+    announce_compilation()
+    with ProgressBar() as progress:
+        result = api.mesh(
+            surface,
+            Sizing(**given) if given else None,
+            optimise=not options.no_optimise,
+            progress=progress,
+        )
+        progress("check", 0.0)
+        report = checked(result)
+        progress("write", 0.0)
+        start = perf_counter()
+        files = {"mesh": str(save(result, options.output))}
+        report = replace(report, seconds={**report.seconds, "write": perf_counter() - start})
+        if options.picture:
+            from surfmesh.view import plot
+
+            progress("picture", 0.0)
+            files["picture"] = str(plot(result, options.picture, by=options.by))
+        if options.report:
+            files["report"] = str(_written(report.to_json(), options.report))
+    if options.json:
+        _print_json(report.to_dict() | {"files": files})
+    else:
+        print(report)
+        print("  written   ", ", ".join(files.values()))
+    return report.clean
+
+
+def check(options: Namespace) -> bool:
+    """Report on a mesh file, against its surface when that is named."""
+    from surfmesh.io import read
+    from surfmesh.quality import check as checked
+
+    found = read(options.input)
+    if options.surface:
+        if found.uv_points is None:
+            raise FileFormatError(
+                f"{options.input}: carries no (u, v) to compare it with a surface; "
+                "save it as .vtu or .vtp"
+            )
+        found = replace(found, surfaces=(_named_surface(options.surface),))
+        broken = found.check()
+        if broken:
+            raise FileFormatError(f"{options.input}: {broken}")
+    report = checked(found)
+    if options.json:
+        _print_json(report.to_dict())
+    else:
+        print(report)
+    return report.clean
+
+
+def view(options: Namespace) -> bool:
+    """Show a mesh file, or a surface meshed as its file says."""
+    from surfmesh.io import FORMATS, read
+
+    if options.output:
+        from surfmesh.io.formats import require_writable
+
+        require_writable(options.output, ".png")
+    if Path(options.input).suffix.lower() in FORMATS:
+        shown = read(options.input)
+    else:
+        from surfmesh import api
+
+        surface = _named_surface(options.input)
+        announce_compilation()
+        with ProgressBar() as progress:
+            shown = api.mesh(surface, progress=progress)
+
+    from surfmesh.view import plot, show
+
+    try:
+        if options.output:
+            plot(shown, options.output, by=options.by)
+        else:
+            show(shown, by=options.by)
+    except ValueError as error:  # the mesh has no data to colour by
+        raise SurfmeshError(str(error)) from error
+    return True
+
+
+def gallery(options: Namespace) -> bool:
+    """List the ready-made surfaces."""
+    from surfmesh.geometry.formula_file import gallery as surfaces
+
+    described = []
+    for name, path in surfaces().items():
+        content = tomllib.loads(path.read_text(encoding="utf-8"))
+        described.append((name, content.get("description", ""), path))
+    if options.json:
+        keys = ("name", "description", "path")
+        _print_json({"surfaces": [dict(zip(keys, map(str, entry))) for entry in described]})
+    else:
+        width = max((len(name) for name, *_ in described), default=0)
+        for name, description, _ in described:
+            print(f"{name:<{width}}  {description}")
+    return True
+
+
+def _surface(options: Namespace) -> Any:
+    """The surface of the ``mesh`` command: INPUT, or --x --y --z --u --v."""
+    formulas = {name: getattr(options, name) for name in "xyzuv"}
+    if not any(formulas.values()) and not options.param:
+        if not options.input:
+            raise SurfaceError("name a formula file or a gallery surface, or give --x --y --z")
+        return _named_surface(options.input)
+    if options.input:
+        raise SurfaceError(f"either INPUT ('{options.input}') or formulas, not both")
+    missing = [f"--{name}" for name, value in formulas.items() if value is None]
+    if missing:
+        raise SurfaceError(f"a surface by formulas needs {', '.join(missing)} too")
+    parameters = {}
+    for entry in options.param:
+        name, sign, value = entry.partition("=")
+        try:
+            parameters[name.strip()] = float(value)
+        except ValueError:
+            sign = ""
+        if not sign:
+            raise SurfaceError(f"--param must be NAME=NUMBER, not '{entry}'")
+
+    from surfmesh.geometry.parametric import ParametricSurface
+
+    stripped = {
+        name: value.strip() if isinstance(value, str) else tuple(end.strip() for end in value)
+        for name, value in formulas.items()
+    }
+    return ParametricSurface(**stripped, parameters=parameters, name=Path(options.output).stem)
+
+
+def _named_surface(name: str) -> Any:
+    """A file, or else a surface of the gallery."""
+    from surfmesh import api
+    from surfmesh.geometry.formula_file import gallery as surfaces
+
+    if Path(name).is_file():
+        return api.load(name)
+    known = surfaces()
+    if name in known:
+        return api.load(known[name])
+    close = get_close_matches(name, known, n=1)
+    hint = f"did you mean '{close[0]}'?" if close else "'surfmesh gallery' lists what there is"
+    raise SurfaceError(f"'{name}' is neither a file nor a surface of the gallery; {hint}")
+
+
+def _written(text: str, path: str) -> Path:
+    from surfmesh.io.atomic import replacing
+
+    with replacing(Path(path)) as temporary:
+        temporary.write_text(text + "\n", encoding="utf-8")
+    return Path(path)
+
+
+def _print_json(value: dict[str, Any]) -> None:
+    json.dump(value, sys.stdout, indent=2, ensure_ascii=False, allow_nan=False)
+    print()

@@ -1,0 +1,55 @@
+"""What is said while the user waits, on standard error."""
+
+import sys
+from time import perf_counter
+
+PATIENCE = 1.0  # seconds before a bar appears
+
+
+class ProgressBar:
+    """A callback ``progress(stage, fraction)`` that shows a bar once it takes long.
+
+    Silent when standard error is not a terminal. fraction: 0 to 1 of the stage.
+    """
+
+    def __enter__(self) -> "ProgressBar":
+        self._start = perf_counter()
+        self._bar = self._task = None
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        if self._bar is not None:
+            self._bar.stop()
+
+    def __call__(self, stage: str, fraction: float) -> None:
+        if self._bar is None:
+            if perf_counter() - self._start < PATIENCE or not sys.stderr.isatty():
+                return
+            self._begin()
+        self._bar.update(self._task, description=stage, completed=fraction)
+
+    def _begin(self) -> None:
+        from rich.console import Console
+        from rich.progress import BarColumn, Progress, TextColumn, TimeElapsedColumn
+
+        self._bar = Progress(
+            TextColumn("{task.description:<12}"),
+            BarColumn(),
+            TimeElapsedColumn(),
+            console=Console(stderr=True),
+            transient=True,
+        )
+        self._task = self._bar.add_task("", total=1.0)
+        self._bar.start()
+
+
+def announce_compilation() -> None:
+    """Say that kernels are about to be compiled, when none are kept from an earlier run."""
+    from surfmesh.kernels.jit import cache_folder
+
+    if not any(cache_folder().glob("*.nbi")):
+        print(
+            "compiling the kernels; this happens once and takes about half a minute ...",
+            file=sys.stderr,
+            flush=True,
+        )
