@@ -111,8 +111,9 @@ def _attach(t, e, outer):
 def remove_vertex(t, e):
     """Remove the vertex at the start of e and triangulate its star anew, ear by ear.
 
-    Returns a half-edge of the new triangles, or NIL when the vertex cannot go: it is on the
-    hull, an end of a fixed edge, or its star is larger than the scratch. Two slots go DEAD.
+    Returns a half-edge of the new triangles, or NIL when the vertex cannot go: its star meets
+    the hull or the border, a fixed edge ends there, or there is no room in the scratch. Two
+    slots go DEAD.
     """
     n = 0
     f = e
@@ -120,6 +121,8 @@ def remove_vertex(t, e):
         if t.tri[next_half_edge(f)] < 0 or t.fixed[f] != 0 or n == len(t.rim):
             return NIL
         t.rim[n] = t.adj[next_half_edge(f)]
+        if t.rim[n] < 0:
+            return NIL
         t.cavity[n] = f // 3
         n += 1
         f = turn(t, f)

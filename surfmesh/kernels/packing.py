@@ -20,8 +20,9 @@ from surfmesh.kernels.background import size_at
 from surfmesh.kernels.front import DONE, TODO, Front, link, unlink
 from surfmesh.kernels.heap import Heap, pop, push
 from surfmesh.kernels.jit import kernel
+from surfmesh.kernels.local_operations import convex, swap
 from surfmesh.kernels.predicates import orient
-from surfmesh.kernels.tensors import edge_length, length, solve
+from surfmesh.kernels.tensors import edge_length, length, solve, triangle_shape
 from surfmesh.kernels.triangulation import (
     Triangulation,
     fill_cavity,
@@ -44,6 +45,7 @@ CLOSE_BELOW = 1.40  # fill a corner a, b, c straight away when l(a, c) is below 
 OVERLAP = 0.65  # a circle nearer than this refuses the candidate
 CLOSENESS = 0.95  # beta1 beta2 above which a fit is accepted (2.3.2)
 TANGENT_RANGE = 0.72, 1.25  # metric radius at which a circle tangent to three is taken
+GOOD_SHAPE = 0.8  # a pair of done triangles both better than this is left as it is
 FIT_STEPS = 8
 
 
@@ -231,7 +233,34 @@ def _try_place(p, a, b, x, y, h11, h12, h22, reach):
     link(p.front, v, b, prev_half_edge(done))
     _queue(p, a, v)
     _queue(p, v, b)
+    _settle(p, done)
     return PLACED, v
+
+
+@kernel
+def _settle(p, e):
+    """Swap the done edge e if that betters the worse of its two triangles.
+
+    The polygon between the circles is triangulated as it is left over; a swap with what was
+    done before chooses the better of the two diagonals, as soon as both are known.
+    """
+    t, front = p.t, p.front
+    f = t.adj[e]
+    if t.region[e // 3] != DONE or t.region[f // 3] != DONE:
+        return
+    a, b = t.tri[e], t.tri[f]
+    c, d = t.tri[prev_half_edge(e)], t.tri[prev_half_edge(f)]
+    xy, size = t.xy, t.size
+    old = min(triangle_shape(xy, size, a, b, c), triangle_shape(xy, size, b, a, d))
+    if old > GOOD_SHAPE:
+        return
+    new = min(triangle_shape(xy, size, a, d, c), triangle_shape(xy, size, b, c, d))
+    if new > old + 1e-3 and convex(t, e):
+        swap(t, e)  # edges a-d and b-c have changed slots: the front may hold them
+        if t.region[t.adj[e] // 3] == TODO:
+            front.edge[a] = e
+        if t.region[t.adj[f] // 3] == TODO:
+            front.edge[b] = f
 
 
 @kernel
@@ -255,6 +284,11 @@ def _close(p, a, b):
     else:
         return False
     p.count[CLOSED] += 1
+    f = next_half_edge(e)
+    g = prev_half_edge(e)
+    _settle(p, e)
+    _settle(p, f)
+    _settle(p, g)
     return True
 
 

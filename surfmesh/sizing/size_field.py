@@ -51,14 +51,23 @@ SWEEPS = 400
 class SizeField:
     """Wanted sizes on one surface, ready for the kernels.
 
-    ``background`` gives size tensors in the scaled plane of ``scaling``; ``node_sizes`` are
-    the scalar sizes of its nodes.
+    ``background`` gives size tensors in the scaled plane of ``scaling``.
     """
 
     scaling: Scaling
     background: Background
-    diagonal: float
-    """Diagonal of the surface's bounding box."""
+    sizing: Sizing
+    """The wishes it was made from, defaults filled in."""
+
+    def expected_vertices(self) -> int:
+        """About how many circles cover the domain: its metric area over that of a circle's
+        share, sqrt(3) / 2."""
+        width, height = self.scaling.extent
+        n = 256
+        x, y = (np.arange(n) + 0.5) / n * width, (np.arange(n) + 0.5) / n * height
+        h = self.tensors(np.stack(np.meshgrid(x, y), axis=-1).reshape(-1, 2))
+        density = 1.0 / (h[:, 0] * h[:, 2] - h[:, 1] ** 2)
+        return int(density.mean() * width * height * 2.0 / np.sqrt(3.0)) + 100
 
     def tensors(self, xy: np.ndarray) -> np.ndarray:
         """Size tensors (n, 3) at points xy (n, 2) of the scaled plane."""
@@ -123,7 +132,7 @@ class _Builder:
             patch = np.concatenate([patch[~split], self._patches(children)])
             cells = cells.chosen(~split).joined_with(children)
         tree.append(cells.index)  # every leaf is split once more, onto its test nodes
-        return SizeField(self.scaling, self._background(tree, patch), self.law.diagonal)
+        return SizeField(self.scaling, self._background(tree, patch), self.law.sizing)
 
     # nodes
 

@@ -1,0 +1,49 @@
+"""The verbs: ``load`` a surface, ``mesh`` it."""
+
+from pathlib import Path
+
+from surfmesh.errors import FileFormatError, SurfaceError
+from surfmesh.geometry.formula_file import gallery, load_formula_file
+from surfmesh.geometry.surface import Surface
+from surfmesh.meshing.parametric_mesh import Progress, mesh_parametric
+from surfmesh.sizing.sizing import Sizing
+from surfmesh.surface_mesh import SurfaceMesh
+
+
+def load(path: str | Path) -> Surface:
+    """The surface of a formula file (``.toml``), or of the gallery by its name.
+
+    Raises ``FileFormatError`` for a file of another kind, ``SurfaceError`` for a bad formula
+    file.
+    """
+    place = Path(path)
+    if place.suffix == "" and not place.exists():
+        known = gallery()
+        if str(path) in known:
+            return load_formula_file(known[str(path)])
+        raise FileFormatError(f"no file and no gallery surface called {str(path)!r}")
+    if place.suffix.lower() != ".toml":
+        raise FileFormatError(f"cannot read {place.name!r}: surfaces come from .toml files")
+    return load_formula_file(place)
+
+
+def mesh(
+    surface: Surface,
+    sizing: Sizing | float | dict | None = None,
+    *,
+    optimise: bool = True,
+    progress: Progress | None = None,
+) -> SurfaceMesh:
+    """Triangulate a surface.
+
+    sizing: what is wanted; a number is a uniform edge length; None takes the defaults of the
+    surface's formula file, or sensible ones. optimise=False gives the raw packing with its
+    boundary, as in the paper. progress: called with (stage, share done).
+
+    Raises ``SizingError``, ``SurfaceError`` or ``MeshingError`` with the place and the reason.
+    """
+    if not isinstance(surface, Surface):
+        raise SurfaceError(f"cannot mesh a {type(surface).__name__}: a Surface is needed")
+    if sizing is None:
+        sizing = getattr(surface, "sizing_defaults", None) or None
+    return mesh_parametric(surface, Sizing.of(sizing), optimise, progress)

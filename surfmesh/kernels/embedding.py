@@ -1,0 +1,108 @@
+"""Where the vertices of a planar triangulation lie in space, and how to measure there.
+
+Sizes and shapes are judged on the true surface: a step between two vertices is their chord in
+3D, seen in the tangent plane of one of them in units of the wanted edge length,
+
+    y = B d,   B = I^(-1/2) J^T / h,   J = (r_x, r_y),   I = J^T J,
+
+so that a unit step is a unit edge. The way back is a step H y = h I^(-1/2) y in the plane, and
+h^2 B^T y in space.
+"""
+
+import math
+from typing import NamedTuple
+
+import numpy as np
+
+from surfmesh.kernels.background import scalar_size_at
+from surfmesh.kernels.jit import kernel
+
+
+class Embedding(NamedTuple):
+    point: np.ndarray  # (vertices, 3) float64: r
+    chart: np.ndarray  # (vertices, 2, 3) float64: B
+    size: np.ndarray  # (vertices,) float64: wanted edge length h
+
+
+def empty_embedding(vertices: int) -> Embedding:
+    return Embedding(np.empty((vertices, 3)), np.empty((vertices, 2, 3)), np.empty(vertices))
+
+
+@kernel
+def embed(t, s, background, first, r, rx, ry, largest):
+    """Set the embedding of vertices ``first``, ``first + 1`` ... from r, r_x, r_y (n, 3).
+
+    Also sets their size tensors to the exact H = h I^(-1/2). Near a degenerate point the
+    eigenvalues of I^(-1/2) are capped at ``largest``.
+    """
+    for k in range(len(r)):
+        v = first + k
+        h = scalar_size_at(background, t.xy[v, 0], t.xy[v, 1])
+        e = f = g = 0.0
+        for i in range(3):
+            s.point[v, i] = r[k, i]
+            e += rx[k, i] * rx[k, i]
+            f += rx[k, i] * ry[k, i]
+            g += ry[k, i] * ry[k, i]
+        floor = (e + g) / (largest * largest) + 1e-300
+        e += floor
+        g += floor
+        # I^(-1/2) = (tr + 2 s)^(-1/2) (Id + s I^-1), s = sqrt(det I)
+        det = max(e * g - f * f, floor * floor)
+        root = math.sqrt(det)
+        scale = 1.0 / math.sqrt(e + g + 2.0 * root)
+        m11 = scale * (1.0 + g / root)
+        m12 = -scale * f / root
+        m22 = scale * (1.0 + e / root)
+        s.size[v] = h
+        t.size[v, 0] = h * m11
+        t.size[v, 1] = h * m12
+        t.size[v, 2] = h * m22
+        for i in range(3):
+            s.chart[v, 0, i] = (m11 * rx[k, i] + m12 * ry[k, i]) / h
+            s.chart[v, 1, i] = (m12 * rx[k, i] + m22 * ry[k, i]) / h
+
+
+@kernel
+def chord(s, v, p):
+    """The chord from v to p in the unit tangent plane of v."""
+    dx = s.point[p, 0] - s.point[v, 0]
+    dy = s.point[p, 1] - s.point[v, 1]
+    dz = s.point[p, 2] - s.point[v, 2]
+    b = s.chart
+    return (
+        b[v, 0, 0] * dx + b[v, 0, 1] * dy + b[v, 0, 2] * dz,
+        b[v, 1, 0] * dx + b[v, 1, 1] * dy + b[v, 1, 2] * dz,
+    )
+
+
+@kernel
+def edge_length(s, v, p):
+    """Length of the chord in units of the mean wanted size of its ends."""
+    dx = s.point[p, 0] - s.point[v, 0]
+    dy = s.point[p, 1] - s.point[v, 1]
+    dz = s.point[p, 2] - s.point[v, 2]
+    return 2.0 * math.sqrt(dx * dx + dy * dy + dz * dz) / (s.size[v] + s.size[p])
+
+
+@kernel
+def triangle_shape(s, a, b, c):
+    """alpha of abc in space, negative when it is turned over against the surface at a."""
+    p = s.point
+    ux, uy, uz = p[b, 0] - p[a, 0], p[b, 1] - p[a, 1], p[b, 2] - p[a, 2]
+    vx, vy, vz = p[c, 0] - p[a, 0], p[c, 1] - p[a, 1], p[c, 2] - p[a, 2]
+    nx, ny, nz = uy * vz - uz * vy, uz * vx - ux * vz, ux * vy - uy * vx
+    uu = ux * ux + uy * uy + uz * uz
+    uv = ux * vx + uy * vy + uz * vz
+    vv = vx * vx + vy * vy + vz * vz
+    total = 2.0 * (uu + vv - uv)
+    if total == 0.0:
+        return 0.0
+    alpha = 3.4641016151377544 * math.sqrt(nx * nx + ny * ny + nz * nz) / total
+    m = s.chart
+    outward = (  # the normal of the surface at a, times a positive number
+        nx * (m[a, 0, 1] * m[a, 1, 2] - m[a, 0, 2] * m[a, 1, 1])
+        + ny * (m[a, 0, 2] * m[a, 1, 0] - m[a, 0, 0] * m[a, 1, 2])
+        + nz * (m[a, 0, 0] * m[a, 1, 1] - m[a, 0, 1] * m[a, 1, 0])
+    )
+    return alpha if outward > 0.0 else -alpha
