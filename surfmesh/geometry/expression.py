@@ -205,8 +205,6 @@ class _Parser:
             self._refuse("a power with too many digits", exponent.column)
         if base.value is not None and exponent.value is not None:
             self._value(math.pow, (base.value, exponent.value), base.column)
-        elif base.expression.is_zero and exponent.value is not None and exponent.value <= 0:
-            self._refuse("division by zero", base.column)
         result = self._joined([base, exponent], sp.Pow, lambda a, b: a**b)
         factors = sp.Mul.make_args(result.expression)
         exponents = [factor.exp for factor in factors if factor.is_Pow and factor.exp.is_Rational]
@@ -294,6 +292,8 @@ class _Parser:
             for part in parts[1:]:
                 value = self._value(operation, (value, part.value), column)
         expression = build(*(part.expression for part in parts))
+        if expression.is_Atom and expression.is_finite is False:  # sin(pi)**-1, exactly
+            self._refuse("not a finite real number", column)
         if value is None and expression.is_number:  # u - u
             value = _number(expression, self.text, column)
         return _Part(expression, value, column)

@@ -6,9 +6,11 @@ import time
 import numpy as np
 import pytest
 import sympy as sp
+from hypothesis import given, settings
+from hypothesis import strategies as st
 
 from surfmesh.errors import FormulaError, SurfaceError
-from surfmesh.geometry.compilation import compiled
+from surfmesh.geometry.compilation import compiled, surface_tape
 from surfmesh.geometry.expression import FUNCTIONS, parse, parse_number, symbol
 
 U, V = symbol("u"), symbol("v")
@@ -79,6 +81,9 @@ HOSTILE = [
     ("1/0", 3, "division by zero"),
     ("u/(v - v)", 4, "division by zero"),
     ("0**-1", 1, "finite real"),
+    ("atan(sin(pi)**-1)", 6, "finite real"),
+    ("tan(pi/2)", 1, "finite real"),
+    ("(u - u)**-1", 2, "finite real"),
     ("sqrt(-1)", 1, "finite real"),
     ("u*log(0)", 3, "finite real"),
     ("(-8)**(1/3)", 2, "finite real"),
@@ -185,3 +190,20 @@ def test_parameters_must_be_finite():
 def _values(expression, places):
     """Values of one expression at places (n, 2)."""
     return compiled([expression] * 3, (U, V)).evaluate(places)[0][:, 0]
+
+
+_tokens = st.sampled_from(
+    "u v 0 1 2 60 0.5 1e-9 pi e + - * / ** ( ) , sin( log( sqrt( min( atan2( cbrt( ) )".split()
+)
+
+
+@given(st.one_of(st.text(max_size=40), st.lists(_tokens, max_size=14).map(" ".join)))
+@settings(max_examples=400, deadline=2000, derandomize=True)
+def test_any_text_is_a_formula_or_refused(text):
+    """Nothing else is ever raised, and what is accepted can be compiled."""
+    try:
+        expression = parse(text)
+    except FormulaError as refused:
+        assert 1 <= refused.column <= len(text) + 1
+    else:
+        assert surface_tape([expression] * 3, (U, V), 2).check() == ""
