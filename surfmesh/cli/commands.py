@@ -40,16 +40,16 @@ def mesh(options: Namespace) -> bool:
             optimise=not options.no_optimise,
             progress=progress,
         )
-        progress("check", 0.0)
+        progress("check", 0.92)
         report = checked(result)
-        progress("write", 0.0)
+        progress("write", 0.95)
         start = perf_counter()
         files = {"mesh": str(save(result, options.output))}
         report = replace(report, seconds={**report.seconds, "write": perf_counter() - start})
         if options.picture:
             from surfmesh.view import plot
 
-            progress("picture", 0.0)
+            progress("picture", 0.97)
             files["picture"] = str(plot(result, options.picture, by=options.by))
         if options.report:
             files["report"] = str(_written(report.to_json(), options.report))

@@ -9,7 +9,7 @@ PATIENCE = 1.0  # seconds before a bar appears
 class ProgressBar:
     """A callback ``progress(stage, fraction)`` that shows a bar once it takes long.
 
-    Silent when standard error is not a terminal. fraction: 0 to 1 of the stage.
+    Silent when standard error is not a terminal. fraction: 0 to 1 of the whole.
     """
 
     def __enter__(self) -> "ProgressBar":
