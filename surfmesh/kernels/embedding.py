@@ -22,22 +22,25 @@ class Embedding(NamedTuple):
     point: np.ndarray  # (vertices, 3) float64: r
     chart: np.ndarray  # (vertices, 2, 3) float64: B
     size: np.ndarray  # (vertices,) float64: wanted edge length h
+    scale: np.ndarray  # (vertices,) float64: h over that of the size field, at most 1
 
 
 def empty_embedding(vertices: int) -> Embedding:
-    return Embedding(np.empty((vertices, 3)), np.empty((vertices, 2, 3)), np.empty(vertices))
+    return Embedding(
+        np.empty((vertices, 3)), np.empty((vertices, 2, 3)), np.empty(vertices), np.ones(vertices)
+    )
 
 
 @kernel
-def embed(t, s, background, first, r, rx, ry, largest):
-    """Set the embedding of vertices ``first``, ``first + 1`` ... from r, r_x, r_y (n, 3).
+def embed(t, s, background, vertices, r, rx, ry, largest):
+    """Set the embedding of ``vertices`` (n,) from r, r_x, r_y (n, 3).
 
     Also sets their size tensors to the exact H = h I^(-1/2). Near a degenerate point the
     eigenvalues of I^(-1/2) are capped at ``largest``.
     """
     for k in range(len(r)):
-        v = first + k
-        h = scalar_size_at(background, t.xy[v, 0], t.xy[v, 1])
+        v = vertices[k]
+        h = s.scale[v] * scalar_size_at(background, t.xy[v, 0], t.xy[v, 1])
         e = f = g = 0.0
         for i in range(3):
             s.point[v, i] = r[k, i]
@@ -83,6 +86,34 @@ def edge_length(s, v, p):
     dy = s.point[p, 1] - s.point[v, 1]
     dz = s.point[p, 2] - s.point[v, 2]
     return 2.0 * math.sqrt(dx * dx + dy * dy + dz * dz) / (s.size[v] + s.size[p])
+
+
+@kernel
+def rise(s, v, p):
+    """Height of p over the tangent plane of v: half the normal curvature times length^2."""
+    b = s.chart
+    nx = b[v, 0, 1] * b[v, 1, 2] - b[v, 0, 2] * b[v, 1, 1]
+    ny = b[v, 0, 2] * b[v, 1, 0] - b[v, 0, 0] * b[v, 1, 2]
+    nz = b[v, 0, 0] * b[v, 1, 1] - b[v, 0, 1] * b[v, 1, 0]
+    along = (
+        nx * (s.point[p, 0] - s.point[v, 0])
+        + ny * (s.point[p, 1] - s.point[v, 1])
+        + nz * (s.point[p, 2] - s.point[v, 2])
+    )
+    return along / math.sqrt(nx * nx + ny * ny + nz * nz)
+
+
+@kernel
+def triangle_deviation(s, a, b, c):
+    """How far the triangle abc lies from a surface with these tangent planes.
+
+    For a quadric with rises w along the three edges the error of linear interpolation is
+    w / 4 in the middle of an edge and (w1 + w2 + w3) / 9 at the centroid.
+    """
+    ab = 0.5 * (rise(s, a, b) + rise(s, b, a))
+    bc = 0.5 * (rise(s, b, c) + rise(s, c, b))
+    ca = 0.5 * (rise(s, c, a) + rise(s, a, c))
+    return max(max(abs(ab), abs(bc), abs(ca)) / 4.0, abs(ab + bc + ca) / 9.0)
 
 
 @kernel

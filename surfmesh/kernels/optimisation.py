@@ -9,7 +9,7 @@ import math
 
 from surfmesh.kernels import NIL
 from surfmesh.kernels.background import scalar_size_at
-from surfmesh.kernels.embedding import chord, edge_length, triangle_shape
+from surfmesh.kernels.embedding import chord, edge_length, triangle_deviation, triangle_shape
 from surfmesh.kernels.jit import kernel
 from surfmesh.kernels.local_operations import (
     DEAD,
@@ -25,6 +25,7 @@ SWAP_GAIN = 1e-3  # smallest betterment of the worse alpha for which an edge is 
 GOOD_PAIR = 0.82  # two triangles both better than this are not looked at
 LEAST_SHAPE = 0.6  # a move may lower the worst alpha of a star, but not below this
 LONGEST_STEP = 0.3  # of the wanted edge length
+SMALLEST_SHRINK = 0.85  # least factor by which one round lowers a wanted size
 STILL = 0.02  # a vertex that moves less than this (unit lengths) leaves its neighbours alone
 
 
@@ -189,13 +190,14 @@ def _worst_in_star(t, s, v, start):
 
 
 @kernel
-def smooth(t, s, background, star, frozen, active, stiffness):
-    """Move every active vertex by one Newton step. Returns how many have moved noticeably.
+def smooth(t, s, background, star, frozen, active, stiffness, moved):
+    """Move every active vertex by one Newton step. Fills ``moved`` and returns how many did.
 
     A move that would turn a triangle over, or make a bad star worse, is not made. In space the
-    vertex moves along its tangent plane: the caller puts it back on the surface.
+    vertex moves along its tangent plane: the caller puts it back on the surface. Vertices that
+    have moved noticeably, and their neighbours, stay active.
     """
-    moved = 0
+    count = 0
     for v in range(t.count[0]):
         start = star[v]
         if active[v] == 0 or frozen[v] != 0 or start == NIL:
@@ -216,9 +218,10 @@ def smooth(t, s, background, star, frozen, active, stiffness):
             t.xy[v, 0], t.xy[v, 1] = x, y
             s.point[v, 0], s.point[v, 1], s.point[v, 2] = x3, y3, z3
             continue
-        s.size[v] = scalar_size_at(background, t.xy[v, 0], t.xy[v, 1])
+        s.size[v] = s.scale[v] * scalar_size_at(background, t.xy[v, 0], t.xy[v, 1])
+        moved[count] = v
+        count += 1
         if step > STILL * STILL:
-            moved += 1
             active[v] = 1
             e = start
             while True:
@@ -226,7 +229,62 @@ def smooth(t, s, background, star, frozen, active, stiffness):
                 e = turn(t, e)
                 if e == start:
                     break
-    return moved
+    return count
+
+
+@kernel
+def estimate_deviations(t, s, error):
+    """Second-order estimate of each triangle's distance from the surface -> error (triangles,)."""
+    for k in range(t.count[1]):
+        error[k] = 0.0
+        if t.region[k] != DEAD:
+            error[k] = triangle_deviation(s, t.tri[3 * k], t.tri[3 * k + 1], t.tri[3 * k + 2])
+
+
+@kernel
+def shrink(t, s, triangles, error, chord_error, active):
+    """Ask for smaller edges where triangles (n,) are farther away (n,) than ``chord_error``.
+
+    The sizes of their corners are scaled by what deviation, of second order in the size,
+    needs. Returns the number of such triangles.
+    """
+    far = 0
+    for k in range(len(triangles)):
+        if error[k] <= chord_error:
+            continue
+        far += 1
+        factor = max(math.sqrt(chord_error / error[k]), SMALLEST_SHRINK)
+        for i in range(3):
+            v = t.tri[3 * triangles[k] + i]
+            s.size[v] *= factor
+            s.scale[v] *= factor
+            active[v] = 1
+    return far
+
+
+@kernel
+def triangles_at(t, vertices, seen):
+    """Mark in ``seen`` (triangles,) the triangles with a corner marked in ``vertices``."""
+    for k in range(t.count[1]):
+        seen[k] = 0
+        if t.region[k] != DEAD:
+            for i in range(3):
+                if vertices[t.tri[3 * k + i]] != 0:
+                    seen[k] = 1
+
+
+@kernel
+def wake_bad(t, s, least, active):
+    """Make the corners of triangles with alpha below ``least`` active; returns how many."""
+    bad = 0
+    for k in range(t.count[1]):
+        if t.region[k] == DEAD:
+            continue
+        if triangle_shape(s, t.tri[3 * k], t.tri[3 * k + 1], t.tri[3 * k + 2]) < least:
+            bad += 1
+            for i in range(3):
+                active[t.tri[3 * k + i]] = 1
+    return bad
 
 
 @kernel

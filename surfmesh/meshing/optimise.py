@@ -11,13 +11,18 @@ import numpy as np
 
 from surfmesh.geometry.surface import Surface
 from surfmesh.kernels.embedding import Embedding, embed, empty_embedding
+from surfmesh.kernels.measure import tangent_plane_distances
 from surfmesh.kernels.optimisation import (
     collapse_short,
+    estimate_deviations,
     find_stars,
+    shrink,
     smooth,
     split_long,
     swap_for_degree,
     swap_for_shape,
+    triangles_at,
+    wake_bad,
 )
 from surfmesh.kernels.triangulation import Triangulation
 from surfmesh.sizing.size_field import SizeField
@@ -38,6 +43,21 @@ ROUNDS = 3
 FINAL_PASSES = 3
 SWEEPS = 8
 
+BAD_SHAPE = 0.72
+"""Triangles below this alpha get passes of their own, with a soft wish for unit edges."""
+
+SOFT = 0.3
+RESCUE_PASSES = 4
+
+SUSPECT = 0.7
+"""Share of ``chord`` from which the estimate of a triangle's deviation is not trusted."""
+
+SAMPLES = np.array([(0.5, 0.5, 0.0), (0.0, 0.5, 0.5), (0.5, 0.0, 0.5), (1 / 3, 1 / 3, 1 / 3)])
+
+CHORD_ROUNDS = 10
+CHORD_MARGIN = 0.97
+"""Between four samples of a triangle the deviation may be a little larger than at them."""
+
 
 @dataclass(frozen=True)
 class Changes:
@@ -47,6 +67,8 @@ class Changes:
     collapses: int
     splits: int
     passes: int
+    far: int
+    """Triangles still farther than ``chord`` from the surface."""
 
 
 class Optimiser:
@@ -60,71 +82,126 @@ class Optimiser:
         self.frozen = np.empty(room, np.uint8)
         self.degree = np.empty(room, np.int32)
         self.active = np.ones(room, np.uint8)
+        self.moved = np.empty(room, np.int32)
         self.shape = np.empty(len(t.tri) // 3)
-        self._embed(0)
+        self.swaps = self.collapses = self.splits = self.passes = 0
+        self._embed(np.arange(int(t.count[0]), dtype=np.int32))
 
     def run(self) -> Changes:
         """Optimise; what is good already is left alone."""
-        swaps = self._swap()
-        collapses = splits = passes = 0
+        self._swap()
         for round_number in range(ROUNDS):
             self._smooth()
-            swaps += swap_for_degree(
+            self.swaps += swap_for_degree(
                 self.t, self.embedding, self.frozen, self.degree, self.active, LEAST_FOR_DEGREE
             )
             self._smooth()
-            swaps += self._swap()
-            passes += 2
+            self._swap()
             if round_number + 1 < ROUNDS:
-                collapses += self._collapse()
-                splits += self._split()
-                if round_number == 0:
-                    swaps += self._swap()
+                self._collapse()
+                self._split()
         for _ in range(FINAL_PASSES):
-            passes += 1
             if self._smooth() == 0:
                 break
-        swaps += self._swap()
-        return Changes(swaps, collapses, splits, passes)
+        self._swap()
+        self._rescue()
+        far = self._approach()
+        return Changes(self.swaps, self.collapses, self.splits, self.passes, far)
+
+    def _rescue(self) -> None:
+        """Passes for the worst triangles alone."""
+        self.active[:] = 0
+        for _ in range(RESCUE_PASSES):
+            if wake_bad(self.t, self.embedding, BAD_SHAPE, self.active) == 0:
+                break
+            self._smooth(SOFT)
+            self._swap()
+
+    def _approach(self) -> int:
+        """Bring triangles that are too far from the surface nearer; returns those left.
+
+        An estimate from the tangent planes picks the suspects, samples on the true surface
+        decide; afterwards only triangles that have changed are looked at again.
+        """
+        chord = self.field.sizing.chord
+        if chord is None:
+            return 0
+        limit = CHORD_MARGIN * chord
+        estimate_deviations(self.t, self.embedding, self.shape)
+        suspects = np.flatnonzero(self.shape[: self.t.count[1]] > SUSPECT * chord)
+        far = 0
+        for _ in range(CHORD_ROUNDS):
+            error = self._deviations(suspects)
+            far = shrink(self.t, self.embedding, suspects, error, limit, self.active)
+            if far == 0:
+                break
+            before = self.t.tri[: 3 * self.t.count[1]].copy()
+            changed = np.zeros(len(self.active), np.uint8)
+            self._split()
+            for _ in range(2):
+                moved = self._smooth()
+                changed[self.moved[:moved]] = 1
+            self._swap()
+            now = self.t.tri[: 3 * self.t.count[1]]
+            changed[now[: len(before)][now[: len(before)] != before]] = 1
+            changed[now[len(before) :]] = 1
+            seen = np.empty(int(self.t.count[1]), np.uint8)
+            triangles_at(self.t, changed, seen)
+            suspects = np.union1d(np.flatnonzero(seen), suspects[error > limit])
+        return far
+
+    def _deviations(self, triangles: np.ndarray) -> np.ndarray:
+        """Largest distance from the surface at four samples of each of the triangles (n,)."""
+        corners = self.t.tri.reshape(-1, 3)[triangles]
+        scaling = self.field.scaling
+        error = np.zeros(len(triangles))
+        found = np.empty((len(triangles), 5))
+        for weights in SAMPLES:
+            point = np.einsum("k,nki->ni", weights, self.embedding.point[corners])
+            xy = np.einsum("k,nki->ni", weights, self.t.xy[corners])
+            tangent_plane_distances(
+                point, *self.surface.evaluate(scaling.to_uv(xy), 1), found
+            )
+            error = np.maximum(error, found[:, 3])
+        return error
+
+    def _embed(self, vertices: np.ndarray) -> None:
+        """Put vertices (n,) back on the surface, with their exact metric."""
+        block = 1 << 15
+        scaling = self.field.scaling
+        largest = 1e3 * float(self.field.background.box[4]) / float(scaling.extent.max())
+        for start in range(0, len(vertices), block):
+            some = vertices[start : start + block]
+            r, ru, rv = self.surface.evaluate(scaling.to_uv(self.t.xy[some]), 1)
+            ru /= scaling.factor[0]
+            rv /= scaling.factor[1]
+            embed(self.t, self.embedding, self.field.background, some, r, ru, rv, largest)
 
     def _find_stars(self) -> None:
         find_stars(self.t, self.star, self.frozen, self.degree)
 
-    def _embed(self, first: int) -> None:
-        """Put the vertices from ``first`` on back on the surface, with their exact metric."""
-        block = 1 << 15
-        scaling = self.field.scaling
-        largest = float(self.field.background.box[4]) / float(scaling.extent.max())
-        for start in range(first, int(self.t.count[0]), block):
-            xy = self.t.xy[start : min(start + block, int(self.t.count[0]))]
-            r, ru, rv = self.surface.evaluate(scaling.to_uv(xy), 1)
-            ru /= scaling.factor[0]
-            rv /= scaling.factor[1]
-            embed(
-                self.t, self.embedding, self.field.background, start, r, ru, rv, 1e3 * largest
-            )
-
-    def _smooth(self) -> int:
+    def _smooth(self, stiffness: float = STIFFNESS) -> int:
         self._find_stars()
         moved = smooth(
             self.t, self.embedding, self.field.background,
-            self.star, self.frozen, self.active, STIFFNESS,
+            self.star, self.frozen, self.active, stiffness, self.moved,
         )  # fmt: skip
-        if moved:
-            self._embed(0)
+        self._embed(self.moved[:moved])
+        self.passes += 1
         return moved
 
-    def _swap(self) -> int:
-        return swap_for_shape(self.t, self.embedding, self.shape, self.active, SWEEPS)
+    def _swap(self) -> None:
+        self.swaps += swap_for_shape(self.t, self.embedding, self.shape, self.active, SWEEPS)
 
-    def _collapse(self) -> int:
+    def _collapse(self) -> None:
         self._find_stars()
-        return collapse_short(
+        self.collapses += collapse_short(
             self.t, self.embedding, self.star, self.frozen, self.degree, self.active,
             SHORTEST, FEW,
         )  # fmt: skip
 
-    def _split(self) -> int:
+    def _split(self) -> None:
         first = split_long(self.t, self.embedding, LONGEST, self.active)
-        self._embed(first)
-        return int(self.t.count[0]) - first
+        new = np.arange(first, int(self.t.count[0]), dtype=np.int32)
+        self._embed(new)
+        self.splits += len(new)

@@ -73,7 +73,8 @@ def mesh_parametric(
         del packing
     if optimise:
         with watch.stage("optimisation"):
-            Optimiser(domain.t, surface, field).run()
+            optimiser = Optimiser(domain.t, surface, field)
+            optimiser.run()
     with watch.stage("mapping"):
         glued = _glued(surface, loops, domain, field)
     return SurfaceMesh(
