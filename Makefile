@@ -3,7 +3,7 @@
 PYTHON ?= python3
 VENV ?= .venv
 BIN := $(VENV)/bin
-PIP := $(BIN)/python -m pip --disable-pip-version-check install --quiet --only-binary=:all:
+PIP := $(BIN)/python -m pip --disable-pip-version-check install -qq --only-binary=:all:
 
 .DEFAULT_GOAL := help
 .PHONY: help venv mesh test lint bench clean
@@ -21,7 +21,7 @@ test: lint ## lint, layers and tests
 
 lint: $(VENV)/.installed-dev ## ruff and the layers of the package
 	$(BIN)/ruff check .
-	$(BIN)/lint-imports --no-logo --no-timings
+	$(BIN)/lint-imports --no-logo
 
 bench: $(VENV)/.installed-bench ## the figures, gmsh beside them
 	$(BIN)/python benchmarks/parametric.py

@@ -211,7 +211,8 @@ def _first_duplicate(triangles: NDArray[np.int32]) -> tuple[int, int] | None:
     order = np.argsort(keys)
     keys = keys[order]
     alike = keys[1:] == keys[:-1]  # few: the same smallest and largest corner
-    members = order[np.append(alike, False) | np.insert(alike, 0, False)]
+    first = np.flatnonzero(alike)
+    members = order[np.union1d(first, first + 1)]
     corners = np.sort(triangles[members], axis=1)
     ranked = np.lexsort(corners.T)
     same = np.flatnonzero((corners[ranked[1:]] == corners[ranked[:-1]]).all(axis=1))

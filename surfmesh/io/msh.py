@@ -84,6 +84,9 @@ class _Content:
 
     def __init__(self, path: Path, data: bytes) -> None:
         self.path, self.data = path, data
+        for name in ("NodeData", "ElementData"):  # not needed, but a sign of a file cut short
+            if data.count(f"${name}\n".encode()) != data.count(f"$End{name}".encode()):
+                raise FileFormatError(f"{path}: the section ${name} does not end")
 
     def section(self, name: str) -> bytes:
         start = self.data.find(f"${name}\n".encode())

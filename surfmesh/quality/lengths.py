@@ -44,7 +44,8 @@ def growth(mesh: SurfaceMesh, lengths: NDArray[np.float64]) -> Growth:
     for end in mesh.edges.T:
         np.maximum.at(longest, end, lengths)
         np.minimum.at(shortest, end, lengths)
-    used = (longest > 0) & (shortest > 0)
+    used = (shortest > 0) & (longest < np.inf)  # no edge, no finite length
+    used &= longest > 0
     if not used.any():
         return Growth(float("nan"), float("nan"))
     ratio = longest[used] / shortest[used]

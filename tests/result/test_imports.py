@@ -1,0 +1,54 @@
+"""``import surfmesh`` is light, and the public names are what they should be."""
+
+import subprocess
+import sys
+
+import pytest
+
+import surfmesh
+
+HEAVY = ("numpy", "scipy", "sympy", "numba", "vtkmodules", "pyvista", "trimesh", "OCP", "rich")
+
+
+def run(code):
+    return subprocess.run(
+        [sys.executable, "-c", code], capture_output=True, text=True, check=True
+    ).stdout.strip()
+
+
+@pytest.mark.parametrize("statement", ["import surfmesh", "import surfmesh.cli.arguments"])
+def test_nothing_heavy_is_loaded(statement):
+    assert run(f"import sys; {statement}; print([m for m in {HEAVY} if m in sys.modules])") == "[]"
+
+
+def test_a_mesh_and_its_report_need_no_viewer():
+    heavy = run(
+        "import sys; import surfmesh as sm; sm.SurfaceMesh, sm.check, sm.Sizing; "
+        "print([m for m in ('vtkmodules', 'trimesh', 'matplotlib', 'rich') if m in sys.modules])"
+    )
+    assert heavy == "[]"
+
+
+@pytest.mark.parametrize(
+    "first", ["", "import surfmesh.surface_mesh, surfmesh.quality, surfmesh.api", "sm.mesh"]
+)
+def test_verbs_are_functions_whatever_was_imported_before(first):
+    code = f"import surfmesh as sm\n{first}\n"
+    code += "import surfmesh.quality, surfmesh.api, surfmesh.io, surfmesh.view, surfmesh.cli\n"
+    code += "print([type(getattr(sm, n)).__name__ for n in ('mesh', 'check', 'load', 'gallery')])"
+    assert run(code) == str(["function"] * 4)
+
+
+def test_every_public_name_is_there():
+    for name in surfmesh.__all__:
+        assert getattr(surfmesh, name) is not None
+    assert set(surfmesh.__all__) <= set(dir(surfmesh))
+    with pytest.raises(AttributeError, match="no attribute 'nonsense'"):
+        _ = surfmesh.nonsense
+
+
+def test_no_submodule_is_called_like_a_verb():
+    from pathlib import Path
+
+    modules = {path.stem for path in Path(surfmesh.__file__).parent.iterdir()}
+    assert not modules & {"mesh", "check", "load", "gallery", "pack", "show"}

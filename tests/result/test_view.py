@@ -1,0 +1,76 @@
+"""Pictures: written without a display, not blank, nothing on the console."""
+
+import numpy as np
+import pytest
+from conftest import Saddle, changed, grid
+from matplotlib.image import imread
+
+from surfmesh.errors import FileFormatError, SurfmeshError
+from surfmesh.view import legend, picture, plot, show
+from surfmesh.view.camera import framed
+from surfmesh.view.colouring import colouring
+
+
+def painted_share(path):
+    pixels = imread(path)[..., :3]
+    return float((np.ptp(pixels, axis=-1) > 0.1).mean())  # neither white nor grey
+
+
+@pytest.mark.parametrize("drawn_by", ["opengl", "painter"])
+def test_picture_is_not_blank(drawn_by, saddle, tmp_path, monkeypatch, capfd):
+    if drawn_by == "painter":
+        monkeypatch.setattr(picture, "can_draw", lambda: False)
+    path = plot(saddle, tmp_path / "saddle.png", by="size", size=(400, 300))
+    assert imread(path).shape[:2] == (300, 400)
+    assert painted_share(path) > 0.1
+    assert capfd.readouterr() == ("", "")
+    assert [entry.name for entry in tmp_path.iterdir()] == ["saddle.png"]
+
+
+@pytest.mark.parametrize("by", ["alpha", "size", "deviation", "face", "curvature"])
+def test_colourings_have_a_value_for_each(by, saddle):
+    found = colouring(saddle, by)
+    assert len(found.values) == len(saddle.points if found.per_vertex else saddle.triangles)
+    assert found.limits[0] < found.limits[1] and found.title
+
+
+def test_curvature_of_the_saddle():
+    mesh = grid(Saddle(), 2)
+    found = colouring(mesh, "curvature")
+    assert found.values[4] == pytest.approx(2)  # at the middle k = +2, -2
+
+
+def test_what_cannot_be_shown_is_refused(saddle, tmp_path, monkeypatch):
+    with pytest.raises(ValueError, match="cannot colour by 'colour'"):
+        plot(saddle, tmp_path / "a.png", by="colour")
+    bare = changed(saddle, surfaces=(), sizes=None)
+    for by in ("size", "deviation", "curvature"):
+        with pytest.raises(ValueError, match=by):
+            plot(bare, tmp_path / "a.png", by=by)
+    with pytest.raises(FileFormatError, match=r"written as \.png"):
+        plot(saddle, tmp_path / "a.jpg")
+    with pytest.raises(FileFormatError, match="does not exist"):
+        plot(saddle, tmp_path / "b" / "a.png")
+    monkeypatch.delenv("DISPLAY", raising=False)
+    monkeypatch.delenv("WAYLAND_DISPLAY", raising=False)
+    monkeypatch.setattr("sys.platform", "linux")
+    with pytest.raises(SurfmeshError, match="no display"):
+        show(saddle)
+    assert not list(tmp_path.iterdir())
+
+
+@pytest.mark.parametrize("stretch", [(1, 1, 1), (1, 1, 0), (1, 1e-6, 1), (1e9, 1e9, 1e9)])
+def test_camera_holds_the_mesh(stretch):
+    points = np.random.default_rng(0).normal(size=(50, 3)) * stretch
+    camera = framed(points, 4 / 3)
+    relative = points - camera.centre
+    assert np.abs(relative @ camera.up).max() <= camera.half_height
+    assert np.abs(relative @ camera.right).max() <= camera.half_height * 4 / 3
+    axes = np.array([camera.right, camera.up, camera.towards])
+    np.testing.assert_allclose(axes @ axes.T, np.eye(3), atol=1e-12)
+
+
+def test_edges_are_drawn_when_they_can_be_told_apart(saddle, monkeypatch):
+    assert legend.with_edges(saddle, None) and not legend.with_edges(saddle, False)
+    monkeypatch.setattr(legend, "EDGES_UP_TO", 10)
+    assert not legend.with_edges(saddle, None) and legend.with_edges(saddle, True)
