@@ -1,41 +1,133 @@
-"""The scaled parameter plane: (x, y) = (u, v) moved to the origin and times one factor each.
+"""The scaled parameter plane (x, y): u and v each stretched so that speeds are about one.
 
-On a CAD cylinder u is radians and v millimetres. The factors make the mean speeds |r_u| and
-|r_v| one, so that x and y are lengths of the surface's own order and predicates keep digits.
+On a CAD cylinder u is radians and v millimetres; on a badly parametrised surface the speed
+|r_u| changes a thousandfold along u. Both would make circles in (u, v) grotesque. So x is a
+function of u alone, with dx/du the mean over v of |r_u|, and y likewise of v: lengths of the
+surface's own order, on which predicates keep their digits. Where the mean speed hardly changes
+the function is linear, otherwise a monotone cubic spline, once differentiable.
 """
 
 from dataclasses import dataclass
 
 import numpy as np
+from scipy.interpolate import PchipInterpolator
 
 from surfmesh.geometry.surface import Surface
 
-_SAMPLES = 24
+SAMPLES_ALONG = 257
+SAMPLES_ACROSS = 17
+UNEVEN = 1.3
+"""Ratio of the largest to the smallest mean speed above which an axis is bent."""
+SLOWEST = 1e-4
+"""Smallest speed that is told apart, relative to the mean: a stop is not infinitely long."""
+KNOTS = 1024
+
+
+@dataclass(frozen=True)
+class Axis:
+    """A monotone map between one parameter and its scaled coordinate.
+
+    ``knots`` (k,) and ``slopes`` (k,): the parameter and its derivative at k evenly spaced
+    scaled coordinates from 0 to ``extent``; two knots make it linear.
+    """
+
+    extent: float
+    knots: np.ndarray
+    slopes: np.ndarray
+
+    @classmethod
+    def of(cls, low: float, high: float, t: np.ndarray, speed: np.ndarray) -> "Axis":
+        """From mean speeds (n,) at ``t`` (n,), evenly spaced from 0 to 1 over [low, high]."""
+        mean = float(speed.mean())
+        if not mean > 0.0:
+            mean, speed = 1.0, np.ones_like(speed)
+        extent = mean * (high - low)
+        speed = np.maximum(speed, SLOWEST * mean)
+        if speed.max() <= UNEVEN * speed.min():
+            return cls(extent, np.array([low, high]), np.full(2, (high - low) / extent))
+        length = np.concatenate([[0.0], np.cumsum(0.5 * (speed[1:] + speed[:-1]))])
+        length *= extent / length[-1]
+        spline = PchipInterpolator(length, low + t * (high - low))
+        x = np.linspace(0.0, extent, KNOTS)
+        knots = spline(x)
+        knots[0], knots[-1] = low, high
+        # slopes of a monotone cubic on the even knots (Fritsch and Carlson 1980)
+        slopes = PchipInterpolator(x, knots).derivative()(x)
+        return cls(extent, knots, slopes)
+
+    def _place(self, x: np.ndarray) -> tuple[np.ndarray, np.ndarray, float]:
+        step = self.extent / (len(self.knots) - 1)
+        i = np.clip((x / step).astype(np.int64), 0, len(self.knots) - 2)
+        return i, x / step - i, step
+
+    def parameter(self, x: np.ndarray) -> np.ndarray:
+        """The parameter (n,) at scaled coordinates x (n,); linear outside [0, extent]."""
+        if len(self.knots) == 2:
+            return self.knots[0] + x * self.slopes[0]
+        i, t, step = self._place(np.clip(x, 0.0, self.extent))
+        p, q = self.knots[i], self.knots[i + 1]
+        m, n = step * self.slopes[i], step * self.slopes[i + 1]
+        d = q - p
+        u = p + t * (m + t * (3.0 * d - 2.0 * m - n + t * (m + n - 2.0 * d)))
+        u += np.minimum(x, 0.0) * self.slopes[0]
+        u += np.maximum(x - self.extent, 0.0) * self.slopes[-1]
+        return u
+
+    def rate(self, x: np.ndarray) -> np.ndarray:
+        """Derivative (n,) of the parameter by the scaled coordinate."""
+        if len(self.knots) == 2:
+            return np.full(len(x), self.slopes[0])
+        i, t, step = self._place(np.clip(x, 0.0, self.extent))
+        d = self.knots[i + 1] - self.knots[i]
+        m, n = step * self.slopes[i], step * self.slopes[i + 1]
+        return (m + t * (2.0 * (3.0 * d - 2.0 * m - n) + 3.0 * t * (m + n - 2.0 * d))) / step
+
+    def coordinate(self, u: np.ndarray) -> np.ndarray:
+        """The scaled coordinate (n,) of parameters u (n,): the inverse of ``parameter``."""
+        u = np.asarray(u, float)
+        step = self.extent / (len(self.knots) - 1)
+        x = np.interp(u, self.knots, step * np.arange(len(self.knots)))
+        if len(self.knots) > 2:
+            for _ in range(6):  # Newton from the piecewise linear inverse, a cell away at most
+                x = np.clip(x - (self.parameter(x) - u) / self.rate(x), 0.0, self.extent)
+        x = np.where(u == self.knots[0], 0.0, x)
+        return np.where(u == self.knots[-1], self.extent, x)
 
 
 @dataclass(frozen=True)
 class Scaling:
-    """x = (u - origin[0]) factor[0], y = (v - origin[1]) factor[1]."""
+    """The two axes of the scaled plane of one surface."""
 
-    origin: np.ndarray
-    factor: np.ndarray
-    extent: np.ndarray
-    """Width and height of the domain in the scaled plane."""
+    axes: tuple[Axis, Axis]
 
     @classmethod
     def of(cls, surface: Surface) -> "Scaling":
         low, high = np.array(surface.domain, float).T
-        grid = (np.arange(_SAMPLES) + 0.5) / _SAMPLES
-        t = np.stack(np.meshgrid(grid, grid), axis=-1).reshape(-1, 2)
-        _, ru, rv = surface.evaluate(low + t * (high - low), 1)
-        speed = np.array([np.linalg.norm(ru, axis=1).mean(), np.linalg.norm(rv, axis=1).mean()])
-        speed = np.where(speed > 0.0, speed, 1.0)
-        return cls(low, speed, speed * (high - low))
+        along = np.linspace(0.0, 1.0, SAMPLES_ALONG)
+        across = (np.arange(SAMPLES_ACROSS) + 0.5) / SAMPLES_ACROSS
+        axes = []
+        for axis in (0, 1):
+            t = np.empty((SAMPLES_ACROSS, SAMPLES_ALONG, 2))
+            t[..., axis] = along
+            t[..., 1 - axis] = across[:, None]
+            derivative = surface.evaluate((low + t * (high - low)).reshape(-1, 2), 1)[1 + axis]
+            speed = np.linalg.norm(derivative, axis=1).reshape(SAMPLES_ACROSS, SAMPLES_ALONG)
+            axes.append(Axis.of(low[axis], high[axis], along, speed.mean(axis=0)))
+        return cls(tuple(axes))
+
+    @property
+    def extent(self) -> np.ndarray:
+        """Width and height of the domain in the scaled plane."""
+        return np.array([axis.extent for axis in self.axes])
 
     def to_plane(self, uv: np.ndarray) -> np.ndarray:
         """uv (n, 2) -> xy (n, 2)."""
-        return (uv - self.origin) * self.factor
+        return np.stack([axis.coordinate(uv[:, k]) for k, axis in enumerate(self.axes)], axis=1)
 
     def to_uv(self, xy: np.ndarray) -> np.ndarray:
         """xy (n, 2) -> uv (n, 2)."""
-        return xy / self.factor + self.origin
+        return np.stack([axis.parameter(xy[:, k]) for k, axis in enumerate(self.axes)], axis=1)
+
+    def rates(self, xy: np.ndarray) -> np.ndarray:
+        """(du/dx, dv/dy) at xy (n, 2) -> (n, 2)."""
+        return np.stack([axis.rate(xy[:, k]) for k, axis in enumerate(self.axes)], axis=1)

@@ -77,7 +77,7 @@ def invert(a11, a12, a22, largest):
     det = a11 * a22 - a12 * a12
     trace = a11 + a22
     floor = 1.0 / largest
-    if det < floor * trace:  # the smaller eigenvalue may lie below the floor
+    if det <= floor * trace:  # the smaller eigenvalue may lie below the floor
         mean = 0.5 * trace
         spread = math.sqrt(max(0.25 * (a11 - a22) ** 2 + a12 * a12, 0.0))
         low = mean - spread

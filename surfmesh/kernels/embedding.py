@@ -17,17 +17,24 @@ import numpy as np
 from surfmesh.kernels.background import scalar_size_at
 from surfmesh.kernels.jit import kernel
 
+DEGENERATE = 1e-10  # |r_x x r_y| over |r_x|^2 + |r_y|^2 below which there is no normal
+
 
 class Embedding(NamedTuple):
     point: np.ndarray  # (vertices, 3) float64: r
     chart: np.ndarray  # (vertices, 2, 3) float64: B
+    normal: np.ndarray  # (vertices, 3) float64: unit normal, zero at a degenerate point
     size: np.ndarray  # (vertices,) float64: wanted edge length h
     scale: np.ndarray  # (vertices,) float64: h over that of the size field, at most 1
 
 
 def empty_embedding(vertices: int) -> Embedding:
     return Embedding(
-        np.empty((vertices, 3)), np.empty((vertices, 2, 3)), np.empty(vertices), np.ones(vertices)
+        point=np.empty((vertices, 3)),
+        chart=np.empty((vertices, 2, 3)),
+        normal=np.empty((vertices, 3)),
+        size=np.empty(vertices),
+        scale=np.ones(vertices),
     )
 
 
@@ -47,6 +54,12 @@ def embed(t, s, background, vertices, r, rx, ry, largest):
             e += rx[k, i] * rx[k, i]
             f += rx[k, i] * ry[k, i]
             g += ry[k, i] * ry[k, i]
+        nx = rx[k, 1] * ry[k, 2] - rx[k, 2] * ry[k, 1]
+        ny = rx[k, 2] * ry[k, 0] - rx[k, 0] * ry[k, 2]
+        nz = rx[k, 0] * ry[k, 1] - rx[k, 1] * ry[k, 0]
+        area = math.sqrt(nx * nx + ny * ny + nz * nz)
+        area = 1.0 / area if area > DEGENERATE * (e + g) else 0.0
+        s.normal[v, 0], s.normal[v, 1], s.normal[v, 2] = area * nx, area * ny, area * nz
         floor = (e + g) / (largest * largest) + 1e-300
         e += floor
         g += floor
@@ -91,16 +104,11 @@ def edge_length(s, v, p):
 @kernel
 def rise(s, v, p):
     """Height of p over the tangent plane of v: half the normal curvature times length^2."""
-    b = s.chart
-    nx = b[v, 0, 1] * b[v, 1, 2] - b[v, 0, 2] * b[v, 1, 1]
-    ny = b[v, 0, 2] * b[v, 1, 0] - b[v, 0, 0] * b[v, 1, 2]
-    nz = b[v, 0, 0] * b[v, 1, 1] - b[v, 0, 1] * b[v, 1, 0]
-    along = (
-        nx * (s.point[p, 0] - s.point[v, 0])
-        + ny * (s.point[p, 1] - s.point[v, 1])
-        + nz * (s.point[p, 2] - s.point[v, 2])
+    return (
+        s.normal[v, 0] * (s.point[p, 0] - s.point[v, 0])
+        + s.normal[v, 1] * (s.point[p, 1] - s.point[v, 1])
+        + s.normal[v, 2] * (s.point[p, 2] - s.point[v, 2])
     )
-    return along / math.sqrt(nx * nx + ny * ny + nz * nz)
 
 
 @kernel
@@ -118,7 +126,7 @@ def triangle_deviation(s, a, b, c):
 
 @kernel
 def triangle_shape(s, a, b, c):
-    """alpha of abc in space, negative when it is turned over against the surface at a."""
+    """alpha of abc in space, negative when it is turned over against the surface's normals."""
     p = s.point
     ux, uy, uz = p[b, 0] - p[a, 0], p[b, 1] - p[a, 1], p[b, 2] - p[a, 2]
     vx, vy, vz = p[c, 0] - p[a, 0], p[c, 1] - p[a, 1], p[c, 2] - p[a, 2]
@@ -130,10 +138,10 @@ def triangle_shape(s, a, b, c):
     if total == 0.0:
         return 0.0
     alpha = 3.4641016151377544 * math.sqrt(nx * nx + ny * ny + nz * nz) / total
-    m = s.chart
-    outward = (  # the normal of the surface at a, times a positive number
-        nx * (m[a, 0, 1] * m[a, 1, 2] - m[a, 0, 2] * m[a, 1, 1])
-        + ny * (m[a, 0, 2] * m[a, 1, 0] - m[a, 0, 0] * m[a, 1, 2])
-        + nz * (m[a, 0, 0] * m[a, 1, 1] - m[a, 0, 1] * m[a, 1, 0])
+    m = s.normal
+    outward = (
+        nx * (m[a, 0] + m[b, 0] + m[c, 0])
+        + ny * (m[a, 1] + m[b, 1] + m[c, 1])
+        + nz * (m[a, 2] + m[b, 2] + m[c, 2])
     )
     return alpha if outward > 0.0 else -alpha

@@ -19,6 +19,7 @@ from surfmesh.kernels.local_operations import (
     swap,
     turn,
 )
+from surfmesh.kernels.tensors import solve
 from surfmesh.kernels.triangulation import next_half_edge, prev_half_edge
 
 SWAP_GAIN = 1e-3  # smallest betterment of the worse alpha for which an edge is swapped
@@ -72,7 +73,7 @@ def swap_for_shape(t, s, shape, active, sweeps):
             c, d = t.tri[prev_half_edge(e)], t.tri[prev_half_edge(f)]
             first = triangle_shape(s, a, d, c)
             second = triangle_shape(s, b, c, d)
-            if min(first, second) > old + SWAP_GAIN and convex(t, e):
+            if min(first, second) > old + SWAP_GAIN and _may_swap(t, s, e):
                 swap(t, e)
                 shape[e // 3] = first
                 shape[f // 3] = second
@@ -106,7 +107,7 @@ def swap_for_degree(t, s, frozen, degree, active, least):
         if frozen[a] or frozen[b] or frozen[c] or frozen[d]:
             continue
         if triangle_shape(s, a, d, c) > least and triangle_shape(s, b, c, d) > least:
-            if convex(t, e):
+            if _may_swap(t, s, e):
                 swap(t, e)
                 degree[a] -= 1
                 degree[b] -= 1
@@ -115,6 +116,40 @@ def swap_for_degree(t, s, frozen, degree, active, least):
                 active[a] = active[b] = active[c] = active[d] = 1
                 swaps += 1
     return swaps
+
+
+@kernel
+def _coincide(s, p, q):
+    """Are p and q one point in space, like the nodes of a side that is a pole?"""
+    a = s.point
+    return a[p, 0] == a[q, 0] and a[p, 1] == a[q, 1] and a[p, 2] == a[q, 2]
+
+
+@kernel
+def _follows(t, s, v, p):
+    """Does the chord from v to p run as the edge in the plane does?
+
+    It does not when the edge goes round a closed surface and the chord takes the short cut.
+    Nothing can be said at a degenerate point.
+    """
+    regular = s.normal[p, 0] != 0.0 or s.normal[p, 1] != 0.0 or s.normal[p, 2] != 0.0
+    if not regular:
+        return True
+    x, y = chord(s, v, p)
+    px, py = solve(
+        t.size[v, 0], t.size[v, 1], t.size[v, 2], t.xy[p, 0] - t.xy[v, 0], t.xy[p, 1] - t.xy[v, 1]
+    )
+    along = x * px + y * py
+    return along > 0.0 and px * px + py * py < 16.0 * (x * x + y * y)
+
+
+@kernel
+def _may_swap(t, s, e):
+    """Is the swap of e valid in the plane, and the new edge short in the plane as in space?"""
+    if not convex(t, e):
+        return False
+    c, d = t.tri[prev_half_edge(e)], t.tri[prev_half_edge(t.adj[e])]
+    return _follows(t, s, c, d) and _follows(t, s, d, c)
 
 
 @kernel
@@ -130,8 +165,13 @@ def _newton_step(t, s, v, start, stiffness):
     e = start
     px, py = chord(s, v, t.tri[next_half_edge(e)])
     while True:
-        p = t.tri[next_half_edge(e)]
-        qx, qy = chord(s, v, t.tri[prev_half_edge(e)])
+        p, q = t.tri[next_half_edge(e)], t.tri[prev_half_edge(e)]
+        qx, qy = chord(s, v, q)
+        if _coincide(s, p, q):  # will collapse: neither shape nor a second edge
+            e = turn(t, e)
+            if e == start:
+                break
+            continue
         area = px * qy - py * qx  # twice the area
         total = 2.0 * (px * px + py * py + qx * qx + qy * qy - px * qx - py * qy)
         if area <= 0.0:
@@ -183,7 +223,8 @@ def _worst_in_star(t, s, v, start):
         p, q = t.tri[next_half_edge(e)], t.tri[prev_half_edge(e)]
         if orient_vertices(t.xy, v, p, q) <= 0.0:
             return -1.0
-        worst = min(worst, triangle_shape(s, v, p, q))
+        if not _coincide(s, p, q):
+            worst = min(worst, triangle_shape(s, v, p, q))
         e = turn(t, e)
         if e == start:
             return worst
@@ -280,7 +321,10 @@ def wake_bad(t, s, least, active):
     for k in range(t.count[1]):
         if t.region[k] == DEAD:
             continue
-        if triangle_shape(s, t.tri[3 * k], t.tri[3 * k + 1], t.tri[3 * k + 2]) < least:
+        a, b, c = t.tri[3 * k], t.tri[3 * k + 1], t.tri[3 * k + 2]
+        if _coincide(s, a, b) or _coincide(s, b, c) or _coincide(s, c, a):
+            continue
+        if triangle_shape(s, a, b, c) < least:
             bad += 1
             for i in range(3):
                 active[t.tri[3 * k + i]] = 1

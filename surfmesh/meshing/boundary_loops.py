@@ -1,8 +1,8 @@
 """The boundary of a surface in (u, v): sides and trimming loops cut to unit metric length.
 
 Step 1 of section 3: identify the segments. A side that coincides with another is cut once, and
-its nodes appear twice in (u, v) under one number; a side that is a single point in 3D is one
-segment whose ends are one node.
+its nodes appear twice in (u, v) under one number; the nodes of a side that is a single point
+in 3D all have one number.
 """
 
 from dataclasses import dataclass
@@ -35,17 +35,20 @@ class BoundaryLoops:
 def boundary_loops(surface: Surface, sides: SideTopology, field: SizeField) -> BoundaryLoops:
     """Cut the sides, or the trimming loops, to unit metric length.
 
-    A counter-clockwise loop keeps what it encloses, a clockwise one removes it; while no loop
-    is counter-clockwise, the sides of the (u, v) rectangle are the outer boundary. Raises
-    ``SurfaceError`` for a loop without area or outside the domain.
+    Without loops the sides of the (u, v) rectangle are the boundary. A loop within an odd
+    number of others is a hole, in whichever direction it is given. Raises ``SurfaceError`` for
+    a loop without area or outside the domain.
     """
     loops = [np.asarray(loop, float) for loop in surface.loops]
     for number, loop in enumerate(loops):
         _check_loop(surface, number, loop)
     parts: list[tuple[np.ndarray, np.ndarray]] = []
-    if not any(_signed_area(loop) > 0.0 for loop in loops):
+    if not loops:
         parts.append(_sides_loop(sides, field))
     for loop in loops:
+        depth = sum(_encloses(other, loop[0]) for other in loops if other is not loop)
+        if (_signed_area(loop) > 0.0) == (depth % 2 == 1):
+            loop = loop[::-1]  # the inside is on the left of every segment
         uv = np.concatenate(
             [
                 _cut(field, start, end, minimum=1)[1][:-1]
@@ -69,6 +72,15 @@ def boundary_loops(surface: Surface, sides: SideTopology, field: SizeField) -> B
 def _signed_area(loop: np.ndarray) -> float:
     x, y = loop.T
     return 0.5 * float(np.sum(x * np.roll(y, -1) - np.roll(x, -1) * y))
+
+
+def _encloses(loop: np.ndarray, point: np.ndarray) -> bool:
+    """Does the polygon (k, 2) enclose the point? Crossings of a ray to the right."""
+    a, b = loop, np.roll(loop, -1, axis=0)
+    crosses = (a[:, 1] > point[1]) != (b[:, 1] > point[1])
+    rise = np.where(crosses, b[:, 1] - a[:, 1], 1.0)
+    x = a[:, 0] + (point[1] - a[:, 1]) / rise * (b[:, 0] - a[:, 0])
+    return bool(np.count_nonzero(crosses & (x > point[0])) % 2)
 
 
 def _check_loop(surface: Surface, number: int, loop: np.ndarray) -> None:
@@ -101,7 +113,7 @@ def _sides_loop(sides: SideTopology, field: SizeField) -> tuple[np.ndarray, np.n
     same = _Classes(total)
     for side in range(4):
         if sides.collapsed[side]:
-            same.join(node(side)[:1], node(side)[-1:])
+            same.join(node(side)[:-1], node(side)[1:])
         elif sides.partner[side] > side:
             other = node(sides.partner[side])
             same.join(node(side), other[::-1] if sides.reversed[side] else other)
@@ -113,9 +125,7 @@ def _side_parameters(sides: SideTopology, field: SizeField) -> list[np.ndarray]:
     along: list[np.ndarray] = []
     for side in range(4):
         partner = sides.partner[side]
-        if sides.collapsed[side]:
-            along.append(np.array([0.0, 1.0]))
-        elif 0 <= partner < side:
+        if 0 <= partner < side:
             t = along[partner]
             along.append(1.0 - t[::-1] if sides.reversed[side] else t)
         else:
@@ -139,13 +149,12 @@ def _cut(
     Returns t (n + 1,) from 0 to 1 and uv (n + 1, 2), whose ends are exact.
     """
     samples = 64
-    line = field.scaling.to_plane(np.stack([start, end]))
     while True:
         t = np.linspace(0.0, 1.0, samples + 1)
-        xy = line[0] + 0.5 * (t[1:] + t[:-1])[:, None] * (line[1] - line[0])
+        xy = field.scaling.to_plane(start + t[:, None] * (end - start))
         a = np.empty((samples, 3))
-        inverse_sizes_at(field.background, xy, a)
-        dx, dy = (line[1] - line[0]) / samples
+        inverse_sizes_at(field.background, 0.5 * (xy[1:] + xy[:-1]), a)
+        dx, dy = np.diff(xy, axis=0).T
         step = np.hypot(a[:, 0] * dx + a[:, 1] * dy, a[:, 1] * dx + a[:, 2] * dy)
         metric = np.concatenate([[0.0], np.cumsum(step)])
         if samples >= 16 * metric[-1] or samples >= 1 << 22:

@@ -74,7 +74,11 @@ class Changes:
 class Optimiser:
     """A triangulated domain with its embedding; ``run`` changes it in place."""
 
-    def __init__(self, t: Triangulation, surface: Surface, field: SizeField) -> None:
+    def __init__(
+        self, t: Triangulation, node: np.ndarray, same: np.ndarray, surface: Surface,
+        field: SizeField,
+    ) -> None:  # fmt: skip
+        """``node`` (k,) are boundary vertices, ``same`` (k,) the ones they coincide with."""
         self.t, self.surface, self.field = t, surface, field
         room = len(t.xy)
         self.embedding: Embedding = empty_embedding(room)
@@ -86,6 +90,7 @@ class Optimiser:
         self.shape = np.empty(len(t.tri) // 3)
         self.swaps = self.collapses = self.splits = self.passes = 0
         self._embed(np.arange(int(t.count[0]), dtype=np.int32))
+        self.embedding.point[node] = self.embedding.point[same]  # equal to the last bit
 
     def run(self) -> Changes:
         """Optimise; what is good already is left alone."""
@@ -172,9 +177,11 @@ class Optimiser:
         largest = 1e3 * float(self.field.background.box[4]) / float(scaling.extent.max())
         for start in range(0, len(vertices), block):
             some = vertices[start : start + block]
-            r, ru, rv = self.surface.evaluate(scaling.to_uv(self.t.xy[some]), 1)
-            ru /= scaling.factor[0]
-            rv /= scaling.factor[1]
+            xy = self.t.xy[some]
+            r, ru, rv = self.surface.evaluate(scaling.to_uv(xy), 1)
+            rates = scaling.rates(xy)
+            ru *= rates[:, :1]
+            rv *= rates[:, 1:]
             embed(self.t, self.embedding, self.field.background, some, r, ru, rv, largest)
 
     def _find_stars(self) -> None:

@@ -73,8 +73,8 @@ def mesh_parametric(
         del packing
     if optimise:
         with watch.stage("optimisation"):
-            optimiser = Optimiser(domain.t, surface, field)
-            optimiser.run()
+            same = domain.node[loops.identity]
+            Optimiser(domain.t, domain.node, same, surface, field).run()
     with watch.stage("mapping"):
         glued = _glued(surface, loops, domain, field)
     return SurfaceMesh(

@@ -15,7 +15,11 @@ from dataclasses import dataclass
 import numpy as np
 
 from surfmesh.errors import SizingError
-from surfmesh.geometry.fundamental_forms import curvatures, forms_from_derivatives
+from surfmesh.geometry.fundamental_forms import (
+    FundamentalForms,
+    curvatures,
+    forms_from_derivatives,
+)
 from surfmesh.geometry.scaling import Scaling
 from surfmesh.geometry.sides import SideTopology
 from surfmesh.geometry.surface import Surface
@@ -38,6 +42,9 @@ TEST_ERROR = 0.05
 
 FINEST_EXTENT = 0.35
 """A cell narrower than this many edges is not split: no circle would notice."""
+
+POLE_DISTANCE = 0.9
+"""In edges: the first ring of triangles around a pole lies about there."""
 
 DEFAULT_CHORD = 1e-3
 DEFAULT_MAX_SIZE = 0.1
@@ -131,6 +138,7 @@ class _Builder:
             fresh = np.concatenate([np.zeros((~split).sum(), bool), np.ones(len(children), bool)])
             patch = np.concatenate([patch[~split], self._patches(children)])
             cells = cells.chosen(~split).joined_with(children)
+        self._blunt_poles()
         tree.append(cells.index)  # every leaf is split once more, onto its test nodes
         return SizeField(self.scaling, self._background(tree, patch), self.law.sizing)
 
@@ -166,7 +174,7 @@ class _Builder:
         return index / count * self.scaling.extent
 
     def _create(self, keys: np.ndarray) -> None:
-        size, root, normal, point = self.law(self.scaling.to_uv(self._plane(keys)))
+        size, root, normal, point = self.law(self._plane(keys))
         self.order = np.concatenate([self.order, len(self.size) + np.arange(len(keys))])
         self.keys = np.concatenate([self.keys, keys])
         sort = np.argsort(self.keys, kind="stable")
@@ -225,10 +233,9 @@ class _Builder:
             return hide
         nodes = patch[shallow]
         normal = np.abs(self.normal[nodes[:, 4]])
-        fu, fv = self.scaling.factor
-        second = np.maximum(np.abs(bounds[0]), np.abs(bounds[1]))[:, 2:] / np.array(
-            [fu * fu, fu * fv, fv * fv]
-        ).reshape(1, 3, 1)
+        du, dv = self.scaling.rates(0.5 * (xy[0] + xy[1])).T
+        second = np.maximum(np.abs(bounds[0]), np.abs(bounds[1]))[:, 2:]
+        second *= np.stack([du * du, du * dv, dv * dv], axis=1)[:, :, None]
         with np.errstate(over="ignore", invalid="ignore"):
             form = np.einsum("nki,ni->nk", second, normal)  # |L|, |M|, |N| at most
         root = self.root[nodes]
@@ -241,6 +248,36 @@ class _Builder:
         possible = self.law.from_curvature(np.where(np.isnan(bound), np.inf, bound), 0.0)
         hide[shallow] = possible < 0.5 * self.size[nodes].min(axis=1)
         return hide
+
+    def _blunt_poles(self) -> None:
+        """Cap the stretch near sides that are one point in space.
+
+        There the wanted length along the side is infinite in (u, v): whoever comes nearer to
+        the pole than ``POLE_DISTANCE`` edges is given the metric at that distance, so that the
+        side is cut as the ring of triangles around the pole is.
+        """
+        if self.sides is None or not any(self.sides.collapsed):
+            return
+        xy = self._xy_of(np.arange(len(self.size)))
+        width, height = self.scaling.extent
+        for side in np.flatnonzero(self.sides.collapsed):
+            across = 1 if side in (0, 2) else 0
+            far = (0.0, width, height, 0.0)[side]
+            away = np.abs(xy[:, across] - far)
+            # metric speed across the side, of the nodes themselves: finite at the pole
+            first, last = (self.root[:, 1], self.root[:, 2]) if across else self.root[:, :2].T
+            speed = np.hypot(first, last)
+            depth = np.minimum(
+                POLE_DISTANCE * self.size / np.maximum(speed, 1e-300),
+                0.25 * self.scaling.extent[across],
+            )
+            near = np.flatnonzero(away < depth)
+            moved = xy[near]
+            moved[:, across] = np.abs(far - depth[near])
+            forms = forms_from_derivatives(
+                *self.surface.evaluate(self.scaling.to_uv(moved), 2)[1:]
+            )
+            self.root[near] = _root(forms, self.scaling.rates(moved))
 
     def _xy_of(self, nodes: np.ndarray) -> np.ndarray:
         keys = np.empty(len(self.order), np.int64)
@@ -265,6 +302,16 @@ class _Builder:
         inverse[:, 3] = 1.0 / self.size
         box = np.array([0.0, 0.0, *(1.0 / self.root_step), self._largest])
         return Background(box, np.array([self.nx, self.ny]), child, corner, inverse)
+
+
+def _root(forms: FundamentalForms, rates: np.ndarray) -> np.ndarray:
+    """I^(1/2) (n, 3) in the scaled plane, whose axes run at ``rates`` (n, 2)."""
+    du, dv = rates.T
+    e, f, g = forms.E * du * du, forms.F * du * dv, forms.G * dv * dv
+    # square root of a symmetric 2 x 2 matrix: (I + s Id) / t, s^2 = det I, t^2 = tr I + 2 s
+    s = np.sqrt(np.maximum(e * g - f * f, 0.0))
+    t = np.sqrt(np.maximum(e + g + 2.0 * s, np.finfo(float).tiny))
+    return np.stack([(e + s) / t, f / t, (g + s) / t], axis=1)
 
 
 class _SizeLaw:
@@ -299,16 +346,12 @@ class _SizeLaw:
             size = np.minimum(size, angle_size(k1, k2, self.sizing.angle))
         return np.clip(size, *self.clamp)
 
-    def __call__(self, uv: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
+    def __call__(self, xy: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
         """size (n,), I^(1/2) in the scaled plane (n, 3), unit normal (n, 3), point (n, 3)."""
+        uv = self.scaling.to_uv(xy)
         derivatives = self.surface.evaluate(uv, 2)
         forms = forms_from_derivatives(*derivatives[1:])
-        fu, fv = self.scaling.factor
-        e, f, g = forms.E / (fu * fu), forms.F / (fu * fv), forms.G / (fv * fv)
-        # square root of a symmetric 2 x 2 matrix: (I + s Id) / t, s^2 = det I, t^2 = tr I + 2 s
-        s = np.sqrt(np.maximum(e * g - f * f, 0.0))
-        t = np.sqrt(np.maximum(e + g + 2.0 * s, np.finfo(float).tiny))
-        root = np.stack([(e + s) / t, f / t, (g + s) / t], axis=1)
+        root = _root(forms, self.scaling.rates(xy))
         size = np.full(len(uv), self.clamp[1])
         if self.follows_curvature:
             k = curvatures(forms)
