@@ -19,7 +19,7 @@ from surfmesh.kernels.local_operations import (
     swap,
     turn,
 )
-from surfmesh.kernels.tensors import solve
+from surfmesh.kernels.tensors import solve, triangle_shape
 from surfmesh.kernels.triangulation import (
     fill_cavity,
     locate,
@@ -377,3 +377,38 @@ def clear_boundary(t, segment, vertex, edge, first_node, crowded):
                     f = e
         edge[k] = e
     return removed
+
+
+@kernel
+def swap_bad(t, shape, below, sweeps):
+    """Step 4: swap edges of INSIDE triangles with alpha under ``below`` while that betters them.
+
+    alpha in the metric; ``shape`` (triangles,) is scratch. Returns the swaps made.
+    """
+    for k in range(t.count[1]):
+        shape[k] = 1.0
+        if t.region[k] == INSIDE:
+            a, b, c = t.tri[3 * k], t.tri[3 * k + 1], t.tri[3 * k + 2]
+            shape[k] = triangle_shape(t.xy, t.size, a, b, c)
+    total = 0
+    for _ in range(sweeps):
+        swaps = 0
+        for k in range(t.count[1]):
+            for i in range(3):
+                e = 3 * k + i
+                f = t.adj[e]
+                if shape[k] >= below or t.fixed[e] != 0:
+                    continue
+                a, b = t.tri[e], t.tri[f]
+                c, d = t.tri[prev_half_edge(e)], t.tri[prev_half_edge(f)]
+                old = min(shape[k], shape[f // 3])
+                first = triangle_shape(t.xy, t.size, a, d, c)
+                second = triangle_shape(t.xy, t.size, b, c, d)
+                if min(first, second) > old + 1e-3 and convex(t, e):
+                    swap(t, e)
+                    shape[k], shape[f // 3] = first, second
+                    swaps += 1
+        total += swaps
+        if swaps == 0:
+            break
+    return total

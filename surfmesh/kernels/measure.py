@@ -77,9 +77,9 @@ def tangent_plane_distances(points, feet, ru, rv, found):
     Parameters
     ----------
     points, feet, ru, rv: (n, 3) float64; ``feet`` = r(u, v), with its two derivatives
-    found: (n, 5) float64, filled: unit normal along r_u x r_v (zero where there is none);
+    found: (n, 7) float64, filled: unit normal along r_u x r_v (zero where there is none);
         distance along it (the whole distance where there is none); distance within the
-        tangent plane.
+        tangent plane; the step in (u, v) that covers the latter (Gauss-Newton).
     """
     for i in range(len(points)):
         nx = ru[i, 1] * rv[i, 2] - ru[i, 2] * rv[i, 1]
@@ -90,16 +90,27 @@ def tangent_plane_distances(points, feet, ru, rv, found):
         dy = points[i, 1] - feet[i, 1]
         dz = points[i, 2] - feet[i, 2]
         squared = dx * dx + dy * dy + dz * dz
-        found[i, :3] = 0.0
-        if length > 0.0:
-            nx, ny, nz = nx / length, ny / length, nz / length
-            along = dx * nx + dy * ny + dz * nz
-            found[i, 0], found[i, 1], found[i, 2] = nx, ny, nz
-            found[i, 3] = abs(along)
-            found[i, 4] = np.sqrt(max(squared - along * along, 0.0))
-        else:
+        if not length > 0.0:
+            found[i, :] = 0.0
             found[i, 3] = np.sqrt(squared)
             found[i, 4] = found[i, 3]
+            continue
+        nx, ny, nz = nx / length, ny / length, nz / length
+        along = dx * nx + dy * ny + dz * nz
+        found[i, 0], found[i, 1], found[i, 2] = nx, ny, nz
+        found[i, 3] = abs(along)
+        found[i, 4] = np.sqrt(max(squared - along * along, 0.0))
+        # (d x r_v) . n = du |r_u x r_v| for d = du r_u + dv r_v, likewise for dv
+        found[i, 5] = (
+            (dy * rv[i, 2] - dz * rv[i, 1]) * nx
+            + (dz * rv[i, 0] - dx * rv[i, 2]) * ny
+            + (dx * rv[i, 1] - dy * rv[i, 0]) * nz
+        ) / length
+        found[i, 6] = (
+            (ru[i, 1] * dz - ru[i, 2] * dy) * nx
+            + (ru[i, 2] * dx - ru[i, 0] * dz) * ny
+            + (ru[i, 0] * dy - ru[i, 1] * dx) * nz
+        ) / length
 
 
 @kernel

@@ -30,6 +30,7 @@ from surfmesh.kernels.triangulation import (
     next_half_edge,
     open_cavity,
     prev_half_edge,
+    rim_visible,
 )
 
 # statuses
@@ -37,16 +38,14 @@ FINISHED = 0  # the front has left the box, or the wanted number of circles is r
 FULL = 1  # an array is full: grow it and call again
 BAD_START = 2  # no three circles about the origin
 
-# outcomes of one candidate
-PLACED = 0
-REFUSED = 1
-
 CLOSE_BELOW = 1.40  # fill a corner a, b, c straight away when l(a, c) is below this
 OVERLAP = 0.65  # a circle nearer than this refuses the candidate
 CLOSENESS = 0.95  # beta1 beta2 above which a fit is accepted (2.3.2)
 TANGENT_RANGE = 0.72, 1.25  # metric radius at which a circle tangent to three is taken
 GOOD_SHAPE = 0.8  # a pair of done triangles both better than this is left as it is
 FIT_STEPS = 8
+EASE_WITHIN = 1.4  # circles nearer than this are neighbours of the one to place
+EASY = 0.06  # a neighbour at 1 -+ this is touched well enough
 
 
 class Packing(NamedTuple):
@@ -192,25 +191,29 @@ def fit_to_three(p, background, a, b, c, x, y):
 
 
 @kernel
-def _try_place(p, a, b, x, y, h11, h12, h22, reach):
-    """Place a circle at (x, y) on the front edge a -> b, if nothing is nearer than ``reach``.
+def _open(p, a, b, x, y, h11, h12, h22):
+    """Open the cavity of a circle at (x, y) on the front edge a -> b.
 
-    Returns (PLACED, the new vertex) or (REFUSED, the circle that is in the way).
+    Returns (half-edges on its rim, NIL), or (0, the circle that is in the way).
     """
     t = p.t
     e = t.adj[p.front.edge[a]]
     start, barrier = locate(t, e, x, y, True)
     if barrier != NIL:
         v = t.tri[barrier]
-        w = t.tri[next_half_edge(barrier)]
-        return REFUSED, v if v != a and v != b else w
+        return 0, v if v != a and v != b else t.tri[next_half_edge(barrier)]
     rims = open_cavity(t, start, x, y, h11, h12, h22, True)
-    first = e // 3
-    apex = t.tri[prev_half_edge(e)]
-    if rims == 0 or t.mark[first] != t.stamp[0]:
-        return REFUSED, apex
-    nearest = NIL
-    shortest = reach
+    if rims == 0 or t.mark[e // 3] != t.stamp[0]:
+        return 0, t.tri[prev_half_edge(e)]
+    return rims, NIL
+
+
+@kernel
+def _nearest(p, a, b, rims, x, y, h11, h12, h22, reach):
+    """Of the circles on the rim but a and b the nearest one below ``reach``, or NIL; and
+    whether one is neither far nor at the right distance."""
+    t = p.t
+    nearest, shortest, uneasy = NIL, reach, False
     for k in range(rims):
         v = t.tri[t.rim[k]]
         if v == NIL or v == a or v == b:
@@ -220,8 +223,46 @@ def _try_place(p, a, b, x, y, h11, h12, h22, reach):
         )
         if l < shortest:
             shortest, nearest = l, v
-    if nearest != NIL:
-        return REFUSED, nearest
+        if l < EASE_WITHIN and abs(l - 1.0) > EASY:
+            uneasy = True
+    return nearest, uneasy
+
+
+@kernel
+def _eased(p, rims, x, y, h11, h12, h22):
+    """The place near (x, y) that best touches all near circles on the rim.
+
+    One Gauss-Newton step on the sum of (l - 1)^2 over them: between two circles of the front
+    there is seldom room for exactly one more, and the misfit is better shared.
+    """
+    t = p.t
+    n11 = n12 = n22 = g1 = g2 = 0.0
+    for k in range(rims):
+        v = t.tri[t.rim[k]]
+        if v == NIL:
+            continue
+        m11, m12 = 0.5 * (h11 + t.size[v, 0]), 0.5 * (h12 + t.size[v, 1])
+        m22 = 0.5 * (h22 + t.size[v, 2])
+        ux, uy = solve(m11, m12, m22, x - t.xy[v, 0], y - t.xy[v, 1])
+        l = math.sqrt(ux * ux + uy * uy)
+        if l > EASE_WITHIN:
+            continue
+        gx, gy = solve(m11, m12, m22, ux / l, uy / l)
+        n11 += gx * gx
+        n12 += gx * gy
+        n22 += gy * gy
+        g1 += gx * (1.0 - l)
+        g2 += gy * (1.0 - l)
+    det = n11 * n22 - n12 * n12
+    if det <= 1e-12 * n11 * n22:
+        return x, y
+    return x + (n22 * g1 - n12 * g2) / det, y + (n11 * g2 - n12 * g1) / det
+
+
+@kernel
+def _place(p, a, b, rims, x, y, h11, h12, h22):
+    """Fill the open cavity with a circle at (x, y) and advance the front. Returns the vertex."""
+    t = p.t
     v = t.count[0]
     t.count[0] = v + 1
     t.xy[v, 0], t.xy[v, 1] = x, y
@@ -234,7 +275,7 @@ def _try_place(p, a, b, x, y, h11, h12, h22, reach):
     _queue(p, a, v)
     _queue(p, v, b)
     _settle(p, done)
-    return PLACED, v
+    return v
 
 
 @kernel
@@ -307,21 +348,30 @@ def _advance(p, background, a, b, forced):
                 return _close(p, a, b)
     x, y, h11, h12, h22, close = fit_to_two(p, background, a, b)
     p.count[FITS] += 1
-    outcome, other = _try_place(p, a, b, x, y, h11, h12, h22, OVERLAP)
-    if outcome == PLACED:
-        p.radius[other] = close
-        return True
+    rims, other = _open(p, a, b, x, y, h11, h12, h22)
+    if rims > 0:
+        other, uneasy = _nearest(p, a, b, rims, x, y, h11, h12, h22, OVERLAP)
+        if other == NIL:
+            if uneasy:
+                ex, ey = _eased(p, rims, x, y, h11, h12, h22)
+                if rim_visible(t, rims, ex, ey):
+                    x, y = ex, ey
+                    h11, h12, h22 = size_at(background, x, y)
+            p.radius[_place(p, a, b, rims, x, y, h11, h12, h22)] = close
+            return True
     # pushing out: the support grows from (a, b) to the circle in the way (2.3.3)
     if other != NIL and other != a and other != b:
         x, y, h11, h12, h22, r = fit_to_three(p, background, a, b, other, x, y)
         if TANGENT_RANGE[0] < r < TANGENT_RANGE[1]:
             ax, ay, bx, by = t.xy[a, 0], t.xy[a, 1], t.xy[b, 0], t.xy[b, 1]
             if orient(ax, ay, bx, by, x, y) < 0.0:
-                outcome, other = _try_place(p, a, b, x, y, h11, h12, h22, 0.9 * r)
-                if outcome == PLACED:
-                    p.radius[other] = r
-                    p.count[TANGENTS] += 1
-                    return True
+                rims, other = _open(p, a, b, x, y, h11, h12, h22)
+                if rims > 0:
+                    other, _ = _nearest(p, a, b, rims, x, y, h11, h12, h22, 0.9 * r)
+                    if other == NIL:
+                        p.radius[_place(p, a, b, rims, x, y, h11, h12, h22)] = r
+                        p.count[TANGENTS] += 1
+                        return True
     return _close(p, a, b)
 
 

@@ -189,6 +189,23 @@ def open_cavity(t, start, x, y, h11, h12, h22, wide):
 
 
 @kernel
+def rim_visible(t, rims, x, y):
+    """May the open cavity be filled from (x, y): sees it the whole rim, and no hull beyond it?"""
+    for k in range(rims):
+        e = t.rim[k]
+        a, b = t.tri[e], t.tri[next_half_edge(e)]
+        if a >= 0 and b >= 0:
+            if side(t.xy, a, b, x, y) <= 0.0:
+                return False
+            continue
+        ghost = t.adj[e]  # the next ghost along the hull: its hull edge must stay hidden
+        f = next_half_edge(ghost) if t.tri[ghost] < 0 else prev_half_edge(ghost)
+        if side(t.xy, t.tri[f], t.tri[next_half_edge(f)], x, y) > 0.0:
+            return False
+    return True
+
+
+@kernel
 def fill_cavity(t, rims, p):
     """Replace the open cavity by the star of vertex p; the triangle on rim i is ``cavity[i]``.
 

@@ -15,6 +15,7 @@ from surfmesh.kernels.insertion import (
     find_segments,
     grow_inside,
     insert_boundary,
+    swap_bad,
 )
 from surfmesh.kernels.triangulation import Triangulation, empty_triangulation
 from surfmesh.meshing.boundary_loops import BoundaryLoops
@@ -22,6 +23,9 @@ from surfmesh.sizing.size_field import SizeField
 
 CROWDED = 0.6
 """Metric distance from the boundary below which an interior vertex is removed."""
+
+BAD_SHAPE, SWEEPS = 0.7, 8
+"""Triangles below this alpha, left by the packing or the boundary, are offered a swap."""
 
 QUEUE = 1 << 16
 """Most edges that one segment may cut."""
@@ -59,6 +63,7 @@ def recovered(
     if grow_inside(t, edge) != FINISHED:
         raise SurfaceError(f"the boundary loops of {surface.name!r} do not enclose a domain")
     clear_boundary(t, loops.segments, vertex, edge, first_node, CROWDED)
+    swap_bad(t, np.empty(int(t.count[1])), BAD_SHAPE, SWEEPS)
     return _cut_out(t, vertex)
 
 
