@@ -204,19 +204,18 @@ class SurfaceMesh:
 
 def _first_duplicate(triangles: NDArray[np.int32]) -> tuple[int, int] | None:
     """Two triangles with the same three corners in any order, or None."""
-    a, b, c = triangles.T
-    low = np.minimum(np.minimum(a, b), c)
-    high = np.maximum(np.maximum(a, b), c)
-    keys = low.astype(np.int64) * (int(high.max(initial=0)) + 1) + high
-    order = np.argsort(keys)
-    keys = keys[order]
-    alike = keys[1:] == keys[:-1]  # few: the same smallest and largest corner
-    first = np.flatnonzero(alike)
-    members = order[np.union1d(first, first + 1)]
-    corners = np.sort(triangles[members], axis=1)
-    ranked = np.lexsort(corners.T)
-    same = np.flatnonzero((corners[ranked[1:]] == corners[ranked[:-1]]).all(axis=1))
+    a, b, c = triangles.astype(np.int64).T
+    low, high = np.minimum(np.minimum(a, b), c), np.maximum(np.maximum(a, b), c)
+    middle = a + b + c - low - high
+    stride = int(high.max(initial=0)) + 1
+    if stride <= 1 << 21:  # the three numbers fit into one
+        keys = ((low * stride + middle) * stride + high)[None]
+        order = np.argsort(keys[0])
+    else:
+        keys = np.stack((low, middle, high))
+        order = np.lexsort(keys)
+    same = np.flatnonzero((keys[:, order[1:]] == keys[:, order[:-1]]).all(axis=0))
     if not len(same):
         return None
-    first, second = sorted(int(members[ranked[same[0] + i]]) for i in (0, 1))
+    first, second = sorted(int(order[same[0] + i]) for i in (0, 1))
     return first, second

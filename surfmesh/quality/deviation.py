@@ -75,17 +75,17 @@ def deviation(mesh: SurfaceMesh, area: NDArray[np.float64]) -> Deviation | None:
                 (triangle, distance),
                 (table.half_edges[block[shared], 1] // 3, distance[shared]),
             ):
-                square += MIDDLE_WEIGHT * float(area[beside] @ found**2)
+                square += MIDDLE_WEIGHT * _dot(area[beside], found**2)
                 np.maximum.at(by_triangle, beside, found)
         for block in _blocks(triangles):
             points, uv = _samples(mesh, block, np.zeros_like(block), _CENTROID)
             found, normals = _distances(surface, points, uv, np.sqrt(area[block]))
-            square += CENTROID_WEIGHT * float(area[block] @ found**2)
+            square += CENTROID_WEIGHT * _dot(area[block], found**2)
             by_triangle[block] = np.maximum(by_triangle[block], found)
             cosine[block] = _cosines(mesh, block, normals, area[block])
     for block in _blocks(_count(count)):
         found = at_vertex[mesh.triangles[block]]
-        square += VERTEX_WEIGHT * float(area[block] @ np.square(found).sum(axis=1))
+        square += VERTEX_WEIGHT * _dot(area[block], np.square(found).sum(axis=1))
         by_triangle[block] = np.maximum(by_triangle[block], found.max(axis=1))
     total = float(area.sum())
     rms = (square / total) ** 0.5 if total > 0 else float("nan")
@@ -145,16 +145,30 @@ def _distances(
     """Distance of each point from ``surface``, and the surface normal near it.
 
     ``uv``: parameters of a surface point nearby; ``reach``: (k,) size of the triangle. Read
-    in the tangent plane where the foot is near, by projection where it is not.
+    in the tangent plane where the foot is near, else in the one a Newton step further, else
+    by projection.
     """
-    found = np.empty((len(points), 5))
-    image = (np.ascontiguousarray(array, np.float64) for array in surface.evaluate(uv, 1))
-    tangent_plane_distances(points, *image, found)
+    found = _from_tangent_planes(surface, points, uv)
     distance = found[:, 3].copy()
     far = np.flatnonzero(~(found[:, 4] <= NEAR_FOOT * reach))
     if len(far):
+        low, high = np.transpose(surface.domain)
+        nearer = np.clip(uv[far] + found[far, 5:], low, high)
+        again = _from_tangent_planes(surface, points[far], nearer)
+        distance[far] = again[:, 3]
+        better = np.hypot(again[:, 3], again[:, 4]) <= np.hypot(found[far, 3], found[far, 4])
+        far = far[~((again[:, 4] <= NEAR_FOOT * reach[far]) & better)]
+    if len(far):
         distance[far] = closest_point(surface, points[far], uv[far])[1]
     return distance, found[:, :3]
+
+
+def _from_tangent_planes(surface: Any, points: NDArray, uv: NDArray) -> NDArray:
+    """(k, 7): unit normal, distance along it and across it, and the step in (u, v) across."""
+    found = np.empty((len(points), 7))
+    image = (np.ascontiguousarray(array, np.float64) for array in surface.evaluate(uv, 1))
+    tangent_plane_distances(points, *image, found)
+    return found
 
 
 def _cosines(mesh: SurfaceMesh, triangle: NDArray, normals: NDArray, area: NDArray) -> NDArray:
@@ -163,6 +177,10 @@ def _cosines(mesh: SurfaceMesh, triangle: NDArray, normals: NDArray, area: NDArr
     along = np.einsum("ij,ij->i", np.cross(b - a, c - a), normals)
     missing = (area <= 0) | ~normals.any(axis=1)
     return np.where(missing, 1.0, along / np.where(missing, 1.0, 2.0 * area))
+
+
+def _dot(a: NDArray, b: NDArray) -> float:
+    return float(np.einsum("i,i->", a, b))  # no BLAS, whose threads cost more than they gain
 
 
 def _second_look(
