@@ -160,7 +160,7 @@ class Optimiser:
         corners = self.t.tri.reshape(-1, 3)[triangles]
         scaling = self.field.scaling
         error = np.zeros(len(triangles))
-        found = np.empty((len(triangles), 5))
+        found = np.empty((len(triangles), 7))
         for weights in SAMPLES:
             point = np.einsum("k,nki->ni", weights, self.embedding.point[corners])
             xy = np.einsum("k,nki->ni", weights, self.t.xy[corners])
