@@ -15,47 +15,67 @@ from surfmesh.kernels.jit import kernel
 
 
 @kernel
-def _limit(h, r, slope, a, b):
-    """Let neither of h[a], h[b] exceed the other by more than slope times their distance."""
+def _limit(h, r, slope, a, b, changed, sweep):
+    """Let neither of h[a], h[b] exceed the other by more than slope times their distance.
+
+    Returns the relative change, and notes in ``changed`` which node it was.
+    """
+    if h[a] == h[b]:
+        return 0.0
     d = math.sqrt((r[a, 0] - r[b, 0]) ** 2 + (r[a, 1] - r[b, 1]) ** 2 + (r[a, 2] - r[b, 2]) ** 2)
     if h[a] > h[b] + slope * d:
         change = h[a] - h[b] - slope * d
         h[a] = h[b] + slope * d
+        changed[a] = sweep
         return change / h[a]
     if h[b] > h[a] + slope * d:
         change = h[b] - h[a] - slope * d
         h[b] = h[a] + slope * d
+        changed[b] = sweep
         return change / h[b]
     return 0.0
 
 
 @kernel
-def grade(patch, joined, r, slope, h, sweeps):
+def grade(patch, joined, r, slope, h, changed, sweeps):
     """Lower the sizes h (nodes,) until no two neighbours differ by more than the slope allows.
 
     patch (cells, 9) nodes; joined (k, 2) pairs of nodes that are one point in 3D; r (nodes, 3)
-    points. Sweeps forward and backward until the largest relative change is below 0.1%.
+    points. ``changed`` (nodes,) int32 is 1 for nodes to start from and 0 for those known to
+    agree with their neighbours; it holds the last sweep that lowered a node, and is 0 again
+    at the end. Sweeps forward and backward until the largest relative change is below 0.1%.
     Returns the number of sweeps, or -1 when ``sweeps`` did not suffice.
     """
     n = len(patch)
-    for sweep in range(sweeps):
+    done = -1
+    for sweep in range(1, sweeps + 1):
         largest = 0.0
         for k in range(n):
             p = patch[k if sweep % 2 == 0 else n - 1 - k]
+            latest = 0
+            for i in range(9):
+                latest = max(latest, changed[p[i]])
+            if latest < sweep - 1 or latest == 0:
+                continue
             for i in range(9):  # right, up and the two diagonals of each node of the 3 x 3
                 right = i % 3 < 2
                 if right:
-                    largest = max(largest, _limit(h, r, slope, p[i], p[i + 1]))
+                    largest = max(largest, _limit(h, r, slope, p[i], p[i + 1], changed, sweep))
                 if i < 6:
-                    largest = max(largest, _limit(h, r, slope, p[i], p[i + 3]))
+                    largest = max(largest, _limit(h, r, slope, p[i], p[i + 3], changed, sweep))
                     if right:
-                        largest = max(largest, _limit(h, r, slope, p[i], p[i + 4]))
-                        largest = max(largest, _limit(h, r, slope, p[i + 1], p[i + 3]))
+                        largest = max(largest, _limit(h, r, slope, p[i], p[i + 4], changed, sweep))
+                        largest = max(
+                            largest, _limit(h, r, slope, p[i + 1], p[i + 3], changed, sweep)
+                        )
         for k in range(len(joined)):
-            largest = max(largest, _limit(h, r, 0.0, joined[k, 0], joined[k, 1]))
+            a, b = joined[k, 0], joined[k, 1]
+            largest = max(largest, _limit(h, r, 0.0, a, b, changed, sweep))
         if largest < 1e-3:
-            return sweep + 1
-    return -1
+            done = sweep
+            break
+    changed[:] = 0
+    return done
 
 
 @kernel

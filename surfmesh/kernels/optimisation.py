@@ -51,42 +51,52 @@ def find_stars(t, star, frozen, degree):
 
 
 @kernel
-def swap_for_shape(t, s, shape, active, sweeps):
+def _touches(t, k, flags):
+    """Has triangle k a corner that is flagged?"""
+    return flags[t.tri[3 * k]] or flags[t.tri[3 * k + 1]] or flags[t.tri[3 * k + 2]]
+
+
+@kernel
+def swap_for_shape(t, s, shape, dirty, active, sweeps):
     """Swap edges while that raises the smaller alpha of the pair. Returns the swaps made.
 
-    ``shape`` (triangles,) is scratch. Vertices of swapped edges become active.
+    ``shape`` (triangles,) keeps alpha from call to call; only triangles with a ``dirty``
+    corner are measured again and looked at. Vertices of swapped edges become active.
     """
     for k in range(t.count[1]):
-        if t.region[k] != DEAD:
+        if t.region[k] != DEAD and _touches(t, k, dirty):
             shape[k] = triangle_shape(s, t.tri[3 * k], t.tri[3 * k + 1], t.tri[3 * k + 2])
     total = 0
     for _ in range(sweeps):
         swaps = 0
-        for e in range(3 * t.count[1]):
-            f = t.adj[e]
-            if f <= e or t.fixed[e] != 0 or t.region[e // 3] == DEAD:
+        for k in range(t.count[1]):
+            if shape[k] > GOOD_PAIR or t.region[k] == DEAD or not _touches(t, k, dirty):
                 continue
-            old = min(shape[e // 3], shape[f // 3])
-            if old > GOOD_PAIR:
-                continue
-            a, b = t.tri[e], t.tri[f]
-            c, d = t.tri[prev_half_edge(e)], t.tri[prev_half_edge(f)]
-            first = triangle_shape(s, a, d, c)
-            second = triangle_shape(s, b, c, d)
-            if min(first, second) > old + SWAP_GAIN and _may_swap(t, s, e):
-                swap(t, e)
-                shape[e // 3] = first
-                shape[f // 3] = second
-                active[a] = active[b] = active[c] = active[d] = 1
-                swaps += 1
+            for e in range(3 * k, 3 * k + 3):
+                f = t.adj[e]
+                if f < 0 or t.fixed[e] != 0:
+                    continue
+                a, b = t.tri[e], t.tri[f]
+                c, d = t.tri[prev_half_edge(e)], t.tri[prev_half_edge(f)]
+                old = min(shape[k], shape[f // 3])
+                first = triangle_shape(s, a, d, c)
+                second = triangle_shape(s, b, c, d)
+                if min(first, second) > old + SWAP_GAIN and _may_swap(t, s, e):
+                    swap(t, e)
+                    shape[k], shape[f // 3] = first, second
+                    active[a] = active[b] = active[c] = active[d] = 1
+                    dirty[a] = dirty[b] = dirty[c] = dirty[d] = 1
+                    swaps += 1
         total += swaps
         if swaps == 0:
             break
+    for v in range(t.count[0]):
+        dirty[v] = 0
     return total
 
 
 @kernel
-def swap_for_degree(t, s, frozen, degree, active, least):
+def swap_for_degree(t, s, frozen, degree, dirty, active, least):
     """Swap edges that bring the degrees of their four vertices nearer to six.
 
     A 7-7 edge between two 5s is the whole of a pair of dislocations: swapping it leaves four
@@ -114,6 +124,7 @@ def swap_for_degree(t, s, frozen, degree, active, least):
                 degree[c] += 1
                 degree[d] += 1
                 active[a] = active[b] = active[c] = active[d] = 1
+                dirty[a] = dirty[b] = dirty[c] = dirty[d] = 1
                 swaps += 1
     return swaps
 
@@ -231,7 +242,7 @@ def _worst_in_star(t, s, v, start):
 
 
 @kernel
-def smooth(t, s, background, star, frozen, active, stiffness, moved):
+def smooth(t, s, background, star, frozen, active, dirty, stiffness, moved):
     """Move every active vertex by one Newton step. Fills ``moved`` and returns how many did.
 
     A move that would turn a triangle over, or make a bad star worse, is not made. In space the
@@ -262,6 +273,7 @@ def smooth(t, s, background, star, frozen, active, stiffness, moved):
         s.size[v] = s.scale[v] * scalar_size_at(background, t.xy[v, 0], t.xy[v, 1])
         moved[count] = v
         count += 1
+        dirty[v] = 1
         if step > STILL * STILL:
             active[v] = 1
             e = start
@@ -332,7 +344,7 @@ def wake_bad(t, s, least, active):
 
 
 @kernel
-def collapse_short(t, s, star, frozen, degree, active, shortest, few):
+def collapse_short(t, s, star, frozen, degree, dirty, active, shortest, few):
     """Remove interior vertices with an edge below ``shortest`` or with at most ``few`` triangles.
 
     Returns how many were removed; stars must be found anew afterwards.
@@ -365,6 +377,7 @@ def collapse_short(t, s, star, frozen, degree, active, shortest, few):
     for v in range(t.count[0]):
         if active[v] == 2:
             active[v] = 1
+            dirty[v] = 1
     return removed
 
 
@@ -425,18 +438,22 @@ def split_edge(t, e, x, y):
 
 
 @kernel
-def split_long(t, s, longest, active):
-    """Split interior edges longer than ``longest``. Returns the first of the new vertices.
+def split_long(t, s, longest, dirty, active):
+    """Split interior edges of active vertices longer than ``longest``.
 
-    The caller embeds them; until then they lie in the middle of their chords.
+    Returns the first of the new vertices. The caller embeds them; until then they lie in the
+    middle of their chords.
     """
     first = t.count[0]
     for e in range(3 * t.count[1]):
+        a = t.tri[e]
         f = t.adj[e]
-        if f <= e or t.fixed[e] != 0 or t.region[e // 3] == DEAD:
+        if a >= first or f <= e or t.fixed[e] != 0 or t.region[e // 3] == DEAD:
             continue
-        a, b = t.tri[e], t.tri[f]
-        if a >= first or b >= first or edge_length(s, a, b) <= longest:
+        b = t.tri[f]
+        if active[a] == 0 and active[b] == 0:
+            continue
+        if b >= first or edge_length(s, a, b) <= longest:
             continue
         p = split_edge(t, e, 0.5 * (t.xy[a, 0] + t.xy[b, 0]), 0.5 * (t.xy[a, 1] + t.xy[b, 1]))
         if p == NIL:
@@ -445,7 +462,10 @@ def split_long(t, s, longest, active):
             s.point[p, i] = 0.5 * (s.point[a, i] + s.point[b, i])
             s.chart[p, 0, i] = s.chart[a, 0, i]
             s.chart[p, 1, i] = s.chart[a, 1, i]
+            s.normal[p, i] = s.normal[a, i]
             t.size[p, i] = t.size[a, i]
+        s.scale[p] = 0.5 * (s.scale[a] + s.scale[b])
         s.size[p] = 0.5 * (s.size[a] + s.size[b])
         active[p] = active[a] = active[b] = 1
+        dirty[p] = dirty[a] = dirty[b] = 1
     return first

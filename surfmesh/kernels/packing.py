@@ -22,7 +22,7 @@ from surfmesh.kernels.heap import Heap, pop, push
 from surfmesh.kernels.jit import kernel
 from surfmesh.kernels.local_operations import convex, swap
 from surfmesh.kernels.predicates import orient
-from surfmesh.kernels.tensors import edge_length, length, solve, triangle_shape
+from surfmesh.kernels.tensors import edge_length, solve, triangle_shape
 from surfmesh.kernels.triangulation import (
     Triangulation,
     fill_cavity,
@@ -209,33 +209,16 @@ def _open(p, a, b, x, y, h11, h12, h22):
 
 
 @kernel
-def _nearest(p, a, b, rims, x, y, h11, h12, h22, reach):
-    """Of the circles on the rim but a and b the nearest one below ``reach``, or NIL; and
-    whether one is neither far nor at the right distance."""
-    t = p.t
-    nearest, shortest, uneasy = NIL, reach, False
-    for k in range(rims):
-        v = t.tri[t.rim[k]]
-        if v == NIL or v == a or v == b:
-            continue
-        l = length(
-            x - t.xy[v, 0], y - t.xy[v, 1], h11, h12, h22, t.size[v, 0], t.size[v, 1], t.size[v, 2]
-        )
-        if l < shortest:
-            shortest, nearest = l, v
-        if l < EASE_WITHIN and abs(l - 1.0) > EASY:
-            uneasy = True
-    return nearest, uneasy
+def _survey(p, a, b, rims, x, y, h11, h12, h22, reach):
+    """Look at the circles on the rim around a circle at (x, y).
 
-
-@kernel
-def _eased(p, rims, x, y, h11, h12, h22):
-    """The place near (x, y) that best touches all near circles on the rim.
-
-    One Gauss-Newton step on the sum of (l - 1)^2 over them: between two circles of the front
-    there is seldom room for exactly one more, and the misfit is better shared.
+    Returns the nearest one below ``reach`` (not a or b), or NIL; and the step to the place
+    that best touches all near ones, or no step when they are touched well enough. Between two
+    circles of the front there is seldom room for exactly one more: one Gauss-Newton step on
+    the sum of (l - 1)^2 over the neighbours shares the misfit.
     """
     t = p.t
+    nearest, shortest, uneasy = NIL, reach, False
     n11 = n12 = n22 = g1 = g2 = 0.0
     for k in range(rims):
         v = t.tri[t.rim[k]]
@@ -243,20 +226,28 @@ def _eased(p, rims, x, y, h11, h12, h22):
             continue
         m11, m12 = 0.5 * (h11 + t.size[v, 0]), 0.5 * (h12 + t.size[v, 1])
         m22 = 0.5 * (h22 + t.size[v, 2])
-        ux, uy = solve(m11, m12, m22, x - t.xy[v, 0], y - t.xy[v, 1])
+        det = m11 * m22 - m12 * m12
+        dx, dy = x - t.xy[v, 0], y - t.xy[v, 1]
+        ux, uy = (m22 * dx - m12 * dy) / det, (m11 * dy - m12 * dx) / det
         l = math.sqrt(ux * ux + uy * uy)
-        if l > EASE_WITHIN:
+        if l >= EASE_WITHIN:
             continue
-        gx, gy = solve(m11, m12, m22, ux / l, uy / l)
+        if v != a and v != b:
+            if l < shortest:
+                shortest, nearest = l, v
+            if abs(l - 1.0) > EASY:
+                uneasy = True
+        i = 1.0 / (l * det)
+        gx, gy = (m22 * ux - m12 * uy) * i, (m11 * uy - m12 * ux) * i
         n11 += gx * gx
         n12 += gx * gy
         n22 += gy * gy
         g1 += gx * (1.0 - l)
         g2 += gy * (1.0 - l)
     det = n11 * n22 - n12 * n12
-    if det <= 1e-12 * n11 * n22:
-        return x, y
-    return x + (n22 * g1 - n12 * g2) / det, y + (n11 * g2 - n12 * g1) / det
+    if not uneasy or not det > 1e-12 * n11 * n22:
+        return nearest, 0.0, 0.0
+    return nearest, (n22 * g1 - n12 * g2) / det, (n11 * g2 - n12 * g1) / det
 
 
 @kernel
@@ -350,13 +341,11 @@ def _advance(p, background, a, b, forced):
     p.count[FITS] += 1
     rims, other = _open(p, a, b, x, y, h11, h12, h22)
     if rims > 0:
-        other, uneasy = _nearest(p, a, b, rims, x, y, h11, h12, h22, OVERLAP)
+        other, dx, dy = _survey(p, a, b, rims, x, y, h11, h12, h22, OVERLAP)
         if other == NIL:
-            if uneasy:
-                ex, ey = _eased(p, rims, x, y, h11, h12, h22)
-                if rim_visible(t, rims, ex, ey):
-                    x, y = ex, ey
-                    h11, h12, h22 = size_at(background, x, y)
+            if (dx != 0.0 or dy != 0.0) and rim_visible(t, rims, x + dx, y + dy):
+                x, y = x + dx, y + dy
+                h11, h12, h22 = size_at(background, x, y)
             p.radius[_place(p, a, b, rims, x, y, h11, h12, h22)] = close
             return True
     # pushing out: the support grows from (a, b) to the circle in the way (2.3.3)
@@ -367,7 +356,7 @@ def _advance(p, background, a, b, forced):
             if orient(ax, ay, bx, by, x, y) < 0.0:
                 rims, other = _open(p, a, b, x, y, h11, h12, h22)
                 if rims > 0:
-                    other, _ = _nearest(p, a, b, rims, x, y, h11, h12, h22, 0.9 * r)
+                    other, _, _ = _survey(p, a, b, rims, x, y, h11, h12, h22, 0.9 * r)
                     if other == NIL:
                         p.radius[_place(p, a, b, rims, x, y, h11, h12, h22)] = r
                         p.count[TANGENTS] += 1

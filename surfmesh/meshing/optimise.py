@@ -39,8 +39,8 @@ FEW = 4
 LEAST_FOR_DEGREE = 0.4
 """Worst alpha that a swap for the sake of degrees may leave to the smoothing that follows."""
 
-ROUNDS = 3
-FINAL_PASSES = 3
+ROUNDS = 2
+FINAL_PASSES = 2
 SWEEPS = 8
 
 BAD_SHAPE = 0.72
@@ -86,8 +86,10 @@ class Optimiser:
         self.frozen = np.empty(room, np.uint8)
         self.degree = np.empty(room, np.int32)
         self.active = np.ones(room, np.uint8)
+        self.dirty = np.ones(room, np.uint8)
+        self.stars_known = False
         self.moved = np.empty(room, np.int32)
-        self.shape = np.empty(len(t.tri) // 3)
+        self.shape = np.ones(len(t.tri) // 3)
         self.swaps = self.collapses = self.splits = self.passes = 0
         self._embed(np.arange(int(t.count[0]), dtype=np.int32))
         self.embedding.point[node] = self.embedding.point[same]  # equal to the last bit
@@ -97,9 +99,7 @@ class Optimiser:
         self._swap()
         for round_number in range(ROUNDS):
             self._smooth()
-            self.swaps += swap_for_degree(
-                self.t, self.embedding, self.frozen, self.degree, self.active, LEAST_FOR_DEGREE
-            )
+            self._swap_for_degree()
             self._smooth()
             self._swap()
             if round_number + 1 < ROUNDS:
@@ -132,8 +132,9 @@ class Optimiser:
         if chord is None:
             return 0
         limit = CHORD_MARGIN * chord
-        estimate_deviations(self.t, self.embedding, self.shape)
-        suspects = np.flatnonzero(self.shape[: self.t.count[1]] > SUSPECT * chord)
+        estimate = np.empty(int(self.t.count[1]))
+        estimate_deviations(self.t, self.embedding, estimate)
+        suspects = np.flatnonzero(estimate > SUSPECT * chord)
         far = 0
         for _ in range(CHORD_ROUNDS):
             error = self._deviations(suspects)
@@ -185,30 +186,48 @@ class Optimiser:
             embed(self.t, self.embedding, self.field.background, some, r, ru, rv, largest)
 
     def _find_stars(self) -> None:
-        find_stars(self.t, self.star, self.frozen, self.degree)
+        if not self.stars_known:
+            find_stars(self.t, self.star, self.frozen, self.degree)
+            self.stars_known = True
 
     def _smooth(self, stiffness: float = STIFFNESS) -> int:
         self._find_stars()
         moved = smooth(
             self.t, self.embedding, self.field.background,
-            self.star, self.frozen, self.active, stiffness, self.moved,
+            self.star, self.frozen, self.active, self.dirty, stiffness, self.moved,
         )  # fmt: skip
         self._embed(self.moved[:moved])
         self.passes += 1
         return moved
 
     def _swap(self) -> None:
-        self.swaps += swap_for_shape(self.t, self.embedding, self.shape, self.active, SWEEPS)
+        swaps = swap_for_shape(
+            self.t, self.embedding, self.shape, self.dirty, self.active, SWEEPS
+        )
+        self.stars_known = self.stars_known and swaps == 0
+        self.swaps += swaps
+
+    def _swap_for_degree(self) -> None:
+        self._find_stars()
+        swaps = swap_for_degree(
+            self.t, self.embedding, self.frozen, self.degree, self.dirty, self.active,
+            LEAST_FOR_DEGREE,
+        )  # fmt: skip
+        self.stars_known = self.stars_known and swaps == 0
+        self.swaps += swaps
 
     def _collapse(self) -> None:
         self._find_stars()
-        self.collapses += collapse_short(
-            self.t, self.embedding, self.star, self.frozen, self.degree, self.active,
-            SHORTEST, FEW,
+        collapses = collapse_short(
+            self.t, self.embedding, self.star, self.frozen, self.degree, self.dirty,
+            self.active, SHORTEST, FEW,
         )  # fmt: skip
+        self.stars_known = self.stars_known and collapses == 0
+        self.collapses += collapses
 
     def _split(self) -> None:
-        first = split_long(self.t, self.embedding, LONGEST, self.active)
+        first = split_long(self.t, self.embedding, LONGEST, self.dirty, self.active)
         new = np.arange(first, int(self.t.count[0]), dtype=np.int32)
         self._embed(new)
+        self.stars_known = self.stars_known and len(new) == 0
         self.splits += len(new)

@@ -112,6 +112,7 @@ class _Builder:
         self.normal = np.empty((0, 3))
         self.point = np.empty((0, 3))
         self.joined = np.empty((0, 2), np.int64)
+        self.graded = 0  # nodes that agree with their neighbours already
 
     def build(self) -> SizeField:
         cells = _Cells.roots(self.nx, self.ny)
@@ -207,7 +208,10 @@ class _Builder:
     # cells
 
     def _grade(self, patch: np.ndarray) -> None:
-        done = grade(patch, self.joined, self.point, self.slope, self.size, SWEEPS)
+        changed = np.zeros(len(self.size), np.int32)
+        changed[self.graded :] = 1
+        self.graded = len(self.size)
+        done = grade(patch, self.joined, self.point, self.slope, self.size, changed, SWEEPS)
         if done < 0:
             raise SizingError(f"the sizes on {self.surface.name!r} could not be graded")
 
