@@ -316,6 +316,34 @@ def shrink(t, s, triangles, error, chord_error, active):
 
 
 @kernel
+def find_folded(t, s, least, folded):
+    """Mark in ``folded`` (triangles,) those turned against the surface at one of their corners.
+
+    ``least``: cosine of the largest angle allowed between the normals. Returns how many.
+    """
+    count = 0
+    for k in range(t.count[1]):
+        folded[k] = 0
+        if t.region[k] == DEAD:
+            continue
+        a, b, c = t.tri[3 * k], t.tri[3 * k + 1], t.tri[3 * k + 2]
+        if _coincide(s, a, b) or _coincide(s, b, c) or _coincide(s, c, a):
+            continue
+        p = s.point
+        ux, uy, uz = p[b, 0] - p[a, 0], p[b, 1] - p[a, 1], p[b, 2] - p[a, 2]
+        vx, vy, vz = p[c, 0] - p[a, 0], p[c, 1] - p[a, 1], p[c, 2] - p[a, 2]
+        nx, ny, nz = uy * vz - uz * vy, uz * vx - ux * vz, ux * vy - uy * vx
+        area = math.sqrt(nx * nx + ny * ny + nz * nz)
+        for i in range(3):
+            m = s.normal[t.tri[3 * k + i]]
+            regular = m[0] != 0.0 or m[1] != 0.0 or m[2] != 0.0
+            if regular and nx * m[0] + ny * m[1] + nz * m[2] < least * area:
+                folded[k] = 1
+        count += folded[k]
+    return count
+
+
+@kernel
 def triangles_at(t, vertices, seen):
     """Mark in ``seen`` (triangles,) the triangles with a corner marked in ``vertices``."""
     for k in range(t.count[1]):

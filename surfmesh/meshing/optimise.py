@@ -15,6 +15,7 @@ from surfmesh.kernels.measure import tangent_plane_distances
 from surfmesh.kernels.optimisation import (
     collapse_short,
     estimate_deviations,
+    find_folded,
     find_stars,
     shrink,
     smooth,
@@ -26,6 +27,7 @@ from surfmesh.kernels.optimisation import (
 )
 from surfmesh.kernels.triangulation import Triangulation
 from surfmesh.sizing.size_field import SizeField
+from surfmesh.sizing.size_limits import SizeLimits
 
 STIFFNESS = 2.0
 """Weight of unit edges against good shapes: 1 gives better shapes, 4 better lengths."""
@@ -52,11 +54,18 @@ RESCUE_PASSES = 4
 SUSPECT = 0.7
 """Share of ``chord`` from which the estimate of a triangle's deviation is not trusted."""
 
-SAMPLES = np.array([(0.5, 0.5, 0.0), (0.0, 0.5, 0.5), (0.5, 0.0, 0.5), (1 / 3, 1 / 3, 1 / 3)])
+SAMPLES = np.array(
+    [(3, 3, 0), (0, 3, 3), (3, 0, 3), (2, 2, 2), (4, 1, 1), (1, 4, 1), (1, 1, 4)]
+) / 6.0
+"""Barycentric coordinates."""
+
+LEAST_COSINE = 0.35
+"""Of the angle between the normals of a triangle and of the surface at its corners."""
 
 CHORD_ROUNDS = 10
-CHORD_MARGIN = 0.97
-"""Between four samples of a triangle the deviation may be a little larger than at them."""
+CHORD_MARGIN, TOLERATED = 0.97, 0.99
+"""What is aimed at, and what is let pass rather than go all the way round again. Between the
+samples of a triangle the deviation may be a little larger than at them."""
 
 
 @dataclass(frozen=True)
@@ -67,8 +76,10 @@ class Changes:
     collapses: int
     splits: int
     passes: int
-    far: int
+    far: np.ndarray
     """Triangles still farther than ``chord`` from the surface."""
+    folded: np.ndarray
+    """Triangles turned far from the surface's normals."""
 
 
 class Optimiser:
@@ -111,7 +122,23 @@ class Optimiser:
         self._swap()
         self._rescue()
         far = self._approach()
-        return Changes(self.swaps, self.collapses, self.splits, self.passes, far)
+        return Changes(
+            self.swaps, self.collapses, self.splits, self.passes, far, self._folded()
+        )
+
+    def _folded(self) -> np.ndarray:
+        folded = np.empty(int(self.t.count[1]), np.uint8)
+        find_folded(self.t, self.embedding, LEAST_COSINE, folded)
+        return np.flatnonzero(folded)
+
+    def limits_at(self, triangles: np.ndarray, factor: float) -> SizeLimits:
+        """The sizes at the corners of ``triangles`` (n,), times ``factor``, as limits."""
+        corners = np.unique(self.t.tri.reshape(-1, 3)[triangles])
+        return SizeLimits(
+            self.embedding.point[corners],
+            factor * self.embedding.size[corners],
+            self.field.sizing.gradient,
+        )
 
     def _rescue(self) -> None:
         """Passes for the worst triangles alone."""
@@ -122,7 +149,7 @@ class Optimiser:
             self._smooth(SOFT)
             self._swap()
 
-    def _approach(self) -> int:
+    def _approach(self) -> np.ndarray:
         """Bring triangles that are too far from the surface nearer; returns those left.
 
         An estimate from the tangent planes picks the suspects, samples on the true surface
@@ -130,16 +157,14 @@ class Optimiser:
         """
         chord = self.field.sizing.chord
         if chord is None:
-            return 0
+            return np.empty(0, np.int64)
         limit = CHORD_MARGIN * chord
         estimate = np.empty(int(self.t.count[1]))
         estimate_deviations(self.t, self.embedding, estimate)
         suspects = np.flatnonzero(estimate > SUSPECT * chord)
-        far = 0
         for _ in range(CHORD_ROUNDS):
             error = self._deviations(suspects)
-            far = shrink(self.t, self.embedding, suspects, error, limit, self.active)
-            if far == 0:
+            if shrink(self.t, self.embedding, suspects, error, limit, self.active) == 0:
                 break
             before = self.t.tri[: 3 * self.t.count[1]].copy()
             changed = np.zeros(len(self.active), np.uint8)
@@ -154,10 +179,10 @@ class Optimiser:
             seen = np.empty(int(self.t.count[1]), np.uint8)
             triangles_at(self.t, changed, seen)
             suspects = np.union1d(np.flatnonzero(seen), suspects[error > limit])
-        return far
+        return suspects[self._deviations(suspects) > TOLERATED * chord]
 
     def _deviations(self, triangles: np.ndarray) -> np.ndarray:
-        """Largest distance from the surface at four samples of each of the triangles (n,)."""
+        """Largest distance from the surface at seven samples of each of the triangles (n,)."""
         corners = self.t.tri.reshape(-1, 3)[triangles]
         scaling = self.field.scaling
         error = np.zeros(len(triangles))

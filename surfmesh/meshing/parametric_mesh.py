@@ -1,12 +1,13 @@
 """One parametric surface, all stages: the spine of surfmesh.
 
     sides -> size field -> packing -> boundary -> optimisation -> space, joined sides glued
+      ^                                                              |
+      +---------- smaller sizes where the mesh is not right ---------+
 """
 
 import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
-from dataclasses import dataclass
 
 import numpy as np
 
@@ -16,9 +17,11 @@ from surfmesh.geometry.surface import Surface
 from surfmesh.kernels.background import scalar_sizes_at
 from surfmesh.meshing.boundary_loops import BoundaryLoops, boundary_loops
 from surfmesh.meshing.boundary_recovery import DomainMesh, recovered
+from surfmesh.meshing.gluing import Glued, glued, misglued
 from surfmesh.meshing.optimise import Optimiser
 from surfmesh.meshing.packing import packed
 from surfmesh.sizing.size_field import SizeField, size_field
+from surfmesh.sizing.size_limits import SizeLimits
 from surfmesh.sizing.sizing import Sizing
 from surfmesh.surface_mesh import SurfaceMesh
 
@@ -27,8 +30,117 @@ Progress = Callable[[str, float], None]
 
 _STAGES = {"sizing": 0.0, "packing": 0.2, "boundary": 0.4, "optimisation": 0.5, "mapping": 0.9}
 
+ROUNDS = 8
+"""How often the whole way is gone at most, each time with smaller sizes where it failed."""
 
-class Stopwatch:
+FINER = 0.6
+"""Factor on the sizes where the mesh is folded or badly glued."""
+
+
+def mesh_parametric(
+    surface: Surface, sizing: Sizing, optimise: bool = True, progress: Progress | None = None
+) -> SurfaceMesh:
+    """Mesh one surface over its (u, v) rectangle or inside its trimming loops.
+
+    Where the mesh is folded, badly glued, or farther from the surface than ``chord`` after the
+    optimiser has done what it can, the sizes are lowered and everything is done again. With
+    ``optimise=False`` only gluing is looked at. Raises ``SizingError``, ``SurfaceError`` or
+    ``MeshingError`` with the place and the reason.
+    """
+    watch = _Stopwatch(progress)
+    with watch.stage("sizing"):
+        sides = find_sides(surface)
+    limits: SizeLimits | None = None
+    for _ in range(ROUNDS):
+        with watch.stage("sizing"):
+            field = size_field(surface, sizing, sides, limits)
+        mesh, wishes, bad = _one_round(surface, sides, field, optimise, watch)
+        if wishes is None or not _can_shrink(field, wishes):
+            break
+        limits = wishes.joined_with(limits)
+    if len(bad):
+        place = ", ".join(f"{x:.6g}" for x in mesh.points[bad[0]])
+        raise MeshingError(
+            f"the sides of {surface.name!r} cannot be joined with sizes this coarse: an edge "
+            f"near ({place}) has more than two triangles; lower size, max_size or min_size"
+        )
+    return mesh
+
+
+def _one_round(
+    surface: Surface, sides: SideTopology, field: SizeField, optimise: bool, watch: "_Stopwatch"
+) -> tuple[SurfaceMesh, SizeLimits | None, np.ndarray]:
+    """The mesh for one size field; the smaller sizes it needs; points that are badly glued."""
+    with watch.stage("packing"):
+        width, height = field.scaling.extent
+        packing = packed(
+            field.background,
+            (0.0, 0.0, width, height),
+            (0.5 * width, 0.5 * height),
+            field.expected_vertices(),
+        )
+    with watch.stage("boundary"):
+        loops = boundary_loops(surface, sides, field)
+        domain = recovered(packing.t, loops, field, surface)
+        del packing
+    wishes: list[SizeLimits] = []
+    scale = np.ones(len(domain.t.xy))
+    if optimise:
+        with watch.stage("optimisation"):
+            same = domain.node[loops.identity]
+            optimiser = Optimiser(domain.t, domain.node, same, surface, field)
+            changes = optimiser.run()
+            scale = optimiser.embedding.scale
+            for triangles, factor in ((changes.far, 1.0), (changes.folded, FINER)):
+                if len(triangles):
+                    wishes.append(optimiser.limits_at(triangles, factor))
+            del optimiser
+    with watch.stage("mapping"):
+        mesh, parts = _in_space(surface, sides, field, loops, domain, scale, watch)
+        bad = np.empty(0, np.int64)
+        if (loops.identity != np.arange(len(loops.identity))).any():
+            bad = misglued(mesh, parts)
+            if len(bad):
+                sizes = FINER * mesh.sizes[bad]
+                wishes.append(SizeLimits(mesh.points[bad], sizes, field.sizing.gradient))
+    if not wishes:
+        return mesh, None, bad
+    wanted = wishes[0]
+    for more in wishes[1:]:
+        wanted = wanted.joined_with(more)
+    return mesh, wanted, bad
+
+
+def _in_space(
+    surface: Surface, sides: SideTopology, field: SizeField, loops: BoundaryLoops,
+    domain: DomainMesh, scale: np.ndarray, watch: "_Stopwatch",
+) -> tuple[SurfaceMesh, Glued]:  # fmt: skip
+    xy = domain.t.xy[: int(domain.t.count[0])]
+    uv = field.scaling.to_uv(xy)
+    uv[domain.node] = loops.uv  # to the last bit
+    parts = glued(surface, loops, domain, uv)
+    sizes = np.empty(len(parts.place))
+    scalar_sizes_at(field.background, xy[parts.place], sizes)
+    mesh = SurfaceMesh(
+        points=parts.points,
+        triangles=parts.triangles,
+        uv_points=parts.uv_points,
+        uv_triangles=parts.uv_triangles,
+        surfaces=(surface,),
+        sizes=sizes * scale[parts.place],
+        sizing=field.sizing,
+        seconds=watch.seconds,
+        one_sided=sides.one_sided and not surface.loops,
+    )
+    return mesh, parts
+
+
+def _can_shrink(field: SizeField, wishes: SizeLimits) -> bool:
+    """Is any wished size still allowed, or do all lie below ``min_size``?"""
+    return bool((wishes.sizes >= (field.sizing.min_size or 0.0)).any())
+
+
+class _Stopwatch:
     """Seconds per stage; tells the progress callback when a stage starts."""
 
     def __init__(self, progress: Progress | None) -> None:
@@ -43,85 +155,4 @@ class Stopwatch:
         try:
             yield
         finally:
-            self.seconds[name] = (
-                self.seconds.get(name, 0.0) + time.perf_counter() - start
-            )
-
-
-def mesh_parametric(
-    surface: Surface, sizing: Sizing, optimise: bool = True, progress: Progress | None = None
-) -> SurfaceMesh:
-    """Mesh one surface over its (u, v) rectangle or inside its trimming loops.
-
-    Raises ``SizingError``, ``SurfaceError`` or ``MeshingError`` with the place and the reason.
-    """
-    watch = Stopwatch(progress)
-    with watch.stage("sizing"):
-        sides = find_sides(surface)
-        field = size_field(surface, sizing, sides)
-    with watch.stage("packing"):
-        width, height = field.scaling.extent
-        packing = packed(
-            field.background,
-            (0.0, 0.0, width, height),
-            (0.5 * width, 0.5 * height),
-            field.expected_vertices(),
-        )
-    with watch.stage("boundary"):
-        loops = boundary_loops(surface, sides, field)
-        domain = recovered(packing.t, loops, field, surface)
-        del packing
-    if optimise:
-        with watch.stage("optimisation"):
-            same = domain.node[loops.identity]
-            Optimiser(domain.t, domain.node, same, surface, field).run()
-    with watch.stage("mapping"):
-        glued = _glued(surface, loops, domain, field)
-    return SurfaceMesh(
-        points=glued.points,
-        triangles=glued.triangles,
-        uv_points=glued.uv_points,
-        uv_triangles=glued.uv_triangles,
-        surfaces=(surface,),
-        sizes=glued.sizes,
-        sizing=field.sizing,
-        seconds=watch.seconds,
-        one_sided=sides.one_sided,
-    )
-
-
-@dataclass(frozen=True)
-class _Glued:
-    points: np.ndarray
-    triangles: np.ndarray
-    uv_points: np.ndarray
-    uv_triangles: np.ndarray
-    sizes: np.ndarray
-
-
-def _glued(
-    surface: Surface, loops: BoundaryLoops, domain: DomainMesh, field: SizeField
-) -> _Glued:
-    """Map to space and join what is one point there.
-
-    Triangles that a collapsed side turns into an edge are dropped. Raises ``MeshingError``
-    when gluing leaves an edge with more than two triangles: the sizes are too coarse there.
-    """
-    t = domain.t
-    vertices = int(t.count[0])
-    live = t.region[: t.count[1]] == 0
-    corners = t.tri[: 3 * t.count[1]].reshape(-1, 3)[live]
-    uv = field.scaling.to_uv(t.xy[:vertices])
-    uv[domain.node] = loops.uv  # to the last bit
-    same = np.arange(vertices)
-    same[domain.node] = domain.node[loops.identity]
-    used = np.zeros(vertices, bool)
-    used[same[corners.ravel()]] = True
-    number = np.cumsum(used) - 1
-    triangles = number[same[corners]].astype(np.int32)
-    a, b, c = triangles.T
-    solid = (a != b) & (b != c) & (c != a)
-    (points,) = surface.evaluate(uv[used], 0)
-    sizes = np.empty(int(used.sum()))
-    scalar_sizes_at(field.background, np.ascontiguousarray(t.xy[:vertices][used]), sizes)
-    return _Glued(points, triangles[solid], uv, corners[solid], sizes)
+            self.seconds[name] = self.seconds.get(name, 0.0) + time.perf_counter() - start

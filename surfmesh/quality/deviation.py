@@ -24,7 +24,7 @@ BLOCK = 1 << 15  # samples looked at together: the temporaries stay within the c
 SECOND_LOOK = 400  # triangles sampled densely, or one in 250 if that is more
 # barycentric weights of the seven-point rule (Zienkiewicz & Taylor, The Finite Element Method)
 VERTEX_WEIGHT, MIDDLE_WEIGHT, CENTROID_WEIGHT = 1 / 20, 2 / 15, 9 / 20
-STEPS = 4  # of the projection in the second look
+STEPS = 12  # of the projection, at most: where the speed along u changes fast, a guess is poor
 _MIDDLES = np.array([(0.5, 0.5, 0.0), (0.0, 0.5, 0.5), (0.5, 0.0, 0.5)])  # of sides 0, 1, 2
 _CENTROID = np.full((1, 3), 1 / 3)
 _GRID = 6  # subdivisions of a triangle's sides for the second look, its corners included
@@ -159,7 +159,7 @@ def _distances(
         better = np.hypot(again[:, 3], again[:, 4]) <= np.hypot(found[far, 3], found[far, 4])
         far = far[~((again[:, 4] <= NEAR_FOOT * reach[far]) & better)]
     if len(far):
-        distance[far] = closest_point(surface, points[far], uv[far])[1]
+        distance[far] = closest_point(surface, points[far], uv[far], STEPS)[1]
     return distance, found[:, :3]
 
 

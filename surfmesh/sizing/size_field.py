@@ -26,6 +26,7 @@ from surfmesh.geometry.surface import Surface
 from surfmesh.kernels.background import Background, sizes_at
 from surfmesh.kernels.gradation import grade, patch_errors
 from surfmesh.sizing.curvature_size import angle_size, chord_size
+from surfmesh.sizing.size_limits import SizeLimits
 from surfmesh.sizing.sizing import Sizing
 
 ROOT_CELLS = 2304
@@ -49,6 +50,9 @@ POLE_DISTANCE = 0.9
 DEFAULT_CHORD = 1e-3
 DEFAULT_MAX_SIZE = 0.1
 """Wishes that are not stated, relative to the diagonal of the bounding box."""
+
+DEFAULT_ANGLE = 45.0
+"""Degrees; kept wherever the size follows the curvature at all."""
 
 MAX_CELLS = 4_000_000
 SWEEPS = 400
@@ -83,18 +87,30 @@ class SizeField:
         return out
 
 
-def size_field(surface: Surface, sizing: Sizing, sides: SideTopology | None = None) -> SizeField:
+def size_field(
+    surface: Surface,
+    sizing: Sizing,
+    sides: SideTopology | None = None,
+    limits: SizeLimits | None = None,
+) -> SizeField:
     """Build the background for ``surface``; ``sides`` tells which sides are joined.
+
+    ``limits``: upper bounds of the size near points, from an earlier round.
 
     Raises ``SizingError`` when a size law gives something else than positive numbers, or when
     the wanted sizes need an unreasonable number of cells.
     """
-    builder = _Builder(surface, sizing, sides)
-    return builder.build()
+    return _Builder(surface, sizing, sides, limits).build()
 
 
 class _Builder:
-    def __init__(self, surface: Surface, sizing: Sizing, sides: SideTopology | None) -> None:
+    def __init__(
+        self,
+        surface: Surface,
+        sizing: Sizing,
+        sides: SideTopology | None,
+        limits: SizeLimits | None,
+    ) -> None:
         self.surface = surface
         self.sides = sides
         self.scaling = Scaling.of(surface)
@@ -102,7 +118,7 @@ class _Builder:
         self.nx = int(np.clip(round(np.sqrt(ROOT_CELLS * width / height)), 4, ROOT_CELLS // 4))
         self.ny = int(np.clip(round(ROOT_CELLS / self.nx), 4, ROOT_CELLS // 4))
         self.root_step = np.array([width / self.nx, height / self.ny])
-        self.law = _SizeLaw(surface, sizing, self.scaling)
+        self.law = _SizeLaw(surface, sizing, self.scaling, limits)
         self.slope = sizing.gradient
         # nodes, in order of creation; their keys also in sorted order
         self.keys = np.empty(0, np.int64)
@@ -321,7 +337,9 @@ def _root(forms: FundamentalForms, rates: np.ndarray) -> np.ndarray:
 class _SizeLaw:
     """The ungraded wish at points of one surface, with what the background stores there."""
 
-    def __init__(self, surface: Surface, sizing: Sizing, scaling: Scaling) -> None:
+    def __init__(
+        self, surface: Surface, sizing: Sizing, scaling: Scaling, limits: SizeLimits | None
+    ) -> None:
         self.surface, self.scaling = surface, scaling
         (u0, u1), (v0, v1) = surface.domain
         grid = np.linspace(0.0, 1.0, 17)
@@ -331,6 +349,7 @@ class _SizeLaw:
         if sizing.chord is None and sizing.angle is None and sizing.size is None:
             sizing = sizing.replaced(chord=DEFAULT_CHORD * self.diagonal)
         self.sizing = sizing
+        self.limits = limits
         coarsest = sizing.max_size or DEFAULT_MAX_SIZE * self.diagonal
         if isinstance(sizing.size, float):
             coarsest = min(coarsest, sizing.size) if sizing.max_size else sizing.size
@@ -346,8 +365,7 @@ class _SizeLaw:
         size = np.full(len(k1), np.inf)
         if self.sizing.chord is not None:
             size = np.minimum(size, chord_size(k1, k2, self.sizing.chord))
-        if self.sizing.angle is not None:
-            size = np.minimum(size, angle_size(k1, k2, self.sizing.angle))
+        size = np.minimum(size, angle_size(k1, k2, self.sizing.angle or DEFAULT_ANGLE))
         return np.clip(size, *self.clamp)
 
     def __call__(self, xy: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
@@ -371,6 +389,8 @@ class _SizeLaw:
                     + (f", smallest {np.nanmin(wish):g}" if wish.size else "")
                 )
             size = np.clip(np.minimum(size, wish), *self.clamp)
+        if self.limits is not None:
+            size = np.clip(np.minimum(size, self.limits(derivatives[0])), *self.clamp)
         return size, root, forms.normal, derivatives[0]
 
 

@@ -24,7 +24,8 @@ class Sizing:
     """Largest distance between mesh and surface, model units."""
 
     angle: float | None = None
-    """Largest angle between the normals of two triangles that share an edge, degrees."""
+    """Largest angle between the normals of two triangles that share an edge, degrees; 45 when
+    only ``chord`` is given: a coarser mesh would fold."""
 
     size: float | SizeLaw | None = None
     """Wanted edge length: a number, or a callable of points (n, 3) -> (n,)."""
