@@ -30,9 +30,9 @@ def places(seed, n):
 
 
 @settings(max_examples=20)
-@given(st.integers(0, 1000), st.sampled_from([1, 2, 4]), st.sampled_from([1, 2]), st.integers(0, 30))
-def test_walk_down_the_tree(seed, nx, ny, splits):
-    tree = random_tree(seed, nx, ny, splits)
+@given(st.integers(0, 1000), st.sampled_from([(1, 1), (4, 1), (2, 2)]), st.integers(0, 30))
+def test_walk_down_the_tree(seed, cells, splits):
+    tree = random_tree(seed, *cells, splits)
     xy = places(seed, 20)
     found, scalar = np.empty((len(xy), 3)), np.empty(len(xy))
     inverse_sizes_at(tree, xy, found)

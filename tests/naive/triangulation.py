@@ -3,9 +3,9 @@
 from collections import Counter
 
 import numpy as np
-from naive.exact import first_crossing, orient_signs
 from scipy.spatial import Delaunay
 
+from naive.exact import first_crossing, orient_signs
 from surfmesh.kernels import NIL
 from surfmesh.kernels.front import DONE
 from surfmesh.kernels.local_operations import DEAD
