@@ -45,9 +45,9 @@ class ProgressBar:
 
 def announce_compilation() -> None:
     """Say that kernels are about to be compiled, when none are kept from an earlier run."""
-    from surfmesh.kernels.jit import cache_folder
+    from surfmesh.kernels.jit import compiled_before
 
-    if not any(cache_folder().glob("*.nbi")):
+    if not compiled_before():
         print(
             "compiling the kernels; this happens once and takes about half a minute ...",
             file=sys.stderr,

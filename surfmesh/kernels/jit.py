@@ -6,7 +6,11 @@
   numba's own cache looks only at the file of the outermost function and would run stale
   code after an edit of a callee;
 - divisions follow numpy (no exception is raised inside a kernel; guard each division);
-- a callback announces the first compilation, so that the user knows what the wait is for.
+- array arguments are not reference-counted (``_nrt``): a kernel owns no memory, and counting
+  a dozen arrays at every call costs five times what the kernel does;
+
+``compiled_before`` tells whether the cache is filled, so that the user can be told what the
+first wait is for.
 """
 
 import hashlib
@@ -14,6 +18,7 @@ import os
 import sys
 from collections.abc import Callable
 from pathlib import Path
+from typing import ClassVar
 
 import numba
 from numba.core.caching import FunctionCache, _CacheLocator
@@ -70,18 +75,21 @@ class _DigestLocator(_CacheLocator):
 
 
 class _KernelCacheImpl(FunctionCache._impl_class):
-    _locator_classes = [_DigestLocator, *FunctionCache._impl_class._locator_classes]
+    _locator_classes: ClassVar = [_DigestLocator, *FunctionCache._impl_class._locator_classes]
 
 
 class _KernelCache(FunctionCache):
     _impl_class = _KernelCacheImpl
 
 
-def kernel(function: Callable | None = None, *, inline: bool = False) -> Callable:
+def compiled_before() -> bool:
+    """Whether kernels of these sources have been compiled on this machine."""
+    return any(cache_folder().glob("*.nbi"))
+
+
+def kernel(function: Callable) -> Callable:
     """Compile ``function`` in nopython mode, cached on disk; see the module's docstring."""
-    if function is None:
-        return lambda f: kernel(f, inline=inline)
-    options = {"error_model": "numpy", "inline": "always" if inline else "never", "_nrt": False}
+    options = {"error_model": "numpy", "_nrt": False}
     dispatcher = numba.njit(**options)(function)
     if hasattr(dispatcher, "_cache"):  # a plain function under NUMBA_DISABLE_JIT
         dispatcher._cache = _KernelCache(function)

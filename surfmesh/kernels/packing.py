@@ -64,23 +64,18 @@ WANTED, PARKED, STEPS, FITS, TANGENTS, CLOSED, FORCED, MOVES = range(8)
 
 
 @kernel
-def _key(p, a, b):
-    """Nearest to the origin first (2.2): distance of the edge's middle, in the key metric."""
-    x = 0.5 * (p.t.xy[a, 0] + p.t.xy[b, 0]) - p.where[0]
-    y = 0.5 * (p.t.xy[a, 1] + p.t.xy[b, 1]) - p.where[1]
-    return p.where[6] * x * x + 2.0 * p.where[7] * x * y + p.where[8] * y * y
+def _queue(heap, xy, where, a, b):
+    """Nearest to the origin first (2.2): by the middle of the edge, in the key metric."""
+    x = 0.5 * (xy[a, 0] + xy[b, 0]) - where[0]
+    y = 0.5 * (xy[a, 1] + xy[b, 1]) - where[1]
+    push(heap, where[6] * x * x + 2.0 * where[7] * x * y + where[8] * y * y, a, b)
 
 
 @kernel
-def _queue(p, a, b):
-    push(p.heap, _key(p, a, b), a, b)
-
-
-@kernel
-def _meets_box(p, a, b):
+def _meets_box(xy, where, a, b):
     """Does the segment ab meet the box? (separating axes)"""
-    ax, ay, bx, by = p.t.xy[a, 0], p.t.xy[a, 1], p.t.xy[b, 0], p.t.xy[b, 1]
-    x0, y0, x1, y1 = p.where[2], p.where[3], p.where[4], p.where[5]
+    ax, ay, bx, by = xy[a, 0], xy[a, 1], xy[b, 0], xy[b, 1]
+    x0, y0, x1, y1 = where[2], where[3], where[4], where[5]
     if max(ax, bx) < x0 or min(ax, bx) > x1 or max(ay, by) < y0 or min(ay, by) > y1:
         return False
     nx, ny = by - ay, ax - bx
@@ -100,13 +95,12 @@ def _apex(h11, h12, h22, dx, dy):
 
 
 @kernel
-def fit_to_two(p, background, a, b):
+def fit_to_two(xy, size, count, background, a, b):
     """The circle that touches those of a and b, right of a -> b (2.3.2).
 
     Its size depends on where it ends up: Newton on (l(P, a), l(P, b)) = (1, 1), the size
     read again at each step. Returns x, y, its size tensor and beta1 beta2.
     """
-    xy, size = p.t.xy, p.t.size
     ax, ay, bx, by = xy[a, 0], xy[a, 1], xy[b, 0], xy[b, 1]
     a11, a12, a22 = size[a, 0], size[a, 1], size[a, 2]
     b11, b12, b22 = size[b, 0], size[b, 1], size[b, 2]
@@ -120,7 +114,7 @@ def fit_to_two(p, background, a, b):
     best_11, best_12, best_22 = a11, a12, a22
     for step in range(FIT_STEPS):
         h11, h12, h22 = size_at(background, x, y)
-        p.count[STEPS] += 1
+        count[STEPS] += 1
         m11, m12, m22 = 0.5 * (h11 + a11), 0.5 * (h12 + a12), 0.5 * (h22 + a22)
         ux, uy = solve(m11, m12, m22, x - ax, y - ay)
         la = math.sqrt(ux * ux + uy * uy)
@@ -148,13 +142,12 @@ def fit_to_two(p, background, a, b):
 
 
 @kernel
-def fit_to_three(p, background, a, b, c, x, y):
+def fit_to_three(xy, size, count, background, a, b, c, x, y):
     """The circle that touches those of a, b and c (2.3.3), sought from (x, y).
 
     Newton on l(P, a) = l(P, b) = l(P, c) = r. Returns x, y, the size tensor there and r (the
     radius got is 2 r - 1 times the wanted one when the others keep theirs), or r = 0.
     """
-    xy, size = p.t.xy, p.t.size
     r = 0.0
     h11, h12, h22 = size_at(background, x, y)
     for _ in range(FIT_STEPS):
@@ -186,18 +179,17 @@ def fit_to_three(p, background, a, b, c, x, y):
         x += (m11 * (lb - la) - m01 * (lc - la)) / det
         y += (m00 * (lc - la) - m10 * (lb - la)) / det
         h11, h12, h22 = size_at(background, x, y)
-        p.count[STEPS] += 1
+        count[STEPS] += 1
     return x, y, h11, h12, h22, 0.0
 
 
 @kernel
-def _open(p, a, b, x, y, h11, h12, h22):
+def _open(t, front, a, b, x, y, h11, h12, h22):
     """Open the cavity of a circle at (x, y) on the front edge a -> b.
 
     Returns (half-edges on its rim, NIL), or (0, the circle that is in the way).
     """
-    t = p.t
-    e = t.adj[p.front.edge[a]]
+    e = t.adj[front.edge[a]]
     start, barrier = locate(t, e, x, y, True)
     if barrier != NIL:
         v = t.tri[barrier]
@@ -209,7 +201,7 @@ def _open(p, a, b, x, y, h11, h12, h22):
 
 
 @kernel
-def _survey(p, a, b, rims, x, y, h11, h12, h22, reach):
+def _survey(t, a, b, rims, x, y, h11, h12, h22, reach):
     """Look at the circles on the rim around a circle at (x, y).
 
     Returns the nearest one below ``reach`` (not a or b), or NIL; and the step to the place
@@ -217,7 +209,6 @@ def _survey(p, a, b, rims, x, y, h11, h12, h22, reach):
     circles of the front there is seldom room for exactly one more: one Gauss-Newton step on
     the sum of (l - 1)^2 over the neighbours shares the misfit.
     """
-    t = p.t
     nearest, shortest, uneasy = NIL, reach, False
     n11 = n12 = n22 = g1 = g2 = 0.0
     for k in range(rims):
@@ -263,20 +254,19 @@ def _place(p, a, b, rims, x, y, h11, h12, h22):
     t.region[done // 3] = DONE
     link(p.front, a, v, next_half_edge(done))
     link(p.front, v, b, prev_half_edge(done))
-    _queue(p, a, v)
-    _queue(p, v, b)
-    _settle(p, done)
+    _queue(p.heap, p.t.xy, p.where, a, v)
+    _queue(p.heap, p.t.xy, p.where, v, b)
+    _settle(t, p.front, done)
     return v
 
 
 @kernel
-def _settle(p, e):
+def _settle(t, front, e):
     """Swap the done edge e if that betters the worse of its two triangles.
 
     The polygon between the circles is triangulated as it is left over; a swap with what was
     done before chooses the better of the two diagonals, as soon as both are known.
     """
-    t, front = p.t, p.front
     f = t.adj[e]
     if t.region[e // 3] != DONE or t.region[f // 3] != DONE:
         return
@@ -307,20 +297,20 @@ def _close(p, a, b):
         t.region[e // 3] = DONE
         link(front, a, apex, next_half_edge(e))
         unlink(front, b)
-        _queue(p, a, apex)
+        _queue(p.heap, p.t.xy, p.where, a, apex)
     elif apex == front.prev[a]:
         t.region[e // 3] = DONE
         link(front, apex, b, prev_half_edge(e))
         unlink(front, a)
-        _queue(p, apex, b)
+        _queue(p.heap, p.t.xy, p.where, apex, b)
     else:
         return False
     p.count[CLOSED] += 1
     f = next_half_edge(e)
     g = prev_half_edge(e)
-    _settle(p, e)
-    _settle(p, f)
-    _settle(p, g)
+    _settle(t, front, e)
+    _settle(t, front, f)
+    _settle(t, front, g)
     return True
 
 
@@ -337,11 +327,11 @@ def _advance(p, background, a, b, forced):
         elif apex == front.prev[a]:
             if forced or edge_length(t.xy, t.size, apex, b) < CLOSE_BELOW:
                 return _close(p, a, b)
-    x, y, h11, h12, h22, close = fit_to_two(p, background, a, b)
+    x, y, h11, h12, h22, close = fit_to_two(t.xy, t.size, p.count, background, a, b)
     p.count[FITS] += 1
-    rims, other = _open(p, a, b, x, y, h11, h12, h22)
+    rims, other = _open(t, front, a, b, x, y, h11, h12, h22)
     if rims > 0:
-        other, dx, dy = _survey(p, a, b, rims, x, y, h11, h12, h22, OVERLAP)
+        other, dx, dy = _survey(t, a, b, rims, x, y, h11, h12, h22, OVERLAP)
         if other == NIL:
             if (dx != 0.0 or dy != 0.0) and rim_visible(t, rims, x + dx, y + dy):
                 x, y = x + dx, y + dy
@@ -350,13 +340,15 @@ def _advance(p, background, a, b, forced):
             return True
     # pushing out: the support grows from (a, b) to the circle in the way (2.3.3)
     if other != NIL and other != a and other != b:
-        x, y, h11, h12, h22, r = fit_to_three(p, background, a, b, other, x, y)
+        x, y, h11, h12, h22, r = fit_to_three(
+            t.xy, t.size, p.count, background, a, b, other, x, y
+        )
         if TANGENT_RANGE[0] < r < TANGENT_RANGE[1]:
             ax, ay, bx, by = t.xy[a, 0], t.xy[a, 1], t.xy[b, 0], t.xy[b, 1]
             if orient(ax, ay, bx, by, x, y) < 0.0:
-                rims, other = _open(p, a, b, x, y, h11, h12, h22)
+                rims, other = _open(t, front, a, b, x, y, h11, h12, h22)
                 if rims > 0:
-                    other, _, _ = _survey(p, a, b, rims, x, y, h11, h12, h22, 0.9 * r)
+                    other, _, _ = _survey(t, a, b, rims, x, y, h11, h12, h22, 0.9 * r)
                     if other == NIL:
                         p.radius[_place(p, a, b, rims, x, y, h11, h12, h22)] = r
                         p.count[TANGENTS] += 1
@@ -399,7 +391,7 @@ def start_packing(p, background):
     for k in range(1, 4):
         t.region[k] = TODO
     for k in range(3):
-        _queue(p, k, (k + 1) % 3)
+        _queue(p.heap, p.t.xy, p.where, k, (k + 1) % 3)
     return FINISHED
 
 
@@ -423,12 +415,12 @@ def pack(p, background):
             for k in range(waiting):
                 a, b = p.parked[k, 0], p.parked[k, 1]
                 if front.next[a] == b:
-                    _queue(p, a, b)
+                    _queue(p.heap, p.t.xy, p.where, a, b)
             continue
         if t.count[0] >= room or heap.count[0] + 3 >= len(heap.key):
             return FULL
         _, a, b = pop(heap)
-        if front.next[a] != b or not _meets_box(p, a, b):
+        if front.next[a] != b or not _meets_box(t.xy, p.where, a, b):
             continue
         if _advance(p, background, a, b, forced):
             count[MOVES] += 1

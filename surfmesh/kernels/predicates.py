@@ -1,8 +1,8 @@
 """Exact orientation of three points: the one judge of every topological decision.
 
 A floating-point filter settles almost every case; what it cannot settle is computed exactly
-with error-free additions (J.R. Shewchuk, Adaptive precision floating-point arithmetic and fast robust
-geometric predicates, Discrete & Computational Geometry 18, 1997).
+with error-free additions (J.R. Shewchuk, Adaptive precision floating-point arithmetic and fast
+robust geometric predicates, Discrete & Computational Geometry 18, 1997).
 """
 
 from surfmesh.kernels.jit import kernel

@@ -93,7 +93,8 @@ def locate(t, start, x, y, stop):
             return e // 3, e
         e = t.adj[e]
     dice = 12345
-    for _ in range(WALK_LIMIT):  # the point is on the left of e = (dice * 1103515245 + 12345) & 0x7FFFFFFF
+    for _ in range(WALK_LIMIT):  # the point is on the left of e
+        dice = (dice * 1103515245 + 12345) & 0x7FFFFFFF
         onward = NIL
         f = next_half_edge(e) if dice & 0x10000 else prev_half_edge(e)
         for k in range(2):

@@ -83,7 +83,7 @@ def _with_room(t: Triangulation, nodes: int) -> Triangulation:
 def _cut_out(t: Triangulation, vertex: np.ndarray) -> DomainMesh:
     triangle_number = np.empty(t.count[1], np.int32)
     vertex_number = np.empty(t.count[0], np.int32)
-    triangles, vertices = number_inside(t, INSIDE, triangle_number, vertex_number)
+    _, vertices = number_inside(t, INSIDE, triangle_number, vertex_number)
     room = vertices + vertices // 16 + 64
     out = empty_triangulation(room)
     out = out._replace(fixed=np.zeros(len(out.tri), np.uint8))
