@@ -1,0 +1,228 @@
+"""The figures of meshing parametric surfaces, other meshers beside them. One command:
+
+    python benchmarks/parametric.py [--quick] [--json PATH] [--surface NAME|FILE ...]
+                                    [--sizes 10000 100000 1000000] [--growth 1.15] [--no-gmsh]
+
+Everything runs on a single thread. A: meshes of wanted counts. B: other meshers. C: raw meshes
+beside the paper's Table 2. D: accuracy of the size field. E: seconds to the first mesh. Exits
+with 1 when a wanted figure is missed.
+"""
+
+import single_thread  # noqa: F401  (before numpy)
+
+import argparse
+import json
+import platform
+import sys
+from pathlib import Path
+
+import field_accuracy
+import measures
+import memory
+import numpy as np
+import peers
+import raw_figures
+import start_up
+import wanted
+from tables import heading, note, show
+from target_count import diagonal, sizing_for
+
+import surfmesh as sm
+
+SURFACES = ["wavy", "two_peaks"]
+SIZES = [10_000, 100_000, 1_000_000]
+QUICK_SIZES = [10_000]
+REPEATS = {50_000: 5, 300_000: 3}  # up to so many triangles; one run above
+PEER_MOST = 150_000  # triangles
+PEER_SECONDS = 120.0  # a size is left out when the one before foretells more
+PEER_TIMEOUT = 400.0  # the clock of the process: sizes asked for point by point are slow
+
+
+def main() -> int:
+    options = _options()
+    sizes = sorted(options.sizes or (QUICK_SIZES if options.quick else SIZES))
+    names = options.surface or SURFACES
+    results = {"machine": _machine(), "growth": options.growth, "surfaces": {}}
+    _warm_up()
+    missed = 0
+    for name in names:
+        missed += _meshes(name, sizes, options, results["surfaces"].setdefault(name, {}))
+    missed += _raw(names, options, results)
+    missed += _field(names, options, results)
+    missed += _start(results)
+    results["missed"] = missed
+    note("")
+    note("every wanted figure is met" if not missed else f"{missed} wanted figures are missed")
+    if options.json:
+        Path(options.json).write_text(json.dumps(results, indent=2) + "\n")
+        note(f"written to {options.json}")
+    return 1 if missed else 0
+
+
+def _options() -> argparse.Namespace:
+    parser = argparse.ArgumentParser(
+        description="The figures of meshing parametric surfaces.",
+        epilog=f"default surfaces: {' '.join(SURFACES)}; default sizes: {SIZES}",
+    )
+    parser.add_argument("--quick", action="store_true", help=f"sizes {QUICK_SIZES} only")
+    parser.add_argument("--json", metavar="PATH", help="write everything as one JSON object")
+    parser.add_argument("--surface", nargs="+", metavar="NAME|FILE", help="gallery or .toml file")
+    parser.add_argument("--sizes", nargs="+", type=int, metavar="N", help="triangles wanted")
+    parser.add_argument("--growth", type=float, default=1.15, help="of the sizes, default 1.15")
+    parser.add_argument("--no-gmsh", action="store_true", help="leave other meshers out")
+    return parser.parse_args()
+
+
+def _machine() -> dict:
+    return {
+        "python": platform.python_version(),
+        "numpy": np.__version__,
+        "surfmesh": sm.__version__,
+        "processor": platform.processor() or platform.machine(),
+        "threads": 1,
+    }
+
+
+def _warm_up() -> None:
+    """All kernels compiled or loaded, SymPy imported."""
+    for optimise in (True, False):
+        sm.check(sm.mesh(sm.load("two_peaks"), sm.Sizing(chord=0.02), optimise=optimise))
+
+
+# A and B
+
+
+def _meshes(name: str, sizes: list[int], options: argparse.Namespace, found: dict) -> int:
+    surface = sm.load(name)
+    found["meshes"], found["peers"] = {}, {}
+    start = None
+    for size in sizes:
+        sizing = sizing_for(surface, size, options.growth, start=start)
+        start = sizing, size
+        repeats = next((r for most, r in REPEATS.items() if size <= most), 1)
+        row = measures.measured(name, sizing, repeats)
+        row["sizing"] = sizing
+        row["packing_triangles_a_second"] = measures.packing_rate(name, sizing, repeats)
+        row |= memory.bytes_a_triangle(name, sizing, diagonal(surface))
+        found["meshes"][size] = row
+    heading(f"A. {name}: formulas to checked mesh, growth {options.growth:g}")
+    for size, row in found["meshes"].items():
+        note(f"{size:,}: {_sizing_text(row['sizing'], diagonal(surface))}")
+    missed = show(wanted.MESH, {f"{size:,}": row for size, row in found["meshes"].items()})
+    for size, row in found["meshes"].items():
+        stages = ", ".join(f"{k} {v:.3f}" for k, v in row["seconds_by_stage"].items())
+        note(f"{size:,}: seconds {stages} (fastest of {row['repeats']})")
+        worst = row["worst"]
+        note(
+            f"{size:,}: of the {worst['of']} worst triangles {worst['at_boundary']} touch the "
+            f"boundary, {worst['near_sides']} lie within 2 % of a side; the worst is at (u, v) "
+            f"= ({worst['uv'][0]:g}, {worst['uv'][1]:g})"
+        )
+        for text in [*row["problem_texts"], *filter(None, [row.get("error")])]:
+            note(f"{size:,}: {text}")
+    missed += _speed(found)
+    if not options.no_gmsh:
+        _peers(name, found)
+    return missed
+
+
+def _sizing_text(sizing: dict, extent: float) -> str:
+    (wish, value), *others = sizing.items()
+    rest = "".join(f", {name} {other:g}" for name, other in others)
+    return f"{wish} {value:g} ({value / extent:.2g} of the diagonal){rest}"
+
+
+def _speed(found: dict) -> int:
+    """Speed at the size that counts, and how time grows with the count."""
+    rows, columns = {}, {}
+    meshes = found["meshes"]
+    near = [row for size, row in meshes.items() if abs(size / wanted.SPEED_AT - 1) < 0.2]
+    if near:
+        rows["speed"] = wanted.Wanted(
+            f"triangles a second at {wanted.SPEED_AT:,}", least=wanted.SPEED.least, digits=0
+        )
+        columns["speed"] = near[0]["triangles_a_second"]
+    if len(meshes) > 1:
+        logs = np.log([[row["triangles"], row["seconds_total"]] for row in meshes.values()])
+        found["exponent"] = float(np.polyfit(*logs.T, 1)[0])
+        rows["exponent"] = wanted.EXPONENT
+        columns["exponent"] = found["exponent"]
+    return show(rows, {"": columns}) if rows else 0
+
+
+def _peers(name: str, found: dict) -> None:
+    rows = {key: row for key, row in wanted.MESH.items() if key in PEER_ROWS}
+    foretold = dict.fromkeys(peers.MESHERS, 0.0)
+    for size, ours in found["meshes"].items():
+        if size > PEER_MOST:
+            continue
+        others = {}
+        for mesher in peers.MESHERS:
+            if foretold[mesher] * size > PEER_SECONDS:
+                others[mesher] = {"error": f"would take over {PEER_SECONDS:.0f} s"}
+                continue
+            others[mesher] = peers.peer(
+                mesher, name, ours["sizing"], ours["triangles"], PEER_TIMEOUT
+            )
+            foretold[mesher] = others[mesher].get("seconds_total", PEER_TIMEOUT) / size
+        found["peers"][size] = others
+        heading(f"B. {name}: other meshers, the same wanted sizes")
+        note(_sizing_text(ours["sizing"], diagonal(sm.load(name))))
+        show(rows, {"surfmesh": ours}, others)
+        for mesher, row in others.items():
+            if "error" in row:
+                note(f"{mesher}: {row['error']}")
+
+
+PEER_ROWS = (
+    "triangles", "alpha_mean", "alpha_p01", "alpha_min", "quasi_unit_share", "inverted", "folded",
+    "deviation_over_chord", "above_chord", "seconds_total", "triangles_a_second",
+)  # fmt: skip
+
+
+# C, D, E
+
+
+def _raw(names: list[str], options: argparse.Namespace, results: dict) -> int:
+    results["raw"], missed = {}, 0
+    for name in (name for name in names if name in raw_figures.NODES):
+        found = raw_figures.raw_figures(name, options.growth)
+        results["raw"][name] = found
+        heading(f"C. {name}: raw mesh (optimise=False) beside Table 2 of the paper")
+        note(_sizing_text(found["sizing"], diagonal(sm.load(name))))
+        paper = {"paper": raw_figures.PAPER[name]}
+        missed += show(raw_figures.wanted(name), {"surfmesh": found}, paper)
+        note("Avg1 of the circles: got over wanted radius as each was placed, the paper's words;")
+        note("by the edges: half the mean metric length to the neighbours in the raw mesh.")
+    return missed
+
+
+def _field(names: list[str], options: argparse.Namespace, results: dict) -> int:
+    surfaces = [sm.load(name) for name in names] + [field_accuracy.bump()]
+    results["field"] = {}
+    columns = {}
+    for surface in surfaces:
+        found = field_accuracy.field_accuracy(surface, options.growth)
+        results["field"][surface.name] = found
+        columns[surface.name] = found
+    heading("D. interpolated size tensor against the exact one, where gradation is inactive")
+    missed = show(wanted.FIELD, columns)
+    for name, found in columns.items():
+        if "error" in found:
+            note(f"{name}: {found['error']}")
+        else:
+            note(
+                f"{name}: {found['compared']:,} of {found['sampled']:,} random points compared; "
+                f"largest at (u, v) = ({found['uv'][0]:.6g}, {found['uv'][1]:.6g})"
+            )
+    return missed
+
+
+def _start(results: dict) -> int:
+    results["start_up"] = start_up.start_up()
+    heading("E. start-up, each in a fresh process")
+    return show(wanted.START, {"seconds": results["start_up"]})
+
+
+if __name__ == "__main__":
+    sys.exit(main())
