@@ -1,0 +1,68 @@
+"""What a user may ask for, and what is refused, with the reason."""
+
+import math
+
+import numpy as np
+import pytest
+
+from surfmesh.errors import SizingError
+from surfmesh.sizing.sizing import Sizing
+
+REFUSED = {
+    "chord": (dict(chord=0.0), "chord must be a positive number, not 0"),
+    "negative": (dict(angle=-3), "angle must be a positive number, not -3"),
+    "text": (dict(min_size="small"), "min_size must be a positive number, not 'small'"),
+    "nan": (dict(max_size=math.nan), "max_size must be a positive number, not nan"),
+    "infinite": (dict(size=math.inf), "size must be a positive number, not inf"),
+    "list": (dict(chord=[1]), r"chord must be a positive number, not \[1\]"),
+    "growth of 1": (dict(growth=1.0), "growth must be above 1, not 1"),
+    "growth": (dict(growth=None), "growth must be a positive number, not None"),
+    "anisotropy": (dict(anisotropy=2.0), "anisotropy other than 1 is not supported"),
+    "sources": (dict(sources=(1,)), "sources are not supported"),
+    "angle": (dict(angle=91), "angle must be at most 90 degrees, not 91"),
+    "order": (dict(min_size=2, max_size=1), "min_size 2 is larger than max_size 1"),
+    "below": (dict(size=1, min_size=2), "size 1 is below min_size 2"),
+    "above": (dict(size=3, max_size=2), "size 3 is above max_size 2"),
+}
+
+
+@pytest.mark.parametrize("case", REFUSED)
+def test_refused(case):
+    wishes, message = REFUSED[case]
+    with pytest.raises(SizingError, match=message) as error:
+        Sizing(**wishes)
+    assert isinstance(error.value, ValueError)
+
+
+def test_numbers_of_any_type_become_floats():
+    sizing = Sizing(chord=np.float32(0.5), size=2, max_size=np.int64(7))
+    assert (sizing.chord, sizing.size, sizing.max_size) == (0.5, 2.0, 7.0)
+    assert all(type(x) is float for x in (sizing.chord, sizing.size, sizing.max_size))
+
+
+def test_of():
+    sizing = Sizing(chord=0.1)
+    assert Sizing.of(sizing) is sizing
+    assert Sizing.of(None) == Sizing()
+    assert Sizing.of(3) == Sizing(size=3.0)
+    assert Sizing.of({"chord": 0.1, "growth": 2}) == Sizing(chord=0.1, growth=2.0)
+    assert Sizing.of(abs).size is abs
+    with pytest.raises(SizingError, match=r"unknown size option 'chrod'; known: .*'chord'"):
+        Sizing.of({"chrod": 1})
+    with pytest.raises(SizingError, match="sizes are a number, a Sizing or a mapping, not str"):
+        Sizing.of("0.1")
+
+
+def test_gradient_is_that_of_touching_circles():
+    growth = 1.3
+    slope = Sizing(growth=growth).gradient
+    h = 1.0
+    distance = (h + growth * h) / 2
+    assert h + slope * distance == pytest.approx(growth * h)
+
+
+def test_options_cannot_be_changed():
+    sizing = Sizing(chord=0.1)
+    with pytest.raises(AttributeError):
+        sizing.chord = 0.2
+    assert sizing.replaced(chord=0.2).chord == 0.2 and sizing.chord == 0.1
