@@ -3,23 +3,27 @@
 Exact: I(u, v) from the derivatives, h from the principal curvatures, both at the point itself.
 Gradation only lowers sizes, by the slope that ``growth`` allows. A point is compared when no
 other point could lower its size, even in a straight line through space: h(p) <= h(q) + slope
-|p - q| for all q of a cloud as dense as the mesh itself. The error is the largest relative one
-over all directions: of the generalised eigenvalues of the two metrics.
+|p - q| for all q of a cloud as dense as the mesh itself, and of rings about p. Nor is a point
+compared so near to a pole that its circle in (u, v) is larger than the domain. The error is the
+largest relative one over all directions: of the generalised eigenvalues of the two metrics.
 """
 
 import numpy as np
+from measures import field_of
+from target_count import sizing_for
 
 import surfmesh as sm
-from measures import field_of
 from surfmesh.geometry.fundamental_forms import curvatures, forms_from_derivatives
 from surfmesh.geometry.surface import Surface
 from surfmesh.sizing.curvature_size import angle_size, chord_size
 from surfmesh.sizing.size_field import DEFAULT_ANGLE, DEFAULT_MAX_SIZE
-from target_count import sizing_for
 
 POINTS = 10_000
 CLOUD_TRIANGLES = 10_000
 BLOCK = 500
+SPOKES = 24
+RINGS = (0.001, 0.01, 0.05, 0.1, 0.2, 0.4, 0.6, 0.8, 1.0, 1.25, 1.5, 1.75, 2.0, 2.5, 3.0, 4.0)
+"""Edge lengths from a point at which it is looked whether gradation comes from there."""
 
 BUMP = "bump of width 1/1000"
 
@@ -68,6 +72,9 @@ def field_accuracy(surface: Surface, growth: float, seed: int = 7) -> dict:
             point[decided], size[decided], cloud_point, cloud_size, sm.Sizing(**sizing).gradient
         )
     ]
+    decided = decided[
+        _steady(surface, uv[decided], point[decided], size[decided], metric[decided], sizing)
+    ]
     if not len(decided):
         return {"error": "gradation decides everywhere"}
     error = _errors(field, uv[decided], metric[decided])
@@ -114,6 +121,22 @@ def _undisturbed(point, size, cloud_point, cloud_size, slope) -> np.ndarray:
     return found
 
 
+def _steady(surface, uv, point, size, metric, sizing) -> np.ndarray:
+    """(n,) bool: nor could any point of the rings of ``RINGS`` edge lengths."""
+    slope = sm.Sizing(**sizing).gradient
+    lo, hi = np.array(surface.domain).T
+    # columns of M^(-1/2) up to a rotation: steps of metric length one
+    step = np.linalg.inv(np.linalg.cholesky(metric[:, [[0, 1], [1, 2]]])).transpose(0, 2, 1)
+    steady = np.ones(len(uv), bool)
+    for angle in 2.0 * np.pi * np.arange(SPOKES) / SPOKES:
+        for ring in RINGS:
+            near = np.clip(uv + ring * step @ np.array([np.cos(angle), np.sin(angle)]), lo, hi)
+            near_size, _, near_point, regular = _exact(surface, near, sizing)
+            reach = near_size + slope * np.linalg.norm(near_point - point, axis=1)
+            steady &= ~regular | (size <= reach * (1.0 + 1e-9))
+    return steady
+
+
 def _errors(field, uv: np.ndarray, metric: np.ndarray) -> np.ndarray:
     """Largest relative error over all directions of the length that counts as one."""
     xy = np.ascontiguousarray(field.scaling.to_plane(uv))
@@ -122,5 +145,9 @@ def _errors(field, uv: np.ndarray, metric: np.ndarray) -> np.ndarray:
     a = np.linalg.inv(h[:, [[0, 1], [1, 2]]])
     found = a @ a  # M = H^-2 in the scaled plane
     exact = metric[:, [[0, 1], [1, 2]]] * rates[:, :, None] * rates[:, None, :]
+    fits = 1.0 / np.sqrt(np.linalg.eigvalsh(exact)[:, 0]) < field.scaling.extent.max()
+    exact, found = exact[fits], found[fits]
     ratio = np.linalg.eigvals(np.linalg.solve(exact, found)).real
-    return np.abs(1.0 / np.sqrt(ratio) - 1.0).max(axis=1)
+    error = np.zeros(len(uv))
+    error[fits] = np.abs(1.0 / np.sqrt(ratio) - 1.0).max(axis=1)
+    return error

@@ -5,6 +5,7 @@ The interpreter's own: resident memory after the imports and a tiny mesh of the 
 
 import single_thread  # noqa: F401  (before numpy)
 
+# isort: split
 import resource
 import sys
 from pathlib import Path

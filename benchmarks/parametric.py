@@ -10,6 +10,7 @@ with 1 when a wanted figure is missed.
 
 import single_thread  # noqa: F401  (before numpy)
 
+# isort: split
 import argparse
 import json
 import platform

@@ -11,6 +11,7 @@ point by point; the seconds spent in answering are taken off its time.
 
 import single_thread  # noqa: F401  (before numpy)
 
+# isort: split
 import time
 from collections.abc import Callable
 

@@ -8,14 +8,14 @@ Ratio (2) of the radii wanted at the two ends of an edge, 1 or more. Shape (3): 
 """
 
 import numpy as np
+from measures import field_of
+from target_count import node_count, sizing_for
+from wanted import Wanted
 
 import surfmesh as sm
-from measures import field_of
 from surfmesh.meshing.packing import packed
 from surfmesh.quality.lengths import edge_lengths, metric_lengths
 from surfmesh.quality.shape import alpha
-from target_count import node_count, sizing_for
-from wanted import Wanted
 
 NODES = {"two_peaks": 8138, "wavy": 40000}
 PAPER = {
