@@ -37,6 +37,7 @@ from surfmesh.kernels.triangulation import (
 FINISHED = 0  # the front has left the box, or the wanted number of circles is reached
 FULL = 1  # an array is full: grow it and call again
 BAD_START = 2  # no three circles about the origin
+STUCK = 3  # no edge can be advanced, not even badly: cannot happen in exact arithmetic
 
 CLOSE_BELOW = 1.40  # fill a corner a, b, c straight away when l(a, c) is below this
 OVERLAP = 0.65  # a circle nearer than this refuses the candidate
@@ -315,17 +316,37 @@ def _close(p, a, b):
 
 
 @kernel
+def _close_first(p, a):
+    """Hand over the first outer triangle, going round the front from a, that fills a corner.
+
+    Every pocket between the front and the hull is a polygon and has such an ear.
+    """
+    front, t = p.front, p.t
+    b = a
+    while True:
+        e = t.adj[front.edge[b]]
+        if t.tri[prev_half_edge(e)] == front.next[front.next[b]]:
+            return _close(p, b, front.next[b])
+        b = front.next[b]
+        if b == a:
+            return False
+
+
+@kernel
 def _advance(p, background, a, b, forced):
-    """One step of the front at a -> b (2.3). Returns False when the edge has to wait."""
+    """One step of the front at a -> b (2.3). Returns False when the edge has to wait.
+
+    ``forced``: all edges wait; do what is valid although it is not good.
+    """
     t, front = p.t, p.front
     e = t.adj[front.edge[a]]
     apex = t.tri[prev_half_edge(e)]
     if apex != NIL:
         if apex == front.next[b]:
-            if forced or edge_length(t.xy, t.size, a, apex) < CLOSE_BELOW:
+            if edge_length(t.xy, t.size, a, apex) < CLOSE_BELOW:
                 return _close(p, a, b)
         elif apex == front.prev[a]:
-            if forced or edge_length(t.xy, t.size, apex, b) < CLOSE_BELOW:
+            if edge_length(t.xy, t.size, apex, b) < CLOSE_BELOW:
                 return _close(p, a, b)
     x, y, h11, h12, h22, close = fit_to_two(t.xy, t.size, p.count, background, a, b)
     p.count[FITS] += 1
@@ -353,7 +374,19 @@ def _advance(p, background, a, b, forced):
                         p.radius[_place(p, a, b, rims, x, y, h11, h12, h22)] = r
                         p.count[TANGENTS] += 1
                         return True
-    return _close(p, a, b)
+    if _close(p, a, b):
+        return True
+    if not forced:
+        return False
+    if apex != NIL:
+        return _close_first(p, b)
+    # on the hull nothing is in the way but circles that are too near: overlap them
+    x, y, h11, h12, h22, close = fit_to_two(t.xy, t.size, p.count, background, a, b)
+    rims, _ = _open(t, front, a, b, x, y, h11, h12, h22)
+    if rims == 0:
+        return False
+    p.radius[_place(p, a, b, rims, x, y, h11, h12, h22)] = close
+    return True
 
 
 @kernel
@@ -407,6 +440,8 @@ def pack(p, background):
         if heap.count[0] == 0:
             if count[PARKED] == 0:
                 return FINISHED
+            if forced and count[MOVES] == 0:
+                return STUCK
             forced = count[MOVES] == 0  # a whole round of waiting edges without a move
             count[FORCED] += 1 if forced else 0
             waiting = count[PARKED]
@@ -425,6 +460,8 @@ def pack(p, background):
         if _advance(p, background, a, b, forced):
             count[MOVES] += 1
             forced = False
+            if front.next[a] == b:  # the move was made elsewhere
+                _queue(heap, t.xy, p.where, a, b)
         else:
             if count[PARKED] == len(p.parked):
                 push(heap, 0.0, a, b)

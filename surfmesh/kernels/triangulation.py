@@ -191,7 +191,12 @@ def open_cavity(t, start, x, y, h11, h12, h22, wide):
 
 @kernel
 def rim_visible(t, rims, x, y):
-    """May the open cavity be filled from (x, y): sees it the whole rim, and no hull beyond it?"""
+    """May the open cavity be filled from (x, y) instead of the point it was opened for?
+
+    The whole rim must be visible. Where the cavity holds ghosts, the hull must stay convex:
+    at the new vertex, and at its two new neighbours, whose next hull edges stay hidden.
+    """
+    first, last = NIL, NIL  # the hull would run first -> new vertex -> last
     for k in range(rims):
         e = t.rim[k]
         a, b = t.tri[e], t.tri[next_half_edge(e)]
@@ -199,11 +204,15 @@ def rim_visible(t, rims, x, y):
             if side(t.xy, a, b, x, y) <= 0.0:
                 return False
             continue
-        ghost = t.adj[e]  # the next ghost along the hull: its hull edge must stay hidden
+        if b < 0:
+            first = a
+        else:
+            last = b
+        ghost = t.adj[e]  # the next ghost along the hull
         f = next_half_edge(ghost) if t.tri[ghost] < 0 else prev_half_edge(ghost)
         if side(t.xy, t.tri[f], t.tri[next_half_edge(f)], x, y) > 0.0:
             return False
-    return True
+    return first == NIL or side(t.xy, last, first, x, y) > 0.0
 
 
 @kernel

@@ -63,7 +63,7 @@ LEAST_COSINE = 0.35
 """Of the angle between the normals of a triangle and of the surface at its corners."""
 
 CHORD_ROUNDS = 10
-CHORD_MARGIN, TOLERATED = 0.97, 0.99
+CHORD_MARGIN, TOLERATED = 0.96, 0.98
 """What is aimed at, and what is let pass rather than go all the way round again. Between the
 samples of a triangle the deviation may be a little larger than at them."""
 

@@ -6,7 +6,7 @@ from surfmesh.errors import MeshingError
 from surfmesh.kernels.background import Background
 from surfmesh.kernels.front import Front, empty_front
 from surfmesh.kernels.heap import Heap, empty_heap
-from surfmesh.kernels.packing import BAD_START, FULL, Packing, pack, start_packing
+from surfmesh.kernels.packing import BAD_START, FULL, STUCK, Packing, pack, start_packing
 from surfmesh.kernels.triangulation import Triangulation, empty_triangulation
 
 NO_LIMIT = 1 << 62
@@ -27,8 +27,10 @@ def packed(
     packing = _room_for(int(1.1 * expected) + 1000, wanted, box, origin)
     if start_packing(packing, background) == BAD_START:
         raise MeshingError(f"no circles can be placed about the origin {origin}")
-    while pack(packing, background) == FULL:
+    while (status := pack(packing, background)) == FULL:
         packing = _grown(packing)
+    if status == STUCK:
+        raise MeshingError("the packing cannot go on: please report this")
     return packing
 
 

@@ -36,7 +36,7 @@ class Sizing:
     max_size: float | None = None
     """No wanted edge length is larger than this."""
 
-    growth: float = 1.25
+    growth: float = 1.2
     """Largest ratio of neighbouring sizes, along any edge of the mesh; above 1."""
 
     anisotropy: float = 1.0

@@ -96,20 +96,11 @@ def compiled():
     packed(constant_background(0.3, 1.0, 1.0), UNIT, (0.5, 0.5), 40)
 
 
-@pytest.mark.xfail(
-    strict=True,
-    reason="pack() turns for ever when the one edge that waits can neither place nor close",
-)
 @pytest.mark.parametrize("case", NEVER_ENDED, ids=lambda case: f"seed {case[0]}")
 def test_packing_ends(case, compiled):
     assert within(2, lambda: broken_invariant(case)) is None
 
 
-@pytest.mark.xfail(
-    strict=True,
-    reason="easing moves a circle into the hull after its cavity took a ghost: rim_visible must "
-    "also ask that the hull stays convex at the circle",
-)
 @pytest.mark.parametrize("case", DENTED_THE_HULL, ids=lambda case: f"seed {case[0]}")
 def test_hull_stays_convex(case, compiled):
     assert within(10, lambda: broken_invariant(case)) is None
@@ -131,7 +122,6 @@ def many_rough_fields():
     return None
 
 
-@pytest.mark.xfail(strict=True, reason="the two above")
 def test_rough_fields(compiled):
     """Sizes of neighbours 1 : 1000, stretch 10,000: always valid, the box always covered."""
     assert within(15, many_rough_fields) is None
