@@ -4,7 +4,7 @@ Exact: I(u, v) from the derivatives, h from the principal curvatures, both at th
 Gradation only lowers sizes, by the slope that ``growth`` allows. A point is compared when no
 other point could lower its size, even in a straight line through space: h(p) <= h(q) + slope
 |p - q| for all q of a cloud as dense as the mesh itself, and of rings about p. Nor is a point
-compared so near to a pole that its circle in (u, v) is larger than the domain. The error is the
+compared within about an edge of a pole: where its circle is over a sixth of the domain wide. The error is the
 largest relative one over all directions: of the generalised eigenvalues of the two metrics.
 """
 
@@ -21,6 +21,7 @@ from surfmesh.sizing.size_field import DEFAULT_ANGLE, DEFAULT_MAX_SIZE
 POINTS = 10_000
 CLOUD_TRIANGLES = 10_000
 BLOCK = 500
+WIDEST = 1.0 / 6.0  # of the domain: circles wider than this are at a pole
 SPOKES = 24
 RINGS = (0.001, 0.01, 0.05, 0.1, 0.2, 0.4, 0.6, 0.8, 1.0, 1.25, 1.5, 1.75, 2.0, 2.5, 3.0, 4.0)
 """Edge lengths from a point at which it is looked whether gradation comes from there."""
@@ -145,7 +146,7 @@ def _errors(field, uv: np.ndarray, metric: np.ndarray) -> np.ndarray:
     a = np.linalg.inv(h[:, [[0, 1], [1, 2]]])
     found = a @ a  # M = H^-2 in the scaled plane
     exact = metric[:, [[0, 1], [1, 2]]] * rates[:, :, None] * rates[:, None, :]
-    fits = 1.0 / np.sqrt(np.linalg.eigvalsh(exact)[:, 0]) < field.scaling.extent.max()
+    fits = 1.0 / np.sqrt(np.linalg.eigvalsh(exact)[:, 0]) < WIDEST * field.scaling.extent.max()
     exact, found = exact[fits], found[fits]
     ratio = np.linalg.eigvals(np.linalg.solve(exact, found)).real
     error = np.zeros(len(uv))

@@ -307,11 +307,11 @@ def _close(p, a, b):
     else:
         return False
     p.count[CLOSED] += 1
-    f = next_half_edge(e)
-    g = prev_half_edge(e)
-    _settle(t, front, e)
-    _settle(t, front, f)
-    _settle(t, front, g)
+    f, g = next_half_edge(e), prev_half_edge(e)
+    if triangle_shape(t.xy, t.size, t.tri[e], t.tri[f], t.tri[g]) < GOOD_SHAPE:
+        _settle(t, front, e)
+        _settle(t, front, f)
+        _settle(t, front, g)
     return True
 
 

@@ -152,9 +152,9 @@ def test_random_star_shapes(seed, n, ratio):
         background = random_background(seed, 3, ratio, 2.0, size=0.08)
         assert_recovered(*domain_of(background, polygon), polygon)
 
-    packing_for(constant_background(0.3, 1.0, 1.0))
+    domain_of(constant_background(0.3, 1.0, 1.0), square(3))  # compiled before the fork
     if polygon_area(polygon) > 0:
-        assert within(10, broken) is None
+        assert within(20, broken) is None
 
 
 @settings(max_examples=15)
