@@ -146,7 +146,7 @@ def test_sizes_as_large_as_the_domain(seed, size, x, y):
 
 
 @settings(max_examples=10)
-@given(seed=st.integers(0, 2**31), aspect=st.sampled_from([0.01, 0.1, 30.0]))
+@given(seed=st.integers(0, 2**31), aspect=st.sampled_from([0.04, 0.3, 25.0]))
 def test_thin_boxes(seed, aspect):
     def broken():
         width, height = max(1.0, aspect), max(1.0, 1 / aspect)
