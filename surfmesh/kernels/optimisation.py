@@ -23,7 +23,6 @@ from surfmesh.kernels.tensors import solve
 from surfmesh.kernels.triangulation import next_half_edge, prev_half_edge
 
 SWAP_GAIN = 1e-3  # smallest betterment of the worse alpha for which an edge is swapped
-GOOD_PAIR = 0.82  # two triangles both better than this are not looked at
 LEAST_SHAPE = 0.6  # a move may lower the worst alpha of a star, but not below this
 LONGEST_STEP = 0.3  # of the wanted edge length
 SMALLEST_SHRINK = 0.85  # least factor by which one round lowers a wanted size
@@ -57,11 +56,12 @@ def _touches(t, k, flags):
 
 
 @kernel
-def swap_for_shape(t, s, shape, dirty, active, sweeps):
+def swap_for_shape(t, s, shape, dirty, active, good, sweeps):
     """Swap edges while that raises the smaller alpha of the pair. Returns the swaps made.
 
     ``shape`` (triangles,) keeps alpha from call to call; only triangles with a ``dirty``
-    corner are measured again and looked at. Vertices of swapped edges become active.
+    corner are measured again and looked at, and of these only those below ``good``. Vertices
+    of swapped edges become active.
     """
     for k in range(t.count[1]):
         if t.region[k] != DEAD and _touches(t, k, dirty):
@@ -70,7 +70,7 @@ def swap_for_shape(t, s, shape, dirty, active, sweeps):
     for _ in range(sweeps):
         swaps = 0
         for k in range(t.count[1]):
-            if shape[k] > GOOD_PAIR or t.region[k] == DEAD or not _touches(t, k, dirty):
+            if shape[k] > good or t.region[k] == DEAD or not _touches(t, k, dirty):
                 continue
             for e in range(3 * k, 3 * k + 3):
                 f = t.adj[e]

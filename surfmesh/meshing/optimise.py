@@ -45,6 +45,12 @@ ROUNDS = 2
 FINAL_PASSES = 2
 SWEEPS = 8
 
+GOOD_SHAPE = 0.82
+"""Triangles above this alpha keep their edges."""
+
+LEFT_OVER = 0.7
+"""Triangles below this alpha are what packing or boundary have left over."""
+
 BAD_SHAPE = 0.72
 """Triangles below this alpha get passes of their own, with a soft wish for unit edges."""
 
@@ -130,6 +136,10 @@ class Optimiser:
         folded = np.empty(int(self.t.count[1]), np.uint8)
         find_folded(self.t, self.embedding, LEAST_COSINE, folded)
         return np.flatnonzero(folded)
+
+    def settle(self) -> None:
+        """Only choose better diagonals for what the packing and the boundary left over."""
+        self._swap(LEFT_OVER)
 
     def limits_at(self, triangles: np.ndarray, factor: float) -> SizeLimits:
         """The sizes at the corners of ``triangles`` (n,), times ``factor``, as limits."""
@@ -225,9 +235,9 @@ class Optimiser:
         self.passes += 1
         return moved
 
-    def _swap(self) -> None:
+    def _swap(self, good: float = GOOD_SHAPE) -> None:
         swaps = swap_for_shape(
-            self.t, self.embedding, self.shape, self.dirty, self.active, SWEEPS
+            self.t, self.embedding, self.shape, self.dirty, self.active, good, SWEEPS
         )
         self.stars_known = self.stars_known and swaps == 0
         self.swaps += swaps

@@ -85,9 +85,12 @@ def _one_round(
         del packing
     wishes: list[SizeLimits] = []
     scale = np.ones(len(domain.t.xy))
-    if optimise:
+    same = domain.node[loops.identity]
+    if not optimise:
+        with watch.stage("boundary"):
+            Optimiser(domain.t, domain.node, same, surface, field).settle()
+    else:
         with watch.stage("optimisation"):
-            same = domain.node[loops.identity]
             optimiser = Optimiser(domain.t, domain.node, same, surface, field)
             changes = optimiser.run()
             scale = optimiser.embedding.scale
