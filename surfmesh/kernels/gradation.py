@@ -37,25 +37,26 @@ def _limit(h, r, slope, a, b, changed, sweep):
 
 
 @kernel
-def grade(patch, joined, r, slope, h, changed, sweeps):
+def grade(patch, joined, r, slope, h, changed, first, sweeps):
     """Lower the sizes h (nodes,) until no two neighbours differ by more than the slope allows.
 
-    patch (cells, 9) nodes; joined (k, 2) pairs of nodes that are one point in 3D; r (nodes, 3)
-    points. ``changed`` (nodes,) int32 is 1 for nodes to start from and 0 for those known to
-    agree with their neighbours; it holds the last sweep that lowered a node, and is 0 again
-    at the end. Sweeps forward and backward until the largest relative change is below 0.1%.
-    Returns the number of sweeps, or -1 when ``sweeps`` did not suffice.
+    patch (cells, 9) nodes; joined (k, 2) pairs of nodes that are neighbours across a joint of
+    two sides; r (nodes, 3) points. ``changed`` (nodes,) int32 holds the number of the last
+    sweep that lowered a node; sweeps are numbered from ``first`` on and pass over patches that
+    the sweep before has left alone. Sizes spread from small to large, so a few sweeps do when
+    the patches with the smallest sizes come first. Stops when the largest relative change is
+    below 0.1%.
+    Returns the number for the next sweep, negative when ``sweeps`` did not suffice.
     """
     n = len(patch)
-    done = -1
-    for sweep in range(1, sweeps + 1):
+    for sweep in range(first, first + sweeps):
         largest = 0.0
         for k in range(n):
-            p = patch[k if sweep % 2 == 0 else n - 1 - k]
+            p = patch[k]
             latest = 0
             for i in range(9):
                 latest = max(latest, changed[p[i]])
-            if latest < sweep - 1 or latest == 0:
+            if latest < sweep - 1:
                 continue
             for i in range(9):  # right, up and the two diagonals of each node of the 3 x 3
                 right = i % 3 < 2
@@ -70,12 +71,10 @@ def grade(patch, joined, r, slope, h, changed, sweeps):
                         )
         for k in range(len(joined)):
             a, b = joined[k, 0], joined[k, 1]
-            largest = max(largest, _limit(h, r, 0.0, a, b, changed, sweep))
+            largest = max(largest, _limit(h, r, slope, a, b, changed, sweep))
         if largest < 1e-3:
-            done = sweep
-            break
-    changed[:] = 0
-    return done
+            return sweep + 2  # nothing is newer than the sweep before the next
+    return -(first + sweeps)
 
 
 @kernel

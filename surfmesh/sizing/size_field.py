@@ -38,10 +38,11 @@ DEPTH = 13
 HIDDEN_DEPTH = 6
 """Splits of a root cell within which features between the samples are looked for."""
 
-TEST_ERROR = 0.05
-"""Error at the test nodes that a cell may have; the leaf, twice as fine, has a quarter."""
+TEST_ERROR, GRADED_ERROR = 0.03, 0.06
+"""Error at the test nodes that a cell may have; the leaf, twice as fine, has a quarter of it,
+or half at a kink. Where gradation decides, the field is a cone and all slopes are small."""
 
-FINEST_EXTENT = 0.35
+FINEST_EXTENT = 0.15
 """A cell narrower than this many edges is not split: no circle would notice."""
 
 POLE_DISTANCE = 0.9
@@ -55,7 +56,7 @@ DEFAULT_ANGLE = 45.0
 """Degrees; kept wherever the size follows the curvature at all."""
 
 MAX_CELLS = 4_000_000
-SWEEPS = 400
+MAX_ROUNDS, SWEEPS = 60, 400
 
 
 @dataclass(frozen=True)
@@ -124,11 +125,13 @@ class _Builder:
         self.keys = np.empty(0, np.int64)
         self.order = np.empty(0, np.int64)
         self.size = np.empty(0)
+        self.wish = np.empty(0)  # the size before gradation
         self.root = np.empty((0, 3))
         self.normal = np.empty((0, 3))
         self.point = np.empty((0, 3))
         self.joined = np.empty((0, 2), np.int64)
-        self.graded = 0  # nodes that agree with their neighbours already
+        self.changed = np.empty(0, np.int32)  # last sweep of the gradation that lowered a node
+        self.sweep = 1  # number of the next one
 
     def build(self) -> SizeField:
         cells = _Cells.roots(self.nx, self.ny)
@@ -136,13 +139,20 @@ class _Builder:
         fresh = np.ones(len(cells), bool)
         total = len(cells)
         tree: list[np.ndarray] = []  # the cells that were split, in the order of their children
-        while True:
+        for round_number in range(MAX_ROUNDS):
+            seen = self.sweep
             self._grade(patch)
-            split = self._inaccurate(cells, patch)
-            split[fresh] |= self._may_hide(cells.chosen(fresh), patch[fresh])
+            touched = fresh | (self.changed[patch].max(axis=1) >= seen)
+            split = np.zeros(len(cells), bool)
+            split[touched] = self._inaccurate(cells.chosen(touched), patch[touched])
+            unseen = fresh & ~split
+            split[unseen] = self._may_hide(cells.chosen(unseen), patch[unseen])
             split &= cells.depth < DEPTH
-            if not split.any():
+            # after so many rounds all features are found; a few cells creep along fronts
+            few = 0 if round_number <= DEPTH else len(cells) // 1000
+            if split.sum() <= few:
                 break
+            self._balance(cells, split)
             parents = cells.chosen(split)
             children = parents.split(total)
             tree.append(parents.index)
@@ -197,15 +207,16 @@ class _Builder:
         sort = np.argsort(self.keys, kind="stable")
         self.keys, self.order = self.keys[sort], self.order[sort]
         self.size = np.concatenate([self.size, size])
+        self.wish = np.concatenate([self.wish, size])
         self.root = np.concatenate([self.root, root])
         self.normal = np.concatenate([self.normal, normal])
         self.point = np.concatenate([self.point, point])
         self.joined = self._joined_nodes()
 
     def _joined_nodes(self) -> np.ndarray:
-        """Pairs of nodes on joined sides that are one point in 3D."""
+        """Pairs of nodes next to each other, or one point in 3D, across joined sides."""
         pairs = [np.empty((0, 2), np.int64)]
-        if self.sides is None:
+        if self.sides is None or max(self.sides.partner) < 0:
             return pairs[0]
         ends = (self.nx << (DEPTH + 1), self.ny << (DEPTH + 1))
         x, y = self.keys // self._stride, self.keys % self._stride
@@ -216,27 +227,43 @@ class _Builder:
                 continue
             ta, tb = along[a][on_side[a]], along[b][on_side[b]]
             tb = 1.0 - tb if self.sides.reversed[a] else tb
-            _, ka, kb = np.intersect1d(np.round(ta, 9), np.round(tb, 9), return_indices=True)
-            node_a, node_b = self.order[on_side[a]][ka], self.order[on_side[b]][kb]
-            pairs.append(np.stack([node_a, node_b], axis=1))
+            node_a, node_b = self.order[on_side[a]], self.order[on_side[b]]
+            for t, node, other_t, other in ((ta, node_a, tb, node_b), (tb, node_b, ta, node_a)):
+                sort = np.argsort(other_t)
+                after = np.searchsorted(other_t[sort], t - 1e-9)
+                for k in (after - 1, after):  # the two nodes across, or the same point
+                    k = np.clip(k, 0, len(sort) - 1)
+                    pairs.append(np.stack([node, other[sort[k]]], axis=1))
         return np.concatenate(pairs)
 
     # cells
 
     def _grade(self, patch: np.ndarray) -> None:
-        changed = np.zeros(len(self.size), np.int32)
-        changed[self.graded :] = 1
-        self.graded = len(self.size)
-        done = grade(patch, self.joined, self.point, self.slope, self.size, changed, SWEEPS)
-        if done < 0:
+        new = np.full(len(self.size) - len(self.changed), self.sweep, np.int32)
+        self.changed = np.concatenate([self.changed, new])
+        order = np.argsort(self.size[patch].min(axis=1))
+        self.sweep = grade(
+            patch[order], self.joined, self.point, self.slope, self.size,
+            self.changed, self.sweep + 1, SWEEPS,
+        )  # fmt: skip
+        if self.sweep < 0:
             raise SizingError(f"the sizes on {self.surface.name!r} could not be graded")
+
+    def _balance(self, cells: "_Cells", split: np.ndarray) -> None:
+        """Add to ``split`` what would be left more than one level coarser than a neighbour."""
+        fresh = split
+        while fresh.any():
+            fresh = _coarse_beside_fine(cells, fresh, split, self.ny, self.nx) & ~split
+            split |= fresh
 
     def _inaccurate(self, cells: "_Cells", patch: np.ndarray) -> np.ndarray:
         step = self.root_step / (1 << cells.depth)[:, None]
         error, extent = np.empty(len(patch)), np.empty(len(patch))
         largest = self._largest
         patch_errors(patch, self.root, self.size, step, largest, error, extent)
-        return (error > TEST_ERROR) & (extent > FINEST_EXTENT)
+        graded = (self.size < self.wish)[patch].any(axis=1)
+        allowed = np.where(graded, GRADED_ERROR, TEST_ERROR)
+        return (error > allowed) & (extent > FINEST_EXTENT)
 
     def _may_hide(self, cells: "_Cells", patch: np.ndarray) -> np.ndarray:
         """Cells whose bounds admit curvature that would at least halve the sizes seen."""
@@ -324,6 +351,39 @@ class _Builder:
         return Background(box, np.array([self.nx, self.ny]), child, corner, inverse)
 
 
+def _coarse_beside_fine(
+    cells: "_Cells", fresh: np.ndarray, split: np.ndarray, ny: int, nx: int
+) -> np.ndarray:
+    """Leaves that would be two levels coarser than a neighbour of ``fresh`` that is split.
+
+    With them a fine node in the middle of a coarse side would bind nobody across it.
+    """
+    unit = DEPTH + 1
+    stride = (ny << unit) + 1
+    found = np.zeros(len(cells), bool)
+    fine = cells.chosen(fresh)
+    half = (1 << (unit - fine.depth)) // 2
+    levels = np.unique(fine.depth)
+    for level in levels[levels > 0] - 1:  # neighbours that are one level coarser already
+        here = np.flatnonzero((cells.depth == level) & ~split)
+        if not len(here):
+            continue
+        key = cells.x[here] * stride + cells.y[here]
+        order = np.argsort(key)
+        key, here = key[order], here[order]
+        of = fine.depth == level + 1
+        for dx, dy in ((-1, 0), (1, 0), (0, -1), (0, 1)):  # a point just outside each side
+            x = fine.x[of] + half[of] + dx * half[of] - (dx < 0)
+            y = fine.y[of] + half[of] + dy * half[of] - (dy < 0)
+            inside = (x >= 0) & (x < nx << unit) & (y >= 0) & (y < ny << unit)
+            shift = unit - level
+            x, y = (x[inside] >> shift) << shift, (y[inside] >> shift) << shift
+            wanted = x * stride + y
+            place = np.minimum(np.searchsorted(key, wanted), len(key) - 1)
+            found[here[place[key[place] == wanted]]] = True
+    return found
+
+
 def _root(forms: FundamentalForms, rates: np.ndarray) -> np.ndarray:
     """I^(1/2) (n, 3) in the scaled plane, whose axes run at ``rates`` (n, 2)."""
     du, dv = rates.T
@@ -351,6 +411,8 @@ class _SizeLaw:
         self.sizing = sizing
         self.limits = limits
         coarsest = sizing.max_size or DEFAULT_MAX_SIZE * self.diagonal
+        if callable(sizing.size) and not sizing.max_size:
+            coarsest = np.inf  # the law alone decides
         if isinstance(sizing.size, float):
             coarsest = min(coarsest, sizing.size) if sizing.max_size else sizing.size
         finest = sizing.min_size or 0.0
@@ -386,7 +448,7 @@ class _SizeLaw:
                 raise SizingError(
                     f"size law must give positive numbers of shape ({len(uv)},) for points "
                     f"({len(uv)}, 3); it gave shape {wish.shape}"
-                    + (f", smallest {np.nanmin(wish):g}" if wish.size else "")
+                    + (f", smallest {wish.min():g}" if wish.size else "")
                 )
             size = np.clip(np.minimum(size, wish), *self.clamp)
         if self.limits is not None:

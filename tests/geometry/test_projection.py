@@ -7,7 +7,7 @@ from surfmesh.geometry.formula_file import gallery, load_formula_file
 from surfmesh.geometry.fundamental_forms import curvatures, forms
 from surfmesh.geometry.projection import closest_point
 
-SMOOTH = sorted(gallery().keys() - {"whitney_umbrella", "bad_speed", "dini"})
+SMOOTH = sorted(gallery().keys() - {"bad_speed", "dini"})
 
 
 def offset(surface, count=500, seed=0):

@@ -98,7 +98,7 @@ def test_swaps_for_shape_only_better_the_worse_of_two():
     optimiser, _ = optimiser_of()
     before = np.sort(shapes(optimiser))
     t, s = optimiser.t, optimiser.embedding
-    swaps = swap_for_shape(t, s, optimiser.shape, optimiser.dirty, optimiser.active, 50)
+    swaps = swap_for_shape(t, s, optimiser.shape, optimiser.dirty, optimiser.active, 0.82, 50)
     after = np.sort(shapes(optimiser))
     assert swaps > 0
     assert after[0] >= before[0] and after.mean() > before.mean()
@@ -106,7 +106,7 @@ def test_swaps_for_shape_only_better_the_worse_of_two():
     kept = [optimiser.shape[k] for k in live_triangles(t)]
     np.testing.assert_allclose(np.sort(kept), after, atol=1e-12)
     optimiser.dirty[:] = 1
-    assert swap_for_shape(t, s, optimiser.shape, optimiser.dirty, optimiser.active, 50) == 0
+    assert swap_for_shape(t, s, optimiser.shape, optimiser.dirty, optimiser.active, 0.82, 50) == 0
 
 
 def counted_degrees(t):

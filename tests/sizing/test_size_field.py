@@ -70,14 +70,6 @@ def test_within_two_percent_where_growth_does_not_act(name):
     assert np.quantile(error(surface, field, xy), 0.99) < 0.02
 
 
-UNBALANCED = pytest.mark.xfail(
-    strict=True,
-    reason="sizes jump by up to 10% where a leaf meets leaves a fourth of its width: the fine "
-    "nodes on their common side bind nobody on the coarse one (balance the tree 2 : 1)",
-)
-
-
-@UNBALANCED
 @pytest.mark.parametrize("name", ["two_peaks", "wavy"])
 def test_within_two_percent_everywhere(name):
     surface = load(name)
@@ -105,9 +97,15 @@ def test_a_bump_of_a_thousandth_of_the_domain_is_found(seed):
     assert scalar_sizes(graded, xy)[0] == pytest.approx(exact(surface, field, xy)[0][0], rel=0.02)
 
 
+ACROSS_THE_GRID = pytest.mark.xfail(
+    strict=True,
+    reason="where (u, v) is stretched at an angle to its axes, distances along the edges and "
+    "diagonals of the cells overrate those on the surface: 1 % of the slopes is 1.2 to 1.6 times "
+    "what growth allows",
+)
 GROWTH = [
-    pytest.param("two_peaks", 1.1, marks=UNBALANCED),
-    pytest.param("wavy", 1.3, marks=UNBALANCED),
+    pytest.param("two_peaks", 1.1, marks=ACROSS_THE_GRID),
+    pytest.param("wavy", 1.3, marks=ACROSS_THE_GRID),
     ("helicoid", 1.05),
 ]
 
