@@ -4,8 +4,9 @@ Exact: I(u, v) from the derivatives, h from the principal curvatures, both at th
 Gradation only lowers sizes, by the slope that ``growth`` allows. A point is compared when no
 other point could lower its size, even in a straight line through space: h(p) <= h(q) + slope
 |p - q| for all q of a cloud as dense as the mesh itself, and of rings about p. Nor is a point
-compared within about an edge of a pole: where its circle is over a sixth of the domain wide. The error is the
-largest relative one over all directions: of the generalised eigenvalues of the two metrics.
+compared within about an edge of a pole: where its circle is over a sixth of the domain wide.
+The error is the largest relative one over all directions: of the generalised eigenvalues of the
+two metrics.
 """
 
 import numpy as np
