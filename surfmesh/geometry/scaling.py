@@ -13,6 +13,7 @@ import numpy as np
 from scipy.interpolate import PchipInterpolator
 
 from surfmesh.geometry.surface import Surface
+from surfmesh.kernels.bending import bend
 
 SAMPLES_ALONG = 257
 SAMPLES_ACROSS = 17
@@ -55,41 +56,26 @@ class Axis:
         slopes = PchipInterpolator(x, knots).derivative()(x)
         return cls(extent, knots, slopes)
 
-    def _place(self, x: np.ndarray) -> tuple[np.ndarray, np.ndarray, float]:
-        step = self.extent / (len(self.knots) - 1)
-        i = np.clip((x / step).astype(np.int64), 0, len(self.knots) - 2)
-        return i, x / step - i, step
+    def parameter_and_rate(self, x: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """The parameter (n,) at scaled coordinates x (n,), and its derivative by x (n,).
 
-    def parameter(self, x: np.ndarray) -> np.ndarray:
-        """The parameter (n,) at scaled coordinates x (n,); linear outside [0, extent]."""
+        Linear outside [0, extent].
+        """
         if len(self.knots) == 2:
-            return self.knots[0] + x * self.slopes[0]
-        i, t, step = self._place(np.clip(x, 0.0, self.extent))
-        p, q = self.knots[i], self.knots[i + 1]
-        m, n = step * self.slopes[i], step * self.slopes[i + 1]
-        d = q - p
-        u = p + t * (m + t * (3.0 * d - 2.0 * m - n + t * (m + n - 2.0 * d)))
-        u += np.minimum(x, 0.0) * self.slopes[0]
-        u += np.maximum(x - self.extent, 0.0) * self.slopes[-1]
-        return u
-
-    def rate(self, x: np.ndarray) -> np.ndarray:
-        """Derivative (n,) of the parameter by the scaled coordinate."""
-        if len(self.knots) == 2:
-            return np.full(len(x), self.slopes[0])
-        i, t, step = self._place(np.clip(x, 0.0, self.extent))
-        d = self.knots[i + 1] - self.knots[i]
-        m, n = step * self.slopes[i], step * self.slopes[i + 1]
-        return (m + t * (2.0 * (3.0 * d - 2.0 * m - n) + 3.0 * t * (m + n - 2.0 * d))) / step
+            return self.knots[0] + x * self.slopes[0], np.full(len(x), self.slopes[0])
+        parameter, rate = np.empty(len(x)), np.empty(len(x))
+        bend(x, self.extent, self.knots, self.slopes, parameter, rate)
+        return parameter, rate
 
     def coordinate(self, u: np.ndarray) -> np.ndarray:
-        """The scaled coordinate (n,) of parameters u (n,): the inverse of ``parameter``."""
+        """The scaled coordinate (n,) of parameters u (n,): ``parameter_and_rate`` inverted."""
         u = np.asarray(u, float)
         step = self.extent / (len(self.knots) - 1)
         x = np.interp(u, self.knots, step * np.arange(len(self.knots)))
         if len(self.knots) > 2:
             for _ in range(6):  # Newton from the piecewise linear inverse, a cell away at most
-                x = np.clip(x - (self.parameter(x) - u) / self.rate(x), 0.0, self.extent)
+                parameter, rate = self.parameter_and_rate(x)
+                x = np.clip(x - (parameter - u) / rate, 0.0, self.extent)
         x = np.where(u == self.knots[0], 0.0, x)
         return np.where(u == self.knots[-1], self.extent, x)
 
@@ -126,8 +112,14 @@ class Scaling:
 
     def to_uv(self, xy: np.ndarray) -> np.ndarray:
         """xy (n, 2) -> uv (n, 2)."""
-        return np.stack([axis.parameter(xy[:, k]) for k, axis in enumerate(self.axes)], axis=1)
+        return self.to_uv_and_rates(xy)[0]
 
     def rates(self, xy: np.ndarray) -> np.ndarray:
         """(du/dx, dv/dy) at xy (n, 2) -> (n, 2)."""
-        return np.stack([axis.rate(xy[:, k]) for k, axis in enumerate(self.axes)], axis=1)
+        return self.to_uv_and_rates(xy)[1]
+
+    def to_uv_and_rates(self, xy: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """xy (n, 2) -> uv (n, 2) and (du/dx, dv/dy) (n, 2)."""
+        u, du = self.axes[0].parameter_and_rate(xy[:, 0])
+        v, dv = self.axes[1].parameter_and_rate(xy[:, 1])
+        return np.stack([u, v], axis=1), np.stack([du, dv], axis=1)

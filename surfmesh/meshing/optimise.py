@@ -61,8 +61,9 @@ SUSPECT = 0.7
 """Share of ``chord`` from which the estimate of a triangle's deviation is not trusted."""
 
 SAMPLES = np.array(
-    [(3, 3, 0), (0, 3, 3), (3, 0, 3), (2, 2, 2), (4, 1, 1), (1, 4, 1), (1, 1, 4)]
-) / 6.0
+    [(i, j, 5 - i - j) for i in range(6) for j in range(6 - i) if max(i, j, 5 - i - j) < 5]
+    + [(2.5, 2.5, 0.0), (0.0, 2.5, 2.5), (2.5, 0.0, 2.5), (5 / 3, 5 / 3, 5 / 3)]
+) / 5.0
 """Barycentric coordinates."""
 
 LEAST_COSINE = 0.35
@@ -192,7 +193,7 @@ class Optimiser:
         return suspects[self._deviations(suspects) > TOLERATED * chord]
 
     def _deviations(self, triangles: np.ndarray) -> np.ndarray:
-        """Largest distance from the surface at seven samples of each of the triangles (n,)."""
+        """Largest distance from the surface at 22 samples of each of the triangles (n,)."""
         corners = self.t.tri.reshape(-1, 3)[triangles]
         scaling = self.field.scaling
         error = np.zeros(len(triangles))
@@ -213,9 +214,8 @@ class Optimiser:
         largest = 1e3 * float(self.field.background.box[4]) / float(scaling.extent.max())
         for start in range(0, len(vertices), block):
             some = vertices[start : start + block]
-            xy = self.t.xy[some]
-            r, ru, rv = self.surface.evaluate(scaling.to_uv(xy), 1)
-            rates = scaling.rates(xy)
+            uv, rates = scaling.to_uv_and_rates(self.t.xy[some])
+            r, ru, rv = self.surface.evaluate(uv, 1)
             ru *= rates[:, :1]
             rv *= rates[:, 1:]
             embed(self.t, self.embedding, self.field.background, some, r, ru, rv, largest)

@@ -38,11 +38,11 @@ DEPTH = 13
 HIDDEN_DEPTH = 6
 """Splits of a root cell within which features between the samples are looked for."""
 
-TEST_ERROR, GRADED_ERROR = 0.03, 0.06
+TEST_ERROR, GRADED_ERROR = 0.035, 0.15
 """Error at the test nodes that a cell may have; the leaf, twice as fine, has a quarter of it,
 or half at a kink. Where gradation decides, the field is a cone and all slopes are small."""
 
-FINEST_EXTENT = 0.15
+FINEST_EXTENT = 0.2
 """A cell narrower than this many edges is not split: no circle would notice."""
 
 POLE_DISTANCE = 0.9
@@ -432,10 +432,10 @@ class _SizeLaw:
 
     def __call__(self, xy: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
         """size (n,), I^(1/2) in the scaled plane (n, 3), unit normal (n, 3), point (n, 3)."""
-        uv = self.scaling.to_uv(xy)
+        uv, rates = self.scaling.to_uv_and_rates(xy)
         derivatives = self.surface.evaluate(uv, 2)
         forms = forms_from_derivatives(*derivatives[1:])
-        root = _root(forms, self.scaling.rates(xy))
+        root = _root(forms, rates)
         size = np.full(len(uv), self.clamp[1])
         if self.follows_curvature:
             k = curvatures(forms)
