@@ -113,15 +113,22 @@ def rise(s, v, p):
 
 @kernel
 def triangle_deviation(s, a, b, c):
-    """How far the triangle abc lies from a surface with these tangent planes.
+    """About how far the triangle abc lies from a surface with these tangent planes.
 
     For a quadric with rises w along the three edges the error of linear interpolation is
-    w / 4 in the middle of an edge and (w1 + w2 + w3) / 9 at the centroid.
+    w / 4 in the middle of an edge and (w1 + w2 + w3) / 9 at the centroid. Where the rises seen
+    from the two ends differ, the curvature changes along the edge: the difference is added.
     """
-    ab = 0.5 * (rise(s, a, b) + rise(s, b, a))
-    bc = 0.5 * (rise(s, b, c) + rise(s, c, b))
-    ca = 0.5 * (rise(s, c, a) + rise(s, a, c))
-    return max(max(abs(ab), abs(bc), abs(ca)) / 4.0, abs(ab + bc + ca) / 9.0)
+    ab, ba = rise(s, a, b), rise(s, b, a)
+    bc, cb = rise(s, b, c), rise(s, c, b)
+    ca, ac = rise(s, c, a), rise(s, a, c)
+    edges = max(
+        abs(ab + ba) + 2.0 * abs(ab - ba),
+        abs(bc + cb) + 2.0 * abs(bc - cb),
+        abs(ca + ac) + 2.0 * abs(ca - ac),
+    )
+    unsure = abs(ab - ba) + abs(bc - cb) + abs(ca - ac)
+    return max(edges / 8.0, (0.5 * abs(ab + ba + bc + cb + ca + ac) + unsure) / 9.0)
 
 
 @kernel

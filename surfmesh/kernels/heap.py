@@ -18,9 +18,7 @@ class Heap(NamedTuple):
 
 
 def empty_heap(capacity: int) -> Heap:
-    return Heap(
-        np.empty(capacity), np.empty((capacity, 2), np.int32), np.zeros(1, np.int64)
-    )
+    return Heap(np.empty(capacity), np.empty((capacity, 2), np.int32), np.zeros(1, np.int64))
 
 
 @kernel

@@ -38,15 +38,15 @@ def convex(t, e):
 def swap(t, e):
     """Replace the edge a-b by c-d; the two triangles keep their slots.
 
-              c                       c            before: e a->b, e1 b->c, e2 c->a
-            / | \\                   /   \\                  f b->a, f1 a->d, f2 d->b
-        e2 /  |  \\ e1           e2 /     \\ f
-          /   |   \\               / e1 f1 \\        after:  e a->d, e1 d->c, e2 c->a
-         a   e|f   b     to      a --------- b             f b->c, f1 c->d, f2 d->b
-          \\   |   /               \\       /
-        f1 \\  |  / f2            e \\     / f2      (e runs from a to b; c-d is drawn
-            \\ | /                   \\   /           as the level line on the right)
-              d                       d
+          c                       c            before: e a->b, e1 b->c, e2 c->a
+        / | \\                   /   \\                  f b->a, f1 a->d, f2 d->b
+    e2 /  |  \\ e1           e2 /     \\ f
+      /   |   \\               / e1 f1 \\        after:  e a->d, e1 d->c, e2 c->a
+     a   e|f   b     to      a --------- b             f b->c, f1 c->d, f2 d->b
+      \\   |   /               \\       /
+    f1 \\  |  / f2            e \\     / f2      (e runs from a to b; c-d is drawn
+        \\ | /                   \\   /           as the level line on the right)
+          d                       d
     """
     f = t.adj[e]
     e1, e2 = next_half_edge(e), prev_half_edge(e)

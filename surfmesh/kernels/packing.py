@@ -105,9 +105,7 @@ def fit_to_two(xy, size, count, background, a, b):
     ax, ay, bx, by = xy[a, 0], xy[a, 1], xy[b, 0], xy[b, 1]
     a11, a12, a22 = size[a, 0], size[a, 1], size[a, 2]
     b11, b12, b22 = size[b, 0], size[b, 1], size[b, 2]
-    dx, dy = _apex(
-        0.5 * (a11 + b11), 0.5 * (a12 + b12), 0.5 * (a22 + b22), bx - ax, by - ay
-    )
+    dx, dy = _apex(0.5 * (a11 + b11), 0.5 * (a12 + b12), 0.5 * (a22 + b22), bx - ax, by - ay)
     x = 0.5 * (ax + bx) + dx
     y = 0.5 * (ay + by) + dy
     best = -1.0
@@ -361,9 +359,7 @@ def _advance(p, background, a, b, forced):
             return True
     # pushing out: the support grows from (a, b) to the circle in the way (2.3.3)
     if other != NIL and other != a and other != b:
-        x, y, h11, h12, h22, r = fit_to_three(
-            t.xy, t.size, p.count, background, a, b, other, x, y
-        )
+        x, y, h11, h12, h22, r = fit_to_three(t.xy, t.size, p.count, background, a, b, other, x, y)
         if TANGENT_RANGE[0] < r < TANGENT_RANGE[1]:
             ax, ay, bx, by = t.xy[a, 0], t.xy[a, 1], t.xy[b, 0], t.xy[b, 1]
             if orient(ax, ay, bx, by, x, y) < 0.0:
@@ -402,9 +398,7 @@ def start_packing(p, background):
         t.xy[k, 1] = y + h12 * cx + h22 * cy
         t.size[k, 0], t.size[k, 1], t.size[k, 2] = size_at(background, t.xy[k, 0], t.xy[k, 1])
         p.radius[k] = 1.0
-    if orient(
-        t.xy[0, 0], t.xy[0, 1], t.xy[1, 0], t.xy[1, 1], t.xy[2, 0], t.xy[2, 1]
-    ) <= 0.0:
+    if orient(t.xy[0, 0], t.xy[0, 1], t.xy[1, 0], t.xy[1, 1], t.xy[2, 0], t.xy[2, 1]) <= 0.0:
         return BAD_START
     t.count[0] = 3
     t.count[1] = 4

@@ -62,9 +62,7 @@ def glued(surface: Surface, loops: BoundaryLoops, domain: DomainMesh, uv: np.nda
         if len(lost) != collapsed:
             pinched = np.unique(lost)
     (points,) = surface.evaluate(uv[kept], 0)
-    return Glued(
-        points, triangles[solid], uv, corners[solid], np.flatnonzero(kept), euler, pinched
-    )
+    return Glued(points, triangles[solid], uv, corners[solid], np.flatnonzero(kept), euler, pinched)
 
 
 def vertices_minus_edges_plus_faces(t, corners: np.ndarray, vertices: int) -> int:

@@ -9,6 +9,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from surfmesh.geometry.projection import closest_point
 from surfmesh.geometry.surface import Surface
 from surfmesh.kernels.embedding import Embedding, embed, empty_embedding
 from surfmesh.kernels.measure import tangent_plane_distances
@@ -60,10 +61,13 @@ RESCUE_PASSES = 4
 SUSPECT = 0.7
 """Share of ``chord`` from which the estimate of a triangle's deviation is not trusted."""
 
-SAMPLES = np.array(
-    [(i, j, 5 - i - j) for i in range(6) for j in range(6 - i) if max(i, j, 5 - i - j) < 5]
-    + [(2.5, 2.5, 0.0), (0.0, 2.5, 2.5), (2.5, 0.0, 2.5), (5 / 3, 5 / 3, 5 / 3)]
-) / 5.0
+FEW_TRIANGLES = 20_000
+"""Up to so many all are measured: the estimate is for triangles small beside the features."""
+
+FIRST_SAMPLES = np.array([(1, 1, 0), (0, 1, 1), (1, 0, 1), (2 / 3, 2 / 3, 2 / 3)]) / 2.0
+_GRID = [(i, j, 5 - i - j) for i in range(5) for j in range(6 - i) if max(j, 5 - i - j) < 5]
+MORE_SAMPLES = np.concatenate([FIRST_SAMPLES, np.array(_GRID) / 5.0])
+NEAR_CHORD, PROJECTIONS = 0.7, 6
 """Barycentric coordinates."""
 
 LEAST_COSINE = 0.35
@@ -129,9 +133,7 @@ class Optimiser:
         self._swap()
         self._rescue()
         far = self._approach()
-        return Changes(
-            self.swaps, self.collapses, self.splits, self.passes, far, self._folded()
-        )
+        return Changes(self.swaps, self.collapses, self.splits, self.passes, far, self._folded())
 
     def _folded(self) -> np.ndarray:
         folded = np.empty(int(self.t.count[1]), np.uint8)
@@ -172,7 +174,8 @@ class Optimiser:
         limit = CHORD_MARGIN * chord
         estimate = np.empty(int(self.t.count[1]))
         estimate_deviations(self.t, self.embedding, estimate)
-        suspects = np.flatnonzero(estimate > SUSPECT * chord)
+        least = SUSPECT * chord if len(estimate) > FEW_TRIANGLES else 0.0
+        suspects = np.flatnonzero(estimate > least)
         for _ in range(CHORD_ROUNDS):
             error = self._deviations(suspects)
             if shrink(self.t, self.embedding, suspects, error, limit, self.active) == 0:
@@ -193,19 +196,33 @@ class Optimiser:
         return suspects[self._deviations(suspects) > TOLERATED * chord]
 
     def _deviations(self, triangles: np.ndarray) -> np.ndarray:
-        """Largest distance from the surface at 22 samples of each of the triangles (n,)."""
-        corners = self.t.tri.reshape(-1, 3)[triangles]
-        scaling = self.field.scaling
+        """Largest distance from the surface at samples of each of the triangles (n,).
+
+        Four samples each, read in the tangent planes; where these come near to ``chord`` more
+        samples, each with its nearest point.
+        """
         error = np.zeros(len(triangles))
         found = np.empty((len(triangles), 7))
-        for weights in SAMPLES:
-            point = np.einsum("k,nki->ni", weights, self.embedding.point[corners])
-            xy = np.einsum("k,nki->ni", weights, self.t.xy[corners])
-            tangent_plane_distances(
-                point, *self.surface.evaluate(scaling.to_uv(xy), 1), found
-            )
+        for weights in FIRST_SAMPLES:
+            point, uv = self._interpolated(triangles, weights)
+            tangent_plane_distances(point, *self.surface.evaluate(uv, 1), found)
             error = np.maximum(error, found[:, 3])
+        close = np.flatnonzero(error > NEAR_CHORD * self.field.sizing.chord)
+        error[close] = 0.0
+        for weights in MORE_SAMPLES:
+            point, uv = self._interpolated(triangles[close], weights)
+            distance = closest_point(self.surface, point, uv, PROJECTIONS)[1]
+            error[close] = np.maximum(error[close], distance)
         return error
+
+    def _interpolated(
+        self, triangles: np.ndarray, weights: np.ndarray
+    ) -> tuple[np.ndarray, np.ndarray]:
+        """Points (n, 3) at barycentric ``weights`` (3,) of the triangles, parameters (n, 2)."""
+        corners = self.t.tri.reshape(-1, 3)[triangles]
+        point = np.einsum("k,nki->ni", weights, self.embedding.point[corners])
+        xy = np.einsum("k,nki->ni", weights, self.t.xy[corners])
+        return point, self.field.scaling.to_uv(xy)
 
     def _embed(self, vertices: np.ndarray) -> None:
         """Put vertices (n,) back on the surface, with their exact metric."""

@@ -1,8 +1,8 @@
 """One parametric surface, all stages: the spine of surfmesh.
 
-    sides -> size field -> packing -> boundary -> optimisation -> space, joined sides glued
-      ^                                                              |
-      +---------- smaller sizes where the mesh is not right ---------+
+sides -> size field -> packing -> boundary -> optimisation -> space, joined sides glued
+  ^                                                              |
+  +---------- smaller sizes where the mesh is not right ---------+
 """
 
 import time

@@ -52,6 +52,10 @@ DEFAULT_CHORD = 1e-3
 DEFAULT_MAX_SIZE = 0.1
 """Wishes that are not stated, relative to the diagonal of the bounding box."""
 
+FINEST_SIZE = 1e-5
+"""No size is smaller, relative to the diagonal, unless ``min_size`` says so: at an apex the
+curvature is infinite."""
+
 DEFAULT_ANGLE = 45.0
 """Degrees; kept wherever the size follows the curvature at all."""
 
@@ -321,9 +325,7 @@ class _Builder:
             near = np.flatnonzero(away < depth)
             moved = xy[near]
             moved[:, across] = np.abs(far - depth[near])
-            forms = forms_from_derivatives(
-                *self.surface.evaluate(self.scaling.to_uv(moved), 2)[1:]
-            )
+            forms = forms_from_derivatives(*self.surface.evaluate(self.scaling.to_uv(moved), 2)[1:])
             self.root[near] = _root(forms, self.scaling.rates(moved))
 
     def _xy_of(self, nodes: np.ndarray) -> np.ndarray:
@@ -415,7 +417,7 @@ class _SizeLaw:
             coarsest = np.inf  # the law alone decides
         if isinstance(sizing.size, float):
             coarsest = min(coarsest, sizing.size) if sizing.max_size else sizing.size
-        finest = sizing.min_size or 0.0
+        finest = sizing.min_size or min(FINEST_SIZE * self.diagonal, coarsest)
         self.clamp = (finest, max(coarsest, finest))
 
     @property
@@ -427,7 +429,11 @@ class _SizeLaw:
         size = np.full(len(k1), np.inf)
         if self.sizing.chord is not None:
             size = np.minimum(size, chord_size(k1, k2, self.sizing.chord))
-        size = np.minimum(size, angle_size(k1, k2, self.sizing.angle or DEFAULT_ANGLE))
+        if self.sizing.angle is not None:
+            size = np.minimum(size, angle_size(k1, k2, self.sizing.angle))
+        else:  # a triangle within chord of an apex need not follow it
+            unfolded = angle_size(k1, k2, DEFAULT_ANGLE)
+            size = np.minimum(size, np.maximum(unfolded, 2.0 * self.sizing.chord))
         return np.clip(size, *self.clamp)
 
     def __call__(self, xy: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
