@@ -26,6 +26,7 @@ SWAP_GAIN = 1e-3  # smallest betterment of the worse alpha for which an edge is 
 LEAST_SHAPE = 0.6  # a move may lower the worst alpha of a star, but not below this
 LONGEST_STEP = 0.3  # of the wanted edge length
 SMALLEST_SHRINK = 0.85  # least factor by which one round lowers a wanted size
+SMALLEST_SCALE = 0.6  # what is not near enough with sizes scaled by this needs another field
 STILL = 0.02  # a vertex that moves less than this (unit lengths) leaves its neighbours alone
 
 
@@ -309,8 +310,9 @@ def shrink(t, s, triangles, error, chord_error, active):
         factor = max(math.sqrt(chord_error / error[k]), SMALLEST_SHRINK)
         for i in range(3):
             v = t.tri[3 * triangles[k] + i]
-            s.size[v] *= factor
-            s.scale[v] *= factor
+            if s.scale[v] * factor >= SMALLEST_SCALE:
+                s.size[v] *= factor
+                s.scale[v] *= factor
             active[v] = 1
     return far
 
@@ -319,9 +321,12 @@ def shrink(t, s, triangles, error, chord_error, active):
 def find_folded(t, s, least, folded):
     """Mark in ``folded`` (triangles,) those turned against the surface at one of their corners.
 
-    ``least``: cosine of the largest angle allowed between the normals. Returns how many.
+    ``least``: cosine of the largest angle allowed between the normals; a triangle that ends at
+    a pole or an apex, where the surface has no normal, may turn by a right angle: around the
+    apex of a cone it does, at any size. Returns how many.
     """
     count = 0
+    p = s.point
     for k in range(t.count[1]):
         folded[k] = 0
         if t.region[k] == DEAD:
@@ -329,17 +334,20 @@ def find_folded(t, s, least, folded):
         a, b, c = t.tri[3 * k], t.tri[3 * k + 1], t.tri[3 * k + 2]
         if _coincide(s, a, b) or _coincide(s, b, c) or _coincide(s, c, a):
             continue
-        p = s.point
         ux, uy, uz = p[b, 0] - p[a, 0], p[b, 1] - p[a, 1], p[b, 2] - p[a, 2]
         vx, vy, vz = p[c, 0] - p[a, 0], p[c, 1] - p[a, 1], p[c, 2] - p[a, 2]
         nx, ny, nz = uy * vz - uz * vy, uz * vx - ux * vz, ux * vy - uy * vx
         area = math.sqrt(nx * nx + ny * ny + nz * nz)
+        worst, regular = area, True
         for i in range(3):
             m = s.normal[t.tri[3 * k + i]]
-            regular = m[0] != 0.0 or m[1] != 0.0 or m[2] != 0.0
-            if regular and nx * m[0] + ny * m[1] + nz * m[2] < least * area:
-                folded[k] = 1
-        count += folded[k]
+            if m[0] == 0.0 and m[1] == 0.0 and m[2] == 0.0:
+                regular = False
+            else:
+                worst = min(worst, nx * m[0] + ny * m[1] + nz * m[2])
+        if worst < (least * area if regular else 0.0):
+            folded[k] = 1
+            count += 1
     return count
 
 

@@ -5,7 +5,7 @@
 Between any two of them the vertices that moved are put back on the true surface.
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -67,11 +67,12 @@ FEW_TRIANGLES = 20_000
 FIRST_SAMPLES = np.array([(1, 1, 0), (0, 1, 1), (1, 0, 1), (2 / 3, 2 / 3, 2 / 3)]) / 2.0
 _GRID = [(i, j, 5 - i - j) for i in range(5) for j in range(6 - i) if max(j, 5 - i - j) < 5]
 MORE_SAMPLES = np.concatenate([FIRST_SAMPLES, np.array(_GRID) / 5.0])
-NEAR_CHORD, PROJECTIONS = 0.7, 6
+NEAR_CHORD, PROJECTIONS = 0.85, 4
 """Barycentric coordinates."""
 
-LEAST_COSINE = 0.35
-"""Of the angle between the normals of a triangle and of the surface at its corners."""
+TURNED, LEAST_AT_CENTRE, LEAST_COSINE = 0.85, 0.55, 0.35
+"""Cosines between the normals of a triangle and of the surface: where it is looked at again,
+what is folded at the centroid, and at a corner."""
 
 CHORD_ROUNDS = 10
 CHORD_MARGIN, TOLERATED = 0.96, 0.98
@@ -136,22 +137,40 @@ class Optimiser:
         return Changes(self.swaps, self.collapses, self.splits, self.passes, far, self._folded())
 
     def _folded(self) -> np.ndarray:
-        folded = np.empty(int(self.t.count[1]), np.uint8)
-        find_folded(self.t, self.embedding, LEAST_COSINE, folded)
-        return np.flatnonzero(folded)
+        """Triangles turned against the surface's normals at a corner or at the centroid."""
+        flag = np.empty(int(self.t.count[1]), np.uint8)
+        find_folded(self.t, self.embedding, TURNED, flag)
+        turned = np.flatnonzero(flag)
+        find_folded(self.t, self.embedding, LEAST_COSINE, flag)
+        if not len(turned):
+            return turned
+        corners = self.embedding.point[self.t.tri.reshape(-1, 3)[turned]]
+        normal = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+        _, uv = self._interpolated(turned, FIRST_SAMPLES[-1])
+        _, ru, rv = self.surface.evaluate(uv, 1)
+        true = np.cross(ru, rv)
+        length = np.linalg.norm(normal, axis=1) * np.linalg.norm(true, axis=1)
+        away = np.einsum("ij,ij->i", normal, true) < LEAST_AT_CENTRE * length
+        return turned[away | (flag[turned] != 0)]
 
     def settle(self) -> None:
         """Only choose better diagonals for what the packing and the boundary left over."""
         self._swap(LEFT_OVER)
 
-    def limits_at(self, triangles: np.ndarray, factor: float) -> SizeLimits:
-        """The sizes at the corners of ``triangles`` (n,), times ``factor``, as limits."""
-        corners = np.unique(self.t.tri.reshape(-1, 3)[triangles])
-        return SizeLimits(
-            self.embedding.point[corners],
-            factor * self.embedding.size[corners],
-            self.field.sizing.gradient,
-        )
+    def limits_at(self, triangles: np.ndarray, factor: np.ndarray | float) -> SizeLimits:
+        """The sizes that the field has at the corners of ``triangles`` (n,), times ``factor``."""
+        corners = self.t.tri.reshape(-1, 3)[triangles]
+        wanted = self.embedding.size[corners] / self.embedding.scale[corners]
+        sizes = (wanted.T * factor).T.ravel()
+        points = self.embedding.point[corners.ravel()]
+        return SizeLimits(points, sizes, self.field.sizing.gradient)
+
+    def too_far(self, triangles: np.ndarray) -> SizeLimits:
+        """Limits with which ``triangles`` (n,) would come to lie within ``chord``."""
+        chord = self.field.sizing.chord
+        factor = np.clip(np.sqrt(CHORD_MARGIN * chord / self._deviations(triangles)), 0.5, 0.95)
+        limits = self.limits_at(triangles, factor)
+        return replace(limits, sizes=np.maximum(limits.sizes, 2.0 * chord))
 
     def _rescue(self) -> None:
         """Passes for the worst triangles alone."""

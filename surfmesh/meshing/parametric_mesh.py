@@ -94,9 +94,10 @@ def _one_round(
             optimiser = Optimiser(domain.t, domain.node, same, surface, field)
             changes = optimiser.run()
             scale = optimiser.embedding.scale
-            for triangles, factor in ((changes.far, 1.0), (changes.folded, FINER)):
-                if len(triangles):
-                    wishes.append(optimiser.limits_at(triangles, factor))
+            if len(changes.far):
+                wishes.append(optimiser.too_far(changes.far))
+            if len(changes.folded):
+                wishes.append(optimiser.limits_at(changes.folded, FINER))
             del optimiser
     with watch.stage("mapping"):
         mesh, parts = _in_space(surface, sides, field, loops, domain, scale, watch)

@@ -60,7 +60,9 @@ DEFAULT_ANGLE = 45.0
 """Degrees; kept wherever the size follows the curvature at all."""
 
 MAX_CELLS = 4_000_000
-MAX_ROUNDS, SWEEPS = 60, 400
+MAX_ROUNDS = 60
+SWEEPS, MAX_CHUNKS = 16, 400
+"""Sweeps of the gradation before the cells are sorted anew, and how often that is done."""
 
 
 @dataclass(frozen=True)
@@ -245,13 +247,16 @@ class _Builder:
     def _grade(self, patch: np.ndarray) -> None:
         new = np.full(len(self.size) - len(self.changed), self.sweep, np.int32)
         self.changed = np.concatenate([self.changed, new])
-        order = np.argsort(self.size[patch].min(axis=1))
-        self.sweep = grade(
-            patch[order], self.joined, self.point, self.slope, self.size,
-            self.changed, self.sweep + 1, SWEEPS,
-        )  # fmt: skip
-        if self.sweep < 0:
-            raise SizingError(f"the sizes on {self.surface.name!r} could not be graded")
+        for _ in range(MAX_CHUNKS):
+            order = np.argsort(self.size[patch].min(axis=1))
+            following = grade(
+                patch[order], self.joined, self.point, self.slope, self.size,
+                self.changed, self.sweep + 1, SWEEPS,
+            )  # fmt: skip
+            self.sweep = abs(following)
+            if following > 0:
+                return
+        raise SizingError(f"the sizes on {self.surface.name!r} could not be graded")
 
     def _balance(self, cells: "_Cells", split: np.ndarray) -> None:
         """Add to ``split`` what would be left more than one level coarser than a neighbour."""
