@@ -227,11 +227,10 @@ class Optimiser:
             tangent_plane_distances(point, *self.surface.evaluate(uv, 1), found)
             error = np.maximum(error, found[:, 3])
         close = np.flatnonzero(error > NEAR_CHORD * self.field.sizing.chord)
-        error[close] = 0.0
-        for weights in MORE_SAMPLES:
-            point, uv = self._interpolated(triangles[close], weights)
-            distance = closest_point(self.surface, point, uv, PROJECTIONS)[1]
-            error[close] = np.maximum(error[close], distance)
+        samples = [self._interpolated(triangles[close], weights) for weights in MORE_SAMPLES]
+        points, uv = (np.concatenate(parts) for parts in zip(*samples))
+        distance = closest_point(self.surface, points, uv, PROJECTIONS)[1]
+        error[close] = distance.reshape(len(MORE_SAMPLES), -1).max(axis=0)
         return error
 
     def _interpolated(

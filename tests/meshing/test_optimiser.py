@@ -80,7 +80,8 @@ def test_run_betters_two_peaks():
     assert changes.swaps > 0 and changes.passes > 0
     assert after.mean() > 0.955 > before.mean() + 0.01
     assert after.min() > before.min()
-    assert len(changes.folded) < 10 and len(changes.far) < 0.01 * len(after)  # another round's work
+    assert len(changes.folded) < 0.01 * len(after)
+    assert len(changes.far) < 0.01 * len(after)  # what is left is for another round
 
 
 def test_a_second_run_has_little_left_to_do():
