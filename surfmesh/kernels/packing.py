@@ -46,7 +46,7 @@ TANGENT_RANGE = 0.72, 1.25  # metric radius at which a circle tangent to three i
 GOOD_SHAPE = 0.8  # a pair of done triangles both better than this is left as it is
 FIT_STEPS = 8
 EASE_WITHIN = 1.4  # circles nearer than this are neighbours of the one to place
-EASY = 0.06  # a neighbour at 1 -+ this is touched well enough
+EASY = 0.08  # a neighbour at 1 -+ this is touched well enough
 
 
 class Packing(NamedTuple):
@@ -126,7 +126,7 @@ def fit_to_two(xy, size, count, background, a, b):
         if close > best:
             best, best_x, best_y = close, x, y
             best_11, best_12, best_22 = h11, h12, h22
-        if close > CLOSENESS and (step > 0 or close > 0.995):
+        if close > CLOSENESS and (step > 0 or close > 0.98):
             break
         det = gax * gby - gay * gbx
         if abs(det) < 1e-3 * (abs(gax * gby) + abs(gay * gbx)):
