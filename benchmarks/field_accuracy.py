@@ -17,7 +17,7 @@ import surfmesh as sm
 from surfmesh.geometry.fundamental_forms import curvatures, forms_from_derivatives
 from surfmesh.geometry.surface import Surface
 from surfmesh.sizing.curvature_size import angle_size, chord_size
-from surfmesh.sizing.size_field import DEFAULT_ANGLE, DEFAULT_MAX_SIZE
+from surfmesh.sizing.size_field import DEFAULT_ANGLE, DEFAULT_MAX_SIZE, LEAST_OF_CHORD
 
 POINTS = 10_000
 CLOUD_TRIANGLES = 10_000
@@ -99,6 +99,8 @@ def _exact(surface: Surface, uv: np.ndarray, sizing: dict) -> tuple[np.ndarray, 
     with np.errstate(all="ignore"):
         by_chord = chord_size(k.k1, k.k2, sizing["chord"])
         by_angle = angle_size(k.k1, k.k2, sizing.get("angle", DEFAULT_ANGLE))
+        if "angle" not in sizing:
+            by_angle = np.maximum(by_angle, LEAST_OF_CHORD * sizing["chord"])
         size = np.minimum(np.minimum(by_chord, by_angle), _coarsest(surface))
         metric = np.stack([forms.E, forms.F, forms.G], axis=1) / size[:, None] ** 2
     return size, metric, point, ~forms.degenerate & np.isfinite(size)

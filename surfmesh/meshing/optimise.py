@@ -5,7 +5,7 @@
 Between any two of them the vertices that moved are put back on the true surface.
 """
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 
@@ -27,7 +27,7 @@ from surfmesh.kernels.optimisation import (
     wake_bad,
 )
 from surfmesh.kernels.triangulation import Triangulation
-from surfmesh.sizing.size_field import SizeField
+from surfmesh.sizing.size_field import LEAST_OF_CHORD, SizeField
 from surfmesh.sizing.size_limits import SizeLimits
 
 STIFFNESS = 2.0
@@ -73,6 +73,9 @@ NEAR_CHORD, PROJECTIONS = 0.85, 4
 TURNED, LEAST_AT_CENTRE, LEAST_COSINE = 0.85, 0.55, 0.35
 """Cosines between the normals of a triangle and of the surface: where it is looked at again,
 what is folded at the centroid, and at a corner."""
+
+FINER_UNFOLDS = 0.6
+"""Factor on the sizes where triangles are folded."""
 
 CHORD_ROUNDS = 10
 CHORD_MARGIN, TOLERATED = 0.96, 0.98
@@ -157,20 +160,30 @@ class Optimiser:
         """Only choose better diagonals for what the packing and the boundary left over."""
         self._swap(LEFT_OVER)
 
-    def limits_at(self, triangles: np.ndarray, factor: np.ndarray | float) -> SizeLimits:
-        """The sizes that the field has at the corners of ``triangles`` (n,), times ``factor``."""
-        corners = self.t.tri.reshape(-1, 3)[triangles]
-        wanted = self.embedding.size[corners] / self.embedding.scale[corners]
-        sizes = (wanted.T * factor).T.ravel()
-        points = self.embedding.point[corners.ravel()]
-        return SizeLimits(points, sizes, self.field.sizing.gradient)
+    def unfolding(self, triangles: np.ndarray) -> SizeLimits:
+        """Limits under which the folded ``triangles`` (n,) may unfold."""
+        chord = self.field.sizing.chord or 0.0
+        return self._limits_at(triangles, FINER_UNFOLDS, LEAST_OF_CHORD * chord)
 
-    def too_far(self, triangles: np.ndarray) -> SizeLimits:
-        """Limits with which ``triangles`` (n,) would come to lie within ``chord``."""
+    def approaching(self, triangles: np.ndarray) -> SizeLimits:
+        """Limits under which ``triangles`` (n,) would come to lie within ``chord``."""
         chord = self.field.sizing.chord
         factor = np.clip(np.sqrt(CHORD_MARGIN * chord / self._deviations(triangles)), 0.5, 0.95)
-        limits = self.limits_at(triangles, factor)
-        return replace(limits, sizes=np.maximum(limits.sizes, 2.0 * chord))
+        return self._limits_at(triangles, factor, 2.0 * chord)
+
+    def _limits_at(
+        self, triangles: np.ndarray, factor: np.ndarray | float, least: float
+    ) -> SizeLimits:
+        """The field's sizes at the corners of ``triangles`` (n,) times ``factor``.
+
+        Only where that is smaller than now: not below ``least``, which no mesh needs.
+        """
+        corners = self.t.tri.reshape(-1, 3)[triangles]
+        now = self.embedding.size[corners] / self.embedding.scale[corners]
+        sizes = np.maximum((now.T * factor).T, least)
+        finer = sizes < 0.97 * now
+        points = self.embedding.point[corners[finer]]
+        return SizeLimits(points, sizes[finer], self.field.sizing.gradient)
 
     def _rescue(self) -> None:
         """Passes for the worst triangles alone."""

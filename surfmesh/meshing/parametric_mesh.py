@@ -34,7 +34,7 @@ ROUNDS = 8
 """How often the whole way is gone at most, each time with smaller sizes where it failed."""
 
 FINER = 0.6
-"""Factor on the sizes where the mesh is folded or badly glued."""
+"""Factor on the sizes where the mesh is badly glued."""
 
 
 def mesh_parametric(
@@ -95,9 +95,9 @@ def _one_round(
             changes = optimiser.run()
             scale = optimiser.embedding.scale
             if len(changes.far):
-                wishes.append(optimiser.too_far(changes.far))
+                wishes.append(optimiser.approaching(changes.far))
             if len(changes.folded):
-                wishes.append(optimiser.limits_at(changes.folded, FINER))
+                wishes.append(optimiser.unfolding(changes.folded))
             del optimiser
     with watch.stage("mapping"):
         mesh, parts = _in_space(surface, sides, field, loops, domain, scale, watch)
@@ -107,6 +107,7 @@ def _one_round(
             if len(bad):
                 sizes = FINER * mesh.sizes[bad]
                 wishes.append(SizeLimits(mesh.points[bad], sizes, field.sizing.gradient))
+    wishes = [wish for wish in wishes if len(wish.sizes)]
     if not wishes:
         return mesh, None, bad
     wanted = wishes[0]

@@ -59,7 +59,10 @@ curvature is infinite."""
 DEFAULT_ANGLE = 45.0
 """Degrees; kept wherever the size follows the curvature at all."""
 
-MAX_CELLS = 4_000_000
+LEAST_OF_CHORD = 0.5
+"""The default angle asks for nothing smaller than this share of ``chord``: an apex is no fold."""
+
+MAX_CELLS = 800_000
 MAX_ROUNDS = 60
 SWEEPS, MAX_CHUNKS = 16, 400
 """Sweeps of the gradation before the cells are sorted anew, and how often that is done."""
@@ -438,7 +441,7 @@ class _SizeLaw:
             size = np.minimum(size, angle_size(k1, k2, self.sizing.angle))
         else:  # a triangle within chord of an apex need not follow it
             unfolded = angle_size(k1, k2, DEFAULT_ANGLE)
-            size = np.minimum(size, np.maximum(unfolded, 2.0 * self.sizing.chord))
+            size = np.minimum(size, np.maximum(unfolded, LEAST_OF_CHORD * self.sizing.chord))
         return np.clip(size, *self.clamp)
 
     def __call__(self, xy: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
