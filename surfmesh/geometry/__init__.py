@@ -11,4 +11,5 @@ formula_file        surfaces in TOML, the gallery
 fundamental_forms   I, II, normals, principal curvatures
 sides               sides of the rectangle that coincide or shrink to a point
 projection          the closest point of a surface
+scaling             the scaled parameter plane, its axes bent to even speeds
 """
