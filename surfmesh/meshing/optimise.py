@@ -78,7 +78,7 @@ FINER_UNFOLDS = 0.6
 """Factor on the sizes where triangles are folded."""
 
 CHORD_ROUNDS = 10
-CHORD_MARGIN, TOLERATED = 0.96, 0.98
+CHORD_MARGIN, TOLERATED = 0.96, 0.995
 """What is aimed at, and what is let pass rather than go all the way round again. Between the
 samples of a triangle the deviation may be a little larger than at them."""
 
@@ -168,7 +168,7 @@ class Optimiser:
     def approaching(self, triangles: np.ndarray) -> SizeLimits:
         """Limits under which ``triangles`` (n,) would come to lie within ``chord``."""
         chord = self.field.sizing.chord
-        factor = np.clip(np.sqrt(CHORD_MARGIN * chord / self._deviations(triangles)), 0.5, 0.95)
+        factor = np.clip(np.sqrt(CHORD_MARGIN * chord / self._deviations(triangles)), 0.5, 0.8)
         return self._limits_at(triangles, factor, 2.0 * chord)
 
     def _limits_at(

@@ -51,12 +51,17 @@ def mesh_parametric(
     with watch.stage("sizing"):
         sides = find_sides(surface)
     limits: SizeLimits | None = None
+    before = (0, 0)
     for _ in range(ROUNDS):
         with watch.stage("sizing"):
             field = size_field(surface, sizing, sides, limits)
         mesh, wishes, bad = _one_round(surface, sides, field, optimise, watch)
         if wishes is None or not _can_shrink(field, wishes):
             break
+        now = (len(mesh.triangles), len(wishes.sizes))
+        if now == before:  # smaller sizes make no difference: the report says what is left
+            break
+        before = now
         limits = wishes.joined_with(limits)
     if len(bad):
         place = ", ".join(f"{x:.6g}" for x in mesh.points[bad[0]])
