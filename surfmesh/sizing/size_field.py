@@ -38,7 +38,7 @@ DEPTH = 13
 HIDDEN_DEPTH = 6
 """Splits of a root cell within which features between the samples are looked for."""
 
-TEST_ERROR, GRADED_ERROR = 0.035, 0.15
+TEST_ERROR, GRADED_ERROR = 0.03, 0.1
 """Error at the test nodes that a cell may have; the leaf, twice as fine, has a quarter of it,
 or half at a kink. Where gradation decides, the field is a cone and all slopes are small."""
 
@@ -273,7 +273,7 @@ class _Builder:
         error, extent = np.empty(len(patch)), np.empty(len(patch))
         largest = self._largest
         patch_errors(patch, self.root, self.size, step, largest, error, extent)
-        graded = (self.size < self.wish)[patch].any(axis=1)
+        graded = (self.size < 0.98 * self.wish)[patch].any(axis=1)
         allowed = np.where(graded, GRADED_ERROR, TEST_ERROR)
         return (error > allowed) & (extent > FINEST_EXTENT)
 
