@@ -1,15 +1,58 @@
 """Drive the packing kernel: room for its arrays, growing them when they are full."""
 
+from collections.abc import Callable
+
 import numpy as np
 
 from surfmesh.errors import MeshingError
 from surfmesh.kernels.background import Background
 from surfmesh.kernels.front import Front, empty_front
 from surfmesh.kernels.heap import Heap, empty_heap
-from surfmesh.kernels.packing import BAD_START, FULL, STUCK, Packing, pack, start_packing
+from surfmesh.kernels.packing import (
+    BAD_START,
+    FULL,
+    STUCK,
+    pack,
+    start_packing,
+    start_packing_discs,
+)
+from surfmesh.kernels.packing_state import Packing
 from surfmesh.kernels.triangulation import Triangulation, empty_triangulation
 
 NO_LIMIT = 1 << 62
+
+NO_BACKGROUND = Background(
+    np.array([0.0, 0.0, 1.0, 1.0, 1.0]),
+    np.ones(2, np.int64),
+    np.full(1, -1, np.int32),
+    np.zeros((1, 4), np.int32),
+    np.ones((1, 4)),
+)
+"""Stands in where radii are drawn and nothing is looked up."""
+
+
+def packed_discs(
+    draw: Callable[[int], np.ndarray],
+    box: tuple[float, float, float, float],
+    origin: tuple[float, float],
+    expected: int,
+    wanted: int = NO_LIMIT,
+) -> Packing:
+    """Pack circles of random radii over the plane; ``draw(n)`` gives the next n radii.
+
+    Raises ``MeshingError`` when the packing cannot go on.
+    """
+    packing = _room_for(int(1.1 * expected) + 1000, wanted, box, origin)
+    packing = packing._replace(drawn=draw(len(packing.t.xy)))
+    if start_packing_discs(packing) == BAD_START:
+        raise MeshingError(f"no circles can be placed about the origin {origin}")
+    while (status := pack(packing, NO_BACKGROUND)) == FULL:
+        packing = _grown(packing)
+        more = draw(len(packing.t.xy) - len(packing.drawn))
+        packing = packing._replace(drawn=np.concatenate([packing.drawn, more]))
+    if status == STUCK:
+        raise MeshingError("the packing cannot go on: please report this")
+    return packing
 
 
 def packed(
@@ -40,7 +83,7 @@ def _room_for(
     box: tuple[float, float, float, float],
     origin: tuple[float, float],
 ) -> Packing:
-    count = np.zeros(8, np.int64)
+    count = np.zeros(9, np.int64)
     count[0] = wanted
     edges = vertices // 4 + 5000
     return Packing(
@@ -49,6 +92,7 @@ def _room_for(
         empty_heap(edges),
         np.empty((edges, 2), np.int32),
         np.ones(vertices),
+        np.empty(0),
         np.array([*origin, *box, 1.0, 0.0, 1.0, 0.0]),
         count,
     )
@@ -65,6 +109,7 @@ def _grown(p: Packing) -> Packing:
         Heap(_extended(p.heap.key, edges), _extended(p.heap.edge, edges), p.heap.count),
         _extended(p.parked, edges),
         _extended(p.radius, vertices, 1.0),
+        p.drawn,
         p.where,
         p.count,
     )
