@@ -1,0 +1,245 @@
+"""Noding: segments that meet anywhere are cut there, until they meet at common ends only.
+
+     b                     b                      Points closer than the tolerance are one, a
+     |         d           |   ,e---d             vertex near a segment cuts it (a T), what
+     |     ,--'       ->   | ,--'                 overlaps becomes one segment with several
+     c---'                 c---'                  uses, and a proper crossing is a new vertex
+     |                     |                      or is refused.
+     a                     a
+
+Every cut bends a segment by the tolerance at most, which can bring it to something else: it
+is all done again with what has changed, until nothing changes.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+
+import numpy as np
+import shapely
+from scipy.sparse import coo_array
+from scipy.sparse.csgraph import connected_components
+from scipy.spatial import cKDTree
+
+from surfmesh.errors import DomainError
+from surfmesh.kernels.segments import CROSSING, meetings
+
+MERGE = 1e-12
+"""Of the diagonal: points closer than this are one. A crossing is computed to about 1e-15 of
+it, so that what meets in one point gets one vertex; and it is a millionth of the shortest
+segments that are promised to survive."""
+MERGE_ULPS = 4.0
+"""Units in the last place of the largest coordinate below which nothing can be told apart."""
+ROUNDS = 40
+"""Rounds before giving up; two or three are usual, each can only bend segments by MERGE."""
+QUERIES = 512
+"""Segments looked up at a time: bounds the memory where thousands meet in one point."""
+MOST_CROSSINGS = 2_000_000
+"""More crossings than this in one round are a mistake, not a drawing."""
+
+
+@dataclass(frozen=True)
+class Noding:
+    """Segments that meet at common ends only."""
+
+    points: np.ndarray
+    """(n, 2) float, those given in lexicographic order, then the crossings."""
+    segments: np.ndarray
+    """(s, 2) int32, the smaller point first, sorted, without duplicates."""
+    uses: np.ndarray
+    """(u, 2) int32, rows (segment, given segment): which given segments run along which."""
+    lone: np.ndarray
+    """(p,) int32, places given that end no segment."""
+
+
+Refusal = Callable[[int, int, np.ndarray], Exception]
+
+
+def noded(
+    points: np.ndarray, segments: np.ndarray, places: np.ndarray, refusal: Refusal | None
+) -> Noding:
+    """Cut segments where they meet.
+
+    points: (n, 2) finite, of moderate size. segments: (m, 2) int, pairs of points. places:
+    (p,) int, points that become vertices. refusal: makes the exception for a proper crossing
+    of two given segments at a place; None cuts them there.
+
+    Raises that exception, or DomainError when no end is found or there are far too many
+    crossings.
+    """
+    tolerance = merging_tolerance(points)
+    points, number = _lexicographic(points)
+    ends, given, lone = number[segments], np.arange(len(segments)), np.unique(number[places])
+    settled_use = np.zeros(len(ends), bool)
+    settled_lone = np.zeros(len(lone), bool)
+    for turn in range(ROUNDS):
+        number, moved = _merging(points, tolerance)
+        settled_use &= ~moved[ends].any(axis=1)
+        settled_lone &= ~moved[lone]
+        ends, (lone, first) = number[ends], np.unique(number[lone], return_index=True)
+        settled_lone = settled_lone[first]
+        kept = ends[:, 0] != ends[:, 1]
+        ends, given, settled_use = np.sort(ends[kept], axis=1), given[kept], settled_use[kept]
+        unique, use = np.unique(ends[:, 0] * len(points) + ends[:, 1], return_inverse=True)
+        segments = np.stack([unique // len(points), unique % len(points)], axis=1)
+        free = ~np.isin(lone, segments)
+        lone, settled_lone = lone[free], settled_lone[free]
+        settled = np.bincount(use[settled_use], minlength=len(segments)) > 0
+
+        cut, vertex, new = [], [], []
+        pieces = np.concatenate([segments, np.stack([lone, lone], axis=1)])
+        fresh = ~np.concatenate([settled, settled_lone])
+        for pairs, flags, crossings in _meetings(points, pieces, fresh, tolerance):
+            proper = flags == CROSSING
+            if proper.any() and refusal is not None and turn == 0:
+                k = int(proper.argmax())
+                first, second = (int(given[use == s].min()) for s in pairs[k])
+                raise refusal(first, second, crossings[k])
+            for bit, segment, other, end in ((1, 1, 0, 0), (2, 1, 0, 1), (4, 0, 1, 0), (8, 0, 1, 1)):
+                near = (flags & bit) > 0
+                cut.append(pairs[near, segment])
+                vertex.append(pieces[pairs[near, other], end])
+            fresh_vertices = len(points) + sum(map(len, new)) + np.arange(proper.sum())
+            cut += [pairs[proper, 0], pairs[proper, 1]]
+            vertex += [fresh_vertices, fresh_vertices]
+            new.append(crossings[proper])
+            if fresh_vertices.size and fresh_vertices[-1] > len(points) + MOST_CROSSINGS:
+                raise DomainError(
+                    f"the segments cross more than {MOST_CROSSINGS} times; simplify the lines"
+                )
+        cut, vertex = np.concatenate([[], *cut]), np.concatenate([[], *vertex])
+        cut, vertex = cut.astype(np.int64), vertex.astype(np.int64)
+        if not cut.size:
+            return _compact(points, segments, np.stack([use, given], axis=1), lone)
+        points = np.concatenate([points, *new])
+        ends, given, settled_use = _cut(points, segments, cut, vertex, use, given)
+        settled_lone[:] = True
+    raise DomainError(
+        f"the segments do not come to rest after {ROUNDS} rounds of cutting near "
+        f"({points[vertex[0], 0]:.9g}, {points[vertex[0], 1]:.9g}); "
+        "move apart what nearly touches there"
+    )
+
+
+def merging_tolerance(points: np.ndarray) -> float:
+    """The distance below which two of the points (n, 2) are one."""
+    diagonal = float(np.hypot(*np.ptp(points, axis=0)))
+    return max(MERGE * diagonal, MERGE_ULPS * float(np.spacing(np.abs(points).max())))
+
+
+def first_meeting(points: np.ndarray, segments: np.ndarray, lone: np.ndarray) -> tuple | None:
+    """Two segments (or the segment of a lone point) that meet other than at a common end.
+
+    Decided exactly. Returns (first, second), or None; numbers from len(segments) on are lone
+    points.
+    """
+    pieces = np.concatenate([segments, np.stack([lone, lone], axis=1)]).astype(np.int64)
+    for pairs, _, _ in _meetings(points, pieces, np.ones(len(pieces), bool), 0.0):
+        return tuple(pairs[0].tolist())
+    return None
+
+
+def _lexicographic(points: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Distinct points sorted by x, then y, so that no direction or start of a loop matters."""
+    points = points + 0.0  # no negative zeros
+    order = np.lexsort((points[:, 1], points[:, 0]))
+    points = points[order]
+    different = np.ones(len(points), bool)
+    different[1:] = (points[1:] != points[:-1]).any(axis=1)
+    number = np.empty(len(points), np.int64)
+    number[order] = np.cumsum(different) - 1
+    return points[different], number
+
+
+def _merging(points: np.ndarray, tolerance: float) -> tuple[np.ndarray, np.ndarray]:
+    """For each point the first of those that are one with it, and whether that is another."""
+    number = np.arange(len(points))
+    close = cKDTree(points).query_pairs(tolerance, output_type="ndarray")
+    if len(close):
+        links = coo_array((np.ones(len(close), bool), close.T), shape=(len(points),) * 2)
+        _, cluster = connected_components(links, directed=False)
+        _, first = np.unique(cluster, return_index=True)
+        number = first[cluster]
+    return number, number != np.arange(len(points))
+
+
+def _meetings(
+    points: np.ndarray, pieces: np.ndarray, fresh: np.ndarray, tolerance: float
+) -> Iterator[tuple[np.ndarray, np.ndarray, np.ndarray]]:
+    """Pairs of pieces, one of them fresh, that meet: pairs (k, 2), flags (k,), places (k, 2)."""
+    lines = shapely.linestrings(points[pieces])
+    degenerate = pieces[:, 0] == pieces[:, 1]
+    lines[degenerate] = shapely.points(points[pieces[degenerate, 0]])
+    tree = shapely.STRtree(lines)
+    # shapely proposes generously, the kernel decides
+    reach = 2.0 * tolerance + MERGE_ULPS * float(np.spacing(np.abs(points).max()))
+    wanted = np.flatnonzero(fresh)
+    for start in range(0, len(wanted), QUERIES):
+        block = wanted[start : start + QUERIES]
+        asked, found = tree.query(lines[block], predicate="dwithin", distance=reach)
+        asked = block[asked]
+        once = (asked < found) | ~fresh[found]
+        pairs = np.stack([asked[once], found[once]], axis=1)
+        pairs.sort(axis=1)
+        flags = np.empty(len(pairs), np.int64)
+        places = np.full((len(pairs), 2), np.nan)
+        meetings(points, pieces, pairs, tolerance, flags, places)
+        meet = flags > 0
+        if meet.any():
+            pairs, flags, places = pairs[meet], flags[meet], places[meet]
+            order = np.lexsort((pairs[:, 1], pairs[:, 0]))
+            yield pairs[order], flags[order], places[order]
+
+
+def _cut(
+    points: np.ndarray,
+    segments: np.ndarray,
+    cut: np.ndarray,
+    vertex: np.ndarray,
+    use: np.ndarray,
+    given: np.ndarray,
+) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Replace the segments ``cut`` by their pieces between the vertices, use by use.
+
+    Returns ends (u, 2), given (u,) and whether the use was left whole (u,).
+    """
+    whole = np.ones(len(segments), bool)
+    whole[cut] = False
+    broken = np.flatnonzero(~whole)
+    a, b = points[segments[cut, 0]], points[segments[cut, 1]]
+    along = ((points[vertex] - a) * (b - a)).sum(axis=1)
+    row = np.concatenate([broken, cut, broken])
+    knot = np.concatenate([segments[broken, 0], vertex, segments[broken, 1]])
+    far = np.full(len(broken), np.inf)
+    order = np.lexsort((knot, np.concatenate([-far, along, far]), row))
+    row, knot = row[order], knot[order]
+    inner = row[1:] == row[:-1]
+    pieces = np.stack([knot[:-1], knot[1:]], axis=1)[inner]
+    count = np.bincount(row[1:][inner], minlength=len(segments))
+    start = np.cumsum(count) - count
+
+    kept, split = whole[use], np.flatnonzero(~whole[use])
+    times = count[use[split]]
+    step = np.arange(times.sum()) - np.repeat(np.cumsum(times) - times, times)
+    piece = np.repeat(start[use[split]], times) + step
+    ends = np.concatenate([segments[use[kept]], pieces[piece]])
+    given = np.concatenate([given[kept], np.repeat(given[split], times)])
+    return ends, given, np.arange(len(ends)) < np.count_nonzero(kept)
+
+
+def _compact(
+    points: np.ndarray, segments: np.ndarray, uses: np.ndarray, lone: np.ndarray
+) -> Noding:
+    """Drop the points that nothing uses."""
+    used = np.zeros(len(points), bool)
+    used[segments] = True
+    used[lone] = True
+    number = np.cumsum(used) - 1
+    order = np.lexsort((uses[:, 1], uses[:, 0]))
+    return Noding(
+        points[used],
+        number[segments].astype(np.int32),
+        uses[order].astype(np.int32),
+        number[lone].astype(np.int32),
+    )
