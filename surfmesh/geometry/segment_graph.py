@@ -13,7 +13,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from surfmesh.errors import DomainError
-from surfmesh.geometry.noding import first_meeting, noded
+from surfmesh.geometry.noding import MERGE, first_meeting, noded
 
 LARGEST, SMALLEST = 1e100, 1e-100
 """Coordinates and the diagonal stay between these, so that products neither overflow nor
@@ -122,7 +122,8 @@ def segment_graph(
     label_start = np.concatenate([[0], np.cumsum(counts)]).astype(np.int32)
     labels = tuple(line.label for line in lines)
     sizes = np.array([len(line.points) for line in lines])
-    single = np.flatnonzero(np.repeat(np.array(counts) == 0, sizes))
+    # the first point of what is no loop stays, even when all of it is one point
+    stays = (np.cumsum(sizes) - sizes)[[line.loop < 0 for line in lines]]
 
     def refusal(one: int, other: int, place: np.ndarray) -> DomainError:
         x, y = np.ldexp(place, exponent)
@@ -134,7 +135,7 @@ def segment_graph(
 
     # scaling by a power of two is exact, and makes all sizes of domain alike
     scaled = np.ldexp(points, -exponent)
-    found = noded(scaled, segments, single, None if split else refusal)
+    found = noded(scaled, segments, stays, None if split else refusal)
     loop_of_line = np.array([line.loop for line in lines])
     loop_of_given = np.repeat(loop_of_line, counts)
     segment, given = found.uses.T
@@ -146,8 +147,8 @@ def segment_graph(
     for k in np.setdiff1d(np.arange(len(loop_is_hole)), loop_segments[:, 1]):
         label = next(line.label for line in lines if line.loop == k)
         raise DomainError(
-            f"{label} encloses no area: it runs to and fro along the same line; leave it out, "
-            "or give it as a constraint"
+            f"{label} encloses no area: it runs to and fro along one line, or is smaller than "
+            f"{MERGE:g} of the domain; leave it out, or give it as a constraint"
         )
     _, first_use = np.unique(segment, return_index=True)
     arrays = {
