@@ -38,6 +38,9 @@ QUERIES = 512
 MOST_CROSSINGS = 2_000_000
 """More crossings than this in one round are a mistake, not a drawing."""
 
+# flag of a pair, which of the two is cut, and by which end of the other
+_NEAR = ((1, 1, 0, 0), (2, 1, 0, 1), (4, 0, 1, 0), (8, 0, 1, 1))
+
 
 @dataclass(frozen=True)
 class Noding:
@@ -87,32 +90,17 @@ def noded(
         lone, settled_lone = lone[free], settled_lone[free]
         settled = np.bincount(use[settled_use], minlength=len(segments)) > 0
 
-        cut, vertex, new = [], [], []
+        def refuse(pair: np.ndarray, place: np.ndarray, use=use, given=given) -> None:
+            raise refusal(*(int(given[use == s].min()) for s in pair), place)
+
         pieces = np.concatenate([segments, np.stack([lone, lone], axis=1)])
         fresh = ~np.concatenate([settled, settled_lone])
-        for pairs, flags, crossings in _meetings(points, pieces, fresh, tolerance):
-            proper = flags == CROSSING
-            if proper.any() and refusal is not None and turn == 0:
-                k = int(proper.argmax())
-                first, second = (int(given[use == s].min()) for s in pairs[k])
-                raise refusal(first, second, crossings[k])
-            for bit, segment, other, end in ((1, 1, 0, 0), (2, 1, 0, 1), (4, 0, 1, 0), (8, 0, 1, 1)):
-                near = (flags & bit) > 0
-                cut.append(pairs[near, segment])
-                vertex.append(pieces[pairs[near, other], end])
-            fresh_vertices = len(points) + sum(map(len, new)) + np.arange(proper.sum())
-            cut += [pairs[proper, 0], pairs[proper, 1]]
-            vertex += [fresh_vertices, fresh_vertices]
-            new.append(crossings[proper])
-            if fresh_vertices.size and fresh_vertices[-1] > len(points) + MOST_CROSSINGS:
-                raise DomainError(
-                    f"the segments cross more than {MOST_CROSSINGS} times; simplify the lines"
-                )
-        cut, vertex = np.concatenate([[], *cut]), np.concatenate([[], *vertex])
-        cut, vertex = cut.astype(np.int64), vertex.astype(np.int64)
+        # a crossing that only appears later comes from the bending of cuts, and is no mistake
+        refused = refuse if refusal is not None and turn == 0 else None
+        cut, vertex, crossings = _cuts(points, pieces, fresh, tolerance, refused)
         if not cut.size:
             return _compact(points, segments, np.stack([use, given], axis=1), lone)
-        points = np.concatenate([points, *new])
+        points = np.concatenate([points, crossings])
         ends, given, settled_use = _cut(points, segments, cut, vertex, use, given)
         settled_lone[:] = True
     raise DomainError(
@@ -190,6 +178,40 @@ def _meetings(
             pairs, flags, places = pairs[meet], flags[meet], places[meet]
             order = np.lexsort((pairs[:, 1], pairs[:, 0]))
             yield pairs[order], flags[order], places[order]
+
+
+def _cuts(
+    points: np.ndarray,
+    pieces: np.ndarray,
+    fresh: np.ndarray,
+    tolerance: float,
+    refuse: Callable[[np.ndarray, np.ndarray], None] | None,
+) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Which segments are to be cut at which vertices, and the vertices that are new.
+
+    Returns cut (c,), vertex (c,), crossings (x, 2); crossing k is vertex len(points) + k.
+    """
+    empty = np.empty(0, np.int64)
+    cut, vertex, crossings, count = [empty], [empty], [np.empty((0, 2))], len(points)
+    for pairs, flags, places in _meetings(points, pieces, fresh, tolerance):
+        proper = flags == CROSSING
+        if refuse is not None and proper.any():
+            k = int(proper.argmax())
+            refuse(pairs[k], places[k])
+        for bit, segment, other, end in _NEAR:
+            near = (flags & bit) > 0
+            cut.append(pairs[near, segment])
+            vertex.append(pieces[pairs[near, other], end])
+        new = count + np.arange(np.count_nonzero(proper))
+        cut += [pairs[proper, 0], pairs[proper, 1]]
+        vertex += [new, new]
+        crossings.append(places[proper])
+        count += len(new)
+        if count > len(points) + MOST_CROSSINGS:
+            raise DomainError(
+                f"the segments cross more than {MOST_CROSSINGS} times; simplify the lines"
+            )
+    return np.concatenate(cut), np.concatenate(vertex), np.concatenate(crossings)
 
 
 def _cut(

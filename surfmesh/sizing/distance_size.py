@@ -51,17 +51,21 @@ class DistanceSize:
             if not (number > 0.0 and np.isfinite(number)):
                 raise SizingError(f"{name} must be a positive number, not {value!r}")
             object.__setattr__(self, name, number)
-        if not hasattr(self.geometry, "distance") or isinstance(self.geometry, np.ndarray):
+        if hasattr(self.geometry, "geom_type"):
+            raise SizingError("a shapely geometry must be made a PlanarDomain, or arrays, first")
+        if not hasattr(self.geometry, "distance"):
             object.__setattr__(self, "geometry", _polylines(self.geometry))
 
     def __call__(self, points: np.ndarray) -> np.ndarray:
         """Wanted edge lengths (n,) at points (n, 3), or (n, 2) in the plane z = 0."""
-        points = np.asarray(points, dtype=float)
         share = np.minimum(self.distance(points) / self.reach, 1.0)
         return self.near + share * (self.far - self.near)
 
     def distance(self, points: np.ndarray) -> np.ndarray:
         """Distance to the geometry, (n, 2) or (n, 3) -> (n,)."""
+        points = np.asarray(points, dtype=float)
+        if points.ndim != 2 or points.shape[1] not in (2, 3):
+            raise SizingError(f"points have shape {points.shape}, not (n, 2) or (n, 3)")
         if hasattr(self.geometry, "distance"):
             return self.geometry.distance(points)
         return self._distance(_in_space(points))
