@@ -75,7 +75,9 @@ def noded(
     Raises that exception, or DomainError when no end is found or there are far too many
     crossings.
     """
-    merge = merging_distance(points)
+    exponent = size_exponent(points)
+    points = np.ldexp(points, -exponent)  # exact, and makes domains of all sizes alike
+    merge = _merging_distance(points)
     points, number = _lexicographic(points)
     ends, given, lone = number[segments], np.arange(len(segments)), np.unique(number[places])
     settled_use = np.zeros(len(ends), bool)
@@ -97,7 +99,8 @@ def noded(
         settled = np.bincount(use[settled_use], minlength=len(segments)) > 0
 
         def refuse(pair: np.ndarray, place: np.ndarray, use=use, given=given) -> None:
-            raise refusal(*(int(given[use == s].min()) for s in pair), place)
+            first, second = (int(given[use == s].min()) for s in pair)
+            raise refusal(first, second, np.ldexp(place, exponent))
 
         pieces = np.concatenate([segments, np.stack([lone, lone], axis=1)])
         fresh = ~np.concatenate([settled, settled_lone])
@@ -105,18 +108,24 @@ def noded(
         refused = refuse if refusal is not None and turn == 0 else None
         cut, vertex, crossings = _cuts(points, pieces, fresh, NEAR * merge, refused)
         if not cut.size:
+            points = np.ldexp(points, exponent)
             return _compact(points, segments, np.stack([use, given], axis=1), lone)
         points = np.concatenate([points, crossings])
         ends, given, settled_use = _cut(points, segments, cut, vertex, use, given)
         settled_lone[:] = True
+    x, y = np.ldexp(points[vertex[0]], exponent)
     raise DomainError(
         f"the segments do not come to rest after {ROUNDS} rounds of cutting near "
-        f"({points[vertex[0], 0]:.9g}, {points[vertex[0], 1]:.9g}); "
-        "move apart what nearly touches there"
+        f"({x:.9g}, {y:.9g}); move apart what nearly touches there"
     )
 
 
-def merging_distance(points: np.ndarray) -> float:
+def size_exponent(points: np.ndarray) -> int:
+    """The power of two that is the size of the bounding box of points (n, 2)."""
+    return int(np.frexp(np.ptp(points, axis=0).max())[1])
+
+
+def _merging_distance(points: np.ndarray) -> float:
     """The distance below which two of the points (n, 2) are one."""
     diagonal = float(np.hypot(*np.ptp(points, axis=0)))
     return max(MERGE * diagonal, MERGE_ULPS * float(np.spacing(np.abs(points).max())))
@@ -128,6 +137,7 @@ def first_meeting(points: np.ndarray, segments: np.ndarray, lone: np.ndarray) ->
     Decided exactly. Returns (first, second), or None; numbers from len(segments) on are lone
     points.
     """
+    points = np.ldexp(points, -size_exponent(points))
     pieces = np.concatenate([segments, np.stack([lone, lone], axis=1)]).astype(np.int64)
     for pairs, _, _ in _meetings(points, pieces, np.ones(len(pieces), bool), 0.0):
         return tuple(pairs[0].tolist())

@@ -98,7 +98,6 @@ class PlanarDomain:
     def from_shapely(
         cls,
         geometry: BaseGeometry,
-        holes: Any = (),
         constraints: Any = (),
         points: Any = (),
         **options: Any,
@@ -122,9 +121,7 @@ class PlanarDomain:
         lines += [] if more else _arrays("constraint", constraints)
         dots = taken.points + [point for part in places for point in part.points]
         dots += [] if places else list(_points(points))
-        return cls(
-            taken.outer, taken.holes + _arrays("hole", holes), lines, dots or (), **options
-        )
+        return cls(taken.outer, taken.holes, lines, dots, **options)
 
     @classmethod
     def from_svg(

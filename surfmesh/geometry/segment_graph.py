@@ -89,8 +89,7 @@ class SegmentGraph:
         if (count % 2).any():
             loop, point = divmod(int(key[(count % 2).argmax()]), n)
             return f"loop {loop} is not closed at point {point}"
-        scaled = np.ldexp(self.points, -_exponent(self.points))
-        met = first_meeting(scaled, self.segments, self.lone_points)
+        met = first_meeting(self.points, self.segments, self.lone_points)
         if met is not None:
             first, second = (self.origin(k) if k < s else "a lone point" for k in met)
             return f"{first} and {second} meet other than at a common end"
@@ -109,7 +108,6 @@ def segment_graph(
     """
     points = np.concatenate([line.points for line in lines])
     _refuse_extremes(lines, points)
-    exponent = _exponent(points)
     segments, counts, first = [], [], 0
     for line in lines:
         index = first + np.arange(len(line.points))
@@ -126,16 +124,13 @@ def segment_graph(
     stays = (np.cumsum(sizes) - sizes)[[line.loop < 0 for line in lines]]
 
     def refusal(one: int, other: int, place: np.ndarray) -> DomainError:
-        x, y = np.ldexp(place, exponent)
         named = [_origin(labels, label_start, k) for k in sorted((one, other))]
         return DomainError(
-            f"{named[0]} crosses {named[1]} at ({x:.9g}, {y:.9g}); "
+            f"{named[0]} crosses {named[1]} at ({place[0]:.9g}, {place[1]:.9g}); "
             'end one of them there, or pass crossings="split"'
         )
 
-    # scaling by a power of two is exact, and makes all sizes of domain alike
-    scaled = np.ldexp(points, -exponent)
-    found = noded(scaled, segments, stays, None if split else refusal)
+    found = noded(points, segments, stays, None if split else refusal)
     loop_of_line = np.array([line.loop for line in lines])
     loop_of_given = np.repeat(loop_of_line, counts)
     segment, given = found.uses.T
@@ -152,7 +147,7 @@ def segment_graph(
         )
     _, first_use = np.unique(segment, return_index=True)
     arrays = {
-        "points": np.ldexp(found.points, exponent),
+        "points": found.points,
         "segments": found.segments,
         "lone_points": found.lone,
         "loop_segments": loop_segments,
@@ -211,11 +206,6 @@ def inside_regions(
     return np.array(
         [(loops & ~holes).bit_count() > (loops & holes).bit_count() for loops in around], bool
     )
-
-
-def _exponent(points: np.ndarray) -> int:
-    """The power of two that is the size of the points' bounding box."""
-    return int(np.frexp(np.ptp(points, axis=0).max())[1])
 
 
 def _origin(labels: tuple[str, ...], label_start: np.ndarray, given: int) -> str:

@@ -136,6 +136,19 @@ def test_far_from_the_origin():
     assert len(graph.points) == 4 and len(graph.segments) == 5
 
 
+@pytest.mark.parametrize("noise", [1e-15, 1e-13, 5e-12, 3e-11])
+@pytest.mark.parametrize("seed", range(5))
+def test_points_a_little_farther_apart_than_the_merging_distance(seed, noise):
+    """With one distance for both merging and cutting, three such points cut each other's
+    segments in turn for ever."""
+    random = np.random.default_rng(seed)
+    lattice = random.integers(0, 5, (30, 2, 2)) / 4 + noise * random.normal(size=(30, 2, 2))
+    graph_of(constraints=lattice)
+    angle = random.uniform(0, 2 * np.pi, 12)
+    arms = np.stack([np.cos(angle), np.sin(angle)], axis=1)
+    graph_of(constraints=np.stack([-arms, arms], 1) + noise * random.normal(size=(12, 2, 2)))
+
+
 grid_points = arrays(np.int64, (12, 2, 2), elements=st.integers(0, 8))
 any_points = arrays(np.float64, (12, 2, 2), elements=st.floats(0, 1, width=32))
 
