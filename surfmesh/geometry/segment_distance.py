@@ -17,20 +17,28 @@ class SegmentDistance:
 
     def __init__(self, starts: np.ndarray, ends: np.ndarray) -> None:
         segments = np.concatenate([starts, ends], axis=1)[_z_order(0.5 * (starts + ends))]
-        low = np.minimum(segments[:, :3], segments[:, 3:])
-        high = np.maximum(segments[:, :3], segments[:, 3:])
-        first = np.arange(0, len(segments), BLOCK)
+        ends = segments.reshape(-1, 2, 3)
         self._segments = np.ascontiguousarray(segments)
-        self._boxes = np.concatenate(
-            [np.minimum.reduceat(low, first), np.maximum.reduceat(high, first)], axis=1
-        )
+        self._boxes = _bounds(np.concatenate([ends.min(axis=1), ends.max(axis=1)], axis=1))
+        self._groups = _bounds(self._boxes)
 
     def __call__(self, points: np.ndarray) -> np.ndarray:
         """(n, 3) float -> (n,): distance of each point to the nearest segment."""
-        points = np.ascontiguousarray(points, dtype=float)
-        out = np.empty(len(points))
-        distances(points, self._segments, self._boxes, out)
+        points = np.asarray(points, dtype=float)
+        if not len(points):
+            return np.empty(0)
+        order = _z_order(points)  # what is nearest to a point bounds the search of the next
+        found, out = np.empty(len(points)), np.empty(len(points))
+        distances(points[order], self._segments, self._boxes, self._groups, found)
+        out[order] = found
         return out
+
+
+def _bounds(boxes: np.ndarray) -> np.ndarray:
+    """Boxes (ceil(b / BLOCK), 6) around BLOCK boxes (b, 6) in a row each."""
+    first = np.arange(0, len(boxes), BLOCK)
+    low = np.minimum.reduceat(boxes[:, :3], first)
+    return np.concatenate([low, np.maximum.reduceat(boxes[:, 3:], first)], axis=1)
 
 
 def _z_order(points: np.ndarray) -> np.ndarray:

@@ -13,7 +13,7 @@ The others, of a pair ab, cd:   1 a near cd   2 b near cd   4 c near ab   8 d ne
 """
 
 BLOCK = 16
-"""Segments that share a bounding box in ``distances``."""
+"""Segments that share a bounding box in ``distances``, and boxes that share a larger one."""
 
 
 @kernel
@@ -95,24 +95,33 @@ def _squared_distance(segments, s, x, y, z):
 
 
 @kernel
-def distances(points, segments, boxes, out):
+def _squared_distance_to_box(boxes, k, x, y, z):
+    dx = max(boxes[k, 0] - x, x - boxes[k, 3], 0.0)
+    dy = max(boxes[k, 1] - y, y - boxes[k, 4], 0.0)
+    dz = max(boxes[k, 2] - z, z - boxes[k, 5], 0.0)
+    return dx * dx + dy * dy + dz * dz
+
+
+@kernel
+def distances(points, segments, boxes, groups, out):
     """Distance of each point to the nearest segment.
 
     points: (n, 3). segments: (s, 6), rows (start, end). boxes: (ceil(s / BLOCK), 6), rows
-    (low, high) that bound BLOCK segments in a row. out: (n,) filled.
+    (low, high) that bound BLOCK segments in a row. groups: the same for BLOCK boxes in a row.
+    out: (n,) filled.
     """
     nearest = 0  # neighbouring points often have the same nearest segment
     for k in range(len(points)):
         x, y, z = points[k, 0], points[k, 1], points[k, 2]
         best = _squared_distance(segments, nearest, x, y, z)
-        for block in range(len(boxes)):
-            dx = max(boxes[block, 0] - x, x - boxes[block, 3], 0.0)
-            dy = max(boxes[block, 1] - y, y - boxes[block, 4], 0.0)
-            dz = max(boxes[block, 2] - z, z - boxes[block, 5], 0.0)
-            if dx * dx + dy * dy + dz * dz >= best:
+        for group in range(len(groups)):
+            if _squared_distance_to_box(groups, group, x, y, z) >= best:
                 continue
-            for s in range(BLOCK * block, min(BLOCK * (block + 1), len(segments))):
-                found = _squared_distance(segments, s, x, y, z)
-                if found < best:
-                    best, nearest = found, s
+            for block in range(BLOCK * group, min(BLOCK * (group + 1), len(boxes))):
+                if _squared_distance_to_box(boxes, block, x, y, z) >= best:
+                    continue
+                for s in range(BLOCK * block, min(BLOCK * (block + 1), len(segments))):
+                    found = _squared_distance(segments, s, x, y, z)
+                    if found < best:
+                        best, nearest = found, s
         out[k] = best**0.5

@@ -76,6 +76,17 @@ def test_distances_are_exact(seed, count, factor):
     assert law.distance(starts).max() <= 1e-15 * factor
 
 
+def test_a_circle_of_many_segments():
+    """Two levels of boxes; points around a polygon of 2000 sides."""
+    turn = np.linspace(0, 2 * np.pi, 2001)
+    law = sm.DistanceSize(np.stack([np.cos(turn), np.sin(turn)], axis=1), 1, 2, 1)
+    angle = np.random.default_rng(0).choice(turn, 50)
+    for radius in (0.0, 0.5, 0.999, 1.0, 1.5, 40.0):
+        points = radius * np.stack([np.cos(angle), np.sin(angle), 0 * angle], axis=1)
+        sagitta = 1 - np.cos(np.pi / 2000)
+        assert law.distance(points) == pytest.approx(abs(radius - 1), abs=1.01 * sagitta)
+
+
 def test_nothing_and_one_place():
     law = sm.DistanceSize(np.zeros((40, 1, 3)), 1, 2, 1)
     assert law(np.empty((0, 3))).shape == (0,)
