@@ -16,9 +16,11 @@ from typing import TYPE_CHECKING, Any
 if TYPE_CHECKING:
     from surfmesh import errors, io, view
     from surfmesh.api import load, mesh
-    from surfmesh.geometry.formula_file import gallery
     from surfmesh.geometry.parametric import ParametricSurface
+    from surfmesh.geometry.planar_domain import PlanarDomain
+    from surfmesh.geometry.surface_file import gallery
     from surfmesh.quality import Report, check
+    from surfmesh.sizing.distance_size import DistanceSize
     from surfmesh.sizing.sizing import Sizing
     from surfmesh.surface_mesh import SurfaceMesh
 
@@ -27,19 +29,23 @@ if TYPE_CHECKING:
 # No submodule may be called like a public name (mesh, check, load): importing it would put
 # the module where the function should be.
 _HOMES = {
+    "DistanceSize": "surfmesh.sizing.distance_size",
     "ParametricSurface": "surfmesh.geometry.parametric",
+    "PlanarDomain": "surfmesh.geometry.planar_domain",
     "Report": "surfmesh.quality",
     "Sizing": "surfmesh.sizing.sizing",
     "SurfaceMesh": "surfmesh.surface_mesh",
     "check": "surfmesh.quality",
-    "gallery": "surfmesh.geometry.formula_file",
+    "gallery": "surfmesh.geometry.surface_file",
     "load": "surfmesh.api",
     "mesh": "surfmesh.api",
 }
 _MODULES = ("errors", "io", "view")
 
 __all__ = [
+    "DistanceSize",
     "ParametricSurface",
+    "PlanarDomain",
     "Report",
     "Sizing",
     "SurfaceMesh",

@@ -3,28 +3,29 @@
 from pathlib import Path
 
 from surfmesh.errors import FileFormatError, SurfaceError
-from surfmesh.geometry.formula_file import gallery, load_formula_file
 from surfmesh.geometry.surface import Surface
+from surfmesh.geometry.surface_file import gallery, load_surface_file
 from surfmesh.meshing.parametric_mesh import Progress, mesh_parametric
+from surfmesh.sizing.distance_size import default_wishes
 from surfmesh.sizing.sizing import Sizing
 from surfmesh.surface_mesh import SurfaceMesh
 
 
 def load(path: str | Path) -> Surface:
-    """The surface of a formula file (``.toml``), or of the gallery by its name.
+    """The surface of a file, or of the gallery by its name.
 
-    Raises ``FileFormatError`` for a file of another kind, ``SurfaceError`` for a bad formula
-    file.
+    A ``.toml`` file holds formulas or a planar domain, a ``.svg`` drawing a planar domain.
+
+    Raises ``FileFormatError`` for a file of another kind, ``SurfaceError`` or ``DomainError``
+    for what is wrong in it.
     """
     place = Path(path)
     if place.suffix == "" and not place.exists():
         known = gallery()
         if str(path) in known:
-            return load_formula_file(known[str(path)])
+            return load_surface_file(known[str(path)])
         raise FileFormatError(f"no file and no gallery surface called {str(path)!r}")
-    if place.suffix.lower() != ".toml":
-        raise FileFormatError(f"cannot read {place.name!r}: surfaces come from .toml files")
-    return load_formula_file(place)
+    return load_surface_file(place)
 
 
 def mesh(
@@ -45,5 +46,5 @@ def mesh(
     if not isinstance(surface, Surface):
         raise SurfaceError(f"cannot mesh a {type(surface).__name__}: a Surface is needed")
     if sizing is None:
-        sizing = getattr(surface, "sizing_defaults", None) or None
+        sizing = default_wishes(surface) or None
     return mesh_parametric(surface, Sizing.of(sizing), optimise, progress)

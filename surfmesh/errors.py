@@ -30,6 +30,10 @@ class FormulaError(SurfaceError):
         super().__init__(f"{reason} (column {column}){pointer}")
 
 
+class DomainError(SurfmeshError, ValueError):
+    """A planar domain cannot be used: crossing segments, a loop without area, wrong arrays."""
+
+
 class SizingError(SurfmeshError, ValueError):
     """A wish about sizes that cannot be met: unknown, contradictory, not positive."""
 

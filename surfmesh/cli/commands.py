@@ -117,7 +117,7 @@ def view(options: Namespace) -> bool:
 
 def gallery(options: Namespace) -> bool:
     """List the ready-made surfaces."""
-    from surfmesh.geometry.formula_file import gallery as surfaces
+    from surfmesh.geometry.surface_file import gallery as surfaces
 
     described = []
     for name, path in surfaces().items():
@@ -167,7 +167,7 @@ def _surface(options: Namespace) -> Any:
 def _named_surface(name: str) -> Any:
     """A file, or else a surface of the gallery."""
     from surfmesh import api
-    from surfmesh.geometry.formula_file import gallery as surfaces
+    from surfmesh.geometry.surface_file import gallery as surfaces
 
     if Path(name).is_file():
         return api.load(name)

@@ -1,0 +1,24 @@
+"""How many loops lie around a loop: even-odd nesting."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+import shapely
+
+
+def nesting_depth(loops: Sequence[np.ndarray]) -> np.ndarray:
+    """For each loop (k, 2), three points or more, the number of others it lies in: (L,) int.
+
+    A loop lies in a larger one that holds a point of its interior; of two equal ones the later
+    lies in the earlier, so that by even-odd they cancel.
+    """
+    polygons = shapely.make_valid([shapely.Polygon(loop) for loop in loops])
+    area = shapely.area(polygons)
+    probes = shapely.point_on_surface(polygons)
+    inner, around = shapely.STRtree(polygons).query(probes, predicate="within")
+    rank = np.lexsort((np.arange(len(loops)), -area))  # larger first, then earlier
+    place = np.empty(len(loops), int)
+    place[rank] = np.arange(len(loops))
+    return np.bincount(inner[place[around] < place[inner]], minlength=len(loops))

@@ -1,0 +1,365 @@
+"""Domains of the plane z = 0: outer loops, holes, islands, constraint lines and points."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping, Sequence
+from functools import cached_property
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from surfmesh.errors import DomainError
+from surfmesh.geometry.segment_distance import SegmentDistance
+from surfmesh.geometry.segment_graph import Line, SegmentGraph, segment_graph
+from surfmesh.geometry.surface import Domain
+
+if TYPE_CHECKING:
+    from shapely.geometry.base import BaseGeometry
+
+CROSSINGS = ("refuse", "split")
+FAR_AWAY = 1e-8  # last place of the largest coordinate over the diagonal: worth a warning
+
+
+class PlanarDomain:
+    """A part of the plane z = 0, bounded by loops; (u, v) are x and y. Immutable.
+
+    outer: one loop (k, 2), or several: parts side by side, islands in holes. holes: loops.
+    constraints: polylines (k, 2) that the mesh follows, closed where the first point is
+    repeated. points: (p, 2) places that become vertices. Loops go in either direction, and
+    their first point may be repeated. A place is inside when more outer loops than holes lie
+    around it.
+
+    Lines may touch, overlap and end on each other. crossings: "refuse" lines that cross, or
+    "split" them there. description, sizing_defaults, facts: what is known about the domain,
+    kept for whoever asks.
+
+    Raises DomainError that names the loop or line for arrays of a wrong shape, coordinates
+    that are not finite, loops that enclose no area, and crossings unless they are split.
+    """
+
+    def __init__(
+        self,
+        outer: Any,
+        holes: Any = (),
+        constraints: Any = (),
+        points: Any = (),
+        *,
+        crossings: str = "refuse",
+        name: str = "domain",
+        description: str = "",
+        sizing_defaults: Mapping[str, Any] | None = None,
+        facts: Mapping[str, Any] | None = None,
+    ) -> None:
+        outer, holes = _arrays("outer loop", outer), _arrays("hole", holes)
+        if not outer:
+            raise DomainError("there is no outer loop; give at least one loop (k, 2)")
+        loops = [(f"outer loop {k}", loop, False) for k, loop in enumerate(outer)]
+        loops += [(f"hole {k}", loop, True) for k, loop in enumerate(holes)]
+        about = (crossings, name, description, sizing_defaults, facts)
+        self._settle(loops, constraints, points, *about)
+
+    name: str
+    domain: Domain  # bounding box of everything that was given
+    loops: tuple[np.ndarray, ...]  # none: trimming is up to the graph
+    outer: tuple[np.ndarray, ...]
+    holes: tuple[np.ndarray, ...]
+    constraints: tuple[np.ndarray, ...]
+    points: np.ndarray
+    crossings: str
+    graph: SegmentGraph
+    description: str
+    sizing_defaults: dict[str, Any]
+    facts: dict[str, Any]
+
+    @classmethod
+    def from_loops(
+        cls,
+        loops: Any,
+        constraints: Any = (),
+        points: Any = (),
+        *,
+        crossings: str = "refuse",
+        name: str = "domain",
+        description: str = "",
+        sizing_defaults: Mapping[str, Any] | None = None,
+        facts: Mapping[str, Any] | None = None,
+    ) -> PlanarDomain:
+        """The domain within an odd number of loops: a loop in one other is a hole, and so on.
+
+        The rest as for the class itself.
+        """
+        arrays = _arrays("loop", loops)
+        labels = [f"loop {k}" for k in range(len(arrays))]
+        about = (crossings, name, description, sizing_defaults, facts)
+        return cls._nested(labels, arrays, constraints, points, *about)
+
+    @classmethod
+    def from_shapely(
+        cls,
+        geometry: BaseGeometry,
+        constraints: Any = (),
+        points: Any = (),
+        **options: Any,
+    ) -> PlanarDomain:
+        """A Polygon, MultiPolygon, or a GeometryCollection of them with lines and points.
+
+        Lines become constraints and points demanded vertices, beside those given here, which
+        may be shapely geometries or arrays. options as for the class.
+
+        Raises DomainError when there is no polygon, or for a geometry of another kind.
+        """
+        from surfmesh.geometry.shapely_parts import parts
+
+        taken = parts(geometry)
+        more = [parts(lines) for lines in _geometries(constraints)]
+        places = [parts(place) for place in _geometries(points)]
+        if not taken.outer:
+            raise DomainError("the shapely geometry holds no polygon; a domain needs one")
+        lines = taken.lines + [line for part in more for line in part.outer + part.holes]
+        lines += [line for part in more for line in part.lines]
+        lines += [] if more else _arrays("constraint", constraints)
+        dots = taken.points + [point for part in places for point in part.points]
+        dots += [] if places else list(_points(points))
+        return cls(taken.outer, taken.holes, lines, dots, **options)
+
+    @classmethod
+    def from_svg(
+        cls,
+        source: str | Path,
+        tolerance: float | None = None,
+        constraints: Any = (),
+        points: Any = (),
+        *,
+        crossings: str = "refuse",
+        name: str | None = None,
+        description: str = "",
+        sizing_defaults: Mapping[str, Any] | None = None,
+        facts: Mapping[str, Any] | None = None,
+    ) -> PlanarDomain:
+        """The domain that an SVG file, or its text, draws.
+
+        Closed subpaths are loops, with even-odd nesting; open ones are constraints. Lengths are
+        the drawing's user units, the y axis is turned to point upwards: y = -y of the drawing.
+        tolerance: largest distance between a curve and its polyline; a thousandth of the
+        drawing's diagonal when it is not given.
+
+        Raises DomainError for a drawing that cannot be read or that holds no closed path.
+        """
+        from surfmesh.geometry.svg_paths import svg_paths
+
+        drawing = svg_paths(source, tolerance)
+        if not drawing.loops:
+            raise DomainError(f"{drawing.name}: the drawing holds no closed path")
+        lines = list(drawing.lines) + _arrays("constraint", constraints)
+        about = (crossings, name or drawing.name, description, sizing_defaults, facts)
+        return cls._nested(drawing.labels, drawing.loops, lines, points, *about)
+
+    @classmethod
+    def _nested(
+        cls, labels: Sequence[str], loops: Sequence[np.ndarray], *rest: Any
+    ) -> PlanarDomain:
+        from surfmesh.geometry.nesting import nesting_depth
+
+        loops = [_loop(label, loop) for label, loop in zip(labels, loops)]
+        if not loops:
+            raise DomainError("there is no loop; give at least one loop (k, 2)")
+        odd = nesting_depth(loops) % 2 == 1
+        made = cls.__new__(cls)
+        made._settle(list(zip(labels, loops, odd.tolist())), *rest)
+        return made
+
+    def _settle(
+        self,
+        loops: Sequence[tuple[str, np.ndarray, bool]],
+        constraints: Any,
+        points: Any,
+        crossings: str,
+        name: str,
+        description: str,
+        sizing_defaults: Mapping[str, Any] | None,
+        facts: Mapping[str, Any] | None,
+    ) -> None:
+        if crossings not in CROSSINGS:
+            raise DomainError(f'crossings is "refuse" or "split", not {crossings!r}')
+        places = _points(points)
+        polylines = _arrays("constraint", constraints)
+        closed = [_loop(label, loop) for label, loop, _ in loops]
+        lines = [
+            Line(label, loop, closed=True, loop=k)
+            for k, ((label, _, _), loop) in enumerate(zip(loops, closed))
+        ]
+        lines += [Line(f"constraint {k}", line) for k, line in enumerate(polylines)]
+        lines += [Line(f"point {k}", place[None]) for k, place in enumerate(places)]
+        is_hole = [hole for _, _, hole in loops]
+        graph = segment_graph(lines, is_hole, split=crossings == "split")
+        low, high = graph.points.min(axis=0).tolist(), graph.points.max(axis=0).tolist()
+        self.__dict__.update(
+            name=str(name),
+            domain=tuple(zip(low, high)),
+            loops=(),
+            outer=tuple(_frozen(loop) for loop, hole in zip(closed, is_hole) if not hole),
+            holes=tuple(_frozen(loop) for loop, hole in zip(closed, is_hole) if hole),
+            constraints=tuple(map(_frozen, polylines)),
+            points=_frozen(places),
+            crossings=crossings,
+            graph=graph,
+            description=str(description),
+            sizing_defaults=dict(sizing_defaults or {}),
+            facts=dict(facts or {}),
+        )
+
+    def evaluate(self, uv: np.ndarray, order: int = 0) -> tuple[np.ndarray, ...]:
+        """(n, 2) float -> (n, 3) float arrays of r = (u, v, 0): see ``Surface``."""
+        uv = np.asarray(uv, dtype=float).reshape(-1, 2)
+        values = [np.zeros((len(uv), 3)) for _ in range((1, 3, 6)[order])]
+        values[0][:, :2] = uv
+        if order > 0:
+            values[1][:, 0] = values[2][:, 1] = 1.0
+        return tuple(values)
+
+    def derivative_bounds(self, lo: np.ndarray, hi: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """Exact bounds of r_u, r_v, r_uu, r_uv, r_vv: lower, upper, each (n, 5, 3)."""
+        bounds = np.zeros((len(lo), 5, 3))
+        bounds[:, 0, 0] = bounds[:, 1, 1] = 1.0
+        return bounds, bounds.copy()
+
+    def distance(self, points: np.ndarray) -> np.ndarray:
+        """Exact distance to the nearest boundary, constraint line or point.
+
+        points: (n, 2) or (n, 3) float -> (n,).
+        """
+        points = np.asarray(points, dtype=float)
+        if points.ndim != 2 or points.shape[1] not in (2, 3):
+            raise DomainError(f"points have shape {points.shape}, not (n, 2) or (n, 3)")
+        if points.shape[1] == 2:
+            points = np.column_stack([points, np.zeros(len(points))])
+        return self._distance(points)
+
+    @cached_property
+    def _distance(self) -> SegmentDistance:
+        lone = self.graph.lone_points
+        pieces = np.concatenate([self.graph.segments, np.stack([lone, lone], axis=1)])
+        space = np.column_stack([self.graph.points, np.zeros(len(self.graph.points))])
+        return SegmentDistance(space[pieces[:, 0]], space[pieces[:, 1]])
+
+    @cached_property
+    def area(self) -> float:
+        """Area of the inside, square model units."""
+        import shapely
+
+        from surfmesh.geometry.domain_faces import inside_faces
+
+        return float(shapely.area(inside_faces(self.graph)).sum())
+
+    @cached_property
+    def regions(self) -> int:
+        """Number of regions into which boundaries and constraints divide the inside."""
+        from surfmesh.geometry.domain_faces import inside_faces
+
+        return len(inside_faces(self.graph))
+
+    @cached_property
+    def warnings(self) -> tuple[str, ...]:
+        """What was given but has no effect, or costs accuracy."""
+        from surfmesh.geometry.domain_faces import bounded_faces
+
+        found = []
+        size = max(last - first for first, last in self.domain)
+        if np.spacing(np.abs(self.domain).max()) > FAR_AWAY * size:
+            found.append("the domain lies so far from the origin that coordinates lose digits")
+        if self.graph.loop_is_hole.any():
+            _, around = bounded_faces(self.graph)
+            pierced = around[:, ~self.graph.loop_is_hole].any(axis=1)
+            idle = self.graph.loop_is_hole & ~around[pierced].any(axis=0)
+            found += [
+                f"{self.graph.labels[loop]} lies outside all outer loops and has no effect"
+                for loop in np.flatnonzero(idle)
+            ]
+        return tuple(found)
+
+    def __repr__(self) -> str:
+        parts = [f"{len(self.outer)} outer", f"{len(self.holes)} holes"]
+        parts += [f"{len(self.constraints)} constraints", f"{len(self.points)} points"]
+        return f"PlanarDomain({self.name!r}, {', '.join(parts)})"
+
+    def __setattr__(self, name: str, value: Any) -> None:
+        raise AttributeError(f"a domain does not change; make a new one to set {name!r}")
+
+
+def _arrays(kind: str, given: Any) -> list[np.ndarray]:
+    """One array (k, 2), or several, as a list of arrays (k, 2)."""
+    if hasattr(given, "geom_type"):
+        raise DomainError(
+            f"{kind} is a shapely {given.geom_type}; use PlanarDomain.from_shapely for it"
+        )
+    if isinstance(given, np.ndarray) and given.ndim == 2:
+        given = [given]
+    if isinstance(given, (str, bytes, Mapping)) or not isinstance(given, Iterable):
+        raise DomainError(f"{kind}: an array (k, 2) or several are needed, not {given!r:.60}")
+    given = list(given)
+    if given and all(_is_place(place) for place in given):
+        given = [given]
+    return [_coordinates(f"{kind} {number}", line) for number, line in enumerate(given)]
+
+
+def _is_place(given: Any) -> bool:
+    """Is it one point, so that what holds it is one line?"""
+    return np.ndim(given) == 1 if isinstance(given, np.ndarray) else _is_flat(given)
+
+
+def _is_flat(given: Any) -> bool:
+    return isinstance(given, (tuple, list)) and bool(given) and not any(map(np.ndim, given[:1]))
+
+
+def _coordinates(label: str, given: Any) -> np.ndarray:
+    try:
+        array = np.array(given if isinstance(given, np.ndarray) else list(given))
+        array = array.astype(float, casting="same_kind") if array.size else np.empty((0, 2))
+    except (TypeError, ValueError):
+        shown = " ".join(repr(given).split())
+        raise DomainError(f"{label} is not an array (k, 2) of numbers: {shown:.60}") from None
+    if array.ndim != 2 or array.shape[1] != 2:
+        raise DomainError(f"{label} has shape {array.shape}, not (k, 2)")
+    if not len(array):
+        raise DomainError(f"{label} holds no points; leave it out")
+    broken = ~np.isfinite(array).all(axis=1)
+    if broken.any():
+        k = int(broken.argmax())
+        raise DomainError(f"{label}, point {k} is not finite: {array[k].tolist()}")
+    return array
+
+
+def _loop(label: str, loop: np.ndarray) -> np.ndarray:
+    """The loop without a repeated first point; refused when it cannot have an area."""
+    if len(loop) > 1 and (loop[0] == loop[-1]).all():
+        loop = loop[:-1]
+    distinct = len(np.unique(loop, axis=0))
+    if distinct < 3:
+        raise DomainError(f"{label} has {distinct} distinct points; a loop needs three or more")
+    return loop
+
+
+def _points(given: Any) -> np.ndarray:
+    if not isinstance(given, np.ndarray):
+        if isinstance(given, (str, bytes, Mapping)) or not isinstance(given, Iterable):
+            raise DomainError(f"points are an array (p, 2), not {given!r:.60}")
+        given = list(given)
+        if _is_flat(given):
+            given = [given]
+    return _coordinates("the array of points", given) if len(given) else np.empty((0, 2))
+
+
+def _geometries(given: Any) -> list:
+    """The shapely geometries in what was given; none when they are arrays."""
+    if hasattr(given, "geom_type"):
+        return [given]
+    if isinstance(given, (list, tuple)) and given and hasattr(given[0], "geom_type"):
+        return list(given)
+    return []
+
+
+def _frozen(array: np.ndarray) -> np.ndarray:
+    array = array.copy()
+    array.setflags(write=False)
+    return array

@@ -1,0 +1,146 @@
+"""Paths of an SVG drawing as polylines."""
+
+from __future__ import annotations
+
+import io
+import math
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+from xml.etree.ElementTree import ParseError
+
+import numpy as np
+
+from surfmesh.errors import DomainError
+
+DEFAULT_TOLERANCE = 1e-3  # of the diagonal, between a curve and its polyline
+MOST_PIECES = 100_000  # of one curve: a tolerance that asks for more is a mistake
+CLOSED = 1e-9  # of the diagonal: ends of a path nearer than this are one point
+
+
+@dataclass(frozen=True)
+class Drawing:
+    """What a drawing holds, in its user units, y upwards."""
+
+    name: str
+    loops: tuple[np.ndarray, ...]
+    """Closed subpaths (k, 2), the first point not repeated."""
+    labels: tuple[str, ...]
+    """Name of each loop: the element's id or number, and the subpath."""
+    lines: tuple[np.ndarray, ...]
+    """Open subpaths (k, 2)."""
+
+
+def svg_paths(source: str | Path, tolerance: float | None = None) -> Drawing:
+    """Read a drawing: a file, or text that holds ``<svg``.
+
+    Transformations and basic shapes are resolved; strokes, fills and text are ignored.
+    tolerance: largest distance between a curve and its polyline, user units.
+
+    Raises DomainError for a drawing that cannot be read, and for a tolerance that is not a
+    positive number or far too small.
+    """
+    import svgelements
+
+    name, stream = _opened(source)
+    try:
+        drawing = svgelements.SVG.parse(stream, reify=True)
+    except (ParseError, ValueError, TypeError, AttributeError, KeyError) as error:
+        raise DomainError(f"{name}: not an SVG drawing: {error}") from None
+    to_units = _user_units(drawing, svgelements)
+    subpaths = []
+    shapes = [e for e in drawing.elements() if isinstance(e, svgelements.Shape)]
+    for number, element in enumerate(shapes):
+        path = abs(svgelements.Path(element) * to_units)
+        label = f"path {number}" if element.id is None else f"path {element.id!r}"
+        for k, subpath in enumerate(path.as_subpaths()):
+            segments = list(svgelements.Path(subpath))
+            if any(_drawn(segment) for segment in segments):
+                subpaths.append((f"{label}, subpath {k}", segments))
+    corners = np.array(
+        [_pair(s.end) for _, segments in subpaths for s in segments if s.end is not None]
+    ).reshape(-1, 2)
+    diagonal = float(np.hypot(*np.ptp(corners, axis=0))) if len(corners) else 0.0
+    if tolerance is None:
+        tolerance = DEFAULT_TOLERANCE * diagonal
+    elif not (tolerance > 0.0 and math.isfinite(tolerance)):
+        raise DomainError(f"the tolerance must be a positive number, not {tolerance!r}")
+    loops, labels, lines = [], [], []
+    for label, segments in subpaths:
+        points = _polyline(segments, tolerance, f"{name}: {label}") * (1.0, -1.0)
+        shut = any(type(segment).__name__ == "Close" for segment in segments)
+        if np.hypot(*(points[-1] - points[0])) <= CLOSED * diagonal:
+            points, shut = points[:-1], True
+        if not shut:
+            lines.append(points)
+        elif len(points) > 2:  # a dot or a line to and fro is drawn, but bounds nothing
+            loops.append(points)
+            labels.append(label)
+    return Drawing(name, tuple(loops), tuple(labels), tuple(lines))
+
+
+def _opened(source: str | Path) -> tuple[str, io.StringIO]:
+    if isinstance(source, str) and "<svg" in source:
+        return "drawing", io.StringIO(source)
+    path = Path(source)
+    try:
+        return path.stem, io.StringIO(path.read_text(encoding="utf-8"))
+    except FileNotFoundError:
+        raise DomainError(f"{path}: no such file") from None
+    except OSError as error:
+        raise DomainError(f"{path}: cannot be read: {error.strerror}") from None
+    except UnicodeDecodeError as error:
+        raise DomainError(f"{path}: not an SVG drawing: {error}") from None
+
+
+def _user_units(drawing: Any, svgelements: Any) -> Any:
+    """Undo what width, height and viewBox of the drawing do to its user units."""
+    matrix = svgelements.Matrix(drawing.viewbox_transform or "")
+    return ~matrix if matrix.determinant else svgelements.Matrix()
+
+
+def _pair(point: Any) -> tuple[float, float]:
+    return float(point.x), float(point.y)
+
+
+def _drawn(segment: Any) -> bool:
+    return type(segment).__name__ != "Move"
+
+
+def _polyline(segments: list, tolerance: float, label: str) -> np.ndarray:
+    """Points (k, 2) of a subpath, its curves cut to stay within the tolerance."""
+    parts = []
+    for segment in segments:
+        if segment.end is None or type(segment).__name__ == "Close":
+            continue
+        pieces = _pieces(segment, tolerance)
+        if pieces > MOST_PIECES:
+            raise DomainError(f"{label}: the tolerance {tolerance:g} is far too small for it")
+        if pieces > 1:
+            t = np.linspace(0.0, 1.0, pieces + 1)[1:-1]
+            parts.append(np.array([_pair(segment.point(x)) for x in t]))
+        parts.append(np.array([_pair(segment.end)]))
+    points = np.concatenate(parts)
+    moved = np.ones(len(points), bool)
+    moved[1:] = (np.diff(points, axis=0) != 0.0).any(axis=1)
+    return points[moved]
+
+
+def _pieces(segment: Any, tolerance: float) -> int:
+    """Pieces of equal parameter whose chords stay within the tolerance of the curve.
+
+    A curve with |r''| <= m over a parameter step s is at most m s^2 / 8 away from its chord.
+    """
+    kind = type(segment).__name__
+    if kind == "Arc":  # r'' with respect to the angle is the larger radius at most
+        bound = max(abs(segment.rx), abs(segment.ry)) * float(segment.sweep) ** 2
+    elif kind == "QuadraticBezier":
+        a, b, c = (np.array(_pair(p)) for p in (segment.start, segment.control, segment.end))
+        bound = 2.0 * np.hypot(*(a - 2.0 * b + c))
+    elif kind == "CubicBezier":
+        controls = (segment.start, segment.control1, segment.control2, segment.end)
+        a, b, c, d = (np.array(_pair(p)) for p in controls)
+        bound = 6.0 * max(np.hypot(*(a - 2.0 * b + c)), np.hypot(*(b - 2.0 * c + d)))
+    else:
+        return 1
+    return max(1, math.ceil(math.sqrt(bound / (8.0 * tolerance)))) if bound > 0.0 else 1
