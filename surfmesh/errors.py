@@ -43,4 +43,4 @@ class FileFormatError(SurfmeshError, ValueError):
 
 
 class CadError(SurfmeshError, ValueError):
-    """A CAD model cannot be read or used; the message names the file, the face or the edge."""
+    """A CAD model cannot be used: the file, a face or an edge, and why."""

@@ -1,4 +1,6 @@
-"""CAD models as plain data. The only package that knows OCP and CadQuery, and only when asked.
+"""CAD models as plain data. The only package that knows OCP, which it imports when it is needed.
 
-``model.py`` is what everything else sees; it needs no OCP, nor does reading the data back.
+model, invariants, loops   vertices, edges, faces and solids by number; no OCP
+convert                    geometry of OCP -> plain curves and surfaces of `geometry`
+topology                   shapes of OCP -> `CadModel`
 """
