@@ -155,8 +155,9 @@ class CadModel:
     """Everything that was read, in plain Python and numpy; see the module's docstring.
 
     free_shells, free_faces: what belongs to no solid; a free face is in no shell either.
-    unit: of every length. diagonal: of the box around all edges and faces. healing: what was
-    changed or could not be, one sentence each. source: the file, or what else it came from.
+    unit: of every length; file_unit: that of the file. diagonal: of the box around everything.
+    healing: what was changed or could not be, one sentence each. source: the file, or what else
+    it came from.
     """
 
     vertices: tuple[CadVertex, ...]
@@ -167,6 +168,7 @@ class CadModel:
     free_faces: tuple[int, ...]
     name: str
     unit: str
+    file_unit: str
     diagonal: float
     tree: CadNode
     healing: tuple[str, ...]

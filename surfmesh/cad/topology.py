@@ -36,8 +36,9 @@ from OCP.TopExp import TopExp, TopExp_Explorer
 from OCP.TopoDS import TopoDS, TopoDS_Edge, TopoDS_Face, TopoDS_Iterator, TopoDS_Shape
 from OCP.TopTools import TopTools_IndexedMapOfShape
 
+from surfmesh.cad.assembly import Part
 from surfmesh.cad.convert import curve2d_of, curve_of, surface_of
-from surfmesh.cad.invariants import NOISE, SHARES, distances_to_edges, is_closed
+from surfmesh.cad.invariants import ENDS, NOISE, SHARES, distances_to_edges, is_closed
 from surfmesh.cad.loops import chained, outer_first, there_and_back
 from surfmesh.cad.model import (
     CadCoedge,
@@ -50,25 +51,27 @@ from surfmesh.cad.model import (
     Colour,
     Shell,
 )
-from surfmesh.cad.parts import Part
 from surfmesh.errors import CadError
 
 EXACT = 1e-8  # relative error of areas and volumes, by adaptive integration
 FAR_OFF = 10.0  # times its tolerance: an edge that lies so far off its face is reported
+TINY = 1e-14  # of its distance from the origin: a (u, v) box so narrow is a line
+MANY = 12  # numbers that a sentence lists
 
 
 def cad_model(
-    root: Part, *, name: str = "", unit: str = "mm", source: str = "", healing: tuple = ()
+    root: Part, *, unit: str = "mm", file_unit: str = "mm", source: str = ""
 ) -> CadModel:
-    """The plain data of a tree of healed parts.
+    """The plain data of a tree of parts that are healed and in place.
 
     Raises CadError when there is no face in it, or a face cannot be used.
     """
     walk = _Walk()
     tree = walk.part(root, None)
     if not walk.faces:
-        raise CadError(f"{source or name or 'the model'} holds no faces: nothing to mesh")
-    walk.tolerances_that_hold()
+        raise CadError(f"{source or root.name or 'the model'} holds no faces: nothing to mesh")
+    healing = _in_words(walk, root)
+    healing += walk.tolerances_that_hold(unit)
     return CadModel(
         vertices=tuple(walk.vertices),
         edges=tuple(walk.edges),
@@ -76,11 +79,12 @@ def cad_model(
         solids=tuple(walk.solids),
         free_shells=tuple(walk.free_shells),
         free_faces=tuple(walk.free_faces),
-        name=name or root.name,
+        name=root.name,
         unit=unit,
+        file_unit=file_unit,
         diagonal=_diagonal(root),
         tree=tree,
-        healing=(*healing, *walk.remarks()),
+        healing=tuple(healing + walk.remarks()),
         source=source,
     )
 
@@ -137,6 +141,8 @@ class _Walk:
             held = self.held_by_shells()
             for shape in _each(part.shape, TopAbs_FACE, TopAbs_SHELL):
                 number = self.face(shape, colour)
+                if number is None:
+                    continue
                 if number not in held and number not in self.free_faces:
                     self.free_faces.append(number)
                 faces.append(number)
@@ -196,6 +202,8 @@ class _Walk:
         found = []
         for face in _each(shape, TopAbs_FACE):
             number = self.face(face, colour)
+            if number is None:
+                continue
             if face.Orientation() in (TopAbs_FORWARD, TopAbs_REVERSED):
                 turned = face.Orientation() == TopAbs_REVERSED
                 found.append((number, turned != self.faces[number].reversed))
@@ -204,11 +212,14 @@ class _Walk:
                 self.free_faces.append(number)
         return tuple(found)
 
-    def face(self, shape: TopoDS_Shape, colour: Colour | None) -> int:
-        """Number of a face, taken in when it is met first."""
+    def face(self, shape: TopoDS_Shape, colour: Colour | None) -> int | None:
+        """Number of a face, taken in when it is met first; None for one without area."""
         known = self._face_numbers.find(shape)
         if known is not None:
             return known
+        if _is_flat(TopoDS.Face_s(shape)):
+            self._remarks["a face without area is left out"] += 1
+            return None
         number = self._face_numbers.add(shape)
         name, own = self.detail(shape)
         called = f"face {number}" + (f" ({name})" if name else "")
@@ -345,37 +356,74 @@ class _Walk:
         self.vertices.append(CadVertex(where, BRep_Tool.Tolerance_s(vertex)))
         return self._vertices_met[-1]
 
-    def tolerances_that_hold(self) -> None:
-        """Raise tolerances to what is measured: of edges from their images, of vertices."""
+    def tolerances_that_hold(self, unit: str) -> list[str]:
+        """Raise tolerances to what is measured: of edges from their images, of vertices.
+
+        Files state what was measured at a few points of an edge; in between it may be worse.
+        """
         measured = np.array([edge.tolerance for edge in self.edges])
-        for number, face in enumerate(self.faces):
+        for face in self.faces:
             coedges = list(face.coedges)
             uv = np.concatenate([coedge.uv(SHARES) for coedge in coedges])
             (on_face,) = face.surface.evaluate(uv, 0)
             off = distances_to_edges(self.edges, self.vertices, coedges, on_face)
-            for coedge, distance in zip(coedges, off):
-                stated = self.edges[coedge.edge].tolerance
-                if distance > FAR_OFF * stated:
-                    self._remarks[
-                        f"edge {coedge.edge} lies {distance:.2g} off face {number}, stated "
-                        f"{stated:.2g}: its tolerance is raised"
-                    ] += 1
-                measured[coedge.edge] = max(measured[coedge.edge], distance)
-        for number, edge in enumerate(self.edges):
-            if measured[number] > edge.tolerance:
-                self.edges[number] = replace(edge, tolerance=float(measured[number]))
+            np.maximum.at(measured, [coedge.edge for coedge in coedges], off)
+        stated = np.array([edge.tolerance for edge in self.edges])
+        for number in np.flatnonzero(measured > stated):
+            self.edges[number] = replace(self.edges[number], tolerance=float(measured[number]))
+        for edge in self.edges:
             if edge.curve is None:
                 continue
-            ends = edge.curve.evaluate(edge.parameters(np.array([0.0, 1.0])), 0)[0]
+            ends = edge.curve.evaluate(edge.parameters(ENDS), 0)[0]
             for vertex, point in zip((edge.start, edge.end), ends):
                 known = self.vertices[vertex]
                 gap = float(np.linalg.norm(point - known.point))
                 if gap > known.tolerance:
                     self.vertices[vertex] = replace(known, tolerance=gap * (1.0 + NOISE))
+        far = np.flatnonzero(measured > FAR_OFF * stated)
+        if not len(far):
+            return []
+        worst = far[np.argmax(measured[far])]
+        return [
+            f"{len(far)} edges lie further off their faces than the file states, edge {worst} "
+            f"most: {measured[worst]:.2g} {unit} instead of {stated[worst]:.2g}; "
+            "tolerances raised"
+        ]
+
+    def number_of(self, shape: TopoDS_Shape) -> str:
+        """"face 3" or "edge 12"; nothing for what is not in the model."""
+        for kind, numbers in (("face", self._face_numbers), ("edge", self._edge_numbers)):
+            number = numbers.find(shape)
+            if number is not None:
+                return f"{kind} {number}"
+        return ""
 
     def remarks(self) -> list[str]:
         """What was found on the way, with how often."""
         return [text + (f" ({n} times)" if n > 1 else "") for text, n in self._remarks.items()]
+
+
+def _in_words(walk: _Walk, root: Part) -> list[str]:
+    """What healing did, by face or edge; what was done to many of them in one sentence."""
+    places: dict[tuple[str, str], list[str]] = {}
+    for part in root:
+        for shape, text in part.remarks:
+            found = [] if shape is None or shape.IsNull() else [shape]
+            if found and shape.ShapeType() not in (TopAbs_FACE, TopAbs_EDGE):
+                found = list(_each(shape, TopAbs_FACE))  # a face that was split
+            names = [name for name in map(walk.number_of, found) if name]
+            kind = names[0].split()[0] if names else ""
+            numbers = places.setdefault((kind, text), [])
+            numbers += [name.split()[1] for name in names] or [part.name]
+    sentences = []
+    for (kind, text), numbers in places.items():
+        numbers = list(dict.fromkeys(numbers))
+        shown = ", ".join(numbers[:MANY])
+        if len(numbers) > MANY:
+            shown += f" and {len(numbers) - MANY} more"
+        label = f"{kind}{'s' * (len(numbers) > 1)} " if kind else "part "
+        sentences.append(f"{label}{shown}: {text}")
+    return sentences
 
 
 def _each(shape: TopoDS_Shape, kind, avoid=None) -> Iterator[TopoDS_Shape]:
@@ -395,15 +443,20 @@ def _below(shape: TopoDS_Shape) -> Iterator[TopoDS_Shape]:
         iterator.Next()
 
 
+def _is_flat(face: TopoDS_Face) -> bool:
+    """Whether its edges enclose nothing: their (u, v) box is a line or a point."""
+    u0, u1, v0, v1 = BRepTools.UVBounds_s(face)
+    return not (u1 - u0 > TINY * max(abs(u0), abs(u1)) and v1 - v0 > TINY * max(abs(v0), abs(v1)))
+
+
 def _box(face: TopoDS_Face, loops: list, called: str):
     """The (u, v) box of the loops, widened to where their samples go."""
     u0, u1, v0, v1 = BRepTools.UVBounds_s(face)
     samples = np.concatenate([coedge.uv(SHARES) for loop in loops for coedge in loop])
     lo = np.minimum(samples.min(axis=0), (u0, v0))
     hi = np.maximum(samples.max(axis=0), (u1, v1))
-    finite = np.abs([lo, hi]).max() < Precision.Infinite_s()
-    if not finite or not (hi > lo).all():
-        raise CadError(f"{called} has no area: its edges span {hi - lo} in (u, v)")
+    if not np.abs([lo, hi]).max() < Precision.Infinite_s():
+        raise CadError(f"{called} goes on to infinity; trim it in the CAD system")
     return ((float(lo[0]), float(hi[0])), (float(lo[1]), float(hi[1])))
 
 
