@@ -14,6 +14,7 @@ from surfmesh.errors import CadError
 
 if TYPE_CHECKING:
     from OCP.gp import gp_Trsf
+    from OCP.TopLoc import TopLoc_Location
     from OCP.TopoDS import TopoDS_Shape
 
     from surfmesh.cad.model import CadModel, Colour
@@ -34,15 +35,15 @@ class Detail(NamedTuple):
 class Part:
     """A node of the assembly tree.
 
-    shape: of a part, in its own frame; None for an assembly. place: from that frame to the
-    whole, None where they are the same. colour: of everything below that has none of its own.
-    details: names and colours within the shape. remarks: what healing did, and to which
+    shape: of a part, in its own frame; None for an assembly. place: of that frame in the
+    parent's, None where they are the same. colour: of everything below that has none of its
+    own. details: names and colours within the shape. remarks: what healing did, and to which
     sub-shape (None: the part).
     """
 
     name: str
     shape: TopoDS_Shape | None = None
-    place: gp_Trsf | None = None
+    place: TopLoc_Location | None = None
     colour: Colour | None = None
     details: list[Detail] = field(default_factory=list)
     children: list[Part] = field(default_factory=list)
@@ -72,10 +73,12 @@ def model_of(
     Shapes are in millimetres; units: what the model is wanted in (None: millimetres).
     Raises CadError when a part cannot be used.
     """
+    from OCP.TopLoc import TopLoc_Location
+
     from surfmesh.cad.topology import cad_model
 
     unit = checked_unit(units)
-    placed = _placed(root, heal, 1.0 / MILLIMETRES[unit], [])
+    placed = _placed(root, TopLoc_Location(), heal, 1.0 / MILLIMETRES[unit], [])
     return cad_model(placed, unit=unit, file_unit=file_unit, source=source)
 
 
@@ -87,25 +90,27 @@ def checked_unit(units: str | None) -> str:
     return unit
 
 
-def _placed(part: Part, heal: bool, scale: float, known: list[tuple[Part, Part]]) -> Part:
-    """known: parts that were met before, as they came and as they were made ready."""
+def _placed(
+    part: Part,
+    place: TopLoc_Location,
+    heal: bool,
+    scale: float,
+    known: list[tuple[TopoDS_Shape, Part]],
+) -> Part:
+    """place: of the parent in the whole; known: shapes that were met before, made ready."""
     from surfmesh.cad.healing import healed
 
+    if part.place is not None:
+        place = place.Multiplied(part.place)
     ready = part
     if part.shape is not None:
-        ready = next((done for met, done in known if met.shape.IsEqual(part.shape)), None)
+        ready = next((done for shape, done in known if shape.IsEqual(part.shape)), None)
         if ready is None:
             ready = _scaled(healed(part, heal), scale)
-            known.append((part, ready))
-            remarks = ready.remarks
-        else:
-            remarks = []  # said once
-        ready = replace(
-            ready, name=part.name, colour=part.colour, remarks=remarks, place=part.place
-        )
-        ready = _moved(ready, scale)
-    children = [_placed(child, heal, scale, known) for child in part.children]
-    return replace(ready, children=children)
+            known.append((part.shape, replace(ready, remarks=[])))  # said once is enough
+        ready = _moved(replace(ready, name=part.name, colour=part.colour), place, scale)
+    children = [_placed(child, place, heal, scale, known) for child in part.children]
+    return replace(ready, place=None, children=children)
 
 
 def _scaled(part: Part, scale: float) -> Part:
@@ -118,18 +123,19 @@ def _scaled(part: Part, scale: float) -> Part:
     return _transformed(part, size)
 
 
-def _moved(part: Part, scale: float) -> Part:
-    if part.place is None:
+def _moved(part: Part, place: TopLoc_Location, scale: float) -> Part:
+    if place.IsIdentity():
         return part
-    from OCP.gp import gp_Trsf
+    from OCP.gp import gp_Trsf, gp_Vec
     from OCP.TopLoc import TopLoc_Location
 
-    place = gp_Trsf(part.place)
-    place.SetTranslationPart(place.TranslationPart().Multiplied(scale))
-    if abs(place.ScaleFactor() - 1.0) > ROUND_OFF:  # a mirror or a size: the geometry changes
-        return _transformed(part, place)
-    location = TopLoc_Location(place)
-    return part.mapped(lambda shape: shape.Moved(location))
+    motion = gp_Trsf()
+    motion.Multiply(place.Transformation())
+    motion.SetTranslationPart(gp_Vec(motion.TranslationPart().Multiplied(scale)))
+    if abs(motion.ScaleFactor() - 1.0) > ROUND_OFF:  # a mirror or a size: the geometry changes
+        return _transformed(part, motion)
+    where = place if scale == 1.0 else TopLoc_Location(motion)
+    return part.mapped(lambda shape: shape.Moved(where))
 
 
 def _transformed(part: Part, transformation: gp_Trsf) -> Part:

@@ -92,10 +92,10 @@ def _with_curves(part: Part) -> Part:
                 continue
             if BRep_Tool.CurveOnSurface_s(edge, face, 0.0, 0.0) is not None:
                 if BRepLib.BuildCurve3d_s(edge):
-                    text = "a missing curve in space was made from its image on a face"
+                    text = "curve in space missing, made from an image on a face"
                     remarks.append((edge, text))
             elif _is_plane(face) and _made_straight(edge):
-                remarks.append((edge, "it had no curve at all and was made straight"))
+                remarks.append((edge, "no curve at all, made straight"))
     return replace(part, remarks=remarks)
 
 
@@ -123,7 +123,7 @@ def _with_boundaries(part: Part) -> Part:
         fix = ShapeFix_Face(face)
         if fix.FixAddNaturalBound():
             context.Replace(face, fix.Result())
-            remarks.append((face, "it came without edges: its natural boundary was added"))
+            remarks.append((face, "no edges, natural boundary added"))
     return replace(part, remarks=remarks).mapped(context.Apply)
 
 
@@ -142,9 +142,9 @@ def _repaired(part: Part) -> Part:
     for face in _faces(part.shape):
         image = context.Apply(face)
         if image.IsNull():
-            remarks.append((None, "a face was removed"))
+            remarks.append((None, "face removed"))
         elif not image.IsSame(face) and hash(face) not in spoken:
-            remarks.append((face, "its edges were put in order"))
+            remarks.append((face, "edges put in order"))
     whole = part.shape
 
     def image_of(shape: TopoDS_Shape) -> TopoDS_Shape:
