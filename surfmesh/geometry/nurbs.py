@@ -132,4 +132,5 @@ def _homogeneous(what: str, control: np.ndarray, weights: np.ndarray) -> np.ndar
         raise SurfaceError(f"{what}: there must be one weight for each control point")
     if not (weights > 0.0).all():
         raise SurfaceError(f"{what}: weights must be positive")
-    return np.ascontiguousarray(np.concatenate([control * weights[..., None], weights[..., None]], -1))
+    weights = weights[..., None]
+    return np.concatenate([control * weights, weights], axis=-1)
