@@ -172,7 +172,7 @@ def worst_errors(faces):
             if pcurve is not None:
                 kind, error = curve_error(pcurve, *BRep_Tool.Range_s(edge, face))
                 errors[f"pcurve {kind}"].append(error)
-    return {kind: (max(values), len(values)) for kind, values in errors.items()}
+    return {kind: (np.max(values), len(values)) for kind, values in errors.items()}
 
 
 def test_corpus(cad_folder, cad_files):
