@@ -76,7 +76,7 @@ class OffsetCurve(PlainData):
         if cusp.any():
             first, last = self.limits or (np.nan, np.nan)
             span = last - first if self.limits else 1.0
-            step = np.where(t[cusp] < 0.5 * (first + last), 1.0, -1.0) * CUSP_NUDGE * span
+            step = np.where(t[cusp] > 0.5 * (first + last), -1.0, 1.0) * CUSP_NUDGE * span
             near = self.curve.evaluate(t[cusp] + step, order + 1)
             for values, derivative in zip(sideways, near[1:]):
                 values[cusp] = self._sideways(derivative)
