@@ -45,13 +45,13 @@ class BSplineCurve(PlainData):
         if control.ndim != 2:
             raise SurfaceError("the control points of a curve are an array (n, d)")
         degree = _checked_degree("curve", knots, len(control))
-        homogeneous = control.base
+        points = control.base
         if self.weights is not None:
             self._set(weights=frozen_array(self.weights))
-            homogeneous = _homogeneous("curve", control, self.weights)
+            points = _weighted("curve", control, self.weights)
         first, last = self.limits or (np.nan, np.nan)
         limits = np.array([first, last, self.period or 0.0])
-        self._set(degree=degree, _arrays=(knots.base, homogeneous, limits))
+        self._set(degree=degree, _arrays=(knots.base, points, limits))
 
     @property
     def dimension(self) -> int:
@@ -93,14 +93,14 @@ class BSplineSurface(FaceSurface):
             raise SurfaceError(f"{self.name}: the control points are an array (nu, nv, 3)")
         degree_u = _checked_degree(f"{self.name}, u", knots_u, control.shape[0])
         degree_v = _checked_degree(f"{self.name}, v", knots_v, control.shape[1])
-        homogeneous = control.base
+        points = control.base
         if self.weights is not None:
             self._set(weights=frozen_array(self.weights))
-            homogeneous = _homogeneous(self.name, control, self.weights)
+            points = _weighted(self.name, control, self.weights)
         period_u, period_v = (period or 0.0 for period in self.periods)
         limits = np.array([*self.domain[0], period_u, *self.domain[1], period_v])
         self._set(degrees=(degree_u, degree_v))
-        self._set(_arrays=(knots_u.base, knots_v.base, homogeneous, limits))
+        self._set(_arrays=(knots_u.base, knots_v.base, points, limits))
 
     def evaluate(self, uv: np.ndarray, order: int = 0) -> tuple[np.ndarray, ...]:
         uv = parameter_pairs(uv)
@@ -126,10 +126,10 @@ def _checked_degree(what: str, knots: np.ndarray, count: int) -> int:
     return degree
 
 
-def _homogeneous(what: str, control: np.ndarray, weights: np.ndarray) -> np.ndarray:
-    """(..., d) and (...) -> (..., d + 1): points times weights, weights."""
+def _weighted(what: str, control: np.ndarray, weights: np.ndarray) -> np.ndarray:
+    """(..., d) and (...) -> (..., d + 1): each point with its weight."""
     if weights.shape != control.shape[:-1]:
         raise SurfaceError(f"{what}: there must be one weight for each control point")
     if not (weights > 0.0).all():
         raise SurfaceError(f"{what}: weights must be positive")
-    return np.ascontiguousarray(np.concatenate([control * weights[..., None], weights[..., None]], -1))
+    return np.concatenate([control, weights[..., None]], axis=-1)

@@ -29,6 +29,16 @@ POLE_NUDGE = 1e-4  # of the domain: second derivatives of n keep half their digi
 CUSP = 1e-12  # |m| over the largest |m| asked for at a time: no tangent
 CUSP_NUDGE = 1e-8  # of the part in use: how far from a cusp the direction is taken
 
+# the products that N and its derivatives are sums of, as numbers in DERIVATIVES
+_TERMS = (
+    (1, 2),  # N = r_u x r_v
+    (3, 2), (1, 4),  # N_u = r_uu x r_v + r_u x r_uv
+    (4, 2), (1, 5),  # N_v
+    (6, 2), (3, 4), (1, 7),  # N_uu, the second one twice
+    (7, 2), (3, 5), (1, 8),  # N_uv, where r_uv x r_uv = 0
+    (8, 2), (4, 5), (1, 9),  # N_vv, the second one twice
+)  # fmt: skip
+
 
 @dataclass(frozen=True, eq=False, repr=False)
 class OffsetCurve(PlainData):
@@ -66,7 +76,7 @@ class OffsetCurve(PlainData):
         if cusp.any():
             first, last = self.limits or (np.nan, np.nan)
             span = last - first if self.limits else 1.0
-            step = np.where(t[cusp] < 0.5 * (first + last), 1.0, -1.0) * CUSP_NUDGE * span
+            step = np.where(t[cusp] > 0.5 * (first + last), -1.0, 1.0) * CUSP_NUDGE * span
             near = self.curve.evaluate(t[cusp] + step, order + 1)
             for values, derivative in zip(sideways, near[1:]):
                 values[cusp] = self._sideways(derivative)
@@ -79,7 +89,7 @@ class OffsetCurve(PlainData):
     def _sideways(self, tangent: np.ndarray) -> np.ndarray:
         if self.direction is None:
             return np.stack([tangent[:, 1], -tangent[:, 0]], axis=1)
-        return np.cross(tangent, self.direction)
+        return _cross(tangent, self.direction)
 
 
 def _unit_derivatives(m: list[np.ndarray]) -> list[np.ndarray]:
@@ -137,7 +147,7 @@ class OffsetSurface(FaceSurface):
     def _degenerate(self, r: tuple[np.ndarray, ...]) -> np.ndarray:
         (u0, u1), (v0, v1) = self.domain
         r_u, r_v = r[1] * (u1 - u0), r[2] * (v1 - v0)
-        cross = np.cross(r_u, r_v)
+        cross = _cross(r_u, r_v)
         longer = np.maximum(_dot(r_u, r_u), _dot(r_v, r_v))
         return ~(np.sqrt(_dot(cross, cross)) > DEGENERATE * longer)[:, 0]
 
@@ -160,22 +170,21 @@ class OffsetSurface(FaceSurface):
         return results
 
 
-def _cross_derivatives(r: tuple[np.ndarray, ...], order: int) -> list[np.ndarray]:
-    """N = r_u x r_v and its derivatives N_u, N_v, N_uu, N_uv, N_vv up to the order."""
-    cross = np.cross
-    r_u, r_v = r[1], r[2]
-    results = [cross(r_u, r_v)]
-    if order > 0:
-        r_uu, r_uv, r_vv = r[3:6]
-        results += [cross(r_uu, r_v) + cross(r_u, r_uv), cross(r_uv, r_v) + cross(r_u, r_vv)]
+def _cross_derivatives(r: tuple[np.ndarray, ...], order: int) -> np.ndarray:
+    """N = r_u x r_v, then N_u, N_v, N_uu, N_uv, N_vv up to the order: (m, n, 3)."""
+    terms = _TERMS[: (1, 5, 14)[order]]
+    derivatives = np.array(r)
+    products = _cross(derivatives[[i for i, _ in terms]], derivatives[[j for _, j in terms]])
+    if order == 0:
+        return products
+    sums = [products[0], products[1] + products[2], products[3] + products[4]]
     if order > 1:
-        r_uuu, r_uuv, r_uvv, r_vvv = r[6:10]
-        results += [
-            cross(r_uuu, r_v) + 2.0 * cross(r_uu, r_uv) + cross(r_u, r_uuv),
-            cross(r_uuv, r_v) + cross(r_uu, r_vv) + cross(r_u, r_uvv),
-            cross(r_uvv, r_v) + 2.0 * cross(r_uv, r_vv) + cross(r_u, r_vvv),
+        sums += [
+            products[5] + 2.0 * products[6] + products[7],
+            products[8] + products[9] + products[10],
+            products[11] + 2.0 * products[12] + products[13],
         ]
-    return results
+    return np.array(sums)
 
 
 def _normal_derivatives(r: tuple[np.ndarray, ...], order: int) -> list[np.ndarray]:
@@ -199,6 +208,15 @@ def _normal_derivatives(r: tuple[np.ndarray, ...], order: int) -> list[np.ndarra
             (N[5] - s_vv * n - 2.0 * s_v * n_v) / s,
         ]
     return results
+
+
+def _cross(a: np.ndarray, b: np.ndarray) -> np.ndarray:
+    """(..., 3), (..., 3) -> (..., 3); for few points five times as quick as numpy's."""
+    out = np.empty(a.shape)
+    for i, j, k in ((0, 1, 2), (1, 2, 0), (2, 0, 1)):
+        np.multiply(a[..., j], b[..., k], out=out[..., i])
+        out[..., i] -= a[..., k] * b[..., j]
+    return out
 
 
 def _dot(a: np.ndarray, b: np.ndarray) -> np.ndarray:

@@ -67,6 +67,9 @@ class RevolutionSurface(FaceSurface):
         super().__post_init__()
         curve = self.curve.with_limits(*self.domain[1])
         self._set(curve=curve, origin=frozen_array(self.origin), axis=frozen_array(self.axis))
+        along = np.outer(self.axis, self.axis)
+        beside = np.cross(self.axis, np.eye(3))  # q @ beside = axis x q
+        self._set(_parts=(along, np.eye(3) - along, beside))
 
     @property
     def periods(self) -> tuple[float | None, float | None]:
@@ -76,9 +79,7 @@ class RevolutionSurface(FaceSurface):
         uv = parameter_pairs(uv)
         moved = np.array(self.curve.evaluate(uv[:, 1], order))  # (order + 1, n, 3)
         moved[0] -= self.origin
-        along = (moved @ self.axis)[..., None] * self.axis
-        across = moved - along
-        beside = np.cross(self.axis, across)
+        along, across, beside = (moved @ part for part in self._parts)
         cos, sin = np.cos(uv[:, :1]), np.sin(uv[:, :1])
         results = np.empty((derivative_count(order), len(uv), 3))
         turns = ((cos, sin), (-sin, cos), (-cos, -sin), (sin, -cos))

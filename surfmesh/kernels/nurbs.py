@@ -11,7 +11,11 @@ parameter runs from knots[p] to knots[n + 1], whether the ends are clamped or no
      span s: knots[s] <= t < knots[s+1], where N_{s-p} .. N_s are not zero
 
 Beyond the ends the polynomial of the end span goes on; where there is a period, t is brought
-back by whole periods. The rational ones have control points (w x, w y, w z, w).
+back by whole periods. The rational ones have control points (x, y, z, w), w the weight.
+
+Sums run over the distances from a control point in the middle of the span, which is added in
+the end: derivatives keep their digits far from the origin, where they would else be small
+differences of large coordinates.
 
 Derivatives of a surface come in the order r, u, v, uu, uv, vv, uuu, uuv, uvv, vvv: the one
 with k times d/du and l times d/dv has the number (k + l)(k + l + 1)/2 + l.
@@ -129,14 +133,19 @@ def curve_derivatives(knots, control, limits, t, order, scratch, out):
     for point in range(len(t)):
         span, local = locate(knots, degree, t[point], limits[0], limits[1], limits[2])
         basis_derivatives(knots, degree, span, local, order, table, basis)
+        middle = span - degree // 2
         for k in range(order + 1):
             for c in range(columns):
+                near = control[middle, c] if c < dimension else 0.0
                 total = 0.0
                 for a in range(degree + 1):
-                    total += basis[k, a] * control[span - degree + a, c]
+                    x = control[span - degree + a, c] - near
+                    if c < dimension < columns:
+                        x *= control[span - degree + a, dimension]
+                    total += basis[k, a] * x
                 sums[k, c] = total
-        for k in range(order + 1):
-            for c in range(dimension):
+        for c in range(dimension):
+            for k in range(order + 1):
                 value = sums[k, c]
                 if columns > dimension:  # A4.2
                     binomial = 1.0
@@ -145,12 +154,18 @@ def curve_derivatives(knots, control, limits, t, order, scratch, out):
                         value -= binomial * sums[i, dimension] * out[k - i, point, c]
                     value /= sums[0, dimension]
                 out[k, point, c] = value
+            out[0, point, c] += control[middle, c]
 
 
 @kernel
 def _tensor_sums(control, row, column, degrees, order, basis_u, basis_v, sums):
-    """Sums over the control points of one span: sums (10, columns); A3.6."""
+    """Sums over the control points of one span: sums (10, columns); A3.6.
+
+    Those of x, y and z are taken from the middle control point, and times the weights.
+    """
+    rational = control.shape[2] == 4
     for c in range(control.shape[2]):
+        near = control[row + degrees[0] // 2, column + degrees[1] // 2, c] if c < 3 else 0.0
         for k in range((order + 1) * (order + 2) // 2):
             sums[k, c] = 0.0
         for a in range(degrees[0] + 1):
@@ -159,7 +174,9 @@ def _tensor_sums(control, row, column, degrees, order, basis_u, basis_v, sums):
             s2 = 0.0
             s3 = 0.0
             for b in range(degrees[1] + 1):
-                x = control[row + a, column + b, c]
+                x = control[row + a, column + b, c] - near
+                if rational and c < 3:
+                    x *= control[row + a, column + b, 3]
                 s0 += x * basis_v[0, b]
                 if order > 0:
                     s1 += x * basis_v[1, b]
@@ -184,7 +201,7 @@ def _tensor_sums(control, row, column, degrees, order, basis_u, basis_v, sums):
 
 @kernel
 def _quotient(sums, order, out, point):
-    """Derivatives of (x, y, z) / w from those of (x, y, z, w) in sums (10, 4); A4.4."""
+    """Derivatives of r from those of (w x, w y, w z, w) in sums (10, 4); A4.4."""
     inverse = 1.0 / sums[0, 3]
     for total in range(order + 1):
         for l in range(total + 1):
@@ -234,3 +251,5 @@ def surface_derivatives(knots_u, knots_v, control, limits, uv, order, scratch, o
             for k in range((order + 1) * (order + 2) // 2):
                 for c in range(3):
                     out[k, point, c] = sums[k, c]
+        for c in range(3):
+            out[0, point, c] += control[row + degree_u // 2, column + degree_v // 2, c]
