@@ -61,6 +61,9 @@ def _step(path: Path) -> tuple[Part, str]:
     Interface_Static.SetIVal_s("read.stepcaf.subshapes.name", 1)
     reader.SetNameMode(True)
     reader.SetColorMode(True)
+    reader.SetGDTMode(False)  # dimensions, layers and views are of no use here
+    reader.SetLayerMode(False)
+    reader.SetViewMode(False)
     if reader.ReadFile(str(path)) != IFSelect_ReturnStatus.IFSelect_RetDone:
         raise CadError(f"{path.name} is not a STEP file, or is damaged")
     lengths, angles, solid_angles = (TColStd_SequenceOfAsciiString() for _ in range(3))

@@ -11,10 +11,8 @@ from collections.abc import Iterator
 from dataclasses import replace
 
 import numpy as np
-from OCP.Bnd import Bnd_Box
 from OCP.BRep import BRep_Tool
 from OCP.BRepAdaptor import BRepAdaptor_Curve
-from OCP.BRepBndLib import BRepBndLib
 from OCP.BRepGProp import BRepGProp
 from OCP.BRepTools import BRepTools
 from OCP.GCPnts import GCPnts_AbscissaPoint
@@ -38,6 +36,7 @@ from OCP.TopTools import TopTools_IndexedMapOfShape
 
 from surfmesh.cad.assembly import Part
 from surfmesh.cad.convert import curve2d_of, curve_of, surface_of
+from surfmesh.cad.extent import diagonal
 from surfmesh.cad.invariants import ENDS, NOISE, SHARES, distances_to_edges, is_closed
 from surfmesh.cad.loops import chained, outer_first, there_and_back
 from surfmesh.cad.model import (
@@ -53,7 +52,10 @@ from surfmesh.cad.model import (
 )
 from surfmesh.errors import CadError
 
-EXACT = 1e-8  # relative error of areas and volumes, by adaptive integration
+# relative error of areas and volumes by adaptive integration, which is slow on splines
+EXACT = 1e-8
+EXACT_FREE_FORM = 1e-6
+ELEMENTARY = {"plane", "cylinder", "cone", "sphere", "torus"}
 FAR_OFF = 10.0  # times its tolerance: an edge that lies so far off its face is reported
 TINY = 1e-14  # of its distance from the origin: a (u, v) box so narrow is a line
 MANY = 12  # numbers that a sentence lists
@@ -82,7 +84,7 @@ def cad_model(
         name=root.name,
         unit=unit,
         file_unit=file_unit,
-        diagonal=_diagonal(root),
+        diagonal=diagonal(walk.vertices, walk.edges, walk.faces),
         tree=tree,
         healing=tuple(healing + walk.remarks()),
         source=source,
@@ -168,8 +170,9 @@ class _Walk:
         colour = own or colour
         shells = [self.shell(s, self.detail(s)[1] or colour) for s in _each(shape, TopAbs_SHELL)]
         shells = [shell for shell in shells if shell]
+        kinds = [self.faces[face].kind for shell in shells for face, _ in shell]
         properties = GProp_GProps()
-        BRepGProp.VolumeProperties_s(shape, properties, EXACT)
+        BRepGProp.VolumeProperties_s(shape, properties, _accuracy(kinds))
         volume = properties.Mass()
         if volume < 0.0:
             self._remarks[f"solid {len(self.solids)} was inside out: its faces are turned"] += 1
@@ -227,12 +230,9 @@ class _Walk:
         loops = self._loops(face, called)
         if not loops:
             raise CadError(f"{called} has no boundary; give the face its edges in the CAD system")
+        surface = surface_of(BRep_Tool.Surface_s(face), _box(face, loops, called), called)
         properties = GProp_GProps()
-        BRepGProp.SurfaceProperties_s(face, properties, EXACT)
-        try:
-            surface = surface_of(BRep_Tool.Surface_s(face), _box(face, loops, called))
-        except CadError as error:
-            raise CadError(f"{called}: {error}") from None
+        BRepGProp.SurfaceProperties_s(face, properties, _accuracy([surface.kind]))
         self.faces.append(
             CadFace(
                 surface=surface,
@@ -443,6 +443,10 @@ def _below(shape: TopoDS_Shape) -> Iterator[TopoDS_Shape]:
         iterator.Next()
 
 
+def _accuracy(kinds: list[str]) -> float:
+    return EXACT if ELEMENTARY.issuperset(kinds) else EXACT_FREE_FORM
+
+
 def _is_flat(face: TopoDS_Face) -> bool:
     """Whether its edges enclose nothing: their (u, v) box is a line or a point."""
     u0, u1, v0, v1 = BRepTools.UVBounds_s(face)
@@ -459,10 +463,3 @@ def _box(face: TopoDS_Face, loops: list, called: str):
         raise CadError(f"{called} goes on to infinity; trim it in the CAD system")
     return ((float(lo[0]), float(hi[0])), (float(lo[1]), float(hi[1])))
 
-
-def _diagonal(root: Part) -> float:
-    box = Bnd_Box()
-    for part in root:
-        if part.shape is not None:
-            BRepBndLib.AddOptimal_s(part.shape, box, False, False)
-    return 0.0 if box.IsVoid() else box.CornerMin().Distance(box.CornerMax())
