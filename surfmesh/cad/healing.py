@@ -46,7 +46,6 @@ STILL = {
     BRepCheck_Status.BRepCheck_NotConnected: "the edges of a loop do not meet",
     BRepCheck_Status.BRepCheck_NoCurveOnSurface: "an edge has no image on it",
     BRepCheck_Status.BRepCheck_InvalidImbricationOfWires: "its loops are not inside each other",
-    BRepCheck_Status.BRepCheck_UnorientableShape: "its loops do not bound it properly",
     BRepCheck_Status.BRepCheck_InvalidCurveOnSurface: "an edge lies off it",
     BRepCheck_Status.BRepCheck_EmptyWire: "a loop has no edges",
     BRepCheck_Status.BRepCheck_RedundantEdge: "a loop uses an edge too often",
@@ -137,21 +136,44 @@ def _repaired(part: Part) -> Part:
     fix.SetMaxTolerance(reach)
     fix.Perform()
     context = fix.Context()
-    remarks = [*part.remarks, *_messages(part.shape, messages.MapShape())]
-    spoken = {hash(shape) for shape, _ in remarks if shape is not None}
+    said = messages.MapShape()  # some of it of shapes that are new
+    remarks = [*part.remarks]
+    for shape, text in (*_messages(part.shape, said), *_messages(fix.Shape(), said)):
+        remarks.append((shape, text))
+    spoken = {hash(context.Apply(shape)) for shape, _ in remarks if shape is not None}
     for face in _faces(part.shape):
         image = context.Apply(face)
         if image.IsNull():
             remarks.append((None, "face removed"))
-        elif not image.IsSame(face) and hash(face) not in spoken:
-            remarks.append((face, "edges put in order"))
+        elif not image.IsSame(face) and hash(image) not in spoken:
+            remarks.append((face, _change(face, image, context)))
     whole = part.shape
 
     def image_of(shape: TopoDS_Shape) -> TopoDS_Shape:
         return fix.Shape() if shape.IsSame(whole) else context.Apply(shape)
 
     result = replace(part, remarks=remarks).mapped(image_of)
-    return replace(result, remarks=result.remarks + list(_still_wrong(result.shape)))
+    after = list(_still_wrong(result.shape))
+    if not after and len(result.remarks) == len(part.remarks):
+        after = [(None, "made valid by wider tolerances")]
+    return replace(result, remarks=result.remarks + after)
+
+
+def _change(face: TopoDS_Face, image: TopoDS_Shape, context: BRepTools_ReShape) -> str:
+    """What differs between a face and what became of it, where healing said nothing."""
+    if image.ShapeType() != TopAbs_FACE:
+        return "split"
+    before = [context.Apply(edge) for edge in _edges(face)]
+    after = {hash(edge): edge for edge in _edges(image.Oriented(TopAbs_FORWARD))}
+    kept = [(edge, after[hash(edge)]) for edge in before if hash(edge) in after]
+    if any(one.Orientation() != other.Orientation() for one, other in kept):
+        return "loop orientation reversed"
+    if len(after) > len(kept):
+        return "edges added"
+    if len(before) > len(kept):
+        return "edges removed"
+    old = {hash(edge) for edge in _edges(face)}
+    return "edges put in order" if old.issuperset(after) else "edges fitted anew"
 
 
 def _messages(whole: TopoDS_Shape, said) -> Iterator[tuple[TopoDS_Shape | None, str]]:
@@ -189,9 +211,8 @@ def _still_wrong(shape: TopoDS_Shape) -> Iterator[tuple[TopoDS_Shape, str]]:
             for status in _statuses(analyzer, part, face)
             if status in STILL
         )
-        if len(reasons) > 1:  # the general one says no more than the particular ones
-            reasons.pop(STILL[BRepCheck_Status.BRepCheck_UnorientableShape], None)
-        yield face, f"not repaired: {' and '.join(reasons) or 'it is not valid'}"
+        if reasons:  # OCP also calls faces wrong that can be meshed: edges inside, no vertices
+            yield face, f"not repaired: {' and '.join(reasons)}"
 
 
 def _statuses(analyzer: BRepCheck_Analyzer, shape: TopoDS_Shape, within: TopoDS_Shape) -> list:

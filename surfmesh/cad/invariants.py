@@ -172,7 +172,7 @@ def distances_to_edges(
     worst = np.zeros(len(coedges))
     for place, (coedge, image) in enumerate(zip(coedges, np.split(on_face, len(coedges)))):
         edge = edges[coedge.edge]
-        if edge.degenerate:
+        if edge.curve is None:
             on_edge = vertices[edge.start].point
         else:
             on_edge = edge.curve.evaluate(edge.parameters(SHARES), 0)[0]
