@@ -79,7 +79,7 @@ def model_of(
 
     unit = checked_unit(units)
     placed = _placed(root, TopLoc_Location(), heal, 1.0 / MILLIMETRES[unit], [])
-    return cad_model(placed, unit=unit, file_unit=file_unit, source=source)
+    return cad_model(placed, heal=heal, unit=unit, file_unit=file_unit, source=source)
 
 
 def checked_unit(units: str | None) -> str:

@@ -37,7 +37,7 @@ from OCP.TopTools import TopTools_IndexedMapOfShape
 from surfmesh.cad.assembly import Part
 from surfmesh.cad.convert import curve2d_of, curve_of, surface_of
 from surfmesh.cad.extent import diagonal
-from surfmesh.cad.invariants import ENDS, NOISE, SHARES, distances_to_edges, is_closed
+from surfmesh.cad.invariants import is_closed
 from surfmesh.cad.loops import chained, outer_first, there_and_back
 from surfmesh.cad.model import (
     CadCoedge,
@@ -50,21 +50,23 @@ from surfmesh.cad.model import (
     Colour,
     Shell,
 )
+from surfmesh.cad.tolerances import images_that_follow, joined, listed, tolerances_that_hold
 from surfmesh.errors import CadError
+from surfmesh.geometry.surface import Domain
 
 # relative error of areas and volumes by adaptive integration, which is slow on splines
 EXACT = 1e-8
 EXACT_FREE_FORM = 1e-6
 ELEMENTARY = {"plane", "cylinder", "cone", "sphere", "torus"}
-FAR_OFF = 10.0  # times its tolerance: an edge that lies so far off its face is reported
 TINY = 1e-14  # of its distance from the origin: a (u, v) box so narrow is a line
-MANY = 12  # numbers that a sentence lists
 
 
 def cad_model(
-    root: Part, *, unit: str = "mm", file_unit: str = "mm", source: str = ""
+    root: Part, *, heal: bool = True, unit: str = "mm", file_unit: str = "mm", source: str = ""
 ) -> CadModel:
     """The plain data of a tree of parts that are healed and in place.
+
+    heal: also replace images that stray from their edges.
 
     Raises CadError when there is no face in it, or a face cannot be used.
     """
@@ -73,7 +75,9 @@ def cad_model(
     if not walk.faces:
         raise CadError(f"{source or root.name or 'the model'} holds no faces: nothing to mesh")
     healing = _in_words(walk, root)
-    healing += walk.tolerances_that_hold(unit)
+    if heal:
+        healing += images_that_follow(walk.edges, walk.vertices, walk.faces, unit)
+    healing += tolerances_that_hold(walk.edges, walk.vertices, walk.faces, unit)
     return CadModel(
         vertices=tuple(walk.vertices),
         edges=tuple(walk.edges),
@@ -284,7 +288,7 @@ class _Walk:
             raise CadError(f"{called}: edge {number} cannot be projected onto it")
         p0, p1 = BRep_Tool.Range_s(edge, face)
         try:
-            curve = curve2d_of(pcurve)
+            curve = curve2d_of(pcurve).with_limits(p0, p1)
         except CadError as error:
             raise CadError(f"{called}, edge {number}: {error}") from None
         return CadCoedge(number, edge.Orientation() == TopAbs_REVERSED, curve, p0, p1, seam)
@@ -303,7 +307,7 @@ class _Walk:
         if not (abs(t0) < Precision.Infinite_s() and abs(t1) < Precision.Infinite_s()):
             raise CadError(f"edge {number} goes on to infinity; trim it in the CAD system")
         try:
-            curve = None if degenerate else curve_of(geometry)
+            curve = None if degenerate else curve_of(geometry).with_limits(t0, t1)
         except CadError as error:
             raise CadError(f"edge {number}: {error}") from None
         start, end = self._ends(edge, curve, t0, t1)
@@ -356,40 +360,6 @@ class _Walk:
         self.vertices.append(CadVertex(where, BRep_Tool.Tolerance_s(vertex)))
         return self._vertices_met[-1]
 
-    def tolerances_that_hold(self, unit: str) -> list[str]:
-        """Raise tolerances to what is measured: of edges from their images, of vertices.
-
-        Files state what was measured at a few points of an edge; in between it may be worse.
-        """
-        measured = np.array([edge.tolerance for edge in self.edges])
-        for face in self.faces:
-            coedges = list(face.coedges)
-            uv = np.concatenate([coedge.uv(SHARES) for coedge in coedges])
-            (on_face,) = face.surface.evaluate(uv, 0)
-            off = distances_to_edges(self.edges, self.vertices, coedges, on_face)
-            np.maximum.at(measured, [coedge.edge for coedge in coedges], off)
-        stated = np.array([edge.tolerance for edge in self.edges])
-        for number in np.flatnonzero(measured > stated):
-            self.edges[number] = replace(self.edges[number], tolerance=float(measured[number]))
-        for edge in self.edges:
-            if edge.curve is None:
-                continue
-            ends = edge.curve.evaluate(edge.parameters(ENDS), 0)[0]
-            for vertex, point in zip((edge.start, edge.end), ends):
-                known = self.vertices[vertex]
-                gap = float(np.linalg.norm(point - known.point))
-                if gap > known.tolerance:
-                    self.vertices[vertex] = replace(known, tolerance=gap * (1.0 + NOISE))
-        far = np.flatnonzero(measured > FAR_OFF * stated)
-        if not len(far):
-            return []
-        worst = far[np.argmax(measured[far])]
-        return [
-            f"{len(far)} edges lie further off their faces than the file states, edge {worst} "
-            f"most: {measured[worst]:.2g} {unit} instead of {stated[worst]:.2g}; "
-            "tolerances raised"
-        ]
-
     def number_of(self, shape: TopoDS_Shape) -> str:
         """"face 3" or "edge 12"; nothing for what is not in the model."""
         for kind, numbers in (("face", self._face_numbers), ("edge", self._edge_numbers)):
@@ -418,11 +388,8 @@ def _in_words(walk: _Walk, root: Part) -> list[str]:
     sentences = []
     for (kind, text), numbers in places.items():
         numbers = list(dict.fromkeys(numbers))
-        shown = ", ".join(numbers[:MANY])
-        if len(numbers) > MANY:
-            shown += f" and {len(numbers) - MANY} more"
         label = f"{kind}{'s' * (len(numbers) > 1)} " if kind else "part "
-        sentences.append(f"{label}{shown}: {text}")
+        sentences.append(f"{label}{listed(numbers)}: {text}")
     return sentences
 
 
@@ -453,13 +420,10 @@ def _is_flat(face: TopoDS_Face) -> bool:
     return not (u1 - u0 > TINY * max(abs(u0), abs(u1)) and v1 - v0 > TINY * max(abs(v0), abs(v1)))
 
 
-def _box(face: TopoDS_Face, loops: list, called: str):
+def _box(face: TopoDS_Face, loops: list, called: str) -> Domain:
     """The (u, v) box of the loops, widened to where their samples go."""
     u0, u1, v0, v1 = BRepTools.UVBounds_s(face)
-    samples = np.concatenate([coedge.uv(SHARES) for loop in loops for coedge in loop])
-    lo = np.minimum(samples.min(axis=0), (u0, v0))
-    hi = np.maximum(samples.max(axis=0), (u1, v1))
+    lo, hi = joined(((u0, u1), (v0, v1)), loops)
     if not np.abs([lo, hi]).max() < Precision.Infinite_s():
         raise CadError(f"{called} goes on to infinity; trim it in the CAD system")
     return ((float(lo[0]), float(hi[0])), (float(lo[1]), float(hi[1])))
-
