@@ -44,3 +44,7 @@ class MeshingError(SurfmeshError, RuntimeError):
 
 class FileFormatError(SurfmeshError, ValueError):
     """A file cannot be read or written: unknown extension, wrong content."""
+
+
+class CadError(SurfmeshError, ValueError):
+    """A CAD model cannot be used: the file, a face or an edge, and why."""

@@ -18,6 +18,14 @@ svg_paths, shapely_parts    drawings and geometries as arrays
 domain_file         planar domains in TOML
 toml_entries        entries of a TOML file, with errors that name the key
 surface_file        any file of a surface or domain, the whole gallery
+formula_file        surfaces in TOML, the gallery
+plain_data          frozen, picklable dataclasses of arrays
+curves              what every curve can do; lines and conics, in space and in the plane
+face_surface        what the surfaces of CAD faces have in common
+elementary          plane, cylinder, cone, sphere, torus
+nurbs               B-spline and Bezier curves and surfaces
+swept               surfaces of extrusion and revolution
+offset              curves and surfaces at a distance from others
 fundamental_forms   I, II, normals, principal curvatures
 sides               sides of the rectangle that coincide or shrink to a point
 projection          the closest point of a surface

@@ -69,6 +69,4 @@ def load_domain_file(path: str | Path) -> PlanarDomain:
         )
     except DomainError as error:
         reason = str(error)
-        raise DomainError(
-            reason if reason.startswith(str(path)) else f"{path}: {reason}"
-        ) from None
+        raise DomainError(reason if reason.startswith(str(path)) else f"{path}: {reason}") from None

@@ -1,4 +1,4 @@
-"""Fitting a circle to its neighbours by iteration, its size read from the background (2.3.2, 2.3.3)."""
+"""Fitting a circle to its neighbours by iteration, its size read from a field (2.3.2, 2.3.3)."""
 
 import math
 

@@ -9,7 +9,6 @@ largest circle that touches three is tried, then the support is pushed out:
       a --- b --- '
 """
 
-
 from surfmesh.kernels import NIL
 from surfmesh.kernels.disc_fitting import gap_between, overlapped, touch_three, touch_two
 from surfmesh.kernels.front_moves import (

@@ -1,0 +1,11 @@
+"""CAD models as plain data. The only package that knows OCP, which it imports when it is needed.
+
+reading, child      a file -> `CadModel`, safely: `read_cad`
+from_cadquery       CadQuery, build123d and OCP objects -> `CadModel`
+readers, assembly   what files hold: parts with names, colours and places
+healing             repair, in words
+topology, convert   shapes and geometry of OCP -> plain data
+loops               coedges in walking order
+tolerances, images  how far edges really lie off their faces, and better images
+model, invariants   the data, and what must be true of it
+"""
