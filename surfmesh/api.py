@@ -3,9 +3,12 @@
 from pathlib import Path
 
 from surfmesh.errors import FileFormatError, SurfaceError
+from surfmesh.geometry.planar_domain import PlanarDomain
 from surfmesh.geometry.surface import Surface
 from surfmesh.geometry.surface_file import gallery, load_surface_file
-from surfmesh.meshing.parametric_mesh import Progress, mesh_parametric
+from surfmesh.meshing.parametric_mesh import mesh_parametric
+from surfmesh.meshing.planar_mesh import mesh_planar
+from surfmesh.meshing.stages import Progress
 from surfmesh.sizing.distance_size import default_wishes
 from surfmesh.sizing.sizing import Sizing
 from surfmesh.surface_mesh import SurfaceMesh
@@ -47,4 +50,5 @@ def mesh(
         raise SurfaceError(f"cannot mesh a {type(surface).__name__}: a Surface is needed")
     if sizing is None:
         sizing = default_wishes(surface) or None
-    return mesh_parametric(surface, Sizing.of(sizing), optimise, progress)
+    work = mesh_planar if isinstance(surface, PlanarDomain) else mesh_parametric
+    return work(surface, Sizing.of(sizing), optimise, progress)

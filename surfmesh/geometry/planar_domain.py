@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -21,7 +22,35 @@ CROSSINGS = ("refuse", "split")
 FAR_AWAY = 1e-8  # last place of the largest coordinate over the diagonal: worth a warning
 
 
-class PlanarDomain:
+class PlaneOfCoordinates:
+    """The plane z = 0 with (u, v) = (x, y), as a ``Surface``."""
+
+    def evaluate(self, uv: np.ndarray, order: int = 0) -> tuple[np.ndarray, ...]:
+        """(n, 2) float -> (n, 3) float arrays of r = (u, v, 0): see ``Surface``."""
+        uv = np.asarray(uv, dtype=float).reshape(-1, 2)
+        values = [np.zeros((len(uv), 3)) for _ in range((1, 3, 6)[order])]
+        values[0][:, :2] = uv
+        if order > 0:
+            values[1][:, 0] = values[2][:, 1] = 1.0
+        return tuple(values)
+
+    def derivative_bounds(self, lo: np.ndarray, hi: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """Exact bounds of r_u, r_v, r_uu, r_uv, r_vv: lower, upper, each (n, 5, 3)."""
+        bounds = np.zeros((len(lo), 5, 3))
+        bounds[:, 0, 0] = bounds[:, 1, 1] = 1.0
+        return bounds, bounds.copy()
+
+
+@dataclass(frozen=True)
+class PlanarRegion(PlaneOfCoordinates):
+    """One region of a planar domain: what its triangles lie on."""
+
+    name: str
+    domain: Domain
+    loops: tuple[np.ndarray, ...] = ()
+
+
+class PlanarDomain(PlaneOfCoordinates):
     """A part of the plane z = 0, bounded by loops; (u, v) are x and y. Immutable.
 
     outer: one loop (k, 2), or several: parts side by side, islands in holes. holes: loops.
@@ -209,21 +238,6 @@ class PlanarDomain:
             facts=dict(facts or {}),
         )
 
-    def evaluate(self, uv: np.ndarray, order: int = 0) -> tuple[np.ndarray, ...]:
-        """(n, 2) float -> (n, 3) float arrays of r = (u, v, 0): see ``Surface``."""
-        uv = np.asarray(uv, dtype=float).reshape(-1, 2)
-        values = [np.zeros((len(uv), 3)) for _ in range((1, 3, 6)[order])]
-        values[0][:, :2] = uv
-        if order > 0:
-            values[1][:, 0] = values[2][:, 1] = 1.0
-        return tuple(values)
-
-    def derivative_bounds(self, lo: np.ndarray, hi: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """Exact bounds of r_u, r_v, r_uu, r_uv, r_vv: lower, upper, each (n, 5, 3)."""
-        bounds = np.zeros((len(lo), 5, 3))
-        bounds[:, 0, 0] = bounds[:, 1, 1] = 1.0
-        return bounds, bounds.copy()
-
     def distance(self, points: np.ndarray) -> np.ndarray:
         """Exact distance to the nearest boundary, constraint line or point.
 
@@ -277,6 +291,11 @@ class PlanarDomain:
                 for loop in np.flatnonzero(idle)
             ]
         return tuple(found)
+
+    def region_surfaces(self, count: int) -> tuple[PlanarRegion, ...]:
+        """The surfaces of ``count`` regions, named by number when there are several."""
+        names = [self.name] if count == 1 else [f"{self.name} region {k}" for k in range(count)]
+        return tuple(PlanarRegion(name, self.domain) for name in names)
 
     def __repr__(self) -> str:
         parts = [f"{len(self.outer)} outer", f"{len(self.holes)} holes"]

@@ -8,7 +8,7 @@ from surfmesh.kernels.jit import kernel
 from surfmesh.kernels.packing_state import STEPS
 from surfmesh.kernels.tensors import solve
 
-CLOSENESS = 0.95  # beta1 beta2 above which a fit is accepted (2.3.2)
+CLOSENESS = 0.98  # beta1 beta2 above which a fit is accepted (2.3.2)
 FIT_STEPS = 8
 EASE_WITHIN = 1.4  # circles nearer than this are neighbours of the one to place
 EASY = 0.08  # a neighbour at 1 -+ this is touched well enough

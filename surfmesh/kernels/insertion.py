@@ -331,6 +331,38 @@ def grow_inside(t, edge):
 
 
 @kernel
+def label_patches(t, label):
+    """Step 5 for many regions: grow a patch from every triangle that has none yet.
+
+    A patch ends at segments. label (triangles,) int32 is filled, NIL for dead slots; ``mark``
+    serves as the links of a stack. Returns the number of patches; that of the ghosts is the
+    outside of everything.
+    """
+    for k in range(t.count[1]):
+        label[k] = NIL
+    patches = 0
+    for k in range(t.count[1]):
+        if label[k] != NIL or t.region[k] == DEAD:
+            continue
+        label[k] = patches
+        t.mark[k] = NIL
+        top = k
+        while top != NIL:
+            triangle = top
+            top = t.mark[triangle]
+            for e in range(3 * triangle, 3 * triangle + 3):
+                if t.adj[e] < 0 or t.fixed[e] != 0:
+                    continue
+                n = t.adj[e] // 3
+                if label[n] == NIL:
+                    label[n] = patches
+                    t.mark[n] = top
+                    top = n
+        patches += 1
+    return patches
+
+
+@kernel
 def _distance_to_edge(t, e, v):
     """Metric distance of vertex v from the segment of half-edge e."""
     a, b = t.tri[e], t.tri[next_half_edge(e)]
@@ -358,10 +390,10 @@ def clear_boundary(t, segment, vertex, edge, first_node, crowded):
             apex = t.tri[prev_half_edge(e)]
             if apex >= first_node or _distance_to_edge(t, e, apex) >= crowded:
                 break
-            outer = t.adj[e]
-            if remove_vertex(t, prev_half_edge(e)) == NIL:
+            live = remove_vertex(t, prev_half_edge(e))
+            if live == NIL:
                 break
-            e = t.adj[outer]
+            e = find_edge(t, e, live, a, b)
             removed += 1
         f = e
         while True:  # neighbours of a, counter-clockwise up to the next segment
@@ -370,10 +402,10 @@ def clear_boundary(t, segment, vertex, edge, first_node, crowded):
                 break
             v = t.tri[next_half_edge(f)]
             if v < first_node and _distance_to_edge(t, e, v) < crowded:
-                outer = t.adj[e]
-                if remove_vertex(t, t.adj[f]) != NIL:
+                live = remove_vertex(t, t.adj[f])
+                if live != NIL:
                     removed += 1
-                    e = t.adj[outer]
+                    e = find_edge(t, e, live, a, b)
                     f = e
         edge[k] = e
     return removed

@@ -39,7 +39,7 @@ STUCK = 3  # no edge can be advanced, not even badly: cannot happen in exact ari
 
 CLOSE_BELOW = 1.40  # fill a corner a, b, c straight away when l(a, c) is below this
 OVERLAP = 0.65  # a circle nearer than this refuses the candidate
-TANGENT_RANGE = 0.72, 1.25  # metric radius at which a circle tangent to three is taken
+TANGENT_RANGE = 0.8, 1.25  # metric radius at which a circle tangent to three is taken
 
 
 @kernel
@@ -80,7 +80,8 @@ def _advance(p, background, a, b, forced):
             if (dx != 0.0 or dy != 0.0) and rim_visible(t, rims, x + dx, y + dy):
                 x, y = x + dx, y + dy
                 h11, h12, h22 = size_at(background, x, y)
-            p.radius[place(p, a, b, rims, x, y, h11, h12, h22)] = close
+            v = place(p, a, b, rims, x, y, h11, h12, h22)
+            p.radius[v] = close
             return True
     # pushing out: the support grows from (a, b) to the circle in the way (2.3.3)
     if other != NIL and other != a and other != b:
@@ -92,7 +93,7 @@ def _advance(p, background, a, b, forced):
                 if rims > 0:
                     other, _, _ = survey(t, a, b, rims, x, y, h11, h12, h22, 0.9 * r)
                     if other == NIL:
-                        p.radius[place(p, a, b, rims, x, y, h11, h12, h22)] = r
+                        p.radius[place(p, a, b, rims, x, y, h11, h12, h22)] = 2.0 * r - 1.0
                         p.count[TANGENTS] += 1
                         return True
     if close_corner(p, a, b):

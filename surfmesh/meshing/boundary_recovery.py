@@ -4,21 +4,26 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from surfmesh.errors import MeshingError, SurfaceError
+from surfmesh.errors import DomainError, MeshingError, SurfaceError
+from surfmesh.geometry.planar_domain import PlanarDomain
+from surfmesh.geometry.segment_graph import inside_regions
 from surfmesh.geometry.surface import Surface
-from surfmesh.kernels import insertion
+from surfmesh.kernels import NIL, insertion
 from surfmesh.kernels.compaction import copy_inside, number_inside
 from surfmesh.kernels.insertion import (
     FINISHED,
     INSIDE,
+    OUTSIDE,
     clear_boundary,
     find_segments,
     grow_inside,
     insert_boundary,
+    label_patches,
     swap_bad,
 )
 from surfmesh.kernels.triangulation import Triangulation, empty_triangulation
 from surfmesh.meshing.boundary_loops import BoundaryLoops
+from surfmesh.meshing.planar_segments import PlanarSegments
 from surfmesh.sizing.size_field import SizeField
 
 CROWDED = 0.6
@@ -47,24 +52,65 @@ def recovered(
 
     Raises ``SurfaceError`` when loops touch or cross, naming the place.
     """
-    xy = field.scaling.to_plane(loops.uv)
-    tensors = field.tensors(xy)
-    t = _with_room(t, len(xy))
     first_node = int(t.count[0])
-    vertex = np.full(len(xy), -1, np.int32)
-    edge = np.full(len(loops.segments), -1, np.int32)
-    queue = np.empty(QUEUE, np.int32)
-    where = np.zeros(2, np.int64)
-    status = insert_boundary(t, xy, tensors, loops.segments, vertex, edge, queue, where)
-    if status != FINISHED:
-        _refuse(status, int(where[0]), loops, surface)
-    if find_segments(t, loops.segments, vertex, edge) != FINISHED:
-        raise MeshingError(f"the boundary of {surface.name!r} was lost: please report this")
+    t, vertex, edge = _inserted(t, loops.uv, loops.segments, field, surface)
     if grow_inside(t, edge) != FINISHED:
         raise SurfaceError(f"the boundary loops of {surface.name!r} do not enclose a domain")
-    clear_boundary(t, loops.segments, vertex, edge, first_node, CROWDED)
-    swap_bad(t, np.empty(int(t.count[1])), BAD_SHAPE, SWEEPS)
+    _clear(t, loops.segments, vertex, edge, first_node)
     return _cut_out(t, vertex)
+
+
+def recovered_regions(
+    t: Triangulation, cut: PlanarSegments, field: SizeField, domain: PlanarDomain
+) -> DomainMesh:
+    """Insert the segments of a planar domain into the packing ``t`` and keep what is inside.
+
+    ``node`` is NIL for nodes that no inner triangle uses. Raises ``DomainError`` when nothing
+    is inside.
+    """
+    first_node = int(t.count[0])
+    t, vertex, edge = _inserted(t, cut.uv, cut.pieces, field, domain)
+    label = np.empty(int(t.count[1]), np.int32)
+    label_patches(t, label)
+    ghost = int(np.flatnonzero(t.tri[: 3 * len(label)] < 0)[0])
+    left, right = label[edge // 3], label[t.adj[edge] // 3]
+    _, first = np.unique(cut.segment, return_index=True)
+    inside = inside_regions(domain.graph, left[first], right[first], int(label[ghost // 3]))
+    if not inside.any():
+        raise DomainError(f"no part of {domain.name!r} is inside: the holes cover all of it")
+    live = label != NIL
+    t.region[: len(label)][live] = np.where(inside[label[live]], INSIDE, OUTSIDE)
+    sides = [inside[left], inside[right]]
+    both = np.concatenate([cut.pieces[sides[0]], cut.pieces[sides[1]][:, ::-1]])
+    edges = np.concatenate([edge[sides[0]], t.adj[edge[sides[1]]]])
+    _clear(t, both, vertex, edges, first_node)
+    return _cut_out(t, vertex)
+
+
+def _inserted(
+    t: Triangulation, uv: np.ndarray, segments: np.ndarray, field: SizeField, surface: Surface
+) -> tuple[Triangulation, np.ndarray, np.ndarray]:
+    """Steps 2 and 3: the triangulation with all segments, vertices of nodes, their half-edges."""
+    xy = field.scaling.to_plane(uv)
+    t = _with_room(t, len(xy))
+    vertex = np.full(len(xy), NIL, np.int32)
+    edge = np.full(len(segments), NIL, np.int32)
+    queue = np.empty(QUEUE, np.int32)
+    where = np.zeros(2, np.int64)
+    status = insert_boundary(t, xy, field.tensors(xy), segments, vertex, edge, queue, where)
+    if status != FINISHED:
+        _refuse(status, int(where[0]), uv, segments, surface)
+    if find_segments(t, segments, vertex, edge) != FINISHED:
+        raise MeshingError(f"the boundary of {surface.name!r} was lost: please report this")
+    return t, vertex, edge
+
+
+def _clear(
+    t: Triangulation, segments: np.ndarray, vertex: np.ndarray, edge: np.ndarray, first_node: int
+) -> None:
+    """Step 4: what crowds the boundary is removed, bad triangles are offered a swap."""
+    clear_boundary(t, segments, vertex, edge, first_node, CROWDED)
+    swap_bad(t, np.empty(int(t.count[1])), BAD_SHAPE, SWEEPS)
 
 
 def _with_room(t: Triangulation, nodes: int) -> Triangulation:
@@ -91,13 +137,15 @@ def _cut_out(t: Triangulation, vertex: np.ndarray) -> DomainMesh:
     return DomainMesh(out, vertex_number[vertex])
 
 
-def _refuse(status: int, number: int, loops: BoundaryLoops, surface: Surface) -> None:
+def _refuse(
+    status: int, number: int, uv: np.ndarray, segments: np.ndarray, surface: Surface
+) -> None:
     if status == insertion.NODE_TAKEN:
-        u, v = loops.uv[number]
+        u, v = uv[number]
         raise SurfaceError(
             f"the boundary of {surface.name!r} touches itself at (u, v) = ({u:.6g}, {v:.6g})"
         )
-    a, b = loops.uv[loops.segments[number]]
+    a, b = uv[segments[number]]
     line = f"({a[0]:.6g}, {a[1]:.6g}) - ({b[0]:.6g}, {b[1]:.6g})"
     if status in (insertion.CROSSING, insertion.SEGMENT_ON_NODE):
         verb = "crosses itself" if status == insertion.CROSSING else "touches itself"

@@ -105,7 +105,7 @@ class Optimiser:
         field: SizeField,
     ) -> None:  # fmt: skip
         """``node`` (k,) are boundary vertices, ``same`` (k,) the ones they coincide with."""
-        self.t, self.surface, self.field = t, surface, field
+        self.t, self.node, self.surface, self.field = t, node, surface, field
         room = len(t.xy)
         self.embedding: Embedding = empty_embedding(room)
         self.star = np.empty(room, np.int32)
@@ -271,6 +271,7 @@ class Optimiser:
     def _find_stars(self) -> None:
         if not self.stars_known:
             find_stars(self.t, self.star, self.frozen, self.degree)
+            self.frozen[self.node] = 1
             self.stars_known = True
 
     def _smooth(self, stiffness: float = STIFFNESS) -> int:

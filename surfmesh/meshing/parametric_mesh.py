@@ -5,10 +5,6 @@ sides -> size field -> packing -> boundary -> optimisation -> space, joined side
   +---------- smaller sizes where the mesh is not right ---------+
 """
 
-import time
-from collections.abc import Callable, Iterator
-from contextlib import contextmanager
-
 import numpy as np
 
 from surfmesh.errors import MeshingError
@@ -20,15 +16,11 @@ from surfmesh.meshing.boundary_recovery import DomainMesh, recovered
 from surfmesh.meshing.gluing import Glued, glued, misglued
 from surfmesh.meshing.optimise import Optimiser
 from surfmesh.meshing.packing import packed
+from surfmesh.meshing.stages import Progress, Stopwatch
 from surfmesh.sizing.size_field import SizeField, size_field
 from surfmesh.sizing.size_limits import SizeLimits
 from surfmesh.sizing.sizing import Sizing
 from surfmesh.surface_mesh import SurfaceMesh
-
-Progress = Callable[[str, float], None]
-"""Called with the name of the stage that starts and the share of the work done, 0 to 1."""
-
-_STAGES = {"sizing": 0.0, "packing": 0.2, "boundary": 0.4, "optimisation": 0.5, "mapping": 0.9}
 
 ROUNDS = 8
 """How often the whole way is gone at most, each time with smaller sizes where it failed."""
@@ -47,7 +39,7 @@ def mesh_parametric(
     ``optimise=False`` only gluing is looked at. Raises ``SizingError``, ``SurfaceError`` or
     ``MeshingError`` with the place and the reason.
     """
-    watch = _Stopwatch(progress)
+    watch = Stopwatch(progress)
     with watch.stage("sizing"):
         sides = find_sides(surface)
     limits: SizeLimits | None = None
@@ -73,7 +65,7 @@ def mesh_parametric(
 
 
 def _one_round(
-    surface: Surface, sides: SideTopology, field: SizeField, optimise: bool, watch: "_Stopwatch"
+    surface: Surface, sides: SideTopology, field: SizeField, optimise: bool, watch: Stopwatch
 ) -> tuple[SurfaceMesh, SizeLimits | None, np.ndarray]:
     """The mesh for one size field; the smaller sizes it needs; points that are badly glued."""
     with watch.stage("packing"):
@@ -123,7 +115,7 @@ def _one_round(
 
 def _in_space(
     surface: Surface, sides: SideTopology, field: SizeField, loops: BoundaryLoops,
-    domain: DomainMesh, scale: np.ndarray, watch: "_Stopwatch",
+    domain: DomainMesh, scale: np.ndarray, watch: Stopwatch,
 ) -> tuple[SurfaceMesh, Glued]:  # fmt: skip
     xy = domain.t.xy[: int(domain.t.count[0])]
     uv = field.scaling.to_uv(xy)
@@ -148,21 +140,3 @@ def _in_space(
 def _can_shrink(field: SizeField, wishes: SizeLimits) -> bool:
     """Is any wished size still allowed, or do all lie below ``min_size``?"""
     return bool((wishes.sizes >= (field.sizing.min_size or 0.0)).any())
-
-
-class _Stopwatch:
-    """Seconds per stage; tells the progress callback when a stage starts."""
-
-    def __init__(self, progress: Progress | None) -> None:
-        self.seconds: dict[str, float] = {}
-        self._progress = progress
-
-    @contextmanager
-    def stage(self, name: str) -> Iterator[None]:
-        if self._progress is not None:
-            self._progress(name, _STAGES[name])
-        start = time.perf_counter()
-        try:
-            yield
-        finally:
-            self.seconds[name] = self.seconds.get(name, 0.0) + time.perf_counter() - start

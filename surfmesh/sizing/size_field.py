@@ -33,7 +33,10 @@ ROOT_CELLS = 2304
 """About how many cells the search starts with: a smooth surface needs no more."""
 
 DEPTH = 13
-"""Most splits of a root cell: a leaf may be as small as a 400,000th of the domain."""
+"""Most splits of a root cell for accuracy: a leaf may be a 400,000th of the domain."""
+
+GRID_DEPTH = 20
+"""Most splits around small sources; also the depth of the finest grid that nodes lie on."""
 
 HIDDEN_DEPTH = 6
 """Splits of a root cell within which features between the samples are looked for."""
@@ -147,8 +150,9 @@ class _Builder:
         patch = self._patches(cells)
         fresh = np.ones(len(cells), bool)
         total = len(cells)
+        sources = _SourceCells(self.law.limits, self.scaling, self.root_step, self.nx)
         tree: list[np.ndarray] = []  # the cells that were split, in the order of their children
-        for round_number in range(MAX_ROUNDS):
+        for round_number in range(MAX_ROUNDS + GRID_DEPTH):
             seen = self.sweep
             self._grade(patch)
             touched = fresh | (self.changed[patch].max(axis=1) >= seen)
@@ -157,15 +161,18 @@ class _Builder:
             unseen = fresh & ~split
             split[unseen] = self._may_hide(cells.chosen(unseen), patch[unseen])
             split &= cells.depth < DEPTH
+            demanded = sources.split(cells)
+            split |= demanded
             # after so many rounds all features are found; a few cells creep along fronts
             few = 0 if round_number <= DEPTH else len(cells) // 1000
-            if split.sum() <= few:
+            if split.sum() <= few and not demanded.any():
                 break
             self._balance(cells, split)
             parents = cells.chosen(split)
             children = parents.split(total)
             tree.append(parents.index)
             total += len(children)
+            sources.follow(split)
             if total > MAX_CELLS:
                 raise SizingError(
                     f"the sizes asked for on {self.surface.name!r} need more than {MAX_CELLS:,} "
@@ -182,7 +189,7 @@ class _Builder:
 
     def _patches(self, cells: "_Cells") -> np.ndarray:
         """The nine nodes of each cell (n, 9), creating those that do not exist yet."""
-        half = (1 << (DEPTH - cells.depth)).astype(np.int64)  # in units of the finest node grid
+        half = (1 << (GRID_DEPTH - cells.depth)).astype(np.int64)  # in units of the finest grid
         i = np.arange(9)
         x = cells.x[:, None] + half[:, None] * (i % 3)
         y = cells.y[:, None] + half[:, None] * (i // 3)
@@ -201,11 +208,11 @@ class _Builder:
 
     @property
     def _stride(self) -> int:
-        return (self.ny << (DEPTH + 1)) + 1
+        return (self.ny << (GRID_DEPTH + 1)) + 1
 
     def _plane(self, keys: np.ndarray) -> np.ndarray:
         """xy (n, 2) of nodes; the far sides of the domain are met exactly."""
-        count = np.array([self.nx << (DEPTH + 1), self.ny << (DEPTH + 1)])
+        count = np.array([self.nx << (GRID_DEPTH + 1), self.ny << (GRID_DEPTH + 1)])
         index = np.stack([keys // self._stride, keys % self._stride], axis=1)
         return index / count * self.scaling.extent
 
@@ -227,7 +234,7 @@ class _Builder:
         pairs = [np.empty((0, 2), np.int64)]
         if self.sides is None or max(self.sides.partner) < 0:
             return pairs[0]
-        ends = (self.nx << (DEPTH + 1), self.ny << (DEPTH + 1))
+        ends = (self.nx << (GRID_DEPTH + 1), self.ny << (GRID_DEPTH + 1))
         x, y = self.keys // self._stride, self.keys % self._stride
         on_side = [y == 0, x == ends[0], y == ends[1], x == 0]
         along = [x / ends[0], y / ends[1], x / ends[0], y / ends[1]]
@@ -368,7 +375,7 @@ def _coarse_beside_fine(
 
     With them a fine node in the middle of a coarse side would bind nobody across it.
     """
-    unit = DEPTH + 1
+    unit = GRID_DEPTH + 1
     stride = (ny << unit) + 1
     found = np.zeros(len(cells), bool)
     fine = cells.chosen(fresh)
@@ -466,8 +473,47 @@ class _SizeLaw:
                 )
             size = np.clip(np.minimum(size, wish), *self.clamp)
         if self.limits is not None:
-            size = np.clip(np.minimum(size, self.limits(derivatives[0])), *self.clamp)
+            least = self.clamp[0] if self.limits.uv is None else self.sizing.min_size or 0.0
+            size = np.minimum(size, np.maximum(self.limits(derivatives[0]), least))
         return size, root, forms.normal, derivatives[0]
+
+
+class _SourceCells:
+    """The leaf that each source of a small size lies in, and how deep it shall be.
+
+    What is smaller than a cell would be missed by its nodes.
+    """
+
+    def __init__(
+        self, limits: SizeLimits | None, scaling: Scaling, root_step: np.ndarray, nx: int
+    ) -> None:
+        uv = np.empty((0, 2)) if limits is None or limits.uv is None else limits.uv
+        sizes = limits.sizes if len(uv) else np.empty(0)
+        last = np.round(scaling.extent / root_step * (1 << GRID_DEPTH)).astype(np.int64) - 1
+        grid = scaling.to_plane(uv) / root_step * (1 << GRID_DEPTH)
+        self.grid = np.clip(grid, 0, last).astype(np.int64)
+        root = self.grid >> GRID_DEPTH
+        self.leaf = root[:, 1] * nx + root[:, 0]
+        # the leaves are split once more at the end
+        depth = np.ceil(np.log2(0.5 * float(root_step.max()) / sizes))
+        self.depth = np.clip(depth, 0, GRID_DEPTH).astype(np.int64)
+        self._before = np.zeros(len(uv), np.int64)
+
+    def split(self, cells: "_Cells") -> np.ndarray:
+        """Leaves (n,) bool that are too shallow for a source within."""
+        wanted = np.zeros(len(cells), bool)
+        self._before = cells.depth[self.leaf]
+        wanted[self.leaf[self._before < self.depth]] = True
+        return wanted
+
+    def follow(self, split: np.ndarray) -> None:
+        """The cells in ``split`` (n,) bool were replaced by children at the end of the list."""
+        gone = split[self.leaf]
+        kept_rank, split_rank = np.cumsum(~split) - 1, np.cumsum(split) - 1
+        quarter = (self.grid >> (GRID_DEPTH - 1 - self._before)[:, None]) & 1
+        child = len(split) - split.sum() + 4 * split_rank[self.leaf]
+        child += quarter[:, 0] + 2 * quarter[:, 1]
+        self.leaf = np.where(gone, child, kept_rank[self.leaf])
 
 
 @dataclass(frozen=True)
@@ -483,7 +529,7 @@ class _Cells:
     def roots(cls, nx: int, ny: int) -> "_Cells":
         index = np.arange(nx * ny, dtype=np.int64)
         j, i = np.divmod(index, nx)
-        unit = 1 << (DEPTH + 1)
+        unit = 1 << (GRID_DEPTH + 1)
         return cls(i * unit, j * unit, np.zeros(nx * ny, np.int64), index)
 
     def __len__(self) -> int:
@@ -502,7 +548,7 @@ class _Cells:
 
     def split(self, first: int) -> "_Cells":
         """The four children of every cell, numbered from ``first`` on."""
-        half = 1 << (DEPTH - self.depth)
+        half = 1 << (GRID_DEPTH - self.depth)
         i = np.arange(4)
         return _Cells(
             (self.x[:, None] + half[:, None] * (i % 2)).ravel(),

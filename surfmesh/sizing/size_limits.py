@@ -17,6 +17,8 @@ class SizeLimits:
     sizes: np.ndarray
     """(k,) model units."""
     slope: float
+    uv: np.ndarray | None = None
+    """(k, 2) parameters of the points: the field is made fine enough there to see them all."""
 
     def __call__(self, points: np.ndarray) -> np.ndarray:
         """Largest size (n,) at points (n, 3)."""
@@ -30,8 +32,10 @@ class SizeLimits:
         """Both sets of bounds."""
         if other is None:
             return self
+        both = self.uv is not None and other.uv is not None
         return SizeLimits(
             np.concatenate([self.points, other.points]),
             np.concatenate([self.sizes, other.sizes]),
             self.slope,
+            np.concatenate([self.uv, other.uv]) if both else None,
         )

@@ -1,0 +1,128 @@
+"""A planar domain, all stages: the paper's section 3 with holes, constraint lines and regions.
+
+size field <-> segments cut   ->  packing -> boundary -> regions -> optimisation -> the mesh
+       short lines and gaps
+"""
+
+import numpy as np
+
+from surfmesh.geometry.planar_domain import PlanarDomain
+from surfmesh.kernels.background import scalar_sizes_at
+from surfmesh.kernels.insertion import label_patches
+from surfmesh.meshing.boundary_recovery import DomainMesh, recovered_regions
+from surfmesh.meshing.optimise import Optimiser
+from surfmesh.meshing.packing import packed
+from surfmesh.meshing.planar_segments import (
+    PlanarSegments,
+    cut_segments,
+    narrow_gaps,
+    short_segments,
+)
+from surfmesh.meshing.stages import Progress, Stopwatch
+from surfmesh.sizing.size_field import SizeField, size_field
+from surfmesh.sizing.sizing import Sizing
+from surfmesh.surface_mesh import SurfaceMesh
+
+GAP_ROUNDS = 3
+"""How often the size field is made anew because gaps were found, at most."""
+
+
+def mesh_planar(
+    domain: PlanarDomain, sizing: Sizing, optimise: bool = True, progress: Progress | None = None
+) -> SurfaceMesh:
+    """Mesh the inside of a planar domain; every segment is followed by edges of the mesh.
+
+    Raises ``SizingError`` or ``DomainError`` with the reason.
+    """
+    watch = Stopwatch(progress)
+    with watch.stage("sizing"):
+        field, cut = _field_and_segments(domain, sizing)
+    with watch.stage("packing"):
+        packing = packed(
+            field.background,
+            (0.0, 0.0, *field.scaling.extent),
+            tuple(0.5 * field.scaling.extent),
+            field.expected_vertices(),
+        )
+    with watch.stage("boundary"):
+        inside = recovered_regions(packing.t, cut, field, domain)
+        del packing
+    scale = np.ones(len(inside.t.xy))
+    if optimise:
+        with watch.stage("optimisation"):
+            node = inside.node[inside.node >= 0]
+            optimiser = Optimiser(inside.t, node, node, domain, field)
+            optimiser.run()
+            scale = optimiser.embedding.scale
+    with watch.stage("mapping"):
+        return _in_space(domain, field, cut, inside, scale, watch)
+
+
+def _field_and_segments(domain: PlanarDomain, sizing: Sizing) -> tuple[SizeField, PlanarSegments]:
+    limits = short_segments(domain.graph, sizing.gradient)
+    for _ in range(GAP_ROUNDS):
+        field = size_field(domain, sizing, None, limits)
+        cut = cut_segments(domain.graph, field)
+        gaps = narrow_gaps(domain, cut, field, sizing.gradient)
+        if gaps is None:
+            break
+        limits = gaps.joined_with(limits)
+    return field, cut
+
+
+def _in_space(
+    domain: PlanarDomain, field: SizeField, cut: PlanarSegments, inside: DomainMesh,
+    scale: np.ndarray, watch: Stopwatch,
+) -> SurfaceMesh:  # fmt: skip
+    t = inside.t
+    vertices, triangles = int(t.count[0]), int(t.count[1])
+    patch = np.empty(triangles, np.int32)
+    patches = label_patches(t, patch)
+    live = patch >= 0
+    corners = t.tri[: 3 * triangles].reshape(-1, 3)[live]
+    used = np.zeros(vertices, bool)
+    used[corners.ravel()] = True
+    number = np.cumsum(used) - 1
+
+    uv = field.scaling.to_uv(t.xy[:vertices])
+    met = inside.node >= 0
+    uv[inside.node[met]] = cut.uv[met]  # to the last bit
+    sizes = np.empty(vertices)
+    scalar_sizes_at(field.background, t.xy[:vertices], sizes)
+    regions = _region_numbers(t, cut, inside.node, patch, patches)
+    return SurfaceMesh(
+        points=np.column_stack([uv, np.zeros(vertices)])[used],
+        triangles=number[corners],
+        uv_points=uv[used],
+        face_ids=regions[patch[live]],
+        surfaces=domain.region_surfaces(patches),
+        sizes=(sizes * scale[:vertices])[used],
+        sizing=field.sizing,
+        seconds=watch.seconds,
+        warnings=domain.warnings,
+    )
+
+
+def _region_numbers(
+    t, cut: PlanarSegments, node: np.ndarray, patch: np.ndarray, patches: int
+) -> np.ndarray:
+    """The number of each patch (patches,): by the first segment along it, its left side first.
+
+    Independent of the triangles, so that regions keep their numbers when sizes change.
+    """
+    half_edges = np.flatnonzero(t.fixed[: 3 * len(patch)])
+    half_edges = half_edges[patch[half_edges // 3] >= 0]
+    width = np.int64(len(t.xy))
+    following = half_edges + np.where(half_edges % 3 == 2, -2, 1)
+    keys = t.tri[half_edges] * width + t.tri[following]
+    order = np.argsort(keys)
+    first = np.full(patches, np.iinfo(np.int64).max)
+    a, b = node[cut.pieces].astype(np.int64).T
+    for side, wanted in enumerate((a * width + b, b * width + a)):
+        place = np.minimum(np.searchsorted(keys[order], wanted), len(keys) - 1)
+        found = (keys[order][place] == wanted) & (a >= 0) & (b >= 0)
+        of = patch[half_edges[order][place[found]] // 3]
+        np.minimum.at(first, of, 2 * cut.segment[found].astype(np.int64) + side)
+    numbers = np.empty(patches, np.int32)
+    numbers[np.argsort(first, kind="stable")] = np.arange(patches)
+    return numbers

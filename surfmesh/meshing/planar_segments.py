@@ -1,0 +1,165 @@
+"""Step 1 of section 3 in the plane: the segments of a domain, cut to unit metric length.
+
+A segment that is shorter than the wanted size, or a gap between two lines that is narrower,
+asks for a smaller size there; from there sizes grow again as ``growth`` allows.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from surfmesh.geometry.planar_domain import PlanarDomain
+from surfmesh.geometry.segment_graph import SegmentGraph
+from surfmesh.kernels.background import inverse_sizes_at, scalar_sizes_at
+from surfmesh.sizing.size_field import SizeField
+from surfmesh.sizing.size_limits import SizeLimits
+
+FIRST_SAMPLES = 8
+"""Samples of every segment from which its metric length is guessed."""
+
+SAMPLES_A_PIECE, MOST_SAMPLES = 16, 1 << 16
+"""Then so many for each piece that it will be cut into."""
+
+SHORT = 1.0
+"""A size source where a segment is shorter than this times the size, or a gap narrower."""
+
+
+@dataclass(frozen=True)
+class PlanarSegments:
+    """Nodes and pieces of segments, in the order of the lines that were given."""
+
+    uv: np.ndarray
+    """(k, 2) nodes, exact."""
+    pieces: np.ndarray
+    """(s, 2) int32 pairs of nodes."""
+    segment: np.ndarray
+    """(s,) int32, the segment of the graph that each piece is part of."""
+
+
+def cut_segments(graph: SegmentGraph, field: SizeField) -> PlanarSegments:
+    """Cut every segment into pieces of equal metric length near 1; lone points become nodes."""
+    order = np.argsort(graph.given, kind="stable")  # neighbours on a line stay neighbours
+    start, end = (graph.points[graph.segments[order, k]] for k in (0, 1))
+    share, steps = _metric_steps(field, start, end)
+    lengths = np.array([part[-1] for part in steps])
+    count = np.maximum(1, np.round(lengths)).astype(np.int64)
+    inner = count - 1
+    owner = np.repeat(np.arange(len(order)), inner)
+    within = np.arange(len(owner)) - np.repeat(np.cumsum(inner) - inner, inner) + 1
+    t = np.empty(len(owner))
+    begin = np.cumsum(inner) - inner
+    for k in np.flatnonzero(inner).tolist():
+        wanted = lengths[k] * within[begin[k] : begin[k] + inner[k]] / count[k]
+        t[begin[k] : begin[k] + inner[k]] = np.interp(wanted, steps[k], share[k])
+    between = start[owner] + t[:, None] * (end - start)[owner]
+
+    # one row of tokens a segment: its first point, its inner nodes, its last point
+    points = len(graph.points)
+    first = np.cumsum(count + 1) - (count + 1)
+    tokens = np.empty(int((count + 1).sum()), np.int64)
+    tokens[first] = graph.segments[order, 0]
+    tokens[first + count] = graph.segments[order, 1]
+    tokens[first[owner] + within] = points + np.arange(len(owner))
+    ends = np.ones(len(tokens), bool)
+    ends[first + count] = False
+    place = np.flatnonzero(ends)
+    unique, seen = np.unique(np.concatenate([tokens, graph.lone_points]), return_index=True)
+    number = np.empty(points + len(owner), np.int32)
+    number[unique[np.argsort(seen)]] = np.arange(len(unique), dtype=np.int32)
+    uv = np.empty((len(unique), 2))
+    uv[number] = np.concatenate([graph.points, between])
+    pieces = np.stack([number[tokens[place]], number[tokens[place + 1]]], axis=1)
+    return PlanarSegments(uv, pieces, np.repeat(order, count).astype(np.int32))
+
+
+def _metric_steps(
+    field: SizeField, start: np.ndarray, end: np.ndarray
+) -> tuple[list[np.ndarray], list[np.ndarray]]:
+    """Shares of each segment from 0 to 1, and the metric length up to there."""
+    guess = _lengths(field, start, end, np.full(len(start), FIRST_SAMPLES))
+    totals = np.array([part[-1] for part in guess])
+    counts = np.clip(SAMPLES_A_PIECE * totals, FIRST_SAMPLES, MOST_SAMPLES).astype(np.int64)
+    steps = _lengths(field, start, end, counts)
+    return [np.linspace(0.0, 1.0, n + 1) for n in counts.tolist()], steps
+
+
+def _lengths(
+    field: SizeField, start: np.ndarray, end: np.ndarray, counts: np.ndarray
+) -> list[np.ndarray]:
+    """Metric length from the start (counts[k] + 1,) of each segment, by the midpoint rule."""
+    owner = np.repeat(np.arange(len(start)), counts)
+    first = np.cumsum(counts) - counts
+    t = (np.arange(len(owner)) - first[owner] + 0.5) / counts[owner]
+    step = (end - start)[owner]
+    xy = field.scaling.to_plane(start[owner] + t[:, None] * step)
+    a = np.empty((len(owner), 3))
+    inverse_sizes_at(field.background, xy, a)
+    du, dv = (step / field.scaling.rates(xy) / counts[owner][:, None]).T
+    metric = np.hypot(a[:, 0] * du + a[:, 1] * dv, a[:, 1] * du + a[:, 2] * dv)
+    total = np.cumsum(metric)
+    return [
+        np.concatenate([[0.0], total[i : i + n] - (total[i - 1] if i else 0.0)])
+        for i, n in zip(first.tolist(), counts.tolist())
+    ]
+
+
+def short_segments(graph: SegmentGraph, slope: float) -> SizeLimits | None:
+    """Sizes no larger than the shortest segment at each point of the graph."""
+    if not len(graph.segments):
+        return None
+    length = np.linalg.norm(np.diff(graph.points[graph.segments], axis=1)[:, 0], axis=1)
+    shortest = np.full(len(graph.points), np.inf)
+    for side in graph.segments.T:
+        np.minimum.at(shortest, side, length)
+    ends = np.flatnonzero(np.isfinite(shortest))
+    return _limits(graph.points[ends], shortest[ends], slope)
+
+
+def narrow_gaps(
+    domain: PlanarDomain, cut: PlanarSegments, field: SizeField, slope: float
+) -> SizeLimits | None:
+    """Sizes no larger than the distance to lines that a node's own line does not meet.
+
+    Lines that share a point with it are left out: their corner is as sharp as it is.
+    """
+    import shapely
+
+    graph = domain.graph
+    wanted = np.empty(len(cut.uv))
+    scalar_sizes_at(field.background, field.scaling.to_plane(cut.uv), wanted)
+    lines = shapely.linestrings(graph.points[graph.segments])
+    tree = shapely.STRtree(lines)
+    places = shapely.points(cut.uv)
+    node, near = tree.query(places, predicate="dwithin", distance=SHORT * wanted)
+    # a node may end several segments: it meets whatever shares a point with one of them
+    meets = _meeting(graph, cut, node, near)
+    node, near = node[~meets], near[~meets]
+    if not len(node):
+        return None
+    gap = shapely.distance(places[node], lines[near])
+    narrowest = np.full(len(cut.uv), np.inf)
+    np.minimum.at(narrowest, node, gap)
+    found = np.flatnonzero(narrowest < SHORT * wanted)
+    return _limits(cut.uv[found], narrowest[found], slope) if len(found) else None
+
+
+def _meeting(
+    graph: SegmentGraph, cut: PlanarSegments, node: np.ndarray, near: np.ndarray
+) -> np.ndarray:
+    """Do the segments ``near`` share a point with a segment of the nodes ``node``, both (n,)?"""
+    from scipy.sparse import coo_array
+
+    def table(rows: np.ndarray, columns: np.ndarray, shape: tuple[int, int]) -> coo_array:
+        return coo_array((np.ones(rows.size, bool), (rows.ravel(), columns.ravel())), shape)
+
+    s = len(graph.segments)
+    number = np.repeat(np.arange(s), 2)
+    at_point = table(number, graph.segments, (s, len(graph.points))).tocsr()
+    touching = (at_point @ at_point.T).tocsr()
+    of_node = table(cut.pieces, np.repeat(cut.segment, 2), (len(cut.uv), s)).tocsr()
+    return np.asarray((of_node @ touching).tocsr()[node, near]).ravel().astype(bool)
+
+
+def _limits(places: np.ndarray, sizes: np.ndarray, slope: float) -> SizeLimits:
+    space = np.column_stack([places, np.zeros(len(places))])
+    return SizeLimits(space, sizes, slope, places)
