@@ -19,8 +19,10 @@ if TYPE_CHECKING:
     from surfmesh.geometry.parametric import ParametricSurface
     from surfmesh.geometry.planar_domain import PlanarDomain
     from surfmesh.geometry.surface_file import gallery
+    from surfmesh.meshing.circle_packing import pack
     from surfmesh.quality import Report, check
     from surfmesh.sizing.distance_size import DistanceSize
+    from surfmesh.sizing.radius_laws import TensorField, UniformRadius
     from surfmesh.sizing.sizing import Sizing
     from surfmesh.surface_mesh import SurfaceMesh
 
@@ -35,10 +37,13 @@ _HOMES = {
     "Report": "surfmesh.quality",
     "Sizing": "surfmesh.sizing.sizing",
     "SurfaceMesh": "surfmesh.surface_mesh",
+    "TensorField": "surfmesh.sizing.radius_laws",
+    "UniformRadius": "surfmesh.sizing.radius_laws",
     "check": "surfmesh.quality",
     "gallery": "surfmesh.geometry.surface_file",
     "load": "surfmesh.api",
     "mesh": "surfmesh.api",
+    "pack": "surfmesh.meshing.circle_packing",
 }
 _MODULES = ("errors", "io", "view")
 
@@ -49,6 +54,8 @@ __all__ = [
     "Report",
     "Sizing",
     "SurfaceMesh",
+    "TensorField",
+    "UniformRadius",
     "__version__",
     "check",
     "errors",
@@ -56,6 +63,7 @@ __all__ = [
     "io",
     "load",
     "mesh",
+    "pack",
     "view",
 ]
 

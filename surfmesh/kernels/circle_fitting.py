@@ -4,7 +4,7 @@ import math
 
 from surfmesh.kernels import NIL
 from surfmesh.kernels.background import size_at
-from surfmesh.kernels.jit import kernel
+from surfmesh.kernels.jit import inlined_kernel, kernel
 from surfmesh.kernels.packing_state import STEPS
 from surfmesh.kernels.tensors import solve
 
@@ -14,7 +14,7 @@ EASE_WITHIN = 1.4  # circles nearer than this are neighbours of the one to place
 EASY = 0.08  # a neighbour at 1 -+ this is touched well enough
 
 
-@kernel
+@inlined_kernel
 def _apex(h11, h12, h22, dx, dy):
     """Step from the middle of an edge (dx, dy) to the apex on its right, both sides unit."""
     x, y = solve(h11, h12, h22, dx, dy)
@@ -111,7 +111,7 @@ def fit_to_three(xy, size, count, background, a, b, c, x, y):
     return x, y, h11, h12, h22, 0.0
 
 
-@kernel
+@inlined_kernel
 def survey(t, a, b, rims, x, y, h11, h12, h22, reach):
     """Look at the circles on the rim around a circle at (x, y).
 

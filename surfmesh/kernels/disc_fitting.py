@@ -9,21 +9,21 @@ import math
 
 from surfmesh.kernels import NIL
 from surfmesh.kernels.front import DONE
-from surfmesh.kernels.jit import kernel
+from surfmesh.kernels.jit import inlined_kernel, kernel
 from surfmesh.kernels.triangulation import next_half_edge, prev_half_edge
 
 REACH = 2.0  # of its radius: how far behind the front a circle looks for others
 LEAST_HEIGHT = 0.3  # of its radius: how far a circle between two distant ones stands off
 
 
-@kernel
+@inlined_kernel
 def gap_between(t, a, b):
     """Distance between the circles of a and b, negative where they overlap."""
     dx, dy = t.xy[b, 0] - t.xy[a, 0], t.xy[b, 1] - t.xy[a, 1]
     return math.sqrt(dx * dx + dy * dy) - 0.5 * (t.size[a, 0] + t.size[b, 0])
 
 
-@kernel
+@inlined_kernel
 def touch_two(t, a, b, r):
     """The circle of radius r that touches those of a and b, right of a -> b (2.3.2).
 
@@ -75,7 +75,7 @@ def touch_three(t, a, b, c):
     return ax + x0 + x1 * r, ay + y0 + y1 * r, r
 
 
-@kernel
+@inlined_kernel
 def _worse(t, v, x, y, r, worst, circle):
     """The deeper of two overlaps: that of the circle v, or the one known, f / (r1 + r2)."""
     dx, dy = t.xy[v, 0] - x, t.xy[v, 1] - y
@@ -86,7 +86,18 @@ def _worse(t, v, x, y, r, worst, circle):
     return worst, circle
 
 
-@kernel
+@inlined_kernel
+def beside(t, u, v, w, x, y, r, tolerance):
+    """The one of three circles that a circle of radius r at (x, y) overlaps most, or NIL."""
+    worst, circle = 1.0 - tolerance, NIL
+    worst, circle = _worse(t, u, x, y, r, worst, circle)
+    worst, circle = _worse(t, v, x, y, r, worst, circle)
+    if w != NIL:
+        worst, circle = _worse(t, w, x, y, r, worst, circle)
+    return circle
+
+
+@inlined_kernel
 def _reaches(t, e, x, y, r):
     """Does a circle of radius r at (x, y) reach the edge e?"""
     a, b = t.tri[e], t.tri[next_half_edge(e)]
@@ -97,7 +108,7 @@ def _reaches(t, e, x, y, r):
     return px * px + py * py < r * r
 
 
-@kernel
+@inlined_kernel
 def overlapped(t, a, b, rims, x, y, r, tolerance):
     """The circle that one of radius r at (x, y) overlaps most (2.3.3, f_ij < 0), or NIL.
 

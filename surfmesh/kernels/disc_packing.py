@@ -10,7 +10,7 @@ largest circle that touches three is tried, then the support is pushed out:
 """
 
 from surfmesh.kernels import NIL
-from surfmesh.kernels.disc_fitting import gap_between, overlapped, touch_three, touch_two
+from surfmesh.kernels.disc_fitting import beside, gap_between, overlapped, touch_three, touch_two
 from surfmesh.kernels.front_moves import (
     close_corner,
     close_first_corner,
@@ -20,7 +20,7 @@ from surfmesh.kernels.front_moves import (
     queue,
     steps_between,
 )
-from surfmesh.kernels.jit import kernel
+from surfmesh.kernels.jit import inlined_kernel, kernel
 from surfmesh.kernels.packing_state import BRUTE, FITS, TANGENTS
 from surfmesh.kernels.triangulation import locate, next_half_edge, open_cavity, prev_half_edge
 
@@ -34,7 +34,7 @@ SHRINKS, SHRINK = 24, 0.8  # last resort: smaller circles
 MOVED = -2  # the polygon was handed over, its circle is not placed yet
 
 
-@kernel
+@inlined_kernel
 def _draw_one_that_spans(p, a, b):
     """Where the gap between a and b is too wide for the next radius, a later one goes first."""
     least = 0.55 * gap_between(p.t, a, b)
@@ -53,6 +53,9 @@ def _try_disc(p, e, a, b, x, y, r):
     a when there is none but the place cannot be used.
     """
     t, front = p.t, p.front
+    other = beside(t, front.prev[a], front.next[b], t.tri[prev_half_edge(e)], x, y, r, TOLERATED)
+    if other != NIL and other != a and other != b:
+        return other  # most often it is a neighbour on the front: nothing need be opened
     start, barrier = locate(t, e, x, y, True)
     if barrier != NIL:
         v = t.tri[barrier]
@@ -78,7 +81,7 @@ def _try_disc(p, e, a, b, x, y, r):
     return NIL
 
 
-@kernel
+@inlined_kernel
 def _close_up(p, a, b):
     """Hand over the polygon between the front from a to b and the edge a-b, if there is one."""
     steps = steps_between(p.front, a, b)
@@ -86,7 +89,7 @@ def _close_up(p, a, b):
         close_pocket(p, a, b, steps)
 
 
-@kernel
+@inlined_kernel
 def _grown_to_three(p, e, a, b, wanted):
     """Try the circle that touches a, b and the one across, if that is a little larger (2.2)."""
     t = p.t
@@ -102,7 +105,7 @@ def _grown_to_three(p, e, a, b, wanted):
     return found == NIL or found == MOVED
 
 
-@kernel
+@inlined_kernel
 def _pushed_out(p, e, a, b, wanted):
     """Fit the circle to a and b; push the support out until nothing overlaps (2.3.3)."""
     t, front = p.t, p.front
@@ -137,7 +140,7 @@ def _pushed_out(p, e, a, b, wanted):
     return moved
 
 
-@kernel
+@inlined_kernel
 def _made_to_fit(p, e, a, b, wanted):
     """All edges wait: do what is valid although it is not good."""
     t = p.t
@@ -162,7 +165,7 @@ def _made_to_fit(p, e, a, b, wanted):
     return True
 
 
-@kernel
+@inlined_kernel
 def advance_disc(p, a, b, forced):
     """One step of the front at a -> b. Returns False when the edge has to wait.
 

@@ -3,7 +3,7 @@
 from surfmesh.kernels import NIL
 from surfmesh.kernels.front import DONE, TODO, link, unlink
 from surfmesh.kernels.heap import push
-from surfmesh.kernels.jit import kernel
+from surfmesh.kernels.jit import inlined_kernel, kernel
 from surfmesh.kernels.local_operations import convex, swap
 from surfmesh.kernels.packing_state import CLOSED
 from surfmesh.kernels.tensors import triangle_shape
@@ -19,7 +19,7 @@ POCKET = 8  # most circles on the rim of a polygon that is closed without one wi
 GOOD_SHAPE = 0.8  # a pair of done triangles both better than this is left as it is
 
 
-@kernel
+@inlined_kernel
 def queue(heap, xy, where, a, b):
     """Nearest to the origin first (2.2): by the middle of the edge, in the key metric."""
     x = 0.5 * (xy[a, 0] + xy[b, 0]) - where[0]
@@ -134,7 +134,7 @@ def close_first_corner(p, a):
             return False
 
 
-@kernel
+@inlined_kernel
 def steps_between(front, a, b):
     """How many steps along the front lead from a to b, 0 when more than ``POCKET``."""
     for k in range(1, POCKET + 1):

@@ -89,7 +89,20 @@ def compiled_before() -> bool:
 
 def kernel(function: Callable) -> Callable:
     """Compile ``function`` in nopython mode, cached on disk; see the module's docstring."""
-    options = {"error_model": "numpy", "_nrt": False}
+    return _compiled(function)
+
+
+def inlined_kernel(function: Callable) -> Callable:
+    """A kernel whose machine code is put in the place of every call.
+
+    A call copies all array descriptors of a state tuple, a kilobyte for a whole packing: what
+    runs several times a circle, from few places, is worth it.
+    """
+    return _compiled(function, forceinline=True)
+
+
+def _compiled(function: Callable, **more: bool) -> Callable:
+    options = {"error_model": "numpy", "_nrt": False, **more}
     dispatcher = numba.njit(**options)(function)
     if hasattr(dispatcher, "_cache"):  # a plain function under NUMBA_DISABLE_JIT
         dispatcher._cache = _KernelCache(function)

@@ -24,9 +24,9 @@ from surfmesh.kernels.front_moves import (
     place,
     queue,
 )
-from surfmesh.kernels.heap import pop, push
-from surfmesh.kernels.jit import kernel
-from surfmesh.kernels.packing_state import FITS, FORCED, MOVES, PARKED, TANGENTS, WANTED
+from surfmesh.kernels.heap import pop
+from surfmesh.kernels.jit import inlined_kernel, kernel
+from surfmesh.kernels.packing_state import FITS, FORCED, FORCING, MOVES, PARKED, TANGENTS, WANTED
 from surfmesh.kernels.predicates import orient
 from surfmesh.kernels.tensors import edge_length
 from surfmesh.kernels.triangulation import prev_half_edge, rim_visible
@@ -35,6 +35,7 @@ from surfmesh.kernels.triangulation import prev_half_edge, rim_visible
 FINISHED = 0  # the front has left the box, or the wanted number of circles is reached
 FULL = 1  # an array is full: grow it and call again
 BAD_START = 2  # no three circles about the origin
+GO = -1  # go on
 STUCK = 3  # no edge can be advanced, not even badly: cannot happen in exact arithmetic
 
 CLOSE_BELOW = 1.40  # fill a corner a, b, c straight away when l(a, c) is below this
@@ -42,10 +43,17 @@ OVERLAP = 0.65  # a circle nearer than this refuses the candidate
 TANGENT_RANGE = 0.8, 1.25  # metric radius at which a circle tangent to three is taken
 
 
-@kernel
-def meets_box(xy, where, a, b):
-    """Does the segment ab meet the box? (separating axes)"""
+@inlined_kernel
+def is_within(xy, where, a, b):
+    """Shall the front go on at the segment ab (2.4)?
+
+    It shall when the segment meets the box (separating axes), and its middle lies within the
+    largest distance from the origin.
+    """
     ax, ay, bx, by = xy[a, 0], xy[a, 1], xy[b, 0], xy[b, 1]
+    dx, dy = 0.5 * (ax + bx) - where[0], 0.5 * (ay + by) - where[1]
+    if dx * dx + dy * dy > where[9]:
+        return False
     x0, y0, x1, y1 = where[2], where[3], where[4], where[5]
     if max(ax, bx) < x0 or min(ax, bx) > x1 or max(ay, by) < y0 or min(ay, by) > y1:
         return False
@@ -55,7 +63,7 @@ def meets_box(xy, where, a, b):
     return abs(middle) <= reach
 
 
-@kernel
+@inlined_kernel
 def _advance(p, background, a, b, forced):
     """One step of the front at a -> b (2.3). Returns False when the edge has to wait.
 
@@ -172,48 +180,68 @@ def _first_front(p):
     return FINISHED
 
 
-@kernel
-def pack(p, background):
-    """Advance the front until it has left the box or the wanted circles are there (2.4)."""
+@inlined_kernel
+def _next_edge(p):
+    """The edge of the front that is next, as (GO, a, b), or the status with which to stop."""
     t, front, heap, count = p.t, p.front, p.heap, p.count
     room = min(len(t.xy), len(front.next)) - 1
-    forced = False
     while True:
         if t.count[0] >= count[WANTED]:
-            return FINISHED
+            return FINISHED, NIL, NIL
         if heap.count[0] == 0:
             if count[PARKED] == 0:
-                return FINISHED
-            if forced and count[MOVES] == 0:
-                return STUCK
-            forced = count[MOVES] == 0  # a whole round of waiting edges without a move
-            count[FORCED] += 1 if forced else 0
+                return FINISHED, NIL, NIL
+            if count[FORCING] and count[MOVES] == 0:
+                return STUCK, NIL, NIL
+            # a whole round of waiting edges without a move: what is not good must do
+            count[FORCING] = 1 if count[MOVES] == 0 else 0
+            count[FORCED] += count[FORCING]
             waiting = count[PARKED]
             count[PARKED] = 0
             count[MOVES] = 0
             for k in range(waiting):
                 a, b = p.parked[k, 0], p.parked[k, 1]
                 if front.next[a] == b:
-                    queue(p.heap, p.t.xy, p.where, a, b)
+                    queue(heap, t.xy, p.where, a, b)
             continue
         if t.count[0] >= room or heap.count[0] + 3 >= len(heap.key):
-            return FULL
+            return FULL, NIL, NIL
+        if count[PARKED] == len(p.parked):
+            return FULL, NIL, NIL
         _, a, b = pop(heap)
-        if front.next[a] != b or not meets_box(t.xy, p.where, a, b):
-            continue
-        if len(p.drawn) > 0:
-            moved = advance_disc(p, a, b, forced)
-        else:
-            moved = _advance(p, background, a, b, forced)
-        if moved:
-            count[MOVES] += 1
-            forced = False
-            if front.next[a] == b:  # the move was made elsewhere
-                queue(heap, t.xy, p.where, a, b)
-        else:
-            if count[PARKED] == len(p.parked):
-                push(heap, 0.0, a, b)
-                return FULL
-            p.parked[count[PARKED], 0] = a
-            p.parked[count[PARKED], 1] = b
-            count[PARKED] += 1
+        if front.next[a] == b and is_within(t.xy, p.where, a, b):
+            return GO, a, b
+
+
+@inlined_kernel
+def _noted(p, a, b, moved):
+    """The edge a -> b goes back to the queue after a move elsewhere, or waits without one."""
+    if moved:
+        p.count[MOVES] += 1
+        p.count[FORCING] = 0
+        if p.front.next[a] == b:
+            queue(p.heap, p.t.xy, p.where, a, b)
+        return
+    p.parked[p.count[PARKED], 0] = a
+    p.parked[p.count[PARKED], 1] = b
+    p.count[PARKED] += 1
+
+
+@kernel
+def pack(p, background):
+    """Advance the front until it has left the box or the wanted circles are there (2.4)."""
+    while True:
+        status, a, b = _next_edge(p)
+        if status != GO:
+            return status
+        _noted(p, a, b, _advance(p, background, a, b, p.count[FORCING] != 0))
+
+
+@kernel
+def pack_discs(p):
+    """The same for circles of drawn radii."""
+    while True:
+        status, a, b = _next_edge(p)
+        if status != GO:
+            return status
+        _noted(p, a, b, advance_disc(p, a, b, p.count[FORCING] != 0))

@@ -17,8 +17,9 @@ class Packing(NamedTuple):
     radius: np.ndarray  # (vertices,) float64: got over wanted radius of each circle
     drawn: np.ndarray  # (vertices,) float64: the radius each circle is to have, or (0,) when
     # sizes come from the background
-    where: np.ndarray  # (10,) float64: origin x, y; box x0, y0, x1, y1; key metric 11, 12, 22
-    count: np.ndarray  # (9,) int64: see the indices below
+    where: np.ndarray  # (10,) float64: origin x, y; box x0, y0, x1, y1; key metric 11, 12, 22;
+    # square of the largest distance from the origin
+    count: np.ndarray  # (10,) int64: see the indices below
 
 
-WANTED, PARKED, STEPS, FITS, TANGENTS, CLOSED, FORCED, MOVES, BRUTE = range(9)
+WANTED, PARKED, STEPS, FITS, TANGENTS, CLOSED, FORCED, MOVES, BRUTE, FORCING = range(10)

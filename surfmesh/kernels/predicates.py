@@ -78,3 +78,13 @@ def orient(ax, ay, bx, by, cx, cy):
     if left == 0.0 and right == 0.0 and (ax == cx or by == cy) and (ay == cy or bx == cx):
         return 0.0  # zero factors, not underflow: common on sides parallel to an axis
     return _orient_exact(ax, ay, bx, by, cx, cy)
+
+
+@kernel
+def orient_triangles(xy, triangles):
+    """The first of the triangles (m, 3) that is not counter-clockwise, or -1; judged exactly."""
+    for k in range(len(triangles)):
+        a, b, c = triangles[k, 0], triangles[k, 1], triangles[k, 2]
+        if orient(xy[a, 0], xy[a, 1], xy[b, 0], xy[b, 1], xy[c, 0], xy[c, 1]) <= 0.0:
+            return k
+    return -1

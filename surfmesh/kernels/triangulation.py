@@ -11,7 +11,7 @@ from typing import NamedTuple
 import numpy as np
 
 from surfmesh.kernels import NIL
-from surfmesh.kernels.jit import kernel
+from surfmesh.kernels.jit import inlined_kernel, kernel
 from surfmesh.kernels.predicates import orient
 from surfmesh.kernels.tensors import solve
 
@@ -136,7 +136,7 @@ def _in_circle(t, triangle, x, y, h11, h12, h22):
     return det > 0.0
 
 
-@kernel
+@inlined_kernel
 def open_cavity(t, start, x, y, h11, h12, h22, wide):
     """Collect the triangles to remove for a new vertex at (x, y), which lies in ``start``.
 
@@ -215,7 +215,7 @@ def rim_visible(t, rims, x, y):
     return first == NIL or side(t.xy, last, first, x, y) > 0.0
 
 
-@kernel
+@inlined_kernel
 def fill_cavity(t, rims, p):
     """Replace the open cavity by the star of vertex p; the triangle on rim i is ``cavity[i]``.
 
@@ -235,7 +235,7 @@ def fill_cavity(t, rims, p):
     _write_star(t, rims, p, region)
 
 
-@kernel
+@inlined_kernel
 def _write_star(t, rims, p, region):
     """Second half of ``fill_cavity``: ``rim`` now holds the outer twins.
 

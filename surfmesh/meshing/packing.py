@@ -13,6 +13,7 @@ from surfmesh.kernels.packing import (
     FULL,
     STUCK,
     pack,
+    pack_discs,
     start_packing,
     start_packing_discs,
 )
@@ -21,15 +22,6 @@ from surfmesh.kernels.triangulation import Triangulation, empty_triangulation
 
 NO_LIMIT = 1 << 62
 
-NO_BACKGROUND = Background(
-    np.array([0.0, 0.0, 1.0, 1.0, 1.0]),
-    np.ones(2, np.int64),
-    np.full(1, -1, np.int32),
-    np.zeros((1, 4), np.int32),
-    np.ones((1, 4)),
-)
-"""Stands in where radii are drawn and nothing is looked up."""
-
 
 def packed_discs(
     draw: Callable[[int], np.ndarray],
@@ -37,16 +29,17 @@ def packed_discs(
     origin: tuple[float, float],
     expected: int,
     wanted: int = NO_LIMIT,
+    distance: float = np.inf,
 ) -> Packing:
     """Pack circles of random radii over the plane; ``draw(n)`` gives the next n radii.
 
     Raises ``MeshingError`` when the packing cannot go on.
     """
-    packing = _room_for(int(1.1 * expected) + 1000, wanted, box, origin)
+    packing = _room_for(int(1.1 * expected) + 1000, wanted, box, origin, distance)
     packing = packing._replace(drawn=draw(len(packing.t.xy)))
     if start_packing_discs(packing) == BAD_START:
         raise MeshingError(f"no circles can be placed about the origin {origin}")
-    while (status := pack(packing, NO_BACKGROUND)) == FULL:
+    while (status := pack_discs(packing)) == FULL:
         packing = _grown(packing)
         more = draw(len(packing.t.xy) - len(packing.drawn))
         packing = packing._replace(drawn=np.concatenate([packing.drawn, more]))
@@ -61,13 +54,14 @@ def packed(
     origin: tuple[float, float],
     expected: int,
     wanted: int = NO_LIMIT,
+    distance: float = np.inf,
 ) -> Packing:
     """Pack circles over the plane from ``origin`` until the front has left ``box``.
 
     ``expected``: about how many circles there will be. Raises ``MeshingError`` when no three
     circles can be placed about the origin.
     """
-    packing = _room_for(int(1.1 * expected) + 1000, wanted, box, origin)
+    packing = _room_for(int(1.1 * expected) + 1000, wanted, box, origin, distance)
     if start_packing(packing, background) == BAD_START:
         raise MeshingError(f"no circles can be placed about the origin {origin}")
     while (status := pack(packing, background)) == FULL:
@@ -82,8 +76,9 @@ def _room_for(
     wanted: int,
     box: tuple[float, float, float, float],
     origin: tuple[float, float],
+    distance: float = np.inf,
 ) -> Packing:
-    count = np.zeros(9, np.int64)
+    count = np.zeros(10, np.int64)
     count[0] = wanted
     edges = vertices // 4 + 5000
     return Packing(
@@ -93,7 +88,7 @@ def _room_for(
         np.empty((edges, 2), np.int32),
         np.ones(vertices),
         np.empty(0),
-        np.array([*origin, *box, 1.0, 0.0, 1.0, 0.0]),
+        np.array([*origin, *box, 1.0, 0.0, 1.0, distance * distance]),
         count,
     )
 

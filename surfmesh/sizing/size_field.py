@@ -10,6 +10,7 @@ derivatives over a cell (formulas can, by interval arithmetic), a cell is split 
 the bound admits a curvature that would at least halve the size.
 """
 
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
@@ -113,7 +114,18 @@ def size_field(
     Raises ``SizingError`` when a size law gives something else than positive numbers, or when
     the wanted sizes need an unreasonable number of cells.
     """
-    return _Builder(surface, sizing, sides, limits).build()
+    return _Builder(surface, sizing, sides, _SizeLaw(surface, sizing, limits)).build()
+
+
+def plane_field(
+    surface: Surface, tensors: Callable[[np.ndarray], np.ndarray], growth: float
+) -> SizeField:
+    """The background of size tensors over the box of a plane: ``tensors`` (n, 2) -> (n, 3).
+
+    Raises ``SizingError`` when they need an unreasonable number of cells.
+    """
+    sizing = Sizing(size=1.0, growth=growth)
+    return _Builder(surface, sizing, None, _TensorLaw(surface, sizing, tensors)).build()
 
 
 class _Builder:
@@ -122,16 +134,16 @@ class _Builder:
         surface: Surface,
         sizing: Sizing,
         sides: SideTopology | None,
-        limits: SizeLimits | None,
+        law: "_SizeLaw | _TensorLaw",
     ) -> None:
         self.surface = surface
         self.sides = sides
-        self.scaling = Scaling.of(surface)
+        self.scaling = law.scaling
         width, height = self.scaling.extent
         self.nx = int(np.clip(round(np.sqrt(ROOT_CELLS * width / height)), 4, ROOT_CELLS // 4))
         self.ny = int(np.clip(round(ROOT_CELLS / self.nx), 4, ROOT_CELLS // 4))
         self.root_step = np.array([width / self.nx, height / self.ny])
-        self.law = _SizeLaw(surface, sizing, self.scaling, limits)
+        self.law = law
         self.slope = sizing.gradient
         # nodes, in order of creation; their keys also in sorted order
         self.keys = np.empty(0, np.int64)
@@ -414,10 +426,8 @@ def _root(forms: FundamentalForms, rates: np.ndarray) -> np.ndarray:
 class _SizeLaw:
     """The ungraded wish at points of one surface, with what the background stores there."""
 
-    def __init__(
-        self, surface: Surface, sizing: Sizing, scaling: Scaling, limits: SizeLimits | None
-    ) -> None:
-        self.surface, self.scaling = surface, scaling
+    def __init__(self, surface: Surface, sizing: Sizing, limits: SizeLimits | None) -> None:
+        self.surface, self.scaling = surface, Scaling.of(surface)
         (u0, u1), (v0, v1) = surface.domain
         grid = np.linspace(0.0, 1.0, 17)
         t = np.stack(np.meshgrid(grid, grid), axis=-1).reshape(-1, 2)
@@ -476,6 +486,28 @@ class _SizeLaw:
             least = self.clamp[0] if self.limits.uv is None else self.sizing.min_size or 0.0
             size = np.minimum(size, np.maximum(self.limits(derivatives[0]), least))
         return size, root, forms.normal, derivatives[0]
+
+
+class _TensorLaw:
+    """Size tensors given over a plane, in the place of sizes that follow from a surface."""
+
+    follows_curvature = False
+    limits = None
+
+    def __init__(
+        self, surface: Surface, sizing: Sizing, tensors: Callable[[np.ndarray], np.ndarray]
+    ) -> None:
+        self.surface, self.scaling = surface, Scaling.of(surface)
+        self.sizing, self.tensors = sizing, tensors
+
+    def __call__(self, xy: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
+        """As for ``_SizeLaw``: sizes of one, and H^-1 for the root of the first form."""
+        uv = self.scaling.to_uv(xy)
+        h = self.tensors(uv)
+        det = h[:, 0] * h[:, 2] - h[:, 1] ** 2
+        inverse = np.stack([h[:, 2], -h[:, 1], h[:, 0]], axis=1) / det[:, None]
+        normal = np.tile([0.0, 0.0, 1.0], (len(uv), 1))
+        return np.ones(len(uv)), inverse, normal, self.surface.evaluate(uv, 0)[0]
 
 
 class _SourceCells:
