@@ -11,6 +11,7 @@ _EXAMPLES = """examples:
   surfmesh mesh my_surface.toml -o my_surface.stl --size 0.1
   surfmesh mesh --x u --y v --z "u**2 - v**2" --u -1 1 --v -1 1 -o saddle.ply
   surfmesh check wavy.vtu --surface wavy
+  surfmesh pack --uniform 1 100 --count 1000 -o circles.svg
   surfmesh gallery
 
 exit status: 0 done and valid, 1 a mesh was made but its report is not clean, 2 bad input"""
@@ -23,7 +24,7 @@ class _Parser(argparse.ArgumentParser):
 
 
 def parse(argv: Sequence[str]) -> argparse.Namespace:
-    """Options with ``command``, one of mesh, check, view, gallery. Exits on bad usage."""
+    """Options with ``command``, one of mesh, check, view, pack, gallery. Exits on bad usage."""
     return _parser().parse_args(_formulas_shielded(argv))
 
 
@@ -85,6 +86,25 @@ def _parser() -> _Parser:
     view.add_argument("input", metavar="INPUT", help="mesh file, formula file or gallery name")
     view.add_argument("-o", "--output", metavar="PNG", help="a picture instead of a window")
     view.add_argument("--by", default="alpha", choices=_COLOURS, help="colour")
+
+    pack = commands.add_parser("pack", help="pack circles over the plane, as in the paper")
+    law = pack.add_mutually_exclusive_group(required=True)
+    law.add_argument("--radius", type=_positive, help="one radius for all")
+    law.add_argument(
+        "--uniform", nargs=2, type=_positive, metavar=("LO", "HI"), help="random radii"
+    )
+    pack.add_argument("--seed", type=int, default=0, help="of the random radii (default 0)")
+    pack.add_argument("--origin", nargs=2, type=float, default=(0.0, 0.0), metavar=("X", "Y"))
+    pack.add_argument("--count", type=_count, help="stop at so many circles")
+    pack.add_argument("--distance", type=_positive, help="stop at this distance from the origin")
+    pack.add_argument(
+        "--box", nargs=4, type=float, metavar=("X0", "Y0", "X1", "Y1"), help="stop outside of it"
+    )
+    pack.add_argument("-o", "--output", metavar="SVG|PNG", help="draw the packing")
+    pack.add_argument(
+        "--show", default="both", choices=("circles", "mesh", "both"), help="what is drawn"
+    )
+    _add_json(pack)
 
     gallery = commands.add_parser("gallery", help="list the ready-made surfaces")
     _add_json(gallery)

@@ -115,6 +115,48 @@ def view(options: Namespace) -> bool:
     return True
 
 
+def pack(options: Namespace) -> bool:
+    """Pack circles over the plane, say how good they are, draw them."""
+    from surfmesh.io.formats import require_writable
+    from surfmesh.view.packing_drawing import FORMATS
+
+    if options.output:
+        require_writable(options.output, *FORMATS)
+
+    from dataclasses import asdict
+
+    from surfmesh.meshing.circle_packing import pack as packed
+    from surfmesh.sizing.radius_laws import UniformRadius
+
+    law = options.radius or UniformRadius(*options.uniform, seed=options.seed)
+    announce_compilation()
+    found = packed(
+        law, options.origin, count=options.count, distance=options.distance, box=options.box
+    )
+    broken = found.check()
+    figures = asdict(found.statistics)
+    if options.output:
+        found.plot(options.output, options.show)
+    if options.json:
+        _print_json(figures | {"problem": broken, "file": options.output})
+    else:
+        print(f"{figures['nodes']:,} circles, {figures['elements']:,} triangles", end="")
+        print(f" - NOT VALID: {broken}" if broken else " - valid")
+        for title, names in _PACKING_ROWS.items():
+            print(f"  {title:<34}", ", ".join(f"{n} {figures[n]:.6g}" for n in names))
+        if options.output:
+            print("  written   ", options.output)
+    return broken is None
+
+
+_PACKING_ROWS = {
+    "got over wanted radius, less one": ("max1", "avg1"),
+    "ratio of neighbouring radii": ("max2", "avg2"),
+    "shape alpha": ("min3", "avg3"),
+    "iterations a circle, seconds": ("iterations", "seconds"),
+}
+
+
 def gallery(options: Namespace) -> bool:
     """List the ready-made surfaces."""
     from surfmesh.geometry.surface_file import gallery as surfaces

@@ -66,16 +66,16 @@ def read(path: str | Path) -> SurfaceMesh:
     return mesh
 
 
-def require_writable(path: str | Path, extension: str | None = None) -> None:
+def require_writable(path: str | Path, *extensions: str) -> None:
     """Raise what ``save`` would raise for this place, before any work is done.
 
-    extension: the only one that will do; None: any of ``FORMATS``.
+    extensions: those that will do; without any: those of ``FORMATS``.
     """
     path = Path(path)
-    if extension is None:
+    if not extensions:
         _home(path)
-    elif path.suffix.lower() != extension:
-        raise FileFormatError(f"{path}: the extension must be {extension}")
+    elif path.suffix.lower() not in extensions:
+        raise FileFormatError(f"{path}: the extension must be {' or '.join(extensions)}")
     require_place(path)
 
 

@@ -26,7 +26,7 @@ from surfmesh.meshing.boundary_loops import BoundaryLoops
 from surfmesh.meshing.planar_segments import PlanarSegments
 from surfmesh.sizing.size_field import SizeField
 
-CROWDED = 0.6
+CROWDED = 0.5
 """Metric distance from the boundary below which an interior vertex is removed."""
 
 BAD_SHAPE, SWEEPS = 0.7, 8
