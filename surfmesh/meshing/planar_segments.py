@@ -14,11 +14,12 @@ from surfmesh.kernels.background import inverse_sizes_at, scalar_sizes_at
 from surfmesh.sizing.size_field import SizeField
 from surfmesh.sizing.size_limits import SizeLimits
 
-FIRST_SAMPLES = 8
-"""Samples of every segment from which its metric length is guessed."""
+FIRST_INTERVALS, MOST_HALVINGS = 4, 40
+"""Intervals of every segment in which its metric length is first looked at."""
 
-SAMPLES_A_PIECE, MOST_SAMPLES = 16, 1 << 16
-"""Then so many for each piece that it will be cut into."""
+UNEVEN, SHORTEST_INTERVAL, LONGEST_INTERVAL = 1.3, 0.05, 4.0
+"""They are halved where sizes differ by this factor, unless shorter than this, and where they
+are longer than so many pieces: a gap in the middle would be missed."""
 
 SHORT = 1.0
 """A size source where a segment is shorter than this times the size, or a gap narrower."""
@@ -75,32 +76,45 @@ def cut_segments(graph: SegmentGraph, field: SizeField) -> PlanarSegments:
 def _metric_steps(
     field: SizeField, start: np.ndarray, end: np.ndarray
 ) -> tuple[list[np.ndarray], list[np.ndarray]]:
-    """Shares of each segment from 0 to 1, and the metric length up to there."""
-    guess = _lengths(field, start, end, np.full(len(start), FIRST_SAMPLES))
-    totals = np.array([part[-1] for part in guess])
-    counts = np.clip(SAMPLES_A_PIECE * totals, FIRST_SAMPLES, MOST_SAMPLES).astype(np.int64)
-    steps = _lengths(field, start, end, counts)
-    return [np.linspace(0.0, 1.0, n + 1) for n in counts.tolist()], steps
+    """Shares of each segment from 0 to 1, and the metric length up to there.
+
+    Intervals are halved until the size hardly changes within each.
+    """
+    owner = np.repeat(np.arange(len(start)), FIRST_INTERVALS)
+    first = np.tile(np.arange(FIRST_INTERVALS) / FIRST_INTERVALS, len(start))
+    width = np.full(len(owner), 1.0 / FIRST_INTERVALS)
+    parts: list[tuple[np.ndarray, ...]] = []
+    for halving in range(MOST_HALVINGS + 1):
+        speed = np.stack(
+            [_speed(field, start, end, owner, first + k * width) for k in (0.0, 0.5, 1.0)]
+        )
+        length = width * (speed[0] + 4.0 * speed[1] + speed[2]) / 6.0  # Simpson
+        low, high = speed.min(axis=0), speed.max(axis=0)
+        uneven = (high > UNEVEN * low) & (high * width > SHORTEST_INTERVAL)
+        split = (uneven | (high * width > LONGEST_INTERVAL)) & (halving < MOST_HALVINGS)
+        parts.append((owner[~split], first[~split], length[~split]))
+        owner = np.concatenate([owner[split], owner[split]])
+        width = np.tile(0.5 * width[split], 2)
+        first = np.concatenate([first[split], first[split] + width[: len(width) // 2]])
+        if not len(owner):
+            break
+    owner, first, length = (np.concatenate(part) for part in zip(*parts))
+    order = np.lexsort((first, owner))
+    cuts = np.searchsorted(owner[order], np.arange(1, len(start)))
+    shares = [np.append(part, 1.0) for part in np.split(first[order], cuts)]
+    return shares, [np.append(0.0, np.cumsum(part)) for part in np.split(length[order], cuts)]
 
 
-def _lengths(
-    field: SizeField, start: np.ndarray, end: np.ndarray, counts: np.ndarray
-) -> list[np.ndarray]:
-    """Metric length from the start (counts[k] + 1,) of each segment, by the midpoint rule."""
-    owner = np.repeat(np.arange(len(start)), counts)
-    first = np.cumsum(counts) - counts
-    t = (np.arange(len(owner)) - first[owner] + 0.5) / counts[owner]
+def _speed(
+    field: SizeField, start: np.ndarray, end: np.ndarray, owner: np.ndarray, t: np.ndarray
+) -> np.ndarray:
+    """Metric length a unit of share (n,), at shares ``t`` (n,) of the segments ``owner``."""
     step = (end - start)[owner]
     xy = field.scaling.to_plane(start[owner] + t[:, None] * step)
     a = np.empty((len(owner), 3))
     inverse_sizes_at(field.background, xy, a)
-    du, dv = (step / field.scaling.rates(xy) / counts[owner][:, None]).T
-    metric = np.hypot(a[:, 0] * du + a[:, 1] * dv, a[:, 1] * du + a[:, 2] * dv)
-    total = np.cumsum(metric)
-    return [
-        np.concatenate([[0.0], total[i : i + n] - (total[i - 1] if i else 0.0)])
-        for i, n in zip(first.tolist(), counts.tolist())
-    ]
+    du, dv = (step / field.scaling.rates(xy)).T
+    return np.hypot(a[:, 0] * du + a[:, 1] * dv, a[:, 1] * du + a[:, 2] * dv)
 
 
 def short_segments(graph: SegmentGraph, slope: float) -> SizeLimits | None:

@@ -49,6 +49,9 @@ or half at a kink. Where gradation decides, the field is a cone and all slopes a
 FINEST_EXTENT = 0.2
 """A cell narrower than this many edges is not split: no circle would notice."""
 
+FINEST_GRADED = 1.0
+"""The same where sizes are graded from sources, which have cells of their own size already."""
+
 POLE_DISTANCE = 0.9
 """In edges: the first ring of triangles around a pole lies about there."""
 
@@ -229,13 +232,13 @@ class _Builder:
         return index / count * self.scaling.extent
 
     def _create(self, keys: np.ndarray) -> None:
-        size, root, normal, point = self.law(self._plane(keys))
+        size, wish, root, normal, point = self.law(self._plane(keys))
         self.order = np.concatenate([self.order, len(self.size) + np.arange(len(keys))])
         self.keys = np.concatenate([self.keys, keys])
         sort = np.argsort(self.keys, kind="stable")
         self.keys, self.order = self.keys[sort], self.order[sort]
         self.size = np.concatenate([self.size, size])
-        self.wish = np.concatenate([self.wish, size])
+        self.wish = np.concatenate([self.wish, wish])
         self.root = np.concatenate([self.root, root])
         self.normal = np.concatenate([self.normal, normal])
         self.point = np.concatenate([self.point, point])
@@ -294,7 +297,9 @@ class _Builder:
         patch_errors(patch, self.root, self.size, step, largest, error, extent)
         graded = (self.size < 0.98 * self.wish)[patch].any(axis=1)
         allowed = np.where(graded, GRADED_ERROR, TEST_ERROR)
-        return (error > allowed) & (extent > FINEST_EXTENT)
+        by_sources = self.law.limits is not None and self.law.limits.uv is not None
+        finest = np.where(graded & by_sources, FINEST_GRADED, FINEST_EXTENT)
+        return (error > allowed) & (extent > finest)
 
     def _may_hide(self, cells: "_Cells", patch: np.ndarray) -> np.ndarray:
         """Cells whose bounds admit curvature that would at least halve the sizes seen."""
@@ -461,8 +466,9 @@ class _SizeLaw:
             size = np.minimum(size, np.maximum(unfolded, LEAST_OF_CHORD * self.sizing.chord))
         return np.clip(size, *self.clamp)
 
-    def __call__(self, xy: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
-        """size (n,), I^(1/2) in the scaled plane (n, 3), unit normal (n, 3), point (n, 3)."""
+    def __call__(self, xy: np.ndarray) -> tuple[np.ndarray, ...]:
+        """size (n,), the wish (n,) that sources have not lowered, I^(1/2) in the scaled plane
+        (n, 3), unit normal (n, 3), point (n, 3)."""
         uv, rates = self.scaling.to_uv_and_rates(xy)
         derivatives = self.surface.evaluate(uv, 2)
         forms = forms_from_derivatives(*derivatives[1:])
@@ -482,10 +488,13 @@ class _SizeLaw:
                     + (f", smallest {wish.min():g}" if wish.size else "")
                 )
             size = np.clip(np.minimum(size, wish), *self.clamp)
+        wish = size
         if self.limits is not None:
             least = self.clamp[0] if self.limits.uv is None else self.sizing.min_size or 0.0
             size = np.minimum(size, np.maximum(self.limits(derivatives[0]), least))
-        return size, root, forms.normal, derivatives[0]
+            if self.limits.uv is None:
+                wish = size
+        return size, wish, root, forms.normal, derivatives[0]
 
 
 class _TensorLaw:
@@ -500,14 +509,15 @@ class _TensorLaw:
         self.surface, self.scaling = surface, Scaling.of(surface)
         self.sizing, self.tensors = sizing, tensors
 
-    def __call__(self, xy: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
+    def __call__(self, xy: np.ndarray) -> tuple[np.ndarray, ...]:
         """As for ``_SizeLaw``: sizes of one, and H^-1 for the root of the first form."""
         uv = self.scaling.to_uv(xy)
         h = self.tensors(uv)
         det = h[:, 0] * h[:, 2] - h[:, 1] ** 2
         inverse = np.stack([h[:, 2], -h[:, 1], h[:, 0]], axis=1) / det[:, None]
         normal = np.tile([0.0, 0.0, 1.0], (len(uv), 1))
-        return np.ones(len(uv)), inverse, normal, self.surface.evaluate(uv, 0)[0]
+        size = np.ones(len(uv))
+        return size, size, inverse, normal, self.surface.evaluate(uv, 0)[0]
 
 
 class _SourceCells:

@@ -60,9 +60,7 @@ FRAME = gp_Ax3(gp_Pnt(1.0, -2.0, 3.0), gp_Dir(1.0, 2.0, 3.0), gp_Dir(1.0, 0.0, -
 
 def numbers(vectors):
     """gp points and vectors, in space or in the plane -> (k, d)."""
-    return np.array(
-        [(v.X(), v.Y(), v.Z()) if hasattr(v, "Z") else (v.X(), v.Y()) for v in vectors]
-    )
+    return np.array([(v.X(), v.Y(), v.Z()) if hasattr(v, "Z") else (v.X(), v.Y()) for v in vectors])
 
 
 def ocp_surface(surface, u, v):

@@ -41,9 +41,7 @@ DAMAGE = {
     "more than a point": lambda m: with_edge(m, degenerate=True),
     "is open between edges": lambda m: with_loop(m, lambda loop: loop[:-1]),
     "is empty": lambda m: with_loop(m, lambda loop: ()),
-    "has no loop": lambda m: replace(
-        m, faces=swapped(m.faces, 0, replace(m.faces[0], loops=()))
-    ),
+    "has no loop": lambda m: replace(m, faces=swapped(m.faces, 0, replace(m.faces[0], loops=()))),
     "seam or not": lambda m: with_loop(
         m, lambda loop: tuple(replace(coedge, seam=False) for coedge in loop)
     ),

@@ -44,7 +44,6 @@ def meshed(name):
 everyone = pytest.mark.parametrize("name", gallery())
 
 
-
 @everyone
 def test_topology(name):
     surface, mesh, report = meshed(name)

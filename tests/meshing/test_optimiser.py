@@ -214,10 +214,7 @@ def test_newton_steps_lower_the_energy(seed, n, stiffness):
 
     eps = 1e-6
     gradient = np.array(
-        [
-            (energy(centre + eps * d) - energy(centre - eps * d)) / (2 * eps)
-            for d in np.eye(2)
-        ]
+        [(energy(centre + eps * d) - energy(centre - eps * d)) / (2 * eps) for d in np.eye(2)]
     )
     step = np.array([x, y])
     assert np.linalg.norm(step) <= 0.3 + 1e-12

@@ -29,9 +29,7 @@ def constant_background(h: np.ndarray | float, width: float, height: float) -> B
     """The size tensor h (2, 2), or the size h, everywhere."""
     a = np.linalg.inv(np.asarray(h, float) * np.eye(2) if np.ndim(h) == 0 else h)
     scale = 1.0 / np.sqrt(np.linalg.det(np.linalg.inv(a)))
-    return uniform_background(
-        np.tile([a[0, 0], a[0, 1], a[1, 1], scale], (2, 2, 1)), width, height
-    )
+    return uniform_background(np.tile([a[0, 0], a[0, 1], a[1, 1], scale], (2, 2, 1)), width, height)
 
 
 def random_background(
@@ -55,9 +53,7 @@ def random_background(
     angle = rng.uniform(0.0, np.pi, shape)
     c, s = np.cos(angle), np.sin(angle)
     p, q = longer / h, 1.0 / (longer * h)  # eigenvalues of A
-    a = np.stack(
-        [p * c * c + q * s * s, (p - q) * c * s, p * s * s + q * c * c, 1.0 / h], axis=-1
-    )
+    a = np.stack([p * c * c + q * s * s, (p - q) * c * s, p * s * s + q * c * c, 1.0 / h], axis=-1)
     return uniform_background(a, width, height)
 
 
