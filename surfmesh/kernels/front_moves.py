@@ -19,7 +19,7 @@ POCKET = 8  # most circles on the rim of a polygon that is closed without one wi
 GOOD_SHAPE = 0.8  # a pair of done triangles both better than this is left as it is
 
 
-@inlined_kernel
+@kernel
 def queue(heap, xy, where, a, b):
     """Nearest to the origin first (2.2): by the middle of the edge, in the key metric."""
     x = 0.5 * (xy[a, 0] + xy[b, 0]) - where[0]

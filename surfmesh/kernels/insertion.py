@@ -98,11 +98,12 @@ def insert_node(t, start, x, y, h11, h12, h22, first_node):
                 f = turn(t, f)
                 if f == e:
                     return p, e
-    rims = open_cavity(t, triangle, x, y, h11, h12, h22, True)
-    if rims == 0:
-        rims = open_cavity(t, triangle, x, y, h11, h12, h22, False)
+    rims = 0
+    for wide in (True, False):
         if rims == 0:
-            return NIL, 3 * triangle
+            rims = open_cavity(t, triangle, x, y, h11, h12, h22, wide)
+    if rims == 0:
+        return NIL, 3 * triangle
     p = _new_vertex(t, x, y, h11, h12, h22)
     fill_cavity(t, rims, p)
     return p, 3 * t.cavity[0] + 2
