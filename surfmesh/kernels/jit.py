@@ -98,7 +98,8 @@ def inlined_kernel(function: Callable) -> Callable:
     A call copies all array descriptors of a state tuple, a kilobyte for a whole packing: what
     runs several times a circle, from few places, is worth it.
     """
-    return _compiled(function, forceinline=True)
+    # a bounds check that is inlined so fails without cause (numba 0.68)
+    return _compiled(function, forceinline=not numba.config.BOUNDSCHECK)
 
 
 def _compiled(function: Callable, **more: bool) -> Callable:
