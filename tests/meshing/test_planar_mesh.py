@@ -267,7 +267,7 @@ def test_thirty_thousand_boundary_segments():
     assert len(domain.graph.segments) == 30_004
     mesh = sm.mesh(domain, 0.5)
     assert areas(mesh).sum() == pytest.approx(0.75 * across * up, rel=1e-9)
-    assert sm.check(mesh).euler == 1 - len(holes)
+    assert len(mesh.points) - len(mesh.edges) + len(mesh.triangles) == 1 - len(holes)
 
 
 @pytest.mark.xfail(
