@@ -3,9 +3,9 @@
     python benchmarks/parametric.py [--quick] [--json PATH] [--surface NAME|FILE ...]
                                     [--sizes 10000 100000 1000000] [--growth 1.15] [--no-gmsh]
 
-Everything runs on a single thread. A: meshes of wanted counts. B: other meshers. C: raw meshes
-beside the paper's Table 2. D: accuracy of the size field. E: seconds to the first mesh. Exits
-with 1 when a wanted figure is missed.
+Everything runs on a single thread. A: meshes of wanted counts. B: other meshers. C: accuracy of
+the size field. D: seconds to the first mesh. Exits with 1 when a wanted figure is missed. The
+paper's own figures: ``paper.py``.
 """
 
 import single_thread  # noqa: F401  (before numpy)
@@ -23,7 +23,6 @@ import measures
 import memory
 import numpy as np
 import peers
-import raw_figures
 import start_up
 import wanted
 from tables import heading, note, show
@@ -55,7 +54,6 @@ def main() -> int:
             missed += _meshes(name, sizes, options, found)
         except SurfmeshError as error:
             missed += _failed(name, error, found)
-    missed += _raw(names, options, results)
     missed += _field(names, options, results)
     missed += _start(results)
     results["missed"] = missed
@@ -199,25 +197,7 @@ PEER_ROWS = (
 )  # fmt: skip
 
 
-# C, D, E
-
-
-def _raw(names: list[str], options: argparse.Namespace, results: dict) -> int:
-    results["raw"], missed = {}, 0
-    for name in (name for name in names if name in raw_figures.NODES):
-        try:
-            found = raw_figures.raw_figures(name, options.growth)
-        except SurfmeshError as error:
-            missed += _failed(name, error, results["raw"].setdefault(name, {}))
-            continue
-        results["raw"][name] = found
-        heading(f"C. {name}: raw mesh (optimise=False) beside Table 2 of the paper")
-        note(_sizing_text(found["sizing"], diagonal(sm.load(name))))
-        paper = {"paper": raw_figures.PAPER[name]}
-        missed += show(raw_figures.wanted(name), {"surfmesh": found}, paper)
-        note("Avg1 of the circles: got over wanted radius as each was placed, the paper's words;")
-        note("by the edges: half the mean metric length to the neighbours in the raw mesh.")
-    return missed
+# C, D
 
 
 def _field(names: list[str], options: argparse.Namespace, results: dict) -> int:
@@ -231,7 +211,7 @@ def _field(names: list[str], options: argparse.Namespace, results: dict) -> int:
             found = {"error": str(error)}
         results["field"][surface.name] = found
         columns[surface.name] = found
-    heading("D. interpolated size tensor against the exact one, where gradation is inactive")
+    heading("C. interpolated size tensor against the exact one, where gradation is inactive")
     missed = show(wanted.FIELD, columns)
     for name, found in columns.items():
         if "error" in found:
@@ -246,7 +226,7 @@ def _field(names: list[str], options: argparse.Namespace, results: dict) -> int:
 
 def _start(results: dict) -> int:
     results["start_up"] = start_up.start_up()
-    heading("E. start-up, each in a fresh process")
+    heading("D. start-up, each in a fresh process")
     return show(wanted.START, {"seconds": results["start_up"]})
 
 

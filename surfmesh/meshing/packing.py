@@ -19,8 +19,16 @@ from surfmesh.kernels.packing import (
 )
 from surfmesh.kernels.packing_state import Packing
 from surfmesh.kernels.triangulation import Triangulation, empty_triangulation
+from surfmesh.sizing.size_field import SizeField
 
 NO_LIMIT = 1 << 62
+
+
+def packed_over(field: SizeField) -> Packing:
+    """Pack the circles of a size field from the middle of its rectangle until it is covered."""
+    width, height = field.scaling.extent
+    box = (0.0, 0.0, width, height)
+    return packed(field.background, box, (0.5 * width, 0.5 * height), field.expected_vertices())
 
 
 def packed_discs(

@@ -15,7 +15,7 @@ from surfmesh.meshing.boundary_loops import BoundaryLoops, boundary_loops
 from surfmesh.meshing.boundary_recovery import DomainMesh, recovered
 from surfmesh.meshing.gluing import Glued, glued, misglued
 from surfmesh.meshing.optimise import Optimiser
-from surfmesh.meshing.packing import packed
+from surfmesh.meshing.packing import packed_over
 from surfmesh.meshing.stages import Progress, Stopwatch
 from surfmesh.sizing.size_field import SizeField, size_field
 from surfmesh.sizing.size_limits import SizeLimits
@@ -69,13 +69,7 @@ def _one_round(
 ) -> tuple[SurfaceMesh, SizeLimits | None, np.ndarray]:
     """The mesh for one size field; the smaller sizes it needs; points that are badly glued."""
     with watch.stage("packing"):
-        width, height = field.scaling.extent
-        packing = packed(
-            field.background,
-            (0.0, 0.0, width, height),
-            (0.5 * width, 0.5 * height),
-            field.expected_vertices(),
-        )
+        packing = packed_over(field)
     with watch.stage("boundary"):
         loops = boundary_loops(surface, sides, field)
         domain = recovered(packing.t, loops, field, surface)

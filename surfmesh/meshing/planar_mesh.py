@@ -11,7 +11,7 @@ from surfmesh.kernels.background import scalar_sizes_at
 from surfmesh.kernels.insertion import label_patches
 from surfmesh.meshing.boundary_recovery import DomainMesh, recovered_regions
 from surfmesh.meshing.optimise import Optimiser
-from surfmesh.meshing.packing import packed
+from surfmesh.meshing.packing import packed_over
 from surfmesh.meshing.planar_segments import (
     PlanarSegments,
     cut_segments,
@@ -38,12 +38,7 @@ def mesh_planar(
     with watch.stage("sizing"):
         field, cut = _field_and_segments(domain, sizing)
     with watch.stage("packing"):
-        packing = packed(
-            field.background,
-            (0.0, 0.0, *field.scaling.extent),
-            tuple(0.5 * field.scaling.extent),
-            field.expected_vertices(),
-        )
+        packing = packed_over(field)
     with watch.stage("boundary"):
         inside = recovered_regions(packing.t, cut, field, domain)
         del packing
