@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     from surfmesh.geometry.parametric import ParametricSurface
     from surfmesh.geometry.planar_domain import PlanarDomain
     from surfmesh.geometry.surface_file import gallery
-    from surfmesh.meshing.circle_packing import pack
+    from surfmesh.meshing.circle_packing import CirclePacking, pack
     from surfmesh.quality import Report, check
     from surfmesh.sizing.distance_size import DistanceSize
     from surfmesh.sizing.radius_laws import TensorField, UniformRadius
@@ -31,6 +31,7 @@ if TYPE_CHECKING:
 # No submodule may be called like a public name (mesh, check, load): importing it would put
 # the module where the function should be.
 _HOMES = {
+    "CirclePacking": "surfmesh.meshing.circle_packing",
     "DistanceSize": "surfmesh.sizing.distance_size",
     "ParametricSurface": "surfmesh.geometry.parametric",
     "PlanarDomain": "surfmesh.geometry.planar_domain",
@@ -48,6 +49,7 @@ _HOMES = {
 _MODULES = ("errors", "io", "view")
 
 __all__ = [
+    "CirclePacking",
     "DistanceSize",
     "ParametricSurface",
     "PlanarDomain",

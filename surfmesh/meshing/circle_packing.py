@@ -261,7 +261,12 @@ def _result(packing: Packing, shift: np.ndarray, seconds: float, stretched: bool
     while (v := int(packing.front.next[front[-1]])) != front[0]:
         front.append(v)
     centres = t.xy[:n] + shift
-    edges = np.unique(np.sort(triangles[:, [[0, 1], [1, 2], [2, 0]]].reshape(-1, 2)), axis=0)
+    done = np.repeat(t.region[:m] == DONE, 3)
+    half_edges = np.flatnonzero(done)
+    twins = t.adj[half_edges]
+    once = (half_edges < twins) | ~done[twins]
+    following = half_edges + np.where(half_edges % 3 == 2, -2, 1)
+    edges = np.stack([t.tri[half_edges], t.tri[following]], axis=1)[once]
     statistics = PackingStatistics(
         n,
         len(triangles),

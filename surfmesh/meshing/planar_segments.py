@@ -39,7 +39,7 @@ class PlanarSegments:
 
 def cut_segments(graph: SegmentGraph, field: SizeField) -> PlanarSegments:
     """Cut every segment into pieces of equal metric length near 1; lone points become nodes."""
-    order = np.argsort(graph.given, kind="stable")  # neighbours on a line stay neighbours
+    order = _walk(graph)
     start, end = (graph.points[graph.segments[order, k]] for k in (0, 1))
     share, steps = _metric_steps(field, start, end)
     lengths = np.array([part[-1] for part in steps])
@@ -71,6 +71,30 @@ def cut_segments(graph: SegmentGraph, field: SizeField) -> PlanarSegments:
     uv[number] = np.concatenate([graph.points, between])
     pieces = np.stack([number[tokens[place]], number[tokens[place + 1]]], axis=1)
     return PlanarSegments(uv, pieces, np.repeat(order, count).astype(np.int32))
+
+
+def _walk(graph: SegmentGraph) -> np.ndarray:
+    """The segments (s,) in an order in which most follow a neighbour: insertion is local then.
+
+    Depends on the graph alone, not on the direction in which lines were given.
+    """
+    s = len(graph.segments)
+    ends = graph.segments.ravel()
+    by_point = np.argsort(ends, kind="stable") // 2
+    first = np.searchsorted(np.sort(ends), np.arange(len(graph.points) + 1)).tolist()
+    segments, by_point = graph.segments.tolist(), by_point.tolist()
+    seen, order = [False] * s, []
+    for start in range(s):
+        k = start
+        point = segments[k][0]
+        while k >= 0 and not seen[k]:
+            seen[k] = True
+            order.append(k)
+            a, b = segments[k]
+            point = b if a == point else a
+            around = by_point[first[point] : first[point + 1]]
+            k = next((other for other in around if not seen[other]), -1)
+    return np.array(order, np.int64)
 
 
 def _metric_steps(
