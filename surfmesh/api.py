@@ -26,8 +26,8 @@ def load(path: str | Path, units: str | None = None) -> Surface | CadModel:
     A ``.toml`` file holds formulas or a planar domain, a ``.svg`` drawing a planar domain;
     STEP, IGES and BREP files hold CAD models, in ``units`` ("mm", "m", "in", ...; None: mm).
 
-    Raises ``CadError`` for a CAD file without a model, ``FileFormatError`` for a file of another kind, ``SurfaceError`` or ``DomainError``
-    for what is wrong in it.
+    Raises ``CadError`` for a CAD file without a model, ``FileFormatError`` for a file of
+    another kind, ``SurfaceError`` or ``DomainError`` for what is wrong in it.
     """
     place = Path(path)
     if place.suffix.lower() in SUFFIXES:

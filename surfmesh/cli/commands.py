@@ -39,6 +39,7 @@ def mesh(options: Namespace) -> bool:
             Sizing(**given) if given else None,
             optimise=not options.no_optimise,
             progress=progress,
+            strict=not options.no_strict,
         )
         progress("check", 0.92)
         report = checked(result)

@@ -5,6 +5,7 @@
 """
 
 from dataclasses import dataclass, field, replace
+from itertools import pairwise
 
 import numpy as np
 
@@ -122,7 +123,7 @@ def _spacing(points: np.ndarray) -> np.ndarray:
 
 def _meshed(job: FaceJob) -> FaceMesh:
     surface, field = _field(job)
-    loops, numbers, fixed, slots = _loops(job, field)
+    loops, fixed, slots = _loops(job, field)
     width, height = field.scaling.extent
     packing = packed(
         field.background,
@@ -178,20 +179,15 @@ def _field(job: FaceJob) -> tuple[Surface, SizeField]:
             np.concatenate([piece.uv for piece in real]),
         )
         if job.limits is not None:
-            uv_of_limits = np.tile(limits.uv[:1], (len(job.limits.sizes), 1))
             near = _nearest(limits.points, job.limits.points)
             uv_of_limits = limits.uv[near]
             limits = limits.joined_with(replace(job.limits, uv=uv_of_limits))
+    numbers = np.concatenate([piece.numbers for piece in pieces])
+    repeated = len(numbers) > len(np.unique(numbers)) + len(pieces)
     sides = None
-    if surface.kind != "plane" and len(uv) > len(np.unique(_numbers(pieces))) + len(pieces):
-        sides = find_sides(surface)
-    elif any(piece.degenerate for piece in pieces):
-        sides = find_sides(surface)
+    if surface.kind != "plane" and (repeated or any(piece.degenerate for piece in pieces)):
+        sides = find_sides(surface)  # a seam, an edge inside, or a pole
     return surface, size_field(surface, job.sizing, sides, limits)
-
-
-def _numbers(pieces: list[Piece]) -> np.ndarray:
-    return np.concatenate([piece.numbers for piece in pieces])
 
 
 def _nearest(points: np.ndarray, wanted: np.ndarray) -> np.ndarray:
@@ -201,7 +197,7 @@ def _nearest(points: np.ndarray, wanted: np.ndarray) -> np.ndarray:
 
 
 def _loops(job: FaceJob, field: SizeField) -> tuple:
-    """Nodes and segments in (u, v); the nodes' numbers, points, and places in the job."""
+    """Nodes and segments in (u, v); the nodes' points, and their places in the job."""
     uv, numbers, points, slots, segments = [], [], [], [], []
     slot = total = 0
     for loop in job.loops:
@@ -232,7 +228,7 @@ def _loops(job: FaceJob, field: SizeField) -> tuple:
     segments = segments[segments[:, 0] != segments[:, 1]]
     uv, numbers, points, slots = uv[nodes], numbers[nodes], points[nodes], slots[nodes]
     _, first, inverse = np.unique(numbers, return_index=True, return_inverse=True)
-    return BoundaryLoops(uv, segments, first[inverse].astype(np.int64)), numbers, points, slots
+    return BoundaryLoops(uv, segments, first[inverse].astype(np.int64)), points, slots
 
 
 def _distinct(uv: np.ndarray, numbers: np.ndarray) -> np.ndarray:
@@ -242,7 +238,7 @@ def _distinct(uv: np.ndarray, numbers: np.ndarray) -> np.ndarray:
     near = SAME_PLACE * np.ptp(uv, axis=0)
     order = np.argsort(numbers, kind="stable")
     starts = np.flatnonzero(np.r_[True, np.diff(numbers[order]) != 0, True])
-    for begin, end in zip(starts[:-1], starts[1:]):
+    for begin, end in pairwise(starts):
         group = order[begin:end]
         if len(group) == 1:
             continue

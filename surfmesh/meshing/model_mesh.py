@@ -56,7 +56,8 @@ def mesh_model(
             for number, face in enumerate(model.faces):
                 job = _job(model, face, nodes, sizing, limits.get(number), optimise)
                 if not job.same_as(jobs[number]):
-                    jobs[number], done[number] = job, mesh_face(job)
+                    done[number] = mesh_face(job)
+                jobs[number] = job  # the nodes may have other numbers than before
         with watch.stage("mapping"):
             mesh = _joined(model, jobs, done, nodes, sizing, watch)
             wishes = {k: found.wishes for k, found in enumerate(done) if found.wishes is not None}
@@ -201,9 +202,10 @@ def _refine_crowded(mesh: SurfaceMesh, sizing: Sizing, wishes: dict[int, SizeLim
     crowded = table.uses > 2
     if not crowded.any() or not len(mesh.edge_segments):
         return
-    known = {tuple(sorted(pair)) for pair in mesh.edge_segments.tolist()}
-    bad = [k for k in np.flatnonzero(crowded) if tuple(sorted(table.edges[k].tolist())) not in known]
-    if not bad:
+    width = np.int64(len(mesh.points))
+    along = np.sort(mesh.edge_segments, axis=1) @ np.array([width, 1])
+    bad = np.flatnonzero(crowded & ~np.isin(table.edges @ np.array([width, 1]), along))
+    if not len(bad):
         return
     ends = table.edges[bad].ravel()
     sizes = FINER * mesh.sizes[ends]
