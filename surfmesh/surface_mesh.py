@@ -26,6 +26,9 @@ if TYPE_CHECKING:
     import pyvista
     import trimesh
 
+NOT_MESHED = "not meshed: "
+"""How the warning about a CAD face starts that is missing: such a mesh is not clean."""
+
 
 @dataclass(frozen=True, eq=False, repr=False, kw_only=True)
 class SurfaceMesh:

@@ -16,7 +16,7 @@ from surfmesh.meshing.stages import Progress, Stopwatch
 from surfmesh.sizing.size_field import DEFAULT_CHORD, DEFAULT_MAX_SIZE
 from surfmesh.sizing.size_limits import SizeLimits
 from surfmesh.sizing.sizing import Sizing
-from surfmesh.surface_mesh import SurfaceMesh
+from surfmesh.surface_mesh import NOT_MESHED, SurfaceMesh
 
 ROUNDS = 6
 """How often everything that depends on refined edges is done again, at most."""
@@ -175,7 +175,7 @@ def _joined(
     of = np.concatenate(of) if of else np.empty(0, np.int64)
     there = (segments >= 0).all(axis=1)
     missing = [
-        f"not meshed: {_reason(model, k, found)}" for k, found in enumerate(done) if found.failure
+        f"{NOT_MESHED}{_reason(model, k, found)}" for k, found in enumerate(done) if found.failure
     ]
     return SurfaceMesh(
         points=points[used],
