@@ -25,6 +25,9 @@ from surfmesh.sizing.sizing import Sizing
 SAME_PLACE = 1e-6
 """Images of one node nearer than this share of the face's box are one node in (u, v)."""
 
+NEAR_STEP = 0.1
+"""Or nearer than this share of the segments there."""
+
 FINER = 0.5
 """Factor on the sizes where boundary segments cross."""
 
@@ -222,29 +225,36 @@ def _loops(job: FaceJob, field: SizeField) -> tuple:
         segments.append(np.stack([ring, np.roll(ring, -1)], axis=1))
     uv, numbers = np.concatenate(uv), np.concatenate(numbers)
     points, slots = np.concatenate(points), np.concatenate(slots)
-    kept = _distinct(uv, numbers)
+    ring_segments = np.concatenate(segments)
+    kept = _distinct(uv, numbers, ring_segments)
     nodes, row = np.unique(kept, return_inverse=True)
-    segments = row[np.concatenate(segments)].astype(np.int32)
+    segments = row[ring_segments].astype(np.int32)
     segments = segments[segments[:, 0] != segments[:, 1]]
     uv, numbers, points, slots = uv[nodes], numbers[nodes], points[nodes], slots[nodes]
     _, first, inverse = np.unique(numbers, return_index=True, return_inverse=True)
     return BoundaryLoops(uv, segments, first[inverse].astype(np.int64)), points, slots
 
 
-def _distinct(uv: np.ndarray, numbers: np.ndarray) -> np.ndarray:
-    """For each node (k,) the first that has its number and its place: edges inside a face are
-    walked there and back, loops may touch in a vertex."""
+def _distinct(uv: np.ndarray, numbers: np.ndarray, segments: np.ndarray) -> np.ndarray:
+    """For each node (k,) the first that has its number and its place.
+
+    Edges inside a face are walked there and back, loops may touch in a vertex. Images of a
+    vertex that edges meet with some tolerance are one place too, if nearer to each other than
+    a small part of the segments there: loops would cross in between.
+    """
     kept = np.arange(len(numbers))
-    near = SAME_PLACE * np.ptp(uv, axis=0)
+    place = uv / np.maximum(np.ptp(uv, axis=0), np.finfo(float).tiny)
+    step = np.linalg.norm(place[segments[:, 1]] - place[segments[:, 0]], axis=1)
+    near = np.full(len(numbers), np.inf)
+    np.minimum.at(near, segments.ravel(), np.repeat(step, 2))
+    near = np.maximum(NEAR_STEP * near, SAME_PLACE)
     order = np.argsort(numbers, kind="stable")
     starts = np.flatnonzero(np.r_[True, np.diff(numbers[order]) != 0, True])
     for begin, end in pairwise(starts):
         group = order[begin:end]
-        if len(group) == 1:
-            continue
         for k, node in enumerate(group[1:], 1):
             for earlier in group[:k]:
-                if (np.abs(uv[node] - uv[earlier]) <= near).all():
+                if np.linalg.norm(place[node] - place[earlier]) <= near[[node, earlier]].max():
                     kept[node] = kept[earlier]
                     break
     return kept
