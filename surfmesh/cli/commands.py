@@ -39,7 +39,7 @@ def mesh(options: Namespace) -> bool:
             Sizing(**given) if given else None,
             optimise=not options.no_optimise,
             progress=progress,
-            strict=not options.no_strict,
+            **({"strict": False} if options.no_strict else {}),
         )
         progress("check", 0.92)
         report = checked(result)
