@@ -26,6 +26,8 @@ NARROWEST = 5e-4
 LARGEST_TURN = np.pi / 3.0
 """No segment of an edge turns farther, so that polygons keep the shape of their loops."""
 CLOSED_SEGMENTS = 3
+COLLAPSED = 2e-6
+"""Edges shorter than this share of the diagonal are one point: their faces meet in it."""
 
 
 @dataclass(frozen=True)
@@ -61,21 +63,37 @@ def cut_edges(
     for number, face in enumerate(model.faces):
         for coedge in face.coedges:
             uses[coedge.edge].append((number, coedge))
+    vertex = vertex_numbers(model)
     samples = [
-        None if edge.degenerate else _sampled(model, edge, uses[number], sizing, limits)
+        None if collapses(model, edge) else _sampled(model, edge, uses[number], sizing, limits)
         for number, edge in enumerate(model.edges)
     ]
     _heed_gaps(model, samples)
-    sizes = _graded(model, samples, sizing)
+    sizes = _graded(model, samples, vertex, sizing)
     nodes: list[EdgeNodes | None] = []
     following = len(model.vertices)
     for edge, sampled, size in zip(model.edges, samples, sizes):
         if sampled is None:
             nodes.append(None)
             continue
-        nodes.append(_cut(model, edge, sampled, size, following))
+        nodes.append(_cut(model, edge, sampled, size, vertex, following))
         following += len(nodes[-1].share) - 2
     return nodes
+
+
+def collapses(model: CadModel, edge: CadEdge) -> bool:
+    """Is the edge so short that it is one vertex of the mesh?"""
+    return edge.degenerate or edge.length <= COLLAPSED * model.diagonal
+
+
+def vertex_numbers(model: CadModel) -> np.ndarray:
+    """For each CAD vertex the first one that tiny edges join it to, mostly itself."""
+    number = np.arange(len(model.vertices))
+    for edge in model.edges:
+        if collapses(model, edge) and number[edge.start] != number[edge.end]:
+            ends = number[edge.start], number[edge.end]
+            number[number == max(ends)] = min(ends)
+    return number
 
 
 def _sampled(
@@ -153,7 +171,9 @@ def _heed_gaps(model: CadModel, samples: list[_Samples | None]) -> None:
             np.minimum(wish, np.maximum(gap[of == edge], np.minimum(narrowest, wish)), out=wish)
 
 
-def _graded(model: CadModel, samples: list, sizing: Sizing) -> list[np.ndarray | None]:
+def _graded(
+    model: CadModel, samples: list, vertex: np.ndarray, sizing: Sizing
+) -> list[np.ndarray | None]:
     """Sizes (n,) at the samples: the wish w_j of any sample j plus the slope times the way."""
     from scipy.sparse import coo_matrix
     from scipy.sparse.csgraph import dijkstra
@@ -167,7 +187,8 @@ def _graded(model: CadModel, samples: list, sizing: Sizing) -> list[np.ndarray |
             numbers.append(None)
             continue
         inner = len(sampled.share) - 2
-        number = np.concatenate([[edge.start], first + np.arange(inner), [edge.end]])
+        ends = vertex[[edge.start, edge.end]]
+        number = np.concatenate([ends[:1], first + np.arange(inner), ends[1:]])
         first += inner
         numbers.append(number)
         rows.append(number[:-1])
@@ -175,8 +196,8 @@ def _graded(model: CadModel, samples: list, sizing: Sizing) -> list[np.ndarray |
         step = np.linalg.norm(np.diff(sampled.points, axis=0), axis=1)
         lengths.append(np.maximum(step, shortest))
         wishes.append(sampled.wish[1:-1])
-        for end, vertex in ((0, edge.start), (-1, edge.end)):
-            wishes[0][vertex] = min(wishes[0][vertex], sampled.wish[end])
+        for corner, end in zip(ends, (0, -1)):
+            wishes[0][corner] = min(wishes[0][corner], sampled.wish[end])
     if not rows:
         return numbers
     wish = np.concatenate(wishes)
@@ -199,20 +220,21 @@ def _graded(model: CadModel, samples: list, sizing: Sizing) -> list[np.ndarray |
 
 
 def _cut(
-    model: CadModel, edge: CadEdge, sampled: _Samples, size: np.ndarray, following: int
-) -> EdgeNodes:
+    model: CadModel, edge: CadEdge, sampled: _Samples, size: np.ndarray, vertex: np.ndarray,
+    following: int,
+) -> EdgeNodes:  # fmt: skip
     """Pieces of equal metric length near 1."""
     step = np.linalg.norm(np.diff(sampled.points, axis=0), axis=1)
     metric = np.concatenate([[0.0], np.cumsum(2.0 * step / (size[1:] + size[:-1]))])
+    start, end = vertex[[edge.start, edge.end]]
     least = max(1, int(np.ceil(sampled.turn / LARGEST_TURN - 1e-9)))
-    pieces = max(CLOSED_SEGMENTS if edge.closed else 1, least, round(float(metric[-1])))
+    pieces = max(CLOSED_SEGMENTS if start == end else 1, least, round(float(metric[-1])))
     even = np.linspace(0.0, 1.0, pieces + 1)
     share = np.interp(even * metric[-1], metric, sampled.share) if metric[-1] > 0.0 else even
     share[0], share[-1] = 0.0, 1.0
     points = edge.curve.evaluate(edge.parameters(share), 0)[0].copy()
-    points[0] = model.vertices[edge.start].point
-    points[-1] = model.vertices[edge.end].point
+    points[0], points[-1] = model.vertices[start].point, model.vertices[end].point
     inner = following + np.arange(pieces - 1)
-    numbers = np.concatenate([[edge.start], inner, [edge.end]]).astype(np.int64)
+    numbers = np.concatenate([[start], inner, [end]]).astype(np.int64)
     sizes = np.interp(share, sampled.share, size)
     return EdgeNodes(share, points, numbers, sizes)

@@ -10,7 +10,7 @@ import numpy as np
 
 from surfmesh.cad.model import CadFace, CadModel
 from surfmesh.errors import MeshingError
-from surfmesh.meshing.edge_nodes import EdgeNodes, cut_edges
+from surfmesh.meshing.edge_nodes import EdgeNodes, cut_edges, vertex_numbers
 from surfmesh.meshing.face_job import FaceJob, FaceMesh, Piece, mesh_face
 from surfmesh.meshing.stages import Progress, Stopwatch
 from surfmesh.sizing.size_field import DEFAULT_CHORD, DEFAULT_MAX_SIZE
@@ -46,6 +46,7 @@ def mesh_model(
     """
     watch = Stopwatch(progress)
     sizing = with_defaults(sizing, model)
+    vertices = vertex_numbers(model)
     limits: dict[int, SizeLimits] = {}
     jobs: list[FaceJob | None] = [None] * len(model.faces)
     done: list[FaceMesh] = [FaceMesh()] * len(model.faces)
@@ -54,7 +55,7 @@ def mesh_model(
             nodes = cut_edges(model, sizing, limits)
         with watch.stage("packing"):
             for number, face in enumerate(model.faces):
-                job = _job(model, face, nodes, sizing, limits.get(number), optimise)
+                job = _job(model, face, nodes, vertices, sizing, limits.get(number), optimise)
                 if not job.same_as(jobs[number]):
                     done[number] = mesh_face(job)
                 jobs[number] = job  # the nodes may have other numbers than before
@@ -83,8 +84,8 @@ def _reason(model: CadModel, number: int, found: FaceMesh) -> str:
 
 
 def _job(
-    model: CadModel, face: CadFace, nodes: list[EdgeNodes | None], sizing: Sizing,
-    limits: SizeLimits | None, optimise: bool,
+    model: CadModel, face: CadFace, nodes: list[EdgeNodes | None], vertices: np.ndarray,
+    sizing: Sizing, limits: SizeLimits | None, optimise: bool,
 ) -> FaceJob:  # fmt: skip
     loops = []
     for loop in face.loops:
@@ -92,7 +93,7 @@ def _job(
         for coedge in loop:
             cut = nodes[coedge.edge]
             if cut is None:
-                vertex = model.edges[coedge.edge].start
+                vertex = int(vertices[model.edges[coedge.edge].start])
                 points = np.tile(model.vertices[vertex].point, (2, 1))
                 ends = coedge.walk(np.array([0.0, 1.0]))
                 numbers = np.full(2, vertex, np.int64)
@@ -188,7 +189,7 @@ def _joined(
         solid_ids=solids[face_ids],
         edge_segments=segments[there],
         edge_ids=of[there],
-        vertex_ids=rank[: len(model.vertices)],
+        vertex_ids=rank[vertex_numbers(model)],
         sizes=np.where(np.isfinite(sizes), sizes, model.diagonal)[used],
         sizing=sizing,
         seconds=watch.seconds,
