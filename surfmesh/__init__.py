@@ -16,6 +16,8 @@ from typing import TYPE_CHECKING, Any
 if TYPE_CHECKING:
     from surfmesh import errors, io, view
     from surfmesh.api import load, mesh
+    from surfmesh.cad.from_cadquery import from_cadquery
+    from surfmesh.cad.model import CadModel
     from surfmesh.geometry.parametric import ParametricSurface
     from surfmesh.geometry.planar_domain import PlanarDomain
     from surfmesh.geometry.surface_file import gallery
@@ -31,6 +33,7 @@ if TYPE_CHECKING:
 # No submodule may be called like a public name (mesh, check, load): importing it would put
 # the module where the function should be.
 _HOMES = {
+    "CadModel": "surfmesh.cad.model",
     "CirclePacking": "surfmesh.meshing.circle_packing",
     "DistanceSize": "surfmesh.sizing.distance_size",
     "ParametricSurface": "surfmesh.geometry.parametric",
@@ -41,6 +44,7 @@ _HOMES = {
     "TensorField": "surfmesh.sizing.radius_laws",
     "UniformRadius": "surfmesh.sizing.radius_laws",
     "check": "surfmesh.quality",
+    "from_cadquery": "surfmesh.cad.from_cadquery",
     "gallery": "surfmesh.geometry.surface_file",
     "load": "surfmesh.api",
     "mesh": "surfmesh.api",
@@ -49,6 +53,7 @@ _HOMES = {
 _MODULES = ("errors", "io", "view")
 
 __all__ = [
+    "CadModel",
     "CirclePacking",
     "DistanceSize",
     "ParametricSurface",
@@ -61,6 +66,7 @@ __all__ = [
     "__version__",
     "check",
     "errors",
+    "from_cadquery",
     "gallery",
     "io",
     "load",

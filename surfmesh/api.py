@@ -1,11 +1,17 @@
-"""The verbs: ``load`` a surface, ``mesh`` it."""
+"""The verbs: ``load`` a surface or a CAD model, ``mesh`` it."""
 
+import sys
 from pathlib import Path
+from typing import Any
 
+from surfmesh.cad.from_cadquery import from_cadquery
+from surfmesh.cad.model import CadModel
+from surfmesh.cad.reading import SUFFIXES, read_cad
 from surfmesh.errors import FileFormatError, SurfaceError
 from surfmesh.geometry.planar_domain import PlanarDomain
 from surfmesh.geometry.surface import Surface
 from surfmesh.geometry.surface_file import gallery, load_surface_file
+from surfmesh.meshing.model_mesh import mesh_model
 from surfmesh.meshing.parametric_mesh import mesh_parametric
 from surfmesh.meshing.planar_mesh import mesh_planar
 from surfmesh.meshing.stages import Progress
@@ -14,15 +20,18 @@ from surfmesh.sizing.sizing import Sizing
 from surfmesh.surface_mesh import SurfaceMesh
 
 
-def load(path: str | Path) -> Surface:
-    """The surface of a file, or of the gallery by its name.
+def load(path: str | Path, units: str | None = None) -> Surface | CadModel:
+    """The surface or CAD model of a file, or the surface of the gallery by its name.
 
-    A ``.toml`` file holds formulas or a planar domain, a ``.svg`` drawing a planar domain.
+    A ``.toml`` file holds formulas or a planar domain, a ``.svg`` drawing a planar domain;
+    STEP, IGES and BREP files hold CAD models, in ``units`` ("mm", "m", "in", ...; None: mm).
 
-    Raises ``FileFormatError`` for a file of another kind, ``SurfaceError`` or ``DomainError``
-    for what is wrong in it.
+    Raises ``CadError`` for a CAD file without a model, ``FileFormatError`` for a file of
+    another kind, ``SurfaceError`` or ``DomainError`` for what is wrong in it.
     """
     place = Path(path)
+    if place.suffix.lower() in SUFFIXES:
+        return read_cad(place, units=units)
     if place.suffix == "" and not place.exists():
         known = gallery()
         if str(path) in known:
@@ -32,23 +41,36 @@ def load(path: str | Path) -> Surface:
 
 
 def mesh(
-    surface: Surface,
+    surface: Surface | CadModel | Any,
     sizing: Sizing | float | dict | None = None,
     *,
     optimise: bool = True,
     progress: Progress | None = None,
+    strict: bool = True,
 ) -> SurfaceMesh:
-    """Triangulate a surface.
+    """Triangulate a surface, or a CAD model (or whatever CadQuery object makes one).
 
     sizing: what is wanted; a number is a uniform edge length; None takes the defaults of the
     surface's formula file, or sensible ones. optimise=False gives the raw packing with its
-    boundary, as in the paper. progress: called with (stage, share done).
+    boundary, as in the paper. progress: called with (stage, share done). strict=False: faces of
+    a CAD model that cannot be meshed are left out and listed in the mesh's ``warnings``.
 
     Raises ``SizingError``, ``SurfaceError`` or ``MeshingError`` with the place and the reason.
     """
+    if not isinstance(surface, (CadModel, Surface)) and _is_cad(surface):
+        surface = from_cadquery(surface)
+    if isinstance(surface, CadModel):
+        return mesh_model(surface, Sizing.of(sizing), optimise, progress, strict)
     if not isinstance(surface, Surface):
         raise SurfaceError(f"cannot mesh a {type(surface).__name__}: a Surface is needed")
     if sizing is None:
         sizing = default_wishes(surface) or None
     work = mesh_planar if isinstance(surface, PlanarDomain) else mesh_parametric
     return work(surface, Sizing.of(sizing), optimise, progress)
+
+
+def _is_cad(thing: Any) -> bool:
+    """Is it an object of CadQuery, build123d or OCP, or does it wrap one?"""
+    if type(thing).__module__.split(".")[0] in ("cadquery", "build123d", "OCP"):
+        return "OCP" in sys.modules
+    return hasattr(thing, "wrapped")

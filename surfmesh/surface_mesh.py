@@ -26,6 +26,9 @@ if TYPE_CHECKING:
     import pyvista
     import trimesh
 
+NOT_MESHED = "not meshed: "
+"""How the warning about a CAD face starts that is missing: such a mesh is not clean."""
+
 
 @dataclass(frozen=True, eq=False, repr=False, kw_only=True)
 class SurfaceMesh:
@@ -47,6 +50,12 @@ class SurfaceMesh:
     seconds: Mapping[str, float] = field(default_factory=dict)  # by stage
     warnings: tuple[str, ...] = ()  # what the user should know
     one_sided: bool = False  # no orientation exists (Moebius, Klein): none is demanded
+    # of CAD models; None otherwise
+    turned_faces: NDArray[np.bool_] | None = None  # (f,) triangles run against r_u x r_v there
+    solid_ids: NDArray[np.int32] | None = None  # (m, 2) solid behind and before it; -1: none
+    edge_segments: NDArray[np.int32] | None = None  # (k, 2) edges of the mesh on CAD edges
+    edge_ids: NDArray[np.int32] | None = None  # (k,) their CAD edges
+    vertex_ids: NDArray[np.int32] | None = None  # (c,) vertex at each CAD vertex; -1: none
 
     def __post_init__(self) -> None:
         def settle(name: str, value: ArrayLike, dtype: type, shape: tuple[int, ...]) -> None:
@@ -72,6 +81,15 @@ class SurfaceMesh:
             raise ValueError("uv_triangles given without uv_points")
         if self.sizes is not None:
             settle("sizes", self.sizes, np.float64, (n,))
+        for name, dtype, shape in (
+            ("turned_faces", np.bool_, (len(self.surfaces),)),
+            ("solid_ids", np.int32, (m, 2)),
+            ("edge_segments", np.int32, (-1, 2)),
+            ("edge_ids", np.int32, (-1,)),
+            ("vertex_ids", np.int32, (-1,)),
+        ):
+            if getattr(self, name) is not None:
+                settle(name, getattr(self, name), dtype, shape)
         object.__setattr__(self, "surfaces", tuple(self.surfaces))
         object.__setattr__(self, "warnings", tuple(self.warnings))
         object.__setattr__(self, "seconds", dict(self.seconds))

@@ -69,6 +69,10 @@ def _parser() -> _Parser:
     sizes.add_argument("--growth", type=_positive, help="largest ratio of neighbouring sizes")
     sizes.add_argument("--anisotropy", type=_positive, help="largest stretch; 1 is isotropic")
     mesh.add_argument("--no-optimise", action="store_true", help="the raw packing, for comparison")
+    mesh.add_argument(
+        "--no-strict", action="store_true", help="leave out CAD faces that cannot be meshed"
+    )
+    mesh.add_argument("--units", help="of the lengths of a CAD model: um, mm (default), cm, m, in")
     mesh.add_argument("--jobs", type=_count, default=1, help="faces meshed at once (default 1)")
     mesh.add_argument("--picture", metavar="PNG", help="write a picture too")
     mesh.add_argument("--by", default="alpha", choices=_COLOURS, help="colour of the picture")

@@ -39,6 +39,7 @@ def mesh(options: Namespace) -> bool:
             Sizing(**given) if given else None,
             optimise=not options.no_optimise,
             progress=progress,
+            **({"strict": False} if options.no_strict else {}),
         )
         progress("check", 0.92)
         report = checked(result)
@@ -181,7 +182,7 @@ def _surface(options: Namespace) -> Any:
     if not any(formulas.values()) and not options.param:
         if not options.input:
             raise SurfaceError("name a formula file or a gallery surface, or give --x --y --z")
-        return _named_surface(options.input)
+        return _named_surface(options.input, options.units)
     if options.input:
         raise SurfaceError(f"either INPUT ('{options.input}') or formulas, not both")
     missing = [f"--{name}" for name, value in formulas.items() if value is None]
@@ -206,13 +207,13 @@ def _surface(options: Namespace) -> Any:
     return ParametricSurface(**stripped, parameters=parameters, name=Path(options.output).stem)
 
 
-def _named_surface(name: str) -> Any:
-    """A file, or else a surface of the gallery."""
+def _named_surface(name: str, units: str | None = None) -> Any:
+    """A file (a CAD model's lengths in ``units``), or else a surface of the gallery."""
     from surfmesh import api
     from surfmesh.geometry.surface_file import gallery as surfaces
 
     if Path(name).is_file():
-        return api.load(name)
+        return api.load(name, units)
     known = surfaces()
     if name in known:
         return api.load(known[name])

@@ -51,7 +51,7 @@ def boundary_loops(surface: Surface, sides: SideTopology, field: SizeField) -> B
             loop = loop[::-1]  # the inside is on the left of every segment
         uv = np.concatenate(
             [
-                _cut(field, start, end, minimum=1)[1][:-1]
+                cut_line(field, start, end, minimum=1)[1][:-1]
                 for start, end in zip(loop, np.roll(loop, -1, axis=0))
             ]
         )
@@ -131,7 +131,7 @@ def _side_parameters(sides: SideTopology, field: SizeField) -> list[np.ndarray]:
         else:
             start, end = sides.points(side, np.array([0.0, 1.0]))
             minimum = _CLOSED_SEGMENTS if partner >= 0 or _ends_meet(sides, side) else 1
-            along.append(_cut(field, start, end, minimum)[0])
+            along.append(cut_line(field, start, end, minimum)[0])
     return along
 
 
@@ -141,7 +141,7 @@ def _ends_meet(sides: SideTopology, side: int) -> bool:
     return sides.partner[before] == after
 
 
-def _cut(
+def cut_line(
     field: SizeField, start: np.ndarray, end: np.ndarray, minimum: int
 ) -> tuple[np.ndarray, np.ndarray]:
     """Cut a straight line of (u, v) into pieces of equal metric length near 1.

@@ -140,14 +140,22 @@ def _cut_out(t: Triangulation, vertex: np.ndarray) -> DomainMesh:
 def _refuse(
     status: int, number: int, uv: np.ndarray, segments: np.ndarray, surface: Surface
 ) -> None:
+    """Raise what the status means; ``where`` of the error is the place in (u, v)."""
     if status == insertion.NODE_TAKEN:
         u, v = uv[number]
-        raise SurfaceError(
+        error: Exception = SurfaceError(
             f"the boundary of {surface.name!r} touches itself at (u, v) = ({u:.6g}, {v:.6g})"
         )
+        error.where = uv[number]
+        raise error
     a, b = uv[segments[number]]
     line = f"({a[0]:.6g}, {a[1]:.6g}) - ({b[0]:.6g}, {b[1]:.6g})"
     if status in (insertion.CROSSING, insertion.SEGMENT_ON_NODE):
         verb = "crosses itself" if status == insertion.CROSSING else "touches itself"
-        raise SurfaceError(f"the boundary of {surface.name!r} {verb} on (u, v) {line}")
-    raise MeshingError(f"the boundary segment {line} of {surface.name!r} could not be recovered")
+        error = SurfaceError(f"the boundary of {surface.name!r} {verb} on (u, v) {line}")
+    else:
+        error = MeshingError(
+            f"the boundary segment {line} of {surface.name!r} could not be recovered"
+        )
+    error.where = np.stack([a, b])
+    raise error

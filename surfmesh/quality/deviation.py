@@ -83,6 +83,8 @@ def deviation(mesh: SurfaceMesh, area: NDArray[np.float64]) -> Deviation | None:
             square += CENTROID_WEIGHT * _dot(area[block], found**2)
             by_triangle[block] = np.maximum(by_triangle[block], found)
             cosine[block] = _cosines(mesh, block, normals, area[block])
+    if mesh.turned_faces is not None:
+        cosine[mesh.turned_faces[mesh.face_ids]] *= -1.0
     for block in _blocks(_count(count)):
         found = at_vertex[mesh.triangles[block]]
         square += VERTEX_WEIGHT * _dot(area[block], np.square(found).sum(axis=1))

@@ -13,8 +13,9 @@ from numpy.typing import NDArray
 from surfmesh.quality.deviation import Deviation, deviation
 from surfmesh.quality.lengths import QUASI_UNIT, edge_lengths, growth, metric_lengths
 from surfmesh.quality.shape import Shapes, enclosed_volume, shapes
+from surfmesh.quality.solids import shares_faces, solid_mesh
 from surfmesh.quality.topology import Topology, topology
-from surfmesh.surface_mesh import SurfaceMesh
+from surfmesh.surface_mesh import NOT_MESHED, SurfaceMesh
 
 SCHEMA_VERSION = 1  # of to_dict(): raised when a field changes its meaning or goes away
 DEGENERATE = 1e-6  # alpha below which a triangle has no area to speak of
@@ -168,12 +169,23 @@ def check(mesh: SurfaceMesh) -> Report:
         deviation_uv=None if fit is None else fit.uv,
         above_chord_share=above,
         area=float(shape.area.sum()),
-        volume=enclosed_volume(mesh) if encloses and finite else None,
+        volume=_volume(mesh, encloses) if finite and not broken else None,
         warnings=mesh.warnings,
         options=_options(mesh.sizing),
         problems=tuple(_problems(mesh, broken, topo, shape, fit, chord, above)),
         seconds={**mesh.seconds, "check": perf_counter() - start},
     )
+
+
+def _volume(mesh: SurfaceMesh, encloses: bool) -> float | None:
+    """Of what the mesh encloses; where solids share faces, the sum over the solids."""
+    if not shares_faces(mesh):
+        return enclosed_volume(mesh) if encloses else None
+    parts = [solid_mesh(mesh, k) for k in range(int(mesh.solid_ids.max()) + 1)]
+    kinds = [topology(part) for part in parts]
+    if not all(kind.closed and kind.manifold and kind.oriented for kind in kinds):
+        return None
+    return sum(enclosed_volume(part) for part in parts)
 
 
 def _over(measure: Any, values: NDArray[np.float64]) -> float:
@@ -206,6 +218,19 @@ def _problems(
         said.append("the mesh has no triangles")
     if broken:
         said.append(broken)
+    said += [warning for warning in mesh.warnings if warning.startswith(NOT_MESHED)]
+    if shares_faces(mesh):  # three triangles and more may meet where solids do
+        for solid in range(int(mesh.solid_ids.max()) + 1):
+            part = solid_mesh(mesh, solid)
+            around = topology(part)
+            bad = [name for name in ("closed", "manifold", "oriented") if not getattr(around, name)]
+            if bad:
+                said.append(f"solid {solid} is not {' and not '.join(bad)}")
+        topo = topo._replace(
+            crowded_edges=topo.crowded_edges[:0],
+            pinched_vertices=topo.pinched_vertices[:0],
+            clashing_edges=topo.clashing_edges[:0],
+        )
     if len(topo.crowded_edges):
         first = mesh.edges[topo.crowded_edges[0]]
         many = _number(topo.crowded_edges, "edge")

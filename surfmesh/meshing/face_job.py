@@ -1,0 +1,260 @@
+"""One face of a CAD model: plain arrays in, a mesh of the face or the reason for none out.
+
+    nodes of its edges -> (u, v) loops -> size field -> packing -> boundary -> optimisation
+    (numbers, points)     seams twice     graded inward from the sizes of the edges
+"""
+
+from dataclasses import dataclass, field, replace
+from itertools import pairwise
+
+import numpy as np
+
+from surfmesh.errors import SurfmeshError
+from surfmesh.geometry.sides import find_sides
+from surfmesh.geometry.surface import Surface
+from surfmesh.kernels.background import scalar_sizes_at
+from surfmesh.meshing.boundary_loops import BoundaryLoops, cut_line
+from surfmesh.meshing.boundary_recovery import recovered
+from surfmesh.meshing.gluing import glued
+from surfmesh.meshing.optimise import Optimiser
+from surfmesh.meshing.packing import packed
+from surfmesh.sizing.size_field import SizeField, size_field
+from surfmesh.sizing.size_limits import SizeLimits
+from surfmesh.sizing.sizing import Sizing
+
+SAME_PLACE = 1e-6
+"""Images of one node nearer than this share of the face's box are one node in (u, v)."""
+
+NEAR_STEP = 0.1
+"""Or nearer than this share of the segments there."""
+
+FINER = 0.5
+"""Factor on the sizes where boundary segments cross."""
+
+
+@dataclass(frozen=True)
+class Piece:
+    """One coedge in walking order, with both ends.
+
+    A degenerate edge has two nodes of the same number; it is cut when the metric is known.
+    """
+
+    uv: np.ndarray
+    """(n, 2)"""
+    numbers: np.ndarray
+    """(n,) int64"""
+    points: np.ndarray
+    """(n, 3)"""
+    sizes: np.ndarray
+    """(n,)"""
+    degenerate: bool = False
+
+
+@dataclass(frozen=True)
+class FaceJob:
+    """All that is needed to mesh one face; can be pickled, knows no CAD kernel."""
+
+    surface: Surface
+    loops: tuple[tuple[Piece, ...], ...]
+    sizing: Sizing
+    limits: SizeLimits | None = None
+    """From earlier rounds."""
+    optimise: bool = True
+
+    def same_as(self, other: "FaceJob | None") -> bool:
+        """Would the other give the same mesh?"""
+        if other is None or self.limits is not other.limits:
+            return False
+        mine = [piece for loop in self.loops for piece in loop]
+        theirs = [piece for loop in other.loops for piece in loop]
+        return len(mine) == len(theirs) and all(
+            np.array_equal(a.uv, b.uv) and np.array_equal(a.sizes, b.sizes)
+            for a, b in zip(mine, theirs)
+        )
+
+
+@dataclass(frozen=True)
+class FaceMesh:
+    """Triangles along r_u x r_v, or a reason."""
+
+    points: np.ndarray = field(default_factory=lambda: np.empty((0, 3)))
+    """(n, 3)"""
+    slots: np.ndarray = field(default_factory=lambda: np.empty(0, np.int64))
+    """(n,) where the point stands among the job's boundary nodes, loop after loop; -1 inside."""
+    triangles: np.ndarray = field(default_factory=lambda: np.empty((0, 3), np.int32))
+    uv_points: np.ndarray = field(default_factory=lambda: np.empty((0, 2)))
+    uv_triangles: np.ndarray = field(default_factory=lambda: np.empty((0, 3), np.int32))
+    sizes: np.ndarray = field(default_factory=lambda: np.empty(0))
+    wishes: SizeLimits | None = None
+    """Smaller sizes that the face needs."""
+    failure: str = ""
+
+
+def mesh_face(job: FaceJob) -> FaceMesh:
+    """Mesh one face. Never raises for what is wrong with the face: see ``failure``."""
+    try:
+        return _meshed(job)
+    except SurfmeshError as error:
+        return FaceMesh(failure=str(error), wishes=_wishes_at(job, getattr(error, "where", None)))
+    except (np.linalg.LinAlgError, ValueError, FloatingPointError, IndexError) as error:
+        return FaceMesh(failure=f"{type(error).__name__}: {error}")
+
+
+def _wishes_at(job: FaceJob, where: np.ndarray | None) -> SizeLimits | None:
+    """Half the sizes at the segment (2, 2) in (u, v), or the node (2,), that was refused."""
+    if where is None:
+        return None
+    place = np.atleast_2d(where)
+    if len(place) > 1:
+        place = np.concatenate([place, place.mean(axis=0)[None]])
+    (points,) = job.surface.evaluate(place, 0)
+    pieces = [piece for loop in job.loops for piece in loop if not piece.degenerate]
+    nodes = np.concatenate([piece.points for piece in pieces])
+    spacing = np.concatenate([_spacing(piece.points) for piece in pieces])
+    near = [int(np.linalg.norm(nodes - point, axis=1).argmin()) for point in points]
+    sizes = np.full(len(points), FINER * min(float(spacing[k]) for k in near))
+    least = job.sizing.min_size or 0.0
+    if not (sizes > least).any() or not (sizes > 0.0).all():
+        return None
+    return SizeLimits(points, sizes, job.sizing.gradient)
+
+
+def _spacing(points: np.ndarray) -> np.ndarray:
+    step = np.linalg.norm(np.diff(points, axis=0), axis=1)
+    return np.minimum(np.r_[step[:1], step], np.r_[step, step[-1:]])
+
+
+def _meshed(job: FaceJob) -> FaceMesh:
+    surface, field = _field(job)
+    loops, fixed, slots = _loops(job, field)
+    width, height = field.scaling.extent
+    packing = packed(
+        field.background,
+        (0.0, 0.0, width, height),
+        (0.5 * width, 0.5 * height),
+        field.expected_vertices(),
+    )
+    domain = recovered(packing.t, loops, field, surface)
+    del packing
+    same = domain.node[loops.identity]
+    optimiser = Optimiser(domain.t, domain.node, same, surface, field)
+    optimiser.embedding.point[domain.node] = fixed  # the edges' nodes, not their images
+    wishes: SizeLimits | None = None
+    if job.optimise:
+        changes = optimiser.run()
+        for found, remedy in (
+            (changes.far, optimiser.approaching), (changes.folded, optimiser.unfolding),
+        ):  # fmt: skip
+            if len(found):
+                more = remedy(found)
+                if len(more.sizes):
+                    wishes = more.joined_with(wishes)
+    else:
+        optimiser.settle()
+    xy = domain.t.xy[: int(domain.t.count[0])]
+    uv = field.scaling.to_uv(xy)
+    uv[domain.node] = loops.uv
+    parts = glued(surface, loops, domain, uv)
+    slot = np.full(len(xy), -1, np.int64)
+    slot[domain.node] = slots
+    sizes = np.empty(len(parts.place))
+    scalar_sizes_at(field.background, xy[parts.place], sizes)
+    sizes *= optimiser.embedding.scale[parts.place]
+    return FaceMesh(
+        parts.points, slot[parts.place], parts.triangles, parts.uv_points, parts.uv_triangles,
+        sizes, wishes,
+    )  # fmt: skip
+
+
+def _field(job: FaceJob) -> tuple[Surface, SizeField]:
+    """The surface over the box of the loops, and sizes graded inward from them."""
+    pieces = [piece for loop in job.loops for piece in loop]
+    uv = np.concatenate([piece.uv for piece in pieces])
+    low, high = uv.min(axis=0), uv.max(axis=0)
+    surface = job.surface.with_domain(((low[0], high[0]), (low[1], high[1])))
+    real = [piece for piece in pieces if not piece.degenerate]
+    limits = job.limits
+    if real:
+        limits = SizeLimits(
+            np.concatenate([piece.points for piece in real]),
+            np.concatenate([piece.sizes for piece in real]),
+            job.sizing.gradient,
+            np.concatenate([piece.uv for piece in real]),
+        )
+        if job.limits is not None:
+            near = _nearest(limits.points, job.limits.points)
+            uv_of_limits = limits.uv[near]
+            limits = limits.joined_with(replace(job.limits, uv=uv_of_limits))
+    numbers = np.concatenate([piece.numbers for piece in pieces])
+    repeated = len(numbers) > len(np.unique(numbers)) + len(pieces)
+    sides = None
+    if surface.kind != "plane" and (repeated or any(piece.degenerate for piece in pieces)):
+        sides = find_sides(surface)  # a seam, an edge inside, or a pole
+    return surface, size_field(surface, job.sizing, sides, limits)
+
+
+def _nearest(points: np.ndarray, wanted: np.ndarray) -> np.ndarray:
+    from scipy.spatial import cKDTree
+
+    return cKDTree(points).query(wanted)[1]
+
+
+def _loops(job: FaceJob, field: SizeField) -> tuple:
+    """Nodes and segments in (u, v); the nodes' points, and their places in the job."""
+    uv, numbers, points, slots, segments = [], [], [], [], []
+    slot = total = 0
+    for loop in job.loops:
+        start = total
+        for piece in loop:
+            count = len(piece.numbers)
+            place = slot + np.arange(count)
+            slot += count
+            if piece.degenerate:
+                t, line = cut_line(field, piece.uv[0], piece.uv[-1], 1)
+                uv.append(line[:-1])
+                place = np.full(len(t), place[0])
+                numbers.append(np.full(len(t) - 1, piece.numbers[0]))
+                points.append(np.repeat(piece.points[:1], len(t) - 1, axis=0))
+            else:
+                uv.append(piece.uv[:-1])
+                numbers.append(piece.numbers[:-1])
+                points.append(piece.points[:-1])
+            slots.append(place[:-1])
+            total += len(place) - 1
+        ring = np.arange(start, total)
+        segments.append(np.stack([ring, np.roll(ring, -1)], axis=1))
+    uv, numbers = np.concatenate(uv), np.concatenate(numbers)
+    points, slots = np.concatenate(points), np.concatenate(slots)
+    ring_segments = np.concatenate(segments)
+    kept = _distinct(uv, numbers, ring_segments)
+    nodes, row = np.unique(kept, return_inverse=True)
+    segments = row[ring_segments].astype(np.int32)
+    segments = segments[segments[:, 0] != segments[:, 1]]
+    uv, numbers, points, slots = uv[nodes], numbers[nodes], points[nodes], slots[nodes]
+    _, first, inverse = np.unique(numbers, return_index=True, return_inverse=True)
+    return BoundaryLoops(uv, segments, first[inverse].astype(np.int64)), points, slots
+
+
+def _distinct(uv: np.ndarray, numbers: np.ndarray, segments: np.ndarray) -> np.ndarray:
+    """For each node (k,) the first that has its number and its place.
+
+    Edges inside a face are walked there and back, loops may touch in a vertex. Images of a
+    vertex that edges meet with some tolerance are one place too, if nearer to each other than
+    a small part of the segments there: loops would cross in between.
+    """
+    kept = np.arange(len(numbers))
+    place = uv / np.maximum(np.ptp(uv, axis=0), np.finfo(float).tiny)
+    step = np.linalg.norm(place[segments[:, 1]] - place[segments[:, 0]], axis=1)
+    near = np.full(len(numbers), np.inf)
+    np.minimum.at(near, segments.ravel(), np.repeat(step, 2))
+    near = np.maximum(NEAR_STEP * near, SAME_PLACE)
+    order = np.argsort(numbers, kind="stable")
+    starts = np.flatnonzero(np.r_[True, np.diff(numbers[order]) != 0, True])
+    for begin, end in pairwise(starts):
+        group = order[begin:end]
+        for k, node in enumerate(group[1:], 1):
+            for earlier in group[:k]:
+                if np.linalg.norm(place[node] - place[earlier]) <= near[[node, earlier]].max():
+                    kept[node] = kept[earlier]
+                    break
+    return kept

@@ -1,0 +1,216 @@
+"""A whole CAD model: edges, then faces, joined by number into one mesh.
+
+edges cut once -> one job a face -> faces meshed -> joined by node numbers
+  ^                                     |
+  +---- smaller sizes where faces ------+
+        failed or lie too far away
+"""
+
+import numpy as np
+
+from surfmesh.cad.model import CadFace, CadModel
+from surfmesh.errors import MeshingError
+from surfmesh.meshing.edge_nodes import EdgeNodes, cut_edges, vertex_numbers
+from surfmesh.meshing.face_job import FaceJob, FaceMesh, Piece, mesh_face
+from surfmesh.meshing.stages import Progress, Stopwatch
+from surfmesh.sizing.size_field import DEFAULT_CHORD, DEFAULT_MAX_SIZE
+from surfmesh.sizing.size_limits import SizeLimits
+from surfmesh.sizing.sizing import Sizing
+from surfmesh.surface_mesh import NOT_MESHED, SurfaceMesh
+
+ROUNDS = 6
+"""How often everything that depends on refined edges is done again, at most."""
+
+FINER = 0.6
+"""Factor on the sizes where faces share an edge of triangles that they should not."""
+
+
+def with_defaults(sizing: Sizing, model: CadModel) -> Sizing:
+    """The wishes for a model: by default a chord error of a thousandth of its diagonal."""
+    if sizing.chord is None and sizing.angle is None and sizing.size is None:
+        sizing = sizing.replaced(chord=DEFAULT_CHORD * model.diagonal)
+    if sizing.max_size is None and sizing.size is None:
+        largest = max(DEFAULT_MAX_SIZE * model.diagonal, sizing.min_size or 0.0)
+        sizing = sizing.replaced(max_size=largest)
+    return sizing
+
+
+def mesh_model(
+    model: CadModel, sizing: Sizing, optimise: bool = True, progress: Progress | None = None,
+    strict: bool = True,
+) -> SurfaceMesh:  # fmt: skip
+    """Mesh all faces of a model; neighbours share the nodes of their common edges.
+
+    strict=False delivers what could be meshed and lists the other faces in ``warnings``.
+    Raises ``MeshingError`` that names the faces that could not be meshed, with the reasons.
+    """
+    watch = Stopwatch(progress)
+    sizing = with_defaults(sizing, model)
+    vertices = vertex_numbers(model)
+    limits: dict[int, SizeLimits] = {}
+    jobs: list[FaceJob | None] = [None] * len(model.faces)
+    done: list[FaceMesh] = [FaceMesh()] * len(model.faces)
+    for _ in range(ROUNDS):
+        with watch.stage("sizing"):
+            nodes = cut_edges(model, sizing, limits)
+        with watch.stage("packing"):
+            for number, face in enumerate(model.faces):
+                job = _job(model, face, nodes, vertices, sizing, limits.get(number), optimise)
+                if not job.same_as(jobs[number]):
+                    done[number] = mesh_face(job)
+                jobs[number] = job  # the nodes may have other numbers than before
+        with watch.stage("mapping"):
+            mesh = _joined(model, jobs, done, nodes, sizing, watch)
+            wishes = {k: found.wishes for k, found in enumerate(done) if found.wishes is not None}
+            _refine_crowded(mesh, sizing, wishes)
+        if not wishes:
+            break
+        for number, wish in wishes.items():
+            limits[number] = wish.joined_with(limits.get(number))
+    failed = [_reason(model, k, found) for k, found in enumerate(done) if found.failure]
+    if failed and strict:
+        raise MeshingError(
+            f"{len(failed)} of {len(model.faces)} faces of {model.name or model.source!r} could "
+            f"not be meshed: {'; '.join(failed[:5])}"
+            + (f"; and {len(failed) - 5} more" if len(failed) > 5 else "")
+            + ". Lower the sizes, repair the faces, or use strict=False to get the others"
+        )
+    return mesh
+
+
+def _reason(model: CadModel, number: int, found: FaceMesh) -> str:
+    face = model.faces[number]
+    return f"face {number} ({face.name or face.kind}): {found.failure}"
+
+
+def _job(
+    model: CadModel, face: CadFace, nodes: list[EdgeNodes | None], vertices: np.ndarray,
+    sizing: Sizing, limits: SizeLimits | None, optimise: bool,
+) -> FaceJob:  # fmt: skip
+    loops = []
+    for loop in face.loops:
+        pieces = []
+        for coedge in loop:
+            cut = nodes[coedge.edge]
+            if cut is None:
+                vertex = int(vertices[model.edges[coedge.edge].start])
+                points = np.tile(model.vertices[vertex].point, (2, 1))
+                ends = coedge.walk(np.array([0.0, 1.0]))
+                numbers = np.full(2, vertex, np.int64)
+                pieces.append(Piece(ends, numbers, points, np.full(2, np.inf), True))
+                continue
+            order = slice(None, None, -1) if coedge.reversed else slice(None)
+            uv = coedge.uv(cut.share)[order]
+            numbers, points, sizes = cut.numbers[order], cut.points[order], cut.sizes[order]
+            pieces.append(Piece(uv, numbers, points, sizes))
+        loops.append(tuple(pieces))
+    return FaceJob(face.surface, tuple(loops), sizing, limits, optimise)
+
+
+def _orientation(model: CadModel) -> tuple[np.ndarray, np.ndarray]:
+    """Which faces are turned over (f,), and the solids behind and before them (f, 2).
+
+    A triangle's normal points out of the first solid and into the second; -1 is none.
+    """
+    turned = np.array([face.reversed for face in model.faces], bool)
+    solids = np.full((len(model.faces), 2), -1, np.int32)
+    for number, solid in enumerate(model.solids):
+        for shell in solid.shells:
+            for face, against in shell:
+                solids[face, int(against)] = number
+    against = (solids[:, 0] < 0) & (solids[:, 1] >= 0)
+    for shell in model.free_shells:
+        for face, flag in shell:
+            against[face] |= flag
+    solids[against] = solids[against][:, ::-1]
+    return turned ^ against, solids
+
+
+def _joined(
+    model: CadModel, jobs: list[FaceJob], done: list[FaceMesh], nodes: list[EdgeNodes | None],
+    sizing: Sizing, watch: Stopwatch,
+) -> SurfaceMesh:  # fmt: skip
+    """Boundary nodes by their numbers, then the inner points of face after face."""
+    edges = [(number, cut) for number, cut in enumerate(nodes) if cut is not None]
+    shared = max([len(model.vertices), *(int(cut.numbers.max()) + 1 for _, cut in edges)])
+    points, sizes = np.zeros((shared, 3)), np.full(shared, np.inf)
+    points[: len(model.vertices)] = [vertex.point for vertex in model.vertices]
+    for _, cut in edges:
+        points[cut.numbers] = cut.points
+        np.minimum.at(sizes, cut.numbers, cut.sizes)
+    turned, solids = _orientation(model)
+    inner_points, inner_sizes, triangles, uv, uv_triangles, face_ids = [], [], [], [], [], []
+    total = shared
+    uv_total = 0
+    for number, (job, found) in enumerate(zip(jobs, done)):
+        if not len(found.triangles):
+            continue
+        names = np.concatenate([piece.numbers for loop in job.loops for piece in loop])
+        inside = found.slots < 0
+        own = np.empty(len(found.points), np.int64)
+        own[~inside] = names[found.slots[~inside]]
+        own[inside] = total + np.arange(int(inside.sum()))
+        total += int(inside.sum())
+        np.minimum.at(sizes, own[~inside], found.sizes[~inside])  # poles have no edge of a size
+        inner_points.append(found.points[inside])
+        inner_sizes.append(found.sizes[inside])
+        order = [0, 2, 1] if turned[number] else [0, 1, 2]
+        triangles.append(own[found.triangles][:, order])
+        uv.append(found.uv_points)
+        uv_triangles.append(uv_total + found.uv_triangles[:, order].astype(np.int64))
+        uv_total += len(found.uv_points)
+        face_ids.append(np.full(len(found.triangles), number, np.int32))
+    if not triangles:
+        reasons = [_reason(model, k, found) for k, found in enumerate(done) if found.failure]
+        raise MeshingError(f"no face could be meshed: {'; '.join(reasons[:5])}")
+    points = np.concatenate([points, *inner_points])
+    sizes = np.concatenate([sizes, *inner_sizes])
+    triangles = np.concatenate(triangles)
+    face_ids = np.concatenate(face_ids)
+    used = np.zeros(len(points), bool)
+    used[triangles.ravel()] = True
+    rank = np.where(used, np.cumsum(used) - 1, -1)
+    segments = [np.stack([cut.numbers[:-1], cut.numbers[1:]], axis=1) for _, cut in edges]
+    of = [np.full(len(cut.share) - 1, number) for number, cut in edges]
+    segments = rank[np.concatenate(segments)] if segments else np.empty((0, 2), np.int64)
+    of = np.concatenate(of) if of else np.empty(0, np.int64)
+    there = (segments >= 0).all(axis=1)
+    missing = [
+        f"{NOT_MESHED}{_reason(model, k, found)}" for k, found in enumerate(done) if found.failure
+    ]
+    return SurfaceMesh(
+        points=points[used],
+        triangles=rank[triangles],
+        uv_points=np.concatenate(uv),
+        uv_triangles=np.concatenate(uv_triangles),
+        face_ids=face_ids,
+        surfaces=tuple(face.surface for face in model.faces),
+        turned_faces=turned,
+        solid_ids=solids[face_ids],
+        edge_segments=segments[there],
+        edge_ids=of[there],
+        vertex_ids=rank[vertex_numbers(model)],
+        sizes=np.where(np.isfinite(sizes), sizes, model.diagonal)[used],
+        sizing=sizing,
+        seconds=watch.seconds,
+        warnings=tuple([*model.healing, *missing]),
+    )
+
+
+def _refine_crowded(mesh: SurfaceMesh, sizing: Sizing, wishes: dict[int, SizeLimits]) -> None:
+    """Ask for smaller sizes where two faces made the same chord between their common nodes."""
+    table = mesh.connectivity
+    crowded = table.uses > 2
+    if not crowded.any() or not len(mesh.edge_segments):
+        return
+    width = np.int64(len(mesh.points))
+    along = np.sort(mesh.edge_segments, axis=1) @ np.array([width, 1])
+    bad = np.flatnonzero(crowded & ~np.isin(table.edges @ np.array([width, 1]), along))
+    if not len(bad):
+        return
+    ends = table.edges[bad].ravel()
+    sizes = FINER * mesh.sizes[ends]
+    limits = SizeLimits(mesh.points[ends], sizes, sizing.gradient)
+    at = np.isin(mesh.triangles, ends).any(axis=1)
+    for face in np.unique(mesh.face_ids[at]).tolist():
+        wishes[face] = limits.joined_with(wishes.get(face))
