@@ -6,6 +6,7 @@ import numpy as np
 
 from surfmesh.errors import MeshingError
 from surfmesh.kernels.background import Background
+from surfmesh.kernels.disc_packing import LOOK_AHEAD
 from surfmesh.kernels.front import Front, empty_front
 from surfmesh.kernels.heap import Heap, empty_heap
 from surfmesh.kernels.packing import (
@@ -44,16 +45,14 @@ def packed_discs(
     Raises ``MeshingError`` when the packing cannot go on.
     """
     packing = _room_for(int(1.1 * expected) + 1000, wanted, box, origin, distance)
-    packing = packing._replace(drawn=draw(len(packing.t.xy)))
+    packing = packing._replace(drawn=draw(len(packing.t.xy) + LOOK_AHEAD))
     if start_packing_discs(packing) == BAD_START:
         raise MeshingError(f"no circles can be placed about the origin {origin}")
     while (status := pack_discs(packing)) == FULL:
         packing = _grown(packing)
-        more = draw(len(packing.t.xy) - len(packing.drawn))
+        more = draw(len(packing.t.xy) + LOOK_AHEAD - len(packing.drawn))
         packing = packing._replace(drawn=np.concatenate([packing.drawn, more]))
-    if status == STUCK:
-        raise MeshingError("the packing cannot go on: please report this")
-    return packing
+    return _finished(packing, status)
 
 
 def packed(
@@ -74,6 +73,10 @@ def packed(
         raise MeshingError(f"no circles can be placed about the origin {origin}")
     while (status := pack(packing, background)) == FULL:
         packing = _grown(packing)
+    return _finished(packing, status)
+
+
+def _finished(packing: Packing, status: int) -> Packing:
     if status == STUCK:
         raise MeshingError("the packing cannot go on: please report this")
     return packing

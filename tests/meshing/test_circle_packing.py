@@ -57,10 +57,10 @@ def test_the_same_seed_gives_the_same_packing_to_the_last_bit():
 
 def test_growing_arrays_changes_nothing():
     # a distance does not say how many circles there will be: arrays grow on the way
-    by_distance = sm.pack(sm.UniformRadius(1, 10, seed=1), distance=700.0)
-    by_count = sm.pack(sm.UniformRadius(1, 10, seed=1), count=8000)
-    assert len(by_distance.centres) > 11_000
-    assert (by_distance.centres[:8000] == by_count.centres).all()
+    by_distance = sm.pack(sm.UniformRadius(1, 10, seed=1), distance=1000.0)
+    by_count = sm.pack(sm.UniformRadius(1, 10, seed=1), count=18_000)
+    assert len(by_distance.centres) > 18_000
+    assert (by_distance.centres[:18_000] == by_count.centres).all()
 
 
 def test_a_constant_radius_gives_the_hexagonal_packing():
