@@ -121,8 +121,7 @@ def pack(
     origin, count, distance, box = _limits(origin, count, distance, box)
     start = perf_counter()
     where = box or (-EVERYWHERE, -EVERYWHERE, EVERYWHERE, EVERYWHERE)
-    expected = min(count, 1000) if count == NO_LIMIT else count
-    if isinstance(radius, UniformRadius) or hasattr(radius, "stream"):
+    if hasattr(radius, "stream"):
         expected = count if count < NO_LIMIT else 10_000
         packing = packed_discs(radius.stream(), where, origin, expected, count, distance)
         shift = np.zeros(2)
