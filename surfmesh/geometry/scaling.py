@@ -12,7 +12,7 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.interpolate import PchipInterpolator
 
-from surfmesh.geometry.surface import Surface
+from surfmesh.geometry.surface import Domain, Surface
 from surfmesh.kernels.bending import bend
 
 SAMPLES_ALONG = 257
@@ -45,7 +45,7 @@ class Axis:
         extent = mean * (high - low)
         speed = np.maximum(speed, SLOWEST * mean)
         if speed.max() <= UNEVEN * speed.min():
-            return cls(extent, np.array([low, high]), np.full(2, (high - low) / extent))
+            return cls.linear(low, high, mean)
         length = np.concatenate([[0.0], np.cumsum(0.5 * (speed[1:] + speed[:-1]))])
         length *= extent / length[-1]
         spline = PchipInterpolator(length, low + t * (high - low))
@@ -55,6 +55,11 @@ class Axis:
         # slopes of a monotone cubic on the even knots (Fritsch and Carlson 1980)
         slopes = PchipInterpolator(x, knots).derivative()(x)
         return cls(extent, knots, slopes)
+
+    @classmethod
+    def linear(cls, low: float, high: float, speed: float) -> "Axis":
+        """Stretched by the same factor everywhere."""
+        return cls(speed * (high - low), np.array([low, high]), np.full(2, 1.0 / speed))
 
     def parameter_and_rate(self, x: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """The parameter (n,) at scaled coordinates x (n,), and its derivative by x (n,).
@@ -100,6 +105,11 @@ class Scaling:
             speed = np.linalg.norm(derivative, axis=1).reshape(SAMPLES_ACROSS, SAMPLES_ALONG)
             axes.append(Axis.of(low[axis], high[axis], along, speed.mean(axis=0)))
         return cls(tuple(axes))
+
+    @classmethod
+    def uniform(cls, domain: Domain, speeds: tuple[float, float]) -> "Scaling":
+        """For a surface whose |r_u| and |r_v| are the same everywhere: nothing is sampled."""
+        return cls(tuple(Axis.linear(*span, speed) for span, speed in zip(domain, speeds)))
 
     @property
     def extent(self) -> np.ndarray:
