@@ -67,7 +67,9 @@ class Axis:
         Linear outside [0, extent].
         """
         if len(self.knots) == 2:
-            return self.knots[0] + x * self.slopes[0], np.full(len(x), self.slopes[0])
+            rate = np.empty(len(x))
+            rate.fill(self.slopes[0])
+            return self.knots[0] + x * self.slopes[0], rate
         parameter, rate = np.empty(len(x)), np.empty(len(x))
         bend(x, self.extent, self.knots, self.slopes, parameter, rate)
         return parameter, rate
@@ -118,7 +120,10 @@ class Scaling:
 
     def to_plane(self, uv: np.ndarray) -> np.ndarray:
         """uv (n, 2) -> xy (n, 2)."""
-        return np.stack([axis.coordinate(uv[:, k]) for k, axis in enumerate(self.axes)], axis=1)
+        xy = np.empty((len(uv), 2))
+        for k, axis in enumerate(self.axes):
+            xy[:, k] = axis.coordinate(uv[:, k])
+        return xy
 
     def to_uv(self, xy: np.ndarray) -> np.ndarray:
         """xy (n, 2) -> uv (n, 2)."""
@@ -130,6 +135,7 @@ class Scaling:
 
     def to_uv_and_rates(self, xy: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """xy (n, 2) -> uv (n, 2) and (du/dx, dv/dy) (n, 2)."""
-        u, du = self.axes[0].parameter_and_rate(xy[:, 0])
-        v, dv = self.axes[1].parameter_and_rate(xy[:, 1])
-        return np.stack([u, v], axis=1), np.stack([du, dv], axis=1)
+        uv, rates = np.empty((len(xy), 2)), np.empty((len(xy), 2))
+        for k, axis in enumerate(self.axes):
+            uv[:, k], rates[:, k] = axis.parameter_and_rate(xy[:, k])
+        return uv, rates
