@@ -34,9 +34,9 @@ CELLS, MOST_CELLS = (500, 16), 1 << 26
 _ISOTROPIC = np.array([1.0, 0.0, 1.0])
 
 
-def has_constant_metric(surface: Surface) -> bool:
-    """Can ``boundary_field`` be used?"""
-    return isinstance(surface, (Plane, PlanarDomain, Cylinder))
+def has_boundary_field(surface: Surface, sizing: Sizing) -> bool:
+    """Can ``boundary_field`` be used: is the metric constant, and no size law given?"""
+    return isinstance(surface, (Plane, PlanarDomain, Cylinder)) and not callable(sizing.size)
 
 
 def boundary_field(
@@ -50,11 +50,14 @@ def boundary_field(
 
     ``largest``, model units, bounds them from above; left out, and on a cylinder in any case,
     the wishes do so as for any surface, with the diagonal of its box for their defaults.
-    A size below ``min_size`` counts as given. Raises ``SizingError`` for a surface whose metric
-    changes, for sizes that are not positive numbers and when there is no largest size.
+    None is smaller than ``min_size``. Raises ``SizingError`` for a surface whose metric changes,
+    for a size law, and for sizes that are not positive numbers.
     """
-    if not has_constant_metric(surface):
-        raise SizingError(f"the metric of {surface.name!r} is not constant: use size_field")
+    if not has_boundary_field(surface, sizing):
+        raise SizingError(
+            f"the metric of {surface.name!r} is not constant, or a size law is given: use "
+            "size_field"
+        )
     radius = surface.radius if isinstance(surface, Cylinder) else 1.0
     scaling = Scaling.uniform(surface.domain, (radius, 1.0))
     sizes = np.ascontiguousarray(sizes, float)
@@ -64,6 +67,7 @@ def boundary_field(
             f"sizes on {surface.name!r} must be positive numbers, one for each of {len(uv)} "
             f"finite points; they have shape {sizes.shape}"
         )
+    sizes = np.maximum(sizes, sizing.min_size or 0.0)
     if isinstance(surface, Cylinder) or largest is None:
         bounds = SizeBounds.of(sizing, _diagonal(surface))
         sizing, allowed = bounds.sizing, bounds.clamp[1]
@@ -72,8 +76,7 @@ def boundary_field(
         largest = min(allowed, largest or math.inf)
     if not 0.0 < largest < math.inf:
         raise SizingError(
-            f"the largest size on {surface.name!r} must be a positive number, not {largest:g}: "
-            "give largest or max_size"
+            f"the largest size on {surface.name!r} must be a positive number, not {largest:g}"
         )
     width, height = (float(extent) for extent in scaling.extent)
     low = [surface.domain[0][0], surface.domain[1][0]]

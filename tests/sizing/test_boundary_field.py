@@ -107,6 +107,18 @@ def test_a_metric_that_changes_is_refused():
         boundary_field(sphere, Sizing(size=1.0), *NOWHERE)
 
 
-def test_no_largest_size_is_refused():
-    with pytest.raises(SizingError, match="largest"):
+def test_a_size_law_is_refused():
+    with pytest.raises(SizingError, match="law"):
         boundary_field(PLANE, Sizing(size=lambda r: np.ones(len(r))), *NOWHERE)
+
+
+@pytest.mark.parametrize("largest", [-1.0, np.nan, np.inf])
+def test_a_largest_size_that_is_none(largest):
+    with pytest.raises(SizingError, match="largest"):
+        boundary_field(PLANE, Sizing(size=1.0), *NOWHERE, largest=largest)
+
+
+def test_min_size_binds_sources():
+    uv = np.array([[0.0, 6.0]])
+    field = boundary_field(PLANE, Sizing(min_size=0.1, max_size=0.5), uv, np.array([0.001]))
+    assert sizes(field, field.scaling.to_plane(uv)) == pytest.approx(0.1, rel=0.05)
