@@ -12,7 +12,7 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.interpolate import PchipInterpolator
 
-from surfmesh.geometry.surface import Surface
+from surfmesh.geometry.surface import Domain, Surface
 from surfmesh.kernels.bending import bend
 
 SAMPLES_ALONG = 257
@@ -45,7 +45,7 @@ class Axis:
         extent = mean * (high - low)
         speed = np.maximum(speed, SLOWEST * mean)
         if speed.max() <= UNEVEN * speed.min():
-            return cls(extent, np.array([low, high]), np.full(2, (high - low) / extent))
+            return cls.linear(low, high, mean)
         length = np.concatenate([[0.0], np.cumsum(0.5 * (speed[1:] + speed[:-1]))])
         length *= extent / length[-1]
         spline = PchipInterpolator(length, low + t * (high - low))
@@ -56,13 +56,20 @@ class Axis:
         slopes = PchipInterpolator(x, knots).derivative()(x)
         return cls(extent, knots, slopes)
 
+    @classmethod
+    def linear(cls, low: float, high: float, speed: float) -> "Axis":
+        """Stretched by the same factor everywhere."""
+        return cls(speed * (high - low), np.array([low, high]), np.full(2, 1.0 / speed))
+
     def parameter_and_rate(self, x: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """The parameter (n,) at scaled coordinates x (n,), and its derivative by x (n,).
 
         Linear outside [0, extent].
         """
         if len(self.knots) == 2:
-            return self.knots[0] + x * self.slopes[0], np.full(len(x), self.slopes[0])
+            rate = np.empty(len(x))
+            rate.fill(self.slopes[0])
+            return self.knots[0] + x * self.slopes[0], rate
         parameter, rate = np.empty(len(x)), np.empty(len(x))
         bend(x, self.extent, self.knots, self.slopes, parameter, rate)
         return parameter, rate
@@ -101,6 +108,11 @@ class Scaling:
             axes.append(Axis.of(low[axis], high[axis], along, speed.mean(axis=0)))
         return cls(tuple(axes))
 
+    @classmethod
+    def uniform(cls, domain: Domain, speeds: tuple[float, float]) -> "Scaling":
+        """For a surface whose |r_u| and |r_v| are the same everywhere: nothing is sampled."""
+        return cls(tuple(Axis.linear(*span, speed) for span, speed in zip(domain, speeds)))
+
     @property
     def extent(self) -> np.ndarray:
         """Width and height of the domain in the scaled plane."""
@@ -108,7 +120,10 @@ class Scaling:
 
     def to_plane(self, uv: np.ndarray) -> np.ndarray:
         """uv (n, 2) -> xy (n, 2)."""
-        return np.stack([axis.coordinate(uv[:, k]) for k, axis in enumerate(self.axes)], axis=1)
+        xy = np.empty((len(uv), 2))
+        for k, axis in enumerate(self.axes):
+            xy[:, k] = axis.coordinate(uv[:, k])
+        return xy
 
     def to_uv(self, xy: np.ndarray) -> np.ndarray:
         """xy (n, 2) -> uv (n, 2)."""
@@ -120,6 +135,7 @@ class Scaling:
 
     def to_uv_and_rates(self, xy: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """xy (n, 2) -> uv (n, 2) and (du/dx, dv/dy) (n, 2)."""
-        u, du = self.axes[0].parameter_and_rate(xy[:, 0])
-        v, dv = self.axes[1].parameter_and_rate(xy[:, 1])
-        return np.stack([u, v], axis=1), np.stack([du, dv], axis=1)
+        uv, rates = np.empty((len(xy), 2)), np.empty((len(xy), 2))
+        for k, axis in enumerate(self.axes):
+            uv[:, k], rates[:, k] = axis.parameter_and_rate(xy[:, k])
+        return uv, rates

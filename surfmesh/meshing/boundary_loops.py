@@ -154,9 +154,10 @@ def cut_line(
         xy = field.scaling.to_plane(start + t[:, None] * (end - start))
         a = np.empty((samples, 3))
         inverse_sizes_at(field.background, 0.5 * (xy[1:] + xy[:-1]), a)
-        dx, dy = np.diff(xy, axis=0).T
+        dx, dy = (xy[1:] - xy[:-1]).T
         step = np.hypot(a[:, 0] * dx + a[:, 1] * dy, a[:, 1] * dx + a[:, 2] * dy)
-        metric = np.concatenate([[0.0], np.cumsum(step)])
+        metric = np.zeros(samples + 1)
+        np.cumsum(step, out=metric[1:])
         if samples >= 16 * metric[-1] or samples >= 1 << 22:
             break
         samples = 1 << int(np.ceil(np.log2(min(20 * metric[-1], 1 << 22))))

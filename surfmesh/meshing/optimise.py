@@ -61,8 +61,9 @@ RESCUE_PASSES = 4
 SUSPECT = 0.7
 """Share of ``chord`` from which the estimate of a triangle's deviation is not trusted."""
 
-FEW_TRIANGLES = 20_000
-"""Up to so many all are measured: the estimate is for triangles small beside the features."""
+FEW_TRIANGLES, FLAT = 20_000, 1e-9
+"""Up to so many all are measured whose estimate is no round-off, as a share of ``chord``: the
+estimate is for triangles small beside the features."""
 
 FIRST_SAMPLES = np.array([(1, 1, 0), (0, 1, 1), (1, 0, 1), (2 / 3, 2 / 3, 2 / 3)]) / 2.0
 _GRID = [(i, j, 5 - i - j) for i in range(5) for j in range(6 - i) if max(j, 5 - i - j) < 5]
@@ -206,9 +207,11 @@ class Optimiser:
         limit = CHORD_MARGIN * chord
         estimate = np.empty(int(self.t.count[1]))
         estimate_deviations(self.t, self.embedding, estimate)
-        least = SUSPECT * chord if len(estimate) > FEW_TRIANGLES else 0.0
+        least = (SUSPECT if len(estimate) > FEW_TRIANGLES else FLAT) * chord
         suspects = np.flatnonzero(estimate > least)
         for _ in range(CHORD_ROUNDS):
+            if not len(suspects):
+                return suspects
             error = self._deviations(suspects)
             if shrink(self.t, self.embedding, suspects, error, limit, self.active) == 0:
                 break
@@ -240,6 +243,8 @@ class Optimiser:
             tangent_plane_distances(point, *self.surface.evaluate(uv, 1), found)
             error = np.maximum(error, found[:, 3])
         close = np.flatnonzero(error > NEAR_CHORD * self.field.sizing.chord)
+        if not len(close):
+            return error
         samples = [self._interpolated(triangles[close], weights) for weights in MORE_SAMPLES]
         points, uv = (np.concatenate(parts) for parts in zip(*samples))
         distance = closest_point(self.surface, points, uv, PROJECTIONS)[1]

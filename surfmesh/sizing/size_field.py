@@ -25,6 +25,7 @@ from surfmesh.geometry.scaling import Scaling
 from surfmesh.geometry.sides import SideTopology
 from surfmesh.geometry.surface import Surface
 from surfmesh.kernels.background import Background, sizes_at
+from surfmesh.kernels.coverage import STACK, inverse_area
 from surfmesh.kernels.gradation import grade, patch_errors
 from surfmesh.sizing.curvature_size import angle_size, chord_size
 from surfmesh.sizing.size_limits import SizeLimits
@@ -91,11 +92,8 @@ class SizeField:
         """About how many circles cover the domain: its metric area over that of a circle's
         share, sqrt(3) / 2."""
         width, height = self.scaling.extent
-        n = 256
-        x, y = (np.arange(n) + 0.5) / n * width, (np.arange(n) + 0.5) / n * height
-        h = self.tensors(np.stack(np.meshgrid(x, y), axis=-1).reshape(-1, 2))
-        density = 1.0 / (h[:, 0] * h[:, 2] - h[:, 1] ** 2)
-        return int(density.mean() * width * height * 2.0 / np.sqrt(3.0)) + 100
+        area = inverse_area(self.background, float(width), float(height), np.empty((STACK, 5)))
+        return int(area * 2.0 / np.sqrt(3.0)) + 100
 
     def tensors(self, xy: np.ndarray) -> np.ndarray:
         """Size tensors (n, 3) at points xy (n, 2) of the scaled plane."""
@@ -428,27 +426,28 @@ def _root(forms: FundamentalForms, rates: np.ndarray) -> np.ndarray:
     return np.stack([(e + s) / t, f / t, (g + s) / t], axis=1)
 
 
-class _SizeLaw:
-    """The ungraded wish at points of one surface, with what the background stores there."""
+@dataclass(frozen=True)
+class SizeBounds:
+    """What the wishes say at a given curvature, on a surface of known extent."""
 
-    def __init__(self, surface: Surface, sizing: Sizing, limits: SizeLimits | None) -> None:
-        self.surface, self.scaling = surface, Scaling.of(surface)
-        (u0, u1), (v0, v1) = surface.domain
-        grid = np.linspace(0.0, 1.0, 17)
-        t = np.stack(np.meshgrid(grid, grid), axis=-1).reshape(-1, 2)
-        (points,) = surface.evaluate(np.array([u0, v0]) + t * np.array([u1 - u0, v1 - v0]), 0)
-        self.diagonal = float(np.linalg.norm(points.max(axis=0) - points.min(axis=0)))
+    sizing: Sizing
+    """With the default chord where nothing else was wished."""
+
+    clamp: tuple[float, float]
+    """The smallest and the largest size, model units; the largest may be infinite."""
+
+    @classmethod
+    def of(cls, sizing: Sizing, diagonal: float) -> "SizeBounds":
+        """``diagonal``: of the surface's bounding box, model units."""
         if sizing.chord is None and sizing.angle is None and sizing.size is None:
-            sizing = sizing.replaced(chord=DEFAULT_CHORD * self.diagonal)
-        self.sizing = sizing
-        self.limits = limits
-        coarsest = sizing.max_size or DEFAULT_MAX_SIZE * self.diagonal
+            sizing = sizing.replaced(chord=DEFAULT_CHORD * diagonal)
+        coarsest = sizing.max_size or DEFAULT_MAX_SIZE * diagonal
         if callable(sizing.size) and not sizing.max_size:
             coarsest = np.inf  # the law alone decides
         if isinstance(sizing.size, float):
             coarsest = min(coarsest, sizing.size) if sizing.max_size else sizing.size
-        finest = sizing.min_size or min(FINEST_SIZE * self.diagonal, coarsest)
-        self.clamp = (finest, max(coarsest, finest))
+        finest = sizing.min_size or min(FINEST_SIZE * diagonal, coarsest)
+        return cls(sizing, (finest, max(coarsest, finest)))
 
     @property
     def follows_curvature(self) -> bool:
@@ -465,6 +464,23 @@ class _SizeLaw:
             unfolded = angle_size(k1, k2, DEFAULT_ANGLE)
             size = np.minimum(size, np.maximum(unfolded, LEAST_OF_CHORD * self.sizing.chord))
         return np.clip(size, *self.clamp)
+
+
+class _SizeLaw:
+    """The ungraded wish at points of one surface, with what the background stores there."""
+
+    def __init__(self, surface: Surface, sizing: Sizing, limits: SizeLimits | None) -> None:
+        self.surface, self.scaling = surface, Scaling.of(surface)
+        (u0, u1), (v0, v1) = surface.domain
+        grid = np.linspace(0.0, 1.0, 17)
+        t = np.stack(np.meshgrid(grid, grid), axis=-1).reshape(-1, 2)
+        (points,) = surface.evaluate(np.array([u0, v0]) + t * np.array([u1 - u0, v1 - v0]), 0)
+        self.diagonal = float(np.linalg.norm(points.max(axis=0) - points.min(axis=0)))
+        self.bounds = SizeBounds.of(sizing, self.diagonal)
+        self.sizing, self.clamp = self.bounds.sizing, self.bounds.clamp
+        self.follows_curvature = self.bounds.follows_curvature
+        self.from_curvature = self.bounds.from_curvature
+        self.limits = limits
 
     def __call__(self, xy: np.ndarray) -> tuple[np.ndarray, ...]:
         """size (n,), the wish (n,) that sources have not lowered, I^(1/2) in the scaled plane
