@@ -10,6 +10,7 @@ from itertools import pairwise
 import numpy as np
 
 from surfmesh.errors import SurfmeshError
+from surfmesh.geometry.projection import closest_point
 from surfmesh.geometry.sides import find_sides
 from surfmesh.geometry.surface import Surface
 from surfmesh.kernels.background import scalar_sizes_at
@@ -18,6 +19,7 @@ from surfmesh.meshing.boundary_recovery import recovered
 from surfmesh.meshing.gluing import glued
 from surfmesh.meshing.optimise import Optimiser
 from surfmesh.meshing.packing import packed
+from surfmesh.sizing.boundary_field import boundary_field, has_boundary_field
 from surfmesh.sizing.size_field import SizeField, size_field
 from surfmesh.sizing.size_limits import SizeLimits
 from surfmesh.sizing.sizing import Sizing
@@ -30,6 +32,9 @@ NEAR_STEP = 0.1
 
 FINER = 0.5
 """Factor on the sizes where boundary segments cross."""
+
+PROJECTIONS = 4
+"""Steps to the closest point of a plane or a cylinder."""
 
 
 @dataclass(frozen=True)
@@ -173,6 +178,8 @@ def _field(job: FaceJob) -> tuple[Surface, SizeField]:
     low, high = uv.min(axis=0), uv.max(axis=0)
     surface = job.surface.with_domain(((low[0], high[0]), (low[1], high[1])))
     real = [piece for piece in pieces if not piece.degenerate]
+    if real and has_boundary_field(surface, job.sizing):
+        return surface, _grown_inward(surface, job, real)
     limits = job.limits
     if real:
         limits = SizeLimits(
@@ -191,6 +198,19 @@ def _field(job: FaceJob) -> tuple[Surface, SizeField]:
     if surface.kind != "plane" and (repeated or any(piece.degenerate for piece in pieces)):
         sides = find_sides(surface)  # a seam, an edge inside, or a pole
     return surface, size_field(surface, job.sizing, sides, limits)
+
+
+def _grown_inward(surface: Surface, job: FaceJob, real: list[Piece]) -> SizeField:
+    """Sizes of a plane or a cylinder: those of its edges and of earlier rounds, grown inward."""
+    uv = np.concatenate([piece.uv for piece in real])
+    sizes = np.concatenate([piece.sizes for piece in real])
+    if job.limits is not None:
+        points = np.concatenate([piece.points for piece in real])
+        near = uv[_nearest(points, job.limits.points)]
+        place = closest_point(surface, job.limits.points, near, PROJECTIONS)[0]
+        uv = np.concatenate([uv, place])
+        sizes = np.concatenate([sizes, job.limits.sizes])
+    return boundary_field(surface, job.sizing, uv, sizes)
 
 
 def _nearest(points: np.ndarray, wanted: np.ndarray) -> np.ndarray:
