@@ -83,7 +83,7 @@ def meetings(points, segments, pairs, tolerance, flags, places):
 
 
 @kernel
-def _squared_distance(segments, s, x, y, z):
+def squared_distance(segments, s, x, y, z):
     ax, ay, az = segments[s, 0], segments[s, 1], segments[s, 2]
     dx, dy, dz = segments[s, 3] - ax, segments[s, 4] - ay, segments[s, 5] - az
     x, y, z = x - ax, y - ay, z - az
@@ -95,7 +95,7 @@ def _squared_distance(segments, s, x, y, z):
 
 
 @kernel
-def _squared_distance_to_box(boxes, k, x, y, z):
+def squared_distance_to_box(boxes, k, x, y, z):
     dx = max(boxes[k, 0] - x, x - boxes[k, 3], 0.0)
     dy = max(boxes[k, 1] - y, y - boxes[k, 4], 0.0)
     dz = max(boxes[k, 2] - z, z - boxes[k, 5], 0.0)
@@ -113,15 +113,15 @@ def distances(points, segments, boxes, groups, out):
     nearest = 0  # neighbouring points often have the same nearest segment
     for k in range(len(points)):
         x, y, z = points[k, 0], points[k, 1], points[k, 2]
-        best = _squared_distance(segments, nearest, x, y, z)
+        best = squared_distance(segments, nearest, x, y, z)
         for group in range(len(groups)):
-            if _squared_distance_to_box(groups, group, x, y, z) >= best:
+            if squared_distance_to_box(groups, group, x, y, z) >= best:
                 continue
             for block in range(BLOCK * group, min(BLOCK * (group + 1), len(boxes))):
-                if _squared_distance_to_box(boxes, block, x, y, z) >= best:
+                if squared_distance_to_box(boxes, block, x, y, z) >= best:
                     continue
                 for s in range(BLOCK * block, min(BLOCK * (block + 1), len(segments))):
-                    found = _squared_distance(segments, s, x, y, z)
+                    found = squared_distance(segments, s, x, y, z)
                     if found < best:
                         best, nearest = found, s
         out[k] = best**0.5

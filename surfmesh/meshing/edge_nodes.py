@@ -1,8 +1,8 @@
 """The edges of a CAD model, each cut once for all its faces.
 
     wishes at samples of every edge -> graded along edges and through vertices -> cut to unit
-    own curvature, faces, gaps,         (Dijkstra over all samples of the        metric length
-    limits of earlier rounds             model; it is a shortest path)
+    (edge_samples), limits of           (Dijkstra over all samples of the        metric length
+    earlier rounds                       model; it is a shortest path)
 
 What two faces share are these nodes, by number: the mesh is watertight because of it.
 """
@@ -12,22 +12,13 @@ from dataclasses import dataclass
 import numpy as np
 
 from surfmesh.cad.model import CadEdge, CadModel
-from surfmesh.geometry.fundamental_forms import curvatures, forms_from_derivatives
-from surfmesh.sizing.curvature_size import DEVIATION_RESERVE, angle_size, chord_size
-from surfmesh.sizing.size_field import DEFAULT_ANGLE, FINEST_SIZE, LEAST_OF_CHORD
+from surfmesh.meshing.edge_samples import EdgeSamples
 from surfmesh.sizing.size_limits import SizeLimits
 from surfmesh.sizing.sizing import Sizing
 
-STRAIGHT_SAMPLES, CURVED_SAMPLES = 33, 129
-NEIGHBOURS = 24
-"""Samples of a face's edges looked at for gaps; those of the own edge are among them."""
-NARROWEST = 5e-4
-"""Gaps narrower than this share of the diagonal do not ask for smaller sizes by themselves."""
 LARGEST_TURN = np.pi / 3.0
 """No segment of an edge turns farther, so that polygons keep the shape of their loops."""
 CLOSED_SEGMENTS = 3
-COLLAPSED = 2e-6
-"""Edges shorter than this share of the diagonal are one point: their faces meet in it."""
 
 
 @dataclass(frozen=True)
@@ -44,197 +35,108 @@ class EdgeNodes:
     """(n,) wanted edge lengths."""
 
 
-@dataclass(frozen=True)
-class _Samples:
-    share: np.ndarray
-    points: np.ndarray
-    wish: np.ndarray
-    turn: float
+    def same_as(self, other: "EdgeNodes | None") -> bool:
+        """Are the places and the sizes equal to the last bit?"""
+        return (
+            other is not None
+            and np.array_equal(self.share, other.share)
+            and np.array_equal(self.sizes, other.sizes)
+        )
 
 
 def cut_edges(
-    model: CadModel, sizing: Sizing, limits: dict[int, SizeLimits]
+    model: CadModel,
+    sizing: Sizing,
+    samples: EdgeSamples,
+    limits: dict[int, SizeLimits],
+    before: list[EdgeNodes | None] | None = None,
 ) -> list[EdgeNodes | None]:
-    """Nodes of every edge (None: degenerate); vertices keep their numbers, others follow.
+    """Nodes of every edge (None: one vertex); vertices keep their numbers, others follow.
 
-    sizing: with the model's defaults filled in. limits: by face, from earlier rounds.
+    sizing: with the model's defaults filled in. limits: by face, from earlier rounds. before:
+    the nodes of the last round; edges that have not changed since stay the same objects.
     """
-    uses: list[list] = [[] for _ in model.edges]
-    for number, face in enumerate(model.faces):
-        for coedge in face.coedges:
-            uses[coedge.edge].append((number, coedge))
-    vertex = vertex_numbers(model)
-    samples = [
-        None if collapses(model, edge) else _sampled(model, edge, uses[number], sizing, limits)
-        for number, edge in enumerate(model.edges)
-    ]
-    _heed_gaps(model, samples)
-    sizes = _graded(model, samples, vertex, sizing)
-    nodes: list[EdgeNodes | None] = []
-    following = len(model.vertices)
-    for edge, sampled, size in zip(model.edges, samples, sizes):
-        if sampled is None:
-            nodes.append(None)
+    wish = samples.wish
+    if limits:
+        wish = wish.copy()
+        for face, limit in limits.items():
+            along = samples.along(face)
+            wish[along] = np.minimum(wish[along], limit(samples.points[along]))
+    size = _graded(model, samples, wish, sizing)
+    nodes = before or [None] * len(model.edges)
+    following = 1 + max([len(model.vertices) - 1, *(int(n.numbers.max()) for n in nodes if n)])
+    nodes = list(nodes)
+    for number, edge in enumerate(model.edges):
+        if samples.first[number] == samples.first[number + 1]:
             continue
-        nodes.append(_cut(model, edge, sampled, size, vertex, following))
-        following += len(nodes[-1].share) - 2
+        cut = _cut(model, edge, number, samples, size, following)
+        if not cut.same_as(nodes[number]):
+            nodes[number] = cut
+            following += len(cut.share) - 2
     return nodes
 
 
-def collapses(model: CadModel, edge: CadEdge) -> bool:
-    """Is the edge so short that it is one vertex of the mesh?"""
-    return edge.degenerate or edge.length <= COLLAPSED * model.diagonal
-
-
-def vertex_numbers(model: CadModel) -> np.ndarray:
-    """For each CAD vertex the first one that tiny edges join it to, mostly itself."""
-    number = np.arange(len(model.vertices))
-    for edge in model.edges:
-        if collapses(model, edge) and number[edge.start] != number[edge.end]:
-            ends = number[edge.start], number[edge.end]
-            number[number == max(ends)] = min(ends)
-    return number
-
-
-def _sampled(
-    model: CadModel, edge: CadEdge, uses: list, sizing: Sizing, limits: dict[int, SizeLimits]
-) -> _Samples:
-    straight = getattr(edge.curve, "kind", "") == "line"
-    share = np.linspace(0.0, 1.0, STRAIGHT_SAMPLES if straight else CURVED_SAMPLES)
-    points, first, second = edge.curve.evaluate(edge.parameters(share), 2)
-    finest = sizing.min_size or FINEST_SIZE * model.diagonal
-    coarsest = sizing.max_size or np.inf
-    if isinstance(sizing.size, float):
-        coarsest = min(coarsest, sizing.size)
-    wish = np.full(len(share), coarsest)
-    speed = np.linalg.norm(first, axis=1)
-    bend = np.linalg.norm(np.cross(first, second), axis=1)
-    with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
-        curvature = np.nan_to_num(bend / speed**3, nan=0.0, posinf=0.0)
-        if sizing.chord is not None:
-            own = np.sqrt(8.0 * DEVIATION_RESERVE * sizing.chord / curvature)
-            wish = np.minimum(wish, np.maximum(own, 2.0 * sizing.chord))
-        if sizing.chord is not None or sizing.angle is not None:
-            least = 0.0 if sizing.angle is not None else LEAST_OF_CHORD * sizing.chord
-            own = angle_size(curvature, curvature, sizing.angle or DEFAULT_ANGLE)
-            wish = np.minimum(wish, np.maximum(own, least))
-    for number, coedge in uses:
-        surface = model.faces[number].surface
-        if surface.kind != "plane" and (sizing.chord is not None or sizing.angle is not None):
-            wish = np.minimum(wish, _face_wish(surface, coedge.uv(share), sizing, coarsest))
-        if number in limits:
-            wish = np.minimum(wish, limits[number](points))
-    if callable(sizing.size):
-        wish = np.minimum(wish, np.asarray(sizing.size(points), float))
-    wish = np.minimum(wish, edge.length if edge.length > 0.0 else np.inf)
-    tangent = first / np.maximum(speed, np.finfo(float).tiny)[:, None]
-    cosine = np.einsum("ij,ij->i", tangent[1:], tangent[:-1])
-    turn = float(np.arccos(np.clip(cosine, -1.0, 1.0)).sum())
-    return _Samples(share, points, np.maximum(wish, finest), 0.0 if straight else turn)
-
-
-def _face_wish(surface, uv: np.ndarray, sizing: Sizing, coarsest: float) -> np.ndarray:
-    """What the face's curvature asks for along one of its edges (n,)."""
-    forms = forms_from_derivatives(*surface.evaluate(uv, 2)[1:])
-    k = curvatures(forms)
-    wish = np.full(len(uv), np.inf)
-    if sizing.chord is not None:
-        wish = chord_size(k.k1, k.k2, sizing.chord)
-    least = 0.0 if sizing.angle is not None else LEAST_OF_CHORD * sizing.chord
-    unfolded = angle_size(k.k1, k.k2, sizing.angle or DEFAULT_ANGLE)
-    wish = np.minimum(wish, np.maximum(unfolded, least))
-    wish[forms.degenerate | ~np.isfinite(wish)] = np.inf
-    return np.minimum(wish, coarsest)
-
-
-def _heed_gaps(model: CadModel, samples: list[_Samples | None]) -> None:
-    """Lower wishes, in place, to the distance of edges of the same face that do not meet."""
-    from scipy.spatial import cKDTree
-
-    narrowest = NARROWEST * model.diagonal
-    for face in model.faces:
-        edges = sorted({c.edge for c in face.coedges if samples[c.edge] is not None})
-        if len(edges) < 2:
-            continue
-        points = np.concatenate([samples[e].points for e in edges])
-        of = np.repeat(edges, [len(samples[e].points) for e in edges])
-        ends = np.array([[edge.start, edge.end] for edge in model.edges])
-        count = min(NEIGHBOURS, len(points))
-        distance, near = cKDTree(points).query(points, k=count)
-        other = of[near]
-        mine, theirs = ends[of][:, None, :], ends[other]
-        meets = (mine[..., :, None] == theirs[..., None, :]).any(axis=(2, 3))
-        meets |= other == of[:, None]
-        gap = np.where(meets, np.inf, distance).min(axis=1)
-        for edge in edges:
-            wish = samples[edge].wish
-            np.minimum(wish, np.maximum(gap[of == edge], np.minimum(narrowest, wish)), out=wish)
-
-
 def _graded(
-    model: CadModel, samples: list, vertex: np.ndarray, sizing: Sizing
-) -> list[np.ndarray | None]:
+    model: CadModel, samples: EdgeSamples, wish: np.ndarray, sizing: Sizing
+) -> np.ndarray:
     """Sizes (n,) at the samples: the wish w_j of any sample j plus the slope times the way."""
     from scipy.sparse import coo_matrix
     from scipy.sparse.csgraph import dijkstra
 
-    vertices = len(model.vertices)
-    first, rows, columns, lengths, wishes = vertices, [], [], [], [np.full(vertices, np.inf)]
-    numbers: list[np.ndarray | None] = []
-    shortest = 1e-12 * model.diagonal  # the sparse graph takes zero for no edge
-    for edge, sampled in zip(model.edges, samples):
-        if sampled is None:
-            numbers.append(None)
-            continue
-        inner = len(sampled.share) - 2
-        ends = vertex[[edge.start, edge.end]]
-        number = np.concatenate([ends[:1], first + np.arange(inner), ends[1:]])
-        first += inner
-        numbers.append(number)
-        rows.append(number[:-1])
-        columns.append(number[1:])
-        step = np.linalg.norm(np.diff(sampled.points, axis=0), axis=1)
-        lengths.append(np.maximum(step, shortest))
-        wishes.append(sampled.wish[1:-1])
-        for corner, end in zip(ends, (0, -1)):
-            wishes[0][corner] = min(wishes[0][corner], sampled.wish[end])
-    if not rows:
-        return numbers
-    wish = np.concatenate(wishes)
-    wanted = np.flatnonzero(np.isfinite(wish))
-    root = np.full(len(wanted), first)  # one more node, from which all wishes start
+    total = len(wish)
+    if not total:
+        return wish
+    starts, ends = samples.first[:-1], samples.first[1:] - 1
+    there = starts <= ends
+    starts, ends = starts[there], ends[there]
+    node = len(model.vertices) + np.arange(total)  # of the graph: vertices, samples, the root
+    corners = samples.vertex[np.array([[edge.start, edge.end] for edge in model.edges])[there]]
+    node[starts], node[ends] = corners.T
+    root = len(model.vertices) + total  # from which all wishes start
+    step = np.linalg.norm(samples.points[1:] - samples.points[:-1], axis=1)
+    step = np.maximum(step, 1e-12 * model.diagonal)  # the sparse graph takes zero for no edge
+    inside = np.ones(total - 1, bool)
+    inside[ends[:-1]] = False
     graph = coo_matrix(
         (
-            np.concatenate([*lengths, wish[wanted] / sizing.gradient]),
-            (np.concatenate([*rows, root]), np.concatenate([*columns, wanted])),
+            np.concatenate([step[inside], wish / sizing.gradient]),
+            (
+                np.concatenate([node[:-1][inside], np.full(total, root)]),
+                np.concatenate([node[1:][inside], node]),
+            ),
         ),
-        shape=(first + 1, first + 1),
+        shape=(root + 1, root + 1),
     )
     # parallel edges would be summed: keep the shorter one
     order = np.lexsort((graph.data, graph.col, graph.row))
     row, column, data = graph.row[order], graph.col[order], graph.data[order]
     kept = np.r_[True, (np.diff(row) != 0) | (np.diff(column) != 0)]
     graph = coo_matrix((data[kept], (row[kept], column[kept])), graph.shape).tocsr()
-    size = sizing.gradient * dijkstra(graph, directed=False, indices=first)
-    return [None if number is None else size[number] for number in numbers]
+    return (sizing.gradient * dijkstra(graph, directed=False, indices=root))[node]
 
 
 def _cut(
-    model: CadModel, edge: CadEdge, sampled: _Samples, size: np.ndarray, vertex: np.ndarray,
+    model: CadModel, edge: CadEdge, number: int, samples: EdgeSamples, sizes: np.ndarray,
     following: int,
 ) -> EdgeNodes:  # fmt: skip
     """Pieces of equal metric length near 1."""
-    step = np.linalg.norm(np.diff(sampled.points, axis=0), axis=1)
-    metric = np.concatenate([[0.0], np.cumsum(2.0 * step / (size[1:] + size[:-1]))])
-    start, end = vertex[[edge.start, edge.end]]
-    least = max(1, int(np.ceil(sampled.turn / LARGEST_TURN - 1e-9)))
+    own = samples.of(number)
+    points, known, size = samples.points[own], samples.share[own], sizes[own]
+    dx, dy, dz = (points[1:] - points[:-1]).T
+    step = np.sqrt(dx * dx + dy * dy + dz * dz)
+    metric = np.zeros(len(points))
+    np.cumsum(2.0 * step / (size[1:] + size[:-1]), out=metric[1:])
+    start, end = samples.vertex[[edge.start, edge.end]]
+    least = max(1, int(np.ceil(samples.turn[number] / LARGEST_TURN - 1e-9)))
     pieces = max(CLOSED_SEGMENTS if start == end else 1, least, round(float(metric[-1])))
-    even = np.linspace(0.0, 1.0, pieces + 1)
-    share = np.interp(even * metric[-1], metric, sampled.share) if metric[-1] > 0.0 else even
-    share[0], share[-1] = 0.0, 1.0
-    points = edge.curve.evaluate(edge.parameters(share), 0)[0].copy()
-    points[0], points[-1] = model.vertices[start].point, model.vertices[end].point
-    inner = following + np.arange(pieces - 1)
-    numbers = np.concatenate([[start], inner, [end]]).astype(np.int64)
-    sizes = np.interp(share, sampled.share, size)
-    return EdgeNodes(share, points, numbers, sizes)
+    share = np.arange(pieces + 1) / pieces
+    if metric[-1] > 0.0:
+        share = np.interp(share * metric[-1], metric, known)
+        share[0], share[-1] = 0.0, 1.0
+    place = np.empty((pieces + 1, 3))
+    if pieces > 1:
+        place[1:-1] = edge.curve.evaluate(edge.parameters(share[1:-1]), 0)[0]
+    place[0], place[-1] = model.vertices[start].point, model.vertices[end].point
+    numbers = np.arange(following - 1, following + pieces, dtype=np.int64)
+    numbers[0], numbers[-1] = start, end
+    return EdgeNodes(share, place, numbers, np.interp(share, known, size))

@@ -66,17 +66,6 @@ class FaceJob:
     """From earlier rounds."""
     optimise: bool = True
 
-    def same_as(self, other: "FaceJob | None") -> bool:
-        """Would the other give the same mesh?"""
-        if other is None or self.limits is not other.limits:
-            return False
-        mine = [piece for loop in self.loops for piece in loop]
-        theirs = [piece for loop in other.loops for piece in loop]
-        return len(mine) == len(theirs) and all(
-            np.array_equal(a.uv, b.uv) and np.array_equal(a.sizes, b.sizes)
-            for a, b in zip(mine, theirs)
-        )
-
 
 @dataclass(frozen=True)
 class FaceMesh:

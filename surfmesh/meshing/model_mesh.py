@@ -10,7 +10,8 @@ import numpy as np
 
 from surfmesh.cad.model import CadFace, CadModel
 from surfmesh.errors import MeshingError
-from surfmesh.meshing.edge_nodes import EdgeNodes, cut_edges, vertex_numbers
+from surfmesh.meshing.edge_nodes import EdgeNodes, cut_edges
+from surfmesh.meshing.edge_samples import EdgeSamples, sample_edges
 from surfmesh.meshing.face_job import FaceJob, FaceMesh, Piece, mesh_face
 from surfmesh.meshing.stages import Progress, Stopwatch
 from surfmesh.sizing.size_field import DEFAULT_CHORD, DEFAULT_MAX_SIZE
@@ -46,21 +47,28 @@ def mesh_model(
     """
     watch = Stopwatch(progress)
     sizing = with_defaults(sizing, model)
-    vertices = vertex_numbers(model)
+    with watch.stage("sizing"):
+        samples = sample_edges(model, sizing)
     limits: dict[int, SizeLimits] = {}
     jobs: list[FaceJob | None] = [None] * len(model.faces)
     done: list[FaceMesh] = [FaceMesh()] * len(model.faces)
+    nodes: list[EdgeNodes | None] = []
     for _ in range(ROUNDS):
+        before = nodes
         with watch.stage("sizing"):
-            nodes = cut_edges(model, sizing, limits)
+            nodes = cut_edges(model, sizing, samples, limits, before)
         with watch.stage("packing"):
             for number, face in enumerate(model.faces):
-                job = _job(model, face, nodes, vertices, sizing, limits.get(number), optimise)
-                if not job.same_as(jobs[number]):
-                    done[number] = mesh_face(job)
-                jobs[number] = job  # the nodes may have other numbers than before
+                job, limit = jobs[number], limits.get(number)
+                if (
+                    job is None
+                    or job.limits is not limit
+                    or any(nodes[c.edge] is not before[c.edge] for c in face.coedges)
+                ):
+                    jobs[number] = _job(model, face, nodes, samples, sizing, limit, optimise)
+                    done[number] = mesh_face(jobs[number])
         with watch.stage("mapping"):
-            mesh = _joined(model, jobs, done, nodes, sizing, watch)
+            mesh = _joined(model, jobs, done, nodes, samples, sizing, watch)
             wishes = {k: found.wishes for k, found in enumerate(done) if found.wishes is not None}
             _refine_crowded(mesh, sizing, wishes)
         if not wishes:
@@ -84,7 +92,7 @@ def _reason(model: CadModel, number: int, found: FaceMesh) -> str:
 
 
 def _job(
-    model: CadModel, face: CadFace, nodes: list[EdgeNodes | None], vertices: np.ndarray,
+    model: CadModel, face: CadFace, nodes: list[EdgeNodes | None], samples: EdgeSamples,
     sizing: Sizing, limits: SizeLimits | None, optimise: bool,
 ) -> FaceJob:  # fmt: skip
     loops = []
@@ -93,7 +101,7 @@ def _job(
         for coedge in loop:
             cut = nodes[coedge.edge]
             if cut is None:
-                vertex = int(vertices[model.edges[coedge.edge].start])
+                vertex = int(samples.vertex[model.edges[coedge.edge].start])
                 points = np.tile(model.vertices[vertex].point, (2, 1))
                 ends = coedge.walk(np.array([0.0, 1.0]))
                 numbers = np.full(2, vertex, np.int64)
@@ -128,7 +136,7 @@ def _orientation(model: CadModel) -> tuple[np.ndarray, np.ndarray]:
 
 def _joined(
     model: CadModel, jobs: list[FaceJob], done: list[FaceMesh], nodes: list[EdgeNodes | None],
-    sizing: Sizing, watch: Stopwatch,
+    samples: EdgeSamples, sizing: Sizing, watch: Stopwatch,
 ) -> SurfaceMesh:  # fmt: skip
     """Boundary nodes by their numbers, then the inner points of face after face."""
     edges = [(number, cut) for number, cut in enumerate(nodes) if cut is not None]
@@ -189,7 +197,7 @@ def _joined(
         solid_ids=solids[face_ids],
         edge_segments=segments[there],
         edge_ids=of[there],
-        vertex_ids=rank[vertex_numbers(model)],
+        vertex_ids=rank[samples.vertex],
         sizes=np.where(np.isfinite(sizes), sizes, model.diagonal)[used],
         sizing=sizing,
         seconds=watch.seconds,

@@ -1,0 +1,95 @@
+"""Edges of CAD models: what they ask for, and how they are cut."""
+
+import cadquery as cq
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+import surfmesh as sm
+from surfmesh.kernels.edge_gaps import edge_gaps
+from surfmesh.meshing.edge_nodes import cut_edges
+from surfmesh.meshing.edge_samples import sample_edges
+from surfmesh.meshing.model_mesh import with_defaults
+from surfmesh.sizing.size_limits import SizeLimits
+
+
+def naive_gaps(points, wish, first, ends, edges, first_of_face):
+    """The smallest distance to any segment of any other edge of a face, all pairs tried."""
+    gap = np.full(len(points), np.inf)
+    for face in range(len(first_of_face) - 1):
+        own = edges[first_of_face[face] : first_of_face[face + 1]]
+        for a in own:
+            for b in own:
+                if a == b or set(ends[a]) & set(ends[b]):
+                    continue
+                for p in range(first[a], first[a + 1]):
+                    for q in range(first[b], first[b + 1] - 1):
+                        along = points[q + 1] - points[q]
+                        square = along @ along
+                        t = np.clip((points[p] - points[q]) @ along / square, 0, 1) if square else 0
+                        d = np.linalg.norm(points[p] - points[q] - t * along)
+                        if d < wish[p]:
+                            gap[p] = min(gap[p], d)
+    return gap
+
+
+@given(seed=st.integers(0, 1000))
+def test_gaps_are_those_of_all_pairs(seed):
+    draw = np.random.default_rng(seed)
+    first = np.cumsum([0, *draw.integers(2, 6, size=5)])
+    points = draw.normal(size=(first[-1], 3))
+    wish = draw.uniform(0.1, 3.0, size=first[-1])
+    ends = draw.integers(0, 6, size=(5, 2))
+    edges = np.array([0, 1, 2, 4, 3, 1, 2])
+    first_of_face = np.array([0, 4, 4, 7])
+    gap = np.full(len(points), np.inf)
+    edge_gaps(
+        points, wish, first, ends, edges, first_of_face,
+        np.empty((len(points), 6)), np.empty((5, 6)), gap,
+    )  # fmt: skip
+    expected = naive_gaps(points, wish, first, ends, edges, first_of_face)
+    assert np.allclose(gap, expected, rtol=1e-12, equal_nan=True)
+
+
+@pytest.fixture(scope="module")
+def plate():
+    """A slot 0.2 from the long side of a plate."""
+    model = sm.from_cadquery(
+        cq.Workplane().box(40, 20, 4).workplane().center(0, 6.3).slot2D(20, 7).cutThruAll()
+    )
+    sizing = with_defaults(sm.Sizing(size=2.0), model)
+    return model, sizing, sample_edges(model, sizing)
+
+
+def test_edges_beside_a_gap_are_cut_finer(plate):
+    model, sizing, samples = plate
+    nodes = cut_edges(model, sizing, samples, {})
+    finest = min(cut.sizes.min() for cut in nodes)
+    assert 0.19 < finest < 0.21
+    assert max(cut.sizes.max() for cut in nodes) > 1.5
+
+
+def test_sizes_grow_no_faster_than_asked(plate):
+    model, sizing, samples = plate
+    for cut in cut_edges(model, sizing, samples, {}):
+        step = np.linalg.norm(np.diff(cut.points, axis=0), axis=1)
+        # interpolated between samples: a little more at kinks
+        assert (np.abs(np.diff(cut.sizes)) <= 1.1 * sizing.gradient * step + 1e-12).all()
+
+
+def test_edges_out_of_reach_of_a_limit_stay_the_same_objects(plate):
+    model, sizing, samples = plate
+    before = cut_edges(model, sizing, samples, {})
+    corner = model.vertices[0].point
+    faces = [k for k, face in enumerate(model.faces) if any(
+        0 in (model.edges[c.edge].start, model.edges[c.edge].end) for c in face.coedges
+    )]  # fmt: skip
+    limit = SizeLimits(corner[None], np.array([0.5]), sizing.gradient)
+    after = cut_edges(model, sizing, samples, dict.fromkeys(faces, limit), before)
+    changed = [k for k, cut in enumerate(after) if cut is not before[k]]
+    assert 0 < len(changed) < len(after)
+    numbers = np.concatenate([cut.numbers[1:-1] for cut in after])
+    assert len(np.unique(numbers)) == len(numbers)
+    near = [k for k, e in enumerate(model.edges) if 0 in (e.start, e.end)]
+    assert set(near) <= set(changed)
