@@ -11,7 +11,7 @@ while each triangle keeps the surface parameters of its corners on its own face.
 """
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field, fields
+from dataclasses import dataclass, field, fields, replace
 from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -162,6 +162,10 @@ class SurfaceMesh:
             if low < 0 or high >= len(self.surfaces):
                 return f"face_ids run from {low} to {high}, surfaces are {len(self.surfaces)}"
         return None
+
+    def with_warnings(self, *more: str) -> "SurfaceMesh":
+        """The same mesh with more to say about it; itself, when there is nothing."""
+        return replace(self, warnings=(*self.warnings, *more)) if more else self
 
     def save(self, path: str | Path) -> Path:
         """Write to ``path``, format by extension; see ``surfmesh.io.save``."""

@@ -13,6 +13,7 @@ from surfmesh.errors import MeshingError
 from surfmesh.meshing.edge_nodes import EdgeNodes, cut_edges
 from surfmesh.meshing.edge_samples import EdgeSamples, sample_edges
 from surfmesh.meshing.face_job import FaceJob, FaceMesh, Piece, mesh_face
+from surfmesh.meshing.solid_contents import Contents
 from surfmesh.meshing.stages import Progress, Stopwatch
 from surfmesh.sizing.size_field import DEFAULT_CHORD, DEFAULT_MAX_SIZE
 from surfmesh.sizing.size_limits import SizeLimits
@@ -49,6 +50,7 @@ def mesh_model(
     sizing = with_defaults(sizing, model)
     with watch.stage("sizing"):
         samples = sample_edges(model, sizing)
+    contents = Contents(model, sizing.chord, sizing.gradient)
     limits: dict[int, SizeLimits] = {}
     jobs: list[FaceJob | None] = [None] * len(model.faces)
     done: list[FaceMesh] = [FaceMesh()] * len(model.faces)
@@ -71,6 +73,8 @@ def mesh_model(
             mesh = _joined(model, jobs, done, nodes, samples, sizing, watch)
             wishes = {k: found.wishes for k, found in enumerate(done) if found.wishes is not None}
             _refine_crowded(mesh, sizing, wishes)
+            for number, wish in contents.wishes(mesh).items():
+                wishes[number] = wish.joined_with(wishes.get(number))
         if not wishes:
             break
         for number, wish in wishes.items():
@@ -83,7 +87,19 @@ def mesh_model(
             + (f"; and {len(failed) - 5} more" if len(failed) > 5 else "")
             + ". Lower the sizes, repair the faces, or use strict=False to get the others"
         )
-    return mesh
+    return mesh.with_warnings(*_left_over(model, wishes), *contents.warnings())
+
+
+def _left_over(model: CadModel, wishes: dict[int, SizeLimits]) -> list[str]:
+    """What is said of faces that would need another round."""
+    if not wishes:
+        return []
+    names = [f"{k} ({model.faces[k].name or model.faces[k].kind})" for k in sorted(wishes)]
+    more = f" and {len(names) - 5} more" if len(names) > 5 else ""
+    return [
+        f"after {ROUNDS} rounds smaller sizes are still asked for on faces "
+        f"{', '.join(names[:5])}{more}"
+    ]
 
 
 def _reason(model: CadModel, number: int, found: FaceMesh) -> str:
