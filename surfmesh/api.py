@@ -47,6 +47,7 @@ def mesh(
     optimise: bool = True,
     progress: Progress | None = None,
     strict: bool = True,
+    simplify: bool = False,
 ) -> SurfaceMesh:
     """Triangulate a surface, or a CAD model (or whatever CadQuery object makes one).
 
@@ -54,13 +55,15 @@ def mesh(
     surface's formula file, or sensible ones. optimise=False gives the raw packing with its
     boundary, as in the paper. progress: called with (stage, share done). strict=False: faces of
     a CAD model that cannot be meshed are left out and listed in the mesh's ``warnings``.
+    simplify=True: tiny edges of a CAD model are collapsed, those below ``min_size`` or a
+    two-thousandth of the diagonal; topology is kept.
 
     Raises ``SizingError``, ``SurfaceError`` or ``MeshingError`` with the place and the reason.
     """
     if not isinstance(surface, (CadModel, Surface)) and _is_cad(surface):
         surface = from_cadquery(surface)
     if isinstance(surface, CadModel):
-        return mesh_model(surface, Sizing.of(sizing), optimise, progress, strict)
+        return mesh_model(surface, Sizing.of(sizing), optimise, progress, strict, simplify)
     if not isinstance(surface, Surface):
         raise SurfaceError(f"cannot mesh a {type(surface).__name__}: a Surface is needed")
     if sizing is None:

@@ -39,7 +39,8 @@ def mesh(options: Namespace) -> bool:
             Sizing(**given) if given else None,
             optimise=not options.no_optimise,
             progress=progress,
-            **({"strict": False} if options.no_strict else {}),
+            strict=not options.no_strict,
+            simplify=options.simplify,
         )
         progress("check", 0.92)
         report = checked(result)

@@ -21,7 +21,8 @@ STRAIGHT_SAMPLES, CURVED_SAMPLES = 33, 129
 _STRAIGHT, _CURVED = (np.linspace(0.0, 1.0, n) for n in (STRAIGHT_SAMPLES, CURVED_SAMPLES))
 
 NARROWEST = 5e-4
-"""Gaps narrower than this share of the diagonal do not ask for smaller sizes by themselves."""
+"""Gaps narrower and edges shorter than this share of the diagonal do not ask for still smaller
+sizes by themselves: the mesh would be flooded by what is too small to matter."""
 
 COLLAPSED = 2e-6
 """Edges shorter than this share of the diagonal are one point: their faces meet in it."""
@@ -91,7 +92,7 @@ def sample_edges(model: CadModel, sizing: Sizing) -> EdgeSamples:
         vertex_numbers(model),
         edges_of_face,
     )
-    _heed_gaps(model, samples)
+    _heed_gaps(model, samples, sizing.min_size or 0.0)
     return samples
 
 
@@ -115,7 +116,7 @@ def _sampled(
     model: CadModel, edge: CadEdge, uses: list[tuple[CadFace, CadCoedge]], sizing: Sizing
 ) -> tuple[np.ndarray, np.ndarray, np.ndarray, float]:
     """share (n,), points (n, 3), wish (n,), turn."""
-    coarsest = min(sizing.max_size or np.inf, edge.length if edge.length > 0.0 else np.inf)
+    coarsest = min(sizing.max_size or np.inf, max(edge.length, NARROWEST * model.diagonal))
     if isinstance(sizing.size, float):
         coarsest = min(coarsest, sizing.size)
     follows_curvature = sizing.chord is not None or sizing.angle is not None
@@ -174,7 +175,7 @@ def _face_wish(surface, uv: np.ndarray, sizing: Sizing) -> np.ndarray:
     return wish
 
 
-def _heed_gaps(model: CadModel, samples: EdgeSamples) -> None:
+def _heed_gaps(model: CadModel, samples: EdgeSamples, least: float) -> None:
     """Lower the wishes, in place, to the distance of edges of the same face that do not meet."""
     first = np.zeros(len(model.faces) + 1, np.int64)
     np.cumsum([len(edges) for edges in samples.edges_of_face], out=first[1:])
@@ -186,6 +187,6 @@ def _heed_gaps(model: CadModel, samples: EdgeSamples) -> None:
         samples.points, samples.wish, samples.first, ends, np.concatenate(samples.edges_of_face),
         first, np.empty((len(gap), 6)), np.empty((len(model.edges), 6)), gap,
     )  # fmt: skip
-    narrowest = NARROWEST * model.diagonal
-    floor = np.minimum(narrowest, samples.wish)
-    np.minimum(samples.wish, np.maximum(gap, floor), out=samples.wish)
+    heeded = gap >= NARROWEST * model.diagonal
+    wish = np.maximum(gap[heeded], least)
+    samples.wish[heeded] = np.minimum(samples.wish[heeded], wish)

@@ -16,7 +16,7 @@ from surfmesh.geometry.surface import Surface
 from surfmesh.kernels.background import scalar_sizes_at
 from surfmesh.meshing.boundary_loops import BoundaryLoops, cut_line
 from surfmesh.meshing.boundary_recovery import recovered
-from surfmesh.meshing.gluing import glued
+from surfmesh.meshing.gluing import glued, misglued
 from surfmesh.meshing.optimise import Optimiser
 from surfmesh.meshing.packing import packed
 from surfmesh.sizing.boundary_field import boundary_field, has_boundary_field
@@ -65,6 +65,11 @@ class FaceJob:
     limits: SizeLimits | None = None
     """From earlier rounds."""
     optimise: bool = True
+
+    def __post_init__(self) -> None:
+        if self.limits is not None and self.limits.essential and self.sizing.min_size:
+            least = min(self.sizing.min_size, float(self.limits.sizes.min()))
+            object.__setattr__(self, "sizing", self.sizing.replaced(min_size=least))
 
 
 @dataclass(frozen=True)
@@ -154,6 +159,12 @@ def _meshed(job: FaceJob) -> FaceMesh:
     sizes = np.empty(len(parts.place))
     scalar_sizes_at(field.background, xy[parts.place], sizes)
     sizes *= optimiser.embedding.scale[parts.place]
+    bad = misglued(parts)
+    if len(bad):
+        finer = FINER * sizes[bad]
+        wishes = SizeLimits(parts.points[bad], finer, job.sizing.gradient, essential=True)
+        place = ", ".join(f"{x:.6g}" for x in parts.points[bad[0]])
+        return FaceMesh(failure=f"its sides cannot be joined near ({place})", wishes=wishes)
     return FaceMesh(
         parts.points, slot[parts.place], parts.triangles, parts.uv_points, parts.uv_triangles,
         sizes, wishes,

@@ -4,10 +4,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from surfmesh.connectivity import connect
 from surfmesh.geometry.surface import Surface
 from surfmesh.meshing.boundary_loops import BoundaryLoops
 from surfmesh.meshing.boundary_recovery import DomainMesh
-from surfmesh.surface_mesh import SurfaceMesh
 
 
 @dataclass(frozen=True)
@@ -71,15 +71,15 @@ def vertices_minus_edges_plus_faces(t, corners: np.ndarray, vertices: int) -> in
     return vertices - (3 * len(corners) + border) // 2 + len(corners)
 
 
-def misglued(mesh: SurfaceMesh, glued: Glued) -> np.ndarray:
+def misglued(glued: Glued) -> np.ndarray:
     """Points (k,) where gluing has not made a surface: the sizes there are too coarse.
 
     Empty when every edge has at most two triangles and Euler's number is as it must be.
     """
-    table = mesh.connectivity
+    table = connect(glued.triangles)
     crowded = table.edges[table.uses > 2]
-    euler = len(mesh.points) - len(table.edges) + len(mesh.triangles)
+    euler = len(glued.points) - len(table.edges) + len(glued.triangles)
     bad = np.union1d(crowded, glued.pinched)
     if not len(bad) and euler != glued.euler:
-        bad = np.arange(len(mesh.points))
+        bad = np.arange(len(glued.points))
     return bad.astype(np.int64)

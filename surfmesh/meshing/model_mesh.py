@@ -13,6 +13,7 @@ from surfmesh.errors import MeshingError
 from surfmesh.meshing.edge_nodes import EdgeNodes, cut_edges
 from surfmesh.meshing.edge_samples import EdgeSamples, sample_edges
 from surfmesh.meshing.face_job import FaceJob, FaceMesh, Piece, mesh_face
+from surfmesh.meshing.simplification import LEAST, simplified
 from surfmesh.meshing.solid_contents import Contents
 from surfmesh.meshing.stages import Progress, Stopwatch
 from surfmesh.sizing.size_field import DEFAULT_CHORD, DEFAULT_MAX_SIZE
@@ -39,10 +40,12 @@ def with_defaults(sizing: Sizing, model: CadModel) -> Sizing:
 
 def mesh_model(
     model: CadModel, sizing: Sizing, optimise: bool = True, progress: Progress | None = None,
-    strict: bool = True,
+    strict: bool = True, simplify: bool = False,
 ) -> SurfaceMesh:  # fmt: skip
     """Mesh all faces of a model; neighbours share the nodes of their common edges.
 
+    simplify=True collapses what is shorter than ``min_size``, or else than a two-thousandth of
+    the diagonal, at the end.
     strict=False delivers what could be meshed and lists the other faces in ``warnings``.
     Raises ``MeshingError`` that names the faces that could not be meshed, with the reasons.
     """
@@ -87,7 +90,8 @@ def mesh_model(
             + (f"; and {len(failed) - 5} more" if len(failed) > 5 else "")
             + ". Lower the sizes, repair the faces, or use strict=False to get the others"
         )
-    return mesh.with_warnings(*_left_over(model, wishes), *contents.warnings())
+    mesh = mesh.with_warnings(*_left_over(model, wishes), *contents.warnings())
+    return simplified(mesh, sizing.min_size or LEAST * model.diagonal) if simplify else mesh
 
 
 def _left_over(model: CadModel, wishes: dict[int, SizeLimits]) -> list[str]:

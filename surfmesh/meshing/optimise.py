@@ -177,8 +177,10 @@ class Optimiser:
     ) -> SizeLimits:
         """The field's sizes at the corners of ``triangles`` (n,) times ``factor``.
 
-        Only where that is smaller than now: not below ``least``, which no mesh needs.
+        Only where that is smaller than now: not below ``least``, which no mesh needs, nor
+        below ``min_size``.
         """
+        least = max(least, self.field.sizing.min_size or 0.0)
         corners = self.t.tri.reshape(-1, 3)[triangles]
         now = self.embedding.size[corners] / self.embedding.scale[corners]
         sizes = np.maximum((now.T * factor).T, least)

@@ -94,7 +94,7 @@ def _one_round(
         mesh, parts = _in_space(surface, sides, field, loops, domain, scale, watch)
         bad = np.empty(0, np.int64)
         if (loops.identity != np.arange(len(loops.identity))).any():
-            bad = misglued(mesh, parts)
+            bad = misglued(parts)
             if len(bad):
                 sizes = FINER * mesh.sizes[bad]
                 wishes.append(SizeLimits(mesh.points[bad], sizes, field.sizing.gradient))

@@ -19,6 +19,8 @@ class SizeLimits:
     slope: float
     uv: np.ndarray | None = None
     """(k, 2) parameters of the points: the field is made fine enough there to see them all."""
+    essential: bool = False
+    """Without them there is no mesh: they go below ``min_size`` too."""
 
     def __call__(self, points: np.ndarray) -> np.ndarray:
         """Largest size (n,) at points (n, 3)."""
@@ -38,4 +40,5 @@ class SizeLimits:
             np.concatenate([self.sizes, other.sizes]),
             self.slope,
             np.concatenate([self.uv, other.uv]) if both else None,
+            self.essential or other.essential,
         )

@@ -138,3 +138,11 @@ def test_step_file_on_the_command_line(tmp_path):
     cq.exporters.export(cq.Workplane().box(1, 2, 3).faces(">Z").workplane().hole(0.5), str(part))
     assert main(["mesh", str(part), "-o", str(out), "--max-size", "0.5"]) == 0
     assert out.exists()
+
+
+def test_a_bore_finer_than_min_size_stays_open():
+    """Its side is a tube of a few triangles round: it was closed at both ends instead."""
+    bored = cq.Workplane().box(10, 10, 10).faces(">Z").workplane().hole(0.2)
+    mesh = sm.mesh(sm.from_cadquery(bored), sm.Sizing(size=2.0, min_size=1.0))
+    report = sm.check(mesh)
+    assert report.closed and report.manifold and report.euler == 0
