@@ -45,19 +45,20 @@ def part_of(place: str):
 
 
 def _ours(request: dict) -> dict:
-    import surfmesh as sm
     from brep_facts import solid_facts
     from cad_measures import shape_figures, solid_figures
 
+    import surfmesh as sm
     from surfmesh.meshing.model_mesh import with_defaults
     from surfmesh.quality.deviation import deviation
     from surfmesh.quality.shape import shapes
     from surfmesh.quality.solids import solid_mesh
     from surfmesh.surface_mesh import NOT_MESHED
 
-    start = perf_counter()
     place = request["place"]
-    model = sm.from_cadquery(part_of(place)) if is_part(place) else sm.load(place)
+    shape = part_of(place) if is_part(place) else None
+    start = perf_counter()
+    model = sm.load(place) if shape is None else sm.from_cadquery(shape)
     read = perf_counter() - start
     sizing = with_defaults(sm.Sizing(), model)
     known = {
@@ -122,8 +123,10 @@ def _gmsh(request: dict) -> dict:
 def _ocp(request: dict) -> dict:
     import cad_ocp
 
-    place, start = request["place"], perf_counter()
-    shape = part_of(place).wrapped if is_part(place) else cad_ocp.shape_of(Path(place))
+    place = request["place"]
+    made = part_of(place).wrapped if is_part(place) else None
+    start = perf_counter()
+    shape = made or cad_ocp.shape_of(Path(place))
     read = perf_counter() - start
     return {"seconds_read": read, **cad_ocp.measured(shape, request["chord"])}
 
