@@ -140,7 +140,7 @@ def _answer(request: dict) -> dict:
         return WORK[request["mesher"]](request)
     except Exception as error:
         reason = f"{type(error).__name__}: {error}".strip().splitlines()[0]
-        return {**request.get("known", {}), "error": reason[:300], "ended": "refusal"}
+        return {"error": reason[:300], "ended": "refusal"}
 
 
 if __name__ == "__main__":

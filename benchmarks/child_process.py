@@ -1,7 +1,7 @@
 """Work that needs a process of its own: memory to be measured, meshers that may crash or hang.
 
-A script that is run so reads one JSON object from its standard input and prints one as the last
-line of its standard output. It may print others before: what is known so far, should it end early.
+A script that is run so reads one JSON object from its standard input and prints one, on a line of
+its own, on its standard output. It may print others before: what is known should it end early.
 """
 
 import json
@@ -16,7 +16,7 @@ from pathlib import Path
 def run(script: str, request: dict, timeout: float) -> dict:
     """What ``script`` (a file of this folder) answers.
 
-    When it fails: what it had said before, with "error": the reason, and "ended": "hang",
+    When it fails: what it has said before, with "error": the reason, and "ended": "hang",
     "crash" (by a signal) or "failure". Processes that it started end with it.
     """
     command = [sys.executable, str(Path(__file__).with_name(script))]
@@ -31,14 +31,14 @@ def run(script: str, request: dict, timeout: float) -> dict:
         out, _ = child.communicate()
         if not isinstance(error, subprocess.TimeoutExpired):
             raise
-        return {**_last(out), "error": f"not done within {timeout:.0f} s", "ended": "hang"}
+        return {**_said(out), "error": f"not done within {timeout:.0f} s", "ended": "hang"}
     if child.returncode < 0:
         name = signal.Signals(-child.returncode).name
-        return {**_last(out), "error": f"crashed ({name})", "ended": "crash"}
+        return {**_said(out), "error": f"crashed ({name})", "ended": "crash"}
     if child.returncode:
         said = err.strip().splitlines() or [f"exit status {child.returncode}"]
-        return {**_last(out), "error": said[-1][:200], "ended": "failure"}
-    return _last(out) or {"error": "no answer", "ended": "failure"}
+        return {**_said(out), "error": said[-1][:200], "ended": "failure"}
+    return _said(out) or {"error": "no answer", "ended": "failure"}
 
 
 def _end(child: subprocess.Popen) -> None:
@@ -49,15 +49,16 @@ def _end(child: subprocess.Popen) -> None:
         child.kill()
 
 
-def _last(out: str) -> dict:
-    """The last line that is JSON: libraries talk, and what they say may come late."""
-    for line in reversed(out.splitlines()):
+def _said(out: str) -> dict:
+    """All lines that are JSON objects as one, the later ones count; libraries talk in between."""
+    known = {}
+    for line in out.splitlines():
         if line.startswith("{"):
             try:
-                return json.loads(line)
+                known.update(json.loads(line))
             except json.JSONDecodeError:
                 continue
-    return {}
+    return known
 
 
 def say(what: dict) -> None:
