@@ -14,6 +14,8 @@ ATTEMPTS = 3
 NEAR = 1.15  # ratio of the numbers of triangles that is good enough
 FIRST_RADIUS = 0.05  # of the diagonal: the elements a circle of the first attempt fit this one
 FEWEST, MOST = 4.0, 200.0  # elements a circle
+SAMPLED = 1000  # triangles whose distance from the surface is looked at
+SAMPLE_SECONDS = 15.0
 OPTIONS = {
     "General.Terminal": 0,
     "General.NumThreads": 1,
@@ -32,8 +34,12 @@ def measured(file: str, request: dict, say: Callable[[dict], None]) -> dict:
         gmsh.option.setNumber(option, value)
     gmsh.logger.start()
     start = perf_counter()
-    gmsh.model.occ.importShapes(file)
-    gmsh.model.occ.synchronize()
+    try:
+        gmsh.model.occ.importShapes(file)
+        gmsh.model.occ.synchronize()
+    except Exception as error:  # its own text may be empty
+        said = [str(error), *reversed(gmsh.logger.get()), "no reason given"]
+        raise RuntimeError(f"not read by gmsh: {next(filter(None, said))}") from None
     known = {"seconds_read": perf_counter() - start, "faces": len(gmsh.model.getEntities(2))}
     gmsh.option.setNumber("Mesh.MeshSizeMax", request["max_size"])
     wanted = request.get("wanted")
@@ -41,7 +47,7 @@ def measured(file: str, request: dict, say: Callable[[dict], None]) -> dict:
     tried, best, circle = [], {}, float(np.pi * circle)
     for _ in range(ATTEMPTS if wanted else 1):
         start = perf_counter()
-        found = {**known, **_attempt(circle)}
+        found = {**known, **_attempt(circle, request["chord"])}
         tried.append((circle, found["triangles"]))
         found["attempts"] = tried
         if not best or _miss(found, wanted) < _miss(best, wanted):
@@ -74,7 +80,7 @@ def _next(tried: list, wanted: int) -> float:
     return float(np.clip(np.exp(circle + step), FEWEST, MOST))
 
 
-def _attempt(circle: float) -> dict:
+def _attempt(circle: float, chord: float) -> dict:
     """One mesh and its figures."""
     gmsh.model.mesh.clear()
     gmsh.logger.stop()
@@ -103,6 +109,7 @@ def _attempt(circle: float) -> dict:
     return {
         **shape_figures(shapes(own_vertices(points, everything))),
         "solids": _solids(points, of_face),
+        **_deviation(points, of_face, chord),
         "seconds_mesh": seconds,
         "circle": circle,
         "failed": len(failed),
@@ -123,3 +130,27 @@ def _solids(points: np.ndarray, of_face: dict[int, np.ndarray]) -> list[dict]:
         figures = solid_figures(own_vertices(points, triangles)) if len(triangles) else {}
         solids.append({**figures, "volume_exact": exact})
     return solids
+
+
+def _deviation(points: np.ndarray, of_face: dict[int, np.ndarray], chord: float) -> dict:
+    """Distance of centroids and middles of sides from the surface, of a random sample: each
+    closest point is sought by OpenCASCADE, which takes its time."""
+    faces = [face for face, corners in of_face.items() if len(corners)]
+    if not faces:
+        return {}
+    corners = np.concatenate([of_face[face] for face in faces])
+    face_of = np.repeat(faces, [len(of_face[face]) for face in faces])
+    chosen = np.random.default_rng(0).permutation(len(corners))[:SAMPLED]
+    p = points[corners[chosen]]
+    places = np.stack([p.mean(axis=1), *(0.5 * (p[:, k] + p[:, k - 1]) for k in range(3))], axis=1)
+    start, far = perf_counter(), []
+    for face, samples in zip(face_of[chosen], places):
+        nearest, _ = gmsh.model.getClosestPoint(2, int(face), samples.ravel())
+        far.append(np.linalg.norm(samples - nearest.reshape(-1, 3), axis=1).max())
+        if perf_counter() - start > SAMPLE_SECONDS:
+            break
+    return {
+        "sampled": len(far),
+        "sampled_above": int(np.count_nonzero(np.array(far) > chord * (1 + 1e-9))),
+        "sampled_max": float(max(far)),
+    }

@@ -14,7 +14,7 @@ from wanted import Wanted
 
 ENOUGH = 0.005  # relative error of volumes and areas
 NAMES_SHOWN = 12
-WIDTH = 190  # of the table of models
+WIDTH = 210  # of the table of models
 
 
 def show(records: list[dict]) -> int:
@@ -50,6 +50,7 @@ def _by_model(records: Iterable[dict]) -> dict[str, dict[str, dict]]:
         facts = (found.get("ours") or found.get("facts") or {}).get("facts", [])
         chord = next((r["chord"] for r in found.values() if "chord" in r), 0.0)
         for mesher, record in found.items():
+            record["chord"] = chord
             record["judged"] = _judged(record.get("solids"), facts, chord, mesher == "ours")
     return models
 
@@ -155,7 +156,20 @@ def _totals(records: list[dict], models: dict) -> dict:
             abs(record["area"] / record["area_exact"] - 1.0) <= ENOUGH for record in records
             if "area_exact" in record and "area" in record
         )  # fmt: skip
+    sampled = [record for record in meshed if "sampled" in record]
+    if sampled:
+        above = sum(record["sampled_above"] * _weight(record) for record in sampled)
+        figures["within_chord"] = 1.0 - above / sum(record["triangles"] for record in sampled)
+        figures["worst"] = max(record["sampled_max"] / record["chord"] for record in sampled)
+        figures["too_far"] = sum(
+            record["sampled_max"] > 1.5 * record["chord"] for record in sampled
+        )
     return figures
+
+
+def _weight(record: dict) -> float:
+    """Triangles that one of the sample stands for."""
+    return record["triangles"] / record["sampled"]
 
 
 def _shape(records: list[dict]) -> dict:
@@ -261,6 +275,9 @@ def _cells(record: dict) -> list[str]:
     if "above_chord" in record:
         deviation = f"{record['deviation_max'] / record['chord']:.2f}"
         above = f"{100 * record['above_chord'] / record['triangles']:.2f} %"
+    if "sampled" in record:
+        deviation = f"~{record['sampled_max'] / record['chord']:.2f}"
+        above = f"~{100 * record['sampled_above'] / record['sampled']:.2f} %"
     return [
         str(record["faces"]),
         str(record["failed"]),

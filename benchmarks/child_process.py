@@ -19,7 +19,7 @@ def run(script: str, request: dict, timeout: float) -> dict:
     When it fails: what it has said before, with "error": the reason, and "ended": "hang",
     "crash" (by a signal) or "failure". Processes that it started end with it.
     """
-    command = [sys.executable, str(Path(__file__).with_name(script))]
+    command = [sys.executable, str(Path(__file__).parent / script)]
     child = subprocess.Popen(
         command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=subprocess.PIPE,
         text=True, errors="replace", start_new_session=True,
