@@ -5,7 +5,14 @@ from time import perf_counter
 
 import gmsh
 import numpy as np
-from cad_measures import own_vertices, shape_figures, solid_figures, without_collapsed
+from cad_measures import (
+    clocks,
+    own_vertices,
+    shape_figures,
+    solid_figures,
+    spent,
+    without_collapsed,
+)
 
 from surfmesh.quality.shape import shapes
 
@@ -75,7 +82,7 @@ def _next(tried: list, wanted: int) -> float:
     power = 2.0
     if len(tried) > 1:
         before, then = np.log([tried[-2][0], max(tried[-2][1], 1)])
-        power = float(np.clip((count - then) / (circle - before), 0.5, 2.0))
+        power = float(np.clip((count - then) / (circle - before), 1.0, 2.0))
     step = np.clip((np.log(wanted) - count) / power, -1.5, 1.5)
     return float(np.clip(np.exp(circle + step), FEWEST, MOST))
 
@@ -86,13 +93,13 @@ def _attempt(circle: float, chord: float) -> dict:
     gmsh.logger.stop()
     gmsh.logger.start()
     gmsh.option.setNumber("Mesh.MeshSizeFromCurvature", circle)
-    start = perf_counter()
+    start = clocks()
     error = ""
     try:
         gmsh.model.mesh.generate(2)
     except Exception as raised:  # what is meshed is there all the same
         error = str(raised)
-    seconds = perf_counter() - start
+    seconds = clocks() - start
     errors = [line for line in gmsh.logger.get() if line.startswith("Error")]
     tags, points, _ = gmsh.model.mesh.getNodes()
     order = np.argsort(tags)
@@ -110,7 +117,7 @@ def _attempt(circle: float, chord: float) -> dict:
         **shape_figures(shapes(own_vertices(points, everything))),
         "solids": _solids(points, of_face),
         **_deviation(points, of_face, chord),
-        "seconds_mesh": seconds,
+        **spent(seconds),
         "circle": circle,
         "failed": len(failed),
         "failed_faces": failed,

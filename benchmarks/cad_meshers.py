@@ -17,7 +17,7 @@ from time import perf_counter
 import child_process
 import numpy as np
 
-AGAIN = 8.0  # seconds up to which our mesh is made twice, the second time with warm kernels
+AGAIN = 8.0  # processor seconds up to which our mesh is made twice, then with warm kernels
 
 
 def run(mesher: str, place: str, timeout: float, **wishes: object) -> dict:
@@ -46,7 +46,7 @@ def part_of(place: str):
 
 def _ours(request: dict) -> dict:
     from brep_facts import solid_facts
-    from cad_measures import shape_figures, solid_figures
+    from cad_measures import clocks, shape_figures, solid_figures, spent
 
     import surfmesh as sm
     from surfmesh.meshing.model_mesh import with_defaults
@@ -77,12 +77,12 @@ def _ours(request: dict) -> dict:
     child_process.say(known)
     if request["mesher"] == "facts":
         return known
-    seconds = np.inf
+    seconds = np.full(2, np.inf)
     for _ in range(2):
-        start = perf_counter()
+        begin = clocks()
         mesh = sm.mesh(model, strict=False)
-        seconds = min(seconds, perf_counter() - start)
-        if seconds > AGAIN:
+        seconds = np.minimum(seconds, clocks() - begin)
+        if seconds[1] > AGAIN:
             break
     start = perf_counter()
     shape = shapes(mesh)
@@ -94,7 +94,7 @@ def _ours(request: dict) -> dict:
         **known,
         **shape_figures(shape),
         "solids": [solid_figures(solid_mesh(mesh, k)) for k in range(len(model.solids))],
-        "seconds_mesh": seconds,
+        **spent(seconds),
         "seconds_by_stage": dict(mesh.seconds),
         "deviation_max": fit.largest,
         "deviation_of_face": int(mesh.face_ids[fit.triangle]),

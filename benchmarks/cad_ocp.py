@@ -1,10 +1,16 @@
 """OpenCASCADE's own tessellation, which shows shapes on a screen, as a mesh."""
 
 from pathlib import Path
-from time import perf_counter
 
 import numpy as np
-from cad_measures import own_vertices, shape_figures, solid_figures, without_collapsed
+from cad_measures import (
+    clocks,
+    own_vertices,
+    shape_figures,
+    solid_figures,
+    spent,
+    without_collapsed,
+)
 from OCP.BRep import BRep_Builder, BRep_Tool
 from OCP.BRepGProp import BRepGProp
 from OCP.BRepMesh import BRepMesh_IncrementalMesh
@@ -38,9 +44,9 @@ def shape_of(path: Path) -> TopoDS_Shape:
 
 def measured(shape: TopoDS_Shape, chord: float) -> dict:
     """The mesh of ``shape`` and its figures; nodes are joined where coordinates are equal."""
-    start = perf_counter()
+    start = clocks()
     BRepMesh_IncrementalMesh(shape, chord, False, ANGLE, False)
-    seconds = perf_counter() - start
+    seconds = clocks() - start
     faces = TopTools_IndexedMapOfShape()
     TopExp.MapShapes_s(shape, TopAbs_FACE, faces)
     every = [_triangles(TopoDS.Face_s(faces.FindKey(k + 1))) for k in range(faces.Extent())]
@@ -53,7 +59,7 @@ def measured(shape: TopoDS_Shape, chord: float) -> dict:
         "faces": faces.Extent(),
         **shape_figures(shapes(_joined(every))),
         "solids": solids,
-        "seconds_mesh": seconds,
+        **spent(seconds),
         "failed": sum(not len(corners) for corners in every),
         "reasons": [],
     }

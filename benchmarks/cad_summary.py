@@ -178,7 +178,7 @@ def _shape(records: list[dict]) -> dict:
     if not count:
         return {}
     faces = sum(record["faces"] for record in records)
-    seconds = sum(record["seconds_mesh"] for record in records)
+    seconds = sum(record["cpu_mesh"] for record in records)
     return {
         "triangles": count,
         "alpha_mean": fmean(record["alpha_mean"] for record in records),
@@ -186,6 +186,7 @@ def _shape(records: list[dict]) -> dict:
         "alpha_min": min(record["alpha_min"] for record in records),
         "poor": sum(record["poor"] for record in records) / count,
         "ms_a_face": 1e3 * seconds / faces,
+        "wall": 1e3 * sum(record["seconds_mesh"] for record in records) / faces,
         "triangles_a_second": count / seconds,
         "read": 1e3 * sum(record["seconds_read"] for record in records) / faces,
     }
@@ -238,9 +239,10 @@ def _wanted_beside(gmsh: dict, judged: bool = True) -> dict[str, Wanted]:
         "poor": Wanted(
             f"triangles with alpha < {POOR}", most=bound.get("poor"), percent=True, digits=4
         ),
-        "ms_a_face": Wanted("milliseconds a face, meshing", most=bound.get("ms_a_face"), digits=2),
+        "ms_a_face": Wanted("processor ms a face, meshing", most=bound.get("ms_a_face"), digits=2),
+        "wall": Wanted("  by the clock on the wall", digits=2),
         "triangles_a_second": Wanted("triangles a second", digits=0),
-        "read": Wanted("milliseconds a face, reading", digits=2),
+        "read": Wanted("wall ms a face, reading", digits=2),
     }
 
 
@@ -291,7 +293,7 @@ def _cells(record: dict) -> list[str]:
         f"{record['alpha_mean']:.3f}",
         f"{record['alpha_min']:.3f}",
         f"{100 * record['poor'] / record['triangles']:.2f} %",
-        f"{1e3 * record['seconds_mesh'] / record['faces']:.1f}",
+        f"{1e3 * record['cpu_mesh'] / record['faces']:.1f}",
         f"{record['seconds_read']:.2f}",
     ]
 
