@@ -39,6 +39,9 @@ def main() -> int:
         records = [json.loads(line) for line in options.summary.read_text().splitlines() if line]
         return cad_summary.show(records)
     places = _places(options)
+    if not places:
+        console.print("no CAD file or part has such a name")
+        return 2
     heading(f"{len(places)} models, {platform.machine()}, load {os.getloadavg()[0]:.1f}")
     if "ours" in options.meshers:
         cad_meshers.warm_up()

@@ -4,6 +4,7 @@ from time import perf_counter, process_time
 
 import numpy as np
 
+from surfmesh.cad.model import CadModel
 from surfmesh.quality.shape import Shapes, enclosed_volume, shapes
 from surfmesh.quality.topology import topology
 from surfmesh.surface_mesh import SurfaceMesh
@@ -54,6 +55,21 @@ def solid_figures(mesh: SurfaceMesh) -> dict:
         "volume": enclosed_volume(mesh) if len(corners) else 0.0,
         "area": float(shapes(mesh).area.sum()),
     }
+
+
+def stray_edges(mesh: SurfaceMesh, model: CadModel, failed: set[int]) -> int:
+    """Open edges of the mesh where the model has no free edge: holes and cracks, in sheets too.
+
+    failed: faces that were named as not meshed; their edges are open for a reason.
+    """
+    free = [
+        number for number in range(len(model.edges))
+        if len(users := model.faces_of_edge(number)) == 1 or not failed.isdisjoint(users)
+    ]  # fmt: skip
+    width = np.int64(len(mesh.points))
+    along = np.sort(mesh.edge_segments[np.isin(mesh.edge_ids, free)], axis=1)
+    allowed = along @ np.array([width, 1])
+    return int(np.count_nonzero(~np.isin(mesh.boundary_edges @ np.array([width, 1]), allowed)))
 
 
 def without_collapsed(triangles: np.ndarray) -> np.ndarray:

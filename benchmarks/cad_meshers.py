@@ -46,7 +46,7 @@ def part_of(place: str):
 
 def _ours(request: dict) -> dict:
     from brep_facts import solid_facts
-    from cad_measures import clocks, shape_figures, solid_figures, spent
+    from cad_measures import clocks, shape_figures, solid_figures, spent, stray_edges
 
     import surfmesh as sm
     from surfmesh.meshing.model_mesh import with_defaults
@@ -103,6 +103,7 @@ def _ours(request: dict) -> dict:
         "failed": len(failed),
         "failed_faces": sorted(failed_faces),
         "bare_faces": sorted(bare - failed_faces),
+        "stray": stray_edges(mesh, model, failed_faces),
         "reasons": failed[:3],
         "problem": mesh.check(),
         "seconds_check": perf_counter() - start,

@@ -29,6 +29,8 @@ def show(records: list[dict]) -> int:
         theirs = [found[mesher] for found in models.values() if mesher in found]
         if theirs:
             beside[mesher] = _totals(theirs, models)
+    if not columns and not beside:
+        return 0
     heading("All models together")
     missed = show_rows(_wanted(beside.get("gmsh", {})), columns, beside)
     both = _pairs(models)
@@ -104,14 +106,15 @@ def _good(verdict: dict) -> bool:
 
 
 def _silent(record: dict) -> int:
-    """Solids with a hole in the mesh though no face of them was named as not meshed, and faces
-    without triangles that were not named."""
+    """Holes that no face that was named as not meshed explains: solids that are not watertight,
+    else cracks in sheets; and faces without triangles."""
     named = set(record.get("failed_faces", ()))
     holes = [
         verdict for verdict in record["judged"]
         if verdict.get("watertight") is False and not named & set(verdict["faces"])
     ]  # fmt: skip
-    return len(holes) + len(record.get("bare_faces", ()))
+    cracks = len(holes) or int(record.get("stray", 0) > 0)
+    return cracks + len(record.get("bare_faces", ()))
 
 
 def _share(flags: Iterable[bool]) -> float | None:
@@ -324,6 +327,8 @@ def _wrong(record: dict) -> list[str]:
         said.append(f"{record['failed']} faces not meshed{first[:200]}")
     if record.get("bare_faces"):
         said.append(f"faces {record['bare_faces'][:NAMES_SHOWN]} without triangles and a word")
+    if record.get("stray"):
+        said.append(f"{record['stray']} open edges where the model has none")
     if record.get("problem"):
         said.append(record["problem"])
     bad = [(k, v) for k, v in enumerate(record["judged"]) if record.get("triangles")]

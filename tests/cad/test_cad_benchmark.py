@@ -112,6 +112,30 @@ def test_a_hole_that_was_named_is_not_silent():
     assert _silent({"judged": [], "bare_faces": [3]}) == 1
 
 
+def test_a_crack_in_a_sheet_is_seen():
+    from dataclasses import replace
+
+    from cad_measures import stray_edges
+
+    sheet = cq.Workplane().box(2, 2, 2).faces("not <Z").vals()
+    model = sm.from_cadquery(cq.Shell.makeShell(sheet))
+    mesh = sm.mesh(model, 1.0)
+    assert len(mesh.boundary_edges) and not stray_edges(mesh, model, set())
+    keep = np.arange(len(mesh.triangles)) != 5
+    pieces = {"triangles": mesh.triangles[keep], "uv_triangles": mesh.uv_triangles[keep]}
+    cracked = replace(
+        mesh, **pieces, face_ids=mesh.face_ids[keep], solid_ids=mesh.solid_ids[keep]
+    )
+    assert stray_edges(cracked, model, set())
+    bare = mesh.face_ids != 2
+    pieces = {"triangles": mesh.triangles[bare], "uv_triangles": mesh.uv_triangles[bare]}
+    holed = replace(
+        mesh, **pieces, face_ids=mesh.face_ids[bare], solid_ids=mesh.solid_ids[bare]
+    )
+    assert stray_edges(holed, model, set())
+    assert not stray_edges(holed, model, {2})
+
+
 def test_solids_of_other_meshers_go_by_their_volumes():
     from cad_summary import _judged
 
