@@ -51,14 +51,16 @@ def measured(file: str, request: dict, say: Callable[[dict], None]) -> dict:
     gmsh.option.setNumber("Mesh.MeshSizeMax", request["max_size"])
     wanted = request.get("wanted")
     circle = 1.0 / np.arccos(1.0 - request["chord"] / (FIRST_RADIUS * request["diagonal"]))
+    masses = [gmsh.model.occ.getMass(3, tag) for _, tag in gmsh.model.getEntities(3)]
     tried, best, circle = [], {}, float(np.pi * circle)
     for _ in range(ATTEMPTS if wanted else 1):
         start = perf_counter()
-        found = {**known, **_attempt(circle, request["chord"])}
+        figures, mesh = _attempt(circle, masses)
+        found = {**known, **figures}
         tried.append((circle, found["triangles"]))
         found["attempts"] = tried
         if not best or _miss(found, wanted) < _miss(best, wanted):
-            best = found
+            best, chosen = found, mesh
         say({**best, "attempts": tried})
         spent = perf_counter() - start
         left = request["time_limit"] - (perf_counter() - began)
@@ -68,6 +70,7 @@ def measured(file: str, request: dict, say: Callable[[dict], None]) -> dict:
         if any(abs(circle / old - 1.0) < 0.02 for old, _ in tried):
             break
     best["attempts"] = tried
+    best |= _deviation(*chosen, request["chord"])
     gmsh.finalize()
     return best
 
@@ -87,8 +90,8 @@ def _next(tried: list, wanted: int) -> float:
     return float(np.clip(np.exp(circle + step), FEWEST, MOST))
 
 
-def _attempt(circle: float, chord: float) -> dict:
-    """One mesh and its figures."""
+def _attempt(circle: float, masses: list[float]) -> tuple[dict, tuple]:
+    """Figures of one mesh, and the mesh: points, and the triangles of each face."""
     gmsh.model.mesh.clear()
     gmsh.logger.stop()
     gmsh.logger.start()
@@ -113,27 +116,28 @@ def _attempt(circle: float, chord: float) -> dict:
         found = np.searchsorted(tags, corners[list(kinds).index(2)]).reshape(-1, 3)
         of_face[face] = without_collapsed(found)
     everything = np.concatenate([*of_face.values(), np.empty((0, 3), np.int64)]).astype(np.int64)
-    return {
+    figures = {
         **shape_figures(shapes(own_vertices(points, everything))),
-        "solids": _solids(points, of_face),
-        **_deviation(points, of_face, chord),
+        "solids": _solids(points, of_face, masses),
         **spent(seconds),
         "circle": circle,
         "failed": len(failed),
         "failed_faces": failed,
         "reasons": ([error] if error else []) + errors[:3],
     }
+    return figures, (points, of_face)
 
 
-def _solids(points: np.ndarray, of_face: dict[int, np.ndarray]) -> list[dict]:
+def _solids(
+    points: np.ndarray, of_face: dict[int, np.ndarray], masses: list[float]
+) -> list[dict]:
     """Triangles look out of the first solid that has the face, into the second."""
     solids, met = [], set()
-    for dimension, tag in gmsh.model.getEntities(3):
+    for (dimension, tag), exact in zip(gmsh.model.getEntities(3), masses):
         _, faces = gmsh.model.getAdjacencies(dimension, tag)
         around = [of_face[f][:, ::-1 if f in met else 1] for f in faces if f in of_face]
         met.update(faces)
         triangles = np.concatenate([*around, np.empty((0, 3), np.int64)]).astype(np.int64)
-        exact = gmsh.model.occ.getMass(dimension, tag)
         figures = solid_figures(own_vertices(points, triangles)) if len(triangles) else {}
         solids.append({**figures, "volume_exact": exact})
     return solids

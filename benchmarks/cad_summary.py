@@ -88,6 +88,7 @@ def _verdict(solid: dict, fact: dict, chord: float) -> dict:
         "watertight": watertight,
         "oriented": solid["uneven"] == 0,
         "euler": solid["euler"] == fact["euler"],
+        "volumes": (solid["volume"], fact["volume"]),
         "volume_error": abs(volume),
         "area_error": abs(area),
         "by_chord": chord * fact["area"] / fact["volume"] if fact["volume"] else math.inf,
@@ -117,6 +118,15 @@ def _silent(record: dict) -> int:
     return cracks + len(record.get("bare_faces", ()))
 
 
+def _whole_volume_error(record: dict) -> float:
+    """Of the closed solids of a model together."""
+    pairs = [verdict.get("volumes") for verdict in record["judged"]]
+    if None in pairs:
+        return math.inf
+    found, exact = (math.fsum(column) for column in zip(*pairs))
+    return abs(found / exact - 1.0) if exact else math.inf
+
+
 def _share(flags: Iterable[bool]) -> float | None:
     flags = list(flags)
     return sum(flags) / len(flags) if flags else None
@@ -143,6 +153,9 @@ def _totals(records: list[dict], models: dict) -> dict:
         ),
         "area": _share(v.get("area_error", math.inf) <= ENOUGH for v in solids),
         "good": _share(_good(v) for v in solids),
+        "whole_volume": _share(
+            _whole_volume_error(record) <= ENOUGH for record in records if record["judged"]
+        ),
         **_shape(meshed),
     }
     fitted = [record for record in meshed if "above_chord" in record]
@@ -221,7 +234,10 @@ def _wanted(gmsh: dict) -> dict[str, Wanted]:
         "by_chord": Wanted("  volume within 0.5 % or chord x area", least=1.0, **percent),
         "area": Wanted("  area within 0.5 %", least=1.0, **percent),
         "good": Wanted("  all of these", least=1.0, **percent),
-        "sheet_area": Wanted("models with area within 0.5 %, sheets too", least=1.0, **percent),
+        "whole_volume": Wanted(
+            "models with their volume within 0.5 %, solids together", least=1.0, **percent
+        ),
+        "sheet_area": Wanted("models with their area within 0.5 %", least=1.0, **percent),
         "within_chord": Wanted("triangles within chord", least=0.999, **percent),
         "worst": Wanted("largest deviation / chord", most=1.5),
         "too_far": Wanted("models beyond 1.5 chord", most=0, digits=0),
