@@ -24,6 +24,9 @@ NARROWEST = 5e-4
 """Gaps narrower and edges shorter than this share of the diagonal do not ask for still smaller
 sizes by themselves: the mesh would be flooded by what is too small to matter."""
 
+SLIVER = 1e-4
+"""Gaps narrower than this share of the diagonal ask for nothing."""
+
 COLLAPSED = 2e-6
 """Edges shorter than this share of the diagonal are one point: their faces meet in it."""
 
@@ -187,6 +190,6 @@ def _heed_gaps(model: CadModel, samples: EdgeSamples, least: float) -> None:
         samples.points, samples.wish, samples.first, ends, np.concatenate(samples.edges_of_face),
         first, np.empty((len(gap), 6)), np.empty((len(model.edges), 6)), gap,
     )  # fmt: skip
-    heeded = gap >= NARROWEST * model.diagonal
-    wish = np.maximum(gap[heeded], least)
+    heeded = gap >= SLIVER * model.diagonal
+    wish = np.maximum(gap[heeded], max(NARROWEST * model.diagonal, least))
     samples.wish[heeded] = np.minimum(samples.wish[heeded], wish)
