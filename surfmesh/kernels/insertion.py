@@ -276,7 +276,7 @@ def insert_boundary(t, node_xy, node_size, segment, vertex, edge, queue, where):
 @kernel
 def find_edge(t, e, near, a, b):
     """The half-edge a -> b: e if it still is, otherwise sought from ``near``."""
-    if t.region[e // 3] != DEAD and t.tri[e] == a and t.tri[next_half_edge(e)] == b:
+    if e != NIL and t.region[e // 3] != DEAD and t.tri[e] == a and t.tri[next_half_edge(e)] == b:
         return e
     triangle, _ = locate(t, near, t.xy[a, 0], t.xy[a, 1], False)
     start = corner_of(t, triangle, a)
