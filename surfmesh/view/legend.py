@@ -9,13 +9,26 @@ INK = "#202428"
 
 def title_of(mesh: SurfaceMesh) -> str:
     """One line over the picture: name, counts, shape."""
-    names = list(dict.fromkeys(surface.name for surface in mesh.surfaces))
-    name = f"{names[0]}: " if len(names) == 1 else ""
+    name = name_of(mesh)
     shape = alpha(mesh)
     return (
-        f"{name}{len(mesh.triangles):,} triangles, {len(mesh.points):,} nodes; "
-        f"alpha mean {shape.mean():.3f}, smallest {shape.min():.3f}"
+        f"{name + ': ' if name else ''}{len(mesh.triangles):,} triangles, "
+        f"{len(mesh.points):,} nodes; alpha mean {shape.mean():.3f}, smallest {shape.min():.3f}"
     )
+
+
+def name_of(mesh: SurfaceMesh) -> str:
+    """The name of its only surface, or how many faces there are; empty when nothing is known."""
+    names = list(dict.fromkeys(surface.name for surface in mesh.surfaces))
+    if len(names) == 1:
+        return names[0]
+    return f"{len(mesh.surfaces):,} faces" if names else ""
+
+
+def unit_of(mesh: SurfaceMesh, count: int = 2) -> str:
+    """The unit of length: that of the CAD model where it is known. count: one or several."""
+    known = getattr(getattr(mesh, "groups", None), "unit", None)
+    return known or ("model unit" if count == 1 else "model units")
 
 
 def with_edges(mesh: SurfaceMesh, wish: bool | None) -> bool:

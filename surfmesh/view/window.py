@@ -7,16 +7,25 @@ from surfmesh.errors import SurfmeshError
 from surfmesh.surface_mesh import SurfaceMesh
 from surfmesh.view.colouring import colouring
 from surfmesh.view.legend import with_edges
+from surfmesh.view.overlays import overlays
 from surfmesh.view.scene import scene
 
 SIZE = (1200, 900)  # pixels
 
 
-def show(mesh: SurfaceMesh, *, by: str = "alpha", edges: bool | None = None) -> None:
+def show(
+    mesh: SurfaceMesh,
+    *,
+    by: str = "alpha",
+    edges: bool | None = None,
+    circles: bool = False,
+    directions: bool = False,
+    worst: int | None = None,
+) -> None:
     """Open a window to turn and zoom ``mesh``; in a notebook, a widget.
 
-    by, edges: as in ``plot``. Returns when the window is closed. Raises ``SurfmeshError``
-    when there is no display.
+    Everything as in ``plot``. Returns when the window is closed. Raises ``SurfmeshError`` when
+    there is no display.
     """
     in_notebook = "ipykernel" in sys.modules
     displays = ("DISPLAY", "WAYLAND_DISPLAY")
@@ -25,6 +34,7 @@ def show(mesh: SurfaceMesh, *, by: str = "alpha", edges: bool | None = None) -> 
     plotter = scene(
         mesh,
         colouring(mesh, by),
+        overlays(mesh, by, draw_circles=circles, directions=directions, worst=worst),
         edges=with_edges(mesh, edges),
         size=SIZE,
         off_screen=in_notebook,
