@@ -32,6 +32,11 @@ class Colouring:
     logarithmic: bool = False
     hues: int = 0  # values are whole numbers with a colour each; 0: a continuous scale
 
+    @property
+    def within(self) -> NDArray:
+        """The values, those below a logarithmic scale (zero may be one) lifted onto it."""
+        return np.maximum(self.values, self.limits[0]) if self.logarithmic else self.values
+
 
 def colouring(mesh: SurfaceMesh, by: str) -> Colouring:
     """Values of ``mesh`` by name, one of ``COLOURS``.
@@ -115,7 +120,6 @@ def _positive(values: NDArray, title: str, colours: str) -> Colouring:
     logarithmic = high > WIDE * low and high > 0
     if logarithmic:
         low = max(low, high / DECADES)
-        values = np.maximum(values, low)
     elif not high > NARROW * low:  # what is the same everywhere shall look so
         middle = 0.5 * (low + high) or 1.0
         low, high = 0.9 * middle, 1.1 * middle

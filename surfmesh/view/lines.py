@@ -27,13 +27,16 @@ class Lines(NamedTuple):
 
 def model_edges(mesh: SurfaceMesh) -> Lines:
     """The edges of the CAD model; without one, the boundary and where faces meet."""
+    return Lines("model edges", mesh.points[model_edge_pairs(mesh)], "#101418", 3.0)
+
+
+def model_edge_pairs(mesh: SurfaceMesh) -> NDArray[np.int32]:
+    """(k, 2) the vertices that ``model_edges`` joins."""
     if mesh.edge_segments is not None and len(mesh.edge_segments):
-        pairs = mesh.edge_segments
-    else:
-        table = mesh.connectivity
-        first, second = mesh.face_ids[table.half_edges // 3].T
-        pairs = table.edges[(table.uses != 2) | (first != second)]
-    return Lines("model edges", mesh.points[pairs], "#101418", 3.0)
+        return mesh.edge_segments
+    table = mesh.connectivity
+    first, second = mesh.face_ids[table.half_edges // 3].T
+    return table.edges[(table.uses != 2) | (first != second)]
 
 
 def circles(mesh: SurfaceMesh) -> Lines:

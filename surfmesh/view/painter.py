@@ -47,7 +47,7 @@ def paint(
     seen, depth = _seen(mesh.points, camera)
     norm = (LogNorm if colours.logarithmic else Normalize)(*colours.limits)
     scale = ScalarMappable(norm, map_of(colours))
-    values = colours.values
+    values = colours.within
     values = values[triangles].mean(axis=1) if colours.per_vertex else values
     faces = scale.to_rgba(values)
     faces[:, :3] *= (AMBIENT + (1 - AMBIENT) * _facing(mesh, camera))[:, None]

@@ -32,7 +32,7 @@ def scene(
     data = to_pyvista(mesh)
     data.clear_data()
     values = data.point_data if colours.per_vertex else data.cell_data
-    values[colours.title] = colours.values
+    values[colours.title] = colours.within
     unit = size[1] / 1000
     plotter.add_mesh(
         data,
