@@ -16,6 +16,21 @@ from surfmesh.view.page_data import MARKED
 
 SHOWN_ROWS = 500  # of a table within the report; the JSON has them all
 _SAID = ("problems", "warnings", "options")  # have places of their own
+_FIGURES = (  # title, fields, how they are said; a row without any known field is left out
+    ("topology", ("closed", "manifold", "oriented"), "closed {}, manifold {}, oriented {}"),
+    ("crossings", ("self_intersections",), "{}"),
+    ("Euler number", ("euler",), "{}"),
+    ("pieces", ("components", "faces"), "{} with {} faces"),
+    ("area", ("area",), "{}"),
+    ("volume", ("volume",), "{}"),
+    ("alpha", ("alpha_mean", "alpha_p01", "alpha_min"), "mean {}, 1 % below {}, smallest {}"),
+    ("angles", ("min_angle_deg", "max_angle_deg"), "{}° to {}°"),
+    ("edges", ("edge_min", "edge_mean", "edge_max"), "{0} to {2}, mean {1}"),
+    ("edges as wanted", ("quasi_unit_share",), "{} within a factor sqrt 2"),
+    ("distance from the surface", ("deviation_max", "deviation_rms"), "largest {}, rms {}"),
+    ("distance asked for", ("chord",), "{}"),
+    ("folded, inverted", ("folded", "inverted"), "{}, {} triangles"),
+)
 
 
 def certificate_html(mesh: SurfaceMesh, report: Report, colourings: dict[str, Colouring]) -> str:
@@ -31,13 +46,25 @@ def certificate_html(mesh: SurfaceMesh, report: Report, colourings: dict[str, Co
     figures = {name: value for name, value in values.items() if name not in _SAID}
     return "\n".join(
         (
-            _section("Certificate", f"{problems}{notes}<pre>{escape(str(report))}</pre>"),
+            _section("Certificate", problems + notes + _figures(values)),
             _folded("Histograms", histograms, is_open=True),
             _folded("Worst triangles", _worst(mesh), is_open=True),
             _folded("Options", _table(values.get("options") or {}), is_open=True),
             _folded("Every figure", _table(figures)),
+            _folded("As text", f"<pre>{escape(str(report))}</pre>"),
         )
     )
+
+
+def _figures(values: Mapping[str, Any]) -> str:
+    """The rows that a reader looks for first."""
+    rows = []
+    for title, names, words in _FIGURES:
+        found = [values.get(name) for name in names]
+        if any(value is not None for value in found):
+            said = words.format(*map(_said, found))
+            rows.append(f'<tr><th>{title}</th><td class="number">{escape(said)}</td></tr>')
+    return f"<table>{''.join(rows)}</table>"
 
 
 def _worst(mesh: SurfaceMesh) -> str:
@@ -85,7 +112,8 @@ def _records(records: list[Mapping[str, Any]]) -> str:
     )
     more = len(records) - SHOWN_ROWS
     left = f'<p class="hint">{more:,} more rows are in the JSON report</p>' if more > 0 else ""
-    return f'<div class="wide"><table><thead>{head}</thead><tbody>{rows}</tbody></table></div>{left}'
+    table = f"<table><thead>{head}</thead><tbody>{rows}</tbody></table>"
+    return f'<div class="wide">{table}</div>{left}'
 
 
 def _said(value: Any) -> str:

@@ -40,9 +40,9 @@ def histogram(
         )
     )  # fmt: skip
     return (
-        f'<svg class="histogram" viewBox="0 0 {WIDTH} {HEIGHT}" role="img">'
+        f'<svg class="histogram" viewBox="0 0 {WIDTH} {HEIGHT}" role="img" '
+        f'aria-label="{escape(title)}, {len(values):,} values">'
         f'<text class="title" x="{LEFT}" y="11">{escape(title)}</text>'
-        f'<text x="{end}" y="11" text-anchor="end">tallest {tallest:,} of {len(values):,}</text>'
         f'<g fill="{FILL}">{"".join(bars)}</g>'
         f'<path d="M{LEFT} {base}H{end}" stroke="#c3c9cf"/>{ticks}</svg>'
     )

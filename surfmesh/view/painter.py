@@ -18,7 +18,7 @@ from surfmesh.surface_mesh import SurfaceMesh
 from surfmesh.view.camera import Camera, framed
 from surfmesh.view.colour_maps import map_of
 from surfmesh.view.colouring import Colouring
-from surfmesh.view.legend import INK, title_of
+from surfmesh.view.legend import INK
 from surfmesh.view.lines import Lines
 from surfmesh.view.overlays import legend
 
@@ -34,6 +34,7 @@ def paint(
     lines: list[Lines],
     path: Path,
     *,
+    title: str,
     edges: bool,
     size: tuple[int, int],
 ) -> None:
@@ -78,7 +79,7 @@ def paint(
     axes.set(xlim=(-half_width, half_width), ylim=(-camera.half_height, camera.half_height))
     axes.set_aspect("equal")
     axes.axis("off")
-    figure.text(0.02, 0.955, title_of(mesh), color=INK, fontsize=11)
+    figure.text(0.02, 0.955, title, color=INK, fontsize=11)
     for row, layer in enumerate(legend(lines), 1):
         figure.text(0.02, 0.955 - 0.03 * row, layer.name, color=layer.colour, fontsize=9)
     bar = figure.colorbar(

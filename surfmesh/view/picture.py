@@ -6,7 +6,7 @@ from surfmesh.errors import FileFormatError
 from surfmesh.io.atomic import replacing
 from surfmesh.surface_mesh import SurfaceMesh
 from surfmesh.view.colouring import Colouring, colouring
-from surfmesh.view.legend import with_edges
+from surfmesh.view.legend import title_of, with_edges
 from surfmesh.view.lines import Lines
 from surfmesh.view.opengl import can_draw
 from surfmesh.view.overlays import overlays
@@ -23,6 +23,7 @@ def plot(
     circles: bool = False,
     directions: bool = False,
     worst: int | None = None,
+    title: str | None = None,
     size: tuple[int, int] = SIZE,
 ) -> Path:
     """Write a PNG of ``mesh`` to ``path`` and return the path.
@@ -32,8 +33,8 @@ def plot(
     there are not too many. circles: draw the packing on the surface, a circle of the wanted
     size around every vertex. directions: draw the principal directions. worst: how many
     triangles of the worst shape are outlined; None: ten where the colours show shape. Edges of
-    CAD models, boundaries and borders between faces are always drawn. size: width and height
-    in pixels.
+    CAD models, boundaries and borders between faces are always drawn. title: the line on
+    top; None: name, counts and shape. size: width and height in pixels.
 
     Where no OpenGL can be used the picture is painted triangle by triangle. Raises
     ``FileFormatError`` for a place that cannot be written or an extension other than .png,
@@ -48,20 +49,21 @@ def plot(
     lines = overlays(mesh, by, draw_circles=circles, directions=directions, worst=worst)
     with replacing(path) as temporary:
         draw = _render if can_draw() else _paint
-        draw(mesh, colours, lines, temporary, with_edges(mesh, edges), size)
+        said = title_of(mesh) if title is None else title
+        draw(mesh, colours, lines, temporary, said, with_edges(mesh, edges), size)
     return path
 
 
 def _render(
-    mesh: SurfaceMesh, colours: Colouring, lines: list[Lines], path: Path, edges: bool,
-    size: tuple[int, int],
+    mesh: SurfaceMesh, colours: Colouring, lines: list[Lines], path: Path, title: str,
+    edges: bool, size: tuple[int, int],
 ) -> None:  # fmt: skip
     import pyvista
 
     from surfmesh.view.scene import scene
 
     with pyvista.vtk_verbosity("off"):  # it says on the console that there is no display
-        plotter = scene(mesh, colours, lines, edges=edges, size=size, off_screen=True)
+        plotter = scene(mesh, colours, lines, title=title, edges=edges, size=size, off_screen=True)
         try:
             plotter.screenshot(path)
         finally:
@@ -69,9 +71,9 @@ def _render(
 
 
 def _paint(
-    mesh: SurfaceMesh, colours: Colouring, lines: list[Lines], path: Path, edges: bool,
-    size: tuple[int, int],
+    mesh: SurfaceMesh, colours: Colouring, lines: list[Lines], path: Path, title: str,
+    edges: bool, size: tuple[int, int],
 ) -> None:  # fmt: skip
     from surfmesh.view.painter import paint
 
-    paint(mesh, colours, lines, path, edges=edges, size=size)
+    paint(mesh, colours, lines, path, title=title, edges=edges, size=size)

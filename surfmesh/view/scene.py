@@ -8,7 +8,7 @@ from surfmesh.surface_mesh import SurfaceMesh
 from surfmesh.view.camera import framed
 from surfmesh.view.colour_maps import map_of
 from surfmesh.view.colouring import Colouring
-from surfmesh.view.legend import INK, title_of
+from surfmesh.view.legend import INK
 from surfmesh.view.lines import Lines
 from surfmesh.view.overlays import legend
 
@@ -22,6 +22,7 @@ def scene(
     colours: Colouring,
     lines: list[Lines],
     *,
+    title: str,
     edges: bool,
     size: tuple[int, int],
     off_screen: bool,
@@ -65,7 +66,7 @@ def scene(
     )
     for layer in lines:
         _add_lines(plotter, layer, layer.width * unit)
-    said = [(title_of(mesh), INK), *((layer.name, layer.colour) for layer in legend(lines))]
+    said = [(title, INK), *((layer.name, layer.colour) for layer in legend(lines))]
     for row, (text, colour) in enumerate(said):
         plotter.add_text(
             text,

@@ -6,7 +6,7 @@ import sys
 from surfmesh.errors import SurfmeshError
 from surfmesh.surface_mesh import SurfaceMesh
 from surfmesh.view.colouring import colouring
-from surfmesh.view.legend import with_edges
+from surfmesh.view.legend import title_of, with_edges
 from surfmesh.view.overlays import overlays
 from surfmesh.view.scene import scene
 
@@ -21,6 +21,7 @@ def show(
     circles: bool = False,
     directions: bool = False,
     worst: int | None = None,
+    title: str | None = None,
 ) -> None:
     """Open a window to turn and zoom ``mesh``; in a notebook, a widget.
 
@@ -35,6 +36,7 @@ def show(
         mesh,
         colouring(mesh, by),
         overlays(mesh, by, draw_circles=circles, directions=directions, worst=worst),
+        title=title_of(mesh) if title is None else title,
         edges=with_edges(mesh, edges),
         size=SIZE,
         off_screen=in_notebook,

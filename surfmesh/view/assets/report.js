@@ -184,14 +184,14 @@
         }
         void main() {
           vec3 normal = normalize(cross(dFdx(place), dFdy(place)));
-          float light = 0.42 + 0.58 * abs(normal.z);
+          float light = 0.58 + 0.42 * abs(normal.z);
           vec3 paint = tint;
           vec3 step = fwidth(share);
           if (circles) {
             vec3 off = vec3(beyond(around0, share.y, share.z), beyond(around1, share.z, share.x),
                             beyond(around2, share.x, share.y));
             vec3 width = max(fwidth(off), 1e-6);
-            vec3 rim = 1.0 - smoothstep(0.6 * width, 1.7 * width, abs(off));
+            vec3 rim = 1.0 - smoothstep(0.3 * width, 1.3 * width, abs(off));
             float fade = 1.0 - smoothstep(0.06, 0.25, max(width.x, max(width.y, width.z)));
             float within = 1.0 - smoothstep(0.0, 0.01, min(off.x, min(off.y, off.z)));
             paint = mix(paint, vec3(0.98, 0.80, 0.36), 0.35 * within);
@@ -333,10 +333,10 @@
   }
 
   // What is known of a triangle: [name, value] rows.
-  function known(triangle, point) {
+  function known(triangle, point, entries = contents.colourings) {
     const face = arrays.face_ids[triangle], name = contents.faceNames[face];
     const rows = [["triangle", triangle], ["face", name && !name.endsWith(` ${face}`) ? `${face} (${name})` : face]];
-    for (const entry of contents.colourings) {
+    for (const entry of entries) {
       if (entry.hues) continue;
       const values = arrays[entry.array];
       let value = values[triangle];
@@ -392,7 +392,8 @@
         if (!last) return;
         const hit = under(last);
         if (!hit) { leave(); return; }
-        note.textContent = known(hit.triangle, hit.point).map(([name, value]) => `${name}: ${value}`).join("\n");
+        const entries = contents.colourings.filter((entry, i) => i === 0 || i === Number(menu.value));
+        note.textContent = known(hit.triangle, null, entries).map(([name, value]) => `${name}: ${value}`).join("\n");
         note.hidden = false;
         const box = at("view").getBoundingClientRect();
         const x = last.clientX - box.left, y = last.clientY - box.top;
