@@ -65,7 +65,7 @@ def _parser() -> _Parser:
     mesh.add_argument("--jobs", type=_count, default=1, help="faces meshed at once (default 1)")
     mesh.add_argument("--picture", metavar="PNG", help="write a picture too")
     mesh.add_argument("--by", default="alpha", choices=_COLOURS, help="colour of the picture")
-    mesh.add_argument("--report", metavar="JSON", help="write the report too")
+    mesh.add_argument("--report", metavar="JSON|HTML", help="write the report too")
     _add_json(mesh)
 
     check = commands.add_parser("check", help="report on a mesh file")

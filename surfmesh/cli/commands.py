@@ -21,9 +21,9 @@ def mesh(options: Namespace) -> bool:
     from surfmesh.io.formats import require_writable
 
     require_writable(options.output)
-    for path, extension in ((options.picture, ".png"), (options.report, ".json")):
+    for path, *extensions in ((options.picture, ".png"), (options.report, ".json", ".html")):
         if path:
-            require_writable(path, extension)
+            require_writable(path, *extensions)
     surface = _surface(options)
 
     from surfmesh import api
@@ -50,7 +50,7 @@ def mesh(options: Namespace) -> bool:
             progress("picture", 0.97)
             files["picture"] = str(plot(result, options.picture, by=options.by))
         if options.report:
-            files["report"] = str(_written(report.to_json(), options.report))
+            files["report"] = str(_report_written(result, report, options))
     if options.json:
         _print_json(report.to_dict() | {"files": files})
     else:
@@ -259,6 +259,16 @@ def _named_surface(name: str, units: str | None = None) -> Any:
     close = get_close_matches(name, known, n=1)
     hint = f"did you mean '{close[0]}'?" if close else "'surfmesh gallery' lists what there is"
     raise SurfaceError(f"'{name}' is neither a file nor a surface of the gallery; {hint}")
+
+
+def _report_written(result: Any, report: Any, options: Namespace) -> Path:
+    """As JSON or as HTML, by its extension."""
+    if Path(options.report).suffix.lower() == ".json":
+        return _written(report.to_json(), options.report)
+    from surfmesh.view import html_report
+
+    name = Path(options.output).stem
+    return html_report(result, options.report, by=options.by, name=name, report=report)
 
 
 def _written(text: str, path: str) -> Path:

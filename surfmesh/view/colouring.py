@@ -1,5 +1,6 @@
 """What a mesh can be coloured by: the values, their name with unit, map and limits."""
 
+from contextlib import suppress
 from dataclasses import dataclass
 
 import numpy as np
@@ -43,9 +44,27 @@ def colouring(mesh: SurfaceMesh, by: str) -> Colouring:
 
     Raises ``ValueError`` for another name, or when the mesh does not carry what it takes.
     """
-    if by not in _COLOURINGS:
+    if by in _COLOURINGS:
+        return _COLOURINGS[by](mesh)
+    if by not in _CURVATURES:
         raise ValueError(f"cannot colour by {by!r}; known are {', '.join(COLOURS)}")
-    return _COLOURINGS[by](mesh)
+    found = _vertex_curvatures(mesh)
+    if found is None:
+        raise ValueError(f"cannot colour by {by!r}: the mesh carries no surface")
+    return _CURVATURES[by](mesh, found)
+
+
+def colourings_of(mesh: SurfaceMesh) -> dict[str, Colouring]:
+    """Everything in ``LABELS`` that ``mesh`` carries the data for."""
+    found = {}
+    for by in LABELS:
+        if by in _COLOURINGS:
+            with suppress(ValueError):
+                found[by] = colouring(mesh, by)
+    bent = _vertex_curvatures(mesh)
+    if bent is not None:
+        found |= {by: make(mesh, bent) for by, make in _CURVATURES.items()}
+    return found
 
 
 def _by_alpha(mesh: SurfaceMesh) -> Colouring:
@@ -83,27 +102,24 @@ def _by_face(mesh: SurfaceMesh) -> Colouring:
     return Colouring(mesh.face_ids % HUES, title, "tab20", (-0.5, hues - 0.5), hues=hues)
 
 
-def _by_curvature(mesh: SurfaceMesh) -> Colouring:
-    found = _vertex_curvatures(mesh, "curvature")
+def _by_curvature(mesh: SurfaceMesh, found: PrincipalCurvatures) -> Colouring:
     values = np.maximum(np.abs(found.k1), np.abs(found.k2))
     return _positive(values, f"largest principal curvature (1 / {unit_of(mesh, 1)})", "viridis")
 
 
-def _by_gaussian(mesh: SurfaceMesh) -> Colouring:
-    values = _vertex_curvatures(mesh, "gaussian").gaussian
-    return _signed(values, f"Gaussian curvature K (1 / {unit_of(mesh, 1)}²)")
+def _by_gaussian(mesh: SurfaceMesh, found: PrincipalCurvatures) -> Colouring:
+    return _signed(found.gaussian, f"Gaussian curvature K (1 / {unit_of(mesh, 1)}²)")
 
 
-def _by_mean_curvature(mesh: SurfaceMesh) -> Colouring:
-    values = _vertex_curvatures(mesh, "mean").mean
-    return _signed(values, f"mean curvature H (1 / {unit_of(mesh, 1)})")
+def _by_mean_curvature(mesh: SurfaceMesh, found: PrincipalCurvatures) -> Colouring:
+    return _signed(found.mean, f"mean curvature H (1 / {unit_of(mesh, 1)})")
 
 
-def _vertex_curvatures(mesh: SurfaceMesh, by: str) -> PrincipalCurvatures:
+def _vertex_curvatures(mesh: SurfaceMesh) -> PrincipalCurvatures | None:
     """Curvatures at the vertices of ``mesh``, each on one of its faces."""
     place = vertex_parameters(mesh)
     if place is None:
-        raise ValueError(f"cannot colour by {by!r}: the mesh carries no surface")
+        return None
     n = len(mesh.points)
     whole = PrincipalCurvatures(*(np.zeros(s) for s in (n, n, (n, 2), (n, 2), n, n)))
     for number, surface in enumerate(mesh.surfaces):
@@ -134,15 +150,25 @@ def _signed(values: NDArray, title: str) -> Colouring:
 
 _COLOURINGS = {
     "alpha": _by_alpha,
+    "quality": _by_alpha,
     "angle": _by_angle,
     "size": _by_size,
     "deviation": _by_deviation,
     "face": _by_face,
-    "curvature": _by_curvature,
-    "gaussian": _by_gaussian,
-    "mean": _by_mean_curvature,
-    "quality": _by_alpha,
 }
+_CURVATURES = {"curvature": _by_curvature, "gaussian": _by_gaussian, "mean": _by_mean_curvature}
 
-COLOURS = tuple(_COLOURINGS)
+COLOURS = (*_COLOURINGS, *_CURVATURES)
 """Names that ``colouring`` knows; "quality" is alpha."""
+
+LABELS = {
+    "alpha": "shape",
+    "angle": "smallest angle",
+    "size": "wanted size",
+    "deviation": "distance from the surface",
+    "face": "face",
+    "curvature": "largest curvature",
+    "gaussian": "Gaussian curvature",
+    "mean": "mean curvature",
+}
+"""Their short names in menus."""

@@ -4,6 +4,7 @@ It opens without a network, now and in years: mesh, viewer and licence are all w
 """
 
 import json
+from collections.abc import Collection
 from datetime import UTC, datetime
 from html import escape
 from importlib.metadata import version
@@ -16,9 +17,9 @@ from surfmesh.io.atomic import replacing
 from surfmesh.quality import Report, check
 from surfmesh.surface_mesh import SurfaceMesh
 from surfmesh.view.certificate_html import certificate_html
-from surfmesh.view.colouring import COLOURS
+from surfmesh.view.colouring import COLOURS, colourings_of
 from surfmesh.view.legend import name_of, title_of
-from surfmesh.view.page_data import colourings_of, page_data
+from surfmesh.view.page_data import SHOWN, page_data
 
 FORMATS = (".html", ".htm")
 _ASSETS = files("surfmesh.view") / "assets"
@@ -47,22 +48,44 @@ def html_report(
         raise FileFormatError(f"{path}: reports are written as .html, not '{path.suffix}'")
     if not len(mesh.triangles):
         raise FileFormatError(f"{path}: nothing to show, the mesh has no triangles")
+    text = page(mesh, by=by, name=name, report=check(mesh) if report is None else report)
+    with replacing(path) as temporary:
+        temporary.write_text(text, encoding="utf-8")
+    return path
+
+
+def page(
+    mesh: SurfaceMesh,
+    *,
+    by: str = "alpha",
+    name: str = "",
+    title: str | None = None,
+    report: Report | None = None,
+    shown: Collection[str] = SHOWN,
+) -> str:
+    """The text of the page; without a ``report`` the view alone.
+
+    title: the heading after ``name``; None: counts and shape. shown: what is switched on at
+    first, of ``page_data.SWITCHES``.
+    """
     by = "alpha" if by == "quality" else by
     if by not in COLOURS:
         raise ValueError(f"cannot colour by {by!r}; known are {', '.join(COLOURS)}")
-    report = check(mesh) if report is None else report
     colourings = colourings_of(mesh)
     if by not in colourings:
         raise ValueError(f"cannot colour by {by!r}: the mesh carries no data for it")
-    data = page_data(mesh, colourings, by)
+    data = page_data(mesh, colourings, by, shown)
+    title = title_of(mesh) if title is None else title
     made = datetime.now(UTC).strftime("%Y-%m-%d %H:%M UTC")
-    text = Template(_asset("report.html")).substitute(
+    clean = report is None or report.clean
+    return Template(_asset("report.html")).substitute(
         title=escape(name or name_of(mesh) or "surfmesh report"),
-        heading=escape(f"{name} - {title_of(mesh)}" if name else title_of(mesh)),
-        verdict="clean" if report.clean else "NOT CLEAN",
-        verdict_class="clean" if report.clean else "not-clean",
+        heading=escape(f"{name} - {title}" if name else title),
+        kind="view" if report is None else "whole",
+        verdict="clean" if clean else "NOT CLEAN",
+        verdict_class="clean" if clean else "not-clean",
         style=_asset("report.css"),
-        certificate=certificate_html(mesh, report, colourings),
+        certificate="" if report is None else certificate_html(mesh, report, colourings),
         footer=escape(f"surfmesh {version('surfmesh')}, {made}; view by three.js (MIT licence)"),
         # within a script element "<" must not begin a tag
         contents=json.dumps(data.contents, allow_nan=False).replace("<", "\\u003c"),
@@ -71,9 +94,6 @@ def html_report(
         three=_asset("three.min.js"),
         viewer=_asset("report.js"),
     )
-    with replacing(path) as temporary:
-        temporary.write_text(text, encoding="utf-8")
-    return path
 
 
 def _asset(name: str) -> str:

@@ -2,6 +2,7 @@
 
 import base64
 import gzip
+from collections.abc import Collection
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -10,7 +11,7 @@ from numpy.typing import NDArray
 from surfmesh.surface_mesh import SurfaceMesh
 from surfmesh.view.camera import direction_of
 from surfmesh.view.colour_maps import table_of
-from surfmesh.view.colouring import COLOURS, Colouring, colouring
+from surfmesh.view.colouring import LABELS, Colouring
 from surfmesh.view.legend import unit_of
 from surfmesh.view.lines import (
     Lines,
@@ -20,16 +21,10 @@ from surfmesh.view.lines import (
     worst_triangles,
 )
 
-LABELS = {
-    "alpha": "shape",
-    "angle": "smallest angle",
-    "size": "wanted size",
-    "deviation": "distance from the surface",
-    "face": "face",
-    "curvature": "largest curvature",
-    "gaussian": "Gaussian curvature",
-    "mean": "mean curvature",
-}
+SWITCHES = ("triangles", "circles", "model edges", "worst", "principal directions")
+SHOWN = ("triangles", "model edges", "worst")
+"""What of these is switched on when nothing else is said."""
+
 MARKED = 20  # worst triangles
 KEPT_BITS = np.uint32(0xFFFFF000)  # of a colour's float: four digits, and the file a third smaller
 HALF_BIT = np.uint32(0x800)
@@ -41,21 +36,11 @@ class PageData(NamedTuple):
     arrays: str  # base64 of gzip of what contents["arrays"] lists, little-endian
 
 
-def colourings_of(mesh: SurfaceMesh) -> dict[str, Colouring]:
-    """Everything that ``mesh`` carries the data for."""
-    found = {}
-    for by in COLOURS:
-        if by not in LABELS:  # a second name of another
-            continue
-        try:
-            found[by] = colouring(mesh, by)
-        except ValueError:
-            continue
-    return found
-
-
-def page_data(mesh: SurfaceMesh, colourings: dict[str, Colouring], by: str) -> PageData:
-    """``mesh`` and its ``colourings`` for the page, which shows ``by`` first.
+def page_data(
+    mesh: SurfaceMesh, colourings: dict[str, Colouring], by: str, shown: Collection[str] = SHOWN
+) -> PageData:
+    """``mesh`` and its ``colourings`` for the page, which shows ``by`` first, with what
+    of ``SWITCHES`` is in ``shown``.
 
     Points are kept relative to the middle of the mesh, in halves of its largest extent: single
     precision is then enough wherever the mesh lies and however small it is.
@@ -90,24 +75,24 @@ def page_data(mesh: SurfaceMesh, colourings: dict[str, Colouring], by: str) -> P
     if len(model_edge_pairs(mesh)):
         arrays["model edges"] = model_edge_pairs(mesh).astype("<u4")
         look = model_edges(mesh)._replace(segments=np.empty((0, 2, 3)))
-        lines.append(_entry(look, "model edges", shown=True) | {"pairs": True})
+        lines.append(_entry(look, "model edges") | {"pairs": True})
     worst, _ = worst_triangles(mesh, MARKED)
     crosses = principal_directions(mesh) if mesh.surfaces and mesh.uv_points is not None else ()
-    for layer, group, shown in (
-        (worst, "worst", True),
-        *((layer, "principal directions", False) for layer in crosses),
-    ):
+    for layer, group in (
+        (worst, "worst"), *((layer, "principal directions") for layer in crosses)
+    ):  # fmt: skip
         if len(layer.segments):
             arrays[layer.name] = ((layer.segments - centre) / scale).astype("<f4")
-            lines.append(_entry(layer, group, shown=shown))
+            lines.append(_entry(layer, group))
     listed, packed = _packed(arrays)
     contents = {
         "by": by,
+        "shown": [name for name in SWITCHES if name in shown],
         "unit": unit_of(mesh),
         "centre": centre.tolist(),
         "scale": scale,
         "sight": direction_of(mesh.points).tolist(),
-        "faceNames": [mesh.face_name(i) for i in range(len(mesh.surfaces))],
+        "faceNames": [mesh.face_name(i) for i in range(int(mesh.face_ids.max()) + 1)],
         "colourings": entries,
         "lines": lines,
         "arrays": listed,
@@ -115,13 +100,12 @@ def page_data(mesh: SurfaceMesh, colourings: dict[str, Colouring], by: str) -> P
     return PageData(contents, packed)
 
 
-def _entry(layer: Lines, group: str, *, shown: bool) -> dict[str, Any]:
+def _entry(layer: Lines, group: str) -> dict[str, Any]:
     return {
         "array": layer.name,
         "group": group,
         "colour": layer.colour,
         "width": 0.6 * layer.width,  # of a screen, where pictures are drawn larger
-        "shown": shown,
         "pairs": False,
     }
 

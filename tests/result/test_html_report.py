@@ -120,7 +120,8 @@ def test_what_cannot_be_reported_is_refused(saddle, tetrahedron, tmp_path):
 def test_size_of_the_file(tmp_path):
     """Under 15 MB for 200 thousand triangles: so much a triangle, beside the viewer's own."""
     mesh = grid(Saddle(), 100, sizes=np.random.default_rng(0).uniform(0.01, 0.02, 101**2))
-    noisy = changed(mesh, points=mesh.points + np.random.default_rng(1).normal(0, 1e-3, (101**2, 3)))
+    noise = np.random.default_rng(1).normal(0, 1e-3, (101**2, 3))
+    noisy = changed(mesh, points=mesh.points + noise)
     size = len(page_of(noisy, tmp_path)[0])
     empty = len(page_of(grid(Saddle(), 1), tmp_path)[0])
     assert empty + 200_000 * (size - empty) / len(mesh.triangles) < 15e6
@@ -154,9 +155,8 @@ def test_any_field_finds_a_place():
 
 def chromium():
     """A Chromium of this machine; SURFMESH_BROWSER names another."""
-    named = [os.environ.get("SURFMESH_BROWSER", "")]
-    found = [shutil.which(n) for n in (*named, "chromium", "chromium-browser", "google-chrome") if n]
-    return next((path for path in found if path), None)
+    names = os.environ.get("SURFMESH_BROWSER", ""), "chromium", "chromium-browser", "google-chrome"
+    return next((path for path in map(shutil.which, filter(None, names)) if path), None)
 
 
 @pytest.fixture(scope="module")
@@ -217,7 +217,8 @@ def test_a_browser_shows_turns_and_picks(opened, tmp_path):
 
     page.mouse.move(x, y)
     page.wait_for_selector("#pointer:not([hidden])")
-    assert "face: 0 (sphere)" in page.inner_text("#pointer") and "alpha" in page.inner_text("#pointer")
+    said = page.inner_text("#pointer")
+    assert "face: 0 (sphere)" in said and "alpha" in said
     page.mouse.click(x, y)
     rows = dict(line.split("\t") for line in page.inner_text("#picked-text").splitlines())
     assert 0 <= int(rows["triangle"]) < len(mesh.triangles) and rows["face"] == "0 (sphere)"

@@ -239,26 +239,28 @@
     const shape = new THREE.LineSegmentsGeometry().setPositions(ends);
     const paint = new THREE.LineMaterial({ color: entry.colour, linewidth: entry.width });
     const lines = new THREE.LineSegments2(shape, paint);
-    lines.visible = entry.shown;
+    lines.visible = contents.shown.includes(entry.group);
     scene.add(lines);
     return { lines, entry };
   }
 
   // ------------------------------------------------------------------ switches and sights
 
-  function addSwitch(name, on, change) {
+  function addSwitch(name, change) {
+    const on = contents.shown.includes(name);
     const label = document.createElement("label"), box = document.createElement("input");
     box.type = "checkbox";
     box.checked = on;
     box.addEventListener("change", () => { change(box.checked); draw(); });
     label.append(box, ` ${name}`);
     at("layers").append(label);
+    change(on);
   }
 
   function addSwitches() {
-    addSwitch("triangles", true, (on) => { material.uniforms.sides.value = on; });
+    addSwitch("triangles", (on) => { material.uniforms.sides.value = on; });
     if (arrays.sizes) {
-      addSwitch("circles", false, (on) => { addCircles(); material.uniforms.circles.value = on; });
+      addSwitch("circles", (on) => { if (on) addCircles(); material.uniforms.circles.value = on; });
     }
     const groups = new Map();
     for (const { lines, entry } of layers) {
@@ -266,7 +268,7 @@
       groups.get(entry.group).push(lines);
     }
     for (const [name, members] of groups) {
-      addSwitch(name, members[0].visible, (on) => { for (const lines of members) lines.visible = on; });
+      addSwitch(name, (on) => { for (const lines of members) lines.visible = on; });
     }
   }
 
@@ -392,7 +394,9 @@
         if (!last) return;
         const hit = under(last);
         if (!hit) { leave(); return; }
-        const entries = contents.colourings.filter((entry, i) => i === 0 || i === Number(menu.value));
+        const brief = (entry, i) => i === 0 || i === Number(menu.value);
+        const whole = document.body.classList.contains("view");  // no table beside the view
+        const entries = whole ? contents.colourings : contents.colourings.filter(brief);
         note.textContent = known(hit.triangle, null, entries).map(([name, value]) => `${name}: ${value}`).join("\n");
         note.hidden = false;
         const box = at("view").getBoundingClientRect();
