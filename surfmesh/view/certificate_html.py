@@ -20,7 +20,7 @@ _FIGURES = (  # title, fields, how they are said; a row without any known field 
     ("topology", ("closed", "manifold", "oriented"), "closed {}, manifold {}, oriented {}"),
     ("crossings", ("self_intersections",), "{}"),
     ("Euler number", ("euler",), "{}"),
-    ("pieces", ("components", "faces"), "{} with {} faces"),
+    ("pieces, faces", ("components", "faces"), "{}, {}"),
     ("area", ("area",), "{}"),
     ("volume", ("volume",), "{}"),
     ("alpha", ("alpha_mean", "alpha_p01", "alpha_min"), "mean {}, 1 % below {}, smallest {}"),
@@ -37,7 +37,7 @@ def certificate_html(mesh: SurfaceMesh, report: Report, colourings: dict[str, Co
     """Verdict, histograms, the worst triangles, the options, and every figure."""
     values = report.to_dict()
     problems = "".join(f'<p class="problem">{escape(text)}</p>' for text in report.problems)
-    notes = "".join(f"<p>{escape(text)}</p>" for text in report.warnings)
+    notes = "".join(f"<li>{escape(text)}</li>" for text in report.warnings)
     histograms = "".join(
         histogram(found.values, found.title, found.limits, found.logarithmic)
         for found in colourings.values()
@@ -46,7 +46,8 @@ def certificate_html(mesh: SurfaceMesh, report: Report, colourings: dict[str, Co
     figures = {name: value for name, value in values.items() if name not in _SAID}
     return "\n".join(
         (
-            _section("Certificate", problems + notes + _figures(values)),
+            _section("Certificate", problems + _figures(values)),
+            _folded(f"Notes ({len(report.warnings)})", f"<ul>{notes}</ul>") if notes else "",
             _folded("Histograms", histograms, is_open=True),
             _folded("Worst triangles", _worst(mesh), is_open=True),
             _folded("Options", _table(values.get("options") or {}), is_open=True),
@@ -61,6 +62,10 @@ def _figures(values: Mapping[str, Any]) -> str:
     rows = []
     for title, names, words in _FIGURES:
         found = [values.get(name) for name in names]
+        found = [
+            f"{value:.2%}" if name.endswith("_share") and value is not None else value
+            for name, value in zip(names, found)
+        ]
         if any(value is not None for value in found):
             said = words.format(*map(_said, found))
             rows.append(f'<tr><th>{title}</th><td class="number">{escape(said)}</td></tr>')
@@ -122,7 +127,7 @@ def _said(value: Any) -> str:
     if isinstance(value, bool):
         return "yes" if value else "no"
     if isinstance(value, float):
-        return f"{value:.6g}"
+        return f"{value:.5g}"
     if isinstance(value, int):
         return f"{value:,}"
     if isinstance(value, (list, tuple, np.ndarray)):

@@ -14,6 +14,7 @@ from surfmesh.view.legend import unit_of
 from surfmesh.view.vertex_parameters import vertex_parameters
 
 ROBUST = 0.995  # share of the values within the limits where a few would swallow the scale
+SIGNED_ROBUST = 0.95  # the same where both signs occur and no logarithm can help
 
 NARROW = 1.2  # ratio of the limits that no scale falls short of
 WIDE = 20.0  # ratio of the limits above which the scale is logarithmic
@@ -144,7 +145,7 @@ def _positive(values: NDArray, title: str, colours: str) -> Colouring:
 
 def _signed(values: NDArray, title: str) -> Colouring:
     """Values a vertex on a scale with zero in its middle."""
-    high = float(np.quantile(np.abs(values), ROBUST)) or 1.0
+    high = float(np.quantile(np.abs(values), SIGNED_ROBUST)) or 1.0
     return Colouring(values, title, "coolwarm", (-high, high), True)
 
 

@@ -76,11 +76,12 @@ def page(
         raise ValueError(f"cannot colour by {by!r}: the mesh carries no data for it")
     data = page_data(mesh, colourings, by, shown)
     title = title_of(mesh) if title is None else title
+    heading = title if not name or name == name_of(mesh) else f"{name} - {title}"
     made = datetime.now(UTC).strftime("%Y-%m-%d %H:%M UTC")
     clean = report is None or report.clean
     return Template(_asset("report.html")).substitute(
         title=escape(name or name_of(mesh) or "surfmesh report"),
-        heading=escape(f"{name} - {title}" if name else title),
+        heading=escape(heading),
         kind="view" if report is None else "whole",
         verdict="clean" if clean else "NOT CLEAN",
         verdict_class="clean" if clean else "not-clean",

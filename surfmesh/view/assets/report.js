@@ -246,13 +246,19 @@
 
   // ------------------------------------------------------------------ switches and sights
 
-  function addSwitch(name, change) {
+  function addSwitch(name, change, kinds = []) {
     const on = contents.shown.includes(name);
     const label = document.createElement("label"), box = document.createElement("input");
     box.type = "checkbox";
     box.checked = on;
     box.addEventListener("change", () => { change(box.checked); draw(); });
     label.append(box, ` ${name}`);
+    for (const entry of kinds) {
+      const word = document.createElement("b");
+      word.textContent = ` ${entry.array.split(" ").pop()}`;
+      word.style.color = entry.colour;
+      label.append(word);
+    }
     at("layers").append(label);
     change(on);
   }
@@ -265,10 +271,11 @@
     const groups = new Map();
     for (const { lines, entry } of layers) {
       if (!groups.has(entry.group)) groups.set(entry.group, []);
-      groups.get(entry.group).push(lines);
+      groups.get(entry.group).push({ lines, entry });
     }
     for (const [name, members] of groups) {
-      addSwitch(name, (on) => { for (const lines of members) lines.visible = on; });
+      const kinds = members.length > 1 ? members.map(({ entry }) => entry) : [];
+      addSwitch(name, (on) => { for (const { lines } of members) lines.visible = on; }, kinds);
     }
   }
 
@@ -296,13 +303,17 @@
       point.fromArray(points, i).applyMatrix4(camera.matrixWorldInverse);
       low.min(point); high.max(point);
     }
-    const middle = new THREE.Vector3((low.x + high.x) / 2, (low.y + high.y) / 2 - 0.03 * (high.y - low.y), 0);
+    // the room between the tools and the colour bar
+    const box = at("view").getBoundingClientRect(), width = Math.max(box.width, 1);
+    const above = at("tools").offsetHeight + 22, below = at("bar").offsetHeight + 28;
+    const height = Math.max(box.height, 1), room = Math.max(height - above - below, 0.3 * height);
+    const unit = Math.max((high.y - low.y) / room, (high.x - low.x) / (0.94 * width), 1e-12);
+    const middle = new THREE.Vector3((low.x + high.x) / 2, (low.y + high.y) / 2, 0);
+    middle.y += 0.5 * unit * (above - below);
     middle.applyQuaternion(camera.quaternion);
     controls.target.copy(middle);
     camera.position.copy(middle).addScaledVector(towards, 10);
-    const box = at("view").getBoundingClientRect(), aspect = box.width / Math.max(box.height, 1);
-    const half = 0.5 * Math.max(high.y - low.y, (high.x - low.x) / aspect) * 1.28;
-    camera.zoom = 1 / Math.max(half, 1e-12);
+    camera.zoom = 2 / (unit * height);
     camera.updateProjectionMatrix();
     controls.update();
     draw();
