@@ -31,6 +31,9 @@ def unit_of(mesh: SurfaceMesh, count: int = 2) -> str:
     return known or ("model unit" if count == 1 else "model units")
 
 
-def with_edges(mesh: SurfaceMesh, wish: bool | None) -> bool:
-    """``wish``, or when there is none whether the edges of ``mesh`` can be told apart."""
-    return len(mesh.triangles) <= EDGES_UP_TO if wish is None else wish
+def with_edges(mesh: SurfaceMesh, wish: bool | None, circles: bool = False) -> bool:
+    """``wish``, or when there is none whether the edges of ``mesh`` can be told apart.
+
+    Between circles they cannot.
+    """
+    return len(mesh.triangles) <= EDGES_UP_TO and not circles if wish is None else wish

@@ -30,7 +30,7 @@ def plot(
 
     by: "alpha" or "quality" (shape), "angle", "size" (wanted), "deviation", "face",
     "curvature", "gaussian" or "mean". edges: draw those of the triangles; None draws them when
-    there are not too many. circles: draw the packing on the surface, a circle of the wanted
+    there are not too many and no circles. circles: draw the packing on the surface, a circle of the wanted
     size around every vertex. directions: draw the principal directions. worst: how many
     triangles of the worst shape are outlined; None: ten where the colours show shape. Edges of
     CAD models, boundaries and borders between faces are always drawn. title: the line on
@@ -50,7 +50,7 @@ def plot(
     with replacing(path) as temporary:
         draw = _render if can_draw() else _paint
         said = title_of(mesh) if title is None else title
-        draw(mesh, colours, lines, temporary, said, with_edges(mesh, edges), size)
+        draw(mesh, colours, lines, temporary, said, with_edges(mesh, edges, circles), size)
     return path
 
 

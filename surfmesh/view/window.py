@@ -41,7 +41,7 @@ def show(
         colouring(mesh, by),
         overlays(mesh, by, draw_circles=circles, directions=directions, worst=worst),
         title=title_of(mesh) if title is None else title,
-        edges=with_edges(mesh, edges),
+        edges=with_edges(mesh, edges, circles),
         size=SIZE,
         off_screen=False,
     )

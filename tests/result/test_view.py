@@ -110,3 +110,21 @@ def test_lines_are_drawn(drawn_by, saddle, tmp_path, monkeypatch):
     for wish in ({"circles": True}, {"directions": True}, {"worst": 3}):
         drawn = imread(plot(saddle, tmp_path / "drawn.png", **options, **wish))
         assert (np.abs(drawn - bare)[60:] > 0.2).any(axis=-1).sum() > 50, wish
+
+
+def test_a_window_is_opened_where_there_is_a_display(saddle, monkeypatch):
+    opened = []
+
+    class Window:
+        def show(self):
+            opened.append("shown")
+
+    def stand_in(mesh, colours, lines, **options):
+        opened.append((colours.title, [layer.name for layer in lines], options["edges"]))
+        return Window()
+
+    monkeypatch.setattr("surfmesh.view.scene.scene", stand_in)
+    monkeypatch.setenv("DISPLAY", ":0")
+    saddle.show(by="size", circles=True, worst=2)
+    names = ["circles of the packing", "model edges", "the 2 worst triangles"]
+    assert opened == [("wanted edge length (model units)", names, False), "shown"]

@@ -194,7 +194,7 @@
             vec3 rim = 1.0 - smoothstep(0.3 * width, 1.3 * width, abs(off));
             float fade = 1.0 - smoothstep(0.06, 0.25, max(width.x, max(width.y, width.z)));
             float within = 1.0 - smoothstep(0.0, 0.01, min(off.x, min(off.y, off.z)));
-            paint = mix(paint, vec3(0.98, 0.80, 0.36), 0.35 * within);
+            paint = mix(paint, vec3(0.98, 0.80, 0.36), 0.35 * fade * within);
             paint = mix(paint, vec3(0.62, 0.24, 0.0), fade * max(rim.x, max(rim.y, rim.z)));
           }
           if (sides) {
