@@ -30,11 +30,11 @@ def plot(
 
     by: "alpha" or "quality" (shape), "angle", "size" (wanted), "deviation", "face",
     "curvature", "gaussian" or "mean". edges: draw those of the triangles; None draws them when
-    there are not too many and no circles. circles: draw the packing on the surface, a circle of the wanted
-    size around every vertex. directions: draw the principal directions. worst: how many
-    triangles of the worst shape are outlined; None: ten where the colours show shape. Edges of
-    CAD models, boundaries and borders between faces are always drawn. title: the line on
-    top; None: name, counts and shape. size: width and height in pixels.
+    there are not too many, and no circles. circles: draw the packing on the surface, a circle
+    of the wanted size around every vertex. directions: draw the principal directions. worst:
+    how many triangles of the worst shape are outlined; None: ten where the colours show shape.
+    Edges of CAD models, boundaries and borders between faces are always drawn. title: the line
+    on top; None: name, counts and shape. size: width and height in pixels.
 
     Where no OpenGL can be used the picture is painted triangle by triangle. Raises
     ``FileFormatError`` for a place that cannot be written or an extension other than .png,
