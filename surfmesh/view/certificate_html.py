@@ -15,15 +15,20 @@ from surfmesh.view.lines import worst_triangles
 from surfmesh.view.page_data import MARKED
 
 SHOWN_ROWS = 500  # of a table within the report; the JSON has them all
+ALL_DIGITS = 9  # where every figure is listed
 _SAID = ("problems", "warnings", "options")  # have places of their own
 _FIGURES = (  # title, fields, how they are said; a row without any known field is left out
     ("topology", ("closed", "manifold", "oriented"), "closed {}, manifold {}, oriented {}"),
     ("crossings", ("self_intersections",), "{}"),
     ("Euler number", ("euler",), "{}"),
+    ("exact Euler number", ("euler_exact",), "{}"),
     ("pieces, faces", ("components", "faces"), "{}, {}"),
     ("area", ("area",), "{}"),
+    ("exact area", ("area_exact",), "{}"),
     ("volume", ("volume",), "{}"),
+    ("exact volume", ("volume_exact",), "{}"),
     ("alpha", ("alpha_mean", "alpha_p01", "alpha_min"), "mean {}, 1 % below {}, smallest {}"),
+    ("alpha in the metric", ("alpha_metric_mean", "alpha_metric_min"), "mean {}, smallest {}"),
     ("angles", ("min_angle_deg", "max_angle_deg"), "{}° to {}°"),
     ("edges", ("edge_min", "edge_mean", "edge_max"), "{0} to {2}, mean {1}"),
     ("edges as wanted", ("quasi_unit_share",), "{} within a factor sqrt 2"),
@@ -101,7 +106,8 @@ def _table(values: Mapping[str, Any]) -> str:
         elif isinstance(value, list) and value and isinstance(value[0], Mapping):
             below.append(_folded(f"{words} ({len(value)})", _records(value)))
         else:
-            rows.append(f'<tr><th>{words}</th><td class="number">{escape(_said(value))}</td></tr>')
+            said = escape(_said(value, ALL_DIGITS))
+            rows.append(f'<tr><th>{words}</th><td class="number">{said}</td></tr>')
     return (f"<table>{''.join(rows)}</table>" if rows else "") + "".join(below)
 
 
@@ -121,19 +127,19 @@ def _records(records: list[Mapping[str, Any]]) -> str:
     return f'<div class="wide">{table}</div>{left}'
 
 
-def _said(value: Any) -> str:
+def _said(value: Any, digits: int = 5) -> str:
     if value is None:
         return "-"
     if isinstance(value, bool):
         return "yes" if value else "no"
     if isinstance(value, float):
-        return f"{value:.5g}"
+        return f"{value:.{digits}g}"
     if isinstance(value, int):
         return f"{value:,}"
     if isinstance(value, (list, tuple, np.ndarray)):
-        return ", ".join(_said(item) for item in value) or "none"
+        return ", ".join(_said(item, digits) for item in value) or "none"
     if isinstance(value, Mapping):
-        return "; ".join(f"{name} {_said(item)}" for name, item in value.items()) or "none"
+        return "; ".join(f"{name} {_said(item, digits)}" for name, item in value.items()) or "none"
     return str(value)
 
 

@@ -18,7 +18,7 @@ from surfmesh.quality import Report, check
 from surfmesh.surface_mesh import SurfaceMesh
 from surfmesh.view.certificate_html import certificate_html
 from surfmesh.view.colouring import COLOURS, colourings_of
-from surfmesh.view.legend import name_of, title_of
+from surfmesh.view.legend import name_of, require_drawable, title_of
 from surfmesh.view.page_data import SHOWN, page_data
 
 FORMATS = (".html", ".htm")
@@ -40,14 +40,13 @@ def html_report(
     when it is known already.
 
     Raises ``FileFormatError`` for a place that cannot be written, an extension other than .html
-    or a mesh without triangles, ``ValueError`` for an unknown ``by`` or one that the mesh has
+    or a mesh that cannot be drawn, ``ValueError`` for an unknown ``by`` or one that the mesh has
     no data for.
     """
     path = Path(path)
     if path.suffix.lower() not in FORMATS:
         raise FileFormatError(f"{path}: reports are written as .html, not '{path.suffix}'")
-    if not len(mesh.triangles):
-        raise FileFormatError(f"{path}: nothing to show, the mesh has no triangles")
+    require_drawable(mesh, path)
     text = page(mesh, by=by, name=name, report=check(mesh) if report is None else report)
     with replacing(path) as temporary:
         temporary.write_text(text, encoding="utf-8")

@@ -1,5 +1,10 @@
-"""What is written and drawn around the colours: the title, and whether edges are shown."""
+"""What is written around the colours, and what can be drawn and told apart at all."""
 
+from pathlib import Path
+
+import numpy as np
+
+from surfmesh.errors import FileFormatError
 from surfmesh.quality.shape import alpha
 from surfmesh.surface_mesh import SurfaceMesh
 
@@ -29,6 +34,15 @@ def unit_of(mesh: SurfaceMesh, count: int = 2) -> str:
     """The unit of length: that of the CAD model where it is known. count: one or several."""
     known = getattr(getattr(mesh, "groups", None), "unit", None)
     return known or ("model unit" if count == 1 else "model units")
+
+
+def require_drawable(mesh: SurfaceMesh, path: Path) -> None:
+    """Raise ``FileFormatError`` when there is nothing to draw, or no place for it."""
+    if not len(mesh.triangles):
+        raise FileFormatError(f"{path}: nothing to draw, the mesh has no triangles")
+    lost = np.flatnonzero(~np.isfinite(mesh.points).all(axis=1))
+    if len(lost):
+        raise FileFormatError(f"{path}: vertex {lost[0]} has no finite place to be drawn at")
 
 
 def with_edges(mesh: SurfaceMesh, wish: bool | None, circles: bool = False) -> bool:

@@ -6,7 +6,7 @@ from surfmesh.errors import FileFormatError
 from surfmesh.io.atomic import replacing
 from surfmesh.surface_mesh import SurfaceMesh
 from surfmesh.view.colouring import Colouring, colouring
-from surfmesh.view.legend import title_of, with_edges
+from surfmesh.view.legend import require_drawable, title_of, with_edges
 from surfmesh.view.lines import Lines
 from surfmesh.view.opengl import can_draw
 from surfmesh.view.overlays import overlays
@@ -43,8 +43,7 @@ def plot(
     path = Path(path)
     if path.suffix.lower() != ".png":
         raise FileFormatError(f"{path}: pictures are written as .png, not '{path.suffix}'")
-    if not len(mesh.triangles):
-        raise FileFormatError(f"{path}: nothing to draw, the mesh has no triangles")
+    require_drawable(mesh, path)
     colours = colouring(mesh, by)
     lines = overlays(mesh, by, draw_circles=circles, directions=directions, worst=worst)
     with replacing(path) as temporary:

@@ -114,7 +114,16 @@ def test_what_cannot_be_reported_is_refused(saddle, tetrahedron, tmp_path):
         html_report(tetrahedron, tmp_path / "a.html", by="colour")
     with pytest.raises(FileFormatError, match="does not exist"):
         html_report(saddle, tmp_path / "b" / "a.html")
+    lost = saddle.points.copy()
+    lost[3, 1] = np.nan
+    with pytest.raises(FileFormatError, match="vertex 3 has no finite place"):
+        html_report(changed(saddle, points=lost), tmp_path / "a.html")
     assert not list(tmp_path.iterdir())
+
+
+def test_a_mesh_without_extent_has_a_report(tetrahedron, tmp_path):
+    text, _ = page_of(changed(tetrahedron, points=np.ones((4, 3))), tmp_path)
+    assert "NOT CLEAN" in text
 
 
 def test_size_of_the_file(tmp_path):
