@@ -86,6 +86,7 @@ def show(
     Raises what ``mesh`` and ``surfmesh.view.plot`` raise; ``SurfmeshError`` without a display.
     """
     from surfmesh import view
+    from surfmesh.view.legend import name_of
 
     if isinstance(thing, SurfaceMesh):
         shown, drawn = thing, {"by": by or "alpha"}
@@ -93,7 +94,7 @@ def show(
         shown = mesh(thing, sizing, optimise=False, strict=False)
         flat = isinstance(thing, PlanarDomain)
         first = "curvature" if sizing is None and not flat else "size"
-        name = getattr(thing, "name", "") or "surface"
+        name = getattr(thing, "name", "") or name_of(shown)
         what = "curvature" if first == "curvature" else "size field"
         drawn = {"by": by or first, "edges": False, "directions": not flat, "worst": 0}
         drawn["title"] = f"{name}: {what}, {len(shown.points):,} circles"

@@ -62,7 +62,7 @@ def circles(mesh: SurfaceMesh) -> Lines:
         ends = a + np.minimum(reach, 1.0)[:, :, None] * along
         inside = (reach[:-1] < 1.0) | (reach[1:] < 1.0)
         arcs.append(np.stack((ends[:-1], ends[1:]), axis=2)[inside])
-    return Lines("circles of the packing", np.concatenate(arcs), "#b0500c", 1.8)
+    return Lines("circles of the packing", np.concatenate(arcs), "#b0500c", 2.0)
 
 
 def principal_directions(mesh: SurfaceMesh) -> tuple[Lines, Lines]:

@@ -25,7 +25,7 @@ from surfmesh.view.overlays import legend
 AMBIENT = 0.35  # light from everywhere; the rest comes from the eye
 DOTS_PER_INCH = 100
 HAIRLINE = 0.25  # points
-NEARER = 0.004  # of the mesh's diagonal: lines hide what is less than this before them
+NEARER = 0.012  # of the mesh's diagonal: lines hide what is less than this before them
 
 
 def paint(

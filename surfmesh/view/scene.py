@@ -14,6 +14,7 @@ from surfmesh.view.overlays import legend
 
 BAR = 0.05  # of half the height: the mesh moves up, out of the colour bar's way
 TOP, LINE = 0.955, 0.032  # of the height: where the title stands, and the lines below it
+SMOOTHED = 1.6  # supersampling makes lines thinner by this
 NEARER = -4.0  # depth units by which lines lie before the triangles that they are drawn on
 
 
@@ -65,7 +66,7 @@ def scene(
         annotations={float(k): str(k) for k in range(colours.hues)} if colours.hues else None,
     )
     for layer in lines:
-        _add_lines(plotter, layer, layer.width * unit)
+        _add_lines(plotter, layer, layer.width * unit * SMOOTHED)
     said = [(title, INK), *((layer.name, layer.colour) for layer in legend(lines))]
     for row, (text, colour) in enumerate(said):
         plotter.add_text(
