@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from surfmesh import errors, io, view
-    from surfmesh.api import load, mesh
+    from surfmesh.api import load, mesh, show
     from surfmesh.cad.from_cadquery import from_cadquery
     from surfmesh.cad.model import CadModel
     from surfmesh.geometry.parametric import ParametricSurface
@@ -49,6 +49,7 @@ _HOMES = {
     "load": "surfmesh.api",
     "mesh": "surfmesh.api",
     "pack": "surfmesh.meshing.circle_packing",
+    "show": "surfmesh.api",
 }
 _MODULES = ("errors", "io", "view")
 
@@ -72,6 +73,7 @@ __all__ = [
     "load",
     "mesh",
     "pack",
+    "show",
     "view",
 ]
 

@@ -1,4 +1,4 @@
-"""The verbs: ``load`` a surface or a CAD model, ``mesh`` it."""
+"""The verbs: ``load`` a surface or a CAD model, ``mesh`` it, ``show`` what is on it."""
 
 import sys
 from pathlib import Path
@@ -70,6 +70,41 @@ def mesh(
         sizing = default_wishes(surface) or None
     work = mesh_planar if isinstance(surface, PlanarDomain) else mesh_parametric
     return work(surface, Sizing.of(sizing), optimise, progress)
+
+
+def show(
+    thing: SurfaceMesh | Surface | CadModel | Any,
+    sizing: Sizing | float | dict | None = None,
+    *,
+    by: str | None = None,
+    path: str | Path | None = None,
+    **options: Any,
+) -> None:
+    """Open a window, or a widget in a notebook; with ``path`` write a PNG instead.
+
+    A mesh is shown as ``mesh.show`` does. A surface, a CAD model or a CadQuery object is shown
+    before it is meshed: its curvature, or, when ``sizing`` is given, the size field that follows
+    from it, with the principal directions. by, options: as in ``surfmesh.view.plot``.
+
+    Raises what ``mesh`` and ``surfmesh.view.plot`` raise; ``SurfmeshError`` without a display.
+    """
+    from surfmesh import view
+    from surfmesh.view.legend import name_of
+
+    if isinstance(thing, SurfaceMesh):
+        shown, drawn = thing, {"by": by or "alpha"}
+    else:  # the raw packing carries the field to where it changes
+        shown = mesh(thing, sizing, optimise=False, strict=False)
+        flat = isinstance(thing, PlanarDomain)
+        first = "curvature" if sizing is None and not flat else "size"
+        name = getattr(thing, "name", "") or name_of(shown)
+        what = "curvature" if first == "curvature" else "size field"
+        drawn = {"by": by or first, "edges": False, "directions": not flat, "worst": 0}
+        drawn["title"] = f"{name}: {what}, {len(shown.points):,} circles"
+    if path is None:
+        view.show(shown, **(drawn | options))
+    else:
+        view.plot(shown, path, **(drawn | options))
 
 
 def _is_cad(thing: Any) -> bool:

@@ -191,11 +191,11 @@ class SurfaceMesh:
 
         return to_meshio(self)
 
-    def show(self, by: str = "alpha") -> None:
+    def show(self, by: str = "alpha", **options: Any) -> None:
         """Open an interactive window, or a widget in a notebook; see ``surfmesh.view.show``."""
         from surfmesh.view import show
 
-        show(self, by=by)
+        show(self, by=by, **options)
 
     def plot(self, path: str | Path, by: str = "alpha", **options: Any) -> Path:
         """Write a PNG without a display; see ``surfmesh.view.plot``."""

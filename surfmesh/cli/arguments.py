@@ -11,6 +11,7 @@ _EXAMPLES = """examples:
   surfmesh mesh my_surface.toml -o my_surface.stl --size 0.1
   surfmesh mesh --x u --y v --z "u**2 - v**2" --u -1 1 --v -1 1 -o saddle.ply
   surfmesh check wavy.vtu --surface wavy
+  surfmesh report bracket.step -o bracket.html --chord 0.05
   surfmesh pack --uniform 1 100 --count 1000 -o circles.svg
   surfmesh gallery
 
@@ -24,7 +25,7 @@ class _Parser(argparse.ArgumentParser):
 
 
 def parse(argv: Sequence[str]) -> argparse.Namespace:
-    """Options with ``command``, one of mesh, check, view, pack, gallery. Exits on bad usage."""
+    """Options with ``command``, the name of a function in ``commands``. Exits on bad usage."""
     return _parser().parse_args(_formulas_shielded(argv))
 
 
@@ -58,28 +59,16 @@ def _parser() -> _Parser:
     formulas.add_argument(
         "--param", action="append", default=[], metavar="NAME=VALUE", help="a named number"
     )
-    sizes = mesh.add_argument_group(
-        "sizes, in model units; any of them sets aside the sizes that INPUT brings"
-    )
-    sizes.add_argument("--chord", type=_positive, help="largest distance from the surface")
-    sizes.add_argument("--angle", type=_positive, help="largest angle between neighbours, degrees")
-    sizes.add_argument("--size", type=_positive, help="wanted edge length")
-    sizes.add_argument("--min-size", type=_positive, help="no edge is wanted shorter")
-    sizes.add_argument("--max-size", type=_positive, help="no edge is wanted longer")
-    sizes.add_argument("--growth", type=_positive, help="largest ratio of neighbouring sizes")
-    sizes.add_argument("--anisotropy", type=_positive, help="largest stretch; 1 is isotropic")
+    _add_sizes(mesh)
     mesh.add_argument("--no-optimise", action="store_true", help="the raw packing, for comparison")
-    mesh.add_argument(
-        "--no-strict", action="store_true", help="leave out CAD faces that cannot be meshed"
-    )
+    _add_cad(mesh)
     mesh.add_argument(
         "--simplify", action="store_true", help="collapse tiny edges of a CAD model"
     )
-    mesh.add_argument("--units", help="of the lengths of a CAD model: um, mm (default), cm, m, in")
     mesh.add_argument("--jobs", type=_count, default=1, help="faces meshed at once (default 1)")
     mesh.add_argument("--picture", metavar="PNG", help="write a picture too")
     mesh.add_argument("--by", default="alpha", choices=_COLOURS, help="colour of the picture")
-    mesh.add_argument("--report", metavar="JSON", help="write the report too")
+    mesh.add_argument("--report", metavar="JSON|HTML", help="write the report too")
     _add_json(mesh)
 
     check = commands.add_parser("check", help="report on a mesh file")
@@ -90,9 +79,22 @@ def _parser() -> _Parser:
     _add_json(check)
 
     view = commands.add_parser("view", help="show a mesh or a surface")
-    view.add_argument("input", metavar="INPUT", help="mesh file, formula file or gallery name")
+    view.add_argument("input", metavar="INPUT", help=_ANYTHING)
     view.add_argument("-o", "--output", metavar="PNG", help="a picture instead of a window")
     view.add_argument("--by", default="alpha", choices=_COLOURS, help="colour")
+    view.add_argument("--circles", action="store_true", help="draw the packing on the surface")
+    view.add_argument("--directions", action="store_true", help="draw principal directions")
+    view.add_argument("--worst", type=_count, help="how many of the worst triangles are outlined")
+    _add_sizes(view)
+    _add_cad(view)
+
+    report = commands.add_parser("report", help="one HTML file: mesh, certificate, histograms")
+    report.add_argument("input", metavar="INPUT", help=_ANYTHING)
+    report.add_argument("-o", "--output", required=True, metavar="HTML", help="file to write")
+    report.add_argument("--by", default="alpha", choices=_COLOURS, help="colour at first")
+    _add_sizes(report)
+    _add_cad(report)
+    _add_json(report)
 
     pack = commands.add_parser("pack", help="pack circles over the plane, as in the paper")
     law = pack.add_mutually_exclusive_group(required=True)
@@ -118,7 +120,32 @@ def _parser() -> _Parser:
     return parser
 
 
-_COLOURS = ("alpha", "size", "deviation", "face", "curvature")
+_COLOURS = (
+    "alpha", "quality", "angle", "size", "deviation", "face", "curvature", "gaussian", "mean"
+)  # fmt: skip
+_ANYTHING = "mesh file, CAD file, formula file or gallery name"
+
+
+def _add_sizes(parser: argparse.ArgumentParser) -> None:
+    sizes = parser.add_argument_group(
+        "sizes, in model units; any of them sets aside the sizes that INPUT brings"
+    )
+    sizes.add_argument("--chord", type=_positive, help="largest distance from the surface")
+    sizes.add_argument("--angle", type=_positive, help="largest angle between neighbours, degrees")
+    sizes.add_argument("--size", type=_positive, help="wanted edge length")
+    sizes.add_argument("--min-size", type=_positive, help="no edge is wanted shorter")
+    sizes.add_argument("--max-size", type=_positive, help="no edge is wanted longer")
+    sizes.add_argument("--growth", type=_positive, help="largest ratio of neighbouring sizes")
+    sizes.add_argument("--anisotropy", type=_positive, help="largest stretch; 1 is isotropic")
+
+
+def _add_cad(parser: argparse.ArgumentParser) -> None:
+    parser.add_argument(
+        "--no-strict", action="store_true", help="leave out CAD faces that cannot be meshed"
+    )
+    parser.add_argument(
+        "--units", help="of the lengths of a CAD model: um, mm (default), cm, m, in"
+    )
 
 
 def _add_json(parser: argparse.ArgumentParser) -> None:

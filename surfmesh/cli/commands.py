@@ -21,22 +21,19 @@ def mesh(options: Namespace) -> bool:
     from surfmesh.io.formats import require_writable
 
     require_writable(options.output)
-    for path, extension in ((options.picture, ".png"), (options.report, ".json")):
+    for path, *extensions in ((options.picture, ".png"), (options.report, ".json", ".html")):
         if path:
-            require_writable(path, extension)
+            require_writable(path, *extensions)
     surface = _surface(options)
 
     from surfmesh import api
     from surfmesh.io import save
     from surfmesh.quality import check as checked
-    from surfmesh.sizing.sizing import Sizing
-
-    given = {name: getattr(options, name) for name in SIZES if getattr(options, name) is not None}
     announce_compilation()
     with ProgressBar() as progress:
         result = api.mesh(
             surface,
-            Sizing(**given) if given else None,
+            _sizing(options),
             optimise=not options.no_optimise,
             progress=progress,
             strict=not options.no_strict,
@@ -54,7 +51,7 @@ def mesh(options: Namespace) -> bool:
             progress("picture", 0.97)
             files["picture"] = str(plot(result, options.picture, by=options.by))
         if options.report:
-            files["report"] = str(_written(report.to_json(), options.report))
+            files["report"] = str(_report_written(result, report, options))
     if options.json:
         _print_json(report.to_dict() | {"files": files})
     else:
@@ -88,33 +85,75 @@ def check(options: Namespace) -> bool:
 
 
 def view(options: Namespace) -> bool:
-    """Show a mesh file, or a surface meshed as its file says."""
-    from surfmesh.io import FORMATS, read
-
+    """Show a mesh file, or a surface or CAD model meshed as its file or the options say."""
     if options.output:
         from surfmesh.io.formats import require_writable
 
         require_writable(options.output, ".png")
-    if Path(options.input).suffix.lower() in FORMATS:
-        shown = read(options.input)
-    else:
-        from surfmesh import api
-
-        surface = _named_surface(options.input)
-        announce_compilation()
-        with ProgressBar() as progress:
-            shown = api.mesh(surface, progress=progress)
+    with ProgressBar() as progress:
+        shown = _shown(options, progress)
 
     from surfmesh.view import plot, show
 
+    drawn = {name: getattr(options, name) for name in ("by", "circles", "directions", "worst")}
     try:
         if options.output:
-            plot(shown, options.output, by=options.by)
+            plot(shown, options.output, **drawn)
         else:
-            show(shown, by=options.by)
+            show(shown, **drawn)
     except ValueError as error:  # the mesh has no data to colour by
         raise SurfmeshError(str(error)) from error
     return True
+
+
+def report(options: Namespace) -> bool:
+    """Write the HTML report of a mesh file, or of what is meshed for it."""
+    from surfmesh.io.formats import require_writable
+
+    require_writable(options.output, ".html", ".htm")
+    with ProgressBar() as progress:
+        shown = _shown(options, progress)
+
+        from surfmesh.quality import check as checked
+        from surfmesh.view import html_report
+
+        progress("check", 0.9)
+        found = checked(shown)
+        progress("write", 0.95)
+        try:
+            name = Path(options.input).stem
+            html_report(shown, options.output, by=options.by, name=name, report=found)
+        except ValueError as error:  # the mesh has no data to colour by
+            raise SurfmeshError(str(error)) from error
+    if options.json:
+        _print_json(found.to_dict() | {"files": {"html": options.output}})
+    else:
+        print(found)
+        print("  written   ", options.output)
+    return found.clean
+
+
+def _shown(options: Namespace, progress: ProgressBar) -> Any:
+    """The mesh of INPUT: read from its file, or made of what is in it."""
+    from surfmesh.io import FORMATS, read
+
+    if Path(options.input).suffix.lower() in FORMATS:
+        return read(options.input)
+    surface = _named_surface(options.input, options.units)
+
+    from surfmesh import api
+
+    announce_compilation()
+    strict = {"strict": False} if options.no_strict else {}
+    return api.mesh(surface, _sizing(options), progress=progress, **strict)
+
+
+def _sizing(options: Namespace) -> Any:
+    """The sizes that were asked for, or None."""
+    from surfmesh.sizing.sizing import Sizing
+
+    given = {name: getattr(options, name) for name in SIZES if getattr(options, name) is not None}
+    return Sizing(**given) if given else None
 
 
 def pack(options: Namespace) -> bool:
@@ -221,6 +260,16 @@ def _named_surface(name: str, units: str | None = None) -> Any:
     close = get_close_matches(name, known, n=1)
     hint = f"did you mean '{close[0]}'?" if close else "'surfmesh gallery' lists what there is"
     raise SurfaceError(f"'{name}' is neither a file nor a surface of the gallery; {hint}")
+
+
+def _report_written(result: Any, report: Any, options: Namespace) -> Path:
+    """As JSON or as HTML, by its extension."""
+    if Path(options.report).suffix.lower() == ".json":
+        return _written(report.to_json(), options.report)
+    from surfmesh.view import html_report
+
+    name = Path(options.output).stem
+    return html_report(result, options.report, by=options.by, name=name, report=report)
 
 
 def _written(text: str, path: str) -> Path:

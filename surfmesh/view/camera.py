@@ -20,16 +20,10 @@ class Camera(NamedTuple):
 
 
 def framed(points: NDArray[np.float64], aspect: float, margin: float = 0.06) -> Camera:
-    """The camera that just holds ``points`` in a picture ``aspect`` = width / height.
-
-    A surface that is almost flat is looked at more from above (from its flat side).
-    """
+    """The camera that just holds ``points`` in a picture ``aspect`` = width / height."""
     low, high = points.min(axis=0), points.max(axis=0)
     extent = high - low
-    direction = FROM.copy()
-    if extent[2] < 0.05 * extent[:2].max():
-        direction[2] = 2.2
-    towards = direction / np.linalg.norm(direction)
+    towards = direction_of(points)
     right = np.cross((0.0, 0.0, 1.0), towards)
     right /= np.linalg.norm(right)
     up = np.cross(towards, right)
@@ -45,3 +39,15 @@ def framed(points: NDArray[np.float64], aspect: float, margin: float = 0.06) -> 
         half_height=(1 + margin) * max(half_height, half_width / aspect, 1e-300),
         distance=4.0 * float(np.linalg.norm(extent)) or 1.0,
     )
+
+
+def direction_of(points: NDArray[np.float64]) -> NDArray[np.float64]:
+    """(3,) unit vector towards the eye.
+
+    A surface that is almost flat is looked at more from above (from its flat side).
+    """
+    extent = np.ptp(points, axis=0)
+    direction = FROM.copy()
+    if extent[2] < 0.05 * extent[:2].max():
+        direction[2] = 2.2
+    return direction / np.linalg.norm(direction)

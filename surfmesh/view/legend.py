@@ -1,5 +1,10 @@
-"""What is written and drawn around the colours: the title, and whether edges are shown."""
+"""What is written around the colours, and what can be drawn and told apart at all."""
 
+from pathlib import Path
+
+import numpy as np
+
+from surfmesh.errors import FileFormatError
 from surfmesh.quality.shape import alpha
 from surfmesh.surface_mesh import SurfaceMesh
 
@@ -9,15 +14,40 @@ INK = "#202428"
 
 def title_of(mesh: SurfaceMesh) -> str:
     """One line over the picture: name, counts, shape."""
-    names = list(dict.fromkeys(surface.name for surface in mesh.surfaces))
-    name = f"{names[0]}: " if len(names) == 1 else ""
+    name = name_of(mesh)
     shape = alpha(mesh)
     return (
-        f"{name}{len(mesh.triangles):,} triangles, {len(mesh.points):,} nodes; "
-        f"alpha mean {shape.mean():.3f}, smallest {shape.min():.3f}"
+        f"{name + ': ' if name else ''}{len(mesh.triangles):,} triangles, "
+        f"{len(mesh.points):,} nodes; alpha mean {shape.mean():.3f}, smallest {shape.min():.3f}"
     )
 
 
-def with_edges(mesh: SurfaceMesh, wish: bool | None) -> bool:
-    """``wish``, or when there is none whether the edges of ``mesh`` can be told apart."""
-    return len(mesh.triangles) <= EDGES_UP_TO if wish is None else wish
+def name_of(mesh: SurfaceMesh) -> str:
+    """The name of its only surface, or how many faces there are; empty when nothing is known."""
+    names = list(dict.fromkeys(surface.name for surface in mesh.surfaces))
+    if len(names) == 1:
+        return names[0]
+    return f"{len(mesh.surfaces):,} faces" if names else ""
+
+
+def unit_of(mesh: SurfaceMesh, count: int = 2) -> str:
+    """The unit of length: that of the CAD model where it is known. count: one or several."""
+    known = getattr(getattr(mesh, "groups", None), "unit", None)
+    return known or ("model unit" if count == 1 else "model units")
+
+
+def require_drawable(mesh: SurfaceMesh, path: Path) -> None:
+    """Raise ``FileFormatError`` when there is nothing to draw, or no place for it."""
+    if not len(mesh.triangles):
+        raise FileFormatError(f"{path}: nothing to draw, the mesh has no triangles")
+    lost = np.flatnonzero(~np.isfinite(mesh.points).all(axis=1))
+    if len(lost):
+        raise FileFormatError(f"{path}: vertex {lost[0]} has no finite place to be drawn at")
+
+
+def with_edges(mesh: SurfaceMesh, wish: bool | None, circles: bool = False) -> bool:
+    """``wish``, or when there is none whether the edges of ``mesh`` can be told apart.
+
+    Between circles they cannot.
+    """
+    return len(mesh.triangles) <= EDGES_UP_TO and not circles if wish is None else wish

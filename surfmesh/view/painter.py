@@ -7,27 +7,34 @@ card and wrong only where triangles pierce each other.
 from pathlib import Path
 
 import numpy as np
-from matplotlib import colormaps
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.cm import ScalarMappable
 from matplotlib.collections import PolyCollection
-from matplotlib.colors import LogNorm, Normalize
+from matplotlib.colors import LogNorm, Normalize, to_rgba
 from matplotlib.figure import Figure
+from numpy.typing import NDArray
 
 from surfmesh.surface_mesh import SurfaceMesh
-from surfmesh.view.camera import framed
+from surfmesh.view.camera import Camera, framed
+from surfmesh.view.colour_maps import map_of
 from surfmesh.view.colouring import Colouring
-from surfmesh.view.legend import INK, title_of
+from surfmesh.view.legend import INK
+from surfmesh.view.lines import Lines
+from surfmesh.view.overlays import legend
 
 AMBIENT = 0.35  # light from everywhere; the rest comes from the eye
 DOTS_PER_INCH = 100
+HAIRLINE = 0.25  # points
+NEARER = 0.012  # of the mesh's diagonal: lines hide what is less than this before them
 
 
 def paint(
     mesh: SurfaceMesh,
     colours: Colouring,
+    lines: list[Lines],
     path: Path,
     *,
+    title: str,
     edges: bool,
     size: tuple[int, int],
 ) -> None:
@@ -37,37 +44,63 @@ def paint(
     axes = figure.add_axes((0.02, 0.12, 0.96, 0.82))
     camera = framed(mesh.points, size[0] * 0.96 / (size[1] * 0.82))
 
-    relative = mesh.points - camera.centre
-    seen = np.column_stack((relative @ camera.right, relative @ camera.up))
-    depth = (relative @ camera.towards)[mesh.triangles].mean(axis=1)
-    order = np.argsort(depth)
-    triangles = mesh.triangles[order]
-    a, b, c = (mesh.points[corner] for corner in triangles.T)
-    normals = np.cross(b - a, c - a)
-    lengths = np.linalg.norm(normals, axis=1)
-    facing = np.abs(normals @ camera.towards) / np.where(lengths > 0, lengths, 1.0)
-    values = colours.values
-    values = values[triangles].mean(axis=1) if colours.per_vertex else values[order]
-
+    triangles = mesh.triangles
+    seen, depth = _seen(mesh.points, camera)
     norm = (LogNorm if colours.logarithmic else Normalize)(*colours.limits)
-    scale = ScalarMappable(norm, colormaps[colours.colours])
-    painted = scale.to_rgba(values)
-    painted[:, :3] *= (AMBIENT + (1 - AMBIENT) * facing)[:, None]
+    scale = ScalarMappable(norm, map_of(colours))
+    values = colours.within
+    values = values[triangles].mean(axis=1) if colours.per_vertex else values
+    faces = scale.to_rgba(values)
+    faces[:, :3] *= (AMBIENT + (1 - AMBIENT) * _facing(mesh, camera))[:, None]
+    # its own colour closes the hairlines
+    rims = np.tile(to_rgba(INK), (len(faces), 1)) if edges else faces
+    widths = np.full(len(faces), HAIRLINE)
+    depth = depth[triangles].mean(axis=1)
+    corners = seen[triangles]
+    for layer in lines:  # a line is a triangle without area, a little nearer than what it lies on
+        ends, behind = _seen(layer.segments, camera)
+        corners = np.concatenate((corners, ends[:, [0, 1, 1]]))
+        reach = NEARER * np.linalg.norm(np.ptp(mesh.points, axis=0))
+        depth = np.concatenate((depth, behind.max(axis=1) + reach))
+        colour = np.tile(to_rgba(layer.colour), (len(ends), 1))
+        faces, rims = np.concatenate((faces, colour)), np.concatenate((rims, colour))
+        pixels = layer.width * size[1] / 1000
+        widths = np.concatenate((widths, np.full(len(ends), pixels * 72 / DOTS_PER_INCH)))
+    order = np.argsort(depth, kind="stable")
     axes.add_collection(
         PolyCollection(
-            seen[triangles],
-            facecolors=painted,
-            edgecolors=INK if edges else painted,  # its own colour closes the hairlines
-            linewidths=0.25,
+            corners[order],
+            facecolors=faces[order],
+            edgecolors=rims[order],
+            linewidths=widths[order],
         )
     )
     half_width = camera.half_height * size[0] * 0.96 / (size[1] * 0.82)
     axes.set(xlim=(-half_width, half_width), ylim=(-camera.half_height, camera.half_height))
     axes.set_aspect("equal")
     axes.axis("off")
-    figure.text(0.02, 0.955, title_of(mesh), color=INK, fontsize=11)
+    figure.text(0.02, 0.955, title, color=INK, fontsize=11)
+    for row, layer in enumerate(legend(lines), 1):
+        figure.text(0.02, 0.955 - 0.03 * row, layer.name, color=layer.colour, fontsize=9)
     bar = figure.colorbar(
         scale, cax=figure.add_axes((0.25, 0.075, 0.5, 0.025)), orientation="horizontal"
     )
     bar.set_label(colours.title, color=INK)
+    if colours.hues:
+        bar.set_ticks(range(colours.hues))
     canvas.print_png(path)
+
+
+def _seen(points: NDArray, camera: Camera) -> tuple[NDArray, NDArray]:
+    """Points (..., 3) in the picture (..., 2), and how near they are to the eye (...)."""
+    relative = points - camera.centre
+    across, along = relative @ camera.right, relative @ camera.up
+    return np.stack((across, along), axis=-1), relative @ camera.towards
+
+
+def _facing(mesh: SurfaceMesh, camera: Camera) -> NDArray:
+    """(m,) cosine between the line of sight and the normals of the triangles, either way."""
+    a, b, c = (mesh.points[corner] for corner in mesh.triangles.T)
+    normals = np.cross(b - a, c - a)
+    lengths = np.linalg.norm(normals, axis=1)
+    return np.abs(normals @ camera.towards) / np.where(lengths > 0, lengths, 1.0)

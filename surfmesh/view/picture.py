@@ -6,8 +6,10 @@ from surfmesh.errors import FileFormatError
 from surfmesh.io.atomic import replacing
 from surfmesh.surface_mesh import SurfaceMesh
 from surfmesh.view.colouring import Colouring, colouring
-from surfmesh.view.legend import with_edges
+from surfmesh.view.legend import require_drawable, title_of, with_edges
+from surfmesh.view.lines import Lines
 from surfmesh.view.opengl import can_draw
+from surfmesh.view.overlays import overlays
 
 SIZE = (1600, 1200)  # pixels
 
@@ -18,38 +20,49 @@ def plot(
     *,
     by: str = "alpha",
     edges: bool | None = None,
+    circles: bool = False,
+    directions: bool = False,
+    worst: int | None = None,
+    title: str | None = None,
     size: tuple[int, int] = SIZE,
 ) -> Path:
     """Write a PNG of ``mesh`` to ``path`` and return the path.
 
-    by: "alpha" (shape), "size" (wanted), "deviation", "face" or "curvature". edges: draw
-    them; None draws them when there are not too many. size: width and height in pixels.
+    by: "alpha" or "quality" (shape), "angle", "size" (wanted), "deviation", "face",
+    "curvature", "gaussian" or "mean". edges: draw those of the triangles; None draws them when
+    there are not too many, and no circles. circles: draw the packing on the surface, a circle
+    of the wanted size around every vertex. directions: draw the principal directions. worst:
+    how many triangles of the worst shape are outlined; None: ten where the colours show shape.
+    Edges of CAD models, boundaries and borders between faces are always drawn. title: the line
+    on top; None: name, counts and shape. size: width and height in pixels.
 
     Where no OpenGL can be used the picture is painted triangle by triangle. Raises
     ``FileFormatError`` for a place that cannot be written or an extension other than .png,
-    ``ValueError`` for an unknown ``by`` or one that the mesh has no data for.
+    ``ValueError`` for an unknown ``by`` or what the mesh has no data for.
     """
     path = Path(path)
     if path.suffix.lower() != ".png":
         raise FileFormatError(f"{path}: pictures are written as .png, not '{path.suffix}'")
-    if not len(mesh.triangles):
-        raise FileFormatError(f"{path}: nothing to draw, the mesh has no triangles")
+    require_drawable(mesh, path)
     colours = colouring(mesh, by)
+    lines = overlays(mesh, by, draw_circles=circles, directions=directions, worst=worst)
     with replacing(path) as temporary:
         draw = _render if can_draw() else _paint
-        draw(mesh, colours, temporary, with_edges(mesh, edges), size)
+        said = title_of(mesh) if title is None else title
+        draw(mesh, colours, lines, temporary, said, with_edges(mesh, edges, circles), size)
     return path
 
 
 def _render(
-    mesh: SurfaceMesh, colours: Colouring, path: Path, edges: bool, size: tuple[int, int]
-) -> None:
+    mesh: SurfaceMesh, colours: Colouring, lines: list[Lines], path: Path, title: str,
+    edges: bool, size: tuple[int, int],
+) -> None:  # fmt: skip
     import pyvista
 
     from surfmesh.view.scene import scene
 
     with pyvista.vtk_verbosity("off"):  # it says on the console that there is no display
-        plotter = scene(mesh, colours, edges=edges, size=size, off_screen=True)
+        plotter = scene(mesh, colours, lines, title=title, edges=edges, size=size, off_screen=True)
         try:
             plotter.screenshot(path)
         finally:
@@ -57,8 +70,9 @@ def _render(
 
 
 def _paint(
-    mesh: SurfaceMesh, colours: Colouring, path: Path, edges: bool, size: tuple[int, int]
-) -> None:
+    mesh: SurfaceMesh, colours: Colouring, lines: list[Lines], path: Path, title: str,
+    edges: bool, size: tuple[int, int],
+) -> None:  # fmt: skip
     from surfmesh.view.painter import paint
 
-    paint(mesh, colours, path, edges=edges, size=size)
+    paint(mesh, colours, lines, path, title=title, edges=edges, size=size)

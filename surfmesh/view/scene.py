@@ -1,20 +1,29 @@
 """A mesh as a PyVista scene."""
 
+import numpy as np
 import pyvista
 
 from surfmesh.io.vtk_xml import to_pyvista
 from surfmesh.surface_mesh import SurfaceMesh
 from surfmesh.view.camera import framed
+from surfmesh.view.colour_maps import map_of
 from surfmesh.view.colouring import Colouring
-from surfmesh.view.legend import INK, title_of
+from surfmesh.view.legend import INK
+from surfmesh.view.lines import Lines
+from surfmesh.view.overlays import legend
 
 BAR = 0.05  # of half the height: the mesh moves up, out of the colour bar's way
+TOP, LINE = 0.955, 0.032  # of the height: where the title stands, and the lines below it
+SMOOTHED = 1.6  # supersampling makes lines thinner by this
+NEARER = -4.0  # depth units by which lines lie before the triangles that they are drawn on
 
 
 def scene(
     mesh: SurfaceMesh,
     colours: Colouring,
+    lines: list[Lines],
     *,
+    title: str,
     edges: bool,
     size: tuple[int, int],
     off_screen: bool,
@@ -25,16 +34,18 @@ def scene(
     data = to_pyvista(mesh)
     data.clear_data()
     values = data.point_data if colours.per_vertex else data.cell_data
-    values[colours.title] = colours.values
+    values[colours.title] = colours.within
     unit = size[1] / 1000
     plotter.add_mesh(
         data,
         scalars=colours.title,
-        cmap=colours.colours,
+        cmap=map_of(colours),
         clim=colours.limits,
         log_scale=colours.logarithmic,
+        n_colors=colours.hues or 256,
         show_edges=edges,
         edge_color=INK,
+        edge_opacity=0.55,
         line_width=0.7 * unit,
         lighting=True,
         ambient=0.4,
@@ -45,21 +56,26 @@ def scene(
             "color": INK,
             "title_font_size": round(22 * unit),
             "label_font_size": round(20 * unit),
-            "n_labels": 5,
+            "n_labels": 0 if colours.hues else 5,
             "fmt": "%.3g",
             "width": 0.5,
             "height": 0.06,
             "position_x": 0.25,
-            "position_y": 0.02,
+            "position_y": 0.05 if colours.hues else 0.02,
         },
+        annotations={float(k): str(k) for k in range(colours.hues)} if colours.hues else None,
     )
-    plotter.add_text(
-        title_of(mesh),
-        position=(0.02, 0.955),
-        viewport=True,
-        font_size=round(11 * unit),
-        color=INK,
-    )
+    for layer in lines:
+        _add_lines(plotter, layer, layer.width * unit * SMOOTHED)
+    said = [(title, INK), *((layer.name, layer.colour) for layer in legend(lines))]
+    for row, (text, colour) in enumerate(said):
+        plotter.add_text(
+            text,
+            position=(0.02, TOP - row * LINE),
+            viewport=True,
+            font_size=round((11 if row == 0 else 9) * unit),
+            color=colour,
+        )
     camera = framed(mesh.points, size[0] / size[1], margin=0.22)
     centre = camera.centre - BAR * camera.half_height * camera.up
     eye = centre + camera.distance * camera.towards
@@ -67,6 +83,21 @@ def scene(
     plotter.camera.parallel_projection = True
     plotter.camera.parallel_scale = camera.half_height
     plotter.reset_camera_clipping_range()
-    if edges:
+    if edges or lines:
         plotter.enable_anti_aliasing("ssaa")
     return plotter
+
+
+def _add_lines(plotter: pyvista.Plotter, layer: Lines, width: float) -> None:
+    ends = layer.segments.reshape(-1, 3)
+    cells = np.column_stack((np.full(len(ends) // 2, 2), np.arange(len(ends)).reshape(-1, 2)))
+    actor = plotter.add_mesh(
+        pyvista.PolyData(ends, lines=cells.ravel()),
+        color=layer.colour,
+        line_width=width,
+        lighting=False,
+        show_scalar_bar=False,
+    )
+    mapper = actor.mapper
+    mapper.SetResolveCoincidentTopologyToPolygonOffset()
+    mapper.SetRelativeCoincidentTopologyLineOffsetParameters(0.0, NEARER)

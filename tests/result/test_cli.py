@@ -111,6 +111,12 @@ def test_check_against_a_surface(stand_in, tmp_path, capsys):
         "check {}/none.vtu",
         "check {}",
         "view {}/none.vtu -o {}/a.png",
+        "view wavy -o {}/a.png --worst 0",
+        "report wavy",
+        "report wavy -o {}/a.pdf",
+        "report wawy -o {}/a.html",
+        "report wavy -o {}/a.html --by colour",
+        "report {}/none.vtu -o {}/a.html",
         "gallery extra",
     ],
 )
@@ -157,6 +163,40 @@ def test_view_writes_a_picture(stand_in, tmp_path):
     path = tmp_path / "a.png"
     assert main(["view", "wavy", "-o", str(path), "--by", "face"]) == 0
     assert path.stat().st_size > 1000
+
+
+def test_report_is_one_html_file(stand_in, tmp_path, capsys):
+    path = tmp_path / "a.html"
+    assert main(["report", "wavy", "-o", str(path), "--chord", "0.1", "--by", "face"]) == 0
+    assert stand_in[0][1].chord == 0.1
+    assert "200 triangles - clean" in capsys.readouterr().out
+    assert path.read_text("utf-8").startswith("<!DOCTYPE html>")
+    mesh = tmp_path / "b.stl"
+    grid(Saddle(), 3).save(mesh)
+    assert main(["report", str(mesh), "-o", str(path), "--json"]) == 0
+    content = json.loads(capsys.readouterr().out)
+    assert content["triangles"] == 18 and content["files"] == {"html": str(path)}
+    assert sorted(entry.name for entry in tmp_path.iterdir()) == ["a.html", "b.stl"]
+
+
+def test_mesh_writes_its_report_as_html(stand_in, tmp_path):
+    path = tmp_path / "a.html"
+    argv = ["mesh", *SADDLE, "-o", str(tmp_path / "a.vtu"), "--report", str(path)]
+    assert main([*argv, "--chord", "1e-9"]) == 1
+    assert "NOT CLEAN" in path.read_text("utf-8")
+
+
+def test_view_draws_what_was_asked(stand_in, tmp_path):
+    path = str(tmp_path / "a.png")
+    assert main(["view", "wavy", "-o", path, "--size", "0.3", "--circles", "--directions"]) == 0
+    assert stand_in[0][1].size == 0.3
+
+
+def test_colours_that_can_be_typed_are_those_there_are():
+    from surfmesh.cli.arguments import _COLOURS
+    from surfmesh.view.colouring import COLOURS
+
+    assert sorted(_COLOURS) == sorted(COLOURS)
 
 
 def test_view_of_what_the_mesh_does_not_carry(tmp_path, capsys):

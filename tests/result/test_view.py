@@ -8,7 +8,7 @@ from matplotlib.image import imread
 from surfmesh.errors import FileFormatError, SurfmeshError
 from surfmesh.view import legend, picture, plot, show
 from surfmesh.view.camera import framed
-from surfmesh.view.colouring import colouring
+from surfmesh.view.colouring import COLOURS, colouring, colourings_of
 
 
 def painted_share(path):
@@ -27,7 +27,7 @@ def test_picture_is_not_blank(drawn_by, saddle, tmp_path, monkeypatch, capfd):
     assert [entry.name for entry in tmp_path.iterdir()] == ["saddle.png"]
 
 
-@pytest.mark.parametrize("by", ["alpha", "size", "deviation", "face", "curvature"])
+@pytest.mark.parametrize("by", COLOURS)
 def test_colourings_have_a_value_for_each(by, saddle):
     found = colouring(saddle, by)
     assert len(found.values) == len(saddle.points if found.per_vertex else saddle.triangles)
@@ -74,3 +74,57 @@ def test_edges_are_drawn_when_they_can_be_told_apart(saddle, monkeypatch):
     assert legend.with_edges(saddle, None) and not legend.with_edges(saddle, False)
     monkeypatch.setattr(legend, "EDGES_UP_TO", 10)
     assert not legend.with_edges(saddle, None) and legend.with_edges(saddle, True)
+
+
+def test_faces_keep_their_hues():
+    mesh = grid(Saddle(), 4, face_ids=np.arange(32), surfaces=())
+    found = colouring(mesh, "face")
+    assert found.hues == 20 and found.values.max() == 19 and "modulo 20" in found.title
+    few = colouring(changed(mesh, face_ids=np.arange(32) % 3), "face")
+    assert few.hues == 3 and few.limits == (-0.5, 2.5)
+
+
+def test_what_is_the_same_everywhere_looks_so(saddle):
+    nearly = changed(saddle, sizes=np.linspace(0.3, 0.303, 81))
+    low, high = colouring(nearly, "size").limits
+    assert high > 1.2 * low and low < 0.3 < 0.303 < high
+
+
+def test_zero_curvature_is_zero_and_can_be_drawn(saddle):
+    found = colouring(changed(saddle, sizes=np.r_[1e-9, np.geomspace(0.1, 90, 80)]), "size")
+    assert found.logarithmic and found.values.min() == 1e-9
+    assert found.within.min() == found.limits[0] > 1e-3
+
+
+def test_all_colourings_at_once_are_the_single_ones(saddle):
+    for by, found in colourings_of(saddle).items():
+        np.testing.assert_array_equal(found.values, colouring(saddle, by).values)
+
+
+@pytest.mark.parametrize("drawn_by", ["opengl", "painter"])
+def test_lines_are_drawn(drawn_by, saddle, tmp_path, monkeypatch):
+    if drawn_by == "painter":
+        monkeypatch.setattr(picture, "can_draw", lambda: False)
+    options = {"by": "mean", "edges": False, "size": (400, 300), "title": ""}
+    bare = imread(plot(saddle, tmp_path / "bare.png", **options))
+    for wish in ({"circles": True}, {"directions": True}, {"worst": 3}):
+        drawn = imread(plot(saddle, tmp_path / "drawn.png", **options, **wish))
+        assert (np.abs(drawn - bare)[60:] > 0.2).any(axis=-1).sum() > 50, wish
+
+
+def test_a_window_is_opened_where_there_is_a_display(saddle, monkeypatch):
+    opened = []
+
+    class Window:
+        def show(self):
+            opened.append("shown")
+
+    def stand_in(mesh, colours, lines, **options):
+        opened.append((colours.title, [layer.name for layer in lines], options["edges"]))
+        return Window()
+
+    monkeypatch.setattr("surfmesh.view.scene.scene", stand_in)
+    monkeypatch.setenv("DISPLAY", ":0")
+    saddle.show(by="size", circles=True, worst=2)
+    names = ["circles of the packing", "model edges", "the 2 worst triangles"]
+    assert opened == [("wanted edge length (model units)", names, False), "shown"]

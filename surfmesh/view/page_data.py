@@ -1,0 +1,127 @@
+"""A mesh as the page of the report takes it: arrays in one compressed text, the rest as JSON."""
+
+import base64
+import gzip
+from collections.abc import Collection
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from surfmesh.surface_mesh import SurfaceMesh
+from surfmesh.view.camera import direction_of
+from surfmesh.view.colour_maps import table_of
+from surfmesh.view.colouring import LABELS, Colouring
+from surfmesh.view.legend import unit_of
+from surfmesh.view.lines import (
+    Lines,
+    model_edge_pairs,
+    model_edges,
+    principal_directions,
+    worst_triangles,
+)
+
+SWITCHES = ("triangles", "circles", "model edges", "worst", "principal directions")
+SHOWN = ("triangles", "model edges", "worst")
+"""What of these is switched on when nothing else is said."""
+
+MARKED = 20  # worst triangles
+KEPT_BITS = np.uint32(0xFFFFF000)  # of a colour's float: four digits, and the file a third smaller
+HALF_BIT = np.uint32(0x800)
+LEVEL = 6  # of gzip
+
+
+class PageData(NamedTuple):
+    contents: dict[str, Any]  # ready for JSON
+    arrays: str  # base64 of gzip of what contents["arrays"] lists, little-endian
+
+
+def page_data(
+    mesh: SurfaceMesh, colourings: dict[str, Colouring], by: str, shown: Collection[str] = SHOWN
+) -> PageData:
+    """``mesh`` and its ``colourings`` for the page, which shows ``by`` first, with what
+    of ``SWITCHES`` is in ``shown``.
+
+    Points are kept relative to the middle of the mesh, in halves of its largest extent: single
+    precision is then enough wherever the mesh lies and however small it is.
+    """
+    low, high = mesh.points.min(axis=0), mesh.points.max(axis=0)
+    centre = 0.5 * (low + high)
+    scale = 0.5 * float((high - low).max()) or 1.0
+    arrays = {
+        "points": ((mesh.points - centre) / scale).astype("<f4"),
+        "triangles": mesh.triangles.astype("<u4"),
+        "face_ids": np.maximum(mesh.face_ids, 0).astype("<u4"),
+    }
+    if mesh.sizes is not None:
+        arrays["sizes"] = _rounded(mesh.sizes / scale)
+    entries = []
+    for key, found in colourings.items():
+        arrays[f"by {key}"] = _rounded(found.values)
+        entries.append(
+            {
+                "key": key,
+                "label": LABELS[key],
+                "title": found.title,
+                "array": f"by {key}",
+                "perVertex": found.per_vertex,
+                "limits": found.limits,
+                "logarithmic": found.logarithmic,
+                "hues": found.hues,
+                "map": table_of(found),
+            }
+        )
+    lines = []
+    if len(model_edge_pairs(mesh)):
+        arrays["model edges"] = model_edge_pairs(mesh).astype("<u4")
+        look = model_edges(mesh)._replace(segments=np.empty((0, 2, 3)))
+        lines.append(_entry(look, "model edges") | {"pairs": True})
+    worst, _ = worst_triangles(mesh, MARKED)
+    crosses = principal_directions(mesh) if mesh.surfaces and mesh.uv_points is not None else ()
+    for layer, group in (
+        (worst, "worst"), *((layer, "principal directions") for layer in crosses)
+    ):  # fmt: skip
+        if len(layer.segments):
+            arrays[layer.name] = ((layer.segments - centre) / scale).astype("<f4")
+            lines.append(_entry(layer, group))
+    listed, packed = _packed(arrays)
+    contents = {
+        "by": by,
+        "shown": [name for name in SWITCHES if name in shown],
+        "unit": unit_of(mesh),
+        "centre": centre.tolist(),
+        "scale": scale,
+        "sight": direction_of(mesh.points).tolist(),
+        "faceNames": [mesh.face_name(i) for i in range(int(mesh.face_ids.max()) + 1)],
+        "colourings": entries,
+        "lines": lines,
+        "arrays": listed,
+    }
+    return PageData(contents, packed)
+
+
+def _entry(layer: Lines, group: str) -> dict[str, Any]:
+    return {
+        "array": layer.name,
+        "group": group,
+        "colour": layer.colour,
+        "width": 0.6 * layer.width,  # of a screen, where pictures are drawn larger
+        "pairs": False,
+    }
+
+
+def _rounded(values: NDArray) -> NDArray[np.float32]:
+    """Single precision with the last bits cleared."""
+    bits = np.asarray(values, "<f4").view("<u4")
+    return ((bits + HALF_BIT) & KEPT_BITS).view("<f4")
+
+
+def _packed(arrays: dict[str, NDArray]) -> tuple[list[dict[str, Any]], str]:
+    listed, start = [], 0
+    for name, values in arrays.items():
+        kind = values.dtype.str[1:]
+        listed.append({"name": name, "kind": kind, "start": start, "length": values.size})
+        start += values.nbytes
+    whole = b"".join(np.ascontiguousarray(values).tobytes() for values in arrays.values())
+    # without a time, so that the same mesh gives the same file
+    return listed, base64.b64encode(gzip.compress(whole, LEVEL, mtime=0)).decode("ascii")
