@@ -21,7 +21,7 @@ def stand_in(monkeypatch):
     """A mesher that gives a grid; ``asked`` collects what it was called with."""
     asked = []
 
-    def mesh(surface, sizing=None, *, optimise=True, progress=None):
+    def mesh(surface, sizing=None, *, optimise=True, progress=None, **_):
         asked.append((surface, sizing, optimise))
         progress("packing", 0.5)
         return grid(Saddle(), 10, sizing=sizing, sizes=np.full(121, 0.25))
