@@ -48,6 +48,7 @@ def mesh(
     progress: Progress | None = None,
     strict: bool = True,
     simplify: bool = False,
+    jobs: int = 1,
 ) -> SurfaceMesh:
     """Triangulate a surface, or a CAD model (or whatever CadQuery object makes one).
 
@@ -56,14 +57,15 @@ def mesh(
     boundary, as in the paper. progress: called with (stage, share done). strict=False: faces of
     a CAD model that cannot be meshed are left out and listed in the mesh's ``warnings``.
     simplify=True: tiny edges of a CAD model are collapsed, those below ``min_size`` or a
-    two-thousandth of the diagonal; topology is kept.
+    two-thousandth of the diagonal; topology is kept. jobs: faces of a CAD model meshed at
+    once; the mesh is the same with any number of them.
 
     Raises ``SizingError``, ``SurfaceError`` or ``MeshingError`` with the place and the reason.
     """
     if not isinstance(surface, (CadModel, Surface)) and _is_cad(surface):
         surface = from_cadquery(surface)
     if isinstance(surface, CadModel):
-        return mesh_model(surface, Sizing.of(sizing), optimise, progress, strict, simplify)
+        return mesh_model(surface, Sizing.of(sizing), optimise, progress, strict, simplify, jobs)
     if not isinstance(surface, Surface):
         raise SurfaceError(f"cannot mesh a {type(surface).__name__}: a Surface is needed")
     if sizing is None:

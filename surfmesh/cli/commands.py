@@ -38,6 +38,7 @@ def mesh(options: Namespace) -> bool:
             progress=progress,
             strict=not options.no_strict,
             simplify=options.simplify,
+            jobs=options.jobs,
         )
         progress("check", 0.92)
         report = checked(result)

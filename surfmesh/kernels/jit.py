@@ -1,6 +1,6 @@
 """The one decorator that compiles every kernel.
 
-``@kernel`` is ``numba.njit`` with three additions:
+``@kernel`` is ``numba.njit`` with four additions:
 
 - its cache lies in a folder whose name carries a digest of *all* kernel sources, because
   numba's own cache looks only at the file of the outermost function and would run stale
@@ -8,6 +8,7 @@
 - divisions follow numpy (no exception is raised inside a kernel; guard each division);
 - array arguments are not reference-counted (``_nrt``): a kernel owns no memory, and counting
   a dozen arrays at every call costs five times what the kernel does;
+- other threads run meanwhile (``nogil``): faces are meshed side by side;
 
 ``compiled_before`` tells whether the cache is filled, so that the user can be told what the
 first wait is for.
@@ -103,7 +104,7 @@ def inlined_kernel(function: Callable) -> Callable:
 
 
 def _compiled(function: Callable, **more: bool) -> Callable:
-    options = {"error_model": "numpy", "_nrt": False, **more}
+    options = {"error_model": "numpy", "_nrt": False, "nogil": True, **more}
     dispatcher = numba.njit(**options)(function)
     if hasattr(dispatcher, "_cache"):  # a plain function under NUMBA_DISABLE_JIT
         dispatcher._cache = _KernelCache(function)

@@ -6,6 +6,9 @@ edges cut once -> one job a face -> faces meshed -> joined by node numbers
         failed or lie too far away
 """
 
+from collections.abc import Callable, Iterator
+from concurrent.futures import ThreadPoolExecutor
+
 import numpy as np
 
 from surfmesh.cad.model import CadFace, CadModel
@@ -40,12 +43,13 @@ def with_defaults(sizing: Sizing, model: CadModel) -> Sizing:
 
 def mesh_model(
     model: CadModel, sizing: Sizing, optimise: bool = True, progress: Progress | None = None,
-    strict: bool = True, simplify: bool = False,
+    strict: bool = True, simplify: bool = False, workers: int = 1,
 ) -> SurfaceMesh:  # fmt: skip
     """Mesh all faces of a model; neighbours share the nodes of their common edges.
 
     simplify=True collapses what is shorter than ``min_size``, or else than a two-thousandth of
-    the diagonal, at the end.
+    the diagonal, at the end. workers: threads that mesh faces; the mesh is the same with any
+    number of them.
     strict=False delivers what could be meshed and lists the other faces in ``warnings``.
     Raises ``MeshingError`` that names the faces that could not be meshed, with the reasons.
     """
@@ -63,6 +67,7 @@ def mesh_model(
         with watch.stage("sizing"):
             nodes = cut_edges(model, sizing, samples, limits, before)
         with watch.stage("packing"):
+            changed = []
             for number, face in enumerate(model.faces):
                 job, limit = jobs[number], limits.get(number)
                 if (
@@ -71,7 +76,10 @@ def mesh_model(
                     or any(nodes[c.edge] is not before[c.edge] for c in face.coedges)
                 ):
                     jobs[number] = _job(model, face, nodes, samples, sizing, limit, optimise)
-                    done[number] = mesh_face(jobs[number])
+                    changed.append(number)
+            meshes = _in_order(mesh_face, [jobs[number] for number in changed], workers)
+            for number, face_mesh in zip(changed, meshes):
+                done[number] = face_mesh
         with watch.stage("mapping"):
             mesh = _joined(model, jobs, done, nodes, samples, sizing, watch)
             wishes = {k: found.wishes for k, found in enumerate(done) if found.wishes is not None}
@@ -92,6 +100,15 @@ def mesh_model(
         )
     mesh = mesh.with_warnings(*_left_over(model, wishes), *contents.warnings())
     return simplified(mesh, sizing.min_size or LEAST * model.diagonal) if simplify else mesh
+
+
+def _in_order(work: Callable, jobs: list, workers: int) -> Iterator:
+    """The results of all jobs, in their order."""
+    if workers <= 1 or len(jobs) <= 1:
+        yield from map(work, jobs)
+        return
+    with ThreadPoolExecutor(workers) as threads:
+        yield from threads.map(work, jobs)
 
 
 def _left_over(model: CadModel, wishes: dict[int, SizeLimits]) -> list[str]:

@@ -146,3 +146,10 @@ def test_a_bore_finer_than_min_size_stays_open():
     mesh = sm.mesh(sm.from_cadquery(bored), sm.Sizing(size=2.0, min_size=1.0))
     report = sm.check(mesh)
     assert report.closed and report.manifold and report.euler == 0
+
+
+def test_the_number_of_workers_changes_nothing():
+    model = sm.from_cadquery(plate())
+    one, three = (sm.mesh(model, jobs=jobs) for jobs in (1, 3))
+    assert np.array_equal(one.points, three.points)
+    assert np.array_equal(one.triangles, three.triangles)
