@@ -82,7 +82,7 @@ def check(options: Namespace) -> bool:
     if options.json:
         _print_json(report.to_dict())
     else:
-        print(report)
+        print(report.to_text())
     return report.clean
 
 

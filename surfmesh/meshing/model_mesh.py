@@ -8,6 +8,7 @@ edges cut once -> one job a face -> faces meshed -> joined by node numbers
 
 import numpy as np
 
+from surfmesh.cad.facts import model_facts
 from surfmesh.cad.model import CadFace, CadModel
 from surfmesh.errors import MeshingError
 from surfmesh.meshing.edge_nodes import EdgeNodes, cut_edges, vertex_numbers
@@ -194,6 +195,7 @@ def _joined(
         sizing=sizing,
         seconds=watch.seconds,
         warnings=tuple([*model.healing, *missing]),
+        facts=model_facts(model),
     )
 
 

@@ -37,6 +37,7 @@ class Deviation(NamedTuple):
     """Distances in model units."""
 
     by_triangle: NDArray[np.float64]  # (m,) largest distance seen in each triangle
+    mean_square: NDArray[np.float64]  # (m,) mean over each triangle of the squared distance
     cosine: NDArray[np.float32]  # (m,) of the angle between triangle and surface normal
     largest: float
     rms: float  # root of the mean square over the mesh's area
@@ -54,12 +55,12 @@ def deviation(mesh: SurfaceMesh, area: NDArray[np.float64]) -> Deviation | None:
     if not mesh.surfaces or mesh.uv_points is None or not len(mesh.triangles):
         return None
     table, count = mesh.connectivity, len(mesh.triangles)
-    by_triangle, cosine = np.zeros(count), np.ones(count, np.float32)
+    by_triangle, mean_square = np.zeros(count), np.zeros(count)
+    cosine = np.ones(count, np.float32)
     corners, uv_corners = mesh.triangles.reshape(-1), mesh.uv_triangles.reshape(-1)
     corner_of = np.full(len(mesh.points), -1, np.int32)
     corner_of[corners] = np.arange(len(corners), dtype=np.int32)
     at_vertex = np.zeros(len(mesh.points))
-    square = 0.0  # integral of the squared distance
 
     for surface, triangles, edges, vertices in _by_face(mesh, corner_of):
         for block in _blocks(vertices):
@@ -75,25 +76,26 @@ def deviation(mesh: SurfaceMesh, area: NDArray[np.float64]) -> Deviation | None:
                 (triangle, distance),
                 (table.half_edges[block[shared], 1] // 3, distance[shared]),
             ):
-                square += MIDDLE_WEIGHT * _dot(area[beside], found**2)
+                np.add.at(mean_square, beside, MIDDLE_WEIGHT * found**2)
                 np.maximum.at(by_triangle, beside, found)
         for block in _blocks(triangles):
             points, uv = _samples(mesh, block, np.zeros_like(block), _CENTROID)
             found, normals = _distances(surface, points, uv, np.sqrt(area[block]))
-            square += CENTROID_WEIGHT * _dot(area[block], found**2)
+            mean_square[block] += CENTROID_WEIGHT * found**2
             by_triangle[block] = np.maximum(by_triangle[block], found)
             cosine[block] = _cosines(mesh, block, normals, area[block])
     if mesh.turned_faces is not None:
         cosine[mesh.turned_faces[mesh.face_ids]] *= -1.0
     for block in _blocks(_count(count)):
         found = at_vertex[mesh.triangles[block]]
-        square += VERTEX_WEIGHT * _dot(area[block], np.square(found).sum(axis=1))
+        mean_square[block] += VERTEX_WEIGHT * np.square(found).sum(axis=1)
         by_triangle[block] = np.maximum(by_triangle[block], found.max(axis=1))
     total = float(area.sum())
-    rms = (square / total) ** 0.5 if total > 0 else float("nan")
+    rms = (_dot(area, mean_square) / total) ** 0.5 if total > 0 else float("nan")
 
     triangle, point, uv = _second_look(mesh, by_triangle)
-    return Deviation(by_triangle, cosine, float(by_triangle[triangle]), rms, triangle, point, uv)
+    largest = float(by_triangle[triangle])
+    return Deviation(by_triangle, mean_square, cosine, largest, rms, triangle, point, uv)
 
 
 def _by_face(mesh: SurfaceMesh, corner_of: NDArray[np.int32]) -> Iterator[tuple[Any, ...]]:

@@ -4,6 +4,8 @@ Near pairs come from a tree of boxes; the test is that of ``kernels/triangle_pai
 comes near, or touches in a corner at the very same place, does not meet.
 """
 
+from dataclasses import dataclass
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -13,6 +15,15 @@ from surfmesh.surface_mesh import SurfaceMesh
 
 MOST = 200_000  # pairs looked for: a mesh with more of them is broken beyond counting
 _BITS = 20  # of the space-filling curve, on each axis
+
+
+@dataclass(frozen=True)
+class MeetingPair:
+    """Two triangles that meet where they share nothing."""
+
+    triangles: tuple[int, int]
+    faces: tuple[int, int]
+    point: tuple[float, float, float]  # near which they meet
 
 
 def meeting_pairs(mesh: SurfaceMesh) -> NDArray[np.int32]:
@@ -46,11 +57,14 @@ def meeting_pairs(mesh: SurfaceMesh) -> NDArray[np.int32]:
     return pairs[np.lexsort(pairs.T[::-1])][:MOST]
 
 
-def meeting_places(mesh: SurfaceMesh, pairs: NDArray[np.int32]) -> NDArray[np.float64]:
-    """(k, 3) middle of what the boxes of both triangles have in common: where they meet."""
+def located(mesh: SurfaceMesh, pairs: NDArray[np.int32]) -> tuple[MeetingPair, ...]:
+    """Where pairs (k, 2) meet: in the middle of what the boxes of both have in common."""
     corners = mesh.points[mesh.triangles[pairs]]  # (k, 2, 3, 3)
     low, high = corners.min(axis=2).max(axis=1), corners.max(axis=2).min(axis=1)
-    return (low + high) / 2
+    return tuple(
+        MeetingPair(tuple(pair), tuple(mesh.face_ids[pair].tolist()), tuple(place))
+        for pair, place in zip(pairs.tolist(), ((low + high) / 2).tolist())
+    )
 
 
 def _along_a_curve(mesh: SurfaceMesh) -> NDArray[np.int32]:
