@@ -10,7 +10,7 @@ import numpy as np
 from surfmesh.cad.model import CadFace, CadModel
 from surfmesh.model_facts import FaceFacts, ModelFacts, SolidFacts
 
-SAME_PLACE = 1e-6  # of the (u, v) box: two loops that pass a vertex so near touch there
+SAME_PLACE = 0.01  # of the (u, v) box: images of one vertex are as near, or a seam apart
 
 
 def model_facts(model: CadModel) -> ModelFacts:

@@ -108,7 +108,7 @@ def _job(
     return FaceJob(face.surface, tuple(loops), sizing, limits, optimise)
 
 
-def _orientation(model: CadModel) -> tuple[np.ndarray, np.ndarray]:
+def orientation(model: CadModel) -> tuple[np.ndarray, np.ndarray]:
     """Which faces are turned over (f,), and the solids behind and before them (f, 2).
 
     A triangle's normal points out of the first solid and into the second; -1 is none.
@@ -139,7 +139,7 @@ def _joined(
     for _, cut in edges:
         points[cut.numbers] = cut.points
         np.minimum.at(sizes, cut.numbers, cut.sizes)
-    turned, solids = _orientation(model)
+    turned, solids = orientation(model)
     inner_points, inner_sizes, triangles, uv, uv_triangles, face_ids = [], [], [], [], [], []
     total = shared
     uv_total = 0

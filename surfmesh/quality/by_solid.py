@@ -3,7 +3,6 @@
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
 from surfmesh.quality.shape import Shapes
 from surfmesh.surface_mesh import SurfaceMesh
@@ -76,11 +75,3 @@ def volume_of_all(rows: tuple[SolidRow, ...]) -> float | None:
     """Sum over the solids, or None when one of them is open."""
     volumes = [row.volume for row in rows]
     return None if not rows or None in volumes else sum(volumes)
-
-
-def apart(solid_ids: NDArray[np.int32], pairs: NDArray[np.int32]) -> NDArray[np.bool_]:
-    """(k,) which pairs of triangles bound no solid in common, but one each."""
-    first, second = solid_ids[pairs[:, 0]], solid_ids[pairs[:, 1]]
-    common = (first[:, :, None] == second[:, None, :]) & (first[:, :, None] >= 0)
-    each = (first >= 0).any(axis=1) & (second >= 0).any(axis=1)
-    return each & ~common.any(axis=(1, 2))

@@ -1,7 +1,8 @@
 """How far the mesh lies from the true surface, and which triangles face the wrong way.
 
-Samples are the vertices, the middles of the edges (once each) and the centroids: the seven
-points of a rule that integrates cubics over a triangle exactly. At each, the distance is to
+Samples are the vertices, the middles of the edges (once each; between two faces once for
+either) and the centroids: the seven points of a rule that integrates cubics over a triangle
+exactly. At each, the distance is to
 the nearest point of the surface, not to the image r(u, v) of the interpolated parameters.
 The worst triangles are then sampled densely.
 """
@@ -54,7 +55,7 @@ def deviation(mesh: SurfaceMesh, area: NDArray[np.float64]) -> Deviation | None:
     """
     if not mesh.surfaces or mesh.uv_points is None or not len(mesh.triangles):
         return None
-    table, count = mesh.connectivity, len(mesh.triangles)
+    count = len(mesh.triangles)
     by_triangle, mean_square = np.zeros(count), np.zeros(count)
     cosine = np.ones(count, np.float32)
     corners, uv_corners = mesh.triangles.reshape(-1), mesh.uv_triangles.reshape(-1)
@@ -62,19 +63,20 @@ def deviation(mesh: SurfaceMesh, area: NDArray[np.float64]) -> Deviation | None:
     corner_of[corners] = np.arange(len(corners), dtype=np.int32)
     at_vertex = np.zeros(len(mesh.points))
 
-    for surface, triangles, edges, vertices in _by_face(mesh, corner_of):
+    half_edges, twins = _measured_half_edges(mesh)
+    for surface, triangles, middles, vertices in _by_face(mesh, half_edges, corner_of):
         for block in _blocks(vertices):
             corner = corner_of[block]
             points, uv = mesh.points[block], mesh.uv_points[uv_corners[corner]]
             at_vertex[block] = _offsets(surface, points, uv, np.sqrt(area[corner // 3]))
-        for block in _blocks(edges):
-            triangle, side = np.divmod(table.half_edges[block, 0], np.int32(3))
+        for block in _blocks(middles):
+            triangle, side = np.divmod(half_edges[block], np.int32(3))
             points, uv = _samples(mesh, triangle, side, _MIDDLES)
             distance, _ = _distances(surface, points, uv, np.sqrt(area[triangle]))
-            shared = table.uses[block] > 1
+            shared = twins[block] >= 0
             for beside, found in (
                 (triangle, distance),
-                (table.half_edges[block[shared], 1] // 3, distance[shared]),
+                (twins[block[shared]] // 3, distance[shared]),
             ):
                 np.add.at(mean_square, beside, MIDDLE_WEIGHT * found**2)
                 np.maximum.at(by_triangle, beside, found)
@@ -98,9 +100,27 @@ def deviation(mesh: SurfaceMesh, area: NDArray[np.float64]) -> Deviation | None:
     return Deviation(by_triangle, mean_square, cosine, largest, rms, triangle, point, uv)
 
 
-def _by_face(mesh: SurfaceMesh, corner_of: NDArray[np.int32]) -> Iterator[tuple[Any, ...]]:
-    """Each surface with its triangles, and the edges and vertices first seen from them."""
-    edge_face = mesh.face_ids[mesh.connectivity.half_edges[:, 0] // 3]
+def _measured_half_edges(mesh: SurfaceMesh) -> tuple[NDArray[np.int32], NDArray[np.int32]]:
+    """Half-edges (k,) whose middles are looked at, and those (k,) that share the finding or -1.
+
+    An edge within a face is looked at once, an edge between two faces from both of them.
+    """
+    first, second = mesh.connectivity.half_edges.T
+    if len(mesh.surfaces) == 1:
+        return first, second
+    between = (second >= 0) & (mesh.face_ids[first // 3] != mesh.face_ids[second // 3])
+    again = second[between]
+    return (
+        np.concatenate([first, again]),
+        np.concatenate([np.where(between, -1, second), np.full_like(again, -1)]),
+    )
+
+
+def _by_face(
+    mesh: SurfaceMesh, half_edges: NDArray[np.int32], corner_of: NDArray[np.int32]
+) -> Iterator[tuple[Any, ...]]:
+    """Each surface with its triangles and half-edges, and the vertices first seen from them."""
+    edge_face = mesh.face_ids[half_edges // 3]
     used = np.flatnonzero(corner_of >= 0).astype(np.int32)
     vertex_face = mesh.face_ids[corner_of[used] // 3]
     if len(mesh.surfaces) == 1:
@@ -110,8 +130,8 @@ def _by_face(mesh: SurfaceMesh, corner_of: NDArray[np.int32]) -> Iterator[tuple[
     for faces in (mesh.face_ids, edge_face, vertex_face):
         order = np.argsort(faces, kind="stable").astype(np.int32)
         members.append(np.split(order, np.searchsorted(faces[order], range(1, len(mesh.surfaces)))))
-    for surface, triangles, edges, vertices in zip(mesh.surfaces, *members):
-        yield surface, triangles, edges, used[vertices]
+    for surface, triangles, middles, vertices in zip(mesh.surfaces, *members):
+        yield surface, triangles, middles, used[vertices]
 
 
 def _count(length: int) -> NDArray[np.int32]:

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from surfmesh.model_facts import ModelFacts
 from surfmesh.quality.by_face import CHORD_SLACK, FaceRow, by_face
-from surfmesh.quality.by_solid import SolidRow, apart, by_solid, volume_of_all
+from surfmesh.quality.by_solid import SolidRow, by_solid, volume_of_all
 from surfmesh.quality.deviation import deviation
 from surfmesh.quality.histograms import Histogram, histograms
 from surfmesh.quality.lengths import QUASI_UNIT, edge_lengths, growth, metric_lengths
@@ -20,7 +20,7 @@ from surfmesh.quality.problems import DEGENERATE, FOLDED, INVERTED, intersection
 from surfmesh.quality.provenance import mesh_sha256, versions
 from surfmesh.quality.self_intersection import MeetingPair, located, meeting_pairs
 from surfmesh.quality.shape import enclosed_volume, shapes
-from surfmesh.quality.solids import shares_faces
+from surfmesh.quality.solids import apart, shares_faces
 from surfmesh.quality.topology import topology
 from surfmesh.quality.worst import WorstTriangle, worst_triangles
 from surfmesh.surface_mesh import SurfaceMesh
@@ -63,7 +63,7 @@ class Report:
     self_intersections: int | None  # pairs of triangles that meet where they share nothing
     crosses_itself: bool  # by nature of the surface: self-intersections are no fault
     meeting: tuple[MeetingPair, ...]  # the first twenty of them
-    solid_contacts: int | None  # pairs that meet between two solids, which is no fault
+    contacts: int | None  # pairs that meet between two bodies of a CAD model: no fault
 
     alpha_mean: float  # 4 sqrt(3) area / sum of squared edges, in 3D; 1 is equilateral
     alpha_p01: float  # 1 % of the triangles are worse
@@ -183,7 +183,7 @@ def check(mesh: SurfaceMesh) -> Report:
     pairs = meeting_pairs(mesh) if finite else None
     contacts = None
     if pairs is not None and mesh.solid_ids is not None:
-        between = apart(mesh.solid_ids, pairs)
+        between = apart(mesh, pairs)
         contacts, pairs = int(between.sum()), pairs[~between]
     meeting = () if pairs is None else located(mesh, pairs[:LISTED])
     said = problems(mesh, broken, topo, shape, fit, above, solids)
@@ -206,7 +206,7 @@ def check(mesh: SurfaceMesh) -> Report:
         self_intersections=None if pairs is None else len(pairs),
         crosses_itself=crosses,
         meeting=meeting,
-        solid_contacts=contacts,
+        contacts=contacts,
         alpha_mean=_over(np.mean, shape.alpha),
         alpha_p01=_over(lambda alpha: np.quantile(alpha, 0.01), shape.alpha),
         alpha_min=_over(np.min, shape.alpha),

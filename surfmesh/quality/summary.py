@@ -75,6 +75,8 @@ def _topology(report: "Report") -> str:
     elif report.self_intersections:
         natural = " by nature" if report.crosses_itself else ""
         words.append(f"intersects itself{natural} ({report.self_intersections:,} pairs)")
+    if report.contacts:
+        words.append(f"separate bodies meet ({report.contacts:,} pairs of triangles)")
     if report.faces > 1:
         words.append(_count(report.faces, "face"))
     return ", ".join(words)
