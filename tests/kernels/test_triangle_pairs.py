@@ -27,7 +27,7 @@ def meet(first, second):
 @given(st.lists(st.tuples(*[st.floats(-1e3, 1e3).map(lambda x: round(x, 9))] * 3), min_size=4,
                 max_size=4))  # fmt: skip
 def test_orientation_has_the_sign_of_fractions(points):
-    found = orient_space(np.array(points), 0, 1, 2, 3, WORK)
+    found = float(orient_space(np.array(points), 0, 1, 2, 3, WORK))
     assert sign(found) == sign(slow.orient_space(*points))
 
 
@@ -37,9 +37,9 @@ def test_orientation_of_points_that_are_nearly_in_a_plane(seed):
     a, b, c = rng.normal(size=(3, 3))
     s, t = rng.normal(size=2)
     points = np.array([a, b, c, a + s * (b - a) + t * (c - a)]) + rng.choice([0, 100])
-    found = orient_space(points, 0, 1, 2, 3, WORK)
+    found = float(orient_space(points, 0, 1, 2, 3, WORK))
     assert sign(found) == sign(slow.orient_space(*points))
-    assert sign(orient_space(points, 1, 0, 2, 3, WORK)) == -sign(found)
+    assert sign(float(orient_space(points, 1, 0, 2, 3, WORK))) == -sign(found)
 
 
 @settings(max_examples=400)
