@@ -107,11 +107,15 @@ def intersections(
     first = meeting[0]
     names = dict.fromkeys(mesh.face_name(face) for face in first.faces)
     many = f"{count:,} pair{'s' * (count > 1)}"
-    meant = any(hasattr(surface, "formulas") for surface in mesh.surfaces)
+    advice = ""
+    if any(hasattr(surface, "formulas") for surface in mesh.surfaces):
+        advice = "; lower the sizes there, or say embedded = false in the facts of the surface"
+    elif mesh.surfaces:
+        advice = "; lower the sizes there, or repair the model if its own faces cross"
     return [
         f"the mesh intersects itself: {many} of triangles, first {first.triangles[0]} and "
         f"{first.triangles[1]} ({' and '.join(names)}) at {_place(first.point)}"
-        + ("; if the surface does so too, say embedded = false in its facts" if meant else "")
+        + advice
     ]
 
 
