@@ -36,24 +36,30 @@ class FaceRow:
 
 def by_face(
     mesh: SurfaceMesh,
-    count: int,
     shape: Shapes,
     fit: Deviation | None,
     lengths: NDArray[np.float64],
     folded: NDArray[np.bool_] | None,
     chord: float | None,
 ) -> tuple[FaceRow, ...]:
-    """Rows of ``count`` faces.
+    """Rows of all surfaces, or of the numbers that occur where none is known.
 
     lengths: (ne,) of the edges of the mesh; folded: (m,) which triangles are. An edge between
-    two faces counts for both, the row's sizes are means over edges.
+    two faces counts for both, the row's sizes are means over edges. No row of a mesh whose
+    ``face_ids`` are out of range.
     """
-    faces = mesh.face_ids
+    if mesh.surfaces:
+        numbers, faces = np.arange(len(mesh.surfaces)), mesh.face_ids
+        if len(faces) and not 0 <= faces.min() <= faces.max() < len(numbers):
+            return ()
+    else:
+        numbers, faces = np.unique(mesh.face_ids, return_inverse=True)
+    count = len(numbers)
     triangles = np.bincount(faces, minlength=count)
     area = np.bincount(faces, shape.area, count)
     alpha_sum, alpha_min = np.bincount(faces, shape.alpha, count), np.full(count, np.inf)
     np.fmin.at(alpha_min, faces, shape.alpha)
-    size, wanted = _sizes(mesh, count, lengths)
+    size, wanted = _sizes(mesh, faces, count, lengths)
     largest = np.zeros(count)
     square, above, turned = np.zeros(count), np.zeros(count), np.zeros(count)
     worst = np.zeros(count, np.int64)
@@ -67,42 +73,42 @@ def by_face(
             above = np.bincount(faces, fit.by_triangle > chord * (1 + CHORD_SLACK), count)
     exact = mesh.facts.faces if mesh.facts is not None else ()
     rows = []
-    for face in range(count):
-        here = int(triangles[face])
+    for k, face in enumerate(numbers.tolist()):
+        here = int(triangles[k])
         known = fit is not None and here > 0
-        surface = mesh.surfaces[face] if face < len(mesh.surfaces) else None
-        place = mesh.points[mesh.triangles[worst[face]]].mean(axis=0) if known else ()
-        rms = (square[face] / area[face]) ** 0.5 if known and area[face] > 0 else None
+        surface = mesh.surfaces[face] if mesh.surfaces else None
+        place = mesh.points[mesh.triangles[worst[k]]].mean(axis=0) if known else ()
+        rms = float(square[k] / area[k]) ** 0.5 if known and area[k] > 0 else None
         rows.append(
             FaceRow(
                 face=face,
                 name=mesh.face_name(face),
-                kind=exact[face].kind if face < len(exact) else getattr(surface, "kind", ""),
+                kind=exact[face].kind if 0 <= face < len(exact) else getattr(surface, "kind", ""),
                 triangles=here,
-                area=float(area[face]),
-                area_exact=exact[face].area if face < len(exact) else None,
-                deviation_max=float(largest[face]) if known else None,
+                area=float(area[k]),
+                area_exact=exact[face].area if 0 <= face < len(exact) else None,
+                deviation_max=float(largest[k]) if known else None,
                 deviation_rms=rms,
-                deviation_triangle=int(worst[face]) if known else None,
+                deviation_triangle=int(worst[k]) if known else None,
                 deviation_point=tuple(map(float, place)) if known else None,
-                above_chord_share=float(above[face] / here) if known and chord else None,
-                folded=int(turned[face]) if known else None,
-                alpha_mean=float(alpha_sum[face] / here) if here else None,
-                alpha_min=float(alpha_min[face]) if here else None,
-                size_mean=float(size[face]) if here else None,
-                size_wanted=float(wanted[face]) if here and mesh.sizes is not None else None,
+                above_chord_share=float(above[k] / here) if known and chord else None,
+                folded=int(turned[k]) if known else None,
+                alpha_mean=float(alpha_sum[k] / here) if here else None,
+                alpha_min=float(alpha_min[k]) if here else None,
+                size_mean=float(size[k]) if here else None,
+                size_wanted=float(wanted[k]) if here and mesh.sizes is not None else None,
             )
         )
     return tuple(rows)
 
 
 def _sizes(
-    mesh: SurfaceMesh, count: int, lengths: NDArray[np.float64]
+    mesh: SurfaceMesh, faces: NDArray, count: int, lengths: NDArray[np.float64]
 ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     """Mean length of the edges of each face, and mean of what was wanted of them."""
     table = mesh.connectivity
-    first = mesh.face_ids[table.half_edges[:, 0] // 3]
-    second = mesh.face_ids[np.maximum(table.half_edges[:, 1], 0) // 3]
+    first = faces[table.half_edges[:, 0] // 3]
+    second = faces[np.maximum(table.half_edges[:, 1], 0) // 3]
     both = np.flatnonzero((table.half_edges[:, 1] >= 0) & (second != first))
     second = second[both]
 

@@ -48,12 +48,14 @@ class Deviation(NamedTuple):
 
 
 def deviation(mesh: SurfaceMesh, area: NDArray[np.float64]) -> Deviation | None:
-    """Distance of ``mesh`` from its surfaces, or None when it carries no surface.
+    """Distance of ``mesh`` from its surfaces, or None when it carries none, or not for all faces.
 
     ``area``: (m,) areas of the triangles, the weights of the mean square. Between samples
     the distance is not bounded: it is smooth, and the densest look is where it is largest.
     """
     if not mesh.surfaces or mesh.uv_points is None or not len(mesh.triangles):
+        return None
+    if not 0 <= mesh.face_ids.min() <= mesh.face_ids.max() < len(mesh.surfaces):
         return None
     count = len(mesh.triangles)
     by_triangle, mean_square = np.zeros(count), np.zeros(count)

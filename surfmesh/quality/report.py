@@ -172,8 +172,7 @@ def check(mesh: SurfaceMesh) -> Report:
     if metric is not None and len(metric):
         low, high = QUASI_UNIT
         unit_share = float(np.count_nonzero((metric >= low) & (metric <= high)) / len(metric))
-    faces = max(len(mesh.surfaces), int(mesh.face_ids.max(initial=-1)) + 1)
-    known_faces = not len(mesh.face_ids) or mesh.face_ids.min() >= 0
+    faces = len(mesh.surfaces) or len(np.unique(mesh.face_ids))
     above = None
     if fit is not None and chord is not None:
         above = float(np.mean(fit.by_triangle > chord * (1 + CHORD_SLACK)))
@@ -243,7 +242,7 @@ def check(mesh: SurfaceMesh) -> Report:
         area_exact=facts.area,
         volume=_volume(mesh, encloses, solids) if finite and not broken else None,
         volume_exact=facts.volume,
-        by_face=by_face(mesh, faces, shape, fit, lengths, folded, chord) if known_faces else (),
+        by_face=by_face(mesh, shape, fit, lengths, folded, chord),
         by_solid=solids,
         unit=facts.unit,
         source=facts.source,

@@ -272,3 +272,12 @@ def test_reports_follow_the_schema(plate, saddle, moebius_band, tetrahedron):
         assert report.to_text().startswith(str(report))
     unknown = changed(tetrahedron, facts=ModelFacts(faces=(FaceFacts("plane", 1.0),)))
     assert sm.check(unknown).by_face[0].area_exact == 1.0
+
+
+def test_face_numbers_of_any_size(saddle):
+    tagged = changed(saddle, face_ids=saddle.face_ids * 2_000_000_000 - 5, surfaces=())
+    rows = sm.check(tagged).by_face
+    assert [row.face for row in rows] == [-5, 1_999_999_995]
+    assert [row.triangles for row in rows] == [64, 64] and sm.check(tagged).faces == 2
+    astray = sm.check(changed(saddle, face_ids=saddle.face_ids + 1))
+    assert astray.by_face == () and "face_ids run from 1 to 2" in astray.problems[0]
