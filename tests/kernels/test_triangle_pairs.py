@@ -42,13 +42,13 @@ def test_orientation_of_points_that_are_nearly_in_a_plane(seed):
     assert sign(float(orient_space(points, 1, 0, 2, 3, WORK))) == -sign(found)
 
 
-@settings(max_examples=400)
+@settings(max_examples=200)
 @given(st.lists(st.tuples(coarse, coarse, coarse), min_size=6, max_size=6))
 def test_triangles_on_a_coarse_grid(points):
     assert meet(points[:3], points[3:]) == slow.meet(points[:3], points[3:])
 
 
-@settings(max_examples=300)
+@settings(max_examples=150)
 @given(st.lists(st.tuples(coarse, coarse), min_size=6, max_size=6), st.integers(0, 2), seeds)
 def test_triangles_in_one_plane(points, shared, seed):
     rng = np.random.default_rng(seed)
@@ -59,7 +59,7 @@ def test_triangles_in_one_plane(points, shared, seed):
     assert meet(space[:3], space[3:]) == slow.meet(space[:3], space[3:])
 
 
-@settings(max_examples=300)
+@settings(max_examples=150)
 @given(st.integers(0, 3), seeds)
 def test_triangles_at_random(shared, seed):
     rng = np.random.default_rng(seed)
@@ -98,8 +98,8 @@ def test_known_pairs(other, expected):
             assert meet(np.multiply(FLAT, scale), np.multiply(other, scale)) is expected
 
 
-@settings(max_examples=30)
-@given(st.integers(2, 60), st.floats(0.05, 1.0), seeds)
+@settings(max_examples=15)
+@given(st.integers(2, 30), st.floats(0.05, 1.0), seeds)
 def test_all_pairs_of_a_soup(count, size, seed):
     rng = np.random.default_rng(seed)
     corners = rng.uniform(size=(count, 1, 3)) + size * rng.normal(size=(count, 3, 3))
