@@ -281,3 +281,14 @@ def test_face_numbers_of_any_size(saddle):
     assert [row.triangles for row in rows] == [64, 64] and sm.check(tagged).faces == 2
     astray = sm.check(changed(saddle, face_ids=saddle.face_ids + 1))
     assert astray.by_face == () and "face_ids run from 1 to 2" in astray.problems[0]
+
+
+def test_the_exit_status_tells_of_self_intersection(tmp_path, capsys):
+    from surfmesh.cli import main
+
+    ball = icosphere(1)
+    for shift, status in ((0.7, 1), (2.5, 0)):
+        path = str(tmp_path / f"balls{status}.stl")
+        together(ball, shifted(ball, shift, 0.1, 0)).save(path)
+        assert main(["check", path]) == status
+        assert ("the mesh intersects itself" in capsys.readouterr().out) == bool(status)
