@@ -20,11 +20,15 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from surfmesh.connectivity import Connectivity, connect
+from surfmesh.model_facts import ModelFacts
 
 if TYPE_CHECKING:
     import meshio
     import pyvista
     import trimesh
+
+    from surfmesh.quality.report import Report
+    from surfmesh.quality.worst import WorstTriangle
 
 NOT_MESHED = "not meshed: "
 """How the warning about a CAD face starts that is missing: such a mesh is not clean."""
@@ -50,6 +54,7 @@ class SurfaceMesh:
     seconds: Mapping[str, float] = field(default_factory=dict)  # by stage
     warnings: tuple[str, ...] = ()  # what the user should know
     one_sided: bool = False  # no orientation exists (Moebius, Klein): none is demanded
+    facts: ModelFacts | None = None  # what is known of the model beforehand
     # of CAD models; None otherwise
     turned_faces: NDArray[np.bool_] | None = None  # (f,) triangles run against r_u x r_v there
     solid_ids: NDArray[np.int32] | None = None  # (m, 2) solid behind and before it; -1: none
@@ -166,6 +171,19 @@ class SurfaceMesh:
     def with_warnings(self, *more: str) -> "SurfaceMesh":
         """The same mesh with more to say about it; itself, when there is nothing."""
         return replace(self, warnings=(*self.warnings, *more)) if more else self
+
+    @cached_property
+    def report(self) -> "Report":
+        """The certificate: ``surfmesh.check(mesh)``, made when it is first asked for."""
+        from surfmesh.quality.report import check
+
+        return check(self)
+
+    def worst(self, count: int = 20) -> "tuple[WorstTriangle, ...]":
+        """The triangles of the smallest alpha, the worst first, with face and position."""
+        from surfmesh.quality.worst import worst_triangles
+
+        return worst_triangles(self, count)
 
     def save(self, path: str | Path) -> Path:
         """Write to ``path``, format by extension; see ``surfmesh.io.save``."""

@@ -157,7 +157,7 @@ class CadModel:
     free_shells, free_faces: what belongs to no solid; a free face is in no shell either.
     unit: of every length; file_unit: that of the file. diagonal: of the box around everything.
     healing: what was changed or could not be, one sentence each. source: the file, or what else
-    it came from.
+    it came from; sha256: of that file.
     """
 
     vertices: tuple[CadVertex, ...]
@@ -173,6 +173,7 @@ class CadModel:
     tree: CadNode
     healing: tuple[str, ...]
     source: str
+    sha256: str = ""
     _faces_of_edge: list = field(default_factory=list, compare=False)
 
     def faces_of_edge(self, edge: int) -> tuple[int, ...]:

@@ -12,12 +12,14 @@ import signal
 import subprocess
 import sys
 import tempfile
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
 from surfmesh.cad.assembly import checked_unit
 from surfmesh.cad.model import CadModel
 from surfmesh.errors import CadError
+from surfmesh.model_facts import file_sha256
 
 SUFFIXES = (".step", ".stp", ".p21", ".iges", ".igs", ".brep", ".brp")
 TIME_LIMIT = 120.0  # seconds
@@ -53,7 +55,7 @@ def read_cad(
         answer = answer_of(command, result, place.name, time_limit)
     if isinstance(answer, str):
         raise CadError(answer if place.name in answer else f"{place.name}: {answer}")
-    return answer
+    return replace(answer, sha256=file_sha256(place))
 
 
 def answer_of(command: list[str], result: Path, name: str, time_limit: float | None) -> Any:

@@ -74,7 +74,7 @@ def _parser() -> _Parser:
     check = commands.add_parser("check", help="report on a mesh file")
     check.add_argument("input", metavar="MESH", help="mesh file")
     check.add_argument(
-        "--surface", metavar="INPUT", help="formula file or gallery name it was made from"
+        "--surface", metavar="INPUT", help="formula file, gallery name or CAD file it was made from"
     )
     _add_json(check)
 

@@ -73,15 +73,20 @@ def check(options: Namespace) -> bool:
                 f"{options.input}: carries no (u, v) to compare it with a surface; "
                 "save it as .vtu or .vtp"
             )
-        found = replace(found, surfaces=(_named_surface(options.surface),))
+        found = _on_surface(found, _named_surface(options.surface))
         broken = found.check()
         if broken:
             raise FileFormatError(f"{options.input}: {broken}")
+    else:
+        from surfmesh.model_facts import ModelFacts, file_sha256
+
+        source = Path(options.input)
+        found = replace(found, facts=ModelFacts(source=source.name, sha256=file_sha256(source)))
     report = checked(found)
     if options.json:
         _print_json(report.to_dict())
     else:
-        print(report)
+        print(report.to_text())
     return report.clean
 
 
@@ -246,6 +251,29 @@ def _surface(options: Namespace) -> Any:
         for name, value in formulas.items()
     }
     return ParametricSurface(**stripped, parameters=parameters, name=Path(options.output).stem)
+
+
+def _on_surface(found: Any, surface: Any) -> Any:
+    """The mesh that was read, on a surface or on the faces of a CAD model by their numbers."""
+    from surfmesh.cad.model import CadModel
+
+    if not isinstance(surface, CadModel):
+        from surfmesh.geometry.known_facts import known_facts
+
+        return replace(found, surfaces=(surface,), facts=known_facts(surface))
+
+    from surfmesh.cad.facts import model_facts
+    from surfmesh.meshing.model_mesh import orientation
+
+    turned, solids = orientation(surface)
+    known = found.face_ids.min() >= 0 and found.face_ids.max() < len(turned)
+    return replace(
+        found,
+        surfaces=tuple(face.surface for face in surface.faces),
+        turned_faces=turned,
+        solid_ids=solids[found.face_ids] if known else None,
+        facts=model_facts(surface),
+    )
 
 
 def _named_surface(name: str, units: str | None = None) -> Any:

@@ -5,9 +5,9 @@ description = "one line"            [domain] numbers or text such as "2*pi"
 x = "(R + r*cos(v)) * cos(u)"       loops: polygons in (u, v) that trim the surface
 y = "(R + r*cos(v)) * sin(u)"       [sizing] defaults for meshing this surface
 z = "r*sin(v)"                      [facts] what is known: area, volume, euler, closed,
-[parameters]                            one_sided; gaussian and mean are formulas in u, v,
-R = 3.0                                 for the normal along r_u x r_v
-r = 1.0
+[parameters]                            one_sided, embedded (false: it crosses itself);
+R = 3.0                                 gaussian and mean are formulas in u, v, for the
+r = 1.0                                 normal along r_u x r_v
 [domain]
 u = [0, "2*pi"]
 v = [0, "2*pi"]
@@ -32,6 +32,7 @@ FACT_KEYS = {
     "euler": (int,),
     "closed": (bool,),
     "one_sided": (bool,),
+    "embedded": (bool,),
     "gaussian": (str, int, float),
     "mean": (str, int, float),
 }

@@ -11,6 +11,7 @@ from concurrent.futures import ThreadPoolExecutor
 
 import numpy as np
 
+from surfmesh.cad.facts import model_facts
 from surfmesh.cad.model import CadFace, CadModel
 from surfmesh.errors import MeshingError
 from surfmesh.meshing.edge_nodes import EdgeNodes, cut_edges
@@ -152,7 +153,7 @@ def _job(
     return FaceJob(face.surface, tuple(loops), sizing, limits, optimise)
 
 
-def _orientation(model: CadModel) -> tuple[np.ndarray, np.ndarray]:
+def orientation(model: CadModel) -> tuple[np.ndarray, np.ndarray]:
     """Which faces are turned over (f,), and the solids behind and before them (f, 2).
 
     A triangle's normal points out of the first solid and into the second; -1 is none.
@@ -183,7 +184,7 @@ def _joined(
     for _, cut in edges:
         points[cut.numbers] = cut.points
         np.minimum.at(sizes, cut.numbers, cut.sizes)
-    turned, solids = _orientation(model)
+    turned, solids = orientation(model)
     inner_points, inner_sizes, triangles, uv, uv_triangles, face_ids = [], [], [], [], [], []
     total = shared
     uv_total = 0
@@ -239,6 +240,7 @@ def _joined(
         sizing=sizing,
         seconds=watch.seconds,
         warnings=tuple([*model.healing, *missing]),
+        facts=model_facts(model),
     )
 
 

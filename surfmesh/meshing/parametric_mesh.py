@@ -8,6 +8,7 @@ sides -> size field -> packing -> boundary -> optimisation -> space, joined side
 import numpy as np
 
 from surfmesh.errors import MeshingError
+from surfmesh.geometry.known_facts import known_facts
 from surfmesh.geometry.sides import SideTopology, find_sides
 from surfmesh.geometry.surface import Surface
 from surfmesh.kernels.background import scalar_sizes_at
@@ -127,6 +128,7 @@ def _in_space(
         sizing=field.sizing,
         seconds=watch.seconds,
         one_sided=sides.one_sided and not surface.loops,
+        facts=known_facts(surface),
     )
     return mesh, parts
 

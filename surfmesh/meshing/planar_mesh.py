@@ -6,6 +6,7 @@ size field <-> segments cut   ->  packing -> boundary -> regions -> optimisation
 
 import numpy as np
 
+from surfmesh.geometry.known_facts import known_facts
 from surfmesh.geometry.planar_domain import PlanarDomain
 from surfmesh.kernels.background import scalar_sizes_at
 from surfmesh.kernels.insertion import label_patches
@@ -95,6 +96,7 @@ def _in_space(
         sizing=field.sizing,
         seconds=watch.seconds,
         warnings=domain.warnings,
+        facts=known_facts(domain),
     )
 
 

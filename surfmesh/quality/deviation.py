@@ -1,7 +1,8 @@
 """How far the mesh lies from the true surface, and which triangles face the wrong way.
 
-Samples are the vertices, the middles of the edges (once each) and the centroids: the seven
-points of a rule that integrates cubics over a triangle exactly. At each, the distance is to
+Samples are the vertices, the middles of the edges (once each; between two faces once for
+either) and the centroids: the seven points of a rule that integrates cubics over a triangle
+exactly. At each, the distance is to
 the nearest point of the surface, not to the image r(u, v) of the interpolated parameters.
 The worst triangles are then sampled densely.
 """
@@ -37,6 +38,7 @@ class Deviation(NamedTuple):
     """Distances in model units."""
 
     by_triangle: NDArray[np.float64]  # (m,) largest distance seen in each triangle
+    mean_square: NDArray[np.float64]  # (m,) mean over each triangle of the squared distance
     cosine: NDArray[np.float32]  # (m,) of the angle between triangle and surface normal
     largest: float
     rms: float  # root of the mean square over the mesh's area
@@ -46,59 +48,81 @@ class Deviation(NamedTuple):
 
 
 def deviation(mesh: SurfaceMesh, area: NDArray[np.float64]) -> Deviation | None:
-    """Distance of ``mesh`` from its surfaces, or None when it carries no surface.
+    """Distance of ``mesh`` from its surfaces, or None when it carries none, or not for all faces.
 
     ``area``: (m,) areas of the triangles, the weights of the mean square. Between samples
     the distance is not bounded: it is smooth, and the densest look is where it is largest.
     """
     if not mesh.surfaces or mesh.uv_points is None or not len(mesh.triangles):
         return None
-    table, count = mesh.connectivity, len(mesh.triangles)
-    by_triangle, cosine = np.zeros(count), np.ones(count, np.float32)
+    if not 0 <= mesh.face_ids.min() <= mesh.face_ids.max() < len(mesh.surfaces):
+        return None
+    count = len(mesh.triangles)
+    by_triangle, mean_square = np.zeros(count), np.zeros(count)
+    cosine = np.ones(count, np.float32)
     corners, uv_corners = mesh.triangles.reshape(-1), mesh.uv_triangles.reshape(-1)
     corner_of = np.full(len(mesh.points), -1, np.int32)
     corner_of[corners] = np.arange(len(corners), dtype=np.int32)
     at_vertex = np.zeros(len(mesh.points))
-    square = 0.0  # integral of the squared distance
 
-    for surface, triangles, edges, vertices in _by_face(mesh, corner_of):
+    half_edges, twins = _measured_half_edges(mesh)
+    for surface, triangles, middles, vertices in _by_face(mesh, half_edges, corner_of):
         for block in _blocks(vertices):
             corner = corner_of[block]
             points, uv = mesh.points[block], mesh.uv_points[uv_corners[corner]]
             at_vertex[block] = _offsets(surface, points, uv, np.sqrt(area[corner // 3]))
-        for block in _blocks(edges):
-            triangle, side = np.divmod(table.half_edges[block, 0], np.int32(3))
+        for block in _blocks(middles):
+            triangle, side = np.divmod(half_edges[block], np.int32(3))
             points, uv = _samples(mesh, triangle, side, _MIDDLES)
             distance, _ = _distances(surface, points, uv, np.sqrt(area[triangle]))
-            shared = table.uses[block] > 1
+            shared = twins[block] >= 0
             for beside, found in (
                 (triangle, distance),
-                (table.half_edges[block[shared], 1] // 3, distance[shared]),
+                (twins[block[shared]] // 3, distance[shared]),
             ):
-                square += MIDDLE_WEIGHT * _dot(area[beside], found**2)
+                np.add.at(mean_square, beside, MIDDLE_WEIGHT * found**2)
                 np.maximum.at(by_triangle, beside, found)
         for block in _blocks(triangles):
             points, uv = _samples(mesh, block, np.zeros_like(block), _CENTROID)
             found, normals = _distances(surface, points, uv, np.sqrt(area[block]))
-            square += CENTROID_WEIGHT * _dot(area[block], found**2)
+            mean_square[block] += CENTROID_WEIGHT * found**2
             by_triangle[block] = np.maximum(by_triangle[block], found)
             cosine[block] = _cosines(mesh, block, normals, area[block])
     if mesh.turned_faces is not None:
         cosine[mesh.turned_faces[mesh.face_ids]] *= -1.0
     for block in _blocks(_count(count)):
         found = at_vertex[mesh.triangles[block]]
-        square += VERTEX_WEIGHT * _dot(area[block], np.square(found).sum(axis=1))
+        mean_square[block] += VERTEX_WEIGHT * np.square(found).sum(axis=1)
         by_triangle[block] = np.maximum(by_triangle[block], found.max(axis=1))
     total = float(area.sum())
-    rms = (square / total) ** 0.5 if total > 0 else float("nan")
+    rms = (_dot(area, mean_square) / total) ** 0.5 if total > 0 else float("nan")
 
     triangle, point, uv = _second_look(mesh, by_triangle)
-    return Deviation(by_triangle, cosine, float(by_triangle[triangle]), rms, triangle, point, uv)
+    largest = float(by_triangle[triangle])
+    return Deviation(by_triangle, mean_square, cosine, largest, rms, triangle, point, uv)
 
 
-def _by_face(mesh: SurfaceMesh, corner_of: NDArray[np.int32]) -> Iterator[tuple[Any, ...]]:
-    """Each surface with its triangles, and the edges and vertices first seen from them."""
-    edge_face = mesh.face_ids[mesh.connectivity.half_edges[:, 0] // 3]
+def _measured_half_edges(mesh: SurfaceMesh) -> tuple[NDArray[np.int32], NDArray[np.int32]]:
+    """Half-edges (k,) whose middles are looked at, and those (k,) that share the finding or -1.
+
+    An edge within a face is looked at once, an edge between two faces from both of them.
+    """
+    first, second = mesh.connectivity.half_edges.T
+    if len(mesh.surfaces) == 1:
+        return first, second
+    between = (second >= 0) & (mesh.face_ids[first // 3] != mesh.face_ids[second // 3])
+    again = second[between]
+    return (
+        np.concatenate([first, again]),
+        np.concatenate([np.where(between, -1, second), np.full_like(again, -1)]),
+    )
+
+
+def _by_face(
+    mesh: SurfaceMesh, half_edges: NDArray[np.int32], corner_of: NDArray[np.int32]
+) -> Iterator[tuple[Any, ...]]:
+    """Each surface with its triangles and half-edges, and the vertices first seen from them."""
+    edge_face = mesh.face_ids[half_edges // 3]
     used = np.flatnonzero(corner_of >= 0).astype(np.int32)
     vertex_face = mesh.face_ids[corner_of[used] // 3]
     if len(mesh.surfaces) == 1:
@@ -108,8 +132,8 @@ def _by_face(mesh: SurfaceMesh, corner_of: NDArray[np.int32]) -> Iterator[tuple[
     for faces in (mesh.face_ids, edge_face, vertex_face):
         order = np.argsort(faces, kind="stable").astype(np.int32)
         members.append(np.split(order, np.searchsorted(faces[order], range(1, len(mesh.surfaces)))))
-    for surface, triangles, edges, vertices in zip(mesh.surfaces, *members):
-        yield surface, triangles, edges, used[vertices]
+    for surface, triangles, middles, vertices in zip(mesh.surfaces, *members):
+        yield surface, triangles, middles, used[vertices]
 
 
 def _count(length: int) -> NDArray[np.int32]:

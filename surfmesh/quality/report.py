@@ -10,23 +10,40 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from surfmesh.quality.deviation import Deviation, deviation
+from surfmesh.model_facts import ModelFacts
+from surfmesh.quality.by_face import CHORD_SLACK, FaceRow, by_face
+from surfmesh.quality.by_solid import SolidRow, by_solid, volume_of_all
+from surfmesh.quality.deviation import deviation
+from surfmesh.quality.histograms import Histogram, histograms
 from surfmesh.quality.lengths import QUASI_UNIT, edge_lengths, growth, metric_lengths
-from surfmesh.quality.shape import Shapes, enclosed_volume, shapes
-from surfmesh.quality.solids import shares_faces, solid_mesh
-from surfmesh.quality.topology import Topology, topology
-from surfmesh.surface_mesh import NOT_MESHED, SurfaceMesh
+from surfmesh.quality.problems import DEGENERATE, FOLDED, INVERTED, intersections, problems
+from surfmesh.quality.provenance import mesh_sha256, versions
+from surfmesh.quality.self_intersection import MeetingPair, located, meeting_pairs
+from surfmesh.quality.shape import enclosed_volume, shapes
+from surfmesh.quality.solids import apart, shares_faces
+from surfmesh.quality.topology import topology
+from surfmesh.quality.worst import WorstTriangle, worst_triangles
+from surfmesh.surface_mesh import SurfaceMesh
 
-SCHEMA_VERSION = 1  # of to_dict(): raised when a field changes its meaning or goes away
-DEGENERATE = 1e-6  # alpha below which a triangle has no area to speak of
-FOLDED, INVERTED = math.cos(math.radians(60.0)), 0.0  # cosines between the two normals
-CHORD_SLACK = 1e-9  # relative: rounding in the distance itself
+SCHEMA_VERSION = 2  # of to_dict(): raised when a field changes its meaning or goes away
+LISTED = 20  # places of one kind that a report holds
+
+
+@dataclass(frozen=True)
+class FoldedTriangle:
+    """A triangle turned more than 60 degrees from its surface."""
+
+    triangle: int
+    face: int
+    angle_deg: float  # between the two normals
+    point: tuple[float, float, float]  # its centroid
 
 
 @dataclass(frozen=True, kw_only=True)
 class Report:
     """What ``check`` found. None stands for what cannot be known, such as the volume of an
-    open mesh. Lengths, areas and volumes are in model units, angles in degrees.
+    open mesh. Lengths, areas and volumes are in model units, angles in degrees. As JSON it is
+    described by docs/report-schema.json.
     """
 
     schema_version: int
@@ -36,16 +53,23 @@ class Report:
     faces: int
 
     euler: int  # V - E + F
+    euler_exact: int | None  # of the model
     closed: bool  # no boundary edge
     manifold: bool  # every edge in one or two triangles, every vertex in one fan of them
     oriented: bool  # neighbours run along their common edge in opposite directions
     one_sided: bool  # by nature of the surface: no orientation is demanded
     components: int
     boundary_loops: int
+    self_intersections: int | None  # pairs of triangles that meet where they share nothing
+    crosses_itself: bool  # by nature of the surface: self-intersections are no fault
+    meeting: tuple[MeetingPair, ...]  # the first twenty of them
+    contacts: int | None  # pairs that meet between two bodies of a CAD model: no fault
 
     alpha_mean: float  # 4 sqrt(3) area / sum of squared edges, in 3D; 1 is equilateral
     alpha_p01: float  # 1 % of the triangles are worse
     alpha_min: float
+    alpha_metric_mean: float | None  # alpha as seen in the metric; None: isotropic, as in 3D
+    alpha_metric_min: float | None
     radius_ratio_mean: float  # 2 r_in / r_circum; 1 is equilateral
     radius_ratio_min: float
     min_angle_deg: float
@@ -53,6 +77,9 @@ class Report:
     degenerate: int  # triangles with alpha below 1e-6
     folded: int | None  # triangles turned more than 60 degrees from the surface, inverted too
     inverted: int | None  # triangles turned more than 90 degrees from the surface
+    folded_at: tuple[FoldedTriangle, ...]  # the twenty that are turned most
+    worst: tuple[WorstTriangle, ...]  # the twenty of the smallest alpha
+    histograms: Mapping[str, Histogram]  # alpha, angles, length / wanted length, deviation
 
     edge_min: float
     edge_mean: float
@@ -74,7 +101,18 @@ class Report:
     above_chord_share: float | None  # triangles farther away than chord
 
     area: float
+    area_exact: float | None
     volume: float | None  # of a closed, oriented mesh
+    volume_exact: float | None
+    by_face: tuple[FaceRow, ...]
+    by_solid: tuple[SolidRow, ...]
+
+    unit: str  # of lengths; empty when it is not known
+    source: str  # the file, or what else the mesh was made from
+    source_sha256: str | None
+    mesh_sha256: str  # of points and triangles
+    versions: Mapping[str, str]  # of the packages at work
+    healing: tuple[str, ...]  # what was changed in the model
     seconds: Mapping[str, float]  # by stage
     warnings: tuple[str, ...]
     options: Mapping[str, Any]  # the sizing it was made with
@@ -96,6 +134,14 @@ class Report:
         """JSON text; numbers that are not finite become null."""
         return json.dumps(self.to_dict(), indent=indent, ensure_ascii=False, allow_nan=False)
 
+    def to_text(self) -> str:
+        """The certificate: the summary, then faces, solids, worst triangles, histograms,
+        healing, versions and hashes.
+        """
+        from surfmesh.quality.certificate import certificate
+
+        return certificate(self)
+
     def __str__(self) -> str:
         from surfmesh.quality.summary import summary
 
@@ -103,7 +149,8 @@ class Report:
 
 
 def check(mesh: SurfaceMesh) -> Report:
-    """Look at everything that can be said of ``mesh``: topology, shape, sizes, deviation.
+    """Look at everything that can be said of ``mesh``: topology, self-intersection, shape,
+    sizes, deviation, each of them against the model where that is known.
 
     Raises ``ValueError`` when its indices are out of range; everything else that is wrong is
     in ``report.problems``.
@@ -119,15 +166,28 @@ def check(mesh: SurfaceMesh) -> Report:
     metric = None if mesh.sizes is None else metric_lengths(mesh, lengths)
     fit = deviation(mesh, shape.area) if finite else None
     chord = getattr(mesh.sizing, "chord", None)
+    facts = mesh.facts or ModelFacts()
     encloses = topo.closed and topo.manifold and topo.oriented
     unit_share = None
     if metric is not None and len(metric):
         low, high = QUASI_UNIT
         unit_share = float(np.count_nonzero((metric >= low) & (metric <= high)) / len(metric))
-    faces = len(mesh.surfaces) or int(mesh.face_ids.max(initial=-1)) + 1
+    faces = len(mesh.surfaces) or len(np.unique(mesh.face_ids))
     above = None
     if fit is not None and chord is not None:
         above = float(np.mean(fit.by_triangle > chord * (1 + CHORD_SLACK)))
+    folded = None if fit is None else fit.cosine < FOLDED
+    solids = by_solid(mesh, shape) if finite else ()
+    crosses = facts.crosses_itself or (mesh.one_sided and topo.closed)  # no room in space
+    pairs = meeting_pairs(mesh) if finite else None
+    contacts = None
+    if pairs is not None and mesh.solid_ids is not None:
+        between = apart(mesh, pairs)
+        contacts, pairs = int(between.sum()), pairs[~between]
+    meeting = () if pairs is None else located(mesh, pairs[:LISTED])
+    said = problems(mesh, broken, topo, shape, fit, above, solids)
+    if pairs is not None and not crosses:
+        said += intersections(mesh, meeting, len(pairs))
     return Report(
         schema_version=SCHEMA_VERSION,
         surface=_names(mesh),
@@ -135,22 +195,32 @@ def check(mesh: SurfaceMesh) -> Report:
         triangles=len(mesh.triangles),
         faces=faces,
         euler=topo.euler,
+        euler_exact=facts.euler,
         closed=topo.closed,
         manifold=topo.manifold,
         oriented=topo.oriented,
         one_sided=mesh.one_sided,
         components=topo.components,
         boundary_loops=topo.boundary_loops,
+        self_intersections=None if pairs is None else len(pairs),
+        crosses_itself=crosses,
+        meeting=meeting,
+        contacts=contacts,
         alpha_mean=_over(np.mean, shape.alpha),
         alpha_p01=_over(lambda alpha: np.quantile(alpha, 0.01), shape.alpha),
         alpha_min=_over(np.min, shape.alpha),
+        alpha_metric_mean=None,
+        alpha_metric_min=None,
         radius_ratio_mean=_over(np.mean, shape.radius_ratio),
         radius_ratio_min=_over(np.min, shape.radius_ratio),
         min_angle_deg=_over(np.min, shape.min_angle),
         max_angle_deg=_over(np.max, shape.max_angle),
         degenerate=int(np.count_nonzero(~(shape.alpha > DEGENERATE))),
-        folded=None if fit is None else int(np.count_nonzero(fit.cosine < FOLDED)),
+        folded=None if folded is None else int(np.count_nonzero(folded)),
         inverted=None if fit is None else int(np.count_nonzero(fit.cosine < INVERTED)),
+        folded_at=() if fit is None else _folded(mesh, fit.cosine),
+        worst=worst_triangles(mesh, LISTED, shape),
+        histograms=histograms(shape, metric, None if fit is None else fit.by_triangle),
         edge_min=_over(np.min, lengths),
         edge_mean=_over(np.mean, lengths),
         edge_max=_over(np.max, lengths),
@@ -169,23 +239,42 @@ def check(mesh: SurfaceMesh) -> Report:
         deviation_uv=None if fit is None else fit.uv,
         above_chord_share=above,
         area=float(shape.area.sum()),
-        volume=_volume(mesh, encloses) if finite and not broken else None,
+        area_exact=facts.area,
+        volume=_volume(mesh, encloses, solids) if finite and not broken else None,
+        volume_exact=facts.volume,
+        by_face=by_face(mesh, shape, fit, lengths, folded, chord),
+        by_solid=solids,
+        unit=facts.unit,
+        source=facts.source,
+        source_sha256=facts.sha256,
+        mesh_sha256=mesh_sha256(mesh),
+        versions=versions(mesh),
+        healing=facts.healing,
         warnings=mesh.warnings,
         options=_options(mesh.sizing),
-        problems=tuple(_problems(mesh, broken, topo, shape, fit, chord, above)),
+        problems=tuple(said),
         seconds={**mesh.seconds, "check": perf_counter() - start},
     )
 
 
-def _volume(mesh: SurfaceMesh, encloses: bool) -> float | None:
+def _volume(
+    mesh: SurfaceMesh, encloses: bool, solids: tuple[SolidRow, ...]
+) -> float | None:
     """Of what the mesh encloses; where solids share faces, the sum over the solids."""
-    if not shares_faces(mesh):
-        return enclosed_volume(mesh) if encloses else None
-    parts = [solid_mesh(mesh, k) for k in range(int(mesh.solid_ids.max()) + 1)]
-    kinds = [topology(part) for part in parts]
-    if not all(kind.closed and kind.manifold and kind.oriented for kind in kinds):
-        return None
-    return sum(enclosed_volume(part) for part in parts)
+    if shares_faces(mesh):
+        return volume_of_all(solids)
+    return enclosed_volume(mesh) if encloses else None
+
+
+def _folded(mesh: SurfaceMesh, cosine: NDArray[np.float32]) -> tuple[FoldedTriangle, ...]:
+    bad = np.flatnonzero(cosine < FOLDED)
+    bad = bad[np.argsort(cosine[bad], kind="stable")][:LISTED]
+    angle = np.degrees(np.arccos(np.clip(cosine[bad].astype(float), -1.0, 1.0)))
+    places = mesh.points[mesh.triangles[bad]].mean(axis=1)
+    return tuple(
+        FoldedTriangle(int(t), int(mesh.face_ids[t]), float(turn), tuple(place))
+        for t, turn, place in zip(bad, angle, places.tolist())
+    )
 
 
 def _over(measure: Any, values: NDArray[np.float64]) -> float:
@@ -201,84 +290,6 @@ def _options(sizing: Any) -> dict[str, Any]:
     if not is_dataclass(sizing):
         return {} if sizing is None else {"sizing": repr(sizing)}
     return {item.name: getattr(sizing, item.name) for item in fields(sizing)}
-
-
-def _problems(
-    mesh: SurfaceMesh,
-    broken: str | None,
-    topo: Topology,
-    shape: Shapes,
-    fit: Deviation | None,
-    chord: float | None,
-    above: float | None,
-) -> list[str]:
-    """One sentence for each thing that is wrong: how many, and where the first is."""
-    said = []
-    if not len(mesh.triangles):
-        said.append("the mesh has no triangles")
-    if broken:
-        said.append(broken)
-    said += [warning for warning in mesh.warnings if warning.startswith(NOT_MESHED)]
-    if shares_faces(mesh):  # three triangles and more may meet where solids do
-        for solid in range(int(mesh.solid_ids.max()) + 1):
-            part = solid_mesh(mesh, solid)
-            around = topology(part)
-            bad = [name for name in ("closed", "manifold", "oriented") if not getattr(around, name)]
-            if bad:
-                said.append(f"solid {solid} is not {' and not '.join(bad)}")
-        topo = topo._replace(
-            crowded_edges=topo.crowded_edges[:0],
-            pinched_vertices=topo.pinched_vertices[:0],
-            clashing_edges=topo.clashing_edges[:0],
-        )
-    if len(topo.crowded_edges):
-        first = mesh.edges[topo.crowded_edges[0]]
-        many = _number(topo.crowded_edges, "edge")
-        said.append(f"{many} shared by more than two triangles, first {_edge(mesh, first)}")
-    if len(topo.pinched_vertices):
-        first = int(topo.pinched_vertices[0])
-        many = _number(topo.pinched_vertices, "vertex", "vertices")
-        said.append(f"{many} where parts only touch, first {first} at {_place(mesh.points[first])}")
-    if len(topo.clashing_edges) and not mesh.one_sided:
-        first = mesh.edges[topo.clashing_edges[0]]
-        many = _number(topo.clashing_edges, "edge")
-        said.append(f"{many} between triangles of opposite orientation, first {_edge(mesh, first)}")
-    said += _triangles(mesh, ~(shape.alpha > DEGENERATE), "without area")
-    if fit is not None:
-        said += _triangles(mesh, fit.cosine < INVERTED, "inverted against the surface")
-        half = (fit.cosine >= INVERTED) & (fit.cosine < FOLDED)
-        said += _triangles(mesh, half, "folded: turned more than 60° from the surface")
-        if not math.isfinite(fit.largest):
-            said.append("the distance from the surface is not finite")
-        elif chord is not None and fit.largest > chord * (1 + CHORD_SLACK):
-            said.append(
-                f"the mesh lies up to {fit.largest:.4g} from the surface, {chord:.4g} was asked "
-                f"for ({100 * (above or 0):.3g} % of the triangles are farther); "
-                f"worst in triangle {fit.triangle} at {_place(fit.point)}"
-            )
-    return said
-
-
-def _triangles(mesh: SurfaceMesh, bad: NDArray[np.bool_], what: str) -> list[str]:
-    found = np.flatnonzero(bad)
-    if not len(found):
-        return []
-    first = int(found[0])
-    place = _place(mesh.points[mesh.triangles[first]].mean(axis=0))
-    return [f"{_number(found, 'triangle')} {what}, first {first} at {place}"]
-
-
-def _number(found: NDArray, one: str, many: str | None = None) -> str:
-    return f"{len(found):,} {one if len(found) == 1 else many or one + 's'}"
-
-
-def _edge(mesh: SurfaceMesh, edge: NDArray[np.int32]) -> str:
-    middle = mesh.points[edge].mean(axis=0)
-    return f"{int(edge[0])}-{int(edge[1])} at {_place(middle)}"
-
-
-def _place(point: Any) -> str:
-    return "(" + ", ".join(f"{float(value):.5g}" for value in point) + ")"
 
 
 def _plain(value: Any) -> Any:

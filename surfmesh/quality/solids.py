@@ -3,7 +3,9 @@
 from dataclasses import replace
 
 import numpy as np
+from numpy.typing import NDArray
 
+from surfmesh.quality.topology import vertex_components
 from surfmesh.surface_mesh import SurfaceMesh
 
 
@@ -17,7 +19,7 @@ def solid_mesh(mesh: SurfaceMesh, solid: int) -> SurfaceMesh:
         mesh,
         points=mesh.points[used], triangles=rows.reshape(-1, 3), face_ids=faces,
         uv_points=None, uv_triangles=None, surfaces=(), turned_faces=None, solid_ids=None,
-        edge_segments=None, edge_ids=None, vertex_ids=None,
+        edge_segments=None, edge_ids=None, vertex_ids=None, facts=None,
         sizes=None if mesh.sizes is None else mesh.sizes[used],
     )  # fmt: skip
 
@@ -25,3 +27,17 @@ def solid_mesh(mesh: SurfaceMesh, solid: int) -> SurfaceMesh:
 def shares_faces(mesh: SurfaceMesh) -> bool:
     """Do two solids of the model have a face in common?"""
     return mesh.solid_ids is not None and bool((mesh.solid_ids >= 0).all(axis=1).any())
+
+
+def apart(mesh: SurfaceMesh, pairs: NDArray[np.int32]) -> NDArray[np.bool_]:
+    """(k,) which pairs of triangles belong to two bodies of a CAD model, which may touch.
+
+    They bound no solid in common, but one each, or hang together by no vertex.
+    """
+    if mesh.solid_ids is None or not len(pairs):
+        return np.zeros(len(pairs), bool)
+    first, second = mesh.solid_ids[pairs[:, 0]], mesh.solid_ids[pairs[:, 1]]
+    common = (first[:, :, None] == second[:, None, :]) & (first[:, :, None] >= 0)
+    each = (first >= 0).any(axis=1) & (second >= 0).any(axis=1)
+    pieces = vertex_components(mesh)[mesh.triangles[pairs][:, :, 0]]
+    return ~common.any(axis=(1, 2)) & (each | (pieces[:, 0] != pieces[:, 1]))

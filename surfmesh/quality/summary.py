@@ -66,14 +66,33 @@ def _topology(report: "Report") -> str:
         f"Euler number {report.euler}",
         _count(report.components, "component"),
     ]
+    if report.euler_exact is not None:
+        words[3] += " as in the model" if report.euler == report.euler_exact else (
+            f" (of the model {report.euler_exact})"
+        )
+    if report.self_intersections == 0:
+        words.append("free of self-intersection")
+    elif report.self_intersections:
+        natural = " by nature" if report.crosses_itself else ""
+        words.append(f"intersects itself{natural} ({report.self_intersections:,} pairs)")
+    if report.contacts:
+        words.append(f"separate bodies meet ({report.contacts:,} pairs of triangles)")
     if report.faces > 1:
         words.append(_count(report.faces, "face"))
     return ", ".join(words)
 
 
 def _size(report: "Report") -> str:
-    enclosed = "" if report.volume is None else f", volume {report.volume:.7g}"
-    return f"area {report.area:.7g}{enclosed}"
+    words = []
+    for name in ("area", "volume"):
+        found, exact = getattr(report, name), getattr(report, f"{name}_exact")
+        if found is None:
+            continue
+        words.append(f"{name} {found:.7g}")
+        if exact:
+            off = 100 * (abs(found) - abs(exact)) / abs(exact)
+            words[-1] += f" (exact {exact:.7g}, {off:+.2g} %)"
+    return ", ".join(words) + (f" in {report.unit}" if report.unit else "")
 
 
 def _deviation(report: "Report") -> str:

@@ -54,13 +54,18 @@ def topology(mesh: SurfaceMesh) -> Topology:
         vertices=int(used.sum()),
         edges=len(table.edges),
         triangles=len(mesh.triangles),
-        components=_count(_labels(n, table.edges), used),
+        components=_count(vertex_components(mesh), used),
         boundary_edges=len(boundary),
         boundary_loops=_count(_labels(n, boundary), np.unique(boundary)),
         crowded_edges=np.flatnonzero(table.uses > 2).astype(np.int32),
         pinched_vertices=_pinched(mesh),
         clashing_edges=_clashing(mesh),
     )
+
+
+def vertex_components(mesh: SurfaceMesh) -> NDArray[np.int32]:
+    """(n,) the smallest number among the vertices that each hangs together with."""
+    return _labels(len(mesh.points), mesh.edges)
 
 
 def _labels(count: int, pairs: NDArray[np.int32]) -> NDArray[np.int32]:

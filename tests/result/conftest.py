@@ -114,7 +114,7 @@ def changed(mesh, **fields):
     """A copy with some fields other than they were."""
     names = (
         "points triangles uv_points uv_triangles face_ids surfaces sizes sizing seconds "
-        "warnings one_sided"
+        "warnings one_sided facts"
     ).split()
     return SurfaceMesh(**({name: getattr(mesh, name) for name in names} | fields))
 
@@ -140,6 +140,10 @@ def saddle():
 def moebius_band():
     """Seven triangles on seven vertices: t, t+1, t+2 modulo 7, which no orientation fits."""
     angle = 2 * np.pi * np.arange(7) / 7
-    points = np.column_stack((np.cos(2 * angle), np.sin(2 * angle), 0.4 * np.cos(angle)))
+    side = 0.3 * (-1.0) ** np.arange(7)  # in turns on either border of the band
+    radius = 1 + side * np.cos(angle / 2)
+    points = np.column_stack(
+        (radius * np.cos(angle), radius * np.sin(angle), side * np.sin(angle / 2))
+    )
     strip = [(t, t + 1, t + 2) if t % 2 == 0 else (t + 1, t, t + 2) for t in range(7)]
     return SurfaceMesh(points=points, triangles=np.array(strip) % 7)

@@ -1,0 +1,92 @@
+"""Exact orientation of four points in space, by the same means as in the plane.
+
+A floating-point filter settles almost every case; the rest is a sum of 96 products without
+error, kept as an expansion: numbers that do not overlap, the largest last (J.R. Shewchuk,
+Adaptive precision floating-point arithmetic, Discrete & Computational Geometry 18, 1997).
+Exact as long as no product of three coordinates under- or overflows.
+"""
+
+from surfmesh.kernels.jit import kernel
+from surfmesh.kernels.predicates import EPSILON, _two_product, _two_sum
+
+FILTER_SPACE = (7.0 + 56.0 * EPSILON) * EPSILON  # Shewchuk's o3derrboundA
+TERMS = 96  # of the sum, hence the most that an expansion of it can hold
+
+
+@kernel
+def _grow(expansion, length, term):
+    """Add a number to an expansion, zeros left out (Shewchuk's Grow-Expansion); its length."""
+    kept = 0
+    for i in range(length):
+        term, error = _two_sum(term, expansion[i])
+        if error != 0.0:
+            expansion[kept] = error
+            kept += 1
+    if term != 0.0:
+        expansion[kept] = term
+        kept += 1
+    return kept
+
+
+@kernel
+def _add_product(expansion, length, a, b, c):
+    """Add a b c, which is a sum of four numbers; the expansion's new length."""
+    high, low = _two_product(a, b)
+    upper, error = _two_product(high, c)
+    length = _grow(expansion, length, error)
+    length = _grow(expansion, length, upper)
+    upper, error = _two_product(low, c)
+    length = _grow(expansion, length, error)
+    return _grow(expansion, length, upper)
+
+
+@kernel
+def _add_determinant(expansion, length, sign, p, a, b, c):
+    """Add sign times the determinant of three points; the expansion's new length."""
+    for i in range(3):
+        j, k = (i + 1) % 3, (i + 2) % 3
+        length = _add_product(expansion, length, sign * p[a, i], p[b, j], p[c, k])
+        length = _add_product(expansion, length, -sign * p[a, i], p[b, k], p[c, j])
+    return length
+
+
+@kernel
+def _orient_space_exact(p, a, b, c, d, expansion):
+    length = _add_determinant(expansion, 0, 1.0, p, a, b, c)
+    length = _add_determinant(expansion, length, -1.0, p, d, b, c)
+    length = _add_determinant(expansion, length, -1.0, p, a, d, c)
+    length = _add_determinant(expansion, length, -1.0, p, a, b, d)
+    return expansion[length - 1] if length else 0.0
+
+
+@kernel
+def orient_space(p, a, b, c, d, expansion):
+    """Six times the signed volume of abcd; its sign is exact: > 0 where abc is seen from d
+    clockwise.
+
+    Parameters
+    ----------
+    p: (n, 3) float64, and a, b, c, d rows of it
+    expansion: (96,) float64, to work in
+    """
+    ax, ay, az = p[a, 0] - p[d, 0], p[a, 1] - p[d, 1], p[a, 2] - p[d, 2]
+    bx, by, bz = p[b, 0] - p[d, 0], p[b, 1] - p[d, 1], p[b, 2] - p[d, 2]
+    cx, cy, cz = p[c, 0] - p[d, 0], p[c, 1] - p[d, 1], p[c, 2] - p[d, 2]
+    bc, cb = bx * cy, cx * by
+    ca, ac = cx * ay, ax * cy
+    ab, ba = ax * by, bx * ay
+    det = az * (bc - cb) + bz * (ca - ac) + cz * (ab - ba)
+    permanent = (
+        (abs(bc) + abs(cb)) * abs(az)
+        + (abs(ca) + abs(ac)) * abs(bz)
+        + (abs(ab) + abs(ba)) * abs(cz)
+    )
+    if abs(det) > FILTER_SPACE * permanent:
+        return det
+    if (
+        (ax == 0.0 and bx == 0.0 and cx == 0.0)
+        or (ay == 0.0 and by == 0.0 and cy == 0.0)
+        or (az == 0.0 and bz == 0.0 and cz == 0.0)
+    ):
+        return 0.0  # on a plane across an axis: common, and a difference of zero is exact
+    return _orient_space_exact(p, a, b, c, d, expansion)

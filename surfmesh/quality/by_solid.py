@@ -1,0 +1,77 @@
+"""The figures of each solid of a CAD model, beside the exact ones."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from surfmesh.quality.shape import Shapes
+from surfmesh.surface_mesh import SurfaceMesh
+
+
+@dataclass(frozen=True, kw_only=True)
+class SolidRow:
+    """Model units. None: not known, or without meaning as the solid is not closed."""
+
+    solid: int
+    name: str
+    triangles: int
+    closed: bool  # every edge is run along as often one way as the other
+    euler: int
+    euler_exact: int | None
+    area: float
+    area_exact: float | None
+    volume: float | None
+    volume_exact: float | None
+
+
+def by_solid(mesh: SurfaceMesh, shape: Shapes) -> tuple[SolidRow, ...]:
+    """Rows of all solids; a face between two of them counts for both. None without solid_ids."""
+    if mesh.solid_ids is None:
+        return ()
+    exact = mesh.facts.solids if mesh.facts is not None else ()
+    count = max(int(mesh.solid_ids.max(initial=-1)) + 1, len(exact))
+    if not count:
+        return ()
+    ahead, against = (np.flatnonzero(ids >= 0) for ids in mesh.solid_ids.T)
+    rows = np.concatenate([ahead, against])
+    solid = np.concatenate([mesh.solid_ids[ahead, 0], mesh.solid_ids[against, 1]])
+    corners = mesh.triangles[rows].astype(np.int64)
+    corners[len(ahead) :] = corners[len(ahead) :, ::-1]
+    triangles = np.bincount(solid, minlength=count)
+    area = np.bincount(solid, shape.area[rows], count)
+    a, b, c = (mesh.points[corner] - mesh.points.mean(axis=0) for corner in corners.T)
+    volume = np.bincount(solid, np.einsum("ij,ij->i", a, np.cross(b, c)) / 6.0, count)
+
+    width = len(mesh.points)
+    starts, ends = corners.ravel(), corners[:, (1, 2, 0)].ravel()
+    of = np.repeat(solid.astype(np.int64), 3)
+    vertices = np.bincount(np.unique(of * width + starts) // width, minlength=count)
+    keys, place = np.unique(
+        of * width**2 + np.minimum(starts, ends) * width + np.maximum(starts, ends),
+        return_inverse=True,
+    )  # fits 64 bits for a hundred solids of a hundred million vertices
+    edges = np.bincount(keys // width**2, minlength=count)
+    balance = np.bincount(place, np.where(starts < ends, 1.0, -1.0))
+    opened = np.bincount(keys // width**2, balance != 0, count)
+    euler = vertices - edges + triangles
+    return tuple(
+        SolidRow(
+            solid=k,
+            name=exact[k].name if k < len(exact) else "",
+            triangles=int(triangles[k]),
+            closed=bool(triangles[k] > 0 and opened[k] == 0),
+            euler=int(euler[k]),
+            euler_exact=exact[k].euler if k < len(exact) else None,
+            area=float(area[k]),
+            area_exact=exact[k].area if k < len(exact) else None,
+            volume=float(volume[k]) if triangles[k] > 0 and opened[k] == 0 else None,
+            volume_exact=exact[k].volume if k < len(exact) else None,
+        )
+        for k in range(count)
+    )
+
+
+def volume_of_all(rows: tuple[SolidRow, ...]) -> float | None:
+    """Sum over the solids, or None when one of them is open."""
+    volumes = [row.volume for row in rows]
+    return None if not rows or None in volumes else sum(volumes)

@@ -1,0 +1,170 @@
+"""The report in full, as text: the summary, then tables of faces, solids and worst triangles."""
+
+from typing import TYPE_CHECKING
+
+from surfmesh.quality.summary import summary
+
+if TYPE_CHECKING:
+    from surfmesh.quality.by_face import FaceRow
+    from surfmesh.quality.report import Report
+
+SHOWN_FACES = 40  # those that are farthest from the surface
+BAR = 50  # characters of the longest bar of a histogram
+
+
+def certificate(report: "Report") -> str:
+    """Every part of ``report``; long lists of faces are cut, the JSON has them all."""
+    parts = [summary(report), _faces(report), _solids(report), _worst(report), _folded(report)]
+    parts += [_meeting(report), _histograms(report), _healing(report), _origin(report)]
+    return "\n\n".join(part for part in parts if part)
+
+
+def _faces(report: "Report") -> str:
+    rows = [row for row in report.by_face if row.triangles]
+    if not rows:
+        return ""
+    title = "faces"
+    if len(rows) > SHOWN_FACES:
+        title = f"faces, the {SHOWN_FACES} farthest from the surface of {len(rows)}"
+        rows = sorted(rows, key=_badness, reverse=True)[:SHOWN_FACES]
+    head = ("face", "name", "triangles", "area", "exact", "largest", "rms", "> chord", "near")
+    head += ("alpha", "min", "size", "wanted")
+    return _table(
+        title,
+        head,
+        [
+            (
+                str(row.face), _short(row), f"{row.triangles:,}", _g(row.area, 6),
+                _g(row.area_exact, 6), _g(row.deviation_max), _g(row.deviation_rms),
+                _percent(row.above_chord_share), _place(row.deviation_point), _g(row.alpha_mean),
+                _g(row.alpha_min), _g(row.size_mean), _g(row.size_wanted),
+            )
+            for row in rows
+        ],
+    )  # fmt: skip
+
+
+def _badness(row: "FaceRow") -> float:
+    return row.deviation_max if row.deviation_max is not None else 1.0 - row.alpha_min
+
+
+def _short(row: "FaceRow") -> str:
+    """Its name, and its kind where the name does not say it."""
+    name = row.name if row.kind in row.name else f"{row.name} {row.kind}"
+    return name if len(name) <= 32 else name[:29] + "..."
+
+
+def _solids(report: "Report") -> str:
+    head = ("solid", "name", "triangles", "closed", "Euler", "model", "area", "exact", "volume")
+    rows = [
+        (
+            str(row.solid), row.name[:32], f"{row.triangles:,}", "yes" if row.closed else "no",
+            str(row.euler), _g(row.euler_exact), _g(row.area, 6), _g(row.area_exact, 6),
+            _g(row.volume, 6), _g(row.volume_exact, 6),
+        )
+        for row in report.by_solid[:SHOWN_FACES]
+    ]  # fmt: skip
+    more = len(report.by_solid) - SHOWN_FACES
+    title = "solids" if more <= 0 else f"solids, the first {SHOWN_FACES} of {len(report.by_solid)}"
+    return _table(title, (*head, "exact"), rows) if rows else ""
+
+
+def _worst(report: "Report") -> str:
+    head = ("triangle", "alpha", "angles", "at", "face", "name")
+    return _table(
+        "worst triangles",
+        head,
+        [
+            (
+                str(row.triangle), f"{row.alpha:.4f}",
+                f"{row.min_angle_deg:.1f}° to {row.max_angle_deg:.1f}°", _place(row.point),
+                str(row.face), row.name,
+            )
+            for row in report.worst
+        ],
+    )  # fmt: skip
+
+
+def _folded(report: "Report") -> str:
+    if not report.folded_at:
+        return ""
+    rows = [
+        (str(row.triangle), f"{row.angle_deg:.1f}°", _place(row.point), str(row.face))
+        for row in report.folded_at
+    ]
+    return _table("folded triangles", ("triangle", "turned", "at", "face"), rows)
+
+
+def _meeting(report: "Report") -> str:
+    if not report.meeting:
+        return ""
+    rows = [
+        (*map(str, pair.triangles), *map(str, pair.faces), _place(pair.point))
+        for pair in report.meeting
+    ]
+    head = ("triangle", "meets", "face", "and face", "at")
+    return _table("self-intersections", head, rows)
+
+
+def _histograms(report: "Report") -> str:
+    blocks = []
+    for name, found in report.histograms.items():
+        top = max(found.counts)
+        if not top:
+            continue
+        lines = [name]
+        filled = [k for k, count in enumerate(found.counts) if count]
+        for k in range(filled[0], filled[-1] + 1):
+            bar = "#" * -(-found.counts[k] * BAR // top)
+            span = f"{found.edges[k]:.4g} to {found.edges[k + 1]:.4g}"
+            lines.append(f"  {span:>24} {found.counts[k]:>10,}  {bar}".rstrip())
+        blocks.append("\n".join(lines))
+    return "\n\n".join(blocks)
+
+
+def _healing(report: "Report") -> str:
+    if not report.healing:
+        return ""
+    return "\n".join(["healing", *(f"  {sentence}" for sentence in report.healing)])
+
+
+def _origin(report: "Report") -> str:
+    options = ", ".join(
+        f"{name} {value:.6g}" if isinstance(value, float) else f"{name} {value}"
+        for name, value in report.options.items()
+        if value is not None and value != ()
+    )
+    versions = ", ".join(f"{name} {number}" for name, number in report.versions.items())
+    rows = [("source", report.source), ("unit", report.unit), ("sha256", report.source_sha256)]
+    rows += [("options", options), ("mesh", f"sha256 {report.mesh_sha256}"), ("with", versions)]
+    return "\n".join(["origin", *(f"  {title:<11}{text}" for title, text in rows if text)])
+
+
+def _table(title: str, head: tuple[str, ...], rows: list[tuple[str, ...]]) -> str:
+    """Columns as wide as they must be; numbers to the right, words to the left."""
+    if not rows:
+        return ""
+    columns = list(zip(head, *rows))
+    used = [column for column in columns if any(cell != "" for cell in column[1:])]
+    lines = [title]
+    for cells in zip(*used):
+        padded = [
+            cell.ljust(max(map(len, column)))
+            if column[0] in ("name", "at", "near")
+            else cell.rjust(max(map(len, column)))
+            for cell, column in zip(cells, used)
+        ]
+        lines.append("  " + "  ".join(padded).rstrip())
+    return "\n".join(lines)
+
+
+def _g(value: float | None, digits: int = 4) -> str:
+    return "" if value is None else f"{value:.{digits}g}"
+
+
+def _percent(share: float | None) -> str:
+    return "" if share is None else f"{100 * share:.3g} %"
+
+
+def _place(point: tuple[float, ...] | None) -> str:
+    return "" if point is None else "(" + ", ".join(f"{value:.4g}" for value in point) + ")"

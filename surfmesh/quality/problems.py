@@ -1,0 +1,141 @@
+"""What is wrong with a mesh, one sentence for each thing: how many, and where the first is."""
+
+import math
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from surfmesh.quality.by_face import CHORD_SLACK
+from surfmesh.quality.by_solid import SolidRow
+from surfmesh.quality.deviation import Deviation
+from surfmesh.quality.self_intersection import MeetingPair
+from surfmesh.quality.shape import Shapes
+from surfmesh.quality.solids import shares_faces, solid_mesh
+from surfmesh.quality.topology import Topology, topology
+from surfmesh.surface_mesh import NOT_MESHED, SurfaceMesh
+
+DEGENERATE = 1e-6  # alpha below which a triangle has no area to speak of
+FOLDED, INVERTED = math.cos(math.radians(60.0)), 0.0  # cosines between the two normals
+
+
+def problems(
+    mesh: SurfaceMesh,
+    broken: str | None,
+    topo: Topology,
+    shape: Shapes,
+    fit: Deviation | None,
+    above: float | None,
+    solids: tuple[SolidRow, ...],
+) -> list[str]:
+    """Sentences about all but self-intersection.
+
+    broken: the first broken invariant of the mesh; above: share of the triangles that lie
+    farther away than chord.
+    """
+    chord = getattr(mesh.sizing, "chord", None)
+    said = []
+    if not len(mesh.triangles):
+        said.append("the mesh has no triangles")
+    if broken:
+        said.append(broken)
+    said += [warning for warning in mesh.warnings if warning.startswith(NOT_MESHED)]
+    if shares_faces(mesh):  # three triangles and more may meet where solids do
+        for solid in range(int(mesh.solid_ids.max()) + 1):
+            part = solid_mesh(mesh, solid)
+            around = topology(part)
+            bad = [name for name in ("closed", "manifold", "oriented") if not getattr(around, name)]
+            if bad:
+                said.append(f"solid {solid} is not {' and not '.join(bad)}")
+        topo = topo._replace(
+            crowded_edges=topo.crowded_edges[:0],
+            pinched_vertices=topo.pinched_vertices[:0],
+            clashing_edges=topo.clashing_edges[:0],
+        )
+    said += _euler_numbers(mesh, topo, solids)
+    if len(topo.crowded_edges):
+        first = mesh.edges[topo.crowded_edges[0]]
+        many = _number(topo.crowded_edges, "edge")
+        said.append(f"{many} shared by more than two triangles, first {_edge(mesh, first)}")
+    if len(topo.pinched_vertices):
+        first = int(topo.pinched_vertices[0])
+        many = _number(topo.pinched_vertices, "vertex", "vertices")
+        said.append(f"{many} where parts only touch, first {first} at {_place(mesh.points[first])}")
+    if len(topo.clashing_edges) and not mesh.one_sided:
+        first = mesh.edges[topo.clashing_edges[0]]
+        many = _number(topo.clashing_edges, "edge")
+        said.append(f"{many} between triangles of opposite orientation, first {_edge(mesh, first)}")
+    said += _triangles(mesh, ~(shape.alpha > DEGENERATE), "without area")
+    if fit is not None:
+        said += _triangles(mesh, fit.cosine < INVERTED, "inverted against the surface")
+        half = (fit.cosine >= INVERTED) & (fit.cosine < FOLDED)
+        said += _triangles(mesh, half, "folded: turned more than 60° from the surface")
+        if not math.isfinite(fit.largest):
+            said.append("the distance from the surface is not finite")
+        elif chord is not None and fit.largest > chord * (1 + CHORD_SLACK):
+            said.append(
+                f"the mesh lies up to {fit.largest:.4g} from the surface, {chord:.4g} was asked "
+                f"for ({100 * (above or 0):.3g} % of the triangles are farther); "
+                f"worst in triangle {fit.triangle} at {_place(fit.point)}"
+            )
+    return said
+
+
+def _euler_numbers(
+    mesh: SurfaceMesh, topo: Topology, solids: tuple[SolidRow, ...]
+) -> list[str]:
+    """Where the mesh has not the topology of the model; faces that are missing say so already."""
+    if any(warning.startswith(NOT_MESHED) for warning in mesh.warnings):
+        return []
+    said = [
+        f"the Euler number of solid {row.solid} is {row.euler}, that of the model {row.euler_exact}"
+        for row in solids
+        if row.euler_exact is not None and row.euler != row.euler_exact
+    ]
+    exact = mesh.facts.euler if mesh.facts is not None else None
+    if not said and exact is not None and exact != topo.euler:
+        said.append(f"the Euler number of the mesh is {topo.euler}, that of the model {exact}")
+    return said
+
+
+def intersections(
+    mesh: SurfaceMesh, meeting: tuple[MeetingPair, ...], count: int
+) -> list[str]:
+    """A sentence about ``count`` pairs of triangles that meet, of which the first are given."""
+    if not count:
+        return []
+    first = meeting[0]
+    names = dict.fromkeys(mesh.face_name(face) for face in first.faces)
+    many = f"{count:,} pair{'s' * (count > 1)}"
+    advice = ""
+    if any(hasattr(surface, "formulas") for surface in mesh.surfaces):
+        advice = "; lower the sizes there, or say embedded = false in the facts of the surface"
+    elif mesh.surfaces:
+        advice = "; lower the sizes there, or repair the model if its own faces cross"
+    return [
+        f"the mesh intersects itself: {many} of triangles, first {first.triangles[0]} and "
+        f"{first.triangles[1]} ({' and '.join(names)}) at {_place(first.point)}"
+        + advice
+    ]
+
+
+def _triangles(mesh: SurfaceMesh, bad: NDArray[np.bool_], what: str) -> list[str]:
+    found = np.flatnonzero(bad)
+    if not len(found):
+        return []
+    first = int(found[0])
+    place = _place(mesh.points[mesh.triangles[first]].mean(axis=0))
+    return [f"{_number(found, 'triangle')} {what}, first {first} at {place}"]
+
+
+def _number(found: NDArray, one: str, many: str | None = None) -> str:
+    return f"{len(found):,} {one if len(found) == 1 else many or one + 's'}"
+
+
+def _edge(mesh: SurfaceMesh, edge: NDArray[np.int32]) -> str:
+    middle = mesh.points[edge].mean(axis=0)
+    return f"{int(edge[0])}-{int(edge[1])} at {_place(middle)}"
+
+
+def _place(point: Any) -> str:
+    return "(" + ", ".join(f"{float(value):.5g}" for value in point) + ")"
