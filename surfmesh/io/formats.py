@@ -17,6 +17,7 @@ FORMATS = {
     ".ply": "surfmesh.io.ply",
     ".glb": "surfmesh.io.glb",
     ".msh": "surfmesh.io.msh",
+    ".inp": "surfmesh.io.inp",
 }
 
 

@@ -12,6 +12,7 @@ from surfmesh.cad.model import CadFace, CadModel
 from surfmesh.errors import MeshingError
 from surfmesh.meshing.edge_nodes import EdgeNodes, cut_edges, vertex_numbers
 from surfmesh.meshing.face_job import FaceJob, FaceMesh, Piece, mesh_face
+from surfmesh.meshing.model_groups import groups_of
 from surfmesh.meshing.stages import Progress, Stopwatch
 from surfmesh.sizing.size_field import DEFAULT_CHORD, DEFAULT_MAX_SIZE
 from surfmesh.sizing.size_limits import SizeLimits
@@ -191,6 +192,7 @@ def _joined(
         edge_ids=of[there],
         vertex_ids=rank[vertex_numbers(model)],
         sizes=np.where(np.isfinite(sizes), sizes, model.diagonal)[used],
+        groups=groups_of(model),
         sizing=sizing,
         seconds=watch.seconds,
         warnings=tuple([*model.healing, *missing]),

@@ -57,7 +57,7 @@ def test_triangles_that_single_precision_flattens_are_named(tmp_path):
     assert found.warnings == ("1 triangles without area in single precision left out",)
 
 
-def test_gmsh_reads_msh_with_a_group_for_each_face(saddle, tmp_path):
+def test_gmsh_reads_msh_with_a_surface_for_each_face_and_a_group_for_each_name(saddle, tmp_path):
     gmsh = pytest.importorskip("gmsh")
     path = saddle.save(tmp_path / "mesh.msh")
     gmsh.initialize(interruptible=False)
@@ -65,8 +65,8 @@ def test_gmsh_reads_msh_with_a_group_for_each_face(saddle, tmp_path):
         gmsh.option.setNumber("General.Terminal", 0)
         gmsh.open(str(path))
         groups = gmsh.model.getPhysicalGroups()
-        assert groups == [(2, 1), (2, 2)]
-        assert [gmsh.model.getPhysicalName(*group) for group in groups] == ["saddle", "saddle"]
+        assert groups == [(2, 1)] and gmsh.model.getPhysicalName(2, 1) == "saddle"
+        assert gmsh.model.getEntitiesForPhysicalGroup(2, 1).tolist() == [1, 2]
         tags, coordinates, _ = gmsh.model.mesh.getNodes()
         ordered = coordinates.reshape(-1, 3)[np.argsort(tags)]
         np.testing.assert_array_equal(ordered, saddle.points)
