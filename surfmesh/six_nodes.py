@@ -40,3 +40,8 @@ def split_six_nodes(
     triangles = triangles.reshape(-1, 3).astype(np.int32)
     first = connect(triangles).half_edges[:, 0]
     return nodes[corners], triangles, nodes[elements[:, 3:].reshape(-1)[first]], corners
+
+
+def node_values(values: NDArray[np.float64], edges: NDArray) -> NDArray[np.float64]:
+    """Values at the points (n, ...) and, after them, the means of the ends of each edge."""
+    return np.concatenate((values, values[edges].mean(axis=1)))

@@ -1,7 +1,8 @@
 """Binary glTF 2.0: one node a solid, one primitive a face, colours as materials.
 
-Single precision; vertices stand once a face, with their numbers beside. Faces, solids and all else that surfmesh knows stand in "extras"; a face
-between two solids is in the nodes of both. A root node scales to metres, which is glTF's unit.
+Single precision; vertices stand once a face, with their numbers beside. Faces, solids and all
+else that surfmesh knows stand in "extras"; a face between two solids is in the nodes of both.
+A root node scales to metres, which is glTF's unit.
 Format: Khronos glTF 2.0 specification, sections 3 and 4.
 """
 

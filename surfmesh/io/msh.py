@@ -23,7 +23,7 @@ from numpy.typing import NDArray
 from surfmesh.io.group_record import group_lines, solids_of_faces
 from surfmesh.io.msh_reading import ATTRIBUTE, read
 from surfmesh.quality.shape import alpha
-from surfmesh.six_nodes import edge_rows
+from surfmesh.six_nodes import edge_rows, node_values
 from surfmesh.surface_mesh import SurfaceMesh
 
 __all__ = ["read", "write"]
@@ -88,7 +88,8 @@ def write(mesh: SurfaceMesh, path: Path) -> None:
         _section(file, ATTRIBUTE, "\n".join([*group_lines(mesh), ""]).encode())
 
         if mesh.sizes is not None:
-            _section(file, "NodeData", _values("size", mesh.sizes))
+            sizes = mesh.sizes if mesh.order == 1 else node_values(mesh.sizes, mesh.edges)
+            _section(file, "NodeData", _values("size", sizes))
         # meshio wants a value for every element, in the order of the tags: lines get a 1
         shape = np.concatenate((alpha(mesh), np.ones(used - count)))
         _section(file, "ElementData", _values("alpha", shape))

@@ -50,7 +50,8 @@ def read(path: Path) -> SurfaceMesh:
         fields["vertex_ids"] = np.full(max(content.vertices) + 1, -1)
         for number, tag in content.vertices.items():
             fields["vertex_ids"][number] = rank[np.searchsorted(tags, tag)]
-    sizes = content.point_values("size", tags[kept])
+    sizes = content.point_values("size", tags)
+    sizes = None if sizes is None else sizes[kept]
     fields |= group_fields(content.lines(ATTRIBUTE), face_ids)
     fields.setdefault("groups", content.groups(face_ids))
     return SurfaceMesh(

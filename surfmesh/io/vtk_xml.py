@@ -20,7 +20,7 @@ from surfmesh.errors import FileFormatError
 from surfmesh.io.colours import NO_COLOUR, triangle_colours
 from surfmesh.mesh_groups import MeshGroups
 from surfmesh.quality.shape import alpha
-from surfmesh.six_nodes import split_six_nodes
+from surfmesh.six_nodes import node_values, split_six_nodes
 from surfmesh.surface_mesh import SurfaceMesh
 
 GROUPS = "surfmesh_groups"
@@ -74,9 +74,8 @@ def _grid_of(mesh: SurfaceMesh, data: pyvista.PolyData) -> pyvista.UnstructuredG
     grid = pyvista.UnstructuredGrid(six, mesh.nodes)
     for name, values in data.cell_data.items():
         grid.cell_data[name] = values
-    for name, values in data.point_data.items():  # sizes: the mean of the ends of an edge
-        middles = values[mesh.edges].mean(axis=1)
-        grid.point_data[name] = np.concatenate((values, middles))
+    for name, values in data.point_data.items():
+        grid.point_data[name] = node_values(values, mesh.edges)
     for name, values in data.field_data.items():
         grid.field_data[name] = values
     grid.set_active_scalars(None)
