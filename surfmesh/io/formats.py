@@ -18,6 +18,9 @@ FORMATS = {
     ".glb": "surfmesh.io.glb",
     ".msh": "surfmesh.io.msh",
     ".inp": "surfmesh.io.inp",
+    ".bdf": "surfmesh.io.bdf",
+    ".xdmf": "surfmesh.io.xdmf",
+    ".off": "surfmesh.io.off",
 }
 
 

@@ -1,9 +1,12 @@
 """Numbers as text in columns of limited width, and back."""
 
 from collections.abc import Iterable, Sequence
+from typing import TextIO
 
 import numpy as np
 from numpy.typing import NDArray
+
+LINES = 50_000  # formatted together
 
 
 def shortest(values: Iterable[float], width: int) -> list[str]:
@@ -27,3 +30,10 @@ def numbers(lines: Sequence[str], columns: int, kind: type = float) -> NDArray:
     if len(words) != columns * len(lines):
         raise ValueError(f"rows of {columns} numbers are expected")
     return np.array(words, kind).reshape(-1, columns)
+
+
+def write_rows(file: TextIO, row: str, values: NDArray) -> None:
+    """Each row of ``values`` in the format ``row``, which ends its line."""
+    for start in range(0, len(values), LINES):
+        block = values[start : start + LINES]
+        file.write((row * len(block)) % tuple(block.ravel().tolist()))
