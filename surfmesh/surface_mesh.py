@@ -189,11 +189,11 @@ class SurfaceMesh:
                 return f"face_ids run from {low} to {high}, surfaces are {len(self.surfaces)}"
         return None
 
-    def save(self, path: str | Path) -> Path:
+    def save(self, path: str | Path, *, ascii: bool = False) -> Path:
         """Write to ``path``, format by extension; see ``surfmesh.io.save``."""
         from surfmesh.io import save
 
-        return save(self, path)
+        return save(self, path, ascii=ascii)
 
     def to_pyvista(self) -> "pyvista.PolyData":
         """As PyVista PolyData with ``size``, ``face_id`` and ``alpha``; nothing is merged."""

@@ -21,10 +21,11 @@ FORMATS = {
     ".bdf": "surfmesh.io.bdf",
     ".xdmf": "surfmesh.io.xdmf",
     ".off": "surfmesh.io.off",
+    ".3mf": "surfmesh.io.threemf",
 }
 
 
-def save(mesh: SurfaceMesh, path: str | Path) -> Path:
+def save(mesh: SurfaceMesh, path: str | Path, *, ascii: bool = False) -> Path:
     """Write ``mesh`` to ``path``; all of it or nothing. Returns the path.
 
     What survives: points and triangles everywhere, in double precision but for .stl and
@@ -38,8 +39,10 @@ def save(mesh: SurfaceMesh, path: str | Path) -> Path:
     module = _module(path)
     if not len(mesh.triangles):
         raise FileFormatError(f"{path}: nothing to write, the mesh has no triangles")
+    if ascii and not hasattr(module, "write_ascii"):
+        raise FileFormatError(f"{path}: only .stl has an ASCII form to choose; leave ascii out")
     with replacing(path) as temporary:
-        module.write(mesh, temporary)
+        (module.write_ascii if ascii else module.write)(mesh, temporary)
     return path
 
 

@@ -39,7 +39,8 @@ def write(mesh: SurfaceMesh, path: Path) -> None:
         file.write('<?xml version="1.0"?>\n<Xdmf Version="3.0"><Domain>\n')
         file.write('<Grid Name="mesh" GridType="Uniform">\n')
         text = json.dumps(record, separators=(",", ":"))
-        file.write(f'<Information Name="{RECORD}" Value={quoteattr(text)}/>\n')
+        file.write(f'<Information Name="{RECORD}" Value={quoteattr(text)}>')
+        file.write(f"<![CDATA[{_names(mesh)}]]></Information>\n")
         file.write(
             f'<Topology TopologyType="{TOPOLOGY[mesh.order]}" '
             f'NumberOfElements="{len(mesh.triangles)}" NodesPerElement="{mesh.elements.shape[1]}">'
@@ -52,6 +53,15 @@ def write(mesh: SurfaceMesh, path: Path) -> None:
             sizes = mesh.sizes if mesh.order == 1 else node_values(mesh.sizes, mesh.edges)
             file.write(_attribute("size", "Node", sizes))
         file.write("</Grid></Domain></Xdmf>\n")
+
+
+def _names(mesh: SurfaceMesh) -> str:
+    """Names of faces as meshio wants them: it refuses an Information element without."""
+    maps = "".join(
+        f"<map key={quoteattr(mesh.groups.face_label(face))} dim='2'>{face}</map>"
+        for face in np.unique(mesh.face_ids).tolist()
+    )
+    return f"<main>{maps}</main>"
 
 
 def _attribute(name: str, centre: str, values: NDArray) -> str:
