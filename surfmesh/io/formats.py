@@ -21,6 +21,7 @@ FORMATS = {
     ".bdf": "surfmesh.io.bdf",
     ".xdmf": "surfmesh.io.xdmf",
     ".off": "surfmesh.io.off",
+    ".med": "surfmesh.io.med",
     ".3mf": "surfmesh.io.threemf",
 }
 
@@ -28,9 +29,13 @@ FORMATS = {
 def save(mesh: SurfaceMesh, path: str | Path, *, ascii: bool = False) -> Path:
     """Write ``mesh`` to ``path``; all of it or nothing. Returns the path.
 
-    What survives: points and triangles everywhere, in double precision but for .stl and
-    .glb; ``face_id`` in .vtu, .vtp, .ply, .obj and .msh; ``size`` and ``alpha`` in .vtu,
-    .vtp, .ply and .msh; corner parameters ``uv`` in .vtu and .vtp.
+    Points are in double precision but for .stl and .glb (single), .inp (20 characters) and .bdf
+    (16 characters). Faces, their names, colours and kinds, solids and the unit come back from
+    all formats but .stl; ``benchmarks/formats.py`` prints what survives where, here and with
+    other programs. ``size`` is in .vtu, .vtp, .ply, .msh and .xdmf, corner parameters ``uv`` in
+    .vtu and .vtp, nodes of order 2 in .vtu, .msh, .inp, .bdf, .xdmf and .med (needs meshio and
+    h5py); the other formats hold the corners alone. ascii: .stl as text, one body with a name
+    for each solid.
 
     Raises ``FileFormatError`` for an extension that is not known, a folder that is not
     there, a place that cannot be written, a mesh without triangles.
