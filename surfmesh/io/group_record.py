@@ -37,6 +37,7 @@ def group_lines(mesh: SurfaceMesh, numbered: bool = False) -> list[str]:
     if mesh.solid_ids is not None:
         record["solids"] = solids_of_faces(mesh).tolist()
     text = json.dumps(record, separators=(",", ":")).replace(" ", "\\u0020")
+    text = f"{len(text)}:{text}"
     return [MARK + text[at : at + WIDTH] for at in range(0, len(text), WIDTH)]
 
 
@@ -48,7 +49,10 @@ def group_fields(lines: Iterable[str], face_ids: NDArray | None = None) -> dict[
     pieces = [line.partition(MARK)[2].strip() for line in lines if MARK in line]
     if not pieces:
         return {}
-    record = json.loads("".join(pieces))
+    length, _, text = "".join(pieces).partition(":")
+    if length != str(len(text)):
+        raise ValueError(f"the record of groups has {len(text)} characters instead of {length}")
+    record = json.loads(text)
     found: dict[str, Any] = {"groups": MeshGroups.of_plain(record["groups"])}
     for name in NUMBERED:
         if name in record:

@@ -14,7 +14,6 @@ from numpy.typing import NDArray
 
 from surfmesh.errors import FileFormatError
 from surfmesh.io.group_record import MARK, group_fields, group_lines, unique_labels
-from surfmesh.io.group_record import solids_of_faces as solids_of
 from surfmesh.io.text_columns import numbers, shortest
 from surfmesh.mesh_groups import MeshGroups
 from surfmesh.six_nodes import edge_rows, split_six_nodes
@@ -30,8 +29,8 @@ KIND = {1: "S3", 2: "STRI65"}
 def write(mesh: SurfaceMesh, path: Path) -> None:
     groups, nodes = mesh.groups, mesh.nodes
     faces = np.unique(mesh.face_ids).tolist()
-    solids_of_faces = solids_of(mesh)
-    solids = [solid for solid in np.unique(solids_of_faces).tolist() if solid >= 0]
+    held = [-1] if mesh.solid_ids is None else np.unique(mesh.solid_ids).tolist()
+    solids = [solid for solid in held if solid >= 0]
     face_labels = list(dict.fromkeys(map(groups.face_label, faces)))
     labels = unique_labels([*face_labels, *map(groups.solid_label, solids)], NAME)
     named = dict(zip(face_labels, labels))
@@ -50,14 +49,17 @@ def write(mesh: SurfaceMesh, path: Path) -> None:
             file.write(f"*ELEMENT, TYPE={KIND[mesh.order]}, ELSET={label}\n")
             file.writelines(f"{', '.join(map(str, row))}\n" for row in elements[own].tolist())
         for solid, label in zip(solids, labels[len(face_labels) :]):
-            of = [f for f in faces if solid in solids_of_faces[f]]
-            sets = dict.fromkeys(named[groups.face_label(face)] for face in of)
+            own = np.flatnonzero((mesh.solid_ids == solid).any(axis=1))
             file.write(f"*ELSET, ELSET={label}\n")
-            file.writelines(f"{name}\n" for name in sets)
-        for label, own in _nodes_of_edges(mesh):
+            _write_numbers(file, (own + 1).tolist())
+        for label, numbers_of_edge in _nodes_of_edges(mesh):
             file.write(f"*NSET, NSET={label}\n")
-            for at in range(0, len(own), 8):
-                file.write(", ".join(map(str, own[at : at + 8])) + "\n")
+            _write_numbers(file, numbers_of_edge)
+
+
+def _write_numbers(file: TextIO, found: list[int]) -> None:
+    for at in range(0, len(found), 8):  # meshio takes GENERATE for one range only
+        file.write(", ".join(map(str, found[at : at + 8])) + "\n")
 
 
 def _nodes_of_edges(mesh: SurfaceMesh) -> Iterator[tuple[str, list[int]]]:
