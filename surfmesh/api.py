@@ -7,13 +7,14 @@ from typing import Any
 from surfmesh.cad.from_cadquery import from_cadquery
 from surfmesh.cad.model import CadModel
 from surfmesh.cad.reading import SUFFIXES, read_cad
-from surfmesh.errors import FileFormatError, SurfaceError
+from surfmesh.errors import FileFormatError, SizingError, SurfaceError
 from surfmesh.geometry.planar_domain import PlanarDomain
 from surfmesh.geometry.surface import Surface
 from surfmesh.geometry.surface_file import gallery, load_surface_file
 from surfmesh.meshing.model_mesh import mesh_model
 from surfmesh.meshing.parametric_mesh import mesh_parametric
 from surfmesh.meshing.planar_mesh import mesh_planar
+from surfmesh.meshing.second_order import of_second_order
 from surfmesh.meshing.stages import Progress
 from surfmesh.sizing.distance_size import default_wishes
 from surfmesh.sizing.sizing import Sizing
@@ -47,6 +48,7 @@ def mesh(
     optimise: bool = True,
     progress: Progress | None = None,
     strict: bool = True,
+    order: int = 1,
 ) -> SurfaceMesh:
     """Triangulate a surface, or a CAD model (or whatever CadQuery object makes one).
 
@@ -54,19 +56,24 @@ def mesh(
     surface's formula file, or sensible ones. optimise=False gives the raw packing with its
     boundary, as in the paper. progress: called with (stage, share done). strict=False: faces of
     a CAD model that cannot be meshed are left out and listed in the mesh's ``warnings``.
+    order=2: nodes amid the edges too, on the true curves and surfaces (``mesh.mid_points``).
 
     Raises ``SizingError``, ``SurfaceError`` or ``MeshingError`` with the place and the reason.
     """
+    if order not in (1, 2):
+        raise SizingError(f"order is {order!r}: meshes are of order 1 or 2")
     if not isinstance(surface, (CadModel, Surface)) and _is_cad(surface):
         surface = from_cadquery(surface)
     if isinstance(surface, CadModel):
-        return mesh_model(surface, Sizing.of(sizing), optimise, progress, strict)
+        made = mesh_model(surface, Sizing.of(sizing), optimise, progress, strict)
+        return made if order == 1 else of_second_order(made, surface)
     if not isinstance(surface, Surface):
         raise SurfaceError(f"cannot mesh a {type(surface).__name__}: a Surface is needed")
     if sizing is None:
         sizing = default_wishes(surface) or None
     work = mesh_planar if isinstance(surface, PlanarDomain) else mesh_parametric
-    return work(surface, Sizing.of(sizing), optimise, progress)
+    made = work(surface, Sizing.of(sizing), optimise, progress)
+    return made if order == 1 else of_second_order(made)
 
 
 def _is_cad(thing: Any) -> bool:

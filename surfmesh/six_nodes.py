@@ -45,3 +45,29 @@ def split_six_nodes(
 def node_values(values: NDArray[np.float64], edges: NDArray) -> NDArray[np.float64]:
     """Values at the points (n, ...) and, after them, the means of the ends of each edge."""
     return np.concatenate((values, values[edges].mean(axis=1)))
+
+
+def least_jacobians(nodes: NDArray[np.float64], elements: NDArray) -> NDArray[np.float64]:
+    """(m,) below the Jacobian of each six-node triangle, seen along the normal of its corners.
+
+    1 for straight edges with their nodes in the middle; positive: the map of the triangle is one
+    to one as seen from there. The Jacobian is a quadratic polynomial; no value of it lies below
+    the least of its Bezier coefficients.
+    Source: A. Johnen, J.-F. Remacle, C. Geuzaine, "Geometrical validity of curvilinear finite
+    elements", J. Comput. Phys. 233 (2013), section 2.
+    """
+    x = nodes[elements]  # (m, 6, 3)
+    normal = np.cross(x[:, 1] - x[:, 0], x[:, 2] - x[:, 0])
+    squared = np.einsum("ij,ij->i", normal, normal)
+    normal /= np.where(squared > 0.0, squared, 1.0)[:, None]
+    values = np.empty((6, len(x)))
+    for at, (s, t) in enumerate(((0, 0), (1, 0), (0, 1), (0.5, 0), (0.5, 0.5), (0, 0.5))):
+        r = 1.0 - s - t
+        # derivatives by s and t of r (2r-1), s (2s-1), t (2t-1), 4rs, 4st, 4tr
+        along_s = np.array([1 - 4 * r, 4 * s - 1, 0, 4 * (r - s), 4 * t, -4 * t])
+        along_t = np.array([1 - 4 * r, 0, 4 * t - 1, -4 * s, 4 * s, 4 * (r - t)])
+        tangents = np.cross(along_s @ x, along_t @ x)
+        values[at] = np.einsum("ij,ij->i", tangents, normal)
+    for middle, a, b in ((3, 0, 1), (4, 1, 2), (5, 2, 0)):  # value -> Bezier coefficient
+        values[middle] = 2.0 * values[middle] - 0.5 * (values[a] + values[b])
+    return values.min(axis=0)

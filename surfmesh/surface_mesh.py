@@ -57,6 +57,7 @@ class SurfaceMesh:
     solid_ids: NDArray[np.int32] | None = None  # (m, 2) solid behind and before it; -1: none
     edge_segments: NDArray[np.int32] | None = None  # (k, 2) edges of the mesh on CAD edges
     edge_ids: NDArray[np.int32] | None = None  # (k,) their CAD edges
+    edge_shares: NDArray[np.float64] | None = None  # (k, 2) of its range, at a segment's ends
     vertex_ids: NDArray[np.int32] | None = None  # (c,) vertex at each CAD vertex; -1: none
     mid_points: NDArray[np.float64] | None = None  # (ne, 3) nodes amid ``edges``; None: order 1
     groups: MeshGroups | None = None  # names, colours, kinds, unit; None: those of the surfaces
@@ -90,6 +91,7 @@ class SurfaceMesh:
             ("solid_ids", np.int32, (m, 2)),
             ("edge_segments", np.int32, (-1, 2)),
             ("edge_ids", np.int32, (-1,)),
+            ("edge_shares", np.float64, (-1, 2)),
             ("vertex_ids", np.int32, (-1,)),
         ):
             if getattr(self, name) is not None:
