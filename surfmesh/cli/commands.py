@@ -20,7 +20,7 @@ def mesh(options: Namespace) -> bool:
     """Mesh, check, write; the files are looked at before the work is done."""
     from surfmesh.io.formats import require_writable
 
-    require_writable(options.output)
+    require_writable(options.output, *([".stl"] if options.ascii else []))
     for path, extension in ((options.picture, ".png"), (options.report, ".json")):
         if path:
             require_writable(path, extension)
@@ -39,13 +39,14 @@ def mesh(options: Namespace) -> bool:
             Sizing(**given) if given else None,
             optimise=not options.no_optimise,
             progress=progress,
+            **({"order": 2} if options.order == 2 else {}),
             **({"strict": False} if options.no_strict else {}),
         )
         progress("check", 0.92)
         report = checked(result)
         progress("write", 0.95)
         start = perf_counter()
-        files = {"mesh": str(save(result, options.output))}
+        files = {"mesh": str(save(result, options.output, ascii=options.ascii))}
         report = replace(report, seconds={**report.seconds, "write": perf_counter() - start})
         if options.picture:
             from surfmesh.view import plot

@@ -1,5 +1,6 @@
 """Which module writes and reads which extension, and the two verbs."""
 
+import warnings
 from importlib import import_module
 from pathlib import Path
 from types import ModuleType
@@ -25,6 +26,9 @@ FORMATS = {
     ".3mf": "surfmesh.io.threemf",
 }
 
+SECOND_ORDER = (".vtu", ".msh", ".inp", ".bdf", ".xdmf", ".med")
+"""Formats that hold nodes amid edges."""
+
 
 def save(mesh: SurfaceMesh, path: str | Path, *, ascii: bool = False) -> Path:
     """Write ``mesh`` to ``path``; all of it or nothing. Returns the path.
@@ -34,8 +38,8 @@ def save(mesh: SurfaceMesh, path: str | Path, *, ascii: bool = False) -> Path:
     all formats but .stl; ``benchmarks/formats.py`` prints what survives where, here and with
     other programs. ``size`` is in .vtu, .vtp, .ply, .msh and .xdmf, corner parameters ``uv`` in
     .vtu and .vtp, nodes of order 2 in .vtu, .msh, .inp, .bdf, .xdmf and .med (needs meshio and
-    h5py); the other formats hold the corners alone. ascii: .stl as text, one body with a name
-    for each solid.
+    h5py); the other formats hold the corners alone, which a ``UserWarning`` says. ascii: .stl
+    as text, one body with a name for each solid.
 
     Raises ``FileFormatError`` for an extension that is not known, a folder that is not
     there, a place that cannot be written, a mesh without triangles.
@@ -44,6 +48,12 @@ def save(mesh: SurfaceMesh, path: str | Path, *, ascii: bool = False) -> Path:
     module = _module(path)
     if not len(mesh.triangles):
         raise FileFormatError(f"{path}: nothing to write, the mesh has no triangles")
+    if mesh.order == 2 and path.suffix.lower() not in SECOND_ORDER:
+        others = ", ".join(SECOND_ORDER)
+        warnings.warn(
+            f"{path}: {path.suffix} holds the corners alone; for order 2 use {others}",
+            stacklevel=2,
+        )
     if ascii and not hasattr(module, "write_ascii"):
         raise FileFormatError(f"{path}: only .stl has an ASCII form to choose; leave ascii out")
     with replacing(path) as temporary:

@@ -81,6 +81,13 @@ def test_nodes_of_order_2_come_back(extension, boxes, tmp_path):
     assert segments(found) == segments(boxes)
 
 
+def test_formats_without_nodes_amid_edges_say_so(boxes, tmp_path):
+    curved = dataclasses.replace(boxes, mid_points=boxes.points[boxes.edges].mean(axis=1))
+    with pytest.warns(UserWarning, match=r"\.ply holds the corners alone; for order 2 use \.vtu"):
+        found = read(curved.save(tmp_path / "boxes.ply"))
+    np.testing.assert_array_equal(found.triangles, boxes.triangles)
+
+
 def test_six_nodes_are_corners_and_then_the_middles_of_their_edges(boxes):
     middles = boxes.points[boxes.edges].mean(axis=1)
     curved = dataclasses.replace(boxes, mid_points=middles)
