@@ -12,6 +12,11 @@ from numpy.typing import NDArray
 
 from surfmesh.connectivity import Connectivity, connect
 
+# Derivatives of the six functions by s and t of (r, s, t), r = 1 - s - t, at the three corners.
+# Functions: r (2r-1), s (2s-1), t (2t-1), 4rs, 4st, 4tr.
+_ALONG_S = np.array([(-3, -1, 0, 4, 0, 0), (1, 3, 0, -4, 0, 0), (1, -1, 0, 0, 4, -4)], float)
+_ALONG_T = np.array([(-3, 0, -1, 0, 0, 4), (1, 0, -1, -4, 4, 0), (1, 0, 3, 0, 0, -4)], float)
+
 
 def six_nodes(
     triangles: NDArray[np.int32], table: Connectivity, first: int
@@ -56,18 +61,19 @@ def least_jacobians(nodes: NDArray[np.float64], elements: NDArray) -> NDArray[np
     Source: A. Johnen, J.-F. Remacle, C. Geuzaine, "Geometrical validity of curvilinear finite
     elements", J. Comput. Phys. 233 (2013), section 2.
     """
-    x = nodes[elements]  # (m, 6, 3)
-    normal = np.cross(x[:, 1] - x[:, 0], x[:, 2] - x[:, 0])
+    m = len(elements)
+    x = nodes[elements.T]  # (6, m, 3)
+    normal = np.cross(x[1] - x[0], x[2] - x[0])
     squared = np.einsum("ij,ij->i", normal, normal)
     normal /= np.where(squared > 0.0, squared, 1.0)[:, None]
-    values = np.empty((6, len(x)))
-    for at, (s, t) in enumerate(((0, 0), (1, 0), (0, 1), (0.5, 0), (0.5, 0.5), (0, 0.5))):
-        r = 1.0 - s - t
-        # derivatives by s and t of r (2r-1), s (2s-1), t (2t-1), 4rs, 4st, 4tr
-        along_s = np.array([1 - 4 * r, 4 * s - 1, 0, 4 * (r - s), 4 * t, -4 * t])
-        along_t = np.array([1 - 4 * r, 0, 4 * t - 1, -4 * s, 4 * s, 4 * (r - t)])
-        tangents = np.cross(along_s @ x, along_t @ x)
-        values[at] = np.einsum("ij,ij->i", tangents, normal)
-    for middle, a, b in ((3, 0, 1), (4, 1, 2), (5, 2, 0)):  # value -> Bezier coefficient
-        values[middle] = 2.0 * values[middle] - 0.5 * (values[a] + values[b])
-    return values.min(axis=0)
+    # the derivatives are linear: their values at the corners say all
+    along_s, along_t = (
+        (corners @ x.reshape(6, -1)).reshape(3, m, 3) for corners in (_ALONG_S, _ALONG_T)
+    )
+    least = np.full(m, np.inf)
+    for a, b in ((0, 0), (1, 1), (2, 2), (0, 1), (1, 2), (2, 0)):
+        area = np.cross(along_s[a], along_t[b])
+        if a != b:
+            area = 0.5 * (area + np.cross(along_s[b], along_t[a]))
+        np.minimum(least, np.einsum("ij,ij->i", area, normal), out=least)
+    return least

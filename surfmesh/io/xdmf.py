@@ -6,6 +6,7 @@ Format: XDMF Model and Format, version 3.
 
 import json
 from pathlib import Path
+from typing import TextIO
 from xml.etree import ElementTree
 from xml.sax.saxutils import quoteattr
 
@@ -14,6 +15,7 @@ from numpy.typing import NDArray
 
 from surfmesh.errors import FileFormatError
 from surfmesh.io.colours import NO_COLOUR, triangle_colours
+from surfmesh.io.text_columns import write_rows
 from surfmesh.mesh_groups import MeshGroups
 from surfmesh.six_nodes import node_values, split_six_nodes
 from surfmesh.surface_mesh import SurfaceMesh
@@ -45,13 +47,15 @@ def write(mesh: SurfaceMesh, path: Path) -> None:
             f'<Topology TopologyType="{TOPOLOGY[mesh.order]}" '
             f'NumberOfElements="{len(mesh.triangles)}" NodesPerElement="{mesh.elements.shape[1]}">'
         )
-        file.write(f"{_item(mesh.elements)}</Topology>\n")
-        file.write(f'<Geometry GeometryType="XYZ">{_item(mesh.nodes)}</Geometry>\n')
+        _write_item(file, mesh.elements)
+        file.write('</Topology>\n<Geometry GeometryType="XYZ">')
+        _write_item(file, mesh.nodes)
+        file.write("</Geometry>\n")
         for name, values in cells.items():
-            file.write(_attribute(name, "Cell", values))
+            _write_attribute(file, name, "Cell", values)
         if mesh.sizes is not None:
             sizes = mesh.sizes if mesh.order == 1 else node_values(mesh.sizes, mesh.edges)
-            file.write(_attribute("size", "Node", sizes))
+            _write_attribute(file, "size", "Node", sizes)
         file.write("</Grid></Domain></Xdmf>\n")
 
 
@@ -64,24 +68,24 @@ def _names(mesh: SurfaceMesh) -> str:
     return f"<main>{maps}</main>"
 
 
-def _attribute(name: str, centre: str, values: NDArray) -> str:
+def _write_attribute(file: TextIO, name: str, centre: str, values: NDArray) -> None:
     kind = "Scalar" if values.ndim == 1 else "Vector"
-    return (
-        f'<Attribute Name="{name}" AttributeType="{kind}" Center="{centre}">'
-        f"{_item(values)}</Attribute>\n"
-    )
+    file.write(f'<Attribute Name="{name}" AttributeType="{kind}" Center="{centre}">')
+    _write_item(file, values)
+    file.write("</Attribute>\n")
 
 
-def _item(values: NDArray) -> str:
+def _write_item(file: TextIO, values: NDArray) -> None:
     real = values.dtype.kind == "f"
-    kind, precision = ("Float", 8) if real else ("Int", 4)
+    kind, precision, number = ("Float", 8, "%.17g") if real else ("Int", 4, "%d")
     shape = " ".join(map(str, values.shape))
-    rows = values.reshape(len(values), -1).tolist()
-    text = "\n".join(" ".join(map(repr, row)) for row in rows)
-    return (
+    file.write(
         f'<DataItem DataType="{kind}" Dimensions="{shape}" Format="XML" '
-        f'Precision="{precision}">\n{text}\n</DataItem>'
+        f'Precision="{precision}">\n'
     )
+    rows = values.reshape(len(values), -1)
+    write_rows(file, " ".join([number] * rows.shape[1]) + "\n", rows)
+    file.write("</DataItem>")
 
 
 def read(path: Path) -> SurfaceMesh:

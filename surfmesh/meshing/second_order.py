@@ -120,11 +120,13 @@ def _straightened(mesh: SurfaceMesh, middles: NDArray, fixed: NDArray) -> int:
         while True:
             nodes = np.vstack((mesh.points, middles))
             bad = least_jacobians(nodes, elements) < LEAST_JACOBIAN
+            if not bad.any():
+                return int(straight.sum())
             turn = np.zeros(len(middles), bool)
             turn[of_edges[bad]] = True
-            turn &= movable & ~straight
+            turn &= movable & ~straight & (middles != chords).any(axis=1)
             if not turn.any():
                 break
             middles[turn] = chords[turn]
             straight |= turn
-    return int((straight & (np.linalg.norm(chords - middles, axis=1) == 0)).sum())
+    return int(straight.sum())

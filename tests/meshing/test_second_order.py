@@ -113,6 +113,19 @@ def test_a_mesh_without_surfaces_has_its_nodes_on_chords(plate):
     np.testing.assert_allclose(jacobians(made), 1.0)
 
 
+def test_solids_that_share_a_face_are_checked_in_order_2_too():
+    from OCP.BOPAlgo import BOPAlgo_Builder
+
+    fuse = BOPAlgo_Builder()
+    fuse.AddArgument(cq.Solid.makeBox(2, 2, 1).wrapped)
+    fuse.AddArgument(cq.Solid.makeCylinder(0.5, 1, cq.Vector(1, 1, 1)).wrapped)
+    fuse.Perform()
+    mesh = sm.mesh(sm.from_cadquery(cq.Shape.cast(fuse.Shape())), 0.5, order=2)
+    assert (mesh.solid_ids >= 0).all(axis=1).any()
+    report = sm.check(mesh)
+    assert report.clean, report.problems
+
+
 def test_other_orders_are_refused():
     with pytest.raises(SizingError, match="order is 3: meshes are of order 1 or 2"):
         sm.mesh(sm.load("plane"), order=3)

@@ -210,6 +210,19 @@ def test_meshio_finds_the_sets_of_inp(boxes, tmp_path):
     assert sorted(found.point_sets["rim"].tolist()) == rim.tolist()
 
 
+def test_other_libraries_get_solids_colours_and_nodes(boxes):
+    curved = dataclasses.replace(boxes, mid_points=boxes.points[boxes.edges].mean(axis=1))
+    data = curved.to_pyvista()
+    np.testing.assert_array_equal(data.cell_data["solid_id"], boxes.solid_ids)
+    first = np.flatnonzero(boxes.face_ids == 0)
+    assert (data.cell_data["colour"][first] == (255, 0, 0)).all()
+    assert (curved.to_trimesh().visual.face_colors[first] == (255, 0, 0, 255)).all()
+    pytest.importorskip("meshio")
+    found = curved.to_meshio()
+    np.testing.assert_array_equal(found.cells_dict["triangle6"], curved.elements)
+    np.testing.assert_array_equal(found.cell_data["solid_id"][0], boxes.solid_ids)
+
+
 def test_vtk_reads_xdmf(boxes, tmp_path):
     from vtkmodules.vtkIOXdmf2 import vtkXdmfReader
 
