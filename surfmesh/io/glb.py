@@ -2,7 +2,8 @@
 
 Single precision; vertices stand once a face, with their numbers beside. Faces, solids and all
 else that surfmesh knows stand in "extras"; a face between two solids is in the nodes of both.
-A root node scales to metres, which is glTF's unit.
+A root node scales to metres, which is glTF's unit, and moves what lies far from the origin back
+there, so that single precision is spent on the mesh alone.
 Format: Khronos glTF 2.0 specification, sections 3 and 4.
 """
 
@@ -28,7 +29,9 @@ EXTRAS = "surfmesh"
 
 def write(mesh: SurfaceMesh, path: Path) -> None:
     groups = mesh.groups
-    store = _Store()
+    low, high = mesh.points.min(axis=0), mesh.points.max(axis=0)
+    far = np.linalg.norm(low + high) > 2.0 * np.linalg.norm(high - low)
+    store = _Store(0.5 * (low + high) if far else np.zeros(3))
     solids_of = solids_of_faces(mesh)
     faces = np.unique(mesh.face_ids).tolist()
     solids = np.unique(solids_of[faces]).tolist()
@@ -60,7 +63,10 @@ def write(mesh: SurfaceMesh, path: Path) -> None:
     scale = METRES.get(groups.unit, 1.0)
     if scale != 1.0:
         root["scale"] = [scale] * 3
+    if far:
+        root["translation"] = (scale * store.origin).tolist()
     record = {"groups": groups.plain(), "points": len(mesh.points)}
+    record["origin"] = store.origin.tolist()
     content = {
         "asset": {"version": "2.0", "generator": "surfmesh", "extras": {EXTRAS: record}},
         "scene": 0,
@@ -85,7 +91,8 @@ def _loose_label(mesh: SurfaceMesh) -> str:
 class _Store:
     """Buffer views, accessors and materials while they grow."""
 
-    def __init__(self) -> None:
+    def __init__(self, origin: NDArray) -> None:
+        self.origin = origin  # of the positions, in the mesh
         self.chunks: list[bytes] = []
         self.size = 0
         self.views: list[dict] = []
@@ -95,7 +102,7 @@ class _Store:
     def piece(self, mesh: SurfaceMesh, members: NDArray) -> tuple[int, NDArray]:
         """The vertices of a face, once: accessor of positions, and triangles of them."""
         used, corners = np.unique(mesh.triangles[members], return_inverse=True)
-        positions = mesh.points[used].astype("<f4")
+        positions = (mesh.points[used] - self.origin).astype("<f4")
         limits = {"min": positions.min(0).tolist(), "max": positions.max(0).tolist()}
         accessor = self._accessor(positions, FLOAT, "VEC3", VERTICES, limits)
         self._accessor(used.astype("<u4"), UINT, "SCALAR")  # the next one: see read
@@ -170,7 +177,7 @@ def read(path: Path) -> SurfaceMesh:
             return np.frombuffer(data, "<f4", 3 * count, at).reshape(-1, 3)
         return np.frombuffer(data, "<u4", count, at)
 
-    points = np.zeros((record["points"], 3), np.float32)
+    points = np.zeros((record["points"], 3))
     triangles, solids = {}, {}
     for node in content["nodes"]:
         if "mesh" not in node:
@@ -183,7 +190,7 @@ def read(path: Path) -> SurfaceMesh:
                 continue
             solids[face] = [solid, -1]
             numbers = values(primitive["extras"]["vertices"])
-            points[numbers] = values(primitive["attributes"]["POSITION"])
+            points[numbers] = values(primitive["attributes"]["POSITION"]) + record["origin"]
             triangles[face] = numbers[values(primitive["indices"])].reshape(-1, 3)
     faces = sorted(triangles)
     face_ids = np.repeat(faces, [len(triangles[face]) for face in faces])

@@ -128,6 +128,15 @@ def test_glb_has_a_node_for_each_solid_in_metres(boxes, tmp_path):
     assert (255, 0, 0) in reds and (0, 0, 255) in reds
 
 
+def test_glb_far_from_the_origin_keeps_its_digits(boxes, tmp_path):
+    trimesh = pytest.importorskip("trimesh")
+    moved = dataclasses.replace(boxes, points=boxes.points + (1e6, 0, -1e6))
+    path = moved.save(tmp_path / "far.glb")
+    np.testing.assert_allclose(read(path).points, moved.points, rtol=0, atol=1e-6)
+    bounds = np.stack((moved.points.min(axis=0), moved.points.max(axis=0)))
+    np.testing.assert_allclose(trimesh.load(path).bounds, bounds * 0.0254, rtol=0, atol=1e-6)
+
+
 def test_3mf_is_read_by_trimesh_as_closed_solids_in_inches(boxes, tmp_path):
     trimesh = pytest.importorskip("trimesh")
     pytest.importorskip("lxml")
