@@ -2,11 +2,14 @@
 
 The groups of a face are its own name and those of its solids. What MED has no place for stands
 in a dataset beside the mesh.
-Tested with meshio 5.3, whose writer leaves the names of units blank: they are filled in here.
+Tested with meshio 5.3. Its writer leaves the units of the axes blank and calls a family by all
+its groups, which is more than the 64 characters that readers have room for (Gmsh crashes): both
+are written here.
 """
 
 from pathlib import Path
 from types import ModuleType
+from typing import Any
 
 import numpy as np
 
@@ -38,8 +41,7 @@ def write(mesh: SurfaceMesh, path: Path) -> None:
     names = {}
     for face in np.unique(mesh.face_ids).tolist():
         held = [groups.solid_label(solid) for solid in solids[face].tolist() if solid >= 0]
-        unique = dict.fromkeys(label[:NAME] for label in (groups.face_label(face), *held))
-        names[-1 - face] = list(unique)
+        names[-1 - face] = list(dict.fromkeys((groups.face_label(face), *held)))
     if mesh.edge_segments is not None and len(mesh.edge_segments):
         below = int(mesh.face_ids.max()) + 1
         lines = mesh.edge_segments
@@ -49,16 +51,30 @@ def write(mesh: SurfaceMesh, path: Path) -> None:
         blocks.append((LINE[mesh.order], lines))
         families.append(-1 - below - mesh.edge_ids)
         for edge in np.unique(mesh.edge_ids).tolist():
-            names[-1 - below - edge] = [groups.edge_label(edge)[:NAME]]
+            names[-1 - below - edge] = [groups.edge_label(edge)]
     content = meshio.Mesh(mesh.nodes, blocks, cell_data={"cell_tags": families})
-    content.cell_tags, content.point_tags = names, {}
+    content.cell_tags, content.point_tags = {}, {}
     meshio.med.write(path, content)
     with h5py.File(path, "r+") as file:
         text = "\n".join(group_lines(mesh, numbered=True)).encode("ascii")
         file[RECORD] = np.frombuffer(text, np.uint8)
-        if groups.unit:
-            for found in file["ENS_MAA"].values():
+        for name, found in file["ENS_MAA"].items():
+            _write_families(file["FAS"][name].create_group("ELEME"), names)
+            if groups.unit:
                 found.attrs["UNI"] = np.bytes_(groups.unit.ljust(WIDTH) * 3)
+
+
+def _write_families(parent: Any, names: dict[int, list[str]]) -> None:
+    """Families by their numbers, below a group of the HDF5 file; names in ASCII alone."""
+    for number, held in names.items():
+        family = parent.create_group(f"FAM_{number}")
+        family.attrs.create("NUM", number)
+        group = family.create_group("GRO")
+        group.attrs.create("NBR", len(held))
+        rows = group.create_dataset("NOM", (len(held),), dtype=f"{NAME}int8")
+        for row, name in enumerate(held):
+            text = name.encode("ascii", "replace")[: NAME - 1].ljust(NAME, b"\0")
+            rows[row] = np.frombuffer(text, np.int8)
 
 
 def read(path: Path) -> SurfaceMesh:

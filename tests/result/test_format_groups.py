@@ -194,6 +194,46 @@ def test_dolfinx_finds_each_triangle_in_one_group_and_nodes_without_gaps(boxes, 
         gmsh.finalize()
 
 
+@pytest.mark.parametrize("extension", [".stl", ".obj", ".ply", ".off", ".glb", ".3mf"])
+def test_trimesh_finds_all_triangles(extension, boxes, tmp_path):
+    trimesh = pytest.importorskip("trimesh")
+    pytest.importorskip("lxml")
+    path = boxes.save(tmp_path / f"boxes{extension}")
+    found = trimesh.load(path, process=False, force="mesh")
+    scale = 0.0254 if extension == ".glb" else 1.0
+    both = int((boxes.solid_ids >= 0).all(axis=1).sum()) if extension in (".glb", ".3mf") else 0
+    assert len(found.faces) == len(boxes.triangles) + both
+    sides = boxes.points[boxes.triangles]
+    normals = np.cross(sides[:, 1] - sides[:, 0], sides[:, 2] - sides[:, 0])
+    lengths = np.linalg.norm(normals, axis=1) / 2
+    area = lengths.sum() + (lengths[(boxes.solid_ids >= 0).all(axis=1)].sum() if both else 0)
+    assert found.area == pytest.approx(area * scale**2, rel=1e-5)
+
+
+@pytest.mark.parametrize("extension", [".vtu", ".vtp", ".stl", ".ply", ".obj"])
+def test_pyvista_finds_all_triangles(extension, boxes, tmp_path):
+    pyvista = pytest.importorskip("pyvista")
+    found = pyvista.read(boxes.save(tmp_path / f"boxes{extension}"))
+    assert found.n_cells == len(boxes.triangles) and found.n_points >= len(boxes.points)
+    extent = np.ptp(boxes.points, axis=0)
+    np.testing.assert_allclose(np.ptp(found.points, axis=0), extent, rtol=1e-6)
+
+
+@pytest.mark.parametrize("extension", [".msh", ".bdf", ".med", ".stl"])
+def test_gmsh_finds_all_triangles(extension, boxes, tmp_path):
+    gmsh = pytest.importorskip("gmsh")
+    gmsh.initialize(interruptible=False)
+    try:
+        gmsh.option.setNumber("General.Terminal", 0)
+        gmsh.open(str(boxes.save(tmp_path / f"boxes{extension}")))
+        _, tags, _ = gmsh.model.mesh.getElements(2)
+        assert sum(map(len, tags)) == len(boxes.triangles)
+        if extension in (".bdf", ".med"):
+            assert len(gmsh.model.getEntities(2)) == 12
+    finally:
+        gmsh.finalize()
+
+
 @pytest.mark.parametrize("extension", [".vtu", ".msh", ".inp", ".bdf", ".xdmf", ".off", ".med"])
 @pytest.mark.parametrize("order", [1, 2])
 def test_meshio_reads_points_and_triangles(extension, order, boxes, tmp_path):
