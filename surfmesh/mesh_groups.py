@@ -16,7 +16,11 @@ METRES = {"um": 1e-6, "mm": 1e-3, "cm": 1e-2, "m": 1.0, "in": 0.0254, "ft": 0.30
 
 @dataclass(frozen=True, kw_only=True)
 class MeshGroups:
-    """Names, colours and kinds by number; '' and None where there is none."""
+    """Names, colours and kinds by number; '' and None where there is none.
+
+    What cannot be printed in a name (ends of lines, control characters, halves of pairs) becomes
+    a blank: files of text would break there.
+    """
 
     face_names: tuple[str, ...] = ()
     face_colours: tuple[Colour | None, ...] = ()
@@ -28,7 +32,7 @@ class MeshGroups:
 
     def __post_init__(self) -> None:
         for name in ("face_names", "face_kinds", "solid_names", "edge_names"):
-            object.__setattr__(self, name, tuple(str(text or "") for text in getattr(self, name)))
+            object.__setattr__(self, name, tuple(_printable(text) for text in getattr(self, name)))
         for name in ("face_colours", "solid_colours"):
             found = (c and tuple(map(float, c)) for c in getattr(self, name))
             object.__setattr__(self, name, tuple(found))
@@ -75,6 +79,10 @@ class MeshGroups:
     def solid_colour(self, solid: int) -> Colour | None:
         """The colour of a solid."""
         return _entry(self.solid_colours, solid)
+
+
+def _printable(text: str | None) -> str:
+    return "".join(mark if mark.isprintable() else " " for mark in str(text or ""))
 
 
 def _entry(values: tuple, number: int) -> Any:

@@ -7,7 +7,7 @@ import cadquery as cq
 import numpy as np
 import pytest
 from conftest import Saddle, grid
-from hypothesis import given
+from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
 import surfmesh as sm
@@ -281,6 +281,24 @@ def test_vtk_reads_xdmf(boxes, tmp_path):
     found = reader.GetOutputDataObject(0)
     assert found.GetNumberOfPoints() == len(boxes.points)
     assert found.GetCellData().HasArray("face_id") and found.GetCellData().HasArray("colour")
+
+
+@settings(max_examples=15, suppress_health_check=[HealthCheck.function_scoped_fixture])
+@given(st.lists(st.text(max_size=12), min_size=4, max_size=4), st.text(max_size=90))
+def test_any_name_comes_back(tetrahedron, tmp_path, names, solid):
+    groups = MeshGroups(face_names=names, solid_names=(solid,), edge_names=names[1:], unit="m")
+    mesh = dataclasses.replace(
+        tetrahedron,
+        face_ids=range(4),
+        solid_ids=[(0, -1)] * 4,
+        edge_segments=[(0, 1), (1, 2)],
+        edge_ids=(0, 2),
+        groups=groups,
+    )
+    for extension in FULL:
+        assert read(mesh.save(tmp_path / f"any{extension}")).groups == groups, extension
+    mesh.save(tmp_path / "any.stl", ascii=True)
+    assert len(read(tmp_path / "any.stl").triangles) == 4
 
 
 def test_surfaces_name_the_groups_of_a_mesh_without_cad():
