@@ -29,7 +29,7 @@ def write(mesh: SurfaceMesh, path: Path) -> None:
         file.writelines(f"$ {line}\n" for line in group_lines(mesh, numbered=True))
         file.write("CEND\n")
         for solid, members in _solids(mesh):
-            file.write(f"$ {groups.solid_label(solid)}\n")
+            file.write(f"$ SET {solid + 1}: {groups.solid_label(solid)}\n")
             file.writelines(f"{line}\n" for line in _set_lines(solid + 1, members))
         file.write("BEGIN BULK\n")
         for face in np.unique(mesh.face_ids).tolist():

@@ -36,17 +36,20 @@ def group_lines(mesh: SurfaceMesh, numbered: bool = False) -> list[str]:
                 record[name] = getattr(mesh, name).tolist()
     if mesh.solid_ids is not None:
         record["solids"] = solids_of_faces(mesh).tolist()
-    text = json.dumps(record, separators=(",", ":")).replace(" ", "\\u0020")
+    text = json.dumps(record, separators=(",", ":"))
+    text = text.replace(" ", "\\u0020").replace("$", "\\u0024")  # $End ends sections of .msh
     text = f"{len(text)}:{text}"
     return [MARK + text[at : at + WIDTH] for at in range(0, len(text), WIDTH)]
 
 
 def group_fields(lines: Iterable[str], face_ids: NDArray | None = None) -> dict[str, Any]:
-    """Fields of a SurfaceMesh from lines that hold ``MARK`` anywhere; {} when there are none.
+    """Fields of a SurfaceMesh from the lines that start with ``MARK``; {} when there are none.
 
-    face_ids: (m,) where the format itself has them. A text that is damaged raises ValueError.
+    Marks of comments before it are passed over. face_ids: (m,) where the format has them. A text
+    that is damaged raises ValueError.
     """
-    pieces = [line.partition(MARK)[2].strip() for line in lines if MARK in line]
+    marked = (line.removeprefix("comment").lstrip("$#* ") for line in lines)
+    pieces = [line.removeprefix(MARK).strip() for line in marked if line.startswith(MARK)]
     if not pieces:
         return {}
     length, _, text = "".join(pieces).partition(":")

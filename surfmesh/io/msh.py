@@ -217,7 +217,12 @@ def _values(name: str, values: NDArray) -> bytes:
 
 
 def _quoted(name: str) -> str:
-    return "".join("_" if mark in '"\n\r' else mark for mark in name)[:127]
+    """What Gmsh and meshio read between quotes: the one ends sections at $End, the other takes a
+    backslash for the start of an escape.
+    """
+    for mark, other in (('"', "_"), ("\\", "/"), ("$End", "_End")):
+        name = name.replace(mark, other)
+    return name[:127]
 
 
 def _ints(*values: int) -> bytes:

@@ -47,7 +47,7 @@ def write_ascii(mesh: SurfaceMesh, path: Path) -> None:
             if not own.any():
                 continue
             name = mesh.groups.solid_label(solid) if solid >= 0 else "surface"
-            name = " ".join(name.split())
+            name = " ".join(name.split()).replace("endsolid", "end-solid")
             file.write(f"solid {name}\n")
             sign = np.where(turned, -1.0, 1.0)[:, None]
             backwards = corners[:, [6, 7, 8, 3, 4, 5, 0, 1, 2]]

@@ -301,6 +301,24 @@ def test_any_name_comes_back(tetrahedron, tmp_path, names, solid):
     assert len(read(tmp_path / "any.stl").triangles) == 4
 
 
+@pytest.mark.parametrize(
+    "name",
+    ["surfmesh-groups 1:{}", "$Endsurfmesh", "ends in \\", "]]>", "endsolid x", "*NODE", "ENDDATA"],
+)
+def test_names_that_look_like_parts_of_files(name, tetrahedron, tmp_path):
+    """Each broke a reader once: ours, meshio's or trimesh's."""
+    groups = MeshGroups(face_names=(name,), solid_names=(name,), edge_names=(name,))
+    fields = {"solid_ids": [(0, -1)] * 4, "edge_segments": [(0, 1)], "edge_ids": (0,)}
+    mesh = dataclasses.replace(tetrahedron, groups=groups, **fields)
+    for extension in FULL:
+        path = mesh.save(tmp_path / f"any{extension}")
+        assert read(path).groups == groups, extension
+        if extension in (".vtu", ".msh", ".inp", ".bdf", ".xdmf", ".off", ".med"):
+            assert len(pytest.importorskip("meshio").read(path).points) == 4
+    trimesh = pytest.importorskip("trimesh")
+    assert len(trimesh.load(mesh.save(tmp_path / "any.stl", ascii=True), force="mesh").faces) == 4
+
+
 def test_surfaces_name_the_groups_of_a_mesh_without_cad():
     mesh = grid(Saddle(), 1)
     assert mesh.groups == MeshGroups(face_names=("saddle",), face_kinds=("",))
