@@ -10,7 +10,11 @@ moved (share of the diagonal) and what came back:
     c  colours       s  solids of each triangle          2  nodes amid edges
 
 and '-' where the program does not write the format, "written only" where it cannot read what it
-wrote. Of netgen's .inp and gmsh's .inp and .obj there is no reader.
+wrote. Of netgen's .inp and gmsh's .inp and .obj there is no reader. netgen gets corners alone.
+
+The first column counts what surfmesh itself reads back. In .obj, .ply, .off, .bdf, .inp and .xdmf
+names, colours, solids or kinds come in part from a record in comments (or an Information
+element), which other programs pass over.
 """
 
 import argparse

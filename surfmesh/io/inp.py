@@ -23,6 +23,7 @@ COORDINATE = 20  # characters
 NAME = 60  # characters; both allow 80
 THREE_NODES = ("S3", "S3R", "STRI3", "S3RS", "CPS3", "CPE3", "M3D3", "DS3")
 SIX_NODES = ("STRI65", "S6", "CPS6", "CPE6", "M3D6", "DS6")
+LINES = ("T3D2", "T3D3", "B21", "B22", "B31", "B32", "B33")  # passed over, as Gmsh writes them
 KIND = {1: "S3", 2: "STRI65"}
 
 
@@ -93,6 +94,8 @@ def read(path: Path) -> SurfaceMesh:
             points.append(found[:, 1:])
         elif keyword == "ELEMENT":
             kind = options.get("TYPE", "").upper()
+            if kind in LINES:
+                continue
             if kind not in THREE_NODES + SIX_NODES:
                 raise FileFormatError(f"{path}: holds elements {kind} that are not triangles")
             rows.append(numbers(lines, 7 if kind in SIX_NODES else 4, int))

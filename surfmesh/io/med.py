@@ -15,6 +15,7 @@ import numpy as np
 
 from surfmesh.errors import FileFormatError
 from surfmesh.io.group_record import group_fields, group_lines, solids_of_faces
+from surfmesh.mesh_groups import MeshGroups
 from surfmesh.six_nodes import edge_rows, split_six_nodes
 from surfmesh.surface_mesh import SurfaceMesh
 
@@ -78,7 +79,7 @@ def _write_families(parent: Any, names: dict[int, list[str]]) -> None:
 
 
 def read(path: Path) -> SurfaceMesh:
-    """Triangles; the number of a face is that of its family, names come from the groups."""
+    """Triangles; in a file of another program a face is a family, named by its first group."""
     meshio, h5py = _libraries(path)
     found = meshio.med.read(path)
     with h5py.File(path, "r") as file:
@@ -95,7 +96,9 @@ def read(path: Path) -> SurfaceMesh:
         raise FileFormatError(f"{path}: holds no triangles, or some of three and some of six nodes")
     fields = group_fields(text.splitlines())
     if "face_ids" not in fields:
-        _, fields["face_ids"] = np.unique(-families[0], return_inverse=True)
+        numbers, fields["face_ids"] = np.unique(-families[0], return_inverse=True)
+        held = [found.cell_tags.get(-number) or [""] for number in numbers.tolist()]
+        fields["groups"] = MeshGroups(face_names=tuple(names[0] for names in held))
     points, triangles = found.points, elements[0]
     if triangles.shape[1] == 6:
         points, triangles, fields["mid_points"], _ = split_six_nodes(points, triangles)

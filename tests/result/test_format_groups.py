@@ -174,6 +174,40 @@ def test_gmsh_knows_surfaces_volumes_and_names(boxes, tmp_path):
     np.testing.assert_array_equal(found.points, boxes.points)
 
 
+@pytest.mark.parametrize("order", [1, 2])
+def test_files_that_gmsh_makes_of_its_own_are_read(order, tmp_path):
+    gmsh = pytest.importorskip("gmsh")
+    gmsh.initialize(interruptible=False)
+    try:
+        gmsh.option.setNumber("General.Terminal", 0)
+        gmsh.model.occ.addBox(0, 0, 0, 1, 1, 1)
+        gmsh.model.occ.synchronize()
+        gmsh.model.addPhysicalGroup(2, [1, 2], 5, "sides")
+        for option in ("Binary", "SaveAll", "BdfFieldFormat"):
+            gmsh.option.setNumber(f"Mesh.{option}", 1)
+        gmsh.model.mesh.generate(2)
+        gmsh.model.mesh.setOrder(order)
+        for extension in (".msh", ".inp", ".bdf"):
+            gmsh.write(str(tmp_path / f"box{extension}"))
+            found = read(tmp_path / f"box{extension}")
+            assert found.check() is None and found.order == order
+            assert np.unique(found.face_ids).tolist() == list(range(6))
+        names = read(tmp_path / "box.msh").groups.face_names
+        assert names == ("sides", "sides", "", "", "", "")
+    finally:
+        gmsh.finalize()
+
+
+def test_a_med_file_without_a_record_has_families_for_faces(boxes, tmp_path):
+    h5py = pytest.importorskip("h5py")
+    path = boxes.save(tmp_path / "boxes.med")
+    with h5py.File(path, "r+") as file:
+        del file["surfmesh_groups"]
+    found = read(path)
+    np.testing.assert_array_equal(found.face_ids, boxes.face_ids)
+    assert found.groups.face_names[2:4] == ("top", "top")
+
+
 def test_dolfinx_finds_each_triangle_in_one_group_and_nodes_without_gaps(boxes, tmp_path):
     """What its reader of .msh demands of the Gmsh model (dolfinx/io/gmsh.py)."""
     gmsh = pytest.importorskip("gmsh")
