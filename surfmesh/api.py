@@ -7,13 +7,14 @@ from typing import Any
 from surfmesh.cad.from_cadquery import from_cadquery
 from surfmesh.cad.model import CadModel
 from surfmesh.cad.reading import SUFFIXES, read_cad
-from surfmesh.errors import FileFormatError, SurfaceError
+from surfmesh.errors import FileFormatError, SizingError, SurfaceError
 from surfmesh.geometry.planar_domain import PlanarDomain
 from surfmesh.geometry.surface import Surface
 from surfmesh.geometry.surface_file import gallery, load_surface_file
 from surfmesh.meshing.model_mesh import mesh_model
 from surfmesh.meshing.parametric_mesh import mesh_parametric
 from surfmesh.meshing.planar_mesh import mesh_planar
+from surfmesh.meshing.second_order import of_second_order
 from surfmesh.meshing.stages import Progress
 from surfmesh.sizing.distance_size import default_wishes
 from surfmesh.sizing.sizing import Sizing
@@ -49,6 +50,7 @@ def mesh(
     strict: bool = True,
     simplify: bool = False,
     jobs: int = 1,
+    order: int = 1,
 ) -> SurfaceMesh:
     """Triangulate a surface, or a CAD model (or whatever CadQuery object makes one).
 
@@ -59,19 +61,25 @@ def mesh(
     simplify=True: tiny edges of a CAD model are collapsed, those below ``min_size`` or a
     two-thousandth of the diagonal; topology is kept. jobs: faces of a CAD model meshed at
     once; the mesh is the same with any number of them.
+    order=2: nodes amid the edges too, on the true curves and surfaces (``mesh.mid_points``).
 
     Raises ``SizingError``, ``SurfaceError`` or ``MeshingError`` with the place and the reason.
     """
+    if order not in (1, 2):
+        raise SizingError(f"order is {order!r}: meshes are of order 1 or 2")
     if not isinstance(surface, (CadModel, Surface)) and _is_cad(surface):
         surface = from_cadquery(surface)
     if isinstance(surface, CadModel):
-        return mesh_model(surface, Sizing.of(sizing), optimise, progress, strict, simplify, jobs)
+        wishes = Sizing.of(sizing)
+        made = mesh_model(surface, wishes, optimise, progress, strict, simplify, jobs)
+        return made if order == 1 else of_second_order(made, surface)
     if not isinstance(surface, Surface):
         raise SurfaceError(f"cannot mesh a {type(surface).__name__}: a Surface is needed")
     if sizing is None:
         sizing = default_wishes(surface) or None
     work = mesh_planar if isinstance(surface, PlanarDomain) else mesh_parametric
-    return work(surface, Sizing.of(sizing), optimise, progress)
+    made = work(surface, Sizing.of(sizing), optimise, progress)
+    return made if order == 1 else of_second_order(made)
 
 
 def show(

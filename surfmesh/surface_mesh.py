@@ -20,7 +20,9 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from surfmesh.connectivity import Connectivity, connect
+from surfmesh.mesh_groups import MeshGroups
 from surfmesh.model_facts import ModelFacts
+from surfmesh.six_nodes import six_nodes
 
 if TYPE_CHECKING:
     import meshio
@@ -60,7 +62,10 @@ class SurfaceMesh:
     solid_ids: NDArray[np.int32] | None = None  # (m, 2) solid behind and before it; -1: none
     edge_segments: NDArray[np.int32] | None = None  # (k, 2) edges of the mesh on CAD edges
     edge_ids: NDArray[np.int32] | None = None  # (k,) their CAD edges
+    edge_shares: NDArray[np.float64] | None = None  # (k, 2) of its range, at a segment's ends
     vertex_ids: NDArray[np.int32] | None = None  # (c,) vertex at each CAD vertex; -1: none
+    mid_points: NDArray[np.float64] | None = None  # (ne, 3) nodes amid ``edges``; None: order 1
+    groups: MeshGroups | None = None  # names, colours, kinds, unit; None: those of the surfaces
 
     def __post_init__(self) -> None:
         def settle(name: str, value: ArrayLike, dtype: type, shape: tuple[int, ...]) -> None:
@@ -91,11 +96,16 @@ class SurfaceMesh:
             ("solid_ids", np.int32, (m, 2)),
             ("edge_segments", np.int32, (-1, 2)),
             ("edge_ids", np.int32, (-1,)),
+            ("edge_shares", np.float64, (-1, 2)),
             ("vertex_ids", np.int32, (-1,)),
         ):
             if getattr(self, name) is not None:
                 settle(name, getattr(self, name), dtype, shape)
+        if self.mid_points is not None:
+            settle("mid_points", self.mid_points, np.float64, (len(self.edges), 3))
         object.__setattr__(self, "surfaces", tuple(self.surfaces))
+        if self.groups is None:
+            object.__setattr__(self, "groups", MeshGroups.of_surfaces(self.surfaces))
         object.__setattr__(self, "warnings", tuple(self.warnings))
         object.__setattr__(self, "seconds", dict(self.seconds))
 
@@ -119,10 +129,28 @@ class SurfaceMesh:
         """(nb, 2) vertex numbers of the edges that bound one triangle only."""
         return self.connectivity.boundary
 
+    @property
+    def order(self) -> int:
+        """2 when edges have nodes in their middle, else 1."""
+        return 1 if self.mid_points is None else 2
+
+    @property
+    def nodes(self) -> NDArray[np.float64]:
+        """(n, 3), or (n + ne, 3) for order 2: ``points`` and then ``mid_points``."""
+        return self.points if self.order == 1 else np.vstack((self.points, self.mid_points))
+
+    @property
+    def elements(self) -> NDArray[np.int32]:
+        """(m, 3) or, for order 2, (m, 6) rows of ``nodes``: the corners, then the middles of
+        the edges 0-1, 1-2, 2-0 as in VTK, Gmsh and Abaqus.
+        """
+        if self.order == 1:
+            return self.triangles
+        return six_nodes(self.triangles, self.connectivity, len(self.points))
+
     def face_name(self, face: int) -> str:
-        """Name of face number ``face``: its surface's, or ``face 3`` when it has none."""
-        known = self.surfaces[face] if 0 <= face < len(self.surfaces) else None
-        return getattr(known, "name", None) or f"face {face}"
+        """Name of face number ``face``, or ``face 3`` when it has none."""
+        return self.groups.face_label(face)
 
     def check(self) -> str | None:
         """The first broken invariant in words, or None: indices in range, all finite, no
@@ -142,7 +170,7 @@ class SurfaceMesh:
             ):
                 bad = int(np.flatnonzero(((indices < 0) | (indices >= limit)).any(axis=1))[0])
                 return f"{name}[{bad}] = {indices[bad].tolist()} is outside 0..{limit - 1}"
-        for name in ("points", "uv_points", "sizes"):
+        for name in ("points", "uv_points", "sizes", "mid_points"):
             array = getattr(self, name)
             if array is not None and not np.isfinite(array).all():
                 bad = int(np.flatnonzero(~np.isfinite(array).reshape(len(array), -1).all(1))[0])
@@ -185,11 +213,11 @@ class SurfaceMesh:
 
         return worst_triangles(self, count)
 
-    def save(self, path: str | Path) -> Path:
+    def save(self, path: str | Path, *, ascii: bool = False) -> Path:
         """Write to ``path``, format by extension; see ``surfmesh.io.save``."""
         from surfmesh.io import save
 
-        return save(self, path)
+        return save(self, path, ascii=ascii)
 
     def to_pyvista(self) -> "pyvista.PolyData":
         """As PyVista PolyData with ``size``, ``face_id`` and ``alpha``; nothing is merged."""

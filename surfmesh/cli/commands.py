@@ -20,7 +20,7 @@ def mesh(options: Namespace) -> bool:
     """Mesh, check, write; the files are looked at before the work is done."""
     from surfmesh.io.formats import require_writable
 
-    require_writable(options.output)
+    require_writable(options.output, *([".stl"] if options.ascii else []))
     for path, *extensions in ((options.picture, ".png"), (options.report, ".json", ".html")):
         if path:
             require_writable(path, *extensions)
@@ -39,12 +39,13 @@ def mesh(options: Namespace) -> bool:
             strict=not options.no_strict,
             simplify=options.simplify,
             jobs=options.jobs,
+            order=options.order,
         )
         progress("check", 0.92)
         report = checked(result)
         progress("write", 0.95)
         start = perf_counter()
-        files = {"mesh": str(save(result, options.output))}
+        files = {"mesh": str(save(result, options.output, ascii=options.ascii))}
         report = replace(report, seconds={**report.seconds, "write": perf_counter() - start})
         if options.picture:
             from surfmesh.view import plot

@@ -1,5 +1,6 @@
 """Which module writes and reads which extension, and the two verbs."""
 
+import warnings
 from importlib import import_module
 from pathlib import Path
 from types import ModuleType
@@ -17,15 +18,28 @@ FORMATS = {
     ".ply": "surfmesh.io.ply",
     ".glb": "surfmesh.io.glb",
     ".msh": "surfmesh.io.msh",
+    ".inp": "surfmesh.io.inp",
+    ".bdf": "surfmesh.io.bdf",
+    ".xdmf": "surfmesh.io.xdmf",
+    ".off": "surfmesh.io.off",
+    ".med": "surfmesh.io.med",
+    ".3mf": "surfmesh.io.threemf",
 }
 
+SECOND_ORDER = (".vtu", ".msh", ".inp", ".bdf", ".xdmf", ".med")
+"""Formats that hold nodes amid edges."""
 
-def save(mesh: SurfaceMesh, path: str | Path) -> Path:
+
+def save(mesh: SurfaceMesh, path: str | Path, *, ascii: bool = False) -> Path:
     """Write ``mesh`` to ``path``; all of it or nothing. Returns the path.
 
-    What survives: points and triangles everywhere, in double precision but for .stl and
-    .glb; ``face_id`` in .vtu, .vtp, .ply, .obj and .msh; ``size`` and ``alpha`` in .vtu,
-    .vtp, .ply and .msh; corner parameters ``uv`` in .vtu and .vtp.
+    Points are in double precision but for .stl and .glb (single), .inp (20 characters) and .bdf
+    (16 characters). Faces, their names, colours and kinds, solids and the unit come back from
+    all formats but .stl; ``benchmarks/formats.py`` prints what survives where, here and with
+    other programs. ``size`` is in .vtu, .vtp, .ply, .msh and .xdmf, corner parameters ``uv`` in
+    .vtu and .vtp, nodes of order 2 in .vtu, .msh, .inp, .bdf, .xdmf and .med (needs meshio and
+    h5py); the other formats hold the corners alone, which a ``UserWarning`` says. ascii: .stl
+    as text, one body with a name for each solid.
 
     Raises ``FileFormatError`` for an extension that is not known, a folder that is not
     there, a place that cannot be written, a mesh without triangles.
@@ -34,8 +48,16 @@ def save(mesh: SurfaceMesh, path: str | Path) -> Path:
     module = _module(path)
     if not len(mesh.triangles):
         raise FileFormatError(f"{path}: nothing to write, the mesh has no triangles")
+    if mesh.order == 2 and path.suffix.lower() not in SECOND_ORDER:
+        others = ", ".join(SECOND_ORDER)
+        warnings.warn(
+            f"{path}: {path.suffix} holds the corners alone; for order 2 use {others}",
+            stacklevel=2,
+        )
+    if ascii and not hasattr(module, "write_ascii"):
+        raise FileFormatError(f"{path}: only .stl has an ASCII form to choose; leave ascii out")
     with replacing(path) as temporary:
-        module.write(mesh, temporary)
+        (module.write_ascii if ascii else module.write)(mesh, temporary)
     return path
 
 

@@ -1,158 +1,215 @@
-"""Gmsh's MSH 4.1, binary: one surface entity and one physical group for each face.
+"""Gmsh's MSH 4.1, binary: entities by number, physical groups by name.
 
 Format: Gmsh reference manual, section "MSH file format", version 4.1.
+
+tags          nodes and elements are counted from 1 in the order of the mesh, triangles first;
+              entities are number + 1 of the vertex, edge, face or solid
+surfaces      one entity a face; one physical group a name, so that each element is in one
+curves        one entity a CAD edge, its segments as lines; physical groups in the same way
+points        one entity a CAD vertex, which says whose its node is; without elements, since
+              meshio takes groups for all blocks of elements or for none
+volumes       one entity a solid, bounded by its faces, without elements. Their names are in
+              $PhysicalNames, but no entity is in such a group: dolfinx before 0.10 refuses
+              groups without elements
+$surfmesh     colours, kinds, unit; Gmsh reads and writes it as an attribute of the model
 """
 
 from pathlib import Path
-from typing import BinaryIO
+from typing import BinaryIO, NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
-from surfmesh.errors import FileFormatError
+from surfmesh.io.group_record import group_lines, solids_of_faces
+from surfmesh.io.msh_reading import ATTRIBUTE, read
 from surfmesh.quality.shape import alpha
+from surfmesh.six_nodes import edge_rows, node_values
 from surfmesh.surface_mesh import SurfaceMesh
 
-SURFACE_DIMENSION, TRIANGLE = 2, 2  # of an entity; gmsh's number of the 3-node triangle
+__all__ = ["read", "write"]
+
+LINE, TRIANGLE = {1: 1, 2: 8}, {1: 2, 2: 9}  # gmsh's numbers of element types, by order
+
+
+class _Entity(NamedTuple):
+    """Of dimension 0, 1 or 2: its elements, rows of nodes."""
+
+    dimension: int
+    number: int
+    kind: int  # of element
+    elements: NDArray  # (k, corners)
+    tags: NDArray  # (k,) from 1
+    group: int  # physical; 0: none
+    bounds: NDArray  # numbers of the entities around it
 
 
 def write(mesh: SurfaceMesh, path: Path) -> None:
-    """Node and element tags are index + 1, entity and physical tags are face_id + 1."""
-    order = np.argsort(mesh.face_ids, kind="stable")
-    faces, starts = np.unique(mesh.face_ids[order], return_index=True)
-    members = np.split(order, starts[1:])
-    owner = np.zeros(len(mesh.points), np.int32)  # a vertex belongs to one face, the first
-    for face, triangles in zip(faces[::-1], members[::-1]):
-        owner[mesh.triangles[triangles]] = face
+    nodes = mesh.nodes
+    edge_groups, face_groups, names = _groups(mesh)
+    entities = [*_vertices(mesh), *_curves(mesh, edge_groups), *_surfaces(mesh, face_groups)]
+    count, used = len(mesh.triangles), len(mesh.triangles)
+    for at, entity in enumerate(entities):
+        if entity.dimension == 1:
+            tags = used + 1 + np.arange(len(entity.elements))
+            entities[at] = entity._replace(tags=tags)
+            used += len(entity.elements)
     with open(path, "wb") as file:
         _section(file, "MeshFormat", b"4.1 1 8\n" + _ints(1) + b"\n")
-        names = [f'2 {face + 1} "{_quoted(mesh.face_name(int(face)))}"' for face in faces]
         _section(file, "PhysicalNames", "\n".join([str(len(names)), *names, ""]).encode())
-
-        file.write(b"$Entities\n" + _sizes(0, 0, len(faces), 0))
-        for face, triangles in zip(faces, members):
-            corners = mesh.points[mesh.triangles[triangles].reshape(-1)]
-            box = np.concatenate((corners.min(axis=0), corners.max(axis=0)))
-            file.write(_ints(face + 1) + box.tobytes() + _sizes(1) + _ints(face + 1) + _sizes(0))
+        file.write(b"$Entities\n")
+        volumes = _volumes(mesh)
+        of = [sum(entity.dimension == d for entity in entities) for d in range(3)]
+        file.write(_sizes(*of, len(volumes)))
+        for entity in entities:
+            file.write(_described(entity, nodes))
+        box = _box(nodes)
+        for number, faces in volumes:
+            file.write(_ints(number + 1) + box + _sizes(0) + _sizes(len(faces)) + _ints(*faces))
         file.write(b"\n$EndEntities\n")
 
-        file.write(b"$Nodes\n" + _sizes(len(faces), len(owner), 1, len(owner)))
-        for face in faces:
-            vertices = np.flatnonzero(owner == face)
-            file.write(_ints(SURFACE_DIMENSION, face + 1, 0) + _sizes(len(vertices)))
-            file.write((vertices + 1).astype("<u8").tobytes())
-            file.write(mesh.points[vertices].astype("<f8").tobytes())
+        file.write(b"$Nodes\n" + _sizes(len(entities), len(nodes), 1, len(nodes)))
+        free = np.ones(len(nodes), bool)  # a node belongs to one entity, the first of these
+        for entity in entities:
+            own = np.unique(entity.elements)
+            own = own[free[own]]
+            free[own] = False
+            file.write(_ints(entity.dimension, entity.number + 1, 0) + _sizes(len(own)))
+            file.write((own + 1).astype("<u8").tobytes() + nodes[own].astype("<f8").tobytes())
         file.write(b"\n$EndNodes\n")
 
-        count = len(mesh.triangles)
-        file.write(b"$Elements\n" + _sizes(len(faces), count, 1, count))
-        for face, triangles in zip(faces, members):
-            file.write(_ints(SURFACE_DIMENSION, face + 1, TRIANGLE) + _sizes(len(triangles)))
-            rows = np.column_stack((triangles, mesh.triangles[triangles])) + 1
+        blocks = [entity for d in (2, 1) for entity in entities if entity.dimension == d]
+        file.write(b"$Elements\n" + _sizes(len(blocks), used, 1, used))
+        for entity in blocks:  # triangles first, as meshio takes values by this order
+            file.write(_ints(entity.dimension, entity.number + 1, entity.kind))
+            file.write(_sizes(len(entity.elements)))
+            rows = np.column_stack((entity.tags, entity.elements + 1))
             file.write(rows.astype("<u8").tobytes())
         file.write(b"\n$EndElements\n")
+        _section(file, ATTRIBUTE, "\n".join([*group_lines(mesh), ""]).encode())
 
         if mesh.sizes is not None:
-            _section(file, "NodeData", _values("size", mesh.sizes))
-        _section(file, "ElementData", _values("alpha", alpha(mesh)))
+            sizes = mesh.sizes if mesh.order == 1 else node_values(mesh.sizes, mesh.edges)
+            _section(file, "NodeData", _values("size", sizes))
+        # meshio wants a value for every element, in the order of the tags: lines get a 1
+        shape = np.concatenate((alpha(mesh), np.ones(used - count)))
+        _section(file, "ElementData", _values("alpha", shape))
 
 
-def read(path: Path) -> SurfaceMesh:
-    """Binary MSH 4.1 with triangles; lines and points are passed over."""
-    content = _Content(path, path.read_bytes())
-    version = content.section("MeshFormat").split(b"\n")[0].split()
-    if version[:3] != [b"4.1", b"1", b"8"]:
-        found = b" ".join(version).decode(errors="replace")
-        raise FileFormatError(f"{path}: only binary MSH 4.1 is read, this is '{found}'")
-    tags, points = content.nodes()
-    rows, face_ids, element_tags = content.triangles()
-    order = np.argsort(tags)
-    tags = tags[order]
-    triangles = np.minimum(np.searchsorted(tags, rows), max(len(tags) - 1, 0))
-    if not len(tags) or (tags[triangles] != rows).any():
-        raise FileFormatError(f"{path}: a triangle has a corner that is no node")
-    by_tag = np.argsort(element_tags, kind="stable")
-    return SurfaceMesh(
-        points=points[order],
-        triangles=triangles[by_tag],
-        face_ids=face_ids[by_tag],
-        sizes=content.point_values("size", tags),
-    )
+def _groups(mesh: SurfaceMesh) -> tuple[dict[int, int], dict[int, int], list[str]]:
+    """Physical tags of edges and faces by their numbers, and the lines of $PhysicalNames.
+
+    The tag of a name is the first number that has it, plus one.
+    """
+    groups, lines, found = mesh.groups, [], []
+    edges = [] if mesh.edge_ids is None else np.unique(mesh.edge_ids).tolist()
+    faces = np.unique(mesh.face_ids).tolist()
+    face_labels = {groups.face_label(face) for face in faces}
+    for dimension, numbers, label in ((1, edges, groups.edge_label), (2, faces, groups.face_label)):
+        tags: dict[str, int] = {}
+        table = {}
+        for number in numbers:
+            name = label(number)
+            if dimension == 1 and name in face_labels:
+                name += " (edge)"  # some readers know groups by their name alone
+            if name not in tags:
+                tags[name] = number + 1
+                lines.append(f'{dimension} {number + 1} "{_quoted(name)}"')
+            table[number] = tags[name]
+        found.append(table)
+    solids = [number for number, _ in _volumes(mesh)]
+    labels = [groups.solid_label(number) for number in solids]
+    for number, label in zip(solids, labels):
+        name = f"{label} {number}" if labels.count(label) > 1 else label
+        lines.append(f'3 {number + 1} "{_quoted(name)}"')
+    return found[0], found[1], lines
 
 
-class _Content:
-    """The sections of one file, read in place."""
-
-    def __init__(self, path: Path, data: bytes) -> None:
-        self.path, self.data = path, data
-        for name in ("NodeData", "ElementData"):  # not needed, but a sign of a file cut short
-            if data.count(f"${name}\n".encode()) != data.count(f"$End{name}".encode()):
-                raise FileFormatError(f"{path}: the section ${name} does not end")
-
-    def section(self, name: str) -> bytes:
-        start = self.data.find(f"${name}\n".encode())
-        end = self.data.find(f"$End{name}".encode(), start)
-        if start < 0 or end < 0:
-            raise FileFormatError(f"{self.path}: the section ${name} is missing")
-        return self.data[start + len(name) + 2 : end]
-
-    def nodes(self) -> tuple[np.ndarray, np.ndarray]:
-        stream = _Stream(self.section("Nodes"))
-        blocks = int(stream.take("<u8", 4)[0])
-        tags, points = [np.empty(0, np.int64)], [np.empty((0, 3))]
-        for _ in range(blocks):
-            dimension, _, parametric = stream.take("<i4", 3)
-            count = int(stream.take("<u8", 1)[0])
-            tags.append(stream.take("<u8", count).astype(np.int64))
-            width = 3 + (int(dimension) if parametric else 0)
-            points.append(stream.take("<f8", width * count).reshape(-1, width)[:, :3])
-        return np.concatenate(tags), np.concatenate(points)
-
-    def triangles(self) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-        stream = _Stream(self.section("Elements"))
-        corners = {15: 1, 1: 2, TRIANGLE: 3}  # point, line, triangle
-        blocks = int(stream.take("<u8", 4)[0])
-        rows, faces = [np.empty((0, 4), np.int64)], [np.empty(0, np.int32)]
-        for _ in range(blocks):
-            _, entity, kind = map(int, stream.take("<i4", 3))
-            count = int(stream.take("<u8", 1)[0])
-            if kind not in corners:
-                raise FileFormatError(f"{self.path}: holds elements that are not triangles")
-            row = stream.take("<u8", count * (1 + corners[kind])).reshape(count, -1)
-            if kind == TRIANGLE:
-                rows.append(row.astype(np.int64))
-                faces.append(np.full(count, entity - 1, np.int32))
-        found = np.concatenate(rows)
-        return found[:, 1:], np.concatenate(faces), found[:, 0]
-
-    def point_values(self, name: str, tags: np.ndarray) -> np.ndarray | None:
-        """Node data ``name`` in the order of the sorted ``tags``, when every node has it."""
-        head = f'$NodeData\n1\n"{name}"\n1\n0\n3\n0\n1\n{len(tags)}\n'.encode()
-        start = self.data.find(head)
-        if start < 0:
-            return None
-        record = np.dtype([("tag", "<i4"), ("value", "<f8")])
-        found = np.frombuffer(self.data, record, len(tags), start + len(head))
-        found = found[np.argsort(found["tag"])]
-        return found["value"] if (found["tag"] == tags).all() else None
+def _vertices(mesh: SurfaceMesh) -> list[_Entity]:
+    if mesh.vertex_ids is None:
+        return []
+    none = np.empty(0, int)
+    return [
+        _Entity(0, number, 0, np.array([[vertex]]), none, 0, none)
+        for number, vertex in enumerate(mesh.vertex_ids.tolist())
+        if vertex >= 0
+    ]
 
 
-class _Stream:
-    """Numbers one after the other."""
+def _curves(mesh: SurfaceMesh, groups: dict[int, int]) -> list[_Entity]:
+    if not groups:
+        return []
+    elements = mesh.edge_segments
+    if mesh.order == 2:
+        middles = len(mesh.points) + edge_rows(mesh.connectivity, elements)
+        elements = np.column_stack((elements, middles))
+    none = np.empty(0, int)
+    return [
+        _Entity(1, edge, LINE[mesh.order], elements[members], none, groups[edge], none)
+        for edge, members in _members(mesh.edge_ids)
+    ]
 
-    def __init__(self, data: bytes) -> None:
-        self.data, self.at = data, 0
 
-    def take(self, kind: str, count: int) -> np.ndarray:
-        found = np.frombuffer(self.data, kind, count, self.at)
-        self.at += found.nbytes
-        return found
+def _surfaces(mesh: SurfaceMesh, groups: dict[int, int]) -> list[_Entity]:
+    around = _edges_of_faces(mesh)
+    elements, kind = mesh.elements, TRIANGLE[mesh.order]
+    return [
+        _Entity(2, face, kind, elements[members], members + 1, groups[face],
+                around.get(face, np.empty(0, int)))
+        for face, members in _members(mesh.face_ids)
+    ]  # fmt: skip
+
+
+def _edges_of_faces(mesh: SurfaceMesh) -> dict[int, NDArray]:
+    """Numbers of the CAD edges along which each face has triangles."""
+    if mesh.edge_segments is None or not len(mesh.edge_segments):
+        return {}
+    rows = np.full(len(mesh.edges), -1)
+    at = edge_rows(mesh.connectivity, mesh.edge_segments)
+    rows[at[at >= 0]] = mesh.edge_ids[at >= 0]
+    pairs = np.stack((mesh.triangles, mesh.triangles[:, (1, 2, 0)]), axis=-1).reshape(-1, 2)
+    edges = rows[edge_rows(mesh.connectivity, pairs)]
+    used = np.column_stack((np.repeat(mesh.face_ids, 3), edges))[edges >= 0]
+    used = np.unique(used, axis=0)
+    return {face: used[members, 1] for face, members in _members(used[:, 0])}
+
+
+def _volumes(mesh: SurfaceMesh) -> list[tuple[int, list[int]]]:
+    """Solids and the signed tags of the faces around them: minus where the face looks inwards."""
+    behind, before = solids_of_faces(mesh).T
+    return [
+        (solid, [*(np.flatnonzero(behind == solid) + 1).tolist(),
+                 *(-np.flatnonzero(before == solid) - 1).tolist()])
+        for solid in np.unique((behind, before)).tolist()
+        if solid >= 0
+    ]  # fmt: skip
+
+
+def _members(numbers: NDArray) -> list[tuple[int, NDArray]]:
+    """Each number and where it stands."""
+    order = np.argsort(numbers, kind="stable")
+    found, starts = np.unique(numbers[order], return_index=True)
+    return list(zip(found.tolist(), np.split(order, starts[1:])))
+
+
+def _described(entity: _Entity, nodes: NDArray) -> bytes:
+    """Its line in $Entities."""
+    group = (entity.group,) if entity.group else ()
+    text = _ints(entity.number + 1)
+    if entity.dimension == 0:
+        return text + nodes[entity.elements[0]].astype("<f8").tobytes() + _sizes(0)
+    text += _box(nodes[entity.elements.reshape(-1)]) + _sizes(len(group)) + _ints(*group)
+    return text + _sizes(len(entity.bounds)) + _ints(*(entity.bounds + 1))
+
+
+def _box(points: NDArray) -> bytes:
+    return np.concatenate((points.min(axis=0), points.max(axis=0))).astype("<f8").tobytes()
 
 
 def _section(file: BinaryIO, name: str, body: bytes) -> None:
     file.write(f"${name}\n".encode() + body + f"$End{name}\n".encode())
 
 
-def _values(name: str, values: np.ndarray) -> bytes:
+def _values(name: str, values: NDArray) -> bytes:
     """A scalar field at time 0, step 0, for tags 1, 2, ..."""
     records = np.empty(len(values), [("tag", "<i4"), ("value", "<f8")])
     records["tag"], records["value"] = np.arange(1, len(values) + 1), values
@@ -160,7 +217,12 @@ def _values(name: str, values: np.ndarray) -> bytes:
 
 
 def _quoted(name: str) -> str:
-    return "".join("_" if mark in '"\n\r' else mark for mark in name)[:127]
+    """What Gmsh and meshio read between quotes: the one ends sections at $End, the other takes a
+    backslash for the start of an escape.
+    """
+    for mark, other in (('"', "_"), ("\\", "/"), ("$End", "_End")):
+        name = name.replace(mark, other)
+    return name[:127]
 
 
 def _ints(*values: int) -> bytes:

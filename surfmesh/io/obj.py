@@ -5,28 +5,29 @@ from pathlib import Path
 import numpy as np
 
 from surfmesh.errors import FileFormatError
+from surfmesh.io.group_record import MARK, group_fields, group_lines
+from surfmesh.io.text_columns import write_rows
 from surfmesh.surface_mesh import SurfaceMesh
-
-LINES = 50_000  # formatted together
 
 
 def write(mesh: SurfaceMesh, path: Path) -> None:
     with open(path, "w", encoding="utf-8", newline="\n") as file:
         file.write("# surfmesh\n")
+        file.writelines(f"# {line}\n" for line in group_lines(mesh, numbered=True))
         written = 0
-        _write_rows(file, "v %.17g %.17g %.17g\n", mesh.points)
+        write_rows(file, "v %.17g %.17g %.17g\n", mesh.points)
         for run in np.split(mesh.triangles, np.flatnonzero(np.diff(mesh.face_ids)) + 1):
             face = int(mesh.face_ids[written])
             name = "_".join(mesh.face_name(face).split())
             file.write(f"# face_id {face}\ng {name}\n")
-            _write_rows(file, "f %d %d %d\n", run + 1)
+            write_rows(file, "f %d %d %d\n", run + 1)
             written += len(run)
 
 
 def read(path: Path) -> SurfaceMesh:
     """Vertices and triangles; normals, textures and materials are passed over."""
     points, triangles, face_ids = [], [], []
-    face, marked = 0, False
+    face, marked, record = 0, False, []
     with open(path, encoding="utf-8", errors="replace") as file:
         for number, line in enumerate(file, 1):
             words = line.split()
@@ -43,6 +44,8 @@ def read(path: Path) -> SurfaceMesh:
                     last = len(points) + 1
                     triangles[-1] = [i + last if i < 0 else i for i in triangles[-1]]
                 face_ids.append(face)
+            elif words[0] == "#" and MARK in line:
+                record.append(line)
             elif words[:2] == ["#", "face_id"]:
                 face, marked = int(words[2]), True
             elif words[0] == "g" and not marked and triangles:
@@ -51,6 +54,7 @@ def read(path: Path) -> SurfaceMesh:
         points=np.array(points, float).reshape(-1, 3),
         triangles=np.array(triangles, np.int64).reshape(-1, 3) - 1,
         face_ids=face_ids,
+        **group_fields(record, np.array(face_ids, int)),
     )
 
 
@@ -60,9 +64,3 @@ def _numbers(kind: type, words: list[str], path: Path, line: int) -> list:
     except ValueError:
         raise FileFormatError(f"{path}: line {line} does not hold three numbers") from None
     return [x, y, z]
-
-
-def _write_rows(file, row: str, values: np.ndarray) -> None:
-    for start in range(0, len(values), LINES):
-        block = values[start : start + LINES]
-        file.write((row * len(block)) % tuple(block.ravel().tolist()))

@@ -1,51 +1,116 @@
-"""Binary STL: three float32 corners a triangle, nothing shared, nothing named."""
+"""STL: three corners a triangle, nothing shared.
+
+Binary: float32, one body. ASCII: 17 digits, one ``solid`` with a name for each solid of the
+mesh; a face between two solids is in both, once each way round.
+"""
 
 from pathlib import Path
 
 import numpy as np
+from numpy.typing import NDArray
 
+from surfmesh.errors import FileFormatError
 from surfmesh.io.to_trimesh import read_with_trimesh
+from surfmesh.io.welding import welded
+from surfmesh.mesh_groups import MeshGroups
 from surfmesh.surface_mesh import SurfaceMesh
 
 RECORD = np.dtype([("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("attribute", "<u2")])
+HEADER = 80  # bytes, and four for the number of triangles
+LINES = 10_000  # triangles formatted together
+FACET = (
+    "facet normal %.9g %.9g %.9g\n outer loop\n"
+    + "  vertex %.17g %.17g %.17g\n" * 3
+    + " endloop\nendfacet\n"
+)
 
 
 def write(mesh: SurfaceMesh, path: Path) -> None:
     records = np.zeros(len(mesh.triangles), RECORD)
-    a, b, c = (mesh.points[corner] for corner in mesh.triangles.T)
-    normals = np.cross(b - a, c - a)
-    lengths = np.linalg.norm(normals, axis=1, keepdims=True)
-    records["normal"] = normals / np.where(lengths > 0, lengths, 1.0)
-    records["corners"] = mesh.points[mesh.triangles]
+    records["normal"], records["corners"] = _normals(mesh), mesh.points[mesh.triangles]
+    unit = f", unit {mesh.groups.unit}" if mesh.groups.unit else ""
     with open(path, "wb") as file:
-        file.write(b"surfmesh, binary STL".ljust(80))
+        file.write(f"surfmesh, binary STL{unit}".encode("ascii", "replace").ljust(HEADER))
         file.write(np.uint32(len(records)).tobytes())
         records.tofile(file)
 
 
+def write_ascii(mesh: SurfaceMesh, path: Path) -> None:
+    normals, corners = _normals(mesh), mesh.points[mesh.triangles].reshape(-1, 9)
+    solids = np.full((len(corners), 2), -1) if mesh.solid_ids is None else mesh.solid_ids
+    with open(path, "w", encoding="utf-8", newline="\n") as file:
+        for solid in np.unique(solids).tolist():
+            if solid < 0:
+                own, turned = (solids < 0).all(axis=1), np.zeros(len(corners), bool)
+            else:
+                own, turned = (solids == solid).any(axis=1), solids[:, 0] != solid
+            if not own.any():
+                continue
+            name = mesh.groups.solid_label(solid) if solid >= 0 else "surface"
+            name = " ".join(name.split()).replace("endsolid", "end-solid")
+            file.write(f"solid {name}\n")
+            sign = np.where(turned, -1.0, 1.0)[:, None]
+            backwards = corners[:, [6, 7, 8, 3, 4, 5, 0, 1, 2]]
+            rows = np.hstack((sign * normals, np.where(turned[:, None], backwards, corners)))[own]
+            for start in range(0, len(rows), LINES):
+                block = rows[start : start + LINES]
+                file.write((FACET * len(block)) % tuple(block.ravel().tolist()))
+            file.write(f"endsolid {name}\n")
+
+
+def _normals(mesh: SurfaceMesh) -> NDArray[np.float64]:
+    a, b, c = (mesh.points[corner] for corner in mesh.triangles.T)
+    normals = np.cross(b - a, c - a)
+    lengths = np.linalg.norm(normals, axis=1, keepdims=True)
+    return normals / np.where(lengths > 0, lengths, 1.0)
+
+
 def read(path: Path) -> SurfaceMesh:
     """Corners with equal coordinates become one vertex; triangles that this flattens go."""
+    with open(path, "rb") as file:
+        head = file.read(HEADER + 4)
+    count = int.from_bytes(head[HEADER:], "little")
+    binary = path.stat().st_size == len(head) + RECORD.itemsize * count
+    if head.lstrip().startswith(b"solid") and not binary:
+        return _read_ascii(path)
     found = read_with_trimesh(path)
     corners = np.asarray(found.vertices)[found.faces].reshape(-1, 3)
-    points, triangles = _welded(corners)
+    points, triangles = welded(corners)
     a, b, c = triangles.T
     whole = (a != b) & (b != c) & (c != a)
     lost = len(whole) - int(whole.sum())
-    points, triangles = _welded(points[triangles[whole]].reshape(-1, 3))
+    points, triangles = welded(points[triangles[whole]].reshape(-1, 3))
     warnings = [f"{lost} triangles without area in single precision left out"] if lost else []
     return SurfaceMesh(points=points, triangles=triangles, warnings=warnings)
 
 
-def _welded(corners: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Distinct points in order of first use, and the triangles (m, 3) of them."""
-    order = np.lexsort(corners.T)  # stable: the first of equals is the earliest
-    ranked = corners[order]
-    new = np.ones(len(ranked), bool)
-    new[1:] = (ranked[1:] != ranked[:-1]).any(axis=1)
-    label = np.empty(len(corners), np.int64)
-    label[order] = np.cumsum(new) - 1
-    first = order[new]
-    by_use = np.argsort(first)
-    rank = np.empty(len(first), np.int64)
-    rank[by_use] = np.arange(len(first))
-    return corners[first[by_use]], rank[label].reshape(-1, 3)
+def _read_ascii(path: Path) -> SurfaceMesh:
+    """Solids by their names; a triangle that comes twice lies between two of them."""
+    names, words, counts, opened = [], [], [], False
+    with open(path, encoding="utf-8", errors="replace") as file:
+        for line in file:
+            keyword, _, rest = line.strip().partition(" ")
+            if keyword == "vertex":
+                words += rest.split()
+            elif keyword == "solid":
+                names.append(rest.strip())
+                counts.append(len(words))
+                opened = True
+            elif keyword == "endsolid":
+                opened = False
+    if opened or not names or len(words) % 9:
+        raise FileFormatError(f"{path}: the ASCII .stl file is damaged or incomplete")
+    points, triangles = welded(np.array(words, float).reshape(-1, 3))
+    solids = np.repeat(np.arange(len(names)), np.diff(counts, append=len(words)) // 9)
+    _, first, of = np.unique(
+        np.sort(triangles, axis=1), axis=0, return_index=True, return_inverse=True
+    )
+    sides = np.full((len(triangles), 2), -1)
+    sides[:, 0] = solids
+    again = first[of.reshape(-1)] != np.arange(len(triangles))
+    sides[first[of.reshape(-1)[again]], 1] = solids[again]
+    kept = np.sort(first)
+    groups = MeshGroups(solid_names=tuple(names))
+    return SurfaceMesh(
+        points=points, triangles=triangles[kept], solid_ids=sides[kept], groups=groups
+    )  # fmt: skip

@@ -3,6 +3,7 @@
 from typing import TYPE_CHECKING
 
 from surfmesh.quality.shape import alpha
+from surfmesh.six_nodes import node_values
 from surfmesh.surface_mesh import SurfaceMesh
 
 if TYPE_CHECKING:
@@ -10,17 +11,24 @@ if TYPE_CHECKING:
 
 
 def to_meshio(mesh: SurfaceMesh) -> "meshio.Mesh":
-    """meshio.Mesh with point data ``size``, cell data ``face_id`` and ``alpha``.
+    """meshio.Mesh with point data ``size``, cell data ``face_id``, ``alpha`` and ``solid_id``.
 
-    Raises ``ImportError`` that says what to install when meshio is not there.
+    Cells are ``triangle``, or ``triangle6`` for order 2. Raises ``ImportError`` that says what to
+    install when meshio is not there.
     """
     try:
         import meshio
     except ImportError:
         raise ImportError("to_meshio needs meshio: pip install meshio") from None
+    cells = {"face_id": [mesh.face_ids.copy()], "alpha": [alpha(mesh)]}
+    if mesh.solid_ids is not None:
+        cells["solid_id"] = [mesh.solid_ids.copy()]
+    sizes = mesh.sizes
+    if sizes is not None and mesh.order == 2:
+        sizes = node_values(sizes, mesh.edges)
     return meshio.Mesh(
-        mesh.points.copy(),
-        [("triangle", mesh.triangles.copy())],
-        point_data={} if mesh.sizes is None else {"size": mesh.sizes.copy()},
-        cell_data={"face_id": [mesh.face_ids.copy()], "alpha": [alpha(mesh)]},
+        mesh.nodes.copy(),
+        [("triangle" if mesh.order == 1 else "triangle6", mesh.elements.copy())],
+        point_data={} if sizes is None else {"size": sizes.copy()},
+        cell_data=cells,
     )

@@ -1,5 +1,10 @@
-"""VTK's XML files, .vtu (unstructured grid) and .vtp (polygons), through PyVista."""
+"""VTK's XML files, .vtu (unstructured grid) and .vtp (polygons), through PyVista.
 
+Names and the like are the bytes of a JSON text in the field data ``surfmesh_groups``: arrays of
+strings hold ASCII alone, and meshio refuses a file that has one.
+"""
+
+import json
 from pathlib import Path
 
 import numpy as np
@@ -12,20 +17,33 @@ from vtkmodules.vtkIOXML import (
 )
 
 from surfmesh.errors import FileFormatError
+from surfmesh.io.colours import NO_COLOUR, triangle_colours
+from surfmesh.mesh_groups import MeshGroups
 from surfmesh.quality.shape import alpha
+from surfmesh.six_nodes import node_values, split_six_nodes
 from surfmesh.surface_mesh import SurfaceMesh
+
+GROUPS = "surfmesh_groups"
+BESIDE = ("edge_segments", "edge_ids", "vertex_ids")  # field data of the same names
 
 
 def to_pyvista(mesh: SurfaceMesh) -> pyvista.PolyData:
     """PolyData with point data ``size``, cell data ``face_id`` and ``alpha``; nothing merged.
 
-    Arrays are copies: the mesh stays immutable whatever is done to the result.
+    Where there are solids or colours: cell data ``solid_id`` (behind and before a triangle) and
+    ``colour`` (red, green, blue of 0..255). Arrays are copies: the mesh stays immutable whatever
+    is done to the result.
     """
     data = pyvista.PolyData.from_regular_faces(mesh.points.copy(), mesh.triangles)
     if mesh.sizes is not None:
         data.point_data["size"] = mesh.sizes.copy()
     data.cell_data["face_id"] = mesh.face_ids.copy()
     data.cell_data["alpha"] = alpha(mesh)
+    if mesh.solid_ids is not None:
+        data.cell_data["solid_id"] = mesh.solid_ids.copy()
+    colours = triangle_colours(mesh)
+    if colours is not None:
+        data.cell_data["colour"] = np.where(colours < 0, NO_COLOUR, colours).astype(np.uint8)
     data.set_active_scalars(None)
     return data
 
@@ -35,33 +53,66 @@ def write(mesh: SurfaceMesh, path: Path) -> None:
     if mesh.uv_points is not None:
         data.cell_data["uv"] = mesh.uv.reshape(-1, 6)  # u, v of the three corners
     data.field_data["one_sided"] = np.array([mesh.one_sided], np.uint8)
+    text = json.dumps(mesh.groups.plain()).encode()
+    data.field_data[GROUPS] = np.frombuffer(text, np.uint8)
+    for name in BESIDE:
+        if getattr(mesh, name) is not None and len(getattr(mesh, name)):
+            data.field_data[name] = getattr(mesh, name).copy()
     if path.suffix.lower() == ".vtu":
-        data = data.cast_to_unstructured_grid()
+        data = _grid_of(mesh, data)
     with pyvista.vtk_verbosity("off"):
         data.save(path)
     if not path.stat().st_size:  # VTK reports a full disk on its own console only
         raise FileFormatError(f"{path}: VTK could not write it")
 
 
+def _grid_of(mesh: SurfaceMesh, data: pyvista.PolyData) -> pyvista.UnstructuredGrid:
+    """The same as a grid, with six nodes a triangle for order 2."""
+    if mesh.order == 1:
+        return data.cast_to_unstructured_grid()
+    six = {pyvista.CellType.QUADRATIC_TRIANGLE: mesh.elements}
+    grid = pyvista.UnstructuredGrid(six, mesh.nodes)
+    for name, values in data.cell_data.items():
+        grid.cell_data[name] = values
+    for name, values in data.point_data.items():
+        grid.point_data[name] = node_values(values, mesh.edges)
+    for name, values in data.field_data.items():
+        grid.field_data[name] = values
+    grid.set_active_scalars(None)
+    return grid
+
+
 def read(path: Path) -> SurfaceMesh:
     grid = path.suffix.lower() == ".vtu"
     data = _loaded(path, vtkXMLUnstructuredGridReader() if grid else vtkXMLPolyDataReader())
     cells = data if grid else data.cast_to_unstructured_grid()
-    if set(np.unique(cells.celltypes).tolist()) - {int(pyvista.CellType.TRIANGLE)}:
+    kinds = set(np.unique(cells.celltypes).tolist())
+    six = kinds == {int(pyvista.CellType.QUADRATIC_TRIANGLE)}
+    if kinds - {int(pyvista.CellType.TRIANGLE)} and not six:
         raise FileFormatError(f"{path}: holds cells that are not triangles")
+    points, sizes, mid_points = data.points, data.point_data.get("size"), None
+    triangles = cells.cell_connectivity.reshape(-1, 6 if six else 3)
+    if six:
+        points, triangles, mid_points, kept = split_six_nodes(points, triangles)
+        sizes = None if sizes is None else sizes[kept]
     uv_points = uv_triangles = None
     if "uv" in data.cell_data:
         uv_points = np.asarray(data.cell_data["uv"]).reshape(-1, 2)
         uv_triangles = np.arange(len(uv_points)).reshape(-1, 3)
     field = data.field_data
+    groups = bytes(np.asarray(field[GROUPS])).decode() if GROUPS in field else "{}"
     return SurfaceMesh(
-        points=data.points,
-        triangles=cells.cell_connectivity.reshape(-1, 3),
+        points=points,
+        triangles=triangles,
+        mid_points=mid_points,
         uv_points=uv_points,
         uv_triangles=uv_triangles,
         face_ids=data.cell_data.get("face_id"),
-        sizes=data.point_data.get("size"),
+        sizes=sizes,
         one_sided=bool(field["one_sided"][0]) if "one_sided" in field else False,
+        solid_ids=data.cell_data.get("solid_id"),
+        groups=MeshGroups.of_plain(json.loads(groups)),
+        **{name: np.asarray(field[name]) for name in BESIDE if name in field},
     )
 
 

@@ -17,6 +17,7 @@ from surfmesh.errors import MeshingError
 from surfmesh.meshing.edge_nodes import EdgeNodes, cut_edges
 from surfmesh.meshing.edge_samples import EdgeSamples, sample_edges
 from surfmesh.meshing.face_job import FaceJob, FaceMesh, Piece, mesh_face
+from surfmesh.meshing.model_groups import groups_of
 from surfmesh.meshing.simplification import LEAST, simplified
 from surfmesh.meshing.solid_contents import Contents
 from surfmesh.meshing.stages import Progress, Stopwatch
@@ -218,6 +219,8 @@ def _joined(
     rank = np.where(used, np.cumsum(used) - 1, -1)
     segments = [np.stack([cut.numbers[:-1], cut.numbers[1:]], axis=1) for _, cut in edges]
     of = [np.full(len(cut.share) - 1, number) for number, cut in edges]
+    shares = [np.stack([cut.share[:-1], cut.share[1:]], axis=1) for _, cut in edges]
+    shares = np.concatenate(shares) if shares else np.empty((0, 2))
     segments = rank[np.concatenate(segments)] if segments else np.empty((0, 2), np.int64)
     of = np.concatenate(of) if of else np.empty(0, np.int64)
     there = (segments >= 0).all(axis=1)
@@ -235,8 +238,10 @@ def _joined(
         solid_ids=solids[face_ids],
         edge_segments=segments[there],
         edge_ids=of[there],
+        edge_shares=shares[there],
         vertex_ids=rank[samples.vertex],
         sizes=np.where(np.isfinite(sizes), sizes, model.diagonal)[used],
+        groups=groups_of(model),
         sizing=sizing,
         seconds=watch.seconds,
         warnings=tuple([*model.healing, *missing]),

@@ -135,11 +135,12 @@ class _Work:
         final = self.kept_as.copy()
         while (final[final] != final).any():
             final = final[final]
-        segments = ids = None
+        segments = ids = shares = None
         if old.edge_segments is not None:
             segments = number[final[old.edge_segments]]
             there = segments[:, 0] != segments[:, 1]
             segments, ids = segments[there], old.edge_ids[there]
+            shares = None if old.edge_shares is None else old.edge_shares[there]
         empty = np.setdiff1d(np.unique(old.face_ids), old.face_ids[live])
         said = [f"simplified: {old.face_name(k)} (face {k}) has vanished" for k in empty]
         vertex = old.vertex_ids
@@ -153,6 +154,7 @@ class _Work:
             solid_ids=None if old.solid_ids is None else old.solid_ids[live],
             edge_segments=segments,
             edge_ids=ids,
+            edge_shares=shares,
             vertex_ids=None if vertex is None else np.where(vertex < 0, -1, number[final[vertex]]),
             sizes=None if old.sizes is None else old.sizes[used],
             warnings=(*old.warnings, *said),

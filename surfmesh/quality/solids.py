@@ -19,7 +19,8 @@ def solid_mesh(mesh: SurfaceMesh, solid: int) -> SurfaceMesh:
         mesh,
         points=mesh.points[used], triangles=rows.reshape(-1, 3), face_ids=faces,
         uv_points=None, uv_triangles=None, surfaces=(), turned_faces=None, solid_ids=None,
-        edge_segments=None, edge_ids=None, vertex_ids=None, facts=None,
+        edge_segments=None, edge_ids=None, edge_shares=None, vertex_ids=None, mid_points=None,
+        facts=None,
         sizes=None if mesh.sizes is None else mesh.sizes[used],
     )  # fmt: skip
 

@@ -47,6 +47,17 @@ def test_mesh_writes_what_was_asked(stand_in, tmp_path, capsys):
     assert printed.err == "" and "200 triangles - clean" in printed.out and mesh in printed.out
 
 
+def test_order_2_and_ascii_are_asked_for_by_name(tmp_path, capsys):
+    path = str(tmp_path / "a.vtu")
+    assert main(["mesh", "plane", "--size", "0.5", "--order", "2", "-o", path]) == 0
+    assert read(path).order == 2
+    assert main(["mesh", "plane", "--size", "0.5", "--ascii", "-o", path]) == 2
+    assert "the extension must be .stl" in capsys.readouterr().err
+    text = tmp_path / "a.stl"
+    assert main(["mesh", "plane", "--size", "0.5", "--ascii", "-o", str(text)]) == 0
+    assert text.read_text().startswith("solid ")
+
+
 def test_without_sizes_the_surface_decides(stand_in, tmp_path):
     main(["mesh", "wavy", "-o", str(tmp_path / "a.stl"), "--json"])
     assert stand_in[0][0].name == "wavy" and stand_in[0][1] is None

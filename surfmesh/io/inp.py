@@ -1,0 +1,152 @@
+"""Abaqus and CalculiX input: shells S3 or STRI65, a set of elements for each face and solid.
+
+Sets of nodes lie on the edges. Names become letters, digits and '_'; what they were, colours,
+kinds and the unit stand in comments. Coordinates have 20 characters, which is what both read.
+Format: Abaqus Keywords Reference, *NODE, *ELEMENT, *ELSET, *NSET; CalculiX CrunchiX manual.
+"""
+
+from collections.abc import Iterator
+from pathlib import Path
+from typing import TextIO
+
+import numpy as np
+from numpy.typing import NDArray
+
+from surfmesh.errors import FileFormatError
+from surfmesh.io.group_record import MARK, group_fields, group_lines, unique_labels
+from surfmesh.io.text_columns import numbers, shortest
+from surfmesh.mesh_groups import MeshGroups
+from surfmesh.six_nodes import edge_rows, split_six_nodes
+from surfmesh.surface_mesh import SurfaceMesh
+
+COORDINATE = 20  # characters
+NAME = 60  # characters; both allow 80
+THREE_NODES = ("S3", "S3R", "STRI3", "S3RS", "CPS3", "CPE3", "M3D3", "DS3")
+SIX_NODES = ("STRI65", "S6", "CPS6", "CPE6", "M3D6", "DS6")
+LINES = ("T3D2", "T3D3", "B21", "B22", "B31", "B32", "B33")  # passed over, as Gmsh writes them
+KIND = {1: "S3", 2: "STRI65"}
+
+
+def write(mesh: SurfaceMesh, path: Path) -> None:
+    groups, nodes = mesh.groups, mesh.nodes
+    faces = np.unique(mesh.face_ids).tolist()
+    held = [-1] if mesh.solid_ids is None else np.unique(mesh.solid_ids).tolist()
+    solids = [solid for solid in held if solid >= 0]
+    face_labels = list(dict.fromkeys(map(groups.face_label, faces)))
+    labels = unique_labels([*face_labels, *map(groups.solid_label, solids)], NAME)
+    named = dict(zip(face_labels, labels))
+    with open(path, "w", encoding="ascii", newline="\n") as file:
+        file.write(f"** surfmesh{', unit ' + groups.unit if groups.unit else ''}\n")
+        file.writelines(f"** {line}\n" for line in group_lines(mesh, numbered=True))
+        file.write("*NODE, NSET=ALL_NODES\n")
+        words = iter(shortest(nodes.ravel().tolist(), COORDINATE))
+        rows = enumerate(zip(words, words, words), 1)
+        file.writelines(f"{n}, {x}, {y}, {z}\n" for n, (x, y, z) in rows)
+        elements = np.column_stack((np.arange(len(mesh.triangles)), mesh.elements)) + 1
+        order = np.argsort(mesh.face_ids, kind="stable")
+        members = np.split(order, np.searchsorted(mesh.face_ids[order], faces[1:]))
+        for face, own in zip(faces, members):
+            label = named[groups.face_label(face)]
+            file.write(f"*ELEMENT, TYPE={KIND[mesh.order]}, ELSET={label}\n")
+            file.writelines(f"{', '.join(map(str, row))}\n" for row in elements[own].tolist())
+        for solid, label in zip(solids, labels[len(face_labels) :]):
+            own = np.flatnonzero((mesh.solid_ids == solid).any(axis=1))
+            file.write(f"*ELSET, ELSET={label}\n")
+            _write_numbers(file, (own + 1).tolist())
+        for label, numbers_of_edge in _nodes_of_edges(mesh):
+            file.write(f"*NSET, NSET={label}\n")
+            _write_numbers(file, numbers_of_edge)
+
+
+def _write_numbers(file: TextIO, found: list[int]) -> None:
+    for at in range(0, len(found), 8):  # meshio takes GENERATE for one range only
+        file.write(", ".join(map(str, found[at : at + 8])) + "\n")
+
+
+def _nodes_of_edges(mesh: SurfaceMesh) -> Iterator[tuple[str, list[int]]]:
+    """Names and the tags of the nodes on CAD edges, edges of one name together."""
+    if mesh.edge_segments is None:
+        return
+    labels: dict[str, list[int]] = {}
+    for edge in np.unique(mesh.edge_ids).tolist():
+        labels.setdefault(mesh.groups.edge_label(edge), []).append(edge)
+    for name, edges in zip(unique_labels(labels, NAME), labels.values()):
+        own = mesh.edge_segments[np.isin(mesh.edge_ids, edges)]
+        nodes = np.unique(own)
+        if mesh.order == 2:
+            middles = len(mesh.points) + edge_rows(mesh.connectivity, own)
+            nodes = np.concatenate((nodes, np.unique(middles)))
+        yield name, (nodes + 1).tolist()
+
+
+def read(path: Path) -> SurfaceMesh:
+    """Nodes and shells of three or of six nodes; everything else is passed over."""
+    with open(path, encoding="utf-8", errors="replace") as file:
+        record, blocks = _blocks(file)
+    tags, points = [np.empty(0, np.int64)], [np.empty((0, 3))]
+    rows: list[NDArray] = []
+    names: dict[str, int] = {}
+    face_ids: list[NDArray] = []
+    for keyword, options, lines in blocks:
+        if keyword == "NODE":
+            found = numbers(lines, 4)
+            tags.append(found[:, 0].astype(np.int64))
+            points.append(found[:, 1:])
+        elif keyword == "ELEMENT":
+            kind = options.get("TYPE", "").upper()
+            if kind in LINES:
+                continue
+            if kind not in THREE_NODES + SIX_NODES:
+                raise FileFormatError(f"{path}: holds elements {kind} that are not triangles")
+            rows.append(numbers(lines, 7 if kind in SIX_NODES else 4, int))
+            face = names.setdefault(options.get("ELSET", ""), len(names))
+            face_ids.append(np.full(len(lines), face))
+    if not rows:
+        raise FileFormatError(f"{path}: there are no triangles in it")
+    if len({row.shape[1] for row in rows}) > 1:
+        raise FileFormatError(f"{path}: holds triangles of three and of six nodes")
+    table = np.concatenate(rows)
+    by_tag = np.argsort(table[:, 0], kind="stable")
+    nodes, elements = placed(path, np.concatenate(tags), np.concatenate(points), table[by_tag, 1:])
+    fields = group_fields(record)
+    fields.setdefault("face_ids", np.concatenate(face_ids)[by_tag])
+    fields.setdefault("groups", MeshGroups(face_names=tuple(names)))
+    if elements.shape[1] == 6:
+        nodes, elements, fields["mid_points"], _ = split_six_nodes(nodes, elements)
+    return SurfaceMesh(points=nodes, triangles=elements, **fields)
+
+
+def placed(
+    path: Path, tags: NDArray, points: NDArray, rows: NDArray
+) -> tuple[NDArray, NDArray]:  # fmt: skip
+    """Points in the order of their tags, and elements by index instead of tag."""
+    order = np.argsort(tags)
+    tags = tags[order]
+    found = np.minimum(np.searchsorted(tags, rows), max(len(tags) - 1, 0))
+    if not len(tags) or (tags[found] != rows).any():
+        raise FileFormatError(f"{path}: an element has a corner that is no node")
+    return points[order], found
+
+
+Block = tuple[str, dict[str, str], list[str]]  # keyword, its options, the lines below
+
+
+def _blocks(file: TextIO) -> tuple[list[str], list[Block]]:
+    """Lines of the record, and what stands under each keyword."""
+    record, blocks = [], []
+    for line in file:
+        if line.startswith("**"):
+            if MARK in line:
+                record.append(line)
+        elif line.startswith("*"):
+            keyword, *words = (word.strip() for word in line[1:].split(","))
+            options = dict(_option(word) for word in words)
+            blocks.append((keyword.upper(), options, []))
+        elif line.strip() and blocks:
+            blocks[-1][2].append(line)
+    return record, blocks
+
+
+def _option(word: str) -> tuple[str, str]:
+    name, _, value = word.partition("=")
+    return name.strip().upper(), value.strip().strip('"')

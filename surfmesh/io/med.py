@@ -1,0 +1,105 @@
+"""Salome's MED through meshio: a family for each face and edge, groups by name.
+
+The groups of a face are its own name and those of its solids. What MED has no place for stands
+in a dataset beside the mesh.
+Tested with meshio 5.3. Its writer leaves the units of the axes blank and calls a family by all
+its groups, which is more than the 64 characters that readers have room for (Gmsh crashes): both
+are written here.
+"""
+
+from pathlib import Path
+from types import ModuleType
+from typing import Any
+
+import numpy as np
+
+from surfmesh.errors import FileFormatError
+from surfmesh.io.group_record import group_fields, group_lines, solids_of_faces
+from surfmesh.mesh_groups import MeshGroups
+from surfmesh.six_nodes import edge_rows, split_six_nodes
+from surfmesh.surface_mesh import SurfaceMesh
+
+LINE, TRIANGLE = {1: "line", 2: "line3"}, {1: "triangle", 2: "triangle6"}
+RECORD = "surfmesh_groups"
+WIDTH = 16  # characters of the unit of one axis
+NAME = 80  # characters of a group
+
+
+def _libraries(path: Path) -> tuple[ModuleType, ModuleType]:
+    try:
+        import h5py
+        import meshio.med
+    except ImportError as error:
+        need = f"{path}: .med needs {error.name}: pip install meshio h5py"
+        raise FileFormatError(need) from None
+    return meshio, h5py
+
+
+def write(mesh: SurfaceMesh, path: Path) -> None:
+    meshio, h5py = _libraries(path)
+    groups, solids = mesh.groups, solids_of_faces(mesh)
+    blocks, families = [(TRIANGLE[mesh.order], mesh.elements)], [-1 - mesh.face_ids]
+    names = {}
+    for face in np.unique(mesh.face_ids).tolist():
+        held = [groups.solid_label(solid) for solid in solids[face].tolist() if solid >= 0]
+        names[-1 - face] = list(dict.fromkeys((groups.face_label(face), *held)))
+    if mesh.edge_segments is not None and len(mesh.edge_segments):
+        below = int(mesh.face_ids.max()) + 1
+        lines = mesh.edge_segments
+        if mesh.order == 2:
+            middles = len(mesh.points) + edge_rows(mesh.connectivity, lines)
+            lines = np.column_stack((lines, middles))
+        blocks.append((LINE[mesh.order], lines))
+        families.append(-1 - below - mesh.edge_ids)
+        for edge in np.unique(mesh.edge_ids).tolist():
+            names[-1 - below - edge] = [groups.edge_label(edge)]
+    content = meshio.Mesh(mesh.nodes, blocks, cell_data={"cell_tags": families})
+    content.cell_tags, content.point_tags = {}, {}
+    meshio.med.write(path, content)
+    with h5py.File(path, "r+") as file:
+        text = "\n".join(group_lines(mesh, numbered=True)).encode("ascii")
+        file[RECORD] = np.frombuffer(text, np.uint8)
+        for name, found in file["ENS_MAA"].items():
+            _write_families(file["FAS"][name].create_group("ELEME"), names)
+            if groups.unit:
+                found.attrs["UNI"] = np.bytes_(groups.unit.ljust(WIDTH) * 3)
+
+
+def _write_families(parent: Any, names: dict[int, list[str]]) -> None:
+    """Families by their numbers, below a group of the HDF5 file; names in ASCII alone."""
+    for number, held in names.items():
+        family = parent.create_group(f"FAM_{number}")
+        family.attrs.create("NUM", number)
+        group = family.create_group("GRO")
+        group.attrs.create("NBR", len(held))
+        rows = group.create_dataset("NOM", (len(held),), dtype=f"{NAME}int8")
+        for row, name in enumerate(held):
+            text = name.encode("ascii", "replace")[: NAME - 1].ljust(NAME, b"\0")
+            rows[row] = np.frombuffer(text, np.int8)
+
+
+def read(path: Path) -> SurfaceMesh:
+    """Triangles; in a file of another program a face is a family, named by its first group."""
+    meshio, h5py = _libraries(path)
+    found = meshio.med.read(path)
+    with h5py.File(path, "r") as file:
+        text = bytes(file[RECORD][()]).decode("ascii") if RECORD in file else ""
+    elements, families = [], []
+    tags = found.cell_data.get("cell_tags") or [np.zeros(len(c.data), int) for c in found.cells]
+    for block, tag in zip(found.cells, tags):
+        if block.type in TRIANGLE.values():
+            elements.append(block.data)
+            families.append(tag)
+        elif block.type not in (*LINE.values(), "vertex"):
+            raise FileFormatError(f"{path}: holds cells {block.type} that are not triangles")
+    if len(elements) != 1:
+        raise FileFormatError(f"{path}: holds no triangles, or some of three and some of six nodes")
+    fields = group_fields(text.splitlines())
+    if "face_ids" not in fields:
+        numbers, fields["face_ids"] = np.unique(-families[0], return_inverse=True)
+        held = [found.cell_tags.get(-number) or [""] for number in numbers.tolist()]
+        fields["groups"] = MeshGroups(face_names=tuple(names[0] for names in held))
+    points, triangles = found.points, elements[0]
+    if triangles.shape[1] == 6:
+        points, triangles, fields["mid_points"], _ = split_six_nodes(points, triangles)
+    return SurfaceMesh(points=points, triangles=triangles, **fields)

@@ -1,0 +1,200 @@
+"""3MF: one object a solid, a set of triangles for each face, colours as base materials.
+
+Coordinates have 17 digits, the unit is one of the file's own. What 3MF has no place for, and
+the numbers of the vertices, stand in metadata.
+Format: 3MF Core Specification 1.3, with chapter "Triangle Sets".
+"""
+
+import json
+import zipfile
+from pathlib import Path
+from typing import BinaryIO
+from xml.etree import ElementTree
+from xml.sax.saxutils import escape, quoteattr
+
+import numpy as np
+from numpy.typing import NDArray
+
+from surfmesh.errors import FileFormatError
+from surfmesh.io.colours import colour_of, hexadecimal
+from surfmesh.io.text_columns import write_rows
+from surfmesh.mesh_groups import MeshGroups
+from surfmesh.surface_mesh import SurfaceMesh
+
+CORE = "http://schemas.microsoft.com/3dmanufacturing/core/2015/02"
+SETS = "http://schemas.microsoft.com/3dmanufacturing/trianglesets/2021/07"
+OWN = "urn:surfmesh:groups"
+MODEL = "3D/3dmodel.model"
+UNITS = {"um": "micron", "mm": "millimeter", "cm": "centimeter", "m": "meter", "in": "inch",
+         "ft": "foot"}  # fmt: skip
+CONTENT_TYPES = (
+    '<?xml version="1.0" encoding="UTF-8"?>\n'
+    '<Types xmlns="http://schemas.openxmlformats.org/package/2006/content-types">'
+    '<Default Extension="rels" '
+    'ContentType="application/vnd.openxmlformats-package.relationships+xml"/>'
+    '<Default Extension="model" '
+    'ContentType="application/vnd.ms-package.3dmanufacturing-3dmodel+xml"/></Types>'
+)
+RELATIONS = (
+    '<?xml version="1.0" encoding="UTF-8"?>\n'
+    '<Relationships xmlns="http://schemas.openxmlformats.org/package/2006/relationships">'
+    f'<Relationship Target="/{MODEL}" Id="rel0" '
+    'Type="http://schemas.microsoft.com/3dmanufacturing/2013/01/3dmodel"/></Relationships>'
+)
+MATERIALS = 1  # the id of the one group of materials; objects follow
+
+
+def write(mesh: SurfaceMesh, path: Path) -> None:
+    bodies = _bodies(mesh)
+    vertices = [np.unique(mesh.triangles[members]) for _, members, _ in bodies]
+    record = {
+        "groups": mesh.groups.plain(),
+        "points": len(mesh.points),
+        "solids": [solid for solid, _, _ in bodies],
+        "vertices": None if len(bodies) == 1 else [own.tolist() for own in vertices],
+    }
+    unit = UNITS.get(mesh.groups.unit, "millimeter")
+    colours: dict[str, int] = {}
+    with zipfile.ZipFile(path, "w", zipfile.ZIP_DEFLATED) as archive:
+        archive.writestr("[Content_Types].xml", CONTENT_TYPES)
+        archive.writestr("_rels/.rels", RELATIONS)
+        with archive.open(MODEL, "w", force_zip64=True) as raw:
+            file = _Text(raw)
+            file.write('<?xml version="1.0" encoding="UTF-8"?>\n')
+            file.write(f'<model unit="{unit}" xml:lang="en-US" xmlns="{CORE}" ')
+            file.write(f'xmlns:t="{SETS}" xmlns:s="{OWN}">\n')
+            file.write('<metadata name="Application">surfmesh</metadata>\n')
+            text = json.dumps(record, separators=(",", ":"))
+            file.write(f'<metadata name="s:groups">{escape(text)}</metadata>\n<resources>\n')
+            of_faces = _materials(mesh, bodies, colours)
+            if colours:
+                file.write(f'<basematerials id="{MATERIALS}">')
+                for colour in colours:
+                    file.write(f'<base name="{colour}" displaycolor="{colour}"/>')
+                file.write("</basematerials>\n")
+            for number, ((solid, members, turned), own) in enumerate(zip(bodies, vertices)):
+                _write_object(file, mesh, number, solid, members, turned, own, of_faces[number])
+            file.write("</resources>\n<build>")
+            for number in range(len(bodies)):
+                file.write(f'<item objectid="{MATERIALS + 1 + number}"/>')
+            file.write("</build>\n</model>\n")
+
+
+class _Text:
+    """Text into a binary stream."""
+
+    def __init__(self, raw: BinaryIO) -> None:
+        self.raw = raw
+
+    def write(self, text: str) -> None:
+        self.raw.write(text.encode())
+
+
+Body = tuple[int, NDArray, NDArray]  # solid or -1, its triangles, which of them are turned over
+
+
+def _bodies(mesh: SurfaceMesh) -> list[Body]:
+    solids = np.full((len(mesh.triangles), 2), -1) if mesh.solid_ids is None else mesh.solid_ids
+    found = []
+    for solid in np.unique(solids).tolist():
+        own = (solids < 0).all(axis=1) if solid < 0 else (solids == solid).any(axis=1)
+        members = np.flatnonzero(own)
+        if len(members):
+            members = members[np.argsort(mesh.face_ids[members], kind="stable")]
+            found.append((solid, members, (solids[members, 0] != solid) & (solid >= 0)))
+    return found
+
+
+def _materials(mesh: SurfaceMesh, bodies: list[Body], colours: dict[str, int]) -> list[dict]:
+    """The number of the colour of each face of each body; fills in ``colours``."""
+    found = []
+    for solid, members, _ in bodies:
+        of = {}
+        for face in np.unique(mesh.face_ids[members]).tolist():
+            colour = colour_of(mesh, face, solid)
+            if colour is not None:
+                of[face] = colours.setdefault(hexadecimal(colour), len(colours))
+        found.append(of)
+    return found
+
+
+def _write_object(
+    file: _Text, mesh: SurfaceMesh, number: int, solid: int, members: NDArray,
+    turned: NDArray, own: NDArray, material: dict[int, int],
+) -> None:  # fmt: skip
+    groups = mesh.groups
+    name = groups.solid_label(solid) if solid >= 0 else "surface"
+    kind = "model" if solid >= 0 else "surface"  # a model has to be closed
+    default = next(iter(material.values()), None)
+    paint = "" if default is None else f' pid="{MATERIALS}" pindex="{default}"'
+    file.write(
+        f'<object id="{MATERIALS + 1 + number}" type="{kind}" name={quoteattr(name)}{paint}>'
+        "<mesh>\n<vertices>\n"
+    )
+    write_rows(file, '<vertex x="%.17g" y="%.17g" z="%.17g"/>\n', mesh.points[own])
+    file.write("</vertices>\n<triangles>\n")
+    rows = np.searchsorted(own, mesh.triangles[members])
+    rows = np.where(turned[:, None], rows[:, ::-1], rows)
+    starts = np.flatnonzero(np.diff(mesh.face_ids[members], prepend=-1))
+    ends = np.append(starts[1:], len(members))
+    faces = mesh.face_ids[members[starts]].tolist()
+    for face, start, end in zip(faces, starts.tolist(), ends.tolist()):
+        paint = f' pid="{MATERIALS}" p1="{material[face]}"' if face in material else ""
+        write_rows(file, f'<triangle v1="%d" v2="%d" v3="%d"{paint}/>\n', rows[start:end])
+    file.write("</triangles>\n<t:trianglesets>\n")
+    for face, start, end in zip(faces, starts.tolist(), ends.tolist()):
+        label = quoteattr(groups.face_label(face))
+        file.write(f'<t:triangleset name={label} identifier="face-{face}">')
+        file.write(f'<t:refrange startindex="{start}" endindex="{end - 1}"/></t:triangleset>\n')
+    file.write("</t:trianglesets>\n</mesh></object>\n")
+
+
+def read(path: Path) -> SurfaceMesh:
+    """What ``write`` wrote in full; of other files the meshes of all objects, as they stand."""
+    with zipfile.ZipFile(path) as archive:
+        root = ElementTree.fromstring(archive.read(MODEL))
+    meshes = root.findall(f".//{{{CORE}}}object/{{{CORE}}}mesh")
+    if not meshes:
+        raise FileFormatError(f"{path}: there are no meshes in it")
+    points, triangles = zip(*map(_arrays, meshes))
+    text = next((item.text for item in root.iter(f"{{{CORE}}}metadata")
+                 if item.get("name") == "s:groups"), None)  # fmt: skip
+    if text is None:
+        shifts = np.cumsum([0, *map(len, points)])
+        return SurfaceMesh(
+            points=np.concatenate(points),
+            triangles=np.concatenate([t + shift for t, shift in zip(triangles, shifts)]),
+        )
+    record = json.loads(text)
+    numbers = record["vertices"] or [np.arange(record["points"])]
+    nodes = np.zeros((record["points"], 3))
+    corners: dict[int, NDArray] = {}
+    solids: dict[int, list[int]] = {}
+    for element, solid, own, xyz, rows in zip(meshes, record["solids"], numbers, points, triangles):
+        nodes[own] = xyz
+        for item in element.iter(f"{{{SETS}}}triangleset"):
+            face = int(item.get("identifier").partition("-")[2])
+            if face in solids:
+                solids[face][1] = solid  # the one before it
+                continue
+            solids[face] = [solid, -1]
+            span = item.find(f"{{{SETS}}}refrange")
+            start, end = int(span.get("startindex")), int(span.get("endindex")) + 1
+            corners[face] = np.asarray(own)[rows[start:end]]
+    faces = sorted(corners)
+    face_ids = np.repeat(faces, [len(corners[face]) for face in faces])
+    known = any(solid >= 0 for solid in record["solids"])
+    return SurfaceMesh(
+        points=nodes,
+        triangles=np.concatenate([corners[face] for face in faces]),
+        face_ids=face_ids,
+        solid_ids=[solids[face] for face in face_ids.tolist()] if known else None,
+        groups=MeshGroups.of_plain(record["groups"]),
+    )
+
+
+def _arrays(mesh: ElementTree.Element) -> tuple[NDArray, NDArray]:
+    vertices = [[v.get("x"), v.get("y"), v.get("z")] for v in mesh.iter(f"{{{CORE}}}vertex")]
+    rows = [[t.get("v1"), t.get("v2"), t.get("v3")] for t in mesh.iter(f"{{{CORE}}}triangle")]
+    points = np.array(vertices, float).reshape(-1, 3)
+    return points, np.array(rows, np.int64).reshape(-1, 3)
