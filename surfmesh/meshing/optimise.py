@@ -56,7 +56,7 @@ BAD_SHAPE = 0.72
 """Triangles below this alpha get passes of their own, with a soft wish for unit edges."""
 
 SOFT = 0.3
-RESCUE_PASSES = 4
+RESCUE_PASSES, SOFT_PASSES = 4, 4
 
 SUSPECT = 0.7
 """Share of ``chord`` from which the estimate of a triangle's deviation is not trusted."""
@@ -137,6 +137,7 @@ class Optimiser:
                 break
         self._swap()
         self._rescue()
+        self._soften()
         far = self._approach()
         return Changes(self.swaps, self.collapses, self.splits, self.passes, far, self._folded())
 
@@ -196,6 +197,15 @@ class Optimiser:
                 break
             self._smooth(SOFT)
             self._swap()
+
+    def _soften(self) -> None:
+        """Last passes over all vertices, for shapes more than for unit edges."""
+        self.active[:] = self.dirty[:] = 1
+        for _ in range(SOFT_PASSES):
+            if self._smooth(SOFT) == 0:
+                break
+        self._swap()
+        self._smooth(SOFT)
 
     def _approach(self) -> np.ndarray:
         """Bring triangles that are too far from the surface nearer; returns those left.
