@@ -44,8 +44,8 @@ def _move_half_way(t, e, x, y):
 
 
 @kernel
-def _joins(t, triangle, x, y, h11, h12, h22, first, apart):
-    """Does an earlier vertex of the row near by take this place in, by moving towards it?"""
+def _joined(t, triangle, x, y, h11, h12, h22, first, apart):
+    """The half-edge from an earlier vertex of the row near by, moved towards this place; or NIL."""
     for i in range(6):
         e = 3 * triangle + i % 3
         if i >= 3:
@@ -55,8 +55,35 @@ def _joins(t, triangle, x, y, h11, h12, h22, first, apart):
         v = t.tri[e]
         if v >= first and _distance2(t, v, x, y, h11, h12, h22) < apart * apart:
             _move_half_way(t, e, x, y)
-            return True
-    return False
+            return e
+    return NIL
+
+
+@kernel
+def _clear_around(t, e, first, crowded):
+    """Remove the vertices before ``first`` next to the start of e that are too near.
+
+    Returns a half-edge that starts there.
+    """
+    p = t.tri[e]
+    x, y = t.xy[p, 0], t.xy[p, 1]
+    start = e
+    while True:
+        w = t.tri[next_half_edge(e)]
+        live = NIL
+        if 0 <= w < first and (
+            _distance2(t, w, x, y, t.size[p, 0], t.size[p, 1], t.size[p, 2]) < crowded * crowded
+        ):
+            live = remove_vertex(t, t.adj[e])
+        if live == NIL:
+            e = turn(t, e)
+            if e == start:
+                return e
+        else:
+            triangle, _ = locate(t, live, x, y, False)
+            start = e = corner_of(t, triangle, p)
+            if e == NIL:
+                return live
 
 
 @kernel
@@ -74,27 +101,11 @@ def insert_row(t, apex, apex_size, apart, crowded):
         while t.region[near // 3] == DEAD:
             near += 3
         triangle, _ = locate(t, near, x, y, False)
-        near = 3 * triangle
-        if _joins(t, triangle, x, y, h11, h12, h22, first, apart):
-            continue
-        p, e = insert_node(t, near, x, y, h11, h12, h22, first)
-        near = e
-        if p == NIL:
-            continue
-        start = e
-        while True:
-            w = t.tri[next_half_edge(e)]
-            if 0 <= w < first and _distance2(t, w, x, y, h11, h12, h22) < crowded * crowded:
-                live = remove_vertex(t, t.adj[e])
-                if live != NIL:
-                    triangle, _ = locate(t, live, x, y, False)
-                    e = corner_of(t, triangle, p)
-                    near = live
-                    if e == NIL:
-                        break
-                    near = start = e
-                    continue
-            e = turn(t, e)
-            if e == start:
-                break
+        e = _joined(t, triangle, x, y, h11, h12, h22, first, apart)
+        if e == NIL:
+            p, e = insert_node(t, 3 * triangle, x, y, h11, h12, h22, first)
+            if p == NIL:
+                near = e
+                continue
+        near = _clear_around(t, e, first, crowded)
     return first

@@ -55,7 +55,7 @@ LEFT_OVER = 0.7
 BAD_SHAPE = 0.72
 """Triangles below this alpha get passes of their own, with a soft wish for unit edges."""
 
-SOFT = 0.3
+SOFT, SOFTER = 0.3, 0.6
 RESCUE_PASSES, SOFT_PASSES = 4, 4
 
 SUSPECT = 0.7
@@ -202,10 +202,10 @@ class Optimiser:
         """Last passes over all vertices, for shapes more than for unit edges."""
         self.active[:] = self.dirty[:] = 1
         for _ in range(SOFT_PASSES):
-            if self._smooth(SOFT) == 0:
+            if self._smooth(SOFTER) == 0:
                 break
         self._swap()
-        self._smooth(SOFT)
+        self._smooth(SOFTER)
 
     def _approach(self) -> np.ndarray:
         """Bring triangles that are too far from the surface nearer; returns those left.
