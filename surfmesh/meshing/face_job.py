@@ -19,6 +19,7 @@ from surfmesh.meshing.boundary_recovery import recovered
 from surfmesh.meshing.gluing import glued, misglued
 from surfmesh.meshing.optimise import Optimiser
 from surfmesh.meshing.packing import packed
+from surfmesh.meshing.seam_limits import seam_limits
 from surfmesh.sizing.boundary_field import boundary_field, has_boundary_field
 from surfmesh.sizing.size_field import SizeField, size_field
 from surfmesh.sizing.size_limits import SizeLimits
@@ -163,6 +164,7 @@ def _meshed(job: FaceJob) -> FaceMesh:
     if len(bad):
         finer = FINER * sizes[bad]
         wishes = SizeLimits(parts.points[bad], finer, job.sizing.gradient, essential=True)
+        wishes = wishes.joined_with(_round_tubes(surface, job))
         place = ", ".join(f"{x:.6g}" for x in parts.points[bad[0]])
         return FaceMesh(failure=f"its sides cannot be joined near ({place})", wishes=wishes)
     return FaceMesh(
@@ -198,6 +200,19 @@ def _field(job: FaceJob) -> tuple[Surface, SizeField]:
     if surface.kind != "plane" and (repeated or any(piece.degenerate for piece in pieces)):
         sides = find_sides(surface)  # a seam, an edge inside, or a pole
     return surface, size_field(surface, job.sizing, sides, limits)
+
+
+def _round_tubes(surface: Surface, job: FaceJob) -> SizeLimits | None:
+    real = [piece for loop in job.loops for piece in loop if not piece.degenerate]
+    if not real:
+        return None
+    return seam_limits(
+        surface,
+        np.concatenate([piece.uv for piece in real]),
+        np.concatenate([piece.numbers for piece in real]),
+        np.concatenate([piece.sizes for piece in real]),
+        job.sizing.gradient,
+    )
 
 
 def _grown_inward(surface: Surface, job: FaceJob, real: list[Piece]) -> SizeField:

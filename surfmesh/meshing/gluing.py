@@ -28,6 +28,8 @@ class Glued:
     """The Euler characteristic that gluing must give."""
     pinched: np.ndarray
     """Points (j,) at which a triangle collapsed that should not have."""
+    joined: int
+    """How many boundary nodes have been glued to others."""
 
 
 def glued(surface: Surface, loops: BoundaryLoops, domain: DomainMesh, uv: np.ndarray) -> Glued:
@@ -62,7 +64,8 @@ def glued(surface: Surface, loops: BoundaryLoops, domain: DomainMesh, uv: np.nda
         if len(lost) != collapsed:
             pinched = np.unique(lost)
     (points,) = surface.evaluate(uv[kept], 0)
-    return Glued(points, triangles[solid], uv, corners[solid], np.flatnonzero(kept), euler, pinched)
+    place = np.flatnonzero(kept)
+    return Glued(points, triangles[solid], uv, corners[solid], place, euler, pinched, joined)
 
 
 def vertices_minus_edges_plus_faces(t, corners: np.ndarray, vertices: int) -> int:
@@ -76,6 +79,8 @@ def misglued(glued: Glued) -> np.ndarray:
 
     Empty when every edge has at most two triangles and Euler's number is as it must be.
     """
+    if glued.joined == 0:
+        return np.empty(0, np.int64)
     table = connect(glued.triangles)
     crowded = table.edges[table.uses > 2]
     euler = len(glued.points) - len(table.edges) + len(glued.triangles)
