@@ -9,7 +9,7 @@ from itertools import pairwise
 
 import numpy as np
 
-from surfmesh.errors import SurfmeshError
+from surfmesh.errors import SurfaceError, SurfmeshError
 from surfmesh.geometry.projection import closest_point
 from surfmesh.geometry.sides import find_sides
 from surfmesh.geometry.surface import Surface
@@ -19,6 +19,7 @@ from surfmesh.meshing.boundary_recovery import recovered
 from surfmesh.meshing.gluing import glued
 from surfmesh.meshing.optimise import Optimiser
 from surfmesh.meshing.packing import packed
+from surfmesh.meshing.untangling import untangled
 from surfmesh.sizing.boundary_field import boundary_field, has_boundary_field
 from surfmesh.sizing.size_field import SizeField, size_field
 from surfmesh.sizing.size_limits import SizeLimits
@@ -32,6 +33,15 @@ NEAR_STEP = 0.1
 
 FINER = 0.5
 """Factor on the sizes where boundary segments cross."""
+
+TOLERANCES = 2.0
+"""Images that cross may be moved by so many tolerances of their edges,"""
+
+SLIGHTLY, WITHIN = 0.02, 1.0
+"""or by this share of the segments there; the last time, when all else has failed, further."""
+
+SLOWEST = 0.1
+"""Least speed, of the mean, that a tolerance is translated to (u, v) with."""
 
 PROJECTIONS = 4
 """Steps to the closest point of a plane or a cylinder."""
@@ -53,6 +63,8 @@ class Piece:
     sizes: np.ndarray
     """(n,)"""
     degenerate: bool = False
+    tolerance: float = 0.0
+    """The edge lies this near its images, model units."""
 
 
 @dataclass(frozen=True)
@@ -65,6 +77,8 @@ class FaceJob:
     limits: SizeLimits | None = None
     """From earlier rounds."""
     optimise: bool = True
+    last: bool = False
+    """Finer edges did not help: take a boundary that crosses itself apart, however far."""
 
     def same_as(self, other: "FaceJob | None") -> bool:
         """Would the other give the same mesh?"""
@@ -98,7 +112,13 @@ class FaceMesh:
 def mesh_face(job: FaceJob) -> FaceMesh:
     """Mesh one face. Never raises for what is wrong with the face: see ``failure``."""
     try:
-        return _meshed(job)
+        try:
+            return _meshed(job)
+        except SurfaceError:
+            opened = _untangled(job)
+            if opened is None:
+                raise
+            return _meshed(opened)
     except SurfmeshError as error:
         return FaceMesh(failure=str(error), wishes=_wishes_at(job, getattr(error, "where", None)))
     except (np.linalg.LinAlgError, ValueError, FloatingPointError, IndexError) as error:
@@ -122,6 +142,53 @@ def _wishes_at(job: FaceJob, where: np.ndarray | None) -> SizeLimits | None:
     if not (sizes > least).any() or not (sizes > 0.0).all():
         return None
     return SizeLimits(points, sizes, job.sizing.gradient)
+
+
+def _untangled(job: FaceJob) -> FaceJob | None:
+    """The job with images in (u, v) that do not cross; None when none do, or by too much."""
+    pieces = [piece for loop in job.loops for piece in loop]
+    uv, numbers, segments, starts = [], [], [], []
+    total = 0
+    for loop in job.loops:
+        first = total
+        for piece in loop:
+            starts.append(total)
+            uv.append(piece.uv[:-1])
+            numbers.append(piece.numbers[:-1])
+            total += len(piece.uv) - 1
+        ring = np.arange(first, total)
+        segments.append(np.stack([ring, np.roll(ring, -1)], axis=1))
+    uv, numbers, ring = np.concatenate(uv), np.concatenate(numbers), np.concatenate(segments)
+    nodes, row = np.unique(_distinct(uv, numbers, ring), return_inverse=True)
+    segments = row[ring]
+    segments = segments[segments[:, 0] != segments[:, 1]]
+    _, along_u, along_v = job.surface.evaluate(uv[nodes], 1)
+    speeds = np.stack([np.linalg.norm(along, axis=1) for along in (along_u, along_v)], axis=1)
+    mean = np.maximum(speeds.mean(axis=0), np.finfo(float).tiny)
+    plane = uv[nodes] * mean
+    beside = np.full(len(nodes), np.inf)
+    step = np.linalg.norm(plane[segments[:, 1]] - plane[segments[:, 0]], axis=1)
+    np.minimum.at(beside, segments.ravel(), np.repeat(step, 2))
+    tolerance = np.zeros(len(nodes))
+    for piece, start in zip(pieces, starts):
+        np.maximum.at(tolerance, row[start : start + len(piece.uv) - 1], piece.tolerance)
+    stretch = np.maximum((speeds / mean).max(axis=1), SLOWEST)
+    reach = np.maximum(TOLERANCES * tolerance / stretch, (WITHIN if job.last else SLIGHTLY) * beside)
+    moved = untangled(plane, segments, reach)
+    if moved is None or np.array_equal(moved, plane):
+        return None
+    moved = np.where(moved == plane, uv[nodes], moved / mean)[row]
+    following = np.empty(total, np.int64)
+    following[ring[:, 0]] = ring[:, 1]
+    loops, at = [], iter(starts)
+    for loop in job.loops:
+        changed = []
+        for piece in loop:
+            start = next(at)
+            own = np.arange(start, start + len(piece.uv) - 1)
+            changed.append(replace(piece, uv=moved[np.r_[own, following[own[-1]]]]))
+        loops.append(tuple(changed))
+    return replace(job, loops=tuple(loops))
 
 
 def _spacing(points: np.ndarray) -> np.ndarray:

@@ -91,18 +91,19 @@ def _job(
     for loop in face.loops:
         pieces = []
         for coedge in loop:
-            cut = nodes[coedge.edge]
+            cut, edge = nodes[coedge.edge], model.edges[coedge.edge]
             if cut is None:
-                vertex = int(vertices[model.edges[coedge.edge].start])
+                vertex = int(vertices[edge.start])
                 points = np.tile(model.vertices[vertex].point, (2, 1))
                 ends = coedge.walk(np.array([0.0, 1.0]))
                 numbers = np.full(2, vertex, np.int64)
-                pieces.append(Piece(ends, numbers, points, np.full(2, np.inf), True))
+                none = np.full(2, np.inf)
+                pieces.append(Piece(ends, numbers, points, none, True, edge.tolerance))
                 continue
             order = slice(None, None, -1) if coedge.reversed else slice(None)
             uv = coedge.uv(cut.share)[order]
             numbers, points, sizes = cut.numbers[order], cut.points[order], cut.sizes[order]
-            pieces.append(Piece(uv, numbers, points, sizes))
+            pieces.append(Piece(uv, numbers, points, sizes, False, edge.tolerance))
         loops.append(tuple(pieces))
     return FaceJob(face.surface, tuple(loops), sizing, limits, optimise)
 
