@@ -55,7 +55,9 @@ def recovered(
     first_node = int(t.count[0])
     t, vertex, edge = _inserted(t, loops.uv, loops.segments, field, surface)
     if grow_inside(t, edge) != FINISHED:
-        raise SurfaceError(f"the boundary loops of {surface.name!r} do not enclose a domain")
+        error = SurfaceError(f"the boundary loops of {surface.name!r} do not enclose a domain")
+        error.where = loops.uv
+        raise error
     _clear(t, loops.segments, vertex, edge, first_node)
     return _cut_out(t, vertex)
 

@@ -6,6 +6,8 @@
 
 from dataclasses import dataclass, field, replace
 from itertools import pairwise
+from pathlib import Path
+from traceback import extract_tb
 
 import numpy as np
 
@@ -121,8 +123,12 @@ def mesh_face(job: FaceJob) -> FaceMesh:
             return _meshed(opened)
     except SurfmeshError as error:
         return FaceMesh(failure=str(error), wishes=_wishes_at(job, getattr(error, "where", None)))
-    except (np.linalg.LinAlgError, ValueError, FloatingPointError, IndexError) as error:
-        return FaceMesh(failure=f"{type(error).__name__}: {error}")
+    except Exception as error:  # a mistake of ours: it must not take the other faces with it
+        at = extract_tb(error.__traceback__)[-1]
+        return FaceMesh(
+            failure=f"internal error, please report it with the model: {type(error).__name__}: "
+            f"{error} ({Path(at.filename).name}, line {at.lineno})"
+        )
 
 
 def _wishes_at(job: FaceJob, where: np.ndarray | None) -> SizeLimits | None:
@@ -173,7 +179,8 @@ def _untangled(job: FaceJob) -> FaceJob | None:
     for piece, start in zip(pieces, starts):
         np.maximum.at(tolerance, row[start : start + len(piece.uv) - 1], piece.tolerance)
     stretch = np.maximum((speeds / mean).max(axis=1), SLOWEST)
-    reach = np.maximum(TOLERANCES * tolerance / stretch, (WITHIN if job.last else SLIGHTLY) * beside)
+    share = WITHIN if job.last else SLIGHTLY
+    reach = np.maximum(TOLERANCES * tolerance / stretch, share * beside)
     moved = untangled(plane, segments, reach)
     if moved is None or np.array_equal(moved, plane):
         return None

@@ -6,6 +6,8 @@ edges cut once -> one job a face -> faces meshed -> joined by node numbers
         failed or lie too far away
 """
 
+from dataclasses import replace
+
 import numpy as np
 
 from surfmesh.cad.model import CadFace, CadModel
@@ -67,6 +69,13 @@ def mesh_model(
             break
         for number, wish in wishes.items():
             limits[number] = wish.joined_with(limits.get(number))
+    if any(found.failure for found in done):
+        with watch.stage("packing"):
+            for number, found in enumerate(done):
+                if found.failure:
+                    done[number] = mesh_face(replace(jobs[number], last=True))
+        with watch.stage("mapping"):
+            mesh = _joined(model, jobs, done, nodes, sizing, watch)
     failed = [_reason(model, k, found) for k, found in enumerate(done) if found.failure]
     if failed and strict:
         raise MeshingError(
