@@ -36,6 +36,9 @@ NEAR_STEP = 0.1
 FINER = 0.5
 """Factor on the sizes where boundary segments cross."""
 
+COARSE = 2.0
+"""Segments of the boundary so many times longer than the sizes inside allow are to be cut."""
+
 TOLERANCES = 2.0
 """Images that cross may be moved by so many tolerances of their edges,"""
 
@@ -120,7 +123,7 @@ def mesh_face(job: FaceJob) -> FaceMesh:
             opened = _untangled(job)
             if opened is None:
                 raise
-            return _meshed(opened)
+            return _meshed(opened, unfold=False)
     except SurfmeshError as error:
         return FaceMesh(failure=str(error), wishes=_wishes_at(job, getattr(error, "where", None)))
     except Exception as error:  # a mistake of ours: it must not take the other faces with it
@@ -198,12 +201,33 @@ def _untangled(job: FaceJob) -> FaceJob | None:
     return replace(job, loops=tuple(loops))
 
 
+def _wishes_along(
+    job: FaceJob, surface: Surface, field: SizeField, loops: BoundaryLoops, points: np.ndarray
+) -> SizeLimits | None:
+    """What sizes grown from the inside ask for along edges that know their own surroundings only.
+
+    points: (k, 3) of the nodes.
+    """
+    first, second = loops.segments.T
+    length = np.linalg.norm(points[second] - points[first], axis=1)
+    middle = 0.5 * (loops.uv[first] + loops.uv[second])
+    sizes = np.empty(len(middle))
+    scalar_sizes_at(field.background, field.scaling.to_plane(middle), sizes)
+    sizes = np.maximum(sizes, job.sizing.min_size or 0.0)
+    coarse = length > COARSE * sizes
+    if not coarse.any():
+        return None
+    (places,) = surface.evaluate(middle[coarse], 0)
+    return SizeLimits(places, sizes[coarse], job.sizing.gradient)
+
+
 def _spacing(points: np.ndarray) -> np.ndarray:
     step = np.linalg.norm(np.diff(points, axis=0), axis=1)
     return np.minimum(np.r_[step[:1], step], np.r_[step, step[-1:]])
 
 
-def _meshed(job: FaceJob) -> FaceMesh:
+def _meshed(job: FaceJob, unfold: bool = True) -> FaceMesh:
+    """unfold: ask for smaller sizes at folds. In space, edges that cross do so at any size."""
     surface, field = _field(job)
     loops, fixed, slots = _loops(job, field)
     width, height = field.scaling.extent
@@ -219,12 +243,14 @@ def _meshed(job: FaceJob) -> FaceMesh:
     optimiser = Optimiser(domain.t, domain.node, same, surface, field)
     optimiser.embedding.point[domain.node] = fixed  # the edges' nodes, not their images
     wishes: SizeLimits | None = None
+    if job.limits is None:  # the edges heed them from now on
+        wishes = _wishes_along(job, surface, field, loops, fixed)
     if job.optimise:
         changes = optimiser.run()
         for found, remedy in (
             (changes.far, optimiser.approaching), (changes.folded, optimiser.unfolding),
         ):  # fmt: skip
-            if len(found):
+            if len(found) and (unfold or remedy != optimiser.unfolding):
                 more = remedy(found)
                 if len(more.sizes):
                     wishes = more.joined_with(wishes)
