@@ -50,7 +50,13 @@ from surfmesh.cad.model import (
     Colour,
     Shell,
 )
-from surfmesh.cad.tolerances import images_that_follow, joined, listed, tolerances_that_hold
+from surfmesh.cad.tolerances import (
+    curves_on_their_faces,
+    images_that_follow,
+    joined,
+    listed,
+    tolerances_that_hold,
+)
 from surfmesh.errors import CadError
 from surfmesh.geometry.surface import Domain
 
@@ -77,6 +83,7 @@ def cad_model(
     healing = _in_words(walk, root)
     if heal:
         healing += images_that_follow(walk.edges, walk.vertices, walk.faces, unit)
+        healing += curves_on_their_faces(walk.edges, walk.vertices, walk.faces, unit)
     healing += tolerances_that_hold(walk.edges, walk.vertices, walk.faces, unit)
     return CadModel(
         vertices=tuple(walk.vertices),
