@@ -26,6 +26,8 @@ NARROWEST = 5e-4
 LARGEST_TURN = np.pi / 3.0
 """No segment of an edge turns farther, so that polygons keep the shape of their loops."""
 CLOSED_SEGMENTS = 3
+KINK = 0.02
+"""Radians: smaller turns between samples are no corners."""
 COLLAPSED = 2e-6
 """Edges shorter than this share of the diagonal are one point: their faces meet in it."""
 
@@ -114,6 +116,8 @@ def _sampled(
         if sizing.chord is not None:
             own = np.sqrt(8.0 * DEVIATION_RESERVE * sizing.chord / curvature)
             wish = np.minimum(wish, np.maximum(own, 2.0 * sizing.chord))
+            if not straight:
+                wish = np.minimum(wish, _kink_wish(points, curvature, sizing.chord))
         if sizing.chord is not None or sizing.angle is not None:
             least = 0.0 if sizing.angle is not None else LEAST_OF_CHORD * sizing.chord
             own = angle_size(curvature, curvature, sizing.angle or DEFAULT_ANGLE)
@@ -131,6 +135,23 @@ def _sampled(
     cosine = np.einsum("ij,ij->i", tangent[1:], tangent[:-1])
     turn = float(np.arccos(np.clip(cosine, -1.0, 1.0)).sum())
     return _Samples(share, points, np.maximum(wish, finest), 0.0 if straight else turn)
+
+
+def _kink_wish(points: np.ndarray, curvature: np.ndarray, chord: float) -> np.ndarray:
+    """Sizes (n,) that cut the corners of polygonal curves by ``chord``; infinite elsewhere.
+
+    A corner is a turn between samples that the curvature (n,) there knows nothing of. A segment
+    h across one of angle a passes it at h/2 tan(a/2), about h a / 4.
+    """
+    step = np.diff(points, axis=0)
+    length = np.linalg.norm(step, axis=1)
+    step /= np.maximum(length, np.finfo(float).tiny)[:, None]
+    turn = np.arccos(np.clip(np.einsum("ij,ij->i", step[1:], step[:-1]), -1.0, 1.0))
+    known = np.maximum.reduce([curvature[:-2], curvature[1:-1], curvature[2:]])
+    hidden = turn > np.maximum(KINK, known * (length[1:] + length[:-1]))
+    wish = np.full(len(points), np.inf)
+    wish[1:-1][hidden] = 4.0 * DEVIATION_RESERVE * chord / turn[hidden]
+    return wish
 
 
 def _face_wish(surface, uv: np.ndarray, sizing: Sizing, coarsest: float) -> np.ndarray:
