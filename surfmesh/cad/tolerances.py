@@ -90,7 +90,8 @@ def curves_on_their_faces(
         curve = CurveOnSurface(face.surface, coedge.pcurve, shift, rate)
         points = curve.evaluate(edge.parameters(np.linspace(0.0, 1.0, CHORDS + 1)), 0)[0]
         length = float(np.linalg.norm(np.diff(points, axis=0), axis=1).sum())
-        edges[number] = replace(edge, curve=curve, length=length)
+        tolerance = max(spread, NOISE * length)
+        edges[number] = replace(edge, curve=curve, length=length, tolerance=tolerance)
         replaced.append(number)
     if not replaced:
         return []

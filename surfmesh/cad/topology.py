@@ -97,7 +97,7 @@ def cad_model(
         file_unit=file_unit,
         diagonal=diagonal(walk.vertices, walk.edges, walk.faces),
         tree=tree,
-        healing=tuple(healing + walk.remarks()),
+        healing=tuple(healing + walk.remarks() + _touching(walk.faces, walk.solids)),
         source=source,
     )
 
@@ -378,6 +378,22 @@ class _Walk:
     def remarks(self) -> list[str]:
         """What was found on the way, with how often."""
         return [text + (f" ({n} times)" if n > 1 else "") for text, n in self._remarks.items()]
+
+
+def _touching(faces: list[CadFace], solids: list[CadSolid]) -> list[str]:
+    """Edges along which a solid touches itself: no mesh of it is a manifold there."""
+    sentences = []
+    for number, solid in enumerate(solids):
+        uses: Counter[int] = Counter()
+        for face, _ in (use for shell in solid.shells for use in shell):
+            uses.update(coedge.edge for coedge in faces[face].coedges)
+        many = [str(edge) for edge, count in sorted(uses.items()) if count > 2]
+        if many:
+            sentences.append(
+                f"solid {number} touches itself along edge{'s' if len(many) > 1 else ''} "
+                f"{listed(many)}: more than two of its faces meet there, and so do triangles"
+            )
+    return sentences
 
 
 def _in_words(walk: _Walk, root: Part) -> list[str]:

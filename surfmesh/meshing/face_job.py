@@ -18,6 +18,7 @@ from surfmesh.geometry.surface import Surface
 from surfmesh.kernels.background import scalar_sizes_at
 from surfmesh.meshing.boundary_loops import BoundaryLoops, cut_line
 from surfmesh.meshing.boundary_recovery import recovered
+from surfmesh.meshing.filling import MOST_CORNERS, filled
 from surfmesh.meshing.gluing import glued
 from surfmesh.meshing.optimise import Optimiser
 from surfmesh.meshing.packing import packed
@@ -83,7 +84,8 @@ class FaceJob:
     """From earlier rounds."""
     optimise: bool = True
     last: bool = False
-    """Finer edges did not help: take a boundary that crosses itself apart, however far."""
+    """Finer edges did not help: take a boundary that crosses itself apart, however far, or
+    close it without regard for the surface."""
 
     def same_as(self, other: "FaceJob | None") -> bool:
         """Would the other give the same mesh?"""
@@ -112,6 +114,8 @@ class FaceMesh:
     wishes: SizeLimits | None = None
     """Smaller sizes that the face needs."""
     failure: str = ""
+    remark: str = ""
+    """What was done to it out of the ordinary."""
 
 
 def mesh_face(job: FaceJob) -> FaceMesh:
@@ -125,6 +129,9 @@ def mesh_face(job: FaceJob) -> FaceMesh:
                 raise
             return _meshed(opened, unfold=False)
     except SurfmeshError as error:
+        closed = _filled(job, str(error)) if job.last else None
+        if closed is not None:
+            return closed
         return FaceMesh(failure=str(error), wishes=_wishes_at(job, getattr(error, "where", None)))
     except Exception as error:  # a mistake of ours: it must not take the other faces with it
         at = extract_tb(error.__traceback__)[-1]
@@ -199,6 +206,43 @@ def _untangled(job: FaceJob) -> FaceJob | None:
             changed.append(replace(piece, uv=moved[np.r_[own, following[own[-1]]]]))
         loops.append(tuple(changed))
     return replace(job, loops=tuple(loops))
+
+
+def _filled(job: FaceJob, reason: str) -> FaceMesh | None:
+    """A face whose boundary is no loop in (u, v), closed between the nodes of its edges.
+
+    None when it has holes, or too many nodes. Neighbours meet where it has no more than two.
+    """
+    rings, slot = [], 0
+    for loop in job.loops:
+        ring = []
+        for piece in loop:
+            rows = zip(piece.numbers.tolist(), piece.points, piece.uv, piece.sizes)
+            for place, (number, *row) in enumerate(rows, slot):
+                if not piece.degenerate and (not ring or ring[-1][0] != number):
+                    ring.append((number, place, *row))
+            slot += len(piece.numbers)
+        while len(ring) > 1 and ring[0][0] == ring[-1][0]:
+            ring.pop()
+        if len(ring) > 2:
+            rings.append(ring)
+    if not rings:
+        return FaceMesh(remark=f"left out, its neighbours meet, because {reason}")
+    while len(rings) > 1:  # loops that touch in a vertex are one
+        first, other = rings[0], rings.pop()
+        meets = [(i, k) for i, a in enumerate(first) for k, b in enumerate(other) if a[0] == b[0]]
+        if not meets:
+            return None
+        i, k = meets[0]
+        rings[0] = first[:i] + other[k:] + other[:k] + first[i:]
+    if len(rings[0]) > MOST_CORNERS:
+        return None
+    numbers, slots, points, uv, sizes = (np.array(column) for column in zip(*rings[0]))
+    triangles = filled(points)
+    corners = numbers[triangles]
+    triangles = triangles[(corners != np.roll(corners, 1, axis=1)).all(axis=1)]
+    remark = f"closed between the nodes of its edges, off the surface, because {reason}"
+    return FaceMesh(points, slots, triangles, uv, triangles, sizes, remark=remark)
 
 
 def _wishes_along(

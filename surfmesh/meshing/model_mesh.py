@@ -188,6 +188,11 @@ def _joined(
     missing = [
         f"{NOT_MESHED}{_reason(model, k, found)}" for k, found in enumerate(done) if found.failure
     ]
+    missing += [
+        f"face {k} ({model.faces[k].name or model.faces[k].kind}): {found.remark}"
+        for k, found in enumerate(done)
+        if found.remark
+    ]
     return SurfaceMesh(
         points=points[used],
         triangles=rank[triangles],
@@ -203,8 +208,24 @@ def _joined(
         sizes=np.where(np.isfinite(sizes), sizes, model.diagonal)[used],
         sizing=sizing,
         seconds=watch.seconds,
-        warnings=tuple([*model.healing, *missing]),
+        warnings=tuple([*model.healing, *_loose(model, sizing), *missing]),
     )
+
+
+def _loose(model: CadModel, sizing: Sizing) -> list[str]:
+    """A sentence on edges whose faces are farther apart than the chord error asked for."""
+    if sizing.chord is None:
+        return []
+    real = [k for k, edge in enumerate(model.edges) if edge.curve is not None]
+    loose = [k for k in real if model.edges[k].tolerance > sizing.chord]
+    if not loose:
+        return []
+    worst = max(loose, key=lambda k: model.edges[k].tolerance)
+    return [
+        f"{len(loose)} edge{'s' if len(loose) > 1 else ''} may lie farther off the faces than the "
+        f"chord error of {sizing.chord:.3g}, and the mesh with them; the tolerance of edge {worst} "
+        f"is {model.edges[worst].tolerance:.3g} {model.unit}"
+    ]
 
 
 def _refine_crowded(mesh: SurfaceMesh, sizing: Sizing, wishes: dict[int, SizeLimits]) -> None:
