@@ -5,6 +5,7 @@ from dataclasses import replace
 import cadquery as cq
 import numpy as np
 import pytest
+from naive.brep_euler import brep_euler
 from scipy.interpolate import make_interp_spline
 
 import surfmesh as sm
@@ -12,6 +13,7 @@ from surfmesh.cad.invariants import signed_area
 from surfmesh.errors import MeshingError
 from surfmesh.geometry.nurbs import BSplineCurve
 from surfmesh.meshing import face_job
+from surfmesh.quality.solids import solid_mesh
 
 
 def crescent():
@@ -109,3 +111,46 @@ def test_mistakes_of_ours_are_called_so(monkeypatch):
     monkeypatch.setattr(face_job, "packed", broken)
     with pytest.raises(MeshingError, match=r"internal error, please report .* slot"):
         sm.mesh(cq.Workplane().box(1, 1, 1), 0.5)
+
+
+def hollow():
+    return cq.Workplane().box(4, 4, 4).cut(cq.Workplane().sphere(1)).union(
+        cq.Workplane().center(6, 0).circle(2).circle(1).extrude(1)
+    )  # fmt: skip
+
+
+SOLIDS = {
+    "hollow box and washer": hollow,
+    "pole": lambda: cq.Workplane().sphere(2),
+    "apex": lambda: cq.Workplane().add(cq.Solid.makeCone(2, 0, 3)),
+    "seams": lambda: cq.Workplane().add(cq.Solid.makeTorus(3, 1)),
+    "cusp": crescent,
+    "holes": lambda: cq.Workplane().box(9, 9, 1).faces(">Z").workplane().rarray(3, 3, 2, 2).hole(1),
+}
+
+
+@pytest.mark.parametrize("name", SOLIDS)
+def test_euler_number_is_that_of_the_brep(name):
+    model = sm.from_cadquery(SOLIDS[name]())
+    mesh = sm.mesh(model, sm.Sizing(chord=0.03))
+    for number in range(len(model.solids)):
+        solid = solid_mesh(mesh, number)
+        vertices = len(np.unique(solid.triangles))
+        euler = vertices - len(solid.edges) + len(solid.triangles)
+        assert euler == brep_euler(model, number)
+
+
+def test_a_solid_that_touches_itself_is_named():
+    """Two boxes that share an edge are one solid by name, and no manifold."""
+    from OCP.BRep import BRep_Builder
+    from OCP.TopoDS import TopoDS_Shell, TopoDS_Solid
+
+    boxes = [cq.Solid.makeBox(1, 1, 1), cq.Solid.makeBox(1, 1, 1, cq.Vector(1, 1, 0))]
+    build, shell, solid = BRep_Builder(), TopoDS_Shell(), TopoDS_Solid()
+    build.MakeShell(shell)
+    for face in boxes[0].fuse(boxes[1]).Faces():
+        build.Add(shell, face.wrapped)
+    build.MakeSolid(solid)
+    build.Add(solid, shell)
+    model = sm.from_cadquery(cq.Shape.cast(solid), heal=False)
+    assert any("touches itself along edge" in said for said in model.healing), model.healing
