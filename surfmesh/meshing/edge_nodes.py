@@ -22,7 +22,9 @@ STRAIGHT_SAMPLES, CURVED_SAMPLES = 33, 129
 NEIGHBOURS = 24
 """Samples of a face's edges looked at for gaps; those of the own edge are among them."""
 NARROWEST = 5e-4
-"""Gaps narrower than this share of the diagonal do not ask for smaller sizes by themselves."""
+"""Gaps narrower than this share of the diagonal do not ask for sizes as small as they are,"""
+LONGER, HOPELESS = 3.0, 0.1
+"""but so many times longer: triangles of alpha 0.5. Not below this share of NARROWEST."""
 LARGEST_TURN = np.pi / 3.0
 """No segment of an edge turns farther, so that polygons keep the shape of their loops."""
 CLOSED_SEGMENTS = 3
@@ -187,9 +189,12 @@ def _heed_gaps(model: CadModel, samples: list[_Samples | None]) -> None:
         meets = (mine[..., :, None] == theirs[..., None, :]).any(axis=(2, 3))
         meets |= other == of[:, None]
         gap = np.where(meets, np.inf, distance).min(axis=1)
+        sliver = np.minimum(LONGER * gap, narrowest)
+        sliver[sliver < HOPELESS * narrowest] = narrowest
+        least = np.maximum(gap, sliver)
         for edge in edges:
             wish = samples[edge].wish
-            np.minimum(wish, np.maximum(gap[of == edge], np.minimum(narrowest, wish)), out=wish)
+            np.minimum(wish, least[of == edge], out=wish)
 
 
 def _graded(
