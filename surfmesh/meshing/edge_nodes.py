@@ -23,7 +23,7 @@ NEIGHBOURS = 24
 """Samples of a face's edges looked at for gaps; those of the own edge are among them."""
 NARROWEST = 5e-4
 """Gaps narrower than this share of the diagonal do not ask for sizes as small as they are,"""
-LONGER, HOPELESS = 3.0, 0.1
+LONGER, HOPELESS = 3.0, 0.3
 """but so many times longer: triangles of alpha 0.5. Not below this share of NARROWEST."""
 LARGEST_TURN = np.pi / 3.0
 """No segment of an edge turns farther, so that polygons keep the shape of their loops."""

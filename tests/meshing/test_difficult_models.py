@@ -154,3 +154,18 @@ def test_a_solid_that_touches_itself_is_named():
     build.Add(solid, shell)
     model = sm.from_cadquery(cq.Shape.cast(solid), heal=False)
     assert any("touches itself along edge" in said for said in model.healing), model.healing
+
+
+def test_a_thin_strip_gets_triangles_of_its_own_width():
+    """A step of 0.006 round a boss on a plate of diagonal 93: 1/8 of what sizes follow."""
+    plate = cq.Workplane().rect(80, 48).extrude(2).faces(">Z").workplane().rect(4, 4).extrude(1)
+    model = sm.from_cadquery(plate.faces(">Z").workplane().rect(3.988, 3.988).extrude(1))
+    thin = [k for k, face in enumerate(model.faces) if face.area < 0.2]
+    mesh = sm.mesh(model)
+    assert thin and sm.check(mesh).closed
+    strip = np.isin(mesh.face_ids, thin)
+    a, b, c = mesh.points[mesh.triangles[strip]].transpose(1, 0, 2)
+    sides = np.stack([b - a, c - b, a - c], axis=1)
+    area = 0.5 * np.linalg.norm(np.cross(b - a, c - a), axis=1)
+    alpha = 4.0 * np.sqrt(3.0) * area / np.square(sides).sum(axis=(1, 2))
+    assert (alpha < 0.3).mean() < 0.01
