@@ -1,10 +1,11 @@
 """Boundaries that cross themselves by less than the tolerance of their edges, taken apart.
 
-    a                        Two edges that meet in a cusp, or run side by side, are only as good
-     \\   c                   as their tolerances: near V their images may cross. No finer
-      x-'                    cutting cures that. A node on the wrong side of a segment goes
-    ,' \\                     through it to the left, where the inside of the face is. Only the
-   c    `---- V              image in (u, v) moves: the node's point in space stays.
+    d                        The face lies between the edges a-b-V and V-c-d, which meet in V
+     `-.                     and are only as good as their tolerances: their images may cross
+    a --`x--- b              before, at x. No finer cutting cures that. The node b is on the
+          `c ___\            wrong side of c-d: it goes through it to the left, where the
+                 V           inside of the face is; then c through b-V. Only images in (u, v)
+                             move: the points of the nodes in space stay.
 """
 
 import numpy as np
