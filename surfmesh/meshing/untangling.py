@@ -3,7 +3,7 @@
     d                        The face lies between the edges a-b-V and V-c-d, which meet in V
      `-.                     and are only as good as their tolerances: their images may cross
     a --`x--- b              before, at x. No finer cutting cures that. The node b is on the
-          `c ___\            wrong side of c-d: it goes through it to the left, where the
+          `c ____            wrong side of c-d: it goes through it to the left, where the
                  V           inside of the face is; then c through b-V. Only images in (u, v)
                              move: the points of the nodes in space stay.
 """
