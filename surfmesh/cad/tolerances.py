@@ -12,11 +12,15 @@ import numpy as np
 
 from surfmesh.cad.images import follows
 from surfmesh.cad.invariants import ENDS, NOISE, SHARES, distances_to_edges
-from surfmesh.cad.model import CadEdge, CadFace, CadVertex
+from surfmesh.cad.model import CadCoedge, CadEdge, CadFace, CadVertex
+from surfmesh.geometry.curve_on_surface import CurveOnSurface
 from surfmesh.geometry.face_surface import FaceSurface
 from surfmesh.geometry.surface import Domain
 
 FAR_OFF = 10.0  # times its tolerance: an edge that lies so far off its face is reported
+LOOSE = 1e-4  # of its length: a curve that lies so far off all its faces may be replaced
+AGREE = 0.5  # of that distance: images that lie this near each other are believed instead
+CHORDS = 256  # that measure the length of a curve on a face
 MANY = 12  # numbers that a sentence lists
 
 
@@ -55,6 +59,47 @@ def images_that_follow(
     return [
         f"{'edges' if len(replaced) > 1 else 'edge'} {numbers}: image on a face replaced, "
         f"which strayed by up to {worst:.2g} {unit}"
+    ]
+
+
+def curves_on_their_faces(
+    edges: list[CadEdge], vertices: list[CadVertex], faces: list[CadFace], unit: str
+) -> list[str]:
+    """Replace, in place, curves that lie off their faces where the images agree among themselves.
+
+    The border of a single face lies on that face, whatever the file says.
+    """
+    users: dict[int, list[tuple[CadFace, CadCoedge]]] = {}
+    loose: dict[int, float] = {}
+    for face in faces:
+        for coedge, distance in zip(face.coedges, deviations(edges, vertices, face)):
+            edge = edges[coedge.edge]
+            users.setdefault(coedge.edge, []).append((face, coedge))
+            if edge.curve is not None and distance > LOOSE * edge.length:
+                loose[coedge.edge] = max(distance, loose.get(coedge.edge, 0.0))
+    replaced = []
+    for number, distance in loose.items():
+        images = [face.surface.evaluate(coedge.uv(SHARES), 0)[0] for face, coedge in users[number]]
+        spread = max(float(np.linalg.norm(i - images[0], axis=1).max()) for i in images)
+        if spread > AGREE * distance:
+            continue
+        face, coedge = users[number][0]
+        edge = edges[number]
+        rate = (coedge.p1 - coedge.p0) / (edge.t1 - edge.t0)
+        shift = coedge.p0 - rate * edge.t0
+        curve = CurveOnSurface(face.surface, coedge.pcurve, shift, rate)
+        points = curve.evaluate(edge.parameters(np.linspace(0.0, 1.0, CHORDS + 1)), 0)[0]
+        length = float(np.linalg.norm(np.diff(points, axis=0), axis=1).sum())
+        tolerance = max(spread, NOISE * length)
+        edges[number] = replace(edge, curve=curve, length=length, tolerance=tolerance)
+        replaced.append(number)
+    if not replaced:
+        return []
+    several = len(replaced) > 1
+    return [
+        f"{'edges' if several else 'edge'} {listed([str(n) for n in sorted(replaced)])}: curve in "
+        f"space replaced by the image on a face, which it strayed from by up to "
+        f"{max(loose[n] for n in replaced):.2g} {unit}"
     ]
 
 

@@ -50,7 +50,13 @@ from surfmesh.cad.model import (
     Colour,
     Shell,
 )
-from surfmesh.cad.tolerances import images_that_follow, joined, listed, tolerances_that_hold
+from surfmesh.cad.tolerances import (
+    curves_on_their_faces,
+    images_that_follow,
+    joined,
+    listed,
+    tolerances_that_hold,
+)
 from surfmesh.errors import CadError
 from surfmesh.geometry.surface import Domain
 
@@ -77,6 +83,7 @@ def cad_model(
     healing = _in_words(walk, root)
     if heal:
         healing += images_that_follow(walk.edges, walk.vertices, walk.faces, unit)
+        healing += curves_on_their_faces(walk.edges, walk.vertices, walk.faces, unit)
     healing += tolerances_that_hold(walk.edges, walk.vertices, walk.faces, unit)
     return CadModel(
         vertices=tuple(walk.vertices),
@@ -90,7 +97,7 @@ def cad_model(
         file_unit=file_unit,
         diagonal=diagonal(walk.vertices, walk.edges, walk.faces),
         tree=tree,
-        healing=tuple(healing + walk.remarks()),
+        healing=tuple(healing + walk.remarks() + _touching(walk.faces, walk.solids)),
         source=source,
     )
 
@@ -371,6 +378,22 @@ class _Walk:
     def remarks(self) -> list[str]:
         """What was found on the way, with how often."""
         return [text + (f" ({n} times)" if n > 1 else "") for text, n in self._remarks.items()]
+
+
+def _touching(faces: list[CadFace], solids: list[CadSolid]) -> list[str]:
+    """Edges along which a solid touches itself: no mesh of it is a manifold there."""
+    sentences = []
+    for number, solid in enumerate(solids):
+        uses: Counter[int] = Counter()
+        for face, _ in (use for shell in solid.shells for use in shell):
+            uses.update(coedge.edge for coedge in faces[face].coedges)
+        many = [str(edge) for edge, count in sorted(uses.items()) if count > 2]
+        if many:
+            sentences.append(
+                f"solid {number} touches itself along edge{'s' if len(many) > 1 else ''} "
+                f"{listed(many)}: more than two of its faces meet there, and so do triangles"
+            )
+    return sentences
 
 
 def _in_words(walk: _Walk, root: Part) -> list[str]:

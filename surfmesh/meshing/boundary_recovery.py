@@ -59,7 +59,9 @@ def recovered(
     """
     t, vertex, edge, first_node = _inserted(t, loops.uv, loops.segments, 1, field, surface)
     if grow_inside(t, edge) != FINISHED:
-        raise SurfaceError(f"the boundary loops of {surface.name!r} do not enclose a domain")
+        error = SurfaceError(f"the boundary loops of {surface.name!r} do not enclose a domain")
+        error.where = loops.uv
+        raise error
     _clear(t, loops.segments, vertex, edge, first_node)
     return _cut_out(t, vertex)
 

@@ -20,12 +20,20 @@ from surfmesh.sizing.sizing import Sizing
 STRAIGHT_SAMPLES, CURVED_SAMPLES = 33, 129
 _STRAIGHT, _CURVED = (np.linspace(0.0, 1.0, n) for n in (STRAIGHT_SAMPLES, CURVED_SAMPLES))
 
+KINK = 0.02
+"""Radians: smaller turns between samples are no corners."""
+
+LONGER, HOPELESS = 3.0, 0.3
+"""Edges narrower than NARROWEST apart ask for so many times their distance, not below this
+share of NARROWEST: triangles of alpha 0.5."""
+
 NARROWEST = 5e-4
 """Gaps narrower and edges shorter than this share of the diagonal do not ask for still smaller
 sizes by themselves: the mesh would be flooded by what is too small to matter."""
 
-SLIVER = 1e-4
-"""Gaps narrower than this share of the diagonal ask for nothing."""
+SLIVER, MUCH_SMALLER = 5e-5, 1.0 / 150.0
+"""Gaps narrower than this share of the diagonal, or of the size asked for there without them,
+ask for nothing: a sliver along a whole part would flood it with triangles."""
 
 COLLAPSED = 2e-6
 """Edges shorter than this share of the diagonal are one point: their faces meet in it."""
@@ -136,7 +144,7 @@ def _sampled(
         cosine = np.einsum("ij,ij->i", tangent[1:], tangent[:-1])
         turn = float(np.arccos(np.clip(cosine, -1.0, 1.0)).sum())
         if follows_curvature:
-            np.minimum(wish, _own_wish(first, second, speed, sizing), out=wish)
+            np.minimum(wish, _own_wish(points, first, second, speed, sizing), out=wish)
     for face, coedge in uses if follows_curvature else ():
         surface = face.surface
         if surface.kind != "plane":
@@ -149,9 +157,9 @@ def _sampled(
 
 
 def _own_wish(
-    first: np.ndarray, second: np.ndarray, speed: np.ndarray, sizing: Sizing
+    points: np.ndarray, first: np.ndarray, second: np.ndarray, speed: np.ndarray, sizing: Sizing
 ) -> np.ndarray:
-    """What the curve's derivatives (n, 3) ask for (n,)."""
+    """What the curve's points (n, 3) and derivatives (n, 3) ask for (n,)."""
     wish = np.full(len(speed), np.inf)
     bend = np.linalg.norm(np.cross(first, second), axis=1)
     with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
@@ -159,9 +167,27 @@ def _own_wish(
         if sizing.chord is not None:
             own = np.sqrt(8.0 * DEVIATION_RESERVE * sizing.chord / curvature)
             wish = np.maximum(own, 2.0 * sizing.chord)
+            np.minimum(wish, _kink_wish(points, curvature, sizing.chord), out=wish)
     least = 0.0 if sizing.angle is not None else LEAST_OF_CHORD * sizing.chord
     own = angle_size(curvature, curvature, sizing.angle or DEFAULT_ANGLE)
     return np.minimum(wish, np.maximum(own, least))
+
+
+def _kink_wish(points: np.ndarray, curvature: np.ndarray, chord: float) -> np.ndarray:
+    """Sizes (n,) that cut the corners of polygonal curves by ``chord``; infinite elsewhere.
+
+    A corner is a turn between samples that the curvature (n,) there knows nothing of. A segment
+    h across one of angle a passes it at h/2 tan(a/2), about h a / 4.
+    """
+    step = np.diff(points, axis=0)
+    length = np.linalg.norm(step, axis=1)
+    step /= np.maximum(length, np.finfo(float).tiny)[:, None]
+    turn = np.arccos(np.clip(np.einsum("ij,ij->i", step[1:], step[:-1]), -1.0, 1.0))
+    known = np.maximum.reduce([curvature[:-2], curvature[1:-1], curvature[2:]])
+    hidden = turn > np.maximum(KINK, known * (length[1:] + length[:-1]))
+    wish = np.full(len(points), np.inf)
+    wish[1:-1][hidden] = 4.0 * DEVIATION_RESERVE * chord / turn[hidden]
+    return wish
 
 
 def _face_wish(surface, uv: np.ndarray, sizing: Sizing) -> np.ndarray:
@@ -190,6 +216,9 @@ def _heed_gaps(model: CadModel, samples: EdgeSamples, least: float) -> None:
         samples.points, samples.wish, samples.first, ends, np.concatenate(samples.edges_of_face),
         first, np.empty((len(gap), 6)), np.empty((len(model.edges), 6)), gap,
     )  # fmt: skip
-    heeded = gap >= SLIVER * model.diagonal
-    wish = np.maximum(gap[heeded], max(NARROWEST * model.diagonal, least))
+    heeded = gap >= np.maximum(SLIVER * model.diagonal, MUCH_SMALLER * samples.wish)
+    narrowest = NARROWEST * model.diagonal
+    sliver = np.minimum(LONGER * gap[heeded], narrowest)
+    sliver[sliver < HOPELESS * narrowest] = narrowest
+    wish = np.maximum(gap[heeded], np.maximum(sliver, least))
     samples.wish[heeded] = np.minimum(samples.wish[heeded], wish)

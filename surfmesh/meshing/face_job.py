@@ -6,20 +6,24 @@
 
 from dataclasses import dataclass, field, replace
 from itertools import pairwise
+from pathlib import Path
+from traceback import extract_tb
 
 import numpy as np
 
-from surfmesh.errors import SurfmeshError
+from surfmesh.errors import SurfaceError, SurfmeshError
 from surfmesh.geometry.projection import closest_point
 from surfmesh.geometry.sides import find_sides
 from surfmesh.geometry.surface import Surface
 from surfmesh.kernels.background import scalar_sizes_at
 from surfmesh.meshing.boundary_loops import BoundaryLoops, cut_line
 from surfmesh.meshing.boundary_recovery import recovered
+from surfmesh.meshing.filling import MOST_CORNERS, filled
 from surfmesh.meshing.gluing import glued, misglued
 from surfmesh.meshing.optimise import Optimiser
 from surfmesh.meshing.packing import packed
 from surfmesh.meshing.seam_limits import seam_limits
+from surfmesh.meshing.untangling import untangled
 from surfmesh.sizing.boundary_field import boundary_field, has_boundary_field
 from surfmesh.sizing.size_field import SizeField, size_field
 from surfmesh.sizing.size_limits import SizeLimits
@@ -33,6 +37,18 @@ NEAR_STEP = 0.1
 
 FINER = 0.5
 """Factor on the sizes where boundary segments cross."""
+
+COARSE = 2.0
+"""Segments of the boundary so many times longer than the sizes inside allow are to be cut."""
+
+TOLERANCES = 2.0
+"""Images that cross may be moved by so many tolerances of their edges,"""
+
+SLIGHTLY, WITHIN = 0.02, 1.0
+"""or by this share of the segments there; the last time, when all else has failed, further."""
+
+SLOWEST = 0.1
+"""Least speed, of the mean, that a tolerance is translated to (u, v) with."""
 
 PROJECTIONS = 4
 """Steps to the closest point of a plane or a cylinder."""
@@ -54,6 +70,8 @@ class Piece:
     sizes: np.ndarray
     """(n,)"""
     degenerate: bool = False
+    tolerance: float = 0.0
+    """The edge lies this near its images, model units."""
 
 
 @dataclass(frozen=True)
@@ -66,6 +84,9 @@ class FaceJob:
     limits: SizeLimits | None = None
     """From earlier rounds."""
     optimise: bool = True
+    last: bool = False
+    """Finer edges did not help: take a boundary that crosses itself apart, however far, or
+    close it without regard for the surface."""
 
     def __post_init__(self) -> None:
         if self.limits is not None and self.limits.essential and self.sizing.min_size:
@@ -88,16 +109,31 @@ class FaceMesh:
     wishes: SizeLimits | None = None
     """Smaller sizes that the face needs."""
     failure: str = ""
+    remark: str = ""
+    """What was done to it out of the ordinary."""
 
 
 def mesh_face(job: FaceJob) -> FaceMesh:
     """Mesh one face. Never raises for what is wrong with the face: see ``failure``."""
     try:
-        return _meshed(job)
+        try:
+            return _meshed(job)
+        except SurfaceError:
+            opened = _untangled(job)
+            if opened is None:
+                raise
+            return _meshed(opened, unfold=False)
     except SurfmeshError as error:
+        closed = _filled(job, str(error)) if job.last else None
+        if closed is not None:
+            return closed
         return FaceMesh(failure=str(error), wishes=_wishes_at(job, getattr(error, "where", None)))
-    except (np.linalg.LinAlgError, ValueError, FloatingPointError, IndexError) as error:
-        return FaceMesh(failure=f"{type(error).__name__}: {error}")
+    except Exception as error:  # a mistake of ours: it must not take the other faces with it
+        at = extract_tb(error.__traceback__)[-1]
+        return FaceMesh(
+            failure=f"internal error, please report it with the model: {type(error).__name__}: "
+            f"{error} ({Path(at.filename).name}, line {at.lineno})"
+        )
 
 
 def _wishes_at(job: FaceJob, where: np.ndarray | None) -> SizeLimits | None:
@@ -119,12 +155,118 @@ def _wishes_at(job: FaceJob, where: np.ndarray | None) -> SizeLimits | None:
     return SizeLimits(points, sizes, job.sizing.gradient)
 
 
+def _untangled(job: FaceJob) -> FaceJob | None:
+    """The job with images in (u, v) that do not cross; None when none do, or by too much."""
+    pieces = [piece for loop in job.loops for piece in loop]
+    uv, numbers, segments, starts = [], [], [], []
+    total = 0
+    for loop in job.loops:
+        first = total
+        for piece in loop:
+            starts.append(total)
+            uv.append(piece.uv[:-1])
+            numbers.append(piece.numbers[:-1])
+            total += len(piece.uv) - 1
+        ring = np.arange(first, total)
+        segments.append(np.stack([ring, np.roll(ring, -1)], axis=1))
+    uv, numbers, ring = np.concatenate(uv), np.concatenate(numbers), np.concatenate(segments)
+    nodes, row = np.unique(_distinct(uv, numbers, ring), return_inverse=True)
+    segments = row[ring]
+    segments = segments[segments[:, 0] != segments[:, 1]]
+    _, along_u, along_v = job.surface.evaluate(uv[nodes], 1)
+    speeds = np.stack([np.linalg.norm(along, axis=1) for along in (along_u, along_v)], axis=1)
+    mean = np.maximum(speeds.mean(axis=0), np.finfo(float).tiny)
+    plane = uv[nodes] * mean
+    beside = np.full(len(nodes), np.inf)
+    step = np.linalg.norm(plane[segments[:, 1]] - plane[segments[:, 0]], axis=1)
+    np.minimum.at(beside, segments.ravel(), np.repeat(step, 2))
+    tolerance = np.zeros(len(nodes))
+    for piece, start in zip(pieces, starts):
+        np.maximum.at(tolerance, row[start : start + len(piece.uv) - 1], piece.tolerance)
+    stretch = np.maximum((speeds / mean).max(axis=1), SLOWEST)
+    share = WITHIN if job.last else SLIGHTLY
+    reach = np.maximum(TOLERANCES * tolerance / stretch, share * beside)
+    moved = untangled(plane, segments, reach)
+    if moved is None or np.array_equal(moved, plane):
+        return None
+    moved = np.where(moved == plane, uv[nodes], moved / mean)[row]
+    following = np.empty(total, np.int64)
+    following[ring[:, 0]] = ring[:, 1]
+    loops, at = [], iter(starts)
+    for loop in job.loops:
+        changed = []
+        for piece in loop:
+            start = next(at)
+            own = np.arange(start, start + len(piece.uv) - 1)
+            changed.append(replace(piece, uv=moved[np.r_[own, following[own[-1]]]]))
+        loops.append(tuple(changed))
+    return replace(job, loops=tuple(loops))
+
+
+def _filled(job: FaceJob, reason: str) -> FaceMesh | None:
+    """A face whose boundary is no loop in (u, v), closed between the nodes of its edges.
+
+    None when it has holes, or too many nodes. Neighbours meet where it has no more than two.
+    """
+    rings, slot = [], 0
+    for loop in job.loops:
+        ring = []
+        for piece in loop:
+            rows = zip(piece.numbers.tolist(), piece.points, piece.uv, piece.sizes)
+            for place, (number, *row) in enumerate(rows, slot):
+                if not piece.degenerate and (not ring or ring[-1][0] != number):
+                    ring.append((number, place, *row))
+            slot += len(piece.numbers)
+        while len(ring) > 1 and ring[0][0] == ring[-1][0]:
+            ring.pop()
+        if len(ring) > 2:
+            rings.append(ring)
+    if not rings:
+        return FaceMesh(remark=f"left out, its neighbours meet, because {reason}")
+    while len(rings) > 1:  # loops that touch in a vertex are one
+        first, other = rings[0], rings.pop()
+        meets = [(i, k) for i, a in enumerate(first) for k, b in enumerate(other) if a[0] == b[0]]
+        if not meets:
+            return None
+        i, k = meets[0]
+        rings[0] = first[:i] + other[k:] + other[:k] + first[i:]
+    if len(rings[0]) > MOST_CORNERS:
+        return None
+    numbers, slots, points, uv, sizes = (np.array(column) for column in zip(*rings[0]))
+    triangles = filled(points)
+    corners = numbers[triangles]
+    triangles = triangles[(corners != np.roll(corners, 1, axis=1)).all(axis=1)]
+    remark = f"closed between the nodes of its edges, off the surface, because {reason}"
+    return FaceMesh(points, slots, triangles, uv, triangles, sizes, remark=remark)
+
+
+def _wishes_along(
+    job: FaceJob, surface: Surface, field: SizeField, loops: BoundaryLoops, points: np.ndarray
+) -> SizeLimits | None:
+    """What sizes grown from the inside ask for along edges that know their own surroundings only.
+
+    points: (k, 3) of the nodes.
+    """
+    first, second = loops.segments.T
+    length = np.linalg.norm(points[second] - points[first], axis=1)
+    middle = 0.5 * (loops.uv[first] + loops.uv[second])
+    sizes = np.empty(len(middle))
+    scalar_sizes_at(field.background, field.scaling.to_plane(middle), sizes)
+    sizes = np.maximum(sizes, job.sizing.min_size or 0.0)
+    coarse = length > COARSE * sizes
+    if not coarse.any():
+        return None
+    (places,) = surface.evaluate(middle[coarse], 0)
+    return SizeLimits(places, sizes[coarse], job.sizing.gradient)
+
+
 def _spacing(points: np.ndarray) -> np.ndarray:
     step = np.linalg.norm(np.diff(points, axis=0), axis=1)
     return np.minimum(np.r_[step[:1], step], np.r_[step, step[-1:]])
 
 
-def _meshed(job: FaceJob) -> FaceMesh:
+def _meshed(job: FaceJob, unfold: bool = True) -> FaceMesh:
+    """unfold: ask for smaller sizes at folds. In space, edges that cross do so at any size."""
     surface, field = _field(job)
     loops, fixed, slots = _loops(job, field)
     width, height = field.scaling.extent
@@ -140,12 +282,14 @@ def _meshed(job: FaceJob) -> FaceMesh:
     optimiser = Optimiser(domain.t, domain.node, same, surface, field)
     optimiser.embedding.point[domain.node] = fixed  # the edges' nodes, not their images
     wishes: SizeLimits | None = None
+    if job.limits is None:  # the edges heed them from now on
+        wishes = _wishes_along(job, surface, field, loops, fixed)
     if job.optimise:
         changes = optimiser.run()
         for found, remedy in (
             (changes.far, optimiser.approaching), (changes.folded, optimiser.unfolding),
         ):  # fmt: skip
-            if len(found):
+            if len(found) and (unfold or remedy != optimiser.unfolding):
                 more = remedy(found)
                 if len(more.sizes):
                     wishes = more.joined_with(wishes)

@@ -8,6 +8,7 @@ edges cut once -> one job a face -> faces meshed -> joined by node numbers
 
 from collections.abc import Callable, Iterator
 from concurrent.futures import ThreadPoolExecutor
+from dataclasses import replace
 
 import numpy as np
 
@@ -92,6 +93,13 @@ def mesh_model(
             break
         for number, wish in wishes.items():
             limits[number] = wish.joined_with(limits.get(number))
+    if any(found.failure for found in done):
+        with watch.stage("packing"):
+            for number, found in enumerate(done):
+                if found.failure:
+                    done[number] = mesh_face(replace(jobs[number], last=True))
+        with watch.stage("mapping"):
+            mesh = _joined(model, jobs, done, nodes, samples, sizing, watch)
     failed = [_reason(model, k, found) for k, found in enumerate(done) if found.failure]
     if failed and strict:
         raise MeshingError(
@@ -138,18 +146,19 @@ def _job(
     for loop in face.loops:
         pieces = []
         for coedge in loop:
-            cut = nodes[coedge.edge]
+            cut, edge = nodes[coedge.edge], model.edges[coedge.edge]
             if cut is None:
-                vertex = int(samples.vertex[model.edges[coedge.edge].start])
+                vertex = int(samples.vertex[edge.start])
                 points = np.tile(model.vertices[vertex].point, (2, 1))
                 ends = coedge.walk(np.array([0.0, 1.0]))
                 numbers = np.full(2, vertex, np.int64)
-                pieces.append(Piece(ends, numbers, points, np.full(2, np.inf), True))
+                none = np.full(2, np.inf)
+                pieces.append(Piece(ends, numbers, points, none, True, edge.tolerance))
                 continue
             order = slice(None, None, -1) if coedge.reversed else slice(None)
             uv = coedge.uv(cut.share)[order]
             numbers, points, sizes = cut.numbers[order], cut.points[order], cut.sizes[order]
-            pieces.append(Piece(uv, numbers, points, sizes))
+            pieces.append(Piece(uv, numbers, points, sizes, False, edge.tolerance))
         loops.append(tuple(pieces))
     return FaceJob(face.surface, tuple(loops), sizing, limits, optimise)
 
@@ -227,6 +236,11 @@ def _joined(
     missing = [
         f"{NOT_MESHED}{_reason(model, k, found)}" for k, found in enumerate(done) if found.failure
     ]
+    missing += [
+        f"face {k} ({model.faces[k].name or model.faces[k].kind}): {found.remark}"
+        for k, found in enumerate(done)
+        if found.remark
+    ]
     return SurfaceMesh(
         points=points[used],
         triangles=rank[triangles],
@@ -244,9 +258,25 @@ def _joined(
         groups=groups_of(model),
         sizing=sizing,
         seconds=watch.seconds,
-        warnings=tuple([*model.healing, *missing]),
+        warnings=tuple([*model.healing, *_loose(model, sizing), *missing]),
         facts=model_facts(model),
     )
+
+
+def _loose(model: CadModel, sizing: Sizing) -> list[str]:
+    """A sentence on edges whose faces are farther apart than the chord error asked for."""
+    if sizing.chord is None:
+        return []
+    real = [k for k, edge in enumerate(model.edges) if edge.curve is not None]
+    loose = [k for k in real if model.edges[k].tolerance > sizing.chord]
+    if not loose:
+        return []
+    worst = max(loose, key=lambda k: model.edges[k].tolerance)
+    return [
+        f"{len(loose)} edge{'s' if len(loose) > 1 else ''} may lie farther off the faces than the "
+        f"chord error of {sizing.chord:.3g}, and the mesh with them; the tolerance of edge {worst} "
+        f"is {model.edges[worst].tolerance:.3g} {model.unit}"
+    ]
 
 
 def _refine_crowded(mesh: SurfaceMesh, sizing: Sizing, wishes: dict[int, SizeLimits]) -> None:

@@ -26,7 +26,7 @@ def test_tiny_edges_are_one_segment_and_do_not_flood(model):
     assert tiny
     for number in tiny:
         assert (mesh.edge_ids == number).sum() == 1
-    assert len(mesh.triangles) < 12 * len(plain.triangles)
+    assert len(mesh.triangles) < 4 * len(plain.triangles)
     floored = sm.mesh(model, sm.Sizing(size=5.0, min_size=5.0))
     assert len(floored.triangles) < 1.3 * len(plain.triangles)
 

@@ -1,0 +1,37 @@
+"""The image of a curve of (u, v) in space: a helix on a cylinder, derivatives by differences."""
+
+import pickle
+
+import numpy as np
+import pytest
+
+from surfmesh.geometry.curve_on_surface import CurveOnSurface
+from surfmesh.geometry.curves import Circle, Line
+from surfmesh.geometry.elementary import Cylinder, Torus
+
+X, Y, Z = np.eye(3)
+CYLINDER = Cylinder(np.zeros(3), X, Y, Z, radius=2.0, domain=((0.0, 6.0), (0.0, 6.0)))
+T = np.linspace(0.1, 0.9, 7)
+
+
+def test_a_line_on_a_cylinder_is_a_helix():
+    along = Line(np.zeros(2), np.array([0.6, 0.8]))
+    c, d, d2 = CurveOnSurface(CYLINDER, along, 1.0, 2.0).evaluate(T, 2)
+    p = 1.0 + 2.0 * T
+    assert c == pytest.approx(
+        np.stack([2 * np.cos(0.6 * p), 2 * np.sin(0.6 * p), 0.8 * p], axis=1), abs=1e-14
+    )
+    assert np.linalg.norm(d, axis=1) == pytest.approx(2.0 * np.hypot(2 * 0.6, 0.8))
+    curvature = np.linalg.norm(np.cross(d, d2), axis=1) / np.linalg.norm(d, axis=1) ** 3
+    assert curvature == pytest.approx(2 * 0.36 / (4 * 0.36 + 0.64))  # a w^2 / (a^2 w^2 + b^2)
+
+
+def test_derivatives_agree_with_differences():
+    torus = Torus(np.zeros(3), X, Y, Z, radius=3.0, tube=1.0, domain=((0.0, 6.0), (0.0, 6.0)))
+    circle = Circle(np.array([2.0, 2.0]), X[:2], Y[:2], 1.0)
+    curve = pickle.loads(pickle.dumps(CurveOnSurface(torus, circle, 0.3, -1.5)))
+    step = 1e-5
+    before, here, after = (curve.evaluate(T + s, 2) for s in (-step, 0.0, step))
+    for order in (0, 1):
+        slope = (after[order] - before[order]) / (2.0 * step)
+        assert here[order + 1] == pytest.approx(slope, rel=1e-7, abs=1e-7)
