@@ -14,7 +14,7 @@ import numpy as np
 from surfmesh.cad.model import CadEdge, CadModel
 from surfmesh.geometry.fundamental_forms import curvatures, forms_from_derivatives
 from surfmesh.sizing.curvature_size import DEVIATION_RESERVE, angle_size, chord_size
-from surfmesh.sizing.size_field import DEFAULT_ANGLE, FINEST_SIZE, LEAST_OF_CHORD
+from surfmesh.sizing.size_bounds import DEFAULT_ANGLE, FINEST_SIZE, LEAST_OF_CHORD
 from surfmesh.sizing.size_limits import SizeLimits
 from surfmesh.sizing.sizing import Sizing
 

@@ -13,7 +13,7 @@ from surfmesh.errors import MeshingError
 from surfmesh.meshing.edge_nodes import EdgeNodes, cut_edges, vertex_numbers
 from surfmesh.meshing.face_job import FaceJob, FaceMesh, Piece, mesh_face
 from surfmesh.meshing.stages import Progress, Stopwatch
-from surfmesh.sizing.size_field import DEFAULT_CHORD, DEFAULT_MAX_SIZE
+from surfmesh.sizing.size_bounds import DEFAULT_CHORD, DEFAULT_MAX_SIZE
 from surfmesh.sizing.size_limits import SizeLimits
 from surfmesh.sizing.sizing import Sizing
 from surfmesh.surface_mesh import NOT_MESHED, SurfaceMesh

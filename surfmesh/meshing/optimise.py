@@ -27,7 +27,8 @@ from surfmesh.kernels.optimisation import (
     wake_bad,
 )
 from surfmesh.kernels.triangulation import Triangulation
-from surfmesh.sizing.size_field import LEAST_OF_CHORD, SizeField
+from surfmesh.sizing.size_bounds import LEAST_OF_CHORD
+from surfmesh.sizing.size_field import SizeField
 from surfmesh.sizing.size_limits import SizeLimits
 
 STIFFNESS = 2.0

@@ -22,7 +22,8 @@ from surfmesh.kernels.source_tree import (
     SourceTree,
     grow_tree,
 )
-from surfmesh.sizing.size_field import SizeBounds, SizeField
+from surfmesh.sizing.size_bounds import SizeBounds
+from surfmesh.sizing.size_field import SizeField
 from surfmesh.sizing.sizing import Sizing
 
 FEW_ROOTS, MANY_TESTS = 2, 2e5
