@@ -9,7 +9,15 @@ import math
 
 from surfmesh.kernels import NIL
 from surfmesh.kernels.background import scalar_size_at
-from surfmesh.kernels.embedding import chord, edge_length, triangle_deviation, triangle_shape
+from surfmesh.kernels.embedding import (
+    chord,
+    edge_length,
+    is_anisotropic,
+    lift,
+    shorten,
+    triangle_deviation,
+    triangle_shape,
+)
 from surfmesh.kernels.jit import kernel
 from surfmesh.kernels.local_operations import (
     DEAD,
@@ -200,7 +208,11 @@ def _newton_step(t, s, v, start, stiffness):
         a12 += c * (-(tx * ry + ty * rx) * i + 2.0 * total * rx * ry * i * i)
         a22 += c * (4.0 - 2.0 * ty * ry * i + 2.0 * total * ry * ry * i * i)
         d = math.sqrt(px * px + py * py)
-        scale = 0.5 * (1.0 + s.size[p] / s.size[v])
+        if is_anisotropic(s):  # the size of p, in this direction, in units of that of v
+            bx, by = chord(s, p, v)
+            scale = 0.5 * (1.0 + d / max(math.sqrt(bx * bx + by * by), 1e-3 * d))
+        else:
+            scale = 0.5 * (1.0 + s.size[p] / s.size[v])
         l = d / scale
         nx, ny = px / d, py / d
         k = 2.0 * stiffness / (scale * scale)
@@ -260,12 +272,13 @@ def smooth(t, s, background, star, frozen, active, dirty, stiffness, moved):
         step = dx * dx + dy * dy
         if step < 1e-8:
             continue
-        x, y, h = t.xy[v, 0], t.xy[v, 1], s.size[v]
+        x, y = t.xy[v, 0], t.xy[v, 1]
         x3, y3, z3 = s.point[v, 0], s.point[v, 1], s.point[v, 2]
         t.xy[v, 0] = x + t.size[v, 0] * dx + t.size[v, 1] * dy
         t.xy[v, 1] = y + t.size[v, 1] * dx + t.size[v, 2] * dy
+        step3 = lift(s, v, dx, dy)
         for i in range(3):
-            s.point[v, i] += h * h * (s.chart[v, 0, i] * dx + s.chart[v, 1, i] * dy)
+            s.point[v, i] += step3[i]
         worst = _worst_in_star(t, s, v, start)
         if worst < old and worst < LEAST_SHAPE:
             t.xy[v, 0], t.xy[v, 1] = x, y
@@ -311,8 +324,7 @@ def shrink(t, s, triangles, error, chord_error, active):
         for i in range(3):
             v = t.tri[3 * triangles[k] + i]
             if s.scale[v] * factor >= SMALLEST_SCALE:
-                s.size[v] *= factor
-                s.scale[v] *= factor
+                shorten(s, v, factor)
             active[v] = 1
     return far
 
@@ -502,6 +514,9 @@ def split_long(t, s, longest, dirty, active):
             t.size[p, i] = t.size[a, i]
         s.scale[p] = 0.5 * (s.scale[a] + s.scale[b])
         s.size[p] = 0.5 * (s.size[a] + s.size[b])
+        if is_anisotropic(s):
+            for i in range(6):
+                s.in_space[p, i] = 0.5 * (s.in_space[a, i] + s.in_space[b, i])
         active[p] = active[a] = active[b] = 1
         dirty[p] = dirty[a] = dirty[b] = 1
     return first

@@ -109,7 +109,8 @@ class Optimiser:
         """``node`` (k,) are boundary vertices, ``same`` (k,) the ones they coincide with."""
         self.t, self.node, self.surface, self.field = t, node, surface, field
         room = len(t.xy)
-        self.embedding: Embedding = empty_embedding(room)
+        anisotropic = len(field.background.in_space) > 0
+        self.embedding: Embedding = empty_embedding(room, anisotropic)
         self.star = np.empty(room, np.int32)
         self.frozen = np.empty(room, np.uint8)
         self.degree = np.empty(room, np.int32)
