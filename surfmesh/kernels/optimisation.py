@@ -14,6 +14,7 @@ from surfmesh.kernels.embedding import (
     edge_length,
     is_anisotropic,
     lift,
+    rise,
     shorten,
     triangle_deviation,
     triangle_shape,
@@ -503,20 +504,52 @@ def split_long(t, s, longest, dirty, active):
             continue
         if b >= first or edge_length(s, a, b) <= longest:
             continue
-        p = split_edge(t, e, 0.5 * (t.xy[a, 0] + t.xy[b, 0]), 0.5 * (t.xy[a, 1] + t.xy[b, 1]))
-        if p == NIL:
-            continue
-        for i in range(3):
-            s.point[p, i] = 0.5 * (s.point[a, i] + s.point[b, i])
-            s.chart[p, 0, i] = s.chart[a, 0, i]
-            s.chart[p, 1, i] = s.chart[a, 1, i]
-            s.normal[p, i] = s.normal[a, i]
-            t.size[p, i] = t.size[a, i]
-        s.scale[p] = 0.5 * (s.scale[a] + s.scale[b])
-        s.size[p] = 0.5 * (s.size[a] + s.size[b])
-        if is_anisotropic(s):
-            for i in range(6):
-                s.in_space[p, i] = 0.5 * (s.in_space[a, i] + s.in_space[b, i])
-        active[p] = active[a] = active[b] = 1
-        dirty[p] = dirty[a] = dirty[b] = 1
+        _halve(t, s, e, active, dirty)
+    return first
+
+
+@kernel
+def _halve(t, s, e, active, dirty):
+    """Split the edge e in the middle; what is known at the new vertex is taken from its ends."""
+    a, b = t.tri[e], t.tri[t.adj[e]]
+    p = split_edge(t, e, 0.5 * (t.xy[a, 0] + t.xy[b, 0]), 0.5 * (t.xy[a, 1] + t.xy[b, 1]))
+    if p == NIL:
+        return p
+    for i in range(3):
+        s.point[p, i] = 0.5 * (s.point[a, i] + s.point[b, i])
+        s.chart[p, 0, i] = s.chart[a, 0, i]
+        s.chart[p, 1, i] = s.chart[a, 1, i]
+        s.normal[p, i] = s.normal[a, i]
+        t.size[p, i] = t.size[a, i]
+    s.scale[p] = 0.5 * (s.scale[a] + s.scale[b])
+    s.size[p] = 0.5 * (s.size[a] + s.size[b])
+    if is_anisotropic(s):
+        for i in range(6):
+            s.in_space[p, i] = 0.5 * (s.in_space[a, i] + s.in_space[b, i])
+    active[p] = active[a] = active[b] = 1
+    dirty[p] = dirty[a] = dirty[b] = 1
+    return p
+
+
+@kernel
+def split_far(t, s, triangles, dirty, active):
+    """Split, in each of the triangles (n,), the edge that lies farthest from the surface.
+
+    One edge a triangle and a round: those whose neighbours have been split are passed over.
+    Returns the first of the new vertices, which the caller embeds.
+    """
+    first = t.count[0]
+    for k in triangles:
+        best, farthest = NIL, 0.0
+        fresh = True
+        for e in range(3 * k, 3 * k + 3):
+            a, b = t.tri[e], t.tri[next_half_edge(e)]
+            if a >= first or b >= first:
+                fresh = False
+            elif t.adj[e] >= 0 and t.fixed[e] == 0:
+                far = abs(rise(s, a, b)) + abs(rise(s, b, a))
+                if far > farthest:
+                    best, farthest = e, far
+        if fresh and best != NIL:
+            _halve(t, s, best, active, dirty)
     return first

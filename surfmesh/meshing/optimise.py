@@ -20,6 +20,7 @@ from surfmesh.kernels.optimisation import (
     find_stars,
     shrink,
     smooth,
+    split_far,
     split_long,
     swap_for_degree,
     swap_for_shape,
@@ -79,7 +80,7 @@ what is folded at the centroid, and at a corner."""
 FINER_UNFOLDS = 0.6
 """Factor on the sizes where triangles are folded."""
 
-CHORD_ROUNDS = 10
+CHORD_ROUNDS, STRETCHED_CHORD_ROUNDS, SPLIT_ROUNDS = 10, 4, 6
 CHORD_MARGIN, TOLERATED = 0.96, 0.995
 """What is aimed at, and what is let pass rather than go all the way round again. Between the
 samples of a triangle the deviation may be a little larger than at them."""
@@ -109,8 +110,8 @@ class Optimiser:
         """``node`` (k,) are boundary vertices, ``same`` (k,) the ones they coincide with."""
         self.t, self.node, self.surface, self.field = t, node, surface, field
         room = len(t.xy)
-        anisotropic = len(field.background.in_space) > 0
-        self.embedding: Embedding = empty_embedding(room, anisotropic)
+        self.is_anisotropic = len(field.background.in_space) > 0
+        self.embedding: Embedding = empty_embedding(room, self.is_anisotropic)
         self.star = np.empty(room, np.int32)
         self.frozen = np.empty(room, np.uint8)
         self.degree = np.empty(room, np.int32)
@@ -211,7 +212,7 @@ class Optimiser:
         estimate_deviations(self.t, self.embedding, estimate)
         least = (SUSPECT if len(estimate) > FEW_TRIANGLES else FLAT) * chord
         suspects = np.flatnonzero(estimate > least)
-        for _ in range(CHORD_ROUNDS):
+        for _ in range(STRETCHED_CHORD_ROUNDS if self.is_anisotropic else CHORD_ROUNDS):
             if not len(suspects):
                 return suspects
             error = self._deviations(suspects)
@@ -224,13 +225,41 @@ class Optimiser:
                 moved = self._smooth()
                 changed[self.moved[:moved]] = 1
             self._swap()
-            now = self.t.tri[: 3 * self.t.count[1]]
-            changed[now[: len(before)][now[: len(before)] != before]] = 1
-            changed[now[len(before) :]] = 1
-            seen = np.empty(int(self.t.count[1]), np.uint8)
-            triangles_at(self.t, changed, seen)
-            suspects = np.union1d(np.flatnonzero(seen), suspects[error > limit])
-        return suspects[self._deviations(suspects) > TOLERATED * chord]
+            suspects = np.union1d(self._changed_since(before, changed), suspects[error > limit])
+        error = self._deviations(suspects)
+        if self.is_anisotropic:
+            return self._split_far(suspects[error > TOLERATED * chord])
+        return suspects[error > TOLERATED * chord]
+
+    def _split_far(self, far: np.ndarray) -> np.ndarray:
+        """Split edges of the triangles ``far`` (n,) where they are too far; returns those left.
+
+        Smoothing and swaps do not know how far a triangle is, and in stretched meshes turn it
+        more: the last few are only split.
+        """
+        limit = TOLERATED * self.field.sizing.chord
+        for _ in range(SPLIT_ROUNDS):
+            before = self.t.tri[: 3 * self.t.count[1]].copy()
+            first = split_far(self.t, self.embedding, far, self.dirty, self.active)
+            new = np.arange(first, int(self.t.count[0]), dtype=np.int32)
+            if not len(new):
+                break
+            self._embed(new)
+            self.stars_known = False
+            self.splits += len(new)
+            changed = np.zeros(len(self.active), np.uint8)
+            suspects = np.union1d(self._changed_since(before, changed), far)
+            far = suspects[self._deviations(suspects) > limit]
+        return far
+
+    def _changed_since(self, before: np.ndarray, changed: np.ndarray) -> np.ndarray:
+        """Triangles with a vertex in ``changed``, or whose corners are not as ``before``."""
+        now = self.t.tri[: 3 * self.t.count[1]]
+        changed[now[: len(before)][now[: len(before)] != before]] = 1
+        changed[now[len(before) :]] = 1
+        seen = np.empty(int(self.t.count[1]), np.uint8)
+        triangles_at(self.t, changed, seen)
+        return np.flatnonzero(seen)
 
     def _deviations(self, triangles: np.ndarray) -> np.ndarray:
         """Largest distance from the surface at samples of each of the triangles (n,).
