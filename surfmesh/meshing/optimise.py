@@ -77,11 +77,14 @@ TURNED, LEAST_AT_CENTRE, LEAST_COSINE = 0.85, 0.55, 0.35
 """Cosines between the normals of a triangle and of the surface: where it is looked at again,
 what is folded at the centroid, and at a corner."""
 
+MANY_FAR = 0.02
+"""Share of the triangles."""
+
 FINER_UNFOLDS = 0.6
 """Factor on the sizes where triangles are folded."""
 
 CHORD_ROUNDS, STRETCHED_CHORD_ROUNDS, SPLIT_ROUNDS = 10, 4, 6
-CHORD_MARGIN, TOLERATED = 0.96, 0.995
+CHORD_MARGIN, TOLERATED, SPLIT_MARGIN = 0.96, 0.995, 0.98
 """What is aimed at, and what is let pass rather than go all the way round again. Between the
 samples of a triangle the deviation may be a little larger than at them."""
 
@@ -110,7 +113,7 @@ class Optimiser:
         """``node`` (k,) are boundary vertices, ``same`` (k,) the ones they coincide with."""
         self.t, self.node, self.surface, self.field = t, node, surface, field
         room = len(t.xy)
-        self.is_anisotropic = len(field.background.in_space) > 0
+        self.is_anisotropic = field.is_anisotropic
         self.embedding: Embedding = empty_embedding(room, self.is_anisotropic)
         self.star = np.empty(room, np.int32)
         self.frozen = np.empty(room, np.uint8)
@@ -228,16 +231,18 @@ class Optimiser:
             suspects = np.union1d(self._changed_since(before, changed), suspects[error > limit])
         error = self._deviations(suspects)
         if self.is_anisotropic:
-            return self._split_far(suspects[error > TOLERATED * chord])
+            return self._split_far(suspects[error > SPLIT_MARGIN * chord])
         return suspects[error > TOLERATED * chord]
 
     def _split_far(self, far: np.ndarray) -> np.ndarray:
         """Split edges of the triangles ``far`` (n,) where they are too far; returns those left.
 
         Smoothing and swaps do not know how far a triangle is, and in stretched meshes turn it
-        more: the last few are only split.
+        more: the last few are only split. Where many are far a finer field needs fewer
+        triangles than splits: then all are returned.
         """
-        limit = TOLERATED * self.field.sizing.chord
+        limit = SPLIT_MARGIN * self.field.sizing.chord
+        many = far if len(far) > MANY_FAR * int(self.t.count[1]) else None
         for _ in range(SPLIT_ROUNDS):
             before = self.t.tri[: 3 * self.t.count[1]].copy()
             first = split_far(self.t, self.embedding, far, self.dirty, self.active)
@@ -250,7 +255,7 @@ class Optimiser:
             changed = np.zeros(len(self.active), np.uint8)
             suspects = np.union1d(self._changed_since(before, changed), far)
             far = suspects[self._deviations(suspects) > limit]
-        return far
+        return far if many is None else many
 
     def _changed_since(self, before: np.ndarray, changed: np.ndarray) -> np.ndarray:
         """Triangles with a vertex in ``changed``, or whose corners are not as ``before``."""

@@ -22,12 +22,29 @@ def edge_lengths(mesh: SurfaceMesh) -> NDArray[np.float64]:
 
 
 def metric_lengths(mesh: SurfaceMesh, lengths: NDArray[np.float64]) -> NDArray[np.float64]:
-    """(ne,) length of pq over the mean of the sizes wanted at p and q; 1 is as wanted."""
+    """(ne,) length of pq over the mean of the sizes wanted at p and q; 1 is as wanted.
+
+    Where sizes are anisotropic, of those wanted in the direction of pq.
+    """
     metric = 2.0 * lengths
     for start in range(0, len(lengths), BLOCK):
         a, b = mesh.edges[start : start + BLOCK].T
-        metric[start : start + BLOCK] /= mesh.sizes[a] + mesh.sizes[b]
+        if mesh.inverse_sizes is None:
+            metric[start : start + BLOCK] /= mesh.sizes[a] + mesh.sizes[b]
+            continue
+        step = mesh.points[b] - mesh.points[a]
+        first, second = (
+            np.linalg.norm(stretched(mesh.inverse_sizes[end], step), axis=1) for end in (a, b)
+        )
+        total = first + second
+        metric[start : start + BLOCK] = 2.0 * first * second / np.where(total > 0.0, total, 1.0)
     return metric
+
+
+def stretched(inverse_sizes: NDArray[np.float64], step: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Steps (k, 3) in wanted lengths: W d, for W (k, 6)."""
+    rows = inverse_sizes[:, [[0, 1, 2], [1, 3, 4], [2, 4, 5]]]
+    return np.einsum("kij,kj->ki", rows, step)
 
 
 class Growth(NamedTuple):

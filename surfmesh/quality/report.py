@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from surfmesh.quality.deviation import Deviation, deviation
 from surfmesh.quality.lengths import QUASI_UNIT, edge_lengths, growth, metric_lengths
-from surfmesh.quality.shape import Shapes, enclosed_volume, shapes
+from surfmesh.quality.shape import Shapes, enclosed_volume, metric_alpha, shapes
 from surfmesh.quality.solids import shares_faces, solid_mesh
 from surfmesh.quality.topology import Topology, topology
 from surfmesh.surface_mesh import NOT_MESHED, SurfaceMesh
@@ -46,6 +46,9 @@ class Report:
     alpha_mean: float  # 4 sqrt(3) area / sum of squared edges, in 3D; 1 is equilateral
     alpha_p01: float  # 1 % of the triangles are worse
     alpha_min: float
+    alpha_metric_mean: float | None  # the same in the wanted metric, where that is anisotropic
+    alpha_metric_p01: float | None
+    alpha_metric_min: float | None
     radius_ratio_mean: float  # 2 r_in / r_circum; 1 is equilateral
     radius_ratio_min: float
     min_angle_deg: float
@@ -117,6 +120,7 @@ def check(mesh: SurfaceMesh) -> Report:
     lengths = edge_lengths(mesh)
     grown = growth(mesh, lengths)
     metric = None if mesh.sizes is None else metric_lengths(mesh, lengths)
+    wanted = None if mesh.inverse_sizes is None else metric_alpha(mesh)
     fit = deviation(mesh, shape.area) if finite else None
     chord = getattr(mesh.sizing, "chord", None)
     encloses = topo.closed and topo.manifold and topo.oriented
@@ -142,8 +146,11 @@ def check(mesh: SurfaceMesh) -> Report:
         components=topo.components,
         boundary_loops=topo.boundary_loops,
         alpha_mean=_over(np.mean, shape.alpha),
-        alpha_p01=_over(lambda alpha: np.quantile(alpha, 0.01), shape.alpha),
+        alpha_p01=_over(_percentile, shape.alpha),
         alpha_min=_over(np.min, shape.alpha),
+        alpha_metric_mean=None if wanted is None else _over(np.mean, wanted),
+        alpha_metric_p01=None if wanted is None else _over(_percentile, wanted),
+        alpha_metric_min=None if wanted is None else _over(np.min, wanted),
         radius_ratio_mean=_over(np.mean, shape.radius_ratio),
         radius_ratio_min=_over(np.min, shape.radius_ratio),
         min_angle_deg=_over(np.min, shape.min_angle),
@@ -190,6 +197,10 @@ def _volume(mesh: SurfaceMesh, encloses: bool) -> float | None:
 
 def _over(measure: Any, values: NDArray[np.float64]) -> float:
     return float(measure(values)) if len(values) else float("nan")
+
+
+def _percentile(values: NDArray[np.float64]) -> float:
+    return float(np.quantile(values, 0.01))
 
 
 def _names(mesh: SurfaceMesh) -> str:

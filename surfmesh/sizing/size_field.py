@@ -19,7 +19,7 @@ from surfmesh.errors import SizingError
 from surfmesh.geometry.scaling import Scaling
 from surfmesh.geometry.sides import SideTopology
 from surfmesh.geometry.surface import Surface
-from surfmesh.kernels.background import Background, sizes_at
+from surfmesh.kernels.background import Background, in_space_at_all, sizes_at
 from surfmesh.kernels.coverage import STACK, inverse_area
 from surfmesh.kernels.gradation import Metric, grade, patch_errors
 from surfmesh.sizing.field_cells import GRID_DEPTH, Cells, SourceCells, coarse_beside_fine
@@ -67,6 +67,11 @@ class SizeField:
     sizing: Sizing
     """The wishes it was made from, defaults filled in."""
 
+    @property
+    def is_anisotropic(self) -> bool:
+        """Do the sizes depend on the direction?"""
+        return len(self.background.in_space) > 0
+
     def expected_vertices(self) -> int:
         """About how many circles cover the domain: its metric area over that of a circle's
         share, sqrt(3) / 2."""
@@ -95,6 +100,15 @@ def size_field(
     the wanted sizes need an unreasonable number of cells.
     """
     return _Builder(surface, sizing, sides, SizeLaw(surface, sizing, limits)).build()
+
+
+def inverse_sizes(field: SizeField, xy: np.ndarray, scale: np.ndarray) -> np.ndarray | None:
+    """W (n, 6) at points xy (n, 2) for sizes times ``scale`` (n,); None when isotropic."""
+    if not field.is_anisotropic:
+        return None
+    found = np.empty((len(xy), 6))
+    in_space_at_all(field.background, np.ascontiguousarray(xy), found)
+    return found / scale[:, None]
 
 
 def plane_field(
