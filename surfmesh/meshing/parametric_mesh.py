@@ -124,7 +124,7 @@ def _in_space(
         uv_triangles=parts.uv_triangles,
         surfaces=(surface,),
         sizes=sizes * scale[parts.place],
-        inverse_sizes=inverse_sizes(field, xy[parts.place], scale[parts.place]),
+        inverse_sizes=inverse_sizes(field, xy, scale[: len(xy)]),
         sizing=field.sizing,
         seconds=watch.seconds,
         one_sided=sides.one_sided and not surface.loops,

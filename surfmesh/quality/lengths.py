@@ -27,17 +27,22 @@ def metric_lengths(mesh: SurfaceMesh, lengths: NDArray[np.float64]) -> NDArray[n
     Where sizes are anisotropic, of those wanted in the direction of pq.
     """
     metric = 2.0 * lengths
-    for start in range(0, len(lengths), BLOCK):
-        a, b = mesh.edges[start : start + BLOCK].T
+    for begin in range(0, len(lengths), BLOCK):
+        block = slice(begin, begin + BLOCK)
+        a, b = mesh.edges[block].T
         if mesh.inverse_sizes is None:
-            metric[start : start + BLOCK] /= mesh.sizes[a] + mesh.sizes[b]
+            metric[block] /= mesh.sizes[a] + mesh.sizes[b]
             continue
+        corners = mesh.uv_triangles.ravel()
         step = mesh.points[b] - mesh.points[a]
+        start = mesh.connectivity.half_edges[block, 0]
+        end = np.where(start % 3 == 2, start - 2, start + 1)
         first, second = (
-            np.linalg.norm(stretched(mesh.inverse_sizes[end], step), axis=1) for end in (a, b)
+            np.linalg.norm(stretched(mesh.inverse_sizes[corners[e]], step), axis=1)
+            for e in (start, end)
         )
         total = first + second
-        metric[start : start + BLOCK] = 2.0 * first * second / np.where(total > 0.0, total, 1.0)
+        metric[block] = 2.0 * first * second / np.where(total > 0.0, total, 1.0)
     return metric
 
 

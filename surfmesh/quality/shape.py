@@ -50,7 +50,7 @@ def metric_alpha(mesh: SurfaceMesh) -> NDArray[np.float64]:
     for start in range(0, len(found), BLOCK):
         corners = mesh.triangles[start : start + BLOCK]
         a, b, c = (mesh.points[corner] for corner in corners.T)
-        mean = mesh.inverse_sizes[corners].mean(axis=1)
+        mean = mesh.inverse_sizes[mesh.uv_triangles[start : start + BLOCK]].mean(axis=1)
         u, v = stretched(mean, b - a), stretched(mean, c - a)
         area = np.linalg.norm(np.cross(u, v), axis=1)
         total = (u * u + v * v + (u - v) ** 2).sum(axis=1)

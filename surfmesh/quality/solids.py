@@ -19,7 +19,7 @@ def solid_mesh(mesh: SurfaceMesh, solid: int) -> SurfaceMesh:
         uv_points=None, uv_triangles=None, surfaces=(), turned_faces=None, solid_ids=None,
         edge_segments=None, edge_ids=None, vertex_ids=None,
         sizes=None if mesh.sizes is None else mesh.sizes[used],
-        inverse_sizes=None if mesh.inverse_sizes is None else mesh.inverse_sizes[used],
+        inverse_sizes=None,
     )  # fmt: skip
 
 
