@@ -13,8 +13,15 @@ import numpy as np
 
 from surfmesh.cad.model import CadEdge, CadModel
 from surfmesh.geometry.fundamental_forms import curvatures, forms_from_derivatives
-from surfmesh.sizing.curvature_size import DEVIATION_RESERVE, angle_size, chord_size
-from surfmesh.sizing.size_bounds import DEFAULT_ANGLE, FINEST_SIZE, LEAST_OF_CHORD
+from surfmesh.meshing.edge_gradation import graded_by_direction
+from surfmesh.sizing.curvature_size import (
+    DEVIATION_RESERVE,
+    STRAIGHT_RESERVE,
+    angle_size,
+    chord_size,
+)
+from surfmesh.sizing.direction_size import size_along
+from surfmesh.sizing.size_bounds import DEFAULT_ANGLE, FINEST_SIZE, LEAST_OF_CHORD, SizeBounds
 from surfmesh.sizing.size_limits import SizeLimits
 from surfmesh.sizing.sizing import Sizing
 
@@ -49,6 +56,8 @@ class _Samples:
     share: np.ndarray
     points: np.ndarray
     wish: np.ndarray
+    metric: np.ndarray
+    """What the curvature allows, before anything else lowers it."""
     turn: float
 
 
@@ -68,7 +77,7 @@ def cut_edges(
         None if collapses(model, edge) else _sampled(model, edge, uses[number], sizing, limits)
         for number, edge in enumerate(model.edges)
     ]
-    _heed_gaps(model, samples)
+    _heed_gaps(model, samples, sizing.anisotropy if sizing.is_anisotropic else 1.0)
     sizes = _graded(model, samples, vertex, sizing)
     nodes: list[EdgeNodes | None] = []
     following = len(model.vertices)
@@ -108,11 +117,13 @@ def _sampled(
         coarsest = min(coarsest, sizing.size)
     wish = np.full(len(share), coarsest)
     speed = np.linalg.norm(first, axis=1)
+    tangent = first / np.maximum(speed, np.finfo(float).tiny)[:, None]
+    reserve = STRAIGHT_RESERVE if sizing.is_anisotropic else DEVIATION_RESERVE
     bend = np.linalg.norm(np.cross(first, second), axis=1)
     with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
         curvature = np.nan_to_num(bend / speed**3, nan=0.0, posinf=0.0)
         if sizing.chord is not None:
-            own = np.sqrt(8.0 * DEVIATION_RESERVE * sizing.chord / curvature)
+            own = np.sqrt(8.0 * reserve * sizing.chord / curvature)
             wish = np.minimum(wish, np.maximum(own, 2.0 * sizing.chord))
         if sizing.chord is not None or sizing.angle is not None:
             least = 0.0 if sizing.angle is not None else LEAST_OF_CHORD * sizing.chord
@@ -121,16 +132,22 @@ def _sampled(
     for number, coedge in uses:
         surface = model.faces[number].surface
         if surface.kind != "plane" and (sizing.chord is not None or sizing.angle is not None):
-            wish = np.minimum(wish, _face_wish(surface, coedge.uv(share), sizing, coarsest))
+            if sizing.is_anisotropic:
+                bounds = SizeBounds.of(sizing, model.diagonal)
+                found = size_along(surface, coedge.uv(share), tangent, bounds)
+            else:
+                found = _face_wish(surface, coedge.uv(share), sizing, coarsest)
+            wish = np.minimum(wish, found)
+    metric = np.clip(wish, finest, model.diagonal)
+    for number, _ in uses:
         if number in limits:
-            wish = np.minimum(wish, limits[number](points))
+            wish = np.minimum(wish, limits[number].along(points, tangent))
     if callable(sizing.size):
         wish = np.minimum(wish, np.asarray(sizing.size(points), float))
     wish = np.minimum(wish, edge.length if edge.length > 0.0 else np.inf)
-    tangent = first / np.maximum(speed, np.finfo(float).tiny)[:, None]
     cosine = np.einsum("ij,ij->i", tangent[1:], tangent[:-1])
     turn = float(np.arccos(np.clip(cosine, -1.0, 1.0)).sum())
-    return _Samples(share, points, np.maximum(wish, finest), 0.0 if straight else turn)
+    return _Samples(share, points, np.maximum(wish, finest), metric, 0.0 if straight else turn)
 
 
 def _face_wish(surface, uv: np.ndarray, sizing: Sizing, coarsest: float) -> np.ndarray:
@@ -147,8 +164,11 @@ def _face_wish(surface, uv: np.ndarray, sizing: Sizing, coarsest: float) -> np.n
     return np.minimum(wish, coarsest)
 
 
-def _heed_gaps(model: CadModel, samples: list[_Samples | None]) -> None:
-    """Lower wishes, in place, to the distance of edges of the same face that do not meet."""
+def _heed_gaps(model: CadModel, samples: list[_Samples | None], ratio: float) -> None:
+    """Lower wishes, in place, to the distance of edges of the same face that do not meet.
+
+    Where triangles may be ``ratio`` times longer than wide, to so many times the distance.
+    """
     from scipy.spatial import cKDTree
 
     narrowest = NARROWEST * model.diagonal
@@ -165,7 +185,7 @@ def _heed_gaps(model: CadModel, samples: list[_Samples | None]) -> None:
         mine, theirs = ends[of][:, None, :], ends[other]
         meets = (mine[..., :, None] == theirs[..., None, :]).any(axis=(2, 3))
         meets |= other == of[:, None]
-        gap = np.where(meets, np.inf, distance).min(axis=1)
+        gap = ratio * np.where(meets, np.inf, distance).min(axis=1)
         for edge in edges:
             wish = samples[edge].wish
             np.minimum(wish, np.maximum(gap[of == edge], np.minimum(narrowest, wish)), out=wish)
@@ -178,6 +198,8 @@ def _graded(
     from scipy.sparse import coo_matrix
     from scipy.sparse.csgraph import dijkstra
 
+    if sizing.is_anisotropic:
+        return _graded_by_direction(model, samples, vertex, sizing)
     vertices = len(model.vertices)
     first, rows, columns, lengths, wishes = vertices, [], [], [], [np.full(vertices, np.inf)]
     numbers: list[np.ndarray | None] = []
@@ -217,6 +239,21 @@ def _graded(
     graph = coo_matrix((data[kept], (row[kept], column[kept])), graph.shape).tocsr()
     size = sizing.gradient * dijkstra(graph, directed=False, indices=first)
     return [None if number is None else size[number] for number in numbers]
+
+
+def _graded_by_direction(
+    model: CadModel, samples: list, vertex: np.ndarray, sizing: Sizing
+) -> list[np.ndarray | None]:
+    there = [k for k, sampled in enumerate(samples) if sampled is not None]
+    ends = np.array([vertex[[model.edges[k].start, model.edges[k].end]] for k in there])
+    found = graded_by_direction(
+        [samples[k].points for k in there], [samples[k].wish for k in there],
+        [samples[k].metric for k in there], ends, sizing.gradient, sizing.anisotropy,
+    )  # fmt: skip
+    sizes: list[np.ndarray | None] = [None] * len(samples)
+    for k, size in zip(there, found):
+        sizes[k] = size
+    return sizes
 
 
 def _cut(

@@ -13,7 +13,7 @@ from surfmesh.errors import MeshingError
 from surfmesh.meshing.edge_nodes import EdgeNodes, cut_edges, vertex_numbers
 from surfmesh.meshing.face_job import FaceJob, FaceMesh, Piece, mesh_face
 from surfmesh.meshing.stages import Progress, Stopwatch
-from surfmesh.sizing.size_bounds import DEFAULT_CHORD, DEFAULT_MAX_SIZE
+from surfmesh.sizing.size_bounds import DEFAULT_CHORD, DEFAULT_MAX_SIZE, LONGEST
 from surfmesh.sizing.size_limits import SizeLimits
 from surfmesh.sizing.sizing import Sizing
 from surfmesh.surface_mesh import NOT_MESHED, SurfaceMesh
@@ -30,7 +30,8 @@ def with_defaults(sizing: Sizing, model: CadModel) -> Sizing:
     if sizing.chord is None and sizing.angle is None and sizing.size is None:
         sizing = sizing.replaced(chord=DEFAULT_CHORD * model.diagonal)
     if sizing.max_size is None and sizing.size is None:
-        largest = max(DEFAULT_MAX_SIZE * model.diagonal, sizing.min_size or 0.0)
+        share = LONGEST if sizing.is_anisotropic else DEFAULT_MAX_SIZE
+        largest = max(share * model.diagonal, sizing.min_size or 0.0)
         sizing = sizing.replaced(max_size=largest)
     return sizing
 
@@ -140,6 +141,7 @@ def _joined(
         np.minimum.at(sizes, cut.numbers, cut.sizes)
     turned, solids = _orientation(model)
     inner_points, inner_sizes, triangles, uv, uv_triangles, face_ids = [], [], [], [], [], []
+    stretched: list[np.ndarray] = []
     total = shared
     uv_total = 0
     for number, (job, found) in enumerate(zip(jobs, done)):
@@ -159,6 +161,8 @@ def _joined(
         uv.append(found.uv_points)
         uv_triangles.append(uv_total + found.uv_triangles[:, order].astype(np.int64))
         uv_total += len(found.uv_points)
+        if found.inverse_sizes is not None:
+            stretched.append(found.inverse_sizes)
         face_ids.append(np.full(len(found.triangles), number, np.int32))
     if not triangles:
         reasons = [_reason(model, k, found) for k, found in enumerate(done) if found.failure]
@@ -191,6 +195,7 @@ def _joined(
         edge_ids=of[there],
         vertex_ids=rank[vertex_numbers(model)],
         sizes=np.where(np.isfinite(sizes), sizes, model.diagonal)[used],
+        inverse_sizes=np.concatenate(stretched) if stretched else None,
         sizing=sizing,
         seconds=watch.seconds,
         warnings=tuple([*model.healing, *missing]),

@@ -5,7 +5,7 @@
 Between any two of them the vertices that moved are put back on the true surface.
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -189,8 +189,18 @@ class Optimiser:
         now = self.embedding.size[corners] / self.embedding.scale[corners]
         sizes = np.maximum((now.T * factor).T, least)
         finer = sizes < 0.97 * now
-        points = self.embedding.point[corners[finer]]
-        return SizeLimits(points, sizes[finer], self.field.sizing.gradient)
+        chosen = corners[finer]
+        limits = SizeLimits(
+            self.embedding.point[chosen], sizes[finer], self.field.sizing.gradient
+        )
+        if not self.is_anisotropic:
+            return limits
+        shrunk = self.embedding.scale[chosen] * now[finer] / sizes[finer]
+        return replace(
+            limits,
+            uv=self.field.scaling.to_uv(self.t.xy[chosen]),
+            in_space=self.embedding.in_space[chosen] * shrunk[:, None],
+        )
 
     def _rescue(self) -> None:
         """Passes for the worst triangles alone."""

@@ -65,7 +65,8 @@ class Report:
     length_std: float | None
     length_min: float | None
     length_max: float | None
-    growth_max: float  # longest over shortest edge at a vertex
+    growth_max: float  # longest over shortest edge at a vertex; in wanted lengths where those
+    # depend on the direction
     growth_p99: float
 
     chord: float | None  # the largest deviation that was asked for
@@ -118,8 +119,8 @@ def check(mesh: SurfaceMesh) -> Report:
     finite = bool(np.isfinite(mesh.points).all())
     topo, shape = topology(mesh), shapes(mesh)
     lengths = edge_lengths(mesh)
-    grown = growth(mesh, lengths)
     metric = None if mesh.sizes is None else metric_lengths(mesh, lengths)
+    grown = growth(mesh, lengths if mesh.inverse_sizes is None else metric)
     wanted = None if mesh.inverse_sizes is None else metric_alpha(mesh)
     fit = deviation(mesh, shape.area) if finite else None
     chord = getattr(mesh.sizing, "chord", None)

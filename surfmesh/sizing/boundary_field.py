@@ -36,7 +36,13 @@ _ISOTROPIC = np.array([1.0, 0.0, 1.0])
 
 
 def has_boundary_field(surface: Surface, sizing: Sizing) -> bool:
-    """Can ``boundary_field`` be used: is the metric constant, and no size law given?"""
+    """Can ``boundary_field`` be used: is the metric constant, and no size law given?
+
+    The metric of a cylinder is constant too where sizes depend on the direction, but they do
+    not grow from its edges as they are.
+    """
+    if sizing.is_anisotropic and isinstance(surface, Cylinder):
+        return False
     return isinstance(surface, (Plane, PlanarDomain, Cylinder)) and not callable(sizing.size)
 
 

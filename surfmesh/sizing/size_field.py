@@ -19,7 +19,7 @@ from surfmesh.errors import SizingError
 from surfmesh.geometry.scaling import Scaling
 from surfmesh.geometry.sides import SideTopology
 from surfmesh.geometry.surface import Surface
-from surfmesh.kernels.background import Background, in_space_at_all, sizes_at
+from surfmesh.kernels.background import Background, in_space_at_all, scalar_sizes_at, sizes_at
 from surfmesh.kernels.coverage import STACK, inverse_area
 from surfmesh.kernels.gradation import Metric, grade, patch_errors
 from surfmesh.sizing.field_cells import GRID_DEPTH, Cells, SourceCells, coarse_beside_fine
@@ -103,11 +103,17 @@ def size_field(
 
 
 def inverse_sizes(field: SizeField, xy: np.ndarray, scale: np.ndarray) -> np.ndarray | None:
-    """W (n, 6) at points xy (n, 2) for sizes times ``scale`` (n,); None when isotropic."""
-    if not field.is_anisotropic:
+    """W (n, 6) at points xy (n, 2) for sizes times ``scale`` (n,); None if nothing else is
+    wished than isotropic sizes."""
+    if not field.sizing.is_anisotropic:
         return None
-    found = np.empty((len(xy), 6))
-    in_space_at_all(field.background, np.ascontiguousarray(xy), found)
+    xy, found = np.ascontiguousarray(xy), np.zeros((len(xy), 6))
+    if field.is_anisotropic:
+        in_space_at_all(field.background, xy, found)
+    else:
+        sizes = np.empty(len(xy))
+        scalar_sizes_at(field.background, xy, sizes)
+        found[:, [0, 3, 5]] = 1.0 / sizes[:, None]
     return found / scale[:, None]
 
 

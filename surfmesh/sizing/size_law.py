@@ -17,6 +17,9 @@ from surfmesh.sizing.size_bounds import SizeBounds
 from surfmesh.sizing.size_limits import SizeLimits
 from surfmesh.sizing.sizing import Sizing
 
+ROUND = 1.5
+"""Ratio of two sizes up to which their directions do not matter."""
+
 
 class FieldNodes(NamedTuple):
     """What is known at n nodes of a size field; lengths are in model units.
@@ -157,9 +160,8 @@ class SizeLaw:
             sizes = np.minimum(sizes, wished[:, None])
         size, long = sizes.min(axis=1), sizes.max(axis=1)
         wish, long_wish = size, long
-        if self.limits is not None:  # the shape of the metric is kept, its size is lowered
-            factor = np.minimum(self._limited(point) / size, 1.0)
-            size, long = factor * size, factor * long
+        if self.limits is not None:
+            size, long = self._limited_both(point, forms.normal, along, size, long)
             if self.limits.uv is None:
                 wish, long_wish = size, long
         jacobian = np.stack([ru * rates[:, :1], rv * rates[:, 1:]], axis=2)
@@ -183,6 +185,26 @@ class SizeLaw:
         least = self.clamp[0] if self.limits.uv is None else self.sizing.min_size or 0.0
         return np.maximum(self.limits(points), least)
 
+    def _limited_both(
+        self, point: np.ndarray, normal: np.ndarray, along: np.ndarray, size: np.ndarray,
+        long: np.ndarray,
+    ) -> tuple[np.ndarray, np.ndarray]:  # fmt: skip
+        """Sizes across and along the direction ``along`` (n, 3), lowered to the limits.
+
+        Where the shorter one is lowered the shape of the metric is kept. Where the metric is
+        round, or nearly so, limits hold in every direction.
+        """
+        least = self.clamp[0] if self.limits.uv is None else self.sizing.min_size or 0.0
+        across = np.maximum(self.limits.along(point, np.cross(normal, along)), least)
+        onward = np.maximum(self.limits.along(point, along), least)
+        both = self._limited(point)
+        is_round = long <= ROUND * size
+        across, onward = np.where(is_round, both, across), np.where(is_round, both, onward)
+        factor = np.minimum(across, size) / size
+        long = np.minimum(factor * long, onward)
+        size = np.minimum(factor * size, long)
+        return size, long
+
 
 class TensorLaw:
     """Size tensors given over a plane, in the place of sizes that follow from a surface."""
@@ -205,5 +227,3 @@ class TensorLaw:
         normal = np.tile([0.0, 0.0, 1.0], (len(uv), 1))
         size = np.ones(len(uv))
         return FieldNodes.isotropic(size, size, inverse, normal, self.surface.evaluate(uv, 0)[0])
-
-
