@@ -6,19 +6,9 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from naive.patches import ISOTROPIC, NONE, patches
 
-from surfmesh.kernels.gradation import Metric, grade, patch_errors
-
-NONE = np.empty((0, 2), np.int64)
-ISOTROPIC = Metric(np.empty(0), np.empty((0, 3)), np.empty((0, 3)))
-
-
-def patches(nx, ny):
-    """Patches of nine nodes that tile a grid of (2 nx + 1) (2 ny + 1) nodes."""
-    i, j = np.meshgrid(np.arange(nx), np.arange(ny))
-    first = (2 * j * (2 * nx + 1) + 2 * i).ravel()
-    k = np.arange(9)
-    return (first[:, None] + k % 3 + (k // 3) * (2 * nx + 1)).astype(np.int32)
+from surfmesh.kernels.gradation import grade, patch_errors
 
 
 def graded_by_dijkstra(patch, joined, r, slope, h):
