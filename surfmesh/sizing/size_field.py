@@ -321,7 +321,7 @@ class _Builder:
             bound = np.sqrt(
                 (form[:, 0] / e) ** 2 + 2.0 * form[:, 1] ** 2 / (e * g) + (form[:, 2] / g) ** 2
             )
-        possible = self.law.from_curvature(np.where(np.isnan(bound), np.inf, bound), 0.0)
+        possible = self.law.from_curvature(np.where(np.isnan(bound), np.inf, bound))
         hide[shallow] = possible < 0.5 * self.nodes.size[nodes].min(axis=1)
         return hide
 

@@ -116,8 +116,13 @@ class SizeLaw:
         self.bounds = SizeBounds.of(sizing, self.diagonal)
         self.sizing, self.clamp = self.bounds.sizing, self.bounds.clamp
         self.follows_curvature = self.bounds.follows_curvature
-        self.from_curvature = self.bounds.from_curvature
         self.limits = limits
+
+    def from_curvature(self, k: np.ndarray) -> np.ndarray:
+        """Size (n,) where the surface is curved by k (n,), 1 / model unit, one way only."""
+        if self.sizing.is_anisotropic:
+            return self.bounds.principal(k, np.zeros(len(k))).min(axis=1)
+        return self.bounds.from_curvature(k, 0.0)
 
     def __call__(self, xy: np.ndarray) -> FieldNodes:
         """Nodes at xy (n, 2) of the scaled plane."""
@@ -130,7 +135,7 @@ class SizeLaw:
         size = np.full(len(uv), self.clamp[1])
         if self.follows_curvature:
             k = curvatures(forms)
-            size = self.from_curvature(k.k1, k.k2)
+            size = self.bounds.from_curvature(k.k1, k.k2)
             # nothing is known at a pole or a cusp: gradation brings the neighbours' size
             size[forms.degenerate] = self.clamp[1]
         if callable(self.sizing.size):
