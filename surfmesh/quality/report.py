@@ -47,7 +47,6 @@ class Report:
     alpha_p01: float  # 1 % of the triangles are worse
     alpha_min: float
     alpha_metric_mean: float | None  # the same in the wanted metric, where that is anisotropic
-    alpha_metric_p01: float | None
     alpha_metric_min: float | None
     radius_ratio_mean: float  # 2 r_in / r_circum; 1 is equilateral
     radius_ratio_min: float
@@ -147,10 +146,9 @@ def check(mesh: SurfaceMesh) -> Report:
         components=topo.components,
         boundary_loops=topo.boundary_loops,
         alpha_mean=_over(np.mean, shape.alpha),
-        alpha_p01=_over(_percentile, shape.alpha),
+        alpha_p01=_over(lambda alpha: np.quantile(alpha, 0.01), shape.alpha),
         alpha_min=_over(np.min, shape.alpha),
         alpha_metric_mean=None if wanted is None else _over(np.mean, wanted),
-        alpha_metric_p01=None if wanted is None else _over(_percentile, wanted),
         alpha_metric_min=None if wanted is None else _over(np.min, wanted),
         radius_ratio_mean=_over(np.mean, shape.radius_ratio),
         radius_ratio_min=_over(np.min, shape.radius_ratio),
@@ -198,10 +196,6 @@ def _volume(mesh: SurfaceMesh, encloses: bool) -> float | None:
 
 def _over(measure: Any, values: NDArray[np.float64]) -> float:
     return float(measure(values)) if len(values) else float("nan")
-
-
-def _percentile(values: NDArray[np.float64]) -> float:
-    return float(np.quantile(values, 0.01))
 
 
 def _names(mesh: SurfaceMesh) -> str:
