@@ -247,6 +247,8 @@ def insert_boundary(t, node_xy, node_size, segment, vertex, edge, queue, where):
     """
     first_node = t.count[0]
     near = 0
+    while t.region[near // 3] == DEAD:
+        near += 3
     for k in range(len(node_xy)):
         where[0] = k
         vertex[k], near = insert_node(

@@ -9,6 +9,7 @@ from surfmesh.geometry.planar_domain import PlanarDomain
 from surfmesh.geometry.segment_graph import inside_regions
 from surfmesh.geometry.surface import Surface
 from surfmesh.kernels import NIL, insertion
+from surfmesh.kernels.boundary_row import insert_row
 from surfmesh.kernels.compaction import copy_inside, number_inside
 from surfmesh.kernels.insertion import (
     FINISHED,
@@ -28,6 +29,10 @@ from surfmesh.sizing.size_field import SizeField
 
 CROWDED = 0.5
 """Metric distance from the boundary below which an interior vertex is removed."""
+
+APART, AROUND, LOWEST = 0.65, 0.6, 0.7
+"""In metric lengths: how far apart the vertices of the row along the boundary are, how near to
+them others are removed, and how low its triangles may be where segments are long."""
 
 BAD_SHAPE, SWEEPS = 0.7, 8
 """Triangles below this alpha, left by the packing or the boundary, are offered a swap."""
@@ -55,8 +60,7 @@ def recovered(
 
     Raises ``SurfaceError`` when loops touch or cross, naming the place.
     """
-    first_node = int(t.count[0])
-    t, vertex, edge = _inserted(t, loops.uv, loops.segments, field, surface)
+    t, vertex, edge, first_node = _inserted(t, loops.uv, loops.segments, 1, field, surface)
     if grow_inside(t, edge) != FINISHED:
         raise SurfaceError(f"the boundary loops of {surface.name!r} do not enclose a domain")
     _clear(t, loops.segments, vertex, edge, first_node)
@@ -71,8 +75,7 @@ def recovered_regions(
     ``node`` is NIL for nodes that no inner triangle uses. Raises ``DomainError`` when nothing
     is inside.
     """
-    first_node = int(t.count[0])
-    t, vertex, edge = _inserted(t, cut.uv, cut.pieces, field, domain)
+    t, vertex, edge, first_node = _inserted(t, cut.uv, cut.pieces, 2, field, domain)
     label = np.empty(int(t.count[1]), np.int32)
     label_patches(t, label)
     ghost = int(np.flatnonzero(t.tri[: 3 * len(label)] < 0)[0])
@@ -91,11 +94,21 @@ def recovered_regions(
 
 
 def _inserted(
-    t: Triangulation, uv: np.ndarray, segments: np.ndarray, field: SizeField, surface: Surface
-) -> tuple[Triangulation, np.ndarray, np.ndarray]:
-    """Steps 2 and 3: the triangulation with all segments, vertices of nodes, their half-edges."""
+    t: Triangulation, uv: np.ndarray, segments: np.ndarray, sides: int, field: SizeField,
+    surface: Surface,
+) -> tuple[Triangulation, np.ndarray, np.ndarray, int]:  # fmt: skip
+    """Steps 2 and 3: the triangulation with all segments, vertices of nodes, their half-edges.
+
+    sides: 1 where the inside is on the left of segments, 2 where it may be on both. The last
+    result is the first vertex that is a node.
+    """
     xy = field.scaling.to_plane(uv)
-    t = _with_room(t, len(xy))
+    row = _apexes(xy, segments, field)
+    if sides == 2:
+        row = np.concatenate([row, _apexes(xy, segments[:, ::-1], field)])
+    t = _with_room(t, len(xy) + len(row))
+    insert_row(t, row, field.tensors(row), APART, AROUND)
+    first_node = int(t.count[0])
     vertex = np.full(len(xy), NIL, np.int32)
     edge = np.full(len(segments), NIL, np.int32)
     queue = np.empty(QUEUE, np.int32)
@@ -105,7 +118,21 @@ def _inserted(
         _refuse(status, int(where[0]), uv, segments, surface)
     if find_segments(t, segments, vertex, edge) != FINISHED:
         raise MeshingError(f"the boundary of {surface.name!r} was lost: please report this")
-    return t, vertex, edge
+    return t, vertex, edge, first_node
+
+
+def _apexes(xy: np.ndarray, segments: np.ndarray, field: SizeField) -> np.ndarray:
+    """Apexes (s, 2) of isosceles triangles with unit legs on the left of segments (s, 2)."""
+    start, end = xy[segments[:, 0]], xy[segments[:, 1]]
+    middle = 0.5 * (start + end)
+    h11, h12, h22 = field.tensors(middle).T
+    dx, dy = (end - start).T
+    determinant = h11 * h22 - h12 * h12
+    u, v = (h22 * dx - h12 * dy) / determinant, (h11 * dy - h12 * dx) / determinant
+    length2 = u * u + v * v
+    height = np.sqrt(np.maximum(1.0 - 0.25 * length2, LOWEST**2) / length2)
+    across = np.stack([h12 * u - h11 * v, h22 * u - h12 * v], axis=1)  # H (-v, u)
+    return middle + height[:, None] * across
 
 
 def _clear(

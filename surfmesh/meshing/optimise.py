@@ -57,8 +57,8 @@ LEFT_OVER = 0.7
 BAD_SHAPE = 0.72
 """Triangles below this alpha get passes of their own, with a soft wish for unit edges."""
 
-SOFT = 0.3
-RESCUE_PASSES = 4
+SOFT, SOFTER = 0.3, 0.6
+RESCUE_PASSES, SOFT_PASSES = 4, 4
 
 SUSPECT = 0.7
 """Share of ``chord`` from which the estimate of a triangle's deviation is not trusted."""
@@ -143,6 +143,7 @@ class Optimiser:
                 break
         self._swap()
         self._rescue()
+        self._soften()
         far = self._approach()
         return Changes(self.swaps, self.collapses, self.splits, self.passes, far, self._folded())
 
@@ -212,6 +213,15 @@ class Optimiser:
                 break
             self._smooth(SOFT)
             self._swap()
+
+    def _soften(self) -> None:
+        """Last passes over all vertices, for shapes more than for unit edges."""
+        self.active[:] = self.dirty[:] = 1
+        for _ in range(SOFT_PASSES):
+            if self._smooth(SOFTER) == 0:
+                break
+        self._swap()
+        self._smooth(SOFTER)
 
     def _approach(self) -> np.ndarray:
         """Bring triangles that are too far from the surface nearer; returns those left.

@@ -19,6 +19,7 @@ from naive.watchdog import within
 
 from surfmesh.errors import SurfaceError
 from surfmesh.kernels.background import sizes_at
+from surfmesh.kernels.boundary_row import insert_row
 from surfmesh.kernels.insertion import (
     FINISHED,
     INSIDE,
@@ -28,7 +29,16 @@ from surfmesh.kernels.insertion import (
     insert_boundary,
 )
 from surfmesh.meshing.boundary_loops import BoundaryLoops
-from surfmesh.meshing.boundary_recovery import CROWDED, QUEUE, _with_room, recovered
+from surfmesh.meshing.boundary_recovery import (
+    APART,
+    AROUND,
+    CROWDED,
+    LOWEST,
+    QUEUE,
+    _apexes,
+    _with_room,
+    recovered,
+)
 from surfmesh.meshing.packing import packed
 
 SURFACE = SimpleNamespace(name="test")
@@ -244,3 +254,27 @@ def test_named_errors(case, h):
     polygons, message = BROKEN[case]
     with pytest.raises(SurfaceError, match=message):
         domain_of(constant_background(h, 1.0, 1.0), *polygons)
+
+
+@pytest.mark.parametrize("h", [0.03, 0.05, 0.11])
+def test_a_row_of_vertices_stands_along_the_boundary(h):
+    background = constant_background(h, 1.0, 1.0)
+    angle = np.arange(40) * (2.0 * np.pi / 40)
+    ring = 0.5 + 0.4 * np.stack([np.cos(angle), np.sin(angle)], axis=1)
+    segments = np.stack([np.arange(40), np.roll(np.arange(40), -1)], axis=1)
+    field = PlainField(background)
+    row = _apexes(ring, segments, field)
+    t = _with_room(packing_for(background).t, len(row))
+    first = insert_row(t, row, field.tensors(row), APART, AROUND)
+    used = np.unique(corners(t)[live_triangles(t)])
+    used = used[used >= 0]
+    assert check_triangulation(t, int(t.count[0]) - len(used)) is None
+    new = t.xy[used[used >= first]]
+    apart = np.linalg.norm(new[:, None] - new, axis=2) + 9.0 * np.eye(len(new))
+    assert apart.min() > 0.5 * APART * h  # two that join meet half-way
+    old = t.xy[used[used < first]]
+    assert np.linalg.norm(new[:, None] - old, axis=2).min() > 0.9 * AROUND * h
+    length = np.linalg.norm(ring[1] - ring[0])
+    height = np.sqrt(max(h * h - 0.25 * length**2, (LOWEST * h) ** 2))
+    inside = 0.4 * np.cos(np.pi / 40) - height
+    assert np.allclose(np.linalg.norm(row - 0.5, axis=1), inside)
