@@ -143,7 +143,8 @@ class Optimiser:
                 break
         self._swap()
         self._rescue()
-        self._soften()
+        if not self.is_anisotropic:  # it leaves all vertices moving, and triangles turning
+            self._soften()
         far = self._approach()
         return Changes(self.swaps, self.collapses, self.splits, self.passes, far, self._folded())
 
