@@ -17,7 +17,7 @@ import surfmesh as sm
 from surfmesh.geometry.fundamental_forms import curvatures, forms_from_derivatives
 from surfmesh.geometry.surface import Surface
 from surfmesh.sizing.curvature_size import angle_size, chord_size
-from surfmesh.sizing.size_field import DEFAULT_ANGLE, DEFAULT_MAX_SIZE, LEAST_OF_CHORD
+from surfmesh.sizing.size_bounds import DEFAULT_ANGLE, DEFAULT_MAX_SIZE, LEAST_OF_CHORD
 
 POINTS = 10_000
 CLOUD_TRIANGLES = 10_000

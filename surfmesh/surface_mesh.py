@@ -52,6 +52,9 @@ class SurfaceMesh:
     face_ids: NDArray[np.int32] | None = None  # (m,) surface of each triangle; None: all 0
     surfaces: tuple[Any, ...] = ()  # by face_ids; empty when read from a file
     sizes: NDArray[np.float64] | None = None  # (n,) wanted edge length at each vertex
+    # (k, 6) for each of uv_points W = xx, xy, xz, yy, yz, zz, as |W d| is the step d in wanted
+    # lengths; None where sizes do not depend on the direction, or are not known: W = Id / sizes
+    inverse_sizes: NDArray[np.float64] | None = None
     sizing: Any = None  # the options it was made with
     seconds: Mapping[str, float] = field(default_factory=dict)  # by stage
     warnings: tuple[str, ...] = ()  # what the user should know
@@ -91,6 +94,10 @@ class SurfaceMesh:
             raise ValueError("uv_triangles given without uv_points")
         if self.sizes is not None:
             settle("sizes", self.sizes, np.float64, (n,))
+        if self.inverse_sizes is not None:
+            if self.uv_points is None:
+                raise ValueError("inverse_sizes given without uv_points")
+            settle("inverse_sizes", self.inverse_sizes, np.float64, (len(self.uv_points), 6))
         for name, dtype, shape in (
             ("turned_faces", np.bool_, (len(self.surfaces),)),
             ("solid_ids", np.int32, (m, 2)),

@@ -8,7 +8,9 @@ corner nodes:
         0 --- 1
 
 A node stores A = H^-1 = M^(1/2), not H: at a pole the wanted length in (u, v) is infinite,
-while A goes to zero linearly and is interpolated without error.
+while A goes to zero linearly and is interpolated without error. Where sizes are anisotropic it
+also stores W, the symmetric tensor in space for which |W d| is the length of a step d in wanted
+lengths: W = Id / h - (1 / h - 1 / long) t t^T, with ``long`` wanted along the tangent t.
 """
 
 import math
@@ -18,6 +20,8 @@ import numpy as np
 
 from surfmesh.kernels.jit import kernel
 
+_ISOTROPIC = np.empty((0, 6))
+
 
 class Background(NamedTuple):
     box: np.ndarray  # (5,) x0, y0, root cells per unit x and y, largest size (unit length)
@@ -25,6 +29,8 @@ class Background(NamedTuple):
     child: np.ndarray  # (cells,) int32: first of four children, or -1 for a leaf
     corner: np.ndarray  # (cells, 4) int32 nodes
     inverse_size: np.ndarray  # (nodes, 4) float64: A = H^-1, and 1 / h
+    # (nodes, 6) float64: W, the inverse sizes in space; empty where they are isotropic, Id / h
+    in_space: np.ndarray = _ISOTROPIC
 
 
 @kernel
@@ -119,8 +125,32 @@ def inverse_sizes_at(background, xy, out):
 
 
 @kernel
+def in_space_at(background, x, y):
+    """W at (x, y): xx, xy, xz, yy, yz, zz; bilinear in the leaf."""
+    n0, n1, n2, n3, w0, w1, w2, w3 = _leaf(background, x, y)
+    a = background.in_space
+    return (
+        w0 * a[n0, 0] + w1 * a[n1, 0] + w2 * a[n2, 0] + w3 * a[n3, 0],
+        w0 * a[n0, 1] + w1 * a[n1, 1] + w2 * a[n2, 1] + w3 * a[n3, 1],
+        w0 * a[n0, 2] + w1 * a[n1, 2] + w2 * a[n2, 2] + w3 * a[n3, 2],
+        w0 * a[n0, 3] + w1 * a[n1, 3] + w2 * a[n2, 3] + w3 * a[n3, 3],
+        w0 * a[n0, 4] + w1 * a[n1, 4] + w2 * a[n2, 4] + w3 * a[n3, 4],
+        w0 * a[n0, 5] + w1 * a[n1, 5] + w2 * a[n2, 5] + w3 * a[n3, 5],
+    )
+
+
+@kernel
+def in_space_at_all(background, xy, out):
+    """W at many points: xy (n, 2) -> out (n, 6)."""
+    for k in range(len(xy)):
+        w = in_space_at(background, xy[k, 0], xy[k, 1])
+        for i in range(6):
+            out[k, i] = w[i]
+
+
+@kernel
 def scalar_size_at(background, x, y):
-    """The wanted edge length h in 3D at (x, y), from the interpolated 1 / h."""
+    """The wanted edge length h in 3D at (x, y), the shorter of two, from the interpolated 1 / h."""
     n0, n1, n2, n3, w0, w1, w2, w3 = _leaf(background, x, y)
     a = background.inverse_size
     return 1.0 / (w0 * a[n0, 3] + w1 * a[n1, 3] + w2 * a[n2, 3] + w3 * a[n3, 3])

@@ -7,6 +7,13 @@ Sizes and shapes are judged on the true surface: a step between two vertices is 
 
 so that a unit step is a unit edge. The way back is a step H y = h I^(-1/2) y in the plane, and
 h^2 B^T y in space.
+
+Where sizes are anisotropic the background gives W, and |W d| is the length of d. In the tangent
+plane, with the orthonormal frame Q = J I^(-1/2), it is the 2 x 2 tensor V = Q^T W Q, and
+
+    M = J^T W^2 J = G^T G,   G = V I^(1/2),   H = M^(-1/2),   B = H G^T V Q^T,
+
+so that B J = M^(1/2) is symmetric; the way back in space is J H y = B^T (B B^T)^-1 y.
 """
 
 import math
@@ -14,7 +21,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from surfmesh.kernels.background import scalar_size_at
+from surfmesh.kernels.background import in_space_at, scalar_size_at
 from surfmesh.kernels.jit import kernel
 
 DEGENERATE = 1e-10  # |r_x x r_y| over |r_x|^2 + |r_y|^2 below which there is no normal
@@ -26,16 +33,24 @@ class Embedding(NamedTuple):
     normal: np.ndarray  # (vertices, 3) float64: unit normal, zero at a degenerate point
     size: np.ndarray  # (vertices,) float64: wanted edge length h
     scale: np.ndarray  # (vertices,) float64: h over that of the size field, at most 1
+    in_space: np.ndarray  # (vertices, 6) float64: W; empty where sizes are isotropic
 
 
-def empty_embedding(vertices: int) -> Embedding:
+def empty_embedding(vertices: int, anisotropic: bool = False) -> Embedding:
     return Embedding(
         point=np.empty((vertices, 3)),
         chart=np.empty((vertices, 2, 3)),
         normal=np.empty((vertices, 3)),
         size=np.empty(vertices),
         scale=np.ones(vertices),
+        in_space=np.empty((vertices if anisotropic else 0, 6)),
     )
+
+
+@kernel
+def is_anisotropic(s):
+    """Do the sizes depend on the direction?"""
+    return len(s.in_space) > 0
 
 
 @kernel
@@ -77,6 +92,96 @@ def embed(t, s, background, vertices, r, rx, ry, largest):
         for i in range(3):
             s.chart[v, 0, i] = (m11 * rx[k, i] + m12 * ry[k, i]) / h
             s.chart[v, 1, i] = (m12 * rx[k, i] + m22 * ry[k, i]) / h
+        if is_anisotropic(s):
+            w = in_space_at(background, t.xy[v, 0], t.xy[v, 1])
+            for i in range(6):
+                s.in_space[v, i] = w[i] / s.scale[v]
+            _stretch(t, s, v, scale * (e + root), scale * f, scale * (g + root))
+
+
+@kernel
+def _stretch(t, s, v, j11, j12, j22):
+    """Make H and B of v anisotropic; they are isotropic, and (j11, j12, j22) is I^(1/2)."""
+    h = s.size[v]
+    w, b = s.in_space[v], s.chart[v]
+    v11 = v12 = v22 = 0.0
+    for i in range(3):  # V = Q^T W Q, with Q^T = h B
+        p = _row(w, i, b[0, 0], b[0, 1], b[0, 2])
+        v11 += b[0, i] * p
+        v12 += b[1, i] * p
+        v22 += b[1, i] * _row(w, i, b[1, 0], b[1, 1], b[1, 2])
+    v11, v12, v22 = h * h * v11, h * h * v12, h * h * v22
+    g11, g12 = v11 * j11 + v12 * j12, v11 * j12 + v12 * j22
+    g21, g22 = v12 * j11 + v22 * j12, v12 * j12 + v22 * j22
+    # M^(1/2) = (M + d Id) / c, d = det M^(1/2); its inverse by Cramer's rule
+    d = abs(g11 * g22 - g12 * g21)
+    m11, m12, m22 = g11 * g11 + g21 * g21, g11 * g12 + g21 * g22, g12 * g12 + g22 * g22
+    c = math.sqrt(m11 + m22 + 2.0 * d)
+    if not (d > 0.0 and c > 0.0):
+        return
+    c = 1.0 / (c * d)
+    h11, h12, h22 = c * (m22 + d), -c * m12, c * (m11 + d)
+    t.size[v, 0], t.size[v, 1], t.size[v, 2] = h11, h12, h22
+    # H G^T V, to be applied to Q^T
+    a11, a12 = h11 * g11 + h12 * g12, h11 * g21 + h12 * g22
+    a21, a22 = h12 * g11 + h22 * g12, h12 * g21 + h22 * g22
+    b11, b12 = a11 * v11 + a12 * v12, a11 * v12 + a12 * v22
+    b21, b22 = a21 * v11 + a22 * v12, a21 * v12 + a22 * v22
+    for i in range(3):
+        x, y = h * b[0, i], h * b[1, i]
+        b[0, i], b[1, i] = b11 * x + b12 * y, b21 * x + b22 * y
+
+
+@kernel
+def _row(w, i, x, y, z):
+    """Row i of the symmetric W times (x, y, z)."""
+    if i == 0:
+        return w[0] * x + w[1] * y + w[2] * z
+    if i == 1:
+        return w[1] * x + w[3] * y + w[4] * z
+    return w[2] * x + w[4] * y + w[5] * z
+
+
+@kernel
+def lift(s, v, x, y):
+    """The step in space, along the tangent plane of v, that looks like (x, y) there."""
+    b = s.chart[v]
+    if not is_anisotropic(s):
+        square = s.size[v] * s.size[v]
+        x, y = square * x, square * y
+    else:
+        p = q = r = 0.0
+        for i in range(3):
+            p += b[0, i] * b[0, i]
+            q += b[0, i] * b[1, i]
+            r += b[1, i] * b[1, i]
+        d = p * r - q * q
+        if not d > 0.0:
+            return 0.0, 0.0, 0.0
+        x, y = (r * x - q * y) / d, (p * y - q * x) / d
+    return (
+        b[0, 0] * x + b[1, 0] * y,
+        b[0, 1] * x + b[1, 1] * y,
+        b[0, 2] * x + b[1, 2] * y,
+    )
+
+
+@kernel
+def shorten(s, v, factor):
+    """Scale the wanted lengths at v."""
+    s.size[v] *= factor
+    s.scale[v] *= factor
+    if is_anisotropic(s):
+        for i in range(6):
+            s.in_space[v, i] /= factor
+
+
+@kernel
+def _stretched_length(s, v, dx, dy, dz):
+    """|W d| in the metric of v."""
+    w = s.in_space[v]
+    x, y, z = _row(w, 0, dx, dy, dz), _row(w, 1, dx, dy, dz), _row(w, 2, dx, dy, dz)
+    return math.sqrt(x * x + y * y + z * z)
 
 
 @kernel
@@ -94,10 +199,14 @@ def chord(s, v, p):
 
 @kernel
 def edge_length(s, v, p):
-    """Length of the chord in units of the mean wanted size of its ends."""
+    """Length of the chord in units of the mean wanted size, in its direction, of its ends."""
     dx = s.point[p, 0] - s.point[v, 0]
     dy = s.point[p, 1] - s.point[v, 1]
     dz = s.point[p, 2] - s.point[v, 2]
+    if is_anisotropic(s):
+        first = _stretched_length(s, v, dx, dy, dz)
+        second = _stretched_length(s, p, dx, dy, dz)
+        return 2.0 * first * second / max(first + second, 1e-300)
     return 2.0 * math.sqrt(dx * dx + dy * dy + dz * dz) / (s.size[v] + s.size[p])
 
 
@@ -133,11 +242,24 @@ def triangle_deviation(s, a, b, c):
 
 @kernel
 def triangle_shape(s, a, b, c):
-    """alpha of abc in space, negative when it is turned over against the surface's normals."""
+    """alpha of abc in space, negative when it is turned over against the surface's normals.
+
+    Where sizes are anisotropic it is measured in the mean metric of the corners.
+    """
     p = s.point
     ux, uy, uz = p[b, 0] - p[a, 0], p[b, 1] - p[a, 1], p[b, 2] - p[a, 2]
     vx, vy, vz = p[c, 0] - p[a, 0], p[c, 1] - p[a, 1], p[c, 2] - p[a, 2]
     nx, ny, nz = uy * vz - uz * vy, uz * vx - ux * vz, ux * vy - uy * vx
+    m = s.normal
+    outward = (
+        nx * (m[a, 0] + m[b, 0] + m[c, 0])
+        + ny * (m[a, 1] + m[b, 1] + m[c, 1])
+        + nz * (m[a, 2] + m[b, 2] + m[c, 2])
+    )
+    if is_anisotropic(s):
+        ux, uy, uz = _stretched(s, a, b, c, ux, uy, uz)
+        vx, vy, vz = _stretched(s, a, b, c, vx, vy, vz)
+        nx, ny, nz = uy * vz - uz * vy, uz * vx - ux * vz, ux * vy - uy * vx
     uu = ux * ux + uy * uy + uz * uz
     uv = ux * vx + uy * vy + uz * vz
     vv = vx * vx + vy * vy + vz * vz
@@ -145,10 +267,17 @@ def triangle_shape(s, a, b, c):
     if total == 0.0:
         return 0.0
     alpha = 3.4641016151377544 * math.sqrt(nx * nx + ny * ny + nz * nz) / total
-    m = s.normal
-    outward = (
-        nx * (m[a, 0] + m[b, 0] + m[c, 0])
-        + ny * (m[a, 1] + m[b, 1] + m[c, 1])
-        + nz * (m[a, 2] + m[b, 2] + m[c, 2])
-    )
     return alpha if outward > 0.0 else -alpha
+
+
+@kernel
+def _stretched(s, a, b, c, x, y, z):
+    """The step (x, y, z) in the sum of the metrics of a, b and c."""
+    m = s.in_space
+    xx = m[a, 0] + m[b, 0] + m[c, 0]
+    xy = m[a, 1] + m[b, 1] + m[c, 1]
+    xz = m[a, 2] + m[b, 2] + m[c, 2]
+    yy = m[a, 3] + m[b, 3] + m[c, 3]
+    yz = m[a, 4] + m[b, 4] + m[c, 4]
+    zz = m[a, 5] + m[b, 5] + m[c, 5]
+    return xx * x + xy * y + xz * z, xy * x + yy * y + yz * z, xz * x + yz * y + zz * z

@@ -10,8 +10,22 @@ A cell of the background under construction is a patch, nodes numbered row by ro
 """
 
 import math
+from typing import NamedTuple
+
+import numpy as np
 
 from surfmesh.kernels.jit import kernel
+
+ROUNDING = 1e-9  # a size is not lowered for less
+TURN_SLOPE = 3.0  # how much faster than sizes a metric may change because its direction turns
+
+
+class Metric(NamedTuple):
+    """What makes sizes anisotropic: h holds at right angles to ``along``. Empty if isotropic."""
+
+    long: np.ndarray  # (nodes,) size along ``along``, at least h
+    along: np.ndarray  # (nodes, 3) unit vector in the tangent plane
+    normal: np.ndarray  # (nodes, 3) unit, or zero where there is none: isotropic there
 
 
 @kernel
@@ -37,7 +51,91 @@ def _limit(h, r, slope, a, b, changed, sweep):
 
 
 @kernel
-def grade(patch, joined, r, slope, h, changed, first, sweeps):
+def _carried(metric, a, b):
+    """``along`` of a in the tangent plane of b: components along and left of that of b.
+
+    Turned with the normal by the smallest rotation. Normals may be opposite across a joint.
+    """
+    n, m, t = metric.normal[a], metric.normal[b], metric.along[a]
+    x, y, z = t[0], t[1], t[2]
+    c = n[0] * m[0] + n[1] * m[1] + n[2] * m[2]
+    sign = 1.0 if c >= 0.0 else -1.0
+    k = sign * (x * m[0] + y * m[1] + z * m[2]) / (1.0 + abs(c))
+    x -= k * (n[0] + sign * m[0])
+    y -= k * (n[1] + sign * m[1])
+    z -= k * (n[2] + sign * m[2])
+    s = metric.along[b]
+    along = x * s[0] + y * s[1] + z * s[2]
+    left = (
+        x * (m[1] * s[2] - m[2] * s[1])
+        + y * (m[2] * s[0] - m[0] * s[2])
+        + z * (m[0] * s[1] - m[1] * s[0])
+    )
+    d = math.sqrt(along * along + left * left)
+    if d == 0.0:
+        return 1.0, 0.0
+    return along / d, left / d
+
+
+@kernel
+def _bind(h, metric, r, slope, a, b, changed, sweep):
+    """Lower the sizes of b until its metric contains that of a, grown over their distance.
+
+    Over the distance l, in the metric of a, the sizes in the directions of b may grow by
+    g = 1 + slope l; as a whole, M_b - M_a / f^2 must be positive definite for the faster
+    f = 1 + TURN_SLOPE slope l. The first bounds both sizes of b; what is wanting in the second
+    is due to a direction that turns, and shortens the longer one alone: principal directions
+    stay what they are. Returns the relative change of b.
+    """
+    dx, dy, dz = r[b, 0] - r[a, 0], r[b, 1] - r[a, 1], r[b, 2] - r[a, 2]
+    t = metric.along[a]
+    along = dx * t[0] + dy * t[1] + dz * t[2]
+    left = max(dx * dx + dy * dy + dz * dz - along * along, 0.0)
+    along /= metric.long[a]
+    distance = math.sqrt(along * along + left / (h[a] * h[a]))
+    growth = 1.0 + slope * distance
+    short = growth * h[a]
+    hb, lb = h[b], metric.long[b]
+    if lb <= short:
+        return 0.0
+    n = metric.normal[b]
+    if n[0] == 0.0 and n[1] == 0.0 and n[2] == 0.0:
+        h[b] = metric.long[b] = short
+        changed[b] = sweep
+        return lb / short - 1.0
+    c, s = _carried(metric, a, b)
+    # the metric of a in the axes of b: x for its longer, y for its shorter one
+    x, y = 1.0 / (metric.long[a] * metric.long[a]), 1.0 / (h[a] * h[a])
+    mx, my, mxy = c * c * x + s * s * y, s * s * x + c * c * y, c * s * (y - x)
+    f = 1.0 / (1.0 + TURN_SLOPE * slope * distance) ** 2
+    g = 1.0 / (growth * growth)
+    y = max(1.0 / (hb * hb), g * my)
+    x = max(1.0 / (lb * lb), g * mx)
+    if y > f * my:
+        x = max(x, f * mx + (f * mxy) ** 2 / (y - f * my))
+    if x > y:
+        x = y = max(y, 1.0 / (short * short))
+    long = min(1.0 / math.sqrt(x), lb)
+    short = min(1.0 / math.sqrt(y), hb)
+    change = max(lb / long, hb / short) - 1.0
+    if change <= ROUNDING:
+        return 0.0
+    h[b], metric.long[b] = short, max(long, short)
+    changed[b] = sweep
+    return change
+
+
+@kernel
+def _level(h, metric, r, slope, a, b, changed, sweep):
+    """Let neither of a and b exceed what the other allows; returns the relative change."""
+    if len(metric.long) == 0:
+        return _limit(h, r, slope, a, b, changed, sweep)
+    first = _bind(h, metric, r, slope, a, b, changed, sweep)
+    return max(first, _bind(h, metric, r, slope, b, a, changed, sweep))
+
+
+@kernel
+def grade(patch, joined, r, slope, h, metric, changed, first, sweeps):
     """Lower the sizes h (nodes,) until no two neighbours differ by more than the slope allows.
 
     patch (cells, 9) nodes; joined (k, 2) pairs of nodes that are neighbours across a joint of
@@ -60,18 +158,16 @@ def grade(patch, joined, r, slope, h, changed, first, sweeps):
                 continue
             for i in range(9):  # right, up and the two diagonals of each node of the 3 x 3
                 right = i % 3 < 2
-                if right:
-                    largest = max(largest, _limit(h, r, slope, p[i], p[i + 1], changed, sweep))
-                if i < 6:
-                    largest = max(largest, _limit(h, r, slope, p[i], p[i + 3], changed, sweep))
-                    if right:
-                        largest = max(largest, _limit(h, r, slope, p[i], p[i + 4], changed, sweep))
-                        largest = max(
-                            largest, _limit(h, r, slope, p[i + 1], p[i + 3], changed, sweep)
-                        )
+                for way in range(4):
+                    if (way != 1 and not right) or (way != 0 and i >= 6):
+                        continue
+                    a = p[i + 1] if way == 3 else p[i]
+                    b = p[i + 1] if way == 0 else p[i + 4] if way == 2 else p[i + 3]
+                    found = _level(h, metric, r, slope, a, b, changed, sweep)
+                    largest = max(largest, found)
         for k in range(len(joined)):
             a, b = joined[k, 0], joined[k, 1]
-            largest = max(largest, _limit(h, r, slope, a, b, changed, sweep))
+            largest = max(largest, _level(h, metric, r, slope, a, b, changed, sweep))
         if largest < 1e-3:
             return sweep + 2  # nothing is newer than the sweep before the next
     return -(first + sweeps)
@@ -92,10 +188,10 @@ def _relative_error(x11, x12, x22, a11, a12, a22, floor):
 
 
 @kernel
-def patch_errors(patch, root, h, step, largest, error, extent):
+def patch_errors(patch, inverse, step, largest, error, extent):
     """How far the field in each patch is from bilinear, and how many edges wide the patch is.
 
-    root (nodes, 3) is I^(1/2), so A = root / h; step (cells, 2) the patch's width and height.
+    inverse (nodes, 3) is A = H^-1; step (cells, 2) the patch's width and height.
     error (cells,): largest relative error at the five test nodes; extent (cells,): width or
     height in metric length, whichever is larger.
     """
@@ -111,17 +207,16 @@ def patch_errors(patch, root, h, step, largest, error, extent):
                 column, row = 2 * (c % 2), 2 * (c // 2)
                 w = 0.25 * (2 - abs(i % 3 - column)) * (2 - abs(i // 3 - row))
                 q = p[3 * row + column]
-                x11 += w * root[q, 0] / h[q]
-                x12 += w * root[q, 1] / h[q]
-                x22 += w * root[q, 2] / h[q]
-            a11, a12, a22 = root[n, 0] / h[n], root[n, 1] / h[n], root[n, 2] / h[n]
+                x11 += w * inverse[q, 0]
+                x12 += w * inverse[q, 1]
+                x22 += w * inverse[q, 2]
+            a11, a12, a22 = inverse[n, 0], inverse[n, 1], inverse[n, 2]
             worst = max(worst, _relative_error(x11, x12, x22, a11, a12, a22, floor))
         error[k] = worst
         wide = 0.0
         for i in range(9):
             n = p[i]
-            s = step[k, 0] / h[n]
-            wide = max(wide, s * math.sqrt(root[n, 0] ** 2 + root[n, 1] ** 2))
-            s = step[k, 1] / h[n]
-            wide = max(wide, s * math.sqrt(root[n, 1] ** 2 + root[n, 2] ** 2))
+            a11, a12, a22 = inverse[n, 0], inverse[n, 1], inverse[n, 2]
+            wide = max(wide, step[k, 0] * math.sqrt(a11 * a11 + a12 * a12))
+            wide = max(wide, step[k, 1] * math.sqrt(a12 * a12 + a22 * a22))
         extent[k] = wide

@@ -9,7 +9,16 @@ import math
 
 from surfmesh.kernels import NIL
 from surfmesh.kernels.background import scalar_size_at
-from surfmesh.kernels.embedding import chord, edge_length, triangle_deviation, triangle_shape
+from surfmesh.kernels.embedding import (
+    chord,
+    edge_length,
+    is_anisotropic,
+    lift,
+    rise,
+    shorten,
+    triangle_deviation,
+    triangle_shape,
+)
 from surfmesh.kernels.jit import kernel
 from surfmesh.kernels.local_operations import (
     DEAD,
@@ -200,7 +209,11 @@ def _newton_step(t, s, v, start, stiffness):
         a12 += c * (-(tx * ry + ty * rx) * i + 2.0 * total * rx * ry * i * i)
         a22 += c * (4.0 - 2.0 * ty * ry * i + 2.0 * total * ry * ry * i * i)
         d = math.sqrt(px * px + py * py)
-        scale = 0.5 * (1.0 + s.size[p] / s.size[v])
+        if is_anisotropic(s):  # the size of p, in this direction, in units of that of v
+            bx, by = chord(s, p, v)
+            scale = 0.5 * (1.0 + d / max(math.sqrt(bx * bx + by * by), 1e-3 * d))
+        else:
+            scale = 0.5 * (1.0 + s.size[p] / s.size[v])
         l = d / scale
         nx, ny = px / d, py / d
         k = 2.0 * stiffness / (scale * scale)
@@ -260,12 +273,13 @@ def smooth(t, s, background, star, frozen, active, dirty, stiffness, moved):
         step = dx * dx + dy * dy
         if step < 1e-8:
             continue
-        x, y, h = t.xy[v, 0], t.xy[v, 1], s.size[v]
+        x, y = t.xy[v, 0], t.xy[v, 1]
         x3, y3, z3 = s.point[v, 0], s.point[v, 1], s.point[v, 2]
         t.xy[v, 0] = x + t.size[v, 0] * dx + t.size[v, 1] * dy
         t.xy[v, 1] = y + t.size[v, 1] * dx + t.size[v, 2] * dy
+        step3 = lift(s, v, dx, dy)
         for i in range(3):
-            s.point[v, i] += h * h * (s.chart[v, 0, i] * dx + s.chart[v, 1, i] * dy)
+            s.point[v, i] += step3[i]
         worst = _worst_in_star(t, s, v, start)
         if worst < old and worst < LEAST_SHAPE:
             t.xy[v, 0], t.xy[v, 1] = x, y
@@ -311,8 +325,7 @@ def shrink(t, s, triangles, error, chord_error, active):
         for i in range(3):
             v = t.tri[3 * triangles[k] + i]
             if s.scale[v] * factor >= SMALLEST_SCALE:
-                s.size[v] *= factor
-                s.scale[v] *= factor
+                shorten(s, v, factor)
             active[v] = 1
     return far
 
@@ -491,17 +504,52 @@ def split_long(t, s, longest, dirty, active):
             continue
         if b >= first or edge_length(s, a, b) <= longest:
             continue
-        p = split_edge(t, e, 0.5 * (t.xy[a, 0] + t.xy[b, 0]), 0.5 * (t.xy[a, 1] + t.xy[b, 1]))
-        if p == NIL:
-            continue
-        for i in range(3):
-            s.point[p, i] = 0.5 * (s.point[a, i] + s.point[b, i])
-            s.chart[p, 0, i] = s.chart[a, 0, i]
-            s.chart[p, 1, i] = s.chart[a, 1, i]
-            s.normal[p, i] = s.normal[a, i]
-            t.size[p, i] = t.size[a, i]
-        s.scale[p] = 0.5 * (s.scale[a] + s.scale[b])
-        s.size[p] = 0.5 * (s.size[a] + s.size[b])
-        active[p] = active[a] = active[b] = 1
-        dirty[p] = dirty[a] = dirty[b] = 1
+        _halve(t, s, e, active, dirty)
+    return first
+
+
+@kernel
+def _halve(t, s, e, active, dirty):
+    """Split the edge e in the middle; what is known at the new vertex is taken from its ends."""
+    a, b = t.tri[e], t.tri[t.adj[e]]
+    p = split_edge(t, e, 0.5 * (t.xy[a, 0] + t.xy[b, 0]), 0.5 * (t.xy[a, 1] + t.xy[b, 1]))
+    if p == NIL:
+        return p
+    for i in range(3):
+        s.point[p, i] = 0.5 * (s.point[a, i] + s.point[b, i])
+        s.chart[p, 0, i] = s.chart[a, 0, i]
+        s.chart[p, 1, i] = s.chart[a, 1, i]
+        s.normal[p, i] = s.normal[a, i]
+        t.size[p, i] = t.size[a, i]
+    s.scale[p] = 0.5 * (s.scale[a] + s.scale[b])
+    s.size[p] = 0.5 * (s.size[a] + s.size[b])
+    if is_anisotropic(s):
+        for i in range(6):
+            s.in_space[p, i] = 0.5 * (s.in_space[a, i] + s.in_space[b, i])
+    active[p] = active[a] = active[b] = 1
+    dirty[p] = dirty[a] = dirty[b] = 1
+    return p
+
+
+@kernel
+def split_far(t, s, triangles, dirty, active):
+    """Split, in each of the triangles (n,), the edge that lies farthest from the surface.
+
+    One edge a triangle and a round: those whose neighbours have been split are passed over.
+    Returns the first of the new vertices, which the caller embeds.
+    """
+    first = t.count[0]
+    for k in triangles:
+        best, farthest = NIL, 0.0
+        fresh = True
+        for e in range(3 * k, 3 * k + 3):
+            a, b = t.tri[e], t.tri[next_half_edge(e)]
+            if a >= first or b >= first:
+                fresh = False
+            elif t.adj[e] >= 0 and t.fixed[e] == 0:
+                far = abs(rise(s, a, b)) + abs(rise(s, b, a))
+                if far > farthest:
+                    best, farthest = e, far
+        if fresh and best != NIL:
+            _halve(t, s, best, active, dirty)
     return first

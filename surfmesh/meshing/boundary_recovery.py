@@ -37,6 +37,9 @@ them others are removed, and how low its triangles may be where segments are lon
 BAD_SHAPE, SWEEPS = 0.7, 8
 """Triangles below this alpha, left by the packing or the boundary, are offered a swap."""
 
+ROOM, STRETCHED_ROOM = 1 / 16, 1 / 2
+"""Room for more vertices, as a share of those there are, for the optimiser's splits."""
+
 QUEUE = 1 << 16
 """Most edges that one segment may cut."""
 
@@ -63,7 +66,7 @@ def recovered(
         error.where = loops.uv
         raise error
     _clear(t, loops.segments, vertex, edge, first_node)
-    return _cut_out(t, vertex)
+    return _cut_out(t, vertex, STRETCHED_ROOM if field.is_anisotropic else ROOM)
 
 
 def recovered_regions(
@@ -155,11 +158,11 @@ def _with_room(t: Triangulation, nodes: int) -> Triangulation:
     return t._replace(fixed=np.zeros(len(t.tri), np.uint8))
 
 
-def _cut_out(t: Triangulation, vertex: np.ndarray) -> DomainMesh:
+def _cut_out(t: Triangulation, vertex: np.ndarray, spare: float = ROOM) -> DomainMesh:
     triangle_number = np.empty(t.count[1], np.int32)
     vertex_number = np.empty(t.count[0], np.int32)
     _, vertices = number_inside(t, INSIDE, triangle_number, vertex_number)
-    room = vertices + vertices // 16 + 64
+    room = vertices + int(spare * vertices) + 64
     out = empty_triangulation(room)
     out = out._replace(fixed=np.zeros(len(out.tri), np.uint8))
     copy_inside(t, triangle_number, vertex_number, out)

@@ -12,6 +12,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from surfmesh.cad.model import CadEdge, CadModel
+from surfmesh.meshing.edge_gradation import graded_by_direction
 from surfmesh.meshing.edge_samples import EdgeSamples
 from surfmesh.sizing.size_limits import SizeLimits
 from surfmesh.sizing.sizing import Sizing
@@ -61,8 +62,13 @@ def cut_edges(
         wish = wish.copy()
         for face, limit in limits.items():
             along = samples.along(face)
-            wish[along] = np.minimum(wish[along], limit(samples.points[along]))
-    size = _graded(model, samples, wish, sizing)
+            if sizing.is_anisotropic:
+                found = limit.along(samples.points[along], samples.tangent[along])
+            else:
+                found = limit(samples.points[along])
+            wish[along] = np.minimum(wish[along], found)
+    grade = _graded_by_direction if sizing.is_anisotropic else _graded
+    size = grade(model, samples, wish, sizing)
     nodes = before or [None] * len(model.edges)
     following = 1 + max([len(model.vertices) - 1, *(int(n.numbers.max()) for n in nodes if n)])
     nodes = list(nodes)
@@ -113,6 +119,23 @@ def _graded(
     kept = np.r_[True, (np.diff(row) != 0) | (np.diff(column) != 0)]
     graph = coo_matrix((data[kept], (row[kept], column[kept])), graph.shape).tocsr()
     return (sizing.gradient * dijkstra(graph, directed=False, indices=root))[node]
+
+
+def _graded_by_direction(
+    model: CadModel, samples: EdgeSamples, wish: np.ndarray, sizing: Sizing
+) -> np.ndarray:
+    """Sizes (n,) at the samples, where those along two edges differ at their vertex."""
+    there = [k for k in range(len(model.edges)) if samples.first[k] < samples.first[k + 1]]
+    if not there:
+        return wish
+    ends = np.array([samples.vertex[[model.edges[k].start, model.edges[k].end]] for k in there])
+    own = [samples.of(k) for k in there]
+    return np.concatenate(
+        graded_by_direction(
+            [samples.points[k] for k in own], [wish[k] for k in own],
+            [samples.metric[k] for k in own], ends, sizing.gradient, sizing.anisotropy,
+        )
+    )  # fmt: skip
 
 
 def _cut(

@@ -13,8 +13,14 @@ import numpy as np
 from surfmesh.cad.model import CadCoedge, CadEdge, CadFace, CadModel
 from surfmesh.geometry.fundamental_forms import curvatures, forms_from_derivatives
 from surfmesh.kernels.edge_gaps import edge_gaps
-from surfmesh.sizing.curvature_size import DEVIATION_RESERVE, angle_size, chord_size
-from surfmesh.sizing.size_field import DEFAULT_ANGLE, FINEST_SIZE, LEAST_OF_CHORD
+from surfmesh.sizing.curvature_size import (
+    DEVIATION_RESERVE,
+    STRAIGHT_RESERVE,
+    angle_size,
+    chord_size,
+)
+from surfmesh.sizing.direction_size import size_along
+from surfmesh.sizing.size_bounds import DEFAULT_ANGLE, FINEST_SIZE, LEAST_OF_CHORD, SizeBounds
 from surfmesh.sizing.sizing import Sizing
 
 STRAIGHT_SAMPLES, CURVED_SAMPLES = 33, 129
@@ -54,6 +60,11 @@ class EdgeSamples:
     """(n, 3)"""
     wish: np.ndarray
     """(n,) wanted edge lengths, not graded."""
+    tangent: np.ndarray
+    """(n, 3) unit."""
+    metric: np.ndarray
+    """(n,) what curvature allows along the edge, before anything else lowers it. Both are empty
+    where sizes do not depend on the direction."""
     turn: np.ndarray
     """(e,) by how much the tangent turns along each edge, radians."""
     vertex: np.ndarray
@@ -78,16 +89,20 @@ def sample_edges(model: CadModel, sizing: Sizing) -> EdgeSamples:
     for face in model.faces:
         for coedge in face.coedges:
             uses[coedge.edge].append((face, coedge))
-    shares, points, wishes = [], [], []
+    shares, points, wishes, tangents, metrics = [], [], [], [], []
     count = np.zeros(len(model.edges) + 1, np.int64)
     turn = np.zeros(len(model.edges))
     for number, edge in enumerate(model.edges):
         if collapses(model, edge):
             continue
-        share, place, wish, turn[number] = _sampled(model, edge, uses[number], sizing)
+        share, place, wish, tangent, metric, turn[number] = _sampled(
+            model, edge, uses[number], sizing
+        )
         shares.append(share)
         points.append(place)
         wishes.append(wish)
+        tangents.append(tangent)
+        metrics.append(metric)
         count[number + 1] = len(share)
     first = np.cumsum(count)
     edges_of_face = tuple(
@@ -99,11 +114,14 @@ def sample_edges(model: CadModel, sizing: Sizing) -> EdgeSamples:
         np.concatenate(shares) if shares else np.empty(0),
         np.concatenate(points) if points else np.empty((0, 3)),
         np.concatenate(wishes) if wishes else np.empty(0),
+        np.concatenate(tangents) if tangents else np.empty((0, 3)),
+        np.concatenate(metrics) if metrics else np.empty(0),
         turn,
         vertex_numbers(model),
         edges_of_face,
     )
-    _heed_gaps(model, samples, sizing.min_size or 0.0)
+    ratio = sizing.anisotropy if sizing.is_anisotropic else 1.0
+    _heed_gaps(model, samples, sizing.min_size or 0.0, ratio)
     return samples
 
 
@@ -125,8 +143,8 @@ def vertex_numbers(model: CadModel) -> np.ndarray:
 
 def _sampled(
     model: CadModel, edge: CadEdge, uses: list[tuple[CadFace, CadCoedge]], sizing: Sizing
-) -> tuple[np.ndarray, np.ndarray, np.ndarray, float]:
-    """share (n,), points (n, 3), wish (n,), turn."""
+) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray, np.ndarray, float]:
+    """share (n,), points (n, 3), wish (n,), tangent (n, 3), metric (n,), turn."""
     coarsest = min(sizing.max_size or np.inf, max(edge.length, NARROWEST * model.diagonal))
     if isinstance(sizing.size, float):
         coarsest = min(coarsest, sizing.size)
@@ -137,6 +155,8 @@ def _sampled(
     turn = 0.0
     if straight:
         (points,) = edge.curve.evaluate(edge.parameters(share), 0)
+        way = points[-1] - points[0]
+        tangent = np.tile(way / max(np.linalg.norm(way), np.finfo(float).tiny), (len(share), 1))
     else:
         points, first, second = edge.curve.evaluate(edge.parameters(share), 2)
         speed = np.linalg.norm(first, axis=1)
@@ -145,7 +165,13 @@ def _sampled(
         turn = float(np.arccos(np.clip(cosine, -1.0, 1.0)).sum())
         if follows_curvature:
             np.minimum(wish, _own_wish(points, first, second, speed, sizing), out=wish)
-    for face, coedge in uses if follows_curvature else ():
+    metric = np.empty(0)
+    if sizing.is_anisotropic:
+        metric = _metric_wish(model, uses, share, tangent, sizing)
+        np.minimum(wish, metric, out=wish)
+    else:
+        tangent = np.empty((0, 3))
+    for face, coedge in uses if follows_curvature and not sizing.is_anisotropic else ():
         surface = face.surface
         if surface.kind != "plane":
             some = share[:1] if surface.kind in EVEN else share
@@ -153,7 +179,21 @@ def _sampled(
     if callable(sizing.size):
         np.minimum(wish, np.asarray(sizing.size(points), float), out=wish)
     finest = sizing.min_size or FINEST_SIZE * model.diagonal
-    return share, points, np.maximum(wish, finest, out=wish), turn
+    return share, points, np.maximum(wish, finest, out=wish), tangent, metric, turn
+
+
+def _metric_wish(
+    model: CadModel, uses: list[tuple[CadFace, CadCoedge]], share: np.ndarray,
+    tangent: np.ndarray, sizing: Sizing,
+) -> np.ndarray:  # fmt: skip
+    """What the faces' curvature allows in the direction of the edge (n,)."""
+    bounds = SizeBounds.of(sizing, model.diagonal)
+    wish = np.full(len(share), bounds.longest)
+    for face, coedge in uses:
+        if face.surface.kind != "plane":
+            found = size_along(face.surface, coedge.uv(share), tangent, bounds)
+            np.minimum(wish, found, out=wish)
+    return wish
 
 
 def _own_wish(
@@ -165,7 +205,8 @@ def _own_wish(
     with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
         curvature = np.nan_to_num(bend / speed**3, nan=0.0, posinf=0.0)
         if sizing.chord is not None:
-            own = np.sqrt(8.0 * DEVIATION_RESERVE * sizing.chord / curvature)
+            reserve = STRAIGHT_RESERVE if sizing.is_anisotropic else DEVIATION_RESERVE
+            own = np.sqrt(8.0 * reserve * sizing.chord / curvature)
             wish = np.maximum(own, 2.0 * sizing.chord)
             np.minimum(wish, _kink_wish(points, curvature, sizing.chord), out=wish)
     least = 0.0 if sizing.angle is not None else LEAST_OF_CHORD * sizing.chord
@@ -204,8 +245,11 @@ def _face_wish(surface, uv: np.ndarray, sizing: Sizing) -> np.ndarray:
     return wish
 
 
-def _heed_gaps(model: CadModel, samples: EdgeSamples, least: float) -> None:
-    """Lower the wishes, in place, to the distance of edges of the same face that do not meet."""
+def _heed_gaps(model: CadModel, samples: EdgeSamples, least: float, ratio: float) -> None:
+    """Lower the wishes, in place, to the distance of edges of the same face that do not meet.
+
+    Where triangles may be ``ratio`` times longer than wide, to so many times the distance.
+    """
     first = np.zeros(len(model.faces) + 1, np.int64)
     np.cumsum([len(edges) for edges in samples.edges_of_face], out=first[1:])
     if not len(samples.points) or not first[-1]:
@@ -220,5 +264,5 @@ def _heed_gaps(model: CadModel, samples: EdgeSamples, least: float) -> None:
     narrowest = NARROWEST * model.diagonal
     sliver = np.minimum(LONGER * gap[heeded], narrowest)
     sliver[sliver < HOPELESS * narrowest] = narrowest
-    wish = np.maximum(gap[heeded], np.maximum(sliver, least))
+    wish = np.maximum(ratio * gap[heeded], np.maximum(sliver, least))
     samples.wish[heeded] = np.minimum(samples.wish[heeded], wish)

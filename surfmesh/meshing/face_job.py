@@ -25,8 +25,8 @@ from surfmesh.meshing.packing import packed
 from surfmesh.meshing.seam_limits import seam_limits
 from surfmesh.meshing.untangling import untangled
 from surfmesh.sizing.boundary_field import boundary_field, has_boundary_field
-from surfmesh.sizing.size_field import SizeField, size_field
-from surfmesh.sizing.size_limits import SizeLimits
+from surfmesh.sizing.size_field import SizeField, inverse_sizes, size_field
+from surfmesh.sizing.size_limits import SizeLimits, along_lines
 from surfmesh.sizing.sizing import Sizing
 
 SAME_PLACE = 1e-6
@@ -106,6 +106,8 @@ class FaceMesh:
     uv_points: np.ndarray = field(default_factory=lambda: np.empty((0, 2)))
     uv_triangles: np.ndarray = field(default_factory=lambda: np.empty((0, 3), np.int32))
     sizes: np.ndarray = field(default_factory=lambda: np.empty(0))
+    inverse_sizes: np.ndarray | None = None
+    """Of ``uv_points``, where sizes depend on the direction: see ``SurfaceMesh``."""
     wishes: SizeLimits | None = None
     """Smaller sizes that the face needs."""
     failure: str = ""
@@ -282,7 +284,7 @@ def _meshed(job: FaceJob, unfold: bool = True) -> FaceMesh:
     optimiser = Optimiser(domain.t, domain.node, same, surface, field)
     optimiser.embedding.point[domain.node] = fixed  # the edges' nodes, not their images
     wishes: SizeLimits | None = None
-    if job.limits is None:  # the edges heed them from now on
+    if job.limits is None and not job.sizing.is_anisotropic:  # the edges heed them from now on
         wishes = _wishes_along(job, surface, field, loops, fixed)
     if job.optimise:
         changes = optimiser.run()
@@ -313,7 +315,7 @@ def _meshed(job: FaceJob, unfold: bool = True) -> FaceMesh:
         return FaceMesh(failure=f"its sides cannot be joined near ({place})", wishes=wishes)
     return FaceMesh(
         parts.points, slot[parts.place], parts.triangles, parts.uv_points, parts.uv_triangles,
-        sizes, wishes,
+        sizes, inverse_sizes(field, xy, optimiser.embedding.scale[: len(xy)]), wishes,
     )  # fmt: skip
 
 
@@ -334,6 +336,9 @@ def _field(job: FaceJob) -> tuple[Surface, SizeField]:
             job.sizing.gradient,
             np.concatenate([piece.uv for piece in real]),
         )
+        if job.sizing.is_anisotropic:  # an edge knows nothing of the sizes across it
+            along = np.concatenate([_directions(piece.points) for piece in real])
+            limits = replace(limits, in_space=along_lines(along, limits.sizes))
         if job.limits is not None:
             near = _nearest(limits.points, job.limits.points)
             uv_of_limits = limits.uv[near]
@@ -370,6 +375,14 @@ def _grown_inward(surface: Surface, job: FaceJob, real: list[Piece]) -> SizeFiel
         uv = np.concatenate([uv, place])
         sizes = np.concatenate([sizes, job.limits.sizes])
     return boundary_field(surface, job.sizing, uv, sizes)
+
+
+def _directions(points: np.ndarray) -> np.ndarray:
+    """Unit directions (n, 3) of a polygon at its nodes (n, 3)."""
+    step = np.diff(points, axis=0)
+    step /= np.maximum(np.linalg.norm(step, axis=1), np.finfo(float).tiny)[:, None]
+    mean = np.concatenate([step[:1], step[1:] + step[:-1], step[-1:]])
+    return mean / np.maximum(np.linalg.norm(mean, axis=1), np.finfo(float).tiny)[:, None]
 
 
 def _nearest(points: np.ndarray, wanted: np.ndarray) -> np.ndarray:

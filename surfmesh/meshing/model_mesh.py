@@ -22,7 +22,7 @@ from surfmesh.meshing.model_groups import groups_of
 from surfmesh.meshing.simplification import LEAST, simplified
 from surfmesh.meshing.solid_contents import Contents
 from surfmesh.meshing.stages import Progress, Stopwatch
-from surfmesh.sizing.size_field import DEFAULT_CHORD, DEFAULT_MAX_SIZE
+from surfmesh.sizing.size_bounds import DEFAULT_CHORD, DEFAULT_MAX_SIZE, LONGEST
 from surfmesh.sizing.size_limits import SizeLimits
 from surfmesh.sizing.sizing import Sizing
 from surfmesh.surface_mesh import NOT_MESHED, SurfaceMesh
@@ -39,7 +39,8 @@ def with_defaults(sizing: Sizing, model: CadModel) -> Sizing:
     if sizing.chord is None and sizing.angle is None and sizing.size is None:
         sizing = sizing.replaced(chord=DEFAULT_CHORD * model.diagonal)
     if sizing.max_size is None and sizing.size is None:
-        largest = max(DEFAULT_MAX_SIZE * model.diagonal, sizing.min_size or 0.0)
+        share = LONGEST if sizing.is_anisotropic else DEFAULT_MAX_SIZE
+        largest = max(share * model.diagonal, sizing.min_size or 0.0)
         sizing = sizing.replaced(max_size=largest)
     return sizing
 
@@ -60,7 +61,9 @@ def mesh_model(
     sizing = with_defaults(sizing, model)
     with watch.stage("sizing"):
         samples = sample_edges(model, sizing)
-    contents = Contents(model, sizing.chord, sizing.gradient)
+    # few triangles are asked for within the chord: it alone is kept
+    kept = None if sizing.is_anisotropic else sizing.chord
+    contents = Contents(model, kept, sizing.gradient)
     limits: dict[int, SizeLimits] = {}
     jobs: list[FaceJob | None] = [None] * len(model.faces)
     done: list[FaceMesh] = [FaceMesh()] * len(model.faces)
@@ -196,6 +199,7 @@ def _joined(
         np.minimum.at(sizes, cut.numbers, cut.sizes)
     turned, solids = orientation(model)
     inner_points, inner_sizes, triangles, uv, uv_triangles, face_ids = [], [], [], [], [], []
+    stretched: list[np.ndarray] = []
     total = shared
     uv_total = 0
     for number, (job, found) in enumerate(zip(jobs, done)):
@@ -215,6 +219,8 @@ def _joined(
         uv.append(found.uv_points)
         uv_triangles.append(uv_total + found.uv_triangles[:, order].astype(np.int64))
         uv_total += len(found.uv_points)
+        if found.inverse_sizes is not None:
+            stretched.append(found.inverse_sizes)
         face_ids.append(np.full(len(found.triangles), number, np.int32))
     if not triangles:
         reasons = [_reason(model, k, found) for k, found in enumerate(done) if found.failure]
@@ -256,6 +262,7 @@ def _joined(
         vertex_ids=rank[samples.vertex],
         sizes=np.where(np.isfinite(sizes), sizes, model.diagonal)[used],
         groups=groups_of(model),
+        inverse_sizes=np.concatenate(stretched) if stretched else None,
         sizing=sizing,
         seconds=watch.seconds,
         warnings=tuple([*model.healing, *_loose(model, sizing), *missing]),

@@ -5,7 +5,7 @@
 Between any two of them the vertices that moved are put back on the true surface.
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -20,6 +20,7 @@ from surfmesh.kernels.optimisation import (
     find_stars,
     shrink,
     smooth,
+    split_far,
     split_long,
     swap_for_degree,
     swap_for_shape,
@@ -27,7 +28,8 @@ from surfmesh.kernels.optimisation import (
     wake_bad,
 )
 from surfmesh.kernels.triangulation import Triangulation
-from surfmesh.sizing.size_field import LEAST_OF_CHORD, SizeField
+from surfmesh.sizing.size_bounds import LEAST_OF_CHORD
+from surfmesh.sizing.size_field import SizeField
 from surfmesh.sizing.size_limits import SizeLimits
 
 STIFFNESS = 2.0
@@ -75,11 +77,14 @@ TURNED, LEAST_AT_CENTRE, LEAST_COSINE = 0.85, 0.55, 0.35
 """Cosines between the normals of a triangle and of the surface: where it is looked at again,
 what is folded at the centroid, and at a corner."""
 
+MANY_FAR = 0.02
+"""Share of the triangles."""
+
 FINER_UNFOLDS = 0.6
 """Factor on the sizes where triangles are folded."""
 
-CHORD_ROUNDS = 10
-CHORD_MARGIN, TOLERATED = 0.96, 0.995
+CHORD_ROUNDS, STRETCHED_CHORD_ROUNDS, SPLIT_ROUNDS = 10, 4, 6
+CHORD_MARGIN, TOLERATED, SPLIT_MARGIN = 0.96, 0.995, 0.98
 """What is aimed at, and what is let pass rather than go all the way round again. Between the
 samples of a triangle the deviation may be a little larger than at them."""
 
@@ -108,7 +113,8 @@ class Optimiser:
         """``node`` (k,) are boundary vertices, ``same`` (k,) the ones they coincide with."""
         self.t, self.node, self.surface, self.field = t, node, surface, field
         room = len(t.xy)
-        self.embedding: Embedding = empty_embedding(room)
+        self.is_anisotropic = field.is_anisotropic
+        self.embedding: Embedding = empty_embedding(room, self.is_anisotropic)
         self.star = np.empty(room, np.int32)
         self.frozen = np.empty(room, np.uint8)
         self.degree = np.empty(room, np.int32)
@@ -137,7 +143,8 @@ class Optimiser:
                 break
         self._swap()
         self._rescue()
-        self._soften()
+        if not self.is_anisotropic:  # it leaves all vertices moving, and triangles turning
+            self._soften()
         far = self._approach()
         return Changes(self.swaps, self.collapses, self.splits, self.passes, far, self._folded())
 
@@ -186,8 +193,18 @@ class Optimiser:
         now = self.embedding.size[corners] / self.embedding.scale[corners]
         sizes = np.maximum((now.T * factor).T, least)
         finer = sizes < 0.97 * now
-        points = self.embedding.point[corners[finer]]
-        return SizeLimits(points, sizes[finer], self.field.sizing.gradient)
+        chosen = corners[finer]
+        limits = SizeLimits(
+            self.embedding.point[chosen], sizes[finer], self.field.sizing.gradient
+        )
+        if not self.is_anisotropic:
+            return limits
+        shrunk = self.embedding.scale[chosen] * now[finer] / sizes[finer]
+        return replace(
+            limits,
+            uv=self.field.scaling.to_uv(self.t.xy[chosen]),
+            in_space=self.embedding.in_space[chosen] * shrunk[:, None],
+        )
 
     def _rescue(self) -> None:
         """Passes for the worst triangles alone."""
@@ -221,7 +238,7 @@ class Optimiser:
         estimate_deviations(self.t, self.embedding, estimate)
         least = (SUSPECT if len(estimate) > FEW_TRIANGLES else FLAT) * chord
         suspects = np.flatnonzero(estimate > least)
-        for _ in range(CHORD_ROUNDS):
+        for _ in range(STRETCHED_CHORD_ROUNDS if self.is_anisotropic else CHORD_ROUNDS):
             if not len(suspects):
                 return suspects
             error = self._deviations(suspects)
@@ -234,13 +251,43 @@ class Optimiser:
                 moved = self._smooth()
                 changed[self.moved[:moved]] = 1
             self._swap()
-            now = self.t.tri[: 3 * self.t.count[1]]
-            changed[now[: len(before)][now[: len(before)] != before]] = 1
-            changed[now[len(before) :]] = 1
-            seen = np.empty(int(self.t.count[1]), np.uint8)
-            triangles_at(self.t, changed, seen)
-            suspects = np.union1d(np.flatnonzero(seen), suspects[error > limit])
-        return suspects[self._deviations(suspects) > TOLERATED * chord]
+            suspects = np.union1d(self._changed_since(before, changed), suspects[error > limit])
+        error = self._deviations(suspects)
+        if self.is_anisotropic:
+            return self._split_far(suspects[error > SPLIT_MARGIN * chord])
+        return suspects[error > TOLERATED * chord]
+
+    def _split_far(self, far: np.ndarray) -> np.ndarray:
+        """Split edges of the triangles ``far`` (n,) where they are too far; returns those left.
+
+        Smoothing and swaps do not know how far a triangle is, and in stretched meshes turn it
+        more: the last few are only split. Where many are far a finer field needs fewer
+        triangles than splits: then all are returned.
+        """
+        limit = SPLIT_MARGIN * self.field.sizing.chord
+        many = far if len(far) > MANY_FAR * int(self.t.count[1]) else None
+        for _ in range(SPLIT_ROUNDS):
+            before = self.t.tri[: 3 * self.t.count[1]].copy()
+            first = split_far(self.t, self.embedding, far, self.dirty, self.active)
+            new = np.arange(first, int(self.t.count[0]), dtype=np.int32)
+            if not len(new):
+                break
+            self._embed(new)
+            self.stars_known = False
+            self.splits += len(new)
+            changed = np.zeros(len(self.active), np.uint8)
+            suspects = np.union1d(self._changed_since(before, changed), far)
+            far = suspects[self._deviations(suspects) > limit]
+        return far if many is None else many
+
+    def _changed_since(self, before: np.ndarray, changed: np.ndarray) -> np.ndarray:
+        """Triangles with a vertex in ``changed``, or whose corners are not as ``before``."""
+        now = self.t.tri[: 3 * self.t.count[1]]
+        changed[now[: len(before)][now[: len(before)] != before]] = 1
+        changed[now[len(before) :]] = 1
+        seen = np.empty(int(self.t.count[1]), np.uint8)
+        triangles_at(self.t, changed, seen)
+        return np.flatnonzero(seen)
 
     def _deviations(self, triangles: np.ndarray) -> np.ndarray:
         """Largest distance from the surface at samples of each of the triangles (n,).

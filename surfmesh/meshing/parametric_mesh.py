@@ -18,7 +18,7 @@ from surfmesh.meshing.gluing import Glued, glued, misglued
 from surfmesh.meshing.optimise import Optimiser
 from surfmesh.meshing.packing import packed_over
 from surfmesh.meshing.stages import Progress, Stopwatch
-from surfmesh.sizing.size_field import SizeField, size_field
+from surfmesh.sizing.size_field import SizeField, inverse_sizes, size_field
 from surfmesh.sizing.size_limits import SizeLimits
 from surfmesh.sizing.sizing import Sizing
 from surfmesh.surface_mesh import SurfaceMesh
@@ -125,6 +125,7 @@ def _in_space(
         uv_triangles=parts.uv_triangles,
         surfaces=(surface,),
         sizes=sizes * scale[parts.place],
+        inverse_sizes=inverse_sizes(field, xy, scale[: len(xy)]),
         sizing=field.sizing,
         seconds=watch.seconds,
         one_sided=sides.one_sided and not surface.loops,

@@ -22,12 +22,34 @@ def edge_lengths(mesh: SurfaceMesh) -> NDArray[np.float64]:
 
 
 def metric_lengths(mesh: SurfaceMesh, lengths: NDArray[np.float64]) -> NDArray[np.float64]:
-    """(ne,) length of pq over the mean of the sizes wanted at p and q; 1 is as wanted."""
+    """(ne,) length of pq over the mean of the sizes wanted at p and q; 1 is as wanted.
+
+    Where sizes are anisotropic, of those wanted in the direction of pq.
+    """
     metric = 2.0 * lengths
-    for start in range(0, len(lengths), BLOCK):
-        a, b = mesh.edges[start : start + BLOCK].T
-        metric[start : start + BLOCK] /= mesh.sizes[a] + mesh.sizes[b]
+    for begin in range(0, len(lengths), BLOCK):
+        block = slice(begin, begin + BLOCK)
+        a, b = mesh.edges[block].T
+        if mesh.inverse_sizes is None:
+            metric[block] /= mesh.sizes[a] + mesh.sizes[b]
+            continue
+        corners = mesh.uv_triangles.ravel()
+        step = mesh.points[b] - mesh.points[a]
+        start = mesh.connectivity.half_edges[block, 0]
+        end = np.where(start % 3 == 2, start - 2, start + 1)
+        first, second = (
+            np.linalg.norm(stretched(mesh.inverse_sizes[corners[e]], step), axis=1)
+            for e in (start, end)
+        )
+        total = first + second
+        metric[block] = 2.0 * first * second / np.where(total > 0.0, total, 1.0)
     return metric
+
+
+def stretched(inverse_sizes: NDArray[np.float64], step: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Steps (k, 3) in wanted lengths: W d, for W (k, 6)."""
+    rows = inverse_sizes[:, [[0, 1, 2], [1, 3, 4], [2, 4, 5]]]
+    return np.einsum("kij,kj->ki", rows, step)
 
 
 class Growth(NamedTuple):

@@ -19,7 +19,7 @@ from surfmesh.quality.lengths import QUASI_UNIT, edge_lengths, growth, metric_le
 from surfmesh.quality.problems import DEGENERATE, FOLDED, INVERTED, intersections, problems
 from surfmesh.quality.provenance import mesh_sha256, versions
 from surfmesh.quality.self_intersection import MeetingPair, located, meeting_pairs
-from surfmesh.quality.shape import enclosed_volume, shapes
+from surfmesh.quality.shape import enclosed_volume, metric_alpha, shapes
 from surfmesh.quality.solids import apart, shares_faces
 from surfmesh.quality.topology import topology
 from surfmesh.quality.worst import WorstTriangle, worst_triangles
@@ -89,7 +89,8 @@ class Report:
     length_std: float | None
     length_min: float | None
     length_max: float | None
-    growth_max: float  # longest over shortest edge at a vertex
+    growth_max: float  # longest over shortest edge at a vertex; in wanted lengths where those
+    # depend on the direction
     growth_p99: float
 
     chord: float | None  # the largest deviation that was asked for
@@ -162,8 +163,9 @@ def check(mesh: SurfaceMesh) -> Report:
     finite = bool(np.isfinite(mesh.points).all())
     topo, shape = topology(mesh), shapes(mesh)
     lengths = edge_lengths(mesh)
-    grown = growth(mesh, lengths)
     metric = None if mesh.sizes is None else metric_lengths(mesh, lengths)
+    grown = growth(mesh, lengths if mesh.inverse_sizes is None else metric)
+    wanted = None if mesh.inverse_sizes is None else metric_alpha(mesh)
     fit = deviation(mesh, shape.area) if finite else None
     chord = getattr(mesh.sizing, "chord", None)
     facts = mesh.facts or ModelFacts()
@@ -209,8 +211,8 @@ def check(mesh: SurfaceMesh) -> Report:
         alpha_mean=_over(np.mean, shape.alpha),
         alpha_p01=_over(lambda alpha: np.quantile(alpha, 0.01), shape.alpha),
         alpha_min=_over(np.min, shape.alpha),
-        alpha_metric_mean=None,
-        alpha_metric_min=None,
+        alpha_metric_mean=None if wanted is None else _over(np.mean, wanted),
+        alpha_metric_min=None if wanted is None else _over(np.min, wanted),
         radius_ratio_mean=_over(np.mean, shape.radius_ratio),
         radius_ratio_min=_over(np.min, shape.radius_ratio),
         min_angle_deg=_over(np.min, shape.min_angle),

@@ -6,6 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from surfmesh.kernels.measure import triangle_shapes
+from surfmesh.quality.lengths import stretched
 from surfmesh.surface_mesh import SurfaceMesh
 
 BLOCK = 1 << 16  # triangles looked at together, to bound the memory
@@ -36,6 +37,26 @@ def shapes(mesh: SurfaceMesh) -> Shapes:
 def alpha(mesh: SurfaceMesh) -> NDArray[np.float64]:
     """(m,) shape measure alpha of every triangle, in 3D."""
     return shapes(mesh).alpha
+
+
+def metric_alpha(mesh: SurfaceMesh) -> NDArray[np.float64]:
+    """(m,) alpha of every triangle in the mean metric of its corners.
+
+    In 3D where sizes are isotropic: there it is the same.
+    """
+    if mesh.inverse_sizes is None:
+        return alpha(mesh)
+    found = np.zeros(len(mesh.triangles))
+    for start in range(0, len(found), BLOCK):
+        corners = mesh.triangles[start : start + BLOCK]
+        a, b, c = (mesh.points[corner] for corner in corners.T)
+        mean = mesh.inverse_sizes[mesh.uv_triangles[start : start + BLOCK]].mean(axis=1)
+        u, v = stretched(mean, b - a), stretched(mean, c - a)
+        area = np.linalg.norm(np.cross(u, v), axis=1)
+        total = (u * u + v * v + (u - v) ** 2).sum(axis=1)
+        shape = 2.0 * np.sqrt(3.0) * area / np.where(total > 0.0, total, 1.0)
+        found[start : start + BLOCK] = shape
+    return found
 
 
 def enclosed_volume(mesh: SurfaceMesh) -> float:

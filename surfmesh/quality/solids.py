@@ -22,6 +22,7 @@ def solid_mesh(mesh: SurfaceMesh, solid: int) -> SurfaceMesh:
         edge_segments=None, edge_ids=None, edge_shares=None, vertex_ids=None, mid_points=None,
         facts=None,
         sizes=None if mesh.sizes is None else mesh.sizes[used],
+        inverse_sizes=None,
     )  # fmt: skip
 
 

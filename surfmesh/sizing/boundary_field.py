@@ -22,7 +22,8 @@ from surfmesh.kernels.source_tree import (
     SourceTree,
     grow_tree,
 )
-from surfmesh.sizing.size_field import SizeBounds, SizeField
+from surfmesh.sizing.size_bounds import SizeBounds
+from surfmesh.sizing.size_field import SizeField
 from surfmesh.sizing.sizing import Sizing
 
 FEW_ROOTS, MANY_TESTS = 2, 2e5
@@ -35,7 +36,13 @@ _ISOTROPIC = np.array([1.0, 0.0, 1.0])
 
 
 def has_boundary_field(surface: Surface, sizing: Sizing) -> bool:
-    """Can ``boundary_field`` be used: is the metric constant, and no size law given?"""
+    """Can ``boundary_field`` be used: is the metric constant, and no size law given?
+
+    The metric of a cylinder is constant too where sizes depend on the direction, but they do
+    not grow from its edges as they are.
+    """
+    if sizing.is_anisotropic and isinstance(surface, Cylinder):
+        return False
     return isinstance(surface, (Plane, PlanarDomain, Cylinder)) and not callable(sizing.size)
 
 

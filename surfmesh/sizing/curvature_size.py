@@ -18,6 +18,11 @@ DEVIATION_RESERVE = 0.62
 """Share of ``chord`` that a unit triangle may use: real triangles are up to 1.26 times as
 large as the unit one (circumradius), and deviation grows with the square."""
 
+STRETCHED_RESERVE, STRAIGHT_RESERVE = 0.7, 0.75
+"""The same for anisotropic sizes, where triangles that lie too far are split: where the surface
+is curved both ways, and where one way only. There edges alone decide, and few of those that run
+that way are more than 1.15 times as long as wanted."""
+
 
 def deviation_factor(k1: np.ndarray, k2: np.ndarray) -> np.ndarray:
     """c with deviation = c h^2, for principal curvatures k1, k2 (n,), 1 / model unit."""
@@ -44,3 +49,26 @@ def angle_size(k1: np.ndarray, k2: np.ndarray, angle: float) -> np.ndarray:
     largest = np.maximum(np.abs(k1), np.abs(k2))
     with np.errstate(divide="ignore", over="ignore"):
         return math.sqrt(3.0) * 0.75 * math.radians(angle) / largest
+
+
+def principal_chord_sizes(
+    k1: np.ndarray, k2: np.ndarray, chord: float, ratio: float
+) -> tuple[np.ndarray, np.ndarray]:
+    """Edge lengths (n,) along the directions of k1 and k2 at which triangles stay within ``chord``.
+
+    With h_i^2 |k_i| = a in both directions the errors above are, for triangles that are
+    equilateral in this metric, (1 + b) a / 12 at the centroid and a / 8 in the middle of an
+    edge. b is the signed ratio of the h_i^2 k_i: 1 or -1, or between where one size is bound by
+    ``ratio`` times the other. For a ratio of 1 it is the rule of ``chord_size``. The tensor with
+    these sizes is a function of the shape operator without regard to the order of k1 and k2, and so
+    as smooth as that at umbilics.
+    """
+    first, second = np.abs(k1), np.abs(k2)
+    large = np.maximum(first, second)
+    small = np.where(first < second, k1, k2) * np.where(first < second, np.sign(k2), np.sign(k1))
+    with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
+        balance = np.clip(np.nan_to_num(ratio**2 * (small / large)), -1.0, 1.0)
+        reserve = STRAIGHT_RESERVE + (STRETCHED_RESERVE - STRAIGHT_RESERVE) * np.abs(balance)
+        bound = reserve * chord / np.maximum(0.125, (1.0 + balance) / 12.0)
+        sizes = np.sqrt(bound / first), np.sqrt(bound / second)
+    return np.maximum(sizes[0], 2.0 * chord), np.maximum(sizes[1], 2.0 * chord)

@@ -21,6 +21,9 @@ class SizeLimits:
     """(k, 2) parameters of the points: the field is made fine enough there to see them all."""
     essential: bool = False
     """Without them there is no mesh: they go below ``min_size`` too."""
+    in_space: np.ndarray | None = None
+    """(k, 6) W = xx, xy, xz, yy, yz, zz: in the unit direction e the size is at most 1 / |W e|,
+    at least ``sizes``; None: ``sizes`` in every direction."""
 
     def __call__(self, points: np.ndarray) -> np.ndarray:
         """Largest size (n,) at points (n, 3)."""
@@ -29,6 +32,19 @@ class SizeLimits:
         count = min(NEAREST, len(self.sizes))
         distance, index = cKDTree(self.points).query(points, k=[*range(1, count + 1)])
         return (self.sizes[index] + self.slope * distance).min(axis=1)
+
+    def along(self, points: np.ndarray, directions: np.ndarray) -> np.ndarray:
+        """Largest size (n,) at points (n, 3) in unit directions (n, 3)."""
+        if self.in_space is None:
+            return self(points)
+        from scipy.spatial import cKDTree
+
+        count = min(NEAREST, len(self.sizes))
+        distance, index = cKDTree(self.points).query(points, k=[*range(1, count + 1)])
+        rows = self.in_space[index][..., [[0, 1, 2], [1, 3, 4], [2, 4, 5]]]
+        inverse = np.linalg.norm(np.einsum("nkij,nj->nki", rows, directions), axis=2)
+        size = 1.0 / np.maximum(inverse, np.finfo(float).tiny)
+        return (size + self.slope * distance).min(axis=1)
 
     def joined_with(self, other: "SizeLimits | None") -> "SizeLimits":
         """Both sets of bounds."""
@@ -41,4 +57,21 @@ class SizeLimits:
             self.slope,
             np.concatenate([self.uv, other.uv]) if both else None,
             self.essential or other.essential,
+            self._tensors_with(other),
         )
+
+    def _tensors_with(self, other: "SizeLimits") -> np.ndarray | None:
+        if self.in_space is None and other.in_space is None:
+            return None
+        every = np.array([1.0, 0.0, 0.0, 1.0, 0.0, 1.0])
+        parts = [
+            every / limits.sizes[:, None] if limits.in_space is None else limits.in_space
+            for limits in (self, other)
+        ]
+        return np.concatenate(parts)
+
+
+def along_lines(directions: np.ndarray, sizes: np.ndarray) -> np.ndarray:
+    """Tensors (k, 6) of sizes (k,) that hold along unit directions (k, 3) only: e e^T / size."""
+    first, second = [0, 0, 0, 1, 1, 2], [0, 1, 2, 1, 2, 2]
+    return directions[:, first] * directions[:, second] / sizes[:, None]

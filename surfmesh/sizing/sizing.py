@@ -40,7 +40,11 @@ class Sizing:
     """Largest ratio of neighbouring sizes, along any edge of the mesh; above 1."""
 
     anisotropy: float = 1.0
-    """Largest ratio of the sizes along the two principal directions; 1 is isotropic."""
+    """Largest ratio of the sizes along the two principal directions; 1 is isotropic.
+
+    Above 1 edges may be longer along the direction of low curvature. ``size``, ``min_size`` and
+    ``max_size`` hold in every direction; without ``max_size`` the longer one may reach the
+    diagonal."""
 
     sources: tuple = ()
     """Local sizes."""
@@ -56,8 +60,8 @@ class Sizing:
         object.__setattr__(self, "anisotropy", _positive("anisotropy", self.anisotropy))
         if self.growth <= 1.0:
             raise SizingError(f"growth must be above 1, not {self.growth:g}")
-        if self.anisotropy != 1.0:
-            raise SizingError("anisotropy other than 1 is not supported yet")
+        if self.anisotropy < 1.0:
+            raise SizingError(f"anisotropy must be at least 1, not {self.anisotropy:g}")
         if self.sources:
             raise SizingError("sources are not supported yet")
         if self.angle is not None and self.angle > 90.0:
@@ -71,6 +75,11 @@ class Sizing:
                 raise SizingError(f"size {self.size:g} is below min_size {self.min_size:g}")
             if self.max_size and self.size > self.max_size:
                 raise SizingError(f"size {self.size:g} is above max_size {self.max_size:g}")
+
+    @property
+    def is_anisotropic(self) -> bool:
+        """Do the sizes depend on the direction?"""
+        return self.anisotropy > 1.0 and (self.chord is not None or self.angle is not None)
 
     @property
     def gradient(self) -> float:

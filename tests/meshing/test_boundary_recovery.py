@@ -62,6 +62,7 @@ class PlainField:
     """The size field of a plane that is not scaled."""
 
     scaling = SimpleNamespace(to_plane=lambda uv: uv)
+    is_anisotropic = False
 
     def __init__(self, background):
         self.background = background

@@ -30,3 +30,25 @@ def star_energy(centre, ring, size, ring_sizes, stiffness) -> float:
         l = np.linalg.norm(p - centre) / (0.5 * (size + ring_sizes[k]))
         energy += stiffness * (l - 1.0) ** 2
     return energy
+
+
+def in_space(w) -> np.ndarray:
+    """W (xx, xy, xz, yy, yz, zz) -> 3 x 3."""
+    xx, xy, xz, yy, yz, zz = w
+    return np.array([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]])
+
+
+def tangent_metric(h, long, along, normal) -> np.ndarray:
+    """M (3 x 3) of the sizes ``long`` along a unit tangent and h across it; 0 along the normal."""
+    across = np.cross(normal, along)
+    return np.outer(along, along) / long**2 + np.outer(across, across) / h**2
+
+
+def turned(vector, normal, onto) -> np.ndarray:
+    """The vector turned by the smallest rotation that takes the unit ``normal`` to ``onto``."""
+    axis = np.cross(normal, onto)
+    sine, cosine = np.linalg.norm(axis), float(normal @ onto)
+    if sine < 1e-12:
+        return np.array(vector, float)
+    k = axis / sine
+    return vector * cosine + np.cross(k, vector) * sine + k * (k @ vector) * (1 - cosine)

@@ -17,7 +17,7 @@ REFUSED = {
     "list": (dict(chord=[1]), r"chord must be a positive number, not \[1\]"),
     "growth of 1": (dict(growth=1.0), "growth must be above 1, not 1"),
     "growth": (dict(growth=None), "growth must be a positive number, not None"),
-    "anisotropy": (dict(anisotropy=2.0), "anisotropy other than 1 is not supported"),
+    "anisotropy": (dict(anisotropy=0.5), "anisotropy must be at least 1"),
     "sources": (dict(sources=(1,)), "sources are not supported"),
     "angle": (dict(angle=91), "angle must be at most 90 degrees, not 91"),
     "order": (dict(min_size=2, max_size=1), "min_size 2 is larger than max_size 1"),

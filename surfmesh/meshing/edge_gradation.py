@@ -1,0 +1,61 @@
+"""Gradation of the edges of a CAD model where sizes depend on the direction.
+
+Along an edge sizes grow as everywhere. At a vertex they do not pass from edge to edge as they
+are: the seam of a tube is cut far more coarsely than the circle it ends on. What the metric
+itself allows two edges to differ by is let pass.
+"""
+
+import numpy as np
+
+ROUNDS = 10
+"""How often what vertices pass on is passed on again, at most."""
+
+
+def graded_by_direction(
+    points: list[np.ndarray],
+    wishes: list[np.ndarray],
+    metric: list[np.ndarray],
+    ends: np.ndarray,
+    slope: float,
+    ratio: float,
+) -> list[np.ndarray]:
+    """Graded sizes along each edge.
+
+    points (n, 3), wishes (n,) at the samples of each edge; metric (n,): what the faces' metric
+    allows along it, before anything else lowers it. ends (e, 2): vertices. Of two edges at a
+    vertex, one is at most as many times coarser as its metric size there is larger, and at most
+    ``ratio`` times.
+    """
+    way = [_way(place) for place in points]
+    sizes = [_graded(size, step, slope) for size, step in zip(wishes, way)]
+    allowed = np.array([[m[0], m[-1]] for m in metric]).reshape(-1)
+    vertex = np.asarray(ends).reshape(-1)
+    order = np.argsort(vertex, kind="stable")
+    starts = np.flatnonzero(np.r_[True, np.diff(vertex[order]) != 0])
+    meetings = [group for group in np.split(order, starts[1:]) if len(group) > 1]
+    for _ in range(ROUNDS):
+        lowered = set()
+        for group in meetings:
+            now = np.array([sizes[k // 2][-(k % 2)] for k in group])
+            m = allowed[group]
+            most = (now[:, None] * np.clip(m / m[:, None], 1.0, ratio)).min(axis=0)
+            for k, before, after in zip(group.tolist(), now, most):
+                if after < 0.999 * before:
+                    sizes[k // 2][-(k % 2)] = after
+                    lowered.add(k // 2)
+        for edge in lowered:
+            sizes[edge] = _graded(sizes[edge], way[edge], slope)
+        if not lowered:
+            break
+    return sizes
+
+
+def _way(points: np.ndarray) -> np.ndarray:
+    return np.r_[0.0, np.cumsum(np.linalg.norm(np.diff(points, axis=0), axis=1))]
+
+
+def _graded(size: np.ndarray, way: np.ndarray, slope: float) -> np.ndarray:
+    """min over j of size_j + slope |way - way_j|, in one sweep each way."""
+    rising = np.minimum.accumulate(size - slope * way) + slope * way
+    falling = np.minimum.accumulate((size + slope * way)[::-1])[::-1] - slope * way
+    return np.minimum(rising, falling)

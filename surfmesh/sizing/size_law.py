@@ -1,0 +1,234 @@
+"""The ungraded wish at points of one surface, with what a size field stores there."""
+
+from collections.abc import Callable
+from typing import NamedTuple
+
+import numpy as np
+
+from surfmesh.errors import SizingError
+from surfmesh.geometry.fundamental_forms import (
+    FundamentalForms,
+    curvatures,
+    forms_from_derivatives,
+)
+from surfmesh.geometry.scaling import Scaling
+from surfmesh.geometry.surface import Surface
+from surfmesh.sizing.size_bounds import SizeBounds
+from surfmesh.sizing.size_limits import SizeLimits
+from surfmesh.sizing.sizing import Sizing
+
+ROUND = 1.5
+"""Ratio of two sizes up to which their directions do not matter."""
+
+
+class FieldNodes(NamedTuple):
+    """What is known at n nodes of a size field; lengths are in model units.
+
+    The last four are empty where sizes are isotropic. Where they are not, ``size`` holds at
+    right angles to ``along``.
+    """
+
+    size: np.ndarray  # (n,) wanted edge length
+    wish: np.ndarray  # (n,) the same before sources and gradation have lowered it
+    root: np.ndarray  # (n, 3) I^(1/2) in the scaled plane
+    normal: np.ndarray  # (n, 3) unit, zero at degenerate points
+    point: np.ndarray  # (n, 3)
+    long: np.ndarray  # (n,) wanted length along ``along``
+    long_wish: np.ndarray  # (n,)
+    along: np.ndarray  # (n, 3) unit tangent
+    jacobian: np.ndarray  # (n, 3, 2) r_x, r_y
+
+    @classmethod
+    def isotropic(cls, size, wish, root, normal, point) -> "FieldNodes":
+        no = np.empty(0)
+        return cls(
+            size, wish, root, normal, point, no, no, np.empty((0, 3)), np.empty((0, 3, 2))
+        )
+
+    @classmethod
+    def none(cls) -> "FieldNodes":
+        no, vectors = np.empty(0), np.empty((0, 3))
+        return cls.isotropic(no, no, vectors, vectors, vectors)
+
+    @property
+    def is_anisotropic(self) -> bool:
+        return len(self.long) > 0
+
+    def joined_with(self, others: "FieldNodes") -> "FieldNodes":
+        """These nodes, then the others."""
+        return FieldNodes(*(np.concatenate(pair) for pair in zip(self, others)))
+
+    def inverse_sizes(self) -> np.ndarray:
+        """A = H^-1 = M^(1/2) (n, 3) in the scaled plane."""
+        if not self.is_anisotropic:
+            return self.root / self.size[:, None]
+        # M = I / h^2 - (1 / h^2 - 1 / long^2) p p^T, with p = J^T along
+        e = self.root[:, 0] ** 2 + self.root[:, 1] ** 2
+        f = self.root[:, 1] * (self.root[:, 0] + self.root[:, 2])
+        g = self.root[:, 1] ** 2 + self.root[:, 2] ** 2
+        p, q = np.einsum("nij,ni->jn", self.jacobian, self.along)
+        scale, less = self.size**-2.0, self.size**-2.0 - self.long**-2.0
+        # det M without cancellation, as det I = det(root)^2
+        det = (self.root[:, 0] * self.root[:, 2] - self.root[:, 1] ** 2) / (self.size * self.long)
+        e, f, g = scale * e - less * p * p, scale * f - less * p * q, scale * g - less * q * q
+        return symmetric_root(e, f, g, np.maximum(det, 0.0))
+
+    def inverse_sizes_in_space(self) -> np.ndarray:
+        """W = Id / h - (1 / h - 1 / long) t t^T (n, 6), t = along: xx, xy, xz, yy, yz, zz.
+
+        Across the surface the shorter size holds, so that W does not change where the surface
+        bends about its straighter direction alone. Empty where sizes are isotropic.
+        """
+        if not self.is_anisotropic:
+            return np.empty((0, 6))
+        t = self.along
+        less = 1.0 / self.size - 1.0 / self.long
+        first, second = [0, 0, 0, 1, 1, 2], [0, 1, 2, 1, 2, 2]
+        w = -less[:, None] * t[:, first] * t[:, second]
+        w[:, [0, 3, 5]] += 1.0 / self.size[:, None]
+        return w
+
+
+def symmetric_root(e: np.ndarray, f: np.ndarray, g: np.ndarray, s: np.ndarray) -> np.ndarray:
+    """Square root (n, 3) of symmetric 2 x 2 matrices (e f; f g), s = sqrt(det)."""
+    # (I + s Id) / t, t^2 = tr I + 2 s
+    t = np.sqrt(np.maximum(e + g + 2.0 * s, np.finfo(float).tiny))
+    return np.stack([(e + s) / t, f / t, (g + s) / t], axis=1)
+
+
+def root_of_form(forms: FundamentalForms, rates: np.ndarray) -> np.ndarray:
+    """I^(1/2) (n, 3) in the scaled plane, whose axes run at ``rates`` (n, 2)."""
+    du, dv = rates.T
+    e, f, g = forms.E * du * du, forms.F * du * dv, forms.G * dv * dv
+    return symmetric_root(e, f, g, np.sqrt(np.maximum(e * g - f * f, 0.0)))
+
+
+class SizeLaw:
+    """From the curvature and the user's wishes."""
+
+    def __init__(self, surface: Surface, sizing: Sizing, limits: SizeLimits | None) -> None:
+        self.surface, self.scaling = surface, Scaling.of(surface)
+        (u0, u1), (v0, v1) = surface.domain
+        grid = np.linspace(0.0, 1.0, 17)
+        t = np.stack(np.meshgrid(grid, grid), axis=-1).reshape(-1, 2)
+        (points,) = surface.evaluate(np.array([u0, v0]) + t * np.array([u1 - u0, v1 - v0]), 0)
+        self.diagonal = float(np.linalg.norm(points.max(axis=0) - points.min(axis=0)))
+        self.bounds = SizeBounds.of(sizing, self.diagonal)
+        self.sizing, self.clamp = self.bounds.sizing, self.bounds.clamp
+        self.follows_curvature = self.bounds.follows_curvature
+        self.limits = limits
+
+    def from_curvature(self, k: np.ndarray) -> np.ndarray:
+        """Size (n,) where the surface is curved by k (n,), 1 / model unit, one way only."""
+        if self.sizing.is_anisotropic:
+            return self.bounds.principal(k, np.zeros(len(k))).min(axis=1)
+        return self.bounds.from_curvature(k, 0.0)
+
+    def __call__(self, xy: np.ndarray) -> FieldNodes:
+        """Nodes at xy (n, 2) of the scaled plane."""
+        uv, rates = self.scaling.to_uv_and_rates(xy)
+        point, ru, rv, *second = self.surface.evaluate(uv, 2)
+        forms = forms_from_derivatives(ru, rv, *second)
+        root = root_of_form(forms, rates)
+        if self.sizing.is_anisotropic:
+            return self._anisotropic(point, ru, rv, rates, forms, root)
+        size = np.full(len(uv), self.clamp[1])
+        if self.follows_curvature:
+            k = curvatures(forms)
+            size = self.bounds.from_curvature(k.k1, k.k2)
+            # nothing is known at a pole or a cusp: gradation brings the neighbours' size
+            size[forms.degenerate] = self.clamp[1]
+        if callable(self.sizing.size):
+            size = np.clip(np.minimum(size, self._wished(point)), *self.clamp)
+        wish = size
+        if self.limits is not None:
+            size = np.minimum(size, self._limited(point))
+            if self.limits.uv is None:
+                wish = size
+        return FieldNodes.isotropic(size, wish, root, forms.normal, point)
+
+    def _anisotropic(
+        self, point: np.ndarray, ru: np.ndarray, rv: np.ndarray, rates: np.ndarray,
+        forms: FundamentalForms, root: np.ndarray,
+    ) -> FieldNodes:  # fmt: skip
+        """Two sizes along the principal directions."""
+        k = curvatures(forms)
+        sizes = self.bounds.principal(k.k1, k.k2)
+        first = (sizes[:, 0] > sizes[:, 1])[:, None]
+        direction = np.where(first, k.d1, k.d2)
+        along = direction[:, :1] * ru + direction[:, 1:] * rv
+        along[forms.degenerate] = [1.0, 0.0, 0.0]
+        sizes[forms.degenerate] = self.clamp[1]
+        along /= np.linalg.norm(along, axis=1)[:, None]
+        if callable(self.sizing.size):  # holds in every direction
+            wished = np.clip(self._wished(point), *self.clamp)
+            sizes = np.minimum(sizes, wished[:, None])
+        size, long = sizes.min(axis=1), sizes.max(axis=1)
+        wish, long_wish = size, long
+        if self.limits is not None:
+            size, long = self._limited_both(point, forms.normal, along, size, long)
+            if self.limits.uv is None:
+                wish, long_wish = size, long
+        jacobian = np.stack([ru * rates[:, :1], rv * rates[:, 1:]], axis=2)
+        return FieldNodes(
+            size, wish, root, forms.normal, point, long, long_wish, along, jacobian
+        )
+
+    def _wished(self, points: np.ndarray) -> np.ndarray:
+        """What the user's law gives at points (n, 3)."""
+        wish = np.asarray(self.sizing.size(points), float)
+        if wish.shape != (len(points),) or not (wish > 0.0).all():
+            raise SizingError(
+                f"size law must give positive numbers of shape ({len(points)},) for points "
+                f"({len(points)}, 3); it gave shape {wish.shape}"
+                + (f", smallest {wish.min():g}" if wish.size else "")
+            )
+        return wish
+
+    def _limited(self, points: np.ndarray) -> np.ndarray:
+        """What sources and earlier rounds allow at points (n, 3)."""
+        least = self.clamp[0] if self.limits.uv is None else self.sizing.min_size or 0.0
+        return np.maximum(self.limits(points), least)
+
+    def _limited_both(
+        self, point: np.ndarray, normal: np.ndarray, along: np.ndarray, size: np.ndarray,
+        long: np.ndarray,
+    ) -> tuple[np.ndarray, np.ndarray]:  # fmt: skip
+        """Sizes across and along the direction ``along`` (n, 3), lowered to the limits.
+
+        Where the shorter one is lowered the shape of the metric is kept. Where the metric is
+        round, or nearly so, limits hold in every direction.
+        """
+        least = self.clamp[0] if self.limits.uv is None else self.sizing.min_size or 0.0
+        across = np.maximum(self.limits.along(point, np.cross(normal, along)), least)
+        onward = np.maximum(self.limits.along(point, along), least)
+        both = self._limited(point)
+        is_round = long <= ROUND * size
+        across, onward = np.where(is_round, both, across), np.where(is_round, both, onward)
+        factor = np.minimum(across, size) / size
+        long = np.minimum(factor * long, onward)
+        size = np.minimum(factor * size, long)
+        return size, long
+
+
+class TensorLaw:
+    """Size tensors given over a plane, in the place of sizes that follow from a surface."""
+
+    follows_curvature = False
+    limits = None
+
+    def __init__(
+        self, surface: Surface, sizing: Sizing, tensors: Callable[[np.ndarray], np.ndarray]
+    ) -> None:
+        self.surface, self.scaling = surface, Scaling.of(surface)
+        self.sizing, self.tensors = sizing, tensors
+
+    def __call__(self, xy: np.ndarray) -> FieldNodes:
+        """Nodes with sizes of one, and H^-1 for the root of the first form."""
+        uv = self.scaling.to_uv(xy)
+        h = self.tensors(uv)
+        det = h[:, 0] * h[:, 2] - h[:, 1] ** 2
+        inverse = np.stack([h[:, 2], -h[:, 1], h[:, 0]], axis=1) / det[:, None]
+        normal = np.tile([0.0, 0.0, 1.0], (len(uv), 1))
+        size = np.ones(len(uv))
+        return FieldNodes.isotropic(size, size, inverse, normal, self.surface.evaluate(uv, 0)[0])
