@@ -4,8 +4,7 @@
     (numbers, points)     seams twice     graded inward from the sizes of the edges
 """
 
-from dataclasses import dataclass, field, replace
-from itertools import pairwise
+from dataclasses import replace
 from pathlib import Path
 from traceback import extract_tb
 
@@ -18,22 +17,16 @@ from surfmesh.geometry.surface import Surface
 from surfmesh.kernels.background import scalar_sizes_at
 from surfmesh.meshing.boundary_loops import BoundaryLoops, cut_line
 from surfmesh.meshing.boundary_recovery import recovered
-from surfmesh.meshing.filling import MOST_CORNERS, filled
+from surfmesh.meshing.face_data import FaceJob, FaceMesh, Piece
+from surfmesh.meshing.face_repair import filled_face, untangled_job
 from surfmesh.meshing.gluing import glued, misglued
+from surfmesh.meshing.one_place import one_place
 from surfmesh.meshing.optimise import Optimiser
 from surfmesh.meshing.packing import packed
 from surfmesh.meshing.seam_limits import seam_limits
-from surfmesh.meshing.untangling import untangled
 from surfmesh.sizing.boundary_field import boundary_field, has_boundary_field
 from surfmesh.sizing.size_field import SizeField, inverse_sizes, size_field
 from surfmesh.sizing.size_limits import SizeLimits, along_lines
-from surfmesh.sizing.sizing import Sizing
-
-SAME_PLACE = 1e-6
-"""Images of one node nearer than this share of the face's box are one node in (u, v)."""
-
-NEAR_STEP = 0.1
-"""Or nearer than this share of the segments there."""
 
 FINER = 0.5
 """Factor on the sizes where boundary segments cross."""
@@ -41,78 +34,8 @@ FINER = 0.5
 COARSE = 2.0
 """Segments of the boundary so many times longer than the sizes inside allow are to be cut."""
 
-TOLERANCES = 2.0
-"""Images that cross may be moved by so many tolerances of their edges,"""
-
-SLIGHTLY, WITHIN = 0.02, 1.0
-"""or by this share of the segments there; the last time, when all else has failed, further."""
-
-SLOWEST = 0.1
-"""Least speed, of the mean, that a tolerance is translated to (u, v) with."""
-
 PROJECTIONS = 4
 """Steps to the closest point of a plane or a cylinder."""
-
-
-@dataclass(frozen=True)
-class Piece:
-    """One coedge in walking order, with both ends.
-
-    A degenerate edge has two nodes of the same number; it is cut when the metric is known.
-    """
-
-    uv: np.ndarray
-    """(n, 2)"""
-    numbers: np.ndarray
-    """(n,) int64"""
-    points: np.ndarray
-    """(n, 3)"""
-    sizes: np.ndarray
-    """(n,)"""
-    degenerate: bool = False
-    tolerance: float = 0.0
-    """The edge lies this near its images, model units."""
-
-
-@dataclass(frozen=True)
-class FaceJob:
-    """All that is needed to mesh one face; can be pickled, knows no CAD kernel."""
-
-    surface: Surface
-    loops: tuple[tuple[Piece, ...], ...]
-    sizing: Sizing
-    limits: SizeLimits | None = None
-    """From earlier rounds."""
-    optimise: bool = True
-    last: bool = False
-    """Finer edges did not help: take a boundary that crosses itself apart, however far, or
-    close it without regard for the surface."""
-
-    def __post_init__(self) -> None:
-        if self.limits is not None and self.limits.essential and self.sizing.min_size:
-            least = min(self.sizing.min_size, float(self.limits.sizes.min()))
-            object.__setattr__(self, "sizing", self.sizing.replaced(min_size=least))
-
-
-@dataclass(frozen=True)
-class FaceMesh:
-    """Triangles along r_u x r_v, or a reason."""
-
-    points: np.ndarray = field(default_factory=lambda: np.empty((0, 3)))
-    """(n, 3)"""
-    slots: np.ndarray = field(default_factory=lambda: np.empty(0, np.int64))
-    """(n,) where the point stands among the job's boundary nodes, loop after loop; -1 inside."""
-    triangles: np.ndarray = field(default_factory=lambda: np.empty((0, 3), np.int32))
-    uv_points: np.ndarray = field(default_factory=lambda: np.empty((0, 2)))
-    uv_triangles: np.ndarray = field(default_factory=lambda: np.empty((0, 3), np.int32))
-    sizes: np.ndarray = field(default_factory=lambda: np.empty(0))
-    inverse_sizes: np.ndarray | None = None
-    """Of ``uv_points``, where sizes depend on the direction: see ``SurfaceMesh``."""
-    wishes: SizeLimits | None = None
-    """Smaller sizes that the face needs."""
-    failure: str = ""
-    remark: str = ""
-    """What was done to it out of the ordinary."""
 
 
 def mesh_face(job: FaceJob) -> FaceMesh:
@@ -121,12 +44,12 @@ def mesh_face(job: FaceJob) -> FaceMesh:
         try:
             return _meshed(job)
         except SurfaceError:
-            opened = _untangled(job)
+            opened = untangled_job(job)
             if opened is None:
                 raise
             return _meshed(opened, unfold=False)
     except SurfmeshError as error:
-        closed = _filled(job, str(error)) if job.last else None
+        closed = filled_face(job, str(error)) if job.last else None
         if closed is not None:
             return closed
         return FaceMesh(failure=str(error), wishes=_wishes_at(job, getattr(error, "where", None)))
@@ -155,91 +78,6 @@ def _wishes_at(job: FaceJob, where: np.ndarray | None) -> SizeLimits | None:
     if not (sizes > least).any() or not (sizes > 0.0).all():
         return None
     return SizeLimits(points, sizes, job.sizing.gradient)
-
-
-def _untangled(job: FaceJob) -> FaceJob | None:
-    """The job with images in (u, v) that do not cross; None when none do, or by too much."""
-    pieces = [piece for loop in job.loops for piece in loop]
-    uv, numbers, segments, starts = [], [], [], []
-    total = 0
-    for loop in job.loops:
-        first = total
-        for piece in loop:
-            starts.append(total)
-            uv.append(piece.uv[:-1])
-            numbers.append(piece.numbers[:-1])
-            total += len(piece.uv) - 1
-        ring = np.arange(first, total)
-        segments.append(np.stack([ring, np.roll(ring, -1)], axis=1))
-    uv, numbers, ring = np.concatenate(uv), np.concatenate(numbers), np.concatenate(segments)
-    nodes, row = np.unique(_distinct(uv, numbers, ring), return_inverse=True)
-    segments = row[ring]
-    segments = segments[segments[:, 0] != segments[:, 1]]
-    _, along_u, along_v = job.surface.evaluate(uv[nodes], 1)
-    speeds = np.stack([np.linalg.norm(along, axis=1) for along in (along_u, along_v)], axis=1)
-    mean = np.maximum(speeds.mean(axis=0), np.finfo(float).tiny)
-    plane = uv[nodes] * mean
-    beside = np.full(len(nodes), np.inf)
-    step = np.linalg.norm(plane[segments[:, 1]] - plane[segments[:, 0]], axis=1)
-    np.minimum.at(beside, segments.ravel(), np.repeat(step, 2))
-    tolerance = np.zeros(len(nodes))
-    for piece, start in zip(pieces, starts):
-        np.maximum.at(tolerance, row[start : start + len(piece.uv) - 1], piece.tolerance)
-    stretch = np.maximum((speeds / mean).max(axis=1), SLOWEST)
-    share = WITHIN if job.last else SLIGHTLY
-    reach = np.maximum(TOLERANCES * tolerance / stretch, share * beside)
-    moved = untangled(plane, segments, reach)
-    if moved is None or np.array_equal(moved, plane):
-        return None
-    moved = np.where(moved == plane, uv[nodes], moved / mean)[row]
-    following = np.empty(total, np.int64)
-    following[ring[:, 0]] = ring[:, 1]
-    loops, at = [], iter(starts)
-    for loop in job.loops:
-        changed = []
-        for piece in loop:
-            start = next(at)
-            own = np.arange(start, start + len(piece.uv) - 1)
-            changed.append(replace(piece, uv=moved[np.r_[own, following[own[-1]]]]))
-        loops.append(tuple(changed))
-    return replace(job, loops=tuple(loops))
-
-
-def _filled(job: FaceJob, reason: str) -> FaceMesh | None:
-    """A face whose boundary is no loop in (u, v), closed between the nodes of its edges.
-
-    None when it has holes, or too many nodes. Neighbours meet where it has no more than two.
-    """
-    rings, slot = [], 0
-    for loop in job.loops:
-        ring = []
-        for piece in loop:
-            rows = zip(piece.numbers.tolist(), piece.points, piece.uv, piece.sizes)
-            for place, (number, *row) in enumerate(rows, slot):
-                if not piece.degenerate and (not ring or ring[-1][0] != number):
-                    ring.append((number, place, *row))
-            slot += len(piece.numbers)
-        while len(ring) > 1 and ring[0][0] == ring[-1][0]:
-            ring.pop()
-        if len(ring) > 2:
-            rings.append(ring)
-    if not rings:
-        return FaceMesh(remark=f"left out, its neighbours meet, because {reason}")
-    while len(rings) > 1:  # loops that touch in a vertex are one
-        first, other = rings[0], rings.pop()
-        meets = [(i, k) for i, a in enumerate(first) for k, b in enumerate(other) if a[0] == b[0]]
-        if not meets:
-            return None
-        i, k = meets[0]
-        rings[0] = first[:i] + other[k:] + other[:k] + first[i:]
-    if len(rings[0]) > MOST_CORNERS:
-        return None
-    numbers, slots, points, uv, sizes = (np.array(column) for column in zip(*rings[0]))
-    triangles = filled(points)
-    corners = numbers[triangles]
-    triangles = triangles[(corners != np.roll(corners, 1, axis=1)).all(axis=1)]
-    remark = f"closed between the nodes of its edges, off the surface, because {reason}"
-    return FaceMesh(points, slots, triangles, uv, triangles, sizes, remark=remark)
 
 
 def _wishes_along(
@@ -418,35 +256,10 @@ def _loops(job: FaceJob, field: SizeField) -> tuple:
     uv, numbers = np.concatenate(uv), np.concatenate(numbers)
     points, slots = np.concatenate(points), np.concatenate(slots)
     ring_segments = np.concatenate(segments)
-    kept = _distinct(uv, numbers, ring_segments)
+    kept = one_place(uv, numbers, ring_segments)
     nodes, row = np.unique(kept, return_inverse=True)
     segments = row[ring_segments].astype(np.int32)
     segments = segments[segments[:, 0] != segments[:, 1]]
     uv, numbers, points, slots = uv[nodes], numbers[nodes], points[nodes], slots[nodes]
     _, first, inverse = np.unique(numbers, return_index=True, return_inverse=True)
     return BoundaryLoops(uv, segments, first[inverse].astype(np.int64)), points, slots
-
-
-def _distinct(uv: np.ndarray, numbers: np.ndarray, segments: np.ndarray) -> np.ndarray:
-    """For each node (k,) the first that has its number and its place.
-
-    Edges inside a face are walked there and back, loops may touch in a vertex. Images of a
-    vertex that edges meet with some tolerance are one place too, if nearer to each other than
-    a small part of the segments there: loops would cross in between.
-    """
-    kept = np.arange(len(numbers))
-    place = uv / np.maximum(np.ptp(uv, axis=0), np.finfo(float).tiny)
-    step = np.linalg.norm(place[segments[:, 1]] - place[segments[:, 0]], axis=1)
-    near = np.full(len(numbers), np.inf)
-    np.minimum.at(near, segments.ravel(), np.repeat(step, 2))
-    near = np.maximum(NEAR_STEP * near, SAME_PLACE)
-    order = np.argsort(numbers, kind="stable")
-    starts = np.flatnonzero(np.r_[True, np.diff(numbers[order]) != 0, True])
-    for begin, end in pairwise(starts):
-        group = order[begin:end]
-        for k, node in enumerate(group[1:], 1):
-            for earlier in group[:k]:
-                if np.linalg.norm(place[node] - place[earlier]) <= near[[node, earlier]].max():
-                    kept[node] = kept[earlier]
-                    break
-    return kept

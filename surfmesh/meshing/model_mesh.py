@@ -17,7 +17,8 @@ from surfmesh.cad.model import CadFace, CadModel
 from surfmesh.errors import MeshingError
 from surfmesh.meshing.edge_nodes import EdgeNodes, cut_edges
 from surfmesh.meshing.edge_samples import EdgeSamples, sample_edges
-from surfmesh.meshing.face_job import FaceJob, FaceMesh, Piece, mesh_face
+from surfmesh.meshing.face_data import FaceJob, FaceMesh, Piece
+from surfmesh.meshing.face_job import mesh_face
 from surfmesh.meshing.model_groups import groups_of
 from surfmesh.meshing.simplification import LEAST, simplified
 from surfmesh.meshing.solid_contents import Contents

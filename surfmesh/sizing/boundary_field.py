@@ -76,7 +76,10 @@ def boundary_field(
         )
     sizes = np.maximum(sizes, sizing.min_size or 0.0)
     if isinstance(surface, Cylinder) or largest is None:
-        bounds = SizeBounds.of(sizing, _diagonal(surface))
+        stated = sizing.max_size and (sizing.chord or sizing.angle or sizing.size)
+        # the finest size alone is left to the diagonal: that of the rectangle will do
+        diagonal = math.hypot(*scaling.extent) if stated else _diagonal(surface)
+        bounds = SizeBounds.of(sizing, diagonal)
         sizing, allowed = bounds.sizing, bounds.clamp[1]
         if isinstance(surface, Cylinder) and bounds.follows_curvature:
             allowed = float(bounds.from_curvature(np.array([1.0 / radius]), 0.0)[0])

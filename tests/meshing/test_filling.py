@@ -4,7 +4,8 @@ import numpy as np
 import pytest
 
 from surfmesh.geometry.elementary import Plane
-from surfmesh.meshing.face_job import FaceJob, Piece, mesh_face
+from surfmesh.meshing.face_data import FaceJob, Piece
+from surfmesh.meshing.face_job import mesh_face
 from surfmesh.meshing.filling import filled
 from surfmesh.sizing.sizing import Sizing
 

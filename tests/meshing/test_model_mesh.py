@@ -9,7 +9,7 @@ import pytest
 import surfmesh as sm
 from surfmesh.errors import MeshingError
 from surfmesh.meshing import model_mesh
-from surfmesh.meshing.face_job import FaceMesh
+from surfmesh.meshing.face_data import FaceMesh
 from surfmesh.quality.solids import solid_mesh
 
 
