@@ -50,6 +50,11 @@ class FaceSurface(PlainData):
         """The periods of u and v; None where r(u, v) does not come back."""
         return None, None
 
+    @property
+    def pieces(self) -> int:
+        """How many smooth pieces there are over the domain: a measure of what may be found."""
+        return 1
+
     def evaluate(self, uv: np.ndarray, order: int = 0) -> tuple[np.ndarray, ...]:
         """(n, 2) float -> (n, 3) float arrays in model units, in the order of DERIVATIVES.
 

@@ -111,6 +111,22 @@ class BSplineSurface(FaceSurface):
         return tuple(out)
 
 
+    @property
+    def pieces(self) -> int:
+        """Knot spans over the domain."""
+        (u0, u1), (v0, v1) = self.domain
+        return knot_spans(self.knots_u, u0, u1) * knot_spans(self.knots_v, v0, v1)
+
+
+def knot_spans(knots: np.ndarray, first: float, last: float) -> int:
+    """About how many knot spans lie between two parameters, periods gone round included."""
+    distinct = np.unique(knots)
+    inside = int(((distinct > first) & (distinct < last)).sum())
+    beyond = max(distinct[0] - first, 0.0) + max(last - distinct[-1], 0.0)
+    each = (distinct[-1] - distinct[0]) / (len(distinct) - 1)
+    return 1 + inside + int(beyond / each)
+
+
 def _checked_degree(what: str, knots: np.ndarray, count: int) -> int:
     degree = len(knots) - count - 1
     if not 1 <= degree < count:

@@ -130,6 +130,10 @@ class OffsetSurface(FaceSurface):
     def periods(self) -> tuple[float | None, float | None]:
         return self.basis.periods
 
+    @property
+    def pieces(self) -> int:
+        return self.basis.pieces
+
     def evaluate(self, uv: np.ndarray, order: int = 0) -> tuple[np.ndarray, ...]:
         """As every surface, for order 0 to 2; raises SurfaceError for 3."""
         if order > 2:

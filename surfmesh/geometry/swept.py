@@ -23,6 +23,7 @@ from surfmesh.geometry.face_surface import (
     derivative_count,
     parameter_pairs,
 )
+from surfmesh.geometry.nurbs import knot_spans
 from surfmesh.geometry.plain_data import frozen_array
 
 
@@ -41,6 +42,10 @@ class ExtrusionSurface(FaceSurface):
     @property
     def periods(self) -> tuple[float | None, float | None]:
         return self.curve.period, None
+
+    @property
+    def pieces(self) -> int:
+        return _pieces(self.curve, *self.domain[0])
 
     def evaluate(self, uv: np.ndarray, order: int = 0) -> tuple[np.ndarray, ...]:
         uv = parameter_pairs(uv)
@@ -75,6 +80,10 @@ class RevolutionSurface(FaceSurface):
     def periods(self) -> tuple[float | None, float | None]:
         return 2.0 * pi, self.curve.period
 
+    @property
+    def pieces(self) -> int:
+        return _pieces(self.curve, *self.domain[1])
+
     def evaluate(self, uv: np.ndarray, order: int = 0) -> tuple[np.ndarray, ...]:
         uv = parameter_pairs(uv)
         moved = np.array(self.curve.evaluate(uv[:, 1], order))  # (order + 1, n, 3)
@@ -91,3 +100,8 @@ class RevolutionSurface(FaceSurface):
                 results[number] += along[l]
         results[0] += self.origin
         return tuple(results)
+
+
+def _pieces(curve: Curve, first: float, last: float) -> int:
+    knots = getattr(getattr(curve, "curve", curve), "knots", None)  # that of an offset, too
+    return 1 if knots is None else knot_spans(knots, first, last)

@@ -33,8 +33,9 @@ def worst_triangles(
     count = min(max(count, 0), len(mesh.triangles))
     if not count:
         return ()
-    worst = np.argpartition(shape.alpha, count - 1)[:count]
-    worst = worst[np.lexsort((worst, shape.alpha[worst]))]
+    last = np.partition(shape.alpha, count - 1)[count - 1]
+    worst = np.flatnonzero(shape.alpha <= last)  # ties: those of the smallest numbers
+    worst = worst[np.argsort(shape.alpha[worst], kind="stable")][:count]
     centroids = mesh.points[mesh.triangles[worst]].mean(axis=1)
     return tuple(
         WorstTriangle(

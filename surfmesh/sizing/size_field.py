@@ -16,6 +16,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from surfmesh.errors import SizingError
+from surfmesh.geometry.face_surface import FaceSurface
 from surfmesh.geometry.scaling import Scaling
 from surfmesh.geometry.sides import SideTopology
 from surfmesh.geometry.surface import Surface
@@ -29,6 +30,9 @@ from surfmesh.sizing.sizing import Sizing
 
 ROOT_CELLS = 2304
 """About how many cells the search starts with: a smooth surface needs no more."""
+
+CELLS_OF_PIECE, CELLS_OF_FACE = 16, (64, 2304)
+"""The same for the faces of a CAD model, which are smooth between the knots of their splines."""
 
 DEPTH = 13
 """Most splits of a root cell for accuracy: a leaf may be a 400,000th of the domain."""
@@ -140,8 +144,11 @@ class _Builder:
         self.sides = sides
         self.scaling = law.scaling
         width, height = self.scaling.extent
-        self.nx = int(np.clip(round(np.sqrt(ROOT_CELLS * width / height)), 4, ROOT_CELLS // 4))
-        self.ny = int(np.clip(round(ROOT_CELLS / self.nx), 4, ROOT_CELLS // 4))
+        roots = ROOT_CELLS
+        if isinstance(surface, FaceSurface):
+            roots = int(np.clip(CELLS_OF_PIECE * surface.pieces, *CELLS_OF_FACE))
+        self.nx = int(np.clip(round(np.sqrt(roots * width / height)), 4, roots // 4))
+        self.ny = int(np.clip(round(roots / self.nx), 4, roots // 4))
         self.root_step = np.array([width / self.nx, height / self.ny])
         self.law = law
         self.slope = sizing.gradient
