@@ -9,11 +9,9 @@ from surfmesh.meshing.filling import MOST_CORNERS, filled
 from surfmesh.meshing.one_place import one_place
 from surfmesh.meshing.untangling import untangled
 
-TOLERANCES = 2.0
-"""Images that cross may be moved by so many tolerances of their edges,"""
-
-SLIGHTLY, WITHIN = 0.02, 1.0
-"""or by this share of the segments there; the last time, when all else has failed, further."""
+TOLERANCES, WITHIN = 2.0, 1.0
+"""Images that cross may be moved by so many tolerances of their edges; the last time, when
+smaller sizes have not helped, by this share of the segments there."""
 
 SLOWEST = 0.1
 """Least speed, of the mean, that a tolerance is translated to (u, v) with."""
@@ -48,8 +46,9 @@ def untangled_job(job: FaceJob) -> FaceJob | None:
     for piece, start in zip(pieces, starts):
         np.maximum.at(tolerance, row[start : start + len(piece.uv) - 1], piece.tolerance)
     stretch = np.maximum((speeds / mean).max(axis=1), SLOWEST)
-    share = WITHIN if job.last else SLIGHTLY
-    reach = np.maximum(TOLERANCES * tolerance / stretch, share * beside)
+    reach = TOLERANCES * tolerance / stretch
+    if job.last:
+        reach = np.maximum(reach, WITHIN * beside)
     moved = untangled(plane, segments, reach)
     if moved is None or np.array_equal(moved, plane):
         return None
