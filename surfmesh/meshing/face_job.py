@@ -34,6 +34,9 @@ FINER = 0.5
 COARSE = 2.0
 """Segments of the boundary so many times longer than the sizes inside allow are to be cut."""
 
+ASTRAY = 0.3
+"""Share of ``chord`` by which a node may lie off the surface of a face that uses it."""
+
 PROJECTIONS = 4
 """Steps to the closest point of a plane or a cylinder."""
 
@@ -126,8 +129,11 @@ def _meshed(job: FaceJob, unfold: bool = True) -> FaceMesh:
         wishes = _wishes_along(job, surface, field, loops, fixed)
     if job.optimise:
         changes = optimiser.run()
+        astray = np.zeros(len(domain.t.xy), bool)
+        astray[domain.node] = _astray(surface, loops, fixed, job.sizing.chord)
+        helped = ~astray[domain.t.tri.reshape(-1, 3)[changes.far]].any(axis=1)
         for found, remedy in (
-            (changes.far, optimiser.approaching), (changes.folded, optimiser.unfolding),
+            (changes.far[helped], optimiser.approaching), (changes.folded, optimiser.unfolding),
         ):  # fmt: skip
             if len(found) and (unfold or remedy != optimiser.unfolding):
                 more = remedy(found)
@@ -155,6 +161,16 @@ def _meshed(job: FaceJob, unfold: bool = True) -> FaceMesh:
         parts.points, slot[parts.place], parts.triangles, parts.uv_points, parts.uv_triangles,
         sizes, inverse_sizes(field, xy, optimiser.embedding.scale[: len(xy)]), wishes,
     )  # fmt: skip
+
+
+def _astray(
+    surface: Surface, loops: BoundaryLoops, points: np.ndarray, chord: float | None
+) -> np.ndarray:
+    """Which nodes (k,) lie so far off the surface themselves that smaller sizes are no help."""
+    if chord is None:
+        return np.zeros(len(points), bool)
+    (images,) = surface.evaluate(loops.uv, 0)
+    return np.linalg.norm(points - images, axis=1) > ASTRAY * chord
 
 
 def _field(job: FaceJob) -> tuple[Surface, SizeField]:
