@@ -18,6 +18,7 @@ if TYPE_CHECKING:
     from surfmesh.api import load, mesh, show
     from surfmesh.cad.from_cadquery import from_cadquery
     from surfmesh.cad.model import CadModel
+    from surfmesh.geometry.numeric import NumericSurface
     from surfmesh.geometry.parametric import ParametricSurface
     from surfmesh.geometry.planar_domain import PlanarDomain
     from surfmesh.geometry.surface_file import gallery
@@ -36,6 +37,7 @@ _HOMES = {
     "CadModel": "surfmesh.cad.model",
     "CirclePacking": "surfmesh.meshing.circle_packing",
     "DistanceSize": "surfmesh.sizing.distance_size",
+    "NumericSurface": "surfmesh.geometry.numeric",
     "ParametricSurface": "surfmesh.geometry.parametric",
     "PlanarDomain": "surfmesh.geometry.planar_domain",
     "Report": "surfmesh.quality",
@@ -57,6 +59,7 @@ __all__ = [
     "CadModel",
     "CirclePacking",
     "DistanceSize",
+    "NumericSurface",
     "ParametricSurface",
     "PlanarDomain",
     "Report",
