@@ -10,6 +10,7 @@
 Names are imported when they are first used: ``import surfmesh`` alone loads nothing heavy.
 """
 
+import logging
 from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
@@ -30,6 +31,8 @@ if TYPE_CHECKING:
     from surfmesh.surface_mesh import SurfaceMesh
 
     __version__: str
+
+logging.getLogger("surfmesh").addHandler(logging.NullHandler())  # silent unless asked for
 
 # No submodule may be called like a public name (mesh, check, load): importing it would put
 # the module where the function should be.

@@ -1,5 +1,6 @@
 """The verbs: ``load`` a surface or a CAD model, ``mesh`` it, ``show`` what is on it."""
 
+import logging
 import sys
 from pathlib import Path
 from typing import Any
@@ -18,6 +19,8 @@ from surfmesh.meshing.stages import Progress
 from surfmesh.sizing.distance_size import default_wishes
 from surfmesh.sizing.sizing import Sizing
 from surfmesh.surface_mesh import SurfaceMesh
+
+logger = logging.getLogger(__name__)
 
 
 def load(path: str | Path, units: str | None = None) -> Surface | CadModel:
@@ -53,23 +56,28 @@ def mesh(
 
     sizing: what is wanted; a number is a uniform edge length; None takes the defaults of the
     surface's formula file, or sensible ones. optimise=False gives the raw packing with its
-    boundary, as in the paper. progress: called with (stage, share done). strict=False: faces of
-    a CAD model that cannot be meshed are left out and listed in the mesh's ``warnings``.
-    simplify=True: tiny edges of a CAD model are collapsed, those below ``min_size`` or a
-    two-thousandth of the diagonal; topology is kept.
+    boundary, as in the paper. progress: called with (stage, share done); when it returns False
+    the work stops. strict=False: faces of a CAD model that cannot be meshed are left out and
+    listed in the mesh's ``warnings``. simplify=True: tiny edges of a CAD model are collapsed,
+    those below ``min_size`` or a two-thousandth of the diagonal; topology is kept.
 
-    Raises ``SizingError``, ``SurfaceError`` or ``MeshingError`` with the place and the reason.
+    Stages and their seconds go to the log ``surfmesh`` at level INFO, the mesh's warnings at
+    WARNING. Safe to call from several threads at once.
+
+    Raises ``SizingError``, ``SurfaceError`` or ``MeshingError`` with the place and the reason,
+    ``Cancelled`` when ``progress`` said so.
     """
     if not isinstance(surface, (CadModel, Surface)) and _is_cad(surface):
         surface = from_cadquery(surface)
     if isinstance(surface, CadModel):
-        return mesh_model(surface, Sizing.of(sizing), optimise, progress, strict, simplify)
+        made = mesh_model(surface, Sizing.of(sizing), optimise, progress, strict, simplify)
+        return _logged(made, surface)
     if not isinstance(surface, Surface):
         raise SurfaceError(f"cannot mesh a {type(surface).__name__}: a Surface is needed")
     if sizing is None:
         sizing = default_wishes(surface) or None
     work = mesh_planar if isinstance(surface, PlanarDomain) else mesh_parametric
-    return work(surface, Sizing.of(sizing), optimise, progress)
+    return _logged(work(surface, Sizing.of(sizing), optimise, progress), surface)
 
 
 def show(
@@ -105,6 +113,16 @@ def show(
         view.show(shown, **(drawn | options))
     else:
         view.plot(shown, path, **(drawn | options))
+
+
+def _logged(made: SurfaceMesh, surface: Surface | CadModel) -> SurfaceMesh:
+    """The mesh itself, after saying in the log what became of the surface."""
+    seconds = sum(made.seconds.values())
+    points, triangles = len(made.points), len(made.triangles)
+    logger.info("%s: %d nodes, %d triangles, %.2f s", surface.name, points, triangles, seconds)
+    for warning in made.warnings:
+        logger.warning("%s: %s", surface.name, warning)
+    return made
 
 
 def _is_cad(thing: Any) -> bool:

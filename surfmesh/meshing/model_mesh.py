@@ -64,6 +64,7 @@ def mesh_model(
             nodes = cut_edges(model, sizing, samples, limits, before)
         with watch.stage("packing"):
             for number, face in enumerate(model.faces):
+                watch.pulse(number / len(model.faces))
                 job, limit = jobs[number], limits.get(number)
                 if (
                     job is None
