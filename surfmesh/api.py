@@ -76,8 +76,10 @@ def mesh(
         raise SurfaceError(f"cannot mesh a {type(surface).__name__}: a Surface is needed")
     if sizing is None:
         sizing = default_wishes(surface) or None
-    work = mesh_planar if isinstance(surface, PlanarDomain) else mesh_parametric
-    return _logged(work(surface, Sizing.of(sizing), optimise, progress), surface)
+    wishes = Sizing.of(sizing)
+    if isinstance(surface, PlanarDomain):
+        return _logged(mesh_planar(surface, wishes, optimise, progress), surface)
+    return _logged(mesh_parametric(surface, wishes, optimise, progress), surface)
 
 
 def show(
@@ -100,7 +102,8 @@ def show(
     from surfmesh.view.legend import name_of
 
     if isinstance(thing, SurfaceMesh):
-        shown, drawn = thing, {"by": by or "alpha"}
+        shown: SurfaceMesh = thing
+        drawn: dict[str, Any] = {"by": by or "alpha"}
     else:  # the raw packing carries the field to where it changes
         shown = mesh(thing, sizing, optimise=False, strict=False)
         flat = isinstance(thing, PlanarDomain)

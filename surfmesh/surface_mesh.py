@@ -43,7 +43,8 @@ class SurfaceMesh:
     triangles: NDArray[np.int32]  # (m, 3) vertex numbers, counter-clockwise along r_u x r_v
     uv_points: NDArray[np.float64] | None = None  # (k, 2) distinct corner parameters
     uv_triangles: NDArray[np.int32] | None = None  # (m, 3) rows of uv_points; None: triangles
-    face_ids: NDArray[np.int32] | None = None  # (m,) surface of each triangle; None: all 0
+    # (m,) surface of each triangle; None, when it is made: all 0
+    face_ids: NDArray[np.int32] = None  # type: ignore[assignment]
     surfaces: tuple[Any, ...] = ()  # by face_ids; empty when read from a file
     sizes: NDArray[np.float64] | None = None  # (n,) wanted edge length at each vertex
     sizing: Any = None  # the options it was made with
@@ -59,7 +60,7 @@ class SurfaceMesh:
 
     def __post_init__(self) -> None:
         def settle(name: str, value: ArrayLike, dtype: type, shape: tuple[int, ...]) -> None:
-            array = np.ascontiguousarray(value, dtype)
+            array: NDArray[Any] = np.ascontiguousarray(value, dtype)
             fits = array.ndim == len(shape) and all(
                 wanted in (-1, found) for wanted, found in zip(shape, array.shape)
             )

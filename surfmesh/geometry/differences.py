@@ -12,6 +12,8 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from itertools import pairwise
+from typing import Any
 
 import numpy as np
 
@@ -61,7 +63,7 @@ class Differences:
     ) -> list[np.ndarray]:
         """Derivatives along one variable alone."""
         nodes, weights = self._nodes(uv[:, axis], axis)
-        total = [np.zeros(1) for _ in derivatives]
+        total: list[Any] = [0.0 for _ in derivatives]
         for i in range(self.order + 1):
             place = uv.copy()
             place[:, axis] = nodes[i]
@@ -78,7 +80,7 @@ class Differences:
         nodes = np.clip(middle + step * offsets[:, None], first, last)  # round-off stays inside
         t = (x - middle) / step
         # rows: the Lagrange polynomials' coefficients, lowest first
-        basis = np.linalg.inv(np.vander(offsets.astype(float), increasing=True)).T
+        basis: np.ndarray = np.linalg.inv(np.vander(offsets.astype(float), increasing=True)).T
         weights = []
         for derivative in range(3):
             weights.append(np.polynomial.polynomial.polyval(t, basis.T).T / step**derivative)
@@ -110,7 +112,7 @@ def chosen_differences(
             rule = Differences(domain, order, (share * extent[0], share * extent[1]))
             (second,) = rule._line(values, points, axis, (2,))
             found.append(second * extent[axis] ** 2)
-        misfit = [float(np.abs(a - b).max()) for a, b in zip(found, found[1:])]
+        misfit = [float(np.abs(a - b).max()) for a, b in pairwise(found)]
         best = int(np.argmin(misfit))
         steps.append(ladder[best] * extent[axis])
         errors.append((misfit[best], float(np.abs(found[best]).max())))

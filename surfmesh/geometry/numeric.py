@@ -175,11 +175,11 @@ def _rows(value: Any, count: int, what: str) -> np.ndarray:
         if isinstance(value, (tuple, list)):
             if len(value) != 3:
                 raise ValueError
-            array = np.empty((count, 3))
+            rows = np.empty((count, 3))
             for axis, coordinate in enumerate(value):
-                array[:, axis] = coordinate
-            return array
-        array = np.array(value, dtype=float)
+                rows[:, axis] = coordinate
+            return rows
+        array: Any = np.array(value, dtype=float)
     except (TypeError, ValueError):
         array = np.empty(0)
     if array.shape == (count, 3):

@@ -44,7 +44,7 @@ class ParametricSurface:
         sizing_defaults: Mapping[str, Any] | None = None,
         facts: Mapping[str, Any] | None = None,
     ) -> None:
-        fixed = {
+        fixed: dict[str, Any] = {
             "name": str(name),
             "formulas": (str(x), str(y), str(z)),
             "parameters": dict(parameters or {}),
@@ -68,6 +68,8 @@ class ParametricSurface:
     description: str
     sizing_defaults: dict[str, Any]
     facts: dict[str, Any]
+    _expressions: tuple[Any, Any, Any]
+    _tapes: dict[int, Tape]
 
     def evaluate(self, uv: np.ndarray, order: int = 0) -> tuple[np.ndarray, ...]:
         """(n, 2) float -> (n, 3) float arrays: (r,), (r, r_u, r_v) or up to r_uu, r_uv, r_vv.
