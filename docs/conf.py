@@ -16,6 +16,7 @@ extensions = ["sphinx.ext.autodoc", "myst_nb"]
 exclude_patterns = ["figures.py"]
 html_theme = "furo"
 html_title = "surfmesh"
+html_show_copyright = False
 
 myst_enable_extensions = ["dollarmath", "amsmath"]
 nb_execution_mode = "force"
@@ -38,3 +39,27 @@ def notebooks_beside_the_pages() -> None:
 
 
 notebooks_beside_the_pages()
+
+
+def from_plain_text(app, what, name, obj, options, lines: list[str]) -> None:
+    """Docstrings are plain text: what is indented after a blank line is a drawing or an example,
+    and bars and stars mean themselves."""
+    made: list[str] = []
+    drawing = False
+    for line in lines:
+        indented = line.startswith(" ")
+        if drawing:
+            drawing = indented or not line
+        elif indented and (not made or not made[-1]):
+            made += ["::", ""]
+            drawing = True
+        if not drawing:
+            parts = line.split("``")  # code stands at the odd places
+            parts[::2] = [part.replace("|", r"\|").replace("*", r"\*") for part in parts[::2]]
+            line = "``".join(parts)
+        made.append(line)
+    lines[:] = made
+
+
+def setup(app) -> None:
+    app.connect("autodoc-process-docstring", from_plain_text)

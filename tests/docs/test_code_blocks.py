@@ -5,8 +5,11 @@ toml as surface files; all in an empty folder with a bracket.step and an outline
 """
 
 import logging
+import os
 import re
 import shlex
+import subprocess
+import sys
 from pathlib import Path
 
 import cadquery as cq
@@ -82,3 +85,15 @@ def test_every_public_name_is_in_the_reference():
                 __import__(f"{thing.__name__}.{part}")
             thing = getattr(thing, part)
         assert thing.__doc__, name
+
+
+def test_the_pages_build_without_a_warning(tmp_path):
+    """``make docs``, but for running the notebooks, which have tests of their own."""
+    options = ["-q", "-W", "-b", "html", "-D", "nb_execution_mode=off", "-d", str(tmp_path / "read")]
+    done = subprocess.run(
+        [sys.executable, "-m", "sphinx", *options, str(ROOT / "docs"), str(tmp_path / "pages")],
+        capture_output=True, text=True, env={**os.environ, "PYTHONPATH": str(ROOT)},
+    )  # fmt: skip
+    assert done.returncode == 0, done.stderr
+    api = (tmp_path / "pages" / "api.html").read_text(encoding="utf-8")
+    assert 'id="surfmesh.NumericSurface"' in api and 'id="surfmesh.errors.Cancelled"' in api
