@@ -96,7 +96,8 @@ def chosen_differences(
     Truncation falls and round-off grows as the step shrinks. Each variable takes the step whose
     derivatives agree best with those of half of it, on a grid of points that evenness does not
     fool. step: a share of the domain, to use instead. The error is the largest disagreement, as
-    a share of the largest second derivative, both in parts of the domain.
+    a share of the largest second derivative or, where that is more, of the extent of values; all
+    in parts of the domain.
     """
     extent = [last - first for first, last in domain]
     if step is not None:
@@ -116,7 +117,8 @@ def chosen_differences(
         best = int(np.argmin(misfit))
         steps.append(ladder[best] * extent[axis])
         errors.append((misfit[best], float(np.abs(found[best]).max())))
-    largest = max(size for _, size in errors)
+    flat = float(np.ptp(values(points), axis=0).max())  # second derivatives may be round-off
+    largest = max(flat, *(size for _, size in errors))
     error = max(misfit for misfit, _ in errors) / largest if largest > 0.0 else 0.0
     return Differences(domain, order, (steps[0], steps[1])), error
 

@@ -84,8 +84,8 @@ class NumericSurface:
     sizing_defaults: dict[str, Any]
     differences: Differences
     difference_error: float
-    """Of second derivatives by differences of r, as a share of the largest: see
-    ``chosen_differences``."""
+    """Of second derivatives by differences of r, as a share of the largest or of the surface's
+    extent, whichever is more: see ``chosen_differences``."""
 
     def evaluate(self, uv: np.ndarray, order: int = 0) -> tuple[np.ndarray, ...]:
         """(n, 2) float -> (n, 3) float arrays: (r,), (r, r_u, r_v) or up to r_uu, r_uv, r_vv.

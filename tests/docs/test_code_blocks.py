@@ -89,7 +89,8 @@ def test_every_public_name_is_in_the_reference():
 
 def test_the_pages_build_without_a_warning(tmp_path):
     """``make docs``, but for running the notebooks, which have tests of their own."""
-    options = ["-q", "-W", "-b", "html", "-D", "nb_execution_mode=off", "-d", str(tmp_path / "read")]
+    options = ["-q", "-W", "-b", "html", "-D", "nb_execution_mode=off"]
+    options += ["-d", str(tmp_path / "read")]
     done = subprocess.run(
         [sys.executable, "-m", "sphinx", *options, str(ROOT / "docs"), str(tmp_path / "pages")],
         capture_output=True, text=True, env={**os.environ, "PYTHONPATH": str(ROOT)},

@@ -8,6 +8,7 @@ import pytest
 import surfmesh as sm
 from surfmesh.errors import SurfaceError
 from surfmesh.geometry.differences import Differences
+from surfmesh.geometry.formula_file import gallery
 from surfmesh.geometry.surface import Surface
 
 TAU = 2 * np.pi
@@ -195,6 +196,45 @@ def test_meshes_are_as_good_as_those_of_formulas(name):
     assert reports[0].euler == reports[1].euler
     assert reports[0].triangles == pytest.approx(reports[1].triangles, rel=0.03)
     assert reports[0].alpha_mean > 0.95
+
+
+class Wrapped:
+    """The points of another surface as a function of u and v."""
+
+    def __init__(self, surface):
+        self.surface = surface
+
+    def __call__(self, u, v):
+        return self.surface.evaluate(np.column_stack([u, v]))[0]
+
+
+@pytest.mark.parametrize("name", gallery())
+def test_the_gallery_by_differences(name):
+    exact = sm.load(name)
+    given = sm.NumericSurface(Wrapped(exact), *exact.domain, loops=exact.loops, differences=6)
+    assert given.difference_error < 1e-6
+    (u0, u1), (v0, v1) = exact.domain
+    parts = np.array([u1 - u0, v1 - v0, (u1 - u0) ** 2, (u1 - u0) * (v1 - v0), (v1 - v0) ** 2])
+    uv = points_of(exact, 200)
+    found, wanted = given.evaluate(uv, 2), exact.evaluate(uv, 2)
+    rates = [part * np.abs(value).max() for part, value in zip(parts, wanted[1:])]
+    scale = max(np.ptp(wanted[0], axis=0).max(), *rates)
+    for part, a, b in zip(parts, found[1:], wanted[1:]):
+        assert part * np.abs(a - b).max() < 2e-6 * scale
+
+
+@pytest.mark.parametrize("name", ["cone", "ellipsoid", "mobius", "pierced_saddle", "plane"])
+def test_poles_seams_twists_and_loops_are_found(name):
+    exact = sm.load(name)
+    given = sm.NumericSurface(Wrapped(exact), *exact.domain, loops=exact.loops, name=name)
+    wishes = sm.Sizing(chord=0.005, max_size=0.5)
+    found, wanted = (sm.check(sm.mesh(surface, wishes)) for surface in (given, exact))
+    assert found.clean, found.problems
+    assert (found.euler, found.closed, found.oriented) == (
+        wanted.euler, wanted.closed, wanted.oriented
+    )  # fmt: skip
+    assert found.triangles == pytest.approx(wanted.triangles, rel=0.03)
+    assert found.area == pytest.approx(wanted.area, rel=1e-3)
 
 
 def test_it_travels_and_does_not_change():
