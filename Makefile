@@ -33,7 +33,7 @@ bench: $(VENV)/.installed-bench ## the figures, gmsh beside them
 
 clean: ## remove what is generated, but for the virtual environment
 	find . -name __pycache__ -not -path './.venv/*' -type d -prune -exec rm -rf {} +
-	rm -rf build dist *.egg-info .pytest_cache .mypy_cache .hypothesis .ruff_cache .import_linter_cache
+	rm -rf docs/notebooks build dist *.egg-info .pytest_cache .mypy_cache .hypothesis .ruff_cache .import_linter_cache
 	find outputs -mindepth 1 ! -name README.md -delete
 
 $(VENV)/bin/python:
