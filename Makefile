@@ -6,7 +6,7 @@ BIN := $(VENV)/bin
 PIP := $(BIN)/python -m pip --disable-pip-version-check install -qq --only-binary=:all:
 
 .DEFAULT_GOAL := help
-.PHONY: help venv mesh test lint bench clean
+.PHONY: help venv mesh test lint docs bench clean
 
 help: ## this list
 	@grep -E '^[a-z]+:.*##' $(MAKEFILE_LIST) | sed -E 's/^([a-z]+):[^#]*## /  make \1\t/' | expand -t 16
@@ -16,19 +16,24 @@ venv: $(VENV)/.installed ## virtual environment with surfmesh (VENV=.venv, PYTHO
 mesh: $(VENV)/.installed ## mesh, check and draw the wavy surface; results in outputs/
 	$(BIN)/surfmesh mesh wavy -o outputs/wavy.vtu --picture outputs/wavy.png --report outputs/wavy.json
 
-test: lint ## lint, layers and tests
+test: lint ## lint, layers, types and tests
 	$(BIN)/python -m pytest
 
-lint: $(VENV)/.installed-dev ## ruff and the layers of the package
+lint: $(VENV)/.installed-dev ## ruff, the layers of the package, types of the public face
 	$(BIN)/ruff check .
 	$(BIN)/lint-imports --no-logo
+	$(BIN)/mypy
+
+docs: $(VENV)/.installed-docs ## HTML pages with executed notebooks, in outputs/docs
+	$(BIN)/sphinx-build -q -b html docs outputs/docs
+	@echo "outputs/docs/index.html"
 
 bench: $(VENV)/.installed-bench ## the figures, gmsh beside them
 	$(BIN)/python benchmarks/parametric.py
 
 clean: ## remove what is generated, but for the virtual environment
 	find . -name __pycache__ -not -path './.venv/*' -type d -prune -exec rm -rf {} +
-	rm -rf build dist *.egg-info .pytest_cache .hypothesis .ruff_cache .import_linter_cache
+	rm -rf docs/notebooks build dist *.egg-info .pytest_cache .mypy_cache .hypothesis .ruff_cache .import_linter_cache
 	find outputs -mindepth 1 ! -name README.md -delete
 
 $(VENV)/bin/python:
@@ -45,6 +50,11 @@ $(VENV)/.installed: pyproject.toml | $(VENV)/bin/python
 $(VENV)/.installed-dev: pyproject.toml | $(VENV)/bin/python
 	@echo "installing surfmesh and what its tests need into $(VENV)"
 	@$(PIP) -e '.[dev]'
+	@touch $@ $(VENV)/.installed
+
+$(VENV)/.installed-docs: pyproject.toml | $(VENV)/bin/python
+	@echo "installing surfmesh and what its pages need into $(VENV)"
+	@$(PIP) -e '.[docs]'
 	@touch $@ $(VENV)/.installed
 
 $(VENV)/.installed-bench: pyproject.toml | $(VENV)/bin/python

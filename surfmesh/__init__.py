@@ -10,6 +10,7 @@
 Names are imported when they are first used: ``import surfmesh`` alone loads nothing heavy.
 """
 
+import logging
 from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
@@ -18,6 +19,7 @@ if TYPE_CHECKING:
     from surfmesh.api import load, mesh, show
     from surfmesh.cad.from_cadquery import from_cadquery
     from surfmesh.cad.model import CadModel
+    from surfmesh.geometry.numeric import NumericSurface
     from surfmesh.geometry.parametric import ParametricSurface
     from surfmesh.geometry.planar_domain import PlanarDomain
     from surfmesh.geometry.surface_file import gallery
@@ -30,12 +32,15 @@ if TYPE_CHECKING:
 
     __version__: str
 
+logging.getLogger("surfmesh").addHandler(logging.NullHandler())  # silent unless asked for
+
 # No submodule may be called like a public name (mesh, check, load): importing it would put
 # the module where the function should be.
 _HOMES = {
     "CadModel": "surfmesh.cad.model",
     "CirclePacking": "surfmesh.meshing.circle_packing",
     "DistanceSize": "surfmesh.sizing.distance_size",
+    "NumericSurface": "surfmesh.geometry.numeric",
     "ParametricSurface": "surfmesh.geometry.parametric",
     "PlanarDomain": "surfmesh.geometry.planar_domain",
     "Report": "surfmesh.quality",
@@ -57,6 +62,7 @@ __all__ = [
     "CadModel",
     "CirclePacking",
     "DistanceSize",
+    "NumericSurface",
     "ParametricSurface",
     "PlanarDomain",
     "Report",

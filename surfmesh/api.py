@@ -1,5 +1,6 @@
 """The verbs: ``load`` a surface or a CAD model, ``mesh`` it, ``show`` what is on it."""
 
+import logging
 import sys
 from pathlib import Path
 from typing import Any
@@ -19,6 +20,8 @@ from surfmesh.meshing.stages import Progress
 from surfmesh.sizing.distance_size import default_wishes
 from surfmesh.sizing.sizing import Sizing
 from surfmesh.surface_mesh import SurfaceMesh
+
+logger = logging.getLogger(__name__)
 
 
 def load(path: str | Path, units: str | None = None) -> Surface | CadModel:
@@ -56,14 +59,18 @@ def mesh(
 
     sizing: what is wanted; a number is a uniform edge length; None takes the defaults of the
     surface's formula file, or sensible ones. optimise=False gives the raw packing with its
-    boundary, as in the paper. progress: called with (stage, share done). strict=False: faces of
-    a CAD model that cannot be meshed are left out and listed in the mesh's ``warnings``.
-    simplify=True: tiny edges of a CAD model are collapsed, those below ``min_size`` or a
-    two-thousandth of the diagonal; topology is kept. jobs: faces of a CAD model meshed at
-    once; the mesh is the same with any number of them.
-    order=2: nodes amid the edges too, on the true curves and surfaces (``mesh.mid_points``).
+    boundary, as in the paper. progress: called with (stage, share done); when it returns False
+    the work stops. strict=False: faces of a CAD model that cannot be meshed are left out and
+    listed in the mesh's ``warnings``. simplify=True: tiny edges of a CAD model are collapsed,
+    those below ``min_size`` or a two-thousandth of the diagonal; topology is kept. jobs: faces
+    of a CAD model meshed at once; the mesh is the same with any number of them. order=2: nodes
+    amid the edges too, on the true curves and surfaces (``mesh.mid_points``).
 
-    Raises ``SizingError``, ``SurfaceError`` or ``MeshingError`` with the place and the reason.
+    Stages and their seconds go to the log ``surfmesh`` at level INFO, the mesh's warnings at
+    WARNING. Safe to call from several threads at once.
+
+    Raises ``SizingError``, ``SurfaceError`` or ``MeshingError`` with the place and the reason,
+    ``Cancelled`` when ``progress`` said so.
     """
     if order not in (1, 2):
         raise SizingError(f"order is {order!r}: meshes are of order 1 or 2")
@@ -72,14 +79,17 @@ def mesh(
     if isinstance(surface, CadModel):
         wishes = Sizing.of(sizing)
         made = mesh_model(surface, wishes, optimise, progress, strict, simplify, jobs)
-        return made if order == 1 else of_second_order(made, surface)
+        return _logged(made if order == 1 else of_second_order(made, surface), surface)
     if not isinstance(surface, Surface):
         raise SurfaceError(f"cannot mesh a {type(surface).__name__}: a Surface is needed")
     if sizing is None:
         sizing = default_wishes(surface) or None
-    work = mesh_planar if isinstance(surface, PlanarDomain) else mesh_parametric
-    made = work(surface, Sizing.of(sizing), optimise, progress)
-    return made if order == 1 else of_second_order(made)
+    wishes = Sizing.of(sizing)
+    if isinstance(surface, PlanarDomain):
+        made = mesh_planar(surface, wishes, optimise, progress)
+    else:
+        made = mesh_parametric(surface, wishes, optimise, progress)
+    return _logged(made if order == 1 else of_second_order(made), surface)
 
 
 def show(
@@ -102,7 +112,8 @@ def show(
     from surfmesh.view.legend import name_of
 
     if isinstance(thing, SurfaceMesh):
-        shown, drawn = thing, {"by": by or "alpha"}
+        shown: SurfaceMesh = thing
+        drawn: dict[str, Any] = {"by": by or "alpha"}
     else:  # the raw packing carries the field to where it changes
         shown = mesh(thing, sizing, optimise=False, strict=False)
         flat = isinstance(thing, PlanarDomain)
@@ -115,6 +126,16 @@ def show(
         view.show(shown, **(drawn | options))
     else:
         view.plot(shown, path, **(drawn | options))
+
+
+def _logged(made: SurfaceMesh, surface: Surface | CadModel) -> SurfaceMesh:
+    """The mesh itself, after saying in the log what became of the surface."""
+    seconds = sum(made.seconds.values())
+    points, triangles = len(made.points), len(made.triangles)
+    logger.info("%s: %d nodes, %d triangles, %.2f s", surface.name, points, triangles, seconds)
+    for warning in made.warnings:
+        logger.warning("%s: %s", surface.name, warning)
+    return made
 
 
 def _is_cad(thing: Any) -> bool:

@@ -42,6 +42,10 @@ class MeshingError(SurfmeshError, RuntimeError):
     """No valid mesh could be made; the message names the place and the reason."""
 
 
+class Cancelled(SurfmeshError, RuntimeError):
+    """The progress callback returned False: the work was stopped, and nothing was written."""
+
+
 class FileFormatError(SurfmeshError, ValueError):
     """A file cannot be read or written: unknown extension, wrong content."""
 

@@ -49,7 +49,8 @@ class SurfaceMesh:
     triangles: NDArray[np.int32]  # (m, 3) vertex numbers, counter-clockwise along r_u x r_v
     uv_points: NDArray[np.float64] | None = None  # (k, 2) distinct corner parameters
     uv_triangles: NDArray[np.int32] | None = None  # (m, 3) rows of uv_points; None: triangles
-    face_ids: NDArray[np.int32] | None = None  # (m,) surface of each triangle; None: all 0
+    # (m,) surface of each triangle; None, when it is made: all 0
+    face_ids: NDArray[np.int32] = None  # type: ignore[assignment]
     surfaces: tuple[Any, ...] = ()  # by face_ids; empty when read from a file
     sizes: NDArray[np.float64] | None = None  # (n,) wanted edge length at each vertex
     # (k, 6) for each of uv_points W = xx, xy, xz, yy, yz, zz, as |W d| is the step d in wanted
@@ -68,11 +69,12 @@ class SurfaceMesh:
     edge_shares: NDArray[np.float64] | None = None  # (k, 2) of its range, at a segment's ends
     vertex_ids: NDArray[np.int32] | None = None  # (c,) vertex at each CAD vertex; -1: none
     mid_points: NDArray[np.float64] | None = None  # (ne, 3) nodes amid ``edges``; None: order 1
-    groups: MeshGroups | None = None  # names, colours, kinds, unit; None: those of the surfaces
+    # names, colours, kinds, unit; None: those of the surfaces
+    groups: MeshGroups = None  # type: ignore[assignment]
 
     def __post_init__(self) -> None:
         def settle(name: str, value: ArrayLike, dtype: type, shape: tuple[int, ...]) -> None:
-            array = np.ascontiguousarray(value, dtype)
+            array: NDArray[Any] = np.ascontiguousarray(value, dtype)
             fits = array.ndim == len(shape) and all(
                 wanted in (-1, found) for wanted, found in zip(shape, array.shape)
             )
@@ -144,7 +146,9 @@ class SurfaceMesh:
     @property
     def nodes(self) -> NDArray[np.float64]:
         """(n, 3), or (n + ne, 3) for order 2: ``points`` and then ``mid_points``."""
-        return self.points if self.order == 1 else np.vstack((self.points, self.mid_points))
+        if self.mid_points is None:
+            return self.points
+        return np.vstack((self.points, self.mid_points))
 
     @property
     def elements(self) -> NDArray[np.int32]:

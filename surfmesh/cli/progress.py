@@ -2,6 +2,10 @@
 
 import sys
 from time import perf_counter
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from rich.progress import Progress
 
 PATIENCE = 1.0  # seconds before a bar appears
 
@@ -12,35 +16,40 @@ class ProgressBar:
     Silent when standard error is not a terminal. fraction: 0 to 1 of the whole.
     """
 
+    _bar: "Progress | None" = None
+    _start = 0.0
+
     def __enter__(self) -> "ProgressBar":
         self._start = perf_counter()
-        self._bar = self._task = None
         return self
 
     def __exit__(self, *_: object) -> None:
         if self._bar is not None:
             self._bar.stop()
+            self._bar = None
 
     def __call__(self, stage: str, fraction: float) -> None:
         if self._bar is None:
             if perf_counter() - self._start < PATIENCE or not sys.stderr.isatty():
                 return
-            self._begin()
-        self._bar.update(self._task, description=stage, completed=fraction)
+            self._bar = self._begun()
+        self._bar.update(self._bar.task_ids[0], description=stage, completed=fraction)
 
-    def _begin(self) -> None:
+    @staticmethod
+    def _begun() -> "Progress":
         from rich.console import Console
         from rich.progress import BarColumn, Progress, TextColumn, TimeElapsedColumn
 
-        self._bar = Progress(
+        bar = Progress(
             TextColumn("{task.description:<12}"),
             BarColumn(),
             TimeElapsedColumn(),
             console=Console(stderr=True),
             transient=True,
         )
-        self._task = self._bar.add_task("", total=1.0)
-        self._bar.start()
+        bar.add_task("", total=1.0)
+        bar.start()
+        return bar
 
 
 def announce_compilation() -> None:

@@ -10,11 +10,10 @@ import numpy as np
 
 from surfmesh.errors import FormulaError, SurfaceError
 from surfmesh.geometry.surface import Domain
+from surfmesh.geometry.surface_checks import bounds_of, loop_of, refuse_no_area, sample_grid
 from surfmesh.geometry.tape import Tape
 
 NUDGE = 1e-9  # of the domain: how far inwards a derivative is taken where it is not finite
-NO_AREA = 1e-11  # sine of the angle between r_u and r_v: r_u x r_v is round-off below it
-SAMPLES = 48  # cells each way on which the formulas are tried; the points sit on their corners
 POLE_DEPTH = 52  # halvings of a cell before a value without bounds counts as a pole
 POLE_CELLS = 64  # cells followed at a time in the search for a pole
 
@@ -45,21 +44,21 @@ class ParametricSurface:
         sizing_defaults: Mapping[str, Any] | None = None,
         facts: Mapping[str, Any] | None = None,
     ) -> None:
-        fixed = {
+        fixed: dict[str, Any] = {
             "name": str(name),
             "formulas": (str(x), str(y), str(z)),
             "parameters": dict(parameters or {}),
-            "domain": (_bounds("u", u), _bounds("v", v)),
+            "domain": (bounds_of("u", u), bounds_of("v", v)),
             "description": str(description),
             "sizing_defaults": dict(sizing_defaults or {}),
             "facts": dict(facts or {}),
         }
-        fixed["loops"] = tuple(_loop(number, loop) for number, loop in enumerate(loops))
+        fixed["loops"] = tuple(loop_of(number, loop) for number, loop in enumerate(loops))
         fixed["_expressions"] = _parsed((x, y, z), fixed["parameters"])
         fixed["_tapes"] = {}
         self.__dict__.update(fixed)
         _refuse_values_that_are_not_finite(self)
-        _refuse_no_area(self)
+        refuse_no_area(self)
 
     name: str
     formulas: tuple[str, str, str]
@@ -69,6 +68,8 @@ class ParametricSurface:
     description: str
     sizing_defaults: dict[str, Any]
     facts: dict[str, Any]
+    _expressions: tuple[Any, Any, Any]
+    _tapes: dict[int, Tape]
 
     def evaluate(self, uv: np.ndarray, order: int = 0) -> tuple[np.ndarray, ...]:
         """(n, 2) float -> (n, 3) float arrays: (r,), (r, r_u, r_v) or up to r_uu, r_uv, r_vv.
@@ -142,37 +143,6 @@ def _finite_rows(values: Sequence[np.ndarray]) -> np.ndarray:
     return np.logical_and.reduce([np.isfinite(value).all(axis=1) for value in values])
 
 
-def _bounds(variable: str, bounds: tuple[Any, Any]) -> tuple[float, float]:
-    from surfmesh.geometry.expression import parse_number
-
-    try:
-        first, last = bounds
-    except (TypeError, ValueError):
-        reason = f"the domain of {variable} is a pair (first, last), not {bounds!r}"
-        raise SurfaceError(reason) from None
-    try:
-        first, last = parse_number(first), parse_number(last)
-    except FormulaError as error:
-        reason = f"the domain of {variable}: {error.reason}"
-        raise FormulaError(reason, error.text, error.column) from None
-    if first == last:
-        raise SurfaceError(f"the domain of {variable} is empty: {first:g} to {last:g}")
-    if first > last:
-        raise SurfaceError(f"the domain of {variable} is reversed: {first:g} to {last:g}")
-    return first, last
-
-
-def _loop(number: int, points: Any) -> np.ndarray:
-    try:
-        loop = np.array(points, dtype=float)
-    except (TypeError, ValueError):
-        loop = np.empty(0)
-    if loop.ndim != 2 or loop.shape[1] != 2 or len(loop) < 3 or not np.isfinite(loop).all():
-        raise SurfaceError(f"loop {number} is not a list of three or more finite (u, v) points")
-    loop.setflags(write=False)
-    return loop
-
-
 def _parsed(coordinates: Sequence[Any], parameters: Mapping[str, float]) -> tuple:
     from surfmesh.geometry.expression import RESERVED, parse
 
@@ -194,15 +164,9 @@ def _parsed(coordinates: Sequence[Any], parameters: Mapping[str, float]) -> tupl
     return tuple(expressions)
 
 
-def _grid(domain: Domain, cells: int) -> np.ndarray:
-    """Corners of cells x cells cells that cover the domain: (cells + 1, cells + 1, 2)."""
-    lines = [np.linspace(first, last, cells + 1) for first, last in domain]
-    return np.stack(np.meshgrid(*lines, indexing="ij"), axis=-1)
-
-
 def _refuse_values_that_are_not_finite(surface: ParametricSurface) -> None:
     """Try the corners of a grid, then look for poles in the cells that have no bounds."""
-    grid = _grid(surface.domain, SAMPLES)
+    grid = sample_grid(surface.domain)
     points = grid.reshape(-1, 2)
     (values,) = surface.evaluate(points)
     finite = np.isfinite(values)
@@ -241,21 +205,3 @@ def _refuse(surface: ParametricSurface, place: np.ndarray, axis: int):
         f"{'xyz'[axis]} = {shown} is not a finite real number at (u, v) = "
         f"({place[0]:.6g}, {place[1]:.6g}); change the formula or the domain"
     )
-
-
-def _refuse_no_area(surface: ParametricSurface) -> None:
-    points = _grid(surface.domain, SAMPLES).reshape(-1, 2)
-    r, r_u, r_v = surface.evaluate(points, 1)
-    if not np.ptp(r, axis=0).any():
-        raise SurfaceError("the surface is a single point: none of x, y, z changes with u or v")
-    # in parts of the domain, so that u and v may have different units
-    (u0, u1), (v0, v1) = surface.domain
-    r_u, r_v = r_u * (u1 - u0), r_v * (v1 - v0)
-    scale = max(np.abs(r_u).max(), np.abs(r_v).max(), np.finfo(float).tiny)
-    r_u, r_v = r_u / scale, r_v / scale  # squares neither overflow nor vanish
-    cross = np.linalg.norm(np.cross(r_u, r_v), axis=1)
-    lengths = np.linalg.norm(r_u, axis=1) * np.linalg.norm(r_v, axis=1)
-    if not (cross > NO_AREA * lengths).any():
-        raise SurfaceError(
-            "the surface has no area: x, y, z trace a curve; they must change with u and with v"
-        )

@@ -17,9 +17,14 @@ class Surface(Protocol):
     loops: closed polygons (k, 2) in (u, v) that trim the surface; empty: the whole rectangle.
     """
 
-    name: str
-    domain: Domain
-    loops: tuple[np.ndarray, ...]
+    @property
+    def name(self) -> str: ...
+
+    @property
+    def domain(self) -> Domain: ...
+
+    @property
+    def loops(self) -> tuple[np.ndarray, ...]: ...
 
     def evaluate(self, uv: np.ndarray, order: int = 0) -> tuple[np.ndarray, ...]:
         """(n, 2) float -> (n, 3) float arrays in model units.

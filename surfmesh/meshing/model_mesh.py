@@ -85,8 +85,9 @@ def mesh_model(
                     jobs[number] = _job(model, face, nodes, samples, sizing, limit, optimise)
                     changed.append(number)
             meshes = _in_order(mesh_face, [jobs[number] for number in changed], workers)
-            for number, face_mesh in zip(changed, meshes):
+            for count, (number, face_mesh) in enumerate(zip(changed, meshes), 1):
                 done[number] = face_mesh
+                watch.pulse(count / len(changed))
         with watch.stage("mapping"):
             mesh = _joined(model, jobs, done, nodes, samples, sizing, watch)
             wishes = {k: found.wishes for k, found in enumerate(done) if found.wishes is not None}

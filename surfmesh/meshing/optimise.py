@@ -5,6 +5,7 @@
 Between any two of them the vertices that moved are put back on the true surface.
 """
 
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -105,6 +106,9 @@ class Changes:
 
 class Optimiser:
     """A triangulated domain with its embedding; ``run`` changes it in place."""
+
+    before_pass: Callable[[], None] = staticmethod(lambda: None)
+    """Called before each pass: may raise to stop the work."""
 
     def __init__(
         self, t: Triangulation, node: np.ndarray, same: np.ndarray, surface: Surface,
@@ -339,6 +343,7 @@ class Optimiser:
             self.stars_known = True
 
     def _smooth(self, stiffness: float = STIFFNESS) -> int:
+        self.before_pass()
         self._find_stars()
         moved = smooth(
             self.t, self.embedding, self.field.background,

@@ -84,6 +84,7 @@ def _one_round(
     else:
         with watch.stage("optimisation"):
             optimiser = Optimiser(domain.t, domain.node, same, surface, field)
+            optimiser.before_pass = watch.pulse
             changes = optimiser.run()
             scale = optimiser.embedding.scale
             if len(changes.far):

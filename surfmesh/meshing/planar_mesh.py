@@ -48,6 +48,7 @@ def mesh_planar(
         with watch.stage("optimisation"):
             node = inside.node[inside.node >= 0]
             optimiser = Optimiser(inside.t, node, node, domain, field)
+            optimiser.before_pass = watch.pulse
             optimiser.run()
             scale = optimiser.embedding.scale
     with watch.stage("mapping"):

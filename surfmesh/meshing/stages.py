@@ -1,28 +1,68 @@
-"""The stages of meshing as the user sees them: seconds, and the share of the work done."""
+"""The stages of meshing as the user sees them: seconds, the share of the work done, a way out."""
 
+import logging
 import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 
-Progress = Callable[[str, float], None]
-"""Called with the name of the stage that starts and the share of the work done, 0 to 1."""
+import numpy as np
+
+from surfmesh.errors import Cancelled
+
+Progress = Callable[[str, float], object]
+"""Called with the name of the stage and the share of the work done, 0 to 1, never falling.
+
+Called when a stage starts, before each pass of the optimiser and before each face of a CAD model,
+in the thread that meshes. Returning False (not None) stops the work with ``Cancelled``; what it
+raises comes through.
+"""
 
 _STAGES = {"sizing": 0.0, "packing": 0.2, "boundary": 0.4, "optimisation": 0.5, "mapping": 0.9}
+_NEARER = 0.1  # share of the rest of a stage that a pulse advances
+
+logger = logging.getLogger(__name__)
 
 
 class Stopwatch:
-    """Seconds per stage; tells the progress callback when a stage starts."""
+    """Seconds per stage; tells the progress callback and the log where the work is."""
 
     def __init__(self, progress: Progress | None) -> None:
         self.seconds: dict[str, float] = {}
         self._progress = progress
+        self._name, self._share = "sizing", 0.0
 
     @contextmanager
     def stage(self, name: str) -> Iterator[None]:
-        if self._progress is not None:
-            self._progress(name, _STAGES[name])
+        """Time what is done within, under ``name``; raises ``Cancelled`` before it starts."""
+        self._name = name
+        self._tell(_STAGES[name])
         start = time.perf_counter()
         try:
             yield
         finally:
-            self.seconds[name] = self.seconds.get(name, 0.0) + time.perf_counter() - start
+            took = time.perf_counter() - start
+            self.seconds[name] = self.seconds.get(name, 0.0) + took
+        logger.info("%s: %.3f s", name, took)
+
+    def pulse(self, within: float | None = None) -> None:
+        """Say that the stage goes on; raises ``Cancelled`` when that is not wanted.
+
+        within: share of the way to the next stage, 0 to 1; None: a little nearer to it.
+        """
+        first = _STAGES[self._name]
+        last = min([share for share in _STAGES.values() if share > first], default=1.0)
+        if within is None:
+            self._tell(self._share + _NEARER * max(0.0, last - self._share))
+        else:
+            self._tell(first + within * (last - first))
+
+    def _tell(self, share: float) -> None:
+        self._share = max(self._share, share)  # another round does not take back what was said
+        if self._progress is None:
+            return
+        answer = self._progress(self._name, self._share)
+        if isinstance(answer, (bool, np.bool_)) and not answer:
+            raise Cancelled(
+                f"stopped in the stage {self._name!r}, as the progress callback asked; "
+                "nothing was written"
+            )

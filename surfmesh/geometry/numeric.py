@@ -1,0 +1,193 @@
+"""Surfaces given by a Python function instead of formulas."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from typing import Any
+
+import numpy as np
+
+from surfmesh.errors import SurfaceError
+from surfmesh.geometry.differences import ORDERS, Differences, chosen_differences
+from surfmesh.geometry.surface import Domain
+from surfmesh.geometry.surface_checks import bounds_of, loop_of, refuse_no_area, sample_grid
+
+Function = Callable[[np.ndarray, np.ndarray], Any]
+"""u (n,), v (n,) -> (x, y, z), each (n,) or a number; or one array (n, 3) or (3, n)."""
+
+
+class NumericSurface:
+    """r(u, v) by a function of numpy arrays. Immutable.
+
+        NumericSurface(lambda u, v: (u, v, np.sin(u * v)), u=(-2, 2), v=(-2, 2))
+
+    f: called with arrays u (n,) and v (n,), never outside the domain; gives (x, y, z), each (n,)
+    or a number, or one array (n, 3) or (3, n). u, v: (first, last). derivatives: called in the
+    same way, gives (r_u, r_v) or (r_u, r_v, r_uu, r_uv, r_vv), each like r; what it does not
+    give, or gives as not finite, comes from differences. differences: their order, 2, 4 or 6.
+    step: distance of their nodes as a share of the domain; None: chosen for each variable so
+    that truncation and round-off balance. loops: polygons (k, 2) in (u, v) that trim the surface.
+
+    ``difference_error`` tells how far the differences are off; ``derivative_bounds`` knows
+    nothing, so that a feature smaller than the grid of the size field can be missed: state
+    ``max_size`` where there are such. f must be safe to call from where ``mesh`` is called, and
+    be picklable (no lambda) if the surface or its mesh shall travel to another process.
+
+    Raises SurfaceError when the domain is empty, f or derivatives give arrays of the wrong shape
+    or values that are not finite, or the surface has no area. What f raises comes through.
+    """
+
+    def __init__(
+        self,
+        f: Function,
+        u: tuple[Any, Any],
+        v: tuple[Any, Any],
+        derivatives: Function | None = None,
+        *,
+        differences: int = 4,
+        step: float | None = None,
+        loops: Sequence[Any] = (),
+        name: str = "surface",
+        sizing_defaults: Mapping[str, Any] | None = None,
+    ) -> None:
+        for what, given in (("f", f), ("derivatives", derivatives)):
+            if given is not None and not callable(given):
+                raise SurfaceError(
+                    f"{what} is a function of arrays u and v, not {given!r:.60}; "
+                    "formulas as text make a ParametricSurface"
+                )
+        if differences not in ORDERS:
+            raise SurfaceError(f"differences are of order 2, 4 or 6, not {differences!r}")
+        if step is not None and not 0.0 < step * differences <= 1.0:
+            raise SurfaceError(
+                f"step is a share of the domain, above 0 and at most 1/{differences}, not {step!r}"
+            )
+        fixed: dict[str, Any] = {
+            "name": str(name),
+            "function": f,
+            "derivatives": derivatives,
+            "domain": (bounds_of("u", u), bounds_of("v", v)),
+            "loops": tuple(loop_of(number, loop) for number, loop in enumerate(loops)),
+            "sizing_defaults": dict(sizing_defaults or {}),
+        }
+        self.__dict__.update(fixed)
+        self._r(sample_grid(self.domain).reshape(-1, 2))  # refused now rather than later
+        rule, error = chosen_differences(self._r, self.domain, int(differences), step)
+        self.__dict__.update(differences=rule, difference_error=error)
+        refuse_no_area(self)
+
+    name: str
+    function: Function
+    derivatives: Function | None
+    domain: Domain
+    loops: tuple[np.ndarray, ...]
+    sizing_defaults: dict[str, Any]
+    differences: Differences
+    difference_error: float
+    """Of second derivatives by differences of r, as a share of the largest or of the surface's
+    extent, whichever is more: see ``chosen_differences``."""
+
+    def evaluate(self, uv: np.ndarray, order: int = 0) -> tuple[np.ndarray, ...]:
+        """(n, 2) float -> (n, 3) float arrays: (r,), (r, r_u, r_v) or up to r_uu, r_uv, r_vv.
+
+        Raises SurfaceError with the place where r is not finite or has the wrong shape.
+        """
+        uv = np.asarray(uv, dtype=float).reshape(-1, 2)
+        r = self._r(uv)
+        if order == 0:
+            return (r,)
+        count = 2 if order == 1 else 5
+        if not len(uv):
+            return (r, *(np.empty((0, 3)) for _ in range(count)))
+        if self.derivatives is None:
+            return (r, *self._by_differences(uv, count))
+        given = self._given(uv)
+        if len(given) < count:
+            given = (*given[:2], *self._second_from_first(uv))
+        given = tuple(given[:count])
+        broken = ~np.isfinite(np.hstack(given)).all(axis=1)
+        if broken.any():  # a pole, as a rule
+            better = self._by_differences(uv[broken], count)
+            for value, replacement in zip(given, better):
+                value[broken] = replacement
+        return (r, *given)
+
+    def derivative_bounds(self, lo: np.ndarray, hi: np.ndarray) -> None:
+        """None: a function cannot be bounded between its values."""
+        return None
+
+    def _r(self, uv: np.ndarray) -> np.ndarray:
+        (r,) = _called(self.function, uv, "f")
+        finite = np.isfinite(r).all(axis=1)
+        if not finite.all():
+            u, v = uv[int(np.argmin(finite))]
+            raise SurfaceError(
+                f"f of {self.name!r} is not finite at (u, v) = ({u:.6g}, {v:.6g}); "
+                "change the function or the domain"
+            )
+        return r
+
+    def _given(self, uv: np.ndarray) -> tuple[np.ndarray, ...]:
+        """What ``derivatives`` gives: two or five arrays (n, 3)."""
+        assert self.derivatives is not None
+        found = _called(self.derivatives, uv, "derivatives")
+        if len(found) not in (2, 5):
+            raise SurfaceError(
+                "derivatives gives (r_u, r_v) or (r_u, r_v, r_uu, r_uv, r_vv), each like r"
+            )
+        return found
+
+    def _by_differences(self, uv: np.ndarray, count: int) -> tuple[np.ndarray, ...]:
+        rule = self.differences
+        return rule.first(self._r, uv) if count == 2 else rule.both(self._r, uv)
+
+    def _second_from_first(self, uv: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+        """r_uu, r_uv, r_vv by differences of r_u and r_v; r_uv is the mean of its two."""
+
+        def first(place: np.ndarray) -> np.ndarray:
+            return np.hstack(self._given(place)[:2])
+
+        along_u, along_v = self.differences.first(first, uv)
+        return along_u[:, :3], 0.5 * (along_u[:, 3:] + along_v[:, :3]), along_v[:, 3:]
+
+    def __repr__(self) -> str:
+        (u0, u1), (v0, v1) = self.domain
+        called = getattr(self.function, "__name__", type(self.function).__name__)
+        return f"NumericSurface({self.name!r}, {called}, u=({u0:g}, {u1:g}), v=({v0:g}, {v1:g}))"
+
+    def __setattr__(self, name: str, value: Any) -> None:
+        raise AttributeError(f"a surface does not change; make a new one to set {name!r}")
+
+
+def _called(function: Function, uv: np.ndarray, what: str) -> tuple[np.ndarray, ...]:
+    """What ``f`` or ``derivatives`` gives at uv (n, 2): one array (n, 3), or several."""
+    n = len(uv)
+    if n == 3:  # of an array (3, 3) nobody could tell which axis is which
+        uv = np.concatenate([uv, uv[-1:]])
+    found = function(uv[:, 0].copy(), uv[:, 1].copy())
+    several = found if what == "derivatives" and isinstance(found, (tuple, list)) else (found,)
+    return tuple(_rows(value, len(uv), what)[:n] for value in several)
+
+
+def _rows(value: Any, count: int, what: str) -> np.ndarray:
+    """What a function gave as an array (n, 3) of its own; SurfaceError when it cannot be one."""
+    try:
+        if isinstance(value, (tuple, list)):
+            if len(value) != 3:
+                raise ValueError
+            rows = np.empty((count, 3))
+            for axis, coordinate in enumerate(value):
+                rows[:, axis] = coordinate
+            return rows
+        array: Any = np.array(value, dtype=float)
+    except (TypeError, ValueError):
+        array = np.empty(0)
+    if array.shape == (count, 3):
+        return array
+    if array.shape == (3, count):
+        return np.ascontiguousarray(array.T)
+    shape = np.shape(value) if isinstance(value, np.ndarray) else type(value).__name__
+    raise SurfaceError(
+        f"{what} must give (x, y, z), each of shape ({count},) or a number, or an array "
+        f"({count}, 3) for u and v of shape ({count},); it gave {shape}"
+    )

@@ -1,0 +1,78 @@
+"""What a surface over a rectangle is refused for, however its points are made."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from surfmesh.errors import FormulaError, SurfaceError
+from surfmesh.geometry.surface import Domain, Surface
+
+NO_AREA = 1e-11  # sine of the angle between r_u and r_v: r_u x r_v is round-off below it
+SAMPLES = 48  # cells each way on which a surface is tried; the points sit on their corners
+
+
+def bounds_of(variable: str, bounds: tuple[Any, Any]) -> tuple[float, float]:
+    """(first, last) of a variable as numbers; text such as "2*pi" is understood.
+
+    Raises SurfaceError when they are not a pair in order, FormulaError for text that is refused.
+    """
+    try:
+        first, last = bounds
+    except (TypeError, ValueError):
+        reason = f"the domain of {variable} is a pair (first, last), not {bounds!r}"
+        raise SurfaceError(reason) from None
+    first, last = _number(variable, first), _number(variable, last)
+    if first == last:
+        raise SurfaceError(f"the domain of {variable} is empty: {first:g} to {last:g}")
+    if first > last:
+        raise SurfaceError(f"the domain of {variable} is reversed: {first:g} to {last:g}")
+    return first, last
+
+
+def _number(variable: str, bound: Any) -> float:
+    from surfmesh.geometry.expression import parse_number
+
+    try:
+        return parse_number(bound)
+    except FormulaError as error:
+        reason = f"the domain of {variable}: {error.reason}"
+        raise FormulaError(reason, error.text, error.column) from None
+
+
+def loop_of(number: int, points: Any) -> np.ndarray:
+    """A trimming loop (k, 2), read-only; SurfaceError when it is not one."""
+    try:
+        loop = np.array(points, dtype=float)
+    except (TypeError, ValueError):
+        loop = np.empty(0)
+    if loop.ndim != 2 or loop.shape[1] != 2 or len(loop) < 3 or not np.isfinite(loop).all():
+        raise SurfaceError(f"loop {number} is not a list of three or more finite (u, v) points")
+    loop.setflags(write=False)
+    return loop
+
+
+def sample_grid(domain: Domain, cells: int = SAMPLES) -> np.ndarray:
+    """Corners of cells x cells cells that cover the domain: (cells + 1, cells + 1, 2)."""
+    lines = [np.linspace(first, last, cells + 1) for first, last in domain]
+    return np.stack(np.meshgrid(*lines, indexing="ij"), axis=-1)
+
+
+def refuse_no_area(surface: Surface) -> None:
+    """Raise SurfaceError for a surface that is a point or a curve."""
+    points = sample_grid(surface.domain).reshape(-1, 2)
+    r, r_u, r_v = surface.evaluate(points, 1)
+    if not np.ptp(r, axis=0).any():
+        raise SurfaceError("the surface is a single point: none of x, y, z changes with u or v")
+    # in parts of the domain, so that u and v may have different units
+    (u0, u1), (v0, v1) = surface.domain
+    r_u, r_v = r_u * (u1 - u0), r_v * (v1 - v0)
+    scale = max(np.abs(r_u).max(), np.abs(r_v).max(), np.finfo(float).tiny)
+    r_u, r_v = r_u / scale, r_v / scale  # squares neither overflow nor vanish
+    cross = np.linalg.norm(np.cross(r_u, r_v), axis=1)
+    lengths = np.linalg.norm(r_u, axis=1) * np.linalg.norm(r_v, axis=1)
+    if not (cross > NO_AREA * lengths).any():
+        raise SurfaceError(
+            "the surface has no area: x, y, z trace a curve; they must change with u and with v"
+        )
