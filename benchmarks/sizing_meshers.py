@@ -2,6 +2,7 @@
 
 truth    no mesh to show: what the others need, written to a folder of the caller's
 ours     surfmesh with the chord asked for, at each ratio: nothing is searched
+searched surfmesh as the peers: the largest chord, asked for, that keeps the limit, isotropic
 gmsh     Frontal-Delaunay; the fewest elements a circle that keep the limit
 netgen   surface meshing; the smallest ``curvaturesafety`` that keeps it
 ocp      OpenCASCADE's tessellation; the largest linear deflection that keeps it
@@ -19,6 +20,7 @@ import pickle
 from collections.abc import Callable
 from pathlib import Path
 from time import perf_counter
+from typing import NamedTuple
 
 import child_process
 import numpy as np
@@ -168,6 +170,19 @@ def _judged(truth: TrueSurface, points: np.ndarray, triangles: np.ndarray, limit
     }
 
 
+def _ours_searched(request: dict) -> dict:
+    import surfmesh as sm
+
+    model = _model(request["place"])
+
+    def mesh(fineness: float, limit: float) -> Mesh:
+        made = sm.mesh(model, sm.Sizing(chord=limit / fineness**2), strict=False)
+        bare = len(model.faces) - len(np.unique(made.face_ids))
+        return made.points, made.triangles, bare
+
+    return _searched(request, mesh, lambda around: 1.0, 0.3, 3.0)
+
+
 def _gmsh(request: dict) -> dict:
     import cad_gmsh
 
@@ -217,6 +232,17 @@ def _ocp(request: dict) -> dict:
     return _searched(request, mesh, lambda around: 1.0, 0.1, 20.0)
 
 
+class Search(NamedTuple):
+    """What one deviation asks of a mesher."""
+
+    mesh: Callable[[float, float], Mesh]  # of a fineness, see ``fewest``, and the limit
+    bounds: tuple[float, float]  # of the fineness
+    limit: float  # model units
+    most: int  # triangles
+    until: float  # on the clock
+    say: Callable[[dict], None]  # is told of each attempt, lest a later one hangs
+
+
 def _searched(
     request: dict,
     mesh: Callable[[float, float], Mesh],
@@ -224,63 +250,63 @@ def _searched(
     lowest: float,
     highest: float,
 ) -> dict:
-    """The fewest triangles for each deviation. ``mesh`` takes a fineness and a limit, ``first``
-    turns the elements that a typical circle needs into a fineness."""
+    """The fewest triangles for each deviation. ``first`` turns the elements that a typical
+    circle needs into a fineness."""
     truth, rows = _read_truth(request), []
     began, deviations = perf_counter(), request["deviations"]
     for number, share in enumerate(deviations):
-        limit = request["diagonal"] / share
+
+        def say(row: dict, before: tuple = tuple(rows), share: float = share) -> None:
+            child_process.say({"rows": [*before, {"share": share, **row}]})
+
         # an equilateral triangle of side h lies h^2 / 6 r inside a sphere of radius r
         start = first(2.0 * math.pi * math.sqrt(TYPICAL_RADIUS * share / 6.0))
         now = perf_counter()
         until = now + (0.95 * request["time_limit"] - (now - began)) / (len(deviations) - number)
-        bounds = (lowest, highest)
-        found = _fewest(lambda x: mesh(x, limit), start, bounds, truth, limit, request, until, rows)
-        rows.append({"share": share, **found})
-    child_process.say({"rows": rows})
+        limit = request["diagonal"] / share
+        search = Search(mesh, (lowest, highest), limit, request["most"], until, say)
+        rows.append({"share": share, **_fewest(search, start, truth)})
     return {"rows": rows}
 
 
-def _fewest(mesh, start, bounds, truth, limit, request, until, rows) -> dict:
-    tried, best, why, fineness = [], {}, "", start
-    share = request["diagonal"] / limit
-    while len(tried) < ATTEMPTS:
+def _fewest(search: Search, fineness: float, truth: TrueSurface) -> dict:
+    """The best attempt, all that were "tried" and why the search was "cut_short", if it was."""
+    tried, best, why = [], {}, ""
+    while not why and len(tried) < ATTEMPTS:
         began = perf_counter()
-        points, triangles, missing = mesh(fineness)
+        points, triangles, missing = search.mesh(fineness, search.limit)
         seconds = perf_counter() - began
-        found = without_collapsed(triangles) if len(triangles) else triangles
+        found = without_collapsed(triangles)
         if not len(found):
             why = "no triangles"
             break
-        figures = _judged(truth, points, found, limit)
+        figures = _judged(truth, points, found, search.limit)
         tried.append((fineness, figures["reach"]))
         if figures["reach"] <= 1.0 and (not best or len(found) < best["triangles"]):
             shown = shape_figures(shapes(own_vertices(points, found)))
             best = {**figures, **shown, "missing": missing, "fineness": fineness}
             best["seconds"] = seconds
-        child_process.say({"rows": [*rows, {"share": share, **best, "tried": tried}]})
-        further = next_fineness(tried, *bounds)
+        search.say({**best, "tried": tried})
+        further = next_fineness(tried, *search.bounds)
         if further is None:
             break
         growth = (further / fineness) ** 2
-        spent = perf_counter() - began
-        if len(found) * growth > request["most"]:
-            why = f"more than {request['most']:,}"
-            break
-        if perf_counter() + DEAREST * growth * spent > until:
+        if len(found) * growth > search.most:
+            why = f"more than {search.most:,}"
+        elif perf_counter() + DEAREST * growth * (perf_counter() - began) > search.until:
             why = "no time left"
-            break
         fineness = further
-    row = {**best, "tried": tried}
-    if why:
-        row["cut_short"] = why
+    row = {**best, "tried": tried, **({"cut_short": why} if why else {})}
     if not best:
         nearest = min((share for _, share in tried), default=math.inf)
-        row["left_out"] = f"not kept, {nearest:.2f} of the limit at best; {why}".rstrip("; ")
+        row["left_out"] = f"{why or 'not kept'}, at best {nearest:.2f} of the limit"
     return row
 
 
-WORK = {"truth": _truth, "ours": _ours, "gmsh": _gmsh, "netgen": _netgen, "ocp": _ocp}
+WORK = {
+    "truth": _truth, "ours": _ours, "searched": _ours_searched,
+    "gmsh": _gmsh, "netgen": _netgen, "ocp": _ocp,
+}  # fmt: skip
 
 
 def _answer(request: dict) -> dict:

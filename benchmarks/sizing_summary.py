@@ -51,7 +51,7 @@ def is_bad(row: dict) -> bool:
 
 
 def counterpart(ours: Sequence[dict], row: dict) -> dict:
-    """Our isotropic mesh of the same surface within the same deviation; empty when there is none."""
+    """Our isotropic mesh of the same surface within the same deviation; empty without one."""
     for other in ours:
         asked = (other["surface"], other.get("share"), other.get("ratio"))
         if asked == (row["surface"], row.get("share"), 1.0) and "triangles" in other:
@@ -89,8 +89,9 @@ def totals(rows: Sequence[dict]) -> list[str]:
         for mesher in dict.fromkeys(row["mesher"] for row in rows if row["mesher"] != "ours"):
             ratios = _ratios([row for row in rows if row["mesher"] == mesher], ours, share)
             if ratios:
+                title = "ours, searched," if mesher == "searched" else mesher
                 lines.append(
-                    f"1/{share:g}: {mesher} needs {mean_ratio(ratios):.2f} of our isotropic "
+                    f"1/{share:g}: {title} needs {mean_ratio(ratios):.2f} of our isotropic "
                     f"triangles, geometric mean of {len(ratios)} models"
                 )
         for ratio in sorted({row["ratio"] for row in ours} - {1.0}):
@@ -131,7 +132,8 @@ def _our_cells(row: dict, isotropic: dict) -> list[str]:
 
 
 def _peer_cells(row: dict, isotropic: dict) -> list[str]:
-    name = row["mesher"] if row.get("ratio", 1.0) == 1.0 else f"ours 1:{row['ratio']:g}"
+    name = "ours searched" if row["mesher"] == "searched" else row["mesher"]
+    name = name if row.get("ratio", 1.0) == 1.0 else f"ours 1:{row['ratio']:g}"
     start = [row["surface"][:28], f"{row.get('share', 0):g}", name]
     if "triangles" not in row:
         return [*start, str(row.get("left_out"))[:40], *[""] * (len(PEERS) - 4)]
