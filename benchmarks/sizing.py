@@ -85,7 +85,7 @@ def _places(options: argparse.Namespace) -> list[str]:
         places = [place for place in places if not place.startswith(FORMULA)]
     return [
         place for place in places
-        if any(fnmatch(_name(place), pattern) for pattern in options.only)
+        if any(fnmatch(_name(place).removeprefix(SHAPE), pattern) for pattern in options.only)
     ]  # fmt: skip
 
 

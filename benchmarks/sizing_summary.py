@@ -36,11 +36,20 @@ def show(rows: Sequence[dict]) -> int:
     bad = [row for row in ours if is_bad(row)]
     for line in totals(rows):
         note(line)
+    for row in rows:
+        if "triangles" not in row:
+            note(f"left out: {_asked(row)}: {row.get('left_out')}")
     for row in bad:
-        asked = f"{row['surface']} 1/{row['share']:g} ratio {row['ratio']:g}"
         kept = f"{row['faces_kept']} of {row['faces']} faces kept"
-        note(f"MISSED: {asked}: {kept}, largest {row['largest']:.3f}, folded {row['folded']}")
+        note(f"MISSED: {_asked(row)}: {kept}, largest {row['largest']:.3f}, folded {row['folded']}")
     return int(bool(bad))
+
+
+def _asked(row: dict) -> str:
+    """Who was asked for what."""
+    share = f" 1/{row['share']:g}" if "share" in row else ""
+    ratio = f" ratio {row['ratio']:g}" if row.get("ratio") else ""
+    return f"{row['surface']} {row['mesher']}{share}{ratio}"
 
 
 def is_bad(row: dict) -> bool:
@@ -117,10 +126,15 @@ def mean_ratio(ratios: Sequence[float]) -> float:
     return math.exp(math.fsum(map(math.log, ratios)) / len(ratios))
 
 
+def _short(name: str) -> str:
+    """Without the project that a file of the corpus comes from."""
+    return name.split("__")[-1][:20]
+
+
 def _our_cells(row: dict, isotropic: dict) -> list[str]:
-    start = [row["surface"][:28], f"{row['share']:g}", f"{row['ratio']:g}"]
+    start = [_short(row["surface"]), f"{row['share']:g}", f"{row['ratio']:g}"]
     if "triangles" not in row:
-        return [*start, str(row.get("left_out"))[:40], *[""] * (len(OURS) - 4)]
+        return [*start, "left out", *[""] * (len(OURS) - 4)]
     fewer = isotropic.get("triangles", math.nan) / row["triangles"]
     return [
         *start, f"{row['triangles']:,}", f"{row['predicted']:,}" if row.get("predicted") else "-",
@@ -134,9 +148,9 @@ def _our_cells(row: dict, isotropic: dict) -> list[str]:
 def _peer_cells(row: dict, isotropic: dict) -> list[str]:
     name = "ours searched" if row["mesher"] == "searched" else row["mesher"]
     name = name if row.get("ratio", 1.0) == 1.0 else f"ours 1:{row['ratio']:g}"
-    start = [row["surface"][:28], f"{row.get('share', 0):g}", name]
+    start = [_short(row["surface"]), f"{row.get('share', 0):g}", name]
     if "triangles" not in row:
-        return [*start, str(row.get("left_out"))[:40], *[""] * (len(PEERS) - 4)]
+        return [*start, "left out", *[""] * (len(PEERS) - 4)]
     part = row["triangles"] / isotropic.get("triangles", math.nan)
     tries = f"{len(row['tried'])}{'+' if row.get('cut_short') else ''}" if "tried" in row else "-"
     return [
