@@ -24,7 +24,7 @@ FORMULAS = {
 
 
 def sphere() -> cq.Shape:
-    return cq.Solid.makeSphere(1.0)
+    return cq.Workplane().sphere(1.0).val()
 
 
 def torus() -> cq.Shape:

@@ -97,6 +97,18 @@ def test_distances_from_a_sphere_and_a_plane():
     assert distances(truth, np.array([(0.1, 0.2, 3.25)])) == pytest.approx(0.25)
 
 
+def test_poles_mislead_no_search():
+    """Both measures agree on a mesh of ours; at a pole all parameters of the longitude are one."""
+    cq = pytest.importorskip("cadquery")
+    from true_distance import by_triangle, true_surface
+
+    model = sm.from_cadquery(cq.Workplane().sphere(1.0))
+    limit = model.diagonal / 300
+    mesh = sm.mesh(model, sm.Sizing(chord=limit))
+    away = by_triangle(true_surface(model), mesh.points, mesh.triangles, limit)
+    assert away.max() == pytest.approx(mesh.report.deviation_max, rel=0.02)
+
+
 def test_verdicts_and_totals():
     from sizing_summary import beside, is_bad, totals
 
