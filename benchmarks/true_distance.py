@@ -2,8 +2,9 @@
 
 Looked at are the vertices, the middles of the sides and the centroid of each triangle. The
 closest point is sought on the faces that have triangles of our own mesh nearby, from the
-parameters of their centroids: never those of a pole, from where no search finds away. Faces are taken whole, beyond their boundaries: a triangle across a
-narrow gap may look nearer than it is, for every mesher alike.
+parameters of their centroids: never those of a pole, from where no search finds away. Faces
+are taken whole, beyond their boundaries: a triangle across a narrow gap may look nearer than
+it is, for every mesher alike.
 """
 
 from typing import Any, NamedTuple
