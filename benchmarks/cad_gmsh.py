@@ -35,27 +35,16 @@ OPTIONS = {
 def measured(file: str, request: dict, say: Callable[[dict], None]) -> dict:
     """Of the attempt whose number of triangles is nearest to request["wanted"]; tells ``say``
     of each, lest a later one hangs. Without a wanted number there is one attempt."""
-    began = perf_counter()
-    gmsh.initialize(interruptible=False)
-    for option, value in OPTIONS.items():
-        gmsh.option.setNumber(option, value)
-    gmsh.logger.start()
-    start = perf_counter()
-    try:
-        gmsh.model.occ.importShapes(file)
-        gmsh.model.occ.synchronize()
-    except Exception as error:  # its own text may be empty
-        said = [str(error), *reversed(gmsh.logger.get()), "no reason given"]
-        raise RuntimeError(f"not read by gmsh: {next(filter(None, said))}") from None
+    began = start = perf_counter()
+    read(file, request["max_size"])
     known = {"seconds_read": perf_counter() - start, "faces": len(gmsh.model.getEntities(2))}
-    gmsh.option.setNumber("Mesh.MeshSizeMax", request["max_size"])
     wanted = request.get("wanted")
     circle = 1.0 / np.arccos(1.0 - request["chord"] / (FIRST_RADIUS * request["diagonal"]))
     masses = [gmsh.model.occ.getMass(3, tag) for _, tag in gmsh.model.getEntities(3)]
     tried, best, circle = [], {}, float(np.pi * circle)
     for _ in range(ATTEMPTS if wanted else 1):
         start = perf_counter()
-        figures, mesh = _attempt(circle, masses)
+        figures, mesh = attempt(circle, masses)
         found = {**known, **figures}
         tried.append((circle, found["triangles"]))
         found["attempts"] = tried
@@ -75,6 +64,21 @@ def measured(file: str, request: dict, say: Callable[[dict], None]) -> dict:
     return best
 
 
+def read(file: str, max_size: float) -> None:
+    """Have ``file`` in gmsh, with our options."""
+    gmsh.initialize(interruptible=False)
+    for option, value in OPTIONS.items():
+        gmsh.option.setNumber(option, value)
+    gmsh.logger.start()
+    try:
+        gmsh.model.occ.importShapes(file)
+        gmsh.model.occ.synchronize()
+    except Exception as error:  # its own text may be empty
+        said = [str(error), *reversed(gmsh.logger.get()), "no reason given"]
+        raise RuntimeError(f"not read by gmsh: {next(filter(None, said))}") from None
+    gmsh.option.setNumber("Mesh.MeshSizeMax", max_size)
+
+
 def _miss(found: dict, wanted: int | None) -> float:
     return abs(np.log(max(found["triangles"], 1) / wanted)) if wanted else 0.0
 
@@ -90,7 +94,7 @@ def _next(tried: list, wanted: int) -> float:
     return float(np.clip(np.exp(circle + step), FEWEST, MOST))
 
 
-def _attempt(circle: float, masses: list[float]) -> tuple[dict, tuple]:
+def attempt(circle: float, masses: list[float]) -> tuple[dict, tuple]:
     """Figures of one mesh, and the mesh: points, and the triangles of each face."""
     gmsh.model.mesh.clear()
     gmsh.logger.stop()

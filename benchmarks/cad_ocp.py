@@ -47,17 +47,15 @@ def measured(shape: TopoDS_Shape, chord: float) -> dict:
     start = clocks()
     BRepMesh_IncrementalMesh(shape, chord, False, ANGLE, False)
     seconds = clocks() - start
-    faces = TopTools_IndexedMapOfShape()
-    TopExp.MapShapes_s(shape, TopAbs_FACE, faces)
-    every = [_triangles(TopoDS.Face_s(faces.FindKey(k + 1))) for k in range(faces.Extent())]
+    every = [triangles_of(face) for face in faces_of(shape)]
     explorer = TopExp_Explorer(shape, TopAbs_SOLID)
     solids = []
     while explorer.More():
         solids.append(_solid(explorer.Current()))
         explorer.Next()
     return {
-        "faces": faces.Extent(),
-        **shape_figures(shapes(_joined(every))),
+        "faces": len(every),
+        **shape_figures(shapes(joined(every))),
         "solids": solids,
         **spent(seconds),
         "failed": sum(not len(corners) for corners in every),
@@ -65,26 +63,33 @@ def measured(shape: TopoDS_Shape, chord: float) -> dict:
     }
 
 
+def faces_of(shape: TopoDS_Shape) -> list[TopoDS_Face]:
+    """Each face once."""
+    faces = TopTools_IndexedMapOfShape()
+    TopExp.MapShapes_s(shape, TopAbs_FACE, faces)
+    return [TopoDS.Face_s(faces.FindKey(k + 1)) for k in range(faces.Extent())]
+
+
 def _solid(solid: TopoDS_Shape) -> dict:
     around, explorer = [], TopExp_Explorer(solid, TopAbs_FACE)
     while explorer.More():
-        around.append(_triangles(TopoDS.Face_s(explorer.Current())))
+        around.append(triangles_of(TopoDS.Face_s(explorer.Current())))
         explorer.Next()
     properties = GProp_GProps()
     BRepGProp.VolumeProperties_s(solid, properties)
-    mesh = _joined(around)
+    mesh = joined(around)
     figures = solid_figures(mesh) if len(mesh.triangles) else {}
     return {**figures, "volume_exact": abs(properties.Mass())}
 
 
-def _joined(faces: list[np.ndarray]):
+def joined(faces: list[np.ndarray]):
     """One mesh of triangles (k, 3, 3) that are given by the coordinates of their corners."""
     corners = np.concatenate([*faces, np.empty((0, 3, 3))]).reshape(-1, 3)
     points, number = np.unique(corners, axis=0, return_inverse=True)
     return own_vertices(points, without_collapsed(number.reshape(-1, 3)))
 
 
-def _triangles(face: TopoDS_Face) -> np.ndarray:
+def triangles_of(face: TopoDS_Face) -> np.ndarray:
     """(k, 3, 3) corners in space, outwards; none when the face has no mesh."""
     place = TopLoc_Location()
     mesh = BRep_Tool.Triangulation_s(face, place)

@@ -1,11 +1,15 @@
-"""How many triangles a measured deviation costs, isotropic and stretched. One command:
+"""How many triangles a measured deviation costs, isotropic and stretched, and what peers need.
 
-    python benchmarks/sizing.py [--quick] [--surface NAME|FILE ...] [--ratios 1 5 20 100]
-                                [--deviations 1000 10000] [--most 400000] [--json PATH]
+    python benchmarks/sizing.py [FOLDER_OR_FILES...] [--only PATTERN ...] [--quick] [--peers-only]
+        [--meshers ours,searched,gmsh,netgen,ocp] [--ratios 1 5 20 100] [--deviations 1000 10000]
+        [--most 400000] [--time-limit 120] [--json OUT.jsonl]
+    python benchmarks/sizing.py --summary OUT.jsonl
 
-The deviation asked for is the diagonal over 1000 and over 10000; what is measured, on the result
-and against the true surface, is given as a share of it. Other meshers have no place here yet.
-Single-threaded. Exits with 1 when a mesh lies farther away than was asked for, or is folded.
+The gallery's formulas (by surfmesh alone), CAD faces of the same shapes, then the given CAD and
+formula files. The deviation asked for is the diagonal over 1000 and over 10000. Ours is asked
+once, and every triangle is to lie within; for a peer, and for ours once more, the setting is
+searched for until 99.9 % do. Each mesher works in a process of its own with one thread. Exits
+with 1 when a mesh of ours lies farther away than was asked for, or is folded.
 """
 
 import single_thread  # noqa: F401  (before numpy)
@@ -13,133 +17,159 @@ import single_thread  # noqa: F401  (before numpy)
 # isort: split
 import argparse
 import json
+import os
+import platform
 import sys
+import tempfile
+from collections.abc import Iterator
+from fnmatch import fnmatch
 from pathlib import Path
-from time import perf_counter
 
-import numpy as np
-from rich.box import SIMPLE_HEAD
-from rich.table import Table
+import sizing_meshers
+import sizing_summary
+from sizing_meshers import FORMULA, SHAPE
+from sizing_shapes import FORMULAS, SHAPES
 from tables import console, heading
-from target_count import diagonal
 
 import surfmesh as sm
-from surfmesh.errors import SurfmeshError
-from surfmesh.geometry.formula_file import gallery
+from surfmesh.cad.reading import SUFFIXES
 from surfmesh.geometry.parametric import ParametricSurface
-from surfmesh.geometry.sides import find_sides
-from surfmesh.quality.deviation import deviation
-from surfmesh.quality.shape import shapes
-from surfmesh.sizing.size_field import size_field
 
-RATIOS = [1.0, 5.0, 20.0, 100.0]
-DEVIATIONS = [1000.0, 10_000.0]
-MOST = 400_000  # triangles; finer meshes are left out
-QUICK = ["torus", "spring", "two_peaks", "cylinder", "wing"]
-TURN = (0.0, 2.0 * np.pi)
-MORE = {
-    "tube 50": ("cos(u)", "sin(u)", "v", TURN, (0.0, 50.0)),
-    "thin ring": (
-        "(10 + 0.5*cos(v))*cos(u)", "(10 + 0.5*cos(v))*sin(u)", "0.5*sin(v)", TURN, TURN,
-    ),
-    "wing": (
-        "(1 - v/16)*u**2 + v/4", "(1 - v/16)*0.18*u*(1 - u**2)*(1 + 0.6*u**2)", "v",
-        (-1.0, 1.0), (0.0, 8.0),
-    ),
-}  # fmt: skip
-COLUMNS = (
-    "surface", "1/", "ratio", "triangles", "fewer", "largest", "median", "below half",
-    "alpha", "least", "unit", "folded", "s",
-)  # fmt: skip
+MESHERS = ("ours", "searched", "gmsh", "netgen", "ocp")
+LARGEST = 0.1  # of the diagonal: the largest size of peers, the default of ours
+QUICK = [
+    f"{FORMULA}{name}" for name in ("torus", "spring", "two_peaks", "cylinder", "wing")
+] + [f"{SHAPE}torus", f"{SHAPE}cone"]  # fmt: skip
 
 
 def main() -> int:
     options = _options()
-    names = options.surface or (QUICK if options.quick else [*_curved(), *MORE])
-    rows, bad = [], 0
-    heading("Triangles within a measured deviation")
-    table = Table(*COLUMNS, box=SIMPLE_HEAD, padding=(0, 1))
-    for name in names:
-        surface = _surface(name)
-        for share in options.deviations:
-            first = None
-            for ratio in options.ratios:
-                row = _measured(surface, share, ratio, options.most)
-                row = {"surface": name, "share": share, "ratio": ratio, **row}
-                first = first or row.get("triangles")
+    if options.summary:
+        rows = [json.loads(line) for line in options.summary.read_text().splitlines() if line]
+        return sizing_summary.show(rows)
+    places = _places(options)
+    if not places:
+        console.print("no surface or CAD file has such a name")
+        return 2
+    heading(f"{len(places)} inputs, {platform.machine()}, load {os.getloadavg()[0]:.1f}")
+    rows = []
+    out = open(options.json, "w", encoding="utf-8") if options.json else None
+    try:
+        for place in places:
+            for row in _measured(place, options):
                 rows.append(row)
-                bad += bool(row.get("largest", 0.0) > 1.0 or row.get("folded"))
-                table.add_row(*_cells(row, first))
-    console.print(table)
-    if options.json:
-        options.json.write_text(json.dumps(rows, indent=2))
-    return int(bad > 0)
+                if out:
+                    out.write(json.dumps(row) + "\n")
+                    out.flush()
+    finally:
+        if out:
+            out.close()
+    return sizing_summary.show(rows)
+
+
+def _places(options: argparse.Namespace) -> list[str]:
+    """What is asked for by name: formulas, CAD faces, files with the small ones first."""
+    files = []
+    for path in options.paths:
+        files += path.iterdir() if path.is_dir() else [path]
+    formulas = [str(path) for path in files if path.suffix == ".toml"]
+    files = [path for path in files if path.suffix.lower() in SUFFIXES]
+    files.sort(key=lambda path: (path.stat().st_size, path.name))
+    if options.quick:
+        places = list(QUICK)
+    else:
+        names = [*_curved(), *FORMULAS]
+        places = [FORMULA + name for name in names] + [SHAPE + name for name in SHAPES]
+    places += [FORMULA + path for path in formulas] + [str(path) for path in files]
+    if options.peers_only:
+        places = [place for place in places if not place.startswith(FORMULA)]
+    return [
+        place for place in places
+        if any(fnmatch(_name(place).removeprefix(SHAPE), pattern) for pattern in options.only)
+    ]  # fmt: skip
 
 
 def _curved() -> list[str]:
     """Of the gallery, what has a curvature to follow."""
-    return [name for name in gallery() if name != "plane" and not _is_planar(name)]
-
-
-def _is_planar(name: str) -> bool:
-    return not isinstance(sm.load(name), ParametricSurface)
-
-
-def _surface(name: str) -> ParametricSurface:
-    if name not in MORE:
-        return sm.load(name)
-    x, y, z, u, v = MORE[name]
-    return ParametricSurface(x, y, z, u, v, name=name)
-
-
-def _measured(surface: ParametricSurface, share: float, ratio: float, most: int) -> dict:
-    chord = diagonal(surface) / share
-    sizing = sm.Sizing(chord=chord, anisotropy=ratio)
-    try:
-        if 2 * size_field(surface, sizing, find_sides(surface)).expected_vertices() > most:
-            return {"left_out": f"more than {most:,}"}
-        start = perf_counter()
-        mesh = sm.mesh(surface, sizing)
-        seconds = perf_counter() - start
-    except SurfmeshError as error:
-        return {"left_out": f"{type(error).__name__}: {error}"}
-    report = sm.check(mesh)
-    used = deviation(mesh, shapes(mesh).area).by_triangle / chord
-    stretched = report.alpha_metric_mean is not None
-    return {
-        "triangles": report.triangles,
-        "largest": report.deviation_max / chord,
-        "median": float(np.median(used)),
-        "below_half": float((used < 0.5).mean()),
-        "alpha_mean": report.alpha_metric_mean if stretched else report.alpha_mean,
-        "alpha_min": report.alpha_metric_min if stretched else report.alpha_min,
-        "quasi_unit": report.quasi_unit_share,
-        "folded": report.folded,
-        "seconds": seconds,
-    }
-
-
-def _cells(row: dict, first: int | None) -> list[str]:
-    start = [row["surface"], f"{row['share']:g}", f"{row['ratio']:g}"]
-    if "left_out" in row:
-        return [*start, row["left_out"][:40], *[""] * (len(COLUMNS) - 4)]
     return [
-        *start, f"{row['triangles']:,}", f"{(first or row['triangles']) / row['triangles']:.1f}",
-        f"{row['largest']:.3f}", f"{row['median']:.2f}", f"{row['below_half']:.2f}",
-        f"{row['alpha_mean']:.3f}", f"{row['alpha_min']:.3f}", f"{row['quasi_unit']:.3f}",
-        str(row["folded"]), f"{row['seconds']:.2f}",
+        name for name in sm.gallery()
+        if name != "plane" and isinstance(sm.load(name), ParametricSurface)
     ]  # fmt: skip
+
+
+def _name(place: str) -> str:
+    return place.removeprefix(FORMULA) if place.startswith(FORMULA) else Path(place).name
+
+
+def _measured(place: str, options: argparse.Namespace) -> Iterator[dict]:
+    """A row for each mesher, deviation and ratio of one input."""
+    wishes = {name: getattr(options, name) for name in ("deviations", "ratios", "most")}
+    first = {"surface": _name(place)}
+    if place.startswith(FORMULA):
+        if "ours" in options.meshers:
+            yield from _rows("ours", place, options, wishes, first)
+        return
+    with tempfile.TemporaryDirectory(prefix="surfmesh-") as folder:
+        truth = sizing_meshers.run("truth", place, options.time_limit, folder=folder)
+        if "error" in truth:
+            yield _said({**first, "mesher": "truth", "left_out": truth["error"]})
+            return
+        first |= {"faces_of_model": truth["faces"], "area_exact": truth["area"]}
+        wishes |= {"folder": folder, "diagonal": truth["diagonal"]}
+        wishes["max_size"] = LARGEST * truth["diagonal"]
+        for mesher in options.meshers:
+            yield from _rows(mesher, place, options, wishes, first)
+
+
+def _rows(
+    mesher: str, place: str, options: argparse.Namespace, wishes: dict, first: dict
+) -> Iterator[dict]:
+    found = sizing_meshers.run(mesher, place, options.time_limit, **wishes)
+    rows = found.get("rows", [])
+    for row in rows:
+        if "error" in found and row is rows[-1]:  # it ended in the middle of this one
+            row["cut_short" if "triangles" in row else "left_out"] = found["error"]
+        yield _said({**first, "mesher": mesher, **row})
+    ratios = options.ratios if mesher == "ours" else [None]
+    for share in options.deviations:
+        for ratio in ratios:
+            known = [row for row in rows if (row["share"], row.get("ratio")) == (share, ratio)]
+            if not known:
+                row = {**first, "mesher": mesher, "share": share}
+                row["left_out"] = found.get("error", "no answer")
+                yield _said(row if ratio is None else {**row, "ratio": ratio})
+
+
+def _said(row: dict) -> dict:
+    said = row.get("left_out") or f"{row.get('triangles', 0):,} triangles"
+    asked = f"1/{row['share']:g}" if "share" in row else ""
+    asked += f" ratio {row['ratio']:g}" if row.get("ratio") else ""
+    console.print(
+        f"{row['surface']} {row['mesher']} {asked}: {said}", markup=False, highlight=False
+    )
+    return row
 
 
 def _options() -> argparse.Namespace:
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("--quick", action="store_true", help="a few surfaces only")
-    parser.add_argument("--surface", nargs="+", help="names of the gallery, or files")
-    parser.add_argument("--ratios", nargs="+", type=float, default=RATIOS)
-    parser.add_argument("--deviations", nargs="+", type=float, default=DEVIATIONS)
-    parser.add_argument("--most", type=int, default=MOST, help="triangles; finer is left out")
-    parser.add_argument("--json", type=Path, help="write all figures there")
-    return parser.parse_args()
+    parser.add_argument("paths", nargs="*", type=Path, help="folders and files")
+    parser.add_argument("--only", nargs="+", default=["*"], help="names, * and ? for any letters")
+    parser.add_argument("--quick", action="store_true", help="a few surfaces, and the files")
+    parser.add_argument("--peers-only", action="store_true", help="only what peers can read too")
+    parser.add_argument("--meshers", default=",".join(MESHERS), help=f"some of {','.join(MESHERS)}")
+    parser.add_argument("--ratios", nargs="+", type=float, default=[1.0, 5.0, 20.0, 100.0])
+    parser.add_argument("--deviations", nargs="+", type=float, default=[1000.0, 10_000.0])
+    parser.add_argument("--most", type=int, default=400_000, help="triangles; finer is left out")
+    parser.add_argument("--time-limit", type=float, default=120.0, help="seconds for each mesher")
+    parser.add_argument("--json", type=Path, help="one JSON object a line, as it comes")
+    parser.add_argument("--summary", type=Path, help="show what an earlier run has found")
+    options = parser.parse_args()
+    options.meshers = options.meshers.split(",")
+    if unknown := set(options.meshers) - set(MESHERS):
+        parser.error(f"unknown meshers {sorted(unknown)}; known: {', '.join(MESHERS)}")
+    if missing := [str(path) for path in options.paths if not path.exists()]:
+        parser.error(f"there is no {missing[0]}")
+    return options
 
 
 if __name__ == "__main__":
