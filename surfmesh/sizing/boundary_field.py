@@ -35,8 +35,8 @@ _ISOTROPIC = np.array([1.0, 0.0, 1.0])
 
 
 def has_boundary_field(surface: Surface, sizing: Sizing) -> bool:
-    """Can ``boundary_field`` be used: is the metric constant, and no size law given?"""
-    return isinstance(surface, (Plane, PlanarDomain, Cylinder)) and not callable(sizing.size)
+    """Can ``boundary_field`` be used: is the metric constant, and no law or source given?"""
+    return isinstance(surface, (Plane, PlanarDomain, Cylinder)) and not sizing.has_law
 
 
 def boundary_field(

@@ -29,6 +29,7 @@ from surfmesh.kernels.coverage import STACK, inverse_area
 from surfmesh.kernels.gradation import grade, patch_errors
 from surfmesh.sizing.curvature_size import angle_size, chord_size
 from surfmesh.sizing.size_limits import SizeLimits
+from surfmesh.sizing.small_sizes import small_sizes
 from surfmesh.sizing.sizing import Sizing
 
 ROOT_CELLS = 2304
@@ -163,7 +164,8 @@ class _Builder:
         patch = self._patches(cells)
         fresh = np.ones(len(cells), bool)
         total = len(cells)
-        sources = _SourceCells(self.law.limits, self.scaling, self.root_step, self.nx)
+        seeds = small_sizes(self.surface, self.law.sizing, self.law.limits)
+        sources = _SourceCells(*seeds, self.scaling, self.root_step, self.nx)
         tree: list[np.ndarray] = []  # the cells that were split, in the order of their children
         for round_number in range(MAX_ROUNDS + GRID_DEPTH):
             seen = self.sweep
@@ -495,14 +497,8 @@ class _SizeLaw:
             size = self.from_curvature(k.k1, k.k2)
             # nothing is known at a pole or a cusp: gradation brings the neighbours' size
             size[forms.degenerate] = self.clamp[1]
-        if callable(self.sizing.size):
-            wish = np.asarray(self.sizing.size(derivatives[0]), float)
-            if wish.shape != (len(uv),) or not (wish > 0.0).all():
-                raise SizingError(
-                    f"size law must give positive numbers of shape ({len(uv)},) for points "
-                    f"({len(uv)}, 3); it gave shape {wish.shape}"
-                    + (f", smallest {wish.min():g}" if wish.size else "")
-                )
+        if self.sizing.has_law:
+            wish = self.sizing.law_sizes(derivatives[0])
             size = np.clip(np.minimum(size, wish), *self.clamp)
         wish = size
         if self.limits is not None:
@@ -543,10 +539,8 @@ class _SourceCells:
     """
 
     def __init__(
-        self, limits: SizeLimits | None, scaling: Scaling, root_step: np.ndarray, nx: int
+        self, uv: np.ndarray, sizes: np.ndarray, scaling: Scaling, root_step: np.ndarray, nx: int
     ) -> None:
-        uv = np.empty((0, 2)) if limits is None or limits.uv is None else limits.uv
-        sizes = limits.sizes if len(uv) else np.empty(0)
         last = np.round(scaling.extent / root_step * (1 << GRID_DEPTH)).astype(np.int64) - 1
         grid = scaling.to_plane(uv) / root_step * (1 << GRID_DEPTH)
         self.grid = np.clip(grid, 0, last).astype(np.int64)
