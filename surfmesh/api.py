@@ -63,7 +63,7 @@ def mesh(
     if not isinstance(surface, (CadModel, Surface)) and _is_cad(surface):
         surface = from_cadquery(surface)
     if isinstance(surface, CadModel):
-        return mesh_model(surface, Sizing.of(sizing), optimise, progress, strict, simplify)
+        return mesh_model(surface, sizing, optimise, progress, strict, simplify)
     if not isinstance(surface, Surface):
         raise SurfaceError(f"cannot mesh a {type(surface).__name__}: a Surface is needed")
     if sizing is None:

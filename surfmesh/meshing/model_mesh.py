@@ -6,6 +6,8 @@ edges cut once -> one job a face -> faces meshed -> joined by node numbers
         failed or lie too far away
 """
 
+from typing import Any
+
 import numpy as np
 
 from surfmesh.cad.model import CadFace, CadModel
@@ -13,10 +15,11 @@ from surfmesh.errors import MeshingError
 from surfmesh.meshing.edge_nodes import EdgeNodes, cut_edges
 from surfmesh.meshing.edge_samples import EdgeSamples, sample_edges
 from surfmesh.meshing.face_job import FaceJob, FaceMesh, Piece, mesh_face
+from surfmesh.meshing.face_sizings import face_sizings
 from surfmesh.meshing.simplification import LEAST, simplified
 from surfmesh.meshing.solid_contents import Contents
 from surfmesh.meshing.stages import Progress, Stopwatch
-from surfmesh.sizing.size_field import DEFAULT_CHORD, DEFAULT_MAX_SIZE
+from surfmesh.sizing.model_sizing import model_sizing
 from surfmesh.sizing.size_limits import SizeLimits
 from surfmesh.sizing.sizing import Sizing
 from surfmesh.surface_mesh import NOT_MESHED, SurfaceMesh
@@ -28,31 +31,24 @@ FINER = 0.6
 """Factor on the sizes where faces share an edge of triangles that they should not."""
 
 
-def with_defaults(sizing: Sizing, model: CadModel) -> Sizing:
-    """The wishes for a model: by default a chord error of a thousandth of its diagonal."""
-    if sizing.chord is None and sizing.angle is None and sizing.size is None:
-        sizing = sizing.replaced(chord=DEFAULT_CHORD * model.diagonal)
-    if sizing.max_size is None and sizing.size is None:
-        largest = max(DEFAULT_MAX_SIZE * model.diagonal, sizing.min_size or 0.0)
-        sizing = sizing.replaced(max_size=largest)
-    return sizing
-
-
 def mesh_model(
-    model: CadModel, sizing: Sizing, optimise: bool = True, progress: Progress | None = None,
+    model: CadModel, sizing: Any, optimise: bool = True, progress: Progress | None = None,
     strict: bool = True, simplify: bool = False,
 ) -> SurfaceMesh:  # fmt: skip
     """Mesh all faces of a model; neighbours share the nodes of their common edges.
 
+    sizing: what ``model_sizing`` takes, sizes by name among it.
     simplify=True collapses what is shorter than ``min_size``, or else than a two-thousandth of
     the diagonal, at the end.
     strict=False delivers what could be meshed and lists the other faces in ``warnings``.
     Raises ``MeshingError`` that names the faces that could not be meshed, with the reasons.
     """
     watch = Stopwatch(progress)
-    sizing = with_defaults(sizing, model)
+    wanted = model_sizing(model, sizing)
+    sizing = wanted.base
     with watch.stage("sizing"):
-        samples = sample_edges(model, sizing)
+        samples = sample_edges(model, wanted)
+        of_face = face_sizings(model, samples, wanted)
     contents = Contents(model, sizing.chord, sizing.gradient)
     limits: dict[int, SizeLimits] = {}
     jobs: list[FaceJob | None] = [None] * len(model.faces)
@@ -70,7 +66,8 @@ def mesh_model(
                     or job.limits is not limit
                     or any(nodes[c.edge] is not before[c.edge] for c in face.coedges)
                 ):
-                    jobs[number] = _job(model, face, nodes, samples, sizing, limit, optimise)
+                    own = of_face[number]
+                    jobs[number] = _job(model, face, nodes, samples, own, limit, optimise)
                     done[number] = mesh_face(jobs[number])
         with watch.stage("mapping"):
             mesh = _joined(model, jobs, done, nodes, samples, sizing, watch)

@@ -45,13 +45,14 @@ def boundary_field(
     uv: np.ndarray,
     sizes: np.ndarray,
     largest: float | None = None,
+    settled: bool = False,
 ) -> SizeField:
     """Sizes that grow by ``sizing.gradient`` from ``sizes`` (n,) at ``uv`` (n, 2).
 
     ``largest``, model units, bounds them from above; left out, and on a cylinder in any case,
     the wishes do so as for any surface, with the diagonal of its box for their defaults.
-    None is smaller than ``min_size``. Raises ``SizingError`` for a surface whose metric changes,
-    for a size law, and for sizes that are not positive numbers.
+    None is smaller than ``min_size``, unless ``sizes`` are ``settled`` as they are. Raises
+    ``SizingError`` for a surface whose metric changes, for a size law, and for sizes that are not positive numbers.
     """
     if not has_boundary_field(surface, sizing):
         raise SizingError(
@@ -67,7 +68,8 @@ def boundary_field(
             f"sizes on {surface.name!r} must be positive numbers, one for each of {len(uv)} "
             f"finite points; they have shape {sizes.shape}"
         )
-    sizes = np.maximum(sizes, sizing.min_size or 0.0)
+    if not settled:
+        sizes = np.maximum(sizes, sizing.min_size or 0.0)
     if isinstance(surface, Cylinder) or largest is None:
         bounds = SizeBounds.of(sizing, _diagonal(surface))
         sizing, allowed = bounds.sizing, bounds.clamp[1]

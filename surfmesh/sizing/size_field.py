@@ -29,8 +29,8 @@ from surfmesh.kernels.coverage import STACK, inverse_area
 from surfmesh.kernels.gradation import grade, patch_errors
 from surfmesh.sizing.curvature_size import angle_size, chord_size
 from surfmesh.sizing.size_limits import SizeLimits
-from surfmesh.sizing.small_sizes import small_sizes
 from surfmesh.sizing.sizing import Sizing
+from surfmesh.sizing.small_sizes import small_sizes
 
 ROOT_CELLS = 2304
 """About how many cells the search starts with: a smooth surface needs no more."""
@@ -503,6 +503,7 @@ class _SizeLaw:
         wish = size
         if self.limits is not None:
             least = self.clamp[0] if self.limits.uv is None else self.sizing.min_size or 0.0
+            least = 0.0 if self.limits.settled else least
             size = np.minimum(size, np.maximum(self.limits(derivatives[0]), least))
             if self.limits.uv is None:
                 wish = size

@@ -21,6 +21,8 @@ class SizeLimits:
     """(k, 2) parameters of the points: the field is made fine enough there to see them all."""
     essential: bool = False
     """Without them there is no mesh: they go below ``min_size`` too."""
+    settled: bool = False
+    """The sizes are those of edges, which neighbours with a smaller ``min_size`` may have cut."""
 
     def __call__(self, points: np.ndarray) -> np.ndarray:
         """Largest size (n,) at points (n, 3)."""
@@ -41,4 +43,5 @@ class SizeLimits:
             self.slope,
             np.concatenate([self.uv, other.uv]) if both else None,
             self.essential or other.essential,
+            self.settled or other.settled,
         )
