@@ -1,6 +1,7 @@
 """The verbs: ``load`` a surface or a CAD model, ``mesh`` it, ``show`` what is on it."""
 
 import sys
+from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
@@ -11,9 +12,10 @@ from surfmesh.errors import FileFormatError, SurfaceError
 from surfmesh.geometry.planar_domain import PlanarDomain
 from surfmesh.geometry.surface import Surface
 from surfmesh.geometry.surface_file import gallery, load_surface_file
-from surfmesh.meshing.model_mesh import mesh_model
-from surfmesh.meshing.parametric_mesh import mesh_parametric
-from surfmesh.meshing.planar_mesh import mesh_planar
+from surfmesh.meshing.estimation import Estimate
+from surfmesh.meshing.model_mesh import estimate_model, mesh_model
+from surfmesh.meshing.parametric_mesh import estimate_parametric, mesh_parametric
+from surfmesh.meshing.planar_mesh import estimate_planar, mesh_planar
 from surfmesh.meshing.stages import Progress
 from surfmesh.sizing.distance_size import default_wishes
 from surfmesh.sizing.sizing import Sizing
@@ -60,16 +62,41 @@ def mesh(
 
     Raises ``SizingError``, ``SurfaceError`` or ``MeshingError`` with the place and the reason.
     """
+    surface, sizing = _settled(surface, sizing)
+    if isinstance(surface, CadModel):
+        return mesh_model(surface, sizing, optimise, progress, strict, simplify)
+    work = mesh_planar if isinstance(surface, PlanarDomain) else mesh_parametric
+    return work(surface, sizing, optimise, progress)
+
+
+def estimate(
+    surface: Surface | CadModel | Any, sizing: Sizing | float | Mapping | None = None
+) -> Estimate:
+    """How many triangles ``mesh`` would make, and how much memory it would need.
+
+    Nothing is packed: size fields are made and measured. Raises what ``mesh`` raises for sizes
+    that cannot be met, but for their limit.
+    """
+    surface, sizing = _settled(surface, sizing)
+    if isinstance(surface, CadModel):
+        return estimate_model(surface, sizing)
+    work = estimate_planar if isinstance(surface, PlanarDomain) else estimate_parametric
+    return work(surface, sizing)
+
+
+def _settled(surface: Any, sizing: Any) -> tuple[Surface | CadModel, Any]:
+    """A surface or a model, and the sizes that it brings where none are given."""
     if not isinstance(surface, (CadModel, Surface)) and _is_cad(surface):
         surface = from_cadquery(surface)
     if isinstance(surface, CadModel):
-        return mesh_model(surface, sizing, optimise, progress, strict, simplify)
+        return surface, sizing
     if not isinstance(surface, Surface):
         raise SurfaceError(f"cannot mesh a {type(surface).__name__}: a Surface is needed")
     if sizing is None:
         sizing = default_wishes(surface) or None
-    work = mesh_planar if isinstance(surface, PlanarDomain) else mesh_parametric
-    return work(surface, Sizing.of(sizing), optimise, progress)
+    if isinstance(sizing, Mapping) and set(sizing) == {"*"}:
+        sizing = sizing["*"]
+    return surface, Sizing.of(sizing)
 
 
 def show(

@@ -17,6 +17,7 @@ from functools import cache
 import numpy as np
 
 from surfmesh.cad.model import CadCoedge, CadEdge, CadFace, CadModel, CadSolid
+from surfmesh.geometry.inside_loops import is_inside
 
 STRAIGHT, CURVED = 2, 65
 """Samples along edges."""
@@ -34,7 +35,7 @@ def _gauss(points: int, panels: int) -> tuple[np.ndarray, np.ndarray]:
     return nodes, np.tile(w / panels, panels)
 
 
-def boundary_polygons(model: CadModel, face: CadFace) -> list[np.ndarray]:
+def boundary_polygons(face: CadFace) -> list[np.ndarray]:
     """The loops of a face as polygons (k, 2) in (u, v), not closed."""
     found = []
     for loop in face.loops:
@@ -47,7 +48,7 @@ def boundary_polygons(model: CadModel, face: CadFace) -> list[np.ndarray]:
     return found
 
 
-def face_centre(model: CadModel, face: CadFace) -> np.ndarray:
+def face_centre(face: CadFace) -> np.ndarray:
     """Centre of mass (3,) of a face."""
     total, moment = 0.0, np.zeros(3)
     for coedge in face.coedges:
@@ -57,7 +58,7 @@ def face_centre(model: CadModel, face: CadFace) -> np.ndarray:
         moment += weight @ point
     if abs(total) > 0.0:
         return moment / total
-    (points,) = face.surface.evaluate(np.concatenate(boundary_polygons(model, face)), 0)
+    (points,) = face.surface.evaluate(np.concatenate(boundary_polygons(face)), 0)
     return points.mean(axis=0)
 
 
@@ -100,25 +101,10 @@ def solid_centre(model: CadModel, solid: CadSolid) -> np.ndarray:
     return moment / total if total else moment
 
 
-def is_inside(polygons: list[np.ndarray], uv: np.ndarray) -> np.ndarray:
-    """Which of the points uv (n, 2) lie within loops (k, 2), by even-odd (n,) bool."""
-    import shapely
-
-    inside = np.zeros(len(uv), bool)
-    for polygon in polygons:
-        if len(polygon) < 3:
-            continue
-        outline = shapely.make_valid(shapely.Polygon(polygon))
-        shapely.prepare(outline)
-        inside ^= shapely.contains_xy(outline, uv[:, 0], uv[:, 1])
-    return inside
-
-
-def inner_samples(model: CadModel, face: CadFace, count: int) -> np.ndarray:
-    """uv (n, 2) of about count x count points of a grid that lie in the face, or its middle."""
+def inner_samples(face: CadFace, count: int) -> np.ndarray:
+    """uv (n, 2) of about count x count points of a grid that lie in the face."""
     (u0, u1), (v0, v1) = face.surface.domain
     at = (np.arange(count) + 0.5) / count
     grid = np.stack(np.meshgrid(u0 + at * (u1 - u0), v0 + at * (v1 - v0)), axis=-1)
     grid = grid.reshape(-1, 2)
-    inside = is_inside(boundary_polygons(model, face), grid)
-    return grid[inside]
+    return grid[is_inside(boundary_polygons(face), grid)]

@@ -86,7 +86,7 @@ class _Things:
         if number not in self._centres:
             item = self.items[number]
             if self.kind == "face":
-                found = face_centre(self.model, item)
+                found = face_centre(item)
             elif self.kind == "edge":
                 found = edge_centre(item)
             else:

@@ -171,6 +171,11 @@ def _meshed(job: FaceJob) -> FaceMesh:
     )  # fmt: skip
 
 
+def face_field(job: FaceJob) -> tuple[Surface, SizeField]:
+    """The surface over the box of the loops, and its size field. Raises ``SizingError``."""
+    return _field(job)
+
+
 def _field(job: FaceJob) -> tuple[Surface, SizeField]:
     """The surface over the box of the loops, and sizes graded inward from them."""
     pieces = [piece for loop in job.loops for piece in loop]

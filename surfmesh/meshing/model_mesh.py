@@ -6,6 +6,7 @@ edges cut once -> one job a face -> faces meshed -> joined by node numbers
         failed or lie too far away
 """
 
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -14,8 +15,10 @@ from surfmesh.cad.model import CadFace, CadModel
 from surfmesh.errors import MeshingError
 from surfmesh.meshing.edge_nodes import EdgeNodes, cut_edges
 from surfmesh.meshing.edge_samples import EdgeSamples, sample_edges
+from surfmesh.meshing.estimation import Estimate
 from surfmesh.meshing.face_job import FaceJob, FaceMesh, Piece, mesh_face
 from surfmesh.meshing.face_sizings import face_sizings
+from surfmesh.meshing.model_estimate import model_estimate, require_model_within
 from surfmesh.meshing.simplification import LEAST, simplified
 from surfmesh.meshing.solid_contents import Contents
 from surfmesh.meshing.stages import Progress, Stopwatch
@@ -58,6 +61,9 @@ def mesh_model(
         before = nodes
         with watch.stage("sizing"):
             nodes = cut_edges(model, sizing, samples, limits, before)
+            if not before:
+                first = partial(_jobs, model, nodes, samples, of_face, optimise)
+                require_model_within(model, first, nodes, of_face, sizing)
         with watch.stage("packing"):
             for number, face in enumerate(model.faces):
                 job, limit = jobs[number], limits.get(number)
@@ -89,6 +95,26 @@ def mesh_model(
         )
     mesh = mesh.with_warnings(*_left_over(model, wishes), *contents.warnings())
     return simplified(mesh, sizing.min_size or LEAST * model.diagonal) if simplify else mesh
+
+
+def estimate_model(model: CadModel, sizing: Any) -> Estimate:
+    """Triangles and memory of ``mesh_model``. Raises ``SizingError`` for wishes that cannot be."""
+    wanted = model_sizing(model, sizing)
+    samples = sample_edges(model, wanted)
+    of_face = face_sizings(model, samples, wanted)
+    nodes = cut_edges(model, wanted.base, samples, {})
+    return model_estimate(model, _jobs(model, nodes, samples, of_face, True), wanted.base)
+
+
+def _jobs(
+    model: CadModel, nodes: list[EdgeNodes | None], samples: EdgeSamples, sizings: list[Sizing],
+    optimise: bool,
+) -> list[FaceJob]:  # fmt: skip
+    """The jobs of all faces before anything is known of their meshes."""
+    return [
+        _job(model, face, nodes, samples, own, None, optimise)
+        for face, own in zip(model.faces, sizings)
+    ]
 
 
 def _left_over(model: CadModel, wishes: dict[int, SizeLimits]) -> list[str]:

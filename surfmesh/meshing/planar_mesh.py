@@ -10,6 +10,7 @@ from surfmesh.geometry.planar_domain import PlanarDomain
 from surfmesh.kernels.background import scalar_sizes_at
 from surfmesh.kernels.insertion import label_patches
 from surfmesh.meshing.boundary_recovery import DomainMesh, recovered_regions
+from surfmesh.meshing.estimation import Estimate, field_triangles, require_field_within
 from surfmesh.meshing.optimise import Optimiser
 from surfmesh.meshing.packing import packed_over
 from surfmesh.meshing.planar_segments import (
@@ -37,6 +38,8 @@ def mesh_planar(
     watch = Stopwatch(progress)
     with watch.stage("sizing"):
         field, cut = _field_and_segments(domain, sizing)
+        loops = [*domain.outer, *domain.holes]
+        require_field_within(sizing.limit, field, loops, domain.name)
     with watch.stage("packing"):
         packing = packed_over(field)
     with watch.stage("boundary"):
@@ -51,6 +54,12 @@ def mesh_planar(
             scale = optimiser.embedding.scale
     with watch.stage("mapping"):
         return _in_space(domain, field, cut, inside, scale, watch)
+
+
+def estimate_planar(domain: PlanarDomain, sizing: Sizing) -> Estimate:
+    """Triangles and memory of ``mesh_planar``. Raises as it does."""
+    field, _ = _field_and_segments(domain, sizing)
+    return Estimate.of([field_triangles(field, [*domain.outer, *domain.holes])])
 
 
 def _field_and_segments(domain: PlanarDomain, sizing: Sizing) -> tuple[SizeField, PlanarSegments]:

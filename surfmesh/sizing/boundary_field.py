@@ -51,8 +51,9 @@ def boundary_field(
 
     ``largest``, model units, bounds them from above; left out, and on a cylinder in any case,
     the wishes do so as for any surface, with the diagonal of its box for their defaults.
-    None is smaller than ``min_size``, unless ``sizes`` are ``settled`` as they are. Raises
-    ``SizingError`` for a surface whose metric changes, for a size law, and for sizes that are not positive numbers.
+    None is smaller than ``min_size``, unless ``sizes`` are ``settled`` as they are.
+    Raises ``SizingError`` for a surface whose metric changes, for a size law, and for sizes that
+    are not positive numbers.
     """
     if not has_boundary_field(surface, sizing):
         raise SizingError(

@@ -1,0 +1,144 @@
+"""The triangles of a CAD model before it is meshed, and a bound that costs nothing."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+
+import numpy as np
+
+from surfmesh.cad.centres import inner_samples
+from surfmesh.cad.model import CadFace, CadModel
+from surfmesh.geometry.fundamental_forms import curvatures, forms_from_derivatives
+from surfmesh.kernels.background import scalar_sizes_at
+from surfmesh.meshing.edge_nodes import EdgeNodes
+from surfmesh.meshing.estimation import Estimate, face_triangles, require_within
+from surfmesh.meshing.face_job import FaceJob, face_field
+from surfmesh.meshing.solid_contents import AIM, SMALLEST_STEP, TOLERANCE, largest_misfits
+from surfmesh.sizing.metric_area import TRIANGLES
+from surfmesh.sizing.size_field import SizeBounds, SizeField
+from surfmesh.sizing.sizing import Sizing
+
+SAMPLES, FEW = 24, 9
+"""Points each way of a grid on a face."""
+
+STEPS = 5
+"""How often the sizes of a solid may be lowered."""
+
+BETWEEN = 0.38
+"""In edges: mean distance from the nearest vertex. Lowered sizes hold at vertices and grow."""
+
+
+def model_estimate(model: CadModel, jobs: list[FaceJob], sizing: Sizing) -> Estimate:
+    """From the jobs of the first round; sizing: of the whole model.
+
+    Raises ``SizingError`` where a size field cannot be made.
+    """
+    counts = np.zeros(len(jobs))
+    follows = sizing.chord is not None and TOLERANCE * sizing.chord < model.diagonal
+    misfits = np.zeros((len(jobs), 3))
+    for number, job in enumerate(jobs):
+        field = face_field(job)[1]
+        counts[number] = face_triangles(job, field)
+        if follows and job.surface.kind != "plane":
+            misfits[number] = _misfit(model.faces[number], job, field)
+    if follows:
+        counts *= _refinement(model, sizing, misfits)
+    return Estimate.of(counts)
+
+
+def at_most(model: CadModel, nodes: list[EdgeNodes | None], sizings: list[Sizing]) -> float:
+    """Triangles if every face had its smallest size everywhere."""
+    total = 0.0
+    for face, sizing in zip(model.faces, sizings):
+        sizes = [nodes[c.edge].sizes.min() for c in face.coedges if nodes[c.edge] is not None]
+        (u0, u1), (v0, v1) = face.surface.domain
+        at = np.linspace(0.0, 1.0, FEW)
+        grid = np.stack(np.meshgrid(u0 + at * (u1 - u0), v0 + at * (v1 - v0)), axis=-1)
+        points, *derivatives = face.surface.evaluate(grid.reshape(-1, 2), 2)
+        bounds = SizeBounds.of(sizing, model.diagonal)
+        sizes.append(bounds.clamp[1])
+        if bounds.follows_curvature and face.kind != "plane":
+            forms = forms_from_derivatives(*derivatives)
+            k = curvatures(forms)
+            known = ~forms.degenerate
+            sizes.extend(bounds.from_curvature(k.k1[known], k.k2[known]))
+        if callable(sizing.size):
+            sizes.extend(sizing.law_sizes(points))
+        sizes.extend(getattr(source, "size", math.inf) for source in sizing.sources)
+        smallest = max(float(min(sizes)), bounds.clamp[0])
+        total += TRIANGLES * face.area / smallest**2
+    return total
+
+
+def _misfit(face: CadFace, job: FaceJob, field: SizeField) -> np.ndarray:
+    """Volume towards r_u x r_v, its absolute value, and area that the mesh of a face misses.
+
+    On the quadric of mean curvature H a unit triangle of size h lies H h^2 / 8 from it in the
+    mean; its area is smaller by 2 H times that, larger by half the mean squared slope.
+    """
+    uv = inner_samples(face, SAMPLES)
+    if not len(uv):
+        return np.zeros(3)
+    forms = forms_from_derivatives(*job.surface.evaluate(uv, 2)[1:])
+    k = curvatures(forms)
+    density = np.sqrt(np.maximum(forms.E * forms.G - forms.F**2, 0.0))
+    size = np.empty(len(uv))
+    scalar_sizes_at(field.background, field.scaling.to_plane(uv), size)
+    mean = 0.5 * (k.k1 + k.k2)
+    squares = k.k1**2 + k.k2**2
+    known = ~forms.degenerate & np.isfinite(mean)
+    share = np.where(known, density, 0.0)
+    share *= face.area / max(share.sum(), np.finfo(float).tiny)
+    gap = np.where(known, mean * size**2 / 8.0, 0.0)
+    area = np.where(known, (squares / 48.0 - mean**2 / 4.0) * size**2, 0.0)
+    return np.array([share @ gap, abs(share @ gap), share @ area])
+
+
+def _refinement(model: CadModel, sizing: Sizing, misfits: np.ndarray) -> np.ndarray:
+    """Factors (f,) on the triangles of faces whose solids lose too much area or volume."""
+    tolerance = TOLERANCE * sizing.chord / model.diagonal
+    factors = np.ones(len(model.faces))
+    for solid in model.solids:
+        faces = [face for shell in solid.shells for face, _ in shell]
+        sign = {
+            face: -1.0 if flag != model.faces[face].reversed else 1.0
+            for shell in solid.shells for face, flag in shell
+        }  # fmt: skip
+        if not solid.closed or not solid.volume > 0.0:
+            continue
+        area = math.fsum(model.faces[face].area for face in faces)
+        chosen = largest_misfits(misfits[:, 1], faces)
+        scale = 1.0
+
+        def error(scale: float, faces=faces, sign=sign, chosen=chosen, area=area, solid=solid):
+            missing = np.array([
+                misfits[f, [0, 2]] * [sign[f], 1.0] * (scale if f in chosen else 1.0) for f in faces
+            ]).sum(axis=0)  # fmt: skip
+            return max(abs(missing[0]) / solid.volume, abs(missing[1]) / area)
+
+        for _ in range(STEPS):
+            now = error(scale)
+            if now <= tolerance:
+                break
+            step = max(SMALLEST_STEP, math.sqrt(AIM * tolerance / now))
+            scale *= (step + BETWEEN * sizing.gradient) ** 2
+        for face in chosen:
+            factors[face] = max(factors[face], 1.0 / scale)
+    return factors
+
+
+def names_of_faces(model: CadModel) -> list[str]:
+    """For messages."""
+    return [f"face {k} ({face.name or face.kind})" for k, face in enumerate(model.faces)]
+
+
+def require_model_within(
+    model: CadModel, jobs: Callable[[], list[FaceJob]], nodes: list[EdgeNodes | None],
+    sizings: list[Sizing], sizing: Sizing,
+) -> None:  # fmt: skip
+    """Raise ``SizingError`` with advice when a model would have more than ``sizing.limit``
+    triangles. jobs: a callable that makes them, asked only when the bound is above the limit."""
+    if at_most(model, nodes, sizings) > sizing.limit:
+        found = model_estimate(model, jobs(), sizing)
+        require_within(sizing.limit, found, names_of_faces(model))
