@@ -1,20 +1,27 @@
 """The verbs: ``load`` a surface or a CAD model, ``mesh`` it, ``show`` what is on it."""
 
 import sys
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
+
+import numpy as np
 
 from surfmesh.cad.from_cadquery import from_cadquery
 from surfmesh.cad.model import CadModel
 from surfmesh.cad.reading import SUFFIXES, read_cad
-from surfmesh.errors import FileFormatError, SurfaceError
+from surfmesh.errors import FileFormatError, SizingError, SurfaceError
 from surfmesh.geometry.planar_domain import PlanarDomain
 from surfmesh.geometry.surface import Surface
 from surfmesh.geometry.surface_file import gallery, load_surface_file
 from surfmesh.meshing.estimation import Estimate
-from surfmesh.meshing.model_mesh import estimate_model, mesh_model
-from surfmesh.meshing.parametric_mesh import estimate_parametric, mesh_parametric
+from surfmesh.meshing.explanation import Explanation
+from surfmesh.meshing.model_mesh import estimate_model, explain_size, mesh_model
+from surfmesh.meshing.parametric_mesh import (
+    estimate_parametric,
+    explain_parametric,
+    mesh_parametric,
+)
 from surfmesh.meshing.planar_mesh import estimate_planar, mesh_planar
 from surfmesh.meshing.stages import Progress
 from surfmesh.sizing.distance_size import default_wishes
@@ -82,6 +89,27 @@ def estimate(
         return estimate_model(surface, sizing)
     work = estimate_planar if isinstance(surface, PlanarDomain) else estimate_parametric
     return work(surface, sizing)
+
+
+def explain(
+    surface: Surface | CadModel | Any,
+    sizing: Sizing | float | Mapping | None,
+    point: Sequence[float],
+) -> Explanation:
+    """Which rule decides the size at a point (3,), with the numbers of all that apply there.
+
+    The point is moved to the nearest one of the surface or model. ``print`` it. Raises what
+    ``mesh`` raises for sizes that cannot be met, and ``SizingError`` for what is no point.
+    """
+    surface, sizing = _settled(surface, sizing)
+    try:
+        place = np.array(point, float)
+    except (TypeError, ValueError):
+        place = np.empty(0)
+    if place.shape != (3,) or not np.isfinite(place).all():
+        raise SizingError(f"a point is three finite numbers, not {point!r:.60}")
+    work = explain_size if isinstance(surface, CadModel) else explain_parametric
+    return work(surface, sizing, place)
 
 
 def _settled(surface: Any, sizing: Any) -> tuple[Surface | CadModel, Any]:

@@ -47,28 +47,35 @@ def model_estimate(model: CadModel, jobs: list[FaceJob], sizing: Sizing) -> Esti
     return Estimate.of(counts)
 
 
-def at_most(model: CadModel, nodes: list[EdgeNodes | None], sizings: list[Sizing]) -> float:
-    """Triangles if every face had its smallest size everywhere."""
-    total = 0.0
-    for face, sizing in zip(model.faces, sizings):
-        sizes = [nodes[c.edge].sizes.min() for c in face.coedges if nodes[c.edge] is not None]
-        (u0, u1), (v0, v1) = face.surface.domain
-        at = np.linspace(0.0, 1.0, FEW)
-        grid = np.stack(np.meshgrid(u0 + at * (u1 - u0), v0 + at * (v1 - v0)), axis=-1)
-        points, *derivatives = face.surface.evaluate(grid.reshape(-1, 2), 2)
-        bounds = SizeBounds.of(sizing, model.diagonal)
-        sizes.append(bounds.clamp[1])
-        if bounds.follows_curvature and face.kind != "plane":
+def bounds(
+    model: CadModel, nodes: list[EdgeNodes | None], sizings: list[Sizing]
+) -> tuple[np.ndarray, np.ndarray]:
+    """Triangles (f,) that each face has at least and at most, of its wishes at a few points.
+
+    At least: the largest size holds everywhere. At most: the smallest, also of sources.
+    """
+    least, most = np.zeros(len(model.faces)), np.zeros(len(model.faces))
+    for number, (face, sizing) in enumerate(zip(model.faces, sizings)):
+        edges = [nodes[c.edge].sizes.min() for c in face.coedges if nodes[c.edge] is not None]
+        uv = inner_samples(face, FEW)
+        allowed = SizeBounds.of(sizing, model.diagonal)
+        if not len(uv):
+            smallest = min([*edges, allowed.clamp[1]])
+            most[number] = TRIANGLES * face.area / max(smallest, allowed.clamp[0]) ** 2
+            continue
+        points, *derivatives = face.surface.evaluate(uv, 2)
+        sizes = np.full(len(uv), allowed.clamp[1])
+        if allowed.follows_curvature:
             forms = forms_from_derivatives(*derivatives)
             k = curvatures(forms)
-            known = ~forms.degenerate
-            sizes.extend(bounds.from_curvature(k.k1[known], k.k2[known]))
-        if callable(sizing.size):
-            sizes.extend(sizing.law_sizes(points))
-        sizes.extend(getattr(source, "size", math.inf) for source in sizing.sources)
-        smallest = max(float(min(sizes)), bounds.clamp[0])
-        total += TRIANGLES * face.area / smallest**2
-    return total
+            sizes = np.where(forms.degenerate, sizes, allowed.from_curvature(k.k1, k.k2))
+        if sizes.max() < np.inf:
+            least[number] = TRIANGLES * face.area / float(sizes.max()) ** 2
+        if sizing.has_law:
+            sizes = np.clip(np.minimum(sizes, sizing.law_sizes(points)), *allowed.clamp)
+        smallest = min([sizes.min(), *edges, *(getattr(s, "size", np.inf) for s in sizing.sources)])
+        most[number] = TRIANGLES * face.area / max(float(smallest), allowed.clamp[0]) ** 2
+    return least, most
 
 
 def _misfit(face: CadFace, job: FaceJob, field: SizeField) -> np.ndarray:
@@ -138,7 +145,10 @@ def require_model_within(
     sizings: list[Sizing], sizing: Sizing,
 ) -> None:  # fmt: skip
     """Raise ``SizingError`` with advice when a model would have more than ``sizing.limit``
-    triangles. jobs: a callable that makes them, asked only when the bound is above the limit."""
-    if at_most(model, nodes, sizings) > sizing.limit:
-        found = model_estimate(model, jobs(), sizing)
-        require_within(sizing.limit, found, names_of_faces(model))
+    triangles. ``jobs``: makes them; asked only where the bounds leave it open."""
+    least, most = bounds(model, nodes, sizings)
+    if most.sum() <= sizing.limit:
+        return
+    names = names_of_faces(model)
+    require_within(sizing.limit, Estimate.of(least), names)
+    require_within(sizing.limit, model_estimate(model, jobs(), sizing), names)

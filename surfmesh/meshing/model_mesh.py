@@ -16,6 +16,7 @@ from surfmesh.errors import MeshingError
 from surfmesh.meshing.edge_nodes import EdgeNodes, cut_edges
 from surfmesh.meshing.edge_samples import EdgeSamples, sample_edges
 from surfmesh.meshing.estimation import Estimate
+from surfmesh.meshing.explanation import Explanation, explain_model
 from surfmesh.meshing.face_job import FaceJob, FaceMesh, Piece, mesh_face
 from surfmesh.meshing.face_sizings import face_sizings
 from surfmesh.meshing.model_estimate import model_estimate, require_model_within
@@ -104,6 +105,16 @@ def estimate_model(model: CadModel, sizing: Any) -> Estimate:
     of_face = face_sizings(model, samples, wanted)
     nodes = cut_edges(model, wanted.base, samples, {})
     return model_estimate(model, _jobs(model, nodes, samples, of_face, True), wanted.base)
+
+
+def explain_size(model: CadModel, sizing: Any, point: np.ndarray) -> Explanation:
+    """Which of the wishes decides at a point (3,), or at the nearest one of the model."""
+    wanted = model_sizing(model, sizing)
+    samples = sample_edges(model, wanted)
+    of_face = face_sizings(model, samples, wanted)
+    nodes = cut_edges(model, wanted.base, samples, {})
+    jobs = _jobs(model, nodes, samples, of_face, True)
+    return explain_model(model, wanted, samples, of_face, jobs, point)
 
 
 def _jobs(

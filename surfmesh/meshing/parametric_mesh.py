@@ -14,6 +14,7 @@ from surfmesh.kernels.background import scalar_sizes_at
 from surfmesh.meshing.boundary_loops import BoundaryLoops, boundary_loops
 from surfmesh.meshing.boundary_recovery import DomainMesh, recovered
 from surfmesh.meshing.estimation import Estimate, field_triangles, require_field_within
+from surfmesh.meshing.explanation import Explanation, explain_surface
 from surfmesh.meshing.gluing import Glued, glued, misglued
 from surfmesh.meshing.optimise import Optimiser
 from surfmesh.meshing.packing import packed_over
@@ -70,6 +71,12 @@ def estimate_parametric(surface: Surface, sizing: Sizing) -> Estimate:
     """Triangles and memory of ``mesh_parametric``. Raises as it does."""
     field = size_field(surface, sizing, find_sides(surface))
     return Estimate.of([field_triangles(field, surface.loops or None)])
+
+
+def explain_parametric(surface: Surface, sizing: Sizing, point: np.ndarray) -> Explanation:
+    """Which wish decides at the point of the surface that is nearest to ``point`` (3,)."""
+    field = size_field(surface, sizing, find_sides(surface))
+    return explain_surface(surface, sizing, field, point)
 
 
 def _one_round(

@@ -46,6 +46,8 @@ class ModelSizing:
     vertices: Mapping[int, Sizing] = field(default_factory=dict)
     rules: tuple[Rule, ...] = ()
     """As they were given, but for "*"."""
+    stated: Sizing = field(default_factory=Sizing)
+    """``base`` without the defaults."""
 
     def of_face(self, number: int) -> Sizing:
         """All that is wished on a face."""
@@ -75,7 +77,8 @@ def model_sizing(model: CadModel, wish: Any) -> ModelSizing:
     if isinstance(wish, ModelSizing):
         return wish
     if not is_by_selection(wish):
-        return ModelSizing(with_defaults(Sizing.of(wish), model))
+        stated = Sizing.of(wish)
+        return ModelSizing(with_defaults(stated, model), stated=stated)
     base = Sizing.of(wish.get(EVERYTHING))
     rules = []
     for key, value in wish.items():
@@ -86,7 +89,7 @@ def model_sizing(model: CadModel, wish: Any) -> ModelSizing:
         own = _own_wishes(key, value)
         rules.append(Rule(key, own, _with_faces(model, _selected(model, key, value))))
     by_kind = (_combined(model, base, rules, kind) for kind in ("faces", "edges", "vertices"))
-    return ModelSizing(with_defaults(base, model), *by_kind, tuple(rules))
+    return ModelSizing(with_defaults(base, model), *by_kind, tuple(rules), base)
 
 
 def is_by_selection(wish: Any) -> bool:
