@@ -25,6 +25,7 @@ from surfmesh.meshing.parametric_mesh import (
 from surfmesh.meshing.planar_mesh import estimate_planar, mesh_planar
 from surfmesh.meshing.stages import Progress
 from surfmesh.sizing.distance_size import default_wishes
+from surfmesh.sizing.model_sizing import is_by_selection
 from surfmesh.sizing.sizing import Sizing
 from surfmesh.surface_mesh import SurfaceMesh
 
@@ -124,6 +125,11 @@ def _settled(surface: Any, sizing: Any) -> tuple[Surface | CadModel, Any]:
         sizing = default_wishes(surface) or None
     if isinstance(sizing, Mapping) and set(sizing) == {"*"}:
         sizing = sizing["*"]
+    elif is_by_selection(sizing) and any(isinstance(s, (Sizing, Mapping)) for s in sizing.values()):
+        raise SizingError(
+            f"sizes by selection ({', '.join(map(repr, sizing))}) need a CAD model; a "
+            f"{type(surface).__name__} takes one Sizing, or '*' alone"
+        )
     return surface, Sizing.of(sizing)
 
 

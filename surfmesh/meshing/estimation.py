@@ -9,6 +9,7 @@ may find (folds, triangles that lie too far away) is not.
 
 from __future__ import annotations
 
+import sys
 from collections.abc import Sequence
 from dataclasses import dataclass
 
@@ -19,9 +20,12 @@ from surfmesh.meshing.face_job import FaceJob, face_field
 from surfmesh.sizing.metric_area import TRIANGLES, metric_area
 from surfmesh.sizing.size_field import SizeField
 
-RESULT, WORK, LOADED = 150, 850, 350_000_000
-"""Bytes a triangle of the whole mesh, a triangle of the face being worked on, and of the
-program itself; measured (see ``benchmarks/estimates.py``)."""
+RESULT, WORK = 110, 30
+"""Bytes a triangle of the whole mesh, and of the face being worked on; measured, peak of the
+process for meshes of 0.5 and 7 million triangles."""
+
+LOADED, CAD_LOADED = 250_000_000, 550_000_000
+"""Bytes of the program itself, and of the CAD kernel where it lives in this process."""
 
 
 @dataclass(frozen=True)
@@ -48,7 +52,8 @@ class Estimate:
     def of(cls, by_face: Sequence[float]) -> Estimate:
         counts = tuple(round(count) for count in by_face)
         total, most = sum(counts), max(counts, default=0)
-        return cls(total, counts, LOADED + RESULT * total + WORK * most)
+        loaded = LOADED + (CAD_LOADED if "OCP" in sys.modules else 0)
+        return cls(total, counts, loaded + RESULT * total + WORK * most)
 
 
 def size_in_words(count: float) -> str:
