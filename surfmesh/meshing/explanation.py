@@ -22,6 +22,7 @@ from surfmesh.geometry.projection import closest_point
 from surfmesh.geometry.surface import Surface
 from surfmesh.kernels.background import scalar_sizes_at
 from surfmesh.meshing.edge_samples import EdgeSamples
+from surfmesh.meshing.face_gaps import AcrossTo
 from surfmesh.meshing.face_job import FaceJob, face_field
 from surfmesh.sizing.model_sizing import ModelSizing, Rule
 from surfmesh.sizing.size_field import SizeBounds, SizeField
@@ -116,6 +117,7 @@ def explain_model(
     _, field = face_field(jobs[number])
     k1, k2 = _curvature(face.surface, uv) if face.kind != "plane" else (None, None)
     found = _rows_of(wanted, wanted.rules_of("faces", number), foot, k1, k2)
+    found += _gaps_of(wanted, number, foot)
     elsewhere = []
     slope = wanted.base.gradient
     if len(samples.points):
@@ -136,6 +138,7 @@ def explain_model(
         there = _rows_of(
             wanted, wanted.rules_of("faces", number), points[best], k.k1[best], k.k2[best]
         )
+        there += _gaps_of(wanted, number, points[best])
         elsewhere.append((points[best], f"face {number} at {_at(points[best])}", there))
     place = f"face {number} ({face.name or face.kind})"
     return _explained(foot, away, place, number, found, field, uv, elsewhere, slope)
@@ -196,6 +199,13 @@ def _rows_of(
     return found
 
 
+def _gaps_of(wanted: ModelSizing, number: int, point: np.ndarray) -> list[SizeRow]:
+    """What the distance to other faces of the solid asks for on a face."""
+    gaps = [s for s in wanted.of_face(number).sources if isinstance(s, AcrossTo)]
+    found = [(gap, float(gap(point[None])[0])) for gap in gaps]
+    return [SizeRow("gap_faces", repr(gap), size) for gap, size in found if np.isfinite(size)]
+
+
 def _at_sample(
     model: CadModel, wanted: ModelSizing, samples: EdgeSamples, place: int
 ) -> tuple[np.ndarray, str, list[SizeRow]]:
@@ -210,6 +220,7 @@ def _at_sample(
         uv = coedge.uv(np.array([share]))[0]
         k1, k2 = (None, None) if flat else _curvature(face.surface, uv)
         found += _rows_of(wanted, wanted.rules_of("faces", number), point, k1, k2)
+        found += _gaps_of(wanted, number, point)
     item = model.edges[edge]
     bend = _bend(item, share)
     found += _rows_of(wanted, wanted.rules_of("edges", edge), point, bend, bend)

@@ -17,6 +17,7 @@ from surfmesh.meshing.edge_nodes import EdgeNodes, cut_edges
 from surfmesh.meshing.edge_samples import EdgeSamples, sample_edges
 from surfmesh.meshing.estimation import Estimate
 from surfmesh.meshing.explanation import Explanation, explain_model
+from surfmesh.meshing.face_gaps import with_face_gaps
 from surfmesh.meshing.face_job import FaceJob, FaceMesh, Piece, mesh_face
 from surfmesh.meshing.face_sizings import face_sizings
 from surfmesh.meshing.model_estimate import model_estimate, require_model_within
@@ -48,7 +49,7 @@ def mesh_model(
     Raises ``MeshingError`` that names the faces that could not be meshed, with the reasons.
     """
     watch = Stopwatch(progress)
-    wanted = model_sizing(model, sizing)
+    wanted = with_face_gaps(model, model_sizing(model, sizing))
     sizing = wanted.base
     with watch.stage("sizing"):
         samples = sample_edges(model, wanted)
@@ -100,7 +101,7 @@ def mesh_model(
 
 def estimate_model(model: CadModel, sizing: Any) -> Estimate:
     """Triangles and memory of ``mesh_model``. Raises ``SizingError`` for wishes that cannot be."""
-    wanted = model_sizing(model, sizing)
+    wanted = with_face_gaps(model, model_sizing(model, sizing))
     samples = sample_edges(model, wanted)
     of_face = face_sizings(model, samples, wanted)
     nodes = cut_edges(model, wanted.base, samples, {})
@@ -109,7 +110,7 @@ def estimate_model(model: CadModel, sizing: Any) -> Estimate:
 
 def explain_size(model: CadModel, sizing: Any, point: np.ndarray) -> Explanation:
     """Which of the wishes decides at a point (3,), or at the nearest one of the model."""
-    wanted = model_sizing(model, sizing)
+    wanted = with_face_gaps(model, model_sizing(model, sizing))
     samples = sample_edges(model, wanted)
     of_face = face_sizings(model, samples, wanted)
     nodes = cut_edges(model, wanted.base, samples, {})

@@ -20,6 +20,7 @@ from surfmesh.meshing.planar_segments import (
     short_segments,
 )
 from surfmesh.meshing.stages import Progress, Stopwatch
+from surfmesh.sizing.across_gaps import size_across
 from surfmesh.sizing.size_field import SizeField, size_field
 from surfmesh.sizing.sizing import Sizing
 from surfmesh.surface_mesh import SurfaceMesh
@@ -64,10 +65,11 @@ def estimate_planar(domain: PlanarDomain, sizing: Sizing) -> Estimate:
 
 def _field_and_segments(domain: PlanarDomain, sizing: Sizing) -> tuple[SizeField, PlanarSegments]:
     limits = short_segments(domain.graph, sizing.gradient)
+    share = 1.0 if sizing.gap is None else size_across(1.0, sizing.gap, sizing.gradient)
     for _ in range(GAP_ROUNDS):
         field = size_field(domain, sizing, None, limits)
         cut = cut_segments(domain.graph, field)
-        gaps = narrow_gaps(domain, cut, field, sizing.gradient)
+        gaps = narrow_gaps(domain, cut, field, sizing.gradient, share)
         if gaps is None:
             break
         limits = gaps.joined_with(limits)

@@ -174,3 +174,25 @@ def test_the_limit_is_kept_before_anything_is_made(block):
         sm.mesh(block, {"*": 2.0, "lid": 1e-4})
     with pytest.raises(SizingError, match="limit"):
         sm.mesh(block, 1e-9)
+
+
+def test_gaps_of_planar_domains():
+    strip = sm.PlanarDomain([[0, 0], [100, 0], [100, 2], [0, 2]])
+    mesh = sm.mesh(strip, sm.Sizing(size=20.0, gap=3))
+    along = mesh.points[mesh.triangles][..., 0]
+    low, high = along.min(axis=1), along.max(axis=1)
+    for x in np.linspace(5.0, 95.0, 50) + 0.01:
+        assert ((low < x) & (x < high)).sum() >= 3
+
+
+def test_near_faces_of_a_solid():
+    wall = sm.from_cadquery(cq.Workplane().circle(20).circle(19).extrude(10))
+    sizing = sm.Sizing(size=5.0, gap=2, gap_faces=True)
+    mesh = sm.mesh(wall, sizing)
+    assert sm.check(mesh).clean
+    for number, face in enumerate(wall.faces):
+        if face.kind == "cylinder":
+            assert face_edge(mesh, number) == pytest.approx(0.5, rel=0.1)
+    found = sm.explain(wall, sizing, (20, 0, 5))
+    assert found.winner.key == "gap_faces" and "gap to face" in found.winner.rule
+    assert sm.estimate(wall, sizing).triangles == pytest.approx(len(mesh.triangles), rel=0.1)
