@@ -196,3 +196,31 @@ def test_near_faces_of_a_solid():
     found = sm.explain(wall, sizing, (20, 0, 5))
     assert found.winner.key == "gap_faces" and "gap to face" in found.winner.rule
     assert sm.estimate(wall, sizing).triangles == pytest.approx(len(mesh.triangles), rel=0.1)
+
+
+@pytest.mark.parametrize(
+    "sizing",
+    [
+        {"*": sm.Sizing(anisotropy=20), ">Z": 0.5},
+        {"*": sm.Sizing(size=3.0, anisotropy=20), "type:cylinder": sm.Sizing(chord=0.02)},
+        sm.Sizing(anisotropy=20, chord=0.02, sources=[sm.Near([0, 5, 30], size=0.2)]),
+    ],
+    ids=["finer end", "stretched by name", "source"],
+)
+def test_names_and_sources_where_sizes_have_a_direction(sizing):
+    tube = sm.from_cadquery(cq.Workplane().circle(5).circle(4).extrude(60))
+    mesh = sm.mesh(tube, sizing)
+    report = sm.check(mesh)
+    assert report.clean
+    assert report.quasi_unit_share > 0.95  # in the metric; round where a face has no direction
+    assert mesh.inverse_sizes.shape == (len(mesh.uv_points), 6)
+    assert sm.estimate(tube, sizing).triangles == pytest.approx(len(mesh.triangles), rel=0.2)
+
+
+def test_a_size_by_name_does_not_let_edges_beside_it_be_much_coarser_than_their_metric():
+    tube = sm.from_cadquery(cq.Workplane().circle(5).circle(4).extrude(60))
+    free = sm.mesh(tube, sm.Sizing(anisotropy=20))
+    fine = sm.mesh(tube, {"*": sm.Sizing(anisotropy=20), "edge:|Z": 1.0})
+    seam = next(k for k, edge in enumerate(tube.edges) if edge.start != edge.end)
+    count = [int((mesh.edge_ids == seam).sum()) for mesh in (free, fine)]
+    assert count[1] >= 58 > 10 * count[0]
