@@ -198,7 +198,8 @@ def _field(job: FaceJob) -> tuple[Surface, SizeField]:
             np.concatenate([piece.uv for piece in real]),
             settled=True,
         )
-        if job.sizing.is_anisotropic:  # an edge knows nothing of the sizes across it
+        # an edge knows nothing of the sizes across it, but for those that gaps ask for
+        if job.sizing.is_anisotropic and job.sizing.gap is None:
             along = np.concatenate([_directions(piece.points) for piece in real])
             limits = replace(limits, in_space=along_lines(along, limits.sizes))
         if found is not None:

@@ -52,7 +52,8 @@ class Sizing:
     (n, 3) -> (n,), infinite where nothing is asked for. The smallest holds."""
 
     gap: float | None = None
-    """At least so many triangles across thin faces, and between near edges of a face."""
+    """At least so many triangles across thin faces, and between near edges of a face. There
+    sizes at the edges hold in every direction, whatever ``anisotropy`` is."""
 
     gap_faces: bool = False
     """Likewise between near faces of a solid; ``gap``, or else 1, says how many."""

@@ -224,3 +224,15 @@ def test_a_size_by_name_does_not_let_edges_beside_it_be_much_coarser_than_their_
     seam = next(k for k, edge in enumerate(tube.edges) if edge.start != edge.end)
     count = [int((mesh.edge_ids == seam).sum()) for mesh in (free, fine)]
     assert count[1] >= 58 > 10 * count[0]
+
+
+def test_triangles_across_thin_faces_whatever_the_anisotropy():
+    ring = sm.from_cadquery(cq.Workplane().circle(10).circle(8).extrude(1))
+    number = next(k for k, face in enumerate(ring.faces) if face.kind == "cylinder")
+    mesh = sm.mesh(ring, sm.Sizing(chord=0.05, anisotropy=20, gap=3))
+    corners = mesh.points[mesh.triangles[mesh.face_ids == number]]
+    angle = np.arctan2(corners[..., 1], corners[..., 0])
+    near = np.abs(angle).max(axis=1) < 3.0  # away from where the angle jumps
+    low, high = angle[near].min(axis=1), angle[near].max(axis=1)
+    for x in np.linspace(-2.5, 2.5, 50):
+        assert ((low < x) & (x < high)).sum() >= 3
