@@ -49,10 +49,10 @@ def _ours(request: dict) -> dict:
     from cad_measures import clocks, shape_figures, solid_figures, spent, stray_edges
 
     import surfmesh as sm
-    from surfmesh.meshing.model_mesh import with_defaults
     from surfmesh.quality.deviation import deviation
     from surfmesh.quality.shape import shapes
     from surfmesh.quality.solids import solid_mesh
+    from surfmesh.sizing.model_sizing import with_defaults
     from surfmesh.surface_mesh import NOT_MESHED
 
     place = request["place"]

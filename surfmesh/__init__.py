@@ -16,7 +16,7 @@ from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from surfmesh import errors, io, view
-    from surfmesh.api import load, mesh, show
+    from surfmesh.api import estimate, explain, load, mesh, show
     from surfmesh.cad.from_cadquery import from_cadquery
     from surfmesh.cad.model import CadModel
     from surfmesh.geometry.numeric import NumericSurface
@@ -28,6 +28,7 @@ if TYPE_CHECKING:
     from surfmesh.sizing.distance_size import DistanceSize
     from surfmesh.sizing.radius_laws import TensorField, UniformRadius
     from surfmesh.sizing.sizing import Sizing
+    from surfmesh.sizing.sources import InBall, InBox, Near, SizeCloud
     from surfmesh.surface_mesh import SurfaceMesh
 
     __version__: str
@@ -40,15 +41,21 @@ _HOMES = {
     "CadModel": "surfmesh.cad.model",
     "CirclePacking": "surfmesh.meshing.circle_packing",
     "DistanceSize": "surfmesh.sizing.distance_size",
+    "InBall": "surfmesh.sizing.sources",
+    "InBox": "surfmesh.sizing.sources",
+    "Near": "surfmesh.sizing.sources",
     "NumericSurface": "surfmesh.geometry.numeric",
     "ParametricSurface": "surfmesh.geometry.parametric",
     "PlanarDomain": "surfmesh.geometry.planar_domain",
     "Report": "surfmesh.quality",
+    "SizeCloud": "surfmesh.sizing.sources",
     "Sizing": "surfmesh.sizing.sizing",
     "SurfaceMesh": "surfmesh.surface_mesh",
     "TensorField": "surfmesh.sizing.radius_laws",
     "UniformRadius": "surfmesh.sizing.radius_laws",
     "check": "surfmesh.quality",
+    "estimate": "surfmesh.api",
+    "explain": "surfmesh.api",
     "from_cadquery": "surfmesh.cad.from_cadquery",
     "gallery": "surfmesh.geometry.surface_file",
     "load": "surfmesh.api",
@@ -62,10 +69,14 @@ __all__ = [
     "CadModel",
     "CirclePacking",
     "DistanceSize",
+    "InBall",
+    "InBox",
+    "Near",
     "NumericSurface",
     "ParametricSurface",
     "PlanarDomain",
     "Report",
+    "SizeCloud",
     "Sizing",
     "SurfaceMesh",
     "TensorField",
@@ -73,6 +84,8 @@ __all__ = [
     "__version__",
     "check",
     "errors",
+    "estimate",
+    "explain",
     "from_cadquery",
     "gallery",
     "io",

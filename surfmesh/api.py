@@ -2,8 +2,11 @@
 
 import logging
 import sys
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
+
+import numpy as np
 
 from surfmesh.cad.from_cadquery import from_cadquery
 from surfmesh.cad.model import CadModel
@@ -12,12 +15,19 @@ from surfmesh.errors import FileFormatError, SizingError, SurfaceError
 from surfmesh.geometry.planar_domain import PlanarDomain
 from surfmesh.geometry.surface import Surface
 from surfmesh.geometry.surface_file import gallery, load_surface_file
-from surfmesh.meshing.model_mesh import mesh_model
-from surfmesh.meshing.parametric_mesh import mesh_parametric
-from surfmesh.meshing.planar_mesh import mesh_planar
+from surfmesh.meshing.estimation import Estimate
+from surfmesh.meshing.explanation import Explanation
+from surfmesh.meshing.model_mesh import estimate_model, explain_size, mesh_model
+from surfmesh.meshing.parametric_mesh import (
+    estimate_parametric,
+    explain_parametric,
+    mesh_parametric,
+)
+from surfmesh.meshing.planar_mesh import estimate_planar, mesh_planar
 from surfmesh.meshing.second_order import of_second_order
 from surfmesh.meshing.stages import Progress
 from surfmesh.sizing.distance_size import default_wishes
+from surfmesh.sizing.model_sizing import is_by_selection
 from surfmesh.sizing.sizing import Sizing
 from surfmesh.surface_mesh import SurfaceMesh
 
@@ -46,7 +56,7 @@ def load(path: str | Path, units: str | None = None) -> Surface | CadModel:
 
 def mesh(
     surface: Surface | CadModel | Any,
-    sizing: Sizing | float | dict | None = None,
+    sizing: Sizing | float | Mapping | None = None,
     *,
     optimise: bool = True,
     progress: Progress | None = None,
@@ -74,22 +84,73 @@ def mesh(
     """
     if order not in (1, 2):
         raise SizingError(f"order is {order!r}: meshes are of order 1 or 2")
-    if not isinstance(surface, (CadModel, Surface)) and _is_cad(surface):
-        surface = from_cadquery(surface)
+    surface, wishes = _settled(surface, sizing)
     if isinstance(surface, CadModel):
-        wishes = Sizing.of(sizing)
         made = mesh_model(surface, wishes, optimise, progress, strict, simplify, jobs)
         return _logged(made if order == 1 else of_second_order(made, surface), surface)
-    if not isinstance(surface, Surface):
-        raise SurfaceError(f"cannot mesh a {type(surface).__name__}: a Surface is needed")
-    if sizing is None:
-        sizing = default_wishes(surface) or None
-    wishes = Sizing.of(sizing)
     if isinstance(surface, PlanarDomain):
         made = mesh_planar(surface, wishes, optimise, progress)
     else:
         made = mesh_parametric(surface, wishes, optimise, progress)
     return _logged(made if order == 1 else of_second_order(made), surface)
+
+
+def estimate(
+    surface: Surface | CadModel | Any, sizing: Sizing | float | Mapping | None = None
+) -> Estimate:
+    """How many triangles ``mesh`` would make, and how much memory it would need.
+
+    Nothing is packed: size fields are made and measured. Raises what ``mesh`` raises for sizes
+    that cannot be met, but for their limit.
+    """
+    surface, wishes = _settled(surface, sizing)
+    if isinstance(surface, CadModel):
+        return estimate_model(surface, wishes)
+    if isinstance(surface, PlanarDomain):
+        return estimate_planar(surface, wishes)
+    return estimate_parametric(surface, wishes)
+
+
+def explain(
+    surface: Surface | CadModel | Any,
+    sizing: Sizing | float | Mapping | None,
+    point: Sequence[float],
+) -> Explanation:
+    """Which rule decides the size at a point (3,), with the numbers of all that apply there.
+
+    The point is moved to the nearest one of the surface or model. ``print`` it. Raises what
+    ``mesh`` raises for sizes that cannot be met, and ``SizingError`` for what is no point.
+    """
+    surface, wishes = _settled(surface, sizing)
+    try:
+        place = np.array(point, float)
+    except (TypeError, ValueError):
+        place = np.empty(0)
+    if place.shape != (3,) or not np.isfinite(place).all():
+        raise SizingError(f"a point is three finite numbers, not {point!r:.60}")
+    if isinstance(surface, CadModel):
+        return explain_size(surface, wishes, place)
+    return explain_parametric(surface, wishes, place)
+
+
+def _settled(surface: Any, sizing: Any) -> tuple[Any, Any]:
+    """A surface or a model, and the sizes that it brings where none are given."""
+    if not isinstance(surface, (CadModel, Surface)) and _is_cad(surface):
+        surface = from_cadquery(surface)
+    if isinstance(surface, CadModel):
+        return surface, sizing
+    if not isinstance(surface, Surface):
+        raise SurfaceError(f"cannot mesh a {type(surface).__name__}: a Surface is needed")
+    if sizing is None:
+        sizing = default_wishes(surface) or None
+    if isinstance(sizing, Mapping) and set(sizing) == {"*"}:
+        sizing = sizing["*"]
+    elif is_by_selection(sizing) and any(isinstance(s, (Sizing, Mapping)) for s in sizing.values()):
+        raise SizingError(
+            f"sizes by selection ({', '.join(map(repr, sizing))}) need a CAD model; a "
+            f"{type(surface).__name__} takes one Sizing, or '*' alone"
+        )
+    return surface, Sizing.of(sizing)
 
 
 def show(

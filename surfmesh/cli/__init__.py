@@ -1,4 +1,4 @@
-"""The command line: ``surfmesh mesh | check | view | report | pack | gallery``.
+"""The command line: ``surfmesh mesh``, ``check``, ``view``, ``explain``, ``estimate``, ``pack`` ...
 
 Exit status 0: done and valid; 1: a mesh was made but its report is not clean; 2: bad input or
 usage, told in one line on standard error.

@@ -12,6 +12,9 @@ _EXAMPLES = """examples:
   surfmesh mesh --x u --y v --z "u**2 - v**2" --u -1 1 --v -1 1 -o saddle.ply
   surfmesh check wavy.vtu --surface wavy
   surfmesh report bracket.step -o bracket.html --chord 0.05
+  surfmesh mesh bracket.step -o bracket.vtu --sizes sizes.toml
+  surfmesh explain bracket.step --at 0 0 5 --sizes sizes.toml
+  surfmesh estimate bracket.step --chord 0.01
   surfmesh pack --uniform 1 100 --count 1000 -o circles.svg
   surfmesh gallery
 
@@ -100,6 +103,21 @@ def _parser() -> _Parser:
     _add_cad(report)
     _add_json(report)
 
+    explain = commands.add_parser("explain", help="which rule decides the size at a point")
+    explain.add_argument("input", metavar="INPUT", help=_MODEL)
+    explain.add_argument(
+        "--at", nargs=3, type=float, required=True, metavar=("X", "Y", "Z"), help="the point"
+    )
+    _add_sizes(explain)
+    _add_units(explain)
+    _add_json(explain)
+
+    estimate = commands.add_parser("estimate", help="triangles and memory, before meshing")
+    estimate.add_argument("input", metavar="INPUT", help=_MODEL)
+    _add_sizes(estimate)
+    _add_units(estimate)
+    _add_json(estimate)
+
     pack = commands.add_parser("pack", help="pack circles over the plane, as in the paper")
     law = pack.add_mutually_exclusive_group(required=True)
     law.add_argument("--radius", type=_positive, help="one radius for all")
@@ -127,6 +145,7 @@ def _parser() -> _Parser:
 _COLOURS = (
     "alpha", "quality", "angle", "size", "deviation", "face", "curvature", "gaussian", "mean"
 )  # fmt: skip
+_MODEL = "CAD file, formula file or gallery name"
 _ANYTHING = "mesh file, CAD file, formula file or gallery name"
 
 
@@ -141,12 +160,21 @@ def _add_sizes(parser: argparse.ArgumentParser) -> None:
     sizes.add_argument("--max-size", type=_positive, help="no edge is wanted longer")
     sizes.add_argument("--growth", type=_positive, help="largest ratio of neighbouring sizes")
     sizes.add_argument("--anisotropy", type=_positive, help="largest stretch; 1 is isotropic")
+    sizes.add_argument("--gap", type=_positive, help="triangles across thin faces and gaps")
+    sizes.add_argument("--limit", type=_count, help="most triangles (default 20 million)")
+    sizes.add_argument(
+        "--sizes", metavar="TOML", help='sizes by selection: [sizes."fillet*"] chord = 0.01'
+    )
 
 
 def _add_cad(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--no-strict", action="store_true", help="leave out CAD faces that cannot be meshed"
     )
+    _add_units(parser)
+
+
+def _add_units(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--units", help="of the lengths of a CAD model: um, mm (default), cm, m, in"
     )

@@ -13,7 +13,7 @@ from typing import Any
 from surfmesh.cli.progress import ProgressBar, announce_compilation
 from surfmesh.errors import FileFormatError, SurfaceError, SurfmeshError
 
-SIZES = ("chord", "angle", "size", "min_size", "max_size", "growth", "anisotropy")
+SIZES = ("chord", "angle", "size", "min_size", "max_size", "growth", "anisotropy", "gap", "limit")
 
 
 def mesh(options: Namespace) -> bool:
@@ -155,12 +155,48 @@ def _shown(options: Namespace, progress: ProgressBar) -> Any:
     return api.mesh(surface, _sizing(options), progress=progress, **strict)
 
 
+def explain(options: Namespace) -> bool:
+    """Say which rule decides the size at a point."""
+    surface = _named_surface(options.input, options.units)
+
+    from surfmesh import api
+
+    found = api.explain(surface, _sizing(options), options.at)
+    if options.json:
+        _print_json(found.to_dict())
+    else:
+        print(found)
+    return True
+
+
+def estimate(options: Namespace) -> bool:
+    """Say how many triangles there would be, and how much memory they need."""
+    surface = _named_surface(options.input, options.units)
+
+    from surfmesh import api
+
+    found = api.estimate(surface, _sizing(options))
+    if options.json:
+        _print_json(found.to_dict())
+    else:
+        print(found)
+    return True
+
+
 def _sizing(options: Namespace) -> Any:
-    """The sizes that were asked for, or None."""
+    """The sizes that were asked for, or None; those of a file are of selections."""
     from surfmesh.sizing.sizing import Sizing
 
     given = {name: getattr(options, name) for name in SIZES if getattr(options, name) is not None}
-    return Sizing(**given) if given else None
+    if not options.sizes:
+        return Sizing(**given) if given else None
+
+    from surfmesh.sizing.sizes_file import read_sizes
+
+    found = read_sizes(options.sizes)
+    if given:
+        found["*"] = found.get("*", Sizing()).replaced(**given)
+    return found
 
 
 def pack(options: Namespace) -> bool:

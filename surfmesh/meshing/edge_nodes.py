@@ -12,6 +12,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from surfmesh.cad.model import CadEdge, CadModel
+from surfmesh.errors import SizingError
 from surfmesh.meshing.edge_gradation import graded_by_direction
 from surfmesh.meshing.edge_samples import EdgeSamples
 from surfmesh.sizing.size_limits import SizeLimits
@@ -62,12 +63,12 @@ def cut_edges(
         wish = wish.copy()
         for face, limit in limits.items():
             along = samples.along(face)
-            if sizing.is_anisotropic:
+            if samples.is_anisotropic:
                 found = limit.along(samples.points[along], samples.tangent[along])
             else:
                 found = limit(samples.points[along])
             wish[along] = np.minimum(wish[along], found)
-    grade = _graded_by_direction if sizing.is_anisotropic else _graded
+    grade = _graded_by_direction if samples.is_anisotropic else _graded
     size = grade(model, samples, wish, sizing)
     nodes = before or [None] * len(model.edges)
     following = 1 + max([len(model.vertices) - 1, *(int(n.numbers.max()) for n in nodes if n)])
@@ -75,7 +76,7 @@ def cut_edges(
     for number, edge in enumerate(model.edges):
         if samples.first[number] == samples.first[number + 1]:
             continue
-        cut = _cut(model, edge, number, samples, size, following)
+        cut = _cut(model, edge, number, samples, size, following, sizing.limit)
         if not cut.same_as(nodes[number]):
             nodes[number] = cut
             following += len(cut.share) - 2
@@ -140,7 +141,7 @@ def _graded_by_direction(
 
 def _cut(
     model: CadModel, edge: CadEdge, number: int, samples: EdgeSamples, sizes: np.ndarray,
-    following: int,
+    following: int, limit: int,
 ) -> EdgeNodes:  # fmt: skip
     """Pieces of equal metric length near 1."""
     own = samples.of(number)
@@ -152,6 +153,11 @@ def _cut(
     start, end = samples.vertex[[edge.start, edge.end]]
     least = max(1, int(np.ceil(samples.turn[number] / LARGEST_TURN - 1e-9)))
     pieces = max(CLOSED_SEGMENTS if start == end else 1, least, round(float(metric[-1])))
+    if pieces > limit:
+        raise SizingError(
+            f"edge {number} ({edge.name or 'no name'}) of length {edge.length:g} is to be cut in "
+            f"{pieces:,} pieces, the limit is {limit:,} triangles: ask for a larger size there"
+        )
     share = np.arange(pieces + 1) / pieces
     if metric[-1] > 0.0:
         share = np.interp(share * metric[-1], metric, known)

@@ -1,6 +1,7 @@
 """Samples along the edges of a CAD model, and the edge lengths that they ask for by themselves.
 
-    own curvature, curvature of the faces, size law, length, gaps to other edges of a face
+    own curvature, curvature of the faces, size law, sources, length, gaps to other edges of a
+    face; each as the wishes of the edge, of its faces and of its vertices have it
 
 Made once for a model. What earlier rounds of meshing have found out, and the growth of sizes
 along edges and through vertices, comes later: see ``edge_nodes``.
@@ -10,9 +11,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from surfmesh.cad.model import CadCoedge, CadEdge, CadFace, CadModel
+from surfmesh.cad.model import CadCoedge, CadEdge, CadModel
 from surfmesh.geometry.fundamental_forms import curvatures, forms_from_derivatives
 from surfmesh.kernels.edge_gaps import edge_gaps
+from surfmesh.sizing.across_gaps import size_across
 from surfmesh.sizing.curvature_size import (
     DEVIATION_RESERVE,
     STRAIGHT_RESERVE,
@@ -20,6 +22,7 @@ from surfmesh.sizing.curvature_size import (
     chord_size,
 )
 from surfmesh.sizing.direction_size import size_along
+from surfmesh.sizing.model_sizing import ModelSizing
 from surfmesh.sizing.size_bounds import DEFAULT_ANGLE, FINEST_SIZE, LEAST_OF_CHORD, SizeBounds
 from surfmesh.sizing.sizing import Sizing
 
@@ -44,6 +47,9 @@ ask for nothing: a sliver along a whole part would flood it with triangles."""
 COLLAPSED = 2e-6
 """Edges shorter than this share of the diagonal are one point: their faces meet in it."""
 
+HIDDEN, MOST_HALVINGS, MOST_SAMPLES = 0.7, 30, 20_000
+"""Between samples, laws may ask for this share of the sizes at them; how hard that is pursued."""
+
 EVEN = ("cylinder", "sphere")
 """Kinds of surfaces whose curvature is the same everywhere."""
 
@@ -63,14 +69,19 @@ class EdgeSamples:
     tangent: np.ndarray
     """(n, 3) unit."""
     metric: np.ndarray
-    """(n,) what curvature allows along the edge, before anything else lowers it. Both are empty
-    where sizes do not depend on the direction."""
+    """(n,) what curvature allows along the edge, before anything else, sizes by name among it,
+    lowers it. Both are empty where sizes do not depend on the direction."""
     turn: np.ndarray
     """(e,) by how much the tangent turns along each edge, radians."""
     vertex: np.ndarray
     """(v,) for each CAD vertex the number that it has in the mesh."""
     edges_of_face: tuple[np.ndarray, ...]
     """For each face the edges with samples, each once."""
+
+    @property
+    def is_anisotropic(self) -> bool:
+        """Do sizes depend on the direction?"""
+        return len(self.metric) > 0
 
     def of(self, edge: int) -> slice:
         """The samples of one edge."""
@@ -83,12 +94,12 @@ class EdgeSamples:
         return np.concatenate(parts) if parts else np.empty(0, np.int64)
 
 
-def sample_edges(model: CadModel, sizing: Sizing) -> EdgeSamples:
-    """``sizing``: with the model's defaults filled in."""
-    uses: list[list[tuple[CadFace, CadCoedge]]] = [[] for _ in model.edges]
-    for face in model.faces:
+def sample_edges(model: CadModel, sizing: ModelSizing) -> EdgeSamples:
+    """Samples of all edges. Raises ``SizingError`` for laws that give no sizes."""
+    uses: list[list[tuple[int, CadCoedge]]] = [[] for _ in model.edges]
+    for number, face in enumerate(model.faces):
         for coedge in face.coedges:
-            uses[coedge.edge].append((face, coedge))
+            uses[coedge.edge].append((number, coedge))
     shares, points, wishes, tangents, metrics = [], [], [], [], []
     count = np.zeros(len(model.edges) + 1, np.int64)
     turn = np.zeros(len(model.edges))
@@ -96,7 +107,7 @@ def sample_edges(model: CadModel, sizing: Sizing) -> EdgeSamples:
         if collapses(model, edge):
             continue
         share, place, wish, tangent, metric, turn[number] = _sampled(
-            model, edge, uses[number], sizing
+            model, number, uses[number], sizing
         )
         shares.append(share)
         points.append(place)
@@ -120,8 +131,8 @@ def sample_edges(model: CadModel, sizing: Sizing) -> EdgeSamples:
         vertex_numbers(model),
         edges_of_face,
     )
-    ratio = sizing.anisotropy if sizing.is_anisotropic else 1.0
-    _heed_gaps(model, samples, sizing.min_size or 0.0, ratio)
+    _heed_vertices(model, samples, sizing)
+    _heed_gaps(model, samples, sizing)
     return samples
 
 
@@ -142,58 +153,137 @@ def vertex_numbers(model: CadModel) -> np.ndarray:
 
 
 def _sampled(
-    model: CadModel, edge: CadEdge, uses: list[tuple[CadFace, CadCoedge]], sizing: Sizing
+    model: CadModel, number: int, uses: list[tuple[int, CadCoedge]], sizing: ModelSizing
 ) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray, np.ndarray, float]:
-    """share (n,), points (n, 3), wish (n,), tangent (n, 3), metric (n,), turn."""
-    coarsest = min(sizing.max_size or np.inf, max(edge.length, NARROWEST * model.diagonal))
-    if isinstance(sizing.size, float):
-        coarsest = min(coarsest, sizing.size)
-    follows_curvature = sizing.chord is not None or sizing.angle is not None
+    """share (n,), points (n, 3), wish (n,), tangent (n, 3), metric (n,), turn.
+
+    Faces that differ in their wishes are heard one after the other, then the edge itself.
+    """
+    edge = model.edges[number]
     straight = getattr(edge.curve, "kind", "") == "line"
-    share = _STRAIGHT if straight else _CURVED
-    wish = np.full(len(share), coarsest)
+    by_wishes: dict[int, tuple[Sizing, list]] = {}
+    for face, coedge in uses:
+        own = sizing.of_face(face)
+        by_wishes.setdefault(id(own), (own, []))[1].append((face, coedge))
+    if not by_wishes:  # an edge of no face
+        by_wishes[0] = (sizing.base, [])
+    if number in sizing.edges:
+        by_wishes[-1] = (sizing.edges[number], uses)
+    share = _seen(edge, _STRAIGHT if straight else _CURVED, [own for own, _ in by_wishes.values()])
     turn = 0.0
     if straight:
         (points,) = edge.curve.evaluate(edge.parameters(share), 0)
+        derivatives = None
         way = points[-1] - points[0]
         tangent = np.tile(way / max(np.linalg.norm(way), np.finfo(float).tiny), (len(share), 1))
     else:
-        points, first, second = edge.curve.evaluate(edge.parameters(share), 2)
-        speed = np.linalg.norm(first, axis=1)
-        tangent = first / np.maximum(speed, np.finfo(float).tiny)[:, None]
+        points, *derivatives = edge.curve.evaluate(edge.parameters(share), 2)
+        speed = np.linalg.norm(derivatives[0], axis=1)
+        tangent = derivatives[0] / np.maximum(speed, np.finfo(float).tiny)[:, None]
         cosine = np.einsum("ij,ij->i", tangent[1:], tangent[:-1])
         turn = float(np.arccos(np.clip(cosine, -1.0, 1.0)).sum())
-        if follows_curvature:
-            np.minimum(wish, _own_wish(points, first, second, speed, sizing), out=wish)
-    metric = np.empty(0)
-    if sizing.is_anisotropic:
-        metric = _metric_wish(model, uses, share, tangent, sizing)
-        np.minimum(wish, metric, out=wish)
-    else:
-        tangent = np.empty((0, 3))
-    for face, coedge in uses if follows_curvature and not sizing.is_anisotropic else ():
-        surface = face.surface
-        if surface.kind != "plane":
-            some = share[:1] if surface.kind in EVEN else share
-            np.minimum(wish, _face_wish(surface, coedge.uv(some), sizing), out=wish)
-    if callable(sizing.size):
-        np.minimum(wish, np.asarray(sizing.size(points), float), out=wish)
-    finest = sizing.min_size or FINEST_SIZE * model.diagonal
+    wish = np.full(len(share), max(edge.length, NARROWEST * model.diagonal))
+    metric, directed = np.full(len(share), np.inf), sizing.is_anisotropic
+    for own, coedges in by_wishes.values():
+        found = _wish(model, own, share, points, derivatives, coedges)
+        if own.is_anisotropic:
+            along = _metric_wish(model, own, share, tangent, coedges)
+            np.minimum(found, along, out=found)
+        if directed:
+            unnamed = own.replaced(size=sizing.base.size, max_size=sizing.base.max_size)
+            free = _metric_wish(model, unnamed, share, tangent, coedges)
+            np.minimum(metric, free, out=metric)
+        np.minimum(wish, np.maximum(found, _finest(model, own)), out=wish)
+    if not directed:
+        tangent, metric = np.empty((0, 3)), np.empty(0)
+    finest = min(_finest(model, own) for own, _ in by_wishes.values())
     return share, points, np.maximum(wish, finest, out=wish), tangent, metric, turn
 
 
+def _finest(model: CadModel, sizing: Sizing) -> float:
+    return sizing.min_size or FINEST_SIZE * model.diagonal
+
+
+def _wish(
+    model: CadModel, sizing: Sizing, share: np.ndarray, points: np.ndarray,
+    derivatives: list[np.ndarray] | None, uses: list[tuple[int, CadCoedge]],
+) -> np.ndarray:  # fmt: skip
+    """What one set of wishes asks for (n,) at samples of an edge, whatever its direction."""
+    coarsest = sizing.max_size or np.inf
+    if isinstance(sizing.size, float):
+        coarsest = min(coarsest, sizing.size)
+    wish = np.full(len(share), coarsest)
+    follows_curvature = sizing.chord is not None or sizing.angle is not None
+    if derivatives is not None and follows_curvature:
+        first, second = derivatives
+        speed = np.linalg.norm(first, axis=1)
+        np.minimum(wish, _own_wish(points, first, second, speed, sizing), out=wish)
+    for face, coedge in uses if follows_curvature and not sizing.is_anisotropic else ():
+        surface = model.faces[face].surface
+        if surface.kind != "plane":
+            some = share[:1] if surface.kind in EVEN else share
+            np.minimum(wish, _face_wish(surface, coedge.uv(some), sizing), out=wish)
+    if sizing.has_law:
+        np.minimum(wish, sizing.law_sizes(points), out=wish)
+    return wish
+
+
 def _metric_wish(
-    model: CadModel, uses: list[tuple[CadFace, CadCoedge]], share: np.ndarray,
-    tangent: np.ndarray, sizing: Sizing,
+    model: CadModel, sizing: Sizing, share: np.ndarray, tangent: np.ndarray,
+    uses: list[tuple[int, CadCoedge]],
 ) -> np.ndarray:  # fmt: skip
     """What the faces' curvature allows in the direction of the edge (n,)."""
     bounds = SizeBounds.of(sizing, model.diagonal)
     wish = np.full(len(share), bounds.longest)
-    for face, coedge in uses:
-        if face.surface.kind != "plane":
-            found = size_along(face.surface, coedge.uv(share), tangent, bounds)
+    for face, coedge in uses if bounds.sizing.is_anisotropic else ():
+        surface = model.faces[face].surface
+        if surface.kind != "plane":
+            found = size_along(surface, coedge.uv(share), tangent, bounds)
             np.minimum(wish, found, out=wish)
     return wish
+
+
+def _seen(edge: CadEdge, share: np.ndarray, wishes: list[Sizing]) -> np.ndarray:
+    """More shares where laws may ask for much smaller sizes between two samples.
+
+    A law of slope s that gives a and b at the ends of a piece of length l gives at least
+    (a + b - s l) / 2 in between.
+    """
+    for sizing in {id(own): own for own in wishes if own.has_law}.values():
+        slope = sizing.law_slope
+        coarsest = min(sizing.max_size or np.inf, edge.length)
+        if isinstance(sizing.size, float):
+            coarsest = min(coarsest, sizing.size)
+        finest = sizing.min_size or 0.0
+        for _ in range(MOST_HALVINGS):
+            (points,) = edge.curve.evaluate(edge.parameters(share), 0)
+            size = np.minimum(sizing.law_sizes(points), coarsest)
+            length = np.linalg.norm(np.diff(points, axis=0), axis=1)
+            least = np.maximum(0.5 * (size[1:] + size[:-1] - slope * length), finest)
+            smaller = np.minimum(size[1:], size[:-1])
+            hiding = (least < HIDDEN * smaller) & (length > 0.5 * np.maximum(least, 0.1 * smaller))
+            if not hiding.any() or len(share) > MOST_SAMPLES:
+                break
+            middle = 0.5 * (share[1:] + share[:-1])[hiding]
+            share = np.sort(np.concatenate([share, middle]))
+    return share
+
+
+def _heed_vertices(model: CadModel, samples: EdgeSamples, sizing: ModelSizing) -> None:
+    """Lower the wishes, in place, at the ends of edges to what their vertices ask for."""
+    if not sizing.vertices:
+        return
+    wanted = {}
+    for number, own in sizing.vertices.items():
+        size = own.size if isinstance(own.size, float) else own.max_size or np.inf
+        if own.has_law:
+            size = min(size, float(own.law_sizes(model.vertices[number].point[None])[0]))
+        wanted[number] = max(size, own.min_size or 0.0)
+    for number, edge in enumerate(model.edges):
+        start, end = samples.first[number], samples.first[number + 1]
+        if start < end:
+            for vertex, place in ((edge.start, start), (edge.end, end - 1)):
+                samples.wish[place] = min(samples.wish[place], wanted.get(vertex, np.inf))
 
 
 def _own_wish(
@@ -245,24 +335,41 @@ def _face_wish(surface, uv: np.ndarray, sizing: Sizing) -> np.ndarray:
     return wish
 
 
-def _heed_gaps(model: CadModel, samples: EdgeSamples, least: float, ratio: float) -> None:
-    """Lower the wishes, in place, to the distance of edges of the same face that do not meet.
+def _heed_gaps(model: CadModel, samples: EdgeSamples, sizing: ModelSizing) -> None:
+    """Lower the wishes, in place, for the distance of edges of the same face that do not meet.
 
-    Where triangles may be ``ratio`` times longer than wide, to so many times the distance.
+    To that distance, or as small as ``gap`` says. Where triangles may be longer than wide and no
+    number of them is asked for, to so many times the distance.
     """
-    first = np.zeros(len(model.faces) + 1, np.int64)
-    np.cumsum([len(edges) for edges in samples.edges_of_face], out=first[1:])
-    if not len(samples.points) or not first[-1]:
+    if not len(samples.points):
         return
     ends = samples.vertex[np.array([[edge.start, edge.end] for edge in model.edges])]
-    gap = np.full(len(samples.points), np.inf)
-    edge_gaps(
-        samples.points, samples.wish, samples.first, ends, np.concatenate(samples.edges_of_face),
-        first, np.empty((len(gap), 6)), np.empty((len(model.edges), 6)), gap,
-    )  # fmt: skip
-    heeded = gap >= np.maximum(SLIVER * model.diagonal, MUCH_SMALLER * samples.wish)
+    by_wishes: dict[tuple[float | None, float], list[int]] = {}
+    for face in range(len(model.faces)):
+        own = sizing.of_face(face)
+        by_wishes.setdefault((own.gap, own.min_size or 0.0), []).append(face)
+    slope = sizing.base.gradient
+    ratio = sizing.base.anisotropy if sizing.is_anisotropic else 1.0
+    room = np.empty((len(samples.points), 6)), np.empty((len(model.edges), 6))
     narrowest = NARROWEST * model.diagonal
-    sliver = np.minimum(LONGER * gap[heeded], narrowest)
-    sliver[sliver < HOPELESS * narrowest] = narrowest
-    wish = np.maximum(ratio * gap[heeded], np.maximum(sliver, least))
-    samples.wish[heeded] = np.minimum(samples.wish[heeded], wish)
+    asked = samples.wish.copy()
+    for (count, least), faces in by_wishes.items():
+        edges = [samples.edges_of_face[face] for face in faces]
+        first = np.zeros(len(faces) + 1, np.int64)
+        np.cumsum([len(own) for own in edges], out=first[1:])
+        if not first[-1]:
+            continue
+        gap = np.full(len(samples.points), np.inf)
+        share = 1.0 if count is None else size_across(1.0, count, slope)
+        edge_gaps(
+            samples.points, asked / share, samples.first, ends, np.concatenate(edges),
+            first, *room, gap,
+        )  # fmt: skip
+        heeded = (gap >= np.maximum(SLIVER * model.diagonal, MUCH_SMALLER * asked)) & (
+            np.isfinite(gap)
+        )
+        sliver = np.minimum(LONGER * gap[heeded], narrowest)
+        sliver[sliver < HOPELESS * narrowest] = narrowest
+        along = ratio if count is None else share
+        wish = np.maximum(along * gap[heeded], np.maximum(sliver, least))
+        samples.wish[heeded] = np.minimum(samples.wish[heeded], wish)

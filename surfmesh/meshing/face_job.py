@@ -173,6 +173,11 @@ def _astray(
     return np.linalg.norm(points - images, axis=1) > ASTRAY * chord
 
 
+def face_field(job: FaceJob) -> tuple[Surface, SizeField]:
+    """The surface over the box of the loops, and its size field. Raises ``SizingError``."""
+    return _field(job)
+
+
 def _field(job: FaceJob) -> tuple[Surface, SizeField]:
     """The surface over the box of the loops, and sizes graded inward from them."""
     pieces = [piece for loop in job.loops for piece in loop]
@@ -182,21 +187,24 @@ def _field(job: FaceJob) -> tuple[Surface, SizeField]:
     real = [piece for piece in pieces if not piece.degenerate]
     if real and has_boundary_field(surface, job.sizing):
         return surface, _grown_inward(surface, job, real)
-    limits = job.limits
+    found = limits = job.limits
+    if found is not None:
+        found = found.not_below(job.sizing.min_size or 0.0)
     if real:
         limits = SizeLimits(
             np.concatenate([piece.points for piece in real]),
             np.concatenate([piece.sizes for piece in real]),
             job.sizing.gradient,
             np.concatenate([piece.uv for piece in real]),
+            settled=True,
         )
-        if job.sizing.is_anisotropic:  # an edge knows nothing of the sizes across it
+        # an edge knows nothing of the sizes across it, but for those that gaps ask for
+        if job.sizing.is_anisotropic and job.sizing.gap is None:
             along = np.concatenate([_directions(piece.points) for piece in real])
             limits = replace(limits, in_space=along_lines(along, limits.sizes))
-        if job.limits is not None:
-            near = _nearest(limits.points, job.limits.points)
-            uv_of_limits = limits.uv[near]
-            limits = limits.joined_with(replace(job.limits, uv=uv_of_limits))
+        if found is not None:
+            near = _nearest(limits.points, found.points)
+            limits = limits.joined_with(replace(found, uv=limits.uv[near]))
     numbers = np.concatenate([piece.numbers for piece in pieces])
     repeated = len(numbers) > len(np.unique(numbers)) + len(pieces)
     sides = None
@@ -227,8 +235,9 @@ def _grown_inward(surface: Surface, job: FaceJob, real: list[Piece]) -> SizeFiel
         near = uv[_nearest(points, job.limits.points)]
         place = closest_point(surface, job.limits.points, near, PROJECTIONS)[0]
         uv = np.concatenate([uv, place])
-        sizes = np.concatenate([sizes, job.limits.sizes])
-    return boundary_field(surface, job.sizing, uv, sizes)
+        found = np.maximum(job.limits.sizes, job.sizing.min_size or 0.0)
+        sizes = np.concatenate([sizes, found])
+    return boundary_field(surface, job.sizing, uv, sizes, settled=True)
 
 
 def _directions(points: np.ndarray) -> np.ndarray:

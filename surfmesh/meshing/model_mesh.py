@@ -9,6 +9,8 @@ edges cut once -> one job a face -> faces meshed -> joined by node numbers
 from collections.abc import Callable, Iterator
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import replace
+from functools import partial
+from typing import Any
 
 import numpy as np
 
@@ -17,13 +19,18 @@ from surfmesh.cad.model import CadFace, CadModel
 from surfmesh.errors import MeshingError
 from surfmesh.meshing.edge_nodes import EdgeNodes, cut_edges
 from surfmesh.meshing.edge_samples import EdgeSamples, sample_edges
+from surfmesh.meshing.estimation import Estimate
+from surfmesh.meshing.explanation import Explanation, explain_model
 from surfmesh.meshing.face_data import FaceJob, FaceMesh, Piece
+from surfmesh.meshing.face_gaps import with_face_gaps
 from surfmesh.meshing.face_job import mesh_face
+from surfmesh.meshing.face_sizings import face_sizings
+from surfmesh.meshing.model_estimate import model_estimate, require_model_within
 from surfmesh.meshing.model_groups import groups_of
 from surfmesh.meshing.simplification import LEAST, simplified
 from surfmesh.meshing.solid_contents import Contents
 from surfmesh.meshing.stages import Progress, Stopwatch
-from surfmesh.sizing.size_bounds import DEFAULT_CHORD, DEFAULT_MAX_SIZE, LONGEST
+from surfmesh.sizing.model_sizing import model_sizing
 from surfmesh.sizing.size_limits import SizeLimits
 from surfmesh.sizing.sizing import Sizing
 from surfmesh.surface_mesh import NOT_MESHED, SurfaceMesh
@@ -35,23 +42,13 @@ FINER = 0.6
 """Factor on the sizes where faces share an edge of triangles that they should not."""
 
 
-def with_defaults(sizing: Sizing, model: CadModel) -> Sizing:
-    """The wishes for a model: by default a chord error of a thousandth of its diagonal."""
-    if sizing.chord is None and sizing.angle is None and sizing.size is None:
-        sizing = sizing.replaced(chord=DEFAULT_CHORD * model.diagonal)
-    if sizing.max_size is None and sizing.size is None:
-        share = LONGEST if sizing.is_anisotropic else DEFAULT_MAX_SIZE
-        largest = max(share * model.diagonal, sizing.min_size or 0.0)
-        sizing = sizing.replaced(max_size=largest)
-    return sizing
-
-
 def mesh_model(
-    model: CadModel, sizing: Sizing, optimise: bool = True, progress: Progress | None = None,
+    model: CadModel, sizing: Any, optimise: bool = True, progress: Progress | None = None,
     strict: bool = True, simplify: bool = False, workers: int = 1,
 ) -> SurfaceMesh:  # fmt: skip
     """Mesh all faces of a model; neighbours share the nodes of their common edges.
 
+    sizing: what ``model_sizing`` takes, sizes by name among it.
     simplify=True collapses what is shorter than ``min_size``, or else than a two-thousandth of
     the diagonal, at the end. workers: threads that mesh faces; the mesh is the same with any
     number of them.
@@ -59,11 +56,13 @@ def mesh_model(
     Raises ``MeshingError`` that names the faces that could not be meshed, with the reasons.
     """
     watch = Stopwatch(progress)
-    sizing = with_defaults(sizing, model)
+    wanted = with_face_gaps(model, model_sizing(model, sizing))
+    sizing = wanted.base
     with watch.stage("sizing"):
-        samples = sample_edges(model, sizing)
+        samples = sample_edges(model, wanted)
+        of_face = face_sizings(model, samples, wanted)
     # few triangles are asked for within the chord: it alone is kept
-    kept = None if sizing.is_anisotropic else sizing.chord
+    kept = None if wanted.is_anisotropic else sizing.chord
     contents = Contents(model, kept, sizing.gradient)
     limits: dict[int, SizeLimits] = {}
     jobs: list[FaceJob | None] = [None] * len(model.faces)
@@ -73,6 +72,9 @@ def mesh_model(
         before = nodes
         with watch.stage("sizing"):
             nodes = cut_edges(model, sizing, samples, limits, before)
+            if not before:
+                first = partial(_jobs, model, nodes, samples, of_face, optimise)
+                require_model_within(model, first, nodes, of_face, sizing)
         with watch.stage("packing"):
             changed = []
             for number, face in enumerate(model.faces):
@@ -82,7 +84,8 @@ def mesh_model(
                     or job.limits is not limit
                     or any(nodes[c.edge] is not before[c.edge] for c in face.coedges)
                 ):
-                    jobs[number] = _job(model, face, nodes, samples, sizing, limit, optimise)
+                    own = of_face[number]
+                    jobs[number] = _job(model, face, nodes, samples, own, limit, optimise)
                     changed.append(number)
             meshes = _in_order(mesh_face, [jobs[number] for number in changed], workers)
             for count, (number, face_mesh) in enumerate(zip(changed, meshes), 1):
@@ -115,6 +118,36 @@ def mesh_model(
         )
     mesh = mesh.with_warnings(*_left_over(model, wishes), *contents.warnings())
     return simplified(mesh, sizing.min_size or LEAST * model.diagonal) if simplify else mesh
+
+
+def estimate_model(model: CadModel, sizing: Any) -> Estimate:
+    """Triangles and memory of ``mesh_model``. Raises ``SizingError`` for wishes that cannot be."""
+    wanted = with_face_gaps(model, model_sizing(model, sizing))
+    samples = sample_edges(model, wanted)
+    of_face = face_sizings(model, samples, wanted)
+    nodes = cut_edges(model, wanted.base, samples, {})
+    return model_estimate(model, _jobs(model, nodes, samples, of_face, True), wanted.base)
+
+
+def explain_size(model: CadModel, sizing: Any, point: np.ndarray) -> Explanation:
+    """Which of the wishes decides at a point (3,), or at the nearest one of the model."""
+    wanted = with_face_gaps(model, model_sizing(model, sizing))
+    samples = sample_edges(model, wanted)
+    of_face = face_sizings(model, samples, wanted)
+    nodes = cut_edges(model, wanted.base, samples, {})
+    jobs = _jobs(model, nodes, samples, of_face, True)
+    return explain_model(model, wanted, samples, of_face, jobs, point)
+
+
+def _jobs(
+    model: CadModel, nodes: list[EdgeNodes | None], samples: EdgeSamples, sizings: list[Sizing],
+    optimise: bool,
+) -> list[FaceJob]:  # fmt: skip
+    """The jobs of all faces before anything is known of their meshes."""
+    return [
+        _job(model, face, nodes, samples, own, None, optimise)
+        for face, own in zip(model.faces, sizings)
+    ]
 
 
 def _in_order(work: Callable, jobs: list, workers: int) -> Iterator:
@@ -187,6 +220,15 @@ def orientation(model: CadModel) -> tuple[np.ndarray, np.ndarray]:
     return turned ^ against, solids
 
 
+def _inverse_sizes(found: FaceMesh) -> np.ndarray:
+    """Of the ``uv_points`` of a face (n, 6), also of one whose sizes are the same all ways."""
+    if found.inverse_sizes is not None:
+        return found.inverse_sizes
+    size = np.ones(len(found.uv_points))
+    size[found.uv_triangles] = found.sizes[found.triangles]
+    return np.array([1.0, 0.0, 0.0, 1.0, 0.0, 1.0]) / size[:, None]
+
+
 def _joined(
     model: CadModel, jobs: list[FaceJob], done: list[FaceMesh], nodes: list[EdgeNodes | None],
     samples: EdgeSamples, sizing: Sizing, watch: Stopwatch,
@@ -221,8 +263,8 @@ def _joined(
         uv.append(found.uv_points)
         uv_triangles.append(uv_total + found.uv_triangles[:, order].astype(np.int64))
         uv_total += len(found.uv_points)
-        if found.inverse_sizes is not None:
-            stretched.append(found.inverse_sizes)
+        if any(other.inverse_sizes is not None for other in done):
+            stretched.append(_inverse_sizes(found))
         face_ids.append(np.full(len(found.triangles), number, np.int32))
     if not triangles:
         reasons = [_reason(model, k, found) for k, found in enumerate(done) if found.failure]

@@ -14,6 +14,8 @@ from surfmesh.geometry.surface import Surface
 from surfmesh.kernels.background import scalar_sizes_at
 from surfmesh.meshing.boundary_loops import BoundaryLoops, boundary_loops
 from surfmesh.meshing.boundary_recovery import DomainMesh, recovered
+from surfmesh.meshing.estimation import Estimate, field_triangles, require_field_within
+from surfmesh.meshing.explanation import Explanation, explain_surface
 from surfmesh.meshing.gluing import Glued, glued, misglued
 from surfmesh.meshing.optimise import Optimiser
 from surfmesh.meshing.packing import packed_over
@@ -48,6 +50,7 @@ def mesh_parametric(
     for _ in range(ROUNDS):
         with watch.stage("sizing"):
             field = size_field(surface, sizing, sides, limits)
+            require_field_within(sizing.limit, field, surface.loops or None, surface.name)
         mesh, wishes, bad = _one_round(surface, sides, field, optimise, watch)
         if wishes is None or not _can_shrink(field, wishes):
             break
@@ -63,6 +66,18 @@ def mesh_parametric(
             f"near ({place}) has more than two triangles; lower size, max_size or min_size"
         )
     return mesh
+
+
+def estimate_parametric(surface: Surface, sizing: Sizing) -> Estimate:
+    """Triangles and memory of ``mesh_parametric``. Raises as it does."""
+    field = size_field(surface, sizing, find_sides(surface))
+    return Estimate.of([field_triangles(field, surface.loops or None)])
+
+
+def explain_parametric(surface: Surface, sizing: Sizing, point: np.ndarray) -> Explanation:
+    """Which wish decides at the point of the surface that is nearest to ``point`` (3,)."""
+    field = size_field(surface, sizing, find_sides(surface))
+    return explain_surface(surface, sizing, field, point)
 
 
 def _one_round(

@@ -11,6 +11,7 @@ from surfmesh.geometry.planar_domain import PlanarDomain
 from surfmesh.kernels.background import scalar_sizes_at
 from surfmesh.kernels.insertion import label_patches
 from surfmesh.meshing.boundary_recovery import DomainMesh, recovered_regions
+from surfmesh.meshing.estimation import Estimate, field_triangles, require_field_within
 from surfmesh.meshing.optimise import Optimiser
 from surfmesh.meshing.packing import packed_over
 from surfmesh.meshing.planar_segments import (
@@ -20,6 +21,7 @@ from surfmesh.meshing.planar_segments import (
     short_segments,
 )
 from surfmesh.meshing.stages import Progress, Stopwatch
+from surfmesh.sizing.across_gaps import size_across
 from surfmesh.sizing.size_field import SizeField, size_field
 from surfmesh.sizing.sizing import Sizing
 from surfmesh.surface_mesh import SurfaceMesh
@@ -38,6 +40,8 @@ def mesh_planar(
     watch = Stopwatch(progress)
     with watch.stage("sizing"):
         field, cut = _field_and_segments(domain, sizing)
+        loops = [*domain.outer, *domain.holes]
+        require_field_within(sizing.limit, field, loops, domain.name)
     with watch.stage("packing"):
         packing = packed_over(field)
     with watch.stage("boundary"):
@@ -55,12 +59,19 @@ def mesh_planar(
         return _in_space(domain, field, cut, inside, scale, watch)
 
 
+def estimate_planar(domain: PlanarDomain, sizing: Sizing) -> Estimate:
+    """Triangles and memory of ``mesh_planar``. Raises as it does."""
+    field, _ = _field_and_segments(domain, sizing)
+    return Estimate.of([field_triangles(field, [*domain.outer, *domain.holes])])
+
+
 def _field_and_segments(domain: PlanarDomain, sizing: Sizing) -> tuple[SizeField, PlanarSegments]:
     limits = short_segments(domain.graph, sizing.gradient)
+    share = 1.0 if sizing.gap is None else size_across(1.0, sizing.gap, sizing.gradient)
     for _ in range(GAP_ROUNDS):
         field = size_field(domain, sizing, None, limits)
         cut = cut_segments(domain.graph, field)
-        gaps = narrow_gaps(domain, cut, field, sizing.gradient)
+        gaps = narrow_gaps(domain, cut, field, sizing.gradient, share)
         if gaps is None:
             break
         limits = gaps.joined_with(limits)

@@ -154,9 +154,9 @@ def short_segments(graph: SegmentGraph, slope: float) -> SizeLimits | None:
 
 
 def narrow_gaps(
-    domain: PlanarDomain, cut: PlanarSegments, field: SizeField, slope: float
+    domain: PlanarDomain, cut: PlanarSegments, field: SizeField, slope: float, share: float = 1.0
 ) -> SizeLimits | None:
-    """Sizes no larger than the distance to lines that a node's own line does not meet.
+    """Sizes no larger than this share of the distance to lines that a node's own does not meet.
 
     Lines that share a point with it are left out: their corner is as sharp as it is.
     """
@@ -168,13 +168,13 @@ def narrow_gaps(
     lines = shapely.linestrings(graph.points[graph.segments])
     tree = shapely.STRtree(lines)
     places = shapely.points(cut.uv)
-    node, near = tree.query(places, predicate="dwithin", distance=SHORT * wanted)
+    node, near = tree.query(places, predicate="dwithin", distance=SHORT * wanted / share)
     # a node may end several segments: it meets whatever shares a point with one of them
     meets = _meeting(graph, cut, node, near)
     node, near = node[~meets], near[~meets]
     if not len(node):
         return None
-    gap = shapely.distance(places[node], lines[near])
+    gap = share * shapely.distance(places[node], lines[near])
     narrowest = np.full(len(cut.uv), np.inf)
     np.minimum.at(narrowest, node, gap)
     found = np.flatnonzero(narrowest < SHORT * wanted)

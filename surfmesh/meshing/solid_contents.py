@@ -61,7 +61,8 @@ class Contents:
             if error <= self.tolerance or error > IMPROVED * before:
                 continue
             factor = max(SMALLEST_STEP, math.sqrt(AIM * self.tolerance / error))
-            for face in _largest(misfit, [face for shell in solid.shells for face, _ in shell]):
+            faces = [face for shell in solid.shells for face, _ in shell]
+            for face in largest_misfits(misfit, faces):
                 vertices = np.unique(mesh.triangles[mesh.face_ids == face])
                 limit = SizeLimits(
                     mesh.points[vertices], factor * mesh.sizes[vertices], self.slope
@@ -102,7 +103,7 @@ def _error(model: CadModel, solid: CadSolid, area: np.ndarray, volume: np.ndarra
     return max(abs(enclosed / solid.volume - 1.0), abs(area[faces].sum() / exact - 1.0))
 
 
-def _largest(misfit: np.ndarray, faces: list[int]) -> list[int]:
+def largest_misfits(misfit: np.ndarray, faces: list[int]) -> list[int]:
     """The faces with most of the misfit."""
     order = sorted(set(faces), key=lambda face: -misfit[face])
     share = np.cumsum(misfit[order])

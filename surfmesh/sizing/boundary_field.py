@@ -36,14 +36,14 @@ _ISOTROPIC = np.array([1.0, 0.0, 1.0])
 
 
 def has_boundary_field(surface: Surface, sizing: Sizing) -> bool:
-    """Can ``boundary_field`` be used: is the metric constant, and no size law given?
+    """Can ``boundary_field`` be used: is the metric constant, and no law or source given?
 
     The metric of a cylinder is constant too where sizes depend on the direction, but they do
     not grow from its edges as they are.
     """
     if sizing.is_anisotropic and isinstance(surface, Cylinder):
         return False
-    return isinstance(surface, (Plane, PlanarDomain, Cylinder)) and not callable(sizing.size)
+    return isinstance(surface, (Plane, PlanarDomain, Cylinder)) and not sizing.has_law
 
 
 def boundary_field(
@@ -52,13 +52,15 @@ def boundary_field(
     uv: np.ndarray,
     sizes: np.ndarray,
     largest: float | None = None,
+    settled: bool = False,
 ) -> SizeField:
     """Sizes that grow by ``sizing.gradient`` from ``sizes`` (n,) at ``uv`` (n, 2).
 
     ``largest``, model units, bounds them from above; left out, and on a cylinder in any case,
     the wishes do so as for any surface, with the diagonal of its box for their defaults.
-    None is smaller than ``min_size``. Raises ``SizingError`` for a surface whose metric changes,
-    for a size law, and for sizes that are not positive numbers.
+    None is smaller than ``min_size``, unless ``sizes`` are ``settled`` as they are.
+    Raises ``SizingError`` for a surface whose metric changes, for a size law, and for sizes that
+    are not positive numbers.
     """
     if not has_boundary_field(surface, sizing):
         raise SizingError(
@@ -74,7 +76,8 @@ def boundary_field(
             f"sizes on {surface.name!r} must be positive numbers, one for each of {len(uv)} "
             f"finite points; they have shape {sizes.shape}"
         )
-    sizes = np.maximum(sizes, sizing.min_size or 0.0)
+    if not settled:
+        sizes = np.maximum(sizes, sizing.min_size or 0.0)
     if isinstance(surface, Cylinder) or largest is None:
         stated = sizing.max_size and (sizing.chord or sizing.angle or sizing.size)
         # the finest size alone is left to the diagonal: that of the rectangle will do

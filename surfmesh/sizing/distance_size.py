@@ -54,7 +54,7 @@ class DistanceSize:
         if hasattr(self.geometry, "geom_type"):
             raise SizingError("a shapely geometry must be made a PlanarDomain, or arrays, first")
         if not hasattr(self.geometry, "distance"):
-            object.__setattr__(self, "geometry", _polylines(self.geometry))
+            object.__setattr__(self, "geometry", polylines(self.geometry))
 
     def __call__(self, points: np.ndarray) -> np.ndarray:
         """Wanted edge lengths (n,) at points (n, 3), or (n, 2) in the plane z = 0."""
@@ -89,7 +89,8 @@ def default_wishes(surface: Any) -> dict[str, Any]:
     return wishes
 
 
-def _polylines(given: Any) -> tuple[np.ndarray, ...]:
+def polylines(given: Any) -> tuple[np.ndarray, ...]:
+    """One array (k, 2) or (k, 3) or several, as arrays (k, 3). Raises ``SizingError``."""
     if isinstance(given, (str, bytes)) or not isinstance(given, Iterable):
         raise SizingError(
             f"distances are to a PlanarDomain or to arrays (k, 2) or (k, 3), not {given!r:.60}"

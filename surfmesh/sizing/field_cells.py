@@ -5,7 +5,6 @@ from dataclasses import dataclass
 import numpy as np
 
 from surfmesh.geometry.scaling import Scaling
-from surfmesh.sizing.size_limits import SizeLimits
 
 GRID_DEPTH = 20
 """Most splits around small sources; also the depth of the finest grid that nodes lie on."""
@@ -93,10 +92,8 @@ class SourceCells:
     """
 
     def __init__(
-        self, limits: SizeLimits | None, scaling: Scaling, root_step: np.ndarray, nx: int
+        self, uv: np.ndarray, sizes: np.ndarray, scaling: Scaling, root_step: np.ndarray, nx: int
     ) -> None:
-        uv = np.empty((0, 2)) if limits is None or limits.uv is None else limits.uv
-        sizes = limits.sizes if len(uv) else np.empty(0)
         last = np.round(scaling.extent / root_step * (1 << GRID_DEPTH)).astype(np.int64) - 1
         grid = scaling.to_plane(uv) / root_step * (1 << GRID_DEPTH)
         self.grid = np.clip(grid, 0, last).astype(np.int64)

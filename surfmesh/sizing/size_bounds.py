@@ -71,6 +71,12 @@ class SizeBounds:
             size = np.minimum(size, np.maximum(unfolded, LEAST_OF_CHORD * self.sizing.chord))
         return np.clip(size, *self.clamp)
 
+    def shorter(self, k1: np.ndarray, k2: np.ndarray) -> np.ndarray:
+        """Clamped size (n,) in the direction that allows least."""
+        if self.sizing.is_anisotropic:
+            return self.principal(k1, k2).min(axis=1)
+        return self.from_curvature(k1, k2)
+
     def principal(self, k1: np.ndarray, k2: np.ndarray) -> np.ndarray:
         """Clamped sizes (n, 2) along the directions of k1 and k2, before ``size`` and gradation."""
         k = np.stack([k1, k2], axis=1)

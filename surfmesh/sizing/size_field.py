@@ -27,6 +27,7 @@ from surfmesh.sizing.field_cells import GRID_DEPTH, Cells, SourceCells, coarse_b
 from surfmesh.sizing.size_law import FieldNodes, SizeLaw, TensorLaw
 from surfmesh.sizing.size_limits import SizeLimits
 from surfmesh.sizing.sizing import Sizing
+from surfmesh.sizing.small_sizes import small_sizes
 
 ROOT_CELLS = 2304
 """About how many cells the search starts with: a smooth surface needs no more."""
@@ -165,7 +166,8 @@ class _Builder:
         patch = self._patches(cells)
         fresh = np.ones(len(cells), bool)
         total = len(cells)
-        sources = SourceCells(self.law.limits, self.scaling, self.root_step, self.nx)
+        seeds = small_sizes(self.surface, self.law.sizing, self.law.limits)
+        sources = SourceCells(*seeds, self.scaling, self.root_step, self.nx)
         tree: list[np.ndarray] = []  # the cells that were split, in the order of their children
         for round_number in range(MAX_ROUNDS + GRID_DEPTH):
             seen = self.sweep

@@ -5,7 +5,6 @@ from typing import NamedTuple
 
 import numpy as np
 
-from surfmesh.errors import SizingError
 from surfmesh.geometry.fundamental_forms import (
     FundamentalForms,
     curvatures,
@@ -138,8 +137,8 @@ class SizeLaw:
             size = self.bounds.from_curvature(k.k1, k.k2)
             # nothing is known at a pole or a cusp: gradation brings the neighbours' size
             size[forms.degenerate] = self.clamp[1]
-        if callable(self.sizing.size):
-            size = np.clip(np.minimum(size, self._wished(point)), *self.clamp)
+        if self.sizing.has_law:
+            size = np.clip(np.minimum(size, self.sizing.law_sizes(point)), *self.clamp)
         wish = size
         if self.limits is not None:
             size = np.minimum(size, self._limited(point))
@@ -160,8 +159,8 @@ class SizeLaw:
         along[forms.degenerate] = [1.0, 0.0, 0.0]
         sizes[forms.degenerate] = self.clamp[1]
         along /= np.linalg.norm(along, axis=1)[:, None]
-        if callable(self.sizing.size):  # holds in every direction
-            wished = np.clip(self._wished(point), *self.clamp)
+        if self.sizing.has_law:  # holds in every direction
+            wished = np.maximum(self.sizing.law_sizes(point), self.clamp[0])
             sizes = np.minimum(sizes, wished[:, None])
         size, long = sizes.min(axis=1), sizes.max(axis=1)
         wish, long_wish = size, long
@@ -174,21 +173,15 @@ class SizeLaw:
             size, wish, root, forms.normal, point, long, long_wish, along, jacobian
         )
 
-    def _wished(self, points: np.ndarray) -> np.ndarray:
-        """What the user's law gives at points (n, 3)."""
-        wish = np.asarray(self.sizing.size(points), float)
-        if wish.shape != (len(points),) or not (wish > 0.0).all():
-            raise SizingError(
-                f"size law must give positive numbers of shape ({len(points)},) for points "
-                f"({len(points)}, 3); it gave shape {wish.shape}"
-                + (f", smallest {wish.min():g}" if wish.size else "")
-            )
-        return wish
+    def _least(self) -> float:
+        """No limit goes below it; sizes that edges have been cut with hold as they are."""
+        if self.limits.settled:
+            return 0.0
+        return self.clamp[0] if self.limits.uv is None else self.sizing.min_size or 0.0
 
     def _limited(self, points: np.ndarray) -> np.ndarray:
         """What sources and earlier rounds allow at points (n, 3)."""
-        least = self.clamp[0] if self.limits.uv is None else self.sizing.min_size or 0.0
-        return np.maximum(self.limits(points), least)
+        return np.maximum(self.limits(points), self._least())
 
     def _limited_both(
         self, point: np.ndarray, normal: np.ndarray, along: np.ndarray, size: np.ndarray,
@@ -199,7 +192,7 @@ class SizeLaw:
         Where the shorter one is lowered the shape of the metric is kept. Where the metric is
         round, or nearly so, limits hold in every direction.
         """
-        least = self.clamp[0] if self.limits.uv is None else self.sizing.min_size or 0.0
+        least = self._least()
         across = np.maximum(self.limits.along(point, np.cross(normal, along)), least)
         onward = np.maximum(self.limits.along(point, along), least)
         both = self._limited(point)

@@ -1,6 +1,6 @@
 """Upper bounds of the size near points: where a round of meshing has found it too large."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -24,6 +24,8 @@ class SizeLimits:
     in_space: np.ndarray | None = None
     """(k, 6) W = xx, xy, xz, yy, yz, zz: in the unit direction e the size is at most 1 / |W e|,
     at least ``sizes``; None: ``sizes`` in every direction."""
+    settled: bool = False
+    """The sizes are those of edges, which neighbours with a smaller ``min_size`` may have cut."""
 
     def __call__(self, points: np.ndarray) -> np.ndarray:
         """Largest size (n,) at points (n, 3)."""
@@ -58,7 +60,16 @@ class SizeLimits:
             np.concatenate([self.uv, other.uv]) if both else None,
             self.essential or other.essential,
             self._tensors_with(other),
+            self.settled or other.settled,
         )
+
+    def not_below(self, least: float) -> "SizeLimits":
+        """The same with no size smaller than ``least``; ratios of tensors are kept."""
+        sizes = np.maximum(self.sizes, least)
+        tensors = self.in_space
+        if tensors is not None:
+            tensors = tensors * (self.sizes / sizes)[:, None]
+        return replace(self, sizes=sizes, in_space=tensors)
 
     def _tensors_with(self, other: "SizeLimits") -> np.ndarray | None:
         if self.in_space is None and other.in_space is None:

@@ -1,12 +1,13 @@
 """What the user asks for: one frozen set of options."""
 
-import math
 from collections.abc import Callable
 from dataclasses import dataclass, fields, replace
 
 import numpy as np
 
 from surfmesh.errors import SizingError
+from surfmesh.sizing.positive import positive
+from surfmesh.sizing.sources import checked_sizes, source_sizes
 
 SizeLaw = Callable[[np.ndarray], np.ndarray]
 
@@ -46,24 +47,43 @@ class Sizing:
     ``max_size`` hold in every direction; without ``max_size`` the longer one may reach the
     diagonal."""
 
-    sources: tuple = ()
-    """Local sizes."""
+    sources: tuple[SizeLaw, ...] = ()
+    """Local sizes: ``Near``, ``InBall``, ``InBox``, ``SizeCloud``, or callables of points
+    (n, 3) -> (n,), infinite where nothing is asked for. The smallest holds."""
+
+    gap: float | None = None
+    """At least so many triangles across thin faces, and between near edges of a face. There
+    sizes at the edges hold in every direction, whatever ``anisotropy`` is."""
+
+    gap_faces: bool = False
+    """Likewise between near faces of a solid; ``gap``, or else 1, says how many."""
+
+    limit: int = 20_000_000
+    """A mesh that would have more triangles is refused before it is made."""
 
     def __post_init__(self) -> None:
         for name in ("chord", "angle", "min_size", "max_size"):
             value = getattr(self, name)
             if value is not None:
-                object.__setattr__(self, name, _positive(name, value))
+                object.__setattr__(self, name, positive(name, value))
         if self.size is not None and not callable(self.size):
-            object.__setattr__(self, "size", _positive("size", self.size))
-        object.__setattr__(self, "growth", _positive("growth", self.growth))
-        object.__setattr__(self, "anisotropy", _positive("anisotropy", self.anisotropy))
+            object.__setattr__(self, "size", positive("size", self.size))
+        object.__setattr__(self, "growth", positive("growth", self.growth))
+        object.__setattr__(self, "anisotropy", positive("anisotropy", self.anisotropy))
         if self.growth <= 1.0:
             raise SizingError(f"growth must be above 1, not {self.growth:g}")
         if self.anisotropy < 1.0:
             raise SizingError(f"anisotropy must be at least 1, not {self.anisotropy:g}")
-        if self.sources:
-            raise SizingError("sources are not supported yet")
+        sources = (self.sources,) if callable(self.sources) else self.sources
+        if not isinstance(sources, (tuple, list)) or not all(map(callable, sources)):
+            raise SizingError(
+                "sources are Near, InBall, InBox, SizeCloud or callables of points (n, 3), "
+                f"not {self.sources!r:.60}"
+            )
+        object.__setattr__(self, "sources", tuple(sources))
+        if self.gap is not None:
+            object.__setattr__(self, "gap", positive("gap", self.gap))
+        object.__setattr__(self, "limit", int(positive("limit", self.limit)))
         if self.angle is not None and self.angle > 90.0:
             raise SizingError(f"angle must be at most 90 degrees, not {self.angle:g}")
         if self.min_size and self.max_size and self.min_size > self.max_size:
@@ -89,6 +109,27 @@ class Sizing:
         """
         return 2.0 * (self.growth - 1.0) / (self.growth + 1.0)
 
+    @property
+    def has_law(self) -> bool:
+        """Do sizes depend on the place by a law or by sources?"""
+        return callable(self.size) or bool(self.sources)
+
+    def law_sizes(self, points: np.ndarray) -> np.ndarray:
+        """What the law and the sources ask for (n,) at points (n, 3); infinite for nothing.
+
+        Raises ``SizingError`` when one of them gives anything else than positive numbers.
+        """
+        sizes = source_sizes(self.sources, points)
+        if callable(self.size):
+            np.minimum(sizes, checked_sizes(self.size, points, "size"), out=sizes)
+        return sizes
+
+    @property
+    def law_slope(self) -> float:
+        """How fast laws and sources change at most; of callables nobody knows: ``gradient``."""
+        slopes = [getattr(source, "slope", self.gradient) for source in self.sources]
+        return max([self.gradient, *slopes])
+
     def replaced(self, **changes: object) -> "Sizing":
         """A copy with some wishes changed."""
         return replace(self, **changes)
@@ -109,13 +150,3 @@ class Sizing:
         if isinstance(wish, (int, float)) or callable(wish):
             return cls(size=wish)
         raise SizingError(f"sizes are a number, a Sizing or a mapping, not {type(wish).__name__}")
-
-
-def _positive(name: str, value: object) -> float:
-    try:
-        number = float(value)
-    except (TypeError, ValueError):
-        raise SizingError(f"{name} must be a positive number, not {value!r}") from None
-    if not (number > 0.0 and math.isfinite(number)):
-        raise SizingError(f"{name} must be a positive number, not {value!r}")
-    return number

@@ -1,7 +1,8 @@
 """Every fenced block of code in README.md and docs/ does what it says.
 
 The blocks of a page are run in their order: python in one namespace, sh through the command line,
-toml as surface files; all in an empty folder with a bracket.step and an outline.svg.
+toml as files of surfaces or of sizes; all in an empty folder with a bracket.step and an
+outline.svg.
 """
 
 import logging
@@ -17,6 +18,7 @@ import pytest
 
 import surfmesh as sm
 from surfmesh.cli import main
+from surfmesh.sizing.sizes_file import read_sizes
 
 ROOT = Path(__file__).resolve().parents[2]
 PAGES = [ROOT / "README.md", *sorted((ROOT / "docs").glob("*.md"))]
@@ -57,6 +59,9 @@ def test_the_code_of_a_page_runs(page, folder):
                 words = shlex.split(command, comments=True)
                 assert words[0] == "surfmesh", command
                 assert main(words[1:]) == 0, command
+        elif language == "toml" and "[sizes." in code:
+            (folder / "sizes.toml").write_text(code, encoding="utf-8")
+            read_sizes(folder / "sizes.toml")
         elif language == "toml":
             (folder / "page.toml").write_text(code, encoding="utf-8")
             sm.load(folder / "page.toml")

@@ -10,7 +10,7 @@ import surfmesh as sm
 from surfmesh.kernels.edge_gaps import edge_gaps
 from surfmesh.meshing.edge_nodes import cut_edges
 from surfmesh.meshing.edge_samples import sample_edges
-from surfmesh.meshing.model_mesh import with_defaults
+from surfmesh.sizing.model_sizing import model_sizing
 from surfmesh.sizing.size_limits import SizeLimits
 
 
@@ -58,8 +58,8 @@ def plate():
     model = sm.from_cadquery(
         cq.Workplane().box(40, 20, 4).workplane().center(0, 6.3).slot2D(20, 7).cutThruAll()
     )
-    sizing = with_defaults(sm.Sizing(size=2.0), model)
-    return model, sizing, sample_edges(model, sizing)
+    sizing = model_sizing(model, sm.Sizing(size=2.0))
+    return model, sizing.base, sample_edges(model, sizing)
 
 
 def test_edges_beside_a_gap_are_cut_finer(plate):

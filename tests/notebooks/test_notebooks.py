@@ -3,14 +3,12 @@
 import os
 from pathlib import Path
 
-import cadquery as cq
 import nbformat
 import pytest
 from jupyter_client.manager import start_new_kernel
 from nbclient import NotebookClient
 
 import surfmesh as sm
-from surfmesh.errors import SizingError
 
 FOLDER = Path(__file__).resolve().parents[2] / "notebooks"
 NOTEBOOKS = sorted(FOLDER.glob("*.ipynb"))
@@ -29,28 +27,9 @@ def kernel():
     manager.shutdown_kernel(now=True)
 
 
-def directions() -> None:
-    sm.Sizing(anisotropy=2.0)
-
-
-def sizes_by_name() -> None:
-    box = sm.from_cadquery(cq.Workplane().box(1, 1, 1))
-    sm.mesh(box, {"*": 1.0})
-
-
-NEEDED = {"anisotropy=": directions, '"*":': sizes_by_name}
-"""What a notebook says -> what raises SizingError in a version that cannot do it yet."""
-
-
 @pytest.mark.parametrize("path", NOTEBOOKS, ids=lambda path: path.stem)
 def test_it_runs(path, kernel, tmp_path):
     notebook = nbformat.read(path, as_version=4)
-    for word, needed in NEEDED.items():
-        if any(word in cell.source for cell in notebook.cells):
-            try:
-                needed()
-            except SizingError as error:
-                pytest.skip(f"not yet: {error}")
     fresh = f"%reset -f\nimport os\nos.chdir({str(tmp_path)!r})\ndel os"
     notebook.cells.insert(0, nbformat.v4.new_code_cell(fresh))
     NotebookClient(notebook, km=kernel, timeout=TIME_LIMIT).execute()

@@ -1,0 +1,109 @@
+"""How many triangles there will be, and how much memory they need, before anything is packed.
+
+    size field -> metric area inside the loops -> unit triangles -> bytes
+    or boundary nodes, where a face has little more than them
+
+Solids whose area and volume need more than their chord are seen too; what else a first mesh
+may find (folds, triangles that lie too far away) is not.
+"""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from surfmesh.errors import SizingError
+from surfmesh.meshing.face_data import FaceJob
+from surfmesh.meshing.face_job import face_field
+from surfmesh.sizing.metric_area import TRIANGLES, metric_area
+from surfmesh.sizing.size_field import SizeField
+
+RESULT, WORK = 110, 30
+"""Bytes a triangle of the whole mesh, and of the face being worked on; measured, peak of the
+process for meshes of 0.5 and 7 million triangles."""
+
+SHARP = 6.0
+"""How sharply the count of a face changes from that of its boundary to that of its area."""
+
+LOADED, CAD_LOADED = 250_000_000, 550_000_000
+"""Bytes of the program itself, and of the CAD kernel where it lives in this process."""
+
+
+@dataclass(frozen=True)
+class Estimate:
+    """What a mesh will be like."""
+
+    triangles: int
+    by_face: tuple[int, ...]
+    """Triangles on each face; one entry for a single surface."""
+    memory: int
+    """Bytes at the peak of meshing, the program included."""
+
+    def __str__(self) -> str:
+        return f"about {self.triangles:,} triangles, {size_in_words(self.memory)} of memory"
+
+    def to_dict(self) -> dict:
+        """Plain data for JSON."""
+        return {
+            "triangles": self.triangles, "memory_bytes": self.memory,
+            "by_face": list(self.by_face),
+        }  # fmt: skip
+
+    @classmethod
+    def of(cls, by_face: Sequence[float]) -> Estimate:
+        counts = tuple(round(count) for count in by_face)
+        total, most = sum(counts), max(counts, default=0)
+        loaded = LOADED + (CAD_LOADED if "OCP" in sys.modules else 0)
+        return cls(total, counts, loaded + RESULT * total + WORK * most)
+
+
+def size_in_words(count: float) -> str:
+    """Bytes as "1.2 GB"."""
+    for unit in ("bytes", "kB", "MB", "GB", "TB"):
+        if count < 1000.0 or unit == "TB":
+            return f"{count:.3g} {unit}"
+        count /= 1000.0
+    return ""
+
+
+def field_triangles(field: SizeField, loops: Sequence[np.ndarray] | None = None) -> float:
+    """Triangles over the field's rectangle, or inside ``loops`` (k, 2) in (u, v)."""
+    return TRIANGLES * metric_area(field, loops)
+
+
+def face_triangles(job: FaceJob, field: SizeField) -> float:
+    """Triangles on a face whose boundary is cut already."""
+    loops = [np.concatenate([piece.uv[:-1] for piece in loop]) for loop in job.loops]
+    inside = field_triangles(field, loops)
+    # with no node inside, Euler's formula counts the triangles
+    boundary = sum(len(loop) for loop in loops) - 2 + 2 * (len(loops) - 1)
+    return (inside**SHARP + max(boundary, 1) ** SHARP) ** (1.0 / SHARP)
+
+
+def job_triangles(job: FaceJob) -> float:
+    """Triangles of one face. Raises ``SizingError`` as its size field does."""
+    return face_triangles(job, face_field(job)[1])
+
+
+def require_within(limit: int, found: Estimate, names: Sequence[str]) -> None:
+    """Raise ``SizingError`` with advice when there would be more triangles than ``limit``."""
+    if found.triangles <= limit:
+        return
+    most = int(np.argmax(found.by_face))
+    on = f", {found.by_face[most]:,} of them on {names[most]}" if len(names) > 1 else ""
+    raise SizingError(
+        f"about {found.triangles:,} triangles are asked for{on}, more than the limit of "
+        f"{limit:,}; they need {size_in_words(found.memory)} of memory. Ask for a larger chord, "
+        "size or min_size there, or raise limit"
+    )
+
+
+def require_field_within(
+    limit: int, field: SizeField, loops: Sequence[np.ndarray] | None, name: str
+) -> None:
+    """The same for a single surface, before it is packed."""
+    if 2 * field.expected_vertices() > limit:
+        require_within(limit, Estimate.of([field_triangles(field, loops)]), [name])

@@ -1,0 +1,160 @@
+"""The triangles of a CAD model before it is meshed, and a bound that costs nothing."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+
+import numpy as np
+
+from surfmesh.cad.centres import inner_samples
+from surfmesh.cad.model import CadFace, CadModel
+from surfmesh.geometry.fundamental_forms import curvatures, forms_from_derivatives
+from surfmesh.kernels.background import scalar_sizes_at
+from surfmesh.meshing.edge_nodes import EdgeNodes
+from surfmesh.meshing.estimation import Estimate, face_triangles, require_within
+from surfmesh.meshing.face_data import FaceJob
+from surfmesh.meshing.face_job import face_field
+from surfmesh.meshing.solid_contents import AIM, SMALLEST_STEP, TOLERANCE, largest_misfits
+from surfmesh.sizing.metric_area import TRIANGLES
+from surfmesh.sizing.size_bounds import SizeBounds
+from surfmesh.sizing.size_field import SizeField
+from surfmesh.sizing.sizing import Sizing
+
+SAMPLES, FEW = 24, 9
+"""Points each way of a grid on a face."""
+
+STEPS = 5
+"""How often the sizes of a solid may be lowered."""
+
+BETWEEN = 0.38
+"""In edges: mean distance from the nearest vertex. Lowered sizes hold at vertices and grow."""
+
+
+def model_estimate(model: CadModel, jobs: list[FaceJob], sizing: Sizing) -> Estimate:
+    """From the jobs of the first round; sizing: of the whole model.
+
+    Raises ``SizingError`` where a size field cannot be made.
+    """
+    counts = np.zeros(len(jobs))
+    follows = sizing.chord is not None and TOLERANCE * sizing.chord < model.diagonal
+    if any(job.sizing.is_anisotropic for job in jobs):  # area and volume are not looked after
+        follows = False
+    misfits = np.zeros((len(jobs), 3))
+    for number, job in enumerate(jobs):
+        field = face_field(job)[1]
+        counts[number] = face_triangles(job, field)
+        if follows and job.surface.kind != "plane":
+            misfits[number] = _misfit(model.faces[number], job, field)
+    if follows:
+        counts *= _refinement(model, sizing, misfits)
+    return Estimate.of(counts)
+
+
+def bounds(
+    model: CadModel, nodes: list[EdgeNodes | None], sizings: list[Sizing]
+) -> tuple[np.ndarray, np.ndarray]:
+    """Triangles (f,) that each face has at least and at most, of its wishes at a few points.
+
+    At least: the largest size holds everywhere. At most: the smallest, also of sources.
+    """
+    least, most = np.zeros(len(model.faces)), np.zeros(len(model.faces))
+    for number, (face, sizing) in enumerate(zip(model.faces, sizings)):
+        edges = [nodes[c.edge].sizes.min() for c in face.coedges if nodes[c.edge] is not None]
+        uv = inner_samples(face, FEW)
+        allowed = SizeBounds.of(sizing, model.diagonal)
+        if not len(uv):
+            smallest = min([*edges, allowed.clamp[1]])
+            most[number] = TRIANGLES * face.area / max(smallest, allowed.clamp[0]) ** 2
+            continue
+        points, *derivatives = face.surface.evaluate(uv, 2)
+        sizes = np.full(len(uv), allowed.clamp[1])
+        if allowed.follows_curvature:
+            forms = forms_from_derivatives(*derivatives)
+            k = curvatures(forms)
+            sizes = np.where(forms.degenerate, sizes, allowed.shorter(k.k1, k.k2))
+        largest = float(sizes.max())
+        if largest < np.inf:
+            longest = min(largest * sizing.anisotropy, max(allowed.longest, largest))
+            least[number] = TRIANGLES * face.area / (largest * longest)
+        if sizing.has_law:
+            sizes = np.clip(np.minimum(sizes, sizing.law_sizes(points)), *allowed.clamp)
+        smallest = min([sizes.min(), *edges, *(getattr(s, "size", np.inf) for s in sizing.sources)])
+        most[number] = TRIANGLES * face.area / max(float(smallest), allowed.clamp[0]) ** 2
+    return least, most
+
+
+def _misfit(face: CadFace, job: FaceJob, field: SizeField) -> np.ndarray:
+    """Volume towards r_u x r_v, its absolute value, and area that the mesh of a face misses.
+
+    On the quadric of mean curvature H a unit triangle of size h lies H h^2 / 8 from it in the
+    mean; its area is smaller by 2 H times that, larger by half the mean squared slope.
+    """
+    uv = inner_samples(face, SAMPLES)
+    if not len(uv):
+        return np.zeros(3)
+    forms = forms_from_derivatives(*job.surface.evaluate(uv, 2)[1:])
+    k = curvatures(forms)
+    density = np.sqrt(np.maximum(forms.E * forms.G - forms.F**2, 0.0))
+    size = np.empty(len(uv))
+    scalar_sizes_at(field.background, field.scaling.to_plane(uv), size)
+    mean = 0.5 * (k.k1 + k.k2)
+    squares = k.k1**2 + k.k2**2
+    known = ~forms.degenerate & np.isfinite(mean)
+    share = np.where(known, density, 0.0)
+    share *= face.area / max(share.sum(), np.finfo(float).tiny)
+    gap = np.where(known, mean * size**2 / 8.0, 0.0)
+    area = np.where(known, (squares / 48.0 - mean**2 / 4.0) * size**2, 0.0)
+    return np.array([share @ gap, abs(share @ gap), share @ area])
+
+
+def _refinement(model: CadModel, sizing: Sizing, misfits: np.ndarray) -> np.ndarray:
+    """Factors (f,) on the triangles of faces whose solids lose too much area or volume."""
+    tolerance = TOLERANCE * sizing.chord / model.diagonal
+    factors = np.ones(len(model.faces))
+    for solid in model.solids:
+        faces = [face for shell in solid.shells for face, _ in shell]
+        sign = {
+            face: -1.0 if flag != model.faces[face].reversed else 1.0
+            for shell in solid.shells for face, flag in shell
+        }  # fmt: skip
+        if not solid.closed or not solid.volume > 0.0:
+            continue
+        area = math.fsum(model.faces[face].area for face in faces)
+        chosen = largest_misfits(misfits[:, 1], faces)
+        scale = 1.0
+
+        def error(scale: float, faces=faces, sign=sign, chosen=chosen, area=area, solid=solid):
+            missing = np.array([
+                misfits[f, [0, 2]] * [sign[f], 1.0] * (scale if f in chosen else 1.0) for f in faces
+            ]).sum(axis=0)  # fmt: skip
+            return max(abs(missing[0]) / solid.volume, abs(missing[1]) / area)
+
+        for _ in range(STEPS):
+            now = error(scale)
+            if now <= tolerance:
+                break
+            step = max(SMALLEST_STEP, math.sqrt(AIM * tolerance / now))
+            scale *= (step + BETWEEN * sizing.gradient) ** 2
+        for face in chosen:
+            factors[face] = max(factors[face], 1.0 / scale)
+    return factors
+
+
+def names_of_faces(model: CadModel) -> list[str]:
+    """For messages."""
+    return [f"face {k} ({face.name or face.kind})" for k, face in enumerate(model.faces)]
+
+
+def require_model_within(
+    model: CadModel, jobs: Callable[[], list[FaceJob]], nodes: list[EdgeNodes | None],
+    sizings: list[Sizing], sizing: Sizing,
+) -> None:  # fmt: skip
+    """Raise ``SizingError`` with advice when a model would have more than ``sizing.limit``
+    triangles. ``jobs``: makes them; asked only where the bounds leave it open."""
+    least, most = bounds(model, nodes, sizings)
+    if most.sum() <= sizing.limit:
+        return
+    names = names_of_faces(model)
+    require_within(sizing.limit, Estimate.of(least), names)
+    require_within(sizing.limit, model_estimate(model, jobs(), sizing), names)

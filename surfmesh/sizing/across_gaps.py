@@ -1,0 +1,16 @@
+"""Sizes at the sides of a gap that put a number of triangles across it."""
+
+import math
+
+ROW = 0.5 * math.sqrt(3.0)
+"""Height of a row of unit triangles."""
+
+
+def size_across(gap: float, count: float, slope: float) -> float:
+    """Edge length at both sides of a gap that has at least ``count`` triangles across.
+
+    With the size h at the sides growing by ``slope`` towards the middle, the rows that fit are
+    the integral of 1 / (ROW size):  2 / (ROW slope) ln(1 + slope gap / (2 h)) = count.
+    """
+    grown = slope * gap / (2.0 * math.expm1(0.5 * ROW * count * slope))
+    return min(grown, gap / count)
