@@ -290,6 +290,7 @@ def _meshed(job: FaceJob, unfold: bool = True) -> FaceMesh:
         changes = optimiser.run()
         for found, remedy in (
             (changes.far, optimiser.approaching), (changes.folded, optimiser.unfolding),
+            (changes.turned, optimiser.straightening),
         ):  # fmt: skip
             if len(found) and (unfold or remedy != optimiser.unfolding):
                 more = remedy(found)

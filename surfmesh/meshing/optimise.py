@@ -5,6 +5,7 @@
 Between any two of them the vertices that moved are put back on the true surface.
 """
 
+import math
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -12,6 +13,7 @@ import numpy as np
 from surfmesh.geometry.projection import closest_point
 from surfmesh.geometry.surface import Surface
 from surfmesh.kernels.embedding import Embedding, embed, empty_embedding
+from surfmesh.kernels.local_operations import DEAD
 from surfmesh.kernels.measure import tangent_plane_distances
 from surfmesh.kernels.optimisation import (
     collapse_short,
@@ -28,7 +30,9 @@ from surfmesh.kernels.optimisation import (
     wake_bad,
 )
 from surfmesh.kernels.triangulation import Triangulation
-from surfmesh.sizing.size_bounds import LEAST_OF_CHORD
+from surfmesh.kernels.turning import find_turned, shorten_some, turning_angles
+from surfmesh.sizing.bent_surface import bends_itself
+from surfmesh.sizing.size_bounds import FINEST_TURN, LEAST_OF_CHORD
 from surfmesh.sizing.size_field import SizeField
 from surfmesh.sizing.size_limits import SizeLimits
 
@@ -88,6 +92,26 @@ CHORD_MARGIN, TOLERATED, SPLIT_MARGIN = 0.96, 0.995, 0.98
 """What is aimed at, and what is let pass rather than go all the way round again. Between the
 samples of a triangle the deviation may be a little larger than at them."""
 
+ANGLE_ROUNDS, STRETCHED_ANGLE_ROUNDS = 8, 4
+ANGLE_MARGIN, ANGLE_SLACK = 0.97, 1.0 + 1e-9
+"""What is aimed at, and what is rounding."""
+
+LEAST_TURN_SHRINK, LEAST_TURN_SCALE = 0.85, 0.6
+"""Least factor on the sizes in one round, and in all: then another field is better."""
+
+
+@dataclass(frozen=True)
+class Turned:
+    """Edges across which triangles turn by more than ``angle``, though the surface does not."""
+
+    triangles: np.ndarray
+    """(k, 2) on both sides."""
+    angles: np.ndarray
+    """(k,) radians."""
+
+    def __len__(self) -> int:
+        return len(self.angles)
+
 
 @dataclass(frozen=True)
 class Changes:
@@ -101,6 +125,7 @@ class Changes:
     """Triangles still farther than ``chord`` from the surface."""
     folded: np.ndarray
     """Triangles turned far from the surface's normals."""
+    turned: Turned
 
 
 class Optimiser:
@@ -112,6 +137,7 @@ class Optimiser:
     ) -> None:  # fmt: skip
         """``node`` (k,) are boundary vertices, ``same`` (k,) the ones they coincide with."""
         self.t, self.node, self.surface, self.field = t, node, surface, field
+        self.same = same
         room = len(t.xy)
         self.is_anisotropic = field.is_anisotropic
         self.embedding: Embedding = empty_embedding(room, self.is_anisotropic)
@@ -145,8 +171,12 @@ class Optimiser:
         self._rescue()
         if not self.is_anisotropic:  # it leaves all vertices moving, and triangles turning
             self._soften()
+        self._straighten()
         far = self._approach()
-        return Changes(self.swaps, self.collapses, self.splits, self.passes, far, self._folded())
+        return Changes(
+            self.swaps, self.collapses, self.splits, self.passes, far, self._folded(),
+            self._turned(seams=True),
+        )  # fmt: skip
 
     def _folded(self) -> np.ndarray:
         """Triangles turned against the surface's normals at a corner or at the centroid."""
@@ -179,6 +209,12 @@ class Optimiser:
         chord = self.field.sizing.chord
         factor = np.clip(np.sqrt(CHORD_MARGIN * chord / self._deviations(triangles)), 0.5, 0.8)
         return self._limits_at(triangles, factor, 2.0 * chord)
+
+    def straightening(self, turned: Turned) -> SizeLimits:
+        """Limits under which triangles would turn by no more than ``angle``."""
+        factor = np.clip(self._angle_limit(ANGLE_MARGIN) / turned.angles, 0.5, 0.85)
+        least = FINEST_TURN * self._diagonal()
+        return self._limits_at(turned.triangles.ravel(), np.repeat(factor, 2), least)
 
     def _limits_at(
         self, triangles: np.ndarray, factor: np.ndarray | float, least: float
@@ -223,6 +259,88 @@ class Optimiser:
                 break
         self._swap()
         self._smooth(SOFTER)
+
+    def _angle_limit(self, margin: float) -> float:
+        return margin * math.radians(self.field.sizing.angle)
+
+    def _diagonal(self) -> float:
+        """Of the box of all vertices, model units."""
+        return float(np.linalg.norm(np.ptp(self.embedding.point[: int(self.t.count[0])], axis=0)))
+
+    def _straighten(self) -> None:
+        """Lower the sizes where neighbouring triangles turn by more than ``angle``.
+
+        Only between vertices that may move: beside a coarse border finer triangles turn more.
+        """
+        if self.field.sizing.angle is None:
+            return
+        limit = self._angle_limit(ANGLE_MARGIN)
+        for _ in range(STRETCHED_ANGLE_ROUNDS if self.is_anisotropic else ANGLE_ROUNDS):
+            turned = self._turned(ANGLE_MARGIN)
+            if not len(turned):
+                return
+            factor = np.ones(len(self.active))
+            corners = self.t.tri.reshape(-1, 3)[turned.triangles].reshape(len(turned), 6)
+            wanted = np.maximum(limit / turned.angles, LEAST_TURN_SHRINK)
+            np.minimum.at(factor, corners, wanted[:, None])
+            some = np.flatnonzero(factor < 1.0).astype(np.int32)
+            if not shorten_some(
+                self.embedding, some, factor[some], LEAST_TURN_SCALE, self.active
+            ):
+                return
+            self._split()
+            for _ in range(2):
+                self._smooth()
+            self._swap()
+
+    def _turned(self, margin: float = ANGLE_SLACK, seams: bool = False) -> Turned:
+        """Edges that turn by more than ``margin`` times ``angle``; across seams too, if asked."""
+        if self.field.sizing.angle is None:
+            return Turned(np.empty((0, 2), np.int64), np.empty(0))
+        limit = self._angle_limit(margin)
+        room = 3 * int(self.t.count[1]) // 2 + 1
+        edges, angles = np.empty(room, np.int64), np.empty(room)
+        count = find_turned(self.t, self.embedding.point, limit, edges, angles)
+        pairs = np.stack([edges[:count], self.t.adj[edges[:count]]], axis=1)
+        angles = angles[:count]
+        if seams:
+            across, turn = self._across_seams()
+            pairs = np.concatenate([pairs, across[turn > limit]])
+            angles = np.concatenate([angles, turn[turn > limit]])
+        if not len(pairs):
+            return Turned(pairs, angles)
+        first, second = (self._parameters_from(edges) for edges in pairs.T)
+        own = bends_itself(
+            self.surface, first, second, self.field.sizing.angle, self._diagonal()
+        )
+        return Turned(pairs[~own] // 3, angles[~own])
+
+    def _parameters_from(self, edges: np.ndarray) -> np.ndarray:
+        """(k, 3, 2) of the corners of triangles, from the starts of their half-edges (k,)."""
+        triangle, side = np.divmod(edges, 3)
+        corners = self.t.tri[3 * triangle[:, None] + (side[:, None] + [0, 1, 2]) % 3]
+        uv = self.field.scaling.to_uv(self.t.xy[corners.ravel()])
+        return uv.reshape(len(edges), 3, 2)
+
+    def _across_seams(self) -> tuple[np.ndarray, np.ndarray]:
+        """Pairs of half-edges (k, 2) that are glued, and the angles across them (k,)."""
+        tri, adj = (a[: 3 * self.t.count[1]] for a in (self.t.tri, self.t.adj))
+        border = np.flatnonzero((adj < 0) & np.repeat(self.t.region[: self.t.count[1]] != DEAD, 3))
+        number = np.arange(int(self.t.count[0]))
+        number[self.node] = self.same
+        end = np.where(border % 3 == 2, border - 2, border + 1)
+        ends = np.sort(np.stack([number[tri[border]], number[tri[end]]], axis=1), axis=1)
+        real = ends[:, 0] != ends[:, 1]  # not a side that is one point
+        border, ends = border[real], ends[real]
+        order = np.lexsort(ends.T)
+        border, ends = border[order], ends[order]
+        twice = np.flatnonzero((ends[1:] == ends[:-1]).all(axis=1))
+        pairs = np.stack([border[twice], border[twice + 1]], axis=1).reshape(-1, 2)
+        angles = np.empty(len(pairs))
+        turning_angles(
+            self.embedding.point, self.t.tri.reshape(-1, 3), pairs.astype(np.int32), angles
+        )
+        return pairs, angles
 
     def _approach(self) -> np.ndarray:
         """Bring triangles that are too far from the surface nearer; returns those left.
