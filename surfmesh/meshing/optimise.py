@@ -92,12 +92,19 @@ CHORD_MARGIN, TOLERATED, SPLIT_MARGIN = 0.96, 0.995, 0.98
 """What is aimed at, and what is let pass rather than go all the way round again. Between the
 samples of a triangle the deviation may be a little larger than at them."""
 
-ANGLE_ROUNDS, STRETCHED_ANGLE_ROUNDS = 8, 4
+ANGLE_ROUNDS, LAST_ANGLE_ROUNDS = 6, 4
 ANGLE_MARGIN, ANGLE_SLACK = 0.97, 1.0 + 1e-9
-"""What is aimed at, and what is rounding."""
+"""What is aimed at, at last no more than what was asked for; and what is rounding."""
 
-LEAST_TURN_SHRINK, LEAST_TURN_SCALE = 0.85, 0.6
-"""Least factor on the sizes in one round, and in all: then another field is better."""
+NEAR_ANGLE = 0.9
+"""Share of ``angle`` from which edges of a seam are made finer when others are."""
+
+LEAST_TURN_SHRINK, LEAST_TURN_SCALE, LAST_TURN_SCALE = 0.85, 0.6, 0.3
+"""Least factor on the sizes in one round, in all, and in the last rounds for a few places."""
+
+LONGEST_TURNED = 1.25
+"""Edges of stretched meshes that turn too far are split from this length: they are not many,
+and smoothing alone mends none."""
 
 
 @dataclass(frozen=True)
@@ -268,27 +275,27 @@ class Optimiser:
         return float(np.linalg.norm(np.ptp(self.embedding.point[: int(self.t.count[0])], axis=0)))
 
     def _straighten(self) -> None:
-        """Lower the sizes where neighbouring triangles turn by more than ``angle``.
-
-        Only between vertices that may move: beside a coarse border finer triangles turn more.
-        """
+        """Lower the sizes where neighbouring triangles turn by more than ``angle``."""
         if self.field.sizing.angle is None:
             return
         limit = self._angle_limit(ANGLE_MARGIN)
-        for _ in range(STRETCHED_ANGLE_ROUNDS if self.is_anisotropic else ANGLE_ROUNDS):
-            turned = self._turned(ANGLE_MARGIN)
-            if not len(turned):
+        longest = LONGEST_TURNED if self.is_anisotropic else LONGEST
+        for round_number in range(ANGLE_ROUNDS + LAST_ANGLE_ROUNDS):
+            last = round_number >= ANGLE_ROUNDS
+            turned = self._turned(ANGLE_SLACK if last else ANGLE_MARGIN)
+            if not (turned.angles > self._angle_limit(ANGLE_SLACK)).any():
                 return
+            if last and self.is_anisotropic:
+                self._split_worst(np.unique(turned.triangles))
+                continue
             factor = np.ones(len(self.active))
             corners = self.t.tri.reshape(-1, 3)[turned.triangles].reshape(len(turned), 6)
             wanted = np.maximum(limit / turned.angles, LEAST_TURN_SHRINK)
             np.minimum.at(factor, corners, wanted[:, None])
             some = np.flatnonzero(factor < 1.0).astype(np.int32)
-            if not shorten_some(
-                self.embedding, some, factor[some], LEAST_TURN_SCALE, self.active
-            ):
-                return
-            self._split()
+            smallest = LAST_TURN_SCALE if last else LEAST_TURN_SCALE
+            shorten_some(self.embedding, some, factor[some], smallest, self.active)
+            self._split(longest)
             for _ in range(2):
                 self._smooth()
             self._swap()
@@ -305,8 +312,9 @@ class Optimiser:
         angles = angles[:count]
         if seams:
             across, turn = self._across_seams()
-            pairs = np.concatenate([pairs, across[turn > limit]])
-            angles = np.concatenate([angles, turn[turn > limit]])
+            if len(turn) and turn.max() > limit:  # more would turn too far when cut anew
+                near = turn > NEAR_ANGLE * limit
+                pairs, angles = np.concatenate([pairs, across[near]]), np.r_[angles, turn[near]]
         if not len(pairs):
             return Turned(pairs, angles)
         first, second = (self._parameters_from(edges) for edges in pairs.T)
@@ -386,17 +394,25 @@ class Optimiser:
         many = far if len(far) > MANY_FAR * int(self.t.count[1]) else None
         for _ in range(SPLIT_ROUNDS):
             before = self.t.tri[: 3 * self.t.count[1]].copy()
-            first = split_far(self.t, self.embedding, far, self.dirty, self.active)
-            new = np.arange(first, int(self.t.count[0]), dtype=np.int32)
-            if not len(new):
+            if not self._split_worst(far):
                 break
-            self._embed(new)
-            self.stars_known = False
-            self.splits += len(new)
             changed = np.zeros(len(self.active), np.uint8)
             suspects = np.union1d(self._changed_since(before, changed), far)
             far = suspects[self._deviations(suspects) > limit]
         return far if many is None else many
+
+    def _split_worst(self, triangles: np.ndarray) -> int:
+        """Split the edge of each of the triangles (n,) that lies farthest away; returns how many.
+
+        All other vertices stay where they are.
+        """
+        first = split_far(self.t, self.embedding, triangles, self.dirty, self.active)
+        new = np.arange(first, int(self.t.count[0]), dtype=np.int32)
+        if len(new):
+            self._embed(new)
+            self.stars_known = False
+            self.splits += len(new)
+        return len(new)
 
     def _changed_since(self, before: np.ndarray, changed: np.ndarray) -> np.ndarray:
         """Triangles with a vertex in ``changed``, or whose corners are not as ``before``."""
@@ -491,8 +507,8 @@ class Optimiser:
         self.stars_known = self.stars_known and collapses == 0
         self.collapses += collapses
 
-    def _split(self) -> None:
-        first = split_long(self.t, self.embedding, LONGEST, self.dirty, self.active)
+    def _split(self, longest: float = LONGEST) -> None:
+        first = split_long(self.t, self.embedding, longest, self.dirty, self.active)
         new = np.arange(first, int(self.t.count[0]), dtype=np.int32)
         self._embed(new)
         self.stars_known = self.stars_known and len(new) == 0

@@ -24,7 +24,7 @@ FINEST_SIZE = 1e-5
 """No size is smaller, relative to the diagonal, unless ``min_size`` says so: at an apex the
 curvature is infinite."""
 
-FINEST_TURN = 5e-5
+FINEST_TURN = 2e-4
 """``angle`` asks for no smaller size, relative to the diagonal: triangles about an apex turn by
 as much at any size."""
 
