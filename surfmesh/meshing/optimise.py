@@ -318,6 +318,9 @@ class Optimiser:
         if not len(pairs):
             return Turned(pairs, angles)
         first, second = (self._parameters_from(edges) for edges in pairs.T)
+        alike = self._numbers()[self.t.tri[pairs]]  # both run the same way: a Moebius strip
+        alike = alike[:, 0] == alike[:, 1]
+        second[alike] = second[alike][:, [1, 0, 2]]
         own = bends_itself(
             self.surface, first, second, self.field.sizing.angle, self._diagonal()
         )
@@ -330,12 +333,17 @@ class Optimiser:
         uv = self.field.scaling.to_uv(self.t.xy[corners.ravel()])
         return uv.reshape(len(edges), 3, 2)
 
+    def _numbers(self) -> np.ndarray:
+        """For each vertex the one that it coincides with, or itself."""
+        number = np.arange(int(self.t.count[0]))
+        number[self.node] = self.same
+        return number
+
     def _across_seams(self) -> tuple[np.ndarray, np.ndarray]:
         """Pairs of half-edges (k, 2) that are glued, and the angles across them (k,)."""
         tri, adj = (a[: 3 * self.t.count[1]] for a in (self.t.tri, self.t.adj))
         border = np.flatnonzero((adj < 0) & np.repeat(self.t.region[: self.t.count[1]] != DEAD, 3))
-        number = np.arange(int(self.t.count[0]))
-        number[self.node] = self.same
+        number = self._numbers()
         end = np.where(border % 3 == 2, border - 2, border + 1)
         ends = np.sort(np.stack([number[tri[border]], number[tri[end]]], axis=1), axis=1)
         real = ends[:, 0] != ends[:, 1]  # not a side that is one point
