@@ -92,12 +92,13 @@ CHORD_MARGIN, TOLERATED, SPLIT_MARGIN = 0.96, 0.995, 0.98
 """What is aimed at, and what is let pass rather than go all the way round again. Between the
 samples of a triangle the deviation may be a little larger than at them."""
 
-ANGLE_ROUNDS, LAST_ANGLE_ROUNDS = 6, 4
+ANGLE_ROUNDS, LAST_ANGLE_ROUNDS, TURN_SPLITS = 6, 4, 4
 ANGLE_MARGIN, ANGLE_SLACK = 0.97, 1.0 + 1e-9
 """What is aimed at, at last no more than what was asked for; and what is rounding."""
 
-NEAR_ANGLE = 0.9
-"""Share of ``angle`` from which edges of a seam are made finer when others are."""
+NEAR_ANGLE = 0.7
+"""Share of ``angle`` from which edges of a seam are made finer when others turn too far: cut
+anew, it would be other edges that do."""
 
 LEAST_TURN_SHRINK, LEAST_TURN_SCALE, LAST_TURN_SCALE = 0.85, 0.6, 0.3
 """Least factor on the sizes in one round, in all, and in the last rounds for a few places."""
@@ -280,12 +281,13 @@ class Optimiser:
             return
         limit = self._angle_limit(ANGLE_MARGIN)
         longest = LONGEST_TURNED if self.is_anisotropic else LONGEST
-        for round_number in range(ANGLE_ROUNDS + LAST_ANGLE_ROUNDS):
+        smoothed = ANGLE_ROUNDS + (0 if self.is_anisotropic else LAST_ANGLE_ROUNDS)
+        for round_number in range(smoothed + TURN_SPLITS):
             last = round_number >= ANGLE_ROUNDS
             turned = self._turned(ANGLE_SLACK if last else ANGLE_MARGIN)
             if not (turned.angles > self._angle_limit(ANGLE_SLACK)).any():
                 return
-            if last and self.is_anisotropic:
+            if round_number >= smoothed:  # as they are smoothed others begin to turn too far
                 self._split_worst(np.unique(turned.triangles))
                 continue
             factor = np.ones(len(self.active))
@@ -312,19 +314,20 @@ class Optimiser:
         angles = angles[:count]
         if seams:
             across, turn = self._across_seams()
-            if len(turn) and turn.max() > limit:  # more would turn too far when cut anew
-                near = turn > NEAR_ANGLE * limit
-                pairs, angles = np.concatenate([pairs, across[near]]), np.r_[angles, turn[near]]
+            near = turn > NEAR_ANGLE * limit
+            pairs, angles = np.concatenate([pairs, across[near]]), np.r_[angles, turn[near]]
         if not len(pairs):
             return Turned(pairs, angles)
         first, second = (self._parameters_from(edges) for edges in pairs.T)
         alike = self._numbers()[self.t.tri[pairs]]  # both run the same way: a Moebius strip
         alike = alike[:, 0] == alike[:, 1]
         second[alike] = second[alike][:, [1, 0, 2]]
-        own = bends_itself(
+        kept = ~bends_itself(
             self.surface, first, second, self.field.sizing.angle, self._diagonal()
         )
-        return Turned(pairs[~own] // 3, angles[~own])
+        if not (kept[count:] & (angles[count:] > limit)).any():
+            kept[count:] = False  # of seams that are fine as they are
+        return Turned(pairs[kept] // 3, angles[kept])
 
     def _parameters_from(self, edges: np.ndarray) -> np.ndarray:
         """(k, 3, 2) of the corners of triangles, from the starts of their half-edges (k,)."""

@@ -61,7 +61,7 @@ def test_limits():
 def test_angle_size_on_a_sphere():
     """Normals of two equilateral triangles that share an edge, exactly, stay below the angle."""
     angle = 10.0
-    (h,) = angle_size(np.array([1.0]), np.array([-1.0]), angle)
+    (h,) = angle_size(np.array([1.0]), np.array([1.0]), angle)
     height = np.sqrt(1 - h**2 / 3)  # of a triangle's plane over the centre of the unit sphere
     half = np.arctan2(h / (2 * np.sqrt(3)), height)  # from its centre to the middle of an edge
     assert 0.7 * angle < np.degrees(2 * half) < angle
