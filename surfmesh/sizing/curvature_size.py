@@ -18,8 +18,9 @@ DEVIATION_RESERVE = 0.62
 """Share of ``chord`` that a unit triangle may use: real triangles are up to 1.26 times as
 large as the unit one (circumradius), and deviation grows with the square."""
 
-ANGLE_RESERVE = 0.92
-"""Share of ``angle`` that two unit triangles may turn by where their edge lies worst."""
+ROUND_RESERVE, BENT_RESERVE = 0.78, 0.94
+"""Share of ``angle`` that two unit triangles may turn by: on a sphere, where all edges turn alike
+and some triangles are larger; and for what depends on the direction, as few edges lie worst."""
 
 STRETCHED_RESERVE, STRAIGHT_RESERVE = 0.7, 0.75
 """The same for anisotropic sizes, where triangles that lie too far are split: where the surface
@@ -54,9 +55,13 @@ def turning_factor(k1: np.ndarray, k2: np.ndarray) -> np.ndarray:
 
 
 def angle_size(k1: np.ndarray, k2: np.ndarray, angle: float) -> np.ndarray:
-    """Edge length (n,) at which neighbouring triangles turn by at most ``angle`` (degrees)."""
+    """Edge length (n,) at which neighbouring triangles turn by at most ``angle`` (degrees).
+
+    As ``turning_factor`` has it, with a reserve.
+    """
+    turn = 0.5 * np.abs(k1 + k2) / ROUND_RESERVE + np.abs(k1 - k2) / BENT_RESERVE
     with np.errstate(divide="ignore", over="ignore"):
-        return ANGLE_RESERVE * math.radians(angle) / turning_factor(k1, k2)
+        return math.sqrt(3.0) * math.radians(angle) / turn
 
 
 def fold_size(k1: np.ndarray, k2: np.ndarray, angle: float) -> np.ndarray:
@@ -102,10 +107,12 @@ def principal_angle_sizes(
     """
     first, second = np.abs(k1), np.abs(k2)
     large = np.maximum(first, second)
-    with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
-        turn = large * (3.0 - _balance(k1, k2, ratio)) / (2.0 * math.sqrt(3.0))
-        least = ANGLE_RESERVE * math.radians(angle) / turn
-        return least * np.sqrt(large / first), least * np.sqrt(large / second)
+    balance = _balance(k1, k2, ratio)
+    # (3 - b) / 2, the parts with a reserve each
+    turn = 0.5 * (1.0 + balance) / ROUND_RESERVE + (1.0 - balance) / BENT_RESERVE
+    wanted = math.sqrt(3.0) * math.radians(angle) / turn
+    with np.errstate(divide="ignore", over="ignore"):
+        return wanted / np.sqrt(large * first), wanted / np.sqrt(large * second)
 
 
 def _balance(k1: np.ndarray, k2: np.ndarray, ratio: float) -> np.ndarray:

@@ -13,7 +13,7 @@ from surfmesh import Sizing, check, from_cadquery, load, mesh
         ("two_peaks", dict(angle=20)),
         ("sphere", dict(angle=10)),
         ("mobius", dict(angle=10)),
-        ("cone", dict(angle=20, min_size=0.01)),
+        ("cone", dict(angle=30)),
         ("torus", dict(angle=15, anisotropy=5)),
         ("cylinder", dict(angle=10, anisotropy=5)),
         ("monkey_saddle", dict(angle=15, chord=0.01)),
