@@ -343,10 +343,16 @@ class Optimiser:
         return number
 
     def _across_seams(self) -> tuple[np.ndarray, np.ndarray]:
-        """Pairs of half-edges (k, 2) that are glued, and the angles across them (k,)."""
+        """Pairs of half-edges (k, 2) that are glued, at poles too, and the angles (k,)."""
         tri, adj = (a[: 3 * self.t.count[1]] for a in (self.t.tri, self.t.adj))
         border = np.flatnonzero((adj < 0) & np.repeat(self.t.region[: self.t.count[1]] != DEAD, 3))
         number = self._numbers()
+        corners = number[tri].reshape(-1, 3)
+        # beyond a triangle with two corners at a pole, which is an edge, lies the next one
+        flat = (corners == np.roll(corners, 1, axis=1)).any(axis=1)
+        beyond = adj.reshape(-1, 3)[flat & (self.t.region[: len(flat)] != DEAD)].ravel()
+        border = np.concatenate([border, beyond[beyond >= 0]])
+        border = border[~flat[border // 3]]
         end = np.where(border % 3 == 2, border - 2, border + 1)
         ends = np.sort(np.stack([number[tri[border]], number[tri[end]]], axis=1), axis=1)
         real = ends[:, 0] != ends[:, 1]  # not a side that is one point
