@@ -20,6 +20,7 @@ from surfmesh.sizing.curvature_size import (
     STRAIGHT_RESERVE,
     angle_size,
     chord_size,
+    fold_size,
 )
 from surfmesh.sizing.direction_size import size_along
 from surfmesh.sizing.model_sizing import ModelSizing
@@ -300,7 +301,7 @@ def _own_wish(
             wish = np.maximum(own, 2.0 * sizing.chord)
             np.minimum(wish, _kink_wish(points, curvature, sizing.chord), out=wish)
     least = 0.0 if sizing.angle is not None else LEAST_OF_CHORD * sizing.chord
-    own = angle_size(curvature, curvature, sizing.angle or DEFAULT_ANGLE)
+    own = fold_size(curvature, curvature, sizing.angle or DEFAULT_ANGLE)
     return np.minimum(wish, np.maximum(own, least))
 
 
@@ -328,9 +329,11 @@ def _face_wish(surface, uv: np.ndarray, sizing: Sizing) -> np.ndarray:
     wish = np.full(len(uv), np.inf)
     if sizing.chord is not None:
         wish = chord_size(k.k1, k.k2, sizing.chord)
-    least = 0.0 if sizing.angle is not None else LEAST_OF_CHORD * sizing.chord
-    unfolded = angle_size(k.k1, k.k2, sizing.angle or DEFAULT_ANGLE)
-    wish = np.minimum(wish, np.maximum(unfolded, least))
+    if sizing.angle is not None:
+        wish = np.minimum(wish, angle_size(k.k1, k.k2, sizing.angle))
+    else:
+        unfolded = fold_size(k.k1, k.k2, DEFAULT_ANGLE)
+        wish = np.minimum(wish, np.maximum(unfolded, LEAST_OF_CHORD * sizing.chord))
     wish[forms.degenerate | ~np.isfinite(wish)] = np.inf
     return wish
 

@@ -134,6 +134,7 @@ def _meshed(job: FaceJob, unfold: bool = True) -> FaceMesh:
         helped = ~astray[domain.t.tri.reshape(-1, 3)[changes.far]].any(axis=1)
         for found, remedy in (
             (changes.far[helped], optimiser.approaching), (changes.folded, optimiser.unfolding),
+            (changes.turned, optimiser.straightening),
         ):  # fmt: skip
             if len(found) and (unfold or remedy != optimiser.unfolding):
                 more = remedy(found)

@@ -5,6 +5,7 @@
 Between any two of them the vertices that moved are put back on the true surface.
 """
 
+import math
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 
@@ -13,6 +14,7 @@ import numpy as np
 from surfmesh.geometry.projection import closest_point
 from surfmesh.geometry.surface import Surface
 from surfmesh.kernels.embedding import Embedding, embed, empty_embedding
+from surfmesh.kernels.local_operations import DEAD
 from surfmesh.kernels.measure import tangent_plane_distances
 from surfmesh.kernels.optimisation import (
     collapse_short,
@@ -29,7 +31,9 @@ from surfmesh.kernels.optimisation import (
     wake_bad,
 )
 from surfmesh.kernels.triangulation import Triangulation
-from surfmesh.sizing.size_bounds import LEAST_OF_CHORD
+from surfmesh.kernels.turning import find_turned, shorten_some, turning_angles
+from surfmesh.sizing.bent_surface import bends_itself
+from surfmesh.sizing.size_bounds import FINEST_TURN, LEAST_OF_CHORD
 from surfmesh.sizing.size_field import SizeField
 from surfmesh.sizing.size_limits import SizeLimits
 
@@ -89,6 +93,34 @@ CHORD_MARGIN, TOLERATED, SPLIT_MARGIN = 0.96, 0.995, 0.98
 """What is aimed at, and what is let pass rather than go all the way round again. Between the
 samples of a triangle the deviation may be a little larger than at them."""
 
+ANGLE_ROUNDS, LAST_ANGLE_ROUNDS, TURN_SPLITS = 6, 4, 4
+ANGLE_MARGIN, ANGLE_SLACK = 0.97, 1.0 + 1e-9
+"""What is aimed at, at last no more than what was asked for; and what is rounding."""
+
+NEAR_ANGLE = 0.7
+"""Share of ``angle`` from which edges of a seam are made finer when others turn too far: cut
+anew, it would be other edges that do."""
+
+LEAST_TURN_SHRINK, LEAST_TURN_SCALE, LAST_TURN_SCALE = 0.85, 0.6, 0.3
+"""Least factor on the sizes in one round, in all, and in the last rounds for a few places."""
+
+LONGEST_TURNED = 1.25
+"""Edges of stretched meshes that turn too far are split from this length: they are not many,
+and smoothing alone mends none."""
+
+
+@dataclass(frozen=True)
+class Turned:
+    """Edges across which triangles turn by more than ``angle``, though the surface does not."""
+
+    triangles: np.ndarray
+    """(k, 2) on both sides."""
+    angles: np.ndarray
+    """(k,) radians."""
+
+    def __len__(self) -> int:
+        return len(self.angles)
+
 
 @dataclass(frozen=True)
 class Changes:
@@ -102,6 +134,7 @@ class Changes:
     """Triangles still farther than ``chord`` from the surface."""
     folded: np.ndarray
     """Triangles turned far from the surface's normals."""
+    turned: Turned
 
 
 class Optimiser:
@@ -116,6 +149,7 @@ class Optimiser:
     ) -> None:  # fmt: skip
         """``node`` (k,) are boundary vertices, ``same`` (k,) the ones they coincide with."""
         self.t, self.node, self.surface, self.field = t, node, surface, field
+        self.same = same
         room = len(t.xy)
         self.is_anisotropic = field.is_anisotropic
         self.embedding: Embedding = empty_embedding(room, self.is_anisotropic)
@@ -149,8 +183,12 @@ class Optimiser:
         self._rescue()
         if not self.is_anisotropic:  # it leaves all vertices moving, and triangles turning
             self._soften()
+        self._straighten()
         far = self._approach()
-        return Changes(self.swaps, self.collapses, self.splits, self.passes, far, self._folded())
+        return Changes(
+            self.swaps, self.collapses, self.splits, self.passes, far, self._folded(),
+            self._turned(seams=True),
+        )  # fmt: skip
 
     def _folded(self) -> np.ndarray:
         """Triangles turned against the surface's normals at a corner or at the centroid."""
@@ -183,6 +221,12 @@ class Optimiser:
         chord = self.field.sizing.chord
         factor = np.clip(np.sqrt(CHORD_MARGIN * chord / self._deviations(triangles)), 0.5, 0.8)
         return self._limits_at(triangles, factor, 2.0 * chord)
+
+    def straightening(self, turned: Turned) -> SizeLimits:
+        """Limits under which triangles would turn by no more than ``angle``."""
+        factor = np.clip(self._angle_limit(ANGLE_MARGIN) / turned.angles, 0.5, 0.85)
+        least = FINEST_TURN * self._diagonal()
+        return self._limits_at(turned.triangles.ravel(), np.repeat(factor, 2), least)
 
     def _limits_at(
         self, triangles: np.ndarray, factor: np.ndarray | float, least: float
@@ -228,6 +272,105 @@ class Optimiser:
         self._swap()
         self._smooth(SOFTER)
 
+    def _angle_limit(self, margin: float) -> float:
+        return margin * math.radians(self.field.sizing.angle)
+
+    def _diagonal(self) -> float:
+        """Of the box of all vertices, model units."""
+        return float(np.linalg.norm(np.ptp(self.embedding.point[: int(self.t.count[0])], axis=0)))
+
+    def _straighten(self) -> None:
+        """Lower the sizes where neighbouring triangles turn by more than ``angle``."""
+        if self.field.sizing.angle is None:
+            return
+        limit = self._angle_limit(ANGLE_MARGIN)
+        longest = LONGEST_TURNED if self.is_anisotropic else LONGEST
+        smoothed = ANGLE_ROUNDS + (0 if self.is_anisotropic else LAST_ANGLE_ROUNDS)
+        for round_number in range(smoothed + TURN_SPLITS):
+            last = round_number >= ANGLE_ROUNDS
+            turned = self._turned(ANGLE_SLACK if last else ANGLE_MARGIN)
+            if not (turned.angles > self._angle_limit(ANGLE_SLACK)).any():
+                return
+            if round_number >= smoothed:  # as they are smoothed others begin to turn too far
+                self._split_worst(np.unique(turned.triangles))
+                continue
+            factor = np.ones(len(self.active))
+            corners = self.t.tri.reshape(-1, 3)[turned.triangles].reshape(len(turned), 6)
+            wanted = np.maximum(limit / turned.angles, LEAST_TURN_SHRINK)
+            np.minimum.at(factor, corners, wanted[:, None])
+            some = np.flatnonzero(factor < 1.0).astype(np.int32)
+            smallest = LAST_TURN_SCALE if last else LEAST_TURN_SCALE
+            shorten_some(self.embedding, some, factor[some], smallest, self.active)
+            self._split(longest)
+            for _ in range(2):
+                self._smooth()
+            self._swap()
+
+    def _turned(self, margin: float = ANGLE_SLACK, seams: bool = False) -> Turned:
+        """Edges that turn by more than ``margin`` times ``angle``; across seams too, if asked."""
+        if self.field.sizing.angle is None:
+            return Turned(np.empty((0, 2), np.int64), np.empty(0))
+        limit = self._angle_limit(margin)
+        room = 3 * int(self.t.count[1]) // 2 + 1
+        edges, angles = np.empty(room, np.int64), np.empty(room)
+        count = find_turned(self.t, self.embedding.point, limit, edges, angles)
+        pairs = np.stack([edges[:count], self.t.adj[edges[:count]]], axis=1)
+        angles = angles[:count]
+        if seams:
+            across, turn = self._across_seams()
+            near = turn > NEAR_ANGLE * limit
+            pairs, angles = np.concatenate([pairs, across[near]]), np.r_[angles, turn[near]]
+        if not len(pairs):
+            return Turned(pairs, angles)
+        first, second = (self._parameters_from(edges) for edges in pairs.T)
+        alike = self._numbers()[self.t.tri[pairs]]  # both run the same way: a Moebius strip
+        alike = alike[:, 0] == alike[:, 1]
+        second[alike] = second[alike][:, [1, 0, 2]]
+        kept = ~bends_itself(
+            self.surface, first, second, self.field.sizing.angle, self._diagonal()
+        )
+        if not (kept[count:] & (angles[count:] > limit)).any():
+            kept[count:] = False  # of seams that are fine as they are
+        return Turned(pairs[kept] // 3, angles[kept])
+
+    def _parameters_from(self, edges: np.ndarray) -> np.ndarray:
+        """(k, 3, 2) of the corners of triangles, from the starts of their half-edges (k,)."""
+        triangle, side = np.divmod(edges, 3)
+        corners = self.t.tri[3 * triangle[:, None] + (side[:, None] + [0, 1, 2]) % 3]
+        uv = self.field.scaling.to_uv(self.t.xy[corners.ravel()])
+        return uv.reshape(len(edges), 3, 2)
+
+    def _numbers(self) -> np.ndarray:
+        """For each vertex the one that it coincides with, or itself."""
+        number = np.arange(int(self.t.count[0]))
+        number[self.node] = self.same
+        return number
+
+    def _across_seams(self) -> tuple[np.ndarray, np.ndarray]:
+        """Pairs of half-edges (k, 2) that are glued, at poles too, and the angles (k,)."""
+        tri, adj = (a[: 3 * self.t.count[1]] for a in (self.t.tri, self.t.adj))
+        border = np.flatnonzero((adj < 0) & np.repeat(self.t.region[: self.t.count[1]] != DEAD, 3))
+        number = self._numbers()
+        corners = number[tri].reshape(-1, 3)
+        # beyond a triangle with two corners at a pole, which is an edge, lies the next one
+        flat = (corners == np.roll(corners, 1, axis=1)).any(axis=1)
+        beyond = adj.reshape(-1, 3)[flat & (self.t.region[: len(flat)] != DEAD)].ravel()
+        border = np.concatenate([border, beyond[beyond >= 0]])
+        border = border[~flat[border // 3]]
+        end = np.where(border % 3 == 2, border - 2, border + 1)
+        ends = np.sort(np.stack([number[tri[border]], number[tri[end]]], axis=1), axis=1)
+        real = ends[:, 0] != ends[:, 1]  # not a side that is one point
+        border, ends = border[real], ends[real]
+        order = np.lexsort(ends.T)
+        border, ends = border[order], ends[order]
+        twice = np.flatnonzero((ends[1:] == ends[:-1]).all(axis=1))
+        pairs = np.stack([border[twice], border[twice + 1]], axis=1).reshape(-1, 2)
+        angles = np.empty(len(pairs))
+        turning_angles(
+            self.embedding.point, self.t.tri.reshape(-1, 3), pairs.astype(np.int32), angles
+        )
+        return pairs, angles
+
     def _approach(self) -> np.ndarray:
         """Bring triangles that are too far from the surface nearer; returns those left.
 
@@ -272,17 +415,25 @@ class Optimiser:
         many = far if len(far) > MANY_FAR * int(self.t.count[1]) else None
         for _ in range(SPLIT_ROUNDS):
             before = self.t.tri[: 3 * self.t.count[1]].copy()
-            first = split_far(self.t, self.embedding, far, self.dirty, self.active)
-            new = np.arange(first, int(self.t.count[0]), dtype=np.int32)
-            if not len(new):
+            if not self._split_worst(far):
                 break
-            self._embed(new)
-            self.stars_known = False
-            self.splits += len(new)
             changed = np.zeros(len(self.active), np.uint8)
             suspects = np.union1d(self._changed_since(before, changed), far)
             far = suspects[self._deviations(suspects) > limit]
         return far if many is None else many
+
+    def _split_worst(self, triangles: np.ndarray) -> int:
+        """Split the edge of each of the triangles (n,) that lies farthest away; returns how many.
+
+        All other vertices stay where they are.
+        """
+        first = split_far(self.t, self.embedding, triangles, self.dirty, self.active)
+        new = np.arange(first, int(self.t.count[0]), dtype=np.int32)
+        if len(new):
+            self._embed(new)
+            self.stars_known = False
+            self.splits += len(new)
+        return len(new)
 
     def _changed_since(self, before: np.ndarray, changed: np.ndarray) -> np.ndarray:
         """Triangles with a vertex in ``changed``, or whose corners are not as ``before``."""
@@ -378,8 +529,8 @@ class Optimiser:
         self.stars_known = self.stars_known and collapses == 0
         self.collapses += collapses
 
-    def _split(self) -> None:
-        first = split_long(self.t, self.embedding, LONGEST, self.dirty, self.active)
+    def _split(self, longest: float = LONGEST) -> None:
+        first = split_long(self.t, self.embedding, longest, self.dirty, self.active)
         new = np.arange(first, int(self.t.count[0]), dtype=np.int32)
         self._embed(new)
         self.stars_known = self.stars_known and len(new) == 0

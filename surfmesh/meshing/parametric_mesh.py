@@ -37,8 +37,9 @@ def mesh_parametric(
 ) -> SurfaceMesh:
     """Mesh one surface over its (u, v) rectangle or inside its trimming loops.
 
-    Where the mesh is folded, badly glued, or farther from the surface than ``chord`` after the
-    optimiser has done what it can, the sizes are lowered and everything is done again. With
+    Where the mesh is folded, badly glued, farther from the surface than ``chord``, or turns by
+    more than ``angle`` after the optimiser has done what it can, the sizes are lowered and
+    everything is done again. With
     ``optimise=False`` only gluing is looked at. Raises ``SizingError``, ``SurfaceError`` or
     ``MeshingError`` with the place and the reason.
     """
@@ -106,6 +107,8 @@ def _one_round(
                 wishes.append(optimiser.approaching(changes.far))
             if len(changes.folded):
                 wishes.append(optimiser.unfolding(changes.folded))
+            if len(changes.turned):
+                wishes.append(optimiser.straightening(changes.turned))
             del optimiser
     with watch.stage("mapping"):
         mesh, parts = _in_space(surface, sides, field, loops, domain, scale, watch)

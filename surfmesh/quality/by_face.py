@@ -7,6 +7,7 @@ from numpy.typing import NDArray
 
 from surfmesh.quality.deviation import Deviation
 from surfmesh.quality.shape import Shapes
+from surfmesh.quality.turning import Turning
 from surfmesh.surface_mesh import SurfaceMesh
 
 CHORD_SLACK = 1e-9  # relative: rounding in the distance itself
@@ -27,6 +28,8 @@ class FaceRow:
     deviation_triangle: int | None  # where deviation_max is
     deviation_point: tuple[float, float, float] | None  # its centroid
     above_chord_share: float | None  # of its triangles that are farther away than chord
+    angle_max: float | None  # largest between its triangles that share an edge, degrees
+    above_angle_share: float | None  # of the edges within it
     folded: int | None  # triangles turned more than 60 degrees from the surface
     alpha_mean: float | None  # None where the face has no triangle
     alpha_min: float | None
@@ -41,6 +44,7 @@ def by_face(
     lengths: NDArray[np.float64],
     folded: NDArray[np.bool_] | None,
     chord: float | None,
+    turns: Turning | None,
 ) -> tuple[FaceRow, ...]:
     """Rows of all surfaces, or of the numbers that occur where none is known.
 
@@ -71,6 +75,13 @@ def by_face(
         turned = np.bincount(faces, folded, count)
         if chord is not None:
             above = np.bincount(faces, fit.by_triangle > chord * (1 + CHORD_SLACK), count)
+    turn, bent, inner = np.zeros(count), np.zeros(count), np.zeros(count, np.int64)
+    angle = getattr(mesh.sizing, "angle", None)
+    if turns is not None:
+        np.maximum.at(turn, turns.faces, turns.angles)
+        inner = np.bincount(turns.faces, minlength=count)
+        if angle is not None:
+            bent = np.bincount(turns.faces, turns.above(angle), count)
     exact = mesh.facts.faces if mesh.facts is not None else ()
     rows = []
     for k, face in enumerate(numbers.tolist()):
@@ -92,6 +103,8 @@ def by_face(
                 deviation_triangle=int(worst[k]) if known else None,
                 deviation_point=tuple(map(float, place)) if known else None,
                 above_chord_share=float(above[k] / here) if known and chord else None,
+                angle_max=float(turn[k]) if inner[k] else None,
+                above_angle_share=float(bent[k] / inner[k]) if inner[k] and angle else None,
                 folded=int(turned[k]) if known else None,
                 alpha_mean=float(alpha_sum[k] / here) if here else None,
                 alpha_min=float(alpha_min[k]) if here else None,

@@ -81,6 +81,17 @@ def problems(
     return said
 
 
+def turned_too_far(
+    angle: float, share: float, largest: float, triangles: tuple[int, int], point: Any
+) -> str:
+    """A sentence about edges across which triangles turn by more than ``angle``, degrees."""
+    return (
+        f"neighbouring triangles turn by up to {largest:.4g}°, {angle:.4g}° was asked for "
+        f"({100 * share:.3g} % of the edges turn more); worst between triangles {triangles[0]} "
+        f"and {triangles[1]} at {_place(point)}"
+    )
+
+
 def _euler_numbers(
     mesh: SurfaceMesh, topo: Topology, solids: tuple[SolidRow, ...]
 ) -> list[str]:

@@ -13,15 +13,24 @@ from numpy.typing import NDArray
 from surfmesh.model_facts import ModelFacts
 from surfmesh.quality.by_face import CHORD_SLACK, FaceRow, by_face
 from surfmesh.quality.by_solid import SolidRow, by_solid, volume_of_all
+from surfmesh.quality.chord_use import chord_use
 from surfmesh.quality.deviation import deviation
 from surfmesh.quality.histograms import Histogram, histograms
 from surfmesh.quality.lengths import QUASI_UNIT, edge_lengths, growth, metric_lengths
-from surfmesh.quality.problems import DEGENERATE, FOLDED, INVERTED, intersections, problems
+from surfmesh.quality.problems import (
+    DEGENERATE,
+    FOLDED,
+    INVERTED,
+    intersections,
+    problems,
+    turned_too_far,
+)
 from surfmesh.quality.provenance import mesh_sha256, versions
 from surfmesh.quality.self_intersection import MeetingPair, located, meeting_pairs
 from surfmesh.quality.shape import enclosed_volume, metric_alpha, shapes
 from surfmesh.quality.solids import apart, shares_faces
 from surfmesh.quality.topology import topology
+from surfmesh.quality.turning import turning, worst_turn
 from surfmesh.quality.worst import WorstTriangle, worst_triangles
 from surfmesh.surface_mesh import SurfaceMesh
 
@@ -100,6 +109,13 @@ class Report:
     deviation_point: tuple[float, float, float] | None
     deviation_uv: tuple[float, float] | None
     above_chord_share: float | None  # triangles farther away than chord
+    chord_used: float | None  # median of deviation / chord where chord decided the size
+    chord_decided_share: float | None  # of the triangles: where not growth or another wish did
+    angle: float | None  # asked for, degrees; None: only 45 as a rule of sizes, no promise
+    angle_max: float | None  # largest between triangles that share an edge within a face
+    angle_triangles: tuple[int, int] | None  # where it is: not where the surface itself bends
+    angle_point: tuple[float, float, float] | None  # middle of the edge
+    above_angle_share: float | None  # of the edges within faces
 
     area: float
     area_exact: float | None
@@ -174,6 +190,13 @@ def check(mesh: SurfaceMesh) -> Report:
     if metric is not None and len(metric):
         low, high = QUASI_UNIT
         unit_share = float(np.count_nonzero((metric >= low) & (metric <= high)) / len(metric))
+    used = chord_use(mesh, fit)
+    angle = getattr(mesh.sizing, "angle", None)
+    turns = turning(mesh) if finite else None
+    worst = None if turns is None else worst_turn(mesh, turns)
+    turned = None
+    if worst is not None and angle is not None:
+        turned = float(np.mean(turns.above(angle)))
     faces = len(mesh.surfaces) or len(np.unique(mesh.face_ids))
     above = None
     if fit is not None and chord is not None:
@@ -188,6 +211,8 @@ def check(mesh: SurfaceMesh) -> Report:
         contacts, pairs = int(between.sum()), pairs[~between]
     meeting = () if pairs is None else located(mesh, pairs[:LISTED])
     said = problems(mesh, broken, topo, shape, fit, above, solids)
+    if turned:
+        said.append(turned_too_far(angle, turned, *worst))
     if pairs is not None and not crosses:
         said += intersections(mesh, meeting, len(pairs))
     return Report(
@@ -240,11 +265,18 @@ def check(mesh: SurfaceMesh) -> Report:
         deviation_point=None if fit is None else fit.point,
         deviation_uv=None if fit is None else fit.uv,
         above_chord_share=above,
+        chord_used=None if used is None else used.used,
+        chord_decided_share=None if used is None else used.share,
+        angle=angle,
+        angle_max=None if worst is None else worst[0],
+        angle_triangles=None if worst is None else worst[1],
+        angle_point=None if worst is None else worst[2],
+        above_angle_share=turned,
         area=float(shape.area.sum()),
         area_exact=facts.area,
         volume=_volume(mesh, encloses, solids) if finite and not broken else None,
         volume_exact=facts.volume,
-        by_face=by_face(mesh, shape, fit, lengths, folded, chord),
+        by_face=by_face(mesh, shape, fit, lengths, folded, chord, turns),
         by_solid=solids,
         unit=facts.unit,
         source=facts.source,

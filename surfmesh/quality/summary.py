@@ -45,6 +45,8 @@ def summary(report: "Report") -> str:
             )
         )
     rows.append(("deviation", _deviation(report)))
+    if report.angle is not None and report.angle_max is not None:
+        rows.append(("turning", _turning(report)))
     if report.seconds:
         rows.append(("seconds", _seconds(report)))
     lines += [
@@ -101,10 +103,22 @@ def _deviation(report: "Report") -> str:
     asked = ""
     if report.chord:
         asked = f" ({100 * report.deviation_max / report.chord:,.0f} % of chord {report.chord:.4g})"
+    used = ""
+    if report.chord_used is not None:
+        used = f"median {100 * report.chord_used:.0f} % of chord where it decides the size; "
     place = ", ".join(f"{value:.4g}" for value in report.deviation_point)
     return (
         f"largest {report.deviation_max:.4g}{asked}, rms {report.deviation_rms:.4g}; "
+        f"{used}"
         f"largest in triangle {report.deviation_triangle} at ({place})"
+    )
+
+
+def _turning(report: "Report") -> str:
+    place = ", ".join(f"{value:.4g}" for value in report.angle_point)
+    return (
+        f"largest {report.angle_max:.4g}° between neighbours ({report.angle:.4g}° asked for); "
+        f"at ({place})"
     )
 
 

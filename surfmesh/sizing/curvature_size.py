@@ -18,6 +18,10 @@ DEVIATION_RESERVE = 0.62
 """Share of ``chord`` that a unit triangle may use: real triangles are up to 1.26 times as
 large as the unit one (circumradius), and deviation grows with the square."""
 
+ROUND_RESERVE, BENT_RESERVE = 0.78, 0.94
+"""Share of ``angle`` that two unit triangles may turn by: on a sphere, where all edges turn alike
+and some triangles are larger; and for what depends on the direction, as few edges lie worst."""
+
 STRETCHED_RESERVE, STRAIGHT_RESERVE = 0.7, 0.75
 """The same for anisotropic sizes, where triangles that lie too far are split: where the surface
 is curved both ways, and where one way only. There edges alone decide, and few of those that run
@@ -40,11 +44,31 @@ def chord_size(k1: np.ndarray, k2: np.ndarray, chord: float) -> np.ndarray:
     return np.maximum(size, 2.0 * chord)
 
 
-def angle_size(k1: np.ndarray, k2: np.ndarray, angle: float) -> np.ndarray:
-    """Edge length (n,) at which neighbouring normals differ by at most ``angle`` (degrees).
+def turning_factor(k1: np.ndarray, k2: np.ndarray) -> np.ndarray:
+    """c with angle = c h (radians) between two triangles of side h that share an edge.
 
-    The normal of a triangle is that of the surface at its centre, and the centres of two
-    neighbouring equilateral triangles of side h are h / sqrt(3) apart.
+    Across an edge along t, with n at right angles to it, the slope of linear interpolation of
+    a quadric jumps by h (3 k_nn - k_tt) / (2 sqrt(3)): the far corners rise by k_nn, the edge
+    itself sags by k_tt. This is its largest value over all directions of the edge.
+    """
+    return (0.5 * np.abs(k1 + k2) + np.abs(k1 - k2)) / math.sqrt(3.0)
+
+
+def angle_size(k1: np.ndarray, k2: np.ndarray, angle: float) -> np.ndarray:
+    """Edge length (n,) at which neighbouring triangles turn by at most ``angle`` (degrees).
+
+    As ``turning_factor`` has it, with a reserve.
+    """
+    turn = 0.5 * np.abs(k1 + k2) / ROUND_RESERVE + np.abs(k1 - k2) / BENT_RESERVE
+    with np.errstate(divide="ignore", over="ignore"):
+        return math.sqrt(3.0) * math.radians(angle) / turn
+
+
+def fold_size(k1: np.ndarray, k2: np.ndarray, angle: float) -> np.ndarray:
+    """Edge length (n,) at which normals turn by at most ``angle`` (degrees) between neighbours.
+
+    The normal of the surface, that is: a rule against folds, no bound on the triangles. The
+    centres of two neighbouring equilateral triangles of side h are h / sqrt(3) apart.
     """
     largest = np.maximum(np.abs(k1), np.abs(k2))
     with np.errstate(divide="ignore", over="ignore"):
@@ -64,11 +88,37 @@ def principal_chord_sizes(
     as smooth as that at umbilics.
     """
     first, second = np.abs(k1), np.abs(k2)
-    large = np.maximum(first, second)
-    small = np.where(first < second, k1, k2) * np.where(first < second, np.sign(k2), np.sign(k1))
+    balance = _balance(k1, k2, ratio)
     with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
-        balance = np.clip(np.nan_to_num(ratio**2 * (small / large)), -1.0, 1.0)
         reserve = STRAIGHT_RESERVE + (STRETCHED_RESERVE - STRAIGHT_RESERVE) * np.abs(balance)
         bound = reserve * chord / np.maximum(0.125, (1.0 + balance) / 12.0)
         sizes = np.sqrt(bound / first), np.sqrt(bound / second)
     return np.maximum(sizes[0], 2.0 * chord), np.maximum(sizes[1], 2.0 * chord)
+
+
+def principal_angle_sizes(
+    k1: np.ndarray, k2: np.ndarray, angle: float, ratio: float
+) -> tuple[np.ndarray, np.ndarray]:
+    """Edge lengths (n,) along k1 and k2 at which triangles turn by at most ``angle`` (degrees).
+
+    With h_i^2 |k_i| = a as above the slope jumps by a (3 - b) / (2 sqrt(3) h_i) across an edge
+    at right angles to direction i, the shorter h_i decides. Sizes that keep h_i |k_i| alike
+    would not do: the sag of a long edge tilts the narrow triangles beside it.
+    """
+    first, second = np.abs(k1), np.abs(k2)
+    large = np.maximum(first, second)
+    balance = _balance(k1, k2, ratio)
+    # (3 - b) / 2, the parts with a reserve each
+    turn = 0.5 * (1.0 + balance) / ROUND_RESERVE + (1.0 - balance) / BENT_RESERVE
+    wanted = math.sqrt(3.0) * math.radians(angle) / turn
+    with np.errstate(divide="ignore", over="ignore"):
+        return wanted / np.sqrt(large * first), wanted / np.sqrt(large * second)
+
+
+def _balance(k1: np.ndarray, k2: np.ndarray, ratio: float) -> np.ndarray:
+    """b (n,): signed ratio of h_i^2 k_i, -1 to 1, where sizes differ by up to ``ratio``."""
+    first, second = np.abs(k1), np.abs(k2)
+    small = np.where(first < second, k1, k2) * np.where(first < second, np.sign(k2), np.sign(k1))
+    with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
+        share = small / np.maximum(first, second)
+        return np.clip(np.nan_to_num(ratio**2 * share), -1.0, 1.0)

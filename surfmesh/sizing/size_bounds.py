@@ -4,7 +4,13 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from surfmesh.sizing.curvature_size import angle_size, chord_size, principal_chord_sizes
+from surfmesh.sizing.curvature_size import (
+    angle_size,
+    chord_size,
+    fold_size,
+    principal_angle_sizes,
+    principal_chord_sizes,
+)
 from surfmesh.sizing.sizing import Sizing
 
 DEFAULT_CHORD = 1e-3
@@ -17,6 +23,10 @@ LONGEST = 1.0
 FINEST_SIZE = 1e-5
 """No size is smaller, relative to the diagonal, unless ``min_size`` says so: at an apex the
 curvature is infinite."""
+
+FINEST_TURN = 2e-4
+"""``angle`` asks for no smaller size, relative to the diagonal: triangles about an apex turn by
+as much at any size."""
 
 DEFAULT_ANGLE = 45.0
 """Degrees; kept wherever the size follows the curvature at all."""
@@ -38,6 +48,9 @@ class SizeBounds:
     longest: float
     """The largest along the longer axis of an anisotropic metric."""
 
+    finest_turn: float = 0.0
+    """``angle`` asks for nothing smaller, model units."""
+
     @classmethod
     def of(cls, sizing: Sizing, diagonal: float) -> "SizeBounds":
         """``diagonal``: of the surface's bounding box, model units."""
@@ -53,7 +66,7 @@ class SizeBounds:
         longest = coarsest
         if sizing.is_anisotropic and not sizing.max_size and not isinstance(sizing.size, float):
             longest = max(coarsest, LONGEST * diagonal)
-        return cls(sizing, (finest, coarsest), longest)
+        return cls(sizing, (finest, coarsest), longest, FINEST_TURN * diagonal)
 
     @property
     def follows_curvature(self) -> bool:
@@ -65,9 +78,10 @@ class SizeBounds:
         if self.sizing.chord is not None:
             size = np.minimum(size, chord_size(k1, k2, self.sizing.chord))
         if self.sizing.angle is not None:
-            size = np.minimum(size, angle_size(k1, k2, self.sizing.angle))
+            turned = angle_size(k1, k2, self.sizing.angle)
+            size = np.minimum(size, np.maximum(turned, self.finest_turn))
         else:  # a triangle within chord of an apex need not follow it
-            unfolded = angle_size(k1, k2, DEFAULT_ANGLE)
+            unfolded = fold_size(k1, k2, DEFAULT_ANGLE)
             size = np.minimum(size, np.maximum(unfolded, LEAST_OF_CHORD * self.sizing.chord))
         return np.clip(size, *self.clamp)
 
@@ -85,9 +99,10 @@ class SizeBounds:
         if self.sizing.chord is not None:
             sizes = np.stack(principal_chord_sizes(k1, k2, self.sizing.chord, ratio), axis=1)
         if self.sizing.angle is not None:
-            sizes = np.minimum(sizes, angle_size(k, k, self.sizing.angle))
+            turned = np.stack(principal_angle_sizes(k1, k2, self.sizing.angle, ratio), axis=1)
+            sizes = np.minimum(sizes, np.maximum(turned, self.finest_turn))
         else:
-            unfolded = angle_size(k, k, DEFAULT_ANGLE)
+            unfolded = fold_size(k, k, DEFAULT_ANGLE)
             sizes = np.minimum(sizes, np.maximum(unfolded, LEAST_OF_CHORD * self.sizing.chord))
         wanted = sizes.min(axis=1)
         shorter = np.clip(wanted, *self.clamp)

@@ -118,10 +118,12 @@ class SizeLaw:
         self.limits = limits
 
     def from_curvature(self, k: np.ndarray) -> np.ndarray:
-        """Size (n,) where the surface is curved by k (n,), 1 / model unit, one way only."""
+        """Largest size (n,) where the surface is curved by at most k (n,), 1 / model unit."""
+        # curved one way only chord allows most, curved both ways alike angle does
+        other = np.zeros(len(k)) if self.sizing.angle is None else k
         if self.sizing.is_anisotropic:
-            return self.bounds.principal(k, np.zeros(len(k))).min(axis=1)
-        return self.bounds.from_curvature(k, 0.0)
+            return self.bounds.principal(k, other).min(axis=1)
+        return self.bounds.from_curvature(k, other)
 
     def __call__(self, xy: np.ndarray) -> FieldNodes:
         """Nodes at xy (n, 2) of the scaled plane."""

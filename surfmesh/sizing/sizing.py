@@ -25,8 +25,10 @@ class Sizing:
     """Largest distance between mesh and surface, model units."""
 
     angle: float | None = None
-    """Largest angle between the normals of two triangles that share an edge, degrees; 45 when
-    only ``chord`` is given: a coarser mesh would fold."""
+    """Largest angle between the normals of two triangles of one face that share an edge, degrees:
+    measured on the mesh, and made finer until it holds. Left out are the places where the surface
+    itself bends, creases and apexes. When only ``chord`` is given sizes follow a rule of 45
+    degrees, as a coarser mesh would fold; that is no promise."""
 
     size: float | SizeLaw | None = None
     """Wanted edge length: a number, or a callable of points (n, 3) -> (n,)."""

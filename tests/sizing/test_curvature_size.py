@@ -8,6 +8,7 @@ from surfmesh.sizing.curvature_size import (
     angle_size,
     chord_size,
     deviation_factor,
+    principal_angle_sizes,
 )
 
 
@@ -56,12 +57,15 @@ def test_limits():
     assert np.isinf(chord_size(np.zeros(1), np.zeros(1), 0.1)[0])
     assert chord_size(np.array([1e9]), np.zeros(1), 0.1)[0] == 0.2  # never below 2 chord
     assert np.isinf(angle_size(np.zeros(1), np.zeros(1), 10.0)[0])
+    assert np.isinf(principal_angle_sizes(np.zeros(1), np.zeros(1), 10.0, 5.0)).all()
+    shorter, longer = principal_angle_sizes(np.ones(1), np.zeros(1), 10.0, 5.0)
+    assert np.isfinite(shorter[0]) and np.isinf(longer[0])
 
 
 def test_angle_size_on_a_sphere():
     """Normals of two equilateral triangles that share an edge, exactly, stay below the angle."""
     angle = 10.0
-    (h,) = angle_size(np.array([1.0]), np.array([-1.0]), angle)
+    (h,) = angle_size(np.array([1.0]), np.array([1.0]), angle)
     height = np.sqrt(1 - h**2 / 3)  # of a triangle's plane over the centre of the unit sphere
     half = np.arctan2(h / (2 * np.sqrt(3)), height)  # from its centre to the middle of an edge
     assert 0.7 * angle < np.degrees(2 * half) < angle
