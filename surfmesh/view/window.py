@@ -27,7 +27,7 @@ def show(
     Everything as in ``plot``. Returns when the window is closed. Raises ``SurfmeshError`` when
     there is no display.
     """
-    if "ipykernel" in sys.modules:
+    if _in_notebook():
         _show_page(mesh, by, edges, circles, directions, worst, title)
         return
     displays = ("DISPLAY", "WAYLAND_DISPLAY")
@@ -46,6 +46,12 @@ def show(
         off_screen=False,
     )
     plotter.show()
+
+
+def _in_notebook() -> bool:
+    """Does this code run in the kernel of a notebook? That the module is there says nothing."""
+    shell = getattr(sys.modules.get("IPython"), "get_ipython", lambda: None)()
+    return hasattr(shell, "kernel")
 
 
 def _show_page(

@@ -129,8 +129,8 @@ def test_a_mesh_is_shown_as_it_is(saddle, tmp_path):
 def test_a_notebook_gets_a_page_within_its_page(saddle, monkeypatch):
     shown = []
     display = types.SimpleNamespace(HTML=str, display=shown.append)
-    monkeypatch.setitem(sys.modules, "ipykernel", types.ModuleType("ipykernel"))
-    monkeypatch.setitem(sys.modules, "IPython", types.ModuleType("IPython"))
+    shell = types.SimpleNamespace(kernel=object())
+    monkeypatch.setitem(sys.modules, "IPython", types.SimpleNamespace(get_ipython=lambda: shell))
     monkeypatch.setitem(sys.modules, "IPython.display", display)
     show(saddle, by="size", circles=True)
     (widget,) = shown
