@@ -4,7 +4,9 @@
     (numbers, points)     seams twice     graded inward from the sizes of the edges
 """
 
+from collections import Counter
 from dataclasses import replace
+from itertools import pairwise
 from pathlib import Path
 from traceback import extract_tb
 
@@ -45,12 +47,12 @@ def mesh_face(job: FaceJob) -> FaceMesh:
     """Mesh one face. Never raises for what is wrong with the face: see ``failure``."""
     try:
         try:
-            return _meshed(job)
+            return _never_empty(job, _meshed(job))
         except SurfaceError:
             opened = untangled_job(job)
             if opened is None:
                 raise
-            return _meshed(opened, unfold=False)
+            return _never_empty(job, _meshed(opened, unfold=False))
     except SurfmeshError as error:
         closed = filled_face(job, str(error)) if job.last else None
         if closed is not None:
@@ -62,6 +64,19 @@ def mesh_face(job: FaceJob) -> FaceMesh:
             failure=f"internal error, please report it with the model: {type(error).__name__}: "
             f"{error} ({Path(at.filename).name}, line {at.lineno})"
         )
+
+
+def _never_empty(job: FaceJob, mesh: FaceMesh) -> FaceMesh:
+    """The mesh; one without triangles says why, and whether that leaves a hole."""
+    if len(mesh.triangles) or mesh.failure or mesh.remark:
+        return mesh
+    uses: Counter[frozenset[int]] = Counter()
+    for loop in job.loops:
+        for piece in loop:
+            uses.update(map(frozenset, pairwise(piece.numbers.tolist())))
+    if all(len(ends) == 1 or count % 2 == 0 for ends, count in uses.items()):
+        return replace(mesh, remark="left out, its edges lie on each other and its neighbours meet")
+    return replace(mesh, failure="nothing is left of it at sizes this coarse")
 
 
 def _wishes_at(job: FaceJob, where: np.ndarray | None) -> SizeLimits | None:

@@ -1,11 +1,13 @@
 """Polygons in space closed by triangles between their corners."""
 
+from types import SimpleNamespace
+
 import numpy as np
 import pytest
 
 from surfmesh.geometry.elementary import Plane
-from surfmesh.meshing.face_data import FaceJob, Piece
-from surfmesh.meshing.face_job import mesh_face
+from surfmesh.meshing.face_data import FaceJob, FaceMesh, Piece
+from surfmesh.meshing.face_job import _never_empty, mesh_face
 from surfmesh.meshing.filling import filled
 from surfmesh.sizing.sizing import Sizing
 
@@ -63,3 +65,17 @@ def test_images_without_area_are_closed_in_space_the_last_time():
     found, area = square_with(images, last=True)
     assert not found.failure and "off the surface" in found.remark
     assert area == pytest.approx(1.0)
+
+
+@pytest.mark.parametrize(
+    "back, said", [([1, 0], "neighbours meet"), ([1, 2, 0], "nothing is left")]
+)
+def test_a_face_without_triangles_says_why(back, said):
+    """There and back on the same segments leaves no hole, another way back does."""
+    place = np.zeros((len(back), 3))
+    there = Piece(np.zeros((2, 2)), np.array([0, 1]), np.zeros((2, 3)), np.ones(2))
+    again = Piece(place[:, :2], np.array(back), place, np.ones(len(back)))
+    job = FaceJob(SimpleNamespace(kind="plane"), ((there, again),), Sizing())
+    mesh = _never_empty(job, FaceMesh())
+    assert said in mesh.remark + mesh.failure
+    assert bool(mesh.failure) == (said == "nothing is left")
