@@ -61,15 +61,16 @@ def bounds(
     least, most = np.zeros(len(model.faces)), np.zeros(len(model.faces))
     for number, (face, sizing) in enumerate(zip(model.faces, sizings)):
         edges = [nodes[c.edge].sizes.min() for c in face.coedges if nodes[c.edge] is not None]
-        uv = inner_samples(face, FEW)
         allowed = SizeBounds.of(sizing, model.diagonal)
-        if not len(uv):
+        plain = face.surface.kind == "plane" and not sizing.has_law
+        uv = np.empty((0, 2)) if plain else inner_samples(face, FEW)
+        if not plain and not len(uv):
             smallest = min([*edges, allowed.clamp[1]])
             most[number] = TRIANGLES * face.area / max(smallest, allowed.clamp[0]) ** 2
             continue
         points, *derivatives = face.surface.evaluate(uv, 2)
-        sizes = np.full(len(uv), allowed.clamp[1])
-        if allowed.follows_curvature:
+        sizes = np.full(1 if plain else len(uv), allowed.clamp[1])
+        if allowed.follows_curvature and not plain:
             forms = forms_from_derivatives(*derivatives)
             k = curvatures(forms)
             sizes = np.where(forms.degenerate, sizes, allowed.shorter(k.k1, k.k2))
