@@ -20,7 +20,9 @@ from surfmesh.sizing.sizing import Sizing
 
 LARGEST_TURN = np.pi / 3.0
 """No segment of an edge turns farther, so that polygons keep the shape of their loops."""
-CLOSED_SEGMENTS = 3
+CLOSED_SEGMENTS, TWIN_SEGMENTS = 3, 2
+"""Fewest segments of an edge that ends where it starts, and of a curved one beside another edge
+between the same two vertices: their chords would be one edge of the mesh."""
 
 
 @dataclass(frozen=True)
@@ -152,6 +154,8 @@ def _cut(
     np.cumsum(2.0 * step / (size[1:] + size[:-1]), out=metric[1:])
     start, end = samples.vertex[[edge.start, edge.end]]
     least = max(1, int(np.ceil(samples.turn[number] / LARGEST_TURN - 1e-9)))
+    if samples.has_twin[number]:
+        least = max(least, TWIN_SEGMENTS)
     pieces = max(CLOSED_SEGMENTS if start == end else 1, least, round(float(metric[-1])))
     if pieces > limit:
         raise SizingError(

@@ -74,6 +74,8 @@ class EdgeSamples:
     lowers it. Both are empty where sizes do not depend on the direction."""
     turn: np.ndarray
     """(e,) by how much the tangent turns along each edge, radians."""
+    has_twin: np.ndarray
+    """(e,) bool: the edge is curved, and another one joins the same two vertices."""
     vertex: np.ndarray
     """(v,) for each CAD vertex the number that it has in the mesh."""
     edges_of_face: tuple[np.ndarray, ...]
@@ -121,6 +123,7 @@ def sample_edges(model: CadModel, sizing: ModelSizing) -> EdgeSamples:
         np.array(sorted({c.edge for c in face.coedges if count[c.edge + 1]}), np.int64)
         for face in model.faces
     )
+    vertex = vertex_numbers(model)
     samples = EdgeSamples(
         first,
         np.concatenate(shares) if shares else np.empty(0),
@@ -129,12 +132,24 @@ def sample_edges(model: CadModel, sizing: ModelSizing) -> EdgeSamples:
         np.concatenate(tangents) if tangents else np.empty((0, 3)),
         np.concatenate(metrics) if metrics else np.empty(0),
         turn,
-        vertex_numbers(model),
+        _has_twin(model, first, turn, vertex),
+        vertex,
         edges_of_face,
     )
     _heed_vertices(model, samples, sizing)
     _heed_gaps(model, samples, sizing)
     return samples
+
+
+def _has_twin(model: CadModel, first: np.ndarray, turn: np.ndarray, vertex: np.ndarray):
+    """(e,) bool; see ``EdgeSamples``."""
+    ends = np.array([[edge.start, edge.end] for edge in model.edges]).reshape(-1, 2)
+    ends = np.sort(vertex[ends], axis=1)
+    there = np.diff(first) > 0
+    _, group, count = np.unique(ends[there], axis=0, return_inverse=True, return_counts=True)
+    found = np.zeros(len(model.edges), bool)
+    found[there] = count[group.reshape(-1)] > 1
+    return found & (turn > 0.0)
 
 
 def collapses(model: CadModel, edge: CadEdge) -> bool:

@@ -35,7 +35,7 @@ from surfmesh.sizing.size_limits import SizeLimits
 from surfmesh.sizing.sizing import Sizing
 from surfmesh.surface_mesh import NOT_MESHED, SurfaceMesh
 
-ROUNDS = 6
+ROUNDS = 8
 """How often everything that depends on refined edges is done again, at most."""
 
 FINER = 0.6

@@ -11,7 +11,7 @@ import numpy as np
 from surfmesh.geometry.surface import Surface
 from surfmesh.sizing.size_limits import SizeLimits
 
-EDGES_ROUND = 3.5
+EDGES_ROUND = 5.0
 """Wanted edges on the way round a tube, at least."""
 
 SAMPLES = 9

@@ -153,3 +153,19 @@ def test_the_number_of_workers_changes_nothing():
     one, three = (sm.mesh(model, jobs=jobs) for jobs in (1, 3))
     assert np.array_equal(one.points, three.points)
     assert np.array_equal(one.triangles, three.triangles)
+
+
+def test_two_edges_between_the_same_vertices_are_not_one_chord():
+    """Flat arcs of one piece each had the same chord, which four triangles then shared."""
+    lens = cq.Workplane().moveTo(0, 0).threePointArc((5, 0.4), (10, 0))
+    lens = lens.threePointArc((5, -0.4), (0, 0)).close()
+    mesh = sm.mesh(sm.from_cadquery(lens.extrude(20)), 9.0)
+    report = sm.check(mesh)
+    assert report.clean and report.euler == 2
+
+
+def test_a_fine_bore_is_open_at_any_size():
+    for bore, size in ((0.05, 0.9), (0.13, 1.8), (0.2, 3.0)):
+        part = cq.Workplane().box(12, 15, 4).faces(">Z").workplane().hole(bore)
+        report = sm.check(sm.mesh(sm.from_cadquery(part), size))
+        assert report.clean and report.euler == 0, (bore, size, report.problems)
