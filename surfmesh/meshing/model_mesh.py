@@ -94,7 +94,7 @@ def mesh_model(
         with watch.stage("mapping"):
             mesh = _joined(model, jobs, done, nodes, samples, sizing, watch)
             wishes = {k: found.wishes for k, found in enumerate(done) if found.wishes is not None}
-            _refine_crowded(mesh, sizing, wishes)
+            _refine_crowded(model, mesh, sizing, wishes)
             for number, wish in contents.wishes(mesh).items():
                 wishes[number] = wish.joined_with(wishes.get(number))
         if not wishes:
@@ -330,15 +330,25 @@ def _loose(model: CadModel, sizing: Sizing) -> list[str]:
     ]
 
 
-def _refine_crowded(mesh: SurfaceMesh, sizing: Sizing, wishes: dict[int, SizeLimits]) -> None:
-    """Ask for smaller sizes where two faces made the same chord between their common nodes."""
+def _refine_crowded(
+    model: CadModel, mesh: SurfaceMesh, sizing: Sizing, wishes: dict[int, SizeLimits]
+) -> None:
+    """Ask for smaller sizes where faces made the same chord between their common nodes.
+
+    Along an edge of the model there are as many triangles as it has uses.
+    """
     table = mesh.connectivity
     crowded = table.uses > 2
     if not crowded.any() or not len(mesh.edge_segments):
         return
-    width = np.int64(len(mesh.points))
-    along = np.sort(mesh.edge_segments, axis=1) @ np.array([width, 1])
-    bad = np.flatnonzero(crowded & ~np.isin(table.edges @ np.array([width, 1]), along))
+    code = np.array([len(mesh.points), 1], np.int64)
+    along, place = np.unique(np.sort(mesh.edge_segments, axis=1) @ code, return_inverse=True)
+    users = np.array([len(model.faces_of_edge(edge)) for edge in range(len(model.edges))])
+    allowed = np.bincount(place.reshape(-1), users[mesh.edge_ids])
+    keys = table.edges @ code
+    row = np.minimum(np.searchsorted(along, keys), len(along) - 1)
+    most = np.where(along[row] == keys, np.maximum(allowed[row], 2), 2)
+    bad = np.flatnonzero(table.uses > most)
     if not len(bad):
         return
     ends = table.edges[bad].ravel()
