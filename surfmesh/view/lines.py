@@ -39,8 +39,12 @@ def model_edge_pairs(mesh: SurfaceMesh) -> NDArray[np.int32]:
     return table.edges[(table.uses != 2) | (first != second)]
 
 
+SYMMETRIC = np.array([[0, 1, 2], [1, 3, 4], [2, 4, 5]])
+"""Places of xx, xy, xz, yy, yz, zz in a symmetric tensor."""
+
+
 def circles(mesh: SurfaceMesh) -> Lines:
-    """The circle of every vertex, drawn on the triangles around it.
+    """The circle, or ellipse where sizes have a direction, of every vertex, on the triangles.
 
     Its diameter is the wanted size: touching circles are edges of the wanted length. In the
     corner of a triangle it is an arc in the triangle's plane; what would lie beyond the side
@@ -56,9 +60,13 @@ def circles(mesh: SurfaceMesh) -> Lines:
     for i in range(3):
         a, b, c = corners[:, i], corners[:, (i + 1) % 3], corners[:, (i + 2) % 3]
         along = (1.0 - share)[:, None, None] * (b - a) + share[:, None, None] * (c - a)
-        length = np.linalg.norm(along, axis=2)
+        if mesh.inverse_sizes is None:
+            length = np.linalg.norm(along, axis=2) / mesh.sizes[mesh.triangles[:, i]]
+        else:
+            wanted = mesh.inverse_sizes[mesh.uv_triangles[:, i]][:, SYMMETRIC]  # (m, 3, 3)
+            length = np.linalg.norm(np.einsum("mij,smj->smi", wanted, along), axis=2)
         # how far towards the opposite side the circle reaches: 1 is on it
-        reach = 0.5 * mesh.sizes[mesh.triangles[:, i]] / np.where(length > 0, length, 1.0)
+        reach = 0.5 / np.where(length > 0, length, np.inf)
         ends = a + np.minimum(reach, 1.0)[:, :, None] * along
         inside = (reach[:-1] < 1.0) | (reach[1:] < 1.0)
         arcs.append(np.stack((ends[:-1], ends[1:]), axis=2)[inside])

@@ -53,7 +53,7 @@ def page_data(
         "triangles": mesh.triangles.astype("<u4"),
         "face_ids": np.maximum(mesh.face_ids, 0).astype("<u4"),
     }
-    if mesh.sizes is not None:
+    if mesh.sizes is not None and mesh.inverse_sizes is None:  # the page draws circles with them
         arrays["sizes"] = _rounded(mesh.sizes / scale)
     entries = []
     for key, found in colourings.items():

@@ -154,3 +154,16 @@ def test_scene_has_a_line_actor_for_each_layer(saddle):
     lines = [a for a in plotter.actors.values() if getattr(a, "mapper", None) is not None]
     assert len(lines) >= 1 + len(layers)
     plotter.close()
+
+
+def test_circles_are_ellipses_where_sizes_have_a_direction():
+    """Every piece lies half a wanted length from some vertex, in the tensor of that vertex."""
+    tube = sm.ParametricSurface("cos(u)", "sin(u)", "v", u=(0, "2*pi"), v=(0, 20))
+    mesh = sm.mesh(tube, sm.Sizing(chord=0.02, anisotropy=4))
+    row = np.empty(len(mesh.points), int)
+    row[mesh.triangles] = mesh.uv_triangles
+    wanted = mesh.inverse_sizes[row][:, [[0, 1, 2], [1, 3, 4], [2, 4, 5]]]
+    ends = circles(mesh).segments[::97, 0]
+    away = np.einsum("vij,evj->evi", wanted, ends[:, None] - mesh.points)
+    nearest = np.abs(np.linalg.norm(away, axis=2) - 0.5).min(axis=1)
+    assert np.median(nearest) < 1e-9
