@@ -69,3 +69,19 @@ def say(what: dict) -> None:
 def answer(work: Callable[[dict], dict]) -> None:
     """The other side: do ``work`` on what was asked for, print what comes out."""
     say(work(json.loads(sys.stdin.read())))
+
+
+def answer_by(work: dict[str, Callable[[dict], dict]]) -> None:
+    """The other side, for meshers by name: what one finds, or why it will not.
+
+    A refusal is to be told from a crash, which leaves no answer.
+    """
+
+    def of_one(request: dict) -> dict:
+        try:
+            return work[request["mesher"]](request)
+        except Exception as error:
+            reason = f"{type(error).__name__}: {error}".strip().splitlines()[0]
+            return {"error": reason[:300], "ended": "refusal"}
+
+    answer(of_one)

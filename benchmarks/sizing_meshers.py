@@ -309,14 +309,5 @@ WORK = {
 }  # fmt: skip
 
 
-def _answer(request: dict) -> dict:
-    """What the mesher finds, or why it will not: to be told from a crash."""
-    try:
-        return WORK[request["mesher"]](request)
-    except Exception as error:
-        reason = f"{type(error).__name__}: {error}".strip().splitlines()[0]
-        return {"error": reason[:300], "ended": "refusal"}
-
-
 if __name__ == "__main__":
-    child_process.answer(_answer)
+    child_process.answer_by(WORK)

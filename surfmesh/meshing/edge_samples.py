@@ -141,7 +141,9 @@ def sample_edges(model: CadModel, sizing: ModelSizing) -> EdgeSamples:
     return samples
 
 
-def _has_twin(model: CadModel, first: np.ndarray, turn: np.ndarray, vertex: np.ndarray):
+def _has_twin(
+    model: CadModel, first: np.ndarray, turn: np.ndarray, vertex: np.ndarray
+) -> np.ndarray:
     """(e,) bool; see ``EdgeSamples``."""
     ends = np.array([[edge.start, edge.end] for edge in model.edges]).reshape(-1, 2)
     ends = np.sort(vertex[ends], axis=1)

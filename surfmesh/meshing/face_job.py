@@ -24,7 +24,7 @@ from surfmesh.meshing.face_repair import filled_face, untangled_job
 from surfmesh.meshing.gluing import glued, misglued
 from surfmesh.meshing.one_place import one_place
 from surfmesh.meshing.optimise import Optimiser
-from surfmesh.meshing.packing import packed
+from surfmesh.meshing.packing import packed_over
 from surfmesh.meshing.seam_limits import seam_limits
 from surfmesh.sizing.boundary_field import boundary_field, has_boundary_field
 from surfmesh.sizing.size_field import SizeField, inverse_sizes, size_field
@@ -125,15 +125,9 @@ def _spacing(points: np.ndarray) -> np.ndarray:
 
 def _meshed(job: FaceJob, unfold: bool = True) -> FaceMesh:
     """unfold: ask for smaller sizes at folds. In space, edges that cross do so at any size."""
-    surface, field = _field(job)
+    surface, field = face_field(job)
     loops, fixed, slots = _loops(job, field)
-    width, height = field.scaling.extent
-    packing = packed(
-        field.background,
-        (0.0, 0.0, width, height),
-        (0.5 * width, 0.5 * height),
-        field.expected_vertices(),
-    )
+    packing = packed_over(field)
     domain = recovered(packing.t, loops, field, surface)
     del packing
     same = domain.node[loops.identity]
@@ -190,12 +184,10 @@ def _astray(
 
 
 def face_field(job: FaceJob) -> tuple[Surface, SizeField]:
-    """The surface over the box of the loops, and its size field. Raises ``SizingError``."""
-    return _field(job)
+    """The surface over the box of the loops, and sizes graded inward from them.
 
-
-def _field(job: FaceJob) -> tuple[Surface, SizeField]:
-    """The surface over the box of the loops, and sizes graded inward from them."""
+    Raises ``SizingError``.
+    """
     pieces = [piece for loop in job.loops for piece in loop]
     uv = np.concatenate([piece.uv for piece in pieces])
     low, high = uv.min(axis=0), uv.max(axis=0)

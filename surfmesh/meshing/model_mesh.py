@@ -30,7 +30,7 @@ from surfmesh.meshing.model_groups import groups_of
 from surfmesh.meshing.simplification import LEAST, simplified
 from surfmesh.meshing.solid_contents import Contents
 from surfmesh.meshing.stages import Progress, Stopwatch
-from surfmesh.sizing.model_sizing import model_sizing
+from surfmesh.sizing.model_sizing import ModelSizing, model_sizing
 from surfmesh.sizing.size_limits import SizeLimits
 from surfmesh.sizing.sizing import Sizing
 from surfmesh.surface_mesh import NOT_MESHED, SurfaceMesh
@@ -122,21 +122,24 @@ def mesh_model(
 
 def estimate_model(model: CadModel, sizing: Any) -> Estimate:
     """Triangles and memory of ``mesh_model``. Raises ``SizingError`` for wishes that cannot be."""
-    wanted = with_face_gaps(model, model_sizing(model, sizing))
-    samples = sample_edges(model, wanted)
-    of_face = face_sizings(model, samples, wanted)
-    nodes = cut_edges(model, wanted.base, samples, {})
-    return model_estimate(model, _jobs(model, nodes, samples, of_face, True), wanted.base)
+    wanted, _, _, jobs = _unmeshed(model, sizing)
+    return model_estimate(model, jobs, wanted.base)
 
 
 def explain_size(model: CadModel, sizing: Any, point: np.ndarray) -> Explanation:
     """Which of the wishes decides at a point (3,), or at the nearest one of the model."""
+    return explain_model(model, *_unmeshed(model, sizing), point)
+
+
+def _unmeshed(
+    model: CadModel, sizing: Any
+) -> tuple[ModelSizing, EdgeSamples, list[Sizing], list[FaceJob]]:
+    """Wishes, samples of edges, wishes by face and jobs: all that precedes the first mesh."""
     wanted = with_face_gaps(model, model_sizing(model, sizing))
     samples = sample_edges(model, wanted)
     of_face = face_sizings(model, samples, wanted)
     nodes = cut_edges(model, wanted.base, samples, {})
-    jobs = _jobs(model, nodes, samples, of_face, True)
-    return explain_model(model, wanted, samples, of_face, jobs, point)
+    return wanted, samples, of_face, _jobs(model, nodes, samples, of_face, True)
 
 
 def _jobs(

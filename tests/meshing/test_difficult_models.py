@@ -108,7 +108,7 @@ def test_mistakes_of_ours_are_called_so(monkeypatch):
     def broken(*_):
         raise IndexError("no such slot")
 
-    monkeypatch.setattr(face_job, "packed", broken)
+    monkeypatch.setattr(face_job, "packed_over", broken)
     with pytest.raises(MeshingError, match=r"internal error, please report .* slot"):
         sm.mesh(cq.Workplane().box(1, 1, 1), 0.5)
 
