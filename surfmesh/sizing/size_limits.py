@@ -48,6 +48,30 @@ class SizeLimits:
         size = 1.0 / np.maximum(inverse, np.finfo(float).tiny)
         return (size + self.slope * distance).min(axis=1)
 
+    def tightest(self, points: np.ndarray, normals: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """The smallest size (n,) that is allowed in any direction of the tangent planes at points
+        (n, 3) with unit normals (n, 3), and a unit direction (n, 3) it holds in."""
+        from scipy.spatial import cKDTree
+
+        count = min(NEAREST, len(self.sizes))
+        distance, index = cKDTree(self.points).query(points, k=[*range(1, count + 1)])
+        first = _across(normals)
+        second = np.cross(normals, first)
+        if self.in_space is None:
+            return (self.sizes[index] + self.slope * distance).min(axis=1), first
+        rows = self.in_space[index][..., [[0, 1, 2], [1, 3, 4], [2, 4, 5]]]
+        a = np.einsum("nkij,ni,nj->nk", rows, first, first)
+        b = np.einsum("nkij,ni,nj->nk", rows, first, second)
+        c = np.einsum("nkij,ni,nj->nk", rows, second, second)
+        mean, half = 0.5 * (a + c), 0.5 * (a - c)
+        largest = mean + np.hypot(half, b)
+        size = 1.0 / np.maximum(largest, np.finfo(float).tiny) + self.slope * distance
+        best = size.argmin(axis=1)[:, None]
+        b, half = (np.take_along_axis(x, best, 1) for x in (b, half))
+        angle = 0.5 * np.arctan2(b, half)
+        direction = np.cos(angle) * first + np.sin(angle) * second
+        return np.take_along_axis(size, best, 1)[:, 0], direction
+
     def joined_with(self, other: "SizeLimits | None") -> "SizeLimits":
         """Both sets of bounds."""
         if other is None:
@@ -86,3 +110,10 @@ def along_lines(directions: np.ndarray, sizes: np.ndarray) -> np.ndarray:
     """Tensors (k, 6) of sizes (k,) that hold along unit directions (k, 3) only: e e^T / size."""
     first, second = [0, 0, 0, 1, 1, 2], [0, 1, 2, 1, 2, 2]
     return directions[:, first] * directions[:, second] / sizes[:, None]
+
+
+def _across(normals: np.ndarray) -> np.ndarray:
+    """Unit vectors (n, 3) at right angles to unit normals (n, 3)."""
+    axis = np.eye(3)[np.abs(normals).argmin(axis=1)]
+    found = np.cross(normals, axis)
+    return found / np.linalg.norm(found, axis=1)[:, None]
