@@ -137,7 +137,7 @@ def _meshed(job: FaceJob, unfold: bool = True) -> FaceMesh:
     if job.limits is None and not job.sizing.is_anisotropic:  # the edges heed them from now on
         wishes = _wishes_along(job, surface, field, loops, fixed)
     if job.optimise:
-        changes = optimiser.run()
+        changes = optimiser.run(first=job.limits is None)
         astray = np.zeros(len(domain.t.xy), bool)
         astray[domain.node] = _astray(surface, loops, fixed, job.sizing.chord)
         helped = ~astray[domain.t.tri.reshape(-1, 3)[changes.far]].any(axis=1)
