@@ -195,9 +195,9 @@ class SizeLaw:
         round, or nearly so, limits hold in every direction.
         """
         least = self._least()
-        across = np.maximum(self.limits.along(point, np.cross(normal, along)), least)
-        onward = np.maximum(self.limits.along(point, along), least)
-        both = self._limited(point)
+        directions = np.stack([np.cross(normal, along), along])
+        found = self.limits.along_and_all_ways(point, directions)
+        across, onward, both = np.maximum(found, least)
         is_round = long <= ROUND * size
         across, onward = np.where(is_round, both, across), np.where(is_round, both, onward)
         factor = np.minimum(across, size) / size
