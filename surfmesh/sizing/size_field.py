@@ -51,8 +51,9 @@ or half at a kink. Where gradation decides, the field is a cone and all slopes a
 FINEST_EXTENT = 0.2
 """A cell narrower than this many edges is not split: no circle would notice."""
 
-FINEST_GRADED = 1.0
-"""The same where sizes are graded from sources, which have cells of their own size already."""
+FINEST_GRADED, FINEST_STRETCHED = 1.0, 2.0
+"""The same where sizes are graded from sources, which have cells of their own size already; and
+where they depend on the direction too, so that gradation brings kinks of its own."""
 
 POLE_DISTANCE = 0.9
 """In edges: the first ring of triangles around a pole lies about there."""
@@ -314,7 +315,8 @@ class _Builder:
             graded |= (nodes.long < 0.98 * nodes.long_wish)[patch].any(axis=1)
         allowed = np.where(graded, GRADED_ERROR, TEST_ERROR)
         by_sources = self.law.limits is not None and self.law.limits.uv is not None
-        finest = np.where(graded & by_sources, FINEST_GRADED, FINEST_EXTENT)
+        coarse = FINEST_STRETCHED if nodes.is_anisotropic else FINEST_GRADED
+        finest = np.where(graded & by_sources, coarse, FINEST_EXTENT)
         return (error > allowed) & (extent > finest)
 
     def _may_hide(self, cells: Cells, patch: np.ndarray) -> np.ndarray:
