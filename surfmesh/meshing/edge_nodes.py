@@ -66,7 +66,7 @@ def cut_edges(
         for face, limit in limits.items():
             along = samples.along(face)
             if samples.is_anisotropic:
-                found = limit.along(samples.points[along], samples.tangent[along])
+                found = limit.along(samples.points[along], samples.tangent[along][None])[0]
             else:
                 found = limit(samples.points[along])
             wish[along] = np.minimum(wish[along], found)

@@ -36,6 +36,9 @@ FINER = 0.5
 COARSE = 2.0
 """Segments of the boundary so many times longer than the sizes inside allow are to be cut."""
 
+LONGER = 1.5
+"""The same from which on the sizes of a plane depend on the direction."""
+
 LOOKED_AT = (0.1, 0.3, 0.5, 0.7, 0.9)
 """Shares of a segment at which the sizes inside are read."""
 
@@ -163,7 +166,7 @@ def _meshed(job: FaceJob, unfold: bool = True) -> FaceMesh:
     if job.limits is None:  # the edges heed them from now on
         wishes = _wishes_along(job, surface, field, loops, fixed)
     if job.optimise:
-        changes = optimiser.run()
+        changes = optimiser.run(first=job.limits is None)
         astray = np.zeros(len(domain.t.xy), bool)
         astray[domain.node] = _astray(surface, loops, fixed, job.sizing.chord)
         helped = ~astray[domain.t.tri.reshape(-1, 3)[changes.far]].any(axis=1)
@@ -220,7 +223,9 @@ def face_field(job: FaceJob) -> tuple[Surface, SizeField]:
     surface = job.surface.with_domain(((low[0], high[0]), (low[1], high[1])))
     real = [piece for piece in pieces if not piece.degenerate]
     if real and has_boundary_field(surface, job.sizing):
-        return surface, _grown_inward(surface, job, real)
+        field = _grown_inward(surface, job, real)
+        if not job.sizing.is_anisotropic or _agrees(field, real):
+            return surface, field
     found = limits = job.limits
     if found is not None:
         found = found.not_below(job.sizing.min_size or 0.0)
@@ -272,6 +277,17 @@ def _grown_inward(surface: Surface, job: FaceJob, real: list[Piece]) -> SizeFiel
         found = np.maximum(job.limits.sizes, job.sizing.min_size or 0.0)
         sizes = np.concatenate([sizes, found])
     return boundary_field(surface, job.sizing, uv, sizes, settled=True)
+
+
+def _agrees(field: SizeField, real: list[Piece]) -> bool:
+    """Is no segment of the boundary much longer than the sizes beside it are in all directions?"""
+    for piece in real:
+        sizes = np.empty(len(piece.uv) - 1)
+        middle = 0.5 * (piece.uv[1:] + piece.uv[:-1])
+        scalar_sizes_at(field.background, field.scaling.to_plane(middle), sizes)
+        if (np.linalg.norm(np.diff(piece.points, axis=0), axis=1) > LONGER * sizes).any():
+            return False
+    return True
 
 
 def _directions(points: np.ndarray) -> np.ndarray:

@@ -41,7 +41,7 @@ def has_boundary_field(surface: Surface, sizing: Sizing) -> bool:
     The metric of a cylinder is constant too where sizes depend on the direction, but they do
     not grow from its edges as they are.
     """
-    if sizing.is_anisotropic:
+    if sizing.is_anisotropic and isinstance(surface, Cylinder):
         return False
     return isinstance(surface, (Plane, PlanarDomain, Cylinder)) and not sizing.has_law
 

@@ -195,8 +195,8 @@ class SizeLaw:
         round, or nearly so, the direction is that of the limits.
         """
         least = self._least()
-        across = np.maximum(self.limits.along(point, np.cross(normal, along)), least)
-        onward = np.maximum(self.limits.along(point, along), least)
+        directions = np.stack([np.cross(normal, along), along])
+        across, onward = np.maximum(self.limits.along(point, directions), least)
         factor = np.minimum(across, size) / size
         long_found = np.minimum(factor * long, onward)
         size_found = np.minimum(factor * size, long_found)
@@ -204,8 +204,8 @@ class SizeLaw:
         if len(flat):
             tight, direction = self.limits.tightest(point[flat], normal[flat])
             turned = np.cross(normal[flat], direction)
-            onward = self.limits.along(point[flat], turned)
-            tight, onward = np.maximum(tight, least), np.maximum(onward, least)
+            onward = np.maximum(self.limits.along(point[flat], turned[None])[0], least)
+            tight = np.maximum(tight, least)
             size_found[flat] = np.minimum(size[flat], tight)
             long_found[flat] = np.clip(
                 np.minimum(size[flat], onward),
