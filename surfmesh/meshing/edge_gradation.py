@@ -1,8 +1,9 @@
 """Gradation of the edges of a CAD model where sizes depend on the direction.
 
 Along an edge sizes grow as everywhere. At a vertex they do not pass from edge to edge as they
-are: the seam of a tube is cut far more coarsely than the circle it ends on. What the metric
-itself allows two edges to differ by is let pass, as far as they go different ways there.
+are: the seam of a tube is cut far more coarsely than the circle it ends on. What faces between
+them get is a metric that fits both: edges of one line are as coarse as each other, edges at
+right angles may differ by the largest ratio.
 """
 
 import numpy as np
@@ -10,13 +11,13 @@ import numpy as np
 ROUNDS = 10
 """How often what vertices pass on is passed on again, at most."""
 
-TINY = 1e-9
+RIGHT_ANGLE = 1e-9
+"""Cosines are not taken to be smaller."""
 
 
 def graded_by_direction(
     points: list[np.ndarray],
     wishes: list[np.ndarray],
-    metric: list[np.ndarray],
     ways: np.ndarray,
     ends: np.ndarray,
     slope: float,
@@ -24,15 +25,13 @@ def graded_by_direction(
 ) -> list[np.ndarray]:
     """Graded sizes along each edge.
 
-    points (n, 3), wishes (n,) at the samples of each edge; metric (n,): what the faces' metric
-    allows along it, before anything else lowers it. ways (e, 2, 3): unit tangents at its start
-    and end; ends (e, 2): vertices. Of two edges at a vertex, one is at most as many times coarser
-    as its metric size there is larger, at most ``ratio`` times, and at most 1 / cos of the angle
-    between their lines: a size along one of them is a size along its part on the other too.
+    points (n, 3), wishes (n,) at the samples of each edge; ways (e, 2, 3): unit tangents at its
+    start and end; ends (e, 2): vertices. Of two edges at a vertex, one is at most ``ratio`` times
+    coarser, and at most 1 / cos of the angle between their lines: a size along one of them is a
+    size along its part on the other too.
     """
     way = [_lengths(place) for place in points]
     sizes = [_graded(size, step, slope) for size, step in zip(wishes, way)]
-    allowed = np.array([[m[0], m[-1]] for m in metric]).reshape(-1)
     vertex = np.asarray(ends).reshape(-1)
     order = np.argsort(vertex, kind="stable")
     starts = np.flatnonzero(np.r_[True, np.diff(vertex[order]) != 0])
@@ -40,9 +39,8 @@ def graded_by_direction(
     tangent = np.asarray(ways).reshape(-1, 3)
     most_times = []  # (k, k) for each meeting: how much coarser the second may be than the first
     for group in meetings:
-        m = allowed[group]
         cosine = np.abs(tangent[group] @ tangent[group].T)
-        times = np.minimum(ratio, 1.0 / np.maximum(cosine, TINY))
+        times = np.minimum(ratio, 1.0 / np.maximum(cosine, RIGHT_ANGLE))
         most_times.append(np.maximum(times, 1.0))
     for _ in range(ROUNDS):
         lowered = set()

@@ -136,8 +136,8 @@ def _graded_by_direction(
     ways = np.array([samples.tangent[k][[0, -1]] for k in own])
     return np.concatenate(
         graded_by_direction(
-            [samples.points[k] for k in own], [wish[k] for k in own],
-            [samples.metric[k] for k in own], ways, ends, sizing.gradient, sizing.anisotropy,
+            [samples.points[k] for k in own], [wish[k] for k in own], ways, ends,
+            sizing.gradient, sizing.anisotropy,
         )
     )  # fmt: skip
 

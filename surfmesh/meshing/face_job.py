@@ -114,14 +114,19 @@ def _wishes_along(
     first, second = loops.segments.T
     step = points[second] - points[first]
     length = np.linalg.norm(step, axis=1)
+    real = length > 0.0  # at a pole there are none
+    first, second, step, length = first[real], second[real], step[real], length[real]
+    if not len(length):
+        return None
     # where sizes have a direction segments may be long, and pass much on their way
     shares = LOOKED_AT if job.sizing.is_anisotropic else LOOKED_AT[2:3]
     ends = loops.uv[first], loops.uv[second]
     uv = np.stack([(1.0 - share) * ends[0] + share * ends[1] for share in shares], axis=1)
     xy = field.scaling.to_plane(uv.reshape(-1, 2))
     if job.sizing.is_anisotropic:
-        way = np.repeat(field.scaling.to_plane(ends[1]) - field.scaling.to_plane(ends[0]), 5, 0)
-        sizes = np.repeat(length, 5) / _metric_lengths(field, xy, way)
+        way = field.scaling.to_plane(ends[1]) - field.scaling.to_plane(ends[0])
+        way, whole = (np.repeat(a, len(shares), axis=0) for a in (way, length))
+        sizes = whole / _metric_lengths(field, xy, way)
     else:
         sizes = np.empty(len(xy))
         scalar_sizes_at(field.background, xy, sizes)
