@@ -12,7 +12,8 @@ _SHOWN_PROBLEMS, _SHOWN_WARNINGS, _SHOWN_STAGES = 5, 3, 8
 
 def summary(report: "Report") -> str:
     """At most 25 lines of text about ``report``."""
-    verdict = "clean" if report.clean else f"NOT CLEAN: {_count(len(report.problems), 'problem')}"
+    clean = "clean, but for a stated limit" if report.limits else "clean"
+    verdict = clean if report.clean else f"NOT CLEAN: {_count(len(report.problems), 'problem')}"
     name = f"{report.surface}: " if report.surface else ""
     lines = [f"{name}{report.nodes:,} nodes, {report.triangles:,} triangles - {verdict}"]
     lines += _listed(report.problems, _SHOWN_PROBLEMS, "problem")
@@ -101,8 +102,15 @@ def _deviation(report: "Report") -> str:
     if report.deviation_max is None:
         return "not known: the mesh carries no surface to compare with"
     asked = ""
-    if report.chord:
-        asked = f" ({100 * report.deviation_max / report.chord:,.0f} % of chord {report.chord:.4g})"
+    rows = [row for row in report.by_face if row.chord and row.deviation_max is not None]
+    there = [row.chord for row in rows if row.deviation_triangle == report.deviation_triangle]
+    chord = there[0] if there else report.chord
+    if chord:
+        asked = f"{100 * report.deviation_max / chord:,.0f} % of chord {chord:.4g}"
+        if len({row.chord for row in rows}) > 1:
+            most = max(row.deviation_max / row.chord for row in rows)
+            asked += f" there, at most {100 * most:,.0f} % of that of any face"
+        asked = f" ({asked})"
     used = ""
     if report.chord_used is not None:
         used = f"median {100 * report.chord_used:.0f} % of chord where it decides the size; "
