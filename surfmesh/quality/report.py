@@ -16,7 +16,13 @@ from surfmesh.quality.by_solid import SolidRow, by_solid, volume_of_all
 from surfmesh.quality.chord_use import chord_use
 from surfmesh.quality.deviation import deviation
 from surfmesh.quality.histograms import Histogram, histograms
-from surfmesh.quality.lengths import QUASI_UNIT, edge_lengths, growth, metric_lengths
+from surfmesh.quality.lengths import (
+    QUASI_UNIT,
+    edge_lengths,
+    growth,
+    metric_lengths,
+    size_growth,
+)
 from surfmesh.quality.problems import (
     DEGENERATE,
     FOLDED,
@@ -110,6 +116,10 @@ class Report:
     growth_max: float  # longest over shortest edge at a vertex; in wanted lengths where those
     # depend on the direction
     growth_p99: float
+    growth: float | None  # asked for: the largest ratio of neighbouring sizes
+    above_growth_share: float | None  # edges whose ends are wanted to differ more than it allows
+    size_growth_max: float | None  # largest such difference over what growth allows: 1 is allowed
+    size_growth_point: tuple[float, float, float] | None  # middle of that edge
 
     chord: float | None  # the largest deviation that was asked for, of the whole model
     deviation_max: float | None  # from the true surface
@@ -191,6 +201,8 @@ def check(mesh: SurfaceMesh) -> Report:
     lengths = edge_lengths(mesh)
     metric = None if mesh.sizes is None else metric_lengths(mesh, lengths)
     grown = growth(mesh, lengths if mesh.inverse_sizes is None else metric)
+    slope = getattr(mesh.sizing, "gradient", None) if finite else None
+    steep = None if slope is None else size_growth(mesh, lengths, slope)
     wanted = None if mesh.inverse_sizes is None else metric_alpha(mesh)
     fit = deviation(mesh, shape.area) if finite else None
     promises = Promises.of(mesh)
@@ -272,6 +284,10 @@ def check(mesh: SurfaceMesh) -> Report:
         length_max=None if metric is None else _over(np.max, metric),
         growth_max=grown.largest,
         growth_p99=grown.p99,
+        growth=getattr(mesh.sizing, "growth", None),
+        above_growth_share=None if steep is None else steep.share,
+        size_growth_max=None if steep is None else steep.largest,
+        size_growth_point=None if steep is None else steep.point,
         chord=chord,
         deviation_max=None if fit is None else fit.largest,
         deviation_rms=None if fit is None else fit.rms,

@@ -30,6 +30,7 @@ def summary(report: "Report") -> str:
             f"radius ratio mean {report.radius_ratio_mean:.4f}, "
             f"smallest {report.radius_ratio_min:.4f}",
         ),
+        *_in_the_metric(report),
         ("angles", f"{report.min_angle_deg:.2f}° to {report.max_angle_deg:.2f}°"),
         (
             "edges",
@@ -45,6 +46,8 @@ def summary(report: "Report") -> str:
                 f"length / wanted {report.length_mean:.3f} ± {report.length_std:.3f}",
             )
         )
+    if report.above_growth_share is not None:
+        rows.append(("", _growth(report)))
     rows.append(("deviation", _deviation(report)))
     if report.angle is not None and report.angle_max is not None:
         rows.append(("turning", _turning(report)))
@@ -96,6 +99,25 @@ def _size(report: "Report") -> str:
             off = 100 * (abs(found) - abs(exact)) / abs(exact)
             words[-1] += f" (exact {exact:.7g}, {off:+.2g} %)"
     return ", ".join(words) + (f" in {report.unit}" if report.unit else "")
+
+
+def _in_the_metric(report: "Report") -> list[tuple[str, str]]:
+    """Where sizes depend on the direction."""
+    if report.alpha_metric_mean is None:
+        return []
+    mean, least = report.alpha_metric_mean, report.alpha_metric_min
+    return [("", f"in the metric: alpha mean {mean:.4f}, smallest {least:.4f}")]
+
+
+def _growth(report: "Report") -> str:
+    allowed = f"growth {report.growth:g} allows"
+    if not report.above_growth_share:
+        return f"wanted sizes differ along no edge by more than {allowed}"
+    place = ", ".join(f"{value:.4g}" for value in report.size_growth_point)
+    return (
+        f"wanted sizes differ along {100 * report.above_growth_share:.2g} % of them by more than "
+        f"{allowed}, up to {report.size_growth_max:.3g} times as much at ({place})"
+    )
 
 
 def _deviation(report: "Report") -> str:
