@@ -32,6 +32,9 @@ ROUND = 1.02
 NEARLY = 1.15
 """What explains a size predicts it within this factor."""
 
+BESIDE_POLES = 1e-3
+"""Share of the way to the middle of the domain, where a pole has directions."""
+
 RowMaker = Callable[[str, Sizing, np.ndarray, "float | None", "float | None"], Iterator[SizeRow]]
 
 
@@ -46,6 +49,14 @@ class Principal(NamedTuple):
     @classmethod
     def at(cls, surface: Surface, uv: np.ndarray) -> Principal:
         """uv: (2,)"""
+        found = cls._at(surface, uv)
+        if found.k is None:  # a pole: the directions a little way off
+            middle = np.mean(surface.domain, axis=1)
+            found = cls(None, cls._at(surface, uv + BESIDE_POLES * (middle - uv)).along)
+        return found
+
+    @classmethod
+    def _at(cls, surface: Surface, uv: np.ndarray) -> Principal:
         _, r_u, r_v, *second = surface.evaluate(uv[None], 2)
         forms = forms_from_derivatives(r_u, r_v, *second)
         found = curvatures(forms)
@@ -157,8 +168,8 @@ def wished(
     if winner is None or winner.size > size * (1.0 + 1e-6):
         if size > other and size >= ratio * other * (1.0 - 1e-6):
             rule = f"anisotropy {ratio:g}: so many times the size {other:.6g} across, at most"
-        elif size >= bounds.longest * (1.0 - 1e-6):
-            rule = "the largest size where nothing is said"
+        elif k is None or size >= bounds.longest * (1.0 - 1e-6):
+            rule = "the largest size, where nothing else is said"
         else:
             rule = f"nearly flat: anisotropy {ratio:g} falls to {max(size / other, 1.0):.3g}"
         winner = SizeRow("default" if rule.startswith("the") else "*", rule, size, "max")
