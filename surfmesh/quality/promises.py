@@ -15,7 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from surfmesh.quality.deviation import Deviation
-from surfmesh.quality.turning import ANGLE_SLACK, Turning
+from surfmesh.quality.turning import Turning
 from surfmesh.surface_mesh import SurfaceMesh
 
 CHORD_SLACK = 1e-9  # relative: rounding in the distance itself
@@ -136,7 +136,7 @@ def beyond_chord(promises: Promises, mesh: SurfaceMesh, fit: Deviation) -> NDArr
 
 def beyond_angle(promises: Promises, turns: Turning) -> NDArray[np.bool_]:
     """(k,) across which edges triangles turn by more than their face allows."""
-    return turns.angles > promises.at(promises.angle, turns.faces) * (1.0 + ANGLE_SLACK)
+    return turns.above(promises.at(promises.angle, turns.faces))
 
 
 def chord_kept(
