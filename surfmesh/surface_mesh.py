@@ -56,7 +56,10 @@ class SurfaceMesh:
     # (k, 6) for each of uv_points W = xx, xy, xz, yy, yz, zz, as |W d| is the step d in wanted
     # lengths; None where sizes do not depend on the direction, or are not known: W = Id / sizes
     inverse_sizes: NDArray[np.float64] | None = None
-    sizing: Any = None  # the options it was made with
+    sizing: Any = None  # the options it was made with, those of the whole model
+    # (f, 3) what was promised of each face, options by name among it: chord, angle (degrees) and
+    # min_size, nan where nothing is asked for. One row: of all. None: what ``sizing`` says
+    promises: NDArray[np.float64] | None = None
     seconds: Mapping[str, float] = field(default_factory=dict)  # by stage
     warnings: tuple[str, ...] = ()  # what the user should know
     one_sided: bool = False  # no orientation exists (Moebius, Klein): none is demanded
@@ -107,6 +110,7 @@ class SurfaceMesh:
             ("edge_ids", np.int32, (-1,)),
             ("edge_shares", np.float64, (-1, 2)),
             ("vertex_ids", np.int32, (-1,)),
+            ("promises", np.float64, (-1, 3)),
         ):
             if getattr(self, name) is not None:
                 settle(name, getattr(self, name), dtype, shape)

@@ -31,6 +31,14 @@ class Detail(NamedTuple):
     colour: Colour | None
 
 
+class Tag(NamedTuple):
+    """A tag of CadQuery and the parts of the final shape that it stands for."""
+
+    name: str
+    held: str  # what was tagged, in words: "2 faces"
+    shapes: list[TopoDS_Shape]  # where they lie in the part
+
+
 @dataclass
 class Part:
     """A node of the assembly tree.
@@ -38,7 +46,7 @@ class Part:
     shape: of a part, in its own frame; None for an assembly. place: of that frame in the
     parent's, None where they are the same. colour: of everything below that has none of its
     own. details: names and colours within the shape. remarks: what healing did, and to which
-    sub-shape (None: the part).
+    sub-shape (None: the part). tags: what they select.
     """
 
     name: str
@@ -48,6 +56,7 @@ class Part:
     details: list[Detail] = field(default_factory=list)
     children: list[Part] = field(default_factory=list)
     remarks: list[tuple[TopoDS_Shape | None, str]] = field(default_factory=list)
+    tags: list[Tag] = field(default_factory=list)
 
     def __iter__(self) -> Iterator[Part]:
         """This part and all below it."""
@@ -62,6 +71,7 @@ class Part:
             shape=image(self.shape),
             details=[Detail(image(d.shape), d.name, d.colour) for d in self.details],
             remarks=[(None if s is None else image(s), text) for s, text in self.remarks],
+            tags=[tag._replace(shapes=[image(s) for s in tag.shapes]) for tag in self.tags],
         )
 
 

@@ -13,8 +13,9 @@ from surfmesh.errors import CadError, SurfmeshError
 def from_cadquery(obj: Any, heal: bool = True, units: str | None = None) -> CadModel:
     """The model of a Workplane, Shape, Sketch or Assembly, a build123d object, a TopoDS_Shape.
 
-    A Workplane gives the solids and faces on its stack, and its tags as names. Lengths are
-    taken as millimetres; units: what they are wanted in. A list of such objects is an assembly.
+    A Workplane gives the solids and faces on its stack, and its tags as names: of what they held,
+    or of what stands for it where later steps have cut, split or moved it. Lengths are taken as
+    millimetres; units: what they are wanted in. A list of such objects is an assembly.
     Raises CadError when there is nothing to mesh in it, or OCP gives up.
     """
     source = f"{type(obj).__module__.split('.')[0]} {type(obj).__name__}"
@@ -56,19 +57,18 @@ def _part(obj: Any) -> Part:
 
 
 def _workplane(workplane: Any) -> Part:
+    from surfmesh.cad.tags import tags_of
+
     shapes = [value.wrapped for value in workplane.vals() if _has_faces(value)]
     if not shapes:  # edges or points are selected: what they are selected from
         try:
             shapes = [workplane.findSolid().wrapped]
         except (ValueError, AttributeError):
             shapes = []
-    details = [
-        Detail(value.wrapped, tag, None)
-        for tag, tagged in workplane.ctx.tags.items()
-        for value in tagged.vals()
-        if _is_shape(getattr(value, "wrapped", None))
-    ]
-    return Part("workplane", _together(shapes, "Workplane"), details=details)
+    whole = _together(shapes, "Workplane")
+    tags = tags_of(workplane, whole)
+    details = [Detail(shape, tag.name, None) for tag in tags for shape in tag.shapes]
+    return Part("workplane", whole, details=details, tags=tags)
 
 
 def _assembly(assembly: Any) -> Part:
@@ -83,13 +83,20 @@ def _assembly(assembly: Any) -> Part:
         for shape in dict.fromkeys([*names, *colours])
     ]
     children = [_assembly(child) for child in assembly.children]
+    whole = _together(shapes, assembly.name) if shapes else None
+    tags = []
+    if whole is not None and hasattr(assembly.obj, "ctx"):  # a Workplane
+        from surfmesh.cad.tags import tags_of
+
+        tags = tags_of(assembly.obj, whole)
     return Part(
         assembly.name,
-        _together(shapes, assembly.name) if shapes else None,
+        whole,
         None if place.IsIdentity() else place,
         colour,
         details,
         children,
+        tags=tags,
     )
 
 

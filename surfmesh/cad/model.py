@@ -150,6 +150,19 @@ class CadNode:
         return [own] + [line for child in self.children for line in child.lines(depth + 1)]
 
 
+@dataclass(frozen=True, eq=False)
+class CadTag:
+    """A tag of CadQuery and the numbers of what it stands for: of nothing, when later steps have
+    removed what it held (in words: "1 face")."""
+
+    name: str
+    held: str
+    faces: tuple[int, ...] = ()
+    edges: tuple[int, ...] = ()
+    vertices: tuple[int, ...] = ()
+    solids: tuple[int, ...] = ()
+
+
 @dataclass(frozen=True, eq=False, repr=False)
 class CadModel:
     """Everything that was read, in plain Python and numpy; see the module's docstring.
@@ -157,7 +170,7 @@ class CadModel:
     free_shells, free_faces: what belongs to no solid; a free face is in no shell either.
     unit: of every length; file_unit: that of the file. diagonal: of the box around everything.
     healing: what was changed or could not be, one sentence each. source: the file, or what else
-    it came from; sha256: of that file.
+    it came from; sha256: of that file. tags: of CadQuery.
     """
 
     vertices: tuple[CadVertex, ...]
@@ -174,6 +187,7 @@ class CadModel:
     healing: tuple[str, ...]
     source: str
     sha256: str = ""
+    tags: tuple[CadTag, ...] = ()
     _faces_of_edge: list = field(default_factory=list, compare=False)
 
     def faces_of_edge(self, edge: int) -> tuple[int, ...]:

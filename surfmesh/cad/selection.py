@@ -33,6 +33,7 @@ _PREFIXES = (
     "face", "edge", "vertex", "solid", "color", "colour", "type", "name", "tag"
 )  # fmt: skip
 _NUMBERS = re.compile(r"\d+(-\d+)?(,\d+(-\d+)?)*")
+_KINDS = ("faces", "edges", "vertices", "solids")
 _LISTED = 8
 
 
@@ -83,6 +84,13 @@ def select(model: CadModel, key: str) -> Selection:
     else:
         found = _named(model, key)
     if not found:
+        lost = [tag for tag in model.tags if _is_called(tag.name, rest if sign else key)]
+        lost = [tag for tag in lost if not any(getattr(tag, kind) for kind in _KINDS)]
+        if lost:
+            raise SizingError(
+                f"tag {lost[0].name!r} stands for nothing in the final shape: later steps have "
+                f"removed or replaced what it held ({lost[0].held}); tag what is there at the end"
+            )
         raise SizingError(f"{key!r} selects nothing of {model.name or model.source!r}; "
                           + _advice(model, key, prefix if sign else ""))  # fmt: skip
     return found
@@ -98,6 +106,8 @@ def names(model: CadModel) -> dict[str, str]:
     for node in _nodes(model.tree):
         if node.name:
             found.setdefault(node.name, "part")
+    for tag in model.tags:
+        found.setdefault(tag.name, "tag")
     return found
 
 
@@ -108,21 +118,30 @@ def _nodes(node: CadNode) -> Iterator[CadNode]:
 
 
 def _named(model: CadModel, pattern: str) -> Selection:
-    """By the names of faces, edges, solids, and of parts with all below them."""
+    """By the names of faces, edges, solids, of tags, and of parts with all below them."""
     faces, edges, solids = (
         _matching((item.name for item in items), pattern)
         for items in (model.faces, model.edges, model.solids)
     )
+    vertices: set[int] = set()
+    for tag in model.tags:
+        if _is_called(tag.name, pattern):
+            for kind, into in zip(_KINDS, (faces, edges, vertices, solids)):
+                into.update(getattr(tag, kind))
     for node in _nodes(model.tree):
-        if fnmatchcase(node.name, pattern) and node.name:
+        if _is_called(node.name, pattern):
             for part in _nodes(node):
                 solids.update(part.solids)
                 faces.update(part.faces)
-    return Selection(tuple(sorted(faces)), tuple(sorted(edges)), (), tuple(sorted(solids)))
+    return Selection(*(tuple(sorted(some)) for some in (faces, edges, vertices, solids)))
 
 
 def _matching(given: Iterable[str], pattern: str) -> set[int]:
-    return {k for k, name in enumerate(given) if name and fnmatchcase(name, pattern)}
+    return {k for k, name in enumerate(given) if _is_called(name, pattern)}
+
+
+def _is_called(name: str, pattern: str) -> bool:
+    return bool(name) and fnmatchcase(name, pattern)
 
 
 def _of_one_kind(model: CadModel, kind: str, rest: str, key: str) -> Selection:
@@ -146,11 +165,13 @@ def _of_one_kind(model: CadModel, kind: str, rest: str, key: str) -> Selection:
         return Selection(**{many: tuple(sorted(wanted))})
     if is_selector(rest):
         return Selection(**{many: tuple(selected(model, kind, rest))})
-    if kind == "vertex":
-        return Selection()
-    if kind == "solid":
-        return Selection(solids=_named(model, rest).solids)
-    return Selection(**{many: tuple(sorted(_matching((item.name for item in items), rest)))})
+    if kind in ("vertex", "solid"):
+        return Selection(**{many: getattr(_named(model, rest), many)})
+    found = _matching((item.name for item in items), rest)
+    for tag in model.tags:
+        if _is_called(tag.name, rest):
+            found.update(getattr(tag, many))
+    return Selection(**{many: tuple(sorted(found))})
 
 
 def _of_colour(model: CadModel, text: str) -> Selection:

@@ -28,6 +28,7 @@ from OCP.TopAbs import (
     TopAbs_REVERSED,
     TopAbs_SHELL,
     TopAbs_SOLID,
+    TopAbs_VERTEX,
     TopAbs_WIRE,
 )
 from OCP.TopExp import TopExp, TopExp_Explorer
@@ -46,6 +47,7 @@ from surfmesh.cad.model import (
     CadModel,
     CadNode,
     CadSolid,
+    CadTag,
     CadVertex,
     Colour,
     Shell,
@@ -99,7 +101,15 @@ def cad_model(
         tree=tree,
         healing=tuple(healing + walk.remarks() + _touching(walk.faces, walk.solids)),
         source=source,
+        tags=walk.tags(root),
     )
+
+
+_TAGGED = {
+    TopAbs_SOLID: ("solids", TopAbs_SOLID), TopAbs_WIRE: ("edges", TopAbs_EDGE),
+    TopAbs_EDGE: ("edges", TopAbs_EDGE), TopAbs_VERTEX: ("vertices", TopAbs_VERTEX),
+}  # fmt: skip
+"""Kinds of what a tag stands for; all others are made of faces."""
 
 
 class _Numbering:
@@ -375,9 +385,40 @@ class _Walk:
                 return f"{kind} {number}"
         return ""
 
+    def tags(self, root: Part) -> tuple[CadTag, ...]:
+        """Of all parts by the numbers of what they stand for; one name is one tag."""
+        found: dict[str, list[CadTag]] = {}
+        for tag in (tag for part in root for tag in part.tags):
+            numbers: dict[str, set[int]] = {"faces": set(), "edges": set(), "vertices": set()}
+            numbers["solids"] = set()
+            for shape in (shape for shape in tag.shapes if not shape.IsNull()):
+                many, kind = _TAGGED.get(shape.ShapeType(), ("faces", TopAbs_FACE))
+                # healing may have split a face or an edge
+                known = [self._number(many, one) for one in _each(shape, kind)]
+                numbers[many].update(number for number in known if number is not None)
+            sorts = {many: tuple(sorted(some)) for many, some in numbers.items()}
+            found.setdefault(tag.name, []).append(CadTag(tag.name, tag.held, **sorts))
+        return tuple(parts[0] if len(parts) == 1 else _one_tag(parts) for parts in found.values())
+
+    def _number(self, many: str, shape: TopoDS_Shape) -> int | None:
+        if many == "vertices":
+            known = self._vertex_numbers.find(shape)
+            return None if known is None else self._vertices_met[known]
+        numbers = {"faces": self._face_numbers, "edges": self._edge_numbers}
+        return numbers.get(many, self._solid_numbers).find(shape)
+
     def remarks(self) -> list[str]:
         """What was found on the way, with how often."""
         return [text + (f" ({n} times)" if n > 1 else "") for text, n in self._remarks.items()]
+
+
+def _one_tag(parts: list[CadTag]) -> CadTag:
+    """The tags of one name in several parts."""
+    every = {
+        many: tuple(sorted({number for part in parts for number in getattr(part, many)}))
+        for many in ("faces", "edges", "vertices", "solids")
+    }
+    return CadTag(parts[0].name, ", ".join(dict.fromkeys(p.held for p in parts)), **every)
 
 
 def _touching(faces: list[CadFace], solids: list[CadSolid]) -> list[str]:

@@ -36,10 +36,11 @@ def save(mesh: SurfaceMesh, path: str | Path, *, ascii: bool = False) -> Path:
     Points are in double precision but for .stl and .glb (single), .inp (20 characters) and .bdf
     (16 characters). Faces, their names, colours and kinds, solids and the unit come back from
     all formats but .stl; ``benchmarks/formats.py`` prints what survives where, here and with
-    other programs. ``size`` is in .vtu, .vtp, .ply, .msh and .xdmf, corner parameters ``uv`` in
-    .vtu and .vtp, nodes of order 2 in .vtu, .msh, .inp, .bdf, .xdmf and .med (needs meshio and
-    h5py); the other formats hold the corners alone, which a ``UserWarning`` says. ascii: .stl
-    as text, one body with a name for each solid.
+    other programs. ``size`` is in .vtu, .vtp, .ply, .msh and .xdmf; corner parameters ``uv``,
+    sizes that depend on the direction and what was promised of the faces are in .vtu and .vtp;
+    nodes of order 2 in .vtu, .msh, .inp, .bdf, .xdmf and .med (needs meshio and h5py), the other
+    formats hold the corners alone, which a ``UserWarning`` says. ascii: .stl as text, one body
+    with a name for each solid.
 
     Raises ``FileFormatError`` for an extension that is not known, a folder that is not
     there, a place that cannot be written, a mesh without triangles.

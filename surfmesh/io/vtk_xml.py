@@ -19,12 +19,17 @@ from vtkmodules.vtkIOXML import (
 from surfmesh.errors import FileFormatError
 from surfmesh.io.colours import NO_COLOUR, triangle_colours
 from surfmesh.mesh_groups import MeshGroups
+from surfmesh.quality.promises import plain_promises
 from surfmesh.quality.shape import alpha
 from surfmesh.six_nodes import node_values, split_six_nodes
 from surfmesh.surface_mesh import SurfaceMesh
 
 GROUPS = "surfmesh_groups"
 BESIDE = ("edge_segments", "edge_ids", "vertex_ids")  # field data of the same names
+PROMISES = "surfmesh_promises"  # chord, angle, min_size of each face or of all; 0: not asked for
+METRIC, METRIC_ROWS = "surfmesh_inverse_sizes", "inverse_size_row"
+"""Sizes that depend on the direction: a table W = xx, xy, xz, yy, yz, zz (|W d| is the step d in
+wanted lengths) in field data, and the rows of the three corners of each triangle."""
 
 
 def to_pyvista(mesh: SurfaceMesh) -> pyvista.PolyData:
@@ -52,9 +57,15 @@ def write(mesh: SurfaceMesh, path: Path) -> None:
     data = to_pyvista(mesh)
     if mesh.uv_points is not None:
         data.cell_data["uv"] = mesh.uv.reshape(-1, 6)  # u, v of the three corners
+    if mesh.inverse_sizes is not None:
+        data.cell_data[METRIC_ROWS] = mesh.uv_triangles.copy()
+        data.field_data[METRIC] = mesh.inverse_sizes.copy()
     data.field_data["one_sided"] = np.array([mesh.one_sided], np.uint8)
     text = json.dumps(mesh.groups.plain()).encode()
     data.field_data[GROUPS] = np.frombuffer(text, np.uint8)
+    promises = plain_promises(mesh)
+    if promises is not None:
+        data.field_data[PROMISES] = np.nan_to_num(promises)  # VTK's XML has no nan
     for name in BESIDE:
         if getattr(mesh, name) is not None and len(getattr(mesh, name)):
             data.field_data[name] = getattr(mesh, name).copy()
@@ -100,6 +111,18 @@ def read(path: Path) -> SurfaceMesh:
         uv_points = np.asarray(data.cell_data["uv"]).reshape(-1, 2)
         uv_triangles = np.arange(len(uv_points)).reshape(-1, 3)
     field = data.field_data
+    inverse_sizes = None
+    if uv_points is not None and METRIC in field and METRIC_ROWS in data.cell_data:
+        table = np.asarray(field[METRIC], float).reshape(-1, 6)
+        rows = np.asarray(data.cell_data[METRIC_ROWS]).reshape(-1, 3)
+        if rows.size and 0 <= rows.min() <= rows.max() < len(table):
+            corners, uv_triangles, inverse_sizes = uv_points, rows, table
+            uv_points = np.zeros((len(table), 2))
+            uv_points[rows.ravel()] = corners
+    promises = None
+    if PROMISES in field:
+        promises = np.asarray(field[PROMISES], float).reshape(-1, 3)
+        promises = np.where(promises > 0.0, promises, np.nan)
     groups = bytes(np.asarray(field[GROUPS])).decode() if GROUPS in field else "{}"
     return SurfaceMesh(
         points=points,
@@ -109,9 +132,11 @@ def read(path: Path) -> SurfaceMesh:
         uv_triangles=uv_triangles,
         face_ids=data.cell_data.get("face_id"),
         sizes=sizes,
+        inverse_sizes=inverse_sizes,
         one_sided=bool(field["one_sided"][0]) if "one_sided" in field else False,
         solid_ids=data.cell_data.get("solid_id"),
         groups=MeshGroups.of_plain(json.loads(groups)),
+        promises=promises,
         **{name: np.asarray(field[name]) for name in BESIDE if name in field},
     )
 

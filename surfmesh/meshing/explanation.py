@@ -3,12 +3,15 @@
     rows of the face or edge there -> the smallest, within its bounds
     size of the field there           smaller still? then it has grown from somewhere finer:
                                       the sample with the least (size + slope distance)
+
+Where sizes depend on the direction, so along each axis of the metric: see ``axis_sizes``.
 """
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import asdict, dataclass
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -21,10 +24,23 @@ from surfmesh.geometry.inside_loops import is_inside
 from surfmesh.geometry.projection import closest_point
 from surfmesh.geometry.surface import Surface
 from surfmesh.kernels.background import scalar_sizes_at
+from surfmesh.meshing.axis_sizes import (
+    LOWERED,
+    AxisSize,
+    Elsewhere,
+    Principal,
+    RowMaker,
+    axis_rows,
+    explained_axes,
+    field_axes,
+    wished,
+)
 from surfmesh.meshing.edge_samples import EdgeSamples
 from surfmesh.meshing.face_data import FaceJob
 from surfmesh.meshing.face_gaps import AcrossTo
 from surfmesh.meshing.face_job import face_field
+from surfmesh.sizing.curvature_size import DEVIATION_RESERVE, STRAIGHT_RESERVE
+from surfmesh.sizing.direction_size import size_along
 from surfmesh.sizing.model_sizing import ModelSizing, Rule
 from surfmesh.sizing.size_bounds import SizeBounds
 from surfmesh.sizing.size_field import SizeField
@@ -34,12 +50,10 @@ from surfmesh.sizing.sizing import Sizing
 GRID, PROJECTIONS = 33, 8
 """Points each way of the grid that a foot is looked for from, and steps to it."""
 
+Curvatures = tuple[float, float] | None
+
 NEAR_FACES = 6
 """So many faces are looked at in detail."""
-
-LOWERED = 0.97
-"""A size below this share of what is asked for at the point has grown from elsewhere."""
-
 
 @dataclass(frozen=True)
 class Explanation:
@@ -57,15 +71,35 @@ class Explanation:
     winner: SizeRow
     """The row that decides: here, or where the size has grown from."""
     size: float
-    """Of the graded field at the point, model units."""
+    """Of the graded field at the point, model units; the shorter of two."""
     wish: float
     """What is asked for at the point itself."""
     origin: str = ""
     """Where a size that is smaller than ``wish`` has grown from."""
+    curvatures: tuple[float, float] | None = None
+    """k1 >= k2 of the surface, 1 / model unit; None where it has no tangent plane."""
+    axes: tuple[AxisSize, ...] = ()
+    """Where sizes depend on the direction: both axes of the metric, the shorter size first. All
+    of the above but ``curvatures`` is then of the shorter one."""
+
+    @property
+    def ratio(self) -> float:
+        """Of the two sizes; 1 where they do not depend on the direction."""
+        return self.axes[1].size / self.axes[0].size if self.axes else 1.0
 
     def __str__(self) -> str:
         at = ", ".join(f"{x:.6g}" for x in self.point)
-        lines = [f"size {self.size:.6g} at ({at}) on {self.place}"]
+        if self.axes:
+            sizes = " and ".join(f"{axis.size:.6g}" for axis in self.axes)
+            lines = [f"sizes {sizes} (ratio {self.ratio:.4g}) at ({at}) on {self.place}"]
+        else:
+            lines = [f"size {self.size:.6g} at ({at}) on {self.place}"]
+        if self.curvatures is not None:
+            radii = ", ".join(f"{1.0 / abs(k):.4g}" if k else "infinite" for k in self.curvatures)
+            k1, k2 = self.curvatures
+            lines.append(f"principal curvatures {k1:.4g}, {k2:.4g} (radii {radii})")
+        if self.axes:
+            return "\n".join([*lines, *(line for axis in self.axes for line in axis.lines())])
         if self.origin:
             lines.append(f"grown from {self.origin}, where {self.winner.key!r} decides: "
                          f"{self.winner.rule} -> {self.winner.size:.6g}")  # fmt: skip
@@ -80,7 +114,8 @@ class Explanation:
         plain = asdict(self)
         plain["rows"] = [row._asdict() for row in self.rows]
         plain["winner"] = self.winner._asdict()
-        return plain
+        plain["axes"] = [axis.to_dict() for axis in self.axes]
+        return plain | {"ratio": self.ratio}
 
 
 def explain_surface(
@@ -89,13 +124,26 @@ def explain_surface(
     """On one surface; ``field``: what ``sizing`` makes of it."""
     grid = _grid(surface, GRID)
     uv, away, foot = _foot(surface, point, grid)
-    k1, k2 = _curvature(surface, uv)
+    principal = Principal.at(surface, uv)
     stated = "default" if sizing.chord is None and field.sizing.chord is not None else EVERYTHING
     bounds = SizeBounds.of(sizing, _diagonal(surface, grid))
-    found = list(rows(stated, field.sizing, foot, k1, k2))
-    if sizing.max_size is None and np.isfinite(bounds.clamp[1]) and sizing.size is None:
-        found.append(SizeRow("default", "a tenth of the diagonal", bounds.clamp[1], "max"))
-    elsewhere = []
+
+    def rows_at(place: np.ndarray, k: Curvatures, make: RowMaker = rows) -> list[SizeRow]:
+        found = list(make(stated, field.sizing, place, *(k or (None, None))))
+        if sizing.max_size is None and np.isfinite(bounds.clamp[1]) and sizing.size is None:
+            if not bounds.sizing.is_anisotropic:
+                found.append(SizeRow("default", "a tenth of the diagonal", bounds.clamp[1], "max"))
+        return found
+
+    name = surface.name or surface.kind
+    where = _Where(foot, away, name, 0, uv, principal)
+    if bounds.sizing.is_anisotropic:
+        samples = _Samples(surface, grid, bounds, field.sizing)
+
+        def others(direction: np.ndarray, alike: bool) -> list[Elsewhere]:
+            return [samples.best_along(direction, foot, "", rows_at)]
+
+        return _along_axes(where, field, bounds, rows_at, others, sizing.gradient)
     points, *derivatives = surface.evaluate(grid, 2)
     k = curvatures(forms_from_derivatives(*derivatives))
     size = np.full(len(grid), bounds.clamp[1])
@@ -103,10 +151,10 @@ def explain_surface(
         size = np.minimum(size, np.nan_to_num(bounds.shorter(k.k1, k.k2), nan=np.inf))
     if field.sizing.has_law:
         size = np.minimum(size, field.sizing.law_sizes(points))
-    for number in np.argsort(size + sizing.gradient * np.linalg.norm(points - foot, axis=1))[:1]:
-        there = rows(stated, field.sizing, points[number], k.k1[number], k.k2[number])
-        elsewhere.append((points[number], f"{_at(points[number])}", list(there)))
-    return _explained(foot, away, surface.name or surface.kind, 0, found, field, uv, elsewhere)
+    best = int(np.argmin(size + sizing.gradient * np.linalg.norm(points - foot, axis=1)))
+    there = list(rows(stated, field.sizing, points[best], k.k1[best], k.k2[best]))
+    elsewhere = [(points[best], f"{_at(points[best])}", deciding(there))]
+    return _explained(where, rows_at(foot, principal.k), field, elsewhere, sizing.gradient)
 
 
 def explain_model(
@@ -117,19 +165,39 @@ def explain_model(
     number, uv, away, foot = _nearest_face(model, samples, point)
     face = model.faces[number]
     _, field = face_field(jobs[number])
-    k1, k2 = _curvature(face.surface, uv) if face.kind != "plane" else (None, None)
-    found = _rows_of(wanted, wanted.rules_of("faces", number), foot, k1, k2)
-    found += _gaps_of(wanted, number, foot)
-    elsewhere = []
+    principal = Principal.at(face.surface, uv)
+    rules = wanted.rules_of("faces", number)
     slope = wanted.base.gradient
+    bounds = SizeBounds.of(sizings[number], model.diagonal)
+    inner = inner_samples(face, GRID)
+
+    def rows_at(place: np.ndarray, k: Curvatures, make: RowMaker = rows) -> list[SizeRow]:
+        k = None if face.kind == "plane" else k
+        found = _rows_of(wanted, rules, place, *(k or (None, None)), make)
+        return found + _gaps_of(wanted, number, place)
+
+    where = _Where(foot, away, f"face {number} ({face.name or face.kind})", number, uv, principal)
+    if wanted.is_anisotropic:
+        within = _Samples(face.surface, inner, bounds, sizings[number]) if len(inner) else None
+
+        def others(direction: np.ndarray, alike: bool) -> list[Elsewhere]:
+            found = []
+            if within is not None:
+                found.append(within.best_along(direction, foot, f"face {number} at ", rows_at))
+            if len(samples.points):
+                every = alike or wanted.of_face(number).gap is not None
+                along = None if every else direction
+                found.append(_best_sample(model, wanted, samples, along, foot))
+            return found
+
+        return _along_axes(where, field, bounds, rows_at, others, slope)
+    elsewhere = []
     if len(samples.points):
         reach = samples.wish + slope * np.linalg.norm(samples.points - foot, axis=1)
         place = int(np.argmin(reach))
         elsewhere.append(_at_sample(model, wanted, samples, place))
-    inner = inner_samples(face, GRID)
     if len(inner):
         (points, *derivatives) = face.surface.evaluate(inner, 2)
-        bounds = SizeBounds.of(sizings[number], model.diagonal)
         size = np.full(len(inner), bounds.clamp[1])
         k = curvatures(forms_from_derivatives(*derivatives))
         if bounds.follows_curvature:
@@ -137,46 +205,120 @@ def explain_model(
         if sizings[number].has_law:
             size = np.minimum(size, sizings[number].law_sizes(points))
         best = int(np.argmin(size + slope * np.linalg.norm(points - foot, axis=1)))
-        there = _rows_of(
-            wanted, wanted.rules_of("faces", number), points[best], k.k1[best], k.k2[best]
-        )
-        there += _gaps_of(wanted, number, points[best])
-        elsewhere.append((points[best], f"face {number} at {_at(points[best])}", there))
-    place = f"face {number} ({face.name or face.kind})"
-    return _explained(foot, away, place, number, found, field, uv, elsewhere, slope)
+        there = rows_at(points[best], (k.k1[best], k.k2[best]))
+        name = f"face {number} at {_at(points[best])}"
+        elsewhere.append((points[best], name, deciding(there)))
+    return _explained(where, rows_at(foot, principal.k), field, elsewhere, slope)
+
+
+class _Where(NamedTuple):
+    """The point that is explained."""
+
+    foot: np.ndarray  # (3,)
+    away: float
+    place: str
+    face: int
+    uv: np.ndarray  # (2,)
+    principal: Principal
+
+
+class _Samples:
+    """Points of a surface, with the sizes that depend on the direction there."""
+
+    def __init__(
+        self, surface: Surface, uv: np.ndarray, bounds: SizeBounds, sizing: Sizing
+    ) -> None:
+        self.surface, self.uv, self.bounds, self.sizing = surface, uv, bounds, sizing
+        (self.points,) = surface.evaluate(uv, 0)
+        self.law = sizing.law_sizes(self.points) if sizing.has_law else np.full(len(uv), np.inf)
+
+    def best_along(
+        self, direction: np.ndarray, foot: np.ndarray, name: str, rows_at: Callable
+    ) -> Elsewhere:
+        """Where the size along a unit vector (3,) reaches farthest below others."""
+        size = np.full(len(self.uv), self.bounds.longest)
+        if self.bounds.follows_curvature:
+            every = np.tile(direction, (len(self.uv), 1))
+            np.fmin(size, size_along(self.surface, self.uv, every, self.bounds), out=size)
+        np.minimum(size, self.law, out=size)
+        away = np.linalg.norm(self.points - foot, axis=1)
+        best = int(np.argmin(size + self.sizing.gradient * away))
+        place = self.points[best]
+        principal = Principal.at(self.surface, self.uv[best])
+        axis = principal.nearest(direction)
+        there = rows_at(place, principal.k, axis_rows(axis, self.bounds.sizing.anisotropy))
+        _, winner = wished(there, axis, principal.k, self.bounds, float(self.law[best]))
+        return Elsewhere(float(size[best]), float(away[best]), f"{name}{_at(place)}", winner)
+
+
+def _best_sample(
+    model: CadModel, wanted: ModelSizing, samples: EdgeSamples, direction: np.ndarray | None,
+    foot: np.ndarray,
+) -> Elsewhere:  # fmt: skip
+    """The edge whose size along a unit vector (3,) reaches farthest below others.
+
+    A size along an edge says nothing of directions across it; None: it holds in all of them.
+    """
+    size = samples.wish
+    if direction is not None:
+        size = size / np.maximum(np.abs(samples.tangent @ direction), np.finfo(float).eps)
+    away = np.linalg.norm(samples.points - foot, axis=1)
+    best = int(np.argmin(size + wanted.base.gradient * away))
+    _, name, winner = _at_sample(model, wanted, samples, best)
+    return Elsewhere(float(size[best]), float(away[best]), name, winner)
+
+
+def _along_axes(
+    where: _Where, field: SizeField, bounds: SizeBounds, rows_at: Callable,
+    others: Callable[[np.ndarray, bool], list[Elsewhere]], slope: float,
+) -> Explanation:  # fmt: skip
+    """By the axes of the metric at the point."""
+    foot, k = where.foot, where.principal.k
+    sizing = bounds.sizing
+    law = float(sizing.law_sizes(foot[None])[0]) if sizing.has_law else np.inf
+
+    def rows_of(axis: int) -> tuple[float, SizeRow, list[SizeRow]]:
+        found = rows_at(foot, k, axis_rows(axis, sizing.anisotropy))
+        return *wished(found, axis, k, bounds, law), found
+
+    found = field_axes(field, where.uv, where.principal)
+    axes = explained_axes(found, where.principal, rows_of, others, slope)
+    first = axes[0]
+    at = tuple(float(x) for x in foot)
+    return Explanation(
+        at, float(where.away), where.place, where.face, first.rows, first.winner, first.size,
+        first.wish, first.origin, k, axes,
+    )  # fmt: skip
 
 
 def _explained(
-    foot: np.ndarray, away: float, place: str, number: int, found: list[SizeRow],
-    field: SizeField, uv: np.ndarray, elsewhere: list, slope: float | None = None,
-) -> Explanation:  # fmt: skip
-    """elsewhere: (point (3,), its name, rows there) that the size may have grown from."""
-    slope = field.sizing.gradient if slope is None else slope
-    out = np.empty(1)
-    scalar_sizes_at(field.background, field.scaling.to_plane(uv[None]), out)
+    where: _Where, found: list[SizeRow], field: SizeField, elsewhere: list, slope: float
+) -> Explanation:
+    """elsewhere: (point (3,), its name, rule there) that the size may have grown from."""
+    foot, out = where.foot, np.empty(1)
+    scalar_sizes_at(field.background, field.scaling.to_plane(where.uv[None]), out)
     size = float(out[0])
     winner = deciding(found)
     wish = winner.size if winner else np.inf
     origin = ""
     if size < LOWERED * wish:
-        candidates = [(p, name, deciding(there)) for p, name, there in elsewhere]
-        candidates = [c for c in candidates if c[2] is not None]
+        candidates = [c for c in elsewhere if c[2] is not None]
         if candidates:
             best = min(candidates, key=lambda c: c[2].size + slope * np.linalg.norm(c[0] - foot))
             origin, winner = best[1], best[2]
     if winner is None:
         winner = SizeRow("default", "the field's largest size", size)
     order = {"": 0, "max": 1, "min": 2}
-    listed = tuple(sorted(found, key=lambda row: (order[row.bound], row.size)))
+    listed = tuple(sorted(dict.fromkeys(found), key=lambda row: (order[row.bound], row.size)))
     return Explanation(
-        tuple(float(x) for x in foot), float(away), place, number, listed, winner, size,
-        float(wish), origin,
+        tuple(float(x) for x in foot), float(where.away), where.place, where.face, listed, winner,
+        size, float(wish), origin, where.principal.k,
     )  # fmt: skip
 
 
 def _rows_of(
     wanted: ModelSizing, rules: list[Rule], point: np.ndarray, k1: float | None,
-    k2: float | None,
+    k2: float | None, make: RowMaker = rows,
 ) -> list[SizeRow]:  # fmt: skip
     """Of the whole model, then of the selections. What is a default is called so."""
     stated, base = wanted.stated, wanted.base
@@ -189,7 +331,7 @@ def _rows_of(
             for given in (("chord", "angle", "size") if name == "chord" else ("max_size", "size"))
         )
     }  # fmt: skip
-    for row in rows(EVERYTHING, base, point, k1, k2):
+    for row in make(EVERYTHING, base, point, k1, k2):
         option = row.rule.split()[0]
         if option in overruled:
             continue
@@ -197,7 +339,7 @@ def _rows_of(
             row = row._replace(key="default")
         found.append(row)
     for rule in rules:
-        found.extend(rows(rule.key, rule.sizing, point, k1, k2))
+        found.extend(make(rule.key, rule.sizing, point, k1, k2))
     return found
 
 
@@ -210,33 +352,63 @@ def _gaps_of(wanted: ModelSizing, number: int, point: np.ndarray) -> list[SizeRo
 
 def _at_sample(
     model: CadModel, wanted: ModelSizing, samples: EdgeSamples, place: int
-) -> tuple[np.ndarray, str, list[SizeRow]]:
-    """What applies at a sample of an edge: of its faces, of itself, of its ends, its gaps."""
+) -> tuple[np.ndarray, str, SizeRow]:
+    """The rule at a sample of an edge: of its faces, of itself, of its ends, its gaps.
+
+    Each face is heard within its own bounds; the smallest of their sizes holds.
+    """
     edge = int(np.searchsorted(samples.first, place, side="right") - 1)
     point, share = samples.points[place], samples.share[place]
-    found = []
+    item = model.edges[edge]
+    bend = _bend(item, share)
+    groups = []
     for number in dict.fromkeys(model.faces_of_edge(edge)):
         face = model.faces[number]
         coedge = next(c for c in face.coedges if c.edge == edge)
-        flat = face.kind == "plane"
         uv = coedge.uv(np.array([share]))[0]
-        k1, k2 = (None, None) if flat else _curvature(face.surface, uv)
-        found += _rows_of(wanted, wanted.rules_of("faces", number), point, k1, k2)
-        found += _gaps_of(wanted, number, point)
-    item = model.edges[edge]
-    bend = _bend(item, share)
-    found += _rows_of(wanted, wanted.rules_of("edges", edge), point, bend, bend)
+        principal = Principal.at(face.surface, uv)
+        make = rows
+        if wanted.is_anisotropic:  # along the edge
+            axis = principal.nearest(samples.tangent[place])
+            make = axis_rows(axis, wanted.base.anisotropy)
+        k1, k2 = (None, None) if face.kind == "plane" else principal.k or (None, None)
+        rules = wanted.rules_of("faces", number)
+        found = _rows_of(wanted, rules, point, k1, k2, make)
+        found += _own_curvature(wanted, rules, bend)
+        groups.append(found + _gaps_of(wanted, number, point))
+    rules = wanted.rules_of("edges", edge)
+    if rules or not groups:
+        groups.append(_rows_of(wanted, rules, point, bend, bend))
     ends = {0: item.start, len(range(*samples.of(edge).indices(len(samples.share)))) - 1: item.end}
     vertex = ends.get(place - int(samples.first[edge]))
     if vertex is not None:
         for rule in wanted.rules_of("vertices", vertex):
-            found += rows(rule.key, rule.sizing, point, None, None)
-    least = deciding(found)
-    if least is None or samples.wish[place] < LOWERED * least.size:
-        gap = "gap to another edge of a face, or length of the edge"
-        found.append(SizeRow("gap", gap, float(samples.wish[place])))
+            groups.append(list(rows(rule.key, rule.sizing, point, None, None)))
+    winners = [row for row in map(deciding, groups) if row is not None]
+    least = min(winners, key=lambda row: row.size, default=None)
+    wish = float(samples.wish[place])
+    if least is None or wish < LOWERED * least.size:
+        rule = "gap to another edge of a face"
+        if wish > LOWERED * item.length:
+            rule = f"length {item.length:.4g} of edge {edge}"
+        least = SizeRow("gap" if rule.startswith("gap") else "default", rule, wish)
     called = f"edge {edge}" + (f" ({item.name})" if item.name else "")
-    return point, f"{called} at {_at(point)}", found
+    return point, f"{called} at {_at(point)}", least
+
+
+def _own_curvature(
+    wanted: ModelSizing, rules: list[Rule], bend: float | None
+) -> list[SizeRow]:
+    """What the smallest chord asks for because the edge itself is curved."""
+    chords = [(EVERYTHING, wanted.base.chord), *((r.key, r.sizing.chord) for r in rules)]
+    given = [(chord, key) for key, chord in chords if chord is not None]
+    if not given or not bend:
+        return []
+    chord, key = min(given)
+    reserve = STRAIGHT_RESERVE if wanted.is_anisotropic else DEVIATION_RESERVE
+    size = max(float(np.sqrt(8.0 * reserve * chord / bend)), 2.0 * chord)
+    rule = f"chord {chord:g} at the edge's own curvature {bend:.4g} (radius {1.0 / bend:.4g})"
+    return [SizeRow(key, rule, size)]
 
 
 def _bend(edge: Any, share: float) -> float | None:
@@ -265,19 +437,29 @@ def _nearest_face(
         rings = boundary_polygons(face)
         uv, away, foot = _foot(face.surface, point, _grid(face.surface, GRID))
         if not is_inside(rings, uv[None])[0]:
-            edge_uv = np.concatenate(rings)
-            (places,) = face.surface.evaluate(edge_uv, 0)
-            nearest = int(np.linalg.norm(places - point, axis=1).argmin())
-            on_edge = float(np.linalg.norm(places[nearest] - point))
-            span = np.ptp(edge_uv, axis=0)
-            beside = (np.abs(edge_uv - uv) <= 1e-6 * span + 1e-12).all(axis=1).any()
-            if not beside:
-                uv, away, foot = edge_uv[nearest], on_edge, places[nearest]
+            uv, away, foot = _on_rings(face.surface, rings, point)
         if best is None or away < best[0]:
             best = (away, number, uv, foot)
     if best is None:
         raise SizingError(f"{model.name or model.source!r} has no face to explain sizes on")
     return best[1], best[2], best[0], best[3]
+
+
+def _on_rings(
+    surface: Surface, rings: list[np.ndarray], point: np.ndarray
+) -> tuple[np.ndarray, float, np.ndarray]:
+    """uv (2,), distance, foot (3,): the nearest point of the boundary of a face."""
+    start = np.concatenate(rings)
+    end = np.concatenate([np.roll(ring, -1, axis=0) for ring in rings])
+    (a,), (b,) = surface.evaluate(start, 0), surface.evaluate(end, 0)
+    step = b - a
+    square = np.maximum(np.einsum("ij,ij->i", step, step), np.finfo(float).tiny)
+    share = np.clip(np.einsum("ij,ij->i", point - a, step) / square, 0.0, 1.0)[:, None]
+    uv = start + share * (end - start)
+    (places,) = surface.evaluate(uv, 0)
+    away = np.linalg.norm(places - point, axis=1)
+    nearest = int(away.argmin())
+    return uv[nearest], float(away[nearest]), places[nearest]
 
 
 def _foot(
@@ -297,14 +479,6 @@ def _grid(surface: Surface, count: int) -> np.ndarray:
 
 def _diagonal(surface: Surface, grid: np.ndarray) -> float:
     return float(np.linalg.norm(np.ptp(surface.evaluate(grid, 0)[0], axis=0)))
-
-
-def _curvature(surface: Surface, uv: np.ndarray) -> tuple[float | None, float | None]:
-    forms = forms_from_derivatives(*surface.evaluate(uv[None], 2)[1:])
-    if forms.degenerate[0]:
-        return None, None
-    k = curvatures(forms)
-    return float(k.k1[0]), float(k.k2[0])
 
 
 def _at(point: np.ndarray) -> str:

@@ -116,6 +116,7 @@ def mesh_model(
             + (f"; and {len(failed) - 5} more" if len(failed) > 5 else "")
             + ". Lower the sizes, repair the faces, or use strict=False to get the others"
         )
+    mesh = replace(mesh, promises=wanted.promises(len(model.faces)))
     mesh = mesh.with_warnings(*_left_over(model, wishes), *contents.warnings())
     return simplified(mesh, sizing.min_size or LEAST * model.diagonal) if simplify else mesh
 

@@ -1,16 +1,16 @@
 """The figures of each face: one row a face, in the order of the faces."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
 from surfmesh.quality.deviation import Deviation
+from surfmesh.quality.promises import Promises, StatedLimit, beyond_angle, beyond_chord
 from surfmesh.quality.shape import Shapes
 from surfmesh.quality.turning import Turning
 from surfmesh.surface_mesh import SurfaceMesh
-
-CHORD_SLACK = 1e-9  # relative: rounding in the distance itself
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -23,13 +23,16 @@ class FaceRow:
     triangles: int
     area: float
     area_exact: float | None
+    chord: float | None  # promised of it: the largest distance from the surface
+    angle: float | None  # likewise the largest between its triangles, degrees
+    limit: str  # a min_size of the user's that forbids one of them, in words; else empty
     deviation_max: float | None
     deviation_rms: float | None
     deviation_triangle: int | None  # where deviation_max is
     deviation_point: tuple[float, float, float] | None  # its centroid
-    above_chord_share: float | None  # of its triangles that are farther away than chord
+    above_chord_share: float | None  # of its triangles that are farther away than its chord
     angle_max: float | None  # largest between its triangles that share an edge, degrees
-    above_angle_share: float | None  # of the edges within it
+    above_angle_share: float | None  # of the edges within it, above its angle
     folded: int | None  # triangles turned more than 60 degrees from the surface
     alpha_mean: float | None  # None where the face has no triangle
     alpha_min: float | None
@@ -43,7 +46,8 @@ def by_face(
     fit: Deviation | None,
     lengths: NDArray[np.float64],
     folded: NDArray[np.bool_] | None,
-    chord: float | None,
+    promises: Promises,
+    limits: Sequence[StatedLimit],
     turns: Turning | None,
 ) -> tuple[FaceRow, ...]:
     """Rows of all surfaces, or of the numbers that occur where none is known.
@@ -73,15 +77,12 @@ def by_face(
         worst[faces[at]] = at  # the first of equals
         square = np.bincount(faces, shape.area * fit.mean_square, count)
         turned = np.bincount(faces, folded, count)
-        if chord is not None:
-            above = np.bincount(faces, fit.by_triangle > chord * (1 + CHORD_SLACK), count)
+        above = np.bincount(faces, beyond_chord(promises, mesh, fit), count)
     turn, bent, inner = np.zeros(count), np.zeros(count), np.zeros(count, np.int64)
-    angle = getattr(mesh.sizing, "angle", None)
     if turns is not None:
         np.maximum.at(turn, turns.faces, turns.angles)
         inner = np.bincount(turns.faces, minlength=count)
-        if angle is not None:
-            bent = np.bincount(turns.faces, turns.above(angle), count)
+        bent = np.bincount(turns.faces, beyond_angle(promises, turns), count)
     exact = mesh.facts.faces if mesh.facts is not None else ()
     rows = []
     for k, face in enumerate(numbers.tolist()):
@@ -89,6 +90,8 @@ def by_face(
         known = fit is not None and here > 0
         surface = mesh.surfaces[face] if mesh.surfaces else None
         place = mesh.points[mesh.triangles[worst[k]]].mean(axis=0) if known else ()
+        chord = promises.one(promises.chord, face)
+        angle = promises.one(promises.angle, face)
         rms = float(square[k] / area[k]) ** 0.5 if known and area[k] > 0 else None
         rows.append(
             FaceRow(
@@ -98,6 +101,9 @@ def by_face(
                 triangles=here,
                 area=float(area[k]),
                 area_exact=exact[face].area if 0 <= face < len(exact) else None,
+                chord=chord,
+                angle=angle,
+                limit="; ".join(str(limit) for limit in limits if limit.face == face),
                 deviation_max=float(largest[k]) if known else None,
                 deviation_rms=rms,
                 deviation_triangle=int(worst[k]) if known else None,

@@ -27,16 +27,18 @@ def _faces(report: "Report") -> str:
     if len(rows) > SHOWN_FACES:
         title = f"faces, the {SHOWN_FACES} farthest from the surface of {len(rows)}"
         rows = sorted(rows, key=_badness, reverse=True)[:SHOWN_FACES]
-    head = ("face", "name", "triangles", "area", "exact", "largest", "rms", "> chord", "near")
-    head += ("alpha", "min", "size", "wanted")
+    head = ("face", "name", "triangles", "area", "exact", "largest", "chord", "rms", "> chord")
+    head += ("near", "turn", "angle", "alpha", "min", "size", "wanted")
     return _table(
         title,
         head,
         [
             (
                 str(row.face), _short(row), f"{row.triangles:,}", _g(row.area, 6),
-                _g(row.area_exact, 6), _g(row.deviation_max), _g(row.deviation_rms),
-                _percent(row.above_chord_share), _place(row.deviation_point), _g(row.alpha_mean),
+                _g(row.area_exact, 6), _g(row.deviation_max), _g(row.chord),
+                _g(row.deviation_rms), _percent(row.above_chord_share),
+                _place(row.deviation_point),
+                _g(row.angle_max if row.angle else None), _g(row.angle), _g(row.alpha_mean),
                 _g(row.alpha_min), _g(row.size_mean), _g(row.size_wanted),
             )
             for row in rows

@@ -7,6 +7,7 @@ from numpy.typing import NDArray
 
 from surfmesh.geometry.fundamental_forms import curvatures, forms_from_derivatives
 from surfmesh.quality.deviation import Deviation
+from surfmesh.quality.promises import Promises
 from surfmesh.sizing.curvature_size import chord_size, principal_chord_sizes
 from surfmesh.surface_mesh import SurfaceMesh
 
@@ -21,15 +22,14 @@ class ChordUse(NamedTuple):
     used: float | None  # median of deviation / chord; None when there are no such triangles
 
 
-def chord_use(mesh: SurfaceMesh, fit: Deviation | None) -> ChordUse | None:
+def chord_use(mesh: SurfaceMesh, fit: Deviation | None, promises: Promises) -> ChordUse | None:
     """None where no chord was asked for, or sizes, surfaces or distances are not known.
 
     ``chord`` decides where the size wanted at a triangle is at least 0.8 of what the curvature
     at its centroid allows: not where growth, ``max_size``, ``angle`` or a source ask for less,
     nor where an earlier round has lowered the sizes by more than that.
     """
-    chord = getattr(mesh.sizing, "chord", None)
-    if fit is None or chord is None or mesh.sizes is None:
+    if fit is None or mesh.sizes is None or not np.isfinite(promises.chord).any():
         return None
     step = -(-len(mesh.triangles) // SAMPLES)
     chosen = np.arange(0, len(mesh.triangles), step)
@@ -39,20 +39,20 @@ def chord_use(mesh: SurfaceMesh, fit: Deviation | None) -> ChordUse | None:
     for face in np.unique(faces):
         here = np.flatnonzero(faces == face)
         uv = mesh.uv_points[mesh.uv_triangles[chosen[here]]].mean(axis=1)
-        decided[here] = wanted[here] >= DECIDED * _allowed(mesh, int(face), uv)
-    used = fit.by_triangle[chosen[decided]] / chord
+        chord = promises.one(promises.chord, int(face))
+        if chord is not None:
+            decided[here] = wanted[here] >= DECIDED * _allowed(mesh, int(face), uv, chord)
+    used = fit.by_triangle[chosen[decided]] / promises.at(promises.chord, faces[decided])
     return ChordUse(float(decided.mean()), float(np.median(used)) if len(used) else None)
 
 
-def _allowed(mesh: SurfaceMesh, face: int, uv: NDArray) -> NDArray[np.float64]:
+def _allowed(mesh: SurfaceMesh, face: int, uv: NDArray, chord: float) -> NDArray[np.float64]:
     """Size (n,) that the curvature at uv (n, 2) of a face allows; infinite where it is flat."""
     _, ru, rv, *second = mesh.surfaces[face].evaluate(uv, 2)
     forms = forms_from_derivatives(ru, rv, *second)
     k = curvatures(forms)
     if getattr(mesh.sizing, "is_anisotropic", False):
-        size = np.minimum(
-            *principal_chord_sizes(k.k1, k.k2, mesh.sizing.chord, mesh.sizing.anisotropy)
-        )
+        size = np.minimum(*principal_chord_sizes(k.k1, k.k2, chord, mesh.sizing.anisotropy))
     else:
-        size = chord_size(k.k1, k.k2, mesh.sizing.chord)
+        size = chord_size(k.k1, k.k2, chord)
     return np.where(forms.degenerate | ~np.isfinite(size), np.inf, size)

@@ -8,6 +8,7 @@ from numpy.typing import NDArray
 from surfmesh.surface_mesh import SurfaceMesh
 
 QUASI_UNIT = (0.5**0.5, 2.0**0.5)  # metric lengths that conform to the wanted sizes
+GROWTH_SLACK = 0.01  # relative: sizes are interpolated between the nodes of the field
 BLOCK = 1 << 15  # edges looked at together, to stay within the cache
 
 
@@ -29,21 +30,30 @@ def metric_lengths(mesh: SurfaceMesh, lengths: NDArray[np.float64]) -> NDArray[n
     metric = 2.0 * lengths
     for begin in range(0, len(lengths), BLOCK):
         block = slice(begin, begin + BLOCK)
-        a, b = mesh.edges[block].T
         if mesh.inverse_sizes is None:
+            a, b = mesh.edges[block].T
             metric[block] /= mesh.sizes[a] + mesh.sizes[b]
             continue
-        corners = mesh.uv_triangles.ravel()
-        step = mesh.points[b] - mesh.points[a]
-        start = mesh.connectivity.half_edges[block, 0]
-        end = np.where(start % 3 == 2, start - 2, start + 1)
-        first, second = (
-            np.linalg.norm(stretched(mesh.inverse_sizes[corners[e]], step), axis=1)
-            for e in (start, end)
-        )
+        first, second = _stretched_at_ends(mesh, block)
         total = first + second
         metric[block] = 2.0 * first * second / np.where(total > 0.0, total, 1.0)
     return metric
+
+
+def _stretched_at_ends(
+    mesh: SurfaceMesh, block: slice
+) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Lengths (k,) of edges in the metrics at either end, as one of their faces has them."""
+    a, b = mesh.edges[block].T
+    corners = mesh.uv_triangles.ravel()
+    step = mesh.points[b] - mesh.points[a]
+    start = mesh.connectivity.half_edges[block, 0]
+    end = np.where(start % 3 == 2, start - 2, start + 1)
+    first, second = (
+        np.linalg.norm(stretched(mesh.inverse_sizes[corners[e]], step), axis=1)
+        for e in (start, end)
+    )
+    return first, second
 
 
 def stretched(inverse_sizes: NDArray[np.float64], step: NDArray[np.float64]) -> NDArray[np.float64]:
@@ -72,3 +82,40 @@ def growth(mesh: SurfaceMesh, lengths: NDArray[np.float64]) -> Growth:
         return Growth(float("nan"), float("nan"))
     ratio = longest[used] / shortest[used]
     return Growth(float(ratio.max()), float(np.quantile(ratio, 0.99)))
+
+
+class SizeGrowth(NamedTuple):
+    """By how much the sizes wanted at the two ends of an edge differ, over what is allowed."""
+
+    share: float  # of the edges, those along which it is more than allowed
+    largest: float  # 1 is allowed
+    point: tuple[float, float, float]  # middle of that edge
+
+
+def size_growth(
+    mesh: SurfaceMesh, lengths: NDArray[np.float64], slope: float
+) -> SizeGrowth | None:
+    """Growth of the wanted sizes over the edges of the mesh, in any direction.
+
+    Along an edge of length l sizes may differ by ``slope`` l. Where sizes depend on the direction
+    those along the edge are compared. None without sizes or edges of a length.
+    """
+    if mesh.sizes is None or not (lengths > 0.0).any() or not slope > 0.0:
+        return None
+    over = np.zeros(len(lengths))
+    for begin in range(0, len(lengths), BLOCK):
+        block = slice(begin, begin + BLOCK)
+        length = lengths[block]
+        if mesh.inverse_sizes is None:
+            a, b = mesh.edges[block].T
+            first, second = mesh.sizes[a], mesh.sizes[b]
+        else:  # an edge of length l is l / h long in the metric
+            with np.errstate(divide="ignore", invalid="ignore"):
+                first, second = (length / metric for metric in _stretched_at_ends(mesh, block))
+        with np.errstate(divide="ignore", invalid="ignore"):
+            over[block] = np.abs(first - second) / (slope * length)
+    over = np.where(np.isfinite(over), over, 0.0)
+    worst = int(over.argmax())
+    place = mesh.points[mesh.edges[worst]].mean(axis=0)
+    share = float(np.mean(over > 1.0 + GROWTH_SLACK))
+    return SizeGrowth(share, float(over[worst]), tuple(place.tolist()))

@@ -6,13 +6,14 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from surfmesh.quality.by_face import CHORD_SLACK
 from surfmesh.quality.by_solid import SolidRow
 from surfmesh.quality.deviation import Deviation
+from surfmesh.quality.promises import Beyond, Promises
 from surfmesh.quality.self_intersection import MeetingPair
 from surfmesh.quality.shape import Shapes
 from surfmesh.quality.solids import shares_faces, solid_mesh
 from surfmesh.quality.topology import Topology, topology
+from surfmesh.quality.turning import Turning
 from surfmesh.surface_mesh import NOT_MESHED, SurfaceMesh
 
 DEGENERATE = 1e-6  # alpha below which a triangle has no area to speak of
@@ -25,15 +26,15 @@ def problems(
     topo: Topology,
     shape: Shapes,
     fit: Deviation | None,
-    above: float | None,
+    beyond: Beyond | None,
+    promises: Promises,
     solids: tuple[SolidRow, ...],
 ) -> list[str]:
     """Sentences about all but self-intersection.
 
-    broken: the first broken invariant of the mesh; above: share of the triangles that lie
-    farther away than chord.
+    broken: the first broken invariant of the mesh; beyond: triangles that lie farther away than
+    was promised.
     """
-    chord = getattr(mesh.sizing, "chord", None)
     said = []
     if not len(mesh.triangles):
         said.append("the mesh has no triangles")
@@ -72,24 +73,39 @@ def problems(
         said += _triangles(mesh, half, "folded: turned more than 60° from the surface")
         if not math.isfinite(fit.largest):
             said.append("the distance from the surface is not finite")
-        elif chord is not None and fit.largest > chord * (1 + CHORD_SLACK):
+        elif beyond is not None:
+            worst = beyond.worst
+            place = fit.point
+            if worst != fit.triangle:
+                place = mesh.points[mesh.triangles[worst]].mean(axis=0)
+            there = f" on {_called(mesh, worst)}" * (not promises.uniform)
             said.append(
-                f"the mesh lies up to {fit.largest:.4g} from the surface, {chord:.4g} was asked "
-                f"for ({100 * (above or 0):.3g} % of the triangles are farther); "
-                f"worst in triangle {fit.triangle} at {_place(fit.point)}"
+                f"the mesh lies up to {beyond.reached:.4g} from the surface, {beyond.asked:.4g} "
+                f"was asked for{there} ({100 * beyond.share:.3g} % of the triangles are farther); "
+                f"worst in triangle {worst} at {_place(place)}"
             )
     return said
 
 
 def turned_too_far(
-    angle: float, share: float, largest: float, triangles: tuple[int, int], point: Any
+    mesh: SurfaceMesh, turns: Turning, beyond: Beyond, promises: Promises
 ) -> str:
-    """A sentence about edges across which triangles turn by more than ``angle``, degrees."""
+    """A sentence about edges across which triangles turn by more than was promised."""
+    edge = turns.edges[beyond.worst]
+    first, second = (mesh.connectivity.half_edges[edge] // 3).tolist()
+    there = f" on {_called(mesh, first)}" * (not promises.uniform)
     return (
-        f"neighbouring triangles turn by up to {largest:.4g}°, {angle:.4g}° was asked for "
-        f"({100 * share:.3g} % of the edges turn more); worst between triangles {triangles[0]} "
-        f"and {triangles[1]} at {_place(point)}"
+        f"neighbouring triangles turn by up to {beyond.reached:.4g}°, {beyond.asked:.4g}° was "
+        f"asked for{there} ({100 * beyond.share:.3g} % of the edges turn more); worst between "
+        f"triangles {first} and {second} at {_place(mesh.points[mesh.edges[edge]].mean(axis=0))}"
     )
+
+
+def _called(mesh: SurfaceMesh, triangle: int) -> str:
+    """The face of a triangle by number and name."""
+    face = int(mesh.face_ids[triangle])
+    name = mesh.face_name(face)
+    return name if name == f"face {face}" else f"face {face} ({name})"
 
 
 def _euler_numbers(

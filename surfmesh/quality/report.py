@@ -11,12 +11,18 @@ import numpy as np
 from numpy.typing import NDArray
 
 from surfmesh.model_facts import ModelFacts
-from surfmesh.quality.by_face import CHORD_SLACK, FaceRow, by_face
+from surfmesh.quality.by_face import FaceRow, by_face
 from surfmesh.quality.by_solid import SolidRow, by_solid, volume_of_all
 from surfmesh.quality.chord_use import chord_use
 from surfmesh.quality.deviation import deviation
 from surfmesh.quality.histograms import Histogram, histograms
-from surfmesh.quality.lengths import QUASI_UNIT, edge_lengths, growth, metric_lengths
+from surfmesh.quality.lengths import (
+    QUASI_UNIT,
+    edge_lengths,
+    growth,
+    metric_lengths,
+    size_growth,
+)
 from surfmesh.quality.problems import (
     DEGENERATE,
     FOLDED,
@@ -24,6 +30,15 @@ from surfmesh.quality.problems import (
     intersections,
     problems,
     turned_too_far,
+)
+from surfmesh.quality.promises import (
+    Promises,
+    StatedLimit,
+    angle_kept,
+    beyond_angle,
+    beyond_chord,
+    chord_kept,
+    stated,
 )
 from surfmesh.quality.provenance import mesh_sha256, versions
 from surfmesh.quality.self_intersection import MeetingPair, located, meeting_pairs
@@ -101,21 +116,26 @@ class Report:
     growth_max: float  # longest over shortest edge at a vertex; in wanted lengths where those
     # depend on the direction
     growth_p99: float
+    growth: float | None  # asked for: the largest ratio of neighbouring sizes
+    above_growth_share: float | None  # edges whose ends are wanted to differ more than it allows
+    size_growth_max: float | None  # largest such difference over what growth allows: 1 is allowed
+    size_growth_point: tuple[float, float, float] | None  # middle of that edge
 
-    chord: float | None  # the largest deviation that was asked for
+    chord: float | None  # the largest deviation that was asked for, of the whole model
     deviation_max: float | None  # from the true surface
     deviation_rms: float | None
     deviation_triangle: int | None  # where deviation_max is
     deviation_point: tuple[float, float, float] | None
     deviation_uv: tuple[float, float] | None
-    above_chord_share: float | None  # triangles farther away than chord
+    above_chord_share: float | None  # triangles farther away than the chord of their face
     chord_used: float | None  # median of deviation / chord where chord decided the size
     chord_decided_share: float | None  # of the triangles: where not growth or another wish did
     angle: float | None  # asked for, degrees; None: only 45 as a rule of sizes, no promise
     angle_max: float | None  # largest between triangles that share an edge within a face
     angle_triangles: tuple[int, int] | None  # where it is: not where the surface itself bends
     angle_point: tuple[float, float, float] | None  # middle of the edge
-    above_angle_share: float | None  # of the edges within faces
+    above_angle_share: float | None  # of the edges within faces, above the angle of their face
+    limits: tuple[StatedLimit, ...]  # where a min_size of the user's forbids one of both
 
     area: float
     area_exact: float | None
@@ -181,26 +201,32 @@ def check(mesh: SurfaceMesh) -> Report:
     lengths = edge_lengths(mesh)
     metric = None if mesh.sizes is None else metric_lengths(mesh, lengths)
     grown = growth(mesh, lengths if mesh.inverse_sizes is None else metric)
+    slope = getattr(mesh.sizing, "gradient", None) if finite else None
+    steep = None if slope is None else size_growth(mesh, lengths, slope)
     wanted = None if mesh.inverse_sizes is None else metric_alpha(mesh)
     fit = deviation(mesh, shape.area) if finite else None
-    chord = getattr(mesh.sizing, "chord", None)
+    promises = Promises.of(mesh)
+    chord = getattr(mesh.sizing, "chord", None) or promises.base_chord
     facts = mesh.facts or ModelFacts()
     encloses = topo.closed and topo.manifold and topo.oriented
     unit_share = None
     if metric is not None and len(metric):
         low, high = QUASI_UNIT
         unit_share = float(np.count_nonzero((metric >= low) & (metric <= high)) / len(metric))
-    used = chord_use(mesh, fit)
-    angle = getattr(mesh.sizing, "angle", None)
-    turns = turning(mesh) if finite else None
+    used = chord_use(mesh, fit, promises)
+    angle = getattr(mesh.sizing, "angle", None) or promises.base_angle
+    turns = turning(mesh, promises.angle) if finite else None
     worst = None if turns is None else worst_turn(mesh, turns)
-    turned = None
-    if worst is not None and angle is not None:
-        turned = float(np.mean(turns.above(angle)))
+    turned, bent, limits = None, None, []
+    if worst is not None and np.isfinite(promises.angle).any():
+        turned = float(np.mean(beyond_angle(promises, turns)))
+        bent, limits = angle_kept(promises, mesh, turns)
     faces = len(mesh.surfaces) or len(np.unique(mesh.face_ids))
-    above = None
-    if fit is not None and chord is not None:
-        above = float(np.mean(fit.by_triangle > chord * (1 + CHORD_SLACK)))
+    above = beyond = None
+    if fit is not None and np.isfinite(promises.chord).any():
+        above = float(np.mean(beyond_chord(promises, mesh, fit)))
+        beyond, more = chord_kept(promises, mesh, fit)
+        limits = [*more, *limits]
     folded = None if fit is None else fit.cosine < FOLDED
     solids = by_solid(mesh, shape) if finite else ()
     crosses = facts.crosses_itself or (mesh.one_sided and topo.closed)  # no room in space
@@ -210,9 +236,9 @@ def check(mesh: SurfaceMesh) -> Report:
         between = apart(mesh, pairs)
         contacts, pairs = int(between.sum()), pairs[~between]
     meeting = () if pairs is None else located(mesh, pairs[:LISTED])
-    said = problems(mesh, broken, topo, shape, fit, above, solids)
-    if turned:
-        said.append(turned_too_far(angle, turned, *worst))
+    said = problems(mesh, broken, topo, shape, fit, beyond, promises, solids)
+    if bent is not None:
+        said.append(turned_too_far(mesh, turns, bent, promises))
     if pairs is not None and not crosses:
         said += intersections(mesh, meeting, len(pairs))
     return Report(
@@ -258,6 +284,10 @@ def check(mesh: SurfaceMesh) -> Report:
         length_max=None if metric is None else _over(np.max, metric),
         growth_max=grown.largest,
         growth_p99=grown.p99,
+        growth=getattr(mesh.sizing, "growth", None),
+        above_growth_share=None if steep is None else steep.share,
+        size_growth_max=None if steep is None else steep.largest,
+        size_growth_point=None if steep is None else steep.point,
         chord=chord,
         deviation_max=None if fit is None else fit.largest,
         deviation_rms=None if fit is None else fit.rms,
@@ -272,11 +302,12 @@ def check(mesh: SurfaceMesh) -> Report:
         angle_triangles=None if worst is None else worst[1],
         angle_point=None if worst is None else worst[2],
         above_angle_share=turned,
+        limits=tuple(limits),
         area=float(shape.area.sum()),
         area_exact=facts.area,
         volume=_volume(mesh, encloses, solids) if finite and not broken else None,
         volume_exact=facts.volume,
-        by_face=by_face(mesh, shape, fit, lengths, folded, chord, turns),
+        by_face=by_face(mesh, shape, fit, lengths, folded, promises, limits, turns),
         by_solid=solids,
         unit=facts.unit,
         source=facts.source,
@@ -284,7 +315,7 @@ def check(mesh: SurfaceMesh) -> Report:
         mesh_sha256=mesh_sha256(mesh),
         versions=versions(mesh),
         healing=facts.healing,
-        warnings=mesh.warnings,
+        warnings=(*mesh.warnings, *stated(limits)),
         options=_options(mesh.sizing),
         problems=tuple(said),
         seconds={**mesh.seconds, "check": perf_counter() - start},

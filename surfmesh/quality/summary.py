@@ -12,7 +12,8 @@ _SHOWN_PROBLEMS, _SHOWN_WARNINGS, _SHOWN_STAGES = 5, 3, 8
 
 def summary(report: "Report") -> str:
     """At most 25 lines of text about ``report``."""
-    verdict = "clean" if report.clean else f"NOT CLEAN: {_count(len(report.problems), 'problem')}"
+    clean = "clean, but for a stated limit" if report.limits else "clean"
+    verdict = clean if report.clean else f"NOT CLEAN: {_count(len(report.problems), 'problem')}"
     name = f"{report.surface}: " if report.surface else ""
     lines = [f"{name}{report.nodes:,} nodes, {report.triangles:,} triangles - {verdict}"]
     lines += _listed(report.problems, _SHOWN_PROBLEMS, "problem")
@@ -29,6 +30,7 @@ def summary(report: "Report") -> str:
             f"radius ratio mean {report.radius_ratio_mean:.4f}, "
             f"smallest {report.radius_ratio_min:.4f}",
         ),
+        *_in_the_metric(report),
         ("angles", f"{report.min_angle_deg:.2f}° to {report.max_angle_deg:.2f}°"),
         (
             "edges",
@@ -44,6 +46,8 @@ def summary(report: "Report") -> str:
                 f"length / wanted {report.length_mean:.3f} ± {report.length_std:.3f}",
             )
         )
+    if report.above_growth_share is not None:
+        rows.append(("", _growth(report)))
     rows.append(("deviation", _deviation(report)))
     if report.angle is not None and report.angle_max is not None:
         rows.append(("turning", _turning(report)))
@@ -97,12 +101,38 @@ def _size(report: "Report") -> str:
     return ", ".join(words) + (f" in {report.unit}" if report.unit else "")
 
 
+def _in_the_metric(report: "Report") -> list[tuple[str, str]]:
+    """Where sizes depend on the direction."""
+    if report.alpha_metric_mean is None:
+        return []
+    mean, least = report.alpha_metric_mean, report.alpha_metric_min
+    return [("", f"in the metric: alpha mean {mean:.4f}, smallest {least:.4f}")]
+
+
+def _growth(report: "Report") -> str:
+    allowed = f"growth {report.growth:g} allows"
+    if not report.above_growth_share:
+        return f"wanted sizes differ along no edge by more than {allowed}"
+    place = ", ".join(f"{value:.4g}" for value in report.size_growth_point)
+    return (
+        f"wanted sizes differ along {100 * report.above_growth_share:.2g} % of them by more than "
+        f"{allowed}, up to {report.size_growth_max:.3g} times as much at ({place})"
+    )
+
+
 def _deviation(report: "Report") -> str:
     if report.deviation_max is None:
         return "not known: the mesh carries no surface to compare with"
     asked = ""
-    if report.chord:
-        asked = f" ({100 * report.deviation_max / report.chord:,.0f} % of chord {report.chord:.4g})"
+    rows = [row for row in report.by_face if row.chord and row.deviation_max is not None]
+    there = [row.chord for row in rows if row.deviation_triangle == report.deviation_triangle]
+    chord = there[0] if there else report.chord
+    if chord:
+        asked = f"{100 * report.deviation_max / chord:,.0f} % of chord {chord:.4g}"
+        if len({row.chord for row in rows}) > 1:
+            most = max(row.deviation_max / row.chord for row in rows)
+            asked += f" there, at most {100 * most:,.0f} % of that of any face"
+        asked = f" ({asked})"
     used = ""
     if report.chord_used is not None:
         used = f"median {100 * report.chord_used:.0f} % of chord where it decides the size; "

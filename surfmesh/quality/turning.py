@@ -21,17 +21,18 @@ class Turning(NamedTuple):
     faces: NDArray[np.int32]  # (k,)
     angles: NDArray[np.float64]  # (k,) 0 where the surface itself bends
 
-    def above(self, angle: float) -> NDArray[np.bool_]:
-        """(k,) which of them turn by more than ``angle``, degrees."""
+    def above(self, angle: float | NDArray[np.float64]) -> NDArray[np.bool_]:
+        """(k,) which of them turn by more than ``angle``, degrees: one for all, or (k,)."""
         return self.angles > angle * (1 + ANGLE_SLACK)
 
 
-def turning(mesh: SurfaceMesh) -> Turning | None:
+def turning(mesh: SurfaceMesh, limits: NDArray[np.float64] | None = None) -> Turning | None:
     """Angles within the faces of ``mesh``; None where its surfaces are not known.
 
     Edges between two faces are left out: there the model itself may bend. So may one surface,
     at a crease where two of its sides meet, or at an apex: where an angle is larger than asked
-    for (or than 45 degrees) the normals of the surface on both sides are compared.
+    for (or than 45 degrees) the normals of the surface on both sides are compared. limits: by
+    face number, or one for all, what was asked for, infinite for nothing; None: by ``sizing``.
     """
     if not mesh.surfaces or mesh.uv_points is None or not len(mesh.triangles):
         return None
@@ -46,14 +47,17 @@ def turning(mesh: SurfaceMesh) -> Turning | None:
     turning_angles(mesh.points, mesh.triangles, pairs, angles)
     angles = np.degrees(angles)
     faces = mesh.face_ids[pairs[:, 0] // 3]
-    limit = getattr(mesh.sizing, "angle", None) or DEFAULT_ANGLE
-    large = np.flatnonzero(angles > limit * (1 + ANGLE_SLACK))
+    if limits is None:
+        limits = np.array([getattr(mesh.sizing, "angle", None) or np.inf])
+    limits = np.where(np.isfinite(limits), limits, DEFAULT_ANGLE)
+    limits = np.broadcast_to(limits, len(mesh.surfaces)) if len(limits) == 1 else limits
+    large = np.flatnonzero(angles > limits[faces] * (1 + ANGLE_SLACK))
     for face in np.unique(faces[large]):
         here = large[faces[large] == face]
         own = np.unique(mesh.triangles[mesh.face_ids == face])
         diagonal = float(np.linalg.norm(np.ptp(mesh.points[own], axis=0)))
         parts = _parameters(mesh, pairs[here])
-        bent = bends_itself(mesh.surfaces[face], *parts, limit, diagonal)
+        bent = bends_itself(mesh.surfaces[face], *parts, float(limits[face]), diagonal)
         angles[here[bent]] = 0.0
     return Turning(edges, faces, angles)
 

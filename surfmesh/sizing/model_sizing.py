@@ -58,6 +58,14 @@ class ModelSizing:
         """All that is wished on a face."""
         return self.faces.get(number, self.base)
 
+    def promises(self, count: int) -> np.ndarray | None:
+        """(count, 3) chord, angle and min_size of the faces, nan for none; None: those of base."""
+        if not self.faces:
+            return None
+        wishes = ("chord", "angle", "min_size")
+        every = [[getattr(self.of_face(k), name) for name in wishes] for k in range(count)]
+        return np.array(every, float)
+
     def rules_of(self, kind: str, number: int) -> list[Rule]:
         """The entries that select a face, also by its solid, an edge or a vertex."""
         return [rule for rule in self.rules if number in getattr(rule.found, kind)]

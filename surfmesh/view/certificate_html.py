@@ -34,8 +34,20 @@ _FIGURES = (  # title, fields, how they are said; a row without any known field 
     ("edges as wanted", ("quasi_unit_share",), "{} within a factor sqrt 2"),
     ("distance from the surface", ("deviation_max", "deviation_rms"), "largest {}, rms {}"),
     ("distance asked for", ("chord",), "{}"),
+    ("turn between neighbours", ("angle_max",), "largest {}°"),
+    ("turn asked for", ("angle",), "{}°"),
+    (
+        "sizes beyond growth",
+        ("above_growth_share", "size_growth_max"),
+        "{} of the edges, largest {} times what is allowed",
+    ),
     ("folded, inverted", ("folded", "inverted"), "{}, {} triangles"),
 )
+_OF_FACES = (  # title, field of its row
+    ("face", "face"), ("name", "name"), ("kind", "kind"), ("triangles", "triangles"),
+    ("distance", "deviation_max"), ("chord", "chord"), ("turn °", "angle_max"),
+    ("angle °", "angle"), ("smallest alpha", "alpha_min"), ("stated limit", "limit"),
+)  # fmt: skip
 
 
 def certificate_html(mesh: SurfaceMesh, report: Report, colourings: dict[str, Colouring]) -> str:
@@ -55,6 +67,7 @@ def certificate_html(mesh: SurfaceMesh, report: Report, colourings: dict[str, Co
             _folded(f"Notes ({len(report.warnings)})", f"<ul>{notes}</ul>") if notes else "",
             _folded("Histograms", histograms, is_open=True),
             _folded("Worst triangles", _worst(mesh), is_open=True),
+            _folded("Faces", _faces(values["by_face"])) if len(report.by_face) > 1 else "",
             _folded("Options", _table(values.get("options") or {}), is_open=True),
             _folded("Every figure", _table(figures)),
             _folded("As text", f"<pre>{escape(str(report))}</pre>"),
@@ -94,6 +107,13 @@ def _worst(mesh: SurfaceMesh) -> str:
         )
     head = "<tr><th>triangle</th><th>alpha</th><th>face</th><th>middle</th></tr>"
     return f"<table><thead>{head}</thead><tbody>{''.join(rows)}</tbody></table>"
+
+
+def _faces(rows: list[Mapping[str, Any]]) -> str:
+    """What was reached on each face beside what was promised of it."""
+    return _records(
+        [{title: row[name] for title, name in _OF_FACES} for row in rows if row["triangles"]]
+    )
 
 
 def _table(values: Mapping[str, Any]) -> str:

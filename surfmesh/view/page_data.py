@@ -53,7 +53,10 @@ def page_data(
         "triangles": mesh.triangles.astype("<u4"),
         "face_ids": np.maximum(mesh.face_ids, 0).astype("<u4"),
     }
-    if mesh.sizes is not None and mesh.inverse_sizes is None:  # the page draws circles with them
+    if mesh.inverse_sizes is not None:  # the page draws ellipses with them
+        arrays["inverse sizes"] = _rounded(mesh.inverse_sizes * scale)
+        arrays["inverse size rows"] = mesh.uv_triangles.astype("<u4")
+    elif mesh.sizes is not None:  # or circles
         arrays["sizes"] = _rounded(mesh.sizes / scale)
     entries = []
     for key, found in colourings.items():

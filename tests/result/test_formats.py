@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 from conftest import Saddle, changed, grid
 
+import surfmesh as sm
 from surfmesh.errors import FileFormatError
 from surfmesh.io import FORMATS, read, save
 
@@ -181,3 +182,28 @@ def test_stl_is_binary_and_counts_its_triangles(saddle, tmp_path):
     content = saddle.save(tmp_path / "mesh.stl").read_bytes()
     assert struct.unpack_from("<I", content, 80) == (128,)
     assert len(content) == 84 + 50 * 128
+
+
+@pytest.mark.parametrize("suffix, order", [(".vtu", 1), (".vtp", 1), (".vtu", 2)])
+def test_sizes_with_a_direction_travel(tmp_path, suffix, order):
+    torus = sm.load("torus")
+    mesh = sm.mesh(torus, sm.Sizing(chord=0.02, anisotropy=4), order=order)
+    there = read(mesh.save(tmp_path / f"torus{suffix}"))
+    assert np.array_equal(there.inverse_sizes, mesh.inverse_sizes)
+    assert np.array_equal(there.uv, mesh.uv) and there.check() is None
+    for name in ("alpha_metric_mean", "alpha_metric_min", "quasi_unit_share", "length_std"):
+        assert getattr(sm.check(there), name) == pytest.approx(getattr(sm.check(mesh), name))
+
+
+def test_part_of_a_file_keeps_its_metric(tmp_path):
+    import pyvista
+
+    mesh = sm.mesh(sm.load("torus"), sm.Sizing(chord=0.02, anisotropy=4))
+    path = tmp_path / "torus.vtu"
+    mesh.save(path)
+    part = pyvista.read(path).extract_cells(range(100))
+    part.save(path)
+    assert read(path).inverse_sizes.shape == mesh.inverse_sizes.shape
+    part.clear_field_data()
+    part.save(path)
+    assert read(path).inverse_sizes is None and read(path).uv is not None

@@ -14,6 +14,7 @@ import pytest
 from conftest import Saddle, changed, grid, icosphere
 from matplotlib.image import imread
 
+import surfmesh as sm
 from surfmesh.errors import FileFormatError
 from surfmesh.quality import check
 from surfmesh.view import html_report
@@ -270,3 +271,24 @@ def test_a_browser_opens_what_is_not_clean(opened, moebius_band, tmp_path):
     assert page.inner_text("#verdict") == "NOT CLEAN" and not check(moebius_band).clean
     assert coloured(picture(page)) > 0.01
     assert faults == []
+
+
+def test_ellipses_where_sizes_have_a_direction(opened, tmp_path):
+    rod = sm.ParametricSurface("cos(u)", "sin(u)", "v", u=(0, "2*pi"), v=(0, 4))
+    mesh = sm.mesh(rod, sm.Sizing(chord=0.01, anisotropy=6))
+    open_page, faults = opened
+    page = open_page(html_report(mesh, tmp_path / "rod.html"))
+    before = picture(page)
+    page.get_by_label("circles").check()
+    assert np.abs(picture(page) - before).max(axis=-1).mean() > 0.01 and not faults
+
+
+def test_the_table_of_faces_has_what_was_promised(tmp_path):
+    import cadquery as cq
+
+    part = cq.Workplane().box(10, 20, 30).edges("|Z and >X and >Y").fillet(2)
+    mesh = sm.mesh(part, {"*": sm.Sizing(angle=5), "type:cylinder": {"min_size": 1.0}})
+    text = html_report(mesh, tmp_path / "part.html").read_text(encoding="utf-8")
+    table = text[text.index("<summary>Faces</summary>") :]
+    assert "<th>angle °</th>" in table and "<th>stated limit</th>" in table
+    assert "min_size 1 keeps face" in table and '<td class="number">5</td>' in table

@@ -217,9 +217,10 @@
     const e = [new THREE.Vector3(), new THREE.Vector3()];
     for (let t = 0; t < count; t++) {
       for (let i = 0; i < 3; i++) {
-        const here = corner(t, i), h = arrays.sizes[triangles[3 * t + i]];
-        e[0].subVectors(corner(t, (i + 1) % 3), here).divideScalar(h);
-        e[1].subVectors(corner(t, (i + 2) % 3), here).divideScalar(h);
+        const here = corner(t, i);
+        e[0].subVectors(corner(t, (i + 1) % 3), here);
+        e[1].subVectors(corner(t, (i + 2) % 3), here);
+        for (const side of e) inWantedLengths(side, 3 * t + i);
         const form = [e[0].lengthSq(), e[1].lengthSq(), e[0].dot(e[1])];
         for (let k = 0; k < 3; k++) forms[i].set(form, 9 * t + 3 * k);
       }
@@ -227,6 +228,16 @@
     forms.forEach((values, i) => {
       geometry.setAttribute(`circle${i}`, new THREE.BufferAttribute(values, 3));
     });
+  }
+
+  // A step from corner c of all: by the size there, or by the six numbers of a symmetric tensor.
+  function inWantedLengths(step, c) {
+    if (arrays.sizes) return step.divideScalar(arrays.sizes[triangles[c]]);
+    const w = arrays["inverse sizes"], k = 6 * arrays["inverse size rows"][c];
+    const { x, y, z } = step;
+    return step.set(w[k] * x + w[k + 1] * y + w[k + 2] * z,
+                    w[k + 1] * x + w[k + 3] * y + w[k + 4] * z,
+                    w[k + 2] * x + w[k + 4] * y + w[k + 5] * z);
   }
 
   function addLines(entry) {
@@ -265,7 +276,7 @@
 
   function addSwitches() {
     addSwitch("triangles", (on) => { material.uniforms.sides.value = on; });
-    if (arrays.sizes) {
+    if (arrays.sizes || arrays["inverse sizes"]) {
       addSwitch("circles", (on) => { if (on) addCircles(); material.uniforms.circles.value = on; });
     }
     const groups = new Map();
