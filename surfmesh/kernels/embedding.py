@@ -244,22 +244,26 @@ def triangle_deviation(s, a, b, c):
 def triangle_shape(s, a, b, c):
     """alpha of abc in space, negative when it is turned over against the surface's normals.
 
-    Where sizes are anisotropic it is measured in the mean metric of the corners.
+    Where sizes are anisotropic it is measured in the mean metric of the corners, and of the area
+    only what faces as the surface does counts: a triangle on its edge can have a fine shape.
     """
     p = s.point
     ux, uy, uz = p[b, 0] - p[a, 0], p[b, 1] - p[a, 1], p[b, 2] - p[a, 2]
     vx, vy, vz = p[c, 0] - p[a, 0], p[c, 1] - p[a, 1], p[c, 2] - p[a, 2]
     nx, ny, nz = uy * vz - uz * vy, uz * vx - ux * vz, ux * vy - uy * vx
     m = s.normal
-    outward = (
-        nx * (m[a, 0] + m[b, 0] + m[c, 0])
-        + ny * (m[a, 1] + m[b, 1] + m[c, 1])
-        + nz * (m[a, 2] + m[b, 2] + m[c, 2])
-    )
+    mx = m[a, 0] + m[b, 0] + m[c, 0]
+    my = m[a, 1] + m[b, 1] + m[c, 1]
+    mz = m[a, 2] + m[b, 2] + m[c, 2]
+    outward = nx * mx + ny * my + nz * mz
     if is_anisotropic(s):
         ux, uy, uz = _stretched(s, a, b, c, ux, uy, uz)
         vx, vy, vz = _stretched(s, a, b, c, vx, vy, vz)
         nx, ny, nz = uy * vz - uz * vy, uz * vx - ux * vz, ux * vy - uy * vx
+        length = mx * mx + my * my + mz * mz
+        if length > 0.0:
+            facing = (nx * mx + ny * my + nz * mz) / length
+            nx, ny, nz = facing * mx, facing * my, facing * mz
     uu = ux * ux + uy * uy + uz * uz
     uv = ux * vx + uy * vy + uz * vz
     vv = vx * vx + vy * vy + vz * vz

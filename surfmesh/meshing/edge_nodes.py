@@ -66,7 +66,7 @@ def cut_edges(
         for face, limit in limits.items():
             along = samples.along(face)
             if samples.is_anisotropic:
-                found = limit.along(samples.points[along], samples.tangent[along])
+                found = limit.along(samples.points[along], samples.tangent[along][None])[0]
             else:
                 found = limit(samples.points[along])
             wish[along] = np.minimum(wish[along], found)
@@ -133,10 +133,11 @@ def _graded_by_direction(
         return wish
     ends = np.array([samples.vertex[[model.edges[k].start, model.edges[k].end]] for k in there])
     own = [samples.of(k) for k in there]
+    ways = np.array([samples.tangent[k][[0, -1]] for k in own])
     return np.concatenate(
         graded_by_direction(
-            [samples.points[k] for k in own], [wish[k] for k in own],
-            [samples.metric[k] for k in own], ends, sizing.gradient, sizing.anisotropy,
+            [samples.points[k] for k in own], [wish[k] for k in own], ways, ends,
+            sizing.gradient, sizing.anisotropy,
         )
     )  # fmt: skip
 

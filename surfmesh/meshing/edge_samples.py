@@ -208,9 +208,11 @@ def _sampled(
             along = _metric_wish(model, own, share, tangent, coedges)
             np.minimum(found, along, out=found)
         if directed:
-            unnamed = own.replaced(size=sizing.base.size, max_size=sizing.base.max_size)
-            free = _metric_wish(model, unnamed, share, tangent, coedges)
-            np.minimum(metric, free, out=metric)
+            size, largest = sizing.base.size, sizing.base.max_size
+            if not own.is_anisotropic or own.size is not size or own.max_size != largest:
+                unnamed = own.replaced(size=size, max_size=largest)
+                along = _metric_wish(model, unnamed, share, tangent, coedges)
+            np.minimum(metric, along, out=metric)
         np.minimum(wish, np.maximum(found, _finest(model, own)), out=wish)
     if not directed:
         tangent, metric = np.empty((0, 3)), np.empty(0)

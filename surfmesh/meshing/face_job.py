@@ -36,6 +36,12 @@ FINER = 0.5
 COARSE = 2.0
 """Segments of the boundary so many times longer than the sizes inside allow are to be cut."""
 
+LONGER = 1.5
+"""The same from which on the sizes of a plane depend on the direction."""
+
+LOOKED_AT = (0.1, 0.3, 0.5, 0.7, 0.9)
+"""Shares of a segment at which the sizes inside are read."""
+
 ASTRAY = 0.3
 """Share of ``chord`` by which a node may lie off the surface of a face that uses it."""
 
@@ -106,16 +112,44 @@ def _wishes_along(
     points: (k, 3) of the nodes.
     """
     first, second = loops.segments.T
-    length = np.linalg.norm(points[second] - points[first], axis=1)
-    middle = 0.5 * (loops.uv[first] + loops.uv[second])
-    sizes = np.empty(len(middle))
-    scalar_sizes_at(field.background, field.scaling.to_plane(middle), sizes)
-    sizes = np.maximum(sizes, job.sizing.min_size or 0.0)
-    coarse = length > COARSE * sizes
+    step = points[second] - points[first]
+    length = np.linalg.norm(step, axis=1)
+    real = length > 0.0  # at a pole there are none
+    first, second, step, length = first[real], second[real], step[real], length[real]
+    if not len(length):
+        return None
+    # where sizes have a direction segments may be long, and pass much on their way
+    shares = LOOKED_AT if job.sizing.is_anisotropic else LOOKED_AT[2:3]
+    ends = loops.uv[first], loops.uv[second]
+    uv = np.stack([(1.0 - share) * ends[0] + share * ends[1] for share in shares], axis=1)
+    xy = field.scaling.to_plane(uv.reshape(-1, 2))
+    if job.sizing.is_anisotropic:
+        way = field.scaling.to_plane(ends[1]) - field.scaling.to_plane(ends[0])
+        way, whole = (np.repeat(a, len(shares), axis=0) for a in (way, length))
+        sizes = whole / _metric_lengths(field, xy, way)
+    else:
+        sizes = np.empty(len(xy))
+        scalar_sizes_at(field.background, xy, sizes)
+    sizes = np.maximum(sizes, job.sizing.min_size or 0.0).reshape(-1, len(shares))
+    coarse = length > COARSE / (1.0 / sizes).mean(axis=1)
     if not coarse.any():
         return None
-    (places,) = surface.evaluate(middle[coarse], 0)
-    return SizeLimits(places, sizes[coarse], job.sizing.gradient)
+    (places,) = surface.evaluate(uv[coarse].reshape(-1, 2), 0)
+    sizes, in_space = sizes[coarse].ravel(), None
+    if job.sizing.is_anisotropic:
+        along = np.repeat(step[coarse] / length[coarse, None], len(shares), axis=0)
+        in_space = along_lines(along, sizes)
+    return SizeLimits(places, sizes, job.sizing.gradient, in_space=in_space)
+
+
+def _metric_lengths(field: SizeField, xy: np.ndarray, way: np.ndarray) -> np.ndarray:
+    """|H^-1 way| (n,) for ways (n, 2) at points (n, 2) of the scaled plane."""
+    h = field.tensors(xy)
+    det = h[:, 0] * h[:, 2] - h[:, 1] ** 2
+    x = h[:, 2] * way[:, 0] - h[:, 1] * way[:, 1]
+    y = h[:, 0] * way[:, 1] - h[:, 1] * way[:, 0]
+    tiny = np.finfo(float).tiny
+    return np.maximum(np.hypot(x, y) / np.maximum(det, tiny), tiny)
 
 
 def _spacing(points: np.ndarray) -> np.ndarray:
@@ -134,10 +168,10 @@ def _meshed(job: FaceJob, unfold: bool = True) -> FaceMesh:
     optimiser = Optimiser(domain.t, domain.node, same, surface, field)
     optimiser.embedding.point[domain.node] = fixed  # the edges' nodes, not their images
     wishes: SizeLimits | None = None
-    if job.limits is None and not job.sizing.is_anisotropic:  # the edges heed them from now on
+    if job.limits is None:  # the edges heed them from now on
         wishes = _wishes_along(job, surface, field, loops, fixed)
     if job.optimise:
-        changes = optimiser.run()
+        changes = optimiser.run(first=job.limits is None)
         astray = np.zeros(len(domain.t.xy), bool)
         astray[domain.node] = _astray(surface, loops, fixed, job.sizing.chord)
         helped = ~astray[domain.t.tri.reshape(-1, 3)[changes.far]].any(axis=1)
@@ -194,7 +228,9 @@ def face_field(job: FaceJob) -> tuple[Surface, SizeField]:
     surface = job.surface.with_domain(((low[0], high[0]), (low[1], high[1])))
     real = [piece for piece in pieces if not piece.degenerate]
     if real and has_boundary_field(surface, job.sizing):
-        return surface, _grown_inward(surface, job, real)
+        field = _grown_inward(surface, job, real)
+        if not job.sizing.is_anisotropic or _agrees(field, real):
+            return surface, field
     found = limits = job.limits
     if found is not None:
         found = found.not_below(job.sizing.min_size or 0.0)
@@ -246,6 +282,17 @@ def _grown_inward(surface: Surface, job: FaceJob, real: list[Piece]) -> SizeFiel
         found = np.maximum(job.limits.sizes, job.sizing.min_size or 0.0)
         sizes = np.concatenate([sizes, found])
     return boundary_field(surface, job.sizing, uv, sizes, settled=True)
+
+
+def _agrees(field: SizeField, real: list[Piece]) -> bool:
+    """Is no segment of the boundary much longer than the sizes beside it are in all directions?"""
+    for piece in real:
+        sizes = np.empty(len(piece.uv) - 1)
+        middle = 0.5 * (piece.uv[1:] + piece.uv[:-1])
+        scalar_sizes_at(field.background, field.scaling.to_plane(middle), sizes)
+        if (np.linalg.norm(np.diff(piece.points, axis=0), axis=1) > LONGER * sizes).any():
+            return False
+    return True
 
 
 def _directions(points: np.ndarray) -> np.ndarray:

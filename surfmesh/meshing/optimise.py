@@ -165,8 +165,11 @@ class Optimiser:
         self._embed(np.arange(int(t.count[0]), dtype=np.int32))
         self.embedding.point[node] = self.embedding.point[same]  # equal to the last bit
 
-    def run(self) -> Changes:
-        """Optimise; what is good already is left alone."""
+    def run(self, first: bool = True) -> Changes:
+        """Optimise; what is good already is left alone.
+
+        first: the sizes come from no earlier round, and one with finer sizes may follow.
+        """
         self._swap()
         for round_number in range(ROUNDS):
             self._smooth()
@@ -184,7 +187,7 @@ class Optimiser:
         if not self.is_anisotropic:  # it leaves all vertices moving, and triangles turning
             self._soften()
         self._straighten()
-        far = self._approach()
+        far = self._approach(first)
         return Changes(
             self.swaps, self.collapses, self.splits, self.passes, far, self._folded(),
             self._turned(seams=True),
@@ -238,16 +241,18 @@ class Optimiser:
         """
         least = max(least, self.field.sizing.min_size or 0.0)
         corners = self.t.tri.reshape(-1, 3)[triangles]
-        now = self.embedding.size[corners] / self.embedding.scale[corners]
-        sizes = np.maximum((now.T * factor).T, least)
+        chosen, place = np.unique(corners, return_inverse=True)
+        smallest = np.ones(len(chosen))  # factor of all triangles at a corner
+        wanted = np.broadcast_to(np.asarray(factor).reshape(-1, 1), corners.shape)
+        np.minimum.at(smallest, place.ravel(), wanted.ravel())
+        now = self.embedding.size[chosen] / self.embedding.scale[chosen]
+        sizes = np.maximum(smallest * now, least)
         finer = sizes < 0.97 * now
-        chosen = corners[finer]
-        limits = SizeLimits(
-            self.embedding.point[chosen], sizes[finer], self.field.sizing.gradient
-        )
+        chosen, now, sizes = chosen[finer], now[finer], sizes[finer]
+        limits = SizeLimits(self.embedding.point[chosen], sizes, self.field.sizing.gradient)
         if not self.is_anisotropic:
             return limits
-        shrunk = self.embedding.scale[chosen] * now[finer] / sizes[finer]
+        shrunk = self.embedding.scale[chosen] * now / sizes
         return replace(
             limits,
             uv=self.field.scaling.to_uv(self.t.xy[chosen]),
@@ -371,7 +376,7 @@ class Optimiser:
         )
         return pairs, angles
 
-    def _approach(self) -> np.ndarray:
+    def _approach(self, first: bool) -> np.ndarray:
         """Bring triangles that are too far from the surface nearer; returns those left.
 
         An estimate from the tangent planes picks the suspects, samples on the true surface
@@ -401,18 +406,19 @@ class Optimiser:
             suspects = np.union1d(self._changed_since(before, changed), suspects[error > limit])
         error = self._deviations(suspects)
         if self.is_anisotropic:
-            return self._split_far(suspects[error > SPLIT_MARGIN * chord])
+            return self._split_far(suspects[error > SPLIT_MARGIN * chord], first)
         return suspects[error > TOLERATED * chord]
 
-    def _split_far(self, far: np.ndarray) -> np.ndarray:
+    def _split_far(self, far: np.ndarray, first: bool) -> np.ndarray:
         """Split edges of the triangles ``far`` (n,) where they are too far; returns those left.
 
         Smoothing and swaps do not know how far a triangle is, and in stretched meshes turn it
-        more: the last few are only split. Where many are far a finer field needs fewer
-        triangles than splits: then all are returned.
+        more: the last few are only split. Where many are far in the first round a finer field
+        needs fewer triangles than splits: then all are returned. Later it would be asked for
+        again and again.
         """
         limit = SPLIT_MARGIN * self.field.sizing.chord
-        many = far if len(far) > MANY_FAR * int(self.t.count[1]) else None
+        many = far if first and len(far) > MANY_FAR * int(self.t.count[1]) else None
         for _ in range(SPLIT_ROUNDS):
             before = self.t.tri[: 3 * self.t.count[1]].copy()
             if not self._split_worst(far):

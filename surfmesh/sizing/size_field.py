@@ -35,6 +35,9 @@ ROOT_CELLS = 2304
 CELLS_OF_PIECE, CELLS_OF_FACE = 16, (64, 2304)
 """The same for the faces of a CAD model, which are smooth between the knots of their splines."""
 
+LONGEST_ROW = 2048
+"""Root cells along the longer side of a narrow face, at most."""
+
 DEPTH = 13
 """Most splits of a root cell for accuracy: a leaf may be a 400,000th of the domain."""
 
@@ -48,8 +51,9 @@ or half at a kink. Where gradation decides, the field is a cone and all slopes a
 FINEST_EXTENT = 0.2
 """A cell narrower than this many edges is not split: no circle would notice."""
 
-FINEST_GRADED = 1.0
-"""The same where sizes are graded from sources, which have cells of their own size already."""
+FINEST_GRADED, FINEST_STRETCHED = 1.0, 2.0
+"""The same where sizes are graded from sources, which have cells of their own size already; and
+where they depend on the direction too, so that gradation brings kinks of its own."""
 
 POLE_DISTANCE = 0.9
 """In edges: the first ring of triangles around a pole lies about there."""
@@ -133,6 +137,18 @@ def plane_field(
     return _Builder(surface, sizing, None, TensorLaw(surface, sizing, tensors)).build()
 
 
+def _root_grid(width: float, height: float, cells: int) -> tuple[int, int]:
+    """How many cells along x and y: about ``cells`` of them, as near to squares as they can be.
+
+    A cell keeps its shape when it is split: long ones would have to become far too narrow.
+    """
+    ratio = max(width, height) / min(width, height)
+    most = max(cells // 4, min(round(2.0 * ratio), LONGEST_ROW))
+    longer = int(np.clip(round(np.sqrt(cells * ratio)), 4, most))
+    shorter = int(np.clip(round(cells / longer), 2 if longer > cells // 4 else 4, cells // 4))
+    return (longer, shorter) if width > height else (shorter, longer)
+
+
 class _Builder:
     def __init__(
         self,
@@ -148,8 +164,7 @@ class _Builder:
         roots = ROOT_CELLS
         if isinstance(surface, FaceSurface):
             roots = int(np.clip(CELLS_OF_PIECE * surface.pieces, *CELLS_OF_FACE))
-        self.nx = int(np.clip(round(np.sqrt(roots * width / height)), 4, roots // 4))
-        self.ny = int(np.clip(round(roots / self.nx), 4, roots // 4))
+        self.nx, self.ny = _root_grid(width, height, roots)
         self.root_step = np.array([width / self.nx, height / self.ny])
         self.law = law
         self.slope = sizing.gradient
@@ -300,7 +315,8 @@ class _Builder:
             graded |= (nodes.long < 0.98 * nodes.long_wish)[patch].any(axis=1)
         allowed = np.where(graded, GRADED_ERROR, TEST_ERROR)
         by_sources = self.law.limits is not None and self.law.limits.uv is not None
-        finest = np.where(graded & by_sources, FINEST_GRADED, FINEST_EXTENT)
+        coarse = FINEST_STRETCHED if nodes.is_anisotropic else FINEST_GRADED
+        finest = np.where(graded & by_sources, coarse, FINEST_EXTENT)
         return (error > allowed) & (extent > finest)
 
     def _may_hide(self, cells: Cells, patch: np.ndarray) -> np.ndarray:

@@ -167,7 +167,7 @@ class SizeLaw:
         size, long = sizes.min(axis=1), sizes.max(axis=1)
         wish, long_wish = size, long
         if self.limits is not None:
-            size, long = self._limited_both(point, forms.normal, along, size, long)
+            along, size, long = self._limited_both(point, forms.normal, along, size, long)
             if self.limits.uv is None:
                 wish, long_wish = size, long
         jacobian = np.stack([ru * rates[:, :1], rv * rates[:, 1:]], axis=2)
@@ -188,22 +188,32 @@ class SizeLaw:
     def _limited_both(
         self, point: np.ndarray, normal: np.ndarray, along: np.ndarray, size: np.ndarray,
         long: np.ndarray,
-    ) -> tuple[np.ndarray, np.ndarray]:  # fmt: skip
-        """Sizes across and along the direction ``along`` (n, 3), lowered to the limits.
+    ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:  # fmt: skip
+        """The direction, and the sizes across and along it, lowered to the limits.
 
         Where the shorter one is lowered the shape of the metric is kept. Where the metric is
-        round, or nearly so, limits hold in every direction.
+        round, or nearly so, the direction is that of the limits.
         """
         least = self._least()
-        across = np.maximum(self.limits.along(point, np.cross(normal, along)), least)
-        onward = np.maximum(self.limits.along(point, along), least)
-        both = self._limited(point)
-        is_round = long <= ROUND * size
-        across, onward = np.where(is_round, both, across), np.where(is_round, both, onward)
+        directions = np.stack([np.cross(normal, along), along])
+        across, onward = np.maximum(self.limits.along(point, directions), least)
         factor = np.minimum(across, size) / size
-        long = np.minimum(factor * long, onward)
-        size = np.minimum(factor * size, long)
-        return size, long
+        long_found = np.minimum(factor * long, onward)
+        size_found = np.minimum(factor * size, long_found)
+        flat = np.flatnonzero((long <= ROUND * size) & (normal != 0.0).any(axis=1))
+        if len(flat):
+            tight, direction = self.limits.tightest(point[flat], normal[flat])
+            turned = np.cross(normal[flat], direction)
+            onward = np.maximum(self.limits.along(point[flat], turned[None])[0], least)
+            tight = np.maximum(tight, least)
+            size_found[flat] = np.minimum(size[flat], tight)
+            long_found[flat] = np.clip(
+                np.minimum(size[flat], onward),
+                size_found[flat], self.sizing.anisotropy * size_found[flat],
+            )  # fmt: skip
+            along = along.copy()
+            along[flat] = turned
+        return along, size_found, long_found
 
 
 class TensorLaw:

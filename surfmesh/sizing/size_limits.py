@@ -1,6 +1,7 @@
 """Upper bounds of the size near points: where a round of meshing has found it too large."""
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, fields, replace
+from functools import cached_property
 
 import numpy as np
 
@@ -29,24 +30,65 @@ class SizeLimits:
 
     def __call__(self, points: np.ndarray) -> np.ndarray:
         """Largest size (n,) at points (n, 3)."""
-        from scipy.spatial import cKDTree
-
-        count = min(NEAREST, len(self.sizes))
-        distance, index = cKDTree(self.points).query(points, k=[*range(1, count + 1)])
+        distance, index = self._nearest(points)
         return (self.sizes[index] + self.slope * distance).min(axis=1)
 
     def along(self, points: np.ndarray, directions: np.ndarray) -> np.ndarray:
-        """Largest size (n,) at points (n, 3) in unit directions (n, 3)."""
+        """Largest sizes (k, n) at points (n, 3) in k unit directions (k, n, 3)."""
+        distance, index = self._nearest(points)
+        grown = self.slope * distance
+        found = np.empty((len(directions), len(points)))
         if self.in_space is None:
-            return self(points)
+            found[:] = (self.sizes[index] + grown).min(axis=1)
+            return found
+        for size, (x, y, z) in zip(found, directions.transpose(0, 2, 1)[..., None]):
+            xx, xy, xz, yy, yz, zz = self.in_space.T
+            square = (xx[index] * x + xy[index] * y + xz[index] * z) ** 2
+            square += (xy[index] * x + yy[index] * y + yz[index] * z) ** 2
+            square += (xz[index] * x + yz[index] * y + zz[index] * z) ** 2
+            inverse = np.maximum(np.sqrt(square), np.finfo(float).tiny)
+            size[:] = (1.0 / inverse + grown).min(axis=1)
+        return found
+
+    def tightest(self, points: np.ndarray, normals: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """The smallest size (n,) that is allowed in any direction of the tangent planes at points
+        (n, 3) with unit normals (n, 3), and a unit direction (n, 3) it holds in."""
+        distance, index = self._nearest(points)
+        first = _across(normals)
+        second = np.cross(normals, first)
+        if self.in_space is None:
+            return (self.sizes[index] + self.slope * distance).min(axis=1), first
+        xx, xy, xz, yy, yz, zz = self.in_space[index].transpose(2, 0, 1)
+
+        def form(e: np.ndarray, f: np.ndarray) -> np.ndarray:
+            (x, y, z), (u, v, w) = e.T[..., None], f.T[..., None]
+            found = xx * x * u + yy * y * v + zz * z * w
+            found += xy * (x * v + y * u) + xz * (x * w + z * u) + yz * (y * w + z * v)
+            return found
+
+        a, b, c = form(first, first), form(first, second), form(second, second)
+        mean, half = 0.5 * (a + c), 0.5 * (a - c)
+        largest = mean + np.hypot(half, b)
+        size = 1.0 / np.maximum(largest, np.finfo(float).tiny) + self.slope * distance
+        best = size.argmin(axis=1)[:, None]
+        b, half = (np.take_along_axis(x, best, 1) for x in (b, half))
+        angle = 0.5 * np.arctan2(b, half)
+        direction = np.cos(angle) * first + np.sin(angle) * second
+        return np.take_along_axis(size, best, 1)[:, 0], direction
+
+    def _nearest(self, points: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """Distances (n, k) and numbers (n, k) of the limits nearest to points (n, 3)."""
+        count = min(NEAREST, len(self.sizes))
+        return self._tree.query(points, k=[*range(1, count + 1)])
+
+    @cached_property
+    def _tree(self):
         from scipy.spatial import cKDTree
 
-        count = min(NEAREST, len(self.sizes))
-        distance, index = cKDTree(self.points).query(points, k=[*range(1, count + 1)])
-        rows = self.in_space[index][..., [[0, 1, 2], [1, 3, 4], [2, 4, 5]]]
-        inverse = np.linalg.norm(np.einsum("nkij,nj->nki", rows, directions), axis=2)
-        size = 1.0 / np.maximum(inverse, np.finfo(float).tiny)
-        return (size + self.slope * distance).min(axis=1)
+        return cKDTree(self.points)
+
+    def __getstate__(self) -> dict:
+        return {field.name: getattr(self, field.name) for field in fields(self)}
 
     def joined_with(self, other: "SizeLimits | None") -> "SizeLimits":
         """Both sets of bounds."""
@@ -86,3 +128,10 @@ def along_lines(directions: np.ndarray, sizes: np.ndarray) -> np.ndarray:
     """Tensors (k, 6) of sizes (k,) that hold along unit directions (k, 3) only: e e^T / size."""
     first, second = [0, 0, 0, 1, 1, 2], [0, 1, 2, 1, 2, 2]
     return directions[:, first] * directions[:, second] / sizes[:, None]
+
+
+def _across(normals: np.ndarray) -> np.ndarray:
+    """Unit vectors (n, 3) at right angles to unit normals (n, 3)."""
+    axis = np.eye(3)[np.abs(normals).argmin(axis=1)]
+    found = np.cross(normals, axis)
+    return found / np.linalg.norm(found, axis=1)[:, None]

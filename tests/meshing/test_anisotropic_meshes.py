@@ -30,8 +30,12 @@ def fillets():
     return cq.Workplane().box(20, 10, 5).edges().fillet(1)
 
 
+def upright_fillets():
+    return cq.Workplane().box(40, 20, 10).edges("|Z").fillet(2)
+
+
 @cache
-def meshed(name, ratio):
+def meshed(name, ratio, growth=1.2):
     surface, chord = {
         "tube": (TUBE, 0.0021),
         "ring": (RING, 0.01),
@@ -43,10 +47,11 @@ def meshed(name, ratio):
         "cone": (sm.load("cone"), 0.001),
         "rod": (rod(), 0.0021),
         "fillets": (fillets(), 0.005),
+        "upright fillets": (upright_fillets(), 0.04),
     }[name]
     if not isinstance(surface, sm.ParametricSurface):
         surface = sm.from_cadquery(surface)
-    mesh = sm.mesh(surface, sm.Sizing(chord=chord, anisotropy=ratio))
+    mesh = sm.mesh(surface, sm.Sizing(chord=chord, anisotropy=ratio, growth=growth))
     return mesh, sm.check(mesh)
 
 
@@ -69,6 +74,32 @@ def test_side_of_a_long_cylinder(ratio, most):
     assert report.euler == 0 and report.boundary_loops == 2
 
 
+def test_fillets_between_round_corners_grow_from_them():
+    """Sizes grow from the corners along the fillets as everywhere: the faster, the fewer."""
+    _, isotropic = meshed("fillets", 1.0, 1.5)
+    _, report = meshed("fillets", 10.0, 1.5)
+    good(report)
+    assert 4.5 * report.triangles <= isotropic.triangles
+    assert report.alpha_metric_mean > 0.95 and report.alpha_metric_min > 0.6
+
+
+def test_planes_beside_fillets_are_as_long_as_they_are():
+    """Two triangles a segment of the arcs, and strips on the planes between them."""
+    mesh, report = meshed("upright fillets", 20.0)
+    good(report)
+    kinds = np.array([face.kind for face in mesh.surfaces])[mesh.face_ids]
+    assert (kinds == "cylinder").sum() <= 48
+    upright = np.isin(mesh.face_ids, [k for k in range(10) if _is_upright(mesh, k)])
+    assert upright.sum() <= 240
+    assert report.alpha_metric_mean > 0.93 and report.alpha_metric_min > 0.5
+
+
+def _is_upright(mesh, face):
+    return mesh.surfaces[face].kind == "plane" and np.ptp(
+        mesh.points[mesh.triangles[mesh.face_ids == face]][..., 2]
+    ) > 1.0  # fmt: skip
+
+
 @pytest.mark.parametrize("ratio, most", [(100.0, 600), (500.0, 150)])
 def test_side_of_a_long_cad_cylinder(ratio, most):
     mesh, report = meshed("rod", ratio)
@@ -83,7 +114,7 @@ def test_side_of_a_long_cad_cylinder(ratio, most):
         ("tube", 10.0, 9.0), ("ring", 5.0, 4.0), ("spring", 5.0, 4.0), ("spring", 100.0, 3.5),
         ("wing", 20.0, 18.0), ("wing", 100.0, 60.0), ("two_peaks", 20.0, 3.0),
         ("ellipsoid", 10.0, 1.4), ("mobius", 10.0, 1.6), ("cone", 20.0, 2.2),
-        ("fillets", 10.0, 4.0),
+        ("fillets", 10.0, 3.4),
     ],
 )  # fmt: skip
 def test_fewer_triangles_within_the_same_chord(name, ratio, times):

@@ -154,11 +154,11 @@ def test_limits_along_a_line_leave_sizes_across_it():
         points, np.array([0.1]), 0.2, in_space=along_lines(e, np.array([0.1]))
     )
     directions = np.array([[1.0, 0, 0], [0.6, 0.8, 0], [0, 1.0, 0]])
-    found = limits.along(np.zeros((3, 3)), directions)
+    found = limits.along(np.zeros((3, 3)), directions[None])[0]
     np.testing.assert_allclose(found[:2], [0.1, 0.1 / 0.6])
     assert found[2] > 1e9
     both = limits.joined_with(SizeLimits(points + 1, np.array([0.3]), 0.2))
-    np.testing.assert_allclose(both.along(points + 1, directions[2:]), [0.3])
+    np.testing.assert_allclose(both.along(points + 1, directions[None, 2:]), [[0.3]])
 
 
 def test_cylinders_are_not_grown_from_their_edges():
