@@ -12,6 +12,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from surfmesh.geometry.projection import closest_point
+from surfmesh.geometry.sharp_bends import bends_sharply
 from surfmesh.geometry.surface import Surface
 from surfmesh.kernels.embedding import Embedding, embed, empty_embedding
 from surfmesh.kernels.local_operations import DEAD
@@ -33,7 +34,7 @@ from surfmesh.kernels.optimisation import (
 from surfmesh.kernels.triangulation import Triangulation
 from surfmesh.kernels.turning import find_turned, shorten_some, turning_angles
 from surfmesh.sizing.bent_surface import bends_itself
-from surfmesh.sizing.size_bounds import FINEST_TURN, LEAST_OF_CHORD
+from surfmesh.sizing.size_bounds import FINEST_SIZE, FINEST_TURN, LEAST_OF_CHORD
 from surfmesh.sizing.size_field import SizeField
 from surfmesh.sizing.size_limits import SizeLimits
 
@@ -212,9 +213,16 @@ class Optimiser:
         self._swap(LEFT_OVER)
 
     def unfolding(self, triangles: np.ndarray) -> SizeLimits:
-        """Limits under which the folded ``triangles`` (n,) may unfold."""
-        chord = self.field.sizing.chord or 0.0
-        return self._limits_at(triangles, FINER_UNFOLDS, LEAST_OF_CHORD * chord)
+        """Limits under which the folded ``triangles`` (n,) may unfold.
+
+        None where the surface itself turns over, or bends sharply: no size is small enough.
+        """
+        least = LEAST_OF_CHORD * (self.field.sizing.chord or 0.0)
+        radius = max(least, FINEST_SIZE * self._diagonal())
+        corners = self.t.tri.reshape(-1, 3)[triangles]
+        uv = self.field.scaling.to_uv(self.t.xy[corners.ravel()]).reshape(-1, 3, 2)
+        smooth = ~bends_sharply(self.surface, uv, radius)
+        return self._limits_at(triangles[smooth], FINER_UNFOLDS, least)
 
     def approaching(self, triangles: np.ndarray) -> SizeLimits:
         """Limits under which ``triangles`` (n,) would come to lie within ``chord``."""

@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 from surfmesh.quality.by_face import CHORD_SLACK
 from surfmesh.quality.by_solid import SolidRow
 from surfmesh.quality.deviation import Deviation
+from surfmesh.quality.folds import Folds
 from surfmesh.quality.self_intersection import MeetingPair
 from surfmesh.quality.shape import Shapes
 from surfmesh.quality.solids import shares_faces, solid_mesh
@@ -16,7 +17,6 @@ from surfmesh.quality.topology import Topology, topology
 from surfmesh.surface_mesh import NOT_MESHED, SurfaceMesh
 
 DEGENERATE = 1e-6  # alpha below which a triangle has no area to speak of
-FOLDED, INVERTED = math.cos(math.radians(60.0)), 0.0  # cosines between the two normals
 
 
 def problems(
@@ -25,13 +25,14 @@ def problems(
     topo: Topology,
     shape: Shapes,
     fit: Deviation | None,
+    turned: Folds | None,
     above: float | None,
     solids: tuple[SolidRow, ...],
 ) -> list[str]:
     """Sentences about all but self-intersection.
 
-    broken: the first broken invariant of the mesh; above: share of the triangles that lie
-    farther away than chord.
+    broken: the first broken invariant of the mesh; turned: which are folded; above: share
+    of the triangles that lie farther away than chord.
     """
     chord = getattr(mesh.sizing, "chord", None)
     said = []
@@ -67,9 +68,18 @@ def problems(
         said.append(f"{many} between triangles of opposite orientation, first {_edge(mesh, first)}")
     said += _triangles(mesh, ~(shape.alpha > DEGENERATE), "without area")
     if fit is not None:
-        said += _triangles(mesh, fit.cosine < INVERTED, "inverted against the surface")
-        half = (fit.cosine >= INVERTED) & (fit.cosine < FOLDED)
-        said += _triangles(mesh, half, "folded: turned more than 60° from the surface")
+        for bad, what in (
+            (turned.inverted, "inverted against the surface"),
+            (turned.ours & ~turned.inverted, "folded: turned more than 60° from the surface"),
+        ):
+            loose = bad & (turned.off > 0.0)
+            beside = (
+                f"; {_number(np.flatnonzero(loose), 'one', 'of them')} beside edges that lie up to "
+                f"{turned.off[loose].max():.3g} off the surface"
+                if loose.any()
+                else ""
+            )
+            said += [sentence + beside for sentence in _triangles(mesh, bad, what)]
         if not math.isfinite(fit.largest):
             said.append("the distance from the surface is not finite")
         elif chord is not None and fit.largest > chord * (1 + CHORD_SLACK):
