@@ -11,7 +11,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from surfmesh.geometry.projection import closest_point
+from surfmesh.geometry.projection import closest_from_corners, closest_point
 from surfmesh.geometry.sharp_bends import bends_sharply
 from surfmesh.geometry.surface import Surface
 from surfmesh.kernels.embedding import Embedding, embed, empty_embedding
@@ -219,9 +219,7 @@ class Optimiser:
         """
         least = LEAST_OF_CHORD * (self.field.sizing.chord or 0.0)
         radius = max(least, FINEST_SIZE * self._diagonal())
-        corners = self.t.tri.reshape(-1, 3)[triangles]
-        uv = self.field.scaling.to_uv(self.t.xy[corners.ravel()]).reshape(-1, 3, 2)
-        smooth = ~bends_sharply(self.surface, uv, radius)
+        smooth = ~bends_sharply(self.surface, self._parameters(triangles), radius)
         return self._limits_at(triangles[smooth], FINER_UNFOLDS, least)
 
     def approaching(self, triangles: np.ndarray) -> SizeLimits:
@@ -348,6 +346,11 @@ class Optimiser:
         uv = self.field.scaling.to_uv(self.t.xy[corners.ravel()])
         return uv.reshape(len(edges), 3, 2)
 
+    def _parameters(self, triangles: np.ndarray) -> np.ndarray:
+        """(k, 3, 2) of the corners of triangles (k,)."""
+        corners = self.t.tri.reshape(-1, 3)[triangles]
+        return self.field.scaling.to_uv(self.t.xy[corners.ravel()]).reshape(-1, 3, 2)
+
     def _numbers(self) -> np.ndarray:
         """For each vertex the one that it coincides with, or itself."""
         number = np.arange(int(self.t.count[0]))
@@ -469,7 +472,13 @@ class Optimiser:
             return error
         samples = [self._interpolated(triangles[close], weights) for weights in MORE_SAMPLES]
         points, uv = (np.concatenate(parts) for parts in zip(*samples))
-        distance = closest_point(self.surface, points, uv, PROJECTIONS)[1]
+        uv, distance, _ = closest_point(self.surface, points, uv, PROJECTIONS)
+        far = np.flatnonzero(distance > CHORD_MARGIN * self.field.sizing.chord)
+        if len(far):
+            corners = self._parameters(triangles[close[far % len(close)]])
+            distance[far] = closest_from_corners(
+                self.surface, points[far], uv[far], distance[far], corners, PROJECTIONS
+            )[1]
         error[close] = distance.reshape(len(MORE_SAMPLES), -1).max(axis=0)
         return error
 

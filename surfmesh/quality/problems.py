@@ -73,12 +73,9 @@ def problems(
             (turned.ours & ~turned.inverted, "folded: turned more than 60° from the surface"),
         ):
             loose = bad & (turned.off > 0.0)
-            beside = (
-                f"; {_number(np.flatnonzero(loose), 'one', 'of them')} beside edges that lie up to "
-                f"{turned.off[loose].max():.3g} off the surface"
-                if loose.any()
-                else ""
-            )
+            many = "" if (loose == bad).all() else f"{np.count_nonzero(loose):,} of them "
+            off = f"; {many}beside edges that lie up to {turned.off.max(where=bad, initial=0.0):.3g}"
+            beside = off + " off the surface" if loose.any() else ""
             said += [sentence + beside for sentence in _triangles(mesh, bad, what)]
         if not math.isfinite(fit.largest):
             said.append("the distance from the surface is not finite")
