@@ -194,9 +194,9 @@ class Optimiser:
     def _folded(self) -> np.ndarray:
         """Triangles turned against the surface's normals at a corner or at the centroid."""
         flag = np.empty(int(self.t.count[1]), np.uint8)
-        find_folded(self.t, self.embedding, TURNED, flag)
+        find_folded(self.t, self.embedding, TURNED, TURNED, flag)
         turned = np.flatnonzero(flag)
-        find_folded(self.t, self.embedding, LEAST_COSINE, flag)
+        find_folded(self.t, self.embedding, LEAST_COSINE, 0.0, flag)
         if not len(turned):
             return turned
         corners = self.embedding.point[self.t.tri.reshape(-1, 3)[turned]]
