@@ -79,6 +79,9 @@ MORE_SAMPLES = np.concatenate([FIRST_SAMPLES, np.array(_GRID) / 5.0])
 NEAR_CHORD, PROJECTIONS = 0.85, 4
 """Barycentric coordinates."""
 
+FAR_FOOT = 0.2
+"""Of the longest side: r(u, v) so far across its tangent plane says nothing of the distance."""
+
 TURNED, LEAST_AT_CENTRE, LEAST_COSINE = 0.85, 0.55, 0.35
 """Cosines between the normals of a triangle and of the surface: where it is looked at again,
 what is folded at the centroid, and at a corner."""
@@ -461,13 +464,16 @@ class Optimiser:
         Four samples each, read in the tangent planes; where these come near to ``chord`` more
         samples, each with its nearest point.
         """
-        error = np.zeros(len(triangles))
+        error, astray = np.zeros(len(triangles)), np.zeros(len(triangles), bool)
         found = np.empty((len(triangles), 7))
+        corners = self.embedding.point[self.t.tri.reshape(-1, 3)[triangles]]
+        reach = FAR_FOOT * np.linalg.norm(corners - corners[:, [1, 2, 0]], axis=2).max(axis=1)
         for weights in FIRST_SAMPLES:
             point, uv = self._interpolated(triangles, weights)
             tangent_plane_distances(point, *self.surface.evaluate(uv, 1), found)
             error = np.maximum(error, found[:, 3])
-        close = np.flatnonzero(error > NEAR_CHORD * self.field.sizing.chord)
+            astray |= found[:, 4] > reach
+        close = np.flatnonzero(astray | (error > NEAR_CHORD * self.field.sizing.chord))
         if not len(close):
             return error
         samples = [self._interpolated(triangles[close], weights) for weights in MORE_SAMPLES]
