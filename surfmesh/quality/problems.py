@@ -74,8 +74,8 @@ def problems(
         ):
             loose = bad & (turned.off > 0.0)
             many = "" if (loose == bad).all() else f"{np.count_nonzero(loose):,} of them "
-            off = f"; {many}beside edges that lie up to {turned.off.max(where=bad, initial=0.0):.3g}"
-            beside = off + " off the surface" if loose.any() else ""
+            off = float(turned.off.max(where=bad, initial=0.0))
+            beside = f"; {many}beside edges that lie up to {off:.3g} off the surface" if off else ""
             said += [sentence + beside for sentence in _triangles(mesh, bad, what)]
         if not math.isfinite(fit.largest):
             said.append("the distance from the surface is not finite")
