@@ -33,6 +33,7 @@ from OCP.TopoDS import TopoDS, TopoDS_Edge, TopoDS_Face, TopoDS_Shape
 from OCP.TopTools import TopTools_IndexedMapOfShape
 
 from surfmesh.cad.assembly import Part
+from surfmesh.cad.creases import creased, cut_along_creases
 from surfmesh.errors import CadError
 
 LARGEST_GAP = 1e-4  # of the part's size: healing closes no wider gap, raises no tolerance further
@@ -63,13 +64,22 @@ def healed(part: Part, heal: bool = True) -> Part:
     curveless = [edge for edge in _edges(part.shape) if _lacks_curve(edge)]
     wrong = heal and (_lacks_image(part.shape) or not BRepCheck_Analyzer(part.shape).IsValid())
     if not (bare or curveless or wrong):
-        return part
+        return _uncreased(part) if heal else part
     part = _copied(part)
     if curveless or wrong:
         part = _with_curves(part)
     if bare:
         part = _with_boundaries(part)
-    return _repaired(part) if wrong else part
+    part = _repaired(part) if wrong else part
+    return _uncreased(part) if heal else part
+
+
+def _uncreased(part: Part) -> Part:
+    """Faces with creases inside are cut along them; the caller's shape is not touched."""
+    if not creased(part):
+        return part
+    part = _copied(part)
+    return cut_along_creases(part, creased(part))
 
 
 def _copied(part: Part) -> Part:

@@ -14,6 +14,7 @@ from surfmesh.geometry.surface import Surface
 MARGIN = 0.01  # of the domain: how far outside a foot may lie, so that seams are no walls
 SETTLED = 1e-3  # tangential step over distance: below it the distance is right to 5e-7
 PARALLEL = 1e-12  # squared sine of r_u and r_v, below which only the longer one is followed
+FROM_CORNER = 0.1  # of the way to the foot known so far: where a search begins anew
 SHORTER = 0.25  # of a step that led away from the point is tried next
 
 
@@ -58,6 +59,28 @@ def closest_point(
             step = np.where(better[:, None], fresh_step, SHORTER * step)
             progress = np.where(better, fresh_progress, progress)
     return uv, np.sqrt(squared), foot
+
+
+def closest_from_corners(
+    surface: Surface,
+    points: np.ndarray,
+    uv: np.ndarray,
+    distance: np.ndarray,
+    corners: np.ndarray,
+    steps: int,
+) -> tuple[np.ndarray, np.ndarray]:
+    """Feet that may be nearer: searched for anew from the ``corners`` (n, 3, 2) of triangles.
+
+    uv: (n, 2) feet of the points (n, 3) so far, and their ``distance`` (n,). About a singular
+    point the search from the middle goes astray. Returns uv and distance, never larger.
+    """
+    uv, distance = uv.copy(), distance.copy()
+    for corner in corners.transpose(1, 0, 2):
+        guess = corner + FROM_CORNER * (uv - corner)  # the corner may be the singular point
+        found, other, _ = closest_point(surface, points, guess, steps)
+        nearer = other < distance
+        uv[nearer], distance[nearer] = found[nearer], other[nearer]
+    return uv, distance
 
 
 def _gauss_newton(r_u, r_v, gap) -> tuple[np.ndarray, np.ndarray]:

@@ -331,12 +331,12 @@ def shrink(t, s, triangles, error, chord_error, active):
 
 
 @kernel
-def find_folded(t, s, least, folded):
+def find_folded(t, s, least, at_apex, folded):
     """Mark in ``folded`` (triangles,) those turned against the surface at one of their corners.
 
-    ``least``: cosine of the largest angle allowed between the normals; a triangle that ends at
-    a pole or an apex, where the surface has no normal, may turn by a right angle: around the
-    apex of a cone it does, at any size. Returns how many.
+    ``least``: cosine of the largest angle allowed between the normals; ``at_apex``: the same
+    for a triangle that ends at a pole or an apex, where the surface has no normal: around the
+    apex of a cone it turns by as much as a right angle at any size. Returns how many.
     """
     count = 0
     p = s.point
@@ -358,7 +358,7 @@ def find_folded(t, s, least, folded):
                 regular = False
             else:
                 worst = min(worst, nx * m[0] + ny * m[1] + nz * m[2])
-        if worst < (least * area if regular else 0.0):
+        if worst < (least if regular else at_apex) * area:
             folded[k] = 1
             count += 1
     return count

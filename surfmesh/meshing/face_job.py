@@ -174,9 +174,12 @@ def _meshed(job: FaceJob, unfold: bool = True) -> FaceMesh:
         changes = optimiser.run(first=job.limits is None)
         astray = np.zeros(len(domain.t.xy), bool)
         astray[domain.node] = _astray(surface, loops, fixed, job.sizing.chord)
-        helped = ~astray[domain.t.tri.reshape(-1, 3)[changes.far]].any(axis=1)
+        far, folded = (
+            found[~astray[domain.t.tri.reshape(-1, 3)[found]].any(axis=1)]
+            for found in (changes.far, changes.folded)
+        )
         for found, remedy in (
-            (changes.far[helped], optimiser.approaching), (changes.folded, optimiser.unfolding),
+            (far, optimiser.approaching), (folded, optimiser.unfolding),
             (changes.turned, optimiser.straightening),
         ):  # fmt: skip
             if len(found) and (unfold or remedy != optimiser.unfolding):

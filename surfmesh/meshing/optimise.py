@@ -11,7 +11,8 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from surfmesh.geometry.projection import closest_point
+from surfmesh.geometry.projection import closest_from_corners, closest_point
+from surfmesh.geometry.sharp_bends import bends_sharply
 from surfmesh.geometry.surface import Surface
 from surfmesh.kernels.embedding import Embedding, embed, empty_embedding
 from surfmesh.kernels.local_operations import DEAD
@@ -33,7 +34,7 @@ from surfmesh.kernels.optimisation import (
 from surfmesh.kernels.triangulation import Triangulation
 from surfmesh.kernels.turning import find_turned, shorten_some, turning_angles
 from surfmesh.sizing.bent_surface import bends_itself
-from surfmesh.sizing.size_bounds import FINEST_TURN, LEAST_OF_CHORD
+from surfmesh.sizing.size_bounds import FINEST_SIZE, FINEST_TURN, LEAST_OF_CHORD
 from surfmesh.sizing.size_field import SizeField
 from surfmesh.sizing.size_limits import SizeLimits
 
@@ -77,6 +78,9 @@ _GRID = [(i, j, 5 - i - j) for i in range(5) for j in range(6 - i) if max(j, 5 -
 MORE_SAMPLES = np.concatenate([FIRST_SAMPLES, np.array(_GRID) / 5.0])
 NEAR_CHORD, PROJECTIONS = 0.85, 4
 """Barycentric coordinates."""
+
+FAR_FOOT = 0.2
+"""Of the longest side: r(u, v) so far across its tangent plane says nothing of the distance."""
 
 TURNED, LEAST_AT_CENTRE, LEAST_COSINE = 0.85, 0.55, 0.35
 """Cosines between the normals of a triangle and of the surface: where it is looked at again,
@@ -196,9 +200,9 @@ class Optimiser:
     def _folded(self) -> np.ndarray:
         """Triangles turned against the surface's normals at a corner or at the centroid."""
         flag = np.empty(int(self.t.count[1]), np.uint8)
-        find_folded(self.t, self.embedding, TURNED, flag)
+        find_folded(self.t, self.embedding, TURNED, TURNED, flag)
         turned = np.flatnonzero(flag)
-        find_folded(self.t, self.embedding, LEAST_COSINE, flag)
+        find_folded(self.t, self.embedding, LEAST_COSINE, 0.0, flag)
         if not len(turned):
             return turned
         corners = self.embedding.point[self.t.tri.reshape(-1, 3)[turned]]
@@ -215,9 +219,14 @@ class Optimiser:
         self._swap(LEFT_OVER)
 
     def unfolding(self, triangles: np.ndarray) -> SizeLimits:
-        """Limits under which the folded ``triangles`` (n,) may unfold."""
-        chord = self.field.sizing.chord or 0.0
-        return self._limits_at(triangles, FINER_UNFOLDS, LEAST_OF_CHORD * chord)
+        """Limits under which the folded ``triangles`` (n,) may unfold.
+
+        None where the surface itself turns over, or bends sharply: no size is small enough.
+        """
+        least = LEAST_OF_CHORD * (self.field.sizing.chord or 0.0)
+        radius = max(least, FINEST_SIZE * self._diagonal())
+        smooth = ~bends_sharply(self.surface, self._parameters(triangles), radius)
+        return self._limits_at(triangles[smooth], FINER_UNFOLDS, least)
 
     def approaching(self, triangles: np.ndarray) -> SizeLimits:
         """Limits under which ``triangles`` (n,) would come to lie within ``chord``."""
@@ -345,6 +354,11 @@ class Optimiser:
         uv = self.field.scaling.to_uv(self.t.xy[corners.ravel()])
         return uv.reshape(len(edges), 3, 2)
 
+    def _parameters(self, triangles: np.ndarray) -> np.ndarray:
+        """(k, 3, 2) of the corners of triangles (k,)."""
+        corners = self.t.tri.reshape(-1, 3)[triangles]
+        return self.field.scaling.to_uv(self.t.xy[corners.ravel()]).reshape(-1, 3, 2)
+
     def _numbers(self) -> np.ndarray:
         """For each vertex the one that it coincides with, or itself."""
         number = np.arange(int(self.t.count[0]))
@@ -456,18 +470,27 @@ class Optimiser:
         Four samples each, read in the tangent planes; where these come near to ``chord`` more
         samples, each with its nearest point.
         """
-        error = np.zeros(len(triangles))
+        error, astray = np.zeros(len(triangles)), np.zeros(len(triangles), bool)
         found = np.empty((len(triangles), 7))
+        corners = self.embedding.point[self.t.tri.reshape(-1, 3)[triangles]]
+        reach = FAR_FOOT * np.linalg.norm(corners - corners[:, [1, 2, 0]], axis=2).max(axis=1)
         for weights in FIRST_SAMPLES:
             point, uv = self._interpolated(triangles, weights)
             tangent_plane_distances(point, *self.surface.evaluate(uv, 1), found)
             error = np.maximum(error, found[:, 3])
-        close = np.flatnonzero(error > NEAR_CHORD * self.field.sizing.chord)
+            astray |= found[:, 4] > reach
+        close = np.flatnonzero(astray | (error > NEAR_CHORD * self.field.sizing.chord))
         if not len(close):
             return error
         samples = [self._interpolated(triangles[close], weights) for weights in MORE_SAMPLES]
         points, uv = (np.concatenate(parts) for parts in zip(*samples))
-        distance = closest_point(self.surface, points, uv, PROJECTIONS)[1]
+        uv, distance, _ = closest_point(self.surface, points, uv, PROJECTIONS)
+        far = np.flatnonzero(distance > CHORD_MARGIN * self.field.sizing.chord)
+        if len(far):
+            corners = self._parameters(triangles[close[far % len(close)]])
+            distance[far] = closest_from_corners(
+                self.surface, points[far], uv[far], distance[far], corners, PROJECTIONS
+            )[1]
         error[close] = distance.reshape(len(MORE_SAMPLES), -1).max(axis=0)
         return error
 

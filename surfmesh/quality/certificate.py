@@ -91,10 +91,13 @@ def _folded(report: "Report") -> str:
     if not report.folded_at:
         return ""
     rows = [
-        (str(row.triangle), f"{row.angle_deg:.1f}°", _place(row.point), str(row.face))
+        (
+            str(row.triangle), f"{row.angle_deg:.1f}°", _place(row.point), str(row.face),
+            "by the surface" if row.by_surface else f"corner {row.off:.3g} off" if row.off else "",
+        )
         for row in report.folded_at
-    ]
-    return _table("folded triangles", ("triangle", "turned", "at", "face"), rows)
+    ]  # fmt: skip
+    return _table("folded triangles", ("triangle", "turned", "at", "face", "why"), rows)
 
 
 def _meeting(report: "Report") -> str:

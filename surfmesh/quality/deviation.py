@@ -13,7 +13,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from surfmesh.geometry.projection import closest_point
+from surfmesh.geometry.projection import closest_from_corners, closest_point
 from surfmesh.kernels.measure import interpolate, tangent_plane_distances
 from surfmesh.surface_mesh import SurfaceMesh
 
@@ -216,6 +216,7 @@ def _second_look(
     count = len(by_triangle)
     chosen = min(count, max(SECOND_LOOK, count // 250))
     worst = np.argpartition(by_triangle, count - chosen)[count - chosen :].astype(np.int32)
+    chord = getattr(mesh.sizing, "chord", None) or np.inf
     best = (-1.0, 0, (0.0, 0.0, 0.0), (0.0, 0.0))
     for face in np.unique(mesh.face_ids[worst]):
         for block in _blocks(worst[mesh.face_ids[worst] == face], BLOCK // len(_DENSE)):
@@ -223,6 +224,12 @@ def _second_look(
             rule = np.tile(np.arange(len(_DENSE), dtype=np.int32), len(block))
             points, uv = _samples(mesh, triangle, rule, _DENSE)
             foot_uv, distance, _ = closest_point(mesh.surfaces[face], points, uv, STEPS)
+            far = np.flatnonzero(distance > chord)
+            if len(far):
+                corners = mesh.uv_points[mesh.uv_triangles[triangle[far]]]
+                foot_uv[far], distance[far] = closest_from_corners(
+                    mesh.surfaces[face], points[far], foot_uv[far], distance[far], corners, STEPS
+                )
             by_triangle[block] = distance.reshape(len(block), -1).max(axis=1)
             top = int(distance.argmax())
             if distance[top] > best[0]:

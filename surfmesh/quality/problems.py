@@ -8,6 +8,7 @@ from numpy.typing import NDArray
 
 from surfmesh.quality.by_solid import SolidRow
 from surfmesh.quality.deviation import Deviation
+from surfmesh.quality.folds import Folds
 from surfmesh.quality.promises import Beyond, Promises
 from surfmesh.quality.self_intersection import MeetingPair
 from surfmesh.quality.shape import Shapes
@@ -17,7 +18,6 @@ from surfmesh.quality.turning import Turning
 from surfmesh.surface_mesh import NOT_MESHED, SurfaceMesh
 
 DEGENERATE = 1e-6  # alpha below which a triangle has no area to speak of
-FOLDED, INVERTED = math.cos(math.radians(60.0)), 0.0  # cosines between the two normals
 
 
 def problems(
@@ -28,12 +28,13 @@ def problems(
     fit: Deviation | None,
     beyond: Beyond | None,
     promises: Promises,
+    turned: Folds | None,
     solids: tuple[SolidRow, ...],
 ) -> list[str]:
     """Sentences about all but self-intersection.
 
     broken: the first broken invariant of the mesh; beyond: triangles that lie farther away than
-    was promised.
+    was promised; turned: which are folded.
     """
     said = []
     if not len(mesh.triangles):
@@ -68,9 +69,15 @@ def problems(
         said.append(f"{many} between triangles of opposite orientation, first {_edge(mesh, first)}")
     said += _triangles(mesh, ~(shape.alpha > DEGENERATE), "without area")
     if fit is not None:
-        said += _triangles(mesh, fit.cosine < INVERTED, "inverted against the surface")
-        half = (fit.cosine >= INVERTED) & (fit.cosine < FOLDED)
-        said += _triangles(mesh, half, "folded: turned more than 60° from the surface")
+        for bad, what in (
+            (turned.inverted, "inverted against the surface"),
+            (turned.ours & ~turned.inverted, "folded: turned more than 60° from the surface"),
+        ):
+            loose = bad & (turned.off > 0.0)
+            many = "" if (loose == bad).all() else f"{np.count_nonzero(loose):,} of them "
+            off = float(turned.off.max(where=bad, initial=0.0))
+            beside = f"; {many}beside edges that lie up to {off:.3g} off the surface" if off else ""
+            said += [sentence + beside for sentence in _triangles(mesh, bad, what)]
         if not math.isfinite(fit.largest):
             said.append("the distance from the surface is not finite")
         elif beyond is not None:

@@ -15,6 +15,7 @@ from surfmesh.quality.by_face import FaceRow, by_face
 from surfmesh.quality.by_solid import SolidRow, by_solid, volume_of_all
 from surfmesh.quality.chord_use import chord_use
 from surfmesh.quality.deviation import deviation
+from surfmesh.quality.folds import FoldedTriangle, folded_surfaces, folds, most_folded
 from surfmesh.quality.histograms import Histogram, histograms
 from surfmesh.quality.lengths import (
     QUASI_UNIT,
@@ -23,14 +24,7 @@ from surfmesh.quality.lengths import (
     metric_lengths,
     size_growth,
 )
-from surfmesh.quality.problems import (
-    DEGENERATE,
-    FOLDED,
-    INVERTED,
-    intersections,
-    problems,
-    turned_too_far,
-)
+from surfmesh.quality.problems import DEGENERATE, intersections, problems, turned_too_far
 from surfmesh.quality.promises import (
     Promises,
     StatedLimit,
@@ -49,18 +43,8 @@ from surfmesh.quality.turning import turning, worst_turn
 from surfmesh.quality.worst import WorstTriangle, worst_triangles
 from surfmesh.surface_mesh import SurfaceMesh
 
-SCHEMA_VERSION = 2  # of to_dict(): raised when a field changes its meaning or goes away
+SCHEMA_VERSION = 3  # of to_dict(): raised when a field changes its meaning or goes away
 LISTED = 20  # places of one kind that a report holds
-
-
-@dataclass(frozen=True)
-class FoldedTriangle:
-    """A triangle turned more than 60 degrees from its surface."""
-
-    triangle: int
-    face: int
-    angle_deg: float  # between the two normals
-    point: tuple[float, float, float]  # its centroid
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -101,6 +85,8 @@ class Report:
     degenerate: int  # triangles with alpha below 1e-6
     folded: int | None  # triangles turned more than 60 degrees from the surface, inverted too
     inverted: int | None  # triangles turned more than 90 degrees from the surface
+    folded_by_surface: int | None  # where the surface bends sharply or turns over: not counted
+    # as folded or inverted
     folded_at: tuple[FoldedTriangle, ...]  # the twenty that are turned most
     worst: tuple[WorstTriangle, ...]  # the twenty of the smallest alpha
     histograms: Mapping[str, Histogram]  # alpha, angles, length / wanted length, deviation
@@ -227,7 +213,8 @@ def check(mesh: SurfaceMesh) -> Report:
         above = float(np.mean(beyond_chord(promises, mesh, fit)))
         beyond, more = chord_kept(promises, mesh, fit)
         limits = [*more, *limits]
-    folded = None if fit is None else fit.cosine < FOLDED
+    turned_over = None if fit is None else folds(mesh, fit.cosine)
+    folded = None if turned_over is None else turned_over.ours
     solids = by_solid(mesh, shape) if finite else ()
     crosses = facts.crosses_itself or (mesh.one_sided and topo.closed)  # no room in space
     pairs = meeting_pairs(mesh) if finite else None
@@ -236,7 +223,7 @@ def check(mesh: SurfaceMesh) -> Report:
         between = apart(mesh, pairs)
         contacts, pairs = int(between.sum()), pairs[~between]
     meeting = () if pairs is None else located(mesh, pairs[:LISTED])
-    said = problems(mesh, broken, topo, shape, fit, beyond, promises, solids)
+    said = problems(mesh, broken, topo, shape, fit, beyond, promises, turned_over, solids)
     if bent is not None:
         said.append(turned_too_far(mesh, turns, bent, promises))
     if pairs is not None and not crosses:
@@ -270,8 +257,9 @@ def check(mesh: SurfaceMesh) -> Report:
         max_angle_deg=_over(np.max, shape.max_angle),
         degenerate=int(np.count_nonzero(~(shape.alpha > DEGENERATE))),
         folded=None if folded is None else int(np.count_nonzero(folded)),
-        inverted=None if fit is None else int(np.count_nonzero(fit.cosine < INVERTED)),
-        folded_at=() if fit is None else _folded(mesh, fit.cosine),
+        inverted=None if folded is None else int(np.count_nonzero(turned_over.inverted)),
+        folded_by_surface=None if folded is None else int(np.count_nonzero(turned_over.own)),
+        folded_at=() if folded is None else most_folded(mesh, turned_over, LISTED),
         worst=worst_triangles(mesh, LISTED, shape),
         histograms=histograms(shape, metric, None if fit is None else fit.by_triangle),
         edge_min=_over(np.min, lengths),
@@ -315,7 +303,11 @@ def check(mesh: SurfaceMesh) -> Report:
         mesh_sha256=mesh_sha256(mesh),
         versions=versions(mesh),
         healing=facts.healing,
-        warnings=(*mesh.warnings, *stated(limits)),
+        warnings=(
+            *mesh.warnings,
+            *(() if folded is None else folded_surfaces(mesh, turned_over)),
+            *stated(limits),
+        ),
         options=_options(mesh.sizing),
         problems=tuple(said),
         seconds={**mesh.seconds, "check": perf_counter() - start},
@@ -329,17 +321,6 @@ def _volume(
     if shares_faces(mesh):
         return volume_of_all(solids)
     return enclosed_volume(mesh) if encloses else None
-
-
-def _folded(mesh: SurfaceMesh, cosine: NDArray[np.float32]) -> tuple[FoldedTriangle, ...]:
-    bad = np.flatnonzero(cosine < FOLDED)
-    bad = bad[np.argsort(cosine[bad], kind="stable")][:LISTED]
-    angle = np.degrees(np.arccos(np.clip(cosine[bad].astype(float), -1.0, 1.0)))
-    places = mesh.points[mesh.triangles[bad]].mean(axis=1)
-    return tuple(
-        FoldedTriangle(int(t), int(mesh.face_ids[t]), float(turn), tuple(place))
-        for t, turn, place in zip(bad, angle, places.tolist())
-    )
 
 
 def _over(measure: Any, values: NDArray[np.float64]) -> float:

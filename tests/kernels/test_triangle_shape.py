@@ -1,0 +1,55 @@
+"""alpha of triangles that stand up from the surface."""
+
+import math
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+
+import surfmesh as sm
+from surfmesh.kernels.embedding import empty_embedding, triangle_shape
+from surfmesh.kernels.optimisation import find_folded
+
+
+def shape_at(tilt: float) -> float:
+    """alpha of an equilateral triangle turned by ``tilt`` degrees against the normal z."""
+    s = empty_embedding(3)
+    angles = 2.0 * np.pi / 3.0 * np.arange(3)
+    x, y = np.cos(angles), np.sin(angles)
+    c, w = math.cos(math.radians(tilt)), math.sin(math.radians(tilt))
+    s.point[:] = np.stack([x, c * y, w * y], axis=1)
+    s.normal[:] = (0.0, 0.0, 1.0)
+    return triangle_shape(s, 0, 1, 2)
+
+
+def test_up_to_45_degrees_alpha_is_that_of_the_plane():
+    assert shape_at(0.0) == pytest.approx(1.0) == shape_at(44.9)
+
+
+def test_beyond_it_falls_to_zero_and_changes_its_sign():
+    """2 cos^2 of the angle."""
+    assert shape_at(60.0) == pytest.approx(0.5)
+    assert shape_at(89.0) == pytest.approx(2.0 * math.cos(math.radians(89.0)) ** 2)
+    assert shape_at(120.0) == pytest.approx(-0.5) and shape_at(180.0) == pytest.approx(-1.0)
+
+
+def test_a_narrow_strip_round_a_cylinder_needs_its_two_edges_only():
+    """Swaps once took triangles over long arcs, which stand up, for the better ones."""
+    ring = sm.ParametricSurface("cos(u)", "sin(u)", "v+0.05*u", u=(0, 25), v=(0, 0.02))
+    mesh = sm.mesh(ring, sm.Sizing(chord=0.005, anisotropy=20.0))
+    report = sm.check(mesh)
+    assert report.folded == 0 and report.deviation_max < 0.005
+    assert len(mesh.triangles) < 700  # there were 1026
+
+
+def test_at_a_pole_the_other_corners_decide():
+    """A corner without a normal: turned by 80 degrees the triangle is looked at, and let pass."""
+    s = empty_embedding(3)
+    tilt = math.radians(80.0)
+    s.point[:] = [(0.0, 0.0, 0.0), (1.0, 0.0, 0.0), (0.0, math.cos(tilt), math.sin(tilt))]
+    s.normal[:] = [(0.0, 0.0, 0.0), (0.0, 0.0, 1.0), (0.0, 0.0, 1.0)]
+    t = SimpleNamespace(count=np.array([3, 1]), region=np.zeros(1), tri=np.array([0, 1, 2]))
+    flag = np.zeros(1, np.uint8)
+    look = getattr(find_folded, "py_func", find_folded)
+    assert look(t, s, 0.35, 0.85, flag) == 1 == flag[0]
+    assert look(t, s, 0.35, 0.0, flag) == 0 == flag[0]
