@@ -6,6 +6,7 @@ edges cut once -> one job a face -> faces meshed -> joined by node numbers
         failed or lie too far away
 """
 
+import math
 from collections.abc import Callable, Iterator
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import replace
@@ -38,6 +39,10 @@ from surfmesh.surface_mesh import NOT_MESHED, SurfaceMesh
 ROUNDS = 8
 """How often everything that depends on refined edges is done again, at most."""
 
+PATIENCE, HOPE, GROWN = 2, 0.9, 1.02
+"""A face is meshed again for its own wishes until so many rounds running have left more than this
+share of the places, and made it no finer than this: smaller sizes do not reach what is wrong."""
+
 FINER = 0.6
 """Factor on the sizes where faces share an edge of triangles that they should not."""
 
@@ -68,6 +73,7 @@ def mesh_model(
     jobs: list[FaceJob | None] = [None] * len(model.faces)
     done: list[FaceMesh] = [FaceMesh()] * len(model.faces)
     nodes: list[EdgeNodes | None] = []
+    hopes = [_Hope() for _ in model.faces]
     for _ in range(ROUNDS):
         before = nodes
         with watch.stage("sizing"):
@@ -90,10 +96,12 @@ def mesh_model(
             meshes = _in_order(mesh_face, [jobs[number] for number in changed], workers)
             for count, (number, face_mesh) in enumerate(zip(changed, meshes), 1):
                 done[number] = face_mesh
+                hopes[number].hear(face_mesh)
                 watch.pulse(count / len(changed))
         with watch.stage("mapping"):
             mesh = _joined(model, jobs, done, nodes, samples, sizing, watch)
-            wishes = {k: found.wishes for k, found in enumerate(done) if found.wishes is not None}
+            asking = [k for k, found in enumerate(done) if found.wishes is not None]
+            wishes = {k: done[k].wishes for k in asking if hopes[k].is_left}
             _refine_crowded(model, mesh, sizing, wishes)
             for number, wish in contents.wishes(mesh).items():
                 wishes[number] = wish.joined_with(wishes.get(number))
@@ -117,8 +125,28 @@ def mesh_model(
             + ". Lower the sizes, repair the faces, or use strict=False to get the others"
         )
     mesh = replace(mesh, promises=wanted.promises(len(model.faces)))
-    mesh = mesh.with_warnings(*_left_over(model, wishes), *contents.warnings())
+    mesh = mesh.with_warnings(*_left_over(model, {*asking, *wishes}), *contents.warnings())
     return simplified(mesh, sizing.min_size or LEAST * model.diagonal) if simplify else mesh
+
+
+class _Hope:
+    """Whether what a face asks for has helped so far."""
+
+    def __init__(self) -> None:
+        self._rounds = 0  # that have not, one after the other
+        self._places, self._triangles = math.inf, 0
+
+    def hear(self, found: FaceMesh) -> None:
+        """Count what one round has left."""
+        places = 0 if found.wishes is None else len(found.wishes.sizes)
+        same = places > HOPE * self._places and len(found.triangles) < GROWN * self._triangles
+        self._rounds = self._rounds + 1 if places and same and not found.failure else 0
+        self._places, self._triangles = places, len(found.triangles)
+
+    @property
+    def is_left(self) -> bool:
+        """Is it worth another round?"""
+        return self._rounds < PATIENCE
 
 
 def estimate_model(model: CadModel, sizing: Any) -> Estimate:
@@ -163,14 +191,14 @@ def _in_order(work: Callable, jobs: list, workers: int) -> Iterator:
         yield from threads.map(work, jobs)
 
 
-def _left_over(model: CadModel, wishes: dict[int, SizeLimits]) -> list[str]:
+def _left_over(model: CadModel, faces: set[int]) -> list[str]:
     """What is said of faces that would need another round."""
-    if not wishes:
+    if not faces:
         return []
-    names = [f"{k} ({model.faces[k].name or model.faces[k].kind})" for k in sorted(wishes)]
+    names = [f"{k} ({model.faces[k].name or model.faces[k].kind})" for k in sorted(faces)]
     more = f" and {len(names) - 5} more" if len(names) > 5 else ""
     return [
-        f"after {ROUNDS} rounds smaller sizes are still asked for on faces "
+        f"smaller sizes, tried in up to {ROUNDS} rounds, have not sufficed on faces "
         f"{', '.join(names[:5])}{more}"
     ]
 

@@ -1,0 +1,76 @@
+"""Narrow faces: a strip of a thread is meshed with few cells, few triangles and no folds."""
+
+import numpy as np
+import pytest
+
+import surfmesh as sm
+from surfmesh.meshing.face_data import FaceMesh
+from surfmesh.meshing.model_mesh import PATIENCE, _Hope
+from surfmesh.sizing.size_field import LONGEST_ROW, _root_grid
+from surfmesh.sizing.size_limits import SizeLimits, along_lines
+
+
+@pytest.mark.parametrize(
+    ("width", "height", "cells"), [(1.0, 1.0, 64), (153.5, 0.62, 128), (0.125, 170.0, 128)]
+)
+def test_root_cells_are_not_long(width, height, cells):
+    nx, ny = _root_grid(width, height, cells)
+    assert max(width / nx * ny / height, height / ny * nx / width) < 7.0
+    assert _root_grid(height, width, cells) == (ny, nx)
+
+
+def test_no_row_of_root_cells_is_too_long():
+    assert max(_root_grid(1e9, 1.0, 2304)) == LONGEST_ROW
+
+
+@pytest.mark.parametrize("ratio", [5.0, 20.0])
+def test_no_triangle_of_a_helical_strip_stands_on_its_edge(ratio):
+    """The crest of a thread of radius 3, pitch 1, width 1/8: its two edges need 52 segments a
+    turn of all within this chord, and nothing is needed between them."""
+    strip = sm.ParametricSurface(
+        "3*cos(u)", "3*sin(u)", "u/(2*pi) + v", u=(0.0, 40.0), v=(0.0, 0.125)
+    )
+    chord = 0.0189
+    report = sm.check(sm.mesh(strip, sm.Sizing(chord=chord, anisotropy=ratio)))
+    assert report.folded == 0
+    assert report.deviation_max < chord
+    least = 2.0 * 40.0 * 3.0 / np.sqrt(8.0 * 3.0 * chord)
+    assert report.triangles < 1.5 * least
+
+
+def test_limits_in_several_directions_are_those_in_each():
+    rng = np.random.default_rng(5)
+    points, sizes = rng.random((40, 3)), rng.uniform(0.1, 1.0, 40)
+    lines = rng.normal(size=(40, 3))
+    lines /= np.linalg.norm(lines, axis=1)[:, None]
+    limits = SizeLimits(points, sizes, 0.2, in_space=along_lines(lines, sizes))
+    at = rng.random((7, 3))
+    ways = rng.normal(size=(2, 7, 3))
+    ways /= np.linalg.norm(ways, axis=2)[..., None]
+    found = limits.along_and_all_ways(at, ways)
+    np.testing.assert_array_equal(found[2], limits(at))
+    for size, way in zip(found, ways):
+        np.testing.assert_array_equal(size, limits.along(at, way))
+    # naively, over the eight nearest
+    for p, way, size in zip(at, ways[0], found[0]):
+        d = np.linalg.norm(points - p, axis=1)
+        near = np.argsort(d)[:8]
+        along = np.abs(lines[near] @ way) / sizes[near]
+        assert size == pytest.approx((1.0 / along + 0.2 * d[near]).min())
+
+
+def test_hope_is_given_up_when_nothing_changes_and_not_before():
+    def left(places, triangles):
+        limits = SizeLimits(np.zeros((places, 3)), np.ones(places), 0.2)
+        return FaceMesh(triangles=np.zeros((triangles, 3), np.int32), wishes=limits)
+
+    hope = _Hope()
+    for places, triangles in ((50, 900), (20, 950), (19, 1100)):  # fewer, or at least finer
+        hope.hear(left(places, triangles))
+        assert hope.is_left
+    for _ in range(PATIENCE):
+        assert hope.is_left
+        hope.hear(left(19, 1101))
+    assert not hope.is_left
+    hope.hear(left(3, 1101))
+    assert hope.is_left
