@@ -77,10 +77,16 @@ def field_triangles(field: SizeField, loops: Sequence[np.ndarray] | None = None)
 def face_triangles(job: FaceJob, field: SizeField) -> float:
     """Triangles on a face whose boundary is cut already."""
     loops = [np.concatenate([piece.uv[:-1] for piece in loop]) for loop in job.loops]
-    inside = field_triangles(field, loops)
-    # with no node inside, Euler's formula counts the triangles
-    boundary = sum(len(loop) for loop in loops) - 2 + 2 * (len(loops) - 1)
-    return (inside**SHARP + max(boundary, 1) ** SHARP) ** (1.0 / SHARP)
+    return combined(field_triangles(field, loops), sum(len(loop) for loop in loops), len(loops))
+
+
+def combined(inside: float, nodes: int, loops: int) -> float:
+    """Triangles within loops, of those that the area asks for and of the nodes on the loops.
+
+    With no node inside, Euler's formula counts them.
+    """
+    boundary = max(nodes - 2 + 2 * (loops - 1), 1)
+    return (inside**SHARP + boundary**SHARP) ** (1.0 / SHARP)
 
 
 def job_triangles(job: FaceJob) -> float:

@@ -30,6 +30,7 @@ from surfmesh.meshing.model_groups import groups_of
 from surfmesh.meshing.simplification import LEAST, simplified
 from surfmesh.meshing.solid_contents import Contents
 from surfmesh.meshing.stages import Progress, Stopwatch
+from surfmesh.meshing.trial_mesh import WHOLE, tried
 from surfmesh.sizing.model_sizing import ModelSizing, model_sizing
 from surfmesh.sizing.size_limits import SizeLimits
 from surfmesh.sizing.sizing import Sizing
@@ -123,7 +124,12 @@ def mesh_model(
 def estimate_model(model: CadModel, sizing: Any) -> Estimate:
     """Triangles and memory of ``mesh_model``. Raises ``SizingError`` for wishes that cannot be."""
     wanted, _, _, jobs = _unmeshed(model, sizing)
-    return model_estimate(model, jobs, wanted.base)
+    found = model_estimate(model, jobs, wanted.base)
+    if found.triangles <= WHOLE:
+        made = tried(lambda stop: mesh_model(model, sizing, progress=stop, strict=False))
+        if made is not None:
+            return Estimate.of(made)
+    return found
 
 
 def explain_size(model: CadModel, sizing: Any, point: np.ndarray) -> Explanation:
