@@ -36,10 +36,12 @@ BETWEEN_ROUND, UNEVEN, GENTLE = 1.0, 0.15, 0.85
 share of triangles that bring nothing, as sizes are uneven. Measured on pins."""
 
 
-def model_estimate(model: CadModel, jobs: list[FaceJob], sizing: Sizing) -> Estimate:
-    """From the jobs of the first round; sizing: of the whole model.
+def model_counts(
+    model: CadModel, jobs: list[FaceJob], sizing: Sizing
+) -> tuple[np.ndarray, np.ndarray]:
+    """Triangles on each face (f,) in the first round and at last, of the jobs of the first.
 
-    Raises ``SizingError`` where a size field cannot be made.
+    sizing: of the whole model. Raises ``SizingError`` where a size field cannot be made.
     """
     counts = np.zeros(len(jobs))
     follows = sizing.chord is not None and TOLERANCE * sizing.chord < model.diagonal
@@ -51,13 +53,14 @@ def model_estimate(model: CadModel, jobs: list[FaceJob], sizing: Sizing) -> Esti
         counts[number] = face_triangles(job, field)
         if follows and job.surface.kind != "plane":
             misfits[number] = _misfit(model.faces[number], job, field)
+    first = counts.copy()
     if follows:
         finer, more = _refinement(model, sizing, misfits)
         counts *= more
         for number in _neighbours(model, finer):
             job = _with_finer_edges(model.faces[number], jobs[number], finer, model)
             counts[number] = face_triangles(job, face_field(job)[1])
-    return Estimate.of(counts)
+    return first, counts
 
 
 def bounds(
@@ -204,4 +207,4 @@ def require_model_within(
         return
     names = names_of_faces(model)
     require_within(sizing.limit, Estimate.of(least), names)
-    require_within(sizing.limit, model_estimate(model, jobs(), sizing), names)
+    require_within(sizing.limit, Estimate.of(model_counts(model, jobs(), sizing)[1]), names)

@@ -14,10 +14,14 @@ from surfmesh.errors import SurfmeshError
 from surfmesh.meshing.stages import Progress
 from surfmesh.surface_mesh import SurfaceMesh
 
-WHOLE = 5000
-"""Up to so many triangles all are made."""
+WHOLE, WHOLE_STRETCHED = 5_000, 10_000
+"""Up to so many triangles all are made; where sizes depend on the direction more, as edges that
+are made finer for one face have more triangles on the next."""
 
-SECONDS = 3.0
+ROUNDS = 4
+"""How often at most: what comes later are a few places."""
+
+SECONDS = 6.0
 """A model that takes longer than such a mesh may is left to the estimate."""
 
 

@@ -27,8 +27,8 @@ from surfmesh.meshing.packing import packed
 from surfmesh.sizing.metric_area import TRIANGLES, box_area, inner_cells
 from surfmesh.sizing.size_field import SizeField
 
-PATCH, PATCHES = 1000, 4
-"""Triangles of a patch, about, and how many patches."""
+PATCH, SMALL_PATCH, PATCHES = 1000, 300, 4
+"""Triangles of a patch, about, and of one where that does not fit; how many patches."""
 
 SMALLEST = 200
 """A patch that the sides of the face cut down to fewer tells nothing."""
@@ -44,9 +44,11 @@ def triangles_per_unit(
     wanted = got = 0.0
     rings = None if loops is None else [field.scaling.to_plane(loop) for loop in loops]
     for centre in _centres(field, rings, patches):
-        box = _patch(field, centre)
+        box = _patch(field, centre, PATCH)
         if rings is not None and not _is_within(rings, box):
-            continue
+            box = _patch(field, centre, SMALL_PATCH)
+            if not _is_within(rings, box):
+                continue
         asked = TRIANGLES * box_area(field, box)
         if asked < SMALLEST:
             continue
@@ -70,12 +72,12 @@ def _centres(field: SizeField, rings: list[np.ndarray] | None, count: int) -> np
     return middle[order[np.minimum(np.searchsorted(sums, at), len(order) - 1)]]
 
 
-def _patch(field: SizeField, centre: np.ndarray) -> np.ndarray:
-    """A box (x0, y0, x1, y1) of about PATCH triangles around a point, inside the rectangle."""
+def _patch(field: SizeField, centre: np.ndarray, triangles: float) -> np.ndarray:
+    """A box (x0, y0, x1, y1) of about so many triangles around a point, inside the rectangle."""
     extent = field.scaling.extent
     h = field.tensors(centre[None])[0]
     sizes = np.maximum(h[[0, 2]], np.finfo(float).tiny)
-    side = np.sqrt(PATCH / TRIANGLES * (h[0] * h[2] - h[1] ** 2) / sizes.prod())
+    side = np.sqrt(triangles / TRIANGLES * (h[0] * h[2] - h[1] ** 2) / sizes.prod())
     step = np.minimum(side * sizes, extent)
     for k in (0, 1):  # what one way is cut off is added the other way
         step[k] = min(step[k] * side * sizes[1 - k] / step[1 - k], extent[k])
