@@ -207,4 +207,4 @@ def require_model_within(
         return
     names = names_of_faces(model)
     require_within(sizing.limit, Estimate.of(least), names)
-    require_within(sizing.limit, Estimate.of(model_counts(model, jobs(), sizing)[1]), names)
+    require_within(sizing.limit, Estimate.of(model_counts(model, jobs(), sizing)[1], model=True), names)

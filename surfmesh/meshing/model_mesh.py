@@ -132,8 +132,8 @@ def estimate_model(model: CadModel, sizing: Any) -> Estimate:
             model, sizing, progress=stop, strict=False, rounds=TRIAL_ROUNDS
         ))  # fmt: skip
         if made is not None:
-            return Estimate.of(made)
-    return Estimate.of(counts * ratios(jobs, first))
+            return Estimate.of(made, wanted.is_anisotropic, model=True)
+    return Estimate.of(counts * ratios(jobs, first), wanted.is_anisotropic, model=True)
 
 
 def explain_size(model: CadModel, sizing: Any, point: np.ndarray) -> Explanation:

@@ -79,8 +79,9 @@ def estimate_parametric(surface: Surface, sizing: Sizing) -> Estimate:
     if asked <= WHOLE:
         made = tried(lambda stop: mesh_parametric(surface, sizing, progress=stop))
         if made is not None:
-            return Estimate.of(made)
-    return Estimate.of([asked * (triangles_per_unit(surface, field, loops) or 1.0)])
+            return Estimate.of(made, field.is_anisotropic)
+    got = asked * (triangles_per_unit(surface, field, loops) or 1.0)
+    return Estimate.of([got], field.is_anisotropic)
 
 
 def explain_parametric(surface: Surface, sizing: Sizing, point: np.ndarray) -> Explanation:
