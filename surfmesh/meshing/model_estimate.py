@@ -207,4 +207,5 @@ def require_model_within(
         return
     names = names_of_faces(model)
     require_within(sizing.limit, Estimate.of(least), names)
-    require_within(sizing.limit, Estimate.of(model_counts(model, jobs(), sizing)[1], model=True), names)
+    _, counts = model_counts(model, jobs(), sizing)
+    require_within(sizing.limit, Estimate.of(counts, model=True), names)
