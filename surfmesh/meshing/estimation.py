@@ -1,17 +1,22 @@
-"""How many triangles there will be, and how much memory they need, before anything is packed.
+"""How many triangles there will be, and how much memory they need, before all are packed.
 
     size field -> metric area inside the loops -> unit triangles -> bytes
     or boundary nodes, where a face has little more than them
 
-Solids whose area and volume need more than their chord are seen too; what else a first mesh
-may find (folds, triangles that lie too far away) is not.
+Small meshes are made (``trial_mesh``). Of large ones a few patches or faces are, and what the
+optimiser makes of them is taken for the rest (``trial_patches``, ``trial_faces``). Solids whose
+area and volume need more than their chord are seen too. Not seen, in a mesh too large to be
+made, are edges that faces away from the patches ask to be finer, faces with folds of their own,
+and solids whose stated area or volume no mesh comes near to.
 """
 
 from __future__ import annotations
 
+import mmap
 import sys
 from collections.abc import Sequence
 from dataclasses import dataclass
+from pathlib import Path
 
 import numpy as np
 
@@ -21,9 +26,9 @@ from surfmesh.meshing.face_job import face_field
 from surfmesh.sizing.metric_area import TRIANGLES, metric_area
 from surfmesh.sizing.size_field import SizeField
 
-RESULT, WORK = 110, 30
-"""Bytes a triangle of the whole mesh, and of the face being worked on; measured, peak of the
-process for meshes of 0.5 and 7 million triangles."""
+RESULT, MODEL_RESULT, WORK, STRETCHED_WORK = 150, 450, 80, 530
+"""Bytes a triangle of the whole mesh, of one joined from the faces of a model, and of the face
+being worked on; measured, peak of the process for meshes of 0.2 to 1.9 million triangles."""
 
 SHARP = 6.0
 """How sharply the count of a face changes from that of its boundary to that of its area."""
@@ -53,11 +58,25 @@ class Estimate:
         }  # fmt: skip
 
     @classmethod
-    def of(cls, by_face: Sequence[float]) -> Estimate:
+    def of(
+        cls, by_face: Sequence[float], stretched: bool = False, model: bool = False
+    ) -> Estimate:
+        """stretched: sizes depend on the direction."""
         counts = tuple(round(count) for count in by_face)
         total, most = sum(counts), max(counts, default=0)
-        loaded = LOADED + (CAD_LOADED if "OCP" in sys.modules else 0)
-        return cls(total, counts, loaded + RESULT * total + WORK * most)
+        loaded = max(LOADED + (CAD_LOADED if "OCP" in sys.modules else 0), _resident())
+        bytes_each = MODEL_RESULT if model else RESULT
+        work = STRETCHED_WORK if stretched else WORK
+        return cls(total, counts, loaded + bytes_each * total + work * most)
+
+
+def _resident() -> int:
+    """Bytes that this process has now, its models among them; 0 where the system does not say."""
+    try:
+        pages = int(Path("/proc/self/statm").read_text().split()[1])
+    except (OSError, ValueError, IndexError):
+        return 0
+    return pages * mmap.PAGESIZE
 
 
 def size_in_words(count: float) -> str:
@@ -77,10 +96,16 @@ def field_triangles(field: SizeField, loops: Sequence[np.ndarray] | None = None)
 def face_triangles(job: FaceJob, field: SizeField) -> float:
     """Triangles on a face whose boundary is cut already."""
     loops = [np.concatenate([piece.uv[:-1] for piece in loop]) for loop in job.loops]
-    inside = field_triangles(field, loops)
-    # with no node inside, Euler's formula counts the triangles
-    boundary = sum(len(loop) for loop in loops) - 2 + 2 * (len(loops) - 1)
-    return (inside**SHARP + max(boundary, 1) ** SHARP) ** (1.0 / SHARP)
+    return combined(field_triangles(field, loops), sum(len(loop) for loop in loops), len(loops))
+
+
+def combined(inside: float, nodes: int, loops: int) -> float:
+    """Triangles within loops, of those that the area asks for and of the nodes on the loops.
+
+    With no node inside, Euler's formula counts them.
+    """
+    boundary = max(nodes - 2 + 2 * (loops - 1), 1)
+    return (inside**SHARP + boundary**SHARP) ** (1.0 / SHARP)
 
 
 def job_triangles(job: FaceJob) -> float:

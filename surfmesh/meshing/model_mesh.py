@@ -26,11 +26,14 @@ from surfmesh.meshing.face_data import FaceJob, FaceMesh, Piece
 from surfmesh.meshing.face_gaps import with_face_gaps
 from surfmesh.meshing.face_job import mesh_face
 from surfmesh.meshing.face_sizings import face_sizings
-from surfmesh.meshing.model_estimate import model_estimate, require_model_within
+from surfmesh.meshing.model_estimate import model_counts, require_model_within
 from surfmesh.meshing.model_groups import groups_of
 from surfmesh.meshing.simplification import LEAST, simplified
 from surfmesh.meshing.solid_contents import Contents
 from surfmesh.meshing.stages import Progress, Stopwatch
+from surfmesh.meshing.trial_faces import ratios
+from surfmesh.meshing.trial_mesh import ROUNDS as TRIAL_ROUNDS
+from surfmesh.meshing.trial_mesh import WHOLE, WHOLE_STRETCHED, tried
 from surfmesh.sizing.model_sizing import ModelSizing, model_sizing
 from surfmesh.sizing.size_limits import SizeLimits
 from surfmesh.sizing.sizing import Sizing
@@ -49,7 +52,7 @@ FINER = 0.6
 
 def mesh_model(
     model: CadModel, sizing: Any, optimise: bool = True, progress: Progress | None = None,
-    strict: bool = True, simplify: bool = False, workers: int = 1,
+    strict: bool = True, simplify: bool = False, workers: int = 1, rounds: int = ROUNDS,
 ) -> SurfaceMesh:  # fmt: skip
     """Mesh all faces of a model; neighbours share the nodes of their common edges.
 
@@ -74,7 +77,7 @@ def mesh_model(
     done: list[FaceMesh] = [FaceMesh()] * len(model.faces)
     nodes: list[EdgeNodes | None] = []
     hopes = [_Hope() for _ in model.faces]
-    for _ in range(ROUNDS):
+    for _ in range(rounds):
         before = nodes
         with watch.stage("sizing"):
             nodes = cut_edges(model, sizing, samples, limits, before)
@@ -152,7 +155,14 @@ class _Hope:
 def estimate_model(model: CadModel, sizing: Any) -> Estimate:
     """Triangles and memory of ``mesh_model``. Raises ``SizingError`` for wishes that cannot be."""
     wanted, _, _, jobs = _unmeshed(model, sizing)
-    return model_estimate(model, jobs, wanted.base)
+    first, counts = model_counts(model, jobs, wanted.base)
+    if counts.sum() <= (WHOLE_STRETCHED if wanted.is_anisotropic else WHOLE):
+        made = tried(lambda stop: mesh_model(
+            model, sizing, progress=stop, strict=False, rounds=TRIAL_ROUNDS
+        ))  # fmt: skip
+        if made is not None:
+            return Estimate.of(made, wanted.is_anisotropic, model=True)
+    return Estimate.of(counts * ratios(jobs, first), wanted.is_anisotropic, model=True)
 
 
 def explain_size(model: CadModel, sizing: Any, point: np.ndarray) -> Explanation:

@@ -20,6 +20,8 @@ from surfmesh.meshing.gluing import Glued, glued, misglued
 from surfmesh.meshing.optimise import Optimiser
 from surfmesh.meshing.packing import packed_over
 from surfmesh.meshing.stages import Progress, Stopwatch
+from surfmesh.meshing.trial_mesh import WHOLE, tried
+from surfmesh.meshing.trial_patches import triangles_per_unit
 from surfmesh.sizing.size_field import SizeField, inverse_sizes, size_field
 from surfmesh.sizing.size_limits import SizeLimits
 from surfmesh.sizing.sizing import Sizing
@@ -72,7 +74,14 @@ def mesh_parametric(
 def estimate_parametric(surface: Surface, sizing: Sizing) -> Estimate:
     """Triangles and memory of ``mesh_parametric``. Raises as it does."""
     field = size_field(surface, sizing, find_sides(surface))
-    return Estimate.of([field_triangles(field, surface.loops or None)])
+    loops = surface.loops or None
+    asked = field_triangles(field, loops)
+    if asked <= WHOLE:
+        made = tried(lambda stop: mesh_parametric(surface, sizing, progress=stop))
+        if made is not None:
+            return Estimate.of(made, field.is_anisotropic)
+    got = asked * (triangles_per_unit(surface, field, loops) or 1.0)
+    return Estimate.of([got], field.is_anisotropic)
 
 
 def explain_parametric(surface: Surface, sizing: Sizing, point: np.ndarray) -> Explanation:

@@ -11,7 +11,7 @@ from surfmesh.geometry.planar_domain import PlanarDomain
 from surfmesh.kernels.background import scalar_sizes_at
 from surfmesh.kernels.insertion import label_patches
 from surfmesh.meshing.boundary_recovery import DomainMesh, recovered_regions
-from surfmesh.meshing.estimation import Estimate, field_triangles, require_field_within
+from surfmesh.meshing.estimation import Estimate, combined, field_triangles, require_field_within
 from surfmesh.meshing.optimise import Optimiser
 from surfmesh.meshing.packing import packed_over
 from surfmesh.meshing.planar_segments import (
@@ -21,6 +21,7 @@ from surfmesh.meshing.planar_segments import (
     short_segments,
 )
 from surfmesh.meshing.stages import Progress, Stopwatch
+from surfmesh.meshing.trial_mesh import WHOLE, tried
 from surfmesh.sizing.across_gaps import size_across
 from surfmesh.sizing.size_field import SizeField, size_field
 from surfmesh.sizing.sizing import Sizing
@@ -61,8 +62,14 @@ def mesh_planar(
 
 def estimate_planar(domain: PlanarDomain, sizing: Sizing) -> Estimate:
     """Triangles and memory of ``mesh_planar``. Raises as it does."""
-    field, _ = _field_and_segments(domain, sizing)
-    return Estimate.of([field_triangles(field, [*domain.outer, *domain.holes])])
+    field, cut = _field_and_segments(domain, sizing)
+    loops = [*domain.outer, *domain.holes]
+    asked = combined(field_triangles(field, loops), len(cut.uv), len(loops))
+    if asked <= WHOLE:
+        made = tried(lambda stop: mesh_planar(domain, sizing, progress=stop))
+        if made is not None:
+            return Estimate.of([made.sum()])
+    return Estimate.of([asked])
 
 
 def _field_and_segments(domain: PlanarDomain, sizing: Sizing) -> tuple[SizeField, PlanarSegments]:

@@ -65,6 +65,28 @@ def metric_area(field: SizeField, loops: Sequence[np.ndarray] | None = None) -> 
     return total
 
 
+def box_area(field: SizeField, box: np.ndarray, parts: int = 24) -> float:
+    """The same over a box (x0, y0, x1, y1) of the scaled plane, in parts x parts cells."""
+    step = (box[2:] - box[:2]) / parts
+    at = np.arange(parts)
+    low = box[:2] + np.stack(np.meshgrid(at, at), axis=-1).reshape(-1, 2) * step
+    return float(_integrals(field, low, np.tile(step, (len(low), 1))).sum())
+
+
+def inner_cells(
+    field: SizeField, rings: Sequence[np.ndarray] | None
+) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Lower left corners (n, 2), sides (n, 2) and metric areas (n,) of leaves with their middle
+    inside ``rings`` (k, 2), in the scaled plane."""
+    low, step = _leaves(field.background)
+    step = np.minimum(low + step, field.scaling.extent) - low
+    there = (step > 0.0).all(axis=1)
+    if rings is not None:
+        there &= is_inside(rings, low + 0.5 * step)
+    low, step = low[there], step[there]
+    return low, step, _integrals(field, low, step)
+
+
 def _leaves(background: Background) -> tuple[np.ndarray, np.ndarray]:
     """Lower left corners (n, 2) and sides (n, 2) of all leaves."""
     nx, ny = (int(n) for n in background.grid)

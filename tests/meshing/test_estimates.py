@@ -1,0 +1,98 @@
+"""What ``estimate`` says beforehand against the meshes: small, stretched, thin, large."""
+
+import cadquery as cq
+import numpy as np
+import pytest
+
+import surfmesh as sm
+from surfmesh.geometry.sides import find_sides
+from surfmesh.meshing import parametric_mesh, trial_mesh
+from surfmesh.meshing.estimation import field_triangles
+from surfmesh.meshing.trial_patches import triangles_per_unit
+from surfmesh.sizing.metric_area import box_area, metric_area
+from surfmesh.sizing.size_field import size_field
+
+RING = np.stack([np.cos(t := np.linspace(0, 2 * np.pi, 200, endpoint=False)), np.sin(t)], axis=1)
+
+
+@pytest.fixture
+def nothing_is_small(monkeypatch):
+    monkeypatch.setattr(parametric_mesh, "WHOLE", 0)
+
+
+@pytest.mark.parametrize(
+    "name, sizing",
+    [
+        ("spring", sm.Sizing(chord=0.004, anisotropy=5)),
+        ("klein", sm.Sizing(chord=0.01, anisotropy=100)),
+        ("torus", sm.Sizing(angle=10)),
+        ("torus", sm.Sizing(angle=8, anisotropy=5)),
+        ("wavy", None),
+    ],
+)
+def test_patches_tell_what_the_optimiser_makes_of_a_formula(nothing_is_small, name, sizing):
+    surface = sm.load(name)
+    found, mesh = sm.estimate(surface, sizing), sm.mesh(surface, sizing)
+    assert found.triangles == pytest.approx(len(mesh.triangles), rel=0.12)
+
+
+def test_patches_of_equal_sizes_add_nothing():
+    surface = sm.load("sphere")
+    field = size_field(surface, sm.Sizing(size=0.03), find_sides(surface))
+    assert triangles_per_unit(surface, field, None) == pytest.approx(1.0, abs=0.05)
+    box = np.concatenate([np.zeros(2), field.scaling.extent])
+    assert box_area(field, box, 200) == pytest.approx(metric_area(field), rel=0.01)
+    assert field_triangles(field) > trial_mesh.WHOLE
+
+
+def test_no_patch_fits_in_a_narrow_loop():
+    surface = sm.load("sphere")
+    field = size_field(surface, sm.Sizing(size=0.03), find_sides(surface))
+    (u0, u1), (v0, v1) = surface.domain
+    v = 0.5 * (v0 + v1)
+    strip = np.array([[u0, v], [u1, v], [u1, v + 0.01], [u0, v + 0.01]])
+    assert triangles_per_unit(surface, field, [strip]) is None
+
+
+@pytest.mark.parametrize("size", [20.0, 6.0, 1.0, 0.5])
+def test_rings_that_are_hardly_wider_than_their_triangles(size):
+    ring = sm.PlanarDomain(10 * RING, holes=[9.7 * RING])
+    mesh = sm.mesh(ring, size)
+    assert sm.estimate(ring, size).triangles == pytest.approx(len(mesh.triangles), rel=0.12)
+
+
+PARTS = {
+    "box": (cq.Workplane().box(10, 20, 30), None),
+    "stretched box": (cq.Workplane().box(10, 20, 30), sm.Sizing(anisotropy=20)),
+    "pin": (cq.Workplane().cylinder(20, 0.2), sm.Sizing(chord=0.1)),
+    "flat ring": (cq.Workplane().circle(10).circle(9.8).extrude(0.2), None),
+    "cone": (cq.Solid.makeCone(5, 1, 12), sm.Sizing(anisotropy=20)),
+    "named": (cq.Workplane().box(60, 40, 5), {"*": 3.0, ">Z": 1.0}),
+}
+
+
+@pytest.mark.parametrize("name", PARTS)
+def test_parts(name):
+    shape, sizing = PARTS[name]
+    model = sm.from_cadquery(shape)
+    found, mesh = sm.estimate(model, sizing), sm.mesh(model, sizing)
+    assert found.triangles == pytest.approx(len(mesh.triangles), rel=0.12)
+    by_face = np.bincount(mesh.face_ids)
+    assert np.array(found.by_face) == pytest.approx(by_face, rel=0.25, abs=30)
+
+
+def test_holes_that_the_volume_asks_to_be_finer_make_the_plate_finer_too():
+    plate = cq.Workplane().box(60, 60, 3).faces(">Z").workplane().rarray(6, 6, 9, 9).hole(4)
+    model = sm.from_cadquery(plate)
+    found, mesh = sm.estimate(model), sm.mesh(model)
+    assert len(mesh.triangles) > trial_mesh.WHOLE
+    assert found.triangles == pytest.approx(len(mesh.triangles), rel=0.15)
+
+
+def test_a_trial_that_takes_too_long_is_given_up(monkeypatch):
+    monkeypatch.setattr(trial_mesh, "SECONDS", 0.0)
+    surface = sm.load("torus")
+    assert trial_mesh.tried(lambda stop: sm.mesh(surface, 0.3, progress=stop)) is None
+    assert sm.estimate(surface, 0.3).triangles == pytest.approx(
+        len(sm.mesh(surface, 0.3).triangles), rel=0.1
+    )
