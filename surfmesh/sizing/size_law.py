@@ -15,6 +15,7 @@ from surfmesh.geometry.surface import Surface
 from surfmesh.sizing.size_bounds import SizeBounds
 from surfmesh.sizing.size_limits import SizeLimits
 from surfmesh.sizing.sizing import Sizing
+from surfmesh.sizing.turning_direction import turning_bound
 
 ROUND = 1.5
 """Ratio of two sizes up to which their directions do not matter."""
@@ -132,7 +133,7 @@ class SizeLaw:
         forms = forms_from_derivatives(ru, rv, *second)
         root = root_of_form(forms, rates)
         if self.sizing.is_anisotropic:
-            return self._anisotropic(point, ru, rv, rates, forms, root)
+            return self._anisotropic(uv, point, ru, rv, rates, forms, root)
         size = np.full(len(uv), self.clamp[1])
         if self.follows_curvature:
             k = curvatures(forms)
@@ -149,7 +150,7 @@ class SizeLaw:
         return FieldNodes.isotropic(size, wish, root, forms.normal, point)
 
     def _anisotropic(
-        self, point: np.ndarray, ru: np.ndarray, rv: np.ndarray, rates: np.ndarray,
+        self, uv: np.ndarray, point: np.ndarray, ru: np.ndarray, rv: np.ndarray, rates: np.ndarray,
         forms: FundamentalForms, root: np.ndarray,
     ) -> FieldNodes:  # fmt: skip
         """Two sizes along the principal directions."""
@@ -165,6 +166,8 @@ class SizeLaw:
             wished = np.maximum(self.sizing.law_sizes(point), self.clamp[0])
             sizes = np.minimum(sizes, wished[:, None])
         size, long = sizes.min(axis=1), sizes.max(axis=1)
+        stretched = long > ROUND * size
+        long[stretched] = np.minimum(long, self._turned(uv, k, size, first[:, 0]))[stretched]
         wish, long_wish = size, long
         if self.limits is not None:
             size, long = self._limited_both(point, forms.normal, along, size, long)
@@ -174,6 +177,10 @@ class SizeLaw:
         return FieldNodes(
             size, wish, root, forms.normal, point, long, long_wish, along, jacobian
         )
+
+    def _turned(self, uv, k, size, first):
+        curvature, directions = np.stack([k.k1, k.k2], axis=1), np.stack([k.d1, k.d2], axis=1)
+        return turning_bound(self.surface, uv, curvature, directions, size, first)
 
     def _least(self) -> float:
         """No limit goes below it; sizes that edges have been cut with hold as they are."""
