@@ -27,7 +27,8 @@ STRETCHED_RESERVE, STRAIGHT_RESERVE = 0.7, 0.75
 is curved both ways, and where one way only. There edges alone decide, and few of those that run
 that way are more than 1.15 times as long as wanted."""
 
-ROUNDED = 0.5
+import os
+ROUNDED, RB = eval(os.environ.get("BAL", "[.5,.3]"))
 """What a longer edge may sag, as a share of what a shorter one does, where both sag alike: more
 would cost the shorter one as much as the longer gains, and then gradation takes the longer."""
 
@@ -99,6 +100,7 @@ def principal_chord_sizes(
         stretch = np.clip(np.where(alike > 0.0, ROUNDED, 1.0) / share, 1.0, ratio**2)
         balance = alike * share * stretch
         reserve = STRAIGHT_RESERVE + (STRETCHED_RESERVE - STRAIGHT_RESERVE) * np.abs(balance)
+        reserve = np.where(balance > 0, STRAIGHT_RESERVE - RB * balance, reserve)
         shorter = np.sqrt(reserve * chord / np.maximum(0.125, (1.0 + balance) / 12.0) / large)
         longer = np.sqrt(stretch) * shorter
     shorter, longer = np.maximum(shorter, 2.0 * chord), np.maximum(longer, 2.0 * chord)

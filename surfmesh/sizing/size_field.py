@@ -54,6 +54,8 @@ FINEST_GRADED = 1.0
 POLE_DISTANCE = 0.9
 """In edges: the first ring of triangles around a pole lies about there."""
 
+import os
+RM=float(os.environ.get('RM','1.1'))
 MAX_CELLS = 800_000
 MAX_ROUNDS = 60
 SWEEPS, MAX_CHUNKS = 16, 400
@@ -157,6 +159,8 @@ class _Builder:
         self.keys = np.empty(0, np.int64)
         self.order = np.empty(0, np.int64)
         self.nodes = FieldNodes.none()
+        self.start = np.empty(0)
+        self.start_long = np.empty(0)
         self.joined = np.empty((0, 2), np.int64)
         self.changed = np.empty(0, np.int32)  # last sweep of the gradation that lowered a node
         self.sweep = 1  # number of the next one
@@ -198,6 +202,9 @@ class _Builder:
             fresh = np.concatenate([np.zeros((~split).sum(), bool), np.ones(len(children), bool)])
             patch = np.concatenate([patch[~split], self._patches(children)])
             cells = cells.chosen(~split).joined_with(children)
+        if self.nodes.is_anisotropic:
+          for _ in range(int(os.environ.get("RELAX", "2"))):
+            self._relax(patch)
         self._blunt_poles()
         tree.append(cells.index)  # every leaf is split once more, onto its test nodes
         return SizeField(self.scaling, self._background(tree, patch), self.law.sizing)
@@ -240,6 +247,8 @@ class _Builder:
         sort = np.argsort(self.keys, kind="stable")
         self.keys, self.order = self.keys[sort], self.order[sort]
         self.nodes = self.nodes.joined_with(fresh)
+        self.start = np.concatenate([self.start, fresh.size])
+        self.start_long = np.concatenate([self.start_long, fresh.long])
         self.joined = self._joined_nodes()
 
     def _joined_nodes(self) -> np.ndarray:
@@ -282,6 +291,20 @@ class _Builder:
             if following > 0:
                 return
         raise SizingError(f"the sizes on {self.surface.name!r} could not be graded")
+
+    def _relax(self, patch):
+        nodes = self.nodes
+        ratio = np.maximum(nodes.long / nodes.size, 1.0)
+        k1, k2 = nodes.curvature.T
+        wish = self.law.bounds.principal(k1, k2, RM * ratio).min(axis=1)
+        wish = np.maximum(nodes.wish, wish)
+        free = (k1 != 0) | (k2 != 0)
+        nodes.size[:] = np.where(free & (self.start >= nodes.wish), wish, self.start)
+        nodes.long[:] = np.minimum(self.start_long, np.maximum(ratio * nodes.size * RM, nodes.size))
+        nodes.wish[:] = nodes.size
+        self.start = nodes.size.copy()
+        self.changed[:] = self.sweep
+        self._grade(patch)
 
     def _balance(self, cells: Cells, split: np.ndarray) -> None:
         """Add to ``split`` what would be left more than one level coarser than a neighbour."""

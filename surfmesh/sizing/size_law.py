@@ -37,12 +37,13 @@ class FieldNodes(NamedTuple):
     long_wish: np.ndarray  # (n,)
     along: np.ndarray  # (n, 3) unit tangent
     jacobian: np.ndarray  # (n, 3, 2) r_x, r_y
+    curvature: np.ndarray  # (n, 2) principal curvatures
 
     @classmethod
     def isotropic(cls, size, wish, root, normal, point) -> "FieldNodes":
         no = np.empty(0)
         return cls(
-            size, wish, root, normal, point, no, no, np.empty((0, 3)), np.empty((0, 3, 2))
+            size, wish, root, normal, point, no, no, np.empty((0, 3)), np.empty((0, 3, 2)), np.empty((0, 2))
         )
 
     @classmethod
@@ -175,7 +176,8 @@ class SizeLaw:
                 wish, long_wish = size, long
         jacobian = np.stack([ru * rates[:, :1], rv * rates[:, 1:]], axis=2)
         return FieldNodes(
-            size, wish, root, forms.normal, point, long, long_wish, along, jacobian
+            size, wish, root, forms.normal, point, long, long_wish, along, jacobian,
+            np.stack([k.k1, k.k2], axis=1),
         )
 
     def _turned(self, uv, k, size, first):
