@@ -27,11 +27,6 @@ STRETCHED_RESERVE, STRAIGHT_RESERVE = 0.7, 0.75
 is curved both ways, and where one way only. There edges alone decide, and few of those that run
 that way are more than 1.15 times as long as wanted."""
 
-import os
-ROUNDED, RB = eval(os.environ.get("BAL", "[.5,.3]"))
-"""What a longer edge may sag, as a share of what a shorter one does, where both sag alike: more
-would cost the shorter one as much as the longer gains, and then gradation takes the longer."""
-
 
 def deviation_factor(k1: np.ndarray, k2: np.ndarray) -> np.ndarray:
     """c with deviation = c h^2, for principal curvatures k1, k2 (n,), 1 / model unit."""
@@ -93,19 +88,12 @@ def principal_chord_sizes(
     as smooth as that at umbilics.
     """
     first, second = np.abs(k1), np.abs(k2)
-    large = np.maximum(first, second)
+    balance = _balance(k1, k2, ratio)
     with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
-        share = np.nan_to_num(np.minimum(first, second) / large)
-        alike = np.sign(k1) * np.sign(k2)
-        stretch = np.clip(np.where(alike > 0.0, ROUNDED, 1.0) / share, 1.0, ratio**2)
-        balance = alike * share * stretch
         reserve = STRAIGHT_RESERVE + (STRETCHED_RESERVE - STRAIGHT_RESERVE) * np.abs(balance)
-        reserve = np.where(balance > 0, STRAIGHT_RESERVE - RB * balance, reserve)
-        shorter = np.sqrt(reserve * chord / np.maximum(0.125, (1.0 + balance) / 12.0) / large)
-        longer = np.sqrt(stretch) * shorter
-    shorter, longer = np.maximum(shorter, 2.0 * chord), np.maximum(longer, 2.0 * chord)
-    along_first = first < second
-    return np.where(along_first, longer, shorter), np.where(along_first, shorter, longer)
+        bound = reserve * chord / np.maximum(0.125, (1.0 + balance) / 12.0)
+        sizes = np.sqrt(bound / first), np.sqrt(bound / second)
+    return np.maximum(sizes[0], 2.0 * chord), np.maximum(sizes[1], 2.0 * chord)
 
 
 def principal_angle_sizes(

@@ -54,8 +54,11 @@ FINEST_GRADED = 1.0
 POLE_DISTANCE = 0.9
 """In edges: the first ring of triangles around a pole lies about there."""
 
-import os
-RM=float(os.environ.get('RM','1.1'))
+REACHED = 1.1
+"""How much more than the reached ratio of the two sizes the shorter one leaves room for."""
+
+_NO_DIRECTIONS = np.empty(0), np.empty((0, 3)), np.empty((0, 3))
+
 MAX_CELLS = 800_000
 MAX_ROUNDS = 60
 SWEEPS, MAX_CHUNKS = 16, 400
@@ -159,8 +162,6 @@ class _Builder:
         self.keys = np.empty(0, np.int64)
         self.order = np.empty(0, np.int64)
         self.nodes = FieldNodes.none()
-        self.start = np.empty(0)
-        self.start_long = np.empty(0)
         self.joined = np.empty((0, 2), np.int64)
         self.changed = np.empty(0, np.int32)  # last sweep of the gradation that lowered a node
         self.sweep = 1  # number of the next one
@@ -203,8 +204,7 @@ class _Builder:
             patch = np.concatenate([patch[~split], self._patches(children)])
             cells = cells.chosen(~split).joined_with(children)
         if self.nodes.is_anisotropic:
-          for _ in range(int(os.environ.get("RELAX", "2"))):
-            self._relax(patch)
+            self._settle(patch)
         self._blunt_poles()
         tree.append(cells.index)  # every leaf is split once more, onto its test nodes
         return SizeField(self.scaling, self._background(tree, patch), self.law.sizing)
@@ -247,8 +247,6 @@ class _Builder:
         sort = np.argsort(self.keys, kind="stable")
         self.keys, self.order = self.keys[sort], self.order[sort]
         self.nodes = self.nodes.joined_with(fresh)
-        self.start = np.concatenate([self.start, fresh.size])
-        self.start_long = np.concatenate([self.start_long, fresh.long])
         self.joined = self._joined_nodes()
 
     def _joined_nodes(self) -> np.ndarray:
@@ -280,31 +278,42 @@ class _Builder:
         new = np.full(len(self.nodes.size) - len(self.changed), self.sweep, np.int32)
         self.changed = np.concatenate([self.changed, new])
         nodes = self.nodes
-        metric = Metric(nodes.long, nodes.along, nodes.normal)
+        self._spread(patch, nodes.size, Metric(nodes.long, nodes.along, nodes.normal))
+
+    def _grade_anew(self, patch: np.ndarray, size: np.ndarray, long: np.ndarray) -> None:
+        """Gradation of other sizes, as if all nodes were new."""
+        self.nodes.size[:], self.nodes.long[:] = size, np.maximum(long, size)
+        self.changed[:] = self.sweep
+        self._grade(patch)
+
+    def _settle(self, patch: np.ndarray) -> None:
+        """Longer sizes where directions turn, and shorter ones where the longer are not reached.
+
+        The width of a triangle is then known: it is at most what growth allows in any metric.
+        """
+        nodes, round_metric = self.nodes, Metric(*_NO_DIRECTIONS)
+        size, long = nodes.asked.T.copy()
+        width = size.copy()
+        self.changed[:] = self.sweep
+        self._spread(patch, width, round_metric)
+        long = np.minimum(long, self.law.turned(nodes, width))
+        self._grade_anew(patch, size, long)
+        ratio = REACHED * nodes.long / nodes.size
+        size = self.law.regained(nodes, ratio)
+        self._grade_anew(patch, size, np.minimum(long, ratio * size))
+
+    def _spread(self, patch: np.ndarray, size: np.ndarray, metric: Metric) -> None:
+        nodes = self.nodes
         for _ in range(MAX_CHUNKS):
-            order = np.argsort(nodes.size[patch].min(axis=1))
+            order = np.argsort(size[patch].min(axis=1))
             following = grade(
-                patch[order], self.joined, nodes.point, self.slope, nodes.size, metric,
+                patch[order], self.joined, nodes.point, self.slope, size, metric,
                 self.changed, self.sweep + 1, SWEEPS,
             )  # fmt: skip
             self.sweep = abs(following)
             if following > 0:
                 return
         raise SizingError(f"the sizes on {self.surface.name!r} could not be graded")
-
-    def _relax(self, patch):
-        nodes = self.nodes
-        ratio = np.maximum(nodes.long / nodes.size, 1.0)
-        k1, k2 = nodes.curvature.T
-        wish = self.law.bounds.principal(k1, k2, RM * ratio).min(axis=1)
-        wish = np.maximum(nodes.wish, wish)
-        free = (k1 != 0) | (k2 != 0)
-        nodes.size[:] = np.where(free & (self.start >= nodes.wish), wish, self.start)
-        nodes.long[:] = np.minimum(self.start_long, np.maximum(ratio * nodes.size * RM, nodes.size))
-        nodes.wish[:] = nodes.size
-        self.start = nodes.size.copy()
-        self.changed[:] = self.sweep
-        self._grade(patch)
 
     def _balance(self, cells: Cells, split: np.ndarray) -> None:
         """Add to ``split`` what would be left more than one level coarser than a neighbour."""

@@ -15,16 +15,13 @@ from surfmesh.geometry.surface import Surface
 from surfmesh.sizing.size_bounds import SizeBounds
 from surfmesh.sizing.size_limits import SizeLimits
 from surfmesh.sizing.sizing import Sizing
-from surfmesh.sizing.turning_direction import turning_bound
-
-ROUND = 1.5
-"""Ratio of two sizes up to which their directions do not matter."""
+from surfmesh.sizing.turning_direction import ROUND, turning_bound, turning_rates
 
 
 class FieldNodes(NamedTuple):
     """What is known at n nodes of a size field; lengths are in model units.
 
-    The last four are empty where sizes are isotropic. Where they are not, ``size`` holds at
+    The last seven are empty where sizes are isotropic. Where they are not, ``size`` holds at
     right angles to ``along``.
     """
 
@@ -37,13 +34,16 @@ class FieldNodes(NamedTuple):
     long_wish: np.ndarray  # (n,)
     along: np.ndarray  # (n, 3) unit tangent
     jacobian: np.ndarray  # (n, 3, 2) r_x, r_y
+    asked: np.ndarray  # (n, 2) size and long before gradation
     curvature: np.ndarray  # (n, 2) principal curvatures
+    turning: np.ndarray  # (n, 2) rates at which ``along`` fans out and bends, see there
 
     @classmethod
     def isotropic(cls, size, wish, root, normal, point) -> "FieldNodes":
-        no = np.empty(0)
+        no, pairs = np.empty(0), np.empty((0, 2))
+        jacobian = np.empty((0, 3, 2))
         return cls(
-            size, wish, root, normal, point, no, no, np.empty((0, 3)), np.empty((0, 3, 2)), np.empty((0, 2))
+            size, wish, root, normal, point, no, no, np.empty((0, 3)), jacobian, pairs, pairs, pairs
         )
 
     @classmethod
@@ -151,8 +151,8 @@ class SizeLaw:
         return FieldNodes.isotropic(size, wish, root, forms.normal, point)
 
     def _anisotropic(
-        self, uv: np.ndarray, point: np.ndarray, ru: np.ndarray, rv: np.ndarray, rates: np.ndarray,
-        forms: FundamentalForms, root: np.ndarray,
+        self, uv: np.ndarray, point: np.ndarray, ru: np.ndarray, rv: np.ndarray,
+        rates: np.ndarray, forms: FundamentalForms, root: np.ndarray,
     ) -> FieldNodes:  # fmt: skip
         """Two sizes along the principal directions."""
         k = curvatures(forms)
@@ -167,8 +167,6 @@ class SizeLaw:
             wished = np.maximum(self.sizing.law_sizes(point), self.clamp[0])
             sizes = np.minimum(sizes, wished[:, None])
         size, long = sizes.min(axis=1), sizes.max(axis=1)
-        stretched = long > ROUND * size
-        long[stretched] = np.minimum(long, self._turned(uv, k, size, first[:, 0]))[stretched]
         wish, long_wish = size, long
         if self.limits is not None:
             size, long = self._limited_both(point, forms.normal, along, size, long)
@@ -177,12 +175,26 @@ class SizeLaw:
         jacobian = np.stack([ru * rates[:, :1], rv * rates[:, 1:]], axis=2)
         return FieldNodes(
             size, wish, root, forms.normal, point, long, long_wish, along, jacobian,
-            np.stack([k.k1, k.k2], axis=1),
-        )
+            np.stack([size, long], axis=1), np.stack([k.k1, k.k2], axis=1),
+            turning_rates(self.surface, uv, k, first[:, 0], size),
+        )  # fmt: skip
 
-    def _turned(self, uv, k, size, first):
-        curvature, directions = np.stack([k.k1, k.k2], axis=1), np.stack([k.d1, k.d2], axis=1)
-        return turning_bound(self.surface, uv, curvature, directions, size, first)
+    def turned(self, nodes: FieldNodes, size: np.ndarray) -> np.ndarray:
+        """Largest ``long`` (n,) where directions turn, of triangles that are ``size`` (n,) wide."""
+        k1, k2 = nodes.curvature.T
+        bound = turning_bound(nodes.turning, k1, k2, size, self.sizing.chord or 0.0)
+        return np.where(nodes.asked[:, 1] > ROUND * nodes.asked[:, 0], bound, np.inf)
+
+    def regained(self, nodes: FieldNodes, ratio: np.ndarray) -> np.ndarray:
+        """Sizes (n,) across ``along`` where no more than a ``ratio`` (n,) is made use of.
+
+        What a long edge takes of the chord where both curvatures are alike is free again.
+        """
+        k1, k2 = nodes.curvature.T
+        asked = self.bounds.principal(k1, k2).min(axis=1)
+        size = self.bounds.principal(k1, k2, ratio).min(axis=1)
+        untouched = nodes.asked[:, 0] >= asked  # by laws and limits
+        return np.where(untouched, np.maximum(nodes.asked[:, 0], size), nodes.asked[:, 0])
 
     def _least(self) -> float:
         """No limit goes below it; sizes that edges have been cut with hold as they are."""

@@ -5,50 +5,67 @@ the equations of Codazzi the lines of curvature along t bend within the surface 
 k_n / (K - k), and they fan out at the rate K_t / (K - k), where k_n is the derivative of k in
 the direction n (do Carmo, 4-3). In the frame of one point the surface has the cubic terms
 
-    k_t x^3 / 6 + k_n x^2 y / 2 + K_t x y^2 / 2,
+    k_n x^2 y / 2 + K_t x y^2 / 2,
 
-to be compared with K y^2 / 2 over a triangle of length x and width y = h: none of them may be
-large beside what the larger curvature takes of the chord.
+to be compared with K y^2 / 2 over a triangle of length x and width y: where they are no longer
+small beside what the larger curvature takes of the chord, a shorter triangle does with less.
 """
-
-import os
 
 import numpy as np
 
-from surfmesh.geometry.fundamental_forms import curvatures, forms_from_derivatives
+from surfmesh.geometry.fundamental_forms import (
+    PrincipalCurvatures,
+    curvatures,
+    forms_from_derivatives,
+)
 from surfmesh.geometry.surface import Surface
 
-BENDING, FANNING, SWELLING = eval(os.environ.get("KEPT", "[.7,.36,4.]"))
-"""Largest k_n L^2 / (K h), K_t L / K and k_t L^3 / (K h^2)."""
+BENDING, FANNING = 0.7, 0.33
+"""Largest k_n x^2 y and K_t x y^2, as a share of K y^2. At the latter the width that the curvature
+allows changes by 18% over the length, as fast as ``growth`` lets it by default: longer triangles
+would have to be narrower, all the way to where the direction has fanned out."""
+
+SAG = 6.0
+"""K y^2 in terms of ``chord`` where it decides: an eighth of it is used."""
+
+ROUND = 1.5
+"""Ratio of two sizes up to which their directions do not matter."""
 
 STEP = 0.02
 """In shorter sizes: the way over which curvatures are compared."""
 
 
-def turning_bound(
-    surface: Surface, uv: np.ndarray, k: np.ndarray, d: np.ndarray, size: np.ndarray,
-    first: np.ndarray,
+def turning_rates(
+    surface: Surface, uv: np.ndarray, k: PrincipalCurvatures, along_first: np.ndarray,
+    size: np.ndarray,
 ) -> np.ndarray:  # fmt: skip
-    """Largest length (n,) along the direction of low curvature, at least ``size`` (n,).
+    """|K_t| and |k_n| (n, 2), 1 / model unit^2, at uv (n, 2); zero where they are not known.
 
-    uv: (n, 2); k: (n, 2) principal curvatures, the larger number first; d: (n, 2, 2) their
-    directions in (u, v), of unit length; size: (n,) the shorter one; first: (n,) bool, is the
-    longer size along the first direction?
+    along_first: (n,) bool, is t the first principal direction? size: (n,) a length.
     """
-    rows, longer = np.arange(len(uv)), np.where(first, 0, 1)
+    values, directions = np.stack([k.k1, k.k2], axis=1), np.stack([k.d1, k.d2], axis=1)
+    rows, t = np.arange(len(uv)), np.where(along_first, 0, 1)
     step = STEP * size
-    here = k[rows, longer], k[rows, 1 - longer]
-    change = []
-    for direction in (d[rows, longer], d[rows, 1 - longer]):
-        there = _curvatures_at(surface, _inside(surface, uv, step[:, None] * direction))
-        for mine, axis in zip(here, (longer, 1 - longer)):
-            change.append(np.abs(there[rows, axis] - mine) / step)
-    swelling, fanning, bending, _ = np.nan_to_num(change)
-    large = np.abs(here[1])
+    rates = np.empty((len(uv), 2))
+    for column, (axis, changing) in enumerate(((t, 1 - t), (1 - t, t))):
+        there = _inside(surface, uv, step[:, None] * directions[rows, axis])
+        with np.errstate(all="ignore"):
+            change = _curvatures_at(surface, there)[rows, changing] - values[rows, changing]
+            rates[:, column] = np.abs(change) / step
+    return np.nan_to_num(rates, posinf=0.0)
+
+
+def turning_bound(
+    rates: np.ndarray, k1: np.ndarray, k2: np.ndarray, size: np.ndarray, chord: float
+) -> np.ndarray:
+    """Largest length (n,) of triangles that are ``size`` (n,) wide; at least that."""
+    fanning, bending = rates.T
+    sag = np.maximum(np.maximum(np.abs(k1), np.abs(k2)) * size**2, SAG * chord)
     with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
-        bound = np.minimum(FANNING * large / fanning, np.sqrt(BENDING * large * size / bending))
-        bound = np.fmin(bound, np.cbrt(SWELLING * large * size * size / swelling))
-    return np.fmax(np.nan_to_num(bound, nan=np.inf), size)
+        bound = np.fmin(
+            FANNING * sag / (fanning * size**2), np.sqrt(BENDING * sag / (bending * size))
+        )
+    return np.fmax(np.where(np.isnan(bound), np.inf, bound), size)
 
 
 def _inside(surface: Surface, uv: np.ndarray, step: np.ndarray) -> np.ndarray:
