@@ -25,7 +25,7 @@ BENDING, FANNING = 0.7, 0.33
 allows changes by 18% over the length, as fast as ``growth`` lets it by default: longer triangles
 would have to be narrower, all the way to where the direction has fanned out."""
 
-SAG = 6.0
+SAG, DECIDED = 6.0, 3.0
 """K y^2 in terms of ``chord`` where it decides: an eighth of it is used."""
 
 ROUND = 1.5
@@ -46,13 +46,18 @@ def turning_rates(
     values, directions = np.stack([k.k1, k.k2], axis=1), np.stack([k.d1, k.d2], axis=1)
     rows, t = np.arange(len(uv)), np.where(along_first, 0, 1)
     step = STEP * size
-    rates = np.empty((len(uv), 2))
+    low, high = np.array(surface.domain).T
+    rates = np.full((len(uv), 2), np.inf)
     for column, (axis, changing) in enumerate(((t, 1 - t), (1 - t, t))):
-        there = _inside(surface, uv, step[:, None] * directions[rows, axis])
-        with np.errstate(all="ignore"):
-            change = _curvatures_at(surface, there)[rows, changing] - values[rows, changing]
-            rates[:, column] = np.abs(change) / step
-    return np.nan_to_num(rates, posinf=0.0)
+        for way in (1.0, -1.0):  # a node may lie on a knot, where curvatures jump
+            there = uv + way * step[:, None] * directions[rows, axis]
+            inside = ((there >= low) & (there <= high)).all(axis=1)
+            with np.errstate(all="ignore"):
+                around = _curvatures_at(surface, np.clip(there, low, high))
+                rate = np.abs(around[rows, changing] - values[rows, changing]) / step
+            rate[~inside] = np.inf
+            rates[:, column] = np.fmin(rates[:, column], rate)
+    return np.where(np.isfinite(rates), rates, 0.0)
 
 
 def turning_bound(
@@ -60,21 +65,14 @@ def turning_bound(
 ) -> np.ndarray:
     """Largest length (n,) of triangles that are ``size`` (n,) wide; at least that."""
     fanning, bending = rates.T
-    sag = np.maximum(np.maximum(np.abs(k1), np.abs(k2)) * size**2, SAG * chord)
+    sag = np.maximum(np.abs(k1), np.abs(k2)) * size**2
     with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
+        spare = np.fmax(DECIDED * chord / sag, 1.0) ** 2
+        sag = np.maximum(sag, SAG * chord) * spare
         bound = np.fmin(
             FANNING * sag / (fanning * size**2), np.sqrt(BENDING * sag / (bending * size))
         )
     return np.fmax(np.where(np.isnan(bound), np.inf, bound), size)
-
-
-def _inside(surface: Surface, uv: np.ndarray, step: np.ndarray) -> np.ndarray:
-    """A step (n, 2) from uv (n, 2), or the opposite one where it would leave the domain."""
-    low, high = np.array(surface.domain).T
-    there = uv + step
-    outside = ((there < low) | (there > high)).any(axis=1)
-    there[outside] = uv[outside] - step[outside]
-    return np.clip(there, low, high)
 
 
 def _curvatures_at(surface: Surface, uv: np.ndarray) -> np.ndarray:
