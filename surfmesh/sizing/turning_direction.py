@@ -72,7 +72,8 @@ def turning_bound(
         bound = np.fmin(
             FANNING * sag / (fanning * size**2), np.sqrt(BENDING * sag / (bending * size))
         )
-    return np.fmax(np.where(np.isnan(bound), np.inf, bound), size)
+    bound[np.isnan(bound) | (size <= 2.0 * chord)] = np.inf  # such a triangle is within chord
+    return np.fmax(bound, size)
 
 
 def _curvatures_at(surface: Surface, uv: np.ndarray) -> np.ndarray:
