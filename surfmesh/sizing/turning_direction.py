@@ -20,7 +20,7 @@ from surfmesh.geometry.fundamental_forms import (
 )
 from surfmesh.geometry.surface import Surface
 
-BENDING, FANNING = 0.7, 0.33
+BENDING, FANNING = 0.7, 0.29
 """Largest k_n x^2 y and K_t x y^2, as a share of K y^2. At the latter the width that the curvature
 allows changes by 18% over the length, as fast as ``growth`` lets it by default: longer triangles
 would have to be narrower, all the way to where the direction has fanned out."""
