@@ -206,6 +206,7 @@ class _Builder:
         if self.nodes.is_anisotropic:
             self._settle(patch)
         self._blunt_poles()
+        self.nodes = self.nodes.in_order()
         tree.append(cells.index)  # every leaf is split once more, onto its test nodes
         return SizeField(self.scaling, self._background(tree, patch), self.law.sizing)
 
@@ -282,7 +283,7 @@ class _Builder:
 
     def _grade_anew(self, patch: np.ndarray, size: np.ndarray, long: np.ndarray) -> None:
         """Gradation of other sizes, as if all nodes were new."""
-        self.nodes.size[:], self.nodes.long[:] = size, np.maximum(long, size)
+        self.nodes.size[:], self.nodes.long[:] = size, long
         self.changed[:] = self.sweep
         self._grade(patch)
 

@@ -22,7 +22,7 @@ class FieldNodes(NamedTuple):
     """What is known at n nodes of a size field; lengths are in model units.
 
     The last seven are empty where sizes are isotropic. Where they are not, ``size`` holds at
-    right angles to ``along``.
+    right angles to ``along`` and is the shorter one, before gradation.
     """
 
     size: np.ndarray  # (n,) wanted edge length
@@ -58,6 +58,16 @@ class FieldNodes(NamedTuple):
     def joined_with(self, others: "FieldNodes") -> "FieldNodes":
         """These nodes, then the others."""
         return FieldNodes(*(np.concatenate(pair) for pair in zip(self, others)))
+
+    def in_order(self) -> "FieldNodes":
+        """The same metric with the longer size along ``along``: gradation may have turned them."""
+        if not self.is_anisotropic:
+            return self
+        other = self.long < self.size
+        along = self.along.copy()
+        along[other] = np.cross(self.normal, self.along)[other]
+        size, long = np.minimum(self.size, self.long), np.maximum(self.size, self.long)
+        return self._replace(size=size, long=long, along=along)
 
     def inverse_sizes(self) -> np.ndarray:
         """A = H^-1 = M^(1/2) (n, 3) in the scaled plane."""
