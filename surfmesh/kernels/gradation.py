@@ -19,6 +19,8 @@ from surfmesh.kernels.jit import kernel
 ROUNDING = 1e-9  # a size is not lowered for less
 TURN_SLOPE = 3.0  # how much faster than sizes a metric may change because its direction turns
 
+_NONE = np.empty(0, np.uint8)
+
 
 class Metric(NamedTuple):
     """What makes sizes anisotropic: h holds at right angles to ``along``. Empty if isotropic."""
@@ -26,6 +28,7 @@ class Metric(NamedTuple):
     long: np.ndarray  # (nodes,) size along ``along``; gradation may make it the shorter one
     along: np.ndarray  # (nodes, 3) unit vector in the tangent plane
     normal: np.ndarray  # (nodes, 3) unit, or zero where there is none: isotropic there
+    round: np.ndarray = _NONE  # (nodes,) uint8: ``along`` means nothing, stay isotropic; or empty
 
 
 @kernel
@@ -119,6 +122,8 @@ def _bind(h, metric, r, slope, a, b, changed, sweep):
     x = max(x, need)
     if need == most:
         y = max(y, min(f * my + (f * mxy) ** 2 / max(x - f * mx, 1e-12 * most), most))
+    if len(metric.round) > 0 and metric.round[b] != 0:
+        x = y = max(x, y)
     long = min(1.0 / math.sqrt(x), lb)
     short = min(1.0 / math.sqrt(y), hb)
     change = max(lb / long, hb / short) - 1.0

@@ -279,7 +279,8 @@ class _Builder:
         new = np.full(len(self.nodes.size) - len(self.changed), self.sweep, np.int32)
         self.changed = np.concatenate([self.changed, new])
         nodes = self.nodes
-        self._spread(patch, nodes.size, Metric(nodes.long, nodes.along, nodes.normal))
+        metric = Metric(nodes.long, nodes.along, nodes.normal, nodes.is_round)
+        self._spread(patch, nodes.size, metric)
 
     def _grade_anew(self, patch: np.ndarray, size: np.ndarray, long: np.ndarray) -> None:
         """Gradation of other sizes, as if all nodes were new."""

@@ -17,6 +17,9 @@ from surfmesh.sizing.size_limits import SizeLimits
 from surfmesh.sizing.sizing import Sizing
 from surfmesh.sizing.turning_direction import ROUND, turning_bound, turning_rates
 
+ALIKE = 1.01
+"""Ratio up to which they are one size: on flat places, where directions are round-off."""
+
 
 class FieldNodes(NamedTuple):
     """What is known at n nodes of a size field; lengths are in model units.
@@ -58,6 +61,12 @@ class FieldNodes(NamedTuple):
     def joined_with(self, others: "FieldNodes") -> "FieldNodes":
         """These nodes, then the others."""
         return FieldNodes(*(np.concatenate(pair) for pair in zip(self, others)))
+
+    @property
+    def is_round(self) -> np.ndarray:
+        """Where (n,) uint8 so similar sizes are asked for that ``along`` means nothing."""
+        size, long = self.asked.T
+        return (long <= ALIKE * size).astype(np.uint8)
 
     def in_order(self) -> "FieldNodes":
         """The same metric with the longer size along ``along``: gradation may have turned them."""
