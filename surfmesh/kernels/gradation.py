@@ -28,7 +28,7 @@ class Metric(NamedTuple):
     long: np.ndarray  # (nodes,) size along ``along``; gradation may make it the shorter one
     along: np.ndarray  # (nodes, 3) unit vector in the tangent plane
     normal: np.ndarray  # (nodes, 3) unit, or zero where there is none: isotropic there
-    round: np.ndarray = _NONE  # (nodes,) uint8: ``along`` means nothing, stay isotropic; or empty
+    round: np.ndarray = _NONE  # (nodes,) uint8: asked for one size: it stays the longer one; or empty
 
 
 @kernel
@@ -116,14 +116,14 @@ def _bind(h, metric, r, slope, a, b, changed, sweep):
     y = max(1.0 / (hb * hb), g * my)
     x = max(1.0 / (lb * lb), g * mx)
     most = 1.0 / (short * short)  # no direction needs less than the smallest size of a, grown
-    need = most
-    if y > f * my:
+    need = 0.0
+    if y > f * my:  # not between two images of one point
         need = min(f * mx + (f * mxy) ** 2 / (y - f * my), most)
     x = max(x, need)
     if need == most:
         y = max(y, min(f * my + (f * mxy) ** 2 / max(x - f * mx, 1e-12 * most), most))
-    if len(metric.round) > 0 and metric.round[b] != 0:
-        x = y = max(x, y)
+    if x > y and len(metric.round) > 0 and metric.round[b] != 0:
+        y = x
     long = min(1.0 / math.sqrt(x), lb)
     short = min(1.0 / math.sqrt(y), hb)
     change = max(lb / long, hb / short) - 1.0

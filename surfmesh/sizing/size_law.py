@@ -18,7 +18,7 @@ from surfmesh.sizing.sizing import Sizing
 from surfmesh.sizing.turning_direction import ROUND, turning_bound, turning_rates
 
 ALIKE = 1.01
-"""Ratio up to which they are one size: on flat places, where directions are round-off."""
+"""Ratio up to which they are one size: on flat places ``along`` is round-off."""
 
 
 class FieldNodes(NamedTuple):
@@ -64,7 +64,7 @@ class FieldNodes(NamedTuple):
 
     @property
     def is_round(self) -> np.ndarray:
-        """Where (n,) uint8 so similar sizes are asked for that ``along`` means nothing."""
+        """Where (n,) uint8 one size was asked for: gradation may stretch it, but only ``along``."""
         size, long = self.asked.T
         return (long <= ALIKE * size).astype(np.uint8)
 
