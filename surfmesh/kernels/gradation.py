@@ -28,7 +28,7 @@ class Metric(NamedTuple):
     long: np.ndarray  # (nodes,) size along ``along``; gradation may make it the shorter one
     along: np.ndarray  # (nodes, 3) unit vector in the tangent plane
     normal: np.ndarray  # (nodes, 3) unit, or zero where there is none: isotropic there
-    round: np.ndarray = _NONE  # (nodes,) uint8: asked for one size: it stays the longer one; or empty
+    round: np.ndarray = _NONE  # (nodes,) uint8: ``long`` stays the longer one here; or empty
 
 
 @kernel
