@@ -19,13 +19,16 @@ from surfmesh.kernels.jit import kernel
 ROUNDING = 1e-9  # a size is not lowered for less
 TURN_SLOPE = 3.0  # how much faster than sizes a metric may change because its direction turns
 
+_NONE = np.empty(0, np.uint8)
+
 
 class Metric(NamedTuple):
     """What makes sizes anisotropic: h holds at right angles to ``along``. Empty if isotropic."""
 
-    long: np.ndarray  # (nodes,) size along ``along``, at least h
+    long: np.ndarray  # (nodes,) size along ``along``; gradation may make it the shorter one
     along: np.ndarray  # (nodes, 3) unit vector in the tangent plane
     normal: np.ndarray  # (nodes, 3) unit, or zero where there is none: isotropic there
+    round: np.ndarray = _NONE  # (nodes,) uint8: ``long`` stays the longer one here; or empty
 
 
 @kernel
@@ -94,15 +97,16 @@ def _bind(h, metric, r, slope, a, b, changed, sweep):
     along /= metric.long[a]
     distance = math.sqrt(along * along + left / (h[a] * h[a]))
     growth = 1.0 + slope * distance
-    short = growth * h[a]
+    short = growth * min(h[a], metric.long[a])
     hb, lb = h[b], metric.long[b]
-    if lb <= short:
+    if max(hb, lb) <= short:
         return 0.0
     n = metric.normal[b]
     if n[0] == 0.0 and n[1] == 0.0 and n[2] == 0.0:
-        h[b] = metric.long[b] = short
+        change = max(hb, lb) / short - 1.0
+        h[b], metric.long[b] = min(hb, short), min(lb, short)
         changed[b] = sweep
-        return lb / short - 1.0
+        return change
     c, s = _carried(metric, a, b)
     # the metric of a in the axes of b: x for its longer, y for its shorter one
     x, y = 1.0 / (metric.long[a] * metric.long[a]), 1.0 / (h[a] * h[a])
@@ -111,16 +115,21 @@ def _bind(h, metric, r, slope, a, b, changed, sweep):
     g = 1.0 / (growth * growth)
     y = max(1.0 / (hb * hb), g * my)
     x = max(1.0 / (lb * lb), g * mx)
-    if y > f * my:
-        x = max(x, f * mx + (f * mxy) ** 2 / (y - f * my))
-    if x > y:
-        x = y = max(y, 1.0 / (short * short))
+    most = 1.0 / (short * short)  # no direction needs less than the smallest size of a, grown
+    need = 0.0
+    if y > f * my:  # not between two images of one point
+        need = min(f * mx + (f * mxy) ** 2 / (y - f * my), most)
+    x = max(x, need)
+    if need == most:
+        y = max(y, min(f * my + (f * mxy) ** 2 / max(x - f * mx, 1e-12 * most), most))
+    if x > y and len(metric.round) > 0 and metric.round[b] != 0:
+        y = x
     long = min(1.0 / math.sqrt(x), lb)
     short = min(1.0 / math.sqrt(y), hb)
     change = max(lb / long, hb / short) - 1.0
     if change <= ROUNDING:
         return 0.0
-    h[b], metric.long[b] = short, max(long, short)
+    h[b], metric.long[b] = short, long
     changed[b] = sweep
     return change
 

@@ -5,6 +5,7 @@ import numpy as np
 from surfmesh.geometry.fundamental_forms import curvatures, forms_from_derivatives
 from surfmesh.geometry.surface import Surface
 from surfmesh.sizing.size_bounds import SizeBounds
+from surfmesh.sizing.turning_direction import ROUND, turning_bound, turning_rates
 
 
 def size_along(
@@ -19,6 +20,11 @@ def size_along(
     forms = forms_from_derivatives(ru, rv, *second)
     k = curvatures(forms)
     sizes = bounds.principal(k.k1, k.k2)
+    shorter, along_first = sizes.min(axis=1), sizes[:, 0] > sizes[:, 1]
+    rates = turning_rates(surface, uv, k, along_first, shorter)
+    bound = turning_bound(rates, k.k1, k.k2, shorter, bounds.sizing.chord or 0.0)
+    stretched = sizes.max(axis=1) > ROUND * shorter
+    sizes = np.where(stretched[:, None], np.minimum(sizes, bound[:, None]), sizes)
     cosines = [
         np.einsum("ij,ij->i", d[:, :1] * ru + d[:, 1:] * rv, directions) for d in (k.d1, k.d2)
     ]

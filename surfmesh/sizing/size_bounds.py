@@ -91,11 +91,16 @@ class SizeBounds:
             return self.principal(k1, k2).min(axis=1)
         return self.from_curvature(k1, k2)
 
-    def principal(self, k1: np.ndarray, k2: np.ndarray) -> np.ndarray:
-        """Clamped sizes (n, 2) along the directions of k1 and k2, before ``size`` and gradation."""
+    def principal(
+        self, k1: np.ndarray, k2: np.ndarray, ratio: np.ndarray | float | None = None
+    ) -> np.ndarray:
+        """Clamped sizes (n, 2) along the directions of k1 and k2, before ``size`` and gradation.
+
+        ratio: (n,) largest ratio of the two, instead of ``anisotropy``.
+        """
         k = np.stack([k1, k2], axis=1)
         sizes = np.full(k.shape, np.inf)
-        ratio = self.sizing.anisotropy
+        ratio = self.sizing.anisotropy if ratio is None else ratio
         if self.sizing.chord is not None:
             sizes = np.stack(principal_chord_sizes(k1, k2, self.sizing.chord, ratio), axis=1)
         if self.sizing.angle is not None:

@@ -58,6 +58,11 @@ where they depend on the direction too, so that gradation brings kinks of its ow
 POLE_DISTANCE = 0.9
 """In edges: the first ring of triangles around a pole lies about there."""
 
+REACHED = 1.1
+"""How much more than the reached ratio of the two sizes the shorter one leaves room for."""
+
+_NO_DIRECTIONS = np.empty(0), np.empty((0, 3)), np.empty((0, 3))
+
 MAX_CELLS = 800_000
 MAX_ROUNDS = 60
 SWEEPS, MAX_CHUNKS = 16, 400
@@ -213,7 +218,10 @@ class _Builder:
             fresh = np.concatenate([np.zeros((~split).sum(), bool), np.ones(len(children), bool)])
             patch = np.concatenate([patch[~split], self._patches(children)])
             cells = cells.chosen(~split).joined_with(children)
+        if self.nodes.is_anisotropic:
+            self._settle(patch)
         self._blunt_poles()
+        self.nodes = self.nodes.in_order()
         tree.append(cells.index)  # every leaf is split once more, onto its test nodes
         return SizeField(self.scaling, self._background(tree, patch), self.law.sizing)
 
@@ -286,11 +294,37 @@ class _Builder:
         new = np.full(len(self.nodes.size) - len(self.changed), self.sweep, np.int32)
         self.changed = np.concatenate([self.changed, new])
         nodes = self.nodes
-        metric = Metric(nodes.long, nodes.along, nodes.normal)
+        metric = Metric(nodes.long, nodes.along, nodes.normal, nodes.is_round)
+        self._spread(patch, nodes.size, metric)
+
+    def _grade_anew(self, patch: np.ndarray, size: np.ndarray, long: np.ndarray) -> None:
+        """Gradation of other sizes, as if all nodes were new."""
+        self.nodes.size[:], self.nodes.long[:] = size, long
+        self.changed[:] = self.sweep
+        self._grade(patch)
+
+    def _settle(self, patch: np.ndarray) -> None:
+        """Longer sizes where directions turn, and shorter ones where the longer are not reached.
+
+        The width of a triangle is then known: it is at most what growth allows in any metric.
+        """
+        nodes, round_metric = self.nodes, Metric(*_NO_DIRECTIONS)
+        size, long = nodes.asked.T.copy()
+        width = size.copy()
+        self.changed[:] = self.sweep
+        self._spread(patch, width, round_metric)
+        long = np.minimum(long, self.law.turned(nodes, width))
+        self._grade_anew(patch, size, long)
+        ratio = REACHED * nodes.long / nodes.size
+        size = self.law.regained(nodes, ratio)
+        self._grade_anew(patch, size, np.minimum(long, ratio * size))
+
+    def _spread(self, patch: np.ndarray, size: np.ndarray, metric: Metric) -> None:
+        nodes = self.nodes
         for _ in range(MAX_CHUNKS):
-            order = np.argsort(nodes.size[patch].min(axis=1))
+            order = np.argsort(size[patch].min(axis=1))
             following = grade(
-                patch[order], self.joined, nodes.point, self.slope, nodes.size, metric,
+                patch[order], self.joined, nodes.point, self.slope, size, metric,
                 self.changed, self.sweep + 1, SWEEPS,
             )  # fmt: skip
             self.sweep = abs(following)

@@ -15,16 +15,17 @@ from surfmesh.geometry.surface import Surface
 from surfmesh.sizing.size_bounds import SizeBounds
 from surfmesh.sizing.size_limits import SizeLimits
 from surfmesh.sizing.sizing import Sizing
+from surfmesh.sizing.turning_direction import ROUND, turning_bound, turning_rates
 
-ROUND = 1.5
-"""Ratio of two sizes up to which their directions do not matter."""
+ALIKE = 1.01
+"""Ratio up to which they are one size: on flat places ``along`` is round-off."""
 
 
 class FieldNodes(NamedTuple):
     """What is known at n nodes of a size field; lengths are in model units.
 
-    The last four are empty where sizes are isotropic. Where they are not, ``size`` holds at
-    right angles to ``along``.
+    The last seven are empty where sizes are isotropic. Where they are not, ``size`` holds at
+    right angles to ``along`` and is the shorter one, before gradation.
     """
 
     size: np.ndarray  # (n,) wanted edge length
@@ -36,12 +37,16 @@ class FieldNodes(NamedTuple):
     long_wish: np.ndarray  # (n,)
     along: np.ndarray  # (n, 3) unit tangent
     jacobian: np.ndarray  # (n, 3, 2) r_x, r_y
+    asked: np.ndarray  # (n, 2) size and long before gradation
+    curvature: np.ndarray  # (n, 2) principal curvatures
+    turning: np.ndarray  # (n, 2) rates at which ``along`` fans out and bends, see there
 
     @classmethod
     def isotropic(cls, size, wish, root, normal, point) -> "FieldNodes":
-        no = np.empty(0)
+        no, pairs = np.empty(0), np.empty((0, 2))
+        jacobian = np.empty((0, 3, 2))
         return cls(
-            size, wish, root, normal, point, no, no, np.empty((0, 3)), np.empty((0, 3, 2))
+            size, wish, root, normal, point, no, no, np.empty((0, 3)), jacobian, pairs, pairs, pairs
         )
 
     @classmethod
@@ -56,6 +61,22 @@ class FieldNodes(NamedTuple):
     def joined_with(self, others: "FieldNodes") -> "FieldNodes":
         """These nodes, then the others."""
         return FieldNodes(*(np.concatenate(pair) for pair in zip(self, others)))
+
+    @property
+    def is_round(self) -> np.ndarray:
+        """Where (n,) uint8 one size was asked for: gradation may stretch it, but only ``along``."""
+        size, long = self.asked.T
+        return (long <= ALIKE * size).astype(np.uint8)
+
+    def in_order(self) -> "FieldNodes":
+        """The same metric with the longer size along ``along``: gradation may have turned them."""
+        if not self.is_anisotropic:
+            return self
+        other = self.long < self.size
+        along = self.along.copy()
+        along[other] = np.cross(self.normal, self.along)[other]
+        size, long = np.minimum(self.size, self.long), np.maximum(self.size, self.long)
+        return self._replace(size=size, long=long, along=along)
 
     def inverse_sizes(self) -> np.ndarray:
         """A = H^-1 = M^(1/2) (n, 3) in the scaled plane."""
@@ -132,7 +153,7 @@ class SizeLaw:
         forms = forms_from_derivatives(ru, rv, *second)
         root = root_of_form(forms, rates)
         if self.sizing.is_anisotropic:
-            return self._anisotropic(point, ru, rv, rates, forms, root)
+            return self._anisotropic(uv, point, ru, rv, rates, forms, root)
         size = np.full(len(uv), self.clamp[1])
         if self.follows_curvature:
             k = curvatures(forms)
@@ -149,8 +170,8 @@ class SizeLaw:
         return FieldNodes.isotropic(size, wish, root, forms.normal, point)
 
     def _anisotropic(
-        self, point: np.ndarray, ru: np.ndarray, rv: np.ndarray, rates: np.ndarray,
-        forms: FundamentalForms, root: np.ndarray,
+        self, uv: np.ndarray, point: np.ndarray, ru: np.ndarray, rv: np.ndarray,
+        rates: np.ndarray, forms: FundamentalForms, root: np.ndarray,
     ) -> FieldNodes:  # fmt: skip
         """Two sizes along the principal directions."""
         k = curvatures(forms)
@@ -172,8 +193,27 @@ class SizeLaw:
                 wish, long_wish = size, long
         jacobian = np.stack([ru * rates[:, :1], rv * rates[:, 1:]], axis=2)
         return FieldNodes(
-            size, wish, root, forms.normal, point, long, long_wish, along, jacobian
-        )
+            size, wish, root, forms.normal, point, long, long_wish, along, jacobian,
+            np.stack([size, long], axis=1), np.stack([k.k1, k.k2], axis=1),
+            turning_rates(self.surface, uv, k, first[:, 0], size),
+        )  # fmt: skip
+
+    def turned(self, nodes: FieldNodes, size: np.ndarray) -> np.ndarray:
+        """Largest ``long`` (n,) where directions turn, of triangles that are ``size`` (n,) wide."""
+        k1, k2 = nodes.curvature.T
+        bound = turning_bound(nodes.turning, k1, k2, size, self.sizing.chord or 0.0)
+        return np.where(nodes.asked[:, 1] > ROUND * nodes.asked[:, 0], bound, np.inf)
+
+    def regained(self, nodes: FieldNodes, ratio: np.ndarray) -> np.ndarray:
+        """Sizes (n,) across ``along`` where no more than a ``ratio`` (n,) is made use of.
+
+        What a long edge takes of the chord where both curvatures are alike is free again.
+        """
+        k1, k2 = nodes.curvature.T
+        asked = self.bounds.principal(k1, k2).min(axis=1)
+        size = self.bounds.principal(k1, k2, ratio).min(axis=1)
+        untouched = nodes.asked[:, 0] >= asked  # by laws and limits
+        return np.where(untouched, np.maximum(nodes.asked[:, 0], size), nodes.asked[:, 0])
 
     def _least(self) -> float:
         """No limit goes below it; sizes that edges have been cut with hold as they are."""

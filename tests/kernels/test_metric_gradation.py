@@ -48,7 +48,7 @@ def test_every_metric_contains_its_neighbours_grown(seed, slope, ratio, turn):
     h, long, t = h0.copy(), long0.copy(), along.copy()
     changed = np.ones(len(h), np.int32)
     assert grade(patch, NONE, r, slope, h, Metric(long, t, normal), changed, 2, 4000) > 0
-    assert (h <= h0).all() and (long <= long0).all() and (long >= h).all()
+    assert (h <= h0).all() and (long <= long0).all()
     np.testing.assert_array_equal(t, along)  # directions are the surface's, not changed
     for a, b in neighbours(patch):
         carried = turned(along[a], normal[a], normal[b])
