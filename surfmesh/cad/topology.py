@@ -252,8 +252,6 @@ class _Walk:
         if not loops:
             raise CadError(f"{called} has no boundary; give the face its edges in the CAD system")
         surface = surface_of(BRep_Tool.Surface_s(face), _box(face, loops, called), called)
-        properties = GProp_GProps()
-        BRepGProp.SurfaceProperties_s(face, properties, _accuracy([surface.kind]))
         self.faces.append(
             CadFace(
                 surface=surface,
@@ -262,7 +260,7 @@ class _Walk:
                 tolerance=BRep_Tool.Tolerance_s(face),
                 name=name,
                 colour=own or colour,
-                area=abs(properties.Mass()),
+                area=_area(face, surface.kind),
                 kind=surface.kind,
             )
         )
@@ -476,6 +474,15 @@ def _below(shape: TopoDS_Shape) -> Iterator[TopoDS_Shape]:
 
 def _accuracy(kinds: list[str]) -> float:
     return EXACT if ELEMENTARY.issuperset(kinds) else EXACT_FREE_FORM
+
+
+def _area(face: TopoDS_Face, kind: str) -> float:
+    properties = GProp_GProps()
+    if kind == "extrusion":  # there adaptive integration misses more than it says, up to 2 %
+        BRepGProp.SurfaceProperties_s(face, properties)
+    else:
+        BRepGProp.SurfaceProperties_s(face, properties, _accuracy([kind]))
+    return abs(properties.Mass())
 
 
 def _is_flat(face: TopoDS_Face) -> bool:
