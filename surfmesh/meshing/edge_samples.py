@@ -26,6 +26,7 @@ from surfmesh.sizing.direction_size import size_along
 from surfmesh.sizing.model_sizing import ModelSizing
 from surfmesh.sizing.size_bounds import DEFAULT_ANGLE, FINEST_SIZE, LEAST_OF_CHORD, SizeBounds
 from surfmesh.sizing.sizing import Sizing
+from surfmesh.sizing.turning_direction import EVEN
 
 STRAIGHT_SAMPLES, CURVED_SAMPLES = 33, 129
 _STRAIGHT, _CURVED = (np.linspace(0.0, 1.0, n) for n in (STRAIGHT_SAMPLES, CURVED_SAMPLES))
@@ -51,9 +52,6 @@ COLLAPSED = 2e-6
 HIDDEN, MOST_HALVINGS, MOST_SAMPLES = 0.7, 30, 20_000
 """Between samples, laws may ask for this share of the sizes at them; how hard that is pursued."""
 
-EVEN = ("cylinder", "sphere")
-"""Kinds of surfaces whose curvature is the same everywhere."""
-
 
 @dataclass(frozen=True)
 class EdgeSamples:
@@ -68,10 +66,7 @@ class EdgeSamples:
     wish: np.ndarray
     """(n,) wanted edge lengths, not graded."""
     tangent: np.ndarray
-    """(n, 3) unit."""
-    metric: np.ndarray
-    """(n,) what curvature allows along the edge, before anything else, sizes by name among it,
-    lowers it. Both are empty where sizes do not depend on the direction."""
+    """(n, 3) unit; empty where sizes do not depend on the direction."""
     turn: np.ndarray
     """(e,) by how much the tangent turns along each edge, radians."""
     has_twin: np.ndarray
@@ -84,7 +79,7 @@ class EdgeSamples:
     @property
     def is_anisotropic(self) -> bool:
         """Do sizes depend on the direction?"""
-        return len(self.metric) > 0
+        return len(self.tangent) > 0
 
     def of(self, edge: int) -> slice:
         """The samples of one edge."""
@@ -103,20 +98,17 @@ def sample_edges(model: CadModel, sizing: ModelSizing) -> EdgeSamples:
     for number, face in enumerate(model.faces):
         for coedge in face.coedges:
             uses[coedge.edge].append((number, coedge))
-    shares, points, wishes, tangents, metrics = [], [], [], [], []
+    shares, points, wishes, tangents = [], [], [], []
     count = np.zeros(len(model.edges) + 1, np.int64)
     turn = np.zeros(len(model.edges))
     for number, edge in enumerate(model.edges):
         if collapses(model, edge):
             continue
-        share, place, wish, tangent, metric, turn[number] = _sampled(
-            model, number, uses[number], sizing
-        )
+        share, place, wish, tangent, turn[number] = _sampled(model, number, uses[number], sizing)
         shares.append(share)
         points.append(place)
         wishes.append(wish)
         tangents.append(tangent)
-        metrics.append(metric)
         count[number + 1] = len(share)
     first = np.cumsum(count)
     edges_of_face = tuple(
@@ -130,7 +122,6 @@ def sample_edges(model: CadModel, sizing: ModelSizing) -> EdgeSamples:
         np.concatenate(points) if points else np.empty((0, 3)),
         np.concatenate(wishes) if wishes else np.empty(0),
         np.concatenate(tangents) if tangents else np.empty((0, 3)),
-        np.concatenate(metrics) if metrics else np.empty(0),
         turn,
         _has_twin(model, first, turn, vertex),
         vertex,
@@ -172,8 +163,8 @@ def vertex_numbers(model: CadModel) -> np.ndarray:
 
 def _sampled(
     model: CadModel, number: int, uses: list[tuple[int, CadCoedge]], sizing: ModelSizing
-) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray, np.ndarray, float]:
-    """share (n,), points (n, 3), wish (n,), tangent (n, 3), metric (n,), turn.
+) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray, float]:
+    """share (n,), points (n, 3), wish (n,), tangent (n, 3), turn.
 
     Faces that differ in their wishes are heard one after the other, then the edge itself.
     """
@@ -201,23 +192,16 @@ def _sampled(
         cosine = np.einsum("ij,ij->i", tangent[1:], tangent[:-1])
         turn = float(np.arccos(np.clip(cosine, -1.0, 1.0)).sum())
     wish = np.full(len(share), max(edge.length, NARROWEST * model.diagonal))
-    metric, directed = np.full(len(share), np.inf), sizing.is_anisotropic
     for own, coedges in by_wishes.values():
         found = _wish(model, own, share, points, derivatives, coedges)
         if own.is_anisotropic:
             along = _metric_wish(model, own, share, tangent, coedges)
             np.minimum(found, along, out=found)
-        if directed:
-            size, largest = sizing.base.size, sizing.base.max_size
-            if not own.is_anisotropic or own.size is not size or own.max_size != largest:
-                unnamed = own.replaced(size=size, max_size=largest)
-                along = _metric_wish(model, unnamed, share, tangent, coedges)
-            np.minimum(metric, along, out=metric)
         np.minimum(wish, np.maximum(found, _finest(model, own)), out=wish)
-    if not directed:
-        tangent, metric = np.empty((0, 3)), np.empty(0)
+    if not sizing.is_anisotropic:
+        tangent = np.empty((0, 3))
     finest = min(_finest(model, own) for own, _ in by_wishes.values())
-    return share, points, np.maximum(wish, finest, out=wish), tangent, metric, turn
+    return share, points, np.maximum(wish, finest, out=wish), tangent, turn
 
 
 def _finest(model: CadModel, sizing: Sizing) -> float:

@@ -142,6 +142,16 @@ def _wishes_along(
     return SizeLimits(places, sizes, job.sizing.gradient, in_space=in_space)
 
 
+def edge_wishes(job: FaceJob) -> SizeLimits | None:
+    """What the sizes inside a face ask for along its edges, before it is meshed."""
+    try:
+        surface, field = face_field(job)
+        loops, fixed, _ = _loops(job, field)
+        return _wishes_along(job, surface, field, loops, fixed)
+    except SurfmeshError:
+        return None
+
+
 def _metric_lengths(field: SizeField, xy: np.ndarray, way: np.ndarray) -> np.ndarray:
     """|H^-1 way| (n,) for ways (n, 2) at points (n, 2) of the scaled plane."""
     h = field.tensors(xy)

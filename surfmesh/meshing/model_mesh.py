@@ -7,7 +7,7 @@ edges cut once -> one job a face -> faces meshed -> joined by node numbers
 """
 
 import math
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Mapping
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import replace
 from functools import partial
@@ -24,7 +24,7 @@ from surfmesh.meshing.estimation import Estimate
 from surfmesh.meshing.explanation import Explanation, explain_model
 from surfmesh.meshing.face_data import FaceJob, FaceMesh, Piece
 from surfmesh.meshing.face_gaps import with_face_gaps
-from surfmesh.meshing.face_job import mesh_face
+from surfmesh.meshing.face_job import edge_wishes, mesh_face
 from surfmesh.meshing.face_sizings import face_sizings
 from surfmesh.meshing.model_estimate import model_counts, require_model_within
 from surfmesh.meshing.model_groups import groups_of
@@ -178,17 +178,22 @@ def _unmeshed(
     samples = sample_edges(model, wanted)
     of_face = face_sizings(model, samples, wanted)
     nodes = cut_edges(model, wanted.base, samples, {})
-    return wanted, samples, of_face, _jobs(model, nodes, samples, of_face, True)
+    jobs = _jobs(model, nodes, samples, of_face, True)
+    if wanted.is_anisotropic:  # long edges are cut again, and many of them
+        asked = {k: found for k, job in enumerate(jobs) if (found := edge_wishes(job))}
+        nodes = cut_edges(model, wanted.base, samples, asked, nodes)
+        jobs = _jobs(model, nodes, samples, of_face, True, asked)
+    return wanted, samples, of_face, jobs
 
 
 def _jobs(
     model: CadModel, nodes: list[EdgeNodes | None], samples: EdgeSamples, sizings: list[Sizing],
-    optimise: bool,
+    optimise: bool, limits: Mapping[int, SizeLimits] | None = None,
 ) -> list[FaceJob]:  # fmt: skip
     """The jobs of all faces before anything is known of their meshes."""
     return [
-        _job(model, face, nodes, samples, own, None, optimise)
-        for face, own in zip(model.faces, sizings)
+        _job(model, face, nodes, samples, own, (limits or {}).get(number), optimise)
+        for number, (face, own) in enumerate(zip(model.faces, sizings))
     ]
 
 

@@ -28,6 +28,7 @@ from surfmesh.sizing.size_law import FieldNodes, SizeLaw, TensorLaw
 from surfmesh.sizing.size_limits import SizeLimits
 from surfmesh.sizing.sizing import Sizing
 from surfmesh.sizing.small_sizes import small_sizes
+from surfmesh.sizing.turning_direction import EVEN
 
 ROOT_CELLS = 2304
 """About how many cells the search starts with: a smooth surface needs no more."""
@@ -218,7 +219,7 @@ class _Builder:
             fresh = np.concatenate([np.zeros((~split).sum(), bool), np.ones(len(children), bool)])
             patch = np.concatenate([patch[~split], self._patches(children)])
             cells = cells.chosen(~split).joined_with(children)
-        if self.nodes.is_anisotropic:
+        if self.nodes.is_anisotropic and getattr(self.surface, "kind", "") not in EVEN:
             self._settle(patch)
         self._blunt_poles()
         self.nodes = self.nodes.in_order()

@@ -31,6 +31,9 @@ SAG, DECIDED = 6.0, 3.0
 ROUND = 1.5
 """Ratio of two sizes up to which their directions do not matter."""
 
+EVEN = ("plane", "cylinder", "sphere")
+"""Surfaces whose curvatures are the same everywhere: directions turn with the surface alone."""
+
 STEP = 0.02
 """In shorter sizes: the way over which curvatures are compared."""
 
@@ -43,6 +46,8 @@ def turning_rates(
 
     along_first: (n,) bool, is t the first principal direction? size: (n,) a length.
     """
+    if getattr(surface, "kind", "") in EVEN:
+        return np.zeros((len(uv), 2))
     values, directions = np.stack([k.k1, k.k2], axis=1), np.stack([k.d1, k.d2], axis=1)
     rows, t = np.arange(len(uv)), np.where(along_first, 0, 1)
     step = STEP * size

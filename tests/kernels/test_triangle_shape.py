@@ -11,26 +11,25 @@ from surfmesh.kernels.embedding import empty_embedding, triangle_shape
 from surfmesh.kernels.optimisation import find_folded
 
 
-def shape_at(tilt: float) -> float:
+def shape_at(tilt: float, stretched: bool = True) -> float:
     """alpha of an equilateral triangle turned by ``tilt`` degrees against the normal z."""
-    s = empty_embedding(3)
+    s = empty_embedding(3, stretched)
     angles = 2.0 * np.pi / 3.0 * np.arange(3)
     x, y = np.cos(angles), np.sin(angles)
     c, w = math.cos(math.radians(tilt)), math.sin(math.radians(tilt))
     s.point[:] = np.stack([x, c * y, w * y], axis=1)
     s.normal[:] = (0.0, 0.0, 1.0)
+    s.in_space[:] = [1.0, 0.0, 0.0, 1.0, 0.0, 1.0]
     return triangle_shape(s, 0, 1, 2)
 
 
-def test_up_to_45_degrees_alpha_is_that_of_the_plane():
-    assert shape_at(0.0) == pytest.approx(1.0) == shape_at(44.9)
+@pytest.mark.parametrize("tilt", [0.0, 30.0, 60.0, 89.0, 120.0, 180.0])
+def test_of_a_stretched_triangle_the_area_counts_that_faces_as_the_surface_does(tilt):
+    assert shape_at(tilt) == pytest.approx(math.cos(math.radians(tilt)))
 
 
-def test_beyond_it_falls_to_zero_and_changes_its_sign():
-    """2 cos^2 of the angle."""
-    assert shape_at(60.0) == pytest.approx(0.5)
-    assert shape_at(89.0) == pytest.approx(2.0 * math.cos(math.radians(89.0)) ** 2)
-    assert shape_at(120.0) == pytest.approx(-0.5) and shape_at(180.0) == pytest.approx(-1.0)
+def test_of_others_all_of_it():
+    assert shape_at(60.0, False) == pytest.approx(1.0) == -shape_at(120.0, False)
 
 
 def test_a_narrow_strip_round_a_cylinder_needs_its_two_edges_only():

@@ -23,7 +23,7 @@ def nothing_is_small(monkeypatch):
 @pytest.mark.parametrize(
     "name, sizing",
     [
-        ("spring", sm.Sizing(chord=0.004, anisotropy=5)),
+        ("spring", sm.Sizing(chord=0.001, anisotropy=5)),
         ("klein", sm.Sizing(chord=0.01, anisotropy=100)),
         ("torus", sm.Sizing(angle=10)),
         ("torus", sm.Sizing(angle=8, anisotropy=5)),

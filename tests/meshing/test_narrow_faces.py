@@ -47,16 +47,31 @@ def test_limits_in_several_directions_are_those_in_each():
     at = rng.random((7, 3))
     ways = rng.normal(size=(2, 7, 3))
     ways /= np.linalg.norm(ways, axis=2)[..., None]
-    found = limits.along_and_all_ways(at, ways)
-    np.testing.assert_array_equal(found[2], limits(at))
-    for size, way in zip(found, ways):
-        np.testing.assert_array_equal(size, limits.along(at, way))
+    found = limits.along(at, ways)
     # naively, over the eight nearest
     for p, way, size in zip(at, ways[0], found[0]):
         d = np.linalg.norm(points - p, axis=1)
         near = np.argsort(d)[:8]
         along = np.abs(lines[near] @ way) / sizes[near]
         assert size == pytest.approx((1.0 / along + 0.2 * d[near]).min())
+
+
+def test_the_tightest_size_is_the_smallest_in_any_direction():
+    rng = np.random.default_rng(6)
+    lines = rng.normal(size=(40, 3))
+    lines /= np.linalg.norm(lines, axis=1)[:, None]
+    points, sizes = rng.random((40, 3)), rng.uniform(0.1, 1.0, 40)
+    limits = SizeLimits(points, sizes, 0.2, in_space=along_lines(lines, sizes))
+    at, normals = rng.random((5, 3)), np.tile([0.0, 0.0, 1.0], (5, 1))
+    tight, direction = limits.tightest(at, normals)
+    np.testing.assert_allclose(np.linalg.norm(direction, axis=1), 1.0)
+    np.testing.assert_allclose(direction[:, 2], 0.0, atol=1e-12)
+    turns = np.radians(np.arange(0.0, 180.0, 0.5))
+    ways = np.stack([np.cos(turns), np.sin(turns), 0.0 * turns], axis=1)
+    around = limits.along(at, np.repeat(ways[:, None], 5, axis=1))
+    # a size along a line is seen by its part in the tangent plane, squared: never more than it
+    assert (tight >= around.min(axis=0) - 1e-3).all()
+    assert (limits.along(at, direction[None])[0] <= tight + 1e-9).all()
 
 
 def test_hope_is_given_up_when_nothing_changes_and_not_before():
