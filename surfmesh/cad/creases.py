@@ -32,8 +32,9 @@ from OCP.TopTools import TopTools_IndexedMapOfShape
 
 from surfmesh.cad.assembly import Detail, Part
 
-SHARP = math.radians(15.0)
-"""Normals on both sides that differ by less are left to the sizes."""
+SHARP, BLUNT, FEW = math.radians(15.0), math.radians(5.0), 8
+"""Normals on both sides that differ by less than SHARP, or BLUNT where a face has few such lines,
+are left to the sizes: a finely drawn polygon is no set of faces."""
 
 PLACES = 9  # along a line u = c or v = c
 ASIDE = 1e-6  # of the box: so far from the line the normals are read
@@ -92,13 +93,14 @@ def _has_crease(face: TopoDS_Face) -> bool:
         intervals(ends, GeomAbs_C1)
         step = ASIDE * (box[way][1] - box[way][0])
         along = np.linspace(*box[1 - way], PLACES + 2)[1:-1]
+        least = BLUNT if ends.Length() - 2 <= FEW else SHARP
         for place in range(2, ends.Length()):
             before, after = (
                 _normals(surface, way, ends.Value(place) + side, along) for side in (-step, step)
             )
             cosine = np.einsum("ij,ij->i", before, after)
             known = before.any(axis=1) & after.any(axis=1)
-            if (cosine[known] < math.cos(SHARP)).any():
+            if (cosine[known] < math.cos(least)).any():
                 return True
     return False
 

@@ -57,7 +57,13 @@ def test_the_shape_of_the_caller_keeps_its_faces():
     assert len(shape.Faces()) == 3
 
 
-def test_blunt_corners_are_left_to_the_sizes():
+def test_a_few_blunt_corners_are_edges():
+    turn = np.radians([0.0, 10.0, 20.0, 30.0])
+    shape = drawn([(np.cos(t), np.sin(t)) for t in turn] + [(0.0, 0.0)], 0.5)
+    assert len(sm.from_cadquery(shape).faces) == 7
+
+
+def test_many_are_left_to_the_sizes():
     turn = np.linspace(0.0, 2.0 * np.pi, 49)[:-1]  # 7.5 degrees each
     shape = drawn([(np.cos(t), np.sin(t)) for t in turn], 0.5)
     assert len(sm.from_cadquery(shape).faces) == 3
