@@ -87,8 +87,9 @@ def _bind(h, metric, r, slope, a, b, changed, sweep):
     Over the distance l, in the metric of a, the sizes in the directions of b may grow by
     g = 1 + slope l; as a whole, M_b - M_a / f^2 must be positive definite for the faster
     f = 1 + TURN_SLOPE slope l. The first bounds both sizes of b; what is wanting in the second
-    is due to a direction that turns, and shortens the longer one alone: principal directions
-    stay what they are. Returns the relative change of b.
+    is due to a direction that turns, and shortens the size along ``along`` alone, as long as
+    none smaller than the smallest of a, grown, is needed: principal directions stay what they
+    are, and the size along one may become the shorter. Returns the relative change of b.
     """
     dx, dy, dz = r[b, 0] - r[a, 0], r[b, 1] - r[a, 1], r[b, 2] - r[a, 2]
     t = metric.along[a]

@@ -19,6 +19,7 @@ from surfmesh.geometry.surface import Surface
 from surfmesh.kernels.background import scalar_sizes_at
 from surfmesh.meshing.boundary_loops import BoundaryLoops, cut_line
 from surfmesh.meshing.boundary_recovery import recovered
+from surfmesh.meshing.edge_wishes import wishes_along
 from surfmesh.meshing.face_data import FaceJob, FaceMesh, Piece
 from surfmesh.meshing.face_repair import filled_face, untangled_job
 from surfmesh.meshing.gluing import glued, misglued
@@ -33,14 +34,9 @@ from surfmesh.sizing.size_limits import SizeLimits, along_lines
 FINER = 0.5
 """Factor on the sizes where boundary segments cross."""
 
-COARSE = 2.0
-"""Segments of the boundary so many times longer than the sizes inside allow are to be cut."""
-
 LONGER = 1.5
-"""The same from which on the sizes of a plane depend on the direction."""
-
-LOOKED_AT = (0.1, 0.3, 0.5, 0.7, 0.9)
-"""Shares of a segment at which the sizes inside are read."""
+"""Boundary segments so many times longer than the sizes beside them: a plane's sizes depend on
+the direction from then on."""
 
 ASTRAY = 0.3
 """Share of ``chord`` by which a node may lie off the surface of a face that uses it."""
@@ -104,62 +100,14 @@ def _wishes_at(job: FaceJob, where: np.ndarray | None) -> SizeLimits | None:
     return SizeLimits(points, sizes, job.sizing.gradient)
 
 
-def _wishes_along(
-    job: FaceJob, surface: Surface, field: SizeField, loops: BoundaryLoops, points: np.ndarray
-) -> SizeLimits | None:
-    """What sizes grown from the inside ask for along edges that know their own surroundings only.
-
-    points: (k, 3) of the nodes.
-    """
-    first, second = loops.segments.T
-    step = points[second] - points[first]
-    length = np.linalg.norm(step, axis=1)
-    real = length > 0.0  # at a pole there are none
-    first, second, step, length = first[real], second[real], step[real], length[real]
-    if not len(length):
-        return None
-    # where sizes have a direction segments may be long, and pass much on their way
-    shares = LOOKED_AT if job.sizing.is_anisotropic else LOOKED_AT[2:3]
-    ends = loops.uv[first], loops.uv[second]
-    uv = np.stack([(1.0 - share) * ends[0] + share * ends[1] for share in shares], axis=1)
-    xy = field.scaling.to_plane(uv.reshape(-1, 2))
-    if job.sizing.is_anisotropic:
-        way = field.scaling.to_plane(ends[1]) - field.scaling.to_plane(ends[0])
-        way, whole = (np.repeat(a, len(shares), axis=0) for a in (way, length))
-        sizes = whole / _metric_lengths(field, xy, way)
-    else:
-        sizes = np.empty(len(xy))
-        scalar_sizes_at(field.background, xy, sizes)
-    sizes = np.maximum(sizes, job.sizing.min_size or 0.0).reshape(-1, len(shares))
-    coarse = length > COARSE / (1.0 / sizes).mean(axis=1)
-    if not coarse.any():
-        return None
-    (places,) = surface.evaluate(uv[coarse].reshape(-1, 2), 0)
-    sizes, in_space = sizes[coarse].ravel(), None
-    if job.sizing.is_anisotropic:
-        along = np.repeat(step[coarse] / length[coarse, None], len(shares), axis=0)
-        in_space = along_lines(along, sizes)
-    return SizeLimits(places, sizes, job.sizing.gradient, in_space=in_space)
-
-
 def edge_wishes(job: FaceJob) -> SizeLimits | None:
     """What the sizes inside a face ask for along its edges, before it is meshed."""
     try:
         surface, field = face_field(job)
         loops, fixed, _ = _loops(job, field)
-        return _wishes_along(job, surface, field, loops, fixed)
+        return wishes_along(job.sizing, surface, field, loops, fixed)
     except SurfmeshError:
         return None
-
-
-def _metric_lengths(field: SizeField, xy: np.ndarray, way: np.ndarray) -> np.ndarray:
-    """|H^-1 way| (n,) for ways (n, 2) at points (n, 2) of the scaled plane."""
-    h = field.tensors(xy)
-    det = h[:, 0] * h[:, 2] - h[:, 1] ** 2
-    x = h[:, 2] * way[:, 0] - h[:, 1] * way[:, 1]
-    y = h[:, 0] * way[:, 1] - h[:, 1] * way[:, 0]
-    tiny = np.finfo(float).tiny
-    return np.maximum(np.hypot(x, y) / np.maximum(det, tiny), tiny)
 
 
 def _spacing(points: np.ndarray) -> np.ndarray:
@@ -179,7 +127,7 @@ def _meshed(job: FaceJob, unfold: bool = True) -> FaceMesh:
     optimiser.embedding.point[domain.node] = fixed  # the edges' nodes, not their images
     wishes: SizeLimits | None = None
     if job.limits is None:  # the edges heed them from now on
-        wishes = _wishes_along(job, surface, field, loops, fixed)
+        wishes = wishes_along(job.sizing, surface, field, loops, fixed)
     if job.optimise:
         changes = optimiser.run(first=job.limits is None)
         astray = np.zeros(len(domain.t.xy), bool)

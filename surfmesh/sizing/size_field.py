@@ -321,14 +321,14 @@ class _Builder:
         self._grade_anew(patch, size, np.minimum(long, ratio * size))
 
     def _spread(self, patch: np.ndarray, size: np.ndarray, metric: Metric) -> None:
-        nodes = self.nodes
+        nodes, first = self.nodes, self.sweep + 1
         for _ in range(MAX_CHUNKS):
             order = np.argsort(size[patch].min(axis=1))
             following = grade(
                 patch[order], self.joined, nodes.point, self.slope, size, metric,
-                self.changed, self.sweep + 1, SWEEPS,
+                self.changed, first, SWEEPS,
             )  # fmt: skip
-            self.sweep = abs(following)
+            self.sweep = first = abs(following)  # the last sweep's changes are still to be spread
             if following > 0:
                 return
         raise SizingError(f"the sizes on {self.surface.name!r} could not be graded")
