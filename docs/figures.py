@@ -1,4 +1,4 @@
-"""The figures of docs/method.md, after those of Wang, Ming and Lo (2007).
+"""The figures of docs/method.md, after those of Wang, Ming and Lo (2007), and of the guides.
 
     python docs/figures.py [FOLDER]
 
@@ -165,7 +165,27 @@ def on_the_surface(folder: Path) -> None:
     raw.plot(folder / "on_the_surface.png", by="size", circles=True, size=(1000, 750))
 
 
-FIGURES = (packing_steps, pushing_out, random_radii, boundary, on_the_surface)
+def stretched(folder: Path) -> None:
+    """A plate with fillets and holes within one chord: isotropic, and at ratio 20."""
+    import cadquery as cq
+    import pyvista as pv
+
+    block = cq.Workplane().box(60, 40, 12).edges("|Z").fillet(6)
+    block = block.faces(">Z").workplane().rarray(20, 15, 3, 2).hole(6)
+    part = sm.from_cadquery(block.faces(">Z").edges("not %CIRCLE").fillet(1.5))
+    plotter = pv.Plotter(off_screen=True, shape=(1, 2), window_size=(1500, 620), border=False)
+    for column, ratio in enumerate((1.0, 20.0)):
+        mesh = sm.mesh(part, sm.Sizing(chord=0.05, growth=1.4, anisotropy=ratio))
+        plotter.subplot(0, column)
+        faces = np.insert(mesh.triangles, 0, 3, axis=1).ravel()
+        plotter.add_mesh(pv.PolyData(mesh.points, faces), color="#f4ead2", show_edges=True)
+        plotter.add_text(f"{len(mesh.triangles):,} triangles", font_size=10, color=INK)
+        plotter.camera_position = [(52, -78, 70), (0, 0, 0), (0, 0, 1)]
+    plotter.screenshot(folder / "stretched.png")
+    plotter.close()
+
+
+FIGURES = (packing_steps, pushing_out, random_radii, boundary, on_the_surface, stretched)
 
 
 if __name__ == "__main__":
