@@ -12,7 +12,6 @@ import numpy as np
 from surfmesh.errors import SurfaceError
 from surfmesh.geometry.sides import SideTopology
 from surfmesh.geometry.surface import Surface
-from surfmesh.kernels.background import inverse_sizes_at
 from surfmesh.sizing.size_field import SizeField
 
 _WALK = (1, 1, -1, -1)
@@ -152,10 +151,7 @@ def cut_line(
     while True:
         t = np.linspace(0.0, 1.0, samples + 1)
         xy = field.scaling.to_plane(start + t[:, None] * (end - start))
-        a = np.empty((samples, 3))
-        inverse_sizes_at(field.background, 0.5 * (xy[1:] + xy[:-1]), a)
-        dx, dy = (xy[1:] - xy[:-1]).T
-        step = np.hypot(a[:, 0] * dx + a[:, 1] * dy, a[:, 1] * dx + a[:, 2] * dy)
+        step = field.metric_lengths(0.5 * (xy[1:] + xy[:-1]), xy[1:] - xy[:-1])
         metric = np.zeros(samples + 1)
         np.cumsum(step, out=metric[1:])
         if samples >= 16 * metric[-1] or samples >= 1 << 22:

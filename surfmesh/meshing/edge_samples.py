@@ -26,7 +26,7 @@ from surfmesh.sizing.direction_size import size_along
 from surfmesh.sizing.model_sizing import ModelSizing
 from surfmesh.sizing.size_bounds import DEFAULT_ANGLE, FINEST_SIZE, LEAST_OF_CHORD, SizeBounds
 from surfmesh.sizing.sizing import Sizing
-from surfmesh.sizing.turning_direction import EVEN
+from surfmesh.sizing.turning_direction import is_even
 
 STRAIGHT_SAMPLES, CURVED_SAMPLES = 33, 129
 _STRAIGHT, _CURVED = (np.linspace(0.0, 1.0, n) for n in (STRAIGHT_SAMPLES, CURVED_SAMPLES))
@@ -225,7 +225,7 @@ def _wish(
     for face, coedge in uses if follows_curvature and not sizing.is_anisotropic else ():
         surface = model.faces[face].surface
         if surface.kind != "plane":
-            some = share[:1] if surface.kind in EVEN else share
+            some = share[:1] if is_even(surface) else share
             np.minimum(wish, _face_wish(surface, coedge.uv(some), sizing), out=wish)
     if sizing.has_law:
         np.minimum(wish, sizing.law_sizes(points), out=wish)

@@ -38,7 +38,7 @@ def wishes_along(
     if sizing.is_anisotropic:
         way = field.scaling.to_plane(ends[1]) - field.scaling.to_plane(ends[0])
         way, whole = (np.repeat(a, len(shares), axis=0) for a in (way, length))
-        sizes = whole / _metric_lengths(field, xy, way)
+        sizes = whole / np.maximum(field.metric_lengths(xy, way), np.finfo(float).tiny)
     else:
         sizes = np.empty(len(xy))
         scalar_sizes_at(field.background, xy, sizes)
@@ -52,13 +52,3 @@ def wishes_along(
         along = np.repeat(step[coarse] / length[coarse, None], len(shares), axis=0)
         in_space = along_lines(along, sizes)
     return SizeLimits(places, sizes, sizing.gradient, in_space=in_space)
-
-
-def _metric_lengths(field: SizeField, xy: np.ndarray, way: np.ndarray) -> np.ndarray:
-    """|H^-1 way| (n,) for ways (n, 2) at points (n, 2) of the scaled plane."""
-    h = field.tensors(xy)
-    det = h[:, 0] * h[:, 2] - h[:, 1] ** 2
-    x = h[:, 2] * way[:, 0] - h[:, 1] * way[:, 1]
-    y = h[:, 0] * way[:, 1] - h[:, 1] * way[:, 0]
-    tiny = np.finfo(float).tiny
-    return np.maximum(np.hypot(x, y) / np.maximum(det, tiny), tiny)

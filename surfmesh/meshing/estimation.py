@@ -22,7 +22,6 @@ import numpy as np
 
 from surfmesh.errors import SizingError
 from surfmesh.meshing.face_data import FaceJob
-from surfmesh.meshing.face_job import face_field
 from surfmesh.sizing.metric_area import TRIANGLES, metric_area
 from surfmesh.sizing.size_field import SizeField
 
@@ -106,11 +105,6 @@ def combined(inside: float, nodes: int, loops: int) -> float:
     """
     boundary = max(nodes - 2 + 2 * (loops - 1), 1)
     return (inside**SHARP + boundary**SHARP) ** (1.0 / SHARP)
-
-
-def job_triangles(job: FaceJob) -> float:
-    """Triangles of one face. Raises ``SizingError`` as its size field does."""
-    return face_triangles(job, face_field(job)[1])
 
 
 def require_within(limit: int, found: Estimate, names: Sequence[str]) -> None:

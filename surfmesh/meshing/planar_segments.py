@@ -10,7 +10,7 @@ import numpy as np
 
 from surfmesh.geometry.planar_domain import PlanarDomain
 from surfmesh.geometry.segment_graph import SegmentGraph
-from surfmesh.kernels.background import inverse_sizes_at, scalar_sizes_at
+from surfmesh.kernels.background import scalar_sizes_at
 from surfmesh.sizing.size_field import SizeField
 from surfmesh.sizing.size_limits import SizeLimits
 
@@ -135,10 +135,7 @@ def _speed(
     """Metric length a unit of share (n,), at shares ``t`` (n,) of the segments ``owner``."""
     step = (end - start)[owner]
     xy = field.scaling.to_plane(start[owner] + t[:, None] * step)
-    a = np.empty((len(owner), 3))
-    inverse_sizes_at(field.background, xy, a)
-    du, dv = (step / field.scaling.rates(xy)).T
-    return np.hypot(a[:, 0] * du + a[:, 1] * dv, a[:, 1] * du + a[:, 2] * dv)
+    return field.metric_lengths(xy, step / field.scaling.rates(xy))
 
 
 def short_segments(graph: SegmentGraph, slope: float) -> SizeLimits | None:

@@ -20,7 +20,13 @@ from surfmesh.geometry.face_surface import FaceSurface
 from surfmesh.geometry.scaling import Scaling
 from surfmesh.geometry.sides import SideTopology
 from surfmesh.geometry.surface import Surface
-from surfmesh.kernels.background import Background, in_space_at_all, scalar_sizes_at, sizes_at
+from surfmesh.kernels.background import (
+    Background,
+    in_space_at_all,
+    inverse_sizes_at,
+    scalar_sizes_at,
+    sizes_at,
+)
 from surfmesh.kernels.coverage import STACK, inverse_area
 from surfmesh.kernels.gradation import Metric, grade, patch_errors
 from surfmesh.sizing.field_cells import GRID_DEPTH, Cells, SourceCells, coarse_beside_fine
@@ -28,7 +34,7 @@ from surfmesh.sizing.size_law import FieldNodes, SizeLaw, TensorLaw
 from surfmesh.sizing.size_limits import SizeLimits
 from surfmesh.sizing.sizing import Sizing
 from surfmesh.sizing.small_sizes import small_sizes
-from surfmesh.sizing.turning_direction import EVEN
+from surfmesh.sizing.turning_direction import is_even
 
 ROOT_CELLS = 2304
 """About how many cells the search starts with: a smooth surface needs no more."""
@@ -99,6 +105,13 @@ class SizeField:
         out = np.empty((len(xy), 3))
         sizes_at(self.background, np.ascontiguousarray(xy), out)
         return out
+
+    def metric_lengths(self, xy: np.ndarray, steps: np.ndarray) -> np.ndarray:
+        """|H^-1 step| (n,) of small steps (n, 2) at points xy (n, 2) of the scaled plane."""
+        a = np.empty((len(xy), 3))
+        inverse_sizes_at(self.background, np.ascontiguousarray(xy), a)
+        dx, dy = steps.T
+        return np.hypot(a[:, 0] * dx + a[:, 1] * dy, a[:, 1] * dx + a[:, 2] * dy)
 
 
 def size_field(
@@ -219,7 +232,7 @@ class _Builder:
             fresh = np.concatenate([np.zeros((~split).sum(), bool), np.ones(len(children), bool)])
             patch = np.concatenate([patch[~split], self._patches(children)])
             cells = cells.chosen(~split).joined_with(children)
-        if self.nodes.is_anisotropic and getattr(self.surface, "kind", "") not in EVEN:
+        if self.nodes.is_anisotropic and not is_even(self.surface):
             self._settle(patch)
         self._blunt_poles()
         self.nodes = self.nodes.in_order()

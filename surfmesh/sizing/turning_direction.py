@@ -32,10 +32,15 @@ ROUND = 1.5
 """Ratio of two sizes up to which their directions do not matter."""
 
 EVEN = ("plane", "cylinder", "sphere")
-"""Surfaces whose curvatures are the same everywhere: directions turn with the surface alone."""
+"""Kinds of CAD surfaces whose curvatures are the same everywhere."""
 
 STEP = 0.02
 """In shorter sizes: the way over which curvatures are compared."""
+
+
+def is_even(surface: Surface) -> bool:
+    """Are the curvatures known to be the same everywhere?"""
+    return getattr(surface, "kind", "") in EVEN
 
 
 def turning_rates(
@@ -46,7 +51,7 @@ def turning_rates(
 
     along_first: (n,) bool, is t the first principal direction? size: (n,) a length.
     """
-    if getattr(surface, "kind", "") in EVEN:
+    if is_even(surface):
         return np.zeros((len(uv), 2))
     values, directions = np.stack([k.k1, k.k2], axis=1), np.stack([k.d1, k.d2], axis=1)
     rows, t = np.arange(len(uv)), np.where(along_first, 0, 1)
