@@ -197,8 +197,8 @@ class PlanarDomain(PlaneOfCoordinates):
         if not drawing.loops:
             raise DomainError(f"{drawing.name}: the drawing holds no closed path")
         lines = list(drawing.lines) + _arrays("constraint", constraints)
-        about = (crossings, merge, simplify, name or drawing.name)
-        about += (description, sizing_defaults, facts)
+        called = name or drawing.name
+        about = (crossings, merge, simplify, called, description, sizing_defaults, facts)
         return cls._nested(drawing.labels, drawing.loops, lines, points, *about)
 
     @classmethod
