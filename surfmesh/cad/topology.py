@@ -39,6 +39,7 @@ from surfmesh.cad.assembly import Part
 from surfmesh.cad.convert import curve2d_of, curve_of, surface_of
 from surfmesh.cad.extent import diagonal
 from surfmesh.cad.invariants import is_closed
+from surfmesh.cad.loop_faults import fault_of_pieces
 from surfmesh.cad.loops import chained, outer_first, there_and_back
 from surfmesh.cad.model import (
     CadCoedge,
@@ -87,6 +88,7 @@ def cad_model(
         healing += images_that_follow(walk.edges, walk.vertices, walk.faces, unit)
         healing += curves_on_their_faces(walk.edges, walk.vertices, walk.faces, unit)
     healing += tolerances_that_hold(walk.edges, walk.vertices, walk.faces, unit)
+    _fault_split_faces(walk, root)
     return CadModel(
         vertices=tuple(walk.vertices),
         edges=tuple(walk.edges),
@@ -266,6 +268,10 @@ class _Walk:
         )
         return number
 
+    def face_number(self, shape: TopoDS_Shape) -> int | None:
+        """Number of a face that has been taken in."""
+        return self._face_numbers.find(shape)
+
     def _loops(self, face: TopoDS_Face, called: str) -> list[tuple[CadCoedge, ...]]:
         wires = [list(_below(wire)) for wire in _below(face) if wire.ShapeType() == TopAbs_WIRE]
         uses: Counter[int] = Counter()
@@ -433,6 +439,23 @@ def _touching(faces: list[CadFace], solids: list[CadSolid]) -> list[str]:
                 f"{listed(many)}: more than two of its faces meet there, and so do triangles"
             )
     return sentences
+
+
+def _fault_split_faces(walk: _Walk, root: Part) -> None:
+    """Pieces that healing has made of one face, and that cross each other, are no faces."""
+    for part in root:
+        for shape, _ in part.remarks:
+            if shape is None or shape.IsNull():
+                continue
+            numbers = [walk.face_number(face) for face in _each(shape, TopAbs_FACE)]
+            numbers = sorted({number for number in numbers if number is not None})
+            pieces = [walk.faces[number] for number in numbers]
+            if len(pieces) < 2:
+                continue
+            fault = fault_of_pieces(pieces, walk.edges, len(walk.vertices))
+            for number in numbers if fault else ():
+                said = f"{fault}, before it was split by healing"
+                walk.faces[number] = replace(walk.faces[number], fault=said)
 
 
 def _in_words(walk: _Walk, root: Part) -> list[str]:
