@@ -51,6 +51,13 @@ share of the places, and made it no finer than this: smaller sizes do not reach 
 VOLUME_ROUNDS = 4
 """How often a model is meshed for the sake of its volumes, at most: once in most cases."""
 
+LONG_PATIENCE = 3
+"""Or, however much finer it has become, until so many rounds have not left fewer places."""
+
+SPREAD = 1.5
+"""Where the segments that cross are so many times more after each round, it is not at a place
+that they cross but all along: cutting them finer only makes more of them."""
+
 MOST_GROWN, MANY_NODES = 8, 2000
 """A face whose boundary has so many times the nodes that it had at first, and more than so many,
 asks for no smaller sizes any more."""
@@ -158,8 +165,8 @@ class _Hope:
     """Whether what a face asks for has helped so far, and has not made it far too large."""
 
     def __init__(self) -> None:
-        self._rounds = 0  # that have not, one after the other
-        self._places, self._triangles = math.inf, 0
+        self._rounds = self._spread = self._since_best = 0  # one after the other; see ``hear``
+        self._places, self._triangles, self._best = math.inf, 0, math.inf
         self._nodes, self._first = 0, 0
 
     def hear(self, found: FaceMesh, nodes: int = 0) -> None:
@@ -167,13 +174,21 @@ class _Hope:
         places = 0 if found.wishes is None else len(found.wishes.sizes)
         same = places > HOPE * self._places and len(found.triangles) < GROWN * self._triangles
         self._rounds = self._rounds + 1 if places and same and not found.failure else 0
+        self._spread = self._spread + 1 if found.failure and places > SPREAD * self._places else 0
+        better = not places or bool(found.failure) or places <= HOPE * self._best
+        self._since_best = 0 if better else self._since_best + 1
+        self._best = min(self._best, places) if places and not found.failure else math.inf
         self._places, self._triangles = places, len(found.triangles)
         self._nodes, self._first = nodes, self._first or nodes
 
     @property
     def is_left(self) -> bool:
         """Is it worth another round?"""
-        return self._rounds < PATIENCE and self._nodes <= max(MOST_GROWN * self._first, MANY_NODES)
+        return (
+            max(self._rounds, self._spread) < PATIENCE
+            and self._since_best < LONG_PATIENCE
+            and self._nodes <= max(MOST_GROWN * self._first, MANY_NODES)
+        )
 
 
 def estimate_model(model: CadModel, sizing: Any) -> Estimate:
