@@ -11,7 +11,7 @@ from collections.abc import Iterator
 from dataclasses import replace
 
 import numpy as np
-from OCP.BRep import BRep_Tool
+from OCP.BRep import BRep_Builder, BRep_Tool
 from OCP.BRepAdaptor import BRepAdaptor_Curve
 from OCP.BRepGProp import BRepGProp
 from OCP.BRepTools import BRepTools
@@ -38,9 +38,9 @@ from OCP.TopTools import TopTools_IndexedMapOfShape
 from surfmesh.cad.assembly import Part
 from surfmesh.cad.convert import curve2d_of, curve_of, surface_of
 from surfmesh.cad.extent import diagonal
-from surfmesh.cad.invariants import is_closed
+from surfmesh.cad.invariants import is_closed, signed_area
 from surfmesh.cad.loop_faults import fault_of_pieces
-from surfmesh.cad.loops import chained, outer_first, there_and_back
+from surfmesh.cad.loops import chained, misdirected, outer_first, there_and_back, turned
 from surfmesh.cad.model import (
     CadCoedge,
     CadEdge,
@@ -254,6 +254,15 @@ class _Walk:
         if not loops:
             raise CadError(f"{called} has no boundary; give the face its edges in the CAD system")
         surface = surface_of(BRep_Tool.Surface_s(face), _box(face, loops, called), called)
+        area = _area(face, surface.kind)
+        wrong = misdirected(loops, None not in surface.periods or surface.kind == "sphere")
+        for place in wrong:
+            loops[place] = turned(loops[place])
+            self._remarks[f"{called}: a loop turned, loops are oriented by nesting"] += 1
+        if wrong:
+            ways = [1.0 if signed_area(loop) > 0.0 else -1.0 for loop in loops]
+            parts = [self._area_within(face, loop, surface.kind) for loop in loops]
+            area = sum(way * part for way, part in zip(ways, parts))
         self.faces.append(
             CadFace(
                 surface=surface,
@@ -262,11 +271,20 @@ class _Walk:
                 tolerance=BRep_Tool.Tolerance_s(face),
                 name=name,
                 colour=own or colour,
-                area=_area(face, surface.kind),
+                area=area,
                 kind=surface.kind,
             )
         )
         return number
+
+    def _area_within(self, face: TopoDS_Face, loop: tuple[CadCoedge, ...], kind: str) -> float:
+        """What a loop of a face encloses."""
+        edges = {coedge.edge for coedge in loop}
+        alone = face.EmptyCopied()
+        for wire in _below(face):
+            if edges & {self._edge_numbers.find(edge) for edge in _each(wire, TopAbs_EDGE)}:
+                BRep_Builder().Add(alone, wire)
+        return _area(TopoDS.Face_s(alone), kind)
 
     def face_number(self, shape: TopoDS_Shape) -> int | None:
         """Number of a face that has been taken in."""

@@ -337,6 +337,7 @@ def _joined(
     turned, solids = orientation(model)
     inner_points, inner_sizes, triangles, uv, uv_triangles, face_ids = [], [], [], [], [], []
     stretched: list[np.ndarray] = []
+    is_stretched = any(found.inverse_sizes is not None for found in done)
     total = shared
     uv_total = 0
     for number, (job, found) in enumerate(zip(jobs, done)):
@@ -356,7 +357,7 @@ def _joined(
         uv.append(found.uv_points)
         uv_triangles.append(uv_total + found.uv_triangles[:, order].astype(np.int64))
         uv_total += len(found.uv_points)
-        if any(other.inverse_sizes is not None for other in done):
+        if is_stretched:
             stretched.append(_inverse_sizes(found))
         face_ids.append(np.full(len(found.triangles), number, np.int32))
     if not triangles:
