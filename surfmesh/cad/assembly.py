@@ -17,6 +17,7 @@ if TYPE_CHECKING:
     from OCP.TopLoc import TopLoc_Location
     from OCP.TopoDS import TopoDS_Shape
 
+    from surfmesh.cad.joining import Joining
     from surfmesh.cad.model import CadModel, Colour
 
 MILLIMETRES = {"um": 1e-3, "mm": 1.0, "cm": 10.0, "m": 1e3, "in": 25.4, "ft": 304.8}
@@ -29,6 +30,7 @@ class Detail(NamedTuple):
     shape: TopoDS_Shape  # where it lies in the part
     name: str
     colour: Colour | None
+    names: tuple[str, ...] = ()  # of all that it was made of, where those were several
 
 
 class Tag(NamedTuple):
@@ -46,7 +48,8 @@ class Part:
     shape: of a part, in its own frame; None for an assembly. place: of that frame in the
     parent's, None where they are the same. colour: of everything below that has none of its
     own. details: names and colours within the shape. remarks: what healing did, and to which
-    sub-shape (None: the part). tags: what they select.
+    sub-shape (None: the part). tags: what they select. notes: whole sentences about the parts
+    below, with what each is about (None: all of them).
     """
 
     name: str
@@ -57,6 +60,7 @@ class Part:
     children: list[Part] = field(default_factory=list)
     remarks: list[tuple[TopoDS_Shape | None, str]] = field(default_factory=list)
     tags: list[Tag] = field(default_factory=list)
+    notes: list[tuple[TopoDS_Shape | None, str]] = field(default_factory=list)
 
     def __iter__(self) -> Iterator[Part]:
         """This part and all below it."""
@@ -69,26 +73,32 @@ class Part:
         return replace(
             self,
             shape=image(self.shape),
-            details=[Detail(image(d.shape), d.name, d.colour) for d in self.details],
+            details=[d._replace(shape=image(d.shape)) for d in self.details],
             remarks=[(None if s is None else image(s), text) for s, text in self.remarks],
             tags=[tag._replace(shapes=[image(s) for s in tag.shapes]) for tag in self.tags],
         )
 
 
 def model_of(
-    root: Part, *, heal: bool, units: str | None = None, file_unit: str = "mm", source: str = ""
-) -> CadModel:
-    """Heal, scale and place every part, and walk through all of them.
+    root: Part, *, heal: bool, units: str | None = None, file_unit: str = "mm", source: str = "",
+    joining: Joining | None = None,
+) -> CadModel:  # fmt: skip
+    """Heal, scale and place every part, join them if wished, and walk through all of them.
 
     Shapes are in millimetres; units: what the model is wanted in (None: millimetres).
-    Raises CadError when a part cannot be used.
+    Raises CadError when a part cannot be used, or the parts cannot be joined.
     """
     from OCP.TopLoc import TopLoc_Location
 
     from surfmesh.cad.topology import cad_model
 
     unit = checked_unit(units)
-    placed = _placed(root, TopLoc_Location(), heal, 1.0 / MILLIMETRES[unit], [])
+    scale = 1.0 / MILLIMETRES[unit]
+    if joining is None or not joining:
+        placed = _placed(root, TopLoc_Location(), heal, scale, [])
+    else:
+        placed = _placed(root, TopLoc_Location(), heal, 1.0, [])
+        placed = _scaled_together(joining.applied(placed, MILLIMETRES[unit]), scale)
     return cad_model(placed, heal=heal, unit=unit, file_unit=file_unit, source=source)
 
 
@@ -131,6 +141,28 @@ def _scaled(part: Part, scale: float) -> Part:
     size = gp_Trsf()
     size.SetScale(gp_Pnt(0.0, 0.0, 0.0), scale)
     return _transformed(part, size)
+
+
+def _scaled_together(root: Part, scale: float) -> Part:
+    """All parts of a tree at once, so that what they share stays shared."""
+    if scale == 1.0:
+        return root
+    from OCP.BRepBuilderAPI import BRepBuilderAPI_Transform
+    from OCP.gp import gp_Pnt, gp_Trsf
+
+    from surfmesh.cad.sub_shapes import compound_of
+
+    size = gp_Trsf()
+    size.SetScale(gp_Pnt(0.0, 0.0, 0.0), scale)
+    whole = compound_of(part.shape for part in root if part.shape is not None)
+    change = BRepBuilderAPI_Transform(whole, size, True)
+
+    def scaled(part: Part) -> Part:
+        ready = part if part.shape is None else part.mapped(change.ModifiedShape)
+        notes = [(None if s is None else change.ModifiedShape(s), text) for s, text in part.notes]
+        return replace(ready, notes=notes, children=[scaled(child) for child in part.children])
+
+    return scaled(root)
 
 
 def _moved(part: Part, place: TopLoc_Location, scale: float) -> Part:

@@ -41,7 +41,8 @@ class CadEdge:
 
     curve: ``evaluate(t (n,), order)`` in 3D, or None for a degenerate edge. t0 < t1 are the
     curve's parameters at the vertices start and end (numbers; the same for a closed edge).
-    tolerance: its images on the faces lie this near. length: model units.
+    tolerance: its images on the faces lie this near. length: model units. names: of all that it
+    was made of, where imprinting made it of several; ``name`` holds them too.
     """
 
     curve: Any
@@ -53,6 +54,7 @@ class CadEdge:
     degenerate: bool
     name: str
     length: float
+    names: tuple[str, ...] = ()
 
     @property
     def closed(self) -> bool:
@@ -98,6 +100,7 @@ class CadFace:
     surface: its domain is the (u, v) box of the loops. loops: coedges in walking order with the
     inside on the left in (u, v); the outer loop first. reversed: the face's normal is
     -(r_u x r_v). colour: (r, g, b) from 0 to 1 (sRGB), or None. area: model units squared.
+    names: as of an edge.
     """
 
     surface: Any
@@ -108,6 +111,7 @@ class CadFace:
     colour: Colour | None
     area: float
     kind: str
+    names: tuple[str, ...] = ()
 
     @property
     def coedges(self) -> Iterator[CadCoedge]:
@@ -131,6 +135,7 @@ class CadSolid:
     colour: Colour | None
     volume: float
     closed: bool
+    names: tuple[str, ...] = ()  # as of an edge
 
 
 @dataclass(frozen=True, eq=False)
@@ -139,7 +144,7 @@ class CadNode:
 
     name: str
     solids: tuple[int, ...] = ()
-    faces: tuple[int, ...] = ()  # that belong to no solid
+    faces: tuple[int, ...] = ()  # that are of none of its solids
     children: tuple[CadNode, ...] = ()
 
     def lines(self, depth: int = 0) -> list[str]:

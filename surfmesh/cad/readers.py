@@ -32,6 +32,7 @@ from OCP.XCAFDoc import (
 )
 
 from surfmesh.cad.assembly import Detail, Part, model_of
+from surfmesh.cad.joining import Joining
 from surfmesh.cad.model import CadModel, Colour
 from surfmesh.errors import CadError
 
@@ -44,14 +45,18 @@ UNIT_NAMES = {
 }  # fmt: skip
 
 
-def read_here(path: Path, heal: bool, units: str | None) -> CadModel:
+def read_here(
+    path: Path, heal: bool, units: str | None, joining: Joining | None = None
+) -> CadModel:
     """Read a file in this process; a fault in OCP takes the process down.
 
     Raises CadError when it is not what its name says, or holds no faces.
     """
     reader = READERS[path.suffix.lower()]
     root, file_unit = reader(path)
-    return model_of(root, heal=heal, units=units, file_unit=file_unit, source=path.name)
+    return model_of(
+        root, heal=heal, units=units, file_unit=file_unit, source=path.name, joining=joining
+    )
 
 
 def _step(path: Path) -> tuple[Part, str]:

@@ -35,7 +35,7 @@ from OCP.TopExp import TopExp, TopExp_Explorer
 from OCP.TopoDS import TopoDS, TopoDS_Edge, TopoDS_Face, TopoDS_Iterator, TopoDS_Shape
 from OCP.TopTools import TopTools_IndexedMapOfShape
 
-from surfmesh.cad.assembly import Part
+from surfmesh.cad.assembly import Detail, Part
 from surfmesh.cad.convert import curve2d_of, curve_of, surface_of
 from surfmesh.cad.extent import diagonal
 from surfmesh.cad.invariants import is_closed
@@ -142,7 +142,7 @@ class _Walk:
         self._face_numbers = _Numbering()
         self._solid_numbers = _Numbering()
         self._detail_numbers = _Numbering()
-        self._details: list[tuple[str, Colour | None]] = []
+        self._details: list[Detail] = []
         self._remarks: Counter[str] = Counter()
 
     def part(self, part: Part, colour: Colour | None) -> CadNode:
@@ -151,10 +151,10 @@ class _Walk:
         solids: list[int] = []
         faces: list[int] = []
         if part.shape is not None:
-            for shape, name, own in part.details:
-                if self._detail_numbers.find(shape) is None:
-                    self._detail_numbers.add(shape)
-                    self._details.append((name, own))
+            for detail in part.details:
+                if self._detail_numbers.find(detail.shape) is None:
+                    self._detail_numbers.add(detail.shape)
+                    self._details.append(detail)
             solids = [self.solid(s, part, colour) for s in _each(part.shape, TopAbs_SOLID)]
             for shape in _each(part.shape, TopAbs_SHELL, TopAbs_SOLID):
                 shell = self.shell(shape, self.detail(shape)[1] or colour)
@@ -180,7 +180,12 @@ class _Walk:
     def detail(self, shape: TopoDS_Shape) -> tuple[str, Colour | None]:
         """Name and colour of a shape within its part."""
         number = self._detail_numbers.find(shape)
-        return ("", None) if number is None else self._details[number]
+        return ("", None) if number is None else self._details[number][1:3]
+
+    def names(self, shape: TopoDS_Shape) -> tuple[str, ...]:
+        """All names of a shape that was made of several; else none."""
+        number = self._detail_numbers.find(shape)
+        return () if number is None else self._details[number].names
 
     def solid(self, shape: TopoDS_Shape, part: Part, colour: Colour | None) -> int:
         """Number of a solid, taken in when it is met first."""
@@ -207,6 +212,7 @@ class _Walk:
                 colour=colour,
                 volume=abs(volume),
                 closed=is_closed(self.faces, shells, self.edges),
+                names=self.names(shape),
             )
         )
         return len(self.solids) - 1
@@ -262,6 +268,7 @@ class _Walk:
                 colour=own or colour,
                 area=_area(face, surface.kind),
                 kind=surface.kind,
+                names=self.names(shape),
             )
         )
         return number
@@ -340,6 +347,7 @@ class _Walk:
                 degenerate=degenerate,
                 name=self.detail(shape)[0],
                 length=length,
+                names=self.names(shape),
             )
         )
         return number
@@ -376,8 +384,11 @@ class _Walk:
         return self._vertices_met[-1]
 
     def number_of(self, shape: TopoDS_Shape) -> str:
-        """ "face 3" or "edge 12"; nothing for what is not in the model."""
-        for kind, numbers in (("face", self._face_numbers), ("edge", self._edge_numbers)):
+        """ "face 3", "edge 12", "solid 1"; nothing for what is not in the model."""
+        for kind, numbers in (
+            ("face", self._face_numbers), ("edge", self._edge_numbers),
+            ("solid", self._solid_numbers),
+        ):  # fmt: skip
             number = numbers.find(shape)
             if number is not None:
                 return f"{kind} {number}"
@@ -441,7 +452,7 @@ def _in_words(walk: _Walk, root: Part) -> list[str]:
     for part in root:
         for shape, text in part.remarks:
             found = [] if shape is None or shape.IsNull() else [shape]
-            if found and shape.ShapeType() not in (TopAbs_FACE, TopAbs_EDGE):
+            if found and shape.ShapeType() not in (TopAbs_SOLID, TopAbs_FACE, TopAbs_EDGE):
                 found = list(_each(shape, TopAbs_FACE))  # a face that was split
             names = [name for name in map(walk.number_of, found) if name]
             kind = names[0].split()[0] if names else ""
@@ -452,7 +463,10 @@ def _in_words(walk: _Walk, root: Part) -> list[str]:
         numbers = list(dict.fromkeys(numbers))
         label = f"{kind}{'s' * (len(numbers) > 1)} " if kind else "part "
         sentences.append(f"{label}{listed(numbers)}: {text}")
-    return sentences
+    notes = [note for part in root for note in part.notes]
+    places = [("" if shape is None else walk.number_of(shape)) for shape, _ in notes]
+    said = [f"{place}: {text}" if place else text for place, (_, text) in zip(places, notes)]
+    return sentences + said
 
 
 def _each(shape: TopoDS_Shape, kind, avoid=None) -> Iterator[TopoDS_Shape]:
