@@ -164,7 +164,13 @@ def _settled(surface: Any, sizing: Any) -> tuple[Any, Any]:
             f"sizes by selection ({', '.join(map(repr, sizing))}) need a CAD model; a "
             f"{type(surface).__name__} takes one Sizing, or '*' alone"
         )
-    return surface, Sizing.of(sizing)
+    made = Sizing.of(sizing)
+    if made.volume is not None:
+        raise SizingError(
+            f"volume {made.volume:g}: volumes are kept of the closed solids of CAD models; of a "
+            f"{type(surface).__name__} ask for a chord"
+        )
+    return surface, made
 
 
 def show(

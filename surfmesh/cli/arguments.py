@@ -172,6 +172,7 @@ def _add_sizes(parser: argparse.ArgumentParser) -> None:
     sizes.add_argument("--max-size", type=_positive, help="no edge is wanted longer")
     sizes.add_argument("--growth", type=_positive, help="largest ratio of neighbouring sizes")
     sizes.add_argument("--anisotropy", type=_positive, help="largest stretch; 1 is isotropic")
+    sizes.add_argument("--volume", type=_positive, help="largest relative error of solids' volumes")
     sizes.add_argument("--gap", type=_positive, help="triangles across thin faces and gaps")
     sizes.add_argument("--limit", type=_count, help="most triangles (default 20 million)")
     sizes.add_argument(
