@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field, replace
+from pathlib import Path as FilePath
 from typing import TYPE_CHECKING, NamedTuple
 
 from surfmesh.errors import CadError
@@ -49,7 +50,7 @@ class Part:
     parent's, None where they are the same. colour: of everything below that has none of its
     own. details: names and colours within the shape. remarks: what healing did, and to which
     sub-shape (None: the part). tags: what they select. notes: whole sentences about the parts
-    below, with what each is about (None: all of them).
+    below, with what each is about (None: all of them). left_out: what of it cannot be meshed.
     """
 
     name: str
@@ -61,6 +62,7 @@ class Part:
     remarks: list[tuple[TopoDS_Shape | None, str]] = field(default_factory=list)
     tags: list[Tag] = field(default_factory=list)
     notes: list[tuple[TopoDS_Shape | None, str]] = field(default_factory=list)
+    left_out: list[str] = field(default_factory=list)
 
     def __iter__(self) -> Iterator[Part]:
         """This part and all below it."""
@@ -81,12 +83,13 @@ class Part:
 
 def model_of(
     root: Part, *, heal: bool, units: str | None = None, file_unit: str = "mm", source: str = "",
-    joining: Joining | None = None,
+    joining: Joining | None = None, path: FilePath | None = None,
 ) -> CadModel:  # fmt: skip
     """Heal, scale and place every part, join them if wished, and walk through all of them.
 
-    Shapes are in millimetres; units: what the model is wanted in (None: millimetres).
-    Raises CadError when a part cannot be used, or the parts cannot be joined.
+    Shapes are in millimetres; units: what the model is wanted in (None: millimetres). path: of
+    the file they were read from. Raises CadError when a part cannot be used, or the parts cannot
+    be joined.
     """
     from OCP.TopLoc import TopLoc_Location
 
@@ -99,7 +102,9 @@ def model_of(
     else:
         placed = _placed(root, TopLoc_Location(), heal, 1.0, [])
         placed = _scaled_together(joining.applied(placed, MILLIMETRES[unit]), scale)
-    return cad_model(placed, heal=heal, unit=unit, file_unit=file_unit, source=source)
+    return cad_model(
+        placed, heal=heal, unit=unit, file_unit=file_unit, source=source, path=path
+    )
 
 
 def checked_unit(units: str | None) -> str:
@@ -118,23 +123,33 @@ def _placed(
     known: list[tuple[TopoDS_Shape, Part]],
 ) -> Part:
     """place: of the parent in the whole; known: shapes that were met before, made ready."""
-    from surfmesh.cad.healing import healed
-
     if part.place is not None:
         place = place.Multiplied(part.place)
     ready = part
     if part.shape is not None:
         ready = next((done for shape, done in known if shape.IsEqual(part.shape)), None)
         if ready is None:
-            ready = _scaled(healed(part, heal), scale)
+            ready = _scaled(_usable(part, heal), scale)
             known.append((part.shape, replace(ready, remarks=[])))  # said once is enough
         ready = _moved(replace(ready, name=part.name, colour=part.colour), place, scale)
     children = [_placed(child, place, heal, scale, known) for child in part.children]
     return replace(ready, place=None, children=children)
 
 
+def _usable(part: Part, heal: bool) -> Part:
+    """Healed, without the faces that cannot be used; without a shape where all are such."""
+    from surfmesh.cad.healing import healed
+    from surfmesh.cad.unusable_faces import without_unusable_faces
+
+    part = without_unusable_faces(part)
+    if part.shape is not None and part.shape.IsNull():
+        said = part.left_out or [f"the part {part.name!r} has no shape"]
+        return replace(part, shape=None, details=[], remarks=[], tags=[], left_out=said)
+    return healed(part, heal)
+
+
 def _scaled(part: Part, scale: float) -> Part:
-    if scale == 1.0:
+    if scale == 1.0 or part.shape is None:
         return part
     from OCP.gp import gp_Pnt, gp_Trsf
 
@@ -166,7 +181,7 @@ def _scaled_together(root: Part, scale: float) -> Part:
 
 
 def _moved(part: Part, place: TopLoc_Location, scale: float) -> Part:
-    if place.IsIdentity():
+    if place.IsIdentity() or part.shape is None:
         return part
     from OCP.gp import gp_Trsf, gp_Vec
     from OCP.TopLoc import TopLoc_Location

@@ -175,7 +175,8 @@ class CadModel:
     free_shells, free_faces: what belongs to no solid; a free face is in no shell either.
     unit: of every length; file_unit: that of the file. diagonal: of the box around everything.
     healing: what was changed or could not be, one sentence each. source: the file, or what else
-    it came from; sha256: of that file. tags: of CadQuery.
+    it came from; sha256: of that file. tags: of CadQuery. left_out: faces that cannot be meshed,
+    each with the reason; ``mesh`` refuses such a model unless strict=False.
     """
 
     vertices: tuple[CadVertex, ...]
@@ -193,6 +194,7 @@ class CadModel:
     source: str
     sha256: str = ""
     tags: tuple[CadTag, ...] = ()
+    left_out: tuple[str, ...] = ()
     _faces_of_edge: list = field(default_factory=list, compare=False)
 
     def faces_of_edge(self, edge: int) -> tuple[int, ...]:
@@ -243,6 +245,7 @@ class CadModel:
         opened = sum(not solid.closed for solid in self.solids)
         if opened:
             lines.append(f"{_counted(opened, 'solid')} not closed")
+        lines += [f"left out: {sentence}" for sentence in self.left_out]
         lines += [f"healing: {sentence}" for sentence in self.healing]
         return "\n".join(lines + self.tree.lines())
 
