@@ -109,7 +109,8 @@ UNUSABLE = {
 @pytest.mark.parametrize("name", UNUSABLE)
 def test_a_face_that_cannot_be_used(name):
     make, reason = UNUSABLE[name]
-    with pytest.raises(CadError, match=f"holds no face that can be meshed: the only face.*{reason}"):
+    alone = f"holds no face that can be meshed: the only face.*{reason}"
+    with pytest.raises(CadError, match=alone):
         sm.from_cadquery(make())
     model = sm.from_cadquery(compound(make(), box()))
     assert model.check() == "" and len(model.faces) == 6
