@@ -78,7 +78,9 @@ def _parser() -> _Parser:
     mesh.add_argument("--no-optimise", action="store_true", help="the raw packing, for comparison")
     _add_cad(mesh)
     mesh.add_argument(
-        "--simplify", action="store_true", help="collapse tiny edges of a CAD model"
+        "--simplify",
+        action="store_true",
+        help="collapse tiny edges of a CAD model; thin lines of a planar domain",
     )
     mesh.add_argument(
         "--order", type=int, default=1, choices=(1, 2), help="2: nodes amid the edges too"
