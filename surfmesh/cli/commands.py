@@ -149,7 +149,7 @@ def _shown(options: Namespace, progress: ProgressBar) -> Any:
 
     if Path(options.input).suffix.lower() in FORMATS:
         return read(options.input)
-    surface = _named_surface(options.input, options.units)
+    surface = _named_surface(options.input, options)
 
     from surfmesh import api
 
@@ -160,7 +160,7 @@ def _shown(options: Namespace, progress: ProgressBar) -> Any:
 
 def explain(options: Namespace) -> bool:
     """Say which rule decides the size at a point."""
-    surface = _named_surface(options.input, options.units)
+    surface = _named_surface(options.input, options)
 
     from surfmesh import api
 
@@ -174,7 +174,7 @@ def explain(options: Namespace) -> bool:
 
 def estimate(options: Namespace) -> bool:
     """Say how many triangles there would be, and how much memory they need."""
-    surface = _named_surface(options.input, options.units)
+    surface = _named_surface(options.input, options)
 
     from surfmesh import api
 
@@ -268,7 +268,7 @@ def _surface(options: Namespace) -> Any:
     if not any(formulas.values()) and not options.param:
         if not options.input:
             raise SurfaceError("name a formula file or a gallery surface, or give --x --y --z")
-        return _named_surface(options.input, options.units)
+        return _named_surface(options.input, options)
     if options.input:
         raise SurfaceError(f"either INPUT ('{options.input}') or formulas, not both")
     missing = [f"--{name}" for name, value in formulas.items() if value is None]
@@ -316,16 +316,18 @@ def _on_surface(found: Any, surface: Any) -> Any:
     )
 
 
-def _named_surface(name: str, units: str | None = None) -> Any:
-    """A file (a CAD model's lengths in ``units``), or else a surface of the gallery."""
+def _named_surface(name: str, options: Namespace | None = None) -> Any:
+    """A file, or else a surface of the gallery; options: those of a CAD model."""
     from surfmesh import api
     from surfmesh.geometry.surface_file import gallery as surfaces
 
+    given = () if options is None else ("units", "imprint", "sew")
+    wanted = {option: getattr(options, option) for option in given}
     if Path(name).is_file():
-        return api.load(name, units)
+        return api.load(name, **wanted)
     known = surfaces()
     if name in known:
-        return api.load(known[name])
+        return api.load(known[name], **wanted)
     close = get_close_matches(name, known, n=1)
     hint = f"did you mean '{close[0]}'?" if close else "'surfmesh gallery' lists what there is"
     raise SurfaceError(f"'{name}' is neither a file nor a surface of the gallery; {hint}")
