@@ -52,6 +52,7 @@ from surfmesh.cad.model import (
     Colour,
     Shell,
 )
+from surfmesh.cad.singular_cuts import cut_at_singular_lines
 from surfmesh.cad.tolerances import (
     curves_on_their_faces,
     images_that_follow,
@@ -87,7 +88,7 @@ def cad_model(
         healing += images_that_follow(walk.edges, walk.vertices, walk.faces, unit)
         healing += curves_on_their_faces(walk.edges, walk.vertices, walk.faces, unit)
     healing += tolerances_that_hold(walk.edges, walk.vertices, walk.faces, unit)
-    return CadModel(
+    model = CadModel(
         vertices=tuple(walk.vertices),
         edges=tuple(walk.edges),
         faces=tuple(walk.faces),
@@ -103,6 +104,7 @@ def cad_model(
         source=source,
         tags=walk.tags(root),
     )
+    return cut_at_singular_lines(model)
 
 
 _TAGGED = {

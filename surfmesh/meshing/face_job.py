@@ -26,6 +26,7 @@ from surfmesh.meshing.gluing import glued, misglued
 from surfmesh.meshing.one_place import one_place
 from surfmesh.meshing.optimise import Optimiser
 from surfmesh.meshing.packing import packed_over
+from surfmesh.meshing.pole_tips import with_tips, without_tips
 from surfmesh.meshing.seam_limits import seam_limits
 from surfmesh.sizing.boundary_field import boundary_field, has_boundary_field
 from surfmesh.sizing.size_field import SizeField, inverse_sizes, size_field
@@ -47,6 +48,15 @@ PROJECTIONS = 4
 
 def mesh_face(job: FaceJob) -> FaceMesh:
     """Mesh one face. Never raises for what is wrong with the face: see ``failure``."""
+    rest, tips, slots = without_tips(job)
+    mesh = _mesh_rest(rest)
+    if mesh.failure or not tips:
+        return mesh
+    return with_tips(job, rest, mesh, tips, slots)
+
+
+def _mesh_rest(job: FaceJob) -> FaceMesh:
+    """Mesh a face without thin tips, or what is left of one."""
     try:
         try:
             return _never_empty(job, _meshed(job))
