@@ -41,6 +41,7 @@ from OCP.TopTools import TopTools_IndexedMapOfShape
 
 from surfmesh.cad.assembly import Part
 from surfmesh.cad.creases import creased, cut_along_creases
+from surfmesh.cad.sphere_poles import passed_poles, with_turned_spheres
 from surfmesh.errors import CadError
 
 LARGEST_GAP = 1e-4  # of the part's size: healing closes no wider gap, raises no tolerance further
@@ -69,7 +70,10 @@ def healed(part: Part, heal: bool = True) -> Part:
         raise CadError(f"the part {part.name!r} has no shape")
     bare = [face for face in _faces(part.shape) if _is_bare(face)]
     curveless = [edge for edge in _edges(part.shape) if _lacks_curve(edge)]
-    wrong = heal and (_lacks_image(part.shape) or not BRepCheck_Analyzer(part.shape).IsValid())
+    passed = passed_poles(part) if heal else []
+    wrong = heal and (
+        bool(passed) or _lacks_image(part.shape) or not BRepCheck_Analyzer(part.shape).IsValid()
+    )
     if not (bare or curveless or wrong):
         return _uncreased(part) if heal else part
     part = _copied(part)
@@ -77,6 +81,8 @@ def healed(part: Part, heal: bool = True) -> Part:
         part = _with_curves(part)
     if bare:
         part = _with_boundaries(part)
+    if passed:
+        part = with_turned_spheres(part, passed_poles(part))
     if wrong:
         part = _repaired(_with_own_loops(part))
     return _uncreased(part) if heal else part
