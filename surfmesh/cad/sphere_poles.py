@@ -98,8 +98,19 @@ def _passes(face: TopoDS_Face) -> bool:
         if beside.min() > NEAR + step:
             continue
         flat = np.linalg.svd(way[:, :2], compute_uv=False)[-1] / np.sqrt(SAMPLES)
-        if flat > MERIDIAN and _least_beside(way) < NEAR:
+        if _least_beside(way) < NEAR and (flat > MERIDIAN or _lacks_image(face)):
             return True
+    return False
+
+
+def _lacks_image(face: TopoDS_Face) -> bool:
+    """Of an edge at a pole, say, that it shares with a face on the other side."""
+    explorer = TopExp_Explorer(face, TopAbs_EDGE)
+    while explorer.More():
+        edge = TopoDS.Edge_s(explorer.Current())
+        if BRep_Tool.CurveOnSurface_s(edge, face, 0.0, 0.0) is None:
+            return True
+        explorer.Next()
     return False
 
 
