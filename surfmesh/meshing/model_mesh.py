@@ -120,10 +120,11 @@ def _mesh_faces(
                 hopes[number].hear(face_mesh)
                 watch.pulse(count / len(changed))
         with watch.stage("mapping"):
-            mesh = _joined(model, jobs, done, nodes, samples, sizing, watch)
             asking = [k for k, found in enumerate(done) if found.wishes is not None]
             wishes = {k: done[k].wishes for k in asking if hopes[k].is_left}
-            _refine_crowded(model, mesh, sizing, wishes)
+            if any(len(found.triangles) for found in done):
+                mesh = _joined(model, jobs, done, nodes, samples, sizing, watch)
+                _refine_crowded(model, mesh, sizing, wishes)
         if not wishes:
             break
         for number, wish in wishes.items():
