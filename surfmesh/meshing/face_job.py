@@ -27,6 +27,7 @@ from surfmesh.meshing.one_place import one_place
 from surfmesh.meshing.optimise import Optimiser
 from surfmesh.meshing.packing import packed_over
 from surfmesh.meshing.seam_limits import seam_limits
+from surfmesh.meshing.strip_triangulation import strip_mesh
 from surfmesh.sizing.boundary_field import boundary_field, has_boundary_field
 from surfmesh.sizing.size_field import SizeField, inverse_sizes, size_field
 from surfmesh.sizing.size_limits import SizeLimits, along_lines
@@ -48,6 +49,9 @@ PROJECTIONS = 4
 def mesh_face(job: FaceJob) -> FaceMesh:
     """Mesh one face. Never raises for what is wrong with the face: see ``failure``."""
     try:
+        strip = strip_mesh(job) if job.narrow is not None else None
+        if strip is not None:
+            return strip
         try:
             return _never_empty(job, _meshed(job))
         except SurfaceError:
