@@ -72,7 +72,8 @@ def mesh(
     boundary, as in the paper. progress: called with (stage, share done); when it returns False
     the work stops. strict=False: faces of a CAD model that cannot be meshed are left out and
     listed in the mesh's ``warnings``. simplify=True: tiny edges of a CAD model are collapsed,
-    those below ``min_size`` or a two-thousandth of the diagonal; topology is kept. jobs: faces
+    those below ``min_size`` or a two-thousandth of the diagonal; lines of a planar domain that
+    are finer than the sizes are thinned; topology is kept. jobs: faces
     of a CAD model meshed at once; the mesh is the same with any number of them. order=2: nodes
     amid the edges too, on the true curves and surfaces (``mesh.mid_points``).
 
@@ -89,7 +90,7 @@ def mesh(
         made = mesh_model(surface, wishes, optimise, progress, strict, simplify, jobs)
         return _logged(made if order == 1 else of_second_order(made, surface), surface)
     if isinstance(surface, PlanarDomain):
-        made = mesh_planar(surface, wishes, optimise, progress)
+        made = mesh_planar(surface, wishes, optimise, progress, simplify)
     else:
         made = mesh_parametric(surface, wishes, optimise, progress)
     return _logged(made if order == 1 else of_second_order(made), surface)
@@ -151,7 +152,13 @@ def _settled(surface: Any, sizing: Any) -> tuple[Any, Any]:
             f"sizes by selection ({', '.join(map(repr, sizing))}) need a CAD model; a "
             f"{type(surface).__name__} takes one Sizing, or '*' alone"
         )
-    return surface, Sizing.of(sizing)
+    made = Sizing.of(sizing)
+    if made.volume is not None:
+        raise SizingError(
+            f"volume {made.volume:g}: volumes are kept of the closed solids of CAD models; of a "
+            f"{type(surface).__name__} ask for a chord"
+        )
+    return surface, made
 
 
 def show(

@@ -66,7 +66,9 @@ def _parser() -> _Parser:
     mesh.add_argument("--no-optimise", action="store_true", help="the raw packing, for comparison")
     _add_cad(mesh)
     mesh.add_argument(
-        "--simplify", action="store_true", help="collapse tiny edges of a CAD model"
+        "--simplify",
+        action="store_true",
+        help="collapse tiny edges of a CAD model; thin lines of a planar domain",
     )
     mesh.add_argument(
         "--order", type=int, default=1, choices=(1, 2), help="2: nodes amid the edges too"
@@ -160,6 +162,7 @@ def _add_sizes(parser: argparse.ArgumentParser) -> None:
     sizes.add_argument("--max-size", type=_positive, help="no edge is wanted longer")
     sizes.add_argument("--growth", type=_positive, help="largest ratio of neighbouring sizes")
     sizes.add_argument("--anisotropy", type=_positive, help="largest stretch; 1 is isotropic")
+    sizes.add_argument("--volume", type=_positive, help="largest relative error of solids' volumes")
     sizes.add_argument("--gap", type=_positive, help="triangles across thin faces and gaps")
     sizes.add_argument("--limit", type=_count, help="most triangles (default 20 million)")
     sizes.add_argument(

@@ -13,7 +13,10 @@ from typing import Any
 from surfmesh.cli.progress import ProgressBar, announce_compilation
 from surfmesh.errors import FileFormatError, SurfaceError, SurfmeshError
 
-SIZES = ("chord", "angle", "size", "min_size", "max_size", "growth", "anisotropy", "gap", "limit")
+SIZES = (
+    "chord", "angle", "size", "min_size", "max_size", "growth", "anisotropy", "volume", "gap",
+    "limit",
+)  # fmt: skip
 
 
 def mesh(options: Namespace) -> bool:

@@ -30,7 +30,7 @@ from surfmesh.meshing.model_estimate import model_counts, require_model_within
 from surfmesh.meshing.model_groups import groups_of
 from surfmesh.meshing.narrow_faces import NarrowFace
 from surfmesh.meshing.simplification import LEAST, simplified
-from surfmesh.meshing.solid_contents import Contents
+from surfmesh.meshing.solid_volumes import VolumeAims
 from surfmesh.meshing.stages import Progress, Stopwatch
 from surfmesh.meshing.trial_faces import ratios
 from surfmesh.meshing.trial_mesh import ROUNDS as TRIAL_ROUNDS
@@ -38,6 +38,7 @@ from surfmesh.meshing.trial_mesh import WHOLE, WHOLE_STRETCHED, tried
 from surfmesh.sizing.model_sizing import ModelSizing, model_sizing
 from surfmesh.sizing.size_limits import SizeLimits
 from surfmesh.sizing.sizing import Sizing
+from surfmesh.sizing.volume_rule import with_volume_rule
 from surfmesh.surface_mesh import NOT_MESHED, SurfaceMesh
 
 ROUNDS = 8
@@ -46,6 +47,9 @@ ROUNDS = 8
 PATIENCE, HOPE, GROWN = 2, 0.9, 1.02
 """A face is meshed again for its own wishes until so many rounds running have left more than this
 share of the places, and made it no finer than this: smaller sizes do not reach what is wrong."""
+
+VOLUME_ROUNDS = 4
+"""How often a model is meshed for the sake of its volumes, at most: once in most cases."""
 
 FINER = 0.6
 """Factor on the sizes where faces share an edge of triangles that they should not."""
@@ -65,14 +69,26 @@ def mesh_model(
     Raises ``MeshingError`` that names the faces that could not be meshed, with the reasons.
     """
     watch = Stopwatch(progress)
-    wanted = with_face_gaps(model, model_sizing(model, sizing))
+    asked = model_sizing(model, sizing)
+    aims = VolumeAims(model, asked.base.volume)
+    for _ in range(VOLUME_ROUNDS):
+        with watch.stage("sizing"):
+            wanted = _wanted(model, asked, aims.by_solid)
+        mesh = _mesh_faces(model, wanted, optimise, watch, strict, workers, rounds)
+        if not aims.lowered_after(mesh):
+            break
+    return simplified(mesh, asked.base.min_size or LEAST * model.diagonal) if simplify else mesh
+
+
+def _mesh_faces(
+    model: CadModel, wanted: ModelSizing, optimise: bool, watch: Stopwatch, strict: bool,
+    workers: int, rounds: int,
+) -> SurfaceMesh:  # fmt: skip
+    """The mesh for one set of sizes."""
     sizing = wanted.base
     with watch.stage("sizing"):
         samples = sample_edges(model, wanted)
         of_face = face_sizings(model, samples, wanted)
-    # few triangles are asked for within the chord: it alone is kept
-    kept = None if wanted.is_anisotropic else sizing.chord
-    contents = Contents(model, kept, sizing.gradient)
     limits: dict[int, SizeLimits] = {}
     jobs: list[FaceJob | None] = [None] * len(model.faces)
     done: list[FaceMesh] = [FaceMesh()] * len(model.faces)
@@ -108,8 +124,6 @@ def mesh_model(
             asking = [k for k, found in enumerate(done) if found.wishes is not None]
             wishes = {k: done[k].wishes for k in asking if hopes[k].is_left}
             _refine_crowded(model, mesh, sizing, wishes)
-            for number, wish in contents.wishes(mesh).items():
-                wishes[number] = wish.joined_with(wishes.get(number))
         if not wishes:
             break
         for number, wish in wishes.items():
@@ -130,8 +144,7 @@ def mesh_model(
             + ". Lower the sizes, repair the faces, or use strict=False to get the others"
         )
     mesh = replace(mesh, promises=wanted.promises(len(model.faces)))
-    mesh = mesh.with_warnings(*_left_over(model, {*asking, *wishes}), *contents.warnings())
-    return simplified(mesh, sizing.min_size or LEAST * model.diagonal) if simplify else mesh
+    return mesh.with_warnings(*_left_over(model, {*asking, *wishes}))
 
 
 class _Hope:
@@ -157,14 +170,14 @@ class _Hope:
 def estimate_model(model: CadModel, sizing: Any) -> Estimate:
     """Triangles and memory of ``mesh_model``. Raises ``SizingError`` for wishes that cannot be."""
     wanted, _, _, jobs = _unmeshed(model, sizing)
-    first, counts = model_counts(model, jobs, wanted.base)
+    counts = model_counts(jobs)
     if counts.sum() <= (WHOLE_STRETCHED if wanted.is_anisotropic else WHOLE):
         made = tried(lambda stop: mesh_model(
             model, sizing, progress=stop, strict=False, rounds=TRIAL_ROUNDS
         ))  # fmt: skip
         if made is not None:
             return Estimate.of(made, wanted.is_anisotropic, model=True)
-    return Estimate.of(counts * ratios(jobs, first), wanted.is_anisotropic, model=True)
+    return Estimate.of(counts * ratios(jobs, counts), wanted.is_anisotropic, model=True)
 
 
 def explain_size(model: CadModel, sizing: Any, point: np.ndarray) -> Explanation:
@@ -172,11 +185,18 @@ def explain_size(model: CadModel, sizing: Any, point: np.ndarray) -> Explanation
     return explain_model(model, *_unmeshed(model, sizing), point)
 
 
+def _wanted(
+    model: CadModel, asked: ModelSizing, aims: Mapping[int, float] | None = None
+) -> ModelSizing:
+    """With what follows from volumes and from gaps between faces; aims: see ``VolumeAims``."""
+    return with_face_gaps(model, with_volume_rule(model, asked, aims))
+
+
 def _unmeshed(
     model: CadModel, sizing: Any
 ) -> tuple[ModelSizing, EdgeSamples, list[Sizing], list[FaceJob]]:
     """Wishes, samples of edges, wishes by face and jobs: all that precedes the first mesh."""
-    wanted = with_face_gaps(model, model_sizing(model, sizing))
+    wanted = _wanted(model, model_sizing(model, sizing))
     samples = sample_edges(model, wanted)
     of_face = face_sizings(model, samples, wanted)
     nodes = cut_edges(model, wanted.base, samples, {})

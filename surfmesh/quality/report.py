@@ -17,6 +17,7 @@ from surfmesh.quality.chord_use import chord_use
 from surfmesh.quality.deviation import deviation
 from surfmesh.quality.folds import FoldedTriangle, folded_surfaces, folds, most_folded
 from surfmesh.quality.histograms import Histogram, histograms
+from surfmesh.quality.kept_volumes import volumes_not_kept
 from surfmesh.quality.lengths import (
     QUASI_UNIT,
     edge_lengths,
@@ -224,6 +225,8 @@ def check(mesh: SurfaceMesh) -> Report:
         contacts, pairs = int(between.sum()), pairs[~between]
     meeting = () if pairs is None else located(mesh, pairs[:LISTED])
     said = problems(mesh, broken, topo, shape, fit, beyond, promises, turned_over, solids)
+    short, forbidden = volumes_not_kept(mesh, solids)
+    said += short
     if bent is not None:
         said.append(turned_too_far(mesh, turns, bent, promises))
     if pairs is not None and not crosses:
@@ -307,6 +310,7 @@ def check(mesh: SurfaceMesh) -> Report:
             *mesh.warnings,
             *(() if folded is None else folded_surfaces(mesh, turned_over)),
             *stated(limits),
+            *forbidden,
         ),
         options=_options(mesh.sizing),
         problems=tuple(said),
