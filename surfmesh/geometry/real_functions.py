@@ -217,15 +217,20 @@ _REAL = {
 
 def on_the_real_line(expression: sp.Expr) -> sp.Expr:
     """SymPy's complex functions replaced by the real ones above, and ratios by ratios."""
-    if expression.has(sp.Piecewise):
+    if sp.Piecewise in _kinds(expression):
         expression = expression.replace(sp.Piecewise, _pieces)
+    kinds = _kinds(expression)
     for complex_one, real_one in _REAL.items():
-        if expression.has(complex_one):
+        if complex_one in kinds:
             expression = expression.replace(complex_one, real_one)
-    if expression.has(angle):
+    if angle in kinds or sp.atan2 in kinds:
         for wave in (sp.sin, sp.cos, sp.tan):
             expression = expression.replace(wave, lambda x, wave=wave: wave(_turning(x)))
     return expression
+
+
+def _kinds(expression: sp.Expr) -> set:
+    return {part.func for part in sp.preorder_traversal(expression)}
 
 
 def _turning(argument: sp.Expr) -> sp.Expr:
