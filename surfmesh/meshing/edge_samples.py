@@ -225,7 +225,8 @@ def _sampled(
 ) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray, float]:  # fmt: skip
     """share (n,), points (n, 3), wish (n,), tangent (n, 3), turn.
 
-    narrow: faces whose curvature is not asked for. Faces that differ in their wishes are heard one after the other, then the edge itself.
+    narrow: faces whose curvature is not asked for.
+    Faces that differ in their wishes are heard one after the other, then the edge itself.
     """
     edge = model.edges[number]
     straight = getattr(edge.curve, "kind", "") == "line"

@@ -18,7 +18,6 @@ import numpy as np
 
 from surfmesh.geometry.surface import Surface
 from surfmesh.meshing.face_data import FaceJob, FaceMesh, Piece
-from surfmesh.meshing.narrow_faces import NarrowFace
 
 TURN_ACROSS = 0.5 * math.pi
 """Radians: no triangle spans a wider turn of the surface on the way across."""
