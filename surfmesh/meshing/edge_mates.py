@@ -182,6 +182,8 @@ class MatedCuts:
             self.runs.setdefault(run.edge, []).append(run)
             self.runs.setdefault(run.mate, [])
         self.shares = {edge: np.array([0.0, 1.0]) for edge in self.runs}
+        self._seen: dict[int, int] = {}  # nodes of the edge when feet of a run were looked for
+        self._length = {edge: self._lengths(edge) for edge in self.runs}
 
     def cut(self) -> dict[int, np.ndarray]:
         """Shares (k,) by edge, rising from 0 to 1."""
@@ -212,7 +214,10 @@ class MatedCuts:
     def _add_feet(self, run: MateRun) -> int:
         """Cut the mate where nodes of the edge have their feet; how many are new."""
         own = self.shares[run.edge]
-        reach = 0.5 * np.diff(run.share).max() if len(run.share) > 1 else 1e-3
+        if self._seen.get(id(run)) == len(own):
+            return 0
+        self._seen[id(run)] = len(own)
+        reach = 0.5 * np.diff(run.share).max() if len(run.share) > 1 else 0.0
         own = own[(own >= run.share[0] - reach) & (own <= run.share[-1] + reach)]
         if not len(own):
             return 0
@@ -224,30 +229,37 @@ class MatedCuts:
         foot, away = foot_on_edge(self.model, run.mate, points, guess)
         gap = np.interp(own, run.share, run.gap)
         there = away <= 2.0 * gap + 1e-9 * self.model.diagonal
-        nodes, added = self.shares[run.mate], []
-        for t, width in zip(foot[there].tolist(), away[there].tolist()):
-            every = np.concatenate([nodes, added])
-            near = float(every[np.abs(every - t).argmin()])
-            if abs(self._way(run.mate, near, t)) > self._same(run.mate, t, width):
-                added.append(t)
+        foot, away = foot[there], away[there]
+        nodes = self.shares[run.mate]
+        right = np.clip(np.searchsorted(nodes, foot), 1, len(nodes) - 1)
+        along, ends = self._along(run.mate, foot), self._along(run.mate, nodes)
+        near = np.minimum(np.abs(along - ends[right - 1]), np.abs(along - ends[right]))
+        same = self._same(run.mate, foot, away)
+        added: list[float] = []
+        for k in np.flatnonzero(near > same).tolist():
+            if all(abs(along[k] - place) > same[k] for place in added):
+                added.append(float(along[k]))
+                nodes = np.append(nodes, foot[k])
         if added:
-            self.shares[run.mate] = np.unique(np.concatenate([nodes, added]))
+            self.shares[run.mate] = np.unique(nodes)
         return len(added)
 
-    def _way(self, edge: int, a: float, b: float) -> float:
-        """Length along an edge between two shares."""
-        at = self.samples.of(edge)
-        points, share = self.samples.points[at], self.samples.share[at]
-        length = np.r_[0.0, np.cumsum(np.linalg.norm(np.diff(points, axis=0), axis=1))]
-        return float(np.diff(np.interp([a, b], share, length))[0])
+    def _lengths(self, edge: int) -> np.ndarray:
+        points = self.samples.points[self.samples.of(edge)]
+        return np.r_[0.0, np.cumsum(np.linalg.norm(np.diff(points, axis=0), axis=1))]
 
-    def _same(self, edge: int, t: float, gap: float) -> float:
-        """How near to the foot t a node is the mate itself."""
+    def _along(self, edge: int, share: np.ndarray) -> np.ndarray:
+        """Lengths (n,) from the start of an edge to shares (n,)."""
+        return np.interp(share, self.samples.share[self.samples.of(edge)], self._length[edge])
+
+    def _same(self, edge: int, foot: np.ndarray, gap: np.ndarray) -> np.ndarray:
+        """How near (n,) to its foot (n,) a node is the mate itself, where the gap is (n,)."""
         at = self.samples.of(edge)
-        size = float(np.interp(t, self.samples.share[at], self.sizes[at]))
+        size = np.interp(foot, self.samples.share[at], self.sizes[at])
         length = max(self.model.edges[edge].length, np.finfo(float).tiny)
-        turn = max(self.samples.turn[edge] * min(size / length, 1.0), LEAST_TURN)
-        return max(min(SAME_SIZE * size, SAME_GAP * gap / turn), 1e-9 * length)
+        turn = np.maximum(self.samples.turn[edge] * np.minimum(size / length, 1.0), LEAST_TURN)
+        same = np.minimum(SAME_SIZE * size, SAME_GAP * gap / turn)
+        return np.maximum(same, 1e-9 * length)
 
     def _subdivided(self, edge: int) -> np.ndarray:
         """The shares with more between them, in pieces of metric length near 1."""
