@@ -12,8 +12,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from surfmesh.cad.collapsed_edges import collapses, vertex_numbers
 from surfmesh.cad.model import CadCoedge, CadEdge, CadModel
-from surfmesh.geometry.curves import TURN
 from surfmesh.geometry.fundamental_forms import curvatures, forms_from_derivatives
 from surfmesh.kernels.edge_gaps import edge_gaps
 from surfmesh.meshing.edge_mates import MateRun, mate_runs
@@ -53,9 +53,6 @@ ask for nothing: a sliver along a whole part would flood it with triangles."""
 MOST_LONGER = 2e5
 """Segments beside a narrow face are at most so many times longer than it is wide: triangles
 longer than that count as having no area."""
-
-COLLAPSED = 2e-6
-"""Edges shorter than this share of the diagonal are one point: their faces meet in it."""
 
 HIDDEN, MOST_HALVINGS, MOST_SAMPLES = 0.7, 30, 20_000
 """Between samples, laws may ask for this share of the sizes at them; how hard that is pursued."""
@@ -194,29 +191,6 @@ def _has_twin(
     found = np.zeros(len(model.edges), bool)
     found[there] = count[group.reshape(-1)] > 1
     return found & (turn > 0.0)
-
-
-def collapses(model: CadModel, edge: CadEdge) -> bool:
-    """Is the edge so short that it is one vertex of the mesh?
-
-    A closed one is the rim of a hole or a pin, however small, unless it lies within its vertex.
-    """
-    if edge.closed and not edge.degenerate and edge.curve is not None:
-        vertex = model.vertices[edge.start]
-        within = TURN * max(vertex.tolerance, edge.tolerance)
-        return edge.length <= min(within, COLLAPSED * model.diagonal)
-    return edge.degenerate or edge.length <= COLLAPSED * model.diagonal
-
-
-def vertex_numbers(model: CadModel) -> np.ndarray:
-    """For each CAD vertex the first one that tiny edges join it to, mostly itself."""
-    number = np.arange(len(model.vertices))
-    for edge in model.edges:
-        if edge.start != edge.end and collapses(model, edge):
-            ends = number[edge.start], number[edge.end]
-            if ends[0] != ends[1]:
-                number[number == max(ends)] = min(ends)
-    return number
 
 
 def _sampled(

@@ -68,6 +68,8 @@ def mesh_model(
     strict=False delivers what could be meshed and lists the other faces in ``warnings``.
     Raises ``MeshingError`` that names the faces that could not be meshed, with the reasons.
     """
+    if strict:
+        require_all_faces(model)
     watch = Stopwatch(progress)
     asked = model_sizing(model, sizing)
     aims = VolumeAims(model, asked.base.volume)
@@ -120,10 +122,11 @@ def _mesh_faces(
                 hopes[number].hear(face_mesh)
                 watch.pulse(count / len(changed))
         with watch.stage("mapping"):
-            mesh = _joined(model, jobs, done, nodes, samples, sizing, watch)
             asking = [k for k, found in enumerate(done) if found.wishes is not None]
             wishes = {k: done[k].wishes for k in asking if hopes[k].is_left}
-            _refine_crowded(model, mesh, sizing, wishes)
+            if any(len(found.triangles) for found in done):
+                mesh = _joined(model, jobs, done, nodes, samples, sizing, watch)
+                _refine_crowded(model, mesh, sizing, wishes)
         if not wishes:
             break
         for number, wish in wishes.items():
@@ -145,6 +148,17 @@ def _mesh_faces(
         )
     mesh = replace(mesh, promises=wanted.promises(len(model.faces)))
     return mesh.with_warnings(*_left_over(model, {*asking, *wishes}))
+
+
+def require_all_faces(model: CadModel) -> None:
+    """Raises ``MeshingError`` that names what was left out when the model was read."""
+    if model.left_out:
+        more = len(model.left_out) - 5
+        raise MeshingError(
+            f"{(model.name or model.source)!r} cannot be meshed in full: "
+            + "; ".join(model.left_out[:5]) + (f"; and {more} more" if more > 0 else "")
+            + ". Repair it, or use strict=False (--no-strict) to get the other faces"
+        )  # fmt: skip
 
 
 class _Hope:
@@ -355,7 +369,8 @@ def _joined(
     segments = rank[np.concatenate(segments)] if segments else np.empty((0, 2), np.int64)
     of = np.concatenate(of) if of else np.empty(0, np.int64)
     there = (segments >= 0).all(axis=1)
-    missing = [
+    missing = [f"{NOT_MESHED}{said}" for said in model.left_out]
+    missing += [
         f"{NOT_MESHED}{_reason(model, k, found)}" for k, found in enumerate(done) if found.failure
     ]
     missing += [
