@@ -50,7 +50,7 @@ SLIVER, MUCH_SMALLER = 5e-5, 1.0 / 150.0
 """Gaps narrower than this share of the diagonal, or of the size asked for there without them,
 ask for nothing: a sliver along a whole part would flood it with triangles."""
 
-MOST_LONGER = 2e5
+MOST_LONGER = 1e8
 """Segments beside a narrow face are at most so many times longer than it is wide: triangles
 longer than that count as having no area."""
 
