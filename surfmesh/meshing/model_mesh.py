@@ -386,6 +386,7 @@ def _joined(
         face_ids=face_ids,
         surfaces=tuple(face.surface for face in model.faces),
         turned_faces=turned,
+        narrow_faces=np.array([found.narrow for found in done], bool),
         solid_ids=solids[face_ids],
         edge_segments=segments[there],
         edge_ids=of[there],

@@ -29,8 +29,8 @@ from surfmesh.quality.lengths import (
     size_growth,
 )
 from surfmesh.quality.loose_edges import LooseEdges, loose_edges
+from surfmesh.quality.narrow import DEGENERATE, narrow_triangles
 from surfmesh.quality.problems import (
-    DEGENERATE,
     intersections,
     overlaps,
     problems,
@@ -93,6 +93,10 @@ class Report:
     alpha_mean: float  # 4 sqrt(3) area / sum of squared edges, in 3D; 1 is equilateral
     alpha_p01: float  # 1 % of the triangles are worse
     alpha_min: float
+    narrow_triangles: int  # on faces of a CAD model that are narrower than the chord: good shape
+    # is not owed there; alpha, angles and edges are of all triangles
+    alpha_mean_elsewhere: float | None  # of the others; None: there are none
+    alpha_min_elsewhere: float | None
     alpha_metric_mean: float | None  # alpha as seen in the metric; None: isotropic, as in 3D
     alpha_metric_min: float | None
     radius_ratio_mean: float  # 2 r_in / r_circum; 1 is equilateral
@@ -254,6 +258,7 @@ def check(mesh: SurfaceMesh) -> Report:
     if beyond is not None and back is not None:
         far = surface_too_far(mesh, fit, back, beyond, promises)
         beyond = None if far else beyond
+    narrow = narrow_triangles(mesh, shape.alpha)
     volume = _volume(mesh, topo.balanced, solids) if finite and not broken else None
     odd = unexpected(mesh, topo)
     said = problems(mesh, broken, odd, topo, shape, fit, beyond, promises, turned_over, solids)
@@ -291,6 +296,9 @@ def check(mesh: SurfaceMesh) -> Report:
         alpha_mean=_over(np.mean, shape.alpha),
         alpha_p01=_over(lambda alpha: np.quantile(alpha, 0.01), shape.alpha),
         alpha_min=_over(np.min, shape.alpha),
+        narrow_triangles=narrow.count,
+        alpha_mean_elsewhere=narrow.alpha_mean_elsewhere,
+        alpha_min_elsewhere=narrow.alpha_min_elsewhere,
         alpha_metric_mean=None if wanted is None else _over(np.mean, wanted),
         alpha_metric_min=None if wanted is None else _over(np.min, wanted),
         radius_ratio_mean=_over(np.mean, shape.radius_ratio),
