@@ -28,7 +28,7 @@ def knob():
 
 
 def ring():
-    return cq.Workplane(obj=cq.Solid.makeTorus(3, 0.5))
+    return cq.Workplane(obj=cq.Solid.makeTorus(3, 1.2))
 
 
 def spline():
