@@ -5,13 +5,21 @@ from __future__ import annotations
 import numpy as np
 
 from surfmesh.cad.model import CadEdge, CadFace, CadModel
+from surfmesh.geometry.curves import TURN
 
 COLLAPSED = 2e-6
 """Edges shorter than this share of the diagonal are one point: their faces meet in it."""
 
 
 def collapses(model: CadModel, edge: CadEdge) -> bool:
-    """Is the edge so short that it is one vertex of the mesh?"""
+    """Is the edge so short that it is one vertex of the mesh?
+
+    A closed one is the rim of a hole or a pin, however small, unless it lies within its vertex.
+    """
+    if edge.closed and not edge.degenerate and edge.curve is not None:
+        vertex = model.vertices[edge.start]
+        within = TURN * max(vertex.tolerance, edge.tolerance)
+        return edge.length <= min(within, COLLAPSED * model.diagonal)
     return edge.degenerate or edge.length <= COLLAPSED * model.diagonal
 
 

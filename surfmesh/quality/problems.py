@@ -68,7 +68,7 @@ def problems(
             place = fit.point
             if worst != fit.triangle:
                 place = mesh.points[mesh.triangles[worst]].mean(axis=0)
-            there = f" on {_called(mesh, worst)}" * (not promises.uniform)
+            there = f" on {called(mesh, worst)}" * (not promises.uniform)
             said.append(
                 f"the mesh lies up to {beyond.reached:.4g} from the surface, {beyond.asked:.4g} "
                 f"was asked for{there} ({100 * beyond.share:.3g} % of the triangles are farther); "
@@ -164,7 +164,7 @@ def turned_too_far(
     """A sentence about edges across which triangles turn by more than was promised."""
     edge = turns.edges[beyond.worst]
     first, second = (mesh.connectivity.half_edges[edge] // 3).tolist()
-    there = f" on {_called(mesh, first)}" * (not promises.uniform)
+    there = f" on {called(mesh, first)}" * (not promises.uniform)
     return (
         f"neighbouring triangles turn by up to {beyond.reached:.4g}°, {beyond.asked:.4g}° was "
         f"asked for{there} ({100 * beyond.share:.3g} % of the edges turn more); worst between "
@@ -172,7 +172,7 @@ def turned_too_far(
     )
 
 
-def _called(mesh: SurfaceMesh, triangle: int) -> str:
+def called(mesh: SurfaceMesh, triangle: int) -> str:
     """The face of a triangle by number and name."""
     face = int(mesh.face_ids[triangle])
     name = mesh.face_name(face)

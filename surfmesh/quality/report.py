@@ -20,6 +20,7 @@ from surfmesh.quality.deviation import deviation
 from surfmesh.quality.folds import FoldedTriangle, folded_surfaces, folds, most_folded
 from surfmesh.quality.histograms import Histogram, histograms
 from surfmesh.quality.inward import turned_inward
+from surfmesh.quality.kept_volumes import volumes_not_kept
 from surfmesh.quality.lengths import (
     QUASI_UNIT,
     edge_lengths,
@@ -50,6 +51,7 @@ from surfmesh.quality.remarks import loose_faces, sheets_facing_apart, touching_
 from surfmesh.quality.self_intersection import MeetingPair, located, meeting_pairs
 from surfmesh.quality.shape import enclosed_volume, metric_alpha, shapes
 from surfmesh.quality.solids import shares_faces
+from surfmesh.quality.surface_to_mesh import both_ways, surface_deviation, surface_too_far
 from surfmesh.quality.topology import topology
 from surfmesh.quality.turning import turning, worst_turn
 from surfmesh.quality.worst import WorstTriangle, worst_triangles
@@ -124,11 +126,17 @@ class Report:
     size_growth_point: tuple[float, float, float] | None  # middle of that edge
 
     chord: float | None  # the largest deviation that was asked for, of the whole model
-    deviation_max: float | None  # from the true surface
+    deviation_max: float | None  # of the mesh from the true surface
     deviation_rms: float | None
     deviation_triangle: int | None  # where deviation_max is
     deviation_point: tuple[float, float, float] | None
     deviation_uv: tuple[float, float] | None
+    surface_deviation_max: float | None  # the other way: of the true surface from the mesh
+    surface_deviation_triangle: int | None  # over which it is
+    surface_deviation_point: tuple[float, float, float] | None  # of the true surface
+    surface_deviation_uv: tuple[float, float] | None
+    surface_deviation_at_rim: bool | None  # is that point on a free rim of the surface?
+    deviation_two_sided: float | None  # the larger of both: the Hausdorff distance, as sampled
     above_chord_share: float | None  # triangles farther away than the chord of their face
     chord_used: float | None  # median of deviation / chord where chord decided the size
     chord_decided_share: float | None  # of the triangles: where not growth or another wish did
@@ -210,6 +218,7 @@ def check(mesh: SurfaceMesh) -> Report:
     wanted = None if mesh.inverse_sizes is None else metric_alpha(mesh)
     fit = deviation(mesh, shape.area) if finite else None
     promises = Promises.of(mesh)
+    back = surface_deviation(mesh, fit, promises)
     chord = getattr(mesh.sizing, "chord", None) or promises.base_chord
     facts = mesh.facts or ModelFacts()
     unit_share = None
@@ -228,7 +237,7 @@ def check(mesh: SurfaceMesh) -> Report:
     above = beyond = None
     if fit is not None and np.isfinite(promises.chord).any():
         above = float(np.mean(beyond_chord(promises, mesh, fit)))
-        beyond, more = chord_kept(promises, mesh, fit)
+        beyond, more = chord_kept(promises, mesh, both_ways(fit, back))
         limits = [*more, *limits]
     turned_over = None if fit is None else folds(mesh, fit.cosine)
     folded = None if turned_over is None else turned_over.ours
@@ -242,9 +251,16 @@ def check(mesh: SurfaceMesh) -> Report:
         met = bodies(mesh, pairs, solids, by_triangle, edge_to_edge)
         pairs = pairs[met.own]
     meeting = () if pairs is None else located(mesh, pairs[:LISTED])
+    far = None
+    if beyond is not None and back is not None:
+        far = surface_too_far(mesh, fit, back, beyond, promises)
+        beyond = None if far else beyond
     volume = _volume(mesh, topo.balanced, solids) if finite and not broken else None
     odd = unexpected(mesh, topo)
     said = problems(mesh, broken, odd, topo, shape, fit, beyond, promises, turned_over, solids)
+    short, forbidden = volumes_not_kept(mesh, solids)
+    said += short
+    said += [far] if far else []
     if bent is not None:
         said.append(turned_too_far(mesh, turns, bent, promises))
     if pairs is not None and not crosses:
@@ -313,6 +329,12 @@ def check(mesh: SurfaceMesh) -> Report:
         deviation_triangle=None if fit is None else fit.triangle,
         deviation_point=None if fit is None else fit.point,
         deviation_uv=None if fit is None else fit.uv,
+        surface_deviation_max=None if back is None else back.largest,
+        surface_deviation_triangle=None if back is None else back.triangle,
+        surface_deviation_point=None if back is None else back.point,
+        surface_deviation_uv=None if back is None else back.uv,
+        surface_deviation_at_rim=None if back is None else back.at_rim,
+        deviation_two_sided=None if back is None else max(fit.largest, back.largest),
         above_chord_share=above,
         chord_used=None if used is None else used.used,
         chord_decided_share=None if used is None else used.share,
@@ -340,6 +362,7 @@ def check(mesh: SurfaceMesh) -> Report:
             *mesh.warnings,
             *(() if folded is None else folded_surfaces(mesh, turned_over)),
             *stated(limits),
+            *forbidden,
             *(() if met is None else touching_bodies(met)),
             *(() if loose is None else loose_faces(loose, mesh)),
             *sheets_facing_apart(mesh, odd),

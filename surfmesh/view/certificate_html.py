@@ -40,6 +40,7 @@ _FIGURES = (  # title, fields, how they are said; a row without any known field 
     ("edges", ("edge_min", "edge_mean", "edge_max"), "{0} to {2}, mean {1}"),
     ("edges as wanted", ("quasi_unit_share",), "{} within a factor sqrt 2"),
     ("distance from the surface", ("deviation_max", "deviation_rms"), "largest {}, rms {}"),
+    ("distance of the surface from the mesh", ("surface_deviation_max",), "largest {}"),
     ("distance asked for", ("chord",), "{}"),
     ("turn between neighbours", ("angle_max",), "largest {}°"),
     ("turn asked for", ("angle",), "{}°"),

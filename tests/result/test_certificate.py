@@ -10,7 +10,7 @@ import cadquery as cq
 import jsonschema
 import numpy as np
 import pytest
-from conftest import Saddle, changed, grid, icosphere
+from handmade_meshes import Saddle, changed, grid, icosphere
 from naive import meeting as slow
 
 import surfmesh as sm
