@@ -33,6 +33,12 @@ class Explained(NamedTuple):
     volume: NDArray[np.float64]  # (m,)
 
 
+def is_known(mesh: SurfaceMesh) -> bool:
+    """Is there an exact area or volume to compare with?"""
+    facts = mesh.facts
+    return facts is not None and bool(facts.area or facts.faces or facts.solids)
+
+
 def explained(
     mesh: SurfaceMesh, area: NDArray[np.float64], by_triangle: NDArray[np.float64]
 ) -> Explained:
@@ -48,12 +54,10 @@ def explained(
 def _along_rims(mesh: SurfaceMesh, by_triangle: NDArray[np.float64]) -> NDArray[np.float64]:
     """(f,) length times sagitta along the rims of each face."""
     table = mesh.connectivity
-    faces = mesh.face_ids[table.half_edges // 3]
     sagitta = np.zeros(len(table.edges))
     rim = table.uses == 1
-    length = np.linalg.norm(np.diff(mesh.points[mesh.edges], axis=1)[:, 0], axis=1)
     if mesh.edge_segments is None or not len(mesh.edge_segments):
-        np.maximum.at(sagitta, np.flatnonzero(rim), _turns_of_rims(mesh, rim, length))
+        sagitta[rim] = _turns_of_rims(mesh, rim)
     else:
         width = np.array([len(mesh.points), 1], np.int64)
         keys, wanted = mesh.edges @ width, np.sort(mesh.edge_segments, axis=1) @ width
@@ -61,31 +65,32 @@ def _along_rims(mesh: SurfaceMesh, by_triangle: NDArray[np.float64]) -> NDArray[
         on = keys[row] == wanted
         np.maximum.at(sagitta, row[on], edge_sagittas(mesh)[on])
         rim[row[on]] = True
-    beside = by_triangle[table.half_edges // 3]
-    beside[:, 1] = np.where(table.half_edges[:, 1] >= 0, beside[:, 1], 0.0)
-    sagitta = np.where(rim, np.maximum(sagitta, beside.max(axis=1)), 0.0)
-    lost = length * np.minimum(sagitta, length)
+    half_edges = table.half_edges[rim]
+    triangles, two = half_edges // 3, half_edges[:, 1] >= 0
+    length = np.linalg.norm(np.diff(mesh.points[mesh.edges[rim]], axis=1)[:, 0], axis=1)
+    beside = by_triangle[triangles]
+    beside[:, 1] = np.where(two, beside[:, 1], 0.0)
+    lost = length * np.minimum(np.maximum(sagitta[rim], beside.max(axis=1)), length)
     count = int(mesh.face_ids.max(initial=0)) + 1
-    found = np.bincount(faces[rim, 0], lost[rim], count)
-    both = rim & (table.half_edges[:, 1] >= 0) & (faces[:, 1] != faces[:, 0])
+    faces = mesh.face_ids[triangles]
+    found = np.bincount(faces[:, 0], lost, count)
+    both = two & (faces[:, 1] != faces[:, 0])
     return found + np.bincount(faces[both, 1], lost[both], count)
 
 
-def _turns_of_rims(
-    mesh: SurfaceMesh, rim: NDArray[np.bool_], length: NDArray[np.float64]
-) -> NDArray[np.float64]:
+def _turns_of_rims(mesh: SurfaceMesh, rim: NDArray[np.bool_]) -> NDArray[np.float64]:
     """(k,) about twice the sagittas of rims, by how much they turn at their ends."""
     ends = mesh.edges[rim]
-    way = (mesh.points[ends[:, 1]] - mesh.points[ends[:, 0]]) / np.maximum(
-        length[rim], np.finfo(float).tiny
-    )[:, None]
+    way = mesh.points[ends[:, 1]] - mesh.points[ends[:, 0]]
+    length = np.linalg.norm(way, axis=1)
+    way /= np.maximum(length, np.finfo(float).tiny)[:, None]
     count = np.bincount(ends.ravel(), minlength=len(mesh.points))
     total = np.zeros((len(mesh.points), 3))
     np.add.at(total, ends[:, 0], way)
     np.add.at(total, ends[:, 1], -way)  # of both edges away from the vertex: 2 sin(turn / 2)
     turn = 2.0 * np.arcsin(np.clip(np.linalg.norm(total, axis=1) / 2.0, 0.0, 1.0))
     turn = np.where((count == 2) & (turn < CORNER), turn, 0.0)
-    return length[rim] * turn[ends].max(axis=1) / 4.0
+    return length * turn[ends].max(axis=1) / 4.0
 
 
 def lost(

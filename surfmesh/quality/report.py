@@ -29,7 +29,7 @@ from surfmesh.quality.lengths import (
     size_growth,
 )
 from surfmesh.quality.loose_edges import LooseEdges, loose_edges
-from surfmesh.quality.lost import explained, lost
+from surfmesh.quality.lost import explained, is_known, lost
 from surfmesh.quality.problems import (
     DEGENERATE,
     intersections,
@@ -268,7 +268,7 @@ def check(mesh: SurfaceMesh) -> Report:
     if met is not None:
         said += overlaps(met.overlapping)
     rows = by_face(mesh, shape, fit, lengths, folded, promises, limits, turns)
-    if fit is not None and not broken and math.isfinite(fit.largest):
+    if fit is not None and not broken and math.isfinite(fit.largest) and is_known(mesh):
         known = explained(mesh, shape.area, fit.by_triangle)
         said += lost(mesh, known, rows, solids, facts.area)
     return Report(

@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from conftest import changed
+from handmade_meshes import changed
 
 import surfmesh as sm
 
