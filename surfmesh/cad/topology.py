@@ -238,9 +238,7 @@ class _Walk:
             self._remarks["a solid without faces is left out"] += 1
             return None
         kinds = [self.faces[face].kind for shell in shells for face, _ in shell]
-        properties = GProp_GProps()
-        BRepGProp.VolumeProperties_s(shape, properties, _accuracy(kinds))
-        volume = properties.Mass()
+        volume = _volume(shape, kinds)
         if volume < 0.0:
             self._remarks[f"solid {len(self.solids)} was inside out: its faces are turned"] += 1
             shells = [tuple((face, not against) for face, against in shell) for shell in shells]
@@ -561,6 +559,16 @@ def _below(shape: TopoDS_Shape) -> Iterator[TopoDS_Shape]:
 
 def _accuracy(kinds: list[str]) -> float:
     return EXACT if ELEMENTARY.issuperset(kinds) else EXACT_FREE_FORM
+
+
+def _volume(shape: TopoDS_Shape, kinds: list[str]) -> float:
+    """Signed: negative where the faces of a solid are turned inside out."""
+    properties = GProp_GProps()
+    if "extrusion" in kinds:  # as for areas: adaptive integration is up to 3 % off
+        BRepGProp.VolumeProperties_s(shape, properties)
+    else:
+        BRepGProp.VolumeProperties_s(shape, properties, _accuracy(kinds))
+    return properties.Mass()
 
 
 def _area(face: TopoDS_Face, kind: str) -> float:

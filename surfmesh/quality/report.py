@@ -29,6 +29,7 @@ from surfmesh.quality.lengths import (
     size_growth,
 )
 from surfmesh.quality.loose_edges import LooseEdges, loose_edges
+from surfmesh.quality.lost import explained, is_known, lost
 from surfmesh.quality.narrow import DEGENERATE, narrow_triangles
 from surfmesh.quality.problems import (
     intersections,
@@ -271,6 +272,10 @@ def check(mesh: SurfaceMesh) -> Report:
         said += intersections(mesh, meeting, len(pairs))
     if met is not None:
         said += overlaps(met.overlapping)
+    rows = by_face(mesh, shape, fit, lengths, folded, promises, limits, turns)
+    if fit is not None and not broken and math.isfinite(fit.largest) and is_known(mesh):
+        known = explained(mesh, shape.area, fit.by_triangle)
+        said += lost(mesh, known, rows, solids, facts.area)
     return Report(
         schema_version=SCHEMA_VERSION,
         surface=_names(mesh),
@@ -353,7 +358,7 @@ def check(mesh: SurfaceMesh) -> Report:
         volume=volume,
         volume_exact=facts.volume,
         volume_error=relative_error(volume, facts.volume),
-        by_face=by_face(mesh, shape, fit, lengths, folded, promises, limits, turns),
+        by_face=rows,
         by_solid=solids,
         unit=facts.unit,
         source=facts.source,
