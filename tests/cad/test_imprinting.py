@@ -9,6 +9,7 @@ cq = pytest.importorskip("cadquery")
 
 import surfmesh as sm  # noqa: E402
 from surfmesh.cad.selection import select  # noqa: E402
+from surfmesh.cli.arguments import parse  # noqa: E402
 from surfmesh.errors import CadError  # noqa: E402
 
 PI = math.pi
@@ -221,3 +222,20 @@ def test_what_is_no_tolerance(wrong):
 def test_a_surface_of_formulas_is_no_model():
     with pytest.raises(CadError, match="are for CAD models"):
         sm.load("sphere", imprint=True)
+
+
+@pytest.mark.parametrize("command", ["mesh", "report", "view", "estimate", "explain"])
+def test_on_the_command_line(command):
+    more = {"mesh": ["-o", "x"], "report": ["-o", "x"], "explain": ["--at", "0", "0", "0"]}
+    given = [command, *more.get(command, [])]
+    for words, imprint, sew in (
+        (["a.step", "--imprint"], True, None),
+        (["--imprint", "a.step"], True, None),  # the file is no tolerance
+        (["--imprint", "1e-3", "a.step", "--sew", "0.01"], 1e-3, 0.01),
+        (["a.step", "--imprint=.5"], 0.5, None),
+        (["a.step"], False, None),
+    ):
+        options = parse([*given, *words])
+        assert (options.input, options.imprint, options.sew) == ("a.step", imprint, sew)
+    with pytest.raises(SystemExit):
+        parse([*given, "a.step", "--imprint", "0"])
