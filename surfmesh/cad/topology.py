@@ -55,6 +55,7 @@ from surfmesh.cad.model import (
     Colour,
     Shell,
 )
+from surfmesh.cad.singular_cuts import cut_at_singular_lines
 from surfmesh.cad.tolerances import (
     curves_on_their_faces,
     images_that_follow,
@@ -95,7 +96,7 @@ def cad_model(
         healing += images_that_follow(walk.edges, walk.vertices, walk.faces, unit)
         healing += curves_on_their_faces(walk.edges, walk.vertices, walk.faces, unit)
     healing += tolerances_that_hold(walk.edges, walk.vertices, walk.faces, unit)
-    return CadModel(
+    model = CadModel(
         vertices=tuple(walk.vertices),
         edges=tuple(walk.edges),
         faces=tuple(walk.faces),
@@ -112,6 +113,7 @@ def cad_model(
         tags=walk.tags(root),
         left_out=tuple(walk.left_out),
     )
+    return cut_at_singular_lines(model)
 
 
 _TAGGED = {

@@ -85,6 +85,9 @@ def _parser() -> _Parser:
     mesh.add_argument(
         "--order", type=int, default=1, choices=(1, 2), help="2: nodes amid the edges too"
     )
+    mesh.add_argument(
+        "--flip", action="store_true", help="turn the mesh over: a closed surface that faces inward"
+    )
     mesh.add_argument("--ascii", action="store_true", help="an .stl as text, solids by name")
     mesh.add_argument("--jobs", type=_count, default=1, help="faces meshed at once (default 1)")
     mesh.add_argument("--picture", metavar="PNG", help="write a picture too")

@@ -44,6 +44,7 @@ def mesh(options: Namespace) -> bool:
             jobs=options.jobs,
             order=options.order,
         )
+        result = result.flipped() if options.flip else result
         progress("check", 0.92)
         report = checked(result)
         progress("write", 0.95)
@@ -300,20 +301,36 @@ def _on_surface(found: Any, surface: Any) -> Any:
     if not isinstance(surface, CadModel):
         from surfmesh.geometry.known_facts import known_facts
 
-        return replace(found, surfaces=(surface,), facts=known_facts(surface))
+        return _facing(replace(found, surfaces=(surface,), facts=known_facts(surface)))
 
     from surfmesh.cad.facts import model_facts
     from surfmesh.meshing.model_mesh import orientation
 
     turned, solids = orientation(surface)
     known = found.face_ids.min() >= 0 and found.face_ids.max() < len(turned)
-    return replace(
+    made = replace(
         found,
         surfaces=tuple(face.surface for face in surface.faces),
         turned_faces=turned,
         solid_ids=solids[found.face_ids] if known else None,
         facts=model_facts(surface),
     )
+    return _facing(made) if known else made
+
+
+def _facing(found: Any) -> Any:
+    """The mesh, taken for one that was turned over where most of it faces the other side."""
+    from surfmesh.quality.deviation import deviation
+    from surfmesh.quality.shape import shapes
+
+    if found.check():
+        return found
+    area = shapes(found).area
+    fit = deviation(found, area)
+    if fit is None or not (area * fit.cosine).sum() < 0.0:
+        return found
+    turned = found.flipped()  # as the surface is, so that what it says of itself turns too
+    return replace(found, turned_faces=turned.turned_faces, solid_ids=turned.solid_ids)
 
 
 def _named_surface(name: str, options: Namespace | None = None) -> Any:

@@ -28,6 +28,7 @@ from surfmesh.meshing.face_job import edge_wishes, mesh_face
 from surfmesh.meshing.face_sizings import face_sizings
 from surfmesh.meshing.model_estimate import model_counts, require_model_within
 from surfmesh.meshing.model_groups import groups_of
+from surfmesh.meshing.narrow_faces import NarrowFace
 from surfmesh.meshing.simplification import LEAST, simplified
 from surfmesh.meshing.solid_volumes import VolumeAims
 from surfmesh.meshing.stages import Progress, Stopwatch
@@ -112,7 +113,8 @@ def _mesh_faces(
                     or any(nodes[c.edge] is not before[c.edge] for c in face.coedges)
                 ):
                     own = of_face[number]
-                    jobs[number] = _job(model, face, nodes, samples, own, limit, optimise)
+                    narrow = samples.narrow.get(number)
+                    jobs[number] = _job(model, face, nodes, samples, own, limit, optimise, narrow)
                     changed.append(number)
             meshes = _in_order(mesh_face, [jobs[number] for number in changed], workers)
             for count, (number, face_mesh) in enumerate(zip(changed, meshes), 1):
@@ -120,10 +122,11 @@ def _mesh_faces(
                 hopes[number].hear(face_mesh)
                 watch.pulse(count / len(changed))
         with watch.stage("mapping"):
-            mesh = _joined(model, jobs, done, nodes, samples, sizing, watch)
             asking = [k for k, found in enumerate(done) if found.wishes is not None]
             wishes = {k: done[k].wishes for k in asking if hopes[k].is_left}
-            _refine_crowded(model, mesh, sizing, wishes)
+            if any(len(found.triangles) for found in done):
+                mesh = _joined(model, jobs, done, nodes, samples, sizing, watch)
+                _refine_crowded(model, mesh, sizing, wishes)
         if not wishes:
             break
         for number, wish in wishes.items():
@@ -225,7 +228,10 @@ def _jobs(
 ) -> list[FaceJob]:  # fmt: skip
     """The jobs of all faces before anything is known of their meshes."""
     return [
-        _job(model, face, nodes, samples, own, (limits or {}).get(number), optimise)
+        _job(
+            model, face, nodes, samples, own, (limits or {}).get(number), optimise,
+            samples.narrow.get(number),
+        )
         for number, (face, own) in enumerate(zip(model.faces, sizings))
     ]
 
@@ -258,7 +264,7 @@ def _reason(model: CadModel, number: int, found: FaceMesh) -> str:
 
 def _job(
     model: CadModel, face: CadFace, nodes: list[EdgeNodes | None], samples: EdgeSamples,
-    sizing: Sizing, limits: SizeLimits | None, optimise: bool,
+    sizing: Sizing, limits: SizeLimits | None, optimise: bool, narrow: NarrowFace | None,
 ) -> FaceJob:  # fmt: skip
     loops = []
     for loop in face.loops:
@@ -278,7 +284,7 @@ def _job(
             numbers, points, sizes = cut.numbers[order], cut.points[order], cut.sizes[order]
             pieces.append(Piece(uv, numbers, points, sizes, False, edge.tolerance))
         loops.append(tuple(pieces))
-    return FaceJob(face.surface, tuple(loops), sizing, limits, optimise)
+    return FaceJob(face.surface, tuple(loops), sizing, limits, optimise, narrow=narrow)
 
 
 def orientation(model: CadModel) -> tuple[np.ndarray, np.ndarray]:
