@@ -101,6 +101,15 @@ class ParametricSurface:
         lower, upper = self.tape(2).bounds(lo, hi)
         return lower[:, 3:].reshape(-1, 5, 3), upper[:, 3:].reshape(-1, 5, 3)
 
+    def all_bounds(self, lo: np.ndarray, hi: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """Bounds of r, r_u, r_v, r_uu, r_uv, r_vv over cells: lower, upper (n, 6, 3).
+
+        lo, hi: (n, 2) corners of the cells. Second derivatives have none across a kink, first
+        ones none across a jump.
+        """
+        lower, upper = self.tape(2).bounds(lo, hi)
+        return lower.reshape(-1, 6, 3), upper.reshape(-1, 6, 3)
+
     def tape(self, order: int) -> Tape:
         """The program behind `evaluate`, made when it is first needed."""
         if order not in self._tapes:

@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from surfmesh.geometry.numeric import NumericSurface
 from surfmesh.model_facts import ModelFacts
 from surfmesh.quality.by_face import FaceRow, by_face
 from surfmesh.quality.by_solid import SolidRow, by_solid, volume_of_all
@@ -40,6 +41,7 @@ from surfmesh.quality.shape import enclosed_volume, metric_alpha, shapes
 from surfmesh.quality.solids import apart, shares_faces
 from surfmesh.quality.topology import topology
 from surfmesh.quality.turning import turning, worst_turn
+from surfmesh.quality.unseen import UnseenPlace, unseen, unseen_problems
 from surfmesh.quality.worst import WorstTriangle, worst_triangles
 from surfmesh.surface_mesh import SurfaceMesh
 
@@ -114,6 +116,12 @@ class Report:
     deviation_point: tuple[float, float, float] | None
     deviation_uv: tuple[float, float] | None
     above_chord_share: float | None  # triangles farther away than the chord of their face
+    unseen: int | None  # triangles between whose samples a formula's bounds admit more than was
+    # seen, or more was found; None: nothing is known between the samples (functions, CAD faces)
+    unseen_max: float | None  # how far that lies, or may lie, from the mesh; infinite: no bound
+    unseen_at: tuple[UnseenPlace, ...]  # the first twenty
+    functions: int  # faces given by a Python function: features narrower than the triangles cannot
+    # be excluded there, nor are they looked for
     chord_used: float | None  # median of deviation / chord where chord decided the size
     chord_decided_share: float | None  # of the triangles: where not growth or another wish did
     angle: float | None  # asked for, degrees; None: only 45 as a rule of sizes, no promise
@@ -224,6 +232,8 @@ def check(mesh: SurfaceMesh) -> Report:
         contacts, pairs = int(between.sum()), pairs[~between]
     meeting = () if pairs is None else located(mesh, pairs[:LISTED])
     said = problems(mesh, broken, topo, shape, fit, beyond, promises, turned_over, solids)
+    hidden = unseen(mesh, fit, promises, LISTED)
+    said += unseen_problems(hidden)
     if bent is not None:
         said.append(turned_too_far(mesh, turns, bent, promises))
     if pairs is not None and not crosses:
@@ -283,6 +293,10 @@ def check(mesh: SurfaceMesh) -> Report:
         deviation_point=None if fit is None else fit.point,
         deviation_uv=None if fit is None else fit.uv,
         above_chord_share=above,
+        unseen=None if hidden is None else hidden.found + hidden.open,
+        unseen_max=None if hidden is None else max(hidden.largest, hidden.possible),
+        unseen_at=() if hidden is None else hidden.places,
+        functions=sum(isinstance(surface, NumericSurface) for surface in mesh.surfaces),
         chord_used=None if used is None else used.used,
         chord_decided_share=None if used is None else used.share,
         angle=angle,
