@@ -27,14 +27,6 @@ from surfmesh.surface_mesh import SurfaceMesh
 SLACK = 1.3
 """Of chord, or of what the samples have seen: between them it is smooth, and a little larger."""
 
-VISIBLE = 2.0
-"""Of chord: up to there the surface may lie off the mesh where samples of the surface show it."""
-
-_GRID = 6
-_SAMPLES = np.array(
-    [(i, j, _GRID - i - j) for i in range(_GRID + 1) for j in range(_GRID + 1 - i)]
-) / float(_GRID)
-
 PLAINLY, SLIGHT = 1.5, 0.005
 """Without a chord: times ``SLACK`` what the samples have seen, and of a triangle's longest side.
 Across a bend that no edge follows the samples see two thirds of the deviation."""
@@ -159,11 +151,6 @@ def _in_triangles(
     pieces = Pieces.of(uv, corners[:, 0], normal, tolerance)
     left = np.flatnonzero(~settled_at_once(surface, pieces, seen))
     triangles, tolerance = triangles[left], tolerance[left]
-    if len(left):  # a rounded tip is no hidden feature, though the surface lies farther off there
-        chord = promises.at(promises.chord, mesh.face_ids[triangles])
-        lies = _surface_samples(surface, uv[left], corners[left, 0], normal[left, 0])
-        seen_so = np.minimum(SLACK * lies, VISIBLE * chord)
-        tolerance = np.where(np.isfinite(chord), np.maximum(tolerance, seen_so), tolerance)
     pieces = Pieces.of(uv[left], corners[left, 0], normal[left], tolerance)
     if len(left):
         around = _Around(mesh, triangles)
@@ -171,17 +158,6 @@ def _in_triangles(
         search_triangles(surface, pieces, _beside_poles(mesh, triangles), around.away, budget)
     bad = pieces.is_open
     return triangles[bad], Pieces(*(getattr(pieces, name)[bad] for name in vars(pieces)))
-
-
-def _surface_samples(
-    surface: Any, uv: NDArray, corner: NDArray, normal: NDArray
-) -> NDArray[np.float64]:
-    """(k,) largest distance of samples of the surface from the planes of triangles (k, 3, 2)."""
-    far = np.zeros(len(uv))
-    for weights in _SAMPLES:
-        (point,) = surface.evaluate(np.einsum("c,kci->ki", weights, uv), 0)
-        far = np.maximum(far, np.abs(np.einsum("ki,ki->k", point - corner, normal)))
-    return far
 
 
 def _along_rims(
