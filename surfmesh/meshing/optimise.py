@@ -153,14 +153,14 @@ class Optimiser:
 
     def __init__(
         self, t: Triangulation, node: np.ndarray, same: np.ndarray, surface: Surface,
-        field: SizeField, creased: int | None = None,
+        field: SizeField, creased: np.ndarray | None = None,
     ) -> None:  # fmt: skip
         """``node`` (k,) are boundary vertices, ``same`` (k,) the ones they coincide with.
 
-        creased: first of the ``node`` that lie on kinks, where the surface has two normals.
+        creased: (j,) vertices on kinks, where the surface has two normals.
         """
         self.t, self.node, self.surface, self.field = t, node, surface, field
-        self.creased = node[creased:] if creased is not None else node[:0]
+        self.creased = node[:0] if creased is None else creased
         self.same = same
         room = len(t.xy)
         self.is_anisotropic = field.is_anisotropic

@@ -105,7 +105,6 @@ def _one_round(
         packing = packed_over(field)
     with watch.stage("boundary"):
         loops = boundary_loops(surface, sides, field, sides_met(surface, kinks) if kinks else None)
-        rim = len(loops.uv)
         if kinks:
             loops = with_kinks(loops, surface, kinks, field)
         domain = recovered(packing.t, loops, field, surface)
@@ -113,12 +112,13 @@ def _one_round(
     wishes: list[SizeLimits] = []
     scale = np.ones(len(domain.t.xy))
     same = domain.node[loops.identity]
+    creased = domain.node[np.unique(loops.inner)]
     if not optimise:
         with watch.stage("boundary"):
             Optimiser(domain.t, domain.node, same, surface, field).settle()
     else:
         with watch.stage("optimisation"):
-            optimiser = Optimiser(domain.t, domain.node, same, surface, field, rim)
+            optimiser = Optimiser(domain.t, domain.node, same, surface, field, creased)
             optimiser.before_pass = watch.pulse
             changes = optimiser.run()
             scale = optimiser.embedding.scale
