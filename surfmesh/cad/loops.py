@@ -122,7 +122,7 @@ def misdirected(loops: Sequence[Loop], closed: bool) -> list[int]:
         return []
     areas = np.array([signed_area(loop) for loop in loops]) / np.prod(extent)
     boxes = np.array([np.ptp(ring / extent, axis=0).max() for ring in rings])
-    if (np.abs(areas) <= FLAT * boxes**2).any() or not all(_closes(loop, extent) for loop in loops):
+    if (np.abs(areas) <= FLAT * boxes**2).any() or not all(closes(loop, extent) for loop in loops):
         return []
     depth = nesting_depth([ring / extent for ring in rings])
     wrong = (areas > 0.0) != (depth % 2 == 0)
@@ -138,7 +138,7 @@ def turned(loop: Loop) -> Loop:
     return tuple(replace(coedge, reversed=not coedge.reversed) for coedge in loop[::-1])
 
 
-def _closes(loop: Loop, extent: np.ndarray) -> bool:
+def closes(loop: Loop, extent: np.ndarray) -> bool:
     """Is it closed in (u, v), and not a way round a closed surface?"""
     return all(
         (np.abs(step_between(here, after)) <= OPEN_SHARE * extent).all()

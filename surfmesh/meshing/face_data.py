@@ -6,6 +6,7 @@ import numpy as np
 
 from surfmesh.cad.loop_faults import ExactLoops
 from surfmesh.geometry.surface import Surface
+from surfmesh.meshing.narrow_faces import NarrowFace
 from surfmesh.sizing.size_limits import SizeLimits
 from surfmesh.sizing.sizing import Sizing
 
@@ -45,6 +46,8 @@ class FaceJob:
     close it without regard for the surface."""
     exact: ExactLoops | None = None
     """The curves that the loops are cut from."""
+    narrow: NarrowFace | None = None
+    """Its sides and ends, of a face narrower than the chord all along."""
 
     @property
     def nodes(self) -> int:
@@ -78,3 +81,5 @@ class FaceMesh:
     """No sizes can mend what has failed."""
     remark: str = ""
     """What was done to it out of the ordinary."""
+    narrow: bool = False
+    """It was closed between its sides: good shape is not owed there."""

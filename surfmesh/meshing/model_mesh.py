@@ -29,6 +29,7 @@ from surfmesh.meshing.face_job import edge_wishes, mesh_face
 from surfmesh.meshing.face_sizings import face_sizings
 from surfmesh.meshing.model_estimate import model_counts, require_model_within
 from surfmesh.meshing.model_groups import groups_of
+from surfmesh.meshing.narrow_faces import NarrowFace
 from surfmesh.meshing.simplification import LEAST, simplified
 from surfmesh.meshing.solid_volumes import VolumeAims
 from surfmesh.meshing.stages import Progress, Stopwatch
@@ -79,6 +80,8 @@ def mesh_model(
     strict=False delivers what could be meshed and lists the other faces in ``warnings``.
     Raises ``MeshingError`` that names the faces that could not be meshed, with the reasons.
     """
+    if strict:
+        require_all_faces(model)
     watch = Stopwatch(progress)
     asked = model_sizing(model, sizing)
     aims = VolumeAims(model, asked.base.volume)
@@ -123,7 +126,8 @@ def _mesh_faces(
                     or any(nodes[c.edge] is not before[c.edge] for c in face.coedges)
                 ):
                     own = of_face[number]
-                    job = _job(model, face, nodes, samples, own, limit, optimise)
+                    narrow = samples.narrow.get(number)
+                    job = _job(model, face, nodes, samples, own, limit, optimise, narrow)
                     jobs[number] = replace(job, exact=exact[number])
                     changed.append(number)
             meshes = _in_order(mesh_face, [jobs[number] for number in changed], workers)
@@ -132,10 +136,11 @@ def _mesh_faces(
                 hopes[number].hear(face_mesh, jobs[number].nodes)
                 watch.pulse(count / len(changed))
         with watch.stage("mapping"):
-            mesh = _joined(model, jobs, done, nodes, samples, sizing, watch)
             asking = [k for k, found in enumerate(done) if found.wishes is not None]
             wishes = {k: done[k].wishes for k in asking if hopes[k].is_left}
-            _refine_crowded(model, mesh, sizing, wishes)
+            if any(len(found.triangles) for found in done):
+                mesh = _joined(model, jobs, done, nodes, samples, sizing, watch)
+                _refine_crowded(model, mesh, sizing, wishes)
         if not wishes:
             break
         for number, wish in wishes.items():
@@ -159,6 +164,17 @@ def _mesh_faces(
         )
     mesh = replace(mesh, promises=wanted.promises(len(model.faces)))
     return mesh.with_warnings(*_left_over(model, {*asking, *wishes}))
+
+
+def require_all_faces(model: CadModel) -> None:
+    """Raises ``MeshingError`` that names what was left out when the model was read."""
+    if model.left_out:
+        more = len(model.left_out) - 5
+        raise MeshingError(
+            f"{(model.name or model.source)!r} cannot be meshed in full: "
+            + "; ".join(model.left_out[:5]) + (f"; and {more} more" if more > 0 else "")
+            + ". Repair it, or use strict=False (--no-strict) to get the other faces"
+        )  # fmt: skip
 
 
 class _Hope:
@@ -238,7 +254,10 @@ def _jobs(
 ) -> list[FaceJob]:  # fmt: skip
     """The jobs of all faces before anything is known of their meshes."""
     return [
-        _job(model, face, nodes, samples, own, (limits or {}).get(number), optimise)
+        _job(
+            model, face, nodes, samples, own, (limits or {}).get(number), optimise,
+            samples.narrow.get(number),
+        )
         for number, (face, own) in enumerate(zip(model.faces, sizings))
     ]
 
@@ -271,7 +290,7 @@ def _reason(model: CadModel, number: int, found: FaceMesh) -> str:
 
 def _job(
     model: CadModel, face: CadFace, nodes: list[EdgeNodes | None], samples: EdgeSamples,
-    sizing: Sizing, limits: SizeLimits | None, optimise: bool,
+    sizing: Sizing, limits: SizeLimits | None, optimise: bool, narrow: NarrowFace | None,
 ) -> FaceJob:  # fmt: skip
     loops = []
     for loop in face.loops:
@@ -291,7 +310,7 @@ def _job(
             numbers, points, sizes = cut.numbers[order], cut.points[order], cut.sizes[order]
             pieces.append(Piece(uv, numbers, points, sizes, False, edge.tolerance))
         loops.append(tuple(pieces))
-    return FaceJob(face.surface, tuple(loops), sizing, limits, optimise)
+    return FaceJob(face.surface, tuple(loops), sizing, limits, optimise, narrow=narrow)
 
 
 def orientation(model: CadModel) -> tuple[np.ndarray, np.ndarray]:
@@ -377,7 +396,8 @@ def _joined(
     segments = rank[np.concatenate(segments)] if segments else np.empty((0, 2), np.int64)
     of = np.concatenate(of) if of else np.empty(0, np.int64)
     there = (segments >= 0).all(axis=1)
-    missing = [
+    missing = [f"{NOT_MESHED}{said}" for said in model.left_out]
+    missing += [
         f"{NOT_MESHED}{_reason(model, k, found)}" for k, found in enumerate(done) if found.failure
     ]
     missing += [
@@ -393,6 +413,7 @@ def _joined(
         face_ids=face_ids,
         surfaces=tuple(face.surface for face in model.faces),
         turned_faces=turned,
+        narrow_faces=np.array([found.narrow for found in done], bool),
         solid_ids=solids[face_ids],
         edge_segments=segments[there],
         edge_ids=of[there],

@@ -22,7 +22,8 @@ class Sizing:
     """
 
     chord: float | None = None
-    """Largest distance between mesh and surface, model units."""
+    """Largest distance between mesh and surface, model units. It holds both ways: of the mesh from
+    the surface, and of the surface from the mesh, its free rims included."""
 
     angle: float | None = None
     """Largest angle between the normals of two triangles of one face that share an edge, degrees:

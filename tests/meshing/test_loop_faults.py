@@ -182,3 +182,23 @@ def test_crossings_that_only_become_more_are_given_up():
         assert hope.is_left
     hope.hear(failed(183), 150)
     assert not hope.is_left
+
+
+NESTED = {
+    "hole in a hole": (BOX, square(3, 3, 4), square(4, 4, 2)),
+    "island": (BOX, square(3, 3, 4), square(4, 4, 2)[::-1]),
+    "all clockwise": (BOX[::-1], square(3, 3, 4), square(4, 4, 2)),
+}
+
+
+@pytest.mark.parametrize("kind", ["plane", "spline", "cylinder"])
+@pytest.mark.parametrize("name", NESTED)
+def test_loops_are_oriented_by_nesting(name, kind):
+    model = face_and_box(NESTED[name], kind)
+    right = face_and_box((BOX, square(3, 3, 4)), kind).faces[6].area
+    right += face_and_box((square(4, 4, 2)[::-1],), kind).faces[6].area
+    assert model.faces[6].area == pytest.approx(right, rel=1e-6)
+    mesh = sm.mesh(model, 0.7)
+    report = sm.check(mesh)
+    assert report.clean
+    assert report.area == pytest.approx(right + 6.0, rel=2e-3)
