@@ -54,12 +54,7 @@ def mesh_face(job: FaceJob) -> FaceMesh:
         return _mesh_rest(job)
     if not rest.loops:
         return with_tubes(job, rest, FaceMesh(), tubes, slots)
-    room = _round_tubes(rest.surface, rest)
-    if room is not None:  # beside a thin part the way round is short, too
-        rest = replace(rest, limits=room.joined_with(rest.limits))
     mesh = _mesh_rest(rest)
-    if room is not None and job.limits is None:  # once: the ring itself has no room
-        mesh = replace(mesh, wishes=room.joined_with(mesh.wishes))
     return mesh if mesh.failure else with_tubes(job, rest, mesh, tubes, slots)
 
 

@@ -24,9 +24,6 @@ COLUMNS = 6
 FEWEST = 2.5
 """A level whose way round is less than so many steps along the edges is thin."""
 
-THIN, THIN_CHORDS = 0.6, 4.0 * np.pi
-"""And less than this share of a step, or so many chords: wider tubes are owed a good shape."""
-
 LEAST_TURN = 0.5
 """Radians by which the way round turns: what turns less is a corner, not a tube."""
 
@@ -225,10 +222,7 @@ def _thin(job: FaceJob, left: np.ndarray, right: np.ndarray, points: np.ndarray)
     length = np.linalg.norm(np.diff(rings, axis=1), axis=2).sum(axis=1)
     step = np.linalg.norm(np.diff(points, axis=0), axis=1)
     step = np.minimum(np.r_[step[:1], step], np.r_[step, step[-1:]])[:count]
-    owed = THIN * step
-    if job.sizing.chord is not None:
-        owed = np.maximum(owed, THIN_CHORDS * job.sizing.chord)
-    return (length < FEWEST * step) & (length < owed)
+    return length < FEWEST * step
 
 
 def _tube(
