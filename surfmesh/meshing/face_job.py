@@ -21,7 +21,7 @@ from surfmesh.meshing.boundary_loops import BoundaryLoops, cut_line
 from surfmesh.meshing.boundary_recovery import recovered
 from surfmesh.meshing.edge_wishes import wishes_along
 from surfmesh.meshing.face_data import FaceJob, FaceMesh, Piece
-from surfmesh.meshing.face_repair import filled_face, untangled_job
+from surfmesh.meshing.face_repair import filled_face, no_point, untangled_job
 from surfmesh.meshing.gluing import glued, misglued
 from surfmesh.meshing.one_place import one_place
 from surfmesh.meshing.optimise import Optimiser
@@ -49,6 +49,9 @@ PROJECTIONS = 4
 
 def mesh_face(job: FaceJob) -> FaceMesh:
     """Mesh one face. Never raises for what is wrong with the face: see ``failure``."""
+    reason = no_point(job)
+    if reason:
+        return FaceMesh(failure=reason)
     rest, tubes, slots = without_tubes(job)
     if not tubes:
         return _mesh_rest(job)
