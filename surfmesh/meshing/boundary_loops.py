@@ -18,6 +18,12 @@ _WALK = (1, 1, -1, -1)
 _CLOSED_SEGMENTS = 3
 """Fewest segments of a side that is a closed curve in 3D, fewer are not a polygon."""
 
+RIM_ROUNDS, RIM_MARGIN, MANY_PIECES = 8, 0.98, 64
+"""How often a rim is cut anew; what is aimed at, as a share of ``chord``; from so many pieces those
+that sag too much are halved, rather than all made shorter."""
+
+RIM_SAMPLES = (0.25, 0.5, 0.75)
+
 
 @dataclass(frozen=True)
 class BoundaryLoops:
@@ -43,14 +49,14 @@ def boundary_loops(surface: Surface, sides: SideTopology, field: SizeField) -> B
         _check_loop(surface, number, loop)
     parts: list[tuple[np.ndarray, np.ndarray]] = []
     if not loops:
-        parts.append(_sides_loop(sides, field))
+        parts.append(_sides_loop(surface, sides, field))
     for loop in loops:
         depth = sum(_encloses(other, loop[0]) for other in loops if other is not loop)
         if (_signed_area(loop) > 0.0) == (depth % 2 == 1):
             loop = loop[::-1]  # the inside is on the left of every segment
         uv = np.concatenate(
             [
-                cut_line(field, start, end, minimum=1)[1][:-1]
+                cut_rim(surface, field, start, end, minimum=1)[1][:-1]
                 for start, end in zip(loop, np.roll(loop, -1, axis=0))
             ]
         )
@@ -94,9 +100,11 @@ def _check_loop(surface: Surface, number: int, loop: np.ndarray) -> None:
         raise SurfaceError(f"loop {number} of {surface.name!r} encloses no area")
 
 
-def _sides_loop(sides: SideTopology, field: SizeField) -> tuple[np.ndarray, np.ndarray]:
+def _sides_loop(
+    surface: Surface, sides: SideTopology, field: SizeField
+) -> tuple[np.ndarray, np.ndarray]:
     """The rectangle walked counter-clockwise: uv (k, 2), identity (k,)."""
-    along = _side_parameters(sides, field)
+    along = _side_parameters(surface, sides, field)
     uv, start = [], [0]
     for side in range(4):
         t = along[side][:: _WALK[side]][:-1]  # the next side brings the last corner
@@ -119,7 +127,9 @@ def _sides_loop(sides: SideTopology, field: SizeField) -> tuple[np.ndarray, np.n
     return np.concatenate(uv), same.first()
 
 
-def _side_parameters(sides: SideTopology, field: SizeField) -> list[np.ndarray]:
+def _side_parameters(
+    surface: Surface, sides: SideTopology, field: SizeField
+) -> list[np.ndarray]:
     """Rising parameters of the nodes of each side, both ends included."""
     along: list[np.ndarray] = []
     for side in range(4):
@@ -130,7 +140,10 @@ def _side_parameters(sides: SideTopology, field: SizeField) -> list[np.ndarray]:
         else:
             start, end = sides.points(side, np.array([0.0, 1.0]))
             minimum = _CLOSED_SEGMENTS if partner >= 0 or _ends_meet(sides, side) else 1
-            along.append(cut_line(field, start, end, minimum)[0])
+            if partner < 0 and not sides.collapsed[side]:
+                along.append(cut_rim(surface, field, start, end, minimum)[0])
+            else:
+                along.append(cut_line(field, start, end, minimum)[0])
     return along
 
 
@@ -166,6 +179,50 @@ def cut_line(
     uv = start + t[:, None] * (end - start)
     uv[-1] = end
     return t, uv
+
+
+def cut_rim(
+    surface: Surface, field: SizeField, start: np.ndarray, end: np.ndarray, minimum: int
+) -> tuple[np.ndarray, np.ndarray]:
+    """Like ``cut_line``, with more pieces while one of them sags by more than ``chord``.
+
+    A few pieces may be half as long again as wanted, and between samples a rim may bend more.
+    None becomes shorter than about ``min_size``.
+    """
+    t, uv = cut_line(field, start, end, minimum)
+    chord = field.sizing.chord
+    if chord is None:
+        return t, uv
+    least = field.sizing.min_size or 0.0
+    for _ in range(RIM_ROUNDS):
+        sag, length = _sags(surface, uv)
+        far = (sag > RIM_MARGIN * chord) & (length > max(1.4 * least, chord))
+        if not far.any():
+            break
+        if 4 * np.count_nonzero(far) > len(far) and len(far) < MANY_PIECES:
+            factor = np.sqrt(sag[far].max() / (RIM_MARGIN * chord))
+            t, uv = cut_line(field, start, end, int(np.ceil(min(factor, 2.0) * len(far))))
+        else:
+            t = np.sort(np.concatenate([t, 0.5 * (t[1:] + t[:-1])[far]]))
+            uv = start + t[:, None] * (end - start)
+            uv[-1] = end
+    return t, uv
+
+
+def _sags(surface: Surface, uv: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Largest distance (n,) of a line in (u, v) from its chord between nodes uv (n + 1, 2), and
+    the length (n,) of the chord."""
+    (ends,) = surface.evaluate(uv, 0)
+    chords = np.diff(ends, axis=0)
+    length = np.linalg.norm(chords, axis=1)
+    squared = np.maximum(length**2, np.finfo(float).tiny)
+    sag = np.zeros(len(length))
+    for share in RIM_SAMPLES:
+        (point,) = surface.evaluate(uv[:-1] + share * np.diff(uv, axis=0), 0)
+        way = point - ends[:-1]
+        along = np.clip(np.einsum("ij,ij->i", way, chords) / squared, 0.0, 1.0)
+        sag = np.fmax(sag, np.linalg.norm(way - along[:, None] * chords, axis=1))
+    return sag, length
 
 
 class _Classes:

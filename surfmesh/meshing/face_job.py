@@ -27,6 +27,7 @@ from surfmesh.meshing.one_place import one_place
 from surfmesh.meshing.optimise import Optimiser
 from surfmesh.meshing.packing import packed_over
 from surfmesh.meshing.seam_limits import seam_limits
+from surfmesh.meshing.strip_triangulation import strip_mesh
 from surfmesh.meshing.thin_tubes import without_tubes
 from surfmesh.meshing.tube_triangles import with_tubes
 from surfmesh.sizing.boundary_field import boundary_field, has_boundary_field
@@ -52,6 +53,8 @@ def mesh_face(job: FaceJob) -> FaceMesh:
     reason = no_point(job)
     if reason:
         return FaceMesh(failure=reason)
+    if job.narrow is not None:
+        return _mesh_rest(job)
     rest, tubes, slots = without_tubes(job)
     if not tubes:
         return _mesh_rest(job)
@@ -64,6 +67,9 @@ def mesh_face(job: FaceJob) -> FaceMesh:
 def _mesh_rest(job: FaceJob) -> FaceMesh:
     """Mesh a face without thin tips and necks, or what is left of one."""
     try:
+        strip = strip_mesh(job) if job.narrow is not None else None
+        if strip is not None:
+            return strip
         try:
             return _never_empty(job, _meshed(job))
         except SurfaceError:

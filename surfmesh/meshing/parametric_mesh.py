@@ -22,6 +22,7 @@ from surfmesh.meshing.packing import packed_over
 from surfmesh.meshing.stages import Progress, Stopwatch
 from surfmesh.meshing.trial_mesh import WHOLE, tried
 from surfmesh.meshing.trial_patches import triangles_per_unit
+from surfmesh.sizing.rim_size import Rims
 from surfmesh.sizing.size_field import SizeField, inverse_sizes, size_field
 from surfmesh.sizing.size_limits import SizeLimits
 from surfmesh.sizing.sizing import Sizing
@@ -52,7 +53,7 @@ def mesh_parametric(
     before = (0, 0)
     for _ in range(ROUNDS):
         with watch.stage("sizing"):
-            field = size_field(surface, sizing, sides, limits)
+            field = size_field(surface, sizing, sides, limits, Rims(surface, sides))
             require_field_within(sizing.limit, field, surface.loops or None, surface.name)
         mesh, wishes, bad = _one_round(surface, sides, field, optimise, watch)
         if wishes is None or not _can_shrink(field, wishes):
@@ -73,7 +74,8 @@ def mesh_parametric(
 
 def estimate_parametric(surface: Surface, sizing: Sizing) -> Estimate:
     """Triangles and memory of ``mesh_parametric``. Raises as it does."""
-    field = size_field(surface, sizing, find_sides(surface))
+    sides = find_sides(surface)
+    field = size_field(surface, sizing, sides, rims=Rims(surface, sides))
     loops = surface.loops or None
     asked = field_triangles(field, loops)
     if asked <= WHOLE:
@@ -86,7 +88,8 @@ def estimate_parametric(surface: Surface, sizing: Sizing) -> Estimate:
 
 def explain_parametric(surface: Surface, sizing: Sizing, point: np.ndarray) -> Explanation:
     """Which wish decides at the point of the surface that is nearest to ``point`` (3,)."""
-    field = size_field(surface, sizing, find_sides(surface))
+    sides = find_sides(surface)
+    field = size_field(surface, sizing, sides, rims=Rims(surface, sides))
     return explain_surface(surface, sizing, field, point)
 
 

@@ -83,6 +83,8 @@ def _topology(report: "Report") -> str:
         words.append(f"intersects itself{natural} ({report.self_intersections:,} pairs)")
     if report.contacts:
         words.append(f"separate bodies meet ({report.contacts:,} pairs of triangles)")
+    if report.overlapping_bodies:
+        words.append(f"{_count(report.overlapping_bodies, 'pair')} of solids overlap")
     if report.faces > 1:
         words.append(_count(report.faces, "face"))
     return ", ".join(words)
@@ -137,10 +139,16 @@ def _deviation(report: "Report") -> str:
     if report.chord_used is not None:
         used = f"median {100 * report.chord_used:.0f} % of chord where it decides the size; "
     place = ", ".join(f"{value:.4g}" for value in report.deviation_point)
+    back = ""
+    if report.surface_deviation_max is not None:
+        there = ", ".join(f"{value:.4g}" for value in report.surface_deviation_point)
+        rim = "a rim, " * report.surface_deviation_at_rim
+        most = f"{report.surface_deviation_max:.4g}"
+        back = f"; the surface lies up to {most} from the mesh, at {rim}({there})"
     return (
         f"largest {report.deviation_max:.4g}{asked}, rms {report.deviation_rms:.4g}; "
         f"{used}"
-        f"largest in triangle {report.deviation_triangle} at ({place})"
+        f"largest in triangle {report.deviation_triangle} at ({place}){back}"
     )
 
 

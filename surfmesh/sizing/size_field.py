@@ -30,6 +30,7 @@ from surfmesh.kernels.background import (
 from surfmesh.kernels.coverage import STACK, inverse_area
 from surfmesh.kernels.gradation import Metric, grade, patch_errors
 from surfmesh.sizing.field_cells import GRID_DEPTH, Cells, SourceCells, coarse_beside_fine
+from surfmesh.sizing.rim_size import Rims
 from surfmesh.sizing.size_law import FieldNodes, SizeLaw, TensorLaw
 from surfmesh.sizing.size_limits import SizeLimits
 from surfmesh.sizing.sizing import Sizing
@@ -119,15 +120,17 @@ def size_field(
     sizing: Sizing,
     sides: SideTopology | None = None,
     limits: SizeLimits | None = None,
+    rims: Rims | None = None,
 ) -> SizeField:
     """Build the background for ``surface``; ``sides`` tells which sides are joined.
 
-    ``limits``: upper bounds of the size near points, from an earlier round.
+    ``limits``: upper bounds of the size near points, from an earlier round. ``rims``: where the
+    surface ends, of a surface of formulas: the edges of a CAD model are cut before its faces.
 
     Raises ``SizingError`` when a size law gives something else than positive numbers, or when
     the wanted sizes need an unreasonable number of cells.
     """
-    return _Builder(surface, sizing, sides, SizeLaw(surface, sizing, limits)).build()
+    return _Builder(surface, sizing, sides, SizeLaw(surface, sizing, limits, rims)).build()
 
 
 def inverse_sizes(field: SizeField, xy: np.ndarray, scale: np.ndarray) -> np.ndarray | None:
@@ -200,7 +203,9 @@ class _Builder:
         patch = self._patches(cells)
         fresh = np.ones(len(cells), bool)
         total = len(cells)
-        seeds = small_sizes(self.surface, self.law.sizing, self.law.limits)
+        seeds = small_sizes(
+            self.surface, self.law.sizing, self.law.limits, self.law.loop_limits
+        )
         sources = SourceCells(*seeds, self.scaling, self.root_step, self.nx)
         tree: list[np.ndarray] = []  # the cells that were split, in the order of their children
         for round_number in range(MAX_ROUNDS + GRID_DEPTH):
