@@ -53,10 +53,8 @@ def mesh_face(job: FaceJob) -> FaceMesh:
     reason = no_point(job)
     if reason:
         return FaceMesh(failure=reason)
-    if job.narrow is not None:
-        return _mesh_rest(job)
     rest, tubes, slots = without_tubes(job)
-    if not tubes:
+    if not tubes or (job.narrow is not None and rest.loops):
         return _mesh_rest(job)
     if not rest.loops:
         return with_tubes(job, rest, FaceMesh(), tubes, slots)

@@ -24,6 +24,9 @@ COLUMNS = 6
 FEWEST = 2.5
 """A level whose way round is less than so many steps along the edges is thin."""
 
+THREAD = 1e-3
+"""Of a step: where the way round is shorter only the nodes of the edges stand."""
+
 LEAST_TURN = 0.5
 """Radians by which the way round turns: what turns less is a corner, not a tube."""
 
@@ -216,13 +219,18 @@ def _thin(job: FaceJob, left: np.ndarray, right: np.ndarray, points: np.ndarray)
     points: (m, 3) of the nodes on one side. For as many levels as both sides have.
     """
     count = min(len(left), len(right))
-    t = np.linspace(0.0, 1.0, WAY)[:, None]
-    way = left[:count, None] + t * (right[:count] - left[:count])[:, None]
-    rings = job.surface.evaluate(way.reshape(-1, 2), 0)[0].reshape(count, WAY, 3)
-    length = np.linalg.norm(np.diff(rings, axis=1), axis=2).sum(axis=1)
+    length = _ways(job.surface, left[:count], right[:count])
     step = np.linalg.norm(np.diff(points, axis=0), axis=1)
     step = np.minimum(np.r_[step[:1], step], np.r_[step, step[-1:]])[:count]
     return length < FEWEST * step
+
+
+def _ways(surface: Surface, left: np.ndarray, right: np.ndarray) -> np.ndarray:
+    """Lengths (n,) in space of the ways from left to right (n, 2)."""
+    t = np.linspace(0.0, 1.0, WAY)[:, None]
+    way = left[:, None] + t * (right - left)[:, None]
+    rings = surface.evaluate(way.reshape(-1, 2), 0)[0].reshape(len(left), WAY, 3)
+    return np.linalg.norm(np.diff(rings, axis=1), axis=2).sum(axis=1)
 
 
 def _tube(
@@ -241,7 +249,8 @@ def _tube(
     if all(poles) and len(uv) == 2:
         uv, share = _with_middle(uv), np.array([0.0, 0.5, 1.0])
     beside = np.stack([np.interp(share, other, right.uv[:, k]) for k in (0, 1)], axis=1)
-    inner = [uv + k / count * (beside - uv) for k in range(1, count)]
+    inside = _wide_enough(surface, uv, beside)
+    inner = [(uv + k / count * (beside - uv))[inside] for k in range(1, count)]
     columns = (left.uv, *inner, right.uv)
     ends = [
         None if pole else _ring(surface, columns, level, left, right, following + more)
@@ -249,6 +258,16 @@ def _tube(
     ]
     first = None if ends[0] is None else _backwards(ends[0])
     return Tube(left, right, left_slots, right_slots, ends[1], first, columns)
+
+
+def _wide_enough(surface: Surface, left: np.ndarray, right: np.ndarray) -> np.ndarray:
+    """The levels at which inner columns have nodes: the ends, and where the tube is no thread."""
+    length = _ways(surface, left, right)
+    (points,) = surface.evaluate(left, 0)
+    step = np.linalg.norm(np.diff(points, axis=0), axis=1)
+    wide = length > THREAD * np.minimum(np.r_[step[:1], step], np.r_[step, step[-1:]])
+    wide[[0, -1]] = True
+    return wide
 
 
 def _ring(
