@@ -34,9 +34,9 @@ def no_point(job: FaceJob) -> str:
             place = ", ".join(f"{x:.6g}" for x in piece.points[0])
             (u0, v0), (u1, v1) = piece.uv[[0, -1]]
             return (
-                f"its edge at ({place}) is to be one point, but its image from (u, v) = ({u0:.6g}, "
-                f"{v0:.6g}) to ({u1:.6g}, {v1:.6g}) reaches {reach:.3g} from there: the loop is not "
-                "closed or runs the wrong way; repair the face in the program that made it"
+                f"its edge at ({place}) is to be one point, but its image from (u, v) = "
+                f"({u0:.6g}, {v0:.6g}) to ({u1:.6g}, {v1:.6g}) reaches {reach:.3g} from there: the "
+                "loop is open or runs the wrong way; repair the face in the program that made it"
             )
     return ""
 

@@ -71,7 +71,7 @@ class _Open:
 
 
 def without_tubes(job: FaceJob) -> tuple[FaceJob, list[Tube], np.ndarray]:
-    """The job with its thin tips and necks cut off; these; for each slot of the new job the old one.
+    """The job with its thin tips and necks cut off; these; the old slot for each of the new job.
 
     The nodes of rings have no old slot: -1.
     """
@@ -274,7 +274,7 @@ def _ring(
     surface: Surface, columns: tuple[np.ndarray, ...], level: int, left: Piece, right: Piece,
     following: int,
 ) -> Piece:  # fmt: skip
-    """One level as a piece of the boundary, from left to right; its nodes have numbers of their own."""
+    """One level as a piece of the boundary, from left to right, with numbers of its own."""
     uv = np.array([column[level] for column in columns])
     (points,) = surface.evaluate(uv, 0)
     points[0], points[-1] = left.points[level], right.points[level]

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from itertools import pairwise
 
 import numpy as np
 
@@ -115,7 +116,7 @@ def _fill(surface: Surface, tube: Tube, rows: _Rows) -> None:
                 number = int(tube.last.numbers[k])
             own.append((rows.point(number, point, slot, size), rows.place(uv, size)))
         grid.append(own)
-    for k, (one, other) in enumerate(zip(grid, grid[1:])):
+    for k, (one, other) in enumerate(pairwise(grid)):
         for end, ring in ((0, tube.first), (-1, tube.last)):
             if ring is None:  # a pole is between the columns in (u, v)
                 middle = 0.5 * (tube.columns[k][end] + tube.columns[k + 1][end])

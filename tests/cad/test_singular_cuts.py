@@ -1,4 +1,4 @@
-"""Faces with a singular point inside are cut there; areas, vertices and Euler numbers stay right."""
+"""Faces with a singular point inside are cut there; areas and Euler numbers stay right."""
 
 import math
 

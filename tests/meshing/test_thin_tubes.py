@@ -1,4 +1,4 @@
-"""Tips and necks thinner than their triangles are long: pinched as the model is, without a flood."""
+"""Tips and necks thinner than their triangles are long: as the model is, without a flood."""
 
 import math
 from itertools import pairwise
@@ -38,7 +38,8 @@ SPIKE = [(0, 0), (4, 0), (4, 5), (0, 5), (0, 9)]
 
 
 @pytest.mark.parametrize(
-    ("major", "euler", "most"), [(2.0, 1, 2400), (1.2, 2, 3400), (1.9999, 2, 2600), (2.0001, 0, 2400)]
+    ("major", "euler", "most"),
+    [(2.0, 1, 2400), (1.2, 2, 3400), (1.9999, 2, 2600), (2.0001, 0, 2400)],
 )
 def test_tori_that_reach_their_axis_are_closed(major, euler, most):
     model = torus(major, 2.0)
