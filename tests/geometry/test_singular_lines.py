@@ -5,6 +5,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from surfmesh.geometry.curves import Circle
 from surfmesh.geometry.elementary import Cone, Cylinder, Sphere, Torus
 from surfmesh.geometry.nurbs import BSplineCurve, BSplineSurface, bezier_knots
 from surfmesh.geometry.singular_lines import singular_lines
@@ -71,3 +72,13 @@ def test_a_row_of_control_points_in_one_point_is_found_inside_and_at_the_rim(axi
     else:
         surface = BSplineSurface(*knots[::-1], control, domain=((0, 1), (0, 2)))
     assert values(surface) == [(axis, pytest.approx(1.0, abs=1e-6)), (axis, 2.0)]
+
+
+@pytest.mark.parametrize("apart", [1.0, 0.02, 3e-3])
+def test_two_points_near_each_other_are_told_apart(apart):
+    """A circle turned about its own secant, as files have a spindle torus."""
+    circle = Circle((np.cos(apart / 2), 0, 0), (1, 0, 0), (0, 0, 1), radius=1.0)
+    surface = RevolutionSurface(circle, (0, 0, 0), (0, 0, 1), domain=(TURN, TURN))
+    assert values(surface) == [
+        (1, pytest.approx(np.pi - apart / 2)), (1, pytest.approx(np.pi + apart / 2))
+    ]  # fmt: skip
