@@ -22,7 +22,7 @@ from surfmesh.errors import SizingError
 from surfmesh.geometry.fundamental_forms import curvatures, forms_from_derivatives
 from surfmesh.geometry.inside_loops import is_inside
 from surfmesh.geometry.projection import closest_point
-from surfmesh.geometry.surface import Surface
+from surfmesh.geometry.surface import Surface, surface_label
 from surfmesh.kernels.background import scalar_sizes_at
 from surfmesh.meshing.axis_sizes import (
     LOWERED,
@@ -135,7 +135,7 @@ def explain_surface(
                 found.append(SizeRow("default", "a tenth of the diagonal", bounds.clamp[1], "max"))
         return found
 
-    name = surface.name or surface.kind
+    name = surface_label(surface)
     where = _Where(foot, away, name, 0, uv, principal)
     if bounds.sizing.is_anisotropic:
         samples = _Samples(surface, grid, bounds, field.sizing)

@@ -30,7 +30,7 @@ _GRID = 6
 CLOSELY = np.array(
     [(i, j, _GRID - i - j) for i in range(_GRID + 1) for j in range(_GRID + 1 - i)]
 ) / float(_GRID)  # over the worst of them, as ``deviation`` does
-SECOND_LOOK = 100  # triangles looked at closely, or one in 500 if that is more
+SECOND_LOOK = 400  # triangles looked at closely, or one in 250 if that is more
 FIRST_FEW = 64  # points whose nearest triangle is searched for at first
 AMONG_ALL = 16  # points that are compared with every triangle in the end, at most
 
@@ -60,7 +60,7 @@ def surface_deviation(
     for start in range(0, count, length):
         search.look(*_over(np.arange(start, min(start + length, count), dtype=np.int32), WITHIN))
     worth = np.maximum(fit.by_triangle, search.by_triangle)
-    chosen = min(count, max(SECOND_LOOK, count // 500))
+    chosen = min(count, max(SECOND_LOOK, count // 250))
     worst = np.sort(np.argpartition(worth, count - chosen)[count - chosen :]).astype(np.int32)
     search.look(*_over(worst, CLOSELY))
     return search.result()
