@@ -292,6 +292,25 @@ class SurfaceMesh:
         """The same mesh with more to say about it; itself, when there is nothing."""
         return replace(self, warnings=(*self.warnings, *more)) if more else self
 
+    def flipped(self) -> "SurfaceMesh":
+        """The same mesh turned over: its triangles face the other side; twice gives it back.
+
+        Points, edges and all other numbers stay. For closed surfaces that face their inside.
+        """
+        turned = self.turned_faces
+        if self.surfaces:
+            turned = np.ones(len(self.surfaces), bool) if turned is None else ~turned
+            if self.solid_ids is None and not turned.any():
+                turned = None
+        order = [0, 2, 1]
+        return replace(
+            self,
+            triangles=self.triangles[:, order],
+            uv_triangles=None if self.uv_triangles is None else self.uv_triangles[:, order],
+            turned_faces=turned,
+            solid_ids=None if self.solid_ids is None else self.solid_ids[:, ::-1],
+        )
+
     @cached_property
     def report(self) -> "Report":
         """The certificate: ``surfmesh.check(mesh)``, made when it is first asked for."""

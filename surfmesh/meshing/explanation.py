@@ -327,7 +327,7 @@ def _rows_of(
         name for name in ("chord", "max_size")
         if getattr(stated, name) is None and rules and any(
             getattr(rule.sizing, given) is not None
-            for rule in rules
+            for rule in rules if not rule.derived
             for given in (("chord", "angle", "size") if name == "chord" else ("max_size", "size"))
         )
     }  # fmt: skip

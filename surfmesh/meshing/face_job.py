@@ -27,6 +27,9 @@ from surfmesh.meshing.one_place import one_place
 from surfmesh.meshing.optimise import Optimiser
 from surfmesh.meshing.packing import packed_over
 from surfmesh.meshing.seam_limits import seam_limits
+from surfmesh.meshing.strip_triangulation import strip_mesh
+from surfmesh.meshing.thin_tubes import without_tubes
+from surfmesh.meshing.tube_triangles import with_tubes
 from surfmesh.sizing.boundary_field import boundary_field, has_boundary_field
 from surfmesh.sizing.size_field import SizeField, inverse_sizes, size_field
 from surfmesh.sizing.size_limits import SizeLimits, along_lines
@@ -47,7 +50,26 @@ PROJECTIONS = 4
 
 def mesh_face(job: FaceJob) -> FaceMesh:
     """Mesh one face. Never raises for what is wrong with the face: see ``failure``."""
+    if job.narrow is not None:
+        return _mesh_rest(job)
+    rest, tubes, slots = without_tubes(job)
+    if not tubes:
+        return _mesh_rest(job)
+    room = _round_tubes(rest.surface, rest)
+    if room is not None:  # beside a thin part the way round is short, too
+        rest = replace(rest, limits=room.joined_with(rest.limits))
+    mesh = _mesh_rest(rest)
+    if room is not None:
+        mesh = replace(mesh, wishes=room.joined_with(mesh.wishes))
+    return mesh if mesh.failure else with_tubes(job, rest, mesh, tubes, slots)
+
+
+def _mesh_rest(job: FaceJob) -> FaceMesh:
+    """Mesh a face without thin tips and necks, or what is left of one."""
     try:
+        strip = strip_mesh(job) if job.narrow is not None else None
+        if strip is not None:
+            return strip
         try:
             return _never_empty(job, _meshed(job))
         except SurfaceError:

@@ -11,12 +11,16 @@ import numpy as np
 from numpy.typing import NDArray
 
 from surfmesh.model_facts import ModelFacts
+from surfmesh.quality.against_model import unexpected
+from surfmesh.quality.bodies import BodyPair, bodies
 from surfmesh.quality.by_face import FaceRow, by_face
-from surfmesh.quality.by_solid import SolidRow, by_solid, volume_of_all
+from surfmesh.quality.by_solid import SolidRow, by_solid, relative_error, volume_of_all
 from surfmesh.quality.chord_use import chord_use
 from surfmesh.quality.deviation import deviation
 from surfmesh.quality.folds import FoldedTriangle, folded_surfaces, folds, most_folded
 from surfmesh.quality.histograms import Histogram, histograms
+from surfmesh.quality.inward import turned_inward
+from surfmesh.quality.kept_volumes import volumes_not_kept
 from surfmesh.quality.lengths import (
     QUASI_UNIT,
     edge_lengths,
@@ -24,7 +28,14 @@ from surfmesh.quality.lengths import (
     metric_lengths,
     size_growth,
 )
-from surfmesh.quality.problems import DEGENERATE, intersections, problems, turned_too_far
+from surfmesh.quality.loose_edges import LooseEdges, loose_edges
+from surfmesh.quality.problems import (
+    DEGENERATE,
+    intersections,
+    overlaps,
+    problems,
+    turned_too_far,
+)
 from surfmesh.quality.promises import (
     Promises,
     StatedLimit,
@@ -35,16 +46,17 @@ from surfmesh.quality.promises import (
     stated,
 )
 from surfmesh.quality.provenance import mesh_sha256, versions
+from surfmesh.quality.remarks import loose_faces, sheets_facing_apart, touching_bodies
 from surfmesh.quality.self_intersection import MeetingPair, located, meeting_pairs
 from surfmesh.quality.shape import enclosed_volume, metric_alpha, shapes
-from surfmesh.quality.solids import apart, shares_faces
+from surfmesh.quality.solids import shares_faces
 from surfmesh.quality.surface_to_mesh import both_ways, surface_deviation, surface_too_far
 from surfmesh.quality.topology import topology
 from surfmesh.quality.turning import turning, worst_turn
 from surfmesh.quality.worst import WorstTriangle, worst_triangles
 from surfmesh.surface_mesh import SurfaceMesh
 
-SCHEMA_VERSION = 3  # of to_dict(): raised when a field changes its meaning or goes away
+SCHEMA_VERSION = 4  # of to_dict(): raised when a field changes its meaning or goes away
 LISTED = 20  # places of one kind that a report holds
 
 
@@ -72,7 +84,11 @@ class Report:
     self_intersections: int | None  # pairs of triangles that meet where they share nothing
     crosses_itself: bool  # by nature of the surface: self-intersections are no fault
     meeting: tuple[MeetingPair, ...]  # the first twenty of them
-    contacts: int | None  # pairs that meet between two bodies of a CAD model: no fault
+    contacts: int | None  # pairs that meet between two bodies of a CAD model that only touch
+    overlapping_bodies: int | None  # pairs of solids that share volume
+    touching_bodies: int | None  # pairs of bodies that touch without a common face
+    bodies: tuple[BodyPair, ...]  # the first twenty of both, and of those whose facets meet
+    loose_edges: LooseEdges | None  # rims of faces that lie edge to edge and share nothing
 
     alpha_mean: float  # 4 sqrt(3) area / sum of squared edges, in 3D; 1 is equilateral
     alpha_p01: float  # 1 % of the triangles are worse
@@ -132,8 +148,10 @@ class Report:
 
     area: float
     area_exact: float | None
-    volume: float | None  # of a closed, oriented mesh
+    area_error: float | None  # area / area_exact - 1
+    volume: float | None  # of a mesh whose every edge is run along as often both ways
     volume_exact: float | None
+    volume_error: float | None  # volume / volume_exact - 1
     by_face: tuple[FaceRow, ...]
     by_solid: tuple[SolidRow, ...]
 
@@ -202,7 +220,6 @@ def check(mesh: SurfaceMesh) -> Report:
     back = surface_deviation(mesh, fit, promises)
     chord = getattr(mesh.sizing, "chord", None) or promises.base_chord
     facts = mesh.facts or ModelFacts()
-    encloses = topo.closed and topo.manifold and topo.oriented
     unit_share = None
     if metric is not None and len(metric):
         low, high = QUASI_UNIT
@@ -226,21 +243,29 @@ def check(mesh: SurfaceMesh) -> Report:
     solids = by_solid(mesh, shape) if finite else ()
     crosses = facts.crosses_itself or (mesh.one_sided and topo.closed)  # no room in space
     pairs = meeting_pairs(mesh) if finite else None
-    contacts = None
-    if pairs is not None and mesh.solid_ids is not None:
-        between = apart(mesh, pairs)
-        contacts, pairs = int(between.sum()), pairs[~between]
+    met = loose = None
+    if pairs is not None:
+        by_triangle = None if fit is None else fit.by_triangle
+        loose, edge_to_edge = loose_edges(mesh, by_triangle)
+        met = bodies(mesh, pairs, solids, by_triangle, edge_to_edge)
+        pairs = pairs[met.own]
     meeting = () if pairs is None else located(mesh, pairs[:LISTED])
     far = None
     if beyond is not None and back is not None:
         far = surface_too_far(mesh, fit, back, beyond, promises)
         beyond = None if far else beyond
-    said = problems(mesh, broken, topo, shape, fit, beyond, promises, turned_over, solids)
+    volume = _volume(mesh, topo.balanced, solids) if finite and not broken else None
+    odd = unexpected(mesh, topo)
+    said = problems(mesh, broken, odd, topo, shape, fit, beyond, promises, turned_over, solids)
+    short, forbidden = volumes_not_kept(mesh, solids)
+    said += short
     said += [far] if far else []
     if bent is not None:
         said.append(turned_too_far(mesh, turns, bent, promises))
     if pairs is not None and not crosses:
         said += intersections(mesh, meeting, len(pairs))
+    if met is not None:
+        said += overlaps(met.overlapping)
     return Report(
         schema_version=SCHEMA_VERSION,
         surface=_names(mesh),
@@ -258,7 +283,11 @@ def check(mesh: SurfaceMesh) -> Report:
         self_intersections=None if pairs is None else len(pairs),
         crosses_itself=crosses,
         meeting=meeting,
-        contacts=contacts,
+        contacts=None if met is None or mesh.solid_ids is None else met.contacts,
+        overlapping_bodies=None if met is None else len(met.overlapping),
+        touching_bodies=None if met is None else len(met.touching),
+        bodies=() if met is None else (*met.overlapping, *met.touching, *met.near)[:LISTED],
+        loose_edges=loose,
         alpha_mean=_over(np.mean, shape.alpha),
         alpha_p01=_over(lambda alpha: np.quantile(alpha, 0.01), shape.alpha),
         alpha_min=_over(np.min, shape.alpha),
@@ -312,8 +341,10 @@ def check(mesh: SurfaceMesh) -> Report:
         limits=tuple(limits),
         area=float(shape.area.sum()),
         area_exact=facts.area,
-        volume=_volume(mesh, encloses, solids) if finite and not broken else None,
+        area_error=relative_error(float(shape.area.sum()), facts.area),
+        volume=volume,
         volume_exact=facts.volume,
+        volume_error=relative_error(volume, facts.volume),
         by_face=by_face(mesh, shape, fit, lengths, folded, promises, limits, turns),
         by_solid=solids,
         unit=facts.unit,
@@ -326,6 +357,11 @@ def check(mesh: SurfaceMesh) -> Report:
             *mesh.warnings,
             *(() if folded is None else folded_surfaces(mesh, turned_over)),
             *stated(limits),
+            *forbidden,
+            *(() if met is None else touching_bodies(met)),
+            *(() if loose is None else loose_faces(loose, mesh)),
+            *sheets_facing_apart(mesh, odd),
+            *(turned_inward(mesh, topo, solids) if finite and not broken else ()),
         ),
         options=_options(mesh.sizing),
         problems=tuple(said),

@@ -3,9 +3,7 @@
 from dataclasses import replace
 
 import numpy as np
-from numpy.typing import NDArray
 
-from surfmesh.quality.topology import vertex_components
 from surfmesh.surface_mesh import SurfaceMesh
 
 
@@ -25,17 +23,3 @@ def solid_mesh(mesh: SurfaceMesh, solid: int) -> SurfaceMesh:
 def shares_faces(mesh: SurfaceMesh) -> bool:
     """Do two solids of the model have a face in common?"""
     return mesh.solid_ids is not None and bool((mesh.solid_ids >= 0).all(axis=1).any())
-
-
-def apart(mesh: SurfaceMesh, pairs: NDArray[np.int32]) -> NDArray[np.bool_]:
-    """(k,) which pairs of triangles belong to two bodies of a CAD model, which may touch.
-
-    They bound no solid in common, but one each, or hang together by no vertex.
-    """
-    if mesh.solid_ids is None or not len(pairs):
-        return np.zeros(len(pairs), bool)
-    first, second = mesh.solid_ids[pairs[:, 0]], mesh.solid_ids[pairs[:, 1]]
-    common = (first[:, :, None] == second[:, None, :]) & (first[:, :, None] >= 0)
-    each = (first >= 0).any(axis=1) & (second >= 0).any(axis=1)
-    pieces = vertex_components(mesh)[mesh.triangles[pairs][:, :, 0]]
-    return ~common.any(axis=(1, 2)) & (each | (pieces[:, 0] != pieces[:, 1]))

@@ -83,6 +83,8 @@ def _topology(report: "Report") -> str:
         words.append(f"intersects itself{natural} ({report.self_intersections:,} pairs)")
     if report.contacts:
         words.append(f"separate bodies meet ({report.contacts:,} pairs of triangles)")
+    if report.overlapping_bodies:
+        words.append(f"{_count(report.overlapping_bodies, 'pair')} of solids overlap")
     if report.faces > 1:
         words.append(_count(report.faces, "face"))
     return ", ".join(words)
