@@ -90,7 +90,7 @@ def explain_parametric(surface: Surface, sizing: Sizing, point: np.ndarray) -> E
     """Which wish decides at the point of the surface that is nearest to ``point`` (3,)."""
     sides = find_sides(surface)
     field = size_field(surface, sizing, sides, rims=Rims(surface, sides))
-    return explain_surface(surface, sizing, field, point)
+    return explain_surface(surface, sizing, field, point, Rims(surface, sides))
 
 
 def _one_round(
