@@ -184,11 +184,14 @@ class _Loops:
         return ""
 
     def touch(self) -> str:
+        """In words, where curves without a common vertex touch."""
         for contact in self.astray:
-            return (
-                f"{self._names(contact)} touch at {self._place(contact)}, where they have no "
-                "common vertex"
-            )
+            one, other = contact.curves
+            if not set(self.exact.ends[one]) & set(self.exact.ends[other]):
+                return (
+                    f"{self._names(contact)} touch at {self._place(contact)}, where they have no "
+                    "common vertex"
+                )
         return ""
 
     def _names(self, contact: Contact) -> str:
@@ -231,10 +234,18 @@ class _Loops:
                         other, contact.shares[1], end_2, reach
                     ):
                         return True
+                    if one != other and self._stay_together(contact, end, reach):
+                        return True
         return False
 
+    def _stay_together(self, contact: Contact, end: int, reach: float) -> bool:
+        """Does the first curve stay as near to the other from the contact to its end?"""
+        one, other = contact.curves
+        t = np.linspace(contact.shares[0][end], float(end), LOBE_SAMPLES)
+        return bool((feet(self.curves[other], self.curves[one].evaluate(t))[1] <= reach).all())
+
     def _is_at(self, curve: int, share: tuple[float, float], end: int, reach: float) -> bool:
-        """Is the end of the curve (0 or 1) within reach of the part of it from share to share?"""
+        """Is the end of the curve (0 or 1) within reach of its part from share to share?"""
         at = np.array([share[end], float(end)])
         return bool(np.linalg.norm(np.diff(self.curves[curve].evaluate(at), axis=0)) <= reach)
 

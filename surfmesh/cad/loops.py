@@ -14,8 +14,11 @@ from surfmesh.geometry.nesting import nesting_depth
 
 Loop = tuple[CadCoedge, ...]
 
-SAMPLES = 24
+SAMPLES = 64
 """Of each coedge: the polygon of its loop."""
+
+SURE = 0.5
+"""Of what its corners let it differ by: a smaller area of a polygon may have the other sign."""
 
 CLEAR, FLAT = 0.01, 1e-6
 """Of the size of a loop: others so near to it may lie on either side of its curve; of its square:
@@ -118,11 +121,12 @@ def misdirected(loops: Sequence[Loop], closed: bool) -> list[int]:
     share = np.arange(SAMPLES) / SAMPLES
     rings = [np.concatenate([coedge.walk(share) for coedge in loop]) for loop in loops]
     extent = np.ptp(np.concatenate(rings), axis=0)
-    if not (extent > 0.0).all():
+    if not (extent > 0.0).all() or not all(closes(loop, extent) for loop in loops):
         return []
-    areas = np.array([signed_area(loop) for loop in loops]) / np.prod(extent)
+    areas = np.array([signed_area(loop, SAMPLES) for loop in loops]) / np.prod(extent)
     boxes = np.array([np.ptp(ring / extent, axis=0).max() for ring in rings])
-    if (np.abs(areas) <= FLAT * boxes**2).any() or not all(closes(loop, extent) for loop in loops):
+    slack = np.array([_sag_area(ring / extent) for ring in rings])
+    if (np.abs(areas) <= np.maximum(FLAT * boxes**2, SURE * slack)).any():
         return []
     depth = nesting_depth([ring / extent for ring in rings])
     wrong = (areas > 0.0) != (depth % 2 == 0)
@@ -131,6 +135,13 @@ def misdirected(loops: Sequence[Loop], closed: bool) -> list[int]:
     if not wrong.any() or not _are_apart([ring / extent for ring in rings], boxes):
         return []
     return np.flatnonzero(wrong).tolist()
+
+
+def _sag_area(ring: np.ndarray) -> float:
+    """By how much the area of a polygon (k, 2) may differ from that within its curves."""
+    before, after = np.roll(ring, 1, axis=0), np.roll(ring, -1, axis=0)
+    sag = np.linalg.norm(ring - 0.5 * (before + after), axis=1)
+    return float(sag @ np.linalg.norm(after - before, axis=1))
 
 
 def turned(loop: Loop) -> Loop:

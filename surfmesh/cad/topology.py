@@ -56,6 +56,7 @@ from surfmesh.cad.model import (
     Colour,
     Shell,
 )
+from surfmesh.cad.near_poles import images_at_near_poles
 from surfmesh.cad.points_inside import short_edges, vertices_inside
 from surfmesh.cad.singular_cuts import cut_at_singular_lines
 from surfmesh.cad.tolerances import (
@@ -97,6 +98,7 @@ def cad_model(
     healing = _in_words(walk, root)
     if heal:
         healing += images_that_follow(walk.edges, walk.vertices, walk.faces, unit)
+        healing += images_at_near_poles(walk.edges, walk.vertices, walk.faces)
         healing += curves_on_their_faces(walk.edges, walk.vertices, walk.faces, unit)
     healing += tolerances_that_hold(walk.edges, walk.vertices, walk.faces, unit)
     _fault_split_faces(walk, root)

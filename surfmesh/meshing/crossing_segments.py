@@ -7,6 +7,7 @@ the rest of the boundary as it is.
 from __future__ import annotations
 
 import numpy as np
+from scipy.spatial import cKDTree
 
 from surfmesh.geometry.nesting import nesting_depth
 from surfmesh.meshing.face_data import FaceJob
@@ -18,11 +19,12 @@ FINER = 0.5
 """Factor on the lengths of the segments."""
 
 
-def limits_where_crossing(job: FaceJob) -> SizeLimits | None:
+def limits_where_crossing(job: FaceJob, where: np.ndarray) -> SizeLimits | None:
     """Half the lengths of the segments that meet others, at their ends and middles.
 
-    Where none do and yet nothing is enclosed, of the loops that lie on the wrong side of others.
-    None when ``min_size`` forbids that.
+    Where none do and yet nothing is enclosed, of the loops that lie on the wrong side of others;
+    or else of the segments nearest to where (k, 2) the boundary could not be inserted. None when
+    ``min_size`` forbids that.
     """
     uv, numbers, points, segments, loop = _boundary(job)
     nodes, row = np.unique(one_place(uv, numbers, segments), return_inverse=True)
@@ -32,6 +34,9 @@ def limits_where_crossing(job: FaceJob) -> SizeLimits | None:
     bad = real[np.unique(pairs)]
     if not len(bad):
         bad = np.flatnonzero(np.isin(loop, _misplaced(uv, segments, loop)))
+    if not len(bad):
+        near = cKDTree(points).query(job.surface.evaluate(where, 0)[0])[1]
+        bad = np.flatnonzero(np.isin(segments, near).any(axis=1))
     start, end = points[segments[bad]].transpose(1, 0, 2)
     length = np.linalg.norm(end - start, axis=1)
     bad, start, end, length = (x[length > 0.0] for x in (bad, start, end, length))

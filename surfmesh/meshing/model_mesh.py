@@ -418,6 +418,7 @@ def _joined(
         edge_segments=segments[there],
         edge_ids=of[there],
         edge_shares=shares[there],
+        edge_curves=model.edges,
         vertex_ids=rank[samples.vertex],
         sizes=np.where(np.isfinite(sizes), sizes, model.diagonal)[used],
         groups=groups_of(model),
