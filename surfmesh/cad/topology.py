@@ -55,6 +55,7 @@ from surfmesh.cad.model import (
     Colour,
     Shell,
 )
+from surfmesh.cad.near_poles import images_at_near_poles
 from surfmesh.cad.points_inside import short_edges, vertices_inside
 from surfmesh.cad.singular_cuts import cut_at_singular_lines
 from surfmesh.cad.tolerances import (
@@ -96,6 +97,7 @@ def cad_model(
     healing = _in_words(walk, root)
     if heal:
         healing += images_that_follow(walk.edges, walk.vertices, walk.faces, unit)
+        healing += images_at_near_poles(walk.edges, walk.vertices, walk.faces)
         healing += curves_on_their_faces(walk.edges, walk.vertices, walk.faces, unit)
     healing += tolerances_that_hold(walk.edges, walk.vertices, walk.faces, unit)
     model = CadModel(
@@ -240,9 +242,7 @@ class _Walk:
             self._remarks["a solid without faces is left out"] += 1
             return None
         kinds = [self.faces[face].kind for shell in shells for face, _ in shell]
-        properties = GProp_GProps()
-        BRepGProp.VolumeProperties_s(shape, properties, _accuracy(kinds))
-        volume = properties.Mass()
+        volume = _volume(shape, kinds)
         if volume < 0.0:
             self._remarks[f"solid {len(self.solids)} was inside out: its faces are turned"] += 1
             shells = [tuple((face, not against) for face, against in shell) for shell in shells]
@@ -592,6 +592,16 @@ def _below(shape: TopoDS_Shape) -> Iterator[TopoDS_Shape]:
 
 def _accuracy(kinds: list[str]) -> float:
     return EXACT if ELEMENTARY.issuperset(kinds) else EXACT_FREE_FORM
+
+
+def _volume(shape: TopoDS_Shape, kinds: list[str]) -> float:
+    """Signed: negative where the faces of a solid are turned inside out."""
+    properties = GProp_GProps()
+    if "extrusion" in kinds:  # as for areas: adaptive integration is up to 3 % off
+        BRepGProp.VolumeProperties_s(shape, properties)
+    else:
+        BRepGProp.VolumeProperties_s(shape, properties, _accuracy(kinds))
+    return properties.Mass()
 
 
 def _area(face: TopoDS_Face, kind: str) -> float:
