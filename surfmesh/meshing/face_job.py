@@ -21,7 +21,7 @@ from surfmesh.meshing.boundary_loops import BoundaryLoops, cut_line
 from surfmesh.meshing.boundary_recovery import recovered
 from surfmesh.meshing.edge_wishes import wishes_along
 from surfmesh.meshing.face_data import FaceJob, FaceMesh, Piece
-from surfmesh.meshing.face_repair import filled_face, untangled_job
+from surfmesh.meshing.face_repair import filled_face, no_point, untangled_job
 from surfmesh.meshing.gluing import glued, misglued
 from surfmesh.meshing.one_place import one_place
 from surfmesh.meshing.optimise import Optimiser
@@ -50,17 +50,15 @@ PROJECTIONS = 4
 
 def mesh_face(job: FaceJob) -> FaceMesh:
     """Mesh one face. Never raises for what is wrong with the face: see ``failure``."""
-    if job.narrow is not None:
-        return _mesh_rest(job)
+    reason = no_point(job)
+    if reason:
+        return FaceMesh(failure=reason)
     rest, tubes, slots = without_tubes(job)
-    if not tubes:
+    if not tubes or (job.narrow is not None and rest.loops):
         return _mesh_rest(job)
-    room = _round_tubes(rest.surface, rest)
-    if room is not None:  # beside a thin part the way round is short, too
-        rest = replace(rest, limits=room.joined_with(rest.limits))
+    if not rest.loops:
+        return with_tubes(job, rest, FaceMesh(), tubes, slots)
     mesh = _mesh_rest(rest)
-    if room is not None:
-        mesh = replace(mesh, wishes=room.joined_with(mesh.wishes))
     return mesh if mesh.failure else with_tubes(job, rest, mesh, tubes, slots)
 
 

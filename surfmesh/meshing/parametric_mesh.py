@@ -58,7 +58,7 @@ def mesh_parametric(
     for _ in range(ROUNDS):
         with watch.stage("sizing"):
             field = size_field(surface, sizing, sides, limits, Rims(surface, sides))
-            require_field_within(sizing.limit, field, surface.loops or None, surface.name)
+            require_field_within(sizing.limit, field, _loops(surface), surface.name)
         try:
             mesh, wishes, bad = _one_round(surface, sides, kinks, field, optimise, watch)
         except (SurfaceError, MeshingError) as error:
@@ -86,7 +86,7 @@ def estimate_parametric(surface: Surface, sizing: Sizing) -> Estimate:
     """Triangles and memory of ``mesh_parametric``. Raises as it does."""
     sides = find_sides(surface)
     field = size_field(surface, sizing, sides, rims=Rims(surface, sides))
-    loops = surface.loops or None
+    loops = _loops(surface)
     asked = field_triangles(field, loops)
     if asked <= WHOLE:
         made = tried(lambda stop: mesh_parametric(surface, sizing, progress=stop))
@@ -100,7 +100,7 @@ def explain_parametric(surface: Surface, sizing: Sizing, point: np.ndarray) -> E
     """Which wish decides at the point of the surface that is nearest to ``point`` (3,)."""
     sides = find_sides(surface)
     field = size_field(surface, sizing, sides, rims=Rims(surface, sides))
-    return explain_surface(surface, sizing, field, point)
+    return explain_surface(surface, sizing, field, point, Rims(surface, sides))
 
 
 def _one_round(
@@ -173,10 +173,14 @@ def _in_space(
         inverse_sizes=inverse_sizes(field, xy, scale[: len(xy)]),
         sizing=field.sizing,
         seconds=watch.seconds,
-        one_sided=sides.one_sided and not surface.loops,
+        one_sided=sides.one_sided and not len(surface.loops),
         facts=known_facts(surface),
     )
     return mesh, parts
+
+
+def _loops(surface: Surface) -> list[np.ndarray] | None:
+    return [np.asarray(loop, float) for loop in surface.loops] or None
 
 
 def _can_shrink(field: SizeField, wishes: SizeLimits) -> bool:

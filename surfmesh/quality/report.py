@@ -30,8 +30,9 @@ from surfmesh.quality.lengths import (
     size_growth,
 )
 from surfmesh.quality.loose_edges import LooseEdges, loose_edges
+from surfmesh.quality.lost import explained, is_known, lost
+from surfmesh.quality.narrow import DEGENERATE, narrow_triangles
 from surfmesh.quality.problems import (
-    DEGENERATE,
     intersections,
     overlaps,
     problems,
@@ -95,6 +96,10 @@ class Report:
     alpha_mean: float  # 4 sqrt(3) area / sum of squared edges, in 3D; 1 is equilateral
     alpha_p01: float  # 1 % of the triangles are worse
     alpha_min: float
+    narrow_triangles: int  # on faces of a CAD model that are narrower than the chord: good shape
+    # is not owed there; alpha, angles and edges are of all triangles
+    alpha_mean_elsewhere: float | None  # of the others; None: there are none
+    alpha_min_elsewhere: float | None
     alpha_metric_mean: float | None  # alpha as seen in the metric; None: isotropic, as in 3D
     alpha_metric_min: float | None
     radius_ratio_mean: float  # 2 r_in / r_circum; 1 is equilateral
@@ -262,6 +267,7 @@ def check(mesh: SurfaceMesh) -> Report:
     if beyond is not None and back is not None:
         far = surface_too_far(mesh, fit, back, beyond, promises)
         beyond = None if far else beyond
+    narrow = narrow_triangles(mesh, shape.alpha)
     volume = _volume(mesh, topo.balanced, solids) if finite and not broken else None
     odd = unexpected(mesh, topo)
     said = problems(mesh, broken, odd, topo, shape, fit, beyond, promises, turned_over, solids)
@@ -276,6 +282,10 @@ def check(mesh: SurfaceMesh) -> Report:
         said += intersections(mesh, meeting, len(pairs))
     if met is not None:
         said += overlaps(met.overlapping)
+    rows = by_face(mesh, shape, fit, lengths, folded, promises, limits, turns)
+    if fit is not None and not broken and math.isfinite(fit.largest) and is_known(mesh):
+        known = explained(mesh, shape.area, fit.by_triangle)
+        said += lost(mesh, known, rows, solids, facts.area)
     return Report(
         schema_version=SCHEMA_VERSION,
         surface=_names(mesh),
@@ -301,6 +311,9 @@ def check(mesh: SurfaceMesh) -> Report:
         alpha_mean=_over(np.mean, shape.alpha),
         alpha_p01=_over(lambda alpha: np.quantile(alpha, 0.01), shape.alpha),
         alpha_min=_over(np.min, shape.alpha),
+        narrow_triangles=narrow.count,
+        alpha_mean_elsewhere=narrow.alpha_mean_elsewhere,
+        alpha_min_elsewhere=narrow.alpha_min_elsewhere,
         alpha_metric_mean=None if wanted is None else _over(np.mean, wanted),
         alpha_metric_min=None if wanted is None else _over(np.min, wanted),
         radius_ratio_mean=_over(np.mean, shape.radius_ratio),
@@ -359,7 +372,7 @@ def check(mesh: SurfaceMesh) -> Report:
         volume=volume,
         volume_exact=facts.volume,
         volume_error=relative_error(volume, facts.volume),
-        by_face=by_face(mesh, shape, fit, lengths, folded, promises, limits, turns),
+        by_face=rows,
         by_solid=solids,
         unit=facts.unit,
         source=facts.source,

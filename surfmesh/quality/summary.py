@@ -30,6 +30,7 @@ def summary(report: "Report") -> str:
             f"radius ratio mean {report.radius_ratio_mean:.4f}, "
             f"smallest {report.radius_ratio_min:.4f}",
         ),
+        *_narrow(report),
         *_in_the_metric(report),
         ("angles", f"{report.min_angle_deg:.2f}° to {report.max_angle_deg:.2f}°"),
         (
@@ -101,6 +102,19 @@ def _size(report: "Report") -> str:
             off = 100 * (abs(found) - abs(exact)) / abs(exact)
             words[-1] += f" (exact {exact:.7g}, {off:+.2g} %)"
     return ", ".join(words) + (f" in {report.unit}" if report.unit else "")
+
+
+def _narrow(report: "Report") -> list[tuple[str, str]]:
+    """Where faces are narrower than the chord."""
+    if not report.narrow_triangles:
+        return []
+    text = f"{_count(report.narrow_triangles, 'triangle')} on faces narrower than the chord"
+    if report.alpha_mean_elsewhere is not None:
+        text += (
+            f"; without them alpha mean {report.alpha_mean_elsewhere:.4f}, "
+            f"smallest {report.alpha_min_elsewhere:.4f}"
+        )
+    return [("", text)]
 
 
 def _in_the_metric(report: "Report") -> list[tuple[str, str]]:

@@ -180,7 +180,7 @@ class SizeLaw:
             size[forms.degenerate] = self.clamp[1]
         if self.sizing.has_law:
             size = np.clip(np.minimum(size, self.sizing.law_sizes(point)), *self.clamp)
-        for rows, _, allowed in self._rims(xy, uv, point):
+        for rows, _, allowed in self.rims_at(xy, uv, point):
             size[rows] = np.minimum(size[rows], np.maximum(allowed, self.clamp[0]))
         wish = size
         if self.limits is not None:
@@ -206,7 +206,7 @@ class SizeLaw:
             wished = np.maximum(self.sizing.law_sizes(point), self.clamp[0])
             sizes = np.minimum(sizes, wished[:, None])
         size, long = sizes.min(axis=1), sizes.max(axis=1)
-        for rows, rim, allowed in self._rims(xy, uv, point):
+        for rows, rim, allowed in self.rims_at(xy, uv, point):
             binding = np.flatnonzero(allowed < long[rows])
             rim = rim.chosen(binding) if isinstance(rim, RimSizes) else rim
             rows = rows[binding]
@@ -255,7 +255,7 @@ class SizeLaw:
         """What sources and earlier rounds allow at points (n, 3)."""
         return np.maximum(self.limits(points), self._least())
 
-    def _rims(
+    def rims_at(
         self, xy: np.ndarray, uv: np.ndarray, point: np.ndarray
     ) -> Iterator[tuple[np.ndarray, RimSizes | SizeLimits, np.ndarray]]:
         """Rows (k,) of nodes that rims have something to say to, what it is, and the least of

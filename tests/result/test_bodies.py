@@ -3,7 +3,7 @@
 import cadquery as cq
 import numpy as np
 import pytest
-from conftest import changed, icosphere
+from handmade_meshes import changed, icosphere
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from OCP.BRep import BRep_Builder

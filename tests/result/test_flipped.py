@@ -3,7 +3,7 @@
 import cadquery as cq
 import numpy as np
 import pytest
-from conftest import changed, icosphere
+from handmade_meshes import changed, icosphere
 
 import surfmesh as sm
 from surfmesh.cli import main
