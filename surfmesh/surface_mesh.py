@@ -74,10 +74,12 @@ class SurfaceMesh:
     facts: ModelFacts | None = None  # what is known of the model beforehand
     # of CAD models; None otherwise
     turned_faces: NDArray[np.bool_] | None = None  # (f,) triangles run against r_u x r_v there
+    narrow_faces: NDArray[np.bool_] | None = None  # (f,) closed between sides within the chord
     solid_ids: NDArray[np.int32] | None = None  # (m, 2) solid behind and before it; -1: none
     edge_segments: NDArray[np.int32] | None = None  # (k, 2) edges of the mesh on CAD edges
     edge_ids: NDArray[np.int32] | None = None  # (k,) their CAD edges
     edge_shares: NDArray[np.float64] | None = None  # (k, 2) of its range, at a segment's ends
+    edge_curves: tuple[Any, ...] = ()  # by edge_ids: what has ``curve`` and ``parameters(share)``
     vertex_ids: NDArray[np.int32] | None = None  # (c,) vertex at each CAD vertex; -1: none
     mid_points: NDArray[np.float64] | None = None  # (ne, 3) nodes amid ``edges``; None: order 1
     # names, colours, kinds, unit; None: those of the surfaces
@@ -113,6 +115,7 @@ class SurfaceMesh:
             settle("inverse_sizes", self.inverse_sizes, np.float64, (len(self.uv_points), 6))
         for name, dtype, shape in (
             ("turned_faces", np.bool_, (len(self.surfaces),)),
+            ("narrow_faces", np.bool_, (len(self.surfaces),)),
             ("solid_ids", np.int32, (m, 2)),
             ("edge_segments", np.int32, (-1, 2)),
             ("edge_ids", np.int32, (-1,)),
@@ -125,6 +128,7 @@ class SurfaceMesh:
         if self.mid_points is not None:
             settle("mid_points", self.mid_points, np.float64, (len(self.edges), 3))
         object.__setattr__(self, "surfaces", tuple(self.surfaces))
+        object.__setattr__(self, "edge_curves", tuple(self.edge_curves))
         if self.groups is None:
             object.__setattr__(self, "groups", MeshGroups.of_surfaces(self.surfaces))
         object.__setattr__(self, "warnings", tuple(self.warnings))

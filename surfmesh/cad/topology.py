@@ -13,7 +13,7 @@ from dataclasses import replace
 from pathlib import Path as FilePath
 
 import numpy as np
-from OCP.BRep import BRep_Tool
+from OCP.BRep import BRep_Builder, BRep_Tool
 from OCP.BRepAdaptor import BRepAdaptor_Curve
 from OCP.BRepGProp import BRepGProp
 from OCP.BRepTools import BRepTools
@@ -56,6 +56,7 @@ from surfmesh.cad.model import (
     Shell,
 )
 from surfmesh.cad.near_poles import images_at_near_poles
+from surfmesh.cad.points_inside import short_edges, vertices_inside
 from surfmesh.cad.singular_cuts import cut_at_singular_lines
 from surfmesh.cad.tolerances import (
     curves_on_their_faces,
@@ -66,6 +67,7 @@ from surfmesh.cad.tolerances import (
 )
 from surfmesh.cad.unusable_faces import face_in_words
 from surfmesh.errors import CadError, SurfmeshError
+from surfmesh.geometry.face_surface import FaceSurface
 from surfmesh.geometry.surface import Domain
 
 # relative error of areas and volumes by adaptive integration, which is slow on splines
@@ -240,9 +242,7 @@ class _Walk:
             self._remarks["a solid without faces is left out"] += 1
             return None
         kinds = [self.faces[face].kind for shell in shells for face, _ in shell]
-        properties = GProp_GProps()
-        BRepGProp.VolumeProperties_s(shape, properties, _accuracy(kinds))
-        volume = properties.Mass()
+        volume = _volume(shape, kinds)
         if volume < 0.0:
             self._remarks[f"solid {len(self.solids)} was inside out: its faces are turned"] += 1
             shells = [tuple((face, not against) for face, against in shell) for shell in shells]
@@ -333,6 +333,7 @@ class _Walk:
         if not loops:
             raise CadError("it has no edges; give the face its boundary in the CAD system")
         surface = surface_of(BRep_Tool.Surface_s(face), _box(face, loops, called), called)
+        loops += self._points_inside(face, surface, loops, called)
         self.faces.append(
             CadFace(
                 surface=surface,
@@ -347,6 +348,34 @@ class _Walk:
             )
         )
         return number
+
+    def _points_inside(
+        self, face: TopoDS_Face, surface: FaceSurface, loops: list, called: str
+    ) -> list[tuple[CadCoedge, ...]]:
+        """Loops of short edges, there and back, from vertices inside the face."""
+        vertices = vertices_inside(face)
+        found = []
+        edges = short_edges(face, surface, loops, vertices) if vertices else []
+        for vertex, short in zip(vertices, edges):
+            if short is None:
+                continue
+            named = TopoDS_Edge()
+            BRep_Builder().MakeEdge(named)
+            number = self._edge_numbers.add(named)
+            start, tolerance = self._vertex(vertex), BRep_Tool.Tolerance_s(vertex)
+            (_, far) = short.curve.evaluate(np.array([0.0, short.end]), 0)[0]
+            self.vertices.append(CadVertex(far, tolerance))
+            self.edges.append(
+                CadEdge(
+                    curve=short.curve, t0=0.0, t1=short.end, start=start,
+                    end=len(self.vertices) - 1, tolerance=tolerance, degenerate=False, name="",
+                    length=short.length,
+                )
+            )
+            there = CadCoedge(number, False, short.image, 0.0, short.end, True)
+            found.append((there, replace(there, reversed=True)))
+            self._remarks[f"{called} is touched in a point: a short edge makes a node of it"] += 1
+        return found
 
     def _loops(self, face: TopoDS_Face, called: str) -> list[tuple[CadCoedge, ...]]:
         wires = [list(_below(wire)) for wire in _below(face) if wire.ShapeType() == TopAbs_WIRE]
@@ -563,6 +592,16 @@ def _below(shape: TopoDS_Shape) -> Iterator[TopoDS_Shape]:
 
 def _accuracy(kinds: list[str]) -> float:
     return EXACT if ELEMENTARY.issuperset(kinds) else EXACT_FREE_FORM
+
+
+def _volume(shape: TopoDS_Shape, kinds: list[str]) -> float:
+    """Signed: negative where the faces of a solid are turned inside out."""
+    properties = GProp_GProps()
+    if "extrusion" in kinds:  # as for areas: adaptive integration is up to 3 % off
+        BRepGProp.VolumeProperties_s(shape, properties)
+    else:
+        BRepGProp.VolumeProperties_s(shape, properties, _accuracy(kinds))
+    return properties.Mass()
 
 
 def _area(face: TopoDS_Face, kind: str) -> float:
