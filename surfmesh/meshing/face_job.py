@@ -22,6 +22,7 @@ from surfmesh.meshing.boundary_recovery import recovered
 from surfmesh.meshing.crossing_segments import limits_where_crossing
 from surfmesh.meshing.edge_wishes import wishes_along
 from surfmesh.meshing.face_data import FaceJob, FaceMesh, Piece
+from surfmesh.meshing.face_parts import in_parts
 from surfmesh.meshing.face_repair import filled_face, no_point, untangled_job
 from surfmesh.meshing.gluing import glued, misglued
 from surfmesh.meshing.one_place import one_place
@@ -60,8 +61,8 @@ def mesh_face(job: FaceJob) -> FaceMesh:
     if not tubes or (job.narrow is not None and rest.loops):
         return _mesh_rest(job)
     if not rest.loops:
-        return with_tubes(job, rest, FaceMesh(), tubes, slots)
-    mesh = _mesh_rest(rest)
+        return with_tubes(job, rest, FaceMesh(narrow=True), tubes, slots)
+    mesh = in_parts(rest, _mesh_rest)
     return mesh if mesh.failure else with_tubes(job, rest, mesh, tubes, slots)
 
 
