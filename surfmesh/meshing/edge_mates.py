@@ -33,6 +33,9 @@ ACUTE = 0.85
 LEAST_TURN = 1e-3
 """Radians: edges that turn less from node to node are straight."""
 
+COINCIDENT = 1e-12
+"""Of the diagonal: edges nearer than this all along lie on each other and have no mates."""
+
 
 @dataclass(frozen=True)
 class MateRun:
@@ -179,6 +182,8 @@ class MatedCuts:
         self.model, self.samples, self.sizes, self.fewest = model, samples, sizes, fewest
         self.runs: dict[int, list[MateRun]] = {}
         for run in samples.mates:
+            if run.gap.max() <= COINCIDENT * model.diagonal:
+                continue  # feet would be told apart by rounding alone, without end
             self.runs.setdefault(run.edge, []).append(run)
             self.runs.setdefault(run.mate, [])
         self.shares = {edge: np.array([0.0, 1.0]) for edge in self.runs}
