@@ -64,11 +64,10 @@ class Guides:
         """
         found = uv.copy()
         for _ in range(NEWTON):
-            g, g_u, g_v = (self.values(guide, found) * [1.0, *self.width]).T
-            length2 = g_u**2 + g_v**2
-            with np.errstate(divide="ignore", invalid="ignore"):
-                step = np.nan_to_num(g / length2, posinf=0.0, neginf=0.0)
-            found = found - (step[:, None] * np.stack([g_u, g_v], axis=1)) * self.width
+            with np.errstate(all="ignore"):  # whatever is not finite moves nothing
+                g, g_u, g_v = (self.values(guide, found) * [1.0, *self.width]).T
+                step = np.stack([g_u, g_v], axis=1) * (g / (g_u**2 + g_v**2))[:, None]
+            found = found - np.nan_to_num(step, posinf=0.0, neginf=0.0) * self.width
             found = np.clip(found, self.lo, self.hi)
         far = np.abs((found - uv) / self.width).max(axis=1) > within
         found[far] = uv[far]
@@ -94,8 +93,9 @@ def kink_lines(surface: Any) -> list[KinkLine]:
     pieces = _cut_at_meetings(guides, lines, NEAR * cell)
     kept: list[KinkLine] = []
     for piece in pieces:
-        if _is_long(guides, piece) and _is_bent(guides, piece) and not _is_there(guides, piece, kept):
-            kept.append(piece)
+        if _is_long(guides, piece) and _is_bent(guides, piece):
+            if not _is_there(guides, piece, kept):
+                kept.append(piece)
     return kept
 
 
@@ -310,6 +310,8 @@ def _meeting(
     for _ in range(NEWTON):
         g = np.array([guides.values(guide, found[None])[0] for guide in (one, two)])
         slope = g[:, 1:] * guides.width
+        if not np.isfinite(g).all():
+            return None
         determinant = slope[0, 0] * slope[1, 1] - slope[0, 1] * slope[1, 0]
         if not abs(determinant) > 1e-12 * np.prod(np.linalg.norm(slope, axis=1)):
             return None
@@ -386,8 +388,8 @@ def _is_bent(guides: Guides, line: KinkLine) -> bool:
         middle = line.uv[1:-1]
     else:
         middle = guides.on_line(line.guide, line.uv.mean(axis=0)[None], 1.0)
-    g = guides.values(line.guide, middle)[:, 1:] * guides.width
-    across = g / np.maximum(np.linalg.norm(g, axis=1), 1e-300)[:, None]
+    g = np.nan_to_num(guides.values(line.guide, middle)[:, 1:] * guides.width)
+    across = g / np.maximum(np.abs(g).max(axis=1), 1e-300)[:, None]
     sides = []
     for sign in (1.0, -1.0):
         place = np.clip(middle + sign * STEP * across * guides.width, guides.lo, guides.hi)

@@ -7,7 +7,7 @@ sides -> size field -> packing -> boundary -> optimisation -> space, joined side
 
 import numpy as np
 
-from surfmesh.errors import MeshingError
+from surfmesh.errors import MeshingError, SurfaceError
 from surfmesh.geometry.kinks import KinkLine, kink_lines
 from surfmesh.geometry.known_facts import known_facts
 from surfmesh.geometry.sides import SideTopology, find_sides
@@ -53,12 +53,19 @@ def mesh_parametric(
         sides = find_sides(surface)
         kinks = kink_lines(surface)
     limits: SizeLimits | None = None
+    not_followed: list[str] = []
     before = (0, 0)
     for _ in range(ROUNDS):
         with watch.stage("sizing"):
             field = size_field(surface, sizing, sides, limits, Rims(surface, sides))
             require_field_within(sizing.limit, field, _loops(surface), surface.name)
-        mesh, wishes, bad = _one_round(surface, sides, kinks, field, optimise, watch)
+        try:
+            mesh, wishes, bad = _one_round(surface, sides, kinks, field, optimise, watch)
+        except (SurfaceError, MeshingError) as error:
+            if not kinks:
+                raise
+            kinks, not_followed = [], [f"no edges follow the kinks of {surface.name!r}: {error}"]
+            mesh, wishes, bad = _one_round(surface, sides, kinks, field, optimise, watch)
         if wishes is None or not _can_shrink(field, wishes):
             break
         now = (len(mesh.triangles), len(wishes.sizes))
@@ -72,7 +79,7 @@ def mesh_parametric(
             f"the sides of {surface.name!r} cannot be joined with sizes this coarse: an edge "
             f"near ({place}) has more than two triangles; lower size, max_size or min_size"
         )
-    return mesh
+    return mesh.with_warnings(*not_followed)
 
 
 def estimate_parametric(surface: Surface, sizing: Sizing) -> Estimate:
