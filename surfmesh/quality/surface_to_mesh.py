@@ -261,7 +261,10 @@ class _Search:
                 self.by_triangle[found.triangle] = exact
             if best is None or exact > best.distance:
                 best = found._replace(distance=exact)
-        assert best is not None  # a mesh has triangles, each of which is looked at
+        if best is None:  # all that was looked at lies on the mesh to the last bit
+            mesh, corner = self.mesh, (0, 0)
+            place = mesh.uv_points[mesh.uv_triangles[corner]]
+            best = _Candidate(0.0, mesh.points[mesh.triangles[corner]], place, 0, False)
         self.by_triangle[self.far] = 0.0
         point, uv = (tuple(map(float, place)) for place in (best.point, best.uv))
         return SurfaceDeviation(
