@@ -71,11 +71,29 @@ def _along_rims(mesh: SurfaceMesh, by_triangle: NDArray[np.float64]) -> NDArray[
     beside = by_triangle[triangles]
     beside[:, 1] = np.where(two, beside[:, 1], 0.0)
     lost = length * np.minimum(np.maximum(sagitta[rim], beside.max(axis=1)), length)
-    count = int(mesh.face_ids.max(initial=0)) + 1
-    faces = mesh.face_ids[triangles]
-    found = np.bincount(faces[:, 0], lost, count)
-    both = two & (faces[:, 1] != faces[:, 0])
-    return found + np.bincount(faces[both, 1], lost[both], count)
+    half_edge, row = _half_edges_along(mesh, mesh.edges[rim])
+    return np.bincount(
+        mesh.face_ids[half_edge // 3], lost[row], int(mesh.face_ids.max(initial=0)) + 1
+    )
+
+
+def _half_edges_along(
+    mesh: SurfaceMesh, edges: NDArray[np.int32]
+) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
+    """All half-edges that run along some edges (k, 2) of the mesh, in its order, and which."""
+    corners = mesh.triangles.reshape(-1).astype(np.int64)
+    following = mesh.triangles[:, (1, 2, 0)].reshape(-1).astype(np.int64)
+    near = np.zeros(len(mesh.points), bool)
+    near[edges] = True
+    half_edges = np.flatnonzero(near[corners] & near[following])
+    if not len(edges):
+        return half_edges[:0], half_edges[:0]
+    width = np.array([len(mesh.points), 1], np.int64)
+    ends = np.stack([corners[half_edges], following[half_edges]], axis=1)
+    keys, wanted = np.sort(ends, axis=1) @ width, edges @ width
+    row = np.minimum(np.searchsorted(wanted, keys), len(wanted) - 1)
+    here = wanted[row] == keys
+    return half_edges[here], row[here]
 
 
 def _turns_of_rims(mesh: SurfaceMesh, rim: NDArray[np.bool_]) -> NDArray[np.float64]:
