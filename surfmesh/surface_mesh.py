@@ -79,6 +79,7 @@ class SurfaceMesh:
     edge_segments: NDArray[np.int32] | None = None  # (k, 2) edges of the mesh on CAD edges
     edge_ids: NDArray[np.int32] | None = None  # (k,) their CAD edges
     edge_shares: NDArray[np.float64] | None = None  # (k, 2) of its range, at a segment's ends
+    edge_curves: tuple[Any, ...] = ()  # by edge_ids: what has ``curve`` and ``parameters(share)``
     vertex_ids: NDArray[np.int32] | None = None  # (c,) vertex at each CAD vertex; -1: none
     mid_points: NDArray[np.float64] | None = None  # (ne, 3) nodes amid ``edges``; None: order 1
     # names, colours, kinds, unit; None: those of the surfaces
@@ -127,6 +128,7 @@ class SurfaceMesh:
         if self.mid_points is not None:
             settle("mid_points", self.mid_points, np.float64, (len(self.edges), 3))
         object.__setattr__(self, "surfaces", tuple(self.surfaces))
+        object.__setattr__(self, "edge_curves", tuple(self.edge_curves))
         if self.groups is None:
             object.__setattr__(self, "groups", MeshGroups.of_surfaces(self.surfaces))
         object.__setattr__(self, "warnings", tuple(self.warnings))

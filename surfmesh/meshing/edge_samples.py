@@ -22,13 +22,11 @@ from surfmesh.sizing.across_gaps import size_across
 from surfmesh.sizing.curvature_size import (
     DEVIATION_RESERVE,
     STRAIGHT_RESERVE,
-    angle_size,
-    chord_size,
     fold_size,
 )
 from surfmesh.sizing.direction_size import size_along
 from surfmesh.sizing.model_sizing import ModelSizing
-from surfmesh.sizing.size_bounds import DEFAULT_ANGLE, FINEST_SIZE, LEAST_OF_CHORD, SizeBounds
+from surfmesh.sizing.size_bounds import FINEST_SIZE, SizeBounds, curvature_sizes, unfolding_size
 from surfmesh.sizing.sizing import Sizing
 from surfmesh.sizing.turning_direction import is_even
 
@@ -338,9 +336,9 @@ def _own_wish(
             own = np.sqrt(8.0 * reserve * sizing.chord / curvature)
             wish = np.maximum(own, 2.0 * sizing.chord)
             np.minimum(wish, _kink_wish(points, curvature, sizing.chord), out=wish)
-    least = 0.0 if sizing.angle is not None else LEAST_OF_CHORD * sizing.chord
-    own = fold_size(curvature, curvature, sizing.angle or DEFAULT_ANGLE)
-    return np.minimum(wish, np.maximum(own, least))
+    if sizing.angle is not None:
+        return np.minimum(wish, fold_size(curvature, curvature, sizing.angle))
+    return np.minimum(wish, unfolding_size(curvature, curvature, sizing.chord))
 
 
 def _kink_wish(points: np.ndarray, curvature: np.ndarray, chord: float) -> np.ndarray:
@@ -364,14 +362,7 @@ def _face_wish(surface, uv: np.ndarray, sizing: Sizing) -> np.ndarray:
     """What the face's curvature asks for along one of its edges (n,)."""
     forms = forms_from_derivatives(*surface.evaluate(uv, 2)[1:])
     k = curvatures(forms)
-    wish = np.full(len(uv), np.inf)
-    if sizing.chord is not None:
-        wish = chord_size(k.k1, k.k2, sizing.chord)
-    if sizing.angle is not None:
-        wish = np.minimum(wish, angle_size(k.k1, k.k2, sizing.angle))
-    else:
-        unfolded = fold_size(k.k1, k.k2, DEFAULT_ANGLE)
-        wish = np.minimum(wish, np.maximum(unfolded, LEAST_OF_CHORD * sizing.chord))
+    wish = np.minimum.reduce([*curvature_sizes(sizing, k.k1, k.k2).values()])
     wish[forms.degenerate | ~np.isfinite(wish)] = np.inf
     return wish
 

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from surfmesh.geometry.surface import surface_kind
 from surfmesh.quality.by_solid import relative_error
 from surfmesh.quality.deviation import Deviation
 from surfmesh.quality.promises import Promises, StatedLimit, beyond_angle, beyond_chord
@@ -100,7 +101,7 @@ def by_face(
             FaceRow(
                 face=face,
                 name=mesh.face_name(face),
-                kind=exact[face].kind if 0 <= face < len(exact) else getattr(surface, "kind", ""),
+                kind=exact[face].kind if 0 <= face < len(exact) else surface_kind(surface),
                 triangles=here,
                 area=float(area[k]),
                 area_exact=exact_area,

@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from surfmesh.geometry.numeric import NumericSurface
 from surfmesh.model_facts import ModelFacts
 from surfmesh.quality.against_model import unexpected
 from surfmesh.quality.bodies import BodyPair, bodies
@@ -29,6 +30,7 @@ from surfmesh.quality.lengths import (
     size_growth,
 )
 from surfmesh.quality.loose_edges import LooseEdges, loose_edges
+from surfmesh.quality.lost import explained, is_known, lost
 from surfmesh.quality.narrow import DEGENERATE, narrow_triangles
 from surfmesh.quality.problems import (
     intersections,
@@ -53,6 +55,7 @@ from surfmesh.quality.solids import shares_faces
 from surfmesh.quality.surface_to_mesh import both_ways, surface_deviation, surface_too_far
 from surfmesh.quality.topology import topology
 from surfmesh.quality.turning import turning, worst_turn
+from surfmesh.quality.unseen import UnseenPlace, unseen, unseen_problems
 from surfmesh.quality.worst import WorstTriangle, worst_triangles
 from surfmesh.surface_mesh import SurfaceMesh
 
@@ -141,6 +144,12 @@ class Report:
     surface_deviation_at_rim: bool | None  # is that point on a free rim of the surface?
     deviation_two_sided: float | None  # the larger of both: the Hausdorff distance, as sampled
     above_chord_share: float | None  # triangles farther away than the chord of their face
+    unseen: int | None  # triangles between whose samples a formula's bounds admit more than was
+    # seen, or more was found; None: nothing is known between the samples (functions, CAD faces)
+    unseen_max: float | None  # how far that lies, or may lie, from the mesh; infinite: no bound
+    unseen_at: tuple[UnseenPlace, ...]  # the first twenty
+    functions: int  # faces given by a Python function: features narrower than the triangles cannot
+    # be excluded there, nor are they looked for
     chord_used: float | None  # median of deviation / chord where chord decided the size
     chord_decided_share: float | None  # of the triangles: where not growth or another wish did
     angle: float | None  # asked for, degrees; None: only 45 as a rule of sizes, no promise
@@ -265,12 +274,18 @@ def check(mesh: SurfaceMesh) -> Report:
     short, forbidden = volumes_not_kept(mesh, solids)
     said += short
     said += [far] if far else []
+    hidden = unseen(mesh, None if fit is None else both_ways(fit, back), promises, LISTED)
+    said += unseen_problems(hidden)
     if bent is not None:
         said.append(turned_too_far(mesh, turns, bent, promises))
     if pairs is not None and not crosses:
         said += intersections(mesh, meeting, len(pairs))
     if met is not None:
         said += overlaps(met.overlapping)
+    rows = by_face(mesh, shape, fit, lengths, folded, promises, limits, turns)
+    if fit is not None and not broken and math.isfinite(fit.largest) and is_known(mesh):
+        known = explained(mesh, shape.area, fit.by_triangle)
+        said += lost(mesh, known, rows, solids, facts.area)
     return Report(
         schema_version=SCHEMA_VERSION,
         surface=_names(mesh),
@@ -339,6 +354,10 @@ def check(mesh: SurfaceMesh) -> Report:
         surface_deviation_at_rim=None if back is None else back.at_rim,
         deviation_two_sided=None if back is None else max(fit.largest, back.largest),
         above_chord_share=above,
+        unseen=None if hidden is None else hidden.found + hidden.open,
+        unseen_max=None if hidden is None else max(hidden.largest, hidden.possible),
+        unseen_at=() if hidden is None else hidden.places,
+        functions=sum(isinstance(surface, NumericSurface) for surface in mesh.surfaces),
         chord_used=None if used is None else used.used,
         chord_decided_share=None if used is None else used.share,
         angle=angle,
@@ -353,7 +372,7 @@ def check(mesh: SurfaceMesh) -> Report:
         volume=volume,
         volume_exact=facts.volume,
         volume_error=relative_error(volume, facts.volume),
-        by_face=by_face(mesh, shape, fit, lengths, folded, promises, limits, turns),
+        by_face=rows,
         by_solid=solids,
         unit=facts.unit,
         source=facts.source,

@@ -163,7 +163,15 @@ def _deviation(report: "Report") -> str:
         f"largest {report.deviation_max:.4g}{asked}, rms {report.deviation_rms:.4g}; "
         f"{used}"
         f"largest in triangle {report.deviation_triangle} at ({place}){back}"
+        f"{_between_samples(report)}"
     )
+
+
+def _between_samples(report: "Report") -> str:
+    """What is known of features narrower than the triangles."""
+    if report.functions:
+        return "; features narrower than the triangles cannot be excluded: a function has no bounds"
+    return "; nothing more between the samples, by the formula's bounds" * (report.unseen == 0)
 
 
 def _turning(report: "Report") -> str:

@@ -22,6 +22,7 @@ from surfmesh.kernels.measure import interpolate
 from surfmesh.quality.deviation import BLOCK, Deviation
 from surfmesh.quality.problems import called
 from surfmesh.quality.promises import CHORD_SLACK, Beyond, Promises
+from surfmesh.six_nodes import edge_rows
 from surfmesh.surface_mesh import SurfaceMesh
 
 RIM_SHARES = np.arange(1, 8) / 8.0  # along each free edge
@@ -30,7 +31,8 @@ _GRID = 6
 CLOSELY = np.array(
     [(i, j, _GRID - i - j) for i in range(_GRID + 1) for j in range(_GRID + 1 - i)]
 ) / float(_GRID)  # over the worst of them, as ``deviation`` does
-SECOND_LOOK = 100  # triangles looked at closely, or one in 500 if that is more
+SECOND_LOOK = 400  # triangles looked at closely, or one in 250 if that is more
+ON_CURVE = 1e-3  # of a segment: so far off the curve of its edge may its nodes be
 FIRST_FEW = 64  # points whose nearest triangle is searched for at first
 AMONG_ALL = 16  # points that are compared with every triangle in the end, at most
 
@@ -54,13 +56,16 @@ def surface_deviation(
     if fit is None or not np.isfinite(fit.largest):
         return None
     search = _Search(mesh, fit, promises)
-    search.look(*_on_rims(mesh), at_rim=True)
+    if mesh.edge_curves and mesh.edge_shares is not None:
+        _look_along_curves(search, mesh)
+    else:
+        search.look(*_on_rims(mesh), at_rim=True)
     count = len(mesh.triangles)
     length = BLOCK // len(WITHIN)
     for start in range(0, count, length):
         search.look(*_over(np.arange(start, min(start + length, count), dtype=np.int32), WITHIN))
     worth = np.maximum(fit.by_triangle, search.by_triangle)
-    chosen = min(count, max(SECOND_LOOK, count // 500))
+    chosen = min(count, max(SECOND_LOOK, count // 250))
     worst = np.sort(np.argpartition(worth, count - chosen)[count - chosen :]).astype(np.int32)
     search.look(*_over(worst, CLOSELY))
     return search.result()
@@ -107,6 +112,35 @@ def surface_too_far(
     )
 
 
+def _look_along_curves(search: _Search, mesh: SurfaceMesh) -> None:
+    """At points of the CAD edges between the nodes of their segments.
+
+    Where nodes lie off their curve, as after ``simplify``, what is between says nothing.
+    """
+    rows = edge_rows(mesh.connectivity, mesh.edge_segments)
+    half_edge = mesh.connectivity.half_edges[np.maximum(rows, 0), 0]
+    free = mesh.connectivity.uses[np.maximum(rows, 0)] == 1
+    shares = np.concatenate([[0.0], RIM_SHARES, [1.0]])
+    for number in np.unique(mesh.edge_ids).tolist():
+        edge = mesh.edge_curves[number] if number < len(mesh.edge_curves) else None
+        own = np.flatnonzero((mesh.edge_ids == number) & (rows >= 0))
+        if edge is None or edge.curve is None or not len(own):
+            continue
+        start, end = mesh.edge_shares[own].T[:, :, None]
+        share = start + shares * (end - start)
+        (points,) = edge.curve.evaluate(edge.parameters(share.ravel()), 0)
+        points = points.reshape(len(own), len(shares), 3)
+        nodes = mesh.points[mesh.edge_segments[own]]
+        length = np.linalg.norm(nodes[:, 1] - nodes[:, 0], axis=1)
+        off = np.linalg.norm(points[:, [0, -1]] - nodes, axis=2).max(axis=1)
+        good = np.flatnonzero(off <= ON_CURVE * length)
+        for at_rim in (True, False):
+            some = good[free[own[good]] == at_rim]
+            triangle = np.repeat(half_edge[own[some]] // 3, len(RIM_SHARES))
+            uv = mesh.uv_points[mesh.uv_triangles[triangle]].mean(axis=1)  # about there
+            search.look_at(points[some][:, 1:-1].reshape(-1, 3), uv, triangle, at_rim)
+
+
 class _Candidate(NamedTuple):
     """A point that may be the farthest."""
 
@@ -144,6 +178,15 @@ class _Search:
         for face in np.unique(faces).tolist() if len(mesh.surfaces) > 1 else [0]:
             own = np.flatnonzero(faces == face) if len(mesh.surfaces) > 1 else slice(None)
             points[own] = mesh.surfaces[face].evaluate(uv[own], 0)[0]
+        self.look_at(points, uv, triangle, at_rim)
+
+    def look_at(
+        self, points: NDArray, uv: NDArray, triangle: NDArray, at_rim: bool
+    ) -> None:
+        """At points (k, 3) of the surface, with parameters (k, 2) over triangles (k,)."""
+        if not len(triangle):
+            return
+        mesh = self.mesh
         distance = triangle_distances(points, mesh.points[mesh.triangles[triangle]])
         distance[~np.isfinite(distance)] = 0.0  # where a formula has no value
         known = self._refine(points, triangle, distance)

@@ -71,7 +71,8 @@ class Rims:
 
     def __init__(self, surface: Surface, sides: SideTopology) -> None:
         self.surface = surface
-        lines = [np.stack([loop, np.roll(loop, -1, axis=0)], axis=1) for loop in surface.loops]
+        loops = [np.asarray(loop, float) for loop in surface.loops]
+        lines = [np.stack([loop, np.roll(loop, -1, axis=0)], axis=1) for loop in loops]
         self.lines = np.concatenate(lines) if lines else np.empty((0, 2, 2))
         """(s, 2, 2) start and end of the segments of the loops, in (u, v)"""
         self.open = [] if lines else [

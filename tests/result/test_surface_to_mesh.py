@@ -1,11 +1,13 @@
 """The distance of the true surface from the mesh, on rims and between the mesh's samples."""
 
+from dataclasses import replace
 from types import SimpleNamespace
 
+import cadquery as cq
 import numpy as np
 import pytest
 from handmade_meshes import Saddle, changed, grid, icosphere
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import surfmesh as sm
@@ -98,6 +100,7 @@ def test_all_of_the_surface_lies_as_near_as_the_report_says():
     assert report.clean and report.deviation_two_sided <= 0.01
 
 
+@settings(max_examples=40)
 @given(
     st.lists(st.floats(-1, 1), min_size=12, max_size=12),
     st.sampled_from([1.0, 1e-3]),
@@ -106,9 +109,24 @@ def test_the_distance_from_a_triangle(numbers, flat):
     point, corners = np.reshape(numbers, (4, 3))[:1], np.reshape(numbers, (4, 3))[None, 1:]
     corners = corners * [1.0, flat, 1.0]
     found = triangle_distances(point, corners)[0]
-    n = 60
+    n = 30
     weights = np.array([(i, j, n - i - j) for i in range(n + 1) for j in range(n + 1 - i)]) / n
     sampled = np.linalg.norm(weights @ corners[0] - point, axis=1).min()
     longest = np.ptp(corners[0], axis=0).max()
     if np.linalg.norm(np.cross(*(corners[0, 1:] - corners[0, 0]))) > 1e-9:
         assert sampled - 2 * longest / n - 1e-12 <= found <= sampled + 1e-9
+
+
+@pytest.mark.parametrize("ratio", [1.0, 5.0])
+def test_edges_of_cad_sheets_are_looked_at_along_their_curves(ratio):
+    disc = cq.Face.makeFromWires(cq.Wire.makeCircle(3, cq.Vector(), cq.Vector(0, 0, 1)))
+    mesh = sm.mesh(disc, sm.Sizing(chord=0.02, anisotropy=ratio))
+    report = sm.check(mesh)
+    rim = mesh.points[mesh.boundary_edges].mean(axis=1)
+    sag = 3.0 - np.linalg.norm(rim, axis=1).min()
+    assert report.surface_deviation_max == pytest.approx(sag, rel=1e-3)
+    assert report.clean and report.surface_deviation_at_rim and report.deviation_max < 1e-9
+    assert np.linalg.norm(report.surface_deviation_point) == pytest.approx(3.0)
+    tighter = mesh.sizing.replaced(chord=0.5 * sag)
+    coarse = sm.check(replace(mesh, sizing=tighter, promises=None))
+    assert not coarse.clean and "on a rim" in coarse.problems[0]
