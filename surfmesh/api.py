@@ -11,7 +11,7 @@ import numpy as np
 from surfmesh.cad.from_cadquery import from_cadquery
 from surfmesh.cad.joining import Joining
 from surfmesh.cad.model import CadModel
-from surfmesh.cad.reading import SUFFIXES, read_cad
+from surfmesh.cad.reading import JOINING_TIME_LIMIT, SUFFIXES, TIME_LIMIT, read_cad
 from surfmesh.errors import CadError, FileFormatError, SizingError, SurfaceError
 from surfmesh.geometry.planar_domain import PlanarDomain
 from surfmesh.geometry.surface import Surface
@@ -55,9 +55,11 @@ def load(
     another kind, ``SurfaceError`` or ``DomainError`` for what is wrong in it.
     """
     place = Path(path)
+    joins = bool(Joining.of(imprint, sew))
     if place.suffix.lower() in SUFFIXES:
-        return read_cad(place, units=units, imprint=imprint, sew=sew)
-    if Joining.of(imprint, sew):
+        limit = JOINING_TIME_LIMIT if joins else TIME_LIMIT
+        return read_cad(place, units=units, time_limit=limit, imprint=imprint, sew=sew)
+    if joins:
         raise CadError(f"imprint and sew are for CAD models, and {place.name} holds none")
     if place.suffix == "" and not place.exists():
         known = gallery()

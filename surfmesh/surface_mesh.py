@@ -74,6 +74,7 @@ class SurfaceMesh:
     facts: ModelFacts | None = None  # what is known of the model beforehand
     # of CAD models; None otherwise
     turned_faces: NDArray[np.bool_] | None = None  # (f,) triangles run against r_u x r_v there
+    narrow_faces: NDArray[np.bool_] | None = None  # (f,) closed between sides within the chord
     solid_ids: NDArray[np.int32] | None = None  # (m, 2) solid behind and before it; -1: none
     edge_segments: NDArray[np.int32] | None = None  # (k, 2) edges of the mesh on CAD edges
     edge_ids: NDArray[np.int32] | None = None  # (k,) their CAD edges
@@ -114,6 +115,7 @@ class SurfaceMesh:
             settle("inverse_sizes", self.inverse_sizes, np.float64, (len(self.uv_points), 6))
         for name, dtype, shape in (
             ("turned_faces", np.bool_, (len(self.surfaces),)),
+            ("narrow_faces", np.bool_, (len(self.surfaces),)),
             ("solid_ids", np.int32, (m, 2)),
             ("edge_segments", np.int32, (-1, 2)),
             ("edge_ids", np.int32, (-1,)),

@@ -24,6 +24,7 @@ from surfmesh.model_facts import file_sha256
 
 SUFFIXES = (".step", ".stp", ".p21", ".iges", ".igs", ".brep", ".brp")
 TIME_LIMIT = 120.0  # seconds
+JOINING_TIME_LIMIT = 900.0  # the same where bodies are imprinted or faces sewn
 
 
 def read_cad(

@@ -17,6 +17,7 @@ from __future__ import annotations
 from collections import defaultdict
 from collections.abc import Iterator
 from dataclasses import dataclass, field, replace
+from itertools import pairwise
 
 import numpy as np
 
@@ -161,7 +162,7 @@ class _Work:
         known = {edge.start, edge.end}
         corners = [edge.start, *(self.vertex_at(point, known) for _, point in places), edge.end]
         rows = []
-        for k, (first, last) in enumerate(zip(shares, shares[1:])):
+        for k, (first, last) in enumerate(pairwise(shares)):
             t0, t1 = edge.parameters(np.array([first, last])).tolist()
             own = replace(
                 edge, t0=t0, t1=t1, start=corners[k], end=corners[k + 1],
@@ -207,7 +208,9 @@ class _Work:
         self._say(number, lines, numbers)
 
     def _say(self, number: int, lines: list[SingularLine], numbers: list[int]) -> None:
-        places = dict.fromkeys("(%s)" % ", ".join(f"{x:.6g}" for x in l.point) for l in lines)
+        noise = NOISE * self.model.diagonal
+        points = [[0.0 if abs(x) < noise else x for x in line.point] for line in lines]
+        places = dict.fromkeys(f"({', '.join(f'{x:.6g}' for x in point)})" for point in points)
         where = f"its surface is one point at {' and '.join(places)}"
         if len(numbers) > 1:
             others = f"face{'s' * (len(numbers) > 2)} {', '.join(map(str, numbers[1:]))}"
@@ -284,9 +287,7 @@ class _Work:
         direction[across] = 1.0
         tolerance = self.vertices[vertex].tolerance
         number = len(self.edges)
-        self.edges.append(
-            CadEdge(None, low, high, vertex, vertex, tolerance, degenerate=True, name="", length=0.0)
-        )
+        self.edges.append(CadEdge(None, low, high, vertex, vertex, tolerance, True, "", 0.0))
         return [CadCoedge(number, first > last, Line(line.at(0.0), direction), low, high, False)]
 
     def _piece(self, face: CadFace, loops: tuple[Loop, ...]) -> CadFace:
@@ -420,7 +421,8 @@ def _regions(loops: tuple[Loop, ...]) -> list[tuple[Loop, ...]]:
     areas = [signed_area(loop) for loop in loops]
     outer = sorted((k for k, area in enumerate(areas) if area > 0.0), key=lambda k: areas[k])
     if len(outer) < 2:
-        return [tuple(loops[k] for k in (*outer, *(k for k in range(len(loops)) if k not in outer)))]
+        holes = [k for k in range(len(loops)) if k not in outer]
+        return [tuple(loops[k] for k in (*outer, *holes))]
     share = np.linspace(0.0, 1.0, POLYGON)[:-1]
     rings = {k: np.concatenate([c.walk(share) for c in loops[k]]) for k in outer}
     found: dict[int, list[Loop]] = {k: [loops[k]] for k in outer}

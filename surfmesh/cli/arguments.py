@@ -100,6 +100,7 @@ def _parser() -> _Parser:
     check.add_argument(
         "--surface", metavar="INPUT", help="formula file, gallery name or CAD file it was made from"
     )
+    _add_units(check)
     _add_json(check)
 
     view = commands.add_parser("view", help="show a mesh or a surface")

@@ -78,7 +78,7 @@ def check(options: Namespace) -> bool:
                 f"{options.input}: carries no (u, v) to compare it with a surface; "
                 "save it as .vtu or .vtp"
             )
-        found = _on_surface(found, _named_surface(options.surface))
+        found = _on_surface(found, _named_surface(options.surface, options))
         broken = found.check()
         if broken:
             raise FileFormatError(f"{options.input}: {broken}")

@@ -248,3 +248,25 @@ def steady(function, rate: float, lowest: float, highest: float):
         return np.where(known_there, lo, lowest), np.where(known_there, hi, highest)
 
     return over_interval
+
+
+def along(a, normal):
+    """Intervals (n, d) of n.x for x (n, 3) in a = (lower, upper), normals (n, d, 3)."""
+    lower, upper = a[0][:, None], a[1][:, None]
+    low = np.where(normal > 0.0, normal * lower, normal * upper)
+    high = np.where(normal > 0.0, normal * upper, normal * lower)
+    none = np.broadcast_to(normal == 0.0, low.shape)  # times infinity is 0 too: x is finite
+    low[none] = high[none] = 0.0
+    return low.sum(axis=2), high.sum(axis=2)
+
+
+def largest_along(lower, upper, normal):
+    """Bound (n, d) of |n.x|, likewise."""
+    low, high = along((lower, upper), normal)
+    return np.maximum(np.abs(low), np.abs(high))
+
+
+def width_along(lower, upper, normal):
+    """Width (n, d) of the interval of n.x, likewise."""
+    low, high = along((lower, upper), normal)
+    return high - low

@@ -187,6 +187,15 @@ class sinc_2(sp.Function):
     nargs = 1
 
 
+def guides(part: sp.Expr) -> tuple[sp.Expr, ...]:
+    """Functions whose zeros are kinks or jumps of one node of an expression."""
+    if part.func in (absolute, signum, unit_step):
+        return (part.args[0],)
+    if part.func in (minimum, maximum):
+        return (part.args[0] - part.args[1],)
+    return (part.args[0],) if part.func is chosen else ()
+
+
 # what SymPy knows under its own names, as far as it is not simply the same
 _REAL = {
     sp.Abs: lambda x: absolute(x),

@@ -20,6 +20,7 @@ from surfmesh.geometry.surface import Surface
 POINT = 1e-9  # of the surface's size: the extent of a line that is a point
 ACROSS, ALONG = 9, 65  # samples on a line, and lines tried
 STEEP = 0.5  # a line that may become a point is so much shorter than one of its neighbours
+NESTED, SAME = 2, 1e-7  # searches within a dip; of the domain: values so near are one
 NARROWED = 60  # steps of the golden section
 GOLDEN = 0.5 * (5.0**0.5 - 1.0)
 
@@ -97,15 +98,26 @@ def _found(surface: Surface, axis: int) -> list[float]:
     extent, size = _extents(surface, axis, values)
     tolerance = POINT * size
     found = [float(values[k]) for k in (0, ALONG - 1) if extent[k] <= tolerance]
-    inner = np.arange(1, ALONG - 1)
-    before, here, after = extent[inner - 1], extent[inner], extent[inner + 1]
-    dips = inner[(here <= before) & (here <= after) & (here < STEEP * np.maximum(before, after))]
-    for k in dips:
-        value = _lowest(surface, axis, values[k - 1], values[k + 1])
-        # a knot may lie there, and the search be off by the root of what is lost in rounding
-        if _extents(surface, axis, np.array([value]))[0][0] <= tolerance:
+    for value in _dips(surface, axis, low, high, NESTED):
+        apart = all(abs(value - other) > SAME * (high - low) for other in found)
+        # the search is off by the root of what is lost in rounding
+        if apart and _extents(surface, axis, np.array([value]))[0][0] <= tolerance:
             found.append(value)
     return sorted(found)
+
+
+def _dips(surface: Surface, axis: int, low: float, high: float, nested: int) -> list[float]:
+    """Where the extent is steeply least between two values; two dips may lie near each other."""
+    values = np.linspace(low, high, ALONG)
+    extent = _extents(surface, axis, values)[0]
+    inner = np.arange(1, ALONG - 1)
+    before, here, after = extent[inner - 1], extent[inner], extent[inner + 1]
+    steep = here < STEEP * np.maximum(before, after)
+    dips = inner[(here <= before) & (here <= after) & steep]
+    if not nested:
+        return [_lowest(surface, axis, values[k - 1], values[k + 1]) for k in dips]
+    spans = [(values[k - 1], values[k + 1]) for k in dips]
+    return [value for span in spans for value in _dips(surface, axis, *span, nested - 1)]
 
 
 def _lowest(surface: Surface, axis: int, low: float, high: float) -> float:

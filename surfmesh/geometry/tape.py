@@ -180,11 +180,14 @@ class Tape(NamedTuple):
                     results[place // 3][start : start + BLOCK, place % 3] = slots[slot]
         return results
 
-    def bounds(self, lo: np.ndarray, hi: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    def bounds(
+        self, lo: np.ndarray, hi: np.ndarray, kinks: bool = True
+    ) -> tuple[np.ndarray, np.ndarray]:
         """Bounds over cells: lo, hi (n, inputs) float -> lower, upper (n, len(outputs)) float.
 
         Every value of the function in the cell lies between them, wherever it is defined;
-        infinite where nothing is known.
+        infinite where nothing is known. kinks: False leaves out what second derivatives are
+        across kinks, infinite.
         """
         lo, hi = np.asarray(lo, dtype=float), np.asarray(hi, dtype=float)
         count = len(lo)
@@ -199,6 +202,9 @@ class Tape(NamedTuple):
                     values = [slots[operand] for operand in operands]
                     if exponent:
                         values.append(exponent)
+                    if operation == "kink" and not kinks:
+                        slots[target] = (np.zeros(len(lo[part])),) * 2
+                        continue
                     slots[target] = OPERATIONS[operation].bounds(*values)
                 for place, slot in enumerate(self.outputs):
                     lower[part, place], upper[part, place] = slots[slot]

@@ -48,7 +48,7 @@ SLIVER, MUCH_SMALLER = 5e-5, 1.0 / 150.0
 """Gaps narrower than this share of the diagonal, or of the size asked for there without them,
 ask for nothing: a sliver along a whole part would flood it with triangles."""
 
-MOST_LONGER = 2e5
+MOST_LONGER = 1e8
 """Segments beside a narrow face are at most so many times longer than it is wide: triangles
 longer than that count as having no area."""
 
@@ -197,8 +197,8 @@ def _sampled(
 ) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray, float]:  # fmt: skip
     """share (n,), points (n, 3), wish (n,), tangent (n, 3), turn.
 
-    narrow: faces whose curvature is not asked for. Faces that differ in their wishes are heard
-    one after the other, then the edge itself.
+    narrow: faces whose curvature is not asked for.
+    Faces that differ in their wishes are heard one after the other, then the edge itself.
     """
     edge = model.edges[number]
     straight = getattr(edge.curve, "kind", "") == "line"

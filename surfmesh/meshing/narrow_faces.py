@@ -30,6 +30,9 @@ NARROW = 1.0
 OF_SIZE = 0.25
 """And up to this share of the sizes that are asked for in so many words."""
 
+OF_SIZE_ALONE = 0.1
+"""Where nothing but a size is asked for, faces are narrow up to this share of it."""
+
 ROUND = 1.1 * pi
 """Ends, and ways across, are at most so many narrow widths long: round a tube."""
 
@@ -44,6 +47,9 @@ ACROSS = 9
 
 TIE = 1e-6
 """Relative difference of squared distances that is none."""
+
+AT_ONCE = 100_000
+"""Pairs of a point and a segment that are looked at together."""
 
 FOOT_STEPS = 4
 """Of Newton's method, to the closest point of a curve."""
@@ -86,6 +92,8 @@ def narrow_width(sizing: Sizing, diagonal: float, points: np.ndarray) -> float:
         return 0.0  # triangles across are asked for
     width = NARROW * (sizing.chord or DEFAULT_CHORD * diagonal)
     sizes = [sizing.size] if isinstance(sizing.size, float) else []
+    if sizes and sizing.chord is None and sizing.angle is None:
+        width = max(width, OF_SIZE_ALONE * sizing.size)
     sizes += [sizing.max_size] if sizing.max_size else []
     if sizing.has_law and len(points):
         sizes.append(float(sizing.law_sizes(points).min()))
@@ -121,7 +129,7 @@ def narrow_face(model: CadModel, face: CadFace, samples, width: float) -> Narrow
 
 
 def _candidates(lengths: np.ndarray, width: float) -> Iterator[NarrowFace]:
-    """Ways to take a loop apart in two sides and two ends, with the longest ends first, poles in them."""
+    """Ways to take a loop apart in two sides and two ends, the longest ends first."""
     count = len(lengths)
     runs = []  # (start, number of coedges) of chains that are short enough to be an end
     for start in range(count):
@@ -214,13 +222,17 @@ def feet(
     start, way = chain.points[:-1], np.diff(chain.points, axis=0)
     square = np.maximum(np.einsum("ij,ij->i", way, way), np.finfo(float).tiny)
     place, along = np.empty(len(points), np.int64), np.empty(len(points))
-    for k, point in enumerate(points):  # row by row: memory
-        t = np.clip(((point - start) * way).sum(axis=1) / square, 0.0, 1.0)
-        gap = start + t[:, None] * way - point
-        near = np.einsum("ij,ij->i", gap, gap)
-        tied = np.flatnonzero(near <= near.min() * (1.0 + TIE) + TIE**2 * square.max())
-        place[k] = tied[np.abs(middle[tied] - about[k]).argmin()]
-        along[k] = t[place[k]]
+    step = max(1, AT_ONCE // len(square))
+    for k in range(0, len(points), step):
+        at = slice(k, min(k + step, len(points)))
+        off = points[at, None] - start
+        t = np.clip(np.einsum("ijk,jk->ij", off, way) / square, 0.0, 1.0)
+        off -= t[:, :, None] * way
+        near = np.einsum("ijk,ijk->ij", off, off)
+        tied = near <= near.min(axis=1)[:, None] * (1.0 + TIE) + TIE**2 * square.max()
+        apart = np.where(tied, np.abs(middle - about[at, None]), np.inf)
+        place[at] = apart.argmin(axis=1)
+        along[at] = t[np.arange(len(t)), place[at]]
     share = (1.0 - along) * chain.share[place] + along * chain.share_end[place]
     away = np.empty(len(points))
     for edge in np.unique(chain.edge[place]).tolist():

@@ -112,6 +112,9 @@ anew, it would be other edges that do."""
 LEAST_TURN_SHRINK, LEAST_TURN_SCALE, LAST_TURN_SCALE = 0.85, 0.6, 0.3
 """Least factor on the sizes in one round, in all, and in the last rounds for a few places."""
 
+BESIDE_KINK, _AROUND = 1e-6, ((1, 0.4), (-1, -0.4), (0.4, -1), (-0.4, 1))
+"""Of the domain: how far from a kink its two sides are looked at, and in which directions."""
+
 LONGEST_TURNED = 1.25
 """Edges of stretched meshes that turn too far are split from this length: they are not many,
 and smoothing alone mends none."""
@@ -153,10 +156,14 @@ class Optimiser:
 
     def __init__(
         self, t: Triangulation, node: np.ndarray, same: np.ndarray, surface: Surface,
-        field: SizeField,
+        field: SizeField, creased: np.ndarray | None = None,
     ) -> None:  # fmt: skip
-        """``node`` (k,) are boundary vertices, ``same`` (k,) the ones they coincide with."""
+        """``node`` (k,) are boundary vertices, ``same`` (k,) the ones they coincide with.
+
+        creased: (j,) vertices on kinks, where the surface has two normals.
+        """
         self.t, self.node, self.surface, self.field = t, node, surface, field
+        self.creased = node[:0] if creased is None else creased
         self.same = same
         room = len(t.xy)
         self.is_anisotropic = field.is_anisotropic
@@ -171,6 +178,8 @@ class Optimiser:
         self.shape = np.ones(len(t.tri) // 3)
         self.swaps = self.collapses = self.splits = self.passes = 0
         self._embed(np.arange(int(t.count[0]), dtype=np.int32))
+        if len(self.creased):
+            self._embed(self.creased.astype(np.int32), creased=True)
         self.embedding.point[node] = self.embedding.point[same]  # equal to the last bit
 
     def run(self, first: bool = True) -> Changes:
@@ -216,7 +225,10 @@ class Optimiser:
         true = np.cross(ru, rv)
         length = np.linalg.norm(normal, axis=1) * np.linalg.norm(true, axis=1)
         away = np.einsum("ij,ij->i", normal, true) < LEAST_AT_CENTRE * length
-        return turned[away | (flag[turned] != 0)]
+        at_corner = flag[turned] != 0
+        if len(self.creased):  # there a corner has the normal of one side, or of neither
+            at_corner &= ~np.isin(self.t.tri.reshape(-1, 3)[turned], self.creased).any(axis=1)
+        return turned[away | at_corner]
 
     def settle(self) -> None:
         """Only choose better diagonals for what the packing and the boundary left over."""
@@ -507,7 +519,18 @@ class Optimiser:
         xy = np.einsum("k,nki->ni", weights, self.t.xy[corners])
         return point, self.field.scaling.to_uv(xy)
 
-    def _embed(self, vertices: np.ndarray) -> None:
+    def _mean_slopes(self, uv: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """r_u and r_v (n, 3) on kinks at uv (n, 2): the mean of what they are around.
+
+        With the normal of one side, triangles of the other would seem to be turned over.
+        """
+        low, high = np.array(self.surface.domain).T
+        step = BESIDE_KINK * (high - low)
+        around = [np.clip(uv + step * np.array(way), low, high) for way in _AROUND]
+        slopes = [self.surface.evaluate(place, 1)[1:] for place in around]
+        return sum(s[0] for s in slopes) / len(slopes), sum(s[1] for s in slopes) / len(slopes)
+
+    def _embed(self, vertices: np.ndarray, creased: bool = False) -> None:
         """Put vertices (n,) back on the surface, with their exact metric."""
         block = 1 << 15
         scaling = self.field.scaling
@@ -516,6 +539,8 @@ class Optimiser:
             some = vertices[start : start + block]
             uv, rates = scaling.to_uv_and_rates(self.t.xy[some])
             r, ru, rv = self.surface.evaluate(uv, 1)
+            if creased:
+                ru, rv = self._mean_slopes(uv)
             ru *= rates[:, :1]
             rv *= rates[:, 1:]
             embed(self.t, self.embedding, self.field.background, some, r, ru, rv, largest)

@@ -7,7 +7,8 @@ sides -> size field -> packing -> boundary -> optimisation -> space, joined side
 
 import numpy as np
 
-from surfmesh.errors import MeshingError
+from surfmesh.errors import MeshingError, SurfaceError
+from surfmesh.geometry.kinks import KinkLine, kink_lines
 from surfmesh.geometry.known_facts import known_facts
 from surfmesh.geometry.sides import SideTopology, find_sides
 from surfmesh.geometry.surface import Surface
@@ -17,6 +18,7 @@ from surfmesh.meshing.boundary_recovery import DomainMesh, recovered
 from surfmesh.meshing.estimation import Estimate, field_triangles, require_field_within
 from surfmesh.meshing.explanation import Explanation, explain_surface
 from surfmesh.meshing.gluing import Glued, glued, misglued
+from surfmesh.meshing.kink_segments import sides_met, with_kinks
 from surfmesh.meshing.optimise import Optimiser
 from surfmesh.meshing.packing import packed_over
 from surfmesh.meshing.stages import Progress, Stopwatch
@@ -49,13 +51,21 @@ def mesh_parametric(
     watch = Stopwatch(progress)
     with watch.stage("sizing"):
         sides = find_sides(surface)
+        kinks = kink_lines(surface)
     limits: SizeLimits | None = None
+    not_followed: list[str] = []
     before = (0, 0)
     for _ in range(ROUNDS):
         with watch.stage("sizing"):
             field = size_field(surface, sizing, sides, limits, Rims(surface, sides))
             require_field_within(sizing.limit, field, _loops(surface), surface.name)
-        mesh, wishes, bad = _one_round(surface, sides, field, optimise, watch)
+        try:
+            mesh, wishes, bad = _one_round(surface, sides, kinks, field, optimise, watch)
+        except (SurfaceError, MeshingError) as error:
+            if not kinks:
+                raise
+            kinks, not_followed = [], [f"no edges follow the kinks of {surface.name!r}: {error}"]
+            mesh, wishes, bad = _one_round(surface, sides, kinks, field, optimise, watch)
         if wishes is None or not _can_shrink(field, wishes):
             break
         now = (len(mesh.triangles), len(wishes.sizes))
@@ -69,7 +79,7 @@ def mesh_parametric(
             f"the sides of {surface.name!r} cannot be joined with sizes this coarse: an edge "
             f"near ({place}) has more than two triangles; lower size, max_size or min_size"
         )
-    return mesh
+    return mesh.with_warnings(*not_followed)
 
 
 def estimate_parametric(surface: Surface, sizing: Sizing) -> Estimate:
@@ -94,24 +104,28 @@ def explain_parametric(surface: Surface, sizing: Sizing, point: np.ndarray) -> E
 
 
 def _one_round(
-    surface: Surface, sides: SideTopology, field: SizeField, optimise: bool, watch: Stopwatch
-) -> tuple[SurfaceMesh, SizeLimits | None, np.ndarray]:
+    surface: Surface, sides: SideTopology, kinks: list[KinkLine], field: SizeField,
+    optimise: bool, watch: Stopwatch,
+) -> tuple[SurfaceMesh, SizeLimits | None, np.ndarray]:  # fmt: skip
     """The mesh for one size field; the smaller sizes it needs; points that are badly glued."""
     with watch.stage("packing"):
         packing = packed_over(field)
     with watch.stage("boundary"):
-        loops = boundary_loops(surface, sides, field)
+        loops = boundary_loops(surface, sides, field, sides_met(surface, kinks) if kinks else None)
+        if kinks:
+            loops = with_kinks(loops, surface, kinks, field)
         domain = recovered(packing.t, loops, field, surface)
         del packing
     wishes: list[SizeLimits] = []
     scale = np.ones(len(domain.t.xy))
     same = domain.node[loops.identity]
+    creased = domain.node[np.unique(loops.inner)]
     if not optimise:
         with watch.stage("boundary"):
             Optimiser(domain.t, domain.node, same, surface, field).settle()
     else:
         with watch.stage("optimisation"):
-            optimiser = Optimiser(domain.t, domain.node, same, surface, field)
+            optimiser = Optimiser(domain.t, domain.node, same, surface, field, creased)
             optimiser.before_pass = watch.pulse
             changes = optimiser.run()
             scale = optimiser.embedding.scale

@@ -10,6 +10,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -23,8 +24,8 @@ COLUMNS = 6
 FEWEST = 2.5
 """A level whose way round is less than so many steps along the edges is thin."""
 
-THIN, THIN_CHORDS = 0.6, 4.0 * np.pi
-"""And less than this share of a step, or so many chords: wider tubes are owed a good shape."""
+THREAD = 1e-3
+"""Of a step: where the way round is shorter only the nodes of the edges stand."""
 
 LEAST_TURN = 0.5
 """Radians by which the way round turns: what turns less is a corner, not a tube."""
@@ -42,18 +43,19 @@ class Tube:
 
     left: the nodes of the piece that comes towards the first level, right: of the one that leads
     away, both from the first level to the last. last: the last level as a piece of the boundary
-    of what is left, from left to right; first: the other one, from right to left, or None at a
-    pole, where the first level is one point.
+    of what is left, from left to right; first: the other one, from right to left. None at a pole,
+    where the level is one point.
     """
 
     left: Piece
     right: Piece
     left_slots: np.ndarray
     right_slots: np.ndarray
-    last: Piece
+    last: Piece | None
     first: Piece | None
     columns: tuple[np.ndarray, ...]
-    """(levels, 2) each: (u, v) of the nodes, column by column from left to right."""
+    """(levels, 2) each: (u, v) of the nodes, column by column from left to right. From pole to pole
+    the inner ones have a level of their own where the sides have none."""
 
 
 @dataclass
@@ -69,7 +71,7 @@ class _Open:
 
 
 def without_tubes(job: FaceJob) -> tuple[FaceJob, list[Tube], np.ndarray]:
-    """The job with its thin tips and necks cut off; these; for each slot of the new job the old one.
+    """The job with its thin tips and necks cut off; these; the old slot for each of the new job.
 
     The nodes of rings have no old slot: -1.
     """
@@ -87,9 +89,10 @@ def without_tubes(job: FaceJob) -> tuple[FaceJob, list[Tube], np.ndarray]:
     done: list[_Open] = []
     while opened:
         loop = opened.pop(0)
-        tube, rest = _tip_cut(job, loop, following)
-        if tube is None:
-            tube, rest = _neck_cut(job, loop, following)
+        for cut in (_whole_cut, _tip_cut, _neck_cut):
+            tube, rest = cut(job, loop, following)
+            if tube is not None:
+                break
         if tube is None:
             done.append(loop)
             continue
@@ -99,7 +102,31 @@ def without_tubes(job: FaceJob) -> tuple[FaceJob, list[Tube], np.ndarray]:
     if not tubes:
         return job, [], np.arange(slot)
     loops = tuple(tuple(loop.pieces) for loop in done)
-    return replace(job, loops=loops), tubes, np.concatenate([s for l in done for s in l.slots])
+    kept = [slots for loop in done for slots in loop.slots]
+    return replace(job, loops=loops), tubes, np.concatenate([np.empty(0, np.int64), *kept])
+
+
+def _whole_cut(job: FaceJob, loop: _Open, following: int) -> tuple[Tube | None, list[_Open]]:
+    """A loop from one pole to another and back that is thin all the way: nothing is left."""
+    pieces = loop.pieces
+    poles = [k for k, piece in enumerate(pieces) if piece.degenerate]
+    if len(pieces) != 4 or len(poles) != 2 or poles[1] - poles[0] != 2:
+        return None, []
+    before, after = (poles[0] - 1) % 4, poles[0] + 1
+    one, other = _backwards(pieces[before]), pieces[after]
+    if not _thin(job, *map(_with_middle, (one.uv, other.uv, one.points)))[1:-1].all():
+        return None, []
+    middle = (_with_middle(piece.uv) for piece in (one, other))
+    middle = [uv[len(uv) // 2] for uv in middle]
+    if _turn(job.surface, *middle) < LEAST_TURN:
+        return None, []
+    slots = loop.slots[before][::-1], loop.slots[after]
+    return _tube(job.surface, one, other, *slots, following, middle, (True, True)), []
+
+
+def _with_middle(line: np.ndarray) -> np.ndarray:
+    """A line of two nodes gets a third."""
+    return line if len(line) > 2 else np.array([line[0], 0.5 * (line[0] + line[1]), line[1]])
 
 
 def _tip_cut(job: FaceJob, loop: _Open, following: int) -> tuple[Tube | None, list[_Open]]:
@@ -118,7 +145,10 @@ def _tip_cut(job: FaceJob, loop: _Open, following: int) -> tuple[Tube | None, li
         end = len(one.numbers) - 1
         left, left_slots = loop.part(before, end - levels, end)
         right, right_slots = loop.part(after, 0, levels)
-        tube = _tube(job.surface, _backwards(left), right, left_slots[::-1], right_slots, following)
+        tube = _tube(
+            job.surface, _backwards(left), right, left_slots[::-1], right_slots, following,
+            (left.uv[0], right.uv[-1]), (True, False),
+        )  # fmt: skip
         pieces, slots = loop.pieces.copy(), loop.slots.copy()
         pieces[before], slots[before] = loop.part(before, 0, end - levels)
         pieces[after], slots[after] = loop.part(after, levels, len(other.numbers) - 1)
@@ -144,7 +174,7 @@ def _neck_cut(job: FaceJob, loop: _Open, following: int) -> tuple[Tube | None, l
             right, right_slots = loop.part(after, low, high)
             tube = _tube(
                 job.surface, _backwards(left), right, left_slots[::-1], right_slots, following,
-                pole=False,
+                (left.uv[0], right.uv[-1]), (False, False),
             )  # fmt: skip
             beyond = [k % count for k in range(after + 1, before + count)]
             between = range(before + 1, after)
@@ -189,43 +219,62 @@ def _thin(job: FaceJob, left: np.ndarray, right: np.ndarray, points: np.ndarray)
     points: (m, 3) of the nodes on one side. For as many levels as both sides have.
     """
     count = min(len(left), len(right))
-    t = np.linspace(0.0, 1.0, WAY)[:, None]
-    way = left[:count, None] + t * (right[:count] - left[:count])[:, None]
-    rings = job.surface.evaluate(way.reshape(-1, 2), 0)[0].reshape(count, WAY, 3)
-    length = np.linalg.norm(np.diff(rings, axis=1), axis=2).sum(axis=1)
+    length = _ways(job.surface, left[:count], right[:count])
     step = np.linalg.norm(np.diff(points, axis=0), axis=1)
     step = np.minimum(np.r_[step[:1], step], np.r_[step, step[-1:]])[:count]
-    owed = THIN * step
-    if job.sizing.chord is not None:
-        owed = np.maximum(owed, THIN_CHORDS * job.sizing.chord)
-    return (length < FEWEST * step) & (length < owed)
+    return length < FEWEST * step
+
+
+def _ways(surface: Surface, left: np.ndarray, right: np.ndarray) -> np.ndarray:
+    """Lengths (n,) in space of the ways from left to right (n, 2)."""
+    t = np.linspace(0.0, 1.0, WAY)[:, None]
+    way = left[:, None] + t * (right - left)[:, None]
+    rings = surface.evaluate(way.reshape(-1, 2), 0)[0].reshape(len(left), WAY, 3)
+    return np.linalg.norm(np.diff(rings, axis=1), axis=2).sum(axis=1)
 
 
 def _tube(
     surface: Surface, left: Piece, right: Piece, left_slots: np.ndarray, right_slots: np.ndarray,
-    following: int, pole: bool = True,
+    following: int, round_way: Sequence[np.ndarray], poles: tuple[bool, bool],
 ) -> Tube:  # fmt: skip
-    """The columns between two sides, and the rings at its ends."""
+    """The columns between two sides, and the rings at its ends where these are no poles.
+
+    round_way: two ends (2,) of a way round, by whose turn the columns are counted.
+    """
     seam = np.array_equal(left.numbers, right.numbers)
-    turn = _turn(surface, left.uv[-1], right.uv[-1])
+    turn = _turn(surface, *round_way)
     count = int(np.ceil(COLUMNS * turn / (2.0 * np.pi) - 1e-6))
     count = max(count, 3 if seam else 1)
-    share, other = _shares(left.points), _shares(right.points)
+    uv, share, other = left.uv, _shares(left.points), _shares(right.points)
+    if all(poles) and len(uv) == 2:
+        uv, share = _with_middle(uv), np.array([0.0, 0.5, 1.0])
     beside = np.stack([np.interp(share, other, right.uv[:, k]) for k in (0, 1)], axis=1)
-    inner = [left.uv + k / count * (beside - left.uv) for k in range(1, count)]
+    inside = _wide_enough(surface, uv, beside)
+    inner = [(uv + k / count * (beside - uv))[inside] for k in range(1, count)]
     columns = (left.uv, *inner, right.uv)
-    last = _ring(surface, columns, -1, left, right, following)
-    first = None
-    if not pole:
-        first = _backwards(_ring(surface, columns, 0, left, right, following + len(columns)))
-    return Tube(left, right, left_slots, right_slots, last, first, columns)
+    ends = [
+        None if pole else _ring(surface, columns, level, left, right, following + more)
+        for pole, level, more in zip(poles, (0, -1), (len(columns), 0))
+    ]
+    first = None if ends[0] is None else _backwards(ends[0])
+    return Tube(left, right, left_slots, right_slots, ends[1], first, columns)
+
+
+def _wide_enough(surface: Surface, left: np.ndarray, right: np.ndarray) -> np.ndarray:
+    """The levels at which inner columns have nodes: the ends, and where the tube is no thread."""
+    length = _ways(surface, left, right)
+    (points,) = surface.evaluate(left, 0)
+    step = np.linalg.norm(np.diff(points, axis=0), axis=1)
+    wide = length > THREAD * np.minimum(np.r_[step[:1], step], np.r_[step, step[-1:]])
+    wide[[0, -1]] = True
+    return wide
 
 
 def _ring(
     surface: Surface, columns: tuple[np.ndarray, ...], level: int, left: Piece, right: Piece,
     following: int,
 ) -> Piece:  # fmt: skip
-    """One level as a piece of the boundary, from left to right; its nodes have numbers of their own."""
+    """One level as a piece of the boundary, from left to right, with numbers of its own."""
     uv = np.array([column[level] for column in columns])
     (points,) = surface.evaluate(uv, 0)
     points[0], points[-1] = left.points[level], right.points[level]

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from itertools import pairwise
 
 import numpy as np
 
@@ -21,21 +22,19 @@ def with_tubes(
 
     old: the slots of the job for those of the rest.
     """
-    names, new_names = (
-        np.concatenate([piece.numbers for loop in one.loops for piece in loop])
-        for one in (job, rest)
-    )
+    names = [piece.numbers for loop in rest.loops for piece in loop]
+    names = np.concatenate([np.empty(0, np.int64), *names])
     rows = _Rows(len(mesh.points), len(mesh.uv_points))
     rows.row_of = {
-        int(new_names[slot]): row for row, slot in enumerate(mesh.slots.tolist()) if slot >= 0
+        int(names[slot]): row for row, slot in enumerate(mesh.slots.tolist()) if slot >= 0
     }
     for tube in tubes:
-        _fill(job.surface, tube, names, rows)
+        _fill(job.surface, tube, rows)
     inverse = mesh.inverse_sizes
     if inverse is not None:
         size = np.array(rows.uv_sizes)[:, None]
         inverse = np.concatenate([inverse, np.array([1.0, 0.0, 0.0, 1.0, 0.0, 1.0]) / size])
-    slots = np.where(mesh.slots >= 0, old[mesh.slots], -1)
+    slots = np.array([old[slot] if slot >= 0 else -1 for slot in mesh.slots.tolist()], np.int64)
     triangles = np.concatenate([mesh.triangles, np.array(rows.triangles)])
     uv_triangles = np.concatenate([mesh.uv_triangles, np.array(rows.uv_triangles)])
     return replace(
@@ -92,7 +91,7 @@ class _Rows:
         self.uv_triangles.append([place for _, place in corners])
 
 
-def _fill(surface: Surface, tube: Tube, names: np.ndarray, rows: _Rows) -> None:
+def _fill(surface: Surface, tube: Tube, rows: _Rows) -> None:
     """The triangles between the columns of a tube."""
     step = np.linalg.norm(np.diff(tube.left.points, axis=0), axis=1)
     sizes = np.maximum(np.r_[step[:1], step], np.r_[step, step[-1:]])
@@ -104,23 +103,25 @@ def _fill(surface: Surface, tube: Tube, names: np.ndarray, rows: _Rows) -> None:
         for level, (uv, point) in enumerate(zip(column, points)):
             size = float(sizes[min(level, len(sizes) - 1)])
             number, slot = None, -1
-            if k in (0, count - 1) or (level == 0 and tube.first is None):
-                side = (tube.right, tube.right_slots) if k else (tube.left, tube.left_slots)
-                slot = int(side[1][level])
-                point = side[0].points[level]
-                number = int(side[0].numbers[level]) if slot < 0 else int(names[slot])
+            end = level == len(column) - 1
+            at_pole = (level == 0 and tube.first is None) or (end and tube.last is None)
+            if k in (0, count - 1) or at_pole:
+                side, slots = (tube.right, tube.right_slots) if k else (tube.left, tube.left_slots)
+                place = -1 if end else level
+                slot, point = int(slots[place]), side.points[place]
+                number = int(side.numbers[place])
             elif level == 0:
                 number = int(tube.first.numbers[count - 1 - k])
-            elif level == len(column) - 1:
+            elif end:
                 number = int(tube.last.numbers[k])
             own.append((rows.point(number, point, slot, size), rows.place(uv, size)))
         grid.append(own)
-    for k, (one, other) in enumerate(zip(grid, grid[1:])):
-        if tube.first is None:
-            middle = 0.5 * (tube.columns[k][0] + tube.columns[k + 1][0])
-            pole = (one[0][0], rows.place(middle, float(sizes[0])))
-            one, other = [pole, *one[1:]], [pole, *other[1:]]
-        _zip(one, other, rows)
+    for k, (one, other) in enumerate(pairwise(grid)):
+        for end, ring in ((0, tube.first), (-1, tube.last)):
+            if ring is None:  # a pole is between the columns in (u, v)
+                middle = 0.5 * (tube.columns[k][end] + tube.columns[k + 1][end])
+                one[end] = other[end] = (one[end][0], rows.place(middle, float(sizes[end])))
+        _zip(list(one), list(other), rows)
 
 
 def _zip(one: list[Corner], other: list[Corner], rows: _Rows) -> None:

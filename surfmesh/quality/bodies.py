@@ -84,8 +84,9 @@ def bodies(
     numbers = of_triangle[pairs[between]]
     keys = np.sort(numbers, axis=1)
     found: dict[tuple[int, int], BodyPair] = {}
-    for key in np.unique(keys, axis=0):
-        here = np.flatnonzero((keys == key).all(axis=1))
+    distinct, group = np.unique(keys, axis=0, return_inverse=True)
+    members = _grouped(group.reshape(-1), len(distinct))
+    for key, here in zip(distinct, members):
         met = _Meeting(pairs[between[here]], numbers[here], depth[here], limit[here])
         found[tuple(key.tolist())] = pair = _judged(mesh, key, count, met, allowed, least)
         deep[here] = pair.kind == OVERLAP
@@ -95,7 +96,8 @@ def bodies(
                 del found[tuple(key.tolist())]
     for key, pair in _without_crossing(mesh, solids, allowed, least, found).items():
         found[key] = pair
-        deep[(keys == key).all(axis=1)] = pair.kind == OVERLAP
+        for k in np.flatnonzero((distinct == key).all(axis=1)):
+            deep[members[k]] = pair.kind == OVERLAP
     own[between] = deep & (keys >= count).any(axis=1)
     kinds = [
         tuple(pair for pair in found.values() if pair.kind == kind)
@@ -103,6 +105,12 @@ def bodies(
     ]
     over = tuple(pair for pair in kinds[0] if -1 not in pair.solids)
     return Bodies(own, int((~deep).sum()), over, *kinds[1:])
+
+
+def _grouped(group: NDArray[np.intp], count: int) -> list[NDArray[np.intp]]:
+    """The rows of each of ``count`` groups."""
+    order = np.argsort(group, kind="stable")
+    return np.split(order, np.searchsorted(group[order], np.arange(1, count)))
 
 
 class _Meeting(NamedTuple):
@@ -201,8 +209,10 @@ class _Solid(NamedTuple):
     most: float  # anywhere
 
 
-def _solid(mesh: SurfaceMesh, number: int, allowed: NDArray[np.float64]) -> _Solid:
-    rows = np.flatnonzero((mesh.solid_ids == number).any(axis=1))
+def _solid(
+    mesh: SurfaceMesh, number: int, rows: NDArray[np.intp], allowed: NDArray[np.float64]
+) -> _Solid:
+    """rows: its triangles."""
     corners = mesh.points[mesh.triangles[rows]]
     normal = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
     normal[mesh.solid_ids[rows, 0] != number] *= -1.0
@@ -228,7 +238,10 @@ def _without_crossing(
     closed = [row.solid for row in solids if row.closed]
     if len(closed) < 2:
         return {}
-    parts = {number: _solid(mesh, number, allowed) for number in closed}
+    of, rows = mesh.solid_ids.ravel(), np.repeat(np.arange(len(mesh.solid_ids)), 2)
+    members = _grouped(of[of >= 0], int(of.max()) + 1)
+    rows = rows[of >= 0]
+    parts = {number: _solid(mesh, number, rows[members[number]], allowed) for number in closed}
     low = np.array([parts[number].low for number in closed])
     high = np.array([parts[number].high for number in closed])
     more: dict[tuple[int, int], BodyPair] = {}

@@ -24,6 +24,8 @@ def turned_inward(mesh: SurfaceMesh, topo: Topology, solids: tuple[SolidRow, ...
         if row.volume is not None and row.volume < 0.0
     ]
     facts = mesh.facts
+    if topo.components == 1 and not topo.balanced:
+        return said
     if mesh.one_sided or (facts is not None and facts.crosses_itself):
         return said
     volume, first, pieces = _inward_pieces(mesh, topo)

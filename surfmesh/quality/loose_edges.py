@@ -10,7 +10,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from surfmesh.quality.penetration import distances_allowed
+from surfmesh.quality.penetration import distances_allowed, edge_sagittas
 from surfmesh.surface_mesh import SurfaceMesh
 
 GAP = 1e-4  # of the diagonal: rims farther apart are no rims of one edge
@@ -25,7 +25,7 @@ class LooseEdges:
 
     edges: int
     faces: int
-    gap: float  # the widest between them, model units
+    gap: float  # the widest between them that their chords do not explain, model units
     point: tuple[float, float, float]  # where it is
 
 
@@ -47,15 +47,15 @@ def loose_edges(
     ends = mesh.points[mesh.edges[free]]
     length = np.linalg.norm(ends[:, 1] - ends[:, 0], axis=1)
     diagonal = float(np.linalg.norm(np.ptp(mesh.points, axis=0)))
-    sagitta = distances_allowed(mesh, by_triangle)[triangle]
-    widest = np.minimum(GAP * diagonal, OF_EDGE * length) + 2.0 * np.minimum(sagitta, length)
-    loose = np.flatnonzero(distance <= widest)
+    model_edges, sagitta = _model_edges(mesh, free, distances_allowed(mesh, by_triangle)[triangle])
+    sagitta = np.minimum(sagitta, OF_EDGE * length)
+    gap = np.maximum(distance - sagitta - sagitta[beside], 0.0)
+    loose = np.flatnonzero(gap <= np.minimum(GAP * diagonal, OF_EDGE * length))
     if not len(loose):
         return None, set()
-    worst = loose[int(np.argmax(distance[loose]))]
-    names = _model_edges(mesh, free[loose])
+    worst = loose[int(np.argmax(gap[loose]))]
     found = LooseEdges(
-        len(np.unique(names)), len(np.unique(face[loose])), float(distance[worst]),
+        len(np.unique(model_edges[loose])), len(np.unique(face[loose])), float(gap[worst]),
         tuple(ends[worst].mean(axis=0).tolist()),
     )  # fmt: skip
     pairs = np.sort(np.stack([face[loose], face[beside[loose]]], axis=1), axis=1)
@@ -86,14 +86,22 @@ def _nearest(
     return gap[rows, best], other[rows, best]
 
 
-def _model_edges(mesh: SurfaceMesh, edges: NDArray) -> NDArray[np.int64]:
-    """The edges of the model on which edges of the mesh lie, or their own numbers."""
+def _model_edges(
+    mesh: SurfaceMesh, edges: NDArray, off: NDArray[np.float64]
+) -> tuple[NDArray[np.int64], NDArray[np.float64]]:
+    """The edges of the model on which edges of the mesh (k,) lie, or numbers of their own; and
+    how far these lie from their curves (k,).
+
+    off: (k,) how far their triangles lie from the surface: where a curve is one edge, or unknown.
+    """
     if mesh.edge_segments is None or not len(mesh.edge_segments):
-        return edges.astype(np.int64)
+        return edges.astype(np.int64), off
     width = np.array([len(mesh.points), 1], np.int64)
     along = np.sort(mesh.edge_segments, axis=1) @ width
     order = np.argsort(along, kind="stable")
     keys = mesh.edges[edges] @ width
-    row = np.minimum(np.searchsorted(along[order], keys), len(along) - 1)
-    known = along[order[row]] == keys
-    return np.where(known, mesh.edge_ids[order[row]], -1 - edges.astype(np.int64))
+    row = order[np.minimum(np.searchsorted(along[order], keys), len(along) - 1)]
+    known = along[row] == keys
+    cut = known & (np.bincount(mesh.edge_ids)[mesh.edge_ids[row]] > 1)
+    names = np.where(known, mesh.edge_ids[row], -1 - edges.astype(np.int64))
+    return names, np.where(cut, edge_sagittas(mesh)[row], off)

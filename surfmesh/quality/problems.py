@@ -11,6 +11,7 @@ from surfmesh.quality.bodies import BodyPair
 from surfmesh.quality.by_solid import SolidRow
 from surfmesh.quality.deviation import Deviation
 from surfmesh.quality.folds import Folds
+from surfmesh.quality.narrow import without_area
 from surfmesh.quality.promises import Beyond, Promises
 from surfmesh.quality.self_intersection import MeetingPair
 from surfmesh.quality.shape import Shapes
@@ -18,8 +19,6 @@ from surfmesh.quality.solids import shares_faces, solid_mesh
 from surfmesh.quality.topology import Topology, topology
 from surfmesh.quality.turning import Turning
 from surfmesh.surface_mesh import NOT_MESHED, SurfaceMesh
-
-DEGENERATE = 1e-6  # alpha below which a triangle has no area to speak of
 
 
 def problems(
@@ -54,7 +53,7 @@ def problems(
         )
     said += _euler_numbers(mesh, topo, solids)
     said += _edges_and_vertices(mesh, odd)
-    said += _triangles(mesh, ~(shape.alpha > DEGENERATE), "without area")
+    said += _triangles(mesh, without_area(mesh, shape.alpha), "without area")
     if fit is not None:
         for bad, what in (
             (turned.inverted, "inverted against the surface"),

@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from surfmesh.geometry.numeric import NumericSurface
 from surfmesh.model_facts import ModelFacts
 from surfmesh.quality.against_model import unexpected
 from surfmesh.quality.bodies import BodyPair, bodies
@@ -29,8 +30,9 @@ from surfmesh.quality.lengths import (
     size_growth,
 )
 from surfmesh.quality.loose_edges import LooseEdges, loose_edges
+from surfmesh.quality.lost import explained, is_known, lost
+from surfmesh.quality.narrow import DEGENERATE, narrow_triangles
 from surfmesh.quality.problems import (
-    DEGENERATE,
     intersections,
     overlaps,
     problems,
@@ -53,6 +55,7 @@ from surfmesh.quality.solids import shares_faces
 from surfmesh.quality.surface_to_mesh import both_ways, surface_deviation, surface_too_far
 from surfmesh.quality.topology import topology
 from surfmesh.quality.turning import turning, worst_turn
+from surfmesh.quality.unseen import UnseenPlace, unseen, unseen_problems
 from surfmesh.quality.worst import WorstTriangle, worst_triangles
 from surfmesh.surface_mesh import SurfaceMesh
 
@@ -93,6 +96,10 @@ class Report:
     alpha_mean: float  # 4 sqrt(3) area / sum of squared edges, in 3D; 1 is equilateral
     alpha_p01: float  # 1 % of the triangles are worse
     alpha_min: float
+    narrow_triangles: int  # on faces of a CAD model that are narrower than the chord: good shape
+    # is not owed there; alpha, angles and edges are of all triangles
+    alpha_mean_elsewhere: float | None  # of the others; None: there are none
+    alpha_min_elsewhere: float | None
     alpha_metric_mean: float | None  # alpha as seen in the metric; None: isotropic, as in 3D
     alpha_metric_min: float | None
     radius_ratio_mean: float  # 2 r_in / r_circum; 1 is equilateral
@@ -137,6 +144,12 @@ class Report:
     surface_deviation_at_rim: bool | None  # is that point on a free rim of the surface?
     deviation_two_sided: float | None  # the larger of both: the Hausdorff distance, as sampled
     above_chord_share: float | None  # triangles farther away than the chord of their face
+    unseen: int | None  # triangles between whose samples a formula's bounds admit more than was
+    # seen, or more was found; None: nothing is known between the samples (functions, CAD faces)
+    unseen_max: float | None  # how far that lies, or may lie, from the mesh; infinite: no bound
+    unseen_at: tuple[UnseenPlace, ...]  # the first twenty
+    functions: int  # faces given by a Python function: features narrower than the triangles cannot
+    # be excluded there, nor are they looked for
     chord_used: float | None  # median of deviation / chord where chord decided the size
     chord_decided_share: float | None  # of the triangles: where not growth or another wish did
     angle: float | None  # asked for, degrees; None: only 45 as a rule of sizes, no promise
@@ -254,18 +267,25 @@ def check(mesh: SurfaceMesh) -> Report:
     if beyond is not None and back is not None:
         far = surface_too_far(mesh, fit, back, beyond, promises)
         beyond = None if far else beyond
+    narrow = narrow_triangles(mesh, shape.alpha)
     volume = _volume(mesh, topo.balanced, solids) if finite and not broken else None
     odd = unexpected(mesh, topo)
     said = problems(mesh, broken, odd, topo, shape, fit, beyond, promises, turned_over, solids)
     short, forbidden = volumes_not_kept(mesh, solids)
     said += short
     said += [far] if far else []
+    hidden = unseen(mesh, None if fit is None else both_ways(fit, back), promises, LISTED)
+    said += unseen_problems(hidden)
     if bent is not None:
         said.append(turned_too_far(mesh, turns, bent, promises))
     if pairs is not None and not crosses:
         said += intersections(mesh, meeting, len(pairs))
     if met is not None:
         said += overlaps(met.overlapping)
+    rows = by_face(mesh, shape, fit, lengths, folded, promises, limits, turns)
+    if fit is not None and not broken and math.isfinite(fit.largest) and is_known(mesh):
+        known = explained(mesh, shape.area, fit.by_triangle)
+        said += lost(mesh, known, rows, solids, facts.area)
     return Report(
         schema_version=SCHEMA_VERSION,
         surface=_names(mesh),
@@ -291,6 +311,9 @@ def check(mesh: SurfaceMesh) -> Report:
         alpha_mean=_over(np.mean, shape.alpha),
         alpha_p01=_over(lambda alpha: np.quantile(alpha, 0.01), shape.alpha),
         alpha_min=_over(np.min, shape.alpha),
+        narrow_triangles=narrow.count,
+        alpha_mean_elsewhere=narrow.alpha_mean_elsewhere,
+        alpha_min_elsewhere=narrow.alpha_min_elsewhere,
         alpha_metric_mean=None if wanted is None else _over(np.mean, wanted),
         alpha_metric_min=None if wanted is None else _over(np.min, wanted),
         radius_ratio_mean=_over(np.mean, shape.radius_ratio),
@@ -331,6 +354,10 @@ def check(mesh: SurfaceMesh) -> Report:
         surface_deviation_at_rim=None if back is None else back.at_rim,
         deviation_two_sided=None if back is None else max(fit.largest, back.largest),
         above_chord_share=above,
+        unseen=None if hidden is None else hidden.found + hidden.open,
+        unseen_max=None if hidden is None else max(hidden.largest, hidden.possible),
+        unseen_at=() if hidden is None else hidden.places,
+        functions=sum(isinstance(surface, NumericSurface) for surface in mesh.surfaces),
         chord_used=None if used is None else used.used,
         chord_decided_share=None if used is None else used.share,
         angle=angle,
@@ -345,7 +372,7 @@ def check(mesh: SurfaceMesh) -> Report:
         volume=volume,
         volume_exact=facts.volume,
         volume_error=relative_error(volume, facts.volume),
-        by_face=by_face(mesh, shape, fit, lengths, folded, promises, limits, turns),
+        by_face=rows,
         by_solid=solids,
         unit=facts.unit,
         source=facts.source,

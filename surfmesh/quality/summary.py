@@ -30,6 +30,7 @@ def summary(report: "Report") -> str:
             f"radius ratio mean {report.radius_ratio_mean:.4f}, "
             f"smallest {report.radius_ratio_min:.4f}",
         ),
+        *_narrow(report),
         *_in_the_metric(report),
         ("angles", f"{report.min_angle_deg:.2f}° to {report.max_angle_deg:.2f}°"),
         (
@@ -103,6 +104,19 @@ def _size(report: "Report") -> str:
     return ", ".join(words) + (f" in {report.unit}" if report.unit else "")
 
 
+def _narrow(report: "Report") -> list[tuple[str, str]]:
+    """Where faces are narrower than the chord."""
+    if not report.narrow_triangles:
+        return []
+    text = f"{_count(report.narrow_triangles, 'triangle')} on faces narrower than the chord"
+    if report.alpha_mean_elsewhere is not None:
+        text += (
+            f"; without them alpha mean {report.alpha_mean_elsewhere:.4f}, "
+            f"smallest {report.alpha_min_elsewhere:.4f}"
+        )
+    return [("", text)]
+
+
 def _in_the_metric(report: "Report") -> list[tuple[str, str]]:
     """Where sizes depend on the direction."""
     if report.alpha_metric_mean is None:
@@ -149,7 +163,15 @@ def _deviation(report: "Report") -> str:
         f"largest {report.deviation_max:.4g}{asked}, rms {report.deviation_rms:.4g}; "
         f"{used}"
         f"largest in triangle {report.deviation_triangle} at ({place}){back}"
+        f"{_between_samples(report)}"
     )
+
+
+def _between_samples(report: "Report") -> str:
+    """What is known of features narrower than the triangles."""
+    if report.functions:
+        return "; features narrower than the triangles cannot be excluded: a function has no bounds"
+    return "; nothing more between the samples, by the formula's bounds" * (report.unseen == 0)
 
 
 def _turning(report: "Report") -> str:

@@ -9,6 +9,7 @@ cq = pytest.importorskip("cadquery")
 
 import surfmesh as sm  # noqa: E402
 from surfmesh.cad.selection import select  # noqa: E402
+from surfmesh.cli.arguments import parse  # noqa: E402
 from surfmesh.errors import CadError  # noqa: E402
 
 PI = math.pi
@@ -96,6 +97,50 @@ def test_conformal_meshes(name):
     for row, solid in zip(report.by_solid, model.solids):
         assert row.euler == row.euler_exact
         assert row.volume == pytest.approx(solid.volume, rel=0.03)
+
+
+def ball(turned=0.0):
+    return cq.Workplane().sphere(2).rotate((0, 0, 0), (1, 0, 0), turned).translate((0, 0, 2))
+
+
+def fin_on_a_tube():
+    fin = sheet((-2, 0, -1), (-4, 0, -1), (-4, 0, 1), (-2, 0, 1))
+    return [cq.Solid.makeCylinder(2, 6, cq.Vector(0, 0, -3)), fin]
+
+
+def fin_on_a_ball():
+    start = cq.Workplane("XY").moveTo(-3.5, -1).lineTo(-3.5, 1).lineTo(-math.sqrt(3), 1)
+    rim = start.threePointArc((-2, 0), (-math.sqrt(3), -1)).close().wire().val()
+    return [cq.Workplane().sphere(2), cq.Face.makeFromWires(rim)]
+
+
+PLATE = box(10, 10, 1, (-5, -5, -1))
+TOUCHING = {  # name: (bodies, what of them is shared)
+    "a fin on a tube": (fin_on_a_tube(), "1 edge, 2 vertices"),
+    "a fin on a ball": (fin_on_a_ball(), "1 edge, 2 vertices"),
+    "a sheet on end": (
+        [box(4, 4, 4), sheet((1, 1, 4), (3, 1, 4), (3, 1, 6), (1, 1, 6))], "1 edge, 2 vertices",
+    ),
+    "an apex on a plate": ([PLATE, cq.Solid.makeCone(0, 2, 3)], "1 vertex"),
+    "a pole on a plate": ([PLATE, ball()], "1 vertex"),
+    "a ball on a plate": ([PLATE, ball(90)], "1 vertex"),  # a vertex inside both faces
+    "two corners": ([box(2, 2, 2), box(2, 2, 2, (2, 2, 2))], "1 vertex"),
+    "two edges": ([box(2, 2, 2), box(2, 2, 2, (2, 2, 0))], "1 edge, 2 vertices"),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("name", TOUCHING)
+def test_bodies_that_touch_along_a_line_or_in_a_point(name):
+    bodies, shared = TOUCHING[name]
+    model = sm.from_cadquery(bodies, imprint=True)
+    assert model.check() == ""
+    assert model.healing[0] == f"imprinted: bodies share {shared}"
+    mesh = sm.mesh(model, sm.Sizing(chord=0.1, max_size=2))
+    report = sm.check(mesh)
+    assert report.clean, report.problems
+    assert report.self_intersections == 0 and report.contacts == 0
+    assert all(boundary_is_empty(mesh, solid) for solid in range(len(model.solids)))
+    assert len(np.unique(mesh.points.round(9), axis=0)) == len(mesh.points)
 
 
 @pytest.mark.parametrize("scale", [1e-3, 1.0, 1e3])
@@ -221,3 +266,20 @@ def test_what_is_no_tolerance(wrong):
 def test_a_surface_of_formulas_is_no_model():
     with pytest.raises(CadError, match="are for CAD models"):
         sm.load("sphere", imprint=True)
+
+
+@pytest.mark.parametrize("command", ["mesh", "report", "view", "estimate", "explain"])
+def test_on_the_command_line(command):
+    more = {"mesh": ["-o", "x"], "report": ["-o", "x"], "explain": ["--at", "0", "0", "0"]}
+    given = [command, *more.get(command, [])]
+    for words, imprint, sew in (
+        (["a.step", "--imprint"], True, None),
+        (["--imprint", "a.step"], True, None),  # the file is no tolerance
+        (["--imprint", "1e-3", "a.step", "--sew", "0.01"], 1e-3, 0.01),
+        (["a.step", "--imprint=.5"], 0.5, None),
+        (["a.step"], False, None),
+    ):
+        options = parse([*given, *words])
+        assert (options.input, options.imprint, options.sew) == ("a.step", imprint, sew)
+    with pytest.raises(SystemExit):
+        parse([*given, "a.step", "--imprint", "0"])
