@@ -4,7 +4,8 @@ On a CAD cylinder u is radians and v millimetres; on a badly parametrised surfac
 |r_u| changes a thousandfold along u. Both would make circles in (u, v) grotesque. So x is a
 function of u alone, with dx/du the mean over v of |r_u|, and y likewise of v: lengths of the
 surface's own order, on which predicates keep their digits. Where the mean speed hardly changes
-the function is linear, otherwise a monotone cubic spline, once differentiable.
+the function is linear, otherwise a monotone cubic spline, once differentiable. Where speeds
+have no bound (square roots) it is a function of the bent parameter instead.
 """
 
 from dataclasses import dataclass
@@ -12,6 +13,7 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.interpolate import PchipInterpolator
 
+from surfmesh.geometry.infinite_speed import BentAxis, bent_axes_of
 from surfmesh.geometry.surface import Domain, Surface
 from surfmesh.kernels.bending import bend
 
@@ -29,23 +31,31 @@ class Axis:
     """A monotone map between one parameter and its scaled coordinate.
 
     ``knots`` (k,) and ``slopes`` (k,): the parameter and its derivative at k evenly spaced
-    scaled coordinates from 0 to ``extent``; two knots make it linear.
+    scaled coordinates from 0 to ``extent``; two knots make it linear. Where there is a ``bent``
+    parameter, they are of that one.
     """
 
     extent: float
     knots: np.ndarray
     slopes: np.ndarray
+    bent: BentAxis | None = None
 
     @classmethod
-    def of(cls, low: float, high: float, t: np.ndarray, speed: np.ndarray) -> "Axis":
-        """From mean speeds (n,) at ``t`` (n,), evenly spaced from 0 to 1 over [low, high]."""
+    def of(
+        cls, low: float, high: float, t: np.ndarray, speed: np.ndarray,
+        bent: BentAxis | None = None,
+    ) -> "Axis":  # fmt: skip
+        """From mean speeds (n,) at ``t`` (n,), evenly spaced from 0 to 1 over [low, high].
+
+        Both of the ``bent`` parameter if there is one.
+        """
         mean = float(speed.mean())
         if not mean > 0.0:
             mean, speed = 1.0, np.ones_like(speed)
         extent = mean * (high - low)
         speed = np.maximum(speed, SLOWEST * mean)
         if speed.max() <= UNEVEN * speed.min():
-            return cls.linear(low, high, mean)
+            return cls.linear(low, high, mean, bent)
         length = np.concatenate([[0.0], np.cumsum(0.5 * (speed[1:] + speed[:-1]))])
         length *= extent / length[-1]
         spline = PchipInterpolator(length, low + t * (high - low))
@@ -54,18 +64,25 @@ class Axis:
         knots[0], knots[-1] = low, high
         # slopes of a monotone cubic on the even knots (Fritsch and Carlson 1980)
         slopes = PchipInterpolator(x, knots).derivative()(x)
-        return cls(extent, knots, slopes)
+        return cls(extent, knots, slopes, bent)
 
     @classmethod
-    def linear(cls, low: float, high: float, speed: float) -> "Axis":
+    def linear(cls, low: float, high: float, speed: float, bent: BentAxis | None = None) -> "Axis":
         """Stretched by the same factor everywhere."""
-        return cls(speed * (high - low), np.array([low, high]), np.full(2, 1.0 / speed))
+        return cls(speed * (high - low), np.array([low, high]), np.full(2, 1.0 / speed), bent)
 
     def parameter_and_rate(self, x: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """The parameter (n,) at scaled coordinates x (n,), and its derivative by x (n,).
 
-        Linear outside [0, extent].
+        Linear outside [0, extent], constant where the parameter is bent.
         """
+        parameter, rate = self._knotted(x)
+        if self.bent is None:
+            return parameter, rate
+        return self.bent.parameter(parameter), rate * self.bent.rates(parameter)[0]
+
+    def _knotted(self, x: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """The parameter, or the bent one, and its derivative by x (n,)."""
         if len(self.knots) == 2:
             rate = np.empty(len(x))
             rate.fill(self.slopes[0])
@@ -77,11 +94,13 @@ class Axis:
     def coordinate(self, u: np.ndarray) -> np.ndarray:
         """The scaled coordinate (n,) of parameters u (n,): ``parameter_and_rate`` inverted."""
         u = np.asarray(u, float)
+        if self.bent is not None:
+            u = self.bent.bent(u)
         step = self.extent / (len(self.knots) - 1)
         x = np.interp(u, self.knots, step * np.arange(len(self.knots)))
         if len(self.knots) > 2:
             for _ in range(6):  # Newton from the piecewise linear inverse, a cell away at most
-                parameter, rate = self.parameter_and_rate(x)
+                parameter, rate = self._knotted(x)
                 x = np.clip(x - (parameter - u) / rate, 0.0, self.extent)
         x = np.where(u == self.knots[0], 0.0, x)
         return np.where(u == self.knots[-1], self.extent, x)
@@ -98,14 +117,20 @@ class Scaling:
         low, high = np.array(surface.domain, float).T
         along = np.linspace(0.0, 1.0, SAMPLES_ALONG)
         across = (np.arange(SAMPLES_ACROSS) + 0.5) / SAMPLES_ACROSS
-        axes = []
+        axes, bent = [], bent_axes_of(surface)
         for axis in (0, 1):
             t = np.empty((SAMPLES_ACROSS, SAMPLES_ALONG, 2))
             t[..., axis] = along
             t[..., 1 - axis] = across[:, None]
-            derivative = surface.evaluate((low + t * (high - low)).reshape(-1, 2), 1)[1 + axis]
-            speed = np.linalg.norm(derivative, axis=1).reshape(SAMPLES_ACROSS, SAMPLES_ALONG)
-            axes.append(Axis.of(low[axis], high[axis], along, speed.mean(axis=0)))
+            uv = (low + t * (high - low)).reshape(-1, 2)
+            rate = 1.0
+            if bent[axis] is not None:
+                rate = bent[axis].rates(uv[:, axis])[0]
+                uv[:, axis] = bent[axis].parameter(uv[:, axis])
+            derivative = surface.evaluate(uv, 1)[1 + axis]
+            speed = np.linalg.norm(derivative, axis=1) * rate
+            speed = speed.reshape(SAMPLES_ACROSS, SAMPLES_ALONG).mean(axis=0)
+            axes.append(Axis.of(low[axis], high[axis], along, speed, bent[axis]))
         return cls(tuple(axes))
 
     @classmethod
