@@ -112,6 +112,12 @@ class NumericSurface:
                 value[broken] = replacement
         return (r, *given)
 
+    def with_domain(self, domain: Domain) -> NumericSurface:
+        """The same function over another domain, within this one."""
+        other = object.__new__(NumericSurface)
+        other.__dict__.update(self.__dict__, domain=domain)
+        return other
+
     def derivative_bounds(self, lo: np.ndarray, hi: np.ndarray) -> None:
         """None: a function cannot be bounded between its values."""
         return None

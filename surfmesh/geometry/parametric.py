@@ -114,6 +114,13 @@ class ParametricSurface:
         lower, upper = self.tape(2).bounds(lo, hi)
         return lower[:, 3:].reshape(-1, 5, 3), upper[:, 3:].reshape(-1, 5, 3)
 
+    def with_domain(self, domain: Domain) -> ParametricSurface:
+        """The same formulas over another domain, within this one."""
+        other = object.__new__(ParametricSurface)
+        other.__dict__.update(self.__dict__, domain=domain)
+        other.__dict__["bent_axes"] = bent_axes(lambda uv: other.evaluate(uv)[0], domain)
+        return other
+
     def tape(self, order: int) -> Tape:
         """The program behind `evaluate`, made when it is first needed."""
         if order not in self._tapes:

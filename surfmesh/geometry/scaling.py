@@ -58,13 +58,21 @@ class Axis:
             return cls.linear(low, high, mean, bent)
         length = np.concatenate([[0.0], np.cumsum(0.5 * (speed[1:] + speed[:-1]))])
         length *= extent / length[-1]
-        spline = PchipInterpolator(length, low + t * (high - low))
-        x = np.linspace(0.0, extent, KNOTS)
+        length[-1] = extent
+        return cls.of_length(low + t * (high - low), length, bent)
+
+    @classmethod
+    def of_length(
+        cls, parameters: np.ndarray, length: np.ndarray, bent: BentAxis | None = None
+    ) -> "Axis":
+        """From the mean ``length`` (n,) of the way to ``parameters`` (n,); both rise."""
+        spline = PchipInterpolator(length, parameters)
+        x = np.linspace(0.0, length[-1], KNOTS)
         knots = spline(x)
-        knots[0], knots[-1] = low, high
+        knots[0], knots[-1] = parameters[0], parameters[-1]
         # slopes of a monotone cubic on the even knots (Fritsch and Carlson 1980)
         slopes = PchipInterpolator(x, knots).derivative()(x)
-        return cls(extent, knots, slopes, bent)
+        return cls(float(length[-1]), knots, slopes, bent)
 
     @classmethod
     def linear(cls, low: float, high: float, speed: float, bent: BentAxis | None = None) -> "Axis":

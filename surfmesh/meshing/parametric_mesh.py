@@ -14,6 +14,7 @@ from surfmesh.geometry.surface import Surface
 from surfmesh.kernels.background import scalar_sizes_at
 from surfmesh.meshing.boundary_loops import BoundaryLoops, boundary_loops
 from surfmesh.meshing.boundary_recovery import DomainMesh, recovered
+from surfmesh.meshing.cusps import closed_at, find_cusps, without_cusps
 from surfmesh.meshing.estimation import Estimate, field_triangles, require_field_within
 from surfmesh.meshing.explanation import Explanation, explain_surface
 from surfmesh.meshing.gluing import Glued, glued, misglued
@@ -48,6 +49,18 @@ def mesh_parametric(
     watch = Stopwatch(progress)
     with watch.stage("sizing"):
         sides = find_sides(surface)
+        cusps = find_cusps(surface, sides, sizing)
+        if cusps:
+            whole, surface = surface, without_cusps(surface, cusps)
+            sides = find_sides(surface)
+    mesh = _in_rounds(surface, sides, sizing, optimise, watch)
+    return closed_at(mesh, whole, cusps) if cusps else mesh
+
+
+def _in_rounds(
+    surface: Surface, sides: SideTopology, sizing: Sizing, optimise: bool, watch: Stopwatch
+) -> SurfaceMesh:
+    """Rounds with smaller sizes each until nothing is to be mended, or can be."""
     limits: SizeLimits | None = None
     before = (0, 0)
     for _ in range(ROUNDS):
@@ -73,11 +86,16 @@ def mesh_parametric(
 
 def estimate_parametric(surface: Surface, sizing: Sizing) -> Estimate:
     """Triangles and memory of ``mesh_parametric``. Raises as it does."""
-    field = size_field(surface, sizing, find_sides(surface))
+    whole, sides = surface, find_sides(surface)
+    cusps = find_cusps(surface, sides, sizing)
+    if cusps:
+        surface = without_cusps(surface, cusps)
+        sides = find_sides(surface)
+    field = size_field(surface, sizing, sides)
     loops = surface.loops or None
     asked = field_triangles(field, loops)
     if asked <= WHOLE:
-        made = tried(lambda stop: mesh_parametric(surface, sizing, progress=stop))
+        made = tried(lambda stop: mesh_parametric(whole, sizing, progress=stop))
         if made is not None:
             return Estimate.of(made, field.is_anisotropic)
     got = asked * (triangles_per_unit(surface, field, loops) or 1.0)
