@@ -7,7 +7,7 @@ sides -> size field -> packing -> boundary -> optimisation -> space, joined side
 
 import numpy as np
 
-from surfmesh.errors import MeshingError
+from surfmesh.errors import MeshingError, SizingError
 from surfmesh.geometry.known_facts import known_facts
 from surfmesh.geometry.sides import SideTopology, find_sides
 from surfmesh.geometry.surface import Surface
@@ -30,6 +30,10 @@ from surfmesh.surface_mesh import SurfaceMesh
 
 ROUNDS = 8
 """How often the whole way is gone at most, each time with smaller sizes where it failed."""
+
+MOST_CELLS, CELLS_OF_TRIANGLE = 250_000, 50
+"""No further round once the size fields of all rounds had so many cells, or so many for each
+triangle of the mesh if that is more: about a singular place each round needs more of them."""
 
 FINER = 0.6
 """Factor on the sizes where the mesh is badly glued."""
@@ -62,19 +66,29 @@ def _in_rounds(
 ) -> SurfaceMesh:
     """Rounds with smaller sizes each until nothing is to be mended, or can be."""
     limits: SizeLimits | None = None
-    before = (0, 0)
+    before, cells = (0, 0), 0
+    mesh: SurfaceMesh | None = None
     for _ in range(ROUNDS):
         with watch.stage("sizing"):
-            field = size_field(surface, sizing, sides, limits)
+            try:
+                field = size_field(surface, sizing, sides, limits)
+            except SizingError:
+                if mesh is None:
+                    raise
+                break  # what no size can mend: the report says what is left
             require_field_within(sizing.limit, field, surface.loops or None, surface.name)
         mesh, wishes, bad = _one_round(surface, sides, field, optimise, watch)
         if wishes is None or not _can_shrink(field, wishes):
             break
         now = (len(mesh.triangles), len(wishes.sizes))
+        cells += len(field.background.child) // 4  # each cell has a row for four parts
+        if cells > max(MOST_CELLS, CELLS_OF_TRIANGLE * len(mesh.triangles)):
+            break
         if now == before:  # smaller sizes make no difference: the report says what is left
             break
         before = now
         limits = wishes.joined_with(limits)
+    assert mesh is not None
     if len(bad):
         place = ", ".join(f"{x:.6g}" for x in mesh.points[bad[0]])
         raise MeshingError(
