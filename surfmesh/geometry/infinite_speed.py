@@ -150,6 +150,48 @@ def kept_off(axes: BentAxes, uv: np.ndarray) -> np.ndarray:
     return uv
 
 
+def to_bent(axes: BentAxes, uv: np.ndarray) -> np.ndarray:
+    """The bent parameters (n, 2) of uv (n, 2), kept off the places of infinite speed."""
+    s = uv.copy()
+    for column, axis in enumerate(axes):
+        if axis is not None:
+            s[:, column] = axis.kept_off(axis.bent(uv[:, column]))
+    return s
+
+
+def from_bent(axes: BentAxes, s: np.ndarray) -> np.ndarray:
+    """uv (n, 2) of bent parameters s (n, 2)."""
+    uv = s.copy()
+    for column, axis in enumerate(axes):
+        if axis is not None:
+            uv[:, column] = axis.parameter(s[:, column])
+    return uv
+
+
+def bent_rates(axes: BentAxes, s: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """First and second derivatives (n, 2) of u and v by their bent parameters s (n, 2)."""
+    first, second = np.ones_like(s), np.zeros_like(s)
+    for column, axis in enumerate(axes):
+        if axis is not None:
+            first[:, column], second[:, column] = axis.rates(s[:, column])
+    return first, second
+
+
+def by_parameters(
+    derivatives: Sequence[np.ndarray], first: np.ndarray, second: np.ndarray
+) -> tuple[np.ndarray, ...]:
+    """r_u, r_v or r_u .. r_vv, (n, 3) each, from those by the bent parameters: the chain rule.
+
+    first, second: (n, 2) as ``bent_rates`` gives them.
+    """
+    (a, b), (p, q) = first.T[:, :, None], second.T[:, :, None]
+    r_u, r_v = derivatives[0] / a, derivatives[1] / b
+    if len(derivatives) == 2:
+        return r_u, r_v
+    r_ss, r_st, r_tt = derivatives[2:]
+    return r_u, r_v, (r_ss - p * r_u) / a**2, r_st / (a * b), (r_tt - q * r_v) / b**2
+
+
 def bent_axes_of(surface: Surface) -> BentAxes:
     """What a surface knows about itself; surfaces that know nothing have finite speeds."""
     return getattr(surface, "bent_axes", STRAIGHT)

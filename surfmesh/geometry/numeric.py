@@ -9,6 +9,16 @@ import numpy as np
 
 from surfmesh.errors import SurfaceError
 from surfmesh.geometry.differences import ORDERS, Differences, chosen_differences
+from surfmesh.geometry.infinite_speed import (
+    BentAxes,
+    bent_axes,
+    bent_rates,
+    by_parameters,
+    from_bent,
+    is_bent,
+    kept_off,
+    to_bent,
+)
 from surfmesh.geometry.surface import Domain
 from surfmesh.geometry.surface_checks import bounds_of, loop_of, refuse_no_area, sample_grid
 
@@ -72,7 +82,10 @@ class NumericSurface:
         }
         self.__dict__.update(fixed)
         self._r(sample_grid(self.domain).reshape(-1, 2))  # refused now rather than later
-        rule, error = chosen_differences(self._r, self.domain, int(differences), step)
+        self.__dict__["bent_axes"] = axes = bent_axes(self._r, self.domain)
+        rule, error = chosen_differences(
+            lambda s: self._r(from_bent(axes, s)), self.domain, int(differences), step
+        )
         self.__dict__.update(differences=rule, difference_error=error)
         refuse_no_area(self)
 
@@ -82,6 +95,8 @@ class NumericSurface:
     domain: Domain
     loops: tuple[np.ndarray, ...]
     sizing_defaults: dict[str, Any]
+    bent_axes: BentAxes
+    """Where the speed has no bound, and parameters in which it has: differences are taken there."""
     differences: Differences
     difference_error: float
     """Of second derivatives by differences of r, as a share of the largest or of the surface's
@@ -101,6 +116,7 @@ class NumericSurface:
             return (r, *(np.empty((0, 3)) for _ in range(count)))
         if self.derivatives is None:
             return (r, *self._by_differences(uv, count))
+        uv = kept_off(self.bent_axes, uv)
         given = self._given(uv)
         if len(given) < count:
             given = (*given[:2], *self._second_from_first(uv))
@@ -144,16 +160,25 @@ class NumericSurface:
         return found
 
     def _by_differences(self, uv: np.ndarray, count: int) -> tuple[np.ndarray, ...]:
-        rule = self.differences
-        return rule.first(self._r, uv) if count == 2 else rule.both(self._r, uv)
+        rule, axes = self.differences, self.bent_axes
+        if not is_bent(axes):
+            return rule.first(self._r, uv) if count == 2 else rule.both(self._r, uv)
+        s = to_bent(axes, uv)
+        taken = rule.first if count == 2 else rule.both
+        found = taken(lambda place: self._r(from_bent(axes, place)), s)
+        return by_parameters(found, *bent_rates(axes, s))
 
     def _second_from_first(self, uv: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
         """r_uu, r_uv, r_vv by differences of r_u and r_v; r_uv is the mean of its two."""
 
-        def first(place: np.ndarray) -> np.ndarray:
-            return np.hstack(self._given(place)[:2])
+        axes, s = self.bent_axes, to_bent(self.bent_axes, uv)
 
-        along_u, along_v = self.differences.first(first, uv)
+        def first(place: np.ndarray) -> np.ndarray:
+            return np.hstack(self._given(kept_off(axes, from_bent(axes, place)))[:2])
+
+        rates, _ = bent_rates(axes, s)
+        along_u, along_v = self.differences.first(first, s)
+        along_u, along_v = along_u / rates[:, :1], along_v / rates[:, 1:]
         return along_u[:, :3], 0.5 * (along_u[:, 3:] + along_v[:, :3]), along_v[:, 3:]
 
     def __repr__(self) -> str:

@@ -33,7 +33,8 @@ def test_an_inner_circle_that_is_a_point_is_refused_with_its_place():
         sm.mesh(horn_torus, sm.Sizing(chord=5e-3))
 
 
-def test_scherk_near_its_poles_ends_and_says_what_is_left():
+def test_scherk_near_its_poles_ends_and_says_what_is_left(monkeypatch):
+    monkeypatch.setattr(size_field, "FREE_CELLS", 100_000)
     side = 1.5707
     scherk = sm.ParametricSurface("u", "v", "log(cos(v)/cos(u))", u=(-side, side), v=(-side, side))
     report = sm.check(sm.mesh(scherk))
