@@ -9,9 +9,10 @@ from typing import Any
 import numpy as np
 
 from surfmesh.cad.from_cadquery import from_cadquery
+from surfmesh.cad.joining import Joining
 from surfmesh.cad.model import CadModel
-from surfmesh.cad.reading import SUFFIXES, read_cad
-from surfmesh.errors import FileFormatError, SizingError, SurfaceError
+from surfmesh.cad.reading import JOINING_TIME_LIMIT, SUFFIXES, TIME_LIMIT, read_cad
+from surfmesh.errors import CadError, FileFormatError, SizingError, SurfaceError
 from surfmesh.geometry.planar_domain import PlanarDomain
 from surfmesh.geometry.surface import Surface
 from surfmesh.geometry.surface_file import gallery, load_surface_file
@@ -34,18 +35,32 @@ from surfmesh.surface_mesh import SurfaceMesh
 logger = logging.getLogger(__name__)
 
 
-def load(path: str | Path, units: str | None = None) -> Surface | CadModel:
+def load(
+    path: str | Path,
+    units: str | None = None,
+    *,
+    imprint: bool | float = False,
+    sew: float | None = None,
+) -> Surface | CadModel:
     """The surface or CAD model of a file, or the surface of the gallery by its name.
 
     A ``.toml`` file holds formulas or a planar domain, a ``.svg`` drawing a planar domain;
     STEP, IGES and BREP files hold CAD models, in ``units`` ("mm", "m", "in", ...; None: mm).
 
+    imprint, sew: of a CAD model, lengths in its units. imprint=True: bodies that touch share
+    their faces, which are meshed once; a number is how near touches. sew=0.01: loose faces whose
+    edges lie as near are joined, and closed shells of them become solids.
+
     Raises ``CadError`` for a CAD file without a model, ``FileFormatError`` for a file of
     another kind, ``SurfaceError`` or ``DomainError`` for what is wrong in it.
     """
     place = Path(path)
+    joins = bool(Joining.of(imprint, sew))
     if place.suffix.lower() in SUFFIXES:
-        return read_cad(place, units=units)
+        limit = JOINING_TIME_LIMIT if joins else TIME_LIMIT
+        return read_cad(place, units=units, time_limit=limit, imprint=imprint, sew=sew)
+    if joins:
+        raise CadError(f"imprint and sew are for CAD models, and {place.name} holds none")
     if place.suffix == "" and not place.exists():
         known = gallery()
         if str(path) in known:
@@ -72,7 +87,8 @@ def mesh(
     boundary, as in the paper. progress: called with (stage, share done); when it returns False
     the work stops. strict=False: faces of a CAD model that cannot be meshed are left out and
     listed in the mesh's ``warnings``. simplify=True: tiny edges of a CAD model are collapsed,
-    those below ``min_size`` or a two-thousandth of the diagonal; topology is kept. jobs: faces
+    those below ``min_size`` or a two-thousandth of the diagonal; lines of a planar domain that
+    are finer than the sizes are thinned; topology is kept. jobs: faces
     of a CAD model meshed at once; the mesh is the same with any number of them. order=2: nodes
     amid the edges too, on the true curves and surfaces (``mesh.mid_points``).
 
@@ -89,7 +105,7 @@ def mesh(
         made = mesh_model(surface, wishes, optimise, progress, strict, simplify, jobs)
         return _logged(made if order == 1 else of_second_order(made, surface), surface)
     if isinstance(surface, PlanarDomain):
-        made = mesh_planar(surface, wishes, optimise, progress)
+        made = mesh_planar(surface, wishes, optimise, progress, simplify)
     else:
         made = mesh_parametric(surface, wishes, optimise, progress)
     return _logged(made if order == 1 else of_second_order(made), surface)
@@ -151,7 +167,13 @@ def _settled(surface: Any, sizing: Any) -> tuple[Any, Any]:
             f"sizes by selection ({', '.join(map(repr, sizing))}) need a CAD model; a "
             f"{type(surface).__name__} takes one Sizing, or '*' alone"
         )
-    return surface, Sizing.of(sizing)
+    made = Sizing.of(sizing)
+    if made.volume is not None:
+        raise SizingError(
+            f"volume {made.volume:g}: volumes are kept of the closed solids of CAD models; of a "
+            f"{type(surface).__name__} ask for a chord"
+        )
+    return surface, made
 
 
 def show(

@@ -39,6 +39,11 @@ class ModelFacts:
     crosses_itself: bool = False  # by nature, as Klein's bottle does: no fault of the mesh
     faces: tuple[FaceFacts, ...] = ()
     solids: tuple[SolidFacts, ...] = ()
+    # by ``SurfaceMesh.edge_ids``: how often faces use each edge, and so triangles those along it
+    edge_uses: tuple[int, ...] = ()
+    # by place in ``SurfaceMesh.vertex_ids``: fans of faces at each vertex, mostly one; 0 where
+    # another vertex stands for it
+    vertex_fans: tuple[int, ...] = ()
     healing: tuple[str, ...] = ()  # what was changed on the way, one sentence each
 
 

@@ -14,7 +14,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field, fields, replace
 from functools import cached_property
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -22,7 +22,7 @@ from numpy.typing import ArrayLike, NDArray
 from surfmesh.connectivity import Connectivity, connect
 from surfmesh.mesh_groups import MeshGroups
 from surfmesh.model_facts import ModelFacts
-from surfmesh.six_nodes import six_nodes
+from surfmesh.six_nodes import edge_rows, six_nodes
 
 if TYPE_CHECKING:
     import meshio
@@ -34,6 +34,14 @@ if TYPE_CHECKING:
 
 NOT_MESHED = "not meshed: "
 """How the warning about a CAD face starts that is missing: such a mesh is not clean."""
+
+
+class Corners(NamedTuple):
+    """Parameters of the corners of all triangles, where some have changed."""
+
+    uv_points: NDArray[np.float64]  # (k, 2)
+    uv_triangles: NDArray[Any]  # (m, 3) rows of uv_points
+    source: NDArray[Any]  # (k,) rows of the mesh's own uv_points that they stand for
 
 
 @dataclass(frozen=True, eq=False, repr=False, kw_only=True)
@@ -66,10 +74,12 @@ class SurfaceMesh:
     facts: ModelFacts | None = None  # what is known of the model beforehand
     # of CAD models; None otherwise
     turned_faces: NDArray[np.bool_] | None = None  # (f,) triangles run against r_u x r_v there
+    narrow_faces: NDArray[np.bool_] | None = None  # (f,) closed between sides within the chord
     solid_ids: NDArray[np.int32] | None = None  # (m, 2) solid behind and before it; -1: none
     edge_segments: NDArray[np.int32] | None = None  # (k, 2) edges of the mesh on CAD edges
     edge_ids: NDArray[np.int32] | None = None  # (k,) their CAD edges
     edge_shares: NDArray[np.float64] | None = None  # (k, 2) of its range, at a segment's ends
+    edge_curves: tuple[Any, ...] = ()  # by edge_ids: what has ``curve`` and ``parameters(share)``
     vertex_ids: NDArray[np.int32] | None = None  # (c,) vertex at each CAD vertex; -1: none
     mid_points: NDArray[np.float64] | None = None  # (ne, 3) nodes amid ``edges``; None: order 1
     # names, colours, kinds, unit; None: those of the surfaces
@@ -105,6 +115,7 @@ class SurfaceMesh:
             settle("inverse_sizes", self.inverse_sizes, np.float64, (len(self.uv_points), 6))
         for name, dtype, shape in (
             ("turned_faces", np.bool_, (len(self.surfaces),)),
+            ("narrow_faces", np.bool_, (len(self.surfaces),)),
             ("solid_ids", np.int32, (m, 2)),
             ("edge_segments", np.int32, (-1, 2)),
             ("edge_ids", np.int32, (-1,)),
@@ -117,6 +128,7 @@ class SurfaceMesh:
         if self.mid_points is not None:
             settle("mid_points", self.mid_points, np.float64, (len(self.edges), 3))
         object.__setattr__(self, "surfaces", tuple(self.surfaces))
+        object.__setattr__(self, "edge_curves", tuple(self.edge_curves))
         if self.groups is None:
             object.__setattr__(self, "groups", MeshGroups.of_surfaces(self.surfaces))
         object.__setattr__(self, "warnings", tuple(self.warnings))
@@ -211,9 +223,97 @@ class SurfaceMesh:
                 return f"face_ids run from {low} to {high}, surfaces are {len(self.surfaces)}"
         return None
 
+    def submesh(
+        self, kept: ArrayLike, as_vertex: ArrayLike | None = None, corners: "Corners | None" = None
+    ) -> "SurfaceMesh":
+        """The triangles ``kept``, (m,) bool or rows, on the vertices that they use: every array
+        by vertex, corner, edge or triangle is renumbered with them.
+
+        as_vertex: (n,) the vertex that takes the place of each, by default itself; corners:
+        parameters of the corners where these have changed. Segments of CAD edges are kept that
+        are edges still, nodes amid edges go to the middle where an edge has other ends now.
+        """
+        rows = np.arange(len(self.triangles))[np.asarray(kept)]
+        becomes = np.arange(len(self.points)) if as_vertex is None else np.asarray(as_vertex)
+        triangles = becomes[self.triangles[rows]]
+        used = np.zeros(len(self.points), bool)
+        used[triangles] = True
+        number = np.where(used, np.cumsum(used) - 1, -1)
+        changes: dict[str, Any] = {
+            "points": self.points[used],
+            "triangles": number[triangles],
+            "face_ids": self.face_ids[rows],
+            "solid_ids": None if self.solid_ids is None else self.solid_ids[rows],
+            "sizes": None if self.sizes is None else self.sizes[used],
+            "mid_points": None,
+        }
+        changes |= self._corners_of(rows, corners)
+        if self.vertex_ids is not None:
+            there = self.vertex_ids >= 0
+            changes["vertex_ids"] = np.where(there, number[becomes[self.vertex_ids]], -1)
+        if self.edge_segments is not None or self.mid_points is not None:
+            table = connect(changes["triangles"].astype(np.int32))
+            changes |= self._edges_of(table, number[becomes], np.flatnonzero(used))
+        return replace(self, **changes)
+
+    def _corners_of(self, rows: NDArray, corners: "Corners | None") -> dict[str, Any]:
+        """Parameters of the corners of triangles ``rows``, and what else is by corner."""
+        if self.uv_points is None or self.uv_triangles is None:
+            return {}
+        if corners is None:
+            corners = Corners(self.uv_points, self.uv_triangles, np.arange(len(self.uv_points)))
+        used, place = np.unique(corners.uv_triangles[rows], return_inverse=True)
+        w = self.inverse_sizes
+        return {
+            "uv_points": corners.uv_points[used],
+            "uv_triangles": place.reshape(-1, 3),
+            "inverse_sizes": None if w is None else w[corners.source[used]],
+        }
+
+    def _edges_of(
+        self, table: Connectivity, number: NDArray[np.int64], used: NDArray[np.int64]
+    ) -> dict[str, Any]:
+        """Segments of CAD edges and nodes amid edges, for the edges of ``table``; number: (n,)
+        of each vertex there or -1; used: the vertex of each number."""
+        changes: dict[str, Any] = {}
+        if self.edge_segments is not None:
+            pairs = number[self.edge_segments]
+            there = np.flatnonzero((pairs >= 0).all(axis=1) & (pairs[:, 0] != pairs[:, 1]))
+            there = there[edge_rows(table, pairs[there]) >= 0]
+            shares = self.edge_shares
+            changes["edge_segments"] = pairs[there]
+            changes["edge_ids"] = self.edge_ids[there]  # type: ignore[index]
+            changes["edge_shares"] = None if shares is None else shares[there]
+        if self.mid_points is not None:
+            ends = used[table.edges]
+            row = edge_rows(self.connectivity, ends)
+            middles = self.points[ends].mean(axis=1)
+            middles[row >= 0] = self.mid_points[row[row >= 0]]
+            changes["mid_points"] = middles
+        return changes
+
     def with_warnings(self, *more: str) -> "SurfaceMesh":
         """The same mesh with more to say about it; itself, when there is nothing."""
         return replace(self, warnings=(*self.warnings, *more)) if more else self
+
+    def flipped(self) -> "SurfaceMesh":
+        """The same mesh turned over: its triangles face the other side; twice gives it back.
+
+        Points, edges and all other numbers stay. For closed surfaces that face their inside.
+        """
+        turned = self.turned_faces
+        if self.surfaces:
+            turned = np.ones(len(self.surfaces), bool) if turned is None else ~turned
+            if self.solid_ids is None and not turned.any():
+                turned = None
+        order = [0, 2, 1]
+        return replace(
+            self,
+            triangles=self.triangles[:, order],
+            uv_triangles=None if self.uv_triangles is None else self.uv_triangles[:, order],
+            turned_faces=turned,
+            solid_ids=None if self.solid_ids is None else self.solid_ids[:, ::-1],
+        )
 
     @cached_property
     def report(self) -> "Report":

@@ -4,6 +4,7 @@ reading, child      a file -> `CadModel`, safely: `read_cad`
 from_cadquery       CadQuery, build123d and OCP objects -> `CadModel`
 readers, assembly   what files hold: parts with names, colours and places
 healing             repair, in words
+joining             what is asked of parts that touch: sewing, imprinting; origins: their names
 topology, convert   shapes and geometry of OCP -> plain data
 loops               coedges in walking order
 tolerances, images  how far edges really lie off their faces, and better images

@@ -62,10 +62,21 @@ def face_centre(face: CadFace) -> np.ndarray:
     return points.mean(axis=0)
 
 
-def _across(face: CadFace, coedge: CadCoedge) -> tuple[np.ndarray, ...]:
+def face_area(face: CadFace) -> float:
+    """Area of a face, on both sides of places where r_u x r_v vanishes."""
+    total = 0.0
+    for coedge in face.coedges:
+        weight, _, r_u, r_v = _across(face, coedge, ALONG)
+        total += float(weight @ np.linalg.norm(np.cross(r_u, r_v), axis=1))
+    return abs(total)
+
+
+def _across(
+    face: CadFace, coedge: CadCoedge, along_straight: int = 1
+) -> tuple[np.ndarray, ...]:
     """Weights (n,) in (u, v), points, r_u and r_v (n, 3) between the left side and a coedge."""
     straight = getattr(coedge.pcurve, "kind", "") == "line"
-    along, w_along = _gauss(POINTS, 1 if straight else ALONG)
+    along, w_along = _gauss(POINTS, along_straight if straight else ALONG)
     t, w = _gauss(POINTS, PANELS)
     uv, speed = coedge.pcurve.evaluate(coedge.p0 + along * (coedge.p1 - coedge.p0), 1)
     dv = speed[:, 1] * (coedge.p1 - coedge.p0) * (-w_along if coedge.reversed else w_along)

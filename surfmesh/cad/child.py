@@ -1,7 +1,7 @@
 """``python -m surfmesh.cad.child REQUEST RESULT``: read one CAD file, hand it back pickled.
 
-REQUEST: a JSON file with path, heal, units. RESULT: a pickle of the model, or of the message
-of the error that was met.
+REQUEST: a JSON file with path, heal, units, imprint, sew. RESULT: a pickle of the model, or of
+the message of the error that was met.
 """
 
 import json
@@ -16,9 +16,11 @@ def main(request: str, result: str) -> None:
     """Whatever happens in Python ends as a message; what happens in OCP may end the process."""
     wanted = json.loads(Path(request).read_text(encoding="utf-8"))
     try:
+        from surfmesh.cad.joining import Joining
         from surfmesh.cad.readers import read_here
 
-        answer = read_here(Path(wanted["path"]), wanted["heal"], wanted["units"])
+        joining = Joining(wanted["imprint"], wanted["sew"])
+        answer = read_here(Path(wanted["path"]), wanted["heal"], wanted["units"], joining)
     except SurfmeshError as error:
         answer = str(error)
     except MemoryError:

@@ -4,22 +4,32 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable
+from weakref import WeakKeyDictionary
 
 import numpy as np
 
+from surfmesh.cad.collapsed_edges import collapses, vanishes, vertex_numbers
+from surfmesh.cad.incidence import SAME_PLACE, edge_uses, vertex_fans
 from surfmesh.cad.model import CadFace, CadModel
 from surfmesh.model_facts import FaceFacts, ModelFacts, SolidFacts
 
-SAME_PLACE = 0.01  # of the (u, v) box: images of one vertex are as near, or a seam apart
+_KNOWN: WeakKeyDictionary[CadModel, ModelFacts] = WeakKeyDictionary()  # asked for every round
 
 
 def model_facts(model: CadModel) -> ModelFacts:
     """Exact figures of a model, of each face and each solid."""
+    if model not in _KNOWN:
+        _KNOWN[model] = _model_facts(model)
+    return _KNOWN[model]
+
+
+def _model_facts(model: CadModel) -> ModelFacts:
     solids = []
+    number = vertex_numbers(model)
     for solid in model.solids:
         faces = {face for shell in solid.shells for face, _ in shell}
         area = math.fsum(model.faces[face].area for face in faces)
-        euler = euler_number(model, faces)
+        euler = euler_number(model, faces, number)
         solids.append(SolidFacts(solid.name, area, solid.volume, euler, solid.closed))
     return ModelFacts(
         source=model.source,
@@ -27,33 +37,39 @@ def model_facts(model: CadModel) -> ModelFacts:
         unit=model.unit,
         area=model.area,
         volume=model.volume if model.solids else None,
-        euler=euler_number(model, range(len(model.faces))),
+        euler=euler_number(model, range(len(model.faces)), number),
         faces=tuple(FaceFacts(face.kind, face.area) for face in model.faces),
         solids=tuple(solids),
+        edge_uses=edge_uses(model),
+        vertex_fans=vertex_fans(model),
         healing=model.healing,
     )
 
 
-def euler_number(model: CadModel, faces: Iterable[int]) -> int:
+def euler_number(
+    model: CadModel, faces: Iterable[int], number: np.ndarray | None = None
+) -> int:
     """V - E + F of what these faces form, a face with L loops counted as 2 - L.
 
     A seam is one edge, a degenerate edge only its vertex: so a sphere has two vertices, one
-    edge and one face.
+    edge and one face. So is an edge that the mesh has as one vertex, being tiny.
+    number: ``vertex_numbers(model)``, where they are known.
     """
+    number = vertex_numbers(model) if number is None else number
     vertices, edges = set(), set()
     inside = 0
-    for number in faces:
-        face = model.faces[number]
+    for face in (model.faces[k] for k in faces):
         for coedge in face.coedges:
             edge = model.edges[coedge.edge]
-            vertices |= {edge.start, edge.end}
-            if not edge.degenerate:
+            vertices |= {int(number[edge.start]), int(number[edge.end])}
+            if not collapses(model, edge):
                 edges.add(coedge.edge)
-        inside += 2 - _borders(model, face)
+        if not vanishes(model, face):
+            inside += 2 - _borders(model, face, number)
     return len(vertices) - len(edges) + inside
 
 
-def _borders(model: CadModel, face: CadFace) -> int:
+def _borders(model: CadModel, face: CadFace, number: np.ndarray) -> int:
     """Number of loops, those that touch in a vertex counted as one."""
     if len(face.loops) < 2:
         return len(face.loops)
@@ -64,7 +80,7 @@ def _borders(model: CadModel, face: CadFace) -> int:
     for loop, coedges in enumerate(face.loops):
         for coedge in coedges:
             edge = model.edges[coedge.edge]
-            vertex = edge.end if coedge.reversed else edge.start
+            vertex = int(number[edge.end if coedge.reversed else edge.start])
             place = coedge.walk(np.zeros(1))[0]
             for other, there in passed.setdefault(vertex, []):
                 if of[other] != of[loop] and (np.abs(place - there) <= near).all():

@@ -6,21 +6,35 @@ import sys
 from typing import Any
 
 from surfmesh.cad.assembly import Detail, Part, model_of
+from surfmesh.cad.joining import Joining
 from surfmesh.cad.model import CadModel, Colour
 from surfmesh.errors import CadError, SurfmeshError
 
 
-def from_cadquery(obj: Any, heal: bool = True, units: str | None = None) -> CadModel:
+def from_cadquery(
+    obj: Any,
+    heal: bool = True,
+    units: str | None = None,
+    *,
+    imprint: bool | float = False,
+    sew: float | None = None,
+) -> CadModel:
     """The model of a Workplane, Shape, Sketch or Assembly, a build123d object, a TopoDS_Shape.
 
     A Workplane gives the solids and faces on its stack, and its tags as names: of what they held,
     or of what stands for it where later steps have cut, split or moved it. Lengths are taken as
     millimetres; units: what they are wanted in. A list of such objects is an assembly.
+
+    imprint: bodies that touch share their faces, which keep the names of both; a number is how
+    near touches (True: by rounding alone). sew: loose faces whose edges lie as near as this are
+    joined, and closed shells of them become solids. Both in units of the model.
+
     Raises CadError when there is nothing to mesh in it, or OCP gives up.
     """
+    joining = Joining.of(imprint, sew)
     source = f"{type(obj).__module__.split('.')[0]} {type(obj).__name__}"
     try:
-        return model_of(_part(obj), heal=heal, units=units, source=source)
+        return model_of(_part(obj), heal=heal, units=units, source=source, joining=joining)
     except SurfmeshError:
         raise
     except Exception as error:  # OCP's own exceptions have no common parent in Python

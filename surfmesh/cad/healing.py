@@ -29,11 +29,19 @@ from OCP.TopAbs import (
     TopAbs_WIRE,
 )
 from OCP.TopExp import TopExp, TopExp_Explorer
-from OCP.TopoDS import TopoDS, TopoDS_Edge, TopoDS_Face, TopoDS_Shape
+from OCP.TopoDS import (
+    TopoDS,
+    TopoDS_Edge,
+    TopoDS_Face,
+    TopoDS_Iterator,
+    TopoDS_Shape,
+    TopoDS_Wire,
+)
 from OCP.TopTools import TopTools_IndexedMapOfShape
 
 from surfmesh.cad.assembly import Part
 from surfmesh.cad.creases import creased, cut_along_creases
+from surfmesh.cad.sphere_poles import passed_poles, with_turned_spheres
 from surfmesh.errors import CadError
 
 LARGEST_GAP = 1e-4  # of the part's size: healing closes no wider gap, raises no tolerance further
@@ -62,7 +70,10 @@ def healed(part: Part, heal: bool = True) -> Part:
         raise CadError(f"the part {part.name!r} has no shape")
     bare = [face for face in _faces(part.shape) if _is_bare(face)]
     curveless = [edge for edge in _edges(part.shape) if _lacks_curve(edge)]
-    wrong = heal and (_lacks_image(part.shape) or not BRepCheck_Analyzer(part.shape).IsValid())
+    passed = passed_poles(part) if heal else []
+    wrong = heal and (
+        bool(passed) or _lacks_image(part.shape) or not BRepCheck_Analyzer(part.shape).IsValid()
+    )
     if not (bare or curveless or wrong):
         return _uncreased(part) if heal else part
     part = _copied(part)
@@ -70,7 +81,10 @@ def healed(part: Part, heal: bool = True) -> Part:
         part = _with_curves(part)
     if bare:
         part = _with_boundaries(part)
-    part = _repaired(part) if wrong else part
+    if passed:
+        part = with_turned_spheres(part, passed_poles(part))
+    if wrong:
+        part = _repaired(_with_own_loops(part))
     return _uncreased(part) if heal else part
 
 
@@ -134,6 +148,53 @@ def _with_boundaries(part: Part) -> Part:
             context.Replace(face, fix.Result())
             remarks.append((face, "no edges, natural boundary added"))
     return replace(part, remarks=remarks).mapped(context.Apply)
+
+
+def _with_own_loops(part: Part) -> Part:
+    """Of faces that share a loop and have no images yet all but one get a copy of it.
+
+    The edges at poles and the images that they are given must not be those of the other side.
+    """
+    met: set[int] = set()
+    again = []
+    for face in _faces(part.shape):
+        if _is_plane(face):
+            continue
+        wires = {hash(wire) for wire in _unique(face, TopAbs_WIRE)}
+        if wires & met and not any(
+            BRep_Tool.CurveOnSurface_s(edge, face, 0.0, 0.0) for edge in _edges(face)
+        ):
+            again.append(face)
+        met |= wires
+    if not again:
+        return part
+    context = BRepTools_ReShape()
+    for face in again:
+        context.Replace(face, _on_a_copy(face))
+    return part.mapped(context.Apply)
+
+
+def _on_a_copy(face: TopoDS_Face) -> TopoDS_Face:
+    """The same face with a surface and wires of its own, between the same edges."""
+    builder, own = BRep_Builder(), TopoDS_Face()
+    builder.MakeFace(own, BRep_Tool.Surface_s(face).Copy(), BRep_Tool.Tolerance_s(face))
+    for wire in _parts(face):
+        if wire.ShapeType() != TopAbs_WIRE:
+            continue
+        copy = TopoDS_Wire()
+        builder.MakeWire(copy)
+        for edge in _parts(wire):
+            builder.Add(copy, edge)
+        builder.Add(own, copy)
+    return own
+
+
+def _parts(shape: TopoDS_Shape) -> Iterator[TopoDS_Shape]:
+    """Direct sub-shapes, oriented as they are used."""
+    iterator = TopoDS_Iterator(shape)
+    while iterator.More():
+        yield iterator.Value()
+        iterator.Next()
 
 
 def _repaired(part: Part) -> Part:

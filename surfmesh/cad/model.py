@@ -41,7 +41,8 @@ class CadEdge:
 
     curve: ``evaluate(t (n,), order)`` in 3D, or None for a degenerate edge. t0 < t1 are the
     curve's parameters at the vertices start and end (numbers; the same for a closed edge).
-    tolerance: its images on the faces lie this near. length: model units.
+    tolerance: its images on the faces lie this near. length: model units. names: of all that it
+    was made of, where imprinting made it of several; ``name`` holds them too.
     """
 
     curve: Any
@@ -53,6 +54,7 @@ class CadEdge:
     degenerate: bool
     name: str
     length: float
+    names: tuple[str, ...] = ()
 
     @property
     def closed(self) -> bool:
@@ -98,6 +100,7 @@ class CadFace:
     surface: its domain is the (u, v) box of the loops. loops: coedges in walking order with the
     inside on the left in (u, v); the outer loop first. reversed: the face's normal is
     -(r_u x r_v). colour: (r, g, b) from 0 to 1 (sRGB), or None. area: model units squared.
+    names: as of an edge.
     """
 
     surface: Any
@@ -108,6 +111,7 @@ class CadFace:
     colour: Colour | None
     area: float
     kind: str
+    names: tuple[str, ...] = ()
 
     @property
     def coedges(self) -> Iterator[CadCoedge]:
@@ -131,6 +135,7 @@ class CadSolid:
     colour: Colour | None
     volume: float
     closed: bool
+    names: tuple[str, ...] = ()  # as of an edge
 
 
 @dataclass(frozen=True, eq=False)
@@ -139,7 +144,7 @@ class CadNode:
 
     name: str
     solids: tuple[int, ...] = ()
-    faces: tuple[int, ...] = ()  # that belong to no solid
+    faces: tuple[int, ...] = ()  # that are of none of its solids
     children: tuple[CadNode, ...] = ()
 
     def lines(self, depth: int = 0) -> list[str]:
@@ -170,7 +175,8 @@ class CadModel:
     free_shells, free_faces: what belongs to no solid; a free face is in no shell either.
     unit: of every length; file_unit: that of the file. diagonal: of the box around everything.
     healing: what was changed or could not be, one sentence each. source: the file, or what else
-    it came from; sha256: of that file. tags: of CadQuery.
+    it came from; sha256: of that file. tags: of CadQuery. left_out: faces that cannot be meshed,
+    each with the reason; ``mesh`` refuses such a model unless strict=False.
     """
 
     vertices: tuple[CadVertex, ...]
@@ -188,6 +194,7 @@ class CadModel:
     source: str
     sha256: str = ""
     tags: tuple[CadTag, ...] = ()
+    left_out: tuple[str, ...] = ()
     _faces_of_edge: list = field(default_factory=list, compare=False)
 
     def faces_of_edge(self, edge: int) -> tuple[int, ...]:
@@ -238,6 +245,7 @@ class CadModel:
         opened = sum(not solid.closed for solid in self.solids)
         if opened:
             lines.append(f"{_counted(opened, 'solid')} not closed")
+        lines += [f"left out: {sentence}" for sentence in self.left_out]
         lines += [f"healing: {sentence}" for sentence in self.healing]
         return "\n".join(lines + self.tree.lines())
 

@@ -32,6 +32,8 @@ from OCP.XCAFDoc import (
 )
 
 from surfmesh.cad.assembly import Detail, Part, model_of
+from surfmesh.cad.contents_of_file import without_faces
+from surfmesh.cad.joining import Joining
 from surfmesh.cad.model import CadModel, Colour
 from surfmesh.errors import CadError
 
@@ -44,14 +46,19 @@ UNIT_NAMES = {
 }  # fmt: skip
 
 
-def read_here(path: Path, heal: bool, units: str | None) -> CadModel:
+def read_here(
+    path: Path, heal: bool, units: str | None, joining: Joining | None = None
+) -> CadModel:
     """Read a file in this process; a fault in OCP takes the process down.
 
     Raises CadError when it is not what its name says, or holds no faces.
     """
     reader = READERS[path.suffix.lower()]
     root, file_unit = reader(path)
-    return model_of(root, heal=heal, units=units, file_unit=file_unit, source=path.name)
+    return model_of(
+        root, heal=heal, units=units, file_unit=file_unit, source=path.name, joining=joining,
+        path=path,
+    )  # fmt: skip
 
 
 def _step(path: Path) -> tuple[Part, str]:
@@ -104,13 +111,13 @@ def _document(reader, path: Path) -> Part:
     """Have the reader fill a document, and take its tree."""
     document = TDocStd_Document(TCollection_ExtendedString("BinXCAF"))
     if not reader.Transfer(document, Message_ProgressRange()):
-        raise CadError(f"{path.name} holds nothing that can be turned into shapes")
+        raise CadError(without_faces(path.name, None, path))
     tool = XCAFDoc_DocumentTool.ShapeTool_s(document.Main())
     roots = TDF_LabelSequence()
     tool.GetFreeShapes(roots)
     parts = [_part(roots.Value(number + 1)) for number in range(roots.Length())]
     if not parts:
-        raise CadError(f"{path.name} holds no shapes")
+        raise CadError(without_faces(path.name, None, path))
     if len(parts) == 1:
         parts[0].name = parts[0].name or path.stem
         return parts[0]

@@ -17,12 +17,14 @@ from pathlib import Path
 from typing import Any
 
 from surfmesh.cad.assembly import checked_unit
+from surfmesh.cad.joining import Joining
 from surfmesh.cad.model import CadModel
 from surfmesh.errors import CadError
 from surfmesh.model_facts import file_sha256
 
 SUFFIXES = (".step", ".stp", ".p21", ".iges", ".igs", ".brep", ".brp")
 TIME_LIMIT = 120.0  # seconds
+JOINING_TIME_LIMIT = 900.0  # the same where bodies are imprinted or faces sewn
 
 
 def read_cad(
@@ -30,12 +32,16 @@ def read_cad(
     heal: bool = True,
     units: str | None = None,
     time_limit: float | None = TIME_LIMIT,
+    *,
+    imprint: bool | float = False,
+    sew: float | None = None,
 ) -> CadModel:
     """The model in a STEP (.step, .stp, .p21), IGES (.iges, .igs) or BREP (.brep, .brp) file.
 
     heal: repair what is wrong, and list it in the model's ``healing``. units: "um", "mm",
     "cm", "m", "in" or "ft", what lengths are wanted in (None: mm). time_limit: seconds, or
-    None. Raises CadError in one line when there is no model to be had.
+    None. imprint, sew: as in ``from_cadquery``. Raises CadError in one line when there is no
+    model to be had.
     """
     place = Path(path)
     if place.suffix.lower() not in SUFFIXES:
@@ -47,9 +53,11 @@ def read_cad(
     if place.stat().st_size == 0:
         raise CadError(f"{place.name} is empty")
     checked_unit(units)
+    joining = Joining.of(imprint, sew)
     with tempfile.TemporaryDirectory(prefix="surfmesh-") as folder:
         request, result = Path(folder, "request.json"), Path(folder, "result.pickle")
         wanted = {"path": str(place.resolve()), "heal": bool(heal), "units": units}
+        wanted |= {"imprint": joining.imprint, "sew": joining.sew}
         request.write_text(json.dumps(wanted), encoding="utf-8")
         command = [sys.executable, "-P", "-m", "surfmesh.cad.child", str(request), str(result)]
         answer = answer_of(command, result, place.name, time_limit)

@@ -20,7 +20,7 @@ from fnmatch import fnmatchcase
 
 import numpy as np
 
-from surfmesh.cad.model import CadModel, CadNode, Colour
+from surfmesh.cad.model import CadEdge, CadFace, CadModel, CadNode, CadSolid, Colour
 from surfmesh.cad.selectors import is_selector, selected
 from surfmesh.errors import SizingError
 
@@ -101,8 +101,9 @@ def names(model: CadModel) -> dict[str, str]:
     found: dict[str, str] = {}
     for kind, items in (("face", model.faces), ("edge", model.edges), ("solid", model.solids)):
         for item in items:
-            if item.name:
-                found.setdefault(item.name, kind)
+            for name in (item.name, *item.names):
+                if name:
+                    found.setdefault(name, kind)
     for node in _nodes(model.tree):
         if node.name:
             found.setdefault(node.name, "part")
@@ -120,7 +121,7 @@ def _nodes(node: CadNode) -> Iterator[CadNode]:
 def _named(model: CadModel, pattern: str) -> Selection:
     """By the names of faces, edges, solids, of tags, and of parts with all below them."""
     faces, edges, solids = (
-        _matching((item.name for item in items), pattern)
+        _matching(items, pattern)
         for items in (model.faces, model.edges, model.solids)
     )
     vertices: set[int] = set()
@@ -136,8 +137,12 @@ def _named(model: CadModel, pattern: str) -> Selection:
     return Selection(*(tuple(sorted(some)) for some in (faces, edges, vertices, solids)))
 
 
-def _matching(given: Iterable[str], pattern: str) -> set[int]:
-    return {k for k, name in enumerate(given) if _is_called(name, pattern)}
+def _matching(items: Iterable[CadFace | CadEdge | CadSolid], pattern: str) -> set[int]:
+    """Numbers of those that have such a name; what imprinting made of several has all theirs."""
+    return {
+        k for k, item in enumerate(items)
+        if any(_is_called(name, pattern) for name in (item.name, *item.names))
+    }  # fmt: skip
 
 
 def _is_called(name: str, pattern: str) -> bool:
@@ -167,7 +172,7 @@ def _of_one_kind(model: CadModel, kind: str, rest: str, key: str) -> Selection:
         return Selection(**{many: tuple(selected(model, kind, rest))})
     if kind in ("vertex", "solid"):
         return Selection(**{many: getattr(_named(model, rest), many)})
-    found = _matching((item.name for item in items), rest)
+    found = _matching(items, rest)
     for tag in model.tags:
         if _is_called(tag.name, rest):
             found.update(getattr(tag, many))

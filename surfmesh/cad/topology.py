@@ -6,12 +6,14 @@ is used: in the coedges of a face and in the shells of a solid.
 
 from __future__ import annotations
 
+import re
 from collections import Counter
 from collections.abc import Iterator
 from dataclasses import replace
+from pathlib import Path as FilePath
 
 import numpy as np
-from OCP.BRep import BRep_Tool
+from OCP.BRep import BRep_Builder, BRep_Tool
 from OCP.BRepAdaptor import BRepAdaptor_Curve
 from OCP.BRepGProp import BRepGProp
 from OCP.BRepTools import BRepTools
@@ -35,7 +37,8 @@ from OCP.TopExp import TopExp, TopExp_Explorer
 from OCP.TopoDS import TopoDS, TopoDS_Edge, TopoDS_Face, TopoDS_Iterator, TopoDS_Shape
 from OCP.TopTools import TopTools_IndexedMapOfShape
 
-from surfmesh.cad.assembly import Part
+from surfmesh.cad.assembly import Detail, Part
+from surfmesh.cad.contents_of_file import unread_bodies, without_faces
 from surfmesh.cad.convert import curve2d_of, curve_of, surface_of
 from surfmesh.cad.extent import diagonal
 from surfmesh.cad.invariants import is_closed
@@ -52,6 +55,9 @@ from surfmesh.cad.model import (
     Colour,
     Shell,
 )
+from surfmesh.cad.near_poles import images_at_near_poles
+from surfmesh.cad.points_inside import short_edges, vertices_inside
+from surfmesh.cad.singular_cuts import cut_at_singular_lines
 from surfmesh.cad.tolerances import (
     curves_on_their_faces,
     images_that_follow,
@@ -59,7 +65,9 @@ from surfmesh.cad.tolerances import (
     listed,
     tolerances_that_hold,
 )
-from surfmesh.errors import CadError
+from surfmesh.cad.unusable_faces import face_in_words
+from surfmesh.errors import CadError, SurfmeshError
+from surfmesh.geometry.face_surface import FaceSurface
 from surfmesh.geometry.surface import Domain
 
 # relative error of areas and volumes by adaptive integration, which is slow on splines
@@ -70,24 +78,29 @@ TINY = 1e-14  # of its distance from the origin: a (u, v) box so narrow is a lin
 
 
 def cad_model(
-    root: Part, *, heal: bool = True, unit: str = "mm", file_unit: str = "mm", source: str = ""
-) -> CadModel:
+    root: Part, *, heal: bool = True, unit: str = "mm", file_unit: str = "mm", source: str = "",
+    path: FilePath | None = None,
+) -> CadModel:  # fmt: skip
     """The plain data of a tree of parts that are healed and in place.
 
-    heal: also replace images that stray from their edges.
+    heal: also replace images that stray from their edges. path: of the file it was read from.
 
-    Raises CadError when there is no face in it, or a face cannot be used.
+    Faces that cannot be used are left out, and listed. Raises CadError when there is no other.
     """
     walk = _Walk()
     tree = walk.part(root, None)
     if not walk.faces:
-        raise CadError(f"{source or root.name or 'the model'} holds no faces: nothing to mesh")
+        called = source or root.name or "the model"
+        raise CadError(without_faces(called, root, path, walk.left_out))
+    if path is not None:
+        walk.left_out += unread_bodies(path)
     healing = _in_words(walk, root)
     if heal:
         healing += images_that_follow(walk.edges, walk.vertices, walk.faces, unit)
+        healing += images_at_near_poles(walk.edges, walk.vertices, walk.faces)
         healing += curves_on_their_faces(walk.edges, walk.vertices, walk.faces, unit)
     healing += tolerances_that_hold(walk.edges, walk.vertices, walk.faces, unit)
-    return CadModel(
+    model = CadModel(
         vertices=tuple(walk.vertices),
         edges=tuple(walk.edges),
         faces=tuple(walk.faces),
@@ -102,7 +115,9 @@ def cad_model(
         healing=tuple(healing + walk.remarks() + _touching(walk.faces, walk.solids)),
         source=source,
         tags=walk.tags(root),
+        left_out=tuple(walk.left_out),
     )
+    return cut_at_singular_lines(model)
 
 
 _TAGGED = {
@@ -110,6 +125,19 @@ _TAGGED = {
     TopAbs_EDGE: ("edges", TopAbs_EDGE), TopAbs_VERTEX: ("vertices", TopAbs_VERTEX),
 }  # fmt: skip
 """Kinds of what a tag stands for; all others are made of faces."""
+
+
+def _is_of_ocp(error: Exception) -> bool:
+    """OCP's own exceptions have no common parent in Python."""
+    return type(error).__module__.split(".")[0] == "OCP"
+
+
+def _in_one_line(error: Exception) -> str:
+    """What is wrong, without the number of the face, which another one has by now."""
+    said = " ".join(str(error).split())
+    if _is_of_ocp(error):
+        return f"OCP gave up: {type(error).__name__} {said}"
+    return re.sub(r"^face \d+( \(.*?\))?(: |, | )", "", said)
 
 
 class _Numbering:
@@ -124,6 +152,14 @@ class _Numbering:
 
     def add(self, shape: TopoDS_Shape) -> int:
         return self._map.Add(shape) - 1
+
+    def __len__(self) -> int:
+        return self._map.Extent()
+
+    def forget_after(self, count: int) -> None:
+        """Only the first ``count`` shapes have been met."""
+        while self._map.Extent() > count:
+            self._map.RemoveLast()
 
 
 class _Walk:
@@ -142,20 +178,26 @@ class _Walk:
         self._face_numbers = _Numbering()
         self._solid_numbers = _Numbering()
         self._detail_numbers = _Numbering()
-        self._details: list[tuple[str, Colour | None]] = []
+        self._details: list[Detail] = []
         self._remarks: Counter[str] = Counter()
+        self.left_out: list[str] = []
+        self._unusable = _Numbering()
+        self._part = Part("")  # that is walked through
 
     def part(self, part: Part, colour: Colour | None) -> CadNode:
         """Take in a part and all below it; colour: what it inherits."""
         colour = part.colour or colour
         solids: list[int] = []
         faces: list[int] = []
+        self.left_out += part.left_out
         if part.shape is not None:
-            for shape, name, own in part.details:
-                if self._detail_numbers.find(shape) is None:
-                    self._detail_numbers.add(shape)
-                    self._details.append((name, own))
-            solids = [self.solid(s, part, colour) for s in _each(part.shape, TopAbs_SOLID)]
+            self._part = part
+            for detail in part.details:
+                if self._detail_numbers.find(detail.shape) is None:
+                    self._detail_numbers.add(detail.shape)
+                    self._details.append(detail)
+            found = [self.solid(s, part, colour) for s in _each(part.shape, TopAbs_SOLID)]
+            solids = [number for number in found if number is not None]
             for shape in _each(part.shape, TopAbs_SHELL, TopAbs_SOLID):
                 shell = self.shell(shape, self.detail(shape)[1] or colour)
                 if shell:
@@ -180,10 +222,15 @@ class _Walk:
     def detail(self, shape: TopoDS_Shape) -> tuple[str, Colour | None]:
         """Name and colour of a shape within its part."""
         number = self._detail_numbers.find(shape)
-        return ("", None) if number is None else self._details[number]
+        return ("", None) if number is None else self._details[number][1:3]
 
-    def solid(self, shape: TopoDS_Shape, part: Part, colour: Colour | None) -> int:
-        """Number of a solid, taken in when it is met first."""
+    def names(self, shape: TopoDS_Shape) -> tuple[str, ...]:
+        """All names of a shape that was made of several; else none."""
+        number = self._detail_numbers.find(shape)
+        return () if number is None else self._details[number].names
+
+    def solid(self, shape: TopoDS_Shape, part: Part, colour: Colour | None) -> int | None:
+        """Number of a solid, taken in when it is met first; None for one without faces."""
         known = self._solid_numbers.find(shape)
         if known is not None:
             return known
@@ -191,10 +238,11 @@ class _Walk:
         colour = own or colour
         shells = [self.shell(s, self.detail(s)[1] or colour) for s in _each(shape, TopAbs_SHELL)]
         shells = [shell for shell in shells if shell]
+        if not shells:
+            self._remarks["a solid without faces is left out"] += 1
+            return None
         kinds = [self.faces[face].kind for shell in shells for face, _ in shell]
-        properties = GProp_GProps()
-        BRepGProp.VolumeProperties_s(shape, properties, _accuracy(kinds))
-        volume = properties.Mass()
+        volume = _volume(shape, kinds)
         if volume < 0.0:
             self._remarks[f"solid {len(self.solids)} was inside out: its faces are turned"] += 1
             shells = [tuple((face, not against) for face, against in shell) for shell in shells]
@@ -207,6 +255,7 @@ class _Walk:
                 colour=colour,
                 volume=abs(volume),
                 closed=is_closed(self.faces, shells, self.edges),
+                names=self.names(shape),
             )
         )
         return len(self.solids) - 1
@@ -237,11 +286,43 @@ class _Walk:
         return tuple(found)
 
     def face(self, shape: TopoDS_Shape, colour: Colour | None) -> int | None:
-        """Number of a face, taken in when it is met first; None for one without area."""
+        """Number of a face, taken in when it is met first; None for one without area, or one
+        that cannot be used."""
         known = self._face_numbers.find(shape)
         if known is not None:
             return known
-        if _is_flat(TopoDS.Face_s(shape)):
+        if self._unusable.find(shape) is not None:
+            return None
+        before = self._counts()
+        try:
+            return self._new_face(shape, colour)
+        except Exception as error:
+            if not isinstance(error, SurfmeshError) and not _is_of_ocp(error):
+                raise
+            self._go_back(*before)
+            self._unusable.add(shape)
+            self.left_out.append(f"{face_in_words(shape, self._part)}: {_in_one_line(error)}")
+            return None
+
+    def _counts(self) -> tuple[int, ...]:
+        return tuple(
+            len(met) for met in (
+                self.vertices, self.edges, self.faces, self._vertices_met,
+                self._vertex_numbers, self._edge_numbers, self._face_numbers,
+            )
+        )  # fmt: skip
+
+    def _go_back(self, *counts: int) -> None:
+        """As if nothing had been met since ``_counts`` said so."""
+        lists = self.vertices, self.edges, self.faces, self._vertices_met
+        for items, count in zip(lists, counts):
+            del items[count:]
+        numberings = self._vertex_numbers, self._edge_numbers, self._face_numbers
+        for numbering, count in zip(numberings, counts[len(lists) :]):
+            numbering.forget_after(count)
+
+    def _new_face(self, shape: TopoDS_Shape, colour: Colour | None) -> int | None:
+        if TopExp_Explorer(shape, TopAbs_EDGE).More() and _is_flat(TopoDS.Face_s(shape)):
             self._remarks["a face without area is left out"] += 1
             return None
         number = self._face_numbers.add(shape)
@@ -250,8 +331,9 @@ class _Walk:
         face = TopoDS.Face_s(shape.Oriented(TopAbs_FORWARD))
         loops = self._loops(face, called)
         if not loops:
-            raise CadError(f"{called} has no boundary; give the face its edges in the CAD system")
+            raise CadError("it has no edges; give the face its boundary in the CAD system")
         surface = surface_of(BRep_Tool.Surface_s(face), _box(face, loops, called), called)
+        loops += self._points_inside(face, surface, loops, called)
         self.faces.append(
             CadFace(
                 surface=surface,
@@ -262,9 +344,38 @@ class _Walk:
                 colour=own or colour,
                 area=_area(face, surface.kind),
                 kind=surface.kind,
+                names=self.names(shape),
             )
         )
         return number
+
+    def _points_inside(
+        self, face: TopoDS_Face, surface: FaceSurface, loops: list, called: str
+    ) -> list[tuple[CadCoedge, ...]]:
+        """Loops of short edges, there and back, from vertices inside the face."""
+        vertices = vertices_inside(face)
+        found = []
+        edges = short_edges(face, surface, loops, vertices) if vertices else []
+        for vertex, short in zip(vertices, edges):
+            if short is None:
+                continue
+            named = TopoDS_Edge()
+            BRep_Builder().MakeEdge(named)
+            number = self._edge_numbers.add(named)
+            start, tolerance = self._vertex(vertex), BRep_Tool.Tolerance_s(vertex)
+            (_, far) = short.curve.evaluate(np.array([0.0, short.end]), 0)[0]
+            self.vertices.append(CadVertex(far, tolerance))
+            self.edges.append(
+                CadEdge(
+                    curve=short.curve, t0=0.0, t1=short.end, start=start,
+                    end=len(self.vertices) - 1, tolerance=tolerance, degenerate=False, name="",
+                    length=short.length,
+                )
+            )
+            there = CadCoedge(number, False, short.image, 0.0, short.end, True)
+            found.append((there, replace(there, reversed=True)))
+            self._remarks[f"{called} is touched in a point: a short edge makes a node of it"] += 1
+        return found
 
     def _loops(self, face: TopoDS_Face, called: str) -> list[tuple[CadCoedge, ...]]:
         wires = [list(_below(wire)) for wire in _below(face) if wire.ShapeType() == TopAbs_WIRE]
@@ -340,6 +451,7 @@ class _Walk:
                 degenerate=degenerate,
                 name=self.detail(shape)[0],
                 length=length,
+                names=self.names(shape),
             )
         )
         return number
@@ -376,8 +488,11 @@ class _Walk:
         return self._vertices_met[-1]
 
     def number_of(self, shape: TopoDS_Shape) -> str:
-        """ "face 3" or "edge 12"; nothing for what is not in the model."""
-        for kind, numbers in (("face", self._face_numbers), ("edge", self._edge_numbers)):
+        """ "face 3", "edge 12", "solid 1"; nothing for what is not in the model."""
+        for kind, numbers in (
+            ("face", self._face_numbers), ("edge", self._edge_numbers),
+            ("solid", self._solid_numbers),
+        ):  # fmt: skip
             number = numbers.find(shape)
             if number is not None:
                 return f"{kind} {number}"
@@ -441,7 +556,7 @@ def _in_words(walk: _Walk, root: Part) -> list[str]:
     for part in root:
         for shape, text in part.remarks:
             found = [] if shape is None or shape.IsNull() else [shape]
-            if found and shape.ShapeType() not in (TopAbs_FACE, TopAbs_EDGE):
+            if found and shape.ShapeType() not in (TopAbs_SOLID, TopAbs_FACE, TopAbs_EDGE):
                 found = list(_each(shape, TopAbs_FACE))  # a face that was split
             names = [name for name in map(walk.number_of, found) if name]
             kind = names[0].split()[0] if names else ""
@@ -452,7 +567,10 @@ def _in_words(walk: _Walk, root: Part) -> list[str]:
         numbers = list(dict.fromkeys(numbers))
         label = f"{kind}{'s' * (len(numbers) > 1)} " if kind else "part "
         sentences.append(f"{label}{listed(numbers)}: {text}")
-    return sentences
+    notes = [note for part in root for note in part.notes]
+    places = [("" if shape is None else walk.number_of(shape)) for shape, _ in notes]
+    said = [f"{place}: {text}" if place else text for place, (_, text) in zip(places, notes)]
+    return sentences + said
 
 
 def _each(shape: TopoDS_Shape, kind, avoid=None) -> Iterator[TopoDS_Shape]:
@@ -474,6 +592,16 @@ def _below(shape: TopoDS_Shape) -> Iterator[TopoDS_Shape]:
 
 def _accuracy(kinds: list[str]) -> float:
     return EXACT if ELEMENTARY.issuperset(kinds) else EXACT_FREE_FORM
+
+
+def _volume(shape: TopoDS_Shape, kinds: list[str]) -> float:
+    """Signed: negative where the faces of a solid are turned inside out."""
+    properties = GProp_GProps()
+    if "extrusion" in kinds:  # as for areas: adaptive integration is up to 3 % off
+        BRepGProp.VolumeProperties_s(shape, properties)
+    else:
+        BRepGProp.VolumeProperties_s(shape, properties, _accuracy(kinds))
+    return properties.Mass()
 
 
 def _area(face: TopoDS_Face, kind: str) -> float:

@@ -2,10 +2,13 @@
 
 import argparse
 import math
+import re
 from collections.abc import Sequence
 from typing import NoReturn
 
 _FORMULAS = {"--x": 1, "--y": 1, "--z": 1, "--u": 2, "--v": 2}  # option -> values it takes
+_NUMBER = re.compile(r"[+-]?(\d+\.?\d*|\.\d+)([eE][+-]?\d+)?")
+_BY_ROUNDING = "by-rounding"  # --imprint without a tolerance
 _EXAMPLES = """examples:
   surfmesh mesh wavy -o wavy.vtu --chord 0.05 --picture wavy.png
   surfmesh mesh my_surface.toml -o my_surface.stl --size 0.1
@@ -29,7 +32,7 @@ class _Parser(argparse.ArgumentParser):
 
 def parse(argv: Sequence[str]) -> argparse.Namespace:
     """Options with ``command``, the name of a function in ``commands``. Exits on bad usage."""
-    return _parser().parse_args(_formulas_shielded(argv))
+    return _parser().parse_args(_imprint_alone(_formulas_shielded(argv)))
 
 
 def _formulas_shielded(argv: Sequence[str]) -> list[str]:
@@ -39,6 +42,15 @@ def _formulas_shielded(argv: Sequence[str]) -> list[str]:
         shielded.append(f" {word}" if values and word.startswith("-") else word)
         values = values - 1 if values else _FORMULAS.get(word, 0)
     return shielded
+
+
+def _imprint_alone(argv: Sequence[str]) -> list[str]:
+    """``--imprint`` takes the next word only when that is a number, not the name of a file."""
+    words = list(argv)
+    for place, (word, after) in enumerate(zip(words, [*words[1:], ""])):
+        if word == "--imprint" and not _NUMBER.fullmatch(after):
+            words[place] = f"--imprint={_BY_ROUNDING}"
+    return words
 
 
 def _parser() -> _Parser:
@@ -66,10 +78,15 @@ def _parser() -> _Parser:
     mesh.add_argument("--no-optimise", action="store_true", help="the raw packing, for comparison")
     _add_cad(mesh)
     mesh.add_argument(
-        "--simplify", action="store_true", help="collapse tiny edges of a CAD model"
+        "--simplify",
+        action="store_true",
+        help="collapse tiny edges of a CAD model; thin lines of a planar domain",
     )
     mesh.add_argument(
         "--order", type=int, default=1, choices=(1, 2), help="2: nodes amid the edges too"
+    )
+    mesh.add_argument(
+        "--flip", action="store_true", help="turn the mesh over: a closed surface that faces inward"
     )
     mesh.add_argument("--ascii", action="store_true", help="an .stl as text, solids by name")
     mesh.add_argument("--jobs", type=_count, default=1, help="faces meshed at once (default 1)")
@@ -83,6 +100,7 @@ def _parser() -> _Parser:
     check.add_argument(
         "--surface", metavar="INPUT", help="formula file, gallery name or CAD file it was made from"
     )
+    _add_units(check)
     _add_json(check)
 
     view = commands.add_parser("view", help="show a mesh or a surface")
@@ -160,6 +178,7 @@ def _add_sizes(parser: argparse.ArgumentParser) -> None:
     sizes.add_argument("--max-size", type=_positive, help="no edge is wanted longer")
     sizes.add_argument("--growth", type=_positive, help="largest ratio of neighbouring sizes")
     sizes.add_argument("--anisotropy", type=_positive, help="largest stretch; 1 is isotropic")
+    sizes.add_argument("--volume", type=_positive, help="largest relative error of solids' volumes")
     sizes.add_argument("--gap", type=_positive, help="triangles across thin faces and gaps")
     sizes.add_argument("--limit", type=_count, help="most triangles (default 20 million)")
     sizes.add_argument(
@@ -178,6 +197,14 @@ def _add_units(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--units", help="of the lengths of a CAD model: um, mm (default), cm, m, in"
     )
+    parser.add_argument(
+        "--imprint", nargs="?", type=_near, default=False, metavar="TOL",
+        help="bodies of a CAD model that touch (within TOL) share their faces",
+    )
+    parser.add_argument(
+        "--sew", type=_positive, metavar="TOL",
+        help="join loose faces of a CAD model whose edges lie within TOL; closed ones make solids",
+    )
 
 
 def _add_json(parser: argparse.ArgumentParser) -> None:
@@ -194,6 +221,10 @@ def _positive(text: str) -> float:
     if not 0 < value < math.inf:
         raise argparse.ArgumentTypeError(f"must be a positive number, not '{text}'")
     return value
+
+
+def _near(text: str) -> bool | float:
+    return True if text == _BY_ROUNDING else _positive(text)
 
 
 def _count(text: str) -> int:

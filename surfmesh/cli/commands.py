@@ -13,7 +13,10 @@ from typing import Any
 from surfmesh.cli.progress import ProgressBar, announce_compilation
 from surfmesh.errors import FileFormatError, SurfaceError, SurfmeshError
 
-SIZES = ("chord", "angle", "size", "min_size", "max_size", "growth", "anisotropy", "gap", "limit")
+SIZES = (
+    "chord", "angle", "size", "min_size", "max_size", "growth", "anisotropy", "volume", "gap",
+    "limit",
+)  # fmt: skip
 
 
 def mesh(options: Namespace) -> bool:
@@ -41,6 +44,7 @@ def mesh(options: Namespace) -> bool:
             jobs=options.jobs,
             order=options.order,
         )
+        result = result.flipped() if options.flip else result
         progress("check", 0.92)
         report = checked(result)
         progress("write", 0.95)
@@ -74,7 +78,7 @@ def check(options: Namespace) -> bool:
                 f"{options.input}: carries no (u, v) to compare it with a surface; "
                 "save it as .vtu or .vtp"
             )
-        found = _on_surface(found, _named_surface(options.surface))
+        found = _on_surface(found, _named_surface(options.surface, options))
         broken = found.check()
         if broken:
             raise FileFormatError(f"{options.input}: {broken}")
@@ -146,7 +150,7 @@ def _shown(options: Namespace, progress: ProgressBar) -> Any:
 
     if Path(options.input).suffix.lower() in FORMATS:
         return read(options.input)
-    surface = _named_surface(options.input, options.units)
+    surface = _named_surface(options.input, options)
 
     from surfmesh import api
 
@@ -157,7 +161,7 @@ def _shown(options: Namespace, progress: ProgressBar) -> Any:
 
 def explain(options: Namespace) -> bool:
     """Say which rule decides the size at a point."""
-    surface = _named_surface(options.input, options.units)
+    surface = _named_surface(options.input, options)
 
     from surfmesh import api
 
@@ -171,7 +175,7 @@ def explain(options: Namespace) -> bool:
 
 def estimate(options: Namespace) -> bool:
     """Say how many triangles there would be, and how much memory they need."""
-    surface = _named_surface(options.input, options.units)
+    surface = _named_surface(options.input, options)
 
     from surfmesh import api
 
@@ -265,7 +269,7 @@ def _surface(options: Namespace) -> Any:
     if not any(formulas.values()) and not options.param:
         if not options.input:
             raise SurfaceError("name a formula file or a gallery surface, or give --x --y --z")
-        return _named_surface(options.input, options.units)
+        return _named_surface(options.input, options)
     if options.input:
         raise SurfaceError(f"either INPUT ('{options.input}') or formulas, not both")
     missing = [f"--{name}" for name, value in formulas.items() if value is None]
@@ -297,32 +301,50 @@ def _on_surface(found: Any, surface: Any) -> Any:
     if not isinstance(surface, CadModel):
         from surfmesh.geometry.known_facts import known_facts
 
-        return replace(found, surfaces=(surface,), facts=known_facts(surface))
+        return _facing(replace(found, surfaces=(surface,), facts=known_facts(surface)))
 
     from surfmesh.cad.facts import model_facts
     from surfmesh.meshing.model_mesh import orientation
 
     turned, solids = orientation(surface)
     known = found.face_ids.min() >= 0 and found.face_ids.max() < len(turned)
-    return replace(
+    made = replace(
         found,
         surfaces=tuple(face.surface for face in surface.faces),
         turned_faces=turned,
         solid_ids=solids[found.face_ids] if known else None,
         facts=model_facts(surface),
     )
+    return _facing(made) if known else made
 
 
-def _named_surface(name: str, units: str | None = None) -> Any:
-    """A file (a CAD model's lengths in ``units``), or else a surface of the gallery."""
+def _facing(found: Any) -> Any:
+    """The mesh, taken for one that was turned over where most of it faces the other side."""
+    from surfmesh.quality.deviation import deviation
+    from surfmesh.quality.shape import shapes
+
+    if found.check():
+        return found
+    area = shapes(found).area
+    fit = deviation(found, area)
+    if fit is None or not (area * fit.cosine).sum() < 0.0:
+        return found
+    turned = found.flipped()  # as the surface is, so that what it says of itself turns too
+    return replace(found, turned_faces=turned.turned_faces, solid_ids=turned.solid_ids)
+
+
+def _named_surface(name: str, options: Namespace | None = None) -> Any:
+    """A file, or else a surface of the gallery; options: those of a CAD model."""
     from surfmesh import api
     from surfmesh.geometry.surface_file import gallery as surfaces
 
+    given = () if options is None else ("units", "imprint", "sew")
+    wanted = {option: getattr(options, option) for option in given}
     if Path(name).is_file():
-        return api.load(name, units)
+        return api.load(name, **wanted)
     known = surfaces()
     if name in known:
-        return api.load(known[name])
+        return api.load(known[name], **wanted)
     close = get_close_matches(name, known, n=1)
     hint = f"did you mean '{close[0]}'?" if close else "'surfmesh gallery' lists what there is"
     raise SurfaceError(f"'{name}' is neither a file nor a surface of the gallery; {hint}")

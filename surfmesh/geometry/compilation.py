@@ -31,12 +31,25 @@ FUNCTION_OPERATIONS: dict[type, str] = {
     sp.erf: "erf",
     real_functions.absolute: "absolute",
     real_functions.signum: "signum",
+    real_functions.side: "side",
     real_functions.step: "step",
+    real_functions.unit_step: "unit_step",
+    real_functions.integer_part: "floor",
+    real_functions.chosen: "chosen",
+    real_functions.kink: "kink",
+    real_functions.jump: "jump",
+    real_functions.tread: "tread",
+    real_functions.cut: "cut",
+    real_functions.turn: "turn",
+    real_functions.sinc: "bessel_0",
+    real_functions.sinc_1: "bessel_1",
+    real_functions.sinc_2: "bessel_2",
     real_functions.minimum: "minimum",
     real_functions.maximum: "maximum",
     real_functions.cube_root: "cube_root",
     real_functions.angle: "angle",
 }
+MOST_GUIDES = 32  # functions whose zeros are looked for
 LARGEST_POWER = 64  # by repeated multiplication; above it numpy's power is no slower
 
 
@@ -63,6 +76,31 @@ def surface_tape(
     shared, reduced = sp.cse(outputs + [definitions.meaning[name] for name in names])
     meaning = dict(shared) | dict(zip(names, reduced[len(outputs) :]))
     return compiled(reduced[: len(outputs)], variables, meaning)
+
+
+def guide_tape(coordinates: Sequence[sp.Expr], variables: Sequence[sp.Symbol]) -> Tape | None:
+    """The tape of the functions whose zeros are kinks or jumps of r, each with d/du and d/dv.
+
+    None without any. Products are taken apart; what differs by a factor is taken once.
+    """
+    found: dict[sp.Expr, None] = {}
+    for coordinate in coordinates:
+        for part in sp.preorder_traversal(coordinate):
+            for guide in real_functions.guides(part):
+                for factor in sp.Mul.make_args(guide):
+                    base = factor.base if factor.is_Pow else factor
+                    base = base.primitive()[1] if base.is_Add else base.as_coeff_Mul()[1]
+                    if base.free_symbols and base not in found and -base not in found:
+                        found[base] = None
+    if not found or len(found) > MOST_GUIDES:
+        return None
+    u, v = variables
+    definitions = Definitions(variables)
+    outputs = []
+    for guide in found:
+        short = definitions.shortened(guide)
+        outputs += [short, definitions.derivative(short, u), definitions.derivative(short, v)]
+    return compiled(outputs, variables, definitions.meaning)
 
 
 def compiled(

@@ -11,6 +11,8 @@ crossings = "split"                             lines and points: near there, fa
 near = 0.02
 far = 0.2
 reach = 1.0
+
+merge and simplify: distances, see ``PlanarDomain``.
 """
 
 from __future__ import annotations
@@ -23,7 +25,8 @@ from surfmesh.geometry.planar_domain import PlanarDomain
 from surfmesh.geometry.toml_entries import TomlEntries
 
 LINES = ("outer", "holes", "constraints", "points")
-KEYS = {"name", "description", "crossings", "sizing", "facts", *LINES}
+DISTANCES = ("merge", "simplify")
+KEYS = {"name", "description", "crossings", "sizing", "facts", *LINES, *DISTANCES}
 DISTANCE_KEYS = ("near", "far", "reach")
 FACT_KEYS = {"area": (int, float), "regions": (int,), "euler": (int,)}
 
@@ -62,6 +65,9 @@ def load_domain_file(path: str | Path) -> PlanarDomain:
         return PlanarDomain(
             *lines,
             crossings=entries.value("crossings", (str,), default="refuse"),
+            **{
+                key: entries.value(key, (int, float)) for key in DISTANCES if key in entries.content
+            },
             name=entries.value("name", (str,)),
             description=entries.value("description", (str,), default=""),
             sizing_defaults=sizing,

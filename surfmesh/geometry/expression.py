@@ -12,6 +12,7 @@ holds ever reaches SymPy's exact arithmetic.
 
 from __future__ import annotations
 
+import difflib
 import math
 import re
 import unicodedata
@@ -57,17 +58,40 @@ FUNCTIONS: dict[str, Function] = {
     "sec": Function(lambda x: 1 / sp.cos(x), lambda x: 1 / math.cos(x)),
     "csc": Function(lambda x: 1 / sp.sin(x), lambda x: 1 / math.sin(x)),
     "cot": Function(lambda x: sp.cos(x) / sp.sin(x), lambda x: math.cos(x) / math.sin(x)),
+    "asec": Function(lambda x: sp.acos(1 / x), lambda x: math.acos(1 / x)),
+    "acsc": Function(lambda x: sp.asin(1 / x), lambda x: math.asin(1 / x)),
+    "acot": Function(lambda x: sp.atan(1 / x), lambda x: math.atan(1 / x)),
+    "sech": Function(lambda x: 1 / sp.cosh(x), lambda x: 1 / math.cosh(x)),
+    "csch": Function(lambda x: 1 / sp.sinh(x), lambda x: 1 / math.sinh(x)),
+    "coth": Function(lambda x: 1 / sp.tanh(x), lambda x: 1 / math.tanh(x)),
+    "asech": Function(lambda x: sp.acosh(1 / x), lambda x: math.acosh(1 / x)),
+    "acsch": Function(lambda x: sp.asinh(1 / x), lambda x: math.asinh(1 / x)),
+    "acoth": Function(lambda x: sp.atanh(1 / x), lambda x: math.atanh(1 / x)),
     "exp": Function(sp.exp, math.exp),
     "log": Function(sp.log, math.log),
-    "ln": Function(sp.log, math.log),
+    "log2": Function(lambda x: sp.log(x) / sp.log(2), math.log2),
+    "log10": Function(lambda x: sp.log(x) / sp.log(10), math.log10),
     "sqrt": Function(sp.sqrt, math.sqrt),
     "cbrt": Function(real.cube_root, math.cbrt),
+    "hypot": Function(lambda x, y: sp.sqrt(x**2 + y**2), math.hypot, 2, 2),
     "erf": Function(sp.erf, math.erf),
+    "erfc": Function(lambda x: 1 - sp.erf(x), math.erfc),
+    "sinc": Function(real.sinc, lambda x: math.sin(x) / x if x else 1.0),
     "abs": Function(real.absolute, abs),
     "sign": Function(real.signum, lambda x: (x > 0) - (x < 0)),
+    "heaviside": Function(real.unit_step, lambda x: 0.5 * (1 + (x > 0) - (x < 0))),
+    "floor": Function(real.integer_part, math.floor),
+    "ceiling": Function(lambda x: -real.integer_part(-x), math.ceil),
     "min": Function(lambda *xs: real.folded(real.minimum, xs), min, 2, 16),
     "max": Function(lambda *xs: real.folded(real.maximum, xs), max, 2, 16),
 }
+OTHER_NAMES = {
+    **{"ln": "log", "Abs": "abs", "fabs": "abs", "Min": "min", "Max": "max"},
+    **{"Heaviside": "heaviside", "ceil": "ceiling"},
+    **{"arcsin": "asin", "arccos": "acos", "arctan": "atan", "arctan2": "atan2"},
+    **{"arcsinh": "asinh", "arccosh": "acosh", "arctanh": "atanh"},
+}  # what SymPy, numpy and C call them
+FUNCTIONS |= {other: FUNCTIONS[name] for other, name in OTHER_NAMES.items()}
 CONSTANTS: dict[str, sp.Expr] = {"pi": sp.pi, "e": sp.E, "tau": 2 * sp.pi}
 RESERVED = FUNCTIONS.keys() | CONSTANTS.keys()  # names that no variable or parameter may take
 
@@ -245,8 +269,9 @@ class _Parser:
                 self._refuse(f"{name} is a function: write {name}(...)", column)
             return self._call(name, column)
         if called:
-            known = name in self.variables or name in self.parameters or name in CONSTANTS
-            self._refuse(f"{name} is not a {'' if known else 'known '}function", column)
+            if name in self.variables or name in self.parameters or name in CONSTANTS:
+                self._refuse(f"{name} is not a function", column)
+            self._refuse(f"{name} is not a known function{_known_functions(name)}", column)
         if name in self.variables:
             return _Part(self.variables[name], None, column)
         if name in self.parameters:
@@ -255,7 +280,10 @@ class _Parser:
         if name in CONSTANTS:
             return _Part(CONSTANTS[name], float(CONSTANTS[name]), column)
         known = ", ".join([*self.variables, *self.parameters, *CONSTANTS])
-        self._refuse(f"unknown name {_shown(name)}; known are {known} and functions", column)
+        self._refuse(
+            f"unknown name {_shown(name)}; known are {known} and functions{_known_functions(name)}",
+            column,
+        )
 
     def _call(self, name: str, column: int) -> _Part:
         function = FUNCTIONS[name]
@@ -359,6 +387,15 @@ class _Parser:
         raise FormulaError(reason, self.text, column)
 
 
+def _known_functions(name: str) -> str:
+    """What may have been meant by an unknown name, and all functions, in one line."""
+    own = [known for known in FUNCTIONS if known not in OTHER_NAMES]
+    close = difflib.get_close_matches(name.lower(), [known.lower() for known in FUNCTIONS], 3)
+    near = [known for known in FUNCTIONS if known.lower() in close and known not in OTHER_NAMES]
+    meant = f"; did you mean {' or '.join(near)}?" if near else ""
+    return f"{meant}; the functions are {', '.join(own)}"
+
+
 def _negative(part: _Part) -> _Part:
     return part._replace(
         expression=-part.expression, value=None if part.value is None else -part.value
@@ -431,5 +468,8 @@ def _checked(expression: sp.Expr, names: Sequence[str], parameters: Mapping[str,
         allowed = part.is_Add or part.is_Mul or part.is_Pow or part.is_Symbol
         allowed |= part.is_Rational or part.is_NumberSymbol
         if not (allowed or part.func in FUNCTION_OPERATIONS):
-            raise FormulaError(f"{_shown(str(part))} is not part of a formula", text)
+            raise FormulaError(
+                f"{_shown(str(part))} is not part of a formula{_known_functions(str(part.func))}",
+                text,
+            )
     return expression

@@ -169,5 +169,104 @@ def increasing(function):
     return over_interval
 
 
+def turn(y, x):
+    """``angle`` up to whole turns: from the other side where the box meets the cut."""
+    cut = (x[0] <= 0.0) & (y[0] <= 0.0) & (y[1] >= 0.0)
+    lo, hi = angle(y, x)
+    back_lo, back_hi = angle(negative(y), negative(x))
+    behind = cut & (x[1] < 0.0)
+    return np.where(behind, back_lo + np.pi, lo), np.where(behind, back_hi + np.pi, hi)
+
+
 def step(a):
+    """Heaviside's function, as it is at the ends too."""
     return np.heaviside(a[0], 0.5), np.heaviside(a[1], 0.5)
+
+
+AT_THE_END = 1e-12
+"""Of an interval: a zero so near to one of its ends counts as no break inside."""
+
+
+def _inside(a):
+    """Is zero inside the interval, not only at one of its ends?"""
+    slack = AT_THE_END * np.maximum(np.abs(a[0]), np.abs(a[1]))
+    return ((a[0] < -slack) & (a[1] > slack)) | ((a[0] == 0.0) & (a[1] == 0.0))
+
+
+def slope_step(a):
+    """0 or 1, the slope of max(x, 0): one-sided at the ends, where the other side is not seen."""
+    inside, above = _inside(a), a[1] > -a[0]
+    return np.where(inside | ~above, 0.0, 1.0), np.where(inside | above, 1.0, 0.0)
+
+
+def slope_side(a):
+    """-1 or 1, the slope of |x|: likewise."""
+    lo, hi = slope_step(a)
+    return 2.0 * lo - 1.0, 2.0 * hi - 1.0
+
+
+def _unbounded_where(broken):
+    return np.where(broken, -np.inf, 0.0), np.where(broken, np.inf, 0.0)
+
+
+def kink(a):
+    """The slope of a slope that jumps at 0: nothing is known where that is inside."""
+    return _unbounded_where(_inside(a) | ~(a[0] <= a[1]))
+
+
+def jump(a):
+    """The slope of a value that jumps at 0: nothing is known where that is in the interval."""
+    return _unbounded_where(~((a[0] > 0.0) | (a[1] < 0.0)))
+
+
+def tread(a):
+    """The slope of floor(x)."""
+    return _unbounded_where(~((np.floor(a[0]) == np.floor(a[1])) & (np.floor(a[0]) < a[0])))
+
+
+def cut(y, x):
+    """What the slope of ``angle`` has beside its smooth part."""
+    return _unbounded_where(~((x[0] > 0.0) | (y[0] > 0.0) | (y[1] < 0.0)))
+
+
+def chosen(d, a, b):
+    """a where d >= 0, else b."""
+    never, always = d[1] < 0.0, d[0] >= 0.0
+    lo = np.where(always, a[0], np.where(never, b[0], np.minimum(a[0], b[0])))
+    hi = np.where(always, a[1], np.where(never, b[1], np.maximum(a[1], b[1])))
+    return known(lo, hi)
+
+
+def steady(function, rate: float, lowest: float, highest: float):
+    """The interval version of a function whose slope is at most ``rate``, between two bounds."""
+
+    def over_interval(a):
+        reach = 0.5 * rate * (a[1] - a[0])
+        middle = function(0.5 * (a[0] + a[1]))
+        lo, hi = np.maximum(middle - reach, lowest), np.minimum(middle + reach, highest)
+        known_there = lo <= hi  # not where an end is infinite
+        return np.where(known_there, lo, lowest), np.where(known_there, hi, highest)
+
+    return over_interval
+
+
+def along(a, normal):
+    """Intervals (n, d) of n.x for x (n, 3) in a = (lower, upper), normals (n, d, 3)."""
+    lower, upper = a[0][:, None], a[1][:, None]
+    low = np.where(normal > 0.0, normal * lower, normal * upper)
+    high = np.where(normal > 0.0, normal * upper, normal * lower)
+    none = np.broadcast_to(normal == 0.0, low.shape)  # times infinity is 0 too: x is finite
+    low[none] = high[none] = 0.0
+    return low.sum(axis=2), high.sum(axis=2)
+
+
+def largest_along(lower, upper, normal):
+    """Bound (n, d) of |n.x|, likewise."""
+    low, high = along((lower, upper), normal)
+    return np.maximum(np.abs(low), np.abs(high))
+
+
+def width_along(lower, upper, normal):
+    """Width (n, d) of the interval of n.x, likewise."""
+    low, high = along((lower, upper), normal)
+    return high - low

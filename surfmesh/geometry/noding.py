@@ -18,8 +18,6 @@ from dataclasses import dataclass
 
 import numpy as np
 import shapely
-from scipy.sparse import coo_array
-from scipy.sparse.csgraph import connected_components
 from scipy.spatial import cKDTree
 
 from surfmesh.errors import DomainError
@@ -64,20 +62,22 @@ Refusal = Callable[[int, int, np.ndarray], Exception]
 
 
 def noded(
-    points: np.ndarray, segments: np.ndarray, places: np.ndarray, refusal: Refusal | None
-) -> Noding:
+    points: np.ndarray, segments: np.ndarray, places: np.ndarray, refusal: Refusal | None,
+    merge: float = 0.0,
+) -> Noding:  # fmt: skip
     """Cut segments where they meet.
 
     points: (n, 2) finite, of moderate size. segments: (m, 2) int, pairs of points. places:
     (p,) int, points that become vertices. refusal: makes the exception for a proper crossing
-    of two given segments at a place; None cuts them there.
+    of two given segments at a place; None cuts them there. merge: points nearer than this are
+    one, unless rounding asks for more.
 
     Raises that exception, or DomainError when no end is found or there are far too many
     crossings.
     """
     exponent = size_exponent(points)
     points = np.ldexp(points, -exponent)  # exact, and makes domains of all sizes alike
-    merge = _merging_distance(points)
+    merge = max(_merging_distance(points), float(np.ldexp(merge, -exponent)))
     points, number = _lexicographic(points)
     ends, given, lone = number[segments], np.arange(len(segments)), np.unique(number[places])
     settled_use = np.zeros(len(ends), bool)
@@ -157,14 +157,18 @@ def _lexicographic(points: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
 
 
 def _merging(points: np.ndarray, merge: float) -> tuple[np.ndarray, np.ndarray]:
-    """For each point the first of those that are one with it, and whether that is another."""
+    """For each point the one that it is one with, within ``merge``, and whether that is another.
+
+    Point by point: whichever is not taken yet takes all that are near it. So no point moves by
+    more than ``merge``, however dense a line of points is.
+    """
     number = np.arange(len(points))
     close = cKDTree(points).query_pairs(merge, output_type="ndarray")
-    if len(close):
-        links = coo_array((np.ones(len(close), bool), close.T), shape=(len(points),) * 2)
-        _, cluster = connected_components(links, directed=False)
-        _, first = np.unique(cluster, return_index=True)
-        number = first[cluster]
+    taken = np.zeros(len(points), bool)
+    for first, second in close[np.lexsort((close[:, 1], close[:, 0]))].tolist():
+        if not taken[first] and not taken[second]:
+            taken[second] = True
+            number[second] = first
     return number, number != np.arange(len(points))
 
 

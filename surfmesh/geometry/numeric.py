@@ -22,6 +22,9 @@ from surfmesh.geometry.infinite_speed import (
 from surfmesh.geometry.surface import Domain
 from surfmesh.geometry.surface_checks import bounds_of, loop_of, refuse_no_area, sample_grid
 
+CLOSED = 1e-9
+"""Of the extent of two sides: so far apart they are one."""
+
 Function = Callable[[np.ndarray, np.ndarray], Any]
 """u (n,), v (n,) -> (x, y, z), each (n,) or a number; or one array (n, 3) or (3, n)."""
 
@@ -31,7 +34,7 @@ class NumericSurface:
 
         NumericSurface(lambda u, v: (u, v, np.sin(u * v)), u=(-2, 2), v=(-2, 2))
 
-    f: called with arrays u (n,) and v (n,), never outside the domain; gives (x, y, z), each (n,)
+    f: called with arrays u (n,) and v (n,), never outside of the domain; gives (x, y, z), each (n,)
     or a number, or one array (n, 3) or (3, n). u, v: (first, last). derivatives: called in the
     same way, gives (r_u, r_v) or (r_u, r_v, r_uu, r_uv, r_vv), each like r; what it does not
     give, or gives as not finite, comes from differences. differences: their order, 2, 4 or 6.
@@ -80,12 +83,13 @@ class NumericSurface:
             "loops": tuple(loop_of(number, loop) for number, loop in enumerate(loops)),
             "sizing_defaults": dict(sizing_defaults or {}),
         }
-        self.__dict__.update(fixed)
+        self.__dict__.update(fixed, closed=(False, False))
         self._r(sample_grid(self.domain).reshape(-1, 2))  # refused now rather than later
         self.__dict__["bent_axes"] = axes = bent_axes(self._r, self.domain)
         rule, error = chosen_differences(
             lambda s: self._r(from_bent(axes, s)), self.domain, int(differences), step
         )
+        self.__dict__["closed"] = (self._is_closed(0), self._is_closed(1))
         self.__dict__.update(differences=rule, difference_error=error)
         refuse_no_area(self)
 
@@ -98,6 +102,8 @@ class NumericSurface:
     bent_axes: BentAxes
     """Where the speed has no bound, and parameters in which it has: differences are taken there."""
     differences: Differences
+    closed: tuple[bool, bool]
+    """Does the surface begin again where u, or v, ends? Beyond the one end lies the other."""
     difference_error: float
     """Of second derivatives by differences of r, as a share of the largest or of the surface's
     extent, whichever is more: see ``chosen_differences``."""
@@ -105,9 +111,22 @@ class NumericSurface:
     def evaluate(self, uv: np.ndarray, order: int = 0) -> tuple[np.ndarray, ...]:
         """(n, 2) float -> (n, 3) float arrays: (r,), (r, r_u, r_v) or up to r_uu, r_uv, r_vv.
 
-        Raises SurfaceError with the place where r is not finite or has the wrong shape.
+        Outside of the domain, be it by a rounding, f is never asked: there the surface goes on
+        straight, or from its other end where it is closed. Raises SurfaceError with the place
+        where r is not finite or has the wrong shape.
         """
-        uv = np.asarray(uv, dtype=float).reshape(-1, 2)
+        asked = np.asarray(uv, dtype=float).reshape(-1, 2)
+        uv, beyond = self._within(asked)
+        outside = np.flatnonzero(beyond.any(axis=1))
+        r, *derivatives = self._evaluated(uv, order)
+        if len(outside):
+            tangents = self._evaluated(uv[outside], 1)[1:]
+            for axis in (0, 1):
+                r[outside] += beyond[outside, axis, None] * tangents[axis]
+        return (r, *derivatives)
+
+    def _evaluated(self, uv: np.ndarray, order: int) -> tuple[np.ndarray, ...]:
+        """The same for places of the domain."""
         r = self._r(uv)
         if order == 0:
             return (r,)
@@ -131,12 +150,37 @@ class NumericSurface:
     def with_domain(self, domain: Domain) -> NumericSurface:
         """The same function over another domain, within this one."""
         other = object.__new__(NumericSurface)
-        other.__dict__.update(self.__dict__, domain=domain)
+        whole = tuple(
+            closed and span == part for closed, span, part in zip(self.closed, self.domain, domain)
+        )
+        other.__dict__.update(self.__dict__, domain=domain, closed=whole)
         return other
 
     def derivative_bounds(self, lo: np.ndarray, hi: np.ndarray) -> None:
         """None: a function cannot be bounded between its values."""
         return None
+
+    def _is_closed(self, axis: int) -> bool:
+        """Are the two sides at the ends of a variable the same curve, run through alike?"""
+        sides = np.moveaxis(sample_grid(self.domain), axis, 0)[[0, -1]]
+        first, last = (self._r(np.ascontiguousarray(side)) for side in sides)
+        extent = float(np.ptp(np.concatenate([first, last]), axis=0).max())
+        return extent > 0.0 and bool(np.abs(first - last).max() <= CLOSED * extent)
+
+    def _within(self, uv: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """Places (n, 2) of the domain that stand for uv (n, 2), and the steps from there to it."""
+        (u0, u1), (v0, v1) = self.domain
+        lo, hi = np.array([u0, v0]), np.array([u1, v1])
+        outside = (uv < lo) | (uv > hi)
+        if not outside.any():
+            return uv, np.zeros((0, 2))
+        uv = uv.copy()
+        for axis in np.flatnonzero(self.closed):
+            rows = outside[:, axis]
+            turned = np.mod(uv[rows, axis] - lo[axis], hi[axis] - lo[axis])
+            uv[rows, axis] = lo[axis] + turned
+        place = np.clip(uv, lo, hi)
+        return place, uv - place
 
     def _r(self, uv: np.ndarray) -> np.ndarray:
         (r,) = _called(self.function, uv, "f")
@@ -195,13 +239,42 @@ def _called(function: Function, uv: np.ndarray, what: str) -> tuple[np.ndarray, 
     n = len(uv)
     if n == 3:  # of an array (3, 3) nobody could tell which axis is which
         uv = np.concatenate([uv, uv[-1:]])
-    found = function(uv[:, 0].copy(), uv[:, 1].copy())
+    u, v = uv[:, 0].copy(), uv[:, 1].copy()
+    try:
+        found = function(u, v)
+    except (TypeError, ValueError) as error:  # so say math.sin(u), and "if u > 0"
+        _refuse_scalar_functions(function, float(uv[0, 0]), float(uv[0, 1]), what, error)
+        raise
     several = found if what == "derivatives" and isinstance(found, (tuple, list)) else (found,)
     return tuple(_rows(value, len(uv), what)[:n] for value in several)
 
 
+def _refuse_scalar_functions(
+    function: Function, u: float, v: float, what: str, error: Exception
+) -> None:
+    """Raise SurfaceError with a cure if the function understands numbers, but no arrays."""
+    try:
+        one = function(u, v)  # type: ignore[arg-type]
+        size = np.size(one[0]) if what == "derivatives" else np.size(one)
+    except Exception:  # whatever it is: what was raised first is said
+        return
+    if size != 3:
+        return
+    signature = "" if isinstance(one, tuple) else ", signature='(),()->(n)'"
+    raise SurfaceError(
+        f"{what} takes single numbers only, not arrays ({error}): write it with numpy's functions "
+        f"(np.sin, np.where), or give np.vectorize({what}{signature}), which is slower"
+    ) from error
+
+
 def _rows(value: Any, count: int, what: str) -> np.ndarray:
     """What a function gave as an array (n, 3) of its own; SurfaceError when it cannot be one."""
+    parts = value if isinstance(value, (tuple, list)) else (value,)
+    if any(np.iscomplexobj(part) for part in parts):
+        raise SurfaceError(
+            f"{what} gives complex numbers: give their real parts, or change it where a root or "
+            "logarithm of a negative number is taken"
+        )
     try:
         if isinstance(value, (tuple, list)):
             if len(value) != 3:

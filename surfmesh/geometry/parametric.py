@@ -109,9 +109,11 @@ class ParametricSurface:
     def derivative_bounds(self, lo: np.ndarray, hi: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """Bounds of r_u, r_v, r_uu, r_uv, r_vv over cells by interval arithmetic.
 
+        Of the smooth pieces in a cell, whether there are kinks between them or not.
+
         lo, hi: (n, 2) corners of the cells -> lower, upper: (n, 5, 3), infinite where unknown.
         """
-        lower, upper = self.tape(2).bounds(lo, hi)
+        lower, upper = self.tape(2).bounds(lo, hi, kinks=False)
         return lower[:, 3:].reshape(-1, 5, 3), upper[:, 3:].reshape(-1, 5, 3)
 
     def with_domain(self, domain: Domain) -> ParametricSurface:
@@ -120,6 +122,27 @@ class ParametricSurface:
         other.__dict__.update(self.__dict__, domain=domain)
         other.__dict__["bent_axes"] = bent_axes(lambda uv: other.evaluate(uv)[0], domain)
         return other
+
+    def all_bounds(self, lo: np.ndarray, hi: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """Bounds of r, r_u, r_v, r_uu, r_uv, r_vv over cells: lower, upper (n, 6, 3).
+
+        lo, hi: (n, 2) corners of the cells. Second derivatives have none across a kink, first
+        ones none across a jump.
+        """
+        lower, upper = self.tape(2).bounds(lo, hi)
+        return lower.reshape(-1, 6, 3), upper.reshape(-1, 6, 3)
+
+    def guides(self) -> Tape | None:
+        """The functions whose zeros are kinks of the surface, each with its two derivatives."""
+        if -1 not in self._tapes and "_expressions" in self.__dict__:
+            from surfmesh.geometry.compilation import guide_tape
+            from surfmesh.geometry.expression import symbol
+
+            made = guide_tape(self._expressions, (symbol("u"), symbol("v")))
+            if made is None:
+                return None
+            self._tapes[-1] = made
+        return self._tapes.get(-1)
 
     def tape(self, order: int) -> Tape:
         """The program behind `evaluate`, made when it is first needed."""
@@ -153,6 +176,7 @@ class ParametricSurface:
         # tapes travel, expressions do not: a worker process then never needs SymPy
         for order in range(3):
             self.tape(order)
+        self.guides()
         return {key: value for key, value in self.__dict__.items() if key != "_expressions"}
 
     def __setstate__(self, state: dict[str, Any]) -> None:

@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from surfmesh.errors import DomainError
+from surfmesh.geometry.line_thinning import thinned
 from surfmesh.geometry.segment_distance import SegmentDistance
 from surfmesh.geometry.segment_graph import Line, SegmentGraph, segment_graph
 from surfmesh.geometry.surface import Domain
@@ -19,6 +20,11 @@ if TYPE_CHECKING:
     from shapely.geometry.base import BaseGeometry
 
 CROSSINGS = ("refuse", "split")
+SAME = 1e-9
+"""Of the diagonal: points nearer to each other are one, a thousandth of the shortest segments that
+are promised to survive."""
+ROUNDING = 1e-12
+"""Of the diagonal: points that are merged from no farther away are not worth a word."""
 FAR_AWAY = 1e-8  # last place of the largest coordinate over the diagonal: worth a warning
 
 
@@ -60,8 +66,11 @@ class PlanarDomain(PlaneOfCoordinates):
     around it.
 
     Lines may touch, overlap and end on each other. crossings: "refuse" lines that cross, or
-    "split" them there. description, sizing_defaults, facts: what is known about the domain,
-    kept for whoever asks.
+    "split" them there. merge: points nearer to each other are one, and lines nearer to a point
+    pass through it, model units; None: 1e-9 of the diagonal. simplify: lines are thinned, and
+    lie within this distance of those given; corners that stand out more, junctions, ends and
+    ``points`` stay. What either has changed is in ``warnings``. description, sizing_defaults,
+    facts: what is known about the domain, kept for whoever asks.
 
     Raises DomainError that names the loop or line for arrays of a wrong shape, coordinates
     that are not finite, loops that enclose no area, and crossings unless they are split.
@@ -75,6 +84,8 @@ class PlanarDomain(PlaneOfCoordinates):
         points: Any = (),
         *,
         crossings: str = "refuse",
+        merge: float | None = None,
+        simplify: float | None = None,
         name: str = "domain",
         description: str = "",
         sizing_defaults: Mapping[str, Any] | None = None,
@@ -85,7 +96,7 @@ class PlanarDomain(PlaneOfCoordinates):
             raise DomainError("there is no outer loop; give at least one loop (k, 2)")
         loops = [(f"outer loop {k}", loop, False) for k, loop in enumerate(outer)]
         loops += [(f"hole {k}", loop, True) for k, loop in enumerate(holes)]
-        about = (crossings, name, description, sizing_defaults, facts)
+        about = (crossings, merge, simplify, name, description, sizing_defaults, facts)
         self._settle(loops, constraints, points, *about)
 
     name: str
@@ -97,6 +108,7 @@ class PlanarDomain(PlaneOfCoordinates):
     points: np.ndarray
     crossings: str
     graph: SegmentGraph
+    changes: tuple[str, ...]  # what was merged and thinned, in words
     description: str
     sizing_defaults: dict[str, Any]
     facts: dict[str, Any]
@@ -109,6 +121,8 @@ class PlanarDomain(PlaneOfCoordinates):
         points: Any = (),
         *,
         crossings: str = "refuse",
+        merge: float | None = None,
+        simplify: float | None = None,
         name: str = "domain",
         description: str = "",
         sizing_defaults: Mapping[str, Any] | None = None,
@@ -120,7 +134,7 @@ class PlanarDomain(PlaneOfCoordinates):
         """
         arrays = _arrays("loop", loops)
         labels = [f"loop {k}" for k in range(len(arrays))]
-        about = (crossings, name, description, sizing_defaults, facts)
+        about = (crossings, merge, simplify, name, description, sizing_defaults, facts)
         return cls._nested(labels, arrays, constraints, points, *about)
 
     @classmethod
@@ -161,6 +175,8 @@ class PlanarDomain(PlaneOfCoordinates):
         points: Any = (),
         *,
         crossings: str = "refuse",
+        merge: float | None = None,
+        simplify: float | None = None,
         name: str | None = None,
         description: str = "",
         sizing_defaults: Mapping[str, Any] | None = None,
@@ -181,7 +197,8 @@ class PlanarDomain(PlaneOfCoordinates):
         if not drawing.loops:
             raise DomainError(f"{drawing.name}: the drawing holds no closed path")
         lines = list(drawing.lines) + _arrays("constraint", constraints)
-        about = (crossings, name or drawing.name, description, sizing_defaults, facts)
+        called = name or drawing.name
+        about = (crossings, merge, simplify, called, description, sizing_defaults, facts)
         return cls._nested(drawing.labels, drawing.loops, lines, points, *about)
 
     @classmethod
@@ -204,6 +221,8 @@ class PlanarDomain(PlaneOfCoordinates):
         constraints: Any,
         points: Any,
         crossings: str,
+        merge: float | None,
+        simplify: float | None,
         name: str,
         description: str,
         sizing_defaults: Mapping[str, Any] | None,
@@ -221,7 +240,18 @@ class PlanarDomain(PlaneOfCoordinates):
         lines += [Line(f"constraint {k}", line) for k, line in enumerate(polylines)]
         lines += [Line(f"point {k}", place[None]) for k, place in enumerate(places)]
         is_hole = [hole for _, _, hole in loops]
-        graph = segment_graph(lines, is_hole, split=crossings == "split")
+        merge = _merging(lines, merge)
+        graph = segment_graph(lines, is_hole, crossings == "split", merge)
+        changes = _merged(lines, merge)
+        if simplify is not None:
+            before = len(graph.points)
+            graph = thinned(graph, positive_distance("simplify", simplify), _near(graph, places))
+            closed = [_still_there(loop, graph, merge) for loop in closed]
+            polylines = [_still_there(line, graph, merge, 2) for line in polylines]
+            changes.append(
+                f"lines were thinned from {before:,} to {len(graph.points):,} points, within "
+                f"{simplify:g} of those given"
+            )
         low, high = graph.points.min(axis=0).tolist(), graph.points.max(axis=0).tolist()
         self.__dict__.update(
             name=str(name),
@@ -233,6 +263,7 @@ class PlanarDomain(PlaneOfCoordinates):
             points=_frozen(places),
             crossings=crossings,
             graph=graph,
+            changes=tuple(changes),
             description=str(description),
             sizing_defaults=dict(sizing_defaults or {}),
             facts=dict(facts or {}),
@@ -278,7 +309,7 @@ class PlanarDomain(PlaneOfCoordinates):
         """What was given but has no effect, or costs accuracy."""
         from surfmesh.geometry.domain_faces import bounded_faces
 
-        found = []
+        found = list(self.changes)
         size = max(last - first for first, last in self.domain)
         if np.spacing(np.abs(self.domain).max()) > FAR_AWAY * size:
             found.append("the domain lies so far from the origin that coordinates lose digits")
@@ -292,6 +323,25 @@ class PlanarDomain(PlaneOfCoordinates):
             ]
         return tuple(found)
 
+    def simplified(self, distance: float) -> PlanarDomain:
+        """The domain with lines thinned by ``distance``: see ``simplify`` of the class."""
+        made = PlanarDomain.__new__(PlanarDomain)
+        graph = thinned(
+            self.graph, positive_distance("simplify", distance), _near(self.graph, self.points)
+        )
+        said = (
+            f"lines were thinned from {len(self.graph.points):,} to {len(graph.points):,} points, "
+            f"within {distance:g} of those given"
+        )
+        made.__dict__.update(
+            {k: v for k, v in self.__dict__.items() if k not in _CACHED},
+            graph=graph,
+            outer=tuple(_still_there(loop, graph, 0.0) for loop in self.outer),
+            holes=tuple(_still_there(loop, graph, 0.0) for loop in self.holes),
+            changes=(*self.changes, said),
+        )
+        return made
+
     def region_surfaces(self, count: int) -> tuple[PlanarRegion, ...]:
         """The surfaces of ``count`` regions, named by number when there are several."""
         names = [self.name] if count == 1 else [f"{self.name} region {k}" for k in range(count)]
@@ -304,6 +354,71 @@ class PlanarDomain(PlaneOfCoordinates):
 
     def __setattr__(self, name: str, value: Any) -> None:
         raise AttributeError(f"a domain does not change; make a new one to set {name!r}")
+
+
+_CACHED = ("_distance", "area", "regions", "warnings")
+
+
+def positive_distance(name: str, given: Any) -> float:
+    """A positive finite number. Raises DomainError."""
+    try:
+        distance = float(given)
+    except (TypeError, ValueError):
+        distance = np.nan
+    if not 0.0 < distance < np.inf:
+        raise DomainError(f"{name} is a positive distance, not {given!r:.60}")
+    return distance
+
+
+def _merging(lines: Sequence[Line], merge: float | None) -> float:
+    """The distance below which points are one."""
+    points = np.concatenate([line.points for line in lines])
+    if merge is not None:
+        return positive_distance("merge", merge)
+    return SAME * float(np.hypot(*np.ptp(points, axis=0)))
+
+
+def _merged(lines: Sequence[Line], merge: float) -> list[str]:
+    """A sentence about points that differ and yet are one, by more than rounding."""
+    from scipy.spatial import cKDTree
+
+    points = np.concatenate([line.points for line in lines])
+    starts = np.cumsum([0, *(len(line.points) for line in lines)])
+    rounding = ROUNDING * float(np.hypot(*np.ptp(points, axis=0)))
+    places, first = np.unique(points, axis=0, return_index=True)
+    pairs = cKDTree(places).query_pairs(merge, output_type="ndarray")
+    apart = np.linalg.norm(places[pairs[:, 1]] - places[pairs[:, 0]], axis=1)
+    pairs, apart = pairs[apart > rounding], apart[apart > rounding]
+    if not len(pairs):
+        return []
+    count = len(np.unique(pairs[:, 1]))
+    given = int(first[pairs[0]].max())
+    line = int(np.searchsorted(starts, given, side="right")) - 1
+    many = "1 point lies" if count == 1 else f"{count:,} points lie"
+    return [
+        f"{many} within {apart.max():.3g} of another and {'is' if count == 1 else 'are'} merged "
+        f"with it, first {lines[line].label}, point {given - starts[line]} (merge={merge:.3g})"
+    ]
+
+
+def _near(graph: SegmentGraph, places: np.ndarray) -> np.ndarray:
+    """(n,) bool: the points of the graph that stand for the demanded ``places`` (p, 2)."""
+    from scipy.spatial import cKDTree
+
+    found = np.zeros(len(graph.points), bool)
+    if len(places):
+        found[cKDTree(graph.points).query(places)[1]] = True
+    return found
+
+
+def _still_there(
+    line: np.ndarray, graph: SegmentGraph, merge: float, least: int = 3
+) -> np.ndarray:
+    """The points of a line that a thinned graph has kept; all when those are too few."""
+    from scipy.spatial import cKDTree
+
+    kept = cKDTree(graph.points).query(line)[0] <= merge
+    return _frozen(line[kept] if kept.sum() >= least else line)
 
 
 def _arrays(kind: str, given: Any) -> list[np.ndarray]:

@@ -97,11 +97,15 @@ class SegmentGraph:
 
 
 def segment_graph(
-    lines: Sequence[Line], loop_is_hole: Sequence[bool], split: bool = False
+    lines: Sequence[Line],
+    loop_is_hole: Sequence[bool],
+    split: bool = False,
+    merge: float = 0.0,
 ) -> SegmentGraph:
     """Make one graph of lines that touch, overlap and cross.
 
-    split: cut crossing segments at the crossing; otherwise they are refused.
+    split: cut crossing segments at the crossing; otherwise they are refused. merge: distance,
+    model units, below which points are one; never less than rounding.
 
     Raises DomainError when segments cross and are not to be split (it names both and the
     place), for a loop that encloses no area, and for coordinates beyond 1e100.
@@ -130,7 +134,7 @@ def segment_graph(
             'end one of them there, or pass crossings="split"'
         )
 
-    found = noded(points, segments, stays, None if split else refusal)
+    found = noded(points, segments, stays, None if split else refusal, merge)
     loop_of_line = np.array([line.loop for line in lines])
     loop_of_given = np.repeat(loop_of_line, counts)
     segment, given = found.uses.T
@@ -143,7 +147,8 @@ def segment_graph(
         label = next(line.label for line in lines if line.loop == k)
         raise DomainError(
             f"{label} encloses no area: it runs to and fro along one line, or is smaller than "
-            f"{MERGE:g} of the domain; leave it out, or give it as a constraint"
+            f"{merge or MERGE:.3g}{'' if merge else ' of the domain'}, within which points are "
+            "merged; leave it out, or give it as a constraint"
         )
     _, first_use = np.unique(segment, return_index=True)
     arrays = {

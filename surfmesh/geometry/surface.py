@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Protocol, runtime_checkable
+from typing import Any, Protocol, runtime_checkable
 
 import numpy as np
 
@@ -15,6 +15,11 @@ class Surface(Protocol):
 
     domain: ((u0, u1), (v0, v1)), finite, u0 < u1, v0 < v1.
     loops: closed polygons (k, 2) in (u, v) that trim the surface; empty: the whole rectangle.
+
+    These five members are all that is needed; ``name`` may be empty. What a surface may say
+    besides, and what is taken where it does not: ``kind`` ("plane", "cylinder", ...: see
+    ``surface_kind``), ``facts`` and ``sizing_defaults`` (mappings: nothing is known or wished),
+    ``formulas``. The surfaces of CAD faces have ``with_domain`` too: see ``FaceSurface``.
     """
 
     @property
@@ -41,3 +46,13 @@ class Surface(Protocol):
         lo, hi: (n, 2) corners of the cells -> lower, upper: (n, 5, 3), infinite where unknown.
         """
         ...
+
+
+def surface_kind(surface: Any) -> str:
+    """What kind it says it is, "" for none."""
+    return getattr(surface, "kind", "") or ""
+
+
+def surface_label(surface: Any) -> str:
+    """What to call it: its name, else its kind."""
+    return surface.name or surface_kind(surface) or "surface"

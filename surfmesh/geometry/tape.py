@@ -15,7 +15,7 @@ from collections.abc import Callable
 from typing import NamedTuple
 
 import numpy as np
-from scipy.special import erf
+from scipy.special import erf, spherical_jn
 
 from surfmesh.geometry import interval
 
@@ -54,6 +54,34 @@ def _step(x, out):
     np.heaviside(x, 0.5, out=out)
 
 
+def _zero(*operands, out):
+    out[...] = 0.0
+
+
+def _chosen(d, a, b, out):
+    out[...] = np.where(np.asarray(d) >= 0.0, a, b)
+
+
+def _bessel(order: int) -> Callable:
+    """The spherical Bessel function of an order, for either sign of x."""
+
+    def values(x):
+        sign = 1.0 if order % 2 == 0 else np.where(np.asarray(x) < 0.0, -1.0, 1.0)
+        return sign * spherical_jn(order, np.abs(x))
+
+    return values
+
+
+def _bessel_operation(order: int, lowest: float, highest: float) -> Operation:
+    values = _bessel(order)
+
+    def point(x, out):
+        out[...] = values(x)
+
+    # the steepest slope of all is that of j0: 0.4362
+    return Operation(point, interval.steady(values, 0.44, lowest, highest))
+
+
 OPERATIONS: dict[str, Operation] = {
     "add": Operation(np.add, interval.add),
     "subtract": Operation(np.subtract, interval.subtract),
@@ -83,7 +111,20 @@ OPERATIONS: dict[str, Operation] = {
     "erf": Operation(erf, interval.increasing(erf)),
     "absolute": Operation(np.absolute, interval.absolute),
     "signum": Operation(np.sign, interval.increasing(np.sign)),
-    "step": Operation(_step, interval.step),
+    "unit_step": Operation(_step, interval.step),
+    "floor": Operation(np.floor, interval.increasing(np.floor)),
+    "chosen": Operation(_chosen, interval.chosen),
+    "turn": Operation(np.arctan2, interval.turn),
+    "bessel_0": _bessel_operation(0, -0.2173, 1.0),
+    "bessel_1": _bessel_operation(1, -0.4362, 0.4362),
+    "bessel_2": _bessel_operation(2, -0.1396, 0.3069),
+    # slopes, and what they hold where they break off
+    "step": Operation(_step, interval.slope_step),
+    "side": Operation(np.sign, interval.slope_side),
+    "kink": Operation(_zero, interval.kink),
+    "jump": Operation(_zero, interval.jump),
+    "tread": Operation(_zero, interval.tread),
+    "cut": Operation(_zero, interval.cut),
     "minimum": Operation(np.minimum, interval.minimum),
     "maximum": Operation(np.maximum, interval.maximum),
 }
@@ -139,11 +180,14 @@ class Tape(NamedTuple):
                     results[place // 3][start : start + BLOCK, place % 3] = slots[slot]
         return results
 
-    def bounds(self, lo: np.ndarray, hi: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    def bounds(
+        self, lo: np.ndarray, hi: np.ndarray, kinks: bool = True
+    ) -> tuple[np.ndarray, np.ndarray]:
         """Bounds over cells: lo, hi (n, inputs) float -> lower, upper (n, len(outputs)) float.
 
         Every value of the function in the cell lies between them, wherever it is defined;
-        infinite where nothing is known.
+        infinite where nothing is known. kinks: False leaves out what second derivatives are
+        across kinks, infinite.
         """
         lo, hi = np.asarray(lo, dtype=float), np.asarray(hi, dtype=float)
         count = len(lo)
@@ -158,6 +202,9 @@ class Tape(NamedTuple):
                     values = [slots[operand] for operand in operands]
                     if exponent:
                         values.append(exponent)
+                    if operation == "kink" and not kinks:
+                        slots[target] = (np.zeros(len(lo[part])),) * 2
+                        continue
                     slots[target] = OPERATIONS[operation].bounds(*values)
                 for place, slot in enumerate(self.outputs):
                     lower[part, place], upper[part, place] = slots[slot]

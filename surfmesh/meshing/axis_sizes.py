@@ -17,10 +17,9 @@ import numpy as np
 from surfmesh.geometry.fundamental_forms import curvatures, forms_from_derivatives
 from surfmesh.geometry.surface import Surface
 from surfmesh.kernels.background import in_space_at_all, scalar_sizes_at
-from surfmesh.sizing.curvature_size import fold_size, principal_angle_sizes, principal_chord_sizes
-from surfmesh.sizing.size_bounds import DEFAULT_ANGLE, LEAST_OF_CHORD, SizeBounds
+from surfmesh.sizing.size_bounds import SizeBounds, principal_sizes
 from surfmesh.sizing.size_field import SizeField
-from surfmesh.sizing.size_rows import SizeRow, deciding, rows
+from surfmesh.sizing.size_rows import SizeRow, curvature_rows, deciding, rows
 from surfmesh.sizing.sizing import Sizing
 
 LOWERED = 0.97
@@ -132,19 +131,8 @@ def axis_rows(axis: int, ratio: float) -> RowMaker:
         if k1 is not None:
             both = np.array([k1]), np.array([k2])
             at = f"at curvature {_with_radius((k1, k2)[axis])}"
-            if sizing.chord is not None:
-                size = float(principal_chord_sizes(*both, sizing.chord, ratio)[axis][0])
-                if np.isfinite(size):
-                    yield SizeRow(key, f"chord {sizing.chord:g} {at}", size)
-            if sizing.angle is not None:
-                size = float(principal_angle_sizes(*both, sizing.angle, ratio)[axis][0])
-                if np.isfinite(size):
-                    yield SizeRow(key, f"angle {sizing.angle:g} degrees {at}", size)
-            elif sizing.chord is not None:
-                size = float(fold_size(both[axis], both[axis], DEFAULT_ANGLE)[0])
-                size = max(size, LEAST_OF_CHORD * sizing.chord)
-                if np.isfinite(size):
-                    yield SizeRow("default", f"angle {DEFAULT_ANGLE:g} degrees {at}", size)
+            found = principal_sizes(sizing, *both, ratio)
+            yield from curvature_rows(key, sizing, at, {n: s[0, axis] for n, s in found.items()})
         yield from rows(key, sizing, point, None, None)
 
     return along

@@ -60,12 +60,17 @@ def recovered(
 
     Raises ``SurfaceError`` when loops touch or cross, naming the place.
     """
-    t, vertex, edge, first_node = _inserted(t, loops.uv, loops.segments, 1, field, surface)
-    if grow_inside(t, edge) != FINISHED:
+    rim, inner = loops.segments, loops.inner
+    segments = np.concatenate([rim, inner])
+    row = np.concatenate([segments, inner[:, ::-1]])  # inner ones have the surface on both sides
+    t, vertex, edge, first_node = _inserted(t, loops.uv, segments, row, field, surface)
+    back = t.adj[edge[len(rim) :]]
+    edges = np.concatenate([edge, back])
+    if grow_inside(t, edges) != FINISHED:
         error = SurfaceError(f"the boundary loops of {surface.name!r} do not enclose a domain")
         error.where = loops.uv
         raise error
-    _clear(t, loops.segments, vertex, edge, first_node)
+    _clear(t, row, vertex, edges, first_node)
     return _cut_out(t, vertex, STRETCHED_ROOM if field.is_anisotropic else ROOM)
 
 
@@ -77,7 +82,8 @@ def recovered_regions(
     ``node`` is NIL for nodes that no inner triangle uses. Raises ``DomainError`` when nothing
     is inside.
     """
-    t, vertex, edge, first_node = _inserted(t, cut.uv, cut.pieces, 2, field, domain)
+    row = np.concatenate([cut.pieces, cut.pieces[:, ::-1]])
+    t, vertex, edge, first_node = _inserted(t, cut.uv, cut.pieces, row, field, domain)
     label = np.empty(int(t.count[1]), np.int32)
     label_patches(t, label)
     ghost = int(np.flatnonzero(t.tri[: 3 * len(label)] < 0)[0])
@@ -96,18 +102,16 @@ def recovered_regions(
 
 
 def _inserted(
-    t: Triangulation, uv: np.ndarray, segments: np.ndarray, sides: int, field: SizeField,
-    surface: Surface,
+    t: Triangulation, uv: np.ndarray, segments: np.ndarray, with_row: np.ndarray,
+    field: SizeField, surface: Surface,
 ) -> tuple[Triangulation, np.ndarray, np.ndarray, int]:  # fmt: skip
     """Steps 2 and 3: the triangulation with all segments, vertices of nodes, their half-edges.
 
-    sides: 1 where the inside is on the left of segments, 2 where it may be on both. The last
-    result is the first vertex that is a node.
+    with_row: the segments, turned round too where the inside may be on both sides: a row of
+    vertices is put to the left of each. The last result is the first vertex that is a node.
     """
     xy = field.scaling.to_plane(uv)
-    row = _apexes(xy, segments, field)
-    if sides == 2:
-        row = np.concatenate([row, _apexes(xy, segments[:, ::-1], field)])
+    row = _apexes(xy, with_row, field)
     t = _with_room(t, len(xy) + len(row))
     insert_row(t, row, field.tensors(row), APART, AROUND)
     first_node = int(t.count[0])

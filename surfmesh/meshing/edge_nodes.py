@@ -8,18 +8,22 @@ What two faces share are these nodes, by number: the mesh is watertight because 
 """
 
 from dataclasses import dataclass
+from functools import partial
 
 import numpy as np
 
 from surfmesh.cad.model import CadEdge, CadModel
 from surfmesh.errors import SizingError
 from surfmesh.meshing.edge_gradation import graded_by_direction
+from surfmesh.meshing.edge_mates import MatedCuts, share_sizes
 from surfmesh.meshing.edge_samples import EdgeSamples
 from surfmesh.sizing.size_limits import SizeLimits
 from surfmesh.sizing.sizing import Sizing
 
 LARGEST_TURN = np.pi / 3.0
 """No segment of an edge turns farther, so that polygons keep the shape of their loops."""
+LARGEST_TURN_TINY = np.pi / 2.0
+"""Nor farther than this where it is narrower than the chord: four segments round a needle."""
 CLOSED_SEGMENTS, TWIN_SEGMENTS = 3, 2
 """Fewest segments of an edge that ends where it starts, and of a curved one beside another edge
 between the same two vertices: their chords would be one edge of the mesh."""
@@ -71,14 +75,25 @@ def cut_edges(
                 found = limit(samples.points[along])
             wish[along] = np.minimum(wish[along], found)
     grade = _graded_by_direction if samples.is_anisotropic else _graded
+    if samples.mates:
+        wish = wish.copy() if wish is samples.wish else wish
+        share_sizes(samples, samples.mates, wish)
     size = grade(model, samples, wish, sizing)
+    for number in np.flatnonzero(samples.hidden).tolist():  # no neighbour hears of them
+        size[samples.of(number)] = wish[samples.of(number)]
+    if samples.mates:
+        share_sizes(samples, samples.mates, size)
+    fewest = partial(_fewest, model, samples)
+    mated = MatedCuts(model, samples, size, fewest).cut()
     nodes = before or [None] * len(model.edges)
     following = 1 + max([len(model.vertices) - 1, *(int(n.numbers.max()) for n in nodes if n)])
     nodes = list(nodes)
     for number, edge in enumerate(model.edges):
         if samples.first[number] == samples.first[number + 1]:
             continue
-        cut = _cut(model, edge, number, samples, size, following, sizing.limit)
+        cut = _cut(
+            model, edge, number, samples, size, following, sizing.limit, mated.get(number)
+        )
         if not cut.same_as(nodes[number]):
             nodes[number] = cut
             following += len(cut.share) - 2
@@ -142,11 +157,22 @@ def _graded_by_direction(
     )  # fmt: skip
 
 
+def _fewest(model: CadModel, samples: EdgeSamples, number: int) -> int:
+    """Segments that an edge needs for its shape and for its topology."""
+    edge = model.edges[number]
+    most = LARGEST_TURN_TINY if samples.tiny[number] else LARGEST_TURN
+    fewest = max(1, int(np.ceil(samples.turn[number] / most - 1e-9)))
+    if samples.has_twin[number]:
+        fewest = max(fewest, TWIN_SEGMENTS)
+    start, end = samples.vertex[[edge.start, edge.end]]
+    return max(CLOSED_SEGMENTS if start == end else 1, fewest)
+
+
 def _cut(
     model: CadModel, edge: CadEdge, number: int, samples: EdgeSamples, sizes: np.ndarray,
-    following: int, limit: int,
+    following: int, limit: int, share: np.ndarray | None = None,
 ) -> EdgeNodes:  # fmt: skip
-    """Pieces of equal metric length near 1."""
+    """Pieces of equal metric length near 1, or those given by the shares of their ends."""
     own = samples.of(number)
     points, known, size = samples.points[own], samples.share[own], sizes[own]
     dx, dy, dz = (points[1:] - points[:-1]).T
@@ -154,19 +180,19 @@ def _cut(
     metric = np.zeros(len(points))
     np.cumsum(2.0 * step / (size[1:] + size[:-1]), out=metric[1:])
     start, end = samples.vertex[[edge.start, edge.end]]
-    least = max(1, int(np.ceil(samples.turn[number] / LARGEST_TURN - 1e-9)))
-    if samples.has_twin[number]:
-        least = max(least, TWIN_SEGMENTS)
-    pieces = max(CLOSED_SEGMENTS if start == end else 1, least, round(float(metric[-1])))
+    pieces = max(_fewest(model, samples, number), round(float(metric[-1])))
+    if share is not None:
+        pieces = len(share) - 1
     if pieces > limit:
         raise SizingError(
             f"edge {number} ({edge.name or 'no name'}) of length {edge.length:g} is to be cut in "
             f"{pieces:,} pieces, the limit is {limit:,} triangles: ask for a larger size there"
         )
-    share = np.arange(pieces + 1) / pieces
-    if metric[-1] > 0.0:
-        share = np.interp(share * metric[-1], metric, known)
-        share[0], share[-1] = 0.0, 1.0
+    if share is None:
+        share = np.arange(pieces + 1) / pieces
+        if metric[-1] > 0.0:
+            share = np.interp(share * metric[-1], metric, known)
+            share[0], share[-1] = 0.0, 1.0
     place = np.empty((pieces + 1, 3))
     if pieces > 1:
         place[1:-1] = edge.curve.evaluate(edge.parameters(share[1:-1]), 0)[0]

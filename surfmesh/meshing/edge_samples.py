@@ -7,24 +7,26 @@ Made once for a model. What earlier rounds of meshing have found out, and the gr
 along edges and through vertices, comes later: see ``edge_nodes``.
 """
 
+from collections.abc import Collection
 from dataclasses import dataclass
 
 import numpy as np
 
+from surfmesh.cad.collapsed_edges import collapses, vertex_numbers
 from surfmesh.cad.model import CadCoedge, CadEdge, CadModel
 from surfmesh.geometry.fundamental_forms import curvatures, forms_from_derivatives
 from surfmesh.kernels.edge_gaps import edge_gaps
+from surfmesh.meshing.edge_mates import MateRun, mate_runs
+from surfmesh.meshing.narrow_faces import ROUND, NarrowFace, narrow_face, narrow_width
 from surfmesh.sizing.across_gaps import size_across
 from surfmesh.sizing.curvature_size import (
     DEVIATION_RESERVE,
     STRAIGHT_RESERVE,
-    angle_size,
-    chord_size,
     fold_size,
 )
 from surfmesh.sizing.direction_size import size_along
 from surfmesh.sizing.model_sizing import ModelSizing
-from surfmesh.sizing.size_bounds import DEFAULT_ANGLE, FINEST_SIZE, LEAST_OF_CHORD, SizeBounds
+from surfmesh.sizing.size_bounds import FINEST_SIZE, SizeBounds, curvature_sizes, unfolding_size
 from surfmesh.sizing.sizing import Sizing
 from surfmesh.sizing.turning_direction import is_even
 
@@ -46,8 +48,9 @@ SLIVER, MUCH_SMALLER = 5e-5, 1.0 / 150.0
 """Gaps narrower than this share of the diagonal, or of the size asked for there without them,
 ask for nothing: a sliver along a whole part would flood it with triangles."""
 
-COLLAPSED = 2e-6
-"""Edges shorter than this share of the diagonal are one point: their faces meet in it."""
+MOST_LONGER = 1e8
+"""Segments beside a narrow face are at most so many times longer than it is wide: triangles
+longer than that count as having no area."""
 
 HIDDEN, MOST_HALVINGS, MOST_SAMPLES = 0.7, 30, 20_000
 """Between samples, laws may ask for this share of the sizes at them; how hard that is pursued."""
@@ -75,6 +78,16 @@ class EdgeSamples:
     """(v,) for each CAD vertex the number that it has in the mesh."""
     edges_of_face: tuple[np.ndarray, ...]
     """For each face the edges with samples, each once."""
+    narrow_width: np.ndarray
+    """(f,) up to where a face is narrow, model units."""
+    narrow: dict[int, NarrowFace]
+    """By number the faces that are so all along."""
+    hidden: np.ndarray
+    """(e,) bool: only narrow faces use the edge: its sizes are nobody else's."""
+    tiny: np.ndarray
+    """(e,) bool: the edge is no longer than the way round a narrow tube."""
+    mates: list[MateRun]
+    """Parts of edges that lie within a narrow width of another edge of the same face."""
 
     @property
     def is_anisotropic(self) -> bool:
@@ -126,10 +139,43 @@ def sample_edges(model: CadModel, sizing: ModelSizing) -> EdgeSamples:
         _has_twin(model, first, turn, vertex),
         vertex,
         edges_of_face,
+        np.zeros(len(model.faces)),
+        {},
+        np.zeros(len(model.edges), bool),
+        np.zeros(len(model.edges), bool),
+        [],
     )
+    _find_narrow(model, samples, uses, sizing)
     _heed_vertices(model, samples, sizing)
     _heed_gaps(model, samples, sizing)
     return samples
+
+
+def _find_narrow(
+    model: CadModel, samples: EdgeSamples, uses: list[list[tuple[int, CadCoedge]]],
+    sizing: ModelSizing,
+) -> None:  # fmt: skip
+    """Fill in what is narrow; edges of narrow faces do not hear the curvature across these."""
+    for number, face in enumerate(model.faces):
+        points = samples.points[samples.along(number)]
+        width = narrow_width(sizing.of_face(number), model.diagonal, points)
+        samples.narrow_width[number] = width
+        found = narrow_face(model, face, samples, width)
+        if found is not None:
+            samples.narrow[number] = found
+    for number, own in enumerate(uses):
+        at = samples.of(number)
+        ways = [samples.narrow[face].width for face, _ in own if face in samples.narrow]
+        if not ways or at.start == at.stop:
+            continue
+        width = max(samples.narrow_width[face] for face, _ in own)
+        samples.tiny[number] = model.edges[number].length <= ROUND * width
+        samples.hidden[number] = len(ways) == len(own)
+        wish = _sampled(model, number, own, sizing, samples.narrow)[2]
+        if samples.tiny[number] and (samples.hidden[number] or not model.edges[number].closed):
+            wish[:] = sizing.base.max_size or model.diagonal  # it is cut as its shape needs
+        samples.wish[at] = np.minimum(wish, MOST_LONGER * min(ways))
+    samples.mates.extend(mate_runs(model, samples))
 
 
 def _has_twin(
@@ -145,27 +191,13 @@ def _has_twin(
     return found & (turn > 0.0)
 
 
-def collapses(model: CadModel, edge: CadEdge) -> bool:
-    """Is the edge so short that it is one vertex of the mesh?"""
-    return edge.degenerate or edge.length <= COLLAPSED * model.diagonal
-
-
-def vertex_numbers(model: CadModel) -> np.ndarray:
-    """For each CAD vertex the first one that tiny edges join it to, mostly itself."""
-    number = np.arange(len(model.vertices))
-    for edge in model.edges:
-        if edge.start != edge.end and collapses(model, edge):
-            ends = number[edge.start], number[edge.end]
-            if ends[0] != ends[1]:
-                number[number == max(ends)] = min(ends)
-    return number
-
-
 def _sampled(
-    model: CadModel, number: int, uses: list[tuple[int, CadCoedge]], sizing: ModelSizing
-) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray, float]:
+    model: CadModel, number: int, uses: list[tuple[int, CadCoedge]], sizing: ModelSizing,
+    narrow: Collection[int] = (),
+) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray, float]:  # fmt: skip
     """share (n,), points (n, 3), wish (n,), tangent (n, 3), turn.
 
+    narrow: faces whose curvature is not asked for.
     Faces that differ in their wishes are heard one after the other, then the edge itself.
     """
     edge = model.edges[number]
@@ -192,7 +224,8 @@ def _sampled(
         cosine = np.einsum("ij,ij->i", tangent[1:], tangent[:-1])
         turn = float(np.arccos(np.clip(cosine, -1.0, 1.0)).sum())
     wish = np.full(len(share), max(edge.length, NARROWEST * model.diagonal))
-    for own, coedges in by_wishes.values():
+    for own, users in by_wishes.values():
+        coedges = [(face, coedge) for face, coedge in users if face not in narrow]
         found = _wish(model, own, share, points, derivatives, coedges)
         if own.is_anisotropic:
             along = _metric_wish(model, own, share, tangent, coedges)
@@ -303,9 +336,9 @@ def _own_wish(
             own = np.sqrt(8.0 * reserve * sizing.chord / curvature)
             wish = np.maximum(own, 2.0 * sizing.chord)
             np.minimum(wish, _kink_wish(points, curvature, sizing.chord), out=wish)
-    least = 0.0 if sizing.angle is not None else LEAST_OF_CHORD * sizing.chord
-    own = fold_size(curvature, curvature, sizing.angle or DEFAULT_ANGLE)
-    return np.minimum(wish, np.maximum(own, least))
+    if sizing.angle is not None:
+        return np.minimum(wish, fold_size(curvature, curvature, sizing.angle))
+    return np.minimum(wish, unfolding_size(curvature, curvature, sizing.chord))
 
 
 def _kink_wish(points: np.ndarray, curvature: np.ndarray, chord: float) -> np.ndarray:
@@ -329,14 +362,7 @@ def _face_wish(surface, uv: np.ndarray, sizing: Sizing) -> np.ndarray:
     """What the face's curvature asks for along one of its edges (n,)."""
     forms = forms_from_derivatives(*surface.evaluate(uv, 2)[1:])
     k = curvatures(forms)
-    wish = np.full(len(uv), np.inf)
-    if sizing.chord is not None:
-        wish = chord_size(k.k1, k.k2, sizing.chord)
-    if sizing.angle is not None:
-        wish = np.minimum(wish, angle_size(k.k1, k.k2, sizing.angle))
-    else:
-        unfolded = fold_size(k.k1, k.k2, DEFAULT_ANGLE)
-        wish = np.minimum(wish, np.maximum(unfolded, LEAST_OF_CHORD * sizing.chord))
+    wish = np.minimum.reduce([*curvature_sizes(sizing, k.k1, k.k2).values()])
     wish[forms.degenerate | ~np.isfinite(wish)] = np.inf
     return wish
 
@@ -350,16 +376,16 @@ def _heed_gaps(model: CadModel, samples: EdgeSamples, sizing: ModelSizing) -> No
     if not len(samples.points):
         return
     ends = samples.vertex[np.array([[edge.start, edge.end] for edge in model.edges])]
-    by_wishes: dict[tuple[float | None, float], list[int]] = {}
+    by_wishes: dict[tuple[float | None, float, float], list[int]] = {}
     for face in range(len(model.faces)):
-        own = sizing.of_face(face)
-        by_wishes.setdefault((own.gap, own.min_size or 0.0), []).append(face)
+        own, narrow = sizing.of_face(face), float(samples.narrow_width[face])
+        by_wishes.setdefault((own.gap, own.min_size or 0.0, narrow), []).append(face)
     slope = sizing.base.gradient
     ratio = sizing.base.anisotropy if sizing.is_anisotropic else 1.0
     room = np.empty((len(samples.points), 6)), np.empty((len(model.edges), 6))
     narrowest = NARROWEST * model.diagonal
     asked = samples.wish.copy()
-    for (count, least), faces in by_wishes.items():
+    for (count, least, narrow), faces in by_wishes.items():
         edges = [samples.edges_of_face[face] for face in faces]
         first = np.zeros(len(faces) + 1, np.int64)
         np.cumsum([len(own) for own in edges], out=first[1:])
@@ -371,9 +397,8 @@ def _heed_gaps(model: CadModel, samples: EdgeSamples, sizing: ModelSizing) -> No
             samples.points, asked / share, samples.first, ends, np.concatenate(edges),
             first, *room, gap,
         )  # fmt: skip
-        heeded = (gap >= np.maximum(SLIVER * model.diagonal, MUCH_SMALLER * asked)) & (
-            np.isfinite(gap)
-        )
+        ignored = np.maximum(max(SLIVER * model.diagonal, narrow), MUCH_SMALLER * asked)
+        heeded = (gap >= ignored) & np.isfinite(gap)
         sliver = np.minimum(LONGER * gap[heeded], narrowest)
         sliver[sliver < HOPELESS * narrowest] = narrowest
         along = ratio if count is None else share

@@ -4,10 +4,9 @@
     or boundary nodes, where a face has little more than them
 
 Small meshes are made (``trial_mesh``). Of large ones a few patches or faces are, and what the
-optimiser makes of them is taken for the rest (``trial_patches``, ``trial_faces``). Solids whose
-area and volume need more than their chord are seen too. Not seen, in a mesh too large to be
-made, are edges that faces away from the patches ask to be finer, faces with folds of their own,
-and solids whose stated area or volume no mesh comes near to.
+optimiser makes of them is taken for the rest (``trial_patches``, ``trial_faces``). Not seen, in a
+mesh too large to be made, are edges that faces away from the patches ask to be finer, and faces
+with folds of their own.
 """
 
 from __future__ import annotations

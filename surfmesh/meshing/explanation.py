@@ -19,10 +19,9 @@ from surfmesh.cad.centres import boundary_polygons, inner_samples
 from surfmesh.cad.model import CadModel
 from surfmesh.cad.selection import EVERYTHING
 from surfmesh.errors import SizingError
-from surfmesh.geometry.fundamental_forms import curvatures, forms_from_derivatives
 from surfmesh.geometry.inside_loops import is_inside
 from surfmesh.geometry.projection import closest_point
-from surfmesh.geometry.surface import Surface
+from surfmesh.geometry.surface import Surface, surface_label
 from surfmesh.kernels.background import scalar_sizes_at
 from surfmesh.meshing.axis_sizes import (
     LOWERED,
@@ -42,8 +41,10 @@ from surfmesh.meshing.face_job import face_field
 from surfmesh.sizing.curvature_size import DEVIATION_RESERVE, STRAIGHT_RESERVE
 from surfmesh.sizing.direction_size import size_along
 from surfmesh.sizing.model_sizing import ModelSizing, Rule
+from surfmesh.sizing.rim_size import Rims, RimSizes
 from surfmesh.sizing.size_bounds import SizeBounds
 from surfmesh.sizing.size_field import SizeField
+from surfmesh.sizing.size_law import SizeLaw
 from surfmesh.sizing.size_rows import SizeRow, deciding, rows
 from surfmesh.sizing.sizing import Sizing
 
@@ -51,6 +52,9 @@ GRID, PROJECTIONS = 33, 8
 """Points each way of the grid that a foot is looked for from, and steps to it."""
 
 Curvatures = tuple[float, float] | None
+
+EXACT = 1e-6
+"""Relative: sizes that differ by less are one."""
 
 NEAR_FACES = 6
 """So many faces are looked at in detail."""
@@ -119,14 +123,16 @@ class Explanation:
 
 
 def explain_surface(
-    surface: Surface, sizing: Sizing, field: SizeField, point: np.ndarray
-) -> Explanation:
-    """On one surface; ``field``: what ``sizing`` makes of it."""
+    surface: Surface, sizing: Sizing, field: SizeField, point: np.ndarray,
+    rims: Rims | None = None,
+) -> Explanation:  # fmt: skip
+    """On one surface; ``field``: what ``sizing`` makes of it, and of where the surface ends."""
     grid = _grid(surface, GRID)
     uv, away, foot = _foot(surface, point, grid)
     principal = Principal.at(surface, uv)
     stated = "default" if sizing.chord is None and field.sizing.chord is not None else EVERYTHING
-    bounds = SizeBounds.of(sizing, _diagonal(surface, grid))
+    law = SizeLaw(surface, sizing, None, rims)
+    bounds = law.bounds
 
     def rows_at(place: np.ndarray, k: Curvatures, make: RowMaker = rows) -> list[SizeRow]:
         found = list(make(stated, field.sizing, place, *(k or (None, None))))
@@ -135,26 +141,19 @@ def explain_surface(
                 found.append(SizeRow("default", "a tenth of the diagonal", bounds.clamp[1], "max"))
         return found
 
-    name = surface.name or surface.kind
+    name = surface_label(surface)
     where = _Where(foot, away, name, 0, uv, principal)
     if bounds.sizing.is_anisotropic:
-        samples = _Samples(surface, grid, bounds, field.sizing)
+        samples = _Samples(surface, grid, bounds, field.sizing, law)
 
         def others(direction: np.ndarray, alike: bool) -> list[Elsewhere]:
             return [samples.best_along(direction, foot, "", rows_at)]
 
-        return _along_axes(where, field, bounds, rows_at, others, sizing.gradient)
-    points, *derivatives = surface.evaluate(grid, 2)
-    k = curvatures(forms_from_derivatives(*derivatives))
-    size = np.full(len(grid), bounds.clamp[1])
-    if bounds.follows_curvature:
-        size = np.minimum(size, np.nan_to_num(bounds.shorter(k.k1, k.k2), nan=np.inf))
-    if field.sizing.has_law:
-        size = np.minimum(size, field.sizing.law_sizes(points))
-    best = int(np.argmin(size + sizing.gradient * np.linalg.norm(points - foot, axis=1)))
-    there = list(rows(stated, field.sizing, points[best], k.k1[best], k.k2[best]))
-    elsewhere = [(points[best], f"{_at(points[best])}", deciding(there))]
-    return _explained(where, rows_at(foot, principal.k), field, elsewhere, sizing.gradient)
+        return _along_axes(where, field, bounds, rows_at, others, sizing.gradient, law)
+    elsewhere = [_best_of_law(law, surface, grid, foot, "", rows_at, stated)]
+    found = rows_at(foot, principal.k) + rim_rows(law, uv, stated)
+    asked = float(law(law.scaling.to_plane(uv[None])).size[0])
+    return _explained(where, found, asked, field, elsewhere, sizing.gradient)
 
 
 def explain_model(
@@ -164,7 +163,7 @@ def explain_model(
     """On a CAD model, of which the jobs of the first round are made."""
     number, uv, away, foot = _nearest_face(model, samples, point)
     face = model.faces[number]
-    _, field = face_field(jobs[number])
+    surface, field = face_field(jobs[number])
     principal = Principal.at(face.surface, uv)
     rules = wanted.rules_of("faces", number)
     slope = wanted.base.gradient
@@ -196,19 +195,59 @@ def explain_model(
         reach = samples.wish + slope * np.linalg.norm(samples.points - foot, axis=1)
         place = int(np.argmin(reach))
         elsewhere.append(_at_sample(model, wanted, samples, place))
+    law = SizeLaw(surface, sizings[number], None)
     if len(inner):
-        (points, *derivatives) = face.surface.evaluate(inner, 2)
-        size = np.full(len(inner), bounds.clamp[1])
-        k = curvatures(forms_from_derivatives(*derivatives))
-        if bounds.follows_curvature:
-            size = np.nan_to_num(bounds.shorter(k.k1, k.k2), nan=np.inf)
-        if sizings[number].has_law:
-            size = np.minimum(size, sizings[number].law_sizes(points))
-        best = int(np.argmin(size + slope * np.linalg.norm(points - foot, axis=1)))
-        there = rows_at(points[best], (k.k1[best], k.k2[best]))
-        name = f"face {number} at {_at(points[best])}"
-        elsewhere.append((points[best], name, deciding(there)))
-    return _explained(where, rows_at(foot, principal.k), field, elsewhere, slope)
+        name = f"face {number} at "
+        elsewhere.append(_best_of_law(law, surface, inner, foot, name, rows_at, EVERYTHING))
+    asked = float(law(law.scaling.to_plane(uv[None])).size[0])
+    return _explained(where, rows_at(foot, principal.k), asked, field, elsewhere, slope)
+
+
+def rim_rows(
+    law: SizeLaw, uv: np.ndarray, key: str, direction: np.ndarray | None = None
+) -> list[SizeRow]:
+    """What the rims of a surface ask for at uv (2,); direction: unit (3,), None: in all."""
+    if law.rims is None:
+        return []
+    (point,) = law.surface.evaluate(uv[None], 0)
+    found = []
+    for rows_, rim, allowed in law.rims_at(law.scaling.to_plane(uv[None]), uv[None], point):
+        if not len(rows_) or not np.isfinite(allowed[0]):
+            continue
+        size = float(allowed[0])
+        if direction is not None:
+            size = float(rim.along(point, direction[None, None])[0, 0])
+        kind = "the rim's" if isinstance(rim, RimSizes) else "a trimming loop's"
+        rule = f"chord {law.sizing.chord:g} at {kind} own curvature"
+        found.append(SizeRow(key, rule, max(size, law.clamp[0])))
+    return found
+
+
+def _best_of_law(
+    law: SizeLaw, surface: Surface, uv: np.ndarray, foot: np.ndarray, name: str,
+    rows_at: Callable, key: str,
+) -> tuple[np.ndarray, str, SizeRow | None]:  # fmt: skip
+    """Of places uv (n, 2) the one whose size, as the field has it before gradation, reaches
+    farthest below others at ``foot``: the point, its name, the rule there."""
+    nodes = law(law.scaling.to_plane(uv))
+    away = np.linalg.norm(nodes.point - foot, axis=1)
+    best = int(np.argmin(nodes.size + law.sizing.gradient * away))
+    place = nodes.point[best]
+    there = rows_at(place, Principal.at(surface, uv[best]).k) + rim_rows(law, uv[best], key)
+    return place, f"{name}{_at(place)}", _decided(there, float(nodes.size[best]))
+
+
+def _decided(found: list[SizeRow], asked: float) -> SizeRow | None:
+    """The row that decides; where the field asks for another size, ``found`` gains the bound that
+    it has by itself."""
+    winner = deciding(found)
+    if winner is None or winner.size > asked * (1.0 + EXACT):
+        rule = "the largest size, where nothing else is said"
+        found.append(SizeRow("default", rule, asked, "max"))
+    elif winner.size < asked * (1.0 - EXACT):
+        rule = "no size is smaller, unless min_size says so"
+        found.append(SizeRow("default", rule, asked, "min"))
+    return deciding(found)
 
 
 class _Where(NamedTuple):
@@ -226,8 +265,11 @@ class _Samples:
     """Points of a surface, with the sizes that depend on the direction there."""
 
     def __init__(
-        self, surface: Surface, uv: np.ndarray, bounds: SizeBounds, sizing: Sizing
-    ) -> None:
+        self, surface: Surface, uv: np.ndarray, bounds: SizeBounds, sizing: Sizing,
+        rims: SizeLaw | None = None,
+    ) -> None:  # fmt: skip
+        """rims: the law that knows those of the surface."""
+        self.rims = rims
         self.surface, self.uv, self.bounds, self.sizing = surface, uv, bounds, sizing
         (self.points,) = surface.evaluate(uv, 0)
         self.law = sizing.law_sizes(self.points) if sizing.has_law else np.full(len(uv), np.inf)
@@ -241,6 +283,11 @@ class _Samples:
             every = np.tile(direction, (len(self.uv), 1))
             np.fmin(size, size_along(self.surface, self.uv, every, self.bounds), out=size)
         np.minimum(size, self.law, out=size)
+        if self.rims is not None:
+            xy = self.rims.scaling.to_plane(self.uv)
+            for some, rim, _ in self.rims.rims_at(xy, self.uv, self.points):
+                every = np.broadcast_to(direction, (1, len(some), 3))
+                size[some] = np.minimum(size[some], rim.along(self.points[some], every)[0])
         away = np.linalg.norm(self.points - foot, axis=1)
         best = int(np.argmin(size + self.sizing.gradient * away))
         place = self.points[best]
@@ -248,6 +295,9 @@ class _Samples:
         axis = principal.nearest(direction)
         there = rows_at(place, principal.k, axis_rows(axis, self.bounds.sizing.anisotropy))
         _, winner = wished(there, axis, principal.k, self.bounds, float(self.law[best]))
+        if self.rims is not None:
+            rims = rim_rows(self.rims, self.uv[best], EVERYTHING, direction)
+            winner = min([winner, *rims], key=lambda row: row.size)
         return Elsewhere(float(size[best]), float(away[best]), f"{name}{_at(place)}", winner)
 
 
@@ -271,15 +321,21 @@ def _best_sample(
 def _along_axes(
     where: _Where, field: SizeField, bounds: SizeBounds, rows_at: Callable,
     others: Callable[[np.ndarray, bool], list[Elsewhere]], slope: float,
+    rims: SizeLaw | None = None,
 ) -> Explanation:  # fmt: skip
-    """By the axes of the metric at the point."""
+    """By the axes of the metric at the point; rims: the law that knows those of the surface."""
     foot, k = where.foot, where.principal.k
     sizing = bounds.sizing
     law = float(sizing.law_sizes(foot[None])[0]) if sizing.has_law else np.inf
 
     def rows_of(axis: int) -> tuple[float, SizeRow, list[SizeRow]]:
         found = rows_at(foot, k, axis_rows(axis, sizing.anisotropy))
-        return *wished(found, axis, k, bounds, law), found
+        wish, winner = wished(found, axis, k, bounds, law)
+        if rims is not None:
+            own = rim_rows(rims, where.uv, EVERYTHING, where.principal.along[axis])
+            found.extend(own)
+            winner = min([winner, *own], key=lambda row: row.size)
+        return min(wish, winner.size), winner, found
 
     found = field_axes(field, where.uv, where.principal)
     axes = explained_axes(found, where.principal, rows_of, others, slope)
@@ -292,14 +348,15 @@ def _along_axes(
 
 
 def _explained(
-    where: _Where, found: list[SizeRow], field: SizeField, elsewhere: list, slope: float
-) -> Explanation:
-    """elsewhere: (point (3,), its name, rule there) that the size may have grown from."""
+    where: _Where, found: list[SizeRow], wish: float, field: SizeField, elsewhere: list,
+    slope: float,
+) -> Explanation:  # fmt: skip
+    """wish: of the field before gradation; elsewhere: (point (3,), its name, rule there) that the
+    size may have grown from."""
     foot, out = where.foot, np.empty(1)
     scalar_sizes_at(field.background, field.scaling.to_plane(where.uv[None]), out)
     size = float(out[0])
-    winner = deciding(found)
-    wish = winner.size if winner else np.inf
+    winner = _decided(found, wish)
     origin = ""
     if size < LOWERED * wish:
         candidates = [c for c in elsewhere if c[2] is not None]
@@ -327,7 +384,7 @@ def _rows_of(
         name for name in ("chord", "max_size")
         if getattr(stated, name) is None and rules and any(
             getattr(rule.sizing, given) is not None
-            for rule in rules
+            for rule in rules if not rule.derived
             for given in (("chord", "angle", "size") if name == "chord" else ("max_size", "size"))
         )
     }  # fmt: skip
@@ -475,10 +532,6 @@ def _grid(surface: Surface, count: int) -> np.ndarray:
     (u0, u1), (v0, v1) = surface.domain
     u, v = np.linspace(u0, u1, count), np.linspace(v0, v1, count)
     return np.stack(np.meshgrid(u, v), axis=-1).reshape(-1, 2)
-
-
-def _diagonal(surface: Surface, grid: np.ndarray) -> float:
-    return float(np.linalg.norm(np.ptp(surface.evaluate(grid, 0)[0], axis=0)))
 
 
 def _at(point: np.ndarray) -> str:

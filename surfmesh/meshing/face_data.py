@@ -5,6 +5,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from surfmesh.geometry.surface import Surface
+from surfmesh.meshing.narrow_faces import NarrowFace
 from surfmesh.sizing.size_limits import SizeLimits
 from surfmesh.sizing.sizing import Sizing
 
@@ -42,6 +43,8 @@ class FaceJob:
     last: bool = False
     """Finer edges did not help: take a boundary that crosses itself apart, however far, or
     close it without regard for the surface."""
+    narrow: NarrowFace | None = None
+    """Its sides and ends, of a face narrower than the chord all along."""
 
     def __post_init__(self) -> None:
         if self.limits is not None and self.limits.essential and self.sizing.min_size:
@@ -68,3 +71,5 @@ class FaceMesh:
     failure: str = ""
     remark: str = ""
     """What was done to it out of the ordinary."""
+    narrow: bool = False
+    """It was closed between its sides: good shape is not owed there."""

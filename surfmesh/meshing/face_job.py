@@ -21,12 +21,15 @@ from surfmesh.meshing.boundary_loops import BoundaryLoops, cut_line
 from surfmesh.meshing.boundary_recovery import recovered
 from surfmesh.meshing.edge_wishes import wishes_along
 from surfmesh.meshing.face_data import FaceJob, FaceMesh, Piece
-from surfmesh.meshing.face_repair import filled_face, untangled_job
+from surfmesh.meshing.face_repair import filled_face, no_point, untangled_job
 from surfmesh.meshing.gluing import glued, misglued
 from surfmesh.meshing.one_place import one_place
 from surfmesh.meshing.optimise import Optimiser
 from surfmesh.meshing.packing import packed_over
 from surfmesh.meshing.seam_limits import seam_limits
+from surfmesh.meshing.strip_triangulation import strip_mesh
+from surfmesh.meshing.thin_tubes import without_tubes
+from surfmesh.meshing.tube_triangles import with_tubes
 from surfmesh.sizing.boundary_field import boundary_field, has_boundary_field
 from surfmesh.sizing.size_field import SizeField, inverse_sizes, size_field
 from surfmesh.sizing.size_limits import SizeLimits, along_lines
@@ -47,7 +50,24 @@ PROJECTIONS = 4
 
 def mesh_face(job: FaceJob) -> FaceMesh:
     """Mesh one face. Never raises for what is wrong with the face: see ``failure``."""
+    reason = no_point(job)
+    if reason:
+        return FaceMesh(failure=reason)
+    rest, tubes, slots = without_tubes(job)
+    if not tubes or (job.narrow is not None and rest.loops):
+        return _mesh_rest(job)
+    if not rest.loops:
+        return with_tubes(job, rest, FaceMesh(), tubes, slots)
+    mesh = _mesh_rest(rest)
+    return mesh if mesh.failure else with_tubes(job, rest, mesh, tubes, slots)
+
+
+def _mesh_rest(job: FaceJob) -> FaceMesh:
+    """Mesh a face without thin tips and necks, or what is left of one."""
     try:
+        strip = strip_mesh(job) if job.narrow is not None else None
+        if strip is not None:
+            return strip
         try:
             return _never_empty(job, _meshed(job))
         except SurfaceError:

@@ -13,8 +13,32 @@ TOLERANCES, WITHIN = 2.0, 1.0
 """Images that cross may be moved by so many tolerances of their edges; the last time, when
 smaller sizes have not helped, by this share of the segments there."""
 
+REACH, ALONG = 0.05, 17
+"""Of a face's size: a degenerate edge whose image reaches farther is no point; its samples."""
+
 SLOWEST = 0.1
 """Least speed, of the mean, that a tolerance is translated to (u, v) with."""
+
+
+def no_point(job: FaceJob) -> str:
+    """Why a degenerate piece is none: its image reaches far in space. Empty when all is well."""
+    real = [piece.points for loop in job.loops for piece in loop if not piece.degenerate]
+    if not real:
+        return ""
+    size = float(np.linalg.norm(np.ptp(np.concatenate(real), axis=0)))
+    t = np.linspace(0.0, 1.0, ALONG)[:, None]
+    for piece in (piece for loop in job.loops for piece in loop if piece.degenerate):
+        (points,) = job.surface.evaluate((1.0 - t) * piece.uv[0] + t * piece.uv[-1], 0)
+        reach = float(np.linalg.norm(points - piece.points[0], axis=1).max())
+        if reach > REACH * size:
+            place = ", ".join(f"{x:.6g}" for x in piece.points[0])
+            (u0, v0), (u1, v1) = piece.uv[[0, -1]]
+            return (
+                f"its edge at ({place}) is to be one point, but its image from (u, v) = "
+                f"({u0:.6g}, {v0:.6g}) to ({u1:.6g}, {v1:.6g}) reaches {reach:.3g} from there: the "
+                "loop is open or runs the wrong way; repair the face in the program that made it"
+            )
+    return ""
 
 
 def untangled_job(job: FaceJob) -> FaceJob | None:

@@ -55,9 +55,11 @@ def glued(surface: Surface, loops: BoundaryLoops, domain: DomainMesh, uv: np.nda
     if joined:
         a, b, c = triangles.T
         solid = (a != b) & (b != c) & (c != a)
-        start, end = loops.identity[loops.segments].T
+        # an edge inside is walked there and back: two segments of the loops, one of the domain
+        segments = np.unique(np.sort(loops.segments, axis=1), axis=0)
+        start, end = loops.identity[segments].T
         collapsed = int((start == end).sum())
-        pairs = np.sort(loops.identity[loops.segments], axis=1)[start != end]
+        pairs = np.sort(loops.identity[segments], axis=1)[start != end]
         glued_edges = len(pairs) - len(np.unique(pairs, axis=0))
         euler += collapsed + glued_edges - joined
         lost = triangles[~solid]

@@ -28,8 +28,9 @@ from surfmesh.meshing.face_job import edge_wishes, mesh_face
 from surfmesh.meshing.face_sizings import face_sizings
 from surfmesh.meshing.model_estimate import model_counts, require_model_within
 from surfmesh.meshing.model_groups import groups_of
+from surfmesh.meshing.narrow_faces import NarrowFace
 from surfmesh.meshing.simplification import LEAST, simplified
-from surfmesh.meshing.solid_contents import Contents
+from surfmesh.meshing.solid_volumes import VolumeAims
 from surfmesh.meshing.stages import Progress, Stopwatch
 from surfmesh.meshing.trial_faces import ratios
 from surfmesh.meshing.trial_mesh import ROUNDS as TRIAL_ROUNDS
@@ -37,6 +38,7 @@ from surfmesh.meshing.trial_mesh import WHOLE, WHOLE_STRETCHED, tried
 from surfmesh.sizing.model_sizing import ModelSizing, model_sizing
 from surfmesh.sizing.size_limits import SizeLimits
 from surfmesh.sizing.sizing import Sizing
+from surfmesh.sizing.volume_rule import with_volume_rule
 from surfmesh.surface_mesh import NOT_MESHED, SurfaceMesh
 
 ROUNDS = 8
@@ -45,6 +47,9 @@ ROUNDS = 8
 PATIENCE, HOPE, GROWN = 2, 0.9, 1.02
 """A face is meshed again for its own wishes until so many rounds running have left more than this
 share of the places, and made it no finer than this: smaller sizes do not reach what is wrong."""
+
+VOLUME_ROUNDS = 4
+"""How often a model is meshed for the sake of its volumes, at most: once in most cases."""
 
 FINER = 0.6
 """Factor on the sizes where faces share an edge of triangles that they should not."""
@@ -63,15 +68,29 @@ def mesh_model(
     strict=False delivers what could be meshed and lists the other faces in ``warnings``.
     Raises ``MeshingError`` that names the faces that could not be meshed, with the reasons.
     """
+    if strict:
+        require_all_faces(model)
     watch = Stopwatch(progress)
-    wanted = with_face_gaps(model, model_sizing(model, sizing))
+    asked = model_sizing(model, sizing)
+    aims = VolumeAims(model, asked.base.volume)
+    for _ in range(VOLUME_ROUNDS):
+        with watch.stage("sizing"):
+            wanted = _wanted(model, asked, aims.by_solid)
+        mesh = _mesh_faces(model, wanted, optimise, watch, strict, workers, rounds)
+        if not aims.lowered_after(mesh):
+            break
+    return simplified(mesh, asked.base.min_size or LEAST * model.diagonal) if simplify else mesh
+
+
+def _mesh_faces(
+    model: CadModel, wanted: ModelSizing, optimise: bool, watch: Stopwatch, strict: bool,
+    workers: int, rounds: int,
+) -> SurfaceMesh:  # fmt: skip
+    """The mesh for one set of sizes."""
     sizing = wanted.base
     with watch.stage("sizing"):
         samples = sample_edges(model, wanted)
         of_face = face_sizings(model, samples, wanted)
-    # few triangles are asked for within the chord: it alone is kept
-    kept = None if wanted.is_anisotropic else sizing.chord
-    contents = Contents(model, kept, sizing.gradient)
     limits: dict[int, SizeLimits] = {}
     jobs: list[FaceJob | None] = [None] * len(model.faces)
     done: list[FaceMesh] = [FaceMesh()] * len(model.faces)
@@ -94,7 +113,8 @@ def mesh_model(
                     or any(nodes[c.edge] is not before[c.edge] for c in face.coedges)
                 ):
                     own = of_face[number]
-                    jobs[number] = _job(model, face, nodes, samples, own, limit, optimise)
+                    narrow = samples.narrow.get(number)
+                    jobs[number] = _job(model, face, nodes, samples, own, limit, optimise, narrow)
                     changed.append(number)
             meshes = _in_order(mesh_face, [jobs[number] for number in changed], workers)
             for count, (number, face_mesh) in enumerate(zip(changed, meshes), 1):
@@ -102,12 +122,11 @@ def mesh_model(
                 hopes[number].hear(face_mesh)
                 watch.pulse(count / len(changed))
         with watch.stage("mapping"):
-            mesh = _joined(model, jobs, done, nodes, samples, sizing, watch)
             asking = [k for k, found in enumerate(done) if found.wishes is not None]
             wishes = {k: done[k].wishes for k in asking if hopes[k].is_left}
-            _refine_crowded(model, mesh, sizing, wishes)
-            for number, wish in contents.wishes(mesh).items():
-                wishes[number] = wish.joined_with(wishes.get(number))
+            if any(len(found.triangles) for found in done):
+                mesh = _joined(model, jobs, done, nodes, samples, sizing, watch)
+                _refine_crowded(model, mesh, sizing, wishes)
         if not wishes:
             break
         for number, wish in wishes.items():
@@ -128,8 +147,18 @@ def mesh_model(
             + ". Lower the sizes, repair the faces, or use strict=False to get the others"
         )
     mesh = replace(mesh, promises=wanted.promises(len(model.faces)))
-    mesh = mesh.with_warnings(*_left_over(model, {*asking, *wishes}), *contents.warnings())
-    return simplified(mesh, sizing.min_size or LEAST * model.diagonal) if simplify else mesh
+    return mesh.with_warnings(*_left_over(model, {*asking, *wishes}))
+
+
+def require_all_faces(model: CadModel) -> None:
+    """Raises ``MeshingError`` that names what was left out when the model was read."""
+    if model.left_out:
+        more = len(model.left_out) - 5
+        raise MeshingError(
+            f"{(model.name or model.source)!r} cannot be meshed in full: "
+            + "; ".join(model.left_out[:5]) + (f"; and {more} more" if more > 0 else "")
+            + ". Repair it, or use strict=False (--no-strict) to get the other faces"
+        )  # fmt: skip
 
 
 class _Hope:
@@ -155,14 +184,14 @@ class _Hope:
 def estimate_model(model: CadModel, sizing: Any) -> Estimate:
     """Triangles and memory of ``mesh_model``. Raises ``SizingError`` for wishes that cannot be."""
     wanted, _, _, jobs = _unmeshed(model, sizing)
-    first, counts = model_counts(model, jobs, wanted.base)
+    counts = model_counts(jobs)
     if counts.sum() <= (WHOLE_STRETCHED if wanted.is_anisotropic else WHOLE):
         made = tried(lambda stop: mesh_model(
             model, sizing, progress=stop, strict=False, rounds=TRIAL_ROUNDS
         ))  # fmt: skip
         if made is not None:
             return Estimate.of(made, wanted.is_anisotropic, model=True)
-    return Estimate.of(counts * ratios(jobs, first), wanted.is_anisotropic, model=True)
+    return Estimate.of(counts * ratios(jobs, counts), wanted.is_anisotropic, model=True)
 
 
 def explain_size(model: CadModel, sizing: Any, point: np.ndarray) -> Explanation:
@@ -170,11 +199,18 @@ def explain_size(model: CadModel, sizing: Any, point: np.ndarray) -> Explanation
     return explain_model(model, *_unmeshed(model, sizing), point)
 
 
+def _wanted(
+    model: CadModel, asked: ModelSizing, aims: Mapping[int, float] | None = None
+) -> ModelSizing:
+    """With what follows from volumes and from gaps between faces; aims: see ``VolumeAims``."""
+    return with_face_gaps(model, with_volume_rule(model, asked, aims))
+
+
 def _unmeshed(
     model: CadModel, sizing: Any
 ) -> tuple[ModelSizing, EdgeSamples, list[Sizing], list[FaceJob]]:
     """Wishes, samples of edges, wishes by face and jobs: all that precedes the first mesh."""
-    wanted = with_face_gaps(model, model_sizing(model, sizing))
+    wanted = _wanted(model, model_sizing(model, sizing))
     samples = sample_edges(model, wanted)
     of_face = face_sizings(model, samples, wanted)
     nodes = cut_edges(model, wanted.base, samples, {})
@@ -192,7 +228,10 @@ def _jobs(
 ) -> list[FaceJob]:  # fmt: skip
     """The jobs of all faces before anything is known of their meshes."""
     return [
-        _job(model, face, nodes, samples, own, (limits or {}).get(number), optimise)
+        _job(
+            model, face, nodes, samples, own, (limits or {}).get(number), optimise,
+            samples.narrow.get(number),
+        )
         for number, (face, own) in enumerate(zip(model.faces, sizings))
     ]
 
@@ -225,7 +264,7 @@ def _reason(model: CadModel, number: int, found: FaceMesh) -> str:
 
 def _job(
     model: CadModel, face: CadFace, nodes: list[EdgeNodes | None], samples: EdgeSamples,
-    sizing: Sizing, limits: SizeLimits | None, optimise: bool,
+    sizing: Sizing, limits: SizeLimits | None, optimise: bool, narrow: NarrowFace | None,
 ) -> FaceJob:  # fmt: skip
     loops = []
     for loop in face.loops:
@@ -245,7 +284,7 @@ def _job(
             numbers, points, sizes = cut.numbers[order], cut.points[order], cut.sizes[order]
             pieces.append(Piece(uv, numbers, points, sizes, False, edge.tolerance))
         loops.append(tuple(pieces))
-    return FaceJob(face.surface, tuple(loops), sizing, limits, optimise)
+    return FaceJob(face.surface, tuple(loops), sizing, limits, optimise, narrow=narrow)
 
 
 def orientation(model: CadModel) -> tuple[np.ndarray, np.ndarray]:
@@ -330,7 +369,8 @@ def _joined(
     segments = rank[np.concatenate(segments)] if segments else np.empty((0, 2), np.int64)
     of = np.concatenate(of) if of else np.empty(0, np.int64)
     there = (segments >= 0).all(axis=1)
-    missing = [
+    missing = [f"{NOT_MESHED}{said}" for said in model.left_out]
+    missing += [
         f"{NOT_MESHED}{_reason(model, k, found)}" for k, found in enumerate(done) if found.failure
     ]
     missing += [
@@ -346,10 +386,12 @@ def _joined(
         face_ids=face_ids,
         surfaces=tuple(face.surface for face in model.faces),
         turned_faces=turned,
+        narrow_faces=np.array([found.narrow for found in done], bool),
         solid_ids=solids[face_ids],
         edge_segments=segments[there],
         edge_ids=of[there],
         edge_shares=shares[there],
+        edge_curves=model.edges,
         vertex_ids=rank[samples.vertex],
         sizes=np.where(np.isfinite(sizes), sizes, model.diagonal)[used],
         groups=groups_of(model),

@@ -153,10 +153,14 @@ class Optimiser:
 
     def __init__(
         self, t: Triangulation, node: np.ndarray, same: np.ndarray, surface: Surface,
-        field: SizeField,
+        field: SizeField, creased: np.ndarray | None = None,
     ) -> None:  # fmt: skip
-        """``node`` (k,) are boundary vertices, ``same`` (k,) the ones they coincide with."""
+        """``node`` (k,) are boundary vertices, ``same`` (k,) the ones they coincide with.
+
+        creased: (j,) vertices on kinks, where the surface has two normals.
+        """
         self.t, self.node, self.surface, self.field = t, node, surface, field
+        self.creased = node[:0] if creased is None else creased
         self.same = same
         room = len(t.xy)
         self.is_anisotropic = field.is_anisotropic
@@ -216,7 +220,10 @@ class Optimiser:
         true = np.cross(ru, rv)
         length = np.linalg.norm(normal, axis=1) * np.linalg.norm(true, axis=1)
         away = np.einsum("ij,ij->i", normal, true) < LEAST_AT_CENTRE * length
-        return turned[away | (flag[turned] != 0)]
+        at_corner = flag[turned] != 0
+        if len(self.creased):  # there a corner has the normal of one side, or of neither
+            at_corner &= ~np.isin(self.t.tri.reshape(-1, 3)[turned], self.creased).any(axis=1)
+        return turned[away | at_corner]
 
     def settle(self) -> None:
         """Only choose better diagonals for what the packing and the boundary left over."""

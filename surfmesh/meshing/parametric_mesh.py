@@ -8,21 +8,24 @@ sides -> size field -> packing -> boundary -> optimisation -> space, joined side
 import numpy as np
 
 from surfmesh.errors import MeshingError, SizingError
+from surfmesh.geometry.kinks import KinkLine, kink_lines
 from surfmesh.geometry.known_facts import known_facts
 from surfmesh.geometry.sides import SideTopology, find_sides
 from surfmesh.geometry.surface import Surface
 from surfmesh.kernels.background import scalar_sizes_at
 from surfmesh.meshing.boundary_loops import BoundaryLoops, boundary_loops
 from surfmesh.meshing.boundary_recovery import DomainMesh, recovered
-from surfmesh.meshing.cusps import closed_at, find_cusps, without_cusps
+from surfmesh.meshing.cusps import Cusp, closed_at, find_cusps, without_cusps
 from surfmesh.meshing.estimation import Estimate, field_triangles, require_field_within
 from surfmesh.meshing.explanation import Explanation, explain_surface
 from surfmesh.meshing.gluing import Glued, glued, misglued
+from surfmesh.meshing.kink_segments import sides_met, with_kinks
 from surfmesh.meshing.optimise import Optimiser
 from surfmesh.meshing.packing import packed_over
 from surfmesh.meshing.stages import Progress, Stopwatch
 from surfmesh.meshing.trial_mesh import WHOLE, tried
 from surfmesh.meshing.trial_patches import triangles_per_unit
+from surfmesh.sizing.rim_size import Rims
 from surfmesh.sizing.size_field import SizeField, inverse_sizes, size_field
 from surfmesh.sizing.size_limits import SizeLimits
 from surfmesh.sizing.sizing import Sizing
@@ -52,17 +55,31 @@ def mesh_parametric(
     """
     watch = Stopwatch(progress)
     with watch.stage("sizing"):
-        sides = find_sides(surface)
-        cusps = find_cusps(surface, sides, sizing)
-        if cusps:
-            whole, surface = surface, without_cusps(surface, cusps)
-            sides = find_sides(surface)
-    mesh = _in_rounds(surface, sides, sizing, optimise, watch)
-    return closed_at(mesh, whole, cusps) if cusps else mesh
+        part, sides, cusps = _without_cusps(surface, sizing)
+        kinks = kink_lines(part)
+    mesh = _in_rounds(part, sides, kinks, sizing, optimise, watch)
+    return closed_at(mesh, surface, cusps) if cusps else mesh
+
+
+def _without_cusps(
+    surface: Surface, sizing: Sizing
+) -> tuple[Surface, SideTopology, tuple[Cusp, ...]]:
+    """What is meshed before fans close its cusps, how its sides are joined, and the cusps."""
+    sides = find_sides(surface)
+    cusps = find_cusps(surface, sides, sizing)
+    if not cusps:
+        return surface, sides, ()
+    part = without_cusps(surface, cusps)
+    return part, find_sides(part), cusps
 
 
 def _in_rounds(
-    surface: Surface, sides: SideTopology, sizing: Sizing, optimise: bool, watch: Stopwatch
+    surface: Surface,
+    sides: SideTopology,
+    kinks: list[KinkLine],
+    sizing: Sizing,
+    optimise: bool,
+    watch: Stopwatch,
 ) -> SurfaceMesh:
     """Rounds with smaller sizes each until nothing is to be mended, or can be."""
     limits: SizeLimits | None = None
@@ -71,13 +88,13 @@ def _in_rounds(
     for _ in range(ROUNDS):
         with watch.stage("sizing"):
             try:
-                field = size_field(surface, sizing, sides, limits)
+                field = size_field(surface, sizing, sides, limits, Rims(surface, sides))
             except SizingError:
                 if mesh is None:
                     raise
                 break  # what no size can mend: the report says what is left
-            require_field_within(sizing.limit, field, surface.loops or None, surface.name)
-        mesh, wishes, bad = _one_round(surface, sides, field, optimise, watch)
+            require_field_within(sizing.limit, field, _loops(surface), surface.name)
+        mesh, wishes, bad = _one_round(surface, sides, kinks, field, optimise, watch)
         if wishes is None or not _can_shrink(field, wishes):
             break
         now = (len(mesh.triangles), len(wishes.sizes))
@@ -100,47 +117,48 @@ def _in_rounds(
 
 def estimate_parametric(surface: Surface, sizing: Sizing) -> Estimate:
     """Triangles and memory of ``mesh_parametric``. Raises as it does."""
-    whole, sides = surface, find_sides(surface)
-    cusps = find_cusps(surface, sides, sizing)
-    if cusps:
-        surface = without_cusps(surface, cusps)
-        sides = find_sides(surface)
-    field = size_field(surface, sizing, sides)
-    loops = surface.loops or None
+    part, sides, _ = _without_cusps(surface, sizing)
+    field = size_field(part, sizing, sides, rims=Rims(part, sides))
+    loops = _loops(part)
     asked = field_triangles(field, loops)
     if asked <= WHOLE:
-        made = tried(lambda stop: mesh_parametric(whole, sizing, progress=stop))
+        made = tried(lambda stop: mesh_parametric(surface, sizing, progress=stop))
         if made is not None:
             return Estimate.of(made, field.is_anisotropic)
-    got = asked * (triangles_per_unit(surface, field, loops) or 1.0)
+    got = asked * (triangles_per_unit(part, field, loops) or 1.0)
     return Estimate.of([got], field.is_anisotropic)
 
 
 def explain_parametric(surface: Surface, sizing: Sizing, point: np.ndarray) -> Explanation:
     """Which wish decides at the point of the surface that is nearest to ``point`` (3,)."""
-    field = size_field(surface, sizing, find_sides(surface))
-    return explain_surface(surface, sizing, field, point)
+    sides = find_sides(surface)
+    field = size_field(surface, sizing, sides, rims=Rims(surface, sides))
+    return explain_surface(surface, sizing, field, point, Rims(surface, sides))
 
 
 def _one_round(
-    surface: Surface, sides: SideTopology, field: SizeField, optimise: bool, watch: Stopwatch
-) -> tuple[SurfaceMesh, SizeLimits | None, np.ndarray]:
+    surface: Surface, sides: SideTopology, kinks: list[KinkLine], field: SizeField,
+    optimise: bool, watch: Stopwatch,
+) -> tuple[SurfaceMesh, SizeLimits | None, np.ndarray]:  # fmt: skip
     """The mesh for one size field; the smaller sizes it needs; points that are badly glued."""
     with watch.stage("packing"):
         packing = packed_over(field)
     with watch.stage("boundary"):
-        loops = boundary_loops(surface, sides, field)
+        loops = boundary_loops(surface, sides, field, sides_met(surface, kinks) if kinks else None)
+        if kinks:
+            loops = with_kinks(loops, surface, kinks, field)
         domain = recovered(packing.t, loops, field, surface)
         del packing
     wishes: list[SizeLimits] = []
     scale = np.ones(len(domain.t.xy))
     same = domain.node[loops.identity]
+    creased = domain.node[np.unique(loops.inner)]
     if not optimise:
         with watch.stage("boundary"):
             Optimiser(domain.t, domain.node, same, surface, field).settle()
     else:
         with watch.stage("optimisation"):
-            optimiser = Optimiser(domain.t, domain.node, same, surface, field)
+            optimiser = Optimiser(domain.t, domain.node, same, surface, field, creased)
             optimiser.before_pass = watch.pulse
             changes = optimiser.run()
             scale = optimiser.embedding.scale
@@ -188,10 +206,14 @@ def _in_space(
         inverse_sizes=inverse_sizes(field, xy, scale[: len(xy)]),
         sizing=field.sizing,
         seconds=watch.seconds,
-        one_sided=sides.one_sided and not surface.loops,
+        one_sided=sides.one_sided and not len(surface.loops),
         facts=known_facts(surface),
     )
     return mesh, parts
+
+
+def _loops(surface: Surface) -> list[np.ndarray] | None:
+    return [np.asarray(loop, float) for loop in surface.loops] or None
 
 
 def _can_shrink(field: SizeField, wishes: SizeLimits) -> bool:

@@ -23,6 +23,7 @@ from surfmesh.meshing.planar_segments import (
 from surfmesh.meshing.stages import Progress, Stopwatch
 from surfmesh.meshing.trial_mesh import WHOLE, tried
 from surfmesh.sizing.across_gaps import size_across
+from surfmesh.sizing.size_bounds import SizeBounds
 from surfmesh.sizing.size_field import SizeField, size_field
 from surfmesh.sizing.sizing import Sizing
 from surfmesh.surface_mesh import SurfaceMesh
@@ -31,15 +32,28 @@ GAP_ROUNDS = 3
 """How often the size field is made anew because gaps were found, at most."""
 
 
+THINNING = 0.125
+"""Of the smallest size that is asked for along the lines: how far ``simplify`` may move them. A
+segment of that size passes an arc of the strongest bend that is worth following as closely."""
+
+FAR_BELOW = 0.5
+"""Segments shorter than this share of ``min_size`` are worth a word."""
+
+
 def mesh_planar(
-    domain: PlanarDomain, sizing: Sizing, optimise: bool = True, progress: Progress | None = None
-) -> SurfaceMesh:
+    domain: PlanarDomain, sizing: Sizing, optimise: bool = True, progress: Progress | None = None,
+    simplify: bool = False,
+) -> SurfaceMesh:  # fmt: skip
     """Mesh the inside of a planar domain; every segment is followed by edges of the mesh.
 
-    Raises ``SizingError`` or ``DomainError`` with the reason.
+    simplify=True thins lines that are finer than the sizes first, within ``chord`` or else an
+    eighth of the smallest size asked for along them. Raises ``SizingError`` or ``DomainError``
+    with the reason.
     """
     watch = Stopwatch(progress)
     with watch.stage("sizing"):
+        if simplify:
+            domain = domain.simplified(_thinning_distance(domain, sizing))
         field, cut = _field_and_segments(domain, sizing)
         loops = [*domain.outer, *domain.holes]
         require_field_within(sizing.limit, field, loops, domain.name)
@@ -58,6 +72,34 @@ def mesh_planar(
             scale = optimiser.embedding.scale
     with watch.stage("mapping"):
         return _in_space(domain, field, cut, inside, scale, watch)
+
+
+def _thinning_distance(domain: PlanarDomain, sizing: Sizing) -> float:
+    if sizing.chord is not None:
+        return sizing.chord
+    bounds = SizeBounds.of(sizing, float(np.hypot(*np.ptp(domain.graph.points, axis=0))))
+    size = bounds.clamp[1]
+    if sizing.has_law:
+        points = np.column_stack([domain.graph.points, np.zeros(len(domain.graph.points))])
+        size = min(size, float(sizing.law_sizes(points).min()))
+    return THINNING * max(size, sizing.min_size or 0.0) if np.isfinite(size) else bounds.clamp[0]
+
+
+def _too_fine(domain: PlanarDomain, sizing: Sizing) -> list[str]:
+    """A sentence where lines are cut more finely than the smallest size that is wanted."""
+    if not sizing.min_size:
+        return []
+    ends = domain.graph.points[domain.graph.segments]
+    length = np.linalg.norm(ends[:, 1] - ends[:, 0], axis=1)
+    short = np.flatnonzero(length < FAR_BELOW * sizing.min_size)
+    if not len(short):
+        return []
+    shortest = domain.graph.origin(int(length.argmin()))
+    return [
+        f"{len(short):,} of {len(length):,} segments are shorter than half of min_size "
+        f"{sizing.min_size:g}, down to {length.min():.3g} ({shortest}): they are "
+        "followed all the same, and triangles there are thin; simplify=True thins them"
+    ]
 
 
 def estimate_planar(domain: PlanarDomain, sizing: Sizing) -> Estimate:
@@ -114,7 +156,7 @@ def _in_space(
         sizes=(sizes * scale[:vertices])[used],
         sizing=field.sizing,
         seconds=watch.seconds,
-        warnings=domain.warnings,
+        warnings=(*domain.warnings, *_too_fine(domain, field.sizing)),
         facts=known_facts(domain),
     )
 

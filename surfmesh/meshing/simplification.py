@@ -12,12 +12,11 @@ Source: Dey, Edelsbrunner, Guha, Nekhayev, "Topology preserving edge contraction
 """
 
 import heapq
-from dataclasses import replace
 
 import numpy as np
 
 from surfmesh.geometry.projection import closest_point
-from surfmesh.surface_mesh import SurfaceMesh
+from surfmesh.surface_mesh import Corners, SurfaceMesh
 
 LEAST = 5e-4
 """Edges shorter than this share of the diagonal are collapsed, if ``min_size`` does not say."""
@@ -126,58 +125,32 @@ class _Work:
 
     def mesh(self) -> SurfaceMesh:
         """What is left, with new numbers."""
-        old = self.old
-        live = ~self.gone
-        uv_points, uv_triangles = self._parameters()
-        used = np.zeros(len(old.points), bool)
-        used[self.triangles[live].ravel()] = True
-        number = np.cumsum(used) - 1
+        old, live = self.old, ~self.gone
         final = self.kept_as.copy()
         while (final[final] != final).any():
             final = final[final]
-        segments = ids = shares = None
-        if old.edge_segments is not None:
-            segments = number[final[old.edge_segments]]
-            there = segments[:, 0] != segments[:, 1]
-            segments, ids = segments[there], old.edge_ids[there]
-            shares = None if old.edge_shares is None else old.edge_shares[there]
         empty = np.setdiff1d(np.unique(old.face_ids), old.face_ids[live])
         said = [f"simplified: {old.face_name(k)} (face {k}) has vanished" for k in empty]
-        vertex = old.vertex_ids
-        return replace(
-            old,
-            points=old.points[used],
-            triangles=number[self.triangles[live]],
-            uv_points=uv_points,
-            uv_triangles=None if uv_triangles is None else uv_triangles[live],
-            face_ids=old.face_ids[live],
-            solid_ids=None if old.solid_ids is None else old.solid_ids[live],
-            edge_segments=segments,
-            edge_ids=ids,
-            edge_shares=shares,
-            vertex_ids=None if vertex is None else np.where(vertex < 0, -1, number[final[vertex]]),
-            sizes=None if old.sizes is None else old.sizes[used],
-            warnings=(*old.warnings, *said),
-        )
+        return old.submesh(live, final, self._corners()).with_warnings(*said)
 
-    def _parameters(self) -> tuple[np.ndarray | None, np.ndarray | None]:
-        """uv of all corners; those with another vertex are found anew on their face."""
+    def _corners(self) -> Corners | None:
+        """Parameters of all corners; those with another vertex are found anew on their face."""
         old = self.old
-        if old.uv_points is None:
-            return None, None
         changed = np.array(sorted({pair for pair in self.replaced if not self.gone[pair[0]]}))
+        if old.uv_points is None or not len(changed):
+            return None
         rows = old.uv_triangles.astype(np.int64)
-        if not len(changed):
-            return old.uv_points, rows
         triangle, corner = changed.T
         points = old.points[self.triangles[triangle, corner]]
-        uv = old.uv_points[rows[triangle, corner]].copy()
+        source = rows[triangle, corner]
+        uv = old.uv_points[source].copy()
         face = old.face_ids[triangle]
         for number in np.unique(face):
             of = face == number
             uv[of] = closest_point(old.surfaces[number], points[of], uv[of], steps=8)[0]
         rows[triangle, corner] = len(old.uv_points) + np.arange(len(changed))
-        return np.concatenate([old.uv_points, uv]), rows
+        source = np.concatenate([np.arange(len(old.uv_points)), source])
+        return Corners(np.concatenate([old.uv_points, uv]), rows, source)
 
 
 def _normals(corners: np.ndarray) -> np.ndarray:

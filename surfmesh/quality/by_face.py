@@ -6,6 +6,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from surfmesh.geometry.surface import surface_kind
+from surfmesh.quality.by_solid import relative_error
 from surfmesh.quality.deviation import Deviation
 from surfmesh.quality.promises import Promises, StatedLimit, beyond_angle, beyond_chord
 from surfmesh.quality.shape import Shapes
@@ -23,6 +25,7 @@ class FaceRow:
     triangles: int
     area: float
     area_exact: float | None
+    area_error: float | None  # area / area_exact - 1
     chord: float | None  # promised of it: the largest distance from the surface
     angle: float | None  # likewise the largest between its triangles, degrees
     limit: str  # a min_size of the user's that forbids one of them, in words; else empty
@@ -92,15 +95,17 @@ def by_face(
         place = mesh.points[mesh.triangles[worst[k]]].mean(axis=0) if known else ()
         chord = promises.one(promises.chord, face)
         angle = promises.one(promises.angle, face)
+        exact_area = exact[face].area if 0 <= face < len(exact) else None
         rms = float(square[k] / area[k]) ** 0.5 if known and area[k] > 0 else None
         rows.append(
             FaceRow(
                 face=face,
                 name=mesh.face_name(face),
-                kind=exact[face].kind if 0 <= face < len(exact) else getattr(surface, "kind", ""),
+                kind=exact[face].kind if 0 <= face < len(exact) else surface_kind(surface),
                 triangles=here,
                 area=float(area[k]),
-                area_exact=exact[face].area if 0 <= face < len(exact) else None,
+                area_exact=exact_area,
+                area_error=relative_error(float(area[k]), exact_area) if here else None,
                 chord=chord,
                 angle=angle,
                 limit="; ".join(str(limit) for limit in limits if limit.face == face),

@@ -20,8 +20,10 @@ class SolidRow:
     euler_exact: int | None
     area: float
     area_exact: float | None
+    area_error: float | None  # area / area_exact - 1
     volume: float | None
     volume_exact: float | None
+    volume_error: float | None
 
 
 def by_solid(mesh: SurfaceMesh, shape: Shapes) -> tuple[SolidRow, ...]:
@@ -54,21 +56,33 @@ def by_solid(mesh: SurfaceMesh, shape: Shapes) -> tuple[SolidRow, ...]:
     balance = np.bincount(place, np.where(starts < ends, 1.0, -1.0))
     opened = np.bincount(keys // width**2, balance != 0, count)
     euler = vertices - edges + triangles
+    closed = [bool(triangles[k] > 0 and opened[k] == 0) for k in range(count)]
+    exact_area = [exact[k].area if k < len(exact) else None for k in range(count)]
+    exact_volume = [exact[k].volume if k < len(exact) else None for k in range(count)]
     return tuple(
         SolidRow(
             solid=k,
             name=exact[k].name if k < len(exact) else "",
             triangles=int(triangles[k]),
-            closed=bool(triangles[k] > 0 and opened[k] == 0),
+            closed=closed[k],
             euler=int(euler[k]),
             euler_exact=exact[k].euler if k < len(exact) else None,
             area=float(area[k]),
-            area_exact=exact[k].area if k < len(exact) else None,
-            volume=float(volume[k]) if triangles[k] > 0 and opened[k] == 0 else None,
-            volume_exact=exact[k].volume if k < len(exact) else None,
+            area_exact=exact_area[k],
+            area_error=relative_error(float(area[k]), exact_area[k]),
+            volume=float(volume[k]) if closed[k] else None,
+            volume_exact=exact_volume[k],
+            volume_error=relative_error(float(volume[k]), exact_volume[k]) if closed[k] else None,
         )
         for k in range(count)
     )
+
+
+def relative_error(found: float | None, exact: float | None) -> float | None:
+    """By how much a measure is off, however its surface is turned; None where one is not known."""
+    if found is None or not exact:
+        return None
+    return abs(found) / abs(exact) - 1.0
 
 
 def volume_of_all(rows: tuple[SolidRow, ...]) -> float | None:

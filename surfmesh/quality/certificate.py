@@ -6,6 +6,7 @@ from surfmesh.quality.summary import summary
 
 if TYPE_CHECKING:
     from surfmesh.quality.by_face import FaceRow
+    from surfmesh.quality.folds import FoldedTriangle
     from surfmesh.quality.report import Report
 
 SHOWN_FACES = 40  # those that are farthest from the surface
@@ -15,7 +16,8 @@ BAR = 50  # characters of the longest bar of a histogram
 def certificate(report: "Report") -> str:
     """Every part of ``report``; long lists of faces are cut, the JSON has them all."""
     parts = [summary(report), _faces(report), _solids(report), _worst(report), _folded(report)]
-    parts += [_meeting(report), _histograms(report), _healing(report), _origin(report)]
+    parts += [_meeting(report), _bodies(report), _histograms(report), _healing(report)]
+    parts.append(_origin(report))
     return "\n\n".join(part for part in parts if part)
 
 
@@ -27,15 +29,16 @@ def _faces(report: "Report") -> str:
     if len(rows) > SHOWN_FACES:
         title = f"faces, the {SHOWN_FACES} farthest from the surface of {len(rows)}"
         rows = sorted(rows, key=_badness, reverse=True)[:SHOWN_FACES]
-    head = ("face", "name", "triangles", "area", "exact", "largest", "chord", "rms", "> chord")
-    head += ("near", "turn", "angle", "alpha", "min", "size", "wanted")
+    head = ("face", "name", "triangles", "area", "exact", "off", "largest", "chord", "rms")
+    head += ("> chord", "near", "turn", "angle", "alpha", "min", "size", "wanted")
     return _table(
         title,
         head,
         [
             (
                 str(row.face), _short(row), f"{row.triangles:,}", _g(row.area, 6),
-                _g(row.area_exact, 6), _g(row.deviation_max), _g(row.chord),
+                _g(row.area_exact, 6), _error(row.area_error), _g(row.deviation_max),
+                _g(row.chord),
                 _g(row.deviation_rms), _percent(row.above_chord_share),
                 _place(row.deviation_point),
                 _g(row.angle_max if row.angle else None), _g(row.angle), _g(row.alpha_mean),
@@ -57,18 +60,19 @@ def _short(row: "FaceRow") -> str:
 
 
 def _solids(report: "Report") -> str:
-    head = ("solid", "name", "triangles", "closed", "Euler", "model", "area", "exact", "volume")
+    head = ("solid", "name", "triangles", "closed", "Euler", "model", "area", "exact", "off")
     rows = [
         (
             str(row.solid), row.name[:32], f"{row.triangles:,}", "yes" if row.closed else "no",
             str(row.euler), _g(row.euler_exact), _g(row.area, 6), _g(row.area_exact, 6),
-            _g(row.volume, 6), _g(row.volume_exact, 6),
+            _error(row.area_error), _g(row.volume, 6), _g(row.volume_exact, 6),
+            _error(row.volume_error),
         )
         for row in report.by_solid[:SHOWN_FACES]
     ]  # fmt: skip
     more = len(report.by_solid) - SHOWN_FACES
     title = "solids" if more <= 0 else f"solids, the first {SHOWN_FACES} of {len(report.by_solid)}"
-    return _table(title, (*head, "exact"), rows) if rows else ""
+    return _table(title, (*head, "volume", "exact", "off"), rows) if rows else ""
 
 
 def _worst(report: "Report") -> str:
@@ -93,11 +97,31 @@ def _folded(report: "Report") -> str:
     rows = [
         (
             str(row.triangle), f"{row.angle_deg:.1f}°", _place(row.point), str(row.face),
-            "by the surface" if row.by_surface else f"corner {row.off:.3g} off" if row.off else "",
+            _why(row),
         )
         for row in report.folded_at
     ]  # fmt: skip
     return _table("folded triangles", ("triangle", "turned", "at", "face", "why"), rows)
+
+
+def _why(row: "FoldedTriangle") -> str:
+    if row.by_surface:
+        return "by the surface"
+    if row.off >= row.moved:
+        return f"corner {row.off:.3g} off" if row.off else ""
+    return f"(u, v) of a corner {row.moved:.3g} away"
+
+
+def _bodies(report: "Report") -> str:
+    head = ("kind", "name", "and", "solid", "solid", "triangles", "depth", "gap", "at")
+    rows = [
+        (
+            pair.kind, *pair.names, *(str(k) if k >= 0 else "" for k in pair.solids),
+            f"{pair.triangles:,}", _g(pair.depth), _g(pair.gap), _place(pair.point),
+        )
+        for pair in report.bodies
+    ]  # fmt: skip
+    return _table("bodies that meet", head, rows)
 
 
 def _meeting(report: "Report") -> str:
@@ -169,6 +193,10 @@ def _g(value: float | None, digits: int = 4) -> str:
 
 def _percent(share: float | None) -> str:
     return "" if share is None else f"{100 * share:.3g} %"
+
+
+def _error(error: float | None) -> str:
+    return "" if error is None else f"{100 * error:+.2g} %"
 
 
 def _place(point: tuple[float, ...] | None) -> str:

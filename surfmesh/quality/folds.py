@@ -2,8 +2,9 @@
 
 A surface that bends with a smaller radius than sizes are made for, or turns over, has no mesh
 without such triangles: they are counted apart, with their place. Edges that lie farther off a
-face than the triangles beside them are high turn these as well: they stay a fault, and the
-reason is said.
+face than the triangles beside them are high turn these as well, and so do nodes on the surface
+whose images in (u, v) lie elsewhere, moved where a boundary crosses itself: these stay a fault,
+and the reason is said.
 """
 
 import math
@@ -13,10 +14,13 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from surfmesh.geometry.projection import closest_point
 from surfmesh.geometry.sharp_bends import bends_sharply
 from surfmesh.sizing.size_bounds import FINEST_SIZE, LEAST_OF_CHORD
 from surfmesh.surface_mesh import SurfaceMesh
 
+ON_SURFACE = 0.1  # of the way to its image: a node nearer to the surface lies on it
+STEPS = 12  # of the projection, at most
 FOLDED, INVERTED = math.cos(math.radians(60.0)), 0.0  # cosines between the two normals
 
 
@@ -30,6 +34,7 @@ class FoldedTriangle:
     point: tuple[float, float, float]  # its centroid
     by_surface: bool  # which bends sharply there, or turns over: no size is small enough
     off: float  # how far the farthest of its corners lies off the surface, model units
+    moved: float  # how far images of corners lie from them that are on the surface
 
 
 class Folds(NamedTuple):
@@ -39,6 +44,8 @@ class Folds(NamedTuple):
     own: NDArray[np.bool_]  # (m,) because the surface is
     cosine: NDArray[np.float32]  # (m,)
     off: NDArray[np.float64]  # (m,) distance of the farthest corner, where it turns the triangle
+    moved: NDArray[np.float64]  # (m,) of images from corners on the surface, where that does
+    nearest: float  # within which such corners lie on the surface
     radius: float  # below which a surface is said to bend sharply, model units
 
     @property
@@ -50,7 +57,8 @@ class Folds(NamedTuple):
 def folds(mesh: SurfaceMesh, cosine: NDArray[np.float32]) -> Folds:
     """``cosine``: (m,) of the angles between the normals of triangles and surface."""
     ours = cosine < FOLDED
-    own, off = np.zeros(len(cosine), bool), np.zeros(len(cosine))
+    own, off, moved = np.zeros(len(cosine), bool), np.zeros(len(cosine)), np.zeros(len(cosine))
+    nearest = 0.0
     chord = getattr(mesh.sizing, "chord", None) or 0.0
     radius = max(LEAST_OF_CHORD * chord, FINEST_SIZE * _diagonal(mesh))
     bad = np.flatnonzero(ours)
@@ -59,11 +67,23 @@ def folds(mesh: SurfaceMesh, cosine: NDArray[np.float32]) -> Folds:
         surface, uv = mesh.surfaces[face], mesh.uv_points[mesh.uv_triangles[some]]
         own[some] = bends_sharply(surface, uv, radius)
         images = surface.evaluate(uv.reshape(-1, 2), 0)[0].reshape(-1, 3, 3)
-        away = np.linalg.norm(mesh.points[mesh.triangles[some]] - images, axis=2).max(axis=1)
+        away, gap = _distances(surface, mesh.points[mesh.triangles[some]], uv, images)
         turned = bool(mesh.turned_faces is not None and mesh.turned_faces[face])
         flat = _cosines(surface, uv, images) * (-1.0 if turned else 1.0) >= FOLDED
-        off[some] = np.where(flat, away, 0.0)
-    return Folds(ours & ~own, own, cosine, off, radius)
+        on = gap <= ON_SURFACE * away
+        off[some] = np.where(flat, np.where(on, 0.0, gap).max(axis=1), 0.0)
+        moved[some] = np.where(flat, np.where(on, away, 0.0).max(axis=1), 0.0)
+        nearest = max(nearest, float(gap[on & flat[:, None]].max(initial=0.0)))
+    return Folds(ours & ~own, own, cosine, off, moved, nearest, radius)
+
+
+def _distances(
+    surface, corners: NDArray, uv: NDArray, images: NDArray
+) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Of corners (k, 3, 3) from their images, and from the surface; both (k, 3)."""
+    away = np.linalg.norm(corners - images, axis=2)
+    gap = closest_point(surface, corners.reshape(-1, 3), uv.reshape(-1, 2), STEPS)[1]
+    return away, np.minimum(gap.reshape(-1, 3), away)
 
 
 def _cosines(surface, uv: NDArray, corners: NDArray) -> NDArray:
@@ -88,7 +108,7 @@ def most_folded(mesh: SurfaceMesh, found: Folds, count: int) -> tuple[FoldedTria
     return tuple(
         FoldedTriangle(
             int(t), int(mesh.face_ids[t]), float(turn), tuple(place), bool(found.own[t]),
-            float(found.off[t]),
+            float(found.off[t]), float(found.moved[t]),
         )
         for t, turn, place in zip(bad, angle, places.tolist())
     )  # fmt: skip

@@ -6,9 +6,12 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from surfmesh.quality.against_model import Unexpected
+from surfmesh.quality.bodies import BodyPair
 from surfmesh.quality.by_solid import SolidRow
 from surfmesh.quality.deviation import Deviation
 from surfmesh.quality.folds import Folds
+from surfmesh.quality.narrow import without_area
 from surfmesh.quality.promises import Beyond, Promises
 from surfmesh.quality.self_intersection import MeetingPair
 from surfmesh.quality.shape import Shapes
@@ -17,12 +20,11 @@ from surfmesh.quality.topology import Topology, topology
 from surfmesh.quality.turning import Turning
 from surfmesh.surface_mesh import NOT_MESHED, SurfaceMesh
 
-DEGENERATE = 1e-6  # alpha below which a triangle has no area to speak of
-
 
 def problems(
     mesh: SurfaceMesh,
     broken: str | None,
+    odd: Unexpected,
     topo: Topology,
     shape: Shapes,
     fit: Deviation | None,
@@ -33,8 +35,8 @@ def problems(
 ) -> list[str]:
     """Sentences about all but self-intersection.
 
-    broken: the first broken invariant of the mesh; beyond: triangles that lie farther away than
-    was promised; turned: which are folded.
+    broken: the first broken invariant of the mesh; odd: what is not as in the model; beyond:
+    triangles that lie farther away than was promised; turned: which are folded.
     """
     said = []
     if not len(mesh.triangles):
@@ -42,42 +44,22 @@ def problems(
     if broken:
         said.append(broken)
     said += [warning for warning in mesh.warnings if warning.startswith(NOT_MESHED)]
-    if shares_faces(mesh):  # three triangles and more may meet where solids do
-        for solid in range(int(mesh.solid_ids.max()) + 1):
-            part = solid_mesh(mesh, solid)
-            around = topology(part)
-            bad = [name for name in ("closed", "manifold", "oriented") if not getattr(around, name)]
-            if bad:
-                said.append(f"solid {solid} is not {' and not '.join(bad)}")
-        topo = topo._replace(
-            crowded_edges=topo.crowded_edges[:0],
-            pinched_vertices=topo.pinched_vertices[:0],
-            clashing_edges=topo.clashing_edges[:0],
+    said += _solids(mesh, odd, solids)
+    if shares_faces(mesh) and not odd.known:  # three triangles and more may meet where solids do
+        odd = odd._replace(
+            crowded_edges=odd.crowded_edges[:0],
+            pinched_vertices=odd.pinched_vertices[:0],
+            clashing_edges=odd.clashing_edges[:0],
         )
     said += _euler_numbers(mesh, topo, solids)
-    if len(topo.crowded_edges):
-        first = mesh.edges[topo.crowded_edges[0]]
-        many = _number(topo.crowded_edges, "edge")
-        said.append(f"{many} shared by more than two triangles, first {_edge(mesh, first)}")
-    if len(topo.pinched_vertices):
-        first = int(topo.pinched_vertices[0])
-        many = _number(topo.pinched_vertices, "vertex", "vertices")
-        said.append(f"{many} where parts only touch, first {first} at {_place(mesh.points[first])}")
-    if len(topo.clashing_edges) and not mesh.one_sided:
-        first = mesh.edges[topo.clashing_edges[0]]
-        many = _number(topo.clashing_edges, "edge")
-        said.append(f"{many} between triangles of opposite orientation, first {_edge(mesh, first)}")
-    said += _triangles(mesh, ~(shape.alpha > DEGENERATE), "without area")
+    said += _edges_and_vertices(mesh, odd)
+    said += _triangles(mesh, without_area(mesh, shape.alpha), "without area")
     if fit is not None:
         for bad, what in (
             (turned.inverted, "inverted against the surface"),
             (turned.ours & ~turned.inverted, "folded: turned more than 60° from the surface"),
         ):
-            loose = bad & (turned.off > 0.0)
-            many = "" if (loose == bad).all() else f"{np.count_nonzero(loose):,} of them "
-            off = float(turned.off.max(where=bad, initial=0.0))
-            beside = f"; {many}beside edges that lie up to {off:.3g} off the surface" if off else ""
-            said += [sentence + beside for sentence in _triangles(mesh, bad, what)]
+            said += [sentence + _why(turned, bad) for sentence in _triangles(mesh, bad, what)]
         if not math.isfinite(fit.largest):
             said.append("the distance from the surface is not finite")
         elif beyond is not None:
@@ -85,7 +67,7 @@ def problems(
             place = fit.point
             if worst != fit.triangle:
                 place = mesh.points[mesh.triangles[worst]].mean(axis=0)
-            there = f" on {_called(mesh, worst)}" * (not promises.uniform)
+            there = f" on {called(mesh, worst)}" * (not promises.uniform)
             said.append(
                 f"the mesh lies up to {beyond.reached:.4g} from the surface, {beyond.asked:.4g} "
                 f"was asked for{there} ({100 * beyond.share:.3g} % of the triangles are farther); "
@@ -94,13 +76,94 @@ def problems(
     return said
 
 
+def _why(turned: Folds, bad: NDArray[np.bool_]) -> str:
+    """What has turned triangles: edges off the surface, or images that are not theirs."""
+    said = ""
+    for found, least, what in (
+        (turned.off, 0.0, "beside edges that lie up to {:.3g} off the surface"),
+        (
+            turned.moved, turned.off,
+            f"beside nodes that lie on the surface to {turned.nearest:.2g} and their (u, v) up to "
+            "{:.3g} from there, moved apart where the boundary crosses itself, or so in the file",
+        ),
+    ):  # fmt: skip
+        here = bad & (found > least)
+        if here.any():
+            many = "" if (here == bad).all() else f"{np.count_nonzero(here):,} of them "
+            said += f"; {many}{what.format(float(found[here].max()))}"
+    return said
+
+
+def _solids(mesh: SurfaceMesh, odd: Unexpected, solids: tuple[SolidRow, ...]) -> list[str]:
+    """Solids that are not what the model's are; faces that are missing say so already."""
+    if odd.known:
+        if _is_incomplete(mesh):
+            return []
+        closed = [row.closed for row in mesh.facts.solids]
+        return [
+            f"solid {row.solid}{f' ({row.name})' * bool(row.name)} is not closed"
+            for row in solids
+            if row.solid < len(closed) and closed[row.solid] and not row.closed
+        ]
+    said = []
+    for row in solids if shares_faces(mesh) else ():
+        around = topology(solid_mesh(mesh, row.solid))
+        bad = [name for name in ("closed", "manifold", "oriented") if not getattr(around, name)]
+        if bad:
+            said.append(f"solid {row.solid} is not {' and not '.join(bad)}")
+    return said
+
+
+def _edges_and_vertices(mesh: SurfaceMesh, odd: Unexpected) -> list[str]:
+    """Sentences on edges and vertices that are not as in the model, or as on a surface."""
+    said = []
+    more, fewer = "more than two triangles", "fewer triangles than the model has faces there"
+    if odd.known:
+        more = "more triangles than the model has faces there"
+    missing = _is_incomplete(mesh)
+    for found, what in (
+        (odd.crowded_edges, f"with {more}" if odd.known else f"shared by {more}"),
+        (odd.bare_edges[:0] if missing else odd.bare_edges, f"with {fewer}"),
+    ):
+        if len(found):
+            first = _edge(mesh, mesh.edges[found[0]])
+            said.append(f"{_number(found, 'edge')} {what}, first {first}")
+    for found, what in (
+        (odd.pinched_vertices, "where parts only touch"),
+        (odd.joined_vertices[:0] if missing else odd.joined_vertices, "where parts are joined"),
+    ):
+        if len(found):
+            first, many = int(found[0]), _number(found, "vertex", "vertices")
+            model = " unlike in the model" if odd.known else ""
+            said.append(f"{many} {what}{model}, first {first} at {_place(mesh.points[first])}")
+    if len(odd.clashing_edges) and not mesh.one_sided:
+        first = mesh.edges[odd.clashing_edges[0]]
+        many = _number(odd.clashing_edges, "edge")
+        said.append(f"{many} between triangles of opposite orientation, first {_edge(mesh, first)}")
+    return said
+
+
+def overlaps(found: tuple[BodyPair, ...]) -> list[str]:
+    """A sentence on solids that share volume."""
+    if not found:
+        return []
+    first = max(found, key=lambda pair: pair.depth or 0.0)
+    names = " and ".join(first.names)
+    many = f"{len(found):,} pair{'s' * (len(found) > 1)} of solids overlap"
+    lie = f" by up to {first.depth:.3g}" if first.depth else ", one within the other"
+    return [
+        f"{many}: {names}{lie}, at {_place(first.point)}; join them or cut one by the other in "
+        "the model"
+    ]
+
+
 def turned_too_far(
     mesh: SurfaceMesh, turns: Turning, beyond: Beyond, promises: Promises
 ) -> str:
     """A sentence about edges across which triangles turn by more than was promised."""
     edge = turns.edges[beyond.worst]
     first, second = (mesh.connectivity.half_edges[edge] // 3).tolist()
-    there = f" on {_called(mesh, first)}" * (not promises.uniform)
+    there = f" on {called(mesh, first)}" * (not promises.uniform)
     return (
         f"neighbouring triangles turn by up to {beyond.reached:.4g}°, {beyond.asked:.4g}° was "
         f"asked for{there} ({100 * beyond.share:.3g} % of the edges turn more); worst between "
@@ -108,18 +171,23 @@ def turned_too_far(
     )
 
 
-def _called(mesh: SurfaceMesh, triangle: int) -> str:
+def called(mesh: SurfaceMesh, triangle: int) -> str:
     """The face of a triangle by number and name."""
     face = int(mesh.face_ids[triangle])
     name = mesh.face_name(face)
     return name if name == f"face {face}" else f"face {face} ({name})"
 
 
+def _is_incomplete(mesh: SurfaceMesh) -> bool:
+    """Are faces of the model missing?"""
+    return any(warning.startswith(NOT_MESHED) for warning in mesh.warnings)
+
+
 def _euler_numbers(
     mesh: SurfaceMesh, topo: Topology, solids: tuple[SolidRow, ...]
 ) -> list[str]:
     """Where the mesh has not the topology of the model; faces that are missing say so already."""
-    if any(warning.startswith(NOT_MESHED) for warning in mesh.warnings):
+    if _is_incomplete(mesh):
         return []
     said = [
         f"the Euler number of solid {row.solid} is {row.euler}, that of the model {row.euler_exact}"

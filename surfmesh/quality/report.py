@@ -10,13 +10,18 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from surfmesh.geometry.numeric import NumericSurface
 from surfmesh.model_facts import ModelFacts
+from surfmesh.quality.against_model import unexpected
+from surfmesh.quality.bodies import BodyPair, bodies
 from surfmesh.quality.by_face import FaceRow, by_face
-from surfmesh.quality.by_solid import SolidRow, by_solid, volume_of_all
+from surfmesh.quality.by_solid import SolidRow, by_solid, relative_error, volume_of_all
 from surfmesh.quality.chord_use import chord_use
 from surfmesh.quality.deviation import deviation
 from surfmesh.quality.folds import FoldedTriangle, folded_surfaces, folds, most_folded
 from surfmesh.quality.histograms import Histogram, histograms
+from surfmesh.quality.inward import turned_inward
+from surfmesh.quality.kept_volumes import volumes_not_kept
 from surfmesh.quality.lengths import (
     QUASI_UNIT,
     edge_lengths,
@@ -24,7 +29,15 @@ from surfmesh.quality.lengths import (
     metric_lengths,
     size_growth,
 )
-from surfmesh.quality.problems import DEGENERATE, intersections, problems, turned_too_far
+from surfmesh.quality.loose_edges import LooseEdges, loose_edges
+from surfmesh.quality.lost import explained, is_known, lost
+from surfmesh.quality.narrow import DEGENERATE, narrow_triangles
+from surfmesh.quality.problems import (
+    intersections,
+    overlaps,
+    problems,
+    turned_too_far,
+)
 from surfmesh.quality.promises import (
     Promises,
     StatedLimit,
@@ -35,15 +48,18 @@ from surfmesh.quality.promises import (
     stated,
 )
 from surfmesh.quality.provenance import mesh_sha256, versions
+from surfmesh.quality.remarks import loose_faces, sheets_facing_apart, touching_bodies
 from surfmesh.quality.self_intersection import MeetingPair, located, meeting_pairs
 from surfmesh.quality.shape import enclosed_volume, metric_alpha, shapes
-from surfmesh.quality.solids import apart, shares_faces
+from surfmesh.quality.solids import shares_faces
+from surfmesh.quality.surface_to_mesh import both_ways, surface_deviation, surface_too_far
 from surfmesh.quality.topology import topology
 from surfmesh.quality.turning import turning, worst_turn
+from surfmesh.quality.unseen import UnseenPlace, unseen, unseen_problems
 from surfmesh.quality.worst import WorstTriangle, worst_triangles
 from surfmesh.surface_mesh import SurfaceMesh
 
-SCHEMA_VERSION = 3  # of to_dict(): raised when a field changes its meaning or goes away
+SCHEMA_VERSION = 4  # of to_dict(): raised when a field changes its meaning or goes away
 LISTED = 20  # places of one kind that a report holds
 
 
@@ -71,11 +87,19 @@ class Report:
     self_intersections: int | None  # pairs of triangles that meet where they share nothing
     crosses_itself: bool  # by nature of the surface: self-intersections are no fault
     meeting: tuple[MeetingPair, ...]  # the first twenty of them
-    contacts: int | None  # pairs that meet between two bodies of a CAD model: no fault
+    contacts: int | None  # pairs that meet between two bodies of a CAD model that only touch
+    overlapping_bodies: int | None  # pairs of solids that share volume
+    touching_bodies: int | None  # pairs of bodies that touch without a common face
+    bodies: tuple[BodyPair, ...]  # the first twenty of both, and of those whose facets meet
+    loose_edges: LooseEdges | None  # rims of faces that lie edge to edge and share nothing
 
     alpha_mean: float  # 4 sqrt(3) area / sum of squared edges, in 3D; 1 is equilateral
     alpha_p01: float  # 1 % of the triangles are worse
     alpha_min: float
+    narrow_triangles: int  # on faces of a CAD model that are narrower than the chord: good shape
+    # is not owed there; alpha, angles and edges are of all triangles
+    alpha_mean_elsewhere: float | None  # of the others; None: there are none
+    alpha_min_elsewhere: float | None
     alpha_metric_mean: float | None  # alpha as seen in the metric; None: isotropic, as in 3D
     alpha_metric_min: float | None
     radius_ratio_mean: float  # 2 r_in / r_circum; 1 is equilateral
@@ -108,12 +132,24 @@ class Report:
     size_growth_point: tuple[float, float, float] | None  # middle of that edge
 
     chord: float | None  # the largest deviation that was asked for, of the whole model
-    deviation_max: float | None  # from the true surface
+    deviation_max: float | None  # of the mesh from the true surface
     deviation_rms: float | None
     deviation_triangle: int | None  # where deviation_max is
     deviation_point: tuple[float, float, float] | None
     deviation_uv: tuple[float, float] | None
+    surface_deviation_max: float | None  # the other way: of the true surface from the mesh
+    surface_deviation_triangle: int | None  # over which it is
+    surface_deviation_point: tuple[float, float, float] | None  # of the true surface
+    surface_deviation_uv: tuple[float, float] | None
+    surface_deviation_at_rim: bool | None  # is that point on a free rim of the surface?
+    deviation_two_sided: float | None  # the larger of both: the Hausdorff distance, as sampled
     above_chord_share: float | None  # triangles farther away than the chord of their face
+    unseen: int | None  # triangles between whose samples a formula's bounds admit more than was
+    # seen, or more was found; None: nothing is known between the samples (functions, CAD faces)
+    unseen_max: float | None  # how far that lies, or may lie, from the mesh; infinite: no bound
+    unseen_at: tuple[UnseenPlace, ...]  # the first twenty
+    functions: int  # faces given by a Python function: features narrower than the triangles cannot
+    # be excluded there, nor are they looked for
     chord_used: float | None  # median of deviation / chord where chord decided the size
     chord_decided_share: float | None  # of the triangles: where not growth or another wish did
     angle: float | None  # asked for, degrees; None: only 45 as a rule of sizes, no promise
@@ -125,8 +161,10 @@ class Report:
 
     area: float
     area_exact: float | None
-    volume: float | None  # of a closed, oriented mesh
+    area_error: float | None  # area / area_exact - 1
+    volume: float | None  # of a mesh whose every edge is run along as often both ways
     volume_exact: float | None
+    volume_error: float | None  # volume / volume_exact - 1
     by_face: tuple[FaceRow, ...]
     by_solid: tuple[SolidRow, ...]
 
@@ -192,9 +230,9 @@ def check(mesh: SurfaceMesh) -> Report:
     wanted = None if mesh.inverse_sizes is None else metric_alpha(mesh)
     fit = deviation(mesh, shape.area) if finite else None
     promises = Promises.of(mesh)
+    back = surface_deviation(mesh, fit, promises)
     chord = getattr(mesh.sizing, "chord", None) or promises.base_chord
     facts = mesh.facts or ModelFacts()
-    encloses = topo.closed and topo.manifold and topo.oriented
     unit_share = None
     if metric is not None and len(metric):
         low, high = QUASI_UNIT
@@ -211,23 +249,43 @@ def check(mesh: SurfaceMesh) -> Report:
     above = beyond = None
     if fit is not None and np.isfinite(promises.chord).any():
         above = float(np.mean(beyond_chord(promises, mesh, fit)))
-        beyond, more = chord_kept(promises, mesh, fit)
+        beyond, more = chord_kept(promises, mesh, both_ways(fit, back))
         limits = [*more, *limits]
     turned_over = None if fit is None else folds(mesh, fit.cosine)
     folded = None if turned_over is None else turned_over.ours
     solids = by_solid(mesh, shape) if finite else ()
     crosses = facts.crosses_itself or (mesh.one_sided and topo.closed)  # no room in space
     pairs = meeting_pairs(mesh) if finite else None
-    contacts = None
-    if pairs is not None and mesh.solid_ids is not None:
-        between = apart(mesh, pairs)
-        contacts, pairs = int(between.sum()), pairs[~between]
+    met = loose = None
+    if pairs is not None:
+        by_triangle = None if fit is None else fit.by_triangle
+        loose, edge_to_edge = loose_edges(mesh, by_triangle)
+        met = bodies(mesh, pairs, solids, by_triangle, edge_to_edge)
+        pairs = pairs[met.own]
     meeting = () if pairs is None else located(mesh, pairs[:LISTED])
-    said = problems(mesh, broken, topo, shape, fit, beyond, promises, turned_over, solids)
+    far = None
+    if beyond is not None and back is not None:
+        far = surface_too_far(mesh, fit, back, beyond, promises)
+        beyond = None if far else beyond
+    narrow = narrow_triangles(mesh, shape.alpha)
+    volume = _volume(mesh, topo.balanced, solids) if finite and not broken else None
+    odd = unexpected(mesh, topo)
+    said = problems(mesh, broken, odd, topo, shape, fit, beyond, promises, turned_over, solids)
+    short, forbidden = volumes_not_kept(mesh, solids)
+    said += short
+    said += [far] if far else []
+    hidden = unseen(mesh, None if fit is None else both_ways(fit, back), promises, LISTED)
+    said += unseen_problems(hidden)
     if bent is not None:
         said.append(turned_too_far(mesh, turns, bent, promises))
     if pairs is not None and not crosses:
         said += intersections(mesh, meeting, len(pairs))
+    if met is not None:
+        said += overlaps(met.overlapping)
+    rows = by_face(mesh, shape, fit, lengths, folded, promises, limits, turns)
+    if fit is not None and not broken and math.isfinite(fit.largest) and is_known(mesh):
+        known = explained(mesh, shape.area, fit.by_triangle)
+        said += lost(mesh, known, rows, solids, facts.area)
     return Report(
         schema_version=SCHEMA_VERSION,
         surface=_names(mesh),
@@ -245,10 +303,17 @@ def check(mesh: SurfaceMesh) -> Report:
         self_intersections=None if pairs is None else len(pairs),
         crosses_itself=crosses,
         meeting=meeting,
-        contacts=contacts,
+        contacts=None if met is None or mesh.solid_ids is None else met.contacts,
+        overlapping_bodies=None if met is None else len(met.overlapping),
+        touching_bodies=None if met is None else len(met.touching),
+        bodies=() if met is None else (*met.overlapping, *met.touching, *met.near)[:LISTED],
+        loose_edges=loose,
         alpha_mean=_over(np.mean, shape.alpha),
         alpha_p01=_over(lambda alpha: np.quantile(alpha, 0.01), shape.alpha),
         alpha_min=_over(np.min, shape.alpha),
+        narrow_triangles=narrow.count,
+        alpha_mean_elsewhere=narrow.alpha_mean_elsewhere,
+        alpha_min_elsewhere=narrow.alpha_min_elsewhere,
         alpha_metric_mean=None if wanted is None else _over(np.mean, wanted),
         alpha_metric_min=None if wanted is None else _over(np.min, wanted),
         radius_ratio_mean=_over(np.mean, shape.radius_ratio),
@@ -282,7 +347,17 @@ def check(mesh: SurfaceMesh) -> Report:
         deviation_triangle=None if fit is None else fit.triangle,
         deviation_point=None if fit is None else fit.point,
         deviation_uv=None if fit is None else fit.uv,
+        surface_deviation_max=None if back is None else back.largest,
+        surface_deviation_triangle=None if back is None else back.triangle,
+        surface_deviation_point=None if back is None else back.point,
+        surface_deviation_uv=None if back is None else back.uv,
+        surface_deviation_at_rim=None if back is None else back.at_rim,
+        deviation_two_sided=None if back is None else max(fit.largest, back.largest),
         above_chord_share=above,
+        unseen=None if hidden is None else hidden.found + hidden.open,
+        unseen_max=None if hidden is None else max(hidden.largest, hidden.possible),
+        unseen_at=() if hidden is None else hidden.places,
+        functions=sum(isinstance(surface, NumericSurface) for surface in mesh.surfaces),
         chord_used=None if used is None else used.used,
         chord_decided_share=None if used is None else used.share,
         angle=angle,
@@ -293,9 +368,11 @@ def check(mesh: SurfaceMesh) -> Report:
         limits=tuple(limits),
         area=float(shape.area.sum()),
         area_exact=facts.area,
-        volume=_volume(mesh, encloses, solids) if finite and not broken else None,
+        area_error=relative_error(float(shape.area.sum()), facts.area),
+        volume=volume,
         volume_exact=facts.volume,
-        by_face=by_face(mesh, shape, fit, lengths, folded, promises, limits, turns),
+        volume_error=relative_error(volume, facts.volume),
+        by_face=rows,
         by_solid=solids,
         unit=facts.unit,
         source=facts.source,
@@ -307,6 +384,11 @@ def check(mesh: SurfaceMesh) -> Report:
             *mesh.warnings,
             *(() if folded is None else folded_surfaces(mesh, turned_over)),
             *stated(limits),
+            *forbidden,
+            *(() if met is None else touching_bodies(met)),
+            *(() if loose is None else loose_faces(loose, mesh)),
+            *sheets_facing_apart(mesh, odd),
+            *(turned_inward(mesh, topo, solids) if finite and not broken else ()),
         ),
         options=_options(mesh.sizing),
         problems=tuple(said),

@@ -30,6 +30,7 @@ def summary(report: "Report") -> str:
             f"radius ratio mean {report.radius_ratio_mean:.4f}, "
             f"smallest {report.radius_ratio_min:.4f}",
         ),
+        *_narrow(report),
         *_in_the_metric(report),
         ("angles", f"{report.min_angle_deg:.2f}° to {report.max_angle_deg:.2f}°"),
         (
@@ -83,6 +84,8 @@ def _topology(report: "Report") -> str:
         words.append(f"intersects itself{natural} ({report.self_intersections:,} pairs)")
     if report.contacts:
         words.append(f"separate bodies meet ({report.contacts:,} pairs of triangles)")
+    if report.overlapping_bodies:
+        words.append(f"{_count(report.overlapping_bodies, 'pair')} of solids overlap")
     if report.faces > 1:
         words.append(_count(report.faces, "face"))
     return ", ".join(words)
@@ -99,6 +102,19 @@ def _size(report: "Report") -> str:
             off = 100 * (abs(found) - abs(exact)) / abs(exact)
             words[-1] += f" (exact {exact:.7g}, {off:+.2g} %)"
     return ", ".join(words) + (f" in {report.unit}" if report.unit else "")
+
+
+def _narrow(report: "Report") -> list[tuple[str, str]]:
+    """Where faces are narrower than the chord."""
+    if not report.narrow_triangles:
+        return []
+    text = f"{_count(report.narrow_triangles, 'triangle')} on faces narrower than the chord"
+    if report.alpha_mean_elsewhere is not None:
+        text += (
+            f"; without them alpha mean {report.alpha_mean_elsewhere:.4f}, "
+            f"smallest {report.alpha_min_elsewhere:.4f}"
+        )
+    return [("", text)]
 
 
 def _in_the_metric(report: "Report") -> list[tuple[str, str]]:
@@ -137,11 +153,25 @@ def _deviation(report: "Report") -> str:
     if report.chord_used is not None:
         used = f"median {100 * report.chord_used:.0f} % of chord where it decides the size; "
     place = ", ".join(f"{value:.4g}" for value in report.deviation_point)
+    back = ""
+    if report.surface_deviation_max is not None:
+        there = ", ".join(f"{value:.4g}" for value in report.surface_deviation_point)
+        rim = "a rim, " * report.surface_deviation_at_rim
+        most = f"{report.surface_deviation_max:.4g}"
+        back = f"; the surface lies up to {most} from the mesh, at {rim}({there})"
     return (
         f"largest {report.deviation_max:.4g}{asked}, rms {report.deviation_rms:.4g}; "
         f"{used}"
-        f"largest in triangle {report.deviation_triangle} at ({place})"
+        f"largest in triangle {report.deviation_triangle} at ({place}){back}"
+        f"{_between_samples(report)}"
     )
+
+
+def _between_samples(report: "Report") -> str:
+    """What is known of features narrower than the triangles."""
+    if report.functions:
+        return "; features narrower than the triangles cannot be excluded: a function has no bounds"
+    return "; nothing more between the samples, by the formula's bounds" * (report.unseen == 0)
 
 
 def _turning(report: "Report") -> str:

@@ -23,7 +23,7 @@ from surfmesh.errors import SizingError
 from surfmesh.sizing.size_bounds import DEFAULT_CHORD, DEFAULT_MAX_SIZE, LONGEST
 from surfmesh.sizing.sizing import Sizing
 
-OF_THE_MODEL = ("growth", "anisotropy", "limit", "gap_faces")
+OF_THE_MODEL = ("growth", "anisotropy", "limit", "gap_faces", "volume")
 """Options that cannot differ from selection to selection."""
 
 
@@ -33,6 +33,8 @@ class Rule(NamedTuple):
     key: str
     sizing: Sizing
     found: Selection
+    derived: bool = False
+    """It follows from an option of the whole model, and sets no default aside."""
 
 
 @dataclass(frozen=True)
@@ -45,9 +47,11 @@ class ModelSizing:
     edges: Mapping[int, Sizing] = field(default_factory=dict)
     vertices: Mapping[int, Sizing] = field(default_factory=dict)
     rules: tuple[Rule, ...] = ()
-    """As they were given, but for "*"."""
+    """As they were given, but for "*", and those that ``volume`` makes."""
     stated: Sizing = field(default_factory=Sizing)
     """``base`` without the defaults."""
+    promised: ModelSizing | None = None
+    """What the mesh is held to, where chords that follow from ``volume`` are none of it."""
 
     @property
     def is_anisotropic(self) -> bool:
@@ -60,6 +64,8 @@ class ModelSizing:
 
     def promises(self, count: int) -> np.ndarray | None:
         """(count, 3) chord, angle and min_size of the faces, nan for none; None: those of base."""
+        if self.promised is not None:
+            return self.promised.promises(count)
         if not self.faces:
             return None
         wishes = ("chord", "angle", "min_size")

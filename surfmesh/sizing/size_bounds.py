@@ -74,16 +74,8 @@ class SizeBounds:
 
     def from_curvature(self, k1: np.ndarray, k2: np.ndarray | float) -> np.ndarray:
         """Clamped size (n,) for principal curvatures, before ``size`` and gradation."""
-        size = np.full(len(k1), np.inf)
-        if self.sizing.chord is not None:
-            size = np.minimum(size, chord_size(k1, k2, self.sizing.chord))
-        if self.sizing.angle is not None:
-            turned = angle_size(k1, k2, self.sizing.angle)
-            size = np.minimum(size, np.maximum(turned, self.finest_turn))
-        else:  # a triangle within chord of an apex need not follow it
-            unfolded = fold_size(k1, k2, DEFAULT_ANGLE)
-            size = np.minimum(size, np.maximum(unfolded, LEAST_OF_CHORD * self.sizing.chord))
-        return np.clip(size, *self.clamp)
+        sizes = curvature_sizes(self.sizing, k1, k2, self.finest_turn).values()
+        return np.clip(np.minimum.reduce([*sizes]), *self.clamp)
 
     def shorter(self, k1: np.ndarray, k2: np.ndarray) -> np.ndarray:
         """Clamped size (n,) in the direction that allows least."""
@@ -98,17 +90,9 @@ class SizeBounds:
 
         ratio: (n,) largest ratio of the two, instead of ``anisotropy``.
         """
-        k = np.stack([k1, k2], axis=1)
-        sizes = np.full(k.shape, np.inf)
         ratio = self.sizing.anisotropy if ratio is None else ratio
-        if self.sizing.chord is not None:
-            sizes = np.stack(principal_chord_sizes(k1, k2, self.sizing.chord, ratio), axis=1)
-        if self.sizing.angle is not None:
-            turned = np.stack(principal_angle_sizes(k1, k2, self.sizing.angle, ratio), axis=1)
-            sizes = np.minimum(sizes, np.maximum(turned, self.finest_turn))
-        else:
-            unfolded = fold_size(k, k, DEFAULT_ANGLE)
-            sizes = np.minimum(sizes, np.maximum(unfolded, LEAST_OF_CHORD * self.sizing.chord))
+        every = principal_sizes(self.sizing, k1, k2, ratio, self.finest_turn).values()
+        sizes = np.minimum.reduce([*every])
         wanted = sizes.min(axis=1)
         shorter = np.clip(wanted, *self.clamp)
         # where it is flat both ways no direction is known: the ratio falls to one
@@ -117,3 +101,44 @@ class SizeBounds:
         longest = np.minimum(shorter * np.maximum(ratio * curved, 1.0), self.longest)
         longest = np.maximum(longest, shorter)
         return np.clip(sizes, shorter[:, None], longest[:, None])
+
+
+def curvature_sizes(
+    sizing: Sizing, k1: np.ndarray, k2: np.ndarray | float, finest_turn: float = 0.0
+) -> dict[str, np.ndarray]:
+    """What each rule asks for (n,) at principal curvatures k1, k2 (n,), not clamped.
+
+    By name: "chord", "angle", or "default": the rule of 45 degrees where only chord is asked for.
+    Size fields, edges and explanations all follow it.
+    """
+    sizes = {}
+    if sizing.chord is not None:
+        sizes["chord"] = chord_size(k1, k2, sizing.chord)
+    if sizing.angle is not None:
+        sizes["angle"] = np.maximum(angle_size(k1, k2, sizing.angle), finest_turn)
+    elif sizing.chord is not None:
+        sizes["default"] = unfolding_size(k1, k2, sizing.chord)
+    return sizes
+
+
+def principal_sizes(
+    sizing: Sizing, k1: np.ndarray, k2: np.ndarray, ratio: np.ndarray | float,
+    finest_turn: float = 0.0,
+) -> dict[str, np.ndarray]:  # fmt: skip
+    """The same (n, 2) along the directions of k1 and k2, for a ``ratio`` of the two at most."""
+    sizes = {}
+    if sizing.chord is not None:
+        sizes["chord"] = np.stack(principal_chord_sizes(k1, k2, sizing.chord, ratio), axis=1)
+    if sizing.angle is not None:
+        turned = np.stack(principal_angle_sizes(k1, k2, sizing.angle, ratio), axis=1)
+        sizes["angle"] = np.maximum(turned, finest_turn)
+    elif sizing.chord is not None:
+        k = np.stack([k1, k2], axis=1)
+        sizes["default"] = unfolding_size(k, k, sizing.chord)
+    return sizes
+
+
+def unfolding_size(k1: np.ndarray, k2: np.ndarray | float, chord: float) -> np.ndarray:
+    """The default angle, as normals of the surface turn; a triangle within ``chord`` of an apex
+    need not follow it."""
+    return np.maximum(fold_size(k1, k2, DEFAULT_ANGLE), LEAST_OF_CHORD * chord)

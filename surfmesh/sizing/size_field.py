@@ -18,6 +18,7 @@ import numpy as np
 
 from surfmesh.errors import SizingError
 from surfmesh.geometry.face_surface import FaceSurface
+from surfmesh.geometry.interval import width_along
 from surfmesh.geometry.scaling import Scaling
 from surfmesh.geometry.sides import SideTopology
 from surfmesh.geometry.surface import Surface
@@ -31,6 +32,7 @@ from surfmesh.kernels.background import (
 from surfmesh.kernels.coverage import STACK, inverse_area
 from surfmesh.kernels.gradation import Metric, grade, patch_errors
 from surfmesh.sizing.field_cells import GRID_DEPTH, Cells, SourceCells, coarse_beside_fine
+from surfmesh.sizing.rim_size import Rims
 from surfmesh.sizing.size_law import FieldNodes, SizeLaw, TensorLaw
 from surfmesh.sizing.size_limits import SizeLimits
 from surfmesh.sizing.sizing import Sizing
@@ -49,8 +51,13 @@ LONGEST_ROW = 2048
 DEPTH = 13
 """Most splits of a root cell for accuracy: a leaf may be a 400,000th of the domain."""
 
-HIDDEN_DEPTH = 6
-"""Splits of a root cell within which features between the samples are looked for."""
+HIDDEN_DEPTH, DEEPEST_HIDDEN = 6, 19
+"""Splits of a root cell within which features between the samples are looked for: all of them,
+and where they would rise by more than a share of ``chord``."""
+
+HIDDEN_RISE, MOST_HIDDEN = 0.25, 60_000
+"""Of ``chord``: what rises less within a cell is no feature. Cells looked into beyond
+``HIDDEN_DEPTH``, at most; the report finds what is left."""
 
 TEST_ERROR, GRADED_ERROR = 0.03, 0.1
 """Error at the test nodes that a cell may have; the leaf, twice as fine, has a quarter of it,
@@ -122,15 +129,17 @@ def size_field(
     sizing: Sizing,
     sides: SideTopology | None = None,
     limits: SizeLimits | None = None,
+    rims: Rims | None = None,
 ) -> SizeField:
     """Build the background for ``surface``; ``sides`` tells which sides are joined.
 
-    ``limits``: upper bounds of the size near points, from an earlier round.
+    ``limits``: upper bounds of the size near points, from an earlier round. ``rims``: where the
+    surface ends, of a surface of formulas: the edges of a CAD model are cut before its faces.
 
     Raises ``SizingError`` when a size law gives something else than positive numbers, or when
     the wanted sizes need an unreasonable number of cells.
     """
-    return _Builder(surface, sizing, sides, SizeLaw(surface, sizing, limits)).build()
+    return _Builder(surface, sizing, sides, SizeLaw(surface, sizing, limits, rims)).build()
 
 
 def inverse_sizes(field: SizeField, xy: np.ndarray, scale: np.ndarray) -> np.ndarray | None:
@@ -197,15 +206,19 @@ class _Builder:
         self.joined = np.empty((0, 2), np.int64)
         self.changed = np.empty(0, np.int32)  # last sweep of the gradation that lowered a node
         self.sweep = 1  # number of the next one
+        self.looked_into = 0  # cells beyond HIDDEN_DEPTH, for what hides in them
 
     def build(self) -> SizeField:
         cells = Cells.roots(self.nx, self.ny)
         patch = self._patches(cells)
         fresh = np.ones(len(cells), bool)
         total = len(cells)
-        seeds = small_sizes(self.surface, self.law.sizing, self.law.limits)
+        seeds = small_sizes(
+            self.surface, self.law.sizing, self.law.limits, self.law.loop_limits
+        )
         sources = SourceCells(*seeds, self.scaling, self.root_step, self.nx)
         tree: list[np.ndarray] = []  # the cells that were split, in the order of their children
+        deep = np.zeros(len(cells), bool)  # in search of what hides: they may be split further
         for round_number in range(MAX_ROUNDS + GRID_DEPTH):
             seen = self.sweep
             self._grade(patch)
@@ -213,9 +226,12 @@ class _Builder:
             split = np.zeros(len(cells), bool)
             split[touched] = self._inaccurate(cells.chosen(touched), patch[touched])
             unseen = fresh & ~split
-            split[unseen] = self._may_hide(cells.chosen(unseen), patch[unseen])
-            split &= cells.depth < DEPTH
-            demanded = sources.split(cells)
+            hidden = np.zeros(len(cells), bool)
+            hidden[unseen] = self._may_hide(cells.chosen(unseen), patch[unseen])
+            deep |= hidden & (cells.depth >= HIDDEN_DEPTH)
+            split |= hidden
+            split &= cells.depth < np.where(deep, DEEPEST_HIDDEN, DEPTH)
+            demanded = sources.split(cells) | (split & deep)
             split |= demanded
             # after so many rounds all features are found; a few cells creep along fronts
             few = 0 if round_number <= DEPTH else len(cells) // 1000
@@ -230,6 +246,7 @@ class _Builder:
             if total > FREE_CELLS and total > self._most_cells(cells, patch):
                 self._refuse(total, parents)
             fresh = np.concatenate([np.zeros((~split).sum(), bool), np.ones(len(children), bool)])
+            deep = np.concatenate([deep[~split], np.repeat(deep[split], 4)])
             patch = np.concatenate([patch[~split], self._patches(children)])
             cells = cells.chosen(~split).joined_with(children)
         if self.nodes.is_anisotropic and not is_even(self.surface):
@@ -246,7 +263,8 @@ class _Builder:
         a11, a12, a22 = self.nodes.inverse_sizes()[patch[:, 4]].T
         area = self.root_step.prod() / 4.0**cells.depth * (a11 * a22 - a12 * a12)
         triangles = float(area.sum()) * 4.0 / np.sqrt(3.0)
-        return min(MAX_CELLS, max(FREE_CELLS, CELLS_OF_TRIANGLE * triangles))
+        free = FREE_CELLS + 4 * self.looked_into
+        return min(MAX_CELLS, max(free, CELLS_OF_TRIANGLE * triangles))
 
     def _refuse(self, total: int, parents: Cells) -> NoReturn:
         """The place is in the midst of the smallest cells."""
@@ -391,19 +409,29 @@ class _Builder:
     def _may_hide(self, cells: Cells, patch: np.ndarray) -> np.ndarray:
         """Cells whose bounds admit curvature that would at least halve the sizes seen."""
         hide = np.zeros(len(patch), bool)
-        if not self.law.follows_curvature:
+        if not self.law.follows_curvature or not len(patch):
             return hide
         shallow = np.flatnonzero(cells.depth < HIDDEN_DEPTH)
-        corners = patch[shallow][:, [0, 8]]
-        xy = np.stack([self._xy_of(corners[:, 0]), self._xy_of(corners[:, 1])])
-        bounds = self.surface.derivative_bounds(
-            self.scaling.to_uv(xy[0]), self.scaling.to_uv(xy[1])
-        )
+        hide[shallow] = self._bent_between(patch[shallow])
+        deep = np.flatnonzero(cells.depth >= HIDDEN_DEPTH)
+        if len(deep) and self.law.sizing.chord is not None and self.looked_into < MOST_HIDDEN:
+            self.looked_into += len(deep)
+            hide[deep] = self._bent_between(patch[deep]) & self._rises(patch[deep])
+        return hide
+
+    def _box(self, nodes: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+        """Corners (n, 2) of cells in (u, v) and in the scaled plane their middles (n, 2)."""
+        xy = self._xy_of(nodes[:, 0]), self._xy_of(nodes[:, 8])
+        return self.scaling.to_uv(xy[0]), self.scaling.to_uv(xy[1]), 0.5 * (xy[0] + xy[1])
+
+    def _bent_between(self, nodes: np.ndarray) -> np.ndarray:
+        """Cells (n, 9) whose second derivatives may be such that half the size is needed."""
+        lo, hi, middle = self._box(nodes)
+        bounds = self.surface.derivative_bounds(lo, hi)
         if bounds is None:
-            return hide
-        nodes = patch[shallow]
+            return np.zeros(len(nodes), bool)
         normal = np.abs(self.nodes.normal[nodes[:, 4]])
-        du, dv = self.scaling.rates(0.5 * (xy[0] + xy[1])).T
+        du, dv = self.scaling.rates(middle).T
         second = np.maximum(np.abs(bounds[0]), np.abs(bounds[1]))[:, 2:]
         second *= np.stack([du * du, du * dv, dv * dv], axis=1)[:, :, None]
         with np.errstate(over="ignore", invalid="ignore"):
@@ -416,8 +444,29 @@ class _Builder:
                 (form[:, 0] / e) ** 2 + 2.0 * form[:, 1] ** 2 / (e * g) + (form[:, 2] / g) ** 2
             )
         possible = self.law.from_curvature(np.where(np.isnan(bound), np.inf, bound))
-        hide[shallow] = possible < 0.5 * self.nodes.size[nodes].min(axis=1)
-        return hide
+        return possible < 0.5 * self.nodes.size[nodes].min(axis=1)
+
+    def _rises(self, nodes: np.ndarray) -> np.ndarray:
+        """Cells (n, 9) in which the surface may lie off its tangent plane by a share of chord.
+
+        By the mean value or by its values, which hold across kinks and jumps too.
+        """
+        if not hasattr(self.surface, "all_bounds"):
+            return np.zeros(len(nodes), bool)
+        lo, hi, _ = self._box(nodes)
+        lower, upper = self.surface.all_bounds(lo, hi)
+        normal = self.nodes.normal[nodes[:, 4]][:, None]
+        half = 0.5 * (hi - lo)
+        with np.errstate(invalid="ignore", over="ignore"):
+            value = width_along(lower[:, 0], upper[:, 0], normal)[:, 0]
+            slopes = [width_along(lower[:, k], upper[:, k], normal)[:, 0] for k in (1, 2)]
+            bent = half[:, 0] * slopes[0] + half[:, 1] * slopes[1]
+        # no size could follow what is narrower than the least of them: the report finds it
+        step = np.abs(self._xy_of(nodes[:, 8]) - self._xy_of(nodes[:, 0]))
+        root = self.nodes.root[nodes[:, 4]]
+        wide = np.hypot(root[:, 0], root[:, 1]) * step[:, 0] > self.law.clamp[0]
+        wide |= np.hypot(root[:, 1], root[:, 2]) * step[:, 1] > self.law.clamp[0]
+        return wide & ~(np.fmin(value, bent) <= HIDDEN_RISE * self.law.sizing.chord)
 
     def _blunt_poles(self) -> None:
         """Cap the stretch near sides that are one point in space.

@@ -1,6 +1,6 @@
 """The ungraded wish at points of one surface, with what a size field stores there."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from typing import NamedTuple
 
 import numpy as np
@@ -12,6 +12,7 @@ from surfmesh.geometry.fundamental_forms import (
 )
 from surfmesh.geometry.scaling import Scaling
 from surfmesh.geometry.surface import Surface
+from surfmesh.sizing.rim_size import Rims, RimSizes
 from surfmesh.sizing.size_bounds import SizeBounds
 from surfmesh.sizing.size_limits import SizeLimits
 from surfmesh.sizing.sizing import Sizing
@@ -126,7 +127,10 @@ def root_of_form(forms: FundamentalForms, rates: np.ndarray) -> np.ndarray:
 class SizeLaw:
     """From the curvature and the user's wishes."""
 
-    def __init__(self, surface: Surface, sizing: Sizing, limits: SizeLimits | None) -> None:
+    def __init__(
+        self, surface: Surface, sizing: Sizing, limits: SizeLimits | None, rims: Rims | None = None
+    ) -> None:
+        """rims: bound the size too, where ``chord`` is asked for."""
         self.surface, self.scaling = surface, Scaling.of(surface)
         (u0, u1), (v0, v1) = surface.domain
         grid = np.linspace(0.0, 1.0, 17)
@@ -137,6 +141,20 @@ class SizeLaw:
         self.sizing, self.clamp = self.bounds.sizing, self.bounds.clamp
         self.follows_curvature = self.bounds.follows_curvature
         self.limits = limits
+        self.rims = None if self.sizing.chord is None else rims
+        self.loop_limits: SizeLimits | None = None
+        if self.rims is not None:
+            self.loop_limits = self.rims.on_loops(
+                self.sizing.chord, self.sizing.gradient, self._by_surface,
+                narrow=self.sizing.is_anisotropic,
+            )  # fmt: skip
+
+    def _by_surface(self, uv: np.ndarray) -> np.ndarray:
+        """Sizes (n,) that the curvature of the surface allows at uv (n, 2)."""
+        _, *derivatives = self.surface.evaluate(uv, 2)
+        forms = forms_from_derivatives(*derivatives)
+        k = curvatures(forms)
+        return np.where(forms.degenerate, self.clamp[1], self.bounds.shorter(k.k1, k.k2))
 
     def from_curvature(self, k: np.ndarray) -> np.ndarray:
         """Largest size (n,) where the surface is curved by at most k (n,), 1 / model unit."""
@@ -153,7 +171,7 @@ class SizeLaw:
         forms = forms_from_derivatives(ru, rv, *second)
         root = root_of_form(forms, rates)
         if self.sizing.is_anisotropic:
-            return self._anisotropic(uv, point, ru, rv, rates, forms, root)
+            return self._anisotropic(xy, uv, point, ru, rv, rates, forms, root)
         size = np.full(len(uv), self.clamp[1])
         if self.follows_curvature:
             k = curvatures(forms)
@@ -162,6 +180,8 @@ class SizeLaw:
             size[forms.degenerate] = self.clamp[1]
         if self.sizing.has_law:
             size = np.clip(np.minimum(size, self.sizing.law_sizes(point)), *self.clamp)
+        for rows, _, allowed in self.rims_at(xy, uv, point):
+            size[rows] = np.minimum(size[rows], np.maximum(allowed, self.clamp[0]))
         wish = size
         if self.limits is not None:
             size = np.minimum(size, self._limited(point))
@@ -170,7 +190,7 @@ class SizeLaw:
         return FieldNodes.isotropic(size, wish, root, forms.normal, point)
 
     def _anisotropic(
-        self, uv: np.ndarray, point: np.ndarray, ru: np.ndarray, rv: np.ndarray,
+        self, xy: np.ndarray, uv: np.ndarray, point: np.ndarray, ru: np.ndarray, rv: np.ndarray,
         rates: np.ndarray, forms: FundamentalForms, root: np.ndarray,
     ) -> FieldNodes:  # fmt: skip
         """Two sizes along the principal directions."""
@@ -186,9 +206,19 @@ class SizeLaw:
             wished = np.maximum(self.sizing.law_sizes(point), self.clamp[0])
             sizes = np.minimum(sizes, wished[:, None])
         size, long = sizes.min(axis=1), sizes.max(axis=1)
+        for rows, rim, allowed in self.rims_at(xy, uv, point):
+            binding = np.flatnonzero(allowed < long[rows])
+            rim = rim.chosen(binding) if isinstance(rim, RimSizes) else rim
+            rows = rows[binding]
+            along[rows], size[rows], long[rows] = self._limited_both(
+                rim, self.clamp[0], point[rows], forms.normal[rows], along[rows], size[rows],
+                long[rows],
+            )  # fmt: skip
         wish, long_wish = size, long
         if self.limits is not None:
-            along, size, long = self._limited_both(point, forms.normal, along, size, long)
+            along, size, long = self._limited_both(
+                self.limits, self._least(), point, forms.normal, along, size, long
+            )
             if self.limits.uv is None:
                 wish, long_wish = size, long
         jacobian = np.stack([ru * rates[:, :1], rv * rates[:, 1:]], axis=2)
@@ -225,26 +255,37 @@ class SizeLaw:
         """What sources and earlier rounds allow at points (n, 3)."""
         return np.maximum(self.limits(points), self._least())
 
+    def rims_at(
+        self, xy: np.ndarray, uv: np.ndarray, point: np.ndarray
+    ) -> Iterator[tuple[np.ndarray, RimSizes | SizeLimits, np.ndarray]]:
+        """Rows (k,) of nodes that rims have something to say to, what it is, and the least of
+        it (k,) in any direction: nodes on each open side, and all, if there are loops."""
+        if self.rims is not None:
+            for rows, rim in self.rims.on_sides(self.scaling, self.sizing.chord, xy, uv):
+                yield rows, rim, rim.sizes
+        if self.loop_limits is not None:
+            yield np.arange(len(xy)), self.loop_limits, self.loop_limits(point)
+
     def _limited_both(
-        self, point: np.ndarray, normal: np.ndarray, along: np.ndarray, size: np.ndarray,
-        long: np.ndarray,
+        self, limits: SizeLimits | RimSizes, least: float, point: np.ndarray, normal: np.ndarray,
+        along: np.ndarray, size: np.ndarray, long: np.ndarray,
     ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:  # fmt: skip
         """The direction, and the sizes across and along it, lowered to the limits.
 
         Where the shorter one is lowered the shape of the metric is kept. Where the metric is
         round, or nearly so, the direction is that of the limits.
         """
-        least = self._least()
         directions = np.stack([np.cross(normal, along), along])
-        across, onward = np.maximum(self.limits.along(point, directions), least)
+        across, onward = np.maximum(limits.along(point, directions), least)
         factor = np.minimum(across, size) / size
         long_found = np.minimum(factor * long, onward)
         size_found = np.minimum(factor * size, long_found)
         flat = np.flatnonzero((long <= ROUND * size) & (normal != 0.0).any(axis=1))
         if len(flat):
-            tight, direction = self.limits.tightest(point[flat], normal[flat])
+            own = limits.chosen(flat) if isinstance(limits, RimSizes) else limits
+            tight, direction = own.tightest(point[flat], normal[flat])
             turned = np.cross(normal[flat], direction)
-            onward = np.maximum(self.limits.along(point[flat], turned[None])[0], least)
+            onward = np.maximum(own.along(point[flat], turned[None])[0], least)
             tight = np.maximum(tight, least)
             size_found[flat] = np.minimum(size[flat], tight)
             long_found[flat] = np.clip(
@@ -260,7 +301,7 @@ class TensorLaw:
     """Size tensors given over a plane, in the place of sizes that follow from a surface."""
 
     follows_curvature = False
-    limits = None
+    limits = loop_limits = None
 
     def __init__(
         self, surface: Surface, sizing: Sizing, tensors: Callable[[np.ndarray], np.ndarray]

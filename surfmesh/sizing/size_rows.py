@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from typing import NamedTuple
 
 import numpy as np
 
-from surfmesh.sizing.curvature_size import angle_size, chord_size, principal_chord_sizes
-from surfmesh.sizing.size_bounds import DEFAULT_ANGLE, LEAST_OF_CHORD
+from surfmesh.sizing.size_bounds import DEFAULT_ANGLE, curvature_sizes, principal_sizes
 from surfmesh.sizing.sizing import Sizing
 from surfmesh.sizing.sources import checked_sizes
 
@@ -36,24 +35,12 @@ def rows(
     if k1 is not None:
         a, b = np.array([k1]), np.array([k2])
         at = f"at curvatures {k1:.4g}, {k2:.4g}"
-        if sizing.chord is not None:
-            if sizing.is_anisotropic:  # in the direction that bends more
-                size = float(
-                    min(s[0] for s in principal_chord_sizes(a, b, sizing.chord, sizing.anisotropy))
-                )
-            else:
-                size = float(chord_size(a, b, sizing.chord)[0])
-            if np.isfinite(size):
-                yield SizeRow(key, f"chord {sizing.chord:g} {at}", size)
-        if sizing.angle is not None:
-            size = float(angle_size(a, b, sizing.angle)[0])
-            if np.isfinite(size):
-                yield SizeRow(key, f"angle {sizing.angle:g} degrees {at}", size)
-        elif sizing.chord is not None:
-            size = float(angle_size(a, b, DEFAULT_ANGLE)[0])
-            size = max(size, LEAST_OF_CHORD * sizing.chord)
-            if np.isfinite(size):
-                yield SizeRow("default", f"angle {DEFAULT_ANGLE:g} degrees {at}", size)
+        if sizing.is_anisotropic:  # in the direction that bends more
+            found = principal_sizes(sizing, a, b, sizing.anisotropy)
+            yield from curvature_rows(key, sizing, at, {n: s.min() for n, s in found.items()})
+        else:
+            found = curvature_sizes(sizing, a, b)
+            yield from curvature_rows(key, sizing, at, {n: s[0] for n, s in found.items()})
     if isinstance(sizing.size, float):
         yield SizeRow(key, f"size {sizing.size:g}", sizing.size)
     elif callable(sizing.size):
@@ -67,6 +54,21 @@ def rows(
         yield SizeRow(key, f"max_size {sizing.max_size:g}", sizing.max_size, "max")
     if sizing.min_size is not None:
         yield SizeRow(key, f"min_size {sizing.min_size:g}", sizing.min_size, "min")
+
+
+def curvature_rows(
+    key: str, sizing: Sizing, at: str, sizes: Mapping[str, float]
+) -> Iterator[SizeRow]:
+    """Rows of ``curvature_sizes`` at one point; at: the curvature in words."""
+    said = {
+        "chord": (key, f"chord {sizing.chord:g}" if sizing.chord else ""),
+        "angle": (key, f"angle {sizing.angle:g} degrees" if sizing.angle else ""),
+        "default": ("default", f"angle {DEFAULT_ANGLE:g} degrees"),
+    }
+    for name, size in sizes.items():
+        if np.isfinite(size):
+            who, rule = said[name]
+            yield SizeRow(who, f"{rule} {at}", float(size))
 
 
 def deciding(found: list[SizeRow]) -> SizeRow | None:

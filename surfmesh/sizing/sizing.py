@@ -22,7 +22,8 @@ class Sizing:
     """
 
     chord: float | None = None
-    """Largest distance between mesh and surface, model units."""
+    """Largest distance between mesh and surface, model units. It holds both ways: of the mesh from
+    the surface, and of the surface from the mesh, its free rims included."""
 
     angle: float | None = None
     """Largest angle between the normals of two triangles of one face that share an edge, degrees:
@@ -49,6 +50,11 @@ class Sizing:
     ``max_size`` hold in every direction; without ``max_size`` the longer one may reach the
     diagonal."""
 
+    volume: float | None = None
+    """Largest relative error of the volume of each closed solid of a CAD model, as 0.005: curved
+    faces are made finer until it holds, by whatever else they are sized. Nothing is done for
+    volumes unasked; the report states their errors."""
+
     sources: tuple[SizeLaw, ...] = ()
     """Local sizes: ``Near``, ``InBall``, ``InBox``, ``SizeCloud``, or callables of points
     (n, 3) -> (n,), infinite where nothing is asked for. The smallest holds."""
@@ -64,7 +70,7 @@ class Sizing:
     """A mesh that would have more triangles is refused before it is made."""
 
     def __post_init__(self) -> None:
-        for name in ("chord", "angle", "min_size", "max_size"):
+        for name in ("chord", "angle", "min_size", "max_size", "volume"):
             value = getattr(self, name)
             if value is not None:
                 object.__setattr__(self, name, positive(name, value))
@@ -86,6 +92,8 @@ class Sizing:
         if self.gap is not None:
             object.__setattr__(self, "gap", positive("gap", self.gap))
         object.__setattr__(self, "limit", int(positive("limit", self.limit)))
+        if self.volume is not None and self.volume >= 1.0:
+            raise SizingError(f"volume is a relative error below 1, not {self.volume:g}")
         if self.angle is not None and self.angle > 90.0:
             raise SizingError(f"angle must be at most 90 degrees, not {self.angle:g}")
         if self.min_size and self.max_size and self.min_size > self.max_size:

@@ -19,16 +19,17 @@ PROJECTIONS = 6
 
 
 def small_sizes(
-    surface: Surface, sizing: Sizing, limits: SizeLimits | None
+    surface: Surface, sizing: Sizing, *known: SizeLimits | None
 ) -> tuple[np.ndarray, np.ndarray]:
     """uv (k, 2), sizes (k,) that the field has to be fine enough for.
 
-    ``limits``: from edges and earlier rounds; only those whose (u, v) is known count.
+    ``known``: limits from edges, loops and earlier rounds; those whose (u, v) is known count.
     """
     places, sizes = [np.empty((0, 2))], [np.empty(0)]
-    if limits is not None and limits.uv is not None:
-        places.append(limits.uv)
-        sizes.append(limits.sizes)
+    for limits in known:
+        if limits is not None and limits.uv is not None:
+            places.append(limits.uv)
+            sizes.append(limits.sizes)
     marked = [source for source in sizing.sources if isinstance(source, Source)]
     if marked:
         (u0, u1), (v0, v1) = surface.domain

@@ -18,7 +18,7 @@ from surfmesh.geometry.fundamental_forms import (
     curvatures,
     forms_from_derivatives,
 )
-from surfmesh.geometry.surface import Surface
+from surfmesh.geometry.surface import Surface, surface_kind
 
 BENDING, FANNING = 0.7, 0.29
 """Largest k_n x^2 y and K_t x y^2, as a share of K y^2. At the latter the width that the curvature
@@ -40,7 +40,7 @@ STEP = 0.02
 
 def is_even(surface: Surface) -> bool:
     """Are the curvatures known to be the same everywhere?"""
-    return getattr(surface, "kind", "") in EVEN
+    return surface_kind(surface) in EVEN
 
 
 def turning_rates(

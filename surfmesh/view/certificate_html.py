@@ -25,14 +25,22 @@ _FIGURES = (  # title, fields, how they are said; a row without any known field 
     ("pieces, faces", ("components", "faces"), "{}, {}"),
     ("area", ("area",), "{}"),
     ("exact area", ("area_exact",), "{}"),
+    ("area off by", ("area_error",), "{}"),
     ("volume", ("volume",), "{}"),
     ("exact volume", ("volume_exact",), "{}"),
+    ("volume off by", ("volume_error",), "{}"),
+    (
+        "bodies",
+        ("overlapping_bodies", "touching_bodies", "contacts"),
+        "{} pairs overlap, {} touch without a common face, {} pairs of triangles meet",
+    ),
     ("alpha", ("alpha_mean", "alpha_p01", "alpha_min"), "mean {}, 1 % below {}, smallest {}"),
     ("alpha in the metric", ("alpha_metric_mean", "alpha_metric_min"), "mean {}, smallest {}"),
     ("angles", ("min_angle_deg", "max_angle_deg"), "{}° to {}°"),
     ("edges", ("edge_min", "edge_mean", "edge_max"), "{0} to {2}, mean {1}"),
     ("edges as wanted", ("quasi_unit_share",), "{} within a factor sqrt 2"),
     ("distance from the surface", ("deviation_max", "deviation_rms"), "largest {}, rms {}"),
+    ("distance of the surface from the mesh", ("surface_deviation_max",), "largest {}"),
     ("distance asked for", ("chord",), "{}"),
     ("turn between neighbours", ("angle_max",), "largest {}°"),
     ("turn asked for", ("angle",), "{}°"),
@@ -45,6 +53,7 @@ _FIGURES = (  # title, fields, how they are said; a row without any known field 
 )
 _OF_FACES = (  # title, field of its row
     ("face", "face"), ("name", "name"), ("kind", "kind"), ("triangles", "triangles"),
+    ("area", "area"), ("exact", "area_exact"),
     ("distance", "deviation_max"), ("chord", "chord"), ("turn °", "angle_max"),
     ("angle °", "angle"), ("smallest alpha", "alpha_min"), ("stated limit", "limit"),
 )  # fmt: skip
@@ -81,7 +90,8 @@ def _figures(values: Mapping[str, Any]) -> str:
     for title, names, words in _FIGURES:
         found = [values.get(name) for name in names]
         found = [
-            f"{value:.2%}" if name.endswith("_share") and value is not None else value
+            f"{value:.2%}" if name.endswith("_share") and value is not None
+            else f"{value:+.2%}" if name.endswith("_error") and value is not None else value
             for name, value in zip(names, found)
         ]
         if any(value is not None for value in found):

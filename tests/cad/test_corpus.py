@@ -48,7 +48,11 @@ def test_files_of_the_corpus(cad_folder):
             continue
         assert model.check() == "", name
         found = (len(model.solids), len(model.faces), len(model.edges) + FREE_EDGES.get(name, 0))
-        assert found == tuple(int(row[what]) for what in ("solids", "faces", "edges")), name
+        stated = tuple(int(row[what]) for what in ("solids", "faces", "edges"))
+        if any("is cut there" in sentence for sentence in model.healing):
+            assert found[0] == stated[0] and found[1] > stated[1], name
+        else:
+            assert found == stated, name
         assert bool(model.healing) or row["valid"] == "1", name
         assert all(solid.closed for solid in model.solids), name
         again = pickle.loads(pickle.dumps(model))

@@ -62,6 +62,7 @@ def test_meshes_of_real_files(cad_folder):
             assert report.euler == report.euler_exact, name
             for solid in report.by_solid:
                 assert solid.closed and solid.euler == solid.euler_exact, (name, solid)
-                assert solid.volume == pytest.approx(solid.volume_exact, rel=0.005), (name, solid)
-            assert report.area == pytest.approx(model.area, rel=0.005), name
+                lost = report.chord * solid.area_exact  # at most, as nothing else is asked for
+                assert solid.volume == pytest.approx(solid.volume_exact, abs=lost), (name, solid)
+            assert report.area == pytest.approx(model.area, rel=0.01), name
         assert report.alpha_mean > 0.9, name

@@ -133,7 +133,7 @@ def test_means_what_mathematics_says(text, meaning):
 def test_every_function_has_its_value_and_its_derivative(name):
     function = FUNCTIONS[name]
     places = np.array([[0.31, 0.72], [0.62, 0.15]])
-    if name == "acosh":
+    if name in ("acosh", "arccosh", "acoth", "asec", "acsc"):
         places = places + 1.5
     arguments = ["u", "v"][: function.fewest]
     expression = parse(f"{name}({', '.join(arguments)})")
@@ -166,10 +166,34 @@ def test_expressions_that_are_already_built():
         sp.I * u,
         sp.Symbol("w"),
         u > 0,
-        sp.Piecewise((u, u > 0), (0, True)),
+        sp.Piecewise((u, u > 0)),  # and elsewhere?
     ):
         with pytest.raises(FormulaError):
             parse(refused)
+
+
+def test_sympy_names_and_objects_mean_the_same():
+    u, v = sp.symbols("u v")
+    places = np.array([[0.3, 0.8], [-0.7, 0.2]])
+    for built, text in (
+        (sp.Max(u, v, 0), "Max(u, v, 0)"),
+        (sp.Min(sp.Abs(u), v), "Min(Abs(u), v)"),
+        (sp.sech(u) + sp.coth(u), "sech(u) + coth(u)"),
+        (sp.Heaviside(u) * sp.sign(v), "Heaviside(u) * sign(v)"),
+        (sp.floor(3 * u) + sp.ceiling(3 * v) + sp.frac(u), "floor(3*u) + ceil(3*v) + u - floor(u)"),
+        (sp.sinc(u) + sp.erfc(v), "sinc(u) + erfc(v)"),
+        (sp.Piecewise((u**2, u > 0), (0, True)), "Heaviside(u)*u**2"),
+        (sp.Piecewise((u, (u > 0) & (v < 0.5)), (1, u <= 0), (2, True)), "(3 + sign(u)) / 2"),
+    ):
+        assert _values(parse(built), places) == pytest.approx(_values(parse(text), places))
+
+
+def test_an_unknown_function_is_refused_with_those_that_are_known():
+    for wrong, meant in (("sinn(u)", "sin or sinh"), ("Maxx(u, v)", "max"), ("arccoss(u)", "")):
+        with pytest.raises(FormulaError) as refusal:
+            parse(wrong)
+        assert f"did you mean {meant}" in str(refusal.value) or not meant
+        assert "sech" in refusal.value.reason and "\n" not in refusal.value.reason
 
 
 def test_numbers_for_bounds():

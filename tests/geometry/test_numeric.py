@@ -1,5 +1,6 @@
 """Surfaces from Python functions: against the same surfaces by formulas, and refusals."""
 
+import math
 import pickle
 
 import numpy as np
@@ -246,3 +247,47 @@ def test_it_travels_and_does_not_change():
     assert repr(surface) == "NumericSurface('ring', torus, u=(0, 6.28319), v=(0, 6.28319))"
     with pytest.raises(AttributeError, match="make a new one"):
         surface.name = "other"
+
+
+@pytest.mark.parametrize(
+    "u, v, height",
+    [((0, 10), (0, 10), lambda u, v: np.sin(u) * np.cos(v)), ((-1e-3, 2e-3), (5, 7), np.multiply)],
+)
+@pytest.mark.parametrize("wish", [{"chord": 0.02}, {"size": 0.8}, {"chord": 0.05, "anisotropy": 4}])
+def test_a_function_is_never_asked_outside_of_its_domain(u, v, height, wish):
+    asked = []
+
+    def told(a, b):
+        asked.append((a.min() - u[0], u[1] - a.max(), b.min() - v[0], v[1] - b.max()))
+        return a * (10 / (u[1] - u[0])), b, height(a, b)
+
+    assert sm.check(sm.mesh(sm.NumericSurface(told, u=u, v=v), sm.Sizing(**wish))).clean
+    assert np.min(asked) >= 0.0
+
+
+def test_beyond_the_end_of_a_closed_surface_lies_its_other_end():
+    def tube(u, v):
+        return np.cos(u), np.sin(u), v
+
+    surface = sm.NumericSurface(tube, u=(0, 2 * np.pi), v=(0, 1))
+    assert surface.closed == (True, False)
+    beyond = np.array([[-0.1, 0.2], [6.4, 1.0], [7.0, 1.25]])  # straight on where it is open
+    expected = np.transpose(tube(*beyond.T))
+    assert surface.evaluate(beyond)[0] == pytest.approx(expected, abs=1e-6)
+
+
+def test_functions_of_single_numbers_and_of_complex_ones_are_refused_with_a_cure():
+    def one(u, v):
+        return u, v, math.sin(u)
+
+    def branch(u, v):
+        return np.array([u, v, 1.0 if u > 0.5 else 0.0])
+
+    for function in (one, branch):
+        with pytest.raises(sm.errors.SurfaceError, match=r"np\.vectorize"):
+            sm.NumericSurface(function, u=(0, 1), v=(0, 1))
+    wrapped = sm.NumericSurface(np.vectorize(one), u=(0, 1), v=(0, 1))
+    assert wrapped.evaluate([[0.5, 0.25]])[0][0] == pytest.approx([0.5, 0.25, math.sin(0.5)])
+    with pytest.raises(sm.errors.SurfaceError, match="complex") as refusal:
+        sm.NumericSurface(lambda u, v: (u, v, np.sqrt(u - 2 + 0j)), u=(0, 1), v=(0, 1))
+    assert "\n" not in str(refusal.value)

@@ -157,11 +157,12 @@ def test_a_solid_that_touches_itself_is_named():
 
 
 def test_a_thin_strip_gets_triangles_of_its_own_width():
-    """A step of 0.03 round a boss on a plate of diagonal 93, narrower than what sizes follow."""
+    """A step of 0.03 round a boss on a plate of diagonal 93, narrower than what sizes follow,
+    but not narrower than the chord."""
     plate = cq.Workplane().rect(80, 48).extrude(2).faces(">Z").workplane().rect(4, 4).extrude(1)
     model = sm.from_cadquery(plate.faces(">Z").workplane().rect(3.94, 3.94).extrude(1))
     thin = [k for k, face in enumerate(model.faces) if face.area < 0.5]
-    mesh = sm.mesh(model)
+    mesh = sm.mesh(model, sm.Sizing(chord=0.02))
     assert thin and sm.check(mesh).closed
     strip = np.isin(mesh.face_ids, thin)
     a, b, c = mesh.points[mesh.triangles[strip]].transpose(1, 0, 2)

@@ -84,7 +84,7 @@ def test_parts(name):
 def test_holes_that_the_volume_asks_to_be_finer_make_the_plate_finer_too():
     plate = cq.Workplane().box(60, 60, 3).faces(">Z").workplane().rarray(6, 6, 9, 9).hole(4)
     model = sm.from_cadquery(plate)
-    found, mesh = sm.estimate(model), sm.mesh(model)
+    found, mesh = (make(model, sm.Sizing(volume=0.005)) for make in (sm.estimate, sm.mesh))
     assert len(mesh.triangles) > trial_mesh.WHOLE
     assert found.triangles == pytest.approx(len(mesh.triangles), rel=0.15)
 

@@ -66,3 +66,34 @@ def test_a_pole_that_rounding_has_opened_is_a_pole():
     bead = sm.ParametricSurface("sqrt(sin(v))*cos(u)", "sqrt(sin(v))*sin(u)", "v", TURN, (0, "pi"))
     report = sm.check(sm.mesh(bead, 0.25))
     assert report.clean and report.closed and report.euler == 2
+
+
+NUMERIC = {
+    "sphere by height": (
+        lambda u, v: (np.sqrt(1 - v * v) * np.cos(u), np.sqrt(1 - v * v) * np.sin(u), v),
+        (-1, 1), 4 * math.pi,
+    ),
+    "dome over its disc": (
+        lambda u, v: (v * np.cos(u), v * np.sin(u), np.sqrt(1 - v * v)), (0, 1), 2 * math.pi
+    ),
+    "paraboloid by height": (
+        lambda u, v: (np.sqrt(v) * np.cos(u), np.sqrt(v) * np.sin(u), v), (0, 1), 5.330414
+    ),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("name", NUMERIC)
+def test_functions_are_differenced_in_the_bent_parameter(name):
+    f, span, area = NUMERIC[name]
+    asked = []
+
+    def told(u, v):
+        asked.append((v.min(), v.max()))
+        return f(u, v)
+
+    surface = sm.NumericSurface(told, u=TURN, v=span)
+    assert surface.difference_error < 1e-6
+    report = sm.check(sm.mesh(surface, sm.Sizing(chord=5e-3)))
+    assert report.clean and report.deviation_max <= 5e-3
+    assert report.area == pytest.approx(area, rel=0.02)
+    assert span[0] <= np.min(asked) and np.max(asked) <= span[1]

@@ -7,7 +7,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from conftest import Saddle, grid
+from handmade_meshes import Saddle, grid
 
 from surfmesh import api
 from surfmesh.cli import main

@@ -6,7 +6,7 @@ import pickle
 import cadquery as cq
 import numpy as np
 import pytest
-from conftest import Saddle, grid
+from handmade_meshes import Saddle, grid
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 

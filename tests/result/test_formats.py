@@ -4,7 +4,7 @@ import struct
 
 import numpy as np
 import pytest
-from conftest import Saddle, changed, grid
+from handmade_meshes import Saddle, changed, grid
 
 import surfmesh as sm
 from surfmesh.errors import FileFormatError

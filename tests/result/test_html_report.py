@@ -11,7 +11,7 @@ from io import BytesIO
 
 import numpy as np
 import pytest
-from conftest import Saddle, changed, grid, icosphere
+from handmade_meshes import Saddle, changed, grid, icosphere
 from matplotlib.image import imread
 
 import surfmesh as sm

@@ -5,7 +5,7 @@ import types
 
 import numpy as np
 import pytest
-from conftest import Saddle, changed, grid, icosphere
+from handmade_meshes import Saddle, changed, grid, icosphere
 
 import surfmesh as sm
 from surfmesh.surface_mesh import SurfaceMesh

@@ -5,7 +5,7 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
-from conftest import Saddle, changed, grid, icosphere
+from handmade_meshes import Saddle, changed, grid, icosphere
 from hypothesis import given, settings
 from hypothesis import strategies as st
 

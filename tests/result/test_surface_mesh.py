@@ -4,7 +4,7 @@ import pickle
 
 import numpy as np
 import pytest
-from conftest import Saddle, changed, grid
+from handmade_meshes import Saddle, changed, grid
 
 from surfmesh.connectivity import connect
 from surfmesh.surface_mesh import SurfaceMesh

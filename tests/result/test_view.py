@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from conftest import Saddle, changed, grid
+from handmade_meshes import Saddle, changed, grid
 from matplotlib.image import imread
 
 from surfmesh.errors import FileFormatError, SurfmeshError
