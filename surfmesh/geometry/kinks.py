@@ -240,7 +240,7 @@ def _chains(links: NDArray, zero: NDArray) -> list[tuple[NDArray[np.float64], bo
             continue
         chain, place = [start], start
         seen[start] = True
-        while (onward := [k for k in beside[place] if not seen[k]]):
+        while onward := [k for k in beside[place] if not seen[k]]:
             place = onward[0]
             seen[place] = True
             chain.append(place)

@@ -135,7 +135,7 @@ def _interpolated_within(
     off = np.abs(np.einsum("nij,nj->ni", r.reshape(-1, 3, 3) - pieces.corner[piece, None], normal))
     du, dv = (uv[:, [1, 2, 0]] - uv).transpose(2, 0, 1)
     weights = np.stack([du * du, 2.0 * du * dv, dv * dv], axis=2)  # (n, 3 edges, 3 derivatives)
-    with np.errstate(invalid="ignore", over="ignore"):
+    with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
         times = weights[..., None] * normal[:, None, None]
         ends = times * lower[:, None, 3:6], times * upper[:, None, 3:6]
         most = np.maximum(*ends).sum(axis=(2, 3)), np.minimum(*ends).sum(axis=(2, 3))
