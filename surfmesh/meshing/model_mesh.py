@@ -30,6 +30,7 @@ from surfmesh.meshing.face_sizings import face_sizings
 from surfmesh.meshing.model_estimate import model_counts, require_model_within
 from surfmesh.meshing.model_groups import groups_of
 from surfmesh.meshing.narrow_faces import NarrowFace
+from surfmesh.meshing.opposite_faces import copied, opposite_pairs
 from surfmesh.meshing.simplification import LEAST, simplified
 from surfmesh.meshing.solid_volumes import VolumeAims
 from surfmesh.meshing.stages import Progress, Stopwatch
@@ -103,6 +104,7 @@ def _mesh_faces(
     with watch.stage("sizing"):
         samples = sample_edges(model, wanted)
         of_face = face_sizings(model, samples, wanted)
+        opposite = opposite_pairs(model, samples)
     limits: dict[int, SizeLimits] = {}
     jobs: list[FaceJob | None] = [None] * len(model.faces)
     done: list[FaceMesh] = [FaceMesh()] * len(model.faces)
@@ -135,6 +137,10 @@ def _mesh_faces(
                 done[number] = face_mesh
                 hopes[number].hear(face_mesh, jobs[number].nodes)
                 watch.pulse(count / len(changed))
+            for first, second, width in opposite:
+                if first in changed or second in changed:
+                    twin = copied(done[first], jobs[first], jobs[second], width)
+                    done[second] = done[second] if twin is None else twin
         with watch.stage("mapping"):
             asking = [k for k, found in enumerate(done) if found.wishes is not None]
             wishes = {k: done[k].wishes for k in asking if hopes[k].is_left}
