@@ -46,7 +46,7 @@ def with_turned_spheres(part: Part, faces: list[TopoDS_Face]) -> Part:
     for face in faces:
         if any(face.IsSame(other) for other in others):
             context.Replace(face, _on_turned_sphere(face, True).Reversed())
-            remarks.append((face, "was the face on the other side of its loop: made the rest of it"))
+            remarks.append((face, "was its neighbour turned over: made the rest of its sphere"))
             continue
         context.Replace(face, _on_turned_sphere(face))
         remarks.append((face, "an edge passes a pole of its sphere, which is turned"))

@@ -21,6 +21,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from surfmesh.errors import SurfaceError
+
 GRID = 96  # cells each way
 MARGIN = 1e-9  # of the domain: how far inside its sides signs are read
 HALVINGS = 60  # of an edge of the grid, for a zero on it
@@ -30,6 +32,8 @@ MOST_POINTS = 40_000  # of all lines together: more are not followed
 STEP = 1e-6  # of the domain: how far beside a line the two sides are compared
 BENT = 1e-5  # of the slopes: so much they differ at a kink
 SHORTEST = 1e-9  # of the domain: pieces of lines, and distances that are round-off
+TORN = 1e-6  # of the extent: what jumps by less is round-off
+_CORNERS = np.array([(i / 4.0, j / 4.0) for i in range(5) for j in range(5)])
 NEWTON = 12
 NEAR = 3.0  # cells: a meeting lies so near to where the lines were seen to cross
 
@@ -75,7 +79,10 @@ class Guides:
 
 
 def kink_lines(surface: Any) -> list[KinkLine]:
-    """The kinks of a surface, cut where they meet; none where it has no formulas, or too many."""
+    """The kinks of a surface, cut where they meet; none where it has no formulas, or too many.
+
+    Raises SurfaceError where the surface is torn: a step has no mesh.
+    """
     if not hasattr(surface, "guides") or surface.loops:
         return []
     guides = Guides(surface)
@@ -93,6 +100,7 @@ def kink_lines(surface: Any) -> list[KinkLine]:
     pieces = _cut_at_meetings(guides, lines, NEAR * cell)
     kept: list[KinkLine] = []
     for piece in pieces:
+        _refuse_jump(guides, piece)
         if _is_long(guides, piece) and _is_bent(guides, piece):
             if not _is_there(guides, piece, kept):
                 kept.append(piece)
@@ -382,17 +390,44 @@ def _onto_side(guides: Guides, guide: int, end: NDArray) -> NDArray[np.float64]:
     return place
 
 
-def _is_bent(guides: Guides, line: KinkLine) -> bool:
-    """Do the slopes of the surface differ on the two sides of a line, in its middle?"""
+def _beside(guides: Guides, line: KinkLine, step: float) -> list[NDArray[np.float64]]:
+    """Places (n, 2) on both sides of the middle of a line, at ``step`` of the domain from it."""
     if len(line.uv) > 2:
         middle = line.uv[1:-1]
     else:
         middle = guides.on_line(line.guide, line.uv.mean(axis=0)[None], 1.0)
-    g = np.nan_to_num(guides.values(line.guide, middle)[:, 1:] * guides.width)
+    with np.errstate(all="ignore"):
+        g = np.nan_to_num(guides.values(line.guide, middle)[:, 1:] * guides.width)
     across = g / np.maximum(np.abs(g).max(axis=1), 1e-300)[:, None]
+    return [
+        np.clip(middle + sign * step * across * guides.width, guides.lo, guides.hi)
+        for sign in (1.0, -1.0)
+    ]
+
+
+def _refuse_jump(guides: Guides, line: KinkLine) -> None:
+    """Raise SurfaceError where the two sides of a line do not come together in space."""
+    (r,) = guides.surface.evaluate(guides.lo + _CORNERS * guides.width, 0)
+    apart = []
+    for step in (STEP, 1e-2 * STEP):
+        first, second = (guides.surface.evaluate(p, 0)[0] for p in _beside(guides, line, step))
+        apart.append(np.linalg.norm(first - second, axis=1))
+    size = float(np.ptp(np.concatenate([r, first, second]), axis=0).max())
+    torn = (apart[1] > 0.7 * apart[0]) & (apart[1] > TORN * size)
+    if np.mean(torn) <= 0.5:
+        return
+    worst = int(np.argmax(np.where(torn, apart[1], 0.0)))
+    u, v = _beside(guides, line, 0.0)[0][worst]
+    raise SurfaceError(
+        f"{guides.surface.name!r} jumps by {apart[1][worst]:.4g} along a line through (u, v) = "
+        f"({u:.6g}, {v:.6g}): a step has no mesh; end the domain there, or make it a steep slope"
+    )
+
+
+def _is_bent(guides: Guides, line: KinkLine) -> bool:
+    """Do the slopes of the surface differ on the two sides of a line, in its middle?"""
     sides = []
-    for sign in (1.0, -1.0):
-        place = np.clip(middle + sign * STEP * across * guides.width, guides.lo, guides.hi)
+    for place in _beside(guides, line, STEP):
         slopes = guides.surface.evaluate(place, 1)[1:]
         sides.append(np.hstack([slope * w for slope, w in zip(slopes, guides.width)]))
     difference = np.linalg.norm(sides[0] - sides[1], axis=1)

@@ -97,3 +97,14 @@ def test_kinks_cross_seams_and_poles():
     for surface, euler in ((tube, 0), (ball, 2)):
         report = sm.check(sm.mesh(surface, sm.Sizing(chord=0.02)))
         assert report.clean and report.euler == euler and report.triangles < 800, report.problems
+
+
+@pytest.mark.parametrize("z", ["sign(u - 0.3)", "0.1*floor(7*u)", "Heaviside(u - v)", "atan2(v, u)"])
+def test_a_torn_surface_is_refused_with_the_place(z):
+    with pytest.raises(sm.errors.SurfaceError, match=r"jumps by .* through \(u, v\) = \("):
+        sm.mesh(height(z), sm.Sizing(size=0.2))
+
+
+@pytest.mark.parametrize("x", ["sign(u)*sqrt(abs(u))", "sign(u)*abs(u)**(1/3)", "u*sign(u)*sign(u)"])
+def test_what_is_continuous_is_not_torn(x):
+    assert kink_lines(sm.ParametricSurface(x, "v", "0", u=(-1, 1), v=(-1, 1))) == []
