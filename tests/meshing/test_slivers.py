@@ -84,7 +84,7 @@ THIN = {
     "needle": (lambda w: cq.Solid.makeCone(w / 2, 0, 10), 2, 250),
     "truncated": (lambda w: cq.Solid.makeCone(w / 2, w / 4, 10), 2, 150),
     "fillets": (lambda w: cq.Workplane().box(10, 10, 10).edges().fillet(0.6 * w), 2, 1000),
-    "chamfers": (lambda w: cq.Workplane().box(10, 10, 10).edges("|Z or >Z").chamfer(w / 2), 2, 2500),
+    "chamfers": (lambda w: cq.Workplane().box(9, 9, 9).edges("|Z or >Z").chamfer(w / 2), 2, 2000),
     "rim": (lambda w: cq.Workplane().cylinder(10, 5).edges(">Z").fillet(w / 2), 2, 1500),
     "slot": (lambda w: cq.Workplane().box(10, 10, 5).faces(">Z").workplane().slot2D(6, w)
              .cutBlind(-2), 2, 1000),
@@ -120,6 +120,26 @@ def test_narrow_faces_by_other_wishes(wishes):
     wishes = dict(wishes)
     judged(banded(0.01), **dict(wishes))
     judged(cq.Workplane().box(10, 10, 10).faces(">Z").workplane().hole(0.002), 0, **dict(wishes))
+
+
+@pytest.mark.parametrize("share", [0.3, 1e-3])
+def test_both_sides_of_a_thin_wall_are_meshed_alike(share):
+    width = share * CHORD
+    shape = (
+        cq.Workplane().spline([(0, 0), (2, 1), (4, -1), (6, 0)]).lineTo(6, width)
+        .spline([(4, width - 1), (2, width + 1), (0, width)], includeCurrent=True).close()
+        .extrude(2)
+    )  # fmt: skip
+    mesh, _ = judged(shape)
+    walls = [k for k, surface in enumerate(mesh.surfaces) if surface.kind != "plane"]
+    counts = np.bincount(mesh.face_ids)[walls]
+    assert len(walls) == 2 and counts[0] == counts[1]
+    judged(cq.Workplane().circle(5).circle(5 - width).extrude(3), euler=0)
+
+
+def test_a_narrow_face_keeps_its_ends_however_short():
+    _, report = judged(cq.Workplane().box(10, 10, 1e-5))
+    assert all(abs(row.area / row.area_exact - 1.0) < 1e-6 for row in report.by_face)
 
 
 def test_asked_for_gaps_are_meshed_across():
