@@ -9,6 +9,16 @@ import numpy as np
 
 from surfmesh.errors import SurfaceError
 from surfmesh.geometry.differences import ORDERS, Differences, chosen_differences
+from surfmesh.geometry.infinite_speed import (
+    BentAxes,
+    bent_axes,
+    bent_rates,
+    by_parameters,
+    from_bent,
+    is_bent,
+    kept_off,
+    to_bent,
+)
 from surfmesh.geometry.surface import Domain
 from surfmesh.geometry.surface_checks import bounds_of, loop_of, refuse_no_area, sample_grid
 
@@ -75,8 +85,11 @@ class NumericSurface:
         }
         self.__dict__.update(fixed, closed=(False, False))
         self._r(sample_grid(self.domain).reshape(-1, 2))  # refused now rather than later
+        self.__dict__["bent_axes"] = axes = bent_axes(self._r, self.domain)
+        rule, error = chosen_differences(
+            lambda s: self._r(from_bent(axes, s)), self.domain, int(differences), step
+        )
         self.__dict__["closed"] = (self._is_closed(0), self._is_closed(1))
-        rule, error = chosen_differences(self._r, self.domain, int(differences), step)
         self.__dict__.update(differences=rule, difference_error=error)
         refuse_no_area(self)
 
@@ -86,6 +99,8 @@ class NumericSurface:
     domain: Domain
     loops: tuple[np.ndarray, ...]
     sizing_defaults: dict[str, Any]
+    bent_axes: BentAxes
+    """Where the speed has no bound, and parameters in which it has: differences are taken there."""
     differences: Differences
     closed: tuple[bool, bool]
     """Does the surface begin again where u, or v, ends? Beyond the one end lies the other."""
@@ -120,6 +135,7 @@ class NumericSurface:
             return (r, *(np.empty((0, 3)) for _ in range(count)))
         if self.derivatives is None:
             return (r, *self._by_differences(uv, count))
+        uv = kept_off(self.bent_axes, uv)
         given = self._given(uv)
         if len(given) < count:
             given = (*given[:2], *self._second_from_first(uv))
@@ -130,6 +146,15 @@ class NumericSurface:
             for value, replacement in zip(given, better):
                 value[broken] = replacement
         return (r, *given)
+
+    def with_domain(self, domain: Domain) -> NumericSurface:
+        """The same function over another domain, within this one."""
+        other = object.__new__(NumericSurface)
+        whole = tuple(
+            closed and span == part for closed, span, part in zip(self.closed, self.domain, domain)
+        )
+        other.__dict__.update(self.__dict__, domain=domain, closed=whole)
+        return other
 
     def derivative_bounds(self, lo: np.ndarray, hi: np.ndarray) -> None:
         """None: a function cannot be bounded between its values."""
@@ -179,16 +204,25 @@ class NumericSurface:
         return found
 
     def _by_differences(self, uv: np.ndarray, count: int) -> tuple[np.ndarray, ...]:
-        rule = self.differences
-        return rule.first(self._r, uv) if count == 2 else rule.both(self._r, uv)
+        rule, axes = self.differences, self.bent_axes
+        if not is_bent(axes):
+            return rule.first(self._r, uv) if count == 2 else rule.both(self._r, uv)
+        s = to_bent(axes, uv)
+        taken = rule.first if count == 2 else rule.both
+        found = taken(lambda place: self._r(from_bent(axes, place)), s)
+        return by_parameters(found, *bent_rates(axes, s))
 
     def _second_from_first(self, uv: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
         """r_uu, r_uv, r_vv by differences of r_u and r_v; r_uv is the mean of its two."""
 
-        def first(place: np.ndarray) -> np.ndarray:
-            return np.hstack(self._given(place)[:2])
+        axes, s = self.bent_axes, to_bent(self.bent_axes, uv)
 
-        along_u, along_v = self.differences.first(first, uv)
+        def first(place: np.ndarray) -> np.ndarray:
+            return np.hstack(self._given(kept_off(axes, from_bent(axes, place)))[:2])
+
+        rates, _ = bent_rates(axes, s)
+        along_u, along_v = self.differences.first(first, s)
+        along_u, along_v = along_u / rates[:, :1], along_v / rates[:, 1:]
         return along_u[:, :3], 0.5 * (along_u[:, 3:] + along_v[:, :3]), along_v[:, 3:]
 
     def __repr__(self) -> str:

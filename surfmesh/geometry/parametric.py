@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 
 from surfmesh.errors import FormulaError, SurfaceError
+from surfmesh.geometry.infinite_speed import STRAIGHT, BentAxes, bent_axes, is_bent, kept_off
 from surfmesh.geometry.surface import Domain
 from surfmesh.geometry.surface_checks import bounds_of, loop_of, refuse_no_area, sample_grid
 from surfmesh.geometry.tape import Tape
@@ -56,8 +57,10 @@ class ParametricSurface:
         fixed["loops"] = tuple(loop_of(number, loop) for number, loop in enumerate(loops))
         fixed["_expressions"] = _parsed((x, y, z), fixed["parameters"])
         fixed["_tapes"] = {}
+        fixed["bent_axes"] = STRAIGHT
         self.__dict__.update(fixed)
         _refuse_values_that_are_not_finite(self)
+        self.__dict__["bent_axes"] = bent_axes(lambda uv: self.evaluate(uv)[0], self.domain)
         refuse_no_area(self)
 
     name: str
@@ -68,6 +71,8 @@ class ParametricSurface:
     description: str
     sizing_defaults: dict[str, Any]
     facts: dict[str, Any]
+    bent_axes: BentAxes
+    """Where the speed has no bound, and parameters in which it has."""
     _expressions: tuple[Any, Any, Any]
     _tapes: dict[int, Tape]
 
@@ -75,12 +80,20 @@ class ParametricSurface:
         """(n, 2) float -> (n, 3) float arrays: (r,), (r, r_u, r_v) or up to r_uu, r_uv, r_vv.
 
         Where a derivative is not finite (the apex of a cone) the derivatives are those a
-        billionth of the domain further inside. r itself is left as it is.
+        billionth of the domain further inside; where speeds have no bound (the rim of
+        z = sqrt(1 - u^2)), those as near to that place as ``bent_axes`` has it. r itself is
+        left as it is.
         """
         uv = np.asarray(uv, dtype=float).reshape(-1, 2)
         values = self.tape(order).evaluate(uv)
         if order == 0:
             return values
+        if is_bent(self.bent_axes):
+            off = kept_off(self.bent_axes, uv)
+            near = np.flatnonzero((off != uv).any(axis=1))
+            for value, better in zip(values[1:], self.tape(order).evaluate(off[near])[1:]):
+                value[near] = better
+            uv = off
         if all(np.isfinite(value).all() for value in values[1:]):
             return values
         broken = ~_finite_rows(values[1:])
@@ -102,6 +115,13 @@ class ParametricSurface:
         """
         lower, upper = self.tape(2).bounds(lo, hi, kinks=False)
         return lower[:, 3:].reshape(-1, 5, 3), upper[:, 3:].reshape(-1, 5, 3)
+
+    def with_domain(self, domain: Domain) -> ParametricSurface:
+        """The same formulas over another domain, within this one."""
+        other = object.__new__(ParametricSurface)
+        other.__dict__.update(self.__dict__, domain=domain)
+        other.__dict__["bent_axes"] = bent_axes(lambda uv: other.evaluate(uv)[0], domain)
+        return other
 
     def all_bounds(self, lo: np.ndarray, hi: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """Bounds of r, r_u, r_v, r_uu, r_uv, r_vv over cells: lower, upper (n, 6, 3).

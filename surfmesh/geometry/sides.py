@@ -14,6 +14,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from surfmesh.geometry.infinite_speed import rounding_of_sides
 from surfmesh.geometry.surface import Domain, Surface
 
 SAMPLES = 65  # points on which two sides are compared; uneven, so that symmetry fools nobody
@@ -92,9 +93,12 @@ def find_sides(surface: Surface) -> SideTopology:
     (cloud,) = surface.evaluate(np.stack(grid, axis=-1).reshape(-1, 2), 0)
     curves = [surface.evaluate(side_points(surface.domain, side, t), 0)[0] for side in range(4)]
     cloud = np.concatenate([cloud, *curves])
-    tolerance = SAME * np.linalg.norm(np.ptp(cloud, axis=0))
+    diagonal = float(np.linalg.norm(np.ptp(cloud, axis=0)))
+    tolerance = diagonal * np.maximum(SAME, rounding_of_sides(surface))
 
-    collapsed = [bool(np.linalg.norm(np.ptp(c, axis=0)) <= tolerance) for c in curves]
+    collapsed = [
+        bool(np.linalg.norm(np.ptp(c, axis=0)) <= near) for c, near in zip(curves, tolerance)
+    ]
     partner, reverse = [-1] * 4, [False] * 4
     for first, second in _PAIRS:
         if collapsed[first] or collapsed[second] or partner[first] >= 0 or partner[second] >= 0:
@@ -102,7 +106,7 @@ def find_sides(surface: Surface) -> SideTopology:
         for backwards in (False, True):
             # the samples are symmetric under t -> 1 - t, so backwards is the same list reversed
             other = curves[second][::-1] if backwards else curves[second]
-            if np.abs(curves[first] - other).max() <= tolerance:
+            if np.abs(curves[first] - other).max() <= max(tolerance[first], tolerance[second]):
                 partner[first], partner[second] = second, first
                 reverse[first] = reverse[second] = backwards
                 break

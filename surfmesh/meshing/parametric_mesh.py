@@ -7,7 +7,7 @@ sides -> size field -> packing -> boundary -> optimisation -> space, joined side
 
 import numpy as np
 
-from surfmesh.errors import MeshingError
+from surfmesh.errors import MeshingError, SizingError, SurfaceError
 from surfmesh.geometry.kinks import KinkLine, kink_lines
 from surfmesh.geometry.known_facts import known_facts
 from surfmesh.geometry.sides import SideTopology, find_sides
@@ -15,6 +15,7 @@ from surfmesh.geometry.surface import Surface
 from surfmesh.kernels.background import scalar_sizes_at
 from surfmesh.meshing.boundary_loops import BoundaryLoops, boundary_loops
 from surfmesh.meshing.boundary_recovery import DomainMesh, recovered
+from surfmesh.meshing.cusps import Cusp, closed_at, find_cusps, without_cusps
 from surfmesh.meshing.estimation import Estimate, field_triangles, require_field_within
 from surfmesh.meshing.explanation import Explanation, explain_surface
 from surfmesh.meshing.gluing import Glued, glued, misglued
@@ -33,6 +34,10 @@ from surfmesh.surface_mesh import SurfaceMesh
 ROUNDS = 8
 """How often the whole way is gone at most, each time with smaller sizes where it failed."""
 
+MOST_CELLS, CELLS_OF_TRIANGLE = 250_000, 50
+"""No further round once the size fields of all rounds had so many cells, or so many for each
+triangle of the mesh if that is more: about a singular place each round needs more of them."""
+
 FINER = 0.6
 """Factor on the sizes where the mesh is badly glued."""
 
@@ -50,42 +55,84 @@ def mesh_parametric(
     """
     watch = Stopwatch(progress)
     with watch.stage("sizing"):
-        sides = find_sides(surface)
-        kinks = kink_lines(surface)
+        part, sides, cusps = _without_cusps(surface, sizing)
+        kinks = kink_lines(part)
+    mesh = _in_rounds(part, sides, kinks, sizing, optimise, watch)
+    return closed_at(mesh, surface, cusps) if cusps else mesh
+
+
+def _without_cusps(
+    surface: Surface, sizing: Sizing
+) -> tuple[Surface, SideTopology, tuple[Cusp, ...]]:
+    """What is meshed before fans close its cusps, how its sides are joined, and the cusps."""
+    sides = find_sides(surface)
+    cusps = find_cusps(surface, sides, sizing)
+    if not cusps:
+        return surface, sides, ()
+    part = without_cusps(surface, cusps)
+    return part, find_sides(part), cusps
+
+
+def _in_rounds(
+    surface: Surface,
+    sides: SideTopology,
+    kinks: list[KinkLine],
+    sizing: Sizing,
+    optimise: bool,
+    watch: Stopwatch,
+) -> SurfaceMesh:
+    """Rounds with smaller sizes each until nothing is to be mended, or can be."""
     limits: SizeLimits | None = None
-    before = (0, 0)
+    not_followed: list[str] = []
+    before, cells = (0, 0), 0
+    mesh: SurfaceMesh | None = None
     for _ in range(ROUNDS):
         with watch.stage("sizing"):
-            field = size_field(surface, sizing, sides, limits, Rims(surface, sides))
+            try:
+                field = size_field(surface, sizing, sides, limits, Rims(surface, sides))
+            except SizingError:
+                if mesh is None:
+                    raise
+                break  # what no size can mend: the report says what is left
             require_field_within(sizing.limit, field, _loops(surface), surface.name)
-        mesh, wishes, bad = _one_round(surface, sides, kinks, field, optimise, watch)
+        try:
+            mesh, wishes, bad = _one_round(surface, sides, kinks, field, optimise, watch)
+        except (SurfaceError, MeshingError) as error:
+            if not kinks:
+                raise
+            kinks, not_followed = [], [f"no edges follow the kinks of {surface.name!r}: {error}"]
+            mesh, wishes, bad = _one_round(surface, sides, kinks, field, optimise, watch)
         if wishes is None or not _can_shrink(field, wishes):
             break
         now = (len(mesh.triangles), len(wishes.sizes))
+        cells += len(field.background.child) // 4  # each cell has a row for four parts
+        if cells > max(MOST_CELLS, CELLS_OF_TRIANGLE * len(mesh.triangles)):
+            break
         if now == before:  # smaller sizes make no difference: the report says what is left
             break
         before = now
         limits = wishes.joined_with(limits)
+    assert mesh is not None
     if len(bad):
         place = ", ".join(f"{x:.6g}" for x in mesh.points[bad[0]])
         raise MeshingError(
             f"the sides of {surface.name!r} cannot be joined with sizes this coarse: an edge "
             f"near ({place}) has more than two triangles; lower size, max_size or min_size"
         )
-    return mesh
+    return mesh.with_warnings(*not_followed)
 
 
 def estimate_parametric(surface: Surface, sizing: Sizing) -> Estimate:
     """Triangles and memory of ``mesh_parametric``. Raises as it does."""
-    sides = find_sides(surface)
-    field = size_field(surface, sizing, sides, rims=Rims(surface, sides))
-    loops = _loops(surface)
+    part, sides, _ = _without_cusps(surface, sizing)
+    field = size_field(part, sizing, sides, rims=Rims(part, sides))
+    loops = _loops(part)
     asked = field_triangles(field, loops)
     if asked <= WHOLE:
         made = tried(lambda stop: mesh_parametric(surface, sizing, progress=stop))
         if made is not None:
             return Estimate.of(made, field.is_anisotropic)
-    got = asked * (triangles_per_unit(surface, field, loops) or 1.0)
+    got = asked * (triangles_per_unit(part, field, loops) or 1.0)
     return Estimate.of([got], field.is_anisotropic)
 
 

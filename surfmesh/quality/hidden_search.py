@@ -32,6 +32,8 @@ ROUNDS = 60  # halvings of a triangle's box at most
 BOXES, BOXES_EACH = 100_000, 4  # most boxes in all: so many, and so many for each triangle
 LEVELS = 3  # a triangle is cut in four so often before boxes are tried
 NEARLY = 1.02  # of the tolerance: a box is settled there, so that halving comes to an end
+AHEAD = 16.0  # a box is at most so many times narrower across a place without bounds than along it
+NO_BOUND = 1e300  # what is more is infinite
 INSIDE = 1e-9  # barycentric: a centre so far outside is inside
 
 
@@ -211,6 +213,10 @@ def _looked_into(
     share = np.nan_to_num(np.stack([share_u, share_v], axis=1), nan=np.inf)
     widths = half / np.maximum(np.ptp(pieces.uv[piece], axis=1), 1e-300)
     axis = np.where(share[:, 0] == share[:, 1], widths.argmax(axis=1), share.argmax(axis=1))
+    # at a rim of infinite speed no halving across it makes that bound finite: the other one's turn
+    row = np.arange(len(boxes))
+    endless = (share[row, axis] > NO_BOUND) & (AHEAD * widths[row, axis] < widths[row, 1 - axis])
+    axis = np.where(endless, 1 - axis, axis)
     far = np.flatnonzero(off > pieces.tolerance[piece])
     if len(far):
         distance = away(piece[far], r[far])  # from the triangles around it too

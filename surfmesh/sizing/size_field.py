@@ -12,6 +12,7 @@ the bound admits a curvature that would at least halve the size.
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from typing import NoReturn
 
 import numpy as np
 
@@ -77,7 +78,9 @@ REACHED = 1.1
 
 _NO_DIRECTIONS = np.empty(0), np.empty((0, 3)), np.empty((0, 3))
 
-MAX_CELLS = 800_000
+MAX_CELLS, FREE_CELLS, CELLS_OF_TRIANGLE = 800_000, 200_000, 4
+"""A field may have so many cells; and beyond the second number no more than the third for each
+triangle that it asks for so far: what needs more is no size, but a place where r is singular."""
 MAX_ROUNDS = 60
 SWEEPS, MAX_CHUNKS = 16, 400
 """Sweeps of the gradation before the cells are sorted anew, and how often that is done."""
@@ -240,11 +243,8 @@ class _Builder:
             tree.append(parents.index)
             total += len(children)
             sources.follow(split)
-            if total > MAX_CELLS:
-                raise SizingError(
-                    f"the sizes asked for on {self.surface.name!r} need more than {MAX_CELLS:,} "
-                    "cells to describe: raise min_size or growth"
-                )
+            if total > FREE_CELLS and total > self._most_cells(cells, patch):
+                self._refuse(total, parents)
             fresh = np.concatenate([np.zeros((~split).sum(), bool), np.ones(len(children), bool)])
             deep = np.concatenate([deep[~split], np.repeat(deep[split], 4)])
             patch = np.concatenate([patch[~split], self._patches(children)])
@@ -255,6 +255,28 @@ class _Builder:
         self.nodes = self.nodes.in_order()
         tree.append(cells.index)  # every leaf is split once more, onto its test nodes
         return SizeField(self.scaling, self._background(tree, patch), self.law.sizing)
+
+    def _most_cells(self, cells: Cells, patch: np.ndarray) -> float:
+        """How many cells are allowed for what the leaves ask for."""
+        if isinstance(self.surface, FaceSurface) or not isinstance(self.law, SizeLaw):
+            return MAX_CELLS
+        a11, a12, a22 = self.nodes.inverse_sizes()[patch[:, 4]].T
+        area = self.root_step.prod() / 4.0**cells.depth * (a11 * a22 - a12 * a12)
+        triangles = float(area.sum()) * 4.0 / np.sqrt(3.0)
+        free = FREE_CELLS + 4 * self.looked_into
+        return min(MAX_CELLS, max(free, CELLS_OF_TRIANGLE * triangles))
+
+    def _refuse(self, total: int, parents: Cells) -> NoReturn:
+        """The place is in the midst of the smallest cells."""
+        deepest = np.flatnonzero(parents.depth == parents.depth.max())
+        one = deepest[len(deepest) // 2]
+        corner = np.array([[parents.x[one], parents.y[one]]]) / (1 << (GRID_DEPTH + 1))
+        u, v = self.scaling.to_uv(corner * self.root_step)[0]
+        raise SizingError(
+            f"the sizes asked for on {self.surface.name!r} need more than {total:,} cells to "
+            f"describe, most near (u, v) = ({u:.6g}, {v:.6g}), where the surface may be singular: "
+            "raise min_size or growth, or leave that place out of the domain"
+        )
 
     # nodes
 
@@ -500,5 +522,3 @@ class _Builder:
         in_space = self.nodes.inverse_sizes_in_space()
         box = np.array([0.0, 0.0, *(1.0 / self.root_step), self._largest])
         return Background(box, np.array([self.nx, self.ny]), child, corner, inverse, in_space)
-
-
