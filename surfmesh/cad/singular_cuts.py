@@ -30,6 +30,7 @@ from surfmesh.geometry.inside_loops import is_inside
 from surfmesh.geometry.singular_lines import SingularLine, singular_lines
 
 ON_LINE = 1e-7  # of the face's box: an image that ends so near a line ends on it
+LOOSE = 1e-8  # of the model's diagonal: tolerance of a new vertex
 SAMPLES = 65  # of an image, between which it is looked for crossings
 HALVINGS = 60
 ASIDE = 0.01  # of an edge: so far from a line it is seen which of two images lies to the right
@@ -183,7 +184,7 @@ class _Work:
             vertex = self.vertices[number]
             if np.linalg.norm(vertex.point - point) <= vertex.tolerance + noise:
                 return number
-        self.vertices.append(CadVertex(point, noise))
+        self.vertices.append(CadVertex(point, LOOSE * self.model.diagonal))
         return len(self.vertices) - 1
 
     def _vertices_of(self, face: CadFace) -> set[int]:

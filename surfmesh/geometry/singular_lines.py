@@ -21,6 +21,8 @@ POINT = 1e-9  # of the surface's size: the extent of a line that is a point
 ACROSS, ALONG = 9, 65  # samples on a line, and lines tried
 STEEP = 0.5  # a line that may become a point is so much shorter than one of its neighbours
 NESTED, SAME = 2, 1e-7  # searches within a dip; of the domain: values so near are one
+ROUNDING = 1e-14  # of the surface's size
+BESIDE = 1e-3, 1e-4  # of the domain: where lines on both sides are compared
 NARROWED = 60  # steps of the golden section
 GOLDEN = 0.5 * (5.0**0.5 - 1.0)
 
@@ -133,7 +135,30 @@ def _lowest(surface: Surface, axis: int, low: float, high: float) -> float:
             low, a, fa = a, b, fb
             b = low + GOLDEN * (high - low)
             fb = _extents(surface, axis, np.array([b]))[0][0]
-    return float(a if fa <= fb else b)
+    return _between_alike(surface, axis, float(a if fa <= fb else b))
+
+
+def _between_alike(surface: Surface, axis: int, value: float) -> float:
+    """The value again, where lines on both sides are alike: a flat least is lost in rounding.
+
+    Kept only where the line there is as short as rounding lets it be.
+    """
+    low, high = surface.domain[axis]
+    better = value
+    for share in BESIDE:
+        step = min(share * (high - low), better - low, high - better)
+        if not step > 0.0:
+            return value
+        places = np.array([better - step, better + 0.5 * step, better + step])
+        before, steeper, after = _extents(surface, axis, places)[0]
+        if not min(before, after, steeper) > 0.0:
+            return value
+        # extent |s|^p: a shift by d changes the ratio of both sides by 2 p d / step
+        power = max(np.log2(after / steeper), 1.0)
+        better += float(np.clip(0.5 * step * np.log(before / after) / power, -step, step))
+    _, size = _extents(surface, axis, np.linspace(low, high, ACROSS))
+    here = _extents(surface, axis, np.array([better]))[0][0]
+    return better if here <= ROUNDING * size else value
 
 
 def _extents(surface: Surface, axis: int, values: np.ndarray) -> tuple[np.ndarray, float]:

@@ -96,3 +96,17 @@ def test_the_long_triangles_of_a_tip_stand_on_one_ring():
         if pole not in pair
     }
     assert len(rims) == 12
+
+
+def test_a_horn_torus_of_splines_in_many_faces_meets_in_one_vertex():
+    """Where its singular line is found by search, in each face over another box."""
+    from OCP.BRepBuilderAPI import BRepBuilderAPI_NurbsConvert
+
+    shape = cq.Shape.cast(BRepPrimAPI_MakeTorus(2.0, 2.0).Shape())
+    shape = shape.rotate(cq.Vector(0, 0, 0), cq.Vector(1, 1, 0), 33.0)
+    model = sm.from_cadquery(cq.Shape.cast(BRepBuilderAPI_NurbsConvert(shape.wrapped).Shape()))
+    assert model.check() == ""
+    report = sm.check(sm.mesh(model, sm.Sizing(chord=0.1)))
+    assert report.clean
+    assert report.euler == 1
+    assert report.volume == pytest.approx(16.0 * math.pi**2, rel=0.05)
