@@ -10,6 +10,9 @@ from surfmesh.geometry.curves import TURN
 COLLAPSED = 2e-6
 """Edges shorter than this share of the diagonal are one point: their faces meet in it."""
 
+LOOSE = 20.0
+"""And than so many tolerances of the edge and its ends."""
+
 
 def collapses(model: CadModel, edge: CadEdge) -> bool:
     """Is the edge so short that it is one vertex of the mesh?
@@ -20,7 +23,8 @@ def collapses(model: CadModel, edge: CadEdge) -> bool:
         vertex = model.vertices[edge.start]
         within = TURN * max(vertex.tolerance, edge.tolerance)
         return edge.length <= min(within, COLLAPSED * model.diagonal)
-    return edge.degenerate or edge.length <= COLLAPSED * model.diagonal
+    loose = max(edge.tolerance, *(model.vertices[v].tolerance for v in (edge.start, edge.end)))
+    return edge.degenerate or edge.length <= min(COLLAPSED * model.diagonal, LOOSE * loose)
 
 
 def vertex_numbers(model: CadModel) -> np.ndarray:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections import Counter
 from collections.abc import Iterable
 from weakref import WeakKeyDictionary
 
@@ -10,6 +11,8 @@ import numpy as np
 
 from surfmesh.cad.collapsed_edges import collapses, vanishes, vertex_numbers
 from surfmesh.cad.incidence import SAME_PLACE, edge_uses, vertex_fans
+from surfmesh.cad.invariants import signed_area
+from surfmesh.cad.loops import closes
 from surfmesh.cad.model import CadFace, CadModel
 from surfmesh.model_facts import FaceFacts, ModelFacts, SolidFacts
 
@@ -51,6 +54,8 @@ def euler_number(
 ) -> int:
     """V - E + F of what these faces form, a face with L loops counted as 2 - L.
 
+    One with islands, or with outer loops beside each other, is several pieces: 2 for each.
+
     A seam is one edge, a degenerate edge only its vertex: so a sphere has two vertices, one
     edge and one face. So is an edge that the mesh has as one vertex, being tiny.
     number: ``vertex_numbers(model)``, where they are known.
@@ -65,8 +70,27 @@ def euler_number(
             if not collapses(model, edge):
                 edges.add(coedge.edge)
         if not vanishes(model, face):
-            inside += 2 - _borders(model, face, number)
+            inside += 2 * _pieces(model, face) - _borders(model, face, number)
     return len(vertices) - len(edges) + inside
+
+
+def _pieces(model: CadModel, face: CadFace) -> int:
+    """How many outer loops it has, those apart from which touch others."""
+    if len(face.loops) < 2:
+        return 1
+    ends = [
+        {v for c in loop for v in (model.edges[c.edge].start, model.edges[c.edge].end)}
+        for loop in face.loops
+    ]
+    extent = np.ptp(np.array(face.surface.domain), axis=1)
+    uses = Counter(vertex for own in ends for vertex in own)
+    return 1 + sum(
+        closes(loop, extent)
+        and signed_area(loop) > 0.0
+        and all(uses[vertex] == 1 for vertex in own)
+        and max(Counter(c.edge for c in loop).values()) == 1
+        for loop, own in zip(face.loops[1:], ends[1:])
+    )
 
 
 def _borders(model: CadModel, face: CadFace, number: np.ndarray) -> int:

@@ -17,6 +17,7 @@ from OCP.BRepLib import BRepLib
 from OCP.BRepTools import BRepTools_ReShape
 from OCP.GC import GC_MakeLine
 from OCP.Geom import Geom_Plane, Geom_RectangularTrimmedSurface
+from OCP.Precision import Precision
 from OCP.ShapeAnalysis import ShapeAnalysis_ShapeTolerance
 from OCP.ShapeExtend import ShapeExtend, ShapeExtend_MsgRegistrator
 from OCP.ShapeFix import ShapeFix_Face, ShapeFix_Shape
@@ -129,7 +130,7 @@ def _made_straight(edge: TopoDS_Edge) -> bool:
         return False
     first, last = (BRep_Tool.Pnt_s(vertex) for vertex in ends)
     length = first.Distance(last)
-    if length <= BRep_Tool.Tolerance_s(edge):
+    if not BRep_Tool.Tolerance_s(edge) < length < Precision.Infinite_s():  # nor is it a number
         return False
     BRep_Builder().UpdateEdge(edge, GC_MakeLine(first, last).Value(), BRep_Tool.Tolerance_s(edge))
     BRep_Builder().Range(edge, 0.0, length)

@@ -14,6 +14,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from surfmesh.geometry.nesting import nesting_depth
+
 if TYPE_CHECKING:
     from surfmesh.cad.model import CadCoedge, CadEdge, CadFace, CadModel, CadVertex, Shell
 
@@ -114,9 +116,16 @@ def _broken_face(model: CadModel, number: int, face: CadFace) -> Iterator[str]:
         yield f"loop 0 of face {number} does not run counter-clockwise (area {areas[0]:.3g})"
     for loop_number, (loop, area) in enumerate(zip(face.loops, areas)):
         slit = all(uses[coedge.edge] > 1 for coedge in loop)
-        if loop_number and area > 0.0 and not slit:
+        if loop_number and area > 0.0 and not slit and _is_hole(face.loops, loop_number):
             yield f"loop {loop_number} of face {number} runs counter-clockwise, a second outer loop"
     yield from _broken_images(model, number, face)
+
+
+def _is_hole(loops: Sequence[tuple[CadCoedge, ...]], number: int) -> bool:
+    """Does the loop lie within an odd number of others? Else it is an outer one, or an island."""
+    share = np.arange(24) / 24
+    rings = [np.concatenate([coedge.walk(share) for coedge in loop]) for loop in loops]
+    return bool(nesting_depth(rings)[number] % 2)
 
 
 def _broken_images(model: CadModel, number: int, face: CadFace) -> Iterator[str]:

@@ -4,13 +4,25 @@ from __future__ import annotations
 
 from collections import defaultdict
 from collections.abc import Sequence
+from dataclasses import replace
 
 import numpy as np
 
-from surfmesh.cad.invariants import ENDS, signed_area
+from surfmesh.cad.invariants import ENDS, OPEN_SHARE, signed_area, step_between
 from surfmesh.cad.model import CadCoedge, CadEdge
+from surfmesh.geometry.nesting import nesting_depth
 
 Loop = tuple[CadCoedge, ...]
+
+SAMPLES = 64
+"""Of each coedge: the polygon of its loop."""
+
+SURE = 0.5
+"""Of what its corners let it differ by: a smaller area of a polygon may have the other sign."""
+
+CLEAR, FLAT = 0.01, 1e-6
+"""Of the size of a loop: others so near to it may lie on either side of its curve; of its square:
+the area of one that encloses nothing."""
 
 
 def start_of(coedge: CadCoedge, edges: Sequence[CadEdge]) -> int:
@@ -96,3 +108,61 @@ def outer_first(loops: Sequence[Loop]) -> tuple[Loop, ...]:
     areas = [signed_area(loop) for loop in loops]
     outer = int(np.argmax(areas)) if areas else 0
     return (*loops[outer : outer + 1], *loops[:outer], *loops[outer + 1 :])
+
+
+def misdirected(loops: Sequence[Loop], closed: bool) -> list[int]:
+    """Numbers of loops that run the wrong way round for how many others lie around them.
+
+    Outer loops run counter-clockwise, holes in them clockwise, islands in these
+    counter-clockwise again. None where that is not certain: loops that are open in (u, v), go
+    there and back, or come close to each other. closed: the surface is a sphere or the like, on
+    which an outer loop that runs clockwise leaves all but its inside.
+    """
+    share = np.arange(SAMPLES) / SAMPLES
+    rings = [np.concatenate([coedge.walk(share) for coedge in loop]) for loop in loops]
+    extent = np.ptp(np.concatenate(rings), axis=0)
+    if not (extent > 0.0).all() or not all(closes(loop, extent) for loop in loops):
+        return []
+    areas = np.array([signed_area(loop, SAMPLES) for loop in loops]) / np.prod(extent)
+    boxes = np.array([np.ptp(ring / extent, axis=0).max() for ring in rings])
+    slack = np.array([_sag_area(ring / extent) for ring in rings])
+    if (np.abs(areas) <= np.maximum(FLAT * boxes**2, SURE * slack)).any():
+        return []
+    depth = nesting_depth([ring / extent for ring in rings])
+    wrong = (areas > 0.0) != (depth % 2 == 0)
+    if closed and (wrong & (depth == 0)).any():
+        return []
+    if not wrong.any() or not _are_apart([ring / extent for ring in rings], boxes):
+        return []
+    return np.flatnonzero(wrong).tolist()
+
+
+def _sag_area(ring: np.ndarray) -> float:
+    """By how much the area of a polygon (k, 2) may differ from that within its curves."""
+    before, after = np.roll(ring, 1, axis=0), np.roll(ring, -1, axis=0)
+    sag = np.linalg.norm(ring - 0.5 * (before + after), axis=1)
+    return float(sag @ np.linalg.norm(after - before, axis=1))
+
+
+def turned(loop: Loop) -> Loop:
+    """The loop walked the other way round."""
+    return tuple(replace(coedge, reversed=not coedge.reversed) for coedge in loop[::-1])
+
+
+def closes(loop: Loop, extent: np.ndarray) -> bool:
+    """Is it closed in (u, v), and not a way round a closed surface?"""
+    return all(
+        (np.abs(step_between(here, after)) <= OPEN_SHARE * extent).all()
+        for here, after in zip(loop, loop[1:] + loop[:1])
+    )
+
+
+def _are_apart(rings: Sequence[np.ndarray], sizes: np.ndarray) -> bool:
+    """Is none of the polygons (k, 2) near another, for the larger of both sizes?"""
+    import shapely
+
+    lines = shapely.linearrings(np.concatenate(rings), indices=np.repeat(
+        np.arange(len(rings)), [len(ring) for ring in rings]
+    ))  # fmt: skip
+    one, other = shapely.STRtree(lines).query(lines, predicate="dwithin", distance=CLEAR * sizes)
+    return bool((one == other).all())

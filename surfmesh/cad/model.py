@@ -100,6 +100,7 @@ class CadFace:
     surface: its domain is the (u, v) box of the loops. loops: coedges in walking order with the
     inside on the left in (u, v); the outer loop first. reversed: the face's normal is
     -(r_u x r_v). colour: (r, g, b) from 0 to 1 (sRGB), or None. area: model units squared.
+    fault: why it cannot be meshed, found when it was read; mostly empty.
     names: as of an edge.
     """
 
@@ -112,6 +113,7 @@ class CadFace:
     area: float
     kind: str
     names: tuple[str, ...] = ()
+    fault: str = ""
 
     @property
     def coedges(self) -> Iterator[CadCoedge]:

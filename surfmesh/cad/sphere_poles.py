@@ -42,10 +42,48 @@ def with_turned_spheres(part: Part, faces: list[TopoDS_Face]) -> Part:
     """
     context = BRepTools_ReShape()
     remarks = list(part.remarks)
+    others = _turned_inside(part.shape, faces)
     for face in faces:
+        if any(face.IsSame(other) for other in others):
+            context.Replace(face, _on_turned_sphere(face, True).Reversed())
+            remarks.append((face, "was its neighbour turned over: made the rest of its sphere"))
+            continue
         context.Replace(face, _on_turned_sphere(face))
         remarks.append((face, "an edge passes a pole of its sphere, which is turned"))
     return replace(part, remarks=remarks).mapped(context.Apply)
+
+
+def _turned_inside(shape: TopoDS_Shape, faces: list[TopoDS_Face]) -> list[TopoDS_Face]:
+    """Faces that are another one of the shape turned over: between the same edges, on one sphere.
+
+    Readers make that of the larger face where they take its loop to run round the smaller one.
+    """
+    explorer, uses = TopExp_Explorer(shape, TopAbs_FACE), []
+    while explorer.More():
+        face = TopoDS.Face_s(explorer.Current())
+        if any(face.IsSame(one) for one in faces):
+            uses.append(face)
+        explorer.Next()
+    ahead = [face for face in uses if face.Orientation() == TopAbs_FORWARD]
+    back = [face for face in uses if face.Orientation() == TopAbs_REVERSED]
+    return [face for face in back if any(_are_twins(face, other) for other in ahead)]
+
+
+def _are_twins(one: TopoDS_Face, other: TopoDS_Face) -> bool:
+    """Do two uses of faces run along the same edges, each in opposite directions?
+
+    Turned over they would then be one: the faces on both sides of a loop run along it both ways.
+    """
+    first = [TopoDS.Face_s(face.Oriented(TopAbs_FORWARD)) for face in (one, other)]
+    mine, others = (_real_edges(face) for face in first)
+    same = len(mine) == len(others) and all(
+        any(edge.IsEqual(another) for another in others) for edge in mine
+    )
+    if not same:
+        return False
+    spheres = [_sphere(face) for face in first]
+    apart = spheres[0].Location().Distance(spheres[1].Location())
+    return max(apart, abs(spheres[0].Radius() - spheres[1].Radius())) < BRep_Tool.Tolerance_s(one)
 
 
 def _faces(shape: TopoDS_Shape) -> list[TopoDS_Face]:
@@ -122,9 +160,12 @@ def _least_beside(way: np.ndarray) -> float:
     return float(np.linalg.norm(start + share[:, None] * step, axis=1).min())
 
 
-def _on_turned_sphere(face: TopoDS_Face) -> TopoDS_Face:
+def _on_turned_sphere(face: TopoDS_Face, other_side: bool = False) -> TopoDS_Face:
+    """other_side: with its loops run the other way, which is the rest of the sphere."""
     sphere = _sphere(face)
     edges = _real_edges(face)
+    if other_side:
+        edges = [TopoDS.Edge_s(edge.Reversed()) for edge in edges]
     way = np.concatenate([_directions(edge, sphere) for edge in edges])
     axis = _axis_apart(way)
     place = sphere.Position()

@@ -41,8 +41,9 @@ from surfmesh.cad.assembly import Detail, Part
 from surfmesh.cad.contents_of_file import unread_bodies, without_faces
 from surfmesh.cad.convert import curve2d_of, curve_of, surface_of
 from surfmesh.cad.extent import diagonal
-from surfmesh.cad.invariants import is_closed
-from surfmesh.cad.loops import chained, outer_first, there_and_back
+from surfmesh.cad.invariants import is_closed, signed_area
+from surfmesh.cad.loop_faults import fault_of_pieces
+from surfmesh.cad.loops import chained, misdirected, outer_first, there_and_back, turned
 from surfmesh.cad.model import (
     CadCoedge,
     CadEdge,
@@ -87,7 +88,7 @@ def cad_model(
 
     Faces that cannot be used are left out, and listed. Raises CadError when there is no other.
     """
-    walk = _Walk()
+    walk = _Walk(heal)
     tree = walk.part(root, None)
     if not walk.faces:
         called = source or root.name or "the model"
@@ -100,6 +101,7 @@ def cad_model(
         healing += images_at_near_poles(walk.edges, walk.vertices, walk.faces)
         healing += curves_on_their_faces(walk.edges, walk.vertices, walk.faces, unit)
     healing += tolerances_that_hold(walk.edges, walk.vertices, walk.faces, unit)
+    _fault_split_faces(walk, root)
     model = CadModel(
         vertices=tuple(walk.vertices),
         edges=tuple(walk.edges),
@@ -165,7 +167,8 @@ class _Numbering:
 class _Walk:
     """What has been met so far on the way through the parts."""
 
-    def __init__(self) -> None:
+    def __init__(self, heal: bool) -> None:
+        self.heal = heal
         self.vertices: list[CadVertex] = []
         self.edges: list[CadEdge] = []
         self.faces: list[CadFace] = []
@@ -333,6 +336,16 @@ class _Walk:
         if not loops:
             raise CadError("it has no edges; give the face its boundary in the CAD system")
         surface = surface_of(BRep_Tool.Surface_s(face), _box(face, loops, called), called)
+        area = _area(face, surface.kind)
+        closed = None not in surface.periods or surface.kind == "sphere"
+        wrong = misdirected(loops, closed) if self.heal else []
+        for place in wrong:
+            loops[place] = turned(loops[place])
+            self._remarks[f"{called}: a loop turned, loops are oriented by nesting"] += 1
+        if wrong:
+            ways = [1.0 if signed_area(loop) > 0.0 else -1.0 for loop in loops]
+            parts = [self._area_within(face, loop, surface.kind) for loop in loops]
+            area = sum(way * part for way, part in zip(ways, parts))
         loops += self._points_inside(face, surface, loops, called)
         self.faces.append(
             CadFace(
@@ -342,12 +355,25 @@ class _Walk:
                 tolerance=BRep_Tool.Tolerance_s(face),
                 name=name,
                 colour=own or colour,
-                area=_area(face, surface.kind),
+                area=area,
                 kind=surface.kind,
                 names=self.names(shape),
             )
         )
         return number
+
+    def _area_within(self, face: TopoDS_Face, loop: tuple[CadCoedge, ...], kind: str) -> float:
+        """What a loop of a face encloses."""
+        edges = {coedge.edge for coedge in loop}
+        alone = face.EmptyCopied()
+        for wire in _below(face):
+            if edges & {self._edge_numbers.find(edge) for edge in _each(wire, TopAbs_EDGE)}:
+                BRep_Builder().Add(alone, wire)
+        return _area(TopoDS.Face_s(alone), kind)
+
+    def face_number(self, shape: TopoDS_Shape) -> int | None:
+        """Number of a face that has been taken in."""
+        return self._face_numbers.find(shape)
 
     def _points_inside(
         self, face: TopoDS_Face, surface: FaceSurface, loops: list, called: str
@@ -548,6 +574,23 @@ def _touching(faces: list[CadFace], solids: list[CadSolid]) -> list[str]:
                 f"{listed(many)}: more than two of its faces meet there, and so do triangles"
             )
     return sentences
+
+
+def _fault_split_faces(walk: _Walk, root: Part) -> None:
+    """Pieces that healing has made of one face, and that cross each other, are no faces."""
+    for part in root:
+        for shape, _ in part.remarks:
+            if shape is None or shape.IsNull():
+                continue
+            numbers = [walk.face_number(face) for face in _each(shape, TopAbs_FACE)]
+            numbers = sorted({number for number in numbers if number is not None})
+            pieces = [walk.faces[number] for number in numbers]
+            if len(pieces) < 2:
+                continue
+            fault = fault_of_pieces(pieces, walk.edges, len(walk.vertices))
+            for number in numbers if fault else ():
+                said = f"{fault}, before it was split by healing"
+                walk.faces[number] = replace(walk.faces[number], fault=said)
 
 
 def _in_words(walk: _Walk, root: Part) -> list[str]:

@@ -318,16 +318,29 @@ def _on_surface(found: Any, surface: Any) -> Any:
     return _facing(made) if known else made
 
 
+_LOOKED_AT = 2000  # triangles, to tell which side a mesh faces
+
+
 def _facing(found: Any) -> Any:
     """The mesh, taken for one that was turned over where most of it faces the other side."""
-    from surfmesh.quality.deviation import deviation
-    from surfmesh.quality.shape import shapes
+    import numpy as np
 
-    if found.check():
+    if found.check() or not len(found.triangles):
         return found
-    area = shapes(found).area
-    fit = deviation(found, area)
-    if fit is None or not (area * fit.cosine).sum() < 0.0:
+    count = len(found.triangles)
+    rows = np.unique(np.linspace(0, count - 1, min(count, _LOOKED_AT)).astype(int))
+    a, b, c = found.points[found.triangles[rows]].transpose(1, 0, 2)
+    normals, faces = np.cross(b - a, c - a), found.face_ids[rows]
+    ahead = 0.0
+    for face in np.unique(faces).tolist():
+        own = rows[faces == face]
+        middle = found.uv_points[found.uv_triangles[own]].mean(axis=1)
+        _, along_u, along_v = found.surfaces[face].evaluate(middle, 1)
+        true = np.cross(along_u, along_v)
+        true /= np.maximum(np.linalg.norm(true, axis=1), np.finfo(float).tiny)[:, None]
+        turned = found.turned_faces is not None and found.turned_faces[face]
+        ahead += float(np.nansum(normals[faces == face] * true)) * (-1.0 if turned else 1.0)
+    if not ahead < 0.0:
         return found
     turned = found.flipped()  # as the surface is, so that what it says of itself turns too
     return replace(found, turned_faces=turned.turned_faces, solid_ids=turned.solid_ids)

@@ -21,6 +21,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from surfmesh.errors import SurfaceError
+
 GRID = 96  # cells each way
 MARGIN = 1e-9  # of the domain: how far inside its sides signs are read
 HALVINGS = 60  # of an edge of the grid, for a zero on it
@@ -30,6 +32,8 @@ MOST_POINTS = 40_000  # of all lines together: more are not followed
 STEP = 1e-6  # of the domain: how far beside a line the two sides are compared
 BENT = 1e-5  # of the slopes: so much they differ at a kink
 SHORTEST = 1e-9  # of the domain: pieces of lines, and distances that are round-off
+TORN = 1e-6  # of the extent: what jumps by less is round-off
+_CORNERS = np.array([(i / 4.0, j / 4.0) for i in range(5) for j in range(5)])
 NEWTON = 12
 NEAR = 3.0  # cells: a meeting lies so near to where the lines were seen to cross
 
@@ -64,11 +68,10 @@ class Guides:
         """
         found = uv.copy()
         for _ in range(NEWTON):
-            g, g_u, g_v = (self.values(guide, found) * [1.0, *self.width]).T
-            length2 = g_u**2 + g_v**2
-            with np.errstate(divide="ignore", invalid="ignore"):
-                step = np.nan_to_num(g / length2, posinf=0.0, neginf=0.0)
-            found = found - (step[:, None] * np.stack([g_u, g_v], axis=1)) * self.width
+            with np.errstate(all="ignore"):  # whatever is not finite moves nothing
+                g, g_u, g_v = (self.values(guide, found) * [1.0, *self.width]).T
+                step = np.stack([g_u, g_v], axis=1) * (g / (g_u**2 + g_v**2))[:, None]
+            found = found - np.nan_to_num(step, posinf=0.0, neginf=0.0) * self.width
             found = np.clip(found, self.lo, self.hi)
         far = np.abs((found - uv) / self.width).max(axis=1) > within
         found[far] = uv[far]
@@ -76,7 +79,10 @@ class Guides:
 
 
 def kink_lines(surface: Any) -> list[KinkLine]:
-    """The kinks of a surface, cut where they meet; none where it has no formulas, or too many."""
+    """The kinks of a surface, cut where they meet; none where it has no formulas, or too many.
+
+    Raises SurfaceError where the surface is torn: a step has no mesh.
+    """
     if not hasattr(surface, "guides") or surface.loops:
         return []
     guides = Guides(surface)
@@ -94,8 +100,10 @@ def kink_lines(surface: Any) -> list[KinkLine]:
     pieces = _cut_at_meetings(guides, lines, NEAR * cell)
     kept: list[KinkLine] = []
     for piece in pieces:
-        if _is_long(guides, piece) and _is_bent(guides, piece) and not _is_there(guides, piece, kept):
-            kept.append(piece)
+        _refuse_jump(guides, piece)
+        if _is_long(guides, piece) and _is_bent(guides, piece):
+            if not _is_there(guides, piece, kept):
+                kept.append(piece)
     return kept
 
 
@@ -310,6 +318,8 @@ def _meeting(
     for _ in range(NEWTON):
         g = np.array([guides.values(guide, found[None])[0] for guide in (one, two)])
         slope = g[:, 1:] * guides.width
+        if not np.isfinite(g).all():
+            return None
         determinant = slope[0, 0] * slope[1, 1] - slope[0, 1] * slope[1, 0]
         if not abs(determinant) > 1e-12 * np.prod(np.linalg.norm(slope, axis=1)):
             return None
@@ -380,17 +390,44 @@ def _onto_side(guides: Guides, guide: int, end: NDArray) -> NDArray[np.float64]:
     return place
 
 
-def _is_bent(guides: Guides, line: KinkLine) -> bool:
-    """Do the slopes of the surface differ on the two sides of a line, in its middle?"""
+def _beside(guides: Guides, line: KinkLine, step: float) -> list[NDArray[np.float64]]:
+    """Places (n, 2) on both sides of the middle of a line, at ``step`` of the domain from it."""
     if len(line.uv) > 2:
         middle = line.uv[1:-1]
     else:
         middle = guides.on_line(line.guide, line.uv.mean(axis=0)[None], 1.0)
-    g = guides.values(line.guide, middle)[:, 1:] * guides.width
-    across = g / np.maximum(np.linalg.norm(g, axis=1), 1e-300)[:, None]
+    with np.errstate(all="ignore"):
+        g = np.nan_to_num(guides.values(line.guide, middle)[:, 1:] * guides.width)
+    across = g / np.maximum(np.abs(g).max(axis=1), 1e-300)[:, None]
+    return [
+        np.clip(middle + sign * step * across * guides.width, guides.lo, guides.hi)
+        for sign in (1.0, -1.0)
+    ]
+
+
+def _refuse_jump(guides: Guides, line: KinkLine) -> None:
+    """Raise SurfaceError where the two sides of a line do not come together in space."""
+    (r,) = guides.surface.evaluate(guides.lo + _CORNERS * guides.width, 0)
+    apart = []
+    for step in (STEP, 1e-2 * STEP):
+        first, second = (guides.surface.evaluate(p, 0)[0] for p in _beside(guides, line, step))
+        apart.append(np.linalg.norm(first - second, axis=1))
+    size = float(np.ptp(np.concatenate([r, first, second]), axis=0).max())
+    torn = (apart[1] > 0.7 * apart[0]) & (apart[1] > TORN * size)
+    if np.mean(torn) <= 0.5:
+        return
+    worst = int(np.argmax(np.where(torn, apart[1], 0.0)))
+    u, v = _beside(guides, line, 0.0)[0][worst]
+    raise SurfaceError(
+        f"{guides.surface.name!r} jumps by {apart[1][worst]:.4g} along a line through (u, v) = "
+        f"({u:.6g}, {v:.6g}): a step has no mesh; end the domain there, or make it a steep slope"
+    )
+
+
+def _is_bent(guides: Guides, line: KinkLine) -> bool:
+    """Do the slopes of the surface differ on the two sides of a line, in its middle?"""
     sides = []
-    for sign in (1.0, -1.0):
-        place = np.clip(middle + sign * STEP * across * guides.width, guides.lo, guides.hi)
+    for place in _beside(guides, line, STEP):
         slopes = guides.surface.evaluate(place, 1)[1:]
         sides.append(np.hstack([slope * w for slope, w in zip(slopes, guides.width)]))
     difference = np.linalg.norm(sides[0] - sides[1], axis=1)

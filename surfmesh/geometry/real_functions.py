@@ -193,6 +193,10 @@ def guides(part: sp.Expr) -> tuple[sp.Expr, ...]:
         return (part.args[0],)
     if part.func in (minimum, maximum):
         return (part.args[0] - part.args[1],)
+    if part.func is angle:
+        return part.args  # torn on y = 0, but only as far as x < 0
+    if part.func is integer_part:
+        return (sp.sin(sp.pi * part.args[0]),)
     return (part.args[0],) if part.func is chosen else ()
 
 

@@ -7,6 +7,7 @@ in 3D all have one number.
 
 from dataclasses import dataclass, field
 from functools import partial
+from itertools import pairwise
 
 import numpy as np
 
@@ -169,7 +170,7 @@ def _through(cut, start: np.ndarray, end: np.ndarray, minimum: int, stops: np.nd
     t = np.concatenate([[0.0], stops, [1.0]])
     parts = [np.zeros(1)]
     least = -(-minimum // (len(t) - 1))
-    for a, b in zip(t[:-1], t[1:]):
+    for a, b in pairwise(t):
         share = cut(start + a * (end - start), start + b * (end - start), least)[0]
         inner = a + (b - a) * share[1:]
         inner[-1] = b

@@ -175,7 +175,11 @@ def explain_model(
         found = _rows_of(wanted, rules, place, *(k or (None, None)), make)
         return found + _gaps_of(wanted, number, place)
 
-    where = _Where(foot, away, f"face {number} ({face.name or face.kind})", number, uv, principal)
+    name = f"face {number} ({face.name or face.kind})"
+    if number in samples.narrow:
+        across = samples.narrow[number].width
+        name += f", {across:.3g} across and so closed between its sides: sizes inside do not count"
+    where = _Where(foot, away, name, number, uv, principal)
     if wanted.is_anisotropic:
         within = _Samples(face.surface, inner, bounds, sizings[number]) if len(inner) else None
 

@@ -4,6 +4,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
+from surfmesh.cad.loop_faults import ExactLoops
 from surfmesh.geometry.surface import Surface
 from surfmesh.meshing.narrow_faces import NarrowFace
 from surfmesh.sizing.size_limits import SizeLimits
@@ -43,8 +44,15 @@ class FaceJob:
     last: bool = False
     """Finer edges did not help: take a boundary that crosses itself apart, however far, or
     close it without regard for the surface."""
+    exact: ExactLoops | None = None
+    """The curves that the loops are cut from."""
     narrow: NarrowFace | None = None
     """Its sides and ends, of a face narrower than the chord all along."""
+
+    @property
+    def nodes(self) -> int:
+        """How many nodes its boundary has."""
+        return sum(len(piece.numbers) for loop in self.loops for piece in loop)
 
     def __post_init__(self) -> None:
         if self.limits is not None and self.limits.essential and self.sizing.min_size:
@@ -69,6 +77,8 @@ class FaceMesh:
     wishes: SizeLimits | None = None
     """Smaller sizes that the face needs."""
     failure: str = ""
+    hopeless: bool = False
+    """No sizes can mend what has failed."""
     remark: str = ""
     """What was done to it out of the ordinary."""
     narrow: bool = False

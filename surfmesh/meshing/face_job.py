@@ -19,8 +19,10 @@ from surfmesh.geometry.surface import Surface
 from surfmesh.kernels.background import scalar_sizes_at
 from surfmesh.meshing.boundary_loops import BoundaryLoops, cut_line
 from surfmesh.meshing.boundary_recovery import recovered
+from surfmesh.meshing.crossing_segments import limits_where_crossing
 from surfmesh.meshing.edge_wishes import wishes_along
 from surfmesh.meshing.face_data import FaceJob, FaceMesh, Piece
+from surfmesh.meshing.face_parts import in_parts
 from surfmesh.meshing.face_repair import filled_face, no_point, untangled_job
 from surfmesh.meshing.gluing import glued, misglued
 from surfmesh.meshing.one_place import one_place
@@ -35,7 +37,7 @@ from surfmesh.sizing.size_field import SizeField, inverse_sizes, size_field
 from surfmesh.sizing.size_limits import SizeLimits, along_lines
 
 FINER = 0.5
-"""Factor on the sizes where boundary segments cross."""
+"""Factor on the sizes where sides cannot be joined."""
 
 LONGER = 1.5
 """Boundary segments so many times longer than the sizes beside them: a plane's sizes depend on
@@ -50,6 +52,8 @@ PROJECTIONS = 4
 
 def mesh_face(job: FaceJob) -> FaceMesh:
     """Mesh one face. Never raises for what is wrong with the face: see ``failure``."""
+    if job.exact is not None and job.exact.at_once:
+        return FaceMesh(failure=job.exact.at_once, hopeless=True)
     reason = no_point(job)
     if reason:
         return FaceMesh(failure=reason)
@@ -57,8 +61,8 @@ def mesh_face(job: FaceJob) -> FaceMesh:
     if not tubes or (job.narrow is not None and rest.loops):
         return _mesh_rest(job)
     if not rest.loops:
-        return with_tubes(job, rest, FaceMesh(), tubes, slots)
-    mesh = _mesh_rest(rest)
+        return with_tubes(job, rest, FaceMesh(narrow=True), tubes, slots)
+    mesh = in_parts(rest, _mesh_rest)
     return mesh if mesh.failure else with_tubes(job, rest, mesh, tubes, slots)
 
 
@@ -71,15 +75,23 @@ def _mesh_rest(job: FaceJob) -> FaceMesh:
         try:
             return _never_empty(job, _meshed(job))
         except SurfaceError:
+            if job.exact is not None and job.exact.fault:
+                return FaceMesh(failure=job.exact.fault, hopeless=True)
             opened = untangled_job(job)
             if opened is None:
+                if job.exact is not None and job.exact.touch:
+                    return FaceMesh(failure=job.exact.touch, hopeless=True)
                 raise
             return _never_empty(job, _meshed(opened, unfold=False))
     except SurfmeshError as error:
         closed = filled_face(job, str(error)) if job.last else None
         if closed is not None:
             return closed
-        return FaceMesh(failure=str(error), wishes=_wishes_at(job, getattr(error, "where", None)))
+        wishes = None
+        where = getattr(error, "where", None)
+        if where is not None:
+            wishes = limits_where_crossing(job, np.atleast_2d(where))
+        return FaceMesh(failure=str(error), wishes=wishes)
     except Exception as error:  # a mistake of ours: it must not take the other faces with it
         at = extract_tb(error.__traceback__)[-1]
         return FaceMesh(
@@ -101,25 +113,6 @@ def _never_empty(job: FaceJob, mesh: FaceMesh) -> FaceMesh:
     return replace(mesh, failure="nothing is left of it at sizes this coarse")
 
 
-def _wishes_at(job: FaceJob, where: np.ndarray | None) -> SizeLimits | None:
-    """Half the sizes at the segment (2, 2) in (u, v), or the node (2,), that was refused."""
-    if where is None:
-        return None
-    place = np.atleast_2d(where)
-    if len(place) > 1:
-        place = np.concatenate([place, place.mean(axis=0)[None]])
-    (points,) = job.surface.evaluate(place, 0)
-    pieces = [piece for loop in job.loops for piece in loop if not piece.degenerate]
-    nodes = np.concatenate([piece.points for piece in pieces])
-    spacing = np.concatenate([_spacing(piece.points) for piece in pieces])
-    near = [int(np.linalg.norm(nodes - point, axis=1).argmin()) for point in points]
-    sizes = np.full(len(points), FINER * min(float(spacing[k]) for k in near))
-    least = job.sizing.min_size or 0.0
-    if not (sizes > least).any() or not (sizes > 0.0).all():
-        return None
-    return SizeLimits(points, sizes, job.sizing.gradient)
-
-
 def edge_wishes(job: FaceJob) -> SizeLimits | None:
     """What the sizes inside a face ask for along its edges, before it is meshed."""
     try:
@@ -128,11 +121,6 @@ def edge_wishes(job: FaceJob) -> SizeLimits | None:
         return wishes_along(job.sizing, surface, field, loops, fixed)
     except SurfmeshError:
         return None
-
-
-def _spacing(points: np.ndarray) -> np.ndarray:
-    step = np.linalg.norm(np.diff(points, axis=0), axis=1)
-    return np.minimum(np.r_[step[:1], step], np.r_[step, step[-1:]])
 
 
 def _meshed(job: FaceJob, unfold: bool = True) -> FaceMesh:
@@ -321,6 +309,8 @@ def _loops(job: FaceJob, field: SizeField) -> tuple:
     nodes, row = np.unique(kept, return_inverse=True)
     segments = row[ring_segments].astype(np.int32)
     segments = segments[segments[:, 0] != segments[:, 1]]
+    if len(np.unique(segments, axis=0)) < len(segments):
+        raise SurfaceError(f"the boundary of {job.surface.name!r} runs twice the same way")
     uv, numbers, points, slots = uv[nodes], numbers[nodes], points[nodes], slots[nodes]
     _, first, inverse = np.unique(numbers, return_index=True, return_inverse=True)
     return BoundaryLoops(uv, segments, first[inverse].astype(np.int64)), points, slots

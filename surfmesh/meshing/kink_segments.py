@@ -1,6 +1,7 @@
-"""Kink lines of a surface cut to metric length: segments within the domain that the mesh follows."""
+"""Kink lines of a surface cut to metric length: segments that the mesh follows within."""
 
 from dataclasses import replace
+from itertools import pairwise
 from typing import Any
 
 import numpy as np
@@ -61,7 +62,7 @@ def with_kinks(
         inner = list(range(len(uv), len(uv) + len(points) - 2))
         uv.extend(points[1:-1])
         chain = [first, *inner, last]
-        segments += [(a, b) for a, b in zip(chain[:-1], chain[1:]) if a != b]
+        segments += [(a, b) for a, b in pairwise(chain) if a != b]
     more = np.arange(len(loops.identity), len(uv))
     return replace(
         loops, uv=np.array(uv), inner=np.array(segments, np.int32).reshape(-1, 2),

@@ -13,6 +13,7 @@ from surfmesh.meshing.edge_nodes import EdgeNodes
 from surfmesh.meshing.estimation import Estimate, face_triangles, require_within
 from surfmesh.meshing.face_data import FaceJob
 from surfmesh.meshing.face_job import face_field
+from surfmesh.meshing.strip_triangulation import strip_mesh
 from surfmesh.sizing.metric_area import TRIANGLES
 from surfmesh.sizing.size_bounds import SizeBounds
 from surfmesh.sizing.sizing import Sizing
@@ -24,7 +25,13 @@ FEW = 9
 def model_counts(jobs: list[FaceJob]) -> np.ndarray:
     """Triangles on each face (f,) in the first round. Raises ``SizingError`` where a size field
     cannot be made."""
-    return np.array([face_triangles(job, face_field(job)[1]) for job in jobs])
+    return np.array([_count(job) for job in jobs], float)
+
+
+def _count(job: FaceJob) -> float:
+    """Of one face; of a narrow one those between its sides, which cost nothing to make."""
+    strip = strip_mesh(job) if job.narrow is not None else None
+    return face_triangles(job, face_field(job)[1]) if strip is None else len(strip.triangles)
 
 
 def bounds(

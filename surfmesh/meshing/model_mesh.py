@@ -16,6 +16,7 @@ from typing import Any
 import numpy as np
 
 from surfmesh.cad.facts import model_facts
+from surfmesh.cad.loop_faults import exact_loops
 from surfmesh.cad.model import CadFace, CadModel
 from surfmesh.errors import MeshingError
 from surfmesh.meshing.edge_nodes import EdgeNodes, cut_edges
@@ -29,6 +30,7 @@ from surfmesh.meshing.face_sizings import face_sizings
 from surfmesh.meshing.model_estimate import model_counts, require_model_within
 from surfmesh.meshing.model_groups import groups_of
 from surfmesh.meshing.narrow_faces import NarrowFace
+from surfmesh.meshing.opposite_faces import copied, opposite_pairs
 from surfmesh.meshing.simplification import LEAST, simplified
 from surfmesh.meshing.solid_volumes import VolumeAims
 from surfmesh.meshing.stages import Progress, Stopwatch
@@ -50,6 +52,17 @@ share of the places, and made it no finer than this: smaller sizes do not reach 
 
 VOLUME_ROUNDS = 4
 """How often a model is meshed for the sake of its volumes, at most: once in most cases."""
+
+LONG_PATIENCE = 3
+"""Or, however much finer it has become, until so many rounds have not left fewer places."""
+
+SPREAD = 1.5
+"""Where the segments that cross are so many times more after each round, it is not at a place
+that they cross but all along: cutting them finer only makes more of them."""
+
+MOST_GROWN, MANY_NODES = 8, 2000
+"""A face whose boundary has so many times the nodes that it had at first, and more than so many,
+asks for no smaller sizes any more."""
 
 FINER = 0.6
 """Factor on the sizes where faces share an edge of triangles that they should not."""
@@ -91,11 +104,13 @@ def _mesh_faces(
     with watch.stage("sizing"):
         samples = sample_edges(model, wanted)
         of_face = face_sizings(model, samples, wanted)
+        opposite = opposite_pairs(model, samples)
     limits: dict[int, SizeLimits] = {}
     jobs: list[FaceJob | None] = [None] * len(model.faces)
     done: list[FaceMesh] = [FaceMesh()] * len(model.faces)
     nodes: list[EdgeNodes | None] = []
     hopes = [_Hope() for _ in model.faces]
+    exact = [exact_loops(model, number, samples.vertex) for number in range(len(model.faces))]
     for _ in range(rounds):
         before = nodes
         with watch.stage("sizing"):
@@ -114,13 +129,18 @@ def _mesh_faces(
                 ):
                     own = of_face[number]
                     narrow = samples.narrow.get(number)
-                    jobs[number] = _job(model, face, nodes, samples, own, limit, optimise, narrow)
+                    job = _job(model, face, nodes, samples, own, limit, optimise, narrow)
+                    jobs[number] = replace(job, exact=exact[number])
                     changed.append(number)
             meshes = _in_order(mesh_face, [jobs[number] for number in changed], workers)
             for count, (number, face_mesh) in enumerate(zip(changed, meshes), 1):
                 done[number] = face_mesh
-                hopes[number].hear(face_mesh)
+                hopes[number].hear(face_mesh, jobs[number].nodes)
                 watch.pulse(count / len(changed))
+            for first, second, width in opposite:
+                if first in changed or second in changed:
+                    twin = copied(done[first], jobs[first], jobs[second], width)
+                    done[second] = done[second] if twin is None else twin
         with watch.stage("mapping"):
             asking = [k for k, found in enumerate(done) if found.wishes is not None]
             wishes = {k: done[k].wishes for k in asking if hopes[k].is_left}
@@ -131,20 +151,22 @@ def _mesh_faces(
             break
         for number, wish in wishes.items():
             limits[number] = wish.joined_with(limits.get(number))
-    if any(found.failure for found in done):
+    if any(found.failure and not found.hopeless for found in done):
         with watch.stage("packing"):
             for number, found in enumerate(done):
-                if found.failure:
+                if found.failure and not found.hopeless:
                     done[number] = mesh_face(replace(jobs[number], last=True))
         with watch.stage("mapping"):
             mesh = _joined(model, jobs, done, nodes, samples, sizing, watch)
     failed = [_reason(model, k, found) for k, found in enumerate(done) if found.failure]
     if failed and strict:
+        finer = any(found.failure and not found.hopeless for found in done)
         raise MeshingError(
             f"{len(failed)} of {len(model.faces)} faces of {model.name or model.source!r} could "
             f"not be meshed: {'; '.join(failed[:5])}"
             + (f"; and {len(failed) - 5} more" if len(failed) > 5 else "")
-            + ". Lower the sizes, repair the faces, or use strict=False to get the others"
+            + (". Lower the sizes, repair" if finer else ". Repair")
+            + " the faces, or use strict=False to get the others"
         )
     mesh = replace(mesh, promises=wanted.promises(len(model.faces)))
     return mesh.with_warnings(*_left_over(model, {*asking, *wishes}))
@@ -162,23 +184,33 @@ def require_all_faces(model: CadModel) -> None:
 
 
 class _Hope:
-    """Whether what a face asks for has helped so far."""
+    """Whether what a face asks for has helped so far, and has not made it far too large."""
 
     def __init__(self) -> None:
-        self._rounds = 0  # that have not, one after the other
-        self._places, self._triangles = math.inf, 0
+        self._rounds = self._spread = self._since_best = 0  # one after the other; see ``hear``
+        self._places, self._triangles, self._best = math.inf, 0, math.inf
+        self._nodes, self._first = 0, 0
 
-    def hear(self, found: FaceMesh) -> None:
-        """Count what one round has left."""
+    def hear(self, found: FaceMesh, nodes: int = 0) -> None:
+        """Count what one round has left of a face with so many nodes on its boundary."""
         places = 0 if found.wishes is None else len(found.wishes.sizes)
         same = places > HOPE * self._places and len(found.triangles) < GROWN * self._triangles
         self._rounds = self._rounds + 1 if places and same and not found.failure else 0
+        self._spread = self._spread + 1 if found.failure and places > SPREAD * self._places else 0
+        better = not places or bool(found.failure) or places <= HOPE * self._best
+        self._since_best = 0 if better else self._since_best + 1
+        self._best = min(self._best, places) if places and not found.failure else math.inf
         self._places, self._triangles = places, len(found.triangles)
+        self._nodes, self._first = nodes, self._first or nodes
 
     @property
     def is_left(self) -> bool:
         """Is it worth another round?"""
-        return self._rounds < PATIENCE
+        return (
+            max(self._rounds, self._spread) < PATIENCE
+            and self._since_best < LONG_PATIENCE
+            and self._nodes <= max(MOST_GROWN * self._first, MANY_NODES)
+        )
 
 
 def estimate_model(model: CadModel, sizing: Any) -> Estimate:
@@ -330,6 +362,7 @@ def _joined(
     turned, solids = orientation(model)
     inner_points, inner_sizes, triangles, uv, uv_triangles, face_ids = [], [], [], [], [], []
     stretched: list[np.ndarray] = []
+    is_stretched = any(found.inverse_sizes is not None for found in done)
     total = shared
     uv_total = 0
     for number, (job, found) in enumerate(zip(jobs, done)):
@@ -349,7 +382,7 @@ def _joined(
         uv.append(found.uv_points)
         uv_triangles.append(uv_total + found.uv_triangles[:, order].astype(np.int64))
         uv_total += len(found.uv_points)
-        if any(other.inverse_sizes is not None for other in done):
+        if is_stretched:
             stretched.append(_inverse_sizes(found))
         face_ids.append(np.full(len(found.triangles), number, np.int32))
     if not triangles:

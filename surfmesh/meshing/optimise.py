@@ -112,6 +112,9 @@ anew, it would be other edges that do."""
 LEAST_TURN_SHRINK, LEAST_TURN_SCALE, LAST_TURN_SCALE = 0.85, 0.6, 0.3
 """Least factor on the sizes in one round, in all, and in the last rounds for a few places."""
 
+BESIDE_KINK, _AROUND = 1e-6, ((1, 0.4), (-1, -0.4), (0.4, -1), (-0.4, 1))
+"""Of the domain: how far from a kink its two sides are looked at, and in which directions."""
+
 LONGEST_TURNED = 1.25
 """Edges of stretched meshes that turn too far are split from this length: they are not many,
 and smoothing alone mends none."""
@@ -175,6 +178,8 @@ class Optimiser:
         self.shape = np.ones(len(t.tri) // 3)
         self.swaps = self.collapses = self.splits = self.passes = 0
         self._embed(np.arange(int(t.count[0]), dtype=np.int32))
+        if len(self.creased):
+            self._embed(self.creased.astype(np.int32), creased=True)
         self.embedding.point[node] = self.embedding.point[same]  # equal to the last bit
 
     def run(self, first: bool = True) -> Changes:
@@ -514,7 +519,18 @@ class Optimiser:
         xy = np.einsum("k,nki->ni", weights, self.t.xy[corners])
         return point, self.field.scaling.to_uv(xy)
 
-    def _embed(self, vertices: np.ndarray) -> None:
+    def _mean_slopes(self, uv: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """r_u and r_v (n, 3) on kinks at uv (n, 2): the mean of what they are around.
+
+        With the normal of one side, triangles of the other would seem to be turned over.
+        """
+        low, high = np.array(self.surface.domain).T
+        step = BESIDE_KINK * (high - low)
+        around = [np.clip(uv + step * np.array(way), low, high) for way in _AROUND]
+        slopes = [self.surface.evaluate(place, 1)[1:] for place in around]
+        return sum(s[0] for s in slopes) / len(slopes), sum(s[1] for s in slopes) / len(slopes)
+
+    def _embed(self, vertices: np.ndarray, creased: bool = False) -> None:
         """Put vertices (n,) back on the surface, with their exact metric."""
         block = 1 << 15
         scaling = self.field.scaling
@@ -523,6 +539,8 @@ class Optimiser:
             some = vertices[start : start + block]
             uv, rates = scaling.to_uv_and_rates(self.t.xy[some])
             r, ru, rv = self.surface.evaluate(uv, 1)
+            if creased:
+                ru, rv = self._mean_slopes(uv)
             ru *= rates[:, :1]
             rv *= rates[:, 1:]
             embed(self.t, self.embedding, self.field.background, some, r, ru, rv, largest)

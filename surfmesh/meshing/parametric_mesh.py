@@ -7,7 +7,7 @@ sides -> size field -> packing -> boundary -> optimisation -> space, joined side
 
 import numpy as np
 
-from surfmesh.errors import MeshingError, SizingError
+from surfmesh.errors import MeshingError, SizingError, SurfaceError
 from surfmesh.geometry.kinks import KinkLine, kink_lines
 from surfmesh.geometry.known_facts import known_facts
 from surfmesh.geometry.sides import SideTopology, find_sides
@@ -83,6 +83,7 @@ def _in_rounds(
 ) -> SurfaceMesh:
     """Rounds with smaller sizes each until nothing is to be mended, or can be."""
     limits: SizeLimits | None = None
+    not_followed: list[str] = []
     before, cells = (0, 0), 0
     mesh: SurfaceMesh | None = None
     for _ in range(ROUNDS):
@@ -94,7 +95,13 @@ def _in_rounds(
                     raise
                 break  # what no size can mend: the report says what is left
             require_field_within(sizing.limit, field, _loops(surface), surface.name)
-        mesh, wishes, bad = _one_round(surface, sides, kinks, field, optimise, watch)
+        try:
+            mesh, wishes, bad = _one_round(surface, sides, kinks, field, optimise, watch)
+        except (SurfaceError, MeshingError) as error:
+            if not kinks:
+                raise
+            kinks, not_followed = [], [f"no edges follow the kinks of {surface.name!r}: {error}"]
+            mesh, wishes, bad = _one_round(surface, sides, kinks, field, optimise, watch)
         if wishes is None or not _can_shrink(field, wishes):
             break
         now = (len(mesh.triangles), len(wishes.sizes))
@@ -112,7 +119,7 @@ def _in_rounds(
             f"the sides of {surface.name!r} cannot be joined with sizes this coarse: an edge "
             f"near ({place}) has more than two triangles; lower size, max_size or min_size"
         )
-    return mesh
+    return mesh.with_warnings(*not_followed)
 
 
 def estimate_parametric(surface: Surface, sizing: Sizing) -> Estimate:

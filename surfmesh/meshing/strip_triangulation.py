@@ -189,7 +189,8 @@ def _assembled(surface: Surface, columns: list[Nodes]) -> FaceMesh | None:
     corners = names[found]
     real = (corners != np.roll(corners, 1, axis=1)).all(axis=1)
     found = found[real]
-    if not len(found) or not _faces_as(surface, every, found).all():
+    cosine = face_cosines(surface, every.points[found], every.uv[found])
+    if not len(found) or not (cosine > LEAST_COSINE).all():
         return None
     kept, found = np.unique(found, return_inverse=True)
     found = found.reshape(-1, 3).astype(np.int32)
@@ -236,14 +237,13 @@ def _shares(points: np.ndarray) -> np.ndarray:
     return length / length[-1] if length[-1] > 0.0 else np.linspace(0.0, 1.0, len(points))
 
 
-def _faces_as(surface: Surface, nodes: Nodes, triangles: np.ndarray) -> np.ndarray:
-    """Which triangles (m,) have an area, and a normal near the surface's."""
-    a, b, c = (nodes.points[triangles[:, k]] for k in range(3))
-    normal = np.cross(b - a, c - a)
-    length = np.linalg.norm(normal, axis=1)
-    middle = nodes.uv[triangles].mean(axis=1)
-    wanted = _normals(surface, middle)
-    cosine = np.einsum("ij,ij->i", normal, wanted)
-    unknown = ~wanted.any(axis=1)
-    return (length > 0.0) & (unknown | (cosine > LEAST_COSINE * length))
+def face_cosines(surface: Surface, corners: np.ndarray, uv: np.ndarray) -> np.ndarray:
+    """Cosines (m,) between triangles and the surface at their middles; -1: without area.
 
+    corners (m, 3, 3), uv (m, 3, 2). Where the surface has no normal the cosine is 1.
+    """
+    normal = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+    length = np.linalg.norm(normal, axis=1)
+    wanted = _normals(surface, uv.mean(axis=1))
+    cosine = np.einsum("ij,ij->i", normal, wanted) / np.where(length > 0.0, length, 1.0)
+    return np.where(length > 0.0, np.where(wanted.any(axis=1), cosine, 1.0), -1.0)

@@ -9,9 +9,10 @@ and e is 0 at the corners. Over a box of (u, v) with centre c and half widths a,
                           + (a^2 |e_uu| + 2 a b |e_uv| + b^2 |e_vv|) / 2
 
 Boxes are halved until the least of them is within the tolerance, or a point is found that is not.
-Over the whole triangle, du by dv large, linear interpolation errs by no more than
-(du^2 |e_uu| + 2 du dv |e_uv| + dv^2 |e_vv|) / 8, and by a quarter of that between the corners and
-the middles of its sides: that settles nearly all triangles at once.
+Before that, where the surface is smooth, nearly all triangles are settled as they are or cut in
+four a few times: over a triangle with (u, v) edges d_ij linear interpolation of e errs by no more
+than 1/2 sum l_i l_j |e'' along d_ij|, l barycentric. Along an edge of a long thin triangle the
+second derivatives cancel as they do on the surface; over its box they would not.
 
 Source: Moore, Kearfott, Cloud, "Introduction to Interval Analysis", SIAM 2009, chapter 6.
 """
@@ -29,6 +30,7 @@ from surfmesh.geometry.interval import largest_along
 BLOCK = 1 << 13  # boxes looked at together
 ROUNDS = 60  # halvings of a triangle's box at most
 BOXES, BOXES_EACH = 100_000, 4  # most boxes in all: so many, and so many for each triangle
+LEVELS = 3  # a triangle is cut in four so often before boxes are tried
 NEARLY = 1.02  # of the tolerance: a box is settled there, so that halving comes to an end
 AHEAD = 16.0  # a box is at most so many times narrower across a place without bounds than along it
 NO_BOUND = 1e300  # what is more is infinite
@@ -104,6 +106,55 @@ def settled_at_once(surface: Any, pieces: Pieces, seen: NDArray[np.float64]) -> 
             off = (du * du * uu + 2.0 * du * dv * uvs + dv * dv * vv) / 8.0
             settled[part] = seen[part] + 0.25 * off <= pieces.tolerance[part]
     return settled
+
+
+def settled_in_parts(surface: Any, pieces: Pieces) -> NDArray[np.bool_]:
+    """(k,) triangles within their tolerance by second derivatives along edges of their parts."""
+    settled = np.ones(len(pieces.uv), bool)
+    piece, uv = np.arange(len(settled)), pieces.uv
+    for level in range(LEVELS + 1):
+        within = np.empty(len(piece), bool)
+        for start in range(0, len(piece), BLOCK):
+            part = slice(start, start + BLOCK)
+            within[part] = _interpolated_within(surface, pieces, piece[part], uv[part])
+        settled[piece[~within]] &= level < LEVELS
+        going = ~within & settled[piece]
+        piece, uv = np.repeat(piece[going], 4), _in_four(uv[going])
+        if not len(piece):
+            break
+    return settled
+
+
+def _interpolated_within(
+    surface: Any, pieces: Pieces, piece: NDArray, uv: NDArray
+) -> NDArray[np.bool_]:
+    """(n,) do parts uv (n, 3, 2) of triangles keep to their tolerance?"""
+    normal = pieces.normal[piece, 0]
+    lower, upper = surface.all_bounds(uv.min(axis=1), uv.max(axis=1))
+    (r,) = surface.evaluate(uv.reshape(-1, 2), 0)
+    off = np.abs(np.einsum("nij,nj->ni", r.reshape(-1, 3, 3) - pieces.corner[piece, None], normal))
+    du, dv = (uv[:, [1, 2, 0]] - uv).transpose(2, 0, 1)
+    weights = np.stack([du * du, 2.0 * du * dv, dv * dv], axis=2)  # (n, 3 edges, 3 derivatives)
+    with np.errstate(invalid="ignore", over="ignore"):
+        times = weights[..., None] * normal[:, None, None]
+        ends = times * lower[:, None, 3:6], times * upper[:, None, 3:6]
+        most = np.maximum(*ends).sum(axis=(2, 3)), np.minimum(*ends).sum(axis=(2, 3))
+        a, b, c = np.maximum(most[0], -most[1]).T
+        inner = 2.0 * (a * b + b * c + c * a) - a * a - b * b - c * c
+        peak = np.where(inner > 0.0, a * b * c / inner, 0.0)
+        # the largest of l0 l1 a + l1 l2 b + l2 l0 c is within, or amid an edge
+        inside = (a * (b + c - a) > 0.0) & (b * (c + a - b) > 0.0) & (c * (a + b - c) > 0.0)
+        amid = np.maximum.reduce([a, b, c]) / 4.0
+        bound = 0.5 * np.where(inside, np.maximum(peak, amid), amid)
+        return off.max(axis=1) + bound <= pieces.tolerance[piece]
+
+
+def _in_four(uv: NDArray) -> NDArray[np.float64]:
+    """Parts (4 n, 3, 2) of triangles (n, 3, 2), four after four."""
+    a, b, c = uv.transpose(1, 0, 2)
+    ab, bc, ca = 0.5 * (a + b), 0.5 * (b + c), 0.5 * (c + a)
+    parts = [(a, ab, ca), (ab, b, bc), (ca, bc, c), (ab, bc, ca)]
+    return np.stack([np.stack(part, axis=1) for part in parts], axis=1).reshape(-1, 3, 2)
 
 
 def search_triangles(

@@ -22,6 +22,7 @@ SLANT = 16.0  # of (d / h)^2: what a triangle's area may differ by, of its own
 INEXACT = {"plane": 1e-3, "cylinder": 1e-3, "cone": 1e-3, "sphere": 1e-3, "torus": 1e-3}
 OTHERWISE = 0.02  # relative errors of exact figures by the kind of a face
 LEAST = 1e-6  # of the area of all: what a face may miss unsaid
+SHARPEST = 0.1  # sine of the least angle between faces that tells where their edge is
 CORNER = np.radians(60.0)  # a rim that turns by more has a corner there
 
 
@@ -70,12 +71,46 @@ def _along_rims(mesh: SurfaceMesh, by_triangle: NDArray[np.float64]) -> NDArray[
     length = np.linalg.norm(np.diff(mesh.points[mesh.edges[rim]], axis=1)[:, 0], axis=1)
     beside = by_triangle[triangles]
     beside[:, 1] = np.where(two, beside[:, 1], 0.0)
-    lost = length * np.minimum(np.maximum(sagitta[rim], beside.max(axis=1)), length)
-    count = int(mesh.face_ids.max(initial=0)) + 1
-    faces = mesh.face_ids[triangles]
-    found = np.bincount(faces[:, 0], lost, count)
-    both = two & (faces[:, 1] != faces[:, 0])
-    return found + np.bincount(faces[both, 1], lost[both], count)
+    slanted = beside.max(axis=1) / np.where(two, _sines(mesh, triangles), 1.0)
+    lost = length * np.minimum(np.maximum(sagitta[rim], slanted), length)
+    half_edge, row = _half_edges_along(mesh, mesh.edges[rim])
+    return np.bincount(
+        mesh.face_ids[half_edge // 3], lost[row], int(mesh.face_ids.max(initial=0)) + 1
+    )
+
+
+def _sines(mesh: SurfaceMesh, pairs: NDArray[np.int32]) -> NDArray[np.float64]:
+    """(k,) of the angles between two triangles, not below ``SHARPEST``.
+
+    Where faces meet at an angle their common edge lies farther from its chord than they do:
+
+          face  |  /        the distance of the chord from one face over the sine
+                | /  edge   of the angle is that from the edge within the other
+          chord o'
+    """
+    corners = mesh.points[mesh.triangles[pairs]]
+    normal = np.cross(corners[:, :, 1] - corners[:, :, 0], corners[:, :, 2] - corners[:, :, 0])
+    size = np.maximum(np.linalg.norm(normal, axis=2).prod(axis=1), np.finfo(float).tiny)
+    return np.maximum(np.linalg.norm(np.cross(normal[:, 0], normal[:, 1]), axis=1) / size, SHARPEST)
+
+
+def _half_edges_along(
+    mesh: SurfaceMesh, edges: NDArray[np.int32]
+) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
+    """All half-edges that run along some edges (k, 2) of the mesh, in its order, and which."""
+    corners = mesh.triangles.reshape(-1).astype(np.int64)
+    following = mesh.triangles[:, (1, 2, 0)].reshape(-1).astype(np.int64)
+    near = np.zeros(len(mesh.points), bool)
+    near[edges] = True
+    half_edges = np.flatnonzero(near[corners] & near[following])
+    if not len(edges):
+        return half_edges[:0], half_edges[:0]
+    width = np.array([len(mesh.points), 1], np.int64)
+    ends = np.stack([corners[half_edges], following[half_edges]], axis=1)
+    keys, wanted = np.sort(ends, axis=1) @ width, edges @ width
+    row = np.minimum(np.searchsorted(wanted, keys), len(wanted) - 1)
+    here = wanted[row] == keys
+    return half_edges[here], row[here]
 
 
 def _turns_of_rims(mesh: SurfaceMesh, rim: NDArray[np.bool_]) -> NDArray[np.float64]:

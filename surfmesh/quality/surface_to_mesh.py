@@ -57,7 +57,7 @@ def surface_deviation(
         return None
     search = _Search(mesh, fit, promises)
     if mesh.edge_curves and mesh.edge_shares is not None:
-        _look_along_curves(search, mesh)
+        _look_along_curves(search, mesh, fit)
     else:
         search.look(*_on_rims(mesh), at_rim=True)
     count = len(mesh.triangles)
@@ -112,14 +112,17 @@ def surface_too_far(
     )
 
 
-def _look_along_curves(search: _Search, mesh: SurfaceMesh) -> None:
+def _look_along_curves(search: _Search, mesh: SurfaceMesh, fit: Deviation) -> None:
     """At points of the CAD edges between the nodes of their segments.
 
+    They count for that one of two faces which is farther from the mesh itself: the round one.
     Where nodes lie off their curve, as after ``simplify``, what is between says nothing.
     """
     rows = edge_rows(mesh.connectivity, mesh.edge_segments)
-    half_edge = mesh.connectivity.half_edges[np.maximum(rows, 0), 0]
-    free = mesh.connectivity.uses[np.maximum(rows, 0)] == 1
+    first, second = mesh.connectivity.half_edges[np.maximum(rows, 0)].T // 3
+    free = second < 0
+    farther = ~free & (fit.by_triangle[second] > fit.by_triangle[first])
+    over = np.where(farther, second, first)
     shares = np.concatenate([[0.0], RIM_SHARES, [1.0]])
     for number in np.unique(mesh.edge_ids).tolist():
         edge = mesh.edge_curves[number] if number < len(mesh.edge_curves) else None
@@ -136,7 +139,7 @@ def _look_along_curves(search: _Search, mesh: SurfaceMesh) -> None:
         good = np.flatnonzero(off <= ON_CURVE * length)
         for at_rim in (True, False):
             some = good[free[own[good]] == at_rim]
-            triangle = np.repeat(half_edge[own[some]] // 3, len(RIM_SHARES))
+            triangle = np.repeat(over[own[some]], len(RIM_SHARES))
             uv = mesh.uv_points[mesh.uv_triangles[triangle]].mean(axis=1)  # about there
             search.look_at(points[some][:, 1:-1].reshape(-1, 3), uv, triangle, at_rim)
 
@@ -261,7 +264,10 @@ class _Search:
                 self.by_triangle[found.triangle] = exact
             if best is None or exact > best.distance:
                 best = found._replace(distance=exact)
-        assert best is not None  # a mesh has triangles, each of which is looked at
+        if best is None:  # all that was looked at lies on the mesh to the last bit
+            mesh, corner = self.mesh, (0, 0)
+            place = mesh.uv_points[mesh.uv_triangles[corner]]
+            best = _Candidate(0.0, mesh.points[mesh.triangles[corner]], place, 0, False)
         self.by_triangle[self.far] = 0.0
         point, uv = (tuple(map(float, place)) for place in (best.point, best.uv))
         return SurfaceDeviation(

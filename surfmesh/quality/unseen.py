@@ -20,6 +20,7 @@ from surfmesh.quality.hidden_search import (
     search_rims,
     search_triangles,
     settled_at_once,
+    settled_in_parts,
 )
 from surfmesh.quality.promises import Promises
 from surfmesh.surface_mesh import SurfaceMesh
@@ -152,10 +153,14 @@ def _in_triangles(
     left = np.flatnonzero(~settled_at_once(surface, pieces, seen))
     triangles, tolerance = triangles[left], tolerance[left]
     pieces = Pieces.of(uv[left], corners[left, 0], normal[left], tolerance)
+    whole = _beside_poles(mesh, triangles)
+    hard = np.flatnonzero(whole | ~settled_in_parts(surface, pieces))
+    left, triangles, whole = left[hard], triangles[hard], whole[hard]
+    pieces = Pieces.of(uv[left], corners[left, 0], normal[left], tolerance[hard])
     if len(left):
         around = _Around(mesh, triangles)
         budget = BOXES + BOXES_EACH * len(mesh.triangles)
-        search_triangles(surface, pieces, _beside_poles(mesh, triangles), around.away, budget)
+        search_triangles(surface, pieces, whole, around.away, budget)
     bad = pieces.is_open
     return triangles[bad], Pieces(*(getattr(pieces, name)[bad] for name in vars(pieces)))
 

@@ -37,6 +37,8 @@ def bends_itself(
     known = ~forms.degenerate & np.isfinite(forms.normal).all(axis=1)
     sharp = ~known | (size < FINEST_TURN * diagonal)
     n = forms.normal.reshape(-1, 6, 3)
-    # the sign depends on the parametrisation, which may turn over at a seam
-    same = [np.abs(np.einsum("ij,ij->i", n[:, i], n[:, j])) for i, j in ((0, 4), (1, 3))]
+    # the sign depends on the parametrisation, which may turn over at a seam, not within
+    within = (first[:, [0, 1]] == second[:, [1, 0]]).all(axis=(1, 2))
+    same = [np.einsum("ij,ij->i", n[:, i], n[:, j]) for i, j in ((0, 4), (1, 3))]
+    same = [np.where(within, cosine, np.abs(cosine)) for cosine in same]
     return sharp.reshape(-1, 6).any(axis=1) | (np.minimum(*same) < CREASE)

@@ -210,6 +210,8 @@ class SizeLaw:
             binding = np.flatnonzero(allowed < long[rows])
             rim = rim.chosen(binding) if isinstance(rim, RimSizes) else rim
             rows = rows[binding]
+            if isinstance(rim, RimSizes):
+                rows, rim = self._fitted(rim, rows, forms.normal, along, size, long)
             along[rows], size[rows], long[rows] = self._limited_both(
                 rim, self.clamp[0], point[rows], forms.normal[rows], along[rows], size[rows],
                 long[rows],
@@ -227,6 +229,37 @@ class SizeLaw:
             np.stack([size, long], axis=1), np.stack([k.k1, k.k2], axis=1),
             turning_rates(self.surface, uv, k, first[:, 0], size),
         )  # fmt: skip
+
+    def _fitted(
+        self, rim: RimSizes, rows: np.ndarray, normal: np.ndarray, along: np.ndarray,
+        size: np.ndarray, long: np.ndarray,
+    ) -> tuple[np.ndarray, RimSizes]:  # fmt: skip
+        """Lower ``size`` or ``long`` (n,), in place, until the metric keeps to the rim at ``rows``.
+
+        Whichever is lowered by less: a rim that runs slantwise says little of the long direction.
+        Returns the rows (k,) where the metric is round and has no direction yet, and their rims.
+        """
+        flat = long[rows] <= ROUND * size[rows]
+        slant = np.flatnonzero(~flat)
+        at = rows[slant]
+        onward = np.einsum("ij,ij->i", rim.tangent[slant], along[at]) ** 2
+        wanted = np.maximum(rim.sizes[slant], self.clamp[0]) ** -2.0
+        short_part, long_part = (1.0 - onward) / size[at] ** 2, onward / long[at] ** 2
+        with np.errstate(divide="ignore", invalid="ignore"):
+            factors = [
+                np.sqrt(np.maximum(part / (wanted - other), 0.0))
+                for part, other in ((short_part, long_part), (long_part, short_part))
+            ]
+        narrower, shorter = (np.where(np.isfinite(f), f, 0.0) for f in factors)
+        narrower[wanted <= long_part] = shorter[wanted <= short_part] = 0.0
+        beyond = short_part + long_part < wanted
+        by_width = beyond & (narrower >= shorter)
+        by_length = beyond & ~by_width
+        size[at[by_width]] *= narrower[by_width]
+        long[at[by_length]] = np.maximum(
+            long[at[by_length]] * shorter[by_length], size[at[by_length]]
+        )
+        return rows[flat], rim.chosen(np.flatnonzero(flat))
 
     def turned(self, nodes: FieldNodes, size: np.ndarray) -> np.ndarray:
         """Largest ``long`` (n,) where directions turn, of triangles that are ``size`` (n,) wide."""

@@ -4,6 +4,8 @@ import math
 
 import numpy as np
 import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
 
 cq = pytest.importorskip("cadquery")
 
@@ -153,6 +155,29 @@ def test_scaled_and_turned(scale):
     assert model.volume == pytest.approx(88 * scale**3)
     assert model.area == pytest.approx((96 + 24 + 48 - 4 - 16) * scale**2)
     assert len(model.faces) == 7 + 5 + 5
+
+
+CHOICES = st.sampled_from([0.0, 0.5, 1.0, 1.3, 2.0])
+
+
+@settings(max_examples=6, deadline=None)
+@given(st.lists(st.tuples(CHOICES, CHOICES, CHOICES), min_size=2, max_size=4), CHOICES, CHOICES)
+def test_nothing_is_lost_and_nothing_is_there_twice(corners, angle, radius):
+    """Boxes on a grid, so that faces often coincide in part, and a pin through all of them."""
+    bodies = [box(2, 1.5, 1, corner) for corner in corners]
+    if radius:
+        bodies.append(cq.Solid.makeCylinder(0.4 * radius, 4, cq.Vector(1, 1, -0.5)))
+    turn = cq.Location((0.3, 0.2, 0.1), (1, 2, 3), 37 * angle)
+    bodies = [body.moved(turn) for body in bodies]
+    model = sm.from_cadquery(bodies, imprint=True)
+    assert model.check() == "" and all(solid.closed for solid in model.solids)
+    together = bodies[0].fuse(*bodies[1:]).Volume()
+    assert model.volume == pytest.approx(together, rel=1e-6)
+    for body, part in zip(bodies, model.tree.children):
+        volume = sum(model.solids[number].volume for number in part.solids)
+        assert volume == pytest.approx(body.Volume(), rel=1e-6)
+    sides = [face for solid in model.solids for shell in solid.shells for face, _ in shell]
+    assert max(map(sides.count, set(sides))) <= 2
 
 
 def named_assembly():

@@ -57,7 +57,27 @@ def plate_touched_by_a_hole():
     return cq.Face.makeFromWires(outer).cut(hole)
 
 
+def crossing_sheets():
+    """Four faces along one edge; every figure of their meshes is exact to the last bit."""
+    return cq.Face.makePlane(6, 6).fuse(cq.Face.makePlane(6, 6, (0, 0, 0), (1, 0, 0)))
+
+
+def tube_through_a_sheet():
+    tube = cq.Face.makeRuledSurface(
+        *(cq.Wire.makeCircle(2, cq.Vector(0, 0, z), cq.Vector(0, 0, 1)).Edges()[0] for z in (0, 5))
+    )
+    return tube.fuse(cq.Face.makePlane(6, 6, (0, 0, 2.5), (0, 0.3, 1)))
+
+
+def tangent_cylinders():
+    first = cq.Workplane().circle(1).extrude(4)
+    return first.union(first.translate((2, 0, 0)))
+
+
 TOUCHING = {
+    "crossing sheets": (crossing_sheets, 4, 1),
+    "tube through a sheet": (tube_through_a_sheet, 4, 1),
+    "tangent cylinders": (tangent_cylinders, 4, 1),
     "T joint of sheets": (sheets, 3, 1),
     "boxes that share an edge": (lambda: box(0, 0, 0).union(box(2, 2, 0)), 4, 1),
     "boxes that share a corner": (lambda: box(0, 0, 0).union(box(2, 2, 2)), 2, 2),

@@ -75,3 +75,15 @@ def test_a_sphere_in_two_faces(where, start):
 def test_meridians_are_left_alone():
     octant = cq.Workplane().sphere(1.0, angle3=90.0)
     assert not sm.from_cadquery(octant).healing
+
+
+@pytest.mark.parametrize("where", ["through both poles", "through one pole"])
+def test_a_sphere_in_two_faces_comes_back_from_a_step_file(where, tmp_path):
+    """The reader takes the face round the far side for the near one turned over."""
+    tilt, height = PAST[where]
+    path = tmp_path / "sphere.step"
+    cq.exporters.export(cq.Workplane(obj=sewn(halves(tilt, height, 0.3))), str(path))
+    report = sm.check(sm.mesh(sm.load(path), sm.Sizing(chord=0.1)))
+    assert report.clean
+    assert report.euler == 2
+    assert report.area == pytest.approx(4.0 * math.pi * R * R, rel=0.04)

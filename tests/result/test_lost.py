@@ -53,6 +53,16 @@ def test_what_facets_lose_is_a_figure_and_no_problem(make, sizing):
     assert f"{100 * row.volume_error:+.2g} %" in text
 
 
+def test_an_arc_cut_aslant_that_is_one_segment():
+    """A plane across a cylinder: their edge lies farther from its chord than the cylinder does."""
+    solid = cq.Workplane().circle(2).extrude(6).cut(
+        cq.Workplane().box(9, 9, 9).rotate((0, 0, 0), (1, 0, 0), 60).translate((0, 3.2, 7))
+    )  # fmt: skip
+    for sizing in (sm.Sizing(size=2.0), sm.Sizing(chord=0.3, anisotropy=4)):
+        report = sm.mesh(sm.from_cadquery(solid), sizing).report
+        assert not any("has the area" in said for said in report.problems), report.problems
+
+
 def test_exact_volume_of_an_extruded_spline():
     """Adaptive integration of the CAD kernel gives up to 3 % too much or too little."""
     model = sm.from_cadquery(spline())

@@ -15,7 +15,7 @@ OF_TRIANGLES = {"triangles", "face_ids", "solid_ids"}
 OF_EDGES = {"edge_segments", "edge_ids", "edge_shares", "mid_points"}
 OF_ALL = {
     "surfaces", "sizing", "promises", "seconds", "warnings", "one_sided", "facts",
-    "turned_faces", "groups", "edge_curves",
+    "turned_faces", "narrow_faces", "groups", "edge_curves",
 }  # fmt: skip
 
 
