@@ -18,6 +18,7 @@ import numpy as np
 
 from surfmesh.errors import SizingError
 from surfmesh.geometry.face_surface import FaceSurface
+from surfmesh.geometry.infinite_speed import at_infinite_speed, bent_axes_of
 from surfmesh.geometry.interval import width_along
 from surfmesh.geometry.scaling import Scaling
 from surfmesh.geometry.sides import SideTopology
@@ -213,9 +214,7 @@ class _Builder:
         patch = self._patches(cells)
         fresh = np.ones(len(cells), bool)
         total = len(cells)
-        seeds = small_sizes(
-            self.surface, self.law.sizing, self.law.limits, self.law.loop_limits
-        )
+        seeds = small_sizes(self.surface, self.law.sizing, self.law.limits, self.law.loop_limits)
         sources = SourceCells(*seeds, self.scaling, self.root_step, self.nx)
         tree: list[np.ndarray] = []  # the cells that were split, in the order of their children
         deep = np.zeros(len(cells), bool)  # in search of what hides: they may be split further
@@ -444,7 +443,9 @@ class _Builder:
                 (form[:, 0] / e) ** 2 + 2.0 * form[:, 1] ** 2 / (e * g) + (form[:, 2] / g) ** 2
             )
         possible = self.law.from_curvature(np.where(np.isnan(bound), np.inf, bound))
-        return possible < 0.5 * self.nodes.size[nodes].min(axis=1)
+        hides = possible < 0.5 * self.nodes.size[nodes].min(axis=1)
+        # beside a rim of infinite speed there is no bound at any depth: there the report looks
+        return hides & ~at_infinite_speed(bent_axes_of(self.surface), lo, hi)
 
     def _rises(self, nodes: np.ndarray) -> np.ndarray:
         """Cells (n, 9) in which the surface may lie off its tangent plane by a share of chord.
