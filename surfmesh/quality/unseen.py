@@ -7,6 +7,7 @@ be excluded.
 """
 
 from dataclasses import dataclass
+from functools import cached_property
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -37,6 +38,9 @@ FOLLOWED = 0.5
 
 RIM_SLACK = 2.0
 """Of what three samples of a rim's segment have seen."""
+
+NEAREST = 3
+"""Vertices whose triangles are looked at, beside a point's own and its neighbours."""
 
 NO_AREA = 1e-12
 """Of the square of its longest side: a triangle without a normal."""
@@ -225,17 +229,29 @@ def _beside_poles(mesh: SurfaceMesh, triangles: NDArray) -> NDArray[np.bool_]:
 
 
 class _Around:
-    """The triangles that share a corner with each of some triangles, in compressed rows."""
+    """The triangles near points of the surface: those that share a corner with a point's own, and
+    those at the vertices nearest to it. Sides of triangles are straight in the plane that was
+    meshed, whose axes are bent: in (u, v) a point may lie over a triangle farther away."""
 
     def __init__(self, mesh: SurfaceMesh, triangles: NDArray) -> None:
         self.mesh, self.triangles = mesh, triangles
         corner = mesh.triangles.ravel()
         self.order = np.argsort(corner, kind="stable") // 3
         self.start = np.searchsorted(np.sort(corner), np.arange(len(mesh.points) + 1))
+        self.used = np.unique(corner)
+
+    @cached_property
+    def _tree(self) -> Any:
+        from scipy.spatial import cKDTree
+
+        return cKDTree(self.mesh.points[self.used])
 
     def away(self, piece: NDArray, point: NDArray) -> NDArray[np.float64]:
         """Distance (n,) of points (n, 3) from the triangles around those of ``piece`` (n,)."""
-        corner = self.mesh.triangles[self.triangles[piece]]
+        count = min(NEAREST, len(self.used))
+        _, nearest = self._tree.query(point, k=[*range(1, count + 1)])
+        own = self.mesh.triangles[self.triangles[piece]]
+        corner = np.concatenate([own, self.used[nearest]], axis=1)
         first, count = self.start[corner], self.start[corner + 1] - self.start[corner]
         rows = np.repeat(np.arange(len(piece)), count.sum(axis=1))
         begin = np.repeat(first.ravel(), count.ravel())
