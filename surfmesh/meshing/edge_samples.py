@@ -378,6 +378,8 @@ def _heed_gaps(model: CadModel, samples: EdgeSamples, sizing: ModelSizing) -> No
     ends = samples.vertex[np.array([[edge.start, edge.end] for edge in model.edges])]
     by_wishes: dict[tuple[float | None, float, float], list[int]] = {}
     for face in range(len(model.faces)):
+        if face in samples.narrow:
+            continue  # across it is nothing to be meshed, beside the end of one side neither
         own, narrow = sizing.of_face(face), float(samples.narrow_width[face])
         by_wishes.setdefault((own.gap, own.min_size or 0.0, narrow), []).append(face)
     slope = sizing.base.gradient
