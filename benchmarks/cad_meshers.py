@@ -106,6 +106,8 @@ def _ours(request: dict) -> dict:
         "stray": stray_edges(mesh, model, failed_faces),
         "reasons": failed[:3],
         "problem": mesh.check(),
+        "clean": (report := sm.check(mesh)).clean,
+        "problems": [text[:160] for text in report.problems[:2]],
         "seconds_check": perf_counter() - start,
     }
 
