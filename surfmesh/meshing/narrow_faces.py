@@ -86,6 +86,10 @@ class Chain:
     length: float
 
 
+EMPTY = 1e-10
+"""Of the diagonal: a face whose mean width is below encloses nothing, and is no sliver."""
+
+
 def narrow_width(sizing: Sizing, diagonal: float, points: np.ndarray) -> float:
     """What is narrow on a face with these wishes, whose edges have the samples points (n, 3)."""
     if sizing.gap is not None:
@@ -113,7 +117,7 @@ def narrow_face(model: CadModel, face: CadFace, samples, width: float) -> Narrow
     around = lengths.sum()
     if not coedges or len(coedges) > MOST_COEDGES or not width > 0.0:
         return None
-    if 2.0 * face.area > ROUND * width * around or face.area <= 0.0:
+    if 2.0 * face.area > ROUND * width * around or face.area <= EMPTY * model.diagonal * around:
         return None
     if len(face.loops) == 2:
         first = len(face.loops[0])
