@@ -174,9 +174,9 @@ def test_euler_number_of_a_face_with_a_tiny_loop(scale):
 
 
 def test_a_tiny_edge_between_two_corners():
-    """A box with a corner cut off by 1e-5: its edge there is one vertex of the mesh."""
+    """A box with a corner cut off by 1e-6: its edge there is one vertex of the mesh."""
     shape = (
-        cq.Workplane().polyline([(0, 0), (10, 0), (10, 8), (10 - 1e-5, 8 + 1e-5), (0, 9)]).close()
+        cq.Workplane().polyline([(0, 0), (10, 0), (10, 8), (10 - 1e-6, 8 + 1e-6), (0, 9)]).close()
     )
     model = sm.from_cadquery(shape.extrude(3))
     report = sm.mesh(model, 1.5).report
