@@ -103,6 +103,23 @@ def guide_tape(coordinates: Sequence[sp.Expr], variables: Sequence[sp.Symbol]) -
     return compiled(outputs, variables, definitions.meaning)
 
 
+def roots_of_one_parameter(
+    coordinates: Sequence[sp.Expr], variables: Sequence[sp.Symbol]
+) -> list[tuple[int, Tape]]:
+    """Functions of one parameter alone whose roots below one are taken: number of the parameter
+    and tape. Where they vanish the speed may have no bound: cbrt(u), sign(u) sqrt(abs(u))."""
+    found: dict[sp.Expr, int] = {}
+    for coordinate in coordinates:
+        for part in sp.preorder_traversal(coordinate):
+            base = real_functions.rooted(part)
+            if base is not None and len(base.free_symbols) == 1:
+                (symbol,) = base.free_symbols
+                if symbol in variables:
+                    found[base] = variables.index(symbol)
+    # a tape has three outputs for each vector: the function, thrice
+    return [(axis, compiled([base] * 3, variables)) for base, axis in found.items()]
+
+
 def compiled(
     expressions: Sequence[sp.Expr],
     variables: Sequence[sp.Symbol],

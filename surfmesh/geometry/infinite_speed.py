@@ -21,6 +21,7 @@ from fractions import Fraction
 from itertools import pairwise
 
 import numpy as np
+from scipy.optimize import brentq
 from scipy.special import beta, betainc, betaincinv
 
 from surfmesh.geometry.surface import Domain, Surface
@@ -215,14 +216,28 @@ def bent_axes(
     """The axes of r over a domain. inside: places between the ends to be tried, an axis each."""
     axes = []
     for axis in (0, 1):
-        places = [domain[axis][0], *sorted(inside[axis]), domain[axis][1]]
+        first, last = domain[axis]
+        places = [first, *sorted(x for x in inside[axis] if first < x < last), last]
         powers = np.ones((len(places) - 1, 2))
         for k, (a, b) in enumerate(pairwise(places)):
             powers[k, 0] = _power(values, domain, axis, a, b - a)
             powers[k, 1] = _power(values, domain, axis, b, a - b)
+        met = (powers[:-1, 1] > 1.0) | (powers[1:, 0] > 1.0)  # the others are no such places
+        places = np.array(places, float)[np.concatenate([[True], met, [True]])]
+        begins, ends = powers[np.append(True, met), 0], powers[np.append(met, True), 1]
+        powers = np.stack([begins, ends], axis=1)
         bent = (powers > 1.0).any()
-        axes.append(BentAxis(np.array(places, float), powers) if bent else None)
+        axes.append(BentAxis(places, powers) if bent else None)
     return axes[0], axes[1]
+
+
+def zeros_between(values: np.ndarray, at: np.ndarray, function: Values) -> list[float]:
+    """Where a function of one parameter, sampled as ``values`` (n,) ``at`` (n,), vanishes: at
+    samples, and by halving between those of opposite signs."""
+    found = at[values == 0.0].tolist()
+    for k in np.flatnonzero(values[1:] * values[:-1] < 0.0).tolist():
+        found.append(float(brentq(function, at[k], at[k + 1], xtol=4.0 * np.finfo(float).eps)))
+    return found
 
 
 def _power(values: Values, domain: Domain, axis: int, place: float, way: float) -> float:

@@ -22,6 +22,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from surfmesh.errors import SurfaceError
+from surfmesh.geometry.infinite_speed import bent_axes_of
 
 GRID = 96  # cells each way
 MARGIN = 1e-9  # of the domain: how far inside its sides signs are read
@@ -101,10 +102,22 @@ def kink_lines(surface: Any) -> list[KinkLine]:
     kept: list[KinkLine] = []
     for piece in pieces:
         _refuse_jump(guides, piece)
-        if _is_long(guides, piece) and _is_bent(guides, piece):
+        followed = _is_bent(guides, piece) or _is_too_fast(guides, piece)
+        if _is_long(guides, piece) and followed:
             if not _is_there(guides, piece, kept):
                 kept.append(piece)
     return kept
+
+
+def _is_too_fast(guides: Guides, line: KinkLine) -> bool:
+    """Does it run along a u or a v at which the speed has no bound? No triangle lies across it."""
+    for column, axis in enumerate(bent_axes_of(guides.surface)):
+        if axis is not None:
+            places = axis.places[1:-1]
+            off = np.abs(line.uv[:, column, None] - places) / guides.width[column]
+            if (off.max(axis=0) <= SHORTEST).any():
+                return True
+    return False
 
 
 def _grid_lines(guides: Guides) -> tuple[NDArray[np.float64], NDArray[np.float64]]:

@@ -9,10 +9,20 @@ from typing import Any
 import numpy as np
 
 from surfmesh.errors import FormulaError, SurfaceError
-from surfmesh.geometry.infinite_speed import STRAIGHT, BentAxes, bent_axes, is_bent, kept_off
+from surfmesh.geometry.infinite_speed import (
+    STRAIGHT,
+    BentAxes,
+    bent_axes,
+    is_bent,
+    kept_off,
+    zeros_between,
+)
 from surfmesh.geometry.surface import Domain
 from surfmesh.geometry.surface_checks import bounds_of, loop_of, refuse_no_area, sample_grid
 from surfmesh.geometry.tape import Tape
+
+ROOT_SAMPLES = 1025
+"""Points along an axis at which signs of what roots are taken of are looked at."""
 
 NUDGE = 1e-9  # of the domain: how far inwards a derivative is taken where it is not finite
 POLE_DEPTH = 52  # halvings of a cell before a value without bounds counts as a pole
@@ -60,7 +70,10 @@ class ParametricSurface:
         fixed["bent_axes"] = STRAIGHT
         self.__dict__.update(fixed)
         _refuse_values_that_are_not_finite(self)
-        self.__dict__["bent_axes"] = bent_axes(lambda uv: self.evaluate(uv)[0], self.domain)
+        self.__dict__["_root_places"] = _places_of_roots(self._expressions, self.domain)
+        self.__dict__["bent_axes"] = bent_axes(
+            lambda uv: self.evaluate(uv)[0], self.domain, self._root_places
+        )
         refuse_no_area(self)
 
     name: str
@@ -74,6 +87,7 @@ class ParametricSurface:
     bent_axes: BentAxes
     """Where the speed has no bound, and parameters in which it has."""
     _expressions: tuple[Any, Any, Any]
+    _root_places: tuple[list[float], list[float]]
     _tapes: dict[int, Tape]
 
     def evaluate(self, uv: np.ndarray, order: int = 0) -> tuple[np.ndarray, ...]:
@@ -120,7 +134,9 @@ class ParametricSurface:
         """The same formulas over another domain, within this one."""
         other = object.__new__(ParametricSurface)
         other.__dict__.update(self.__dict__, domain=domain)
-        other.__dict__["bent_axes"] = bent_axes(lambda uv: other.evaluate(uv)[0], domain)
+        other.__dict__["bent_axes"] = bent_axes(
+            lambda uv: other.evaluate(uv)[0], domain, self._root_places
+        )
         return other
 
     def all_bounds(self, lo: np.ndarray, hi: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
@@ -206,6 +222,28 @@ def _parsed(coordinates: Sequence[Any], parameters: Mapping[str, float]) -> tupl
         except FormulaError as error:
             raise FormulaError(f"{axis}: {error.reason}", error.text, error.column) from None
     return tuple(expressions)
+
+
+def _places_of_roots(
+    expressions: tuple[Any, Any, Any], domain: Domain
+) -> tuple[list[float], list[float]]:
+    """Values of u, and of v, between the ends of the domain at which a root is taken of zero."""
+    from surfmesh.geometry.compilation import roots_of_one_parameter
+    from surfmesh.geometry.expression import symbol
+
+    places: tuple[list[float], list[float]] = [], []
+    for axis, tape in roots_of_one_parameter(expressions, (symbol("u"), symbol("v"))):
+        first, last = domain[axis]
+
+        def value(x: Any, axis: int = axis, tape: Tape = tape) -> Any:
+            uv = np.full((np.size(x), 2), np.mean(domain[1 - axis]))
+            uv[:, axis] = x
+            found = tape.evaluate(uv)[0][:, 0]
+            return found if np.ndim(x) else float(found[0])
+
+        at = np.linspace(first, last, ROOT_SAMPLES)
+        places[axis].extend(x for x in zeros_between(value(at), at, value) if first < x < last)
+    return sorted(set(places[0])), sorted(set(places[1]))
 
 
 def _refuse_values_that_are_not_finite(surface: ParametricSurface) -> None:

@@ -187,9 +187,20 @@ class sinc_2(sp.Function):
     nargs = 1
 
 
+def rooted(part: sp.Expr) -> sp.Expr | None:
+    """What a root below one is taken of: f of cbrt(f), sqrt(f), abs(f)**0.3; None: no root."""
+    if isinstance(part, cube_root):
+        base = part.args[0]
+    elif part.is_Pow and part.exp.is_number and 0 < part.exp < 1:
+        base = part.base
+    else:
+        return None
+    return base.args[0] if isinstance(base, absolute) else base
+
+
 def guides(part: sp.Expr) -> tuple[sp.Expr, ...]:
-    """Functions whose zeros are kinks or jumps of one node of an expression."""
-    if part.func in (absolute, signum, unit_step):
+    """Functions whose zeros are kinks, jumps or infinite slopes of one node of an expression."""
+    if part.func in (absolute, signum, unit_step, cube_root):
         return (part.args[0],)
     if part.func in (minimum, maximum):
         return (part.args[0] - part.args[1],)
