@@ -86,6 +86,9 @@ class Chain:
     length: float
 
 
+FEW = 9
+"""Points of a side that are looked at before all are."""
+
 EMPTY = 1e-10
 """Of the diagonal: a face whose mean width is below encloses nothing, and is no sliver."""
 
@@ -175,6 +178,10 @@ def _checked(
     sides = [chain_of(coedges, samples, side) for side in narrow.sides]
     if any(side is None for side in sides):
         return None
+    for own, other in (sides, sides[::-1]):  # a few points tell most that are too far apart
+        few = np.linspace(0, len(own.points) - 1, min(FEW, len(own.points))).astype(int)
+        if not feet(model, own.points[few], other)[2].max() <= width:
+            return None
     largest = 0.0
     for own, other in (sides, sides[::-1]):
         place, share, away = feet(model, own.points, other)

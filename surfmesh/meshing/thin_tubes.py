@@ -27,6 +27,9 @@ FEWEST = 2.5
 THREAD = 1e-3
 """Of a step: where the way round is shorter only the nodes of the edges stand."""
 
+BLUNT = 0.5
+"""Radius of a tip over the distance from its pole: the sine of 30 degrees."""
+
 LEAST_TURN = 0.5
 """Radians by which the way round turns: what turns less is a corner, not a tube."""
 
@@ -124,6 +127,16 @@ def _whole_cut(job: FaceJob, loop: _Open, following: int) -> tuple[Tube | None, 
     return _tube(job.surface, one, other, *slots, following, middle, (True, True)), []
 
 
+def _is_pointed(surface: Surface, one: Piece, other: Piece, levels: int) -> bool:
+    """Does the tip between two pieces, at its pole the end of one and the start of the other, turn
+    as a tube does, and is it narrower than a blunt cone? A pole of a sphere is no tip."""
+    ends = one.uv[-1 - levels], other.uv[levels]
+    turn = _turn(surface, *ends)
+    reach = np.linalg.norm(other.points[levels] - other.points[0])
+    (way,) = _ways(surface, ends[0][None], ends[1][None])
+    return turn >= LEAST_TURN and bool(way < BLUNT * turn * reach)
+
+
 def _with_middle(line: np.ndarray) -> np.ndarray:
     """A line of two nodes gets a third."""
     return line if len(line) > 2 else np.array([line[0], 0.5 * (line[0] + line[1]), line[1]])
@@ -140,7 +153,7 @@ def _tip_cut(job: FaceJob, loop: _Open, following: int) -> tuple[Tube | None, li
         most = min(len(one.numbers), len(other.numbers)) - 2  # a part of the face is left
         thin = _thin(job, one.uv[::-1], other.uv, one.points[::-1])[1 : most + 1]
         levels = int(np.argmin(thin)) if not thin.all() else len(thin)
-        if not levels or _turn(job.surface, one.uv[-1 - levels], other.uv[levels]) < LEAST_TURN:
+        if not levels or not _is_pointed(job.surface, one, other, levels):
             continue
         end = len(one.numbers) - 1
         left, left_slots = loop.part(before, end - levels, end)
