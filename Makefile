@@ -17,7 +17,7 @@ mesh: $(VENV)/.installed ## mesh, check and draw the wavy surface; results in ou
 	$(BIN)/surfmesh mesh wavy -o outputs/wavy.vtu --picture outputs/wavy.png --report outputs/wavy.json
 
 test: lint ## lint, layers, types and tests
-	$(BIN)/python -m pytest
+	$(BIN)/python -m pytest -n 2 --dist worksteal
 
 lint: $(VENV)/.installed-dev ## ruff, the layers of the package, types of the public face
 	$(BIN)/ruff check .

@@ -136,9 +136,12 @@ def _apexes(xy: np.ndarray, segments: np.ndarray, field: SizeField) -> np.ndarra
     determinant = h11 * h22 - h12 * h12
     u, v = (h22 * dx - h12 * dy) / determinant, (h11 * dy - h12 * dx) / determinant
     length2 = u * u + v * v
-    height = np.sqrt(np.maximum(1.0 - 0.25 * length2, LOWEST**2) / length2)
+    with np.errstate(divide="ignore", invalid="ignore"):
+        height = np.sqrt(np.maximum(1.0 - 0.25 * length2, LOWEST**2) / length2)
     across = np.stack([h12 * u - h11 * v, h22 * u - h12 * v], axis=1)  # H (-v, u)
-    return middle + height[:, None] * across
+    with np.errstate(invalid="ignore"):
+        apexes = middle + height[:, None] * across
+    return apexes[np.isfinite(apexes).all(axis=1)]  # two nodes at one place have none
 
 
 def _clear(

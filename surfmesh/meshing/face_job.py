@@ -23,7 +23,12 @@ from surfmesh.meshing.crossing_segments import limits_where_crossing
 from surfmesh.meshing.edge_wishes import wishes_along
 from surfmesh.meshing.face_data import FaceJob, FaceMesh, Piece
 from surfmesh.meshing.face_parts import in_parts
-from surfmesh.meshing.face_repair import filled_face, no_point, untangled_job
+from surfmesh.meshing.face_repair import (
+    beyond_a_turn,
+    filled_face,
+    no_point,
+    untangled_job,
+)
 from surfmesh.meshing.gluing import glued, misglued
 from surfmesh.meshing.one_place import one_place
 from surfmesh.meshing.optimise import Optimiser
@@ -55,8 +60,14 @@ def mesh_face(job: FaceJob) -> FaceMesh:
     if job.exact is not None and job.exact.at_once:
         return FaceMesh(failure=job.exact.at_once, hopeless=True)
     reason = no_point(job)
-    if reason:
+    if reason and beyond_a_turn(job):
         return FaceMesh(failure=reason)
+    mesh = _mesh_parts(job)
+    return replace(mesh, failure=reason) if reason and mesh.failure else mesh
+
+
+def _mesh_parts(job: FaceJob) -> FaceMesh:
+    """Mesh a face, its thin tips and necks by themselves."""
     rest, tubes, slots = without_tubes(job)
     if not tubes or (job.narrow is not None and rest.loops):
         return _mesh_rest(job)

@@ -16,6 +16,9 @@ smaller sizes have not helped, by this share of the segments there."""
 REACH, ALONG = 0.05, 17
 """Of a face's size: a degenerate edge whose image reaches farther is no point; its samples."""
 
+ROUND_KINDS, MOST_OF_A_TURN = ("cone", "cylinder", "sphere", "torus", "revolution"), 6.3
+"""Surfaces whose u is an angle, and radians that no image of a point exceeds."""
+
 SLOWEST = 0.1
 """Least speed, of the mean, that a tolerance is translated to (u, v) with."""
 
@@ -39,6 +42,14 @@ def no_point(job: FaceJob) -> str:
                 "loop is open or runs the wrong way; repair the face in the program that made it"
             )
     return ""
+
+
+def beyond_a_turn(job: FaceJob) -> bool:
+    """Does the image of a degenerate piece span more than a turn of a round surface?"""
+    if job.surface.kind not in ROUND_KINDS:
+        return False
+    pieces = (piece for loop in job.loops for piece in loop if piece.degenerate)
+    return any(np.abs(piece.uv[-1] - piece.uv[0]).max() > MOST_OF_A_TURN for piece in pieces)
 
 
 def untangled_job(job: FaceJob) -> FaceJob | None:

@@ -107,8 +107,24 @@ def test_a_torn_surface_is_refused_with_the_place(z):
         sm.mesh(height(z), sm.Sizing(size=0.2))
 
 
+def test_what_is_continuous_is_not_torn():
+    plain = sm.ParametricSurface("u*sign(u)*sign(u)", "v", "0", u=(-1, 1), v=(-1, 1))
+    assert kink_lines(plain) == []
+
+
 @pytest.mark.parametrize(
-    "x", ["sign(u)*sqrt(abs(u))", "sign(u)*abs(u)**(1/3)", "u*sign(u)*sign(u)"]
+    "x", ["sign(u)*sqrt(abs(u))", "sign(u)*abs(u)**(1/3)", "cbrt(u)", "1000*cbrt(u - 0.3)"]
 )
-def test_what_is_continuous_is_not_torn(x):
-    assert kink_lines(sm.ParametricSurface(x, "v", "0", u=(-1, 1), v=(-1, 1))) == []
+@pytest.mark.parametrize("options", [{}, {"size": 0.15}, {"anisotropy": 6}], ids=str)
+def test_an_edge_runs_where_the_speed_has_no_bound(x, options):
+    scale = 1000 if "1000" in x else 1
+    surface = sm.ParametricSurface(x, f"{scale}*v", "0", u=(-1, 1), v=(-1, 1))
+    (line,) = kink_lines(surface)
+    assert np.ptp(line.uv[:, 0]) < 1e-15
+    wishes = {"chord": 0.005 * scale, **options}
+    wishes |= {"size": 0.15 * scale} if "size" in options else {}
+    report = sm.check(sm.mesh(surface, sm.Sizing(**wishes)))
+    assert report.clean, report.problems
+    ends = surface.evaluate(np.array([[-1.0, 0.0], [1.0, 0.0]]))[0][:, 0]
+    assert report.area == pytest.approx(2 * scale * np.ptp(ends), rel=1e-9)
+    assert report.triangles < 700
