@@ -134,5 +134,7 @@ def filled_face(job: FaceJob, reason: str) -> FaceMesh | None:
     triangles = filled(points)
     corners = numbers[triangles]
     triangles = triangles[(corners != np.roll(corners, 1, axis=1)).all(axis=1)]
+    if not len(triangles):  # edges run there and back: nothing lies between them
+        return None
     remark = f"closed between the nodes of its edges, off the surface, because {reason}"
     return FaceMesh(points, slots, triangles, uv, triangles, sizes, remark=remark)
