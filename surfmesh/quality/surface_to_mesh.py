@@ -18,6 +18,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from surfmesh.geometry.projection import closest_point
 from surfmesh.kernels.measure import interpolate
 from surfmesh.quality.deviation import BLOCK, Deviation
 from surfmesh.quality.problems import called
@@ -34,6 +35,8 @@ CLOSELY = np.array(
 SECOND_LOOK = 400  # triangles looked at closely, or one in 250 if that is more
 ON_CURVE = 1e-3  # of a segment: so far off the curve of its edge may its nodes be
 FIRST_FEW = 64  # points whose nearest triangle is searched for at first
+ALONG, PROJECTIONS = 17, 8  # points of an edge's curve that are put on a face, and steps to it
+MOST_COMPARED = 2_000  # points beyond the chord that are compared with every triangle
 AMONG_ALL = 16  # points that are compared with every triangle in the end, at most
 
 
@@ -192,7 +195,7 @@ class _Search:
         mesh = self.mesh
         distance = triangle_distances(points, mesh.points[mesh.triangles[triangle]])
         distance[~np.isfinite(distance)] = 0.0  # where a formula has no value
-        known = self._refine(points, triangle, distance)
+        known = self._refine(points, uv, triangle, distance)
         np.maximum.at(self.by_triangle, triangle, distance)
         known = known[np.argsort(-distance[known], kind="stable")[:AMONG_ALL]]
         self.found += [
@@ -200,7 +203,9 @@ class _Search:
             for k in known.tolist()
         ]
 
-    def _refine(self, points: NDArray, triangle: NDArray, distance: NDArray) -> NDArray:
+    def _refine(
+        self, points: NDArray, uv: NDArray, triangle: NDArray, distance: NDArray
+    ) -> NDArray:
         """Lower the distances (k,), of the own triangles, to those of the nearest ones: where
         they are beyond the chord, and where one of them may be the largest. Returns which."""
         done, length = np.zeros(len(distance), bool), FIRST_FEW
@@ -213,12 +218,14 @@ class _Search:
             some = np.union1d(open_, np.flatnonzero(beyond & ~done))
             if not len(some):
                 return np.flatnonzero(done)
-            distance[some] = self._nearest(points[some], triangle[some], distance[some])
+            distance[some] = self._nearest(points[some], uv[some], triangle[some], distance[some])
             done[some] = True
             self.largest = max(self.largest, float(distance[some].max()))
             length *= 4
 
-    def _nearest(self, points: NDArray, triangle: NDArray, distance: NDArray) -> NDArray:
+    def _nearest(
+        self, points: NDArray, uv: NDArray, triangle: NDArray, distance: NDArray
+    ) -> NDArray:
         """Distances (k,) to nearer triangles, from neighbour to neighbour while there are such."""
         distance, nearest = distance.copy(), triangle.copy()
         order, first = self._around
@@ -240,7 +247,25 @@ class _Search:
             nearer = least < distance[active]
             active = active[nearer]
             nearest[active], distance[active] = chosen[nearer], least[nearer]
+        self._compare_beyond(points, uv, triangle, distance)
         return distance
+
+    def _compare_beyond(
+        self, points: NDArray, uv: NDArray, triangle: NDArray, distance: NDArray
+    ) -> None:
+        """Lower, in place, what is still beyond the chord: the way from neighbour to neighbour
+        ends early where triangles are long and thin. Given up where nothing is lowered: the
+        mesh is too far, then."""
+        beyond = np.flatnonzero(distance > self.enough[triangle])
+        lowered = 0
+        for count, k in enumerate(beyond[np.argsort(-distance[beyond], kind="stable")].tolist()):
+            if count >= MOST_COMPARED or (count >= AMONG_ALL and not lowered):
+                break
+            exact = self._among_all(points[k], float(distance[k]))
+            if exact > self.enough[triangle[k]] and self._is_off_face(uv[k], int(triangle[k])):
+                exact = 0.0
+            lowered += exact < distance[k]
+            distance[k] = exact
 
     @cached_property
     def _around(self) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
@@ -259,7 +284,9 @@ class _Search:
         for number, found in enumerate(self.found):
             if best is not None and (found.distance <= best.distance or number >= AMONG_ALL):
                 break
-            exact = self._among_all(found) if found.distance > self.back else found.distance
+            exact = found.distance
+            if exact > self.back:
+                exact = self._among_all(found.point, exact)
             if exact < found.distance == self.by_triangle[found.triangle]:
                 self.by_triangle[found.triangle] = exact
             if best is None or exact > best.distance:
@@ -274,14 +301,48 @@ class _Search:
             self.by_triangle, best.distance, point, uv, best.triangle, best.at_rim
         )
 
-    def _among_all(self, found: _Candidate) -> float:
+    def _is_off_face(self, uv: NDArray, triangle: int) -> bool:
+        """Does uv (2,) over a triangle lie beyond an edge of its face? The sides of triangles are
+        straight in (u, v), the curves that bound the face are not."""
+        mesh = self.mesh
+        corners = mesh.triangles[triangle].tolist()
+        places = mesh.uv_points[mesh.uv_triangles[triangle]]
+        for k in range(3):
+            segment = self._segments.get(frozenset((corners[k], corners[(k + 1) % 3])))
+            if segment is None:
+                continue
+            ends = places[[k, (k + 1) % 3]]
+            if mesh.edge_segments[segment][0] != corners[k]:
+                ends = ends[::-1]
+            edge, share = mesh.edge_curves[mesh.edge_ids[segment]], mesh.edge_shares[segment]
+            if edge is None or edge.curve is None:
+                continue
+            t = np.linspace(0.0, 1.0, ALONG)
+            at = edge.parameters(share[0] + t * (share[1] - share[0]))
+            guess = ends[0] + t[:, None] * (ends[1] - ends[0])
+            surface = mesh.surfaces[mesh.face_ids[triangle]]
+            line = closest_point(surface, edge.curve.evaluate(at, 0)[0], guess, PROJECTIONS)[0]
+            line[0], line[-1] = ends
+            if _crossings(places[(k + 2) % 3], uv, line) % 2:
+                return True
+        return False
+
+    @cached_property
+    def _segments(self) -> dict[frozenset[int], int]:
+        """Rows of ``edge_segments`` by their nodes."""
+        if not self.mesh.edge_curves or self.mesh.edge_shares is None:
+            return {}
+        return {frozenset(pair): k for k, pair in enumerate(self.mesh.edge_segments.tolist())}
+
+    def _among_all(self, point: NDArray, distance: float) -> float:
+        """Of a point (3,) from the whole mesh, known to be no more than ``distance``."""
         centre, radius = self._balls
-        near = np.linalg.norm(centre - found.point, axis=1) - radius < found.distance
+        near = np.linalg.norm(centre - point, axis=1) - radius < distance
         corners = self.mesh.points[self.mesh.triangles[near]]
         if not len(corners):
-            return found.distance
-        points = np.broadcast_to(found.point, (len(corners), 3))
-        return min(found.distance, float(triangle_distances(points, corners).min()))
+            return distance
+        points = np.broadcast_to(point, (len(corners), 3))
+        return min(distance, float(triangle_distances(points, corners).min()))
 
     @cached_property
     def _balls(self) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
@@ -289,6 +350,17 @@ class _Search:
         corners = self.mesh.points[self.mesh.triangles]
         centre = corners.mean(axis=1)
         return centre, np.linalg.norm(corners - centre[:, None], axis=2).max(axis=1)
+
+
+def _crossings(start: NDArray, end: NDArray, line: NDArray) -> int:
+    """How often the way from start to end (2,) crosses a line (k, 2)."""
+    way, step = end - start, np.diff(line, axis=0)
+    side = way[0] * (line[:, 1] - start[1]) - way[1] * (line[:, 0] - start[0])
+    ahead, behind = (
+        step[:, 0] * (place[1] - line[:-1, 1]) - step[:, 1] * (place[0] - line[:-1, 0])
+        for place in (start, end)
+    )
+    return int(np.count_nonzero((side[1:] * side[:-1] < 0.0) & (ahead * behind < 0.0)))
 
 
 def triangle_distances(points: NDArray, corners: NDArray) -> NDArray[np.float64]:
