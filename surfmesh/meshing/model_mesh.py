@@ -144,7 +144,7 @@ def _mesh_faces(
         with watch.stage("mapping"):
             asking = [k for k, found in enumerate(done) if found.wishes is not None]
             wishes = {k: done[k].wishes for k in asking if hopes[k].is_left}
-            if any(len(found.triangles) for found in done):
+            if not wishes or any(len(found.triangles) for found in done):
                 mesh = _joined(model, jobs, done, nodes, samples, sizing, watch)
                 _refine_crowded(model, mesh, sizing, wishes)
         if not wishes:
@@ -291,7 +291,7 @@ def _left_over(model: CadModel, faces: set[int]) -> list[str]:
 
 def _reason(model: CadModel, number: int, found: FaceMesh) -> str:
     face = model.faces[number]
-    return f"face {number} ({face.name or face.kind}): {found.failure}"
+    return f"face {number} ({face.name or face.kind}): {found.failure or found.remark}"
 
 
 def _job(
@@ -386,7 +386,10 @@ def _joined(
             stretched.append(_inverse_sizes(found))
         face_ids.append(np.full(len(found.triangles), number, np.int32))
     if not triangles:
-        reasons = [_reason(model, k, found) for k, found in enumerate(done) if found.failure]
+        reasons = [
+            _reason(model, k, found) for k, found in enumerate(done)
+            if found.failure or found.remark
+        ]  # fmt: skip
         raise MeshingError(f"no face could be meshed: {'; '.join(reasons[:5])}")
     points = np.concatenate([points, *inner_points])
     sizes = np.concatenate([sizes, *inner_sizes])
