@@ -59,6 +59,7 @@ from surfmesh.cad.model import (
 from surfmesh.cad.near_poles import images_at_near_poles
 from surfmesh.cad.points_inside import short_edges, vertices_inside
 from surfmesh.cad.singular_cuts import cut_at_singular_lines
+from surfmesh.cad.sub_shapes import each
 from surfmesh.cad.tolerances import (
     curves_on_their_faces,
     images_that_follow,
@@ -199,15 +200,15 @@ class _Walk:
                 if self._detail_numbers.find(detail.shape) is None:
                     self._detail_numbers.add(detail.shape)
                     self._details.append(detail)
-            found = [self.solid(s, part, colour) for s in _each(part.shape, TopAbs_SOLID)]
+            found = [self.solid(s, part, colour) for s in each(part.shape, TopAbs_SOLID)]
             solids = [number for number in found if number is not None]
-            for shape in _each(part.shape, TopAbs_SHELL, TopAbs_SOLID):
+            for shape in each(part.shape, TopAbs_SHELL, TopAbs_SOLID):
                 shell = self.shell(shape, self.detail(shape)[1] or colour)
                 if shell:
                     self.free_shells.append(shell)
                     faces += [face for face, _ in shell]
             held = self.held_by_shells()
-            for shape in _each(part.shape, TopAbs_FACE, TopAbs_SHELL):
+            for shape in each(part.shape, TopAbs_FACE, TopAbs_SHELL):
                 number = self.face(shape, colour)
                 if number is None:
                     continue
@@ -239,7 +240,7 @@ class _Walk:
             return known
         name, own = self.detail(shape)
         colour = own or colour
-        shells = [self.shell(s, self.detail(s)[1] or colour) for s in _each(shape, TopAbs_SHELL)]
+        shells = [self.shell(s, self.detail(s)[1] or colour) for s in each(shape, TopAbs_SHELL)]
         shells = [shell for shell in shells if shell]
         if not shells:
             self._remarks["a solid without faces is left out"] += 1
@@ -276,7 +277,7 @@ class _Walk:
     def shell(self, shape: TopoDS_Shape, colour: Colour | None) -> Shell:
         """Faces of a shell; those that lie within a solid on both sides are taken apart."""
         found = []
-        for face in _each(shape, TopAbs_FACE):
+        for face in each(shape, TopAbs_FACE):
             number = self.face(face, colour)
             if number is None:
                 continue
@@ -367,7 +368,7 @@ class _Walk:
         edges = {coedge.edge for coedge in loop}
         alone = face.EmptyCopied()
         for wire in _below(face):
-            if edges & {self._edge_numbers.find(edge) for edge in _each(wire, TopAbs_EDGE)}:
+            if edges & {self._edge_numbers.find(edge) for edge in each(wire, TopAbs_EDGE)}:
                 BRep_Builder().Add(alone, wire)
         return _area(TopoDS.Face_s(alone), kind)
 
@@ -533,7 +534,7 @@ class _Walk:
             for shape in (shape for shape in tag.shapes if not shape.IsNull()):
                 many, kind = _TAGGED.get(shape.ShapeType(), ("faces", TopAbs_FACE))
                 # healing may have split a face or an edge
-                known = [self._number(many, one) for one in _each(shape, kind)]
+                known = [self._number(many, one) for one in each(shape, kind)]
                 numbers[many].update(number for number in known if number is not None)
             sorts = {many: tuple(sorted(some)) for many, some in numbers.items()}
             found.setdefault(tag.name, []).append(CadTag(tag.name, tag.held, **sorts))
@@ -582,7 +583,7 @@ def _fault_split_faces(walk: _Walk, root: Part) -> None:
         for shape, _ in part.remarks:
             if shape is None or shape.IsNull():
                 continue
-            numbers = [walk.face_number(face) for face in _each(shape, TopAbs_FACE)]
+            numbers = [walk.face_number(face) for face in each(shape, TopAbs_FACE)]
             numbers = sorted({number for number in numbers if number is not None})
             pieces = [walk.faces[number] for number in numbers]
             if len(pieces) < 2:
@@ -600,7 +601,7 @@ def _in_words(walk: _Walk, root: Part) -> list[str]:
         for shape, text in part.remarks:
             found = [] if shape is None or shape.IsNull() else [shape]
             if found and shape.ShapeType() not in (TopAbs_SOLID, TopAbs_FACE, TopAbs_EDGE):
-                found = list(_each(shape, TopAbs_FACE))  # a face that was split
+                found = list(each(shape, TopAbs_FACE))  # a face that was split
             names = [name for name in map(walk.number_of, found) if name]
             kind = names[0].split()[0] if names else ""
             numbers = places.setdefault((kind, text), [])
@@ -614,15 +615,6 @@ def _in_words(walk: _Walk, root: Part) -> list[str]:
     places = [("" if shape is None else walk.number_of(shape)) for shape, _ in notes]
     said = [f"{place}: {text}" if place else text for place, (_, text) in zip(places, notes)]
     return sentences + said
-
-
-def _each(shape: TopoDS_Shape, kind, avoid=None) -> Iterator[TopoDS_Shape]:
-    """Sub-shapes of a kind, that are not within another of the kind ``avoid``."""
-    explorer = TopExp_Explorer()
-    explorer.Init(shape, kind) if avoid is None else explorer.Init(shape, kind, avoid)
-    while explorer.More():
-        yield explorer.Current()
-        explorer.Next()
 
 
 def _below(shape: TopoDS_Shape) -> Iterator[TopoDS_Shape]:

@@ -244,14 +244,10 @@ class PlanarDomain(PlaneOfCoordinates):
         graph = segment_graph(lines, is_hole, crossings == "split", merge)
         changes = _merged(lines, merge)
         if simplify is not None:
-            before = len(graph.points)
-            graph = thinned(graph, positive_distance("simplify", simplify), _near(graph, places))
+            graph, said = _thinned(graph, simplify, places)
             closed = [_still_there(loop, graph, merge) for loop in closed]
             polylines = [_still_there(line, graph, merge, 2) for line in polylines]
-            changes.append(
-                f"lines were thinned from {before:,} to {len(graph.points):,} points, within "
-                f"{simplify:g} of those given"
-            )
+            changes.append(said)
         low, high = graph.points.min(axis=0).tolist(), graph.points.max(axis=0).tolist()
         self.__dict__.update(
             name=str(name),
@@ -326,13 +322,7 @@ class PlanarDomain(PlaneOfCoordinates):
     def simplified(self, distance: float) -> PlanarDomain:
         """The domain with lines thinned by ``distance``: see ``simplify`` of the class."""
         made = PlanarDomain.__new__(PlanarDomain)
-        graph = thinned(
-            self.graph, positive_distance("simplify", distance), _near(self.graph, self.points)
-        )
-        said = (
-            f"lines were thinned from {len(self.graph.points):,} to {len(graph.points):,} points, "
-            f"within {distance:g} of those given"
-        )
+        graph, said = _thinned(self.graph, distance, self.points)
         made.__dict__.update(
             {k: v for k, v in self.__dict__.items() if k not in _CACHED},
             graph=graph,
@@ -399,6 +389,15 @@ def _merged(lines: Sequence[Line], merge: float) -> list[str]:
         f"{many} within {apart.max():.3g} of another and {'is' if count == 1 else 'are'} merged "
         f"with it, first {lines[line].label}, point {given - starts[line]} (merge={merge:.3g})"
     ]
+
+
+def _thinned(graph: SegmentGraph, distance: Any, places: np.ndarray) -> tuple[SegmentGraph, str]:
+    """The graph with thinned lines, the demanded ``places`` (p, 2) kept, and what that did."""
+    thin = thinned(graph, positive_distance("simplify", distance), _near(graph, places))
+    return thin, (
+        f"lines were thinned from {len(graph.points):,} to {len(thin.points):,} points, within "
+        f"{distance:g} of those given"
+    )
 
 
 def _near(graph: SegmentGraph, places: np.ndarray) -> np.ndarray:

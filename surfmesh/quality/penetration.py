@@ -80,7 +80,7 @@ def _depth_over(above: NDArray, base: NDArray) -> NDArray:
 
 def _at_corners(seen: NDArray, under: NDArray) -> NDArray:
     """(k, 3) heights of corners over the base, nan elsewhere; a 0 that stands for none."""
-    weights = np.stack([_weights(seen[:, k, :2], under) for k in range(3)], axis=1)
+    weights = np.stack([plane_weights(seen[:, k, :2], under) for k in range(3)], axis=1)
     return np.where((weights >= -BORDER).all(axis=2), seen[:, :, 2], np.nan)
 
 
@@ -88,7 +88,7 @@ def _under_corners(seen: NDArray, under: NDArray) -> NDArray:
     """(k, 4) heights over corners of the base, nan where there is nothing; the last is 0."""
     found = np.zeros((len(seen), 4))
     for k in range(3):
-        weights = _weights(under[:, k], seen[:, :, :2])
+        weights = plane_weights(under[:, k], seen[:, :, :2])
         height = np.einsum("ij,ij->i", weights, seen[:, :, 2])
         found[:, k] = np.where((weights >= -BORDER).all(axis=1), height, np.nan)
     return found
@@ -112,7 +112,7 @@ def _at_sides(seen: NDArray, under: NDArray) -> NDArray:
     return found
 
 
-def _weights(point: NDArray, triangle: NDArray) -> NDArray:
+def plane_weights(point: NDArray, triangle: NDArray) -> NDArray:
     """(k, 3) barycentric weights of points (k, 2); nan for triangles (k, 3, 2) without area."""
     a, b, c = (triangle - point[:, None]).transpose(1, 0, 2)
     parts = np.stack(

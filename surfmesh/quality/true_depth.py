@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from surfmesh.geometry.projection import closest_point
+from surfmesh.quality.penetration import plane_weights
 from surfmesh.surface_mesh import SurfaceMesh
 
 PROBES, NEAREST = 400, 8  # points of a solid's faces, and triangles of the other beside each
@@ -157,21 +158,6 @@ def _over_face(
     turned = mesh.turned_faces is not None and bool(mesh.turned_faces[face])
     normal *= ((-1.0 if turned else 1.0) * outwards)[:, None]
     depth = -np.einsum("ij,ij->i", points - foot, normal)
-    over = (distance <= limit) & (_weights(foot_uv, corners) >= OVER)
+    over = (distance <= limit) & (plane_weights(foot_uv, corners).min(axis=1) >= OVER)
     over &= distance - np.abs(depth) <= UPRIGHT * distance + np.finfo(float).eps
     return depth, over
-
-
-def _weights(uv: NDArray, corners: NDArray) -> NDArray:
-    """(k,) the least barycentric weight of uv (k, 2) in triangles (k, 3, 2)."""
-    a, b, c = (corners - uv[:, None]).transpose(1, 0, 2)
-    parts = np.stack(
-        [
-            b[:, 0] * c[:, 1] - b[:, 1] * c[:, 0],
-            c[:, 0] * a[:, 1] - c[:, 1] * a[:, 0],
-            a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0],
-        ],
-        axis=1,
-    )
-    total = parts.sum(axis=1, keepdims=True)
-    return (parts / np.where(total != 0.0, total, np.nan)).min(axis=1)

@@ -24,6 +24,7 @@ from surfmesh.quality.hidden_search import (
     settled_in_parts,
 )
 from surfmesh.quality.promises import Promises
+from surfmesh.quality.surface_to_mesh import triangle_distances
 from surfmesh.surface_mesh import SurfaceMesh
 
 SLACK = 1.3
@@ -259,26 +260,8 @@ class _Around:
         within = np.arange(ends[-1]) - np.repeat(ends - count.ravel(), count.ravel())
         triangle = self.order[begin + within]
         distance = np.full(len(piece), np.inf)
-        found = point_triangle_distance(
+        found = triangle_distances(
             point[rows], self.mesh.points[self.mesh.triangles[triangle]]
         )
         np.minimum.at(distance, rows, found)
         return distance
-
-
-def point_triangle_distance(point: NDArray, corners: NDArray) -> NDArray[np.float64]:
-    """Distance (n,) of points (n, 3) from triangles (n, 3, 3)."""
-    squared = np.full(len(point), np.inf)
-    normal = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
-    inside = np.ones(len(point), bool)
-    for k in range(3):
-        start, edge = corners[:, k], corners[:, (k + 1) % 3] - corners[:, k]
-        away = point - start
-        length2 = np.maximum(np.einsum("ij,ij->i", edge, edge), np.finfo(float).tiny)
-        share = np.clip(np.einsum("ij,ij->i", away, edge) / length2, 0.0, 1.0)
-        foot = away - share[:, None] * edge
-        squared = np.minimum(squared, np.einsum("ij,ij->i", foot, foot))
-        inside &= np.einsum("ij,ij->i", np.cross(edge, away), normal) >= 0.0
-    length = np.maximum(np.linalg.norm(normal, axis=1), np.finfo(float).tiny)
-    height = np.abs(np.einsum("ij,ij->i", point - corners[:, 0], normal)) / length
-    return np.where(inside, height, np.sqrt(squared))

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 import surfmesh as sm
-from surfmesh.quality.unseen import point_triangle_distance
+from surfmesh.quality.surface_to_mesh import triangle_distances
 
 
 def height(z, u=(0, 1), v=(0, 1)):
@@ -77,5 +77,5 @@ def test_distance_of_points_from_triangles():
     weights = np.stack([1 - s - t, s, t], axis=1)[s + t <= 1.0]
     samples = np.einsum("wk,nki->nwi", weights, corners)
     nearest = np.linalg.norm(samples - points[:, None], axis=2).min(axis=1)
-    found = point_triangle_distance(points, corners)
+    found = triangle_distances(points, corners)
     assert (found <= nearest + 1e-12).all() and found == pytest.approx(nearest, abs=0.02)
