@@ -168,7 +168,7 @@ def _write_object(
 def read(path: Path) -> SurfaceMesh:
     """What ``write`` wrote in full; of other files the meshes of all objects, as they stand."""
     with zipfile.ZipFile(path) as archive:
-        root = ElementTree.fromstring(archive.read(MODEL))
+        root = ElementTree.fromstring(archive.read(MODEL))  # noqa: S314
     meshes = root.findall(f".//{{{CORE}}}object/{{{CORE}}}mesh")
     if not meshes:
         raise FileFormatError(f"{path}: there are no meshes in it")
