@@ -10,7 +10,8 @@ from typing import NamedTuple
 
 import child_process
 
-LIMITS = 17  # file sizes that are tried, an output
+LIMITS = 17  # file sizes that are tried, an output: from none to all but one byte
+LATE = (3000, 700, 60, 1)  # of them: so many bytes too few, less than what is buffered
 DISKS = 5  # sizes of a file system
 PAGE = 4096  # bytes, the grain of its size
 OLD = b"what was there before\n" * 100
@@ -49,7 +50,9 @@ def row_of(output: Output, folder: Path, limits: int = LIMITS, disks: int = DISK
     output.write(path)  # what is imported or cached is so before there is a limit
     whole = path.read_bytes()
     row = {"bytes": len(whole), "tried": 0, "refused": 0, "saved": 0, "broken": 0, "how": []}
-    for limit in (*(len(whole) * k // limits for k in range(limits - 1)), len(whole) - 1):
+    early = limits - len(LATE)
+    late = (len(whole) - size for size in LATE if size <= len(whole))
+    for limit in (*(len(whole) * k // early for k in range(early)), *late):
         with _largest_file(limit):
             said = _attempt(output, path)
         _count(row, f"{limit} bytes a file", said, path, whole)

@@ -62,7 +62,7 @@ def test_text_page_picture_and_report_at_limits(small, saves, tmp_path):
         ".png": lambda path: plot(small, path, size=(160, 120)),
     }
     for suffix, write in writers.items():
-        judged(saves, suffix, write, tmp_path / suffix, 5)
+        judged(saves, suffix, write, tmp_path / suffix, 6)
 
 
 @pytest.fixture
