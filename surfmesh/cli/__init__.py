@@ -4,6 +4,7 @@ Exit status 0: done and valid; 1: a mesh was made but its report is not clean; 2
 usage, told in one line on standard error.
 """
 
+import errno
 import os
 import sys
 from collections.abc import Sequence
@@ -12,6 +13,7 @@ from surfmesh.cli.arguments import parse
 from surfmesh.errors import FormulaError, SurfmeshError
 
 DONE, NOT_CLEAN, BAD_INPUT = 0, 1, 2
+_FULL = (errno.ENOSPC, errno.EFBIG, errno.EDQUOT)
 INTERRUPTED, PIPE_CLOSED = 130, 141  # as shells say: 128 + the signal's number
 
 
@@ -33,6 +35,8 @@ def main(argv: Sequence[str] | None = None) -> int:
     except (SurfmeshError, OSError) as error:
         if isinstance(error, BrokenPipeError):
             return _hang_up()
+        if isinstance(error, OSError) and error.errno in _FULL and error.filename is None:
+            return _complain(f"standard output or a cache cannot be written: {error.strerror}")
         return _complain(str(error))
     except MemoryError:
         return _complain("not enough memory; ask for larger sizes")
