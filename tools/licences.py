@@ -20,7 +20,7 @@ from typing import NamedTuple
 from packaging.requirements import Requirement
 from packaging.utils import canonicalize_name
 
-EXTRAS = ("", "med", "docs", "test", "dev", "bench")  # the first that needs a package owns it
+EXTRAS = ("", "med", "docs", "test", "dev", "bench", "install")  # the first with a package owns it
 WITHIN = {  # libraries inside wheels, where their licence is another than the package's
     "cadquery-ocp": "OCCT inside: LGPL-2.1 with exception",
     "mmgpy": "MMG inside: LGPL-3.0",
