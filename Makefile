@@ -37,7 +37,7 @@ help: ## this list
 venv: $(VENV)/.installed ## virtual environment with surfmesh (VENV=.venv, PYTHON=python3)
 
 mesh: $(VENV)/.installed ## mesh, check and draw the wavy surface; results in outputs/
-	$(BIN)/surfmesh mesh wavy -o outputs/wavy.vtu --picture outputs/wavy.png --report outputs/wavy.json
+	$(BIN)/surfmesh mesh wavy -o outputs/wavy.vtu --picture outputs/wavy.png --report outputs/wavy.json --second-opinion
 
 test: lint ## lint, layers, types and tests
 	$(BIN)/python -m pytest -n 2 --dist worksteal
