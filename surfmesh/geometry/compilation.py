@@ -13,7 +13,7 @@ import sympy as sp
 from surfmesh.geometry import real_functions
 from surfmesh.geometry.chain_rule import derivatives
 from surfmesh.geometry.derivatives import Definitions
-from surfmesh.geometry.program import FUNCTION_OPERATIONS, Program
+from surfmesh.geometry.program import Program
 from surfmesh.geometry.tape import Tape
 
 MOST_GUIDES = 32  # functions whose zeros are looked for
