@@ -29,7 +29,9 @@ from fuzz.seed_files import CAD, EXTENSION, MESHES, TEXTS, originals
 KINDS = (*MESHES, *CAD, *TEXTS, "command")
 FAULTS = ("crashed", "hung", "traceback", "memory", "noise", "wrong", "partial")
 PROCESSOR_SECONDS = 10
-WALL_SECONDS = 200  # for what waits instead of working
+CAD_SECONDS = 4  # before a CAD file is left to the child of read_cad
+CHILD_SECONDS = 30  # for that child, which has limits of its own
+WALL_SECONDS = 300  # for what waits instead of working
 MEMORY = 1 << 30  # bytes over the interpreter's own
 LONGEST = 1000  # characters of a message
 OPEN_ENDED = (".obj", ".inp", ".off", ".ply")  # of other programs: their last number may be cut
@@ -193,7 +195,7 @@ def _one(task: Task, folder: Path) -> Trial:
     place = folder / f"tried{EXTENSION.get(kind, '.json')}"
     place.write_bytes(found.data)
     name = " ".join((task.name, *found.changes))
-    _limit()
+    _limit(_SECONDS.get(task.kind, PROCESSOR_SECONDS))
     before, start = _held(reset=True), _processor_seconds()
     with warnings.catch_warnings(record=True) as warned:
         warnings.simplefilter("always")
@@ -203,10 +205,10 @@ def _one(task: Task, folder: Path) -> Trial:
     if ended in ("refused", "read"):
         if "\n" in said or len(said) > LONGEST:
             ended, said = "wrong", f"a message of several lines or {len(said)} characters: {said}"
-        elif printed or warned:
+        elif (printed and kind not in CAD) or warned:
             noise = printed or f"{warned[0].category.__name__}: {warned[0].message}"
             ended, said = "noise", f"{noise} | {ended}: {said}"
-        elif seconds > PROCESSOR_SECONDS:
+        elif seconds > _SECONDS.get(task.kind, PROCESSOR_SECONDS):
             ended = "hung"
         elif peak > MEMORY:
             ended = "memory"
@@ -232,10 +234,10 @@ def _end_of(work: Callable[[Path, Mutant], str], place: Path, found: Mutant) -> 
         return "traceback", traceback.format_exc(limit=-4)
 
 
-def _limit() -> None:
-    """Limits from here on: memory over what is held, processor time over what is used."""
+def _limit(allowed: int) -> None:
+    """Limits from here on: memory over what is held, seconds over what is used."""
     used = resource.getrusage(resource.RUSAGE_SELF)
-    seconds = int(used.ru_utime + used.ru_stime) + PROCESSOR_SECONDS + 1
+    seconds = int(used.ru_utime + used.ru_stime) + allowed + 1
     resource.setrlimit(resource.RLIMIT_CPU, (seconds, resource.RLIM_INFINITY))
     size = _status("VmSize:")
     if size:
@@ -358,14 +360,15 @@ def _same(a: Any, b: Any) -> bool:
 
 
 def _cad(path: Path, found: Mutant) -> str:
-    """What the child of ``read_cad`` does."""
+    """What the child of ``read_cad`` does; what OCP prints there goes nowhere."""
     from surfmesh.cad.readers import read_here
+    from surfmesh.errors import CadError
 
     try:
         model = read_here(path, True, None)
-    except Exception as error:
+    except Exception as error:  # as the child says it
         if type(error).__module__.startswith("OCP"):
-            return f"OCP gave up: {type(error).__name__}"
+            raise CadError(f"OCP gave up: {type(error).__name__}") from None
         raise
     return f"{len(model.faces)} faces"
 
@@ -457,6 +460,7 @@ _INPUTS = {
     "odd\n\x1b[31mname.off": b"OFF\n1 1 1\n",
 }  # fmt: skip
 
+_SECONDS = dict.fromkeys(CAD, CAD_SECONDS) | {f"{kind} in a child": CHILD_SECONDS for kind in CAD}
 TRIED: dict[str, Callable[[Path, Mutant], str]] = {
     **dict.fromkeys(MESHES, _mesh),
     **dict.fromkeys(CAD, _cad),
