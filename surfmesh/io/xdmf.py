@@ -90,7 +90,7 @@ def _write_item(file: TextIO, values: NDArray) -> None:
 
 def read(path: Path) -> SurfaceMesh:
     """The first grid of a file whose numbers stand in it; data in HDF5 are not read."""
-    grid = ElementTree.parse(path).getroot().find(".//Grid")
+    grid = ElementTree.parse(path).getroot().find(".//Grid")  # noqa: S314
     topology = None if grid is None else grid.find("Topology")
     if topology is None:
         raise FileFormatError(f"{path}: there is no grid in it")

@@ -2,6 +2,7 @@
 
 import json
 import math
+import re
 from collections.abc import Mapping
 from dataclasses import asdict, dataclass, fields, is_dataclass
 from time import perf_counter
@@ -416,7 +417,7 @@ def _names(mesh: SurfaceMesh) -> str:
 
 def _options(sizing: Any) -> dict[str, Any]:
     if not is_dataclass(sizing):
-        return {} if sizing is None else {"sizing": repr(sizing)}
+        return {} if sizing is None else {"sizing": _said(sizing)}
     return {item.name: getattr(sizing, item.name) for item in fields(sizing)}
 
 
@@ -434,4 +435,9 @@ def _plain(value: Any) -> Any:
         return float(value) if math.isfinite(value) else None
     if is_dataclass(value) and not isinstance(value, type):
         return _plain(asdict(value))
-    return repr(value)
+    return _said(value)
+
+
+def _said(value: Any) -> str:
+    """Its repr without places in memory, which differ every time."""
+    return re.sub(r" at 0x[0-9a-fA-F]+", "", repr(value))

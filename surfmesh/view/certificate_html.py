@@ -17,6 +17,7 @@ from surfmesh.view.page_data import MARKED
 SHOWN_ROWS = 500  # of a table within the report; the JSON has them all
 ALL_DIGITS = 9  # where every figure is listed
 _SAID = ("problems", "warnings", "options")  # have places of their own
+_NOT_KEPT = ("seconds",)  # differ every time, where the same mesh is to give the same page
 _FIGURES = (  # title, fields, how they are said; a row without any known field is left out
     ("topology", ("closed", "manifold", "oriented"), "closed {}, manifold {}, oriented {}"),
     ("crossings", ("self_intersections",), "{}"),
@@ -69,7 +70,7 @@ def certificate_html(mesh: SurfaceMesh, report: Report, colourings: dict[str, Co
         for found in colourings.values()
         if not found.hues
     )
-    figures = {name: value for name, value in values.items() if name not in _SAID}
+    figures = {name: value for name, value in values.items() if name not in _SAID + _NOT_KEPT}
     return "\n".join(
         (
             _section("Certificate", problems + _figures(values)),
