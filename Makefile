@@ -6,7 +6,7 @@ BIN := $(VENV)/bin
 PIP := $(BIN)/python -m pip --disable-pip-version-check install -qq --only-binary=:all:
 
 .DEFAULT_GOAL := help
-.PHONY: help venv mesh test lint docs bench clean
+.PHONY: help venv mesh test fuzz lint docs bench clean
 
 help: ## this list
 	@grep -E '^[a-z]+:.*##' $(MAKEFILE_LIST) | sed -E 's/^([a-z]+):[^#]*## /  make \1\t/' | expand -t 16
@@ -18,6 +18,9 @@ mesh: $(VENV)/.installed ## mesh, check and draw the wavy surface; results in ou
 
 test: lint ## lint, layers, types and tests
 	$(BIN)/python -m pytest -n 2 --dist worksteal
+
+fuzz: $(VENV)/.installed-dev ## hostile input by thousands: the table (SURFMESH_FUZZ=1000 a kind)
+	SURFMESH_FUZZ=$${SURFMESH_FUZZ:-1000} $(BIN)/python benchmarks/trust.py --parts readers formulas
 
 lint: $(VENV)/.installed-dev ## ruff, the layers of the package, types of the public face
 	$(BIN)/ruff check .

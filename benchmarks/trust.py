@@ -2,7 +2,7 @@
 
     python benchmarks/trust.py                       # all; SURFMESH_FUZZ=N or --count N a kind
     python benchmarks/trust.py --only .vtu command --count 2000 --seed 7
-    python benchmarks/trust.py --only .vtu --numbers 122 --keep FOLDER   # one mutant again, as a file
+    python benchmarks/trust.py --only .vtu --numbers 122 --keep FOLDER   # one again, as a file
     python benchmarks/trust.py --parts readers --folder HOSTILE          # files of a folder as well
 
 Readers: seeded mutants of small good files (``tests/fuzz``), tried in processes of their own.
@@ -85,7 +85,9 @@ def _options() -> argparse.Namespace:
     parser.add_argument("--only", nargs="+", choices=trials.KINDS, help="kinds of input")
     parser.add_argument("--folder", type=Path, help="hostile files that are tried as well")
     parser.add_argument("--keep", type=Path, help="where mutants that are faults are written")
-    parser.add_argument("--parts", nargs="+", choices=PARTS, help="all without; with --only: readers")
+    parser.add_argument(
+        "--parts", nargs="+", choices=PARTS, help="all without; with --only: readers"
+    )
     parser.add_argument("--soak", type=int, default=1000, help="meshes of the soak")
     parser.add_argument("--json", type=Path, help="write the figures too")
     options = parser.parse_args()
@@ -107,7 +109,9 @@ def _readers(options: argparse.Namespace) -> tuple[dict, int]:
             own = [task for task in tasks if task.kind == kind]
             rows[f"{kind} of the folder"] = _row(kind, own, None)
     _show(rows)
-    return {kind: row.plain() for kind, row in rows.items()}, sum(len(r.faults) for r in rows.values())
+    return {kind: row.plain() for kind, row in rows.items()}, sum(
+        len(r.faults) for r in rows.values()
+    )
 
 
 def _row(kind: str, tasks: list[trials.Task], keep: Path | None) -> Row:
@@ -164,6 +168,15 @@ def _formulas(options: argparse.Namespace) -> tuple[dict, int]:
 
 def _saves(options: argparse.Namespace) -> tuple[dict, int]:
     return _beside("saves_at_limits", "Saves at limits")
+
+
+def _beside(script: str, title: str) -> tuple[dict, int]:
+    """Another script of this folder, which prints its own table; its exit status counts."""
+    heading(title)
+    done = subprocess.run(
+        [sys.executable, str(Path(__file__).parent / f"{script}.py")], check=False
+    )
+    return {"exit_status": done.returncode}, int(done.returncode != 0)
 
 
 def _soak(options: argparse.Namespace) -> tuple[dict, int]:

@@ -6,21 +6,36 @@ A line is a function of a seed and a number. FOLDER stands for a folder with a f
 from random import Random
 
 NUMBERS = (
-    "1", "0.5", "2", "0", "-1", "1e-300", "1e-12", "1e300", "1e999", "nan", "-inf", "inf", "x", "", " ",
-    "0x1", "1_0", "١", "1,5", "2**31", "-0.0", "1e-9",
+    "1", "0.5", "2", "0", "-1", "1e-300", "1e-12", "1e300", "1e999", "nan", "-inf", "inf", "x", "",
+    " ", "0x1", "1_0", "١", "1,5", "2**31", "-0.0", "1e-9",
 )  # fmt: skip
 WHOLE = ("1", "2", "0", "-1", "1.5", "99999999999999999999", "x", "", "1e3", "٣", "1" + "0" * 5000)
 FORMULAS = (
     "u", "v", "u*v", "sin(u)", "0", "1/u", "sqrt(u)", "u**", "(", ")", "u" + "+u" * 200,
-    "-u", "9**9**9", "1e400", "nan", "sqrt(-1)", "u\0", "π*u", "import os", "u.real", "x", "", "u;v",
-    "abs(u)**0.1", "(" * 300 + "u" + ")" * 300, "\x1b[2Ju", "u\nv", "u if v else 1", "'u'",
+    "-u", "9**9**9", "1e400", "nan", "sqrt(-1)", "u\0", "π*u", "import os", "u.real", "x", "",
+    "u;v", "abs(u)**0.1", "(" * 300 + "u" + ")" * 300, "\x1b[2Ju", "u\nv", "u if v else 1", "'u'",
 )  # fmt: skip
-BOUNDS = ("0", "1", "-1", "2*pi", "pi", "1e300", "-1e300", "nan", "inf", "u", "", "1/0", "1e-300", "0.5")
+BOUNDS = (
+    "0",
+    "1",
+    "-1",
+    "2*pi",
+    "pi",
+    "1e300",
+    "-1e300",
+    "nan",
+    "inf",
+    "u",
+    "",
+    "1/0",
+    "1e-300",
+    "0.5",
+)
 INPUTS = (
-    "FOLDER/tetra.off", "FOLDER/bad.off", "FOLDER/surface.toml", "FOLDER/bad.toml", "FOLDER/domain.toml",
-    "FOLDER/sizes.toml", "FOLDER/bad.step", "FOLDER/odd\n\x1b[31mname.off", "FOLDER/none.vtu", "FOLDER",
-    "plane", "torus", "no such", "", "\0", "-", "--", "/dev/null", "a" * 300 + ".vtu", "..", "tôrus",
-    "FOLDER/\x1b[2J.vtu", "FOLDER/bad.off/x.vtu",
+    "FOLDER/tetra.off", "FOLDER/bad.off", "FOLDER/surface.toml", "FOLDER/bad.toml",
+    "FOLDER/domain.toml", "FOLDER/sizes.toml", "FOLDER/bad.step", "FOLDER/odd\n\x1b[31mname.off",
+    "FOLDER/none.vtu", "FOLDER", "plane", "torus", "no such", "", "\0", "-", "--", "/dev/null",
+    "a" * 300 + ".vtu", "..", "tôrus", "FOLDER/\x1b[2J.vtu", "FOLDER/bad.off/x.vtu",
 )  # fmt: skip
 GOOD_INPUTS = ("plane", "FOLDER/surface.toml", "FOLDER/domain.toml", "FOLDER/tetra.off")
 OUTPUTS = {
@@ -28,8 +43,10 @@ OUTPUTS = {
     "picture": ("FOLDER/o.svg",),
     "report": ("FOLDER/o.html", "FOLDER/o.json"),
 }
-ODD_OUTPUTS = ("FOLDER", "FOLDER/none/o.vtu", "o", "FOLDER/o.xyz", "", "\0.vtu", "/dev/full",
-               "FOLDER/" + "a" * 300 + ".vtu", "FOLDER/tetra.off/o.vtu", "FOLDER/o.vtu\n")  # fmt: skip
+ODD_OUTPUTS = (
+    "FOLDER", "FOLDER/none/o.vtu", "o", "FOLDER/o.xyz", "", "\0.vtu", "/dev/full",
+    "FOLDER/" + "a" * 300 + ".vtu", "FOLDER/tetra.off/o.vtu", "FOLDER/o.vtu\n",
+)  # fmt: skip
 SIZES = ("--chord", "--angle", "--size", "--min-size", "--max-size", "--growth", "--anisotropy",
          "--volume", "--gap")  # fmt: skip
 
@@ -37,7 +54,9 @@ SIZES = ("--chord", "--angle", "--size", "--min-size", "--max-size", "--growth",
 def command_line(seed: int, number: int) -> list[str]:
     """The words after ``surfmesh``."""
     random = Random(f"command {seed} {number}")
-    command = random.choice(("mesh", "mesh", "mesh", "check", "explain", "estimate", "pack", "report"))
+    command = random.choice(
+        ("mesh", "mesh", "mesh", "check", "explain", "estimate", "pack", "report")
+    )
     words = [command, *_COMMANDS[command](random)]
     if random.random() < 0.3:
         words.append("--json")
@@ -65,7 +84,10 @@ def _sizes(random: Random) -> list[str]:
     if random.random() < 0.2:
         words += ["--limit", random.choice(WHOLE)]
     if random.random() < 0.1:
-        words += ["--sizes", random.choice(("FOLDER/sizes.toml", "FOLDER/bad.toml", "none", "FOLDER"))]
+        words += [
+            "--sizes",
+            random.choice(("FOLDER/sizes.toml", "FOLDER/bad.toml", "none", "FOLDER")),
+        ]
     return words
 
 
@@ -73,12 +95,27 @@ def _mesh(random: Random) -> list[str]:
     words = _output(random, "mesh") + _sizes(random)
     if random.random() < 0.4:
         for axis in "xyz":
-            words += [f"--{axis}", random.choice(FORMULAS if random.random() < 0.5 else ("u", "v", "u*v"))]
+            words += [
+                f"--{axis}",
+                random.choice(FORMULAS if random.random() < 0.5 else ("u", "v", "u*v")),
+            ]
         for axis in "uv":
             odd = random.random() < 0.3
             words += [f"--{axis}", *(random.choice(BOUNDS) if odd else end for end in ("0", "1"))]
         if random.random() < 0.2:
-            given = ("a=1", "a", "=1", "a=x", "a=nan", "u=1", "pi=3", "sin=1", "a=1e999", "é=1", "\0=1")
+            given = (
+                "a=1",
+                "a",
+                "=1",
+                "a=x",
+                "a=nan",
+                "u=1",
+                "pi=3",
+                "sin=1",
+                "a=1e999",
+                "é=1",
+                "\0=1",
+            )
             words += ["--param", random.choice(given)]
     else:
         words.insert(0, _input(random))

@@ -30,7 +30,8 @@ DRAWINGS = (
 )
 DOMAINS = (
     'name = "plate"\nouter = [[0, 0], [4, 0], [4, 3], [0, 3]]\nholes = [[[1, 1], [2, 1], [2, 2]]]\n'
-    'constraints = [[[0.2, 2.5], [3.8, 2.5]]]\npoints = [[3, 1]]\ncrossings = "split"\nmerge = 1e-6\n'
+    'constraints = [[[0.2, 2.5], [3.8, 2.5]]]\npoints = [[3, 1]]\ncrossings = "split"\n'
+    "merge = 1e-6\n"
     "[sizing.distance]\nnear = 0.3\nfar = 0.8\nreach = 1.0\n[facts]\narea = 11.5\nregions = 1\n",
     'name = "two"\ndescription = "two loops"\nouter = [[[0, 0], [2, 0], [2, 2], [0, 2]], '
     "[[3, 0], [4, 0], [4, 1]]]\nsimplify = 0.01\n[sizing]\nsize = 0.5\ngrowth = 1.3\n",
