@@ -26,7 +26,7 @@ define install
 endef
 
 .DEFAULT_GOAL := help
-.PHONY: help venv mesh test lint lowest docs bench constraints licences clean
+.PHONY: help venv mesh test fuzz lint lowest docs bench constraints licences clean
 
 COMPILE := $(BIN)/uv pip compile --quiet --only-binary=:all: --python-version 3.11 \
     --no-annotate --custom-compile-command 'make constraints'
@@ -41,6 +41,9 @@ mesh: $(VENV)/.installed ## mesh, check and draw the wavy surface; results in ou
 
 test: lint ## lint, layers, types and tests
 	$(BIN)/python -m pytest -n 2 --dist worksteal
+
+fuzz: $(VENV)/.installed-dev ## hostile input by thousands: the table (SURFMESH_FUZZ=1000 a kind)
+	SURFMESH_FUZZ=$${SURFMESH_FUZZ:-1000} $(BIN)/python benchmarks/trust.py --parts readers formulas
 
 lint: $(VENV)/.installed-dev ## ruff, the layers of the package, types of the public face
 	$(BIN)/ruff check .

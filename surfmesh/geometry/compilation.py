@@ -55,7 +55,8 @@ def by_definitions(
 
 def operations(expressions: Sequence[sp.Expr]) -> int:
     """How many sums, products, powers and functions there are in expressions, repeated or not."""
-    return sum(bool(p.args) for expression in expressions for p in sp.preorder_traversal(expression))
+    parts = (part for expression in expressions for part in sp.preorder_traversal(expression))
+    return sum(bool(part.args) for part in parts)
 
 
 def long_surface_tape(
