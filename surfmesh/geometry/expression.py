@@ -23,7 +23,8 @@ import sympy as sp
 
 from surfmesh.errors import FormulaError, SurfaceError
 from surfmesh.geometry import real_functions as real
-from surfmesh.geometry.compilation import FUNCTION_OPERATIONS, compiled
+from surfmesh.geometry.compilation import compiled
+from surfmesh.geometry.program import FUNCTION_OPERATIONS
 
 LONGEST = 10_000  # characters of a formula
 DEEPEST = 64  # levels of parentheses, calls, signs and powers
