@@ -26,7 +26,7 @@ define install
 endef
 
 .DEFAULT_GOAL := help
-.PHONY: help venv mesh test lint lowest docs bench constraints licences clean
+.PHONY: help venv mesh test fuzz lint lowest docs bench constraints licences clean
 
 COMPILE := $(BIN)/uv pip compile --quiet --only-binary=:all: --python-version 3.11 \
     --no-annotate --custom-compile-command 'make constraints'
@@ -37,10 +37,13 @@ help: ## this list
 venv: $(VENV)/.installed ## virtual environment with surfmesh (VENV=.venv, PYTHON=python3)
 
 mesh: $(VENV)/.installed ## mesh, check and draw the wavy surface; results in outputs/
-	$(BIN)/surfmesh mesh wavy -o outputs/wavy.vtu --picture outputs/wavy.png --report outputs/wavy.json
+	$(BIN)/surfmesh mesh wavy -o outputs/wavy.vtu --picture outputs/wavy.png --report outputs/wavy.json --second-opinion
 
 test: lint ## lint, layers, types and tests
 	$(BIN)/python -m pytest -n 2 --dist worksteal
+
+fuzz: $(VENV)/.installed-dev ## hostile input by thousands: the table (SURFMESH_FUZZ=1000 a kind)
+	SURFMESH_FUZZ=$${SURFMESH_FUZZ:-1000} $(BIN)/python benchmarks/trust.py --parts readers formulas
 
 lint: $(VENV)/.installed-dev ## ruff, the layers of the package, types of the public face
 	$(BIN)/ruff check .
