@@ -231,6 +231,14 @@ def _add_units(parser: argparse.ArgumentParser) -> None:
         "--sew", type=_positive, metavar="TOL",
         help="join loose faces of a CAD model whose edges lie within TOL; closed ones make solids",
     )
+    parser.add_argument(
+        "--time-limit", type=_positive, metavar="SECONDS",
+        help="of processor time for reading a CAD file (default 10 and 25 for each MB of it)",
+    )
+    parser.add_argument(
+        "--memory-limit", type=_positive, metavar="MB",
+        help="of memory for reading a CAD file (default 1000 and 100 for each MB of it)",
+    )
 
 
 def _add_second_opinion(parser: argparse.ArgumentParser) -> None:

@@ -398,7 +398,7 @@ def _named_surface(name: str, options: Namespace | None = None) -> Any:
     from surfmesh import api
     from surfmesh.geometry.surface_file import gallery as surfaces
 
-    given = () if options is None else ("units", "imprint", "sew")
+    given = () if options is None else ("units", "imprint", "sew", "time_limit", "memory_limit")
     wanted = {option: getattr(options, option) for option in given}
     if Path(name).is_file():
         return api.load(name, **wanted)
