@@ -15,8 +15,6 @@ from surfmesh.cad.lifeline import end_with
 from surfmesh.cad.limits import MORE_MEMORY
 from surfmesh.errors import SurfmeshError
 
-COMPILATION = 60.0  # seconds more when kernels have to be compiled first
-
 
 def main() -> None:
     """Whatever happens in Python ends as a message; what happens in OCP may end the process."""
@@ -35,10 +33,9 @@ def answer_to(wanted: dict[str, Any]) -> Any:
         from surfmesh.cad.joining import Joining
         from surfmesh.cad.limits import Limits
         from surfmesh.cad.readers import read_here
-        from surfmesh.kernels.jit import compiled_before
 
         limits = Limits(wanted["seconds"], wanted["megabytes"])
-        limits.impose(0.0 if compiled_before() else COMPILATION)
+        limits.impose()
         joining = Joining(wanted["imprint"], wanted["sew"])
         return read_here(Path(wanted["path"]), wanted["heal"], wanted["units"], joining)
     except SurfmeshError as error:

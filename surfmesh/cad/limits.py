@@ -57,17 +57,23 @@ class Limits:
                     MEGABYTES + MEGABYTES_A_MEGABYTE * size),
         )  # fmt: skip
 
-    def impose(self, more_seconds: float = 0.0) -> None:
-        """Let the system end this process beyond the limits; on Windows it has none of these."""
+    def impose(self) -> None:
+        """Let the system end this process beyond the limits; on Windows it has none of these.
+
+        The compilation of kernels is not counted: it is no fault of the file.
+        """
         if resource is None:
             return
+        from surfmesh.cad.processor_clock import stop_while_compiling  # numba is heavy
+
         if math.isfinite(self.megabytes):
             _, most = resource.getrlimit(resource.RLIMIT_DATA)
             wanted = _data_bytes() + int((OWN_MEGABYTES + self.megabytes) * 1e6)
             wanted = wanted if most == resource.RLIM_INFINITY else min(wanted, most)
             resource.setrlimit(resource.RLIMIT_DATA, (wanted, most))
         if math.isfinite(self.seconds):
-            signal.setitimer(signal.ITIMER_PROF, min(self.seconds + more_seconds, LONGEST))
+            signal.setitimer(signal.ITIMER_PROF, min(self.seconds, LONGEST))
+            stop_while_compiling()
 
 
 def _chosen(name: str, given: float | None, variable: str, default: float) -> float:

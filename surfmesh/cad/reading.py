@@ -103,7 +103,7 @@ def answer_of(command: list[str], wanted: Mapping[str, Any], name: str, limits: 
             reason += f"; {MORE_MEMORY}" if "memory" in reason.lower() else ""
             raise CadError(f"{name} made the CAD reader fail: {reason}")
         result.seek(0)
-        return pickle.load(result)
+        return pickle.load(result)  # noqa: S301 our own child's, in a file without a name
 
 
 def _ended(
@@ -111,7 +111,9 @@ def _ended(
 ) -> tuple[int, float]:
     """How the child ended, minus the number of the signal that ended it, and its peak in MB."""
     where = {**os.environ, "PYTHONPATH": _import_path()}
-    child = subprocess.Popen(command, stdin=files[0], stdout=files[1], stderr=files[2], env=where)
+    child = subprocess.Popen(  # noqa: S603 a list of our own, no shell
+        command, stdin=files[0], stdout=files[1], stderr=files[2], env=where
+    )
     try:
         if sys.platform == "win32":  # which has no limits for a process: those of the wall's clock
             wall = limits.seconds if limits.seconds < WEEK else None

@@ -7,6 +7,7 @@ its groups, which is more than the 64 characters that readers have room for (Gms
 are written here.
 """
 
+from io import BytesIO
 from pathlib import Path
 from types import ModuleType
 from typing import Any
@@ -55,14 +56,16 @@ def write(mesh: SurfaceMesh, path: Path) -> None:
             names[-1 - below - edge] = [groups.edge_label(edge)]
     content = meshio.Mesh(mesh.nodes, blocks, cell_data={"cell_tags": families})
     content.cell_tags, content.point_tags = {}, {}
-    meshio.med.write(path, content)
-    with h5py.File(path, "r+") as file:
+    image = BytesIO()  # HDF5 says what goes wrong with files late, or on the console alone
+    meshio.med.write(image, content)
+    with h5py.File(image, "r+") as file:
         text = "\n".join(group_lines(mesh, numbered=True)).encode("ascii")
         file[RECORD] = np.frombuffer(text, np.uint8)
         for name, found in file["ENS_MAA"].items():
             _write_families(file["FAS"][name].create_group("ELEME"), names)
             if groups.unit:
                 found.attrs["UNI"] = np.bytes_(groups.unit.ljust(WIDTH) * 3)
+    path.write_bytes(image.getbuffer())
 
 
 def _write_families(parent: Any, names: dict[int, list[str]]) -> None:

@@ -49,8 +49,8 @@ def write(mesh: SurfaceMesh, path: Path) -> None:
     ]
     with open(path, "wb") as file:
         file.write("\n".join(header).encode("ascii") + b"\n")
-        vertices.tofile(file)
-        faces.tofile(file)
+        file.write(vertices.data)  # tofile() hides a full disk
+        file.write(faces.data)
 
 
 def read(path: Path) -> SurfaceMesh:

@@ -31,7 +31,7 @@ def write(mesh: SurfaceMesh, path: Path) -> None:
     with open(path, "wb") as file:
         file.write(f"surfmesh, binary STL{unit}".encode("ascii", "replace").ljust(HEADER))
         file.write(np.uint32(len(records)).tobytes())
-        records.tofile(file)
+        file.write(records.data)  # tofile() hides a full disk
 
 
 def write_ascii(mesh: SurfaceMesh, path: Path) -> None:

@@ -9,6 +9,8 @@ import json
 import zipfile
 from array import array
 from collections.abc import Iterator
+from datetime import UTC, datetime
+from io import BytesIO
 from pathlib import Path
 from typing import BinaryIO
 from xml.sax.saxutils import escape, quoteattr
@@ -18,6 +20,7 @@ from numpy.typing import NDArray
 
 from surfmesh.errors import FileFormatError
 from surfmesh.io import xml_reading
+from surfmesh.io.asked_date import asked_date
 from surfmesh.io.colours import colour_of, hexadecimal
 from surfmesh.io.expansion import Expansion
 from surfmesh.io.text_columns import write_rows
@@ -44,6 +47,8 @@ RELATIONS = (
     f'<Relationship Target="/{MODEL}" Id="rel0" '
     'Type="http://schemas.microsoft.com/3dmanufacturing/2013/01/3dmodel"/></Relationships>'
 )
+EARLIEST, LATEST = datetime(1980, 1, 1, tzinfo=UTC), datetime(2107, 12, 31, tzinfo=UTC)  # of zip
+UNIX = 3  # the system that a zip says it was made on
 VERTEX, TRIANGLE, OBJECT, MESH, METADATA = (
     f"{CORE}}}{name}" for name in ("vertex", "triangle", "object", "mesh", "metadata")
 )
@@ -63,10 +68,11 @@ def write(mesh: SurfaceMesh, path: Path) -> None:
     }
     unit = UNITS.get(mesh.groups.unit, "millimeter")
     colours: dict[str, int] = {}
-    with zipfile.ZipFile(path, "w", zipfile.ZIP_DEFLATED) as archive:
-        archive.writestr("[Content_Types].xml", CONTENT_TYPES)
-        archive.writestr("_rels/.rels", RELATIONS)
-        with archive.open(MODEL, "w", force_zip64=True) as raw:
+    packed = BytesIO()  # zipfile cannot be closed well on a disk that is full
+    with zipfile.ZipFile(packed, "w") as archive:
+        archive.writestr(_entry("[Content_Types].xml"), CONTENT_TYPES)
+        archive.writestr(_entry("_rels/.rels"), RELATIONS)
+        with archive.open(_entry(MODEL), "w", force_zip64=True) as raw:
             file = _Text(raw)
             file.write('<?xml version="1.0" encoding="UTF-8"?>\n')
             file.write(f'<model unit="{unit}" xml:lang="en-US" xmlns="{CORE}" ')
@@ -86,6 +92,16 @@ def write(mesh: SurfaceMesh, path: Path) -> None:
             for number in range(len(bodies)):
                 file.write(f'<item objectid="{MATERIALS + 1 + number}"/>')
             file.write("</build>\n</model>\n")
+    path.write_bytes(packed.getbuffer())
+
+
+def _entry(name: str) -> zipfile.ZipInfo:
+    """Dated by ``SOURCE_DATE_EPOCH``, or by the first day of zip: the same bytes at any time."""
+    date = asked_date() or EARLIEST
+    entry = zipfile.ZipInfo(name, min(max(date, EARLIEST), LATEST).timetuple()[:6])
+    entry.compress_type, entry.create_system = zipfile.ZIP_DEFLATED, UNIX
+    entry.external_attr = 0o644 << 16
+    return entry
 
 
 class _Text:

@@ -1,5 +1,6 @@
-"""VTK's XML files, .vtu (unstructured grid) and .vtp (polygons): written through PyVista, read by
-``vtk_xml_reading``.
+"""VTK's XML files, .vtu (unstructured grid) and .vtp (polygons), and PyVista's data.
+
+Read by ``vtk_xml_reading``.
 
 Names and the like are the bytes of a JSON text in the field data ``surfmesh_groups``: arrays of
 strings hold ASCII alone, and meshio refuses a file that has one.
@@ -10,10 +11,11 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 import numpy as np
+from numpy.typing import NDArray
 
-from surfmesh.errors import FileFormatError
 from surfmesh.io.colours import NO_COLOUR, triangle_colours
 from surfmesh.io.vtk_xml_reading import read_vtk
+from surfmesh.io.xml_writing import Content, write_grid, write_polygons
 from surfmesh.mesh_groups import MeshGroups
 from surfmesh.quality.promises import plain_promises
 from surfmesh.quality.shape import alpha
@@ -43,59 +45,45 @@ def to_pyvista(mesh: SurfaceMesh) -> "pyvista.PolyData":
     data = pyvista.PolyData.from_regular_faces(mesh.points.copy(), mesh.triangles)
     if mesh.sizes is not None:
         data.point_data["size"] = mesh.sizes.copy()
-    data.cell_data["face_id"] = mesh.face_ids.copy()
-    data.cell_data["alpha"] = alpha(mesh)
-    if mesh.solid_ids is not None:
-        data.cell_data["solid_id"] = mesh.solid_ids.copy()
-    colours = triangle_colours(mesh)
-    if colours is not None:
-        data.cell_data["colour"] = np.where(colours < 0, NO_COLOUR, colours).astype(np.uint8)
+    for name, values in _of_triangles(mesh).items():
+        data.cell_data[name] = values.copy()
     data.set_active_scalars(None)
     return data
 
 
-def write(mesh: SurfaceMesh, path: Path) -> None:
-    import pyvista
+def _of_triangles(mesh: SurfaceMesh) -> dict[str, NDArray]:
+    found: dict[str, NDArray] = {"face_id": mesh.face_ids, "alpha": alpha(mesh)}
+    if mesh.solid_ids is not None:
+        found["solid_id"] = mesh.solid_ids
+    colours = triangle_colours(mesh)
+    if colours is not None:
+        found["colour"] = np.where(colours < 0, NO_COLOUR, colours).astype(np.uint8)
+    return found
 
-    data = to_pyvista(mesh)
+
+def write(mesh: SurfaceMesh, path: Path) -> None:
+    grid = path.suffix.lower() == ".vtu"
+    of_triangles = _of_triangles(mesh)
+    field = {"one_sided": np.array([mesh.one_sided], np.uint8)}
     if mesh.uv_points is not None:
-        data.cell_data["uv"] = mesh.uv.reshape(-1, 6)  # u, v of the three corners
+        of_triangles["uv"] = mesh.uv.reshape(-1, 6)  # u, v of the three corners
     if mesh.inverse_sizes is not None:
-        data.cell_data[METRIC_ROWS] = mesh.uv_triangles.copy()
-        data.field_data[METRIC] = mesh.inverse_sizes.copy()
-    data.field_data["one_sided"] = np.array([mesh.one_sided], np.uint8)
-    text = json.dumps(mesh.groups.plain()).encode()
-    data.field_data[GROUPS] = np.frombuffer(text, np.uint8)
+        of_triangles[METRIC_ROWS] = mesh.uv_triangles
+        field[METRIC] = mesh.inverse_sizes
+    field[GROUPS] = np.frombuffer(json.dumps(mesh.groups.plain()).encode(), np.uint8)
     promises = plain_promises(mesh)
     if promises is not None:
-        data.field_data[PROMISES] = np.nan_to_num(promises)  # VTK's XML has no nan
+        field[PROMISES] = np.nan_to_num(promises)  # VTK's XML has no nan
     for name in BESIDE:
         if getattr(mesh, name) is not None and len(getattr(mesh, name)):
-            data.field_data[name] = getattr(mesh, name).copy()
-    if path.suffix.lower() == ".vtu":
-        data = _grid_of(mesh, data)
-    with pyvista.vtk_verbosity("off"):
-        data.save(path)
-    if not path.stat().st_size:  # VTK reports a full disk on its own console only
-        raise FileFormatError(f"{path}: VTK could not write it")
-
-
-def _grid_of(mesh: SurfaceMesh, data: "pyvista.PolyData") -> "pyvista.UnstructuredGrid":
-    """The same as a grid, with six nodes a triangle for order 2."""
-    if mesh.order == 1:
-        return data.cast_to_unstructured_grid()
-    import pyvista
-
-    six = {pyvista.CellType.QUADRATIC_TRIANGLE: mesh.elements}
-    grid = pyvista.UnstructuredGrid(six, mesh.nodes)
-    for name, values in data.cell_data.items():
-        grid.cell_data[name] = values
-    for name, values in data.point_data.items():
-        grid.point_data[name] = node_values(values, mesh.edges)
-    for name, values in data.field_data.items():
-        grid.field_data[name] = values
-    grid.set_active_scalars(None)
-    return grid
+            field[name] = getattr(mesh, name)
+    points, cells, sizes = mesh.points, mesh.triangles, mesh.sizes
+    if grid and mesh.order == 2:
+        points, cells = mesh.nodes, mesh.elements
+        sizes = None if sizes is None else node_values(sizes, mesh.edges)
+    of_points = {} if sizes is None else {"size": sizes}
+    content = Content(points, cells, of_points, of_triangles, field)
+    (write_grid if grid else write_polygons)(content, path)
 
 
 def read(path: Path) -> SurfaceMesh:
