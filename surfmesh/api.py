@@ -55,7 +55,7 @@ def load(
 
     time_limit, memory_limit: seconds of processor time and MB of memory that reading a CAD file
     may take, inf for no limit. None: the environment variables SURFMESH_READ_SECONDS and
-    SURFMESH_READ_MEMORY, else 10 s and 1000 MB and, for each MB of the file, 25 s and 100 MB.
+    SURFMESH_READ_MEMORY, else 8 s and 1000 MB and, for each MB of the file, 25 s and 100 MB.
 
     Raises ``CadError`` for a CAD file without a model, ``FileFormatError`` for a file of
     another kind, ``SurfaceError`` or ``DomainError`` for what is wrong in it.

@@ -125,8 +125,8 @@ pickle.dump(answer, sys.stdout.buffer)
 def test_limits_are_by_the_size_of_the_file_unless_said(tmp_path, monkeypatch):
     path = tmp_path / "part.step"
     path.write_bytes(b" " * 2_000_000)
-    assert Limits.of(path, None, None, joins=False) == Limits(60.0, 1200.0)
-    assert Limits.of(path, None, None, joins=True).seconds == 480.0
+    assert Limits.of(path, None, None, joins=False) == Limits(58.0, 1200.0)
+    assert Limits.of(path, None, None, joins=True).seconds == 464.0
     monkeypatch.setenv("SURFMESH_READ_SECONDS", "7")
     monkeypatch.setenv("SURFMESH_READ_MEMORY", "inf")
     assert Limits.of(path, None, None, joins=False) == Limits(7.0, math.inf)
