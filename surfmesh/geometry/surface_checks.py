@@ -10,6 +10,7 @@ from surfmesh.errors import FormulaError, SurfaceError
 from surfmesh.geometry.surface import Domain, Surface
 
 NO_AREA = 1e-11  # sine of the angle between r_u and r_v: r_u x r_v is round-off below it
+LARGEST = 1e100  # lengths and their inverses are below it, so that their squares are numbers
 SAMPLES = 48  # cells each way on which a surface is tried; the points sit on their corners
 
 
@@ -60,9 +61,14 @@ def sample_grid(domain: Domain, cells: int = SAMPLES) -> np.ndarray:
 
 
 def refuse_no_area(surface: Surface) -> None:
-    """Raise SurfaceError for a surface that is a point or a curve."""
+    """Raise SurfaceError for a surface that is a point or a curve, or has lengths without squares.
+    """
     points = sample_grid(surface.domain).reshape(-1, 2)
     r, r_u, r_v = surface.evaluate(points, 1)
+    if (far := np.abs(r).max()) > LARGEST:
+        raise SurfaceError(f"the surface reaches {far:g}, too far away to compute with; scale it")
+    if 0.0 < (width := np.ptp(r, axis=0).max()) < 1.0 / LARGEST:
+        raise SurfaceError(f"the surface is {width:g} wide, too small to compute with; scale it")
     if not np.ptp(r, axis=0).any():
         raise SurfaceError("the surface is a single point: none of x, y, z changes with u or v")
     # in parts of the domain, so that u and v may have different units
