@@ -34,6 +34,9 @@ from surfmesh.surface_mesh import SurfaceMesh
 
 logger = logging.getLogger(__name__)
 
+FARTHEST = 1e100
+"""Of a coordinate of a point: its square is a number."""
+
 
 def load(
     path: str | Path,
@@ -149,10 +152,12 @@ def explain(
     surface, wishes = _settled(surface, sizing)
     try:
         place = np.array(point, float)
-    except (TypeError, ValueError):
+    except (TypeError, ValueError, OverflowError):
         place = np.empty(0)
     if place.shape != (3,) or not np.isfinite(place).all():
         raise SizingError(f"a point is three finite numbers, not {point!r:.60}")
+    if np.abs(place).max() > FARTHEST:
+        raise SizingError(f"the point {point!r:.60} is too far away to compute with")
     if isinstance(surface, CadModel):
         return explain_size(surface, wishes, place)
     return explain_parametric(surface, wishes, place)
