@@ -93,6 +93,7 @@ def _parser() -> _Parser:
     mesh.add_argument("--picture", metavar="PNG", help="write a picture too")
     mesh.add_argument("--by", default="alpha", choices=_COLOURS, help="colour of the picture")
     mesh.add_argument("--report", metavar="JSON|HTML", help="write the report too")
+    _add_second_opinion(mesh)
     _add_json(mesh)
 
     check = commands.add_parser("check", help="report on a mesh file")
@@ -101,6 +102,7 @@ def _parser() -> _Parser:
         "--surface", metavar="INPUT", help="formula file, gallery name or CAD file it was made from"
     )
     _add_units(check)
+    _add_second_opinion(check)
     _add_json(check)
 
     view = commands.add_parser("view", help="show a mesh or a surface")
@@ -119,6 +121,7 @@ def _parser() -> _Parser:
     report.add_argument("--by", default="alpha", choices=_COLOURS, help="colour at first")
     _add_sizes(report)
     _add_cad(report)
+    _add_second_opinion(report)
     _add_json(report)
 
     explain = commands.add_parser("explain", help="which rule decides the size at a point")
@@ -205,6 +208,13 @@ def _add_units(parser: argparse.ArgumentParser) -> None:
         "--sew", type=_positive, metavar="TOL",
         help="join loose faces of a CAD model whose edges lie within TOL; closed ones make solids",
     )
+
+
+def _add_second_opinion(parser: argparse.ArgumentParser) -> None:
+    parser.add_argument(
+        "--second-opinion", action="store_true",
+        help="ask trimesh and pyvista too; where they disagree the mesh is not clean",
+    )  # fmt: skip
 
 
 def _add_json(parser: argparse.ArgumentParser) -> None:

@@ -46,7 +46,7 @@ def mesh(options: Namespace) -> bool:
         )
         result = result.flipped() if options.flip else result
         progress("check", 0.92)
-        report = checked(result)
+        report = checked(result, second_opinion=options.second_opinion)
         progress("write", 0.95)
         start = perf_counter()
         files = {"mesh": str(save(result, options.output, ascii=options.ascii))}
@@ -87,7 +87,7 @@ def check(options: Namespace) -> bool:
 
         source = Path(options.input)
         found = replace(found, facts=ModelFacts(source=source.name, sha256=file_sha256(source)))
-    report = checked(found)
+    report = checked(found, second_opinion=options.second_opinion)
     if options.json:
         _print_json(report.to_dict())
     else:
@@ -129,7 +129,7 @@ def report(options: Namespace) -> bool:
         from surfmesh.view import html_report
 
         progress("check", 0.9)
-        found = checked(shown)
+        found = checked(shown, second_opinion=options.second_opinion)
         progress("write", 0.95)
         try:
             name = Path(options.input).stem

@@ -4,7 +4,7 @@ import json
 import math
 import re
 from collections.abc import Mapping
-from dataclasses import asdict, dataclass, fields, is_dataclass
+from dataclasses import asdict, dataclass, fields, is_dataclass, replace
 from time import perf_counter
 from typing import Any
 
@@ -50,6 +50,12 @@ from surfmesh.quality.promises import (
 )
 from surfmesh.quality.provenance import mesh_sha256, versions
 from surfmesh.quality.remarks import loose_faces, sheets_facing_apart, touching_bodies
+from surfmesh.quality.second_opinion import (
+    SecondOpinion,
+    disagreements,
+    second_opinion,
+    unanswered,
+)
 from surfmesh.quality.self_intersection import MeetingPair, located, meeting_pairs
 from surfmesh.quality.shape import enclosed_volume, metric_alpha, shapes
 from surfmesh.quality.solids import shares_faces
@@ -85,6 +91,8 @@ class Report:
     one_sided: bool  # by nature of the surface: no orientation is demanded
     components: int
     boundary_loops: int
+    boundary_edges: int  # of one triangle
+    nonmanifold_edges: int  # of three triangles or more
     self_intersections: int | None  # pairs of triangles that meet where they share nothing
     crosses_itself: bool  # by nature of the surface: self-intersections are no fault
     meeting: tuple[MeetingPair, ...]  # the first twenty of them
@@ -168,6 +176,7 @@ class Report:
     volume_error: float | None  # volume / volume_exact - 1
     by_face: tuple[FaceRow, ...]
     by_solid: tuple[SolidRow, ...]
+    second_opinion: SecondOpinion | None  # of trimesh and PyVista; None: they were not asked
 
     unit: str  # of lengths; empty when it is not known
     source: str  # the file, or what else the mesh was made from
@@ -210,13 +219,35 @@ class Report:
         return summary(self)
 
 
-def check(mesh: SurfaceMesh) -> Report:
+def check(mesh: SurfaceMesh, *, second_opinion: bool = False) -> Report:
     """Look at everything that can be said of ``mesh``: topology, self-intersection, shape,
     sizes, deviation, each of them against the model where that is known.
+
+    second_opinion=True asks trimesh and PyVista too for what they know of: topology, area,
+    volume, shapes, beside ours in ``report.second_opinion``. Where they disagree by more than
+    rounding the mesh is not clean.
 
     Raises ``ValueError`` when its indices are out of range; everything else that is wrong is
     in ``report.problems``.
     """
+    report = _checked(mesh)
+    return with_second_opinion(report, mesh) if second_opinion else report
+
+
+def with_second_opinion(report: Report, mesh: SurfaceMesh) -> Report:
+    """The same report of ``mesh`` with what trimesh and PyVista say of it."""
+    start = perf_counter()
+    opinion = second_opinion(mesh, report)
+    return replace(
+        report,
+        second_opinion=opinion,
+        problems=(*report.problems, *disagreements(opinion)),
+        warnings=(*report.warnings, *unanswered(opinion)),
+        seconds={**report.seconds, "second opinion": perf_counter() - start},
+    )
+
+
+def _checked(mesh: SurfaceMesh) -> Report:
     start = perf_counter()
     broken = mesh.check()
     if broken and "is outside" in broken:
@@ -301,6 +332,8 @@ def check(mesh: SurfaceMesh) -> Report:
         one_sided=mesh.one_sided,
         components=topo.components,
         boundary_loops=topo.boundary_loops,
+        boundary_edges=topo.boundary_edges,
+        nonmanifold_edges=len(topo.crowded_edges),
         self_intersections=None if pairs is None else len(pairs),
         crosses_itself=crosses,
         meeting=meeting,
@@ -375,6 +408,7 @@ def check(mesh: SurfaceMesh) -> Report:
         volume_error=relative_error(volume, facts.volume),
         by_face=rows,
         by_solid=solids,
+        second_opinion=None,
         unit=facts.unit,
         source=facts.source,
         source_sha256=facts.sha256,

@@ -18,7 +18,7 @@ SHOWN_ROWS = 500  # of a table within the report; the JSON has them all
 ALL_DIGITS = 9  # where every figure is listed
 _SAID = ("problems", "warnings", "options")  # have places of their own
 _NOT_KEPT = ("seconds",)  # differ every time, where the same mesh is to give the same page
-_FIGURES = (  # title, fields, how they are said; a row without any known field is left out
+_FIGURES = (  # title, fields, how they are said; a row whose first field is not known is left out
     ("topology", ("closed", "manifold", "oriented"), "closed {}, manifold {}, oriented {}"),
     ("crossings", ("self_intersections",), "{}"),
     ("Euler number", ("euler",), "{}"),
@@ -32,8 +32,8 @@ _FIGURES = (  # title, fields, how they are said; a row without any known field 
     ("volume off by", ("volume_error",), "{}"),
     (
         "bodies",
-        ("overlapping_bodies", "touching_bodies", "contacts"),
-        "{} pairs overlap, {} touch without a common face, {} pairs of triangles meet",
+        ("contacts", "overlapping_bodies", "touching_bodies"),
+        "{1} pairs overlap, {2} touch without a common face, {0} pairs of triangles meet",
     ),
     ("alpha", ("alpha_mean", "alpha_p01", "alpha_min"), "mean {}, 1 % below {}, smallest {}"),
     ("alpha in the metric", ("alpha_metric_mean", "alpha_metric_min"), "mean {}, smallest {}"),
@@ -78,6 +78,7 @@ def certificate_html(mesh: SurfaceMesh, report: Report, colourings: dict[str, Co
             _folded("Histograms", histograms, is_open=True),
             _folded("Worst triangles", _worst(mesh), is_open=True),
             _folded("Faces", _faces(values["by_face"])) if len(report.by_face) > 1 else "",
+            _opinion(values.get("second_opinion")),
             _folded("Options", _table(values.get("options") or {}), is_open=True),
             _folded("Every figure", _table(figures)),
             _folded("As text", f"<pre>{escape(str(report))}</pre>"),
@@ -95,7 +96,7 @@ def _figures(values: Mapping[str, Any]) -> str:
             else f"{value:+.2%}" if name.endswith("_error") and value is not None else value
             for name, value in zip(names, found)
         ]
-        if any(value is not None for value in found):
+        if found[0] is not None:
             said = words.format(*map(_said, found))
             rows.append(f'<tr><th>{title}</th><td class="number">{escape(said)}</td></tr>')
     return f"<table>{''.join(rows)}</table>"
@@ -125,6 +126,24 @@ def _faces(rows: list[Mapping[str, Any]]) -> str:
     return _records(
         [{title: row[name] for title, name in _OF_FACES} for row in rows if row["triangles"]]
     )
+
+
+def _opinion(found: Mapping[str, Any] | None) -> str:
+    """Ours beside those of trimesh and PyVista, those that disagree first; open if there are."""
+    if found is None:
+        return ""
+    said = {True: "agrees", False: "DISAGREES", None: "not compared"}
+    rows = [
+        {
+            "figure": row["quantity"] + f" of {row['of']}" * bool(row["of"]),
+            "ours": _said(row["ours"], ALL_DIGITS),
+            "theirs": _said(row["theirs"], ALL_DIGITS),
+            "": f"{row['whose']} {said[row['agree']]}" + f": {row['note']}" * bool(row["note"]),
+        }
+        for row in sorted(found["rows"], key=lambda row: row["agree"] is not False)
+    ]
+    title = f"Second opinion ({found['agreed']:,} of {found['compared']:,} figures agree)"
+    return _folded(title, _records(rows), is_open=found["agreed"] < found["compared"])
 
 
 def _table(values: Mapping[str, Any]) -> str:
