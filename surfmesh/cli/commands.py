@@ -1,7 +1,5 @@
 """What each command does. Every one returns whether all is well."""
 
-import json
-import sys
 import tomllib
 from argparse import Namespace
 from dataclasses import replace
@@ -11,7 +9,8 @@ from time import perf_counter
 from typing import Any
 
 from surfmesh.cli.progress import ProgressBar, announce_compilation
-from surfmesh.errors import FileFormatError, SurfaceError, SurfmeshError
+from surfmesh.cli.terminal import say, say_json
+from surfmesh.errors import FileFormatError, SurfaceError, SurfmeshError, printable
 
 SIZES = (
     "chord", "angle", "size", "min_size", "max_size", "growth", "anisotropy", "volume", "gap",
@@ -27,6 +26,7 @@ def mesh(options: Namespace) -> bool:
     for path, *extensions in ((options.picture, ".png"), (options.report, ".json", ".html")):
         if path:
             require_writable(path, *extensions)
+    sizing = _sizing(options)
     surface = _surface(options)
 
     from surfmesh import api
@@ -36,7 +36,7 @@ def mesh(options: Namespace) -> bool:
     with ProgressBar() as progress:
         result = api.mesh(
             surface,
-            _sizing(options),
+            sizing,
             optimise=not options.no_optimise,
             progress=progress,
             strict=not options.no_strict,
@@ -59,10 +59,10 @@ def mesh(options: Namespace) -> bool:
         if options.report:
             files["report"] = str(_report_written(result, report, options))
     if options.json:
-        _print_json(report.to_dict() | {"files": files})
+        say_json(report.to_dict() | {"files": files})
     else:
-        print(report)
-        print("  written   ", ", ".join(files.values()))
+        say(report)
+        say(f"  written    {printable(', '.join(files.values()))}")
     return report.clean
 
 
@@ -89,9 +89,9 @@ def check(options: Namespace) -> bool:
         found = replace(found, facts=ModelFacts(source=source.name, sha256=file_sha256(source)))
     report = checked(found, second_opinion=options.second_opinion)
     if options.json:
-        _print_json(report.to_dict())
+        say_json(report.to_dict())
     else:
-        print(report.to_text())
+        say(report.to_text())
     return report.clean
 
 
@@ -137,10 +137,10 @@ def report(options: Namespace) -> bool:
         except ValueError as error:  # the mesh has no data to colour by
             raise SurfmeshError(str(error)) from error
     if options.json:
-        _print_json(found.to_dict() | {"files": {"html": options.output}})
+        say_json(found.to_dict() | {"files": {"html": options.output}})
     else:
-        print(found)
-        print("  written   ", options.output)
+        say(found)
+        say(f"  written    {printable(options.output)}")
     return found.clean
 
 
@@ -150,40 +150,43 @@ def _shown(options: Namespace, progress: ProgressBar) -> Any:
 
     if Path(options.input).suffix.lower() in FORMATS:
         return read(options.input)
+    sizing = _sizing(options)
     surface = _named_surface(options.input, options)
 
     from surfmesh import api
 
     announce_compilation()
     strict = {"strict": False} if options.no_strict else {}
-    return api.mesh(surface, _sizing(options), progress=progress, **strict)
+    return api.mesh(surface, sizing, progress=progress, **strict)
 
 
 def explain(options: Namespace) -> bool:
     """Say which rule decides the size at a point."""
+    sizing = _sizing(options)
     surface = _named_surface(options.input, options)
 
     from surfmesh import api
 
-    found = api.explain(surface, _sizing(options), options.at)
+    found = api.explain(surface, sizing, options.at)
     if options.json:
-        _print_json(found.to_dict())
+        say_json(found.to_dict())
     else:
-        print(found)
+        say(found)
     return True
 
 
 def estimate(options: Namespace) -> bool:
     """Say how many triangles there would be, and how much memory they need."""
+    sizing = _sizing(options)
     surface = _named_surface(options.input, options)
 
     from surfmesh import api
 
-    found = api.estimate(surface, _sizing(options))
+    found = api.estimate(surface, sizing)
     if options.json:
-        _print_json(found.to_dict())
+        say_json(found.to_dict())
     else:
-        print(found)
+        say(found)
     return True
 
 
@@ -226,14 +229,14 @@ def pack(options: Namespace) -> bool:
     if options.output:
         found.plot(options.output, options.show)
     if options.json:
-        _print_json(figures | {"problem": broken, "file": options.output})
+        say_json(figures | {"problem": broken, "file": options.output})
     else:
-        print(f"{figures['nodes']:,} circles, {figures['elements']:,} triangles", end="")
-        print(f" - NOT VALID: {broken}" if broken else " - valid")
+        verdict = f"NOT VALID: {broken}" if broken else "valid"
+        say(f"{figures['nodes']:,} circles, {figures['elements']:,} triangles - {verdict}")
         for title, names in _PACKING_ROWS.items():
-            print(f"  {title:<34}", ", ".join(f"{n} {figures[n]:.6g}" for n in names))
+            say(f"  {title:<34} {', '.join(f'{n} {figures[n]:.6g}' for n in names)}")
         if options.output:
-            print("  written   ", options.output)
+            say(f"  written    {printable(options.output)}")
     return broken is None
 
 
@@ -255,11 +258,11 @@ def gallery(options: Namespace) -> bool:
         described.append((name, content.get("description", ""), path))
     if options.json:
         keys = ("name", "description", "path")
-        _print_json({"surfaces": [dict(zip(keys, map(str, entry))) for entry in described]})
+        say_json({"surfaces": [dict(zip(keys, map(str, entry))) for entry in described]})
     else:
         width = max((len(name) for name, *_ in described), default=0)
         for name, description, _ in described:
-            print(f"{name:<{width}}  {description}")
+            say(f"{printable(name):<{width}}  {printable(description)}")
     return True
 
 
@@ -379,8 +382,3 @@ def _written(text: str, path: str) -> Path:
     with replacing(Path(path)) as temporary:
         temporary.write_text(text + "\n", encoding="utf-8")
     return Path(path)
-
-
-def _print_json(value: dict[str, Any]) -> None:
-    json.dump(value, sys.stdout, indent=2, ensure_ascii=False, allow_nan=False)
-    print()

@@ -12,6 +12,7 @@ from xml.etree.ElementTree import ParseError
 import numpy as np
 
 from surfmesh.errors import DomainError
+from surfmesh.geometry.text_file import text_of
 
 DEFAULT_TOLERANCE = 1e-3  # of the diagonal, between a curve and its polyline
 MOST_PIECES = 100_000  # of one curve: a tolerance that asks for more is a mistake
@@ -83,14 +84,7 @@ def _opened(source: str | Path) -> tuple[str, io.StringIO]:
     if isinstance(source, str) and "<svg" in source:
         return "drawing", io.StringIO(source)
     path = Path(source)
-    try:
-        return path.stem, io.StringIO(path.read_text(encoding="utf-8"))
-    except FileNotFoundError:
-        raise DomainError(f"{path}: no such file") from None
-    except OSError as error:
-        raise DomainError(f"{path}: cannot be read: {error.strerror}") from None
-    except UnicodeDecodeError as error:
-        raise DomainError(f"{path}: not an SVG drawing: {error}") from None
+    return path.stem, io.StringIO(text_of(path, DomainError, "an SVG drawing"))
 
 
 def _user_units(drawing: Any, svgelements: Any) -> Any:

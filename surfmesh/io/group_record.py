@@ -42,11 +42,13 @@ def group_lines(mesh: SurfaceMesh, numbered: bool = False) -> list[str]:
     return [MARK + text[at : at + WIDTH] for at in range(0, len(text), WIDTH)]
 
 
-def group_fields(lines: Iterable[str], face_ids: NDArray | None = None) -> dict[str, Any]:
+def group_fields(
+    lines: Iterable[str], triangles: int, face_ids: NDArray | None = None
+) -> dict[str, Any]:
     """Fields of a SurfaceMesh from the lines that start with ``MARK``; {} when there are none.
 
-    Marks of comments before it are passed over. face_ids: (m,) where the format has them. A text
-    that is damaged raises ValueError.
+    Marks of comments before it are passed over. triangles: the number m of them; face_ids: (m,)
+    where the format has them. A text that is damaged, or of another mesh, raises ValueError.
     """
     marked = (line.removeprefix("comment").lstrip("$#* ") for line in lines)
     pieces = [line.removeprefix(MARK).strip() for line in marked if line.startswith(MARK)]
@@ -64,9 +66,14 @@ def group_fields(lines: Iterable[str], face_ids: NDArray | None = None) -> dict[
         found["edge_segments"] = found["edge_segments"].reshape(-1, 2)
     if face_ids is None and "runs" in record:
         runs = np.array(record["runs"], np.int64).reshape(-1, 2)
+        if (runs[:, 1] < 0).any() or sum(runs[:, 1].tolist()) != triangles:
+            raise ValueError(f"the record of groups is not of {triangles} triangles")
         found["face_ids"] = face_ids = np.repeat(runs[:, 0], runs[:, 1])
     if face_ids is not None and "solids" in record:
         solids = np.array(record["solids"], np.int32).reshape(-1, 2)
+        faces = np.asarray(face_ids)
+        if len(faces) and not 0 <= int(faces.min()) <= int(faces.max()) < len(solids):
+            raise ValueError(f"the record of groups knows the solids of {len(solids)} faces only")
         found["solid_ids"] = solids[face_ids]
     return found
 

@@ -108,7 +108,7 @@ def read(path: Path) -> SurfaceMesh:
     table = np.concatenate(rows)
     by_tag = np.argsort(table[:, 0], kind="stable")
     nodes, elements = placed(path, np.concatenate(tags), np.concatenate(points), table[by_tag, 1:])
-    fields = group_fields(record)
+    fields = group_fields(record, len(table))
     fields.setdefault("face_ids", np.concatenate(face_ids)[by_tag])
     fields.setdefault("groups", MeshGroups(face_names=tuple(names)))
     if elements.shape[1] == 6:

@@ -97,7 +97,7 @@ def read(path: Path) -> SurfaceMesh:
             raise FileFormatError(f"{path}: holds cells {block.type} that are not triangles")
     if len(elements) != 1:
         raise FileFormatError(f"{path}: holds no triangles, or some of three and some of six nodes")
-    fields = group_fields(text.splitlines())
+    fields = group_fields(text.splitlines(), len(elements[0]))
     if "face_ids" not in fields:
         numbers, fields["face_ids"] = np.unique(-families[0], return_inverse=True)
         held = [found.cell_tags.get(-number) or [""] for number in numbers.tolist()]

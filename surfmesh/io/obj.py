@@ -54,7 +54,7 @@ def read(path: Path) -> SurfaceMesh:
         points=np.array(points, float).reshape(-1, 3),
         triangles=np.array(triangles, np.int64).reshape(-1, 3) - 1,
         face_ids=face_ids,
-        **group_fields(record, np.array(face_ids, int)),
+        **group_fields(record, len(triangles), np.array(face_ids, int)),
     )
 
 

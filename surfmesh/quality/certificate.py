@@ -2,6 +2,7 @@
 
 from typing import TYPE_CHECKING
 
+from surfmesh.errors import printable
 from surfmesh.quality.opinion_rows import said_of
 from surfmesh.quality.summary import summary
 
@@ -182,7 +183,7 @@ def _histograms(report: "Report") -> str:
 def _healing(report: "Report") -> str:
     if not report.healing:
         return ""
-    return "\n".join(["healing", *(f"  {sentence}" for sentence in report.healing)])
+    return "\n".join(["healing", *(f"  {printable(sentence)}" for sentence in report.healing)])
 
 
 def _origin(report: "Report") -> str:
@@ -194,14 +195,15 @@ def _origin(report: "Report") -> str:
     versions = ", ".join(f"{name} {number}" for name, number in report.versions.items())
     rows = [("source", report.source), ("unit", report.unit), ("sha256", report.source_sha256)]
     rows += [("options", options), ("mesh", f"sha256 {report.mesh_sha256}"), ("with", versions)]
-    return "\n".join(["origin", *(f"  {title:<11}{text}" for title, text in rows if text)])
+    lines = (f"  {title:<11}{printable(text)}" for title, text in rows if text)
+    return "\n".join(["origin", *lines])
 
 
 def _table(title: str, head: tuple[str, ...], rows: list[tuple[str, ...]]) -> str:
     """Columns as wide as they must be; numbers to the right, words to the left."""
     if not rows:
         return ""
-    columns = list(zip(head, *rows))
+    columns = [tuple(map(printable, column)) for column in zip(head, *rows)]
     used = [column for column in columns if any(cell != "" for cell in column[1:])]
     lines = [title]
     for cells in zip(*used):

@@ -84,12 +84,12 @@ def _each_triangle(library: Witness, name: str, measure: Measure) -> None:
     ours, theirs, bound, reason = measure
     if reason or not isinstance(theirs, np.ndarray):
         answer = theirs if isinstance(theirs, Failed) else None
-        library.near(f"{name} of every triangle", None, answer, 0.0, 0, "", reason)
+        library.near(f"{name} by triangles", None, answer, 0.0, 0, "", reason)
         return
     beyond = np.abs(theirs - ours) - bound
     t = int(np.argmax(np.where(np.isnan(beyond), np.inf, beyond)))
     library.near(
-        f"{name} of every triangle", float(ours[t]), float(theirs[t]), float(bound[t]), 0,
+        f"{name} by triangles", float(ours[t]), float(theirs[t]), float(bound[t]), 0,
         f"triangle {t}",
     )  # fmt: skip
 

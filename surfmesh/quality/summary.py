@@ -3,6 +3,8 @@
 import textwrap
 from typing import TYPE_CHECKING
 
+from surfmesh.errors import printable
+
 if TYPE_CHECKING:
     from surfmesh.quality.report import Report
 
@@ -64,7 +66,7 @@ def summary(report: "Report") -> str:
         )
     ]
     lines += _listed([f"warning: {text}" for text in report.warnings], _SHOWN_WARNINGS, "warning")
-    return "\n".join(lines)
+    return "\n".join(map(printable, lines))
 
 
 def _topology(report: "Report") -> str:

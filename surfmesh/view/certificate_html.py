@@ -16,6 +16,8 @@ from surfmesh.view.page_data import MARKED
 
 SHOWN_ROWS = 500  # of a table within the report; the JSON has them all
 ALL_DIGITS = 9  # where every figure is listed
+FEW_DIGITS = 7  # where two stand side by side
+DOUBLE_DIGITS = 17  # where they differ
 _SAID = ("problems", "warnings", "options")  # have places of their own
 _NOT_KEPT = ("seconds",)  # differ every time, where the same mesh is to give the same page
 _FIGURES = (  # title, fields, how they are said; a row whose first field is not known is left out
@@ -74,11 +76,11 @@ def certificate_html(mesh: SurfaceMesh, report: Report, colourings: dict[str, Co
     return "\n".join(
         (
             _section("Certificate", problems + _figures(values)),
+            _opinion(values.get("second_opinion")),
             _folded(f"Notes ({len(report.warnings)})", f"<ul>{notes}</ul>") if notes else "",
             _folded("Histograms", histograms, is_open=True),
             _folded("Worst triangles", _worst(mesh), is_open=True),
             _folded("Faces", _faces(values["by_face"])) if len(report.by_face) > 1 else "",
-            _opinion(values.get("second_opinion")),
             _folded("Options", _table(values.get("options") or {}), is_open=True),
             _folded("Every figure", _table(figures)),
             _folded("As text", f"<pre>{escape(str(report))}</pre>"),
@@ -129,21 +131,35 @@ def _faces(rows: list[Mapping[str, Any]]) -> str:
 
 
 def _opinion(found: Mapping[str, Any] | None) -> str:
-    """Ours beside those of trimesh and PyVista, those that disagree first; open if there are."""
+    """Ours beside those of each library, those that disagree first; open if there are."""
     if found is None:
         return ""
-    said = {True: "agrees", False: "DISAGREES", None: "not compared"}
-    rows = [
-        {
-            "figure": row["quantity"] + f" of {row['of']}" * bool(row["of"]),
-            "ours": _said(row["ours"], ALL_DIGITS),
-            "theirs": _said(row["theirs"], ALL_DIGITS),
-            "": f"{row['whose']} {said[row['agree']]}" + f": {row['note']}" * bool(row["note"]),
-        }
-        for row in sorted(found["rows"], key=lambda row: row["agree"] is not False)
-    ]
+    tables = "".join(
+        _opinion_of(name, [row for row in found["rows"] if row["whose"] == name])
+        for name in dict.fromkeys(row["whose"] for row in found["rows"])
+    )
     title = f"Second opinion ({found['agreed']:,} of {found['compared']:,} figures agree)"
-    return _folded(title, _records(rows), is_open=found["agreed"] < found["compared"])
+    return _folded(title, tables, is_open=found["agreed"] < found["compared"])
+
+
+def _opinion_of(name: str, rows: list[Mapping[str, Any]]) -> str:
+    ordered = sorted(rows, key=lambda row: row["agree"] is not False)
+    body = "".join(map(_opinion_row, ordered[:SHOWN_ROWS]))
+    more = len(rows) - SHOWN_ROWS
+    left = f'<p class="hint">{more:,} more rows are in the JSON report</p>' if more > 0 else ""
+    head = f"<tr><th>{escape(name)}</th><th>ours</th><th>theirs</th><th>agree</th></tr>"
+    return f'<table class="opinion"><thead>{head}</thead><tbody>{body}</tbody></table>{left}'
+
+
+def _opinion_row(row: Mapping[str, Any]) -> str:
+    figure = escape(row["quantity"] + (f" ({row['of']})" if row["of"] else ""))
+    digits = DOUBLE_DIGITS if row["agree"] is False else FEW_DIGITS
+    ours, theirs = (_said(row[name], digits) for name in ("ours", "theirs"))
+    if row["agree"] is None:
+        said = f'<td colspan="2">not compared: {escape(row["note"])}</td>'
+    else:
+        said = f'<td class="number">{theirs}</td><td>{"yes" if row["agree"] else "NO"}</td>'
+    return f'<tr><td>{figure}</td><td class="number">{ours}</td>{said}</tr>'
 
 
 def _table(values: Mapping[str, Any]) -> str:

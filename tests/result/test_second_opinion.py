@@ -246,7 +246,7 @@ def test_wrong_shapes_are_found_on_one_triangle(monkeypatch):
     original = module.shapes
     monkeypatch.setattr(module, "shapes", bent)
     found = check(MESHES["closed"], second_opinion=True).second_opinion
-    assert row(found, "pyvista", "alpha of every triangle", "triangle 5").agree is False
+    assert row(found, "pyvista", "alpha by triangles", "triangle 5").agree is False
 
 
 # ------------------------------------------------------------------ what cannot be compared
@@ -374,7 +374,9 @@ def test_the_page_of_a_disagreement_opens_there(tmp_path):
     wrong = with_second_opinion(replace(check(FLAT), euler=3), FLAT)
     text = html_report(FLAT, tmp_path / "a.html", report=wrong).read_text("utf-8")
     assert "<details open><summary>Second opinion (20 of 22 figures agree)" in text
-    assert text.index("trimesh DISAGREES") < text.index("trimesh agrees")
+    section = text[text.index("Second opinion (") : text.index("Histograms")]
+    assert section.count("<td>NO</td>") == 2
+    assert section.index("<td>NO</td>") < section.index("<td>yes</td>")
     assert "pairs overlap" not in text  # there are no bodies
     jsonschema.validate(json.loads(wrong.to_json()), SCHEMA)
     mesh = MESHES["boxes that touch"]

@@ -1,0 +1,1 @@
+"""Judges of meshes, and random things to mesh, that share no code with the mesher."""
