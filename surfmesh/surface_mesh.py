@@ -29,6 +29,7 @@ if TYPE_CHECKING:
     import pyvista
     import trimesh
 
+    from surfmesh.io import Manifest
     from surfmesh.quality.report import Report
     from surfmesh.quality.worst import WorstTriangle
 
@@ -335,6 +336,14 @@ class SurfaceMesh:
         from surfmesh.io import save
 
         return save(self, path, ascii=ascii)
+
+    def manifest(self, *files: str | Path) -> "Manifest":
+        """Versions, options and hashes of the mesh and of ``files`` it was written to, for
+        another machine to compare; see ``surfmesh.io.Manifest``.
+        """
+        from surfmesh.io import Manifest
+
+        return Manifest.of(self, files)
 
     def to_pyvista(self) -> "pyvista.PolyData":
         """As PyVista PolyData with ``size``, ``face_id`` and ``alpha``; nothing is merged."""

@@ -132,9 +132,9 @@ def print_all(found: list[Package]) -> None:
         mark = " " if p.kind == "permissive" else "*"
         remark = f"  ({WITHIN[p.name]})" if p.name in WITHIN else ""
         title = f"{p.name} {p.version}"
-        print(f"{mark} {title:{width}}{p.wanted_by:16}{p.licence}{remark}")
+        print(f"{mark} {title:{width}}{p.wanted_by:18}{p.licence}{remark}")
     others = [p for p in found if p.kind != "permissive"]
-    print(f"  {'three.js in view/assets':{width}}{'surfmesh':16}MIT")
+    print(f"  {'three.js in view/assets':{width}}{'surfmesh':18}MIT")
     print(f"\n{len(found)} packages, {len(others)} of them not permissive (*):")
     for kind in dict.fromkeys(p.kind for p in others):
         names = ", ".join(f"{p.name} ({p.wanted_by})" for p in others if p.kind == kind)

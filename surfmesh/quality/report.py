@@ -2,9 +2,8 @@
 
 import json
 import math
-import re
 from collections.abc import Mapping
-from dataclasses import asdict, dataclass, fields, is_dataclass, replace
+from dataclasses import dataclass, fields, replace
 from time import perf_counter
 from typing import Any
 
@@ -48,7 +47,7 @@ from surfmesh.quality.promises import (
     chord_kept,
     stated,
 )
-from surfmesh.quality.provenance import mesh_sha256, versions
+from surfmesh.quality.provenance import mesh_sha256, options_of, plain, versions
 from surfmesh.quality.remarks import loose_faces, sheets_facing_apart, touching_bodies
 from surfmesh.quality.second_opinion import (
     SecondOpinion,
@@ -197,7 +196,7 @@ class Report:
     def to_dict(self) -> dict[str, Any]:
         """Plain numbers, strings and lists, ``clean`` included; ready for JSON."""
         values = {item.name: getattr(self, item.name) for item in fields(self)}
-        return _plain(
+        return plain(
             {"schema_version": values.pop("schema_version"), "clean": self.clean} | values
         )
 
@@ -425,7 +424,7 @@ def _checked(mesh: SurfaceMesh) -> Report:
             *sheets_facing_apart(mesh, odd),
             *(turned_inward(mesh, topo, solids) if finite and not broken else ()),
         ),
-        options=_options(mesh.sizing),
+        options=options_of(mesh.sizing),
         problems=tuple(said),
         seconds={**mesh.seconds, "check": perf_counter() - start},
     )
@@ -447,31 +446,3 @@ def _over(measure: Any, values: NDArray[np.float64]) -> float:
 def _names(mesh: SurfaceMesh) -> str:
     names = list(dict.fromkeys(mesh.face_name(i) for i in range(len(mesh.surfaces))))
     return ", ".join(names[:3]) + (f" and {len(names) - 3} more" if len(names) > 3 else "")
-
-
-def _options(sizing: Any) -> dict[str, Any]:
-    if not is_dataclass(sizing):
-        return {} if sizing is None else {"sizing": _said(sizing)}
-    return {item.name: getattr(sizing, item.name) for item in fields(sizing)}
-
-
-def _plain(value: Any) -> Any:
-    """``value`` as JSON knows it; callables and other objects by their repr."""
-    if isinstance(value, Mapping):
-        return {str(key): _plain(item) for key, item in value.items()}
-    if isinstance(value, (list, tuple, np.ndarray)):
-        return [_plain(item) for item in value]
-    if value is None or isinstance(value, (bool, str)):
-        return value
-    if isinstance(value, (int, np.integer)):
-        return int(value)
-    if isinstance(value, (float, np.floating)):
-        return float(value) if math.isfinite(value) else None
-    if is_dataclass(value) and not isinstance(value, type):
-        return _plain(asdict(value))
-    return _said(value)
-
-
-def _said(value: Any) -> str:
-    """Its repr without places in memory, which differ every time."""
-    return re.sub(r" at 0x[0-9a-fA-F]+", "", repr(value))

@@ -15,9 +15,6 @@ EPS = float(np.finfo(float).eps)
 ALPHA = 40.0 * EPS
 """Of alpha = 2 sqrt(3) |u x v| / sum of squared edges, on two sides: |u x v| is off by up to
 8 eps |u| |v|, and |u| |v| is at most half of that sum."""
-RADIUS_RATIO = 96.0 * EPS
-"""Of 4 |u x v|^2 / (abc (a + b + c)), likewise: a triangle's twice area is at most the product of
-its two shorter sides."""
 _COSINE = 32.0 * EPS  # of an angle: times longest over shortest side, see ``angle_bounds``
 _TERM = 64.0 * EPS  # of a signed tetrahedron: six products of three coordinates, on two sides
 _HERON = 12.0 * EPS  # of s (s - a) (s - b) (s - c), times s^4

@@ -5,9 +5,9 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from surfmesh.quality.libraries_asked import Failed
+from surfmesh.quality.libraries_asked import QUALITIES, Failed
 from surfmesh.quality.opinion_rows import Witness
-from surfmesh.quality.rounding_bounds import ALPHA, EPS, RADIUS_RATIO, angle_bounds
+from surfmesh.quality.rounding_bounds import ALPHA, EPS, angle_bounds
 from surfmesh.quality.shape import Shapes
 
 if TYPE_CHECKING:
@@ -16,8 +16,6 @@ if TYPE_CHECKING:
 _OF_REPORT = (  # field, what it is of, how
     ("alpha_min", "alpha", "min"),
     ("alpha_mean", "alpha", "mean"),
-    ("radius_ratio_min", "radius ratio", "min"),
-    ("radius_ratio_mean", "radius ratio", "mean"),
     ("min_angle_deg", "smallest angle", "min"),
     ("max_angle_deg", "largest angle", "max"),
 )
@@ -60,16 +58,13 @@ def compare_shapes(
 def _measures(
     shape: Shapes, qualities: Any, cosine: NDArray[np.float64], reason: str
 ) -> dict[str, Measure]:
-    theirs = dict.fromkeys(("shape", "radius_ratio", "min_angle", "max_angle"), qualities)
-    if isinstance(qualities, dict):
-        theirs = qualities | {"radius_ratio": 1.0 / qualities["radius_ratio"]}
-    count = len(shape.alpha)
+    theirs = qualities
+    if not isinstance(qualities, dict):
+        theirs = dict.fromkeys(QUALITIES, qualities)
     needles = reason or _NEEDLE * bool((cosine >= 2.0).any())
+    within = np.full(len(cosine), ALPHA)
     return {
-        "alpha": Measure(shape.alpha, theirs["shape"], np.full(count, ALPHA), reason),
-        "radius ratio": Measure(
-            shape.radius_ratio, theirs["radius_ratio"], np.full(count, RADIUS_RATIO), reason
-        ),
+        "alpha": Measure(shape.alpha, theirs["shape"], within, reason),
         "smallest angle": Measure(
             shape.min_angle, theirs["min_angle"], angle_bounds(shape.min_angle, cosine), needles
         ),

@@ -7,6 +7,8 @@ import subprocess
 import sys
 import threading
 import time
+from contextlib import redirect_stderr, redirect_stdout
+from io import StringIO
 from pathlib import Path
 
 import pytest
@@ -245,3 +247,36 @@ def test_a_file_that_is_read_only_stays(tmp_path, small, monkeypatch):
     path.chmod(0o444)
     with pytest.raises(FileFormatError, match="the file is read-only"):
         small.save(path)
+
+
+@posix
+def test_the_command_line_refuses_in_one_line_and_says_what_was_written(tmp_path, saves, small):
+    mesh, page = tmp_path / "mesh.stl", tmp_path / "page.html"
+    argv = "mesh --x u --y v --z u*u-v*v --u -1 1 --v -1 1 --size 0.8 -o".split()
+    small.save(mesh)  # what is imported or compiled is so before there is a limit
+    old = mesh.read_bytes()
+    first = limited(saves, 0, [*argv, str(mesh)])
+    assert first == (2, "", f"surfmesh: {mesh}: cannot be written: File too large\n")
+    assert mesh.read_bytes() == old
+    second = limited(saves, 20_000, [*argv, str(mesh), "--report", str(page)])
+    said = f"surfmesh: {page}: cannot be written: File too large; written before it: {mesh}\n"
+    assert second == (2, "", said)
+    assert len(read(mesh).triangles) > 0 and list(tmp_path.iterdir()) == [mesh]
+
+
+def limited(saves, size, argv):
+    """Exit status, output and errors of the command line while files may have ``size`` bytes."""
+    from surfmesh.cli import main
+
+    out, err = StringIO(), StringIO()
+    with redirect_stdout(out), redirect_stderr(err), saves._largest_file(size):
+        status = main(argv)
+    return status, out.getvalue(), err.getvalue()
+
+
+@posix
+def test_processes_of_surfmesh_live_on_at_a_limit():
+    """SIGXFSZ would end them; Python ignores it, in children that Python starts as well."""
+    code = "import signal, surfmesh.cli; print(signal.getsignal(signal.SIGXFSZ) == signal.SIG_IGN)"
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+    assert done.stdout == "True\n"
