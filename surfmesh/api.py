@@ -33,9 +33,7 @@ from surfmesh.sizing.sizing import Sizing
 from surfmesh.surface_mesh import SurfaceMesh
 
 logger = logging.getLogger(__name__)
-
-FARTHEST = 1e100
-"""Of a coordinate of a point: its square is a number."""
+FARTHEST = 1e100  # coordinate of a point that is asked for: squares of distances are finite
 
 
 def load(
@@ -154,10 +152,10 @@ def explain(
         place = np.array(point, float)
     except (TypeError, ValueError, OverflowError):
         place = np.empty(0)
-    if place.shape != (3,) or not np.isfinite(place).all():
-        raise SizingError(f"a point is three finite numbers, not {point!r:.60}")
-    if np.abs(place).max() > FARTHEST:
-        raise SizingError(f"the point {point!r:.60} is too far away to compute with")
+    if place.shape != (3,) or not (np.abs(place) <= FARTHEST).all():  # false for nan
+        raise SizingError(
+            f"a point is three finite numbers of at most {FARTHEST:g}, not {point!r:.60}"
+        )
     if isinstance(surface, CadModel):
         return explain_size(surface, wishes, place)
     return explain_parametric(surface, wishes, place)
