@@ -33,6 +33,7 @@ from surfmesh.sizing.sizing import Sizing
 from surfmesh.surface_mesh import SurfaceMesh
 
 logger = logging.getLogger(__name__)
+FARTHEST = 1e100  # coordinate of a point that is asked for: squares of distances are finite
 
 
 def load(
@@ -55,7 +56,7 @@ def load(
 
     time_limit, memory_limit: seconds of processor time and MB of memory that reading a CAD file
     may take, inf for no limit. None: the environment variables SURFMESH_READ_SECONDS and
-    SURFMESH_READ_MEMORY, else 10 s and 1000 MB and, for each MB of the file, 25 s and 100 MB.
+    SURFMESH_READ_MEMORY, else 8 s and 1000 MB and, for each MB of the file, 25 s and 100 MB.
 
     Raises ``CadError`` for a CAD file without a model, ``FileFormatError`` for a file of
     another kind, ``SurfaceError`` or ``DomainError`` for what is wrong in it.
@@ -149,10 +150,12 @@ def explain(
     surface, wishes = _settled(surface, sizing)
     try:
         place = np.array(point, float)
-    except (TypeError, ValueError):
+    except (TypeError, ValueError, OverflowError):
         place = np.empty(0)
-    if place.shape != (3,) or not np.isfinite(place).all():
-        raise SizingError(f"a point is three finite numbers, not {point!r:.60}")
+    if place.shape != (3,) or not (np.abs(place) <= FARTHEST).all():  # false for nan
+        raise SizingError(
+            f"a point is three finite numbers of at most {FARTHEST:g}, not {point!r:.60}"
+        )
     if isinstance(surface, CadModel):
         return explain_size(surface, wishes, place)
     return explain_parametric(surface, wishes, place)

@@ -24,7 +24,7 @@ try:
 except ImportError:  # Windows
     resource = None  # type: ignore[assignment]
 
-SECONDS, SECONDS_A_MEGABYTE = 10.0, 25.0  # of processor time
+SECONDS, SECONDS_A_MEGABYTE = 8.0, 25.0  # of processor time
 MEGABYTES, MEGABYTES_A_MEGABYTE = 1000.0, 100.0  # of memory
 OWN_MEGABYTES = 250.0  # of libraries that the reader loads while it reads
 JOINING = 8.0  # times the seconds where bodies are imprinted or faces sewn

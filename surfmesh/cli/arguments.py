@@ -233,7 +233,7 @@ def _add_units(parser: argparse.ArgumentParser) -> None:
     )
     parser.add_argument(
         "--time-limit", type=_positive, metavar="SECONDS",
-        help="of processor time for reading a CAD file (default 10 and 25 for each MB of it)",
+        help="of processor time for reading a CAD file (default 8 and 25 for each MB of it)",
     )
     parser.add_argument(
         "--memory-limit", type=_positive, metavar="MB",

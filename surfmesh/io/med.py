@@ -16,6 +16,7 @@ import numpy as np
 
 from surfmesh.errors import FileFormatError
 from surfmesh.io.group_record import group_fields, group_lines, solids_of_faces
+from surfmesh.io.hdf5_bounds import require_bounded
 from surfmesh.mesh_groups import MeshGroups
 from surfmesh.six_nodes import edge_rows, split_six_nodes
 from surfmesh.surface_mesh import SurfaceMesh
@@ -84,9 +85,10 @@ def _write_families(parent: Any, names: dict[int, list[str]]) -> None:
 def read(path: Path) -> SurfaceMesh:
     """Triangles; in a file of another program a face is a family, named by its first group."""
     meshio, h5py = _libraries(path)
-    found = meshio.med.read(path)
     with h5py.File(path, "r") as file:
+        require_bounded(path, file)
         text = bytes(file[RECORD][()]).decode("ascii") if RECORD in file else ""
+    found = meshio.med.read(path)
     elements, families = [], []
     tags = found.cell_data.get("cell_tags") or [np.zeros(len(c.data), int) for c in found.cells]
     for block, tag in zip(found.cells, tags):

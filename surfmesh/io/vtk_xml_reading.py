@@ -288,8 +288,9 @@ class _Arrays:
         """Header: the number of bytes. In base64 the two are one text."""
         word = self.header.itemsize
         size = int(np.frombuffer(source.take(word), self.header)[0])
-        self.expansion.take(size)
-        return source.take(word + size)[word:]
+        data = source.take(word + size)[word:]
+        self.expansion.take(size)  # many arrays may show the same bytes
+        return data
 
     def _unpacked(self, source: "_Raw") -> bytes:
         """Header: the number of blocks, their size, that of the last or 0, and packed sizes."""

@@ -95,6 +95,8 @@ class Sizing:
         object.__setattr__(self, "sources", tuple(sources))
         if self.gap is not None:
             object.__setattr__(self, "gap", positive("gap", self.gap))
+            if not 1e-3 <= self.gap <= 1000.0:
+                raise SizingError(f"gap is a number of triangles, 0.001 to 1000, not {self.gap:g}")
         object.__setattr__(self, "limit", int(positive("limit", self.limit)))
         if self.volume is not None and self.volume >= 1.0:
             raise SizingError(f"volume is a relative error below 1, not {self.volume:g}")
