@@ -12,7 +12,7 @@ from surfmesh.cad.from_cadquery import from_cadquery
 from surfmesh.cad.joining import Joining
 from surfmesh.cad.model import CadModel
 from surfmesh.cad.reading import JOINING_TIME_LIMIT, SUFFIXES, TIME_LIMIT, read_cad
-from surfmesh.errors import CadError, FileFormatError, SizingError, SurfaceError
+from surfmesh.errors import CadError, FileFormatError, SizingError, SurfaceError, shown
 from surfmesh.geometry.planar_domain import PlanarDomain
 from surfmesh.geometry.surface import Surface
 from surfmesh.geometry.surface_file import gallery, load_surface_file
@@ -99,7 +99,7 @@ def mesh(
     ``Cancelled`` when ``progress`` said so.
     """
     if order not in (1, 2):
-        raise SizingError(f"order is {order!r}: meshes are of order 1 or 2")
+        raise SizingError(f"order is {shown(order)}: meshes are of order 1 or 2")
     surface, wishes = _settled(surface, sizing)
     if isinstance(surface, CadModel):
         made = mesh_model(surface, wishes, optimise, progress, strict, simplify, jobs)
@@ -141,10 +141,10 @@ def explain(
     surface, wishes = _settled(surface, sizing)
     try:
         place = np.array(point, float)
-    except (TypeError, ValueError):
+    except (TypeError, ValueError, OverflowError):
         place = np.empty(0)
     if place.shape != (3,) or not np.isfinite(place).all():
-        raise SizingError(f"a point is three finite numbers, not {point!r:.60}")
+        raise SizingError(f"a point is three finite numbers, not {shown(point)}")
     if isinstance(surface, CadModel):
         return explain_size(surface, wishes, place)
     return explain_parametric(surface, wishes, place)

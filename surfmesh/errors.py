@@ -5,6 +5,17 @@ loop), and what to do about it. Each is also the builtin that a caller would exp
 """
 
 
+def shown(value: object, longest: int = 60) -> str:
+    """A caller's value for a message: one short line, whatever it is and however it prints."""
+    try:
+        text = repr(value)
+    except Exception:  # a number of too many digits, a broken object
+        text = f"a {type(value).__name__}"
+    text = "".join(c if c.isprintable() else " " for c in text)
+    text = " ".join(text.split())
+    return text if len(text) <= longest else text[: longest - 3] + "..."
+
+
 class SurfmeshError(Exception):
     """The parent of everything that surfmesh raises on purpose."""
 
@@ -22,11 +33,12 @@ class FormulaError(SurfaceError):
 
     def __init__(self, reason: str, text: str = "", column: int = 1) -> None:
         self.reason, self.text, self.column = reason, text, column
-        shown, caret = text, column
+        excerpt, caret = text, column
         if len(text) > 72:  # keep the neighbourhood of the column, not the whole text
             start = max(0, column - 36)
-            shown, caret = text[start : start + 72], column - start
-        pointer = f"\n  {shown}\n  {' ' * (caret - 1)}^" if text else ""
+            excerpt, caret = text[start : start + 72], column - start
+        excerpt = "".join(c if c.isprintable() else "\N{REPLACEMENT CHARACTER}" for c in excerpt)
+        pointer = f"\n  {excerpt}\n  {' ' * (caret - 1)}^" if text else ""
         super().__init__(f"{reason} (column {column}){pointer}")
 
 

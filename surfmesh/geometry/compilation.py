@@ -13,7 +13,7 @@ import sympy as sp
 from surfmesh.geometry import real_functions
 from surfmesh.geometry.chain_rule import derivatives
 from surfmesh.geometry.derivatives import Definitions
-from surfmesh.geometry.program import FUNCTION_OPERATIONS, Program
+from surfmesh.geometry.program import Program
 from surfmesh.geometry.tape import Tape
 
 MOST_GUIDES = 32  # functions whose zeros are looked for
@@ -55,7 +55,9 @@ def by_definitions(
 
 def operations(expressions: Sequence[sp.Expr]) -> int:
     """How many sums, products, powers and functions there are in expressions, repeated or not."""
-    return sum(bool(p.args) for expression in expressions for p in sp.preorder_traversal(expression))
+    return sum(
+        bool(p.args) for expression in expressions for p in sp.preorder_traversal(expression)
+    )
 
 
 def long_surface_tape(

@@ -2,15 +2,17 @@
 
 import math
 
-from surfmesh.errors import SizingError
+import numpy as np
+
+from surfmesh.errors import SizingError, shown
 
 
 def positive(name: str, value: object) -> float:
     """``value`` as a float. Raises ``SizingError`` that names it."""
     try:
-        number = float(value)
-    except (TypeError, ValueError):
-        raise SizingError(f"{name} must be a positive number, not {value!r}") from None
+        number = math.nan if isinstance(value, (bool, np.bool_)) or np.ndim(value) else float(value)
+    except (TypeError, ValueError, OverflowError):
+        number = math.nan
     if not (number > 0.0 and math.isfinite(number)):
-        raise SizingError(f"{name} must be a positive number, not {value!r}")
+        raise SizingError(f"{name} must be a positive number, not {shown(value)}")
     return number

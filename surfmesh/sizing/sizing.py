@@ -5,7 +5,7 @@ from dataclasses import dataclass, fields, replace
 
 import numpy as np
 
-from surfmesh.errors import SizingError
+from surfmesh.errors import SizingError, shown
 from surfmesh.sizing.positive import positive
 from surfmesh.sizing.sources import checked_sizes, source_sizes
 
@@ -86,7 +86,7 @@ class Sizing:
         if not isinstance(sources, (tuple, list)) or not all(map(callable, sources)):
             raise SizingError(
                 "sources are Near, InBall, InBox, SizeCloud or callables of points (n, 3), "
-                f"not {self.sources!r:.60}"
+                f"not {shown(self.sources)}"
             )
         object.__setattr__(self, "sources", tuple(sources))
         if self.gap is not None:

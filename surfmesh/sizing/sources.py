@@ -21,7 +21,7 @@ from typing import Any
 
 import numpy as np
 
-from surfmesh.errors import SizingError
+from surfmesh.errors import SizingError, shown
 from surfmesh.geometry.segment_distance import SegmentDistance
 from surfmesh.sizing.distance_size import polylines
 from surfmesh.sizing.positive import positive
@@ -111,7 +111,7 @@ class Near(Source):
     def __post_init__(self) -> None:
         self._check()
         if not (np.isscalar(self.radius) and 0.0 <= self.radius < np.inf):
-            raise SizingError(f"radius must not be negative, not {self.radius!r}")
+            raise SizingError(f"radius must not be negative, not {shown(self.radius)}")
         given = self.geometry
         if isinstance(given, np.ndarray) or _is_points(given):
             rows = np.atleast_2d(np.asarray(given, float))
@@ -293,9 +293,7 @@ class SizeCloud(Source):
         for tree, sizes in self._octaves():
             count = min(NEAREST, len(sizes))
             most = np.inf if self.reach is None else self.reach
-            distance, row = tree.query(
-                points, k=[*range(1, count + 1)], distance_upper_bound=most
-            )
+            distance, row = tree.query(points, k=[*range(1, count + 1)], distance_upper_bound=most)
             padded = np.append(sizes, np.inf)  # of what is too far away
             grown = padded[row] + self.slope * np.where(np.isfinite(distance), distance, 0.0)
             np.minimum(found, grown.min(axis=1), out=found)
@@ -339,15 +337,36 @@ def source_sizes(sources: tuple[Callable, ...], points: np.ndarray) -> np.ndarra
 
 
 def checked_sizes(law: Callable, points: np.ndarray, what: str) -> np.ndarray:
-    """``law(points)``, (n, 3) -> (n,), all at once; raises ``SizingError`` for what is no size."""
-    sizes = np.asarray(law(points), float)
-    if sizes.shape != (len(points),) or not (sizes > 0.0).all():
+    """``law(points)``, (n, 3) -> (n,), all at once; raises ``SizingError`` for what is no size.
+
+    The law gets points of its own, and what it warns of is told as that error alone.
+    """
+    with np.errstate(all="ignore"):
+        found = law(points.copy())
+    sizes = as_numbers(found)
+    if sizes is None or sizes.shape != (len(points),) or not (sizes > 0.0).all():
+        gave = f"shape {sizes.shape}" if sizes is not None else shown(found)
+        least = f", smallest {sizes.min():g}" if sizes is not None and sizes.size else ""
         raise SizingError(
             f"{what} law must give positive numbers of shape ({len(points)},) for points "
-            f"({len(points)}, 3); it gave shape {sizes.shape}"
-            + (f", smallest {sizes.min():g}" if sizes.size else "")
+            f"({len(points)}, 3); it gave {gave}{least}"
         )
     return sizes
+
+
+def as_numbers(found: Any) -> np.ndarray | None:
+    """What a caller's function gave as an array of its own; None if those are no real numbers.
+
+    Masked entries are nan.
+    """
+    if np.iscomplexobj(found):
+        return None
+    try:
+        if np.ma.isMaskedArray(found):
+            return found.astype(float).filled(np.nan)
+        return np.array(found, float)
+    except (TypeError, ValueError, OverflowError):
+        return None
 
 
 def reaching(
@@ -379,10 +398,10 @@ def _steps(line: np.ndarray) -> np.ndarray:
 def _point(name: str, given: Any) -> np.ndarray:
     try:
         point = np.array(given, float)
-    except (TypeError, ValueError):
+    except (TypeError, ValueError, OverflowError):
         point = np.empty(0)
     if point.shape != (3,) or not np.isfinite(point).all():
-        raise SizingError(f"{name} must be three finite numbers, not {given!r}")
+        raise SizingError(f"{name} must be three finite numbers, not {shown(given)}")
     return point
 
 
