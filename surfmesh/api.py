@@ -54,7 +54,10 @@ def load(
     Raises ``CadError`` for a CAD file without a model, ``FileFormatError`` for a file of
     another kind, ``SurfaceError`` or ``DomainError`` for what is wrong in it.
     """
-    place = Path(path)
+    try:
+        place = Path(path)
+    except TypeError:
+        raise FileFormatError(f"a path or a name is needed, not {shown(path)}") from None
     joins = bool(Joining.of(imprint, sew))
     if place.suffix.lower() in SUFFIXES:
         limit = JOINING_TIME_LIMIT if joins else TIME_LIMIT

@@ -54,7 +54,7 @@ def by_definitions(
 
 
 def operations(expressions: Sequence[sp.Expr]) -> int:
-    """How many sums, products, powers and functions there are in expressions, repeated or not."""
+    """How many sums, products, powers and functions expressions have, repeated or not."""
     return sum(
         bool(p.args) for expression in expressions for p in sp.preorder_traversal(expression)
     )

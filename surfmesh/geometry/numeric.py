@@ -242,9 +242,9 @@ class NumericSurface:
             if np.mean(wrong) > MOSTLY:
                 row = int(np.argmax(np.where(wrong & np.isfinite(off), off, -1.0)))
                 raise SurfaceError(
-                    f"derivatives of {self.name!r} gives {name} = {_listed(given[row])} at (u, v) = "
-                    f"{_listed(uv[row])}, where f changes by {_listed(found[row])}: change one of "
-                    "them, or leave derivatives out"
+                    f"derivatives of {self.name!r} gives {name} = {_listed(given[row])} at "
+                    f"(u, v) = {_listed(uv[row])}, where f changes by {_listed(found[row])}: "
+                    "change one of them, or leave derivatives out"
                 )
 
     def _by_differences(self, uv: np.ndarray, count: int) -> tuple[np.ndarray, ...]:
@@ -335,15 +335,22 @@ def _refuse_scalar_functions(
     ) from error
 
 
+def _is_complex(value: Any) -> bool:
+    try:
+        return bool(np.iscomplexobj(value))
+    except ValueError:  # rows of different lengths
+        return False
+
+
 def _unmasked(value: Any) -> Any:
     """What is masked is not known: nan."""
-    return value.astype(float).filled(np.nan) if np.ma.isMaskedArray(value) else value
+    return np.ma.filled(value.astype(float), np.nan) if np.ma.isMaskedArray(value) else value
 
 
 def _rows(value: Any, count: int, what: str) -> np.ndarray:
     """What a function gave as an array (n, 3) of its own; SurfaceError when it cannot be one."""
     parts = value if isinstance(value, (tuple, list)) else (value,)
-    if any(np.iscomplexobj(part) for part in parts):
+    if any(_is_complex(part) for part in parts):
         raise SurfaceError(
             f"{what} gives complex numbers: give their real parts, or change it where a root or "
             "logarithm of a negative number is taken"

@@ -16,9 +16,13 @@ from surfmesh.kernels.predicates import orient_triangles
 from surfmesh.meshing.packing import NO_LIMIT, packed, packed_discs
 from surfmesh.sizing.radius_laws import TensorField, UniformRadius
 from surfmesh.sizing.size_field import plane_field
+from surfmesh.sizing.sources import as_numbers
 
 EVERYWHERE = 1e150
 """Half the width of the box when none is given."""
+
+LARGEST = 1e100
+"""Of a radius: its square is a number still."""
 
 FREE_GROWTH = 1e6
 """A radius law is followed as it is given: nothing is graded."""
@@ -188,7 +192,7 @@ def _tensors(radius: Any) -> Callable[[np.ndarray], np.ndarray]:
     if not callable(radius):
         try:
             number = float(radius)
-        except (TypeError, ValueError):
+        except (TypeError, ValueError, OverflowError):
             number = np.nan
         if not 0.0 < number < np.inf:
             raise SizingError(
@@ -198,8 +202,9 @@ def _tensors(radius: Any) -> Callable[[np.ndarray], np.ndarray]:
         return lambda points: np.tile([2.0 * number, 0.0, 2.0 * number], (len(points), 1))
 
     def law(points: np.ndarray) -> np.ndarray:
-        r = np.asarray(radius(points), float)
-        if r.shape != (len(points),) or not (r > 0.0).all() or not np.isfinite(r).all():
+        with np.errstate(all="ignore"):
+            r = as_numbers(radius(points.copy()))
+        if r is None or r.shape != (len(points),) or not ((r > 0.0) & (r < LARGEST)).all():
             raise SizingError(
                 f"the radius law must give positive numbers of shape ({len(points)},) for points "
                 f"({len(points)}, 2)"

@@ -6,6 +6,8 @@ import numpy as np
 
 from surfmesh.errors import SizingError, shown
 
+SMALLEST = 1e-60  # the fourth power of one over it is a number still
+
 
 def positive(name: str, value: object) -> float:
     """``value`` as a float. Raises ``SizingError`` that names it."""
@@ -15,4 +17,6 @@ def positive(name: str, value: object) -> float:
         number = math.nan
     if not (number > 0.0 and math.isfinite(number)):
         raise SizingError(f"{name} must be a positive number, not {shown(value)}")
+    if number < SMALLEST:
+        raise SizingError(f"{name} must be at least {SMALLEST:g}, not {number:g}: change the unit")
     return number

@@ -301,9 +301,9 @@ class _Builder:
             return
         place = self.scaling.to_uv(self._xy_of(patch[[int(np.argmax(asked))], 4]))[0]
         raise SizingError(
-            f"about {float(asked.sum()):.2g} triangles are asked for on {self.surface.name!r}, most "
-            f"near (u, v) = ({place[0]:.6g}, {place[1]:.6g}), far more than the limit of {limit:,}: "
-            "ask for a larger chord, size or min_size, or for a smaller part of the domain"
+            f"about {float(asked.sum()):.2g} triangles are asked for on {self.surface.name!r}, "
+            f"most near (u, v) = ({place[0]:.6g}, {place[1]:.6g}), far more than the limit of "
+            f"{limit:,}: ask for a larger chord, size or min_size, or a smaller part of the domain"
         )
 
     def _refuse(self, total: int, parents: Cells) -> NoReturn:

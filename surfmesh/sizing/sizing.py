@@ -9,6 +9,9 @@ from surfmesh.errors import SizingError, shown
 from surfmesh.sizing.positive import positive
 from surfmesh.sizing.sources import checked_sizes, source_sizes
 
+MOST_STRETCHED = 1e6
+"""Largest ratio of two sizes: beyond it areas are round-off."""
+
 SizeLaw = Callable[[np.ndarray], np.ndarray]
 
 
@@ -82,6 +85,10 @@ class Sizing:
             raise SizingError(f"growth must be above 1, not {self.growth:g}")
         if self.anisotropy < 1.0:
             raise SizingError(f"anisotropy must be at least 1, not {self.anisotropy:g}")
+        if self.anisotropy > MOST_STRETCHED:
+            raise SizingError(
+                f"anisotropy must be at most {MOST_STRETCHED:g}, not {self.anisotropy:g}"
+            )
         sources = (self.sources,) if callable(self.sources) else self.sources
         if not isinstance(sources, (tuple, list)) or not all(map(callable, sources)):
             raise SizingError(

@@ -359,11 +359,11 @@ def as_numbers(found: Any) -> np.ndarray | None:
 
     Masked entries are nan.
     """
-    if np.iscomplexobj(found):
-        return None
     try:
+        if np.iscomplexobj(found):
+            return None
         if np.ma.isMaskedArray(found):
-            return found.astype(float).filled(np.nan)
+            return np.ma.filled(found.astype(float), np.nan)
         return np.array(found, float)
     except (TypeError, ValueError, OverflowError):
         return None
