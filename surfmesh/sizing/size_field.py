@@ -85,6 +85,8 @@ _NO_DIRECTIONS = np.empty(0), np.empty((0, 3)), np.empty((0, 3))
 MAX_CELLS, FREE_CELLS, CELLS_OF_TRIANGLE = 800_000, 200_000, 4
 """A field may have so many cells; and beyond the second number no more than the third for each
 triangle that it asks for so far: what needs more is no size, but a place where r is singular."""
+EARLY_CELLS, HOPELESS = 50_000, 1e9
+"""Beyond so many cells a field whose sources or law ask for so many triangles is not finished."""
 MAX_ROUNDS = 60
 SWEEPS, MAX_CHUNKS = 16, 400
 """Sweeps of the gradation before the cells are sorted anew, and how often that is done."""
@@ -245,8 +247,11 @@ class _Builder:
             tree.append(parents.index)
             total += len(children)
             sources.follow(split)
-            if total > FREE_CELLS and total > self._most_cells(cells, patch):
-                self._refuse(total, parents)
+            if total > EARLY_CELLS:
+                asked = self._triangles(cells, patch)
+                hopeless = asked > HOPELESS and self.law.sizing.has_law
+                if hopeless or total > self._most_cells(asked):
+                    self._refuse(total, parents, asked if hopeless else 0.0)
             fresh = np.concatenate([np.zeros((~split).sum(), bool), np.ones(len(children), bool)])
             deep = np.concatenate([deep[~split], np.repeat(deep[split], 4)])
             patch = np.concatenate([patch[~split], self._patches(children)])
@@ -258,22 +263,32 @@ class _Builder:
         tree.append(cells.index)  # every leaf is split once more, onto its test nodes
         return SizeField(self.scaling, self._background(tree, patch), self.law.sizing)
 
-    def _most_cells(self, cells: Cells, patch: np.ndarray) -> float:
-        """How many cells are allowed for what the leaves ask for."""
-        if isinstance(self.surface, FaceSurface) or not isinstance(self.law, SizeLaw):
-            return MAX_CELLS
+    def _triangles(self, cells: Cells, patch: np.ndarray) -> float:
+        """How many the leaves ask for, by the sizes in their middle."""
+        if not isinstance(self.law, SizeLaw):
+            return 0.0
         a11, a12, a22 = self.nodes.inverse_sizes()[patch[:, 4]].T
         area = self.root_step.prod() / 4.0**cells.depth * (a11 * a22 - a12 * a12)
-        triangles = float(area.sum()) * 4.0 / np.sqrt(3.0)
+        return float(area.sum()) * 4.0 / np.sqrt(3.0)
+
+    def _most_cells(self, triangles: float) -> float:
+        """How many cells are allowed for so many triangles."""
+        if isinstance(self.surface, FaceSurface) or not isinstance(self.law, SizeLaw):
+            return MAX_CELLS
         free = FREE_CELLS + 4 * self.looked_into
         return min(MAX_CELLS, max(free, CELLS_OF_TRIANGLE * triangles))
 
-    def _refuse(self, total: int, parents: Cells) -> NoReturn:
+    def _refuse(self, total: int, parents: Cells, triangles: float) -> NoReturn:
         """The place is in the midst of the smallest cells."""
         deepest = np.flatnonzero(parents.depth == parents.depth.max())
         one = deepest[len(deepest) // 2]
         corner = np.array([[parents.x[one], parents.y[one]]]) / (1 << (GRID_DEPTH + 1))
         u, v = self.scaling.to_uv(corner * self.root_step)[0]
+        if triangles > HOPELESS:
+            raise SizingError(
+                f"about {triangles:.3g} triangles are asked for on {self.surface.name!r}, most near "
+                f"(u, v) = ({u:.6g}, {v:.6g}): ask for larger sizes there, or set min_size"
+            )
         raise SizingError(
             f"the sizes asked for on {self.surface.name!r} need more than {total:,} cells to "
             f"describe, most near (u, v) = ({u:.6g}, {v:.6g}), where the surface may be singular: "

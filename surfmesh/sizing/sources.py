@@ -113,7 +113,7 @@ class Near(Source):
         if isinstance(self.radius, str) or not np.isscalar(self.radius) or not (
             0.0 <= self.radius < np.inf
         ):
-            raise SizingError(f"radius must be a number from 0, not {self.radius!r:.60}")
+            raise SizingError(f"radius must not be negative, not {self.radius!r:.60}")
         given = self.geometry
         if isinstance(given, np.ndarray) or _is_points(given):
             rows = np.atleast_2d(np.asarray(given, float))
