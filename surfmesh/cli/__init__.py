@@ -4,6 +4,7 @@ Exit status 0: done and valid; 1: a mesh was made but its report is not clean; 2
 usage, told in one line on standard error; 3: an error in surfmesh itself, told in one line too.
 """
 
+import errno
 import os
 import sys
 from collections.abc import Sequence
@@ -14,6 +15,7 @@ from surfmesh.cli.terminal import complain, explain_defect, warnings_in_one_line
 from surfmesh.errors import FormulaError, SurfmeshError
 
 DONE, NOT_CLEAN, BAD_INPUT, DEFECT = 0, 1, 2, 3
+_FULL = (errno.ENOSPC, errno.EFBIG, errno.EDQUOT)
 INTERRUPTED, PIPE_CLOSED = 130, 141  # as shells say: 128 + the signal's number
 
 
@@ -47,6 +49,8 @@ def _status(argv: Sequence[str]) -> int:
         if error.filename is None:  # of no file: standard output may be full
             with suppress(OSError):
                 _hang_up()
+            if error.errno in _FULL:
+                return _refuse(f"standard output or a cache cannot be written: {error.strerror}")
         return _refuse(str(error))
     except MemoryError:
         return _refuse("not enough memory; ask for larger sizes")

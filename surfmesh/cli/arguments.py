@@ -20,13 +20,15 @@ _EXAMPLES = """examples:
   surfmesh check wavy.vtu --surface wavy
   surfmesh report bracket.step -o bracket.html --chord 0.05
   surfmesh mesh bracket.step -o bracket.vtu --sizes sizes.toml
+  surfmesh mesh wavy -o wavy.vtu --manifest wavy.json
+  surfmesh compare wavy.json there/wavy.json
   surfmesh explain bracket.step --at 0 0 5 --sizes sizes.toml
   surfmesh estimate bracket.step --chord 0.01
   surfmesh pack --uniform 1 100 --count 1000 -o circles.svg
   surfmesh gallery
 
-exit status: 0 done and valid, 1 a mesh was made but its report is not clean, 2 bad input,
-3 an error in surfmesh itself"""
+exit status: 0 done and valid, 1 a mesh was made but its report is not clean, or compared files
+differ, 2 bad input, 3 an error in surfmesh itself"""
 
 
 class _Parser(argparse.ArgumentParser):
@@ -101,6 +103,10 @@ def _parser() -> _Parser:
     mesh.add_argument("--picture", metavar="PNG", help="write a picture too")
     mesh.add_argument("--by", default="alpha", choices=_COLOURS, help="colour of the picture")
     mesh.add_argument("--report", metavar="JSON|HTML", help="write the report too")
+    mesh.add_argument(
+        "--manifest", metavar="JSON", help="write versions, options and hashes, to compare"
+    )
+    _add_second_opinion(mesh)
     _add_json(mesh)
 
     check = commands.add_parser("check", help="report on a mesh file")
@@ -109,6 +115,7 @@ def _parser() -> _Parser:
         "--surface", metavar="INPUT", help="formula file, gallery name or CAD file it was made from"
     )
     _add_units(check)
+    _add_second_opinion(check)
     _add_json(check)
 
     view = commands.add_parser("view", help="show a mesh or a surface")
@@ -129,7 +136,16 @@ def _parser() -> _Parser:
     report.add_argument("--by", default="alpha", choices=_COLOURS, help="colour at first")
     _add_sizes(report)
     _add_cad(report)
+    _add_second_opinion(report)
     _add_json(report)
+
+    compare = commands.add_parser("compare", help="compare a manifest with another, or with files")
+    compare.add_argument("input", metavar="MANIFEST", help="what mesh --manifest wrote")
+    compare.add_argument(
+        "other", nargs="?", metavar="OTHER",
+        help="manifest of another run, or a folder with the files (default: that of MANIFEST)",
+    )
+    _add_json(compare)
 
     explain = commands.add_parser("explain", help="which rule decides the size at a point")
     explain.add_argument("input", metavar="INPUT", help=_MODEL)
@@ -215,6 +231,21 @@ def _add_units(parser: argparse.ArgumentParser) -> None:
         "--sew", type=_positive, metavar="TOL",
         help="join loose faces of a CAD model whose edges lie within TOL; closed ones make solids",
     )
+    parser.add_argument(
+        "--time-limit", type=_positive, metavar="SECONDS",
+        help="of processor time for reading a CAD file (default 8 and 25 for each MB of it)",
+    )
+    parser.add_argument(
+        "--memory-limit", type=_positive, metavar="MB",
+        help="of memory for reading a CAD file (default 1000 and 100 for each MB of it)",
+    )
+
+
+def _add_second_opinion(parser: argparse.ArgumentParser) -> None:
+    parser.add_argument(
+        "--second-opinion", action="store_true",
+        help="ask trimesh and pyvista too; where they disagree the mesh is not clean",
+    )  # fmt: skip
 
 
 def _add_json(parser: argparse.ArgumentParser) -> None:

@@ -1,10 +1,15 @@
 """What each command does. Every one returns whether all is well."""
 
+import json
+import os
 import tomllib
 from argparse import Namespace
+from collections.abc import Iterator
+from contextlib import contextmanager
 from dataclasses import replace
 from difflib import get_close_matches
 from pathlib import Path
+from textwrap import fill
 from time import perf_counter
 from typing import Any
 
@@ -23,9 +28,11 @@ def mesh(options: Namespace) -> bool:
     from surfmesh.io.formats import require_writable
 
     require_writable(options.output, *([".stl"] if options.ascii else []))
-    for path, *extensions in ((options.picture, ".png"), (options.report, ".json", ".html")):
+    wanted = (options.picture, ".png"), (options.report, ".json", ".html")
+    for path, *extensions in (*wanted, (options.manifest, ".json")):
         if path:
             require_writable(path, *extensions)
+    _require_two_files(options.report, options.manifest)
     sizing = _sizing(options)
     surface = _surface(options)
 
@@ -46,18 +53,21 @@ def mesh(options: Namespace) -> bool:
         )
         result = result.flipped() if options.flip else result
         progress("check", 0.92)
-        report = checked(result)
+        report = checked(result, second_opinion=options.second_opinion)
         progress("write", 0.95)
         start = perf_counter()
         files = {"mesh": str(save(result, options.output, ascii=options.ascii))}
         report = replace(report, seconds={**report.seconds, "write": perf_counter() - start})
-        if options.picture:
-            from surfmesh.view import plot
+        with _naming(files):
+            if options.picture:
+                from surfmesh.view import plot
 
-            progress("picture", 0.97)
-            files["picture"] = str(plot(result, options.picture, by=options.by))
-        if options.report:
-            files["report"] = str(_report_written(result, report, options))
+                progress("picture", 0.97)
+                files["picture"] = str(plot(result, options.picture, by=options.by))
+            if options.report:
+                files["report"] = str(_report_written(result, report, options))
+            if options.manifest:
+                files["manifest"] = str(_manifest_written(result, files, options))
     if options.json:
         say_json(report.to_dict() | {"files": files})
     else:
@@ -87,12 +97,46 @@ def check(options: Namespace) -> bool:
 
         source = Path(options.input)
         found = replace(found, facts=ModelFacts(source=source.name, sha256=file_sha256(source)))
-    report = checked(found)
+    report = checked(found, second_opinion=options.second_opinion)
     if options.json:
         say_json(report.to_dict())
     else:
         say(report.to_text())
     return report.clean
+
+
+def compare(options: Namespace) -> bool:
+    """Say which entries of a manifest agree with another's, or with the files themselves."""
+    from surfmesh.io import Manifest
+
+    manifest, other = Manifest.read(options.input), options.other or Path(options.input).parent
+    folder = Path(other).is_dir()
+    found = manifest.compared_with_folder(other) if folder else manifest.compared(
+        Manifest.read(other)
+    )  # fmt: skip
+    same = all(entry.agrees for entry in found if entry.decisive)
+    if options.json:
+        say_json({"same": same, "entries": [entry.to_dict() for entry in found]})
+        return same
+    for section in dict.fromkeys(entry.section for entry in found):
+        own = [entry for entry in found if entry.section == section]
+        names = ", ".join(printable(entry.name) for entry in own if entry.agrees)
+        if names:
+            say(fill(f"  {section:<10} agree: {names}", subsequent_indent=" " * 13))
+        for entry in own:
+            if not entry.agrees:
+                sides = " / ".join(map(_value, (entry.here, entry.there)))
+                say(f"  {section:<10} DIFFER: {printable(entry.name)}: {sides}")
+    what = "files" if folder else "mesh and files"
+    verdict = f"the {what} are the same" if same else f"DIFFERENT {what.upper()}"
+    say(f"{verdict}: {sum(entry.agrees for entry in found)} of {len(found)} entries agree")
+    return same
+
+
+def _value(value: Any) -> str:
+    """As JSON; of a hash the beginning."""
+    text = "nothing" if value is None else json.dumps(value)
+    return text if len(text) <= 40 else f"{text[:17]}..."
 
 
 def view(options: Namespace) -> bool:
@@ -129,7 +173,7 @@ def report(options: Namespace) -> bool:
         from surfmesh.view import html_report
 
         progress("check", 0.9)
-        found = checked(shown)
+        found = checked(shown, second_opinion=options.second_opinion)
         progress("write", 0.95)
         try:
             name = Path(options.input).stem
@@ -354,7 +398,7 @@ def _named_surface(name: str, options: Namespace | None = None) -> Any:
     from surfmesh import api
     from surfmesh.geometry.surface_file import gallery as surfaces
 
-    given = () if options is None else ("units", "imprint", "sew")
+    given = () if options is None else ("units", "imprint", "sew", "time_limit", "memory_limit")
     wanted = {option: getattr(options, option) for option in given}
     if Path(name).is_file():
         return api.load(name, **wanted)
@@ -376,9 +420,44 @@ def _report_written(result: Any, report: Any, options: Namespace) -> Path:
     return html_report(result, options.report, by=options.by, name=name, report=report)
 
 
+_NOT_RECORDED = (
+    "command", "input", "output", "picture", "report", "manifest", "sizes", "json", "jobs", *SIZES
+)  # fmt: skip
+"""Options that are no part of a manifest: places, what is in the mesh's sizing, what changes
+nothing in the files."""
+
+
+def _manifest_written(result: Any, files: dict[str, str], options: Namespace) -> Path:
+    """Hashes of all files but a JSON report, which holds the seconds that were taken."""
+    from surfmesh.io import Manifest
+
+    asked = {name: value for name, value in vars(options).items() if name not in _NOT_RECORDED}
+    hashed = [path for path in files.values() if Path(path).suffix.lower() != ".json"]
+    return Manifest.of(
+        result,
+        hashed,
+        inputs=[options.sizes] if options.sizes else (),
+        options={name: value for name, value in asked.items() if value not in (None, False, [])},
+    ).save(options.manifest)
+
+
+def _require_two_files(report: str | None, manifest: str | None) -> None:
+    if report and manifest and os.path.realpath(report) == os.path.realpath(manifest):
+        raise FileFormatError(f"{manifest}: is the place of the report already")
+
+
+@contextmanager
+def _naming(files: dict[str, str]) -> Iterator[None]:
+    """Files that were written before one could not be are named with the refusal."""
+    try:
+        yield
+    except FileFormatError as error:
+        raise FileFormatError(f"{error}; written before it: {', '.join(files.values())}") from error
+
+
 def _written(text: str, path: str) -> Path:
     from surfmesh.io.atomic import replacing
 
     with replacing(Path(path)) as temporary:
-        temporary.write_text(text + "\n", encoding="utf-8")
+        temporary.write_text(text + "\n", encoding="utf-8", newline="\n")
     return Path(path)

@@ -20,7 +20,13 @@ from surfmesh.geometry.infinite_speed import (
     to_bent,
 )
 from surfmesh.geometry.surface import Domain
-from surfmesh.geometry.surface_checks import bounds_of, loop_of, refuse_no_area, sample_grid
+from surfmesh.geometry.surface_checks import (
+    bounds_of,
+    loop_of,
+    refuse_extremes,
+    refuse_no_area,
+    sample_grid,
+)
 
 CLOSED = 1e-9
 """Of the extent of two sides: so far apart they are one."""
@@ -84,7 +90,8 @@ class NumericSurface:
             "sizing_defaults": dict(sizing_defaults or {}),
         }
         self.__dict__.update(fixed, closed=(False, False))
-        self._r(sample_grid(self.domain).reshape(-1, 2))  # refused now rather than later
+        # refused now rather than later
+        refuse_extremes(self._r(sample_grid(self.domain).reshape(-1, 2)), self.domain)
         self.__dict__["bent_axes"] = axes = bent_axes(self._r, self.domain)
         rule, error = chosen_differences(
             lambda s: self._r(from_bent(axes, s)), self.domain, int(differences), step
@@ -195,7 +202,7 @@ class NumericSurface:
 
     def _given(self, uv: np.ndarray) -> tuple[np.ndarray, ...]:
         """What ``derivatives`` gives: two or five arrays (n, 3)."""
-        assert self.derivatives is not None
+        assert self.derivatives is not None  # noqa: S101 for mypy: callers have looked
         found = _called(self.derivatives, uv, "derivatives")
         if len(found) not in (2, 5):
             raise SurfaceError(

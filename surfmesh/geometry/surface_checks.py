@@ -10,7 +10,11 @@ from surfmesh.errors import FormulaError, SurfaceError
 from surfmesh.geometry.surface import Domain, Surface
 
 NO_AREA = 1e-11  # sine of the angle between r_u and r_v: r_u x r_v is round-off below it
-LARGEST = 1e100  # lengths and their inverses are below it, so that their squares are numbers
+LARGEST, SMALLEST = 1e60, 1e-60
+"""Coordinates and extents stay between these: squares of the areas of triangles, which are fourth
+powers of their edges, neither overflow nor vanish."""
+FASTEST, BENT_MOST = 1e70, 1e140
+"""First and second derivatives stay below these and above their inverses, for the same reason."""
 SAMPLES = 48  # cells each way on which a surface is tried; the points sit on their corners
 
 
@@ -60,15 +64,35 @@ def sample_grid(domain: Domain, cells: int = SAMPLES) -> np.ndarray:
     return np.stack(np.meshgrid(*lines, indexing="ij"), axis=-1)
 
 
+def refuse_extremes(r: np.ndarray, domain: Domain) -> None:
+    """Raise SurfaceError for points (n, 3) of a domain, when products of lengths, or of
+    derivatives, are no longer doubles."""
+    far = np.abs(r).max()
+    if far > LARGEST:
+        raise SurfaceError(
+            f"the surface has a coordinate of {far:g}, too far away to compute with; scale it"
+        )
+    extent = float(np.ptp(r, axis=0).max())
+    if extent == 0.0:
+        return  # no area, said elsewhere
+    if extent < SMALLEST:
+        raise SurfaceError(
+            f"the surface is only {extent:g} wide, too small to compute with; scale it"
+        )
+    for variable, (first, last) in zip("uv", domain):
+        wide = last - first
+        speed = extent / wide
+        if not 1.0 / FASTEST < speed < FASTEST or not 1.0 / BENT_MOST < speed / wide < BENT_MOST:
+            raise SurfaceError(
+                f"the domain of {variable} is {wide:g} wide where the surface is {extent:g}: its "
+                f"derivatives are no numbers to compute with; scale {variable}"
+            )
+
+
 def refuse_no_area(surface: Surface) -> None:
-    """Raise SurfaceError for a surface that is a point or a curve, or has lengths without squares.
-    """
+    """Raise SurfaceError for a surface that is a point or a curve."""
     points = sample_grid(surface.domain).reshape(-1, 2)
     r, r_u, r_v = surface.evaluate(points, 1)
-    if (far := np.abs(r).max()) > LARGEST:
-        raise SurfaceError(f"the surface reaches {far:g}, too far away to compute with; scale it")
-    if 0.0 < (width := np.ptp(r, axis=0).max()) < 1.0 / LARGEST:
-        raise SurfaceError(f"the surface is {width:g} wide, too small to compute with; scale it")
     if not np.ptp(r, axis=0).any():
         raise SurfaceError("the surface is a single point: none of x, y, z changes with u or v")
     # in parts of the domain, so that u and v may have different units

@@ -133,7 +133,7 @@ class _CheckedFiles(IndexDataCacheFile):
             return None
         path = Path(self._data_path(name))
         # the index may know what a killed process has not written
-        return pickle.loads(_read(path, repr(key))) if path.exists() else None
+        return pickle.loads(_read(path, repr(key))) if path.exists() else None  # noqa: S301 own
 
     def save(self, key: Any, data: Any) -> None:
         try:
@@ -148,7 +148,7 @@ class _CheckedFiles(IndexDataCacheFile):
 
     def _load_index(self) -> dict[Any, str]:
         path = Path(self._index_path)
-        return pickle.loads(_read(path, self._source_stamp)) if path.exists() else {}
+        return pickle.loads(_read(path, self._source_stamp)) if path.exists() else {}  # noqa: S301
 
     def _write(self, path: str, purpose: str, content: Any) -> None:
         data = self._dump(content)

@@ -3,6 +3,7 @@
 from typing import TYPE_CHECKING
 
 from surfmesh.errors import printable
+from surfmesh.quality.opinion_rows import said_of
 from surfmesh.quality.summary import summary
 
 if TYPE_CHECKING:
@@ -11,14 +12,16 @@ if TYPE_CHECKING:
     from surfmesh.quality.report import Report
 
 SHOWN_FACES = 40  # those that are farthest from the surface
+SHOWN_OPINIONS = 80
+LEFT = ("name", "at", "near", "by", "figure", "of", "note")  # columns of words
 BAR = 50  # characters of the longest bar of a histogram
 
 
 def certificate(report: "Report") -> str:
     """Every part of ``report``; long lists of faces are cut, the JSON has them all."""
     parts = [summary(report), _faces(report), _solids(report), _worst(report), _folded(report)]
-    parts += [_meeting(report), _bodies(report), _histograms(report), _healing(report)]
-    parts.append(_origin(report))
+    parts += [_second_opinion(report), _meeting(report), _bodies(report), _histograms(report)]
+    parts += [_healing(report), _origin(report)]
     return "\n\n".join(part for part in parts if part)
 
 
@@ -136,6 +139,31 @@ def _meeting(report: "Report") -> str:
     return _table("self-intersections", head, rows)
 
 
+def _second_opinion(report: "Report") -> str:
+    """Ours beside theirs, those that disagree first."""
+    opinion = report.second_opinion
+    if opinion is None:
+        return ""
+    rows = sorted(opinion.rows, key=lambda row: row.agree is not False)
+    title = "second opinion"
+    if len(rows) > SHOWN_OPINIONS:
+        title += f", {SHOWN_OPINIONS} of {len(rows)} rows"
+        rows = rows[:SHOWN_OPINIONS]
+    head = ("by", "figure", "of", "ours", "theirs", "rounding", "agree", "note")
+    return _table(
+        title,
+        head,
+        [
+            (
+                row.whose, row.quantity, row.of[:32], said_of(row.ours),
+                said_of(row.theirs), _g(row.tolerance, 2),
+                "-" if row.agree is None else "yes" if row.agree else "NO", row.note,
+            )
+            for row in rows
+        ],
+    )  # fmt: skip
+
+
 def _histograms(report: "Report") -> str:
     blocks = []
     for name, found in report.histograms.items():
@@ -181,7 +209,7 @@ def _table(title: str, head: tuple[str, ...], rows: list[tuple[str, ...]]) -> st
     for cells in zip(*used):
         padded = [
             cell.ljust(max(map(len, column)))
-            if column[0] in ("name", "at", "near")
+            if column[0] in LEFT
             else cell.rjust(max(map(len, column)))
             for cell, column in zip(cells, used)
         ]
