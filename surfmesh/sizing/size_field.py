@@ -286,8 +286,8 @@ class _Builder:
         u, v = self.scaling.to_uv(corner * self.root_step)[0]
         if triangles > HOPELESS:
             raise SizingError(
-                f"about {triangles:.3g} triangles are asked for on {self.surface.name!r}, most near "
-                f"(u, v) = ({u:.6g}, {v:.6g}): ask for larger sizes there, or set min_size"
+                f"about {triangles:.3g} triangles are asked for on {self.surface.name!r}, most "
+                f"near (u, v) = ({u:.6g}, {v:.6g}): ask for larger sizes there, or set min_size"
             )
         raise SizingError(
             f"the sizes asked for on {self.surface.name!r} need more than {total:,} cells to "
