@@ -296,8 +296,10 @@ class _Builder:
 
     def _refuse_far_beyond(self, cells: Cells, patch: np.ndarray) -> None:
         """Raise SizingError before a field is made for far more triangles than there may be."""
-        if len(cells) < MANY_CELLS or not self._is_of_formulas:
+        if len(cells) < MANY_CELLS or not isinstance(self.law, SizeLaw):
             return
+        if not (self._is_of_formulas or self.law.sizing.has_law):
+            return  # a CAD face is bounded by the limits of its model
         asked = self._triangles(cells, patch)
         limit = self.law.sizing.limit
         if float(asked.sum()) <= FAR_BEYOND * limit:
