@@ -146,7 +146,7 @@ def _trial(
 
 @contextmanager
 def _time_limit(seconds: float) -> Any:
-    """TimeoutError after so many seconds of processor time, in the main thread, where alarms are."""
+    """TimeoutError after so many seconds of processor time, where there are such alarms."""
     usable = hasattr(signal, "SIGPROF") and threading.current_thread() is threading.main_thread()
     if not usable:
         yield
