@@ -70,7 +70,7 @@ def _options() -> argparse.Namespace:
     parser.add_argument("--surfaces", type=int, default=200)
     parser.add_argument("--seed", type=int, default=0)
     parser.add_argument("--first", type=int, default=0, help="number of the first of each")
-    parser.add_argument("--time-limit", type=float, default=60.0, help="s, for one")
+    parser.add_argument("--time-limit", type=float, default=60.0, help="seconds of processor time")
     parser.add_argument("--json", type=Path, help="a line for each of them")
     return parser.parse_args()
 

@@ -23,12 +23,14 @@ import sympy as sp
 
 from surfmesh.errors import FormulaError, SurfaceError
 from surfmesh.geometry import real_functions as real
-from surfmesh.geometry.compilation import FUNCTION_OPERATIONS, compiled
+from surfmesh.geometry.compilation import compiled
+from surfmesh.geometry.program import FUNCTION_OPERATIONS
 
 LONGEST = 10_000  # characters of a formula
 DEEPEST = 64  # levels of parentheses, calls, signs and powers
 LARGEST_EXPONENT = 64  # of a power with a constant exponent
-MOST_DIGITS = 20_000  # binary digits of an exact power
+MOST_DIGITS, ALL_DIGITS = 20_000, 200_000  # binary digits of one exact power, of all together
+MOST_OPERATIONS = 8_000  # of a formula that is given as an expression, whose text may be endless
 LARGEST_NUMBER = 1e300  # of any constant part; its square root and square stay near floats
 
 
@@ -167,6 +169,7 @@ class _Parser:
         self.tokens = list(self._tokens())
         self.place = 0
         self.depth = 0
+        self.digits = 0.0  # binary ones, of exact powers
 
     def formula(self) -> _Part:
         if not self.tokens:
@@ -225,8 +228,11 @@ class _Parser:
         if exponent.value is not None and abs(exponent.value) > LARGEST_EXPONENT:
             self._refuse(f"an exponent beyond {LARGEST_EXPONENT}", exponent.column)
         coefficient = base.expression.as_coeff_Mul()[0]
-        if exponent.value is not None and _digits(coefficient) * abs(exponent.value) > MOST_DIGITS:
-            self._refuse("a power with too many digits", exponent.column)
+        if exponent.value is not None:
+            digits = _digits(coefficient) * abs(exponent.value)
+            self.digits += digits
+            if digits > MOST_DIGITS or self.digits > ALL_DIGITS:
+                self._refuse("a power with too many digits", exponent.column)
         if base.value is not None and exponent.value is not None:
             self._value(math.pow, (base.value, exponent.value), base.column)
         result = self._joined([base, exponent], sp.Pow, lambda a, b: a**b)

@@ -202,7 +202,7 @@ class NumericSurface:
 
     def _given(self, uv: np.ndarray) -> tuple[np.ndarray, ...]:
         """What ``derivatives`` gives: two or five arrays (n, 3)."""
-        assert self.derivatives is not None
+        assert self.derivatives is not None  # noqa: S101 for mypy: callers have looked
         found = _called(self.derivatives, uv, "derivatives")
         if len(found) not in (2, 5):
             raise SurfaceError(

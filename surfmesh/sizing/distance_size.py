@@ -11,6 +11,7 @@ import numpy as np
 
 from surfmesh.errors import SizingError
 from surfmesh.geometry.segment_distance import SegmentDistance
+from surfmesh.sizing.positive import countable
 
 
 @dataclass(frozen=True, eq=False)
@@ -44,13 +45,7 @@ class DistanceSize:
     def __post_init__(self) -> None:
         for name in ("near", "far", "reach"):
             value = getattr(self, name)
-            try:
-                number = float(value)
-            except (TypeError, ValueError):
-                number = np.nan
-            if not (number > 0.0 and np.isfinite(number)):
-                raise SizingError(f"{name} must be a positive number, not {value!r}")
-            object.__setattr__(self, name, number)
+            object.__setattr__(self, name, countable(name, value))
         if hasattr(self.geometry, "geom_type"):
             raise SizingError("a shapely geometry must be made a PlanarDomain, or arrays, first")
         if not hasattr(self.geometry, "distance"):
@@ -97,7 +92,7 @@ def polylines(given: Any) -> tuple[np.ndarray, ...]:
         )
     try:
         lines = [np.array(line, dtype=float) for line in given]
-    except (TypeError, ValueError):
+    except (TypeError, ValueError, OverflowError):
         raise SizingError(f"the geometry is not made of arrays: {given!r:.60}") from None
     if lines and all(line.ndim == 1 for line in lines):
         lines = [np.array(lines)] if len({len(line) for line in lines}) == 1 else lines

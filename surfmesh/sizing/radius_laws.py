@@ -8,12 +8,22 @@ import numpy as np
 
 from surfmesh.errors import SizingError
 
+LARGEST = 1e100
+"""Lengths and their inverses are less than that: their squares are numbers."""
+
+
+def require_computable(name: str, length: float) -> None:
+    """Raise ``SizingError`` for a length that has no square, or no inverse of it."""
+    if not 1.0 / LARGEST < length < LARGEST:
+        size = "large" if length > 1.0 else "small"
+        raise SizingError(f"{name} {length:g} is too {size} to compute with; scale what is packed")
+
 
 @dataclass(frozen=True)
 class UniformRadius:
     """Radii drawn evenly from [lo, hi], whatever the place. The same seed, the same radii.
 
-    Raises ``SizingError`` unless 0 < lo <= hi, both finite.
+    Raises ``SizingError`` unless 0 < lo <= hi, both finite, and the seed is a number from 0.
     """
 
     lo: float
@@ -23,6 +33,10 @@ class UniformRadius:
     def __post_init__(self) -> None:
         if not (0.0 < self.lo <= self.hi < math.inf):
             raise SizingError(f"random radii need 0 < lo <= hi, not {self.lo!r} and {self.hi!r}")
+        for radius in (self.lo, self.hi):
+            require_computable("radius", radius)
+        if not isinstance(self.seed, (int, np.integer)) or self.seed < 0:
+            raise SizingError(f"seed must be a whole number from 0, not {self.seed!r:.60}")
 
     def stream(self) -> Callable[[int], np.ndarray]:
         """A function whose call with n gives the next n radii (n,)."""

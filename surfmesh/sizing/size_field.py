@@ -77,6 +77,9 @@ POLE_DISTANCE = 0.9
 REACHED = 1.1
 """How much more than the reached ratio of the two sizes the shorter one leaves room for."""
 
+COUNTABLE = 1e18
+"""More circles or triangles than that are as many."""
+
 _NO_DIRECTIONS = np.empty(0), np.empty((0, 3)), np.empty((0, 3))
 
 MAX_CELLS, FREE_CELLS, CELLS_OF_TRIANGLE = 800_000, 200_000, 4
@@ -109,7 +112,7 @@ class SizeField:
         share, sqrt(3) / 2."""
         width, height = self.scaling.extent
         area = inverse_area(self.background, float(width), float(height), np.empty((STACK, 5)))
-        return int(area * 2.0 / np.sqrt(3.0)) + 100
+        return int(min(area * 2.0 / np.sqrt(3.0), COUNTABLE)) + 100
 
     def tensors(self, xy: np.ndarray) -> np.ndarray:
         """Size tensors (n, 3) at points xy (n, 2) of the scaled plane."""

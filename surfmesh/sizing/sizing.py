@@ -6,7 +6,7 @@ from dataclasses import dataclass, fields, replace
 import numpy as np
 
 from surfmesh.errors import SizingError
-from surfmesh.sizing.positive import positive
+from surfmesh.sizing.positive import countable, positive
 from surfmesh.sizing.sources import checked_sizes, source_sizes
 
 SizeLaw = Callable[[np.ndarray], np.ndarray]
@@ -70,12 +70,16 @@ class Sizing:
     """A mesh that would have more triangles is refused before it is made."""
 
     def __post_init__(self) -> None:
-        for name in ("chord", "angle", "min_size", "max_size", "volume"):
+        for name in ("chord", "angle", "max_size"):
+            value = getattr(self, name)
+            if value is not None:
+                object.__setattr__(self, name, countable(name, value))
+        for name in ("min_size", "volume"):
             value = getattr(self, name)
             if value is not None:
                 object.__setattr__(self, name, positive(name, value))
         if self.size is not None and not callable(self.size):
-            object.__setattr__(self, "size", positive("size", self.size))
+            object.__setattr__(self, "size", countable("size", self.size))
         object.__setattr__(self, "growth", positive("growth", self.growth))
         object.__setattr__(self, "anisotropy", positive("anisotropy", self.anisotropy))
         if self.growth <= 1.0:
@@ -91,6 +95,8 @@ class Sizing:
         object.__setattr__(self, "sources", tuple(sources))
         if self.gap is not None:
             object.__setattr__(self, "gap", positive("gap", self.gap))
+            if not 1e-3 <= self.gap <= 1000.0:
+                raise SizingError(f"gap is a number of triangles, 0.001 to 1000, not {self.gap:g}")
         object.__setattr__(self, "limit", int(positive("limit", self.limit)))
         if self.volume is not None and self.volume >= 1.0:
             raise SizingError(f"volume is a relative error below 1, not {self.volume:g}")

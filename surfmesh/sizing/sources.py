@@ -24,7 +24,7 @@ import numpy as np
 from surfmesh.errors import SizingError
 from surfmesh.geometry.segment_distance import SegmentDistance
 from surfmesh.sizing.distance_size import polylines
-from surfmesh.sizing.positive import positive
+from surfmesh.sizing.positive import countable, positive
 
 MARK_STEP = 4.0
 """Marks along lines and within boxes are so many sizes apart,"""
@@ -45,7 +45,7 @@ class Source:
     reach: float | None
 
     def _check(self) -> None:
-        object.__setattr__(self, "size", positive("size", self.size))
+        object.__setattr__(self, "size", countable("size", self.size))
         object.__setattr__(self, "growth", positive("growth", self.growth))
         if self.growth <= 1.0:
             raise SizingError(f"growth must be above 1, not {self.growth:g}")
@@ -110,8 +110,10 @@ class Near(Source):
 
     def __post_init__(self) -> None:
         self._check()
-        if not (np.isscalar(self.radius) and 0.0 <= self.radius < np.inf):
-            raise SizingError(f"radius must not be negative, not {self.radius!r}")
+        if isinstance(self.radius, str) or not np.isscalar(self.radius) or not (
+            0.0 <= self.radius < np.inf
+        ):
+            raise SizingError(f"radius must be a number from 0, not {self.radius!r:.60}")
         given = self.geometry
         if isinstance(given, np.ndarray) or _is_points(given):
             rows = np.atleast_2d(np.asarray(given, float))
@@ -379,10 +381,10 @@ def _steps(line: np.ndarray) -> np.ndarray:
 def _point(name: str, given: Any) -> np.ndarray:
     try:
         point = np.array(given, float)
-    except (TypeError, ValueError):
+    except (TypeError, ValueError, OverflowError):
         point = np.empty(0)
     if point.shape != (3,) or not np.isfinite(point).all():
-        raise SizingError(f"{name} must be three finite numbers, not {given!r}")
+        raise SizingError(f"{name} must be three finite numbers, not {given!r:.60}")
     return point
 
 

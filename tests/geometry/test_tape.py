@@ -9,7 +9,12 @@ import sympy as sp
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from surfmesh.geometry.compilation import compiled, surface_tape
+from surfmesh.geometry.compilation import (
+    by_definitions,
+    compiled,
+    long_surface_tape,
+    surface_tape,
+)
 from surfmesh.geometry.expression import parse, symbol
 from surfmesh.geometry.tape import BLOCK, integer_power
 
@@ -45,17 +50,21 @@ def _parsed(text):
 @settings(max_examples=60, deadline=None, derandomize=True)
 def test_values_and_derivatives_agree_with_the_slow_twin(texts):
     coordinates = [_parsed(text) for text in texts]
-    tape = surface_tape(coordinates, VARIABLES, 2)
-    assert tape.check() == ""
+    tapes = surface_tape(coordinates, VARIABLES, 2), long_surface_tape(coordinates, VARIABLES, 2)
     mpmath.mp.dps = 30
     point = (0.371, 0.823)
-    results = tape.evaluate(np.array([point]))
-    for result, order in zip(results, ORDERS):
+    results = []
+    for tape in tapes:
+        assert tape.check() == ""
+        results.append(tape.evaluate(np.array([point])))
+    for number, order in enumerate(ORDERS):
         for axis, coordinate in enumerate(coordinates):
             derivative = sp.diff(coordinate, *order) if order else coordinate
             expected = _slow_value(derivative, point)
             if expected is not None and abs(expected) < 1e8:
-                assert result[0, axis] == pytest.approx(expected, rel=1e-8, abs=1e-8)
+                for result in results:
+                    found = result[number][0, axis]
+                    assert found == pytest.approx(expected, rel=1e-8, abs=1e-8)
 
 
 NAIVE = {
@@ -199,6 +208,51 @@ def test_a_long_product_is_differentiated_in_time_linear_in_its_length():
     assert r[0, 0] == pytest.approx(np.prod(factors), rel=1e-12)
     slope = np.prod(factors) * sum(1 / i / f for i, f in zip(range(2, 80), factors))
     assert r_u[0, 0] == pytest.approx(slope, rel=1e-12)
+
+
+EVERY_FUNCTION = (
+    "sin(u*v) + cos(u/v) - tan(u) + asin(u*v/2) + acos(u/2) + atan(u*v) + atan2(u, v - 2)",
+    "sinh(u*v) * cosh(u) + tanh(v) + asinh(u*v) + acosh(2 + u*v) + atanh(u*v/2) + erf(u*v)",
+    "exp(u*v) / log(2 + u*v) + sqrt(1 + u*v) + cbrt(u*v) + sinc(3*u*v) + (u*v)**0.3 + u**v",
+    "(u + v)**-3 + (u + v)**7 + (1 + u*v)**(u - v) + 2**(u*v) + cos(2*atan2(v, u))",
+    "abs(u - v) + sign(u) * v + heaviside(v - u) * u**2 + floor(3*u*v) + min(u, v, u*v)",
+    "max(u - v, u*v) * min(u**2, v) + abs(sin(9*u*v))**1.5 + abs(max(u, v) - 0.5)",
+)
+
+
+@pytest.mark.parametrize("text", EVERY_FUNCTION)
+def test_programs_are_differentiated_as_expressions_are(text):
+    """Two ways to the same derivatives and bounds: SymPy's, and one step at a time."""
+    coordinates = [parse(text), parse(f"({text})**2"), parse(f"exp(-abs({text}))")]
+    places = 0.05 + 0.9 * np.random.default_rng(13).random((200, 2))
+    by_sympy, by_steps = (
+        differentiated(coordinates, VARIABLES, 2).evaluate(places)
+        for differentiated in (by_definitions, long_surface_tape)
+    )
+    for one, other in zip(by_sympy, by_steps):
+        scale = 1.0 + np.abs(one).max()
+        assert np.allclose(one, other, rtol=1e-9, atol=1e-11 * scale)
+    lower, upper = long_surface_tape(coordinates, VARIABLES, 2).bounds(places - 1e-6, places + 1e-6)
+    values = np.hstack(by_steps)
+    assert ((lower <= values) & (values <= upper)).all()
+
+
+def test_a_piecewise_choice_is_differentiated_behind_the_choice():
+    chosen = parse(sp.Piecewise((sp.log(U) * V, U > 0), (U**2 * V, True)))
+    tape = long_surface_tape([chosen, U, V], VARIABLES, 2)
+    (r_u, r_v) = tape.evaluate(np.array([[0.5, 2.0], [-0.5, 2.0]]))[1:3]
+    assert r_u[:, 0] == pytest.approx([4.0, -2.0])
+    assert r_v[:, 0] == pytest.approx([np.log(0.5), 0.25])
+
+
+def test_three_hundred_sines_are_few_steps():
+    """Differentiated as one expression they took a quarter of a minute."""
+    text = "+".join(f"sin({k}*u+{k % 7}*v)*cos({k % 5}*v)" for k in range(1, 301))
+    tape = surface_tape([U, V, parse(text)], VARIABLES, 2)
+    assert len(tape.instructions) < 300 * 30
+    at = np.array([[0.3, 0.4]])
+    slope = sum(k * np.cos(0.3 * k + 0.4 * (k % 7)) * np.cos(0.4 * (k % 5)) for k in range(1, 301))
+    assert tape.evaluate(at)[1][0, 2] == pytest.approx(slope, rel=1e-9)
 
 
 def test_tapes_can_be_pickled_and_broken_ones_are_noticed():

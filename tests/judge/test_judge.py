@@ -164,8 +164,8 @@ def test_an_edge_swapped_into_a_fold_is_found():
     found = 0
     for t, triangle in enumerate(triangles):
         p, q, r = triangle
-        both = np.flatnonzero(np.isin(triangles, (p, q)).sum(axis=1) == 2)
-        for other in both[both != t]:
+        beside = np.flatnonzero(np.isin(triangles, (p, q)).sum(axis=1) == 2)
+        for other in beside[beside != t]:
             s = int(np.setdiff1d(triangles[other], (p, q))[0])
             x, y = xy[[s, r]] - xy[p], xy[[r, s]] - xy[q]
             if min(np.linalg.det(x), np.linalg.det(y)) < -1e-6 and found < 6:

@@ -146,7 +146,7 @@ def _trial(
 
 @contextmanager
 def _time_limit(seconds: float) -> Any:
-    """TimeoutError after so many seconds of processor time, where there are such alarms."""
+    """TimeoutError after so many seconds of processor time; only the main thread has alarms."""
     usable = hasattr(signal, "SIGPROF") and threading.current_thread() is threading.main_thread()
     if not usable:
         yield
