@@ -1,24 +1,25 @@
 """Triangles that look the other way than the true surface near them."""
 
 import numpy as np
+import pyvista
+import trimesh
 from scipy.spatial import cKDTree
 
+AGAINST = -0.1, -0.3
+"""Cosine to the nearest true triangle's normal, and to those of all triangles near: with both,
+a thin wall's other side is not taken for the triangle's own."""
+NEAR = 16
 
-def reversed_triangles(
-    corners: np.ndarray, places: np.ndarray, normals: np.ndarray, near: int, against: float
-) -> int:
-    """How many triangles (m, 3, 3) look against all of the so many nearest true normals.
 
-    places, normals: (n, 3) of the true surface, the latter of any length; zero ones are left
-    out. against: cosine, below zero, that a normal must have to each of them.
-    """
-    a, b, c = np.moveaxis(corners, 1, 0)
-    own = _unit(np.cross(b - a, c - a))
-    true = _unit(normals)
-    kept = np.abs(true).max(axis=1) > 0.0
-    _, found = cKDTree(places[kept]).query(corners.mean(axis=1), k=near)
-    cosines = np.einsum("ij,ikj->ik", own, true[kept][found])
-    return int((cosines.max(axis=1) < against).sum())
+def reversed_triangles(mesh: trimesh.Trimesh, truth: trimesh.Trimesh) -> int:
+    """How many triangles of the mesh look against the true ones near them."""
+    centres, own = mesh.triangles_center, _unit(mesh.triangles_cross)
+    true, middles = _unit(truth.triangles_cross), truth.triangles_center
+    cell, _ = pyvista.wrap(truth).find_closest_cell(centres, return_closest_point=True)
+    doubtful = np.flatnonzero(np.einsum("ij,ij->i", own, true[cell]) < AGAINST[0])
+    _, found = cKDTree(middles).query(centres[doubtful], k=min(NEAR, len(middles)))
+    cosines = np.einsum("ij,ikj->ik", own[doubtful], true[found])
+    return int((cosines.max(axis=1) < AGAINST[1]).sum())
 
 
 def _unit(vectors: np.ndarray) -> np.ndarray:

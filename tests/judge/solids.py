@@ -61,8 +61,7 @@ def judged(
         if count:
             faults.append(f"{count} {what}")
     truth = _tessellated(shape, FINE * chord)
-    centres, normals = truth.triangles_center, truth.triangles_cross
-    against = reversed_triangles(mesh.triangles, centres, normals, near=16, against=-0.3)
+    against = reversed_triangles(mesh, truth)
     if against:
         faults.append(f"{against} triangles look the wrong way")
     there, back = farthest(mesh, truth) / chord, farthest(truth, mesh) / chord

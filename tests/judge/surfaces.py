@@ -137,31 +137,23 @@ def judged(points: np.ndarray, triangles: np.ndarray, truth: Truth, chord: float
     lying = folded(points, triangles)
     if lying:
         faults.append(f"{lying} triangles lie folded on a neighbour")
-    if truth.oriented:
-        against = _reversed(mesh, truth)
-        if against:
-            faults.append(f"{against} triangles look the wrong way")
+    near = FINE * (chord if chord is not None else 0.01 * float(mesh.scale))
+    exact, uv, off = truth.tessellated(near)
+    against = reversed_triangles(mesh, exact) if truth.oriented else 0
+    if against:
+        faults.append(f"{against} triangles look the wrong way")
     if chord is not None:
-        there, back, off = _distances(mesh, truth, chord)
+        there, back = farthest(mesh, exact) / chord, _back(mesh, exact, uv, truth) / chord
         figures.update(to_surface=there, to_mesh=back, deviation=max(there, back))
-        allowed = 1.01 + off
+        allowed = 1.01 + off / chord
         for way, far in (("from mesh to surface", there), ("from surface to mesh", back)):
             if far > allowed:
                 faults.append(f"{far:.3g} chord {way}")
     return Verdict(tuple(faults), figures)
 
 
-def _reversed(mesh: trimesh.Trimesh, truth: Truth) -> int:
-    lines = [np.linspace(*span, CELLS[1] + 1) for span in (truth.u, truth.v)]
-    r, r_u, r_v = truth.evaluate(np.stack(np.meshgrid(*lines), axis=-1).reshape(-1, 2))
-    return reversed_triangles(mesh.triangles, r, np.cross(r_u, r_v), near=4, against=-0.1)
-
-
-def _distances(mesh: trimesh.Trimesh, truth: Truth, chord: float) -> tuple[float, float, float]:
-    """Of mesh from surface, of surface from mesh, and of the truth's own, over the chord."""
-    exact, uv, off = truth.tessellated(FINE * chord)
-    there = farthest(mesh, exact)
+def _back(mesh: trimesh.Trimesh, exact: trimesh.Trimesh, uv: np.ndarray, truth: Truth) -> float:
+    """Largest distance of what the loops leave of the surface from the mesh."""
     kept = np.flatnonzero(truth.inside(uv))
     kept = kept[:: len(kept) // 60_000 + 1]
-    back = farthest_point(exact.vertices[kept], mesh)
-    return there / chord, back / chord, off / chord
+    return farthest_point(exact.vertices[kept], mesh)

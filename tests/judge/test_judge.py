@@ -11,7 +11,7 @@ from judge import domains, solids, surfaces
 from judge.index_topology import border_loops, euler_number, fans, faults_of_indices, pieces
 from judge.piercing import folded, piercing
 
-CHORD = 0.1
+CHORD = 0.15
 PLATE = shapely.Polygon(
     [(0, 0), (6, 0), (6, 4), (0, 4)], [[(1, 1), (3, 1), (3, 2), (1, 2)]]
 )  # fmt: skip
@@ -130,7 +130,7 @@ def test_good_meshes_have_no_faults(kind, request):
 @pytest.mark.parametrize("fault", FAULTS)
 def test_a_fault_is_found(kind, fault, request):
     judge, good = verdicts(request)[kind], request.getfixturevalue(kind)
-    for seed in range(2):
+    for seed in range(2 if kind == "plate" else 1):
         broken = fault(*good, np.random.default_rng(seed))
         assert judge(*broken).faults, f"{fault.__name__} {seed} is not found"
 
