@@ -44,7 +44,7 @@ test: lint ## lint, layers, types and tests
 	$(BIN)/python -m pytest -n 2 --dist worksteal
 
 fuzz: $(VENV)/.installed-dev ## hostile input by thousands: the table (SURFMESH_FUZZ=1000 a kind)
-	SURFMESH_FUZZ=$${SURFMESH_FUZZ:-1000} $(BIN)/python benchmarks/trust.py --parts readers formulas
+	SURFMESH_FUZZ=$${SURFMESH_FUZZ:-1000} $(BIN)/python benchmarks/trust.py --parts readers formulas random
 
 lint: $(VENV)/.installed-dev ## ruff, the layers of the package, types of the public face
 	$(BIN)/ruff check .
