@@ -299,7 +299,7 @@ class _Builder:
         if len(cells) < MANY_CELLS or not isinstance(self.law, SizeLaw):
             return
         if not (self._is_of_formulas or self.law.sizing.has_law):
-            return  # a CAD face is bounded by the limits of its model
+            return  # the triangles of a CAD model are counted together, elsewhere
         asked = self._triangles(cells, patch)
         limit = self.law.sizing.limit
         if float(asked.sum()) <= FAR_BEYOND * limit:
