@@ -266,6 +266,23 @@ def test_triangle_sets_of_3mf_hold_each_triangle_once(tmp_path, tetrahedron):
         read(path)
 
 
+def test_arrays_of_med_that_were_never_written_or_are_elsewhere(tetrahedron, tmp_path):
+    pytest.importorskip("meshio")
+    h5py = pytest.importorskip("h5py")
+    path = tetrahedron.save(tmp_path / "part.med")
+    with h5py.File(path, "r+") as file:
+        file.create_dataset("more", (10**9,), "f8", chunks=(1000,))
+    with pytest.raises(FileFormatError, match="would unpack to more than"):
+        read(path)
+    with h5py.File(path, "r+") as file:
+        del file["more"]
+        file["round"] = h5py.SoftLink("/ENS_MAA")
+        file["ENS_MAA"]["up"] = file["ENS_MAA"]
+        file["other"] = h5py.ExternalLink("secret.med", "/")
+    with pytest.raises(FileFormatError, match="in another file"):
+        read(path)
+
+
 def test_pictures_that_a_file_names_are_not_opened(tmp_path, caplog, capfd):
     (tmp_path / "part.ply").write_text(ply(extra="comment TextureFile ../../etc/passwd\n"))
     (tmp_path / "part.glb").write_bytes(gltf(images=[{"uri": "../../etc/passwd"}]))
