@@ -15,7 +15,7 @@ import numpy as np
 from surfmesh.errors import DomainError
 from surfmesh.geometry.noding import MERGE, first_meeting, noded
 
-LARGEST, SMALLEST = 1e100, 1e-100
+LARGEST, SMALLEST = 1e60, 1e-60
 """Coordinates and the diagonal stay between these, so that products neither overflow nor
 vanish."""
 

@@ -11,8 +11,8 @@ from surfmesh.errors import FormulaError, SurfaceError, shown
 from surfmesh.geometry.surface import Domain, Surface
 
 NO_AREA = 1e-11  # sine of the angle between r_u and r_v: r_u x r_v is round-off below it
-LARGEST_BOUND, SMALLEST_SPAN = 1e100, 1e-100  # of a domain: fourth powers are numbers still
-LARGEST_VALUE = 1e100  # of a coordinate, likewise
+LARGEST_BOUND, SMALLEST_SPAN = 1e60, 1e-60  # of a domain: fourth powers are numbers still
+LARGEST_VALUE = 1e60  # of a coordinate, likewise
 NARROWEST = 1e-12  # of the larger bound: a domain holds 4,500 numbers
 SAMPLES = 48  # cells each way on which a surface is tried; the points sit on their corners
 
