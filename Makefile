@@ -2,27 +2,57 @@
 
 PYTHON ?= python3
 VENV ?= .venv
+CONSTRAINTS ?= constraints.txt
+LOWEST_PYTHON ?= python3.11
 BIN := $(VENV)/bin
-PIP := $(BIN)/python -m pip --disable-pip-version-check install -qq --only-binary=:all:
+LOWEST := .venv-lowest
+
+# what the lowest versions are tried with: all that calls the libraries, little of what is our own
+CORE := tests/geometry tests/sizing tests/result/test_formats.py tests/result/test_format_groups.py \
+    tests/result/test_view.py tests/result/test_cli.py tests/result/test_surface_mesh.py \
+    tests/result/test_second_opinion.py \
+    tests/meshing/test_gallery_meshes.py tests/meshing/test_planar_regions.py \
+    tests/cad/test_convert.py tests/cad/test_from_cadquery.py tests/cad/test_reading.py \
+    tests/cad/test_selection.py
+
+# $(call install,ENVIRONMENT,CONSTRAINTS,REQUIREMENT): uv does it in seconds, pip where uv cannot
+define install
+@echo "installing $(3) and what it needs into $(1)"
+@$(1)/bin/python -m pip --disable-pip-version-check install -qq --only-binary=:all: -c $(CONSTRAINTS) uv || \
+    echo "there is no uv for this machine" >&2
+@$(1)/bin/uv pip install --quiet --python $(1)/bin/python --only-binary=:all: -c $(2) -e '$(3)' || \
+    { echo "pip installs instead of uv" >&2; $(1)/bin/python -m pip \
+    --disable-pip-version-check install -qq --only-binary=:all: -c $(2) -e '$(3)'; }
+@touch $(1)/.installed
+endef
 
 .DEFAULT_GOAL := help
-.PHONY: help venv mesh test lint docs bench clean
+.PHONY: help venv mesh test fuzz lint lowest docs bench constraints licences clean
+
+COMPILE := $(BIN)/uv pip compile --quiet --only-binary=:all: --python-version 3.11 \
+    --no-annotate --custom-compile-command 'make constraints'
 
 help: ## this list
-	@grep -E '^[a-z]+:.*##' $(MAKEFILE_LIST) | sed -E 's/^([a-z]+):[^#]*## /  make \1\t/' | expand -t 16
+	@grep -E '^[a-z]+:.*##' $(MAKEFILE_LIST) | sed -E 's/^([a-z]+):[^#]*## /  make \1\t/' | expand -t 20
 
 venv: $(VENV)/.installed ## virtual environment with surfmesh (VENV=.venv, PYTHON=python3)
 
 mesh: $(VENV)/.installed ## mesh, check and draw the wavy surface; results in outputs/
-	$(BIN)/surfmesh mesh wavy -o outputs/wavy.vtu --picture outputs/wavy.png --report outputs/wavy.json
+	$(BIN)/surfmesh mesh wavy -o outputs/wavy.vtu --picture outputs/wavy.png --report outputs/wavy.json --second-opinion
 
 test: lint ## lint, layers, types and tests
 	$(BIN)/python -m pytest -n 2 --dist worksteal
+
+fuzz: $(VENV)/.installed-dev ## hostile input by thousands: the table (SURFMESH_FUZZ=1000 a kind)
+	SURFMESH_FUZZ=$${SURFMESH_FUZZ:-1000} $(BIN)/python benchmarks/trust.py --parts readers formulas random
 
 lint: $(VENV)/.installed-dev ## ruff, the layers of the package, types of the public face
 	$(BIN)/ruff check .
 	$(BIN)/lint-imports --no-logo
 	$(BIN)/mypy
+
+lowest: $(LOWEST)/.installed ## the tests' core on the lowest versions that work (Python 3.11)
+	$(LOWEST)/bin/python -m pytest -n 2 --dist worksteal $(CORE)
 
 docs: $(VENV)/.installed-docs ## HTML pages with executed notebooks, in outputs/docs
 	$(BIN)/sphinx-build -q -b html docs outputs/docs
@@ -31,8 +61,16 @@ docs: $(VENV)/.installed-docs ## HTML pages with executed notebooks, in outputs/
 bench: $(VENV)/.installed-bench ## the figures, gmsh beside them
 	$(BIN)/python benchmarks/parametric.py
 
-clean: ## remove what is generated, but for the virtual environment
-	find . -name __pycache__ -not -path './.venv/*' -type d -prune -exec rm -rf {} +
+constraints: $(VENV)/.installed-install ## constraints*.txt anew: the newest versions, and the lowest
+	$(COMPILE) --upgrade --universal --all-extras pyproject.toml -o constraints.txt
+	$(COMPILE) --upgrade --resolution lowest-direct --extra test pyproject.toml \
+	    -o constraints-lowest.txt
+
+licences: $(VENV)/.installed-dev $(VENV)/.installed-bench ## licences of all that is installed
+	$(BIN)/python tools/licences.py
+
+clean: ## remove what is generated, but for the virtual environments
+	find . -name __pycache__ -not -path './.venv*' -type d -prune -exec rm -rf {} +
 	rm -rf docs/notebooks build dist *.egg-info .pytest_cache .mypy_cache .hypothesis .ruff_cache .import_linter_cache
 	find outputs -mindepth 1 ! -name README.md -delete
 
@@ -42,22 +80,17 @@ $(VENV)/bin/python:
 	@echo "creating the virtual environment $(VENV)"
 	@$(PYTHON) -m venv $(VENV)
 
-$(VENV)/.installed: pyproject.toml | $(VENV)/bin/python
-	@echo "installing surfmesh and what it needs into $(VENV)"
-	@$(PIP) -e .
+$(LOWEST)/bin/python:
+	@$(LOWEST_PYTHON) -c 'import sys; sys.exit(sys.version_info[:2] != (3, 11))' || \
+		{ echo "the lowest versions are for Python 3.11: make lowest LOWEST_PYTHON=..." >&2; exit 1; }
+	@$(LOWEST_PYTHON) -m venv $(LOWEST)
+
+$(VENV)/.installed: pyproject.toml $(CONSTRAINTS) | $(VENV)/bin/python
+	$(call install,$(VENV),$(CONSTRAINTS),.)
+
+$(VENV)/.installed-%: pyproject.toml $(CONSTRAINTS) | $(VENV)/bin/python
+	$(call install,$(VENV),$(CONSTRAINTS),.[$*])
 	@touch $@
 
-$(VENV)/.installed-dev: pyproject.toml | $(VENV)/bin/python
-	@echo "installing surfmesh and what its tests need into $(VENV)"
-	@$(PIP) -e '.[dev]'
-	@touch $@ $(VENV)/.installed
-
-$(VENV)/.installed-docs: pyproject.toml | $(VENV)/bin/python
-	@echo "installing surfmesh and what its pages need into $(VENV)"
-	@$(PIP) -e '.[docs]'
-	@touch $@ $(VENV)/.installed
-
-$(VENV)/.installed-bench: pyproject.toml | $(VENV)/bin/python
-	@echo "installing surfmesh and what its benchmarks need into $(VENV)"
-	@$(PIP) -e '.[bench]'
-	@touch $@ $(VENV)/.installed
+$(LOWEST)/.installed: pyproject.toml constraints-lowest.txt | $(LOWEST)/bin/python
+	$(call install,$(LOWEST),constraints-lowest.txt,.[test])

@@ -11,7 +11,7 @@ import numpy as np
 from surfmesh.cad.from_cadquery import from_cadquery
 from surfmesh.cad.joining import Joining
 from surfmesh.cad.model import CadModel
-from surfmesh.cad.reading import JOINING_TIME_LIMIT, SUFFIXES, TIME_LIMIT, read_cad
+from surfmesh.cad.reading import SUFFIXES, read_cad
 from surfmesh.errors import CadError, FileFormatError, SizingError, SurfaceError, shown
 from surfmesh.geometry.planar_domain import PlanarDomain
 from surfmesh.geometry.surface import Surface
@@ -33,6 +33,7 @@ from surfmesh.sizing.sizing import Sizing
 from surfmesh.surface_mesh import SurfaceMesh
 
 logger = logging.getLogger(__name__)
+FARTHEST = 1e100  # coordinate of a point that is asked for: squares of distances are finite
 
 
 def load(
@@ -41,6 +42,8 @@ def load(
     *,
     imprint: bool | float = False,
     sew: float | None = None,
+    time_limit: float | None = None,
+    memory_limit: float | None = None,
 ) -> Surface | CadModel:
     """The surface or CAD model of a file, or the surface of the gallery by its name.
 
@@ -51,6 +54,10 @@ def load(
     their faces, which are meshed once; a number is how near touches. sew=0.01: loose faces whose
     edges lie as near are joined, and closed shells of them become solids.
 
+    time_limit, memory_limit: seconds of processor time and MB of memory that reading a CAD file
+    may take, inf for no limit. None: the environment variables SURFMESH_READ_SECONDS and
+    SURFMESH_READ_MEMORY, else 8 s and 1000 MB and, for each MB of the file, 25 s and 100 MB.
+
     Raises ``CadError`` for a CAD file without a model, ``FileFormatError`` for a file of
     another kind, ``SurfaceError`` or ``DomainError`` for what is wrong in it.
     """
@@ -60,8 +67,10 @@ def load(
         raise FileFormatError(f"a path or a name is needed, not {shown(path)}") from None
     joins = bool(Joining.of(imprint, sew))
     if place.suffix.lower() in SUFFIXES:
-        limit = JOINING_TIME_LIMIT if joins else TIME_LIMIT
-        return read_cad(place, units=units, time_limit=limit, imprint=imprint, sew=sew)
+        return read_cad(
+            place, units=units, time_limit=time_limit, memory_limit=memory_limit, imprint=imprint,
+            sew=sew,
+        )  # fmt: skip
     if joins:
         raise CadError(f"imprint and sew are for CAD models, and {place.name} holds none")
     if place.suffix == "" and not place.exists():
@@ -146,8 +155,10 @@ def explain(
         place = np.array(point, float)
     except (TypeError, ValueError, OverflowError):
         place = np.empty(0)
-    if place.shape != (3,) or not np.isfinite(place).all():
-        raise SizingError(f"a point is three finite numbers, not {shown(point)}")
+    if place.shape != (3,) or not (np.abs(place) <= FARTHEST).all():  # false for nan
+        raise SizingError(
+            f"a point is three finite numbers of at most {FARTHEST:g}, not {shown(point)}"
+        )
     if isinstance(surface, CadModel):
         return explain_size(surface, wishes, place)
     return explain_parametric(surface, wishes, place)

@@ -4,6 +4,28 @@ Every error says what is wrong, where (a column of a formula, a (u, v) point, a 
 loop), and what to do about it. Each is also the builtin that a caller would expect to catch.
 """
 
+import re
+
+UNSAFE = re.compile(
+    "[\x00-\x1f\x7f-\x9f\xad\u061c\u180e\u200b\u200e\u200f\u2028-\u202e\u2060-\u206f\ufeff"
+    "\ufff9-\ufffb\ud800-\udfff\U000e0000-\U000e007f]"
+)
+"""What moves the cursor, recolours, reorders or hides text, and halves of characters: control
+characters, invisible ones and directions of writing. The joiners U+200C and U+200D are letters'
+own business and stay."""
+
+
+def printable(text: object) -> str:
+    """``str(text)`` on one line of a terminal, each of its unsafe characters as an escape.
+
+    A file name, a key or a label may hold anything: "\x1b" becomes the four signs that write it.
+    """
+    return UNSAFE.sub(_escaped, str(text))
+
+
+def _escaped(found: re.Match[str]) -> str:
+    return found[0].encode("unicode_escape", "surrogatepass").decode("ascii")
+
 
 def shown(value: object, longest: int = 60) -> str:
     """A caller's value for a message: one short line, whatever it is and however it prints."""
@@ -11,8 +33,7 @@ def shown(value: object, longest: int = 60) -> str:
         text = repr(value)
     except Exception:  # a number of too many digits, a broken object
         text = f"a {type(value).__name__}"
-    text = "".join(c if c.isprintable() else " " for c in text)
-    text = " ".join(text.split())
+    text = printable(" ".join(text.split()))
     return text if len(text) <= longest else text[: longest - 3] + "..."
 
 
@@ -33,12 +54,10 @@ class FormulaError(SurfaceError):
 
     def __init__(self, reason: str, text: str = "", column: int = 1) -> None:
         self.reason, self.text, self.column = reason, text, column
-        excerpt, caret = text, column
-        if len(text) > 72:  # keep the neighbourhood of the column, not the whole text
-            start = max(0, column - 36)
-            excerpt, caret = text[start : start + 72], column - start
-        excerpt = "".join(c if c.isprintable() else "\N{REPLACEMENT CHARACTER}" for c in excerpt)
-        pointer = f"\n  {excerpt}\n  {' ' * (caret - 1)}^" if text else ""
+        # of a long text the neighbourhood of the column
+        start = max(0, column - 36) if len(text) > 72 else 0
+        shown, before = printable(text[start : start + 72]), printable(text[start : column - 1])
+        pointer = f"\n  {shown}\n  {' ' * len(before)}^" if text else ""
         super().__init__(f"{reason} (column {column}){pointer}")
 
 

@@ -5,7 +5,8 @@ shorter than the numbers go: what it does not hold has no name and no colour.
 """
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, fields
+from dataclasses import dataclass, fields, replace
+from math import isfinite
 from typing import Any, Self
 
 Colour = tuple[float, float, float]  # red, green, blue from 0 to 1, sRGB
@@ -47,9 +48,18 @@ class MeshGroups:
 
     @classmethod
     def of_plain(cls, plain: Mapping[str, Any]) -> Self:
-        """From what ``plain`` gives; what it does not hold is empty, the rest is passed over."""
+        """From what ``plain`` gives; what it does not hold is empty, the rest is passed over.
+
+        Raises ``ValueError`` for a colour that is not three numbers and for a unit that is no text.
+        """
         known = {item.name for item in fields(cls)}
-        return cls(**{name: value for name, value in plain.items() if name in known})
+        found = cls(**{name: value for name, value in plain.items() if name in known})
+        colours = filter(None, (*found.face_colours, *found.solid_colours))
+        if any(len(c) != 3 or not all(map(isfinite, c)) for c in colours):
+            raise ValueError("a colour is not three numbers")
+        if not isinstance(found.unit, str):
+            raise ValueError(f"the unit {found.unit!r} is no text")
+        return replace(found, unit=_printable(found.unit))
 
     def plain(self) -> dict[str, Any]:
         """Lists, numbers and strings, for JSON; only what there is."""

@@ -29,6 +29,7 @@ if TYPE_CHECKING:
     import pyvista
     import trimesh
 
+    from surfmesh.io import Manifest
     from surfmesh.quality.report import Report
     from surfmesh.quality.worst import WorstTriangle
 
@@ -87,6 +88,8 @@ class SurfaceMesh:
 
     def __post_init__(self) -> None:
         def settle(name: str, value: ArrayLike, dtype: type, shape: tuple[int, ...]) -> None:
+            if dtype is np.int32:
+                value = _within_int32(name, value)
             array: NDArray[Any] = np.ascontiguousarray(value, dtype)
             fits = array.ndim == len(shape) and all(
                 wanted in (-1, found) for wanted, found in zip(shape, array.shape)
@@ -334,6 +337,14 @@ class SurfaceMesh:
 
         return save(self, path, ascii=ascii)
 
+    def manifest(self, *files: str | Path) -> "Manifest":
+        """Versions, options and hashes of the mesh and of ``files`` it was written to, for
+        another machine to compare; see ``surfmesh.io.Manifest``.
+        """
+        from surfmesh.io import Manifest
+
+        return Manifest.of(self, files)
+
     def to_pyvista(self) -> "pyvista.PolyData":
         """As PyVista PolyData with ``size``, ``face_id`` and ``alpha``; nothing is merged."""
         from surfmesh.io.vtk_xml import to_pyvista
@@ -383,6 +394,17 @@ class SurfaceMesh:
         for name, value in state.items():
             object.__setattr__(self, name, value)
         self.__post_init__()  # unpickled arrays are writeable again
+
+
+def _within_int32(name: str, value: ArrayLike) -> NDArray[Any]:
+    """As an array of numbers that 32 bits hold: a conversion would cut others in silence."""
+    array = np.asarray(value)
+    if array.size and array.dtype.kind in "iuf" and array.dtype != np.int32:
+        low, high = array.min(), array.max()
+        if not (-(2**31) <= low and high < 2**31):
+            far = high if low >= -(2**31) else low
+            raise ValueError(f"{name} holds {far}, which is no number of 32 bits")
+    return array
 
 
 def _first_duplicate(triangles: NDArray[np.int32]) -> tuple[int, int] | None:

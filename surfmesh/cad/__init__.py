@@ -1,6 +1,7 @@
 """CAD models as plain data. The only package that knows OCP, which it imports when it is needed.
 
 reading, child      a file -> `CadModel`, safely: `read_cad`
+limits, lifeline    what a child may cost, and that it ends with its parent
 from_cadquery       CadQuery, build123d and OCP objects -> `CadModel`
 readers, assembly   what files hold: parts with names, colours and places
 healing             repair, in words

@@ -1,37 +1,54 @@
-"""``python -m surfmesh.cad.child REQUEST RESULT``: read one CAD file, hand it back pickled.
+"""``python -m surfmesh.cad.child``: read one CAD file, hand the model back.
 
-REQUEST: a JSON file with path, heal, units, imprint, sew. RESULT: a pickle of the model, or of
-the message of the error that was met.
+Standard input: JSON with path, heal, units, imprint, sew, parent, seconds, megabytes. Standard
+output: a pickle of the model, or of the message of the error that was met.
 """
 
 import json
+import os
 import pickle
 import sys
 from pathlib import Path
+from typing import Any
 
+from surfmesh.cad.lifeline import end_with
+from surfmesh.cad.limits import MORE_MEMORY
 from surfmesh.errors import SurfmeshError
 
 
-def main(request: str, result: str) -> None:
+def main() -> None:
     """Whatever happens in Python ends as a message; what happens in OCP may end the process."""
-    wanted = json.loads(Path(request).read_text(encoding="utf-8"))
+    wanted = json.load(sys.stdin)
+    end_with(wanted["parent"])
+    with os.fdopen(os.dup(1), "wb") as result:
+        nowhere = os.open(os.devnull, os.O_WRONLY)
+        os.dup2(nowhere, 1)  # OCP talks
+        answer = answer_to(wanted)
+        pickle.dump(answer, result, protocol=pickle.HIGHEST_PROTOCOL)
+
+
+def answer_to(wanted: dict[str, Any]) -> Any:
+    """The model, or what was wrong in words."""
     try:
         from surfmesh.cad.joining import Joining
+        from surfmesh.cad.limits import Limits
         from surfmesh.cad.readers import read_here
 
+        limits = Limits(wanted["seconds"], wanted["megabytes"])
+        limits.impose()
         joining = Joining(wanted["imprint"], wanted["sew"])
-        answer = read_here(Path(wanted["path"]), wanted["heal"], wanted["units"], joining)
+        return read_here(Path(wanted["path"]), wanted["heal"], wanted["units"], joining)
     except SurfmeshError as error:
-        answer = str(error)
+        return str(error)
     except MemoryError:
-        answer = "it needs more memory than there is"
+        return (
+            f"it takes more than {wanted['megabytes']:.4g} MB of memory to read; {MORE_MEMORY}"
+        )
     except ImportError as error:
-        answer = f"OCP cannot be imported ({error}); pip install cadquery-ocp"
+        return f"OCP cannot be imported ({error}); pip install cadquery-ocp"
     except Exception as error:  # OCP's own exceptions have no common parent in Python
-        answer = f"OCP gave up: {type(error).__name__} {error}".strip()
-    with open(result, "wb") as file:
-        pickle.dump(answer, file, protocol=pickle.HIGHEST_PROTOCOL)
+        return f"OCP gave up: {type(error).__name__} {error}".strip()
 
 
 if __name__ == "__main__":
-    main(*sys.argv[1:])
+    main()

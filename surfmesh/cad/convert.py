@@ -158,8 +158,8 @@ def _offset_surface(surface: Geom.Geom_OffsetSurface, **face: Any) -> FaceSurfac
 def _net(surface: Any) -> tuple[np.ndarray, np.ndarray | None]:
     """Control points (nu, nv, 3) and weights (nu, nv), or None where they are all the same."""
     rows, columns = range(1, surface.NbUPoles() + 1), range(1, surface.NbVPoles() + 1)
-    poles = surface.Poles()
-    control = np.array([[_xyz(poles.Value(i, j)) for j in columns] for i in rows])
+    poles = surface.Poles()  # called with two indices: OCP 7.8 gives arrays no Value
+    control = np.array([[_xyz(poles(i, j)) for j in columns] for i in rows])
     if not (surface.IsURational() or surface.IsVRational()):
         return control, None
     return control, np.array([[surface.Weight(i, j) for j in columns] for i in rows])

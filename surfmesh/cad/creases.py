@@ -90,13 +90,13 @@ def _has_crease(face: TopoDS_Face) -> bool:
         if continuity() != GeomAbs_C0:
             continue
         ends = TColStd_Array1OfReal(1, number(GeomAbs_C1) + 1)
-        intervals(ends, GeomAbs_C1)
+        intervals(ends, GeomAbs_C1)  # read by a call: OCP 7.8 gives arrays no Value
         step = ASIDE * (box[way][1] - box[way][0])
         along = np.linspace(*box[1 - way], PLACES + 2)[1:-1]
         least = BLUNT if ends.Length() - 2 <= FEW else SHARP
         for place in range(2, ends.Length()):
             before, after = (
-                _normals(surface, way, ends.Value(place) + side, along) for side in (-step, step)
+                _normals(surface, way, ends(place) + side, along) for side in (-step, step)
             )
             cosine = np.einsum("ij,ij->i", before, after)
             known = before.any(axis=1) & after.any(axis=1)

@@ -1,6 +1,7 @@
-"""Reading a CAD file safely: in a child process, with a time limit.
+"""Reading a CAD file safely: in a child process with limits of processor time and memory.
 
-OCP can crash or loop on a bad file. Then the child ends, and the caller gets a `CadError`.
+OCP can crash, loop or grow on a bad file. Then the child ends, and the caller gets a `CadError`.
+The child ends with the caller too, and there is no file that either could leave behind.
 """
 
 from __future__ import annotations
@@ -12,26 +13,30 @@ import signal
 import subprocess
 import sys
 import tempfile
+from collections.abc import Mapping
 from dataclasses import replace
 from pathlib import Path
-from typing import Any
+from typing import IO, Any
 
 from surfmesh.cad.assembly import checked_unit
 from surfmesh.cad.joining import Joining
+from surfmesh.cad.limits import MORE_MEMORY, MORE_TIME, Limits, peak_megabytes
 from surfmesh.cad.model import CadModel
 from surfmesh.errors import CadError
 from surfmesh.model_facts import file_sha256
 
 SUFFIXES = (".step", ".stp", ".p21", ".iges", ".igs", ".brep", ".brp")
-TIME_LIMIT = 120.0  # seconds
-JOINING_TIME_LIMIT = 900.0  # the same where bodies are imprinted or faces sewn
+WEEK = 604800.0  # seconds; longer is no limit
+TIME_SIGNAL = 27  # SIGPROF, of the timer that ``Limits.impose`` sets
+MEMORY_SIGNALS = ("SIGABRT", "SIGKILL")  # of an allocation that nobody caught; of the system
 
 
 def read_cad(
     path: str | Path,
     heal: bool = True,
     units: str | None = None,
-    time_limit: float | None = TIME_LIMIT,
+    time_limit: float | None = None,
+    memory_limit: float | None = None,
     *,
     imprint: bool | float = False,
     sew: float | None = None,
@@ -39,9 +44,14 @@ def read_cad(
     """The model in a STEP (.step, .stp, .p21), IGES (.iges, .igs) or BREP (.brep, .brp) file.
 
     heal: repair what is wrong, and list it in the model's ``healing``. units: "um", "mm",
-    "cm", "m", "in" or "ft", what lengths are wanted in (None: mm). time_limit: seconds, or
-    None. imprint, sew: as in ``from_cadquery``. Raises CadError in one line when there is no
-    model to be had.
+    "cm", "m", "in" or "ft", what lengths are wanted in (None: mm). imprint, sew: as in
+    ``from_cadquery``.
+
+    time_limit: seconds of processor time (on Windows of wall time); memory_limit: MB of memory
+    that reading may take. None: what the environment variables SURFMESH_READ_SECONDS and
+    SURFMESH_READ_MEMORY say, else by the size of the file, see ``cad.limits``; inf: no limit.
+
+    Raises CadError in one line when there is no model to be had.
     """
     place = Path(path)
     if place.suffix.lower() not in SUFFIXES:
@@ -54,61 +64,90 @@ def read_cad(
         raise CadError(f"{place.name} is empty")
     checked_unit(units)
     joining = Joining.of(imprint, sew)
-    with tempfile.TemporaryDirectory(prefix="surfmesh-") as folder:
-        request, result = Path(folder, "request.json"), Path(folder, "result.pickle")
-        wanted = {"path": str(place.resolve()), "heal": bool(heal), "units": units}
-        wanted |= {"imprint": joining.imprint, "sew": joining.sew}
-        request.write_text(json.dumps(wanted), encoding="utf-8")
-        command = [sys.executable, "-P", "-m", "surfmesh.cad.child", str(request), str(result)]
-        answer = answer_of(command, result, place.name, time_limit)
+    limits = Limits.of(place, time_limit, memory_limit, bool(joining))
+    wanted = {"path": str(place.resolve()), "heal": bool(heal), "units": units}
+    wanted |= {"imprint": joining.imprint, "sew": joining.sew}
+    command = [sys.executable, "-P", "-m", "surfmesh.cad.child"]
+    answer = answer_of(command, wanted, place.name, limits)
     if isinstance(answer, str):
         raise CadError(answer if place.name in answer else f"{place.name}: {answer}")
     return replace(answer, sha256=file_sha256(place))
 
 
-def answer_of(command: list[str], result: Path, name: str, time_limit: float | None) -> Any:
-    """Run a child that writes a pickle to ``result``, and load it; name: of the file it reads.
+def answer_of(command: list[str], wanted: Mapping[str, Any], name: str, limits: Limits) -> Any:
+    """Run a child that takes ``wanted`` as JSON and writes a pickle, and load it.
 
-    Raises CadError when the child crashes, takes too long, or leaves no result.
+    name: of the file that it reads. Raises CadError when the child crashes, goes beyond the
+    limits, which it imposes on itself, or leaves no result.
     """
+    own = {"parent": os.getpid(), "seconds": limits.seconds, "megabytes": limits.megabytes}
+    # files without a name: nothing is left behind when this process is killed
+    with (
+        tempfile.TemporaryFile() as request,
+        tempfile.TemporaryFile() as result,
+        tempfile.TemporaryFile() as complaints,
+    ):
+        request.write(json.dumps({**wanted, **own}).encode())
+        request.seek(0)
+        try:
+            code, peak = _ended(command, (request, result, complaints), limits)
+        except OSError as error:
+            raise CadError(f"{name}: no process could be started to read it ({error})") from None
+        for file in (result, complaints):
+            file.seek(0)
+        if code < 0:
+            raise CadError(_death(name, -code, peak, limits))
+        if code or not result.read(1):
+            said = complaints.read().decode(errors="replace").strip().splitlines()
+            reason = said[-1] if said else f"status {code}"
+            reason += f"; {MORE_MEMORY}" if "memory" in reason.lower() else ""
+            raise CadError(f"{name} made the CAD reader fail: {reason}")
+        result.seek(0)
+        return pickle.load(result)  # noqa: S301 our own child's, in a file without a name
+
+
+def _ended(
+    command: list[str], files: tuple[IO[bytes], IO[bytes], IO[bytes]], limits: Limits
+) -> tuple[int, float]:
+    """How the child ended, minus the number of the signal that ended it, and its peak in MB."""
+    where = {**os.environ, "PYTHONPATH": _import_path()}
+    child = subprocess.Popen(  # noqa: S603 a list of our own, no shell
+        command, stdin=files[0], stdout=files[1], stderr=files[2], env=where
+    )
     try:
-        done = subprocess.run(
-            command,
-            stdin=subprocess.DEVNULL,
-            stdout=subprocess.DEVNULL,  # OCP talks
-            stderr=subprocess.PIPE,
-            env={**os.environ, "PYTHONPATH": _import_path()},
-            timeout=time_limit,
-            check=False,
-        )
+        if sys.platform == "win32":  # which has no limits for a process: those of the wall's clock
+            wall = limits.seconds if limits.seconds < WEEK else None
+            return child.wait(wall), 0.0
+        _, status, usage = os.wait4(child.pid, 0)
+        child.returncode = os.waitstatus_to_exitcode(status)
+        return child.returncode, peak_megabytes(usage)
     except subprocess.TimeoutExpired:
-        raise CadError(
-            f"{name} was not read within {time_limit:g} s; allow more with time_limit="
-        ) from None
-    except OSError as error:
-        raise CadError(f"{name}: no process could be started to read it ({error})") from None
-    if done.returncode < 0:
-        raise CadError(
-            f"{name} made the CAD reader crash ({_signal_name(-done.returncode)}); "
-            "export it again, perhaps in another format"
-        )
-    if done.returncode or not result.exists():
-        said = done.stderr.decode(errors="replace").strip().splitlines()
-        reason = said[-1] if said else f"status {done.returncode}"
-        raise CadError(f"{name} made the CAD reader fail: {reason}")
-    with open(result, "rb") as file:
-        return pickle.load(file)
+        return -TIME_SIGNAL, 0.0
+    finally:
+        if child.returncode is None:
+            child.kill()
+            child.wait()
+
+
+def _death(name: str, number: int, peak: float, limits: Limits) -> str:
+    """What to say of a child that was ended by a signal; peak: its memory in MB."""
+    if number == TIME_SIGNAL:
+        took = f" (and {peak:.0f} MB)" if peak else ""
+        within = f"{limits.seconds:.3g} s of processor time{took}"
+        return f"{name} was not read within {within}; {MORE_TIME}"
+    try:
+        signal_name = signal.Signals(number).name
+    except ValueError:
+        signal_name = f"signal {number}"
+    if signal_name in MEMORY_SIGNALS or peak > 0.5 * limits.megabytes:
+        signal_name += f", perhaps for want of memory: {MORE_MEMORY}"
+    return (
+        f"{name} made the CAD reader crash ({signal_name}); "
+        "export it again, perhaps in another format"
+    )
 
 
 def _import_path() -> str:
     """Where this process finds its modules, so that the child finds the same."""
     own = str(Path(__file__).resolve().parents[2])
     return os.pathsep.join(dict.fromkeys([own, *(p for p in sys.path if os.path.isabs(p))]))
-
-
-def _signal_name(number: int) -> str:
-    try:
-        name = signal.Signals(number).name
-    except ValueError:
-        return f"signal {number}"
-    return f"{name}, perhaps for want of memory" if name == "SIGKILL" else name

@@ -35,6 +35,7 @@ _PREFIXES = (
 _NUMBERS = re.compile(r"\d+(-\d+)?(,\d+(-\d+)?)*")
 _KINDS = ("faces", "edges", "vertices", "solids")
 _LISTED = 8
+_LONGEST = 200  # of names that are compared with each other: it takes the square of the letters
 
 
 @dataclass(frozen=True)
@@ -91,7 +92,7 @@ def select(model: CadModel, key: str) -> Selection:
                 f"tag {lost[0].name!r} stands for nothing in the final shape: later steps have "
                 f"removed or replaced what it held ({lost[0].held}); tag what is there at the end"
             )
-        raise SizingError(f"{key!r} selects nothing of {model.name or model.source!r}; "
+        raise SizingError(f"{key!r:.200} selects nothing of {model.name or model.source!r}; "
                           + _advice(model, key, prefix if sign else ""))  # fmt: skip
     return found
 
@@ -159,14 +160,13 @@ def _of_one_kind(model: CadModel, kind: str, rest: str, key: str) -> Selection:
     if _NUMBERS.fullmatch(rest.replace(" ", "")):
         wanted: set[int] = set()
         for span in rest.replace(" ", "").split(","):
-            first, _, last = span.partition("-")
-            wanted.update(range(int(first), int(last or first) + 1))
-        beyond = sorted(k for k in wanted if k >= len(items))
-        if beyond or not wanted:
-            raise SizingError(
-                f"{key!r}: there is no {kind} {beyond[0] if beyond else rest}; "
-                f"{model.name or model.source!r} has {len(items)}, numbered from 0"
-            )
+            first, last = (_number(end) for end in (span.split("-") * 2)[:2])
+            if last >= len(items) or first > last:
+                raise SizingError(
+                    f"{key!r:.80}: there is no {kind} {span:.30}; "
+                    f"{model.name or model.source!r} has {len(items)}, numbered from 0"
+                )
+            wanted.update(range(first, last + 1))
         return Selection(**{many: tuple(sorted(wanted))})
     if is_selector(rest):
         return Selection(**{many: tuple(selected(model, kind, rest))})
@@ -177,6 +177,11 @@ def _of_one_kind(model: CadModel, kind: str, rest: str, key: str) -> Selection:
         if _is_called(tag.name, rest):
             found.update(getattr(tag, many))
     return Selection(**{many: tuple(sorted(found))})
+
+
+def _number(digits: str) -> int:
+    """Of so many digits that Python refuses them: larger than any face has."""
+    return int(digits) if len(digits) <= 18 else 10**18
 
 
 def _of_colour(model: CadModel, text: str) -> Selection:
@@ -208,7 +213,9 @@ def _advice(model: CadModel, key: str, prefix: str) -> str:
     if prefix == "type":
         return f"its kinds of faces are {_some(sorted({face.kind for face in model.faces}))}"
     known = names(model)
-    near = get_close_matches(key.partition(":")[2] if prefix in _PREFIXES else key, known, 3, 0.5)
+    sought = key.partition(":")[2] if prefix in _PREFIXES else key
+    alike = [name for name in known if len(name) <= _LONGEST] if len(sought) <= _LONGEST else []
+    near = get_close_matches(sought, alike, 3, 0.5)
     if near:
         return "did you mean " + " or ".join(repr(name) for name in near) + "?"
     if not known:

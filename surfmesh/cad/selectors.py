@@ -14,7 +14,8 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager
 
 import numpy as np
 
@@ -27,7 +28,13 @@ TOLERANCE = 1e-4
 
 SPREAD = 1e-6
 
+LEAST = 1e-100
+"""Of a direction's largest component: its length can be computed, as can that of its inverse."""
+
 KINDS = ("face", "edge", "vertex", "solid")
+
+LONGEST, DEEPEST = 2000, 50
+"""Characters of a selector, and brackets or words "not" within each other."""
 
 _AXES = {
     "X": (1, 0, 0), "Y": (0, 1, 0), "Z": (0, 0, 1), "XY": (1, 1, 0), "XZ": (1, 0, 1),
@@ -58,6 +65,10 @@ def selected(model: CadModel, kind: str, text: str) -> list[int]:
 
     kind: one of KINDS. Raises ``SizingError`` with the column of what is not understood.
     """
+    if len(text) > LONGEST:
+        raise SizingError(
+            f"selector {text[:40]!r}...: it has {len(text):,} characters, more than {LONGEST:,}"
+        )
     things = _Things(model, kind)
     parser = _Parser(things, text)
     found = parser.expression()
@@ -81,6 +92,7 @@ class _Things:
             for number, flag in shell
         }  # fmt: skip
         self._centres: dict[int, np.ndarray] = {}
+        self._directions: dict[int, np.ndarray | None] = {}
 
     def centre(self, number: int) -> np.ndarray:
         if number not in self._centres:
@@ -96,6 +108,11 @@ class _Things:
 
     def direction(self, number: int) -> np.ndarray | None:
         """Normal (3,) of a plane face, out of its solid; tangent of a straight edge."""
+        if number not in self._directions:
+            self._directions[number] = self._direction(number)
+        return self._directions[number]
+
+    def _direction(self, number: int) -> np.ndarray | None:
         item = self.items[number]
         if self.kind == "face" and item.kind == "plane":
             (u0, u1), (v0, v1) = item.surface.domain
@@ -139,10 +156,12 @@ class _Parser:
 
     def __init__(self, things: _Things, text: str) -> None:
         self.things, self.text, self.at = things, text, 0
+        self.depth = 0
 
     def expression(self) -> set[int]:
         if self._word("not"):
-            return self.things.all - self.expression()
+            with self._deeper():
+                return self.things.all - self.expression()
         return self._chain(self._any, ("exc", "except"), lambda a, b: a - b)
 
     def _any(self) -> set[int]:
@@ -166,13 +185,23 @@ class _Parser:
             self.at = atom.end()
             return self._atom(atom)
         if self._word("not"):
-            return self.things.all - self._term()
+            with self._deeper():
+                return self.things.all - self._term()
         if self._word("("):
-            found = self.expression()
+            with self._deeper():
+                found = self.expression()
             if not self._word(")"):
                 self._fail("a closing bracket is missing")
             return found
         self._fail("this is no selector of CadQuery")
+
+    @contextmanager
+    def _deeper(self) -> Iterator[None]:
+        self.depth += 1
+        if self.depth > DEEPEST:
+            self._fail(f"more than {DEEPEST} brackets or words 'not' within each other")
+        yield
+        self.depth -= 1
 
     def _atom(self, atom: re.Match) -> set[int]:
         things = self.things
@@ -181,20 +210,27 @@ class _Parser:
         if atom["kind"]:
             return things.of_kind(atom["kind"])
         if atom["far"]:
-            along = _direction(atom["along"])
+            along = self._along(atom["along"])
             among, index = things.all, -1
             if atom["index"] is not None:
-                index = int(atom["index"])
+                index = int(atom["index"][:18])  # no model has as many
                 if len(atom["far"]) == 1:
                     among = things.turned(lambda d: _sine(along, d) < TOLERANCE)
             return things.nth(among, along, index, atom["far"][0] == ">")
-        axis = _direction(atom["axis"])
+        axis = self._along(atom["axis"])
         if atom["turn"] == "|":
             return things.turned(lambda d: _sine(axis, d) < TOLERANCE)
         if atom["turn"] == "#":
             return things.turned(lambda d: abs(_angle(axis, d) - 0.5 * math.pi) < TOLERANCE)
         axis = -axis if atom["turn"] == "-" else axis
         return things.turned(lambda d: _angle(axis, d) < TOLERANCE)
+
+    def _along(self, text: str) -> np.ndarray:
+        direction = _direction(text)
+        length = np.abs(direction).max()
+        if not (LEAST < length < 1.0 / LEAST):
+            self._fail(f"{text:.60} is no direction")
+        return direction
 
     def expect_end(self) -> None:
         if self.text[self.at :].strip():
@@ -210,7 +246,7 @@ class _Parser:
     def _fail(self, reason: str) -> None:
         rest = self.text[self.at :].strip()
         raise SizingError(
-            f"selector {self.text!r}: {reason} (column {self.at + 1}"
+            f"selector {self.text!r:.200}: {reason} (column {self.at + 1}"
             + (f", at {rest[:20]!r})" if rest else ", at its end)")
         )
 

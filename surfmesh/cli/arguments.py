@@ -3,10 +3,14 @@
 import argparse
 import math
 import re
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from typing import NoReturn
 
-_FORMULAS = {"--x": 1, "--y": 1, "--z": 1, "--u": 2, "--v": 2}  # option -> values it takes
+from surfmesh.cli.terminal import complain
+
+_VALUES = {  # option -> values it takes, which may begin with a minus
+    "--x": 1, "--y": 1, "--z": 1, "--u": 2, "--v": 2, "--at": 3, "--origin": 2, "--box": 4,
+}  # fmt: skip
 _NUMBER = re.compile(r"[+-]?(\d+\.?\d*|\.\d+)([eE][+-]?\d+)?")
 _BY_ROUNDING = "by-rounding"  # --imprint without a tolerance
 _EXAMPLES = """examples:
@@ -16,31 +20,35 @@ _EXAMPLES = """examples:
   surfmesh check wavy.vtu --surface wavy
   surfmesh report bracket.step -o bracket.html --chord 0.05
   surfmesh mesh bracket.step -o bracket.vtu --sizes sizes.toml
+  surfmesh mesh wavy -o wavy.vtu --manifest wavy.json
+  surfmesh compare wavy.json there/wavy.json
   surfmesh explain bracket.step --at 0 0 5 --sizes sizes.toml
   surfmesh estimate bracket.step --chord 0.01
   surfmesh pack --uniform 1 100 --count 1000 -o circles.svg
   surfmesh gallery
 
-exit status: 0 done and valid, 1 a mesh was made but its report is not clean, 2 bad input"""
+exit status: 0 done and valid, 1 a mesh was made but its report is not clean, or compared files
+differ, 2 bad input, 3 an error in surfmesh itself"""
 
 
 class _Parser(argparse.ArgumentParser):
     def error(self, message: str) -> NoReturn:
         """One line, where argparse would print the usage too."""
-        self.exit(2, f"surfmesh: {message} (see {self.prog} --help)\n")
+        complain(f"{message} (see {self.prog} --help)")
+        self.exit(2)
 
 
 def parse(argv: Sequence[str]) -> argparse.Namespace:
     """Options with ``command``, the name of a function in ``commands``. Exits on bad usage."""
-    return _parser().parse_args(_imprint_alone(_formulas_shielded(argv)))
+    return _parser().parse_args(_imprint_alone(_values_shielded(argv)))
 
 
-def _formulas_shielded(argv: Sequence[str]) -> list[str]:
-    """A space before formulas that begin with a minus, which argparse takes for options."""
+def _values_shielded(argv: Sequence[str]) -> list[str]:
+    """A space before formulas and numbers such as -1e3, which argparse takes for options."""
     shielded, values = [], 0
     for word in argv:
         shielded.append(f" {word}" if values and word.startswith("-") else word)
-        values = values - 1 if values else _FORMULAS.get(word, 0)
+        values = values - 1 if values else _VALUES.get(word, 0)
     return shielded
 
 
@@ -83,16 +91,22 @@ def _parser() -> _Parser:
         help="collapse tiny edges of a CAD model; thin lines of a planar domain",
     )
     mesh.add_argument(
-        "--order", type=int, default=1, choices=(1, 2), help="2: nodes amid the edges too"
+        "--order", type=_whole(1, 2), metavar="1|2", default=1, help="2: nodes amid the edges too"
     )
     mesh.add_argument(
         "--flip", action="store_true", help="turn the mesh over: a closed surface that faces inward"
     )
     mesh.add_argument("--ascii", action="store_true", help="an .stl as text, solids by name")
-    mesh.add_argument("--jobs", type=_count, default=1, help="faces meshed at once (default 1)")
+    mesh.add_argument(
+        "--jobs", type=_whole(1, 1000), default=1, help="faces meshed at once (default 1)"
+    )
     mesh.add_argument("--picture", metavar="PNG", help="write a picture too")
     mesh.add_argument("--by", default="alpha", choices=_COLOURS, help="colour of the picture")
     mesh.add_argument("--report", metavar="JSON|HTML", help="write the report too")
+    mesh.add_argument(
+        "--manifest", metavar="JSON", help="write versions, options and hashes, to compare"
+    )
+    _add_second_opinion(mesh)
     _add_json(mesh)
 
     check = commands.add_parser("check", help="report on a mesh file")
@@ -101,6 +115,7 @@ def _parser() -> _Parser:
         "--surface", metavar="INPUT", help="formula file, gallery name or CAD file it was made from"
     )
     _add_units(check)
+    _add_second_opinion(check)
     _add_json(check)
 
     view = commands.add_parser("view", help="show a mesh or a surface")
@@ -109,7 +124,9 @@ def _parser() -> _Parser:
     view.add_argument("--by", default="alpha", choices=_COLOURS, help="colour")
     view.add_argument("--circles", action="store_true", help="draw the packing on the surface")
     view.add_argument("--directions", action="store_true", help="draw principal directions")
-    view.add_argument("--worst", type=_count, help="how many of the worst triangles are outlined")
+    view.add_argument(
+        "--worst", type=_whole(1), help="how many of the worst triangles are outlined"
+    )
     _add_sizes(view)
     _add_cad(view)
 
@@ -119,12 +136,21 @@ def _parser() -> _Parser:
     report.add_argument("--by", default="alpha", choices=_COLOURS, help="colour at first")
     _add_sizes(report)
     _add_cad(report)
+    _add_second_opinion(report)
     _add_json(report)
+
+    compare = commands.add_parser("compare", help="compare a manifest with another, or with files")
+    compare.add_argument("input", metavar="MANIFEST", help="what mesh --manifest wrote")
+    compare.add_argument(
+        "other", nargs="?", metavar="OTHER",
+        help="manifest of another run, or a folder with the files (default: that of MANIFEST)",
+    )
+    _add_json(compare)
 
     explain = commands.add_parser("explain", help="which rule decides the size at a point")
     explain.add_argument("input", metavar="INPUT", help=_MODEL)
     explain.add_argument(
-        "--at", nargs=3, type=float, required=True, metavar=("X", "Y", "Z"), help="the point"
+        "--at", nargs=3, type=_number, required=True, metavar=("X", "Y", "Z"), help="the point"
     )
     _add_sizes(explain)
     _add_units(explain)
@@ -142,12 +168,12 @@ def _parser() -> _Parser:
     law.add_argument(
         "--uniform", nargs=2, type=_positive, metavar=("LO", "HI"), help="random radii"
     )
-    pack.add_argument("--seed", type=int, default=0, help="of the random radii (default 0)")
-    pack.add_argument("--origin", nargs=2, type=float, default=(0.0, 0.0), metavar=("X", "Y"))
-    pack.add_argument("--count", type=_count, help="stop at so many circles")
+    pack.add_argument("--seed", type=_whole(0), default=0, help="of the random radii (default 0)")
+    pack.add_argument("--origin", nargs=2, type=_number, default=(0.0, 0.0), metavar=("X", "Y"))
+    pack.add_argument("--count", type=_whole(1), help="stop at so many circles")
     pack.add_argument("--distance", type=_positive, help="stop at this distance from the origin")
     pack.add_argument(
-        "--box", nargs=4, type=float, metavar=("X0", "Y0", "X1", "Y1"), help="stop outside of it"
+        "--box", nargs=4, type=_number, metavar=("X0", "Y0", "X1", "Y1"), help="stop outside of it"
     )
     pack.add_argument("-o", "--output", metavar="SVG|PNG", help="draw the packing")
     pack.add_argument(
@@ -180,7 +206,7 @@ def _add_sizes(parser: argparse.ArgumentParser) -> None:
     sizes.add_argument("--anisotropy", type=_positive, help="largest stretch; 1 is isotropic")
     sizes.add_argument("--volume", type=_positive, help="largest relative error of solids' volumes")
     sizes.add_argument("--gap", type=_positive, help="triangles across thin faces and gaps")
-    sizes.add_argument("--limit", type=_count, help="most triangles (default 20 million)")
+    sizes.add_argument("--limit", type=_whole(1), help="most triangles (default 20 million)")
     sizes.add_argument(
         "--sizes", metavar="TOML", help='sizes by selection: [sizes."fillet*"] chord = 0.01'
     )
@@ -205,6 +231,21 @@ def _add_units(parser: argparse.ArgumentParser) -> None:
         "--sew", type=_positive, metavar="TOL",
         help="join loose faces of a CAD model whose edges lie within TOL; closed ones make solids",
     )
+    parser.add_argument(
+        "--time-limit", type=_positive, metavar="SECONDS",
+        help="of processor time for reading a CAD file (default 8 and 25 for each MB of it)",
+    )
+    parser.add_argument(
+        "--memory-limit", type=_positive, metavar="MB",
+        help="of memory for reading a CAD file (default 1000 and 100 for each MB of it)",
+    )
+
+
+def _add_second_opinion(parser: argparse.ArgumentParser) -> None:
+    parser.add_argument(
+        "--second-opinion", action="store_true",
+        help="ask trimesh and pyvista too; where they disagree the mesh is not clean",
+    )  # fmt: skip
 
 
 def _add_json(parser: argparse.ArgumentParser) -> None:
@@ -219,7 +260,7 @@ def _positive(text: str) -> float:
     except ValueError:
         value = math.nan
     if not 0 < value < math.inf:
-        raise argparse.ArgumentTypeError(f"must be a positive number, not '{text}'")
+        raise argparse.ArgumentTypeError(f"must be a positive number, not '{_brief(text)}'")
     return value
 
 
@@ -227,10 +268,30 @@ def _near(text: str) -> bool | float:
     return True if text == _BY_ROUNDING else _positive(text)
 
 
-def _count(text: str) -> int:
-    if not text.isdecimal() or int(text) < 1:
-        raise argparse.ArgumentTypeError(f"must be a whole number from 1, not '{text}'")
-    return int(text)
+def _number(text: str) -> float:
+    try:
+        return float(text)
+    except ValueError:
+        raise argparse.ArgumentTypeError(f"must be a number, not '{_brief(text)}'") from None
+
+
+def _whole(least: int, most: int = 10**15) -> Callable[[str], int]:
+    """The type of whole numbers from ``least`` to ``most``."""
+
+    def whole(text: str) -> int:
+        is_short = text.isdecimal() and len(text) < 100  # int() takes thousands of digits badly
+        if not is_short or not least <= int(text) <= most:
+            span = f"from {least}" if most == 10**15 else f"from {least} to {most}"
+            raise argparse.ArgumentTypeError(
+                f"must be a whole number {span}, not '{_brief(text)}'"
+            )
+        return int(text)
+
+    return whole
+
+
+def _brief(text: str) -> str:
+    return text if len(text) <= 60 else f"{text[:57]}..."
 
 
 class _Version(argparse.Action):

@@ -1,17 +1,21 @@
 """What each command does. Every one returns whether all is well."""
 
 import json
-import sys
+import os
 import tomllib
 from argparse import Namespace
+from collections.abc import Iterator
+from contextlib import contextmanager
 from dataclasses import replace
 from difflib import get_close_matches
 from pathlib import Path
+from textwrap import fill
 from time import perf_counter
 from typing import Any
 
 from surfmesh.cli.progress import ProgressBar, announce_compilation
-from surfmesh.errors import FileFormatError, SurfaceError, SurfmeshError
+from surfmesh.cli.terminal import say, say_json
+from surfmesh.errors import FileFormatError, SurfaceError, SurfmeshError, printable
 
 SIZES = (
     "chord", "angle", "size", "min_size", "max_size", "growth", "anisotropy", "volume", "gap",
@@ -24,9 +28,12 @@ def mesh(options: Namespace) -> bool:
     from surfmesh.io.formats import require_writable
 
     require_writable(options.output, *([".stl"] if options.ascii else []))
-    for path, *extensions in ((options.picture, ".png"), (options.report, ".json", ".html")):
+    wanted = (options.picture, ".png"), (options.report, ".json", ".html")
+    for path, *extensions in (*wanted, (options.manifest, ".json")):
         if path:
             require_writable(path, *extensions)
+    _require_two_files(options.report, options.manifest)
+    sizing = _sizing(options)
     surface = _surface(options)
 
     from surfmesh import api
@@ -36,7 +43,7 @@ def mesh(options: Namespace) -> bool:
     with ProgressBar() as progress:
         result = api.mesh(
             surface,
-            _sizing(options),
+            sizing,
             optimise=not options.no_optimise,
             progress=progress,
             strict=not options.no_strict,
@@ -46,23 +53,26 @@ def mesh(options: Namespace) -> bool:
         )
         result = result.flipped() if options.flip else result
         progress("check", 0.92)
-        report = checked(result)
+        report = checked(result, second_opinion=options.second_opinion)
         progress("write", 0.95)
         start = perf_counter()
         files = {"mesh": str(save(result, options.output, ascii=options.ascii))}
         report = replace(report, seconds={**report.seconds, "write": perf_counter() - start})
-        if options.picture:
-            from surfmesh.view import plot
+        with _naming(files):
+            if options.picture:
+                from surfmesh.view import plot
 
-            progress("picture", 0.97)
-            files["picture"] = str(plot(result, options.picture, by=options.by))
-        if options.report:
-            files["report"] = str(_report_written(result, report, options))
+                progress("picture", 0.97)
+                files["picture"] = str(plot(result, options.picture, by=options.by))
+            if options.report:
+                files["report"] = str(_report_written(result, report, options))
+            if options.manifest:
+                files["manifest"] = str(_manifest_written(result, files, options))
     if options.json:
-        _print_json(report.to_dict() | {"files": files})
+        say_json(report.to_dict() | {"files": files})
     else:
-        print(report)
-        print("  written   ", ", ".join(files.values()))
+        say(report)
+        say(f"  written    {printable(', '.join(files.values()))}")
     return report.clean
 
 
@@ -87,12 +97,46 @@ def check(options: Namespace) -> bool:
 
         source = Path(options.input)
         found = replace(found, facts=ModelFacts(source=source.name, sha256=file_sha256(source)))
-    report = checked(found)
+    report = checked(found, second_opinion=options.second_opinion)
     if options.json:
-        _print_json(report.to_dict())
+        say_json(report.to_dict())
     else:
-        print(report.to_text())
+        say(report.to_text())
     return report.clean
+
+
+def compare(options: Namespace) -> bool:
+    """Say which entries of a manifest agree with another's, or with the files themselves."""
+    from surfmesh.io import Manifest
+
+    manifest, other = Manifest.read(options.input), options.other or Path(options.input).parent
+    folder = Path(other).is_dir()
+    found = manifest.compared_with_folder(other) if folder else manifest.compared(
+        Manifest.read(other)
+    )  # fmt: skip
+    same = all(entry.agrees for entry in found if entry.decisive)
+    if options.json:
+        say_json({"same": same, "entries": [entry.to_dict() for entry in found]})
+        return same
+    for section in dict.fromkeys(entry.section for entry in found):
+        own = [entry for entry in found if entry.section == section]
+        names = ", ".join(printable(entry.name) for entry in own if entry.agrees)
+        if names:
+            say(fill(f"  {section:<10} agree: {names}", subsequent_indent=" " * 13))
+        for entry in own:
+            if not entry.agrees:
+                sides = " / ".join(map(_value, (entry.here, entry.there)))
+                say(f"  {section:<10} DIFFER: {printable(entry.name)}: {sides}")
+    what = "files" if folder else "mesh and files"
+    verdict = f"the {what} are the same" if same else f"DIFFERENT {what.upper()}"
+    say(f"{verdict}: {sum(entry.agrees for entry in found)} of {len(found)} entries agree")
+    return same
+
+
+def _value(value: Any) -> str:
+    """As JSON; of a hash the beginning."""
+    text = "nothing" if value is None else json.dumps(value)
+    return text if len(text) <= 40 else f"{text[:17]}..."
 
 
 def view(options: Namespace) -> bool:
@@ -129,7 +173,7 @@ def report(options: Namespace) -> bool:
         from surfmesh.view import html_report
 
         progress("check", 0.9)
-        found = checked(shown)
+        found = checked(shown, second_opinion=options.second_opinion)
         progress("write", 0.95)
         try:
             name = Path(options.input).stem
@@ -137,10 +181,10 @@ def report(options: Namespace) -> bool:
         except ValueError as error:  # the mesh has no data to colour by
             raise SurfmeshError(str(error)) from error
     if options.json:
-        _print_json(found.to_dict() | {"files": {"html": options.output}})
+        say_json(found.to_dict() | {"files": {"html": options.output}})
     else:
-        print(found)
-        print("  written   ", options.output)
+        say(found)
+        say(f"  written    {printable(options.output)}")
     return found.clean
 
 
@@ -150,40 +194,43 @@ def _shown(options: Namespace, progress: ProgressBar) -> Any:
 
     if Path(options.input).suffix.lower() in FORMATS:
         return read(options.input)
+    sizing = _sizing(options)
     surface = _named_surface(options.input, options)
 
     from surfmesh import api
 
     announce_compilation()
     strict = {"strict": False} if options.no_strict else {}
-    return api.mesh(surface, _sizing(options), progress=progress, **strict)
+    return api.mesh(surface, sizing, progress=progress, **strict)
 
 
 def explain(options: Namespace) -> bool:
     """Say which rule decides the size at a point."""
+    sizing = _sizing(options)
     surface = _named_surface(options.input, options)
 
     from surfmesh import api
 
-    found = api.explain(surface, _sizing(options), options.at)
+    found = api.explain(surface, sizing, options.at)
     if options.json:
-        _print_json(found.to_dict())
+        say_json(found.to_dict())
     else:
-        print(found)
+        say(found)
     return True
 
 
 def estimate(options: Namespace) -> bool:
     """Say how many triangles there would be, and how much memory they need."""
+    sizing = _sizing(options)
     surface = _named_surface(options.input, options)
 
     from surfmesh import api
 
-    found = api.estimate(surface, _sizing(options))
+    found = api.estimate(surface, sizing)
     if options.json:
-        _print_json(found.to_dict())
+        say_json(found.to_dict())
     else:
-        print(found)
+        say(found)
     return True
 
 
@@ -226,14 +273,14 @@ def pack(options: Namespace) -> bool:
     if options.output:
         found.plot(options.output, options.show)
     if options.json:
-        _print_json(figures | {"problem": broken, "file": options.output})
+        say_json(figures | {"problem": broken, "file": options.output})
     else:
-        print(f"{figures['nodes']:,} circles, {figures['elements']:,} triangles", end="")
-        print(f" - NOT VALID: {broken}" if broken else " - valid")
+        verdict = f"NOT VALID: {broken}" if broken else "valid"
+        say(f"{figures['nodes']:,} circles, {figures['elements']:,} triangles - {verdict}")
         for title, names in _PACKING_ROWS.items():
-            print(f"  {title:<34}", ", ".join(f"{n} {figures[n]:.6g}" for n in names))
+            say(f"  {title:<34} {', '.join(f'{n} {figures[n]:.6g}' for n in names)}")
         if options.output:
-            print("  written   ", options.output)
+            say(f"  written    {printable(options.output)}")
     return broken is None
 
 
@@ -255,11 +302,11 @@ def gallery(options: Namespace) -> bool:
         described.append((name, content.get("description", ""), path))
     if options.json:
         keys = ("name", "description", "path")
-        _print_json({"surfaces": [dict(zip(keys, map(str, entry))) for entry in described]})
+        say_json({"surfaces": [dict(zip(keys, map(str, entry))) for entry in described]})
     else:
         width = max((len(name) for name, *_ in described), default=0)
         for name, description, _ in described:
-            print(f"{name:<{width}}  {description}")
+            say(f"{printable(name):<{width}}  {printable(description)}")
     return True
 
 
@@ -351,7 +398,7 @@ def _named_surface(name: str, options: Namespace | None = None) -> Any:
     from surfmesh import api
     from surfmesh.geometry.surface_file import gallery as surfaces
 
-    given = () if options is None else ("units", "imprint", "sew")
+    given = () if options is None else ("units", "imprint", "sew", "time_limit", "memory_limit")
     wanted = {option: getattr(options, option) for option in given}
     if Path(name).is_file():
         return api.load(name, **wanted)
@@ -373,14 +420,44 @@ def _report_written(result: Any, report: Any, options: Namespace) -> Path:
     return html_report(result, options.report, by=options.by, name=name, report=report)
 
 
+_NOT_RECORDED = (
+    "command", "input", "output", "picture", "report", "manifest", "sizes", "json", "jobs", *SIZES
+)  # fmt: skip
+"""Options that are no part of a manifest: places, what is in the mesh's sizing, what changes
+nothing in the files."""
+
+
+def _manifest_written(result: Any, files: dict[str, str], options: Namespace) -> Path:
+    """Hashes of all files but a JSON report, which holds the seconds that were taken."""
+    from surfmesh.io import Manifest
+
+    asked = {name: value for name, value in vars(options).items() if name not in _NOT_RECORDED}
+    hashed = [path for path in files.values() if Path(path).suffix.lower() != ".json"]
+    return Manifest.of(
+        result,
+        hashed,
+        inputs=[options.sizes] if options.sizes else (),
+        options={name: value for name, value in asked.items() if value not in (None, False, [])},
+    ).save(options.manifest)
+
+
+def _require_two_files(report: str | None, manifest: str | None) -> None:
+    if report and manifest and os.path.realpath(report) == os.path.realpath(manifest):
+        raise FileFormatError(f"{manifest}: is the place of the report already")
+
+
+@contextmanager
+def _naming(files: dict[str, str]) -> Iterator[None]:
+    """Files that were written before one could not be are named with the refusal."""
+    try:
+        yield
+    except FileFormatError as error:
+        raise FileFormatError(f"{error}; written before it: {', '.join(files.values())}") from error
+
+
 def _written(text: str, path: str) -> Path:
     from surfmesh.io.atomic import replacing
 
     with replacing(Path(path)) as temporary:
-        temporary.write_text(text + "\n", encoding="utf-8")
+        temporary.write_text(text + "\n", encoding="utf-8", newline="\n")
     return Path(path)
-
-
-def _print_json(value: dict[str, Any]) -> None:
-    json.dump(value, sys.stdout, indent=2, ensure_ascii=False, allow_nan=False)
-    print()

@@ -54,11 +54,12 @@ class ProgressBar:
 
 def announce_compilation() -> None:
     """Say that kernels are about to be compiled, when none are kept from an earlier run."""
-    from surfmesh.kernels.jit import compiled_before
+    from surfmesh.kernels.jit import compiled_before, keeps_kernels
 
     if not compiled_before():
+        once = "; this happens once and" if keeps_kernels() else ", which"
         print(
-            "compiling the kernels; this happens once and takes about half a minute ...",
+            f"compiling the kernels{once} takes about half a minute ...",
             file=sys.stderr,
             flush=True,
         )

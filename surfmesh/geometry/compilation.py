@@ -54,10 +54,9 @@ def by_definitions(
 
 
 def operations(expressions: Sequence[sp.Expr]) -> int:
-    """How many sums, products, powers and functions expressions have, repeated or not."""
-    return sum(
-        bool(p.args) for expression in expressions for p in sp.preorder_traversal(expression)
-    )
+    """How many sums, products, powers and functions there are in expressions, repeated or not."""
+    parts = (part for expression in expressions for part in sp.preorder_traversal(expression))
+    return sum(bool(part.args) for part in parts)
 
 
 def long_surface_tape(

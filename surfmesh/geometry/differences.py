@@ -55,7 +55,7 @@ class Differences:
                 found = values(np.stack([along_u[i], along_v[j]], axis=1))
                 terms = [(w_u[a][:, i] * w_v[b][:, j])[:, None] * found for a, b in wanted]
                 total = terms if total is None else [s + t for s, t in zip(total, terms)]
-        assert total is not None
+        assert total is not None  # noqa: S101 for mypy: order >= 0
         return tuple(total)
 
     def _line(

@@ -22,9 +22,10 @@ from surfmesh.geometry.infinite_speed import (
 )
 from surfmesh.geometry.surface import Domain
 from surfmesh.geometry.surface_checks import (
-    LARGEST_VALUE,
+    LARGEST,
     bounds_of,
     loops_of,
+    refuse_extremes,
     refuse_no_area,
     sample_grid,
     table_of,
@@ -104,7 +105,8 @@ class NumericSurface:
             "sizing_defaults": table_of("sizing_defaults", sizing_defaults),
         }
         self.__dict__.update(fixed, closed=(False, False))
-        self._r(sample_grid(self.domain).reshape(-1, 2))  # refused now rather than later
+        # refused now rather than later
+        refuse_extremes(self._r(sample_grid(self.domain).reshape(-1, 2)), self.domain)
         self.__dict__["bent_axes"] = axes = bent_axes(self._r, self.domain)
         rule, error = chosen_differences(
             lambda s: self._r(from_bent(axes, s)), self.domain, int(differences), step
@@ -206,11 +208,11 @@ class NumericSurface:
 
     def _r(self, uv: np.ndarray) -> np.ndarray:
         (r,) = _called(self.function, uv, "f")
-        usable = (np.abs(r) <= LARGEST_VALUE).all(axis=1)
+        usable = (np.abs(r) <= LARGEST).all(axis=1)
         if not usable.all():
             row = int(np.argmin(usable))
             beyond = np.isfinite(r[row]).all()
-            what = f"beyond {LARGEST_VALUE:g}" if beyond else "not finite"
+            what = f"beyond {LARGEST:g}" if beyond else "not finite"
             raise SurfaceError(
                 f"f of {self.name!r} is {what} at (u, v) = ({uv[row, 0]:.6g}, {uv[row, 1]:.6g}); "
                 "change the function or the domain"
@@ -219,7 +221,7 @@ class NumericSurface:
 
     def _given(self, uv: np.ndarray) -> tuple[np.ndarray, ...]:
         """What ``derivatives`` gives: two or five arrays (n, 3)."""
-        assert self.derivatives is not None
+        assert self.derivatives is not None  # noqa: S101 for mypy: callers have looked
         found = _called(self.derivatives, uv, "derivatives")
         if len(found) not in (2, 5):
             raise SurfaceError(

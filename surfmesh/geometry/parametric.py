@@ -21,6 +21,7 @@ from surfmesh.geometry.surface import Domain
 from surfmesh.geometry.surface_checks import (
     bounds_of,
     loops_of,
+    refuse_extremes,
     refuse_no_area,
     sample_grid,
     table_of,
@@ -271,6 +272,7 @@ def _refuse_values_that_are_not_finite(surface: ParametricSurface) -> None:
     if not finite.all():
         point, axis = np.argwhere(~finite)[0]
         _refuse(surface, points[point], axis)
+    refuse_extremes(values, surface.domain)
     lo, hi = grid[:-1, :-1].reshape(-1, 2), grid[1:, 1:].reshape(-1, 2)
     tape = surface.tape(0)
     for depth in range(POLE_DEPTH):

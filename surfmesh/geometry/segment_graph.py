@@ -14,10 +14,7 @@ import numpy as np
 
 from surfmesh.errors import DomainError
 from surfmesh.geometry.noding import MERGE, first_meeting, noded
-
-LARGEST, SMALLEST = 1e60, 1e-60
-"""Coordinates and the diagonal stay between these, so that products neither overflow nor
-vanish."""
+from surfmesh.geometry.surface_checks import LARGEST, SMALLEST
 
 
 @dataclass(frozen=True, eq=False)

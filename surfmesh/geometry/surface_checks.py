@@ -11,8 +11,12 @@ from surfmesh.errors import FormulaError, SurfaceError, shown
 from surfmesh.geometry.surface import Domain, Surface
 
 NO_AREA = 1e-11  # sine of the angle between r_u and r_v: r_u x r_v is round-off below it
-LARGEST_BOUND, SMALLEST_SPAN = 1e60, 1e-60  # of a domain: fourth powers are numbers still
-LARGEST_VALUE = 1e60  # of a coordinate, likewise
+LARGEST, SMALLEST = 1e60, 1e-60
+"""Coordinates and extents stay between these: squares of the areas of triangles, which are fourth
+powers of their edges, neither overflow nor vanish."""
+FASTEST, BENT_MOST = 1e70, 1e140
+"""First and second derivatives stay below these and above their inverses, for the same reason."""
+LARGEST_BOUND, SMALLEST_SPAN = 1e100, 1e-100  # of a domain: fourth powers are numbers still
 NARROWEST = 1e-12  # of the larger bound: a domain holds 4,500 numbers
 SAMPLES = 48  # cells each way on which a surface is tried; the points sit on their corners
 
@@ -94,15 +98,40 @@ def sample_grid(domain: Domain, cells: int = SAMPLES) -> np.ndarray:
     return np.stack(np.meshgrid(*lines, indexing="ij"), axis=-1)
 
 
+def refuse_extremes(r: np.ndarray, domain: Domain) -> None:
+    """Raise SurfaceError for points (n, 3) of a domain, when products of lengths, or of
+    derivatives, are no longer doubles."""
+    far = np.abs(r).max()
+    if far > LARGEST:
+        raise SurfaceError(
+            f"the surface has a coordinate of {far:g}, too far away to compute with; scale it"
+        )
+    extent = float(np.ptp(r, axis=0).max())
+    if extent == 0.0:
+        return  # no area, said elsewhere
+    if extent < SMALLEST:
+        raise SurfaceError(
+            f"the surface is only {extent:g} wide, too small to compute with; scale it"
+        )
+    for variable, (first, last) in zip("uv", domain):
+        wide = last - first
+        speed = extent / wide
+        if not 1.0 / FASTEST < speed < FASTEST or not 1.0 / BENT_MOST < speed / wide < BENT_MOST:
+            raise SurfaceError(
+                f"the domain of {variable} is {wide:g} wide where the surface is {extent:g}: its "
+                f"derivatives are no numbers to compute with; scale {variable}"
+            )
+
+
 def refuse_no_area(surface: Surface) -> None:
     """Raise SurfaceError for a surface that is a point or a curve, or beyond all lengths."""
     points = sample_grid(surface.domain).reshape(-1, 2)
     r, r_u, r_v = surface.evaluate(points, 1)
-    if not np.abs(r).max() <= LARGEST_VALUE:
+    if not np.abs(r).max() <= LARGEST:
         point, axis = np.unravel_index(np.argmax(np.abs(r)), r.shape)
         raise SurfaceError(
             f"{'xyz'[axis]} is {r[point, axis]:.6g} at (u, v) = ({points[point, 0]:.6g}, "
-            f"{points[point, 1]:.6g}), beyond {LARGEST_VALUE:g}: change its unit or the domain"
+            f"{points[point, 1]:.6g}), beyond {LARGEST:g}: change its unit or the domain"
         )
     if not np.ptp(r, axis=0).any():
         raise SurfaceError("the surface is a single point: none of x, y, z changes with u or v")

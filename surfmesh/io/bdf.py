@@ -14,6 +14,7 @@ import numpy as np
 from surfmesh.errors import FileFormatError
 from surfmesh.io.group_record import group_fields, group_lines
 from surfmesh.io.inp import placed
+from surfmesh.io.numbers_of_groups import named_faces
 from surfmesh.mesh_groups import MeshGroups
 from surfmesh.six_nodes import split_six_nodes
 from surfmesh.surface_mesh import SurfaceMesh
@@ -104,11 +105,11 @@ def read(path: Path) -> SurfaceMesh:
     table = np.array(sorted(rows), np.int64)
     nodes, elements = placed(path, np.array(tags), np.array(points).reshape(-1, 3), table[:, 2:])
     face_ids = table[:, 1] - 1
-    fields = group_fields(lines, face_ids)
-    fields.setdefault(
-        "groups",
-        MeshGroups(face_names=tuple(names.get(i, "") for i in range(max(names, default=-1) + 1))),
-    )
+    fields = group_fields(lines, len(table), face_ids)
+    if "groups" not in fields:
+        count = max(names, default=-1) + 1
+        face_ids, face_names, fields["warnings"] = named_faces(face_ids, names, count)
+        fields["groups"] = MeshGroups(face_names=face_names)
     if elements.shape[1] == 6:
         nodes, elements, fields["mid_points"], _ = split_six_nodes(nodes, elements)
     return SurfaceMesh(points=nodes, triangles=elements, face_ids=face_ids, **fields)

@@ -5,8 +5,11 @@ from importlib import import_module
 from pathlib import Path
 from types import ModuleType
 
+import numpy as np
+
 from surfmesh.errors import FileFormatError
 from surfmesh.io.atomic import replacing, require_place
+from surfmesh.io.found_mesh import usable
 from surfmesh.surface_mesh import SurfaceMesh
 
 # Each module has write(mesh, path) and read(path); it is imported when it is needed.
@@ -28,6 +31,8 @@ FORMATS = {
 
 SECOND_ORDER = (".vtu", ".msh", ".inp", ".bdf", ".xdmf", ".med")
 """Formats that hold nodes amid edges."""
+
+LONGEST = 400  # characters of a refusal beside the path: it may quote what is in the file
 
 
 def save(mesh: SurfaceMesh, path: str | Path, *, ascii: bool = False) -> Path:
@@ -65,28 +70,32 @@ def save(mesh: SurfaceMesh, path: str | Path, *, ascii: bool = False) -> Path:
 def read(path: str | Path) -> SurfaceMesh:
     """Read a triangle mesh. It carries no surface, so its deviation cannot be known.
 
-    Raises ``FileFormatError`` for a file that is missing, that cannot be understood, or that
-    holds anything but triangles.
+    Numbers of faces, solids and edges are those of the file; where one is beyond
+    ``numbers_of_groups.DENSE`` they are counted from 0, which the mesh's ``warnings`` say.
+
+    Raises ``FileFormatError`` for a file that is missing, that cannot be understood, that holds
+    anything but triangles or numbers that nobody can compute with, or that would unpack to far
+    more than it is.
     """
     path = Path(path)
     module = _module(path)
     if not path.is_file():
         raise FileFormatError(f"{path}: {'not a file' if path.exists() else 'no such file'}")
     try:
-        mesh = module.read(path)
-    except FileFormatError:
-        raise
+        with warnings.catch_warnings(), np.errstate(all="ignore"):
+            warnings.simplefilter("ignore")  # of what is not a number: ``usable`` looks at it
+            mesh = module.read(path)
+    except FileFormatError as error:
+        said = str(error)
+        if len(said) <= len(str(path)) + LONGEST:
+            raise
+        raise FileFormatError(f"{said[: len(str(path)) + LONGEST]} ...") from None
     except MemoryError:
         raise
     except Exception as error:  # parsers of foreign formats raise whatever they like
         reason = f"not a readable {path.suffix} file: {_brief(error)}"
         raise FileFormatError(f"{path}: {reason}") from error
-    if not len(mesh.triangles):
-        raise FileFormatError(f"{path}: there are no triangles in it")
-    broken = mesh.check()
-    if broken and "is outside" in broken:
-        raise FileFormatError(f"{path}: {broken}")
-    return mesh
+    return usable(path, mesh)
 
 
 def require_writable(path: str | Path, *extensions: str) -> None:
@@ -119,4 +128,8 @@ def _home(path: Path) -> str:
 def _brief(error: Exception) -> str:
     """The first line of what ``error`` says, or its name when it says nothing."""
     said = str(error).strip().splitlines()
+    if isinstance(error, RecursionError):
+        return "it is nested too deep"
+    if said and ("int_max_str_digits" in said[0] or "too large to convert" in said[0]):
+        return "a whole number in it has too many digits"
     return said[0][:200] if said else type(error).__name__

@@ -17,6 +17,8 @@ from numpy.typing import NDArray
 
 from surfmesh.errors import FileFormatError
 from surfmesh.io.colours import colour_of, linear
+from surfmesh.io.expansion import Expansion
+from surfmesh.io.glb_bounds import require_bounded
 from surfmesh.io.group_record import solids_of_faces
 from surfmesh.io.to_trimesh import read_with_trimesh
 from surfmesh.mesh_groups import METRES, MeshGroups
@@ -165,18 +167,25 @@ def read(path: Path) -> SurfaceMesh:
     content = json.loads(data[20 : 20 + size])
     record = content["asset"].get("extras", {}).get(EXTRAS)
     if record is None:
-        found = read_with_trimesh(path)
+        require_bounded(path, content, len(data))
+        found = read_with_trimesh(path, data)
         return SurfaceMesh(points=found.vertices, triangles=found.faces)
     start = 20 + size + 8
+    expansion = Expansion(path, len(data))
 
     def values(number: int) -> NDArray:
         accessor = content["accessors"][number]
         at = start + content["bufferViews"][accessor["bufferView"]]["byteOffset"]
         count = accessor["count"]
+        if count < 0 or at < start:
+            raise FileFormatError(f"{path}: accessor {number} is damaged")
+        expansion.take(12 * count)  # many may show the same bytes
         if accessor["type"] == "VEC3":
             return np.frombuffer(data, "<f4", 3 * count, at).reshape(-1, 3)
         return np.frombuffer(data, "<u4", count, at)
 
+    if not 0 <= record["points"] <= len(data) // 12:
+        raise FileFormatError(f"{path}: is of {record['points']} vertices and cannot hold them")
     points = np.zeros((record["points"], 3))
     triangles, solids = {}, {}
     for node in content["nodes"]:

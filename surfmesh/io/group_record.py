@@ -6,12 +6,15 @@ its own way too.
 """
 
 import json
+import os
 from collections.abc import Iterable
+from pathlib import Path
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
+from surfmesh.errors import FileFormatError
 from surfmesh.mesh_groups import MeshGroups
 from surfmesh.surface_mesh import SurfaceMesh
 
@@ -42,11 +45,13 @@ def group_lines(mesh: SurfaceMesh, numbered: bool = False) -> list[str]:
     return [MARK + text[at : at + WIDTH] for at in range(0, len(text), WIDTH)]
 
 
-def group_fields(lines: Iterable[str], face_ids: NDArray | None = None) -> dict[str, Any]:
+def group_fields(
+    lines: Iterable[str], triangles: int, face_ids: NDArray | None = None
+) -> dict[str, Any]:
     """Fields of a SurfaceMesh from the lines that start with ``MARK``; {} when there are none.
 
-    Marks of comments before it are passed over. face_ids: (m,) where the format has them. A text
-    that is damaged raises ValueError.
+    Marks of comments before it are passed over. triangles: the number m of them; face_ids: (m,)
+    where the format has them. A text that is damaged, or of another mesh, raises ValueError.
     """
     marked = (line.removeprefix("comment").lstrip("$#* ") for line in lines)
     pieces = [line.removeprefix(MARK).strip() for line in marked if line.startswith(MARK)]
@@ -64,11 +69,28 @@ def group_fields(lines: Iterable[str], face_ids: NDArray | None = None) -> dict[
         found["edge_segments"] = found["edge_segments"].reshape(-1, 2)
     if face_ids is None and "runs" in record:
         runs = np.array(record["runs"], np.int64).reshape(-1, 2)
+        if (runs[:, 1] < 0).any() or sum(runs[:, 1].tolist()) != triangles:
+            raise ValueError(f"the record of groups is not of {triangles} triangles")
         found["face_ids"] = face_ids = np.repeat(runs[:, 0], runs[:, 1])
     if face_ids is not None and "solids" in record:
         solids = np.array(record["solids"], np.int32).reshape(-1, 2)
+        faces = np.asarray(face_ids)
+        if len(faces) and not 0 <= int(faces.min()) <= int(faces.max()) < len(solids):
+            raise ValueError(f"the record of groups knows the solids of {len(solids)} faces only")
         found["solid_ids"] = solids[face_ids]
     return found
+
+
+def require_last_line(path: Path) -> None:
+    """Raise ``FileFormatError`` for a file of ours whose last line has no end: digits are gone.
+
+    For formats without an end mark, when they hold a record of groups. Files of other programs
+    may end without.
+    """
+    with open(path, "rb") as file:
+        file.seek(-1, os.SEEK_END)
+        if file.read(1) not in b"\r\n":
+            raise FileFormatError(f"{path}: is cut: its last line has no end")
 
 
 def solids_of_faces(mesh: SurfaceMesh) -> NDArray[np.int32]:

@@ -7,6 +7,7 @@ its groups, which is more than the 64 characters that readers have room for (Gms
 are written here.
 """
 
+from io import BytesIO
 from pathlib import Path
 from types import ModuleType
 from typing import Any
@@ -15,6 +16,7 @@ import numpy as np
 
 from surfmesh.errors import FileFormatError
 from surfmesh.io.group_record import group_fields, group_lines, solids_of_faces
+from surfmesh.io.hdf5_bounds import require_bounded
 from surfmesh.mesh_groups import MeshGroups
 from surfmesh.six_nodes import edge_rows, split_six_nodes
 from surfmesh.surface_mesh import SurfaceMesh
@@ -55,14 +57,16 @@ def write(mesh: SurfaceMesh, path: Path) -> None:
             names[-1 - below - edge] = [groups.edge_label(edge)]
     content = meshio.Mesh(mesh.nodes, blocks, cell_data={"cell_tags": families})
     content.cell_tags, content.point_tags = {}, {}
-    meshio.med.write(path, content)
-    with h5py.File(path, "r+") as file:
+    image = BytesIO()  # HDF5 says what goes wrong with files late, or on the console alone
+    meshio.med.write(image, content)
+    with h5py.File(image, "r+") as file:
         text = "\n".join(group_lines(mesh, numbered=True)).encode("ascii")
         file[RECORD] = np.frombuffer(text, np.uint8)
         for name, found in file["ENS_MAA"].items():
             _write_families(file["FAS"][name].create_group("ELEME"), names)
             if groups.unit:
                 found.attrs["UNI"] = np.bytes_(groups.unit.ljust(WIDTH) * 3)
+    path.write_bytes(image.getbuffer())
 
 
 def _write_families(parent: Any, names: dict[int, list[str]]) -> None:
@@ -81,9 +85,10 @@ def _write_families(parent: Any, names: dict[int, list[str]]) -> None:
 def read(path: Path) -> SurfaceMesh:
     """Triangles; in a file of another program a face is a family, named by its first group."""
     meshio, h5py = _libraries(path)
-    found = meshio.med.read(path)
     with h5py.File(path, "r") as file:
+        require_bounded(path, file)
         text = bytes(file[RECORD][()]).decode("ascii") if RECORD in file else ""
+    found = meshio.med.read(path)
     elements, families = [], []
     tags = found.cell_data.get("cell_tags") or [np.zeros(len(c.data), int) for c in found.cells]
     for block, tag in zip(found.cells, tags):
@@ -94,7 +99,7 @@ def read(path: Path) -> SurfaceMesh:
             raise FileFormatError(f"{path}: holds cells {block.type} that are not triangles")
     if len(elements) != 1:
         raise FileFormatError(f"{path}: holds no triangles, or some of three and some of six nodes")
-    fields = group_fields(text.splitlines())
+    fields = group_fields(text.splitlines(), len(elements[0]))
     if "face_ids" not in fields:
         numbers, fields["face_ids"] = np.unique(-families[0], return_inverse=True)
         held = [found.cell_tags.get(-number) or [""] for number in numbers.tolist()]

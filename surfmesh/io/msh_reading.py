@@ -7,6 +7,7 @@ from numpy.typing import NDArray
 
 from surfmesh.errors import FileFormatError
 from surfmesh.io.group_record import group_fields
+from surfmesh.io.numbers_of_groups import DENSE, named_faces
 from surfmesh.mesh_groups import MeshGroups
 from surfmesh.six_nodes import split_six_nodes
 from surfmesh.surface_mesh import SurfaceMesh
@@ -47,13 +48,14 @@ def read(path: Path) -> SurfaceMesh:
         segments = rank[content.places(lines[:, 1:], tags)]
         fields |= {"edge_segments": segments, "edge_ids": numbers}
     if content.vertices:
-        fields["vertex_ids"] = np.full(max(content.vertices) + 1, -1)
-        for number, tag in content.vertices.items():
-            fields["vertex_ids"][number] = rank[np.searchsorted(tags, tag)]
+        fields["vertex_ids"] = content.vertices_of_model(rank, tags)
     sizes = content.point_values("size", tags)
     sizes = None if sizes is None else sizes[kept]
-    fields |= group_fields(content.lines(ATTRIBUTE), face_ids)
-    fields.setdefault("groups", content.groups(face_ids))
+    fields |= group_fields(content.lines(ATTRIBUTE), len(elements), face_ids)
+    if "groups" not in fields:
+        names, count = content.face_names(), int(face_ids.max(initial=-1)) + 1
+        face_ids, face_names, fields["warnings"] = named_faces(face_ids, names, count)
+        fields["groups"] = MeshGroups(face_names=face_names)
     return SurfaceMesh(
         points=points, triangles=elements, face_ids=face_ids, sizes=sizes, **fields
     )  # fmt: skip
@@ -80,6 +82,9 @@ class _Content:
         for name in (ATTRIBUTE, "NodeData", "ElementData"):
             if data.count(f"${name}\n".encode()) != data.count(f"$End{name}".encode()):
                 raise FileFormatError(f"{path}: the section ${name} does not end")
+        _, _, rest = data[data.rfind(b"$End") :].partition(b"\n")
+        if rest.lstrip().startswith(b"$"):
+            raise FileFormatError(f"{path}: ends amid a section: it is cut")
 
     def section(self, name: str) -> bytes:
         start = self.data.find(f"${name}\n".encode())
@@ -126,7 +131,19 @@ class _Content:
             raise FileFormatError(f"{self.path}: an element has a corner that is no node")
         return found
 
-    def groups(self, face_ids: NDArray) -> MeshGroups:
+    def vertices_of_model(self, rank: NDArray, tags: NDArray) -> NDArray:
+        """The vertex at each point entity, -1 where there is none; rank: of nodes as vertices."""
+        numbers = sorted(self.vertices)
+        if numbers[0] < 0 or numbers[-1] >= DENSE:  # no table by numbers that are far apart
+            places = {number: place for place, number in enumerate(numbers)}
+        else:
+            places = {number: number for number in numbers}
+        found = np.full(max(places.values()) + 1, -1)
+        for number, tag in self.vertices.items():
+            found[places[number]] = rank[np.searchsorted(tags, tag)]
+        return found
+
+    def face_names(self) -> dict[int, str]:
         """Names of a file by another program: physical groups of surfaces with the face's tag."""
         physical = self._physical_of_surfaces()
         names = {}
@@ -134,10 +151,7 @@ class _Content:
             dimension, tag, name = line.split(maxsplit=2)
             if dimension == "2":
                 names[int(tag)] = name.strip().strip('"')
-        count = int(face_ids.max(initial=-1)) + 1
-        return MeshGroups(
-            face_names=tuple(names.get(physical.get(face, -1), "") for face in range(count))
-        )
+        return {face: names.get(group, "") for face, group in physical.items()}
 
     def _physical_of_surfaces(self) -> dict[int, int]:
         if b"$Entities\n" not in self.data:

@@ -5,7 +5,7 @@ from pathlib import Path
 import numpy as np
 
 from surfmesh.errors import FileFormatError
-from surfmesh.io.group_record import group_fields, group_lines
+from surfmesh.io.group_record import group_fields, group_lines, require_last_line
 from surfmesh.io.text_columns import write_rows
 from surfmesh.surface_mesh import SurfaceMesh
 
@@ -27,14 +27,21 @@ def read(path: Path) -> SurfaceMesh:
         raise FileFormatError(f"{path}: does not start with OFF")
     head = rows[0][1:]
     rows = rows[1:] if len(head) < 2 else [head, *rows[1:]]
+    if not rows or len(rows[0]) < 2:
+        raise FileFormatError(f"{path}: has no numbers of vertices and triangles")
     points, triangles = int(rows[0][0]), int(rows[0][1])
+    if points < 0 or triangles < 0:
+        raise FileFormatError(f"{path}: announces {min(points, triangles)} vertices or triangles")
     if len(rows) < 1 + points + triangles:
         raise FileFormatError(f"{path}: ends before its last triangle")
     corners = rows[1 + points : 1 + points + triangles]
     if any(row[0] != "3" for row in corners):
         raise FileFormatError(f"{path}: holds faces that are not triangles")
+    fields = group_fields(lines, triangles)
+    if fields:
+        require_last_line(path)
     return SurfaceMesh(
         points=np.array([row[:3] for row in rows[1 : 1 + points]], float).reshape(-1, 3),
         triangles=np.array([row[1:4] for row in corners], np.int64).reshape(-1, 3),
-        **group_fields(lines),
+        **fields,
     )

@@ -7,15 +7,15 @@ from pathlib import Path
 
 import numpy as np
 
+from surfmesh.errors import FileFormatError
 from surfmesh.io.colours import NO_COLOUR, triangle_colours
 from surfmesh.io.group_record import group_fields, group_lines
-from surfmesh.io.to_trimesh import read_with_trimesh
+from surfmesh.io.ply_reading import read_ply
 from surfmesh.quality.shape import alpha
 from surfmesh.surface_mesh import SurfaceMesh
 
 VERTEX = [("x", "<f8"), ("y", "<f8"), ("z", "<f8")]
 FACE = [("count", "u1"), ("corners", "<i4", 3), ("face_id", "<i4"), ("alpha", "<f8")]
-
 COLOUR = [("red", "u1"), ("green", "u1"), ("blue", "u1")]
 
 
@@ -49,28 +49,25 @@ def write(mesh: SurfaceMesh, path: Path) -> None:
     ]
     with open(path, "wb") as file:
         file.write("\n".join(header).encode("ascii") + b"\n")
-        vertices.tofile(file)
-        faces.tofile(file)
+        file.write(vertices.data)  # tofile() hides a full disk
+        file.write(faces.data)
 
 
 def read(path: Path) -> SurfaceMesh:
-    found = read_with_trimesh(path)
-    face_ids = _column(found, "face", "face_id")
-    with open(path, "rb") as file:
-        head = file.read().partition(b"end_header")[0].decode(errors="replace")
-    fields = group_fields(head.splitlines(), face_ids)
+    """Vertices and triangles, ``size`` and ``face_id``; faces of four corners are cut in two."""
+    found = read_ply(path)
+    corners = found.corners()
+    if corners is None or any(axis not in found.vertex for axis in "xyz"):
+        raise FileFormatError(f"{path}: there are no triangles in it")
+    if corners.shape[1] == 4:
+        corners = np.vstack((corners[:, [0, 1, 2]], corners[:, [2, 3, 0]]))
+    elif corners.shape[1] != 3:
+        raise FileFormatError(f"{path}: holds faces that are not triangles")
+    face_ids = found.face.get("face_id")
     return SurfaceMesh(
-        points=found.vertices,
-        triangles=found.faces,
-        sizes=_column(found, "vertex", "size"),
+        points=np.column_stack([found.vertex[axis] for axis in "xyz"]),
+        triangles=corners,
+        sizes=found.vertex.get("size"),
         face_ids=face_ids,
-        **fields,
+        **group_fields(found.lines, len(corners), face_ids),
     )
-
-
-def _column(found, element: str, name: str) -> np.ndarray | None:
-    """A property that trimesh keeps only in the raw data of the file."""
-    raw = found.metadata.get("_ply_raw", {}).get(element, {}).get("data")
-    if raw is None or name not in (raw.dtype.names or ()):
-        return None
-    return np.asarray(raw[name]).reshape(-1)

@@ -10,7 +10,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from surfmesh.errors import FileFormatError
-from surfmesh.io.to_trimesh import read_with_trimesh
 from surfmesh.io.welding import welded
 from surfmesh.mesh_groups import MeshGroups
 from surfmesh.surface_mesh import SurfaceMesh
@@ -32,7 +31,7 @@ def write(mesh: SurfaceMesh, path: Path) -> None:
     with open(path, "wb") as file:
         file.write(f"surfmesh, binary STL{unit}".encode("ascii", "replace").ljust(HEADER))
         file.write(np.uint32(len(records)).tobytes())
-        records.tofile(file)
+        file.write(records.data)  # tofile() hides a full disk
 
 
 def write_ascii(mesh: SurfaceMesh, path: Path) -> None:
@@ -69,12 +68,15 @@ def read(path: Path) -> SurfaceMesh:
     """Corners with equal coordinates become one vertex; triangles that this flattens go."""
     with open(path, "rb") as file:
         head = file.read(HEADER + 4)
-    count = int.from_bytes(head[HEADER:], "little")
-    binary = path.stat().st_size == len(head) + RECORD.itemsize * count
-    if head.lstrip().startswith(b"solid") and not binary:
-        return _read_ascii(path)
-    found = read_with_trimesh(path)
-    corners = np.asarray(found.vertices)[found.faces].reshape(-1, 3)
+        count = int.from_bytes(head[HEADER:], "little")
+        if path.stat().st_size != HEADER + 4 + RECORD.itemsize * count:
+            if head.lstrip().lower().startswith(b"solid"):
+                return _read_ascii(path)
+            raise FileFormatError(
+                f"{path}: the .stl file is damaged or incomplete: it does not hold the {count} "
+                "triangles that it announces, and is no text"
+            )
+        corners = np.fromfile(file, RECORD, count)["corners"].astype(np.float64).reshape(-1, 3)
     points, triangles = welded(corners)
     a, b, c = triangles.T
     whole = (a != b) & (b != c) & (c != a)
@@ -90,6 +92,7 @@ def _read_ascii(path: Path) -> SurfaceMesh:
     with open(path, encoding="utf-8", errors="replace") as file:
         for line in file:
             keyword, _, rest = line.strip().partition(" ")
+            keyword = keyword.lower()
             if keyword == "vertex":
                 words += rest.split()
             elif keyword == "solid":

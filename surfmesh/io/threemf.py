@@ -7,16 +7,22 @@ Format: 3MF Core Specification 1.3, with chapter "Triangle Sets".
 
 import json
 import zipfile
+from array import array
+from collections.abc import Iterator
+from datetime import UTC, datetime
+from io import BytesIO
 from pathlib import Path
 from typing import BinaryIO
-from xml.etree import ElementTree
 from xml.sax.saxutils import escape, quoteattr
 
 import numpy as np
 from numpy.typing import NDArray
 
 from surfmesh.errors import FileFormatError
+from surfmesh.io import xml_reading
+from surfmesh.io.asked_date import asked_date
 from surfmesh.io.colours import colour_of, hexadecimal
+from surfmesh.io.expansion import Expansion
 from surfmesh.io.text_columns import write_rows
 from surfmesh.mesh_groups import MeshGroups
 from surfmesh.surface_mesh import SurfaceMesh
@@ -41,6 +47,13 @@ RELATIONS = (
     f'<Relationship Target="/{MODEL}" Id="rel0" '
     'Type="http://schemas.microsoft.com/3dmanufacturing/2013/01/3dmodel"/></Relationships>'
 )
+EARLIEST, LATEST = datetime(1980, 1, 1, tzinfo=UTC), datetime(2107, 12, 31, tzinfo=UTC)  # of zip
+UNIX = 3  # the system that a zip says it was made on
+VERTEX, TRIANGLE, OBJECT, MESH, METADATA = (
+    f"{CORE}}}{name}" for name in ("vertex", "triangle", "object", "mesh", "metadata")
+)
+TRIANGLE_SET, RANGE = (f"{SETS}}}{name}" for name in ("triangleset", "refrange"))
+MOST_ENTRIES = 10_000  # files in the archive; pictures and textures are some
 MATERIALS = 1  # the id of the one group of materials; objects follow
 
 
@@ -55,10 +68,11 @@ def write(mesh: SurfaceMesh, path: Path) -> None:
     }
     unit = UNITS.get(mesh.groups.unit, "millimeter")
     colours: dict[str, int] = {}
-    with zipfile.ZipFile(path, "w", zipfile.ZIP_DEFLATED) as archive:
-        archive.writestr("[Content_Types].xml", CONTENT_TYPES)
-        archive.writestr("_rels/.rels", RELATIONS)
-        with archive.open(MODEL, "w", force_zip64=True) as raw:
+    packed = BytesIO()  # zipfile cannot be closed well on a disk that is full
+    with zipfile.ZipFile(packed, "w") as archive:
+        archive.writestr(_entry("[Content_Types].xml"), CONTENT_TYPES)
+        archive.writestr(_entry("_rels/.rels"), RELATIONS)
+        with archive.open(_entry(MODEL), "w", force_zip64=True) as raw:
             file = _Text(raw)
             file.write('<?xml version="1.0" encoding="UTF-8"?>\n')
             file.write(f'<model unit="{unit}" xml:lang="en-US" xmlns="{CORE}" ')
@@ -78,6 +92,16 @@ def write(mesh: SurfaceMesh, path: Path) -> None:
             for number in range(len(bodies)):
                 file.write(f'<item objectid="{MATERIALS + 1 + number}"/>')
             file.write("</build>\n</model>\n")
+    path.write_bytes(packed.getbuffer())
+
+
+def _entry(name: str) -> zipfile.ZipInfo:
+    """Dated by ``SOURCE_DATE_EPOCH``, or by the first day of zip: the same bytes at any time."""
+    date = asked_date() or EARLIEST
+    entry = zipfile.ZipInfo(name, min(max(date, EARLIEST), LATEST).timetuple()[:6])
+    entry.compress_type, entry.create_system = zipfile.ZIP_DEFLATED, UNIX
+    entry.external_attr = 0o644 << 16
+    return entry
 
 
 class _Text:
@@ -151,36 +175,39 @@ def _write_object(
 
 def read(path: Path) -> SurfaceMesh:
     """What ``write`` wrote in full; of other files the meshes of all objects, as they stand."""
+    found = _Model()
     with zipfile.ZipFile(path) as archive:
-        root = ElementTree.fromstring(archive.read(MODEL))
-    meshes = root.findall(f".//{{{CORE}}}object/{{{CORE}}}mesh")
-    if not meshes:
+        xml_reading.parse(path, _unpacked(path, archive), found.start, found.end, found.text)
+    bodies = found.bodies
+    if not bodies:
         raise FileFormatError(f"{path}: there are no meshes in it")
-    points, triangles = zip(*map(_arrays, meshes))
-    text = next((item.text for item in root.iter(f"{{{CORE}}}metadata")
-                 if item.get("name") == "s:groups"), None)  # fmt: skip
-    if text is None:
+    points, triangles = [body.points() for body in bodies], [body.rows() for body in bodies]
+    if not found.record:
         shifts = np.cumsum([0, *map(len, points)])
         return SurfaceMesh(
             points=np.concatenate(points),
             triangles=np.concatenate([t + shift for t, shift in zip(triangles, shifts)]),
         )
-    record = json.loads(text)
-    numbers = record["vertices"] or [np.arange(record["points"])]
-    nodes = np.zeros((record["points"], 3))
+    record = json.loads("".join(found.record))
+    nodes = np.zeros((_count_of_points(path, record["points"], points), 3))
+    numbers = record["vertices"] or [np.arange(len(nodes))]
     corners: dict[int, NDArray] = {}
     solids: dict[int, list[int]] = {}
-    for element, solid, own, xyz, rows in zip(meshes, record["solids"], numbers, points, triangles):
+    for body, solid, own, xyz, rows in zip(bodies, record["solids"], numbers, points, triangles):
+        own = np.asarray(own, np.int64)
+        if own.ndim != 1 or (len(own) and own.min() < 0):
+            raise FileFormatError(f"{path}: the numbers of its vertices are damaged")
         nodes[own] = xyz
-        for item in element.iter(f"{{{SETS}}}triangleset"):
-            face = int(item.get("identifier").partition("-")[2])
+        spans = [(start, end) for _, start, end in body.sets]
+        whole = all(0 <= start < end for start, end in spans)
+        if not whole or sum(end - start for start, end in spans) != len(rows):
+            raise FileFormatError(f"{path}: its triangle sets do not hold each triangle once")
+        for face, start, end in body.sets:
             if face in solids:
                 solids[face][1] = solid  # the one before it
                 continue
             solids[face] = [solid, -1]
-            span = item.find(f"{{{SETS}}}refrange")
-            start, end = int(span.get("startindex")), int(span.get("endindex")) + 1
-            corners[face] = np.asarray(own)[rows[start:end]]
+            corners[face] = own[rows[start:end]]
     faces = sorted(corners)
     face_ids = np.repeat(faces, [len(corners[face]) for face in faces])
     known = any(solid >= 0 for solid in record["solids"])
@@ -193,8 +220,80 @@ def read(path: Path) -> SurfaceMesh:
     )
 
 
-def _arrays(mesh: ElementTree.Element) -> tuple[NDArray, NDArray]:
-    vertices = [[v.get("x"), v.get("y"), v.get("z")] for v in mesh.iter(f"{{{CORE}}}vertex")]
-    rows = [[t.get("v1"), t.get("v2"), t.get("v3")] for t in mesh.iter(f"{{{CORE}}}triangle")]
-    points = np.array(vertices, float).reshape(-1, 3)
-    return points, np.array(rows, np.int64).reshape(-1, 3)
+def _unpacked(path: Path, archive: zipfile.ZipFile) -> Iterator[bytes]:
+    """The model in pieces; raises before it grows beyond what such a file can hold."""
+    if len(archive.infolist()) > MOST_ENTRIES:
+        raise FileFormatError(f"{path}: holds more than {MOST_ENTRIES} files")
+    entry = archive.getinfo(MODEL)
+    if entry.compress_type not in (zipfile.ZIP_STORED, zipfile.ZIP_DEFLATED):
+        raise FileFormatError(f"{path}: is compressed otherwise than 3MF allows; use deflate")
+    size = path.stat().st_size
+    Expansion(path, size).take(entry.file_size)  # what is announced
+    expansion = Expansion(path, size)
+    with archive.open(entry) as file:
+        while piece := file.read(xml_reading.PIECE):
+            expansion.take(len(piece))  # what there is
+            yield piece
+
+
+def _count_of_points(path: Path, count: int, points: list[NDArray]) -> int:
+    """The number of vertices of the whole mesh: no more than its bodies have."""
+    there = sum(map(len, points))
+    if not 0 <= count <= there:
+        raise FileFormatError(f"{path}: is of {count} vertices and holds {there}")
+    return count
+
+
+class _Body:
+    """The mesh of one object while it is read."""
+
+    def __init__(self) -> None:
+        self.coordinates, self.corners = array("d"), array("q")
+        self.sets: list[tuple[int, int, int]] = []  # face, first triangle, end
+
+    def points(self) -> NDArray[np.float64]:
+        return np.array(self.coordinates).reshape(-1, 3)
+
+    def rows(self) -> NDArray[np.int64]:
+        return np.array(self.corners, np.int64).reshape(-1, 3)
+
+
+class _Model:
+    """What there is in the model, element by element; the rest is passed over."""
+
+    def __init__(self) -> None:
+        self.bodies: list[_Body] = []
+        self.record: list[str] = []  # pieces of the text of surfmesh's own metadata
+        self.open: list[str] = []  # tags around the place
+        self.face = -1
+        self.recording = False
+
+    def start(self, tag: str, attributes: dict[str, str]) -> None:
+        get = attributes.__getitem__
+        if tag == VERTEX:
+            if self.bodies:
+                xyz = (float(get("x")), float(get("y")), float(get("z")))
+                self.bodies[-1].coordinates.extend(xyz)
+        elif tag == TRIANGLE:
+            if self.bodies:
+                rows = (int(get("v1")), int(get("v2")), int(get("v3")))
+                self.bodies[-1].corners.extend(rows)
+        elif tag == MESH and self.open[-1:] == [OBJECT]:
+            self.bodies.append(_Body())
+        elif tag == TRIANGLE_SET:
+            number = attributes.get("identifier", "").partition("-")[2]
+            self.face = int(number) if number.isdecimal() else -1  # other programs' say nothing
+        elif tag == RANGE and self.bodies and self.face >= 0:
+            span = self.face, int(get("startindex")), int(get("endindex")) + 1
+            self.bodies[-1].sets.append(span)
+        elif tag == METADATA and attributes.get("name") == "s:groups" and not self.record:
+            self.recording = True
+        self.open.append(tag)
+
+    def end(self, tag: str) -> None:
+        self.open.pop()
+        self.recording = False
+
+    def text(self, text: str) -> None:
+        if self.recording:
+            self.record.append(text)

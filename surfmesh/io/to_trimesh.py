@@ -1,5 +1,7 @@
 """As a trimesh.Trimesh, and from what trimesh reads."""
 
+import logging
+from io import BytesIO
 from pathlib import Path
 
 import numpy as np
@@ -7,6 +9,9 @@ import trimesh
 
 from surfmesh.io.colours import NO_COLOUR, triangle_colours
 from surfmesh.surface_mesh import SurfaceMesh
+
+# what trimesh finds odd goes to the handlers that a program has set up, not to the console
+logging.getLogger("trimesh").addHandler(logging.NullHandler())
 
 
 def to_trimesh(mesh: SurfaceMesh) -> trimesh.Trimesh:
@@ -27,6 +32,17 @@ def to_trimesh(mesh: SurfaceMesh) -> trimesh.Trimesh:
     )
 
 
-def read_with_trimesh(path: Path) -> trimesh.Trimesh:
-    """What trimesh finds in ``path`` as one mesh, vertices kept in their order."""
-    return trimesh.load_mesh(path, process=False, maintain_order=True)
+def read_with_trimesh(path: Path, data: bytes) -> trimesh.Trimesh:
+    """What trimesh finds in ``data``, the content of ``path``, as one mesh; vertices keep their
+    order.
+
+    No other file is opened, whatever ``data`` name: textures and materials are passed over.
+    """
+    return trimesh.load_mesh(
+        BytesIO(data),
+        file_type=path.suffix.lower()[1:],
+        resolver=None,
+        process=False,
+        maintain_order=True,
+        skip_materials=True,
+    )

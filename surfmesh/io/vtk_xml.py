@@ -1,4 +1,6 @@
-"""VTK's XML files, .vtu (unstructured grid) and .vtp (polygons), through PyVista.
+"""VTK's XML files, .vtu (unstructured grid) and .vtp (polygons), and PyVista's data.
+
+Read by ``vtk_xml_reading``.
 
 Names and the like are the bytes of a JSON text in the field data ``surfmesh_groups``: arrays of
 strings hold ASCII alone, and meshio refuses a file that has one.
@@ -6,23 +8,22 @@ strings hold ASCII alone, and meshio refuses a file that has one.
 
 import json
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import numpy as np
-import pyvista
-from vtkmodules.vtkCommonCore import vtkOutputWindow, vtkStringOutputWindow
-from vtkmodules.vtkIOXML import (
-    vtkXMLPolyDataReader,
-    vtkXMLReader,
-    vtkXMLUnstructuredGridReader,
-)
+from numpy.typing import NDArray
 
-from surfmesh.errors import FileFormatError
 from surfmesh.io.colours import NO_COLOUR, triangle_colours
+from surfmesh.io.vtk_xml_reading import read_vtk
+from surfmesh.io.xml_writing import Content, write_grid, write_polygons
 from surfmesh.mesh_groups import MeshGroups
 from surfmesh.quality.promises import plain_promises
 from surfmesh.quality.shape import alpha
 from surfmesh.six_nodes import node_values, split_six_nodes
 from surfmesh.surface_mesh import SurfaceMesh
+
+if TYPE_CHECKING:
+    import pyvista
 
 GROUPS = "surfmesh_groups"
 BESIDE = ("edge_segments", "edge_ids", "vertex_ids")  # field data of the same names
@@ -32,130 +33,103 @@ METRIC, METRIC_ROWS = "surfmesh_inverse_sizes", "inverse_size_row"
 wanted lengths) in field data, and the rows of the three corners of each triangle."""
 
 
-def to_pyvista(mesh: SurfaceMesh) -> pyvista.PolyData:
+def to_pyvista(mesh: SurfaceMesh) -> "pyvista.PolyData":
     """PolyData with point data ``size``, cell data ``face_id`` and ``alpha``; nothing merged.
 
     Where there are solids or colours: cell data ``solid_id`` (behind and before a triangle) and
     ``colour`` (red, green, blue of 0..255). Arrays are copies: the mesh stays immutable whatever
     is done to the result.
     """
+    import pyvista
+
     data = pyvista.PolyData.from_regular_faces(mesh.points.copy(), mesh.triangles)
     if mesh.sizes is not None:
         data.point_data["size"] = mesh.sizes.copy()
-    data.cell_data["face_id"] = mesh.face_ids.copy()
-    data.cell_data["alpha"] = alpha(mesh)
-    if mesh.solid_ids is not None:
-        data.cell_data["solid_id"] = mesh.solid_ids.copy()
-    colours = triangle_colours(mesh)
-    if colours is not None:
-        data.cell_data["colour"] = np.where(colours < 0, NO_COLOUR, colours).astype(np.uint8)
+    for name, values in _of_triangles(mesh).items():
+        data.cell_data[name] = values.copy()
     data.set_active_scalars(None)
     return data
 
 
+def _of_triangles(mesh: SurfaceMesh) -> dict[str, NDArray]:
+    found: dict[str, NDArray] = {"face_id": mesh.face_ids, "alpha": alpha(mesh)}
+    if mesh.solid_ids is not None:
+        found["solid_id"] = mesh.solid_ids
+    colours = triangle_colours(mesh)
+    if colours is not None:
+        found["colour"] = np.where(colours < 0, NO_COLOUR, colours).astype(np.uint8)
+    return found
+
+
 def write(mesh: SurfaceMesh, path: Path) -> None:
-    data = to_pyvista(mesh)
+    grid = path.suffix.lower() == ".vtu"
+    of_triangles = _of_triangles(mesh)
+    field = {"one_sided": np.array([mesh.one_sided], np.uint8)}
     if mesh.uv_points is not None:
-        data.cell_data["uv"] = mesh.uv.reshape(-1, 6)  # u, v of the three corners
+        of_triangles["uv"] = mesh.uv.reshape(-1, 6)  # u, v of the three corners
     if mesh.inverse_sizes is not None:
-        data.cell_data[METRIC_ROWS] = mesh.uv_triangles.copy()
-        data.field_data[METRIC] = mesh.inverse_sizes.copy()
-    data.field_data["one_sided"] = np.array([mesh.one_sided], np.uint8)
-    text = json.dumps(mesh.groups.plain()).encode()
-    data.field_data[GROUPS] = np.frombuffer(text, np.uint8)
+        of_triangles[METRIC_ROWS] = mesh.uv_triangles
+        field[METRIC] = mesh.inverse_sizes
+    field[GROUPS] = np.frombuffer(json.dumps(mesh.groups.plain()).encode(), np.uint8)
     promises = plain_promises(mesh)
     if promises is not None:
-        data.field_data[PROMISES] = np.nan_to_num(promises)  # VTK's XML has no nan
+        field[PROMISES] = np.nan_to_num(promises)  # VTK's XML has no nan
     for name in BESIDE:
         if getattr(mesh, name) is not None and len(getattr(mesh, name)):
-            data.field_data[name] = getattr(mesh, name).copy()
-    if path.suffix.lower() == ".vtu":
-        data = _grid_of(mesh, data)
-    with pyvista.vtk_verbosity("off"):
-        data.save(path)
-    if not path.stat().st_size:  # VTK reports a full disk on its own console only
-        raise FileFormatError(f"{path}: VTK could not write it")
-
-
-def _grid_of(mesh: SurfaceMesh, data: pyvista.PolyData) -> pyvista.UnstructuredGrid:
-    """The same as a grid, with six nodes a triangle for order 2."""
-    if mesh.order == 1:
-        return data.cast_to_unstructured_grid()
-    six = {pyvista.CellType.QUADRATIC_TRIANGLE: mesh.elements}
-    grid = pyvista.UnstructuredGrid(six, mesh.nodes)
-    for name, values in data.cell_data.items():
-        grid.cell_data[name] = values
-    for name, values in data.point_data.items():
-        grid.point_data[name] = node_values(values, mesh.edges)
-    for name, values in data.field_data.items():
-        grid.field_data[name] = values
-    grid.set_active_scalars(None)
-    return grid
+            field[name] = getattr(mesh, name)
+    points, cells, sizes = mesh.points, mesh.triangles, mesh.sizes
+    if grid and mesh.order == 2:
+        points, cells = mesh.nodes, mesh.elements
+        sizes = None if sizes is None else node_values(sizes, mesh.edges)
+    of_points = {} if sizes is None else {"size": sizes}
+    content = Content(points, cells, of_points, of_triangles, field)
+    (write_grid if grid else write_polygons)(content, path)
 
 
 def read(path: Path) -> SurfaceMesh:
-    grid = path.suffix.lower() == ".vtu"
-    data = _loaded(path, vtkXMLUnstructuredGridReader() if grid else vtkXMLPolyDataReader())
-    cells = data if grid else data.cast_to_unstructured_grid()
-    kinds = set(np.unique(cells.celltypes).tolist())
-    six = kinds == {int(pyvista.CellType.QUADRATIC_TRIANGLE)}
-    if kinds - {int(pyvista.CellType.TRIANGLE)} and not six:
-        raise FileFormatError(f"{path}: holds cells that are not triangles")
-    points, sizes, mid_points = data.points, data.point_data.get("size"), None
-    triangles = cells.cell_connectivity.reshape(-1, 6 if six else 3)
-    if six:
+    found = read_vtk(
+        path,
+        point_data=("size",),
+        cell_data=("face_id", "solid_id", "uv", METRIC_ROWS),
+        field_data=("one_sided", GROUPS, METRIC, PROMISES, *BESIDE),
+    )
+    points, triangles, cells, field = found.points, found.cells, found.cell_data, found.field_data
+    sizes, mid_points = found.point_data.get("size"), None
+    if triangles.shape[1] == 6:
         points, triangles, mid_points, kept = split_six_nodes(points, triangles)
         sizes = None if sizes is None else sizes[kept]
     uv_points = uv_triangles = None
-    if "uv" in data.cell_data:
-        uv_points = np.asarray(data.cell_data["uv"]).reshape(-1, 2)
+    if "uv" in cells:
+        uv_points = cells["uv"].reshape(-1, 2)
         uv_triangles = np.arange(len(uv_points)).reshape(-1, 3)
-    field = data.field_data
     inverse_sizes = None
-    if uv_points is not None and METRIC in field and METRIC_ROWS in data.cell_data:
-        table = np.asarray(field[METRIC], float).reshape(-1, 6)
-        rows = np.asarray(data.cell_data[METRIC_ROWS]).reshape(-1, 3)
+    if uv_points is not None and METRIC in field and METRIC_ROWS in cells:
+        table = field[METRIC].astype(float).reshape(-1, 6)
+        rows = cells[METRIC_ROWS].reshape(-1, 3)
         if rows.size and 0 <= rows.min() <= rows.max() < len(table):
             corners, uv_triangles, inverse_sizes = uv_points, rows, table
             uv_points = np.zeros((len(table), 2))
             uv_points[rows.ravel()] = corners
     promises = None
     if PROMISES in field:
-        promises = np.asarray(field[PROMISES], float).reshape(-1, 3)
+        promises = field[PROMISES].astype(float).reshape(-1, 3)
         promises = np.where(promises > 0.0, promises, np.nan)
-    groups = bytes(np.asarray(field[GROUPS])).decode() if GROUPS in field else "{}"
+    groups = field[GROUPS].tobytes().decode() if GROUPS in field else "{}"
+    beside = {name: field[name] for name in BESIDE if name in field}
+    if "edge_segments" in beside:
+        beside["edge_segments"] = beside["edge_segments"].reshape(-1, 2)
     return SurfaceMesh(
         points=points,
         triangles=triangles,
         mid_points=mid_points,
         uv_points=uv_points,
         uv_triangles=uv_triangles,
-        face_ids=data.cell_data.get("face_id"),
+        face_ids=cells.get("face_id"),
         sizes=sizes,
         inverse_sizes=inverse_sizes,
         one_sided=bool(field["one_sided"][0]) if "one_sided" in field else False,
-        solid_ids=data.cell_data.get("solid_id"),
+        solid_ids=cells.get("solid_id"),
         groups=MeshGroups.of_plain(json.loads(groups)),
         promises=promises,
-        **{name: np.asarray(field[name]) for name in BESIDE if name in field},
+        **beside,
     )
-
-
-def _loaded(path: Path, reader: vtkXMLReader) -> pyvista.DataSet:
-    """What ``reader`` finds; VTK's complaints become one error and are not printed."""
-    complaints = []
-    for source in (reader, reader.GetExecutive()):
-        source.AddObserver("ErrorEvent", lambda *event: complaints.append(event))
-    console = vtkOutputWindow.GetInstance()
-    vtkOutputWindow.SetInstance(vtkStringOutputWindow())  # the XML parser has no observers
-    try:
-        with pyvista.vtk_verbosity("off"):
-            if not reader.CanReadFile(str(path)):
-                raise FileFormatError(f"{path}: not a {path.suffix} file")
-            reader.SetFileName(str(path))
-            reader.Update()
-    finally:
-        vtkOutputWindow.SetInstance(console)
-    if complaints or reader.GetErrorCode():
-        raise FileFormatError(f"{path}: the {path.suffix} file is damaged or incomplete")
-    return pyvista.wrap(reader.GetOutput())

@@ -7,7 +7,7 @@ Format: XDMF Model and Format, version 3.
 import json
 from pathlib import Path
 from typing import TextIO
-from xml.etree import ElementTree
+from xml.etree.ElementTree import Element
 from xml.sax.saxutils import quoteattr
 
 import numpy as np
@@ -16,6 +16,7 @@ from numpy.typing import NDArray
 from surfmesh.errors import FileFormatError
 from surfmesh.io.colours import NO_COLOUR, triangle_colours
 from surfmesh.io.text_columns import write_rows
+from surfmesh.io.xml_reading import root_of
 from surfmesh.mesh_groups import MeshGroups
 from surfmesh.six_nodes import node_values, split_six_nodes
 from surfmesh.surface_mesh import SurfaceMesh
@@ -90,7 +91,7 @@ def _write_item(file: TextIO, values: NDArray) -> None:
 
 def read(path: Path) -> SurfaceMesh:
     """The first grid of a file whose numbers stand in it; data in HDF5 are not read."""
-    grid = ElementTree.parse(path).getroot().find(".//Grid")
+    grid = root_of(path, path.read_bytes()).find(".//Grid")
     topology = None if grid is None else grid.find("Topology")
     if topology is None:
         raise FileFormatError(f"{path}: there is no grid in it")
@@ -117,7 +118,7 @@ def read(path: Path) -> SurfaceMesh:
     return SurfaceMesh(points=points, triangles=elements, sizes=sizes, **fields)
 
 
-def _numbers(path: Path, parent: ElementTree.Element | None, kind: type) -> NDArray:
+def _numbers(path: Path, parent: Element | None, kind: type) -> NDArray:
     item = None if parent is None else parent.find("DataItem")
     if item is None or item.get("Format", "XML") != "XML":
         raise FileFormatError(f"{path}: numbers are missing or in another file; write them as XML")

@@ -3,14 +3,23 @@
 A floating-point filter settles almost every case; the rest is a sum of 96 products without
 error, kept as an expansion: numbers that do not overlap, the largest last (J.R. Shewchuk,
 Adaptive precision floating-point arithmetic, Discrete & Computational Geometry 18, 1997).
-Exact as long as no product of three coordinates under- or overflows.
+Where products of three coordinates may under- or overflow, their exponents are kept as integers
+(``exact_sums``): the sign is that of the given numbers for all finite ones.
 """
 
+import math
+
+import numpy as np
+
+from surfmesh.kernels.exact_sums import exact_sum
 from surfmesh.kernels.jit import kernel
-from surfmesh.kernels.predicates import EPSILON, _two_product, _two_sum
+from surfmesh.kernels.predicates import EPSILON, UNDERFLOW, _two_product, _two_sum
 
 FILTER_SPACE = (7.0 + 56.0 * EPSILON) * EPSILON  # Shewchuk's o3derrboundA
 TERMS = 96  # of the sum, hence the most that an expansion of it can hold
+WORKSPACE = 2 * TERMS
+"""Numbers to work in that ``orient_space`` is handed: terms, and their exponents."""
+SMALL, LARGE = 2.0**-300, 2.0**330  # products of three numbers between them have exact errors
 
 
 @kernel
@@ -60,14 +69,60 @@ def _orient_space_exact(p, a, b, c, d, expansion):
 
 
 @kernel
+def _ordinary(p, k):
+    for i in range(3):
+        if p[k, i] != 0.0 and not SMALL < abs(p[k, i]) < LARGE:
+            return False
+    return True
+
+
+@kernel
+def _finite(p, k):
+    return np.isfinite(p[k, 0]) and np.isfinite(p[k, 1]) and np.isfinite(p[k, 2])
+
+
+@kernel
+def _put_product(work, count, a, b, c):
+    """Put a b c as four terms and their exponents into the workspace; how many are in it."""
+    (a, i), (b, j), (c, k) = math.frexp(a), math.frexp(b), math.frexp(c)
+    high, low = _two_product(a, b)
+    work[count], work[count + 1] = _two_product(high, c)
+    work[count + 2], work[count + 3] = _two_product(low, c)
+    for n in range(count, count + 4):
+        work[TERMS + n] = i + j + k
+    return count + 4
+
+
+@kernel
+def _orient_space_of_any_size(p, a, b, c, d, work):
+    """As ``_orient_space_exact``, on mantissas; nan where a coordinate is not finite."""
+    if not (_finite(p, a) and _finite(p, b) and _finite(p, c) and _finite(p, d)):
+        return np.nan
+    count = 0
+    for sign, q, r, s in ((1.0, a, b, c), (-1.0, d, b, c), (-1.0, a, d, c), (-1.0, a, b, d)):
+        for i in range(3):
+            j, k = (i + 1) % 3, (i + 2) % 3
+            count = _put_product(work, count, sign * p[q, i], p[r, j], p[s, k])
+            count = _put_product(work, count, -sign * p[q, i], p[r, k], p[s, j])
+    return exact_sum(work[:TERMS], work[TERMS:], TERMS)
+
+
+@kernel
+def _orient_space_without_filter(p, a, b, c, d, expansion):
+    if _ordinary(p, a) and _ordinary(p, b) and _ordinary(p, c) and _ordinary(p, d):
+        return _orient_space_exact(p, a, b, c, d, expansion)
+    return _orient_space_of_any_size(p, a, b, c, d, expansion)
+
+
+@kernel
 def orient_space(p, a, b, c, d, expansion):
     """Six times the signed volume of abcd; its sign is exact: > 0 where abc is seen from d
-    clockwise.
+    clockwise. For all finite coordinates.
 
     Parameters
     ----------
     p: (n, 3) float64, and a, b, c, d rows of it
-    expansion: (96,) float64, to work in
+    expansion: (WORKSPACE,) float64, to work in
     """
     ax, ay, az = p[a, 0] - p[d, 0], p[a, 1] - p[d, 1], p[a, 2] - p[d, 2]
     bx, by, bz = p[b, 0] - p[d, 0], p[b, 1] - p[d, 1], p[b, 2] - p[d, 2]
@@ -77,11 +132,11 @@ def orient_space(p, a, b, c, d, expansion):
     ab, ba = ax * by, bx * ay
     det = az * (bc - cb) + bz * (ca - ac) + cz * (ab - ba)
     permanent = (
-        (abs(bc) + abs(cb)) * abs(az)
-        + (abs(ca) + abs(ac)) * abs(bz)
-        + (abs(ab) + abs(ba)) * abs(cz)
+        (abs(bc) + abs(cb) + UNDERFLOW) * abs(az)
+        + (abs(ca) + abs(ac) + UNDERFLOW) * abs(bz)
+        + (abs(ab) + abs(ba) + UNDERFLOW) * abs(cz)
     )
-    if abs(det) > FILTER_SPACE * permanent:
+    if abs(det) > FILTER_SPACE * permanent + UNDERFLOW:
         return det
     if (
         (ax == 0.0 and bx == 0.0 and cx == 0.0)
@@ -89,4 +144,4 @@ def orient_space(p, a, b, c, d, expansion):
         or (az == 0.0 and bz == 0.0 and cz == 0.0)
     ):
         return 0.0  # on a plane across an axis: common, and a difference of zero is exact
-    return _orient_space_exact(p, a, b, c, d, expansion)
+    return _orient_space_without_filter(p, a, b, c, d, expansion)

@@ -15,7 +15,7 @@ area meets nothing: it is a fault of its own, and its neighbours hold its edges.
 import numpy as np
 
 from surfmesh.kernels.jit import kernel
-from surfmesh.kernels.predicates import orient
+from surfmesh.kernels.predicates import UNDERFLOW, orient
 from surfmesh.kernels.space_predicates import orient_space
 
 MARGIN = 16.0 * 2.0**-53  # of the sum of |w_i d_i|: what rounding can do to w . (p - q)
@@ -28,7 +28,7 @@ def _beside(p, origin, at, wx, wy, wz):
     y = wy * (p[at, 1] - p[origin, 1])
     z = wz * (p[at, 2] - p[origin, 2])
     along = x + y + z
-    margin = MARGIN * (abs(x) + abs(y) + abs(z))
+    margin = MARGIN * (abs(x) + abs(y) + abs(z)) + UNDERFLOW
     if along > margin:
         return 1
     return -1 if along < -margin else 0
@@ -186,7 +186,7 @@ def triangles_meet(p, i, j, expansion):
     ----------
     p: (3 m, 3) float64, finite: the corners of all triangles
     i, j: rows of the first corners; i + 1, i + 2, j + 1, j + 2 follow
-    expansion: (96,) float64, to work in
+    expansion: (WORKSPACE,) float64, to work in
     """
     shared, a, d = 0, 0, 0  # the last corners that coincide
     first_a, first_d = 0, 0

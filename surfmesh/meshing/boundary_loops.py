@@ -11,7 +11,7 @@ from itertools import pairwise
 
 import numpy as np
 
-from surfmesh.errors import SurfaceError
+from surfmesh.errors import SizingError, SurfaceError
 from surfmesh.geometry.sides import SideTopology
 from surfmesh.geometry.surface import Surface
 from surfmesh.sizing.size_field import SizeField
@@ -219,6 +219,11 @@ def cut_line(
         step = field.metric_lengths(0.5 * (xy[1:] + xy[:-1]), xy[1:] - xy[:-1])
         metric = np.zeros(samples + 1)
         np.cumsum(step, out=metric[1:])
+        if not metric[-1] <= field.sizing.limit:
+            raise SizingError(
+                f"about {metric[-1]:.3g} edges are asked for along one side, more than the limit "
+                f"of {field.sizing.limit:,} triangles: ask for larger sizes there, or raise limit"
+            )
         if samples >= 16 * metric[-1] or samples >= 1 << 22:
             break
         samples = 1 << int(np.ceil(np.log2(min(20 * metric[-1], 1 << 22))))

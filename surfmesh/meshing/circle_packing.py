@@ -14,15 +14,18 @@ from surfmesh.kernels.front import DONE
 from surfmesh.kernels.packing_state import FITS, STEPS, Packing
 from surfmesh.kernels.predicates import orient_triangles
 from surfmesh.meshing.packing import NO_LIMIT, packed, packed_discs
-from surfmesh.sizing.radius_laws import TensorField, UniformRadius
+from surfmesh.sizing.radius_laws import LARGEST, TensorField, UniformRadius, require_computable
 from surfmesh.sizing.size_field import plane_field
 from surfmesh.sizing.sources import as_numbers
 
 EVERYWHERE = 1e150
 """Half the width of the box when none is given."""
 
-LARGEST = 1e100
-"""Of a radius: its square is a number still."""
+FARTHEST = 1e12
+"""The origin is no farther from (0, 0) than so many radii: coordinates lose their last places."""
+
+MOST_CIRCLES, DRAWN = 20_000_000, 1000
+"""Circles that are placed, which takes 10 GB; random radii that tell how many there will be."""
 
 FREE_GROWTH = 1e6
 """A radius law is followed as it is given: nothing is graded."""
@@ -126,6 +129,7 @@ def pack(
     start = perf_counter()
     where = box or (-EVERYWHERE, -EVERYWHERE, EVERYWHERE, EVERYWHERE)
     if hasattr(radius, "stream"):
+        _require_possible(radius.stream()(DRAWN), origin, count, distance, box)
         expected = count if count < NO_LIMIT else 10_000
         packing = packed_discs(radius.stream(), where, origin, expected, count, distance)
         shift = np.zeros(2)
@@ -147,6 +151,9 @@ def _limits(origin, count, distance, box):
         raise SizingError(f"count must be a whole number from 3, not {count!r}")
     if distance is not None and not 0.0 < distance < np.inf:
         raise SizingError(f"distance must be a positive number, not {distance!r}")
+    far = max(map(abs, (*origin, distance or 0.0, *(box or ()))))
+    if LARGEST <= far < np.inf:
+        raise SizingError(f"{far:g} is too far away to compute with; scale what is packed")
     if box is not None:
         box = tuple(float(x) for x in box)
         if len(box) != 4 or not np.isfinite(box).all() or box[0] >= box[2] or box[1] >= box[3]:
@@ -157,6 +164,33 @@ def _limits(origin, count, distance, box):
     return origin, limit, np.inf if distance is None else float(distance), box
 
 
+def _require_possible(
+    drawn: np.ndarray, origin: tuple[float, float], count: int, distance: float, box: Any
+) -> None:
+    """Of random radii (n,), the first that are drawn."""
+    area = np.pi * distance**2
+    if box is not None:
+        area = min(area, (box[2] - box[0]) * (box[3] - box[1]))
+    _require_near(origin, float(drawn.mean()))
+    _require_few(min(area / (2.0 * np.sqrt(3.0) * float((drawn**2).mean())), float(count)))
+
+
+def _require_near(origin: tuple[float, float], radius: float) -> None:
+    if max(map(abs, origin)) > FARTHEST * radius:
+        raise SizingError(
+            f"the origin {origin} is so far from (0, 0) that circles of radius {radius:.3g} "
+            "cannot be placed exactly"
+        )
+
+
+def _require_few(number: float) -> None:
+    if not number <= MOST_CIRCLES:
+        raise SizingError(
+            f"about {number:.3g} circles are asked for, more than {MOST_CIRCLES:,}: ask for a "
+            "smaller count, distance or box, or for larger radii"
+        )
+
+
 def _background(
     radius: Any, origin: tuple[float, float], count: int, distance: float, box: Any
 ) -> tuple[Background, np.ndarray, int]:
@@ -164,13 +198,16 @@ def _background(
     tensors = _tensors(radius)
     here = tensors(np.array([origin]))[0]
     step = float(np.sqrt(here[0] * here[2] - here[1] ** 2))
+    _require_near(origin, 0.5 * step)
     if box is None:
         if np.isfinite(distance):
             half = 1.05 * distance + 4.0 * step
         else:
             half = _half_width(tensors, origin, count, step)
         box = (origin[0] - half, origin[1] - half, origin[0] + half, origin[1] + half)
-    expected = int(min(_number_within(tensors, box), float(count))) + 100
+    number = min(_number_within(tensors, box), float(count))
+    _require_few(number)
+    expected = int(number) + 100
     if not callable(radius):
         size = 2.0 * float(radius)
         one = np.array([1.0 / size, 0.0, 1.0 / size, 1.0 / size])
@@ -199,6 +236,7 @@ def _tensors(radius: Any) -> Callable[[np.ndarray], np.ndarray]:
                 f"radius is a positive number, a callable, a TensorField or UniformRadius, "
                 f"not {radius!r}"
             )
+        require_computable("radius", number)
         return lambda points: np.tile([2.0 * number, 0.0, 2.0 * number], (len(points), 1))
 
     def law(points: np.ndarray) -> np.ndarray:

@@ -89,8 +89,9 @@ def closed_at(mesh: SurfaceMesh, surface: Surface, cusps: Sequence[Cusp]) -> Sur
 
 
 def _with_fan(mesh: SurfaceMesh, surface: Surface, cusp: Cusp) -> SurfaceMesh:
-    assert mesh.uv_points is not None and mesh.uv_triangles is not None
-    assert mesh.sizes is not None
+    # for mypy: every mesh of a surface has them
+    assert mesh.uv_points is not None and mesh.uv_triangles is not None  # noqa: S101
+    assert mesh.sizes is not None  # noqa: S101
     on = mesh.uv_points[:, cusp.axis] == cusp.cut
     start, end = mesh.uv_triangles, np.roll(mesh.uv_triangles, -1, axis=1)
     row, k = np.nonzero(on[start] & on[end])

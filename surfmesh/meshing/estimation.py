@@ -21,8 +21,8 @@ import numpy as np
 
 from surfmesh.errors import SizingError
 from surfmesh.meshing.face_data import FaceJob
-from surfmesh.sizing.metric_area import TRIANGLES, metric_area
-from surfmesh.sizing.size_field import SizeField
+from surfmesh.sizing.metric_area import TRIANGLES, inner_cells, metric_area
+from surfmesh.sizing.size_field import COUNTABLE, SizeField
 
 RESULT, MODEL_RESULT, WORK, STRETCHED_WORK = 150, 450, 80, 530
 """Bytes a triangle of the whole mesh, of one joined from the faces of a model, and of the face
@@ -33,6 +33,9 @@ MANY = 10**15
 
 SHARP = 6.0
 """How sharply the count of a face changes from that of its boundary to that of its area."""
+
+BEYOND = 1e9
+"""More triangles than that are counted without a look at the cells that loops run through."""
 
 LOADED, CAD_LOADED = 250_000_000, 550_000_000
 """Bytes of the program itself, and of the CAD kernel where it lives in this process."""
@@ -61,7 +64,7 @@ class Estimate:
     @classmethod
     def of(cls, by_face: Sequence[float], stretched: bool = False, model: bool = False) -> Estimate:
         """stretched: sizes depend on the direction."""
-        counts = tuple(round(count) for count in by_face)
+        counts = tuple(round(count) if count < COUNTABLE else int(COUNTABLE) for count in by_face)
         total, most = sum(counts), max(counts, default=0)
         loaded = max(LOADED + (CAD_LOADED if "OCP" in sys.modules else 0), _resident())
         bytes_each = MODEL_RESULT if model else RESULT
@@ -89,6 +92,11 @@ def size_in_words(count: float) -> str:
 
 def field_triangles(field: SizeField, loops: Sequence[np.ndarray] | None = None) -> float:
     """Triangles over the field's rectangle, or inside ``loops`` (k, 2) in (u, v)."""
+    if loops is not None and field.expected_vertices() > BEYOND:
+        rings = [field.scaling.to_plane(loop) for loop in loops]
+        rough = TRIANGLES * float(inner_cells(field, rings)[2].sum())
+        if rough > BEYOND:
+            return rough
     return TRIANGLES * metric_area(field, loops)
 
 
@@ -104,7 +112,10 @@ def combined(inside: float, nodes: int, loops: int) -> float:
     With no node inside, Euler's formula counts them.
     """
     boundary = max(nodes - 2 + 2 * (loops - 1), 1)
-    return (inside**SHARP + boundary**SHARP) ** (1.0 / SHARP)
+    larger = max(inside, boundary)
+    if not larger < COUNTABLE:
+        return COUNTABLE
+    return larger * ((inside / larger) ** SHARP + (boundary / larger) ** SHARP) ** (1.0 / SHARP)
 
 
 def _counted(triangles: int) -> str:

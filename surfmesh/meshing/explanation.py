@@ -18,7 +18,7 @@ import numpy as np
 from surfmesh.cad.centres import boundary_polygons, inner_samples
 from surfmesh.cad.model import CadModel
 from surfmesh.cad.selection import EVERYTHING
-from surfmesh.errors import SizingError
+from surfmesh.errors import SizingError, printable
 from surfmesh.geometry.inside_loops import is_inside
 from surfmesh.geometry.projection import closest_point
 from surfmesh.geometry.surface import Surface, surface_label
@@ -103,7 +103,8 @@ class Explanation:
             k1, k2 = self.curvatures
             lines.append(f"principal curvatures {k1:.4g}, {k2:.4g} (radii {radii})")
         if self.axes:
-            return "\n".join([*lines, *(line for axis in self.axes for line in axis.lines())])
+            lines += (line for axis in self.axes for line in axis.lines())
+            return "\n".join(map(printable, lines))
         if self.origin:
             lines.append(f"grown from {self.origin}, where {self.winner.key!r} decides: "
                          f"{self.winner.rule} -> {self.winner.size:.6g}")  # fmt: skip
@@ -111,7 +112,7 @@ class Explanation:
             lines.append(f"{self.winner.key!r} decides: {self.winner.rule}")
         lines.append("all that apply at the point:")
         lines += [f"  {row}" for row in self.rows]
-        return "\n".join(lines)
+        return "\n".join(map(printable, lines))
 
     def to_dict(self) -> dict[str, Any]:
         """Plain data for JSON."""

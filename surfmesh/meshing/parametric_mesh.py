@@ -112,7 +112,7 @@ def _in_rounds(
             break
         before = now
         limits = wishes.joined_with(limits)
-    assert mesh is not None
+    assert mesh is not None  # noqa: S101 for mypy: there is at least one round
     if len(bad):
         place = ", ".join(f"{x:.6g}" for x in mesh.points[bad[0]])
         raise MeshingError(

@@ -11,12 +11,19 @@ from surfmesh.geometry.planar_domain import PlanarDomain
 from surfmesh.kernels.background import scalar_sizes_at
 from surfmesh.kernels.insertion import label_patches
 from surfmesh.meshing.boundary_recovery import DomainMesh, recovered_regions
-from surfmesh.meshing.estimation import Estimate, combined, field_triangles, require_field_within
+from surfmesh.meshing.estimation import (
+    Estimate,
+    combined,
+    field_triangles,
+    require_field_within,
+    require_within,
+)
 from surfmesh.meshing.optimise import Optimiser
 from surfmesh.meshing.packing import packed_over
 from surfmesh.meshing.planar_segments import (
     PlanarSegments,
     cut_segments,
+    metric_length,
     narrow_gaps,
     short_segments,
 )
@@ -24,7 +31,7 @@ from surfmesh.meshing.stages import Progress, Stopwatch
 from surfmesh.meshing.trial_mesh import WHOLE, tried
 from surfmesh.sizing.across_gaps import size_across
 from surfmesh.sizing.size_bounds import SizeBounds
-from surfmesh.sizing.size_field import SizeField, size_field
+from surfmesh.sizing.size_field import COUNTABLE, SizeField, size_field
 from surfmesh.sizing.sizing import Sizing
 from surfmesh.surface_mesh import SurfaceMesh
 
@@ -35,6 +42,9 @@ GAP_ROUNDS = 3
 THINNING = 0.125
 """Of the smallest size that is asked for along the lines: how far ``simplify`` may move them. A
 segment of that size passes an arc of the strongest bend that is worth following as closely."""
+
+MANY = 4.0
+"""More than so many times the limit is refused before the lines are cut."""
 
 FAR_BELOW = 0.5
 """Segments shorter than this share of ``min_size`` are worth a word."""
@@ -55,6 +65,9 @@ def mesh_planar(
         if simplify:
             domain = domain.simplified(_thinning_distance(domain, sizing))
         field, cut = _field_and_segments(domain, sizing)
+        if cut is None:
+            asked = Estimate.of([_asked(domain, field)])
+            require_within(sizing.limit, asked, [domain.name])
         loops = [*domain.outer, *domain.holes]
         require_field_within(sizing.limit, field, loops, domain.name)
     with watch.stage("packing"):
@@ -105,6 +118,8 @@ def _too_fine(domain: PlanarDomain, sizing: Sizing) -> list[str]:
 def estimate_planar(domain: PlanarDomain, sizing: Sizing) -> Estimate:
     """Triangles and memory of ``mesh_planar``. Raises as it does."""
     field, cut = _field_and_segments(domain, sizing)
+    if cut is None:
+        return Estimate.of([_asked(domain, field)])
     loops = [*domain.outer, *domain.holes]
     asked = combined(field_triangles(field, loops), len(cut.uv), len(loops))
     if asked <= WHOLE:
@@ -114,11 +129,29 @@ def estimate_planar(domain: PlanarDomain, sizing: Sizing) -> Estimate:
     return Estimate.of([asked])
 
 
-def _field_and_segments(domain: PlanarDomain, sizing: Sizing) -> tuple[SizeField, PlanarSegments]:
+def _asked(domain: PlanarDomain, field: SizeField) -> float:
+    """Triangles, before a segment is cut."""
+    loops = [*domain.outer, *domain.holes]
+    nodes = min(metric_length(domain.graph, field), COUNTABLE)
+    return combined(field_triangles(field, loops), int(nodes), len(loops))
+
+
+def _is_suspicious(domain: PlanarDomain, field: SizeField) -> bool:
+    """A look at the whole rectangle and at the lines, which costs little."""
+    limit = MANY * field.sizing.limit
+    return 2 * field.expected_vertices() > limit or metric_length(domain.graph, field) > limit
+
+
+def _field_and_segments(
+    domain: PlanarDomain, sizing: Sizing
+) -> tuple[SizeField, PlanarSegments | None]:
+    """None: far more triangles than the limit are asked for; no segment is cut."""
     limits = short_segments(domain.graph, sizing.gradient)
     share = 1.0 if sizing.gap is None else size_across(1.0, sizing.gap, sizing.gradient)
     for _ in range(GAP_ROUNDS):
         field = size_field(domain, sizing, None, limits)
+        if _is_suspicious(domain, field) and _asked(domain, field) > MANY * sizing.limit:
+            return field, None
         cut = cut_segments(domain.graph, field)
         gaps = narrow_gaps(domain, cut, field, sizing.gradient, share)
         if gaps is None:

@@ -2,6 +2,8 @@
 
 from typing import TYPE_CHECKING
 
+from surfmesh.errors import printable
+from surfmesh.quality.opinion_rows import said_of
 from surfmesh.quality.summary import summary
 
 if TYPE_CHECKING:
@@ -10,14 +12,16 @@ if TYPE_CHECKING:
     from surfmesh.quality.report import Report
 
 SHOWN_FACES = 40  # those that are farthest from the surface
+SHOWN_OPINIONS = 80
+LEFT = ("name", "at", "near", "by", "figure", "of", "note")  # columns of words
 BAR = 50  # characters of the longest bar of a histogram
 
 
 def certificate(report: "Report") -> str:
     """Every part of ``report``; long lists of faces are cut, the JSON has them all."""
     parts = [summary(report), _faces(report), _solids(report), _worst(report), _folded(report)]
-    parts += [_meeting(report), _bodies(report), _histograms(report), _healing(report)]
-    parts.append(_origin(report))
+    parts += [_second_opinion(report), _meeting(report), _bodies(report), _histograms(report)]
+    parts += [_healing(report), _origin(report)]
     return "\n\n".join(part for part in parts if part)
 
 
@@ -135,6 +139,31 @@ def _meeting(report: "Report") -> str:
     return _table("self-intersections", head, rows)
 
 
+def _second_opinion(report: "Report") -> str:
+    """Ours beside theirs, those that disagree first."""
+    opinion = report.second_opinion
+    if opinion is None:
+        return ""
+    rows = sorted(opinion.rows, key=lambda row: row.agree is not False)
+    title = "second opinion"
+    if len(rows) > SHOWN_OPINIONS:
+        title += f", {SHOWN_OPINIONS} of {len(rows)} rows"
+        rows = rows[:SHOWN_OPINIONS]
+    head = ("by", "figure", "of", "ours", "theirs", "rounding", "agree", "note")
+    return _table(
+        title,
+        head,
+        [
+            (
+                row.whose, row.quantity, row.of[:32], said_of(row.ours),
+                said_of(row.theirs), _g(row.tolerance, 2),
+                "-" if row.agree is None else "yes" if row.agree else "NO", row.note,
+            )
+            for row in rows
+        ],
+    )  # fmt: skip
+
+
 def _histograms(report: "Report") -> str:
     blocks = []
     for name, found in report.histograms.items():
@@ -154,7 +183,7 @@ def _histograms(report: "Report") -> str:
 def _healing(report: "Report") -> str:
     if not report.healing:
         return ""
-    return "\n".join(["healing", *(f"  {sentence}" for sentence in report.healing)])
+    return "\n".join(["healing", *(f"  {printable(sentence)}" for sentence in report.healing)])
 
 
 def _origin(report: "Report") -> str:
@@ -166,20 +195,21 @@ def _origin(report: "Report") -> str:
     versions = ", ".join(f"{name} {number}" for name, number in report.versions.items())
     rows = [("source", report.source), ("unit", report.unit), ("sha256", report.source_sha256)]
     rows += [("options", options), ("mesh", f"sha256 {report.mesh_sha256}"), ("with", versions)]
-    return "\n".join(["origin", *(f"  {title:<11}{text}" for title, text in rows if text)])
+    lines = (f"  {title:<11}{printable(text)}" for title, text in rows if text)
+    return "\n".join(["origin", *lines])
 
 
 def _table(title: str, head: tuple[str, ...], rows: list[tuple[str, ...]]) -> str:
     """Columns as wide as they must be; numbers to the right, words to the left."""
     if not rows:
         return ""
-    columns = list(zip(head, *rows))
+    columns = [tuple(map(printable, column)) for column in zip(head, *rows)]
     used = [column for column in columns if any(cell != "" for cell in column[1:])]
     lines = [title]
     for cells in zip(*used):
         padded = [
             cell.ljust(max(map(len, column)))
-            if column[0] in ("name", "at", "near")
+            if column[0] in LEFT
             else cell.rjust(max(map(len, column)))
             for cell, column in zip(cells, used)
         ]

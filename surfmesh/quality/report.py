@@ -3,7 +3,7 @@
 import json
 import math
 from collections.abc import Mapping
-from dataclasses import asdict, dataclass, fields, is_dataclass
+from dataclasses import dataclass, fields, replace
 from time import perf_counter
 from typing import Any
 
@@ -47,8 +47,14 @@ from surfmesh.quality.promises import (
     chord_kept,
     stated,
 )
-from surfmesh.quality.provenance import mesh_sha256, versions
+from surfmesh.quality.provenance import mesh_sha256, options_of, plain, versions
 from surfmesh.quality.remarks import loose_faces, sheets_facing_apart, touching_bodies
+from surfmesh.quality.second_opinion import (
+    SecondOpinion,
+    disagreements,
+    second_opinion,
+    unanswered,
+)
 from surfmesh.quality.self_intersection import MeetingPair, located, meeting_pairs
 from surfmesh.quality.shape import enclosed_volume, metric_alpha, shapes
 from surfmesh.quality.solids import shares_faces
@@ -84,6 +90,8 @@ class Report:
     one_sided: bool  # by nature of the surface: no orientation is demanded
     components: int
     boundary_loops: int
+    boundary_edges: int  # of one triangle
+    nonmanifold_edges: int  # of three triangles or more
     self_intersections: int | None  # pairs of triangles that meet where they share nothing
     crosses_itself: bool  # by nature of the surface: self-intersections are no fault
     meeting: tuple[MeetingPair, ...]  # the first twenty of them
@@ -167,6 +175,7 @@ class Report:
     volume_error: float | None  # volume / volume_exact - 1
     by_face: tuple[FaceRow, ...]
     by_solid: tuple[SolidRow, ...]
+    second_opinion: SecondOpinion | None  # of trimesh and PyVista; None: they were not asked
 
     unit: str  # of lengths; empty when it is not known
     source: str  # the file, or what else the mesh was made from
@@ -187,7 +196,7 @@ class Report:
     def to_dict(self) -> dict[str, Any]:
         """Plain numbers, strings and lists, ``clean`` included; ready for JSON."""
         values = {item.name: getattr(self, item.name) for item in fields(self)}
-        return _plain(
+        return plain(
             {"schema_version": values.pop("schema_version"), "clean": self.clean} | values
         )
 
@@ -209,13 +218,35 @@ class Report:
         return summary(self)
 
 
-def check(mesh: SurfaceMesh) -> Report:
+def check(mesh: SurfaceMesh, *, second_opinion: bool = False) -> Report:
     """Look at everything that can be said of ``mesh``: topology, self-intersection, shape,
     sizes, deviation, each of them against the model where that is known.
+
+    second_opinion=True asks trimesh and PyVista too for what they know of: topology, area,
+    volume, shapes, beside ours in ``report.second_opinion``. Where they disagree by more than
+    rounding the mesh is not clean.
 
     Raises ``ValueError`` when its indices are out of range; everything else that is wrong is
     in ``report.problems``.
     """
+    report = _checked(mesh)
+    return with_second_opinion(report, mesh) if second_opinion else report
+
+
+def with_second_opinion(report: Report, mesh: SurfaceMesh) -> Report:
+    """The same report of ``mesh`` with what trimesh and PyVista say of it."""
+    start = perf_counter()
+    opinion = second_opinion(mesh, report)
+    return replace(
+        report,
+        second_opinion=opinion,
+        problems=(*report.problems, *disagreements(opinion)),
+        warnings=(*report.warnings, *unanswered(opinion)),
+        seconds={**report.seconds, "second opinion": perf_counter() - start},
+    )
+
+
+def _checked(mesh: SurfaceMesh) -> Report:
     start = perf_counter()
     broken = mesh.check()
     if broken and "is outside" in broken:
@@ -300,6 +331,8 @@ def check(mesh: SurfaceMesh) -> Report:
         one_sided=mesh.one_sided,
         components=topo.components,
         boundary_loops=topo.boundary_loops,
+        boundary_edges=topo.boundary_edges,
+        nonmanifold_edges=len(topo.crowded_edges),
         self_intersections=None if pairs is None else len(pairs),
         crosses_itself=crosses,
         meeting=meeting,
@@ -374,6 +407,7 @@ def check(mesh: SurfaceMesh) -> Report:
         volume_error=relative_error(volume, facts.volume),
         by_face=rows,
         by_solid=solids,
+        second_opinion=None,
         unit=facts.unit,
         source=facts.source,
         source_sha256=facts.sha256,
@@ -390,7 +424,7 @@ def check(mesh: SurfaceMesh) -> Report:
             *sheets_facing_apart(mesh, odd),
             *(turned_inward(mesh, topo, solids) if finite and not broken else ()),
         ),
-        options=_options(mesh.sizing),
+        options=options_of(mesh.sizing),
         problems=tuple(said),
         seconds={**mesh.seconds, "check": perf_counter() - start},
     )
@@ -412,26 +446,3 @@ def _over(measure: Any, values: NDArray[np.float64]) -> float:
 def _names(mesh: SurfaceMesh) -> str:
     names = list(dict.fromkeys(mesh.face_name(i) for i in range(len(mesh.surfaces))))
     return ", ".join(names[:3]) + (f" and {len(names) - 3} more" if len(names) > 3 else "")
-
-
-def _options(sizing: Any) -> dict[str, Any]:
-    if not is_dataclass(sizing):
-        return {} if sizing is None else {"sizing": repr(sizing)}
-    return {item.name: getattr(sizing, item.name) for item in fields(sizing)}
-
-
-def _plain(value: Any) -> Any:
-    """``value`` as JSON knows it; callables and other objects by their repr."""
-    if isinstance(value, Mapping):
-        return {str(key): _plain(item) for key, item in value.items()}
-    if isinstance(value, (list, tuple, np.ndarray)):
-        return [_plain(item) for item in value]
-    if value is None or isinstance(value, (bool, str)):
-        return value
-    if isinstance(value, (int, np.integer)):
-        return int(value)
-    if isinstance(value, (float, np.floating)):
-        return float(value) if math.isfinite(value) else None
-    if is_dataclass(value) and not isinstance(value, type):
-        return _plain(asdict(value))
-    return repr(value)

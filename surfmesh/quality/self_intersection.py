@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from surfmesh.kernels.box_tree import LEAF, curve_places, fill_boxes, find_meeting
-from surfmesh.kernels.space_predicates import TERMS
+from surfmesh.kernels.space_predicates import WORKSPACE
 from surfmesh.surface_mesh import SurfaceMesh
 
 MOST = 200_000  # pairs looked for: a mesh with more of them is broken beyond counting
@@ -44,7 +44,7 @@ def meeting_pairs(mesh: SurfaceMesh) -> NDArray[np.int32]:
     fill_boxes(corners, boxes, tree)
 
     met, start, total = [], 0, 0
-    pairs, expansion = np.empty((4096, 2), np.int32), np.empty(TERMS)
+    pairs, expansion = np.empty((4096, 2), np.int32), np.empty(WORKSPACE)
     while start < count and total < MOST:
         found, start = find_meeting(corners, boxes, tree, start, expansion, pairs)
         met.append(order[pairs[:found]])

@@ -3,6 +3,8 @@
 import textwrap
 from typing import TYPE_CHECKING
 
+from surfmesh.errors import printable
+
 if TYPE_CHECKING:
     from surfmesh.quality.report import Report
 
@@ -52,6 +54,8 @@ def summary(report: "Report") -> str:
     rows.append(("deviation", _deviation(report)))
     if report.angle is not None and report.angle_max is not None:
         rows.append(("turning", _turning(report)))
+    if report.second_opinion is not None:
+        rows.append(("opinion", _second_opinion(report)))
     if report.seconds:
         rows.append(("seconds", _seconds(report)))
     lines += [
@@ -62,7 +66,7 @@ def summary(report: "Report") -> str:
         )
     ]
     lines += _listed([f"warning: {text}" for text in report.warnings], _SHOWN_WARNINGS, "warning")
-    return "\n".join(lines)
+    return "\n".join(map(printable, lines))
 
 
 def _topology(report: "Report") -> str:
@@ -179,6 +183,23 @@ def _turning(report: "Report") -> str:
     return (
         f"largest {report.angle_max:.4g}° between neighbours ({report.angle:.4g}° asked for); "
         f"at ({place})"
+    )
+
+
+def _second_opinion(report: "Report") -> str:
+    opinion = report.second_opinion
+    left = len(opinion.rows) - opinion.compared
+    others = f" ({left:,} more cannot be compared)" if left else ""
+    found = opinion.disagreements
+    if not found:
+        return (
+            f"trimesh and pyvista agree on {opinion.agreed:,} of "
+            f"{_count(opinion.compared, 'figure')}{others}"
+        )
+    names = ", ".join(dict.fromkeys(f"{row.quantity} ({row.whose})" for row in found))
+    return (
+        f"{len(found):,} of {_count(opinion.compared, 'figure')} disagree{others}: "
+        f"{names}"
     )
 
 

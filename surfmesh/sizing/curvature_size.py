@@ -22,6 +22,9 @@ ROUND_RESERVE, BENT_RESERVE = 0.78, 0.94
 """Share of ``angle`` that two unit triangles may turn by: on a sphere, where all edges turn alike
 and some triangles are larger; and for what depends on the direction, as few edges lie worst."""
 
+LARGEST_RATIO = 1e100
+"""Of sizes along the principal directions: its square is a number."""
+
 STRETCHED_RESERVE, STRAIGHT_RESERVE = 0.7, 0.75
 """The same for anisotropic sizes, where triangles that lie too far are split: where the surface
 is curved both ways, and where one way only. There edges alone decide, and few of those that run
@@ -121,4 +124,4 @@ def _balance(k1: np.ndarray, k2: np.ndarray, ratio: float) -> np.ndarray:
     small = np.where(first < second, k1, k2) * np.where(first < second, np.sign(k2), np.sign(k1))
     with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
         share = small / np.maximum(first, second)
-        return np.clip(np.nan_to_num(ratio**2 * share), -1.0, 1.0)
+        return np.clip(np.nan_to_num(np.minimum(ratio, LARGEST_RATIO) ** 2 * share), -1.0, 1.0)

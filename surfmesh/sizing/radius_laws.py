@@ -9,12 +9,22 @@ from surfmesh.errors import SizingError, shown
 from surfmesh.sizing.positive import positive
 from surfmesh.sizing.sources import as_numbers
 
+LARGEST = 1e100
+"""Lengths and their inverses are less than that: their squares are numbers."""
+
+
+def require_computable(name: str, length: float) -> None:
+    """Raise ``SizingError`` for a length that has no square, or no inverse of it."""
+    if not 1.0 / LARGEST < length < LARGEST:
+        size = "large" if length > 1.0 else "small"
+        raise SizingError(f"{name} {length:g} is too {size} to compute with; scale what is packed")
+
 
 @dataclass(frozen=True)
 class UniformRadius:
     """Radii drawn evenly from [lo, hi], whatever the place. The same seed, the same radii.
 
-    Raises ``SizingError`` unless 0 < lo <= hi, both finite.
+    Raises ``SizingError`` unless 0 < lo <= hi, both finite, and the seed is a number from 0.
     """
 
     lo: float
@@ -26,8 +36,9 @@ class UniformRadius:
         object.__setattr__(self, "hi", positive("the largest radius", self.hi))
         if self.lo > self.hi:
             raise SizingError(f"random radii need 0 < lo <= hi, not {self.lo:g} and {self.hi:g}")
+        require_computable("radius", self.hi)
         if not isinstance(self.seed, (int, np.integer)) or self.seed < 0:
-            raise SizingError(f"a seed is a whole number from 0 on, not {shown(self.seed)}")
+            raise SizingError(f"seed must be a whole number from 0, not {shown(self.seed)}")
 
     def stream(self) -> Callable[[int], np.ndarray]:
         """A function whose call with n gives the next n radii (n,)."""

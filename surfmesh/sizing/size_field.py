@@ -77,6 +77,9 @@ POLE_DISTANCE = 0.9
 REACHED = 1.1
 """How much more than the reached ratio of the two sizes the shorter one leaves room for."""
 
+COUNTABLE = 1e18
+"""More circles or triangles than that are as many."""
+
 _NO_DIRECTIONS = np.empty(0), np.empty((0, 3)), np.empty((0, 3))
 
 MAX_CELLS, FREE_CELLS, CELLS_OF_TRIANGLE = 800_000, 200_000, 4
@@ -119,7 +122,7 @@ class SizeField:
         share, sqrt(3) / 2."""
         width, height = self.scaling.extent
         area = inverse_area(self.background, float(width), float(height), np.empty((STACK, 5)))
-        return int(area * 2.0 / np.sqrt(3.0)) + 100
+        return int(min(area * 2.0 / np.sqrt(3.0), COUNTABLE)) + 100
 
     def tensors(self, xy: np.ndarray) -> np.ndarray:
         """Size tensors (n, 3) at points xy (n, 2) of the scaled plane."""
@@ -293,8 +296,10 @@ class _Builder:
 
     def _refuse_far_beyond(self, cells: Cells, patch: np.ndarray) -> None:
         """Raise SizingError before a field is made for far more triangles than there may be."""
-        if len(cells) < MANY_CELLS or not self._is_of_formulas:
+        if len(cells) < MANY_CELLS or not isinstance(self.law, SizeLaw):
             return
+        if not (self._is_of_formulas or self.law.sizing.has_law):
+            return  # the triangles of a CAD model are counted together, elsewhere
         asked = self._triangles(cells, patch)
         limit = self.law.sizing.limit
         if float(asked.sum()) <= FAR_BEYOND * limit:

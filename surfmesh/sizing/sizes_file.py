@@ -11,13 +11,17 @@
 
 from __future__ import annotations
 
-import tomllib
+from dataclasses import fields
 from pathlib import Path
 from typing import Any
 
 from surfmesh.errors import FileFormatError, SizingError
+from surfmesh.geometry.toml_entries import toml_content
 from surfmesh.sizing.sizing import Sizing
 from surfmesh.sizing.sources import InBall, InBox, Near, Source
+
+_KINDS = {"near": ("radius",), "lines": ("radius",), "ball": ("radius",), "box": ()}
+"""What a source may have beside its size, growth and reach."""
 
 
 def read_sizes(path: str | Path) -> dict[str, Sizing]:
@@ -25,10 +29,7 @@ def read_sizes(path: str | Path) -> dict[str, Sizing]:
 
     Raises ``FileFormatError`` for what is no TOML, ``SizingError`` for what is no size.
     """
-    try:
-        content = tomllib.loads(Path(path).read_text(encoding="utf-8"))
-    except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
-        raise FileFormatError(f"{path}: {error}") from None
+    content = toml_content(Path(path), FileFormatError)
     unknown = sorted(set(content) - {"sizes"})
     if unknown or not isinstance(content.get("sizes"), dict):
         named = f"an unknown table [{unknown[0]}]" if unknown else "no table of sizes"
@@ -48,28 +49,57 @@ def _sizing(value: Any) -> Sizing:
         if not isinstance(given, list) or not all(isinstance(entry, dict) for entry in given):
             raise SizingError("sources are tables: [[sizes.\"SELECTION\".sources]]")
         value = value | {"sources": tuple(_source(dict(entry)) for entry in given)}
+    if isinstance(value, dict):
+        known = {item.name for item in fields(Sizing)} - {"sources"}
+        _require_numbers({name: wish for name, wish in value.items() if name in known})
+    elif isinstance(value, bool):
+        raise SizingError("sizes are a number or a table, not true or false")
     return Sizing.of(value)
 
 
 def _source(entry: dict[str, Any]) -> Source:
-    kinds = [name for name in ("near", "lines", "ball", "box") if name in entry]
+    kinds = [name for name in _KINDS if name in entry]
     if len(kinds) != 1:
         raise SizingError("a source has one of near, lines, ball, box")
-    place = entry.pop(kinds[0])
-    try:
-        if kinds[0] == "near":
-            return Near(place, **entry)
-        if kinds[0] == "lines":
-            return Near([_line(line) for line in place], **entry)
-        if kinds[0] == "ball":
-            return InBall(place, **entry)
-        return InBox(*place, **entry)
-    except TypeError as error:
-        reason = str(error).partition(" ")[2]
-        raise SizingError(f"source {kinds[0]!r}: {reason}") from None
+    kind = kinds[0]
+    place = entry.pop(kind)
+    known = ("size", "growth", "reach", *_KINDS[kind])
+    needed = ("size", "radius") if kind == "ball" else ("size",)
+    if unknown := sorted(set(entry) - set(known)):
+        raise SizingError(
+            f"source {kind!r}: unknown key {unknown[0]!r:.60}; known: {', '.join(known)}"
+        )
+    if missing := [name for name in needed if name not in entry]:
+        raise SizingError(f"source {kind!r}: {missing[0]!r} is missing")
+    _require_numbers(entry)
+    if kind == "near":
+        return Near(place, **entry)
+    if kind == "lines":
+        if not isinstance(place, list):
+            raise SizingError(f"source 'lines': a list of lines is needed, not {place!r:.60}")
+        return Near([_line(line) for line in place], **entry)
+    if kind == "ball":
+        return InBall(place, **entry)
+    if not isinstance(place, list) or len(place) != 2:
+        raise SizingError(f"source 'box': two corners are needed, not {place!r:.60}")
+    return InBox(*place, **entry)
+
+
+def _require_numbers(table: dict[str, Any]) -> None:
+    """Text is no number, and neither is true."""
+    for name, value in table.items():
+        flag = name == "gap_faces"
+        if isinstance(value, bool) != flag or not isinstance(value, (int, float)):
+            what = "true or false" if flag else "a number"
+            raise SizingError(f"{name} must be {what}, not {value!r:.60}")
 
 
 def _line(given: Any) -> Any:
     import numpy as np
 
-    return np.array(given, float)
+    try:
+        return np.array(given, float)
+    except (TypeError, ValueError):  # text, dates, rows of several lengths
+        raise SizingError(
+            f"source 'lines': a line is a list of points, not {given!r:.60}"
+        ) from None

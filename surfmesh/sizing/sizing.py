@@ -73,7 +73,11 @@ class Sizing:
     """A mesh that would have more triangles is refused before it is made."""
 
     def __post_init__(self) -> None:
-        for name in ("chord", "angle", "min_size", "max_size", "volume"):
+        for name in ("chord", "angle", "max_size"):
+            value = getattr(self, name)
+            if value is not None:
+                object.__setattr__(self, name, positive(name, value))
+        for name in ("min_size", "volume"):
             value = getattr(self, name)
             if value is not None:
                 object.__setattr__(self, name, positive(name, value))
@@ -98,6 +102,8 @@ class Sizing:
         object.__setattr__(self, "sources", tuple(sources))
         if self.gap is not None:
             object.__setattr__(self, "gap", positive("gap", self.gap))
+            if not 1e-3 <= self.gap <= 1000.0:
+                raise SizingError(f"gap is a number of triangles, 0.001 to 1000, not {self.gap:g}")
         object.__setattr__(self, "limit", int(positive("limit", self.limit)))
         if self.volume is not None and self.volume >= 1.0:
             raise SizingError(f"volume is a relative error below 1, not {self.volume:g}")

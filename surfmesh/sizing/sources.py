@@ -110,8 +110,10 @@ class Near(Source):
 
     def __post_init__(self) -> None:
         self._check()
-        if not (np.isscalar(self.radius) and 0.0 <= self.radius < np.inf):
-            raise SizingError(f"radius must not be negative, not {shown(self.radius)}")
+        if isinstance(self.radius, str) or not np.isscalar(self.radius) or not (
+            0.0 <= self.radius < np.inf
+        ):
+            raise SizingError(f"radius must be a number from 0, not {shown(self.radius)}")
         given = self.geometry
         if isinstance(given, np.ndarray) or _is_points(given):
             rows = np.atleast_2d(np.asarray(given, float))

@@ -16,8 +16,11 @@ from surfmesh.view.page_data import MARKED
 
 SHOWN_ROWS = 500  # of a table within the report; the JSON has them all
 ALL_DIGITS = 9  # where every figure is listed
+FEW_DIGITS = 7  # where two stand side by side
+DOUBLE_DIGITS = 17  # where they differ
 _SAID = ("problems", "warnings", "options")  # have places of their own
-_FIGURES = (  # title, fields, how they are said; a row without any known field is left out
+_NOT_KEPT = ("seconds",)  # differ every time, where the same mesh is to give the same page
+_FIGURES = (  # title, fields, how they are said; a row whose first field is not known is left out
     ("topology", ("closed", "manifold", "oriented"), "closed {}, manifold {}, oriented {}"),
     ("crossings", ("self_intersections",), "{}"),
     ("Euler number", ("euler",), "{}"),
@@ -31,8 +34,8 @@ _FIGURES = (  # title, fields, how they are said; a row without any known field 
     ("volume off by", ("volume_error",), "{}"),
     (
         "bodies",
-        ("overlapping_bodies", "touching_bodies", "contacts"),
-        "{} pairs overlap, {} touch without a common face, {} pairs of triangles meet",
+        ("contacts", "overlapping_bodies", "touching_bodies"),
+        "{1} pairs overlap, {2} touch without a common face, {0} pairs of triangles meet",
     ),
     ("alpha", ("alpha_mean", "alpha_p01", "alpha_min"), "mean {}, 1 % below {}, smallest {}"),
     ("alpha in the metric", ("alpha_metric_mean", "alpha_metric_min"), "mean {}, smallest {}"),
@@ -69,10 +72,11 @@ def certificate_html(mesh: SurfaceMesh, report: Report, colourings: dict[str, Co
         for found in colourings.values()
         if not found.hues
     )
-    figures = {name: value for name, value in values.items() if name not in _SAID}
+    figures = {name: value for name, value in values.items() if name not in _SAID + _NOT_KEPT}
     return "\n".join(
         (
             _section("Certificate", problems + _figures(values)),
+            _opinion(values.get("second_opinion")),
             _folded(f"Notes ({len(report.warnings)})", f"<ul>{notes}</ul>") if notes else "",
             _folded("Histograms", histograms, is_open=True),
             _folded("Worst triangles", _worst(mesh), is_open=True),
@@ -94,7 +98,7 @@ def _figures(values: Mapping[str, Any]) -> str:
             else f"{value:+.2%}" if name.endswith("_error") and value is not None else value
             for name, value in zip(names, found)
         ]
-        if any(value is not None for value in found):
+        if found[0] is not None:
             said = words.format(*map(_said, found))
             rows.append(f'<tr><th>{title}</th><td class="number">{escape(said)}</td></tr>')
     return f"<table>{''.join(rows)}</table>"
@@ -124,6 +128,38 @@ def _faces(rows: list[Mapping[str, Any]]) -> str:
     return _records(
         [{title: row[name] for title, name in _OF_FACES} for row in rows if row["triangles"]]
     )
+
+
+def _opinion(found: Mapping[str, Any] | None) -> str:
+    """Ours beside those of each library, those that disagree first; open if there are."""
+    if found is None:
+        return ""
+    tables = "".join(
+        _opinion_of(name, [row for row in found["rows"] if row["whose"] == name])
+        for name in dict.fromkeys(row["whose"] for row in found["rows"])
+    )
+    title = f"Second opinion ({found['agreed']:,} of {found['compared']:,} figures agree)"
+    return _folded(title, tables, is_open=found["agreed"] < found["compared"])
+
+
+def _opinion_of(name: str, rows: list[Mapping[str, Any]]) -> str:
+    ordered = sorted(rows, key=lambda row: row["agree"] is not False)
+    body = "".join(map(_opinion_row, ordered[:SHOWN_ROWS]))
+    more = len(rows) - SHOWN_ROWS
+    left = f'<p class="hint">{more:,} more rows are in the JSON report</p>' if more > 0 else ""
+    head = f"<tr><th>{escape(name)}</th><th>ours</th><th>theirs</th><th>agree</th></tr>"
+    return f'<table class="opinion"><thead>{head}</thead><tbody>{body}</tbody></table>{left}'
+
+
+def _opinion_row(row: Mapping[str, Any]) -> str:
+    figure = escape(row["quantity"] + (f" ({row['of']})" if row["of"] else ""))
+    digits = DOUBLE_DIGITS if row["agree"] is False else FEW_DIGITS
+    ours, theirs = (_said(row[name], digits) for name in ("ours", "theirs"))
+    if row["agree"] is None:
+        said = f'<td colspan="2">not compared: {escape(row["note"])}</td>'
+    else:
+        said = f'<td class="number">{theirs}</td><td>{"yes" if row["agree"] else "NO"}</td>'
+    return f'<tr><td>{figure}</td><td class="number">{ours}</td>{said}</tr>'
 
 
 def _table(values: Mapping[str, Any]) -> str:

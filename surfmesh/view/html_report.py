@@ -1,11 +1,13 @@
 """The report as one HTML file: the mesh to turn and to pick from, and its certificate.
 
-It opens without a network, now and in years: mesh, viewer and licence are all within.
+It opens without a network, now and in years: mesh, viewer and licence are all within. The same
+mesh gives the same page: the date is in it when ``SOURCE_DATE_EPOCH`` says one, and the seconds
+of the report are left to its JSON.
 """
 
 import json
 from collections.abc import Collection
-from datetime import UTC, datetime
+from dataclasses import replace
 from html import escape
 from importlib.metadata import version
 from importlib.resources import files
@@ -13,6 +15,7 @@ from pathlib import Path
 from string import Template
 
 from surfmesh.errors import FileFormatError
+from surfmesh.io.asked_date import asked_date
 from surfmesh.io.atomic import replacing
 from surfmesh.quality import Report, check
 from surfmesh.surface_mesh import SurfaceMesh
@@ -49,7 +52,7 @@ def html_report(
     require_drawable(mesh, path)
     text = page(mesh, by=by, name=name, report=check(mesh) if report is None else report)
     with replacing(path) as temporary:
-        temporary.write_text(text, encoding="utf-8")
+        temporary.write_text(text, encoding="utf-8", newline="\n")
     return path
 
 
@@ -76,7 +79,9 @@ def page(
     data = page_data(mesh, colourings, by, shown)
     title = title_of(mesh) if title is None else title
     heading = title if not name or name == name_of(mesh) else f"{name} - {title}"
-    made = datetime.now(UTC).strftime("%Y-%m-%d %H:%M UTC")
+    date = asked_date()
+    made = "" if date is None else f", {date:%Y-%m-%d %H:%M} UTC"
+    report = None if report is None else replace(report, seconds={})  # they differ every time
     clean = report is None or report.clean
     return Template(_asset("report.html")).substitute(
         title=escape(name or name_of(mesh) or "surfmesh report"),
@@ -86,7 +91,7 @@ def page(
         verdict_class="clean" if clean else "not-clean",
         style=_asset("report.css"),
         certificate="" if report is None else certificate_html(mesh, report, colourings),
-        footer=escape(f"surfmesh {version('surfmesh')}, {made}; view by three.js (MIT licence)"),
+        footer=escape(f"surfmesh {version('surfmesh')}{made}; view by three.js (MIT licence)"),
         # within a script element "<" must not begin a tag
         contents=json.dumps(data.contents, allow_nan=False).replace("<", "\\u003c"),
         arrays=data.arrays,

@@ -6,13 +6,16 @@ import sys
 from functools import cache
 
 SURFACELESS = 0x31DD  # EGL_PLATFORM_SURFACELESS_MESA
+FIRST_WITH_EGL = (9, 4)  # versions of VTK; older wheels draw on an X display alone
 
 
 @cache
 def can_draw() -> bool:
-    """True with a display, or with an EGL library that starts without one."""
+    """True with a display, or with a VTK that needs none and an EGL library that starts so."""
     if sys.platform != "linux" or os.environ.get("DISPLAY"):
         return True
+    if _vtk_version() < FIRST_WITH_EGL:
+        return False
     try:
         egl = ctypes.CDLL("libEGL.so.1")
         egl.eglGetPlatformDisplay.restype = ctypes.c_void_p
@@ -24,3 +27,10 @@ def can_draw() -> bool:
         return False
     displays = (egl.eglGetPlatformDisplay(SURFACELESS, None, None), egl.eglGetDisplay(None))
     return any(display and egl.eglInitialize(display, None, None) for display in displays)
+
+
+def _vtk_version() -> tuple[int, int]:
+    from vtkmodules.vtkCommonCore import vtkVersion
+
+    version = vtkVersion()
+    return version.GetVTKMajorVersion(), version.GetVTKMinorVersion()

@@ -1,5 +1,6 @@
 """Pictures of a circle packing, as in the paper's figures 6 to 10: circles, mesh, or both."""
 
+from io import BytesIO
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -14,6 +15,7 @@ if TYPE_CHECKING:
 
 SHOWN = ("circles", "mesh", "both")
 FORMATS = (".svg", ".png")
+_NOT_SAID = {".svg": {"Date": None, "Creator": None}, ".png": {"Software": None}}
 INCHES, DOTS_PER_INCH = 10, 150
 POINTS_A_LINE = 0.06  # of the mean radius on paper: lines stay thinner than what they outline
 
@@ -61,8 +63,9 @@ def draw_packing(packing: "CirclePacking", path: str | Path, show: str = "both")
         lines = LineCollection(packing.centres[edges], colors=INK, linewidths=thin)
         axes.add_collection(lines)
     with replacing(path) as temporary, rc_context({"svg.hashsalt": "surfmesh"}):
-        kind = path.suffix.lower()[1:]
-        figure.savefig(temporary, format=kind, metadata={"Date": None} if kind == "svg" else None)
+        picture, kind = BytesIO(), path.suffix.lower()
+        figure.savefig(picture, format=kind[1:], metadata=_NOT_SAID[kind])
+        temporary.write_bytes(picture.getbuffer())
     return path
 
 

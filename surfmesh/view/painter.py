@@ -4,7 +4,7 @@ For machines where VTK cannot draw (a bare container without libEGL). Slower tha
 card and wrong only where triangles pierce each other.
 """
 
-from pathlib import Path
+from typing import BinaryIO
 
 import numpy as np
 from matplotlib.backends.backend_agg import FigureCanvasAgg
@@ -32,13 +32,13 @@ def paint(
     mesh: SurfaceMesh,
     colours: Colouring,
     lines: list[Lines],
-    path: Path,
+    file: BinaryIO,
     *,
     title: str,
     edges: bool,
     size: tuple[int, int],
 ) -> None:
-    """Write a PNG of ``mesh`` to ``path``, ``size`` (width, height) in pixels."""
+    """Write a PNG of ``mesh`` to ``file``, ``size`` (width, height) in pixels."""
     figure = Figure(figsize=(size[0] / DOTS_PER_INCH, size[1] / DOTS_PER_INCH), dpi=DOTS_PER_INCH)
     canvas = FigureCanvasAgg(figure)
     axes = figure.add_axes((0.02, 0.12, 0.96, 0.82))
@@ -88,7 +88,7 @@ def paint(
     bar.set_label(colours.title, color=INK)
     if colours.hues:
         bar.set_ticks(range(colours.hues))
-    canvas.print_png(path)
+    canvas.print_png(file, metadata={"Software": None})  # the same with any version
 
 
 def _seen(points: NDArray, camera: Camera) -> tuple[NDArray, NDArray]:

@@ -1,5 +1,6 @@
 """PNG files, with no display and no window."""
 
+from io import BytesIO
 from pathlib import Path
 
 from surfmesh.errors import FileFormatError
@@ -49,12 +50,14 @@ def plot(
     with replacing(path) as temporary:
         draw = _render if can_draw() else _paint
         said = title_of(mesh) if title is None else title
-        draw(mesh, colours, lines, temporary, said, with_edges(mesh, edges, circles), size)
+        picture = BytesIO()
+        draw(mesh, colours, lines, picture, said, with_edges(mesh, edges, circles), size)
+        temporary.write_bytes(picture.getbuffer())
     return path
 
 
 def _render(
-    mesh: SurfaceMesh, colours: Colouring, lines: list[Lines], path: Path, title: str,
+    mesh: SurfaceMesh, colours: Colouring, lines: list[Lines], file: BytesIO, title: str,
     edges: bool, size: tuple[int, int],
 ) -> None:  # fmt: skip
     import pyvista
@@ -64,15 +67,15 @@ def _render(
     with pyvista.vtk_verbosity("off"):  # it says on the console that there is no display
         plotter = scene(mesh, colours, lines, title=title, edges=edges, size=size, off_screen=True)
         try:
-            plotter.screenshot(path)
+            plotter.screenshot(file)
         finally:
             plotter.close()
 
 
 def _paint(
-    mesh: SurfaceMesh, colours: Colouring, lines: list[Lines], path: Path, title: str,
+    mesh: SurfaceMesh, colours: Colouring, lines: list[Lines], file: BytesIO, title: str,
     edges: bool, size: tuple[int, int],
 ) -> None:  # fmt: skip
     from surfmesh.view.painter import paint
 
-    paint(mesh, colours, lines, path, title=title, edges=edges, size=size)
+    paint(mesh, colours, lines, file, title=title, edges=edges, size=size)

@@ -49,7 +49,7 @@ def models(folder):
 def test_meshes_of_real_files(cad_folder):
     for name, model in models(cad_folder):
         mesh = sm.mesh(model, strict=False)
-        report = sm.check(mesh)
+        report = sm.check(mesh, second_opinion=True)
         failed = [said for said in mesh.warnings if said.startswith(NOT_MESHED)]
         assert name in OPEN or not failed, (name, failed)
         assert report.inverted == 0 or name in LOOSE, name
@@ -66,3 +66,5 @@ def test_meshes_of_real_files(cad_folder):
                 assert solid.volume == pytest.approx(solid.volume_exact, abs=lost), (name, solid)
             assert report.area == pytest.approx(model.area, rel=0.01), name
         assert report.alpha_mean > 0.9, name
+        assert report.second_opinion.disagreements == (), name
+        assert report.second_opinion.compared >= 17 + 4 * len(model.solids), name

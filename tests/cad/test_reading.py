@@ -1,6 +1,10 @@
 """Files are read in a child process; whatever is wrong with them ends as one clear line."""
 
+import math
+import os
+import subprocess
 import sys
+import time
 from pathlib import Path
 
 import pytest
@@ -9,6 +13,7 @@ cq = pytest.importorskip("cadquery")
 
 import shapes  # noqa: E402
 
+from surfmesh.cad.limits import Limits  # noqa: E402
 from surfmesh.cad.reading import answer_of, read_cad  # noqa: E402
 from surfmesh.errors import CadError  # noqa: E402
 
@@ -65,30 +70,151 @@ def test_an_unknown_unit_is_refused_before_anything_is_read(tmp_path):
 
 def test_the_time_limit(tmp_path):
     shapes.write_brep(shapes.bare_sphere(), tmp_path / "sphere.brep")
-    with pytest.raises(CadError, match=r"sphere\.brep was not read within 0\.05 s"):
-        read_cad(tmp_path / "sphere.brep", time_limit=0.05)
+    with pytest.raises(CadError, match=r"sphere\.brep was not read within 0\.01 s of processor"):
+        read_cad(tmp_path / "sphere.brep", time_limit=0.01)
+
+
+def test_a_child_that_waits_for_the_processor_is_not_ended(tmp_path):
+    program = CHILD.format("import time; time.sleep(1.0); answer = 'read'")
+    assert answer_of([sys.executable, "-c", program], {}, "part.step", Limits(0.5, 100.0)) == "read"
+
+
+COMPILES = """
+import time
+from numba.core import event
+with event.trigger_event("numba:compile"), event.trigger_event("numba:compile"):
+    start = time.process_time()
+    while time.process_time() < start + 0.5: pass
+answer = 'read'
+"""
+
+
+def test_the_compilation_of_kernels_is_not_counted():
+    program = CHILD.format(COMPILES)
+    assert answer_of([sys.executable, "-c", program], {}, "part.step", Limits(0.3, 100.0)) == "read"
+    with pytest.raises(CadError, match="not read within"):
+        answer_of([sys.executable, "-c", program + "while True: pass"], {}, "part.step",
+                  Limits(0.3, 100.0))  # fmt: skip
 
 
 @pytest.mark.parametrize(
     ("program", "words"),
     [
-        ("import os; os.abort()", r"crash \(SIGABRT\)"),
+        ("while True: pass", r"not read within 0\.2 s .*time_limit=.*--time-limit, SURFMESH"),
+        ("answer = len(bytearray(10**9))", "MemoryError"),
+    ],
+)
+def test_limits_that_a_child_imposes_on_itself(program, words):
+    if sys.platform == "win32" or ("Memory" in words and sys.platform != "linux"):
+        pytest.skip("the system has no such limit")
+    command = [sys.executable, "-c", CHILD.format(program)]
+    with pytest.raises(CadError, match=words):
+        answer_of(command, {}, "part.step", Limits(0.2, 50.0))
+
+
+CHILD = """
+import json, pickle, sys
+from surfmesh.cad.limits import Limits
+wanted = json.load(sys.stdin)
+Limits(wanted["seconds"], wanted["megabytes"]).impose()
+{}
+pickle.dump(answer, sys.stdout.buffer)
+"""
+
+
+def test_limits_are_by_the_size_of_the_file_unless_said(tmp_path, monkeypatch):
+    path = tmp_path / "part.step"
+    path.write_bytes(b" " * 2_000_000)
+    assert Limits.of(path, None, None, joins=False) == Limits(58.0, 1200.0)
+    assert Limits.of(path, None, None, joins=True).seconds == 464.0
+    monkeypatch.setenv("SURFMESH_READ_SECONDS", "7")
+    monkeypatch.setenv("SURFMESH_READ_MEMORY", "inf")
+    assert Limits.of(path, None, None, joins=False) == Limits(7.0, math.inf)
+    assert Limits.of(path, 3, 50, joins=False) == Limits(3.0, 50.0)
+
+
+@pytest.mark.parametrize("wrong", [0, -1.0, math.nan, "soon"])
+def test_limits_that_are_none(tmp_path, monkeypatch, wrong):
+    shapes.write_brep(shapes.bare_sphere(), tmp_path / "sphere.brep")
+    with pytest.raises(CadError, match=r"time_limit is .*a positive number of seconds"):
+        read_cad(tmp_path / "sphere.brep", time_limit=wrong)
+    monkeypatch.setenv("SURFMESH_READ_MEMORY", str(wrong))
+    with pytest.raises(CadError, match=r"SURFMESH_READ_MEMORY is .*a positive number of MB"):
+        read_cad(tmp_path / "sphere.brep")
+
+
+@pytest.mark.parametrize(
+    ("program", "words"),
+    [
+        ("import os; os.abort()", r"crash \(SIGABRT, perhaps for want of memory: .*memory_limit="),
         ("import os, signal; os.kill(os.getpid(), signal.SIGSEGV)", r"crash \(SIGSEGV\)"),
         ("import os, signal; os.kill(os.getpid(), signal.SIGKILL)", "want of memory"),
         ("raise SystemExit('no such thing')", "fail: no such thing"),
+        ("raise SystemExit('no Memory')", "fail: no Memory; allow more with memory_limit="),
         ("pass", "status 0"),
     ],
 )
-def test_a_child_that_dies(tmp_path, program, words):
+def test_a_child_that_dies(program, words):
     with pytest.raises(CadError, match=words):
-        answer_of([sys.executable, "-c", program], tmp_path / "result", "part.step", 30.0)
+        answer_of([sys.executable, "-c", program], {}, "part.step", Limits(30.0, 1000.0))
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="has no such signal")
+def test_the_child_dies_with_its_parent(tmp_path):
+    child = tmp_path / "child.py"
+    child.write_text(
+        "import json, os, sys\n"
+        "from surfmesh.cad.lifeline import end_with\n"
+        "end_with(json.load(sys.stdin)['parent'])\n"
+        f"open({str(tmp_path / 'number')!r}, 'w').write(str(os.getpid()) + '.')\n"
+        "while True: pass\n"
+    )
+    parent = tmp_path / "parent.py"
+    parent.write_text(
+        "import sys\n"
+        "from surfmesh.cad.reading import answer_of\n"
+        "from surfmesh.cad.limits import Limits\n"
+        f"answer_of([sys.executable, {str(child)!r}], {{}}, 'part.step', Limits(60.0, 1e3))\n"
+    )
+    where = {**os.environ, "TMPDIR": str(tmp_path)}
+    process = subprocess.Popen([sys.executable, parent], env=where)
+    try:
+        number = _awaited(lambda: _written(tmp_path / "number"))
+    finally:
+        process.kill()
+        process.wait()
+    assert _awaited(lambda: not _lives(number))
+    assert sorted(place.name for place in tmp_path.iterdir()) == ["child.py", "number", "parent.py"]
+
+
+def _awaited(condition):
+    """What ``condition`` gives as soon as it is true."""
+    for _ in range(1200):
+        found = condition()
+        if found:
+            return found
+        time.sleep(0.05)
+    raise AssertionError("nothing happened")
+
+
+def _written(path):
+    text = path.read_text() if path.exists() else ""
+    return int(text[:-1]) if text.endswith(".") else None
+
+
+def _lives(number):
+    try:
+        os.kill(number, 0)
+    except ProcessLookupError:
+        return False
+    status = Path(f"/proc/{number}/stat")  # one that nobody has waited for is dead too
+    return not (status.exists() and status.read_text().rpartition(")")[2].split()[0] == "Z")
 
 
 def test_nothing_is_left_behind(tmp_path, monkeypatch):
     monkeypatch.setenv("TMPDIR", str(tmp_path / "temporary"))
     monkeypatch.setattr("tempfile.tempdir", None)
     (tmp_path / "temporary").mkdir()
-    shapes.write_brep(shapes.bare_sphere(), tmp_path / "sphere.brep")
     with pytest.raises(CadError):
-        read_cad(tmp_path / "sphere.brep", time_limit=0.05)
+        answer_of([sys.executable, "-c", "pass"], {}, "part.step", Limits(30.0, 1000.0))
     assert list(Path(tmp_path, "temporary").iterdir()) == []

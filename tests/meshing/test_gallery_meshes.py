@@ -38,7 +38,7 @@ def coarse_wishes(name):
 def meshed(name):
     surface = sm.load(name)
     mesh = sm.mesh(surface, coarse_wishes(name))
-    return surface, mesh, sm.check(mesh)
+    return surface, mesh, sm.check(mesh, second_opinion=True)
 
 
 everyone = pytest.mark.parametrize("name", gallery())
@@ -58,6 +58,14 @@ def test_topology(name):
     assert tri.is_watertight == facts["closed"]
     if not facts["one_sided"]:
         assert tri.is_winding_consistent
+
+
+@everyone
+def test_trimesh_and_pyvista_agree(name):
+    _, _, report = meshed(name)
+    opinion = report.second_opinion
+    assert opinion.disagreements == ()
+    assert opinion.compared == len(opinion.rows) - 2 * (report.volume is None)  # of each of them
 
 
 @everyone

@@ -363,9 +363,9 @@ def test_surfaces_name_the_groups_of_a_mesh_without_cad():
 def test_a_record_without_its_middle_is_refused(boxes):
     lines = group_lines(boxes)
     assert all(len(line) <= 80 and " " not in line.removeprefix(MARK) for line in lines)
-    assert group_fields(lines)["groups"] == boxes.groups
+    assert group_fields(lines, len(boxes.triangles))["groups"] == boxes.groups
     with pytest.raises(ValueError):
-        group_fields(lines[:2] + lines[3:])
+        group_fields(lines[:2] + lines[3:], len(boxes.triangles))
 
 
 def test_labels_for_sets_are_unique_in_any_case():

@@ -6,7 +6,7 @@ from handmade_meshes import Saddle, changed, grid
 from matplotlib.image import imread
 
 from surfmesh.errors import FileFormatError, SurfmeshError
-from surfmesh.view import legend, picture, plot, show
+from surfmesh.view import legend, opengl, picture, plot, show
 from surfmesh.view.camera import framed
 from surfmesh.view.colouring import COLOURS, colouring, colourings_of
 
@@ -25,6 +25,16 @@ def test_picture_is_not_blank(drawn_by, saddle, tmp_path, monkeypatch, capfd):
     assert painted_share(path) > 0.1
     assert capfd.readouterr() == ("", "")
     assert [entry.name for entry in tmp_path.iterdir()] == ["saddle.png"]
+
+
+def test_a_vtk_that_needs_a_display_is_not_asked_to_draw_without(monkeypatch):
+    """VTK 9.3, which OCP 7.8 comes with, ends the process instead."""
+    monkeypatch.setattr("sys.platform", "linux")
+    monkeypatch.setattr(opengl, "_vtk_version", lambda: (9, 3))
+    monkeypatch.delenv("DISPLAY", raising=False)
+    assert not opengl.can_draw.__wrapped__()
+    monkeypatch.setenv("DISPLAY", ":0")
+    assert opengl.can_draw.__wrapped__()
 
 
 @pytest.mark.parametrize("by", COLOURS)

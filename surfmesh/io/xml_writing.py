@@ -1,0 +1,103 @@
+"""VTK's XML files written piece by piece: every failure of the file system is an ``OSError``.
+
+VTK's own writers say a full disk on their console alone, or end the process. Numbers are binary
+within the XML text (base64), in blocks compressed by zlib, as VTK writes them.
+Format: VTK User's Guide, "VTK File Formats", "XML File Formats"; version 0.1, as heads are UInt32.
+"""
+
+import base64
+import sys
+import zlib
+from collections.abc import Mapping
+from pathlib import Path
+from typing import BinaryIO, NamedTuple
+from xml.sax.saxutils import quoteattr
+
+import numpy as np
+from numpy.typing import NDArray
+
+BLOCK = 1 << 15  # bytes compressed together, as in VTK
+LEVEL = 5  # of zlib, as in VTK
+KINDS = {"f8": "Float64", "i4": "Int32", "i8": "Int64", "u1": "UInt8"}
+TRIANGLE, QUADRATIC_TRIANGLE = 5, 22  # VTK's numbers of cells
+
+Arrays = Mapping[str, NDArray]
+
+
+class Content(NamedTuple):
+    """What a file holds: one piece of cells that have as many corners each."""
+
+    points: NDArray  # (n, 3) float
+    cells: NDArray  # (m, 3) or (m, 6) int
+    of_points: Arrays  # (n,) or (n, k)
+    of_cells: Arrays  # (m,) or (m, k)
+    of_all: Arrays  # field data, of any length
+
+
+def write_grid(content: Content, path: Path) -> None:
+    """A .vtu file: an unstructured grid of triangles of three or of six nodes."""
+    count, corners = content.cells.shape
+    kind = TRIANGLE if corners == 3 else QUADRATIC_TRIANGLE
+    cells = _runs(content.cells, np.int64) | {"types": np.full(count, kind, np.uint8)}
+    counts = {"Points": len(content.points), "Cells": count}
+    _write(path, "UnstructuredGrid", content, counts, {"Cells": cells})
+
+
+def write_polygons(content: Content, path: Path) -> None:
+    """A .vtp file: polygons."""
+    kind = np.int32 if content.cells.size < 2**31 else np.int64
+    parts = {name: _runs(np.empty((0, 3)), kind) for name in ("Verts", "Lines", "Strips")}
+    parts["Polys"] = _runs(content.cells, kind)
+    counts = {name: len(cells["offsets"]) for name, cells in parts.items()}
+    _write(path, "PolyData", content, {"Points": len(content.points)} | counts, parts)
+
+
+def _runs(cells: NDArray, kind: type) -> dict[str, NDArray]:
+    """Corners of all cells in a row, and where those of each cell end."""
+    ends = cells.shape[1] * np.arange(1, len(cells) + 1)
+    return {"connectivity": cells.ravel().astype(kind), "offsets": ends.astype(kind)}
+
+
+def _write(
+    path: Path, kind: str, content: Content, counts: Mapping[str, int], parts: Mapping[str, Arrays]
+) -> None:  # fmt: skip
+    order = "LittleEndian" if sys.byteorder == "little" else "BigEndian"
+    sizes = "".join(f' NumberOf{name}="{count}"' for name, count in counts.items())
+    with open(path, "wb") as file:
+        file.write(
+            b'<?xml version="1.0"?>\n'
+            + f'<VTKFile type="{kind}" version="0.1" byte_order="{order}" header_type="UInt32" '
+            f'compressor="vtkZLibDataCompressor">\n<{kind}>\n'.encode()
+        )
+        _write_section(file, "FieldData", content.of_all, counted=True)
+        file.write(f"<Piece{sizes}>\n".encode())
+        _write_section(file, "PointData", content.of_points)
+        _write_section(file, "CellData", content.of_cells)
+        _write_section(file, "Points", {"Points": content.points})
+        for name, arrays in parts.items():
+            _write_section(file, name, arrays)
+        file.write(f"</Piece>\n</{kind}>\n</VTKFile>\n".encode())
+
+
+def _write_section(file: BinaryIO, name: str, arrays: Arrays, counted: bool = False) -> None:
+    """counted: with the number of rows, which nothing else in the file tells."""
+    file.write(f"<{name}>\n".encode())
+    for title, values in arrays.items():
+        words = f'type="{KINDS[values.dtype.str[1:]]}" Name={quoteattr(title)}'
+        if values.ndim > 1:
+            words += f' NumberOfComponents="{values.shape[1]}"'
+        if counted:
+            words += f' NumberOfTuples="{len(values)}"'
+        file.write(f'<DataArray {words} format="binary">\n'.encode())
+        _write_numbers(file, values)
+        file.write(b"\n</DataArray>\n")
+    file.write(f"</{name}>\n".encode())
+
+
+def _write_numbers(file: BinaryIO, values: NDArray) -> None:
+    """Head and blocks: their number, the bytes of each and of the last, those compressed."""
+    data = memoryview(np.ascontiguousarray(values)).cast("B") if values.size else b""
+    blocks = [zlib.compress(data[at : at + BLOCK], LEVEL) for at in range(0, len(data), BLOCK)]
+    head = [len(blocks), BLOCK, len(data) % BLOCK, *map(len, blocks)]
+    file.write(base64.b64encode(np.array(head, np.uint32).tobytes()))
+    file.write(base64.b64encode(b"".join(blocks)))
