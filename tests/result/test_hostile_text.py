@@ -193,6 +193,11 @@ def test_names_are_shown_without_what_moves_the_cursor(tmp_path, monkeypatch, ca
     assert main(["mesh", "\x1b[31m\n\udcff.toml", "--size", "0.5", "-o", "\x9b.vtu"]) == 0
     out, err = capsys.readouterr()
     assert r"\x9b.vtu" in out and err == "" and not UNSAFE.search(out)
+    Path("\udcff.svg").write_text("<svg><path d='M0 0L1 0L1 1Z'/></svg>")
+    for ending in (".json", ".html"):
+        argv = ["mesh", "\udcff.svg", "-o", "\udcff.vtu", "--report", f"\udcff{ending}"]
+        assert main(argv) == 0 and Path(f"\udcff{ending}").is_file()
+        assert not UNSAFE.search(capsys.readouterr().out)
     assert main(["check", "\x9b.vtu"]) == 0
     assert not UNSAFE.search(capsys.readouterr().out)
 
