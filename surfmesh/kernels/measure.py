@@ -22,7 +22,8 @@ def triangle_shapes(points, triangles, shapes):
         abx, acx = points[b, 0] - points[a, 0], points[c, 0] - points[a, 0]
         aby, acy = points[b, 1] - points[a, 1], points[c, 1] - points[a, 1]
         abz, acz = points[b, 2] - points[a, 2], points[c, 2] - points[a, 2]
-        bcx, bcy, bcz = acx - abx, acy - aby, acz - abz
+        bcx, bcy = points[c, 0] - points[b, 0], points[c, 1] - points[b, 1]
+        bcz = points[c, 2] - points[b, 2]
         nx, ny, nz = aby * acz - abz * acy, abz * acx - abx * acz, abx * acy - aby * acx
         twice_area = np.sqrt(nx * nx + ny * ny + nz * nz)
         ab2 = abx * abx + aby * aby + abz * abz
@@ -38,11 +39,10 @@ def triangle_shapes(points, triangles, shapes):
         product = ab * ac * bc * (ab + ac + bc)
         if product > 0.0:  # r_in = 2 A / perimeter, r_circum = abc / 4 A
             shapes[t, 2] = 4.0 * twice_area * twice_area / product
-        # cosines of the angles by the law of cosines, tangents by the area: atan2 is exact
-        # to rounding for needles and caps alike
-        at_a = np.arctan2(twice_area, 0.5 * (ab2 + ac2 - bc2))
-        at_b = np.arctan2(twice_area, 0.5 * (ab2 + bc2 - ac2))
-        at_c = np.pi - at_a - at_b
+        # products of edges, not the law of cosines: its squares cancel in needles
+        at_a = np.arctan2(twice_area, abx * acx + aby * acy + abz * acz)
+        at_b = np.arctan2(twice_area, -(abx * bcx + aby * bcy + abz * bcz))
+        at_c = np.arctan2(twice_area, acx * bcx + acy * bcy + acz * bcz)
         shapes[t, 3] = min(at_a, at_b, at_c)
         shapes[t, 4] = max(at_a, at_b, at_c)
 
