@@ -10,6 +10,7 @@ LOWEST := .venv-lowest
 # what the lowest versions are tried with: all that calls the libraries, little of what is our own
 CORE := tests/geometry tests/sizing tests/result/test_formats.py tests/result/test_format_groups.py \
     tests/result/test_view.py tests/result/test_cli.py tests/result/test_surface_mesh.py \
+    tests/result/test_second_opinion.py \
     tests/meshing/test_gallery_meshes.py tests/meshing/test_planar_regions.py \
     tests/cad/test_convert.py tests/cad/test_from_cadquery.py tests/cad/test_reading.py \
     tests/cad/test_selection.py
@@ -43,7 +44,7 @@ test: lint ## lint, layers, types and tests
 	$(BIN)/python -m pytest -n 2 --dist worksteal
 
 fuzz: $(VENV)/.installed-dev ## hostile input by thousands: the table (SURFMESH_FUZZ=1000 a kind)
-	SURFMESH_FUZZ=$${SURFMESH_FUZZ:-1000} $(BIN)/python benchmarks/trust.py --parts readers formulas
+	SURFMESH_FUZZ=$${SURFMESH_FUZZ:-1000} $(BIN)/python benchmarks/trust.py --parts readers formulas random
 
 lint: $(VENV)/.installed-dev ## ruff, the layers of the package, types of the public face
 	$(BIN)/ruff check .

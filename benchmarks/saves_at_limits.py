@@ -53,6 +53,8 @@ def main() -> int:
     for row in rows:
         for fault in row["how"][:3]:
             note(f"{row['what']}: {fault}")
+    if any(row["tried"] == LIMITS for row in rows if not row["broken"]):
+        note("no file system of its own may be mounted here: limits of file sizes alone")
     broken = sum(row["broken"] for row in rows)
     note(f"{len(rows)} outputs, {sum(row['tried'] for row in rows)} saves, broken {broken}")
     if options.json:

@@ -23,8 +23,6 @@ import time
 from collections import Counter
 from collections.abc import Iterable
 from dataclasses import dataclass, field
-from importlib import import_module
-from importlib.util import find_spec
 from pathlib import Path
 
 from rich.box import SIMPLE_HEAD
@@ -38,7 +36,7 @@ COUNT = 300  # mutants a kind
 SHARE = {"step": 0.2, "iges": 0.2, "brep": 0.2, "surface": 0.5, "command": 0.5}  # of the count
 SHOWN = 3  # faults of one kind that are shown
 COLUMNS = ("tried", "refused", "read", *trials.FAULTS)
-PARTS = ("readers", "formulas", "saves", "soak", "opinion")
+PARTS = ("readers", "formulas", "random", "saves", "soak", "opinion")
 
 
 @dataclass
@@ -89,6 +87,7 @@ def _options() -> argparse.Namespace:
         "--parts", nargs="+", choices=PARTS, help="all without; with --only: readers"
     )
     parser.add_argument("--soak", type=int, default=1000, help="meshes of the soak")
+    parser.add_argument("--corpus", type=Path, help="CAD files for the second opinion")
     parser.add_argument("--json", type=Path, help="write the figures too")
     options = parser.parse_args()
     options.parts = options.parts or (["readers"] if options.only else PARTS)
@@ -160,17 +159,27 @@ def _show_faults(kind: str, faults: Iterable[trials.Trial]) -> None:
 
 
 def _formulas(options: argparse.Namespace) -> tuple[dict, int]:
-    """The grammar of formulas, where it is there: as many as there are mutants of a kind."""
-    if find_spec("fuzz.formula_trials") is None:
-        return {}, 0
-    return import_module("fuzz.formula_trials").run(options.count, options.seed)
+    """The grammar of formulas: the tests that draw from it, with as many examples as mutants."""
+    heading("Formulas of a grammar")
+    test = Path(__file__).resolve().parents[1] / "tests" / "fuzz" / "test_formulas.py"
+    command = [sys.executable, "-m", "pytest", "-q", "-n", "0", str(test)]
+    known = os.environ | {"SURFMESH_FUZZ": str(options.count)}
+    done = subprocess.run(command, env=known, check=False)
+    return {"exit_status": done.returncode}, int(done.returncode != 0)
+
+
+def _random(options: argparse.Namespace) -> tuple[dict, int]:
+    """Random parts, domains and surfaces before their own judge."""
+    counts = {"parts": 5, "domains": 2, "surfaces": 3}
+    words = [f"--{name}={max(1, options.count // part)}" for name, part in counts.items()]
+    return _beside("random_inputs", "Random parts, domains and surfaces", *words)
 
 
 def _saves(options: argparse.Namespace) -> tuple[dict, int]:
     return _beside("saves_at_limits", "Saves at limits")
 
 
-def _beside(script: str, title: str) -> tuple[dict, int]:
+def _beside(script: str, title: str, *words: str) -> tuple[dict, int]:
     """Another script of this folder, which prints its own table; its exit status counts."""
     heading(title)
     done = subprocess.run(
@@ -192,7 +201,8 @@ def _soak(options: argparse.Namespace) -> tuple[dict, int]:
 
 
 def _opinion(options: argparse.Namespace) -> tuple[dict, int]:
-    return _beside("second_opinion", "A second opinion")
+    corpus = [str(options.corpus)] if options.corpus else []
+    return _beside("second_opinion", "A second opinion", *corpus)
 
 
 if __name__ == "__main__":

@@ -12,7 +12,7 @@ from surfmesh.cad.from_cadquery import from_cadquery
 from surfmesh.cad.joining import Joining
 from surfmesh.cad.model import CadModel
 from surfmesh.cad.reading import SUFFIXES, read_cad
-from surfmesh.errors import CadError, FileFormatError, SizingError, SurfaceError
+from surfmesh.errors import CadError, FileFormatError, SizingError, SurfaceError, shown
 from surfmesh.geometry.planar_domain import PlanarDomain
 from surfmesh.geometry.surface import Surface
 from surfmesh.geometry.surface_file import gallery, load_surface_file
@@ -33,6 +33,7 @@ from surfmesh.sizing.sizing import Sizing
 from surfmesh.surface_mesh import SurfaceMesh
 
 logger = logging.getLogger(__name__)
+FARTHEST = 1e100  # coordinate of a point that is asked for: squares of distances are finite
 
 
 def load(
@@ -60,7 +61,10 @@ def load(
     Raises ``CadError`` for a CAD file without a model, ``FileFormatError`` for a file of
     another kind, ``SurfaceError`` or ``DomainError`` for what is wrong in it.
     """
-    place = Path(path)
+    try:
+        place = Path(path)
+    except TypeError:
+        raise FileFormatError(f"a path or a name is needed, not {shown(path)}") from None
     joins = bool(Joining.of(imprint, sew))
     if place.suffix.lower() in SUFFIXES:
         return read_cad(
@@ -107,7 +111,7 @@ def mesh(
     ``Cancelled`` when ``progress`` said so.
     """
     if order not in (1, 2):
-        raise SizingError(f"order is {order!r}: meshes are of order 1 or 2")
+        raise SizingError(f"order is {shown(order)}: meshes are of order 1 or 2")
     surface, wishes = _settled(surface, sizing)
     if isinstance(surface, CadModel):
         made = mesh_model(surface, wishes, optimise, progress, strict, simplify, jobs)
@@ -149,10 +153,12 @@ def explain(
     surface, wishes = _settled(surface, sizing)
     try:
         place = np.array(point, float)
-    except (TypeError, ValueError):
+    except (TypeError, ValueError, OverflowError):
         place = np.empty(0)
-    if place.shape != (3,) or not np.isfinite(place).all():
-        raise SizingError(f"a point is three finite numbers, not {point!r:.60}")
+    if place.shape != (3,) or not (np.abs(place) <= FARTHEST).all():  # false for nan
+        raise SizingError(
+            f"a point is three finite numbers of at most {FARTHEST:g}, not {shown(point)}"
+        )
     if isinstance(surface, CadModel):
         return explain_size(surface, wishes, place)
     return explain_parametric(surface, wishes, place)

@@ -27,6 +27,16 @@ def _escaped(found: re.Match[str]) -> str:
     return found[0].encode("unicode_escape", "surrogatepass").decode("ascii")
 
 
+def shown(value: object, longest: int = 60) -> str:
+    """A caller's value for a message: one short line, whatever it is and however it prints."""
+    try:
+        text = repr(value)
+    except Exception:  # a number of too many digits, a broken object
+        text = f"a {type(value).__name__}"
+    text = printable(" ".join(text.split()))
+    return text if len(text) <= longest else text[: longest - 3] + "..."
+
+
 class SurfmeshError(Exception):
     """The parent of everything that surfmesh raises on purpose."""
 

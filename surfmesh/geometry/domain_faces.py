@@ -14,7 +14,8 @@ def bounded_faces(graph: SegmentGraph) -> tuple[np.ndarray, np.ndarray]:
     """All bounded regions: shapely polygons (f,), and the loops around each (f, L) bool."""
     lines = shapely.linestrings(graph.points[graph.segments])
     polygons = shapely.get_parts(shapely.polygonize(lines))
-    probes = shapely.get_coordinates(shapely.point_on_surface(polygons))
+    with np.errstate(over="ignore"):  # GEOS divides by differences as small as 1e-320
+        probes = shapely.get_coordinates(shapely.point_on_surface(polygons))
     return polygons, loops_around(graph, probes)
 
 

@@ -14,6 +14,7 @@ from __future__ import annotations
 
 import difflib
 import math
+import numbers
 import re
 import unicodedata
 from collections.abc import Callable, Mapping, Sequence
@@ -21,16 +22,18 @@ from typing import NamedTuple
 
 import sympy as sp
 
-from surfmesh.errors import FormulaError, SurfaceError
+from surfmesh.errors import FormulaError, SurfaceError, shown
 from surfmesh.geometry import real_functions as real
 from surfmesh.geometry.compilation import compiled
 from surfmesh.geometry.program import FUNCTION_OPERATIONS
 
 LONGEST = 10_000  # characters of a formula
 DEEPEST = 64  # levels of parentheses, calls, signs and powers
+DEEPEST_READY = 150  # levels of a ready-made expression, each of its operations being one
+READY_DIGITS = 10_000  # binary digits of a number in it
 LARGEST_EXPONENT = 64  # of a power with a constant exponent
 MOST_DIGITS, ALL_DIGITS = 20_000, 200_000  # binary digits of one exact power, of all together
-MOST_OPERATIONS = 8_000  # of a formula that is given as an expression, whose text may be endless
+MOST_OPERATIONS = 8_000  # of a ready-made expression, whose text may be endless
 LARGEST_NUMBER = 1e300  # of any constant part; its square root and square stay near floats
 
 
@@ -139,10 +142,8 @@ def parse_number(text: str | float | sp.Expr) -> float:
     if isinstance(text, sp.Basic):
         expression = _checked(text, (), {})
         return _number(expression, str(expression), 1)
-    if isinstance(text, (int, float)) and not isinstance(text, bool):
-        if not math.isfinite(text):
-            raise FormulaError("a finite number is needed", str(text))
-        return float(text)
+    if _is_number(text):
+        return _finite(text)
     return _Parser(_as_text(text), (), {}).formula().value
 
 
@@ -412,9 +413,28 @@ def _as_text(text) -> str:
     if isinstance(text, str):
         # a line break would tear the caret from its column
         return re.sub(r"[\r\n\t]", " ", text)
-    if isinstance(text, (int, float)) and not isinstance(text, bool):
-        return repr(text)
-    raise FormulaError(f"a formula is text, a number or a SymPy expression, not {text!r:.60}")
+    if _is_number(text):
+        number = _finite(text)
+        return repr(int(text)) if isinstance(text, numbers.Integral) else repr(number)
+    raise FormulaError(f"a formula is text, a number or a SymPy expression, not {shown(text)}")
+
+
+def _is_number(value: object) -> bool:
+    return isinstance(value, numbers.Real) and not isinstance(value, bool)
+
+
+def is_finite(value) -> bool:
+    """Is a real number of any type a number as a float too?"""
+    try:
+        return math.isfinite(float(value))
+    except (OverflowError, ValueError):  # an integer beyond all floats
+        return False
+
+
+def _finite(value) -> float:
+    if not is_finite(value):
+        raise FormulaError("a finite number is needed", shown(value))
+    return float(value)
 
 
 def _stray(character: str) -> str:
@@ -423,7 +443,8 @@ def _stray(character: str) -> str:
             return f"{_shown(character)}: {_REASONS[character]}"
         return f"{character!r} is not part of a formula"
     name = unicodedata.name(character, "unnamed")
-    return f"{_shown(character)} (U+{ord(character):04X}, {name.lower()}) is not a plain character"
+    seen = _shown(character) if character.isprintable() else "this"
+    return f"{seen} (U+{ord(character):04X}, {name.lower()}) is not a plain character"
 
 
 def _shown(token: str) -> str:
@@ -432,8 +453,8 @@ def _shown(token: str) -> str:
 
 def _rational(number) -> sp.Rational:
     """The shortest decimal that a number prints as, exactly."""
-    if isinstance(number, bool) or not math.isfinite(number) or abs(number) > LARGEST_NUMBER:
-        raise SurfaceError(f"a parameter must be a finite number, not {number!r}")
+    if not _is_number(number) or not abs(_finite(number)) <= LARGEST_NUMBER:
+        raise SurfaceError(f"a parameter must be a finite number, not {shown(number)}")
     return sp.Rational(repr(float(number)))
 
 
@@ -454,9 +475,10 @@ def _number(expression: sp.Expr, text: str, column: int) -> float:
 
 def _checked(expression: sp.Expr, names: Sequence[str], parameters: Mapping[str, float]) -> sp.Expr:
     """A ready-made expression over the same variables, functions and numbers as a formula."""
-    text = str(expression)
     if not isinstance(expression, sp.Expr):
-        raise FormulaError("not a scalar expression", text)
+        raise FormulaError("not a scalar expression", shown(expression))
+    _refuse_endless(expression)
+    text = str(expression)
     expression = real.on_the_real_line(expression)
     known = {}
     for free in expression.free_symbols:
@@ -479,3 +501,33 @@ def _checked(expression: sp.Expr, names: Sequence[str], parameters: Mapping[str,
                 text,
             )
     return expression
+
+
+def _refuse_endless(expression: sp.Expr) -> None:
+    """Raise FormulaError for what could not even be printed: endless, deep, or huge numbers.
+
+    Shared parts stand there once, and in the text as often as they are used.
+    """
+    sizes: dict[sp.Basic, tuple[int, int]] = {}  # operations and levels
+    waiting = [expression]
+    while waiting:
+        part = waiting[-1]
+        unknown = [argument for argument in part.args if argument not in sizes]
+        if unknown:
+            waiting += unknown
+            continue
+        waiting.pop()
+        known = [sizes[argument] for argument in part.args]
+        operations = sum((count for count, _ in known), start=bool(known))
+        levels = max((depth for _, depth in known), default=-1) + 1
+        if operations > MOST_OPERATIONS:
+            raise FormulaError(f"an expression of more than {MOST_OPERATIONS:,} operations{_CURE}")
+        if levels > DEEPEST_READY:
+            raise FormulaError(f"an expression of more than {DEEPEST_READY} levels{_CURE}")
+        many = part.is_Rational and _digits(part) > READY_DIGITS
+        if many or (part.is_Number and part.is_finite and abs(part) > LARGEST_NUMBER):
+            raise FormulaError("a number in the expression is too large, or has too many digits")
+        sizes[part] = operations, levels
+
+
+_CURE = ": give the surface as a function, a NumericSurface"

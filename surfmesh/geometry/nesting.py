@@ -14,9 +14,10 @@ def nesting_depth(loops: Sequence[np.ndarray]) -> np.ndarray:
     A loop lies in a larger one that holds a point of its interior; of two equal ones the later
     lies in the earlier, so that by even-odd they cancel.
     """
-    polygons = shapely.make_valid([shapely.Polygon(loop) for loop in loops])
-    area = shapely.area(polygons)
-    probes = shapely.point_on_surface(polygons)
+    with np.errstate(over="ignore", invalid="ignore"):  # of extremes, which are refused later
+        polygons = shapely.make_valid([shapely.Polygon(loop) for loop in loops])
+        area = shapely.area(polygons)
+        probes = shapely.point_on_surface(polygons)
     inner, around = shapely.STRtree(polygons).query(probes, predicate="within")
     rank = np.lexsort((np.arange(len(loops)), -area))  # larger first, then earlier
     place = np.empty(len(loops), int)

@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
+import numbers
 from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
 import numpy as np
 
-from surfmesh.errors import SurfaceError
+from surfmesh.errors import SurfaceError, shown
 from surfmesh.geometry.differences import ORDERS, Differences, chosen_differences
 from surfmesh.geometry.infinite_speed import (
     BentAxes,
@@ -21,12 +22,24 @@ from surfmesh.geometry.infinite_speed import (
 )
 from surfmesh.geometry.surface import Domain
 from surfmesh.geometry.surface_checks import (
+    LARGEST,
     bounds_of,
-    loop_of,
+    loops_of,
     refuse_extremes,
     refuse_no_area,
     sample_grid,
+    table_of,
 )
+
+LARGEST_SLOPE = 1e140
+"""A derivative beyond it counts as infinite: its square would be."""
+
+LEAST_STEP = 1e-9
+"""Of the domain: nodes nearer to each other differ by round-off."""
+
+WRONG_GRID, WRONG, MOSTLY = 12, 0.2, 0.9
+"""Cells each way in whose inner corners derivatives are compared with differences; by how much of
+its length one is wrong; and at how many of the corners it may not be."""
 
 CLOSED = 1e-9
 """Of the extent of two sides: so far apart they are one."""
@@ -53,7 +66,8 @@ class NumericSurface:
     be picklable (no lambda) if the surface or its mesh shall travel to another process.
 
     Raises SurfaceError when the domain is empty, f or derivatives give arrays of the wrong shape
-    or values that are not finite, or the surface has no area. What f raises comes through.
+    or values that are not finite, derivatives are almost nowhere those of f, or the surface has no
+    area. What f raises comes through, with a note that says which places were asked for.
     """
 
     def __init__(
@@ -72,22 +86,23 @@ class NumericSurface:
         for what, given in (("f", f), ("derivatives", derivatives)):
             if given is not None and not callable(given):
                 raise SurfaceError(
-                    f"{what} is a function of arrays u and v, not {given!r:.60}; "
+                    f"{what} is a function of arrays u and v, not {shown(given)}; "
                     "formulas as text make a ParametricSurface"
                 )
-        if differences not in ORDERS:
-            raise SurfaceError(f"differences are of order 2, 4 or 6, not {differences!r}")
-        if step is not None and not 0.0 < step * differences <= 1.0:
+        if not isinstance(differences, numbers.Integral) or differences not in ORDERS:
+            raise SurfaceError(f"differences are of order 2, 4 or 6, not {shown(differences)}")
+        if step is not None and not _is_share(step, differences):
             raise SurfaceError(
-                f"step is a share of the domain, above 0 and at most 1/{differences}, not {step!r}"
+                f"step is a share of the domain, {LEAST_STEP:g} to 1/{differences}, "
+                f"not {shown(step)}"
             )
         fixed: dict[str, Any] = {
             "name": str(name),
             "function": f,
             "derivatives": derivatives,
             "domain": (bounds_of("u", u), bounds_of("v", v)),
-            "loops": tuple(loop_of(number, loop) for number, loop in enumerate(loops)),
-            "sizing_defaults": dict(sizing_defaults or {}),
+            "loops": loops_of(loops),
+            "sizing_defaults": table_of("sizing_defaults", sizing_defaults),
         }
         self.__dict__.update(fixed, closed=(False, False))
         # refused now rather than later
@@ -98,6 +113,8 @@ class NumericSurface:
         )
         self.__dict__["closed"] = (self._is_closed(0), self._is_closed(1))
         self.__dict__.update(differences=rule, difference_error=error)
+        if derivatives is not None:
+            self._refuse_wrong_derivatives()
         refuse_no_area(self)
 
     name: str
@@ -147,7 +164,7 @@ class NumericSurface:
         if len(given) < count:
             given = (*given[:2], *self._second_from_first(uv))
         given = tuple(given[:count])
-        broken = ~np.isfinite(np.hstack(given)).all(axis=1)
+        broken = ~(np.abs(np.hstack(given)) <= LARGEST_SLOPE).all(axis=1)
         if broken.any():  # a pole, as a rule
             better = self._by_differences(uv[broken], count)
             for value, replacement in zip(given, better):
@@ -191,11 +208,13 @@ class NumericSurface:
 
     def _r(self, uv: np.ndarray) -> np.ndarray:
         (r,) = _called(self.function, uv, "f")
-        finite = np.isfinite(r).all(axis=1)
-        if not finite.all():
-            u, v = uv[int(np.argmin(finite))]
+        usable = (np.abs(r) <= LARGEST).all(axis=1)
+        if not usable.all():
+            row = int(np.argmin(usable))
+            beyond = np.isfinite(r[row]).all()
+            what = f"beyond {LARGEST:g}" if beyond else "not finite"
             raise SurfaceError(
-                f"f of {self.name!r} is not finite at (u, v) = ({u:.6g}, {v:.6g}); "
+                f"f of {self.name!r} is {what} at (u, v) = ({uv[row, 0]:.6g}, {uv[row, 1]:.6g}); "
                 "change the function or the domain"
             )
         return r
@@ -209,6 +228,26 @@ class NumericSurface:
                 "derivatives gives (r_u, r_v) or (r_u, r_v, r_uu, r_uv, r_vv), each like r"
             )
         return found
+
+    def _refuse_wrong_derivatives(self) -> None:
+        """Raise SurfaceError where given slopes are others than those of f, almost everywhere.
+
+        At poles, kinks and the like they may well differ.
+        """
+        uv = sample_grid(self.domain, WRONG_GRID)[1:-1, 1:-1].reshape(-1, 2)
+        uv = kept_off(self.bent_axes, uv)
+        for name, given, found in zip(("r_u", "r_v"), self._given(uv), self._by_differences(uv, 2)):
+            size = np.linalg.norm(found, axis=1)
+            with np.errstate(invalid="ignore", over="ignore"):
+                off = np.linalg.norm(given - found, axis=1)
+                wrong = off > WRONG * np.maximum(size, np.median(size))
+            if np.mean(wrong) > MOSTLY:
+                row = int(np.argmax(np.where(wrong & np.isfinite(off), off, -1.0)))
+                raise SurfaceError(
+                    f"derivatives of {self.name!r} gives {name} = {_listed(given[row])} at "
+                    f"(u, v) = {_listed(uv[row])}, where f changes by {_listed(found[row])}: "
+                    "change one of them, or leave derivatives out"
+                )
 
     def _by_differences(self, uv: np.ndarray, count: int) -> tuple[np.ndarray, ...]:
         rule, axes = self.differences, self.bent_axes
@@ -241,6 +280,10 @@ class NumericSurface:
         raise AttributeError(f"a surface does not change; make a new one to set {name!r}")
 
 
+def _listed(numbers: np.ndarray) -> str:
+    return "(" + ", ".join(f"{x:.6g}" for x in numbers) + ")"
+
+
 def _called(function: Function, uv: np.ndarray, what: str) -> tuple[np.ndarray, ...]:
     """What ``f`` or ``derivatives`` gives at uv (n, 2): one array (n, 3), or several."""
     n = len(uv)
@@ -248,12 +291,32 @@ def _called(function: Function, uv: np.ndarray, what: str) -> tuple[np.ndarray, 
         uv = np.concatenate([uv, uv[-1:]])
     u, v = uv[:, 0].copy(), uv[:, 1].copy()
     try:
-        found = function(u, v)
+        with np.errstate(all="ignore"):  # values that cannot be used are refused with their place
+            found = function(u, v)
     except (TypeError, ValueError) as error:  # so say math.sin(u), and "if u > 0"
         _refuse_scalar_functions(function, float(uv[0, 0]), float(uv[0, 1]), what, error)
+        error.add_note(_asked(what, uv))
+        raise
+    except Exception as error:
+        error.add_note(_asked(what, uv))
         raise
     several = found if what == "derivatives" and isinstance(found, (tuple, list)) else (found,)
     return tuple(_rows(value, len(uv), what)[:n] for value in several)
+
+
+def _asked(what: str, uv: np.ndarray) -> str:
+    (u0, v0), (u1, v1) = uv.min(axis=0), uv.max(axis=0)
+    return (
+        f"raised by {what} when surfmesh asked for {len(uv)} places with u from {u0:.6g} to "
+        f"{u1:.6g} and v from {v0:.6g} to {v1:.6g}"
+    )
+
+
+def _is_share(step: Any, differences: int) -> bool:
+    try:
+        return bool(LEAST_STEP <= step and step * differences <= 1.0)
+    except (TypeError, ValueError):
+        return False
 
 
 def _refuse_scalar_functions(
@@ -274,10 +337,22 @@ def _refuse_scalar_functions(
     ) from error
 
 
+def _is_complex(value: Any) -> bool:
+    try:
+        return bool(np.iscomplexobj(value))
+    except ValueError:  # rows of different lengths
+        return False
+
+
+def _unmasked(value: Any) -> Any:
+    """What is masked is not known: nan."""
+    return np.ma.filled(value.astype(float), np.nan) if np.ma.isMaskedArray(value) else value
+
+
 def _rows(value: Any, count: int, what: str) -> np.ndarray:
     """What a function gave as an array (n, 3) of its own; SurfaceError when it cannot be one."""
     parts = value if isinstance(value, (tuple, list)) else (value,)
-    if any(np.iscomplexobj(part) for part in parts):
+    if any(_is_complex(part) for part in parts):
         raise SurfaceError(
             f"{what} gives complex numbers: give their real parts, or change it where a root or "
             "logarithm of a negative number is taken"
@@ -288,10 +363,10 @@ def _rows(value: Any, count: int, what: str) -> np.ndarray:
                 raise ValueError
             rows = np.empty((count, 3))
             for axis, coordinate in enumerate(value):
-                rows[:, axis] = coordinate
+                rows[:, axis] = _unmasked(coordinate)
             return rows
-        array: Any = np.array(value, dtype=float)
-    except (TypeError, ValueError):
+        array: Any = np.array(_unmasked(value), dtype=float)
+    except (TypeError, ValueError, OverflowError):
         array = np.empty(0)
     if array.shape == (count, 3):
         return array

@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-import math
+import numbers
 from collections.abc import Mapping, Sequence
 from typing import Any
 
 import numpy as np
 
-from surfmesh.errors import FormulaError, SurfaceError
+from surfmesh.errors import FormulaError, SurfaceError, shown
 from surfmesh.geometry.infinite_speed import (
     STRAIGHT,
     BentAxes,
@@ -20,10 +20,11 @@ from surfmesh.geometry.infinite_speed import (
 from surfmesh.geometry.surface import Domain
 from surfmesh.geometry.surface_checks import (
     bounds_of,
-    loop_of,
+    loops_of,
     refuse_extremes,
     refuse_no_area,
     sample_grid,
+    table_of,
 )
 from surfmesh.geometry.tape import Tape
 
@@ -63,15 +64,15 @@ class ParametricSurface:
     ) -> None:
         fixed: dict[str, Any] = {
             "name": str(name),
-            "formulas": (str(x), str(y), str(z)),
-            "parameters": dict(parameters or {}),
+            "parameters": _named_numbers(parameters),
             "domain": (bounds_of("u", u), bounds_of("v", v)),
             "description": str(description),
-            "sizing_defaults": dict(sizing_defaults or {}),
-            "facts": dict(facts or {}),
+            "sizing_defaults": table_of("sizing_defaults", sizing_defaults),
+            "facts": table_of("facts", facts),
+            "loops": loops_of(loops),
         }
-        fixed["loops"] = tuple(loop_of(number, loop) for number, loop in enumerate(loops))
         fixed["_expressions"] = _parsed((x, y, z), fixed["parameters"])
+        fixed["formulas"] = tuple(" ".join(str(axis).split()) for axis in (x, y, z))
         fixed["_tapes"] = {}
         fixed["bent_axes"] = STRAIGHT
         self.__dict__.update(fixed)
@@ -209,18 +210,27 @@ def _finite_rows(values: Sequence[np.ndarray]) -> np.ndarray:
     return np.logical_and.reduce([np.isfinite(value).all(axis=1) for value in values])
 
 
-def _parsed(coordinates: Sequence[Any], parameters: Mapping[str, float]) -> tuple:
-    from surfmesh.geometry.expression import RESERVED, parse
+def _named_numbers(parameters: Any) -> dict[str, float]:
+    """Parameters as they were given, once they are known to be numbers with usable names."""
+    from surfmesh.geometry.expression import RESERVED, is_finite
 
-    for name, value in parameters.items():
-        if not name.isidentifier() or not name.isascii():
-            raise SurfaceError(f"{name!r} cannot name a parameter: use letters, digits and _")
+    named = table_of("parameters", parameters)
+    for name, value in named.items():
+        if not isinstance(name, str) or not name.isidentifier() or not name.isascii():
+            reason = f"{shown(name)} cannot name a parameter: use letters, digits and _"
+            raise SurfaceError(reason)
         if name in RESERVED or name in ("u", "v"):
             raise SurfaceError(f"the parameter {name!r} has the name of something known already")
-        if isinstance(value, bool) or not isinstance(value, (int, float, np.number)):
-            raise SurfaceError(f"the parameter {name!r} is not a number: {value!r}")
-        if not math.isfinite(value):
-            raise SurfaceError(f"the parameter {name!r} is not finite: {value!r}")
+        if isinstance(value, bool) or not isinstance(value, numbers.Real):
+            raise SurfaceError(f"the parameter {name!r} is not a number: {shown(value)}")
+        if not is_finite(value):
+            raise SurfaceError(f"the parameter {name!r} is not finite: {shown(value)}")
+    return named
+
+
+def _parsed(coordinates: Sequence[Any], parameters: Mapping[str, float]) -> tuple:
+    from surfmesh.geometry.expression import parse
+
     expressions = []
     for axis, coordinate in zip("xyz", coordinates):
         try:

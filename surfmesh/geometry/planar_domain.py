@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from surfmesh.errors import DomainError
+from surfmesh.errors import DomainError, shown
 from surfmesh.geometry.line_thinning import thinned
 from surfmesh.geometry.segment_distance import SegmentDistance
 from surfmesh.geometry.segment_graph import Line, SegmentGraph, segment_graph
@@ -229,7 +229,7 @@ class PlanarDomain(PlaneOfCoordinates):
         facts: Mapping[str, Any] | None,
     ) -> None:
         if crossings not in CROSSINGS:
-            raise DomainError(f'crossings is "refuse" or "split", not {crossings!r}')
+            raise DomainError(f'crossings is "refuse" or "split", not {shown(crossings)}')
         places = _points(points)
         polylines = _arrays("constraint", constraints)
         closed = [_loop(label, loop) for label, loop, _ in loops]
@@ -356,7 +356,7 @@ def positive_distance(name: str, given: Any) -> float:
     except (TypeError, ValueError):
         distance = np.nan
     if not 0.0 < distance < np.inf:
-        raise DomainError(f"{name} is a positive distance, not {given!r:.60}")
+        raise DomainError(f"{name} is a positive distance, not {shown(given)}")
     return distance
 
 
@@ -429,7 +429,7 @@ def _arrays(kind: str, given: Any) -> list[np.ndarray]:
     if isinstance(given, np.ndarray) and given.ndim == 2:
         given = [given]
     if isinstance(given, (str, bytes, Mapping)) or not isinstance(given, Iterable):
-        raise DomainError(f"{kind}: an array (k, 2) or several are needed, not {given!r:.60}")
+        raise DomainError(f"{kind}: an array (k, 2) or several are needed, not {shown(given)}")
     given = list(given)
     if given and all(_is_place(place) for place in given):
         given = [given]
@@ -476,7 +476,7 @@ def _loop(label: str, loop: np.ndarray) -> np.ndarray:
 def _points(given: Any) -> np.ndarray:
     if not isinstance(given, np.ndarray):
         if isinstance(given, (str, bytes, Mapping)) or not isinstance(given, Iterable):
-            raise DomainError(f"points are an array (p, 2), not {given!r:.60}")
+            raise DomainError(f"points are an array (p, 2), not {shown(given)}")
         given = list(given)
         if _is_flat(given):
             given = [given]

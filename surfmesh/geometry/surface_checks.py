@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from typing import Any
 
 import numpy as np
 
-from surfmesh.errors import FormulaError, SurfaceError
+from surfmesh.errors import FormulaError, SurfaceError, shown
 from surfmesh.geometry.surface import Domain, Surface
 
 NO_AREA = 1e-11  # sine of the angle between r_u and r_v: r_u x r_v is round-off below it
@@ -15,6 +16,8 @@ LARGEST, SMALLEST = 1e60, 1e-60
 powers of their edges, neither overflow nor vanish."""
 FASTEST, BENT_MOST = 1e70, 1e140
 """First and second derivatives stay below these and above their inverses, for the same reason."""
+LARGEST_BOUND, SMALLEST_SPAN = 1e100, 1e-100  # of a domain: fourth powers are numbers still
+NARROWEST = 1e-12  # of the larger bound: a domain holds 4,500 numbers
 SAMPLES = 48  # cells each way on which a surface is tried; the points sit on their corners
 
 
@@ -26,13 +29,24 @@ def bounds_of(variable: str, bounds: tuple[Any, Any]) -> tuple[float, float]:
     try:
         first, last = bounds
     except (TypeError, ValueError):
-        reason = f"the domain of {variable} is a pair (first, last), not {bounds!r}"
+        reason = f"the domain of {variable} is a pair (first, last), not {shown(bounds)}"
         raise SurfaceError(reason) from None
     first, last = _number(variable, first), _number(variable, last)
     if first == last:
         raise SurfaceError(f"the domain of {variable} is empty: {first:g} to {last:g}")
     if first > last:
         raise SurfaceError(f"the domain of {variable} is reversed: {first:g} to {last:g}")
+    size = max(abs(first), abs(last))
+    if size > LARGEST_BOUND or last - first < SMALLEST_SPAN:
+        raise SurfaceError(
+            f"the domain of {variable} is {first:g} to {last:g}: numbers up to {LARGEST_BOUND:g} "
+            f"at least {SMALLEST_SPAN:g} apart can be computed with; change its unit"
+        )
+    if last - first < NARROWEST * size:
+        raise SurfaceError(
+            f"the domain of {variable} is {first:.17g} to {last:.17g}: too narrow to lay numbers "
+            "between; move its origin"
+        )
     return first, last
 
 
@@ -46,11 +60,31 @@ def _number(variable: str, bound: Any) -> float:
         raise FormulaError(reason, error.text, error.column) from None
 
 
+def loops_of(loops: Any) -> tuple[np.ndarray, ...]:
+    """Trimming loops, read-only; SurfaceError for what is none."""
+    try:
+        several = list(loops)
+    except TypeError:
+        raise SurfaceError(f"loops are lists of (u, v) points, not {shown(loops)}") from None
+    return tuple(loop_of(number, loop) for number, loop in enumerate(several))
+
+
+def table_of(what: str, given: Any) -> dict[str, Any]:
+    """A mapping as a dict of its own, None as an empty one; SurfaceError for what is none."""
+    if given is None:
+        return {}
+    if not isinstance(given, Mapping):
+        raise SurfaceError(f"{what} is a mapping from names to values, not {shown(given)}")
+    return dict(given)
+
+
 def loop_of(number: int, points: Any) -> np.ndarray:
     """A trimming loop (k, 2), read-only; SurfaceError when it is not one."""
     try:
+        if np.iscomplexobj(points):
+            raise TypeError
         loop = np.array(points, dtype=float)
-    except (TypeError, ValueError):
+    except (TypeError, ValueError, OverflowError):
         loop = np.empty(0)
     if loop.ndim != 2 or loop.shape[1] != 2 or len(loop) < 3 or not np.isfinite(loop).all():
         raise SurfaceError(f"loop {number} is not a list of three or more finite (u, v) points")
@@ -90,9 +124,15 @@ def refuse_extremes(r: np.ndarray, domain: Domain) -> None:
 
 
 def refuse_no_area(surface: Surface) -> None:
-    """Raise SurfaceError for a surface that is a point or a curve."""
+    """Raise SurfaceError for a surface that is a point or a curve, or beyond all lengths."""
     points = sample_grid(surface.domain).reshape(-1, 2)
     r, r_u, r_v = surface.evaluate(points, 1)
+    if not np.abs(r).max() <= LARGEST:
+        point, axis = np.unravel_index(np.argmax(np.abs(r)), r.shape)
+        raise SurfaceError(
+            f"{'xyz'[axis]} is {r[point, axis]:.6g} at (u, v) = ({points[point, 0]:.6g}, "
+            f"{points[point, 1]:.6g}), beyond {LARGEST:g}: change its unit or the domain"
+        )
     if not np.ptp(r, axis=0).any():
         raise SurfaceError("the surface is a single point: none of x, y, z changes with u or v")
     # in parts of the domain, so that u and v may have different units

@@ -7,7 +7,7 @@ import math
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
-from xml.etree.ElementTree import ParseError
+from xml.etree import ElementTree
 
 import numpy as np
 
@@ -16,6 +16,9 @@ from surfmesh.geometry.text_file import text_of
 
 DEFAULT_TOLERANCE = 1e-3  # of the diagonal, between a curve and its polyline
 MOST_PIECES = 100_000  # of one curve: a tolerance that asks for more is a mistake
+MOST_ELEMENTS = 100_000  # of a drawing, each <use> in full
+DEEPEST = 100  # elements within each other
+LINK = "{http://www.w3.org/1999/xlink}href"
 CLOSED = 1e-9  # of the diagonal: ends of a path nearer than this are one point
 
 
@@ -41,23 +44,8 @@ def svg_paths(source: str | Path, tolerance: float | None = None) -> Drawing:
     Raises DomainError for a drawing that cannot be read, and for a tolerance that is not a
     positive number or far too small.
     """
-    import svgelements
-
-    name, stream = _opened(source)
-    try:
-        drawing = svgelements.SVG.parse(stream, reify=True)
-    except (ParseError, ValueError, TypeError, AttributeError, KeyError) as error:
-        raise DomainError(f"{name}: not an SVG drawing: {error}") from None
-    to_units = _user_units(drawing, svgelements)
-    subpaths = []
-    shapes = [e for e in drawing.elements() if isinstance(e, svgelements.Shape)]
-    for number, element in enumerate(shapes):
-        path = abs(svgelements.Path(element) * to_units)
-        label = f"path {number}" if element.id is None else f"path {element.id!r}"
-        for k, subpath in enumerate(path.as_subpaths()):
-            segments = list(svgelements.Path(subpath))
-            if any(_drawn(segment) for segment in segments):
-                subpaths.append((f"{label}, subpath {k}", segments))
+    name, text = _opened(source)
+    subpaths = _subpaths(name, text)
     corners = np.array(
         [_pair(s.end) for _, segments in subpaths for s in segments if s.end is not None]
     ).reshape(-1, 2)
@@ -80,11 +68,60 @@ def svg_paths(source: str | Path, tolerance: float | None = None) -> Drawing:
     return Drawing(name, tuple(loops), tuple(labels), tuple(lines))
 
 
-def _opened(source: str | Path) -> tuple[str, io.StringIO]:
+def _opened(source: str | Path) -> tuple[str, str]:
+    """Name and text of a drawing."""
     if isinstance(source, str) and "<svg" in source:
-        return "drawing", io.StringIO(source)
+        return "drawing", source
     path = Path(source)
-    return path.stem, io.StringIO(text_of(path, DomainError, "an SVG drawing"))
+    return path.stem, text_of(path, DomainError, "an SVG drawing")
+
+
+def _subpaths(name: str, text: str) -> list[tuple[str, list]]:
+    """Labels and segments of all subpaths, transformed, in user units."""
+    import svgelements
+
+    try:
+        _require_bounded(name, ElementTree.fromstring(text))  # noqa: S314 expat bounds entities
+        drawing = svgelements.SVG.parse(io.StringIO(text), reify=True)
+        if not isinstance(drawing, svgelements.SVG):
+            raise DomainError(f"{name}: not an SVG drawing: its root is no <svg>")
+        to_units = _user_units(drawing, svgelements)
+        shapes = [e for e in drawing.elements() if isinstance(e, svgelements.Shape)]
+        found = []
+        for number, element in enumerate(shapes):
+            path = abs(svgelements.Path(element) * to_units)
+            label = f"path {number}" if element.id is None else f"path {element.id!r:.60}"
+            for k, subpath in enumerate(path.as_subpaths()):
+                segments = list(svgelements.Path(subpath))
+                if any(_drawn(segment) for segment in segments):
+                    found.append((f"{label}, subpath {k}", segments))
+        return found
+    except DomainError:
+        raise
+    except Exception as error:  # svgelements raises whatever it meets in lengths, styles, units
+        reason = " ".join(str(error).split())[:200] or type(error).__name__
+        raise DomainError(f"{name}: not an SVG drawing: {reason}") from None
+
+
+def _require_bounded(name: str, root: ElementTree.Element) -> None:
+    """Raise DomainError for elements nested too deep or too many, each <use> in full.
+
+    A few lines of <use> within <use> stand for millions of shapes, or for themselves.
+    """
+    by_id = {element.get("id"): element for element in root.iter() if element.get("id")}
+    waiting, seen = [(root, 0)], 0
+    while waiting:
+        element, depth = waiting.pop()
+        seen += 1
+        if depth > DEEPEST or seen > MOST_ELEMENTS:
+            limit = f"{DEEPEST} deep" if depth > DEEPEST else f"{MOST_ELEMENTS:,} elements"
+            raise DomainError(f"{name}: the drawing goes beyond {limit}, each <use> in full")
+        waiting += [(child, depth + 1) for child in element]
+        if element.tag.rpartition("}")[2] == "use":
+            reference = element.get(LINK) or element.get("href") or ""
+            used = by_id.get(reference.lstrip("#"))
+            if used is not None:
+                waiting.append((used, depth + 1))
 
 
 def _user_units(drawing: Any, svgelements: Any) -> Any:
@@ -107,6 +144,8 @@ def _polyline(segments: list, tolerance: float, label: str) -> np.ndarray:
     for segment in segments:
         if segment.end is None or type(segment).__name__ == "Close":
             continue
+        if not all(math.isfinite(x) for x in _numbers(segment)):
+            raise DomainError(f"{label}: has a number that is not finite")
         pieces = _pieces(segment, tolerance)
         if pieces > MOST_PIECES:
             raise DomainError(f"{label}: the tolerance {tolerance:g} is far too small for it")
@@ -118,6 +157,16 @@ def _polyline(segments: list, tolerance: float, label: str) -> np.ndarray:
     moved = np.ones(len(points), bool)
     moved[1:] = (np.diff(points, axis=0) != 0.0).any(axis=1)
     return points[moved]
+
+
+def _numbers(segment: Any) -> list[float]:
+    """All that place a segment, as far as it has them."""
+    names = ("start", "control", "control1", "control2", "center", "end")
+    points = [getattr(segment, name, None) for name in names]
+    found = [x for point in points if point is not None for x in _pair(point)]
+    if type(segment).__name__ == "Arc":
+        found += [float(segment.rx), float(segment.ry), float(segment.sweep)]
+    return found
 
 
 def _pieces(segment: Any, tolerance: float) -> int:

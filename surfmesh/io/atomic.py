@@ -55,7 +55,7 @@ def replacing(path: Path) -> Iterator[Path]:
     try:
         old = _status(target)
         mode = 0o666 if old is None else stat.S_IMODE(old.st_mode) & 0o777 | 0o600
-        temporary, held = created(target, mode)  # before any work goes into it
+        temporary, held = created(target, path.suffix, mode)  # before any work goes into it
         try:
             yield temporary
             _permit_as(old, held.fileno())

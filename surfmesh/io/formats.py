@@ -32,6 +32,8 @@ FORMATS = {
 SECOND_ORDER = (".vtu", ".msh", ".inp", ".bdf", ".xdmf", ".med")
 """Formats that hold nodes amid edges."""
 
+LONGEST = 400  # characters of a refusal beside the path: it may quote what is in the file
+
 
 def save(mesh: SurfaceMesh, path: str | Path, *, ascii: bool = False) -> Path:
     """Write ``mesh`` to ``path``; all of it or nothing. Returns the path.
@@ -83,8 +85,11 @@ def read(path: str | Path) -> SurfaceMesh:
         with warnings.catch_warnings(), np.errstate(all="ignore"):
             warnings.simplefilter("ignore")  # of what is not a number: ``usable`` looks at it
             mesh = module.read(path)
-    except FileFormatError:
-        raise
+    except FileFormatError as error:
+        said = str(error)
+        if len(said) <= len(str(path)) + LONGEST:
+            raise
+        raise FileFormatError(f"{said[: len(str(path)) + LONGEST]} ...") from None
     except MemoryError:
         raise
     except Exception as error:  # parsers of foreign formats raise whatever they like

@@ -1,5 +1,6 @@
 """What is asked of a mesh from a file before anybody computes with it."""
 
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -37,7 +38,17 @@ def usable(path: Path, mesh: SurfaceMesh) -> SurfaceMesh:
     rows = None if mesh.promises is None else len(mesh.promises)
     if rows not in (None, 1) and not -1 < int(mesh.face_ids.max()) < rows:
         raise FileFormatError(f"{path}: has promises for {rows} faces, but more faces")
-    return with_dense_numbers(mesh)
+    return with_dense_numbers(_without_odd_sizes(mesh))
+
+
+def _without_odd_sizes(mesh: SurfaceMesh) -> SurfaceMesh:
+    """The mesh, without sizes where one is not positive: what a program calls "size" may be
+    something else. Its warnings say so."""
+    if mesh.sizes is None or (mesh.sizes > 0.0).all():
+        return mesh
+    row = int(mesh.sizes.argmin())
+    said = f"the file's sizes are left out: sizes[{row}] = {mesh.sizes[row]:g} is not positive"
+    return replace(mesh, sizes=None).with_warnings(said)
 
 
 def _require_finite(path: Path, name: str, values: NDArray | None) -> None:

@@ -6,12 +6,15 @@ its own way too.
 """
 
 import json
+import os
 from collections.abc import Iterable
+from pathlib import Path
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
+from surfmesh.errors import FileFormatError
 from surfmesh.mesh_groups import MeshGroups
 from surfmesh.surface_mesh import SurfaceMesh
 
@@ -78,6 +81,18 @@ def group_fields(
             raise ValueError(f"the record of groups knows the solids of {len(solids)} faces only")
         found["solid_ids"] = solids[face_ids]
     return found
+
+
+def require_last_line(path: Path) -> None:
+    """Raise ``FileFormatError`` for a file of ours whose last line has no end: digits are gone.
+
+    For formats without an end mark, when they hold a record of groups. Files of other programs
+    may end without.
+    """
+    with open(path, "rb") as file:
+        file.seek(-1, os.SEEK_END)
+        if file.read(1) not in b"\r\n":
+            raise FileFormatError(f"{path}: is cut: its last line has no end")
 
 
 def solids_of_faces(mesh: SurfaceMesh) -> NDArray[np.int32]:

@@ -13,7 +13,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from surfmesh.errors import FileFormatError
-from surfmesh.io.group_record import MARK, group_fields, group_lines, unique_labels
+from surfmesh.io.group_record import (
+    MARK,
+    group_fields,
+    group_lines,
+    require_last_line,
+    unique_labels,
+)
 from surfmesh.io.text_columns import numbers, shortest
 from surfmesh.mesh_groups import MeshGroups
 from surfmesh.six_nodes import edge_rows, split_six_nodes
@@ -109,6 +115,8 @@ def read(path: Path) -> SurfaceMesh:
     by_tag = np.argsort(table[:, 0], kind="stable")
     nodes, elements = placed(path, np.concatenate(tags), np.concatenate(points), table[by_tag, 1:])
     fields = group_fields(record, len(table))
+    if fields:
+        require_last_line(path)
     fields.setdefault("face_ids", np.concatenate(face_ids)[by_tag])
     fields.setdefault("groups", MeshGroups(face_names=tuple(names)))
     if elements.shape[1] == 6:

@@ -22,19 +22,21 @@ except ImportError:  # Windows has no such locks: there the age alone decides
     fcntl = None  # type: ignore[assignment]
 
 AGE = 3600.0  # seconds without a change after which no lock has to speak for a file's end
-_STEM = 20  # characters of the target's name; the whole stays below the 255 bytes of a name
-_NAME = re.compile(r"\..{0,20}-([0-9a-f]{8})-[0-9a-f]{16}\.surfmesh-tmp(\.\w+)?", re.DOTALL)
+_STEM, _SUFFIX = 20, 20  # characters of the target's name; all are below the 255 bytes of a name
+_NAME = re.compile(r"\..{0,20}-([0-9a-f]{8})-[0-9a-f]{16}\.surfmesh-tmp(\..{0,19})?", re.DOTALL)
 _FLAGS = getattr(os, "O_BINARY", 0) | getattr(os, "O_CLOEXEC", 0) | getattr(os, "O_NOFOLLOW", 0)
 
 
-def created(target: Path, mode: int) -> tuple[Path, FileIO]:
+def created(target: Path, suffix: str, mode: int) -> tuple[Path, FileIO]:
     """A new empty file beside ``target``, open, and locked until it is closed.
+
+    suffix: that of its name, by which some writers know the format.
 
     mode: its permissions, less the umask. Raises ``OSError``.
     """
     while True:
         name = f".{target.stem[:_STEM]}-{_machine()}-{secrets.token_hex(8)}.surfmesh-tmp"
-        temporary = target.with_name(name + target.suffix)
+        temporary = target.with_name(name + suffix[:_SUFFIX])
         descriptor = os.open(temporary, os.O_RDWR | os.O_CREAT | os.O_EXCL | _FLAGS, mode)
         held = FileIO(descriptor, "r+")
         if _locked(descriptor) is not False and temporary.exists():

@@ -15,8 +15,8 @@ from typing import Any
 import numpy as np
 
 from surfmesh.errors import FileFormatError
-from surfmesh.io.expansion import Expansion
 from surfmesh.io.group_record import group_fields, group_lines, solids_of_faces
+from surfmesh.io.hdf5_bounds import require_bounded
 from surfmesh.mesh_groups import MeshGroups
 from surfmesh.six_nodes import edge_rows, split_six_nodes
 from surfmesh.surface_mesh import SurfaceMesh
@@ -82,34 +82,13 @@ def _write_families(parent: Any, names: dict[int, list[str]]) -> None:
             rows[row] = np.frombuffer(text, np.int8)
 
 
-def _require_own_data(path: Path, file: Any, h5py: ModuleType) -> None:
-    """Raise ``FileFormatError`` for data in other files, and for more than the file can hold: an
-    array whose blocks were never written has any size.
-    """
-    expansion, groups, seen = Expansion(path, path.stat().st_size), [file], set()
-    while groups:
-        group = groups.pop()
-        for name in group:
-            if isinstance(group.get(name, getlink=True), h5py.ExternalLink):
-                raise FileFormatError(f"{path}: {name!r} is in another file, which is not opened")
-            item = group.get(name)
-            if isinstance(item, h5py.Dataset):
-                if item.is_virtual or item.external:
-                    raise FileFormatError(f"{path}: {name!r} is in another file")
-                expansion.take(int(item.size or 0) * item.dtype.itemsize)
-            elif isinstance(item, h5py.Group) and item.id not in seen:  # links may go round
-                seen.add(item.id)
-                groups.append(item)
-
-
 def read(path: Path) -> SurfaceMesh:
     """Triangles; in a file of another program a face is a family, named by its first group."""
     meshio, h5py = _libraries(path)
     with h5py.File(path, "r") as file:
-        _require_own_data(path, file, h5py)
-    found = meshio.med.read(path)
-    with h5py.File(path, "r") as file:
+        require_bounded(path, file)
         text = bytes(file[RECORD][()]).decode("ascii") if RECORD in file else ""
+    found = meshio.med.read(path)
     elements, families = [], []
     tags = found.cell_data.get("cell_tags") or [np.zeros(len(c.data), int) for c in found.cells]
     for block, tag in zip(found.cells, tags):

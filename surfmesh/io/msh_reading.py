@@ -82,6 +82,9 @@ class _Content:
         for name in (ATTRIBUTE, "NodeData", "ElementData"):
             if data.count(f"${name}\n".encode()) != data.count(f"$End{name}".encode()):
                 raise FileFormatError(f"{path}: the section ${name} does not end")
+        _, _, rest = data[data.rfind(b"$End") :].partition(b"\n")
+        if rest.lstrip().startswith(b"$"):
+            raise FileFormatError(f"{path}: ends amid a section: it is cut")
 
     def section(self, name: str) -> bytes:
         start = self.data.find(f"${name}\n".encode())

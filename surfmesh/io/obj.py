@@ -5,7 +5,7 @@ from pathlib import Path
 import numpy as np
 
 from surfmesh.errors import FileFormatError
-from surfmesh.io.group_record import MARK, group_fields, group_lines
+from surfmesh.io.group_record import MARK, group_fields, group_lines, require_last_line
 from surfmesh.io.text_columns import write_rows
 from surfmesh.surface_mesh import SurfaceMesh
 
@@ -50,11 +50,14 @@ def read(path: Path) -> SurfaceMesh:
                 face, marked = int(words[2]), True
             elif words[0] == "g" and not marked and triangles:
                 face += 1
+    fields = group_fields(record, len(triangles))  # which knows how many there are to be
+    if fields:
+        require_last_line(path)
+    fields.setdefault("face_ids", face_ids)
     return SurfaceMesh(
         points=np.array(points, float).reshape(-1, 3),
         triangles=np.array(triangles, np.int64).reshape(-1, 3) - 1,
-        face_ids=face_ids,
-        **group_fields(record, len(triangles), np.array(face_ids, int)),
+        **fields,
     )
 
 

@@ -5,7 +5,7 @@ from pathlib import Path
 import numpy as np
 
 from surfmesh.errors import FileFormatError
-from surfmesh.io.group_record import group_fields, group_lines
+from surfmesh.io.group_record import group_fields, group_lines, require_last_line
 from surfmesh.io.text_columns import write_rows
 from surfmesh.surface_mesh import SurfaceMesh
 
@@ -37,8 +37,11 @@ def read(path: Path) -> SurfaceMesh:
     corners = rows[1 + points : 1 + points + triangles]
     if any(row[0] != "3" for row in corners):
         raise FileFormatError(f"{path}: holds faces that are not triangles")
+    fields = group_fields(lines, triangles)
+    if fields:
+        require_last_line(path)
     return SurfaceMesh(
         points=np.array([row[:3] for row in rows[1 : 1 + points]], float).reshape(-1, 3),
         triangles=np.array([row[1:4] for row in corners], np.int64).reshape(-1, 3),
-        **group_fields(lines, triangles),
+        **fields,
     )

@@ -16,6 +16,7 @@ from surfmesh.kernels.predicates import orient_triangles
 from surfmesh.meshing.packing import NO_LIMIT, packed, packed_discs
 from surfmesh.sizing.radius_laws import LARGEST, TensorField, UniformRadius, require_computable
 from surfmesh.sizing.size_field import plane_field
+from surfmesh.sizing.sources import as_numbers
 
 EVERYWHERE = 1e150
 """Half the width of the box when none is given."""
@@ -239,8 +240,9 @@ def _tensors(radius: Any) -> Callable[[np.ndarray], np.ndarray]:
         return lambda points: np.tile([2.0 * number, 0.0, 2.0 * number], (len(points), 1))
 
     def law(points: np.ndarray) -> np.ndarray:
-        r = np.asarray(radius(points), float)
-        if r.shape != (len(points),) or not (r > 0.0).all() or not np.isfinite(r).all():
+        with np.errstate(all="ignore"):
+            r = as_numbers(radius(points.copy()))
+        if r is None or r.shape != (len(points),) or not ((r > 0.0) & (r < LARGEST)).all():
             raise SizingError(
                 f"the radius law must give positive numbers of shape ({len(points)},) for points "
                 f"({len(points)}, 2)"

@@ -28,6 +28,9 @@ RESULT, MODEL_RESULT, WORK, STRETCHED_WORK = 150, 450, 80, 530
 """Bytes a triangle of the whole mesh, of one joined from the faces of a model, and of the face
 being worked on; measured, peak of the process for meshes of 0.2 to 1.9 million triangles."""
 
+MANY = 10**15
+"""Triangles: more are told in powers of ten."""
+
 SHARP = 6.0
 """How sharply the count of a face changes from that of its boundary to that of its area."""
 
@@ -59,9 +62,7 @@ class Estimate:
         }  # fmt: skip
 
     @classmethod
-    def of(
-        cls, by_face: Sequence[float], stretched: bool = False, model: bool = False
-    ) -> Estimate:
+    def of(cls, by_face: Sequence[float], stretched: bool = False, model: bool = False) -> Estimate:
         """stretched: sizes depend on the direction."""
         counts = tuple(round(count) if count < COUNTABLE else int(COUNTABLE) for count in by_face)
         total, most = sum(counts), max(counts, default=0)
@@ -117,6 +118,10 @@ def combined(inside: float, nodes: int, loops: int) -> float:
     return larger * ((inside / larger) ** SHARP + (boundary / larger) ** SHARP) ** (1.0 / SHARP)
 
 
+def _counted(triangles: int) -> str:
+    return f"{triangles:,}" if triangles < MANY else f"{triangles:.2g}"
+
+
 def require_within(limit: int, found: Estimate, names: Sequence[str]) -> None:
     """Raise ``SizingError`` with advice when there would be more triangles than ``limit``."""
     if found.triangles <= limit:
@@ -124,7 +129,7 @@ def require_within(limit: int, found: Estimate, names: Sequence[str]) -> None:
     most = int(np.argmax(found.by_face))
     on = f", {found.by_face[most]:,} of them on {names[most]}" if len(names) > 1 else ""
     raise SizingError(
-        f"about {found.triangles:,} triangles are asked for{on}, more than the limit of "
+        f"about {_counted(found.triangles)} triangles are asked for{on}, more than the limit of "
         f"{limit:,}; they need {size_in_words(found.memory)} of memory. Ask for a larger chord, "
         "size or min_size there, or raise limit"
     )

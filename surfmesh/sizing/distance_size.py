@@ -9,9 +9,9 @@ from typing import Any
 
 import numpy as np
 
-from surfmesh.errors import SizingError
+from surfmesh.errors import SizingError, shown
 from surfmesh.geometry.segment_distance import SegmentDistance
-from surfmesh.sizing.positive import countable
+from surfmesh.sizing.positive import positive
 
 
 @dataclass(frozen=True, eq=False)
@@ -44,8 +44,7 @@ class DistanceSize:
 
     def __post_init__(self) -> None:
         for name in ("near", "far", "reach"):
-            value = getattr(self, name)
-            object.__setattr__(self, name, countable(name, value))
+            object.__setattr__(self, name, positive(name, getattr(self, name)))
         if hasattr(self.geometry, "geom_type"):
             raise SizingError("a shapely geometry must be made a PlanarDomain, or arrays, first")
         if not hasattr(self.geometry, "distance"):
@@ -88,12 +87,12 @@ def polylines(given: Any) -> tuple[np.ndarray, ...]:
     """One array (k, 2) or (k, 3) or several, as arrays (k, 3). Raises ``SizingError``."""
     if isinstance(given, (str, bytes)) or not isinstance(given, Iterable):
         raise SizingError(
-            f"distances are to a PlanarDomain or to arrays (k, 2) or (k, 3), not {given!r:.60}"
+            f"distances are to a PlanarDomain or to arrays (k, 2) or (k, 3), not {shown(given)}"
         )
     try:
         lines = [np.array(line, dtype=float) for line in given]
     except (TypeError, ValueError, OverflowError):
-        raise SizingError(f"the geometry is not made of arrays: {given!r:.60}") from None
+        raise SizingError(f"the geometry is not made of arrays: {shown(given)}") from None
     if lines and all(line.ndim == 1 for line in lines):
         lines = [np.array(lines)] if len({len(line) for line in lines}) == 1 else lines
     if not lines:

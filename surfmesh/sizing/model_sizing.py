@@ -19,7 +19,7 @@ import numpy as np
 
 from surfmesh.cad.model import CadModel
 from surfmesh.cad.selection import EVERYTHING, Selection, select
-from surfmesh.errors import SizingError
+from surfmesh.errors import SizingError, shown
 from surfmesh.sizing.size_bounds import DEFAULT_CHORD, DEFAULT_MAX_SIZE, LONGEST
 from surfmesh.sizing.sizing import Sizing
 
@@ -105,7 +105,7 @@ def model_sizing(model: CadModel, wish: Any) -> ModelSizing:
         if key == EVERYTHING:
             continue
         if not isinstance(key, str):
-            raise SizingError(f"sizes are selected by text, not by {key!r}")
+            raise SizingError(f"sizes are selected by text, not by {shown(key)}")
         own = _own_wishes(key, value)
         rules.append(Rule(key, own, _with_faces(model, _selected(model, key, value))))
     by_kind = (_combined(model, base, rules, kind) for kind in ("faces", "edges", "vertices"))
@@ -145,16 +145,16 @@ def _own_wishes(key: str, value: Any) -> Sizing:
     try:
         sizing = Sizing.of(value)
     except SizingError as error:
-        raise SizingError(f"sizes of {key!r}: {error}") from None
+        raise SizingError(f"sizes of {shown(key)}: {error}") from None
     default = Sizing()
     for name in OF_THE_MODEL:
         given = isinstance(value, Mapping) and name in value
         if given or getattr(sizing, name) != getattr(default, name):
             raise SizingError(
-                f"sizes of {key!r}: {name} holds for the whole model; write it under '*'"
+                f"sizes of {shown(key)}: {name} holds for the whole model; write it under '*'"
             )
     if sizing == default:
-        raise SizingError(f"sizes of {key!r}: nothing is asked for")
+        raise SizingError(f"sizes of {shown(key)}: nothing is asked for")
     return sizing
 
 

@@ -2,31 +2,21 @@
 
 import math
 
-from surfmesh.errors import SizingError
+import numpy as np
 
-LEAST = 1e-150
-"""Below it the number of triangles, which goes with 1 / size^2, is no number any more."""
+from surfmesh.errors import SizingError, shown
+
+SMALLEST = 1e-60  # the fourth power of one over it is a number still
 
 
 def positive(name: str, value: object) -> float:
     """``value`` as a float. Raises ``SizingError`` that names it."""
     try:
-        number = float(value)
-    except (TypeError, ValueError):
-        raise SizingError(f"{name} must be a positive number, not {value!r:.60}") from None
-    except OverflowError:  # a whole number; its digits may be too many to be shown
-        raise SizingError(f"{name} must be a positive number, not one above 1e308") from None
+        number = math.nan if isinstance(value, (bool, np.bool_)) or np.ndim(value) else float(value)
+    except (TypeError, ValueError, OverflowError):
+        number = math.nan
     if not (number > 0.0 and math.isfinite(number)):
-        raise SizingError(f"{name} must be a positive number, not {value!r:.60}")
-    return number
-
-
-def countable(name: str, value: object) -> float:
-    """The same for what bounds sizes from above: triangles of that size can be counted."""
-    number = positive(name, value)
-    if number < LEAST:
-        raise SizingError(
-            f"{name} {number:g} asks for more triangles than can be counted; the smallest is "
-            f"{LEAST:g}"
-        )
+        raise SizingError(f"{name} must be a positive number, not {shown(value)}")
+    if number < SMALLEST:
+        raise SizingError(f"{name} must be at least {SMALLEST:g}, not {number:g}: change the unit")
     return number

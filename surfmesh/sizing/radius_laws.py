@@ -1,12 +1,13 @@
 """What ``pack`` may be given beside a number or a callable: random radii, fields of tensors."""
 
-import math
 from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
 
-from surfmesh.errors import SizingError
+from surfmesh.errors import SizingError, shown
+from surfmesh.sizing.positive import positive
+from surfmesh.sizing.sources import as_numbers
 
 LARGEST = 1e100
 """Lengths and their inverses are less than that: their squares are numbers."""
@@ -31,12 +32,13 @@ class UniformRadius:
     seed: int = 0
 
     def __post_init__(self) -> None:
-        if not (0.0 < self.lo <= self.hi < math.inf):
-            raise SizingError(f"random radii need 0 < lo <= hi, not {self.lo!r} and {self.hi!r}")
-        for radius in (self.lo, self.hi):
-            require_computable("radius", radius)
+        object.__setattr__(self, "lo", positive("the least radius", self.lo))
+        object.__setattr__(self, "hi", positive("the largest radius", self.hi))
+        if self.lo > self.hi:
+            raise SizingError(f"random radii need 0 < lo <= hi, not {self.lo:g} and {self.hi:g}")
+        require_computable("radius", self.hi)
         if not isinstance(self.seed, (int, np.integer)) or self.seed < 0:
-            raise SizingError(f"seed must be a whole number from 0, not {self.seed!r:.60}")
+            raise SizingError(f"seed must be a whole number from 0, not {shown(self.seed)}")
 
     def stream(self) -> Callable[[int], np.ndarray]:
         """A function whose call with n gives the next n radii (n,)."""
@@ -56,7 +58,13 @@ class TensorField:
 
     def __call__(self, points: np.ndarray) -> np.ndarray:
         """(n, 2) -> (n, 3). Raises ``SizingError`` for tensors that are not positive definite."""
-        h = np.asarray(self.tensors(points), float)
+        with np.errstate(all="ignore"):
+            found = self.tensors(points.copy())
+        h = as_numbers(found)
+        if h is None:
+            raise SizingError(
+                f"a tensor field gives numbers, (n, 3) or (n, 2, 2), not {shown(found)}"
+            )
         if h.shape == (len(points), 2, 2):
             h = np.stack([h[:, 0, 0], 0.5 * (h[:, 0, 1] + h[:, 1, 0]), h[:, 1, 1]], axis=1)
         if h.shape != (len(points), 3):

@@ -86,8 +86,18 @@ MAX_CELLS, FREE_CELLS, CELLS_OF_TRIANGLE = 800_000, 200_000, 4
 """A field may have so many cells; and beyond the second number no more than the third for each
 triangle that it asks for so far: what needs more is no size, but a place where r is singular."""
 MAX_ROUNDS = 60
+CELLS_AT_ONCE, NODES_AT_ONCE = 50_000, 250_000
+"""Cells of which bounds are taken at a time, and nodes whose sizes are."""
 SWEEPS, MAX_CHUNKS = 16, 400
 """Sweeps of the gradation before the cells are sorted anew, and how often that is done."""
+
+PATIENT_CHUNKS, MOST_SLOW = 4, 20_000_000
+"""So often sorted anew a field is graded, as a rule; cells times sweeps that may come after it, in
+all rounds: where the surface is a wall sizes creep up it, a cell a sweep."""
+
+FAR_BEYOND, MANY_CELLS = 2.0, 100_000
+"""Times the limit of triangles: so many are not asked for by mistake of a coarse sampling; and
+cells that are made before that is looked at."""
 
 
 @dataclass(frozen=True)
@@ -172,6 +182,12 @@ def plane_field(
     return _Builder(surface, sizing, None, TensorLaw(surface, sizing, tensors)).build()
 
 
+def _in_parts(function: Callable, nodes: np.ndarray) -> np.ndarray:
+    """A function of cells (n, 9) -> (n,) for a part of them at a time: bounds take much memory."""
+    parts = [function(nodes[k : k + CELLS_AT_ONCE]) for k in range(0, len(nodes), CELLS_AT_ONCE)]
+    return np.concatenate(parts) if parts else np.zeros(0, bool)
+
+
 def _root_grid(width: float, height: float, cells: int) -> tuple[int, int]:
     """How many cells along x and y: about ``cells`` of them, as near to squares as they can be.
 
@@ -211,6 +227,7 @@ class _Builder:
         self.changed = np.empty(0, np.int32)  # last sweep of the gradation that lowered a node
         self.sweep = 1  # number of the next one
         self.looked_into = 0  # cells beyond HIDDEN_DEPTH, for what hides in them
+        self.slow = 0  # cells times sweeps of slow gradation
 
     def build(self) -> SizeField:
         cells = Cells.roots(self.nx, self.ny)
@@ -224,6 +241,7 @@ class _Builder:
         for round_number in range(MAX_ROUNDS + GRID_DEPTH):
             seen = self.sweep
             self._grade(patch)
+            self._refuse_far_beyond(cells, patch)
             touched = fresh | (self.changed[patch].max(axis=1) >= seen)
             split = np.zeros(len(cells), bool)
             split[touched] = self._inaccurate(cells.chosen(touched), patch[touched])
@@ -258,15 +276,40 @@ class _Builder:
         tree.append(cells.index)  # every leaf is split once more, onto its test nodes
         return SizeField(self.scaling, self._background(tree, patch), self.law.sizing)
 
+    @property
+    def _is_of_formulas(self) -> bool:
+        return isinstance(self.law, SizeLaw) and not isinstance(self.surface, FaceSurface)
+
     def _most_cells(self, cells: Cells, patch: np.ndarray) -> float:
         """How many cells are allowed for what the leaves ask for."""
-        if isinstance(self.surface, FaceSurface) or not isinstance(self.law, SizeLaw):
+        if not self._is_of_formulas:
             return MAX_CELLS
-        a11, a12, a22 = self.nodes.inverse_sizes()[patch[:, 4]].T
-        area = self.root_step.prod() / 4.0**cells.depth * (a11 * a22 - a12 * a12)
-        triangles = float(area.sum()) * 4.0 / np.sqrt(3.0)
+        triangles = float(self._triangles(cells, patch[:, 4:5]).sum())
         free = FREE_CELLS + 4 * self.looked_into
         return min(MAX_CELLS, max(free, CELLS_OF_TRIANGLE * triangles))
+
+    def _triangles(self, cells: Cells, patch: np.ndarray) -> np.ndarray:
+        """Triangles that cells ask for (n,), by the median of some of their nodes (n, k)."""
+        a11, a12, a22 = self.nodes.inverse_sizes().T
+        density = np.median((a11 * a22 - a12 * a12)[patch], axis=1)
+        return self.root_step.prod() / 4.0**cells.depth * density * (4.0 / np.sqrt(3.0))
+
+    def _refuse_far_beyond(self, cells: Cells, patch: np.ndarray) -> None:
+        """Raise SizingError before a field is made for far more triangles than there may be."""
+        if len(cells) < MANY_CELLS or not isinstance(self.law, SizeLaw):
+            return
+        if not (self._is_of_formulas or self.law.sizing.has_law):
+            return  # the triangles of a CAD model are counted together, elsewhere
+        asked = self._triangles(cells, patch)
+        limit = self.law.sizing.limit
+        if float(asked.sum()) <= FAR_BEYOND * limit:
+            return
+        place = self.scaling.to_uv(self._xy_of(patch[[int(np.argmax(asked))], 4]))[0]
+        raise SizingError(
+            f"about {float(asked.sum()):.2g} triangles are asked for on {self.surface.name!r}, "
+            f"most near (u, v) = ({place[0]:.6g}, {place[1]:.6g}), far more than the limit of "
+            f"{limit:,}: ask for a larger chord, size or min_size, or a smaller part of the domain"
+        )
 
     def _refuse(self, total: int, parents: Cells) -> NoReturn:
         """The place is in the midst of the smallest cells."""
@@ -312,7 +355,10 @@ class _Builder:
         return index / count * self.scaling.extent
 
     def _create(self, keys: np.ndarray) -> None:
-        fresh = self.law(self._plane(keys))
+        xy = self._plane(keys)
+        fresh = self.law(xy[:NODES_AT_ONCE])
+        for first in range(NODES_AT_ONCE, len(xy), NODES_AT_ONCE):
+            fresh = fresh.joined_with(self.law(xy[first : first + NODES_AT_ONCE]))
         self.order = np.concatenate([self.order, len(self.nodes.size) + np.arange(len(keys))])
         self.keys = np.concatenate([self.keys, keys])
         sort = np.argsort(self.keys, kind="stable")
@@ -376,7 +422,11 @@ class _Builder:
 
     def _spread(self, patch: np.ndarray, size: np.ndarray, metric: Metric) -> None:
         nodes, first = self.nodes, self.sweep + 1
-        for _ in range(MAX_CHUNKS):
+        for chunk in range(MAX_CHUNKS):
+            if chunk >= PATIENT_CHUNKS:
+                self.slow += SWEEPS * len(patch)
+            if self.slow > MOST_SLOW:
+                break
             order = np.argsort(size[patch].min(axis=1))
             following = grade(
                 patch[order], self.joined, nodes.point, self.slope, size, metric,
@@ -385,7 +435,13 @@ class _Builder:
             self.sweep = first = abs(following)  # the last sweep's changes are still to be spread
             if following > 0:
                 return
-        raise SizingError(f"the sizes on {self.surface.name!r} could not be graded")
+        creeping = np.flatnonzero(self.changed >= first - SWEEPS)
+        u, v = self.scaling.to_uv(self._xy_of(creeping[[len(creeping) // 2]]))[0]
+        raise SizingError(
+            f"the sizes on {self.surface.name!r} cannot be graded from one place to the next, near "
+            f"(u, v) = ({u:.6g}, {v:.6g}), where the surface is as steep as a wall: "
+            "raise min_size or growth, or leave that place out of the domain"
+        )
 
     def _balance(self, cells: Cells, split: np.ndarray) -> None:
         """Add to ``split`` what would be left more than one level coarser than a neighbour."""
@@ -428,6 +484,16 @@ class _Builder:
 
     def _bent_between(self, nodes: np.ndarray) -> np.ndarray:
         """Cells (n, 9) whose second derivatives may be such that half the size is needed."""
+        return _in_parts(self._bent_between_some, nodes)
+
+    def _rises(self, nodes: np.ndarray) -> np.ndarray:
+        """Cells (n, 9) in which the surface may lie off its tangent plane by a share of chord.
+
+        By the mean value or by its values, which hold across kinks and jumps too.
+        """
+        return _in_parts(self._some_rise, nodes)
+
+    def _bent_between_some(self, nodes: np.ndarray) -> np.ndarray:
         lo, hi, middle = self._box(nodes)
         bounds = self.surface.derivative_bounds(lo, hi)
         if bounds is None:
@@ -450,11 +516,7 @@ class _Builder:
         # beside a rim of infinite speed there is no bound at any depth: there the report looks
         return hides & ~at_infinite_speed(bent_axes_of(self.surface), lo, hi)
 
-    def _rises(self, nodes: np.ndarray) -> np.ndarray:
-        """Cells (n, 9) in which the surface may lie off its tangent plane by a share of chord.
-
-        By the mean value or by its values, which hold across kinks and jumps too.
-        """
+    def _some_rise(self, nodes: np.ndarray) -> np.ndarray:
         if not hasattr(self.surface, "all_bounds"):
             return np.zeros(len(nodes), bool)
         lo, hi, _ = self._box(nodes)

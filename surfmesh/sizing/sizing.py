@@ -5,9 +5,12 @@ from dataclasses import dataclass, fields, replace
 
 import numpy as np
 
-from surfmesh.errors import SizingError
-from surfmesh.sizing.positive import countable, positive
+from surfmesh.errors import SizingError, shown
+from surfmesh.sizing.positive import positive
 from surfmesh.sizing.sources import checked_sizes, source_sizes
+
+MOST_STRETCHED = 1e6
+"""Largest ratio of two sizes: beyond it areas are round-off."""
 
 SizeLaw = Callable[[np.ndarray], np.ndarray]
 
@@ -73,28 +76,34 @@ class Sizing:
         for name in ("chord", "angle", "max_size"):
             value = getattr(self, name)
             if value is not None:
-                object.__setattr__(self, name, countable(name, value))
+                object.__setattr__(self, name, positive(name, value))
         for name in ("min_size", "volume"):
             value = getattr(self, name)
             if value is not None:
                 object.__setattr__(self, name, positive(name, value))
         if self.size is not None and not callable(self.size):
-            object.__setattr__(self, "size", countable("size", self.size))
+            object.__setattr__(self, "size", positive("size", self.size))
         object.__setattr__(self, "growth", positive("growth", self.growth))
         object.__setattr__(self, "anisotropy", positive("anisotropy", self.anisotropy))
         if self.growth <= 1.0:
             raise SizingError(f"growth must be above 1, not {self.growth:g}")
         if self.anisotropy < 1.0:
             raise SizingError(f"anisotropy must be at least 1, not {self.anisotropy:g}")
+        if self.anisotropy > MOST_STRETCHED:
+            raise SizingError(
+                f"anisotropy must be at most {MOST_STRETCHED:g}, not {self.anisotropy:g}"
+            )
         sources = (self.sources,) if callable(self.sources) else self.sources
         if not isinstance(sources, (tuple, list)) or not all(map(callable, sources)):
             raise SizingError(
                 "sources are Near, InBall, InBox, SizeCloud or callables of points (n, 3), "
-                f"not {self.sources!r:.60}"
+                f"not {shown(self.sources)}"
             )
         object.__setattr__(self, "sources", tuple(sources))
         if self.gap is not None:
             object.__setattr__(self, "gap", positive("gap", self.gap))
+            if not 1e-3 <= self.gap <= 1000.0:
+                raise SizingError(f"gap is a number of triangles, 0.001 to 1000, not {self.gap:g}")
         object.__setattr__(self, "limit", int(positive("limit", self.limit)))
         if self.volume is not None and self.volume >= 1.0:
             raise SizingError(f"volume is a relative error below 1, not {self.volume:g}")

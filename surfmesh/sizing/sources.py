@@ -21,10 +21,10 @@ from typing import Any
 
 import numpy as np
 
-from surfmesh.errors import SizingError
+from surfmesh.errors import SizingError, shown
 from surfmesh.geometry.segment_distance import SegmentDistance
 from surfmesh.sizing.distance_size import polylines
-from surfmesh.sizing.positive import countable, positive
+from surfmesh.sizing.positive import positive
 
 MARK_STEP = 4.0
 """Marks along lines and within boxes are so many sizes apart,"""
@@ -45,7 +45,7 @@ class Source:
     reach: float | None
 
     def _check(self) -> None:
-        object.__setattr__(self, "size", countable("size", self.size))
+        object.__setattr__(self, "size", positive("size", self.size))
         object.__setattr__(self, "growth", positive("growth", self.growth))
         if self.growth <= 1.0:
             raise SizingError(f"growth must be above 1, not {self.growth:g}")
@@ -113,7 +113,7 @@ class Near(Source):
         if isinstance(self.radius, str) or not np.isscalar(self.radius) or not (
             0.0 <= self.radius < np.inf
         ):
-            raise SizingError(f"radius must be a number from 0, not {self.radius!r:.60}")
+            raise SizingError(f"radius must be a number from 0, not {shown(self.radius)}")
         given = self.geometry
         if isinstance(given, np.ndarray) or _is_points(given):
             rows = np.atleast_2d(np.asarray(given, float))
@@ -295,9 +295,7 @@ class SizeCloud(Source):
         for tree, sizes in self._octaves():
             count = min(NEAREST, len(sizes))
             most = np.inf if self.reach is None else self.reach
-            distance, row = tree.query(
-                points, k=[*range(1, count + 1)], distance_upper_bound=most
-            )
+            distance, row = tree.query(points, k=[*range(1, count + 1)], distance_upper_bound=most)
             padded = np.append(sizes, np.inf)  # of what is too far away
             grown = padded[row] + self.slope * np.where(np.isfinite(distance), distance, 0.0)
             np.minimum(found, grown.min(axis=1), out=found)
@@ -341,15 +339,36 @@ def source_sizes(sources: tuple[Callable, ...], points: np.ndarray) -> np.ndarra
 
 
 def checked_sizes(law: Callable, points: np.ndarray, what: str) -> np.ndarray:
-    """``law(points)``, (n, 3) -> (n,), all at once; raises ``SizingError`` for what is no size."""
-    sizes = np.asarray(law(points), float)
-    if sizes.shape != (len(points),) or not (sizes > 0.0).all():
+    """``law(points)``, (n, 3) -> (n,), all at once; raises ``SizingError`` for what is no size.
+
+    The law gets points of its own, and what it warns of is told as that error alone.
+    """
+    with np.errstate(all="ignore"):
+        found = law(points.copy())
+    sizes = as_numbers(found)
+    if sizes is None or sizes.shape != (len(points),) or not (sizes > 0.0).all():
+        gave = f"shape {sizes.shape}" if sizes is not None else shown(found)
+        least = f", smallest {sizes.min():g}" if sizes is not None and sizes.size else ""
         raise SizingError(
             f"{what} law must give positive numbers of shape ({len(points)},) for points "
-            f"({len(points)}, 3); it gave shape {sizes.shape}"
-            + (f", smallest {sizes.min():g}" if sizes.size else "")
+            f"({len(points)}, 3); it gave {gave}{least}"
         )
     return sizes
+
+
+def as_numbers(found: Any) -> np.ndarray | None:
+    """What a caller's function gave as an array of its own; None if those are no real numbers.
+
+    Masked entries are nan.
+    """
+    try:
+        if np.iscomplexobj(found):
+            return None
+        if np.ma.isMaskedArray(found):
+            return np.ma.filled(found.astype(float), np.nan)
+        return np.array(found, float)
+    except (TypeError, ValueError, OverflowError):
+        return None
 
 
 def reaching(
@@ -384,7 +403,7 @@ def _point(name: str, given: Any) -> np.ndarray:
     except (TypeError, ValueError, OverflowError):
         point = np.empty(0)
     if point.shape != (3,) or not np.isfinite(point).all():
-        raise SizingError(f"{name} must be three finite numbers, not {given!r:.60}")
+        raise SizingError(f"{name} must be three finite numbers, not {shown(given)}")
     return point
 
 

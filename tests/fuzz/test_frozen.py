@@ -83,6 +83,48 @@ FROZEN: dict[str, tuple[str, bytes, str]] = {
         b'<a><svg><path d="M0 0 L1 0 L1 1 Z"/></svg></a>',
         "",
     ),
+    "drawing_of_itself": (
+        "drawing",  # RecursionError; nine levels of ten <use> each ran for ever
+        b'<svg><g id="a"><use href="#a"/></g></svg>',
+        "refused",
+    ),
+    "drawing_of_a_milliard_shapes": (
+        "drawing",
+        b'<svg><path id="a0" d="M0 0L1 0L1 1Z"/>'
+        + b"".join(
+            b'<g id="a%d">%s</g>' % (n, b'<use href="#a%d"/>' % (n - 1) * 10) for n in range(1, 10)
+        )
+        + b"</svg>",
+        "refused",
+    ),
+    "drawing_without_width": (
+        "drawing",  # ZeroDivisionError
+        b'<svg viewBox="0 0 0 0" width="9mm"><rect width="3" height="3"/></svg>',
+        "",
+    ),
+    "drawing_beyond_squares": (
+        "drawing",  # a warning of shapely, ValueError of a float that is no integer
+        b'<svg><path d="M0 0 L1e300 0 L1e300 1e300 Z M0 0 Q1 1e999 2 0 Z"/></svg>',
+        "refused",
+    ),
+    "corner_next_to_zero": (
+        "domain",  # a warning of shapely
+        SQUARE + b"holes = [[[0.1, 0.1], [0.2, 0.1], [1e-320, 0.2]]]\n[sizing]\nsize = 0.3\n",
+        "",
+    ),
+    "size_below_zero": (
+        ".ply",  # numpy's warning before the answer
+        b"ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\n"
+        b"property float z\nproperty float size\nelement face 1\n"
+        b"property list uchar int vertex_indices\nend_header\n"
+        b"0 0 0 0\n1 0 0 0\n0 1 0 -1\n3 0 1 2\n",
+        "",
+    ),
+    "point_beyond_squares": (
+        "command",  # ValueError: inf in JSON
+        json.dumps(["explain", "plane", "--at", "0", "0", "1e300", "--json"]).encode(),
+        "",
+    ),
     "bound_of_400_digits": ("surface", DOMAIN % (b"1" + b"0" * 400), "refused"),  # OverflowError
     "bound_whose_square_overflows": ("surface", DOMAIN % b"-1e300", ""),  # ValueError of scipy
     "lists_within_lists": ("domain", SQUARE + b"holes = " + b"[" * 3000 + b"]" * 3000, "refused"),

@@ -21,6 +21,11 @@ def test_nothing_heavy_is_loaded(statement):
     assert run(f"import sys; {statement}; print([m for m in {HEAVY} if m in sys.modules])") == "[]"
 
 
+def test_files_are_read_and_written_without_what_meshes_and_judges():
+    code = "import sys; import surfmesh.io; surfmesh.io.save; print('numba' in sys.modules)"
+    assert run(code) == "False"
+
+
 def test_a_mesh_and_its_report_need_no_viewer():
     heavy = run(
         "import sys; import surfmesh as sm; sm.SurfaceMesh, sm.check, sm.Sizing; "

@@ -198,6 +198,16 @@ def test_a_link_is_followed(tmp_path, small):
 
 
 @posix
+@pytest.mark.parametrize("end", ["real.vtp", "real", "a long name without an end.of it all"])
+def test_the_format_is_that_of_the_link(end, tmp_path, small):
+    link = tmp_path / "link.vtu"
+    link.symlink_to(end)
+    small.save(link)
+    assert len(read(link).triangles) == len(small.triangles)
+    assert b"UnstructuredGrid" in (tmp_path / end).read_bytes()
+
+
+@posix
 def test_a_new_file_permits_what_the_old_one_did(tmp_path, small):
     path = tmp_path / "mesh.stl"
     before = os.umask(0o027)
@@ -235,7 +245,8 @@ def test_names_that_no_file_can_have(tmp_path, small):
         with pytest.raises(FileFormatError, match="cannot be written"):
             small.save(tmp_path / name)
     longest = small.save(tmp_path / ("é" * 125 + ".stl"))  # 254 bytes
-    assert list(tmp_path.iterdir()) == [longest]
+    other = small.manifest().save(tmp_path / ("m." + "é" * 126))
+    assert set(tmp_path.iterdir()) == {longest, other}
 
 
 @posix
