@@ -26,7 +26,7 @@ def obj(numbers=(0,), corners=CORNERS, record=()):
     lines = [f"# {line}" for line in record] + [f"v {corner}" for corner in corners]
     for number in numbers:
         lines += [f"# face_id {number}", "f 1 2 3"]
-    return "\n".join(lines)
+    return "\n".join(lines) + "\n"
 
 
 def record(**fields):
@@ -100,7 +100,7 @@ REFUSED = {
     "digits.obj": (obj(["1" * 30]), "too many digits"),
     "runs.obj": (obj().replace("# face_id 0\n", "").replace("f 1 2 3", "f 1 2 4"), "outside 0..2"),
     "runs.off": ("OFF\n# " + record(runs=[[0, 10**10]])[0] + "\n3 1 0\n" + "\n".join(CORNERS)
-                 + "\n3 0 1 2", "not of 1 triangles"),
+                 + "\n3 0 1 2\n", "not of 1 triangles"),
     "segments.obj": (obj(record=record(edge_segments=[[0, 99]], edge_ids=[0])), "edge_segments"),
     "edges.obj": (obj(record=record(edge_segments=[[0, 1]])), "1 segments of edges and 0 numbers"),
     "vertices.obj": (obj(record=record(vertex_ids=[7])), "vertex_ids"),
@@ -108,7 +108,7 @@ REFUSED = {
     "record.obj": (obj(record=record(groups=5)), "the record of groups is damaged"),
     "names.obj": (obj(record=record(groups={"face_names": 5})), "no lists"),
     "unit.obj": (obj(record=record(groups={"unit": {"mm": 1}})), "is no text"),
-    "solids.obj": (obj(record=record(solids=[]), numbers=[5]), "solids of 0 faces"),
+    "solids.obj": (obj(record=record(solids=[], runs=[[5, 1]])), "solids of 0 faces"),
     "nested.off": ("OFF\n# surfmesh-groups 90000:" + "[" * 90_000 + "\n3 1 0\n"
                    + "\n".join(CORNERS) + "\n3 0 1 2\n", "nested too deep"),
     "minus.off": ("OFF\n-5 1 0\n0 0 0\n3 0 0 0\n", "announces -5"),
@@ -170,7 +170,7 @@ def test_numbers_of_ten_digits_are_counted_anew_and_stay_in_the_names(
 
 
 def test_solids_and_edges_are_counted_anew_too(tmp_path):
-    held = record(solids=[[TWO_BILLION, -1]], edge_segments=[[0, 1]], edge_ids=[-7])
+    held = record(runs=[[0, 1]], solids=[[TWO_BILLION, -1]], edge_segments=[[0, 1]], edge_ids=[-7])
     (tmp_path / "part.obj").write_text(obj(record=held))
     mesh = read(tmp_path / "part.obj")
     assert mesh.solid_ids.tolist() == [[0, -1]] and mesh.edge_ids.tolist() == [0]
