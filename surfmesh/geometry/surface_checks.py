@@ -124,15 +124,9 @@ def refuse_extremes(r: np.ndarray, domain: Domain) -> None:
 
 
 def refuse_no_area(surface: Surface) -> None:
-    """Raise SurfaceError for a surface that is a point or a curve, or beyond all lengths."""
+    """Raise SurfaceError for a surface that is a point or a curve."""
     points = sample_grid(surface.domain).reshape(-1, 2)
     r, r_u, r_v = surface.evaluate(points, 1)
-    if not np.abs(r).max() <= LARGEST:
-        point, axis = np.unravel_index(np.argmax(np.abs(r)), r.shape)
-        raise SurfaceError(
-            f"{'xyz'[axis]} is {r[point, axis]:.6g} at (u, v) = ({points[point, 0]:.6g}, "
-            f"{points[point, 1]:.6g}), beyond {LARGEST:g}: change its unit or the domain"
-        )
     if not np.ptp(r, axis=0).any():
         raise SurfaceError("the surface is a single point: none of x, y, z changes with u or v")
     # in parts of the domain, so that u and v may have different units
