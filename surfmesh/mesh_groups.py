@@ -50,10 +50,14 @@ class MeshGroups:
     def of_plain(cls, plain: Mapping[str, Any]) -> Self:
         """From what ``plain`` gives; what it does not hold is empty, the rest is passed over.
 
-        Raises ``ValueError`` for a colour that is not three numbers and for a unit that is no text.
+        Raises ``ValueError`` for names and colours that are no lists, a colour that is not three
+        numbers and a unit that is no text.
         """
         known = {item.name for item in fields(cls)}
-        found = cls(**{name: value for name, value in plain.items() if name in known})
+        try:
+            found = cls(**{name: value for name, value in plain.items() if name in known})
+        except TypeError:
+            raise ValueError("names or colours of groups are no lists") from None
         colours = filter(None, (*found.face_colours, *found.solid_colours))
         if any(len(c) != 3 or not all(map(isfinite, c)) for c in colours):
             raise ValueError("a colour is not three numbers")

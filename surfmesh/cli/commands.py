@@ -176,7 +176,7 @@ def report(options: Namespace) -> bool:
         found = checked(shown, second_opinion=options.second_opinion)
         progress("write", 0.95)
         try:
-            name = Path(options.input).stem
+            name = _called(options.input)
             html_report(shown, options.output, by=options.by, name=name, report=found)
         except ValueError as error:  # the mesh has no data to colour by
             raise SurfmeshError(str(error)) from error
@@ -338,7 +338,7 @@ def _surface(options: Namespace) -> Any:
         name: value.strip() if isinstance(value, str) else tuple(end.strip() for end in value)
         for name, value in formulas.items()
     }
-    return ParametricSurface(**stripped, parameters=parameters, name=Path(options.output).stem)
+    return ParametricSurface(**stripped, parameters=parameters, name=_called(options.output))
 
 
 def _on_surface(found: Any, surface: Any) -> Any:
@@ -416,7 +416,7 @@ def _report_written(result: Any, report: Any, options: Namespace) -> Path:
         return _written(report.to_json(), options.report)
     from surfmesh.view import html_report
 
-    name = Path(options.output).stem
+    name = _called(options.output)
     return html_report(result, options.report, by=options.by, name=name, report=report)
 
 
@@ -459,5 +459,13 @@ def _written(text: str, path: str) -> Path:
     from surfmesh.io.atomic import replacing
 
     with replacing(Path(path)) as temporary:
-        temporary.write_text(text + "\n", encoding="utf-8", newline="\n")
+        temporary.write_text(  # halves of characters by their escapes, as JSON has them
+            text + "\n", encoding="utf-8", errors="backslashreplace", newline="\n"
+        )
     return Path(path)
+
+
+def _called(path: str) -> str:
+    """A file's name without its extension, fit to be written into files: halves of characters,
+    which stand for bytes that are no text, are escaped."""
+    return printable(Path(path).stem)

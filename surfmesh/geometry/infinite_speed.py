@@ -235,7 +235,8 @@ def zeros_between(values: np.ndarray, at: np.ndarray, function: Values) -> list[
     """Where a function of one parameter, sampled as ``values`` (n,) ``at`` (n,), vanishes: at
     samples, and by halving between those of opposite signs."""
     found = at[values == 0.0].tolist()
-    for k in np.flatnonzero(values[1:] * values[:-1] < 0.0).tolist():
+    signs = np.sign(values)
+    for k in np.flatnonzero(signs[1:] * signs[:-1] < 0.0).tolist():
         found.append(float(brentq(function, at[k], at[k + 1], xtol=4.0 * np.finfo(float).eps)))
     return found
 

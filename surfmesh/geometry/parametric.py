@@ -76,12 +76,13 @@ class ParametricSurface:
         fixed["_tapes"] = {}
         fixed["bent_axes"] = STRAIGHT
         self.__dict__.update(fixed)
-        _refuse_values_that_are_not_finite(self)
-        self.__dict__["_root_places"] = _places_of_roots(self._expressions, self.domain)
-        self.__dict__["bent_axes"] = bent_axes(
-            lambda uv: self.evaluate(uv)[0], self.domain, self._root_places
-        )
-        refuse_no_area(self)
+        with np.errstate(all="ignore"):  # what cannot be used is refused with its place
+            _refuse_values_that_are_not_finite(self)
+            self.__dict__["_root_places"] = _places_of_roots(self._expressions, self.domain)
+            self.__dict__["bent_axes"] = bent_axes(
+                lambda uv: self.evaluate(uv)[0], self.domain, self._root_places
+            )
+            refuse_no_area(self)
 
     name: str
     formulas: tuple[str, str, str]

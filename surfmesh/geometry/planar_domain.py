@@ -353,7 +353,7 @@ def positive_distance(name: str, given: Any) -> float:
     """A positive finite number. Raises DomainError."""
     try:
         distance = float(given)
-    except (TypeError, ValueError):
+    except (TypeError, ValueError, OverflowError):
         distance = np.nan
     if not 0.0 < distance < np.inf:
         raise DomainError(f"{name} is a positive distance, not {shown(given)}")
@@ -410,9 +410,7 @@ def _near(graph: SegmentGraph, places: np.ndarray) -> np.ndarray:
     return found
 
 
-def _still_there(
-    line: np.ndarray, graph: SegmentGraph, merge: float, least: int = 3
-) -> np.ndarray:
+def _still_there(line: np.ndarray, graph: SegmentGraph, merge: float, least: int = 3) -> np.ndarray:
     """The points of a line that a thinned graph has kept; all when those are too few."""
     from scipy.spatial import cKDTree
 
@@ -449,9 +447,8 @@ def _coordinates(label: str, given: Any) -> np.ndarray:
     try:
         array = np.array(given if isinstance(given, np.ndarray) else list(given))
         array = array.astype(float, casting="same_kind") if array.size else np.empty((0, 2))
-    except (TypeError, ValueError):
-        shown = " ".join(repr(given).split())
-        raise DomainError(f"{label} is not an array (k, 2) of numbers: {shown:.60}") from None
+    except (TypeError, ValueError, OverflowError):
+        raise DomainError(f"{label} is not an array (k, 2) of numbers: {shown(given)}") from None
     if array.ndim != 2 or array.shape[1] != 2:
         raise DomainError(f"{label} has shape {array.shape}, not (k, 2)")
     if not len(array):

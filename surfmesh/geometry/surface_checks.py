@@ -11,9 +11,9 @@ from surfmesh.errors import FormulaError, SurfaceError, shown
 from surfmesh.geometry.surface import Domain, Surface
 
 NO_AREA = 1e-11  # sine of the angle between r_u and r_v: r_u x r_v is round-off below it
-LARGEST, SMALLEST = 1e60, 1e-60
-"""Coordinates and extents stay between these: squares of the areas of triangles, which are fourth
-powers of their edges, neither overflow nor vanish."""
+LARGEST, SMALLEST = 1e30, 1e-30
+"""Coordinates and extents stay between these: angles between triangles need squares of products of
+areas, which are eighth powers of edges, and these neither overflow nor vanish."""
 FASTEST, BENT_MOST = 1e70, 1e140
 """First and second derivatives stay below these and above their inverses, for the same reason."""
 LARGEST_BOUND, SMALLEST_SPAN = 1e100, 1e-100  # of a domain: fourth powers are numbers still

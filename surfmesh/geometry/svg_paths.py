@@ -11,7 +11,7 @@ from xml.etree import ElementTree
 
 import numpy as np
 
-from surfmesh.errors import DomainError
+from surfmesh.errors import DomainError, printable
 from surfmesh.geometry.text_file import text_of
 
 DEFAULT_TOLERANCE = 1e-3  # of the diagonal, between a curve and its polyline
@@ -73,7 +73,7 @@ def _opened(source: str | Path) -> tuple[str, str]:
     if isinstance(source, str) and "<svg" in source:
         return "drawing", source
     path = Path(source)
-    return path.stem, text_of(path, DomainError, "an SVG drawing")
+    return printable(path.stem), text_of(path, DomainError, "an SVG drawing")
 
 
 def _subpaths(name: str, text: str) -> list[tuple[str, list]]:

@@ -18,7 +18,7 @@ def text_of(path: Path, error: type[SurfmeshError], kind: str) -> str:
     """
     try:
         if not path.is_file():
-            reason = "is not a file" if path.exists() else "no such file"
+            reason = "cannot be read: not a file" if path.exists() else "no such file"
             raise error(f"{path}: {reason}")
         if (size := path.stat().st_size) > MOST_BYTES:
             raise error(

@@ -61,6 +61,8 @@ def group_fields(
     if length != str(len(text)):
         raise ValueError(f"the record of groups has {len(text)} characters instead of {length}")
     record = json.loads(text)
+    if not isinstance(record, dict) or not isinstance(record.get("groups"), dict):
+        raise ValueError("the record of groups is damaged")
     found: dict[str, Any] = {"groups": MeshGroups.of_plain(record["groups"])}
     for name in NUMBERED:
         if name in record:

@@ -14,7 +14,8 @@ from numpy.typing import NDArray
 from surfmesh.mesh_groups import MeshGroups
 from surfmesh.surface_mesh import SurfaceMesh
 
-DENSE = 100_000  # a model has some thousand faces; properties of Nastran are numbered freely
+DENSE = 2_000_000
+"""Properties of Nastran are often counted from 1,000,001. A table of so many names has 120 MB."""
 
 
 def named_faces(
@@ -22,12 +23,13 @@ def named_faces(
 ) -> tuple[NDArray[np.int64], tuple[str, ...], tuple[str, ...]]:
     """Face numbers (m,), names by them, and warnings, for a table of names by number.
 
-    count: of the names where numbers are kept.
+    count: of the names where numbers are kept; names from ``DENSE`` on are no face's then.
     """
     used, ranks = np.unique(numbers, return_inverse=True)
     if _dense(used):
-        kept = tuple(names.get(face, "") for face in range(min(count, DENSE)))
-        return numbers, kept, ()
+        if count > DENSE:
+            count = max((number for number in names if number < DENSE), default=-1) + 1
+        return numbers, tuple(names.get(face, "") for face in range(count)), ()
     found = tuple(names.get(face) or f"face {face}" for face in used.tolist())
     return ranks.reshape(-1), found, (_renumbered("face", used),)
 

@@ -46,7 +46,7 @@ def domain_of(seed: int, number: int) -> RandomDomain:
     dots = _dots(draw, polygon) if draw.random() < 0.4 else np.empty((0, 2))
     lines = _lines(draw, polygon) if draw.random() < 0.5 else ()
     size = diagonal * 10 ** draw.uniform(-1.8, -0.6)
-    k = draw.choice((1.0, 1.0, 1e-9, 1e-3, 1e3, 1e9, 1e-40, 1e40))
+    k = draw.choice((1.0, 1.0, 1e-9, 1e-3, 1e3, 1e9, 1e-25, 1e24))
     scaled = affinity.scale(polygon, k, k, origin=(0, 0))
     lines = tuple(k * line for line in lines)
     return RandomDomain(kind, scaled, lines, k * dots, k * size, kind == "touching")

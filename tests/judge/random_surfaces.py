@@ -17,7 +17,7 @@ def surface_of(seed: int, number: int) -> tuple[str, Truth]:
     draw = Random(f"surface {seed} {number}")
     kind = draw.choice(tuple(_MAKERS))
     truth = _MAKERS[kind](draw)
-    scale = draw.choice((1.0, 1.0, 1.0, 1e-9, 1e9, 1e-40, 1e40))
+    scale = draw.choice((1.0, 1.0, 1.0, 1e-9, 1e9, 1e-25, 1e24))
     if scale != 1.0:
         formulas = tuple(f"{scale!r}*({text})" for text in truth.formulas)
         truth = Truth(**{**truth.__dict__, "formulas": formulas})

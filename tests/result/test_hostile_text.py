@@ -59,7 +59,7 @@ TOML = {
     "a key in colour": ('"\\u001b[31m" = 1\n' + SURFACE, r"unknown key '\x1b[31m'"),
     "a key backwards": ('"\\u202e" = 1\n' + SURFACE, r"unknown key '\u202e'"),
     "a key of two lines": ('"a\\nb" = 1\n' + SURFACE, r"unknown key 'a\nb'"),
-    "sizes that cannot be counted": (SURFACE + "[sizing]\nsize = 1e-300", "can be counted"),
+    "sizes that cannot be counted": (SURFACE + "[sizing]\nsize = 1e-300", "at least 1e-60"),
     "a large domain": ('name = "d"\nouter = [[0, 0], [1e300, 0], [1, ' + "1" * 400 + "]]", "64"),
     "a ragged domain": ('name = "d"\nouter = [[0, 0], [1, 0], [1]]', "not an array"),
     "too many values": ("a = [" + "1," * 2_000_001 + "]", "more than 2,000,000"),
@@ -109,7 +109,7 @@ SIZES = {
     '[sizes."*"]\nsize = true': "must be a number",
     '[sizes."*"]\ngap_faces = 1': "must be true or false",
     "[sizes]\na = true": "not true or false",
-    '[sizes."*"]\nsize = 1e-300': "can be counted",
+    '[sizes."*"]\nsize = 1e-300': "at least 1e-60",
     '[sizes."*"]\ngap = 1e300': "0.001 to 1000",
     '[sizes."*"]\nsize = 1' + "1" * 5000: "thousands of digits",
     '[[sizes."*".sources]]\nlines = [[["a", 0, 0], [1, 1, 1]]]\nsize = 1': "list of points",
@@ -193,6 +193,11 @@ def test_names_are_shown_without_what_moves_the_cursor(tmp_path, monkeypatch, ca
     assert main(["mesh", "\x1b[31m\n\udcff.toml", "--size", "0.5", "-o", "\x9b.vtu"]) == 0
     out, err = capsys.readouterr()
     assert r"\x9b.vtu" in out and err == "" and not UNSAFE.search(out)
+    Path("\udcff.svg").write_text("<svg><path d='M0 0L1 0L1 1Z'/></svg>")
+    for ending in (".json", ".html"):
+        argv = ["mesh", "\udcff.svg", "-o", "\udcff.vtu", "--report", f"\udcff{ending}"]
+        assert main(argv) == 0 and Path(f"\udcff{ending}").is_file()
+        assert not UNSAFE.search(capsys.readouterr().out)
     assert main(["check", "\x9b.vtu"]) == 0
     assert not UNSAFE.search(capsys.readouterr().out)
 

@@ -27,7 +27,7 @@ SOURCES = {
 REFUSED = {
     "size": (lambda: sm.Near([0, 0, 0], size=0), "size must be a positive number, not 0"),
     "growth": (lambda: sm.Near([0, 0, 0], size=1, growth=1), "growth must be above 1"),
-    "radius": (lambda: sm.Near([0, 0, 0], size=1, radius=-1), "radius must not be negative"),
+    "radius": (lambda: sm.Near([0, 0, 0], size=1, radius=-1), "radius must be a number from 0"),
     "empty": (lambda: sm.Near([], size=1), "empty"),
     "ball": (lambda: sm.InBall((0, 0), 1, 1), "centre must be three finite numbers"),
     "box": (lambda: sm.InBox((1, 0, 0), (0, 1, 1), 1), "inside out"),
