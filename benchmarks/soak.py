@@ -14,6 +14,7 @@ import argparse
 import contextlib
 import gc
 import json
+import sys
 import tempfile
 import warnings
 from collections.abc import Callable
@@ -32,11 +33,13 @@ EVERY = 10  # meshes between two looks at the memory
 GROWTH = 1.0  # MB in a hundred meshes that are within what the allocator moves
 
 
-def soak(count: int, told: Callable[[int], None] = lambda number: None) -> dict[str, float | bool]:
+def soak(
+    count: int, told: Callable[[int, float], None] = lambda number, megabytes: None
+) -> dict[str, float | bool]:
     """Megabytes held after ``FIRST`` meshes and at the end, and the growth in a hundred.
 
-    told: is called with the number of meshes so far. The growth is the slope of a line through
-    all figures after the first.
+    told: is called with the number of meshes so far and the megabytes. The growth is the slope
+    of a line through all figures after the first.
     """
     held = []
     with tempfile.TemporaryDirectory() as folder, warnings.catch_warnings():
@@ -46,7 +49,7 @@ def soak(count: int, told: Callable[[int], None] = lambda number: None) -> dict[
             if number % EVERY == EVERY - 1:
                 gc.collect()
                 held.append((number + 1, resident_megabytes()))
-                told(number + 1)
+                told(*held[-1])
     later = np.array([entry for entry in held if entry[0] >= min(FIRST, count // 2)])
     slope = float(np.polyfit(later[:, 0], later[:, 1], 1)[0]) if len(later) > 1 else 0.0
     return {
@@ -104,7 +107,12 @@ def _sizes(number: int) -> sm.Sizing:
     return sm.Sizing(angle=40, growth=1.5, anisotropy=3.0 if number % 5 == 4 else 1.0)
 
 
+def _tell(number: int, megabytes: float) -> None:
+    if number % 100 == 0:
+        print(f"{number} meshes: {megabytes:.1f} MB", file=sys.stderr, flush=True)
+
+
 if __name__ == "__main__":
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--count", type=int, default=1000)
-    print(json.dumps(soak(parser.parse_args().count)))
+    print(json.dumps(soak(parser.parse_args().count, _tell)))
