@@ -190,6 +190,18 @@ def test_triangle_without_area():
     assert report.problems == ("1 triangle without area, first 0 at (1, 0, 0)",)
 
 
+def test_angles_of_a_needle():
+    """By the law of cosines the smallest was 0, and the largest degrees off."""
+    points = np.array([(0, 0, 0), (1e-9, 3e-9, 1e-9), (0.3, 0.7, 1.1)])
+    report = check(SurfaceMesh(points=points, triangles=[(0, 1, 2)]))
+    short, long = points[1], points[2]
+    there = long - short  # exact to a digit of the long side, which is what counts for the angle
+    sine = np.linalg.norm(np.cross(long, short)) / np.linalg.norm(long) / np.linalg.norm(there)
+    assert report.min_angle_deg == pytest.approx(np.degrees(np.arcsin(sine)), rel=1e-9)
+    obtuse = np.arctan2(np.linalg.norm(np.cross(short, there)), -short @ there)
+    assert report.max_angle_deg == pytest.approx(np.degrees(obtuse), rel=1e-9)
+
+
 def test_pillow_of_two_equal_triangles():
     report = check(SurfaceMesh(points=np.eye(3), triangles=[(0, 1, 2), (0, 2, 1)]))
     assert report.problems == ("triangles 0 and 1 have the same corners",)
