@@ -22,7 +22,7 @@ from pathlib import Path
 from tables import console, heading
 
 sys.path.insert(0, str(Path(__file__).parents[1] / "tests"))
-from judge.trials import BAD, Trial, domain_trial, part_trial, surface_trial
+from judge.judged_meshes import BAD, Trial, domain_trial, part_trial, surface_trial
 
 KINDS = {"parts": part_trial, "domains": domain_trial, "surfaces": surface_trial}
 COLUMNS = ("good", "found", "silent", "false alarm", "refused", "late", "crashed", "warned")

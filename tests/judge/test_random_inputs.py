@@ -3,9 +3,9 @@
 import numpy as np
 import pytest
 
+from judge.judged_meshes import domain_trial, part_trial, planar, surface_trial
 from judge.random_domains import domain_of
 from judge.random_surfaces import surface_of
-from judge.trials import domain_trial, part_trial, planar, surface_trial
 
 
 @pytest.mark.parametrize("number", [3, 7])

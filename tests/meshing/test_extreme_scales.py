@@ -46,7 +46,7 @@ def test_a_power_of_two_changes_nothing(make):
 def test_refused_in_one_line(make, k):
     with warnings.catch_warnings():
         warnings.simplefilter("error")
-        with pytest.raises(SurfmeshError, match=r"^[^\n]*too (small|far away) to compute with"):
+        with pytest.raises(SurfmeshError, match=r"^[^\n]*(too (small|far away) to|beyond 1e.30)"):
             make(k)
 
 
@@ -70,5 +70,5 @@ def bowl_by_formulas(width):
 def test_parameters_whose_derivatives_are_no_numbers(make, width):
     with warnings.catch_warnings():
         warnings.simplefilter("error")
-        with pytest.raises(SurfmeshError, match=r"^[^\n]*domain of u[^\n]*scale u"):
+        with pytest.raises(SurfmeshError, match=r"^[^\n]*domain of u[^\n]*(scale u|its unit)"):
             make(width)
