@@ -82,8 +82,7 @@ def read(path: str | Path) -> SurfaceMesh:
     if not path.is_file():
         raise FileFormatError(f"{path}: {'not a file' if path.exists() else 'no such file'}")
     try:
-        with warnings.catch_warnings(), np.errstate(all="ignore"):
-            warnings.simplefilter("ignore")  # of what is not a number: ``usable`` looks at it
+        with np.errstate(all="ignore"):  # of what is not a number: ``usable`` looks at it
             mesh = module.read(path)
     except FileFormatError as error:
         said = str(error)

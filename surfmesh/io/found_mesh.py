@@ -10,9 +10,9 @@ from surfmesh.errors import FileFormatError
 from surfmesh.io.numbers_of_groups import with_dense_numbers
 from surfmesh.surface_mesh import SurfaceMesh
 
-LARGEST = 1e50
-"""Of a coordinate or a length: measures of shape take sixth powers, which overflow beyond. The
-universe has 1e36 nanometres."""
+LARGEST = 1e30
+"""Of a coordinate or a length, as for surfaces: angles between triangles take eighth powers of
+edges, which overflow beyond."""
 
 
 def usable(path: Path, mesh: SurfaceMesh) -> SurfaceMesh:

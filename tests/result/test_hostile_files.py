@@ -96,7 +96,7 @@ BEYOND = [VIEW, {"bufferView": 1, "componentType": 5125, "type": "SCALAR", "coun
 
 REFUSED = {
     "nan.obj": (obj(corners=["nan 0 0", *CORNERS[1:]]), "numbers have to be finite"),
-    "large.obj": (obj(corners=["1e300 0 0", *CORNERS[1:]]), "at most 1e+50"),
+    "large.obj": (obj(corners=["1e300 0 0", *CORNERS[1:]]), "at most 1e+30"),
     "digits.obj": (obj(["1" * 30]), "too many digits"),
     "runs.obj": (obj().replace("# face_id 0\n", "").replace("f 1 2 3", "f 1 2 4"), "outside 0..2"),
     "runs.off": ("OFF\n# " + record(runs=[[0, 10**10]])[0] + "\n3 1 0\n" + "\n".join(CORNERS)
@@ -317,7 +317,7 @@ def test_edges_of_ply_by_numbers_that_are_no_vertices_are_passed_over(tmp_path):
     assert len(read(tmp_path / "part.ply").triangles) == 1
 
 
-@pytest.mark.parametrize("size", [1e49, 1e30, 1e-30, 1e-100, 1e-300, 0.0])
+@pytest.mark.parametrize("size", [1e29, 1e-30, 1e-100, 1e-300, 0.0])
 def test_meshes_of_any_size_are_checked_without_a_warning(size, tetrahedron, tmp_path, recwarn):
     from dataclasses import replace
 
