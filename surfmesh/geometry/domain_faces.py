@@ -35,12 +35,14 @@ def loops_around(graph: SegmentGraph, probes: np.ndarray) -> np.ndarray:
     a, b = graph.points[graph.segments[segment]].transpose(1, 0, 2)
     order = np.argsort(loop, kind="stable")
     a, b, starts = a[order], b[order], np.searchsorted(loop[order], np.arange(loop.max() + 1))
-    slope = (b[:, 0] - a[:, 0]) / np.where(a[:, 1] == b[:, 1], 1.0, b[:, 1] - a[:, 1])
+    run, rise = (b - a).T
+    upward = rise > 0.0
     around = np.empty((len(probes), len(starts)), bool)
     step = max(1, CROSSINGS_AT_ONCE // max(1, len(a)))
     for first in range(0, len(probes), step):
         x, y = probes[first : first + step, :, None].transpose(1, 0, 2)
         crosses = (a[:, 1] > y) != (b[:, 1] > y)
-        crosses &= a[:, 0] + (y - a[:, 1]) * slope > x
+        # no division: rises may be as small as 1e-320
+        crosses &= ((y - a[:, 1]) * run > (x - a[:, 0]) * rise) == upward
         around[first : first + step] = np.logical_xor.reduceat(crosses, starts, axis=1)
     return around

@@ -28,6 +28,7 @@ from surfmesh.geometry.compilation import compiled
 from surfmesh.geometry.program import FUNCTION_OPERATIONS
 
 LONGEST = 10_000  # characters of a formula
+LONGEST_NAME = 20  # characters of one that a message shows
 DEEPEST = 64  # levels of parentheses, calls, signs and powers
 DEEPEST_READY = 150  # levels of a ready-made expression, each of its operations being one
 READY_DIGITS = 10_000  # binary digits of a number in it
@@ -276,9 +277,10 @@ class _Parser:
                 self._refuse(f"{name} is a function: write {name}(...)", column)
             return self._call(name, column)
         if called:
+            short = name if len(name) <= LONGEST_NAME else f"{name[:LONGEST_NAME]}..."
             if name in self.variables or name in self.parameters or name in CONSTANTS:
-                self._refuse(f"{name} is not a function", column)
-            self._refuse(f"{name} is not a known function{_known_functions(name)}", column)
+                self._refuse(f"{short} is not a function", column)
+            self._refuse(f"{short} is not a known function{_known_functions(name)}", column)
         if name in self.variables:
             return _Part(self.variables[name], None, column)
         if name in self.parameters:
@@ -448,7 +450,7 @@ def _stray(character: str) -> str:
 
 
 def _shown(token: str) -> str:
-    return f"'{token}'" if len(token) <= 20 else f"'{token[:20]}...'"
+    return f"'{token}'" if len(token) <= LONGEST_NAME else f"'{token[:LONGEST_NAME]}...'"
 
 
 def _rational(number) -> sp.Rational:

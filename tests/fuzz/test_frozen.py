@@ -44,6 +44,17 @@ FROZEN: dict[str, tuple[str, bytes, str]] = {
     # name: kind, the file, how it is to end ("" for either)
     "coordinate_that_is_no_number": (".off", b"OFF\n3 1 0\n0 0 0\n1 0 0\n0 nan 0\n3 0 1 2\n", ""),
     # numpy's warnings before the answer
+    "rise_next_to_zero": (  # numpy warned of a division
+        "domain",
+        SQUARE.replace(b"[1, 0]", b"[1, 1e-320]")
+        + b"holes = [[[0.3, 0.3], [0.6, 0.3], [0.6, 0.6]]]\n",
+        "read",
+    ),
+    "long_name_of_a_function": (  # a message of 3,000 characters
+        "surface",
+        (DOMAIN % b"0").replace(b"u*v", b"s" * 3000 + b"(u)"),
+        "refused",
+    ),
     "coordinate_beyond_squares": (".off", b"OFF\n3 1 0\n0 0 0\n1 0 0\n0 1e308 0\n3 0 1 2\n", ""),
     "last_number_cut": (
         ".obj",  # read with triangle 1 2 1 instead of 1 2 12
