@@ -49,7 +49,8 @@ def svg_paths(source: str | Path, tolerance: float | None = None) -> Drawing:
     corners = np.array(
         [_pair(s.end) for _, segments in subpaths for s in segments if s.end is not None]
     ).reshape(-1, 2)
-    diagonal = float(np.hypot(*np.ptp(corners, axis=0))) if len(corners) else 0.0
+    with np.errstate(all="ignore"):  # numbers that are not finite are refused below, by their path
+        diagonal = float(np.hypot(*np.ptp(corners, axis=0))) if len(corners) else 0.0
     if tolerance is None:
         tolerance = DEFAULT_TOLERANCE * diagonal
     elif not (tolerance > 0.0 and math.isfinite(tolerance)):
@@ -57,6 +58,8 @@ def svg_paths(source: str | Path, tolerance: float | None = None) -> Drawing:
     loops, labels, lines = [], [], []
     for label, segments in subpaths:
         points = _polyline(segments, tolerance, f"{name}: {label}") * (1.0, -1.0)
+        if not len(points):
+            continue
         shut = any(type(segment).__name__ == "Close" for segment in segments)
         if np.hypot(*(points[-1] - points[0])) <= CLOSED * diagonal:
             points, shut = points[:-1], True
@@ -153,7 +156,7 @@ def _polyline(segments: list, tolerance: float, label: str) -> np.ndarray:
             t = np.linspace(0.0, 1.0, pieces + 1)[1:-1]
             parts.append(np.array([_pair(segment.point(x)) for x in t]))
         parts.append(np.array([_pair(segment.end)]))
-    points = np.concatenate(parts)
+    points = np.concatenate(parts) if parts else np.empty((0, 2))  # a Z alone
     moved = np.ones(len(points), bool)
     moved[1:] = (np.diff(points, axis=0) != 0.0).any(axis=1)
     return points[moved]

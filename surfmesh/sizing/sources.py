@@ -116,7 +116,10 @@ class Near(Source):
             raise SizingError(f"radius must be a number from 0, not {shown(self.radius)}")
         given = self.geometry
         if isinstance(given, np.ndarray) or _is_points(given):
-            rows = np.atleast_2d(np.asarray(given, float))
+            numbers = as_numbers(given)
+            if numbers is None:
+                raise SizingError(f"the geometry is not made of points: {shown(given)}")
+            rows = np.atleast_2d(numbers)
             given = [rows] if self.lines else [row[None] for row in rows]
         object.__setattr__(self, "geometry", polylines(given))
 

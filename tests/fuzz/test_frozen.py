@@ -55,6 +55,15 @@ FROZEN: dict[str, tuple[str, bytes, str]] = {
         (DOMAIN % b"0").replace(b"u*v", b"s" * 3000 + b"(u)"),
         "refused",
     ),
+    "nothing_but_an_end": (  # ValueError
+        "drawing", b'<svg viewBox="0 0 10 10"><path d="Z"/></svg>', "refused",
+    ),
+    "extent_that_is_no_number": (  # numpy warned of a difference
+        "drawing", b'<svg><path d="M -1.5e308 0 L 1.5e308 0 L 0 1 Z"/></svg>', "refused",
+    ),
+    "text_among_points": (  # ValueError
+        "sizes", b'[[sizes."*".sources]]\nnear = [0, "2*pi"]\nsize = 0.1\n', "refused",
+    ),
     "coordinate_beyond_squares": (".off", b"OFF\n3 1 0\n0 0 0\n1 0 0\n0 1e308 0\n3 0 1 2\n", ""),
     "last_number_cut": (
         ".obj",  # read with triangle 1 2 1 instead of 1 2 12
