@@ -16,6 +16,7 @@ from surfmesh.geometry.text_file import text_of
 
 DEFAULT_TOLERANCE = 1e-3  # of the diagonal, between a curve and its polyline
 MOST_PIECES = 100_000  # of one curve: a tolerance that asks for more is a mistake
+FARTHEST = 1e100  # coordinate: squares of differences are finite
 MOST_ELEMENTS = 100_000  # of a drawing, each <use> in full
 DEEPEST = 100  # elements within each other
 LINK = "{http://www.w3.org/1999/xlink}href"
@@ -149,6 +150,8 @@ def _polyline(segments: list, tolerance: float, label: str) -> np.ndarray:
             continue
         if not all(math.isfinite(x) for x in _numbers(segment)):
             raise DomainError(f"{label}: has a number that is not finite")
+        if any(abs(x) > FARTHEST for x in _numbers(segment)):
+            raise DomainError(f"{label}: has a number beyond {FARTHEST:g}: scale the drawing")
         pieces = _pieces(segment, tolerance)
         if pieces > MOST_PIECES:
             raise DomainError(f"{label}: the tolerance {tolerance:g} is far too small for it")
