@@ -62,8 +62,9 @@ def angle_size(k1: np.ndarray, k2: np.ndarray, angle: float) -> np.ndarray:
 
     As ``turning_factor`` has it, with a reserve.
     """
-    turn = 0.5 * np.abs(k1 + k2) / ROUND_RESERVE + np.abs(k1 - k2) / BENT_RESERVE
-    with np.errstate(divide="ignore", over="ignore"):
+    with np.errstate(divide="ignore", over="ignore", invalid="ignore"):  # both may be infinite
+        mean, bent = np.where(k1 == -k2, 0.0, k1 + k2), np.where(k1 == k2, 0.0, k1 - k2)
+        turn = 0.5 * np.abs(mean) / ROUND_RESERVE + np.abs(bent) / BENT_RESERVE
         return math.sqrt(3.0) * math.radians(angle) / turn
 
 

@@ -32,7 +32,7 @@ def read_sizes(path: str | Path) -> dict[str, Sizing]:
     content = toml_content(Path(path), FileFormatError)
     unknown = sorted(set(content) - {"sizes"})
     if unknown or not isinstance(content.get("sizes"), dict):
-        named = f"an unknown table [{unknown[0]}]" if unknown else "no table of sizes"
+        named = f"an unknown table [{unknown[0]:.60}]" if unknown else "no table of sizes"
         raise FileFormatError(f"{path}: {named}; write sizes as [sizes.\"SELECTION\"]")
     found = {}
     for key, value in content["sizes"].items():
