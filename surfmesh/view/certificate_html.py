@@ -120,7 +120,7 @@ def _worst(mesh: SurfaceMesh) -> str:
             f'<td class="number">{", ".join(f"{x:.4g}" for x in middle)}</td></tr>'
         )
     head = "<tr><th>triangle</th><th>alpha</th><th>face</th><th>middle</th></tr>"
-    return f"<table><thead>{head}</thead><tbody>{''.join(rows)}</tbody></table>"
+    return f"<table class='worst'><thead>{head}</thead><tbody>{''.join(rows)}</tbody></table>"
 
 
 def _faces(rows: list[Mapping[str, Any]]) -> str:
