@@ -91,7 +91,7 @@ CELLS_AT_ONCE, NODES_AT_ONCE = 50_000, 250_000
 SWEEPS, MAX_CHUNKS = 16, 400
 """Sweeps of the gradation before the cells are sorted anew, and how often that is done."""
 
-PATIENT_CHUNKS, MOST_SLOW = 4, 20_000_000
+PATIENT_CHUNKS, MOST_SLOW = 4, 40_000_000
 """So often sorted anew a field is graded, as a rule; cells times sweeps that may come after it, in
 all rounds: where the surface is a wall sizes creep up it, a cell a sweep."""
 

@@ -79,3 +79,10 @@ def test_distance_of_points_from_triangles():
     nearest = np.linalg.norm(samples - points[:, None], axis=2).min(axis=1)
     found = triangle_distances(points, corners)
     assert (found <= nearest + 1e-12).all() and found == pytest.approx(nearest, abs=0.02)
+
+
+def test_a_pyramid_as_steep_as_a_wall_is_meshed():
+    """Its sizes creep up the walls for 27 million cells times sweeps, and get there."""
+    z = "max(0,1-1000*abs(u-0.513))*max(0,1-1000*abs(v-0.487))"
+    made = sm.mesh(sm.ParametricSurface("u", "v", z, u=(0, 1), v=(0, 1)), sm.Sizing(chord=0.01))
+    assert made.report.clean and made.points[:, 2].max() > 0.99
