@@ -47,11 +47,12 @@ def svg_paths(source: str | Path, tolerance: float | None = None) -> Drawing:
     """
     name, text = _opened(source)
     subpaths = _subpaths(name, text)
+    for label, segments in subpaths:
+        _require_numbers(f"{name}: {label}", segments)
     corners = np.array(
         [_pair(s.end) for _, segments in subpaths for s in segments if s.end is not None]
     ).reshape(-1, 2)
-    with np.errstate(all="ignore"):  # numbers that are not finite are refused below, by their path
-        diagonal = float(np.hypot(*np.ptp(corners, axis=0))) if len(corners) else 0.0
+    diagonal = float(np.hypot(*np.ptp(corners, axis=0))) if len(corners) else 0.0
     if tolerance is None:
         tolerance = DEFAULT_TOLERANCE * diagonal
     elif not (tolerance > 0.0 and math.isfinite(tolerance)):
@@ -142,16 +143,24 @@ def _drawn(segment: Any) -> bool:
     return type(segment).__name__ != "Move"
 
 
+def _require_numbers(label: str, segments: list) -> None:
+    """Raise DomainError for numbers that are not finite, or whose squares are not."""
+    for segment in segments:
+        if segment.end is None or type(segment).__name__ == "Close":
+            continue
+        numbers = _numbers(segment)
+        if not all(math.isfinite(x) for x in numbers):
+            raise DomainError(f"{label}: has a number that is not finite")
+        if any(abs(x) > FARTHEST for x in numbers):
+            raise DomainError(f"{label}: has a number beyond {FARTHEST:g}: scale the drawing")
+
+
 def _polyline(segments: list, tolerance: float, label: str) -> np.ndarray:
     """Points (k, 2) of a subpath, its curves cut to stay within the tolerance."""
     parts = []
     for segment in segments:
         if segment.end is None or type(segment).__name__ == "Close":
             continue
-        if not all(math.isfinite(x) for x in _numbers(segment)):
-            raise DomainError(f"{label}: has a number that is not finite")
-        if any(abs(x) > FARTHEST for x in _numbers(segment)):
-            raise DomainError(f"{label}: has a number beyond {FARTHEST:g}: scale the drawing")
         pieces = _pieces(segment, tolerance)
         if pieces > MOST_PIECES:
             raise DomainError(f"{label}: the tolerance {tolerance:g} is far too small for it")

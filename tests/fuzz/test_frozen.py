@@ -65,6 +65,11 @@ FROZEN: dict[str, tuple[str, bytes, str]] = {
         "sizes", b'[[sizes."*".sources]]\nnear = [0, "2*pi"]\nsize = 0.1\n', "refused",
     ),
     "long_name_of_a_table": ("sizes", b"[" + b"A" * 3000 + b"]\na = 1\n", "refused"),
+    "endless_circle_after_a_curve": (  # ValueError
+        "drawing",
+        b'<svg><rect width="30" height="20" rx="3"/><circle cx="1" cy="1" r="1e400"/></svg>',
+        "refused",
+    ),
     "coordinate_beyond_squares": (".off", b"OFF\n3 1 0\n0 0 0\n1 0 0\n0 1e308 0\n3 0 1 2\n", ""),
     "last_number_cut": (
         ".obj",  # read with triangle 1 2 1 instead of 1 2 12
