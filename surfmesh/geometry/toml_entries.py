@@ -128,7 +128,7 @@ class TomlEntries:
         for key in table:
             if key not in known:
                 choices = ", ".join(sorted(known))
-                raise self.error(f"{self.path}: unknown key '{prefix}{key}'; known: {choices}")
+                raise self.error(f"{self.path}: unknown key '{prefix}{key:.60}'; known: {choices}")
 
 
 _TYPE_NAMES = {

@@ -64,6 +64,7 @@ FROZEN: dict[str, tuple[str, bytes, str]] = {
     "text_among_points": (  # ValueError
         "sizes", b'[[sizes."*".sources]]\nnear = [0, "2*pi"]\nsize = 0.1\n', "refused",
     ),
+    "long_name_of_a_key": ("domain", SQUARE + b"A" * 3000 + b" = 1\n", "refused"),
     "long_name_of_a_table": ("sizes", b"[" + b"A" * 3000 + b"]\na = 1\n", "refused"),
     "endless_circle_after_a_curve": (  # ValueError
         "drawing",
