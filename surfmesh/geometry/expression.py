@@ -277,7 +277,7 @@ class _Parser:
                 self._refuse(f"{name} is a function: write {name}(...)", column)
             return self._call(name, column)
         if called:
-            short = name if len(name) <= LONGEST_NAME else f"{name[:LONGEST_NAME]}..."
+            short = _cut(name)
             if name in self.variables or name in self.parameters or name in CONSTANTS:
                 self._refuse(f"{short} is not a function", column)
             self._refuse(f"{short} is not a known function{_known_functions(name)}", column)
@@ -450,7 +450,11 @@ def _stray(character: str) -> str:
 
 
 def _shown(token: str) -> str:
-    return f"'{token}'" if len(token) <= LONGEST_NAME else f"'{token[:LONGEST_NAME]}...'"
+    return f"'{_cut(token)}'"
+
+
+def _cut(token: str) -> str:
+    return token if len(token) <= LONGEST_NAME else f"{token[:LONGEST_NAME]}..."
 
 
 def _rational(number) -> sp.Rational:
