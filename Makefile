@@ -48,6 +48,7 @@ fuzz: $(VENV)/.installed-dev ## hostile input by thousands: the table (SURFMESH_
 
 lint: $(VENV)/.installed-dev ## ruff, the layers of the package, types of the public face
 	$(BIN)/ruff check .
+	$(BIN)/ruff format --check --quiet .
 	$(BIN)/lint-imports --no-logo
 	$(BIN)/mypy
 

@@ -132,14 +132,12 @@ def attempt(circle: float, masses: list[float]) -> tuple[dict, tuple]:
     return figures, (points, of_face)
 
 
-def _solids(
-    points: np.ndarray, of_face: dict[int, np.ndarray], masses: list[float]
-) -> list[dict]:
+def _solids(points: np.ndarray, of_face: dict[int, np.ndarray], masses: list[float]) -> list[dict]:
     """Triangles look out of the first solid that has the face, into the second."""
     solids, met = [], set()
     for (dimension, tag), exact in zip(gmsh.model.getEntities(3), masses):
         _, faces = gmsh.model.getAdjacencies(dimension, tag)
-        around = [of_face[f][:, ::-1 if f in met else 1] for f in faces if f in of_face]
+        around = [of_face[f][:, :: -1 if f in met else 1] for f in faces if f in of_face]
         met.update(faces)
         triangles = np.concatenate([*around, np.empty((0, 3), np.int64)]).astype(np.int64)
         figures = solid_figures(own_vertices(points, triangles)) if len(triangles) else {}

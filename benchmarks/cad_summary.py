@@ -214,9 +214,7 @@ def _shape(records: list[dict]) -> dict:
 def _pairs(models: dict) -> list[tuple[dict, dict]]:
     """(ours, gmsh's) of the models where neither left a face out."""
     pairs = [(found.get("ours", {}), found.get("gmsh", {})) for found in models.values()]
-    return [
-        pair for pair in pairs if all(r.get("triangles") and not r.get("failed") for r in pair)
-    ]
+    return [pair for pair in pairs if all(r.get("triangles") and not r.get("failed") for r in pair)]
 
 
 def _wanted(gmsh: dict) -> dict[str, Wanted]:

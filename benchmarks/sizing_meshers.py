@@ -98,9 +98,7 @@ def _ours(request: dict) -> dict:
     return {"rows": rows}
 
 
-def _ours_once(
-    subject, chord: float, ratio: float, truth: TrueSurface | None, most: int
-) -> dict:
+def _ours_once(subject, chord: float, ratio: float, truth: TrueSurface | None, most: int) -> dict:
     import surfmesh as sm
     from surfmesh.errors import SurfmeshError
     from surfmesh.quality.deviation import deviation

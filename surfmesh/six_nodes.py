@@ -1,10 +1,10 @@
 """Triangles of six nodes: corners, and one node amid each edge, shared by its triangles.
 
-              2
-             / \\            corners 0 1 2, then the middles of 0-1, 1-2, 2-0: the order of
-            5   4           VTK's quadratic triangle, Gmsh's type 9, Abaqus' STRI65, XDMF's
-           /     \\          Triangle_6
-          0 - 3 - 1
+    2
+   / \\            corners 0 1 2, then the middles of 0-1, 1-2, 2-0: the order of
+  5   4           VTK's quadratic triangle, Gmsh's type 9, Abaqus' STRI65, XDMF's
+ /     \\          Triangle_6
+0 - 3 - 1
 """
 
 import numpy as np

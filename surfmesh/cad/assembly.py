@@ -102,9 +102,7 @@ def model_of(
     else:
         placed = _placed(root, TopLoc_Location(), heal, 1.0, [])
         placed = _scaled_together(joining.applied(placed, MILLIMETRES[unit]), scale)
-    return cad_model(
-        placed, heal=heal, unit=unit, file_unit=file_unit, source=source, path=path
-    )
+    return cad_model(placed, heal=heal, unit=unit, file_unit=file_unit, source=source, path=path)
 
 
 def checked_unit(units: str | None) -> str:

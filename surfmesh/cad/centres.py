@@ -71,9 +71,7 @@ def face_area(face: CadFace) -> float:
     return abs(total)
 
 
-def _across(
-    face: CadFace, coedge: CadCoedge, along_straight: int = 1
-) -> tuple[np.ndarray, ...]:
+def _across(face: CadFace, coedge: CadCoedge, along_straight: int = 1) -> tuple[np.ndarray, ...]:
     """Weights (n,) in (u, v), points, r_u and r_v (n, 3) between the left side and a coedge."""
     straight = getattr(coedge.pcurve, "kind", "") == "line"
     along, w_along = _gauss(POINTS, along_straight if straight else ALONG)

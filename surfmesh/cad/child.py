@@ -41,9 +41,7 @@ def answer_to(wanted: dict[str, Any]) -> Any:
     except SurfmeshError as error:
         return str(error)
     except MemoryError:
-        return (
-            f"it takes more than {wanted['megabytes']:.4g} MB of memory to read; {MORE_MEMORY}"
-        )
+        return f"it takes more than {wanted['megabytes']:.4g} MB of memory to read; {MORE_MEMORY}"
     except ImportError as error:
         return f"OCP cannot be imported ({error}); pip install cadquery-ocp"
     except Exception as error:  # OCP's own exceptions have no common parent in Python

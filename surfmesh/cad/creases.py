@@ -1,10 +1,10 @@
 """Faces whose surface has creases inside are cut along them.
 
-    v |  ____c______        A spline whose degree in u is no higher than a knot is multiple may
-      | |    |      |       have another normal on either side of u = c: a box rolled out, a
-      | |  m | n    |       polygon drawn along a line. Without an edge of the mesh along c its
-      | |____|______|       triangles cut the corner, and fold at any size.
-      +------------- u
+v |  ____c______        A spline whose degree in u is no higher than a knot is multiple may
+  | |    |      |       have another normal on either side of u = c: a box rolled out, a
+  | |  m | n    |       polygon drawn along a line. Without an edge of the mesh along c its
+  | |____|______|       triangles cut the corner, and fold at any size.
+  +------------- u
 """
 
 from __future__ import annotations

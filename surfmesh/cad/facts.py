@@ -49,9 +49,7 @@ def _model_facts(model: CadModel) -> ModelFacts:
     )
 
 
-def euler_number(
-    model: CadModel, faces: Iterable[int], number: np.ndarray | None = None
-) -> int:
+def euler_number(model: CadModel, faces: Iterable[int], number: np.ndarray | None = None) -> int:
     """V - E + F of what these faces form, a face with L loops counted as 2 - L.
 
     One with islands, or with outer loops beside each other, is several pieces: 2 for each.

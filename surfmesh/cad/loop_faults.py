@@ -318,8 +318,9 @@ class _Loops:
         start, end = contact.shares[place][int(forward)], float(forward)
         for more in self.contacts:
             for side in (0, 1):
-                if more.curves[side] == curve and self.loop_of[more.curves[1 - side]] == (
-                    self.loop_of[other]
+                if (
+                    more.curves[side] == curve
+                    and self.loop_of[more.curves[1 - side]] == (self.loop_of[other])
                 ):
                     at = more.shares[side][int(not forward)]
                     if (forward and start < at < end) or (not forward and end < at < start):

@@ -1,7 +1,7 @@
 """By which motion one shape came out of another: a copy that is moved keeps its parts' order.
 
-    samples of all vertices, edges and faces of both, in order -> best rotation (Kabsch) and shift
-    all of them meet?  then that is the motion, else the shapes differ by more than their place
+samples of all vertices, edges and faces of both, in order -> best rotation (Kabsch) and shift
+all of them meet?  then that is the motion, else the shapes differ by more than their place
 """
 
 from __future__ import annotations

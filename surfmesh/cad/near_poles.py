@@ -1,9 +1,9 @@
 """Images that end at a pole which is only nearly a point: there they keep their direction.
 
-    v |   \\_____/            A row of control points a hair apart is a side of the face in (u, v)
-      |  .'     '.           and a point for its edges. The foot of an edge's end lies anywhere
-      | /         \\          on that side, so images that follow their edges to the last bit
-      +------------- u       swing across it, and cross each other.
+v |   \\_____/            A row of control points a hair apart is a side of the face in (u, v)
+  |  .'     '.           and a point for its edges. The foot of an edge's end lies anywhere
+  | /         \\          on that side, so images that follow their edges to the last bit
+  +------------- u       swing across it, and cross each other.
 """
 
 from __future__ import annotations

@@ -1,13 +1,13 @@
 """Faces, edges, vertices and solids of a model by name, number, colour, kind or selector.
 
-    fillet*            names of faces, edges, solids, parts and tags, with * ? [..]
-    face:12  edge:3-7  numbers; likewise vertex: and solid:
-    face:fillet*       names of faces alone; likewise edge: and solid:
-    face:>Z            a selector of CadQuery; without the word before it, of faces
-    color:#ff0000      colour of faces, also one by name (colour:red)
-    type:cylinder      kind of surface
-    name:>odd name     the rest is a name, whatever it looks like; likewise tag:
-    *                  everything
+fillet*            names of faces, edges, solids, parts and tags, with * ? [..]
+face:12  edge:3-7  numbers; likewise vertex: and solid:
+face:fillet*       names of faces alone; likewise edge: and solid:
+face:>Z            a selector of CadQuery; without the word before it, of faces
+color:#ff0000      colour of faces, also one by name (colour:red)
+type:cylinder      kind of surface
+name:>odd name     the rest is a name, whatever it looks like; likewise tag:
+*                  everything
 """
 
 from __future__ import annotations
@@ -122,8 +122,7 @@ def _nodes(node: CadNode) -> Iterator[CadNode]:
 def _named(model: CadModel, pattern: str) -> Selection:
     """By the names of faces, edges, solids, of tags, and of parts with all below them."""
     faces, edges, solids = (
-        _matching(items, pattern)
-        for items in (model.faces, model.edges, model.solids)
+        _matching(items, pattern) for items in (model.faces, model.edges, model.solids)
     )
     vertices: set[int] = set()
     for tag in model.tags:

@@ -358,9 +358,7 @@ def _with_voids(solid: TopoDS_Solid, inner: list[TopoDS_Solid]) -> TopoDS_Solid:
     return solid
 
 
-def _rebuilt(
-    part: Part, path: Path, history: _Sewn, bodies: list[_Body], origins: Origins
-) -> Part:
+def _rebuilt(part: Part, path: Path, history: _Sewn, bodies: list[_Body], origins: Origins) -> Part:
     """The part with all below it, made of what was sewn."""
     own = [body.shape for body in bodies if body.path == path]
     shapes = own

@@ -1,9 +1,9 @@
 """Spheres are turned where an edge passes a pole: there its image in (u, v) leaps by half a turn.
 
-    v |  |    |             A circle that passes a pole, or goes by it within a hair, has an image
-      |  |    |   edge      of two lines that run up to v = pi / 2 and down again. Programs join
-      |   \\__/             them to one loop round the wrong side. With the poles of the sphere
-      +-------- u           away from all edges the image is a plain curve.
+v |  |    |             A circle that passes a pole, or goes by it within a hair, has an image
+  |  |    |   edge      of two lines that run up to v = pi / 2 and down again. Programs join
+  |   \\__/             them to one loop round the wrong side. With the poles of the sphere
+  +-------- u           away from all edges the image is a plain curve.
 """
 
 from __future__ import annotations

@@ -1,9 +1,9 @@
 """What tags of CadQuery stand for in the final shape, which later steps may have made anew.
 
-    tagged face   the very same in the final shape                 -> that one
-                  else, moved as the shape was moved since:
-                  final faces on the same surface that overlap it  -> those (a hole, a split, ...)
-    edges by their curves, vertices by their points, in the same way
+tagged face   the very same in the final shape                 -> that one
+              else, moved as the shape was moved since:
+              final faces on the same surface that overlap it  -> those (a hole, a split, ...)
+edges by their curves, vertices by their points, in the same way
 """
 
 from __future__ import annotations

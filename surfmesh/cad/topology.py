@@ -394,8 +394,14 @@ class _Walk:
             self.vertices.append(CadVertex(far, tolerance))
             self.edges.append(
                 CadEdge(
-                    curve=short.curve, t0=0.0, t1=short.end, start=start,
-                    end=len(self.vertices) - 1, tolerance=tolerance, degenerate=False, name="",
+                    curve=short.curve,
+                    t0=0.0,
+                    t1=short.end,
+                    start=start,
+                    end=len(self.vertices) - 1,
+                    tolerance=tolerance,
+                    degenerate=False,
+                    name="",
                     length=short.length,
                 )
             )

@@ -142,7 +142,9 @@ def _parser() -> _Parser:
     compare = commands.add_parser("compare", help="compare a manifest with another, or with files")
     compare.add_argument("input", metavar="MANIFEST", help="what mesh --manifest wrote")
     compare.add_argument(
-        "other", nargs="?", metavar="OTHER",
+        "other",
+        nargs="?",
+        metavar="OTHER",
         help="manifest of another run, or a folder with the files (default: that of MANIFEST)",
     )
     _add_json(compare)
@@ -224,19 +226,29 @@ def _add_units(parser: argparse.ArgumentParser) -> None:
         "--units", help="of the lengths of a CAD model: um, mm (default), cm, m, in"
     )
     parser.add_argument(
-        "--imprint", nargs="?", type=_near, default=False, metavar="TOL",
+        "--imprint",
+        nargs="?",
+        type=_near,
+        default=False,
+        metavar="TOL",
         help="bodies of a CAD model that touch (within TOL) share their faces",
     )
     parser.add_argument(
-        "--sew", type=_positive, metavar="TOL",
+        "--sew",
+        type=_positive,
+        metavar="TOL",
         help="join loose faces of a CAD model whose edges lie within TOL; closed ones make solids",
     )
     parser.add_argument(
-        "--time-limit", type=_positive, metavar="SECONDS",
+        "--time-limit",
+        type=_positive,
+        metavar="SECONDS",
         help="of processor time for reading a CAD file (default 8 and 25 for each MB of it)",
     )
     parser.add_argument(
-        "--memory-limit", type=_positive, metavar="MB",
+        "--memory-limit",
+        type=_positive,
+        metavar="MB",
         help="of memory for reading a CAD file (default 1000 and 100 for each MB of it)",
     )
 
@@ -282,9 +294,7 @@ def _whole(least: int, most: int = 10**15) -> Callable[[str], int]:
         is_short = text.isdecimal() and len(text) < 100  # int() takes thousands of digits badly
         if not is_short or not least <= int(text) <= most:
             span = f"from {least}" if most == 10**15 else f"from {least} to {most}"
-            raise argparse.ArgumentTypeError(
-                f"must be a whole number {span}, not '{_brief(text)}'"
-            )
+            raise argparse.ArgumentTypeError(f"must be a whole number {span}, not '{_brief(text)}'")
         return int(text)
 
     return whole

@@ -39,6 +39,7 @@ def mesh(options: Namespace) -> bool:
     from surfmesh import api
     from surfmesh.io import save
     from surfmesh.quality import check as checked
+
     announce_compilation()
     with ProgressBar() as progress:
         result = api.mesh(

@@ -1,9 +1,9 @@
 """Where curves of the plane come together, decided on the curves and not on polygons of them.
 
-    a ---.___         Pieces of curves are halved for as long as the fat line around one meets
-             `--x     that around another: what is left is where the curves meet. Curves that
-    b ------'  /      lie on each other would be halved for ever; where many pieces of them are
-              /       left, feet of one on the other tell.
+a ---.___         Pieces of curves are halved for as long as the fat line around one meets
+         `--x     that around another: what is left is where the curves meet. Curves that
+b ------'  /      lie on each other would be halved for ever; where many pieces of them are
+          /       left, feet of one on the other tell.
 """
 
 from __future__ import annotations
@@ -145,9 +145,7 @@ def _evaluated(curves: Sequence[PlaneCurve], which: np.ndarray, t: np.ndarray) -
     return points
 
 
-def _neighbours(
-    pieces: _Pieces, reach: np.ndarray, curves: Sequence[PlaneCurve]
-) -> np.ndarray:
+def _neighbours(pieces: _Pieces, reach: np.ndarray, curves: Sequence[PlaneCurve]) -> np.ndarray:
     """Pairs (n, 2) of pieces whose boxes meet, without neighbours on one curve."""
     room = (pieces.bulge + reach[pieces.curve])[:, None]
     low, high = pieces.ends.min(axis=1) - room, pieces.ends.max(axis=1) + room

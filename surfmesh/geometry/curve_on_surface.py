@@ -1,7 +1,7 @@
 """A curve in space that is the image of a curve in (u, v): c(t) = r(u(p), v(p)), p linear in t.
 
-    c'  = r_u u' + r_v v'
-    c'' = r_uu u'^2 + 2 r_uv u' v' + r_vv v'^2 + r_u u'' + r_v v''
+c'  = r_u u' + r_v v'
+c'' = r_uu u'^2 + 2 r_uv u' v' + r_vv v'^2 + r_u u'' + r_v v''
 """
 
 from __future__ import annotations

@@ -110,7 +110,6 @@ class BSplineSurface(FaceSurface):
         surface_derivatives(*self._arrays, uv, order, scratch, out)
         return tuple(out)
 
-
     @property
     def pieces(self) -> int:
         """Knot spans over the domain."""

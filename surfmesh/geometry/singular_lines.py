@@ -1,10 +1,10 @@
 """Lines u = c or v = c of a face's surface that are one point in space.
 
-    v |               A torus whose tube reaches its axis has one at the angle pi, or two; a cone at
-      |_______c_____  its apex; a surface of revolution where its profile meets the axis; a spline
-      |             | where a row of control points is one point. There r_u x r_v is zero, and
-      |_____________| no triangle can cross the line.
-      +------------- u
+v |               A torus whose tube reaches its axis has one at the angle pi, or two; a cone at
+  |_______c_____  its apex; a surface of revolution where its profile meets the axis; a spline
+  |             | where a row of control points is one point. There r_u x r_v is zero, and
+  |_____________| no triangle can cross the line.
+  +------------- u
 """
 
 from __future__ import annotations

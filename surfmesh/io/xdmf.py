@@ -81,8 +81,7 @@ def _write_item(file: TextIO, values: NDArray) -> None:
     kind, precision, number = ("Float", 8, "%.17g") if real else ("Int", 4, "%d")
     shape = " ".join(map(str, values.shape))
     file.write(
-        f'<DataItem DataType="{kind}" Dimensions="{shape}" Format="XML" '
-        f'Precision="{precision}">\n'
+        f'<DataItem DataType="{kind}" Dimensions="{shape}" Format="XML" Precision="{precision}">\n'
     )
     rows = values.reshape(len(values), -1)
     write_rows(file, " ".join([number] * rows.shape[1]) + "\n", rows)

@@ -48,10 +48,10 @@ def _direction(p, a, b):
 def _parted_at_vertex(p, a, b, c, d, e):
     """Is there surely a plane through a with bc on one side and de on the other?
 
-            b   d         tried: the plane half-way between the two nearest of the rays from a,
-             \\ : \\        then between the two middles
-          c - a - e
-              :
+      b   d         tried: the plane half-way between the two nearest of the rays from a,
+       \\ : \\        then between the two middles
+    c - a - e
+        :
     """
     bx, by, bz = _direction(p, a, b)
     cx, cy, cz = _direction(p, a, c)

@@ -1,9 +1,9 @@
 """Sizes that depend on the direction: the two of the metric at a point, and the rule along each.
 
-             h1, the shorter            W of the field -> its axes in the tangent plane
-        <----->                         each axis: wishes along the principal direction that is
-    <------------------>  h2            nearest to it, least of them -> as it is, or grown from
-                                        elsewhere, or shrunk with the other
+         h1, the shorter            W of the field -> its axes in the tangent plane
+    <----->                         each axis: wishes along the principal direction that is
+<------------------>  h2            nearest to it, least of them -> as it is, or grown from
+                                    elsewhere, or shrunk with the other
 """
 
 from __future__ import annotations

@@ -137,9 +137,7 @@ def _edge_chain(samples, edge: int) -> Chain:
     points, share = samples.points[own], samples.share[own]
     count = len(points) - 1
     length = float(np.linalg.norm(np.diff(points, axis=0), axis=1).sum())
-    return Chain(
-        points, np.zeros(count, int), np.full(count, edge), share[:-1], share[1:], length
-    )
+    return Chain(points, np.zeros(count, int), np.full(count, edge), share[:-1], share[1:], length)
 
 
 def _runs(model: CadModel, own: Chain, other: Chain, width: float) -> list[MateRun]:

@@ -42,7 +42,6 @@ class EdgeNodes:
     sizes: np.ndarray
     """(n,) wanted edge lengths."""
 
-
     def same_as(self, other: "EdgeNodes | None") -> bool:
         """Are the places and the sizes equal to the last bit?"""
         return (
@@ -91,18 +90,14 @@ def cut_edges(
     for number, edge in enumerate(model.edges):
         if samples.first[number] == samples.first[number + 1]:
             continue
-        cut = _cut(
-            model, edge, number, samples, size, following, sizing.limit, mated.get(number)
-        )
+        cut = _cut(model, edge, number, samples, size, following, sizing.limit, mated.get(number))
         if not cut.same_as(nodes[number]):
             nodes[number] = cut
             following += len(cut.share) - 2
     return nodes
 
 
-def _graded(
-    model: CadModel, samples: EdgeSamples, wish: np.ndarray, sizing: Sizing
-) -> np.ndarray:
+def _graded(model: CadModel, samples: EdgeSamples, wish: np.ndarray, sizing: Sizing) -> np.ndarray:
     """Sizes (n,) at the samples: the wish w_j of any sample j plus the slope times the way."""
     from scipy.sparse import coo_matrix
     from scipy.sparse.csgraph import dijkstra

@@ -59,6 +59,7 @@ EXACT = 1e-6
 NEAR_FACES = 6
 """So many faces are looked at in detail."""
 
+
 @dataclass(frozen=True)
 class Explanation:
     """The size at a point, and why."""
@@ -458,9 +459,7 @@ def _at_sample(
     return point, f"{called} at {_at(point)}", least
 
 
-def _own_curvature(
-    wanted: ModelSizing, rules: list[Rule], bend: float | None
-) -> list[SizeRow]:
+def _own_curvature(wanted: ModelSizing, rules: list[Rule], bend: float | None) -> list[SizeRow]:
     """What the smallest chord asks for because the edge itself is curved."""
     chords = [(EVERYTHING, wanted.base.chord), *((r.key, r.sizing.chord) for r in rules)]
     given = [(chord, key) for key, chord in chords if chord is not None]

@@ -1,8 +1,8 @@
 """Near faces of a solid: the distance between them as a local size of both.
 
-       face a  -----------------        size across the gap at every point of a,
-               ^ gap  ^ gap             measured to the foot on b, or to the edges of b
-       face b  ------------------
+face a  -----------------        size across the gap at every point of a,
+        ^ gap  ^ gap             measured to the foot on b, or to the edges of b
+face b  ------------------
 """
 
 from __future__ import annotations

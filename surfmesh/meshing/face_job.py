@@ -1,7 +1,7 @@
 """One face of a CAD model: plain arrays in, a mesh of the face or the reason for none out.
 
-    nodes of its edges -> (u, v) loops -> size field -> packing -> boundary -> optimisation
-    (numbers, points)     seams twice     graded inward from the sizes of the edges
+nodes of its edges -> (u, v) loops -> size field -> packing -> boundary -> optimisation
+(numbers, points)     seams twice     graded inward from the sizes of the edges
 """
 
 from collections import Counter

@@ -54,9 +54,7 @@ def _together(parts: list[FaceMesh], slots: list[np.ndarray]) -> FaceMesh:
     """One mesh of several; slots: of the whole job for those of each part."""
     first = np.cumsum([0, *(len(part.points) for part in parts)])
     first_uv = np.cumsum([0, *(len(part.uv_points) for part in parts)])
-    own = [
-        np.where(part.slots >= 0, slot[part.slots], -1) for part, slot in zip(parts, slots)
-    ]
+    own = [np.where(part.slots >= 0, slot[part.slots], -1) for part, slot in zip(parts, slots)]
     wishes = None
     for part in parts:
         if part.wishes is not None:

@@ -261,7 +261,13 @@ def _jobs(
     """The jobs of all faces before anything is known of their meshes."""
     return [
         _job(
-            model, face, nodes, samples, own, (limits or {}).get(number), optimise,
+            model,
+            face,
+            nodes,
+            samples,
+            own,
+            (limits or {}).get(number),
+            optimise,
             samples.narrow.get(number),
         )
         for number, (face, own) in enumerate(zip(model.faces, sizings))

@@ -1,9 +1,9 @@
 """Two sides of a wall thinner than the chord: meshed once, so that they do not cross.
 
-        a  o-----o-----o-----o       every boundary node of a faces one of b, by the mates of the
-           :     :     :     :       edges: b takes over the triangles of a, with the inner nodes
-        b  o-----o-----o-----o       at their feet. Meshed one by one, both bend within the chord
-                                     in their own places, and meet.
+a  o-----o-----o-----o       every boundary node of a faces one of b, by the mates of the
+   :     :     :     :       edges: b takes over the triangles of a, with the inner nodes
+b  o-----o-----o-----o       at their feet. Meshed one by one, both bend within the chord
+                             in their own places, and meet.
 """
 
 from __future__ import annotations

@@ -74,9 +74,12 @@ FEW_TRIANGLES, FLAT = 20_000, 1e-9
 estimate is for triangles small beside the features."""
 
 FIRST_SAMPLES = np.array([(1, 1, 0), (0, 1, 1), (1, 0, 1), (2 / 3, 2 / 3, 2 / 3)]) / 2.0
-MORE_SAMPLES = np.array(
-    [(i, j, 6 - i - j) for i in range(7) for j in range(7 - i) if max(i, j, 6 - i - j) < 6]
-) / 6.0
+MORE_SAMPLES = (
+    np.array(
+        [(i, j, 6 - i - j) for i in range(7) for j in range(7 - i) if max(i, j, 6 - i - j) < 6]
+    )
+    / 6.0
+)
 """Barycentric coordinates. The latter are those of the report, which is to find no more: between
 the samples of a coarser grid were 3% more in triangles across a direction that turns."""
 
@@ -356,9 +359,7 @@ class Optimiser:
         alike = self._numbers()[self.t.tri[pairs]]  # both run the same way: a Moebius strip
         alike = alike[:, 0] == alike[:, 1]
         second[alike] = second[alike][:, [1, 0, 2]]
-        kept = ~bends_itself(
-            self.surface, first, second, self.field.sizing.angle, self._diagonal()
-        )
+        kept = ~bends_itself(self.surface, first, second, self.field.sizing.angle, self._diagonal())
         if not (kept[count:] & (angles[count:] > limit)).any():
             kept[count:] = False  # of seams that are fine as they are
         return Turned(pairs[kept] // 3, angles[kept])

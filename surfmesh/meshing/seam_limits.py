@@ -1,9 +1,9 @@
 """Sizes that leave room for a tube: at least a few edges from a seam all the way round to it.
 
-      seam       seam        nodes of a seam have two images in (u, v); the line between them is
-       o----------o          a closed curve in space, and a mesh whose edges are as long as it
-       o----------o  ->      pinches the tube, or closes it
-       o----------o
+seam       seam        nodes of a seam have two images in (u, v); the line between them is
+ o----------o          a closed curve in space, and a mesh whose edges are as long as it
+ o----------o  ->      pinches the tube, or closes it
+ o----------o
 """
 
 import numpy as np

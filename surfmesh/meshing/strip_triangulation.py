@@ -1,12 +1,12 @@
 """Faces without inside: triangles between the nodes of two sides that face each other.
 
-      a0 --- a1 ---- a2 ---- a3         rungs a-b between mates; one to three triangles between
-      |    / |    /  |    /  |          a rung and the next. Where the surface turns too far on
-      b0 --- b1 ---- b2 ---- b3         the way across, a rung is a column of several nodes:
+a0 --- a1 ---- a2 ---- a3         rungs a-b between mates; one to three triangles between
+|    / |    /  |    /  |          a rung and the next. Where the surface turns too far on
+b0 --- b1 ---- b2 ---- b3         the way across, a rung is a column of several nodes:
 
-      o --- o --- o --- o               a tube with its seam as both sides has four of them
-      |  /  |  /  |  /  |               round it; the columns at the ends are the nodes of the
-      o --- o --- o --- o               edges there, however many
+o --- o --- o --- o               a tube with its seam as both sides has four of them
+|  /  |  /  |  /  |               round it; the columns at the ends are the nodes of the
+o --- o --- o --- o               edges there, however many
 """
 
 from __future__ import annotations
@@ -82,9 +82,7 @@ def _spread(end: Nodes, columns: list[Nodes]) -> Nodes:
         return end
     most = max(len(column.slots) for column in columns)
     t = np.linspace(0.0, 1.0, most)[:, None]
-    return end.taken(np.zeros(most, int))._replace(
-        uv=(1.0 - t) * end.uv[0] + t * end.uv[-1]
-    )
+    return end.taken(np.zeros(most, int))._replace(uv=(1.0 - t) * end.uv[0] + t * end.uv[-1])
 
 
 def _chain(pieces: list[Piece], start: np.ndarray, places: tuple[int, ...]) -> Nodes | None:
@@ -195,19 +193,15 @@ def _assembled(surface: Surface, columns: list[Nodes]) -> FaceMesh | None:
     kept, found = np.unique(found, return_inverse=True)
     found = found.reshape(-1, 3).astype(np.int32)
     nodes = every.taken(kept)
-    return FaceMesh(
-        nodes.points, nodes.slots, found, nodes.uv, found, nodes.sizes, narrow=True
-    )
+    return FaceMesh(nodes.points, nodes.slots, found, nodes.uv, found, nodes.sizes, narrow=True)
 
 
-def zipped(
-    points: np.ndarray, left: np.ndarray, right: np.ndarray
-) -> list[tuple[int, int, int]]:
+def zipped(points: np.ndarray, left: np.ndarray, right: np.ndarray) -> list[tuple[int, int, int]]:
     """Triangles between two chains of nodes, given as rows of points (n, 3).
 
-        left 0 --- right 0      they turn left 0, left 1, right: the columns run from the first
-             |  /  |            side of the strip, which is walked to the right with the inside
-        left 1 --- right 1      on its left, to the second; that is against the picture's y
+    left 0 --- right 0      they turn left 0, left 1, right: the columns run from the first
+         |  /  |            side of the strip, which is walked to the right with the inside
+    left 1 --- right 1      on its left, to the second; that is against the picture's y
     """
     s, t = (_shares(points[chain]) for chain in (left, right))
     i = j = 0

@@ -1,11 +1,11 @@
 """Tips and necks of a face so thin that no ring of wanted edges fits round them.
 
-        pole                  Where a tube closes with a cusp, or narrows to far less than its
-       / | \\                  triangles are long, isotropic ones would become smaller without end.
-      o--o--o  level 1        There rings of COLUMNS nodes stand at the nodes of the two edges (or
-      |\\ |\\ |                 of the two images of a seam) that run along the tube, with long
-      o--o--o  last level     triangles between them. What is left of the face, beyond the last
-     /   |   \\                ring, is meshed as all others are.
+   pole                  Where a tube closes with a cusp, or narrows to far less than its
+  / | \\                  triangles are long, isotropic ones would become smaller without end.
+ o--o--o  level 1        There rings of COLUMNS nodes stand at the nodes of the two edges (or
+ |\\ |\\ |                 of the two images of a seam) that run along the tube, with long
+ o--o--o  last level     triangles between them. What is left of the face, beyond the last
+/   |   \\                ring, is meshed as all others are.
 """
 
 from __future__ import annotations

@@ -1,11 +1,11 @@
 """Boundaries that cross themselves by less than the tolerance of their edges, taken apart.
 
-    d                        The face lies between the edges a-b-V and V-c-d, which meet in V
-     `-.                     and are only as good as their tolerances: their images may cross
-    a --`x--- b              before, at x. No finer cutting cures that. The node b is on the
-          `c ____            wrong side of c-d: it goes through it to the left, where the
-                 V           inside of the face is; then c through b-V. Only images in (u, v)
-                             move: the points of the nodes in space stay.
+d                        The face lies between the edges a-b-V and V-c-d, which meet in V
+ `-.                     and are only as good as their tolerances: their images may cross
+a --`x--- b              before, at x. No finer cutting cures that. The node b is on the
+      `c ____            wrong side of c-d: it goes through it to the left, where the
+             V           inside of the face is; then c through b-V. Only images in (u, v)
+                         move: the points of the nodes in space stay.
 """
 
 import numpy as np

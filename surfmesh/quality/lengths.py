@@ -92,9 +92,7 @@ class SizeGrowth(NamedTuple):
     point: tuple[float, float, float]  # middle of that edge
 
 
-def size_growth(
-    mesh: SurfaceMesh, lengths: NDArray[np.float64], slope: float
-) -> SizeGrowth | None:
+def size_growth(mesh: SurfaceMesh, lengths: NDArray[np.float64], slope: float) -> SizeGrowth | None:
     """Growth of the wanted sizes over the edges of the mesh, in any direction.
 
     Along an edge of length l sizes may differ by ``slope`` l. Where sizes depend on the direction

@@ -157,9 +157,7 @@ def overlaps(found: tuple[BodyPair, ...]) -> list[str]:
     ]
 
 
-def turned_too_far(
-    mesh: SurfaceMesh, turns: Turning, beyond: Beyond, promises: Promises
-) -> str:
+def turned_too_far(mesh: SurfaceMesh, turns: Turning, beyond: Beyond, promises: Promises) -> str:
     """A sentence about edges across which triangles turn by more than was promised."""
     edge = turns.edges[beyond.worst]
     first, second = (mesh.connectivity.half_edges[edge] // 3).tolist()
@@ -183,9 +181,7 @@ def _is_incomplete(mesh: SurfaceMesh) -> bool:
     return any(warning.startswith(NOT_MESHED) for warning in mesh.warnings)
 
 
-def _euler_numbers(
-    mesh: SurfaceMesh, topo: Topology, solids: tuple[SolidRow, ...]
-) -> list[str]:
+def _euler_numbers(mesh: SurfaceMesh, topo: Topology, solids: tuple[SolidRow, ...]) -> list[str]:
     """Where the mesh has not the topology of the model; faces that are missing say so already."""
     if _is_incomplete(mesh):
         return []
@@ -200,9 +196,7 @@ def _euler_numbers(
     return said
 
 
-def intersections(
-    mesh: SurfaceMesh, meeting: tuple[MeetingPair, ...], count: int
-) -> list[str]:
+def intersections(mesh: SurfaceMesh, meeting: tuple[MeetingPair, ...], count: int) -> list[str]:
     """A sentence about ``count`` pairs of triangles that meet, of which the first are given."""
     if not count:
         return []
@@ -216,8 +210,7 @@ def intersections(
         advice = "; lower the sizes there, or repair the model if its own faces cross"
     return [
         f"the mesh intersects itself: {many} of triangles, first {first.triangles[0]} and "
-        f"{first.triangles[1]} ({' and '.join(names)}) at {_place(first.point)}"
-        + advice
+        f"{first.triangles[1]} ({' and '.join(names)}) at {_place(first.point)}" + advice
     ]
 
 

@@ -1,8 +1,8 @@
 """What was promised of each face, where it does not hold, and where a ``min_size`` forbids it.
 
-    farther than the chord of its face ----> could smaller triangles hold it, of min_size at least?
-                                               yes: a broken promise, the mesh is not clean
-                                               no:  a limit that the user stated, a warning
+farther than the chord of its face ----> could smaller triangles hold it, of min_size at least?
+                                           yes: a broken promise, the mesh is not clean
+                                           no:  a limit that the user stated, a warning
 """
 
 from __future__ import annotations

@@ -196,9 +196,7 @@ class Report:
     def to_dict(self) -> dict[str, Any]:
         """Plain numbers, strings and lists, ``clean`` included; ready for JSON."""
         values = {item.name: getattr(self, item.name) for item in fields(self)}
-        return plain(
-            {"schema_version": values.pop("schema_version"), "clean": self.clean} | values
-        )
+        return plain({"schema_version": values.pop("schema_version"), "clean": self.clean} | values)
 
     def to_json(self, indent: int | None = 2) -> str:
         """JSON text; numbers that are not finite become null."""
@@ -430,9 +428,7 @@ def _checked(mesh: SurfaceMesh) -> Report:
     )
 
 
-def _volume(
-    mesh: SurfaceMesh, encloses: bool, solids: tuple[SolidRow, ...]
-) -> float | None:
+def _volume(mesh: SurfaceMesh, encloses: bool, solids: tuple[SolidRow, ...]) -> float | None:
     """Of what the mesh encloses; where solids share faces, the sum over the solids."""
     if shares_faces(mesh):
         return volume_of_all(solids)

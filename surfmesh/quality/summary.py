@@ -78,8 +78,10 @@ def _topology(report: "Report") -> str:
         _count(report.components, "component"),
     ]
     if report.euler_exact is not None:
-        words[3] += " as in the model" if report.euler == report.euler_exact else (
-            f" (of the model {report.euler_exact})"
+        words[3] += (
+            " as in the model"
+            if report.euler == report.euler_exact
+            else (f" (of the model {report.euler_exact})")
         )
     if report.self_intersections == 0:
         words.append("free of self-intersection")
@@ -197,10 +199,7 @@ def _second_opinion(report: "Report") -> str:
             f"{_count(opinion.compared, 'figure')}{others}"
         )
     names = ", ".join(dict.fromkeys(f"{row.quantity} ({row.whose})" for row in found))
-    return (
-        f"{len(found):,} of {_count(opinion.compared, 'figure')} disagree{others}: "
-        f"{names}"
-    )
+    return f"{len(found):,} of {_count(opinion.compared, 'figure')} disagree{others}: {names}"
 
 
 def _seconds(report: "Report") -> str:

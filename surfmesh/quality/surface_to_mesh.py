@@ -186,9 +186,7 @@ class _Search:
             points[own] = mesh.surfaces[face].evaluate(uv[own], 0)[0]
         self.look_at(points, uv, triangle, at_rim)
 
-    def look_at(
-        self, points: NDArray, uv: NDArray, triangle: NDArray, at_rim: bool
-    ) -> None:
+    def look_at(self, points: NDArray, uv: NDArray, triangle: NDArray, at_rim: bool) -> None:
         """At points (k, 3) of the surface, with parameters (k, 2) over triangles (k,)."""
         if not len(triangle):
             return

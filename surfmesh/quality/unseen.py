@@ -260,8 +260,6 @@ class _Around:
         within = np.arange(ends[-1]) - np.repeat(ends - count.ravel(), count.ravel())
         triangle = self.order[begin + within]
         distance = np.full(len(piece), np.inf)
-        found = triangle_distances(
-            point[rows], self.mesh.points[self.mesh.triangles[triangle]]
-        )
+        found = triangle_distances(point[rows], self.mesh.points[self.mesh.triangles[triangle]])
         np.minimum.at(distance, rows, found)
         return distance

@@ -152,9 +152,7 @@ def _root_grid(wide: float, high: float, active: int) -> tuple[int, int, float]:
     return nx, ny, step
 
 
-def _room(
-    root: np.ndarray, grid: tuple[int, int], cells: int, active: int
-) -> SourceTree:
+def _room(root: np.ndarray, grid: tuple[int, int], cells: int, active: int) -> SourceTree:
     nodes = (grid[0] + 1) * (grid[1] + 1) + 5 * (cells // 4)
     slots = 1 << (2 * nodes - 1).bit_length()
     listed = 4 * active + 1000 + cells // 4

@@ -128,9 +128,7 @@ def _integrals(field: SizeField, low: np.ndarray, step: np.ndarray) -> np.ndarra
     return _densities(field, _points(low, step)).mean(axis=1) * step.prod(axis=1)
 
 
-def _shares(
-    field: SizeField, rings: list[np.ndarray], low: np.ndarray, step: np.ndarray
-) -> float:
+def _shares(field: SizeField, rings: list[np.ndarray], low: np.ndarray, step: np.ndarray) -> float:
     """Over what lies inside of small cells, by their points."""
     if not len(low):
         return 0.0

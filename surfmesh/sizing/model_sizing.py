@@ -166,9 +166,7 @@ def _with_faces(model: CadModel, found: Selection) -> Selection:
     return Selection(tuple(sorted(faces)), found.edges, found.vertices, found.solids)
 
 
-def _combined(
-    model: CadModel, base: Sizing, rules: list[Rule], kind: str
-) -> dict[int, Sizing]:
+def _combined(model: CadModel, base: Sizing, rules: list[Rule], kind: str) -> dict[int, Sizing]:
     """The wishes of everything of a kind that some rule selects; equal ones are one object."""
     by_rules: dict[tuple[int, ...], Sizing] = {}
     rules_of: dict[int, list[int]] = {}

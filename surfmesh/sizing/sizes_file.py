@@ -1,12 +1,12 @@
 """Sizes by selection in a TOML file.
 
-    [sizes."*"]
-    chord = 0.05
-    [sizes."fillet*"]
-    chord = 0.01
-    [[sizes."*".sources]]
-    near = [[0, 0, 0], [1, 0, 0]]     # points, or lines = [[[0, 0, 0], [1, 0, 0]]],
-    size = 0.1                        # ball = [x, y, z] with radius, box = [[...], [...]]
+[sizes."*"]
+chord = 0.05
+[sizes."fillet*"]
+chord = 0.01
+[[sizes."*".sources]]
+near = [[0, 0, 0], [1, 0, 0]]     # points, or lines = [[[0, 0, 0], [1, 0, 0]]],
+size = 0.1                        # ball = [x, y, z] with radius, box = [[...], [...]]
 """
 
 from __future__ import annotations
@@ -33,7 +33,7 @@ def read_sizes(path: str | Path) -> dict[str, Sizing]:
     unknown = sorted(set(content) - {"sizes"})
     if unknown or not isinstance(content.get("sizes"), dict):
         named = f"an unknown table [{unknown[0]:.60}]" if unknown else "no table of sizes"
-        raise FileFormatError(f"{path}: {named}; write sizes as [sizes.\"SELECTION\"]")
+        raise FileFormatError(f'{path}: {named}; write sizes as [sizes."SELECTION"]')
     found = {}
     for key, value in content["sizes"].items():
         try:
@@ -47,7 +47,7 @@ def _sizing(value: Any) -> Sizing:
     if isinstance(value, dict) and "sources" in value:
         given = value["sources"]
         if not isinstance(given, list) or not all(isinstance(entry, dict) for entry in given):
-            raise SizingError("sources are tables: [[sizes.\"SELECTION\".sources]]")
+            raise SizingError('sources are tables: [[sizes."SELECTION".sources]]')
         value = value | {"sources": tuple(_source(dict(entry)) for entry in given)}
     if isinstance(value, dict):
         known = {item.name for item in fields(Sizing)} - {"sources"}

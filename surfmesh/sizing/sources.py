@@ -110,8 +110,10 @@ class Near(Source):
 
     def __post_init__(self) -> None:
         self._check()
-        if isinstance(self.radius, str) or not np.isscalar(self.radius) or not (
-            0.0 <= self.radius < np.inf
+        if (
+            isinstance(self.radius, str)
+            or not np.isscalar(self.radius)
+            or not (0.0 <= self.radius < np.inf)
         ):
             raise SizingError(f"radius must be a number from 0, not {shown(self.radius)}")
         given = self.geometry

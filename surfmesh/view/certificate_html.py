@@ -94,8 +94,11 @@ def _figures(values: Mapping[str, Any]) -> str:
     for title, names, words in _FIGURES:
         found = [values.get(name) for name in names]
         found = [
-            f"{value:.2%}" if name.endswith("_share") and value is not None
-            else f"{value:+.2%}" if name.endswith("_error") and value is not None else value
+            f"{value:.2%}"
+            if name.endswith("_share") and value is not None
+            else f"{value:+.2%}"
+            if name.endswith("_error") and value is not None
+            else value
             for name, value in zip(names, found)
         ]
         if found[0] is not None:

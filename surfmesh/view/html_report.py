@@ -52,9 +52,7 @@ def html_report(
     require_drawable(mesh, path)
     text = page(mesh, by=by, name=name, report=check(mesh) if report is None else report)
     with replacing(path) as temporary:
-        temporary.write_text(
-            text, encoding="utf-8", errors="backslashreplace", newline="\n"
-        )
+        temporary.write_text(text, encoding="utf-8", errors="backslashreplace", newline="\n")
     return path
 
 

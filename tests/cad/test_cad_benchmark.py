@@ -124,15 +124,11 @@ def test_a_crack_in_a_sheet_is_seen():
     assert len(mesh.boundary_edges) and not stray_edges(mesh, model, set())
     keep = np.arange(len(mesh.triangles)) != 5
     pieces = {"triangles": mesh.triangles[keep], "uv_triangles": mesh.uv_triangles[keep]}
-    cracked = replace(
-        mesh, **pieces, face_ids=mesh.face_ids[keep], solid_ids=mesh.solid_ids[keep]
-    )
+    cracked = replace(mesh, **pieces, face_ids=mesh.face_ids[keep], solid_ids=mesh.solid_ids[keep])
     assert stray_edges(cracked, model, set())
     bare = mesh.face_ids != 2
     pieces = {"triangles": mesh.triangles[bare], "uv_triangles": mesh.uv_triangles[bare]}
-    holed = replace(
-        mesh, **pieces, face_ids=mesh.face_ids[bare], solid_ids=mesh.solid_ids[bare]
-    )
+    holed = replace(mesh, **pieces, face_ids=mesh.face_ids[bare], solid_ids=mesh.solid_ids[bare])
     assert stray_edges(holed, model, set())
     assert not stray_edges(holed, model, {2})
 

@@ -42,9 +42,7 @@ def test_neighbours_of_a_cut_face_get_the_vertex_too():
     model = torus(2.0, 2.0, 1.0)
     assert model.check() == ""
     assert len(model.faces) == 4
-    pinch = [
-        k for k, vertex in enumerate(model.vertices) if np.linalg.norm(vertex.point) < 1e-9
-    ]
+    pinch = [k for k, vertex in enumerate(model.vertices) if np.linalg.norm(vertex.point) < 1e-9]
     assert len(pinch) == 1
     for face in model.faces:
         ends = {

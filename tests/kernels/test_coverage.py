@@ -13,9 +13,7 @@ def area(background, x1, y1):
 
 def test_constant():
     h = np.array([[0.2, 0.05], [0.05, 0.1]])
-    assert area(constant_background(h, 3.0, 2.0), 3.0, 2.0) == pytest.approx(
-        6.0 / np.linalg.det(h)
-    )
+    assert area(constant_background(h, 3.0, 2.0), 3.0, 2.0) == pytest.approx(6.0 / np.linalg.det(h))
 
 
 @pytest.mark.parametrize("x1, y1", [(1.0, 1.0), (0.7, 1.0), (0.31, 0.12)])

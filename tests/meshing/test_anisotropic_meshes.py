@@ -141,8 +141,9 @@ def test_the_metric_of_the_result():
 
 def test_ratio_one_is_the_isotropic_mesh():
     surface = sm.load("torus")
-    plain, one = sm.mesh(surface, {"chord": 0.01}), sm.mesh(
-        surface, {"chord": 0.01, "anisotropy": 1.0}
+    plain, one = (
+        sm.mesh(surface, {"chord": 0.01}),
+        sm.mesh(surface, {"chord": 0.01, "anisotropy": 1.0}),
     )
     np.testing.assert_array_equal(plain.points, one.points)
     assert one.inverse_sizes is None

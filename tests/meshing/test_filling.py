@@ -32,9 +32,10 @@ def test_the_shorter_diagonal_of_a_bent_square_is_taken():
     triangles = filled(points)
     shared = set(triangles[0]) & set(triangles[1])
     other = [(0, 1, 3), (1, 2, 3)] if shared == {0, 2} else [(0, 1, 2), (0, 2, 3)]
-    assert np.linalg.norm(areas(points, triangles), axis=1).sum() <= np.linalg.norm(
-        areas(points, np.array(other)), axis=1
-    ).sum()
+    assert (
+        np.linalg.norm(areas(points, triangles), axis=1).sum()
+        <= np.linalg.norm(areas(points, np.array(other)), axis=1).sum()
+    )
 
 
 SQUARE = np.array([[0.0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0], [0, 0, 0]])

@@ -57,8 +57,10 @@ def test_volumes_are_kept_when_asked_for(name, options):
 
 
 def test_volumes_of_two_solids_are_kept_each_by_itself():
-    both = cq.Assembly().add(cq.Workplane().sphere(1)).add(
-        cq.Workplane().circle(0.1).extrude(10).translate((3, 0, 0))
+    both = (
+        cq.Assembly()
+        .add(cq.Workplane().sphere(1))
+        .add(cq.Workplane().circle(0.1).extrude(10).translate((3, 0, 0)))
     )
     model = sm.from_cadquery(both)
     errors = volume_errors(model, sm.mesh(model, sm.Sizing(size=0.5, volume=0.02)))

@@ -28,9 +28,7 @@ def revolved(polygon: list[tuple[float, float]], angle: float = 2.0 * math.pi) -
     axis = cq.Edge.makeLine(cq.Vector(0, polygon[-1][1], 0), cq.Vector(0, polygon[0][1], 0))
     face = cq.Face.makeFromWires(cq.Wire.assembleEdges([profile, axis]))
     turn = gp_Ax1(gp_Pnt(0, 0, 0), gp_Dir(0, 1, 0))
-    return sm.from_cadquery(
-        cq.Shape.cast(BRepPrimAPI_MakeRevol(face.wrapped, turn, angle).Shape())
-    )
+    return sm.from_cadquery(cq.Shape.cast(BRepPrimAPI_MakeRevol(face.wrapped, turn, angle).Shape()))
 
 
 SPIKE = [(0, 0), (4, 0), (4, 5), (0, 5), (0, 9)]

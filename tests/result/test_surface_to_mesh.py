@@ -24,9 +24,7 @@ def sector(scale=1.0, turn=2.0):
 
 
 def coarse(surface, **sizing):
-    wish = SimpleNamespace(
-        **{"chord": None, "angle": None, "min_size": None, "size": 0.3} | sizing
-    )
+    wish = SimpleNamespace(**{"chord": None, "angle": None, "min_size": None, "size": 0.3} | sizing)
     return grid(surface, CELLS, sizing=wish, sizes=np.full((CELLS + 1) ** 2, 0.3))
 
 

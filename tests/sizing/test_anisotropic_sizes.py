@@ -150,9 +150,7 @@ def test_a_size_law_holds_in_every_direction():
 
 def test_limits_along_a_line_leave_sizes_across_it():
     e, points = np.array([[1.0, 0.0, 0.0]]), np.zeros((1, 3))
-    limits = SizeLimits(
-        points, np.array([0.1]), 0.2, in_space=along_lines(e, np.array([0.1]))
-    )
+    limits = SizeLimits(points, np.array([0.1]), 0.2, in_space=along_lines(e, np.array([0.1])))
     directions = np.array([[1.0, 0, 0], [0.6, 0.8, 0], [0, 1.0, 0]])
     found = limits.along(np.zeros((3, 3)), directions[None])[0]
     np.testing.assert_allclose(found[:2], [0.1, 0.1 / 0.6])

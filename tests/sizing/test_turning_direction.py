@@ -66,9 +66,7 @@ def test_bounds_by_hand():
 def test_bounds_scale(factor):
     rates, k, size = np.array([[2.0, 3.0]]), np.array([4.0]), np.array([0.1])
     once = turning_bound(rates, k, 0 * k, size, 0.005)
-    scaled = turning_bound(
-        rates / factor**2, k / factor, 0 * k, size * factor, 0.005 * factor
-    )
+    scaled = turning_bound(rates / factor**2, k / factor, 0 * k, size * factor, 0.005 * factor)
     np.testing.assert_allclose(scaled, factor * once)
 
 
