@@ -13,7 +13,7 @@ from collections import Counter
 
 import numpy as np
 
-from surfmesh.cad.model import CadFace, CadModel, CadSolid
+from surfmesh.cad.model.cad_model import CadFace, CadModel, CadSolid
 
 SAME_PLACE = 1e-4  # of the (u, v) box: loops so near at a common vertex touch there
 

@@ -28,7 +28,7 @@ import cad_summary
 from cad_parts import PARTS
 from tables import console, heading
 
-from surfmesh.cad.reading import SUFFIXES
+from surfmesh.cad.reading.read_file import SUFFIXES
 
 MESHERS = ("ours", "gmsh", "ocp")
 

@@ -14,7 +14,7 @@ from cad_measures import (
     without_collapsed,
 )
 
-from surfmesh.quality.shape import shapes
+from surfmesh.quality.measures.shape import shapes
 
 FRONTAL_DELAUNAY = 6
 ATTEMPTS = 3

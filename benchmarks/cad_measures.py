@@ -4,10 +4,10 @@ from time import perf_counter, process_time
 
 import numpy as np
 
-from surfmesh.cad.model import CadModel
-from surfmesh.quality.shape import Shapes, enclosed_volume, shapes
-from surfmesh.quality.topology import topology
-from surfmesh.surface_mesh import SurfaceMesh
+from surfmesh.cad.model.cad_model import CadModel
+from surfmesh.quality.measures.shape import Shapes, enclosed_volume, shapes
+from surfmesh.quality.measures.topology import topology
+from surfmesh.result.surface_mesh import SurfaceMesh
 
 POOR = 0.3  # alpha
 

@@ -49,11 +49,11 @@ def _ours(request: dict) -> dict:
     from cad_measures import clocks, shape_figures, solid_figures, spent, stray_edges
 
     import surfmesh as sm
-    from surfmesh.quality.deviation import deviation
-    from surfmesh.quality.shape import shapes
-    from surfmesh.quality.solids import solid_mesh
-    from surfmesh.sizing.model_sizing import with_defaults
-    from surfmesh.surface_mesh import NOT_MESHED
+    from surfmesh.quality.measures.deviation import deviation
+    from surfmesh.quality.measures.shape import shapes
+    from surfmesh.quality.measures.solids import solid_mesh
+    from surfmesh.result.surface_mesh import NOT_MESHED
+    from surfmesh.sizing.options.model_sizing import with_defaults
 
     place = request["place"]
     shape = part_of(place) if is_part(place) else None

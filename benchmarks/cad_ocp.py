@@ -24,7 +24,7 @@ from OCP.TopLoc import TopLoc_Location
 from OCP.TopoDS import TopoDS, TopoDS_Face, TopoDS_Shape
 from OCP.TopTools import TopTools_IndexedMapOfShape
 
-from surfmesh.quality.shape import shapes
+from surfmesh.quality.measures.shape import shapes
 
 ANGLE = 0.5  # radians between the facets of a curve
 

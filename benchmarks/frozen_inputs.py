@@ -11,7 +11,7 @@ import child_process
 import numpy as np
 
 import surfmesh as sm
-from surfmesh.cad.model import CadModel
+from surfmesh.cad.model.cad_model import CadModel
 
 STRETCHED = 8.0  # the ratio of the stretched meshes
 COARSE = 200.0  # the diagonal over the chord
@@ -59,7 +59,7 @@ def _subject(request: dict[str, Any]) -> tuple[Any, Any]:
     if "domain" in request:
         return DOMAINS[request["domain"]]()
     if "gallery" in request:
-        from surfmesh.geometry.surface_file import gallery
+        from surfmesh.geometry.files.surface_file import gallery
 
         subject = sm.load(gallery()[request["gallery"]])
     elif "part" in request:

@@ -25,8 +25,8 @@ from cad_parts import PARTS
 from frozen_inputs import DOMAINS
 from tables import console, heading
 
-from surfmesh.cad.reading import SUFFIXES
-from surfmesh.geometry.surface_file import gallery
+from surfmesh.cad.reading.read_file import SUFFIXES
+from surfmesh.geometry.files.surface_file import gallery
 
 NOT_THE_SAME = {"shelled_box"}  # OpenCASCADE makes another shell in every process
 TIME_LIMIT = 90.0  # seconds a mesh; what takes longer is left out

@@ -6,11 +6,11 @@ import time
 import numpy as np
 
 import surfmesh as sm
-from surfmesh.geometry.sides import find_sides
+from surfmesh.geometry.differential.sides import find_sides
 from surfmesh.geometry.surface import Surface
-from surfmesh.kernels.front import DONE
-from surfmesh.meshing.packing import packed_over
-from surfmesh.sizing.size_field import SizeField, size_field
+from surfmesh.kernels.packing.front import DONE
+from surfmesh.meshing.patch.packing import packed_over
+from surfmesh.sizing.field.size_field import SizeField, size_field
 
 
 def quality(report: sm.Report) -> dict:
@@ -79,7 +79,7 @@ def field_of(surface: Surface, sizing: dict | sm.Sizing) -> SizeField:
 
 def worst_triangles(mesh: sm.SurfaceMesh, surface: Surface, number: int = 20) -> dict:
     """Where the worst triangles by alpha are: at the boundary, and the (u, v) of the very worst."""
-    from surfmesh.quality.shape import alpha
+    from surfmesh.quality.measures.shape import alpha
 
     values = alpha(mesh)
     number = min(number, len(values))

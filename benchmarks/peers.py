@@ -19,10 +19,10 @@ import child_process
 import numpy as np
 
 import surfmesh as sm
-from surfmesh.geometry.projection import closest_point
+from surfmesh.geometry.differential.projection import closest_point
 from surfmesh.geometry.surface import Surface
-from surfmesh.kernels.background import scalar_size_at, scalar_sizes_at
-from surfmesh.sizing.size_field import SizeField
+from surfmesh.kernels.fields.background import scalar_size_at, scalar_sizes_at
+from surfmesh.sizing.field.size_field import SizeField
 
 SPLINE_GRID = 160  # points each way that the spline interpolates
 GUESS_GRID = 400  # points each way from which nearest points are sought
@@ -145,7 +145,7 @@ def _as_gmsh_writes(formula: str, parameters: dict) -> str:
     """The formula with ^ for powers, and brackets: gmsh takes -u^2 for (-u)^2."""
     from sympy.printing.str import StrPrinter
 
-    from surfmesh.geometry.expression import parse
+    from surfmesh.geometry.formulas.expression import parse
 
     class Printer(StrPrinter):
         def _print_Pow(self, power, rational=False):

@@ -22,10 +22,10 @@ import child_process
 import numpy as np
 
 import surfmesh as sm
-from surfmesh.geometry.planar_domain import PlanarDomain
-from surfmesh.quality.lengths import QUASI_UNIT, edge_lengths, metric_lengths
-from surfmesh.quality.shape import shapes
-from surfmesh.sizing.distance_size import DistanceSize
+from surfmesh.geometry.planar.planar_domain import PlanarDomain
+from surfmesh.quality.measures.lengths import QUASI_UNIT, edge_lengths, metric_lengths
+from surfmesh.quality.measures.shape import shapes
+from surfmesh.sizing.options.distance_size import DistanceSize
 
 LAWS = ("uniform", "graded")
 GRADING = 6.0  # largest over smallest of the graded sizes

@@ -13,8 +13,8 @@ from pathlib import Path
 
 from child_process import run
 
-from surfmesh.cad.reading import SUFFIXES
-from surfmesh.geometry.surface_file import gallery
+from surfmesh.cad.reading.read_file import SUFFIXES
+from surfmesh.geometry.files.surface_file import gallery
 
 
 def main() -> int:

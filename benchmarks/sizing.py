@@ -32,8 +32,8 @@ from sizing_shapes import FORMULAS, SHAPES
 from tables import console, heading
 
 import surfmesh as sm
-from surfmesh.cad.reading import SUFFIXES
-from surfmesh.geometry.parametric import ParametricSurface
+from surfmesh.cad.reading.read_file import SUFFIXES
+from surfmesh.geometry.formulas.parametric import ParametricSurface
 
 MESHERS = ("ours", "searched", "gmsh", "netgen", "ocp")
 LARGEST = 0.1  # of the diagonal: the largest size of peers, the default of ours

@@ -28,7 +28,7 @@ from cad_measures import own_vertices, shape_figures, without_collapsed
 from fewest import next_fineness, reach
 from true_distance import TrueSurface, by_triangle, true_surface
 
-from surfmesh.quality.shape import shapes
+from surfmesh.quality.measures.shape import shapes
 
 FORMULA, SHAPE = "formula:", "shape:"  # how a place starts that is no file
 TRUTH, BREP = "truth.pickle", "model.brep"
@@ -101,7 +101,7 @@ def _ours(request: dict) -> dict:
 def _ours_once(subject, chord: float, ratio: float, truth: TrueSurface | None, most: int) -> dict:
     import surfmesh as sm
     from surfmesh.errors import SurfmeshError
-    from surfmesh.quality.deviation import deviation
+    from surfmesh.quality.measures.deviation import deviation
 
     sizing = sm.Sizing(chord=chord, anisotropy=ratio)
     try:
@@ -149,8 +149,8 @@ def _predicted(subject, sizing) -> int | None:
         return int(getattr(found, "triangles", found))
     if not hasattr(subject, "domain"):
         return None
-    from surfmesh.geometry.sides import find_sides
-    from surfmesh.sizing.size_field import size_field
+    from surfmesh.geometry.differential.sides import find_sides
+    from surfmesh.sizing.field.size_field import size_field
 
     return int(2 * size_field(subject, sizing, find_sides(subject)).expected_vertices())
 

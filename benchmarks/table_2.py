@@ -17,15 +17,15 @@ from target_count import node_count, sizing_for
 from wanted import Wanted
 
 import surfmesh as sm
-from surfmesh.geometry.domain_faces import inside_faces
-from surfmesh.geometry.planar_domain import PlanarDomain
+from surfmesh.geometry.planar.domain_faces import inside_faces
+from surfmesh.geometry.planar.planar_domain import PlanarDomain
 from surfmesh.geometry.surface import Surface
-from surfmesh.meshing.packing import packed_over
-from surfmesh.meshing.planar_segments import short_segments
-from surfmesh.quality.lengths import edge_lengths, metric_lengths
-from surfmesh.quality.shape import alpha
-from surfmesh.sizing.distance_size import DistanceSize
-from surfmesh.sizing.size_field import SizeField, size_field
+from surfmesh.meshing.boundary.planar_segments import short_segments
+from surfmesh.meshing.patch.packing import packed_over
+from surfmesh.quality.measures.lengths import edge_lengths, metric_lengths
+from surfmesh.quality.measures.shape import alpha
+from surfmesh.sizing.field.size_field import SizeField, size_field
+from surfmesh.sizing.options.distance_size import DistanceSize
 
 RANDOM = "random size"
 PLANAR = ("letter_a", "floor_plate")

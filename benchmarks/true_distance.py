@@ -13,8 +13,8 @@ import numpy as np
 from scipy.spatial import cKDTree
 
 import surfmesh as sm
-from surfmesh.cad.model import CadModel
-from surfmesh.geometry.projection import closest_point
+from surfmesh.cad.model.cad_model import CadModel
+from surfmesh.geometry.differential.projection import closest_point
 
 GUIDES = 6  # places nearby that a search starts from
 MORE_GUIDES = 40  # for what seems to lie too far away: the other side of a wall may be nearer

@@ -17,19 +17,19 @@ from typing import TYPE_CHECKING, Any
 if TYPE_CHECKING:
     from surfmesh import errors, io, view
     from surfmesh.api import estimate, explain, load, mesh, show
-    from surfmesh.cad.from_cadquery import from_cadquery
-    from surfmesh.cad.model import CadModel
-    from surfmesh.geometry.numeric import NumericSurface
-    from surfmesh.geometry.parametric import ParametricSurface
-    from surfmesh.geometry.planar_domain import PlanarDomain
-    from surfmesh.geometry.surface_file import gallery
-    from surfmesh.meshing.circle_packing import CirclePacking, pack
+    from surfmesh.cad.cadquery.from_cadquery import from_cadquery
+    from surfmesh.cad.model.cad_model import CadModel
+    from surfmesh.circle_packing import CirclePacking, pack
+    from surfmesh.geometry.files.surface_file import gallery
+    from surfmesh.geometry.formulas.parametric import ParametricSurface
+    from surfmesh.geometry.functions.numeric import NumericSurface
+    from surfmesh.geometry.planar.planar_domain import PlanarDomain
     from surfmesh.quality import Report, check
-    from surfmesh.sizing.distance_size import DistanceSize
-    from surfmesh.sizing.radius_laws import TensorField, UniformRadius
-    from surfmesh.sizing.sizing import Sizing
-    from surfmesh.sizing.sources import InBall, InBox, Near, SizeCloud
-    from surfmesh.surface_mesh import SurfaceMesh
+    from surfmesh.result.surface_mesh import SurfaceMesh
+    from surfmesh.sizing.options.distance_size import DistanceSize
+    from surfmesh.sizing.options.radius_laws import TensorField, UniformRadius
+    from surfmesh.sizing.options.sizing import Sizing
+    from surfmesh.sizing.options.sources import InBall, InBox, Near, SizeCloud
 
     __version__: str
 
@@ -38,29 +38,29 @@ logging.getLogger("surfmesh").addHandler(logging.NullHandler())  # silent unless
 # No submodule may be called like a public name (mesh, check, load): importing it would put
 # the module where the function should be.
 _HOMES = {
-    "CadModel": "surfmesh.cad.model",
-    "CirclePacking": "surfmesh.meshing.circle_packing",
-    "DistanceSize": "surfmesh.sizing.distance_size",
-    "InBall": "surfmesh.sizing.sources",
-    "InBox": "surfmesh.sizing.sources",
-    "Near": "surfmesh.sizing.sources",
-    "NumericSurface": "surfmesh.geometry.numeric",
-    "ParametricSurface": "surfmesh.geometry.parametric",
-    "PlanarDomain": "surfmesh.geometry.planar_domain",
+    "CadModel": "surfmesh.cad.model.cad_model",
+    "CirclePacking": "surfmesh.circle_packing",
+    "DistanceSize": "surfmesh.sizing.options.distance_size",
+    "InBall": "surfmesh.sizing.options.sources",
+    "InBox": "surfmesh.sizing.options.sources",
+    "Near": "surfmesh.sizing.options.sources",
+    "NumericSurface": "surfmesh.geometry.functions.numeric",
+    "ParametricSurface": "surfmesh.geometry.formulas.parametric",
+    "PlanarDomain": "surfmesh.geometry.planar.planar_domain",
     "Report": "surfmesh.quality",
-    "SizeCloud": "surfmesh.sizing.sources",
-    "Sizing": "surfmesh.sizing.sizing",
-    "SurfaceMesh": "surfmesh.surface_mesh",
-    "TensorField": "surfmesh.sizing.radius_laws",
-    "UniformRadius": "surfmesh.sizing.radius_laws",
+    "SizeCloud": "surfmesh.sizing.options.sources",
+    "Sizing": "surfmesh.sizing.options.sizing",
+    "SurfaceMesh": "surfmesh.result.surface_mesh",
+    "TensorField": "surfmesh.sizing.options.radius_laws",
+    "UniformRadius": "surfmesh.sizing.options.radius_laws",
     "check": "surfmesh.quality",
     "estimate": "surfmesh.api",
     "explain": "surfmesh.api",
-    "from_cadquery": "surfmesh.cad.from_cadquery",
-    "gallery": "surfmesh.geometry.surface_file",
+    "from_cadquery": "surfmesh.cad.cadquery.from_cadquery",
+    "gallery": "surfmesh.geometry.files.surface_file",
     "load": "surfmesh.api",
     "mesh": "surfmesh.api",
-    "pack": "surfmesh.meshing.circle_packing",
+    "pack": "surfmesh.circle_packing",
     "show": "surfmesh.api",
 }
 _MODULES = ("errors", "io", "view")

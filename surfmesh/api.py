@@ -8,16 +8,17 @@ from typing import Any
 
 import numpy as np
 
-from surfmesh.cad.from_cadquery import from_cadquery
-from surfmesh.cad.joining import Joining
-from surfmesh.cad.model import CadModel
-from surfmesh.cad.reading import SUFFIXES, read_cad
+from surfmesh.cad.cadquery.from_cadquery import from_cadquery
+from surfmesh.cad.healing.joining import Joining
+from surfmesh.cad.model.cad_model import CadModel
+from surfmesh.cad.reading.read_file import SUFFIXES, read_cad
 from surfmesh.errors import CadError, FileFormatError, SizingError, SurfaceError, shown
-from surfmesh.geometry.planar_domain import PlanarDomain
+from surfmesh.geometry.files.surface_file import gallery, load_surface_file
+from surfmesh.geometry.planar.planar_domain import PlanarDomain
 from surfmesh.geometry.surface import Surface
-from surfmesh.geometry.surface_file import gallery, load_surface_file
-from surfmesh.meshing.estimation import Estimate
-from surfmesh.meshing.explanation import Explanation
+from surfmesh.meshing.estimate.estimation import Estimate
+from surfmesh.meshing.explain.explanation import Explanation
+from surfmesh.meshing.finishing.second_order import of_second_order
 from surfmesh.meshing.model_mesh import estimate_model, explain_size, mesh_model
 from surfmesh.meshing.parametric_mesh import (
     estimate_parametric,
@@ -25,12 +26,11 @@ from surfmesh.meshing.parametric_mesh import (
     mesh_parametric,
 )
 from surfmesh.meshing.planar_mesh import estimate_planar, mesh_planar
-from surfmesh.meshing.second_order import of_second_order
-from surfmesh.meshing.stages import Progress
-from surfmesh.sizing.distance_size import default_wishes
-from surfmesh.sizing.model_sizing import is_by_selection
-from surfmesh.sizing.sizing import Sizing
-from surfmesh.surface_mesh import SurfaceMesh
+from surfmesh.meshing.progress import Progress
+from surfmesh.result.surface_mesh import SurfaceMesh
+from surfmesh.sizing.options.distance_size import default_wishes
+from surfmesh.sizing.options.model_sizing import is_by_selection
+from surfmesh.sizing.options.sizing import Sizing
 
 logger = logging.getLogger(__name__)
 FARTHEST = 1e100  # coordinate of a point that is asked for: squares of distances are finite

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from surfmesh.surface_mesh import SurfaceMesh
+from surfmesh.result.surface_mesh import SurfaceMesh
 
 
 class Sphere:

@@ -18,8 +18,8 @@ if TYPE_CHECKING:
     from OCP.TopLoc import TopLoc_Location
     from OCP.TopoDS import TopoDS_Shape
 
-    from surfmesh.cad.joining import Joining
-    from surfmesh.cad.model import CadModel, Colour
+    from surfmesh.cad.healing.joining import Joining
+    from surfmesh.cad.model.cad_model import CadModel, Colour
 
 MILLIMETRES = {"um": 1e-3, "mm": 1.0, "cm": 10.0, "m": 1e3, "in": 25.4, "ft": 304.8}
 ROUND_OFF = 1e-9  # how far the scale of a placement may be from one
@@ -93,7 +93,7 @@ def model_of(
     """
     from OCP.TopLoc import TopLoc_Location
 
-    from surfmesh.cad.topology import cad_model
+    from surfmesh.cad.model.topology import cad_model
 
     unit = checked_unit(units)
     scale = 1.0 / MILLIMETRES[unit]
@@ -136,8 +136,8 @@ def _placed(
 
 def _usable(part: Part, heal: bool) -> Part:
     """Healed, without the faces that cannot be used; without a shape where all are such."""
-    from surfmesh.cad.healing import healed
-    from surfmesh.cad.unusable_faces import without_unusable_faces
+    from surfmesh.cad.healing.shape_healing import healed
+    from surfmesh.cad.healing.unusable_faces import without_unusable_faces
 
     part = without_unusable_faces(part)
     if part.shape is not None and part.shape.IsNull():

@@ -94,7 +94,7 @@ def check(options: Namespace) -> bool:
         if broken:
             raise FileFormatError(f"{options.input}: {broken}")
     else:
-        from surfmesh.model_facts import ModelFacts, file_sha256
+        from surfmesh.result.model_facts import ModelFacts, file_sha256
 
         source = Path(options.input)
         found = replace(found, facts=ModelFacts(source=source.name, sha256=file_sha256(source)))
@@ -237,13 +237,13 @@ def estimate(options: Namespace) -> bool:
 
 def _sizing(options: Namespace) -> Any:
     """The sizes that were asked for, or None; those of a file are of selections."""
-    from surfmesh.sizing.sizing import Sizing
+    from surfmesh.sizing.options.sizing import Sizing
 
     given = {name: getattr(options, name) for name in SIZES if getattr(options, name) is not None}
     if not options.sizes:
         return Sizing(**given) if given else None
 
-    from surfmesh.sizing.sizes_file import read_sizes
+    from surfmesh.sizing.options.sizes_file import read_sizes
 
     found = read_sizes(options.sizes)
     if given:
@@ -261,8 +261,8 @@ def pack(options: Namespace) -> bool:
 
     from dataclasses import asdict
 
-    from surfmesh.meshing.circle_packing import pack as packed
-    from surfmesh.sizing.radius_laws import UniformRadius
+    from surfmesh.circle_packing import pack as packed
+    from surfmesh.sizing.options.radius_laws import UniformRadius
 
     law = options.radius or UniformRadius(*options.uniform, seed=options.seed)
     announce_compilation()
@@ -295,7 +295,7 @@ _PACKING_ROWS = {
 
 def gallery(options: Namespace) -> bool:
     """List the ready-made surfaces."""
-    from surfmesh.geometry.surface_file import gallery as surfaces
+    from surfmesh.geometry.files.surface_file import gallery as surfaces
 
     described = []
     for name, path in surfaces().items():
@@ -333,7 +333,7 @@ def _surface(options: Namespace) -> Any:
         if not sign:
             raise SurfaceError(f"--param must be NAME=NUMBER, not '{entry}'")
 
-    from surfmesh.geometry.parametric import ParametricSurface
+    from surfmesh.geometry.formulas.parametric import ParametricSurface
 
     stripped = {
         name: value.strip() if isinstance(value, str) else tuple(end.strip() for end in value)
@@ -344,14 +344,14 @@ def _surface(options: Namespace) -> Any:
 
 def _on_surface(found: Any, surface: Any) -> Any:
     """The mesh that was read, on a surface or on the faces of a CAD model by their numbers."""
-    from surfmesh.cad.model import CadModel
+    from surfmesh.cad.model.cad_model import CadModel
 
     if not isinstance(surface, CadModel):
-        from surfmesh.geometry.known_facts import known_facts
+        from surfmesh.geometry.files.known_facts import known_facts
 
         return _facing(replace(found, surfaces=(surface,), facts=known_facts(surface)))
 
-    from surfmesh.cad.facts import model_facts
+    from surfmesh.cad.model.facts import model_facts
     from surfmesh.meshing.model_mesh import orientation
 
     turned, solids = orientation(surface)
@@ -397,7 +397,7 @@ def _facing(found: Any) -> Any:
 def _named_surface(name: str, options: Namespace | None = None) -> Any:
     """A file, or else a surface of the gallery; options: those of a CAD model."""
     from surfmesh import api
-    from surfmesh.geometry.surface_file import gallery as surfaces
+    from surfmesh.geometry.files.surface_file import gallery as surfaces
 
     given = () if options is None else ("units", "imprint", "sew", "time_limit", "memory_limit")
     wanted = {option: getattr(options, option) for option in given}

@@ -51,7 +51,7 @@ def bounds_of(variable: str, bounds: tuple[Any, Any]) -> tuple[float, float]:
 
 
 def _number(variable: str, bound: Any) -> float:
-    from surfmesh.geometry.expression import parse_number
+    from surfmesh.geometry.formulas.expression import parse_number
 
     try:
         return parse_number(bound)

@@ -15,9 +15,9 @@ from surfmesh.errors import FileFormatError
 from surfmesh.io.group_record import group_fields, group_lines
 from surfmesh.io.inp import placed
 from surfmesh.io.numbers_of_groups import named_faces
-from surfmesh.mesh_groups import MeshGroups
-from surfmesh.six_nodes import split_six_nodes
-from surfmesh.surface_mesh import SurfaceMesh
+from surfmesh.result.mesh_groups import MeshGroups
+from surfmesh.result.quadratic_triangles import split_six_nodes
+from surfmesh.result.surface_mesh import SurfaceMesh
 
 CARD = {1: "CTRIA3  ", 2: "CTRIA6  "}
 SHORT, LONG = 8, 16  # characters in a field

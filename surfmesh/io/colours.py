@@ -3,8 +3,8 @@
 import numpy as np
 from numpy.typing import NDArray
 
-from surfmesh.mesh_groups import Colour
-from surfmesh.surface_mesh import SurfaceMesh
+from surfmesh.result.mesh_groups import Colour
+from surfmesh.result.surface_mesh import SurfaceMesh
 
 NO_COLOUR = 204  # of each channel: the light grey of what has none, where one is needed
 

@@ -10,7 +10,7 @@ import numpy as np
 from surfmesh.errors import FileFormatError
 from surfmesh.io.atomic import replacing, require_place
 from surfmesh.io.found_mesh import usable
-from surfmesh.surface_mesh import SurfaceMesh
+from surfmesh.result.surface_mesh import SurfaceMesh
 
 # Each module has write(mesh, path) and read(path); it is imported when it is needed.
 FORMATS = {

@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 
 from surfmesh.errors import FileFormatError
 from surfmesh.io.numbers_of_groups import with_dense_numbers
-from surfmesh.surface_mesh import SurfaceMesh
+from surfmesh.result.surface_mesh import SurfaceMesh
 
 LARGEST = 1e30
 """Of a coordinate or a length, as for surfaces: angles between triangles take eighth powers of

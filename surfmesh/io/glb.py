@@ -21,8 +21,8 @@ from surfmesh.io.expansion import Expansion
 from surfmesh.io.glb_bounds import require_bounded
 from surfmesh.io.group_record import solids_of_faces
 from surfmesh.io.to_trimesh import read_with_trimesh
-from surfmesh.mesh_groups import METRES, MeshGroups
-from surfmesh.surface_mesh import SurfaceMesh
+from surfmesh.result.mesh_groups import METRES, MeshGroups
+from surfmesh.result.surface_mesh import SurfaceMesh
 
 FLOAT, UINT = 5126, 5125  # of accessors
 VERTICES, INDICES = 34962, 34963  # targets of buffer views

@@ -15,8 +15,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from surfmesh.errors import FileFormatError
-from surfmesh.mesh_groups import MeshGroups
-from surfmesh.surface_mesh import SurfaceMesh
+from surfmesh.result.mesh_groups import MeshGroups
+from surfmesh.result.surface_mesh import SurfaceMesh
 
 MARK = "surfmesh-groups "
 NUMBERED = ("edge_segments", "edge_ids", "vertex_ids")

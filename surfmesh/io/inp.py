@@ -21,9 +21,9 @@ from surfmesh.io.group_record import (
     unique_labels,
 )
 from surfmesh.io.text_columns import numbers, shortest
-from surfmesh.mesh_groups import MeshGroups
-from surfmesh.six_nodes import edge_rows, split_six_nodes
-from surfmesh.surface_mesh import SurfaceMesh
+from surfmesh.result.mesh_groups import MeshGroups
+from surfmesh.result.quadratic_triangles import edge_rows, split_six_nodes
+from surfmesh.result.surface_mesh import SurfaceMesh
 
 COORDINATE = 20  # characters
 NAME = 60  # characters; both allow 80

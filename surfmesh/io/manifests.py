@@ -16,9 +16,9 @@ from typing import Any, NamedTuple
 from surfmesh.errors import FileFormatError
 from surfmesh.io.asked_date import VARIABLE, asked_date
 from surfmesh.io.atomic import replacing
-from surfmesh.model_facts import file_sha256
-from surfmesh.quality.provenance import mesh_sha256, options_of, plain, version_of, versions
-from surfmesh.surface_mesh import SurfaceMesh
+from surfmesh.quality.verdict.provenance import mesh_sha256, options_of, plain, version_of, versions
+from surfmesh.result.model_facts import file_sha256
+from surfmesh.result.surface_mesh import SurfaceMesh
 
 MANIFEST_VERSION = 1  # raised when an entry changes its meaning or goes away
 LARGEST = 1 << 24  # bytes of a manifest

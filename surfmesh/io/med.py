@@ -17,9 +17,9 @@ import numpy as np
 from surfmesh.errors import FileFormatError
 from surfmesh.io.group_record import group_fields, group_lines, solids_of_faces
 from surfmesh.io.hdf5_bounds import require_bounded
-from surfmesh.mesh_groups import MeshGroups
-from surfmesh.six_nodes import edge_rows, split_six_nodes
-from surfmesh.surface_mesh import SurfaceMesh
+from surfmesh.result.mesh_groups import MeshGroups
+from surfmesh.result.quadratic_triangles import edge_rows, split_six_nodes
+from surfmesh.result.surface_mesh import SurfaceMesh
 
 LINE, TRIANGLE = {1: "line", 2: "line3"}, {1: "triangle", 2: "triangle6"}
 RECORD = "surfmesh_groups"

@@ -22,9 +22,9 @@ from numpy.typing import NDArray
 
 from surfmesh.io.group_record import group_lines, solids_of_faces
 from surfmesh.io.msh_reading import ATTRIBUTE, read
-from surfmesh.quality.shape import alpha
-from surfmesh.six_nodes import edge_rows, node_values
-from surfmesh.surface_mesh import SurfaceMesh
+from surfmesh.quality.measures.shape import alpha
+from surfmesh.result.quadratic_triangles import edge_rows, node_values
+from surfmesh.result.surface_mesh import SurfaceMesh
 
 __all__ = ["read", "write"]
 

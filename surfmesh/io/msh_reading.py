@@ -8,9 +8,9 @@ from numpy.typing import NDArray
 from surfmesh.errors import FileFormatError
 from surfmesh.io.group_record import group_fields
 from surfmesh.io.numbers_of_groups import DENSE, named_faces
-from surfmesh.mesh_groups import MeshGroups
-from surfmesh.six_nodes import split_six_nodes
-from surfmesh.surface_mesh import SurfaceMesh
+from surfmesh.result.mesh_groups import MeshGroups
+from surfmesh.result.quadratic_triangles import split_six_nodes
+from surfmesh.result.surface_mesh import SurfaceMesh
 
 ATTRIBUTE = "surfmesh"  # the section of names, colours and the like
 POINT = 15

@@ -11,8 +11,8 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
-from surfmesh.mesh_groups import MeshGroups
-from surfmesh.surface_mesh import SurfaceMesh
+from surfmesh.result.mesh_groups import MeshGroups
+from surfmesh.result.surface_mesh import SurfaceMesh
 
 DENSE = 2_000_000
 """Properties of Nastran are often counted from 1,000,001. A table of so many names has 120 MB."""

@@ -7,7 +7,7 @@ import numpy as np
 from surfmesh.errors import FileFormatError
 from surfmesh.io.group_record import group_fields, group_lines, require_last_line
 from surfmesh.io.text_columns import write_rows
-from surfmesh.surface_mesh import SurfaceMesh
+from surfmesh.result.surface_mesh import SurfaceMesh
 
 
 def write(mesh: SurfaceMesh, path: Path) -> None:

@@ -11,8 +11,8 @@ from surfmesh.errors import FileFormatError
 from surfmesh.io.colours import NO_COLOUR, triangle_colours
 from surfmesh.io.group_record import group_fields, group_lines
 from surfmesh.io.ply_reading import read_ply
-from surfmesh.quality.shape import alpha
-from surfmesh.surface_mesh import SurfaceMesh
+from surfmesh.quality.measures.shape import alpha
+from surfmesh.result.surface_mesh import SurfaceMesh
 
 VERTEX = [("x", "<f8"), ("y", "<f8"), ("z", "<f8")]
 FACE = [("count", "u1"), ("corners", "<i4", 3), ("face_id", "<i4"), ("alpha", "<f8")]

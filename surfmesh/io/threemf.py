@@ -24,8 +24,8 @@ from surfmesh.io.asked_date import asked_date
 from surfmesh.io.colours import colour_of, hexadecimal
 from surfmesh.io.expansion import Expansion
 from surfmesh.io.text_columns import write_rows
-from surfmesh.mesh_groups import MeshGroups
-from surfmesh.surface_mesh import SurfaceMesh
+from surfmesh.result.mesh_groups import MeshGroups
+from surfmesh.result.surface_mesh import SurfaceMesh
 
 CORE = "http://schemas.microsoft.com/3dmanufacturing/core/2015/02"
 SETS = "http://schemas.microsoft.com/3dmanufacturing/trianglesets/2021/07"

@@ -2,9 +2,9 @@
 
 from typing import TYPE_CHECKING
 
-from surfmesh.quality.shape import alpha
-from surfmesh.six_nodes import node_values
-from surfmesh.surface_mesh import SurfaceMesh
+from surfmesh.quality.measures.shape import alpha
+from surfmesh.result.quadratic_triangles import node_values
+from surfmesh.result.surface_mesh import SurfaceMesh
 
 if TYPE_CHECKING:
     import meshio

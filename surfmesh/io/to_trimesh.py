@@ -8,7 +8,7 @@ import numpy as np
 import trimesh
 
 from surfmesh.io.colours import NO_COLOUR, triangle_colours
-from surfmesh.surface_mesh import SurfaceMesh
+from surfmesh.result.surface_mesh import SurfaceMesh
 
 # what trimesh finds odd goes to the handlers that a program has set up, not to the console
 logging.getLogger("trimesh").addHandler(logging.NullHandler())

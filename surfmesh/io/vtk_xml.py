@@ -16,11 +16,11 @@ from numpy.typing import NDArray
 from surfmesh.io.colours import NO_COLOUR, triangle_colours
 from surfmesh.io.vtk_xml_reading import read_vtk
 from surfmesh.io.xml_writing import Content, write_grid, write_polygons
-from surfmesh.mesh_groups import MeshGroups
-from surfmesh.quality.promises import plain_promises
-from surfmesh.quality.shape import alpha
-from surfmesh.six_nodes import node_values, split_six_nodes
-from surfmesh.surface_mesh import SurfaceMesh
+from surfmesh.quality.measures.promises import plain_promises
+from surfmesh.quality.measures.shape import alpha
+from surfmesh.result.mesh_groups import MeshGroups
+from surfmesh.result.quadratic_triangles import node_values, split_six_nodes
+from surfmesh.result.surface_mesh import SurfaceMesh
 
 if TYPE_CHECKING:
     import pyvista

@@ -17,9 +17,9 @@ from surfmesh.errors import FileFormatError
 from surfmesh.io.colours import NO_COLOUR, triangle_colours
 from surfmesh.io.text_columns import write_rows
 from surfmesh.io.xml_reading import root_of
-from surfmesh.mesh_groups import MeshGroups
-from surfmesh.six_nodes import node_values, split_six_nodes
-from surfmesh.surface_mesh import SurfaceMesh
+from surfmesh.result.mesh_groups import MeshGroups
+from surfmesh.result.quadratic_triangles import node_values, split_six_nodes
+from surfmesh.result.surface_mesh import SurfaceMesh
 
 TOPOLOGY = {1: "Triangle", 2: "Triangle_6"}
 NAMES = {"triangle": 3, "triangle_6": 6, "tri_6": 6}

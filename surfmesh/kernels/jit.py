@@ -31,13 +31,15 @@ from typing import Any, ClassVar
 import numba
 from numba.core.caching import FunctionCache, IndexDataCacheFile, _CacheLocator
 
-_SOURCES = sorted(Path(__file__).parent.glob("*.py"))
+_FOLDER = Path(__file__).parent
+_SOURCES = sorted(_FOLDER.rglob("*.py"))
 
 
 def _digest() -> str:
     digest = hashlib.sha256(numba.__version__.encode())
     for path in _SOURCES:
-        digest.update(path.name.encode() + b"\0" + path.read_bytes())
+        name = path.relative_to(_FOLDER).as_posix()
+        digest.update(name.encode() + b"\0" + path.read_bytes())
     return digest.hexdigest()[:16]
 
 

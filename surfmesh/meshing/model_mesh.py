@@ -15,33 +15,33 @@ from typing import Any
 
 import numpy as np
 
-from surfmesh.cad.facts import model_facts
-from surfmesh.cad.loop_faults import exact_loops
-from surfmesh.cad.model import CadFace, CadModel
+from surfmesh.cad.model.cad_model import CadFace, CadModel
+from surfmesh.cad.model.facts import model_facts
+from surfmesh.cad.model.loop_faults import exact_loops
 from surfmesh.errors import MeshingError
-from surfmesh.meshing.edge_nodes import EdgeNodes, cut_edges
-from surfmesh.meshing.edge_samples import EdgeSamples, sample_edges
-from surfmesh.meshing.estimation import Estimate
-from surfmesh.meshing.explanation import Explanation, explain_model
-from surfmesh.meshing.face_data import FaceJob, FaceMesh, Piece
-from surfmesh.meshing.face_gaps import with_face_gaps
-from surfmesh.meshing.face_job import edge_wishes, mesh_face
-from surfmesh.meshing.face_sizings import face_sizings
-from surfmesh.meshing.model_estimate import model_counts, require_model_within
-from surfmesh.meshing.model_groups import groups_of
-from surfmesh.meshing.narrow_faces import NarrowFace
-from surfmesh.meshing.opposite_faces import copied, opposite_pairs
-from surfmesh.meshing.simplification import LEAST, simplified
-from surfmesh.meshing.solid_volumes import VolumeAims
-from surfmesh.meshing.stages import Progress, Stopwatch
-from surfmesh.meshing.trial_faces import ratios
-from surfmesh.meshing.trial_mesh import ROUNDS as TRIAL_ROUNDS
-from surfmesh.meshing.trial_mesh import WHOLE, WHOLE_STRETCHED, tried
-from surfmesh.sizing.model_sizing import ModelSizing, model_sizing
-from surfmesh.sizing.size_limits import SizeLimits
-from surfmesh.sizing.sizing import Sizing
-from surfmesh.sizing.volume_rule import with_volume_rule
-from surfmesh.surface_mesh import NOT_MESHED, SurfaceMesh
+from surfmesh.meshing.edges.edge_nodes import EdgeNodes, cut_edges
+from surfmesh.meshing.edges.edge_samples import EdgeSamples, sample_edges
+from surfmesh.meshing.edges.face_proximity import with_face_gaps
+from surfmesh.meshing.edges.narrow_faces import NarrowFace
+from surfmesh.meshing.estimate.estimation import Estimate
+from surfmesh.meshing.estimate.model_estimate import model_counts, require_model_within
+from surfmesh.meshing.estimate.trial_faces import ratios
+from surfmesh.meshing.estimate.trial_mesh import ROUNDS as TRIAL_ROUNDS
+from surfmesh.meshing.estimate.trial_mesh import WHOLE, WHOLE_STRETCHED, tried
+from surfmesh.meshing.explain.explanation import Explanation, explain_model
+from surfmesh.meshing.faces.face_data import FaceJob, FaceMesh, Piece
+from surfmesh.meshing.faces.face_mesh import edge_wishes, mesh_face
+from surfmesh.meshing.faces.face_sizings import face_sizings
+from surfmesh.meshing.faces.opposite_faces import copied, opposite_pairs
+from surfmesh.meshing.finishing.edge_collapse import LEAST, simplified
+from surfmesh.meshing.progress import Progress, Stopwatch
+from surfmesh.meshing.solids.groups import groups_of
+from surfmesh.meshing.solids.volumes import VolumeAims
+from surfmesh.result.surface_mesh import NOT_MESHED, SurfaceMesh
+from surfmesh.sizing.options.model_sizing import ModelSizing, model_sizing
+from surfmesh.sizing.options.sizing import Sizing
+from surfmesh.sizing.rules.size_limits import SizeLimits
+from surfmesh.sizing.rules.volume_rule import with_volume_rule
 
 ROUNDS = 8
 """How often everything that depends on refined edges is done again, at most."""

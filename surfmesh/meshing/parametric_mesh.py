@@ -8,28 +8,28 @@ sides -> size field -> packing -> boundary -> optimisation -> space, joined side
 import numpy as np
 
 from surfmesh.errors import MeshingError, SizingError, SurfaceError
-from surfmesh.geometry.kinks import KinkLine, kink_lines
-from surfmesh.geometry.known_facts import known_facts
-from surfmesh.geometry.sides import SideTopology, find_sides
+from surfmesh.geometry.differential.sides import SideTopology, find_sides
+from surfmesh.geometry.files.known_facts import known_facts
+from surfmesh.geometry.formulas.kinks import KinkLine, kink_lines
 from surfmesh.geometry.surface import Surface
-from surfmesh.kernels.background import scalar_sizes_at
-from surfmesh.meshing.boundary_loops import BoundaryLoops, boundary_loops
-from surfmesh.meshing.boundary_recovery import DomainMesh, recovered
-from surfmesh.meshing.cusps import Cusp, closed_at, find_cusps, without_cusps
-from surfmesh.meshing.estimation import Estimate, field_triangles, require_field_within
-from surfmesh.meshing.explanation import Explanation, explain_surface
-from surfmesh.meshing.gluing import Glued, glued, misglued
-from surfmesh.meshing.kink_segments import sides_met, with_kinks
-from surfmesh.meshing.optimise import Optimiser
-from surfmesh.meshing.packing import packed_over
-from surfmesh.meshing.stages import Progress, Stopwatch
-from surfmesh.meshing.trial_mesh import WHOLE, tried
-from surfmesh.meshing.trial_patches import triangles_per_unit
-from surfmesh.sizing.rim_size import Rims
-from surfmesh.sizing.size_field import SizeField, inverse_sizes, size_field
-from surfmesh.sizing.size_limits import SizeLimits
-from surfmesh.sizing.sizing import Sizing
-from surfmesh.surface_mesh import SurfaceMesh
+from surfmesh.kernels.fields.background import scalar_sizes_at
+from surfmesh.meshing.boundary.boundary_loops import BoundaryLoops, boundary_loops
+from surfmesh.meshing.boundary.boundary_recovery import DomainMesh, recovered
+from surfmesh.meshing.boundary.cusps import Cusp, closed_at, find_cusps, without_cusps
+from surfmesh.meshing.boundary.kink_segments import sides_met, with_kinks
+from surfmesh.meshing.estimate.estimation import Estimate, field_triangles, require_field_within
+from surfmesh.meshing.estimate.trial_mesh import WHOLE, tried
+from surfmesh.meshing.estimate.trial_patches import triangles_per_unit
+from surfmesh.meshing.explain.explanation import Explanation, explain_surface
+from surfmesh.meshing.patch.gluing import Glued, glued, misglued
+from surfmesh.meshing.patch.optimise import Optimiser
+from surfmesh.meshing.patch.packing import packed_over
+from surfmesh.meshing.progress import Progress, Stopwatch
+from surfmesh.result.surface_mesh import SurfaceMesh
+from surfmesh.sizing.field.size_field import SizeField, inverse_sizes, size_field
+from surfmesh.sizing.options.sizing import Sizing
+from surfmesh.sizing.rules.rim_size import Rims
+from surfmesh.sizing.rules.size_limits import SizeLimits
 
 ROUNDS = 8
 """How often the whole way is gone at most, each time with smaller sizes where it failed."""

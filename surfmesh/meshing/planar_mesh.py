@@ -6,34 +6,34 @@ size field <-> segments cut   ->  packing -> boundary -> regions -> optimisation
 
 import numpy as np
 
-from surfmesh.geometry.known_facts import known_facts
-from surfmesh.geometry.planar_domain import PlanarDomain
-from surfmesh.kernels.background import scalar_sizes_at
-from surfmesh.kernels.insertion import label_patches
-from surfmesh.meshing.boundary_recovery import DomainMesh, recovered_regions
-from surfmesh.meshing.estimation import (
-    Estimate,
-    combined,
-    field_triangles,
-    require_field_within,
-    require_within,
-)
-from surfmesh.meshing.optimise import Optimiser
-from surfmesh.meshing.packing import packed_over
-from surfmesh.meshing.planar_segments import (
+from surfmesh.geometry.files.known_facts import known_facts
+from surfmesh.geometry.planar.planar_domain import PlanarDomain
+from surfmesh.kernels.fields.background import scalar_sizes_at
+from surfmesh.kernels.insertion.insertion import label_patches
+from surfmesh.meshing.boundary.boundary_recovery import DomainMesh, recovered_regions
+from surfmesh.meshing.boundary.planar_segments import (
     PlanarSegments,
     cut_segments,
     metric_length,
     narrow_gaps,
     short_segments,
 )
-from surfmesh.meshing.stages import Progress, Stopwatch
-from surfmesh.meshing.trial_mesh import WHOLE, tried
-from surfmesh.sizing.across_gaps import size_across
-from surfmesh.sizing.size_bounds import SizeBounds
-from surfmesh.sizing.size_field import COUNTABLE, SizeField, size_field
-from surfmesh.sizing.sizing import Sizing
-from surfmesh.surface_mesh import SurfaceMesh
+from surfmesh.meshing.estimate.estimation import (
+    Estimate,
+    combined,
+    field_triangles,
+    require_field_within,
+    require_within,
+)
+from surfmesh.meshing.estimate.trial_mesh import WHOLE, tried
+from surfmesh.meshing.patch.optimise import Optimiser
+from surfmesh.meshing.patch.packing import packed_over
+from surfmesh.meshing.progress import Progress, Stopwatch
+from surfmesh.result.surface_mesh import SurfaceMesh
+from surfmesh.sizing.field.size_field import COUNTABLE, SizeField, size_field
+from surfmesh.sizing.options.sizing import Sizing
+from surfmesh.sizing.rules.across_gaps import size_across
+from surfmesh.sizing.rules.size_bounds import SizeBounds
 
 GAP_ROUNDS = 3
 """How often the size field is made anew because gaps were found, at most."""

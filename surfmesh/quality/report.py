@@ -10,35 +10,29 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from surfmesh.geometry.numeric import NumericSurface
-from surfmesh.model_facts import ModelFacts
-from surfmesh.quality.against_model import unexpected
-from surfmesh.quality.bodies import BodyPair, bodies
-from surfmesh.quality.by_face import FaceRow, by_face
-from surfmesh.quality.by_solid import SolidRow, by_solid, relative_error, volume_of_all
-from surfmesh.quality.chord_use import chord_use
-from surfmesh.quality.deviation import deviation
-from surfmesh.quality.folds import FoldedTriangle, folded_surfaces, folds, most_folded
-from surfmesh.quality.histograms import Histogram, histograms
-from surfmesh.quality.inward import turned_inward
-from surfmesh.quality.kept_volumes import volumes_not_kept
-from surfmesh.quality.lengths import (
+from surfmesh.geometry.functions.numeric import NumericSurface
+from surfmesh.quality.measures.against_model import unexpected
+from surfmesh.quality.measures.bodies import BodyPair, bodies
+from surfmesh.quality.measures.by_face import FaceRow, by_face
+from surfmesh.quality.measures.by_solid import SolidRow, by_solid, relative_error, volume_of_all
+from surfmesh.quality.measures.chord_use import chord_use
+from surfmesh.quality.measures.deviation import deviation
+from surfmesh.quality.measures.dihedral import turning, worst_turn
+from surfmesh.quality.measures.folds import FoldedTriangle, folded_surfaces, folds, most_folded
+from surfmesh.quality.measures.histograms import Histogram, histograms
+from surfmesh.quality.measures.inward import turned_inward
+from surfmesh.quality.measures.kept_volumes import volumes_not_kept
+from surfmesh.quality.measures.lengths import (
     QUASI_UNIT,
     edge_lengths,
     growth,
     metric_lengths,
     size_growth,
 )
-from surfmesh.quality.loose_edges import LooseEdges, loose_edges
-from surfmesh.quality.lost import explained, is_known, lost
-from surfmesh.quality.narrow import DEGENERATE, narrow_triangles
-from surfmesh.quality.problems import (
-    intersections,
-    overlaps,
-    problems,
-    turned_too_far,
-)
-from surfmesh.quality.promises import (
+from surfmesh.quality.measures.loose_edges import LooseEdges, loose_edges
+from surfmesh.quality.measures.lost import explained, is_known, lost
+from surfmesh.quality.measures.narrow import DEGENERATE, narrow_triangles
+from surfmesh.quality.measures.promises import (
     Promises,
     StatedLimit,
     angle_kept,
@@ -47,23 +41,29 @@ from surfmesh.quality.promises import (
     chord_kept,
     stated,
 )
-from surfmesh.quality.provenance import mesh_sha256, options_of, plain, versions
-from surfmesh.quality.remarks import loose_faces, sheets_facing_apart, touching_bodies
-from surfmesh.quality.second_opinion import (
+from surfmesh.quality.measures.self_intersection import MeetingPair, located, meeting_pairs
+from surfmesh.quality.measures.shape import enclosed_volume, metric_alpha, shapes
+from surfmesh.quality.measures.solids import shares_faces
+from surfmesh.quality.measures.surface_to_mesh import both_ways, surface_deviation, surface_too_far
+from surfmesh.quality.measures.topology import topology
+from surfmesh.quality.measures.unseen import UnseenPlace, unseen, unseen_problems
+from surfmesh.quality.opinion.second_opinion import (
     SecondOpinion,
     disagreements,
     second_opinion,
     unanswered,
 )
-from surfmesh.quality.self_intersection import MeetingPair, located, meeting_pairs
-from surfmesh.quality.shape import enclosed_volume, metric_alpha, shapes
-from surfmesh.quality.solids import shares_faces
-from surfmesh.quality.surface_to_mesh import both_ways, surface_deviation, surface_too_far
-from surfmesh.quality.topology import topology
-from surfmesh.quality.turning import turning, worst_turn
-from surfmesh.quality.unseen import UnseenPlace, unseen, unseen_problems
-from surfmesh.quality.worst import WorstTriangle, worst_triangles
-from surfmesh.surface_mesh import SurfaceMesh
+from surfmesh.quality.verdict.problems import (
+    intersections,
+    overlaps,
+    problems,
+    turned_too_far,
+)
+from surfmesh.quality.verdict.provenance import mesh_sha256, options_of, plain, versions
+from surfmesh.quality.verdict.remarks import loose_faces, sheets_facing_apart, touching_bodies
+from surfmesh.quality.verdict.worst import WorstTriangle, worst_triangles
+from surfmesh.result.model_facts import ModelFacts
+from surfmesh.result.surface_mesh import SurfaceMesh
 
 SCHEMA_VERSION = 4  # of to_dict(): raised when a field changes its meaning or goes away
 LISTED = 20  # places of one kind that a report holds
@@ -206,12 +206,12 @@ class Report:
         """The certificate: the summary, then faces, solids, worst triangles, histograms,
         healing, versions and hashes.
         """
-        from surfmesh.quality.certificate import certificate
+        from surfmesh.quality.text.certificate import certificate
 
         return certificate(self)
 
     def __str__(self) -> str:
-        from surfmesh.quality.summary import summary
+        from surfmesh.quality.text.summary import summary
 
         return summary(self)
 

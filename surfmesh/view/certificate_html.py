@@ -7,8 +7,8 @@ from typing import Any
 import numpy as np
 
 from surfmesh.quality import Report
-from surfmesh.quality.shape import shapes
-from surfmesh.surface_mesh import SurfaceMesh
+from surfmesh.quality.measures.shape import shapes
+from surfmesh.result.surface_mesh import SurfaceMesh
 from surfmesh.view.colouring import Colouring
 from surfmesh.view.histogram import histogram
 from surfmesh.view.lines import worst_triangles

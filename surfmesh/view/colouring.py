@@ -6,10 +6,10 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from surfmesh.geometry.fundamental_forms import PrincipalCurvatures, curvatures, forms
-from surfmesh.quality.deviation import deviation
-from surfmesh.quality.shape import shapes
-from surfmesh.surface_mesh import SurfaceMesh
+from surfmesh.geometry.differential.fundamental_forms import PrincipalCurvatures, curvatures, forms
+from surfmesh.quality.measures.deviation import deviation
+from surfmesh.quality.measures.shape import shapes
+from surfmesh.result.surface_mesh import SurfaceMesh
 from surfmesh.view.legend import unit_of
 from surfmesh.view.vertex_parameters import vertex_parameters
 

@@ -18,7 +18,7 @@ from surfmesh.errors import FileFormatError
 from surfmesh.io.asked_date import asked_date
 from surfmesh.io.atomic import replacing
 from surfmesh.quality import Report, check
-from surfmesh.surface_mesh import SurfaceMesh
+from surfmesh.result.surface_mesh import SurfaceMesh
 from surfmesh.view.certificate_html import certificate_html
 from surfmesh.view.colouring import COLOURS, colourings_of
 from surfmesh.view.legend import name_of, require_drawable, title_of

@@ -5,8 +5,8 @@ from pathlib import Path
 import numpy as np
 
 from surfmesh.errors import FileFormatError
-from surfmesh.quality.shape import alpha
-from surfmesh.surface_mesh import SurfaceMesh
+from surfmesh.quality.measures.shape import alpha
+from surfmesh.result.surface_mesh import SurfaceMesh
 
 EDGES_UP_TO = 25_000  # triangles; more would paint the surface black
 INK = "#202428"

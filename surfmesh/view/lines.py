@@ -5,9 +5,9 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from surfmesh.geometry.fundamental_forms import curvatures, forms
-from surfmesh.quality.shape import shapes
-from surfmesh.surface_mesh import SurfaceMesh
+from surfmesh.geometry.differential.fundamental_forms import curvatures, forms
+from surfmesh.quality.measures.shape import shapes
+from surfmesh.result.surface_mesh import SurfaceMesh
 from surfmesh.view.vertex_parameters import vertex_parameters
 
 ARC = 6  # pieces of a circle within one corner of a triangle

@@ -1,6 +1,6 @@
 """Which lines go over the colours of a picture."""
 
-from surfmesh.surface_mesh import SurfaceMesh
+from surfmesh.result.surface_mesh import SurfaceMesh
 from surfmesh.view.lines import Lines, circles, model_edges, principal_directions, worst_triangles
 
 MARKED = 10  # triangles that are outlined where shape is shown

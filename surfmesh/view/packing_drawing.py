@@ -11,7 +11,7 @@ from surfmesh.io.atomic import replacing
 from surfmesh.view.legend import INK
 
 if TYPE_CHECKING:
-    from surfmesh.meshing.circle_packing import CirclePacking
+    from surfmesh.circle_packing import CirclePacking
 
 SHOWN = ("circles", "mesh", "both")
 FORMATS = (".svg", ".png")

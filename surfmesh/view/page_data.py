@@ -8,7 +8,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from surfmesh.surface_mesh import SurfaceMesh
+from surfmesh.result.surface_mesh import SurfaceMesh
 from surfmesh.view.camera import direction_of
 from surfmesh.view.colour_maps import table_of
 from surfmesh.view.colouring import LABELS, Colouring

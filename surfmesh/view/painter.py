@@ -14,7 +14,7 @@ from matplotlib.colors import LogNorm, Normalize, to_rgba
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
-from surfmesh.surface_mesh import SurfaceMesh
+from surfmesh.result.surface_mesh import SurfaceMesh
 from surfmesh.view.camera import Camera, framed
 from surfmesh.view.colour_maps import map_of
 from surfmesh.view.colouring import Colouring

@@ -5,7 +5,7 @@ from pathlib import Path
 
 from surfmesh.errors import FileFormatError
 from surfmesh.io.atomic import replacing
-from surfmesh.surface_mesh import SurfaceMesh
+from surfmesh.result.surface_mesh import SurfaceMesh
 from surfmesh.view.colouring import Colouring, colouring
 from surfmesh.view.legend import require_drawable, title_of, with_edges
 from surfmesh.view.lines import Lines

@@ -4,7 +4,7 @@ import numpy as np
 import pyvista
 
 from surfmesh.io.vtk_xml import to_pyvista
-from surfmesh.surface_mesh import SurfaceMesh
+from surfmesh.result.surface_mesh import SurfaceMesh
 from surfmesh.view.camera import framed
 from surfmesh.view.colour_maps import map_of
 from surfmesh.view.colouring import Colouring

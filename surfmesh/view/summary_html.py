@@ -2,8 +2,8 @@
 
 from html import escape
 
-from surfmesh.quality.shape import shapes
-from surfmesh.surface_mesh import SurfaceMesh
+from surfmesh.quality.measures.shape import shapes
+from surfmesh.result.surface_mesh import SurfaceMesh
 
 
 def summary_html(mesh: SurfaceMesh) -> str:

@@ -4,7 +4,7 @@ import os
 import sys
 
 from surfmesh.errors import SurfmeshError
-from surfmesh.surface_mesh import SurfaceMesh
+from surfmesh.result.surface_mesh import SurfaceMesh
 from surfmesh.view.colouring import colouring
 from surfmesh.view.legend import title_of, with_edges
 from surfmesh.view.overlays import SHAPES, overlays

@@ -11,7 +11,7 @@ import pytest
 
 pytest.importorskip("OCP")
 
-from surfmesh.cad.reading import read_cad
+from surfmesh.cad.reading.read_file import read_cad
 
 FEW = [
     "cadquery__nested.step",  # an assembly in an assembly
@@ -31,7 +31,7 @@ ALL = bool(os.environ.get("SURFMESH_ALL_CAD"))
 def read(path):
     if ALL:
         return read_cad(path)
-    from surfmesh.cad.readers import read_here
+    from surfmesh.cad.reading.readers import read_here
 
     return read_here(path, True, None)
 
@@ -60,7 +60,7 @@ def test_files_of_the_corpus(cad_folder):
 
 
 def test_units_and_colours_of_the_corpus(cad_folder):
-    from surfmesh.cad.readers import read_here
+    from surfmesh.cad.reading.readers import read_here
 
     model = read_here(cad_folder / "cadquery__red_cube_blue_cylinder.step", True, "m")
     assert (model.file_unit, model.unit) == ("m", "m")

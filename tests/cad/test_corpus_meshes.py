@@ -10,8 +10,8 @@ import pytest
 pytest.importorskip("OCP")
 
 import surfmesh as sm
-from surfmesh.cad.reading import SUFFIXES, read_cad
-from surfmesh.surface_mesh import NOT_MESHED
+from surfmesh.cad.reading.read_file import SUFFIXES, read_cad
+from surfmesh.result.surface_mesh import NOT_MESHED
 
 FEW = [
     "cadquery__simple.step",  # an assembly of boxes
@@ -41,7 +41,7 @@ def models(folder):
         if ALL:
             yield name, read_cad(folder / name)
         else:
-            from surfmesh.cad.readers import read_here
+            from surfmesh.cad.reading.readers import read_here
 
             yield name, read_here(folder / name, True, None)
 

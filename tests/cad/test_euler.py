@@ -5,7 +5,7 @@ import pytest
 from naive.brep_euler import brep_euler
 
 import surfmesh as sm
-from surfmesh.quality.solids import solid_mesh
+from surfmesh.quality.measures.solids import solid_mesh
 
 SMALL = ["librepcb_base.lplib__66b0d775-2450-4f25-a826-3e86cd81d5cc.step",
          "build123d__M6-1x12-countersunk-screw.step", "trimesh__featuretype.STEP"]  # fmt: skip

@@ -12,8 +12,8 @@ from shapes import (
     square_with_inner_edges,
 )
 
-from surfmesh.cad.facts import euler_number, model_facts
-from surfmesh.cad.from_cadquery import from_cadquery
+from surfmesh.cad.cadquery.from_cadquery import from_cadquery
+from surfmesh.cad.model.facts import euler_number, model_facts
 
 # surfaces of genus g: 2 - 2 g; with a border less one for each loop
 NUMBERS = {

@@ -13,8 +13,8 @@ cq = pytest.importorskip("cadquery")
 
 import shapes  # noqa: E402
 
-from surfmesh.cad.from_cadquery import from_cadquery  # noqa: E402
-from surfmesh.cad.invariants import ENDS, signed_area  # noqa: E402
+from surfmesh.cad.cadquery.from_cadquery import from_cadquery  # noqa: E402
+from surfmesh.cad.model.invariants import ENDS, signed_area  # noqa: E402
 from surfmesh.errors import CadError  # noqa: E402
 
 PI = math.pi

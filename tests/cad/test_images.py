@@ -3,11 +3,11 @@
 import numpy as np
 import pytest
 
-from surfmesh.cad.images import follows
-from surfmesh.cad.model import CadCoedge, CadEdge
-from surfmesh.geometry.curves import Circle
-from surfmesh.geometry.elementary import Cylinder
-from surfmesh.geometry.nurbs import BSplineCurve
+from surfmesh.cad.model.cad_model import CadCoedge, CadEdge
+from surfmesh.cad.model.pcurves import follows
+from surfmesh.geometry.cad_surfaces.curves import Circle
+from surfmesh.geometry.cad_surfaces.elementary import Cylinder
+from surfmesh.geometry.cad_surfaces.nurbs import BSplineCurve
 
 X, Y, Z = np.eye(3)
 EDGE = CadEdge(Circle(np.zeros(3), X, Y, 2.0), 0.0, 3.0, 0, 1, 1e-7, False, "", 6.0)

@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 cq = pytest.importorskip("cadquery")
 
 import surfmesh as sm  # noqa: E402
-from surfmesh.cad.selection import select  # noqa: E402
+from surfmesh.cad.selection.selection import select  # noqa: E402
 from surfmesh.cli.arguments import parse  # noqa: E402
 from surfmesh.errors import CadError  # noqa: E402
 

@@ -13,8 +13,8 @@ from OCP.TopoDS import TopoDS_Vertex, TopoDS_Wire
 from shapes import box_with_hole, cut_boxes, square_with_inner_edges
 
 import surfmesh as sm
-from surfmesh.cad.incidence import edge_uses, vertex_fans
-from surfmesh.surface_mesh import SurfaceMesh
+from surfmesh.cad.model.incidence import edge_uses, vertex_fans
+from surfmesh.result.surface_mesh import SurfaceMesh
 
 CHORD = sm.Sizing(chord=0.05, max_size=2)
 

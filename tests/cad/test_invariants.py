@@ -6,7 +6,7 @@ import pytest
 
 cq = pytest.importorskip("cadquery")
 
-from surfmesh.cad.from_cadquery import from_cadquery  # noqa: E402
+from surfmesh.cad.cadquery.from_cadquery import from_cadquery  # noqa: E402
 
 
 @pytest.fixture(scope="module")

@@ -11,10 +11,10 @@ from OCP.TColgp import TColgp_Array2OfPnt
 from OCP.TopoDS import TopoDS_Face, TopoDS_Wire
 
 import surfmesh as sm
-from surfmesh.geometry.elementary import Cone
-from surfmesh.meshing.face_data import FaceJob, Piece
-from surfmesh.meshing.face_job import mesh_face
-from surfmesh.sizing.sizing import Sizing
+from surfmesh.geometry.cad_surfaces.elementary import Cone
+from surfmesh.meshing.faces.face_data import FaceJob, Piece
+from surfmesh.meshing.faces.face_mesh import mesh_face
+from surfmesh.sizing.options.sizing import Sizing
 
 
 def triangle(width: float, size: float = 1000.0) -> cq.Face:

@@ -13,8 +13,8 @@ cq = pytest.importorskip("cadquery")
 
 import shapes  # noqa: E402
 
-from surfmesh.cad.limits import Limits  # noqa: E402
-from surfmesh.cad.reading import answer_of, read_cad  # noqa: E402
+from surfmesh.cad.reading.limits import Limits  # noqa: E402
+from surfmesh.cad.reading.read_file import answer_of, read_cad  # noqa: E402
 from surfmesh.errors import CadError  # noqa: E402
 
 
@@ -114,7 +114,7 @@ def test_limits_that_a_child_imposes_on_itself(program, words):
 
 CHILD = """
 import json, pickle, sys
-from surfmesh.cad.limits import Limits
+from surfmesh.cad.reading.limits import Limits
 wanted = json.load(sys.stdin)
 Limits(wanted["seconds"], wanted["megabytes"]).impose()
 {}
@@ -164,7 +164,7 @@ def test_the_child_dies_with_its_parent(tmp_path):
     child = tmp_path / "child.py"
     child.write_text(
         "import json, os, sys\n"
-        "from surfmesh.cad.lifeline import end_with\n"
+        "from surfmesh.cad.reading.lifeline import end_with\n"
         "end_with(json.load(sys.stdin)['parent'])\n"
         f"open({str(tmp_path / 'number')!r}, 'w').write(str(os.getpid()) + '.')\n"
         "while True: pass\n"
@@ -172,8 +172,8 @@ def test_the_child_dies_with_its_parent(tmp_path):
     parent = tmp_path / "parent.py"
     parent.write_text(
         "import sys\n"
-        "from surfmesh.cad.reading import answer_of\n"
-        "from surfmesh.cad.limits import Limits\n"
+        "from surfmesh.cad.reading.read_file import answer_of\n"
+        "from surfmesh.cad.reading.limits import Limits\n"
         f"answer_of([sys.executable, {str(child)!r}], {{}}, 'part.step', Limits(60.0, 1e3))\n"
     )
     where = {**os.environ, "TMPDIR": str(tmp_path)}

@@ -6,9 +6,9 @@ import pytest
 from cadquery.selectors import StringSyntaxSelector
 
 import surfmesh as sm
-from surfmesh.cad.centres import edge_centre, face_centre, solid_centre
-from surfmesh.cad.selection import select
-from surfmesh.cad.selectors import is_selector, selected
+from surfmesh.cad.model.centres import edge_centre, face_centre, solid_centre
+from surfmesh.cad.selection.selection import select
+from surfmesh.cad.selection.selectors import is_selector, selected
 from surfmesh.errors import SizingError
 
 PARTS = {

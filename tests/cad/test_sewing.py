@@ -10,7 +10,7 @@ cq = pytest.importorskip("cadquery")
 from OCP.BRepBuilderAPI import BRepBuilderAPI_Copy  # noqa: E402
 
 import surfmesh as sm  # noqa: E402
-from surfmesh.cad.selection import select  # noqa: E402
+from surfmesh.cad.selection.selection import select  # noqa: E402
 
 PI = math.pi
 

@@ -8,7 +8,7 @@ import pytest
 from OCP.BRepPrimAPI import BRepPrimAPI_MakeCone, BRepPrimAPI_MakeTorus
 
 import surfmesh as sm
-from surfmesh.cad.facts import euler_number
+from surfmesh.cad.model.facts import euler_number
 
 
 def torus(major: float, minor: float, angle: float = 2.0 * math.pi) -> sm.CadModel:

@@ -7,8 +7,8 @@ import numpy as np
 import pytest
 
 import surfmesh as sm
-from surfmesh.cad.motions import motion_between
-from surfmesh.cad.selection import select
+from surfmesh.cad.cadquery.motions import motion_between
+from surfmesh.cad.selection.selection import select
 from surfmesh.errors import SizingError
 
 

@@ -27,7 +27,7 @@ from OCP.TopoDS import (  # noqa: E402
 )
 
 import surfmesh as sm  # noqa: E402
-from surfmesh.cad.readers import read_here  # noqa: E402
+from surfmesh.cad.reading.readers import read_here  # noqa: E402
 from surfmesh.cli import main  # noqa: E402
 from surfmesh.errors import CadError, MeshingError  # noqa: E402
 

@@ -18,7 +18,7 @@ import pytest
 
 import surfmesh as sm
 from surfmesh.cli import main
-from surfmesh.sizing.sizes_file import read_sizes
+from surfmesh.sizing.options.sizes_file import read_sizes
 
 ROOT = Path(__file__).resolve().parents[2]
 PAGES = [ROOT / "README.md", *sorted((ROOT / "docs").glob("*.md"))]

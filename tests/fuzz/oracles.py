@@ -112,7 +112,7 @@ def _same(a: Any, b: Any) -> bool:
 
 def _cad(path: Path, found: Mutant) -> str:
     """What the child of ``read_cad`` does; what OCP prints there goes nowhere."""
-    from surfmesh.cad.readers import read_here
+    from surfmesh.cad.reading.readers import read_here
     from surfmesh.errors import CadError
 
     try:
@@ -125,7 +125,7 @@ def _cad(path: Path, found: Mutant) -> str:
 
 
 def _cad_in_child(path: Path, found: Mutant) -> str:
-    from surfmesh.cad.reading import read_cad
+    from surfmesh.cad.reading.read_file import read_cad
 
     return f"{len(read_cad(path).faces)} faces"
 
@@ -147,7 +147,7 @@ def _drawing(path: Path, found: Mutant) -> str:
 def _sizes(path: Path, found: Mutant) -> str:
     """Read, and settle for a model whose faces have names."""
     import surfmesh as sm
-    from surfmesh.sizing.sizes_file import read_sizes
+    from surfmesh.sizing.options.sizes_file import read_sizes
 
     wishes = read_sizes(path)
     return f"{len(wishes)} selections, {sm.estimate(_box(), wishes).triangles} triangles"

@@ -11,7 +11,7 @@ from pathlib import Path
 
 import numpy as np
 
-from surfmesh.surface_mesh import SurfaceMesh
+from surfmesh.result.surface_mesh import SurfaceMesh
 
 MESHES = (".vtu", ".vtp", ".stl", ".obj", ".ply", ".glb", ".msh", ".inp", ".bdf", ".xdmf", ".off",
           ".med", ".3mf")  # fmt: skip
@@ -258,8 +258,8 @@ def _write_iges(shape: object, path: Path) -> None:
 
 def _of_gallery(kind: str) -> Iterator[bytes]:
     """The files of the gallery: surfaces or planar domains."""
-    from surfmesh.geometry.surface_file import gallery
-    from surfmesh.geometry.toml_entries import sets_key
+    from surfmesh.geometry.files.surface_file import gallery
+    from surfmesh.geometry.files.toml_entries import sets_key
 
     if kind in ("surface", "domain"):
         for path in gallery().values():

@@ -5,9 +5,9 @@ import pickle
 import numpy as np
 import pytest
 
-from surfmesh.geometry.curve_on_surface import CurveOnSurface
-from surfmesh.geometry.curves import Circle, Line
-from surfmesh.geometry.elementary import Cylinder, Torus
+from surfmesh.geometry.cad_surfaces.curve_on_surface import CurveOnSurface
+from surfmesh.geometry.cad_surfaces.curves import Circle, Line
+from surfmesh.geometry.cad_surfaces.elementary import Cylinder, Torus
 
 X, Y, Z = np.eye(3)
 CYLINDER = Cylinder(np.zeros(3), X, Y, Z, radius=2.0, domain=((0.0, 6.0), (0.0, 6.0)))

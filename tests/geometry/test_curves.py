@@ -7,9 +7,9 @@ import numpy as np
 import pytest
 
 from surfmesh.errors import SurfaceError
-from surfmesh.geometry.curves import Circle, Curve, Ellipse, Hyperbola, Line, Parabola
-from surfmesh.geometry.nurbs import BSplineCurve, bezier_knots
-from surfmesh.geometry.offset import OffsetCurve
+from surfmesh.geometry.cad_surfaces.curves import Circle, Curve, Ellipse, Hyperbola, Line, Parabola
+from surfmesh.geometry.cad_surfaces.nurbs import BSplineCurve, bezier_knots
+from surfmesh.geometry.cad_surfaces.offset import OffsetCurve
 
 SPACE = {"origin": (1.0, 2.0, 3.0), "x": (0.6, 0.8, 0.0), "y": (0.0, 0.0, 1.0)}
 PLANE = {"origin": (1.0, 2.0), "x": (0.6, 0.8), "y": (0.8, -0.6)}  # clockwise

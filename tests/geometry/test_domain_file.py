@@ -7,9 +7,9 @@ import shapely
 import surfmesh as sm
 from surfmesh.api import load
 from surfmesh.errors import DomainError, FileFormatError
-from surfmesh.geometry.domain_faces import inside_faces
-from surfmesh.geometry.domain_file import load_domain_file
-from surfmesh.sizing.distance_size import DistanceSize, default_wishes
+from surfmesh.geometry.files.domain_file import load_domain_file
+from surfmesh.geometry.planar.domain_faces import inside_faces
+from surfmesh.sizing.options.distance_size import DistanceSize, default_wishes
 
 GOOD = """
 name = "plate"

@@ -10,8 +10,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from surfmesh.errors import FormulaError, SurfaceError
-from surfmesh.geometry.compilation import compiled, surface_tape
-from surfmesh.geometry.expression import FUNCTIONS, parse, parse_number, symbol
+from surfmesh.geometry.formulas.compilation import compiled, surface_tape
+from surfmesh.geometry.formulas.expression import FUNCTIONS, parse, parse_number, symbol
 
 U, V = symbol("u"), symbol("v")
 

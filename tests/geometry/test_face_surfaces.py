@@ -7,14 +7,14 @@ import numpy as np
 import pytest
 
 from surfmesh.errors import SurfaceError
-from surfmesh.geometry.curves import Circle, Ellipse, Line
-from surfmesh.geometry.elementary import Cone, Cylinder, Plane, Sphere, Torus
-from surfmesh.geometry.face_surface import DERIVATIVES
-from surfmesh.geometry.fundamental_forms import area, curvatures, forms
-from surfmesh.geometry.nurbs import BSplineCurve, BSplineSurface, bezier_knots
-from surfmesh.geometry.offset import OffsetSurface
+from surfmesh.geometry.cad_surfaces.curves import Circle, Ellipse, Line
+from surfmesh.geometry.cad_surfaces.elementary import Cone, Cylinder, Plane, Sphere, Torus
+from surfmesh.geometry.cad_surfaces.face_surface import DERIVATIVES
+from surfmesh.geometry.cad_surfaces.nurbs import BSplineCurve, BSplineSurface, bezier_knots
+from surfmesh.geometry.cad_surfaces.offset import OffsetSurface
+from surfmesh.geometry.cad_surfaces.swept import ExtrusionSurface, RevolutionSurface
+from surfmesh.geometry.differential.fundamental_forms import area, curvatures, forms
 from surfmesh.geometry.surface import Surface
-from surfmesh.geometry.swept import ExtrusionSurface, RevolutionSurface
 
 TURN = 2.0 * np.pi
 BOX = ((0.2, 1.3), (0.1, 0.9))

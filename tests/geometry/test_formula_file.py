@@ -4,10 +4,10 @@ import numpy as np
 import pytest
 
 from surfmesh.errors import FormulaError, SurfaceError
-from surfmesh.geometry.compilation import compiled
-from surfmesh.geometry.expression import parse, symbol
-from surfmesh.geometry.formula_file import gallery, load_formula_file
-from surfmesh.geometry.fundamental_forms import area, curvatures, forms
+from surfmesh.geometry.differential.fundamental_forms import area, curvatures, forms
+from surfmesh.geometry.files.formula_file import gallery, load_formula_file
+from surfmesh.geometry.formulas.compilation import compiled
+from surfmesh.geometry.formulas.expression import parse, symbol
 
 GOOD = """
 name = "bump"

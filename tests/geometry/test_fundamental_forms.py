@@ -3,9 +3,9 @@
 import numpy as np
 import pytest
 
-from surfmesh.geometry.formula_file import gallery, load_formula_file
-from surfmesh.geometry.fundamental_forms import area, curvatures, forms
-from surfmesh.geometry.parametric import ParametricSurface
+from surfmesh.geometry.differential.fundamental_forms import area, curvatures, forms
+from surfmesh.geometry.files.formula_file import gallery, load_formula_file
+from surfmesh.geometry.formulas.parametric import ParametricSurface
 
 
 def surface(name):

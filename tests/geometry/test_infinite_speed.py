@@ -5,9 +5,9 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from surfmesh.geometry.infinite_speed import BentAxis
-from surfmesh.geometry.parametric import ParametricSurface
-from surfmesh.geometry.scaling import Scaling
+from surfmesh.geometry.differential.infinite_speed import BentAxis
+from surfmesh.geometry.differential.scaling import Scaling
+from surfmesh.geometry.formulas.parametric import ParametricSurface
 
 TURN = (0, "2*pi")
 

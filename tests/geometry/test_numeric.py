@@ -8,8 +8,8 @@ import pytest
 
 import surfmesh as sm
 from surfmesh.errors import SurfaceError
-from surfmesh.geometry.differences import Differences
-from surfmesh.geometry.formula_file import gallery
+from surfmesh.geometry.files.formula_file import gallery
+from surfmesh.geometry.functions.differences import Differences
 from surfmesh.geometry.surface import Surface
 
 TAU = 2 * np.pi

@@ -9,8 +9,8 @@ import numpy as np
 import pytest
 
 from surfmesh.errors import FormulaError, SurfaceError
-from surfmesh.geometry.formula_file import gallery, load_formula_file
-from surfmesh.geometry.parametric import ParametricSurface
+from surfmesh.geometry.files.formula_file import gallery, load_formula_file
+from surfmesh.geometry.formulas.parametric import ParametricSurface
 from surfmesh.geometry.surface import Surface
 
 UNIT = {"u": (0, 1), "v": (0, 1)}

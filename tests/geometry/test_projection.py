@@ -3,9 +3,9 @@
 import numpy as np
 import pytest
 
-from surfmesh.geometry.formula_file import gallery, load_formula_file
-from surfmesh.geometry.fundamental_forms import curvatures, forms
-from surfmesh.geometry.projection import closest_point
+from surfmesh.geometry.differential.fundamental_forms import curvatures, forms
+from surfmesh.geometry.differential.projection import closest_point
+from surfmesh.geometry.files.formula_file import gallery, load_formula_file
 
 SMOOTH = sorted(gallery().keys() - {"bad_speed", "dini"})
 

@@ -11,9 +11,9 @@ from hypothesis.extra.numpy import arrays
 from naive import plane_graph
 
 from surfmesh.errors import DomainError
-from surfmesh.geometry.domain_faces import bounded_faces, inside_faces
-from surfmesh.geometry.noding import MERGE
-from surfmesh.geometry.segment_graph import Line, inside_regions, segment_graph
+from surfmesh.geometry.planar.domain_faces import bounded_faces, inside_faces
+from surfmesh.geometry.planar.noding import MERGE
+from surfmesh.geometry.planar.segment_graph import Line, inside_regions, segment_graph
 
 SQUARE = np.array([[0, 0], [1, 0], [1, 1], [0, 1]], float)
 

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 import surfmesh as sm
-from surfmesh.geometry.sharp_bends import bends_sharply
+from surfmesh.geometry.differential.sharp_bends import bends_sharply
 
 
 def triangles_at(u: float, v: float, size: float) -> np.ndarray:

@@ -3,10 +3,10 @@
 import numpy as np
 import pytest
 
-from surfmesh.geometry.expression import parse, symbol
-from surfmesh.geometry.formula_file import gallery, load_formula_file
-from surfmesh.geometry.parametric import ParametricSurface
-from surfmesh.geometry.sides import find_sides
+from surfmesh.geometry.differential.sides import find_sides
+from surfmesh.geometry.files.formula_file import gallery, load_formula_file
+from surfmesh.geometry.formulas.expression import parse, symbol
+from surfmesh.geometry.formulas.parametric import ParametricSurface
 
 OPEN = (-1, -1, -1, -1)
 # collapsed sides, partners, sides joined backwards; everything not listed is open

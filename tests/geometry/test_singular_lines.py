@@ -5,11 +5,11 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from surfmesh.geometry.curves import Circle
-from surfmesh.geometry.elementary import Cone, Cylinder, Sphere, Torus
-from surfmesh.geometry.nurbs import BSplineCurve, BSplineSurface, bezier_knots
-from surfmesh.geometry.singular_lines import singular_lines
-from surfmesh.geometry.swept import RevolutionSurface
+from surfmesh.geometry.cad_surfaces.curves import Circle
+from surfmesh.geometry.cad_surfaces.elementary import Cone, Cylinder, Sphere, Torus
+from surfmesh.geometry.cad_surfaces.nurbs import BSplineCurve, BSplineSurface, bezier_knots
+from surfmesh.geometry.cad_surfaces.singular_lines import singular_lines
+from surfmesh.geometry.cad_surfaces.swept import RevolutionSurface
 
 FRAME = {"origin": (1.0, -2.0, 0.5), "x": (1, 0, 0), "y": (0, 1, 0), "z": (0, 0, 1)}
 TURN = (0.0, 2.0 * np.pi)

@@ -9,14 +9,14 @@ import sympy as sp
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from surfmesh.geometry.compilation import (
+from surfmesh.geometry.formulas.compilation import (
     by_definitions,
     compiled,
     long_surface_tape,
     surface_tape,
 )
-from surfmesh.geometry.expression import parse, symbol
-from surfmesh.geometry.tape import BLOCK, integer_power
+from surfmesh.geometry.formulas.expression import parse, symbol
+from surfmesh.geometry.formulas.tape import BLOCK, integer_power
 
 U, V = VARIABLES = symbol("u"), symbol("v")
 ORDERS = ((), (U,), (V,), (U, U), (U, V), (V, V))

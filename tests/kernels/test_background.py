@@ -7,7 +7,7 @@ from hypothesis import strategies as st
 from naive.background import capped_inverse, looked_up, random_tree, uniform_background
 from naive.metric import matrix
 
-from surfmesh.kernels.background import (
+from surfmesh.kernels.fields.background import (
     inverse_size_at,
     inverse_sizes_at,
     invert,

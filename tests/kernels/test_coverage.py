@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from naive.background import constant_background, looked_up, random_tree
 
-from surfmesh.kernels.coverage import STACK, inverse_area
+from surfmesh.kernels.fields.coverage import STACK, inverse_area
 
 
 def area(background, x1, y1):

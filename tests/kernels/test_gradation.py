@@ -8,7 +8,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from naive.patches import ISOTROPIC, NONE, patches
 
-from surfmesh.kernels.gradation import grade, patch_errors
+from surfmesh.kernels.fields.gradation import grade, patch_errors
 
 
 def graded_by_dijkstra(patch, joined, r, slope, h):

@@ -5,7 +5,7 @@ import heapq
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from surfmesh.kernels.heap import empty_heap, pop, push
+from surfmesh.kernels.packing.heap import empty_heap, pop, push
 
 # few different numbers: ties of the key, of key and a, of all three
 entry = st.tuples(

@@ -48,9 +48,9 @@ def test_cache_folder_can_be_chosen(monkeypatch, tmp_path):
 MESH = """
 import numpy as np
 import surfmesh as sm
-from surfmesh.kernels.predicates import orient
-from surfmesh.meshing.packing import packed
-from surfmesh.kernels.background import Background
+from surfmesh.kernels.triangulation.predicates import orient
+from surfmesh.meshing.patch.packing import packed
+from surfmesh.kernels.fields.background import Background
 
 field = Background(
     np.array([0.0, 0.0, 1.0, 1.0, 1e30]), np.array([1, 1]), np.array([-1], np.int32),

@@ -15,9 +15,9 @@ from naive.triangulation import (
 )
 
 from surfmesh.kernels import NIL
-from surfmesh.kernels.local_operations import convex, remove_vertex, swap, turn
-from surfmesh.kernels.optimisation import split_edge
-from surfmesh.kernels.triangulation import next_half_edge
+from surfmesh.kernels.optimisation.optimisation import split_edge
+from surfmesh.kernels.triangulation.local_operations import convex, remove_vertex, swap, turn
+from surfmesh.kernels.triangulation.triangulation import next_half_edge
 
 
 def random_plane(seed, n=30):

@@ -7,7 +7,7 @@ from hypothesis import strategies as st
 from naive.metric import tangent_metric, turned
 from naive.patches import ISOTROPIC, NONE, patches
 
-from surfmesh.kernels.gradation import TURN_SLOPE, Metric, grade
+from surfmesh.kernels.fields.gradation import TURN_SLOPE, Metric, grade
 
 
 def neighbours(patch):

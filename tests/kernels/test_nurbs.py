@@ -6,7 +6,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from naive import nurbs as naive
 
-from surfmesh.kernels.nurbs import (
+from surfmesh.kernels.space.nurbs import (
     basis_derivatives,
     curve_derivatives,
     locate,

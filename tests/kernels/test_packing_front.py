@@ -9,9 +9,9 @@ from naive.metric import alpha, length
 from naive.triangulation import check_front, check_triangulation, corners, front_loop
 from naive.watchdog import within
 
-from surfmesh.kernels.front import DONE
-from surfmesh.kernels.packing import FULL, pack, start_packing
-from surfmesh.meshing.packing import _grown, _room_for, packed
+from surfmesh.kernels.packing.front import DONE
+from surfmesh.kernels.packing.packing import FULL, pack, start_packing
+from surfmesh.meshing.patch.packing import _grown, _room_for, packed
 
 UNIT = (0.0, 0.0, 1.0, 1.0)
 

@@ -10,10 +10,10 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from naive import exact, meeting
 
-from surfmesh.kernels.exact_sums import exact_sum
-from surfmesh.kernels.predicates import orient
-from surfmesh.kernels.space_predicates import WORKSPACE, orient_space
-from surfmesh.kernels.triangle_pairs import triangles_meet
+from surfmesh.kernels.space.space_predicates import WORKSPACE, orient_space
+from surfmesh.kernels.space.triangle_pairs import triangles_meet
+from surfmesh.kernels.triangulation.exact_sums import exact_sum
+from surfmesh.kernels.triangulation.predicates import orient
 
 WORK = np.empty(WORKSPACE)
 EDGES = [0.0, 5e-324, 2.0**-1074 * 3, 2.0**-1022, 1e-200, 1e-160, 1e-136, 1.0, 1e150, 1e300]

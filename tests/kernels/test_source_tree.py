@@ -7,8 +7,8 @@ from hypothesis import strategies as st
 from naive.sources import graded_sizes, leaves
 
 from surfmesh.errors import SizingError
-from surfmesh.kernels.background import scalar_sizes_at, sizes_at
-from surfmesh.sizing.boundary_field import source_background
+from surfmesh.kernels.fields.background import scalar_sizes_at, sizes_at
+from surfmesh.sizing.field.boundary_field import source_background
 
 SLOPE = 2.0 * 0.2 / 2.2  # a growth of 1.2
 UNIT = (0.0, 0.0, 1.0, 1.0)

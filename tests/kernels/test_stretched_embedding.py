@@ -5,8 +5,8 @@ import pytest
 from naive.background import uniform_background
 from naive.metric import alpha, in_space
 
-from surfmesh.kernels.background import in_space_at_all
-from surfmesh.kernels.embedding import (
+from surfmesh.kernels.fields.background import in_space_at_all
+from surfmesh.kernels.optimisation.surface_frames import (
     chord,
     edge_length,
     embed,
@@ -15,7 +15,7 @@ from surfmesh.kernels.embedding import (
     shorten,
     triangle_shape,
 )
-from surfmesh.kernels.triangulation import empty_triangulation
+from surfmesh.kernels.triangulation.triangulation import empty_triangulation
 
 
 def embedded(seed=0, ratio=30.0):

@@ -6,7 +6,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from naive import metric
 
-from surfmesh.kernels.tensors import edge_length, length, shape, solve, triangle_shape
+from surfmesh.kernels.fields.tensors import edge_length, length, shape, solve, triangle_shape
 
 
 def random_tensors(seed, n, stretch=1e3):

@@ -7,10 +7,10 @@ from hypothesis import strategies as st
 from naive import meeting as slow
 from naive.exact import sign
 
-from surfmesh.kernels.space_predicates import WORKSPACE, orient_space
-from surfmesh.kernels.triangle_pairs import triangles_meet
-from surfmesh.quality.self_intersection import meeting_pairs
-from surfmesh.surface_mesh import SurfaceMesh
+from surfmesh.kernels.space.space_predicates import WORKSPACE, orient_space
+from surfmesh.kernels.space.triangle_pairs import triangles_meet
+from surfmesh.quality.measures.self_intersection import meeting_pairs
+from surfmesh.result.surface_mesh import SurfaceMesh
 
 WORK = np.empty(WORKSPACE)
 coarse = st.integers(-2, 2).map(float)  # many coincidences

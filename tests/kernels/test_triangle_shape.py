@@ -7,8 +7,8 @@ import numpy as np
 import pytest
 
 import surfmesh as sm
-from surfmesh.kernels.embedding import empty_embedding, triangle_shape
-from surfmesh.kernels.optimisation import find_folded
+from surfmesh.kernels.optimisation.optimisation import find_folded
+from surfmesh.kernels.optimisation.surface_frames import empty_embedding, triangle_shape
 
 
 def shape_at(tilt: float, stretched: bool = True) -> float:

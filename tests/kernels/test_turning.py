@@ -5,18 +5,18 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from surfmesh.connectivity import connect
-from surfmesh.kernels.turning import turning_angles
-from surfmesh.quality.turning import turning, worst_turn
-from surfmesh.sizing.bent_surface import bends_itself
-from surfmesh.sizing.curvature_size import (
+from surfmesh.kernels.optimisation.dihedral import turning_angles
+from surfmesh.quality.measures.dihedral import turning, worst_turn
+from surfmesh.result.connectivity import connect
+from surfmesh.result.surface_mesh import SurfaceMesh
+from surfmesh.sizing.options.sizing import Sizing
+from surfmesh.sizing.rules.bent_surface import bends_itself
+from surfmesh.sizing.rules.curvature_size import (
     BENT_RESERVE,
     ROUND_RESERVE,
     principal_angle_sizes,
     turning_factor,
 )
-from surfmesh.sizing.sizing import Sizing
-from surfmesh.surface_mesh import SurfaceMesh
 
 
 def angles_of(points, triangles):

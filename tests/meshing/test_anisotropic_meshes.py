@@ -8,7 +8,7 @@ import pytest
 from naive.metric import in_space
 
 import surfmesh as sm
-from surfmesh.quality.shape import metric_alpha
+from surfmesh.quality.measures.shape import metric_alpha
 
 TURN = (0.0, 2 * np.pi)
 TUBE = sm.ParametricSurface("cos(u)", "sin(u)", "v", u=TURN, v=(0, 50))

@@ -18,9 +18,9 @@ from naive.triangulation import (
 from naive.watchdog import within
 
 from surfmesh.errors import SurfaceError
-from surfmesh.kernels.background import sizes_at
-from surfmesh.kernels.boundary_row import insert_row
-from surfmesh.kernels.insertion import (
+from surfmesh.kernels.fields.background import sizes_at
+from surfmesh.kernels.insertion.boundary_row import insert_row
+from surfmesh.kernels.insertion.insertion import (
     FINISHED,
     INSIDE,
     clear_boundary,
@@ -28,8 +28,8 @@ from surfmesh.kernels.insertion import (
     grow_inside,
     insert_boundary,
 )
-from surfmesh.meshing.boundary_loops import BoundaryLoops
-from surfmesh.meshing.boundary_recovery import (
+from surfmesh.meshing.boundary.boundary_loops import BoundaryLoops
+from surfmesh.meshing.boundary.boundary_recovery import (
     APART,
     AROUND,
     CROWDED,
@@ -39,7 +39,7 @@ from surfmesh.meshing.boundary_recovery import (
     _with_room,
     recovered,
 )
-from surfmesh.meshing.packing import packed
+from surfmesh.meshing.patch.packing import packed
 
 SURFACE = SimpleNamespace(name="test")
 

@@ -5,9 +5,9 @@ import pytest
 
 import surfmesh as sm
 from surfmesh.errors import MeshingError, SizingError
-from surfmesh.geometry.scaling import Scaling
+from surfmesh.geometry.differential.scaling import Scaling
 from surfmesh.meshing import parametric_mesh
-from surfmesh.sizing import size_field
+from surfmesh.sizing.field import size_field
 
 TURN = (0, "2*pi")
 

@@ -9,9 +9,9 @@ from hypothesis import strategies as st
 from scipy.spatial import cKDTree
 
 import surfmesh as sm
+from surfmesh.circle_packing import CirclePacking
 from surfmesh.cli import main
 from surfmesh.errors import FileFormatError, SizingError
-from surfmesh.meshing.circle_packing import CirclePacking
 
 PAPER_AVG1, PAPER_AVG3 = 0.151276, 0.823691  # Table 2, random sizes 1 : 1000
 STATED_OVERLAP = 0.02

@@ -10,8 +10,8 @@ import pytest
 from scipy.integrate import quad
 
 import surfmesh as sm
-from surfmesh.geometry.sides import find_sides
-from surfmesh.meshing.cusps import find_cusps
+from surfmesh.geometry.differential.sides import find_sides
+from surfmesh.meshing.boundary.cusps import find_cusps
 
 TURN = (0, "2*pi")
 PROFILES = {  # radius, height, domain, area's derivative, Euler number

@@ -9,11 +9,11 @@ from naive.brep_euler import brep_euler
 from scipy.interpolate import make_interp_spline
 
 import surfmesh as sm
-from surfmesh.cad.invariants import signed_area
+from surfmesh.cad.model.invariants import signed_area
 from surfmesh.errors import MeshingError
-from surfmesh.geometry.nurbs import BSplineCurve
-from surfmesh.meshing import face_job
-from surfmesh.quality.solids import solid_mesh
+from surfmesh.geometry.cad_surfaces.nurbs import BSplineCurve
+from surfmesh.meshing.faces import face_mesh as face_job
+from surfmesh.quality.measures.solids import solid_mesh
 
 
 def crescent():

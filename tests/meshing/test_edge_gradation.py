@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from surfmesh.meshing.edge_gradation import graded_by_direction
+from surfmesh.meshing.edges.edge_gradation import graded_by_direction
 
 
 def at_the_corner(angle, ratio):

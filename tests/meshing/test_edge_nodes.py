@@ -7,11 +7,11 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 import surfmesh as sm
-from surfmesh.kernels.edge_gaps import edge_gaps
-from surfmesh.meshing.edge_nodes import cut_edges
-from surfmesh.meshing.edge_samples import sample_edges
-from surfmesh.sizing.model_sizing import model_sizing
-from surfmesh.sizing.size_limits import SizeLimits
+from surfmesh.kernels.space.edge_distances import edge_gaps
+from surfmesh.meshing.edges.edge_nodes import cut_edges
+from surfmesh.meshing.edges.edge_samples import sample_edges
+from surfmesh.sizing.options.model_sizing import model_sizing
+from surfmesh.sizing.rules.size_limits import SizeLimits
 
 
 def naive_gaps(points, wish, first, ends, edges, first_of_face):

@@ -5,12 +5,13 @@ import numpy as np
 import pytest
 
 import surfmesh as sm
-from surfmesh.geometry.sides import find_sides
-from surfmesh.meshing import parametric_mesh, trial_mesh
-from surfmesh.meshing.estimation import field_triangles
-from surfmesh.meshing.trial_patches import triangles_per_unit
-from surfmesh.sizing.metric_area import box_area, metric_area
-from surfmesh.sizing.size_field import size_field
+from surfmesh.geometry.differential.sides import find_sides
+from surfmesh.meshing import parametric_mesh
+from surfmesh.meshing.estimate import trial_mesh
+from surfmesh.meshing.estimate.estimation import field_triangles
+from surfmesh.meshing.estimate.trial_patches import triangles_per_unit
+from surfmesh.sizing.field.metric_area import box_area, metric_area
+from surfmesh.sizing.field.size_field import size_field
 
 RING = np.stack([np.cos(t := np.linspace(0, 2 * np.pi, 200, endpoint=False)), np.sin(t)], axis=1)
 

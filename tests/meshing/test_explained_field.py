@@ -9,14 +9,14 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import surfmesh as sm
-from surfmesh.geometry.sides import find_sides
-from surfmesh.kernels.background import scalar_sizes_at
-from surfmesh.meshing.axis_sizes import LOWERED, Principal, field_axes
-from surfmesh.meshing.face_job import face_field
+from surfmesh.geometry.differential.sides import find_sides
+from surfmesh.kernels.fields.background import scalar_sizes_at
+from surfmesh.meshing.explain.axis_sizes import LOWERED, Principal, field_axes
+from surfmesh.meshing.faces.face_mesh import face_field
 from surfmesh.meshing.model_mesh import _unmeshed
-from surfmesh.sizing.rim_size import Rims
-from surfmesh.sizing.size_field import size_field
-from surfmesh.sizing.size_law import SizeLaw
+from surfmesh.sizing.field.size_field import size_field
+from surfmesh.sizing.field.size_law import SizeLaw
+from surfmesh.sizing.rules.rim_size import Rims
 
 SURFACES = ("helicoid", "ellipsoid", "cylinder", "hyperbolic_paraboloid", "monkey_saddle")
 WISHES = (

@@ -5,11 +5,11 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from surfmesh.geometry.elementary import Plane
-from surfmesh.meshing.face_data import FaceJob, FaceMesh, Piece
-from surfmesh.meshing.face_job import _never_empty, mesh_face
-from surfmesh.meshing.filling import filled
-from surfmesh.sizing.sizing import Sizing
+from surfmesh.geometry.cad_surfaces.elementary import Plane
+from surfmesh.meshing.faces.face_data import FaceJob, FaceMesh, Piece
+from surfmesh.meshing.faces.face_mesh import _never_empty, mesh_face
+from surfmesh.meshing.faces.polygon_filling import filled
+from surfmesh.sizing.options.sizing import Sizing
 
 
 def areas(points, triangles):

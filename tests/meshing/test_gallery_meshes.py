@@ -7,11 +7,11 @@ import numpy as np
 import pytest
 
 import surfmesh as sm
-from surfmesh.geometry.formula_file import gallery
-from surfmesh.geometry.parametric import ParametricSurface
-from surfmesh.geometry.sides import find_sides
-from surfmesh.sizing.size_field import size_field
-from surfmesh.sizing.sizing import Sizing
+from surfmesh.geometry.differential.sides import find_sides
+from surfmesh.geometry.files.formula_file import gallery
+from surfmesh.geometry.formulas.parametric import ParametricSurface
+from surfmesh.sizing.field.size_field import size_field
+from surfmesh.sizing.options.sizing import Sizing
 
 LENGTHS = ("size", "min_size", "max_size")
 TRIANGLES = {"spring": 12_000, "trefoil": 5000}  # tightly curved tubes

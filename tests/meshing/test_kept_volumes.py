@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 import surfmesh as sm
-from surfmesh.meshing.solid_volumes import volume_errors
+from surfmesh.meshing.solids.volumes import volume_errors
 
 
 def plate(n):

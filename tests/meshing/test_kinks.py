@@ -9,7 +9,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import surfmesh as sm
-from surfmesh.geometry.kinks import kink_lines
+from surfmesh.geometry.formulas.kinks import kink_lines
 
 TAU = 2 * math.pi
 

@@ -15,12 +15,12 @@ from OCP.gp import gp_Ax3, gp_Pln, gp_Pnt2d
 from OCP.TopoDS import TopoDS, TopoDS_Compound, TopoDS_Face, TopoDS_Vertex, TopoDS_Wire
 
 import surfmesh as sm
-from surfmesh.cad.loop_faults import exact_loops
+from surfmesh.cad.model.loop_faults import exact_loops
 from surfmesh.errors import MeshingError
-from surfmesh.meshing.edge_samples import vertex_numbers
-from surfmesh.meshing.face_data import FaceMesh
+from surfmesh.meshing.edges.edge_samples import vertex_numbers
+from surfmesh.meshing.faces.face_data import FaceMesh
 from surfmesh.meshing.model_mesh import _Hope
-from surfmesh.sizing.size_limits import SizeLimits
+from surfmesh.sizing.rules.size_limits import SizeLimits
 
 BUILD = BRep_Builder()
 BOX = [(0, 0), (15, 0), (15, 10), (0, 10)]

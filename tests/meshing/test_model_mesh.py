@@ -9,8 +9,8 @@ import pytest
 import surfmesh as sm
 from surfmesh.errors import MeshingError
 from surfmesh.meshing import model_mesh
-from surfmesh.meshing.face_data import FaceMesh
-from surfmesh.quality.solids import solid_mesh
+from surfmesh.meshing.faces.face_data import FaceMesh
+from surfmesh.quality.measures.solids import solid_mesh
 
 
 def plate() -> cq.Workplane:

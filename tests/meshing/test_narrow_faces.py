@@ -4,10 +4,10 @@ import numpy as np
 import pytest
 
 import surfmesh as sm
-from surfmesh.meshing.face_data import FaceMesh
+from surfmesh.meshing.faces.face_data import FaceMesh
 from surfmesh.meshing.model_mesh import PATIENCE, _Hope
-from surfmesh.sizing.size_field import LONGEST_ROW, _root_grid
-from surfmesh.sizing.size_limits import SizeLimits, along_lines
+from surfmesh.sizing.field.size_field import LONGEST_ROW, _root_grid
+from surfmesh.sizing.rules.size_limits import SizeLimits, along_lines
 
 
 @pytest.mark.parametrize(

@@ -8,23 +8,23 @@ from naive.metric import alpha, star_energy
 from naive.triangulation import check_domain, corners, half_edges, live_triangles
 
 from surfmesh.api import load
-from surfmesh.geometry.sides import find_sides
+from surfmesh.geometry.differential.sides import find_sides
 from surfmesh.kernels import NIL
-from surfmesh.kernels.embedding import (
+from surfmesh.kernels.optimisation.optimisation import _newton_step, swap_for_degree, swap_for_shape
+from surfmesh.kernels.optimisation.surface_frames import (
     chord,
     edge_length,
     empty_embedding,
     triangle_deviation,
     triangle_shape,
 )
-from surfmesh.kernels.optimisation import _newton_step, swap_for_degree, swap_for_shape
-from surfmesh.kernels.triangulation import empty_triangulation
-from surfmesh.meshing.boundary_loops import boundary_loops
-from surfmesh.meshing.boundary_recovery import recovered
-from surfmesh.meshing.optimise import LONGEST, SHORTEST, Optimiser
-from surfmesh.meshing.packing import packed
-from surfmesh.sizing.size_field import size_field
-from surfmesh.sizing.sizing import Sizing
+from surfmesh.kernels.triangulation.triangulation import empty_triangulation
+from surfmesh.meshing.boundary.boundary_loops import boundary_loops
+from surfmesh.meshing.boundary.boundary_recovery import recovered
+from surfmesh.meshing.patch.optimise import LONGEST, SHORTEST, Optimiser
+from surfmesh.meshing.patch.packing import packed
+from surfmesh.sizing.field.size_field import size_field
+from surfmesh.sizing.options.sizing import Sizing
 
 
 def optimiser_of(name="two_peaks", **wishes):

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 import surfmesh as sm
-from surfmesh.quality.shape import alpha
+from surfmesh.quality.measures.shape import alpha
 
 NOTEBOOK = Path(__file__).parents[2] / "notebooks" / "paper_examples.py"
 

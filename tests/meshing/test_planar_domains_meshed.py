@@ -5,7 +5,7 @@ import pytest
 
 import surfmesh as sm
 from surfmesh.errors import DomainError
-from surfmesh.quality.shape import alpha
+from surfmesh.quality.measures.shape import alpha
 
 SQUARE = np.array([[0, 0], [1, 0], [1, 1], [0, 1]], float)
 SMALL = 0.2 + 0.6 * SQUARE
@@ -70,7 +70,7 @@ def follows_segments(mesh, domain):
 def _is_inside(domain, place):
     import shapely
 
-    from surfmesh.geometry.domain_faces import inside_faces
+    from surfmesh.geometry.planar.domain_faces import inside_faces
 
     reach = 1e-9 * max(high - low for low, high in domain.domain)
     return shapely.intersects(shapely.Point(place).buffer(reach), inside_faces(domain.graph)).any()

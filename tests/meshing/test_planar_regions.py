@@ -7,7 +7,7 @@ from hypothesis import strategies as st
 
 import surfmesh as sm
 from surfmesh.errors import DomainError
-from surfmesh.quality.shape import alpha
+from surfmesh.quality.measures.shape import alpha
 
 SQUARE = [(0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0)]
 

@@ -10,9 +10,9 @@ from hypothesis import strategies as st
 
 import surfmesh as sm
 from surfmesh.errors import SizingError
-from surfmesh.meshing.second_order import LEAST_JACOBIAN, of_second_order
-from surfmesh.six_nodes import least_jacobians, six_nodes
-from surfmesh.surface_mesh import SurfaceMesh
+from surfmesh.meshing.finishing.second_order import LEAST_JACOBIAN, of_second_order
+from surfmesh.result.quadratic_triangles import least_jacobians, six_nodes
+from surfmesh.result.surface_mesh import SurfaceMesh
 
 STRAIGHT = np.array([(0, 0, 0), (1, 0, 0), (0, 1, 0), (0.5, 0, 0), (0.5, 0.5, 0), (0, 0.5, 0)])
 INSIDE = np.array([-1, -1, -1, 4, 4, 4]) / 9  # values of the six functions in the centre

@@ -6,7 +6,7 @@ import pytest
 
 import surfmesh as sm
 from surfmesh.errors import SizingError
-from surfmesh.sizing.model_sizing import combined, model_sizing
+from surfmesh.sizing.options.model_sizing import combined, model_sizing
 
 
 def lengths(mesh):

@@ -9,10 +9,10 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import surfmesh as sm
-from surfmesh.meshing.edge_nodes import cut_edges
-from surfmesh.meshing.edge_samples import sample_edges
-from surfmesh.meshing.strip_triangulation import rungs_between, zipped
-from surfmesh.sizing.model_sizing import model_sizing
+from surfmesh.meshing.edges.edge_nodes import cut_edges
+from surfmesh.meshing.edges.edge_samples import sample_edges
+from surfmesh.meshing.faces.strip_triangulation import rungs_between, zipped
+from surfmesh.sizing.options.model_sizing import model_sizing
 
 CHORD = 0.05
 

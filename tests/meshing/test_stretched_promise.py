@@ -7,8 +7,8 @@ import numpy as np
 import pytest
 
 import surfmesh as sm
-from surfmesh.meshing.optimise import MORE_SAMPLES
-from surfmesh.quality import deviation
+from surfmesh.meshing.patch.optimise import MORE_SAMPLES
+from surfmesh.quality.measures import deviation
 
 CONE = cq.Solid.makeCone(1.0, 0.2, 3.0)
 

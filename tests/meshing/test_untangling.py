@@ -5,7 +5,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from surfmesh.meshing.untangling import meeting_pairs, untangled
+from surfmesh.meshing.boundary.untangling import meeting_pairs, untangled
 
 
 def ring(nodes):

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from surfmesh.kernels.background import Background
+from surfmesh.kernels.fields.background import Background
 
 
 def uniform_background(inverse: np.ndarray, width: float, height: float, largest: float = 1e30):

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from surfmesh.kernels.gradation import Metric
+from surfmesh.kernels.fields.gradation import Metric
 
 NONE = np.empty((0, 2), np.int64)
 ISOTROPIC = Metric(np.empty(0), np.empty((0, 3)), np.empty((0, 3)))

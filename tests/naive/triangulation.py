@@ -7,9 +7,9 @@ from scipy.spatial import Delaunay
 
 from naive.exact import first_crossing, orient_signs
 from surfmesh.kernels import NIL
-from surfmesh.kernels.front import DONE
-from surfmesh.kernels.local_operations import DEAD
-from surfmesh.kernels.triangulation import Triangulation, empty_triangulation
+from surfmesh.kernels.packing.front import DONE
+from surfmesh.kernels.triangulation.local_operations import DEAD
+from surfmesh.kernels.triangulation.triangulation import Triangulation, empty_triangulation
 
 
 def live_triangles(t: Triangulation) -> np.ndarray:

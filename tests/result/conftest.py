@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from handmade_meshes import Saddle, grid
 
-from surfmesh.surface_mesh import SurfaceMesh
+from surfmesh.result.surface_mesh import SurfaceMesh
 
 
 @pytest.fixture

@@ -11,10 +11,10 @@ from OCP.BRepBuilderAPI import BRepBuilderAPI_Copy
 from OCP.TopoDS import TopoDS_Compound
 
 import surfmesh as sm
-from surfmesh.quality.inside import distance_to_triangles, inside
-from surfmesh.quality.penetration import depths
-from surfmesh.quality.self_intersection import meeting_pairs
-from surfmesh.surface_mesh import SurfaceMesh
+from surfmesh.quality.measures.inside import distance_to_triangles, inside
+from surfmesh.quality.measures.penetration import depths
+from surfmesh.quality.measures.self_intersection import meeting_pairs
+from surfmesh.result.surface_mesh import SurfaceMesh
 
 
 def box(*size, at=(0, 0, 0)):

@@ -14,10 +14,10 @@ from handmade_meshes import Saddle, changed, grid, icosphere
 from naive import meeting as slow
 
 import surfmesh as sm
-from surfmesh.model_facts import FaceFacts, ModelFacts
 from surfmesh.quality import Report
-from surfmesh.quality.self_intersection import meeting_pairs
-from surfmesh.surface_mesh import SurfaceMesh
+from surfmesh.quality.measures.self_intersection import meeting_pairs
+from surfmesh.result.model_facts import FaceFacts, ModelFacts
+from surfmesh.result.surface_mesh import SurfaceMesh
 
 SCHEMA = json.loads(
     (Path(__file__).parents[2] / "docs" / "report-schema.json").read_text(encoding="utf-8")

@@ -8,7 +8,7 @@ from handmade_meshes import changed, icosphere
 import surfmesh as sm
 from surfmesh.cli import main
 from surfmesh.io import read
-from surfmesh.surface_mesh import SurfaceMesh
+from surfmesh.result.surface_mesh import SurfaceMesh
 
 
 def sphere(inward):

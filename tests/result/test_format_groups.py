@@ -16,7 +16,7 @@ from surfmesh.io import FORMATS, read
 from surfmesh.io.bdf import real
 from surfmesh.io.group_record import MARK, group_fields, group_lines, unique_labels
 from surfmesh.io.text_columns import shortest
-from surfmesh.mesh_groups import MeshGroups
+from surfmesh.result.mesh_groups import MeshGroups
 
 FULL = [extension for extension in FORMATS if extension != ".stl"]
 WITH_EDGES = [extension for extension in FULL if extension not in (".glb", ".3mf")]

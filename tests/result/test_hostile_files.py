@@ -223,7 +223,7 @@ def test_small_archives_of_gigabytes(tmp_path):
 
 
 def test_the_ratio_is_far_above_that_of_meshes(tmp_path):
-    from surfmesh.surface_mesh import SurfaceMesh
+    from surfmesh.result.surface_mesh import SurfaceMesh
 
     side = 100  # a flat grid of whole numbers is packed best
     x, y = (c.ravel() for c in np.meshgrid(np.arange(side + 1.0), np.arange(side + 1.0)))

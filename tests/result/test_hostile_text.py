@@ -9,9 +9,10 @@ import pytest
 from surfmesh.cli import main
 from surfmesh.cli.terminal import say, say_json
 from surfmesh.errors import FormulaError, SurfaceError, printable
-from surfmesh.geometry import text_file, toml_entries
-from surfmesh.geometry.surface_file import load_surface_file
-from surfmesh.sizing.sizes_file import read_sizes
+from surfmesh.geometry import text_file
+from surfmesh.geometry.files import toml_entries
+from surfmesh.geometry.files.surface_file import load_surface_file
+from surfmesh.sizing.options.sizes_file import read_sizes
 
 CORPUS = Path(__file__).resolve().parents[3] / "shared" / "cases" / "hostile"
 SURFACE = 'name = "a"\nx = "u"\ny = "v"\nz = "u*v"\n[domain]\nu = [0, 1]\nv = [0, 1]\n'

@@ -35,7 +35,7 @@ def test_a_mesh_and_its_report_need_no_viewer():
 
 
 @pytest.mark.parametrize(
-    "first", ["", "import surfmesh.surface_mesh, surfmesh.quality, surfmesh.api", "sm.mesh"]
+    "first", ["", "import surfmesh.result.surface_mesh, surfmesh.quality, surfmesh.api", "sm.mesh"]
 )
 def test_verbs_are_functions_whatever_was_imported_before(first):
     code = f"import surfmesh as sm\n{first}\n"

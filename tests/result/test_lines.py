@@ -8,7 +8,7 @@ import pytest
 from handmade_meshes import Saddle, changed, grid, icosphere
 
 import surfmesh as sm
-from surfmesh.surface_mesh import SurfaceMesh
+from surfmesh.result.surface_mesh import SurfaceMesh
 from surfmesh.view import show
 from surfmesh.view.lines import circles, model_edges, principal_directions, worst_triangles
 from surfmesh.view.overlays import overlays

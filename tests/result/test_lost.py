@@ -5,11 +5,11 @@ import numpy as np
 import pytest
 
 import surfmesh as sm
-from surfmesh.model_facts import ModelFacts
-from surfmesh.quality.deviation import deviation
-from surfmesh.quality.lost import explained
-from surfmesh.quality.shape import shapes
-from surfmesh.surface_mesh import SurfaceMesh
+from surfmesh.quality.measures.deviation import deviation
+from surfmesh.quality.measures.lost import explained
+from surfmesh.quality.measures.shape import shapes
+from surfmesh.result.model_facts import ModelFacts
+from surfmesh.result.surface_mesh import SurfaceMesh
 
 SIZINGS = [
     sm.Sizing(chord=0.05),

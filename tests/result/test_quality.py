@@ -9,11 +9,11 @@ from handmade_meshes import Saddle, changed, grid, icosphere
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from surfmesh.kernels.measure import component_labels
+from surfmesh.kernels.space.measure import component_labels
 from surfmesh.quality import check
-from surfmesh.quality.shape import shapes
-from surfmesh.quality.topology import topology
-from surfmesh.surface_mesh import SurfaceMesh
+from surfmesh.quality.measures.shape import shapes
+from surfmesh.quality.measures.topology import topology
+from surfmesh.result.surface_mesh import SurfaceMesh
 
 
 def test_regular_tetrahedron(tetrahedron):

@@ -13,7 +13,7 @@ import surfmesh as sm
 from surfmesh.cli import main
 from surfmesh.errors import FileFormatError
 from surfmesh.io import FORMATS, Manifest, read
-from surfmesh.model_facts import file_sha256
+from surfmesh.result.model_facts import file_sha256
 from surfmesh.view import html_report, plot
 
 LATER = 400 * 86400.0  # seconds

@@ -15,10 +15,10 @@ from hypothesis import strategies as st
 
 from surfmesh.cli import main
 from surfmesh.quality import check
+from surfmesh.quality.measures.shape import enclosed_volume
+from surfmesh.quality.opinion.rounding_bounds import bounds, placed
 from surfmesh.quality.report import with_second_opinion
-from surfmesh.quality.rounding_bounds import bounds, placed
-from surfmesh.quality.shape import enclosed_volume
-from surfmesh.surface_mesh import SurfaceMesh
+from surfmesh.result.surface_mesh import SurfaceMesh
 from surfmesh.view import html_report
 
 SCHEMA = json.loads(
@@ -236,7 +236,7 @@ def test_a_wrong_solid_is_a_problem():
 
 
 def test_wrong_shapes_are_found_on_one_triangle(monkeypatch):
-    from surfmesh.quality import second_opinion as module
+    from surfmesh.quality.opinion import second_opinion as module
 
     def bent(mesh):
         found = original(mesh)

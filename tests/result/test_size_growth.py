@@ -7,7 +7,7 @@ import pytest
 
 import surfmesh as sm
 from surfmesh import SurfaceMesh
-from surfmesh.quality.lengths import edge_lengths, size_growth
+from surfmesh.quality.measures.lengths import edge_lengths, size_growth
 
 SLOPE = sm.Sizing(growth=1.5).gradient  # 2 (1.5 - 1) / (1.5 + 1) = 0.4
 

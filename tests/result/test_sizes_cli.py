@@ -7,7 +7,7 @@ import pytest
 import surfmesh as sm
 from surfmesh.cli import main
 from surfmesh.errors import FileFormatError, SizingError
-from surfmesh.sizing.sizes_file import read_sizes
+from surfmesh.sizing.options.sizes_file import read_sizes
 
 SIZES = """
 [sizes."*"]

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 import surfmesh as sm
-from surfmesh.surface_mesh import SurfaceMesh
+from surfmesh.result.surface_mesh import SurfaceMesh
 
 OF_VERTICES = {"points", "sizes", "vertex_ids"}
 OF_CORNERS = {"uv_points", "uv_triangles", "inverse_sizes"}

@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 from handmade_meshes import Saddle, changed, grid
 
-from surfmesh.connectivity import connect
-from surfmesh.surface_mesh import SurfaceMesh
+from surfmesh.result.connectivity import connect
+from surfmesh.result.surface_mesh import SurfaceMesh
 
 
 def slow_connectivity(triangles):

@@ -5,22 +5,22 @@ import pytest
 from naive.metric import in_space
 
 from surfmesh.api import load
-from surfmesh.geometry.elementary import Cylinder
-from surfmesh.geometry.parametric import ParametricSurface
-from surfmesh.geometry.sides import find_sides
-from surfmesh.sizing.boundary_field import has_boundary_field
-from surfmesh.sizing.curvature_size import (
+from surfmesh.geometry.cad_surfaces.elementary import Cylinder
+from surfmesh.geometry.differential.sides import find_sides
+from surfmesh.geometry.formulas.parametric import ParametricSurface
+from surfmesh.sizing.field.boundary_field import has_boundary_field
+from surfmesh.sizing.field.size_field import inverse_sizes, size_field
+from surfmesh.sizing.field.size_law import SizeLaw
+from surfmesh.sizing.options.sizing import Sizing
+from surfmesh.sizing.rules.curvature_size import (
     STRAIGHT_RESERVE,
     STRETCHED_RESERVE,
     chord_size,
     principal_chord_sizes,
 )
-from surfmesh.sizing.direction_size import size_along
-from surfmesh.sizing.size_bounds import SizeBounds
-from surfmesh.sizing.size_field import inverse_sizes, size_field
-from surfmesh.sizing.size_law import SizeLaw
-from surfmesh.sizing.size_limits import SizeLimits, along_lines
-from surfmesh.sizing.sizing import Sizing
+from surfmesh.sizing.rules.direction_size import size_along
+from surfmesh.sizing.rules.size_bounds import SizeBounds
+from surfmesh.sizing.rules.size_limits import SizeLimits, along_lines
 
 
 def searched_deviation(k1, k2, h1, h2, turns=91, n=24):

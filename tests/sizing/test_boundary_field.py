@@ -5,14 +5,14 @@ import pytest
 from naive.sources import graded_sizes
 
 from surfmesh.errors import SizingError
-from surfmesh.geometry.elementary import Cylinder, Plane, Sphere
-from surfmesh.geometry.planar_domain import PlanarDomain
-from surfmesh.geometry.scaling import Scaling
-from surfmesh.kernels.background import scalar_sizes_at
-from surfmesh.sizing.boundary_field import boundary_field
-from surfmesh.sizing.curvature_size import chord_size
-from surfmesh.sizing.size_field import size_field
-from surfmesh.sizing.sizing import Sizing
+from surfmesh.geometry.cad_surfaces.elementary import Cylinder, Plane, Sphere
+from surfmesh.geometry.differential.scaling import Scaling
+from surfmesh.geometry.planar.planar_domain import PlanarDomain
+from surfmesh.kernels.fields.background import scalar_sizes_at
+from surfmesh.sizing.field.boundary_field import boundary_field
+from surfmesh.sizing.field.size_field import size_field
+from surfmesh.sizing.options.sizing import Sizing
+from surfmesh.sizing.rules.curvature_size import chord_size
 
 FRAME = dict(origin=np.array([1.0, 2.0, 3.0]), x=np.eye(3)[1], y=np.eye(3)[2], z=np.eye(3)[0])
 PLANE = Plane(domain=((-1.0, 2.0), (5.0, 7.0)), **FRAME)

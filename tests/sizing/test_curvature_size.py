@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from surfmesh.sizing.curvature_size import (
+from surfmesh.sizing.rules.curvature_size import (
     DEVIATION_RESERVE,
     angle_size,
     chord_size,

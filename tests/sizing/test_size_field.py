@@ -5,14 +5,14 @@ import pytest
 
 from surfmesh.api import load
 from surfmesh.errors import SizingError
-from surfmesh.geometry.fundamental_forms import curvatures, forms_from_derivatives
-from surfmesh.geometry.parametric import ParametricSurface
-from surfmesh.geometry.sides import find_sides
-from surfmesh.kernels.background import scalar_sizes_at
-from surfmesh.sizing.curvature_size import chord_size
-from surfmesh.sizing.size_field import size_field
-from surfmesh.sizing.size_limits import SizeLimits
-from surfmesh.sizing.sizing import Sizing
+from surfmesh.geometry.differential.fundamental_forms import curvatures, forms_from_derivatives
+from surfmesh.geometry.differential.sides import find_sides
+from surfmesh.geometry.formulas.parametric import ParametricSurface
+from surfmesh.kernels.fields.background import scalar_sizes_at
+from surfmesh.sizing.field.size_field import size_field
+from surfmesh.sizing.options.sizing import Sizing
+from surfmesh.sizing.rules.curvature_size import chord_size
+from surfmesh.sizing.rules.size_limits import SizeLimits
 
 
 def scalar_sizes(field, xy):

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from surfmesh.errors import SizingError
-from surfmesh.sizing.sizing import Sizing
+from surfmesh.sizing.options.sizing import Sizing
 
 REFUSED = {
     "chord": (dict(chord=0.0), "chord must be a positive number, not 0"),

@@ -10,8 +10,8 @@ from hypothesis.extra.numpy import arrays
 
 import surfmesh as sm
 from surfmesh.errors import SizingError
-from surfmesh.sizing.across_gaps import ROW, size_across
-from surfmesh.sizing.sources import reaching, source_sizes
+from surfmesh.sizing.options.sources import reaching, source_sizes
+from surfmesh.sizing.rules.across_gaps import ROW, size_across
 
 COORDINATE = st.floats(-10.0, 10.0, width=16, allow_subnormal=False)
 SOURCES = {

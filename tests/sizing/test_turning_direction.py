@@ -4,15 +4,15 @@ import numpy as np
 import pytest
 
 from surfmesh.api import load
-from surfmesh.geometry.fundamental_forms import curvatures, forms_from_derivatives
-from surfmesh.geometry.parametric import ParametricSurface
-from surfmesh.geometry.sides import find_sides
-from surfmesh.sizing.direction_size import size_along
-from surfmesh.sizing.size_bounds import SizeBounds
-from surfmesh.sizing.size_field import inverse_sizes, size_field
-from surfmesh.sizing.size_law import SizeLaw
-from surfmesh.sizing.sizing import Sizing
-from surfmesh.sizing.turning_direction import BENDING, FANNING, turning_bound, turning_rates
+from surfmesh.geometry.differential.fundamental_forms import curvatures, forms_from_derivatives
+from surfmesh.geometry.differential.sides import find_sides
+from surfmesh.geometry.formulas.parametric import ParametricSurface
+from surfmesh.sizing.field.size_field import inverse_sizes, size_field
+from surfmesh.sizing.field.size_law import SizeLaw
+from surfmesh.sizing.options.sizing import Sizing
+from surfmesh.sizing.rules.direction_size import size_along
+from surfmesh.sizing.rules.size_bounds import SizeBounds
+from surfmesh.sizing.rules.turning_direction import BENDING, FANNING, turning_bound, turning_rates
 
 TURN = (0.0, 2 * np.pi)
 CONE = ParametricSurface("v*cos(u)", "v*sin(u)", "v", u=TURN, v=(0.5, 2.0))

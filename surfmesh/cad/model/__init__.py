@@ -1,0 +1,22 @@
+"""A CAD model as plain data, and what is made of OCP's shapes to get there.
+
+cad_model: a CAD model as plain data: vertices, edges, faces and solids by number, no OCP anywhere.
+topology: from OCP's shapes to a `CadModel`: every vertex, edge and face once, by number.
+convert: geometry of OCP -> curves and surfaces of `surfmesh.geometry`, exactly or not at all.
+invariants: what must be true of a CAD model, and how far a model is from it.
+incidence: how often faces use each edge, and how many fans they form at each vertex of a model.
+loops: coedges of a face in walking order: which follows which, and what is a loop of its own.
+facts: what a CAD model knows of itself and its mesh can be held to: areas, volumes, Euler numbers.
+extent: how large a model is, from points on its edges and inside its faces.
+centres: centres of faces, edges and solids of a plain model, and samples inside faces.
+collapsed_edges: edges so short that the mesh has one vertex in their place, and what becomes of
+    their ends.
+pcurves: images of edges in (u, v) that follow their edge more closely than those of the file.
+near_poles: images that end at a pole which is only nearly a point: there they keep their direction.
+points_inside: a vertex inside a face, where another body touches it in a point, gets a short edge.
+singular_cuts: faces are cut along lines inside them that are one point in space: the pinch of a
+    torus, an apex.
+tolerances: tolerances that are true, and images in (u, v) that keep to them.
+loop_faults: what is wrong with the loops of a face however finely they are cut: decided on their
+    curves.
+"""

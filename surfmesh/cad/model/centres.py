@@ -1,0 +1,119 @@
+"""Centres of faces, edges and solids of a plain model, and samples inside faces.
+
+A face is integrated by Green's theorem: along its loops runs the integral of |r_u x r_v| in u,
+from the left side of the (u, v) box, by Gauss's rule.
+
+    v |    ,-----.         for each piece of the boundary, from (u, v) to (u + du, v + dv):
+      |---/       \\            dA = dv * int_{u0}^{u} |r_u x r_v| du
+      |  |<------- |
+      |   `-------'
+      +------------- u
+"""
+
+from __future__ import annotations
+
+from functools import cache
+
+import numpy as np
+
+from surfmesh.cad.model.cad_model import CadCoedge, CadEdge, CadFace, CadModel, CadSolid
+from surfmesh.geometry.planar.inside_loops import is_inside
+
+STRAIGHT, CURVED = 2, 65
+"""Samples along edges."""
+
+POINTS, PANELS, ALONG = 12, 2, 8
+"""Of Gauss's rule, for each of PANELS across a face and of ALONG along its edges."""
+
+
+@cache
+def _gauss(points: int, panels: int) -> tuple[np.ndarray, np.ndarray]:
+    """Nodes and weights on [0, 1]."""
+    x, w = np.polynomial.legendre.leggauss(points)
+    x, w = 0.5 * (x + 1.0), 0.5 * w
+    nodes = (np.arange(panels)[:, None] + x).ravel() / panels
+    return nodes, np.tile(w / panels, panels)
+
+
+def boundary_polygons(face: CadFace) -> list[np.ndarray]:
+    """The loops of a face as polygons (k, 2) in (u, v), not closed."""
+    found = []
+    for loop in face.loops:
+        parts = []
+        for coedge in loop:
+            straight = getattr(coedge.pcurve, "kind", "") == "line"
+            share = np.linspace(0.0, 1.0, STRAIGHT if straight else CURVED)
+            parts.append(coedge.walk(share)[:-1])
+        found.append(np.concatenate(parts))
+    return found
+
+
+def face_centre(face: CadFace) -> np.ndarray:
+    """Centre of mass (3,) of a face."""
+    total, moment = 0.0, np.zeros(3)
+    for coedge in face.coedges:
+        weight, point, r_u, r_v = _across(face, coedge)
+        weight = weight * np.linalg.norm(np.cross(r_u, r_v), axis=1)
+        total += weight.sum()
+        moment += weight @ point
+    if abs(total) > 0.0:
+        return moment / total
+    (points,) = face.surface.evaluate(np.concatenate(boundary_polygons(face)), 0)
+    return points.mean(axis=0)
+
+
+def face_area(face: CadFace) -> float:
+    """Area of a face, on both sides of places where r_u x r_v vanishes."""
+    total = 0.0
+    for coedge in face.coedges:
+        weight, _, r_u, r_v = _across(face, coedge, ALONG)
+        total += float(weight @ np.linalg.norm(np.cross(r_u, r_v), axis=1))
+    return abs(total)
+
+
+def _across(face: CadFace, coedge: CadCoedge, along_straight: int = 1) -> tuple[np.ndarray, ...]:
+    """Weights (n,) in (u, v), points, r_u and r_v (n, 3) between the left side and a coedge."""
+    straight = getattr(coedge.pcurve, "kind", "") == "line"
+    along, w_along = _gauss(POINTS, along_straight if straight else ALONG)
+    t, w = _gauss(POINTS, PANELS)
+    uv, speed = coedge.pcurve.evaluate(coedge.p0 + along * (coedge.p1 - coedge.p0), 1)
+    dv = speed[:, 1] * (coedge.p1 - coedge.p0) * (-w_along if coedge.reversed else w_along)
+    (u0, _), _ = face.surface.domain
+    u, v = uv.T
+    places = np.stack(np.broadcast_arrays(u0 + t * (u - u0)[:, None], v[:, None]), axis=-1)
+    point, r_u, r_v = face.surface.evaluate(places.reshape(-1, 2), 1)
+    return ((dv * (u - u0))[:, None] * w).ravel(), point, r_u, r_v
+
+
+def edge_centre(edge: CadEdge) -> np.ndarray | None:
+    """Centre of mass (3,) of an edge; None for a degenerate one."""
+    if edge.degenerate or edge.curve is None:
+        return None
+    t, w = _gauss(POINTS, ALONG)
+    points, speed = edge.curve.evaluate(edge.parameters(t), 1)
+    w = w * np.linalg.norm(speed, axis=1)
+    return w @ points / w.sum() if w.sum() > 0.0 else points.mean(axis=0)
+
+
+def solid_centre(model: CadModel, solid: CadSolid) -> np.ndarray:
+    """Centre of mass (3,) of the volume, by the divergence theorem over its faces."""
+    total, moment = 0.0, np.zeros(3)
+    for shell in solid.shells:
+        for number, against in shell:
+            face = model.faces[number]
+            sign = -1.0 if against != face.reversed else 1.0
+            for coedge in face.coedges:
+                weight, point, r_u, r_v = _across(face, coedge)
+                normal = np.cross(r_u, r_v)
+                total += sign * (weight @ np.einsum("ij,ij->i", point, normal)) / 3.0
+                moment += sign * (weight @ (0.5 * point**2 * normal))
+    return moment / total if total else moment
+
+
+def inner_samples(face: CadFace, count: int) -> np.ndarray:
+    """uv (n, 2) of about count x count points of a grid that lie in the face."""
+    (u0, u1), (v0, v1) = face.surface.domain
+    at = (np.arange(count) + 0.5) / count
+    grid = np.stack(np.meshgrid(u0 + at * (u1 - u0), v0 + at * (v1 - v0)), axis=-1)
+    grid = grid.reshape(-1, 2)
+    return grid[is_inside(boundary_polygons(face), grid)]

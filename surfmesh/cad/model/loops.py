@@ -1,0 +1,168 @@
+"""Coedges of a face in walking order: which follows which, and what is a loop of its own."""
+
+from __future__ import annotations
+
+from collections import defaultdict
+from collections.abc import Sequence
+from dataclasses import replace
+
+import numpy as np
+
+from surfmesh.cad.model.cad_model import CadCoedge, CadEdge
+from surfmesh.cad.model.invariants import ENDS, OPEN_SHARE, signed_area, step_between
+from surfmesh.geometry.planar.nesting import nesting_depth
+
+Loop = tuple[CadCoedge, ...]
+
+SAMPLES = 64
+"""Of each coedge: the polygon of its loop."""
+
+SURE = 0.5
+"""Of what its corners let it differ by: a smaller area of a polygon may have the other sign."""
+
+CLEAR, FLAT = 0.01, 1e-6
+"""Of the size of a loop: others so near to it may lie on either side of its curve; of its square:
+the area of one that encloses nothing."""
+
+
+def start_of(coedge: CadCoedge, edges: Sequence[CadEdge]) -> int:
+    """The vertex where the loop enters the coedge."""
+    edge = edges[coedge.edge]
+    return edge.end if coedge.reversed else edge.start
+
+
+def end_of(coedge: CadCoedge, edges: Sequence[CadEdge]) -> int:
+    """The vertex where the loop leaves the coedge."""
+    edge = edges[coedge.edge]
+    return edge.start if coedge.reversed else edge.end
+
+
+def chained(coedges: Sequence[CadCoedge], edges: Sequence[CadEdge]) -> list[Loop]:
+    """Coedges of one wire, in any order -> closed loops as far as they close.
+
+    The next coedge starts at the vertex where the last one ends. Where several do (both images
+    of a seam, a pole) it is the one that is nearest in (u, v).
+    """
+    ends = np.array([coedge.walk(ENDS) for coedge in coedges])  # (n, 2 ends, 2)
+    scale = np.maximum(np.ptp(ends.reshape(-1, 2), axis=0), 1e-300)
+    ends = ends / scale
+    leaving = defaultdict(list)
+    for place, coedge in enumerate(coedges):
+        leaving[start_of(coedge, edges)].append(place)
+    loops, used = [], [False] * len(coedges)
+    for first in range(len(coedges)):
+        if used[first]:
+            continue
+        used[first], loop, home = True, [first], start_of(coedges[first], edges)
+        while True:
+            last = loop[-1]
+            vertex, here = end_of(coedges[last], edges), ends[last, 1]
+            ways = [p for p in leaving[vertex] if not used[p]] + [first] * (vertex == home)
+            if not ways:
+                break  # an open wire; `check` says so
+            steps = [np.abs(ends[place, 0] - here).max() for place in ways]
+            # touching itself, a wire falls into simple loops: home wins among equals
+            near = min(steps) + 1e-6
+            after = first if vertex == home and steps[-1] <= near else ways[int(np.argmin(steps))]
+            if after == first:
+                break
+            used[after] = True
+            loop.append(after)
+        loops.append(tuple(coedges[place] for place in loop))
+    return loops
+
+
+def there_and_back(
+    pairs: Sequence[tuple[CadCoedge, CadCoedge]], edges: Sequence[CadEdge]
+) -> list[Loop]:
+    """Edges inside a face, each as (forward, backward) coedges -> one closed walk a component."""
+    at = defaultdict(list)
+    for number, (forward, _) in enumerate(pairs):
+        at[start_of(forward, edges)].append((number, False))
+        at[end_of(forward, edges)].append((number, True))
+    loops, used = [], [False] * len(pairs)
+    for number, (forward, _) in enumerate(pairs):
+        if used[number]:
+            continue
+        walk: list[CadCoedge] = []
+        stack = [(start_of(forward, edges), None)]
+        while stack:
+            vertex, back = stack[-1]
+            way = next(((n, r) for n, r in at[vertex] if not used[n]), None)
+            if way is None:  # a dead end: the way back
+                stack.pop()
+                if back is not None:
+                    walk.append(back)
+                continue
+            taken, from_end = way
+            used[taken] = True
+            away, back = pairs[taken][::-1] if from_end else pairs[taken]
+            walk.append(away)
+            stack.append((end_of(away, edges), back))
+        loops.append(tuple(walk))
+    return loops
+
+
+def outer_first(loops: Sequence[Loop]) -> tuple[Loop, ...]:
+    """The loop with the largest counter-clockwise area in (u, v) comes first."""
+    areas = [signed_area(loop) for loop in loops]
+    outer = int(np.argmax(areas)) if areas else 0
+    return (*loops[outer : outer + 1], *loops[:outer], *loops[outer + 1 :])
+
+
+def misdirected(loops: Sequence[Loop], closed: bool) -> list[int]:
+    """Numbers of loops that run the wrong way round for how many others lie around them.
+
+    Outer loops run counter-clockwise, holes in them clockwise, islands in these
+    counter-clockwise again. None where that is not certain: loops that are open in (u, v), go
+    there and back, or come close to each other. closed: the surface is a sphere or the like, on
+    which an outer loop that runs clockwise leaves all but its inside.
+    """
+    share = np.arange(SAMPLES) / SAMPLES
+    rings = [np.concatenate([coedge.walk(share) for coedge in loop]) for loop in loops]
+    extent = np.ptp(np.concatenate(rings), axis=0)
+    if not (extent > 0.0).all() or not all(closes(loop, extent) for loop in loops):
+        return []
+    areas = np.array([signed_area(loop, SAMPLES) for loop in loops]) / np.prod(extent)
+    boxes = np.array([np.ptp(ring / extent, axis=0).max() for ring in rings])
+    slack = np.array([_sag_area(ring / extent) for ring in rings])
+    if (np.abs(areas) <= np.maximum(FLAT * boxes**2, SURE * slack)).any():
+        return []
+    depth = nesting_depth([ring / extent for ring in rings])
+    wrong = (areas > 0.0) != (depth % 2 == 0)
+    if closed and (wrong & (depth == 0)).any():
+        return []
+    if not wrong.any() or not _are_apart([ring / extent for ring in rings], boxes):
+        return []
+    return np.flatnonzero(wrong).tolist()
+
+
+def _sag_area(ring: np.ndarray) -> float:
+    """By how much the area of a polygon (k, 2) may differ from that within its curves."""
+    before, after = np.roll(ring, 1, axis=0), np.roll(ring, -1, axis=0)
+    sag = np.linalg.norm(ring - 0.5 * (before + after), axis=1)
+    return float(sag @ np.linalg.norm(after - before, axis=1))
+
+
+def turned(loop: Loop) -> Loop:
+    """The loop walked the other way round."""
+    return tuple(replace(coedge, reversed=not coedge.reversed) for coedge in loop[::-1])
+
+
+def closes(loop: Loop, extent: np.ndarray) -> bool:
+    """Is it closed in (u, v), and not a way round a closed surface?"""
+    return all(
+        (np.abs(step_between(here, after)) <= OPEN_SHARE * extent).all()
+        for here, after in zip(loop, loop[1:] + loop[:1])
+    )
+
+
+def _are_apart(rings: Sequence[np.ndarray], sizes: np.ndarray) -> bool:
+    """Is none of the polygons (k, 2) near another, for the larger of both sizes?"""
+    import shapely
+
+    lines = shapely.linearrings(np.concatenate(rings), indices=np.repeat(
+        np.arange(len(rings)), [len(ring) for ring in rings]
+    ))  # fmt: skip
+    one, other = shapely.STRtree(lines).query(lines, predicate="dwithin", distance=CLEAR * sizes)
+    return bool((one == other).all())

@@ -1,0 +1,156 @@
+"""Tolerances that are true, and images in (u, v) that keep to them.
+
+Files state how far edges lie off their faces as it was measured at a few points. Here it is
+measured anew; images that stray are replaced, and where that does not help tolerances are raised.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+
+from surfmesh.cad.model.cad_model import CadCoedge, CadEdge, CadFace, CadVertex
+from surfmesh.cad.model.invariants import ENDS, NOISE, SHARES, distances_to_edges
+from surfmesh.cad.model.pcurves import follows
+from surfmesh.geometry.cad_surfaces.curve_on_surface import CurveOnSurface
+from surfmesh.geometry.cad_surfaces.face_surface import FaceSurface
+from surfmesh.geometry.surface import Domain
+
+FAR_OFF = 10.0  # times its tolerance: an edge that lies so far off its face is reported
+LOOSE = 1e-4  # of its length: a curve that lies so far off all its faces may be replaced
+AGREE = 0.5  # of that distance: images that lie this near each other are believed instead
+CHORDS = 256  # that measure the length of a curve on a face
+MANY = 12  # numbers that a sentence lists
+
+
+def deviations(edges: list[CadEdge], vertices: list[CadVertex], face: CadFace) -> np.ndarray:
+    """(n,) How far the edges of each coedge lie off the face in space."""
+    coedges = list(face.coedges)
+    uv = np.concatenate([coedge.uv(SHARES) for coedge in coedges])
+    (on_face,) = face.surface.evaluate(uv, 0)
+    return distances_to_edges(edges, vertices, coedges, on_face)
+
+
+def images_that_follow(
+    edges: list[CadEdge], vertices: list[CadVertex], faces: list[CadFace], unit: str
+) -> list[str]:
+    """Replace, in place, images that lie further off their edge than the file states."""
+    replaced, worst = set(), 0.0
+    for number, face in enumerate(faces):
+        better = {}
+        for coedge, distance in zip(face.coedges, deviations(edges, vertices, face)):
+            edge = edges[coedge.edge]
+            if edge.curve is None or distance <= FAR_OFF * edge.tolerance:
+                continue
+            new = follows(face.surface, edge, coedge, max(edge.tolerance, NOISE * edge.length))
+            if new is not coedge:
+                better[id(coedge)] = new
+                replaced.add(coedge.edge)
+                worst = max(worst, distance)
+        if better:
+            loops = tuple(
+                tuple(better.get(id(coedge), coedge) for coedge in loop) for loop in face.loops
+            )
+            faces[number] = replace(face, surface=widened(face.surface, loops), loops=loops)
+    if not replaced:
+        return []
+    numbers = listed([str(number) for number in sorted(replaced)])
+    return [
+        f"{'edges' if len(replaced) > 1 else 'edge'} {numbers}: image on a face replaced, "
+        f"which strayed by up to {worst:.2g} {unit}"
+    ]
+
+
+def curves_on_their_faces(
+    edges: list[CadEdge], vertices: list[CadVertex], faces: list[CadFace], unit: str
+) -> list[str]:
+    """Replace, in place, curves that lie off their faces where the images agree among themselves.
+
+    The border of a single face lies on that face, whatever the file says.
+    """
+    users: dict[int, list[tuple[CadFace, CadCoedge]]] = {}
+    loose: dict[int, float] = {}
+    for face in faces:
+        for coedge, distance in zip(face.coedges, deviations(edges, vertices, face)):
+            edge = edges[coedge.edge]
+            users.setdefault(coedge.edge, []).append((face, coedge))
+            if edge.curve is not None and distance > LOOSE * edge.length:
+                loose[coedge.edge] = max(distance, loose.get(coedge.edge, 0.0))
+    replaced = []
+    for number, distance in loose.items():
+        images = [face.surface.evaluate(coedge.uv(SHARES), 0)[0] for face, coedge in users[number]]
+        spread = max(float(np.linalg.norm(i - images[0], axis=1).max()) for i in images)
+        if spread > AGREE * distance:
+            continue
+        face, coedge = users[number][0]
+        edge = edges[number]
+        rate = (coedge.p1 - coedge.p0) / (edge.t1 - edge.t0)
+        shift = coedge.p0 - rate * edge.t0
+        curve = CurveOnSurface(face.surface, coedge.pcurve, shift, rate)
+        points = curve.evaluate(edge.parameters(np.linspace(0.0, 1.0, CHORDS + 1)), 0)[0]
+        length = float(np.linalg.norm(np.diff(points, axis=0), axis=1).sum())
+        tolerance = max(spread, NOISE * length)
+        edges[number] = replace(edge, curve=curve, length=length, tolerance=tolerance)
+        replaced.append(number)
+    if not replaced:
+        return []
+    several = len(replaced) > 1
+    return [
+        f"{'edges' if several else 'edge'} {listed([str(n) for n in sorted(replaced)])}: curve in "
+        f"space replaced by the image on a face, which it strayed from by up to "
+        f"{max(loose[n] for n in replaced):.2g} {unit}"
+    ]
+
+
+def tolerances_that_hold(
+    edges: list[CadEdge], vertices: list[CadVertex], faces: list[CadFace], unit: str
+) -> list[str]:
+    """Raise tolerances, in place, to what is measured: of edges from their images, of vertices.
+
+    Files state what was measured at a few points of an edge; in between it may be worse.
+    """
+    measured = np.array([edge.tolerance for edge in edges])
+    for face in faces:
+        users = [coedge.edge for coedge in face.coedges]
+        np.maximum.at(measured, users, deviations(edges, vertices, face))
+    stated = np.array([edge.tolerance for edge in edges])
+    for number in np.flatnonzero(measured > stated):
+        edges[number] = replace(edges[number], tolerance=float(measured[number]))
+    for edge in edges:
+        if edge.curve is None:
+            continue
+        ends = edge.curve.evaluate(edge.parameters(ENDS), 0)[0]
+        for vertex, point in zip((edge.start, edge.end), ends):
+            known = vertices[vertex]
+            gap = float(np.linalg.norm(point - known.point))
+            if gap > known.tolerance:
+                vertices[vertex] = replace(known, tolerance=gap * (1.0 + NOISE))
+    far = np.flatnonzero(measured > FAR_OFF * stated)
+    if not len(far):
+        return []
+    worst = far[np.argmax(measured[far])]
+    return [
+        f"{len(far)} edge{'s lie' if len(far) > 1 else ' lies'} further off the faces than "
+        f"the file states, edge {worst} most: {measured[worst]:.2g} {unit} instead of "
+        f"{stated[worst]:.2g}; tolerances raised"
+    ]
+
+
+def widened(surface: FaceSurface, loops: list) -> FaceSurface:
+    """The surface with room for all samples of the loops in its domain."""
+    lo, hi = joined(surface.domain, loops)
+    domain = ((float(lo[0]), float(hi[0])), (float(lo[1]), float(hi[1])))
+    return surface if domain == surface.domain else surface.with_domain(domain)
+
+
+def joined(domain: Domain, loops: list) -> tuple[np.ndarray, np.ndarray]:
+    samples = np.concatenate([coedge.uv(SHARES) for loop in loops for coedge in loop])
+    (u0, u1), (v0, v1) = domain
+    lo = np.minimum(samples.min(axis=0), (u0, v0))
+    return lo, np.maximum(samples.max(axis=0), (u1, v1))
+
+
+def listed(names: list[str]) -> str:
+    more = f" and {len(names) - MANY} more" if len(names) > MANY else ""
+    return ", ".join(names[:MANY]) + more

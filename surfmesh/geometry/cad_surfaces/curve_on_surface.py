@@ -1,0 +1,47 @@
+"""A curve in space that is the image of a curve in (u, v): c(t) = r(u(p), v(p)), p linear in t.
+
+c'  = r_u u' + r_v v'
+c'' = r_uu u'^2 + 2 r_uv u' v' + r_vv v'^2 + r_u u'' + r_v v''
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any, Self
+
+import numpy as np
+
+from surfmesh.geometry.cad_surfaces.plain_data import PlainData
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class CurveOnSurface(PlainData):
+    """surface: r(u, v). image: a curve in its (u, v). p = shift + rate t is the parameter there."""
+
+    surface: Any
+    image: Any
+    shift: float
+    rate: float
+
+    kind = "on surface"
+    period = None
+    dimension = 3
+
+    def evaluate(self, t: np.ndarray, order: int = 0) -> tuple[np.ndarray, ...]:
+        """(n,) float -> (n, 3) float arrays: (c, c', c'')[: order + 1]; order is at most 2."""
+        p = self.shift + self.rate * np.asarray(t, float).reshape(-1)
+        uv = self.image.evaluate(p, order)
+        r = self.surface.evaluate(uv[0], order)
+        results = [r[0]]
+        if order > 0:
+            du, dv = (self.rate * uv[1]).T[..., None]
+            results.append(r[1] * du + r[2] * dv)
+        if order > 1:
+            d2u, d2v = (self.rate**2 * uv[2]).T[..., None]
+            bent = r[3] * du**2 + 2.0 * r[4] * du * dv + r[5] * dv**2
+            results.append(bent + r[1] * d2u + r[2] * d2v)
+        return tuple(results)
+
+    def with_limits(self, first: float, last: float) -> Self:
+        """Itself: the image has the limits."""
+        return self

@@ -1,0 +1,231 @@
+"""Loops, lines and points of a planar domain as one graph of segments, and what is inside.
+
+A region of the plane lies in a loop when a path from infinity to it crosses the segments of
+the loop an odd number of times. It is inside the domain when more outer loops than holes lie
+around it: an island in a hole is an outer loop again.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from surfmesh.errors import DomainError
+from surfmesh.geometry.planar.noding import MERGE, first_meeting, noded
+from surfmesh.geometry.surface_checks import LARGEST, SMALLEST
+
+
+@dataclass(frozen=True, eq=False)
+class Line:
+    """One loop, polyline or point as it was given."""
+
+    label: str
+    """As in "outer loop 0"."""
+    points: np.ndarray
+    """(k, 2) float, finite."""
+    closed: bool = False
+    """A segment joins the last point to the first."""
+    loop: int = -1
+    """Number of the loop, or -1 for constraints and points."""
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class SegmentGraph:
+    """Segments that meet at common ends only, and the loops that run along them."""
+
+    points: np.ndarray
+    """(n, 2) float, in model units; every one ends a segment or is a lone point."""
+    segments: np.ndarray
+    """(s, 2) int32, pairs of points, the smaller first, without duplicates."""
+    lone_points: np.ndarray
+    """(p,) int32, demanded points that end no segment."""
+    loop_segments: np.ndarray
+    """(k, 2) int32, rows (segment, loop): the segments that a loop runs along an odd number of
+    times. At each point an even number of them meet."""
+    loop_is_hole: np.ndarray
+    """(L,) bool."""
+    given: np.ndarray
+    """(s,) int32, the first given segment that runs along each segment."""
+    labels: tuple[str, ...]
+    """Names of the given lines."""
+    label_start: np.ndarray
+    """(lines + 1,) int32, number of the first given segment of each line."""
+
+    def origin(self, segment: int) -> str:
+        """Where a segment comes from, as in "outer loop 0, segment 3"."""
+        return _origin(self.labels, self.label_start, int(self.given[segment]))
+
+    def check(self) -> str | None:
+        """The first broken invariant in words, or None."""
+        n, s = len(self.points), len(self.segments)
+        if not np.isfinite(self.points).all():
+            return "a point is not finite"
+        if len(np.unique(self.points, axis=0)) != n:
+            return "two points are at one place"
+        for name, numbers, limit in (
+            ("segments", self.segments, n),
+            ("lone_points", self.lone_points, n),
+            ("loop_segments", self.loop_segments[:, 0], s),
+            ("loops", self.loop_segments[:, 1], len(self.loop_is_hole)),
+        ):
+            if numbers.size and not 0 <= numbers.min() <= numbers.max() < limit:
+                return f"{name}: a number is out of range"
+        if (self.segments[:, 0] >= self.segments[:, 1]).any():
+            return "a segment does not have its smaller point first"
+        if len(np.unique(self.segments, axis=0)) != s:
+            return "a segment is there twice"
+        if np.isin(self.lone_points, self.segments).any():
+            return "a lone point ends a segment"
+        if len(np.union1d(self.segments, self.lone_points)) != n:
+            return "a point is not used"
+        ends = self.segments[self.loop_segments[:, 0]].astype(np.int64)
+        keys = self.loop_segments[:, 1:2] * np.int64(n) + ends
+        key, count = np.unique(keys, return_counts=True)
+        if (count % 2).any():
+            loop, point = divmod(int(key[(count % 2).argmax()]), n)
+            return f"loop {loop} is not closed at point {point}"
+        met = first_meeting(self.points, self.segments, self.lone_points)
+        if met is not None:
+            first, second = (self.origin(k) if k < s else "a lone point" for k in met)
+            return f"{first} and {second} meet other than at a common end"
+        return None
+
+
+def segment_graph(
+    lines: Sequence[Line],
+    loop_is_hole: Sequence[bool],
+    split: bool = False,
+    merge: float = 0.0,
+) -> SegmentGraph:
+    """Make one graph of lines that touch, overlap and cross.
+
+    split: cut crossing segments at the crossing; otherwise they are refused. merge: distance,
+    model units, below which points are one; never less than rounding.
+
+    Raises DomainError when segments cross and are not to be split (it names both and the
+    place), for a loop that encloses no area, and for coordinates beyond 1e100.
+    """
+    points = np.concatenate([line.points for line in lines])
+    _refuse_extremes(lines, points)
+    segments, counts, first = [], [], 0
+    for line in lines:
+        index = first + np.arange(len(line.points))
+        after = np.roll(index, -1)
+        some = len(index) if line.closed else len(index) - 1
+        segments.append(np.stack([index, after], axis=1)[:some])
+        counts.append(some)
+        first += len(index)
+    segments = np.concatenate(segments)
+    label_start = np.concatenate([[0], np.cumsum(counts)]).astype(np.int32)
+    labels = tuple(line.label for line in lines)
+    sizes = np.array([len(line.points) for line in lines])
+    # the first point of what is no loop stays, even when all of it is one point
+    stays = (np.cumsum(sizes) - sizes)[[line.loop < 0 for line in lines]]
+
+    def refusal(one: int, other: int, place: np.ndarray) -> DomainError:
+        named = [_origin(labels, label_start, k) for k in sorted((one, other))]
+        return DomainError(
+            f"{named[0]} crosses {named[1]} at ({place[0]:.9g}, {place[1]:.9g}); "
+            'end one of them there, or pass crossings="split"'
+        )
+
+    found = noded(points, segments, stays, None if split else refusal, merge)
+    loop_of_line = np.array([line.loop for line in lines])
+    loop_of_given = np.repeat(loop_of_line, counts)
+    segment, given = found.uses.T
+    loop = loop_of_given[given]
+    row, times = np.unique(
+        np.stack([segment, loop], axis=1)[loop >= 0].reshape(-1, 2), axis=0, return_counts=True
+    )
+    loop_segments = row[times % 2 == 1].astype(np.int32)
+    for k in np.setdiff1d(np.arange(len(loop_is_hole)), loop_segments[:, 1]):
+        label = next(line.label for line in lines if line.loop == k)
+        raise DomainError(
+            f"{label} encloses no area: it runs to and fro along one line, or is smaller than "
+            f"{merge or MERGE:.3g}{'' if merge else ' of the domain'}, within which points are "
+            "merged; leave it out, or give it as a constraint"
+        )
+    _, first_use = np.unique(segment, return_index=True)
+    arrays = {
+        "points": found.points,
+        "segments": found.segments,
+        "lone_points": found.lone,
+        "loop_segments": loop_segments,
+        "loop_is_hole": np.array(loop_is_hole, bool),
+        "given": given[first_use],
+        "label_start": label_start,
+    }
+    for array in arrays.values():
+        array.setflags(write=False)
+    graph = SegmentGraph(**arrays, labels=labels)
+    met = first_meeting(found.points, found.segments, found.lone)
+    if met is not None:
+        first, second = (graph.origin(k) if k < len(found.segments) else "a point" for k in met)
+        raise DomainError(
+            f"{first} and {second} still meet after cutting; move apart what nearly touches there"
+        )
+    return graph
+
+
+def inside_regions(
+    graph: SegmentGraph, left: np.ndarray, right: np.ndarray, infinite: int
+) -> np.ndarray:
+    """Which regions of the plane are inside the domain.
+
+    left, right: (s,) int, the regions on both sides of every segment; one region twice for a
+    line that ends freely. infinite: number of the unbounded region. Returns (R,) bool, with R
+    one more than the largest number.
+
+    Raises DomainError for a region that cannot be reached from the infinite one, or that lies
+    in different loops by different ways: then left and right are wrong.
+    """
+    left, right = np.asarray(left), np.asarray(right)
+    regions = 1 + max(int(infinite), *(int(side.max(initial=-1)) for side in (left, right)))
+    crossed = [0] * len(graph.segments)  # bit k: the segment belongs to loop k
+    for segment, loop in graph.loop_segments.tolist():
+        crossed[segment] ^= 1 << loop
+    neighbours: list[dict[int, int]] = [{} for _ in range(regions)]
+    for a, b, loops in zip(left.tolist(), right.tolist(), crossed):
+        if neighbours[a].setdefault(b, loops) != loops or (a == b and loops):
+            raise DomainError(f"regions {a} and {b} are separated by different loops")
+        neighbours[b][a] = loops
+    around: list[int | None] = [None] * regions
+    around[infinite] = 0
+    reached = [int(infinite)]
+    for region in reached:
+        for other, loops in neighbours[region].items():
+            expected = around[region] ^ loops
+            if around[other] is None:
+                around[other] = expected
+                reached.append(other)
+            elif around[other] != expected:
+                raise DomainError(f"region {other} lies in different loops by different ways")
+    if len(reached) < regions:
+        raise DomainError(f"region {around.index(None)} cannot be reached from the infinite one")
+    holes = sum(1 << k for k in np.flatnonzero(graph.loop_is_hole).tolist())
+    return np.array(
+        [(loops & ~holes).bit_count() > (loops & holes).bit_count() for loops in around], bool
+    )
+
+
+def _origin(labels: tuple[str, ...], label_start: np.ndarray, given: int) -> str:
+    line = int(np.searchsorted(label_start, given, side="right")) - 1
+    return f"{labels[line]}, segment {given - label_start[line]}"
+
+
+def _refuse_extremes(lines: Sequence[Line], points: np.ndarray) -> None:
+    for line in lines:
+        large = np.abs(line.points).max(axis=1) > LARGEST
+        if large.any():
+            x, y = line.points[large.argmax()]
+            raise DomainError(
+                f"{line.label}: the point ({x:g}, {y:g}) is too far away to compute with; "
+                "scale the domain"
+            )
+    if 0.0 < np.ptp(points, axis=0).max() < SMALLEST:
+        raise DomainError(
+            f"the domain is only {np.ptp(points, axis=0).max():g} wide, too small to compute "
+            "with; scale it"
+        )

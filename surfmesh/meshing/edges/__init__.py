@@ -1,0 +1,13 @@
+"""Edges of a CAD model, each cut once for all its faces.
+
+edge_samples: samples along the edges of a CAD model, and the edge lengths that they ask for by
+    themselves.
+edge_nodes: the edges of a CAD model, each cut once for all its faces.
+edge_gradation: gradation of the edges of a CAD model where sizes depend on the direction.
+edge_mates: edges that run side by side are cut with nodes that face each other.
+inner_sizes: what the sizes inside a face ask for along its edges, which know their own
+    surroundings only.
+face_proximity: near faces of a solid: the distance between them as a local size of both.
+narrow_faces: faces that are narrower than the chord all along: two sides, and what joins them at
+    the ends.
+"""

@@ -1,0 +1,282 @@
+"""Edges that run side by side are cut with nodes that face each other.
+
+    a  o-------o-------o------o       the nodes of one edge have feet on its mate, which is cut
+       :       :       :      :       there and nowhere else; where that would leave a node of its
+    b  o-------o-------o------o       own (a vertex of a third edge) the other edge gets its foot
+
+Two polygons whose nodes face each other do not cross, however near to each other their curves
+are: cut one by one they would where the distance is less than the sag of a segment.
+"""
+
+from __future__ import annotations
+
+from collections import deque
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+
+from surfmesh.cad.model.cad_model import CadModel
+from surfmesh.kernels.space.edge_distances import edge_gaps
+from surfmesh.meshing.edges.narrow_faces import Chain, chain_of, feet, foot_on_edge
+
+SWEEPS = 6
+"""How often feet of new nodes are looked for, at most."""
+
+SAME_SIZE, SAME_GAP = 0.3, 0.5
+"""A node that lies off the foot by less than this share of the size there is the mate itself;
+on bent edges by less than this share of the gap over the turn of a segment: chords would cross."""
+
+ACUTE = 0.85
+"""Cosine of the angle between edges that meet: wider wedges have no narrow part to speak of."""
+
+LEAST_TURN = 1e-3
+"""Radians: edges that turn less from node to node are straight."""
+
+COINCIDENT = 1e-12
+"""Of the diagonal: edges nearer than this all along lie on each other and have no mates."""
+
+
+@dataclass(frozen=True)
+class MateRun:
+    """A part of an edge and its feet on another one, at samples.
+
+    share (n,) rising, foot (n,): shares of both edges; gap (n,): distance.
+    """
+
+    edge: int
+    mate: int
+    share: np.ndarray
+    foot: np.ndarray
+    gap: np.ndarray
+
+
+def mate_runs(model: CadModel, samples) -> list[MateRun]:
+    """Of the two sides of every narrow face, both ways, and of other edges of a face that are as
+    near to each other, inside or outside of it. samples: ``EdgeSamples``."""
+    found = []
+    for number, narrow in samples.narrow.items():
+        coedges = list(model.faces[number].coedges)
+        sides = [chain_of(coedges, samples, side) for side in narrow.sides]
+        for own, other in (sides, sides[::-1]):
+            found += _runs(model, own, other, float(samples.narrow_width[number]))
+    pairs = dict.fromkeys([*_meeting_pairs(model, samples), *_near_pairs(model, samples)])
+    widths: dict[tuple[int, int], float] = {}
+    known = {(run.edge, run.mate) for run in found}
+    for face, a, b in pairs:
+        if (a, b) not in known:
+            widths[a, b] = max(widths.get((a, b), 0.0), float(samples.narrow_width[face]))
+    for (a, b), width in widths.items():
+        own, other = (_edge_chain(samples, edge) for edge in (a, b))
+        found += [run for run in _runs(model, own, other, width) if len(run.share) > 1]
+    return found
+
+
+def _meeting_pairs(model: CadModel, samples) -> list[tuple[int, int, int]]:
+    """(face, edge, edge) of coedges that follow each other and turn back, both ways."""
+    found = []
+    for number, face in enumerate(model.faces):
+        if number in samples.narrow or not samples.narrow_width[number] > 0.0:
+            continue
+        for loop in face.loops:
+            real = [c for c in loop if samples.first[c.edge] < samples.first[c.edge + 1]]
+            for c, d in zip(real, real[1:] + real[:1]):
+                if c.edge == d.edge:
+                    continue
+                one, other = samples.of(c.edge), samples.of(d.edge)
+                into = samples.points[one][:2] if c.reversed else samples.points[one][-2:][::-1]
+                out = samples.points[other][-2:][::-1] if d.reversed else samples.points[other][:2]
+                back, on = into[1] - into[0], out[1] - out[0]
+                if back @ on > ACUTE * np.linalg.norm(back) * np.linalg.norm(on):
+                    found += [(number, c.edge, d.edge), (number, d.edge, c.edge)]
+    return found
+
+
+def _near_pairs(model: CadModel, samples) -> list[tuple[int, int, int]]:
+    """(face, edge, edge) of edges that do not meet and are somewhere narrowly apart, both ways."""
+    points, first = samples.points, samples.first
+    if len(points) < 3:
+        return []
+    ends = samples.vertex[np.array([[edge.start, edge.end] for edge in model.edges])]
+    sag = np.zeros(len(model.edges))
+    for edge in range(len(model.edges)):
+        own = points[samples.of(edge)]
+        if len(own) > 2:
+            bend = np.linalg.norm(own[2:] - 2.0 * own[1:-1] + own[:-2], axis=1)
+            sag[edge] = bend.max() / 8.0
+    by_width: dict[float, list[int]] = {}
+    for face, width in enumerate(samples.narrow_width.tolist()):
+        if width > 0.0 and face not in samples.narrow and len(samples.edges_of_face[face]) > 1:
+            by_width.setdefault(width, []).append(face)
+    room = np.empty((len(points), 6)), np.empty((len(model.edges), 6))
+    found = []
+    for width, faces in by_width.items():
+        edges = [samples.edges_of_face[face] for face in faces]
+        start = np.zeros(len(faces) + 1, np.int64)
+        np.cumsum([len(own) for own in edges], out=start[1:])
+        reach = np.repeat(width + sag + sag.max(), np.diff(first))
+        gap = np.full(len(points), np.inf)
+        edge_gaps(points, reach, first, ends, np.concatenate(edges), start, *room, gap)
+        owner = np.repeat(np.arange(len(model.edges)), np.diff(first))
+        near = np.zeros(len(model.edges), bool)
+        near[owner[np.isfinite(gap)]] = True
+        low, high = room[1][:, :3], room[1][:, 3:]
+        for face, own in zip(faces, edges):
+            own = own[near[own]]
+            for a in own.tolist():
+                apart = np.maximum(np.maximum(low[own] - high[a], low[a] - high[own]), 0.0)
+                close = np.linalg.norm(apart, axis=1) <= width + sag[a] + sag[own]
+                meets = (ends[own, :, None] == ends[a]).any(axis=(1, 2))
+                found += [(face, a, b) for b in own[close & ~meets].tolist()]
+    return found
+
+
+def _edge_chain(samples, edge: int) -> Chain:
+    """One edge as a chain."""
+    own = samples.of(edge)
+    points, share = samples.points[own], samples.share[own]
+    count = len(points) - 1
+    length = float(np.linalg.norm(np.diff(points, axis=0), axis=1).sum())
+    return Chain(points, np.zeros(count, int), np.full(count, edge), share[:-1], share[1:], length)
+
+
+def _runs(model: CadModel, own: Chain, other: Chain, width: float) -> list[MateRun]:
+    """The runs of one side along the other."""
+    found = []
+    for coedge in dict.fromkeys(own.coedge.tolist()):
+        at = np.flatnonzero(own.coedge == coedge)
+        share = np.r_[own.share[at], own.share_end[at[-1]]]
+        points = own.points[np.r_[at, at[-1] + 1]]
+        edge = int(own.edge[at[0]])
+        place, foot, gap = feet(model, points, other)
+        mate = other.edge[place]
+        near = (gap <= width) & (mate != edge)
+        starts = np.flatnonzero(np.r_[True, (np.diff(mate) != 0) | (near[1:] != near[:-1])])
+        for rows in np.split(np.arange(len(share)), starts[1:]):
+            if not near[rows[0]]:
+                continue
+            order = rows[np.argsort(share[rows], kind="stable")]
+            found.append(MateRun(edge, int(mate[rows[0]]), share[order], foot[order], gap[order]))
+    return found
+
+
+def share_sizes(samples, mates: list[MateRun], sizes: np.ndarray) -> None:
+    """Lower the sizes (n,) at samples, in place, to those of their mates."""
+    for run in mates:
+        own, other = samples.of(run.edge), samples.of(run.mate)
+        found = np.interp(run.foot, samples.share[other], sizes[other])
+        rows = own.start + np.searchsorted(samples.share[own], run.share)
+        rows = np.minimum(rows, own.stop - 1)
+        sizes[rows] = np.minimum(sizes[rows], found)
+
+
+class MatedCuts:
+    """Shares of the nodes of all edges with mates, found together."""
+
+    def __init__(
+        self, model: CadModel, samples, sizes: np.ndarray, fewest: Callable[[int], int]
+    ) -> None:
+        """sizes (n,): at the samples, graded. fewest: segments of an edge, by number."""
+        self.model, self.samples, self.sizes, self.fewest = model, samples, sizes, fewest
+        self.runs: dict[int, list[MateRun]] = {}
+        for run in samples.mates:
+            if run.gap.max() <= COINCIDENT * model.diagonal:
+                continue  # feet would be told apart by rounding alone, without end
+            self.runs.setdefault(run.edge, []).append(run)
+            self.runs.setdefault(run.mate, [])
+        self.shares = {edge: np.array([0.0, 1.0]) for edge in self.runs}
+        self._seen: dict[int, int] = {}  # nodes of the edge when feet of a run were looked for
+        self._length = {edge: self._lengths(edge) for edge in self.runs}
+
+    def cut(self) -> dict[int, np.ndarray]:
+        """Shares (k,) by edge, rising from 0 to 1."""
+        if not self.runs:
+            return {}
+        self._spread()  # the feet of vertices
+        done: set[int] = set()
+        for edge in sorted(self.runs, key=lambda e: (-self.model.edges[e].length, e)):
+            queue = deque([edge])
+            while queue:
+                own = queue.popleft()
+                if own in done:
+                    continue
+                done.add(own)
+                self.shares[own] = self._subdivided(own)
+                for run in self.runs[own]:
+                    if run.mate not in done:
+                        self._add_feet(run)
+                        queue.append(run.mate)
+        self._spread()
+        return self.shares
+
+    def _spread(self) -> None:
+        for _ in range(SWEEPS):
+            if not sum(self._add_feet(run) for own in self.runs.values() for run in own):
+                break
+
+    def _add_feet(self, run: MateRun) -> int:
+        """Cut the mate where nodes of the edge have their feet; how many are new."""
+        own = self.shares[run.edge]
+        if self._seen.get(id(run)) == len(own):
+            return 0
+        self._seen[id(run)] = len(own)
+        reach = 0.5 * np.diff(run.share).max() if len(run.share) > 1 else 0.0
+        own = own[(own >= run.share[0] - reach) & (own <= run.share[-1] + reach)]
+        if not len(own):
+            return 0
+        edge = self.model.edges[run.edge]
+        points = edge.curve.evaluate(edge.parameters(own), 0)[0]
+        for k in np.flatnonzero((own == 0.0) | (own == 1.0)):
+            points[k] = self.model.vertices[edge.start if own[k] == 0.0 else edge.end].point
+        guess = np.interp(own, run.share, run.foot)
+        foot, away = foot_on_edge(self.model, run.mate, points, guess)
+        gap = np.interp(own, run.share, run.gap)
+        there = away <= 2.0 * gap + 1e-9 * self.model.diagonal
+        foot, away = foot[there], away[there]
+        nodes = self.shares[run.mate]
+        right = np.clip(np.searchsorted(nodes, foot), 1, len(nodes) - 1)
+        along, ends = self._along(run.mate, foot), self._along(run.mate, nodes)
+        near = np.minimum(np.abs(along - ends[right - 1]), np.abs(along - ends[right]))
+        same = self._same(run.mate, foot, away)
+        added: list[float] = []
+        for k in np.flatnonzero(near > same).tolist():
+            if all(abs(along[k] - place) > same[k] for place in added):
+                added.append(float(along[k]))
+                nodes = np.append(nodes, foot[k])
+        if added:
+            self.shares[run.mate] = np.unique(nodes)
+        return len(added)
+
+    def _lengths(self, edge: int) -> np.ndarray:
+        points = self.samples.points[self.samples.of(edge)]
+        return np.r_[0.0, np.cumsum(np.linalg.norm(np.diff(points, axis=0), axis=1))]
+
+    def _along(self, edge: int, share: np.ndarray) -> np.ndarray:
+        """Lengths (n,) from the start of an edge to shares (n,)."""
+        return np.interp(share, self.samples.share[self.samples.of(edge)], self._length[edge])
+
+    def _same(self, edge: int, foot: np.ndarray, gap: np.ndarray) -> np.ndarray:
+        """How near (n,) to its foot (n,) a node is the mate itself, where the gap is (n,)."""
+        at = self.samples.of(edge)
+        size = np.interp(foot, self.samples.share[at], self.sizes[at])
+        length = max(self.model.edges[edge].length, np.finfo(float).tiny)
+        turn = np.maximum(self.samples.turn[edge] * np.minimum(size / length, 1.0), LEAST_TURN)
+        same = np.minimum(SAME_SIZE * size, SAME_GAP * gap / turn)
+        return np.maximum(same, 1e-9 * length)
+
+    def _subdivided(self, edge: int) -> np.ndarray:
+        """The shares with more between them, in pieces of metric length near 1."""
+        at = self.samples.of(edge)
+        points, share, size = (a[at] for a in (self.samples.points, self.samples.share, self.sizes))
+        step = np.linalg.norm(np.diff(points, axis=0), axis=1)
+        metric = np.r_[0.0, np.cumsum(2.0 * step / (size[1:] + size[:-1]))]
+        ends = np.interp(self.shares[edge], share, metric)
+        pieces = np.maximum(1, np.round(np.diff(ends))).astype(int)
+        fewest = self.fewest(edge)
+        while pieces.sum() < fewest:
+            pieces[(np.diff(ends) / pieces).argmax()] += 1
+        cut = [
+            np.interp(a + (b - a) * np.arange(1, n) / n, metric, share)
+            for a, b, n in zip(ends[:-1], ends[1:], pieces.tolist())
+        ]
+        return np.unique(np.concatenate([self.shares[edge], *cut]))

@@ -1,0 +1,54 @@
+"""What the sizes inside a face ask for along its edges, which know their own surroundings only."""
+
+import numpy as np
+
+from surfmesh.geometry.surface import Surface
+from surfmesh.kernels.fields.background import scalar_sizes_at
+from surfmesh.meshing.boundary.boundary_loops import BoundaryLoops
+from surfmesh.sizing.field.size_field import SizeField
+from surfmesh.sizing.options.sizing import Sizing
+from surfmesh.sizing.rules.size_limits import SizeLimits, along_lines
+
+COARSE = 2.0
+"""Segments of the boundary so many times longer than the sizes inside allow are to be cut."""
+
+LOOKED_AT = (0.1, 0.3, 0.5, 0.7, 0.9)
+"""Shares of a segment at which the sizes inside are read."""
+
+
+def wishes_along(
+    sizing: Sizing, surface: Surface, field: SizeField, loops: BoundaryLoops, points: np.ndarray
+) -> SizeLimits | None:
+    """What sizes grown from the inside ask for along edges that know their own surroundings only.
+
+    points: (k, 3) of the nodes.
+    """
+    first, second = loops.segments.T
+    step = points[second] - points[first]
+    length = np.linalg.norm(step, axis=1)
+    real = length > 0.0  # at a pole there are none
+    first, second, step, length = first[real], second[real], step[real], length[real]
+    if not len(length):
+        return None
+    # where sizes have a direction segments may be long, and pass much on their way
+    shares = LOOKED_AT if sizing.is_anisotropic else LOOKED_AT[2:3]
+    ends = loops.uv[first], loops.uv[second]
+    uv = np.stack([(1.0 - share) * ends[0] + share * ends[1] for share in shares], axis=1)
+    xy = field.scaling.to_plane(uv.reshape(-1, 2))
+    if sizing.is_anisotropic:
+        way = field.scaling.to_plane(ends[1]) - field.scaling.to_plane(ends[0])
+        way, whole = (np.repeat(a, len(shares), axis=0) for a in (way, length))
+        sizes = whole / np.maximum(field.metric_lengths(xy, way), np.finfo(float).tiny)
+    else:
+        sizes = np.empty(len(xy))
+        scalar_sizes_at(field.background, xy, sizes)
+    sizes = np.maximum(sizes, sizing.min_size or 0.0).reshape(-1, len(shares))
+    coarse = length > COARSE / (1.0 / sizes).mean(axis=1)
+    if not coarse.any():
+        return None
+    (places,) = surface.evaluate(uv[coarse].reshape(-1, 2), 0)
+    sizes, in_space = sizes[coarse].ravel(), None
+    if sizing.is_anisotropic:
+        along = np.repeat(step[coarse] / length[coarse, None], len(shares), axis=0)
+        in_space = along_lines(along, sizes)
+    return SizeLimits(places, sizes, sizing.gradient, in_space=in_space)

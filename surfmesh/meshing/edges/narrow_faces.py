@@ -1,0 +1,294 @@
+"""Faces that are narrower than the chord all along: two sides, and what joins them at the ends.
+
+      a ----------- a ----------- a          sides a and b, nowhere farther apart than the narrow
+      |  start                    |  end     width; an end is a short chain of edges, or a tip in
+      b ----------- b ----------- b          which the sides meet
+
+    strip, fillet, chamfer    ends are short edges       crescent, lens    ends are tips
+    tube, needle hole, torus  both sides are the seam    flat ring         two loops, no ends
+
+Triangles of good shape in such a face would be as small as it is narrow, and its neighbours would
+be flooded with them. It has no inside to be meshed: see ``strip_triangulation``.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from itertools import combinations
+from math import pi
+
+import numpy as np
+
+from surfmesh.cad.model.cad_model import CadCoedge, CadFace, CadModel
+from surfmesh.sizing.options.sizing import Sizing
+from surfmesh.sizing.rules.size_bounds import DEFAULT_CHORD
+
+NARROW = 1.0
+"""Faces are narrow up to this share of ``chord``: any triangle across them lies within it."""
+
+OF_SIZE = 0.25
+"""And up to this share of the sizes that are asked for in so many words."""
+
+OF_SIZE_ALONE = 0.1
+"""Where nothing but a size is asked for, faces are narrow up to this share of it."""
+
+ROUND = 1.1 * pi
+"""Ends, and ways across, are at most so many narrow widths long: round a tube."""
+
+MOST_COEDGES = 40
+"""Faces of more edges are not looked at: pairs of ends are many."""
+
+MOST_CANDIDATES = 200
+"""Ways to take a loop apart that are tried."""
+
+ACROSS = 9
+"""Points on the way from one side to the other."""
+
+TIE = 1e-6
+"""Relative difference of squared distances that is none."""
+
+AT_ONCE = 100_000
+"""Pairs of a point and a segment that are looked at together."""
+
+FOOT_STEPS = 4
+"""Of Newton's method, to the closest point of a curve."""
+
+
+@dataclass(frozen=True)
+class NarrowFace:
+    """Coedges by their place in the row of all coedges of the face.
+
+    sides: both in walking order, the second one comes back. ends: from the first side to the
+    second, and back; empty for a tip, and where ``closed``: each side is a loop.
+    """
+
+    sides: tuple[tuple[int, ...], tuple[int, ...]]
+    ends: tuple[tuple[int, ...], tuple[int, ...]] = ((), ())
+    closed: bool = False
+    width: float = 0.0
+    """Largest way across, model units."""
+
+
+@dataclass(frozen=True)
+class Chain:
+    """Coedges one after the other, sampled: polygon with edge numbers and shares.
+
+    points (n, 3); edge (n,) and share (n,) of the segment that starts there, and share_end (n,)
+    where it ends; coedge (n,) the place of its coedge.
+    """
+
+    points: np.ndarray
+    coedge: np.ndarray
+    edge: np.ndarray
+    share: np.ndarray
+    share_end: np.ndarray
+    length: float
+
+
+FEW = 9
+"""Points of a side that are looked at before all are."""
+
+EMPTY = 1e-10
+"""Of the diagonal: a face whose mean width is below encloses nothing, and is no sliver."""
+
+
+def narrow_width(sizing: Sizing, diagonal: float, points: np.ndarray) -> float:
+    """What is narrow on a face with these wishes, whose edges have the samples points (n, 3)."""
+    if sizing.gap is not None:
+        return 0.0  # triangles across are asked for
+    width = NARROW * (sizing.chord or DEFAULT_CHORD * diagonal)
+    sizes = [sizing.size] if isinstance(sizing.size, float) else []
+    if sizes and sizing.chord is None and sizing.angle is None:
+        width = max(width, OF_SIZE_ALONE * sizing.size)
+    sizes += [sizing.max_size] if sizing.max_size else []
+    if sizing.has_law and len(points):
+        sizes.append(float(sizing.law_sizes(points).min()))
+    return min([width, *(OF_SIZE * size for size in sizes)])
+
+
+def narrow_face(model: CadModel, face: CadFace, samples, width: float) -> NarrowFace | None:
+    """The sides and ends of a face that is narrower than ``width`` everywhere; None if it is not.
+
+    samples: ``EdgeSamples`` of the model.
+    """
+    coedges = list(face.coedges)
+    lengths = np.array([
+        model.edges[c.edge].length if samples.first[c.edge] < samples.first[c.edge + 1] else 0.0
+        for c in coedges
+    ])  # fmt: skip
+    around = lengths.sum()
+    if not coedges or len(coedges) > MOST_COEDGES or not width > 0.0:
+        return None
+    if 2.0 * face.area > ROUND * width * around or face.area <= EMPTY * model.diagonal * around:
+        return None
+    if len(face.loops) == 2:
+        first = len(face.loops[0])
+        sides = tuple(range(first)), tuple(range(first, len(coedges)))
+        return _checked(model, face, coedges, samples, NarrowFace(sides, closed=True), width)
+    if len(face.loops) != 1:
+        return None
+    for candidate in _candidates(lengths, width):
+        found = _checked(model, face, coedges, samples, candidate, width)
+        if found is not None:
+            return found
+    return None
+
+
+def _candidates(lengths: np.ndarray, width: float) -> Iterator[NarrowFace]:
+    """Ways to take a loop apart in two sides and two ends, the longest ends first."""
+    count = len(lengths)
+    runs = []  # (start, number of coedges) of chains that are short enough to be an end
+    for start in range(count):
+        total = 0.0
+        for number in range(count - 1):
+            if total <= ROUND * width:
+                runs.append((start, number, total))
+            total += lengths[(start + number) % count]
+    found = []
+    whole = lengths.sum()
+    for (i, m, one), (k, n, other) in combinations(runs, 2):
+        first, second = (k - i - m) % count, (i - k - n) % count
+        if first < 1 or second < 1 or first + second + m + n != count:
+            continue
+        sides = [
+            tuple((at + step) % count for step in range(number))
+            for at, number in ((i + m, first), (k + n, second))
+        ]
+        a, b = (lengths[list(side)].sum() for side in sides)
+        if not min(a, b) > 0.0 or abs(a - b) > 0.3 * max(a, b) + ROUND * width:
+            continue
+        if one + other > 0.8 * whole:
+            continue
+        ends = tuple(
+            tuple((at + step) % count for step in range(number)) for at, number in ((k, n), (i, m))
+        )
+        poles = sum(lengths[k] == 0.0 for end in ends for k in end)
+        order = -(one + other), -poles, abs(a - b)
+        found.append((order, NarrowFace((sides[0], sides[1]), ends)))
+    found.sort(key=lambda row: row[0])
+    return (narrow for _, narrow in found[:MOST_CANDIDATES])
+
+
+def _checked(
+    model: CadModel, face: CadFace, coedges: list[CadCoedge], samples, narrow: NarrowFace,
+    width: float,
+) -> NarrowFace | None:  # fmt: skip
+    """The face with its width if its sides are nowhere farther apart than ``width``, else None."""
+    sides = [chain_of(coedges, samples, side) for side in narrow.sides]
+    if any(side is None for side in sides):
+        return None
+    for own, other in (sides, sides[::-1]):  # a few points tell most that are too far apart
+        few = np.linspace(0, len(own.points) - 1, min(FEW, len(own.points))).astype(int)
+        if not feet(model, own.points[few], other)[2].max() <= width:
+            return None
+    largest = 0.0
+    for own, other in (sides, sides[::-1]):
+        place, share, away = feet(model, own.points, other)
+        if not away.max() <= width:
+            return None
+        ways = _ways_across(face, coedges, own, other, place, share)
+        if not ways.max() <= ROUND * width:
+            return None
+        largest = max(largest, float(ways.max()))
+    return NarrowFace(narrow.sides, narrow.ends, narrow.closed, largest)
+
+
+def chain_of(coedges: list[CadCoedge], samples, places: tuple[int, ...]) -> Chain | None:
+    """The samples of some coedges in walking order; None where none of them has any."""
+    points, at, edge, share, end = [], [], [], [], []
+    last = None
+    for place in places:
+        coedge = coedges[place]
+        own = samples.of(coedge.edge)
+        order = slice(None, None, -1) if coedge.reversed else slice(None)
+        p, s = samples.points[own][order], samples.share[own][order]
+        if not len(p):
+            continue
+        points.append(p[:-1])
+        at.append(np.full(len(p) - 1, place))
+        edge.append(np.full(len(p) - 1, coedge.edge))
+        share.append(s[:-1])
+        end.append(s[1:])
+        last = p[-1:]
+    if last is None:
+        return None
+    own = np.concatenate([*points, last])
+    return Chain(
+        own, *(np.concatenate(column) for column in (at, edge, share, end)),
+        float(np.linalg.norm(np.diff(own, axis=0), axis=1).sum()),
+    )  # fmt: skip
+
+
+def feet(
+    model: CadModel, points: np.ndarray, chain: Chain
+) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Closest points of a chain to points (n, 3): segment (n,), share (n,) of its edge, distance.
+
+    First on the polygon of the samples, then on the curves themselves. The points run along the
+    chain, the other way: where it is closed, this tells its end from its start.
+    """
+    about = np.linspace(1.0, 0.0, len(points))
+    middle = (np.arange(len(chain.edge)) + 0.5) / len(chain.edge)
+    start, way = chain.points[:-1], np.diff(chain.points, axis=0)
+    square = np.maximum(np.einsum("ij,ij->i", way, way), np.finfo(float).tiny)
+    place, along = np.empty(len(points), np.int64), np.empty(len(points))
+    step = max(1, AT_ONCE // len(square))
+    for k in range(0, len(points), step):
+        at = slice(k, min(k + step, len(points)))
+        off = points[at, None] - start
+        t = np.clip(np.einsum("ijk,jk->ij", off, way) / square, 0.0, 1.0)
+        off -= t[:, :, None] * way
+        near = np.einsum("ijk,ijk->ij", off, off)
+        tied = near <= near.min(axis=1)[:, None] * (1.0 + TIE) + TIE**2 * square.max()
+        apart = np.where(tied, np.abs(middle - about[at, None]), np.inf)
+        place[at] = apart.argmin(axis=1)
+        along[at] = t[np.arange(len(t)), place[at]]
+    share = (1.0 - along) * chain.share[place] + along * chain.share_end[place]
+    away = np.empty(len(points))
+    for edge in np.unique(chain.edge[place]).tolist():
+        own = np.flatnonzero(chain.edge[place] == edge)
+        share[own], away[own] = foot_on_edge(model, edge, points[own], share[own])
+    return place, share, away
+
+
+def foot_on_edge(
+    model: CadModel, edge: int, points: np.ndarray, share: np.ndarray
+) -> tuple[np.ndarray, np.ndarray]:
+    """Closest points of an edge to points (n, 3) from guesses: shares (n,), distances (n,)."""
+    own = model.edges[edge]
+    best = np.clip(share, 0.0, 1.0)
+    here = own.curve.evaluate(own.parameters(best), 1)
+    away = np.linalg.norm(here[0] - points, axis=1)
+    for _ in range(FOOT_STEPS):
+        speed = here[1] * (own.t1 - own.t0)
+        square = np.maximum(np.einsum("ij,ij->i", speed, speed), np.finfo(float).tiny)
+        step = np.einsum("ij,ij->i", points - here[0], speed) / square
+        tried = np.clip(best + step, 0.0, 1.0)
+        here = own.curve.evaluate(own.parameters(tried), 1)
+        now = np.linalg.norm(here[0] - points, axis=1)
+        better = now < away
+        best, away = np.where(better, tried, best), np.where(better, now, away)
+        if not better.any():
+            break
+        here = own.curve.evaluate(own.parameters(best), 1)
+    return best, away
+
+
+def _ways_across(
+    face: CadFace, coedges: list[CadCoedge], own: Chain, other: Chain, place: np.ndarray,
+    share: np.ndarray,
+) -> np.ndarray:  # fmt: skip
+    """Lengths (n,) in space of the ways in (u, v) from samples of one side to their feet."""
+    n = len(place) - 1
+    here, there = np.empty((n, 2)), np.empty((n, 2))
+    for k in np.unique(own.coedge).tolist():
+        at = own.coedge == k
+        here[at] = coedges[k].uv(own.share[at])
+    for k in np.unique(other.coedge[place[:n]]).tolist():
+        at = other.coedge[place[:n]] == k
+        there[at] = coedges[k].uv(share[:n][at])
+    t = np.linspace(0.0, 1.0, ACROSS)[:, None, None]
+    uv = (1.0 - t) * here + t * there
+    points = face.surface.evaluate(uv.reshape(-1, 2), 0)[0].reshape(ACROSS, n, 3)
+    return np.linalg.norm(np.diff(points, axis=0), axis=2).sum(axis=0)

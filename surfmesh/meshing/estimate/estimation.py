@@ -1,0 +1,143 @@
+"""How many triangles there will be, and how much memory they need, before all are packed.
+
+    size field -> metric area inside the loops -> unit triangles -> bytes
+    or boundary nodes, where a face has little more than them
+
+Small meshes are made (``trial_mesh``). Of large ones a few patches or faces are, and what the
+optimiser makes of them is taken for the rest (``trial_patches``, ``trial_faces``). Not seen, in a
+mesh too large to be made, are edges that faces away from the patches ask to be finer, and faces
+with folds of their own.
+"""
+
+from __future__ import annotations
+
+import mmap
+import sys
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+
+from surfmesh.errors import SizingError
+from surfmesh.meshing.faces.face_data import FaceJob
+from surfmesh.sizing.field.metric_area import TRIANGLES, inner_cells, metric_area
+from surfmesh.sizing.field.size_field import COUNTABLE, SizeField
+
+RESULT, MODEL_RESULT, WORK, STRETCHED_WORK = 150, 450, 80, 530
+"""Bytes a triangle of the whole mesh, of one joined from the faces of a model, and of the face
+being worked on; measured, peak of the process for meshes of 0.2 to 1.9 million triangles."""
+
+MANY = 10**15
+"""Triangles: more are told in powers of ten."""
+
+SHARP = 6.0
+"""How sharply the count of a face changes from that of its boundary to that of its area."""
+
+BEYOND = 1e9
+"""More triangles than that are counted without a look at the cells that loops run through."""
+
+LOADED, CAD_LOADED = 250_000_000, 550_000_000
+"""Bytes of the program itself, and of the CAD kernel where it lives in this process."""
+
+
+@dataclass(frozen=True)
+class Estimate:
+    """What a mesh will be like."""
+
+    triangles: int
+    by_face: tuple[int, ...]
+    """Triangles on each face; one entry for a single surface."""
+    memory: int
+    """Bytes at the peak of meshing, the program included."""
+
+    def __str__(self) -> str:
+        return f"about {self.triangles:,} triangles, {size_in_words(self.memory)} of memory"
+
+    def to_dict(self) -> dict:
+        """Plain data for JSON."""
+        return {
+            "triangles": self.triangles, "memory_bytes": self.memory,
+            "by_face": list(self.by_face),
+        }  # fmt: skip
+
+    @classmethod
+    def of(cls, by_face: Sequence[float], stretched: bool = False, model: bool = False) -> Estimate:
+        """stretched: sizes depend on the direction."""
+        counts = tuple(round(count) if count < COUNTABLE else int(COUNTABLE) for count in by_face)
+        total, most = sum(counts), max(counts, default=0)
+        loaded = max(LOADED + (CAD_LOADED if "OCP" in sys.modules else 0), _resident())
+        bytes_each = MODEL_RESULT if model else RESULT
+        work = STRETCHED_WORK if stretched else WORK
+        return cls(total, counts, loaded + bytes_each * total + work * most)
+
+
+def _resident() -> int:
+    """Bytes that this process has now, its models among them; 0 where the system does not say."""
+    try:
+        pages = int(Path("/proc/self/statm").read_text().split()[1])
+    except (OSError, ValueError, IndexError):
+        return 0
+    return pages * mmap.PAGESIZE
+
+
+def size_in_words(count: float) -> str:
+    """Bytes as "1.2 GB"."""
+    for unit in ("bytes", "kB", "MB", "GB", "TB"):
+        if count < 1000.0 or unit == "TB":
+            return f"{count:.3g} {unit}"
+        count /= 1000.0
+    return ""
+
+
+def field_triangles(field: SizeField, loops: Sequence[np.ndarray] | None = None) -> float:
+    """Triangles over the field's rectangle, or inside ``loops`` (k, 2) in (u, v)."""
+    if loops is not None and field.expected_vertices() > BEYOND:
+        rings = [field.scaling.to_plane(loop) for loop in loops]
+        rough = TRIANGLES * float(inner_cells(field, rings)[2].sum())
+        if rough > BEYOND:
+            return rough
+    return TRIANGLES * metric_area(field, loops)
+
+
+def face_triangles(job: FaceJob, field: SizeField) -> float:
+    """Triangles on a face whose boundary is cut already."""
+    loops = [np.concatenate([piece.uv[:-1] for piece in loop]) for loop in job.loops]
+    return combined(field_triangles(field, loops), sum(len(loop) for loop in loops), len(loops))
+
+
+def combined(inside: float, nodes: int, loops: int) -> float:
+    """Triangles within loops, of those that the area asks for and of the nodes on the loops.
+
+    With no node inside, Euler's formula counts them.
+    """
+    boundary = max(nodes - 2 + 2 * (loops - 1), 1)
+    larger = max(inside, boundary)
+    if not larger < COUNTABLE:
+        return COUNTABLE
+    return larger * ((inside / larger) ** SHARP + (boundary / larger) ** SHARP) ** (1.0 / SHARP)
+
+
+def _counted(triangles: int) -> str:
+    return f"{triangles:,}" if triangles < MANY else f"{triangles:.2g}"
+
+
+def require_within(limit: int, found: Estimate, names: Sequence[str]) -> None:
+    """Raise ``SizingError`` with advice when there would be more triangles than ``limit``."""
+    if found.triangles <= limit:
+        return
+    most = int(np.argmax(found.by_face))
+    on = f", {found.by_face[most]:,} of them on {names[most]}" if len(names) > 1 else ""
+    raise SizingError(
+        f"about {_counted(found.triangles)} triangles are asked for{on}, more than the limit of "
+        f"{limit:,}; they need {size_in_words(found.memory)} of memory. Ask for a larger chord, "
+        "size or min_size there, or raise limit"
+    )
+
+
+def require_field_within(
+    limit: int, field: SizeField, loops: Sequence[np.ndarray] | None, name: str
+) -> None:
+    """The same for a single surface, before it is packed."""
+    if 2 * field.expected_vertices() > limit:
+        require_within(limit, Estimate.of([field_triangles(field, loops)]), [name])

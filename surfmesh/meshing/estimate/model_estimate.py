@@ -1,0 +1,88 @@
+"""The triangles of a CAD model before it is meshed, and a bound that costs nothing."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import numpy as np
+
+from surfmesh.cad.model.cad_model import CadModel
+from surfmesh.cad.model.centres import inner_samples
+from surfmesh.geometry.differential.fundamental_forms import curvatures, forms_from_derivatives
+from surfmesh.meshing.edges.edge_nodes import EdgeNodes
+from surfmesh.meshing.estimate.estimation import Estimate, face_triangles, require_within
+from surfmesh.meshing.faces.face_data import FaceJob
+from surfmesh.meshing.faces.face_mesh import face_field
+from surfmesh.meshing.faces.strip_triangulation import strip_mesh
+from surfmesh.sizing.field.metric_area import TRIANGLES
+from surfmesh.sizing.options.sizing import Sizing
+from surfmesh.sizing.rules.size_bounds import SizeBounds
+
+FEW = 9
+"""Points each way of a grid on a face."""
+
+
+def model_counts(jobs: list[FaceJob]) -> np.ndarray:
+    """Triangles on each face (f,) in the first round. Raises ``SizingError`` where a size field
+    cannot be made."""
+    return np.array([_count(job) for job in jobs], float)
+
+
+def _count(job: FaceJob) -> float:
+    """Of one face; of a narrow one those between its sides, which cost nothing to make."""
+    strip = strip_mesh(job) if job.narrow is not None else None
+    return face_triangles(job, face_field(job)[1]) if strip is None else len(strip.triangles)
+
+
+def bounds(
+    model: CadModel, nodes: list[EdgeNodes | None], sizings: list[Sizing]
+) -> tuple[np.ndarray, np.ndarray]:
+    """Triangles (f,) that each face has at least and at most, of its wishes at a few points.
+
+    At least: the largest size holds everywhere. At most: the smallest, also of sources.
+    """
+    least, most = np.zeros(len(model.faces)), np.zeros(len(model.faces))
+    for number, (face, sizing) in enumerate(zip(model.faces, sizings)):
+        edges = [nodes[c.edge].sizes.min() for c in face.coedges if nodes[c.edge] is not None]
+        allowed = SizeBounds.of(sizing, model.diagonal)
+        plain = face.surface.kind == "plane" and not sizing.has_law
+        uv = np.empty((0, 2)) if plain else inner_samples(face, FEW)
+        if not plain and not len(uv):
+            smallest = min([*edges, allowed.clamp[1]])
+            most[number] = TRIANGLES * face.area / max(smallest, allowed.clamp[0]) ** 2
+            continue
+        points, *derivatives = face.surface.evaluate(uv, 2)
+        sizes = np.full(1 if plain else len(uv), allowed.clamp[1])
+        if allowed.follows_curvature and not plain:
+            forms = forms_from_derivatives(*derivatives)
+            k = curvatures(forms)
+            sizes = np.where(forms.degenerate, sizes, allowed.shorter(k.k1, k.k2))
+        largest = float(sizes.max())
+        if largest < np.inf:
+            longest = min(largest * sizing.anisotropy, max(allowed.longest, largest))
+            least[number] = TRIANGLES * face.area / (largest * longest)
+        if sizing.has_law:
+            sizes = np.clip(np.minimum(sizes, sizing.law_sizes(points)), *allowed.clamp)
+        smallest = min([sizes.min(), *edges, *(getattr(s, "size", np.inf) for s in sizing.sources)])
+        most[number] = TRIANGLES * face.area / max(float(smallest), allowed.clamp[0]) ** 2
+    return least, most
+
+
+def names_of_faces(model: CadModel) -> list[str]:
+    """For messages."""
+    return [f"face {k} ({face.name or face.kind})" for k, face in enumerate(model.faces)]
+
+
+def require_model_within(
+    model: CadModel, jobs: Callable[[], list[FaceJob]], nodes: list[EdgeNodes | None],
+    sizings: list[Sizing], sizing: Sizing,
+) -> None:  # fmt: skip
+    """Raise ``SizingError`` with advice when a model would have more than ``sizing.limit``
+    triangles. ``jobs``: makes them; asked only where the bounds leave it open."""
+    least, most = bounds(model, nodes, sizings)
+    if most.sum() <= sizing.limit:
+        return
+    names = names_of_faces(model)
+    require_within(sizing.limit, Estimate.of(least), names)
+    counts = model_counts(jobs())
+    require_within(sizing.limit, Estimate.of(counts, model=True), names)

@@ -1,0 +1,85 @@
+"""What a face of a CAD model is meshed from, and what becomes of it: plain arrays."""
+
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from surfmesh.cad.model.loop_faults import ExactLoops
+from surfmesh.geometry.surface import Surface
+from surfmesh.meshing.edges.narrow_faces import NarrowFace
+from surfmesh.sizing.options.sizing import Sizing
+from surfmesh.sizing.rules.size_limits import SizeLimits
+
+
+@dataclass(frozen=True)
+class Piece:
+    """One coedge in walking order, with both ends.
+
+    A degenerate edge has two nodes of the same number; it is cut when the metric is known.
+    """
+
+    uv: np.ndarray
+    """(n, 2)"""
+    numbers: np.ndarray
+    """(n,) int64"""
+    points: np.ndarray
+    """(n, 3)"""
+    sizes: np.ndarray
+    """(n,)"""
+    degenerate: bool = False
+    tolerance: float = 0.0
+    """The edge lies this near its images, model units."""
+
+
+@dataclass(frozen=True)
+class FaceJob:
+    """All that is needed to mesh one face; can be pickled, knows no CAD kernel."""
+
+    surface: Surface
+    loops: tuple[tuple[Piece, ...], ...]
+    sizing: Sizing
+    limits: SizeLimits | None = None
+    """From earlier rounds."""
+    optimise: bool = True
+    last: bool = False
+    """Finer edges did not help: take a boundary that crosses itself apart, however far, or
+    close it without regard for the surface."""
+    exact: ExactLoops | None = None
+    """The curves that the loops are cut from."""
+    narrow: NarrowFace | None = None
+    """Its sides and ends, of a face narrower than the chord all along."""
+
+    @property
+    def nodes(self) -> int:
+        """How many nodes its boundary has."""
+        return sum(len(piece.numbers) for loop in self.loops for piece in loop)
+
+    def __post_init__(self) -> None:
+        if self.limits is not None and self.limits.essential and self.sizing.min_size:
+            least = min(self.sizing.min_size, float(self.limits.sizes.min()))
+            object.__setattr__(self, "sizing", self.sizing.replaced(min_size=least))
+
+
+@dataclass(frozen=True)
+class FaceMesh:
+    """Triangles along r_u x r_v, or a reason."""
+
+    points: np.ndarray = field(default_factory=lambda: np.empty((0, 3)))
+    """(n, 3)"""
+    slots: np.ndarray = field(default_factory=lambda: np.empty(0, np.int64))
+    """(n,) where the point stands among the job's boundary nodes, loop after loop; -1 inside."""
+    triangles: np.ndarray = field(default_factory=lambda: np.empty((0, 3), np.int32))
+    uv_points: np.ndarray = field(default_factory=lambda: np.empty((0, 2)))
+    uv_triangles: np.ndarray = field(default_factory=lambda: np.empty((0, 3), np.int32))
+    sizes: np.ndarray = field(default_factory=lambda: np.empty(0))
+    inverse_sizes: np.ndarray | None = None
+    """Of ``uv_points``, where sizes depend on the direction: see ``SurfaceMesh``."""
+    wishes: SizeLimits | None = None
+    """Smaller sizes that the face needs."""
+    failure: str = ""
+    hopeless: bool = False
+    """No sizes can mend what has failed."""
+    remark: str = ""
+    """What was done to it out of the ordinary."""
+    narrow: bool = False
+    """It was closed between its sides: good shape is not owed there."""

@@ -1,0 +1,327 @@
+"""One face of a CAD model: plain arrays in, a mesh of the face or the reason for none out.
+
+nodes of its edges -> (u, v) loops -> size field -> packing -> boundary -> optimisation
+(numbers, points)     seams twice     graded inward from the sizes of the edges
+"""
+
+from collections import Counter
+from dataclasses import replace
+from itertools import pairwise
+from pathlib import Path
+from traceback import extract_tb
+
+import numpy as np
+
+from surfmesh.errors import SurfaceError, SurfmeshError
+from surfmesh.geometry.differential.projection import closest_point
+from surfmesh.geometry.differential.sides import find_sides
+from surfmesh.geometry.surface import Surface
+from surfmesh.kernels.fields.background import scalar_sizes_at
+from surfmesh.meshing.boundary.boundary_loops import BoundaryLoops, cut_line
+from surfmesh.meshing.boundary.boundary_recovery import recovered
+from surfmesh.meshing.boundary.coincident_nodes import one_place
+from surfmesh.meshing.edges.inner_sizes import wishes_along
+from surfmesh.meshing.faces.crossing_segments import limits_where_crossing
+from surfmesh.meshing.faces.face_data import FaceJob, FaceMesh, Piece
+from surfmesh.meshing.faces.face_parts import in_parts
+from surfmesh.meshing.faces.face_repair import (
+    beyond_a_turn,
+    filled_face,
+    no_point,
+    untangled_job,
+)
+from surfmesh.meshing.faces.strip_triangulation import strip_mesh
+from surfmesh.meshing.faces.thin_tubes import without_tubes
+from surfmesh.meshing.faces.tube_limits import seam_limits
+from surfmesh.meshing.faces.tube_triangles import with_tubes
+from surfmesh.meshing.patch.gluing import glued, misglued
+from surfmesh.meshing.patch.optimise import Optimiser
+from surfmesh.meshing.patch.packing import packed_over
+from surfmesh.sizing.field.boundary_field import boundary_field, has_boundary_field
+from surfmesh.sizing.field.size_field import SizeField, inverse_sizes, size_field
+from surfmesh.sizing.rules.size_limits import SizeLimits, along_lines
+
+FINER = 0.5
+"""Factor on the sizes where sides cannot be joined."""
+
+LONGER = 1.5
+"""Boundary segments so many times longer than the sizes beside them: a plane's sizes depend on
+the direction from then on."""
+
+ASTRAY = 0.3
+"""Share of ``chord`` by which a node may lie off the surface of a face that uses it."""
+
+PROJECTIONS = 4
+"""Steps to the closest point of a plane or a cylinder."""
+
+
+def mesh_face(job: FaceJob) -> FaceMesh:
+    """Mesh one face. Never raises for what is wrong with the face: see ``failure``."""
+    if job.exact is not None and job.exact.at_once:
+        return FaceMesh(failure=job.exact.at_once, hopeless=True)
+    reason = no_point(job)
+    if reason and beyond_a_turn(job):
+        return FaceMesh(failure=reason)
+    mesh = _mesh_parts(job)
+    return replace(mesh, failure=reason) if reason and mesh.failure else mesh
+
+
+def _mesh_parts(job: FaceJob) -> FaceMesh:
+    """Mesh a face, its thin tips and necks by themselves."""
+    rest, tubes, slots = without_tubes(job)
+    if not tubes or (job.narrow is not None and rest.loops):
+        return _mesh_rest(job)
+    if not rest.loops:
+        return with_tubes(job, rest, FaceMesh(narrow=True), tubes, slots)
+    mesh = in_parts(rest, _mesh_rest)
+    return mesh if mesh.failure else with_tubes(job, rest, mesh, tubes, slots)
+
+
+def _mesh_rest(job: FaceJob) -> FaceMesh:
+    """Mesh a face without thin tips and necks, or what is left of one."""
+    try:
+        strip = strip_mesh(job) if job.narrow is not None else None
+        if strip is not None:
+            return strip
+        try:
+            return _never_empty(job, _meshed(job))
+        except SurfaceError:
+            if job.exact is not None and job.exact.fault:
+                return FaceMesh(failure=job.exact.fault, hopeless=True)
+            opened = untangled_job(job)
+            if opened is None:
+                if job.exact is not None and job.exact.touch:
+                    return FaceMesh(failure=job.exact.touch, hopeless=True)
+                raise
+            return _never_empty(job, _meshed(opened, unfold=False))
+    except SurfmeshError as error:
+        closed = filled_face(job, str(error)) if job.last else None
+        if closed is not None:
+            return closed
+        wishes = None
+        where = getattr(error, "where", None)
+        if where is not None:
+            wishes = limits_where_crossing(job, np.atleast_2d(where))
+        return FaceMesh(failure=str(error), wishes=wishes)
+    except Exception as error:  # a mistake of ours: it must not take the other faces with it
+        at = extract_tb(error.__traceback__)[-1]
+        return FaceMesh(
+            failure=f"internal error, please report it with the model: {type(error).__name__}: "
+            f"{error} ({Path(at.filename).name}, line {at.lineno})"
+        )
+
+
+def _never_empty(job: FaceJob, mesh: FaceMesh) -> FaceMesh:
+    """The mesh; one without triangles says why, and whether that leaves a hole."""
+    if len(mesh.triangles) or mesh.failure or mesh.remark:
+        return mesh
+    uses: Counter[frozenset[int]] = Counter()
+    for loop in job.loops:
+        for piece in loop:
+            uses.update(map(frozenset, pairwise(piece.numbers.tolist())))
+    if all(len(ends) == 1 or count % 2 == 0 for ends, count in uses.items()):
+        return replace(mesh, remark="left out, its edges lie on each other and its neighbours meet")
+    return replace(mesh, failure="nothing is left of it at sizes this coarse")
+
+
+def edge_wishes(job: FaceJob) -> SizeLimits | None:
+    """What the sizes inside a face ask for along its edges, before it is meshed."""
+    try:
+        surface, field = face_field(job)
+        loops, fixed, _ = _loops(job, field)
+        return wishes_along(job.sizing, surface, field, loops, fixed)
+    except SurfmeshError:
+        return None
+
+
+def _meshed(job: FaceJob, unfold: bool = True) -> FaceMesh:
+    """unfold: ask for smaller sizes at folds. In space, edges that cross do so at any size."""
+    surface, field = face_field(job)
+    loops, fixed, slots = _loops(job, field)
+    packing = packed_over(field)
+    domain = recovered(packing.t, loops, field, surface)
+    del packing
+    same = domain.node[loops.identity]
+    optimiser = Optimiser(domain.t, domain.node, same, surface, field)
+    optimiser.embedding.point[domain.node] = fixed  # the edges' nodes, not their images
+    wishes: SizeLimits | None = None
+    if job.limits is None:  # the edges heed them from now on
+        wishes = wishes_along(job.sizing, surface, field, loops, fixed)
+    if job.optimise:
+        changes = optimiser.run(first=job.limits is None)
+        astray = np.zeros(len(domain.t.xy), bool)
+        astray[domain.node] = _astray(surface, loops, fixed, job.sizing.chord)
+        far, folded = (
+            found[~astray[domain.t.tri.reshape(-1, 3)[found]].any(axis=1)]
+            for found in (changes.far, changes.folded)
+        )
+        for found, remedy in (
+            (far, optimiser.approaching), (folded, optimiser.unfolding),
+            (changes.turned, optimiser.straightening),
+        ):  # fmt: skip
+            if len(found) and (unfold or remedy != optimiser.unfolding):
+                more = remedy(found)
+                if len(more.sizes):
+                    wishes = more.joined_with(wishes)
+    else:
+        optimiser.settle()
+    xy = domain.t.xy[: int(domain.t.count[0])]
+    uv = field.scaling.to_uv(xy)
+    uv[domain.node] = loops.uv
+    parts = glued(surface, loops, domain, uv)
+    slot = np.full(len(xy), -1, np.int64)
+    slot[domain.node] = slots
+    sizes = np.empty(len(parts.place))
+    scalar_sizes_at(field.background, xy[parts.place], sizes)
+    sizes *= optimiser.embedding.scale[parts.place]
+    bad = misglued(parts)
+    if len(bad):
+        finer = FINER * sizes[bad]
+        wishes = SizeLimits(parts.points[bad], finer, job.sizing.gradient, essential=True)
+        wishes = wishes.joined_with(_round_tubes(surface, job))
+        place = ", ".join(f"{x:.6g}" for x in parts.points[bad[0]])
+        return FaceMesh(failure=f"its sides cannot be joined near ({place})", wishes=wishes)
+    return FaceMesh(
+        parts.points, slot[parts.place], parts.triangles, parts.uv_points, parts.uv_triangles,
+        sizes, inverse_sizes(field, xy, optimiser.embedding.scale[: len(xy)]), wishes,
+    )  # fmt: skip
+
+
+def _astray(
+    surface: Surface, loops: BoundaryLoops, points: np.ndarray, chord: float | None
+) -> np.ndarray:
+    """Which nodes (k,) lie so far off the surface themselves that smaller sizes are no help."""
+    if chord is None:
+        return np.zeros(len(points), bool)
+    (images,) = surface.evaluate(loops.uv, 0)
+    return np.linalg.norm(points - images, axis=1) > ASTRAY * chord
+
+
+def face_field(job: FaceJob) -> tuple[Surface, SizeField]:
+    """The surface over the box of the loops, and sizes graded inward from them.
+
+    Raises ``SizingError``.
+    """
+    pieces = [piece for loop in job.loops for piece in loop]
+    uv = np.concatenate([piece.uv for piece in pieces])
+    low, high = uv.min(axis=0), uv.max(axis=0)
+    surface = job.surface.with_domain(((low[0], high[0]), (low[1], high[1])))
+    real = [piece for piece in pieces if not piece.degenerate]
+    if real and has_boundary_field(surface, job.sizing):
+        field = _grown_inward(surface, job, real)
+        if not job.sizing.is_anisotropic or _agrees(field, real):
+            return surface, field
+    found = limits = job.limits
+    if found is not None:
+        found = found.not_below(job.sizing.min_size or 0.0)
+    if real:
+        limits = SizeLimits(
+            np.concatenate([piece.points for piece in real]),
+            np.concatenate([piece.sizes for piece in real]),
+            job.sizing.gradient,
+            np.concatenate([piece.uv for piece in real]),
+            settled=True,
+        )
+        # an edge knows nothing of the sizes across it, but for those that gaps ask for
+        if job.sizing.is_anisotropic and job.sizing.gap is None:
+            along = np.concatenate([_directions(piece.points) for piece in real])
+            limits = replace(limits, in_space=along_lines(along, limits.sizes))
+        if found is not None:
+            near = _nearest(limits.points, found.points)
+            limits = limits.joined_with(replace(found, uv=limits.uv[near]))
+    numbers = np.concatenate([piece.numbers for piece in pieces])
+    repeated = len(numbers) > len(np.unique(numbers)) + len(pieces)
+    sides = None
+    if surface.kind != "plane" and (repeated or any(piece.degenerate for piece in pieces)):
+        sides = find_sides(surface)  # a seam, an edge inside, or a pole
+    return surface, size_field(surface, job.sizing, sides, limits)
+
+
+def _round_tubes(surface: Surface, job: FaceJob) -> SizeLimits | None:
+    real = [piece for loop in job.loops for piece in loop if not piece.degenerate]
+    if not real:
+        return None
+    return seam_limits(
+        surface,
+        np.concatenate([piece.uv for piece in real]),
+        np.concatenate([piece.numbers for piece in real]),
+        np.concatenate([piece.sizes for piece in real]),
+        job.sizing.gradient,
+    )
+
+
+def _grown_inward(surface: Surface, job: FaceJob, real: list[Piece]) -> SizeField:
+    """Sizes of a plane or a cylinder: those of its edges and of earlier rounds, grown inward."""
+    uv = np.concatenate([piece.uv for piece in real])
+    sizes = np.concatenate([piece.sizes for piece in real])
+    if job.limits is not None:
+        points = np.concatenate([piece.points for piece in real])
+        near = uv[_nearest(points, job.limits.points)]
+        place = closest_point(surface, job.limits.points, near, PROJECTIONS)[0]
+        uv = np.concatenate([uv, place])
+        found = np.maximum(job.limits.sizes, job.sizing.min_size or 0.0)
+        sizes = np.concatenate([sizes, found])
+    return boundary_field(surface, job.sizing, uv, sizes, settled=True)
+
+
+def _agrees(field: SizeField, real: list[Piece]) -> bool:
+    """Is no segment of the boundary much longer than the sizes beside it are in all directions?"""
+    for piece in real:
+        sizes = np.empty(len(piece.uv) - 1)
+        middle = 0.5 * (piece.uv[1:] + piece.uv[:-1])
+        scalar_sizes_at(field.background, field.scaling.to_plane(middle), sizes)
+        if (np.linalg.norm(np.diff(piece.points, axis=0), axis=1) > LONGER * sizes).any():
+            return False
+    return True
+
+
+def _directions(points: np.ndarray) -> np.ndarray:
+    """Unit directions (n, 3) of a polygon at its nodes (n, 3)."""
+    step = np.diff(points, axis=0)
+    step /= np.maximum(np.linalg.norm(step, axis=1), np.finfo(float).tiny)[:, None]
+    mean = np.concatenate([step[:1], step[1:] + step[:-1], step[-1:]])
+    return mean / np.maximum(np.linalg.norm(mean, axis=1), np.finfo(float).tiny)[:, None]
+
+
+def _nearest(points: np.ndarray, wanted: np.ndarray) -> np.ndarray:
+    from scipy.spatial import cKDTree
+
+    return cKDTree(points).query(wanted)[1]
+
+
+def _loops(job: FaceJob, field: SizeField) -> tuple:
+    """Nodes and segments in (u, v); the nodes' points, and their places in the job."""
+    uv, numbers, points, slots, segments = [], [], [], [], []
+    slot = total = 0
+    for loop in job.loops:
+        start = total
+        for piece in loop:
+            count = len(piece.numbers)
+            place = slot + np.arange(count)
+            slot += count
+            if piece.degenerate:
+                t, line = cut_line(field, piece.uv[0], piece.uv[-1], 1)
+                uv.append(line[:-1])
+                place = np.full(len(t), place[0])
+                numbers.append(np.full(len(t) - 1, piece.numbers[0]))
+                points.append(np.repeat(piece.points[:1], len(t) - 1, axis=0))
+            else:
+                uv.append(piece.uv[:-1])
+                numbers.append(piece.numbers[:-1])
+                points.append(piece.points[:-1])
+            slots.append(place[:-1])
+            total += len(place) - 1
+        ring = np.arange(start, total)
+        segments.append(np.stack([ring, np.roll(ring, -1)], axis=1))
+    uv, numbers = np.concatenate(uv), np.concatenate(numbers)
+    points, slots = np.concatenate(points), np.concatenate(slots)
+    ring_segments = np.concatenate(segments)
+    kept = one_place(uv, numbers, ring_segments)
+    nodes, row = np.unique(kept, return_inverse=True)
+    segments = row[ring_segments].astype(np.int32)
+    segments = segments[segments[:, 0] != segments[:, 1]]
+    if len(np.unique(segments, axis=0)) < len(segments):
+        raise SurfaceError(f"the boundary of {job.surface.name!r} runs twice the same way")
+    uv, numbers, points, slots = uv[nodes], numbers[nodes], points[nodes], slots[nodes]
+    _, first, inverse = np.unique(numbers, return_index=True, return_inverse=True)
+    return BoundaryLoops(uv, segments, first[inverse].astype(np.int64)), points, slots

@@ -1,0 +1,41 @@
+"""What each face of a model has to heed: its wishes, and of the sources those that reach it."""
+
+import numpy as np
+
+from surfmesh.cad.model.cad_model import CadFace, CadModel
+from surfmesh.meshing.edges.edge_samples import EdgeSamples
+from surfmesh.sizing.options.model_sizing import ModelSizing
+from surfmesh.sizing.options.sizing import Sizing
+from surfmesh.sizing.options.sources import reaching
+
+GRID = 9
+"""Points each way of the grid whose box, with MARGIN of its diagonal, holds a face."""
+
+MARGIN = 0.02
+
+
+def face_sizings(model: CadModel, samples: EdgeSamples, wanted: ModelSizing) -> list[Sizing]:
+    """For each face; a plane that no source reaches needs no background but its edges."""
+    found = []
+    for number, face in enumerate(model.faces):
+        own = wanted.of_face(number)
+        if own.sources:
+            low, high = face_box(face, samples.points[samples.along(number)])
+            largest = own.max_size or np.inf
+            if isinstance(own.size, float):
+                largest = min(largest, own.size)
+            kept = reaching(own.sources, low, high, largest)
+            if len(kept) < len(own.sources):
+                own = own.replaced(sources=kept)
+        found.append(own)
+    return found
+
+
+def face_box(face: CadFace, points: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Corners (3,), (3,) of a box around a face; points: (n, 3) of its edges."""
+    (u0, u1), (v0, v1) = face.surface.domain
+    grid = np.stack(np.meshgrid(np.linspace(u0, u1, GRID), np.linspace(v0, v1, GRID)), axis=-1)
+    places = np.concatenate([face.surface.evaluate(grid.reshape(-1, 2), 0)[0], points])
+    low, high = places.min(axis=0), places.max(axis=0)
+    away = MARGIN * float(np.linalg.norm(high - low))
+    return low - away, high + away

@@ -1,0 +1,238 @@
+"""How far the mesh lies from the true surface, and which triangles face the wrong way.
+
+Samples are the vertices, the middles of the edges (once each; between two faces once for
+either) and the centroids: the seven points of a rule that integrates cubics over a triangle
+exactly. At each, the distance is to
+the nearest point of the surface, not to the image r(u, v) of the interpolated parameters.
+The worst triangles are then sampled densely.
+"""
+
+from collections.abc import Iterator
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from surfmesh.geometry.differential.projection import closest_from_corners, closest_point
+from surfmesh.kernels.space.measure import interpolate, tangent_plane_distances
+from surfmesh.result.surface_mesh import SurfaceMesh
+
+# d = distance to the tangent plane at a foot that is off by s: with d near k h^2 / 8, the
+# true distance differs by k s^2 / 2 = 4 d (s / h)^2, so 1 % of d at this s / h
+NEAR_FOOT = 0.05
+ON_SURFACE = 1e-9  # of the triangle's size: a vertex this near to r(u, v) is on it
+BLOCK = 1 << 15  # samples looked at together: the temporaries stay within the cache
+SECOND_LOOK = 400  # triangles sampled densely, or one in 250 if that is more
+# barycentric weights of the seven-point rule (Zienkiewicz & Taylor, The Finite Element Method)
+VERTEX_WEIGHT, MIDDLE_WEIGHT, CENTROID_WEIGHT = 1 / 20, 2 / 15, 9 / 20
+STEPS = 12  # of the projection, at most: where the speed along u changes fast, a guess is poor
+_MIDDLES = np.array([(0.5, 0.5, 0.0), (0.0, 0.5, 0.5), (0.5, 0.0, 0.5)])  # of sides 0, 1, 2
+_CENTROID = np.full((1, 3), 1 / 3)
+_GRID = 6  # subdivisions of a triangle's sides for the second look, its corners included
+_DENSE = np.array(
+    [(i, j, _GRID - i - j) for i in range(_GRID + 1) for j in range(_GRID + 1 - i)]
+) / float(_GRID)
+
+
+class Deviation(NamedTuple):
+    """Distances in model units."""
+
+    by_triangle: NDArray[np.float64]  # (m,) largest distance seen in each triangle
+    mean_square: NDArray[np.float64]  # (m,) mean over each triangle of the squared distance
+    cosine: NDArray[np.float32]  # (m,) of the angle between triangle and surface normal
+    largest: float
+    rms: float  # root of the mean square over the mesh's area
+    triangle: int  # where the largest is
+    point: tuple[float, float, float]  # on the mesh
+    uv: tuple[float, float]  # parameters of the nearest surface point
+
+
+def deviation(mesh: SurfaceMesh, area: NDArray[np.float64]) -> Deviation | None:
+    """Distance of ``mesh`` from its surfaces, or None when it carries none, or not for all faces.
+
+    ``area``: (m,) areas of the triangles, the weights of the mean square. Between samples
+    the distance is not bounded: it is smooth, and the densest look is where it is largest.
+    """
+    if not mesh.surfaces or mesh.uv_points is None or not len(mesh.triangles):
+        return None
+    if not 0 <= mesh.face_ids.min() <= mesh.face_ids.max() < len(mesh.surfaces):
+        return None
+    count = len(mesh.triangles)
+    by_triangle, mean_square = np.zeros(count), np.zeros(count)
+    cosine = np.ones(count, np.float32)
+    corners, uv_corners = mesh.triangles.reshape(-1), mesh.uv_triangles.reshape(-1)
+    corner_of = np.full(len(mesh.points), -1, np.int32)
+    corner_of[corners] = np.arange(len(corners), dtype=np.int32)
+    at_vertex = np.zeros(len(mesh.points))
+
+    half_edges, twins = _measured_half_edges(mesh)
+    for surface, triangles, middles, vertices in _by_face(mesh, half_edges, corner_of):
+        for block in _blocks(vertices):
+            corner = corner_of[block]
+            points, uv = mesh.points[block], mesh.uv_points[uv_corners[corner]]
+            at_vertex[block] = _offsets(surface, points, uv, np.sqrt(area[corner // 3]))
+        for block in _blocks(middles):
+            triangle, side = np.divmod(half_edges[block], np.int32(3))
+            points, uv = _samples(mesh, triangle, side, _MIDDLES)
+            distance, _ = _distances(surface, points, uv, np.sqrt(area[triangle]))
+            shared = twins[block] >= 0
+            for beside, found in (
+                (triangle, distance),
+                (twins[block[shared]] // 3, distance[shared]),
+            ):
+                np.add.at(mean_square, beside, MIDDLE_WEIGHT * found**2)
+                np.maximum.at(by_triangle, beside, found)
+        for block in _blocks(triangles):
+            points, uv = _samples(mesh, block, np.zeros_like(block), _CENTROID)
+            found, normals = _distances(surface, points, uv, np.sqrt(area[block]))
+            mean_square[block] += CENTROID_WEIGHT * found**2
+            by_triangle[block] = np.maximum(by_triangle[block], found)
+            cosine[block] = _cosines(mesh, block, normals, area[block])
+    if mesh.turned_faces is not None:
+        cosine[mesh.turned_faces[mesh.face_ids]] *= -1.0
+    for block in _blocks(_count(count)):
+        found = at_vertex[mesh.triangles[block]]
+        mean_square[block] += VERTEX_WEIGHT * np.square(found).sum(axis=1)
+        by_triangle[block] = np.maximum(by_triangle[block], found.max(axis=1))
+    total = float(area.sum())
+    rms = (_dot(area, mean_square) / total) ** 0.5 if total > 0 else float("nan")
+
+    triangle, point, uv = _second_look(mesh, by_triangle)
+    largest = float(by_triangle[triangle])
+    return Deviation(by_triangle, mean_square, cosine, largest, rms, triangle, point, uv)
+
+
+def _measured_half_edges(mesh: SurfaceMesh) -> tuple[NDArray[np.int32], NDArray[np.int32]]:
+    """Half-edges (k,) whose middles are looked at, and those (k,) that share the finding or -1.
+
+    An edge within a face is looked at once, an edge between two faces from both of them.
+    """
+    first, second = mesh.connectivity.half_edges.T
+    if len(mesh.surfaces) == 1:
+        return first, second
+    between = (second >= 0) & (mesh.face_ids[first // 3] != mesh.face_ids[second // 3])
+    again = second[between]
+    return (
+        np.concatenate([first, again]),
+        np.concatenate([np.where(between, -1, second), np.full_like(again, -1)]),
+    )
+
+
+def _by_face(
+    mesh: SurfaceMesh, half_edges: NDArray[np.int32], corner_of: NDArray[np.int32]
+) -> Iterator[tuple[Any, ...]]:
+    """Each surface with its triangles and half-edges, and the vertices first seen from them."""
+    edge_face = mesh.face_ids[half_edges // 3]
+    used = np.flatnonzero(corner_of >= 0).astype(np.int32)
+    vertex_face = mesh.face_ids[corner_of[used] // 3]
+    if len(mesh.surfaces) == 1:
+        yield mesh.surfaces[0], _count(len(mesh.face_ids)), _count(len(edge_face)), used
+        return
+    members = []
+    for faces in (mesh.face_ids, edge_face, vertex_face):
+        order = np.argsort(faces, kind="stable").astype(np.int32)
+        members.append(np.split(order, np.searchsorted(faces[order], range(1, len(mesh.surfaces)))))
+    for surface, triangles, middles, vertices in zip(mesh.surfaces, *members):
+        yield surface, triangles, middles, used[vertices]
+
+
+def _count(length: int) -> NDArray[np.int32]:
+    return np.arange(length, dtype=np.int32)
+
+
+def _blocks(members: NDArray, length: int = BLOCK) -> Iterator[NDArray]:
+    for start in range(0, len(members), length):
+        yield members[start : start + length]
+
+
+def _samples(
+    mesh: SurfaceMesh, triangle: NDArray[np.int32], rule: NDArray[np.int32], weights: NDArray
+) -> tuple[NDArray, NDArray]:
+    """Points (k, 3) and parameters (k, 2) at ``weights[rule]`` of ``triangle``, both (k,)."""
+    points, uv = np.empty((len(triangle), 3)), np.empty((len(triangle), 2))
+    interpolate(mesh.points, mesh.triangles, triangle, rule, weights, points)
+    interpolate(mesh.uv_points, mesh.uv_triangles, triangle, rule, weights, uv)
+    return points, uv
+
+
+def _offsets(surface: Any, points: NDArray, uv: NDArray, reach: NDArray) -> NDArray:
+    """Distance of points that should be r(u, v) itself: looked at closely only if they are not."""
+    (image,) = surface.evaluate(uv, 0)
+    distance = np.sqrt(np.square(points - image).sum(axis=1))
+    off = np.flatnonzero(~(distance <= ON_SURFACE * reach))
+    if len(off):
+        distance[off] = _distances(surface, points[off], uv[off], reach[off])[0]
+    return distance
+
+
+def _distances(
+    surface: Any, points: NDArray, uv: NDArray, reach: NDArray
+) -> tuple[NDArray, NDArray]:
+    """Distance of each point from ``surface``, and the surface normal near it.
+
+    ``uv``: parameters of a surface point nearby; ``reach``: (k,) size of the triangle. Read
+    in the tangent plane where the foot is near, else in the one a Newton step further, else
+    by projection.
+    """
+    found = _from_tangent_planes(surface, points, uv)
+    distance = found[:, 3].copy()
+    far = np.flatnonzero(~(found[:, 4] <= NEAR_FOOT * reach))
+    if len(far):
+        low, high = np.transpose(surface.domain)
+        nearer = np.clip(uv[far] + found[far, 5:], low, high)
+        again = _from_tangent_planes(surface, points[far], nearer)
+        distance[far] = again[:, 3]
+        better = np.hypot(again[:, 3], again[:, 4]) <= np.hypot(found[far, 3], found[far, 4])
+        far = far[~((again[:, 4] <= NEAR_FOOT * reach[far]) & better)]
+    if len(far):
+        distance[far] = closest_point(surface, points[far], uv[far], STEPS)[1]
+    return distance, found[:, :3]
+
+
+def _from_tangent_planes(surface: Any, points: NDArray, uv: NDArray) -> NDArray:
+    """(k, 7): unit normal, distance along it and across it, and the step in (u, v) across."""
+    found = np.empty((len(points), 7))
+    image = (np.ascontiguousarray(array, np.float64) for array in surface.evaluate(uv, 1))
+    tangent_plane_distances(points, *image, found)
+    return found
+
+
+def _cosines(mesh: SurfaceMesh, triangle: NDArray, normals: NDArray, area: NDArray) -> NDArray:
+    """Cosine between the normals of triangles and of the surface; 1 where either is missing."""
+    a, b, c = (mesh.points[corner] for corner in mesh.triangles[triangle].T)
+    along = np.einsum("ij,ij->i", np.cross(b - a, c - a), normals)
+    missing = (area <= 0) | ~normals.any(axis=1)
+    return np.where(missing, 1.0, along / np.where(missing, 1.0, 2.0 * area))
+
+
+def _dot(a: NDArray, b: NDArray) -> float:
+    return float(np.einsum("i,i->", a, b))  # no BLAS, whose threads cost more than they gain
+
+
+def _second_look(
+    mesh: SurfaceMesh, by_triangle: NDArray
+) -> tuple[int, tuple[float, float, float], tuple[float, float]]:
+    """Sample the worst triangles densely, in place; return the worst place of all."""
+    count = len(by_triangle)
+    chosen = min(count, max(SECOND_LOOK, count // 250))
+    worst = np.argpartition(by_triangle, count - chosen)[count - chosen :].astype(np.int32)
+    chord = getattr(mesh.sizing, "chord", None) or np.inf
+    best = (-1.0, 0, (0.0, 0.0, 0.0), (0.0, 0.0))
+    for face in np.unique(mesh.face_ids[worst]):
+        for block in _blocks(worst[mesh.face_ids[worst] == face], BLOCK // len(_DENSE)):
+            triangle = np.repeat(block, len(_DENSE))
+            rule = np.tile(np.arange(len(_DENSE), dtype=np.int32), len(block))
+            points, uv = _samples(mesh, triangle, rule, _DENSE)
+            foot_uv, distance, _ = closest_point(mesh.surfaces[face], points, uv, STEPS)
+            far = np.flatnonzero(distance > chord)
+            if len(far):
+                corners = mesh.uv_points[mesh.uv_triangles[triangle[far]]]
+                foot_uv[far], distance[far] = closest_from_corners(
+                    mesh.surfaces[face], points[far], foot_uv[far], distance[far], corners, STEPS
+                )
+            by_triangle[block] = distance.reshape(len(block), -1).max(axis=1)
+            top = int(distance.argmax())
+            if distance[top] > best[0]:
+                place = (tuple(map(float, points[top])), tuple(map(float, foot_uv[top])))
+                best = (float(distance[top]), int(triangle[top]), *place)
+    return best[1:]

@@ -1,0 +1,91 @@
+"""By how much neighbouring triangles turn, where the surface itself does not."""
+
+import math
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from surfmesh.kernels.optimisation.dihedral import turning_angles
+from surfmesh.result.surface_mesh import SurfaceMesh
+from surfmesh.sizing.rules.bent_surface import bends_itself
+from surfmesh.sizing.rules.size_bounds import DEFAULT_ANGLE
+
+ANGLE_SLACK = 1e-9  # relative: rounding in the angle itself
+
+
+class Turning(NamedTuple):
+    """Angles between the normals of two triangles of one face that share an edge, degrees."""
+
+    edges: NDArray[np.intp]  # (k,) of ``mesh.edges``: between two triangles of one face
+    faces: NDArray[np.int32]  # (k,)
+    angles: NDArray[np.float64]  # (k,) 0 where the surface itself bends
+
+    def above(self, angle: float | NDArray[np.float64]) -> NDArray[np.bool_]:
+        """(k,) which of them turn by more than ``angle``, degrees: one for all, or (k,)."""
+        return self.angles > angle * (1 + ANGLE_SLACK)
+
+
+def turning(mesh: SurfaceMesh, limits: NDArray[np.float64] | None = None) -> Turning | None:
+    """Angles within the faces of ``mesh``; None where its surfaces are not known.
+
+    Edges between two faces are left out: there the model itself may bend. So may one surface,
+    at a crease where two of its sides meet, or at an apex: where an angle is larger than asked
+    for (or than 45 degrees) the normals of the surface on both sides are compared. limits: by
+    face number, or one for all, what was asked for, infinite for nothing; None: by ``sizing``.
+    """
+    if not mesh.surfaces or mesh.uv_points is None or not len(mesh.triangles):
+        return None
+    if not 0 <= mesh.face_ids.min() <= mesh.face_ids.max() < len(mesh.surfaces):
+        return None
+    table = mesh.connectivity
+    first, second = table.half_edges.T
+    inner = (table.uses == 2) & (mesh.face_ids[first // 3] == mesh.face_ids[second // 3])
+    edges = np.flatnonzero(inner)
+    pairs = table.half_edges[edges]
+    angles = np.empty(len(edges))
+    turning_angles(mesh.points, mesh.triangles, pairs, angles)
+    angles = np.degrees(angles)
+    faces = mesh.face_ids[pairs[:, 0] // 3]
+    if limits is None:
+        limits = np.array([getattr(mesh.sizing, "angle", None) or np.inf])
+    limits = np.where(np.isfinite(limits), limits, DEFAULT_ANGLE)
+    limits = np.broadcast_to(limits, len(mesh.surfaces)) if len(limits) == 1 else limits
+    large = np.flatnonzero(angles > limits[faces] * (1 + ANGLE_SLACK))
+    for face in np.unique(faces[large]):
+        here = large[faces[large] == face]
+        own = np.unique(mesh.triangles[mesh.face_ids == face])
+        diagonal = float(np.linalg.norm(np.ptp(mesh.points[own], axis=0)))
+        parts = _parameters(mesh, pairs[here])
+        bent = bends_itself(mesh.surfaces[face], *parts, float(limits[face]), diagonal)
+        angles[here[bent]] = 0.0
+    return Turning(edges, faces, angles)
+
+
+def _parameters(mesh: SurfaceMesh, pairs: NDArray[np.int32]) -> tuple[NDArray, NDArray]:
+    """Corner parameters (k, 3, 2) on both sides of edges, the far corners last.
+
+    The edge runs from corner 0 to 1 of the first and from 1 to 0 of the second.
+    """
+    triangle, side = np.divmod(pairs, 3)
+    order = (side[..., None] + [0, 1, 2]) % 3
+    corners = np.take_along_axis(mesh.triangles[triangle], order, axis=2)
+    rows = np.take_along_axis(mesh.uv_triangles[triangle], order, axis=2)
+    alike = corners[:, 0, 0] == corners[:, 1, 0]  # both run the same way: a Moebius strip
+    rows[alike, 1] = rows[alike, 1][:, [1, 0, 2]]
+    uv = mesh.uv_points[rows]
+    return uv[:, 0], uv[:, 1]
+
+
+def worst_turn(
+    mesh: SurfaceMesh, turns: Turning
+) -> tuple[float, tuple[int, int], tuple[float, float, float]] | None:
+    """The largest angle, the two triangles, and the middle of their edge; None without edges."""
+    if not len(turns.angles):
+        return None
+    worst = int(turns.angles.argmax())
+    edge = turns.edges[worst]
+    first, second = (mesh.connectivity.half_edges[edge] // 3).tolist()
+    place = mesh.points[mesh.edges[edge]].mean(axis=0)
+    largest = float(turns.angles[worst])
+    return (largest if math.isfinite(largest) else math.nan), (first, second), tuple(place.tolist())

@@ -1,0 +1,89 @@
+"""Closed surfaces whose triangles face their inside: their volume is negative.
+
+A void within another closed surface faces it rightly, as the solid around it lies beyond.
+"""
+
+import numpy as np
+from numpy.typing import NDArray
+
+from surfmesh.quality.measures.by_solid import SolidRow
+from surfmesh.quality.measures.inside import inside
+from surfmesh.quality.measures.topology import Topology, vertex_components
+from surfmesh.result.surface_mesh import SurfaceMesh
+
+NO_VOLUME = 1e-9  # of area times diagonal: what encloses less is not told to face any way
+MOST = 200  # pieces that are asked whether they are voids
+
+
+def turned_inward(mesh: SurfaceMesh, topo: Topology, solids: tuple[SolidRow, ...]) -> list[str]:
+    """A sentence about solids and closed pieces that face their inside."""
+    said = [
+        f"solid {row.solid}{f' ({row.name})' * bool(row.name)} faces its inside, its volume is "
+        f"{row.volume:.5g}: mesh.flipped() (--flip) turns the whole mesh over"
+        for row in solids
+        if row.volume is not None and row.volume < 0.0
+    ]
+    facts = mesh.facts
+    if topo.components == 1 and not topo.balanced:
+        return said
+    if mesh.one_sided or (facts is not None and facts.crosses_itself):
+        return said
+    volume, first, pieces = _inward_pieces(mesh, topo)
+    if not len(volume):
+        return said
+    place = ", ".join(f"{x:.5g}" for x in first)
+    if pieces == 1 and topo.components == 1:
+        return [
+            *said,
+            f"the closed surface faces its inside, its volume is {volume[0]:.5g}: mesh.flipped() "
+            "(--flip) turns it over",
+        ]
+    return [
+        *said,
+        f"{len(volume):,} of {pieces:,} closed pieces face{'s' * (len(volume) == 1)} the inside, "
+        f"first at ({place}), volume {volume[0]:.5g}: mesh.flipped() (--flip) turns all over",
+    ]
+
+
+def _inward_pieces(
+    mesh: SurfaceMesh, topo: Topology
+) -> tuple[NDArray[np.float64], NDArray[np.float64], int]:
+    """Volumes (k,) of closed pieces of no solid that face their inside, a point of the first,
+    and how many closed pieces there are."""
+    none = np.empty(0), np.zeros(3), 0
+    free = np.ones(len(mesh.triangles), bool)
+    if mesh.solid_ids is not None:
+        free = (mesh.solid_ids < 0).all(axis=1)
+    if not free.any():
+        return none
+    labels = vertex_components(mesh)
+    of = labels[mesh.triangles[:, 0]]
+    volume, area = _volumes(mesh, of)
+    table = mesh.connectivity
+    loose = np.concatenate(
+        [table.boundary[:, 0], mesh.edges[topo.clashing_edges, 0], mesh.edges[table.uses > 2, 0]]
+    )
+    closed = np.zeros(len(labels), bool)
+    closed[of[free]] = True
+    closed[labels[loose]] = False
+    closed[of[~free]] = False
+    diagonal = float(np.linalg.norm(np.ptp(mesh.points, axis=0)))
+    found = np.flatnonzero(closed & (volume < -NO_VOLUME * area * diagonal))
+    outward = closed & (volume > 0.0)
+    kept = []
+    for label in found[:MOST].tolist():
+        others = mesh.points[mesh.triangles[outward[of]]]
+        if not len(others) or not inside(mesh.points[label][None], others)[0]:
+            kept.append(label)
+    if not kept:
+        return none
+    return volume[kept], mesh.points[kept[0]], int(closed.sum())
+
+
+def _volumes(mesh: SurfaceMesh, of: NDArray) -> tuple[NDArray, NDArray]:
+    """Signed volume and area of pieces, by number (n,)."""
+    count = len(mesh.points)
+    a, b, c = (mesh.points[corner] - mesh.points.mean(axis=0) for corner in mesh.triangles.T)
+    volume = np.bincount(of, np.einsum("ij,ij->i", a, np.cross(b, c)) / 6.0, count)
+    size = np.linalg.norm(np.cross(b - a, c - a), axis=1) / 2.0
+    return volume, np.bincount(of, size, count)

@@ -1,0 +1,119 @@
+"""Edge lengths against the wanted ones, and how fast they change from edge to edge."""
+
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from surfmesh.result.surface_mesh import SurfaceMesh
+
+QUASI_UNIT = (0.5**0.5, 2.0**0.5)  # metric lengths that conform to the wanted sizes
+GROWTH_SLACK = 0.01  # relative: sizes are interpolated between the nodes of the field
+BLOCK = 1 << 15  # edges looked at together, to stay within the cache
+
+
+def edge_lengths(mesh: SurfaceMesh) -> NDArray[np.float64]:
+    """(ne,) length of every edge of ``mesh.edges`` in model units."""
+    lengths = np.empty(len(mesh.edges))
+    for start in range(0, len(lengths), BLOCK):
+        a, b = mesh.edges[start : start + BLOCK].T
+        step = mesh.points[b] - mesh.points[a]
+        lengths[start : start + BLOCK] = np.sqrt(np.einsum("ij,ij->i", step, step))
+    return lengths
+
+
+def metric_lengths(mesh: SurfaceMesh, lengths: NDArray[np.float64]) -> NDArray[np.float64]:
+    """(ne,) length of pq over the mean of the sizes wanted at p and q; 1 is as wanted.
+
+    Where sizes are anisotropic, of those wanted in the direction of pq.
+    """
+    metric = 2.0 * lengths
+    for begin in range(0, len(lengths), BLOCK):
+        block = slice(begin, begin + BLOCK)
+        if mesh.inverse_sizes is None:
+            a, b = mesh.edges[block].T
+            metric[block] /= mesh.sizes[a] + mesh.sizes[b]
+            continue
+        first, second = _stretched_at_ends(mesh, block)
+        total = first + second
+        metric[block] = 2.0 * first * second / np.where(total > 0.0, total, 1.0)
+    return metric
+
+
+def _stretched_at_ends(
+    mesh: SurfaceMesh, block: slice
+) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Lengths (k,) of edges in the metrics at either end, as one of their faces has them."""
+    a, b = mesh.edges[block].T
+    corners = mesh.uv_triangles.ravel()
+    step = mesh.points[b] - mesh.points[a]
+    start = mesh.connectivity.half_edges[block, 0]
+    end = np.where(start % 3 == 2, start - 2, start + 1)
+    first, second = (
+        np.linalg.norm(stretched(mesh.inverse_sizes[corners[e]], step), axis=1)
+        for e in (start, end)
+    )
+    return first, second
+
+
+def stretched(inverse_sizes: NDArray[np.float64], step: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Steps (k, 3) in wanted lengths: W d, for W (k, 6)."""
+    rows = inverse_sizes[:, [[0, 1, 2], [1, 3, 4], [2, 4, 5]]]
+    return np.einsum("kij,kj->ki", rows, step)
+
+
+class Growth(NamedTuple):
+    """Longest over shortest edge at a vertex: 1 when all edges there are equally long."""
+
+    largest: float
+    p99: float  # 99 of 100 vertices are below
+
+
+def growth(mesh: SurfaceMesh, lengths: NDArray[np.float64]) -> Growth:
+    """Ratio of the lengths of edges that share a vertex."""
+    longest = np.zeros(len(mesh.points))
+    shortest = np.full(len(mesh.points), np.inf)
+    for end in mesh.edges.T:
+        np.maximum.at(longest, end, lengths)
+        np.minimum.at(shortest, end, lengths)
+    used = (shortest > 0) & (longest < np.inf)  # no edge, no finite length
+    used &= longest > 0
+    if not used.any():
+        return Growth(float("nan"), float("nan"))
+    ratio = longest[used] / shortest[used]
+    return Growth(float(ratio.max()), float(np.quantile(ratio, 0.99)))
+
+
+class SizeGrowth(NamedTuple):
+    """By how much the sizes wanted at the two ends of an edge differ, over what is allowed."""
+
+    share: float  # of the edges, those along which it is more than allowed
+    largest: float  # 1 is allowed
+    point: tuple[float, float, float]  # middle of that edge
+
+
+def size_growth(mesh: SurfaceMesh, lengths: NDArray[np.float64], slope: float) -> SizeGrowth | None:
+    """Growth of the wanted sizes over the edges of the mesh, in any direction.
+
+    Along an edge of length l sizes may differ by ``slope`` l. Where sizes depend on the direction
+    those along the edge are compared. None without sizes or edges of a length.
+    """
+    if mesh.sizes is None or not (lengths > 0.0).any() or not slope > 0.0:
+        return None
+    over = np.zeros(len(lengths))
+    for begin in range(0, len(lengths), BLOCK):
+        block = slice(begin, begin + BLOCK)
+        length = lengths[block]
+        if mesh.inverse_sizes is None:
+            a, b = mesh.edges[block].T
+            first, second = mesh.sizes[a], mesh.sizes[b]
+        else:  # an edge of length l is l / h long in the metric
+            with np.errstate(divide="ignore", invalid="ignore"):
+                first, second = (length / metric for metric in _stretched_at_ends(mesh, block))
+        with np.errstate(divide="ignore", invalid="ignore"):
+            over[block] = np.abs(first - second) / (slope * length)
+    over = np.where(np.isfinite(over), over, 0.0)
+    worst = int(over.argmax())
+    place = mesh.points[mesh.edges[worst]].mean(axis=0)
+    share = float(np.mean(over > 1.0 + GROWTH_SLACK))
+    return SizeGrowth(share, float(over[worst]), tuple(place.tolist()))

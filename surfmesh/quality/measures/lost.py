@@ -1,0 +1,206 @@
+"""Area and volume that a mesh has lost or won, beyond what its distance from the surface explains.
+
+    volume   the sum over triangles of area times distance; facets of a ball lose two thirds of it
+    area     of a triangle of height h at the distance d, about (4 d / h)^2 / 2 of its area by its
+             slant and as much by its depth; and along rims length times sagitta: all that plane
+             faces lose
+
+Exact figures are those of the model, as well as they are known: those of splines are integrals.
+"""
+
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from surfmesh.quality.measures.by_face import FaceRow
+from surfmesh.quality.measures.by_solid import SolidRow
+from surfmesh.quality.measures.penetration import edge_sagittas
+from surfmesh.result.surface_mesh import SurfaceMesh
+
+SLANT = 16.0  # of (d / h)^2: what a triangle's area may differ by, of its own
+INEXACT = {"plane": 1e-3, "cylinder": 1e-3, "cone": 1e-3, "sphere": 1e-3, "torus": 1e-3}
+OTHERWISE = 0.02  # relative errors of exact figures by the kind of a face
+LEAST = 1e-6  # of the area of all: what a face may miss unsaid
+SHARPEST = 0.1  # sine of the least angle between faces that tells where their edge is
+CORNER = np.radians(60.0)  # a rim that turns by more has a corner there
+
+
+class Explained(NamedTuple):
+    """What distances from the surface explain, in model units."""
+
+    area: NDArray[np.float64]  # (m,) of each triangle
+    rims: NDArray[np.float64]  # (f,) of each face, along its rims
+    volume: NDArray[np.float64]  # (m,)
+
+
+def is_known(mesh: SurfaceMesh) -> bool:
+    """Is there an exact area or volume to compare with?"""
+    facts = mesh.facts
+    return facts is not None and bool(facts.area or facts.faces or facts.solids)
+
+
+def explained(
+    mesh: SurfaceMesh, area: NDArray[np.float64], by_triangle: NDArray[np.float64]
+) -> Explained:
+    """area: (m,) of the triangles; by_triangle: (m,) their distances from the surface."""
+    corners = mesh.points[mesh.triangles]
+    sides = np.linalg.norm(corners - np.roll(corners, -1, axis=1), axis=2)
+    height = 2.0 * area / np.maximum(sides.max(axis=1), np.finfo(float).tiny)
+    slant = by_triangle / np.maximum(height, np.finfo(float).tiny)
+    lost = area * np.minimum(SLANT * slant**2, 1.0)
+    return Explained(lost, _along_rims(mesh, by_triangle), area * by_triangle)
+
+
+def _along_rims(mesh: SurfaceMesh, by_triangle: NDArray[np.float64]) -> NDArray[np.float64]:
+    """(f,) length times sagitta along the rims of each face."""
+    table = mesh.connectivity
+    sagitta = np.zeros(len(table.edges))
+    rim = table.uses == 1
+    if mesh.edge_segments is None or not len(mesh.edge_segments):
+        sagitta[rim] = _turns_of_rims(mesh, rim)
+    else:
+        width = np.array([len(mesh.points), 1], np.int64)
+        keys, wanted = mesh.edges @ width, np.sort(mesh.edge_segments, axis=1) @ width
+        row = np.minimum(np.searchsorted(keys, wanted), len(keys) - 1)
+        on = keys[row] == wanted
+        np.maximum.at(sagitta, row[on], edge_sagittas(mesh)[on])
+        rim[row[on]] = True
+    half_edges = table.half_edges[rim]
+    triangles, two = half_edges // 3, half_edges[:, 1] >= 0
+    length = np.linalg.norm(np.diff(mesh.points[mesh.edges[rim]], axis=1)[:, 0], axis=1)
+    beside = by_triangle[triangles]
+    beside[:, 1] = np.where(two, beside[:, 1], 0.0)
+    slanted = beside.max(axis=1) / np.where(two, _sines(mesh, triangles), 1.0)
+    lost = length * np.minimum(np.maximum(sagitta[rim], slanted), length)
+    half_edge, row = _half_edges_along(mesh, mesh.edges[rim])
+    return np.bincount(
+        mesh.face_ids[half_edge // 3], lost[row], int(mesh.face_ids.max(initial=0)) + 1
+    )
+
+
+def _sines(mesh: SurfaceMesh, pairs: NDArray[np.int32]) -> NDArray[np.float64]:
+    """(k,) of the angles between two triangles, not below ``SHARPEST``.
+
+    Where faces meet at an angle their common edge lies farther from its chord than they do:
+
+          face  |  /        the distance of the chord from one face over the sine
+                | /  edge   of the angle is that from the edge within the other
+          chord o'
+    """
+    corners = mesh.points[mesh.triangles[pairs]]
+    normal = np.cross(corners[:, :, 1] - corners[:, :, 0], corners[:, :, 2] - corners[:, :, 0])
+    size = np.maximum(np.linalg.norm(normal, axis=2).prod(axis=1), np.finfo(float).tiny)
+    return np.maximum(np.linalg.norm(np.cross(normal[:, 0], normal[:, 1]), axis=1) / size, SHARPEST)
+
+
+def _half_edges_along(
+    mesh: SurfaceMesh, edges: NDArray[np.int32]
+) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
+    """All half-edges that run along some edges (k, 2) of the mesh, in its order, and which."""
+    corners = mesh.triangles.reshape(-1).astype(np.int64)
+    following = mesh.triangles[:, (1, 2, 0)].reshape(-1).astype(np.int64)
+    near = np.zeros(len(mesh.points), bool)
+    near[edges] = True
+    half_edges = np.flatnonzero(near[corners] & near[following])
+    if not len(edges):
+        return half_edges[:0], half_edges[:0]
+    width = np.array([len(mesh.points), 1], np.int64)
+    ends = np.stack([corners[half_edges], following[half_edges]], axis=1)
+    keys, wanted = np.sort(ends, axis=1) @ width, edges @ width
+    row = np.minimum(np.searchsorted(wanted, keys), len(wanted) - 1)
+    here = wanted[row] == keys
+    return half_edges[here], row[here]
+
+
+def _turns_of_rims(mesh: SurfaceMesh, rim: NDArray[np.bool_]) -> NDArray[np.float64]:
+    """(k,) about twice the sagittas of rims, by how much they turn at their ends."""
+    ends = mesh.edges[rim]
+    way = mesh.points[ends[:, 1]] - mesh.points[ends[:, 0]]
+    length = np.linalg.norm(way, axis=1)
+    way /= np.maximum(length, np.finfo(float).tiny)[:, None]
+    count = np.bincount(ends.ravel(), minlength=len(mesh.points))
+    total = np.zeros((len(mesh.points), 3))
+    np.add.at(total, ends[:, 0], way)
+    np.add.at(total, ends[:, 1], -way)  # of both edges away from the vertex: 2 sin(turn / 2)
+    turn = 2.0 * np.arcsin(np.clip(np.linalg.norm(total, axis=1) / 2.0, 0.0, 1.0))
+    turn = np.where((count == 2) & (turn < CORNER), turn, 0.0)
+    return length * turn[ends].max(axis=1) / 4.0
+
+
+def lost(
+    mesh: SurfaceMesh, found: Explained, faces: tuple[FaceRow, ...], solids: tuple[SolidRow, ...],
+    area_exact: float | None,
+) -> list[str]:  # fmt: skip
+    """Sentences on solids and faces that have not the volume or area of the model."""
+    return _volumes(mesh, found, solids) + _areas(mesh, found, faces, area_exact)
+
+
+def _volumes(mesh: SurfaceMesh, found: Explained, solids: tuple[SolidRow, ...]) -> list[str]:
+    bad = []
+    kinds = mesh.facts.faces if mesh.facts is not None else ()
+    for row in solids:
+        if row.volume_error is None:
+            continue
+        own = (mesh.solid_ids == row.solid).any(axis=1)
+        allowed = float(found.volume[own].sum()) / row.volume_exact
+        inexact = [
+            _inexact(kinds[face].kind if face < len(kinds) else "")
+            for face in np.unique(mesh.face_ids[own]).tolist()
+        ]
+        if abs(row.volume_error) > allowed + max(inexact):
+            bad.append((row, allowed))
+    if not bad:
+        return []
+    row, allowed = max(bad, key=lambda one: abs(one[0].volume_error) - one[1])
+    name = f"solid {row.solid}" + f" ({row.name})" * bool(row.name)
+    more = f"; so have {len(bad) - 1} more" if len(bad) > 1 else ""
+    return [
+        f"{name} has the volume {row.volume:.6g}, {100 * row.volume_error:+.3g} % of the "
+        f"model's {row.volume_exact:.6g}: distances from the surface explain "
+        f"{100 * allowed:.2g} %{more}"
+    ]
+
+
+def _areas(
+    mesh: SurfaceMesh, found: Explained, faces: tuple[FaceRow, ...], area_exact: float | None
+) -> list[str]:
+    known = [row for row in faces if row.area_error is not None]
+    if not known:
+        return _whole_area(mesh, found, faces, area_exact)
+    allowed = np.bincount(mesh.face_ids, found.area, len(found.rims)) + found.rims
+    least = LEAST * sum(row.area_exact for row in known)
+    bad = []
+    for row in known:
+        off = abs(row.area - row.area_exact)
+        if off > allowed[row.face] + _inexact(row.kind) * row.area_exact + least:
+            bad.append(row)
+    if not bad:
+        return []
+    row = max(bad, key=lambda one: abs(one.area - one.area_exact) - allowed[one.face])
+    plain = f"face {row.face}"
+    name = plain if row.name in ("", plain) else f"{plain} ({row.name})"
+    more = f"; {len(bad) - 1} more have not that of the model" if len(bad) > 1 else ""
+    return [
+        f"{name} has the area {row.area:.6g}, in the model {row.area_exact:.6g}: distances from "
+        f"the surface and its rims explain {allowed[row.face]:.2g} of it{more}"
+    ]
+
+
+def _whole_area(
+    mesh: SurfaceMesh, found: Explained, faces: tuple[FaceRow, ...], area_exact: float | None
+) -> list[str]:
+    area = sum(row.area for row in faces)
+    if not area_exact or not faces:
+        return []
+    allowed = float(found.area.sum() + found.rims.sum())
+    if abs(area - area_exact) <= allowed + INEXACT["plane"] * area_exact:
+        return []
+    return [
+        f"the area is {area:.6g}, of the surface {area_exact:.6g}: distances from it and along "
+        f"its rims explain {allowed:.2g} of the difference"
+    ]
+
+
+def _inexact(kind: str) -> float:
+    return INEXACT.get(kind, OTHERWISE)

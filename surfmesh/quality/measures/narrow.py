@@ -1,0 +1,43 @@
+"""Triangles of faces narrower than the chord: counted apart, as good shape is not owed there."""
+
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from surfmesh.result.surface_mesh import SurfaceMesh
+
+DEGENERATE = 1e-6
+"""Alpha below which a triangle has no area to speak of."""
+
+DEGENERATE_NARROW = 1e-9
+"""The same across a face that is itself that narrow: there it must be well above rounding only."""
+
+
+class NarrowTriangles(NamedTuple):
+    """How many there are, and the shapes of the others; None where there are no others."""
+
+    count: int
+    alpha_mean_elsewhere: float | None
+    alpha_min_elsewhere: float | None
+
+
+def in_narrow_faces(mesh: SurfaceMesh) -> NDArray[np.bool_]:
+    """(m,) which triangles close a face that is narrower than the chord between its two sides."""
+    if mesh.narrow_faces is None:
+        return np.zeros(len(mesh.triangles), bool)
+    return mesh.narrow_faces[mesh.face_ids]
+
+
+def narrow_triangles(mesh: SurfaceMesh, alpha: NDArray[np.float64]) -> NarrowTriangles:
+    """alpha: (m,) of all triangles."""
+    others = alpha[~in_narrow_faces(mesh)]
+    count = len(alpha) - len(others)
+    if not len(others):
+        return NarrowTriangles(count, None, None)
+    return NarrowTriangles(count, float(others.mean()), float(others.min()))
+
+
+def without_area(mesh: SurfaceMesh, alpha: NDArray[np.float64]) -> NDArray[np.bool_]:
+    """(m,) which triangles have none to speak of, for the face that they are on."""
+    return ~(alpha > np.where(in_narrow_faces(mesh), DEGENERATE_NARROW, DEGENERATE))

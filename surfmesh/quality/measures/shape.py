@@ -1,0 +1,72 @@
+"""Shape of the triangles in 3D: alpha, radius ratio, angles, areas; the volume they enclose."""
+
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from surfmesh.kernels.space.measure import triangle_shapes
+from surfmesh.quality.measures.lengths import stretched
+from surfmesh.result.surface_mesh import SurfaceMesh
+
+BLOCK = 1 << 16  # triangles looked at together, to bound the memory
+
+
+class Shapes(NamedTuple):
+    """One value a triangle; angles in degrees, areas in square model units.
+
+    alpha = 4 sqrt(3) area / (|AB|^2 + |BC|^2 + |CA|^2); radius ratio = 2 r_in / r_circum.
+    Both are 1 for the equilateral triangle and 0 for a degenerate one.
+    """
+
+    area: NDArray[np.float64]
+    alpha: NDArray[np.float64]
+    radius_ratio: NDArray[np.float64]
+    min_angle: NDArray[np.float64]
+    max_angle: NDArray[np.float64]
+
+
+def shapes(mesh: SurfaceMesh) -> Shapes:
+    """Shape of every triangle of ``mesh``."""
+    values = np.empty((len(mesh.triangles), 5))
+    triangle_shapes(mesh.points, mesh.triangles, values)
+    values[:, 3:] *= 180.0 / np.pi
+    return Shapes(*values.T)
+
+
+def alpha(mesh: SurfaceMesh) -> NDArray[np.float64]:
+    """(m,) shape measure alpha of every triangle, in 3D."""
+    return shapes(mesh).alpha
+
+
+def metric_alpha(mesh: SurfaceMesh) -> NDArray[np.float64]:
+    """(m,) alpha of every triangle in the mean metric of its corners.
+
+    In 3D where sizes are isotropic: there it is the same.
+    """
+    if mesh.inverse_sizes is None:
+        return alpha(mesh)
+    found = np.zeros(len(mesh.triangles))
+    for start in range(0, len(found), BLOCK):
+        corners = mesh.triangles[start : start + BLOCK]
+        a, b, c = (mesh.points[corner] for corner in corners.T)
+        mean = mesh.inverse_sizes[mesh.uv_triangles[start : start + BLOCK]].mean(axis=1)
+        u, v = stretched(mean, b - a), stretched(mean, c - a)
+        area = np.linalg.norm(np.cross(u, v), axis=1)
+        total = (u * u + v * v + (u - v) ** 2).sum(axis=1)
+        shape = 2.0 * np.sqrt(3.0) * area / np.where(total > 0.0, total, 1.0)
+        found[start : start + BLOCK] = shape
+    return found
+
+
+def enclosed_volume(mesh: SurfaceMesh) -> float:
+    """Volume inside a closed oriented mesh, positive when its triangles face outwards.
+
+    Sum of the signed tetrahedra to one point (divergence theorem).
+    """
+    apex = mesh.points.mean(axis=0)
+    total = 0.0
+    for start in range(0, len(mesh.triangles), BLOCK):
+        a, b, c = (mesh.points[corner] - apex for corner in mesh.triangles[start:][:BLOCK].T)
+        total += float(np.einsum("ij,ij->", a, np.cross(b, c)))
+    return total / 6.0

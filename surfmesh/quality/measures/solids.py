@@ -1,0 +1,45 @@
+"""The solids of a CAD model's mesh, one by one: a face between two of them counts for both."""
+
+from dataclasses import replace
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from surfmesh.result.surface_mesh import SurfaceMesh
+
+
+class AroundSolids(NamedTuple):
+    """Triangles around all solids, facing outwards; those between two solids are there twice."""
+
+    triangles: NDArray[np.int32]  # (k, 3) vertices
+    rows: NDArray[np.intp]  # (k,) of the mesh's triangles
+    solid: NDArray[np.int32]  # (k,)
+
+
+def around_solids(mesh: SurfaceMesh) -> AroundSolids:
+    """Those behind which a solid lies, then those before which one lies, turned over."""
+    ahead, against = (np.flatnonzero(ids >= 0) for ids in mesh.solid_ids.T)
+    rows = np.concatenate([ahead, against])
+    solid = np.concatenate([mesh.solid_ids[ahead, 0], mesh.solid_ids[against, 1]])
+    triangles = mesh.triangles[rows]
+    triangles[len(ahead) :] = triangles[len(ahead) :, ::-1]
+    return AroundSolids(triangles, rows, solid)
+
+
+def solid_mesh(mesh: SurfaceMesh, solid: int) -> SurfaceMesh:
+    """The triangles around one solid, facing outwards; on its own vertices, without (u, v)."""
+    behind, before = (mesh.solid_ids == solid).T
+    rows = np.concatenate([np.flatnonzero(behind), np.flatnonzero(before)])
+    plain = SurfaceMesh(
+        points=mesh.points, triangles=mesh.triangles, face_ids=mesh.face_ids, sizes=mesh.sizes,
+        sizing=mesh.sizing, groups=mesh.groups,
+    ).submesh(rows)  # fmt: skip
+    triangles = plain.triangles.copy()
+    triangles[behind.sum() :] = triangles[behind.sum() :, ::-1]
+    return replace(plain, triangles=triangles)
+
+
+def shares_faces(mesh: SurfaceMesh) -> bool:
+    """Do two solids of the model have a face in common?"""
+    return mesh.solid_ids is not None and bool((mesh.solid_ids >= 0).all(axis=1).any())

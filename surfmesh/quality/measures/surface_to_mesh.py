@@ -1,0 +1,392 @@
+"""How far the true surface lies from the mesh: the other half of the Hausdorff distance.
+
+    rim of the surface        .--x--.            x: points of the surface that are looked at,
+                            o---------o          on free rims and over every triangle; there
+    mesh                   / \\   x   / \\         ``deviation`` looks from o, mesh to surface
+
+Points are r(u, v) within the triangles' own (u, v), so on the surface whatever its shape. The
+distance to the own triangle bounds that to the mesh from above; where it might decide, the
+nearest triangle is searched for: among neighbours as long as a nearer one is found, for the
+farthest few among all. Between the points nothing is bounded.
+"""
+
+from __future__ import annotations
+
+from functools import cached_property
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from surfmesh.geometry.differential.projection import closest_point
+from surfmesh.kernels.space.measure import interpolate
+from surfmesh.quality.measures.deviation import BLOCK, Deviation
+from surfmesh.quality.measures.promises import CHORD_SLACK, Beyond, Promises
+from surfmesh.quality.verdict.problems import called
+from surfmesh.result.quadratic_triangles import edge_rows
+from surfmesh.result.surface_mesh import SurfaceMesh
+
+RIM_SHARES = np.arange(1, 8) / 8.0  # along each free edge
+WITHIN = np.array([(4, 1, 1), (1, 4, 1), (1, 1, 4)]) / 6.0  # barycentric, over every triangle
+_GRID = 6
+CLOSELY = np.array(
+    [(i, j, _GRID - i - j) for i in range(_GRID + 1) for j in range(_GRID + 1 - i)]
+) / float(_GRID)  # over the worst of them, as ``deviation`` does
+SECOND_LOOK = 400  # triangles looked at closely, or one in 250 if that is more
+ON_CURVE = 1e-3  # of a segment: so far off the curve of its edge may its nodes be
+FIRST_FEW = 64  # points whose nearest triangle is searched for at first
+ALONG, PROJECTIONS = 17, 8  # points of an edge's curve that are put on a face, and steps to it
+MOST_COMPARED = 2_000  # points beyond the chord that are compared with every triangle
+AMONG_ALL = 16  # points that are compared with every triangle in the end, at most
+
+
+class SurfaceDeviation(NamedTuple):
+    """Distances in model units."""
+
+    by_triangle: NDArray[np.float64]  # (m,) over each triangle, an upper bound of what was seen:
+    # exact where it is beyond the chord; 0 where the triangle itself is too far from the surface
+    largest: float
+    point: tuple[float, float, float]  # of the surface, where it is largest
+    uv: tuple[float, float]
+    triangle: int  # that the point is over
+    at_rim: bool
+
+
+def surface_deviation(
+    mesh: SurfaceMesh, fit: Deviation | None, promises: Promises
+) -> SurfaceDeviation | None:
+    """Distance of the surfaces from ``mesh``; None where ``fit``, the way back, is not known."""
+    if fit is None or not np.isfinite(fit.largest):
+        return None
+    search = _Search(mesh, fit, promises)
+    if mesh.edge_curves and mesh.edge_shares is not None:
+        _look_along_curves(search, mesh, fit)
+    else:
+        search.look(*_on_rims(mesh), at_rim=True)
+    count = len(mesh.triangles)
+    length = BLOCK // len(WITHIN)
+    for start in range(0, count, length):
+        search.look(*_over(np.arange(start, min(start + length, count), dtype=np.int32), WITHIN))
+    worth = np.maximum(fit.by_triangle, search.by_triangle)
+    chosen = min(count, max(SECOND_LOOK, count // 250))
+    worst = np.sort(np.argpartition(worth, count - chosen)[count - chosen :]).astype(np.int32)
+    search.look(*_over(worst, CLOSELY))
+    return search.result()
+
+
+def _over(triangles: NDArray, weights: NDArray) -> tuple[NDArray, NDArray, NDArray]:
+    """Triangles (k,) of points over each of them, the row (k,) of ``weights`` for each, weights."""
+    rule = np.tile(np.arange(len(weights), dtype=np.int32), len(triangles))
+    return np.repeat(triangles, len(weights)), rule, weights
+
+
+def _on_rims(mesh: SurfaceMesh) -> tuple[NDArray, NDArray, NDArray]:
+    """The same along all edges of one triangle only."""
+    half_edge = mesh.connectivity.half_edges[mesh.connectivity.uses == 1, 0]
+    triangle, side = np.divmod(np.repeat(half_edge, len(RIM_SHARES)), 3)
+    share = np.tile(RIM_SHARES, len(half_edge))
+    weights, rows = np.zeros((len(triangle), 3)), np.arange(len(triangle), dtype=np.int32)
+    weights[rows, side], weights[rows, (side + 1) % 3] = 1.0 - share, share
+    return triangle, rows, weights
+
+
+def both_ways(fit: Deviation, back: SurfaceDeviation | None) -> Deviation:
+    """``fit`` with the larger of both distances over each triangle."""
+    if back is None:
+        return fit
+    return fit._replace(by_triangle=np.maximum(fit.by_triangle, back.by_triangle))
+
+
+def surface_too_far(
+    mesh: SurfaceMesh, fit: Deviation, back: SurfaceDeviation, beyond: Beyond, promises: Promises
+) -> str | None:
+    """A sentence about the surface's distance from the mesh, where ``beyond``, of both ways, is
+    that; None where it is the mesh's from the surface."""
+    if not back.by_triangle[beyond.worst] > fit.by_triangle[beyond.worst]:
+        return None
+    place = ", ".join(f"{x:.5g}" for x in back.point)
+    where = "on a rim" * back.at_rim or "between the mesh's samples"
+    there = f" on {called(mesh, beyond.worst)}" * (not promises.uniform)
+    return (
+        f"the surface lies up to {beyond.reached:.4g} from the mesh, {beyond.asked:.4g} was asked "
+        f"for{there} ({100 * beyond.share:.3g} % of the triangles are farther, one way or the "
+        f"other); worst over triangle {beyond.worst}"
+        + (f", {where} at ({place})" if back.triangle == beyond.worst else "")
+    )
+
+
+def _look_along_curves(search: _Search, mesh: SurfaceMesh, fit: Deviation) -> None:
+    """At points of the CAD edges between the nodes of their segments.
+
+    They count for that one of two faces which is farther from the mesh itself: the round one.
+    Where nodes lie off their curve, as after ``simplify``, what is between says nothing.
+    """
+    rows = edge_rows(mesh.connectivity, mesh.edge_segments)
+    first, second = mesh.connectivity.half_edges[np.maximum(rows, 0)].T // 3
+    free = second < 0
+    farther = ~free & (fit.by_triangle[second] > fit.by_triangle[first])
+    over = np.where(farther, second, first)
+    shares = np.concatenate([[0.0], RIM_SHARES, [1.0]])
+    for number in np.unique(mesh.edge_ids).tolist():
+        edge = mesh.edge_curves[number] if number < len(mesh.edge_curves) else None
+        own = np.flatnonzero((mesh.edge_ids == number) & (rows >= 0))
+        if edge is None or edge.curve is None or not len(own):
+            continue
+        start, end = mesh.edge_shares[own].T[:, :, None]
+        share = start + shares * (end - start)
+        (points,) = edge.curve.evaluate(edge.parameters(share.ravel()), 0)
+        points = points.reshape(len(own), len(shares), 3)
+        nodes = mesh.points[mesh.edge_segments[own]]
+        length = np.linalg.norm(nodes[:, 1] - nodes[:, 0], axis=1)
+        off = np.linalg.norm(points[:, [0, -1]] - nodes, axis=2).max(axis=1)
+        good = np.flatnonzero(off <= ON_CURVE * length)
+        for at_rim in (True, False):
+            some = good[free[own[good]] == at_rim]
+            triangle = np.repeat(over[own[some]], len(RIM_SHARES))
+            uv = mesh.uv_points[mesh.uv_triangles[triangle]].mean(axis=1)  # about there
+            search.look_at(points[some][:, 1:-1].reshape(-1, 3), uv, triangle, at_rim)
+
+
+class _Candidate(NamedTuple):
+    """A point that may be the farthest."""
+
+    distance: float
+    point: NDArray[np.float64]
+    uv: NDArray[np.float64]
+    triangle: int
+    at_rim: bool
+
+
+class _Search:
+    """The distances over each triangle, and the points that are farthest."""
+
+    def __init__(self, mesh: SurfaceMesh, fit: Deviation, promises: Promises) -> None:
+        self.mesh = mesh
+        chord = promises.at(promises.chord, mesh.face_ids) * (1.0 + CHORD_SLACK)
+        # a triangle that is too far from the surface itself needs no second proof
+        self.far = fit.by_triangle > chord
+        self.enough = np.where(self.far, np.inf, chord)
+        self.back = fit.largest
+        self.by_triangle = np.zeros(len(mesh.triangles))
+        self.largest = 0.0
+        self.found: list[_Candidate] = []
+
+    def look(
+        self, triangle: NDArray, rule: NDArray, weights: NDArray, at_rim: bool = False
+    ) -> None:
+        """At points over triangles (k,), at the barycentric ``weights[rule]``."""
+        if not len(triangle):
+            return
+        mesh = self.mesh
+        uv, points = np.empty((len(triangle), 2)), np.empty((len(triangle), 3))
+        interpolate(mesh.uv_points, mesh.uv_triangles, triangle, rule, weights, uv)
+        faces = mesh.face_ids[triangle]
+        for face in np.unique(faces).tolist() if len(mesh.surfaces) > 1 else [0]:
+            own = np.flatnonzero(faces == face) if len(mesh.surfaces) > 1 else slice(None)
+            points[own] = mesh.surfaces[face].evaluate(uv[own], 0)[0]
+        self.look_at(points, uv, triangle, at_rim)
+
+    def look_at(self, points: NDArray, uv: NDArray, triangle: NDArray, at_rim: bool) -> None:
+        """At points (k, 3) of the surface, with parameters (k, 2) over triangles (k,)."""
+        if not len(triangle):
+            return
+        mesh = self.mesh
+        distance = triangle_distances(points, mesh.points[mesh.triangles[triangle]])
+        distance[~np.isfinite(distance)] = 0.0  # where a formula has no value
+        known = self._refine(points, uv, triangle, distance)
+        np.maximum.at(self.by_triangle, triangle, distance)
+        known = known[np.argsort(-distance[known], kind="stable")[:AMONG_ALL]]
+        self.found += [
+            _Candidate(float(distance[k]), points[k], uv[k], int(triangle[k]), at_rim)
+            for k in known.tolist()
+        ]
+
+    def _refine(
+        self, points: NDArray, uv: NDArray, triangle: NDArray, distance: NDArray
+    ) -> NDArray:
+        """Lower the distances (k,), of the own triangles, to those of the nearest ones: where
+        they are beyond the chord, and where one of them may be the largest. Returns which."""
+        done, length = np.zeros(len(distance), bool), FIRST_FEW
+        beyond = distance > self.enough[triangle]
+        while True:
+            open_ = np.flatnonzero(~done & (distance > self.largest))
+            if len(open_) > length:
+                most = len(open_) - length
+                open_ = open_[np.argpartition(distance[open_], most)[most:]]
+            some = np.union1d(open_, np.flatnonzero(beyond & ~done))
+            if not len(some):
+                return np.flatnonzero(done)
+            distance[some] = self._nearest(points[some], uv[some], triangle[some], distance[some])
+            done[some] = True
+            self.largest = max(self.largest, float(distance[some].max()))
+            length *= 4
+
+    def _nearest(
+        self, points: NDArray, uv: NDArray, triangle: NDArray, distance: NDArray
+    ) -> NDArray:
+        """Distances (k,) to nearer triangles, from neighbour to neighbour while there are such."""
+        distance, nearest = distance.copy(), triangle.copy()
+        order, first = self._around
+        active = np.arange(len(points))
+        while len(active):
+            corners = self.mesh.triangles[nearest[active]].astype(np.int64)
+            counts = first[corners + 1] - first[corners]
+            total = counts.sum(axis=1)
+            row = np.repeat(np.arange(3 * len(active)), counts.ravel())
+            start = np.cumsum(counts.ravel()) - counts.ravel()
+            near = order[first[corners.ravel()][row] + np.arange(len(row)) - start[row]]
+            found = triangle_distances(
+                points[active[row // 3]], self.mesh.points[self.mesh.triangles[near]]
+            )
+            ends = np.cumsum(total)
+            least = np.minimum.reduceat(found, ends - total)
+            mine = np.flatnonzero(found == np.repeat(least, total))
+            chosen = near[mine[np.searchsorted(mine, ends - total)]]
+            nearer = least < distance[active]
+            active = active[nearer]
+            nearest[active], distance[active] = chosen[nearer], least[nearer]
+        self._compare_beyond(points, uv, triangle, distance)
+        return distance
+
+    def _compare_beyond(
+        self, points: NDArray, uv: NDArray, triangle: NDArray, distance: NDArray
+    ) -> None:
+        """Lower, in place, what is still beyond the chord: the way from neighbour to neighbour
+        ends early where triangles are long and thin. Given up where nothing is lowered: the
+        mesh is too far, then."""
+        beyond = np.flatnonzero(distance > self.enough[triangle])
+        lowered = 0
+        for count, k in enumerate(beyond[np.argsort(-distance[beyond], kind="stable")].tolist()):
+            if count >= MOST_COMPARED or (count >= AMONG_ALL and not lowered):
+                break
+            exact = self._among_all(points[k], float(distance[k]))
+            if exact > self.enough[triangle[k]] and self._is_off_face(uv[k], int(triangle[k])):
+                exact = 0.0
+            lowered += exact < distance[k]
+            distance[k] = exact
+
+    @cached_property
+    def _around(self) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
+        """Triangles at the vertices one after the other, and where those of each begin."""
+        corners = self.mesh.triangles.ravel()
+        order = np.argsort(corners, kind="stable") // 3
+        first = np.zeros(len(self.mesh.points) + 1, np.int64)
+        np.cumsum(np.bincount(corners, minlength=len(self.mesh.points)), out=first[1:])
+        return order, first
+
+    def result(self) -> SurfaceDeviation:
+        """What is found; the farthest points, if they are farther than any of the mesh from the
+        surface, are compared with all triangles first: another part may be nearer."""
+        self.found.sort(key=lambda found: -found.distance)
+        best: _Candidate | None = None
+        for number, found in enumerate(self.found):
+            if best is not None and (found.distance <= best.distance or number >= AMONG_ALL):
+                break
+            exact = found.distance
+            if exact > self.back:
+                exact = self._among_all(found.point, exact)
+            if exact < found.distance == self.by_triangle[found.triangle]:
+                self.by_triangle[found.triangle] = exact
+            if best is None or exact > best.distance:
+                best = found._replace(distance=exact)
+        if best is None:  # all that was looked at lies on the mesh to the last bit
+            mesh, corner = self.mesh, (0, 0)
+            place = mesh.uv_points[mesh.uv_triangles[corner]]
+            best = _Candidate(0.0, mesh.points[mesh.triangles[corner]], place, 0, False)
+        self.by_triangle[self.far] = 0.0
+        point, uv = (tuple(map(float, place)) for place in (best.point, best.uv))
+        return SurfaceDeviation(
+            self.by_triangle, best.distance, point, uv, best.triangle, best.at_rim
+        )
+
+    def _is_off_face(self, uv: NDArray, triangle: int) -> bool:
+        """Does uv (2,) over a triangle lie beyond an edge of its face? The sides of triangles are
+        straight in (u, v), the curves that bound the face are not."""
+        mesh = self.mesh
+        corners = mesh.triangles[triangle].tolist()
+        places = mesh.uv_points[mesh.uv_triangles[triangle]]
+        for k in range(3):
+            segment = self._segments.get(frozenset((corners[k], corners[(k + 1) % 3])))
+            if segment is None:
+                continue
+            ends = places[[k, (k + 1) % 3]]
+            if mesh.edge_segments[segment][0] != corners[k]:
+                ends = ends[::-1]
+            edge, share = mesh.edge_curves[mesh.edge_ids[segment]], mesh.edge_shares[segment]
+            if edge is None or edge.curve is None:
+                continue
+            t = np.linspace(0.0, 1.0, ALONG)
+            at = edge.parameters(share[0] + t * (share[1] - share[0]))
+            guess = ends[0] + t[:, None] * (ends[1] - ends[0])
+            surface = mesh.surfaces[mesh.face_ids[triangle]]
+            line = closest_point(surface, edge.curve.evaluate(at, 0)[0], guess, PROJECTIONS)[0]
+            line[0], line[-1] = ends
+            if _crossings(places[(k + 2) % 3], uv, line) % 2:
+                return True
+        return False
+
+    @cached_property
+    def _segments(self) -> dict[frozenset[int], int]:
+        """Rows of ``edge_segments`` by their nodes."""
+        if not self.mesh.edge_curves or self.mesh.edge_shares is None:
+            return {}
+        return {frozenset(pair): k for k, pair in enumerate(self.mesh.edge_segments.tolist())}
+
+    def _among_all(self, point: NDArray, distance: float) -> float:
+        """Of a point (3,) from the whole mesh, known to be no more than ``distance``."""
+        centre, radius = self._balls
+        near = np.linalg.norm(centre - point, axis=1) - radius < distance
+        corners = self.mesh.points[self.mesh.triangles[near]]
+        if not len(corners):
+            return distance
+        points = np.broadcast_to(point, (len(corners), 3))
+        return min(distance, float(triangle_distances(points, corners).min()))
+
+    @cached_property
+    def _balls(self) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+        """Centroids (m, 3) of the triangles, and balls (m,) about them that hold the corners."""
+        corners = self.mesh.points[self.mesh.triangles]
+        centre = corners.mean(axis=1)
+        return centre, np.linalg.norm(corners - centre[:, None], axis=2).max(axis=1)
+
+
+def _crossings(start: NDArray, end: NDArray, line: NDArray) -> int:
+    """How often the way from start to end (2,) crosses a line (k, 2)."""
+    way, step = end - start, np.diff(line, axis=0)
+    side = way[0] * (line[:, 1] - start[1]) - way[1] * (line[:, 0] - start[0])
+    ahead, behind = (
+        step[:, 0] * (place[1] - line[:-1, 1]) - step[:, 1] * (place[0] - line[:-1, 0])
+        for place in (start, end)
+    )
+    return int(np.count_nonzero((side[1:] * side[:-1] < 0.0) & (ahead * behind < 0.0)))
+
+
+def triangle_distances(points: NDArray, corners: NDArray) -> NDArray[np.float64]:
+    """Distance (k,) of points (k, 3) from triangles with ``corners`` (k, 3, 3)."""
+    a = corners[:, 0]
+    ab, ac, ap = corners[:, 1] - a, corners[:, 2] - a, points - a
+    bb, bc, cc = _dot(ab, ab), _dot(ab, ac), _dot(ac, ac)
+    pb, pc = _dot(ap, ab), _dot(ap, ac)
+    with np.errstate(divide="ignore", invalid="ignore"):
+        det = bb * cc - bc * bc
+        v, w = (cc * pb - bc * pc) / det, (bb * pc - bc * pb) / det
+        inside = (v >= 0.0) & (w >= 0.0) & (v + w <= 1.0)
+        offset = ap - v[:, None] * ab - w[:, None] * ac
+        distance = np.sqrt(_dot(offset, offset))
+    out = np.flatnonzero(~inside)
+    if len(out):
+        ab, ac, ap = ab[out], ac[out], ap[out]
+        ends = ((ap, ab), (ap, ac), (ap - ab, ac - ab))
+        distance[out] = np.sqrt(np.minimum.reduce([_squared(*end) for end in ends]))
+    return distance
+
+
+def _squared(way: NDArray, side: NDArray) -> NDArray[np.float64]:
+    """Squared distance (k,) of ``way`` (k, 3) from the segment from 0 to ``side`` (k, 3)."""
+    share = np.clip(_dot(way, side) / np.maximum(_dot(side, side), np.finfo(float).tiny), 0.0, 1.0)
+    offset = way - share[:, None] * side
+    return _dot(offset, offset)
+
+
+def _dot(a: NDArray, b: NDArray) -> NDArray[np.float64]:
+    return np.einsum("ij,ij->i", a, b)

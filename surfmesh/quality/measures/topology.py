@@ -1,0 +1,149 @@
+"""What kind of surface the triangles form: closed, manifold, oriented, in how many pieces."""
+
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from surfmesh.kernels.space.measure import component_labels
+from surfmesh.result.surface_mesh import SurfaceMesh
+
+
+class Topology(NamedTuple):
+    """Counts and verdicts from connectivity alone; no coordinate is looked at."""
+
+    vertices: int  # used by a triangle
+    edges: int
+    triangles: int
+    components: int  # pieces that share no vertex
+    boundary_edges: int
+    boundary_loops: int  # chains of boundary edges that hang together
+    crowded_edges: NDArray[np.int32]  # edges of three or more triangles
+    pinched_vertices: NDArray[np.int32]  # vertices where two fans of triangles only touch
+    clashing_edges: NDArray[np.int32]  # edges that both triangles run along the same way
+    fans: NDArray[np.int64]  # (n,) of triangles at each vertex, as shared edges join them
+    balanced: bool  # every edge is run along as often one way as the other
+
+    @property
+    def euler(self) -> int:
+        """V - E + F."""
+        return self.vertices - self.edges + self.triangles
+
+    @property
+    def closed(self) -> bool:
+        """No boundary: every edge is shared."""
+        return self.triangles > 0 and self.boundary_edges == 0
+
+    @property
+    def manifold(self) -> bool:
+        """No edge has more than two triangles, and those at every vertex form one fan."""
+        return not len(self.crowded_edges) and not len(self.pinched_vertices)
+
+    @property
+    def oriented(self) -> bool:
+        """Neighbours run along their common edge in opposite directions."""
+        return not len(self.clashing_edges)
+
+
+def topology(mesh: SurfaceMesh) -> Topology:
+    """Topology of ``mesh``; vertex numbers must be in range (``mesh.check()``)."""
+    n, corners = len(mesh.points), mesh.triangles.reshape(-1)
+    table = mesh.connectivity
+    used = np.zeros(n, bool)
+    used[corners] = True
+    boundary = table.boundary
+    extra = _crowded_half_edges(mesh)
+    fans = _fans(mesh, extra)
+    clashing = _clashing(mesh)
+    even = len(corners) > 0 and not len(boundary) and not len(clashing)
+    even = even and _is_balanced(mesh, extra)
+    return Topology(
+        vertices=int(used.sum()),
+        edges=len(table.edges),
+        triangles=len(mesh.triangles),
+        components=_count(vertex_components(mesh), used),
+        boundary_edges=len(boundary),
+        boundary_loops=_count(_labels(n, boundary), np.unique(boundary)),
+        crowded_edges=np.flatnonzero(table.uses > 2).astype(np.int32),
+        pinched_vertices=np.flatnonzero(fans > 1).astype(np.int32),
+        clashing_edges=clashing,
+        fans=fans,
+        balanced=even,
+    )
+
+
+def vertex_components(mesh: SurfaceMesh) -> NDArray[np.int32]:
+    """(n,) the smallest number among the vertices that each hangs together with."""
+    return _labels(len(mesh.points), mesh.edges)
+
+
+def _labels(count: int, pairs: NDArray[np.int32]) -> NDArray[np.int32]:
+    labels = np.empty(count, np.int32)
+    component_labels(pairs, labels)
+    return labels
+
+
+def _count(labels: NDArray[np.int32], members: NDArray) -> int:
+    """Number of components among ``members``: those that are their own label."""
+    return int((labels == np.arange(len(labels), dtype=np.int32))[members].sum())
+
+
+def _clashing(mesh: SurfaceMesh) -> NDArray[np.int32]:
+    """Edges whose two half-edges start at the same end."""
+    table, corners = mesh.connectivity, mesh.triangles.reshape(-1)
+    same = corners[table.half_edges[:, 0]] == corners[table.half_edges[:, 1]]
+    same &= table.uses == 2
+    return np.flatnonzero(same).astype(np.int32)
+
+
+def _crowded_half_edges(mesh: SurfaceMesh) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
+    """Half-edges (k,) of edges of three triangles or more, in order of edges, and the edges."""
+    table, corners = mesh.connectivity, mesh.triangles.reshape(-1).astype(np.int64)
+    crowded = np.flatnonzero(table.uses > 2)
+    if not len(crowded):
+        return np.empty(0, np.int64), np.empty(0, np.int64)
+    width = np.array([len(mesh.points), 1], np.int64)
+    wanted = table.edges[crowded] @ width
+    half_edges = np.flatnonzero(np.isin(corners, table.edges[crowded]))
+    ends = np.stack([corners[half_edges], corners[_next(half_edges)]], axis=1)
+    keys = np.sort(ends, axis=1) @ width
+    row = np.minimum(np.searchsorted(wanted, keys), len(wanted) - 1)
+    here = wanted[row] == keys
+    order = np.argsort(row[here], kind="stable")
+    return half_edges[here][order], crowded[row[here][order]]
+
+
+def _is_balanced(mesh: SurfaceMesh, crowded: tuple[NDArray, NDArray]) -> bool:
+    """Are crowded edges run along as often one way as the other?"""
+    half_edges, edges = crowded
+    corners = mesh.triangles.reshape(-1)
+    ahead = corners[half_edges] == mesh.edges[edges, 0]
+    return not np.bincount(edges, np.where(ahead, 1.0, -1.0)).any()
+
+
+def _fans(mesh: SurfaceMesh, crowded: tuple[NDArray, NDArray]) -> NDArray[np.int64]:
+    """Fans at each vertex: corners joined across shared edges, then counted.
+
+    The half-edges 3t+i and 3s+j of one edge, whichever way they run, join the corners at
+    each end of it; those of an edge of three or more triangles one after the other.
+    """
+    table, corners = mesh.connectivity, mesh.triangles.reshape(-1)
+    here, there = table.half_edges[table.uses == 2].T
+    half_edges, edges = (array.astype(np.int32) for array in crowded)
+    along = np.flatnonzero(edges[1:] == edges[:-1])
+    here = np.concatenate([here, half_edges[along]])
+    there = np.concatenate([there, half_edges[along + 1]])
+    links = np.empty((2 * len(here), 2), np.int32)
+    links[0::2, 0], links[1::2, 0] = here, _next(here)
+    same = corners[here] == corners[there]
+    there_end = _next(there)
+    links[0::2, 1] = np.where(same, there, there_end)
+    links[1::2, 1] = np.where(same, there_end, there)
+    labels = _labels(len(corners), links)
+    del links
+    heads = corners[labels == np.arange(len(corners), dtype=np.int32)]
+    return np.bincount(heads, minlength=len(mesh.points))
+
+
+def _next(half_edge: NDArray[np.int32]) -> NDArray[np.int32]:
+    return half_edge + np.where(half_edge % 3 == 2, np.int32(-2), np.int32(1))

@@ -1,0 +1,163 @@
+"""How deep the corners of facets lie within the true body of other facets that they meet.
+
+Corners lie on the true faces of their own body. Where one lies over a triangle of the other body
+that faces it, its distance from the true face there says what facets cannot: whether the bodies
+touch, overlap by less than the chord, or lie apart and only their facets meet.
+"""
+
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from surfmesh.geometry.differential.projection import closest_point
+from surfmesh.quality.measures.penetration import plane_weights
+from surfmesh.result.surface_mesh import SurfaceMesh
+
+PROBES, NEAREST = 400, 8  # points of a solid's faces, and triangles of the other beside each
+MOST = 3000  # pairs of triangles of two bodies that are looked at
+STEPS = 8  # of the projection
+OVER = -1e-6  # least barycentric weight of what lies over a triangle
+FACING = -0.7  # cosine between outward normals of facets of one contact
+UPRIGHT = 0.1  # of the distance: a foot may lie so much to the side of its point
+
+
+class TrueDepth(NamedTuple):
+    """Of two bodies; depths are negative where they lie apart."""
+
+    depth: float  # the largest; minus infinity where no corner lies over the other body
+    point: NDArray[np.float64]  # where that is
+    off: float  # by how much that corner lies off its own face
+
+
+NOWHERE = TrueDepth(-np.inf, np.full(3, np.nan), 0.0)
+
+
+def can_be_seen(mesh: SurfaceMesh) -> bool:
+    """Are surfaces known?"""
+    if not mesh.surfaces or mesh.uv_points is None or not len(mesh.face_ids):
+        return False
+    return 0 <= int(mesh.face_ids.min()) <= int(mesh.face_ids.max()) < len(mesh.surfaces)
+
+
+def true_depth(
+    mesh: SurfaceMesh, pairs: NDArray[np.int32], bodies: NDArray[np.int64],
+    limit: NDArray[np.float64],
+) -> TrueDepth:  # fmt: skip
+    """pairs: (k, 2) triangles of two solids that meet; bodies: (k, 2) the solids; limit: (k,) as
+    deep as their facets may lie within each other: what lies farther away is another face's."""
+    outward = np.where(mesh.solid_ids[pairs, 0] == bodies, 1.0, -1.0)
+    facing = np.flatnonzero(outward.prod(axis=1) * _cosines(mesh, pairs) < FACING)
+    kept = facing[:: max(-(-len(facing) // MOST), 1)]
+    pairs, outward, limit = pairs[kept], outward[kept], limit[kept]
+    best = NOWHERE
+    for own in (0, 1):
+        triangles, base = np.repeat(pairs[:, own], 3), np.repeat(pairs[:, 1 - own], 3)
+        corner = np.tile([0, 1, 2], len(pairs))
+        points = mesh.points[mesh.triangles[triangles, corner]]
+        uv = mesh.uv_points[mesh.uv_triangles[triangles, corner]]
+        found = _deepest(
+            mesh, points, triangles, uv, base, np.repeat(outward[:, 1 - own], 3),
+            np.repeat(limit, 3),
+        )  # fmt: skip
+        best = max(best, found, key=lambda one: one.depth)
+    return best
+
+
+def true_depth_of_faces(
+    mesh: SurfaceMesh, solids: tuple[int, int], allowed: NDArray[np.float64], least: float
+) -> TrueDepth:
+    """The same from points of the faces amid triangles, of two solids that are known to touch.
+
+    allowed: (m,) as deep as facets may lie within others.
+    """
+    from scipy.spatial import cKDTree
+
+    rows = [np.flatnonzero((mesh.solid_ids == solid).any(axis=1)) for solid in solids]
+    middles = [mesh.points[mesh.triangles[own]].mean(axis=1) for own in rows]
+    best = NOWHERE
+    for k in (0, 1):
+        tree = cKDTree(middles[1 - k])
+        low, high = (bound(middles[1 - k], axis=0) for bound in (np.min, np.max))
+        margin = float((high - low).max()) / 2.0  # triangles of the other may be large
+        near = ((middles[k] >= low - margin) & (middles[k] <= high + margin)).all(axis=1)
+        own = rows[k][near][:: max(int(near.sum()) // PROBES, 1)]
+        if not len(own):
+            continue
+        count = min(NEAREST, len(rows[1 - k]))
+        place = tree.query(mesh.points[mesh.triangles[own]].mean(axis=1), count)[1]
+        base = rows[1 - k][place.reshape(len(own), count)].ravel()
+        own = np.repeat(own, count)
+        outward = [
+            np.where(mesh.solid_ids[t, 0] == solids[i], 1.0, -1.0)
+            for t, i in ((own, k), (base, 1 - k))
+        ]
+        pairs = np.stack([own, base], axis=1)
+        facing = outward[0] * outward[1] * _cosines(mesh, pairs) < FACING
+        own, base, outwards = own[facing], base[facing], outward[1][facing]
+        uv = mesh.uv_points[mesh.uv_triangles[own]].mean(axis=1)
+        points = _on_surfaces(mesh, mesh.face_ids[own], uv)
+        limit = allowed[own] + allowed[base] + least
+        found = _deepest(mesh, points, own, uv, base, outwards, limit)
+        best = max(best, found, key=lambda one: one.depth)
+    return best
+
+
+def _on_surfaces(mesh: SurfaceMesh, faces: NDArray, uv: NDArray) -> NDArray[np.float64]:
+    points = np.empty((len(uv), 3))
+    for face in np.unique(faces).tolist():
+        here = faces == face
+        points[here] = mesh.surfaces[face].evaluate(uv[here], 0)[0]
+    return points
+
+
+def _deepest(
+    mesh: SurfaceMesh, points: NDArray, triangles: NDArray, uv: NDArray, base: NDArray,
+    outwards: NDArray, limit: NDArray,
+) -> TrueDepth:  # fmt: skip
+    """The deepest of points that lie over triangles ``base`` (k,), face after face.
+
+    uv: (k, 2) of the points on the faces of their own ``triangles``.
+    """
+    best = NOWHERE
+    faces = mesh.face_ids[base]
+    for face in np.unique(faces).tolist():
+        here = np.flatnonzero(faces == face)
+        depth, over = _over_face(mesh, face, points[here], base[here], outwards[here], limit[here])
+        if not over.any():
+            continue
+        worst = int(np.flatnonzero(over)[int(np.argmax(depth[over]))])
+        if depth[worst] > best.depth:
+            k = here[worst]
+            (own,) = mesh.surfaces[int(mesh.face_ids[triangles[k]])].evaluate(uv[k][None], 0)
+            off = float(np.linalg.norm(own[0] - points[k]))
+            best = TrueDepth(float(depth[worst]), points[k], off)
+    return best
+
+
+def _cosines(mesh: SurfaceMesh, pairs: NDArray[np.int32]) -> NDArray[np.float64]:
+    """(k,) between the normals of two triangles."""
+    corners = mesh.points[mesh.triangles[pairs]]
+    normal = np.cross(corners[:, :, 1] - corners[:, :, 0], corners[:, :, 2] - corners[:, :, 0])
+    size = np.linalg.norm(normal, axis=2).prod(axis=1)
+    along = np.einsum("ij,ij->i", normal[:, 0], normal[:, 1])
+    return along / np.maximum(size, np.finfo(float).tiny)
+
+
+def _over_face(
+    mesh: SurfaceMesh, face: int, points: NDArray, base: NDArray, outwards: NDArray,
+    limit: NDArray,
+) -> tuple[NDArray[np.float64], NDArray[np.bool_]]:  # fmt: skip
+    """How deep points (k, 3) lie below one face, and which of them lie over triangles of it."""
+    surface = mesh.surfaces[face]
+    corners = mesh.uv_points[mesh.uv_triangles[base]]
+    foot_uv, distance, foot = closest_point(surface, points, corners.mean(axis=1), STEPS)
+    _, along_u, along_v = surface.evaluate(foot_uv, 1)
+    normal = np.cross(along_u, along_v)
+    normal /= np.maximum(np.linalg.norm(normal, axis=1), np.finfo(float).tiny)[:, None]
+    turned = mesh.turned_faces is not None and bool(mesh.turned_faces[face])
+    normal *= ((-1.0 if turned else 1.0) * outwards)[:, None]
+    depth = -np.einsum("ij,ij->i", points - foot, normal)
+    over = (distance <= limit) & (plane_weights(foot_uv, corners).min(axis=1) >= OVER)
+    over &= distance - np.abs(depth) <= UPRIGHT * distance + np.finfo(float).eps
+    return depth, over

@@ -1,0 +1,265 @@
+"""What no sample of the mesh has seen: features narrower than its triangles, proved absent or not.
+
+Samples alone cannot tell a plane from a plane with a needle. Where a surface has bounds over boxes
+of (u, v) (formulas have), every triangle and every segment of a free rim is either shown to hold
+nothing more than its samples have seen, or named with its place: a feature was found, or none can
+be excluded.
+"""
+
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from surfmesh.quality.measures.deviation import Deviation
+from surfmesh.quality.measures.hidden_search import (
+    BOXES,
+    BOXES_EACH,
+    Pieces,
+    search_rims,
+    search_triangles,
+    settled_at_once,
+    settled_in_parts,
+)
+from surfmesh.quality.measures.promises import Promises
+from surfmesh.quality.measures.surface_to_mesh import triangle_distances
+from surfmesh.result.surface_mesh import SurfaceMesh
+
+SLACK = 1.3
+"""Of chord, or of what the samples have seen: between them it is smooth, and a little larger."""
+
+PLAINLY, SLIGHT = 1.5, 0.005
+"""Without a chord: times ``SLACK`` what the samples have seen, and of a triangle's longest side.
+Across a bend that no edge follows the samples see two thirds of the deviation."""
+
+FOLLOWED = 0.5
+"""Of the longest side: a triangle whose samples lie farther off does not follow the surface."""
+
+RIM_SLACK = 2.0
+"""Of what three samples of a rim's segment have seen."""
+
+NEAREST = 3
+"""Vertices whose triangles are looked at, beside a point's own and its neighbours."""
+
+NO_AREA = 1e-12
+"""Of the square of its longest side: a triangle without a normal."""
+
+
+@dataclass(frozen=True)
+class UnseenPlace:
+    """A triangle between whose samples something lies, or may lie; lengths in model units."""
+
+    triangle: int
+    face: int
+    uv: tuple[float, float]
+    point: tuple[float, float, float]  # of the surface, there
+    found: bool  # it was found: else nothing excludes it
+    deviation: float  # how far it lies, or may lie, from the mesh; infinite: no bound at all
+
+
+class Unseen(NamedTuple):
+    """What was found, and what cannot be excluded."""
+
+    found: int  # triangles and segments of rims
+    open: int
+    largest: float  # deviation of what was found
+    possible: float  # largest that cannot be excluded
+    places: tuple[UnseenPlace, ...]  # what was found first, the largest first
+
+
+def unseen(
+    mesh: SurfaceMesh, fit: Deviation | None, promises: Promises, listed: int
+) -> Unseen | None:
+    """Look between the samples of ``fit``; None where a surface has no bounds (a function), or
+    there is no surface. Faces of CAD models are smooth between their knots: they are left out.
+    """
+    bounded = [hasattr(surface, "all_bounds") for surface in mesh.surfaces]
+    if fit is None or not any(bounded) or not np.isfinite(fit.largest):
+        return None
+    found: list[tuple[NDArray[np.int64], Pieces]] = []
+    for face in np.flatnonzero(bounded):
+        triangles = np.flatnonzero(mesh.face_ids == face)
+        if len(triangles):
+            surface = mesh.surfaces[face]
+            found.append(_in_triangles(mesh, surface, triangles, fit, promises))
+            found.append(_along_rims(mesh, surface, triangles, fit, promises))
+    triangle = np.concatenate([t for t, _ in found] or [np.empty(0, np.int64)])
+    reached = np.concatenate([p.reached for _, p in found] or [np.empty(0)])
+    possible = np.concatenate([p.possible for _, p in found] or [np.empty(0)])
+    place = np.concatenate([p.place for _, p in found] or [np.empty((0, 2))])
+    possible[reached > 0.0] = 0.0
+    bad = np.flatnonzero((reached > 0.0) | (possible > 0.0))
+    bad = bad[np.lexsort((-possible[bad], -reached[bad]))]
+    return Unseen(
+        int(np.count_nonzero(reached)), int(np.count_nonzero(possible)),
+        float(reached.max(initial=0.0)), float(possible.max(initial=0.0)),
+        tuple(_place(mesh, int(triangle[k]), place[k], reached[k], possible[k])
+              for k in bad[:listed]),
+    )  # fmt: skip
+
+
+def unseen_problems(found: Unseen | None) -> list[str]:
+    """A sentence about features that were found, and one about what cannot be excluded."""
+    if found is None:
+        return []
+    said = []
+    for count, first, is_found in (
+        (found.found, next((p for p in found.places if p.found), None), True),
+        (found.open, next((p for p in found.places if not p.found), None), False),
+    ):
+        if not count or (first is None and is_found):
+            continue
+        many = f"{count:,} triangle{'s' * (count > 1)}"
+        at = ""
+        if first is not None:
+            u, v = first.uv
+            at = f", first {first.triangle} at (u, v) = ({u:.8g}, {v:.8g})"
+        if is_found:
+            said.append(
+                f"features narrower than the triangles are missing: the surface lies up to "
+                f"{found.largest:.4g} from the mesh between the samples of {many}{at}"
+            )
+            continue
+        most = "any height" if np.isinf(found.possible) else f"a height up to {found.possible:.4g}"
+        said.append(
+            f"features narrower than the triangles cannot be excluded: the formula's bounds admit "
+            f"{most} between the samples of {many}{at}; lower the sizes there"
+        )
+    return said
+
+
+def _place(
+    mesh: SurfaceMesh, triangle: int, uv: NDArray, reached: float, possible: float
+) -> UnseenPlace:
+    face = int(mesh.face_ids[triangle])
+    (point,) = mesh.surfaces[face].evaluate(uv[None], 0)
+    is_found = bool(reached > 0.0)
+    return UnseenPlace(
+        triangle, face, tuple(map(float, uv)), tuple(map(float, point[0])), is_found,
+        float(reached if is_found else possible),
+    )  # fmt: skip
+
+
+def _in_triangles(
+    mesh: SurfaceMesh, surface: Any, triangles: NDArray, fit: Deviation, promises: Promises
+) -> tuple[NDArray[np.int64], Pieces]:
+    corners, uv = _corners(mesh, triangles)
+    normal = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+    longest = _longest(corners)
+    area = np.linalg.norm(normal, axis=1)
+    some = area > NO_AREA * longest**2
+    triangles, corners, uv = triangles[some], corners[some], uv[some]
+    normal = (normal[some] / area[some, None])[:, None]
+    seen = fit.by_triangle[triangles]
+    tolerance = SLACK * _expected(mesh, triangles, fit, promises, longest[some])
+    pieces = Pieces.of(uv, corners[:, 0], normal, tolerance)
+    left = np.flatnonzero(~settled_at_once(surface, pieces, seen))
+    triangles, tolerance = triangles[left], tolerance[left]
+    pieces = Pieces.of(uv[left], corners[left, 0], normal[left], tolerance)
+    whole = _beside_poles(mesh, triangles)
+    hard = np.flatnonzero(whole | ~settled_in_parts(surface, pieces))
+    left, triangles, whole = left[hard], triangles[hard], whole[hard]
+    pieces = Pieces.of(uv[left], corners[left, 0], normal[left], tolerance[hard])
+    if len(left):
+        around = _Around(mesh, triangles)
+        budget = BOXES + BOXES_EACH * len(mesh.triangles)
+        search_triangles(surface, pieces, whole, around.away, budget)
+    bad = pieces.is_open
+    return triangles[bad], Pieces(*(getattr(pieces, name)[bad] for name in vars(pieces)))
+
+
+def _along_rims(
+    mesh: SurfaceMesh, surface: Any, triangles: NDArray, fit: Deviation, promises: Promises
+) -> tuple[NDArray[np.int64], Pieces]:
+    """Segments of the free rims: in its own plane a triangle's rim may swing out unseen."""
+    half_edges = mesh.connectivity.half_edges[mesh.connectivity.uses == 1, 0].astype(np.int64)
+    half_edges = half_edges[np.isin(half_edges // 3, triangles)]
+    triangle, side = np.divmod(half_edges, 3)
+    corners, uv = _corners(mesh, triangle)
+    row = np.arange(len(side))
+    ends = corners[row, side], corners[row, (side + 1) % 3]
+    uv = np.stack([uv[row, side], uv[row, (side + 1) % 3]], axis=1)
+    along = ends[1] - ends[0]
+    length = np.linalg.norm(along, axis=1)
+    across = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+    size = np.linalg.norm(across, axis=1)
+    some = (length > 0.0) & (size > NO_AREA * _longest(corners) ** 2)
+    across = across[some] / size[some, None]
+    beside = np.cross(along[some] / length[some, None], across)
+    triangle, uv, start = triangle[some], uv[some], ends[0][some]
+    normal = np.stack([across, beside], axis=1)
+    seen = np.zeros(len(uv))
+    for share in (0.25, 0.5, 0.75):
+        (point,) = surface.evaluate(uv[:, 0] + share * (uv[:, 1] - uv[:, 0]), 0)
+        off = np.einsum("idj,ij->id", normal, point - start)
+        seen = np.maximum(seen, np.linalg.norm(off, axis=1))
+    expected = SLACK * _expected(mesh, triangle, fit, promises, length[some])
+    pieces = Pieces.of(uv, start, normal, np.maximum(expected, RIM_SLACK * seen))
+    if len(uv):
+        search_rims(surface, pieces, BOXES + BOXES_EACH * len(uv))
+    bad = pieces.is_open
+    return triangle[bad], Pieces(*(getattr(pieces, name)[bad] for name in vars(pieces)))
+
+
+def _expected(
+    mesh: SurfaceMesh, triangles: NDArray, fit: Deviation, promises: Promises, length: NDArray
+) -> NDArray[np.float64]:
+    """(k,) the distance that is asked for, or that the samples have seen if it is more."""
+    chord = promises.at(promises.chord, mesh.face_ids[triangles])
+    without = PLAINLY * np.clip(fit.largest, SLIGHT * length, FOLLOWED * length)
+    return np.where(np.isfinite(chord), np.maximum(chord, fit.by_triangle[triangles]), without)
+
+
+def _corners(mesh: SurfaceMesh, triangles: NDArray) -> tuple[NDArray, NDArray]:
+    """Points (k, 3, 3) and parameters (k, 3, 2) of the corners."""
+    return mesh.points[mesh.triangles[triangles]], mesh.uv_points[mesh.uv_triangles[triangles]]
+
+
+def _longest(corners: NDArray) -> NDArray[np.float64]:
+    return np.linalg.norm(corners - corners[:, [1, 2, 0]], axis=2).max(axis=1)
+
+
+def _beside_poles(mesh: SurfaceMesh, triangles: NDArray) -> NDArray[np.bool_]:
+    """(k,) triangles with a corner at a side that is one point: there others were dropped."""
+    pairs = np.stack([mesh.triangles.ravel(), mesh.uv_triangles.ravel()], axis=1)
+    vertex = np.unique(pairs, axis=0)[:, 0]
+    images = np.bincount(vertex, minlength=len(mesh.points))
+    return (images[mesh.triangles[triangles]] > 4).any(axis=1)  # a corner of two seams has four
+
+
+class _Around:
+    """The triangles near points of the surface: those that share a corner with a point's own, and
+    those at the vertices nearest to it. Sides of triangles are straight in the plane that was
+    meshed, whose axes are bent: in (u, v) a point may lie over a triangle farther away."""
+
+    def __init__(self, mesh: SurfaceMesh, triangles: NDArray) -> None:
+        self.mesh, self.triangles = mesh, triangles
+        corner = mesh.triangles.ravel()
+        self.order = np.argsort(corner, kind="stable") // 3
+        self.start = np.searchsorted(np.sort(corner), np.arange(len(mesh.points) + 1))
+        self.used = np.unique(corner)
+
+    @cached_property
+    def _tree(self) -> Any:
+        from scipy.spatial import cKDTree
+
+        return cKDTree(self.mesh.points[self.used])
+
+    def away(self, piece: NDArray, point: NDArray) -> NDArray[np.float64]:
+        """Distance (n,) of points (n, 3) from the triangles around those of ``piece`` (n,)."""
+        count = min(NEAREST, len(self.used))
+        _, nearest = self._tree.query(point, k=[*range(1, count + 1)])
+        own = self.mesh.triangles[self.triangles[piece]]
+        corner = np.concatenate([own, self.used[nearest]], axis=1)
+        first, count = self.start[corner], self.start[corner + 1] - self.start[corner]
+        rows = np.repeat(np.arange(len(piece)), count.sum(axis=1))
+        begin = np.repeat(first.ravel(), count.ravel())
+        ends = np.cumsum(count.ravel())
+        within = np.arange(ends[-1]) - np.repeat(ends - count.ravel(), count.ravel())
+        triangle = self.order[begin + within]
+        distance = np.full(len(piece), np.inf)
+        found = triangle_distances(point[rows], self.mesh.points[self.mesh.triangles[triangle]])
+        np.minimum.at(distance, rows, found)
+        return distance

@@ -1,0 +1,52 @@
+"""The worst triangles, each with where it is."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from surfmesh.quality.measures.shape import Shapes, shapes
+from surfmesh.result.surface_mesh import SurfaceMesh
+
+
+@dataclass(frozen=True)
+class WorstTriangle:
+    """One triangle; angles in degrees."""
+
+    triangle: int  # its number
+    alpha: float
+    min_angle_deg: float
+    max_angle_deg: float
+    face: int
+    name: str  # of the face
+    point: tuple[float, float, float]  # its centroid, model units
+    corners: tuple[int, int, int]  # vertex numbers
+
+
+def worst_triangles(
+    mesh: SurfaceMesh, count: int = 20, shape: Shapes | None = None
+) -> tuple[WorstTriangle, ...]:
+    """The ``count`` triangles of the smallest alpha, the worst first.
+
+    shape: ``shapes(mesh)`` where it is known already.
+    """
+    shape = shapes(mesh) if shape is None else shape
+    count = min(max(count, 0), len(mesh.triangles))
+    if not count:
+        return ()
+    last = np.partition(shape.alpha, count - 1)[count - 1]
+    worst = np.flatnonzero(shape.alpha <= last)  # ties: those of the smallest numbers
+    worst = worst[np.argsort(shape.alpha[worst], kind="stable")][:count]
+    centroids = mesh.points[mesh.triangles[worst]].mean(axis=1)
+    return tuple(
+        WorstTriangle(
+            triangle=int(t),
+            alpha=float(shape.alpha[t]),
+            min_angle_deg=float(shape.min_angle[t]),
+            max_angle_deg=float(shape.max_angle[t]),
+            face=int(mesh.face_ids[t]),
+            name=mesh.face_name(int(mesh.face_ids[t])),
+            point=tuple(map(float, place)),
+            corners=tuple(map(int, mesh.triangles[t])),
+        )
+        for t, place in zip(worst, centroids)
+    )

@@ -1,0 +1,11 @@
+"""The mesh as a value: points and triangles, how they hang together, what they stand for.
+
+connectivity: which triangles meet along which edges: unique edges and twins, from the triangles
+    alone.
+mesh_groups: what a mesh knows of its faces, solids and edges besides numbers: plain data, no CAD.
+model_facts: what is known of a model beforehand: what its mesh is compared with. Plain data, no
+    CAD.
+quadratic_triangles: triangles of six nodes: corners, and one node amid each edge, shared by its
+    triangles.
+surface_mesh: the result: an immutable triangle mesh on one or more surfaces.
+"""

@@ -1,0 +1,12 @@
+"""What the user asks for.
+
+sizing: what the user asks for: one frozen set of options.
+positive: what counts as a size: a finite number above zero.
+sources: local sizes: near points and lines, within boxes and balls, from another mesh.
+distance_size: sizes that grow with the distance from lines and points.
+radius_laws: what ``pack`` may be given beside a number or a callable: random radii, fields of
+    tensors.
+sizes_file: sizes by selection in a TOML file.
+model_sizing: sizes by name: selections of a CAD model, resolved to wishes of each face, edge and
+    vertex.
+"""

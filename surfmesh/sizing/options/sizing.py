@@ -1,0 +1,175 @@
+"""What the user asks for: one frozen set of options."""
+
+from collections.abc import Callable
+from dataclasses import dataclass, fields, replace
+
+import numpy as np
+
+from surfmesh.errors import SizingError, shown
+from surfmesh.sizing.options.positive import positive
+from surfmesh.sizing.options.sources import checked_sizes, source_sizes
+
+MOST_STRETCHED = 1e6
+"""Largest ratio of two sizes: beyond it areas are round-off."""
+
+SizeLaw = Callable[[np.ndarray], np.ndarray]
+
+
+@dataclass(frozen=True, kw_only=True)
+class Sizing:
+    """The wanted mesh. All lengths are in model units, all wishes hold at once.
+
+    With nothing given the size follows from the surface: a chord error of a thousandth of its
+    diagonal, at most a tenth of the diagonal. Raises ``SizingError`` for a wish that is not a
+    positive number, or that contradicts another.
+    """
+
+    chord: float | None = None
+    """Largest distance between mesh and surface, model units. It holds both ways: of the mesh from
+    the surface, and of the surface from the mesh, its free rims included."""
+
+    angle: float | None = None
+    """Largest angle between the normals of two triangles of one face that share an edge, degrees:
+    measured on the mesh, and made finer until it holds. Left out are the places where the surface
+    itself bends, creases and apexes. When only ``chord`` is given sizes follow a rule of 45
+    degrees, as a coarser mesh would fold; that is no promise."""
+
+    size: float | SizeLaw | None = None
+    """Wanted edge length: a number, or a callable of points (n, 3) -> (n,)."""
+
+    min_size: float | None = None
+    """No wanted edge length is smaller than this (accuracy yields to it)."""
+
+    max_size: float | None = None
+    """No wanted edge length is larger than this."""
+
+    growth: float = 1.2
+    """Largest ratio of neighbouring sizes, along any edge of the mesh; above 1."""
+
+    anisotropy: float = 1.0
+    """Largest ratio of the sizes along the two principal directions; 1 is isotropic.
+
+    Above 1 edges may be longer along the direction of low curvature. ``size``, ``min_size`` and
+    ``max_size`` hold in every direction; without ``max_size`` the longer one may reach the
+    diagonal."""
+
+    volume: float | None = None
+    """Largest relative error of the volume of each closed solid of a CAD model, as 0.005: curved
+    faces are made finer until it holds, by whatever else they are sized. Nothing is done for
+    volumes unasked; the report states their errors."""
+
+    sources: tuple[SizeLaw, ...] = ()
+    """Local sizes: ``Near``, ``InBall``, ``InBox``, ``SizeCloud``, or callables of points
+    (n, 3) -> (n,), infinite where nothing is asked for. The smallest holds."""
+
+    gap: float | None = None
+    """At least so many triangles across thin faces, and between near edges of a face. There
+    sizes at the edges hold in every direction, whatever ``anisotropy`` is."""
+
+    gap_faces: bool = False
+    """Likewise between near faces of a solid; ``gap``, or else 1, says how many."""
+
+    limit: int = 20_000_000
+    """A mesh that would have more triangles is refused before it is made."""
+
+    def __post_init__(self) -> None:
+        for name in ("chord", "angle", "max_size"):
+            value = getattr(self, name)
+            if value is not None:
+                object.__setattr__(self, name, positive(name, value))
+        for name in ("min_size", "volume"):
+            value = getattr(self, name)
+            if value is not None:
+                object.__setattr__(self, name, positive(name, value))
+        if self.size is not None and not callable(self.size):
+            object.__setattr__(self, "size", positive("size", self.size))
+        object.__setattr__(self, "growth", positive("growth", self.growth))
+        object.__setattr__(self, "anisotropy", positive("anisotropy", self.anisotropy))
+        if self.growth <= 1.0:
+            raise SizingError(f"growth must be above 1, not {self.growth:g}")
+        if self.anisotropy < 1.0:
+            raise SizingError(f"anisotropy must be at least 1, not {self.anisotropy:g}")
+        if self.anisotropy > MOST_STRETCHED:
+            raise SizingError(
+                f"anisotropy must be at most {MOST_STRETCHED:g}, not {self.anisotropy:g}"
+            )
+        sources = (self.sources,) if callable(self.sources) else self.sources
+        if not isinstance(sources, (tuple, list)) or not all(map(callable, sources)):
+            raise SizingError(
+                "sources are Near, InBall, InBox, SizeCloud or callables of points (n, 3), "
+                f"not {shown(self.sources)}"
+            )
+        object.__setattr__(self, "sources", tuple(sources))
+        if self.gap is not None:
+            object.__setattr__(self, "gap", positive("gap", self.gap))
+            if not 1e-3 <= self.gap <= 1000.0:
+                raise SizingError(f"gap is a number of triangles, 0.001 to 1000, not {self.gap:g}")
+        object.__setattr__(self, "limit", int(positive("limit", self.limit)))
+        if self.volume is not None and self.volume >= 1.0:
+            raise SizingError(f"volume is a relative error below 1, not {self.volume:g}")
+        if self.angle is not None and self.angle > 90.0:
+            raise SizingError(f"angle must be at most 90 degrees, not {self.angle:g}")
+        if self.min_size and self.max_size and self.min_size > self.max_size:
+            raise SizingError(
+                f"min_size {self.min_size:g} is larger than max_size {self.max_size:g}"
+            )
+        if isinstance(self.size, float):
+            if self.min_size and self.size < self.min_size:
+                raise SizingError(f"size {self.size:g} is below min_size {self.min_size:g}")
+            if self.max_size and self.size > self.max_size:
+                raise SizingError(f"size {self.size:g} is above max_size {self.max_size:g}")
+
+    @property
+    def is_anisotropic(self) -> bool:
+        """Do the sizes depend on the direction?"""
+        return self.anisotropy > 1.0 and (self.chord is not None or self.angle is not None)
+
+    @property
+    def gradient(self) -> float:
+        """Largest slope of the size along the surface that keeps to ``growth``.
+
+        Two touching circles of sizes h and g h lie (1 + g) h / 2 apart.
+        """
+        return 2.0 * (self.growth - 1.0) / (self.growth + 1.0)
+
+    @property
+    def has_law(self) -> bool:
+        """Do sizes depend on the place by a law or by sources?"""
+        return callable(self.size) or bool(self.sources)
+
+    def law_sizes(self, points: np.ndarray) -> np.ndarray:
+        """What the law and the sources ask for (n,) at points (n, 3); infinite for nothing.
+
+        Raises ``SizingError`` when one of them gives anything else than positive numbers.
+        """
+        sizes = source_sizes(self.sources, points)
+        if callable(self.size):
+            np.minimum(sizes, checked_sizes(self.size, points, "size"), out=sizes)
+        return sizes
+
+    @property
+    def law_slope(self) -> float:
+        """How fast laws and sources change at most; of callables nobody knows: ``gradient``."""
+        slopes = [getattr(source, "slope", self.gradient) for source in self.sources]
+        return max([self.gradient, *slopes])
+
+    def replaced(self, **changes: object) -> "Sizing":
+        """A copy with some wishes changed."""
+        return replace(self, **changes)
+
+    @classmethod
+    def of(cls, wish: "Sizing | float | dict | None") -> "Sizing":
+        """Sizing from what a user may pass: itself, a bare number, a mapping, or nothing."""
+        if wish is None:
+            return cls()
+        if isinstance(wish, cls):
+            return wish
+        if isinstance(wish, dict):
+            known = {f.name for f in fields(cls)}
+            for name in wish:
+                if name not in known:
+                    raise SizingError(f"unknown size option {name!r}; known: {sorted(known)}")
+            return cls(**wish)
+        if isinstance(wish, (int, float)) or callable(wish):
+            return cls(size=wish)
+        raise SizingError(f"sizes are a number, a Sizing or a mapping, not {type(wish).__name__}")

@@ -1,0 +1,416 @@
+"""Local sizes: near points and lines, within boxes and balls, from another mesh.
+
+    size
+         |              ,'   growth: per unit of distance the size grows as it does between
+         |           ,'      neighbours of a mesh with that growth
+    size +________,'
+         +--------+-------- distance to the geometry
+               radius              beyond ``reach`` nothing is asked for
+
+Every source is a callable of points (n, 3) -> sizes (n,), infinite where it asks for nothing.
+``slope`` bounds how fast its sizes change, ``marks`` (k, 3) lie where it is smallest: whoever
+samples it can tell what may hide between two samples, and where to look first.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, field
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+
+from surfmesh.errors import SizingError, shown
+from surfmesh.geometry.planar.segment_distance import SegmentDistance
+from surfmesh.sizing.options.distance_size import polylines
+from surfmesh.sizing.options.positive import positive
+
+MARK_STEP = 4.0
+"""Marks along lines and within boxes are so many sizes apart,"""
+
+MOST_MARKS = 4000
+"""but no more than so many a source."""
+
+NEAREST = 4
+"""How many points of each octave of sizes of a cloud decide at a place."""
+
+
+class Source:
+    """What all local sizes have in common: ``size`` that grows with the distance."""
+
+    size: float
+    growth: float
+    radius: float
+    reach: float | None
+
+    def _check(self) -> None:
+        object.__setattr__(self, "size", positive("size", self.size))
+        object.__setattr__(self, "growth", positive("growth", self.growth))
+        if self.growth <= 1.0:
+            raise SizingError(f"growth must be above 1, not {self.growth:g}")
+        if self.reach is not None:
+            object.__setattr__(self, "reach", positive("reach", self.reach))
+
+    @property
+    def slope(self) -> float:
+        """Size per distance."""
+        return 2.0 * (self.growth - 1.0) / (self.growth + 1.0)
+
+    def __call__(self, points: np.ndarray) -> np.ndarray:
+        """Wanted edge lengths (n,) at points (n, 3)."""
+        distance = self.distance(np.asarray(points, float))
+        sizes = self.size + self.slope * np.maximum(distance - self.radius, 0.0)
+        return sizes if self.reach is None else np.where(distance <= self.reach, sizes, np.inf)
+
+    def distance(self, points: np.ndarray) -> np.ndarray:
+        """(n, 3) -> (n,)"""
+        raise NotImplementedError
+
+    @cached_property
+    def marks(self) -> np.ndarray:
+        """(k, 3) points where the size is smallest."""
+        raise NotImplementedError
+
+    def box(self, largest: float) -> tuple[np.ndarray, np.ndarray]:
+        """Corners (3,), (3,) of a box outside of which nothing below ``largest`` is asked for."""
+        away = self.radius + max(largest - self.size, 0.0) / self.slope
+        away = min(away, np.inf if self.reach is None else self.reach)
+        low, high = self._extent()
+        return low - away, high + away
+
+    def _extent(self) -> tuple[np.ndarray, np.ndarray]:
+        return self.marks.min(axis=0), self.marks.max(axis=0)
+
+
+@dataclass(frozen=True, eq=False)
+class Near(Source):
+    """``size`` within ``radius`` of points or polylines, growing with the distance from there.
+
+    Raises ``SizingError`` for numbers that are not positive and for other geometry.
+    """
+
+    geometry: Any
+    """Points (n, 3), a point (3,); or polylines: a list of arrays (k, 3). Two coordinates are
+    taken in the plane z = 0. ``lines=True`` joins points (n, 3) to one polyline."""
+
+    size: float
+    """Wanted edge length, model units."""
+
+    growth: float = 1.2
+    """Ratio of neighbouring sizes away from it."""
+
+    radius: float = 0.0
+    """Model units."""
+
+    reach: float | None = None
+    """Farther away nothing is asked for, model units; None: as far as the sizes have grown."""
+
+    lines: bool = False
+
+    def __post_init__(self) -> None:
+        self._check()
+        if (
+            isinstance(self.radius, str)
+            or not np.isscalar(self.radius)
+            or not (0.0 <= self.radius < np.inf)
+        ):
+            raise SizingError(f"radius must be a number from 0, not {shown(self.radius)}")
+        given = self.geometry
+        if isinstance(given, np.ndarray) or _is_points(given):
+            numbers = as_numbers(given)
+            if numbers is None:
+                raise SizingError(f"the geometry is not made of points: {shown(given)}")
+            rows = np.atleast_2d(numbers)
+            given = [rows] if self.lines else [row[None] for row in rows]
+        object.__setattr__(self, "geometry", polylines(given))
+
+    def distance(self, points: np.ndarray) -> np.ndarray:
+        return self._segments(points)
+
+    @cached_property
+    def _segments(self) -> SegmentDistance:
+        starts = [line[: max(1, len(line) - 1)] for line in self.geometry]
+        ends = [line[-max(1, len(line) - 1) :] for line in self.geometry]
+        return SegmentDistance(np.concatenate(starts), np.concatenate(ends))
+
+    @cached_property
+    def marks(self) -> np.ndarray:
+        length = sum(float(_steps(line).sum()) for line in self.geometry)
+        step = max(MARK_STEP * max(self.size, self.radius), length / MOST_MARKS)
+        found = []
+        for line in self.geometry:
+            way = np.r_[0.0, np.cumsum(_steps(line))]
+            at = np.union1d(way, np.linspace(0.0, way[-1], 1 + int(np.ceil(way[-1] / step))))
+            found.append(np.stack([np.interp(at, way, line[:, k]) for k in range(3)], axis=1))
+        return np.concatenate(found)
+
+    def __repr__(self) -> str:
+        points = sum(len(line) for line in self.geometry)
+        what = "points" if points == len(self.geometry) else f"lines of {points} points"
+        return f"Near({len(self.geometry)} {what}, size={self.size:g})"
+
+
+@dataclass(frozen=True, eq=False)
+class InBall(Source):
+    """``size`` in a ball, growing outside. Raises ``SizingError`` as ``Near`` does."""
+
+    centre: Sequence[float]
+    """(3,)"""
+
+    radius: float
+    """Model units."""
+
+    size: float
+    growth: float = 1.2
+    reach: float | None = None
+    """Distance from the centre beyond which nothing is asked for; None: no end."""
+
+    def __post_init__(self) -> None:
+        self._check()
+        object.__setattr__(self, "radius", positive("radius", self.radius))
+        object.__setattr__(self, "centre", _point("centre", self.centre))
+
+    def distance(self, points: np.ndarray) -> np.ndarray:
+        return np.linalg.norm(points - self.centre, axis=1)
+
+    @cached_property
+    def marks(self) -> np.ndarray:
+        return self.centre[None]
+
+    def __repr__(self) -> str:
+        return f"InBall({_listed(self.centre)}, radius={self.radius:g}, size={self.size:g})"
+
+
+@dataclass(frozen=True, eq=False)
+class InBox(Source):
+    """``size`` in a box along the axes, growing outside. Raises ``SizingError`` as ``Near``."""
+
+    low: Sequence[float]
+    """(3,) corner with the smallest coordinates, and"""
+
+    high: Sequence[float]
+    """(3,) that with the largest."""
+
+    size: float
+    growth: float = 1.2
+    reach: float | None = None
+    """Distance from the box beyond which nothing is asked for; None: no end."""
+
+    radius = 0.0
+
+    def __post_init__(self) -> None:
+        self._check()
+        for name in ("low", "high"):
+            object.__setattr__(self, name, _point(name, getattr(self, name)))
+        if (self.low > self.high).any():
+            raise SizingError(
+                f"a box from {_listed(self.low)} to {_listed(self.high)} is inside out"
+            )
+
+    def distance(self, points: np.ndarray) -> np.ndarray:
+        outside = np.maximum(np.maximum(self.low - points, points - self.high), 0.0)
+        return np.linalg.norm(outside, axis=1)
+
+    @cached_property
+    def marks(self) -> np.ndarray:
+        extent = self.high - self.low
+        step = max(MARK_STEP * self.size, float(extent.max()) / 1000.0)
+        while True:
+            counts = np.ceil(extent / step).astype(int) + 1
+            if counts.prod() <= MOST_MARKS:
+                break
+            step *= 1.3
+        axes = [np.linspace(a, b, n) for a, b, n in zip(self.low, self.high, counts)]
+        return np.stack(np.meshgrid(*axes, indexing="ij"), axis=-1).reshape(-1, 3)
+
+    def _extent(self) -> tuple[np.ndarray, np.ndarray]:
+        return self.low, self.high
+
+    def __repr__(self) -> str:
+        return f"InBox({_listed(self.low)}, {_listed(self.high)}, size={self.size:g})"
+
+
+@dataclass(frozen=True, eq=False)
+class SizeCloud(Source):
+    """Sizes at points, growing from each: what another mesh, or a solver, has found.
+
+    Raises ``SizingError`` for arrays of other shapes and sizes that are not positive.
+    """
+
+    points: np.ndarray
+    """(n, 3)"""
+
+    sizes: np.ndarray
+    """(n,) model units."""
+
+    growth: float = 1.2
+    reach: float | None = None
+    """Distance from a point beyond which it asks for nothing; None: no end."""
+
+    radius = 0.0
+    _trees: list = field(default_factory=list, repr=False)
+
+    def __post_init__(self) -> None:
+        try:
+            points = np.atleast_2d(np.array(self.points, float))
+            sizes = np.atleast_1d(np.array(self.sizes, float))
+        except (TypeError, ValueError):
+            raise SizingError("the points and sizes of a cloud must be numbers") from None
+        if points.shape != (len(sizes), 3) or sizes.ndim != 1 or not len(sizes):
+            raise SizingError(
+                f"a cloud needs points (n, 3) and sizes (n,), not {points.shape}, {sizes.shape}"
+            )
+        if not (np.isfinite(points).all() and np.isfinite(sizes).all() and (sizes > 0.0).all()):
+            raise SizingError("the points of a cloud must be finite, its sizes positive")
+        object.__setattr__(self, "points", points)
+        object.__setattr__(self, "sizes", sizes)
+        object.__setattr__(self, "_trees", [])
+        self._check()
+
+    @classmethod
+    def of_mesh(cls, mesh: Any, factor: float = 1.0, growth: float = 1.2) -> SizeCloud:
+        """The mean length of the edges at each vertex of a mesh (points, triangles), scaled."""
+        corners = np.asarray(mesh.triangles if hasattr(mesh, "triangles") else mesh.faces)
+        if np.issubdtype(corners.dtype, np.floating):  # trimesh: faces are numbers, triangles not
+            corners = np.asarray(mesh.faces)
+        places = np.asarray(mesh.points if hasattr(mesh, "points") else mesh.vertices, float)
+        ends = np.concatenate([corners[:, [0, 1]], corners[:, [1, 2]], corners[:, [2, 0]]])
+        length = np.linalg.norm(places[ends[:, 1]] - places[ends[:, 0]], axis=1)
+        total = np.bincount(ends.ravel(), np.repeat(length, 2), len(places))
+        count = np.bincount(ends.ravel(), minlength=len(places))
+        used = (count > 0) & (total > 0.0)
+        return cls(places[used], factor * total[used] / count[used], growth)
+
+    @property
+    def size(self) -> float:
+        """The smallest."""
+        return float(self.sizes.min())
+
+    def _check(self) -> None:
+        object.__setattr__(self, "growth", positive("growth", self.growth))
+        if self.growth <= 1.0:
+            raise SizingError(f"growth must be above 1, not {self.growth:g}")
+        if self.reach is not None:
+            object.__setattr__(self, "reach", positive("reach", self.reach))
+
+    def __call__(self, points: np.ndarray) -> np.ndarray:
+        points = np.asarray(points, float)
+        found = np.full(len(points), np.inf)
+        for tree, sizes in self._octaves():
+            count = min(NEAREST, len(sizes))
+            most = np.inf if self.reach is None else self.reach
+            distance, row = tree.query(points, k=[*range(1, count + 1)], distance_upper_bound=most)
+            padded = np.append(sizes, np.inf)  # of what is too far away
+            grown = padded[row] + self.slope * np.where(np.isfinite(distance), distance, 0.0)
+            np.minimum(found, grown.min(axis=1), out=found)
+        return found
+
+    def _octaves(self) -> list:
+        """Of points whose sizes are alike the nearest decide; trees are made when first used."""
+        if not self._trees:
+            from scipy.spatial import cKDTree
+
+            octave = np.floor(np.log2(self.sizes / self.sizes.min())).astype(int)
+            for k in np.unique(octave):
+                own = octave == k
+                self._trees.append((cKDTree(self.points[own]), self.sizes[own]))
+        return self._trees
+
+    @cached_property
+    def marks(self) -> np.ndarray:
+        if len(self.points) <= MOST_MARKS:
+            return self.points
+        order = np.argsort(self.sizes, kind="stable")  # the smallest, and some of all
+        some = order[:: -(-len(order) // (MOST_MARKS // 2))]
+        return self.points[np.union1d(order[: MOST_MARKS // 2], some)]
+
+    def _extent(self) -> tuple[np.ndarray, np.ndarray]:
+        return self.points.min(axis=0), self.points.max(axis=0)
+
+    def __repr__(self) -> str:
+        return f"SizeCloud({len(self.points)} points, smallest size={self.size:g})"
+
+
+def source_sizes(sources: tuple[Callable, ...], points: np.ndarray) -> np.ndarray:
+    """The smallest size (n,) that any source asks for at points (n, 3); infinite for none.
+
+    Raises ``SizingError`` when a source gives something else than (n,) positive numbers.
+    """
+    least = np.full(len(points), np.inf)
+    for source in sources:
+        np.minimum(least, checked_sizes(source, points, "source"), out=least)
+    return least
+
+
+def checked_sizes(law: Callable, points: np.ndarray, what: str) -> np.ndarray:
+    """``law(points)``, (n, 3) -> (n,), all at once; raises ``SizingError`` for what is no size.
+
+    The law gets points of its own, and what it warns of is told as that error alone.
+    """
+    with np.errstate(all="ignore"):
+        found = law(points.copy())
+    sizes = as_numbers(found)
+    if sizes is None or sizes.shape != (len(points),) or not (sizes > 0.0).all():
+        gave = f"shape {sizes.shape}" if sizes is not None else shown(found)
+        least = f", smallest {sizes.min():g}" if sizes is not None and sizes.size else ""
+        raise SizingError(
+            f"{what} law must give positive numbers of shape ({len(points)},) for points "
+            f"({len(points)}, 3); it gave {gave}{least}"
+        )
+    return sizes
+
+
+def as_numbers(found: Any) -> np.ndarray | None:
+    """What a caller's function gave as an array of its own; None if those are no real numbers.
+
+    Masked entries are nan.
+    """
+    try:
+        if np.iscomplexobj(found):
+            return None
+        if np.ma.isMaskedArray(found):
+            return np.ma.filled(found.astype(float), np.nan)
+        return np.array(found, float)
+    except (TypeError, ValueError, OverflowError):
+        return None
+
+
+def reaching(
+    sources: tuple[Callable, ...], low: np.ndarray, high: np.ndarray, largest: float
+) -> tuple[Callable, ...]:
+    """The sources that may ask for less than ``largest`` in the box from low (3,) to high (3,)."""
+    found = []
+    for source in sources:
+        if isinstance(source, Source):
+            first, last = source.box(largest)
+            if (first > high).any() or (last < low).any():
+                continue
+        found.append(source)
+    return tuple(found)
+
+
+def _is_points(given: Any) -> bool:
+    """Rows of numbers of one length, and not arrays of rows?"""
+    if not isinstance(given, (list, tuple)) or not given:
+        return False
+    flat = all(np.ndim(row) == 1 for row in given)
+    return all(np.isscalar(row) for row in given) or (flat and len({len(r) for r in given}) == 1)
+
+
+def _steps(line: np.ndarray) -> np.ndarray:
+    return np.linalg.norm(np.diff(line, axis=0), axis=1)
+
+
+def _point(name: str, given: Any) -> np.ndarray:
+    try:
+        point = np.array(given, float)
+    except (TypeError, ValueError, OverflowError):
+        point = np.empty(0)
+    if point.shape != (3,) or not np.isfinite(point).all():
+        raise SizingError(f"{name} must be three finite numbers, not {shown(given)}")
+    return point
+
+
+def _listed(point: np.ndarray) -> str:
+    return "(" + ", ".join(f"{x:g}" for x in point) + ")"

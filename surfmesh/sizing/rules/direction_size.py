@@ -1,0 +1,35 @@
+"""The edge length that a surface's curvature allows in a given direction."""
+
+import numpy as np
+
+from surfmesh.geometry.differential.fundamental_forms import curvatures, forms_from_derivatives
+from surfmesh.geometry.surface import Surface
+from surfmesh.sizing.rules.size_bounds import SizeBounds
+from surfmesh.sizing.rules.turning_direction import ROUND, turning_bound, turning_rates
+
+
+def size_along(
+    surface: Surface, uv: np.ndarray, directions: np.ndarray, bounds: SizeBounds
+) -> np.ndarray:
+    """Sizes (n,) at uv (n, 2) along tangent directions (n, 3), in the anisotropic metric.
+
+    1 / h^2 = cos^2 / h1^2 + sin^2 / h2^2 with the angle to the first principal direction.
+    Infinite at degenerate points.
+    """
+    _, ru, rv, *second = surface.evaluate(uv, 2)
+    forms = forms_from_derivatives(ru, rv, *second)
+    k = curvatures(forms)
+    sizes = bounds.principal(k.k1, k.k2)
+    shorter, along_first = sizes.min(axis=1), sizes[:, 0] > sizes[:, 1]
+    rates = turning_rates(surface, uv, k, along_first, shorter)
+    bound = turning_bound(rates, k.k1, k.k2, shorter, bounds.sizing.chord or 0.0)
+    stretched = sizes.max(axis=1) > ROUND * shorter
+    sizes = np.where(stretched[:, None], np.minimum(sizes, bound[:, None]), sizes)
+    cosines = [
+        np.einsum("ij,ij->i", d[:, :1] * ru + d[:, 1:] * rv, directions) for d in (k.d1, k.d2)
+    ]
+    length = np.hypot(*cosines)  # of the direction's part in the tangent plane
+    inverse = np.hypot(cosines[0] / sizes[:, 0], cosines[1] / sizes[:, 1])
+    with np.errstate(divide="ignore", invalid="ignore"):
+        size = length / inverse
+    return np.where(forms.degenerate | ~np.isfinite(size), np.inf, size)

@@ -1,0 +1,131 @@
+"""The edge length that the curvature of a rim allows, the part within the surface included.
+
+A rim is a space curve: between two nodes h apart it sags by h^2 k / 8 from its chord, where k is
+its own curvature. The surface's normal curvature is only a part of that: a flat disc has none.
+
+       .--- rim ---.        k^2 = (normal curvature along the rim)^2 + (geodesic curvature)^2
+     o-- mesh edge --o
+"""
+
+from collections.abc import Callable, Iterator
+from typing import NamedTuple
+
+import numpy as np
+
+from surfmesh.geometry.differential.scaling import Scaling
+from surfmesh.geometry.differential.sides import SideTopology
+from surfmesh.geometry.surface import Surface
+from surfmesh.sizing.rules.size_limits import SizeLimits, along_lines
+
+RIM_RESERVE = 0.8
+"""Share of ``chord`` that an edge of the wanted length may sag by: a line is cut into equal edges,
+which are never much longer than wanted, unlike the sides of triangles."""
+
+LEAST_RIM = 2.0
+"""In ``chord``: a shorter edge is within ``chord`` of its arc, whatever the curvature."""
+
+FIRST_SAMPLES, SAMPLES_AN_EDGE, MOST_SAMPLES = 1024, 4, 1 << 16
+"""Points of all loops that are looked at first; then so many for each edge, and of one line."""
+
+
+class RimSizes(NamedTuple):
+    """Sizes that hold along a rim only, at n points of it: bounds as ``SizeLimits`` are."""
+
+    sizes: np.ndarray  # (n,) model units, infinite where the rim is straight
+    tangent: np.ndarray  # (n, 3) unit
+
+    def chosen(self, rows: np.ndarray) -> "RimSizes":
+        return RimSizes(self.sizes[rows], self.tangent[rows])
+
+    def along(self, points: np.ndarray, directions: np.ndarray) -> np.ndarray:
+        """Largest sizes (k, n) in k unit directions (k, n, 3) at the n points themselves."""
+        cosine = np.abs(np.einsum("kni,ni->kn", directions, self.tangent))
+        return self.sizes / np.maximum(cosine, np.finfo(float).eps)
+
+    def tightest(self, points: np.ndarray, normals: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """The smallest size (n,) in any direction, and that direction (n, 3)."""
+        return self.sizes, self.tangent
+
+
+def rim_sizes(surface: Surface, uv: np.ndarray, step: np.ndarray, chord: float) -> RimSizes:
+    """Of the straight lines of (u, v) through uv (n, 2) in the directions ``step`` (n, 2).
+
+    ``chord``: model units. Infinite where the line has no speed, as at a pole.
+    """
+    _, ru, rv, ruu, ruv, rvv = surface.evaluate(uv, 2)
+    du, dv = step[:, :1], step[:, 1:]
+    first = du * ru + dv * rv
+    second = du * du * ruu + 2.0 * du * dv * ruv + dv * dv * rvv
+    with np.errstate(all="ignore"):
+        speed = np.linalg.norm(first, axis=1)
+        curvature = np.linalg.norm(np.cross(first, second), axis=1) / speed**3
+        sizes = np.sqrt(8.0 * RIM_RESERVE * chord / curvature)
+        tangent = first / speed[:, None]
+    known = np.isfinite(curvature) & np.isfinite(tangent).all(axis=1)
+    sizes = np.where(known, np.maximum(sizes, LEAST_RIM * chord), np.inf)
+    return RimSizes(sizes, np.where(known[:, None], tangent, 0.0))
+
+
+class Rims:
+    """Where a surface of formulas ends: open sides of its (u, v) rectangle, or trimming loops."""
+
+    def __init__(self, surface: Surface, sides: SideTopology) -> None:
+        self.surface = surface
+        loops = [np.asarray(loop, float) for loop in surface.loops]
+        lines = [np.stack([loop, np.roll(loop, -1, axis=0)], axis=1) for loop in loops]
+        self.lines = np.concatenate(lines) if lines else np.empty((0, 2, 2))
+        """(s, 2, 2) start and end of the segments of the loops, in (u, v)"""
+        self.open = [] if lines else [
+            side for side in range(4) if sides.partner[side] < 0 and not sides.collapsed[side]
+        ]  # fmt: skip
+
+    def on_sides(
+        self, scaling: Scaling, chord: float, xy: np.ndarray, uv: np.ndarray
+    ) -> Iterator[tuple[np.ndarray, RimSizes]]:
+        """For each open side the rows (k,) of points xy (n, 2) that lie on it, and their sizes."""
+        width, height = scaling.extent
+        for side in self.open:
+            across, place = ((1, 0.0), (0, width), (1, height), (0, 0.0))[side]
+            rows = np.flatnonzero(xy[:, across] == place)
+            if len(rows):
+                step = np.zeros((len(rows), 2))
+                step[:, 1 - across] = 1.0
+                yield rows, rim_sizes(self.surface, uv[rows], step, chord)
+
+    def on_loops(
+        self, chord: float, slope: float, allowed: Callable[[np.ndarray], np.ndarray], narrow: bool
+    ) -> SizeLimits | None:
+        """Limits along loops, where these bend more than the surface does; None: nowhere.
+
+        allowed: sizes (n,) by the curvature of the surface at uv (n, 2). narrow: the limits hold
+        along the loops, not across them.
+        """
+        if not len(self.lines):
+            return None
+        pieces = np.full(len(self.lines), max(2, FIRST_SAMPLES // len(self.lines)))
+        points, uv, found = self._sampled(pieces, chord)
+        line = np.repeat(np.arange(len(pieces)), pieces)
+        speed = np.linalg.norm(points[1] - points[0], axis=1)  # lengths of the pieces
+        wanted = np.bincount(line, SAMPLES_AN_EDGE * speed / found.sizes, len(pieces))
+        pieces = np.maximum(pieces, np.ceil(np.minimum(wanted, MOST_SAMPLES)).astype(np.int64))
+        points, uv, found = self._sampled(pieces, chord)
+        rows = np.flatnonzero(found.sizes < allowed(uv))
+        if not len(rows):
+            return None
+        found = found.chosen(rows)
+        tensors = along_lines(found.tangent, found.sizes) if narrow else None
+        return SizeLimits(points[2][rows], found.sizes, slope, uv[rows], in_space=tensors)
+
+    def _sampled(
+        self, pieces: np.ndarray, chord: float
+    ) -> tuple[list[np.ndarray], np.ndarray, RimSizes]:
+        """Points (n, 3) at start, end and middle of so many equal pieces of each line, the
+        parameters (n, 2) and the sizes of the middles."""
+        line = np.repeat(np.arange(len(pieces)), pieces)
+        place = np.arange(len(line)) - np.repeat(np.cumsum(pieces) - pieces, pieces)
+        start, end = self.lines[line].transpose(1, 0, 2)
+        uv = [
+            start + ((place + t) / pieces[line])[:, None] * (end - start) for t in (0.0, 1.0, 0.5)
+        ]
+        points = [self.surface.evaluate(each, 0)[0] for each in uv]
+        return points, uv[2], rim_sizes(self.surface, uv[2], end - start, chord)
