@@ -29,7 +29,7 @@ from surfmesh.meshing.estimate.trial_faces import ratios
 from surfmesh.meshing.estimate.trial_mesh import ROUNDS as TRIAL_ROUNDS
 from surfmesh.meshing.estimate.trial_mesh import WHOLE, WHOLE_STRETCHED, tried
 from surfmesh.meshing.explain.explanation import Explanation, explain_model
-from surfmesh.meshing.faces.face_data import FaceJob, FaceMesh, Piece
+from surfmesh.meshing.faces.face_data import CoedgeNodes, FaceJob, FaceMesh
 from surfmesh.meshing.faces.face_mesh import edge_wishes, mesh_face
 from surfmesh.meshing.faces.face_sizings import face_sizings
 from surfmesh.meshing.faces.opposite_faces import copied, opposite_pairs
@@ -315,12 +315,12 @@ def _job(
                 ends = coedge.walk(np.array([0.0, 1.0]))
                 numbers = np.full(2, vertex, np.int64)
                 none = np.full(2, np.inf)
-                pieces.append(Piece(ends, numbers, points, none, True, edge.tolerance))
+                pieces.append(CoedgeNodes(ends, numbers, points, none, True, edge.tolerance))
                 continue
             order = slice(None, None, -1) if coedge.reversed else slice(None)
             uv = coedge.uv(cut.share)[order]
             numbers, points, sizes = cut.numbers[order], cut.points[order], cut.sizes[order]
-            pieces.append(Piece(uv, numbers, points, sizes, False, edge.tolerance))
+            pieces.append(CoedgeNodes(uv, numbers, points, sizes, False, edge.tolerance))
         loops.append(tuple(pieces))
     return FaceJob(face.surface, tuple(loops), sizing, limits, optimise, narrow=narrow)
 

@@ -33,8 +33,8 @@ from surfmesh.quality.measures.loose_edges import LooseEdges, loose_edges
 from surfmesh.quality.measures.lost import explained, is_known, lost
 from surfmesh.quality.measures.narrow import DEGENERATE, narrow_triangles
 from surfmesh.quality.measures.promises import (
-    Promises,
-    StatedLimit,
+    Tolerances,
+    UnattainableTolerance,
     angle_kept,
     beyond_angle,
     beyond_chord,
@@ -165,7 +165,7 @@ class Report:
     angle_triangles: tuple[int, int] | None  # where it is: not where the surface itself bends
     angle_point: tuple[float, float, float] | None  # middle of the edge
     above_angle_share: float | None  # of the edges within faces, above the angle of their face
-    limits: tuple[StatedLimit, ...]  # where a min_size of the user's forbids one of both
+    limits: tuple[UnattainableTolerance, ...]  # where a min_size of the user's forbids one of both
 
     area: float
     area_exact: float | None
@@ -258,7 +258,7 @@ def _checked(mesh: SurfaceMesh) -> Report:
     steep = None if slope is None else size_growth(mesh, lengths, slope)
     wanted = None if mesh.inverse_sizes is None else metric_alpha(mesh)
     fit = deviation(mesh, shape.area) if finite else None
-    promises = Promises.of(mesh)
+    promises = Tolerances.of(mesh)
     back = surface_deviation(mesh, fit, promises)
     chord = getattr(mesh.sizing, "chord", None) or promises.base_chord
     facts = mesh.facts or ModelFacts()

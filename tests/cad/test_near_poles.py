@@ -12,7 +12,7 @@ from OCP.TopoDS import TopoDS_Face, TopoDS_Wire
 
 import surfmesh as sm
 from surfmesh.geometry.cad_surfaces.elementary import Cone
-from surfmesh.meshing.faces.face_data import FaceJob, Piece
+from surfmesh.meshing.faces.face_data import CoedgeNodes, FaceJob
 from surfmesh.meshing.faces.face_mesh import mesh_face
 from surfmesh.sizing.options.sizing import Sizing
 
@@ -57,7 +57,7 @@ def test_a_degenerate_edge_that_is_long_is_refused_with_its_place():
         uv = np.array(uv, float)
         points = band.evaluate(uv, 0)[0]
         points = np.tile(points[:1], (len(uv), 1)) if degenerate else points
-        return Piece(uv, np.array(numbers), points, np.ones(len(uv)), degenerate)
+        return CoedgeNodes(uv, np.array(numbers), points, np.ones(len(uv)), degenerate)
 
     loop = (
         piece([(-3.0, 0.0), (9.0, 0.0)], [0, 0], True),

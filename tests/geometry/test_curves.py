@@ -98,9 +98,11 @@ def test_an_offset_lies_to_the_right_of_a_plane_curve():
         larger = Circle((0, 0), (1, 0), (0, 1), 2.0 + distance)
         offset = OffsetCurve(counterclockwise, distance)
         assert np.array(offset.evaluate(t, 3)) == pytest.approx(np.array(larger.evaluate(t, 3)))
-    in_space = OffsetCurve(Circle((0, 0, 1), (1, 0, 0), (0, 1, 0), 2.0), 0.5, (0, 0, 1))
+    offset_in_space = OffsetCurve(Circle((0, 0, 1), (1, 0, 0), (0, 1, 0), 2.0), 0.5, (0, 0, 1))
     larger = Circle((0, 0, 1), (1, 0, 0), (0, 1, 0), 2.5)
-    assert np.array(in_space.evaluate(t, 3)) == pytest.approx(np.array(larger.evaluate(t, 3)))
+    assert np.array(offset_in_space.evaluate(t, 3)) == pytest.approx(
+        np.array(larger.evaluate(t, 3))
+    )
 
 
 def test_an_offset_at_a_cusp_is_that_close_by():

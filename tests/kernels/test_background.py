@@ -8,9 +8,9 @@ from naive.background import capped_inverse, looked_up, random_tree, uniform_bac
 from naive.metric import matrix
 
 from surfmesh.kernels.fields.background import (
-    inverse_size_at,
-    inverse_sizes_at,
     invert,
+    metric_root_at,
+    metric_roots_at,
     scalar_sizes_at,
     sizes_at,
 )
@@ -35,7 +35,7 @@ def test_walk_down_the_tree(seed, cells, splits):
     tree = random_tree(seed, *cells, splits)
     xy = places(seed, 20)
     found, scalar = np.empty((len(xy), 3)), np.empty(len(xy))
-    inverse_sizes_at(tree, xy, found)
+    metric_roots_at(tree, xy, found)
     scalar_sizes_at(tree, xy, scalar)
     expected = np.array([looked_up(tree, x, y) for x, y in xy])
     np.testing.assert_allclose(found, expected[:, :3], rtol=1e-9, atol=1e-12)
@@ -75,11 +75,11 @@ def test_bilinear_functions_are_met_exactly():
     field = uniform_background(a, 3.0, 2.0)
     for px, py in np.random.default_rng(1).uniform(0, 2, (20, 2)):
         expected = (2 + px + py + px * py, 0.1 * px, 5 + py - 0.5 * px)
-        assert inverse_size_at(field, px, py) == pytest.approx(expected)
+        assert metric_root_at(field, px, py) == pytest.approx(expected)
 
 
 def test_outside_the_box_the_nearest_point_counts():
     x, y = np.meshgrid(np.linspace(0, 1, 3), np.linspace(0, 1, 3))
     field = uniform_background(np.stack([1 + x, 0 * x, 1 + y], axis=-1), 1.0, 1.0)
-    assert inverse_size_at(field, -7.0, 0.25) == pytest.approx((1.0, 0.0, 1.25))
-    assert inverse_size_at(field, 1e300, -1e300) == pytest.approx((2.0, 0.0, 1.0))
+    assert metric_root_at(field, -7.0, 0.25) == pytest.approx((1.0, 0.0, 1.25))
+    assert metric_root_at(field, 1e300, -1e300) == pytest.approx((2.0, 0.0, 1.0))

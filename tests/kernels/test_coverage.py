@@ -4,11 +4,11 @@ import numpy as np
 import pytest
 from naive.background import constant_background, looked_up, random_tree
 
-from surfmesh.kernels.fields.coverage import STACK, inverse_area
+from surfmesh.kernels.fields.coverage import STACK, metric_area_of_box
 
 
 def area(background, x1, y1):
-    return inverse_area(background, x1, y1, np.empty((STACK, 5)))
+    return metric_area_of_box(background, x1, y1, np.empty((STACK, 5)))
 
 
 def test_constant():

@@ -16,7 +16,7 @@ from naive.triangulation import (
 
 from surfmesh.kernels import NIL
 from surfmesh.kernels.optimisation.optimisation import split_edge
-from surfmesh.kernels.triangulation.local_operations import convex, remove_vertex, swap, turn
+from surfmesh.kernels.triangulation.local_operations import convex, remove_vertex, rotate_ccw, swap
 from surfmesh.kernels.triangulation.triangulation import next_half_edge
 
 
@@ -150,7 +150,7 @@ def test_turn_goes_round_counter_clockwise():
     while True:
         x, y = t.xy[t.tri[next_half_edge(e)]] - t.xy[v]
         angles.append(np.arctan2(y, x))
-        e = turn(t, e)
+        e = rotate_ccw(t, e)
         if e == first:
             break
     steps = np.diff([*angles, angles[0]]) % (2 * np.pi)

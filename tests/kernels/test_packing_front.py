@@ -169,7 +169,7 @@ def test_units_of_length_do_not_matter(scale):
     field = random_background(5, 3, 10.0, 3.0, 0.1)
     field = field._replace(
         box=field.box * [power, power, 1 / power, 1 / power, power],
-        inverse_size=field.inverse_size / power,
+        metric_root=field.metric_root / power,
     )
     scaled = packed(field, (0, 0, power, power), (0.5 * power, 0.5 * power), 300)
     n, m = plain.t.count

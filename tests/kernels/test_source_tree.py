@@ -33,14 +33,14 @@ def check(background, place, size, largest, slope, metric=ISOTROPIC):
     """Nodes lie where the leaves meet and are exact; leaves beside each other are alike."""
     found = leaves(background)
     node = background.corner[found[:, 4].astype(int)]
-    at = np.full((len(background.inverse_size), 2), np.nan)
+    at = np.full((len(background.metric_root), 2), np.nan)
     at[node.ravel()] = corners(found).reshape(-1, 2)
     assert np.isfinite(at).all()  # every node is a corner
     scale = np.abs(at).max()
     np.testing.assert_allclose(at[node], corners(found), atol=1e-9 * scale)  # and of one place
     assert len(np.unique(np.round(at / scale, 12), axis=0)) == len(at)
     exact = graded_sizes(at, place, size, largest, slope, metric)
-    np.testing.assert_allclose(1.0 / background.inverse_size[:, 3], exact, rtol=1e-7)
+    np.testing.assert_allclose(1.0 / background.metric_root[:, 3], exact, rtol=1e-7)
     balanced(found)
 
 
@@ -176,7 +176,7 @@ def test_scale_does_not_matter(factor):
         factor * place, factor * size, 0.2 * factor, SLOPE, (0.0, 0.0, factor, factor)
     )
     assert (one.child == other.child).all()
-    np.testing.assert_allclose(factor * other.inverse_size, one.inverse_size, rtol=1e-9)
+    np.testing.assert_allclose(factor * other.metric_root, one.metric_root, rtol=1e-9)
 
 
 @pytest.mark.parametrize(

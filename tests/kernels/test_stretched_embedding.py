@@ -3,15 +3,15 @@
 import numpy as np
 import pytest
 from naive.background import uniform_background
-from naive.metric import alpha, in_space
+from naive.metric import alpha, metric_root_3d
 
-from surfmesh.kernels.fields.background import in_space_at_all
+from surfmesh.kernels.fields.background import metric_roots_3d_at
 from surfmesh.kernels.optimisation.surface_frames import (
     chord,
     edge_length,
-    embed,
-    empty_embedding,
+    empty_frames,
     lift,
+    set_frames,
     shorten,
     triangle_shape,
 )
@@ -30,14 +30,14 @@ def embedded(seed=0, ratio=30.0):
     six = w[[0, 0, 0, 1, 1, 2], [0, 1, 2, 1, 2, 2]]
     xy = rng.uniform(0, 1, (4, 2))
     background = uniform_background(np.tile([1.0, 0.0, 1.0, 5.0], (2, 2, 1)), 1.0, 1.0)
-    background = background._replace(in_space=np.tile(six, (4, 1)))
+    background = background._replace(metric_root_3d=np.tile(six, (4, 1)))
     mesh = empty_triangulation(8)
     mesh.xy[:4] = xy
     mesh.count[0] = 4
-    s = empty_embedding(8, True)
+    s = empty_frames(8, True)
     points = xy @ jacobian.T
     rx, ry = (np.tile(column, (4, 1)) for column in jacobian.T)
-    embed(mesh, s, background, np.arange(4, dtype=np.int32), points, rx, ry, 1e6)
+    set_frames(mesh, s, background, np.arange(4, dtype=np.int32), points, rx, ry, 1e6)
     return mesh, s, jacobian, w, points, background
 
 
@@ -72,6 +72,6 @@ def test_lengths_and_shapes(seed):
 def test_the_background_interpolates_w():
     *_, w, _, background = embedded()
     found = np.empty((3, 6))
-    in_space_at_all(background, np.random.default_rng(0).uniform(0, 1, (3, 2)), found)
+    metric_roots_3d_at(background, np.random.default_rng(0).uniform(0, 1, (3, 2)), found)
     for row in found:
-        np.testing.assert_allclose(in_space(row), w, rtol=1e-12)
+        np.testing.assert_allclose(metric_root_3d(row), w, rtol=1e-12)

@@ -8,18 +8,18 @@ import pytest
 
 import surfmesh as sm
 from surfmesh.kernels.optimisation.optimisation import find_folded
-from surfmesh.kernels.optimisation.surface_frames import empty_embedding, triangle_shape
+from surfmesh.kernels.optimisation.surface_frames import empty_frames, triangle_shape
 
 
 def shape_at(tilt: float, stretched: bool = True) -> float:
     """alpha of an equilateral triangle turned by ``tilt`` degrees against the normal z."""
-    s = empty_embedding(3, stretched)
+    s = empty_frames(3, stretched)
     angles = 2.0 * np.pi / 3.0 * np.arange(3)
     x, y = np.cos(angles), np.sin(angles)
     c, w = math.cos(math.radians(tilt)), math.sin(math.radians(tilt))
     s.point[:] = np.stack([x, c * y, w * y], axis=1)
     s.normal[:] = (0.0, 0.0, 1.0)
-    s.in_space[:] = [1.0, 0.0, 0.0, 1.0, 0.0, 1.0]
+    s.metric_root_3d[:] = [1.0, 0.0, 0.0, 1.0, 0.0, 1.0]
     return triangle_shape(s, 0, 1, 2)
 
 
@@ -43,7 +43,7 @@ def test_a_narrow_strip_round_a_cylinder_needs_its_two_edges_only():
 
 def test_at_a_pole_the_other_corners_decide():
     """A corner without a normal: turned by 80 degrees the triangle is looked at, and let pass."""
-    s = empty_embedding(3)
+    s = empty_frames(3)
     tilt = math.radians(80.0)
     s.point[:] = [(0.0, 0.0, 0.0), (1.0, 0.0, 0.0), (0.0, math.cos(tilt), math.sin(tilt))]
     s.normal[:] = [(0.0, 0.0, 0.0), (0.0, 0.0, 1.0), (0.0, 0.0, 1.0)]

@@ -5,7 +5,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from surfmesh.kernels.optimisation.dihedral import turning_angles
+from surfmesh.kernels.optimisation.dihedral import dihedral_angles
 from surfmesh.quality.measures.dihedral import turning, worst_turn
 from surfmesh.result.connectivity import connect
 from surfmesh.result.surface_mesh import SurfaceMesh
@@ -22,7 +22,7 @@ from surfmesh.sizing.rules.curvature_size import (
 def angles_of(points, triangles):
     table = connect(np.asarray(triangles, np.int32))
     angles = np.empty(len(table.edges))
-    turning_angles(points, np.asarray(triangles, np.int32), table.half_edges, angles)
+    dihedral_angles(points, np.asarray(triangles, np.int32), table.half_edges, angles)
     return np.where(table.uses == 2, angles, 0.0)
 
 

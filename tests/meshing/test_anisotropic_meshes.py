@@ -5,7 +5,7 @@ from functools import cache
 import cadquery as cq
 import numpy as np
 import pytest
-from naive.metric import in_space
+from naive.metric import metric_root_3d
 
 import surfmesh as sm
 from surfmesh.quality.measures.shape import metric_alpha
@@ -130,7 +130,7 @@ def test_fewer_triangles_within_the_same_chord(name, ratio, times):
 def test_the_metric_of_the_result():
     """Lengths along and round the tube are as wanted, though they differ a hundredfold."""
     mesh, report = meshed("tube", 100.0)
-    sizes = 1 / np.linalg.eigvalsh([in_space(w) for w in mesh.inverse_sizes])
+    sizes = 1 / np.linalg.eigvalsh([metric_root_3d(w) for w in mesh.inverse_sizes])
     np.testing.assert_allclose(sizes[:, 0], 100 * sizes[:, 1], rtol=1e-6)
     np.testing.assert_allclose(1 / mesh.inverse_sizes[:, 5], sizes[:, 0], rtol=1e-6)
     np.testing.assert_allclose(sizes[:, 1].min(), mesh.sizes.min(), rtol=1e-6)

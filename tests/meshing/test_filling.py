@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from surfmesh.geometry.cad_surfaces.elementary import Plane
-from surfmesh.meshing.faces.face_data import FaceJob, FaceMesh, Piece
+from surfmesh.meshing.faces.face_data import CoedgeNodes, FaceJob, FaceMesh
 from surfmesh.meshing.faces.face_mesh import _never_empty, mesh_face
 from surfmesh.meshing.faces.polygon_filling import filled
 from surfmesh.sizing.options.sizing import Sizing
@@ -44,7 +44,7 @@ SQUARE = np.array([[0.0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0], [0, 0, 0]])
 def square_with(images, last):
     """A good square in space, whose images (5, 2) are none; its mesh, with points in space."""
     pieces = tuple(
-        Piece(images[k : k + 2], np.array([k, (k + 1) % 4]), SQUARE[k : k + 2], np.ones(2))
+        CoedgeNodes(images[k : k + 2], np.array([k, (k + 1) % 4]), SQUARE[k : k + 2], np.ones(2))
         for k in range(4)
     )
     plane = Plane(np.zeros(3), *np.eye(3), domain=((0.0, 1.0), (0.0, 1.0)))
@@ -74,8 +74,8 @@ def test_images_without_area_are_closed_in_space_the_last_time():
 def test_a_face_without_triangles_says_why(back, said):
     """There and back on the same segments leaves no hole, another way back does."""
     place = np.zeros((len(back), 3))
-    there = Piece(np.zeros((2, 2)), np.array([0, 1]), np.zeros((2, 3)), np.ones(2))
-    again = Piece(place[:, :2], np.array(back), place, np.ones(len(back)))
+    there = CoedgeNodes(np.zeros((2, 2)), np.array([0, 1]), np.zeros((2, 3)), np.ones(2))
+    again = CoedgeNodes(place[:, :2], np.array(back), place, np.ones(len(back)))
     job = FaceJob(SimpleNamespace(kind="plane"), ((there, again),), Sizing())
     mesh = _never_empty(job, FaceMesh())
     assert said in mesh.remark + mesh.failure

@@ -43,7 +43,7 @@ def test_limits_in_several_directions_are_those_in_each():
     points, sizes = rng.random((40, 3)), rng.uniform(0.1, 1.0, 40)
     lines = rng.normal(size=(40, 3))
     lines /= np.linalg.norm(lines, axis=1)[:, None]
-    limits = SizeLimits(points, sizes, 0.2, in_space=along_lines(lines, sizes))
+    limits = SizeLimits(points, sizes, 0.2, metric_root_3d=along_lines(lines, sizes))
     at = rng.random((7, 3))
     ways = rng.normal(size=(2, 7, 3))
     ways /= np.linalg.norm(ways, axis=2)[..., None]
@@ -61,7 +61,7 @@ def test_the_tightest_size_is_the_smallest_in_any_direction():
     lines = rng.normal(size=(40, 3))
     lines /= np.linalg.norm(lines, axis=1)[:, None]
     points, sizes = rng.random((40, 3)), rng.uniform(0.1, 1.0, 40)
-    limits = SizeLimits(points, sizes, 0.2, in_space=along_lines(lines, sizes))
+    limits = SizeLimits(points, sizes, 0.2, metric_root_3d=along_lines(lines, sizes))
     at, normals = rng.random((5, 3)), np.tile([0.0, 0.0, 1.0], (5, 1))
     tight, direction = limits.tightest(at, normals)
     np.testing.assert_allclose(np.linalg.norm(direction, axis=1), 1.0)

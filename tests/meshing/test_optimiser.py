@@ -14,7 +14,7 @@ from surfmesh.kernels.optimisation.optimisation import _newton_step, swap_for_de
 from surfmesh.kernels.optimisation.surface_frames import (
     chord,
     edge_length,
-    empty_embedding,
+    empty_frames,
     triangle_deviation,
     triangle_shape,
 )
@@ -179,7 +179,7 @@ def flat_star(ring, sizes, centre=(0.0, 0.0), size=1.0):
     t = t._replace(fixed=np.zeros(len(t.tri), np.uint8))
     t.count[:] = n + 1, n
     t.xy[0], t.xy[1 : n + 1] = centre, ring
-    s = empty_embedding(n + 8)
+    s = empty_frames(n + 8)
     for k in range(n):
         t.tri[3 * k : 3 * k + 3] = 0, k + 1, (k + 1) % n + 1
         t.adj[3 * k : 3 * k + 3] = 3 * ((k - 1) % n) + 2, NIL, 3 * ((k + 1) % n)
@@ -187,7 +187,7 @@ def flat_star(ring, sizes, centre=(0.0, 0.0), size=1.0):
     s.point[: n + 1] = np.column_stack([t.xy[: n + 1], np.zeros(n + 1)])
     s.normal[: n + 1] = 0.0, 0.0, 1.0
     for v in range(n + 1):
-        s.chart[v] = np.eye(2, 3) / s.size[v]
+        s.tangent_map[v] = np.eye(2, 3) / s.size[v]
         t.size[v] = s.size[v], 0.0, s.size[v]
     return t, s
 

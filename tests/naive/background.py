@@ -93,7 +93,7 @@ def looked_up(background: Background, x: float, y: float) -> np.ndarray:
         first = background.child[cell]
         if first < 0:
             s, t = (x - left) / width, (y - bottom) / height
-            v = background.inverse_size[background.corner[cell]]
+            v = background.metric_root[background.corner[cell]]
             return (1 - t) * ((1 - s) * v[0] + s * v[1]) + t * ((1 - s) * v[2] + s * v[3])
         right, top = x >= left + width / 2, y >= bottom + height / 2
         return descend(

@@ -32,7 +32,7 @@ def star_energy(centre, ring, size, ring_sizes, stiffness) -> float:
     return energy
 
 
-def in_space(w) -> np.ndarray:
+def metric_root_3d(w) -> np.ndarray:
     """W (xx, xy, xz, yy, yz, zz) -> 3 x 3."""
     xx, xy, xz, yy, yz, zz = w
     return np.array([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]])

@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from naive.metric import in_space
+from naive.metric import metric_root_3d
 
 from surfmesh.api import load
 from surfmesh.geometry.cad_surfaces.elementary import Cylinder
@@ -78,7 +78,7 @@ def test_smooth_at_the_umbilics_of_an_ellipsoid():
     for radius in (1e-2, 1e-3, 1e-4):
         xy = law.scaling.to_plane(np.vstack([place, place + radius * around]))
         nodes = law(xy)
-        w = np.array([in_space(row) for row in nodes.inverse_sizes_in_space()]) * nodes.size[0]
+        w = np.array([metric_root_3d(row) for row in nodes.metric_roots_3d()]) * nodes.size[0]
         change.append(np.abs(w - w[0]).max())
     assert change[0] < 0.1
     np.testing.assert_allclose(change[1:], [change[0] / 10, change[0] / 100], rtol=0.3)
@@ -108,7 +108,7 @@ def test_the_field_is_what_the_curvature_asks_for(name, ratio):
     d = step[:, :1] * rates[:, :1] * ru + step[:, 1:] * rates[:, 1:] * rv
     length = np.linalg.norm(d, axis=1)
     exact = length / size_along(surface, uv, d / length[:, None], bounds)
-    w = np.array([in_space(row) for row in inverse_sizes(field, xy, np.ones(len(xy)))])
+    w = np.array([metric_root_3d(row) for row in inverse_sizes(field, xy, np.ones(len(xy)))])
     spatial = np.linalg.norm(np.einsum("nij,nj->ni", w, d), axis=1)
     for found in (lengths_in(field, xy, step), spatial):
         assert np.quantile(np.abs(found / exact - 1), 0.98) < 0.03
@@ -120,7 +120,7 @@ def test_the_ratio_is_bounded(ratio):
     field = size_field(surface, Sizing(chord=1e-3, anisotropy=ratio), find_sides(surface))
     rng = np.random.default_rng(1)
     xy = rng.uniform(0, 1, (3000, 2)) * field.scaling.extent
-    w = np.array([in_space(row) for row in inverse_sizes(field, xy, np.ones(len(xy)))])
+    w = np.array([metric_root_3d(row) for row in inverse_sizes(field, xy, np.ones(len(xy)))])
     values = np.linalg.eigvalsh(w)
     stretch = values[:, -1] / values[:, 0]
     assert stretch.max() <= ratio * (1 + 1e-9)
@@ -144,13 +144,15 @@ def test_a_size_law_holds_in_every_direction():
     sizing = Sizing(chord=1e-3, size=lambda p: np.full(len(p), 0.2), anisotropy=100.0)
     field = size_field(surface, sizing, find_sides(surface))
     xy = np.random.default_rng(1).uniform(0, 1, (500, 2)) * field.scaling.extent
-    w = np.array([in_space(row) for row in inverse_sizes(field, xy, np.ones(len(xy)))])
+    w = np.array([metric_root_3d(row) for row in inverse_sizes(field, xy, np.ones(len(xy)))])
     assert (1 / np.linalg.eigvalsh(w)).max() <= 0.2 * (1 + 1e-9)
 
 
 def test_limits_along_a_line_leave_sizes_across_it():
     e, points = np.array([[1.0, 0.0, 0.0]]), np.zeros((1, 3))
-    limits = SizeLimits(points, np.array([0.1]), 0.2, in_space=along_lines(e, np.array([0.1])))
+    limits = SizeLimits(
+        points, np.array([0.1]), 0.2, metric_root_3d=along_lines(e, np.array([0.1]))
+    )
     directions = np.array([[1.0, 0, 0], [0.6, 0.8, 0], [0, 1.0, 0]])
     found = limits.along(np.zeros((3, 3)), directions[None])[0]
     np.testing.assert_allclose(found[:2], [0.1, 0.1 / 0.6])

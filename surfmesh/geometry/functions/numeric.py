@@ -127,7 +127,7 @@ class NumericSurface:
     """Where the speed has no bound, and parameters in which it has: differences are taken there."""
     differences: Differences
     closed: tuple[bool, bool]
-    """Does the surface begin again where u, or v, ends? Beyond the one end lies the other."""
+    """Does the surface begin again where u, or v, ends? Violation the one end lies the other."""
     difference_error: float
     """Of second derivatives by differences of r, as a share of the largest or of the surface's
     extent, whichever is more: see ``chosen_differences``."""

@@ -28,9 +28,9 @@ class Background(NamedTuple):
     grid: np.ndarray  # (2,) int64: nx, ny
     child: np.ndarray  # (cells,) int32: first of four children, or -1 for a leaf
     corner: np.ndarray  # (cells, 4) int32 nodes
-    inverse_size: np.ndarray  # (nodes, 4) float64: A = H^-1, and 1 / h
+    metric_root: np.ndarray  # (nodes, 4) float64: A = H^-1, and 1 / h
     # (nodes, 6) float64: W, the inverse sizes in space; empty where they are isotropic, Id / h
-    in_space: np.ndarray = _ISOTROPIC
+    metric_root_3d: np.ndarray = _ISOTROPIC
 
 
 @kernel
@@ -66,10 +66,10 @@ def _leaf(background, x, y):
 
 
 @kernel
-def inverse_size_at(background, x, y):
+def metric_root_at(background, x, y):
     """A = H^-1 at (x, y), bilinear in the leaf; outside the box that of the nearest point."""
     n0, n1, n2, n3, w0, w1, w2, w3 = _leaf(background, x, y)
-    a = background.inverse_size
+    a = background.metric_root
     return (
         w0 * a[n0, 0] + w1 * a[n1, 0] + w2 * a[n2, 0] + w3 * a[n3, 0],
         w0 * a[n0, 1] + w1 * a[n1, 1] + w2 * a[n2, 1] + w3 * a[n3, 1],
@@ -106,7 +106,7 @@ def invert(a11, a12, a22, largest):
 @kernel
 def size_at(background, x, y):
     """The size tensor H at (x, y)."""
-    a11, a12, a22 = inverse_size_at(background, x, y)
+    a11, a12, a22 = metric_root_at(background, x, y)
     return invert(a11, a12, a22, background.box[4])
 
 
@@ -118,17 +118,17 @@ def sizes_at(background, xy, out):
 
 
 @kernel
-def inverse_sizes_at(background, xy, out):
+def metric_roots_at(background, xy, out):
     """A = H^-1 at many points: xy (n, 2) -> out (n, 3)."""
     for k in range(len(xy)):
-        out[k, 0], out[k, 1], out[k, 2] = inverse_size_at(background, xy[k, 0], xy[k, 1])
+        out[k, 0], out[k, 1], out[k, 2] = metric_root_at(background, xy[k, 0], xy[k, 1])
 
 
 @kernel
-def in_space_at(background, x, y):
+def metric_root_3d_at(background, x, y):
     """W at (x, y): xx, xy, xz, yy, yz, zz; bilinear in the leaf."""
     n0, n1, n2, n3, w0, w1, w2, w3 = _leaf(background, x, y)
-    a = background.in_space
+    a = background.metric_root_3d
     return (
         w0 * a[n0, 0] + w1 * a[n1, 0] + w2 * a[n2, 0] + w3 * a[n3, 0],
         w0 * a[n0, 1] + w1 * a[n1, 1] + w2 * a[n2, 1] + w3 * a[n3, 1],
@@ -140,10 +140,10 @@ def in_space_at(background, x, y):
 
 
 @kernel
-def in_space_at_all(background, xy, out):
+def metric_roots_3d_at(background, xy, out):
     """W at many points: xy (n, 2) -> out (n, 6)."""
     for k in range(len(xy)):
-        w = in_space_at(background, xy[k, 0], xy[k, 1])
+        w = metric_root_3d_at(background, xy[k, 0], xy[k, 1])
         for i in range(6):
             out[k, i] = w[i]
 
@@ -152,7 +152,7 @@ def in_space_at_all(background, xy, out):
 def scalar_size_at(background, x, y):
     """The wanted edge length h in 3D at (x, y), the shorter of two, from the interpolated 1 / h."""
     n0, n1, n2, n3, w0, w1, w2, w3 = _leaf(background, x, y)
-    a = background.inverse_size
+    a = background.metric_root
     return 1.0 / (w0 * a[n0, 3] + w1 * a[n1, 3] + w2 * a[n2, 3] + w3 * a[n3, 3])
 
 

@@ -11,7 +11,7 @@ _GAUSS = 0.5 - 0.5 / math.sqrt(3.0)
 
 
 @kernel
-def inverse_area(background, x1, y1, stack):
+def metric_area_of_box(background, x1, y1, stack):
     """Integral of det A = 1 / det H over [x0, x1] x [y0, y1], (x0, y0) the background's corner.
 
     A is bilinear in a leaf, its determinant of degree two in x and in y: two by two points of
@@ -50,7 +50,7 @@ def inverse_area(background, x1, y1, stack):
 @kernel
 def _mean(background, cell, across, up):
     """Mean of det A over the lower left part of a leaf, ``across`` by ``up`` of it."""
-    a, corner = background.inverse_size, background.corner
+    a, corner = background.metric_root, background.corner
     total = 0.0
     for k in range(4):
         s = across * (_GAUSS if k % 2 == 0 else 1.0 - _GAUSS)

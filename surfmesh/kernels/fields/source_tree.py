@@ -63,7 +63,7 @@ class SourceTree(NamedTuple):
     child: np.ndarray  # (cells,) int32: first of four children, or -1
     place: np.ndarray  # (cells, 3) int32 lower left corner, depth
     corner: np.ndarray  # (cells, 4) int32 nodes
-    inverse_size: np.ndarray  # (nodes, 4) float64: I^(1/2) / h, 1 / h
+    metric_root: np.ndarray  # (nodes, 4) float64: I^(1/2) / h, 1 / h
     key: np.ndarray  # (a power of two,) int64 nodes by place
     node: np.ndarray  # as key, int32
     stack: np.ndarray  # (SPLIT_STACK, 3) int64: cell, first and last of its sources in listed
@@ -327,7 +327,7 @@ def _clear_nodes(tree):
     """
     roots = tree.grid[0] * tree.grid[1]
     most = (tree.grid[0] + 1) * (tree.grid[1] + 1) + 5 * ((tree.count[0] - roots) // 4)
-    if most > len(tree.inverse_size) or 2 * most > len(tree.key):
+    if most > len(tree.metric_root) or 2 * most > len(tree.key):
         return False
     tree.count[1] = 0
     tree.key[:] = -1
@@ -381,7 +381,7 @@ def _store(tree, node, metric, size):
     """I^(1/2) / h and 1 / h; the root is (I + s Id) / t, s^2 = det I, t^2 = trace I + 2 s."""
     s = math.sqrt(max(metric[0] * metric[2] - metric[1] * metric[1], 0.0))
     t = math.sqrt(metric[0] + metric[2] + 2.0 * s)
-    tree.inverse_size[node, 0] = (metric[0] + s) / (t * size)
-    tree.inverse_size[node, 1] = metric[1] / (t * size)
-    tree.inverse_size[node, 2] = (metric[2] + s) / (t * size)
-    tree.inverse_size[node, 3] = 1.0 / size
+    tree.metric_root[node, 0] = (metric[0] + s) / (t * size)
+    tree.metric_root[node, 1] = metric[1] / (t * size)
+    tree.metric_root[node, 2] = (metric[2] + s) / (t * size)
+    tree.metric_root[node, 3] = 1.0 / size

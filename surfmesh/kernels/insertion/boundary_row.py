@@ -16,7 +16,7 @@ from surfmesh.kernels.triangulation.local_operations import (
     DEAD,
     orient_vertices,
     remove_vertex,
-    turn,
+    rotate_ccw,
 )
 from surfmesh.kernels.triangulation.triangulation import locate, next_half_edge, prev_half_edge
 
@@ -43,7 +43,7 @@ def _move_half_way(t, e, x, y):
         if a < 0 or b < 0 or orient_vertices(t.xy, v, a, b) <= 0.0:
             t.xy[v, 0], t.xy[v, 1] = old_x, old_y
             return
-        f = turn(t, f)
+        f = rotate_ccw(t, f)
         if f == e:
             return
 
@@ -81,7 +81,7 @@ def _clear_around(t, e, first, crowded):
         ):
             live = remove_vertex(t, t.adj[e])
         if live == NIL:
-            e = turn(t, e)
+            e = rotate_ccw(t, e)
             if e == start:
                 return e
         else:

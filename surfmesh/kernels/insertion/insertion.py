@@ -17,8 +17,8 @@ from surfmesh.kernels.triangulation.local_operations import (
     convex,
     orient_vertices,
     remove_vertex,
+    rotate_ccw,
     swap,
-    turn,
 )
 from surfmesh.kernels.triangulation.triangulation import (
     fill_cavity,
@@ -61,7 +61,7 @@ def _can_move(t, e, x, y):
         a, b = t.tri[next_half_edge(f)], t.tri[prev_half_edge(f)]
         if a < 0 or b < 0 or t.fixed[f] != 0 or side(t.xy, a, b, x, y) <= 0.0:
             return False
-        f = turn(t, f)
+        f = rotate_ccw(t, f)
         if f == e:
             return True
 
@@ -95,7 +95,7 @@ def insert_node(t, start, x, y, h11, h12, h22, first_node):
             f = e
             while True:
                 t.tri[f] = p
-                f = turn(t, f)
+                f = rotate_ccw(t, f)
                 if f == e:
                     return p, e
     rims = 0
@@ -132,7 +132,7 @@ def _first_cut(t, start, a, b):
                 return SEGMENT_ON_NODE, e
             if s < 0.0 and q >= 0 and q != b and orient_vertices(xy, a, b, q) > 0.0:
                 return CROSSING, next_half_edge(e)
-        e = turn(t, e)
+        e = rotate_ccw(t, e)
         if e == start:
             return NOT_RECOVERED, NIL
 
@@ -400,7 +400,7 @@ def clear_boundary(t, segment, vertex, edge, first_node, crowded):
             removed += 1
         f = e
         while True:  # neighbours of a, counter-clockwise up to the next segment
-            f = turn(t, f)
+            f = rotate_ccw(t, f)
             if t.fixed[f] != 0:
                 break
             v = t.tri[next_half_edge(f)]

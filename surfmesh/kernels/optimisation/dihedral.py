@@ -11,7 +11,7 @@ NO_AREA = 1e-24  # squared sine of the angle between two sides, or one at a pole
 
 
 @kernel
-def turning_angle(p, a, b, c, d):
+def dihedral_angle(p, a, b, c, d):
     """Radians between the normals of a-b-c and b-a-d, points (n, 3); 0 where one has no area."""
     ux, uy, uz = p[b, 0] - p[a, 0], p[b, 1] - p[a, 1], p[b, 2] - p[a, 2]
     vx, vy, vz = p[c, 0] - p[a, 0], p[c, 1] - p[a, 1], p[c, 2] - p[a, 2]
@@ -28,7 +28,7 @@ def turning_angle(p, a, b, c, d):
 
 
 @kernel
-def find_turned(t, point, limit, edges, angles):
+def find_dihedrals_over(t, point, limit, edges, angles):
     """Half-edges (k,) across which triangles turn by more than ``limit`` (radians), the angles.
 
     One half-edge of each edge between two triangles; borders, seams among them, have none.
@@ -40,7 +40,7 @@ def find_turned(t, point, limit, edges, angles):
         if f <= e or t.region[e // 3] == DEAD or t.region[f // 3] == DEAD:
             continue
         c, d = t.tri[prev_half_edge(e)], t.tri[prev_half_edge(f)]
-        angle = turning_angle(point, t.tri[e], t.tri[f], c, d)
+        angle = dihedral_angle(point, t.tri[e], t.tri[f], c, d)
         if angle > limit and found < len(edges):
             edges[found], angles[found] = e, angle
             found += 1
@@ -48,7 +48,7 @@ def find_turned(t, point, limit, edges, angles):
 
 
 @kernel
-def turning_angles(points, triangles, half_edges, angles):
+def dihedral_angles(points, triangles, half_edges, angles):
     """Angle (k,), radians, across the edges of a finished mesh.
 
     Parameters
@@ -67,11 +67,11 @@ def turning_angles(points, triangles, half_edges, angles):
             continue
         a, b = triangles[e // 3, e % 3], triangles[e // 3, (e + 1) % 3]
         c, d = triangles[e // 3, (e + 2) % 3], triangles[f // 3, (f + 2) % 3]
-        angles[k] = turning_angle(points, a, b, c, d)
+        angles[k] = dihedral_angle(points, a, b, c, d)
 
 
 @kernel
-def shorten_some(s, vertices, factors, smallest, active):
+def lower_sizes(s, vertices, factors, smallest, active):
     """Scale the wanted lengths at ``vertices`` (n,), down to ``smallest`` of what they were.
 
     They become active. Returns how many were scaled.

@@ -26,8 +26,8 @@ from surfmesh.kernels.triangulation.local_operations import (
     convex,
     orient_vertices,
     remove_vertex,
+    rotate_ccw,
     swap,
-    turn,
 )
 from surfmesh.kernels.triangulation.triangulation import next_half_edge, prev_half_edge
 
@@ -189,7 +189,7 @@ def _newton_step(t, s, v, start, stiffness):
         p, q = t.tri[next_half_edge(e)], t.tri[prev_half_edge(e)]
         qx, qy = chord(s, v, q)
         if _coincide(s, p, q):  # will collapse: neither shape nor a second edge
-            e = turn(t, e)
+            e = rotate_ccw(t, e)
             if e == start:
                 break
             continue
@@ -224,7 +224,7 @@ def _newton_step(t, s, v, start, stiffness):
         a12 += (k - across) * nx * ny
         a22 += k * ny * ny + across * nx * nx
         px, py = qx, qy
-        e = turn(t, e)
+        e = rotate_ccw(t, e)
         if e == start:
             break
     det = a11 * a22 - a12 * a12
@@ -250,7 +250,7 @@ def _worst_in_star(t, s, v, start):
             return -1.0
         if not _coincide(s, p, q):
             worst = min(worst, triangle_shape(s, v, p, q))
-        e = turn(t, e)
+        e = rotate_ccw(t, e)
         if e == start:
             return worst
 
@@ -294,7 +294,7 @@ def smooth(t, s, background, star, frozen, active, dirty, stiffness, moved):
             e = start
             while True:
                 active[t.tri[next_half_edge(e)]] = 1
-                e = turn(t, e)
+                e = rotate_ccw(t, e)
                 if e == start:
                     break
     return count
@@ -376,7 +376,7 @@ def triangles_at(t, vertices, seen):
 
 
 @kernel
-def wake_bad(t, s, least, active):
+def activate_bad(t, s, least, active):
     """Make the corners of triangles with alpha below ``least`` active; returns how many."""
     bad = 0
     for k in range(t.count[1]):
@@ -409,7 +409,7 @@ def collapse_short(t, s, star, frozen, degree, dirty, active, shortest, few):
         e = start
         while not short:
             short = edge_length(s, v, t.tri[next_half_edge(e)]) < shortest
-            e = turn(t, e)
+            e = rotate_ccw(t, e)
             if e == start:
                 break
         if not short:
@@ -417,7 +417,7 @@ def collapse_short(t, s, star, frozen, degree, dirty, active, shortest, few):
         e = start
         while True:  # their half-edges become stale: leave them for the next round
             active[t.tri[next_half_edge(e)]] = 2
-            e = turn(t, e)
+            e = rotate_ccw(t, e)
             if e == start:
                 break
         if remove_vertex(t, start) != NIL:
@@ -517,15 +517,15 @@ def _halve(t, s, e, active, dirty):
         return p
     for i in range(3):
         s.point[p, i] = 0.5 * (s.point[a, i] + s.point[b, i])
-        s.chart[p, 0, i] = s.chart[a, 0, i]
-        s.chart[p, 1, i] = s.chart[a, 1, i]
+        s.tangent_map[p, 0, i] = s.tangent_map[a, 0, i]
+        s.tangent_map[p, 1, i] = s.tangent_map[a, 1, i]
         s.normal[p, i] = s.normal[a, i]
         t.size[p, i] = t.size[a, i]
     s.scale[p] = 0.5 * (s.scale[a] + s.scale[b])
     s.size[p] = 0.5 * (s.size[a] + s.size[b])
     if is_anisotropic(s):
         for i in range(6):
-            s.in_space[p, i] = 0.5 * (s.in_space[a, i] + s.in_space[b, i])
+            s.metric_root_3d[p, i] = 0.5 * (s.metric_root_3d[a, i] + s.metric_root_3d[b, i])
     active[p] = active[a] = active[b] = 1
     dirty[p] = dirty[a] = dirty[b] = 1
     return p

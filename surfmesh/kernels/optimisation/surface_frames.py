@@ -21,41 +21,41 @@ from typing import NamedTuple
 
 import numpy as np
 
-from surfmesh.kernels.fields.background import in_space_at, scalar_size_at
+from surfmesh.kernels.fields.background import metric_root_3d_at, scalar_size_at
 from surfmesh.kernels.jit import kernel
 
 DEGENERATE = 1e-10  # |r_x x r_y| over |r_x|^2 + |r_y|^2 below which there is no normal
 
 
-class Embedding(NamedTuple):
+class SurfaceFrames(NamedTuple):
     point: np.ndarray  # (vertices, 3) float64: r
-    chart: np.ndarray  # (vertices, 2, 3) float64: B
+    tangent_map: np.ndarray  # (vertices, 2, 3) float64: B
     normal: np.ndarray  # (vertices, 3) float64: unit normal, zero at a degenerate point
     size: np.ndarray  # (vertices,) float64: wanted edge length h
     scale: np.ndarray  # (vertices,) float64: h over that of the size field, at most 1
-    in_space: np.ndarray  # (vertices, 6) float64: W; empty where sizes are isotropic
+    metric_root_3d: np.ndarray  # (vertices, 6) float64: W; empty where sizes are isotropic
 
 
-def empty_embedding(vertices: int, anisotropic: bool = False) -> Embedding:
-    return Embedding(
+def empty_frames(vertices: int, anisotropic: bool = False) -> SurfaceFrames:
+    return SurfaceFrames(
         point=np.empty((vertices, 3)),
-        chart=np.empty((vertices, 2, 3)),
+        tangent_map=np.empty((vertices, 2, 3)),
         normal=np.empty((vertices, 3)),
         size=np.empty(vertices),
         scale=np.ones(vertices),
-        in_space=np.empty((vertices if anisotropic else 0, 6)),
+        metric_root_3d=np.empty((vertices if anisotropic else 0, 6)),
     )
 
 
 @kernel
 def is_anisotropic(s):
     """Do the sizes depend on the direction?"""
-    return len(s.in_space) > 0
+    return len(s.metric_root_3d) > 0
 
 
 @kernel
-def embed(t, s, background, vertices, r, rx, ry, largest):
-    """Set the embedding of ``vertices`` (n,) from r, r_x, r_y (n, 3).
+def set_frames(t, s, background, vertices, r, rx, ry, largest):
+    """Set the frames of ``vertices`` (n,) from r, r_x, r_y (n, 3).
 
     Also sets their size tensors to the exact H = h I^(-1/2). Near a degenerate point the
     eigenvalues of I^(-1/2) are capped at ``largest``.
@@ -90,12 +90,12 @@ def embed(t, s, background, vertices, r, rx, ry, largest):
         t.size[v, 1] = h * m12
         t.size[v, 2] = h * m22
         for i in range(3):
-            s.chart[v, 0, i] = (m11 * rx[k, i] + m12 * ry[k, i]) / h
-            s.chart[v, 1, i] = (m12 * rx[k, i] + m22 * ry[k, i]) / h
+            s.tangent_map[v, 0, i] = (m11 * rx[k, i] + m12 * ry[k, i]) / h
+            s.tangent_map[v, 1, i] = (m12 * rx[k, i] + m22 * ry[k, i]) / h
         if is_anisotropic(s):
-            w = in_space_at(background, t.xy[v, 0], t.xy[v, 1])
+            w = metric_root_3d_at(background, t.xy[v, 0], t.xy[v, 1])
             for i in range(6):
-                s.in_space[v, i] = w[i] / s.scale[v]
+                s.metric_root_3d[v, i] = w[i] / s.scale[v]
             _stretch(t, s, v, scale * (e + root), scale * f, scale * (g + root))
 
 
@@ -103,7 +103,7 @@ def embed(t, s, background, vertices, r, rx, ry, largest):
 def _stretch(t, s, v, j11, j12, j22):
     """Make H and B of v anisotropic; they are isotropic, and (j11, j12, j22) is I^(1/2)."""
     h = s.size[v]
-    w, b = s.in_space[v], s.chart[v]
+    w, b = s.metric_root_3d[v], s.tangent_map[v]
     v11 = v12 = v22 = 0.0
     for i in range(3):  # V = Q^T W Q, with Q^T = h B
         p = _row(w, i, b[0, 0], b[0, 1], b[0, 2])
@@ -145,7 +145,7 @@ def _row(w, i, x, y, z):
 @kernel
 def lift(s, v, x, y):
     """The step in space, along the tangent plane of v, that looks like (x, y) there."""
-    b = s.chart[v]
+    b = s.tangent_map[v]
     if not is_anisotropic(s):
         square = s.size[v] * s.size[v]
         x, y = square * x, square * y
@@ -173,13 +173,13 @@ def shorten(s, v, factor):
     s.scale[v] *= factor
     if is_anisotropic(s):
         for i in range(6):
-            s.in_space[v, i] /= factor
+            s.metric_root_3d[v, i] /= factor
 
 
 @kernel
 def _stretched_length(s, v, dx, dy, dz):
     """|W d| in the metric of v."""
-    w = s.in_space[v]
+    w = s.metric_root_3d[v]
     x, y, z = _row(w, 0, dx, dy, dz), _row(w, 1, dx, dy, dz), _row(w, 2, dx, dy, dz)
     return math.sqrt(x * x + y * y + z * z)
 
@@ -190,7 +190,7 @@ def chord(s, v, p):
     dx = s.point[p, 0] - s.point[v, 0]
     dy = s.point[p, 1] - s.point[v, 1]
     dz = s.point[p, 2] - s.point[v, 2]
-    b = s.chart
+    b = s.tangent_map
     return (
         b[v, 0, 0] * dx + b[v, 0, 1] * dy + b[v, 0, 2] * dz,
         b[v, 1, 0] * dx + b[v, 1, 1] * dy + b[v, 1, 2] * dz,
@@ -277,7 +277,7 @@ def triangle_shape(s, a, b, c):
 @kernel
 def _stretched(s, a, b, c, x, y, z):
     """The step (x, y, z) in the sum of the metrics of a, b and c."""
-    m = s.in_space
+    m = s.metric_root_3d
     xx = m[a, 0] + m[b, 0] + m[c, 0]
     xy = m[a, 1] + m[b, 1] + m[c, 1]
     xz = m[a, 2] + m[b, 2] + m[c, 2]

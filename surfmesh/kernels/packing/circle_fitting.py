@@ -10,8 +10,8 @@ from surfmesh.kernels.packing.packing_state import STEPS
 
 CLOSENESS = 0.98  # beta1 beta2 above which a fit is accepted (2.3.2)
 FIT_STEPS = 8
-EASE_WITHIN = 1.4  # circles nearer than this are neighbours of the one to place
-EASY = 0.08  # a neighbour at 1 -+ this is touched well enough
+NEIGHBOURS_WITHIN = 1.4  # circles nearer than this are neighbours of the one to place
+TOUCHED_WITHIN = 0.08  # a neighbour at 1 -+ this is touched well enough
 
 
 @inlined_kernel
@@ -112,7 +112,7 @@ def fit_to_three(xy, size, count, background, a, b, c, x, y):
 
 
 @inlined_kernel
-def survey(t, a, b, rims, x, y, h11, h12, h22, reach):
+def relax_against_neighbours(t, a, b, rims, x, y, h11, h12, h22, reach):
     """Look at the circles on the rim around a circle at (x, y).
 
     Returns the nearest one below ``reach`` (not a or b), or NIL; and the step to the place
@@ -120,7 +120,7 @@ def survey(t, a, b, rims, x, y, h11, h12, h22, reach):
     circles of the front there is seldom room for exactly one more: one Gauss-Newton step on
     the sum of (l - 1)^2 over the neighbours shares the misfit.
     """
-    nearest, shortest, uneasy = NIL, reach, False
+    nearest, shortest, crowded = NIL, reach, False
     n11 = n12 = n22 = g1 = g2 = 0.0
     for k in range(rims):
         v = t.tri[t.rim[k]]
@@ -132,13 +132,13 @@ def survey(t, a, b, rims, x, y, h11, h12, h22, reach):
         dx, dy = x - t.xy[v, 0], y - t.xy[v, 1]
         ux, uy = (m22 * dx - m12 * dy) / det, (m11 * dy - m12 * dx) / det
         l = math.sqrt(ux * ux + uy * uy)
-        if l >= EASE_WITHIN:
+        if l >= NEIGHBOURS_WITHIN:
             continue
         if v != a and v != b:
             if l < shortest:
                 shortest, nearest = l, v
-            if abs(l - 1.0) > EASY:
-                uneasy = True
+            if abs(l - 1.0) > TOUCHED_WITHIN:
+                crowded = True
         i = 1.0 / (l * det)
         gx, gy = (m22 * ux - m12 * uy) * i, (m11 * uy - m12 * ux) * i
         n11 += gx * gx
@@ -147,6 +147,6 @@ def survey(t, a, b, rims, x, y, h11, h12, h22, reach):
         g1 += gx * (1.0 - l)
         g2 += gy * (1.0 - l)
     det = n11 * n22 - n12 * n12
-    if not uneasy or not det > 1e-12 * n11 * n22:
+    if not crowded or not det > 1e-12 * n11 * n22:
         return nearest, 0.0, 0.0
     return nearest, (n22 * g1 - n12 * g2) / det, (n11 * g2 - n12 * g1) / det

@@ -16,7 +16,11 @@ from surfmesh.kernels import NIL
 from surfmesh.kernels.fields.background import size_at
 from surfmesh.kernels.fields.tensors import edge_length
 from surfmesh.kernels.jit import inlined_kernel, kernel
-from surfmesh.kernels.packing.circle_fitting import fit_to_three, fit_to_two, survey
+from surfmesh.kernels.packing.circle_fitting import (
+    fit_to_three,
+    fit_to_two,
+    relax_against_neighbours,
+)
 from surfmesh.kernels.packing.disc_packing import advance_disc
 from surfmesh.kernels.packing.front import DONE, TODO, link
 from surfmesh.kernels.packing.front_moves import (
@@ -91,7 +95,7 @@ def _advance(p, background, a, b, forced):
     p.count[FITS] += 1
     rims, other = open_for(t, front, a, b, x, y, h11, h12, h22)
     if rims > 0:
-        other, dx, dy = survey(t, a, b, rims, x, y, h11, h12, h22, OVERLAP)
+        other, dx, dy = relax_against_neighbours(t, a, b, rims, x, y, h11, h12, h22, OVERLAP)
         if other == NIL:
             if (dx != 0.0 or dy != 0.0) and rim_visible(t, rims, x + dx, y + dy):
                 x, y = x + dx, y + dy
@@ -107,7 +111,9 @@ def _advance(p, background, a, b, forced):
             if orient(ax, ay, bx, by, x, y) < 0.0:
                 rims, other = open_for(t, front, a, b, x, y, h11, h12, h22)
                 if rims > 0:
-                    other, _, _ = survey(t, a, b, rims, x, y, h11, h12, h22, 0.9 * r)
+                    other, _, _ = relax_against_neighbours(
+                        t, a, b, rims, x, y, h11, h12, h22, 0.9 * r
+                    )
                     if other == NIL:
                         p.radius[place(p, a, b, rims, x, y, h11, h12, h22)] = 2.0 * r - 1.0
                         p.count[TANGENTS] += 1

@@ -7,10 +7,10 @@ from surfmesh.kernels.triangulation.segments import squared_distance, squared_di
 
 
 @kernel
-def edge_gaps(points, wish, first, ends, edges, first_of_face, segments, boxes, gap):
+def edge_gaps(points, target_size, first, ends, edges, first_of_face, segments, boxes, gap):
     """Distance of each sample from the edges that share a face with its own but no vertex.
 
-    points (n, 3): samples, of edge e those from first[e] to first[e + 1]; wish (n,): farther
+    points (n, 3): samples, of edge e those from first[e] to first[e + 1]; target_size (n,): farther
     than this is not looked at. ends (e, 2): vertices; edges, first_of_face: those of each face
     in one row. Fills segments (n, 6) and boxes (e, 6), rows (start, end) and (low, high), and
     lowers gap (n,).
@@ -29,11 +29,11 @@ def edge_gaps(points, wish, first, ends, edges, first_of_face, segments, boxes, 
             a = edges[i]
             largest = 0.0
             for p in range(first[a], first[a + 1]):
-                largest = max(largest, wish[p])
+                largest = max(largest, target_size[p])
             for j in range(start, end):
                 b = edges[j]
                 if a != b and not _meet(ends, a, b) and _apart2(boxes, a, b) < largest * largest:
-                    _lower(points, wish, first, segments, boxes, a, b, gap)
+                    _lower(points, target_size, first, segments, boxes, a, b, gap)
 
 
 @kernel
@@ -57,11 +57,11 @@ def _apart2(boxes, a, b):
 
 
 @kernel
-def _lower(points, wish, first, segments, boxes, a, b, gap):
+def _lower(points, target_size, first, segments, boxes, a, b, gap):
     """Lower the gaps of the samples of edge a to their distances from edge b."""
     for p in range(first[a], first[a + 1]):
         x, y, z = points[p, 0], points[p, 1], points[p, 2]
-        nearest = min(gap[p], wish[p]) ** 2
+        nearest = min(gap[p], target_size[p]) ** 2
         if squared_distance_to_box(boxes, b, x, y, z) >= nearest:
             continue
         for s in range(first[b], first[b + 1] - 1):

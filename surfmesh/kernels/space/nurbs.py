@@ -10,7 +10,7 @@ parameter runs from knots[p] to knots[n + 1], whether the ends are clamped or no
                            first     last
      span s: knots[s] <= t < knots[s+1], where N_{s-p} .. N_s are not zero
 
-Beyond the ends the polynomial of the end span goes on; where there is a period, t is brought
+Violation the ends the polynomial of the end span goes on; where there is a period, t is brought
 back by whole periods. The rational ones have control points (x, y, z, w), w the weight.
 
 Sums run over the distances from a control point in the middle of the span, which is added in

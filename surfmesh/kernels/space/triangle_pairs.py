@@ -115,13 +115,13 @@ def _flattest(p, i):
     best = 0 if nx >= ny and nx >= nz else 1 if ny >= nz else 2
     for k in range(3):
         axis = (best + k) % 3
-        if _turn(p, i, i + 1, i + 2, axis) != 0.0:
+        if _orient_2d(p, i, i + 1, i + 2, axis) != 0.0:
             return axis
     return -1
 
 
 @kernel
-def _turn(p, a, b, c, axis):
+def _orient_2d(p, a, b, c, axis):
     """Orientation of abc seen along an axis; exact sign."""
     i, j = (axis + 1) % 3, (axis + 2) % 3
     return orient(p[a, i], p[a, j], p[b, i], p[b, j], p[c, i], p[c, j])
@@ -130,8 +130,8 @@ def _turn(p, a, b, c, axis):
 @kernel
 def _segments_meet(p, a, b, c, d, axis):
     """Have ab and cd, ends included, a point in common? All in one plane, seen along an axis."""
-    abc, abd = _turn(p, a, b, c, axis), _turn(p, a, b, d, axis)
-    cda, cdb = _turn(p, c, d, a, axis), _turn(p, c, d, b, axis)
+    abc, abd = _orient_2d(p, a, b, c, axis), _orient_2d(p, a, b, d, axis)
+    cda, cdb = _orient_2d(p, c, d, a, axis), _orient_2d(p, c, d, b, axis)
     if abc == 0.0 and abd == 0.0 and cda == 0.0 and cdb == 0.0:  # on one line
         for k in range(3):
             low, high = min(p[c, k], p[d, k]), max(p[c, k], p[d, k])
@@ -148,8 +148,8 @@ def _segments_meet(p, a, b, c, d, axis):
 @kernel
 def _holds(p, i, a, axis):
     """Is a, in the plane of triangle i, within it or on its border? Seen along an axis."""
-    s, t = _turn(p, i, i + 1, a, axis), _turn(p, i + 1, i + 2, a, axis)
-    r = _turn(p, i + 2, i, a, axis)
+    s, t = _orient_2d(p, i, i + 1, a, axis), _orient_2d(p, i + 1, i + 2, a, axis)
+    r = _orient_2d(p, i + 2, i, a, axis)
     return (s >= 0.0 and t >= 0.0 and r >= 0.0) or (s <= 0.0 and t <= 0.0 and r <= 0.0)
 
 
@@ -221,8 +221,8 @@ def triangles_meet(p, i, j, expansion):
     if shared == 2:
         third_i, third_j = i + 3 - first_a - a, j + 3 - first_d - d
         start, end = i + first_a, i + a
-        here = _turn(p, start, end, third_i, axis_i)
-        there = _turn(p, start, end, third_j, axis_i)
+        here = _orient_2d(p, start, end, third_i, axis_i)
+        there = _orient_2d(p, start, end, third_j, axis_i)
         if (here > 0.0) != (there > 0.0) or there == 0.0:
             return False  # in one plane they would lie on opposite sides
         return orient_space(p, start, end, third_i, third_j, expansion) == 0.0

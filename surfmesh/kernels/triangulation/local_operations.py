@@ -10,7 +10,7 @@ DEAD = 255  # region of a triangle slot that is no longer used
 
 
 @kernel
-def turn(t, e):
+def rotate_ccw(t, e):
     """The next half-edge counter-clockwise around the start of e."""
     return t.adj[prev_half_edge(e)]
 
@@ -125,7 +125,7 @@ def remove_vertex(t, e):
             return NIL
         t.cavity[n] = f // 3
         n += 1
-        f = turn(t, f)
+        f = rotate_ccw(t, f)
         if f == e:
             break
     if n < 3:

@@ -9,7 +9,7 @@ NEAR_STEP = 0.1
 """Or nearer than this share of the segments there."""
 
 
-def one_place(uv: np.ndarray, numbers: np.ndarray, segments: np.ndarray) -> np.ndarray:
+def coincident_nodes(uv: np.ndarray, numbers: np.ndarray, segments: np.ndarray) -> np.ndarray:
     """For each node (k,) the first that has its number and its place.
 
     Edges inside a face are walked there and back, loops may touch in a vertex. Images of a

@@ -24,14 +24,14 @@ from surfmesh.sizing.rules.across_gaps import size_across
 from surfmesh.sizing.rules.curvature_size import (
     DEVIATION_RESERVE,
     STRAIGHT_RESERVE,
-    fold_size,
+    normal_deviation_size,
 )
 from surfmesh.sizing.rules.direction_size import size_along
 from surfmesh.sizing.rules.size_bounds import (
     FINEST_SIZE,
     SizeBounds,
     curvature_sizes,
-    unfolding_size,
+    default_angle_size,
 )
 from surfmesh.sizing.rules.turning_direction import is_even
 
@@ -342,8 +342,8 @@ def _own_wish(
             wish = np.maximum(own, 2.0 * sizing.chord)
             np.minimum(wish, _kink_wish(points, curvature, sizing.chord), out=wish)
     if sizing.angle is not None:
-        return np.minimum(wish, fold_size(curvature, curvature, sizing.angle))
-    return np.minimum(wish, unfolding_size(curvature, curvature, sizing.chord))
+        return np.minimum(wish, normal_deviation_size(curvature, curvature, sizing.angle))
+    return np.minimum(wish, default_angle_size(curvature, curvature, sizing.chord))
 
 
 def _kink_wish(points: np.ndarray, curvature: np.ndarray, chord: float) -> np.ndarray:

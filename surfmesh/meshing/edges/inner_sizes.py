@@ -47,8 +47,8 @@ def wishes_along(
     if not coarse.any():
         return None
     (places,) = surface.evaluate(uv[coarse].reshape(-1, 2), 0)
-    sizes, in_space = sizes[coarse].ravel(), None
+    sizes, metric_root_3d = sizes[coarse].ravel(), None
     if sizing.is_anisotropic:
         along = np.repeat(step[coarse] / length[coarse, None], len(shares), axis=0)
-        in_space = along_lines(along, sizes)
-    return SizeLimits(places, sizes, sizing.gradient, in_space=in_space)
+        metric_root_3d = along_lines(along, sizes)
+    return SizeLimits(places, sizes, sizing.gradient, metric_root_3d=metric_root_3d)

@@ -16,7 +16,7 @@ import numpy as np
 
 from surfmesh.geometry.differential.fundamental_forms import curvatures, forms_from_derivatives
 from surfmesh.geometry.surface import Surface
-from surfmesh.kernels.fields.background import in_space_at_all, scalar_sizes_at
+from surfmesh.kernels.fields.background import metric_roots_3d_at, scalar_sizes_at
 from surfmesh.sizing.field.size_field import SizeField
 from surfmesh.sizing.options.sizing import Sizing
 from surfmesh.sizing.rules.size_bounds import SizeBounds, principal_sizes
@@ -175,7 +175,7 @@ def field_axes(
         scalar_sizes_at(field.background, xy, size)
         return [(float(size[0]), along) for along in principal.along]
     packed = np.empty((1, 6))
-    in_space_at_all(field.background, xy, packed)
+    metric_roots_3d_at(field.background, xy, packed)
     w = packed[0][[[0, 1, 2], [1, 3, 4], [2, 4, 5]]]
     inverse, axes = np.linalg.eigh(principal.along @ w @ principal.along.T)
     if inverse[1] <= ROUND * inverse[0]:

@@ -10,7 +10,7 @@ import numpy as np
 from scipy.spatial import cKDTree
 
 from surfmesh.geometry.planar.nesting import nesting_depth
-from surfmesh.meshing.boundary.coincident_nodes import one_place
+from surfmesh.meshing.boundary.coincident_nodes import coincident_nodes
 from surfmesh.meshing.boundary.untangling import meeting_pairs
 from surfmesh.meshing.faces.face_data import FaceJob
 from surfmesh.sizing.rules.size_limits import SizeLimits
@@ -27,7 +27,7 @@ def limits_where_crossing(job: FaceJob, where: np.ndarray) -> SizeLimits | None:
     ``min_size`` forbids that.
     """
     uv, numbers, points, segments, loop = _boundary(job)
-    nodes, row = np.unique(one_place(uv, numbers, segments), return_inverse=True)
+    nodes, row = np.unique(coincident_nodes(uv, numbers, segments), return_inverse=True)
     ends = row[segments]
     real = np.flatnonzero(ends[:, 0] != ends[:, 1])
     pairs, _ = meeting_pairs(uv[nodes], ends[real])

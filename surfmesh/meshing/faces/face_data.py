@@ -12,7 +12,7 @@ from surfmesh.sizing.rules.size_limits import SizeLimits
 
 
 @dataclass(frozen=True)
-class Piece:
+class CoedgeNodes:
     """One coedge in walking order, with both ends.
 
     A degenerate edge has two nodes of the same number; it is cut when the metric is known.
@@ -36,7 +36,7 @@ class FaceJob:
     """All that is needed to mesh one face; can be pickled, knows no CAD kernel."""
 
     surface: Surface
-    loops: tuple[tuple[Piece, ...], ...]
+    loops: tuple[tuple[CoedgeNodes, ...], ...]
     sizing: Sizing
     limits: SizeLimits | None = None
     """From earlier rounds."""

@@ -19,10 +19,10 @@ from surfmesh.geometry.surface import Surface
 from surfmesh.kernels.fields.background import scalar_sizes_at
 from surfmesh.meshing.boundary.boundary_loops import BoundaryLoops, cut_line
 from surfmesh.meshing.boundary.boundary_recovery import recovered
-from surfmesh.meshing.boundary.coincident_nodes import one_place
+from surfmesh.meshing.boundary.coincident_nodes import coincident_nodes
 from surfmesh.meshing.edges.inner_sizes import wishes_along
 from surfmesh.meshing.faces.crossing_segments import limits_where_crossing
-from surfmesh.meshing.faces.face_data import FaceJob, FaceMesh, Piece
+from surfmesh.meshing.faces.face_data import CoedgeNodes, FaceJob, FaceMesh
 from surfmesh.meshing.faces.face_parts import in_parts
 from surfmesh.meshing.faces.face_repair import (
     beyond_a_turn,
@@ -225,7 +225,7 @@ def face_field(job: FaceJob) -> tuple[Surface, SizeField]:
         # an edge knows nothing of the sizes across it, but for those that gaps ask for
         if job.sizing.is_anisotropic and job.sizing.gap is None:
             along = np.concatenate([_directions(piece.points) for piece in real])
-            limits = replace(limits, in_space=along_lines(along, limits.sizes))
+            limits = replace(limits, metric_root_3d=along_lines(along, limits.sizes))
         if found is not None:
             near = _nearest(limits.points, found.points)
             limits = limits.joined_with(replace(found, uv=limits.uv[near]))
@@ -250,7 +250,7 @@ def _round_tubes(surface: Surface, job: FaceJob) -> SizeLimits | None:
     )
 
 
-def _grown_inward(surface: Surface, job: FaceJob, real: list[Piece]) -> SizeField:
+def _grown_inward(surface: Surface, job: FaceJob, real: list[CoedgeNodes]) -> SizeField:
     """Sizes of a plane or a cylinder: those of its edges and of earlier rounds, grown inward."""
     uv = np.concatenate([piece.uv for piece in real])
     sizes = np.concatenate([piece.sizes for piece in real])
@@ -264,7 +264,7 @@ def _grown_inward(surface: Surface, job: FaceJob, real: list[Piece]) -> SizeFiel
     return boundary_field(surface, job.sizing, uv, sizes, settled=True)
 
 
-def _agrees(field: SizeField, real: list[Piece]) -> bool:
+def _agrees(field: SizeField, real: list[CoedgeNodes]) -> bool:
     """Is no segment of the boundary much longer than the sizes beside it are in all directions?"""
     for piece in real:
         sizes = np.empty(len(piece.uv) - 1)
@@ -316,7 +316,7 @@ def _loops(job: FaceJob, field: SizeField) -> tuple:
     uv, numbers = np.concatenate(uv), np.concatenate(numbers)
     points, slots = np.concatenate(points), np.concatenate(slots)
     ring_segments = np.concatenate(segments)
-    kept = one_place(uv, numbers, ring_segments)
+    kept = coincident_nodes(uv, numbers, ring_segments)
     nodes, row = np.unique(kept, return_inverse=True)
     segments = row[ring_segments].astype(np.int32)
     segments = segments[segments[:, 0] != segments[:, 1]]

@@ -4,7 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from surfmesh.meshing.boundary.coincident_nodes import one_place
+from surfmesh.meshing.boundary.coincident_nodes import coincident_nodes
 from surfmesh.meshing.boundary.untangling import untangled
 from surfmesh.meshing.faces.face_data import FaceJob, FaceMesh
 from surfmesh.meshing.faces.polygon_filling import MOST_CORNERS, filled
@@ -67,7 +67,7 @@ def untangled_job(job: FaceJob) -> FaceJob | None:
         ring = np.arange(first, total)
         segments.append(np.stack([ring, np.roll(ring, -1)], axis=1))
     uv, numbers, ring = np.concatenate(uv), np.concatenate(numbers), np.concatenate(segments)
-    nodes, row = np.unique(one_place(uv, numbers, ring), return_inverse=True)
+    nodes, row = np.unique(coincident_nodes(uv, numbers, ring), return_inverse=True)
     segments = row[ring]
     segments = segments[segments[:, 0] != segments[:, 1]]
     _, along_u, along_v = job.surface.evaluate(uv[nodes], 1)

@@ -17,7 +17,7 @@ from typing import NamedTuple
 import numpy as np
 
 from surfmesh.geometry.surface import Surface
-from surfmesh.meshing.faces.face_data import FaceJob, FaceMesh, Piece
+from surfmesh.meshing.faces.face_data import CoedgeNodes, FaceJob, FaceMesh
 
 TURN_ACROSS = 0.5 * math.pi
 """Radians: no triangle spans a wider turn of the surface on the way across."""
@@ -85,7 +85,7 @@ def _spread(end: Nodes, columns: list[Nodes]) -> Nodes:
     return end.taken(np.zeros(most, int))._replace(uv=(1.0 - t) * end.uv[0] + t * end.uv[-1])
 
 
-def _chain(pieces: list[Piece], start: np.ndarray, places: tuple[int, ...]) -> Nodes | None:
+def _chain(pieces: list[CoedgeNodes], start: np.ndarray, places: tuple[int, ...]) -> Nodes | None:
     """The nodes of some pieces one after the other, common ones once."""
     rows = []
     if len(places) > 1 and all(pieces[place].degenerate for place in places):

@@ -16,7 +16,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from surfmesh.geometry.surface import Surface
-from surfmesh.meshing.faces.face_data import FaceJob, Piece
+from surfmesh.meshing.faces.face_data import CoedgeNodes, FaceJob
 
 COLUMNS = 6
 """Triangles round a full tube: so many normals turn from one to the next by 60 degrees."""
@@ -50,12 +50,12 @@ class Tube:
     where the level is one point.
     """
 
-    left: Piece
-    right: Piece
+    left: CoedgeNodes
+    right: CoedgeNodes
     left_slots: np.ndarray
     right_slots: np.ndarray
-    last: Piece | None
-    first: Piece | None
+    last: CoedgeNodes | None
+    first: CoedgeNodes | None
     columns: tuple[np.ndarray, ...]
     """(levels, 2) each: (u, v) of the nodes, column by column from left to right. From pole to pole
     the inner ones have a level of their own where the sides have none."""
@@ -65,10 +65,10 @@ class Tube:
 class _Open:
     """A loop that is taken apart: its pieces, and the slots of their nodes."""
 
-    pieces: list[Piece]
+    pieces: list[CoedgeNodes]
     slots: list[np.ndarray]
 
-    def part(self, at: int, first: int, last: int) -> tuple[Piece, np.ndarray]:
+    def part(self, at: int, first: int, last: int) -> tuple[CoedgeNodes, np.ndarray]:
         """The nodes of one piece from ``first`` to ``last``, both included."""
         return _part(self.pieces[at], first, last), self.slots[at][first : last + 1]
 
@@ -127,7 +127,7 @@ def _whole_cut(job: FaceJob, loop: _Open, following: int) -> tuple[Tube | None, 
     return _tube(job.surface, one, other, *slots, following, middle, (True, True)), []
 
 
-def _is_pointed(surface: Surface, one: Piece, other: Piece, levels: int) -> bool:
+def _is_pointed(surface: Surface, one: CoedgeNodes, other: CoedgeNodes, levels: int) -> bool:
     """Does the tip between two pieces, at its pole the end of one and the start of the other, turn
     as a tube does, and is it narrower than a blunt cone? A pole of a sphere is no tip."""
     ends = one.uv[-1 - levels], other.uv[levels]
@@ -207,7 +207,7 @@ def _ends(numbers: np.ndarray) -> tuple[int, ...]:
     return len(numbers), *numbers[:2].tolist(), *numbers[-2:].tolist()
 
 
-def _are_images(job: FaceJob, one: Piece, other: Piece) -> bool:
+def _are_images(job: FaceJob, one: CoedgeNodes, other: CoedgeNodes) -> bool:
     """Are they one edge, run there and back in two places of (u, v)?"""
     if one.degenerate or not np.array_equal(one.numbers[::-1], other.numbers):
         return False
@@ -247,8 +247,9 @@ def _ways(surface: Surface, left: np.ndarray, right: np.ndarray) -> np.ndarray:
 
 
 def _tube(
-    surface: Surface, left: Piece, right: Piece, left_slots: np.ndarray, right_slots: np.ndarray,
-    following: int, round_way: Sequence[np.ndarray], poles: tuple[bool, bool],
+    surface: Surface, left: CoedgeNodes, right: CoedgeNodes, left_slots: np.ndarray,
+    right_slots: np.ndarray, following: int, round_way: Sequence[np.ndarray],
+    poles: tuple[bool, bool],
 ) -> Tube:  # fmt: skip
     """The columns between two sides, and the rings at its ends where these are no poles.
 
@@ -284,9 +285,9 @@ def _wide_enough(surface: Surface, left: np.ndarray, right: np.ndarray) -> np.nd
 
 
 def _ring(
-    surface: Surface, columns: tuple[np.ndarray, ...], level: int, left: Piece, right: Piece,
-    following: int,
-) -> Piece:  # fmt: skip
+    surface: Surface, columns: tuple[np.ndarray, ...], level: int, left: CoedgeNodes,
+    right: CoedgeNodes, following: int,
+) -> CoedgeNodes:  # fmt: skip
     """One level as a piece of the boundary, from left to right, with numbers of its own."""
     uv = np.array([column[level] for column in columns])
     (points,) = surface.evaluate(uv, 0)
@@ -297,14 +298,14 @@ def _ring(
     sizes = np.minimum(np.r_[step[:1], step], np.r_[step, step[-1:]])
     sizes[0] = min(sizes[0], left.sizes[level])
     sizes[-1] = min(sizes[-1], right.sizes[level])
-    return Piece(uv, numbers, points, sizes)
+    return CoedgeNodes(uv, numbers, points, sizes)
 
 
 def _ring_slots(start: int, tube: Tube, end: int) -> np.ndarray:
     return np.r_[start, np.full(len(tube.columns) - 2, -1), end]
 
 
-def _part(piece: Piece, first: int, last: int) -> Piece:
+def _part(piece: CoedgeNodes, first: int, last: int) -> CoedgeNodes:
     part = slice(first, last + 1)
     return replace(
         piece, uv=piece.uv[part], numbers=piece.numbers[part], points=piece.points[part],
@@ -312,7 +313,7 @@ def _part(piece: Piece, first: int, last: int) -> Piece:
     )  # fmt: skip
 
 
-def _backwards(piece: Piece) -> Piece:
+def _backwards(piece: CoedgeNodes) -> CoedgeNodes:
     return replace(
         piece, uv=piece.uv[::-1], numbers=piece.numbers[::-1], points=piece.points[::-1],
         sizes=piece.sizes[::-1],

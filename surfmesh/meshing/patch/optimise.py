@@ -14,8 +14,9 @@ import numpy as np
 from surfmesh.geometry.differential.projection import closest_from_corners, closest_point
 from surfmesh.geometry.differential.sharp_bends import bends_sharply
 from surfmesh.geometry.surface import Surface
-from surfmesh.kernels.optimisation.dihedral import find_turned, shorten_some, turning_angles
+from surfmesh.kernels.optimisation.dihedral import dihedral_angles, find_dihedrals_over, lower_sizes
 from surfmesh.kernels.optimisation.optimisation import (
+    activate_bad,
     collapse_short,
     estimate_deviations,
     find_folded,
@@ -27,9 +28,8 @@ from surfmesh.kernels.optimisation.optimisation import (
     swap_for_degree,
     swap_for_shape,
     triangles_at,
-    wake_bad,
 )
-from surfmesh.kernels.optimisation.surface_frames import Embedding, embed, empty_embedding
+from surfmesh.kernels.optimisation.surface_frames import SurfaceFrames, empty_frames, set_frames
 from surfmesh.kernels.space.measure import tangent_plane_distances
 from surfmesh.kernels.triangulation.local_operations import DEAD
 from surfmesh.kernels.triangulation.triangulation import Triangulation
@@ -170,7 +170,7 @@ class Optimiser:
         self.same = same
         room = len(t.xy)
         self.is_anisotropic = field.is_anisotropic
-        self.embedding: Embedding = empty_embedding(room, self.is_anisotropic)
+        self.embedding: SurfaceFrames = empty_frames(room, self.is_anisotropic)
         self.star = np.empty(room, np.int32)
         self.frozen = np.empty(room, np.uint8)
         self.degree = np.empty(room, np.int32)
@@ -284,14 +284,14 @@ class Optimiser:
         return replace(
             limits,
             uv=self.field.scaling.to_uv(self.t.xy[chosen]),
-            in_space=self.embedding.in_space[chosen] * shrunk[:, None],
+            metric_root_3d=self.embedding.metric_root_3d[chosen] * shrunk[:, None],
         )
 
     def _rescue(self) -> None:
         """Passes for the worst triangles alone."""
         self.active[:] = 0
         for _ in range(RESCUE_PASSES):
-            if wake_bad(self.t, self.embedding, BAD_SHAPE, self.active) == 0:
+            if activate_bad(self.t, self.embedding, BAD_SHAPE, self.active) == 0:
                 break
             self._smooth(SOFT)
             self._swap()
@@ -333,7 +333,7 @@ class Optimiser:
             np.minimum.at(factor, corners, wanted[:, None])
             some = np.flatnonzero(factor < 1.0).astype(np.int32)
             smallest = LAST_TURN_SCALE if last else LEAST_TURN_SCALE
-            shorten_some(self.embedding, some, factor[some], smallest, self.active)
+            lower_sizes(self.embedding, some, factor[some], smallest, self.active)
             self._split(longest)
             for _ in range(2):
                 self._smooth()
@@ -346,7 +346,7 @@ class Optimiser:
         limit = self._angle_limit(margin)
         room = 3 * int(self.t.count[1]) // 2 + 1
         edges, angles = np.empty(room, np.int64), np.empty(room)
-        count = find_turned(self.t, self.embedding.point, limit, edges, angles)
+        count = find_dihedrals_over(self.t, self.embedding.point, limit, edges, angles)
         pairs = np.stack([edges[:count], self.t.adj[edges[:count]]], axis=1)
         angles = angles[:count]
         if seams:
@@ -402,7 +402,7 @@ class Optimiser:
         twice = np.flatnonzero((ends[1:] == ends[:-1]).all(axis=1))
         pairs = np.stack([border[twice], border[twice + 1]], axis=1).reshape(-1, 2)
         angles = np.empty(len(pairs))
-        turning_angles(
+        dihedral_angles(
             self.embedding.point, self.t.tri.reshape(-1, 3), pairs.astype(np.int32), angles
         )
         return pairs, angles
@@ -544,7 +544,7 @@ class Optimiser:
                 ru, rv = self._mean_slopes(uv)
             ru *= rates[:, :1]
             rv *= rates[:, 1:]
-            embed(self.t, self.embedding, self.field.background, some, r, ru, rv, largest)
+            set_frames(self.t, self.embedding, self.field.background, some, r, ru, rv, largest)
 
     def _find_stars(self) -> None:
         if not self.stars_known:

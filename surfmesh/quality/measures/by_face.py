@@ -10,7 +10,12 @@ from surfmesh.geometry.surface import surface_kind
 from surfmesh.quality.measures.by_solid import relative_error
 from surfmesh.quality.measures.deviation import Deviation
 from surfmesh.quality.measures.dihedral import Turning
-from surfmesh.quality.measures.promises import Promises, StatedLimit, beyond_angle, beyond_chord
+from surfmesh.quality.measures.promises import (
+    Tolerances,
+    UnattainableTolerance,
+    beyond_angle,
+    beyond_chord,
+)
 from surfmesh.quality.measures.shape import Shapes
 from surfmesh.result.surface_mesh import SurfaceMesh
 
@@ -49,8 +54,8 @@ def by_face(
     fit: Deviation | None,
     lengths: NDArray[np.float64],
     folded: NDArray[np.bool_] | None,
-    promises: Promises,
-    limits: Sequence[StatedLimit],
+    promises: Tolerances,
+    limits: Sequence[UnattainableTolerance],
     turns: Turning | None,
 ) -> tuple[FaceRow, ...]:
     """Rows of all surfaces, or of the numbers that occur where none is known.

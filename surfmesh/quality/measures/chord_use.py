@@ -7,7 +7,7 @@ from numpy.typing import NDArray
 
 from surfmesh.geometry.differential.fundamental_forms import curvatures, forms_from_derivatives
 from surfmesh.quality.measures.deviation import Deviation
-from surfmesh.quality.measures.promises import Promises
+from surfmesh.quality.measures.promises import Tolerances
 from surfmesh.result.surface_mesh import SurfaceMesh
 from surfmesh.sizing.rules.curvature_size import chord_size, principal_chord_sizes
 
@@ -22,7 +22,7 @@ class ChordUse(NamedTuple):
     used: float | None  # median of deviation / chord; None when there are no such triangles
 
 
-def chord_use(mesh: SurfaceMesh, fit: Deviation | None, promises: Promises) -> ChordUse | None:
+def chord_use(mesh: SurfaceMesh, fit: Deviation | None, promises: Tolerances) -> ChordUse | None:
     """None where no chord was asked for, or sizes, surfaces or distances are not known.
 
     ``chord`` decides where the size wanted at a triangle is at least 0.8 of what the curvature

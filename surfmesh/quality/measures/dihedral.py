@@ -6,7 +6,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from surfmesh.kernels.optimisation.dihedral import turning_angles
+from surfmesh.kernels.optimisation.dihedral import dihedral_angles
 from surfmesh.result.surface_mesh import SurfaceMesh
 from surfmesh.sizing.rules.bent_surface import bends_itself
 from surfmesh.sizing.rules.size_bounds import DEFAULT_ANGLE
@@ -44,7 +44,7 @@ def turning(mesh: SurfaceMesh, limits: NDArray[np.float64] | None = None) -> Tur
     edges = np.flatnonzero(inner)
     pairs = table.half_edges[edges]
     angles = np.empty(len(edges))
-    turning_angles(mesh.points, mesh.triangles, pairs, angles)
+    dihedral_angles(mesh.points, mesh.triangles, pairs, angles)
     angles = np.degrees(angles)
     faces = mesh.face_ids[pairs[:, 0] // 3]
     if limits is None:

@@ -24,7 +24,7 @@ SHOWN = 8  # faces that are named in one line
 
 
 @dataclass(frozen=True)
-class StatedLimit:
+class UnattainableTolerance:
     """A ``min_size`` that keeps a face from what was asked for; as text one line."""
 
     face: int
@@ -46,15 +46,15 @@ class StatedLimit:
         return plain if self.name in ("", plain) else f"{plain} ({self.name})"
 
 
-def stated(limits: Sequence[StatedLimit]) -> list[str]:
+def stated(limits: Sequence[UnattainableTolerance]) -> list[str]:
     """One line for each ``min_size`` and what it forbids, however many faces have it."""
-    groups: dict[tuple[str, float, float], list[StatedLimit]] = {}
+    groups: dict[tuple[str, float, float], list[UnattainableTolerance]] = {}
     for limit in limits:
         groups.setdefault((limit.option, limit.asked, limit.min_size), []).append(limit)
     return [_said(group) for group in groups.values()]
 
 
-def _said(group: Sequence[StatedLimit]) -> str:
+def _said(group: Sequence[UnattainableTolerance]) -> str:
     worst = max(group, key=lambda limit: limit.reached)
     who, most, there = worst.called, "", ""
     if len(group) > 1:
@@ -68,7 +68,7 @@ def _said(group: Sequence[StatedLimit]) -> str:
     return f"{head}°: neighbours turn by {most}{worst.reached:.3g}°{there}"
 
 
-class Beyond(NamedTuple):
+class Violation(NamedTuple):
     """Triangles or edges beyond a promise that sizes would have allowed to keep."""
 
     share: float  # of all
@@ -86,7 +86,7 @@ def plain_promises(mesh: SurfaceMesh) -> NDArray[np.float64] | None:
     return np.array([[np.nan if wish is None else wish for wish in wishes]], float)
 
 
-class Promises(NamedTuple):
+class Tolerances(NamedTuple):
     """By face number: infinite, or 0 for ``min_size``, where nothing is asked for."""
 
     chord: NDArray[np.float64]
@@ -95,7 +95,7 @@ class Promises(NamedTuple):
     uniform: bool  # the same on every face
 
     @classmethod
-    def of(cls, mesh: SurfaceMesh) -> Promises:
+    def of(cls, mesh: SurfaceMesh) -> Tolerances:
         """Of the mesh's ``promises``, or of its ``sizing`` on every face."""
         count = max(int(mesh.face_ids.max(initial=0)) + 1, len(mesh.surfaces), 1)
         given = plain_promises(mesh)
@@ -128,20 +128,20 @@ class Promises(NamedTuple):
         return float(self.angle[0]) if self.uniform and np.isfinite(self.angle[0]) else None
 
 
-def beyond_chord(promises: Promises, mesh: SurfaceMesh, fit: Deviation) -> NDArray[np.bool_]:
+def beyond_chord(promises: Tolerances, mesh: SurfaceMesh, fit: Deviation) -> NDArray[np.bool_]:
     """(m,) which triangles lie farther from the surface than their face allows."""
     chord = promises.at(promises.chord, mesh.face_ids)
     return fit.by_triangle > chord * (1.0 + CHORD_SLACK)
 
 
-def beyond_angle(promises: Promises, turns: Turning) -> NDArray[np.bool_]:
+def beyond_angle(promises: Tolerances, turns: Turning) -> NDArray[np.bool_]:
     """(k,) across which edges triangles turn by more than their face allows."""
     return turns.above(promises.at(promises.angle, turns.faces))
 
 
 def chord_kept(
-    promises: Promises, mesh: SurfaceMesh, fit: Deviation
-) -> tuple[Beyond | None, list[StatedLimit]]:
+    promises: Tolerances, mesh: SurfaceMesh, fit: Deviation
+) -> tuple[Violation | None, list[UnattainableTolerance]]:
     """Broken promises of the distance from the surface, and those that ``min_size`` forbids.
 
     Deviation grows with the square of the size.
@@ -164,8 +164,8 @@ def chord_kept(
 
 
 def angle_kept(
-    promises: Promises, mesh: SurfaceMesh, turns: Turning
-) -> tuple[Beyond | None, list[StatedLimit]]:
+    promises: Tolerances, mesh: SurfaceMesh, turns: Turning
+) -> tuple[Violation | None, list[UnattainableTolerance]]:
     """The same for the angle between neighbours, which grows with the size.
 
     ``worst`` is a row of ``turns``.
@@ -187,9 +187,9 @@ def angle_kept(
 
 
 def _split(
-    option: str, promises: Promises, mesh: SurfaceMesh, far: NDArray, faces: NDArray,
+    option: str, promises: Tolerances, mesh: SurfaceMesh, far: NDArray, faces: NDArray,
     reached: NDArray, asked: NDArray, needed: NDArray, points: NDArray, count: NDArray, total: int,
-) -> tuple[Beyond | None, list[StatedLimit]]:  # fmt: skip
+) -> tuple[Violation | None, list[UnattainableTolerance]]:  # fmt: skip
     """far: (k,) numbers of what is beyond; count: how many there are on each face."""
     least = promises.at(promises.min_size, faces)
     forbidden = needed < least
@@ -198,14 +198,14 @@ def _split(
     if len(free):
         with np.errstate(invalid="ignore"):
             worst = free[int(np.argmax(np.nan_to_num(reached[free] / asked[free], nan=np.inf)))]
-        broken = Beyond(
+        broken = Violation(
             len(free) / total, int(far[worst]), float(reached[worst]), float(asked[worst])
         )
     for face in np.unique(faces[forbidden]).tolist():
         here = np.flatnonzero(forbidden & (faces == face))
         top = here[int(np.argmax(reached[here]))]
         limits.append(
-            StatedLimit(
+            UnattainableTolerance(
                 face=face,
                 name=mesh.face_name(face),
                 option=option,

@@ -21,7 +21,7 @@ from numpy.typing import NDArray
 from surfmesh.geometry.differential.projection import closest_point
 from surfmesh.kernels.space.measure import interpolate
 from surfmesh.quality.measures.deviation import BLOCK, Deviation
-from surfmesh.quality.measures.promises import CHORD_SLACK, Beyond, Promises
+from surfmesh.quality.measures.promises import CHORD_SLACK, Tolerances, Violation
 from surfmesh.quality.verdict.problems import called
 from surfmesh.result.quadratic_triangles import edge_rows
 from surfmesh.result.surface_mesh import SurfaceMesh
@@ -53,7 +53,7 @@ class SurfaceDeviation(NamedTuple):
 
 
 def surface_deviation(
-    mesh: SurfaceMesh, fit: Deviation | None, promises: Promises
+    mesh: SurfaceMesh, fit: Deviation | None, promises: Tolerances
 ) -> SurfaceDeviation | None:
     """Distance of the surfaces from ``mesh``; None where ``fit``, the way back, is not known."""
     if fit is None or not np.isfinite(fit.largest):
@@ -98,7 +98,11 @@ def both_ways(fit: Deviation, back: SurfaceDeviation | None) -> Deviation:
 
 
 def surface_too_far(
-    mesh: SurfaceMesh, fit: Deviation, back: SurfaceDeviation, beyond: Beyond, promises: Promises
+    mesh: SurfaceMesh,
+    fit: Deviation,
+    back: SurfaceDeviation,
+    beyond: Violation,
+    promises: Tolerances,
 ) -> str | None:
     """A sentence about the surface's distance from the mesh, where ``beyond``, of both ways, is
     that; None where it is the mesh's from the surface."""
@@ -160,7 +164,7 @@ class _Candidate(NamedTuple):
 class _Search:
     """The distances over each triangle, and the points that are farthest."""
 
-    def __init__(self, mesh: SurfaceMesh, fit: Deviation, promises: Promises) -> None:
+    def __init__(self, mesh: SurfaceMesh, fit: Deviation, promises: Tolerances) -> None:
         self.mesh = mesh
         chord = promises.at(promises.chord, mesh.face_ids) * (1.0 + CHORD_SLACK)
         # a triangle that is too far from the surface itself needs no second proof

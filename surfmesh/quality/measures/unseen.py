@@ -23,7 +23,7 @@ from surfmesh.quality.measures.hidden_search import (
     settled_at_once,
     settled_in_parts,
 )
-from surfmesh.quality.measures.promises import Promises
+from surfmesh.quality.measures.promises import Tolerances
 from surfmesh.quality.measures.surface_to_mesh import triangle_distances
 from surfmesh.result.surface_mesh import SurfaceMesh
 
@@ -70,7 +70,7 @@ class Unseen(NamedTuple):
 
 
 def unseen(
-    mesh: SurfaceMesh, fit: Deviation | None, promises: Promises, listed: int
+    mesh: SurfaceMesh, fit: Deviation | None, promises: Tolerances, listed: int
 ) -> Unseen | None:
     """Look between the samples of ``fit``; None where a surface has no bounds (a function), or
     there is no surface. Faces of CAD models are smooth between their knots: they are left out.
@@ -143,7 +143,7 @@ def _place(
 
 
 def _in_triangles(
-    mesh: SurfaceMesh, surface: Any, triangles: NDArray, fit: Deviation, promises: Promises
+    mesh: SurfaceMesh, surface: Any, triangles: NDArray, fit: Deviation, promises: Tolerances
 ) -> tuple[NDArray[np.int64], Pieces]:
     corners, uv = _corners(mesh, triangles)
     normal = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
@@ -171,7 +171,7 @@ def _in_triangles(
 
 
 def _along_rims(
-    mesh: SurfaceMesh, surface: Any, triangles: NDArray, fit: Deviation, promises: Promises
+    mesh: SurfaceMesh, surface: Any, triangles: NDArray, fit: Deviation, promises: Tolerances
 ) -> tuple[NDArray[np.int64], Pieces]:
     """Segments of the free rims: in its own plane a triangle's rim may swing out unseen."""
     half_edges = mesh.connectivity.half_edges[mesh.connectivity.uses == 1, 0].astype(np.int64)
@@ -204,7 +204,7 @@ def _along_rims(
 
 
 def _expected(
-    mesh: SurfaceMesh, triangles: NDArray, fit: Deviation, promises: Promises, length: NDArray
+    mesh: SurfaceMesh, triangles: NDArray, fit: Deviation, promises: Tolerances, length: NDArray
 ) -> NDArray[np.float64]:
     """(k,) the distance that is asked for, or that the samples have seen if it is more."""
     chord = promises.at(promises.chord, mesh.face_ids[triangles])

@@ -13,7 +13,7 @@ from surfmesh.quality.measures.deviation import Deviation
 from surfmesh.quality.measures.dihedral import Turning
 from surfmesh.quality.measures.folds import Folds
 from surfmesh.quality.measures.narrow import without_area
-from surfmesh.quality.measures.promises import Beyond, Promises
+from surfmesh.quality.measures.promises import Tolerances, Violation
 from surfmesh.quality.measures.self_intersection import MeetingPair
 from surfmesh.quality.measures.shape import Shapes
 from surfmesh.quality.measures.solids import shares_faces, solid_mesh
@@ -28,8 +28,8 @@ def problems(
     topo: Topology,
     shape: Shapes,
     fit: Deviation | None,
-    beyond: Beyond | None,
-    promises: Promises,
+    beyond: Violation | None,
+    promises: Tolerances,
     turned: Folds | None,
     solids: tuple[SolidRow, ...],
 ) -> list[str]:
@@ -157,7 +157,9 @@ def overlaps(found: tuple[BodyPair, ...]) -> list[str]:
     ]
 
 
-def turned_too_far(mesh: SurfaceMesh, turns: Turning, beyond: Beyond, promises: Promises) -> str:
+def turned_too_far(
+    mesh: SurfaceMesh, turns: Turning, beyond: Violation, promises: Tolerances
+) -> str:
     """A sentence about edges across which triangles turn by more than was promised."""
     edge = turns.edges[beyond.worst]
     first, second = (mesh.connectivity.half_edges[edge] // 3).tolist()

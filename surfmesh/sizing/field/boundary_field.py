@@ -135,7 +135,7 @@ def source_background(
     cells, nodes = tree.count.tolist()
     reach = np.array([x0, y0, 1.0 / root[2], 1.0 / root[3], 16.0 * max(x1 - x0, y1 - y0)])
     return Background(
-        reach, tree.grid, tree.child[:cells], tree.corner[:cells], tree.inverse_size[:nodes]
+        reach, tree.grid, tree.child[:cells], tree.corner[:cells], tree.metric_root[:nodes]
     )
 
 

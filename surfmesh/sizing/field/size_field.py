@@ -25,12 +25,12 @@ from surfmesh.geometry.formulas.interval import width_along
 from surfmesh.geometry.surface import Surface
 from surfmesh.kernels.fields.background import (
     Background,
-    in_space_at_all,
-    inverse_sizes_at,
+    metric_roots_3d_at,
+    metric_roots_at,
     scalar_sizes_at,
     sizes_at,
 )
-from surfmesh.kernels.fields.coverage import STACK, inverse_area
+from surfmesh.kernels.fields.coverage import STACK, metric_area_of_box
 from surfmesh.kernels.fields.gradation import Metric, grade, patch_errors
 from surfmesh.sizing.field.field_cells import GRID_DEPTH, Cells, SourceCells, coarse_beside_fine
 from surfmesh.sizing.field.size_law import FieldNodes, SizeLaw, TensorLaw
@@ -115,13 +115,15 @@ class SizeField:
     @property
     def is_anisotropic(self) -> bool:
         """Do the sizes depend on the direction?"""
-        return len(self.background.in_space) > 0
+        return len(self.background.metric_root_3d) > 0
 
     def expected_vertices(self) -> int:
         """About how many circles cover the domain: its metric area over that of a circle's
         share, sqrt(3) / 2."""
         width, height = self.scaling.extent
-        area = inverse_area(self.background, float(width), float(height), np.empty((STACK, 5)))
+        area = metric_area_of_box(
+            self.background, float(width), float(height), np.empty((STACK, 5))
+        )
         return int(min(area * 2.0 / np.sqrt(3.0), COUNTABLE)) + 100
 
     def tensors(self, xy: np.ndarray) -> np.ndarray:
@@ -133,7 +135,7 @@ class SizeField:
     def metric_lengths(self, xy: np.ndarray, steps: np.ndarray) -> np.ndarray:
         """|H^-1 step| (n,) of small steps (n, 2) at points xy (n, 2) of the scaled plane."""
         a = np.empty((len(xy), 3))
-        inverse_sizes_at(self.background, np.ascontiguousarray(xy), a)
+        metric_roots_at(self.background, np.ascontiguousarray(xy), a)
         dx, dy = steps.T
         return np.hypot(a[:, 0] * dx + a[:, 1] * dy, a[:, 1] * dx + a[:, 2] * dy)
 
@@ -163,7 +165,7 @@ def inverse_sizes(field: SizeField, xy: np.ndarray, scale: np.ndarray) -> np.nda
         return None
     xy, found = np.ascontiguousarray(xy), np.zeros((len(xy), 6))
     if field.is_anisotropic:
-        in_space_at_all(field.background, xy, found)
+        metric_roots_3d_at(field.background, xy, found)
     else:
         sizes = np.empty(len(xy))
         scalar_sizes_at(field.background, xy, sizes)
@@ -585,6 +587,6 @@ class _Builder:
         inverse = np.empty((len(self.nodes.size), 4))
         inverse[:, :3] = self.nodes.inverse_sizes()
         inverse[:, 3] = 1.0 / self.nodes.size
-        in_space = self.nodes.inverse_sizes_in_space()
+        metric_root_3d = self.nodes.metric_roots_3d()
         box = np.array([0.0, 0.0, *(1.0 / self.root_step), self._largest])
-        return Background(box, np.array([self.nx, self.ny]), child, corner, inverse, in_space)
+        return Background(box, np.array([self.nx, self.ny]), child, corner, inverse, metric_root_3d)

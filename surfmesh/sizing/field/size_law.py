@@ -94,7 +94,7 @@ class FieldNodes(NamedTuple):
         e, f, g = scale * e - less * p * p, scale * f - less * p * q, scale * g - less * q * q
         return symmetric_root(e, f, g, np.maximum(det, 0.0))
 
-    def inverse_sizes_in_space(self) -> np.ndarray:
+    def metric_roots_3d(self) -> np.ndarray:
         """W = Id / h - (1 / h - 1 / long) t t^T (n, 6), t = along: xx, xy, xz, yy, yz, zz.
 
         Across the surface the shorter size holds, so that W does not change where the surface

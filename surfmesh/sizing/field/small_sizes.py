@@ -9,8 +9,8 @@ import numpy as np
 from surfmesh.geometry.differential.projection import closest_point
 from surfmesh.geometry.surface import Surface
 from surfmesh.sizing.options.sizing import Sizing
-from surfmesh.sizing.rules.size_limits import SizeLimits
 from surfmesh.sizing.options.sources import Source
+from surfmesh.sizing.rules.size_limits import SizeLimits
 
 GUESSES = 33
 """Points each way of the grid from which feet are looked for."""

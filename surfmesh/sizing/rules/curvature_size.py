@@ -68,7 +68,7 @@ def angle_size(k1: np.ndarray, k2: np.ndarray, angle: float) -> np.ndarray:
         return math.sqrt(3.0) * math.radians(angle) / turn
 
 
-def fold_size(k1: np.ndarray, k2: np.ndarray, angle: float) -> np.ndarray:
+def normal_deviation_size(k1: np.ndarray, k2: np.ndarray, angle: float) -> np.ndarray:
     """Edge length (n,) at which normals turn by at most ``angle`` (degrees) between neighbours.
 
     The normal of the surface, that is: a rule against folds, no bound on the triangles. The

@@ -114,7 +114,7 @@ class Rims:
             return None
         found = found.chosen(rows)
         tensors = along_lines(found.tangent, found.sizes) if narrow else None
-        return SizeLimits(points[2][rows], found.sizes, slope, uv[rows], in_space=tensors)
+        return SizeLimits(points[2][rows], found.sizes, slope, uv[rows], metric_root_3d=tensors)
 
     def _sampled(
         self, pieces: np.ndarray, chord: float

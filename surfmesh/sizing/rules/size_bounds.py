@@ -8,7 +8,7 @@ from surfmesh.sizing.options.sizing import Sizing
 from surfmesh.sizing.rules.curvature_size import (
     angle_size,
     chord_size,
-    fold_size,
+    normal_deviation_size,
     principal_angle_sizes,
     principal_chord_sizes,
 )
@@ -117,7 +117,7 @@ def curvature_sizes(
     if sizing.angle is not None:
         sizes["angle"] = np.maximum(angle_size(k1, k2, sizing.angle), finest_turn)
     elif sizing.chord is not None:
-        sizes["default"] = unfolding_size(k1, k2, sizing.chord)
+        sizes["default"] = default_angle_size(k1, k2, sizing.chord)
     return sizes
 
 
@@ -134,11 +134,11 @@ def principal_sizes(
         sizes["angle"] = np.maximum(turned, finest_turn)
     elif sizing.chord is not None:
         k = np.stack([k1, k2], axis=1)
-        sizes["default"] = unfolding_size(k, k, sizing.chord)
+        sizes["default"] = default_angle_size(k, k, sizing.chord)
     return sizes
 
 
-def unfolding_size(k1: np.ndarray, k2: np.ndarray | float, chord: float) -> np.ndarray:
+def default_angle_size(k1: np.ndarray, k2: np.ndarray | float, chord: float) -> np.ndarray:
     """The default angle, as normals of the surface turn; a triangle within ``chord`` of an apex
     need not follow it."""
-    return np.maximum(fold_size(k1, k2, DEFAULT_ANGLE), LEAST_OF_CHORD * chord)
+    return np.maximum(normal_deviation_size(k1, k2, DEFAULT_ANGLE), LEAST_OF_CHORD * chord)

@@ -22,7 +22,7 @@ class SizeLimits:
     """(k, 2) parameters of the points: the field is made fine enough there to see them all."""
     essential: bool = False
     """Without them there is no mesh: they go below ``min_size`` too."""
-    in_space: np.ndarray | None = None
+    metric_root_3d: np.ndarray | None = None
     """(k, 6) W = xx, xy, xz, yy, yz, zz: in the unit direction e the size is at most 1 / |W e|,
     at least ``sizes``; None: ``sizes`` in every direction."""
     settled: bool = False
@@ -38,11 +38,11 @@ class SizeLimits:
         distance, index = self._nearest(points)
         grown = self.slope * distance
         found = np.empty((len(directions), len(points)))
-        if self.in_space is None:
+        if self.metric_root_3d is None:
             found[:] = (self.sizes[index] + grown).min(axis=1)
             return found
         for size, (x, y, z) in zip(found, directions.transpose(0, 2, 1)[..., None]):
-            xx, xy, xz, yy, yz, zz = self.in_space.T
+            xx, xy, xz, yy, yz, zz = self.metric_root_3d.T
             square = (xx[index] * x + xy[index] * y + xz[index] * z) ** 2
             square += (xy[index] * x + yy[index] * y + yz[index] * z) ** 2
             square += (xz[index] * x + yz[index] * y + zz[index] * z) ** 2
@@ -56,9 +56,9 @@ class SizeLimits:
         distance, index = self._nearest(points)
         first = _across(normals)
         second = np.cross(normals, first)
-        if self.in_space is None:
+        if self.metric_root_3d is None:
             return (self.sizes[index] + self.slope * distance).min(axis=1), first
-        xx, xy, xz, yy, yz, zz = self.in_space[index].transpose(2, 0, 1)
+        xx, xy, xz, yy, yz, zz = self.metric_root_3d[index].transpose(2, 0, 1)
 
         def form(e: np.ndarray, f: np.ndarray) -> np.ndarray:
             (x, y, z), (u, v, w) = e.T[..., None], f.T[..., None]
@@ -108,17 +108,19 @@ class SizeLimits:
     def not_below(self, least: float) -> "SizeLimits":
         """The same with no size smaller than ``least``; ratios of tensors are kept."""
         sizes = np.maximum(self.sizes, least)
-        tensors = self.in_space
+        tensors = self.metric_root_3d
         if tensors is not None:
             tensors = tensors * (self.sizes / sizes)[:, None]
-        return replace(self, sizes=sizes, in_space=tensors)
+        return replace(self, sizes=sizes, metric_root_3d=tensors)
 
     def _tensors_with(self, other: "SizeLimits") -> np.ndarray | None:
-        if self.in_space is None and other.in_space is None:
+        if self.metric_root_3d is None and other.metric_root_3d is None:
             return None
         every = np.array([1.0, 0.0, 0.0, 1.0, 0.0, 1.0])
         parts = [
-            every / limits.sizes[:, None] if limits.in_space is None else limits.in_space
+            every / limits.sizes[:, None]
+            if limits.metric_root_3d is None
+            else limits.metric_root_3d
             for limits in (self, other)
         ]
         return np.concatenate(parts)
