@@ -20,7 +20,7 @@ from surfmesh.result.model_facts import FaceFacts, ModelFacts
 from surfmesh.result.surface_mesh import SurfaceMesh
 
 SCHEMA = json.loads(
-    (Path(__file__).parents[2] / "docs" / "report-schema.json").read_text(encoding="utf-8")
+    (Path(__file__).parents[3] / "docs" / "report-schema.json").read_text(encoding="utf-8")
 )
 
 

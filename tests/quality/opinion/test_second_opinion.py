@@ -22,7 +22,7 @@ from surfmesh.result.surface_mesh import SurfaceMesh
 from surfmesh.view import html_report
 
 SCHEMA = json.loads(
-    (Path(__file__).parents[2] / "docs" / "report-schema.json").read_text(encoding="utf-8")
+    (Path(__file__).parents[3] / "docs" / "report-schema.json").read_text(encoding="utf-8")
 )
 ALL = 19  # figures of a closed surface
 

@@ -13,7 +13,7 @@ import surfmesh as sm
 from surfmesh.cli import main
 from surfmesh.io import read
 
-SCHEMA = json.loads(Path("docs/report-schema.json").read_text())
+SCHEMA = json.loads((Path(__file__).parents[3] / "docs/report-schema.json").read_text())
 
 
 @pytest.fixture(scope="module")
