@@ -16,8 +16,8 @@ from target_count import sizing_for
 import surfmesh as sm
 from surfmesh.geometry.differential.fundamental_forms import curvatures, forms_from_derivatives
 from surfmesh.geometry.surface import Surface
+from surfmesh.sizing.options.defaults import DEFAULT_ANGLE, DEFAULT_MAX_SIZE, LEAST_OF_CHORD
 from surfmesh.sizing.rules.curvature_size import angle_size, chord_size
-from surfmesh.sizing.rules.size_bounds import DEFAULT_ANGLE, DEFAULT_MAX_SIZE, LEAST_OF_CHORD
 
 POINTS = 10_000
 CLOUD_TRIANGLES = 10_000

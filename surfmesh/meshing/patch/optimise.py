@@ -34,8 +34,8 @@ from surfmesh.kernels.space.measure import tangent_plane_distances
 from surfmesh.kernels.triangulation.local_operations import DEAD
 from surfmesh.kernels.triangulation.triangulation import Triangulation
 from surfmesh.sizing.field.size_field import SizeField
+from surfmesh.sizing.options.defaults import FINEST_BY_ANGLE, FINEST_SIZE, LEAST_OF_CHORD
 from surfmesh.sizing.rules.bent_surface import bends_itself
-from surfmesh.sizing.rules.size_bounds import FINEST_SIZE, FINEST_TURN, LEAST_OF_CHORD
 from surfmesh.sizing.rules.size_limits import SizeLimits
 
 STIFFNESS = 2.0
@@ -256,7 +256,7 @@ class Optimiser:
     def straightening(self, turned: Turned) -> SizeLimits:
         """Limits under which triangles would turn by no more than ``angle``."""
         factor = np.clip(self._angle_limit(ANGLE_MARGIN) / turned.angles, 0.5, 0.85)
-        least = FINEST_TURN * self._diagonal()
+        least = FINEST_BY_ANGLE * self._diagonal()
         return self._limits_at(turned.triangles.ravel(), np.repeat(factor, 2), least)
 
     def _limits_at(
