@@ -120,6 +120,10 @@ class CadFace:
         """All coedges, loop after loop."""
         return (coedge for loop in self.loops for coedge in loop)
 
+    def label(self, number: int) -> str:
+        """What it is called in messages as face ``number``: ``face 3 (lid)``, or by its kind."""
+        return f"face {number} ({self.name or self.kind})"
+
 
 Shell = tuple[tuple[int, bool], ...]  # (face number, True where outside is against its normal)
 
@@ -198,6 +202,10 @@ class CadModel:
     tags: tuple[CadTag, ...] = ()
     left_out: tuple[str, ...] = ()
     _faces_of_edge: list = field(default_factory=list, compare=False)
+
+    def face_label(self, face: int) -> str:
+        """What a face is called in messages; see ``CadFace.label``."""
+        return self.faces[face].label(face)
 
     def faces_of_edge(self, edge: int) -> tuple[int, ...]:
         """Numbers of the faces that use an edge; twice the same for a seam."""
