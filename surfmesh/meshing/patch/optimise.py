@@ -35,7 +35,7 @@ from surfmesh.kernels.triangulation.local_operations import DEAD
 from surfmesh.kernels.triangulation.triangulation import Triangulation
 from surfmesh.sizing.field.size_field import SizeField
 from surfmesh.sizing.options.defaults import FINEST_BY_ANGLE, FINEST_SIZE, LEAST_OF_CHORD
-from surfmesh.sizing.rules.bent_surface import bends_itself
+from surfmesh.sizing.rules.crease import on_crease
 from surfmesh.sizing.rules.size_limits import SizeLimits
 
 STIFFNESS = 2.0
@@ -359,7 +359,7 @@ class Optimiser:
         alike = self._numbers()[self.t.tri[pairs]]  # both run the same way: a Moebius strip
         alike = alike[:, 0] == alike[:, 1]
         second[alike] = second[alike][:, [1, 0, 2]]
-        kept = ~bends_itself(self.surface, first, second, self.field.sizing.angle, self._diagonal())
+        kept = ~on_crease(self.surface, first, second, self.field.sizing.angle, self._diagonal())
         if not (kept[count:] & (angles[count:] > limit)).any():
             kept[count:] = False  # of seams that are fine as they are
         return Turned(pairs[kept] // 3, angles[kept])

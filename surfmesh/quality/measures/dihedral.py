@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 from surfmesh.kernels.optimisation.dihedral import dihedral_angles
 from surfmesh.result.surface_mesh import SurfaceMesh
 from surfmesh.sizing.options.defaults import DEFAULT_ANGLE
-from surfmesh.sizing.rules.bent_surface import bends_itself
+from surfmesh.sizing.rules.crease import on_crease
 
 ANGLE_SLACK = 1e-9  # relative: rounding in the angle itself
 
@@ -57,7 +57,7 @@ def turning(mesh: SurfaceMesh, limits: NDArray[np.float64] | None = None) -> Tur
         own = np.unique(mesh.triangles[mesh.face_ids == face])
         diagonal = float(np.linalg.norm(np.ptp(mesh.points[own], axis=0)))
         parts = _parameters(mesh, pairs[here])
-        bent = bends_itself(mesh.surfaces[face], *parts, float(limits[face]), diagonal)
+        bent = on_crease(mesh.surfaces[face], *parts, float(limits[face]), diagonal)
         angles[here[bent]] = 0.0
     return Turning(edges, faces, angles)
 

@@ -17,7 +17,7 @@ CREASE = math.cos(math.radians(1.0))
 """Cosine of the angle between the normals on both sides from which there is a crease."""
 
 
-def bends_itself(
+def on_crease(
     surface: Surface, first: np.ndarray, second: np.ndarray, angle: float, diagonal: float
 ) -> np.ndarray:
     """Is the edge between two triangles on a crease, at an apex, or as good as at one? (k,) bool.
