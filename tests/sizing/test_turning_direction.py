@@ -104,7 +104,7 @@ def test_what_long_edges_leave_of_the_chord_is_used():
     assert wanted_triangles(surface, 0.004, 50.0) < 1.03 * wanted_triangles(surface, 0.004, 5.0)
     sizing = Sizing(chord=0.004, anisotropy=50.0)
     field = size_field(surface, sizing, find_sides(surface))
-    xy = np.random.default_rng(1).uniform(0.1, 0.9, (2000, 2)) * field.scaling.extent
+    xy = np.random.default_rng(1).uniform(0.1, 0.9, (2000, 2)) * field.chart.extent
     nodes = SizeLaw(surface, sizing, None)(xy)
     w = inverse_sizes(field, xy, np.ones(len(xy)))
     width = 1 / np.linalg.eigvalsh(w[:, [0, 1, 2, 1, 3, 4, 2, 4, 5]].reshape(-1, 3, 3))[:, 2]
@@ -116,7 +116,7 @@ def test_a_law_is_not_regained():
     surface = load("ellipsoid")
     sizing = Sizing(chord=1e-2, size=lambda p: np.full(len(p), 0.05), anisotropy=20.0)
     field = size_field(surface, sizing, find_sides(surface))
-    xy = np.random.default_rng(1).uniform(0, 1, (500, 2)) * field.scaling.extent
+    xy = np.random.default_rng(1).uniform(0, 1, (500, 2)) * field.chart.extent
     w = inverse_sizes(field, xy, np.ones(len(xy)))
     values = np.linalg.eigvalsh(w[:, [0, 1, 2, 1, 3, 4, 2, 4, 5]].reshape(-1, 3, 3))
     assert (1 / values).max() <= 0.05 * (1 + 1e-9)

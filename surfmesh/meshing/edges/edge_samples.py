@@ -18,6 +18,7 @@ from surfmesh.geometry.differential.fundamental_forms import curvatures, forms_f
 from surfmesh.kernels.space.edge_distances import edge_gaps
 from surfmesh.meshing.edges.edge_mates import MateRun, mate_runs
 from surfmesh.meshing.edges.narrow_faces import ROUND, NarrowFace, narrow_face, narrow_width
+from surfmesh.sizing.options.defaults import FINEST_SIZE
 from surfmesh.sizing.options.model_sizing import ModelSizing
 from surfmesh.sizing.options.sizing import Sizing
 from surfmesh.sizing.rules.across_gaps import size_across
@@ -27,12 +28,7 @@ from surfmesh.sizing.rules.curvature_size import (
     normal_deviation_size,
 )
 from surfmesh.sizing.rules.direction_size import size_along
-from surfmesh.sizing.rules.size_bounds import (
-    FINEST_SIZE,
-    SizeBounds,
-    curvature_sizes,
-    default_angle_size,
-)
+from surfmesh.sizing.rules.size_bounds import SizeBounds, curvature_sizes, default_angle_size
 from surfmesh.sizing.rules.turning_direction import is_even
 
 STRAIGHT_SAMPLES, CURVED_SAMPLES = 33, 129

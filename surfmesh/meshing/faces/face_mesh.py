@@ -166,7 +166,7 @@ def _meshed(job: FaceJob, unfold: bool = True) -> FaceMesh:
     else:
         optimiser.settle()
     xy = domain.t.xy[: int(domain.t.count[0])]
-    uv = field.scaling.to_uv(xy)
+    uv = field.chart.to_uv(xy)
     uv[domain.node] = loops.uv
     parts = glued(surface, loops, domain, uv)
     slot = np.full(len(xy), -1, np.int64)
@@ -269,7 +269,7 @@ def _agrees(field: SizeField, real: list[CoedgeNodes]) -> bool:
     for piece in real:
         sizes = np.empty(len(piece.uv) - 1)
         middle = 0.5 * (piece.uv[1:] + piece.uv[:-1])
-        scalar_sizes_at(field.background, field.scaling.to_plane(middle), sizes)
+        scalar_sizes_at(field.background, field.chart.to_plane(middle), sizes)
         if (np.linalg.norm(np.diff(piece.points, axis=0), axis=1) > LONGER * sizes).any():
             return False
     return True

@@ -8,8 +8,8 @@ from numpy.typing import NDArray
 
 from surfmesh.kernels.optimisation.dihedral import dihedral_angles
 from surfmesh.result.surface_mesh import SurfaceMesh
+from surfmesh.sizing.options.defaults import DEFAULT_ANGLE
 from surfmesh.sizing.rules.bent_surface import bends_itself
-from surfmesh.sizing.rules.size_bounds import DEFAULT_ANGLE
 
 ANGLE_SLACK = 1e-9  # relative: rounding in the angle itself
 

@@ -10,7 +10,7 @@ import numpy as np
 
 from surfmesh.errors import SizingError
 from surfmesh.geometry.cad_surfaces.elementary import Cylinder, Plane
-from surfmesh.geometry.differential.scaling import Scaling
+from surfmesh.geometry.differential.chart import Chart
 from surfmesh.geometry.planar.planar_domain import PlanarDomain
 from surfmesh.geometry.surface import Surface
 from surfmesh.kernels.fields.background import Background
@@ -68,7 +68,7 @@ def boundary_field(
             "size_field"
         )
     radius = surface.radius if isinstance(surface, Cylinder) else 1.0
-    scaling = Scaling.uniform(surface.domain, (radius, 1.0))
+    chart = Chart.uniform(surface.domain, (radius, 1.0))
     sizes = np.ascontiguousarray(sizes, float)
     uv = np.ascontiguousarray(uv, float).reshape(-1, 2)
     if sizes.shape != (len(uv),) or not (sizes > 0.0).all() or not np.isfinite(uv).all():
@@ -81,7 +81,7 @@ def boundary_field(
     if isinstance(surface, Cylinder) or largest is None:
         stated = sizing.max_size and (sizing.chord or sizing.angle or sizing.size)
         # the finest size alone is left to the diagonal: that of the rectangle will do
-        diagonal = math.hypot(*scaling.extent) if stated else _diagonal(surface)
+        diagonal = math.hypot(*chart.extent) if stated else _diagonal(surface)
         bounds = SizeBounds.of(sizing, diagonal)
         sizing, allowed = bounds.sizing, bounds.clamp[1]
         if isinstance(surface, Cylinder) and bounds.follows_curvature:
@@ -91,12 +91,12 @@ def boundary_field(
         raise SizingError(
             f"the largest size on {surface.name!r} must be a positive number, not {largest:g}"
         )
-    width, height = (float(extent) for extent in scaling.extent)
+    width, height = (float(extent) for extent in chart.extent)
     low = [surface.domain[0][0], surface.domain[1][0]]
     place = (uv - low) * [radius, 1.0]
     box = (0.0, 0.0, width, height)
     background = source_background(place, sizes, largest, sizing.gradient, box)
-    return SizeField(scaling, background, sizing)
+    return SizeField(chart, background, sizing)
 
 
 def source_background(

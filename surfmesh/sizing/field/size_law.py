@@ -5,12 +5,12 @@ from typing import NamedTuple
 
 import numpy as np
 
+from surfmesh.geometry.differential.chart import Chart
 from surfmesh.geometry.differential.fundamental_forms import (
     FundamentalForms,
     curvatures,
     forms_from_derivatives,
 )
-from surfmesh.geometry.differential.scaling import Scaling
 from surfmesh.geometry.surface import Surface
 from surfmesh.sizing.options.sizing import Sizing
 from surfmesh.sizing.rules.rim_size import Rims, RimSizes
@@ -131,7 +131,7 @@ class SizeLaw:
         self, surface: Surface, sizing: Sizing, limits: SizeLimits | None, rims: Rims | None = None
     ) -> None:
         """rims: bound the size too, where ``chord`` is asked for."""
-        self.surface, self.scaling = surface, Scaling.of(surface)
+        self.surface, self.chart = surface, Chart.of(surface)
         (u0, u1), (v0, v1) = surface.domain
         grid = np.linspace(0.0, 1.0, 17)
         t = np.stack(np.meshgrid(grid, grid), axis=-1).reshape(-1, 2)
@@ -166,7 +166,7 @@ class SizeLaw:
 
     def __call__(self, xy: np.ndarray) -> FieldNodes:
         """Nodes at xy (n, 2) of the scaled plane."""
-        uv, rates = self.scaling.to_uv_and_rates(xy)
+        uv, rates = self.chart.to_uv_and_rates(xy)
         point, ru, rv, *second = self.surface.evaluate(uv, 2)
         forms = forms_from_derivatives(ru, rv, *second)
         root = root_of_form(forms, rates)
@@ -294,7 +294,7 @@ class SizeLaw:
         """Rows (k,) of nodes that rims have something to say to, what it is, and the least of
         it (k,) in any direction: nodes on each open side, and all, if there are loops."""
         if self.rims is not None:
-            for rows, rim in self.rims.on_sides(self.scaling, self.sizing.chord, xy, uv):
+            for rows, rim in self.rims.on_sides(self.chart, self.sizing.chord, xy, uv):
                 yield rows, rim, rim.sizes
         if self.loop_limits is not None:
             yield np.arange(len(xy)), self.loop_limits, self.loop_limits(point)
@@ -339,12 +339,12 @@ class TensorLaw:
     def __init__(
         self, surface: Surface, sizing: Sizing, tensors: Callable[[np.ndarray], np.ndarray]
     ) -> None:
-        self.surface, self.scaling = surface, Scaling.of(surface)
+        self.surface, self.chart = surface, Chart.of(surface)
         self.sizing, self.tensors = sizing, tensors
 
     def __call__(self, xy: np.ndarray) -> FieldNodes:
         """Nodes with sizes of one, and H^-1 for the root of the first form."""
-        uv = self.scaling.to_uv(xy)
+        uv = self.chart.to_uv(xy)
         h = self.tensors(uv)
         det = h[:, 0] * h[:, 2] - h[:, 1] ** 2
         inverse = np.stack([h[:, 2], -h[:, 1], h[:, 0]], axis=1) / det[:, None]
