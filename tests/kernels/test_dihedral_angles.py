@@ -6,7 +6,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from surfmesh.kernels.optimisation.dihedral import dihedral_angles
-from surfmesh.quality.measures.dihedral import turning, worst_turn
+from surfmesh.quality.measures.dihedral import angles_within_faces, largest_angle
 from surfmesh.result.connectivity import connect
 from surfmesh.result.surface_mesh import SurfaceMesh
 from surfmesh.sizing.options.sizing import Sizing
@@ -108,10 +108,10 @@ def roof_mesh(surface, angle):
 def test_creases_of_the_surface_are_no_fault():
     first, second = (np.array([[[0, 0], [1, 0], [0, y]]], float) / 2 for y in (1.0, -1.0))
     assert on_crease(Roof(1.0), first, second[:, [1, 0, 2]], 10.0, 1.0)[0]
-    assert turning(roof_mesh(Roof(1.0), 10.0)).angles.max() == 0.0
+    assert angles_within_faces(roof_mesh(Roof(1.0), 10.0)).angles.max() == 0.0
     bent = roof_mesh(Roof(0.0), 10.0)  # on a plane it is one
-    turns = turning(bent)
-    largest, triangles, place = worst_turn(bent, turns)
+    turns = angles_within_faces(bent)
+    largest, triangles, place = largest_angle(bent, turns)
     assert largest == pytest.approx(90.0) and sorted(triangles) == [0, 1]
     assert place == pytest.approx((0.0, 0.0, 0.0))
     assert turns.above(10.0).all() and not turns.above(90.0).any()
