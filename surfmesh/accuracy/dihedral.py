@@ -52,7 +52,7 @@ def corners_beside(half_edges: NDArray[np.integer]) -> NDArray[np.integer]:
     return 3 * triangle[..., None] + (side[..., None] + [0, 1, 2]) % 3
 
 
-def is_bent_by_surface(
+def on_crease(
     surface: Surface,
     vertices: NDArray[np.integer],
     uv: NDArray[np.float64],

@@ -16,7 +16,7 @@ LOOKED_AT = (0.1, 0.3, 0.5, 0.7, 0.9)
 """Shares of a segment at which the sizes inside are read."""
 
 
-def wishes_along(
+def sizes_along_edges(
     sizing: Sizing, surface: Surface, field: SizeField, loops: BoundaryLoops, points: np.ndarray
 ) -> SizeLimits | None:
     """What sizes grown from the inside ask for along edges that know their own surroundings only.

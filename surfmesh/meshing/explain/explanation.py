@@ -198,7 +198,7 @@ def explain_model(
         return _along_axes(where, field, bounds, rows_at, others, slope)
     elsewhere = []
     if len(samples.points):
-        reach = samples.wish + slope * np.linalg.norm(samples.points - foot, axis=1)
+        reach = samples.target_size + slope * np.linalg.norm(samples.points - foot, axis=1)
         place = int(np.argmin(reach))
         elsewhere.append(_at_sample(model, wanted, samples, place))
     law = SizeLaw(surface, sizings[number], None)
@@ -315,7 +315,7 @@ def _best_sample(
 
     A size along an edge says nothing of directions across it; None: it holds in all of them.
     """
-    size = samples.wish
+    size = samples.target_size
     if direction is not None:
         size = size / np.maximum(np.abs(samples.tangent @ direction), np.finfo(float).eps)
     away = np.linalg.norm(samples.points - foot, axis=1)
@@ -449,7 +449,7 @@ def _at_sample(
             groups.append(list(rows(rule.key, rule.sizing, point, None, None)))
     winners = [row for row in map(deciding, groups) if row is not None]
     least = min(winners, key=lambda row: row.size, default=None)
-    wish = float(samples.wish[place])
+    wish = float(samples.target_size[place])
     if least is None or wish < LOWERED * least.size:
         rule = "gap to another edge of a face"
         if wish > LOWERED * item.length:

@@ -16,7 +16,7 @@ from surfmesh.accuracy.dihedral import (
     SLACK,
     corners_beside,
     dihedral_angles,
-    is_bent_by_surface,
+    on_crease,
 )
 from surfmesh.accuracy.folds import cosines_with_surface, sharp_radius
 from surfmesh.accuracy.samples import CENTROID
@@ -343,7 +343,7 @@ class Optimiser:
             return Turned(pairs, angles)
         corner = self.t.tri[corners_beside(pairs)]
         uv = self.field.chart.to_uv(self.t.xy[corner.ravel()]).reshape(*corner.shape, 2)
-        bent = is_bent_by_surface(
+        bent = on_crease(
             self.surface, self._numbers()[corner], uv, self.field.sizing.angle, self._diagonal()
         )
         kept = ~bent

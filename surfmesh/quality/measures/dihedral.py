@@ -10,13 +10,13 @@ from surfmesh.accuracy.dihedral import (
     SLACK,
     corners_beside,
     dihedral_angles,
-    is_bent_by_surface,
+    on_crease,
 )
 from surfmesh.result.surface_mesh import SurfaceMesh
 from surfmesh.sizing.options.defaults import DEFAULT_ANGLE
 
 
-class Turning(NamedTuple):
+class DihedralAngles(NamedTuple):
     """Angles between the normals of two triangles of one face that share an edge, degrees."""
 
     edges: NDArray[np.intp]  # (k,) of ``mesh.edges``: between two triangles of one face
@@ -28,7 +28,9 @@ class Turning(NamedTuple):
         return self.angles > angle * (1 + SLACK)
 
 
-def turning(mesh: SurfaceMesh, limits: NDArray[np.float64] | None = None) -> Turning | None:
+def angles_within_faces(
+    mesh: SurfaceMesh, limits: NDArray[np.float64] | None = None
+) -> DihedralAngles | None:
     """Angles within the faces of ``mesh``; None where its surfaces are not known.
 
     Edges between two faces are left out: there the model itself may bend. So may one surface,
@@ -59,20 +61,20 @@ def turning(mesh: SurfaceMesh, limits: NDArray[np.float64] | None = None) -> Tur
         beside = corners_beside(pairs[here])
         uv = mesh.uv_points[mesh.uv_triangles.ravel()[beside]]
         vertices = mesh.triangles.ravel()[beside]
-        bent = is_bent_by_surface(mesh.surfaces[face], vertices, uv, float(limits[face]), diagonal)
+        bent = on_crease(mesh.surfaces[face], vertices, uv, float(limits[face]), diagonal)
         angles[here[bent]] = 0.0
-    return Turning(edges, faces, angles)
+    return DihedralAngles(edges, faces, angles)
 
 
-def worst_turn(
-    mesh: SurfaceMesh, turns: Turning
+def largest_angle(
+    mesh: SurfaceMesh, dihedrals: DihedralAngles
 ) -> tuple[float, tuple[int, int], tuple[float, float, float]] | None:
     """The largest angle, the two triangles, and the middle of their edge; None without edges."""
-    if not len(turns.angles):
+    if not len(dihedrals.angles):
         return None
-    worst = int(turns.angles.argmax())
-    edge = turns.edges[worst]
+    worst = int(dihedrals.angles.argmax())
+    edge = dihedrals.edges[worst]
     first, second = (mesh.connectivity.half_edges[edge] // 3).tolist()
     place = mesh.points[mesh.edges[edge]].mean(axis=0)
-    largest = float(turns.angles[worst])
+    largest = float(dihedrals.angles[worst])
     return (largest if math.isfinite(largest) else math.nan), (first, second), tuple(place.tolist())

@@ -36,9 +36,9 @@ from surfmesh.sizing.field.field_cells import GRID_DEPTH, Cells, SourceCells, co
 from surfmesh.sizing.field.size_law import FieldNodes, SizeLaw, TensorLaw
 from surfmesh.sizing.field.small_sizes import small_sizes
 from surfmesh.sizing.options.sizing import Sizing
+from surfmesh.sizing.rules.direction_rates import has_even_curvature
 from surfmesh.sizing.rules.rim_size import Rims
 from surfmesh.sizing.rules.size_limits import SizeLimits
-from surfmesh.sizing.rules.turning_direction import is_even
 
 ROOT_CELLS = 2304
 """About how many cells the search starts with: a smooth surface needs no more."""
@@ -271,8 +271,8 @@ class _Builder:
             deep = np.concatenate([deep[~split], np.repeat(deep[split], 4)])
             patch = np.concatenate([patch[~split], self._patches(children)])
             cells = cells.chosen(~split).joined_with(children)
-        if self.nodes.is_anisotropic and not is_even(self.surface):
-            self._settle(patch)
+        if self.nodes.is_anisotropic and not has_even_curvature(self.surface):
+            self._limit_longer_sizes(patch)
         self._blunt_poles()
         self.nodes = self.nodes.in_order()
         tree.append(cells.index)  # every leaf is split once more, onto its test nodes
@@ -406,7 +406,7 @@ class _Builder:
         self.changed[:] = self.sweep
         self._grade(patch)
 
-    def _settle(self, patch: np.ndarray) -> None:
+    def _limit_longer_sizes(self, patch: np.ndarray) -> None:
         """Longer sizes where directions turn, and shorter ones where the longer are not reached.
 
         The width of a triangle is then known: it is at most what growth allows in any metric.
@@ -416,7 +416,7 @@ class _Builder:
         width = size.copy()
         self.changed[:] = self.sweep
         self._spread(patch, width, round_metric)
-        long = np.minimum(long, self.law.turned(nodes, width))
+        long = np.minimum(long, self.law.longest_along(nodes, width))
         self._grade_anew(patch, size, long)
         ratio = REACHED * nodes.long / nodes.size
         size = self.law.regained(nodes, ratio)
@@ -457,9 +457,9 @@ class _Builder:
         error, extent = np.empty(len(patch)), np.empty(len(patch))
         nodes = self.nodes
         patch_errors(patch, nodes.inverse_sizes(), step, self._largest, error, extent)
-        graded = (nodes.size < 0.98 * nodes.wish)[patch].any(axis=1)
+        graded = (nodes.size < 0.98 * nodes.target_size)[patch].any(axis=1)
         if nodes.is_anisotropic:
-            graded |= (nodes.long < 0.98 * nodes.long_wish)[patch].any(axis=1)
+            graded |= (nodes.long < 0.98 * nodes.long_target_size)[patch].any(axis=1)
         allowed = np.where(graded, GRADED_ERROR, TEST_ERROR)
         by_sources = self.law.limits is not None and self.law.limits.uv is not None
         coarse = FINEST_STRETCHED if nodes.is_anisotropic else FINEST_GRADED
