@@ -16,8 +16,8 @@ from numpy.typing import NDArray
 from surfmesh.io.colours import NO_COLOUR, triangle_colours
 from surfmesh.io.vtk_xml_reading import read_vtk
 from surfmesh.io.xml_writing import Content, write_grid, write_polygons
-from surfmesh.quality.measures.promises import plain_promises
 from surfmesh.quality.measures.shape import alpha
+from surfmesh.quality.measures.tolerances import tolerance_rows
 from surfmesh.result.mesh_groups import MeshGroups
 from surfmesh.result.quadratic_triangles import node_values, split_six_nodes
 from surfmesh.result.surface_mesh import SurfaceMesh
@@ -28,7 +28,7 @@ if TYPE_CHECKING:
 GROUPS = "surfmesh_groups"
 BESIDE = ("edge_segments", "edge_ids", "vertex_ids")  # field data of the same names
 PROMISES = "surfmesh_promises"  # chord, angle, min_size of each face or of all; 0: not asked for
-METRIC, METRIC_ROWS = "surfmesh_inverse_sizes", "metric_root_row"
+METRIC, METRIC_ROWS = "surfmesh_inverse_sizes", "inverse_size_row"
 """Sizes that depend on the direction: a table W = xx, xy, xz, yy, yz, zz (|W d| is the step d in
 wanted lengths) in field data, and the rows of the three corners of each triangle."""
 
@@ -71,7 +71,7 @@ def write(mesh: SurfaceMesh, path: Path) -> None:
         of_triangles[METRIC_ROWS] = mesh.uv_triangles
         field[METRIC] = mesh.inverse_sizes
     field[GROUPS] = np.frombuffer(json.dumps(mesh.groups.plain()).encode(), np.uint8)
-    promises = plain_promises(mesh)
+    promises = tolerance_rows(mesh)
     if promises is not None:
         field[PROMISES] = np.nan_to_num(promises)  # VTK's XML has no nan
     for name in BESIDE:
