@@ -28,7 +28,7 @@ if TYPE_CHECKING:
 GROUPS = "surfmesh_groups"
 BESIDE = ("edge_segments", "edge_ids", "vertex_ids")  # field data of the same names
 PROMISES = "surfmesh_promises"  # chord, angle, min_size of each face or of all; 0: not asked for
-METRIC, METRIC_ROWS = "surfmesh_inverse_sizes", "metric_root_row"
+METRIC, METRIC_ROWS = "surfmesh_inverse_sizes", "inverse_size_row"
 """Sizes that depend on the direction: a table W = xx, xy, xz, yy, yz, zz (|W d| is the step d in
 wanted lengths) in field data, and the rows of the three corners of each triangle."""
 

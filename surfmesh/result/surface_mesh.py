@@ -20,6 +20,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from surfmesh.result.connectivity import Connectivity, connect
+from surfmesh.result.findings import Finding, FindingKind
 from surfmesh.result.mesh_groups import MeshGroups
 from surfmesh.result.model_facts import ModelFacts
 from surfmesh.result.quadratic_triangles import edge_rows, six_nodes
@@ -33,7 +34,7 @@ if TYPE_CHECKING:
     from surfmesh.quality.report import Report
     from surfmesh.quality.verdict.worst import WorstTriangle
 
-NOT_MESHED = "not meshed: "
+NOT_MESHED = FindingKind.NOT_MESHED.value
 """How the warning about a CAD face starts that is missing: such a mesh is not clean."""
 
 
@@ -71,6 +72,7 @@ class SurfaceMesh:
     promises: NDArray[np.float64] | None = None
     seconds: Mapping[str, float] = field(default_factory=dict)  # by stage
     warnings: tuple[str, ...] = ()  # what the user should know
+    findings: tuple[Finding, ...] = ()  # those of the warnings that are about one face, as records
     one_sided: bool = False  # no orientation exists (Moebius, Klein): none is demanded
     facts: ModelFacts | None = None  # what is known of the model beforehand
     # of CAD models; None otherwise
@@ -135,6 +137,7 @@ class SurfaceMesh:
         if self.groups is None:
             object.__setattr__(self, "groups", MeshGroups.of_surfaces(self.surfaces))
         object.__setattr__(self, "warnings", tuple(self.warnings))
+        object.__setattr__(self, "findings", tuple(self.findings))
         object.__setattr__(self, "seconds", dict(self.seconds))
 
     @property

@@ -177,7 +177,7 @@ def explain_model(
         found = _rows_of(wanted, rules, place, *(k or (None, None)), make)
         return found + _gaps_of(wanted, number, place)
 
-    name = f"face {number} ({face.name or face.kind})"
+    name = face.label(number)
     if number in samples.narrow:
         across = samples.narrow[number].width
         name += f", {across:.3g} across and so closed between its sides: sizes inside do not count"
