@@ -16,8 +16,8 @@ from target_count import sizing_for
 import surfmesh as sm
 from surfmesh.geometry.differential.fundamental_forms import curvatures, forms_from_derivatives
 from surfmesh.geometry.surface import Surface
+from surfmesh.sizing.options.defaults import DEFAULT_ANGLE, DEFAULT_MAX_SIZE, LEAST_OF_CHORD
 from surfmesh.sizing.rules.curvature_size import angle_size, chord_size
-from surfmesh.sizing.rules.size_bounds import DEFAULT_ANGLE, DEFAULT_MAX_SIZE, LEAST_OF_CHORD
 
 POINTS = 10_000
 CLOUD_TRIANGLES = 10_000
@@ -143,13 +143,13 @@ def _steady(surface, uv, point, size, metric, sizing) -> np.ndarray:
 
 def _errors(field, uv: np.ndarray, metric: np.ndarray) -> np.ndarray:
     """Largest relative error over all directions of the length that counts as one."""
-    xy = np.ascontiguousarray(field.scaling.to_plane(uv))
-    rates = field.scaling.rates(xy)
+    xy = np.ascontiguousarray(field.chart.to_plane(uv))
+    rates = field.chart.rates(xy)
     h = field.tensors(xy)
     a = np.linalg.inv(h[:, [[0, 1], [1, 2]]])
     found = a @ a  # M = H^-2 in the scaled plane
     exact = metric[:, [[0, 1], [1, 2]]] * rates[:, :, None] * rates[:, None, :]
-    fits = 1.0 / np.sqrt(np.linalg.eigvalsh(exact)[:, 0]) < WIDEST * field.scaling.extent.max()
+    fits = 1.0 / np.sqrt(np.linalg.eigvalsh(exact)[:, 0]) < WIDEST * field.chart.extent.max()
     exact, found = exact[fits], found[fits]
     ratio = np.linalg.eigvals(np.linalg.solve(exact, found)).real
     error = np.zeros(len(uv))

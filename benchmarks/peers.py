@@ -45,10 +45,10 @@ class WantedSize:
         from scipy.spatial import cKDTree
 
         self.surface, self.field = surface, field
-        width, height = field.scaling.extent
+        width, height = field.chart.extent
         self.xy = _lattice(((0.0, width), (0.0, height)), GUESS_GRID)
-        self.uv = field.scaling.to_uv(self.xy)
-        rates = field.scaling.rates(self.xy)
+        self.uv = field.chart.to_uv(self.xy)
+        rates = field.chart.rates(self.xy)
         self.point, r_u, r_v = surface.evaluate(self.uv, 1)
         self.tree = cKDTree(self.point)
         jacobian = np.stack([r_u * rates[:, :1], r_v * rates[:, 1:]], axis=2)
@@ -68,7 +68,7 @@ class WantedSize:
     def at(self, uv: np.ndarray) -> np.ndarray:
         """(n,) sizes wanted at uv (n, 2)."""
         sizes = np.empty(len(uv))
-        plane = np.ascontiguousarray(self.field.scaling.to_plane(uv))
+        plane = np.ascontiguousarray(self.field.chart.to_plane(uv))
         scalar_sizes_at(self.field.background, plane, sizes)
         return sizes
 

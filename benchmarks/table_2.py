@@ -169,9 +169,9 @@ def _field(surface: Surface, sizing: sm.Sizing) -> tuple[SizeField, Callable]:
         field = size_field(surface, sizing, None, limits)
         inside = shapely.union_all(inside_faces(surface.graph))
         shapely.prepare(inside)
-        return field, lambda xy: shapely.contains_xy(inside, field.scaling.to_uv(xy))
+        return field, lambda xy: shapely.contains_xy(inside, field.chart.to_uv(xy))
     field = field_of(surface, sizing)
-    extent = np.array(field.scaling.extent)
+    extent = np.array(field.chart.extent)
     return field, lambda xy: ((xy >= 0.0) & (xy <= extent)).all(axis=1)
 
 

@@ -66,7 +66,7 @@ class DomainError(SurfmeshError, ValueError):
 
 
 class SizingError(SurfmeshError, ValueError):
-    """A wish about sizes that cannot be met: unknown, contradictory, not positive."""
+    """A size request that cannot be met: unknown, contradictory, not positive."""
 
 
 class MeshingError(SurfmeshError, RuntimeError):

@@ -8,6 +8,6 @@ healing             repair, in words
 joining             what is asked of parts that touch: sewing, imprinting; origins: their names
 topology, convert   shapes and geometry of OCP -> plain data
 loops               coedges in walking order
-tolerances, images  how far edges really lie off their faces, and better images
+tolerances, pcurves how far edges really deviate from their faces, and better p-curves
 model, invariants   the data, and what must be true of it
 """

@@ -85,7 +85,7 @@ def model_of(
     root: Part, *, heal: bool, units: str | None = None, file_unit: str = "mm", source: str = "",
     joining: Joining | None = None, path: FilePath | None = None,
 ) -> CadModel:  # fmt: skip
-    """Heal, scale and place every part, join them if wished, and walk through all of them.
+    """Heal, scale and place every part, join them if asked to, and walk through all of them.
 
     Shapes are in millimetres; units: what the model is wanted in (None: millimetres). path: of
     the file they were read from. Raises CadError when a part cannot be used, or the parts cannot

@@ -29,5 +29,5 @@ offset              curves and surfaces at a distance from others
 fundamental_forms   I, II, normals, principal curvatures
 sides               sides of the rectangle that coincide or shrink to a point
 projection          the closest point of a surface
-scaling             the scaled parameter plane, its axes bent to even speeds
+chart               the scaled parameter plane, its axes bent to even speeds
 """

@@ -18,7 +18,7 @@ class Surface(Protocol):
 
     These five members are all that is needed; ``name`` may be empty. What a surface may say
     besides, and what is taken where it does not: ``kind`` ("plane", "cylinder", ...: see
-    ``surface_kind``), ``facts`` and ``sizing_defaults`` (mappings: nothing is known or wished),
+    ``surface_kind``), ``facts`` and ``sizing_defaults`` (mappings: nothing is known or asked),
     ``formulas``. The surfaces of CAD faces have ``with_domain`` too: see ``FaceSurface``.
     """
 

@@ -16,8 +16,8 @@ from numpy.typing import NDArray
 from surfmesh.io.colours import NO_COLOUR, triangle_colours
 from surfmesh.io.vtk_xml_reading import read_vtk
 from surfmesh.io.xml_writing import Content, write_grid, write_polygons
-from surfmesh.quality.measures.promises import plain_promises
 from surfmesh.quality.measures.shape import alpha
+from surfmesh.quality.measures.tolerances import tolerance_rows
 from surfmesh.result.mesh_groups import MeshGroups
 from surfmesh.result.quadratic_triangles import node_values, split_six_nodes
 from surfmesh.result.surface_mesh import SurfaceMesh
@@ -71,7 +71,7 @@ def write(mesh: SurfaceMesh, path: Path) -> None:
         of_triangles[METRIC_ROWS] = mesh.uv_triangles
         field[METRIC] = mesh.metric_root_3d
     field[GROUPS] = np.frombuffer(json.dumps(mesh.groups.plain()).encode(), np.uint8)
-    promises = plain_promises(mesh)
+    promises = tolerance_rows(mesh)
     if promises is not None:
         field[PROMISES] = np.nan_to_num(promises)  # VTK's XML has no nan
     for name in BESIDE:

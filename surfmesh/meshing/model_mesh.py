@@ -37,7 +37,8 @@ from surfmesh.meshing.finishing.edge_collapse import LEAST, simplified
 from surfmesh.meshing.progress import Progress, Stopwatch
 from surfmesh.meshing.solids.groups import groups_of
 from surfmesh.meshing.solids.volumes import VolumeAims
-from surfmesh.result.surface_mesh import NOT_MESHED, SurfaceMesh
+from surfmesh.result.findings import Finding, FindingKind
+from surfmesh.result.surface_mesh import SurfaceMesh
 from surfmesh.sizing.options.model_sizing import ModelSizing, model_sizing
 from surfmesh.sizing.options.sizing import Sizing
 from surfmesh.sizing.rules.size_limits import SizeLimits
@@ -295,9 +296,13 @@ def _left_over(model: CadModel, faces: set[int]) -> list[str]:
     ]
 
 
+def _failure(model: CadModel, number: int, found: FaceMesh) -> Finding:
+    label = model.face_label(number)
+    return Finding(FindingKind.NOT_MESHED, found.failure, number, label)
+
+
 def _reason(model: CadModel, number: int, found: FaceMesh) -> str:
-    face = model.faces[number]
-    return f"face {number} ({face.name or face.kind}): {found.failure or found.remark}"
+    return f"{model.face_label(number)}: {found.failure or found.remark}"
 
 
 def _job(
@@ -411,12 +416,10 @@ def _joined(
     segments = rank[np.concatenate(segments)] if segments else np.empty((0, 2), np.int64)
     of = np.concatenate(of) if of else np.empty(0, np.int64)
     there = (segments >= 0).all(axis=1)
-    missing = [f"{NOT_MESHED}{said}" for said in model.left_out]
-    missing += [
-        f"{NOT_MESHED}{_reason(model, k, found)}" for k, found in enumerate(done) if found.failure
-    ]
-    missing += [
-        f"face {k} ({model.faces[k].name or model.faces[k].kind}): {found.remark}"
+    findings = [Finding(FindingKind.NOT_MESHED, said) for said in model.left_out]
+    findings += [_failure(model, k, found) for k, found in enumerate(done) if found.failure]
+    findings += [
+        Finding(FindingKind.OFF_SURFACE, found.remark, k, model.face_label(k))
         for k, found in enumerate(done)
         if found.remark
     ]
@@ -440,7 +443,8 @@ def _joined(
         metric_root_3d=np.concatenate(stretched) if stretched else None,
         sizing=sizing,
         seconds=watch.seconds,
-        warnings=tuple([*model.healing, *_loose(model, sizing), *missing]),
+        warnings=(*model.healing, *_loose(model, sizing), *(found.text for found in findings)),
+        findings=tuple(findings),
         facts=model_facts(model),
     )
 

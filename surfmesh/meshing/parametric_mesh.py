@@ -198,7 +198,7 @@ def _in_space(
     domain: DomainMesh, scale: np.ndarray, watch: Stopwatch,
 ) -> tuple[SurfaceMesh, Glued]:  # fmt: skip
     xy = domain.t.xy[: int(domain.t.count[0])]
-    uv = field.scaling.to_uv(xy)
+    uv = field.chart.to_uv(xy)
     uv[domain.node] = loops.uv  # to the last bit
     parts = glued(surface, loops, domain, uv)
     sizes = np.empty(len(parts.place))

@@ -174,7 +174,7 @@ def _in_space(
     used[corners.ravel()] = True
     number = np.cumsum(used) - 1
 
-    uv = field.scaling.to_uv(t.xy[:vertices])
+    uv = field.chart.to_uv(t.xy[:vertices])
     met = inside.node >= 0
     uv[inside.node[met]] = cut.uv[met]  # to the last bit
     sizes = np.empty(vertices)

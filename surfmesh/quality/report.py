@@ -17,7 +17,7 @@ from surfmesh.quality.measures.by_face import FaceRow, by_face
 from surfmesh.quality.measures.by_solid import SolidRow, by_solid, relative_error, volume_of_all
 from surfmesh.quality.measures.chord_use import chord_use
 from surfmesh.quality.measures.deviation import deviation
-from surfmesh.quality.measures.dihedral import turning, worst_turn
+from surfmesh.quality.measures.dihedral import angles_within_faces, largest_angle
 from surfmesh.quality.measures.folds import FoldedTriangle, folded_surfaces, folds, most_folded
 from surfmesh.quality.measures.histograms import Histogram, histograms
 from surfmesh.quality.measures.inward import turned_inward
@@ -32,19 +32,19 @@ from surfmesh.quality.measures.lengths import (
 from surfmesh.quality.measures.loose_edges import LooseEdges, loose_edges
 from surfmesh.quality.measures.lost import explained, is_known, lost
 from surfmesh.quality.measures.narrow import DEGENERATE, narrow_triangles
-from surfmesh.quality.measures.promises import (
-    Tolerances,
-    UnattainableTolerance,
-    angle_kept,
-    beyond_angle,
-    beyond_chord,
-    chord_kept,
-    stated,
-)
 from surfmesh.quality.measures.self_intersection import MeetingPair, located, meeting_pairs
 from surfmesh.quality.measures.shape import enclosed_volume, metric_alpha, shapes
 from surfmesh.quality.measures.solids import shares_faces
 from surfmesh.quality.measures.surface_to_mesh import both_ways, surface_deviation, surface_too_far
+from surfmesh.quality.measures.tolerances import (
+    Tolerances,
+    UnattainableTolerance,
+    angle_violation,
+    chord_violation,
+    exceeds_angle,
+    exceeds_chord,
+    stated,
+)
 from surfmesh.quality.measures.topology import topology
 from surfmesh.quality.measures.unseen import UnseenPlace, unseen, unseen_problems
 from surfmesh.quality.opinion.second_opinion import (
@@ -117,7 +117,7 @@ class Report:
     degenerate: int  # triangles with alpha below 1e-6
     folded: int | None  # triangles turned more than 60 degrees from the surface, inverted too
     inverted: int | None  # triangles turned more than 90 degrees from the surface
-    folded_by_surface: int | None  # where the surface bends sharply or turns over: not counted
+    folded_by_surface: int | None  # where the surface bends sharply or dihedrals over: not counted
     # as folded or inverted
     folded_at: tuple[FoldedTriangle, ...]  # the twenty that are turned most
     worst: tuple[WorstTriangle, ...]  # the twenty of the smallest alpha
@@ -258,27 +258,27 @@ def _checked(mesh: SurfaceMesh) -> Report:
     steep = None if slope is None else size_growth(mesh, lengths, slope)
     wanted = None if mesh.metric_root_3d is None else metric_alpha(mesh)
     fit = deviation(mesh, shape.area) if finite else None
-    promises = Tolerances.of(mesh)
-    back = surface_deviation(mesh, fit, promises)
-    chord = getattr(mesh.sizing, "chord", None) or promises.base_chord
+    tolerances = Tolerances.of(mesh)
+    back = surface_deviation(mesh, fit, tolerances)
+    chord = getattr(mesh.sizing, "chord", None) or tolerances.base_chord
     facts = mesh.facts or ModelFacts()
     unit_share = None
     if metric is not None and len(metric):
         low, high = QUASI_UNIT
         unit_share = float(np.count_nonzero((metric >= low) & (metric <= high)) / len(metric))
-    used = chord_use(mesh, fit, promises)
-    angle = getattr(mesh.sizing, "angle", None) or promises.base_angle
-    turns = turning(mesh, promises.angle) if finite else None
-    worst = None if turns is None else worst_turn(mesh, turns)
+    used = chord_use(mesh, fit, tolerances)
+    angle = getattr(mesh.sizing, "angle", None) or tolerances.base_angle
+    dihedrals = angles_within_faces(mesh, tolerances.angle) if finite else None
+    worst = None if dihedrals is None else largest_angle(mesh, dihedrals)
     turned, bent, limits = None, None, []
-    if worst is not None and np.isfinite(promises.angle).any():
-        turned = float(np.mean(beyond_angle(promises, turns)))
-        bent, limits = angle_kept(promises, mesh, turns)
+    if worst is not None and np.isfinite(tolerances.angle).any():
+        turned = float(np.mean(exceeds_angle(tolerances, dihedrals)))
+        bent, limits = angle_violation(tolerances, mesh, dihedrals)
     faces = len(mesh.surfaces) or len(np.unique(mesh.face_ids))
     above = beyond = None
-    if fit is not None and np.isfinite(promises.chord).any():
-        above = float(np.mean(beyond_chord(promises, mesh, fit)))
-        beyond, more = chord_kept(promises, mesh, both_ways(fit, back))
+    if fit is not None and np.isfinite(tolerances.chord).any():
+        above = float(np.mean(exceeds_chord(tolerances, mesh, fit)))
+        beyond, more = chord_violation(tolerances, mesh, both_ways(fit, back))
         limits = [*more, *limits]
     turned_over = None if fit is None else folds(mesh, fit.cosine)
     folded = None if turned_over is None else turned_over.ours
@@ -294,24 +294,24 @@ def _checked(mesh: SurfaceMesh) -> Report:
     meeting = () if pairs is None else located(mesh, pairs[:LISTED])
     far = None
     if beyond is not None and back is not None:
-        far = surface_too_far(mesh, fit, back, beyond, promises)
+        far = surface_too_far(mesh, fit, back, beyond, tolerances)
         beyond = None if far else beyond
     narrow = narrow_triangles(mesh, shape.alpha)
     volume = _volume(mesh, topo.balanced, solids) if finite and not broken else None
     odd = unexpected(mesh, topo)
-    said = problems(mesh, broken, odd, topo, shape, fit, beyond, promises, turned_over, solids)
+    said = problems(mesh, broken, odd, topo, shape, fit, beyond, tolerances, turned_over, solids)
     short, forbidden = volumes_not_kept(mesh, solids)
     said += short
     said += [far] if far else []
-    hidden = unseen(mesh, None if fit is None else both_ways(fit, back), promises, LISTED)
+    hidden = unseen(mesh, None if fit is None else both_ways(fit, back), tolerances, LISTED)
     said += unseen_problems(hidden)
     if bent is not None:
-        said.append(turned_too_far(mesh, turns, bent, promises))
+        said.append(turned_too_far(mesh, dihedrals, bent, tolerances))
     if pairs is not None and not crosses:
         said += intersections(mesh, meeting, len(pairs))
     if met is not None:
         said += overlaps(met.overlapping)
-    rows = by_face(mesh, shape, fit, lengths, folded, promises, limits, turns)
+    rows = by_face(mesh, shape, fit, lengths, folded, tolerances, limits, dihedrals)
     if fit is not None and not broken and math.isfinite(fit.largest) and is_known(mesh):
         known = explained(mesh, shape.area, fit.by_triangle)
         said += lost(mesh, known, rows, solids, facts.area)

@@ -2,6 +2,8 @@
 
 connectivity: which triangles meet along which edges: unique edges and twins, from the triangles
     alone.
+findings: what went wrong, as records: kind, face, place and reason; the sentence is made at the
+    end.
 mesh_groups: what a mesh knows of its faces, solids and edges besides numbers: plain data, no CAD.
 model_facts: what is known of a model beforehand: what its mesh is compared with. Plain data, no
     CAD.

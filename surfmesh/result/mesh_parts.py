@@ -37,6 +37,7 @@ from surfmesh.result.quadratic_triangles import edge_rows
 if TYPE_CHECKING:
     from surfmesh.cad.model.cad_model import CadEdge
     from surfmesh.geometry.surface import Surface
+    from surfmesh.result.findings import Finding
     from surfmesh.result.model_facts import ModelFacts
     from surfmesh.sizing.options.sizing import Sizing
 
@@ -150,8 +151,10 @@ class Record(MeshPart):
     facts: ModelFacts | None = None  # what is known of the model beforehand
     seconds: Mapping[str, float] = field(default_factory=dict)  # by stage
     warnings: tuple[str, ...] = ()  # what the user should know
+    findings: tuple[Finding, ...] = ()  # those of the warnings that are about one face, as records
 
     def __post_init__(self) -> None:
         self.fit({})
-        object.__setattr__(self, "warnings", tuple(self.warnings))
+        for name in ("warnings", "findings"):
+            object.__setattr__(self, name, tuple(getattr(self, name)))
         object.__setattr__(self, "seconds", dict(self.seconds))

@@ -20,11 +20,13 @@ from numpy.typing import ArrayLike, NDArray
 
 from surfmesh.renamed import Renamed, new_names
 from surfmesh.result.connectivity import Connectivity, connect
+from surfmesh.result.findings import Finding, FindingKind
 from surfmesh.result.mesh_groups import MeshGroups
 from surfmesh.result.mesh_part import (
     EDGE,
     TRIANGLE,
     VERTEX,
+    Arrays,
     BoolArray,
     FloatArray,
     Int32Array,
@@ -50,7 +52,7 @@ if TYPE_CHECKING:
     from surfmesh.result.model_facts import ModelFacts
     from surfmesh.sizing.options.sizing import Sizing
 
-NOT_MESHED = "not meshed: "
+NOT_MESHED = FindingKind.NOT_MESHED.value
 """How the warning about a CAD face starts that is missing: such a mesh is not clean."""
 
 Held = TypeVar("Held")
@@ -105,10 +107,11 @@ class MeshFields(TypedDict, total=False):
     facts: "ModelFacts | None"
     seconds: "Mapping[str, float]"
     warnings: "Iterable[str]"
+    findings: "Iterable[Finding]"
 
 
 @dataclass(frozen=True, eq=False, repr=False, init=False, kw_only=True)
-class SurfaceMesh(MeshPart):
+class SurfaceMesh(Arrays):
     """Triangles on surfaces. Arrays are read-only; lengths are in model units.
 
     ``SurfaceMesh(points=..., triangles=..., uv_points=..., face_ids=..., ...)`` takes the fields
@@ -151,6 +154,7 @@ class SurfaceMesh(MeshPart):
     facts = OfPart["ModelFacts | None"]("record")
     seconds = OfPart["Mapping[str, float]"]("record")
     warnings = OfPart[tuple[str, ...]]("record")
+    findings = OfPart[tuple[Finding, ...]]("record")
     inverse_sizes, edge_shares = Renamed("metric_root_3d"), Renamed("edge_parameters")
 
     def __init__(

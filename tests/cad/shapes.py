@@ -68,14 +68,14 @@ def square_with_inner_edges() -> TopoDS_Face:
     return face
 
 
-def patch_without_images() -> TopoDS_Face:
+def patch_without_pcurves() -> TopoDS_Face:
     """A patch of a cylinder whose edges have curves in space only."""
     solid = cq.Workplane().cylinder(3, 2).cut(cq.Workplane().box(2, 9, 9).translate((2.5, 0, 0)))
     face = next(f for f in solid.faces().vals() if f.geomType() == "CYLINDER")
     surface = Geom_CylindricalSurface(gp_Ax3(gp_Pnt(0, 0, -1.5), gp_Dir(0, 0, 1)), 2.0)
     builder, bare = BRep_Builder(), TopoDS_Face()
     builder.MakeFace(bare, surface, 1e-7)
-    edges = [edge.copy() for edge in face.outerWire().Edges()]  # images of another surface
+    edges = [edge.copy() for edge in face.outerWire().Edges()]  # p-curves of another surface
     builder.Add(bare, cq.Wire.assembleEdges(edges).wrapped)
     return bare
 

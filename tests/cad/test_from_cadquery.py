@@ -131,7 +131,7 @@ def test_edges_inside_a_face_are_walked_there_and_back():
 
 @pytest.mark.parametrize("heal", [True, False])
 def test_missing_images_are_made(heal):
-    model = model_of(shapes.patch_without_images(), heal=heal)
+    model = model_of(shapes.patch_without_pcurves(), heal=heal)
     assert model.faces[0].kind == "cylinder" and len(model.faces[0].loops[0]) == 4
 
 

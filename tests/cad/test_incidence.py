@@ -151,8 +151,8 @@ def face_with_tiny_loop(scale=1.0, own_wire=False, at=(0.0, 0.0)):
     axes = gp_Ax2(gp_Pnt(x, y, 0), gp_Dir(0, 0, 1), gp_Dir(-1, 0, 0))
     circle = Geom_Circle(gp_Circ(axes, r))
     loop = BRepBuilderAPI_MakeEdge(circle, start, start, 0.0, 2 * np.pi).Edge()
-    image = Geom2d_Circle(gp_Ax22d(gp_Pnt2d(x, y), gp_Dir2d(-1, 0), gp_Dir2d(0, -1)), r)
-    build.UpdateEdge(loop, image, Geom_Plane(gp_Pln()), TopLoc_Location(), 1e-12)
+    pcurve = Geom2d_Circle(gp_Ax22d(gp_Pnt2d(x, y), gp_Dir2d(-1, 0), gp_Dir2d(0, -1)), r)
+    build.UpdateEdge(loop, pcurve, Geom_Plane(gp_Pln()), TopLoc_Location(), 1e-12)
     wire = TopoDS_Wire()
     build.MakeWire(wire)
     for edge in [*edges, loop][: 4 if own_wire else 5]:

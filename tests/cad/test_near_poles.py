@@ -19,7 +19,7 @@ from surfmesh.sizing.options.sizing import Sizing
 
 def triangle(width: float, size: float = 1000.0) -> cq.Face:
     """A Bezier patch over a triangle whose tip is ``width`` wide, between three straight edges that
-    meet in the middle of it, without images."""
+    meet in the middle of it, without p-curves."""
     corners = [(-0.5 * size, 0.0), (0.5 * size, 0.0), (0.5 * width, size), (-0.5 * width, size)]
     net = TColgp_Array2OfPnt(1, 2, 1, 2)
     for place, (x, y) in zip(((1, 1), (2, 1), (2, 2), (1, 2)), corners):

@@ -1,4 +1,4 @@
-"""The image of a curve of (u, v) in space: a helix on a cylinder, derivatives by differences."""
+"""The curve that a surface makes of a p-curve: a helix on a cylinder; derivatives."""
 
 import pickle
 

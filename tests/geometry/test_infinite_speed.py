@@ -5,8 +5,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from surfmesh.geometry.differential.chart import Chart
 from surfmesh.geometry.differential.infinite_speed import BentAxis
-from surfmesh.geometry.differential.scaling import Scaling
 from surfmesh.geometry.formulas.parametric import ParametricSurface
 
 TURN = (0, "2*pi")
@@ -61,15 +61,15 @@ def test_speeds_in_the_scaled_plane_are_finite_and_even(radius):
     dome = ParametricSurface(
         "v*cos(u)", "v*sin(u)", "sqrt(R**2 - v**2)", TURN, (0, radius), parameters={"R": radius}
     )
-    scaling = Scaling.of(dome)
-    assert scaling.extent[1] == pytest.approx(0.5 * np.pi * radius, rel=1e-3)
-    y = scaling.extent[1] * np.r_[np.linspace(0, 1, 50), 1 - 1e-9]
+    chart = Chart.of(dome)
+    assert chart.extent[1] == pytest.approx(0.5 * np.pi * radius, rel=1e-3)
+    y = chart.extent[1] * np.r_[np.linspace(0, 1, 50), 1 - 1e-9]
     xy = np.stack([np.full_like(y, 0.3 * radius), y], axis=1)
-    uv, rates = scaling.to_uv_and_rates(xy)
+    uv, rates = chart.to_uv_and_rates(xy)
     r, _, r_v = dome.evaluate(uv, 1)
     assert np.allclose(np.linalg.norm(r_v, axis=1) * rates[:, 1], 1.0, atol=5e-3)
     assert r[-2, 2] == 0.0 and uv[-2, 1] == radius  # values are exact on the rim
-    assert np.allclose(scaling.to_plane(uv)[:-1], xy[:-1], atol=1e-7 * radius)
+    assert np.allclose(chart.to_plane(uv)[:-1], xy[:-1], atol=1e-7 * radius)
 
 
 def test_derivatives_beside_the_rim_are_those_at_most_a_little_inside():

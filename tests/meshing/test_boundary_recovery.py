@@ -61,7 +61,7 @@ def loops_of(*polygons):
 class PlainField:
     """The size field of a plane that is not scaled."""
 
-    scaling = SimpleNamespace(to_plane=lambda uv: uv)
+    chart = SimpleNamespace(to_plane=lambda uv: uv)
     is_anisotropic = False
 
     def __init__(self, background):

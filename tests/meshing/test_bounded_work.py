@@ -5,7 +5,7 @@ import pytest
 
 import surfmesh as sm
 from surfmesh.errors import MeshingError, SizingError
-from surfmesh.geometry.differential.scaling import Scaling
+from surfmesh.geometry.differential.chart import Chart
 from surfmesh.meshing import parametric_mesh
 from surfmesh.sizing.field import size_field
 
@@ -44,6 +44,6 @@ def test_scherk_near_its_poles_ends_and_says_what_is_left(monkeypatch):
 def test_speeds_of_many_orders_give_an_axis_that_follows_the_length():
     """tan(u) up to 1.57 has nearly all its length in the last of 257 even steps."""
     wall = sm.ParametricSurface("u", "v", "tan(u)", u=(-1.57, 1.57), v=(0, 1))
-    scaling = Scaling.of(wall)
-    assert scaling.extent[0] == pytest.approx(2 * np.tan(1.57), rel=0.01)
+    chart = Chart.of(wall)
+    assert chart.extent[0] == pytest.approx(2 * np.tan(1.57), rel=0.01)
     assert sm.check(sm.mesh(wall)).clean

@@ -22,8 +22,8 @@ def crescent():
     return outer.threePointArc((1, 1), (2, 0)).close().extrude(1)
 
 
-def with_bent_images(model, number, bump, tolerance):
-    """The images of a face's arcs to the cusp at (2, 0) bent across each other near there."""
+def with_bent_pcurves(model, number, bump, tolerance):
+    """The p-curves of a face's arcs to the cusp at (2, 0) bent across each other near there."""
     face = model.faces[number]
     share = np.linspace(0.0, 1.0, 65)
     loops = []
@@ -50,10 +50,10 @@ def with_bent_images(model, number, bump, tolerance):
     return replace(model, faces=tuple(faces), edges=edges)
 
 
-def test_images_that_cross_at_a_cusp_leave_no_hole():
+def test_pcurves_that_cross_at_a_cusp_leave_no_hole():
     model = sm.from_cadquery(crescent())
     number = next(k for k, f in enumerate(model.faces) if f.area == pytest.approx(1.5 * np.pi))
-    bent = with_bent_images(model, number, 0.02, 0.03)
+    bent = with_bent_pcurves(model, number, 0.02, 0.03)
     before, after = (signed_area(m.faces[number].loops[0], 200) for m in (model, bent))
     assert after < before - 1e-3
     mesh = sm.mesh(bent, sm.Sizing(chord=0.004))

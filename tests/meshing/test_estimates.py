@@ -41,7 +41,7 @@ def test_patches_of_equal_sizes_add_nothing():
     surface = sm.load("sphere")
     field = size_field(surface, sm.Sizing(size=0.03), find_sides(surface))
     assert triangles_per_unit(surface, field, None) == pytest.approx(1.0, abs=0.05)
-    box = np.concatenate([np.zeros(2), field.scaling.extent])
+    box = np.concatenate([np.zeros(2), field.chart.extent])
     assert box_area(field, box, 200) == pytest.approx(metric_area(field), rel=0.01)
     assert field_triangles(field) > trial_mesh.WHOLE
 

@@ -47,7 +47,7 @@ def test_on_surfaces_of_the_gallery(name, row, ratio, a, b, where):
     uv = low + np.array([1.0 if where == "rim" else a, b]) * (high - low)
     found = sm.explain(surface, sizing, surface.evaluate(uv[None], 0)[0][0])
     assert found.distance < 1e-6
-    xy = field.scaling.to_plane(uv[None])
+    xy = field.chart.to_plane(uv[None])
     if not found.axes:
         size = np.empty(1)
         scalar_sizes_at(field.background, xy, size)
@@ -84,11 +84,11 @@ def test_on_a_cad_part(part, wish):
         mesh_uv = np.concatenate([piece.uv for loop in jobs[number].loops for piece in loop])
         uv = mesh_uv[rng.integers(len(mesh_uv))]  # on an edge: sure to belong to the face
         size = np.empty(1)
-        scalar_sizes_at(field.background, field.scaling.to_plane(uv[None]), size)
+        scalar_sizes_at(field.background, field.chart.to_plane(uv[None]), size)
         found = sm.explain(part, sizing, surface.evaluate(uv[None], 0)[0][0])
         if found.face == number:
             assert found.size == pytest.approx(size[0], rel=0.01)
-            asked = law(law.scaling.to_plane(uv[None])).size[0]
+            asked = law(law.chart.to_plane(uv[None])).size[0]
             assert found.wish == pytest.approx(asked, rel=1e-3)
 
 

@@ -32,7 +32,7 @@ def optimiser_of(name="two_peaks", **wishes):
     sides = find_sides(surface)
     sizing = Sizing(**(wishes or dict(chord=0.03, max_size=0.9, growth=1.3)))
     field = size_field(surface, sizing, sides)
-    width, height = field.scaling.extent
+    width, height = field.chart.extent
     t = packed(field.background, (0, 0, width, height), (width / 2, height / 2), 2000).t
     loops = boundary_loops(surface, sides, field)
     domain = recovered(t, loops, field, surface)

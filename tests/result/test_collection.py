@@ -28,7 +28,7 @@ def test_no_two_modules_have_one_name():
 @pytest.mark.parametrize(
     "pair",
     [("result/test_surface_mesh.py", "cad/test_euler.py"),
-     ("cad/test_images.py", "result/test_lines.py")],
+     ("cad/test_pcurves.py", "result/test_lines.py")],
 )  # fmt: skip
 def test_files_of_two_folders_are_collected(pair):
     files = [str(TESTS / name) for name in pair]

@@ -76,7 +76,7 @@ def test_smooth_at_the_umbilics_of_an_ellipsoid():
     around = np.stack([np.cos(angle), np.sin(angle)], axis=1)
     change = []
     for radius in (1e-2, 1e-3, 1e-4):
-        xy = law.scaling.to_plane(np.vstack([place, place + radius * around]))
+        xy = law.chart.to_plane(np.vstack([place, place + radius * around]))
         nodes = law(xy)
         w = np.array([metric_root_3d(row) for row in nodes.metric_roots_3d()]) * nodes.size[0]
         change.append(np.abs(w - w[0]).max())
@@ -101,8 +101,8 @@ def test_the_field_is_what_the_curvature_asks_for(name, ratio):
     field = size_field(surface, sizing, find_sides(surface))
     bounds = SizeBounds.of(sizing, SizeLaw(surface, sizing, None).diagonal)
     rng = np.random.default_rng(2)
-    xy = rng.uniform(0.1, 0.9, (4000, 2)) * field.scaling.extent
-    uv, rates = field.scaling.to_uv_and_rates(xy)
+    xy = rng.uniform(0.1, 0.9, (4000, 2)) * field.chart.extent
+    uv, rates = field.chart.to_uv_and_rates(xy)
     step = rng.normal(size=(4000, 2))
     _, ru, rv = surface.evaluate(uv, 1)
     d = step[:, :1] * rates[:, :1] * ru + step[:, 1:] * rates[:, 1:] * rv
@@ -119,7 +119,7 @@ def test_the_ratio_is_bounded(ratio):
     surface = load("two_peaks")
     field = size_field(surface, Sizing(chord=1e-3, anisotropy=ratio), find_sides(surface))
     rng = np.random.default_rng(1)
-    xy = rng.uniform(0, 1, (3000, 2)) * field.scaling.extent
+    xy = rng.uniform(0, 1, (3000, 2)) * field.chart.extent
     w = np.array([metric_root_3d(row) for row in inverse_sizes(field, xy, np.ones(len(xy)))])
     values = np.linalg.eigvalsh(w)
     stretch = values[:, -1] / values[:, 0]
@@ -143,7 +143,7 @@ def test_a_size_law_holds_in_every_direction():
     surface = load("cylinder")
     sizing = Sizing(chord=1e-3, size=lambda p: np.full(len(p), 0.2), anisotropy=100.0)
     field = size_field(surface, sizing, find_sides(surface))
-    xy = np.random.default_rng(1).uniform(0, 1, (500, 2)) * field.scaling.extent
+    xy = np.random.default_rng(1).uniform(0, 1, (500, 2)) * field.chart.extent
     w = np.array([metric_root_3d(row) for row in inverse_sizes(field, xy, np.ones(len(xy)))])
     assert (1 / np.linalg.eigvalsh(w)).max() <= 0.2 * (1 + 1e-9)
 

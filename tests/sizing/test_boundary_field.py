@@ -6,7 +6,7 @@ from naive.sources import graded_sizes
 
 from surfmesh.errors import SizingError
 from surfmesh.geometry.cad_surfaces.elementary import Cylinder, Plane, Sphere
-from surfmesh.geometry.differential.scaling import Scaling
+from surfmesh.geometry.differential.chart import Chart
 from surfmesh.geometry.planar.planar_domain import PlanarDomain
 from surfmesh.kernels.fields.background import scalar_sizes_at
 from surfmesh.sizing.field.boundary_field import boundary_field
@@ -27,17 +27,17 @@ def sizes(field, xy):
 
 
 def everywhere(field, n=500):
-    return np.random.default_rng(1).uniform(0, 1, (n, 2)) * field.scaling.extent
+    return np.random.default_rng(1).uniform(0, 1, (n, 2)) * field.chart.extent
 
 
 @pytest.mark.parametrize("surface", [PLANE, CYLINDER])
-def test_scaling_is_the_sampled_one(surface):
-    field, sampled = boundary_field(surface, Sizing(size=1.0), *NOWHERE), Scaling.of(surface)
+def test_chart_is_the_sampled_one(surface):
+    field, sampled = boundary_field(surface, Sizing(size=1.0), *NOWHERE), Chart.of(surface)
     uv = np.random.default_rng(2).uniform(*np.transpose(surface.domain), (20, 2))
-    np.testing.assert_allclose(field.scaling.extent, sampled.extent)
-    np.testing.assert_allclose(field.scaling.to_plane(uv), sampled.to_plane(uv), atol=1e-12)
-    np.testing.assert_allclose(field.scaling.rates(uv), sampled.rates(uv))
-    np.testing.assert_allclose(field.scaling.to_uv(field.scaling.to_plane(uv)), uv)
+    np.testing.assert_allclose(field.chart.extent, sampled.extent)
+    np.testing.assert_allclose(field.chart.to_plane(uv), sampled.to_plane(uv), atol=1e-12)
+    np.testing.assert_allclose(field.chart.rates(uv), sampled.rates(uv))
+    np.testing.assert_allclose(field.chart.to_uv(field.chart.to_plane(uv)), uv)
 
 
 @pytest.mark.parametrize("surface", [PLANE, CYLINDER])
@@ -48,7 +48,7 @@ def test_sizes_grow_along_the_surface(surface):
     sizing = Sizing(max_size=0.5, chord=10.0, angle=90.0, growth=1.2)
     field = boundary_field(surface, sizing, uv, given)
     xy = everywhere(field)
-    exact = graded_sizes(xy, field.scaling.to_plane(uv), given, 0.5, sizing.gradient)
+    exact = graded_sizes(xy, field.chart.to_plane(uv), given, 0.5, sizing.gradient)
     np.testing.assert_allclose(sizes(field, xy), exact, rtol=0.07)
     # unit tensors: the scaled plane has the surface's own metric
     tensor = field.tensors(xy)
@@ -91,7 +91,7 @@ def test_expected_vertices_are_the_integral_of_the_density():
     uv, given = np.array([[0.0, 6.0]]), np.array([0.01])
     field = boundary_field(PLANE, Sizing(size=0.2), uv, given)
     xy = everywhere(field, 400_000)
-    density = (sizes(field, xy) ** -2.0).mean() * np.prod(field.scaling.extent)
+    density = (sizes(field, xy) ** -2.0).mean() * np.prod(field.chart.extent)
     assert field.expected_vertices() - 100 == pytest.approx(2 / np.sqrt(3) * density, rel=0.03)
 
 
@@ -121,4 +121,4 @@ def test_a_largest_size_that_is_none(largest):
 def test_min_size_binds_sources():
     uv = np.array([[0.0, 6.0]])
     field = boundary_field(PLANE, Sizing(min_size=0.1, max_size=0.5), uv, np.array([0.001]))
-    assert sizes(field, field.scaling.to_plane(uv)) == pytest.approx(0.1, rel=0.05)
+    assert sizes(field, field.chart.to_plane(uv)) == pytest.approx(0.1, rel=0.05)

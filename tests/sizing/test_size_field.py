@@ -22,18 +22,18 @@ def scalar_sizes(field, xy):
 
 
 def everywhere(field, n=20_000, seed=1):
-    return np.random.default_rng(seed).uniform(0, 1, (n, 2)) * field.scaling.extent
+    return np.random.default_rng(seed).uniform(0, 1, (n, 2)) * field.chart.extent
 
 
 def exact(surface, field, xy):
     """h (n,) and J = dr/d(x, y) (n, 3, 2) by formula, ungraded."""
     sizing = field.sizing
-    _, ru, rv, *second = surface.evaluate(field.scaling.to_uv(xy), 2)
+    _, ru, rv, *second = surface.evaluate(field.chart.to_uv(xy), 2)
     k = curvatures(forms_from_derivatives(ru, rv, *second))
     h = np.clip(
         chord_size(k.k1, k.k2, sizing.chord), sizing.min_size or 0.0, sizing.max_size or np.inf
     )
-    rates = field.scaling.rates(xy)
+    rates = field.chart.rates(xy)
     return h, np.stack([ru * rates[:, :1], rv * rates[:, 1:]], axis=2)
 
 
@@ -65,7 +65,7 @@ def test_within_two_percent_where_growth_does_not_act(name):
     field = size_field(surface, Sizing(growth=50.0, **SMOOTH[name]), find_sides(surface))
     xy = everywhere(field)
     if name == "ellipsoid":
-        margin = np.abs(xy[:, 1] / field.scaling.extent[1] - 0.5) < 0.45
+        margin = np.abs(xy[:, 1] / field.chart.extent[1] - 0.5) < 0.45
         xy = xy[margin]
     assert np.quantile(error(surface, field, xy), 0.99) < 0.02
 
@@ -88,12 +88,12 @@ def test_a_bump_of_a_thousandth_of_the_domain_is_found(seed):
     field = size_field(surface, sizing, find_sides(surface))
     rng = np.random.default_rng(seed)
     near = np.array([a, b]) + rng.normal(scale=0.0007, size=(2000, 2))
-    xy = field.scaling.to_plane(near[((near > 0) & (near < 1)).all(axis=1)])
+    xy = field.chart.to_plane(near[((near > 0) & (near < 1)).all(axis=1)])
     h, _ = exact(surface, field, xy)
     assert h.min() < 1e-4
     assert np.quantile(error(surface, field, xy), 0.98) < 0.02
     graded = size_field(surface, sizing.replaced(growth=1.3), find_sides(surface))
-    xy = field.scaling.to_plane(np.array([[a, b]]))
+    xy = field.chart.to_plane(np.array([[a, b]]))
     assert scalar_sizes(graded, xy)[0] == pytest.approx(exact(surface, field, xy)[0][0], rel=0.02)
 
 
@@ -122,8 +122,8 @@ def test_growth_along_the_surface(name, growth):
     unit = np.stack([np.cos(angle), np.sin(angle)], axis=1)
     tensor = field.tensors(p)
     step = np.einsum("nij,nj->ni", tensor[:, [[0, 1], [1, 2]]], unit)
-    q = np.clip(p + rng.uniform(0.2, 2.0, len(p))[:, None] * step, 0.0, field.scaling.extent)
-    places = [surface.evaluate(field.scaling.to_uv(xy), 0)[0] for xy in (p, q)]
+    q = np.clip(p + rng.uniform(0.2, 2.0, len(p))[:, None] * step, 0.0, field.chart.extent)
+    places = [surface.evaluate(field.chart.to_uv(xy), 0)[0] for xy in (p, q)]
     distance = np.linalg.norm(places[1] - places[0], axis=1)
     change = np.abs(scalar_sizes(field, q) - h)
     keep = distance > 0.1 * h
@@ -141,8 +141,8 @@ def test_joined_sides_have_equal_sizes(name):
     for side, partner in enumerate(sides.partner):
         if partner > side:
             other = 1 - t if sides.reversed[side] else t
-            first = scalar_sizes(field, field.scaling.to_plane(sides.points(side, t)))
-            second = scalar_sizes(field, field.scaling.to_plane(sides.points(partner, other)))
+            first = scalar_sizes(field, field.chart.to_plane(sides.points(side, t)))
+            second = scalar_sizes(field, field.chart.to_plane(sides.points(partner, other)))
             # the same at common nodes; a finer tree on one side interpolates between them
             np.testing.assert_allclose(first, second, rtol=0.02)
 
@@ -152,7 +152,7 @@ def test_a_size_law_and_limits_hold():
     law = lambda points: 0.05 + 0.2 * np.abs(points[:, 0])  # noqa: E731
     field = size_field(surface, Sizing(size=law, max_size=2, growth=1.3), find_sides(surface))
     xy = everywhere(field)
-    (points,) = surface.evaluate(field.scaling.to_uv(xy), 0)
+    (points,) = surface.evaluate(field.chart.to_uv(xy), 0)
     np.testing.assert_allclose(scalar_sizes(field, xy), law(points), rtol=0.02)
     limits = SizeLimits(points[:1], np.array([0.02]), 0.2)
     limited = size_field(surface, Sizing(size=0.3, growth=1.3), find_sides(surface), limits)

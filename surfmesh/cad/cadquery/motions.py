@@ -20,7 +20,7 @@ from OCP.TopTools import TopTools_IndexedMapOfShape
 MEET = 1e-6
 """Relative to the extent: samples of a moved copy lie this near."""
 
-_SHARES = (0.1, 0.5, 0.8)
+_FRACTIONS = (0.1, 0.5, 0.8)
 """Of the ranges of parameters, where edges and faces are sampled."""
 
 
@@ -65,14 +65,14 @@ def _samples(maps: list[TopTools_IndexedMapOfShape]) -> Iterator[tuple[float, fl
         if not BRep_Tool.Degenerated_s(edge):
             curve = BRepAdaptor_Curve(edge)
             first, last = curve.FirstParameter(), curve.LastParameter()
-            for share in _SHARES:
-                yield _triple(curve.Value(first + share * (last - first)))
+            for fraction in _FRACTIONS:
+                yield _triple(curve.Value(first + fraction * (last - first)))
     for face in map(TopoDS.Face_s, faces):
         surface = BRepAdaptor_Surface(face, True)
         u0, u1 = surface.FirstUParameter(), surface.LastUParameter()
         v0, v1 = surface.FirstVParameter(), surface.LastVParameter()
-        for share, other in zip(_SHARES, _SHARES[::-1]):
-            yield _triple(surface.Value(u0 + share * (u1 - u0), v0 + other * (v1 - v0)))
+        for fraction, other in zip(_FRACTIONS, _FRACTIONS[::-1]):
+            yield _triple(surface.Value(u0 + fraction * (u1 - u0), v0 + other * (v1 - v0)))
 
 
 def _triple(point) -> tuple[float, float, float]:

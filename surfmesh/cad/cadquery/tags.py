@@ -197,8 +197,8 @@ def _same_edge(final: TopoDS_Shape, tagged: TopoDS_Shape, tolerance: float) -> b
     for one, other in (edges, edges[::-1]):
         curve = BRepAdaptor_Curve(one)
         first, last = curve.FirstParameter(), curve.LastParameter()
-        shares = ((k + 0.5) / ALONG for k in range(ALONG))
-        points = (curve.Value(first + share * (last - first)) for share in shares)
+        fractions = ((k + 0.5) / ALONG for k in range(ALONG))
+        points = (curve.Value(first + fraction * (last - first)) for fraction in fractions)
         if sum(_distance(_vertex(point), other) <= reach for point in points) >= ENOUGH:
             return True
     return False

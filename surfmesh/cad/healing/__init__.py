@@ -2,7 +2,7 @@
 
 shape_healing: repair of what files get wrong, by OCP's shape healing; every change is put in words.
 creases: faces whose surface has creases inside are cut along them.
-sphere_poles: spheres are turned where an edge passes a pole: there its image in (u, v) leaps by
+sphere_poles: spheres are turned where an edge passes a pole: there its p-curve in (u, v) leaps by
     half a turn.
 sewing: loose faces are joined along edges that lie within a tolerance; closed shells become solids.
 imprinting: touching bodies share their faces: the general fuse of OCP, with all names carried

@@ -59,7 +59,7 @@ def imprinted(root: Part, tolerance: float | None = None) -> Part:
     """The same tree, in which faces, edges and vertices where bodies touch are there once.
 
     root: healed and in place, in millimetres. tolerance: what is as near touches, in millimetres;
-    None for a share of the diagonal. Raises CadError when OCP gives up or loses part of a solid.
+    None for a fraction of the diagonal. Raises CadError when OCP gives up or loses part of a solid.
     """
     bodies = _bodies(root)
     if len(bodies) < 2:

@@ -48,13 +48,13 @@ from surfmesh.errors import CadError
 LARGEST_GAP = 1e-4  # of the part's size: healing closes no wider gap, raises no tolerance further
 
 # OCP's words -> ours, in what shape healing says
-WORDS = {"Wires": "loops", "wires": "loops", "Wire": "loop", "wire": "loop", "pcurves": "images"}
+WORDS = {"Wires": "loops", "wires": "loops", "Wire": "loop", "wire": "loop", "pcurves": "p-curves"}
 STILL = {
     BRepCheck_Status.BRepCheck_SelfIntersectingWire: "its boundary crosses itself",
     BRepCheck_Status.BRepCheck_IntersectingWires: "its loops cross each other",
     BRepCheck_Status.BRepCheck_NotClosed: "a loop is not closed",
     BRepCheck_Status.BRepCheck_NotConnected: "the edges of a loop do not meet",
-    BRepCheck_Status.BRepCheck_NoCurveOnSurface: "an edge has no image on it",
+    BRepCheck_Status.BRepCheck_NoCurveOnSurface: "an edge has no p-curve on it",
     BRepCheck_Status.BRepCheck_InvalidImbricationOfWires: "its loops are not inside each other",
     BRepCheck_Status.BRepCheck_InvalidCurveOnSurface: "an edge lies off it",
     BRepCheck_Status.BRepCheck_EmptyWire: "a loop has no edges",
@@ -73,7 +73,7 @@ def healed(part: Part, heal: bool = True) -> Part:
     curveless = [edge for edge in _edges(part.shape) if _lacks_curve(edge)]
     passed = passed_poles(part) if heal else []
     wrong = heal and (
-        bool(passed) or _lacks_image(part.shape) or not BRepCheck_Analyzer(part.shape).IsValid()
+        bool(passed) or _lacks_pcurve(part.shape) or not BRepCheck_Analyzer(part.shape).IsValid()
     )
     if not (bare or curveless or wrong):
         return _uncreased(part) if heal else part
@@ -106,7 +106,7 @@ def _copied(part: Part) -> Part:
 
 
 def _with_curves(part: Part) -> Part:
-    """Edges known only by their images, or only by their vertices, get a curve in space."""
+    """Edges known only by their p-curves, or only by their vertices, get a curve in space."""
     remarks = list(part.remarks)
     for face in _faces(part.shape):
         for edge in _edges(face):
@@ -116,7 +116,7 @@ def _with_curves(part: Part) -> Part:
                 continue
             if BRep_Tool.CurveOnSurface_s(edge, face, 0.0, 0.0) is not None:
                 if BRepLib.BuildCurve3d_s(edge):
-                    text = "curve in space missing, made from an image on a face"
+                    text = "curve in space missing, made from a p-curve on a face"
                     remarks.append((edge, text))
             elif _is_plane(face) and _made_straight(edge):
                 remarks.append((edge, "no curve at all, made straight"))
@@ -152,9 +152,9 @@ def _with_boundaries(part: Part) -> Part:
 
 
 def _with_own_loops(part: Part) -> Part:
-    """Of faces that share a loop and have no images yet all but one get a copy of it.
+    """Of faces that share a loop and have no p-curves yet all but one get a copy of it.
 
-    The edges at poles and the images that they are given must not be those of the other side.
+    The edges at poles and the p-curves that they are given must not be those of the other side.
     """
     met: set[int] = set()
     again = []
@@ -214,29 +214,29 @@ def _repaired(part: Part) -> Part:
         remarks.append((shape, text))
     spoken = {hash(context.Apply(shape)) for shape, _ in remarks if shape is not None}
     for face in _faces(part.shape):
-        image = context.Apply(face)
-        if image.IsNull():
+        new = context.Apply(face)
+        if new.IsNull():
             remarks.append((None, "face removed"))
-        elif not image.IsSame(face) and hash(image) not in spoken:
-            remarks.append((face, _change(face, image, context)))
+        elif not new.IsSame(face) and hash(new) not in spoken:
+            remarks.append((face, _change(face, new, context)))
     whole = part.shape
 
-    def image_of(shape: TopoDS_Shape) -> TopoDS_Shape:
+    def new_of(shape: TopoDS_Shape) -> TopoDS_Shape:
         return fix.Shape() if shape.IsSame(whole) else context.Apply(shape)
 
-    result = replace(part, remarks=remarks).mapped(image_of)
+    result = replace(part, remarks=remarks).mapped(new_of)
     after = list(_still_wrong(result.shape))
     if not after and len(result.remarks) == len(part.remarks):
         after = [(None, "made valid by wider tolerances")]
     return replace(result, remarks=result.remarks + after)
 
 
-def _change(face: TopoDS_Face, image: TopoDS_Shape, context: BRepTools_ReShape) -> str:
+def _change(face: TopoDS_Face, new: TopoDS_Shape, context: BRepTools_ReShape) -> str:
     """What differs between a face and what became of it, where healing said nothing."""
-    if image.ShapeType() != TopAbs_FACE:
+    if new.ShapeType() != TopAbs_FACE:
         return "split"
     before = [context.Apply(edge) for edge in _edges(face)]
-    after = {hash(edge): edge for edge in _edges(image.Oriented(TopAbs_FORWARD))}
+    after = {hash(edge): edge for edge in _edges(new.Oriented(TopAbs_FORWARD))}
     kept = [(edge, after[hash(edge)]) for edge in before if hash(edge) in after]
     if any(one.Orientation() != other.Orientation() for one, other in kept):
         return "loop orientation reversed"
@@ -314,7 +314,7 @@ def _is_no_point(edge: TopoDS_Edge) -> bool:
     return not first.IsNull() and not last.IsNull() and not first.IsSame(last)
 
 
-def _lacks_image(shape: TopoDS_Shape) -> bool:
+def _lacks_pcurve(shape: TopoDS_Shape) -> bool:
     """Whether an edge has no curve in (u, v) on a face where it cannot be made at once."""
     for face in _faces(shape):
         if not _is_plane(face) and any(

@@ -1,9 +1,9 @@
-"""Spheres are turned where an edge passes a pole: there its image in (u, v) leaps by half a turn.
+"""Spheres are turned where an edge passes a pole: there its p-curve in (u, v) leaps by half a turn.
 
-v |  |    |             A circle that passes a pole, or goes by it within a hair, has an image
+v |  |    |             A circle that passes a pole, or goes by it within a hair, has a p-curve
   |  |    |   edge      of two lines that run up to v = pi / 2 and down again. Programs join
   |   \\__/             them to one loop round the wrong side. With the poles of the sphere
-  +-------- u           away from all edges the image is a plain curve.
+  +-------- u           away from all edges the p-curve is a plain curve.
 """
 
 from __future__ import annotations
@@ -38,7 +38,7 @@ def passed_poles(part: Part) -> list[TopoDS_Face]:
 def with_turned_spheres(part: Part, faces: list[TopoDS_Face]) -> Part:
     """The part with these faces on spheres whose poles lie apart from their edges.
 
-    They have no images of their edges then: healing makes them.
+    They have no p-curves of their edges then: healing makes them.
     """
     context = BRepTools_ReShape()
     remarks = list(part.remarks)
@@ -136,12 +136,12 @@ def _passes(face: TopoDS_Face) -> bool:
         if beside.min() > NEAR + step:
             continue
         flat = np.linalg.svd(way[:, :2], compute_uv=False)[-1] / np.sqrt(SAMPLES)
-        if _least_beside(way) < NEAR and (flat > MERIDIAN or _lacks_image(face)):
+        if _least_beside(way) < NEAR and (flat > MERIDIAN or _lacks_pcurve(face)):
             return True
     return False
 
 
-def _lacks_image(face: TopoDS_Face) -> bool:
+def _lacks_pcurve(face: TopoDS_Face) -> bool:
     """Of an edge at a pole, say, that it shares with a face on the other side."""
     explorer = TopExp_Explorer(face, TopAbs_EDGE)
     while explorer.More():
@@ -156,8 +156,8 @@ def _least_beside(way: np.ndarray) -> float:
     """Distance of the polygon from the axis."""
     start, step = way[:-1, :2], np.diff(way[:, :2], axis=0)
     square = np.maximum(np.einsum("ij,ij->i", step, step), np.finfo(float).tiny)
-    share = np.clip(-np.einsum("ij,ij->i", start, step) / square, 0.0, 1.0)
-    return float(np.linalg.norm(start + share[:, None] * step, axis=1).min())
+    fraction = np.clip(-np.einsum("ij,ij->i", start, step) / square, 0.0, 1.0)
+    return float(np.linalg.norm(start + fraction[:, None] * step, axis=1).min())
 
 
 def _on_turned_sphere(face: TopoDS_Face, other_side: bool = False) -> TopoDS_Face:

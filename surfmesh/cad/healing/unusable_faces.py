@@ -95,7 +95,7 @@ def _is_finite(number: float) -> bool:
 
 
 def _can_be_made(edge: TopoDS_Edge, face: TopoDS_Face, part: Part) -> bool:
-    """Can healing find a curve for an edge: from an image on any face, or straight on a plane?"""
+    """Can healing find a curve for an edge: from a p-curve on any face, or straight on a plane?"""
     if isinstance(BRep_Tool.Surface_s(face), Geom_Plane):
         ends = TopExp.FirstVertex_s(edge), TopExp.LastVertex_s(edge)
         if not any(vertex.IsNull() for vertex in ends) and not ends[0].IsSame(ends[1]):

@@ -11,12 +11,12 @@ extent: how large a model is, from points on its edges and inside its faces.
 centres: centres of faces, edges and solids of a plain model, and samples inside faces.
 collapsed_edges: edges so short that the mesh has one vertex in their place, and what becomes of
     their ends.
-pcurves: images of edges in (u, v) that follow their edge more closely than those of the file.
-near_poles: images that end at a pole which is only nearly a point: there they keep their direction.
+pcurves: p-curves that follow their edge more closely than those of the file.
+near_poles: p-curves that end at a pole which is only nearly a point keep their direction there.
 points_inside: a vertex inside a face, where another body touches it in a point, gets a short edge.
 singular_cuts: faces are cut along lines inside them that are one point in space: the pinch of a
     torus, an apex.
-tolerances: tolerances that are true, and images in (u, v) that keep to them.
+tolerances: tolerances that are true, and p-curves that keep to them.
 loop_faults: what is wrong with the loops of a face however finely they are cut: decided on their
     curves.
 """

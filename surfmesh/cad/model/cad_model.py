@@ -41,7 +41,7 @@ class CadEdge:
 
     curve: ``evaluate(t (n,), order)`` in 3D, or None for a degenerate edge. t0 < t1 are the
     curve's parameters at the vertices start and end (numbers; the same for a closed edge).
-    tolerance: its images on the faces lie this near. length: model units. names: of all that it
+    tolerance: its p-curves on the faces lie this near. length: model units. names: of all that it
     was made of, where imprinting made it of several; ``name`` holds them too.
     """
 
@@ -61,9 +61,9 @@ class CadEdge:
         """Whether it ends where it starts."""
         return self.start == self.end
 
-    def parameters(self, share: np.ndarray) -> np.ndarray:
-        """Shares of the parameter range, 0 at the start and 1 at the end -> curve parameters."""
-        return self.t0 + np.asarray(share, float) * (self.t1 - self.t0)
+    def parameters(self, fraction: np.ndarray) -> np.ndarray:
+        """Fractions of the parameter range, 0 at the start and 1 at the end -> curve parameters."""
+        return self.t0 + np.asarray(fraction, float) * (self.t1 - self.t0)
 
 
 @dataclass(frozen=True, eq=False)
@@ -82,15 +82,15 @@ class CadCoedge:
     p1: float
     seam: bool
 
-    def uv(self, share: np.ndarray) -> np.ndarray:
-        """Image of the points at these shares of the *edge's* range: (n,) -> (n, 2)."""
-        parameters = self.p0 + np.asarray(share, float) * (self.p1 - self.p0)
+    def uv(self, fraction: np.ndarray) -> np.ndarray:
+        """Parameters at these fractions of the *edge's* range: (n,) -> (n, 2)."""
+        parameters = self.p0 + np.asarray(fraction, float) * (self.p1 - self.p0)
         return self.pcurve.evaluate(parameters, 0)[0]
 
-    def walk(self, share: np.ndarray) -> np.ndarray:
+    def walk(self, fraction: np.ndarray) -> np.ndarray:
         """The same in the direction of the loop: 0 where the loop enters, 1 where it leaves."""
-        share = np.asarray(share, float)
-        return self.uv(1.0 - share if self.reversed else share)
+        fraction = np.asarray(fraction, float)
+        return self.uv(1.0 - fraction if self.reversed else fraction)
 
 
 @dataclass(frozen=True, eq=False)
@@ -119,6 +119,10 @@ class CadFace:
     def coedges(self) -> Iterator[CadCoedge]:
         """All coedges, loop after loop."""
         return (coedge for loop in self.loops for coedge in loop)
+
+    def label(self, number: int) -> str:
+        """What it is called in messages as face ``number``: ``face 3 (lid)``, or by its kind."""
+        return f"face {number} ({self.name or self.kind})"
 
 
 Shell = tuple[tuple[int, bool], ...]  # (face number, True where outside is against its normal)
@@ -198,6 +202,10 @@ class CadModel:
     tags: tuple[CadTag, ...] = ()
     left_out: tuple[str, ...] = ()
     _faces_of_edge: list = field(default_factory=list, compare=False)
+
+    def face_label(self, face: int) -> str:
+        """What a face is called in messages; see ``CadFace.label``."""
+        return self.faces[face].label(face)
 
     def faces_of_edge(self, edge: int) -> tuple[int, ...]:
         """Numbers of the faces that use an edge; twice the same for a seam."""

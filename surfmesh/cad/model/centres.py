@@ -42,8 +42,8 @@ def boundary_polygons(face: CadFace) -> list[np.ndarray]:
         parts = []
         for coedge in loop:
             straight = getattr(coedge.pcurve, "kind", "") == "line"
-            share = np.linspace(0.0, 1.0, STRAIGHT if straight else CURVED)
-            parts.append(coedge.walk(share)[:-1])
+            fraction = np.linspace(0.0, 1.0, STRAIGHT if straight else CURVED)
+            parts.append(coedge.walk(fraction)[:-1])
         found.append(np.concatenate(parts))
     return found
 

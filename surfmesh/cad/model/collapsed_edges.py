@@ -8,7 +8,7 @@ from surfmesh.cad.model.cad_model import CadEdge, CadFace, CadModel
 from surfmesh.geometry.cad_surfaces.curves import TURN
 
 COLLAPSED = 2e-6
-"""Edges shorter than this share of the diagonal are one point: their faces meet in it."""
+"""Edges shorter than this fraction of the diagonal are one point: their faces meet in it."""
 
 LOOSE = 20.0
 """And than so many tolerances of the edge and its ends."""

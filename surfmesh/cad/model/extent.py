@@ -8,7 +8,7 @@ import numpy as np
 
 from surfmesh.cad.model.cad_model import CadEdge, CadFace, CadVertex
 
-EDGE_SHARES = np.linspace(0.0, 1.0, 17)
+EDGE_FRACTIONS = np.linspace(0.0, 1.0, 17)
 GRID = 9  # points each way in the (u, v) box of a face; eight intervals meet the axes of a sphere
 
 
@@ -19,7 +19,7 @@ def diagonal(
     boxes = [_box(np.array([vertex.point for vertex in vertices]))]
     for edge in edges:
         if edge.curve is not None:
-            boxes.append(_box(edge.curve.evaluate(edge.parameters(EDGE_SHARES), 0)[0]))
+            boxes.append(_box(edge.curve.evaluate(edge.parameters(EDGE_FRACTIONS), 0)[0]))
     for face in faces:
         uv = _inside(face)
         if face.kind != "plane" and len(uv):
@@ -40,7 +40,7 @@ def _inside(face: CadFace) -> np.ndarray:
     grid = np.stack(np.meshgrid(*lines, indexing="ij"), axis=-1).reshape(-1, 2)
     crossings = np.zeros(len(grid), int)
     for loop in face.loops:
-        corners = np.concatenate([coedge.walk(EDGE_SHARES[:-1]) for coedge in loop])
+        corners = np.concatenate([coedge.walk(EDGE_FRACTIONS[:-1]) for coedge in loop])
         (u0, v0), (u1, v1) = corners.T, np.roll(corners, -1, axis=0).T
         rise = np.where(v1 == v0, 1.0, v1 - v0)
         u, v = grid[:, :1], grid[:, 1:]

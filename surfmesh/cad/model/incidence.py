@@ -19,8 +19,8 @@ import numpy as np
 from surfmesh.cad.model.cad_model import CadCoedge, CadFace, CadModel
 from surfmesh.cad.model.collapsed_edges import collapses, vanishes, vertex_numbers
 
-SAME_PLACE = 0.01  # of the (u, v) box: images of one vertex are as near, or a seam apart
-BESIDE = 1e-3  # share of an edge's range at which its direction is seen
+SAME_PLACE = 0.01  # of the (u, v) box: (u, v) of one vertex are as near, or a seam apart
+BESIDE = 1e-3  # fraction of an edge's range at which its direction is seen
 BACKWARDS = 1e-9  # radians: an edge that comes in as another leaves lies all round from it
 
 End = tuple[int, bool]  # an end of an edge: its number, True where it ends
@@ -137,7 +137,7 @@ def _between(here: list[_Passage]) -> list[tuple[End, End]]:
     return [(here[k].ends[0], passage.ends[1]) for k, passage in zip(chosen, here)]
 
 
-def _angle(coedge: CadCoedge, share: float, vertex: float) -> float:
+def _angle(coedge: CadCoedge, fraction: float, vertex: float) -> float:
     """The direction in (u, v) from a vertex to a point of an edge beside it."""
-    away, at = coedge.walk(np.array([share, vertex]))
+    away, at = coedge.walk(np.array([fraction, vertex]))
     return math.atan2(away[1] - at[1], away[0] - at[0])

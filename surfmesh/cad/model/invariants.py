@@ -2,7 +2,7 @@
 
 Indices are in range; loops are closed through their vertices, and in (u, v) apart from
 tolerance; outer loops run counter-clockwise; every edge is used, ends at its vertices and lies
-within its tolerance of its images on the faces; every face is in a shell or listed as free.
+within its tolerance of its p-curves on the faces; every face is in a shell or listed as free.
 """
 
 from __future__ import annotations
@@ -19,13 +19,13 @@ from surfmesh.geometry.planar.nesting import nesting_depth
 if TYPE_CHECKING:
     from surfmesh.cad.model.cad_model import CadCoedge, CadEdge, CadFace, CadModel, CadVertex, Shell
 
-OPEN_SHARE = 0.05  # of the (u, v) box: a larger step between coedges is a gap even at a pole
+OPEN_FRACTION = 0.05  # of the (u, v) box: a larger step between coedges is a gap even at a pole
 NOISE = 1e-9  # of the model's diagonal: what evaluation may lose
 ENDS = np.array([0.0, 1.0])
-# where an edge is compared with its images: programs fit these at 23 even points and measure
+# where an edge is compared with its p-curves: programs fit these at 23 even points and measure
 # there, so look in between, off the middles too, and above all near the ends
 INTERIOR = np.array([0.3, 1.7, 4.3, 7.5, 10.7, 13.3, 16.7, 20.3, 21.7]) / 22
-SHARES = np.concatenate([ENDS, INTERIOR])
+FRACTIONS = np.concatenate([ENDS, INTERIOR])
 
 
 def step_between(here: CadCoedge, after: CadCoedge) -> np.ndarray:
@@ -35,8 +35,8 @@ def step_between(here: CadCoedge, after: CadCoedge) -> np.ndarray:
 
 def signed_area(loop: tuple[CadCoedge, ...], samples: int = 24) -> float:
     """Area in (u, v) that a loop runs round, positive counter-clockwise."""
-    share = np.arange(samples) / samples
-    points = np.concatenate([coedge.walk(share) for coedge in loop])
+    fraction = np.arange(samples) / samples
+    points = np.concatenate([coedge.walk(fraction) for coedge in loop])
     u, v = (points - points.mean(axis=0)).T
     return 0.5 * float(u @ np.roll(v, -1) - v @ np.roll(u, -1))
 
@@ -118,25 +118,25 @@ def _broken_face(model: CadModel, number: int, face: CadFace) -> Iterator[str]:
         slit = all(uses[coedge.edge] > 1 for coedge in loop)
         if loop_number and area > 0.0 and not slit and _is_hole(face.loops, loop_number):
             yield f"loop {loop_number} of face {number} runs counter-clockwise, a second outer loop"
-    yield from _broken_images(model, number, face)
+    yield from _broken_pcurves(model, number, face)
 
 
 def _is_hole(loops: Sequence[tuple[CadCoedge, ...]], number: int) -> bool:
     """Does the loop lie within an odd number of others? Else it is an outer one, or an island."""
-    share = np.arange(24) / 24
-    rings = [np.concatenate([coedge.walk(share) for coedge in loop]) for loop in loops]
+    fraction = np.arange(24) / 24
+    rings = [np.concatenate([coedge.walk(fraction) for coedge in loop]) for loop in loops]
     return bool(nesting_depth(rings)[number] % 2)
 
 
-def _broken_images(model: CadModel, number: int, face: CadFace) -> Iterator[str]:
-    """Images that leave a gap in (u, v), or lie off their edge in space."""
+def _broken_pcurves(model: CadModel, number: int, face: CadFace) -> Iterator[str]:
+    """P-curves that leave a gap in (u, v), or deviate from their edge in space."""
     box = np.array(face.surface.domain)
     width = box[:, 1] - box[:, 0]
     if not (np.isfinite(box).all() and (width > 0.0).all()):
         yield f"face {number} has the (u, v) box {box.tolist()}"
         return
     coedges = list(face.coedges)
-    uv = np.concatenate([coedge.uv(SHARES) for coedge in coedges])
+    uv = np.concatenate([coedge.uv(FRACTIONS) for coedge in coedges])
     r, r_u, r_v = face.surface.evaluate(uv, 1)
     if not np.isfinite(r).all():
         yield f"face {number} has points that are not finite"
@@ -163,7 +163,7 @@ def _broken_images(model: CadModel, number: int, face: CadFace) -> Iterator[str]
             step = np.abs(step_between(here, after))
             vertex = model.edges[here.edge].start if here.reversed else model.edges[here.edge].end
             reach = 2.0 * model.vertices[vertex].tolerance + noise
-            if not ((step <= OPEN_SHARE * width) | (step * speed <= reach)).all():
+            if not ((step <= OPEN_FRACTION * width) | (step * speed <= reach)).all():
                 yield (
                     f"face {number} is open in (u, v) between edges {here.edge} and "
                     f"{after.edge}, by ({step[0]:.3g}, {step[1]:.3g})"
@@ -176,18 +176,18 @@ def distances_to_edges(
     coedges: Sequence[CadCoedge],
     on_face: np.ndarray,
 ) -> np.ndarray:
-    """(n,) Largest distance between each edge and its image in space, at SHARES of its range.
+    """(n,) Largest distance between each edge and its p-curve in space, at FRACTIONS of its range.
 
-    on_face: (n * 11, 3) the images, coedge after coedge.
+    on_face: (n * 11, 3) the p-curves, coedge after coedge.
     """
     worst = np.zeros(len(coedges))
-    for place, (coedge, image) in enumerate(zip(coedges, np.split(on_face, len(coedges)))):
+    for place, (coedge, own) in enumerate(zip(coedges, np.split(on_face, len(coedges)))):
         edge = edges[coedge.edge]
         if edge.curve is None:
             on_edge = vertices[edge.start].point
         else:
-            on_edge = edge.curve.evaluate(edge.parameters(SHARES), 0)[0]
-        worst[place] = np.linalg.norm(image - on_edge, axis=1).max()
+            on_edge = edge.curve.evaluate(edge.parameters(FRACTIONS), 0)[0]
+        worst[place] = np.linalg.norm(own - on_edge, axis=1).max()
     return worst
 
 

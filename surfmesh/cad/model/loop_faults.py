@@ -31,7 +31,7 @@ NEAR, NEAREST = 1e-6, 1e-10
 it is the tolerance of the edges."""
 
 DEEP = 2.0
-"""Times the tolerance of the edges: images that cross by more cannot be taken apart."""
+"""Times the tolerance of the edges: p-curves that cross by more cannot be taken apart."""
 
 SLOWEST = 0.1
 """Least speed, of the mean, that a tolerance is translated to (u, v) with."""
@@ -138,7 +138,7 @@ class _Loops:
         pieces = 1 if kind == "line" else ROUND_PIECES
         if knots is not None:
             pieces = min(MOST_PIECES, max(ROUND_PIECES, SPAN_PIECES * (len(np.unique(knots)) - 1)))
-        return PlaneCurve(lambda share: coedge.walk(share) * self.mean, pieces)
+        return PlaneCurve(lambda fraction: coedge.walk(fraction) * self.mean, pieces)
 
     @cached_property
     def contacts(self) -> list[Contact]:
@@ -147,7 +147,7 @@ class _Loops:
         return [c for c in found if not self._is_meant(c)][:MOST_CONTACTS]
 
     @cached_property
-    def astray(self) -> list[Contact]:
+    def stray_contacts(self) -> list[Contact]:
         """Contacts that are no common vertex."""
         return [c for c in self.contacts if c.stretch or not self._common_end(c)]
 
@@ -185,7 +185,7 @@ class _Loops:
 
     def touch(self) -> str:
         """In words, where curves without a common vertex touch."""
-        for contact in self.astray:
+        for contact in self.stray_contacts:
             one, other = contact.curves
             if not set(self.exact.ends[one]) & set(self.exact.ends[other]):
                 return (
@@ -199,10 +199,10 @@ class _Loops:
         return f"its edge {one} and itself" if one == other else f"its edges {one} and {other}"
 
     def _place(self, contact: Contact) -> str:
-        return self._point(contact.curves[0], float(np.mean(contact.shares[0])))
+        return self._point(contact.curves[0], float(np.mean(contact.fractions[0])))
 
-    def _point(self, curve: int, share: float) -> str:
-        uv = self.coedges[curve].walk(np.array([share]))
+    def _point(self, curve: int, fraction: float) -> str:
+        uv = self.coedges[curve].walk(np.array([fraction]))
         (point,) = self.exact.surface.evaluate(uv, 0)
         noise = ROUNDING * np.abs(point[0]).max()
         return "(" + ", ".join(f"{x if abs(x) > noise else 0.0:.6g}" for x in point[0]) + ")"
@@ -217,7 +217,7 @@ class _Loops:
             return common and other in (self._following(one, True), self._following(one, False))
         if not common:
             return False
-        whole = any(high - low > 0.99 for low, high in contact.shares)
+        whole = any(high - low > 0.99 for low, high in contact.fractions)
         alone = len(self.exact.loops[self.loop_of[one]]) <= 2
         return not whole or alone or (self.exact.shared[one] and self.exact.shared[other])
 
@@ -230,8 +230,8 @@ class _Loops:
             for end_2 in (0, 1):
                 same = self.exact.ends[one][end] == self.exact.ends[other][end_2]
                 if same and not (one == other and end == end_2):
-                    if self._is_at(one, contact.shares[0], end, reach) and self._is_at(
-                        other, contact.shares[1], end_2, reach
+                    if self._is_at(one, contact.fractions[0], end, reach) and self._is_at(
+                        other, contact.fractions[1], end_2, reach
                     ):
                         return True
                     if one != other and self._stay_together(contact, end, reach):
@@ -241,12 +241,12 @@ class _Loops:
     def _stay_together(self, contact: Contact, end: int, reach: float) -> bool:
         """Does the first curve stay as near to the other from the contact to its end?"""
         one, other = contact.curves
-        t = np.linspace(contact.shares[0][end], float(end), LOBE_SAMPLES)
+        t = np.linspace(contact.fractions[0][end], float(end), LOBE_SAMPLES)
         return bool((feet(self.curves[other], self.curves[one].evaluate(t))[1] <= reach).all())
 
-    def _is_at(self, curve: int, share: tuple[float, float], end: int, reach: float) -> bool:
-        """Is the end of the curve (0 or 1) within reach of its part from share to share?"""
-        at = np.array([share[end], float(end)])
+    def _is_at(self, curve: int, fraction: tuple[float, float], end: int, reach: float) -> bool:
+        """Is the end of the curve (0 or 1) within reach of its part between two fractions?"""
+        at = np.array([fraction[end], float(end)])
         return bool(np.linalg.norm(np.diff(self.curves[curve].evaluate(at), axis=0)) <= reach)
 
     def _crossing(self, contact: Contact) -> float:
@@ -264,8 +264,8 @@ class _Loops:
         """Do the two branches of the one curve lie on both sides of those of the other?"""
         one, other = contact.curves
         centre = 0.5 * sum(
-            self.curves[curve].evaluate(np.mean(share, keepdims=True))
-            for curve, share in zip(contact.curves, contact.shares)
+            self.curves[curve].evaluate(np.mean(fraction, keepdims=True))
+            for curve, fraction in zip(contact.curves, contact.fractions)
         )
         near = max(self.near[one], self.near[other])
         radius = max(16.0 * near, 4.0 * self.tolerance[one], 4.0 * self.tolerance[other])
@@ -289,9 +289,9 @@ class _Loops:
         self, contact: Contact, place: int, forward: bool, centre: np.ndarray, radius: float
     ) -> np.ndarray | None:
         """Where a branch of a loop, on from the contact, is first so far from it (2,)."""
-        curve, share = contact.curves[place], contact.shares[place][int(forward)]
+        curve, fraction = contact.curves[place], contact.fractions[place][int(forward)]
         for _ in range(len(self.exact.loops[self.loop_of[curve]]) + 1):
-            t = np.linspace(share, 1.0 if forward else 0.0, BRANCH_SAMPLES)
+            t = np.linspace(fraction, 1.0 if forward else 0.0, BRANCH_SAMPLES)
             away = np.linalg.norm(self.curves[curve].evaluate(t) - centre, axis=1)
             if (away >= radius).any():
                 k = int((away >= radius).argmax())
@@ -304,7 +304,7 @@ class _Loops:
                     else:
                         low = middle
                 return self.curves[curve].evaluate(np.array([high]))[0]
-            curve, share = self._following(curve, forward), 0.0 if forward else 1.0
+            curve, fraction = self._following(curve, forward), 0.0 if forward else 1.0
         return None
 
     def _following(self, curve: int, forward: bool) -> int:
@@ -315,14 +315,14 @@ class _Loops:
     def _lobe(self, contact: Contact, place: int, forward: bool) -> float:
         """How far a branch leaves the other loop before its curve ends or meets that again."""
         curve, other = contact.curves[place], contact.curves[1 - place]
-        start, end = contact.shares[place][int(forward)], float(forward)
+        start, end = contact.fractions[place][int(forward)], float(forward)
         for more in self.contacts:
             for side in (0, 1):
                 if (
                     more.curves[side] == curve
                     and self.loop_of[more.curves[1 - side]] == (self.loop_of[other])
                 ):
-                    at = more.shares[side][int(not forward)]
+                    at = more.fractions[side][int(not forward)]
                     if (forward and start < at < end) or (not forward and end < at < start):
                         end = at
         if abs(end - start) < 1e-9:
@@ -375,7 +375,7 @@ class _Loops:
         return None
 
     def _slack(self) -> np.ndarray:
-        """(loops,) how far the edges of each may lie off their images."""
+        """(loops,) how far the edges of each may deviate from their p-curves."""
         return np.maximum.reduceat(np.maximum(self.tolerance, self.near), self.first[:-1])
 
     def _is_shared(self, loop: int) -> bool:

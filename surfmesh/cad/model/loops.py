@@ -9,7 +9,7 @@ from dataclasses import replace
 import numpy as np
 
 from surfmesh.cad.model.cad_model import CadCoedge, CadEdge
-from surfmesh.cad.model.invariants import ENDS, OPEN_SHARE, signed_area, step_between
+from surfmesh.cad.model.invariants import ENDS, OPEN_FRACTION, signed_area, step_between
 from surfmesh.geometry.planar.nesting import nesting_depth
 
 Loop = tuple[CadCoedge, ...]
@@ -40,7 +40,7 @@ def end_of(coedge: CadCoedge, edges: Sequence[CadEdge]) -> int:
 def chained(coedges: Sequence[CadCoedge], edges: Sequence[CadEdge]) -> list[Loop]:
     """Coedges of one wire, in any order -> closed loops as far as they close.
 
-    The next coedge starts at the vertex where the last one ends. Where several do (both images
+    The next coedge starts at the vertex where the last one ends. Where several do (both p-curves
     of a seam, a pole) it is the one that is nearest in (u, v).
     """
     ends = np.array([coedge.walk(ENDS) for coedge in coedges])  # (n, 2 ends, 2)
@@ -118,8 +118,8 @@ def misdirected(loops: Sequence[Loop], closed: bool) -> list[int]:
     there and back, or come close to each other. closed: the surface is a sphere or the like, on
     which an outer loop that runs clockwise leaves all but its inside.
     """
-    share = np.arange(SAMPLES) / SAMPLES
-    rings = [np.concatenate([coedge.walk(share) for coedge in loop]) for loop in loops]
+    fraction = np.arange(SAMPLES) / SAMPLES
+    rings = [np.concatenate([coedge.walk(fraction) for coedge in loop]) for loop in loops]
     extent = np.ptp(np.concatenate(rings), axis=0)
     if not (extent > 0.0).all() or not all(closes(loop, extent) for loop in loops):
         return []
@@ -152,7 +152,7 @@ def turned(loop: Loop) -> Loop:
 def closes(loop: Loop, extent: np.ndarray) -> bool:
     """Is it closed in (u, v), and not a way round a closed surface?"""
     return all(
-        (np.abs(step_between(here, after)) <= OPEN_SHARE * extent).all()
+        (np.abs(step_between(here, after)) <= OPEN_FRACTION * extent).all()
         for here, after in zip(loop, loop[1:] + loop[:1])
     )
 

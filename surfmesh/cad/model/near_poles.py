@@ -2,7 +2,7 @@
 
 v |   \\_____/            A row of control points a hair apart is a side of the face in (u, v)
   |  .'     '.           and a point for its edges. The foot of an edge's end lies anywhere
-  | /         \\          on that side, so images that follow their edges to the last bit
+  | /         \\          on that side, so p-curves that follow their edges to the last bit
   +------------- u       swing across it, and cross each other.
 """
 
@@ -15,21 +15,21 @@ from scipy.interpolate import make_interp_spline
 
 from surfmesh.cad.model.cad_model import CadCoedge, CadEdge, CadFace, CadVertex
 from surfmesh.cad.model.centres import face_area
-from surfmesh.cad.model.invariants import NOISE, SHARES
+from surfmesh.cad.model.invariants import FRACTIONS, NOISE
 from surfmesh.geometry.cad_surfaces.curves import Line
 from surfmesh.geometry.cad_surfaces.nurbs import BSplineCurve
 from surfmesh.geometry.differential.projection import closest_point
 
-ZONE = 30.0  # times the extent of the side: nearer to the pole an image is not believed
+ZONE = 30.0  # times the extent of the side: nearer to the pole a p-curve is not believed
 SWING = 0.02  # of the face's box: less is no swing
 LARGEST = 0.01  # of the face's size: a longer side is no pole
-SAMPLES, STEPS = 513, 8  # of an image, and steps to the feet of its points
+SAMPLES, STEPS = 513, 8  # of a p-curve, and steps to the feet of its points
 
 
-def images_at_near_poles(
+def pcurves_at_near_poles(
     edges: list[CadEdge], vertices: list[CadVertex], faces: list[CadFace]
 ) -> list[str]:
-    """Straighten, in place, the images beside degenerate edges that are not quite a point."""
+    """Straighten, in place, the p-curves beside degenerate edges that are not quite a point."""
     changed = []
     for number, face in enumerate(faces):
         loops, found = [], False
@@ -40,7 +40,7 @@ def images_at_near_poles(
                     found |= _straightened(face, coedges, at, edges, vertices)
             loops.append(tuple(coedges))
         if found:
-            uv = np.concatenate([coedge.uv(SHARES) for loop in loops for coedge in loop])
+            uv = np.concatenate([coedge.uv(FRACTIONS) for loop in loops for coedge in loop])
             (u0, v0), (u1, v1) = uv.min(axis=0).tolist(), uv.max(axis=0).tolist()
             surface = face.surface.with_domain(((u0, u1), (v0, v1)))
             piece = replace(face, surface=surface, loops=tuple(loops))
@@ -50,7 +50,7 @@ def images_at_near_poles(
         return []
     return [
         f"face{'s' * (len(changed) > 1)} {', '.join(changed)}: a pole is only nearly a point; the "
-        "images of its edges are made straight there"
+        "p-curves of its edges are made straight there"
     ]
 
 
@@ -67,17 +67,17 @@ def _straightened(
     width = np.array([u1 - u0, v1 - v0])
     (corners,) = face.surface.evaluate([[u0, v0], [u1, v0], [u1, v1], [u0, v1]], 0)
     size = float(np.linalg.norm(np.ptp(corners, axis=0)))
-    (side,) = face.surface.evaluate(coedges[at].uv(SHARES), 0)
+    (side,) = face.surface.evaluate(coedges[at].uv(FRACTIONS), 0)
     extent = float(np.linalg.norm(np.ptp(side, axis=0)))
     if not NOISE * size < extent < LARGEST * size:
         return False
     ends = []
     for place, last in ((before, True), (after, False)):
-        share = np.linspace(0.0, 1.0, SAMPLES)
+        fraction = np.linspace(0.0, 1.0, SAMPLES)
         coedge = coedges[place]
         edge = edges[coedge.edge]
-        points = edge.curve.evaluate(edge.parameters(share), 0)[0]
-        uv = closest_point(face.surface, points, coedge.uv(share), STEPS, margin=0.0)[0]
+        points = edge.curve.evaluate(edge.parameters(fraction), 0)[0]
+        uv = closest_point(face.surface, points, coedge.uv(fraction), STEPS, margin=0.0)[0]
         at_end = last != coedge.reversed  # of the edge's range: its end lies in the pole
         near = np.linalg.norm(points - pole, axis=1) < ZONE * extent
         zone = np.flatnonzero(near)
@@ -90,7 +90,7 @@ def _straightened(
             ends.append((place, coedge, coedge.walk(np.array([1.0 if last else 0.0]))[0], False))
             continue
         uv[zone, across] = uv[edge_of_zone, across]
-        parameters = coedge.p0 + share * (coedge.p1 - coedge.p0)
+        parameters = coedge.p0 + fraction * (coedge.p1 - coedge.p0)
         order = slice(None) if parameters[-1] > parameters[0] else slice(None, None, -1)
         spline = make_interp_spline(parameters[order], uv[order], k=1)
         better = replace(coedge, pcurve=BSplineCurve(spline.t, spline.c))

@@ -1,7 +1,7 @@
-"""Images of edges in (u, v) that follow their edge more closely than those of the file.
+"""P-curves that follow their edge more closely than those of the file.
 
-Programs make an image from a few points and state the deviation at those; in between it can be
-ten thousand times worse, mostly because the image runs at another pace than its edge. Then the
+Programs make a p-curve from a few points and state the deviation at those; in between it can be
+ten thousand times worse, mostly because the p-curve runs at another pace than its edge. Then the
 feet of points of the edge give a better one.
 """
 
@@ -18,27 +18,27 @@ from surfmesh.geometry.cad_surfaces.nurbs import BSplineCurve
 from surfmesh.geometry.differential.projection import closest_point
 from surfmesh.geometry.surface import Surface
 
-SPANS = (32, 128, 512)  # of the new image, the first that is good enough
+SPANS = (32, 128, 512)  # of the new p-curve, the first that is good enough
 BETWEEN = (0.3, 0.7)  # of a span: an error of pace may vanish in the middle
 STEPS = 8  # towards the foot of a point
-BETTER = 0.5  # of the old deviation, or the old image stays
+BETTER = 0.5  # of the old deviation, or the old p-curve stays
 
 
 def follows(surface: Surface, edge: CadEdge, coedge: CadCoedge, reach: float) -> CadCoedge:
-    """The coedge with an image within ``reach`` of its edge, or as near as its face allows.
+    """The coedge with a p-curve within ``reach`` of its edge, or as near as its face allows.
 
-    The ends stay where they were, so that loops stay closed. The same coedge when no image is
+    The ends stay where they were, so that loops stay closed. The same coedge when no p-curve is
     much better. The edge is not degenerate.
     """
     best, deviation = coedge, np.inf
     for spans in SPANS:
-        share = np.linspace(0.0, 1.0, spans + 1)
-        uv, _ = _feet(surface, edge, coedge, share)
+        fraction = np.linspace(0.0, 1.0, spans + 1)
+        uv, _ = _feet(surface, edge, coedge, fraction)
         uv[[0, -1]] = coedge.uv(ENDS)
-        parameters = coedge.p0 + share * (coedge.p1 - coedge.p0)
+        parameters = coedge.p0 + fraction * (coedge.p1 - coedge.p0)
         spline = make_interp_spline(parameters, uv, k=3)
         trial = replace(coedge, pcurve=BSplineCurve(spline.t, spline.c))
-        between = np.sort(np.concatenate([share[:-1] + at / spans for at in BETWEEN]))
+        between = np.sort(np.concatenate([fraction[:-1] + at / spans for at in BETWEEN]))
         off = _deviation(surface, edge, trial, between)
         if best is coedge:
             deviation = _deviation(surface, edge, coedge, between)
@@ -51,14 +51,14 @@ def follows(surface: Surface, edge: CadEdge, coedge: CadCoedge, reach: float) ->
 
 
 def _feet(
-    surface: Surface, edge: CadEdge, coedge: CadCoedge, share: np.ndarray
+    surface: Surface, edge: CadEdge, coedge: CadCoedge, fraction: np.ndarray
 ) -> tuple[np.ndarray, np.ndarray]:
-    points = edge.curve.evaluate(edge.parameters(share), 0)[0]
-    uv, distance, _ = closest_point(surface, points, coedge.uv(share), STEPS, margin=0.0)
+    points = edge.curve.evaluate(edge.parameters(fraction), 0)[0]
+    uv, distance, _ = closest_point(surface, points, coedge.uv(fraction), STEPS, margin=0.0)
     return uv, distance
 
 
-def _deviation(surface: Surface, edge: CadEdge, coedge: CadCoedge, share: np.ndarray) -> float:
-    points = edge.curve.evaluate(edge.parameters(share), 0)[0]
-    (image,) = surface.evaluate(coedge.uv(share), 0)
-    return float(np.linalg.norm(image - points, axis=1).max())
+def _deviation(surface: Surface, edge: CadEdge, coedge: CadCoedge, fraction: np.ndarray) -> float:
+    points = edge.curve.evaluate(edge.parameters(fraction), 0)[0]
+    (on_face,) = surface.evaluate(coedge.uv(fraction), 0)
+    return float(np.linalg.norm(on_face - points, axis=1).max())

@@ -16,7 +16,7 @@ from OCP.TopAbs import TopAbs_INTERNAL, TopAbs_VERTEX
 from OCP.TopoDS import TopoDS, TopoDS_Face, TopoDS_Iterator, TopoDS_Vertex
 
 from surfmesh.cad.model.cad_model import CadCoedge
-from surfmesh.cad.model.invariants import SHARES
+from surfmesh.cad.model.invariants import FRACTIONS
 from surfmesh.geometry.cad_surfaces.curve_on_surface import CurveOnSurface
 from surfmesh.geometry.cad_surfaces.curves import Curve, Line
 from surfmesh.geometry.cad_surfaces.face_surface import FaceSurface
@@ -27,10 +27,10 @@ REACH = 0.4
 
 @dataclass(frozen=True)
 class ShortEdge:
-    """From a vertex along u: curve in space, image in (u, v), both with parameters 0 to ``end``."""
+    """From a vertex along u: curve in space, p-curve, both with parameters 0 to ``end``."""
 
     curve: Curve | CurveOnSurface
-    image: Line
+    pcurve: Line
     end: float
     length: float  # of its chord, in space
 
@@ -54,12 +54,12 @@ def short_edges(
     """One for each of these vertices; None where it lies on an edge after all."""
     here = np.array([BRep_Tool.Pnt_s(vertex).Coord() for vertex in vertices])
     nearest = ShapeAnalysis_Surface(BRep_Tool.Surface_s(face))
-    around = np.concatenate([coedge.uv(SHARES) for loop in loops for coedge in loop])
+    around = np.concatenate([coedge.uv(FRACTIONS) for loop in loops for coedge in loop])
     (edges,) = surface.evaluate(around, 0)
     found: list[ShortEdge | None] = []
     for number, vertex in enumerate(vertices):
-        image = nearest.ValueOfUV(BRep_Tool.Pnt_s(vertex), BRep_Tool.Tolerance_s(vertex))
-        uv = _within(np.array([image.X(), image.Y()]), surface)
+        at = nearest.ValueOfUV(BRep_Tool.Pnt_s(vertex), BRep_Tool.Tolerance_s(vertex))
+        uv = _within(np.array([at.X(), at.Y()]), surface)
         others = np.concatenate([edges, np.delete(here, number, axis=0)])
         room = float(np.linalg.norm(others - here[number], axis=1).min())
         tolerance = BRep_Tool.Tolerance_s(vertex)
@@ -85,9 +85,9 @@ def _along_u(surface: FaceSurface, uv: np.ndarray, length: float) -> ShortEdge |
     low, high = surface.domain[0]
     way = 1.0 if uv[0] - low < high - uv[0] else -1.0
     end = min(length / speed, 0.5 * (high - low))
-    image = Line(uv, (way, 0.0))
+    pcurve = Line(uv, (way, 0.0))
     if surface.kind == "plane":
-        return ShortEdge(Line(r[0], way * r_u[0] / speed), image, end, end * speed)
-    curve = CurveOnSurface(surface, image, 0.0, 1.0)
+        return ShortEdge(Line(r[0], way * r_u[0] / speed), pcurve, end, end * speed)
+    curve = CurveOnSurface(surface, pcurve, 0.0, 1.0)
     first, last = curve.evaluate(np.array([0.0, end]), 0)[0]
-    return ShortEdge(curve, image, end, float(np.linalg.norm(last - first)))
+    return ShortEdge(curve, pcurve, end, float(np.linalg.norm(last - first)))

@@ -9,7 +9,7 @@
 
 Edges that pass through the point are split at a vertex there, in all faces that use them. The
 pieces of a face are faces of their own, with degenerate edges along the line. Where the line is
-the rim of a face and an image jumps along it, the degenerate edge that lacks is added.
+the rim of a face and a p-curve jumps along it, the degenerate edge that lacks is added.
 """
 
 from __future__ import annotations
@@ -31,17 +31,17 @@ from surfmesh.cad.model.cad_model import (
     CadVertex,
 )
 from surfmesh.cad.model.centres import face_area
-from surfmesh.cad.model.invariants import ENDS, NOISE, SHARES, signed_area
+from surfmesh.cad.model.invariants import ENDS, FRACTIONS, NOISE, signed_area
 from surfmesh.cad.model.loops import Loop, end_of, start_of
 from surfmesh.geometry.cad_surfaces.curves import Line
 from surfmesh.geometry.cad_surfaces.singular_lines import SingularLine, singular_lines
 from surfmesh.geometry.planar.inside_loops import is_inside
 
-ON_LINE = 1e-7  # of the face's box: an image that ends so near a line ends on it
+ON_LINE = 1e-7  # of the face's box: a p-curve that ends so near a line ends on it
 LOOSE = 1e-8  # of the model's diagonal: tolerance of a new vertex
-SAMPLES = 65  # of an image, between which it is looked for crossings
+SAMPLES = 65  # of a p-curve, between which it is looked for crossings
 HALVINGS = 60
-ASIDE = 0.01  # of an edge: so far from a line it is seen which of two images lies to the right
+ASIDE = 0.01  # of an edge: so far from a line it is seen which of two p-curves lies to the right
 POLYGON = 33  # points of a coedge, to tell which loop a hole is in
 LENGTH_PANELS = 16  # of Gauss's rule with twelve points
 
@@ -64,7 +64,7 @@ def cut_at_singular_lines(model: CadModel) -> CadModel:
 
 
 def _lines_of(face: CadFace) -> list[SingularLine]:
-    """Lines that run through the face, or along its rim where its image jumps."""
+    """Lines that run through the face, or along its rim where its p-curve jumps."""
     if face.kind in ("plane", "cylinder", "extrusion"):
         return []
     return [
@@ -80,14 +80,14 @@ def _slack(face: CadFace, axis: int) -> float:
 
 def _crosses(face: CadFace, line: SingularLine) -> bool:
     """Does the face lie on both sides of the line?"""
-    uv = np.concatenate([coedge.uv(SHARES) for coedge in face.coedges])
+    uv = np.concatenate([coedge.uv(FRACTIONS) for coedge in face.coedges])
     away = uv[:, line.axis] - line.value
     slack = _slack(face, line.axis)
     return bool((away < -slack).any() and (away > slack).any())
 
 
 def _jumps(face: CadFace, line: SingularLine, loop: Loop) -> bool:
-    """Does an image end on the line, and the next one begin elsewhere on it?"""
+    """Does a p-curve end on the line, and the next one begin elsewhere on it?"""
     return any(_jump(face, line, one, loop[k - 1]) for k, one in enumerate(loop))
 
 
@@ -100,16 +100,16 @@ def _jump(face: CadFace, line: SingularLine, after: CadCoedge, here: CadCoedge) 
 
 
 def _crossings(coedge: CadCoedge, line: SingularLine, slack: float) -> list[float]:
-    """Shares of the edge's range, 0 and 1 excluded, at which its image crosses the line."""
+    """Fractions of the edge's range, 0 and 1 excluded, at which its p-curve crosses the line."""
     straight = getattr(coedge.pcurve, "kind", "") == "line"
-    share = np.linspace(0.0, 1.0, 2 if straight else SAMPLES)
-    away = coedge.uv(share)[:, line.axis] - line.value
+    fraction = np.linspace(0.0, 1.0, 2 if straight else SAMPLES)
+    away = coedge.uv(fraction)[:, line.axis] - line.value
     away[np.abs(away) <= slack] = 0.0
-    found = [float(share[k]) for k in np.flatnonzero(away == 0.0) if 0 < k < len(share) - 1]
+    found = [float(fraction[k]) for k in np.flatnonzero(away == 0.0) if 0 < k < len(fraction) - 1]
     if len(found) > 2:  # it runs along the line
         return []
     for k in np.flatnonzero(away[1:] * away[:-1] < 0.0):
-        low, high = float(share[k]), float(share[k + 1])
+        low, high = float(fraction[k]), float(fraction[k + 1])
         if straight:
             found.append(low + (high - low) * float(away[k] / (away[k] - away[k + 1])))
             continue
@@ -143,16 +143,16 @@ class _Work:
         return bool(self.sentences)
 
     def split_edges(self, lines: dict[int, list[SingularLine]]) -> None:
-        """Split the edges whose images cross a line, in all faces."""
+        """Split the edges whose p-curves cross a line, in all faces."""
         places: dict[int, dict[float, np.ndarray]] = defaultdict(dict)
         for number, found in lines.items():
             face = self.faces[number]
             for line in found:
                 for coedge in face.coedges:
-                    for share in _crossings(coedge, line, _slack(face, line.axis)):
-                        near = [s for s in places[coedge.edge] if abs(s - share) < ON_LINE]
+                    for fraction in _crossings(coedge, line, _slack(face, line.axis)):
+                        near = [s for s in places[coedge.edge] if abs(s - fraction) < ON_LINE]
                         if not near and not self.edges[coedge.edge].degenerate:
-                            places[coedge.edge][share] = line.point
+                            places[coedge.edge][fraction] = line.point
         rows = {edge: self._split(edge, sorted(at.items())) for edge, at in places.items() if at}
         if not rows:
             return
@@ -165,13 +165,13 @@ class _Work:
                 self.faces[number] = replace(face, loops=loops)
 
     def _split(self, number: int, places: list[tuple[float, np.ndarray]]) -> list[tuple]:
-        """Edges (number, first share, last share) that a cut edge becomes."""
+        """Edges (number, first fraction, last fraction) that a cut edge becomes."""
         edge = self.edges[number]
-        shares = [0.0, *(share for share, _ in places), 1.0]
+        fractions = [0.0, *(fraction for fraction, _ in places), 1.0]
         known = {edge.start, edge.end}
         corners = [edge.start, *(self.vertex_at(point, known) for _, point in places), edge.end]
         rows = []
-        for k, (first, last) in enumerate(pairwise(shares)):
+        for k, (first, last) in enumerate(pairwise(fractions)):
             t0, t1 = edge.parameters(np.array([first, last])).tolist()
             own = replace(
                 edge, t0=t0, t1=t1, start=corners[k], end=corners[k + 1],
@@ -300,7 +300,7 @@ class _Work:
         return [CadCoedge(number, first > last, Line(line.at(0.0), direction), low, high, False)]
 
     def _piece(self, face: CadFace, loops: tuple[Loop, ...]) -> CadFace:
-        uv = np.concatenate([coedge.uv(SHARES) for loop in loops for coedge in loop])
+        uv = np.concatenate([coedge.uv(FRACTIONS) for loop in loops for coedge in loop])
         (u0, v0), (u1, v1) = uv.min(axis=0).tolist(), uv.max(axis=0).tolist()
         surface = face.surface.with_domain(((u0, u1), (v0, v1)))
         uses: dict[int, int] = defaultdict(int)
@@ -365,7 +365,7 @@ class _Work:
 
 
 def _parts(coedge: CadCoedge, rows: list[tuple] | None) -> list[CadCoedge]:
-    """A coedge as uses of the edges (number, first share, last share) that its own became."""
+    """A coedge as uses of the edges (number, first fraction, last fraction) that its own became."""
     if rows is None:
         return [coedge]
     width = coedge.p1 - coedge.p0
@@ -391,7 +391,7 @@ def _chains(loop: Loop, line: SingularLine, slack: float, above: bool) -> tuple[
     What lies on the line itself is in none of them.
     """
     sign = 1.0 if above else -1.0
-    away = [sign * (coedge.walk(SHARES)[:, line.axis] - line.value) for coedge in loop]
+    away = [sign * (coedge.walk(FRACTIONS)[:, line.axis] - line.value) for coedge in loop]
     here = [bool(far.max() > slack and far.max() > -far.min()) for far in away]
     begins = [there and far[0] <= slack for there, far in zip(here, away)]
     if not any(begins):
@@ -432,8 +432,8 @@ def _regions(loops: tuple[Loop, ...]) -> list[tuple[Loop, ...]]:
     if len(outer) < 2:
         holes = [k for k in range(len(loops)) if k not in outer]
         return [tuple(loops[k] for k in (*outer, *holes))]
-    share = np.linspace(0.0, 1.0, POLYGON)[:-1]
-    rings = {k: np.concatenate([c.walk(share) for c in loops[k]]) for k in outer}
+    fraction = np.linspace(0.0, 1.0, POLYGON)[:-1]
+    rings = {k: np.concatenate([c.walk(fraction) for c in loops[k]]) for k in outer}
     found: dict[int, list[Loop]] = {k: [loops[k]] for k in outer}
     for k, loop in enumerate(loops):
         if k in found:

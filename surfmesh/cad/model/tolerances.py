@@ -1,7 +1,7 @@
-"""Tolerances that are true, and images in (u, v) that keep to them.
+"""Tolerances that are true, and p-curves that keep to them.
 
 Files state how far edges lie off their faces as it was measured at a few points. Here it is
-measured anew; images that stray are replaced, and where that does not help tolerances are raised.
+measured anew; p-curves that stray are replaced, and where that does not help tolerances are raised.
 """
 
 from __future__ import annotations
@@ -11,7 +11,7 @@ from dataclasses import replace
 import numpy as np
 
 from surfmesh.cad.model.cad_model import CadCoedge, CadEdge, CadFace, CadVertex
-from surfmesh.cad.model.invariants import ENDS, NOISE, SHARES, distances_to_edges
+from surfmesh.cad.model.invariants import ENDS, FRACTIONS, NOISE, distances_to_edges
 from surfmesh.cad.model.pcurves import follows
 from surfmesh.geometry.cad_surfaces.curve_on_surface import CurveOnSurface
 from surfmesh.geometry.cad_surfaces.face_surface import FaceSurface
@@ -19,7 +19,7 @@ from surfmesh.geometry.surface import Domain
 
 FAR_OFF = 10.0  # times its tolerance: an edge that lies so far off its face is reported
 LOOSE = 1e-4  # of its length: a curve that lies so far off all its faces may be replaced
-AGREE = 0.5  # of that distance: images that lie this near each other are believed instead
+AGREE = 0.5  # of that distance: p-curves that lie this near each other are believed instead
 CHORDS = 256  # that measure the length of a curve on a face
 MANY = 12  # numbers that a sentence lists
 
@@ -27,15 +27,15 @@ MANY = 12  # numbers that a sentence lists
 def deviations(edges: list[CadEdge], vertices: list[CadVertex], face: CadFace) -> np.ndarray:
     """(n,) How far the edges of each coedge lie off the face in space."""
     coedges = list(face.coedges)
-    uv = np.concatenate([coedge.uv(SHARES) for coedge in coedges])
+    uv = np.concatenate([coedge.uv(FRACTIONS) for coedge in coedges])
     (on_face,) = face.surface.evaluate(uv, 0)
     return distances_to_edges(edges, vertices, coedges, on_face)
 
 
-def images_that_follow(
+def pcurves_that_follow(
     edges: list[CadEdge], vertices: list[CadVertex], faces: list[CadFace], unit: str
 ) -> list[str]:
-    """Replace, in place, images that lie further off their edge than the file states."""
+    """Replace, in place, p-curves that deviate from their edge by more than the file states."""
     replaced, worst = set(), 0.0
     for number, face in enumerate(faces):
         better = {}
@@ -57,7 +57,7 @@ def images_that_follow(
         return []
     numbers = listed([str(number) for number in sorted(replaced)])
     return [
-        f"{'edges' if len(replaced) > 1 else 'edge'} {numbers}: image on a face replaced, "
+        f"{'edges' if len(replaced) > 1 else 'edge'} {numbers}: p-curve on a face replaced, "
         f"which strayed by up to {worst:.2g} {unit}"
     ]
 
@@ -65,7 +65,7 @@ def images_that_follow(
 def curves_on_their_faces(
     edges: list[CadEdge], vertices: list[CadVertex], faces: list[CadFace], unit: str
 ) -> list[str]:
-    """Replace, in place, curves that lie off their faces where the images agree among themselves.
+    """Replace, in place, curves that lie off their faces where the p-curves agree among themselves.
 
     The border of a single face lies on that face, whatever the file says.
     """
@@ -79,8 +79,10 @@ def curves_on_their_faces(
                 loose[coedge.edge] = max(distance, loose.get(coedge.edge, 0.0))
     replaced = []
     for number, distance in loose.items():
-        images = [face.surface.evaluate(coedge.uv(SHARES), 0)[0] for face, coedge in users[number]]
-        spread = max(float(np.linalg.norm(i - images[0], axis=1).max()) for i in images)
+        on_face = [
+            face.surface.evaluate(coedge.uv(FRACTIONS), 0)[0] for face, coedge in users[number]
+        ]
+        spread = max(float(np.linalg.norm(i - on_face[0], axis=1).max()) for i in on_face)
         if spread > AGREE * distance:
             continue
         face, coedge = users[number][0]
@@ -98,7 +100,7 @@ def curves_on_their_faces(
     several = len(replaced) > 1
     return [
         f"{'edges' if several else 'edge'} {listed([str(n) for n in sorted(replaced)])}: curve in "
-        f"space replaced by the image on a face, which it strayed from by up to "
+        f"space replaced by the p-curve on a face, which it strayed from by up to "
         f"{max(loose[n] for n in replaced):.2g} {unit}"
     ]
 
@@ -106,7 +108,7 @@ def curves_on_their_faces(
 def tolerances_that_hold(
     edges: list[CadEdge], vertices: list[CadVertex], faces: list[CadFace], unit: str
 ) -> list[str]:
-    """Raise tolerances, in place, to what is measured: of edges from their images, of vertices.
+    """Raise tolerances, in place, to what is measured: of edges from their p-curves, of vertices.
 
     Files state what was measured at a few points of an edge; in between it may be worse.
     """
@@ -145,7 +147,7 @@ def widened(surface: FaceSurface, loops: list) -> FaceSurface:
 
 
 def joined(domain: Domain, loops: list) -> tuple[np.ndarray, np.ndarray]:
-    samples = np.concatenate([coedge.uv(SHARES) for loop in loops for coedge in loop])
+    samples = np.concatenate([coedge.uv(FRACTIONS) for loop in loops for coedge in loop])
     (u0, u1), (v0, v1) = domain
     lo = np.minimum(samples.min(axis=0), (u0, v0))
     return lo, np.maximum(samples.max(axis=0), (u1, v1))

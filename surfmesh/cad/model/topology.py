@@ -56,14 +56,14 @@ from surfmesh.cad.model.extent import diagonal
 from surfmesh.cad.model.invariants import is_closed, signed_area
 from surfmesh.cad.model.loop_faults import fault_of_pieces
 from surfmesh.cad.model.loops import chained, misdirected, outer_first, there_and_back, turned
-from surfmesh.cad.model.near_poles import images_at_near_poles
+from surfmesh.cad.model.near_poles import pcurves_at_near_poles
 from surfmesh.cad.model.points_inside import short_edges, vertices_inside
 from surfmesh.cad.model.singular_cuts import cut_at_singular_lines
 from surfmesh.cad.model.tolerances import (
     curves_on_their_faces,
-    images_that_follow,
     joined,
     listed,
+    pcurves_that_follow,
     tolerances_that_hold,
 )
 from surfmesh.cad.reading.contents_of_file import unread_bodies, without_faces
@@ -85,7 +85,7 @@ def cad_model(
 ) -> CadModel:  # fmt: skip
     """The plain data of a tree of parts that are healed and in place.
 
-    heal: also replace images that stray from their edges. path: of the file it was read from.
+    heal: also replace p-curves that stray from their edges. path: of the file it was read from.
 
     Faces that cannot be used are left out, and listed. Raises CadError when there is no other.
     """
@@ -98,8 +98,8 @@ def cad_model(
         walk.left_out += unread_bodies(path)
     healing = _in_words(walk, root)
     if heal:
-        healing += images_that_follow(walk.edges, walk.vertices, walk.faces, unit)
-        healing += images_at_near_poles(walk.edges, walk.vertices, walk.faces)
+        healing += pcurves_that_follow(walk.edges, walk.vertices, walk.faces, unit)
+        healing += pcurves_at_near_poles(walk.edges, walk.vertices, walk.faces)
         healing += curves_on_their_faces(walk.edges, walk.vertices, walk.faces, unit)
     healing += tolerances_that_hold(walk.edges, walk.vertices, walk.faces, unit)
     _fault_split_faces(walk, root)
@@ -405,7 +405,7 @@ class _Walk:
                     length=short.length,
                 )
             )
-            there = CadCoedge(number, False, short.image, 0.0, short.end, True)
+            there = CadCoedge(number, False, short.pcurve, 0.0, short.end, True)
             found.append((there, replace(there, reversed=True)))
             self._remarks[f"{called} is touched in a point: a short edge makes a node of it"] += 1
         return found

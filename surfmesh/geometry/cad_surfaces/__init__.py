@@ -2,7 +2,7 @@
 
 plain_data: frozen dataclasses of numbers and read-only arrays, which travel between processes.
 curves: curves in space and in the (u, v) plane: what every curve can do, lines and conics.
-curve_on_surface: a curve in space that is the image of a curve in (u, v): c(t) = r(u(p), v(p)),
+curve_on_surface: a curve in space that a surface makes of a p-curve: c(t) = r(u(p), v(p)),
     p linear in t.
 face_surface: what the surfaces of CAD faces have in common: a parameter box, periods, plain data.
 elementary: plane, cylinder, cone, sphere and torus, parametrised as CAD kernels do.

@@ -1,4 +1,4 @@
-"""A curve in space that is the image of a curve in (u, v): c(t) = r(u(p), v(p)), p linear in t.
+"""A curve in space that a surface makes of a p-curve: c(t) = r(u(p), v(p)), p linear in t.
 
 c'  = r_u u' + r_v v'
 c'' = r_uu u'^2 + 2 r_uv u' v' + r_vv v'^2 + r_u u'' + r_v v''
@@ -16,10 +16,10 @@ from surfmesh.geometry.cad_surfaces.plain_data import PlainData
 
 @dataclass(frozen=True, eq=False, repr=False)
 class CurveOnSurface(PlainData):
-    """surface: r(u, v). image: a curve in its (u, v). p = shift + rate t is the parameter there."""
+    """surface: r(u, v). pcurve: in its (u, v), with the parameter p = shift + rate t."""
 
     surface: Any
-    image: Any
+    pcurve: Any
     shift: float
     rate: float
 
@@ -30,7 +30,7 @@ class CurveOnSurface(PlainData):
     def evaluate(self, t: np.ndarray, order: int = 0) -> tuple[np.ndarray, ...]:
         """(n,) float -> (n, 3) float arrays: (c, c', c'')[: order + 1]; order is at most 2."""
         p = self.shift + self.rate * np.asarray(t, float).reshape(-1)
-        uv = self.image.evaluate(p, order)
+        uv = self.pcurve.evaluate(p, order)
         r = self.surface.evaluate(uv[0], order)
         results = [r[0]]
         if order > 0:
@@ -43,5 +43,5 @@ class CurveOnSurface(PlainData):
         return tuple(results)
 
     def with_limits(self, first: float, last: float) -> Self:
-        """Itself: the image has the limits."""
+        """Itself: the p-curve has the limits."""
         return self

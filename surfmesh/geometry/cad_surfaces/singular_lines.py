@@ -145,8 +145,8 @@ def _between_alike(surface: Surface, axis: int, value: float) -> float:
     """
     low, high = surface.domain[axis]
     better = value
-    for share in BESIDE:
-        step = min(share * (high - low), better - low, high - better)
+    for fraction in BESIDE:
+        step = min(fraction * (high - low), better - low, high - better)
         if not step > 0.0:
             return value
         places = np.array([better - step, better + 0.5 * step, better + step])

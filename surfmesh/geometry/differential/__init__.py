@@ -3,7 +3,7 @@
 fundamental_forms: first and second fundamental forms, normals, principal curvatures and directions.
 projection: the closest point of a surface, near a guess: how far is a mesh from what it stands
     for?.
-scaling: the scaled parameter plane (x, y): u and v each stretched so that speeds are about one.
+chart: the scaled plane (x, y): u and v each stretched so that speeds are about one.
 sides: the four sides of the (u, v) rectangle: which coincide in space, which shrink to a point.
 sharp_bends: where a surface itself turns over: at a cusp, a crease, a swallowtail, a tube of no
     width.

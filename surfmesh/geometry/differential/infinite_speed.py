@@ -27,7 +27,7 @@ from scipy.special import beta, betainc, betaincinv
 from surfmesh.geometry.surface import Domain, Surface
 
 STEPS = (1e-4, 1e-6, 1e-8)
-"""Distances from a place, as shares of the domain, at which the exponent is measured."""
+"""Distances from a place, as fractions of the domain, at which the exponent is measured."""
 
 ACROSS = 17
 """Points along the place at which they are taken; the mean of them counts."""
@@ -43,11 +43,11 @@ DENOMINATOR, NEAR_FRACTION = 6, 0.015
 """Exponents are fractions of small numbers, as a rule: they are taken to be the nearest one."""
 
 NEAREST, LARGEST_SPEED = 1e-5, 1e7
-"""Derivatives are taken no nearer to the place: as a share of the bent piece, and where the
+"""Derivatives are taken no nearer to the place: as a fraction of the bent piece, and where the
 speed would be so many times the usual one, beside which the other direction keeps no digits."""
 
 ROUNDING, MOST_ROUNDED = 16.0 * np.finfo(float).eps, 1e-6
-"""Of a parameter, as a share of its axis, and how much of the surface it may move a side."""
+"""Of a parameter, as a fraction of its axis, and how much of the surface it may move a side."""
 
 Values = Callable[[np.ndarray], np.ndarray]
 """uv (n, 2) -> r (n, 3)."""
@@ -113,7 +113,7 @@ class BentAxis:
         return np.clip(u, lowest, highest)
 
     def _off(self) -> np.ndarray:
-        """How near to the ends of the pieces derivatives are taken (m, 2), shares of the pieces."""
+        """How near to the ends of the pieces derivatives are taken (m, 2), fractions of them."""
         with np.errstate(divide="ignore"):
             slow = LARGEST_SPEED ** (-1.0 / (self.powers - 1.0))
         return np.where(self.powers > 1.0, np.maximum(NEAREST, slow), 0.0)
@@ -125,10 +125,10 @@ class BentAxis:
         return piece, self.places[piece], self.places[piece + 1], *self.powers[piece].T
 
 
-def _beta_inverse(q0: np.ndarray, q1: np.ndarray, share: np.ndarray) -> np.ndarray:
-    """s (n,) with ``betainc(q0, q1, s)`` = share; its leading power where SciPy underflows."""
-    s = betaincinv(q0, q1, share)
-    return np.where(np.isnan(s), (share * q0 * beta(q0, q1)) ** (1.0 / q0), s)
+def _beta_inverse(q0: np.ndarray, q1: np.ndarray, fraction: np.ndarray) -> np.ndarray:
+    """s (n,) with ``betainc(q0, q1, s)`` = fraction; its leading power where SciPy underflows."""
+    s = betaincinv(q0, q1, fraction)
+    return np.where(np.isnan(s), (fraction * q0 * beta(q0, q1)) ** (1.0 / q0), s)
 
 
 BentAxes = tuple[BentAxis | None, BentAxis | None]
@@ -259,7 +259,7 @@ def _power(values: Values, domain: Domain, axis: int, place: float, way: float) 
 
 
 def rounding_of_sides(surface: Surface) -> np.ndarray:
-    """How far the rounding of a parameter moves each of the four sides, a share of the surface.
+    """How far the rounding of a parameter moves each of the four sides, a fraction of the surface.
 
     (4,) in the order of ``sides``. sqrt(sin(v)) at v = pi is 1e-8, not 0.
     """

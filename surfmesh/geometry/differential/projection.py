@@ -27,7 +27,7 @@ def closest_point(
 ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Feet of points on a surface, found from guesses, never farther away than these.
 
-    points: (n, 3), uv_guess: (n, 2). margin: share of the domain by which feet may leave it.
+    points: (n, 3), uv_guess: (n, 2). margin: fraction of the domain by which feet may leave it.
     Returns uv (n, 2), distance (n,), foot (n, 3). The search is local: a nearer part of the
     surface that the guess does not lead to is not found.
     """
@@ -72,7 +72,7 @@ def closest_from_corners(
     """Feet that may be nearer: searched for anew from the ``corners`` (n, 3, 2) of triangles.
 
     uv: (n, 2) feet of the points (n, 3) so far, and their ``distance`` (n,). About a singular
-    point the search from the middle goes astray. Returns uv and distance, never larger.
+    point the search from the middle finds other feet. Returns uv and distance, never larger.
     """
     uv, distance = uv.copy(), distance.copy()
     for corner in corners.transpose(1, 0, 2):

@@ -17,7 +17,7 @@ from surfmesh.geometry.differential.fundamental_forms import curvatures, forms_f
 from surfmesh.geometry.surface import Surface
 
 INSIDE = 1e-3
-"""Samples are taken so far inside a triangle, as a share of the way to the centroid: at a pole
+"""Samples are taken so far inside a triangle, as a fraction of the way to the centroid: at a pole
 there is no normal, and at a crease one for each side."""
 
 SIDES = 4

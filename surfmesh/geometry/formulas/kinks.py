@@ -121,14 +121,14 @@ def _is_too_fast(guides: Guides, line: KinkLine) -> bool:
 
 
 def _grid_lines(guides: Guides) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Shares 0 to 1 of the domain along u and along v; uneven, so that no line lies on one."""
+    """Fractions 0 to 1 of the domain along u and along v; uneven, so that no line lies on one."""
     inner = np.arange(1, GRID)
     golden = 0.5 * (np.sqrt(5.0) - 1.0)
     even = (inner + 0.4 * ((inner * golden) % 1.0 - 0.5)) / GRID
-    share = np.concatenate([[MARGIN], even, [1.0 - MARGIN]])
+    fraction = np.concatenate([[MARGIN], even, [1.0 - MARGIN]])
     more: tuple[list[float], list[float]] = ([], [])
-    lo = np.stack(np.meshgrid(share[:-1], share[:-1], indexing="ij"), -1).reshape(-1, 2)
-    hi = np.stack(np.meshgrid(share[1:], share[1:], indexing="ij"), -1).reshape(-1, 2)
+    lo = np.stack(np.meshgrid(fraction[:-1], fraction[:-1], indexing="ij"), -1).reshape(-1, 2)
+    hi = np.stack(np.meshgrid(fraction[1:], fraction[1:], indexing="ij"), -1).reshape(-1, 2)
     for guide in range(guides.count):
         suspects = _may_vanish(guides, guide, lo, hi)
         suspects = suspects[~_changes_sign(guides, guide, lo[suspects], hi[suspects])]
@@ -139,7 +139,7 @@ def _grid_lines(guides: Guides) -> tuple[NDArray[np.float64], NDArray[np.float64
                 if all(abs(place[axis] - x) > 1e-9 for x in more[axis]):
                     more[axis].append(place[axis])
     return tuple(  # type: ignore[return-value]
-        np.unique(np.concatenate([share, extra[:MOST_LINES]])) for extra in more
+        np.unique(np.concatenate([fraction, extra[:MOST_LINES]])) for extra in more
     )
 
 
@@ -382,13 +382,13 @@ def _pieces(guides: Guides, line: KinkLine, cuts: list, near: float) -> list[Kin
 
 def _onto_side(guides: Guides, guide: int, end: NDArray) -> NDArray[np.float64]:
     """An end that lies ``MARGIN`` from a side, moved onto it along the line."""
-    share = (end - guides.lo) / guides.width
-    gap = np.minimum(share, 1.0 - share)
+    fraction = (end - guides.lo) / guides.width
+    gap = np.minimum(fraction, 1.0 - fraction)
     axis = int(gap.argmin())
     if gap[axis] > 2.0 * MARGIN:
         return end
     place = end.copy()
-    place[axis] = guides.lo[axis] if share[axis] < 0.5 else guides.hi[axis]
+    place[axis] = guides.lo[axis] if fraction[axis] < 0.5 else guides.hi[axis]
     for _ in range(NEWTON):
         g = guides.values(guide, place[None])[0]
         slope = g[2 - axis]

@@ -179,11 +179,11 @@ class ParametricSurface:
             self._tapes[order] = surface_tape(self._expressions, variables, order)
         return self._tapes[order]
 
-    def _nudged(self, uv: np.ndarray, share: float) -> np.ndarray:
+    def _nudged(self, uv: np.ndarray, fraction: float) -> np.ndarray:
         """Points moved towards the middle of the domain, those in the middle away from it."""
         lo, hi = np.array(self.domain).T
         towards = np.where(uv > 0.5 * (lo + hi), -1.0, 1.0)
-        return uv + towards * share * (hi - lo)
+        return uv + towards * fraction * (hi - lo)
 
     def __repr__(self) -> str:
         formulas = ", ".join(f"{c}={f!r}" for c, f in zip("xyz", self.formulas))

@@ -95,8 +95,8 @@ def chosen_differences(
 
     Truncation falls and round-off grows as the step shrinks. Each variable takes the step whose
     derivatives agree best with those of half of it, on a grid of points that evenness does not
-    fool. step: a share of the domain, to use instead. The error is the largest disagreement, as
-    a share of the largest second derivative or, where that is more, of the extent of values; all
+    fool. step: a fraction of the domain, to use instead. The error is the largest disagreement, as
+    a fraction of the largest second derivative or, where that is more, of the extent of values; all
     in parts of the domain.
     """
     extent = [last - first for first, last in domain]
@@ -109,8 +109,8 @@ def chosen_differences(
     steps, errors = [], []
     for axis in (0, 1):
         found = []
-        for share in [*ladder, 0.5 * ladder[-1]]:
-            rule = Differences(domain, order, (share * extent[0], share * extent[1]))
+        for fraction in [*ladder, 0.5 * ladder[-1]]:
+            rule = Differences(domain, order, (fraction * extent[0], fraction * extent[1]))
             (second,) = rule._line(values, points, axis, (2,))
             found.append(second * extent[axis] ** 2)
         misfit = [float(np.abs(a - b).max()) for a, b in pairwise(found)]

@@ -57,7 +57,7 @@ class NumericSurface:
     or a number, or one array (n, 3) or (3, n). u, v: (first, last). derivatives: called in the
     same way, gives (r_u, r_v) or (r_u, r_v, r_uu, r_uv, r_vv), each like r; what it does not
     give, or gives as not finite, comes from differences. differences: their order, 2, 4 or 6.
-    step: distance of their nodes as a share of the domain; None: chosen for each variable so
+    step: distance of their nodes as a fraction of the domain; None: chosen for each variable so
     that truncation and round-off balance. loops: polygons (k, 2) in (u, v) that trim the surface.
 
     ``difference_error`` tells how far the differences are off; ``derivative_bounds`` knows
@@ -91,9 +91,9 @@ class NumericSurface:
                 )
         if not isinstance(differences, numbers.Integral) or differences not in ORDERS:
             raise SurfaceError(f"differences are of order 2, 4 or 6, not {shown(differences)}")
-        if step is not None and not _is_share(step, differences):
+        if step is not None and not _is_fraction(step, differences):
             raise SurfaceError(
-                f"step is a share of the domain, {LEAST_STEP:g} to 1/{differences}, "
+                f"step is a fraction of the domain, {LEAST_STEP:g} to 1/{differences}, "
                 f"not {shown(step)}"
             )
         fixed: dict[str, Any] = {
@@ -129,7 +129,7 @@ class NumericSurface:
     closed: tuple[bool, bool]
     """Does the surface begin again where u, or v, ends? Violation the one end lies the other."""
     difference_error: float
-    """Of second derivatives by differences of r, as a share of the largest or of the surface's
+    """Of second derivatives by differences of r, as a fraction of the largest or of the surface's
     extent, whichever is more: see ``chosen_differences``."""
 
     def evaluate(self, uv: np.ndarray, order: int = 0) -> tuple[np.ndarray, ...]:
@@ -312,7 +312,7 @@ def _asked(what: str, uv: np.ndarray) -> str:
     )
 
 
-def _is_share(step: Any, differences: int) -> bool:
+def _is_fraction(step: Any, differences: int) -> bool:
     try:
         return bool(LEAST_STEP <= step and step * differences <= 1.0)
     except (TypeError, ValueError):

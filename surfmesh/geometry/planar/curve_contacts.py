@@ -36,7 +36,7 @@ LONG = 1e4
 
 @dataclass(frozen=True)
 class PlaneCurve:
-    """evaluate: shares (n,) from 0 to 1 -> points (n, 2). pieces: in which it hardly bends, 1
+    """evaluate: fractions (n,) from 0 to 1 -> points (n, 2). pieces: in which it hardly bends, 1
     for a straight line."""
 
     evaluate: Callable[[np.ndarray], np.ndarray]
@@ -45,17 +45,17 @@ class PlaneCurve:
 
 @dataclass(frozen=True)
 class Contact:
-    """Two curves (numbers, the smaller first) that meet; the shares of both, from and to."""
+    """Two curves (numbers, the smaller first) that meet; the fractions of both, from and to."""
 
     curves: tuple[int, int]
-    shares: tuple[tuple[float, float], tuple[float, float]]
+    fractions: tuple[tuple[float, float], tuple[float, float]]
     stretch: bool
     """They lie on each other there, rather than meet in a point."""
 
 
 @dataclass
 class _Pieces:
-    """Pieces of curves: whose, from and to which share, ends and how far they bulge."""
+    """Pieces of curves: whose, from and to which fraction, ends and how far they bulge."""
 
     curve: np.ndarray  # (s,)
     t: np.ndarray  # (s, 2)
@@ -103,7 +103,7 @@ def contacts(curves: Sequence[PlaneCurve], reach: np.ndarray) -> list[Contact]:
 
 
 def feet(curve: PlaneCurve, points: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Shares (n,) of the nearest places of a curve to points (n, 2), and the distances (n,)."""
+    """Fractions (n,) of the nearest places of a curve to points (n, 2), and the distances (n,)."""
     t = np.linspace(0.0, 1.0, 8 * curve.pieces + 1)
     line = curve.evaluate(t)
     step = line[1:] - line[:-1]
@@ -112,17 +112,17 @@ def feet(curve: PlaneCurve, points: np.ndarray) -> tuple[np.ndarray, np.ndarray]
     along = np.clip(along, 0.0, 1.0)
     foot = line[None, :-1] + along[..., None] * step
     best = np.linalg.norm(points[:, None] - foot, axis=2).argmin(axis=1)
-    share = t[best] + along[np.arange(len(points)), best] * (t[1] - t[0])
+    fraction = t[best] + along[np.arange(len(points)), best] * (t[1] - t[0])
     width = np.full(len(points), t[1] - t[0])
     for _ in range(STEPS):  # secants of the curve on both sides of the foot
-        low, high = np.clip(share - width, 0.0, 1.0), np.clip(share + width, 0.0, 1.0)
+        low, high = np.clip(fraction - width, 0.0, 1.0), np.clip(fraction + width, 0.0, 1.0)
         way = curve.evaluate(high) - curve.evaluate(low)
         speed = np.maximum(np.einsum("ij,ij->i", way, way), 1e-300)
-        off = points - curve.evaluate(share)
+        off = points - curve.evaluate(fraction)
         ahead = np.einsum("ij,ij->i", off, way) / speed * (high - low)
-        share = np.clip(share + np.clip(ahead, -width, width), 0.0, 1.0)
+        fraction = np.clip(fraction + np.clip(ahead, -width, width), 0.0, 1.0)
         width *= 0.25
-    return share, np.linalg.norm(points - curve.evaluate(share), axis=1)
+    return fraction, np.linalg.norm(points - curve.evaluate(fraction), axis=1)
 
 
 def _cut(curves: Sequence[PlaneCurve]) -> _Pieces:
@@ -136,7 +136,7 @@ def _cut(curves: Sequence[PlaneCurve]) -> _Pieces:
 
 
 def _evaluated(curves: Sequence[PlaneCurve], which: np.ndarray, t: np.ndarray) -> np.ndarray:
-    """Points (n, 2) of the curves (n,) at shares (n,)."""
+    """Points (n, 2) of the curves (n,) at fractions (n,)."""
     points = np.empty((len(t), 2))
     order = np.argsort(which, kind="stable")
     for rows in np.split(order, np.flatnonzero(np.diff(which[order])) + 1):
@@ -203,7 +203,7 @@ def _halved(
 
 
 def _rows(pieces: _Pieces, pairs: np.ndarray, near: np.ndarray) -> np.ndarray:
-    """(n, 7): two curves, the shares of both from and to, whether they lie on each other.
+    """(n, 7): two curves, the fractions of both from and to, whether they lie on each other.
 
     Pieces are taken for straight; near: (n,) how near is a contact.
     """
@@ -229,7 +229,7 @@ def _ordered(pieces: _Pieces, pairs: np.ndarray) -> np.ndarray:
 
 
 def _overlap(one: np.ndarray, other: np.ndarray, near: np.ndarray) -> np.ndarray:
-    """(n, 2) from which to which share of segments ``one`` others are near, both (n, 2, 2)."""
+    """(n, 2) from which to which fraction of segments ``one`` others are near, both (n, 2, 2)."""
     a, way = one[:, 0], one[:, 1] - one[:, 0]
     square = np.maximum(np.einsum("ij,ij->i", way, way), 1e-300)
     across = np.stack([-way[:, 1], way[:, 0]], axis=1) / np.sqrt(square)[:, None]
@@ -262,9 +262,9 @@ def _stretches(
         for group in np.split(np.arange(len(t)), np.flatnonzero(gap) + 1):
             low, high = t[group, 0].min(), t[group, 1].max()
             looked = low + (high - low) * np.linspace(0.2, 0.8, FEET)
-            share, away = feet(curves[second], curves[first].evaluate(looked))
+            fraction, away = feet(curves[second], curves[first].evaluate(looked))
             near = max(reach[first], reach[second])
-            if len(group) >= MANY and (away <= near).all() and np.ptp(share) > 0.0:
+            if len(group) >= MANY and (away <= near).all() and np.ptp(fraction) > 0.0:
                 ends = feet(curves[second], curves[first].evaluate(np.array([low, high])))[0]
                 found.append(np.array([[first, second, low, high, ends.min(), ends.max(), 1.0]]))
                 kept[here[group]] = False

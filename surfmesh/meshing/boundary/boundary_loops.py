@@ -215,7 +215,7 @@ def cut_line(
     samples = 64
     while True:
         t = np.linspace(0.0, 1.0, samples + 1)
-        xy = field.scaling.to_plane(start + t[:, None] * (end - start))
+        xy = field.chart.to_plane(start + t[:, None] * (end - start))
         step = field.metric_lengths(0.5 * (xy[1:] + xy[:-1]), xy[1:] - xy[:-1])
         metric = np.zeros(samples + 1)
         np.cumsum(step, out=metric[1:])

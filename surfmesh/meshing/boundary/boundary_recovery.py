@@ -111,7 +111,7 @@ def _inserted(
     with_row: the segments, turned round too where the inside may be on both sides: a row of
     vertices is put to the left of each. The last result is the first vertex that is a node.
     """
-    xy = field.scaling.to_plane(uv)
+    xy = field.chart.to_plane(uv)
     row = _apexes(xy, with_row, field)
     t = _with_room(t, len(xy) + len(row))
     insert_row(t, row, field.tensors(row), APART, AROUND)

@@ -24,8 +24,8 @@ from surfmesh.geometry.functions.numeric import NumericSurface
 from surfmesh.geometry.surface import Surface
 from surfmesh.result.mesh_part import TRIANGLE, Renumbering
 from surfmesh.result.surface_mesh import SurfaceMesh
+from surfmesh.sizing.options.defaults import DEFAULT_CHORD
 from surfmesh.sizing.options.sizing import Sizing
-from surfmesh.sizing.rules.size_bounds import DEFAULT_CHORD
 
 FAR, NEAR = 1e-2, 1e-4
 """Shares of the domain from the pole between which width over distance is compared."""

@@ -87,7 +87,7 @@ def _metric(line: KinkLine, field: SizeField) -> tuple[np.ndarray, np.ndarray]:
     """Points (n, 2) along a line, near to each other, and the metric length (n,) up to each."""
     fine = line.uv
     while True:
-        xy = field.scaling.to_plane(fine)
+        xy = field.chart.to_plane(fine)
         step = field.metric_lengths(0.5 * (xy[1:] + xy[:-1]), np.diff(xy, axis=0))
         length = np.concatenate([[0.0], np.cumsum(step)])
         if step.max() <= 1.0 / SAMPLED or len(fine) > 1 << 16:

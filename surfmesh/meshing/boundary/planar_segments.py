@@ -143,8 +143,8 @@ def _speed(
 ) -> np.ndarray:
     """Metric length a unit of share (n,), at shares ``t`` (n,) of the segments ``owner``."""
     step = (end - start)[owner]
-    xy = field.scaling.to_plane(start[owner] + t[:, None] * step)
-    return field.metric_lengths(xy, step / field.scaling.rates(xy))
+    xy = field.chart.to_plane(start[owner] + t[:, None] * step)
+    return field.metric_lengths(xy, step / field.chart.rates(xy))
 
 
 def short_segments(graph: SegmentGraph, slope: float) -> SizeLimits | None:
@@ -170,7 +170,7 @@ def narrow_gaps(
 
     graph = domain.graph
     wanted = np.empty(len(cut.uv))
-    scalar_sizes_at(field.background, field.scaling.to_plane(cut.uv), wanted)
+    scalar_sizes_at(field.background, field.chart.to_plane(cut.uv), wanted)
     lines = shapely.linestrings(graph.points[graph.segments])
     tree = shapely.STRtree(lines)
     places = shapely.points(cut.uv)

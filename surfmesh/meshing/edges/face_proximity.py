@@ -75,7 +75,7 @@ class AcrossTo:
         return {name: getattr(self, name) for name in kept}
 
     def __repr__(self) -> str:
-        return f"gap to face {self.number} ({self.face.name or self.face.kind})"
+        return f"gap to {self.face.label(self.number)}"
 
 
 def with_face_gaps(model: CadModel, wanted: ModelSizing) -> ModelSizing:

@@ -16,7 +16,7 @@ LOOKED_AT = (0.1, 0.3, 0.5, 0.7, 0.9)
 """Shares of a segment at which the sizes inside are read."""
 
 
-def wishes_along(
+def sizes_along_edges(
     sizing: Sizing, surface: Surface, field: SizeField, loops: BoundaryLoops, points: np.ndarray
 ) -> SizeLimits | None:
     """What sizes grown from the inside ask for along edges that know their own surroundings only.
@@ -34,9 +34,9 @@ def wishes_along(
     shares = LOOKED_AT if sizing.is_anisotropic else LOOKED_AT[2:3]
     ends = loops.uv[first], loops.uv[second]
     uv = np.stack([(1.0 - share) * ends[0] + share * ends[1] for share in shares], axis=1)
-    xy = field.scaling.to_plane(uv.reshape(-1, 2))
+    xy = field.chart.to_plane(uv.reshape(-1, 2))
     if sizing.is_anisotropic:
-        way = field.scaling.to_plane(ends[1]) - field.scaling.to_plane(ends[0])
+        way = field.chart.to_plane(ends[1]) - field.chart.to_plane(ends[0])
         way, whole = (np.repeat(a, len(shares), axis=0) for a in (way, length))
         sizes = whole / np.maximum(field.metric_lengths(xy, way), np.finfo(float).tiny)
     else:

@@ -21,8 +21,8 @@ from math import pi
 import numpy as np
 
 from surfmesh.cad.model.cad_model import CadCoedge, CadFace, CadModel
+from surfmesh.sizing.options.defaults import DEFAULT_CHORD
 from surfmesh.sizing.options.sizing import Sizing
-from surfmesh.sizing.rules.size_bounds import DEFAULT_CHORD
 
 NARROW = 1.0
 """Faces are narrow up to this share of ``chord``: any triangle across them lies within it."""

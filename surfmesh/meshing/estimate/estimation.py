@@ -93,7 +93,7 @@ def size_in_words(count: float) -> str:
 def field_triangles(field: SizeField, loops: Sequence[np.ndarray] | None = None) -> float:
     """Triangles over the field's rectangle, or inside ``loops`` (k, 2) in (u, v)."""
     if loops is not None and field.expected_vertices() > BEYOND:
-        rings = [field.scaling.to_plane(loop) for loop in loops]
+        rings = [field.chart.to_plane(loop) for loop in loops]
         rough = TRIANGLES * float(inner_cells(field, rings)[2].sum())
         if rough > BEYOND:
             return rough

@@ -68,11 +68,6 @@ def bounds(
     return least, most
 
 
-def names_of_faces(model: CadModel) -> list[str]:
-    """For messages."""
-    return [f"face {k} ({face.name or face.kind})" for k, face in enumerate(model.faces)]
-
-
 def require_model_within(
     model: CadModel, jobs: Callable[[], list[FaceJob]], nodes: list[EdgeNodes | None],
     sizings: list[Sizing], sizing: Sizing,
@@ -82,7 +77,7 @@ def require_model_within(
     least, most = bounds(model, nodes, sizings)
     if most.sum() <= sizing.limit:
         return
-    names = names_of_faces(model)
+    names = [face.label(number) for number, face in enumerate(model.faces)]
     require_within(sizing.limit, Estimate.of(least), names)
     counts = model_counts(jobs())
     require_within(sizing.limit, Estimate.of(counts, model=True), names)

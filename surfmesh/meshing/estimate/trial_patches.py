@@ -42,7 +42,7 @@ def triangles_per_unit(
     loops: (k, 2) in (u, v).
     """
     wanted = got = 0.0
-    rings = None if loops is None else [field.scaling.to_plane(loop) for loop in loops]
+    rings = None if loops is None else [field.chart.to_plane(loop) for loop in loops]
     for centre in _centres(field, rings, patches):
         box = _patch(field, centre, PATCH)
         if rings is not None and not _is_within(rings, box):
@@ -65,7 +65,7 @@ def _centres(field: SizeField, rings: list[np.ndarray] | None, count: int) -> np
         return np.empty((0, 2))
     middle = low + 0.5 * step
     # strips, and in each of them along: neighbours in this order are neighbours in the plane
-    strip = np.floor(middle[:, 0] / field.scaling.extent[0] * np.sqrt(count)).astype(int)
+    strip = np.floor(middle[:, 0] / field.chart.extent[0] * np.sqrt(count)).astype(int)
     order = np.lexsort((middle[:, 1], strip))
     sums = np.cumsum(area[order])
     at = (np.arange(count) + 0.5) / count * sums[-1]
@@ -74,7 +74,7 @@ def _centres(field: SizeField, rings: list[np.ndarray] | None, count: int) -> np
 
 def _patch(field: SizeField, centre: np.ndarray, triangles: float) -> np.ndarray:
     """A box (x0, y0, x1, y1) of about so many triangles around a point, inside the rectangle."""
-    extent = field.scaling.extent
+    extent = field.chart.extent
     h = field.tensors(centre[None])[0]
     sizes = np.maximum(h[[0, 2]], np.finfo(float).tiny)
     side = np.sqrt(triangles / TRIANGLES * (h[0] * h[2] - h[1] ** 2) / sizes.prod())
@@ -97,7 +97,7 @@ def _is_within(rings: list[np.ndarray], box: np.ndarray) -> bool:
 
 def _meshed(surface: Surface, field: SizeField, box: np.ndarray) -> int | None:
     """Triangles that all stages make of a box of the scaled plane; None where one fails."""
-    corners = field.scaling.to_uv(box[[[0, 1], [2, 1], [2, 3], [0, 3]]])
+    corners = field.chart.to_uv(box[[[0, 1], [2, 1], [2, 3], [0, 3]]])
     lines = [
         cut_line(field, start, end, 1)[1][:-1]
         for start, end in zip(corners, np.roll(corners, -1, axis=0))

@@ -169,7 +169,7 @@ def field_axes(
     field: SizeField, uv: np.ndarray, principal: Principal
 ) -> list[tuple[float, np.ndarray]]:
     """Both sizes of the graded metric with their unit tangents (3,), the shorter first."""
-    xy = field.scaling.to_plane(uv[None])
+    xy = field.chart.to_plane(uv[None])
     if not field.is_anisotropic:
         size = np.empty(1)
         scalar_sizes_at(field.background, xy, size)

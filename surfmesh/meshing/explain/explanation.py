@@ -154,7 +154,7 @@ def explain_surface(
         return _along_axes(where, field, bounds, rows_at, others, sizing.gradient, law)
     elsewhere = [_best_of_law(law, surface, grid, foot, "", rows_at, stated)]
     found = rows_at(foot, principal.k) + rim_rows(law, uv, stated)
-    asked = float(law(law.scaling.to_plane(uv[None])).size[0])
+    asked = float(law(law.chart.to_plane(uv[None])).size[0])
     return _explained(where, found, asked, field, elsewhere, sizing.gradient)
 
 
@@ -177,7 +177,7 @@ def explain_model(
         found = _rows_of(wanted, rules, place, *(k or (None, None)), make)
         return found + _gaps_of(wanted, number, place)
 
-    name = f"face {number} ({face.name or face.kind})"
+    name = face.label(number)
     if number in samples.narrow:
         across = samples.narrow[number].width
         name += f", {across:.3g} across and so closed between its sides: sizes inside do not count"
@@ -198,14 +198,14 @@ def explain_model(
         return _along_axes(where, field, bounds, rows_at, others, slope)
     elsewhere = []
     if len(samples.points):
-        reach = samples.wish + slope * np.linalg.norm(samples.points - foot, axis=1)
+        reach = samples.target_size + slope * np.linalg.norm(samples.points - foot, axis=1)
         place = int(np.argmin(reach))
         elsewhere.append(_at_sample(model, wanted, samples, place))
     law = SizeLaw(surface, sizings[number], None)
     if len(inner):
         name = f"face {number} at "
         elsewhere.append(_best_of_law(law, surface, inner, foot, name, rows_at, EVERYTHING))
-    asked = float(law(law.scaling.to_plane(uv[None])).size[0])
+    asked = float(law(law.chart.to_plane(uv[None])).size[0])
     return _explained(where, rows_at(foot, principal.k), asked, field, elsewhere, slope)
 
 
@@ -217,7 +217,7 @@ def rim_rows(
         return []
     (point,) = law.surface.evaluate(uv[None], 0)
     found = []
-    for rows_, rim, allowed in law.rims_at(law.scaling.to_plane(uv[None]), uv[None], point):
+    for rows_, rim, allowed in law.rims_at(law.chart.to_plane(uv[None]), uv[None], point):
         if not len(rows_) or not np.isfinite(allowed[0]):
             continue
         size = float(allowed[0])
@@ -235,7 +235,7 @@ def _best_of_law(
 ) -> tuple[np.ndarray, str, SizeRow | None]:  # fmt: skip
     """Of places uv (n, 2) the one whose size, as the field has it before gradation, reaches
     farthest below others at ``foot``: the point, its name, the rule there."""
-    nodes = law(law.scaling.to_plane(uv))
+    nodes = law(law.chart.to_plane(uv))
     away = np.linalg.norm(nodes.point - foot, axis=1)
     best = int(np.argmin(nodes.size + law.sizing.gradient * away))
     place = nodes.point[best]
@@ -290,7 +290,7 @@ class _Samples:
             np.fmin(size, size_along(self.surface, self.uv, every, self.bounds), out=size)
         np.minimum(size, self.law, out=size)
         if self.rims is not None:
-            xy = self.rims.scaling.to_plane(self.uv)
+            xy = self.rims.chart.to_plane(self.uv)
             for some, rim, _ in self.rims.rims_at(xy, self.uv, self.points):
                 every = np.broadcast_to(direction, (1, len(some), 3))
                 size[some] = np.minimum(size[some], rim.along(self.points[some], every)[0])
@@ -315,7 +315,7 @@ def _best_sample(
 
     A size along an edge says nothing of directions across it; None: it holds in all of them.
     """
-    size = samples.wish
+    size = samples.target_size
     if direction is not None:
         size = size / np.maximum(np.abs(samples.tangent @ direction), np.finfo(float).eps)
     away = np.linalg.norm(samples.points - foot, axis=1)
@@ -360,7 +360,7 @@ def _explained(
     """wish: of the field before gradation; elsewhere: (point (3,), its name, rule there) that the
     size may have grown from."""
     foot, out = where.foot, np.empty(1)
-    scalar_sizes_at(field.background, field.scaling.to_plane(where.uv[None]), out)
+    scalar_sizes_at(field.background, field.chart.to_plane(where.uv[None]), out)
     size = float(out[0])
     winner = _decided(found, wish)
     origin = ""
@@ -449,7 +449,7 @@ def _at_sample(
             groups.append(list(rows(rule.key, rule.sizing, point, None, None)))
     winners = [row for row in map(deciding, groups) if row is not None]
     least = min(winners, key=lambda row: row.size, default=None)
-    wish = float(samples.wish[place])
+    wish = float(samples.target_size[place])
     if least is None or wish < LOWERED * least.size:
         rule = "gap to another edge of a face"
         if wish > LOWERED * item.length:

@@ -20,7 +20,7 @@ from surfmesh.kernels.fields.background import scalar_sizes_at
 from surfmesh.meshing.boundary.boundary_loops import BoundaryLoops, cut_line
 from surfmesh.meshing.boundary.boundary_recovery import recovered
 from surfmesh.meshing.boundary.coincident_nodes import coincident_nodes
-from surfmesh.meshing.edges.inner_sizes import wishes_along
+from surfmesh.meshing.edges.inner_sizes import sizes_along_edges
 from surfmesh.meshing.faces.crossing_segments import limits_where_crossing
 from surfmesh.meshing.faces.face_data import CoedgeNodes, FaceJob, FaceMesh
 from surfmesh.meshing.faces.face_parts import in_parts
@@ -129,7 +129,7 @@ def edge_wishes(job: FaceJob) -> SizeLimits | None:
     try:
         surface, field = face_field(job)
         loops, fixed, _ = _loops(job, field)
-        return wishes_along(job.sizing, surface, field, loops, fixed)
+        return sizes_along_edges(job.sizing, surface, field, loops, fixed)
     except SurfmeshError:
         return None
 
@@ -146,7 +146,7 @@ def _meshed(job: FaceJob, unfold: bool = True) -> FaceMesh:
     optimiser.embedding.point[domain.node] = fixed  # the edges' nodes, not their images
     wishes: SizeLimits | None = None
     if job.limits is None:  # the edges heed them from now on
-        wishes = wishes_along(job.sizing, surface, field, loops, fixed)
+        wishes = sizes_along_edges(job.sizing, surface, field, loops, fixed)
     if job.optimise:
         changes = optimiser.run(first=job.limits is None)
         astray = np.zeros(len(domain.t.xy), bool)
@@ -166,7 +166,7 @@ def _meshed(job: FaceJob, unfold: bool = True) -> FaceMesh:
     else:
         optimiser.settle()
     xy = domain.t.xy[: int(domain.t.count[0])]
-    uv = field.scaling.to_uv(xy)
+    uv = field.chart.to_uv(xy)
     uv[domain.node] = loops.uv
     parts = glued(surface, loops, domain, uv)
     slot = np.full(len(xy), -1, np.int64)
@@ -220,7 +220,7 @@ def face_field(job: FaceJob) -> tuple[Surface, SizeField]:
             np.concatenate([piece.sizes for piece in real]),
             job.sizing.gradient,
             np.concatenate([piece.uv for piece in real]),
-            settled=True,
+            as_cut=True,
         )
         # an edge knows nothing of the sizes across it, but for those that gaps ask for
         if job.sizing.is_anisotropic and job.sizing.gap is None:
@@ -261,7 +261,7 @@ def _grown_inward(surface: Surface, job: FaceJob, real: list[CoedgeNodes]) -> Si
         uv = np.concatenate([uv, place])
         found = np.maximum(job.limits.sizes, job.sizing.min_size or 0.0)
         sizes = np.concatenate([sizes, found])
-    return boundary_field(surface, job.sizing, uv, sizes, settled=True)
+    return boundary_field(surface, job.sizing, uv, sizes, as_cut=True)
 
 
 def _agrees(field: SizeField, real: list[CoedgeNodes]) -> bool:
@@ -269,7 +269,7 @@ def _agrees(field: SizeField, real: list[CoedgeNodes]) -> bool:
     for piece in real:
         sizes = np.empty(len(piece.uv) - 1)
         middle = 0.5 * (piece.uv[1:] + piece.uv[:-1])
-        scalar_sizes_at(field.background, field.scaling.to_plane(middle), sizes)
+        scalar_sizes_at(field.background, field.chart.to_plane(middle), sizes)
         if (np.linalg.norm(np.diff(piece.points, axis=0), axis=1) > LONGER * sizes).any():
             return False
     return True

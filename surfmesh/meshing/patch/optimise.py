@@ -34,8 +34,8 @@ from surfmesh.kernels.space.measure import tangent_plane_distances
 from surfmesh.kernels.triangulation.local_operations import DEAD
 from surfmesh.kernels.triangulation.triangulation import Triangulation
 from surfmesh.sizing.field.size_field import SizeField
-from surfmesh.sizing.rules.bent_surface import bends_itself
-from surfmesh.sizing.rules.size_bounds import FINEST_SIZE, FINEST_TURN, LEAST_OF_CHORD
+from surfmesh.sizing.options.defaults import FINEST_BY_ANGLE, FINEST_SIZE, LEAST_OF_CHORD
+from surfmesh.sizing.rules.crease import on_crease
 from surfmesh.sizing.rules.size_limits import SizeLimits
 
 STIFFNESS = 2.0
@@ -256,7 +256,7 @@ class Optimiser:
     def straightening(self, turned: Turned) -> SizeLimits:
         """Limits under which triangles would turn by no more than ``angle``."""
         factor = np.clip(self._angle_limit(ANGLE_MARGIN) / turned.angles, 0.5, 0.85)
-        least = FINEST_TURN * self._diagonal()
+        least = FINEST_BY_ANGLE * self._diagonal()
         return self._limits_at(turned.triangles.ravel(), np.repeat(factor, 2), least)
 
     def _limits_at(
@@ -283,7 +283,7 @@ class Optimiser:
         shrunk = self.embedding.scale[chosen] * now / sizes
         return replace(
             limits,
-            uv=self.field.scaling.to_uv(self.t.xy[chosen]),
+            uv=self.field.chart.to_uv(self.t.xy[chosen]),
             metric_root_3d=self.embedding.metric_root_3d[chosen] * shrunk[:, None],
         )
 
@@ -359,7 +359,7 @@ class Optimiser:
         alike = self._numbers()[self.t.tri[pairs]]  # both run the same way: a Moebius strip
         alike = alike[:, 0] == alike[:, 1]
         second[alike] = second[alike][:, [1, 0, 2]]
-        kept = ~bends_itself(self.surface, first, second, self.field.sizing.angle, self._diagonal())
+        kept = ~on_crease(self.surface, first, second, self.field.sizing.angle, self._diagonal())
         if not (kept[count:] & (angles[count:] > limit)).any():
             kept[count:] = False  # of seams that are fine as they are
         return Turned(pairs[kept] // 3, angles[kept])
@@ -368,13 +368,13 @@ class Optimiser:
         """(k, 3, 2) of the corners of triangles, from the starts of their half-edges (k,)."""
         triangle, side = np.divmod(edges, 3)
         corners = self.t.tri[3 * triangle[:, None] + (side[:, None] + [0, 1, 2]) % 3]
-        uv = self.field.scaling.to_uv(self.t.xy[corners.ravel()])
+        uv = self.field.chart.to_uv(self.t.xy[corners.ravel()])
         return uv.reshape(len(edges), 3, 2)
 
     def _parameters(self, triangles: np.ndarray) -> np.ndarray:
         """(k, 3, 2) of the corners of triangles (k,)."""
         corners = self.t.tri.reshape(-1, 3)[triangles]
-        return self.field.scaling.to_uv(self.t.xy[corners.ravel()]).reshape(-1, 3, 2)
+        return self.field.chart.to_uv(self.t.xy[corners.ravel()]).reshape(-1, 3, 2)
 
     def _numbers(self) -> np.ndarray:
         """For each vertex the one that it coincides with, or itself."""
@@ -518,7 +518,7 @@ class Optimiser:
         corners = self.t.tri.reshape(-1, 3)[triangles]
         point = np.einsum("k,nki->ni", weights, self.embedding.point[corners])
         xy = np.einsum("k,nki->ni", weights, self.t.xy[corners])
-        return point, self.field.scaling.to_uv(xy)
+        return point, self.field.chart.to_uv(xy)
 
     def _mean_slopes(self, uv: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """r_u and r_v (n, 3) on kinks at uv (n, 2): the mean of what they are around.
@@ -534,11 +534,11 @@ class Optimiser:
     def _embed(self, vertices: np.ndarray, creased: bool = False) -> None:
         """Put vertices (n,) back on the surface, with their exact metric."""
         block = 1 << 15
-        scaling = self.field.scaling
-        largest = 1e3 * float(self.field.background.box[4]) / float(scaling.extent.max())
+        chart = self.field.chart
+        largest = 1e3 * float(self.field.background.box[4]) / float(chart.extent.max())
         for start in range(0, len(vertices), block):
             some = vertices[start : start + block]
-            uv, rates = scaling.to_uv_and_rates(self.t.xy[some])
+            uv, rates = chart.to_uv_and_rates(self.t.xy[some])
             r, ru, rv = self.surface.evaluate(uv, 1)
             if creased:
                 ru, rv = self._mean_slopes(uv)

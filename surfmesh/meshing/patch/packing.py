@@ -27,7 +27,7 @@ NO_LIMIT = 1 << 62
 
 def packed_over(field: SizeField) -> Packing:
     """Pack the circles of a size field from the middle of its rectangle until it is covered."""
-    width, height = field.scaling.extent
+    width, height = field.chart.extent
     box = (0.0, 0.0, width, height)
     return packed(field.background, box, (0.5 * width, 0.5 * height), field.expected_vertices())
 

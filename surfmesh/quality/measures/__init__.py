@@ -21,7 +21,7 @@ lost: area and volume that a mesh has lost or won, beyond what its distance from
 narrow: triangles of faces narrower than the chord: counted apart, as good shape is not owed there.
 pairs_of_ranges: ranges of places, one a row, written out as pairs.
 penetration: how deep two triangles go into each other, and how deep facets of a contact may.
-promises: what was promised of each face, where it does not hold, and where a ``min_size``
+tolerances: what was asked for of each face, where it does not hold, and where a ``min_size``
     forbids it.
 self_intersection: triangles that meet where they share nothing: every pair, by an exact test.
 shape: shape of the triangles in 3D: alpha, radius ratio, angles, areas; the volume they enclose.

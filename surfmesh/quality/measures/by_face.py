@@ -9,14 +9,14 @@ from numpy.typing import NDArray
 from surfmesh.geometry.surface import surface_kind
 from surfmesh.quality.measures.by_solid import relative_error
 from surfmesh.quality.measures.deviation import Deviation
-from surfmesh.quality.measures.dihedral import Turning
-from surfmesh.quality.measures.promises import (
+from surfmesh.quality.measures.dihedral import DihedralAngles
+from surfmesh.quality.measures.shape import Shapes
+from surfmesh.quality.measures.tolerances import (
     Tolerances,
     UnattainableTolerance,
-    beyond_angle,
-    beyond_chord,
+    exceeds_angle,
+    exceeds_chord,
 )
-from surfmesh.quality.measures.shape import Shapes
 from surfmesh.result.surface_mesh import SurfaceMesh
 
 
@@ -54,9 +54,9 @@ def by_face(
     fit: Deviation | None,
     lengths: NDArray[np.float64],
     folded: NDArray[np.bool_] | None,
-    promises: Tolerances,
+    tolerances: Tolerances,
     limits: Sequence[UnattainableTolerance],
-    turns: Turning | None,
+    dihedrals: DihedralAngles | None,
 ) -> tuple[FaceRow, ...]:
     """Rows of all surfaces, or of the numbers that occur where none is known.
 
@@ -85,12 +85,12 @@ def by_face(
         worst[faces[at]] = at  # the first of equals
         square = np.bincount(faces, shape.area * fit.mean_square, count)
         turned = np.bincount(faces, folded, count)
-        above = np.bincount(faces, beyond_chord(promises, mesh, fit), count)
+        above = np.bincount(faces, exceeds_chord(tolerances, mesh, fit), count)
     turn, bent, inner = np.zeros(count), np.zeros(count), np.zeros(count, np.int64)
-    if turns is not None:
-        np.maximum.at(turn, turns.faces, turns.angles)
-        inner = np.bincount(turns.faces, minlength=count)
-        bent = np.bincount(turns.faces, beyond_angle(promises, turns), count)
+    if dihedrals is not None:
+        np.maximum.at(turn, dihedrals.faces, dihedrals.angles)
+        inner = np.bincount(dihedrals.faces, minlength=count)
+        bent = np.bincount(dihedrals.faces, exceeds_angle(tolerances, dihedrals), count)
     exact = mesh.facts.faces if mesh.facts is not None else ()
     rows = []
     for k, face in enumerate(numbers.tolist()):
@@ -98,8 +98,8 @@ def by_face(
         known = fit is not None and here > 0
         surface = mesh.surfaces[face] if mesh.surfaces else None
         place = mesh.points[mesh.triangles[worst[k]]].mean(axis=0) if known else ()
-        chord = promises.one(promises.chord, face)
-        angle = promises.one(promises.angle, face)
+        chord = tolerances.one(tolerances.chord, face)
+        angle = tolerances.one(tolerances.angle, face)
         exact_area = exact[face].area if 0 <= face < len(exact) else None
         rms = float(square[k] / area[k]) ** 0.5 if known and area[k] > 0 else None
         rows.append(

@@ -7,7 +7,7 @@ from numpy.typing import NDArray
 
 from surfmesh.geometry.differential.fundamental_forms import curvatures, forms_from_derivatives
 from surfmesh.quality.measures.deviation import Deviation
-from surfmesh.quality.measures.promises import Tolerances
+from surfmesh.quality.measures.tolerances import Tolerances
 from surfmesh.result.surface_mesh import SurfaceMesh
 from surfmesh.sizing.rules.curvature_size import chord_size, principal_chord_sizes
 
@@ -22,14 +22,14 @@ class ChordUse(NamedTuple):
     used: float | None  # median of deviation / chord; None when there are no such triangles
 
 
-def chord_use(mesh: SurfaceMesh, fit: Deviation | None, promises: Tolerances) -> ChordUse | None:
+def chord_use(mesh: SurfaceMesh, fit: Deviation | None, tolerances: Tolerances) -> ChordUse | None:
     """None where no chord was asked for, or sizes, surfaces or distances are not known.
 
     ``chord`` decides where the size wanted at a triangle is at least 0.8 of what the curvature
     at its centroid allows: not where growth, ``max_size``, ``angle`` or a source ask for less,
     nor where an earlier round has lowered the sizes by more than that.
     """
-    if fit is None or mesh.sizes is None or not np.isfinite(promises.chord).any():
+    if fit is None or mesh.sizes is None or not np.isfinite(tolerances.chord).any():
         return None
     step = -(-len(mesh.triangles) // SAMPLES)
     chosen = np.arange(0, len(mesh.triangles), step)
@@ -39,10 +39,10 @@ def chord_use(mesh: SurfaceMesh, fit: Deviation | None, promises: Tolerances) ->
     for face in np.unique(faces):
         here = np.flatnonzero(faces == face)
         uv = mesh.uv_points[mesh.uv_triangles[chosen[here]]].mean(axis=1)
-        chord = promises.one(promises.chord, int(face))
+        chord = tolerances.one(tolerances.chord, int(face))
         if chord is not None:
             decided[here] = wanted[here] >= DECIDED * _allowed(mesh, int(face), uv, chord)
-    used = fit.by_triangle[chosen[decided]] / promises.at(promises.chord, faces[decided])
+    used = fit.by_triangle[chosen[decided]] / tolerances.at(tolerances.chord, faces[decided])
     return ChordUse(float(decided.mean()), float(np.median(used)) if len(used) else None)
 
 

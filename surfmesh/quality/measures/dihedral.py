@@ -8,13 +8,13 @@ from numpy.typing import NDArray
 
 from surfmesh.kernels.optimisation.dihedral import dihedral_angles
 from surfmesh.result.surface_mesh import SurfaceMesh
-from surfmesh.sizing.rules.bent_surface import bends_itself
-from surfmesh.sizing.rules.size_bounds import DEFAULT_ANGLE
+from surfmesh.sizing.options.defaults import DEFAULT_ANGLE
+from surfmesh.sizing.rules.crease import on_crease
 
 ANGLE_SLACK = 1e-9  # relative: rounding in the angle itself
 
 
-class Turning(NamedTuple):
+class DihedralAngles(NamedTuple):
     """Angles between the normals of two triangles of one face that share an edge, degrees."""
 
     edges: NDArray[np.intp]  # (k,) of ``mesh.edges``: between two triangles of one face
@@ -26,7 +26,9 @@ class Turning(NamedTuple):
         return self.angles > angle * (1 + ANGLE_SLACK)
 
 
-def turning(mesh: SurfaceMesh, limits: NDArray[np.float64] | None = None) -> Turning | None:
+def angles_within_faces(
+    mesh: SurfaceMesh, limits: NDArray[np.float64] | None = None
+) -> DihedralAngles | None:
     """Angles within the faces of ``mesh``; None where its surfaces are not known.
 
     Edges between two faces are left out: there the model itself may bend. So may one surface,
@@ -57,9 +59,9 @@ def turning(mesh: SurfaceMesh, limits: NDArray[np.float64] | None = None) -> Tur
         own = np.unique(mesh.triangles[mesh.face_ids == face])
         diagonal = float(np.linalg.norm(np.ptp(mesh.points[own], axis=0)))
         parts = _parameters(mesh, pairs[here])
-        bent = bends_itself(mesh.surfaces[face], *parts, float(limits[face]), diagonal)
+        bent = on_crease(mesh.surfaces[face], *parts, float(limits[face]), diagonal)
         angles[here[bent]] = 0.0
-    return Turning(edges, faces, angles)
+    return DihedralAngles(edges, faces, angles)
 
 
 def _parameters(mesh: SurfaceMesh, pairs: NDArray[np.int32]) -> tuple[NDArray, NDArray]:
@@ -77,15 +79,15 @@ def _parameters(mesh: SurfaceMesh, pairs: NDArray[np.int32]) -> tuple[NDArray, N
     return uv[:, 0], uv[:, 1]
 
 
-def worst_turn(
-    mesh: SurfaceMesh, turns: Turning
+def largest_angle(
+    mesh: SurfaceMesh, dihedrals: DihedralAngles
 ) -> tuple[float, tuple[int, int], tuple[float, float, float]] | None:
     """The largest angle, the two triangles, and the middle of their edge; None without edges."""
-    if not len(turns.angles):
+    if not len(dihedrals.angles):
         return None
-    worst = int(turns.angles.argmax())
-    edge = turns.edges[worst]
+    worst = int(dihedrals.angles.argmax())
+    edge = dihedrals.edges[worst]
     first, second = (mesh.connectivity.half_edges[edge] // 3).tolist()
     place = mesh.points[mesh.edges[edge]].mean(axis=0)
-    largest = float(turns.angles[worst])
+    largest = float(dihedrals.angles[worst])
     return (largest if math.isfinite(largest) else math.nan), (first, second), tuple(place.tolist())

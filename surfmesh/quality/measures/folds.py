@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 from surfmesh.geometry.differential.projection import closest_point
 from surfmesh.geometry.differential.sharp_bends import bends_sharply
 from surfmesh.result.surface_mesh import SurfaceMesh
-from surfmesh.sizing.rules.size_bounds import FINEST_SIZE, LEAST_OF_CHORD
+from surfmesh.sizing.options.defaults import FINEST_SIZE, LEAST_OF_CHORD
 
 ON_SURFACE = 0.1  # of the way to its image: a node nearer to the surface lies on it
 STEPS = 12  # of the projection, at most

@@ -21,7 +21,7 @@ from numpy.typing import NDArray
 from surfmesh.geometry.differential.projection import closest_point
 from surfmesh.kernels.space.measure import interpolate
 from surfmesh.quality.measures.deviation import BLOCK, Deviation
-from surfmesh.quality.measures.promises import CHORD_SLACK, Tolerances, Violation
+from surfmesh.quality.measures.tolerances import CHORD_SLACK, Tolerances, Violation
 from surfmesh.quality.verdict.problems import called
 from surfmesh.result.quadratic_triangles import edge_rows
 from surfmesh.result.surface_mesh import SurfaceMesh
@@ -53,12 +53,12 @@ class SurfaceDeviation(NamedTuple):
 
 
 def surface_deviation(
-    mesh: SurfaceMesh, fit: Deviation | None, promises: Tolerances
+    mesh: SurfaceMesh, fit: Deviation | None, tolerances: Tolerances
 ) -> SurfaceDeviation | None:
     """Distance of the surfaces from ``mesh``; None where ``fit``, the way back, is not known."""
     if fit is None or not np.isfinite(fit.largest):
         return None
-    search = _Search(mesh, fit, promises)
+    search = _Search(mesh, fit, tolerances)
     if mesh.edge_curves and mesh.edge_parameters is not None:
         _look_along_curves(search, mesh, fit)
     else:
@@ -101,21 +101,21 @@ def surface_too_far(
     mesh: SurfaceMesh,
     fit: Deviation,
     back: SurfaceDeviation,
-    beyond: Violation,
-    promises: Tolerances,
+    violation: Violation,
+    tolerances: Tolerances,
 ) -> str | None:
-    """A sentence about the surface's distance from the mesh, where ``beyond``, of both ways, is
+    """A sentence about the surface's distance from the mesh, where ``violation``, of both ways, is
     that; None where it is the mesh's from the surface."""
-    if not back.by_triangle[beyond.worst] > fit.by_triangle[beyond.worst]:
+    if not back.by_triangle[violation.worst] > fit.by_triangle[violation.worst]:
         return None
     place = ", ".join(f"{x:.5g}" for x in back.point)
     where = "on a rim" * back.at_rim or "between the mesh's samples"
-    there = f" on {called(mesh, beyond.worst)}" * (not promises.uniform)
+    there = f" on {called(mesh, violation.worst)}" * (not tolerances.uniform)
     return (
-        f"the surface lies up to {beyond.reached:.4g} from the mesh, {beyond.asked:.4g} was asked "
-        f"for{there} ({100 * beyond.share:.3g} % of the triangles are farther, one way or the "
-        f"other); worst over triangle {beyond.worst}"
-        + (f", {where} at ({place})" if back.triangle == beyond.worst else "")
+        f"the surface lies up to {violation.reached:.4g} from the mesh, {violation.asked:.4g} was "
+        f"asked for{there} ({100 * violation.fraction:.3g} % of the triangles are farther, one way "
+        f"or the other); worst over triangle {violation.worst}"
+        + (f", {where} at ({place})" if back.triangle == violation.worst else "")
     )
 
 
@@ -164,9 +164,9 @@ class _Candidate(NamedTuple):
 class _Search:
     """The distances over each triangle, and the points that are farthest."""
 
-    def __init__(self, mesh: SurfaceMesh, fit: Deviation, promises: Tolerances) -> None:
+    def __init__(self, mesh: SurfaceMesh, fit: Deviation, tolerances: Tolerances) -> None:
         self.mesh = mesh
-        chord = promises.at(promises.chord, mesh.face_ids) * (1.0 + CHORD_SLACK)
+        chord = tolerances.at(tolerances.chord, mesh.face_ids) * (1.0 + CHORD_SLACK)
         # a triangle that is too far from the surface itself needs no second proof
         self.far = fit.by_triangle > chord
         self.enough = np.where(self.far, np.inf, chord)

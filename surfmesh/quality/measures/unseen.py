@@ -23,8 +23,8 @@ from surfmesh.quality.measures.hidden_search import (
     settled_at_once,
     settled_in_parts,
 )
-from surfmesh.quality.measures.promises import Tolerances
 from surfmesh.quality.measures.surface_to_mesh import triangle_distances
+from surfmesh.quality.measures.tolerances import Tolerances
 from surfmesh.result.surface_mesh import SurfaceMesh
 
 SLACK = 1.3
@@ -70,7 +70,7 @@ class Unseen(NamedTuple):
 
 
 def unseen(
-    mesh: SurfaceMesh, fit: Deviation | None, promises: Tolerances, listed: int
+    mesh: SurfaceMesh, fit: Deviation | None, tolerances: Tolerances, listed: int
 ) -> Unseen | None:
     """Look between the samples of ``fit``; None where a surface has no bounds (a function), or
     there is no surface. Faces of CAD models are smooth between their knots: they are left out.
@@ -83,8 +83,8 @@ def unseen(
         triangles = np.flatnonzero(mesh.face_ids == face)
         if len(triangles):
             surface = mesh.surfaces[face]
-            found.append(_in_triangles(mesh, surface, triangles, fit, promises))
-            found.append(_along_rims(mesh, surface, triangles, fit, promises))
+            found.append(_in_triangles(mesh, surface, triangles, fit, tolerances))
+            found.append(_along_rims(mesh, surface, triangles, fit, tolerances))
     triangle = np.concatenate([t for t, _ in found] or [np.empty(0, np.int64)])
     reached = np.concatenate([p.reached for _, p in found] or [np.empty(0)])
     possible = np.concatenate([p.possible for _, p in found] or [np.empty(0)])
@@ -143,7 +143,7 @@ def _place(
 
 
 def _in_triangles(
-    mesh: SurfaceMesh, surface: Any, triangles: NDArray, fit: Deviation, promises: Tolerances
+    mesh: SurfaceMesh, surface: Any, triangles: NDArray, fit: Deviation, tolerances: Tolerances
 ) -> tuple[NDArray[np.int64], Pieces]:
     corners, uv = _corners(mesh, triangles)
     normal = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
@@ -153,7 +153,7 @@ def _in_triangles(
     triangles, corners, uv = triangles[some], corners[some], uv[some]
     normal = (normal[some] / area[some, None])[:, None]
     seen = fit.by_triangle[triangles]
-    tolerance = SLACK * _expected(mesh, triangles, fit, promises, longest[some])
+    tolerance = SLACK * _expected(mesh, triangles, fit, tolerances, longest[some])
     pieces = Pieces.of(uv, corners[:, 0], normal, tolerance)
     left = np.flatnonzero(~settled_at_once(surface, pieces, seen))
     triangles, tolerance = triangles[left], tolerance[left]
@@ -171,7 +171,7 @@ def _in_triangles(
 
 
 def _along_rims(
-    mesh: SurfaceMesh, surface: Any, triangles: NDArray, fit: Deviation, promises: Tolerances
+    mesh: SurfaceMesh, surface: Any, triangles: NDArray, fit: Deviation, tolerances: Tolerances
 ) -> tuple[NDArray[np.int64], Pieces]:
     """Segments of the free rims: in its own plane a triangle's rim may swing out unseen."""
     half_edges = mesh.connectivity.half_edges[mesh.connectivity.uses == 1, 0].astype(np.int64)
@@ -195,7 +195,7 @@ def _along_rims(
         (point,) = surface.evaluate(uv[:, 0] + share * (uv[:, 1] - uv[:, 0]), 0)
         off = np.einsum("idj,ij->id", normal, point - start)
         seen = np.maximum(seen, np.linalg.norm(off, axis=1))
-    expected = SLACK * _expected(mesh, triangle, fit, promises, length[some])
+    expected = SLACK * _expected(mesh, triangle, fit, tolerances, length[some])
     pieces = Pieces.of(uv, start, normal, np.maximum(expected, RIM_SLACK * seen))
     if len(uv):
         search_rims(surface, pieces, BOXES + BOXES_EACH * len(uv))
@@ -204,10 +204,10 @@ def _along_rims(
 
 
 def _expected(
-    mesh: SurfaceMesh, triangles: NDArray, fit: Deviation, promises: Tolerances, length: NDArray
+    mesh: SurfaceMesh, triangles: NDArray, fit: Deviation, tolerances: Tolerances, length: NDArray
 ) -> NDArray[np.float64]:
     """(k,) the distance that is asked for, or that the samples have seen if it is more."""
-    chord = promises.at(promises.chord, mesh.face_ids[triangles])
+    chord = tolerances.at(tolerances.chord, mesh.face_ids[triangles])
     without = PLAINLY * np.clip(fit.largest, SLIGHT * length, FOLLOWED * length)
     return np.where(np.isfinite(chord), np.maximum(chord, fit.by_triangle[triangles]), without)
 

@@ -10,13 +10,13 @@ from surfmesh.quality.measures.against_model import Unexpected
 from surfmesh.quality.measures.bodies import BodyPair
 from surfmesh.quality.measures.by_solid import SolidRow
 from surfmesh.quality.measures.deviation import Deviation
-from surfmesh.quality.measures.dihedral import Turning
+from surfmesh.quality.measures.dihedral import DihedralAngles
 from surfmesh.quality.measures.folds import Folds
 from surfmesh.quality.measures.narrow import without_area
-from surfmesh.quality.measures.promises import Tolerances, Violation
 from surfmesh.quality.measures.self_intersection import MeetingPair
 from surfmesh.quality.measures.shape import Shapes
 from surfmesh.quality.measures.solids import shares_faces, solid_mesh
+from surfmesh.quality.measures.tolerances import Tolerances, Violation
 from surfmesh.quality.measures.topology import Topology, topology
 from surfmesh.result.surface_mesh import NOT_MESHED, SurfaceMesh
 
@@ -28,14 +28,14 @@ def problems(
     topo: Topology,
     shape: Shapes,
     fit: Deviation | None,
-    beyond: Violation | None,
-    promises: Tolerances,
+    violation: Violation | None,
+    tolerances: Tolerances,
     turned: Folds | None,
     solids: tuple[SolidRow, ...],
 ) -> list[str]:
     """Sentences about all but self-intersection.
 
-    broken: the first broken invariant of the mesh; odd: what is not as in the model; beyond:
+    broken: the first broken invariant of the mesh; odd: what is not as in the model; violation:
     triangles that lie farther away than was promised; turned: which are folded.
     """
     said = []
@@ -62,16 +62,16 @@ def problems(
             said += [sentence + _why(turned, bad) for sentence in _triangles(mesh, bad, what)]
         if not math.isfinite(fit.largest):
             said.append("the distance from the surface is not finite")
-        elif beyond is not None:
-            worst = beyond.worst
+        elif violation is not None:
+            worst = violation.worst
             place = fit.point
             if worst != fit.triangle:
                 place = mesh.points[mesh.triangles[worst]].mean(axis=0)
-            there = f" on {called(mesh, worst)}" * (not promises.uniform)
+            there = f" on {called(mesh, worst)}" * (not tolerances.uniform)
             said.append(
-                f"the mesh lies up to {beyond.reached:.4g} from the surface, {beyond.asked:.4g} "
-                f"was asked for{there} ({100 * beyond.share:.3g} % of the triangles are farther); "
-                f"worst in triangle {worst} at {_place(place)}"
+                f"the mesh lies up to {violation.reached:.4g} from the surface, "
+                f"{violation.asked:.4g} was asked for{there} ({100 * violation.fraction:.3g} % of "
+                f"the triangles are farther); worst in triangle {worst} at {_place(place)}"
             )
     return said
 
@@ -158,16 +158,17 @@ def overlaps(found: tuple[BodyPair, ...]) -> list[str]:
 
 
 def turned_too_far(
-    mesh: SurfaceMesh, turns: Turning, beyond: Violation, promises: Tolerances
+    mesh: SurfaceMesh, dihedrals: DihedralAngles, violation: Violation, tolerances: Tolerances
 ) -> str:
     """A sentence about edges across which triangles turn by more than was promised."""
-    edge = turns.edges[beyond.worst]
+    edge = dihedrals.edges[violation.worst]
     first, second = (mesh.connectivity.half_edges[edge] // 3).tolist()
-    there = f" on {called(mesh, first)}" * (not promises.uniform)
+    there = f" on {called(mesh, first)}" * (not tolerances.uniform)
     return (
-        f"neighbouring triangles turn by up to {beyond.reached:.4g}°, {beyond.asked:.4g}° was "
-        f"asked for{there} ({100 * beyond.share:.3g} % of the edges turn more); worst between "
-        f"triangles {first} and {second} at {_place(mesh.points[mesh.edges[edge]].mean(axis=0))}"
+        f"neighbouring triangles turn by up to {violation.reached:.4g}°, {violation.asked:.4g}° "
+        f"was asked for{there} ({100 * violation.fraction:.3g} % of the edges turn more); worst "
+        f"between triangles {first} and {second} at "
+        f"{_place(mesh.points[mesh.edges[edge]].mean(axis=0))}"
     )
 
 

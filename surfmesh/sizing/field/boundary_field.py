@@ -10,7 +10,7 @@ import numpy as np
 
 from surfmesh.errors import SizingError
 from surfmesh.geometry.cad_surfaces.elementary import Cylinder, Plane
-from surfmesh.geometry.differential.scaling import Scaling
+from surfmesh.geometry.differential.chart import Chart
 from surfmesh.geometry.planar.planar_domain import PlanarDomain
 from surfmesh.geometry.surface import Surface
 from surfmesh.kernels.fields.background import Background
@@ -52,13 +52,13 @@ def boundary_field(
     uv: np.ndarray,
     sizes: np.ndarray,
     largest: float | None = None,
-    settled: bool = False,
+    as_cut: bool = False,
 ) -> SizeField:
     """Sizes that grow by ``sizing.gradient`` from ``sizes`` (n,) at ``uv`` (n, 2).
 
     ``largest``, model units, bounds them from above; left out, and on a cylinder in any case,
     the wishes do so as for any surface, with the diagonal of its box for their defaults.
-    None is smaller than ``min_size``, unless ``sizes`` are ``settled`` as they are.
+    None is smaller than ``min_size``, unless the sizes are ``as_cut``: those of edges.
     Raises ``SizingError`` for a surface whose metric changes, for a size law, and for sizes that
     are not positive numbers.
     """
@@ -68,7 +68,7 @@ def boundary_field(
             "size_field"
         )
     radius = surface.radius if isinstance(surface, Cylinder) else 1.0
-    scaling = Scaling.uniform(surface.domain, (radius, 1.0))
+    chart = Chart.uniform(surface.domain, (radius, 1.0))
     sizes = np.ascontiguousarray(sizes, float)
     uv = np.ascontiguousarray(uv, float).reshape(-1, 2)
     if sizes.shape != (len(uv),) or not (sizes > 0.0).all() or not np.isfinite(uv).all():
@@ -76,12 +76,12 @@ def boundary_field(
             f"sizes on {surface.name!r} must be positive numbers, one for each of {len(uv)} "
             f"finite points; they have shape {sizes.shape}"
         )
-    if not settled:
+    if not as_cut:
         sizes = np.maximum(sizes, sizing.min_size or 0.0)
     if isinstance(surface, Cylinder) or largest is None:
         stated = sizing.max_size and (sizing.chord or sizing.angle or sizing.size)
         # the finest size alone is left to the diagonal: that of the rectangle will do
-        diagonal = math.hypot(*scaling.extent) if stated else _diagonal(surface)
+        diagonal = math.hypot(*chart.extent) if stated else _diagonal(surface)
         bounds = SizeBounds.of(sizing, diagonal)
         sizing, allowed = bounds.sizing, bounds.clamp[1]
         if isinstance(surface, Cylinder) and bounds.follows_curvature:
@@ -91,12 +91,12 @@ def boundary_field(
         raise SizingError(
             f"the largest size on {surface.name!r} must be a positive number, not {largest:g}"
         )
-    width, height = (float(extent) for extent in scaling.extent)
+    width, height = (float(extent) for extent in chart.extent)
     low = [surface.domain[0][0], surface.domain[1][0]]
     place = (uv - low) * [radius, 1.0]
     box = (0.0, 0.0, width, height)
     background = source_background(place, sizes, largest, sizing.gradient, box)
-    return SizeField(scaling, background, sizing)
+    return SizeField(chart, background, sizing)
 
 
 def source_background(

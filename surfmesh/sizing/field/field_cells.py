@@ -4,7 +4,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from surfmesh.geometry.differential.scaling import Scaling
+from surfmesh.geometry.differential.chart import Chart
 
 GRID_DEPTH = 20
 """Most splits around small sources; also the depth of the finest grid that nodes lie on."""
@@ -92,10 +92,10 @@ class SourceCells:
     """
 
     def __init__(
-        self, uv: np.ndarray, sizes: np.ndarray, scaling: Scaling, root_step: np.ndarray, nx: int
+        self, uv: np.ndarray, sizes: np.ndarray, chart: Chart, root_step: np.ndarray, nx: int
     ) -> None:
-        last = np.round(scaling.extent / root_step * (1 << GRID_DEPTH)).astype(np.int64) - 1
-        grid = scaling.to_plane(uv) / root_step * (1 << GRID_DEPTH)
+        last = np.round(chart.extent / root_step * (1 << GRID_DEPTH)).astype(np.int64) - 1
+        grid = chart.to_plane(uv) / root_step * (1 << GRID_DEPTH)
         self.grid = np.clip(grid, 0, last).astype(np.int64)
         root = self.grid >> GRID_DEPTH
         self.leaf = root[:, 1] * nx + root[:, 0]

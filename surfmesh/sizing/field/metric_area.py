@@ -31,7 +31,7 @@ def metric_area(field: SizeField, loops: Sequence[np.ndarray] | None = None) -> 
     loops: (k, 2) points in (u, v), not closed; inside by even-odd.
     """
     low, step = _leaves(field.background)
-    extent = field.scaling.extent
+    extent = field.chart.extent
     high = np.minimum(low + step, extent)
     step = high - low
     there = (step > 0.0).all(axis=1)
@@ -40,7 +40,7 @@ def metric_area(field: SizeField, loops: Sequence[np.ndarray] | None = None) -> 
         return float(_integrals(field, low, step).sum())
     from scipy.spatial import cKDTree
 
-    rings = [field.scaling.to_plane(loop) for loop in loops]
+    rings = [field.chart.to_plane(loop) for loop in loops]
     dense = [_dense(field, ring) for ring in rings]
     nodes = np.concatenate(dense)
     spacing = np.concatenate([_spacing(ring) for ring in dense])
@@ -79,7 +79,7 @@ def inner_cells(
     """Lower left corners (n, 2), sides (n, 2) and metric areas (n,) of leaves with their middle
     inside ``rings`` (k, 2), in the scaled plane."""
     low, step = _leaves(field.background)
-    step = np.minimum(low + step, field.scaling.extent) - low
+    step = np.minimum(low + step, field.chart.extent) - low
     there = (step > 0.0).all(axis=1)
     if rings is not None:
         there &= is_inside(rings, low + 0.5 * step)

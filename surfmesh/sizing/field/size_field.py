@@ -18,8 +18,8 @@ import numpy as np
 
 from surfmesh.errors import SizingError
 from surfmesh.geometry.cad_surfaces.face_surface import FaceSurface
+from surfmesh.geometry.differential.chart import Chart
 from surfmesh.geometry.differential.infinite_speed import at_infinite_speed, bent_axes_of
-from surfmesh.geometry.differential.scaling import Scaling
 from surfmesh.geometry.differential.sides import SideTopology
 from surfmesh.geometry.formulas.interval import width_along
 from surfmesh.geometry.surface import Surface
@@ -36,9 +36,9 @@ from surfmesh.sizing.field.field_cells import GRID_DEPTH, Cells, SourceCells, co
 from surfmesh.sizing.field.size_law import FieldNodes, SizeLaw, TensorLaw
 from surfmesh.sizing.field.small_sizes import small_sizes
 from surfmesh.sizing.options.sizing import Sizing
+from surfmesh.sizing.rules.direction_rates import has_even_curvature
 from surfmesh.sizing.rules.rim_size import Rims
 from surfmesh.sizing.rules.size_limits import SizeLimits
-from surfmesh.sizing.rules.turning_direction import is_even
 
 ROOT_CELLS = 2304
 """About how many cells the search starts with: a smooth surface needs no more."""
@@ -104,10 +104,10 @@ cells that are made before that is looked at."""
 class SizeField:
     """Wanted sizes on one surface, ready for the kernels.
 
-    ``background`` gives size tensors in the scaled plane of ``scaling``.
+    ``background`` gives size tensors in the scaled plane of ``chart``.
     """
 
-    scaling: Scaling
+    chart: Chart
     background: Background
     sizing: Sizing
     """The wishes it was made from, defaults filled in."""
@@ -120,7 +120,7 @@ class SizeField:
     def expected_vertices(self) -> int:
         """About how many circles cover the domain: its metric area over that of a circle's
         share, sqrt(3) / 2."""
-        width, height = self.scaling.extent
+        width, height = self.chart.extent
         area = metric_area_of_box(
             self.background, float(width), float(height), np.empty((STACK, 5))
         )
@@ -212,8 +212,8 @@ class _Builder:
     ) -> None:
         self.surface = surface
         self.sides = sides
-        self.scaling = law.scaling
-        width, height = self.scaling.extent
+        self.chart = law.chart
+        width, height = self.chart.extent
         roots = ROOT_CELLS
         if isinstance(surface, FaceSurface):
             roots = int(np.clip(CELLS_OF_PIECE * surface.pieces, *CELLS_OF_FACE))
@@ -237,7 +237,7 @@ class _Builder:
         fresh = np.ones(len(cells), bool)
         total = len(cells)
         seeds = small_sizes(self.surface, self.law.sizing, self.law.limits, self.law.loop_limits)
-        sources = SourceCells(*seeds, self.scaling, self.root_step, self.nx)
+        sources = SourceCells(*seeds, self.chart, self.root_step, self.nx)
         tree: list[np.ndarray] = []  # the cells that were split, in the order of their children
         deep = np.zeros(len(cells), bool)  # in search of what hides: they may be split further
         for round_number in range(MAX_ROUNDS + GRID_DEPTH):
@@ -271,12 +271,12 @@ class _Builder:
             deep = np.concatenate([deep[~split], np.repeat(deep[split], 4)])
             patch = np.concatenate([patch[~split], self._patches(children)])
             cells = cells.chosen(~split).joined_with(children)
-        if self.nodes.is_anisotropic and not is_even(self.surface):
-            self._settle(patch)
+        if self.nodes.is_anisotropic and not has_even_curvature(self.surface):
+            self._limit_longer_sizes(patch)
         self._blunt_poles()
         self.nodes = self.nodes.in_order()
         tree.append(cells.index)  # every leaf is split once more, onto its test nodes
-        return SizeField(self.scaling, self._background(tree, patch), self.law.sizing)
+        return SizeField(self.chart, self._background(tree, patch), self.law.sizing)
 
     @property
     def _is_of_formulas(self) -> bool:
@@ -306,7 +306,7 @@ class _Builder:
         limit = self.law.sizing.limit
         if float(asked.sum()) <= FAR_BEYOND * limit:
             return
-        place = self.scaling.to_uv(self._xy_of(patch[[int(np.argmax(asked))], 4]))[0]
+        place = self.chart.to_uv(self._xy_of(patch[[int(np.argmax(asked))], 4]))[0]
         raise SizingError(
             f"about {float(asked.sum()):.2g} triangles are asked for on {self.surface.name!r}, "
             f"most near (u, v) = ({place[0]:.6g}, {place[1]:.6g}), far more than the limit of "
@@ -318,7 +318,7 @@ class _Builder:
         deepest = np.flatnonzero(parents.depth == parents.depth.max())
         one = deepest[len(deepest) // 2]
         corner = np.array([[parents.x[one], parents.y[one]]]) / (1 << (GRID_DEPTH + 1))
-        u, v = self.scaling.to_uv(corner * self.root_step)[0]
+        u, v = self.chart.to_uv(corner * self.root_step)[0]
         raise SizingError(
             f"the sizes asked for on {self.surface.name!r} need more than {total:,} cells to "
             f"describe, most near (u, v) = ({u:.6g}, {v:.6g}), where the surface may be singular: "
@@ -354,7 +354,7 @@ class _Builder:
         """xy (n, 2) of nodes; the far sides of the domain are met exactly."""
         count = np.array([self.nx << (GRID_DEPTH + 1), self.ny << (GRID_DEPTH + 1)])
         index = np.stack([keys // self._stride, keys % self._stride], axis=1)
-        return index / count * self.scaling.extent
+        return index / count * self.chart.extent
 
     def _create(self, keys: np.ndarray) -> None:
         xy = self._plane(keys)
@@ -406,7 +406,7 @@ class _Builder:
         self.changed[:] = self.sweep
         self._grade(patch)
 
-    def _settle(self, patch: np.ndarray) -> None:
+    def _limit_longer_sizes(self, patch: np.ndarray) -> None:
         """Longer sizes where directions turn, and shorter ones where the longer are not reached.
 
         The width of a triangle is then known: it is at most what growth allows in any metric.
@@ -416,7 +416,7 @@ class _Builder:
         width = size.copy()
         self.changed[:] = self.sweep
         self._spread(patch, width, round_metric)
-        long = np.minimum(long, self.law.turned(nodes, width))
+        long = np.minimum(long, self.law.longest_along(nodes, width))
         self._grade_anew(patch, size, long)
         ratio = REACHED * nodes.long / nodes.size
         size = self.law.regained(nodes, ratio)
@@ -438,7 +438,7 @@ class _Builder:
             if following > 0:
                 return
         creeping = np.flatnonzero(self.changed >= first - SWEEPS)
-        u, v = self.scaling.to_uv(self._xy_of(creeping[[len(creeping) // 2]]))[0]
+        u, v = self.chart.to_uv(self._xy_of(creeping[[len(creeping) // 2]]))[0]
         raise SizingError(
             f"the sizes on {self.surface.name!r} cannot be graded from one place to the next, near "
             f"(u, v) = ({u:.6g}, {v:.6g}), where the surface is as steep as a wall: "
@@ -457,9 +457,9 @@ class _Builder:
         error, extent = np.empty(len(patch)), np.empty(len(patch))
         nodes = self.nodes
         patch_errors(patch, nodes.inverse_sizes(), step, self._largest, error, extent)
-        graded = (nodes.size < 0.98 * nodes.wish)[patch].any(axis=1)
+        graded = (nodes.size < 0.98 * nodes.target_size)[patch].any(axis=1)
         if nodes.is_anisotropic:
-            graded |= (nodes.long < 0.98 * nodes.long_wish)[patch].any(axis=1)
+            graded |= (nodes.long < 0.98 * nodes.long_target_size)[patch].any(axis=1)
         allowed = np.where(graded, GRADED_ERROR, TEST_ERROR)
         by_sources = self.law.limits is not None and self.law.limits.uv is not None
         coarse = FINEST_STRETCHED if nodes.is_anisotropic else FINEST_GRADED
@@ -482,7 +482,7 @@ class _Builder:
     def _box(self, nodes: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
         """Corners (n, 2) of cells in (u, v) and in the scaled plane their middles (n, 2)."""
         xy = self._xy_of(nodes[:, 0]), self._xy_of(nodes[:, 8])
-        return self.scaling.to_uv(xy[0]), self.scaling.to_uv(xy[1]), 0.5 * (xy[0] + xy[1])
+        return self.chart.to_uv(xy[0]), self.chart.to_uv(xy[1]), 0.5 * (xy[0] + xy[1])
 
     def _bent_between(self, nodes: np.ndarray) -> np.ndarray:
         """Cells (n, 9) whose second derivatives may be such that half the size is needed."""
@@ -501,7 +501,7 @@ class _Builder:
         if bounds is None:
             return np.zeros(len(nodes), bool)
         normal = np.abs(self.nodes.normal[nodes[:, 4]])
-        du, dv = self.scaling.rates(middle).T
+        du, dv = self.chart.rates(middle).T
         second = np.maximum(np.abs(bounds[0]), np.abs(bounds[1]))[:, 2:]
         second *= np.stack([du * du, du * dv, dv * dv], axis=1)[:, :, None]
         with np.errstate(over="ignore", invalid="ignore"):
@@ -546,7 +546,7 @@ class _Builder:
         if self.sides is None or not any(self.sides.collapsed):
             return
         xy = self._xy_of(np.arange(len(self.nodes.size)))
-        width, height = self.scaling.extent
+        width, height = self.chart.extent
         for side in np.flatnonzero(self.sides.collapsed):
             across = 1 if side in (0, 2) else 0
             far = (0.0, width, height, 0.0)[side]
@@ -555,7 +555,7 @@ class _Builder:
             speed = np.hypot(*self.nodes.root[:, across : across + 2].T)
             depth = np.minimum(
                 POLE_DISTANCE * self.nodes.size / np.maximum(speed, 1e-300),
-                0.25 * self.scaling.extent[across],
+                0.25 * self.chart.extent[across],
             )
             near = np.flatnonzero(away < depth)
             moved = xy[near]
@@ -574,7 +574,7 @@ class _Builder:
     @property
     def _largest(self) -> float:
         """Cap on a circle's size in the scaled plane, for degenerate points."""
-        return 16.0 * float(self.scaling.extent.max())
+        return 16.0 * float(self.chart.extent.max())
 
     def _background(self, tree: list[np.ndarray], patch: np.ndarray) -> Background:
         parents = np.concatenate(tree)

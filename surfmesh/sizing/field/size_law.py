@@ -1,22 +1,22 @@
-"""The ungraded wish at points of one surface, with what a size field stores there."""
+"""The ungraded target sizes at points of one surface, with what a size field stores there."""
 
 from collections.abc import Callable, Iterator
 from typing import NamedTuple
 
 import numpy as np
 
+from surfmesh.geometry.differential.chart import Chart
 from surfmesh.geometry.differential.fundamental_forms import (
     FundamentalForms,
     curvatures,
     forms_from_derivatives,
 )
-from surfmesh.geometry.differential.scaling import Scaling
 from surfmesh.geometry.surface import Surface
 from surfmesh.sizing.options.sizing import Sizing
+from surfmesh.sizing.rules.direction_rates import ROUND, direction_rates, longest_along
 from surfmesh.sizing.rules.rim_size import Rims, RimSizes
 from surfmesh.sizing.rules.size_bounds import SizeBounds
 from surfmesh.sizing.rules.size_limits import SizeLimits
-from surfmesh.sizing.rules.turning_direction import ROUND, turning_bound, turning_rates
 
 ALIKE = 1.01
 """Ratio up to which they are one size: on flat places ``along`` is round-off."""
@@ -30,24 +30,35 @@ class FieldNodes(NamedTuple):
     """
 
     size: np.ndarray  # (n,) wanted edge length
-    wish: np.ndarray  # (n,) the same before sources and gradation have lowered it
+    target_size: np.ndarray  # (n,) the same before sources and gradation have lowered it
     root: np.ndarray  # (n, 3) I^(1/2) in the scaled plane
     normal: np.ndarray  # (n, 3) unit, zero at degenerate points
     point: np.ndarray  # (n, 3)
     long: np.ndarray  # (n,) wanted length along ``along``
-    long_wish: np.ndarray  # (n,)
+    long_target_size: np.ndarray  # (n,)
     along: np.ndarray  # (n, 3) unit tangent
     jacobian: np.ndarray  # (n, 3, 2) r_x, r_y
     asked: np.ndarray  # (n, 2) size and long before gradation
     curvature: np.ndarray  # (n, 2) principal curvatures
-    turning: np.ndarray  # (n, 2) rates at which ``along`` fans out and bends, see there
+    direction_rates: np.ndarray  # (n, 2) at which ``along`` fans out and bends, see there
 
     @classmethod
-    def isotropic(cls, size, wish, root, normal, point) -> "FieldNodes":
+    def isotropic(cls, size, target_size, root, normal, point) -> "FieldNodes":
         no, pairs = np.empty(0), np.empty((0, 2))
         jacobian = np.empty((0, 3, 2))
         return cls(
-            size, wish, root, normal, point, no, no, np.empty((0, 3)), jacobian, pairs, pairs, pairs
+            size,
+            target_size,
+            root,
+            normal,
+            point,
+            no,
+            no,
+            np.empty((0, 3)),
+            jacobian,
+            pairs,
+            pairs,
+            pairs,
         )
 
     @classmethod
@@ -131,7 +142,7 @@ class SizeLaw:
         self, surface: Surface, sizing: Sizing, limits: SizeLimits | None, rims: Rims | None = None
     ) -> None:
         """rims: bound the size too, where ``chord`` is asked for."""
-        self.surface, self.scaling = surface, Scaling.of(surface)
+        self.surface, self.chart = surface, Chart.of(surface)
         (u0, u1), (v0, v1) = surface.domain
         grid = np.linspace(0.0, 1.0, 17)
         t = np.stack(np.meshgrid(grid, grid), axis=-1).reshape(-1, 2)
@@ -166,7 +177,7 @@ class SizeLaw:
 
     def __call__(self, xy: np.ndarray) -> FieldNodes:
         """Nodes at xy (n, 2) of the scaled plane."""
-        uv, rates = self.scaling.to_uv_and_rates(xy)
+        uv, rates = self.chart.to_uv_and_rates(xy)
         point, ru, rv, *second = self.surface.evaluate(uv, 2)
         forms = forms_from_derivatives(ru, rv, *second)
         root = root_of_form(forms, rates)
@@ -182,12 +193,12 @@ class SizeLaw:
             size = np.clip(np.minimum(size, self.sizing.law_sizes(point)), *self.clamp)
         for rows, _, allowed in self.rims_at(xy, uv, point):
             size[rows] = np.minimum(size[rows], np.maximum(allowed, self.clamp[0]))
-        wish = size
+        target_size = size
         if self.limits is not None:
             size = np.minimum(size, self._limited(point))
             if self.limits.uv is None:
-                wish = size
-        return FieldNodes.isotropic(size, wish, root, forms.normal, point)
+                target_size = size
+        return FieldNodes.isotropic(size, target_size, root, forms.normal, point)
 
     def _anisotropic(
         self, xy: np.ndarray, uv: np.ndarray, point: np.ndarray, ru: np.ndarray, rv: np.ndarray,
@@ -216,18 +227,18 @@ class SizeLaw:
                 rim, self.clamp[0], point[rows], forms.normal[rows], along[rows], size[rows],
                 long[rows],
             )  # fmt: skip
-        wish, long_wish = size, long
+        target_size, long_target_size = size, long
         if self.limits is not None:
             along, size, long = self._limited_both(
                 self.limits, self._least(), point, forms.normal, along, size, long
             )
             if self.limits.uv is None:
-                wish, long_wish = size, long
+                target_size, long_target_size = size, long
         jacobian = np.stack([ru * rates[:, :1], rv * rates[:, 1:]], axis=2)
         return FieldNodes(
-            size, wish, root, forms.normal, point, long, long_wish, along, jacobian,
+            size, target_size, root, forms.normal, point, long, long_target_size, along, jacobian,
             np.stack([size, long], axis=1), np.stack([k.k1, k.k2], axis=1),
-            turning_rates(self.surface, uv, k, first[:, 0], size),
+            direction_rates(self.surface, uv, k, first[:, 0], size),
         )  # fmt: skip
 
     def _fitted(
@@ -261,10 +272,10 @@ class SizeLaw:
         )
         return rows[flat], rim.chosen(np.flatnonzero(flat))
 
-    def turned(self, nodes: FieldNodes, size: np.ndarray) -> np.ndarray:
+    def longest_along(self, nodes: FieldNodes, size: np.ndarray) -> np.ndarray:
         """Largest ``long`` (n,) where directions turn, of triangles that are ``size`` (n,) wide."""
         k1, k2 = nodes.curvature.T
-        bound = turning_bound(nodes.turning, k1, k2, size, self.sizing.chord or 0.0)
+        bound = longest_along(nodes.direction_rates, k1, k2, size, self.sizing.chord or 0.0)
         return np.where(nodes.asked[:, 1] > ROUND * nodes.asked[:, 0], bound, np.inf)
 
     def regained(self, nodes: FieldNodes, ratio: np.ndarray) -> np.ndarray:
@@ -280,7 +291,7 @@ class SizeLaw:
 
     def _least(self) -> float:
         """No limit goes below it; sizes that edges have been cut with hold as they are."""
-        if self.limits.settled:
+        if self.limits.as_cut:
             return 0.0
         return self.clamp[0] if self.limits.uv is None else self.sizing.min_size or 0.0
 
@@ -294,7 +305,7 @@ class SizeLaw:
         """Rows (k,) of nodes that rims have something to say to, what it is, and the least of
         it (k,) in any direction: nodes on each open side, and all, if there are loops."""
         if self.rims is not None:
-            for rows, rim in self.rims.on_sides(self.scaling, self.sizing.chord, xy, uv):
+            for rows, rim in self.rims.on_sides(self.chart, self.sizing.chord, xy, uv):
                 yield rows, rim, rim.sizes
         if self.loop_limits is not None:
             yield np.arange(len(xy)), self.loop_limits, self.loop_limits(point)
@@ -339,12 +350,12 @@ class TensorLaw:
     def __init__(
         self, surface: Surface, sizing: Sizing, tensors: Callable[[np.ndarray], np.ndarray]
     ) -> None:
-        self.surface, self.scaling = surface, Scaling.of(surface)
+        self.surface, self.chart = surface, Chart.of(surface)
         self.sizing, self.tensors = sizing, tensors
 
     def __call__(self, xy: np.ndarray) -> FieldNodes:
         """Nodes with sizes of one, and H^-1 for the root of the first form."""
-        uv = self.scaling.to_uv(xy)
+        uv = self.chart.to_uv(xy)
         h = self.tensors(uv)
         det = h[:, 0] * h[:, 2] - h[:, 1] ** 2
         inverse = np.stack([h[:, 2], -h[:, 1], h[:, 0]], axis=1) / det[:, None]

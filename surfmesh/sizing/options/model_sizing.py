@@ -20,8 +20,8 @@ import numpy as np
 from surfmesh.cad.model.cad_model import CadModel
 from surfmesh.cad.selection.selection import EVERYTHING, Selection, select
 from surfmesh.errors import SizingError, shown
+from surfmesh.sizing.options.defaults import with_defaults
 from surfmesh.sizing.options.sizing import Sizing
-from surfmesh.sizing.rules.size_bounds import DEFAULT_CHORD, DEFAULT_MAX_SIZE, LONGEST
 
 OF_THE_MODEL = ("growth", "anisotropy", "limit", "gap_faces", "volume")
 """Options that cannot differ from selection to selection."""
@@ -77,17 +77,6 @@ class ModelSizing:
         return [rule for rule in self.rules if number in getattr(rule.found, kind)]
 
 
-def with_defaults(sizing: Sizing, model: CadModel) -> Sizing:
-    """The wishes for a model: by default a chord error of a thousandth of its diagonal."""
-    if sizing.chord is None and sizing.angle is None and sizing.size is None:
-        sizing = sizing.replaced(chord=DEFAULT_CHORD * model.diagonal)
-    if sizing.max_size is None and sizing.size is None:
-        share = LONGEST if sizing.is_anisotropic else DEFAULT_MAX_SIZE
-        largest = max(share * model.diagonal, sizing.min_size or 0.0)
-        sizing = sizing.replaced(max_size=largest)
-    return sizing
-
-
 def model_sizing(model: CadModel, wish: Any) -> ModelSizing:
     """From what a user may pass: a Sizing, a number, options, or a mapping of selections.
 
@@ -98,7 +87,7 @@ def model_sizing(model: CadModel, wish: Any) -> ModelSizing:
         return wish
     if not is_by_selection(wish):
         stated = Sizing.of(wish)
-        return ModelSizing(with_defaults(stated, model), stated=stated)
+        return ModelSizing(with_defaults(stated, model.diagonal), stated=stated)
     base = Sizing.of(wish.get(EVERYTHING))
     rules = []
     for key, value in wish.items():
@@ -109,7 +98,7 @@ def model_sizing(model: CadModel, wish: Any) -> ModelSizing:
         own = _own_wishes(key, value)
         rules.append(Rule(key, own, _with_faces(model, _selected(model, key, value))))
     by_kind = (_combined(model, base, rules, kind) for kind in ("faces", "edges", "vertices"))
-    return ModelSizing(with_defaults(base, model), *by_kind, tuple(rules), base)
+    return ModelSizing(with_defaults(base, model.diagonal), *by_kind, tuple(rules), base)
 
 
 def is_by_selection(wish: Any) -> bool:
@@ -178,7 +167,7 @@ def _combined(model: CadModel, base: Sizing, rules: list[Rule], kind: str) -> di
         key = tuple(places)
         if key not in by_rules:
             given = [(EVERYTHING, base), *((rules[k].key, rules[k].sizing) for k in places)]
-            by_rules[key] = with_defaults(combined(given), model)
+            by_rules[key] = with_defaults(combined(given), model.diagonal)
         result[number] = by_rules[key]
     return result
 

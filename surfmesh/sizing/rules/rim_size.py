@@ -12,7 +12,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from surfmesh.geometry.differential.scaling import Scaling
+from surfmesh.geometry.differential.chart import Chart
 from surfmesh.geometry.differential.sides import SideTopology
 from surfmesh.geometry.surface import Surface
 from surfmesh.sizing.rules.size_limits import SizeLimits, along_lines
@@ -80,10 +80,10 @@ class Rims:
         ]  # fmt: skip
 
     def on_sides(
-        self, scaling: Scaling, chord: float, xy: np.ndarray, uv: np.ndarray
+        self, chart: Chart, chord: float, xy: np.ndarray, uv: np.ndarray
     ) -> Iterator[tuple[np.ndarray, RimSizes]]:
         """For each open side the rows (k,) of points xy (n, 2) that lie on it, and their sizes."""
-        width, height = scaling.extent
+        width, height = chart.extent
         for side in self.open:
             across, place = ((1, 0.0), (0, width), (1, height), (0, 0.0))[side]
             rows = np.flatnonzero(xy[:, across] == place)

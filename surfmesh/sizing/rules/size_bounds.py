@@ -4,6 +4,15 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from surfmesh.sizing.options.defaults import (
+    DEFAULT_ANGLE,
+    DEFAULT_MAX_SIZE,
+    FINEST_BY_ANGLE,
+    FINEST_SIZE,
+    LEAST_OF_CHORD,
+    LONGEST,
+    with_default_chord,
+)
 from surfmesh.sizing.options.sizing import Sizing
 from surfmesh.sizing.rules.curvature_size import (
     angle_size,
@@ -12,27 +21,6 @@ from surfmesh.sizing.rules.curvature_size import (
     principal_angle_sizes,
     principal_chord_sizes,
 )
-
-DEFAULT_CHORD = 1e-3
-DEFAULT_MAX_SIZE = 0.1
-"""Wishes that are not stated, relative to the diagonal of the bounding box."""
-
-LONGEST = 1.0
-"""Likewise for the longer of two sizes of an anisotropic metric."""
-
-FINEST_SIZE = 1e-5
-"""No size is smaller, relative to the diagonal, unless ``min_size`` says so: at an apex the
-curvature is infinite."""
-
-FINEST_TURN = 2e-4
-"""``angle`` asks for no smaller size, relative to the diagonal: triangles about an apex turn by
-as much at any size."""
-
-DEFAULT_ANGLE = 45.0
-"""Degrees; kept wherever the size follows the curvature at all."""
-
-LEAST_OF_CHORD = 0.5
-"""The default angle asks for nothing smaller than this share of ``chord``: an apex is no fold."""
 
 
 @dataclass(frozen=True)
@@ -54,8 +42,7 @@ class SizeBounds:
     @classmethod
     def of(cls, sizing: Sizing, diagonal: float) -> "SizeBounds":
         """``diagonal``: of the surface's bounding box, model units."""
-        if sizing.chord is None and sizing.angle is None and sizing.size is None:
-            sizing = sizing.replaced(chord=DEFAULT_CHORD * diagonal)
+        sizing = with_default_chord(sizing, diagonal)
         coarsest = sizing.max_size or DEFAULT_MAX_SIZE * diagonal
         if callable(sizing.size) and not sizing.max_size:
             coarsest = np.inf  # the law alone decides
@@ -66,7 +53,7 @@ class SizeBounds:
         longest = coarsest
         if sizing.is_anisotropic and not sizing.max_size and not isinstance(sizing.size, float):
             longest = max(coarsest, LONGEST * diagonal)
-        return cls(sizing, (finest, coarsest), longest, FINEST_TURN * diagonal)
+        return cls(sizing, (finest, coarsest), longest, FINEST_BY_ANGLE * diagonal)
 
     @property
     def follows_curvature(self) -> bool:

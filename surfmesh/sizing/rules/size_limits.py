@@ -25,7 +25,7 @@ class SizeLimits:
     metric_root_3d: np.ndarray | None = None
     """(k, 6) W = xx, xy, xz, yy, yz, zz: in the unit direction e the size is at most 1 / |W e|,
     at least ``sizes``; None: ``sizes`` in every direction."""
-    settled: bool = False
+    as_cut: bool = False
     """The sizes are those of edges, which neighbours with a smaller ``min_size`` may have cut."""
 
     def __call__(self, points: np.ndarray) -> np.ndarray:
@@ -102,7 +102,7 @@ class SizeLimits:
             np.concatenate([self.uv, other.uv]) if both else None,
             self.essential or other.essential,
             self._tensors_with(other),
-            self.settled or other.settled,
+            self.as_cut or other.as_cut,
         )
 
     def not_below(self, least: float) -> "SizeLimits":

@@ -7,9 +7,10 @@ from typing import NamedTuple
 
 import numpy as np
 
+from surfmesh.sizing.options.defaults import DEFAULT_ANGLE
 from surfmesh.sizing.options.sizing import Sizing
 from surfmesh.sizing.options.sources import checked_sizes
-from surfmesh.sizing.rules.size_bounds import DEFAULT_ANGLE, curvature_sizes, principal_sizes
+from surfmesh.sizing.rules.size_bounds import curvature_sizes, principal_sizes
 
 
 class SizeRow(NamedTuple):

@@ -1,4 +1,4 @@
-"""An image that runs at the wrong pace, or beside its edge, gives way to a better one."""
+"""A p-curve that runs at the wrong pace, or beside its edge, gives way to a better one."""
 
 import numpy as np
 import pytest
@@ -12,23 +12,23 @@ from surfmesh.geometry.cad_surfaces.nurbs import BSplineCurve
 X, Y, Z = np.eye(3)
 EDGE = CadEdge(Circle(np.zeros(3), X, Y, 2.0), 0.0, 3.0, 0, 1, 1e-7, False, "", 6.0)
 CYLINDER = Cylinder(np.zeros(3), X, Y, Z, radius=2.0, domain=((0.0, 3.0), (-1.0, 1.0)))
-SHARE = np.linspace(0.0, 1.0, 301)
+FRACTION = np.linspace(0.0, 1.0, 301)
 
 
 def coedge(control):
-    """A cubic image with p from 0 to 1."""
+    """A cubic p-curve with p from 0 to 1."""
     knots = np.repeat([0.0, 1.0], 4)
     return CadCoedge(0, False, BSplineCurve(knots, np.array(control)), 0.0, 1.0, False)
 
 
-def deviation(edge, image):
-    points = edge.curve.evaluate(edge.parameters(SHARE), 0)[0]
-    (on_face,) = CYLINDER.evaluate(image.uv(SHARE), 0)
+def deviation(edge, pcurve):
+    points = edge.curve.evaluate(edge.parameters(FRACTION), 0)[0]
+    (on_face,) = CYLINDER.evaluate(pcurve.uv(FRACTION), 0)
     return np.linalg.norm(on_face - points, axis=1).max()
 
 
 @pytest.mark.parametrize("middle", [0.0, 0.02])  # at another pace; and beside the edge as well
-def test_a_straying_image_is_replaced(middle):
+def test_a_straying_pcurve_is_replaced(middle):
     strayed = coedge([[0, 0], [0.8, middle], [2.1, middle], [3, 0]])
     assert deviation(EDGE, strayed) > 0.05
     better = follows(CYLINDER, EDGE, strayed, 1e-7)
@@ -37,8 +37,8 @@ def test_a_straying_image_is_replaced(middle):
     assert better.uv(ends) == pytest.approx(strayed.uv(ends), abs=1e-14)
 
 
-def test_an_image_that_cannot_be_better_stays():
-    """The circle lies inside the cylinder: no point of that is nearer than the image."""
+def test_a_pcurve_that_cannot_be_better_stays():
+    """The circle lies inside the cylinder: no point of that is nearer than the p-curve."""
     inside = CadEdge(Circle(np.zeros(3), X, Y, 1.9), 0.0, 3.0, 0, 1, 1e-7, False, "", 5.7)
     exact = coedge([[0, 0], [1, 0], [2, 0], [3, 0]])
     assert follows(CYLINDER, inside, exact, 1e-7) is exact

@@ -15,7 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from surfmesh.quality.measures.deviation import Deviation
-from surfmesh.quality.measures.dihedral import Turning
+from surfmesh.quality.measures.dihedral import DihedralAngles
 from surfmesh.result.surface_mesh import SurfaceMesh
 
 CHORD_SLACK = 1e-9  # relative: rounding in the distance itself
@@ -71,19 +71,19 @@ def _said(group: Sequence[UnattainableTolerance]) -> str:
 class Violation(NamedTuple):
     """Triangles or edges beyond a promise that sizes would have allowed to keep."""
 
-    share: float  # of all
+    fraction: float  # of all
     worst: int  # the one that is farthest beyond, by ratio
     reached: float
     asked: float
 
 
-def plain_promises(mesh: SurfaceMesh) -> NDArray[np.float64] | None:
+def tolerance_rows(mesh: SurfaceMesh) -> NDArray[np.float64] | None:
     """(f, 3), or (1, 3) for all faces: chord, angle and min_size, nan for none. None: nothing
     is known of them."""
     if mesh.promises is not None or mesh.sizing is None:
         return mesh.promises
-    wishes = (getattr(mesh.sizing, name, None) for name in ("chord", "angle", "min_size"))
-    return np.array([[np.nan if wish is None else wish for wish in wishes]], float)
+    asked = (getattr(mesh.sizing, name, None) for name in ("chord", "angle", "min_size"))
+    return np.array([[np.nan if value is None else value for value in asked]], float)
 
 
 class Tolerances(NamedTuple):
@@ -98,7 +98,7 @@ class Tolerances(NamedTuple):
     def of(cls, mesh: SurfaceMesh) -> Tolerances:
         """Of the mesh's ``promises``, or of its ``sizing`` on every face."""
         count = max(int(mesh.face_ids.max(initial=0)) + 1, len(mesh.surfaces), 1)
-        given = plain_promises(mesh)
+        given = tolerance_rows(mesh)
         if given is None or 1 < len(given) < count or not len(given):
             given = np.full((1, 3), np.nan)
         chord, angle = (np.where(np.isnan(given[:, k]), np.inf, given[:, k]) for k in (0, 1))
@@ -128,29 +128,29 @@ class Tolerances(NamedTuple):
         return float(self.angle[0]) if self.uniform and np.isfinite(self.angle[0]) else None
 
 
-def beyond_chord(promises: Tolerances, mesh: SurfaceMesh, fit: Deviation) -> NDArray[np.bool_]:
+def exceeds_chord(tolerances: Tolerances, mesh: SurfaceMesh, fit: Deviation) -> NDArray[np.bool_]:
     """(m,) which triangles lie farther from the surface than their face allows."""
-    chord = promises.at(promises.chord, mesh.face_ids)
+    chord = tolerances.at(tolerances.chord, mesh.face_ids)
     return fit.by_triangle > chord * (1.0 + CHORD_SLACK)
 
 
-def beyond_angle(promises: Tolerances, turns: Turning) -> NDArray[np.bool_]:
-    """(k,) across which edges triangles turn by more than their face allows."""
-    return turns.above(promises.at(promises.angle, turns.faces))
+def exceeds_angle(tolerances: Tolerances, dihedrals: DihedralAngles) -> NDArray[np.bool_]:
+    """(k,) across which edges the dihedral angle is larger than their face allows."""
+    return dihedrals.above(tolerances.at(tolerances.angle, dihedrals.faces))
 
 
-def chord_kept(
-    promises: Tolerances, mesh: SurfaceMesh, fit: Deviation
+def chord_violation(
+    tolerances: Tolerances, mesh: SurfaceMesh, fit: Deviation
 ) -> tuple[Violation | None, list[UnattainableTolerance]]:
     """Broken promises of the distance from the surface, and those that ``min_size`` forbids.
 
     Deviation grows with the square of the size.
     """
-    far = np.flatnonzero(beyond_chord(promises, mesh, fit))
+    far = np.flatnonzero(exceeds_chord(tolerances, mesh, fit))
     if not len(far):
         return None, []
     faces, reached = mesh.face_ids[far], fit.by_triangle[far]
-    chord = promises.at(promises.chord, faces)
+    chord = tolerances.at(tolerances.chord, faces)
     needed = np.full(len(far), np.inf)
     if mesh.sizes is not None:
         with np.errstate(invalid="ignore"):
@@ -158,40 +158,40 @@ def chord_kept(
     points = mesh.points[mesh.triangles[far]].mean(axis=1)
     count = np.bincount(np.maximum(mesh.face_ids, 0))
     return _split(
-        "chord", promises, mesh, far, faces, reached, chord, needed, points, count,
+        "chord", tolerances, mesh, far, faces, reached, chord, needed, points, count,
         len(mesh.triangles),
     )  # fmt: skip
 
 
-def angle_kept(
-    promises: Tolerances, mesh: SurfaceMesh, turns: Turning
+def angle_violation(
+    tolerances: Tolerances, mesh: SurfaceMesh, dihedrals: DihedralAngles
 ) -> tuple[Violation | None, list[UnattainableTolerance]]:
     """The same for the angle between neighbours, which grows with the size.
 
-    ``worst`` is a row of ``turns``.
+    ``worst`` is a row of ``dihedrals``.
     """
-    far = np.flatnonzero(beyond_angle(promises, turns))
+    far = np.flatnonzero(exceeds_angle(tolerances, dihedrals))
     if not len(far):
         return None, []
-    faces, reached = turns.faces[far], turns.angles[far]
-    angle = promises.at(promises.angle, faces)
-    ends = mesh.edges[turns.edges[far]]
+    faces, reached = dihedrals.faces[far], dihedrals.angles[far]
+    angle = tolerances.at(tolerances.angle, faces)
+    ends = mesh.edges[dihedrals.edges[far]]
     needed = np.full(len(far), np.inf)
     if mesh.sizes is not None:
         needed = mesh.sizes[ends].mean(axis=1) * angle / reached
     points = mesh.points[ends].mean(axis=1)
     return _split(
-        "angle", promises, mesh, far, faces, reached, angle, needed, points,
-        np.bincount(turns.faces), len(turns.angles),
+        "angle", tolerances, mesh, far, faces, reached, angle, needed, points,
+        np.bincount(dihedrals.faces), len(dihedrals.angles),
     )  # fmt: skip
 
 
 def _split(
-    option: str, promises: Tolerances, mesh: SurfaceMesh, far: NDArray, faces: NDArray,
+    option: str, tolerances: Tolerances, mesh: SurfaceMesh, far: NDArray, faces: NDArray,
     reached: NDArray, asked: NDArray, needed: NDArray, points: NDArray, count: NDArray, total: int,
 ) -> tuple[Violation | None, list[UnattainableTolerance]]:  # fmt: skip
     """far: (k,) numbers of what is beyond; count: how many there are on each face."""
-    least = promises.at(promises.min_size, faces)
+    least = tolerances.at(tolerances.min_size, faces)
     forbidden = needed < least
     broken, limits = None, []
     free = np.flatnonzero(~forbidden)

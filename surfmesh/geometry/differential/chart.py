@@ -1,4 +1,4 @@
-"""The scaled parameter plane (x, y): u and v each stretched so that speeds are about one.
+"""The chart of a surface, the scaled plane (x, y): u and v stretched so that speeds are about one.
 
 On a CAD cylinder u is radians and v millimetres; on a badly parametrised surface the speed
 |r_u| changes a thousandfold along u. Both would make circles in (u, v) grotesque. So x is a
@@ -122,13 +122,13 @@ class Axis:
 
 
 @dataclass(frozen=True)
-class Scaling:
-    """The two axes of the scaled plane of one surface."""
+class Chart:
+    """Coordinates of one surface: its (u, v) and the scaled plane (x, y), axis by axis."""
 
     axes: tuple[Axis, Axis]
 
     @classmethod
-    def of(cls, surface: Surface) -> "Scaling":
+    def of(cls, surface: Surface) -> "Chart":
         low, high = np.array(surface.domain, float).T
         along = np.linspace(0.0, 1.0, SAMPLES_ALONG)
         across = (np.arange(SAMPLES_ACROSS) + 0.5) / SAMPLES_ACROSS
@@ -155,7 +155,7 @@ class Scaling:
         return cls(tuple(axes))
 
     @classmethod
-    def uniform(cls, domain: Domain, speeds: tuple[float, float]) -> "Scaling":
+    def uniform(cls, domain: Domain, speeds: tuple[float, float]) -> "Chart":
         """For a surface whose |r_u| and |r_v| are the same everywhere: nothing is sampled."""
         return cls(tuple(Axis.linear(*span, speed) for span, speed in zip(domain, speeds)))
 

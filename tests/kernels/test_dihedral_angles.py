@@ -6,16 +6,16 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from surfmesh.kernels.optimisation.dihedral import dihedral_angles
-from surfmesh.quality.measures.dihedral import turning, worst_turn
+from surfmesh.quality.measures.dihedral import angles_within_faces, largest_angle
 from surfmesh.result.connectivity import connect
 from surfmesh.result.surface_mesh import SurfaceMesh
 from surfmesh.sizing.options.sizing import Sizing
-from surfmesh.sizing.rules.bent_surface import bends_itself
+from surfmesh.sizing.rules.crease import on_crease
 from surfmesh.sizing.rules.curvature_size import (
     BENT_RESERVE,
     ROUND_RESERVE,
+    dihedral_factor,
     principal_angle_sizes,
-    turning_factor,
 )
 
 
@@ -62,7 +62,7 @@ def test_factor_is_the_worst_edge_of_a_quadric(ratio):
         xy = corners @ [[c, s], [-s, c]]
         points = np.column_stack([xy, xy**2 @ [0.5, 0.5 * ratio]])
         worst = max(worst, angles_of(points, [(0, 1, 2), (1, 0, 3)]).max())
-    assert turning_factor(np.ones(1), np.full(1, ratio))[0] == pytest.approx(worst / h, rel=1e-3)
+    assert dihedral_factor(np.ones(1), np.full(1, ratio))[0] == pytest.approx(worst / h, rel=1e-3)
 
 
 @pytest.mark.parametrize("k2", [1.0, 0.3, 0.0, -0.2, -1.0])
@@ -107,11 +107,11 @@ def roof_mesh(surface, angle):
 
 def test_creases_of_the_surface_are_no_fault():
     first, second = (np.array([[[0, 0], [1, 0], [0, y]]], float) / 2 for y in (1.0, -1.0))
-    assert bends_itself(Roof(1.0), first, second[:, [1, 0, 2]], 10.0, 1.0)[0]
-    assert turning(roof_mesh(Roof(1.0), 10.0)).angles.max() == 0.0
+    assert on_crease(Roof(1.0), first, second[:, [1, 0, 2]], 10.0, 1.0)[0]
+    assert angles_within_faces(roof_mesh(Roof(1.0), 10.0)).angles.max() == 0.0
     bent = roof_mesh(Roof(0.0), 10.0)  # on a plane it is one
-    turns = turning(bent)
-    largest, triangles, place = worst_turn(bent, turns)
+    turns = angles_within_faces(bent)
+    largest, triangles, place = largest_angle(bent, turns)
     assert largest == pytest.approx(90.0) and sorted(triangles) == [0, 1]
     assert place == pytest.approx((0.0, 0.0, 0.0))
     assert turns.above(10.0).all() and not turns.above(90.0).any()

@@ -38,12 +38,12 @@ STEP = 0.02
 """In shorter sizes: the way over which curvatures are compared."""
 
 
-def is_even(surface: Surface) -> bool:
+def has_even_curvature(surface: Surface) -> bool:
     """Are the curvatures known to be the same everywhere?"""
     return surface_kind(surface) in EVEN
 
 
-def turning_rates(
+def direction_rates(
     surface: Surface, uv: np.ndarray, k: PrincipalCurvatures, along_first: np.ndarray,
     size: np.ndarray,
 ) -> np.ndarray:  # fmt: skip
@@ -51,7 +51,7 @@ def turning_rates(
 
     along_first: (n,) bool, is t the first principal direction? size: (n,) a length.
     """
-    if is_even(surface):
+    if has_even_curvature(surface):
         return np.zeros((len(uv), 2))
     values, directions = np.stack([k.k1, k.k2], axis=1), np.stack([k.d1, k.d2], axis=1)
     rows, t = np.arange(len(uv)), np.where(along_first, 0, 1)
@@ -70,7 +70,7 @@ def turning_rates(
     return np.where(np.isfinite(rates), rates, 0.0)
 
 
-def turning_bound(
+def longest_along(
     rates: np.ndarray, k1: np.ndarray, k2: np.ndarray, size: np.ndarray, chord: float
 ) -> np.ndarray:
     """Largest length (n,) of triangles that are ``size`` (n,) wide; at least that."""

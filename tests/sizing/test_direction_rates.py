@@ -10,9 +10,9 @@ from surfmesh.geometry.formulas.parametric import ParametricSurface
 from surfmesh.sizing.field.size_field import inverse_sizes, size_field
 from surfmesh.sizing.field.size_law import SizeLaw
 from surfmesh.sizing.options.sizing import Sizing
+from surfmesh.sizing.rules.direction_rates import BENDING, FANNING, direction_rates, longest_along
 from surfmesh.sizing.rules.direction_size import size_along
 from surfmesh.sizing.rules.size_bounds import SizeBounds
-from surfmesh.sizing.rules.turning_direction import BENDING, FANNING, turning_bound, turning_rates
 
 TURN = (0.0, 2 * np.pi)
 CONE = ParametricSurface("v*cos(u)", "v*sin(u)", "v", u=TURN, v=(0.5, 2.0))
@@ -25,7 +25,7 @@ TUBE = ParametricSurface("cos(u)", "sin(u)", "v", u=TURN, v=(0, 9))
 def rates_and_curvatures(surface, uv, size=0.01):
     _, *derivatives = surface.evaluate(uv, 2)
     k = curvatures(forms_from_derivatives(*derivatives))
-    rates = turning_rates(surface, uv, k, np.abs(k.k1) < np.abs(k.k2), np.full(len(uv), size))
+    rates = direction_rates(surface, uv, k, np.abs(k.k1) < np.abs(k.k2), np.full(len(uv), size))
     return rates, k
 
 
@@ -50,23 +50,23 @@ def test_circles_of_a_torus_bend():
 def test_nothing_turns_on_a_tube():
     rates, k = rates_and_curvatures(TUBE, np.random.default_rng(1).uniform(0, 6, (20, 2)))
     np.testing.assert_allclose(rates, 0.0, atol=1e-9)
-    assert np.isinf(turning_bound(rates, k.k1, k.k2, np.full(20, 0.1), 1e-3)).all()
+    assert np.isinf(longest_along(rates, k.k1, k.k2, np.full(20, 0.1), 1e-3)).all()
 
 
 def test_bounds_by_hand():
     rates = np.array([[2.0, 0.0], [0.0, 2.0], [2.0, 2.0]])
     k, size = np.full(3, 4.0), np.full(3, 0.1)
-    bound = turning_bound(rates, k, 0 * k, size, 0.005)  # K h^2 = 0.04 is more than 6 chord
+    bound = longest_along(rates, k, 0 * k, size, 0.005)  # K h^2 = 0.04 is more than 6 chord
     first, second = FANNING * 4.0 / 2.0, np.sqrt(BENDING * 4.0 * 0.1 / 2.0)
     np.testing.assert_allclose(bound, [first, second, min(first, second)])
-    assert np.isinf(turning_bound(rates, k, 0 * k, size, 0.06)).all()  # all within chord
+    assert np.isinf(longest_along(rates, k, 0 * k, size, 0.06)).all()  # all within chord
 
 
 @pytest.mark.parametrize("factor", [1e-6, 1e6])
 def test_bounds_scale(factor):
     rates, k, size = np.array([[2.0, 3.0]]), np.array([4.0]), np.array([0.1])
-    once = turning_bound(rates, k, 0 * k, size, 0.005)
-    scaled = turning_bound(rates / factor**2, k / factor, 0 * k, size * factor, 0.005 * factor)
+    once = longest_along(rates, k, 0 * k, size, 0.005)
+    scaled = longest_along(rates / factor**2, k / factor, 0 * k, size * factor, 0.005 * factor)
     np.testing.assert_allclose(scaled, factor * once)
 
 
@@ -104,7 +104,7 @@ def test_what_long_edges_leave_of_the_chord_is_used():
     assert wanted_triangles(surface, 0.004, 50.0) < 1.03 * wanted_triangles(surface, 0.004, 5.0)
     sizing = Sizing(chord=0.004, anisotropy=50.0)
     field = size_field(surface, sizing, find_sides(surface))
-    xy = np.random.default_rng(1).uniform(0.1, 0.9, (2000, 2)) * field.scaling.extent
+    xy = np.random.default_rng(1).uniform(0.1, 0.9, (2000, 2)) * field.chart.extent
     nodes = SizeLaw(surface, sizing, None)(xy)
     w = inverse_sizes(field, xy, np.ones(len(xy)))
     width = 1 / np.linalg.eigvalsh(w[:, [0, 1, 2, 1, 3, 4, 2, 4, 5]].reshape(-1, 3, 3))[:, 2]
@@ -116,7 +116,7 @@ def test_a_law_is_not_regained():
     surface = load("ellipsoid")
     sizing = Sizing(chord=1e-2, size=lambda p: np.full(len(p), 0.05), anisotropy=20.0)
     field = size_field(surface, sizing, find_sides(surface))
-    xy = np.random.default_rng(1).uniform(0, 1, (500, 2)) * field.scaling.extent
+    xy = np.random.default_rng(1).uniform(0, 1, (500, 2)) * field.chart.extent
     w = inverse_sizes(field, xy, np.ones(len(xy)))
     values = np.linalg.eigvalsh(w[:, [0, 1, 2, 1, 3, 4, 2, 4, 5]].reshape(-1, 3, 3))
     assert (1 / values).max() <= 0.05 * (1 + 1e-9)
