@@ -220,7 +220,7 @@ def _in_space(
         uv_triangles=parts.uv_triangles,
         surfaces=(surface,),
         sizes=sizes * scale[parts.place],
-        inverse_sizes=field.roots_of_mesh(xy, scale[: len(xy)]),
+        metric_root_3d=field.roots_of_mesh(xy, scale[: len(xy)]),
         sizing=field.sizing,
         seconds=watch.seconds,
         one_sided=sides.one_sided and not len(surface.loops),

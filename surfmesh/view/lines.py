@@ -57,10 +57,10 @@ def circles(mesh: SurfaceMesh) -> Lines:
     for i in range(3):
         a, b, c = corners[:, i], corners[:, (i + 1) % 3], corners[:, (i + 2) % 3]
         along = (1.0 - share)[:, None, None] * (b - a) + share[:, None, None] * (c - a)
-        if mesh.inverse_sizes is None:
+        if mesh.metric_root_3d is None:
             length = np.linalg.norm(along, axis=2) / mesh.sizes[mesh.triangles[:, i]]
         else:
-            wanted = unpacked(mesh.inverse_sizes[mesh.uv_triangles[:, i]])  # (m, 3, 3)
+            wanted = unpacked(mesh.metric_root_3d[mesh.uv_triangles[:, i]])  # (m, 3, 3)
             length = np.linalg.norm(np.einsum("mij,smj->smi", wanted, along), axis=2)
         # how far towards the opposite side the circle reaches: 1 is on it
         reach = 0.5 / np.where(length > 0, length, np.inf)

@@ -163,7 +163,7 @@ def test_circles_are_ellipses_where_sizes_have_a_direction():
     mesh = sm.mesh(tube, sm.Sizing(chord=0.02, anisotropy=4))
     row = np.empty(len(mesh.points), int)
     row[mesh.triangles] = mesh.uv_triangles
-    wanted = unpacked(mesh.inverse_sizes[row])
+    wanted = unpacked(mesh.metric_root_3d[row])
     ends = circles(mesh).segments[::97, 0]
     away = np.einsum("vij,evj->evi", wanted, ends[:, None] - mesh.points)
     nearest = np.abs(np.linalg.norm(away, axis=2) - 0.5).min(axis=1)

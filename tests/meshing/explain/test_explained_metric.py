@@ -74,7 +74,7 @@ def test_the_numbers_are_those_of_the_field():
     for vertex in range(5, len(mesh.points), len(mesh.points) // 40):
         found = sm.explain(torus, sizing, mesh.points[vertex])
         corner = int(np.flatnonzero(mesh.triangles.ravel() == vertex)[0])
-        w = mesh.inverse_sizes[mesh.uv_triangles.ravel()[corner]]
+        w = mesh.metric_root_3d[mesh.uv_triangles.ravel()[corner]]
         w = unpacked(w)
         for axis in found.axes:
             assert np.linalg.norm(w @ axis.direction) == pytest.approx(1 / axis.size, rel=0.02)
