@@ -112,21 +112,3 @@ def most_folded(mesh: SurfaceMesh, found: Folds, count: int) -> tuple[FoldedTria
         )
         for t, turn, place in zip(bad, angle, places.tolist())
     )  # fmt: skip
-
-
-def folded_surfaces(mesh: SurfaceMesh, found: Folds, listed: int = 5) -> list[str]:
-    """A sentence about the faces that bend sharply or turn over, and where each does first."""
-    faces = np.unique(mesh.face_ids[found.own])
-    if not len(faces):
-        return []
-    places = []
-    for face in faces[:listed]:
-        some = np.flatnonzero(found.own & (mesh.face_ids == face))
-        worst = some[found.cosine[some].argmin()]
-        place = ", ".join(f"{x:.5g}" for x in mesh.points[mesh.triangles[worst]].mean(axis=0))
-        places.append(f"{mesh.face_name(int(face))} at ({place}), {len(some):,} triangles")
-    more = f" and {len(faces) - listed} more" if len(faces) > listed else ""
-    return [
-        f"folded in themselves, with radii below {found.radius:.3g} that no triangle follows: "
-        f"{'; '.join(places)}{more}"
-    ]

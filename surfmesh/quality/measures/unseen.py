@@ -100,36 +100,6 @@ def unseen(
     )  # fmt: skip
 
 
-def unseen_problems(found: Unseen | None) -> list[str]:
-    """A sentence about features that were found, and one about what cannot be excluded."""
-    if found is None:
-        return []
-    said = []
-    for count, first, is_found in (
-        (found.found, next((p for p in found.places if p.found), None), True),
-        (found.open, next((p for p in found.places if not p.found), None), False),
-    ):
-        if not count or (first is None and is_found):
-            continue
-        many = f"{count:,} triangle{'s' * (count > 1)}"
-        at = ""
-        if first is not None:
-            u, v = first.uv
-            at = f", first {first.triangle} at (u, v) = ({u:.8g}, {v:.8g})"
-        if is_found:
-            said.append(
-                f"features narrower than the triangles are missing: the surface lies up to "
-                f"{found.largest:.4g} from the mesh between the samples of {many}{at}"
-            )
-            continue
-        most = "any height" if np.isinf(found.possible) else f"a height up to {found.possible:.4g}"
-        said.append(
-            f"features narrower than the triangles cannot be excluded: the formula's bounds admit "
-            f"{most} between the samples of {many}{at}; lower the sizes there"
-        )
-    return said
-
-
 def _place(
     mesh: SurfaceMesh, triangle: int, uv: NDArray, reached: float, possible: float
 ) -> UnseenPlace:
