@@ -260,7 +260,9 @@ class MatedCuts:
         at = self.samples.of(edge)
         size = np.interp(foot, self.samples.share[at], self.sizes[at])
         length = max(self.model.edges[edge].length, np.finfo(float).tiny)
-        turn = np.maximum(self.samples.turn[edge] * np.minimum(size / length, 1.0), LEAST_TURN)
+        turn = np.maximum(
+            self.samples.total_curvature[edge] * np.minimum(size / length, 1.0), LEAST_TURN
+        )
         same = np.minimum(SAME_SIZE * size, SAME_GAP * gap / turn)
         return np.maximum(same, 1e-9 * length)
 

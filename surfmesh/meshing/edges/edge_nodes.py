@@ -63,7 +63,7 @@ def cut_edges(
     sizing: with the model's defaults filled in. limits: by face, from earlier rounds. before:
     the nodes of the last round; edges that have not changed since stay the same objects.
     """
-    wish = samples.wish
+    wish = samples.target_size
     if limits:
         wish = wish.copy()
         for face, limit in limits.items():
@@ -75,7 +75,7 @@ def cut_edges(
             wish[along] = np.minimum(wish[along], found)
     grade = _graded_by_direction if samples.is_anisotropic else _graded
     if samples.mates:
-        wish = wish.copy() if wish is samples.wish else wish
+        wish = wish.copy() if wish is samples.target_size else wish
         share_sizes(samples, samples.mates, wish)
     size = grade(model, samples, wish, sizing)
     for number in np.flatnonzero(samples.hidden).tolist():  # no neighbour hears of them
@@ -156,7 +156,7 @@ def _fewest(model: CadModel, samples: EdgeSamples, number: int) -> int:
     """Segments that an edge needs for its shape and for its topology."""
     edge = model.edges[number]
     most = LARGEST_TURN_TINY if samples.tiny[number] else LARGEST_TURN
-    fewest = max(1, int(np.ceil(samples.turn[number] / most - 1e-9)))
+    fewest = max(1, int(np.ceil(samples.total_curvature[number] / most - 1e-9)))
     if samples.has_twin[number]:
         fewest = max(fewest, TWIN_SEGMENTS)
     start, end = samples.vertex[[edge.start, edge.end]]

@@ -27,9 +27,9 @@ from surfmesh.sizing.rules.curvature_size import (
     STRAIGHT_RESERVE,
     normal_deviation_size,
 )
+from surfmesh.sizing.rules.direction_rates import has_even_curvature
 from surfmesh.sizing.rules.direction_size import size_along
 from surfmesh.sizing.rules.size_bounds import SizeBounds, curvature_sizes, default_angle_size
-from surfmesh.sizing.rules.turning_direction import is_even
 
 STRAIGHT_SAMPLES, CURVED_SAMPLES = 33, 129
 _STRAIGHT, _CURVED = (np.linspace(0.0, 1.0, n) for n in (STRAIGHT_SAMPLES, CURVED_SAMPLES))
@@ -67,12 +67,12 @@ class EdgeSamples:
     """(n,) shares of the edge's parameter range, 0 to 1."""
     points: np.ndarray
     """(n, 3)"""
-    wish: np.ndarray
+    target_size: np.ndarray
     """(n,) wanted edge lengths, not graded."""
     tangent: np.ndarray
     """(n, 3) unit; empty where sizes do not depend on the direction."""
-    turn: np.ndarray
-    """(e,) by how much the tangent turns along each edge, radians."""
+    total_curvature: np.ndarray
+    """(e,) integral of the curvature along each edge, radians."""
     has_twin: np.ndarray
     """(e,) bool: the edge is curved, and another one joins the same two vertices."""
     vertex: np.ndarray
@@ -175,7 +175,7 @@ def _find_narrow(
         wish = _sampled(model, number, own, sizing, samples.narrow)[2]
         if samples.tiny[number] and (samples.hidden[number] or not model.edges[number].closed):
             wish[:] = sizing.base.max_size or model.diagonal  # it is cut as its shape needs
-        samples.wish[at] = np.minimum(wish, MOST_LONGER * min(ways))
+        samples.target_size[at] = np.minimum(wish, MOST_LONGER * min(ways))
     samples.mates.extend(mate_runs(model, samples))
 
 
@@ -259,7 +259,7 @@ def _wish(
     for face, coedge in uses if follows_curvature and not sizing.is_anisotropic else ():
         surface = model.faces[face].surface
         if surface.kind != "plane":
-            some = share[:1] if is_even(surface) else share
+            some = share[:1] if has_even_curvature(surface) else share
             np.minimum(wish, _face_wish(surface, coedge.uv(some), sizing), out=wish)
     if sizing.has_law:
         np.minimum(wish, sizing.law_sizes(points), out=wish)
@@ -321,7 +321,9 @@ def _heed_vertices(model: CadModel, samples: EdgeSamples, sizing: ModelSizing) -
         start, end = samples.first[number], samples.first[number + 1]
         if start < end:
             for vertex, place in ((edge.start, start), (edge.end, end - 1)):
-                samples.wish[place] = min(samples.wish[place], wanted.get(vertex, np.inf))
+                samples.target_size[place] = min(
+                    samples.target_size[place], wanted.get(vertex, np.inf)
+                )
 
 
 def _own_wish(
@@ -387,7 +389,7 @@ def _heed_gaps(model: CadModel, samples: EdgeSamples, sizing: ModelSizing) -> No
     ratio = sizing.base.anisotropy if sizing.is_anisotropic else 1.0
     room = np.empty((len(samples.points), 6)), np.empty((len(model.edges), 6))
     narrowest = NARROWEST * model.diagonal
-    asked = samples.wish.copy()
+    asked = samples.target_size.copy()
     for (count, least, narrow), faces in by_wishes.items():
         edges = [samples.edges_of_face[face] for face in faces]
         first = np.zeros(len(faces) + 1, np.int64)
@@ -406,4 +408,4 @@ def _heed_gaps(model: CadModel, samples: EdgeSamples, sizing: ModelSizing) -> No
         sliver[sliver < HOPELESS * narrowest] = narrowest
         along = ratio if count is None else share
         wish = np.maximum(along * gap[heeded], np.maximum(sliver, least))
-        samples.wish[heeded] = np.minimum(samples.wish[heeded], wish)
+        samples.target_size[heeded] = np.minimum(samples.target_size[heeded], wish)

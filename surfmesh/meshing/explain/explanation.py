@@ -22,7 +22,6 @@ from surfmesh.errors import SizingError, printable
 from surfmesh.geometry.differential.projection import closest_point
 from surfmesh.geometry.planar.inside_loops import is_inside
 from surfmesh.geometry.surface import Surface, surface_label
-from surfmesh.kernels.fields.background import scalar_sizes_at
 from surfmesh.meshing.edges.edge_samples import EdgeSamples
 from surfmesh.meshing.edges.face_proximity import AcrossTo
 from surfmesh.meshing.explain.axis_sizes import (
@@ -198,7 +197,7 @@ def explain_model(
         return _along_axes(where, field, bounds, rows_at, others, slope)
     elsewhere = []
     if len(samples.points):
-        reach = samples.wish + slope * np.linalg.norm(samples.points - foot, axis=1)
+        reach = samples.target_size + slope * np.linalg.norm(samples.points - foot, axis=1)
         place = int(np.argmin(reach))
         elsewhere.append(_at_sample(model, wanted, samples, place))
     law = SizeLaw(surface, sizings[number], None)
@@ -315,7 +314,7 @@ def _best_sample(
 
     A size along an edge says nothing of directions across it; None: it holds in all of them.
     """
-    size = samples.wish
+    size = samples.target_size
     if direction is not None:
         size = size / np.maximum(np.abs(samples.tangent @ direction), np.finfo(float).eps)
     away = np.linalg.norm(samples.points - foot, axis=1)
@@ -359,9 +358,8 @@ def _explained(
 ) -> Explanation:  # fmt: skip
     """wish: of the field before gradation; elsewhere: (point (3,), its name, rule there) that the
     size may have grown from."""
-    foot, out = where.foot, np.empty(1)
-    scalar_sizes_at(field.background, field.chart.to_plane(where.uv[None]), out)
-    size = float(out[0])
+    foot = where.foot
+    size = float(field.sizes(field.chart.to_plane(where.uv[None]))[0])
     winner = _decided(found, wish)
     origin = ""
     if size < LOWERED * wish:
@@ -449,7 +447,7 @@ def _at_sample(
             groups.append(list(rows(rule.key, rule.sizing, point, None, None)))
     winners = [row for row in map(deciding, groups) if row is not None]
     least = min(winners, key=lambda row: row.size, default=None)
-    wish = float(samples.wish[place])
+    wish = float(samples.target_size[place])
     if least is None or wish < LOWERED * least.size:
         rule = "gap to another edge of a face"
         if wish > LOWERED * item.length:

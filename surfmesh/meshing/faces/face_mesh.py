@@ -16,11 +16,10 @@ from surfmesh.errors import SurfaceError, SurfmeshError
 from surfmesh.geometry.differential.projection import closest_point
 from surfmesh.geometry.differential.sides import find_sides
 from surfmesh.geometry.surface import Surface
-from surfmesh.kernels.fields.background import scalar_sizes_at
 from surfmesh.meshing.boundary.boundary_loops import BoundaryLoops, cut_line
 from surfmesh.meshing.boundary.boundary_recovery import recovered
 from surfmesh.meshing.boundary.coincident_nodes import coincident_nodes
-from surfmesh.meshing.edges.inner_sizes import wishes_along
+from surfmesh.meshing.edges.inner_sizes import sizes_along_edges
 from surfmesh.meshing.faces.crossing_segments import limits_where_crossing
 from surfmesh.meshing.faces.face_data import CoedgeNodes, FaceJob, FaceMesh
 from surfmesh.meshing.faces.face_parts import in_parts
@@ -38,7 +37,7 @@ from surfmesh.meshing.patch.gluing import glued, misglued
 from surfmesh.meshing.patch.optimise import Optimiser
 from surfmesh.meshing.patch.packing import packed_over
 from surfmesh.sizing.field.boundary_field import boundary_field, has_boundary_field
-from surfmesh.sizing.field.size_field import SizeField, inverse_sizes, size_field
+from surfmesh.sizing.field.size_field import SizeField, size_field
 from surfmesh.sizing.rules.size_limits import SizeLimits, along_lines
 
 FINER = 0.5
@@ -129,7 +128,7 @@ def edge_wishes(job: FaceJob) -> SizeLimits | None:
     try:
         surface, field = face_field(job)
         loops, fixed, _ = _loops(job, field)
-        return wishes_along(job.sizing, surface, field, loops, fixed)
+        return sizes_along_edges(job.sizing, surface, field, loops, fixed)
     except SurfmeshError:
         return None
 
@@ -146,7 +145,7 @@ def _meshed(job: FaceJob, unfold: bool = True) -> FaceMesh:
     optimiser.embedding.point[domain.node] = fixed  # the edges' nodes, not their images
     wishes: SizeLimits | None = None
     if job.limits is None:  # the edges heed them from now on
-        wishes = wishes_along(job.sizing, surface, field, loops, fixed)
+        wishes = sizes_along_edges(job.sizing, surface, field, loops, fixed)
     if job.optimise:
         changes = optimiser.run(first=job.limits is None)
         astray = np.zeros(len(domain.t.xy), bool)
@@ -171,9 +170,7 @@ def _meshed(job: FaceJob, unfold: bool = True) -> FaceMesh:
     parts = glued(surface, loops, domain, uv)
     slot = np.full(len(xy), -1, np.int64)
     slot[domain.node] = slots
-    sizes = np.empty(len(parts.place))
-    scalar_sizes_at(field.background, xy[parts.place], sizes)
-    sizes *= optimiser.embedding.scale[parts.place]
+    sizes = field.sizes(xy[parts.place]) * optimiser.embedding.scale[parts.place]
     bad = misglued(parts)
     if len(bad):
         finer = FINER * sizes[bad]
@@ -183,7 +180,7 @@ def _meshed(job: FaceJob, unfold: bool = True) -> FaceMesh:
         return FaceMesh(failure=f"its sides cannot be joined near ({place})", wishes=wishes)
     return FaceMesh(
         parts.points, slot[parts.place], parts.triangles, parts.uv_points, parts.uv_triangles,
-        sizes, inverse_sizes(field, xy, optimiser.embedding.scale[: len(xy)]), wishes,
+        sizes, field.roots_of_mesh(xy, optimiser.embedding.scale[: len(xy)]), wishes,
     )  # fmt: skip
 
 
@@ -220,7 +217,7 @@ def face_field(job: FaceJob) -> tuple[Surface, SizeField]:
             np.concatenate([piece.sizes for piece in real]),
             job.sizing.gradient,
             np.concatenate([piece.uv for piece in real]),
-            settled=True,
+            as_cut=True,
         )
         # an edge knows nothing of the sizes across it, but for those that gaps ask for
         if job.sizing.is_anisotropic and job.sizing.gap is None:
@@ -261,15 +258,14 @@ def _grown_inward(surface: Surface, job: FaceJob, real: list[CoedgeNodes]) -> Si
         uv = np.concatenate([uv, place])
         found = np.maximum(job.limits.sizes, job.sizing.min_size or 0.0)
         sizes = np.concatenate([sizes, found])
-    return boundary_field(surface, job.sizing, uv, sizes, settled=True)
+    return boundary_field(surface, job.sizing, uv, sizes, as_cut=True)
 
 
 def _agrees(field: SizeField, real: list[CoedgeNodes]) -> bool:
     """Is no segment of the boundary much longer than the sizes beside it are in all directions?"""
     for piece in real:
-        sizes = np.empty(len(piece.uv) - 1)
         middle = 0.5 * (piece.uv[1:] + piece.uv[:-1])
-        scalar_sizes_at(field.background, field.chart.to_plane(middle), sizes)
+        sizes = field.sizes(field.chart.to_plane(middle))
         if (np.linalg.norm(np.diff(piece.points, axis=0), axis=1) > LONGER * sizes).any():
             return False
     return True

@@ -80,7 +80,7 @@ class Measurements:
     @cached_property
     def metric_alpha(self) -> NDArray[np.float64] | None:
         """(m,) alpha in the metric, where sizes depend on the direction."""
-        return None if self.mesh.inverse_sizes is None else metric_alpha(self.mesh)
+        return None if self.mesh.metric_root_3d is None else metric_alpha(self.mesh)
 
     @cached_property
     def lengths(self) -> NDArray[np.float64]:
@@ -95,7 +95,7 @@ class Measurements:
     @cached_property
     def growth(self) -> Growth:
         """Of edges at a vertex; in the metric, where sizes depend on the direction."""
-        stretched = self.mesh.inverse_sizes is not None and self.metric_lengths is not None
+        stretched = self.mesh.metric_root_3d is not None and self.metric_lengths is not None
         return growth(self.mesh, self.metric_lengths if stretched else self.lengths)
 
     @cached_property

@@ -52,13 +52,13 @@ def boundary_field(
     uv: np.ndarray,
     sizes: np.ndarray,
     largest: float | None = None,
-    settled: bool = False,
+    as_cut: bool = False,
 ) -> SizeField:
     """Sizes that grow by ``sizing.gradient`` from ``sizes`` (n,) at ``uv`` (n, 2).
 
     ``largest``, model units, bounds them from above; left out, and on a cylinder in any case,
     the wishes do so as for any surface, with the diagonal of its box for their defaults.
-    None is smaller than ``min_size``, unless ``sizes`` are ``settled`` as they are.
+    None is smaller than ``min_size``, unless the sizes are ``as_cut``: those of edges.
     Raises ``SizingError`` for a surface whose metric changes, for a size law, and for sizes that
     are not positive numbers.
     """
@@ -76,7 +76,7 @@ def boundary_field(
             f"sizes on {surface.name!r} must be positive numbers, one for each of {len(uv)} "
             f"finite points; they have shape {sizes.shape}"
         )
-    if not settled:
+    if not as_cut:
         sizes = np.maximum(sizes, sizing.min_size or 0.0)
     if isinstance(surface, Cylinder) or largest is None:
         stated = sizing.max_size and (sizing.chord or sizing.angle or sizing.size)

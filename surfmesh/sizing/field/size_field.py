@@ -35,10 +35,11 @@ from surfmesh.kernels.fields.gradation import Metric, grade, patch_errors
 from surfmesh.sizing.field.field_cells import GRID_DEPTH, Cells, SourceCells, coarse_beside_fine
 from surfmesh.sizing.field.size_law import FieldNodes, SizeLaw, TensorLaw
 from surfmesh.sizing.field.small_sizes import small_sizes
+from surfmesh.sizing.metric_roots import uniform
 from surfmesh.sizing.options.sizing import Sizing
+from surfmesh.sizing.rules.direction_rates import has_even_curvature
 from surfmesh.sizing.rules.rim_size import Rims
 from surfmesh.sizing.rules.size_limits import SizeLimits
-from surfmesh.sizing.rules.turning_direction import is_even
 
 ROOT_CELLS = 2304
 """About how many cells the search starts with: a smooth surface needs no more."""
@@ -126,6 +127,24 @@ class SizeField:
         )
         return int(min(area * 2.0 / np.sqrt(3.0), COUNTABLE)) + 100
 
+    def sizes(self, xy: np.ndarray) -> np.ndarray:
+        """Wanted edge lengths (n,) at points xy (n, 2) of the scaled plane, the shorter of two."""
+        out = np.empty(len(xy))
+        scalar_sizes_at(self.background, np.ascontiguousarray(xy), out)
+        return out
+
+    def metric_roots_3d(self, xy: np.ndarray) -> np.ndarray:
+        """W (n, 6) at points xy (n, 2), for steps in space: see ``metric_roots``."""
+        if not self.is_anisotropic:
+            return uniform(1.0 / self.sizes(xy))
+        out = np.empty((len(xy), 6))
+        metric_roots_3d_at(self.background, np.ascontiguousarray(xy), out)
+        return out
+
+    def roots_of_mesh(self, xy: np.ndarray, scale: np.ndarray) -> np.ndarray | None:
+        """The same for sizes times ``scale`` (n,); None where ``sizing`` asks for no directions."""
+        return self.metric_roots_3d(xy) / scale[:, None] if self.sizing.is_anisotropic else None
+
     def tensors(self, xy: np.ndarray) -> np.ndarray:
         """Size tensors (n, 3) at points xy (n, 2) of the scaled plane."""
         out = np.empty((len(xy), 3))
@@ -156,21 +175,6 @@ def size_field(
     the wanted sizes need an unreasonable number of cells.
     """
     return _Builder(surface, sizing, sides, SizeLaw(surface, sizing, limits, rims)).build()
-
-
-def inverse_sizes(field: SizeField, xy: np.ndarray, scale: np.ndarray) -> np.ndarray | None:
-    """W (n, 6) at points xy (n, 2) for sizes times ``scale`` (n,); None if nothing else is
-    wished than isotropic sizes."""
-    if not field.sizing.is_anisotropic:
-        return None
-    xy, found = np.ascontiguousarray(xy), np.zeros((len(xy), 6))
-    if field.is_anisotropic:
-        metric_roots_3d_at(field.background, xy, found)
-    else:
-        sizes = np.empty(len(xy))
-        scalar_sizes_at(field.background, xy, sizes)
-        found[:, [0, 3, 5]] = 1.0 / sizes[:, None]
-    return found / scale[:, None]
 
 
 def plane_field(
@@ -271,8 +275,8 @@ class _Builder:
             deep = np.concatenate([deep[~split], np.repeat(deep[split], 4)])
             patch = np.concatenate([patch[~split], self._patches(children)])
             cells = cells.chosen(~split).joined_with(children)
-        if self.nodes.is_anisotropic and not is_even(self.surface):
-            self._settle(patch)
+        if self.nodes.is_anisotropic and not has_even_curvature(self.surface):
+            self._limit_longer_sizes(patch)
         self._blunt_poles()
         self.nodes = self.nodes.in_order()
         tree.append(cells.index)  # every leaf is split once more, onto its test nodes
@@ -406,7 +410,7 @@ class _Builder:
         self.changed[:] = self.sweep
         self._grade(patch)
 
-    def _settle(self, patch: np.ndarray) -> None:
+    def _limit_longer_sizes(self, patch: np.ndarray) -> None:
         """Longer sizes where directions turn, and shorter ones where the longer are not reached.
 
         The width of a triangle is then known: it is at most what growth allows in any metric.
@@ -416,7 +420,7 @@ class _Builder:
         width = size.copy()
         self.changed[:] = self.sweep
         self._spread(patch, width, round_metric)
-        long = np.minimum(long, self.law.turned(nodes, width))
+        long = np.minimum(long, self.law.longest_along(nodes, width))
         self._grade_anew(patch, size, long)
         ratio = REACHED * nodes.long / nodes.size
         size = self.law.regained(nodes, ratio)
@@ -457,9 +461,9 @@ class _Builder:
         error, extent = np.empty(len(patch)), np.empty(len(patch))
         nodes = self.nodes
         patch_errors(patch, nodes.inverse_sizes(), step, self._largest, error, extent)
-        graded = (nodes.size < 0.98 * nodes.wish)[patch].any(axis=1)
+        graded = (nodes.size < 0.98 * nodes.target_size)[patch].any(axis=1)
         if nodes.is_anisotropic:
-            graded |= (nodes.long < 0.98 * nodes.long_wish)[patch].any(axis=1)
+            graded |= (nodes.long < 0.98 * nodes.long_target_size)[patch].any(axis=1)
         allowed = np.where(graded, GRADED_ERROR, TEST_ERROR)
         by_sources = self.law.limits is not None and self.law.limits.uv is not None
         coarse = FINEST_STRETCHED if nodes.is_anisotropic else FINEST_GRADED

@@ -1,4 +1,4 @@
-"""The ungraded wish at points of one surface, with what a size field stores there."""
+"""The ungraded target sizes at points of one surface, with what a size field stores there."""
 
 from collections.abc import Callable, Iterator
 from typing import NamedTuple
@@ -12,11 +12,12 @@ from surfmesh.geometry.differential.fundamental_forms import (
     forms_from_derivatives,
 )
 from surfmesh.geometry.surface import Surface
+from surfmesh.sizing.metric_roots import DIAGONAL, outer, symmetric_root
 from surfmesh.sizing.options.sizing import Sizing
+from surfmesh.sizing.rules.direction_rates import ROUND, direction_rates, longest_along
 from surfmesh.sizing.rules.rim_size import Rims, RimSizes
 from surfmesh.sizing.rules.size_bounds import SizeBounds
 from surfmesh.sizing.rules.size_limits import SizeLimits
-from surfmesh.sizing.rules.turning_direction import ROUND, turning_bound, turning_rates
 
 ALIKE = 1.01
 """Ratio up to which they are one size: on flat places ``along`` is round-off."""
@@ -30,24 +31,35 @@ class FieldNodes(NamedTuple):
     """
 
     size: np.ndarray  # (n,) wanted edge length
-    wish: np.ndarray  # (n,) the same before sources and gradation have lowered it
+    target_size: np.ndarray  # (n,) the same before sources and gradation have lowered it
     root: np.ndarray  # (n, 3) I^(1/2) in the scaled plane
     normal: np.ndarray  # (n, 3) unit, zero at degenerate points
     point: np.ndarray  # (n, 3)
     long: np.ndarray  # (n,) wanted length along ``along``
-    long_wish: np.ndarray  # (n,)
+    long_target_size: np.ndarray  # (n,)
     along: np.ndarray  # (n, 3) unit tangent
     jacobian: np.ndarray  # (n, 3, 2) r_x, r_y
     asked: np.ndarray  # (n, 2) size and long before gradation
     curvature: np.ndarray  # (n, 2) principal curvatures
-    turning: np.ndarray  # (n, 2) rates at which ``along`` fans out and bends, see there
+    direction_rates: np.ndarray  # (n, 2) at which ``along`` fans out and bends, see there
 
     @classmethod
-    def isotropic(cls, size, wish, root, normal, point) -> "FieldNodes":
+    def isotropic(cls, size, target_size, root, normal, point) -> "FieldNodes":
         no, pairs = np.empty(0), np.empty((0, 2))
         jacobian = np.empty((0, 3, 2))
         return cls(
-            size, wish, root, normal, point, no, no, np.empty((0, 3)), jacobian, pairs, pairs, pairs
+            size,
+            target_size,
+            root,
+            normal,
+            point,
+            no,
+            no,
+            np.empty((0, 3)),
+            jacobian,
+            pairs,
+            pairs,
+            pairs,
         )
 
     @classmethod
@@ -102,19 +114,10 @@ class FieldNodes(NamedTuple):
         """
         if not self.is_anisotropic:
             return np.empty((0, 6))
-        t = self.along
         less = 1.0 / self.size - 1.0 / self.long
-        first, second = [0, 0, 0, 1, 1, 2], [0, 1, 2, 1, 2, 2]
-        w = -less[:, None] * t[:, first] * t[:, second]
-        w[:, [0, 3, 5]] += 1.0 / self.size[:, None]
+        w = outer(-less[:, None] * self.along, self.along)
+        w[:, DIAGONAL] += 1.0 / self.size[:, None]
         return w
-
-
-def symmetric_root(e: np.ndarray, f: np.ndarray, g: np.ndarray, s: np.ndarray) -> np.ndarray:
-    """Square root (n, 3) of symmetric 2 x 2 matrices (e f; f g), s = sqrt(det)."""
-    # (I + s Id) / t, t^2 = tr I + 2 s
-    t = np.sqrt(np.maximum(e + g + 2.0 * s, np.finfo(float).tiny))
-    return np.stack([(e + s) / t, f / t, (g + s) / t], axis=1)
 
 
 def root_of_form(forms: FundamentalForms, rates: np.ndarray) -> np.ndarray:
@@ -182,12 +185,12 @@ class SizeLaw:
             size = np.clip(np.minimum(size, self.sizing.law_sizes(point)), *self.clamp)
         for rows, _, allowed in self.rims_at(xy, uv, point):
             size[rows] = np.minimum(size[rows], np.maximum(allowed, self.clamp[0]))
-        wish = size
+        target_size = size
         if self.limits is not None:
             size = np.minimum(size, self._limited(point))
             if self.limits.uv is None:
-                wish = size
-        return FieldNodes.isotropic(size, wish, root, forms.normal, point)
+                target_size = size
+        return FieldNodes.isotropic(size, target_size, root, forms.normal, point)
 
     def _anisotropic(
         self, xy: np.ndarray, uv: np.ndarray, point: np.ndarray, ru: np.ndarray, rv: np.ndarray,
@@ -216,18 +219,18 @@ class SizeLaw:
                 rim, self.clamp[0], point[rows], forms.normal[rows], along[rows], size[rows],
                 long[rows],
             )  # fmt: skip
-        wish, long_wish = size, long
+        target_size, long_target_size = size, long
         if self.limits is not None:
             along, size, long = self._limited_both(
                 self.limits, self._least(), point, forms.normal, along, size, long
             )
             if self.limits.uv is None:
-                wish, long_wish = size, long
+                target_size, long_target_size = size, long
         jacobian = np.stack([ru * rates[:, :1], rv * rates[:, 1:]], axis=2)
         return FieldNodes(
-            size, wish, root, forms.normal, point, long, long_wish, along, jacobian,
+            size, target_size, root, forms.normal, point, long, long_target_size, along, jacobian,
             np.stack([size, long], axis=1), np.stack([k.k1, k.k2], axis=1),
-            turning_rates(self.surface, uv, k, first[:, 0], size),
+            direction_rates(self.surface, uv, k, first[:, 0], size),
         )  # fmt: skip
 
     def _fitted(
@@ -261,10 +264,10 @@ class SizeLaw:
         )
         return rows[flat], rim.chosen(np.flatnonzero(flat))
 
-    def turned(self, nodes: FieldNodes, size: np.ndarray) -> np.ndarray:
+    def longest_along(self, nodes: FieldNodes, size: np.ndarray) -> np.ndarray:
         """Largest ``long`` (n,) where directions turn, of triangles that are ``size`` (n,) wide."""
         k1, k2 = nodes.curvature.T
-        bound = turning_bound(nodes.turning, k1, k2, size, self.sizing.chord or 0.0)
+        bound = longest_along(nodes.direction_rates, k1, k2, size, self.sizing.chord or 0.0)
         return np.where(nodes.asked[:, 1] > ROUND * nodes.asked[:, 0], bound, np.inf)
 
     def regained(self, nodes: FieldNodes, ratio: np.ndarray) -> np.ndarray:
@@ -280,7 +283,7 @@ class SizeLaw:
 
     def _least(self) -> float:
         """No limit goes below it; sizes that edges have been cut with hold as they are."""
-        if self.limits.settled:
+        if self.limits.as_cut:
             return 0.0
         return self.clamp[0] if self.limits.uv is None else self.sizing.min_size or 0.0
 

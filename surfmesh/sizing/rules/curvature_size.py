@@ -47,7 +47,7 @@ def chord_size(k1: np.ndarray, k2: np.ndarray, chord: float) -> np.ndarray:
     return np.maximum(size, 2.0 * chord)
 
 
-def turning_factor(k1: np.ndarray, k2: np.ndarray) -> np.ndarray:
+def dihedral_factor(k1: np.ndarray, k2: np.ndarray) -> np.ndarray:
     """c with angle = c h (radians) between two triangles of side h that share an edge.
 
     Across an edge along t, with n at right angles to it, the slope of linear interpolation of
@@ -60,7 +60,7 @@ def turning_factor(k1: np.ndarray, k2: np.ndarray) -> np.ndarray:
 def angle_size(k1: np.ndarray, k2: np.ndarray, angle: float) -> np.ndarray:
     """Edge length (n,) at which neighbouring triangles turn by at most ``angle`` (degrees).
 
-    As ``turning_factor`` has it, with a reserve.
+    As ``dihedral_factor`` has it, with a reserve.
     """
     with np.errstate(divide="ignore", over="ignore", invalid="ignore"):  # both may be infinite
         mean, bent = np.where(k1 == -k2, 0.0, k1 + k2), np.where(k1 == k2, 0.0, k1 - k2)

@@ -4,8 +4,8 @@ import numpy as np
 
 from surfmesh.geometry.differential.fundamental_forms import curvatures, forms_from_derivatives
 from surfmesh.geometry.surface import Surface
+from surfmesh.sizing.rules.direction_rates import ROUND, direction_rates, longest_along
 from surfmesh.sizing.rules.size_bounds import SizeBounds
-from surfmesh.sizing.rules.turning_direction import ROUND, turning_bound, turning_rates
 
 
 def size_along(
@@ -21,8 +21,8 @@ def size_along(
     k = curvatures(forms)
     sizes = bounds.principal(k.k1, k.k2)
     shorter, along_first = sizes.min(axis=1), sizes[:, 0] > sizes[:, 1]
-    rates = turning_rates(surface, uv, k, along_first, shorter)
-    bound = turning_bound(rates, k.k1, k.k2, shorter, bounds.sizing.chord or 0.0)
+    rates = direction_rates(surface, uv, k, along_first, shorter)
+    bound = longest_along(rates, k.k1, k.k2, shorter, bounds.sizing.chord or 0.0)
     stretched = sizes.max(axis=1) > ROUND * shorter
     sizes = np.where(stretched[:, None], np.minimum(sizes, bound[:, None]), sizes)
     cosines = [
