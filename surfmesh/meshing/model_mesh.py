@@ -109,7 +109,7 @@ class _Rounds:
                 mesh = self._joined()
         if self.how.strict:
             require_all_meshed(self.model, self.faces)
-        mesh = replace(mesh, promises=self.wanted.promises(len(self.faces)))
+        mesh = mesh.replaced(promises=self.wanted.promises(len(self.faces)))
         return mesh.with_warnings(*not_refined(not_refined_yet))
 
     def _round(

@@ -14,7 +14,6 @@ from surfmesh.geometry.differential.sides import SideTopology, find_sides
 from surfmesh.geometry.files.known_facts import known_facts
 from surfmesh.geometry.formulas.kinks import KinkLine, kink_lines
 from surfmesh.geometry.surface import Surface
-from surfmesh.kernels.fields.background import scalar_sizes_at
 from surfmesh.meshing.boundary.boundary_loops import BoundaryLoops, boundary_loops
 from surfmesh.meshing.boundary.boundary_recovery import DomainMesh, recovered
 from surfmesh.meshing.boundary.cusps import Cusp, closed_at, find_cusps, without_cusps
@@ -29,7 +28,7 @@ from surfmesh.meshing.patch.packing import packed_over
 from surfmesh.meshing.patch.refinement_loop import StagnationCheck, refined_in_rounds
 from surfmesh.meshing.progress import Progress, Stopwatch
 from surfmesh.result.surface_mesh import SurfaceMesh
-from surfmesh.sizing.field.size_field import SizeField, inverse_sizes, size_field
+from surfmesh.sizing.field.size_field import SizeField, size_field
 from surfmesh.sizing.options.sizing import Sizing
 from surfmesh.sizing.rules.rim_size import Rims
 from surfmesh.sizing.rules.size_limits import SizeLimits
@@ -213,8 +212,7 @@ def _in_space(
     uv = field.chart.to_uv(xy)
     uv[domain.node] = loops.uv  # to the last bit
     parts = glued(surface, loops, domain, uv)
-    sizes = np.empty(len(parts.place))
-    scalar_sizes_at(field.background, xy[parts.place], sizes)
+    sizes = field.sizes(xy[parts.place])
     mesh = SurfaceMesh(
         points=parts.points,
         triangles=parts.triangles,
@@ -222,7 +220,7 @@ def _in_space(
         uv_triangles=parts.uv_triangles,
         surfaces=(surface,),
         sizes=sizes * scale[parts.place],
-        inverse_sizes=inverse_sizes(field, xy, scale[: len(xy)]),
+        metric_root_3d=field.roots_of_mesh(xy, scale[: len(xy)]),
         sizing=field.sizing,
         seconds=watch.seconds,
         one_sided=sides.one_sided and not len(surface.loops),

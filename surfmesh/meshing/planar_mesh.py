@@ -10,7 +10,6 @@ import numpy as np
 
 from surfmesh.geometry.files.known_facts import known_facts
 from surfmesh.geometry.planar.planar_domain import PlanarDomain
-from surfmesh.kernels.fields.background import scalar_sizes_at
 from surfmesh.kernels.insertion.insertion import label_patches
 from surfmesh.meshing.boundary.boundary_recovery import DomainMesh, recovered_regions
 from surfmesh.meshing.boundary.planar_segments import (
@@ -184,8 +183,7 @@ def _in_space(
     uv = field.chart.to_uv(t.xy[:vertices])
     met = inside.node >= 0
     uv[inside.node[met]] = cut.uv[met]  # to the last bit
-    sizes = np.empty(vertices)
-    scalar_sizes_at(field.background, t.xy[:vertices], sizes)
+    sizes = field.sizes(t.xy[:vertices])
     regions = _region_numbers(t, cut, inside.node, patch, patches)
     return SurfaceMesh(
         points=np.column_stack([uv, np.zeros(vertices)])[used],
