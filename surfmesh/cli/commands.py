@@ -352,7 +352,7 @@ def _on_surface(found: Any, surface: Any) -> Any:
         return _facing(found.replaced(surfaces=(surface,), facts=known_facts(surface)))
 
     from surfmesh.cad.model.facts import model_facts
-    from surfmesh.meshing.model_mesh import orientation
+    from surfmesh.meshing.solids.joining import orientation
 
     turned, solids = orientation(surface)
     known = found.face_ids.min() >= 0 and found.face_ids.max() < len(turned)
