@@ -115,8 +115,7 @@ def mesh(
     surface, wishes = _settled(surface, sizing)
     if isinstance(surface, CadModel):
         made = mesh_model(surface, wishes, optimise, progress, strict, simplify, jobs)
-        return _logged(made if order == 1 else of_second_order(made, surface), surface)
-    if isinstance(surface, PlanarDomain):
+    elif isinstance(surface, PlanarDomain):
         made = mesh_planar(surface, wishes, optimise, progress, simplify)
     else:
         made = mesh_parametric(surface, wishes, optimise, progress)

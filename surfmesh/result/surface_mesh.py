@@ -35,7 +35,7 @@ from surfmesh.result.mesh_part import (
     rows,
 )
 from surfmesh.result.mesh_parts import EdgeLinks, ModelLinks, Parametrisation, Record
-from surfmesh.result.quadratic_triangles import edge_rows, six_nodes
+from surfmesh.result.quadratic_triangles import edge_rows, node_values, six_nodes
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Mapping
@@ -253,6 +253,25 @@ class SurfaceMesh(Arrays):
         if self.order == 1:
             return self.triangles
         return six_nodes(self.triangles, self.connectivity, len(self.points))
+
+    @property
+    def node_sizes(self) -> FloatArray | None:
+        """Target sizes at ``nodes``: halfway between the ends in the middle of an edge."""
+        return (
+            self.sizes
+            if self.sizes is None or self.order == 1
+            else node_values(self.sizes, self.edges)
+        )
+
+    @property
+    def edge_elements(self) -> NDArray[np.integer[Any]]:
+        """(k, 2) or, for order 2, (k, 3) rows of ``nodes`` of the segments on CAD edges."""
+        if self.edge_segments is None:
+            return np.empty((0, 1 + self.order), np.int32)
+        if self.order == 1:
+            return self.edge_segments
+        middles = len(self.points) + edge_rows(self.connectivity, self.edge_segments)
+        return np.column_stack((self.edge_segments, middles))
 
     def face_name(self, face: int) -> str:
         """Name of face number ``face``, or ``face 3`` when it has none."""
