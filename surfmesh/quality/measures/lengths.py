@@ -6,6 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from surfmesh.result.surface_mesh import SurfaceMesh
+from surfmesh.sizing.metric_roots import unpacked
 
 QUASI_UNIT = (0.5**0.5, 2.0**0.5)  # metric lengths that conform to the wanted sizes
 GROWTH_SLACK = 0.01  # relative: sizes are interpolated between the nodes of the field
@@ -60,8 +61,7 @@ def stretched(
     metric_root_3d: NDArray[np.float64], step: NDArray[np.float64]
 ) -> NDArray[np.float64]:
     """Steps (k, 3) in wanted lengths: W d, for W (k, 6)."""
-    rows = metric_root_3d[:, [[0, 1, 2], [1, 3, 4], [2, 4, 5]]]
-    return np.einsum("kij,kj->ki", rows, step)
+    return np.einsum("kij,kj->ki", unpacked(metric_root_3d), step)
 
 
 class Growth(NamedTuple):
