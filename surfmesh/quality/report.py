@@ -254,20 +254,20 @@ def _checked(mesh: SurfaceMesh) -> Report:
     lengths = edge_lengths(mesh)
     metric = None if mesh.sizes is None else metric_lengths(mesh, lengths)
     grown = growth(mesh, lengths if mesh.metric_root_3d is None else metric)
-    slope = getattr(mesh.sizing, "gradient", None) if finite else None
+    slope = mesh.sizing.gradient if mesh.sizing and finite else None
     steep = None if slope is None else size_growth(mesh, lengths, slope)
     wanted = None if mesh.metric_root_3d is None else metric_alpha(mesh)
     fit = deviation(mesh, shape.area) if finite else None
     tolerances = Tolerances.of(mesh)
     back = surface_deviation(mesh, fit, tolerances)
-    chord = getattr(mesh.sizing, "chord", None) or tolerances.base_chord
+    chord = (mesh.sizing and mesh.sizing.chord) or tolerances.base_chord
     facts = mesh.facts or ModelFacts()
     unit_share = None
     if metric is not None and len(metric):
         low, high = QUASI_UNIT
         unit_share = float(np.count_nonzero((metric >= low) & (metric <= high)) / len(metric))
     used = chord_use(mesh, fit, tolerances)
-    angle = getattr(mesh.sizing, "angle", None) or tolerances.base_angle
+    angle = (mesh.sizing and mesh.sizing.angle) or tolerances.base_angle
     dihedrals = angles_within_faces(mesh, tolerances.angle) if finite else None
     worst = None if dihedrals is None else largest_angle(mesh, dihedrals)
     turned, bent, limits = None, None, []
@@ -368,7 +368,7 @@ def _checked(mesh: SurfaceMesh) -> Report:
         length_max=None if metric is None else _over(np.max, metric),
         growth_max=grown.largest,
         growth_p99=grown.p99,
-        growth=getattr(mesh.sizing, "growth", None),
+        growth=mesh.sizing.growth if mesh.sizing else None,
         above_growth_share=None if steep is None else steep.share,
         size_growth_max=None if steep is None else steep.largest,
         size_growth_point=None if steep is None else steep.point,

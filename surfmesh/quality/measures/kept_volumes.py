@@ -13,10 +13,10 @@ def volumes_not_kept(
 ) -> tuple[list[str], list[str]]:
     """Sentences for solids whose volume is farther off than was asked for: problems, and those
     that a ``min_size`` of the user's forbids. The error grows with the square of the size."""
-    asked = getattr(mesh.sizing, "volume", None)
+    asked = mesh.sizing and mesh.sizing.volume
     if asked is None:
         return [], []
-    least = getattr(mesh.sizing, "min_size", None) or 0.0
+    least = (mesh.sizing and mesh.sizing.min_size) or 0.0
     broken, forbidden = [], []
     for row in solids:
         if row.volume is None or not row.volume_exact:
