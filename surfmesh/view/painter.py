@@ -69,7 +69,7 @@ def paint(
     order = np.argsort(depth, kind="stable")
     axes.add_collection(
         PolyCollection(
-            corners[order],
+            corners[order],  # type: ignore[arg-type]  # its stubs know no arrays
             facecolors=faces[order],
             edgecolors=rims[order],
             linewidths=widths[order],

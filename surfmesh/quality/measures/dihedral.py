@@ -50,7 +50,7 @@ def angles_within_faces(
     angles = np.degrees(dihedral_angles(mesh.points, mesh.triangles, pairs))
     faces = mesh.face_ids[pairs[:, 0] // 3]
     if limits is None:
-        limits = np.array([getattr(mesh.sizing, "angle", None) or np.inf])
+        limits = np.array([(mesh.sizing and mesh.sizing.angle) or np.inf])
     limits = np.where(np.isfinite(limits), limits, DEFAULT_ANGLE)
     limits = np.broadcast_to(limits, len(mesh.surfaces)) if len(limits) == 1 else limits
     large = np.flatnonzero(angles > limits[faces] * (1 + SLACK))

@@ -57,7 +57,7 @@ def folds(mesh: SurfaceMesh, cosine: NDArray[np.float32]) -> Folds:
     ours = cosine < FOLDED
     own, off, moved = np.zeros(len(cosine), bool), np.zeros(len(cosine)), np.zeros(len(cosine))
     nearest = 0.0
-    radius = sharp_radius(getattr(mesh.sizing, "chord", None), _diagonal(mesh))
+    radius = sharp_radius(mesh.sizing and mesh.sizing.chord, _diagonal(mesh))
     bad = np.flatnonzero(ours)
     for face in np.unique(mesh.face_ids[bad]):
         some = bad[mesh.face_ids[bad] == face]
