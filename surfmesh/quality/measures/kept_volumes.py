@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from surfmesh.geometry.surface import surface_kind
 from surfmesh.quality.measures.by_solid import SolidRow
 from surfmesh.result.surface_mesh import SurfaceMesh
 
@@ -39,6 +40,6 @@ def _curved_size(mesh: SurfaceMesh, solid: int) -> float:
     """Mean wanted size on the curved faces of a solid; infinite where nothing is known."""
     if mesh.sizes is None or mesh.solid_ids is None or not mesh.surfaces:
         return np.inf
-    curved = np.array([getattr(surface, "kind", "") != "plane" for surface in mesh.surfaces])
+    curved = np.array([surface_kind(surface) != "plane" for surface in mesh.surfaces])
     of = (mesh.solid_ids == solid).any(axis=1) & curved[mesh.face_ids]
     return float(mesh.sizes[mesh.triangles[of]].mean()) if of.any() else np.inf

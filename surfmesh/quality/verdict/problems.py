@@ -6,6 +6,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from surfmesh.geometry.formulas.parametric import ParametricSurface
 from surfmesh.quality.measures.against_model import Unexpected
 from surfmesh.quality.measures.bodies import BodyPair
 from surfmesh.quality.measures.by_solid import SolidRow
@@ -207,7 +208,7 @@ def intersections(mesh: SurfaceMesh, meeting: tuple[MeetingPair, ...], count: in
     names = dict.fromkeys(mesh.face_name(face) for face in first.faces)
     many = f"{count:,} pair{'s' * (count > 1)}"
     advice = ""
-    if any(hasattr(surface, "formulas") for surface in mesh.surfaces):
+    if any(isinstance(surface, ParametricSurface) for surface in mesh.surfaces):
         advice = "; lower the sizes there, or say embedded = false in the facts of the surface"
     elif mesh.surfaces:
         advice = "; lower the sizes there, or repair the model if its own faces cross"
