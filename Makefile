@@ -8,12 +8,11 @@ BIN := $(VENV)/bin
 LOWEST := .venv-lowest
 
 # what the lowest versions are tried with: all that calls the libraries, little of what is our own
-CORE := tests/geometry tests/sizing tests/result/test_formats.py tests/result/test_format_groups.py \
-    tests/result/test_view.py tests/result/test_cli.py tests/result/test_surface_mesh.py \
-    tests/result/test_second_opinion.py \
-    tests/meshing/test_gallery_meshes.py tests/meshing/test_planar_regions.py \
-    tests/cad/test_convert.py tests/cad/test_from_cadquery.py tests/cad/test_reading.py \
-    tests/cad/test_selection.py
+CORE := tests/geometry tests/sizing tests/result/test_surface_mesh.py tests/cli/test_cli.py \
+    tests/io/test_formats.py tests/io/test_format_groups.py tests/view/test_view.py \
+    tests/quality/opinion tests/whole/test_gallery_meshes.py tests/whole/test_planar_regions.py \
+    tests/cad/model/test_convert.py tests/cad/cadquery tests/cad/reading/test_read_file.py \
+    tests/cad/selection
 
 # $(call install,ENVIRONMENT,CONSTRAINTS,REQUIREMENT): uv does it in seconds, pip where uv cannot
 define install
