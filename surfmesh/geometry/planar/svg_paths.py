@@ -12,11 +12,11 @@ from xml.etree import ElementTree
 import numpy as np
 
 from surfmesh.errors import DomainError, printable
+from surfmesh.geometry.number_range import RANGE
 from surfmesh.geometry.text_file import text_of
 
 DEFAULT_TOLERANCE = 1e-3  # of the diagonal, between a curve and its polyline
 MOST_PIECES = 100_000  # of one curve: a tolerance that asks for more is a mistake
-FARTHEST = 1e100  # coordinate: squares of differences are finite
 MOST_ELEMENTS = 100_000  # of a drawing, each <use> in full
 DEEPEST = 100  # elements within each other
 LINK = "{http://www.w3.org/1999/xlink}href"
@@ -151,8 +151,8 @@ def _require_numbers(label: str, segments: list) -> None:
         numbers = _numbers(segment)
         if not all(math.isfinite(x) for x in numbers):
             raise DomainError(f"{label}: has a number that is not finite")
-        if any(abs(x) > FARTHEST for x in numbers):
-            raise DomainError(f"{label}: has a number beyond {FARTHEST:g}: scale the drawing")
+        if any(abs(x) > RANGE.square for x in numbers):
+            raise DomainError(f"{label}: has a number beyond {RANGE.square:g}: scale the drawing")
 
 
 def _polyline(segments: list, tolerance: float, label: str) -> np.ndarray:
