@@ -52,7 +52,7 @@ PROJECTIONS = 4
 def mesh_face(job: FaceJob) -> FaceMesh:
     """Mesh one face. Never raises for what is wrong with the face: see ``failure``."""
     if job.exact is not None and job.exact.at_once:
-        return FaceMesh(failure=job.exact.at_once, hopeless=True)
+        return FaceMesh(failure=job.exact.at_once, unmeshable=True)
     reason = no_point(job)
     if reason and beyond_a_turn(job):
         return FaceMesh(failure=reason)
@@ -81,21 +81,21 @@ def _mesh_rest(job: FaceJob) -> FaceMesh:
             return _never_empty(job, _meshed(job))
         except SurfaceError:
             if job.exact is not None and job.exact.fault:
-                return FaceMesh(failure=job.exact.fault, hopeless=True)
+                return FaceMesh(failure=job.exact.fault, unmeshable=True)
             opened = untangled_job(job)
             if opened is None:
                 if job.exact is not None and job.exact.touch:
-                    return FaceMesh(failure=job.exact.touch, hopeless=True)
+                    return FaceMesh(failure=job.exact.touch, unmeshable=True)
                 raise
             return _never_empty(job, _meshed(opened, unfold=False))
     except SurfmeshError as error:
         closed = filled_face(job, str(error)) if job.last else None
         if closed is not None:
             return closed
-        wishes = None
+        refinement = None
         if error.where is not None:
-            wishes = limits_where_crossing(job, np.atleast_2d(error.where))
-        return FaceMesh(failure=str(error), wishes=wishes)
+            refinement = limits_where_crossing(job, np.atleast_2d(error.where))
+        return FaceMesh(failure=str(error), refinement=refinement)
     except Exception as error:  # a mistake of ours: it must not take the other faces with it
         at = extract_tb(error.__traceback__)[-1]
         return FaceMesh(
@@ -117,7 +117,7 @@ def _never_empty(job: FaceJob, mesh: FaceMesh) -> FaceMesh:
     return replace(mesh, failure="nothing is left of it at sizes this coarse")
 
 
-def edge_wishes(job: FaceJob) -> SizeLimits | None:
+def edge_refinement(job: FaceJob) -> SizeLimits | None:
     """What the sizes inside a face ask for along its edges, before it is meshed."""
     try:
         surface, field = face_field(job)
@@ -140,7 +140,7 @@ def _meshed(job: FaceJob, unfold: bool = True) -> FaceMesh:
         place = ", ".join(f"{x:.6g}" for x in space.points[space.non_manifold[0]])
         return FaceMesh(
             failure=f"its sides cannot be joined near ({place})",
-            wishes=joined(finer, _round_tubes(surface, job)),
+            refinement=joined(finer, _round_tubes(surface, job)),
         )
     along = None
     if first:  # the edges follow them from now on
@@ -247,38 +247,35 @@ def _nearest(points: np.ndarray, wanted: np.ndarray) -> np.ndarray:
 
 def _loops(job: FaceJob, field: SizeField) -> tuple[BoundaryLoops, np.ndarray]:
     """Nodes and segments in (u, v), with their points; the nodes' places in the job."""
-    uv, numbers, points, slots, segments = [], [], [], [], []
+    parts, rings = [], []
     slot = total = 0
     for loop in job.loops:
         start = total
         for piece in loop:
-            count = len(piece.numbers)
-            place = slot + np.arange(count)
-            slot += count
-            if piece.degenerate:
-                t, line = cut_line(field, piece.uv[0], piece.uv[-1], 1)
-                uv.append(line[:-1])
-                place = np.full(len(t), place[0])
-                numbers.append(np.full(len(t) - 1, piece.numbers[0]))
-                points.append(np.repeat(piece.points[:1], len(t) - 1, axis=0))
-            else:
-                uv.append(piece.uv[:-1])
-                numbers.append(piece.numbers[:-1])
-                points.append(piece.points[:-1])
-            slots.append(place[:-1])
-            total += len(place) - 1
+            parts.append(_without_end(piece, field, slot))
+            slot += len(piece.numbers)
+            total += len(parts[-1][0])
         ring = np.arange(start, total)
-        segments.append(np.stack([ring, np.roll(ring, -1)], axis=1))
-    uv, numbers = np.concatenate(uv), np.concatenate(numbers)
-    points, slots = np.concatenate(points), np.concatenate(slots)
-    ring_segments = np.concatenate(segments)
-    kept = coincident_nodes(uv, numbers, ring_segments)
-    nodes, row = np.unique(kept, return_inverse=True)
-    segments = row[ring_segments].astype(np.int32)
+        rings.append(np.stack([ring, np.roll(ring, -1)], axis=1))
+    uv, numbers, points, slots = (np.concatenate(part) for part in zip(*parts))
+    along = np.concatenate(rings)
+    nodes, row = np.unique(coincident_nodes(uv, numbers, along), return_inverse=True)
+    segments = row[along].astype(np.int32)
     segments = segments[segments[:, 0] != segments[:, 1]]
     if len(np.unique(segments, axis=0)) < len(segments):
         raise SurfaceError(f"the boundary of {job.surface.name!r} runs twice the same way")
-    uv, numbers, points, slots = uv[nodes], numbers[nodes], points[nodes], slots[nodes]
-    _, first, inverse = np.unique(numbers, return_index=True, return_inverse=True)
+    _, first, inverse = np.unique(numbers[nodes], return_index=True, return_inverse=True)
     identity = first[inverse].astype(np.int64)
-    return BoundaryLoops(uv, segments, identity, points=points), slots
+    return BoundaryLoops(uv[nodes], segments, identity, points=points[nodes]), slots[nodes]
+
+
+def _without_end(
+    piece: CoedgeNodes, field: SizeField, slot: int
+) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
+    """Parameters, numbers, points and slots of the nodes of one coedge but the last."""
+    if not piece.degenerate:
+        slots = slot + np.arange(len(piece.numbers) - 1)
+        return piece.uv[:-1], piece.numbers[:-1], piece.points[:-1], slots
+    line = cut_line(field, piece.uv[0], piece.uv[-1], 1)[1][:-1]
+    n = len(line)
+    return line, np.full(n, piece.numbers[0]), np.repeat(piece.points[:1], n, 0), np.full(n, slot)

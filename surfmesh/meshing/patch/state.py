@@ -8,6 +8,7 @@ from collections.abc import Callable
 
 import numpy as np
 
+from surfmesh.geometry.boxes import diagonal
 from surfmesh.geometry.differential.chart import Chart
 from surfmesh.geometry.surface import Surface
 from surfmesh.kernels.optimisation.optimisation import (
@@ -99,7 +100,7 @@ class PatchState:
 
     def diagonal(self) -> float:
         """Of the box of all vertices, model units."""
-        return float(np.linalg.norm(np.ptp(self.frames.point[: self.vertices], axis=0)))
+        return diagonal(self.frames.point[: self.vertices])
 
     def identified(self) -> np.ndarray:
         """For each vertex the one that it coincides with in space, or itself."""
