@@ -138,10 +138,10 @@ class Chart:
             t[..., axis] = along
             t[..., 1 - axis] = across[:, None]
             uv = (low + t * (high - low)).reshape(-1, 2)
-            rate = 1.0
-            if bent[axis] is not None:
-                rate = bent[axis].rates(uv[:, axis])[0]
-                uv[:, axis] = bent[axis].parameter(uv[:, axis])
+            own, rate = bent[axis], np.ones(1)
+            if own is not None:
+                rate = own.rates(uv[:, axis])[0]
+                uv[:, axis] = own.parameter(uv[:, axis])
             r, *derivatives = surface.evaluate(uv, 1)
             speed = np.linalg.norm(derivatives[axis], axis=1) * rate
             speed = speed.reshape(SAMPLES_ACROSS, SAMPLES_ALONG).mean(axis=0)
@@ -149,15 +149,16 @@ class Chart:
             steps = np.linalg.norm(np.diff(r.reshape(*t.shape[:2], 3), axis=1), axis=2)
             way = steps.sum(axis=1).mean()
             if max(seen, way) <= MISSED * min(seen, way):
-                axes.append(Axis.of(low[axis], high[axis], along, speed, bent[axis]))
+                axes.append(Axis.of(low[axis], high[axis], along, speed, own))
             else:
-                axes.append(Axis.of_length(*_lengths(surface, axis, bent[axis]), bent[axis]))
-        return cls(tuple(axes))
+                axes.append(Axis.of_length(*_lengths(surface, axis, own), own))
+        return cls((axes[0], axes[1]))
 
     @classmethod
     def uniform(cls, domain: Domain, speeds: tuple[float, float]) -> "Chart":
         """For a surface whose |r_u| and |r_v| are the same everywhere: nothing is sampled."""
-        return cls(tuple(Axis.linear(*span, speed) for span, speed in zip(domain, speeds)))
+        first, second = (Axis.linear(*span, speed) for span, speed in zip(domain, speeds))
+        return cls((first, second))
 
     @property
     def extent(self) -> np.ndarray:
