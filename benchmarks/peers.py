@@ -21,7 +21,7 @@ import numpy as np
 import surfmesh as sm
 from surfmesh.geometry.differential.projection import closest_point
 from surfmesh.geometry.surface import Surface
-from surfmesh.kernels.fields.background import scalar_size_at, scalar_sizes_at
+from surfmesh.kernels.fields.background import scalar_size_at
 from surfmesh.sizing.field.size_field import SizeField
 
 SPLINE_GRID = 160  # points each way that the spline interpolates
@@ -67,10 +67,7 @@ class WantedSize:
 
     def at(self, uv: np.ndarray) -> np.ndarray:
         """(n,) sizes wanted at uv (n, 2)."""
-        sizes = np.empty(len(uv))
-        plane = np.ascontiguousarray(self.field.chart.to_plane(uv))
-        scalar_sizes_at(self.field.background, plane, sizes)
-        return sizes
+        return self.field.sizes(self.field.chart.to_plane(uv))
 
     def corner_parameters(self, points: np.ndarray, triangles: np.ndarray) -> np.ndarray:
         """(m, 3, 2) of the surface points nearest to the corners, each triangle in one piece.

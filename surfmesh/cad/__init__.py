@@ -1,13 +1,14 @@
 """CAD models as plain data. The only package that knows OCP, which it imports when it is needed.
 
-reading, child      a file -> `CadModel`, safely: `read_cad`
-limits, lifeline    what a child may cost, and that it ends with its parent
-from_cadquery       CadQuery, build123d and OCP objects -> `CadModel`
-readers, assembly   what files hold: parts with names, colours and places
-healing             repair, in words
-joining             what is asked of parts that touch: sewing, imprinting; origins: their names
-topology, convert   shapes and geometry of OCP -> plain data
-loops               coedges in walking order
-tolerances, pcurves how far edges really deviate from their faces, and better p-curves
-model, invariants   the data, and what must be true of it
+In the order in which data passes; doors for others in brackets:
+
+reading      STEP, IGES and BREP files, in a child process (read_file)
+cadquery     objects of CadQuery, build123d and OCP (from_cadquery)
+units        units of length by name
+parts        what both hand over: a tree of parts with names, colours and places
+sub_shapes   sub-shapes of OCP's shapes by kind and number, and how large they are
+healing      parts mended, sewn and imprinted; every change is put in words
+conversion   parts -> one model
+model        the model, plain data without OCP, and what is true of it (all of it)
+selection    faces, edges and solids of a model by name, number, colour or selector (selection)
 """

@@ -97,7 +97,7 @@ def check(options: Namespace) -> bool:
         from surfmesh.result.model_facts import ModelFacts, file_sha256
 
         source = Path(options.input)
-        found = replace(found, facts=ModelFacts(source=source.name, sha256=file_sha256(source)))
+        found = found.replaced(facts=ModelFacts(source=source.name, sha256=file_sha256(source)))
     report = checked(found, second_opinion=options.second_opinion)
     if options.json:
         say_json(report.to_dict())
@@ -349,15 +349,14 @@ def _on_surface(found: Any, surface: Any) -> Any:
     if not isinstance(surface, CadModel):
         from surfmesh.geometry.files.known_facts import known_facts
 
-        return _facing(replace(found, surfaces=(surface,), facts=known_facts(surface)))
+        return _facing(found.replaced(surfaces=(surface,), facts=known_facts(surface)))
 
     from surfmesh.cad.model.facts import model_facts
     from surfmesh.meshing.model_mesh import orientation
 
     turned, solids = orientation(surface)
     known = found.face_ids.min() >= 0 and found.face_ids.max() < len(turned)
-    made = replace(
-        found,
+    made = found.replaced(
         surfaces=tuple(face.surface for face in surface.faces),
         turned_faces=turned,
         solid_ids=solids[found.face_ids] if known else None,
@@ -391,7 +390,7 @@ def _facing(found: Any) -> Any:
     if not ahead < 0.0:
         return found
     turned = found.flipped()  # as the surface is, so that what it says of itself turns too
-    return replace(found, turned_faces=turned.turned_faces, solid_ids=turned.solid_ids)
+    return found.replaced(model_links=turned.model_links)
 
 
 def _named_surface(name: str, options: Namespace | None = None) -> Any:

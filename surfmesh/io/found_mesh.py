@@ -1,6 +1,5 @@
 """What is asked of a mesh from a file before anybody computes with it."""
 
-from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -23,7 +22,7 @@ def usable(path: Path, mesh: SurfaceMesh) -> SurfaceMesh:
     """
     if not len(mesh.triangles):
         raise FileFormatError(f"{path}: there are no triangles in it")
-    for name in ("points", "mid_points", "uv_points", "sizes", "inverse_sizes"):
+    for name in ("points", "mid_points", "uv_points", "sizes", "metric_root_3d"):
         _require_finite(path, name, getattr(mesh, name))
     broken = mesh.check()
     if broken and "is outside" in broken:
@@ -48,7 +47,7 @@ def _without_odd_sizes(mesh: SurfaceMesh) -> SurfaceMesh:
         return mesh
     row = int(mesh.sizes.argmin())
     said = f"the file's sizes are left out: sizes[{row}] = {mesh.sizes[row]:g} is not positive"
-    return replace(mesh, sizes=None).with_warnings(said)
+    return mesh.replaced(sizes=None).with_warnings(said)
 
 
 def _require_finite(path: Path, name: str, values: NDArray | None) -> None:

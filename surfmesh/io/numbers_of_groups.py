@@ -73,7 +73,7 @@ def with_dense_numbers(mesh: SurfaceMesh) -> SurfaceMesh:
             warnings.append(_renumbered("edge", used))
     if not changes:
         return mesh
-    return replace(mesh, groups=groups, warnings=warnings, **changes)
+    return mesh.replaced(groups=groups, warnings=warnings, **changes)
 
 
 def _dense(used: NDArray) -> bool:

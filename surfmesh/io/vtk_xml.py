@@ -67,9 +67,9 @@ def write(mesh: SurfaceMesh, path: Path) -> None:
     field = {"one_sided": np.array([mesh.one_sided], np.uint8)}
     if mesh.uv_points is not None:
         of_triangles["uv"] = mesh.uv.reshape(-1, 6)  # u, v of the three corners
-    if mesh.inverse_sizes is not None:
+    if mesh.metric_root_3d is not None:
         of_triangles[METRIC_ROWS] = mesh.uv_triangles
-        field[METRIC] = mesh.inverse_sizes
+        field[METRIC] = mesh.metric_root_3d
     field[GROUPS] = np.frombuffer(json.dumps(mesh.groups.plain()).encode(), np.uint8)
     promises = tolerance_rows(mesh)
     if promises is not None:
@@ -102,12 +102,12 @@ def read(path: Path) -> SurfaceMesh:
     if "uv" in cells:
         uv_points = cells["uv"].reshape(-1, 2)
         uv_triangles = np.arange(len(uv_points)).reshape(-1, 3)
-    inverse_sizes = None
+    metric_root = None
     if uv_points is not None and METRIC in field and METRIC_ROWS in cells:
         table = field[METRIC].astype(float).reshape(-1, 6)
         rows = cells[METRIC_ROWS].reshape(-1, 3)
         if rows.size and 0 <= rows.min() <= rows.max() < len(table):
-            corners, uv_triangles, inverse_sizes = uv_points, rows, table
+            corners, uv_triangles, metric_root = uv_points, rows, table
             uv_points = np.zeros((len(table), 2))
             uv_points[rows.ravel()] = corners
     promises = None
@@ -126,7 +126,7 @@ def read(path: Path) -> SurfaceMesh:
         uv_triangles=uv_triangles,
         face_ids=cells.get("face_id"),
         sizes=sizes,
-        inverse_sizes=inverse_sizes,
+        metric_root_3d=metric_root,
         one_sided=bool(field["one_sided"][0]) if "one_sided" in field else False,
         solid_ids=cells.get("solid_id"),
         groups=MeshGroups.of_plain(json.loads(groups)),

@@ -169,7 +169,7 @@ def _mesh_faces(
             + (". Lower the sizes, repair" if finer else ". Repair")
             + " the faces, or use strict=False to get the others"
         )
-    mesh = replace(mesh, promises=wanted.promises(len(model.faces)))
+    mesh = mesh.replaced(promises=wanted.promises(len(model.faces)))
     return mesh.with_warnings(*_left_over(model, {*asking, *wishes}))
 
 
@@ -435,12 +435,12 @@ def _joined(
         solid_ids=solids[face_ids],
         edge_segments=segments[there],
         edge_ids=of[there],
-        edge_shares=shares[there],
+        edge_parameters=shares[there],
         edge_curves=model.edges,
         vertex_ids=rank[samples.vertex],
         sizes=np.where(np.isfinite(sizes), sizes, model.diagonal)[used],
         groups=groups_of(model),
-        inverse_sizes=np.concatenate(stretched) if stretched else None,
+        metric_root_3d=np.concatenate(stretched) if stretched else None,
         sizing=sizing,
         seconds=watch.seconds,
         warnings=(*model.healing, *_loose(model, sizing), *(found.text for found in findings)),

@@ -5,6 +5,8 @@ sides -> size field -> packing -> boundary -> optimisation -> space, joined side
   +---------- smaller sizes where the mesh is not right ---------+
 """
 
+from collections.abc import Mapping
+
 import numpy as np
 
 from surfmesh.errors import MeshingError, SizingError, SurfaceError
@@ -12,7 +14,6 @@ from surfmesh.geometry.differential.sides import SideTopology, find_sides
 from surfmesh.geometry.files.known_facts import known_facts
 from surfmesh.geometry.formulas.kinks import KinkLine, kink_lines
 from surfmesh.geometry.surface import Surface
-from surfmesh.kernels.fields.background import scalar_sizes_at
 from surfmesh.meshing.boundary.boundary_loops import BoundaryLoops, boundary_loops
 from surfmesh.meshing.boundary.boundary_recovery import DomainMesh, recovered
 from surfmesh.meshing.boundary.cusps import Cusp, closed_at, find_cusps, without_cusps
@@ -24,15 +25,13 @@ from surfmesh.meshing.explain.explanation import Explanation, explain_surface
 from surfmesh.meshing.patch.gluing import Glued, glued, misglued
 from surfmesh.meshing.patch.optimise import Optimiser
 from surfmesh.meshing.patch.packing import packed_over
+from surfmesh.meshing.patch.refinement_loop import StagnationCheck, refined_in_rounds
 from surfmesh.meshing.progress import Progress, Stopwatch
 from surfmesh.result.surface_mesh import SurfaceMesh
-from surfmesh.sizing.field.size_field import SizeField, inverse_sizes, size_field
+from surfmesh.sizing.field.size_field import SizeField, size_field
 from surfmesh.sizing.options.sizing import Sizing
 from surfmesh.sizing.rules.rim_size import Rims
 from surfmesh.sizing.rules.size_limits import SizeLimits
-
-ROUNDS = 8
-"""How often the whole way is gone at most, each time with smaller sizes where it failed."""
 
 MOST_CELLS, CELLS_OF_TRIANGLE = 250_000, 50
 """No further round once the size fields of all rounds had so many cells, or so many for each
@@ -56,8 +55,8 @@ def mesh_parametric(
     watch = Stopwatch(progress)
     with watch.stage("sizing"):
         part, sides, cusps = _without_cusps(surface, sizing)
-        kinks = kink_lines(part)
-    mesh = _in_rounds(part, sides, kinks, sizing, optimise, watch)
+        rounds = _Rounds(part, sides, sizing, optimise, watch)
+    mesh = rounds.mesh()
     return closed_at(mesh, surface, cusps) if cusps else mesh
 
 
@@ -73,53 +72,65 @@ def _without_cusps(
     return part, find_sides(part), cusps
 
 
-def _in_rounds(
-    surface: Surface,
-    sides: SideTopology,
-    kinks: list[KinkLine],
-    sizing: Sizing,
-    optimise: bool,
-    watch: Stopwatch,
-) -> SurfaceMesh:
+class _Rounds:
     """Rounds with smaller sizes each until nothing is to be mended, or can be."""
-    limits: SizeLimits | None = None
-    not_followed: list[str] = []
-    before, cells = (0, 0), 0
-    mesh: SurfaceMesh | None = None
-    for _ in range(ROUNDS):
-        with watch.stage("sizing"):
+
+    def __init__(
+        self, surface: Surface, sides: SideTopology, sizing: Sizing, optimise: bool,
+        watch: Stopwatch,
+    ) -> None:  # fmt: skip
+        self.surface, self.sides, self.sizing = surface, sides, sizing
+        self.optimise, self.watch = optimise, watch
+        self.kinks = kink_lines(surface)
+        self.not_followed: list[str] = []
+        self._stagnation, self._cells = StagnationCheck(), 0
+        self._latest: tuple[SurfaceMesh, np.ndarray] | None = None
+
+    def mesh(self) -> SurfaceMesh:
+        """The mesh of the last round. Raises ``MeshingError`` where its sides are not joined."""
+        mesh, bad = refined_in_rounds(self._round, SizeLimits.joined_with)
+        if len(bad):
+            place = ", ".join(f"{x:.6g}" for x in mesh.points[bad[0]])
+            raise MeshingError(
+                f"the sides of {self.surface.name!r} cannot be joined with sizes this coarse: an "
+                f"edge near ({place}) has more than two triangles; lower size, max_size or min_size"
+            )
+        return mesh.with_warnings(*self.not_followed)
+
+    def _round(
+        self, limits: Mapping[int, SizeLimits]
+    ) -> tuple[tuple[SurfaceMesh, np.ndarray], dict[int, SizeLimits]]:
+        """The mesh and its points that are badly glued; the smaller sizes it needs."""
+        with self.watch.stage("sizing"):
             try:
-                field = size_field(surface, sizing, sides, limits, Rims(surface, sides))
+                rims = Rims(self.surface, self.sides)
+                field = size_field(self.surface, self.sizing, self.sides, limits.get(0), rims)
             except SizingError:
-                if mesh is None:
+                if self._latest is None:
                     raise
-                break  # what no size can mend: the report says what is left
-            require_field_within(sizing.limit, field, _loops(surface), surface.name)
+                return self._latest, {}  # what no size can mend: the report says what is left
+            loops, name = _loops(self.surface), self.surface.name
+            require_field_within(self.sizing.limit, field, loops, name)
         try:
-            mesh, wishes, bad = _one_round(surface, sides, kinks, field, optimise, watch)
+            mesh, refinement, bad = self._meshed(field)
         except (SurfaceError, MeshingError) as error:
-            if not kinks:
+            if not self.kinks:
                 raise
-            kinks, not_followed = [], [f"no edges follow the kinks of {surface.name!r}: {error}"]
-            mesh, wishes, bad = _one_round(surface, sides, kinks, field, optimise, watch)
-        if wishes is None or not _can_shrink(field, wishes):
-            break
-        now = (len(mesh.triangles), len(wishes.sizes))
-        cells += len(field.background.child) // 4  # each cell has a row for four parts
-        if cells > max(MOST_CELLS, CELLS_OF_TRIANGLE * len(mesh.triangles)):
-            break
-        if now == before:  # smaller sizes make no difference: the report says what is left
-            break
-        before = now
-        limits = wishes.joined_with(limits)
-    assert mesh is not None  # noqa: S101 for mypy: there is at least one round
-    if len(bad):
-        place = ", ".join(f"{x:.6g}" for x in mesh.points[bad[0]])
-        raise MeshingError(
-            f"the sides of {surface.name!r} cannot be joined with sizes this coarse: an edge "
-            f"near ({place}) has more than two triangles; lower size, max_size or min_size"
-        )
-    return mesh.with_warnings(*not_followed)
+            self.kinks = []
+            self.not_followed = [f"no edges follow the kinks of {name!r}: {error}"]
+            mesh, refinement, bad = self._meshed(field)
+        self._latest = mesh, bad
+        if refinement is None or not _can_shrink(field, refinement):
+            return self._latest, {}
+        self._cells += len(field.background.child) // 4  # each cell has a row for four parts
+        self._stagnation.record(len(refinement.sizes), len(mesh.triangles))
+        too_many = self._cells > max(MOST_CELLS, CELLS_OF_TRIANGLE * len(mesh.triangles))
+        if too_many or self._stagnation.is_unchanged:  # the report says what is left
+            return self._latest, {}
+        return self._latest, {0: refinement}
+
+    def _meshed(self, field: SizeField) -> tuple[SurfaceMesh, SizeLimits | None, np.ndarray]:
+        return _one_round(self.surface, self.sides, self.kinks, field, self.optimise, self.watch)
 
 
 def estimate_parametric(surface: Surface, sizing: Sizing) -> Estimate:
@@ -201,8 +212,7 @@ def _in_space(
     uv = field.chart.to_uv(xy)
     uv[domain.node] = loops.uv  # to the last bit
     parts = glued(surface, loops, domain, uv)
-    sizes = np.empty(len(parts.place))
-    scalar_sizes_at(field.background, xy[parts.place], sizes)
+    sizes = field.sizes(xy[parts.place])
     mesh = SurfaceMesh(
         points=parts.points,
         triangles=parts.triangles,
@@ -210,7 +220,7 @@ def _in_space(
         uv_triangles=parts.uv_triangles,
         surfaces=(surface,),
         sizes=sizes * scale[parts.place],
-        inverse_sizes=inverse_sizes(field, xy, scale[: len(xy)]),
+        metric_root_3d=field.roots_of_mesh(xy, scale[: len(xy)]),
         sizing=field.sizing,
         seconds=watch.seconds,
         one_sided=sides.one_sided and not len(surface.loops),

@@ -4,11 +4,12 @@ size field <-> segments cut   ->  packing -> boundary -> regions -> optimisation
        short lines and gaps
 """
 
+from collections.abc import Mapping
+
 import numpy as np
 
 from surfmesh.geometry.files.known_facts import known_facts
 from surfmesh.geometry.planar.planar_domain import PlanarDomain
-from surfmesh.kernels.fields.background import scalar_sizes_at
 from surfmesh.kernels.insertion.insertion import label_patches
 from surfmesh.meshing.boundary.boundary_recovery import DomainMesh, recovered_regions
 from surfmesh.meshing.boundary.planar_segments import (
@@ -28,12 +29,14 @@ from surfmesh.meshing.estimate.estimation import (
 from surfmesh.meshing.estimate.trial_mesh import WHOLE, tried
 from surfmesh.meshing.patch.optimise import Optimiser
 from surfmesh.meshing.patch.packing import packed_over
+from surfmesh.meshing.patch.refinement_loop import refined_in_rounds
 from surfmesh.meshing.progress import Progress, Stopwatch
 from surfmesh.result.surface_mesh import SurfaceMesh
 from surfmesh.sizing.field.size_field import COUNTABLE, SizeField, size_field
 from surfmesh.sizing.options.sizing import Sizing
 from surfmesh.sizing.rules.across_gaps import size_across
 from surfmesh.sizing.rules.size_bounds import SizeBounds
+from surfmesh.sizing.rules.size_limits import SizeLimits
 
 GAP_ROUNDS = 3
 """How often the size field is made anew because gaps were found, at most."""
@@ -146,18 +149,21 @@ def _field_and_segments(
     domain: PlanarDomain, sizing: Sizing
 ) -> tuple[SizeField, PlanarSegments | None]:
     """None: far more triangles than the limit are asked for; no segment is cut."""
-    limits = short_segments(domain.graph, sizing.gradient)
     share = 1.0 if sizing.gap is None else size_across(1.0, sizing.gap, sizing.gradient)
-    for _ in range(GAP_ROUNDS):
-        field = size_field(domain, sizing, None, limits)
+
+    def one_round(
+        limits: Mapping[int, SizeLimits],
+    ) -> tuple[tuple[SizeField, PlanarSegments | None], dict[int, SizeLimits]]:
+        field = size_field(domain, sizing, None, limits.get(0))
         if _is_suspicious(domain, field) and _asked(domain, field) > MANY * sizing.limit:
-            return field, None
+            return (field, None), {}
         cut = cut_segments(domain.graph, field)
         gaps = narrow_gaps(domain, cut, field, sizing.gradient, share)
-        if gaps is None:
-            break
-        limits = gaps.joined_with(limits)
-    return field, cut
+        return (field, cut), {} if gaps is None else {0: gaps}
+
+    short = short_segments(domain.graph, sizing.gradient)
+    known = {} if short is None else {0: short}
+    return refined_in_rounds(one_round, SizeLimits.joined_with, GAP_ROUNDS, known)
 
 
 def _in_space(
@@ -177,8 +183,7 @@ def _in_space(
     uv = field.chart.to_uv(t.xy[:vertices])
     met = inside.node >= 0
     uv[inside.node[met]] = cut.uv[met]  # to the last bit
-    sizes = np.empty(vertices)
-    scalar_sizes_at(field.background, t.xy[:vertices], sizes)
+    sizes = field.sizes(t.xy[:vertices])
     regions = _region_numbers(t, cut, inside.node, patch, patches)
     return SurfaceMesh(
         points=np.column_stack([uv, np.zeros(vertices)])[used],

@@ -253,10 +253,10 @@ def _checked(mesh: SurfaceMesh) -> Report:
     topo, shape = topology(mesh), shapes(mesh)
     lengths = edge_lengths(mesh)
     metric = None if mesh.sizes is None else metric_lengths(mesh, lengths)
-    grown = growth(mesh, lengths if mesh.inverse_sizes is None else metric)
+    grown = growth(mesh, lengths if mesh.metric_root_3d is None else metric)
     slope = getattr(mesh.sizing, "gradient", None) if finite else None
     steep = None if slope is None else size_growth(mesh, lengths, slope)
-    wanted = None if mesh.inverse_sizes is None else metric_alpha(mesh)
+    wanted = None if mesh.metric_root_3d is None else metric_alpha(mesh)
     fit = deviation(mesh, shape.area) if finite else None
     tolerances = Tolerances.of(mesh)
     back = surface_deviation(mesh, fit, tolerances)

@@ -9,5 +9,11 @@ model_facts: what is known of a model beforehand: what its mesh is compared with
     CAD.
 quadratic_triangles: triangles of six nodes: corners, and one node amid each edge, shared by its
     triangles.
+mesh_part: arrays that say of themselves what their rows stand for: how they are checked,
+    cut down to a part and numbered anew.
+mesh_parts: what a mesh holds besides points and triangles: Parametrisation, ModelLinks,
+    EdgeLinks, Record.
 surface_mesh: the result: an immutable triangle mesh on one or more surfaces.
+
+Others use all of them but mesh_part, which is for the parts and for what adds triangles.
 """

@@ -41,8 +41,8 @@ def split_six_nodes(
     """points, triangles, mid_points by the edges of the triangles, and the nodes (n,) kept as
     points. elements: (m, 6).
     """
-    corners, triangles = np.unique(elements[:, :3], return_inverse=True)
-    triangles = triangles.reshape(-1, 3).astype(np.int32)
+    corners, inverse = np.unique(elements[:, :3], return_inverse=True)
+    triangles: NDArray[np.int32] = inverse.reshape(-1, 3).astype(np.int32)
     first = connect(triangles).half_edges[:, 0]
     return nodes[corners], triangles, nodes[elements[:, 3:].reshape(-1)[first]], corners
 

@@ -10,140 +10,213 @@ while each triangle keeps the surface parameters of its corners on its own face.
         0 --- 3 --- 0       two images in uv    6 --- 3 --- 0        vertices, two of (u, v)
 """
 
-from collections.abc import Mapping
-from dataclasses import dataclass, field, fields, replace
+from dataclasses import dataclass, field, fields
 from functools import cached_property
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, Any, Generic, Self, TypedDict, TypeVar, Unpack, overload
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from surfmesh.renamed import Renamed, new_names
 from surfmesh.result.connectivity import Connectivity, connect
 from surfmesh.result.findings import Finding, FindingKind
 from surfmesh.result.mesh_groups import MeshGroups
-from surfmesh.result.model_facts import ModelFacts
+from surfmesh.result.mesh_part import (
+    EDGE,
+    TRIANGLE,
+    VERTEX,
+    Arrays,
+    BoolArray,
+    FloatArray,
+    Int32Array,
+    MeshPart,
+    Renumbering,
+    rows,
+)
+from surfmesh.result.mesh_parts import EdgeLinks, ModelLinks, Parametrisation, Record
 from surfmesh.result.quadratic_triangles import edge_rows, six_nodes
 
 if TYPE_CHECKING:
+    from collections.abc import Iterable, Mapping
+
     import meshio
     import pyvista
     import trimesh
 
+    from surfmesh.cad.model.cad_model import CadEdge
+    from surfmesh.geometry.surface import Surface
     from surfmesh.io import Manifest
     from surfmesh.quality.report import Report
     from surfmesh.quality.verdict.worst import WorstTriangle
+    from surfmesh.result.model_facts import ModelFacts
+    from surfmesh.sizing.options.sizing import Sizing
 
 NOT_MESHED = FindingKind.NOT_MESHED.value
 """How the warning about a CAD face starts that is missing: such a mesh is not clean."""
 
-
-class Corners(NamedTuple):
-    """Parameters of the corners of all triangles, where some have changed."""
-
-    uv_points: NDArray[np.float64]  # (k, 2)
-    uv_triangles: NDArray[Any]  # (m, 3) rows of uv_points
-    source: NDArray[Any]  # (k,) rows of the mesh's own uv_points that they stand for
+Held = TypeVar("Held")
 
 
-@dataclass(frozen=True, eq=False, repr=False, kw_only=True)
-class SurfaceMesh:
+class OfPart(Generic[Held]):
+    """An attribute of a part, read as one of the mesh; ``absent`` where there is no such part."""
+
+    def __init__(self, part: str, absent: Any = None) -> None:
+        self.part, self.absent, self.name = part, absent, ""
+
+    def __set_name__(self, owner: type, name: str) -> None:
+        self.name = name
+
+    @overload
+    def __get__(self, mesh: None, owner: type) -> Self: ...
+    @overload
+    def __get__(self, mesh: "SurfaceMesh", owner: type) -> Held: ...
+    def __get__(self, mesh: "SurfaceMesh | None", owner: type) -> Any:
+        if mesh is None:
+            return self
+        part = getattr(mesh, self.part)
+        return self.absent if part is None else getattr(part, self.name)
+
+
+class MeshFields(TypedDict, total=False):
+    """What a mesh may hold besides points and triangles: whole parts, and fields of parts."""
+
+    sizes: ArrayLike | None
+    mid_points: ArrayLike | None
+    one_sided: bool
+    parametrisation: Parametrisation | None
+    model_links: ModelLinks | None
+    edge_links: EdgeLinks | None
+    record: Record | None
+    uv_points: ArrayLike | None
+    uv_triangles: ArrayLike | None
+    metric_root_3d: ArrayLike | None
+    face_ids: ArrayLike | None
+    surfaces: "Iterable[Surface]"
+    turned_faces: ArrayLike | None
+    narrow_faces: ArrayLike | None
+    solid_ids: ArrayLike | None
+    vertex_ids: ArrayLike | None
+    groups: MeshGroups | None
+    edge_segments: ArrayLike | None
+    edge_ids: ArrayLike | None
+    edge_parameters: ArrayLike | None
+    edge_curves: "Iterable[CadEdge]"
+    sizing: "Sizing | None"
+    promises: ArrayLike | None
+    facts: "ModelFacts | None"
+    seconds: "Mapping[str, float]"
+    warnings: "Iterable[str]"
+    findings: "Iterable[Finding]"
+
+
+@dataclass(frozen=True, eq=False, repr=False, init=False, kw_only=True)
+class SurfaceMesh(Arrays):
     """Triangles on surfaces. Arrays are read-only; lengths are in model units.
+
+    ``SurfaceMesh(points=..., triangles=..., uv_points=..., face_ids=..., ...)`` takes the fields
+    of all parts by their names, which are attributes of the mesh too, and whole parts.
 
     Arrays of another type or layout are converted, the others are kept as they are and
     become read-only. Raises ``ValueError`` when shapes do not agree; what the numbers say is
     looked at by ``check`` alone, so that a broken mesh can be held and examined.
     """
 
-    points: NDArray[np.float64]  # (n, 3) vertices
-    triangles: NDArray[np.int32]  # (m, 3) vertex numbers, counter-clockwise along r_u x r_v
-    uv_points: NDArray[np.float64] | None = None  # (k, 2) distinct corner parameters
-    uv_triangles: NDArray[np.int32] | None = None  # (m, 3) rows of uv_points; None: triangles
-    # (m,) surface of each triangle; None, when it is made: all 0
-    face_ids: NDArray[np.int32] = None  # type: ignore[assignment]
-    surfaces: tuple[Any, ...] = ()  # by face_ids; empty when read from a file
-    sizes: NDArray[np.float64] | None = None  # (n,) wanted edge length at each vertex
-    # (k, 6) for each of uv_points W = xx, xy, xz, yy, yz, zz, as |W d| is the step d in wanted
-    # lengths; None where sizes do not depend on the direction, or are not known: W = Id / sizes
-    inverse_sizes: NDArray[np.float64] | None = None
-    sizing: Any = None  # the options it was made with, those of the whole model
-    # (f, 3) what was promised of each face, options by name among it: chord, angle (degrees) and
-    # min_size, nan where nothing is asked for. One row: of all. None: what ``sizing`` says
-    promises: NDArray[np.float64] | None = None
-    seconds: Mapping[str, float] = field(default_factory=dict)  # by stage
-    warnings: tuple[str, ...] = ()  # what the user should know
-    findings: tuple[Finding, ...] = ()  # those of the warnings that are about one face, as records
+    points: FloatArray = field(metadata=rows(np.float64, VERTEX, 3))  # (n, 3) vertices
+    # (m, 3) vertex numbers, counter-clockwise along r_u x r_v
+    triangles: Int32Array = field(metadata=rows(np.int32, TRIANGLE, 3, holds=VERTEX))
+    # (n,) target edge length at each vertex
+    sizes: FloatArray | None = field(default=None, metadata=rows(np.float64, VERTEX))
+    # (ne, 3) nodes amid ``edges``; None: order 1
+    mid_points: FloatArray | None = field(default=None, metadata=rows(np.float64, EDGE, 3))
     one_sided: bool = False  # no orientation exists (Moebius, Klein): none is demanded
-    facts: ModelFacts | None = None  # what is known of the model beforehand
-    # of CAD models; None otherwise
-    turned_faces: NDArray[np.bool_] | None = None  # (f,) triangles run against r_u x r_v there
-    narrow_faces: NDArray[np.bool_] | None = None  # (f,) closed between sides within the chord
-    solid_ids: NDArray[np.int32] | None = None  # (m, 2) solid behind and before it; -1: none
-    edge_segments: NDArray[np.int32] | None = None  # (k, 2) edges of the mesh on CAD edges
-    edge_ids: NDArray[np.int32] | None = None  # (k,) their CAD edges
-    edge_shares: NDArray[np.float64] | None = None  # (k, 2) of its range, at a segment's ends
-    edge_curves: tuple[Any, ...] = ()  # by edge_ids: what has ``curve`` and ``parameters(share)``
-    vertex_ids: NDArray[np.int32] | None = None  # (c,) vertex at each CAD vertex; -1: none
-    mid_points: NDArray[np.float64] | None = None  # (ne, 3) nodes amid ``edges``; None: order 1
-    # names, colours, kinds, unit; None: those of the surfaces
-    groups: MeshGroups = None  # type: ignore[assignment]
+    parametrisation: Parametrisation | None = None
+    model_links: ModelLinks
+    edge_links: EdgeLinks | None = None
+    record: Record
 
-    def __post_init__(self) -> None:
-        def settle(name: str, value: ArrayLike, dtype: type, shape: tuple[int, ...]) -> None:
-            if dtype is np.int32:
-                value = _within_int32(name, value)
-            array: NDArray[Any] = np.ascontiguousarray(value, dtype)
-            fits = array.ndim == len(shape) and all(
-                wanted in (-1, found) for wanted, found in zip(shape, array.shape)
-            )
-            if not fits:
-                raise ValueError(f"{name} has shape {array.shape}, expected {shape} (-1: any)")
-            array.setflags(write=False)
-            object.__setattr__(self, name, array)
+    uv_points = OfPart[FloatArray | None]("parametrisation")
+    uv_triangles = OfPart[Int32Array | None]("parametrisation")
+    metric_root_3d = OfPart[FloatArray | None]("parametrisation")
+    face_ids = OfPart[Int32Array]("model_links")
+    surfaces = OfPart["tuple[Surface, ...]"]("model_links")
+    turned_faces = OfPart[BoolArray | None]("model_links")
+    narrow_faces = OfPart[BoolArray | None]("model_links")
+    solid_ids = OfPart[Int32Array | None]("model_links")
+    vertex_ids = OfPart[Int32Array | None]("model_links")
+    groups = OfPart[MeshGroups]("model_links")
+    edge_segments = OfPart[Int32Array | None]("edge_links")
+    edge_ids = OfPart[Int32Array | None]("edge_links")
+    edge_parameters = OfPart[FloatArray | None]("edge_links")
+    edge_curves = OfPart["tuple[CadEdge, ...]"]("edge_links", absent=())
+    sizing = OfPart["Sizing | None"]("record")
+    promises = OfPart[FloatArray | None]("record")
+    facts = OfPart["ModelFacts | None"]("record")
+    seconds = OfPart["Mapping[str, float]"]("record")
+    warnings = OfPart[tuple[str, ...]]("record")
+    findings = OfPart[tuple[Finding, ...]]("record")
+    inverse_sizes, edge_shares = Renamed("metric_root_3d"), Renamed("edge_parameters")
 
-        settle("points", self.points, np.float64, (-1, 3))
-        settle("triangles", self.triangles, np.int32, (-1, 3))
-        n, m = len(self.points), len(self.triangles)
-        face_ids = np.zeros(m, np.int32) if self.face_ids is None else self.face_ids
-        settle("face_ids", face_ids, np.int32, (m,))
-        if self.uv_points is not None:
-            settle("uv_points", self.uv_points, np.float64, (-1, 2))
-            uv_triangles = self.triangles if self.uv_triangles is None else self.uv_triangles
-            settle("uv_triangles", uv_triangles, np.int32, (m, 3))
-        elif self.uv_triangles is not None:
-            raise ValueError("uv_triangles given without uv_points")
-        if self.sizes is not None:
-            settle("sizes", self.sizes, np.float64, (n,))
-        if self.inverse_sizes is not None:
-            if self.uv_points is None:
-                raise ValueError("inverse_sizes given without uv_points")
-            settle("inverse_sizes", self.inverse_sizes, np.float64, (len(self.uv_points), 6))
-        for name, dtype, shape in (
-            ("turned_faces", np.bool_, (len(self.surfaces),)),
-            ("narrow_faces", np.bool_, (len(self.surfaces),)),
-            ("solid_ids", np.int32, (m, 2)),
-            ("edge_segments", np.int32, (-1, 2)),
-            ("edge_ids", np.int32, (-1,)),
-            ("edge_shares", np.float64, (-1, 2)),
-            ("vertex_ids", np.int32, (-1,)),
-            ("promises", np.float64, (-1, 3)),
-        ):
-            if getattr(self, name) is not None:
-                settle(name, getattr(self, name), dtype, shape)
+    def __init__(
+        self, *, points: ArrayLike, triangles: ArrayLike, **given: Unpack[MeshFields]
+    ) -> None:
+        found = new_names(type(self), given)
+        own = {name: found.pop(name, None) for name in ("sizes", "mid_points")}
+        own |= {"points": points, "triangles": triangles}
+        own |= {"one_sided": found.pop("one_sided", False)}
+        for name, value in own.items():
+            object.__setattr__(self, name, value)
+        counts = self.fit({})
         if self.mid_points is not None:
-            settle("mid_points", self.mid_points, np.float64, (len(self.edges), 3))
-        object.__setattr__(self, "surfaces", tuple(self.surfaces))
-        object.__setattr__(self, "edge_curves", tuple(self.edge_curves))
-        if self.groups is None:
-            object.__setattr__(self, "groups", MeshGroups.of_surfaces(self.surfaces))
-        object.__setattr__(self, "warnings", tuple(self.warnings))
-        object.__setattr__(self, "findings", tuple(self.findings))
-        object.__setattr__(self, "seconds", dict(self.seconds))
+            self.fit(counts | {EDGE: len(self.edges)})
+        for name, kind in _PARTS.items():
+            part = self._part_of(kind, found.pop(name, None), found)
+            if part is not None:
+                part.fit(counts)
+            object.__setattr__(self, name, part)
+        if found:
+            raise TypeError(f"a SurfaceMesh has no {', '.join(found)}")
+
+    def _part_of(
+        self, kind: type[MeshPart], known: MeshPart | None, found: dict[str, Any]
+    ) -> MeshPart | None:
+        """The part ``known`` with the fields of it that are taken out of ``found``."""
+        names = [item.name for item in fields(kind)]
+        if known is not None and not any(name in found for name in names):
+            return known
+        held = {} if known is None else {name: getattr(known, name) for name in names}
+        held |= {name: found.pop(name) for name in names if name in found}
+        if kind is ModelLinks and held.get("face_ids") is None:
+            held["face_ids"] = np.zeros(len(self.triangles), np.int32)
+        if kind in (Parametrisation, EdgeLinks):
+            if all(
+                value is None or (isinstance(value, tuple) and not value) for value in held.values()
+            ):
+                return None
+            if held.get("uv_points") is not None and held.get("uv_triangles") is None:
+                held["uv_triangles"] = self.triangles
+            held = dict.fromkeys(name for name, _ in kind.array_fields()) | held
+        return kind(**held)
+
+    def replaced(
+        self,
+        *,
+        points: ArrayLike | None = None,
+        triangles: ArrayLike | None = None,
+        **changes: Unpack[MeshFields],
+    ) -> "SurfaceMesh":
+        """A copy with some fields changed."""
+        found: dict[str, Any] = {item.name: getattr(self, item.name) for item in fields(self)}
+        found |= changes
+        found |= {"points": points} if points is not None else {}
+        found |= {"triangles": triangles} if triangles is not None else {}
+        return SurfaceMesh(**found)
 
     @property
     def uv(self) -> NDArray[np.float64] | None:
         """(m, 3, 2) corner parameters of each triangle on its own face, expanded on demand."""
-        return None if self.uv_points is None else self.uv_points[self.uv_triangles]
+        corners = self.parametrisation
+        return None if corners is None else corners.uv_points[corners.uv_triangles]
 
     @cached_property
     def connectivity(self) -> Connectivity:
@@ -230,95 +303,58 @@ class SurfaceMesh:
         return None
 
     def submesh(
-        self, kept: ArrayLike, as_vertex: ArrayLike | None = None, corners: "Corners | None" = None
+        self,
+        kept: ArrayLike,
+        as_vertex: ArrayLike | None = None,
+        parametrisation: Parametrisation | None = None,
     ) -> "SurfaceMesh":
         """The triangles ``kept``, (m,) bool or rows, on the vertices that they use: every array
         by vertex, corner, edge or triangle is renumbered with them.
 
-        as_vertex: (n,) the vertex that takes the place of each, by default itself; corners:
-        parameters of the corners where these have changed. Segments of CAD edges are kept that
-        are edges still, nodes amid edges go to the middle where an edge has other ends now.
+        as_vertex: (n,) the vertex that takes the place of each, by default itself;
+        parametrisation: of all triangles, where it has changed. Segments of CAD edges are kept
+        that are edges still, nodes amid edges go to the middle where an edge has other ends now.
         """
-        rows = np.arange(len(self.triangles))[np.asarray(kept)]
-        becomes = np.arange(len(self.points)) if as_vertex is None else np.asarray(as_vertex)
-        triangles = becomes[self.triangles[rows]]
-        used = np.zeros(len(self.points), bool)
-        used[triangles] = True
-        number = np.where(used, np.cumsum(used) - 1, -1)
-        changes: dict[str, Any] = {
-            "points": self.points[used],
-            "triangles": number[triangles],
-            "face_ids": self.face_ids[rows],
-            "solid_ids": None if self.solid_ids is None else self.solid_ids[rows],
-            "sizes": None if self.sizes is None else self.sizes[used],
-            "mid_points": None,
-        }
-        changes |= self._corners_of(rows, corners)
-        if self.vertex_ids is not None:
-            there = self.vertex_ids >= 0
-            changes["vertex_ids"] = np.where(there, number[becomes[self.vertex_ids]], -1)
-        if self.edge_segments is not None or self.mid_points is not None:
-            table = connect(changes["triangles"].astype(np.int32))
-            changes |= self._edges_of(table, number[becomes], np.flatnonzero(used))
-        return replace(self, **changes)
-
-    def _corners_of(self, rows: NDArray, corners: "Corners | None") -> dict[str, Any]:
-        """Parameters of the corners of triangles ``rows``, and what else is by corner."""
-        if self.uv_points is None or self.uv_triangles is None:
-            return {}
-        if corners is None:
-            corners = Corners(self.uv_points, self.uv_triangles, np.arange(len(self.uv_points)))
-        used, place = np.unique(corners.uv_triangles[rows], return_inverse=True)
-        w = self.inverse_sizes
-        return {
-            "uv_points": corners.uv_points[used],
-            "uv_triangles": place.reshape(-1, 3),
-            "inverse_sizes": None if w is None else w[corners.source[used]],
-        }
-
-    def _edges_of(
-        self, table: Connectivity, number: NDArray[np.int64], used: NDArray[np.int64]
-    ) -> dict[str, Any]:
-        """Segments of CAD edges and nodes amid edges, for the edges of ``table``; number: (n,)
-        of each vertex there or -1; used: the vertex of each number."""
-        changes: dict[str, Any] = {}
-        if self.edge_segments is not None:
-            pairs = number[self.edge_segments]
-            there = np.flatnonzero((pairs >= 0).all(axis=1) & (pairs[:, 0] != pairs[:, 1]))
-            there = there[edge_rows(table, pairs[there]) >= 0]
-            shares = self.edge_shares
-            changes["edge_segments"] = pairs[there]
-            changes["edge_ids"] = self.edge_ids[there]  # type: ignore[index]
-            changes["edge_shares"] = None if shares is None else shares[there]
+        n, left = len(self.points), np.arange(len(self.triangles))[np.asarray(kept)]
+        becomes = np.arange(n) if as_vertex is None else np.asarray(as_vertex)
+        vertices = Renumbering.keeping(np.unique(becomes[self.triangles[left]]), n, becomes)
+        kinds = {TRIANGLE: Renumbering(left), VERTEX: vertices}
+        corners = parametrisation or self.parametrisation
+        part = self.replaced(
+            **self.arrays_renumbered(kinds) | {"mid_points": None, "edge_links": None},
+            parametrisation=None if corners is None else corners.of_triangles(left),
+            model_links=self.model_links.renumbered(kinds),
+        )
+        changes: MeshFields = {}
+        if self.edge_links is not None:
+            changes["edge_links"] = self.edge_links.on_edges(part.connectivity, vertices)
         if self.mid_points is not None:
-            ends = used[table.edges]
-            row = edge_rows(self.connectivity, ends)
-            middles = self.points[ends].mean(axis=1)
+            changes["mid_points"] = self._middles_of(vertices.rows[part.edges])
+        return part.replaced(**changes) if changes else part
+
+    def _middles_of(self, ends: Int32Array) -> FloatArray:
+        """(k, 3) the nodes amid the edges between vertices ``ends`` (k, 2), where they are edges;
+        halfway between them where they are not."""
+        row = edge_rows(self.connectivity, ends)
+        middles = self.points[ends].mean(axis=1)
+        if self.mid_points is not None:
             middles[row >= 0] = self.mid_points[row[row >= 0]]
-            changes["mid_points"] = middles
-        return changes
+        return middles
 
     def with_warnings(self, *more: str) -> "SurfaceMesh":
         """The same mesh with more to say about it; itself, when there is nothing."""
-        return replace(self, warnings=(*self.warnings, *more)) if more else self
+        return self.replaced(warnings=(*self.warnings, *more)) if more else self
 
     def flipped(self) -> "SurfaceMesh":
         """The same mesh turned over: its triangles face the other side; twice gives it back.
 
         Points, edges and all other numbers stay. For closed surfaces that face their inside.
         """
-        turned = self.turned_faces
-        if self.surfaces:
-            turned = np.ones(len(self.surfaces), bool) if turned is None else ~turned
-            if self.solid_ids is None and not turned.any():
-                turned = None
-        order = [0, 2, 1]
-        return replace(
-            self,
+        order, uv = [0, 2, 1], self.uv_triangles
+        return self.replaced(
             triangles=self.triangles[:, order],
-            uv_triangles=None if self.uv_triangles is None else self.uv_triangles[:, order],
-            turned_faces=turned,
-            solid_ids=None if self.solid_ids is None else self.solid_ids[:, ::-1],
+            uv_triangles=None if uv is None else uv[:, order],
+            model_links=self.model_links.flipped(),
         )
 
     @cached_property
@@ -394,20 +430,15 @@ class SurfaceMesh:
         return {item.name: getattr(self, item.name) for item in fields(self)}
 
     def __setstate__(self, state: dict[str, Any]) -> None:
-        for name, value in state.items():
-            object.__setattr__(self, name, value)
-        self.__post_init__()  # unpickled arrays are writeable again
+        SurfaceMesh.__init__(self, **state)  # unpickled arrays are writeable again
 
 
-def _within_int32(name: str, value: ArrayLike) -> NDArray[Any]:
-    """As an array of numbers that 32 bits hold: a conversion would cut others in silence."""
-    array = np.asarray(value)
-    if array.size and array.dtype.kind in "iuf" and array.dtype != np.int32:
-        low, high = array.min(), array.max()
-        if not (-(2**31) <= low and high < 2**31):
-            far = high if low >= -(2**31) else low
-            raise ValueError(f"{name} holds {far}, which is no number of 32 bits")
-    return array
+_PARTS: dict[str, type[MeshPart]] = {
+    "parametrisation": Parametrisation,
+    "model_links": ModelLinks,
+    "edge_links": EdgeLinks,
+    "record": Record,
+}
 
 
 def _first_duplicate(triangles: NDArray[np.int32]) -> tuple[int, int] | None:

@@ -8,6 +8,7 @@ from numpy.typing import NDArray
 from surfmesh.geometry.differential.fundamental_forms import curvatures, forms
 from surfmesh.quality.measures.shape import shapes
 from surfmesh.result.surface_mesh import SurfaceMesh
+from surfmesh.sizing.metric_roots import unpacked
 from surfmesh.view.vertex_parameters import vertex_parameters
 
 ARC = 6  # pieces of a circle within one corner of a triangle
@@ -39,10 +40,6 @@ def model_edge_pairs(mesh: SurfaceMesh) -> NDArray[np.int32]:
     return table.edges[(table.uses != 2) | (first != second)]
 
 
-SYMMETRIC = np.array([[0, 1, 2], [1, 3, 4], [2, 4, 5]])
-"""Places of xx, xy, xz, yy, yz, zz in a symmetric tensor."""
-
-
 def circles(mesh: SurfaceMesh) -> Lines:
     """The circle, or ellipse where sizes have a direction, of every vertex, on the triangles.
 
@@ -60,10 +57,10 @@ def circles(mesh: SurfaceMesh) -> Lines:
     for i in range(3):
         a, b, c = corners[:, i], corners[:, (i + 1) % 3], corners[:, (i + 2) % 3]
         along = (1.0 - share)[:, None, None] * (b - a) + share[:, None, None] * (c - a)
-        if mesh.inverse_sizes is None:
+        if mesh.metric_root_3d is None:
             length = np.linalg.norm(along, axis=2) / mesh.sizes[mesh.triangles[:, i]]
         else:
-            wanted = mesh.inverse_sizes[mesh.uv_triangles[:, i]][:, SYMMETRIC]  # (m, 3, 3)
+            wanted = unpacked(mesh.metric_root_3d[mesh.uv_triangles[:, i]])  # (m, 3, 3)
             length = np.linalg.norm(np.einsum("mij,smj->smi", wanted, along), axis=2)
         # how far towards the opposite side the circle reaches: 1 is on it
         reach = 0.5 / np.where(length > 0, length, np.inf)

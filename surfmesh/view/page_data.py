@@ -53,8 +53,8 @@ def page_data(
         "triangles": mesh.triangles.astype("<u4"),
         "face_ids": np.maximum(mesh.face_ids, 0).astype("<u4"),
     }
-    if mesh.inverse_sizes is not None:  # the page draws ellipses with them
-        arrays["inverse sizes"] = _rounded(mesh.inverse_sizes * scale)
+    if mesh.metric_root_3d is not None:  # the page draws ellipses with them
+        arrays["inverse sizes"] = _rounded(mesh.metric_root_3d * scale)
         arrays["inverse size rows"] = mesh.uv_triangles.astype("<u4")
     elif mesh.sizes is not None:  # or circles
         arrays["sizes"] = _rounded(mesh.sizes / scale)

@@ -9,6 +9,7 @@ from handmade_meshes import Saddle, changed, grid, icosphere
 
 import surfmesh as sm
 from surfmesh.result.surface_mesh import SurfaceMesh
+from surfmesh.sizing.metric_roots import unpacked
 from surfmesh.view import show
 from surfmesh.view.lines import circles, model_edges, principal_directions, worst_triangles
 from surfmesh.view.overlays import overlays
@@ -162,7 +163,7 @@ def test_circles_are_ellipses_where_sizes_have_a_direction():
     mesh = sm.mesh(tube, sm.Sizing(chord=0.02, anisotropy=4))
     row = np.empty(len(mesh.points), int)
     row[mesh.triangles] = mesh.uv_triangles
-    wanted = mesh.inverse_sizes[row][:, [[0, 1, 2], [1, 3, 4], [2, 4, 5]]]
+    wanted = unpacked(mesh.metric_root_3d[row])
     ends = circles(mesh).segments[::97, 0]
     away = np.einsum("vij,evj->evi", wanted, ends[:, None] - mesh.points)
     nearest = np.abs(np.linalg.norm(away, axis=2) - 0.5).min(axis=1)

@@ -130,9 +130,9 @@ def test_fewer_triangles_within_the_same_chord(name, ratio, times):
 def test_the_metric_of_the_result():
     """Lengths along and round the tube are as wanted, though they differ a hundredfold."""
     mesh, report = meshed("tube", 100.0)
-    sizes = 1 / np.linalg.eigvalsh([metric_root_3d(w) for w in mesh.inverse_sizes])
+    sizes = 1 / np.linalg.eigvalsh([metric_root_3d(w) for w in mesh.metric_root_3d])
     np.testing.assert_allclose(sizes[:, 0], 100 * sizes[:, 1], rtol=1e-6)
-    np.testing.assert_allclose(1 / mesh.inverse_sizes[:, 5], sizes[:, 0], rtol=1e-6)
+    np.testing.assert_allclose(1 / mesh.metric_root_3d[:, 5], sizes[:, 0], rtol=1e-6)
     np.testing.assert_allclose(sizes[:, 1].min(), mesh.sizes.min(), rtol=1e-6)
     assert report.alpha_mean < 0.1 < 0.95 < report.alpha_metric_mean
     assert metric_alpha(mesh).min() == report.alpha_metric_min
@@ -146,7 +146,7 @@ def test_ratio_one_is_the_isotropic_mesh():
         sm.mesh(surface, {"chord": 0.01, "anisotropy": 1.0}),
     )
     np.testing.assert_array_equal(plain.points, one.points)
-    assert one.inverse_sizes is None
+    assert one.metric_root_3d is None
 
 
 @pytest.mark.parametrize("make", [lambda: sm.load("two_peaks"), lambda: sm.from_cadquery(rod())])

@@ -213,7 +213,7 @@ def test_names_and_sources_where_sizes_have_a_direction(sizing):
     report = sm.check(mesh)
     assert report.clean
     assert report.quasi_unit_share > 0.95  # in the metric; round where a face has no direction
-    assert mesh.inverse_sizes.shape == (len(mesh.uv_points), 6)
+    assert mesh.metric_root_3d.shape == (len(mesh.uv_points), 6)
     assert sm.estimate(tube, sizing).triangles == pytest.approx(len(mesh.triangles), rel=0.2)
 
 

@@ -7,8 +7,7 @@ import numpy as np
 import pytest
 
 import surfmesh as sm
-from surfmesh.meshing.patch.optimise import MORE_SAMPLES
-from surfmesh.quality.measures import deviation
+from surfmesh.accuracy.samples import DENSE, DENSE_INNER
 
 CONE = cq.Solid.makeCone(1.0, 0.2, 3.0)
 
@@ -26,8 +25,8 @@ def report(name, ratio):
 
 def test_triangles_are_sampled_as_the_report_does():
     """Between the samples of a coarser grid trefoil was farther away than chord by 0.2%."""
-    known = {tuple(np.round(row, 9)) for row in MORE_SAMPLES}
-    asked = {tuple(np.round(row, 9)) for row in deviation._DENSE if row.max() < 1}
+    known = {tuple(np.round(row, 9)) for row in DENSE_INNER}
+    asked = {tuple(np.round(row, 9)) for row in DENSE if row.max() < 1}
     assert asked <= known
 
 

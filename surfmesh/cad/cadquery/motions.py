@@ -13,9 +13,9 @@ from OCP.BRep import BRep_Tool
 from OCP.BRepAdaptor import BRepAdaptor_Curve, BRepAdaptor_Surface
 from OCP.gp import gp_Trsf
 from OCP.TopAbs import TopAbs_EDGE, TopAbs_FACE, TopAbs_VERTEX
-from OCP.TopExp import TopExp
 from OCP.TopoDS import TopoDS, TopoDS_Shape
-from OCP.TopTools import TopTools_IndexedMapOfShape
+
+from surfmesh.cad.sub_shapes import unique
 
 MEET = 1e-6
 """Relative to the extent: samples of a moved copy lie this near."""
@@ -26,10 +26,10 @@ _FRACTIONS = (0.1, 0.5, 0.8)
 
 def motion_between(before: TopoDS_Shape, after: TopoDS_Shape) -> gp_Trsf | None:
     """The rotation, shift or mirror from one to the other; None: they do not differ by one."""
-    maps = [[_numbered(shape, kind) for shape in (before, after)] for kind in _KINDS]
-    if any(first.Extent() != second.Extent() for first, second in maps):
+    parts = [[unique(shape, kind) for kind in _KINDS] for shape in (before, after)]
+    if any(len(first) != len(second) for first, second in zip(*parts)):
         return None
-    old, new = (np.array(list(_samples([pair[k] for pair in maps]))) for k in (0, 1))
+    old, new = (np.array(list(_samples(*every))) for every in parts)
     if old.shape != new.shape or len(old) < 3:
         return None
     centres = old.mean(axis=0), new.mean(axis=0)
@@ -50,15 +50,10 @@ def motion_between(before: TopoDS_Shape, after: TopoDS_Shape) -> gp_Trsf | None:
 _KINDS = (TopAbs_VERTEX, TopAbs_EDGE, TopAbs_FACE)
 
 
-def _numbered(shape: TopoDS_Shape, kind) -> TopTools_IndexedMapOfShape:
-    found = TopTools_IndexedMapOfShape()
-    TopExp.MapShapes_s(shape, kind, found)
-    return found
-
-
-def _samples(maps: list[TopTools_IndexedMapOfShape]) -> Iterator[tuple[float, float, float]]:
+def _samples(
+    vertices: list[TopoDS_Shape], edges: list[TopoDS_Shape], faces: list[TopoDS_Shape]
+) -> Iterator[tuple[float, float, float]]:
     """Of all vertices, edges and faces, in order."""
-    vertices, edges, faces = ([m.FindKey(k + 1) for k in range(m.Extent())] for m in maps)
     for vertex in vertices:
         yield _triple(BRep_Tool.Pnt_s(TopoDS.Vertex_s(vertex)))
     for edge in map(TopoDS.Edge_s, edges):

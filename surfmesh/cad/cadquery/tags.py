@@ -8,7 +8,7 @@ edges by their curves, vertices by their points, in the same way
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable
 from typing import Any
 
 from OCP.Bnd import Bnd_Box
@@ -33,12 +33,11 @@ from OCP.TopAbs import (
     TopAbs_VERTEX,
     TopAbs_WIRE,
 )
-from OCP.TopExp import TopExp
-from OCP.TopoDS import TopoDS, TopoDS_Iterator, TopoDS_Shape
-from OCP.TopTools import TopTools_IndexedMapOfShape
+from OCP.TopoDS import TopoDS, TopoDS_Shape
 
-from surfmesh.cad.assembly import Tag
 from surfmesh.cad.cadquery.motions import motion_between
+from surfmesh.cad.parts import Tag
+from surfmesh.cad.sub_shapes import Numbering, below, unique
 
 COINCIDE = 1e-6
 """Of the diagonal: what is within it lies in the same place."""
@@ -55,8 +54,7 @@ ALONG = 21
 PARALLEL = 1e-3
 """Sine of the angle between normals of what is one surface."""
 
-_KINDS = {"solids": TopAbs_SOLID, "faces": TopAbs_FACE, "edges": TopAbs_EDGE,
-          "vertices": TopAbs_VERTEX}  # fmt: skip
+_KINDS = (TopAbs_SOLID, TopAbs_FACE, TopAbs_EDGE, TopAbs_VERTEX)
 _WHOLE = (TopAbs_COMPOUND, TopAbs_COMPSOLID, TopAbs_SOLID)
 _PARTS = {TopAbs_SHELL: TopAbs_FACE, TopAbs_WIRE: TopAbs_EDGE, TopAbs_SOLID: TopAbs_FACE}
 
@@ -81,46 +79,33 @@ class _Final:
     """The final shape, and which of its parts stand for what was there before."""
 
     def __init__(self, shape: TopoDS_Shape) -> None:
-        self.parts: dict[Any, TopTools_IndexedMapOfShape] = {}
-        for kind in _KINDS.values():
-            self.parts[kind] = TopTools_IndexedMapOfShape()
-            TopExp.MapShapes_s(shape, kind, self.parts[kind])
+        self.parts = {kind: Numbering([shape], kind) for kind in _KINDS}
         self.boxes: dict[Any, list[Bnd_Box]] = {}
         self.tolerance = max(COINCIDE * _box(shape, 0.0).SquareExtent() ** 0.5, 1e-7)
 
     def standing(self, shape: TopoDS_Shape, motion: gp_Trsf) -> list[TopoDS_Shape]:
         """What stands for a shape; motion: of everything since it was tagged."""
         kind = shape.ShapeType()
-        if kind in self.parts and self.parts[kind].Contains(shape):
-            return [self._own(kind, shape)]
+        known = self.parts[kind].find(shape) if kind in self.parts else None
+        if known is not None:
+            return [self.parts[kind][known]]
         if kind not in (TopAbs_FACE, TopAbs_EDGE, TopAbs_VERTEX):
             return self._of_parts(shape, motion)
         moved = shape
         if motion.Form().name != "gp_Identity":
             moved = BRepBuilderAPI_Transform(shape, motion, True).Shape()
         if kind not in self.boxes:
-            self.boxes[kind] = [_box(part, self.tolerance) for part in self._all(kind)]
+            self.boxes[kind] = [_box(part, self.tolerance) for part in self.parts[kind]]
         box = _box(moved, self.tolerance)
-        near = [p for p, b in zip(self._all(kind), self.boxes[kind]) if not box.IsOut(b)]
+        near = [p for p, b in zip(self.parts[kind], self.boxes[kind]) if not box.IsOut(b)]
         same = {TopAbs_FACE: _same_face, TopAbs_EDGE: _same_edge, TopAbs_VERTEX: _same_vertex}
         return [part for part in near if same[kind](part, moved, self.tolerance)]
 
     def _of_parts(self, shape: TopoDS_Shape, motion: gp_Trsf) -> list[TopoDS_Shape]:
         """Of a shell, wire, compound, or of a solid that is not there any more: of its faces."""
         kind = _PARTS.get(shape.ShapeType())
-        if kind is None:
-            parts = list(_below(shape))
-        else:
-            every = TopTools_IndexedMapOfShape()
-            TopExp.MapShapes_s(shape, kind, every)
-            parts = [every.FindKey(k + 1) for k in range(every.Extent())]
+        parts = below(shape) if kind is None else unique(shape, kind)
         return [found for part in parts for found in self.standing(part, motion)]
-
-    def _all(self, kind: Any) -> list[TopoDS_Shape]:
-        return [self.parts[kind].FindKey(k + 1) for k in range(self.parts[kind].Extent())]
-
-    def _own(self, kind: Any, shape: TopoDS_Shape) -> TopoDS_Shape:
-        return self.parts[kind].FindKey(self.parts[kind].FindIndex(shape))
 
 
 def _same_face(final: TopoDS_Shape, tagged: TopoDS_Shape, tolerance: float) -> bool:
@@ -261,13 +246,6 @@ def _is_whole(shape: Any) -> bool:
 
 def _wrapped(value: Any) -> Any:
     return getattr(value, "wrapped", None)
-
-
-def _below(shape: TopoDS_Shape) -> Iterator[TopoDS_Shape]:
-    iterator = TopoDS_Iterator(shape)
-    while iterator.More():
-        yield iterator.Value()
-        iterator.Next()
 
 
 def _in_words(shapes: Iterable[TopoDS_Shape]) -> str:

@@ -26,11 +26,10 @@ from OCP.ShapeUpgrade import (
 )
 from OCP.TColStd import TColStd_Array1OfReal
 from OCP.TopAbs import TopAbs_EDGE, TopAbs_FACE, TopAbs_FORWARD
-from OCP.TopExp import TopExp
-from OCP.TopoDS import TopoDS, TopoDS_Face, TopoDS_Shape
-from OCP.TopTools import TopTools_IndexedMapOfShape
+from OCP.TopoDS import TopoDS, TopoDS_Face
 
-from surfmesh.cad.assembly import Detail, Part
+from surfmesh.cad.parts import Detail, Part
+from surfmesh.cad.sub_shapes import unique
 
 SHARP, BLUNT, FEW = math.radians(15.0), math.radians(5.0), 8
 """Normals on both sides that differ by less than SHARP, or BLUNT where a face has few such lines,
@@ -42,7 +41,7 @@ ASIDE = 1e-6  # of the box: so far from the line the normals are read
 
 def creased(part: Part) -> list[TopoDS_Face]:
     """The faces of a part with a crease inside."""
-    return [face for face in _all(part.shape, TopAbs_FACE) if _has_crease(TopoDS.Face_s(face))]
+    return [face for face in unique(part.shape, TopAbs_FACE) if _has_crease(TopoDS.Face_s(face))]
 
 
 def cut_along_creases(part: Part, faces: list[TopoDS_Face]) -> Part:
@@ -50,7 +49,7 @@ def cut_along_creases(part: Part, faces: list[TopoDS_Face]) -> Part:
     context = ShapeBuild_ReShape()
     sharp = {hash(face) for face in faces}
     remarks = list(part.remarks)
-    for shape in _all(part.shape, TopAbs_FACE):  # neighbours too: their edges are cut
+    for shape in unique(part.shape, TopAbs_FACE):  # neighbours too: their edges are cut
         face = TopoDS.Face_s(shape.Oriented(TopAbs_FORWARD))
         divide = ShapeUpgrade_FaceDivide(face)
         divide.SetContext(context)
@@ -73,7 +72,7 @@ def _pieces(detail: Detail) -> Iterator[Detail]:
     yield detail
     for kind in (TopAbs_FACE, TopAbs_EDGE):
         if detail.shape.ShapeType() == kind - 1:  # a shell in the place of a face, a wire
-            yield from (detail._replace(shape=shape) for shape in _all(detail.shape, kind))
+            yield from (detail._replace(shape=shape) for shape in unique(detail.shape, kind))
 
 
 def _has_crease(face: TopoDS_Face) -> bool:
@@ -114,9 +113,3 @@ def _normals(surface: BRepAdaptor_Surface, way: int, at: float, along: np.ndarra
         known = normal.Magnitude() > Precision.Confusion_s() * (ru.SquareMagnitude())
         found.append(normal.Normalized().Coord() if known else (0.0, 0.0, 0.0))
     return np.array(found)
-
-
-def _all(shape: TopoDS_Shape, kind) -> list[TopoDS_Shape]:
-    found = TopTools_IndexedMapOfShape()
-    TopExp.MapShapes_s(shape, kind, found)
-    return [found.FindKey(number + 1) for number in range(found.Extent())]

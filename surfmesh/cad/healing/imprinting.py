@@ -16,8 +16,6 @@ from dataclasses import dataclass, replace
 
 from OCP.BOPAlgo import BOPAlgo_Builder
 from OCP.BRep import BRep_Builder
-from OCP.BRepGProp import BRepGProp
-from OCP.GProp import GProp_GProps
 from OCP.Message import Message_Gravity
 from OCP.TopAbs import (
     TopAbs_COMPOUND,
@@ -29,13 +27,21 @@ from OCP.TopAbs import (
     TopAbs_VERTEX,
     TopAbs_WIRE,
 )
-from OCP.TopExp import TopExp
 from OCP.TopoDS import TopoDS_Shape, TopoDS_Shell
-from OCP.TopTools import TopTools_IndexedMapOfShape
 
-from surfmesh.cad.assembly import Part
-from surfmesh.cad.healing.origins import ByShape, Origins, remarks_again, tags_again
-from surfmesh.cad.sub_shapes import box_diagonal, compound_of, counted, each, unique
+from surfmesh.cad.healing.origins import Origins, remarks_again, tags_again
+from surfmesh.cad.parts import Part
+from surfmesh.cad.sub_shapes import (
+    ByShape,
+    Numbering,
+    box_diagonal,
+    compound_of,
+    content,
+    counted,
+    each,
+    said_by,
+    unique,
+)
 from surfmesh.errors import CadError
 
 TOUCH = 1e-7
@@ -70,12 +76,9 @@ def imprinted(root: Part, tolerance: float | None = None) -> Part:
     for body in bodies:
         _require_whole(body, fused, tolerance)
     origins = Origins(root, fused)
-    taken = TopTools_IndexedMapOfShape()
-    in_solids = TopTools_IndexedMapOfShape()
-    for body in bodies:
-        for image in fused.images(body.shape) if body.is_solid else ():
-            TopExp.MapShapes_s(image, TopAbs_FACE, in_solids)
-    done = _rebuilt(root, fused, origins, in_solids, taken)
+    solids = (image for b in bodies if b.is_solid for image in fused.images(b.shape))
+    in_solids = Numbering(solids, TopAbs_FACE)
+    done = _rebuilt(root, fused, origins, in_solids, Numbering())
     return _noted(done, _notes(bodies, fused, tolerance))
 
 
@@ -93,7 +96,7 @@ class _Body:
 
 def _bodies(root: Part) -> list[_Body]:
     """All solids and loose faces in the order of the tree; what is there twice, once."""
-    found, seen = [], TopTools_IndexedMapOfShape()
+    found, seen = [], Numbering()
     for part in root:
         if part.shape is None:
             continue
@@ -102,8 +105,8 @@ def _bodies(root: Part) -> list[_Body]:
             names.setdefault(detail.shape, detail.name)
         solids = each(part.shape, TopAbs_SOLID)
         for shape in (*solids, *each(part.shape, TopAbs_FACE, TopAbs_SOLID)):
-            if not seen.Contains(shape):
-                seen.Add(shape)
+            if shape not in seen:
+                seen.add(shape)
                 found.append(_Body(shape, names.get(shape) or part.name))
     return found
 
@@ -121,12 +124,11 @@ class _Fused:
         try:
             self._fuse.Perform()
         except Exception as error:  # OCP's own exceptions have no common parent in Python
-            reason = f"{type(error).__name__} {error}".strip()
+            reason = said_by(error)
             raise CadError(f"the bodies cannot be imprinted: OCP gave up, {reason}") from None
         if self._fuse.HasErrors():
             raise CadError(f"the bodies cannot be imprinted: OCP gave up, {self._reason()}; {CURE}")
-        self._held = TopTools_IndexedMapOfShape()
-        TopExp.MapShapes_s(self._fuse.Shape(), self._held)
+        self._held = Numbering([self._fuse.Shape()])
 
     def images(self, shape: TopoDS_Shape) -> list[TopoDS_Shape]:
         """What a shape of the arguments has become: several where it was cut, none where lost."""
@@ -138,7 +140,7 @@ class _Fused:
         found = list(self._fuse.Modified(shape))
         if not found and not self._fuse.IsDeleted(shape):
             found = [shape]
-        return [image for image in found if self._held.Contains(image)]
+        return [image for image in found if image in self._held]
 
     def _reason(self) -> str:
         alerts = self._fuse.GetReport().GetAlerts(Message_Gravity.Message_Fail)
@@ -152,9 +154,9 @@ def _require_whole(body: _Body, fused: _Fused, tolerance: float) -> None:
     if len(images) == 1 and images[0].IsSame(body.shape):
         return
     what, unit = ("solid", "mm3") if body.is_solid else ("face", "mm2")
-    before = _content(body.shape, 3 if body.is_solid else 2)
-    after = sum(_content(image, 3 if body.is_solid else 2) for image in images)
-    border = _content(body.shape, 2 if body.is_solid else 1)
+    dimension = 3 if body.is_solid else 2
+    before, border = (abs(content(body.shape, d, 0.1 * LOST)) for d in (dimension, dimension - 1))
+    after = sum(abs(content(image, dimension, 0.1 * LOST)) for image in images)
     if not abs(after - before) <= LOST * before + tolerance * border:
         raise CadError(
             f"the {what} of {body.name!r} cannot be imprinted: it has {before:.6g} {unit}, its "
@@ -162,22 +164,9 @@ def _require_whole(body: _Body, fused: _Fused, tolerance: float) -> None:
         )
 
 
-def _content(shape: TopoDS_Shape, dimension: int) -> float:
-    """Volume, area or length of all edges."""
-    properties = GProp_GProps()
-    if dimension == 1:
-        BRepGProp.LinearProperties_s(shape, properties)
-    elif dimension == 2:
-        BRepGProp.SurfaceProperties_s(shape, properties, 0.1 * LOST)
-    else:
-        BRepGProp.VolumeProperties_s(shape, properties, 0.1 * LOST)
-    return abs(properties.Mass())
-
-
 def _rebuilt(
-    part: Part, fused: _Fused, origins: Origins, in_solids: TopTools_IndexedMapOfShape,
-    taken: TopTools_IndexedMapOfShape,
-) -> Part:  # fmt: skip
+    part: Part, fused: _Fused, origins: Origins, in_solids: Numbering, taken: Numbering
+) -> Part:
     """The part with all below it, made of what came out of the fuse.
 
     in_solids: faces of solids; taken: those that are in a free shell by now.
@@ -202,18 +191,17 @@ def _rebuilt(
 
 
 def _shell_again(
-    faces: list[TopoDS_Shape], in_solids: TopTools_IndexedMapOfShape,
-    taken: TopTools_IndexedMapOfShape,
-) -> list[TopoDS_Shape]:  # fmt: skip
+    faces: list[TopoDS_Shape], in_solids: Numbering, taken: Numbering
+) -> list[TopoDS_Shape]:
     """A free shell of these faces, and beside it those that are a solid's or another shell's."""
     shell, builder = TopoDS_Shell(), BRep_Builder()
     builder.MakeShell(shell)
     beside = []
     for face in faces:
-        if in_solids.Contains(face) or taken.Contains(face):
+        if face in in_solids or face in taken:
             beside.append(face)
         else:
-            taken.Add(face)
+            taken.add(face)
             builder.Add(shell, face)
     return [shell, *beside] if len(beside) < len(faces) else beside
 

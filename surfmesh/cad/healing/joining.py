@@ -11,7 +11,7 @@ import numpy as np
 from surfmesh.errors import CadError
 
 if TYPE_CHECKING:
-    from surfmesh.cad.assembly import Part
+    from surfmesh.cad.parts import Part
 
 
 @dataclass(frozen=True)

@@ -3,15 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
-from typing import Any, Protocol
+from typing import Protocol
 
 from OCP.TopAbs import TopAbs_FACE, TopAbs_SHELL, TopAbs_SOLID
-from OCP.TopExp import TopExp
 from OCP.TopoDS import TopoDS_Shape
-from OCP.TopTools import TopTools_IndexedMapOfShape
 
-from surfmesh.cad.assembly import Detail, Part, Tag
-from surfmesh.cad.sub_shapes import each
+from surfmesh.cad.parts import Detail, Part, Tag
+from surfmesh.cad.sub_shapes import ByShape, Numbering, each
 
 AND = " + "
 """Between the names of what was made of several."""
@@ -25,38 +23,16 @@ class History(Protocol):
         ...
 
 
-class ByShape:
-    """Values by shape, the same for shapes that are ``IsSame``."""
-
-    def __init__(self) -> None:
-        self._map = TopTools_IndexedMapOfShape()
-        self._values: list[Any] = []
-
-    def setdefault(self, shape: TopoDS_Shape, value: Any) -> Any:
-        """The value of a shape, which becomes ``value`` where it has none."""
-        number = self._map.Add(shape)
-        if number > len(self._values):
-            self._values.append(value)
-        return self._values[number - 1]
-
-    def get(self, shape: TopoDS_Shape) -> Any:
-        number = self._map.FindIndex(shape)
-        return self._values[number - 1] if number else None
-
-    def items(self) -> Iterator[tuple[TopoDS_Shape, Any]]:
-        return ((self._map.FindKey(k + 1), value) for k, value in enumerate(self._values))
-
-
 class Origins:
     """Names and colours of new shapes: of all that they were made of, in the tree's order."""
 
     def __init__(self, root: Part, history: History) -> None:
-        self._of = ByShape()  # new shape -> the details of what it was made of
-        met = TopTools_IndexedMapOfShape()
+        self._of: ByShape[list[Detail]] = ByShape()  # new shape -> of what it was made of
+        met = Numbering()
         for part in root:
             for detail in _details(part):
-                if not met.Contains(detail.shape):  # what is said first of a shape counts
-                    met.Add(detail.shape)
+                if detail.shape not in met:  # what is said first of a shape counts
+                    met.add(detail.shape)
                     for image in history.images(detail.shape):
                         self.add(image, detail)
 
@@ -66,11 +42,8 @@ class Origins:
 
     def details(self, shapes: Iterable[TopoDS_Shape]) -> list[Detail]:
         """Of new shapes and all below them."""
-        found, met = [], TopTools_IndexedMapOfShape()
-        for shape in shapes:
-            TopExp.MapShapes_s(shape, met)
-        for number in range(met.Extent()):
-            image = met.FindKey(number + 1)
+        found = []
+        for image in Numbering(shapes):
             origins = self._of.get(image)
             if origins:
                 each_name = [name for d in origins for name in (d.names or (d.name,)) if name]
@@ -82,7 +55,7 @@ class Origins:
 
 def _details(part: Part) -> Iterator[Detail]:
     """Those of a part, its solids among them: these bear its name where they have none."""
-    said = ByShape()
+    said: ByShape[Detail] = ByShape()
     for detail in part.details:
         if not detail.shape.IsNull():
             said.setdefault(detail.shape, detail)

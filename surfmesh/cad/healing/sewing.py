@@ -18,9 +18,7 @@ from OCP.BOPAlgo import BOPAlgo_Builder, BOPAlgo_MakerVolume
 from OCP.BRep import BRep_Builder, BRep_Tool
 from OCP.BRepBuilderAPI import BRepBuilderAPI_Copy, BRepBuilderAPI_Sewing
 from OCP.BRepClass3d import BRepClass3d_SolidClassifier
-from OCP.BRepGProp import BRepGProp
 from OCP.BRepTools import BRepTools_Quilt
-from OCP.GProp import GProp_GProps
 from OCP.TopAbs import (
     TopAbs_COMPOUND,
     TopAbs_COMPSOLID,
@@ -34,13 +32,20 @@ from OCP.TopAbs import (
     TopAbs_VERTEX,
     TopAbs_WIRE,
 )
-from OCP.TopExp import TopExp
 from OCP.TopoDS import TopoDS, TopoDS_Shape, TopoDS_Solid
-from OCP.TopTools import TopTools_IndexedMapOfShape
 
-from surfmesh.cad.assembly import Detail, Part
-from surfmesh.cad.healing.origins import ByShape, Origins, remarks_again, tags_again
-from surfmesh.cad.sub_shapes import compound_of, counted, each, unique
+from surfmesh.cad.healing.origins import Origins, remarks_again, tags_again
+from surfmesh.cad.parts import Detail, Part
+from surfmesh.cad.sub_shapes import (
+    ByShape,
+    Numbering,
+    compound_of,
+    content,
+    counted,
+    each,
+    said_by,
+    unique,
+)
 from surfmesh.errors import CadError
 
 Path = tuple[int, ...]
@@ -118,9 +123,7 @@ class _Sewn:
 
     def __init__(self, faces: list[TopoDS_Shape], tolerance: float) -> None:
         self._copy = BRepBuilderAPI_Copy(compound_of(faces))  # the shapes are the caller's
-        self._loose = TopTools_IndexedMapOfShape()
-        for face in faces:
-            TopExp.MapShapes_s(face, self._loose)
+        self._loose = Numbering(faces)
         self._sewing = BRepBuilderAPI_Sewing(tolerance)
         self._sewing.SetNonManifoldMode(True)  # else two of many edges are joined, whichever
         for face in faces:
@@ -130,13 +133,11 @@ class _Sewn:
             self._fuses: list[BOPAlgo_Builder] = []
             self.pieces = self._pieces(tolerance)
         except Exception as error:  # OCP's own exceptions have no common parent in Python
-            reason = f"{type(error).__name__} {error}".strip()
+            reason = said_by(error)
             raise CadError(
                 f"the faces cannot be sewn: OCP gave up, {reason}; try a smaller sew=TOLERANCE"
             ) from None
-        self._held = TopTools_IndexedMapOfShape()
-        for piece in self.pieces:
-            TopExp.MapShapes_s(piece, self._held)
+        self._held = Numbering(self.pieces)
 
     def _copied(self, shape: TopoDS_Shape) -> TopoDS_Shape:
         return self._copy.ModifiedShape(shape).Oriented(shape.Orientation())
@@ -166,7 +167,7 @@ class _Sewn:
         part = _MADE_OF.get(kind)
         if part is not None:
             return [image for below in each(shape, part) for image in self.images(below)]
-        if not self._loose.Contains(shape):
+        if shape not in self._loose:
             return [shape]
         copy = self._copied(shape)
         if kind == TopAbs_FACE:
@@ -176,7 +177,7 @@ class _Sewn:
         found = [] if sewn.IsNull() else [
             last for first in each(sewn, kind) for last in self._fused(first)
         ]  # fmt: skip
-        return [image for image in found if self._held.Contains(image)]
+        return [image for image in found if image in self._held]
 
     def _fused(self, shape: TopoDS_Shape) -> list[TopoDS_Shape]:
         """What became of a sewn shape where more than two faces met."""
@@ -254,10 +255,8 @@ def _regions(faces: list[TopoDS_Shape]) -> list[TopoDS_Shape]:
     maker.SetIntersect(False)
     maker.Perform()
     solids = [] if maker.HasErrors() else list(each(maker.Shape(), TopAbs_SOLID))
-    taken = TopTools_IndexedMapOfShape()
-    for solid in solids:
-        TopExp.MapShapes_s(solid, TopAbs_FACE, taken)
-    left = [face for face in faces if not taken.Contains(face)]
+    taken = Numbering(solids, TopAbs_FACE)
+    left = [face for face in faces if face not in taken]
     found = list(solids)
     for group in _connected(left):
         branching = any(count > 2 for count in _uses(group))
@@ -280,7 +279,7 @@ def _shells(history: _Sewn, loose: list[_Loose], parts: dict[Path, Part]) -> lis
                 turned += 1 if image.Orientation() != face.Orientation() else -1
         path = _common([below for _, below in origins])
         colours = [(face, _colour(parts, path, below)) for face, below in origins]
-        is_inward = (_volume(piece) < 0.0) != (turned > 0)
+        is_inward = (content(piece, 3) < 0.0) != (turned > 0)
         found.append(_Shell(piece, path, [(f, c) for f, c in colours if c], is_inward))
     return found
 
@@ -302,12 +301,6 @@ def _colour(parts: dict[Path, Part], path: Path, below: Path):
     return None
 
 
-def _volume(shape: TopoDS_Shape) -> float:
-    properties = GProp_GProps()
-    BRepGProp.VolumeProperties_s(shape, properties)
-    return properties.Mass()
-
-
 def _bodies(shells: list[_Shell]) -> list[_Body]:
     """Solids of closed shells; one that looks inward within another is a void of that."""
     found, closed = [], []
@@ -323,7 +316,7 @@ def _bodies(shells: list[_Shell]) -> list[_Body]:
             around = [k for k in range(len(closed)) if k != number and _is_within(shell, solids[k])]
             outer = [k for k in around if not closed[k].inward]
             if outer:
-                smallest = min(outer, key=lambda k: abs(_volume(solids[k])))
+                smallest = min(outer, key=lambda k: abs(content(solids[k], 3)))
                 voids.setdefault(smallest, []).append(number)
     taken = {number for inner in voids.values() for number in inner}
     for number, shell in enumerate(closed):
@@ -335,7 +328,7 @@ def _bodies(shells: list[_Shell]) -> list[_Body]:
 
 def _solid_of(shell: TopoDS_Shape) -> TopoDS_Solid:
     """A solid with its faces outward."""
-    if _volume(shell) < 0.0:
+    if content(shell, 3) < 0.0:
         shell = shell.Reversed()
     builder, solid = BRep_Builder(), TopoDS_Solid()
     builder.MakeSolid(solid)
@@ -364,11 +357,9 @@ def _rebuilt(part: Part, path: Path, history: _Sewn, bodies: list[_Body], origin
     shapes = own
     if part.shape is not None:
         shapes = [s for s in each(part.shape, TopAbs_SOLID) if not _is_open(s)] + own
-        there = TopTools_IndexedMapOfShape()
-        for shape in shapes:
-            TopExp.MapShapes_s(shape, TopAbs_FACE, there)
+        there = Numbering(shapes, TopAbs_FACE)
         beside = [image for face in _loose_faces(part) for image in history.images(face)]
-        shapes += [face for face in beside if not there.Contains(face)]  # of a part above
+        shapes += [face for face in beside if face not in there]  # of a part above
     children = [
         _rebuilt(child, (*path, number), history, bodies, origins)
         for number, child in enumerate(part.children)
@@ -394,7 +385,7 @@ def _notes(loose: list[_Loose], history: _Sewn, bodies: list[_Body]) -> list[str
         for edge in unique(entry.face, TopAbs_EDGE):
             for image in history.images(edge):
                 before.setdefault(image, []).append(edge)
-    joined = sum(len(_different(edges)) > 1 for _, edges in before.items())
+    joined = sum(len(Numbering(edges, TopAbs_EDGE)) > 1 for _, edges in before.items())
     free, branching = _free_edges(bodies)
     words = [f"{counted(joined, 'edge')} joined", f"{free:,} {'is' if free == 1 else 'are'} free"]
     solids = sum(body.shape.ShapeType() == TopAbs_SOLID for body in bodies)
@@ -409,17 +400,7 @@ def _notes(loose: list[_Loose], history: _Sewn, bodies: list[_Body]) -> list[str
     return notes
 
 
-def _different(shapes: list[TopoDS_Shape]) -> list[TopoDS_Shape]:
-    found = TopTools_IndexedMapOfShape()
-    for shape in shapes:
-        found.Add(shape)
-    return [found.FindKey(k + 1) for k in range(found.Extent())]
-
-
 def _free_edges(bodies: list[_Body]) -> tuple[int, int]:
     """Edges that are the border of one face; those where more than two meet."""
-    every = TopTools_IndexedMapOfShape()
-    for body in bodies:
-        TopExp.MapShapes_s(body.shape, TopAbs_FACE, every)
-    counts = _uses([every.FindKey(k + 1) for k in range(every.Extent())])
+    counts = _uses(list(Numbering((body.shape for body in bodies), TopAbs_FACE)))
     return sum(c == 1 for c in counts), sum(c > 2 for c in counts)

@@ -31,18 +31,16 @@ from OCP.TopAbs import (
 )
 from OCP.TopExp import TopExp, TopExp_Explorer
 from OCP.TopoDS import (
-    TopoDS,
     TopoDS_Edge,
     TopoDS_Face,
-    TopoDS_Iterator,
     TopoDS_Shape,
     TopoDS_Wire,
 )
-from OCP.TopTools import TopTools_IndexedMapOfShape
 
-from surfmesh.cad.assembly import Part
 from surfmesh.cad.healing.creases import creased, cut_along_creases
 from surfmesh.cad.healing.sphere_poles import passed_poles, with_turned_spheres
+from surfmesh.cad.parts import Part
+from surfmesh.cad.sub_shapes import below, box_diagonal, edges_of, faces_of, unique
 from surfmesh.errors import CadError
 
 LARGEST_GAP = 1e-4  # of the part's size: healing closes no wider gap, raises no tolerance further
@@ -69,8 +67,8 @@ def healed(part: Part, heal: bool = True) -> Part:
     """
     if part.shape is None or part.shape.IsNull():
         raise CadError(f"the part {part.name!r} has no shape")
-    bare = [face for face in _faces(part.shape) if _is_bare(face)]
-    curveless = [edge for edge in _edges(part.shape) if _lacks_curve(edge)]
+    bare = [face for face in faces_of(part.shape) if _is_bare(face)]
+    curveless = [edge for edge in edges_of(part.shape) if _lacks_curve(edge)]
     passed = passed_poles(part) if heal else []
     wrong = heal and (
         bool(passed) or _lacks_pcurve(part.shape) or not BRepCheck_Analyzer(part.shape).IsValid()
@@ -108,8 +106,8 @@ def _copied(part: Part) -> Part:
 def _with_curves(part: Part) -> Part:
     """Edges known only by their p-curves, or only by their vertices, get a curve in space."""
     remarks = list(part.remarks)
-    for face in _faces(part.shape):
-        for edge in _edges(face):
+    for face in faces_of(part.shape):
+        for edge in edges_of(face):
             if _is_no_point(edge):
                 BRep_Builder().Degenerated(edge, False)
             if not _lacks_curve(edge):
@@ -141,7 +139,7 @@ def _with_boundaries(part: Part) -> Part:
     """Faces without loops (a whole sphere or torus) get the edges of their surface."""
     context = BRepTools_ReShape()
     remarks = list(part.remarks)
-    for face in _faces(part.shape):
+    for face in faces_of(part.shape):
         if not _is_bare(face):
             continue
         fix = ShapeFix_Face(face)
@@ -158,12 +156,12 @@ def _with_own_loops(part: Part) -> Part:
     """
     met: set[int] = set()
     again = []
-    for face in _faces(part.shape):
+    for face in faces_of(part.shape):
         if _is_plane(face):
             continue
-        wires = {hash(wire) for wire in _unique(face, TopAbs_WIRE)}
+        wires = {hash(wire) for wire in unique(face, TopAbs_WIRE)}
         if wires & met and not any(
-            BRep_Tool.CurveOnSurface_s(edge, face, 0.0, 0.0) for edge in _edges(face)
+            BRep_Tool.CurveOnSurface_s(edge, face, 0.0, 0.0) for edge in edges_of(face)
         ):
             again.append(face)
         met |= wires
@@ -179,29 +177,23 @@ def _on_a_copy(face: TopoDS_Face) -> TopoDS_Face:
     """The same face with a surface and wires of its own, between the same edges."""
     builder, own = BRep_Builder(), TopoDS_Face()
     builder.MakeFace(own, BRep_Tool.Surface_s(face).Copy(), BRep_Tool.Tolerance_s(face))
-    for wire in _parts(face):
+    for wire in below(face):
         if wire.ShapeType() != TopAbs_WIRE:
             continue
         copy = TopoDS_Wire()
         builder.MakeWire(copy)
-        for edge in _parts(wire):
+        for edge in below(wire):
             builder.Add(copy, edge)
         builder.Add(own, copy)
     return own
 
 
-def _parts(shape: TopoDS_Shape) -> Iterator[TopoDS_Shape]:
-    """Direct sub-shapes, oriented as they are used."""
-    iterator = TopoDS_Iterator(shape)
-    while iterator.More():
-        yield iterator.Value()
-        iterator.Next()
-
-
 def _repaired(part: Part) -> Part:
     ShapeExtend.Init_s()  # loads the texts of its messages
     tolerances = ShapeAnalysis_ShapeTolerance()
-    reach = max(LARGEST_GAP * _size(part.shape), tolerances.Tolerance(part.shape, 1))
+    reach = max(
+        LARGEST_GAP * box_diagonal([part.shape], exact=False), tolerances.Tolerance(part.shape, 1)
+    )
     fix = ShapeFix_Shape(part.shape)
     messages = ShapeExtend_MsgRegistrator()
     fix.SetMsgRegistrator(messages)
@@ -213,7 +205,7 @@ def _repaired(part: Part) -> Part:
     for shape, text in (*_messages(part.shape, said), *_messages(fix.Shape(), said)):
         remarks.append((shape, text))
     spoken = {hash(context.Apply(shape)) for shape, _ in remarks if shape is not None}
-    for face in _faces(part.shape):
+    for face in faces_of(part.shape):
         new = context.Apply(face)
         if new.IsNull():
             remarks.append((None, "face removed"))
@@ -235,8 +227,8 @@ def _change(face: TopoDS_Face, new: TopoDS_Shape, context: BRepTools_ReShape) ->
     """What differs between a face and what became of it, where healing said nothing."""
     if new.ShapeType() != TopAbs_FACE:
         return "split"
-    before = [context.Apply(edge) for edge in _edges(face)]
-    after = {hash(edge): edge for edge in _edges(new.Oriented(TopAbs_FORWARD))}
+    before = [context.Apply(edge) for edge in edges_of(face)]
+    after = {hash(edge): edge for edge in edges_of(new.Oriented(TopAbs_FORWARD))}
     kept = [(edge, after[hash(edge)]) for edge in before if hash(edge) in after]
     if any(one.Orientation() != other.Orientation() for one, other in kept):
         return "loop orientation reversed"
@@ -244,7 +236,7 @@ def _change(face: TopoDS_Face, new: TopoDS_Shape, context: BRepTools_ReShape) ->
         return "edges added"
     if len(before) > len(kept):
         return "edges removed"
-    old = {hash(edge) for edge in _edges(face)}
+    old = {hash(edge) for edge in edges_of(face)}
     return "edges put in order" if old.issuperset(after) else "edges fitted anew"
 
 
@@ -252,10 +244,10 @@ def _messages(whole: TopoDS_Shape, said) -> Iterator[tuple[TopoDS_Shape | None, 
     """What was said of each face, its loops and edges, of shells and of solids."""
     seen = set()
     for kind in (TopAbs_SOLID, TopAbs_SHELL):
-        for shape in _unique(whole, kind):
+        for shape in unique(whole, kind):
             yield from ((None, text) for text in _texts(shape, said))
-    for face in _faces(whole):
-        for shape in (face, *_unique(face, TopAbs_WIRE), *_unique(face, TopAbs_EDGE)):
+    for face in faces_of(whole):
+        for shape in (face, *unique(face, TopAbs_WIRE), *unique(face, TopAbs_EDGE)):
             if hash(shape) not in seen:
                 seen.add(hash(shape))
                 yield from ((face, text) for text in _texts(shape, said))
@@ -274,12 +266,12 @@ def _still_wrong(shape: TopoDS_Shape) -> Iterator[tuple[TopoDS_Shape, str]]:
     analyzer = BRepCheck_Analyzer(shape)
     if analyzer.IsValid():
         return
-    for face in _unique(shape, TopAbs_FACE):
+    for face in unique(shape, TopAbs_FACE):
         if analyzer.IsValid(face):
             continue
         reasons = dict.fromkeys(
             STILL[status]
-            for part in (*_unique(face, TopAbs_WIRE), face)
+            for part in (*unique(face, TopAbs_WIRE), face)
             for status in _statuses(analyzer, part, face)
             if status in STILL
         )
@@ -316,9 +308,9 @@ def _is_no_point(edge: TopoDS_Edge) -> bool:
 
 def _lacks_pcurve(shape: TopoDS_Shape) -> bool:
     """Whether an edge has no curve in (u, v) on a face where it cannot be made at once."""
-    for face in _faces(shape):
+    for face in faces_of(shape):
         if not _is_plane(face) and any(
-            BRep_Tool.CurveOnSurface_s(edge, face, 0.0, 0.0) is None for edge in _edges(face)
+            BRep_Tool.CurveOnSurface_s(edge, face, 0.0, 0.0) is None for edge in edges_of(face)
         ):
             return True
     return False
@@ -329,26 +321,3 @@ def _is_plane(face: TopoDS_Face) -> bool:
     while isinstance(surface, Geom_RectangularTrimmedSurface):
         surface = surface.BasisSurface()
     return isinstance(surface, Geom_Plane)
-
-
-def _size(shape: TopoDS_Shape) -> float:
-    from OCP.Bnd import Bnd_Box
-    from OCP.BRepBndLib import BRepBndLib
-
-    box = Bnd_Box()
-    BRepBndLib.Add_s(shape, box)
-    return 0.0 if box.IsVoid() else box.CornerMin().Distance(box.CornerMax())
-
-
-def _unique(shape: TopoDS_Shape, kind) -> list[TopoDS_Shape]:
-    found = TopTools_IndexedMapOfShape()
-    TopExp.MapShapes_s(shape, kind, found)
-    return [found.FindKey(number + 1) for number in range(found.Extent())]
-
-
-def _faces(shape: TopoDS_Shape) -> list[TopoDS_Face]:
-    return [TopoDS.Face_s(face.Oriented(TopAbs_FORWARD)) for face in _unique(shape, TopAbs_FACE)]
-
-
-def _edges(shape: TopoDS_Shape) -> list[TopoDS_Edge]:
-    return [TopoDS.Edge_s(edge) for edge in _unique(shape, TopAbs_EDGE)]

@@ -18,11 +18,11 @@ from OCP.Geom import Geom_SphericalSurface
 from OCP.GeomAbs import GeomAbs_Sphere
 from OCP.gp import gp_Ax3, gp_Dir, gp_Sphere
 from OCP.TopAbs import TopAbs_EDGE, TopAbs_FACE, TopAbs_FORWARD, TopAbs_REVERSED
-from OCP.TopExp import TopExp, TopExp_Explorer
+from OCP.TopExp import TopExp
 from OCP.TopoDS import TopoDS, TopoDS_Edge, TopoDS_Face, TopoDS_Shape, TopoDS_Wire
-from OCP.TopTools import TopTools_IndexedMapOfShape
 
-from surfmesh.cad.assembly import Part
+from surfmesh.cad.parts import Part
+from surfmesh.cad.sub_shapes import each, edges_of, faces_of
 
 NEAR = 0.02  # radians from a pole: an edge that comes so near passes it
 MERIDIAN = 1e-9  # of the radius: an edge within this of a plane through the axis does not
@@ -32,7 +32,7 @@ DIRECTIONS = 400  # tried for the new axis
 
 def passed_poles(part: Part) -> list[TopoDS_Face]:
     """The spherical faces of a part with an edge that passes a pole, and is no meridian."""
-    return [face for face in _faces(part.shape) if _passes(face)]
+    return [face for face in faces_of(part.shape) if _passes(face)]
 
 
 def with_turned_spheres(part: Part, faces: list[TopoDS_Face]) -> Part:
@@ -58,12 +58,8 @@ def _turned_inside(shape: TopoDS_Shape, faces: list[TopoDS_Face]) -> list[TopoDS
 
     Readers make that of the larger face where they take its loop to run round the smaller one.
     """
-    explorer, uses = TopExp_Explorer(shape, TopAbs_FACE), []
-    while explorer.More():
-        face = TopoDS.Face_s(explorer.Current())
-        if any(face.IsSame(one) for one in faces):
-            uses.append(face)
-        explorer.Next()
+    used = map(TopoDS.Face_s, each(shape, TopAbs_FACE))
+    uses = [face for face in used if any(face.IsSame(one) for one in faces)]
     ahead = [face for face in uses if face.Orientation() == TopAbs_FORWARD]
     back = [face for face in uses if face.Orientation() == TopAbs_REVERSED]
     return [face for face in back if any(_are_twins(face, other) for other in ahead)]
@@ -86,13 +82,6 @@ def _are_twins(one: TopoDS_Face, other: TopoDS_Face) -> bool:
     return max(apart, abs(spheres[0].Radius() - spheres[1].Radius())) < BRep_Tool.Tolerance_s(one)
 
 
-def _faces(shape: TopoDS_Shape) -> list[TopoDS_Face]:
-    found = TopTools_IndexedMapOfShape()
-    TopExp.MapShapes_s(shape, TopAbs_FACE, found)
-    faces = (found.FindKey(number + 1) for number in range(found.Extent()))
-    return [TopoDS.Face_s(face.Oriented(TopAbs_FORWARD)) for face in faces]
-
-
 def _sphere(face: TopoDS_Face) -> gp_Sphere | None:
     surface = BRepAdaptor_Surface(face, False)
     return surface.Sphere() if surface.GetType() == GeomAbs_Sphere else None
@@ -100,10 +89,7 @@ def _sphere(face: TopoDS_Face) -> gp_Sphere | None:
 
 def _real_edges(face: TopoDS_Face) -> list[TopoDS_Edge]:
     """The edges of a face, oriented as used, without degenerate ones and seams."""
-    explorer, edges = TopExp_Explorer(face, TopAbs_EDGE), []
-    while explorer.More():
-        edges.append(TopoDS.Edge_s(explorer.Current()))
-        explorer.Next()
+    edges = [TopoDS.Edge_s(edge) for edge in each(face, TopAbs_EDGE)]
     uses = [sum(edge.IsSame(other) for other in edges) for edge in edges]
     return [
         edge for edge, count in zip(edges, uses)
@@ -143,13 +129,7 @@ def _passes(face: TopoDS_Face) -> bool:
 
 def _lacks_pcurve(face: TopoDS_Face) -> bool:
     """Of an edge at a pole, say, that it shares with a face on the other side."""
-    explorer = TopExp_Explorer(face, TopAbs_EDGE)
-    while explorer.More():
-        edge = TopoDS.Edge_s(explorer.Current())
-        if BRep_Tool.CurveOnSurface_s(edge, face, 0.0, 0.0) is None:
-            return True
-        explorer.Next()
-    return False
+    return any(BRep_Tool.CurveOnSurface_s(edge, face, 0.0, 0.0) is None for edge in edges_of(face))
 
 
 def _least_beside(way: np.ndarray) -> float:

@@ -5,21 +5,19 @@ They are taken out before anything else is done with a part: most tools of OCP c
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from dataclasses import replace
 
 from OCP.BRep import BRep_Tool
 from OCP.BRepTools import BRepTools_ReShape
 from OCP.Geom import Geom_Plane
-from OCP.gp import gp_XYZ
 from OCP.Precision import Precision
-from OCP.TopAbs import TopAbs_EDGE, TopAbs_FACE, TopAbs_VERTEX
+from OCP.TopAbs import TopAbs_EDGE, TopAbs_FACE
 from OCP.TopExp import TopExp
 from OCP.TopLoc import TopLoc_Location
-from OCP.TopoDS import TopoDS, TopoDS_Edge, TopoDS_Face, TopoDS_Shape
+from OCP.TopoDS import TopoDS, TopoDS_Edge, TopoDS_Face
 
-from surfmesh.cad.assembly import Part
-from surfmesh.cad.sub_shapes import counted, each, unique
+from surfmesh.cad.parts import Part, face_in_words
+from surfmesh.cad.sub_shapes import Numbering, counted, unique
 
 
 def without_unusable_faces(part: Part) -> Part:
@@ -31,11 +29,11 @@ def without_unusable_faces(part: Part) -> Part:
         return part
     context = BRepTools_ReShape()
     said = []
-    faces = unique(part.shape, TopAbs_FACE)
-    for number, face in enumerate(faces, 1):
+    faces = Numbering([part.shape], TopAbs_FACE)
+    for face in faces:
         reason = _reason(TopoDS.Face_s(face), part)
         if reason:
-            said.append(f"{_in_words(face, number, len(faces), part)}: {reason}")
+            said.append(f"{face_in_words(face, part, faces)}: {reason}")
             context.Remove(face)
     if not said:
         return part
@@ -46,29 +44,6 @@ def without_unusable_faces(part: Part) -> Part:
         remarks=[(s, text) for s, text in kept.remarks if s is None or not s.IsNull()],
         left_out=[*part.left_out, *said],
     )
-
-
-def face_in_words(face: TopoDS_Shape, part: Part) -> str:
-    """Which of the faces of a part it is, its name, and where it lies."""
-    faces = unique(part.shape, TopAbs_FACE)
-    number = next((k for k, one in enumerate(faces, 1) if one.IsSame(face)), 0)
-    return _in_words(face, number, len(faces), part)
-
-
-def _in_words(face: TopoDS_Shape, number: int, count: int, part: Part) -> str:
-    names = [detail.name for detail in part.details if detail.shape.IsSame(face)]
-    called = f" ({names[0]})" if names and names[0] else ""
-    which = "the only face" if count == 1 else f"face {number} of {count}"
-    of = f" in {part.name!r}" if part.name else ""
-    points = list(_points(TopoDS.Face_s(face)))
-    where = ""
-    if points:
-        middle = gp_XYZ()
-        for point in points:
-            middle.Add(point)
-        middle.Divide(len(points))
-        where = f" near ({middle.X():.5g}, {middle.Y():.5g}, {middle.Z():.5g})"
-    return f"{which}{of}{called}{where}"
 
 
 def _reason(face: TopoDS_Face, part: Part) -> str:
@@ -105,16 +80,3 @@ def _can_be_made(edge: TopoDS_Edge, face: TopoDS_Face, part: Part) -> bool:
         for other in unique(part.shape, TopAbs_FACE)
         if any(edge.IsSame(own) for own in unique(other, TopAbs_EDGE))
     )
-
-
-def _points(face: TopoDS_Face) -> Iterator[gp_XYZ]:
-    """Its vertices, or else those of its triangles."""
-    vertices = list(each(face, TopAbs_VERTEX))
-    if vertices:
-        yield from (BRep_Tool.Pnt_s(TopoDS.Vertex_s(vertex)).XYZ() for vertex in vertices)
-        return
-    place = TopLoc_Location()
-    mesh = BRep_Tool.Triangulation_s(face, place)
-    if mesh is not None:
-        for number in range(mesh.NbNodes()):
-            yield mesh.Node(number + 1).Transformed(place.Transformation()).XYZ()

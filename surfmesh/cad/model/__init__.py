@@ -1,8 +1,6 @@
-"""A CAD model as plain data, and what is made of OCP's shapes to get there.
+"""A CAD model as plain data, without OCP, and what is true of it.
 
 cad_model: a CAD model as plain data: vertices, edges, faces and solids by number, no OCP anywhere.
-topology: from OCP's shapes to a `CadModel`: every vertex, edge and face once, by number.
-convert: geometry of OCP -> curves and surfaces of `surfmesh.geometry`, exactly or not at all.
 invariants: what must be true of a CAD model, and how far a model is from it.
 incidence: how often faces use each edge, and how many fans they form at each vertex of a model.
 loops: coedges of a face in walking order: which follows which, and what is a loop of its own.
@@ -13,7 +11,6 @@ collapsed_edges: edges so short that the mesh has one vertex in their place, and
     their ends.
 pcurves: p-curves that follow their edge more closely than those of the file.
 near_poles: p-curves that end at a pole which is only nearly a point keep their direction there.
-points_inside: a vertex inside a face, where another body touches it in a point, gets a short edge.
 singular_cuts: faces are cut along lines inside them that are one point in space: the pinch of a
     torus, an apex.
 tolerances: tolerances that are true, and p-curves that keep to them.

@@ -18,10 +18,10 @@ from dataclasses import replace
 from pathlib import Path
 from typing import IO, Any
 
-from surfmesh.cad.assembly import checked_unit
 from surfmesh.cad.healing.joining import Joining
 from surfmesh.cad.model.cad_model import CadModel
 from surfmesh.cad.reading.limits import MORE_MEMORY, MORE_TIME, Limits, peak_megabytes
+from surfmesh.cad.units import checked_unit
 from surfmesh.errors import CadError
 from surfmesh.result.model_facts import file_sha256
 

@@ -16,7 +16,7 @@ from OCP.IFSelect import IFSelect_ReturnStatus
 from OCP.IGESCAFControl import IGESCAFControl_Reader
 from OCP.Interface import Interface_Static
 from OCP.Message import Message_ProgressRange
-from OCP.Quantity import Quantity_Color, Quantity_ColorRGBA, Quantity_TypeOfColor
+from OCP.Quantity import Quantity_ColorRGBA
 from OCP.STEPCAFControl import STEPCAFControl_Reader
 from OCP.TCollection import TCollection_ExtendedString
 from OCP.TColStd import TColStd_SequenceOfAsciiString
@@ -31,10 +31,11 @@ from OCP.XCAFDoc import (
     XCAFDoc_ShapeTool,
 )
 
-from surfmesh.cad.assembly import Detail, Part, model_of
+from surfmesh.cad.conversion.contents_of_file import without_faces
+from surfmesh.cad.conversion.model_of_parts import model_of
 from surfmesh.cad.healing.joining import Joining
 from surfmesh.cad.model.cad_model import CadModel, Colour
-from surfmesh.cad.reading.contents_of_file import without_faces
+from surfmesh.cad.parts import Detail, Part, screen_colour
 from surfmesh.errors import CadError
 
 # names that programs make up for an instance; the name of what it is an instance of says more
@@ -171,9 +172,3 @@ def _colour(label: TDF_Label) -> Colour | None:
         if XCAFDoc_ColorTool.GetColor_s(label, kind, colour):
             return screen_colour(colour.GetRGB())
     return None
-
-
-def screen_colour(colour: Quantity_Color) -> Colour:
-    """(r, g, b) from 0 to 1 as screens and files mean it (sRGB); OCP's own are linear."""
-    r, g, b = colour.Values(Quantity_TypeOfColor.Quantity_TOC_sRGB)
-    return (float(r), float(g), float(b))

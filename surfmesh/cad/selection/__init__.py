@@ -1,5 +1,5 @@
 """Faces, edges and solids of a model by name, number, colour, kind or selector.
 
 selection: faces, edges, vertices and solids of a model by name, number, colour, kind or selector.
-selectors: cadQuery's string selectors, evaluated on a plain model.
+selectors: CadQuery's string selectors, evaluated on a plain model.
 """

@@ -12,7 +12,7 @@ closes it: a cone lies less than the ring's radius from what it stands for.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -22,6 +22,7 @@ from surfmesh.geometry.files.known_facts import known_facts
 from surfmesh.geometry.formulas.parametric import ParametricSurface
 from surfmesh.geometry.functions.numeric import NumericSurface
 from surfmesh.geometry.surface import Surface
+from surfmesh.result.mesh_part import TRIANGLE, Renumbering
 from surfmesh.result.surface_mesh import SurfaceMesh
 from surfmesh.sizing.options.defaults import DEFAULT_CHORD
 from surfmesh.sizing.options.sizing import Sizing
@@ -85,32 +86,29 @@ def closed_at(mesh: SurfaceMesh, surface: Surface, cusps: Sequence[Cusp]) -> Sur
     """``mesh`` of the surface without its cusps, each first ring joined to its pole by a fan."""
     for cusp in cusps:
         mesh = _with_fan(mesh, surface, cusp)
-    return replace(mesh, surfaces=(surface,), groups=None, facts=known_facts(surface))
+    return mesh.replaced(surfaces=(surface,), groups=None, facts=known_facts(surface))
 
 
 def _with_fan(mesh: SurfaceMesh, surface: Surface, cusp: Cusp) -> SurfaceMesh:
-    # for mypy: every mesh of a surface has them
-    assert mesh.uv_points is not None and mesh.uv_triangles is not None  # noqa: S101
-    assert mesh.sizes is not None  # noqa: S101
-    on = mesh.uv_points[:, cusp.axis] == cusp.cut
-    start, end = mesh.uv_triangles, np.roll(mesh.uv_triangles, -1, axis=1)
+    corners, sizes = mesh.parametrisation, mesh.sizes
+    assert corners is not None and sizes is not None  # noqa: S101  every mesh of a surface has them
+    on = corners.uv_points[:, cusp.axis] == cusp.cut
+    start, end = corners.uv_triangles, np.roll(corners.uv_triangles, -1, axis=1)
     row, k = np.nonzero(on[start] & on[end])
     a, b = start[row, k], end[row, k]
-    pole = 0.5 * (mesh.uv_points[a] + mesh.uv_points[b])
+    pole = 0.5 * (corners.uv_points[a] + corners.uv_points[b])
     pole[:, cusp.axis] = cusp.pole
-    apex = np.arange(len(mesh.uv_points), len(mesh.uv_points) + len(pole))
+    apex = np.arange(len(corners.uv_points), len(corners.uv_points) + len(pole))
     ring = mesh.triangles[row, k], mesh.triangles[row, (k + 1) % 3]
     tip = np.full(len(row), len(mesh.points))
-    inverse = mesh.inverse_sizes
-    return replace(
-        mesh,
+    fan = np.concatenate([corners.uv_triangles, np.stack([b, a, apex], axis=1)])
+    as_theirs = Renumbering(np.append(np.arange(len(mesh.triangles)), row))
+    return mesh.replaced(
         points=np.concatenate([mesh.points, surface.evaluate(pole[:1])[0]]),
         triangles=np.concatenate([mesh.triangles, np.stack([ring[1], ring[0], tip], axis=1)]),
-        uv_points=np.concatenate([mesh.uv_points, pole]),
-        uv_triangles=np.concatenate([mesh.uv_triangles, np.stack([b, a, apex], axis=1)]),
-        face_ids=np.zeros(len(mesh.triangles) + len(row), np.int32),
-        sizes=np.append(mesh.sizes, mesh.sizes[ring[0]].mean()),
-        inverse_sizes=None if inverse is None else np.concatenate([inverse, inverse[a]]),
+        parametrisation=corners.with_corners(pole, a, fan),
+        model_links=mesh.model_links.renumbered({TRIANGLE: as_theirs}),
+        sizes=np.append(sizes, sizes[ring[0]].mean()),
     )
 
 

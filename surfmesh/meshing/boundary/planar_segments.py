@@ -10,7 +10,6 @@ import numpy as np
 
 from surfmesh.geometry.planar.planar_domain import PlanarDomain
 from surfmesh.geometry.planar.segment_graph import SegmentGraph
-from surfmesh.kernels.fields.background import scalar_sizes_at
 from surfmesh.sizing.field.size_field import SizeField
 from surfmesh.sizing.rules.size_limits import SizeLimits
 
@@ -169,8 +168,7 @@ def narrow_gaps(
     import shapely
 
     graph = domain.graph
-    wanted = np.empty(len(cut.uv))
-    scalar_sizes_at(field.background, field.chart.to_plane(cut.uv), wanted)
+    wanted = field.sizes(field.chart.to_plane(cut.uv))
     lines = shapely.linestrings(graph.points[graph.segments])
     tree = shapely.STRtree(lines)
     places = shapely.points(cut.uv)

@@ -3,7 +3,6 @@
 import numpy as np
 
 from surfmesh.geometry.surface import Surface
-from surfmesh.kernels.fields.background import scalar_sizes_at
 from surfmesh.meshing.boundary.boundary_loops import BoundaryLoops
 from surfmesh.sizing.field.size_field import SizeField
 from surfmesh.sizing.options.sizing import Sizing
@@ -40,8 +39,7 @@ def sizes_along_edges(
         way, whole = (np.repeat(a, len(shares), axis=0) for a in (way, length))
         sizes = whole / np.maximum(field.metric_lengths(xy, way), np.finfo(float).tiny)
     else:
-        sizes = np.empty(len(xy))
-        scalar_sizes_at(field.background, xy, sizes)
+        sizes = field.sizes(xy)
     sizes = np.maximum(sizes, sizing.min_size or 0.0).reshape(-1, len(shares))
     coarse = length > COARSE / (1.0 / sizes).mean(axis=1)
     if not coarse.any():

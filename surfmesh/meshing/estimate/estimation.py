@@ -62,7 +62,9 @@ class Estimate:
         }  # fmt: skip
 
     @classmethod
-    def of(cls, by_face: Sequence[float], stretched: bool = False, model: bool = False) -> Estimate:
+    def of(
+        cls, by_face: Sequence[float] | np.ndarray, stretched: bool = False, model: bool = False
+    ) -> Estimate:
         """stretched: sizes depend on the direction."""
         counts = tuple(round(count) if count < COUNTABLE else int(COUNTABLE) for count in by_face)
         total, most = sum(counts), max(counts, default=0)

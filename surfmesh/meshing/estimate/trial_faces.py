@@ -6,6 +6,7 @@ found is that of all triangles. Planes and curved faces are two populations.
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import replace
 
 import numpy as np
@@ -13,6 +14,8 @@ import numpy as np
 from surfmesh.meshing.estimate.trial_patches import triangles_per_unit
 from surfmesh.meshing.faces.face_data import FaceJob
 from surfmesh.meshing.faces.face_mesh import face_field, mesh_face
+from surfmesh.meshing.patch.refinement_loop import refined_in_rounds
+from surfmesh.sizing.rules.size_limits import SizeLimits
 
 FACES = 8
 """Faces of each population."""
@@ -51,10 +54,15 @@ def _ratio(job: FaceJob, count: float) -> float:
         if found is not None or count > MEDIUM:
             return 1.0 if found is None else float(np.clip(found, *SPREAD))
     made = 0
-    for _ in range(ROUNDS):
-        mesh = mesh_face(job)
+
+    def one_round(limits: Mapping[int, SizeLimits]) -> tuple[int, dict[int, SizeLimits]]:
+        nonlocal made
+        mesh = mesh_face(replace(job, limits=limits.get(0)))
         made = len(mesh.triangles) or made
         if mesh.wishes is None or mesh.failure or made > SPREAD[1] * count:
-            break
-        job = replace(job, limits=mesh.wishes.joined_with(job.limits))
+            return made, {}
+        return made, {0: mesh.wishes}
+
+    known = {} if job.limits is None else {0: job.limits}
+    made = refined_in_rounds(one_round, SizeLimits.joined_with, ROUNDS, known)
     return float(np.clip(made / count, *SPREAD)) if made and count > 0.0 else 1.0

@@ -16,8 +16,8 @@ import numpy as np
 
 from surfmesh.geometry.differential.fundamental_forms import curvatures, forms_from_derivatives
 from surfmesh.geometry.surface import Surface
-from surfmesh.kernels.fields.background import metric_roots_3d_at, scalar_sizes_at
 from surfmesh.sizing.field.size_field import SizeField
+from surfmesh.sizing.metric_roots import unpacked
 from surfmesh.sizing.options.sizing import Sizing
 from surfmesh.sizing.rules.size_bounds import SizeBounds, principal_sizes
 from surfmesh.sizing.rules.size_rows import SizeRow, curvature_rows, deciding, rows
@@ -171,12 +171,8 @@ def field_axes(
     """Both sizes of the graded metric with their unit tangents (3,), the shorter first."""
     xy = field.chart.to_plane(uv[None])
     if not field.is_anisotropic:
-        size = np.empty(1)
-        scalar_sizes_at(field.background, xy, size)
-        return [(float(size[0]), along) for along in principal.along]
-    packed = np.empty((1, 6))
-    metric_roots_3d_at(field.background, xy, packed)
-    w = packed[0][[[0, 1, 2], [1, 3, 4], [2, 4, 5]]]
+        return [(float(field.sizes(xy)[0]), along) for along in principal.along]
+    w = unpacked(field.metric_roots_3d(xy)[0])
     inverse, axes = np.linalg.eigh(principal.along @ w @ principal.along.T)
     if inverse[1] <= ROUND * inverse[0]:
         axes = np.eye(2)

@@ -22,7 +22,6 @@ from surfmesh.errors import SizingError, printable
 from surfmesh.geometry.differential.projection import closest_point
 from surfmesh.geometry.planar.inside_loops import is_inside
 from surfmesh.geometry.surface import Surface, surface_label
-from surfmesh.kernels.fields.background import scalar_sizes_at
 from surfmesh.meshing.edges.edge_samples import EdgeSamples
 from surfmesh.meshing.edges.face_proximity import AcrossTo
 from surfmesh.meshing.explain.axis_sizes import (
@@ -359,9 +358,8 @@ def _explained(
 ) -> Explanation:  # fmt: skip
     """wish: of the field before gradation; elsewhere: (point (3,), its name, rule there) that the
     size may have grown from."""
-    foot, out = where.foot, np.empty(1)
-    scalar_sizes_at(field.background, field.chart.to_plane(where.uv[None]), out)
-    size = float(out[0])
+    foot = where.foot
+    size = float(field.sizes(field.chart.to_plane(where.uv[None]))[0])
     winner = _decided(found, wish)
     origin = ""
     if size < LOWERED * wish:

@@ -16,7 +16,6 @@ from surfmesh.errors import SurfaceError, SurfmeshError
 from surfmesh.geometry.differential.projection import closest_point
 from surfmesh.geometry.differential.sides import find_sides
 from surfmesh.geometry.surface import Surface
-from surfmesh.kernels.fields.background import scalar_sizes_at
 from surfmesh.meshing.boundary.boundary_loops import BoundaryLoops, cut_line
 from surfmesh.meshing.boundary.boundary_recovery import recovered
 from surfmesh.meshing.boundary.coincident_nodes import coincident_nodes
@@ -38,7 +37,7 @@ from surfmesh.meshing.patch.gluing import glued, misglued
 from surfmesh.meshing.patch.optimise import Optimiser
 from surfmesh.meshing.patch.packing import packed_over
 from surfmesh.sizing.field.boundary_field import boundary_field, has_boundary_field
-from surfmesh.sizing.field.size_field import SizeField, inverse_sizes, size_field
+from surfmesh.sizing.field.size_field import SizeField, size_field
 from surfmesh.sizing.rules.size_limits import SizeLimits, along_lines
 
 FINER = 0.5
@@ -171,9 +170,7 @@ def _meshed(job: FaceJob, unfold: bool = True) -> FaceMesh:
     parts = glued(surface, loops, domain, uv)
     slot = np.full(len(xy), -1, np.int64)
     slot[domain.node] = slots
-    sizes = np.empty(len(parts.place))
-    scalar_sizes_at(field.background, xy[parts.place], sizes)
-    sizes *= optimiser.embedding.scale[parts.place]
+    sizes = field.sizes(xy[parts.place]) * optimiser.embedding.scale[parts.place]
     bad = misglued(parts)
     if len(bad):
         finer = FINER * sizes[bad]
@@ -183,7 +180,7 @@ def _meshed(job: FaceJob, unfold: bool = True) -> FaceMesh:
         return FaceMesh(failure=f"its sides cannot be joined near ({place})", wishes=wishes)
     return FaceMesh(
         parts.points, slot[parts.place], parts.triangles, parts.uv_points, parts.uv_triangles,
-        sizes, inverse_sizes(field, xy, optimiser.embedding.scale[: len(xy)]), wishes,
+        sizes, field.roots_of_mesh(xy, optimiser.embedding.scale[: len(xy)]), wishes,
     )  # fmt: skip
 
 
@@ -267,9 +264,8 @@ def _grown_inward(surface: Surface, job: FaceJob, real: list[CoedgeNodes]) -> Si
 def _agrees(field: SizeField, real: list[CoedgeNodes]) -> bool:
     """Is no segment of the boundary much longer than the sizes beside it are in all directions?"""
     for piece in real:
-        sizes = np.empty(len(piece.uv) - 1)
         middle = 0.5 * (piece.uv[1:] + piece.uv[:-1])
-        scalar_sizes_at(field.background, field.chart.to_plane(middle), sizes)
+        sizes = field.sizes(field.chart.to_plane(middle))
         if (np.linalg.norm(np.diff(piece.points, axis=0), axis=1) > LONGER * sizes).any():
             return False
     return True

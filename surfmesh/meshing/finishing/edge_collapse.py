@@ -16,7 +16,8 @@ import heapq
 import numpy as np
 
 from surfmesh.geometry.differential.projection import closest_point
-from surfmesh.result.surface_mesh import Corners, SurfaceMesh
+from surfmesh.result.mesh_parts import Parametrisation
+from surfmesh.result.surface_mesh import SurfaceMesh
 
 LEAST = 5e-4
 """Edges shorter than this share of the diagonal are collapsed, if ``min_size`` does not say."""
@@ -133,24 +134,23 @@ class _Work:
         said = [f"simplified: {old.face_name(k)} (face {k}) has vanished" for k in empty]
         return old.submesh(live, final, self._corners()).with_warnings(*said)
 
-    def _corners(self) -> Corners | None:
+    def _corners(self) -> Parametrisation | None:
         """Parameters of all corners; those with another vertex are found anew on their face."""
-        old = self.old
+        old, corners = self.old, self.old.parametrisation
         changed = np.array(sorted({pair for pair in self.replaced if not self.gone[pair[0]]}))
-        if old.uv_points is None or not len(changed):
+        if corners is None or not len(changed):
             return None
-        rows = old.uv_triangles.astype(np.int64)
+        rows = corners.uv_triangles.astype(np.int64)
         triangle, corner = changed.T
         points = old.points[self.triangles[triangle, corner]]
         source = rows[triangle, corner]
-        uv = old.uv_points[source].copy()
+        uv = corners.uv_points[source].copy()
         face = old.face_ids[triangle]
         for number in np.unique(face):
             of = face == number
             uv[of] = closest_point(old.surfaces[number], points[of], uv[of], steps=8)[0]
-        rows[triangle, corner] = len(old.uv_points) + np.arange(len(changed))
-        source = np.concatenate([np.arange(len(old.uv_points)), source])
-        return Corners(np.concatenate([old.uv_points, uv]), rows, source)
+        rows[triangle, corner] = len(corners.uv_points) + np.arange(len(changed))
+        return corners.with_corners(uv, source, rows)
 
 
 def _normals(corners: np.ndarray) -> np.ndarray:

@@ -8,7 +8,6 @@ A triangle whose Jacobian might not be positive everywhere gets straight edges: 
 first, and only where that does not do on curves too.
 """
 
-import dataclasses
 from collections.abc import Callable
 from time import perf_counter
 
@@ -38,12 +37,11 @@ def of_second_order(mesh: SurfaceMesh, model: CadModel | None = None) -> Surface
         _on_surfaces(mesh, middles, ~boundary)
         _on_boundaries(mesh, middles, boundary)
         fixed |= boundary
-    if model is not None and mesh.edge_shares is not None:
+    if model is not None and mesh.edge_parameters is not None:
         fixed[_on_curves(mesh, model, middles)] = True
     straight = _straightened(mesh, middles, fixed)
     notes = [f"{straight} edges of order 2 are straight, lest triangles fold"] if straight else []
-    return dataclasses.replace(
-        mesh,
+    return mesh.replaced(
         mid_points=middles,
         warnings=(*mesh.warnings, *notes),
         seconds={**mesh.seconds, "order 2": perf_counter() - start},
@@ -92,7 +90,7 @@ def _on_curves(mesh: SurfaceMesh, model: CadModel, middles: NDArray) -> NDArray:
         edge = model.edges[number]
         if edge.curve is None or not len(own):
             continue
-        start, end = mesh.edge_shares[own].T
+        start, end = mesh.edge_parameters[own].T
         middles[rows[own]] = _halfway(
             lambda share, start=start, end=end, edge=edge: edge.curve.evaluate(
                 edge.parameters(start + share * (end - start)), 0

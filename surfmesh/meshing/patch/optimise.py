@@ -11,10 +11,18 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from surfmesh.geometry.differential.projection import closest_from_corners, closest_point
+from surfmesh.accuracy.deviation import CHORD_MARGIN, interpolated, triangle_deviations
+from surfmesh.accuracy.dihedral import (
+    SLACK,
+    corners_beside,
+    dihedral_angles,
+    on_crease,
+)
+from surfmesh.accuracy.folds import cosines_with_surface, sharp_radius
+from surfmesh.accuracy.samples import CENTROID
 from surfmesh.geometry.differential.sharp_bends import bends_sharply
 from surfmesh.geometry.surface import Surface
-from surfmesh.kernels.optimisation.dihedral import dihedral_angles, find_dihedrals_over, lower_sizes
+from surfmesh.kernels.optimisation.dihedral import find_dihedrals_over, lower_sizes
 from surfmesh.kernels.optimisation.optimisation import (
     activate_bad,
     collapse_short,
@@ -30,12 +38,10 @@ from surfmesh.kernels.optimisation.optimisation import (
     triangles_at,
 )
 from surfmesh.kernels.optimisation.surface_frames import SurfaceFrames, empty_frames, set_frames
-from surfmesh.kernels.space.measure import tangent_plane_distances
 from surfmesh.kernels.triangulation.local_operations import DEAD
 from surfmesh.kernels.triangulation.triangulation import Triangulation
 from surfmesh.sizing.field.size_field import SizeField
-from surfmesh.sizing.options.defaults import FINEST_BY_ANGLE, FINEST_SIZE, LEAST_OF_CHORD
-from surfmesh.sizing.rules.crease import on_crease
+from surfmesh.sizing.options.defaults import FINEST_BY_ANGLE, LEAST_OF_CHORD
 from surfmesh.sizing.rules.size_limits import SizeLimits
 
 STIFFNESS = 2.0
@@ -73,22 +79,6 @@ FEW_TRIANGLES, FLAT = 20_000, 1e-9
 """Up to so many all are measured whose estimate is no round-off, as a share of ``chord``: the
 estimate is for triangles small beside the features."""
 
-FIRST_SAMPLES = np.array([(1, 1, 0), (0, 1, 1), (1, 0, 1), (2 / 3, 2 / 3, 2 / 3)]) / 2.0
-MORE_SAMPLES = (
-    np.array(
-        [(i, j, 6 - i - j) for i in range(7) for j in range(7 - i) if max(i, j, 6 - i - j) < 6]
-    )
-    / 6.0
-)
-"""Barycentric coordinates. The latter are those of the report, which is to find no more: between
-the samples of a coarser grid were 3% more in triangles across a direction that turns."""
-
-NEAR_CHORD, PROJECTIONS = 0.75, 4
-"""Share of ``chord`` from which the first samples do not suffice; steps to the nearest points."""
-
-FAR_FOOT = 0.2
-"""Of the longest side: r(u, v) so far across its tangent plane says nothing of the distance."""
-
 TURNED, LEAST_AT_CENTRE, LEAST_COSINE = 0.85, 0.55, 0.35
 """Cosines between the normals of a triangle and of the surface: where it is looked at again,
 what is folded at the centroid, and at a corner."""
@@ -100,12 +90,12 @@ FINER_UNFOLDS = 0.6
 """Factor on the sizes where triangles are folded."""
 
 CHORD_ROUNDS, STRETCHED_CHORD_ROUNDS, SPLIT_ROUNDS = 10, 4, 6
-CHORD_MARGIN, TOLERATED, SPLIT_MARGIN = 0.96, 0.995, 0.98
-"""What is aimed at, and what is let pass rather than go all the way round again. Between the
+TOLERATED, SPLIT_MARGIN = 0.995, 0.98
+"""What is let pass rather than go all the way round again. Between the
 samples of a triangle the deviation may be a little larger than at them."""
 
 ANGLE_ROUNDS, LAST_ANGLE_ROUNDS, TURN_SPLITS = 6, 4, 4
-ANGLE_MARGIN, ANGLE_SLACK = 0.97, 1.0 + 1e-9
+ANGLE_MARGIN, ANGLE_SLACK = 0.97, 1.0 + SLACK
 """What is aimed at, at last no more than what was asked for; and what is rounding."""
 
 NEAR_ANGLE = 0.7
@@ -221,13 +211,9 @@ class Optimiser:
         find_folded(self.t, self.embedding, LEAST_COSINE, 0.0, flag)
         if not len(turned):
             return turned
-        corners = self.embedding.point[self.t.tri.reshape(-1, 3)[turned]]
-        normal = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
-        _, uv = self._interpolated(turned, FIRST_SAMPLES[-1])
-        _, ru, rv = self.surface.evaluate(uv, 1)
-        true = np.cross(ru, rv)
-        length = np.linalg.norm(normal, axis=1) * np.linalg.norm(true, axis=1)
-        away = np.einsum("ij,ij->i", normal, true) < LEAST_AT_CENTRE * length
+        corners, xy = self._corners(turned)
+        _, uv = interpolated(self.field.chart, corners, xy, CENTROID[0])
+        away = cosines_with_surface(self.surface, corners, uv) < LEAST_AT_CENTRE
         at_corner = flag[turned] != 0
         if len(self.creased):  # there a corner has the normal of one side, or of neither
             at_corner &= ~np.isin(self.t.tri.reshape(-1, 3)[turned], self.creased).any(axis=1)
@@ -243,7 +229,7 @@ class Optimiser:
         None where the surface itself turns over, or bends sharply: no size is small enough.
         """
         least = LEAST_OF_CHORD * (self.field.sizing.chord or 0.0)
-        radius = max(least, FINEST_SIZE * self._diagonal())
+        radius = sharp_radius(self.field.sizing.chord, self._diagonal())
         smooth = ~bends_sharply(self.surface, self._parameters(triangles), radius)
         return self._limits_at(triangles[smooth], FINER_UNFOLDS, least)
 
@@ -355,21 +341,15 @@ class Optimiser:
             pairs, angles = np.concatenate([pairs, across[near]]), np.r_[angles, turn[near]]
         if not len(pairs):
             return Turned(pairs, angles)
-        first, second = (self._parameters_from(edges) for edges in pairs.T)
-        alike = self._numbers()[self.t.tri[pairs]]  # both run the same way: a Moebius strip
-        alike = alike[:, 0] == alike[:, 1]
-        second[alike] = second[alike][:, [1, 0, 2]]
-        kept = ~on_crease(self.surface, first, second, self.field.sizing.angle, self._diagonal())
+        corner = self.t.tri[corners_beside(pairs)]
+        uv = self.field.chart.to_uv(self.t.xy[corner.ravel()]).reshape(*corner.shape, 2)
+        bent = on_crease(
+            self.surface, self._numbers()[corner], uv, self.field.sizing.angle, self._diagonal()
+        )
+        kept = ~bent
         if not (kept[count:] & (angles[count:] > limit)).any():
             kept[count:] = False  # of seams that are fine as they are
         return Turned(pairs[kept] // 3, angles[kept])
-
-    def _parameters_from(self, edges: np.ndarray) -> np.ndarray:
-        """(k, 3, 2) of the corners of triangles, from the starts of their half-edges (k,)."""
-        triangle, side = np.divmod(edges, 3)
-        corners = self.t.tri[3 * triangle[:, None] + (side[:, None] + [0, 1, 2]) % 3]
-        uv = self.field.chart.to_uv(self.t.xy[corners.ravel()])
-        return uv.reshape(len(edges), 3, 2)
 
     def _parameters(self, triangles: np.ndarray) -> np.ndarray:
         """(k, 3, 2) of the corners of triangles (k,)."""
@@ -401,11 +381,8 @@ class Optimiser:
         border, ends = border[order], ends[order]
         twice = np.flatnonzero((ends[1:] == ends[:-1]).all(axis=1))
         pairs = np.stack([border[twice], border[twice + 1]], axis=1).reshape(-1, 2)
-        angles = np.empty(len(pairs))
-        dihedral_angles(
-            self.embedding.point, self.t.tri.reshape(-1, 3), pairs.astype(np.int32), angles
-        )
-        return pairs, angles
+        triangles = self.t.tri.reshape(-1, 3)
+        return pairs, dihedral_angles(self.embedding.point, triangles, pairs.astype(np.int32))
 
     def _approach(self, first: bool) -> np.ndarray:
         """Bring triangles that are too far from the surface nearer; returns those left.
@@ -482,43 +459,15 @@ class Optimiser:
         return np.flatnonzero(seen)
 
     def _deviations(self, triangles: np.ndarray) -> np.ndarray:
-        """Largest distance from the surface at samples of each of the triangles (n,).
+        """Largest distance from the surface at samples of each of the triangles (n,)."""
+        corners, xy = self._corners(triangles)
+        chord = self.field.sizing.chord
+        return triangle_deviations(self.surface, self.field.chart, corners, xy, chord)
 
-        Four samples each, read in the tangent planes; where these come near to ``chord`` more
-        samples, each with its nearest point.
-        """
-        error, astray = np.zeros(len(triangles)), np.zeros(len(triangles), bool)
-        found = np.empty((len(triangles), 7))
-        corners = self.embedding.point[self.t.tri.reshape(-1, 3)[triangles]]
-        reach = FAR_FOOT * np.linalg.norm(corners - corners[:, [1, 2, 0]], axis=2).max(axis=1)
-        for weights in FIRST_SAMPLES:
-            point, uv = self._interpolated(triangles, weights)
-            tangent_plane_distances(point, *self.surface.evaluate(uv, 1), found)
-            error = np.maximum(error, found[:, 3])
-            astray |= found[:, 4] > reach
-        close = np.flatnonzero(astray | (error > NEAR_CHORD * self.field.sizing.chord))
-        if not len(close):
-            return error
-        samples = [self._interpolated(triangles[close], weights) for weights in MORE_SAMPLES]
-        points, uv = (np.concatenate(parts) for parts in zip(*samples))
-        uv, distance, _ = closest_point(self.surface, points, uv, PROJECTIONS)
-        far = np.flatnonzero(distance > CHORD_MARGIN * self.field.sizing.chord)
-        if len(far):
-            corners = self._parameters(triangles[close[far % len(close)]])
-            distance[far] = closest_from_corners(
-                self.surface, points[far], uv[far], distance[far], corners, PROJECTIONS
-            )[1]
-        error[close] = distance.reshape(len(MORE_SAMPLES), -1).max(axis=0)
-        return error
-
-    def _interpolated(
-        self, triangles: np.ndarray, weights: np.ndarray
-    ) -> tuple[np.ndarray, np.ndarray]:
-        """Points (n, 3) at barycentric ``weights`` (3,) of the triangles, parameters (n, 2)."""
+    def _corners(self, triangles: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """(n, 3, 3) in space and (n, 3, 2) in the scaled plane."""
         corners = self.t.tri.reshape(-1, 3)[triangles]
-        point = np.einsum("k,nki->ni", weights, self.embedding.point[corners])
-        xy = np.einsum("k,nki->ni", weights, self.t.xy[corners])
-        return point, self.field.chart.to_uv(xy)
+        return self.embedding.point[corners], self.t.xy[corners]
 
     def _mean_slopes(self, uv: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """r_u and r_v (n, 3) on kinks at uv (n, 2): the mean of what they are around.

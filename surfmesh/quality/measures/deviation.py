@@ -13,25 +13,21 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from surfmesh.geometry.differential.projection import closest_from_corners, closest_point
-from surfmesh.kernels.space.measure import interpolate, tangent_plane_distances
+from surfmesh.accuracy.deviation import (
+    STEPS,
+    nearest_deviations,
+    point_deviations,
+    vertex_deviations,
+)
+from surfmesh.accuracy.folds import cosines, triangle_normals
+from surfmesh.accuracy.samples import CENTROID, DENSE, MIDDLES
+from surfmesh.kernels.space.measure import interpolate
 from surfmesh.result.surface_mesh import SurfaceMesh
 
-# d = distance to the tangent plane at a foot that is off by s: with d near k h^2 / 8, the
-# true distance differs by k s^2 / 2 = 4 d (s / h)^2, so 1 % of d at this s / h
-NEAR_FOOT = 0.05
-ON_SURFACE = 1e-9  # of the triangle's size: a vertex this near to r(u, v) is on it
 BLOCK = 1 << 15  # samples looked at together: the temporaries stay within the cache
 SECOND_LOOK = 400  # triangles sampled densely, or one in 250 if that is more
 # barycentric weights of the seven-point rule (Zienkiewicz & Taylor, The Finite Element Method)
 VERTEX_WEIGHT, MIDDLE_WEIGHT, CENTROID_WEIGHT = 1 / 20, 2 / 15, 9 / 20
-STEPS = 12  # of the projection, at most: where the speed along u changes fast, a guess is poor
-_MIDDLES = np.array([(0.5, 0.5, 0.0), (0.0, 0.5, 0.5), (0.5, 0.0, 0.5)])  # of sides 0, 1, 2
-_CENTROID = np.full((1, 3), 1 / 3)
-_GRID = 6  # subdivisions of a triangle's sides for the second look, its corners included
-_DENSE = np.array(
-    [(i, j, _GRID - i - j) for i in range(_GRID + 1) for j in range(_GRID + 1 - i)]
-) / float(_GRID)
 
 
 class Deviation(NamedTuple):
@@ -70,11 +66,11 @@ def deviation(mesh: SurfaceMesh, area: NDArray[np.float64]) -> Deviation | None:
         for block in _blocks(vertices):
             corner = corner_of[block]
             points, uv = mesh.points[block], mesh.uv_points[uv_corners[corner]]
-            at_vertex[block] = _offsets(surface, points, uv, np.sqrt(area[corner // 3]))
+            at_vertex[block] = vertex_deviations(surface, points, uv, np.sqrt(area[corner // 3]))
         for block in _blocks(middles):
             triangle, side = np.divmod(half_edges[block], np.int32(3))
-            points, uv = _samples(mesh, triangle, side, _MIDDLES)
-            distance, _ = _distances(surface, points, uv, np.sqrt(area[triangle]))
+            points, uv = _samples(mesh, triangle, side, MIDDLES)
+            distance, _ = point_deviations(surface, points, uv, np.sqrt(area[triangle]))
             shared = twins[block] >= 0
             for beside, found in (
                 (triangle, distance),
@@ -83,8 +79,8 @@ def deviation(mesh: SurfaceMesh, area: NDArray[np.float64]) -> Deviation | None:
                 np.add.at(mean_square, beside, MIDDLE_WEIGHT * found**2)
                 np.maximum.at(by_triangle, beside, found)
         for block in _blocks(triangles):
-            points, uv = _samples(mesh, block, np.zeros_like(block), _CENTROID)
-            found, normals = _distances(surface, points, uv, np.sqrt(area[block]))
+            points, uv = _samples(mesh, block, np.zeros_like(block), CENTROID)
+            found, normals = point_deviations(surface, points, uv, np.sqrt(area[block]))
             mean_square[block] += CENTROID_WEIGHT * found**2
             by_triangle[block] = np.maximum(by_triangle[block], found)
             cosine[block] = _cosines(mesh, block, normals, area[block])
@@ -155,54 +151,11 @@ def _samples(
     return points, uv
 
 
-def _offsets(surface: Any, points: NDArray, uv: NDArray, reach: NDArray) -> NDArray:
-    """Distance of points that should be r(u, v) itself: looked at closely only if they are not."""
-    (image,) = surface.evaluate(uv, 0)
-    distance = np.sqrt(np.square(points - image).sum(axis=1))
-    off = np.flatnonzero(~(distance <= ON_SURFACE * reach))
-    if len(off):
-        distance[off] = _distances(surface, points[off], uv[off], reach[off])[0]
-    return distance
-
-
-def _distances(
-    surface: Any, points: NDArray, uv: NDArray, reach: NDArray
-) -> tuple[NDArray, NDArray]:
-    """Distance of each point from ``surface``, and the surface normal near it.
-
-    ``uv``: parameters of a surface point nearby; ``reach``: (k,) size of the triangle. Read
-    in the tangent plane where the foot is near, else in the one a Newton step further, else
-    by projection.
-    """
-    found = _from_tangent_planes(surface, points, uv)
-    distance = found[:, 3].copy()
-    far = np.flatnonzero(~(found[:, 4] <= NEAR_FOOT * reach))
-    if len(far):
-        low, high = np.transpose(surface.domain)
-        nearer = np.clip(uv[far] + found[far, 5:], low, high)
-        again = _from_tangent_planes(surface, points[far], nearer)
-        distance[far] = again[:, 3]
-        better = np.hypot(again[:, 3], again[:, 4]) <= np.hypot(found[far, 3], found[far, 4])
-        far = far[~((again[:, 4] <= NEAR_FOOT * reach[far]) & better)]
-    if len(far):
-        distance[far] = closest_point(surface, points[far], uv[far], STEPS)[1]
-    return distance, found[:, :3]
-
-
-def _from_tangent_planes(surface: Any, points: NDArray, uv: NDArray) -> NDArray:
-    """(k, 7): unit normal, distance along it and across it, and the step in (u, v) across."""
-    found = np.empty((len(points), 7))
-    image = (np.ascontiguousarray(array, np.float64) for array in surface.evaluate(uv, 1))
-    tangent_plane_distances(points, *image, found)
-    return found
-
-
 def _cosines(mesh: SurfaceMesh, triangle: NDArray, normals: NDArray, area: NDArray) -> NDArray:
     """Cosine between the normals of triangles and of the surface; 1 where either is missing."""
-    a, b, c = (mesh.points[corner] for corner in mesh.triangles[triangle].T)
-    along = np.einsum("ij,ij->i", np.cross(b - a, c - a), normals)
-    missing = (area <= 0) | ~normals.any(axis=1)
-    return np.where(missing, 1.0, along / np.where(missing, 1.0, 2.0 * area))
+    own = triangle_normals(mesh.points[mesh.triangles[triangle]])
+    lengths = np.where(normals.any(axis=1), 2.0 * area, 0.0)
+    return np.where(lengths == 0.0, 1.0, cosines(own, normals, lengths))
 
 
 def _dot(a: NDArray, b: NDArray) -> float:
@@ -219,17 +172,15 @@ def _second_look(
     chord = getattr(mesh.sizing, "chord", None) or np.inf
     best = (-1.0, 0, (0.0, 0.0, 0.0), (0.0, 0.0))
     for face in np.unique(mesh.face_ids[worst]):
-        for block in _blocks(worst[mesh.face_ids[worst] == face], BLOCK // len(_DENSE)):
-            triangle = np.repeat(block, len(_DENSE))
-            rule = np.tile(np.arange(len(_DENSE), dtype=np.int32), len(block))
-            points, uv = _samples(mesh, triangle, rule, _DENSE)
-            foot_uv, distance, _ = closest_point(mesh.surfaces[face], points, uv, STEPS)
-            far = np.flatnonzero(distance > chord)
-            if len(far):
-                corners = mesh.uv_points[mesh.uv_triangles[triangle[far]]]
-                foot_uv[far], distance[far] = closest_from_corners(
-                    mesh.surfaces[face], points[far], foot_uv[far], distance[far], corners, STEPS
-                )
+        for block in _blocks(worst[mesh.face_ids[worst] == face], BLOCK // len(DENSE)):
+            triangle = np.repeat(block, len(DENSE))
+            rule = np.tile(np.arange(len(DENSE), dtype=np.int32), len(block))
+            points, uv = _samples(mesh, triangle, rule, DENSE)
+            corners = mesh.uv_points[mesh.uv_triangles[block]]
+            row = np.repeat(np.arange(len(block)), len(DENSE))
+            foot_uv, distance = nearest_deviations(
+                mesh.surfaces[face], points, uv, corners, row, chord, STEPS
+            )
             by_triangle[block] = distance.reshape(len(block), -1).max(axis=1)
             top = int(distance.argmax())
             if distance[top] > best[0]:

@@ -6,12 +6,14 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from surfmesh.kernels.optimisation.dihedral import dihedral_angles
+from surfmesh.accuracy.dihedral import (
+    SLACK,
+    corners_beside,
+    dihedral_angles,
+    on_crease,
+)
 from surfmesh.result.surface_mesh import SurfaceMesh
 from surfmesh.sizing.options.defaults import DEFAULT_ANGLE
-from surfmesh.sizing.rules.crease import on_crease
-
-ANGLE_SLACK = 1e-9  # relative: rounding in the angle itself
 
 
 class DihedralAngles(NamedTuple):
@@ -23,7 +25,7 @@ class DihedralAngles(NamedTuple):
 
     def above(self, angle: float | NDArray[np.float64]) -> NDArray[np.bool_]:
         """(k,) which of them turn by more than ``angle``, degrees: one for all, or (k,)."""
-        return self.angles > angle * (1 + ANGLE_SLACK)
+        return self.angles > angle * (1 + SLACK)
 
 
 def angles_within_faces(
@@ -45,38 +47,23 @@ def angles_within_faces(
     inner = (table.uses == 2) & (mesh.face_ids[first // 3] == mesh.face_ids[second // 3])
     edges = np.flatnonzero(inner)
     pairs = table.half_edges[edges]
-    angles = np.empty(len(edges))
-    dihedral_angles(mesh.points, mesh.triangles, pairs, angles)
-    angles = np.degrees(angles)
+    angles = np.degrees(dihedral_angles(mesh.points, mesh.triangles, pairs))
     faces = mesh.face_ids[pairs[:, 0] // 3]
     if limits is None:
         limits = np.array([getattr(mesh.sizing, "angle", None) or np.inf])
     limits = np.where(np.isfinite(limits), limits, DEFAULT_ANGLE)
     limits = np.broadcast_to(limits, len(mesh.surfaces)) if len(limits) == 1 else limits
-    large = np.flatnonzero(angles > limits[faces] * (1 + ANGLE_SLACK))
+    large = np.flatnonzero(angles > limits[faces] * (1 + SLACK))
     for face in np.unique(faces[large]):
         here = large[faces[large] == face]
         own = np.unique(mesh.triangles[mesh.face_ids == face])
         diagonal = float(np.linalg.norm(np.ptp(mesh.points[own], axis=0)))
-        parts = _parameters(mesh, pairs[here])
-        bent = on_crease(mesh.surfaces[face], *parts, float(limits[face]), diagonal)
+        beside = corners_beside(pairs[here])
+        uv = mesh.uv_points[mesh.uv_triangles.ravel()[beside]]
+        vertices = mesh.triangles.ravel()[beside]
+        bent = on_crease(mesh.surfaces[face], vertices, uv, float(limits[face]), diagonal)
         angles[here[bent]] = 0.0
     return DihedralAngles(edges, faces, angles)
-
-
-def _parameters(mesh: SurfaceMesh, pairs: NDArray[np.int32]) -> tuple[NDArray, NDArray]:
-    """Corner parameters (k, 3, 2) on both sides of edges, the far corners last.
-
-    The edge runs from corner 0 to 1 of the first and from 1 to 0 of the second.
-    """
-    triangle, side = np.divmod(pairs, 3)
-    order = (side[..., None] + [0, 1, 2]) % 3
-    corners = np.take_along_axis(mesh.triangles[triangle], order, axis=2)
-    rows = np.take_along_axis(mesh.uv_triangles[triangle], order, axis=2)
-    alike = corners[:, 0, 0] == corners[:, 1, 0]  # both run the same way: a Moebius strip
-    rows[alike, 1] = rows[alike, 1][:, [1, 0, 2]]
-    uv = mesh.uv_points[rows]
-    return uv[:, 0], uv[:, 1]
 
 
 def largest_angle(

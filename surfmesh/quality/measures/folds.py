@@ -7,21 +7,19 @@ whose images in (u, v) lie elsewhere, moved where a boundary crosses itself: the
 and the reason is said.
 """
 
-import math
 from dataclasses import dataclass
 from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
+from surfmesh.accuracy.folds import FOLDED, INVERTED, cosines_with_surface, sharp_radius
 from surfmesh.geometry.differential.projection import closest_point
 from surfmesh.geometry.differential.sharp_bends import bends_sharply
 from surfmesh.result.surface_mesh import SurfaceMesh
-from surfmesh.sizing.options.defaults import FINEST_SIZE, LEAST_OF_CHORD
 
 ON_SURFACE = 0.1  # of the way to its image: a node nearer to the surface lies on it
 STEPS = 12  # of the projection, at most
-FOLDED, INVERTED = math.cos(math.radians(60.0)), 0.0  # cosines between the two normals
 
 
 @dataclass(frozen=True)
@@ -59,8 +57,7 @@ def folds(mesh: SurfaceMesh, cosine: NDArray[np.float32]) -> Folds:
     ours = cosine < FOLDED
     own, off, moved = np.zeros(len(cosine), bool), np.zeros(len(cosine)), np.zeros(len(cosine))
     nearest = 0.0
-    chord = getattr(mesh.sizing, "chord", None) or 0.0
-    radius = max(LEAST_OF_CHORD * chord, FINEST_SIZE * _diagonal(mesh))
+    radius = sharp_radius(getattr(mesh.sizing, "chord", None), _diagonal(mesh))
     bad = np.flatnonzero(ours)
     for face in np.unique(mesh.face_ids[bad]):
         some = bad[mesh.face_ids[bad] == face]
@@ -69,7 +66,8 @@ def folds(mesh: SurfaceMesh, cosine: NDArray[np.float32]) -> Folds:
         images = surface.evaluate(uv.reshape(-1, 2), 0)[0].reshape(-1, 3, 3)
         away, gap = _distances(surface, mesh.points[mesh.triangles[some]], uv, images)
         turned = bool(mesh.turned_faces is not None and mesh.turned_faces[face])
-        flat = _cosines(surface, uv, images) * (-1.0 if turned else 1.0) >= FOLDED
+        cosine_at_images = cosines_with_surface(surface, images, uv.mean(axis=1))
+        flat = cosine_at_images * (-1.0 if turned else 1.0) >= FOLDED
         on = gap <= ON_SURFACE * away
         off[some] = np.where(flat, np.where(on, 0.0, gap).max(axis=1), 0.0)
         moved[some] = np.where(flat, np.where(on, away, 0.0).max(axis=1), 0.0)
@@ -84,15 +82,6 @@ def _distances(
     away = np.linalg.norm(corners - images, axis=2)
     gap = closest_point(surface, corners.reshape(-1, 3), uv.reshape(-1, 2), STEPS)[1]
     return away, np.minimum(gap.reshape(-1, 3), away)
-
-
-def _cosines(surface, uv: NDArray, corners: NDArray) -> NDArray:
-    """Of the angles between triangles (k, 3, 3) and the surface's normals at their middles."""
-    _, ru, rv = surface.evaluate(uv.mean(axis=1), 1)
-    true = np.cross(ru, rv)
-    normal = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
-    length = np.linalg.norm(normal, axis=1) * np.linalg.norm(true, axis=1)
-    return np.einsum("ij,ij->i", normal, true) / np.maximum(length, np.finfo(float).tiny)
 
 
 def _diagonal(mesh: SurfaceMesh) -> float:

@@ -6,6 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from surfmesh.result.surface_mesh import SurfaceMesh
+from surfmesh.sizing.metric_roots import unpacked
 
 QUASI_UNIT = (0.5**0.5, 2.0**0.5)  # metric lengths that conform to the wanted sizes
 GROWTH_SLACK = 0.01  # relative: sizes are interpolated between the nodes of the field
@@ -30,7 +31,7 @@ def metric_lengths(mesh: SurfaceMesh, lengths: NDArray[np.float64]) -> NDArray[n
     metric = 2.0 * lengths
     for begin in range(0, len(lengths), BLOCK):
         block = slice(begin, begin + BLOCK)
-        if mesh.inverse_sizes is None:
+        if mesh.metric_root_3d is None:
             a, b = mesh.edges[block].T
             metric[block] /= mesh.sizes[a] + mesh.sizes[b]
             continue
@@ -50,16 +51,17 @@ def _stretched_at_ends(
     start = mesh.connectivity.half_edges[block, 0]
     end = np.where(start % 3 == 2, start - 2, start + 1)
     first, second = (
-        np.linalg.norm(stretched(mesh.inverse_sizes[corners[e]], step), axis=1)
+        np.linalg.norm(stretched(mesh.metric_root_3d[corners[e]], step), axis=1)
         for e in (start, end)
     )
     return first, second
 
 
-def stretched(inverse_sizes: NDArray[np.float64], step: NDArray[np.float64]) -> NDArray[np.float64]:
+def stretched(
+    metric_root_3d: NDArray[np.float64], step: NDArray[np.float64]
+) -> NDArray[np.float64]:
     """Steps (k, 3) in wanted lengths: W d, for W (k, 6)."""
-    rows = inverse_sizes[:, [[0, 1, 2], [1, 3, 4], [2, 4, 5]]]
-    return np.einsum("kij,kj->ki", rows, step)
+    return np.einsum("kij,kj->ki", unpacked(metric_root_3d), step)
 
 
 class Growth(NamedTuple):
@@ -104,7 +106,7 @@ def size_growth(mesh: SurfaceMesh, lengths: NDArray[np.float64], slope: float) -
     for begin in range(0, len(lengths), BLOCK):
         block = slice(begin, begin + BLOCK)
         length = lengths[block]
-        if mesh.inverse_sizes is None:
+        if mesh.metric_root_3d is None:
             a, b = mesh.edges[block].T
             first, second = mesh.sizes[a], mesh.sizes[b]
         else:  # an edge of length l is l / h long in the metric

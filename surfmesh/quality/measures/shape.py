@@ -44,13 +44,13 @@ def metric_alpha(mesh: SurfaceMesh) -> NDArray[np.float64]:
 
     In 3D where sizes are isotropic: there it is the same.
     """
-    if mesh.inverse_sizes is None:
+    if mesh.metric_root_3d is None:
         return alpha(mesh)
     found = np.zeros(len(mesh.triangles))
     for start in range(0, len(found), BLOCK):
         corners = mesh.triangles[start : start + BLOCK]
         a, b, c = (mesh.points[corner] for corner in corners.T)
-        mean = mesh.inverse_sizes[mesh.uv_triangles[start : start + BLOCK]].mean(axis=1)
+        mean = mesh.metric_root_3d[mesh.uv_triangles[start : start + BLOCK]].mean(axis=1)
         u, v = stretched(mean, b - a), stretched(mean, c - a)
         area = np.linalg.norm(np.cross(u, v), axis=1)
         total = (u * u + v * v + (u - v) ** 2).sum(axis=1)

@@ -59,7 +59,7 @@ def surface_deviation(
     if fit is None or not np.isfinite(fit.largest):
         return None
     search = _Search(mesh, fit, tolerances)
-    if mesh.edge_curves and mesh.edge_shares is not None:
+    if mesh.edge_curves and mesh.edge_parameters is not None:
         _look_along_curves(search, mesh, fit)
     else:
         search.look(*_on_rims(mesh), at_rim=True)
@@ -136,7 +136,7 @@ def _look_along_curves(search: _Search, mesh: SurfaceMesh, fit: Deviation) -> No
         own = np.flatnonzero((mesh.edge_ids == number) & (rows >= 0))
         if edge is None or edge.curve is None or not len(own):
             continue
-        start, end = mesh.edge_shares[own].T[:, :, None]
+        start, end = mesh.edge_parameters[own].T[:, :, None]
         share = start + shares * (end - start)
         (points,) = edge.curve.evaluate(edge.parameters(share.ravel()), 0)
         points = points.reshape(len(own), len(shares), 3)
@@ -316,7 +316,7 @@ class _Search:
             ends = places[[k, (k + 1) % 3]]
             if mesh.edge_segments[segment][0] != corners[k]:
                 ends = ends[::-1]
-            edge, share = mesh.edge_curves[mesh.edge_ids[segment]], mesh.edge_shares[segment]
+            edge, share = mesh.edge_curves[mesh.edge_ids[segment]], mesh.edge_parameters[segment]
             if edge is None or edge.curve is None:
                 continue
             t = np.linspace(0.0, 1.0, ALONG)
@@ -332,7 +332,7 @@ class _Search:
     @cached_property
     def _segments(self) -> dict[frozenset[int], int]:
         """Rows of ``edge_segments`` by their nodes."""
-        if not self.mesh.edge_curves or self.mesh.edge_shares is None:
+        if not self.mesh.edge_curves or self.mesh.edge_parameters is None:
             return {}
         return {frozenset(pair): k for k, pair in enumerate(self.mesh.edge_segments.tolist())}
 

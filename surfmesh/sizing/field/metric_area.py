@@ -9,7 +9,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from surfmesh.geometry.planar.inside_loops import is_inside
-from surfmesh.kernels.fields.background import Background, sizes_at
+from surfmesh.kernels.fields.background import Background
 from surfmesh.sizing.field.size_field import SizeField
 
 TRIANGLES = 4.0 / np.sqrt(3.0)
@@ -56,8 +56,7 @@ def metric_area(field: SizeField, loops: Sequence[np.ndarray] | None = None) -> 
             is_inside(rings, middle[~crossed])
         ].sum()
         low, step, middle = low[crossed], step[crossed], middle[crossed]
-        tensors = np.empty((len(low), 3))
-        sizes_at(field.background, np.ascontiguousarray(middle), tensors)
+        tensors = field.tensors(middle)
         across = step / np.maximum(tensors[:, [0, 2]], np.finfo(float).tiny)
         small = (across.max(axis=1) <= FINEST) | (len(low) > MOST_PARTS)
         total += _shares(field, rings, low[small], step[small])
@@ -115,8 +114,7 @@ def _points(low: np.ndarray, step: np.ndarray) -> np.ndarray:
 
 def _densities(field: SizeField, points: np.ndarray) -> np.ndarray:
     """1 / det H at points (n, 4, 2): (n, 4)."""
-    tensors = np.empty((len(points) * 4, 3))
-    sizes_at(field.background, np.ascontiguousarray(points.reshape(-1, 2)), tensors)
+    tensors = field.tensors(points.reshape(-1, 2))
     det = tensors[:, 0] * tensors[:, 2] - tensors[:, 1] ** 2
     return (1.0 / np.maximum(det, np.finfo(float).tiny)).reshape(-1, 4)
 
@@ -158,8 +156,7 @@ def _dense(field: SizeField, ring: np.ndarray) -> np.ndarray:
     for _ in range(MOST_HALVINGS):
         step = np.roll(ring, -1, axis=0) - ring
         middle = ring + 0.5 * step
-        h = np.empty((len(ring), 3))
-        sizes_at(field.background, np.ascontiguousarray(middle), h)
+        h = field.tensors(middle)
         across = np.abs(step) / np.maximum(h[:, [0, 2]], np.finfo(float).tiny)
         long = np.flatnonzero(across.max(axis=1) > LONGEST)
         if not len(long) or len(ring) > MOST_PARTS:

@@ -35,6 +35,7 @@ from surfmesh.kernels.fields.gradation import Metric, grade, patch_errors
 from surfmesh.sizing.field.field_cells import GRID_DEPTH, Cells, SourceCells, coarse_beside_fine
 from surfmesh.sizing.field.size_law import FieldNodes, SizeLaw, TensorLaw
 from surfmesh.sizing.field.small_sizes import small_sizes
+from surfmesh.sizing.metric_roots import uniform
 from surfmesh.sizing.options.sizing import Sizing
 from surfmesh.sizing.rules.direction_rates import has_even_curvature
 from surfmesh.sizing.rules.rim_size import Rims
@@ -126,6 +127,24 @@ class SizeField:
         )
         return int(min(area * 2.0 / np.sqrt(3.0), COUNTABLE)) + 100
 
+    def sizes(self, xy: np.ndarray) -> np.ndarray:
+        """Wanted edge lengths (n,) at points xy (n, 2) of the scaled plane, the shorter of two."""
+        out = np.empty(len(xy))
+        scalar_sizes_at(self.background, np.ascontiguousarray(xy), out)
+        return out
+
+    def metric_roots_3d(self, xy: np.ndarray) -> np.ndarray:
+        """W (n, 6) at points xy (n, 2), for steps in space: see ``metric_roots``."""
+        if not self.is_anisotropic:
+            return uniform(1.0 / self.sizes(xy))
+        out = np.empty((len(xy), 6))
+        metric_roots_3d_at(self.background, np.ascontiguousarray(xy), out)
+        return out
+
+    def roots_of_mesh(self, xy: np.ndarray, scale: np.ndarray) -> np.ndarray | None:
+        """The same for sizes times ``scale`` (n,); None where ``sizing`` asks for no directions."""
+        return self.metric_roots_3d(xy) / scale[:, None] if self.sizing.is_anisotropic else None
+
     def tensors(self, xy: np.ndarray) -> np.ndarray:
         """Size tensors (n, 3) at points xy (n, 2) of the scaled plane."""
         out = np.empty((len(xy), 3))
@@ -156,21 +175,6 @@ def size_field(
     the wanted sizes need an unreasonable number of cells.
     """
     return _Builder(surface, sizing, sides, SizeLaw(surface, sizing, limits, rims)).build()
-
-
-def inverse_sizes(field: SizeField, xy: np.ndarray, scale: np.ndarray) -> np.ndarray | None:
-    """W (n, 6) at points xy (n, 2) for sizes times ``scale`` (n,); None if nothing else is
-    wished than isotropic sizes."""
-    if not field.sizing.is_anisotropic:
-        return None
-    xy, found = np.ascontiguousarray(xy), np.zeros((len(xy), 6))
-    if field.is_anisotropic:
-        metric_roots_3d_at(field.background, xy, found)
-    else:
-        sizes = np.empty(len(xy))
-        scalar_sizes_at(field.background, xy, sizes)
-        found[:, [0, 3, 5]] = 1.0 / sizes[:, None]
-    return found / scale[:, None]
 
 
 def plane_field(

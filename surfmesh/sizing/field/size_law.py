@@ -12,6 +12,7 @@ from surfmesh.geometry.differential.fundamental_forms import (
     forms_from_derivatives,
 )
 from surfmesh.geometry.surface import Surface
+from surfmesh.sizing.metric_roots import DIAGONAL, outer, symmetric_root
 from surfmesh.sizing.options.sizing import Sizing
 from surfmesh.sizing.rules.direction_rates import ROUND, direction_rates, longest_along
 from surfmesh.sizing.rules.rim_size import Rims, RimSizes
@@ -113,19 +114,10 @@ class FieldNodes(NamedTuple):
         """
         if not self.is_anisotropic:
             return np.empty((0, 6))
-        t = self.along
         less = 1.0 / self.size - 1.0 / self.long
-        first, second = [0, 0, 0, 1, 1, 2], [0, 1, 2, 1, 2, 2]
-        w = -less[:, None] * t[:, first] * t[:, second]
-        w[:, [0, 3, 5]] += 1.0 / self.size[:, None]
+        w = outer(-less[:, None] * self.along, self.along)
+        w[:, DIAGONAL] += 1.0 / self.size[:, None]
         return w
-
-
-def symmetric_root(e: np.ndarray, f: np.ndarray, g: np.ndarray, s: np.ndarray) -> np.ndarray:
-    """Square root (n, 3) of symmetric 2 x 2 matrices (e f; f g), s = sqrt(det)."""
-    # (I + s Id) / t, t^2 = tr I + 2 s
-    t = np.sqrt(np.maximum(e + g + 2.0 * s, np.finfo(float).tiny))
-    return np.stack([(e + s) / t, f / t, (g + s) / t], axis=1)
 
 
 def root_of_form(forms: FundamentalForms, rates: np.ndarray) -> np.ndarray:

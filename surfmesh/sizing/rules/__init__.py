@@ -1,7 +1,6 @@
 """What each rule asks for at a point: one file a rule.
 
 across_gaps: sizes at the sides of a gap that put a number of triangles across it.
-crease: where a surface bends by itself, so that triangles turn by as much at any size.
 curvature_size: the edge length that a curvature allows.
 direction_size: the edge length that a surface's curvature allows in a given direction.
 rim_size: the edge length that the curvature of a rim allows, the part within the surface included.

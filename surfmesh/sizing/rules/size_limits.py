@@ -5,6 +5,8 @@ from functools import cached_property
 
 import numpy as np
 
+from surfmesh.sizing.metric_roots import outer, uniform
+
 NEAREST = 8
 """How many of the points may decide at a place: the others are farther and not much finer."""
 
@@ -116,11 +118,8 @@ class SizeLimits:
     def _tensors_with(self, other: "SizeLimits") -> np.ndarray | None:
         if self.metric_root_3d is None and other.metric_root_3d is None:
             return None
-        every = np.array([1.0, 0.0, 0.0, 1.0, 0.0, 1.0])
         parts = [
-            every / limits.sizes[:, None]
-            if limits.metric_root_3d is None
-            else limits.metric_root_3d
+            uniform(1.0 / limits.sizes) if limits.metric_root_3d is None else limits.metric_root_3d
             for limits in (self, other)
         ]
         return np.concatenate(parts)
@@ -128,8 +127,7 @@ class SizeLimits:
 
 def along_lines(directions: np.ndarray, sizes: np.ndarray) -> np.ndarray:
     """Tensors (k, 6) of sizes (k,) that hold along unit directions (k, 3) only: e e^T / size."""
-    first, second = [0, 0, 0, 1, 1, 2], [0, 1, 2, 1, 2, 2]
-    return directions[:, first] * directions[:, second] / sizes[:, None]
+    return outer(directions, directions) / sizes[:, None]
 
 
 def _across(normals: np.ndarray) -> np.ndarray:

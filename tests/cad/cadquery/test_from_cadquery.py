@@ -224,8 +224,8 @@ def test_a_mirrored_place_changes_the_geometry():
     from OCP.gp import gp_Ax2, gp_Dir, gp_Pnt, gp_Trsf
     from OCP.TopLoc import TopLoc_Location
 
-    from surfmesh.cad.assembly import Part
-    from surfmesh.cad.assembly import model_of as assembled
+    from surfmesh.cad.conversion.model_of_parts import model_of as assembled
+    from surfmesh.cad.parts import Part
 
     mirror = gp_Trsf()
     mirror.SetMirror(gp_Ax2(gp_Pnt(0, 0, 0), gp_Dir(1, 0, 0)))

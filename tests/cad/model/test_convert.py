@@ -34,7 +34,7 @@ from OCP.TopExp import TopExp, TopExp_Explorer
 from OCP.TopoDS import TopoDS, TopoDS_Shape
 from OCP.TopTools import TopTools_IndexedMapOfShape
 
-from surfmesh.cad.model.convert import curve2d_of, curve_of, surface_of
+from surfmesh.cad.conversion.convert import curve2d_of, curve_of, surface_of
 from surfmesh.errors import CadError, SurfaceError
 from surfmesh.geometry.cad_surfaces.curves import Curve
 from surfmesh.geometry.surface import Surface

@@ -5,12 +5,11 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from surfmesh.kernels.optimisation.dihedral import dihedral_angles
+from surfmesh.accuracy.dihedral import dihedral_angles, on_crease
 from surfmesh.quality.measures.dihedral import angles_within_faces, largest_angle
 from surfmesh.result.connectivity import connect
 from surfmesh.result.surface_mesh import SurfaceMesh
 from surfmesh.sizing.options.sizing import Sizing
-from surfmesh.sizing.rules.crease import on_crease
 from surfmesh.sizing.rules.curvature_size import (
     BENT_RESERVE,
     ROUND_RESERVE,
@@ -21,8 +20,7 @@ from surfmesh.sizing.rules.curvature_size import (
 
 def angles_of(points, triangles):
     table = connect(np.asarray(triangles, np.int32))
-    angles = np.empty(len(table.edges))
-    dihedral_angles(points, np.asarray(triangles, np.int32), table.half_edges, angles)
+    angles = dihedral_angles(points, np.asarray(triangles, np.int32), table.half_edges)
     return np.where(table.uses == 2, angles, 0.0)
 
 
@@ -106,8 +104,8 @@ def roof_mesh(surface, angle):
 
 
 def test_creases_of_the_surface_are_no_fault():
-    first, second = (np.array([[[0, 0], [1, 0], [0, y]]], float) / 2 for y in (1.0, -1.0))
-    assert on_crease(Roof(1.0), first, second[:, [1, 0, 2]], 10.0, 1.0)[0]
+    uv = np.array([[[[0, 0], [1, 0], [0, 1]], [[1, 0], [0, 0], [0, -1]]]], float) / 2
+    assert on_crease(Roof(1.0), np.array([[[0, 1, 2], [1, 0, 3]]]), uv, 10.0, 1.0)[0]
     assert angles_within_faces(roof_mesh(Roof(1.0), 10.0)).angles.max() == 0.0
     bent = roof_mesh(Roof(0.0), 10.0)  # on a plane it is one
     turns = angles_within_faces(bent)

@@ -10,7 +10,6 @@ from hypothesis import strategies as st
 
 import surfmesh as sm
 from surfmesh.geometry.differential.sides import find_sides
-from surfmesh.kernels.fields.background import scalar_sizes_at
 from surfmesh.meshing.explain.axis_sizes import LOWERED, Principal, field_axes
 from surfmesh.meshing.faces.face_mesh import face_field
 from surfmesh.meshing.model_mesh import _unmeshed
@@ -49,8 +48,7 @@ def test_on_surfaces_of_the_gallery(name, row, ratio, a, b, where):
     assert found.distance < 1e-6
     xy = field.chart.to_plane(uv[None])
     if not found.axes:
-        size = np.empty(1)
-        scalar_sizes_at(field.background, xy, size)
+        size = field.sizes(xy)
         assert found.size == pytest.approx(size[0], rel=1e-3)
         assert found.wish == pytest.approx(law(xy).size[0], rel=1e-3)
         assert found.size <= 1.05 * found.wish
@@ -83,8 +81,7 @@ def test_on_a_cad_part(part, wish):
         law = SizeLaw(surface, jobs[number].sizing, None)
         mesh_uv = np.concatenate([piece.uv for loop in jobs[number].loops for piece in loop])
         uv = mesh_uv[rng.integers(len(mesh_uv))]  # on an edge: sure to belong to the face
-        size = np.empty(1)
-        scalar_sizes_at(field.background, field.chart.to_plane(uv[None]), size)
+        size = field.sizes(field.chart.to_plane(uv[None]))
         found = sm.explain(part, sizing, surface.evaluate(uv[None], 0)[0][0])
         if found.face == number:
             assert found.size == pytest.approx(size[0], rel=0.01)

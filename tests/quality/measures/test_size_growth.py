@@ -44,11 +44,11 @@ def test_in_the_direction_of_the_edge():
     along_x = np.array([1.0, 1.8, 1.8, 1.0])
     w = np.zeros((4, 6))
     w[:, 0], w[:, 3], w[:, 5] = 1 / along_x, 1.0, 1.0
-    _, found = strip(np.ones(4), inverse_sizes=w)
+    _, found = strip(np.ones(4), metric_root_3d=w)
     assert found.largest == pytest.approx(2.0) and found.point[1] in (0.0, 1.0)
     w = w.copy()
     w[:, 0], w[:, 3] = 1.0, 1 / along_x  # along y they do not change from end to end
-    _, found = strip(np.ones(4), inverse_sizes=w)
+    _, found = strip(np.ones(4), metric_root_3d=w)
     # but for the diagonal: 1 / h = |W d|, d = (1, 1) / sqrt 2
     sizes = [1 / np.hypot(1.0, 1.0 / h) * np.sqrt(2) for h in (1.0, 1.8)]
     assert found.largest == pytest.approx((sizes[1] - sizes[0]) / (0.4 * np.sqrt(2)))

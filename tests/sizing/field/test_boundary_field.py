@@ -8,7 +8,6 @@ from surfmesh.errors import SizingError
 from surfmesh.geometry.cad_surfaces.elementary import Cylinder, Plane, Sphere
 from surfmesh.geometry.differential.chart import Chart
 from surfmesh.geometry.planar.planar_domain import PlanarDomain
-from surfmesh.kernels.fields.background import scalar_sizes_at
 from surfmesh.sizing.field.boundary_field import boundary_field
 from surfmesh.sizing.field.size_field import size_field
 from surfmesh.sizing.options.sizing import Sizing
@@ -18,12 +17,6 @@ FRAME = dict(origin=np.array([1.0, 2.0, 3.0]), x=np.eye(3)[1], y=np.eye(3)[2], z
 PLANE = Plane(domain=((-1.0, 2.0), (5.0, 7.0)), **FRAME)
 CYLINDER = Cylinder(domain=((-0.5, 1.5), (0.0, 8.0)), radius=4.0, **FRAME)
 NOWHERE = np.empty((0, 2)), np.empty(0)
-
-
-def sizes(field, xy):
-    out = np.empty(len(xy))
-    scalar_sizes_at(field.background, np.ascontiguousarray(xy), out)
-    return out
 
 
 def everywhere(field, n=500):
@@ -49,10 +42,10 @@ def test_sizes_grow_along_the_surface(surface):
     field = boundary_field(surface, sizing, uv, given)
     xy = everywhere(field)
     exact = graded_sizes(xy, field.chart.to_plane(uv), given, 0.5, sizing.gradient)
-    np.testing.assert_allclose(sizes(field, xy), exact, rtol=0.07)
+    np.testing.assert_allclose(field.sizes(xy), exact, rtol=0.07)
     # unit tensors: the scaled plane has the surface's own metric
     tensor = field.tensors(xy)
-    np.testing.assert_allclose(tensor[:, [0, 2]], sizes(field, xy)[:, None] * np.ones(2))
+    np.testing.assert_allclose(tensor[:, [0, 2]], field.sizes(xy)[:, None] * np.ones(2))
     assert (tensor[:, 1] == 0.0).all()
 
 
@@ -67,7 +60,7 @@ def test_the_largest_size_is_that_of_the_general_field(surface, wishes):
     field, general = boundary_field(surface, sizing, *NOWHERE), size_field(surface, sizing)
     assert field.sizing == general.sizing
     xy = everywhere(field, 50)
-    np.testing.assert_allclose(sizes(field, xy), sizes(general, xy), rtol=1e-9)
+    np.testing.assert_allclose(field.sizes(xy), general.sizes(xy), rtol=1e-9)
     assert field.expected_vertices() == pytest.approx(general.expected_vertices(), abs=1)
 
 
@@ -76,22 +69,22 @@ def test_the_largest_size_given_binds_cylinders_together_with_their_curvature():
     by_chord = float(chord_size(np.array([0.25]), np.zeros(1), 0.01)[0])
     coarse = boundary_field(CYLINDER, sizing, *NOWHERE, largest=100.0)
     fine = boundary_field(CYLINDER, sizing, *NOWHERE, largest=0.1)
-    assert sizes(coarse, np.ones((1, 2))) == pytest.approx(min(by_chord, 1.0))
-    assert sizes(fine, np.ones((1, 2))) == pytest.approx(0.1)
+    assert coarse.sizes(np.ones((1, 2))) == pytest.approx(min(by_chord, 1.0))
+    assert fine.sizes(np.ones((1, 2))) == pytest.approx(0.1)
 
 
 def test_a_planar_domain():
     domain = PlanarDomain([[0, 0], [2, 0], [2, 1], [0, 1]])
     uv, given = np.array([[0.0, 0.0], [2.0, 1.0]]), np.array([0.01, 0.05])
     field = boundary_field(domain, Sizing(size=0.2), uv, given)
-    assert sizes(field, uv) == pytest.approx(given, rel=0.05)
+    assert field.sizes(uv) == pytest.approx(given, rel=0.05)
 
 
 def test_expected_vertices_are_the_integral_of_the_density():
     uv, given = np.array([[0.0, 6.0]]), np.array([0.01])
     field = boundary_field(PLANE, Sizing(size=0.2), uv, given)
     xy = everywhere(field, 400_000)
-    density = (sizes(field, xy) ** -2.0).mean() * np.prod(field.chart.extent)
+    density = (field.sizes(xy) ** -2.0).mean() * np.prod(field.chart.extent)
     assert field.expected_vertices() - 100 == pytest.approx(2 / np.sqrt(3) * density, rel=0.03)
 
 
@@ -121,4 +114,4 @@ def test_a_largest_size_that_is_none(largest):
 def test_min_size_binds_sources():
     uv = np.array([[0.0, 6.0]])
     field = boundary_field(PLANE, Sizing(min_size=0.1, max_size=0.5), uv, np.array([0.001]))
-    assert sizes(field, field.chart.to_plane(uv)) == pytest.approx(0.1, rel=0.05)
+    assert field.sizes(field.chart.to_plane(uv)) == pytest.approx(0.1, rel=0.05)

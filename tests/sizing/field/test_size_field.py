@@ -8,17 +8,10 @@ from surfmesh.errors import SizingError
 from surfmesh.geometry.differential.fundamental_forms import curvatures, forms_from_derivatives
 from surfmesh.geometry.differential.sides import find_sides
 from surfmesh.geometry.formulas.parametric import ParametricSurface
-from surfmesh.kernels.fields.background import scalar_sizes_at
 from surfmesh.sizing.field.size_field import size_field
 from surfmesh.sizing.options.sizing import Sizing
 from surfmesh.sizing.rules.curvature_size import chord_size
 from surfmesh.sizing.rules.size_limits import SizeLimits
-
-
-def scalar_sizes(field, xy):
-    out = np.empty(len(xy))
-    scalar_sizes_at(field.background, np.ascontiguousarray(xy), out)
-    return out
 
 
 def everywhere(field, n=20_000, seed=1):
@@ -94,7 +87,7 @@ def test_a_bump_of_a_thousandth_of_the_domain_is_found(seed):
     assert np.quantile(error(surface, field, xy), 0.98) < 0.02
     graded = size_field(surface, sizing.replaced(growth=1.3), find_sides(surface))
     xy = field.chart.to_plane(np.array([[a, b]]))
-    assert scalar_sizes(graded, xy)[0] == pytest.approx(exact(surface, field, xy)[0][0], rel=0.02)
+    assert graded.sizes(xy)[0] == pytest.approx(exact(surface, field, xy)[0][0], rel=0.02)
 
 
 ACROSS_THE_GRID = pytest.mark.xfail(
@@ -117,7 +110,7 @@ def test_growth_along_the_surface(name, growth):
     field = size_field(surface, sizing, find_sides(surface))
     rng = np.random.default_rng(1)
     p = everywhere(field)
-    h = scalar_sizes(field, p)
+    h = field.sizes(p)
     angle = rng.uniform(0, 2 * np.pi, len(p))
     unit = np.stack([np.cos(angle), np.sin(angle)], axis=1)
     tensor = field.tensors(p)
@@ -125,7 +118,7 @@ def test_growth_along_the_surface(name, growth):
     q = np.clip(p + rng.uniform(0.2, 2.0, len(p))[:, None] * step, 0.0, field.chart.extent)
     places = [surface.evaluate(field.chart.to_uv(xy), 0)[0] for xy in (p, q)]
     distance = np.linalg.norm(places[1] - places[0], axis=1)
-    change = np.abs(scalar_sizes(field, q) - h)
+    change = np.abs(field.sizes(q) - h)
     keep = distance > 0.1 * h
     # growth along grid edges and diagonals overrates distances by up to 8%
     slope = change[keep] / distance[keep]
@@ -141,8 +134,8 @@ def test_joined_sides_have_equal_sizes(name):
     for side, partner in enumerate(sides.partner):
         if partner > side:
             other = 1 - t if sides.reversed[side] else t
-            first = scalar_sizes(field, field.chart.to_plane(sides.points(side, t)))
-            second = scalar_sizes(field, field.chart.to_plane(sides.points(partner, other)))
+            first = field.sizes(field.chart.to_plane(sides.points(side, t)))
+            second = field.sizes(field.chart.to_plane(sides.points(partner, other)))
             # the same at common nodes; a finer tree on one side interpolates between them
             np.testing.assert_allclose(first, second, rtol=0.02)
 
@@ -153,10 +146,10 @@ def test_a_size_law_and_limits_hold():
     field = size_field(surface, Sizing(size=law, max_size=2, growth=1.3), find_sides(surface))
     xy = everywhere(field)
     (points,) = surface.evaluate(field.chart.to_uv(xy), 0)
-    np.testing.assert_allclose(scalar_sizes(field, xy), law(points), rtol=0.02)
+    np.testing.assert_allclose(field.sizes(xy), law(points), rtol=0.02)
     limits = SizeLimits(points[:1], np.array([0.02]), 0.2)
     limited = size_field(surface, Sizing(size=0.3, growth=1.3), find_sides(surface), limits)
-    assert scalar_sizes(limited, xy[:1])[0] < 0.022
+    assert limited.sizes(xy[:1])[0] < 0.022
 
 
 @pytest.mark.filterwarnings("ignore:All-NaN slice")
@@ -175,7 +168,7 @@ def test_clamps():
     surface = load("two_peaks")
     sizing = Sizing(chord=0.002, min_size=0.11, max_size=0.15)
     field = size_field(surface, sizing, find_sides(surface))
-    h = scalar_sizes(field, everywhere(field))
+    h = field.sizes(everywhere(field))
     assert h.min() >= 0.11 * (1 - 1e-9) and h.max() <= 0.15 * (1 + 1e-9)
     assert h.min() < 0.111 and h.max() > 0.149
 

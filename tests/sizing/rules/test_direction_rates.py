@@ -7,7 +7,7 @@ from surfmesh.api import load
 from surfmesh.geometry.differential.fundamental_forms import curvatures, forms_from_derivatives
 from surfmesh.geometry.differential.sides import find_sides
 from surfmesh.geometry.formulas.parametric import ParametricSurface
-from surfmesh.sizing.field.size_field import inverse_sizes, size_field
+from surfmesh.sizing.field.size_field import size_field
 from surfmesh.sizing.field.size_law import SizeLaw
 from surfmesh.sizing.options.sizing import Sizing
 from surfmesh.sizing.rules.direction_rates import BENDING, FANNING, direction_rates, longest_along
@@ -106,7 +106,7 @@ def test_what_long_edges_leave_of_the_chord_is_used():
     field = size_field(surface, sizing, find_sides(surface))
     xy = np.random.default_rng(1).uniform(0.1, 0.9, (2000, 2)) * field.chart.extent
     nodes = SizeLaw(surface, sizing, None)(xy)
-    w = inverse_sizes(field, xy, np.ones(len(xy)))
+    w = field.metric_roots_3d(xy)
     width = 1 / np.linalg.eigvalsh(w[:, [0, 1, 2, 1, 3, 4, 2, 4, 5]].reshape(-1, 3, 3))[:, 2]
     assert (width > 1.1 * nodes.size).mean() > 0.1
     assert (width < 1.25 * nodes.size).all()  # sqrt(0.75 * 8 / (0.7 * 6)) at most
@@ -117,6 +117,6 @@ def test_a_law_is_not_regained():
     sizing = Sizing(chord=1e-2, size=lambda p: np.full(len(p), 0.05), anisotropy=20.0)
     field = size_field(surface, sizing, find_sides(surface))
     xy = np.random.default_rng(1).uniform(0, 1, (500, 2)) * field.chart.extent
-    w = inverse_sizes(field, xy, np.ones(len(xy)))
+    w = field.metric_roots_3d(xy)
     values = np.linalg.eigvalsh(w[:, [0, 1, 2, 1, 3, 4, 2, 4, 5]].reshape(-1, 3, 3))
     assert (1 / values).max() <= 0.05 * (1 + 1e-9)

@@ -14,7 +14,7 @@ from pathlib import Path
 
 from OCP.TopAbs import TopAbs_EDGE, TopAbs_FACE, TopAbs_SOLID, TopAbs_VERTEX
 
-from surfmesh.cad.assembly import Part
+from surfmesh.cad.parts import Part
 from surfmesh.cad.sub_shapes import counted, each, unique
 
 

@@ -1,0 +1,9 @@
+"""How well triangles stand for a surface: what the mesher aims at and the report measures.
+
+Plain arrays of points, triangles and parameters; neither a mesh nor a triangulation is known here.
+
+samples: barycentric places at which triangles are looked at.
+deviation: the distance of points, and of triangles, from the true surface.
+folds: angles between the normals of triangles and surface, and which of them the surface makes.
+dihedral: angles between neighbouring triangles, and which of them the surface makes.
+"""

@@ -1,0 +1,47 @@
+"""Angles between the normals of triangles and surface, and which of them the surface makes."""
+
+import math
+
+import numpy as np
+from numpy.typing import NDArray
+
+from surfmesh.geometry.surface import Surface
+from surfmesh.sizing.options.defaults import FINEST_SIZE, LEAST_OF_CHORD
+
+FOLDED, INVERTED = math.cos(math.radians(60.0)), 0.0
+"""Cosines between the two normals below which a triangle is folded, or turned over."""
+
+
+def cosines(
+    normals: NDArray[np.float64], true: NDArray[np.float64], lengths: NDArray[np.float64]
+) -> NDArray[np.float64]:
+    """Of the angles between vectors (n, 3) and (n, 3) with these products of lengths (n,).
+
+    NaN where the length is zero: there is no normal.
+    """
+    along = np.einsum("ij,ij->i", normals, true)
+    known = lengths > 0.0
+    return np.where(known, along / np.where(known, lengths, 1.0), np.nan)
+
+
+def triangle_normals(corners: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Normals (n, 3) of triangles (n, 3, 3), twice their area long."""
+    return np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+
+
+def cosines_with_surface(
+    surface: Surface, corners: NDArray[np.float64], uv: NDArray[np.float64]
+) -> NDArray[np.float64]:
+    """Of the angles between triangles (n, 3, 3) and the surface's normals at uv (n, 2)."""
+    _, ru, rv = surface.evaluate(uv, 1)
+    normals, true = triangle_normals(corners), np.cross(ru, rv)
+    lengths = np.linalg.norm(normals, axis=1) * np.linalg.norm(true, axis=1)
+    return cosines(normals, true, lengths)
+
+
+def sharp_radius(chord: float | None, diagonal: float) -> float:
+    """Radius below which a surface is said to bend sharply: no triangle is small enough there.
+
+    diagonal: of the box of the mesh; all in model units.
+    """
+    return max(LEAST_OF_CHORD * (chord or 0.0), FINEST_SIZE * diagonal)
