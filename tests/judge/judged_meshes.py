@@ -95,22 +95,22 @@ def surface_trial(seed: int, number: int, limit: float | None = None) -> Trial:
 
 
 def surface_sizing(draw: Random, truth: surfaces.Truth) -> sm.Sizing:
-    """Wishes drawn at random; chord in most."""
+    """Options drawn at random; chord in most."""
     lines = [np.linspace(*span, 30) for span in (truth.u, truth.v)]
     uv = np.stack(np.meshgrid(*lines), axis=-1).reshape(-1, 2)
     diagonal = float(np.linalg.norm(np.ptp(truth.evaluate(uv)[0], axis=0)))
-    wishes: dict[str, Any] = {"growth": draw.choice(GROWTH), "limit": MOST}
+    asked: dict[str, Any] = {"growth": draw.choice(GROWTH), "limit": MOST}
     if draw.random() < 0.8:
-        wishes["chord"] = diagonal * 10 ** draw.uniform(-3.3, -1.7)
+        asked["chord"] = diagonal * 10 ** draw.uniform(-3.3, -1.7)
     else:
-        wishes["size"] = diagonal * 10 ** draw.uniform(-1.6, -1.0)
+        asked["size"] = diagonal * 10 ** draw.uniform(-1.6, -1.0)
     if draw.random() < 0.3:
-        wishes["angle"] = draw.uniform(5, 40)
+        asked["angle"] = draw.uniform(5, 40)
     if draw.random() < 0.3:
-        wishes["max_size"] = diagonal * draw.uniform(0.03, 0.3)
+        asked["max_size"] = diagonal * draw.uniform(0.03, 0.3)
     if draw.random() < 0.3:
-        wishes["anisotropy"] = draw.choice(STRETCH)
-    return sm.Sizing(**wishes)
+        asked["anisotropy"] = draw.choice(STRETCH)
+    return sm.Sizing(**asked)
 
 
 def _trial(

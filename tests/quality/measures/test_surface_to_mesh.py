@@ -24,8 +24,10 @@ def sector(scale=1.0, turn=2.0):
 
 
 def coarse(surface, **sizing):
-    wish = SimpleNamespace(**{"chord": None, "angle": None, "min_size": None, "size": 0.3} | sizing)
-    return grid(surface, CELLS, sizing=wish, sizes=np.full((CELLS + 1) ** 2, 0.3))
+    asked = SimpleNamespace(
+        **{"chord": None, "angle": None, "min_size": None, "size": 0.3} | sizing
+    )
+    return grid(surface, CELLS, sizing=asked, sizes=np.full((CELLS + 1) ** 2, 0.3))
 
 
 @pytest.mark.parametrize("scale", [1e-3, 1.0, 1e3])
