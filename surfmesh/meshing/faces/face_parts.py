@@ -8,7 +8,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from surfmesh.geometry.planar.inside_loops import is_inside
+from surfmesh.geometry.inside_loops import is_inside
 from surfmesh.meshing.faces.face_data import FaceJob, FaceMesh
 
 
