@@ -27,7 +27,7 @@ from surfmesh.meshing.estimate.estimation import (
     require_field_within,
     require_within,
 )
-from surfmesh.meshing.estimate.trial_mesh import WHOLE, tried
+from surfmesh.meshing.estimate.trial_mesh import WHOLE, counts_within_budget
 from surfmesh.meshing.patch.optimise import Optimiser
 from surfmesh.meshing.patch.packing import packed_over
 from surfmesh.meshing.patch.refinement_loop import refined_in_rounds
@@ -127,7 +127,7 @@ def estimate_planar(domain: PlanarDomain, sizing: Sizing) -> Estimate:
     loops = [*domain.outer, *domain.holes]
     asked = combined(field_triangles(field, loops), len(cut.uv), len(loops))
     if asked <= WHOLE:
-        made = tried(lambda stop: mesh_planar(domain, sizing, progress=stop))
+        made = counts_within_budget(lambda budget: mesh_planar(domain, sizing, progress=budget))
         if made is not None:
             return Estimate.of([made.sum()])
     return Estimate.of([asked])

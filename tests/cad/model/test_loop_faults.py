@@ -17,9 +17,6 @@ import surfmesh as sm
 from surfmesh.cad.model.loop_faults import exact_loops
 from surfmesh.errors import MeshingError
 from surfmesh.meshing.edges.edge_samples import vertex_numbers
-from surfmesh.meshing.faces.face_data import FaceMesh
-from surfmesh.meshing.model_mesh import _Hope
-from surfmesh.sizing.rules.size_limits import SizeLimits
 
 BUILD = BRep_Builder()
 BOX = [(0, 0), (15, 0), (15, 10), (0, 10)]
@@ -158,29 +155,6 @@ def test_good_faces_have_no_fault(shape):
     for number in range(len(model.faces)):
         exact = exact_loops(model, number, vertex)
         assert (exact.fault, exact.touch) == ("", "")
-
-
-def failed(places):
-    wishes = SizeLimits(np.zeros((places, 3)), np.ones(places), 0.2)
-    return FaceMesh(failure="crosses", wishes=wishes)
-
-
-def test_a_face_that_has_grown_without_end_is_given_up():
-    hope = _Hope()
-    for nodes in (400, 1600, 3000):
-        hope.hear(failed(12), nodes)
-        assert hope.is_left
-    hope.hear(failed(12), 8 * 400 + 1)
-    assert not hope.is_left
-
-
-def test_crossings_that_only_become_more_are_given_up():
-    hope = _Hope()
-    for places in (42, 90):
-        hope.hear(failed(places), 100)
-        assert hope.is_left
-    hope.hear(failed(183), 150)
-    assert not hope.is_left
 
 
 NESTED = {
