@@ -9,9 +9,7 @@ import numpy as np
 _rule = cache(np.polynomial.legendre.leggauss)
 
 
-def gauss_rule(
-    first: float, last: float, cells: int, points: int
-) -> tuple[np.ndarray, np.ndarray]:
+def gauss_rule(first: float, last: float, cells: int, points: int) -> tuple[np.ndarray, np.ndarray]:
     """Nodes and weights of the rule with so many points in each of ``cells`` equal parts."""
     nodes, weights = _rule(points)
     width = (last - first) / cells

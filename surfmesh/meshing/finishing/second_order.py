@@ -92,8 +92,8 @@ def _on_curves(mesh: SurfaceMesh, model: CadModel, middles: NDArray) -> NDArray:
             continue
         start, end = mesh.edge_parameters[own].T
         middles[rows[own]] = _halfway(
-            lambda share, start=start, end=end, edge=edge: edge.curve.evaluate(
-                edge.parameters(start + share * (end - start)), 0
+            lambda share, start=start, end=end, edge=edge: edge.evaluate(
+                start + share * (end - start)
             )[0],
             len(own),
         )
