@@ -472,9 +472,9 @@ def _own_curvature(wanted: ModelSizing, rules: list[Rule], bend: float | None) -
 
 def _bend(edge: Any, share: float) -> float | None:
     """Curvature of an edge; None where it is straight."""
-    if getattr(edge.curve, "kind", "") == "line":
+    if edge.is_straight:
         return None
-    _, first, second = edge.curve.evaluate(edge.parameters(np.array([share])), 2)
+    _, first, second = edge.evaluate(np.array([share]), 2)
     speed = float(np.linalg.norm(first[0]))
     return float(np.linalg.norm(np.cross(first[0], second[0]))) / max(speed**3, 1e-300)
 
