@@ -28,7 +28,7 @@ from surfmesh.meshing.parametric_mesh import (
 from surfmesh.meshing.planar_mesh import estimate_planar, mesh_planar
 from surfmesh.meshing.progress import Progress
 from surfmesh.result.surface_mesh import SurfaceMesh
-from surfmesh.sizing.options.distance_size import default_wishes
+from surfmesh.sizing.options.distance_size import default_options
 from surfmesh.sizing.options.model_sizing import is_by_selection
 from surfmesh.sizing.options.sizing import Sizing
 
@@ -173,7 +173,7 @@ def _settled(surface: Any, sizing: Any) -> tuple[Any, Any]:
     if not isinstance(surface, Surface):
         raise SurfaceError(f"cannot mesh a {type(surface).__name__}: a Surface is needed")
     if sizing is None:
-        sizing = default_wishes(surface) or None
+        sizing = default_options(surface) or None
     if isinstance(sizing, Mapping) and set(sizing) == {"*"}:
         sizing = sizing["*"]
     elif is_by_selection(sizing) and any(isinstance(s, (Sizing, Mapping)) for s in sizing.values()):

@@ -228,8 +228,9 @@ def estimate_model(model: CadModel, sizing: Any) -> Estimate:
 
 
 def explain_size(model: CadModel, sizing: Any, point: np.ndarray) -> Explanation:
-    """Which of the wishes decides at a point (3,), or at the nearest one of the model."""
-    return explain_model(model, *_unmeshed(model, sizing), point)
+    """Which of the sizes decides at a point (3,), or at the nearest one of the model."""
+    wanted, samples, _, jobs = _unmeshed(model, sizing)
+    return explain_model(model, wanted, samples, jobs, point)
 
 
 def _wanted(

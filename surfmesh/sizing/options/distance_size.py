@@ -74,13 +74,13 @@ class DistanceSize:
         return SegmentDistance(np.concatenate(starts), np.concatenate(ends))
 
 
-def default_wishes(surface: Any) -> dict[str, Any]:
+def default_options(surface: Any) -> dict[str, Any]:
     """The surface's own sizing defaults; its table ``distance`` becomes a size law."""
-    wishes = dict(getattr(surface, "sizing_defaults", None) or {})
-    table = wishes.pop("distance", None)
+    options = dict(getattr(surface, "sizing_defaults", None) or {})
+    table = options.pop("distance", None)
     if table is not None:
-        wishes["size"] = DistanceSize(surface, **table)
-    return wishes
+        options["size"] = DistanceSize(surface, **table)
+    return options
 
 
 def polylines(given: Any) -> tuple[np.ndarray, ...]:

@@ -6,7 +6,7 @@ import pytest
 import surfmesh as sm
 from surfmesh.meshing.faces.face_data import FaceMesh
 from surfmesh.meshing.model_mesh import PATIENCE, _Hope
-from surfmesh.sizing.field.size_field import LONGEST_ROW, _root_grid
+from surfmesh.sizing.field.field_builder import LONGEST_ROW, _root_grid
 from surfmesh.sizing.rules.size_limits import SizeLimits, along_lines
 
 
