@@ -16,7 +16,13 @@ from typing import Any, NamedTuple
 from surfmesh.errors import FileFormatError
 from surfmesh.io.asked_date import VARIABLE, asked_date
 from surfmesh.io.atomic import replacing
-from surfmesh.quality.verdict.provenance import mesh_sha256, options_of, plain, version_of, versions
+from surfmesh.quality.figures.provenance import (
+    mesh_sha256,
+    options_of,
+    plain,
+    version_of,
+    versions,
+)
 from surfmesh.result.model_facts import file_sha256
 from surfmesh.result.surface_mesh import SurfaceMesh
 
@@ -147,8 +153,11 @@ class Manifest:
             raise FileFormatError("the manifest names no files; compare it with another manifest")
         there = [Path(folder, name) for name in self.files]
         found = _hashes(path for path in there if path.exists())
-        here = {"versions": {name: _version(name) for name in self.versions}}
-        here |= {"machine": _machine(), "files": found}
+        here: dict[str, Mapping[str, str | None]] = {
+            "versions": {name: _version(name) for name in self.versions},
+            "machine": _machine(),
+            "files": found,
+        }
         return tuple(
             entry
             for section, values in here.items()

@@ -8,7 +8,7 @@ from surfmesh.cad.model.cad_model import CadModel
 from surfmesh.cad.model.centres import boundary_polygons, inner_samples
 from surfmesh.errors import SizingError
 from surfmesh.geometry.differential.projection import closest_point
-from surfmesh.geometry.planar.inside_loops import is_inside
+from surfmesh.geometry.inside_loops import is_inside
 from surfmesh.geometry.surface import Surface
 from surfmesh.meshing.edges.edge_samples import EdgeSamples
 

@@ -21,8 +21,7 @@ from numpy.typing import NDArray
 from surfmesh.geometry.differential.projection import closest_point
 from surfmesh.kernels.space.measure import interpolate
 from surfmesh.quality.measures.deviation import BLOCK, Deviation
-from surfmesh.quality.measures.tolerances import CHORD_SLACK, Tolerances, Violation
-from surfmesh.quality.verdict.problems import called
+from surfmesh.quality.measures.tolerances import CHORD_SLACK, Tolerances
 from surfmesh.result.quadratic_triangles import edge_rows
 from surfmesh.result.surface_mesh import SurfaceMesh
 
@@ -95,28 +94,6 @@ def both_ways(fit: Deviation, back: SurfaceDeviation | None) -> Deviation:
     if back is None:
         return fit
     return fit._replace(by_triangle=np.maximum(fit.by_triangle, back.by_triangle))
-
-
-def surface_too_far(
-    mesh: SurfaceMesh,
-    fit: Deviation,
-    back: SurfaceDeviation,
-    violation: Violation,
-    tolerances: Tolerances,
-) -> str | None:
-    """A sentence about the surface's distance from the mesh, where ``violation``, of both ways, is
-    that; None where it is the mesh's from the surface."""
-    if not back.by_triangle[violation.worst] > fit.by_triangle[violation.worst]:
-        return None
-    place = ", ".join(f"{x:.5g}" for x in back.point)
-    where = "on a rim" * back.at_rim or "between the mesh's samples"
-    there = f" on {called(mesh, violation.worst)}" * (not tolerances.uniform)
-    return (
-        f"the surface lies up to {violation.reached:.4g} from the mesh, {violation.asked:.4g} was "
-        f"asked for{there} ({100 * violation.fraction:.3g} % of the triangles are farther, one way "
-        f"or the other); worst over triangle {violation.worst}"
-        + (f", {where} at ({place})" if back.triangle == violation.worst else "")
-    )
 
 
 def _look_along_curves(search: _Search, mesh: SurfaceMesh, fit: Deviation) -> None:

@@ -10,6 +10,7 @@ import numpy as np
 
 from surfmesh.geometry.differential.infinite_speed import at_infinite_speed, bent_axes_of
 from surfmesh.geometry.formulas.interval import width_along
+from surfmesh.geometry.surface import BoundedSurface
 from surfmesh.sizing.field.size_law import FieldNodes, SizeLaw
 
 HIDDEN_RISE = 0.25
@@ -84,7 +85,7 @@ def _may_bend(law: SizeLaw, cells: SeenCells) -> np.ndarray:
 
 
 def _may_rise(law: SizeLaw, chord: float, cells: SeenCells) -> np.ndarray:
-    if not hasattr(law.surface, "all_bounds"):
+    if not isinstance(law.surface, BoundedSurface):
         return np.zeros(len(cells.patch), bool)
     lo, hi = cells.corners(law)
     lower, upper = law.surface.all_bounds(lo, hi)

@@ -6,6 +6,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from surfmesh.geometry.boxes import diagonal
 from surfmesh.geometry.differential.chart import Chart
 from surfmesh.geometry.differential.fundamental_forms import (
     FundamentalForms,
@@ -175,8 +176,8 @@ class SizeLaw:
         grid = np.linspace(0.0, 1.0, 17)
         t = np.stack(np.meshgrid(grid, grid), axis=-1).reshape(-1, 2)
         (points,) = surface.evaluate(np.array([u0, v0]) + t * np.array([u1 - u0, v1 - v0]), 0)
-        diagonal = float(np.linalg.norm(points.max(axis=0) - points.min(axis=0)))
-        return cls(surface, Chart.of(surface), SizeRules.of(sizing, diagonal), limits, rims)
+        rules = SizeRules.of(sizing, diagonal(points))
+        return cls(surface, Chart.of(surface), rules, limits, rims)
 
     def without_limits(self) -> "SizeLaw":
         """What the rules say by themselves."""

@@ -1,6 +1,6 @@
 """What the user asks for: one frozen set of options."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, fields, replace
 from typing import Any
 
@@ -159,13 +159,13 @@ class Sizing:
         return replace(self, **changes)
 
     @classmethod
-    def of(cls, given: "Sizing | float | dict | None") -> "Sizing":
+    def of(cls, given: "Sizing | float | SizeLaw | Mapping | None") -> "Sizing":
         """Sizing from what a user may pass: itself, a bare number, a mapping, or nothing."""
         if given is None:
             return cls()
         if isinstance(given, cls):
             return given
-        if isinstance(given, dict):
+        if isinstance(given, Mapping):
             known = {f.name for f in fields(cls)}
             for name in given:
                 if name not in known:

@@ -18,7 +18,7 @@ from surfmesh.meshing.explain import explanation
 from surfmesh.meshing.explain.axis_sizes import LOWERED
 from surfmesh.meshing.explain.nearest_place import GRID, grid, nearest_on_model, nearest_on_surface
 from surfmesh.meshing.explain.origins import EdgePlaces
-from surfmesh.meshing.model_mesh import _unmeshed
+from surfmesh.meshing.model_mesh import _Unmeshed
 from surfmesh.sizing.field.size_field import size_field
 from surfmesh.sizing.metric_roots import unpacked
 from surfmesh.sizing.rules.rim_rule import Rims
@@ -127,7 +127,8 @@ def test_on_the_gallery():
 
 
 def check_model(model, sizing, count, rng, monkeypatch):
-    wanted, samples, _, jobs = _unmeshed(model, sizing)
+    before = _Unmeshed(model, sizing)
+    wanted, samples, jobs = before.wanted, before.samples, before.jobs
     fields = lru_cache(None)(lambda number: made(jobs[number]))
     made = explanation.face_field
     numbers = {id(job): number for number, job in enumerate(jobs)}
