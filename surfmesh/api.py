@@ -4,9 +4,10 @@ import logging
 import sys
 from collections.abc import Mapping, Sequence
 from pathlib import Path
-from typing import Any
+from typing import Any, TypeAlias
 
 import numpy as np
+from numpy.typing import NDArray
 
 from surfmesh.cad.cadquery.from_cadquery import from_cadquery
 from surfmesh.cad.healing.joining import Joining
@@ -14,6 +15,7 @@ from surfmesh.cad.model.cad_model import CadModel
 from surfmesh.cad.reading.read_file import SUFFIXES, read_cad
 from surfmesh.errors import CadError, FileFormatError, SizingError, SurfaceError, shown
 from surfmesh.geometry.files.surface_file import gallery, load_surface_file
+from surfmesh.geometry.number_range import RANGE
 from surfmesh.geometry.planar.planar_domain import PlanarDomain
 from surfmesh.geometry.surface import Surface
 from surfmesh.meshing.estimate.estimation import Estimate
@@ -30,10 +32,11 @@ from surfmesh.meshing.progress import Progress
 from surfmesh.result.surface_mesh import SurfaceMesh
 from surfmesh.sizing.options.distance_size import default_wishes
 from surfmesh.sizing.options.model_sizing import is_by_selection
-from surfmesh.sizing.options.sizing import Sizing
+from surfmesh.sizing.options.sizing import SizeLaw, Sizing
 
 logger = logging.getLogger(__name__)
-FARTHEST = 1e100  # coordinate of a point that is asked for: squares of distances are finite
+Sizes: TypeAlias = Sizing | float | SizeLaw | Mapping[str, Any] | None
+"""What sizes may be given as: options, an edge length, options by name or by selection."""
 
 
 def load(
@@ -83,7 +86,7 @@ def load(
 
 def mesh(
     surface: Surface | CadModel | Any,
-    sizing: Sizing | float | Mapping | None = None,
+    sizing: Sizes = None,
     *,
     optimise: bool = True,
     progress: Progress | None = None,
@@ -96,7 +99,7 @@ def mesh(
 
     sizing: what is wanted; a number is a uniform edge length; None takes the defaults of the
     surface's formula file, or sensible ones. optimise=False gives the raw packing with its
-    boundary, as in the paper. progress: called with (stage, share done); when it returns False
+    boundary, as in the paper. progress: called with (stage, fraction done); when it returns False
     the work stops. strict=False: faces of a CAD model that cannot be meshed are left out and
     listed in the mesh's ``warnings``. simplify=True: tiny edges of a CAD model are collapsed,
     those below ``min_size`` or a two-thousandth of the diagonal; lines of a planar domain that
@@ -112,37 +115,34 @@ def mesh(
     """
     if order not in (1, 2):
         raise SizingError(f"order is {shown(order)}: meshes are of order 1 or 2")
-    surface, wishes = _settled(surface, sizing)
-    if isinstance(surface, CadModel):
-        made = mesh_model(surface, wishes, optimise, progress, strict, simplify, jobs)
-        return _logged(made if order == 1 else of_second_order(made, surface), surface)
-    if isinstance(surface, PlanarDomain):
-        made = mesh_planar(surface, wishes, optimise, progress, simplify)
+    model = _model_or_surface(surface)
+    if isinstance(model, CadModel):
+        made = mesh_model(model, sizing, optimise, progress, strict, simplify, jobs)
+    elif isinstance(model, PlanarDomain):
+        made = mesh_planar(model, _one_sizing(model, sizing), optimise, progress, simplify)
     else:
-        made = mesh_parametric(surface, wishes, optimise, progress)
-    return _logged(made if order == 1 else of_second_order(made), surface)
+        made = mesh_parametric(model, _one_sizing(model, sizing), optimise, progress)
+    return _logged(made if order == 1 else of_second_order(made), model)
 
 
-def estimate(
-    surface: Surface | CadModel | Any, sizing: Sizing | float | Mapping | None = None
-) -> Estimate:
+def estimate(surface: Surface | CadModel | Any, sizing: Sizes = None) -> Estimate:
     """How many triangles ``mesh`` would make, and how much memory it would need.
 
     Size fields are made and measured. Of large meshes a few patches are made to learn from, up
     to some thousand triangles all are. Raises what ``mesh`` raises for sizes that cannot be met,
     but for their limit.
     """
-    surface, wishes = _settled(surface, sizing)
-    if isinstance(surface, CadModel):
-        return estimate_model(surface, wishes)
-    if isinstance(surface, PlanarDomain):
-        return estimate_planar(surface, wishes)
-    return estimate_parametric(surface, wishes)
+    model = _model_or_surface(surface)
+    if isinstance(model, CadModel):
+        return estimate_model(model, sizing)
+    if isinstance(model, PlanarDomain):
+        return estimate_planar(model, _one_sizing(model, sizing))
+    return estimate_parametric(model, _one_sizing(model, sizing))
 
 
 def explain(
     surface: Surface | CadModel | Any,
-    sizing: Sizing | float | Mapping | None,
+    sizing: Sizes,
     point: Sequence[float],
 ) -> Explanation:
     """Which rule decides the size at a point (3,), with the numbers of all that apply there.
@@ -150,49 +150,59 @@ def explain(
     The point is moved to the nearest one of the surface or model. ``print`` it. Raises what
     ``mesh`` raises for sizes that cannot be met, and ``SizingError`` for what is no point.
     """
-    surface, wishes = _settled(surface, sizing)
+    model = _model_or_surface(surface)
+    if isinstance(model, CadModel):
+        return explain_size(model, sizing, _place(point))
+    wanted = _one_sizing(model, sizing)
+    return explain_parametric(model, wanted, _place(point))
+
+
+def _place(point: Sequence[float]) -> NDArray[np.float64]:
+    """The point as an array (3,)."""
     try:
         place = np.array(point, float)
     except (TypeError, ValueError, OverflowError):
         place = np.empty(0)
-    if place.shape != (3,) or not (np.abs(place) <= FARTHEST).all():  # false for nan
+    if place.shape != (3,) or not (np.abs(place) <= RANGE.square).all():  # false for nan
         raise SizingError(
-            f"a point is three finite numbers of at most {FARTHEST:g}, not {shown(point)}"
+            f"a point is three finite numbers of at most {RANGE.square:g}, not {shown(point)}"
         )
-    if isinstance(surface, CadModel):
-        return explain_size(surface, wishes, place)
-    return explain_parametric(surface, wishes, place)
+    return place
 
 
-def _settled(surface: Any, sizing: Any) -> tuple[Any, Any]:
-    """A surface or a model, and the sizes that it brings where none are given."""
-    if not isinstance(surface, (CadModel, Surface)) and _is_cad(surface):
-        surface = from_cadquery(surface)
-    if isinstance(surface, CadModel):
-        return surface, sizing
-    if not isinstance(surface, Surface):
-        raise SurfaceError(f"cannot mesh a {type(surface).__name__}: a Surface is needed")
+def _model_or_surface(thing: Any) -> Surface | CadModel:
+    """What is to be meshed; of an object of CadQuery its model."""
+    if not isinstance(thing, (CadModel, Surface)) and _is_cad(thing):
+        thing = from_cadquery(thing)
+    if not isinstance(thing, (CadModel, Surface)):
+        raise SurfaceError(f"cannot mesh a {type(thing).__name__}: a Surface is needed")
+    return thing
+
+
+def _one_sizing(surface: Surface, sizing: Sizes) -> Sizing:
+    """One set of options for the surface: those that it brings where none are given."""
     if sizing is None:
         sizing = default_wishes(surface) or None
     if isinstance(sizing, Mapping) and set(sizing) == {"*"}:
         sizing = sizing["*"]
-    elif is_by_selection(sizing) and any(isinstance(s, (Sizing, Mapping)) for s in sizing.values()):
-        raise SizingError(
-            f"sizes by selection ({', '.join(map(repr, sizing))}) need a CAD model; a "
-            f"{type(surface).__name__} takes one Sizing, or '*' alone"
-        )
+    elif isinstance(sizing, Mapping) and is_by_selection(sizing):
+        if any(isinstance(own, (Sizing, Mapping)) for own in sizing.values()):
+            raise SizingError(
+                f"sizes by selection ({', '.join(map(repr, sizing))}) need a CAD model; a "
+                f"{type(surface).__name__} takes one Sizing, or '*' alone"
+            )
     made = Sizing.of(sizing)
     if made.volume is not None:
         raise SizingError(
             f"volume {made.volume:g}: volumes are kept of the closed solids of CAD models; of a "
             f"{type(surface).__name__} ask for a chord"
         )
-    return surface, made
+    return made
 
 
 def show(
     thing: SurfaceMesh | Surface | CadModel | Any,
-    sizing: Sizing | float | dict | None = None,
+    sizing: Sizes = None,
     *,
     by: str | None = None,
     path: str | Path | None = None,

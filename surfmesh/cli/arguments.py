@@ -4,7 +4,7 @@ import argparse
 import math
 import re
 from collections.abc import Callable, Sequence
-from typing import NoReturn
+from typing import NoReturn, TypeAlias
 
 from surfmesh.cli.terminal import complain
 
@@ -38,9 +38,20 @@ class _Parser(argparse.ArgumentParser):
         self.exit(2)
 
 
+_Commands: TypeAlias = "argparse._SubParsersAction[_Parser]"
+
+
 def parse(argv: Sequence[str]) -> argparse.Namespace:
-    """Options with ``command``, the name of a function in ``commands``. Exits on bad usage."""
-    return _parser().parse_args(_imprint_alone(_values_shielded(argv)))
+    """Options with ``command``, the name of a function in ``commands``. Exits on bad usage.
+
+    ``sizing`` holds what was given of the options of ``Sizing``, ``reading`` those of ``load``.
+    """
+    options = _parser().parse_args(_imprint_alone(_values_shielded(argv)))
+    held = vars(options)
+    given = {name: held.pop(name) for name in _SIZES if name in held}
+    options.sizing = {name: value for name, value in given.items() if value is not None}
+    options.reading = {name: held.pop(name) for name in _READING if name in held}
+    return options
 
 
 def _values_shielded(argv: Sequence[str]) -> list[str]:
@@ -71,6 +82,15 @@ def _parser() -> _Parser:
     parser.add_argument("--version", action=_Version)
     commands = parser.add_subparsers(dest="command", required=True, metavar="COMMAND")
 
+    for add in (
+        _add_mesh, _add_check, _add_view, _add_report, _add_compare, _add_explain, _add_estimate,
+        _add_pack, _add_gallery,
+    ):  # fmt: skip
+        add(commands)
+    return parser
+
+
+def _add_mesh(commands: _Commands) -> None:
     mesh = commands.add_parser("mesh", help="mesh a surface, check it, write it")
     mesh.add_argument("input", nargs="?", metavar="INPUT", help="formula file or gallery name")
     mesh.add_argument("-o", "--output", required=True, metavar="OUT", help="mesh file to write")
@@ -109,6 +129,8 @@ def _parser() -> _Parser:
     _add_second_opinion(mesh)
     _add_json(mesh)
 
+
+def _add_check(commands: _Commands) -> None:
     check = commands.add_parser("check", help="report on a mesh file")
     check.add_argument("input", metavar="MESH", help="mesh file")
     check.add_argument(
@@ -118,6 +140,8 @@ def _parser() -> _Parser:
     _add_second_opinion(check)
     _add_json(check)
 
+
+def _add_view(commands: _Commands) -> None:
     view = commands.add_parser("view", help="show a mesh or a surface")
     view.add_argument("input", metavar="INPUT", help=_ANYTHING)
     view.add_argument("-o", "--output", metavar="PNG", help="a picture instead of a window")
@@ -130,6 +154,8 @@ def _parser() -> _Parser:
     _add_sizes(view)
     _add_cad(view)
 
+
+def _add_report(commands: _Commands) -> None:
     report = commands.add_parser("report", help="one HTML file: mesh, certificate, histograms")
     report.add_argument("input", metavar="INPUT", help=_ANYTHING)
     report.add_argument("-o", "--output", required=True, metavar="HTML", help="file to write")
@@ -139,6 +165,8 @@ def _parser() -> _Parser:
     _add_second_opinion(report)
     _add_json(report)
 
+
+def _add_compare(commands: _Commands) -> None:
     compare = commands.add_parser("compare", help="compare a manifest with another, or with files")
     compare.add_argument("input", metavar="MANIFEST", help="what mesh --manifest wrote")
     compare.add_argument(
@@ -149,6 +177,8 @@ def _parser() -> _Parser:
     )
     _add_json(compare)
 
+
+def _add_explain(commands: _Commands) -> None:
     explain = commands.add_parser("explain", help="which rule decides the size at a point")
     explain.add_argument("input", metavar="INPUT", help=_MODEL)
     explain.add_argument(
@@ -158,12 +188,16 @@ def _parser() -> _Parser:
     _add_units(explain)
     _add_json(explain)
 
+
+def _add_estimate(commands: _Commands) -> None:
     estimate = commands.add_parser("estimate", help="triangles and memory, before meshing")
     estimate.add_argument("input", metavar="INPUT", help=_MODEL)
     _add_sizes(estimate)
     _add_units(estimate)
     _add_json(estimate)
 
+
+def _add_pack(commands: _Commands) -> None:
     pack = commands.add_parser("pack", help="pack circles over the plane, as in the paper")
     law = pack.add_mutually_exclusive_group(required=True)
     law.add_argument("--radius", type=_positive, help="one radius for all")
@@ -183,9 +217,10 @@ def _parser() -> _Parser:
     )
     _add_json(pack)
 
+
+def _add_gallery(commands: _Commands) -> None:
     gallery = commands.add_parser("gallery", help="list the ready-made surfaces")
     _add_json(gallery)
-    return parser
 
 
 _COLOURS = (
@@ -199,16 +234,8 @@ def _add_sizes(parser: argparse.ArgumentParser) -> None:
     sizes = parser.add_argument_group(
         "sizes, in model units; any of them sets aside the sizes that INPUT brings"
     )
-    sizes.add_argument("--chord", type=_positive, help="largest distance from the surface")
-    sizes.add_argument("--angle", type=_positive, help="largest angle between neighbours, degrees")
-    sizes.add_argument("--size", type=_positive, help="wanted edge length")
-    sizes.add_argument("--min-size", type=_positive, help="no edge is wanted shorter")
-    sizes.add_argument("--max-size", type=_positive, help="no edge is wanted longer")
-    sizes.add_argument("--growth", type=_positive, help="largest ratio of neighbouring sizes")
-    sizes.add_argument("--anisotropy", type=_positive, help="largest stretch; 1 is isotropic")
-    sizes.add_argument("--volume", type=_positive, help="largest relative error of solids' volumes")
-    sizes.add_argument("--gap", type=_positive, help="triangles across thin faces and gaps")
-    sizes.add_argument("--limit", type=_whole(1), help="most triangles (default 20 million)")
+    for name, (kind, said) in _SIZES.items():
+        sizes.add_argument(f"--{name.replace('_', '-')}", type=kind, help=said)
     sizes.add_argument(
         "--sizes", metavar="TOML", help='sizes by selection: [sizes."fillet*"] chord = 0.01'
     )
@@ -298,6 +325,21 @@ def _whole(least: int, most: int = 10**15) -> Callable[[str], int]:
         return int(text)
 
     return whole
+
+
+_SIZES: dict[str, tuple[Callable[[str], float], str]] = {  # options of Sizing
+    "chord": (_positive, "largest distance from the surface"),
+    "angle": (_positive, "largest angle between neighbours, degrees"),
+    "size": (_positive, "wanted edge length"),
+    "min_size": (_positive, "no edge is wanted shorter"),
+    "max_size": (_positive, "no edge is wanted longer"),
+    "growth": (_positive, "largest ratio of neighbouring sizes"),
+    "anisotropy": (_positive, "largest stretch; 1 is isotropic"),
+    "volume": (_positive, "largest relative error of solids' volumes"),
+    "gap": (_positive, "triangles across thin faces and gaps"),
+    "limit": (_whole(1), "most triangles (default 20 million)"),
+}
+_READING = ("units", "imprint", "sew", "time_limit", "memory_limit")  # options of load
 
 
 def _brief(text: str) -> str:

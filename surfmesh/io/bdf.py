@@ -85,13 +85,12 @@ def read(path: Path) -> SurfaceMesh:
     if not any(line.strip().upper() == "ENDDATA" for line in lines):
         raise FileFormatError(f"{path}: does not end with ENDDATA")
     tags, points, rows, names = [], [], [], {}
-    for fields in _cards(lines):
-        card = fields[0]
+    for card, *data in _cards(lines):
         if card == "GRID":
-            tags.append(int(fields[1]))
-            points.append([_number(field) for field in (fields + [""] * 6)[3:6]])
+            tags.append(int(data[0]))
+            points.append([_number(field) for field in (data + [""] * 5)[2:5]])
         elif card in ("CTRIA3", "CTRIA6"):
-            rows.append([int(field) for field in fields[1 : 6 if card == "CTRIA3" else 9]])
+            rows.append([int(field) for field in data[: 5 if card == "CTRIA3" else 8]])
         elif card in ("CQUAD4", "CQUAD8", "CTETRA", "CHEXA", "CPENTA", "CQUADR"):
             raise FileFormatError(f"{path}: holds elements {card} that are not triangles")
     for line in lines:

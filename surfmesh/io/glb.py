@@ -40,7 +40,8 @@ def write(mesh: SurfaceMesh, path: Path) -> None:
     order = np.argsort(mesh.face_ids, kind="stable")
     members = np.split(order, np.searchsorted(mesh.face_ids[order], faces[1:]))
     pieces = {face: store.piece(mesh, own) for face, own in zip(faces, members)}
-    nodes, meshes = [], []
+    nodes: list[dict[str, Any]] = []
+    meshes: list[dict[str, Any]] = []
     for solid in solids:
         primitives = []
         for face in faces:
@@ -187,7 +188,8 @@ def read(path: Path) -> SurfaceMesh:
     if not 0 <= record["points"] <= len(data) // 12:
         raise FileFormatError(f"{path}: is of {record['points']} vertices and cannot hold them")
     points = np.zeros((record["points"], 3))
-    triangles, solids = {}, {}
+    triangles: dict[int, NDArray] = {}
+    solids: dict[int, list[int]] = {}
     for node in content["nodes"]:
         if "mesh" not in node:
             continue

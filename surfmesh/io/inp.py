@@ -22,7 +22,7 @@ from surfmesh.io.group_record import (
 )
 from surfmesh.io.text_columns import numbers, shortest
 from surfmesh.result.mesh_groups import MeshGroups
-from surfmesh.result.quadratic_triangles import edge_rows, split_six_nodes
+from surfmesh.result.quadratic_triangles import split_six_nodes
 from surfmesh.result.surface_mesh import SurfaceMesh
 
 COORDINATE = 20  # characters
@@ -36,8 +36,8 @@ KIND = {1: "S3", 2: "STRI65"}
 def write(mesh: SurfaceMesh, path: Path) -> None:
     groups, nodes = mesh.groups, mesh.nodes
     faces = np.unique(mesh.face_ids).tolist()
-    held = [-1] if mesh.solid_ids is None else np.unique(mesh.solid_ids).tolist()
-    solids = [solid for solid in held if solid >= 0]
+    sides = np.empty((0, 2), np.int32) if mesh.solid_ids is None else mesh.solid_ids
+    solids = np.unique(sides[sides >= 0]).tolist()
     face_labels = list(dict.fromkeys(map(groups.face_label, faces)))
     labels = unique_labels([*face_labels, *map(groups.solid_label, solids)], NAME)
     named = dict(zip(face_labels, labels))
@@ -56,7 +56,7 @@ def write(mesh: SurfaceMesh, path: Path) -> None:
             file.write(f"*ELEMENT, TYPE={KIND[mesh.order]}, ELSET={label}\n")
             file.writelines(f"{', '.join(map(str, row))}\n" for row in elements[own].tolist())
         for solid, label in zip(solids, labels[len(face_labels) :]):
-            own = np.flatnonzero((mesh.solid_ids == solid).any(axis=1))
+            own = np.flatnonzero((sides == solid).any(axis=1))
             file.write(f"*ELSET, ELSET={label}\n")
             _write_numbers(file, (own + 1).tolist())
         for label, numbers_of_edge in _nodes_of_edges(mesh):
@@ -71,18 +71,14 @@ def _write_numbers(file: TextIO, found: list[int]) -> None:
 
 def _nodes_of_edges(mesh: SurfaceMesh) -> Iterator[tuple[str, list[int]]]:
     """Names and the tags of the nodes on CAD edges, edges of one name together."""
-    if mesh.edge_segments is None:
+    if mesh.edge_ids is None:
         return
     labels: dict[str, list[int]] = {}
     for edge in np.unique(mesh.edge_ids).tolist():
         labels.setdefault(mesh.groups.edge_label(edge), []).append(edge)
     for name, edges in zip(unique_labels(labels, NAME), labels.values()):
-        own = mesh.edge_segments[np.isin(mesh.edge_ids, edges)]
-        nodes = np.unique(own)
-        if mesh.order == 2:
-            middles = len(mesh.points) + edge_rows(mesh.connectivity, own)
-            nodes = np.concatenate((nodes, np.unique(middles)))
-        yield name, (nodes + 1).tolist()
+        own = mesh.edge_elements[np.isin(mesh.edge_ids, edges)]
+        yield name, (np.unique(own) + 1).tolist()
 
 
 def read(path: Path) -> SurfaceMesh:
@@ -141,7 +137,8 @@ Block = tuple[str, dict[str, str], list[str]]  # keyword, its options, the lines
 
 def _blocks(file: TextIO) -> tuple[list[str], list[Block]]:
     """Lines of the record, and what stands under each keyword."""
-    record, blocks = [], []
+    record: list[str] = []
+    blocks: list[Block] = []
     for line in file:
         if line.startswith("**"):
             if MARK in line:

@@ -153,8 +153,11 @@ class Manifest:
             raise FileFormatError("the manifest names no files; compare it with another manifest")
         there = [Path(folder, name) for name in self.files]
         found = _hashes(path for path in there if path.exists())
-        here = {"versions": {name: _version(name) for name in self.versions}}
-        here |= {"machine": _machine(), "files": found}
+        here: dict[str, Mapping[str, str | None]] = {
+            "versions": {name: _version(name) for name in self.versions},
+            "machine": _machine(),
+            "files": found,
+        }
         return tuple(
             entry
             for section, values in here.items()

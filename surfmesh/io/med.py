@@ -13,12 +13,13 @@ from types import ModuleType
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from surfmesh.errors import FileFormatError
 from surfmesh.io.group_record import group_fields, group_lines, solids_of_faces
 from surfmesh.io.hdf5_bounds import require_bounded
 from surfmesh.result.mesh_groups import MeshGroups
-from surfmesh.result.quadratic_triangles import edge_rows, split_six_nodes
+from surfmesh.result.quadratic_triangles import split_six_nodes
 from surfmesh.result.surface_mesh import SurfaceMesh
 
 LINE, TRIANGLE = {1: "line", 2: "line3"}, {1: "triangle", 2: "triangle6"}
@@ -40,18 +41,15 @@ def _libraries(path: Path) -> tuple[ModuleType, ModuleType]:
 def write(mesh: SurfaceMesh, path: Path) -> None:
     meshio, h5py = _libraries(path)
     groups, solids = mesh.groups, solids_of_faces(mesh)
-    blocks, families = [(TRIANGLE[mesh.order], mesh.elements)], [-1 - mesh.face_ids]
+    blocks: list[tuple[str, NDArray]] = [(TRIANGLE[mesh.order], mesh.elements)]
+    families = [-1 - mesh.face_ids]
     names = {}
     for face in np.unique(mesh.face_ids).tolist():
         held = [groups.solid_label(solid) for solid in solids[face].tolist() if solid >= 0]
         names[-1 - face] = list(dict.fromkeys((groups.face_label(face), *held)))
-    if mesh.edge_segments is not None and len(mesh.edge_segments):
+    if mesh.edge_ids is not None and len(mesh.edge_ids):
         below = int(mesh.face_ids.max()) + 1
-        lines = mesh.edge_segments
-        if mesh.order == 2:
-            middles = len(mesh.points) + edge_rows(mesh.connectivity, lines)
-            lines = np.column_stack((lines, middles))
-        blocks.append((LINE[mesh.order], lines))
+        blocks.append((LINE[mesh.order], mesh.edge_elements))
         families.append(-1 - below - mesh.edge_ids)
         for edge in np.unique(mesh.edge_ids).tolist():
             names[-1 - below - edge] = [groups.edge_label(edge)]

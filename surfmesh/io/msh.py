@@ -23,7 +23,7 @@ from numpy.typing import NDArray
 from surfmesh.io.group_record import group_lines, solids_of_faces
 from surfmesh.io.msh_reading import ATTRIBUTE, read
 from surfmesh.quality.measures.shape import alpha
-from surfmesh.result.quadratic_triangles import edge_rows, node_values
+from surfmesh.result.quadratic_triangles import edge_rows
 from surfmesh.result.surface_mesh import SurfaceMesh
 
 __all__ = ["read", "write"]
@@ -87,9 +87,8 @@ def write(mesh: SurfaceMesh, path: Path) -> None:
         file.write(b"\n$EndElements\n")
         _section(file, ATTRIBUTE, "\n".join([*group_lines(mesh), ""]).encode())
 
-        if mesh.sizes is not None:
-            sizes = mesh.sizes if mesh.order == 1 else node_values(mesh.sizes, mesh.edges)
-            _section(file, "NodeData", _values("size", sizes))
+        if mesh.node_sizes is not None:
+            _section(file, "NodeData", _values("size", mesh.node_sizes))
         # meshio wants a value for every element, in the order of the tags: lines get a 1
         shape = np.concatenate((alpha(mesh), np.ones(used - count)))
         _section(file, "ElementData", _values("alpha", shape))
@@ -118,8 +117,8 @@ def _groups(mesh: SurfaceMesh) -> tuple[dict[int, int], dict[int, int], list[str
         found.append(table)
     solids = [number for number, _ in _volumes(mesh)]
     labels = [groups.solid_label(number) for number in solids]
-    for number, label in zip(solids, labels):
-        name = f"{label} {number}" if labels.count(label) > 1 else label
+    for number, called in zip(solids, labels):
+        name = f"{called} {number}" if labels.count(called) > 1 else called
         lines.append(f'3 {number + 1} "{_quoted(name)}"')
     return found[0], found[1], lines
 
@@ -136,13 +135,9 @@ def _vertices(mesh: SurfaceMesh) -> list[_Entity]:
 
 
 def _curves(mesh: SurfaceMesh, groups: dict[int, int]) -> list[_Entity]:
-    if not groups:
+    if mesh.edge_ids is None:
         return []
-    elements = mesh.edge_segments
-    if mesh.order == 2:
-        middles = len(mesh.points) + edge_rows(mesh.connectivity, elements)
-        elements = np.column_stack((elements, middles))
-    none = np.empty(0, int)
+    elements, none = mesh.edge_elements, np.empty(0, int)
     return [
         _Entity(1, edge, LINE[mesh.order], elements[members], none, groups[edge], none)
         for edge, members in _members(mesh.edge_ids)
@@ -161,11 +156,12 @@ def _surfaces(mesh: SurfaceMesh, groups: dict[int, int]) -> list[_Entity]:
 
 def _edges_of_faces(mesh: SurfaceMesh) -> dict[int, NDArray]:
     """Numbers of the CAD edges along which each face has triangles."""
-    if mesh.edge_segments is None or not len(mesh.edge_segments):
+    links = mesh.edge_links
+    if links is None or not len(links.edge_segments):
         return {}
     rows = np.full(len(mesh.edges), -1)
-    at = edge_rows(mesh.connectivity, mesh.edge_segments)
-    rows[at[at >= 0]] = mesh.edge_ids[at >= 0]
+    at = edge_rows(mesh.connectivity, links.edge_segments)
+    rows[at[at >= 0]] = links.edge_ids[at >= 0]
     pairs = np.stack((mesh.triangles, mesh.triangles[:, (1, 2, 0)]), axis=-1).reshape(-1, 2)
     edges = rows[edge_rows(mesh.connectivity, pairs)]
     used = np.column_stack((np.repeat(mesh.face_ids, 3), edges))[edges >= 0]

@@ -1,6 +1,7 @@
 """Reading Gmsh's MSH 4.1, binary: what ``msh`` writes, and what Gmsh makes of it."""
 
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -37,7 +38,7 @@ def read(path: Path) -> SurfaceMesh:
     rows, face_ids = _gathered(blocks, TRIANGLES, width)
     by_tag = np.argsort(rows[:, 0], kind="stable")
     elements, face_ids = content.places(rows[by_tag, 1:], tags), face_ids[by_tag]
-    fields = {}
+    fields: dict[str, Any] = {}
     kept = np.arange(len(tags))
     if width == 6:
         points, elements, fields["mid_points"], kept = split_six_nodes(points, elements)

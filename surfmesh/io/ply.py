@@ -26,9 +26,9 @@ def write(mesh: SurfaceMesh, path: Path) -> None:
     if sized:
         vertices["size"] = mesh.sizes
     colours = triangle_colours(mesh)
-    coloured = colours is not None
-    faces = np.empty(len(mesh.triangles), FACE + COLOUR * coloured)
-    if coloured:
+    channels = [] if colours is None else COLOUR
+    faces = np.empty(len(mesh.triangles), FACE + channels)
+    if colours is not None:
         for channel, (name, _) in enumerate(COLOUR):
             faces[name] = np.where(colours[:, channel] < 0, NO_COLOUR, colours[:, channel])
     faces["count"], faces["corners"] = 3, mesh.triangles
@@ -39,12 +39,12 @@ def write(mesh: SurfaceMesh, path: Path) -> None:
         "comment surfmesh",
         *(f"comment {line}" for line in group_lines(mesh, numbered=True)),
         f"element vertex {len(vertices)}",
-        *(f"property double {name}" for name in vertices.dtype.names),
+        *(f"property double {name}" for name in vertices.dtype.names or ()),
         f"element face {len(faces)}",
         "property list uchar int vertex_indices",
         "property int face_id",
         "property double alpha",
-        *(f"property uchar {name}" for name, _ in COLOUR * coloured),
+        *(f"property uchar {name}" for name, _ in channels),
         "end_header",
     ]
     with open(path, "wb") as file:

@@ -6,6 +6,7 @@ triangles have: an array then holds an element as it stands, and no number makes
 there are bytes.
 """
 
+from dataclasses import dataclass
 from pathlib import Path
 from typing import NamedTuple
 
@@ -45,7 +46,8 @@ class _Property(NamedTuple):
     length: str  # the kind of the length of a list, or empty
 
 
-class _Element(NamedTuple):
+@dataclass(frozen=True)
+class _Element:
     name: str
     count: int
     properties: list[_Property]

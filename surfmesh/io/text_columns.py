@@ -1,7 +1,7 @@
 """Numbers as text in columns of limited width, and back."""
 
 from collections.abc import Iterable, Sequence
-from typing import TextIO
+from typing import Protocol
 
 import numpy as np
 from numpy.typing import NDArray
@@ -32,7 +32,13 @@ def numbers(lines: Sequence[str], columns: int, kind: type = float) -> NDArray:
     return np.array(words, kind).reshape(-1, columns)
 
 
-def write_rows(file: TextIO, row: str, values: NDArray) -> None:
+class Text(Protocol):
+    """What takes text, a file or not."""
+
+    def write(self, text: str, /) -> object: ...
+
+
+def write_rows(file: Text, row: str, values: NDArray) -> None:
     """Each row of ``values`` in the format ``row``, which ends its line."""
     for start in range(0, len(values), LINES):
         block = values[start : start + LINES]

@@ -8,7 +8,7 @@ strings hold ASCII alone, and meshio refuses a file that has one.
 
 import json
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -19,7 +19,7 @@ from surfmesh.io.xml_writing import Content, write_grid, write_polygons
 from surfmesh.quality.measures.shape import alpha
 from surfmesh.quality.measures.tolerances import tolerance_rows
 from surfmesh.result.mesh_groups import MeshGroups
-from surfmesh.result.quadratic_triangles import node_values, split_six_nodes
+from surfmesh.result.quadratic_triangles import split_six_nodes
 from surfmesh.result.surface_mesh import SurfaceMesh
 
 if TYPE_CHECKING:
@@ -64,12 +64,13 @@ def _of_triangles(mesh: SurfaceMesh) -> dict[str, NDArray]:
 def write(mesh: SurfaceMesh, path: Path) -> None:
     grid = path.suffix.lower() == ".vtu"
     of_triangles = _of_triangles(mesh)
-    field = {"one_sided": np.array([mesh.one_sided], np.uint8)}
-    if mesh.uv_points is not None:
-        of_triangles["uv"] = mesh.uv.reshape(-1, 6)  # u, v of the three corners
-    if mesh.metric_root_3d is not None:
-        of_triangles[METRIC_ROWS] = mesh.uv_triangles
-        field[METRIC] = mesh.metric_root_3d
+    field: dict[str, NDArray] = {"one_sided": np.array([mesh.one_sided], np.uint8)}
+    corners = mesh.parametrisation
+    if corners is not None:
+        of_triangles["uv"] = corners.uv_points[corners.uv_triangles].reshape(-1, 6)  # u, v thrice
+        if corners.metric_root_3d is not None:
+            of_triangles[METRIC_ROWS] = corners.uv_triangles
+            field[METRIC] = corners.metric_root_3d
     field[GROUPS] = np.frombuffer(json.dumps(mesh.groups.plain()).encode(), np.uint8)
     promises = tolerance_rows(mesh)
     if promises is not None:
@@ -78,9 +79,8 @@ def write(mesh: SurfaceMesh, path: Path) -> None:
         if getattr(mesh, name) is not None and len(getattr(mesh, name)):
             field[name] = getattr(mesh, name)
     points, cells, sizes = mesh.points, mesh.triangles, mesh.sizes
-    if grid and mesh.order == 2:
-        points, cells = mesh.nodes, mesh.elements
-        sizes = None if sizes is None else node_values(sizes, mesh.edges)
+    if grid:
+        points, cells, sizes = mesh.nodes, mesh.elements, mesh.node_sizes
     of_points = {} if sizes is None else {"size": sizes}
     content = Content(points, cells, of_points, of_triangles, field)
     (write_grid if grid else write_polygons)(content, path)
@@ -115,7 +115,7 @@ def read(path: Path) -> SurfaceMesh:
         promises = field[PROMISES].astype(float).reshape(-1, 3)
         promises = np.where(promises > 0.0, promises, np.nan)
     groups = field[GROUPS].tobytes().decode() if GROUPS in field else "{}"
-    beside = {name: field[name] for name in BESIDE if name in field}
+    beside: dict[str, Any] = {name: field[name] for name in BESIDE if name in field}
     if "edge_segments" in beside:
         beside["edge_segments"] = beside["edge_segments"].reshape(-1, 2)
     return SurfaceMesh(

@@ -279,7 +279,7 @@ class _Arrays:
         return found
 
     def _numbers(self, source: "_Raw", dtype: np.dtype) -> NDArray:
-        data = self._plain(source) if self.unpack is None else self._unpacked(source)
+        data = self._unpacked(source, self.unpack) if self.unpack else self._plain(source)
         if len(data) % dtype.itemsize:
             raise ValueError(f"{len(data)} bytes are no whole numbers of {dtype.itemsize} bytes")
         return np.frombuffer(data, dtype).astype(dtype.newbyteorder("="), copy=False)
@@ -292,7 +292,7 @@ class _Arrays:
         self.expansion.take(size)  # many arrays may show the same bytes
         return data
 
-    def _unpacked(self, source: "_Raw") -> bytes:
+    def _unpacked(self, source: "_Raw", unpack: Callable[[bytes, int], bytes]) -> bytes:
         """Header: the number of blocks, their size, that of the last or 0, and packed sizes."""
         word = self.header.itemsize
         head = np.frombuffer(source.take(3 * word), self.header)
@@ -307,7 +307,7 @@ class _Arrays:
         content = source.after((3 + blocks) * word).take(sum(packed))
         found, at = [], 0
         for count, wanted in zip(packed, sizes):
-            found.append(self.unpack(content[at : at + count], wanted))
+            found.append(unpack(content[at : at + count], wanted))
             at += count
         return b"".join(found)
 

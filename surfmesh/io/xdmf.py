@@ -6,7 +6,7 @@ Format: XDMF Model and Format, version 3.
 
 import json
 from pathlib import Path
-from typing import TextIO
+from typing import Any, TextIO
 from xml.etree.ElementTree import Element
 from xml.sax.saxutils import quoteattr
 
@@ -18,7 +18,7 @@ from surfmesh.io.colours import NO_COLOUR, triangle_colours
 from surfmesh.io.text_columns import write_rows
 from surfmesh.io.xml_reading import root_of
 from surfmesh.result.mesh_groups import MeshGroups
-from surfmesh.result.quadratic_triangles import node_values, split_six_nodes
+from surfmesh.result.quadratic_triangles import split_six_nodes
 from surfmesh.result.surface_mesh import SurfaceMesh
 
 TOPOLOGY = {1: "Triangle", 2: "Triangle_6"}
@@ -54,9 +54,8 @@ def write(mesh: SurfaceMesh, path: Path) -> None:
         file.write("</Geometry>\n")
         for name, values in cells.items():
             _write_attribute(file, name, "Cell", values)
-        if mesh.sizes is not None:
-            sizes = mesh.sizes if mesh.order == 1 else node_values(mesh.sizes, mesh.edges)
-            _write_attribute(file, "size", "Node", sizes)
+        if mesh.node_sizes is not None:
+            _write_attribute(file, "size", "Node", mesh.node_sizes)
         file.write("</Grid></Domain></Xdmf>\n")
 
 
@@ -92,7 +91,7 @@ def read(path: Path) -> SurfaceMesh:
     """The first grid of a file whose numbers stand in it; data in HDF5 are not read."""
     grid = root_of(path, path.read_bytes()).find(".//Grid")
     topology = None if grid is None else grid.find("Topology")
-    if topology is None:
+    if grid is None or topology is None:
         raise FileFormatError(f"{path}: there is no grid in it")
     kind = (topology.get("TopologyType") or topology.get("Type") or "").lower()
     if kind not in NAMES:
@@ -100,10 +99,10 @@ def read(path: Path) -> SurfaceMesh:
     elements = _numbers(path, topology, np.int64).reshape(-1, NAMES[kind])
     points = _numbers(path, grid.find("Geometry"), float).reshape(-1, 3)
     values = {item.get("Name"): item for item in grid.findall("Attribute")}
-    fields = {}
+    fields: dict[str, Any] = {}
     for item in grid.findall("Information"):
         if item.get("Name") == RECORD:
-            fields = json.loads(item.get("Value"))
+            fields = json.loads(item.get("Value") or "")
             fields["groups"] = MeshGroups.of_plain(fields["groups"])
     if "face_id" in values:
         fields["face_ids"] = _numbers(path, values["face_id"], np.int64)

@@ -96,7 +96,7 @@ def _write_section(file: BinaryIO, name: str, arrays: Arrays, counted: bool = Fa
 
 def _write_numbers(file: BinaryIO, values: NDArray) -> None:
     """Head and blocks: their number, the bytes of each and of the last, those compressed."""
-    data = memoryview(np.ascontiguousarray(values)).cast("B") if values.size else b""
+    data = np.ascontiguousarray(values).data.cast("B") if values.size else b""
     blocks = [zlib.compress(data[at : at + BLOCK], LEVEL) for at in range(0, len(data), BLOCK)]
     head = [len(blocks), BLOCK, len(data) % BLOCK, *map(len, blocks)]
     file.write(base64.b64encode(np.array(head, np.uint32).tobytes()))

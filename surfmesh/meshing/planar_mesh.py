@@ -8,6 +8,7 @@ from collections.abc import Mapping
 
 import numpy as np
 
+from surfmesh.geometry.boxes import diagonal
 from surfmesh.geometry.files.known_facts import known_facts
 from surfmesh.geometry.planar.planar_domain import PlanarDomain
 from surfmesh.kernels.insertion.insertion import label_patches
@@ -93,7 +94,7 @@ def mesh_planar(
 def _thinning_distance(domain: PlanarDomain, sizing: Sizing) -> float:
     if sizing.chord is not None:
         return sizing.chord
-    bounds = SizeBounds.of(sizing, float(np.hypot(*np.ptp(domain.graph.points, axis=0))))
+    bounds = SizeBounds.of(sizing, diagonal(domain.graph.points))
     size = bounds.clamp[1]
     if sizing.has_law:
         points = np.column_stack([domain.graph.points, np.zeros(len(domain.graph.points))])

@@ -9,11 +9,14 @@ model_facts: what is known of a model beforehand: what its mesh is compared with
     CAD.
 quadratic_triangles: triangles of six nodes: corners, and one node amid each edge, shared by its
     triangles.
-mesh_part: arrays that say of themselves what their rows stand for: how they are checked,
-    cut down to a part and numbered anew.
+mesh_part: arrays that say of themselves what their rows stand for: how they are checked, cut
+    down to a part and numbered anew.
 mesh_parts: what a mesh holds besides points and triangles: Parametrisation, ModelLinks,
     EdgeLinks, Record.
+mesh_fields: all fields by one name each: keywords of a mesh, and its attributes.
+invariants: what has to hold of every mesh: the first thing that does not.
 surface_mesh: the result: an immutable triangle mesh on one or more surfaces.
 
-Others use all of them but mesh_part, which is for the parts and for what adds triangles.
+Others use all of them but mesh_part, mesh_fields and invariants; mesh_part is for what adds
+triangles to a mesh too.
 """

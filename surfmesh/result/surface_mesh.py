@@ -10,10 +10,13 @@ while each triangle keeps the surface parameters of its corners on its own face.
         0 --- 3 --- 0       two images in uv    6 --- 3 --- 0        vertices, two of (u, v)
 """
 
+from __future__ import annotations
+
+from collections.abc import Mapping
 from dataclasses import dataclass, field, fields
 from functools import cached_property
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Generic, Self, TypedDict, TypeVar, Unpack, overload
+from typing import TYPE_CHECKING, Any, ClassVar, Unpack
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -21,6 +24,8 @@ from numpy.typing import ArrayLike, NDArray
 from surfmesh.renamed import Renamed, new_names
 from surfmesh.result.connectivity import Connectivity, connect
 from surfmesh.result.findings import Finding, FindingKind
+from surfmesh.result.invariants import first_broken
+from surfmesh.result.mesh_fields import MeshFields, OfPart
 from surfmesh.result.mesh_groups import MeshGroups
 from surfmesh.result.mesh_part import (
     EDGE,
@@ -35,11 +40,9 @@ from surfmesh.result.mesh_part import (
     rows,
 )
 from surfmesh.result.mesh_parts import EdgeLinks, ModelLinks, Parametrisation, Record
-from surfmesh.result.quadratic_triangles import edge_rows, six_nodes
+from surfmesh.result.quadratic_triangles import edge_rows, node_values, six_nodes
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Mapping
-
     import meshio
     import pyvista
     import trimesh
@@ -54,60 +57,6 @@ if TYPE_CHECKING:
 
 NOT_MESHED = FindingKind.NOT_MESHED.value
 """How the warning about a CAD face starts that is missing: such a mesh is not clean."""
-
-Held = TypeVar("Held")
-
-
-class OfPart(Generic[Held]):
-    """An attribute of a part, read as one of the mesh; ``absent`` where there is no such part."""
-
-    def __init__(self, part: str, absent: Any = None) -> None:
-        self.part, self.absent, self.name = part, absent, ""
-
-    def __set_name__(self, owner: type, name: str) -> None:
-        self.name = name
-
-    @overload
-    def __get__(self, mesh: None, owner: type) -> Self: ...
-    @overload
-    def __get__(self, mesh: "SurfaceMesh", owner: type) -> Held: ...
-    def __get__(self, mesh: "SurfaceMesh | None", owner: type) -> Any:
-        if mesh is None:
-            return self
-        part = getattr(mesh, self.part)
-        return self.absent if part is None else getattr(part, self.name)
-
-
-class MeshFields(TypedDict, total=False):
-    """What a mesh may hold besides points and triangles: whole parts, and fields of parts."""
-
-    sizes: ArrayLike | None
-    mid_points: ArrayLike | None
-    one_sided: bool
-    parametrisation: Parametrisation | None
-    model_links: ModelLinks | None
-    edge_links: EdgeLinks | None
-    record: Record | None
-    uv_points: ArrayLike | None
-    uv_triangles: ArrayLike | None
-    metric_root_3d: ArrayLike | None
-    face_ids: ArrayLike | None
-    surfaces: "Iterable[Surface]"
-    turned_faces: ArrayLike | None
-    narrow_faces: ArrayLike | None
-    solid_ids: ArrayLike | None
-    vertex_ids: ArrayLike | None
-    groups: MeshGroups | None
-    edge_segments: ArrayLike | None
-    edge_ids: ArrayLike | None
-    edge_parameters: ArrayLike | None
-    edge_curves: "Iterable[CadEdge]"
-    sizing: "Sizing | None"
-    promises: ArrayLike | None
-    facts: "ModelFacts | None"
-    seconds: "Mapping[str, float]"
-    warnings: "Iterable[str]"
-    findings: "Iterable[Finding]"
 
 
 @dataclass(frozen=True, eq=False, repr=False, init=False, kw_only=True)
@@ -135,26 +84,26 @@ class SurfaceMesh(Arrays):
     edge_links: EdgeLinks | None = None
     record: Record
 
-    uv_points = OfPart[FloatArray | None]("parametrisation")
-    uv_triangles = OfPart[Int32Array | None]("parametrisation")
-    metric_root_3d = OfPart[FloatArray | None]("parametrisation")
-    face_ids = OfPart[Int32Array]("model_links")
-    surfaces = OfPart["tuple[Surface, ...]"]("model_links")
-    turned_faces = OfPart[BoolArray | None]("model_links")
-    narrow_faces = OfPart[BoolArray | None]("model_links")
-    solid_ids = OfPart[Int32Array | None]("model_links")
-    vertex_ids = OfPart[Int32Array | None]("model_links")
-    groups = OfPart[MeshGroups]("model_links")
-    edge_segments = OfPart[Int32Array | None]("edge_links")
-    edge_ids = OfPart[Int32Array | None]("edge_links")
-    edge_parameters = OfPart[FloatArray | None]("edge_links")
-    edge_curves = OfPart["tuple[CadEdge, ...]"]("edge_links", absent=())
-    sizing = OfPart["Sizing | None"]("record")
-    promises = OfPart[FloatArray | None]("record")
-    facts = OfPart["ModelFacts | None"]("record")
-    seconds = OfPart["Mapping[str, float]"]("record")
-    warnings = OfPart[tuple[str, ...]]("record")
-    findings = OfPart[tuple[Finding, ...]]("record")
+    uv_points: ClassVar[OfPart[FloatArray | None]] = OfPart("parametrisation")
+    uv_triangles: ClassVar[OfPart[Int32Array | None]] = OfPart("parametrisation")
+    metric_root_3d: ClassVar[OfPart[FloatArray | None]] = OfPart("parametrisation")
+    face_ids: ClassVar[OfPart[Int32Array]] = OfPart("model_links")
+    surfaces: ClassVar[OfPart[tuple[Surface, ...]]] = OfPart("model_links")
+    turned_faces: ClassVar[OfPart[BoolArray | None]] = OfPart("model_links")
+    narrow_faces: ClassVar[OfPart[BoolArray | None]] = OfPart("model_links")
+    solid_ids: ClassVar[OfPart[Int32Array | None]] = OfPart("model_links")
+    vertex_ids: ClassVar[OfPart[Int32Array | None]] = OfPart("model_links")
+    groups: ClassVar[OfPart[MeshGroups]] = OfPart("model_links")
+    edge_segments: ClassVar[OfPart[Int32Array | None]] = OfPart("edge_links")
+    edge_ids: ClassVar[OfPart[Int32Array | None]] = OfPart("edge_links")
+    edge_parameters: ClassVar[OfPart[FloatArray | None]] = OfPart("edge_links")
+    edge_curves: ClassVar[OfPart[tuple[CadEdge, ...]]] = OfPart("edge_links", absent=())
+    sizing: ClassVar[OfPart[Sizing | None]] = OfPart("record")
+    promises: ClassVar[OfPart[FloatArray | None]] = OfPart("record")
+    facts: ClassVar[OfPart[ModelFacts | None]] = OfPart("record")
+    seconds: ClassVar[OfPart[Mapping[str, float]]] = OfPart("record")
+    warnings: ClassVar[OfPart[tuple[str, ...]]] = OfPart("record")
+    findings: ClassVar[OfPart[tuple[Finding, ...]]] = OfPart("record")
     inverse_sizes, edge_shares = Renamed("metric_root_3d"), Renamed("edge_parameters")
 
     def __init__(
@@ -204,7 +153,7 @@ class SurfaceMesh(Arrays):
         points: ArrayLike | None = None,
         triangles: ArrayLike | None = None,
         **changes: Unpack[MeshFields],
-    ) -> "SurfaceMesh":
+    ) -> SurfaceMesh:
         """A copy with some fields changed."""
         found: dict[str, Any] = {item.name: getattr(self, item.name) for item in fields(self)}
         found |= changes
@@ -254,6 +203,25 @@ class SurfaceMesh(Arrays):
             return self.triangles
         return six_nodes(self.triangles, self.connectivity, len(self.points))
 
+    @property
+    def node_sizes(self) -> FloatArray | None:
+        """Target sizes at ``nodes``: halfway between the ends in the middle of an edge."""
+        return (
+            self.sizes
+            if self.sizes is None or self.order == 1
+            else node_values(self.sizes, self.edges)
+        )
+
+    @property
+    def edge_elements(self) -> NDArray[np.integer[Any]]:
+        """(k, 2) or, for order 2, (k, 3) rows of ``nodes`` of the segments on CAD edges."""
+        if self.edge_segments is None:
+            return np.empty((0, 1 + self.order), np.int32)
+        if self.order == 1:
+            return self.edge_segments
+        middles = len(self.points) + edge_rows(self.connectivity, self.edge_segments)
+        return np.column_stack((self.edge_segments, middles))
+
     def face_name(self, face: int) -> str:
         """Name of face number ``face``, or ``face 3`` when it has none."""
         return self.groups.face_label(face)
@@ -264,50 +232,17 @@ class SurfaceMesh(Arrays):
 
         Says nothing of shape or of the surface: that is ``surfmesh.check(mesh)``.
         """
-        n, k = len(self.points), 0 if self.uv_points is None else len(self.uv_points)
-        for name, indices, limit in (
-            ("triangles", self.triangles, n),
-            ("uv_triangles", self.uv_triangles, k),
-        ):
-            if (
-                indices is not None
-                and indices.size
-                and not 0 <= indices.min() <= (indices.max()) < limit
-            ):
-                bad = int(np.flatnonzero(((indices < 0) | (indices >= limit)).any(axis=1))[0])
-                return f"{name}[{bad}] = {indices[bad].tolist()} is outside 0..{limit - 1}"
-        for name in ("points", "uv_points", "sizes", "mid_points"):
-            array = getattr(self, name)
-            if array is not None and not np.isfinite(array).all():
-                bad = int(np.flatnonzero(~np.isfinite(array).reshape(len(array), -1).all(1))[0])
-                return f"{name}[{bad}] = {array[bad].tolist()} is not finite"
-        if self.sizes is not None and n and self.sizes.min() <= 0:
-            bad = int(self.sizes.argmin())
-            return f"sizes[{bad}] = {self.sizes[bad]} is not positive"
-        a, b, c = self.triangles.T
-        repeated = np.flatnonzero((a == b) | (b == c) | (c == a))
-        if len(repeated):
-            bad = int(repeated[0])
-            return f"triangle {bad} = {self.triangles[bad].tolist()} repeats a corner"
-        twin = _first_duplicate(self.triangles)
-        if twin is not None:
-            return f"triangles {twin[0]} and {twin[1]} have the same corners"
-        used = np.zeros(n, bool)
-        used[self.triangles.reshape(-1)] = True
-        if not used.all():
-            return f"vertex {int(np.flatnonzero(~used)[0])} belongs to no triangle"
-        if self.surfaces and len(self.face_ids):
-            low, high = int(self.face_ids.min()), int(self.face_ids.max())
-            if low < 0 or high >= len(self.surfaces):
-                return f"face_ids run from {low} to {high}, surfaces are {len(self.surfaces)}"
-        return None
+        return first_broken(
+            self.points, self.triangles, self.sizes, self.mid_points, self.parametrisation,
+            self.model_links,
+        )  # fmt: skip
 
     def submesh(
         self,
         kept: ArrayLike,
         as_vertex: ArrayLike | None = None,
         parametrisation: Parametrisation | None = None,
-    ) -> "SurfaceMesh":
+    ) -> SurfaceMesh:
         """The triangles ``kept``, (m,) bool or rows, on the vertices that they use: every array
         by vertex, corner, edge or triangle is renumbered with them.
 
@@ -341,11 +276,11 @@ class SurfaceMesh(Arrays):
             middles[row >= 0] = self.mid_points[row[row >= 0]]
         return middles
 
-    def with_warnings(self, *more: str) -> "SurfaceMesh":
+    def with_warnings(self, *more: str) -> SurfaceMesh:
         """The same mesh with more to say about it; itself, when there is nothing."""
         return self.replaced(warnings=(*self.warnings, *more)) if more else self
 
-    def flipped(self) -> "SurfaceMesh":
+    def flipped(self) -> SurfaceMesh:
         """The same mesh turned over: its triangles face the other side; twice gives it back.
 
         Points, edges and all other numbers stay. For closed surfaces that face their inside.
@@ -358,13 +293,13 @@ class SurfaceMesh(Arrays):
         )
 
     @cached_property
-    def report(self) -> "Report":
+    def report(self) -> Report:
         """The certificate: ``surfmesh.check(mesh)``, made when it is first asked for."""
         from surfmesh.quality.report import check
 
         return check(self)
 
-    def worst(self, count: int = 20) -> "tuple[WorstTriangle, ...]":
+    def worst(self, count: int = 20) -> tuple[WorstTriangle, ...]:
         """The triangles of the smallest alpha, the worst first, with face and position."""
         from surfmesh.quality.verdict.worst import worst_triangles
 
@@ -376,7 +311,7 @@ class SurfaceMesh(Arrays):
 
         return save(self, path, ascii=ascii)
 
-    def manifest(self, *files: str | Path) -> "Manifest":
+    def manifest(self, *files: str | Path) -> Manifest:
         """Versions, options and hashes of the mesh and of ``files`` it was written to, for
         another machine to compare; see ``surfmesh.io.Manifest``.
         """
@@ -384,19 +319,19 @@ class SurfaceMesh(Arrays):
 
         return Manifest.of(self, files)
 
-    def to_pyvista(self) -> "pyvista.PolyData":
+    def to_pyvista(self) -> pyvista.PolyData:
         """As PyVista PolyData with ``size``, ``face_id`` and ``alpha``; nothing is merged."""
         from surfmesh.io.vtk_xml import to_pyvista
 
         return to_pyvista(self)
 
-    def to_trimesh(self) -> "trimesh.Trimesh":
+    def to_trimesh(self) -> trimesh.Trimesh:
         """As a trimesh.Trimesh with ``size`` and ``face_id``; nothing is merged."""
         from surfmesh.io.to_trimesh import to_trimesh
 
         return to_trimesh(self)
 
-    def to_meshio(self) -> "meshio.Mesh":
+    def to_meshio(self) -> meshio.Mesh:
         """As a meshio.Mesh; ``ImportError`` that says what to install without meshio."""
         from surfmesh.io.to_meshio import to_meshio
 
@@ -439,22 +374,3 @@ _PARTS: dict[str, type[MeshPart]] = {
     "edge_links": EdgeLinks,
     "record": Record,
 }
-
-
-def _first_duplicate(triangles: NDArray[np.int32]) -> tuple[int, int] | None:
-    """Two triangles with the same three corners in any order, or None."""
-    a, b, c = triangles.astype(np.int64).T
-    low, high = np.minimum(np.minimum(a, b), c), np.maximum(np.maximum(a, b), c)
-    middle = a + b + c - low - high
-    stride = int(high.max(initial=0)) + 1
-    if stride <= 1 << 21:  # the three numbers fit into one
-        keys = ((low * stride + middle) * stride + high)[None]
-        order = np.argsort(keys[0])
-    else:
-        keys = np.stack((low, middle, high))
-        order = np.lexsort(keys)
-    same = np.flatnonzero((keys[:, order[1:]] == keys[:, order[:-1]]).all(axis=0))
-    if not len(same):
-        return None
-    first, second = sorted(int(order[same[0] + i]) for i in (0, 1))
-    return first, second

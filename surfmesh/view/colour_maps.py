@@ -10,7 +10,7 @@ from surfmesh.view.colouring import Colouring
 def map_of(colours: Colouring) -> Colormap:
     """A continuous map, or the hues that occur."""
     found = colormaps[colours.colours]
-    return ListedColormap(found.colors[: colours.hues]) if colours.hues else found
+    return ListedColormap(found(np.arange(colours.hues))) if colours.hues else found
 
 
 def table_of(colours: Colouring) -> str:

@@ -14,7 +14,7 @@ from surfmesh.view.vertex_parameters import vertex_parameters
 ARC = 6  # pieces of a circle within one corner of a triangle
 CROSSES = 1500  # about as many principal directions can be told apart in a picture
 CROSS = 0.42  # half the length of a direction, in edges or in the distance of those drawn
-FLAT = 1e-6  # |k1 - k2| below this share of |k1| + |k2| has no direction
+FLAT = 1e-6  # |k1 - k2| below this fraction of |k1| + |k2| has no direction
 
 
 class Lines(NamedTuple):
@@ -52,16 +52,17 @@ def circles(mesh: SurfaceMesh) -> Lines:
     if mesh.sizes is None:
         raise ValueError("cannot draw circles: the mesh carries no wanted sizes")
     corners = mesh.points[mesh.triangles]
-    share = np.linspace(0.0, 1.0, ARC + 1)
+    t = np.linspace(0.0, 1.0, ARC + 1)[:, None, None]
+    uv = mesh.parametrisation
     arcs = []
     for i in range(3):
         a, b, c = corners[:, i], corners[:, (i + 1) % 3], corners[:, (i + 2) % 3]
-        along = (1.0 - share)[:, None, None] * (b - a) + share[:, None, None] * (c - a)
-        if mesh.metric_root_3d is None:
+        along = (1.0 - t) * (b - a) + t * (c - a)
+        if uv is None or uv.metric_root_3d is None:
             length = np.linalg.norm(along, axis=2) / mesh.sizes[mesh.triangles[:, i]]
         else:
-            wanted = unpacked(mesh.metric_root_3d[mesh.uv_triangles[:, i]])  # (m, 3, 3)
-            length = np.linalg.norm(np.einsum("mij,smj->smi", wanted, along), axis=2)
+            root = unpacked(uv.metric_root_3d[uv.uv_triangles[:, i]])  # (m, 3, 3)
+            length = np.linalg.norm(np.einsum("mij,smj->smi", root, along), axis=2)
         # how far towards the opposite side the circle reaches: 1 is on it
         reach = 0.5 / np.where(length > 0, length, np.inf)
         ends = a + np.minimum(reach, 1.0)[:, :, None] * along
@@ -98,11 +99,12 @@ def principal_directions(mesh: SurfaceMesh) -> tuple[Lines, Lines]:
     chosen = chosen[bent[chosen]]
     sizes = np.sqrt(shapes(mesh).area.mean()) if mesh.sizes is None else mesh.sizes[chosen]
     half = CROSS * np.maximum(apart, sizes) * np.ones(len(chosen))
-    names = ("direction of k1", "direction of k2")
-    return tuple(
-        Lines(name, _centred(mesh.points[chosen], half[:, None] * along[chosen]), colour, 3.2)
-        for name, along, colour in zip(names, (first, second), ("#ff3030", "#35b6ff"))
-    )
+
+    def drawn(name: str, along: NDArray[np.float64], colour: str) -> Lines:
+        pieces = _centred(mesh.points[chosen], half[:, None] * along[chosen])
+        return Lines(name, pieces, colour, 3.2)
+
+    return drawn("direction of k1", first, "#ff3030"), drawn("direction of k2", second, "#35b6ff")
 
 
 def worst_triangles(mesh: SurfaceMesh, count: int) -> tuple[Lines, NDArray[np.int64]]:

@@ -53,9 +53,10 @@ def page_data(
         "triangles": mesh.triangles.astype("<u4"),
         "face_ids": np.maximum(mesh.face_ids, 0).astype("<u4"),
     }
-    if mesh.metric_root_3d is not None:  # the page draws ellipses with them
-        arrays["inverse sizes"] = _rounded(mesh.metric_root_3d * scale)
-        arrays["inverse size rows"] = mesh.uv_triangles.astype("<u4")
+    corners = mesh.parametrisation
+    if corners is not None and corners.metric_root_3d is not None:  # the page draws ellipses
+        arrays["inverse sizes"] = _rounded(corners.metric_root_3d * scale)
+        arrays["inverse size rows"] = corners.uv_triangles.astype("<u4")
     elif mesh.sizes is not None:  # or circles
         arrays["sizes"] = _rounded(mesh.sizes / scale)
     entries = []

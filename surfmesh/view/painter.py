@@ -14,6 +14,7 @@ from matplotlib.colors import LogNorm, Normalize, to_rgba
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
+from surfmesh.geometry.boxes import diagonal
 from surfmesh.result.surface_mesh import SurfaceMesh
 from surfmesh.view.camera import Camera, framed
 from surfmesh.view.colour_maps import map_of
@@ -60,7 +61,7 @@ def paint(
     for layer in lines:  # a line is a triangle without area, a little nearer than what it lies on
         ends, behind = _seen(layer.segments, camera)
         corners = np.concatenate((corners, ends[:, [0, 1, 1]]))
-        reach = NEARER * np.linalg.norm(np.ptp(mesh.points, axis=0))
+        reach = NEARER * diagonal(mesh.points)
         depth = np.concatenate((depth, behind.max(axis=1) + reach))
         colour = np.tile(to_rgba(layer.colour), (len(ends), 1))
         faces, rims = np.concatenate((faces, colour)), np.concatenate((rims, colour))
@@ -69,7 +70,7 @@ def paint(
     order = np.argsort(depth, kind="stable")
     axes.add_collection(
         PolyCollection(
-            corners[order],
+            corners[order],  # type: ignore[arg-type]  # its stubs know no arrays
             facecolors=faces[order],
             edgecolors=rims[order],
             linewidths=widths[order],

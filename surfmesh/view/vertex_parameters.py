@@ -17,9 +17,10 @@ class VertexParameters(NamedTuple):
 
 def vertex_parameters(mesh: SurfaceMesh) -> VertexParameters | None:
     """Where the vertices lie on the surfaces of ``mesh``, or None when it carries none."""
-    if not mesh.surfaces or mesh.uv_points is None:
+    corners = mesh.parametrisation
+    if not mesh.surfaces or corners is None:
         return None
     corner = np.zeros(len(mesh.points), np.int64)
     corner[mesh.triangles.reshape(-1)] = np.arange(mesh.triangles.size)
-    uv = mesh.uv_points[mesh.uv_triangles.reshape(-1)[corner]]
+    uv = corners.uv_points[corners.uv_triangles.reshape(-1)[corner]]
     return VertexParameters(mesh.face_ids[corner // 3], uv)

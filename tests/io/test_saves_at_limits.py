@@ -52,7 +52,7 @@ def test_every_format_at_every_limit(extension, small, saves, tmp_path):
 
 @posix
 def test_text_page_picture_and_report_at_limits(small, saves, tmp_path):
-    from surfmesh.cli.commands import _written
+    from surfmesh.cli.outputs import written
     from surfmesh.quality import check
     from surfmesh.view import html_report, plot
 
@@ -60,7 +60,7 @@ def test_text_page_picture_and_report_at_limits(small, saves, tmp_path):
     writers = {
         ".stl": lambda path: small.save(path, ascii=True),
         ".html": lambda path: html_report(small, path, report=report),
-        ".json": lambda path: _written(report.to_json(), path),
+        ".json": lambda path: written(report.to_json(), path),
         ".png": lambda path: plot(small, path, size=(160, 120)),
     }
     for suffix, write in writers.items():

@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 
 import surfmesh as sm
+from surfmesh.result.mesh_fields import MeshFields
 from surfmesh.result.mesh_part import (
     ANY,
     CAD_VERTEX,
@@ -17,7 +18,7 @@ from surfmesh.result.mesh_part import (
     TRIANGLE,
     VERTEX,
 )
-from surfmesh.result.surface_mesh import MeshFields, SurfaceMesh
+from surfmesh.result.surface_mesh import SurfaceMesh
 
 PARTS = ("parametrisation", "model_links", "edge_links", "record")
 

@@ -41,7 +41,7 @@ def test_a_roof_has_as_many_triangles_as_planes_and_its_ridge_is_an_edge(turn, a
     assert report.triangles < 400 and report.deviation_max < 1e-9 * half
     (line,) = kink_lines(surface)
     wanted = np.linalg.norm(line.uv[-1] - line.uv[0]) / half
-    scaled = sm.surface_mesh.SurfaceMesh(points=mesh.points / half, triangles=mesh.triangles)
+    scaled = sm.SurfaceMesh(points=mesh.points / half, triangles=mesh.triangles)
     assert length_along(scaled, lambda u, v: cos * u + sin * v - away) == pytest.approx(wanted)
 
 

@@ -12,27 +12,17 @@ from the left side of the (u, v) box, by Gauss's rule.
 
 from __future__ import annotations
 
-from functools import cache
-
 import numpy as np
 
 from surfmesh.cad.model.cad_model import CadCoedge, CadEdge, CadFace, CadModel, CadSolid
-from surfmesh.geometry.planar.inside_loops import is_inside
+from surfmesh.geometry.inside_loops import is_inside
+from surfmesh.geometry.quadrature import gauss_rule
 
 STRAIGHT, CURVED = 2, 65
 """Samples along edges."""
 
 POINTS, PANELS, ALONG = 12, 2, 8
 """Of Gauss's rule, for each of PANELS across a face and of ALONG along its edges."""
-
-
-@cache
-def _gauss(points: int, panels: int) -> tuple[np.ndarray, np.ndarray]:
-    """Nodes and weights on [0, 1]."""
-    x, w = np.polynomial.legendre.leggauss(points)
-    x, w = 0.5 * (x + 1.0), 0.5 * w
-    nodes = (np.arange(panels)[:, None] + x).ravel() / panels
-    return nodes, np.tile(w / panels, panels)
 
 
 def boundary_polygons(face: CadFace) -> list[np.ndarray]:
@@ -74,8 +64,8 @@ def face_area(face: CadFace) -> float:
 def _across(face: CadFace, coedge: CadCoedge, along_straight: int = 1) -> tuple[np.ndarray, ...]:
     """Weights (n,) in (u, v), points, r_u and r_v (n, 3) between the left side and a coedge."""
     straight = getattr(coedge.pcurve, "kind", "") == "line"
-    along, w_along = _gauss(POINTS, along_straight if straight else ALONG)
-    t, w = _gauss(POINTS, PANELS)
+    along, w_along = gauss_rule(0.0, 1.0, along_straight if straight else ALONG, POINTS)
+    t, w = gauss_rule(0.0, 1.0, PANELS, POINTS)
     uv, speed = coedge.pcurve.evaluate(coedge.p0 + along * (coedge.p1 - coedge.p0), 1)
     dv = speed[:, 1] * (coedge.p1 - coedge.p0) * (-w_along if coedge.reversed else w_along)
     (u0, _), _ = face.surface.domain
@@ -89,7 +79,7 @@ def edge_centre(edge: CadEdge) -> np.ndarray | None:
     """Centre of mass (3,) of an edge; None for a degenerate one."""
     if edge.degenerate or edge.curve is None:
         return None
-    t, w = _gauss(POINTS, ALONG)
+    t, w = gauss_rule(0.0, 1.0, ALONG, POINTS)
     points, speed = edge.curve.evaluate(edge.parameters(t), 1)
     w = w * np.linalg.norm(speed, axis=1)
     return w @ points / w.sum() if w.sum() > 0.0 else points.mean(axis=0)

@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from surfmesh.geometry.planar.nesting import nesting_depth
+from surfmesh.geometry.inside_loops import nesting_depth
 
 if TYPE_CHECKING:
     from surfmesh.cad.model.cad_model import CadCoedge, CadEdge, CadFace, CadModel, CadVertex, Shell

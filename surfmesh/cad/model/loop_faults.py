@@ -19,9 +19,9 @@ from typing import Any
 import numpy as np
 
 from surfmesh.cad.model.cad_model import CadCoedge, CadEdge, CadFace, CadModel
+from surfmesh.geometry.boxes import diagonal
+from surfmesh.geometry.inside_loops import is_inside, nesting_depth
 from surfmesh.geometry.planar.curve_contacts import Contact, PlaneCurve, contacts, feet
-from surfmesh.geometry.planar.inside_loops import is_inside
-from surfmesh.geometry.planar.nesting import nesting_depth
 
 ROUND_PIECES, SPAN_PIECES, MOST_PIECES = 16, 4, 256
 """Pieces of conics, of each span of a spline, and at most, in which curves hardly bend."""
@@ -127,10 +127,9 @@ class _Loops:
         slow = slow.reshape(len(self.coedges), -1).min(axis=1)
         self.tolerance = np.array(exact.tolerances) / slow
         self.curves = [self._curve(coedge) for coedge in self.coedges]
-        extent = np.ptp(some * self.mean, axis=0)
-        diagonal = float(np.hypot(*extent))
+        size = diagonal(some * self.mean)
         rounding = 16.0 * float(np.spacing(np.abs(some * self.mean).max()))
-        self.near = np.clip(self.tolerance, NEAREST * diagonal, NEAR * diagonal) + rounding
+        self.near = np.clip(self.tolerance, NEAREST * size, NEAR * size) + rounding
 
     def _curve(self, coedge: CadCoedge) -> PlaneCurve:
         kind = getattr(coedge.pcurve, "kind", "")

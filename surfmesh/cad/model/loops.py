@@ -10,7 +10,7 @@ import numpy as np
 
 from surfmesh.cad.model.cad_model import CadCoedge, CadEdge
 from surfmesh.cad.model.invariants import ENDS, OPEN_FRACTION, signed_area, step_between
-from surfmesh.geometry.planar.nesting import nesting_depth
+from surfmesh.geometry.inside_loops import nesting_depth
 
 Loop = tuple[CadCoedge, ...]
 

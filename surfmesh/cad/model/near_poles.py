@@ -16,6 +16,7 @@ from scipy.interpolate import make_interp_spline
 from surfmesh.cad.model.cad_model import CadCoedge, CadEdge, CadFace, CadVertex
 from surfmesh.cad.model.centres import face_area
 from surfmesh.cad.model.invariants import FRACTIONS, NOISE
+from surfmesh.geometry.boxes import diagonal
 from surfmesh.geometry.cad_surfaces.curves import Line
 from surfmesh.geometry.cad_surfaces.nurbs import BSplineCurve
 from surfmesh.geometry.differential.projection import closest_point
@@ -66,9 +67,9 @@ def _straightened(
     (u0, u1), (v0, v1) = face.surface.domain
     width = np.array([u1 - u0, v1 - v0])
     (corners,) = face.surface.evaluate([[u0, v0], [u1, v0], [u1, v1], [u0, v1]], 0)
-    size = float(np.linalg.norm(np.ptp(corners, axis=0)))
+    size = diagonal(corners)
     (side,) = face.surface.evaluate(coedges[at].uv(FRACTIONS), 0)
-    extent = float(np.linalg.norm(np.ptp(side, axis=0)))
+    extent = diagonal(side)
     if not NOISE * size < extent < LARGEST * size:
         return False
     ends = []

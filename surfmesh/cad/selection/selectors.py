@@ -22,14 +22,12 @@ import numpy as np
 from surfmesh.cad.model.cad_model import CadModel
 from surfmesh.cad.model.centres import edge_centre, face_centre, solid_centre
 from surfmesh.errors import SizingError
+from surfmesh.geometry.number_range import RANGE
 
 TOLERANCE = 1e-4
 """As CadQuery has it: radians and lengths alike; lengths at least SPREAD of the diagonal."""
 
 SPREAD = 1e-6
-
-LEAST = 1e-100
-"""Of a direction's largest component: its length can be computed, as can that of its inverse."""
 
 KINDS = ("face", "edge", "vertex", "solid")
 
@@ -228,7 +226,7 @@ class _Parser:
     def _along(self, text: str) -> np.ndarray:
         direction = _direction(text)
         length = np.abs(direction).max()
-        if not (LEAST < length < 1.0 / LEAST):
+        if not (1.0 / RANGE.square < length < RANGE.square):
             self._fail(f"{text:.60} is no direction")
         return direction
 

@@ -14,6 +14,7 @@ from math import acos, pi, sin
 
 import numpy as np
 
+from surfmesh.geometry.boxes import diagonal
 from surfmesh.geometry.cad_surfaces.face_surface import FaceSurface
 from surfmesh.geometry.surface import Surface
 
@@ -169,4 +170,4 @@ def _extents(surface: Surface, axis: int, values: np.ndarray) -> tuple[np.ndarra
     uv[..., 1 - axis] = across
     (points,) = surface.evaluate(uv.reshape(-1, 2), 0)
     boxes = np.ptp(points.reshape(len(values), ACROSS, 3), axis=1)
-    return np.linalg.norm(boxes, axis=1), float(np.linalg.norm(np.ptp(points, axis=0)))
+    return np.linalg.norm(boxes, axis=1), diagonal(points)

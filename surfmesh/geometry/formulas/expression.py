@@ -26,6 +26,7 @@ from surfmesh.errors import FormulaError, SurfaceError, shown
 from surfmesh.geometry.formulas import real_functions as real
 from surfmesh.geometry.formulas.compilation import compiled
 from surfmesh.geometry.formulas.program import FUNCTION_OPERATIONS
+from surfmesh.geometry.number_range import RANGE
 
 LONGEST = 10_000  # characters of a formula
 LONGEST_NAME = 20  # characters of one that a message shows
@@ -35,7 +36,6 @@ READY_DIGITS = 10_000  # binary digits of a number in it
 LARGEST_EXPONENT = 64  # of a power with a constant exponent
 MOST_DIGITS, ALL_DIGITS = 20_000, 200_000  # binary digits of one exact power, of all together
 MOST_OPERATIONS = 8_000  # of a ready-made expression, whose text may be endless
-LARGEST_NUMBER = 1e300  # of any constant part; its square root and square stay near floats
 
 
 class Function(NamedTuple):
@@ -264,7 +264,7 @@ class _Parser:
 
     def _literal(self, digits: str, column: int) -> _Part:
         value = float(digits)
-        if value > LARGEST_NUMBER:
+        if value > RANGE.constant:
             self._refuse("the number is too large", column)
         short = len(digits) <= 30 and (value == 0.0 or 1e-30 < value < 1e30)
         # decimals stay exact: u**0.5 is a square root, and derivatives have clean coefficients
@@ -344,7 +344,7 @@ class _Parser:
             self._refuse("the number is too large", column)
         if isinstance(value, complex) or math.isnan(value):
             self._refuse("not a finite real number", column)
-        if abs(value) > LARGEST_NUMBER:
+        if abs(value) > RANGE.constant:
             self._refuse("the number is too large", column)
         return float(value)
 
@@ -459,7 +459,7 @@ def _cut(token: str) -> str:
 
 def _rational(number) -> sp.Rational:
     """The shortest decimal that a number prints as, exactly."""
-    if not _is_number(number) or not abs(_finite(number)) <= LARGEST_NUMBER:
+    if not _is_number(number) or not abs(_finite(number)) <= RANGE.constant:
         raise SurfaceError(f"a parameter must be a finite number, not {shown(number)}")
     return sp.Rational(repr(float(number)))
 
@@ -474,7 +474,7 @@ def _number(expression: sp.Expr, text: str, column: int) -> float:
     if not expression.has(sp.I, sp.zoo, sp.nan, sp.oo):
         tape = compiled([expression], ())
         value = tape.constants[0] if tape.constants else math.nan
-        if abs(value) <= LARGEST_NUMBER:
+        if abs(value) <= RANGE.constant:
             return value
     raise FormulaError("not a finite real number", text, column)
 
@@ -531,7 +531,7 @@ def _refuse_endless(expression: sp.Expr) -> None:
         if levels > DEEPEST_READY:
             raise FormulaError(f"an expression of more than {DEEPEST_READY} levels{_CURE}")
         many = part.is_Rational and _digits(part) > READY_DIGITS
-        if many or (part.is_Number and part.is_finite and abs(part) > LARGEST_NUMBER):
+        if many or (part.is_Number and part.is_finite and abs(part) > RANGE.constant):
             raise FormulaError("a number in the expression is too large, or has too many digits")
         sizes[part] = operations, levels
 

@@ -16,13 +16,14 @@ to each other than the grid get lines of the grid of their own.
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from surfmesh.errors import SurfaceError
 from surfmesh.geometry.differential.infinite_speed import bent_axes_of
+from surfmesh.geometry.formulas.parametric import ParametricSurface
+from surfmesh.geometry.surface import Surface
 
 GRID = 96  # cells each way
 MARGIN = 1e-9  # of the domain: how far inside its sides signs are read
@@ -51,7 +52,7 @@ class KinkLine:
 class Guides:
     """The functions whose zeros are the kinks, with their derivatives."""
 
-    def __init__(self, surface: Any) -> None:
+    def __init__(self, surface: ParametricSurface) -> None:
         self.surface = surface
         self.tape = surface.guides()
         self.count = 0 if self.tape is None else len(self.tape.outputs) // 3
@@ -79,12 +80,12 @@ class Guides:
         return found
 
 
-def kink_lines(surface: Any) -> list[KinkLine]:
+def kink_lines(surface: Surface) -> list[KinkLine]:
     """The kinks of a surface, cut where they meet; none where it has no formulas, or too many.
 
     Raises SurfaceError where the surface is torn: a step has no mesh.
     """
-    if not hasattr(surface, "guides") or surface.loops:
+    if not isinstance(surface, ParametricSurface) or surface.loops:
         return []
     guides = Guides(surface)
     if not guides.count:

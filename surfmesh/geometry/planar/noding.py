@@ -21,6 +21,7 @@ import shapely
 from scipy.spatial import cKDTree
 
 from surfmesh.errors import DomainError
+from surfmesh.geometry.boxes import diagonal
 from surfmesh.kernels.triangulation.segments import CROSSING, meetings
 
 MERGE = 1e-12
@@ -127,8 +128,7 @@ def size_exponent(points: np.ndarray) -> int:
 
 def _merging_distance(points: np.ndarray) -> float:
     """The distance below which two of the points (n, 2) are one."""
-    diagonal = float(np.hypot(*np.ptp(points, axis=0)))
-    return max(MERGE * diagonal, MERGE_ULPS * float(np.spacing(np.abs(points).max())))
+    return max(MERGE * diagonal(points), MERGE_ULPS * float(np.spacing(np.abs(points).max())))
 
 
 def first_meeting(points: np.ndarray, segments: np.ndarray, lone: np.ndarray) -> tuple | None:

@@ -13,8 +13,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from surfmesh.errors import DomainError
+from surfmesh.geometry.number_range import RANGE
 from surfmesh.geometry.planar.noding import MERGE, first_meeting, noded
-from surfmesh.geometry.surface_checks import LARGEST, SMALLEST
 
 
 @dataclass(frozen=True, eq=False)
@@ -105,7 +105,7 @@ def segment_graph(
     model units, below which points are one; never less than rounding.
 
     Raises DomainError when segments cross and are not to be split (it names both and the
-    place), for a loop that encloses no area, and for coordinates beyond 1e100.
+    place), for a loop that encloses no area, and for coordinates that are too large.
     """
     points = np.concatenate([line.points for line in lines])
     _refuse_extremes(lines, points)
@@ -217,14 +217,14 @@ def _origin(labels: tuple[str, ...], label_start: np.ndarray, given: int) -> str
 
 def _refuse_extremes(lines: Sequence[Line], points: np.ndarray) -> None:
     for line in lines:
-        large = np.abs(line.points).max(axis=1) > LARGEST
+        large = np.abs(line.points).max(axis=1) > RANGE.coordinate
         if large.any():
             x, y = line.points[large.argmax()]
             raise DomainError(
                 f"{line.label}: the point ({x:g}, {y:g}) is too far away to compute with; "
                 "scale the domain"
             )
-    if 0.0 < np.ptp(points, axis=0).max() < SMALLEST:
+    if 0.0 < np.ptp(points, axis=0).max() < RANGE.extent:
         raise DomainError(
             f"the domain is only {np.ptp(points, axis=0).max():g} wide, too small to compute "
             "with; scale it"

@@ -20,7 +20,7 @@ from surfmesh.cad.model.centres import boundary_polygons, inner_samples
 from surfmesh.cad.selection.selection import EVERYTHING
 from surfmesh.errors import SizingError, printable
 from surfmesh.geometry.differential.projection import closest_point
-from surfmesh.geometry.planar.inside_loops import is_inside
+from surfmesh.geometry.inside_loops import is_inside
 from surfmesh.geometry.surface import Surface, surface_label
 from surfmesh.meshing.edges.edge_samples import EdgeSamples
 from surfmesh.meshing.edges.face_proximity import AcrossTo

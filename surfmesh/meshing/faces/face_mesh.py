@@ -57,7 +57,7 @@ PROJECTIONS = 4
 def mesh_face(job: FaceJob) -> FaceMesh:
     """Mesh one face. Never raises for what is wrong with the face: see ``failure``."""
     if job.exact is not None and job.exact.at_once:
-        return FaceMesh(failure=job.exact.at_once, hopeless=True)
+        return FaceMesh(failure=job.exact.at_once, unmeshable=True)
     reason = no_point(job)
     if reason and beyond_a_turn(job):
         return FaceMesh(failure=reason)
@@ -86,22 +86,22 @@ def _mesh_rest(job: FaceJob) -> FaceMesh:
             return _never_empty(job, _meshed(job))
         except SurfaceError:
             if job.exact is not None and job.exact.fault:
-                return FaceMesh(failure=job.exact.fault, hopeless=True)
+                return FaceMesh(failure=job.exact.fault, unmeshable=True)
             opened = untangled_job(job)
             if opened is None:
                 if job.exact is not None and job.exact.touch:
-                    return FaceMesh(failure=job.exact.touch, hopeless=True)
+                    return FaceMesh(failure=job.exact.touch, unmeshable=True)
                 raise
             return _never_empty(job, _meshed(opened, unfold=False))
     except SurfmeshError as error:
         closed = filled_face(job, str(error)) if job.last else None
         if closed is not None:
             return closed
-        wishes = None
+        refinement = None
         where = getattr(error, "where", None)
         if where is not None:
-            wishes = limits_where_crossing(job, np.atleast_2d(where))
-        return FaceMesh(failure=str(error), wishes=wishes)
+            refinement = limits_where_crossing(job, np.atleast_2d(where))
+        return FaceMesh(failure=str(error), refinement=refinement)
     except Exception as error:  # a mistake of ours: it must not take the other faces with it
         at = extract_tb(error.__traceback__)[-1]
         return FaceMesh(
@@ -123,7 +123,7 @@ def _never_empty(job: FaceJob, mesh: FaceMesh) -> FaceMesh:
     return replace(mesh, failure="nothing is left of it at sizes this coarse")
 
 
-def edge_wishes(job: FaceJob) -> SizeLimits | None:
+def edge_refinement(job: FaceJob) -> SizeLimits | None:
     """What the sizes inside a face ask for along its edges, before it is meshed."""
     try:
         surface, field = face_field(job)
@@ -177,7 +177,7 @@ def _meshed(job: FaceJob, unfold: bool = True) -> FaceMesh:
         wishes = SizeLimits(parts.points[bad], finer, job.sizing.gradient, essential=True)
         wishes = wishes.joined_with(_round_tubes(surface, job))
         place = ", ".join(f"{x:.6g}" for x in parts.points[bad[0]])
-        return FaceMesh(failure=f"its sides cannot be joined near ({place})", wishes=wishes)
+        return FaceMesh(failure=f"its sides cannot be joined near ({place})", refinement=wishes)
     return FaceMesh(
         parts.points, slot[parts.place], parts.triangles, parts.uv_points, parts.uv_triangles,
         sizes, field.roots_of_mesh(xy, optimiser.embedding.scale[: len(xy)]), wishes,

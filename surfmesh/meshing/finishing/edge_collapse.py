@@ -20,7 +20,7 @@ from surfmesh.result.mesh_parts import Parametrisation
 from surfmesh.result.surface_mesh import SurfaceMesh
 
 LEAST = 5e-4
-"""Edges shorter than this share of the diagonal are collapsed, if ``min_size`` does not say."""
+"""Edges shorter than this fraction of the diagonal are collapsed, if ``min_size`` does not say."""
 
 LARGEST_TURN = np.cos(np.radians(45.0))
 """No triangle that is left turns farther."""
@@ -40,7 +40,8 @@ def simplified(mesh: SurfaceMesh, least: float) -> SurfaceMesh:
     if not len(short):
         return mesh
     work = _Work(mesh)
-    queue = [(float(length[e]), *map(int, mesh.edges[e])) for e in short]
+    ends = mesh.edges[short].tolist()
+    queue = [(size, a, b) for size, (a, b) in zip(length[short].tolist(), ends)]
     heapq.heapify(queue)
     while queue:
         _, a, b = heapq.heappop(queue)
@@ -67,10 +68,9 @@ class _Work:
         self.gone = np.zeros(len(mesh.triangles), bool)
         self.kept_as = np.arange(len(mesh.points))
         self.rank = np.zeros(len(mesh.points), np.int8)
-        if mesh.edge_segments is not None:
+        if mesh.edge_segments is not None and mesh.vertex_ids is not None:
             self.rank[mesh.edge_segments.ravel()] = ON_EDGE
-            corner = mesh.vertex_ids[mesh.vertex_ids >= 0]
-            self.rank[corner] = CORNER
+            self.rank[mesh.vertex_ids[mesh.vertex_ids >= 0]] = CORNER
         self.replaced: list[tuple[int, int]] = []  # corners that have another vertex now
 
     def around(self, vertex: int) -> set[int]:

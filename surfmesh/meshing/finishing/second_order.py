@@ -8,14 +8,17 @@ A triangle whose Jacobian might not be positive everywhere gets straight edges: 
 first, and only where that does not do on curves too.
 """
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from functools import partial
 from time import perf_counter
 
 import numpy as np
 from numpy.typing import NDArray
 
-from surfmesh.cad.model.cad_model import CadModel
+from surfmesh.cad.model.cad_model import CadEdge
 from surfmesh.geometry.differential.projection import closest_point
+from surfmesh.geometry.surface import Surface
+from surfmesh.result.mesh_parts import EdgeLinks, Parametrisation
 from surfmesh.result.quadratic_triangles import edge_rows, least_jacobians, six_nodes
 from surfmesh.result.surface_mesh import SurfaceMesh
 
@@ -24,21 +27,21 @@ HALVINGS = 30  # of the interval in which the middle of a curved segment lies
 LEAST_JACOBIAN = 0.02  # of that of the straight triangle; below, edges are straightened
 
 
-def of_second_order(mesh: SurfaceMesh, model: CadModel | None = None) -> SurfaceMesh:
-    """``mesh`` with ``mid_points``; what had to be straightened is said in its ``warnings``.
-
-    model: what a mesh of a CAD model was made of; without it, no node is put on curves.
-    """
+def of_second_order(mesh: SurfaceMesh) -> SurfaceMesh:
+    """``mesh`` with ``mid_points``; what had to be straightened is said in its ``warnings``."""
     start = perf_counter()
     middles = mesh.points[mesh.edges].mean(axis=1)
     fixed = np.zeros(len(middles), bool)  # on curves
-    if mesh.surfaces and mesh.uv_points is not None:
+    if mesh.surfaces and mesh.parametrisation is not None:
         boundary = mesh.connectivity.uses == 1
-        _on_surfaces(mesh, middles, ~boundary)
-        _on_boundaries(mesh, middles, boundary)
+        for surface, own, first, second in _by_surface(mesh, mesh.parametrisation, ~boundary):
+            guess = 0.5 * (first + second)
+            middles[own] = closest_point(surface, middles[own], guess, STEPS)[2]
+        for surface, own, first, second in _by_surface(mesh, mesh.parametrisation, boundary):
+            middles[own] = _halfway(partial(_on_surface, surface, first, second), len(own))
         fixed |= boundary
-    if model is not None and mesh.edge_parameters is not None:
-        fixed[_on_curves(mesh, model, middles)] = True
+    if mesh.edge_links is not None:
+        fixed[_on_curves(mesh, mesh.edge_links, middles)] = True
     straight = _straightened(mesh, middles, fixed)
     notes = [f"{straight} edges of order 2 are straight, lest triangles fold"] if straight else []
     return mesh.replaced(
@@ -48,70 +51,58 @@ def of_second_order(mesh: SurfaceMesh, model: CadModel | None = None) -> Surface
     )
 
 
-def _images(mesh: SurfaceMesh, rows: NDArray) -> tuple[NDArray, NDArray, NDArray]:
-    """Faces (k,) and the parameters (k, 2) of both ends of edges, in their first triangle."""
+def _by_surface(
+    mesh: SurfaceMesh, corners: Parametrisation, wanted: NDArray[np.bool_]
+) -> Iterator[tuple[Surface, NDArray[np.int64], NDArray[np.float64], NDArray[np.float64]]]:
+    """For each surface: the rows (k,) of ``mesh.edges`` that are ``wanted``, and the parameters
+    (k, 2) of both their ends in the first triangle."""
+    rows = np.flatnonzero(wanted)
     half = mesh.connectivity.half_edges[rows, 0]
     triangle, corner = half // 3, half % 3
-    uv = mesh.uv_triangles[triangle]
+    uv = corners.uv_triangles[triangle]
     at = np.arange(len(rows))
-    ends = mesh.uv_points[uv[at, corner]], mesh.uv_points[uv[at, (corner + 1) % 3]]
-    return mesh.face_ids[triangle], *ends
-
-
-def _on_surfaces(mesh: SurfaceMesh, middles: NDArray, wanted: NDArray) -> None:
-    rows = np.flatnonzero(wanted)
-    faces, first, second = _images(mesh, rows)
-    for face in np.unique(faces).tolist():
-        own = faces == face
-        guess = 0.5 * (first[own] + second[own])
-        found = closest_point(mesh.surfaces[face], middles[rows[own]], guess, STEPS)
-        middles[rows[own]] = found[2]
-
-
-def _on_boundaries(mesh: SurfaceMesh, middles: NDArray, wanted: NDArray) -> None:
-    rows = np.flatnonzero(wanted)
-    faces, first, second = _images(mesh, rows)
+    first, second = corners.uv_points[uv[at, corner]], corners.uv_points[uv[at, (corner + 1) % 3]]
+    faces = mesh.face_ids[triangle]
     for face in np.unique(faces).tolist():
         own = np.flatnonzero(faces == face)
-        a, b, surface = first[own], second[own], mesh.surfaces[face]
-        middles[rows[own]] = _halfway(
-            lambda share, a=a, b=b, surface=surface: surface.evaluate(
-                a + share[:, None] * (b - a), 0
-            )[0],
-            len(own),
-        )
+        yield mesh.surfaces[face], rows[own], first[own], second[own]
 
 
-def _on_curves(mesh: SurfaceMesh, model: CadModel, middles: NDArray) -> NDArray:
+def _on_surface(surface: Surface, a: NDArray, b: NDArray, t: NDArray) -> NDArray[np.float64]:
+    return surface.evaluate(a + t[:, None] * (b - a), 0)[0]
+
+
+def _on_curve(edge: CadEdge, a: NDArray, b: NDArray, t: NDArray) -> NDArray[np.float64]:
+    return edge.curve.evaluate(edge.parameters(a + t * (b - a)), 0)[0]
+
+
+def _on_curves(mesh: SurfaceMesh, links: EdgeLinks, middles: NDArray) -> NDArray[np.int64]:
     """Puts nodes on the curves of CAD edges; returns the rows of ``mesh.edges`` that lie there."""
-    rows = edge_rows(mesh.connectivity, mesh.edge_segments)
-    for number in np.unique(mesh.edge_ids).tolist():
-        own = np.flatnonzero((mesh.edge_ids == number) & (rows >= 0))
-        edge = model.edges[number]
+    if links.edge_parameters is None or not links.edge_curves:
+        return np.empty(0, np.int64)
+    rows = edge_rows(mesh.connectivity, links.edge_segments)
+    for number in np.unique(links.edge_ids).tolist():
+        own = np.flatnonzero((links.edge_ids == number) & (rows >= 0))
+        edge = links.edge_curves[number]
         if edge.curve is None or not len(own):
             continue
-        start, end = mesh.edge_parameters[own].T
-        middles[rows[own]] = _halfway(
-            lambda share, start=start, end=end, edge=edge: edge.curve.evaluate(
-                edge.parameters(start + share * (end - start)), 0
-            )[0],
-            len(own),
-        )
+        start, end = links.edge_parameters[own].T
+        middles[rows[own]] = _halfway(partial(_on_curve, edge, start, end), len(own))
     return rows[rows >= 0]
 
 
 def _halfway(at: Callable[[NDArray], NDArray], count: int) -> NDArray:
     """Points (count, 3) of curves as far from the one end as from the other.
 
-    at: shares (count,) from 0 to 1 -> points, one on each curve.
+    at: t (count,) from 0 to 1 -> points, one on each curve.
     """
     low, high = np.zeros(count), np.ones(count)
     a, b = at(low), at(high)
     for _ in range(HALVINGS):
-        share = 0.5 * (low + high)
-        point = at(share)
+        t = 0.5 * (low + high)
+        point = at(t)
         nearer = np.linalg.norm(point - a, axis=1) < np.linalg.norm(point - b, axis=1)
-        low, high = np.where(nearer, share, low), np.where(nearer, high, share)
+        low, high = np.where(nearer, t, low), np.where(nearer, high, t)
     return at(0.5 * (low + high))
 
 
@@ -127,11 +118,11 @@ def _straightened(mesh: SurfaceMesh, middles: NDArray, fixed: NDArray) -> int:
             bad = least_jacobians(nodes, elements) < LEAST_JACOBIAN
             if not bad.any():
                 return int(straight.sum())
-            turn = np.zeros(len(middles), bool)
-            turn[of_edges[bad]] = True
-            turn &= movable & ~straight & (middles != chords).any(axis=1)
-            if not turn.any():
+            chosen = np.zeros(len(middles), bool)
+            chosen[of_edges[bad]] = True
+            chosen &= movable & ~straight & (middles != chords).any(axis=1)
+            if not chosen.any():
                 break
-            middles[turn] = chords[turn]
-            straight |= turn
+            middles[chosen] = chords[chosen]
+            straight |= chosen
     return int(straight.sum())

@@ -51,7 +51,7 @@ def _allowed(mesh: SurfaceMesh, face: int, uv: NDArray, chord: float) -> NDArray
     _, ru, rv, *second = mesh.surfaces[face].evaluate(uv, 2)
     forms = forms_from_derivatives(ru, rv, *second)
     k = curvatures(forms)
-    if getattr(mesh.sizing, "is_anisotropic", False):
+    if mesh.sizing and mesh.sizing.is_anisotropic:
         size = np.minimum(*principal_chord_sizes(k.k1, k.k2, chord, mesh.sizing.anisotropy))
     else:
         size = chord_size(k.k1, k.k2, chord)

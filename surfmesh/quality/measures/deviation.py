@@ -169,7 +169,7 @@ def _second_look(
     count = len(by_triangle)
     chosen = min(count, max(SECOND_LOOK, count // 250))
     worst = np.argpartition(by_triangle, count - chosen)[count - chosen :].astype(np.int32)
-    chord = getattr(mesh.sizing, "chord", None) or np.inf
+    chord = (mesh.sizing and mesh.sizing.chord) or np.inf
     best = (-1.0, 0, (0.0, 0.0, 0.0), (0.0, 0.0))
     for face in np.unique(mesh.face_ids[worst]):
         for block in _blocks(worst[mesh.face_ids[worst] == face], BLOCK // len(DENSE)):

@@ -14,6 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from surfmesh.accuracy.folds import FOLDED, INVERTED, cosines_with_surface, sharp_radius
+from surfmesh.geometry.boxes import diagonal
 from surfmesh.geometry.differential.projection import closest_point
 from surfmesh.geometry.differential.sharp_bends import bends_sharply
 from surfmesh.result.surface_mesh import SurfaceMesh
@@ -57,7 +58,7 @@ def folds(mesh: SurfaceMesh, cosine: NDArray[np.float32]) -> Folds:
     ours = cosine < FOLDED
     own, off, moved = np.zeros(len(cosine), bool), np.zeros(len(cosine)), np.zeros(len(cosine))
     nearest = 0.0
-    radius = sharp_radius(getattr(mesh.sizing, "chord", None), _diagonal(mesh))
+    radius = sharp_radius(mesh.sizing and mesh.sizing.chord, diagonal(mesh.points))
     bad = np.flatnonzero(ours)
     for face in np.unique(mesh.face_ids[bad]):
         some = bad[mesh.face_ids[bad] == face]
@@ -82,10 +83,6 @@ def _distances(
     away = np.linalg.norm(corners - images, axis=2)
     gap = closest_point(surface, corners.reshape(-1, 3), uv.reshape(-1, 2), STEPS)[1]
     return away, np.minimum(gap.reshape(-1, 3), away)
-
-
-def _diagonal(mesh: SurfaceMesh) -> float:
-    return float(np.linalg.norm(np.ptp(mesh.points, axis=0))) if len(mesh.points) else 0.0
 
 
 def most_folded(mesh: SurfaceMesh, found: Folds, count: int) -> tuple[FoldedTriangle, ...]:

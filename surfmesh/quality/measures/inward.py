@@ -6,6 +6,7 @@ A void within another closed surface faces it rightly, as the solid around it li
 import numpy as np
 from numpy.typing import NDArray
 
+from surfmesh.geometry.boxes import diagonal
 from surfmesh.quality.measures.inside import inside
 from surfmesh.quality.measures.topology import Topology, vertex_components
 from surfmesh.result.surface_mesh import SurfaceMesh
@@ -36,8 +37,8 @@ def inward_pieces(
     closed[of[free]] = True
     closed[labels[loose]] = False
     closed[of[~free]] = False
-    diagonal = float(np.linalg.norm(np.ptp(mesh.points, axis=0)))
-    found = np.flatnonzero(closed & (volume < -NO_VOLUME * area * diagonal))
+    enclosed = NO_VOLUME * area * diagonal(mesh.points)
+    found = np.flatnonzero(closed & (volume < -enclosed))
     outward = closed & (volume > 0.0)
     kept = []
     for label in found[:MOST].tolist():

@@ -75,7 +75,7 @@ def tolerance_rows(mesh: SurfaceMesh) -> NDArray[np.float64] | None:
     is known of them."""
     if mesh.promises is not None or mesh.sizing is None:
         return mesh.promises
-    asked = (getattr(mesh.sizing, name, None) for name in ("chord", "angle", "min_size"))
+    asked = (mesh.sizing.chord, mesh.sizing.angle, mesh.sizing.min_size)
     return np.array([[np.nan if value is None else value for value in asked]], float)
 
 

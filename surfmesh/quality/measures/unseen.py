@@ -13,6 +13,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from surfmesh.geometry.surface import BoundedSurface
 from surfmesh.quality.measures.deviation import Deviation
 from surfmesh.quality.measures.hidden_search import (
     BOXES,
@@ -75,7 +76,7 @@ def unseen(
     """Look between the samples of ``fit``; None where a surface has no bounds (a function), or
     there is no surface. Faces of CAD models are smooth between their knots: they are left out.
     """
-    bounded = [hasattr(surface, "all_bounds") for surface in mesh.surfaces]
+    bounded = [isinstance(surface, BoundedSurface) for surface in mesh.surfaces]
     if fit is None or not any(bounded) or not np.isfinite(fit.largest):
         return None
     found: list[tuple[NDArray[np.int64], Pieces]] = []

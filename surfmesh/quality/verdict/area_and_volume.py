@@ -8,6 +8,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from surfmesh.geometry.surface import surface_kind
 from surfmesh.quality.measures.area_and_volume import Explained
 from surfmesh.quality.measures.by_face import FaceRow
 from surfmesh.quality.measures.measurements import Measurements
@@ -210,6 +211,6 @@ def _curved_size(mesh: SurfaceMesh, solid: int) -> float:
     """Mean target size on the curved faces of a solid; infinite where nothing is known."""
     if mesh.sizes is None or mesh.solid_ids is None or not mesh.surfaces:
         return np.inf
-    curved = np.array([getattr(surface, "kind", "") != "plane" for surface in mesh.surfaces])
+    curved = np.array([surface_kind(surface) != "plane" for surface in mesh.surfaces])
     of = (mesh.solid_ids == solid).any(axis=1) & curved[mesh.face_ids]
     return float(mesh.sizes[mesh.triangles[of]].mean()) if of.any() else np.inf

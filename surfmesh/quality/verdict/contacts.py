@@ -4,6 +4,7 @@ import math
 from collections.abc import Iterator
 from dataclasses import dataclass
 
+from surfmesh.geometry.formulas.parametric import ParametricSurface
 from surfmesh.quality.measures.bodies import BodyPair
 from surfmesh.quality.measures.loose_edges import LooseEdges
 from surfmesh.quality.measures.measurements import Measurements
@@ -107,7 +108,7 @@ def self_intersections(measured: Measurements) -> Iterator[Problem]:
         return
     (first,) = located(mesh, pairs[:1])
     cure = ""
-    if any(hasattr(surface, "formulas") for surface in mesh.surfaces):
+    if any(isinstance(surface, ParametricSurface) for surface in mesh.surfaces):
         cure = "; lower the sizes there, or say embedded = false in the facts of the surface"
     elif mesh.surfaces:
         cure = "; lower the sizes there, or repair the model if its own faces cross"

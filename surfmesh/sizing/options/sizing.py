@@ -1,6 +1,6 @@
 """What the user asks for: one frozen set of options."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, fields, replace
 
 import numpy as np
@@ -158,13 +158,13 @@ class Sizing:
         return replace(self, **changes)
 
     @classmethod
-    def of(cls, wish: "Sizing | float | dict | None") -> "Sizing":
+    def of(cls, wish: "Sizing | float | SizeLaw | Mapping | None") -> "Sizing":
         """Sizing from what a user may pass: itself, a bare number, a mapping, or nothing."""
         if wish is None:
             return cls()
         if isinstance(wish, cls):
             return wish
-        if isinstance(wish, dict):
+        if isinstance(wish, Mapping):
             known = {f.name for f in fields(cls)}
             for name in wish:
                 if name not in known:

@@ -142,7 +142,7 @@ REFUSED = [
     ({"f": "u"}, "ParametricSurface"),
     ({"derivatives": 3}, "derivatives is a function"),
     ({"differences": 3}, "order 2, 4 or 6"),
-    ({"step": 0.5}, "share of the domain"),
+    ({"step": 0.5}, "fraction of the domain"),
     ({"u": (1, 1)}, "domain of u is empty"),
     ({"f": lambda u, v: (u, v)}, r"f must give \(x, y, z\).*it gave tuple"),
     ({"f": lambda u, v: np.zeros((len(u), 2))}, r"it gave \(\d+, 2\)"),

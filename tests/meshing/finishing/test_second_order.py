@@ -107,7 +107,7 @@ def test_triangles_that_would_fold_are_straightened_and_it_is_said():
 
 
 def test_a_mesh_without_surfaces_has_its_nodes_on_chords(plate):
-    nothing = {"surfaces": (), "turned_faces": None, "narrow_faces": None}
+    nothing = {"surfaces": (), "turned_faces": None, "narrow_faces": None, "edge_curves": ()}
     mesh = dataclasses.replace(sm.mesh(plate, 3.0), **nothing)
     made = of_second_order(mesh)
     np.testing.assert_array_equal(made.mid_points, mesh.points[mesh.edges].mean(axis=1))

@@ -1,0 +1,149 @@
+"""What a command works on: the sizes asked for, the surface or mesh that INPUT names."""
+
+from __future__ import annotations
+
+from argparse import Namespace
+from difflib import get_close_matches
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from surfmesh.cli.progress import ProgressBar, announce_compilation
+from surfmesh.errors import SurfaceError, printable
+
+if TYPE_CHECKING:
+    from surfmesh.cad.model.cad_model import CadModel
+    from surfmesh.geometry.surface import Surface
+    from surfmesh.result.surface_mesh import SurfaceMesh
+    from surfmesh.sizing.options.sizing import Sizing
+
+
+def asked_sizing(options: Namespace) -> Sizing | dict[str, Sizing] | None:
+    """The sizes that were asked for, or None; those of a file are of selections."""
+    from surfmesh.sizing.options.sizing import Sizing
+
+    if not options.sizes:
+        return Sizing(**options.sizing) if options.sizing else None
+
+    from surfmesh.sizing.options.sizes_file import read_sizes
+
+    found = read_sizes(options.sizes)
+    if options.sizing:
+        found["*"] = found.get("*", Sizing()).replaced(**options.sizing)
+    return found
+
+
+def surface_of(options: Namespace) -> Surface | CadModel:
+    """The surface of the ``mesh`` command: INPUT, or --x --y --z --u --v."""
+    formulas = {name: getattr(options, name) for name in "xyzuv"}
+    if not any(formulas.values()) and not options.param:
+        if not options.input:
+            raise SurfaceError("name a formula file or a gallery surface, or give --x --y --z")
+        return named_surface(options.input, options)
+    if options.input:
+        raise SurfaceError(f"either INPUT ('{options.input}') or formulas, not both")
+    missing = [f"--{name}" for name, value in formulas.items() if value is None]
+    if missing:
+        raise SurfaceError(f"a surface by formulas needs {', '.join(missing)} too")
+    parameters = {}
+    for entry in options.param:
+        name, sign, value = entry.partition("=")
+        try:
+            parameters[name.strip()] = float(value)
+        except ValueError:
+            sign = ""
+        if not sign:
+            raise SurfaceError(f"--param must be NAME=NUMBER, not '{entry}'")
+
+    from surfmesh.geometry.formulas.parametric import ParametricSurface
+
+    x, y, z = (formulas[name].strip() for name in "xyz")
+    u, v = ((first.strip(), last.strip()) for first, last in (options.u, options.v))
+    return ParametricSurface(x, y, z, u, v, parameters, name=called(options.output))
+
+
+def named_surface(name: str, options: Namespace) -> Surface | CadModel:
+    """A file, or else a surface of the gallery; ``options.reading``: how a CAD file is read."""
+    from surfmesh import api
+    from surfmesh.geometry.files.surface_file import gallery as surfaces
+
+    if Path(name).is_file():
+        return api.load(name, **options.reading)
+    known = surfaces()
+    if name in known:
+        return api.load(known[name], **options.reading)
+    close = get_close_matches(name, known, n=1)
+    hint = f"did you mean '{close[0]}'?" if close else "'surfmesh gallery' lists what there is"
+    raise SurfaceError(f"'{name}' is neither a file nor a surface of the gallery; {hint}")
+
+
+def shown_mesh(options: Namespace, progress: ProgressBar) -> SurfaceMesh:
+    """The mesh of INPUT: read from its file, or made of what is in it."""
+    from surfmesh.io import FORMATS, read
+
+    if Path(options.input).suffix.lower() in FORMATS:
+        return read(options.input)
+    sizing = asked_sizing(options)
+    surface = named_surface(options.input, options)
+
+    from surfmesh import api
+
+    announce_compilation()
+    return api.mesh(surface, sizing, progress=progress, strict=not options.no_strict)
+
+
+def on_surface(found: SurfaceMesh, surface: Surface | CadModel) -> SurfaceMesh:
+    """The mesh that was read, on a surface or on the faces of a CAD model by their numbers."""
+    from surfmesh.cad.model.cad_model import CadModel
+
+    if not isinstance(surface, CadModel):
+        from surfmesh.geometry.files.known_facts import known_facts
+
+        return _facing(found.replaced(surfaces=(surface,), facts=known_facts(surface)))
+
+    from surfmesh.cad.model.facts import model_facts
+    from surfmesh.meshing.solids.joining import orientation
+
+    turned, solids = orientation(surface)
+    known = found.face_ids.min() >= 0 and found.face_ids.max() < len(turned)
+    made = found.replaced(
+        surfaces=tuple(face.surface for face in surface.faces),
+        turned_faces=turned,
+        solid_ids=solids[found.face_ids] if known else None,
+        facts=model_facts(surface),
+    )
+    return _facing(made) if known else made
+
+
+_LOOKED_AT = 2000  # triangles, to tell which side a mesh faces
+
+
+def _facing(found: SurfaceMesh) -> SurfaceMesh:
+    """The mesh, taken for one that was turned over where most of it faces the other side."""
+    import numpy as np
+
+    corners = found.parametrisation
+    if found.check() or not len(found.triangles) or corners is None:
+        return found
+    count = len(found.triangles)
+    rows = np.unique(np.linspace(0, count - 1, min(count, _LOOKED_AT)).astype(int))
+    a, b, c = found.points[found.triangles[rows]].transpose(1, 0, 2)
+    normals, faces = np.cross(b - a, c - a), found.face_ids[rows]
+    ahead = 0.0
+    for face in np.unique(faces).tolist():
+        own = rows[faces == face]
+        middle = corners.uv_points[corners.uv_triangles[own]].mean(axis=1)
+        _, along_u, along_v = found.surfaces[face].evaluate(middle, 1)
+        true = np.cross(along_u, along_v)
+        true /= np.maximum(np.linalg.norm(true, axis=1), np.finfo(float).tiny)[:, None]
+        turned = found.turned_faces is not None and found.turned_faces[face]
+        ahead += float(np.nansum(normals[faces == face] * true)) * (-1.0 if turned else 1.0)
+    if not ahead < 0.0:
+        return found
+    # as the surface is, so that what it says of itself turns too
+    return found.replaced(model_links=found.model_links.flipped())
+
+
+def called(path: str) -> str:
+    """A file's name without its extension, fit to be written into files: halves of characters,
+    which stand for bytes that are no text, are escaped."""
+    return printable(Path(path).stem)

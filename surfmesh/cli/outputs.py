@@ -1,0 +1,74 @@
+"""The files beside the mesh: report, manifest; and what is said when one cannot be written."""
+
+from __future__ import annotations
+
+import os
+from argparse import Namespace
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from surfmesh.cli.inputs import called
+from surfmesh.errors import FileFormatError
+
+if TYPE_CHECKING:
+    from surfmesh.quality.report import Report
+    from surfmesh.result.surface_mesh import SurfaceMesh
+
+
+def report_written(result: SurfaceMesh, report: Report, options: Namespace) -> Path:
+    """As JSON or as HTML, by its extension."""
+    if Path(options.report).suffix.lower() == ".json":
+        return written(report.to_json(), options.report)
+    from surfmesh.view import html_report
+
+    name = called(options.output)
+    return html_report(result, options.report, by=options.by, name=name, report=report)
+
+
+_NOT_RECORDED = (
+    "command", "input", "output", "picture", "report", "manifest", "sizes", "json", "jobs",
+    "sizing", "reading",
+)  # fmt: skip
+"""Options that are no part of a manifest: places, what is in the mesh's sizing, what changes
+nothing in the files."""
+
+
+def manifest_written(result: SurfaceMesh, files: dict[str, str], options: Namespace) -> Path:
+    """Hashes of all files but a JSON report, which holds the seconds that were taken."""
+    from surfmesh.io import Manifest
+
+    asked = {name: value for name, value in vars(options).items() if name not in _NOT_RECORDED}
+    asked |= options.reading
+    hashed = [path for path in files.values() if Path(path).suffix.lower() != ".json"]
+    return Manifest.of(
+        result,
+        hashed,
+        inputs=[options.sizes] if options.sizes else (),
+        options={name: value for name, value in asked.items() if value not in (None, False, [])},
+    ).save(options.manifest)
+
+
+def require_two_files(report: str | None, manifest: str | None) -> None:
+    if report and manifest and os.path.realpath(report) == os.path.realpath(manifest):
+        raise FileFormatError(f"{manifest}: is the place of the report already")
+
+
+@contextmanager
+def naming(files: dict[str, str]) -> Iterator[None]:
+    """Files that were written before one could not be are named with the refusal."""
+    try:
+        yield
+    except FileFormatError as error:
+        raise FileFormatError(f"{error}; written before it: {', '.join(files.values())}") from error
+
+
+def written(text: str, path: str) -> Path:
+    from surfmesh.io.atomic import replacing
+
+    with replacing(Path(path)) as temporary:
+        temporary.write_text(  # halves of characters by their escapes, as JSON has them
+            text + "\n", encoding="utf-8", errors="backslashreplace", newline="\n"
+        )
+    return Path(path)

@@ -1,0 +1,70 @@
+"""What has to hold of every mesh: the first thing that does not, in words."""
+
+import numpy as np
+
+from surfmesh.result.mesh_part import FloatArray, Int32Array
+from surfmesh.result.mesh_parts import ModelLinks, Parametrisation
+
+
+def first_broken(
+    points: FloatArray, triangles: Int32Array, sizes: FloatArray | None,
+    mid_points: FloatArray | None, corners: Parametrisation | None, links: ModelLinks,
+) -> str | None:  # fmt: skip
+    """The first broken invariant of a mesh, or None; see ``SurfaceMesh.check``."""
+    outside = _outside("triangles", triangles, len(points))
+    if outside is None and corners is not None:
+        outside = _outside("uv_triangles", corners.uv_triangles, len(corners.uv_points))
+    if outside is not None:
+        return outside
+    uv_points = None if corners is None else corners.uv_points
+    held = {"points": points, "uv_points": uv_points, "sizes": sizes, "mid_points": mid_points}
+    for name, array in held.items():
+        if array is not None and not np.isfinite(array).all():
+            bad = int(np.flatnonzero(~np.isfinite(array).reshape(len(array), -1).all(1))[0])
+            return f"{name}[{bad}] = {array[bad].tolist()} is not finite"
+    if sizes is not None and len(sizes) and sizes.min() <= 0:
+        bad = int(sizes.argmin())
+        return f"sizes[{bad}] = {sizes[bad]} is not positive"
+    a, b, c = triangles.T
+    repeated = np.flatnonzero((a == b) | (b == c) | (c == a))
+    if len(repeated):
+        bad = int(repeated[0])
+        return f"triangle {bad} = {triangles[bad].tolist()} repeats a corner"
+    twin = _first_duplicate(triangles)
+    if twin is not None:
+        return f"triangles {twin[0]} and {twin[1]} have the same corners"
+    used = np.zeros(len(points), bool)
+    used[triangles.reshape(-1)] = True
+    if not used.all():
+        return f"vertex {int(np.flatnonzero(~used)[0])} belongs to no triangle"
+    if links.surfaces and len(links.face_ids):
+        low, high, count = links.face_ids.min(), links.face_ids.max(), len(links.surfaces)
+        if low < 0 or high >= count:
+            return f"face_ids run from {low} to {high}, surfaces are {count}"
+    return None
+
+
+def _outside(name: str, indices: Int32Array, limit: int) -> str | None:
+    if not indices.size or 0 <= indices.min() <= indices.max() < limit:
+        return None
+    bad = int(np.flatnonzero(((indices < 0) | (indices >= limit)).any(axis=1))[0])
+    return f"{name}[{bad}] = {indices[bad].tolist()} is outside 0..{limit - 1}"
+
+
+def _first_duplicate(triangles: Int32Array) -> tuple[int, int] | None:
+    """Two triangles with the same three corners in any order, or None."""
+    a, b, c = triangles.astype(np.int64).T
+    low, high = np.minimum(np.minimum(a, b), c), np.maximum(np.maximum(a, b), c)
+    middle = a + b + c - low - high
+    stride = int(high.max(initial=0)) + 1
+    if stride <= 1 << 21:  # the three numbers fit into one
+        keys = ((low * stride + middle) * stride + high)[None]
+        order = np.argsort(keys[0])
+    else:
+        keys = np.stack((low, middle, high))
+        order = np.lexsort(keys)
+    same = np.flatnonzero((keys[:, order[1:]] == keys[:, order[:-1]]).all(axis=0))
+    if not len(same):
+        return None
+    first, second = sorted(int(order[same[0] + i]) for i in (0, 1))
+    return first, second
