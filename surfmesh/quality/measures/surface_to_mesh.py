@@ -115,7 +115,7 @@ def _look_along_curves(search: _Search, mesh: SurfaceMesh, fit: Deviation) -> No
             continue
         start, end = mesh.edge_parameters[own].T[:, :, None]
         share = start + shares * (end - start)
-        (points,) = edge.curve.evaluate(edge.parameters(share.ravel()), 0)
+        (points,) = edge.evaluate(share.ravel(), 0)
         points = points.reshape(len(own), len(shares), 3)
         nodes = mesh.points[mesh.edge_segments[own]]
         length = np.linalg.norm(nodes[:, 1] - nodes[:, 0], axis=1)
@@ -297,10 +297,10 @@ class _Search:
             if edge is None or edge.curve is None:
                 continue
             t = np.linspace(0.0, 1.0, ALONG)
-            at = edge.parameters(share[0] + t * (share[1] - share[0]))
+            (points,) = edge.evaluate(share[0] + t * (share[1] - share[0]))
             guess = ends[0] + t[:, None] * (ends[1] - ends[0])
             surface = mesh.surfaces[mesh.face_ids[triangle]]
-            line = closest_point(surface, edge.curve.evaluate(at, 0)[0], guess, PROJECTIONS)[0]
+            line = closest_point(surface, points, guess, PROJECTIONS)[0]
             line[0], line[-1] = ends
             if _crossings(places[(k + 2) % 3], uv, line) % 2:
                 return True
