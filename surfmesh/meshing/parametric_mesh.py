@@ -1,6 +1,6 @@
 """One parametric surface, all stages: the spine of surfmesh.
 
-sides -> size field -> packing -> boundary -> optimisation -> space, joined sides glued
+sides -> size field -> packing -> boundary -> optimisation -> space, joined sides identified
   ^                                                              |
   +---------- smaller sizes where the mesh is not right ---------+
 """
@@ -44,11 +44,10 @@ def mesh_parametric(
 ) -> SurfaceMesh:
     """Mesh one surface over its (u, v) rectangle or inside its trimming loops.
 
-    Where the mesh is folded, badly glued, farther from the surface than ``chord``, or turns by
-    more than ``angle`` after the optimiser has done what it can, the sizes are lowered and
-    everything is done again. With
-    ``optimise=False`` only gluing is looked at. Raises ``SizingError``, ``SurfaceError`` or
-    ``MeshingError`` with the place and the reason.
+    Where triangles are folded, farther from the surface than ``chord`` or meet at more than
+    ``angle`` after the optimiser has done what it can, or sides cannot be joined, the sizes are
+    lowered and everything is done again. With ``optimise=False`` only joined sides are looked at.
+    Raises ``SizingError``, ``SurfaceError`` or ``MeshingError`` with the place and the reason.
     """
     watch = Stopwatch(progress)
     with watch.stage("sizing"):
@@ -98,7 +97,7 @@ class _Rounds:
     def _round(
         self, limits: Mapping[int, SizeLimits]
     ) -> tuple[tuple[SurfaceMesh, np.ndarray], dict[int, SizeLimits]]:
-        """The mesh and its points that are badly glued; the smaller sizes it needs."""
+        """The mesh and its points where sides are not joined; the smaller sizes it needs."""
         with self.watch.stage("sizing"):
             try:
                 rims = Rims(self.surface, self.sides)
@@ -151,7 +150,7 @@ def estimate_parametric(surface: Surface, sizing: Sizing) -> Estimate:
 
 
 def explain_parametric(surface: Surface, sizing: Sizing, point: np.ndarray) -> Explanation:
-    """Which wish decides at the point of the surface that is nearest to ``point`` (3,)."""
+    """Which size rule decides at the point of the surface that is nearest to ``point`` (3,)."""
     sides = find_sides(surface)
     field = size_field(surface, sizing, sides, rims=Rims(surface, sides))
     return explain_surface(surface, sizing, field, point)
@@ -161,7 +160,7 @@ def _one_round(
     surface: Surface, sides: SideTopology, kinks: list[KinkLine], field: SizeField,
     optimise: bool, watch: Stopwatch,
 ) -> tuple[SurfaceMesh, SizeLimits | None, np.ndarray]:  # fmt: skip
-    """The mesh for one size field; the smaller sizes it needs; points that are badly glued."""
+    """The mesh for one size field; the sizes it requests; points where sides are not joined."""
 
     def cut_boundary() -> BoundaryLoops:
         if not kinks:
@@ -191,6 +190,6 @@ def _loops(surface: Surface) -> list[np.ndarray] | None:
     return [np.asarray(loop, float) for loop in surface.loops] or None
 
 
-def _can_shrink(field: SizeField, wishes: SizeLimits) -> bool:
-    """Is any wished size still allowed, or do all lie below ``min_size``?"""
-    return bool((wishes.sizes >= (field.sizing.min_size or 0.0)).any())
+def _can_shrink(field: SizeField, requests: SizeLimits) -> bool:
+    """Is any requested size still allowed, or do all lie below ``min_size``?"""
+    return bool((requests.sizes >= (field.sizing.min_size or 0.0)).any())
