@@ -15,6 +15,7 @@ from surfmesh.cad.model.cad_model import CadModel
 from surfmesh.cad.reading.read_file import SUFFIXES, read_cad
 from surfmesh.errors import CadError, FileFormatError, SizingError, SurfaceError, shown
 from surfmesh.geometry.files.surface_file import gallery, load_surface_file
+from surfmesh.geometry.number_range import RANGE
 from surfmesh.geometry.planar.planar_domain import PlanarDomain
 from surfmesh.geometry.surface import Surface
 from surfmesh.meshing.estimate.estimation import Estimate
@@ -36,8 +37,6 @@ from surfmesh.sizing.options.sizing import SizeLaw, Sizing
 logger = logging.getLogger(__name__)
 Sizes: TypeAlias = Sizing | float | SizeLaw | Mapping[str, Any] | None
 """What sizes may be given as: options, an edge length, options by name or by selection."""
-
-FARTHEST = 1e100  # coordinate of a point that is asked for: squares of distances are finite
 
 
 def load(
@@ -164,9 +163,9 @@ def _place(point: Sequence[float]) -> NDArray[np.float64]:
         place = np.array(point, float)
     except (TypeError, ValueError, OverflowError):
         place = np.empty(0)
-    if place.shape != (3,) or not (np.abs(place) <= FARTHEST).all():  # false for nan
+    if place.shape != (3,) or not (np.abs(place) <= RANGE.square).all():  # false for nan
         raise SizingError(
-            f"a point is three finite numbers of at most {FARTHEST:g}, not {shown(point)}"
+            f"a point is three finite numbers of at most {RANGE.square:g}, not {shown(point)}"
         )
     return place
 

@@ -101,7 +101,7 @@ def on_surface(found: SurfaceMesh, surface: Surface | CadModel) -> SurfaceMesh:
         return _facing(found.replaced(surfaces=(surface,), facts=known_facts(surface)))
 
     from surfmesh.cad.model.facts import model_facts
-    from surfmesh.meshing.model_mesh import orientation
+    from surfmesh.meshing.solids.joining import orientation
 
     turned, solids = orientation(surface)
     known = found.face_ids.min() >= 0 and found.face_ids.max() < len(turned)

@@ -1,33 +1,18 @@
-"""Where r(u, v) comes from: surfaces, their forms and curvatures, sides, closest points.
+"""Where r(u, v) comes from: surfaces and domains, their derivatives, closest points and sides.
 
-surface             what every surface can do
-expression          formulas as data: text -> SymPy, through a whitelist
-real_functions      abs, min, cbrt ... with real derivatives
-derivatives         the chain rule over shared subexpressions
-compilation         SymPy -> tape
-tape, interval      evaluation at points, bounds over cells
-parametric          the surface of three formulas
-formula_file        surfaces in TOML, the gallery of them
-planar_domain       loops, holes, constraints in the plane
-segment_graph       their segments, which meet at common ends only; what is inside
-noding              cutting segments where they meet
-domain_faces        the regions as polygons
-nesting             which loop lies in which
-segment_distance    exact distances to segments
-svg_paths, shapely_parts    drawings and geometries as arrays
-domain_file         planar domains in TOML
-toml_entries        entries of a TOML file, with errors that name the key
-surface_file        any file of a surface or domain, the whole gallery
-formula_file        surfaces in TOML, the gallery
-plain_data          frozen, picklable dataclasses of arrays
-curves              what every curve can do; lines and conics, in space and in the plane
-face_surface        what the surfaces of CAD faces have in common
-elementary          plane, cylinder, cone, sphere, torus
-nurbs               B-spline and Bezier curves and surfaces
-swept               surfaces of extrusion and revolution
-offset              curves and surfaces at a distance from others
-fundamental_forms   I, II, normals, principal curvatures
-sides               sides of the rectangle that coincide or shrink to a point
-projection          the closest point of a surface
-chart               the scaled parameter plane, its axes bent to even speeds
+Used by others: all that is listed here; of the folders the modules that are in brackets.
+
+surface         what every surface can do, and what it may say of itself
+surface_checks  what a surface over a rectangle is refused for, however its points are made
+formulas        surfaces of formulas (parametric, kinks, interval)
+functions       surfaces of Python functions (numeric)
+cad_surfaces    curves and surfaces of CAD (all of it)
+planar          domains of the plane (planar_domain, curve_contacts, segment_distance)
+files           formula files and domain files (surface_file, formula_file, known_facts)
+differential    forms, curvatures, charts, sides, closest points (all of it)
+inside_loops    which points lie within loops, and how many loops lie around a loop
+boxes           boxes around points
+quadrature      Gauss's rule on an interval
+number_range    which numbers can be computed with
+text_file       files of text, as they may come from anywhere
 """

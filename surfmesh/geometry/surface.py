@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from typing import Any, Protocol, runtime_checkable
 
 import numpy as np
@@ -16,10 +17,16 @@ class Surface(Protocol):
     domain: ((u0, u1), (v0, v1)), finite, u0 < u1, v0 < v1.
     loops: closed polygons (k, 2) in (u, v) that trim the surface; empty: the whole rectangle.
 
-    These five members are all that is needed; ``name`` may be empty. What a surface may say
-    besides, and what is taken where it does not: ``kind`` ("plane", "cylinder", ...: see
-    ``surface_kind``), ``facts`` and ``sizing_defaults`` (mappings: nothing is known or asked),
-    ``formulas``. The surfaces of CAD faces have ``with_domain`` too: see ``FaceSurface``.
+    These five members are all that is needed; ``name`` may be empty. A surface may be able to do
+    more, and say more of itself, each where the code asks for it:
+
+        BoundedSurface    bounds of r itself over cells
+        surface_kind      ``kind``: "plane", "cylinder", ...; nothing is taken for granted without
+        stated_facts      ``facts``: area, volume, Euler number, embedded
+        stated_sizes      ``sizing_defaults``: what is asked where the caller asks for nothing
+
+    What only surfaces of formulas or of CAD faces can do is in their classes: ``ParametricSurface``
+    and ``FaceSurface``.
     """
 
     @property
@@ -48,11 +55,30 @@ class Surface(Protocol):
         ...
 
 
-def surface_kind(surface: Any) -> str:
+@runtime_checkable
+class BoundedSurface(Surface, Protocol):
+    """A surface that can bound r too: nothing of it is missed between points."""
+
+    def all_bounds(self, lo: np.ndarray, hi: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """Bounds of r, r_u, r_v, r_uu, r_uv, r_vv over cells: lower, upper (n, 6, 3)."""
+        ...
+
+
+def surface_kind(surface: Surface) -> str:
     """What kind it says it is, "" for none."""
     return getattr(surface, "kind", "") or ""
 
 
-def surface_label(surface: Any) -> str:
+def stated_facts(surface: Surface) -> Mapping[str, Any]:
+    """What it says is known of it: "area", "volume", "euler", "embedded"."""
+    return getattr(surface, "facts", None) or {}
+
+
+def stated_sizes(surface: Surface) -> Mapping[str, Any]:
+    """The size requests that it comes with, by the names of ``Sizing``."""
+    return getattr(surface, "sizing_defaults", None) or {}
+
+
+def surface_label(surface: Surface) -> str:
     """What to call it: its name, else its kind."""
     return surface.name or surface_kind(surface) or "surface"

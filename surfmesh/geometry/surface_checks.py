@@ -7,57 +7,12 @@ from typing import Any
 
 import numpy as np
 
-from surfmesh.errors import FormulaError, SurfaceError, shown
+from surfmesh.errors import SurfaceError, shown
+from surfmesh.geometry.number_range import RANGE
 from surfmesh.geometry.surface import Domain, Surface
 
 NO_AREA = 1e-11  # sine of the angle between r_u and r_v: r_u x r_v is round-off below it
-LARGEST, SMALLEST = 1e30, 1e-30
-"""Coordinates and extents stay between these: angles between triangles need squares of products of
-areas, which are eighth powers of edges, and these neither overflow nor vanish."""
-FASTEST, BENT_MOST = 1e70, 1e140
-"""First and second derivatives stay below these and above their inverses, for the same reason."""
-LARGEST_BOUND, SMALLEST_SPAN = 1e100, 1e-100  # of a domain: fourth powers are numbers still
-NARROWEST = 1e-12  # of the larger bound: a domain holds 4,500 numbers
 SAMPLES = 48  # cells each way on which a surface is tried; the points sit on their corners
-
-
-def bounds_of(variable: str, bounds: tuple[Any, Any]) -> tuple[float, float]:
-    """(first, last) of a variable as numbers; text such as "2*pi" is understood.
-
-    Raises SurfaceError when they are not a pair in order, FormulaError for text that is refused.
-    """
-    try:
-        first, last = bounds
-    except (TypeError, ValueError):
-        reason = f"the domain of {variable} is a pair (first, last), not {shown(bounds)}"
-        raise SurfaceError(reason) from None
-    first, last = _number(variable, first), _number(variable, last)
-    if first == last:
-        raise SurfaceError(f"the domain of {variable} is empty: {first:g} to {last:g}")
-    if first > last:
-        raise SurfaceError(f"the domain of {variable} is reversed: {first:g} to {last:g}")
-    size = max(abs(first), abs(last))
-    if size > LARGEST_BOUND or last - first < SMALLEST_SPAN:
-        raise SurfaceError(
-            f"the domain of {variable} is {first:g} to {last:g}: numbers up to {LARGEST_BOUND:g} "
-            f"at least {SMALLEST_SPAN:g} apart can be computed with; change its unit"
-        )
-    if last - first < NARROWEST * size:
-        raise SurfaceError(
-            f"the domain of {variable} is {first:.17g} to {last:.17g}: too narrow to lay numbers "
-            "between; move its origin"
-        )
-    return first, last
-
-
-def _number(variable: str, bound: Any) -> float:
-    from surfmesh.geometry.formulas.expression import parse_number
-
-    try:
-        return parse_number(bound)
-    except FormulaError as error:
-        reason = f"the domain of {variable}: {error.reason}"
-        raise FormulaError(reason, error.text, error.column) from None
 
 
 def loops_of(loops: Any) -> tuple[np.ndarray, ...]:
@@ -102,21 +57,23 @@ def refuse_extremes(r: np.ndarray, domain: Domain) -> None:
     """Raise SurfaceError for points (n, 3) of a domain, when products of lengths, or of
     derivatives, are no longer doubles."""
     far = np.abs(r).max()
-    if far > LARGEST:
+    if far > RANGE.coordinate:
         raise SurfaceError(
             f"the surface has a coordinate of {far:g}, too far away to compute with; scale it"
         )
     extent = float(np.ptp(r, axis=0).max())
     if extent == 0.0:
         return  # no area, said elsewhere
-    if extent < SMALLEST:
+    if extent < RANGE.extent:
         raise SurfaceError(
             f"the surface is only {extent:g} wide, too small to compute with; scale it"
         )
     for variable, (first, last) in zip("uv", domain):
         wide = last - first
         speed = extent / wide
-        if not 1.0 / FASTEST < speed < FASTEST or not 1.0 / BENT_MOST < speed / wide < BENT_MOST:
+        if not 1.0 / RANGE.speed < speed < RANGE.speed or not (
+            1.0 / RANGE.bend < speed / wide < RANGE.bend
+        ):
             raise SurfaceError(
                 f"the domain of {variable} is {wide:g} wide where the surface is {extent:g}: its "
                 f"derivatives are no numbers to compute with; scale {variable}"

@@ -6,19 +6,16 @@ import numpy as np
 from numpy.typing import NDArray
 
 from surfmesh.errors import FileFormatError
+from surfmesh.geometry.number_range import RANGE
 from surfmesh.io.numbers_of_groups import with_dense_numbers
 from surfmesh.result.surface_mesh import SurfaceMesh
-
-LARGEST = 1e30
-"""Of a coordinate or a length, as for surfaces: angles between triangles take eighth powers of
-edges, which overflow beyond."""
 
 
 def usable(path: Path, mesh: SurfaceMesh) -> SurfaceMesh:
     """The mesh of ``path`` when its numbers fit each other, with groups numbered from 0.
 
     Raises ``FileFormatError`` for no triangles, vertices that are not there, numbers that are not
-    finite or beyond ``LARGEST``, and edges and vertices of CAD that are not of the mesh.
+    finite or beyond ``RANGE.coordinate``, and edges and vertices of CAD that are not of the mesh.
     """
     if not len(mesh.triangles):
         raise FileFormatError(f"{path}: there are no triangles in it")
@@ -54,13 +51,13 @@ def _require_finite(path: Path, name: str, values: NDArray | None) -> None:
     if values is None or not values.size:
         return
     with np.errstate(invalid="ignore"):
-        if -LARGEST <= values.min() and values.max() <= LARGEST:  # false for nan
+        if -RANGE.coordinate <= values.min() and values.max() <= RANGE.coordinate:  # false for nan
             return
-        bad = ~(np.abs(values) <= LARGEST).reshape(len(values), -1).all(axis=1)
+        bad = ~(np.abs(values) <= RANGE.coordinate).reshape(len(values), -1).all(axis=1)
     row = int(np.flatnonzero(bad)[0])
     raise FileFormatError(
         f"{path}: {name}[{row}] = {values[row].tolist()}: numbers have to be finite and at most "
-        f"{LARGEST:g}"
+        f"{RANGE.coordinate:g}"
     )
 
 

@@ -16,7 +16,13 @@ from typing import Any, NamedTuple
 from surfmesh.errors import FileFormatError
 from surfmesh.io.asked_date import VARIABLE, asked_date
 from surfmesh.io.atomic import replacing
-from surfmesh.quality.verdict.provenance import mesh_sha256, options_of, plain, version_of, versions
+from surfmesh.quality.figures.provenance import (
+    mesh_sha256,
+    options_of,
+    plain,
+    version_of,
+    versions,
+)
 from surfmesh.result.model_facts import file_sha256
 from surfmesh.result.surface_mesh import SurfaceMesh
 

@@ -8,6 +8,7 @@ from collections.abc import Mapping
 
 import numpy as np
 
+from surfmesh.geometry.boxes import diagonal
 from surfmesh.geometry.files.known_facts import known_facts
 from surfmesh.geometry.planar.planar_domain import PlanarDomain
 from surfmesh.kernels.insertion.insertion import label_patches
@@ -26,7 +27,7 @@ from surfmesh.meshing.estimate.estimation import (
     require_field_within,
     require_within,
 )
-from surfmesh.meshing.estimate.trial_mesh import WHOLE, tried
+from surfmesh.meshing.estimate.trial_mesh import WHOLE, counts_within_budget
 from surfmesh.meshing.patch.optimise import Optimiser
 from surfmesh.meshing.patch.packing import packed_over
 from surfmesh.meshing.patch.refinement_loop import refined_in_rounds
@@ -93,7 +94,7 @@ def mesh_planar(
 def _thinning_distance(domain: PlanarDomain, sizing: Sizing) -> float:
     if sizing.chord is not None:
         return sizing.chord
-    bounds = SizeBounds.of(sizing, float(np.hypot(*np.ptp(domain.graph.points, axis=0))))
+    bounds = SizeBounds.of(sizing, diagonal(domain.graph.points))
     size = bounds.clamp[1]
     if sizing.has_law:
         points = np.column_stack([domain.graph.points, np.zeros(len(domain.graph.points))])
@@ -126,7 +127,7 @@ def estimate_planar(domain: PlanarDomain, sizing: Sizing) -> Estimate:
     loops = [*domain.outer, *domain.holes]
     asked = combined(field_triangles(field, loops), len(cut.uv), len(loops))
     if asked <= WHOLE:
-        made = tried(lambda stop: mesh_planar(domain, sizing, progress=stop))
+        made = counts_within_budget(lambda budget: mesh_planar(domain, sizing, progress=budget))
         if made is not None:
             return Estimate.of([made.sum()])
     return Estimate.of([asked])

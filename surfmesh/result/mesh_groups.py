@@ -9,6 +9,8 @@ from dataclasses import dataclass, fields, replace
 from math import isfinite
 from typing import Any, Self
 
+from surfmesh.geometry.surface import surface_kind
+
 Colour = tuple[float, float, float]  # red, green, blue from 0 to 1, sRGB
 
 METRES = {"um": 1e-6, "mm": 1e-3, "cm": 1e-2, "m": 1.0, "in": 0.0254, "ft": 0.3048}
@@ -43,7 +45,7 @@ class MeshGroups:
         """What surfaces say of themselves."""
         return cls(
             face_names=tuple(getattr(surface, "name", "") for surface in surfaces),
-            face_kinds=tuple(getattr(surface, "kind", "") for surface in surfaces),
+            face_kinds=tuple(surface_kind(surface) for surface in surfaces),
         )
 
     @classmethod

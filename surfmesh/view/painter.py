@@ -14,6 +14,7 @@ from matplotlib.colors import LogNorm, Normalize, to_rgba
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
+from surfmesh.geometry.boxes import diagonal
 from surfmesh.result.surface_mesh import SurfaceMesh
 from surfmesh.view.camera import Camera, framed
 from surfmesh.view.colour_maps import map_of
@@ -68,12 +69,11 @@ def _painted(drawn: Drawing, camera: Camera, scale: ScalarMappable) -> PolyColle
     widths = np.full(len(faces), HAIRLINE)
     depth = depth[triangles].mean(axis=1)
     corners = seen[triangles]
-    for (
-        layer
-    ) in drawn.lines:  # a line is a triangle without area, a little nearer than what it lies on
+    # a line is a triangle without area, a little nearer than what it lies on
+    for layer in drawn.lines:
         ends, behind = _seen(layer.segments, camera)
         corners = np.concatenate((corners, ends[:, [0, 1, 1]]))
-        reach = NEARER * np.linalg.norm(np.ptp(mesh.points, axis=0))
+        reach = NEARER * diagonal(mesh.points)
         depth = np.concatenate((depth, behind.max(axis=1) + reach))
         colour = np.tile(to_rgba(layer.colour), (len(ends), 1))
         faces, rims = np.concatenate((faces, colour)), np.concatenate((rims, colour))

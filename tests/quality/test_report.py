@@ -1,7 +1,6 @@
 """The report on meshes whose every figure is known."""
 
 import json
-from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -14,6 +13,7 @@ from surfmesh.quality import check
 from surfmesh.quality.measures.shape import shapes
 from surfmesh.quality.measures.topology import topology
 from surfmesh.result.surface_mesh import SurfaceMesh
+from surfmesh.sizing.options.sizing import Sizing
 
 
 def test_regular_tetrahedron(tetrahedron):
@@ -136,8 +136,8 @@ def test_vertices_off_the_surface_are_seen():
 def test_chord_that_was_asked_for():
     mesh = icosphere(2)
     reached = check(mesh).deviation_max
-    kept = check(changed(mesh, sizing=SimpleNamespace(chord=reached)))
-    missed = check(changed(mesh, sizing=SimpleNamespace(chord=reached * 0.999)))
+    kept = check(changed(mesh, sizing=Sizing(chord=reached)))
+    missed = check(changed(mesh, sizing=Sizing(chord=reached * 0.999)))
     assert kept.clean and kept.above_chord_share == 0
     assert not missed.clean and missed.above_chord_share > 0
     assert "was asked for" in missed.problems[0]

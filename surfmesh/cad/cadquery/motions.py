@@ -16,6 +16,7 @@ from OCP.TopAbs import TopAbs_EDGE, TopAbs_FACE, TopAbs_VERTEX
 from OCP.TopoDS import TopoDS, TopoDS_Shape
 
 from surfmesh.cad.sub_shapes import unique
+from surfmesh.geometry.boxes import diagonal
 
 MEET = 1e-6
 """Relative to the extent: samples of a moved copy lie this near."""
@@ -33,7 +34,7 @@ def motion_between(before: TopoDS_Shape, after: TopoDS_Shape) -> gp_Trsf | None:
     if old.shape != new.shape or len(old) < 3:
         return None
     centres = old.mean(axis=0), new.mean(axis=0)
-    reach = MEET * float(np.linalg.norm(np.ptp(old, axis=0)))
+    reach = MEET * diagonal(old)
     if np.abs(old - new).max() <= reach:
         return gp_Trsf()
     left, _, right = np.linalg.svd((new - centres[1]).T @ (old - centres[0]))

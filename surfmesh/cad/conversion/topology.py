@@ -43,6 +43,7 @@ from surfmesh.cad.model.tolerances import joined
 from surfmesh.cad.parts import Details, Part, face_in_words
 from surfmesh.cad.sub_shapes import Numbering, below, content, each
 from surfmesh.errors import CadError, SurfmeshError
+from surfmesh.geometry.boxes import diagonal
 from surfmesh.geometry.surface import Domain
 
 # relative error of areas and volumes by adaptive integration, which is slow on splines
@@ -172,7 +173,7 @@ class Walk:
             for coedge in self.faces[face].coedges
             for vertex in (self.edges[coedge.edge].start, self.edges[coedge.edge].end)
         }
-        return float(np.linalg.norm(np.ptp([self.vertices[n].point for n in numbers], axis=0)))
+        return diagonal(np.array([self.vertices[n].point for n in numbers]))
 
     def shell(self, shape: TopoDS_Shape, colour: Colour | None) -> Shell:
         """Faces of a shell; those that lie within a solid on both sides are taken apart."""

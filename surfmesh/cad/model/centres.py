@@ -12,12 +12,11 @@ from the left side of the (u, v) box, by Gauss's rule.
 
 from __future__ import annotations
 
-from functools import cache
-
 import numpy as np
 
 from surfmesh.cad.model.cad_model import CadCoedge, CadEdge, CadFace, CadModel, CadSolid
-from surfmesh.geometry.planar.inside_loops import is_inside
+from surfmesh.geometry.inside_loops import is_inside
+from surfmesh.geometry.quadrature import gauss_rule
 
 STRAIGHT, CURVED = 2, 65
 """Samples along edges."""
@@ -26,22 +25,13 @@ POINTS, PANELS, ALONG = 12, 2, 8
 """Of Gauss's rule, for each of PANELS across a face and of ALONG along its edges."""
 
 
-@cache
-def _gauss(points: int, panels: int) -> tuple[np.ndarray, np.ndarray]:
-    """Nodes and weights on [0, 1]."""
-    x, w = np.polynomial.legendre.leggauss(points)
-    x, w = 0.5 * (x + 1.0), 0.5 * w
-    nodes = (np.arange(panels)[:, None] + x).ravel() / panels
-    return nodes, np.tile(w / panels, panels)
-
-
 def boundary_polygons(face: CadFace) -> list[np.ndarray]:
     """The loops of a face as polygons (k, 2) in (u, v), not closed."""
     found = []
     for loop in face.loops:
         parts = []
         for coedge in loop:
-            straight = getattr(coedge.pcurve, "kind", "") == "line"
+            straight = coedge.is_straight
             fraction = np.linspace(0.0, 1.0, STRAIGHT if straight else CURVED)
             parts.append(coedge.walk(fraction)[:-1])
         found.append(np.concatenate(parts))
@@ -73,9 +63,9 @@ def face_area(face: CadFace) -> float:
 
 def _across(face: CadFace, coedge: CadCoedge, along_straight: int = 1) -> tuple[np.ndarray, ...]:
     """Weights (n,) in (u, v), points, r_u and r_v (n, 3) between the left side and a coedge."""
-    straight = getattr(coedge.pcurve, "kind", "") == "line"
-    along, w_along = _gauss(POINTS, along_straight if straight else ALONG)
-    t, w = _gauss(POINTS, PANELS)
+    straight = coedge.is_straight
+    along, w_along = gauss_rule(0.0, 1.0, along_straight if straight else ALONG, POINTS)
+    t, w = gauss_rule(0.0, 1.0, PANELS, POINTS)
     uv, speed = coedge.pcurve.evaluate(coedge.p0 + along * (coedge.p1 - coedge.p0), 1)
     dv = speed[:, 1] * (coedge.p1 - coedge.p0) * (-w_along if coedge.reversed else w_along)
     (u0, _), _ = face.surface.domain
@@ -85,12 +75,10 @@ def _across(face: CadFace, coedge: CadCoedge, along_straight: int = 1) -> tuple[
     return ((dv * (u - u0))[:, None] * w).ravel(), point, r_u, r_v
 
 
-def edge_centre(edge: CadEdge) -> np.ndarray | None:
-    """Centre of mass (3,) of an edge; None for a degenerate one."""
-    if edge.degenerate or edge.curve is None:
-        return None
-    t, w = _gauss(POINTS, ALONG)
-    points, speed = edge.curve.evaluate(edge.parameters(t), 1)
+def edge_centre(edge: CadEdge) -> np.ndarray:
+    """Centre of mass (3,) of an edge that is not degenerate."""
+    t, w = gauss_rule(0.0, 1.0, ALONG, POINTS)
+    points, speed = edge.evaluate(t, 1)
     w = w * np.linalg.norm(speed, axis=1)
     return w @ points / w.sum() if w.sum() > 0.0 else points.mean(axis=0)
 

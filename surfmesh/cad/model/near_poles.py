@@ -16,6 +16,7 @@ from scipy.interpolate import make_interp_spline
 from surfmesh.cad.model.cad_model import CadCoedge, CadEdge, CadFace, CadVertex
 from surfmesh.cad.model.centres import face_area
 from surfmesh.cad.model.invariants import FRACTIONS, NOISE
+from surfmesh.geometry.boxes import diagonal
 from surfmesh.geometry.cad_surfaces.curves import Line
 from surfmesh.geometry.cad_surfaces.nurbs import BSplineCurve
 from surfmesh.geometry.differential.projection import closest_point
@@ -65,10 +66,11 @@ def _straightened(
     pole = vertices[edges[coedges[at].edge].start].point
     (u0, u1), (v0, v1) = face.surface.domain
     width = np.array([u1 - u0, v1 - v0])
-    (corners,) = face.surface.evaluate([[u0, v0], [u1, v0], [u1, v1], [u0, v1]], 0)
-    size = float(np.linalg.norm(np.ptp(corners, axis=0)))
+    box = np.array([[u0, v0], [u1, v0], [u1, v1], [u0, v1]])
+    (corners,) = face.surface.evaluate(box, 0)
+    size = diagonal(corners)
     (side,) = face.surface.evaluate(coedges[at].uv(FRACTIONS), 0)
-    extent = float(np.linalg.norm(np.ptp(side, axis=0)))
+    extent = diagonal(side)
     if not NOISE * size < extent < LARGEST * size:
         return False
     ends = []
@@ -76,7 +78,7 @@ def _straightened(
         fraction = np.linspace(0.0, 1.0, SAMPLES)
         coedge = coedges[place]
         edge = edges[coedge.edge]
-        points = edge.curve.evaluate(edge.parameters(fraction), 0)[0]
+        points = edge.evaluate(fraction, 0)[0]
         uv = closest_point(face.surface, points, coedge.uv(fraction), STEPS, margin=0.0)[0]
         at_end = last != coedge.reversed  # of the edge's range: its end lies in the pole
         near = np.linalg.norm(points - pole, axis=1) < ZONE * extent

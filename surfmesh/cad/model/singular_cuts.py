@@ -35,7 +35,8 @@ from surfmesh.cad.model.invariants import ENDS, FRACTIONS, NOISE, signed_area
 from surfmesh.cad.model.loops import Loop, end_of, start_of
 from surfmesh.geometry.cad_surfaces.curves import Line
 from surfmesh.geometry.cad_surfaces.singular_lines import SingularLine, singular_lines
-from surfmesh.geometry.planar.inside_loops import is_inside
+from surfmesh.geometry.inside_loops import is_inside
+from surfmesh.geometry.quadrature import gauss_rule
 
 ON_LINE = 1e-7  # of the face's box: a p-curve that ends so near a line ends on it
 LOOSE = 1e-8  # of the model's diagonal: tolerance of a new vertex
@@ -101,7 +102,7 @@ def _jump(face: CadFace, line: SingularLine, after: CadCoedge, here: CadCoedge) 
 
 def _crossings(coedge: CadCoedge, line: SingularLine, slack: float) -> list[float]:
     """Fractions of the edge's range, 0 and 1 excluded, at which its p-curve crosses the line."""
-    straight = getattr(coedge.pcurve, "kind", "") == "line"
+    straight = coedge.is_straight
     fraction = np.linspace(0.0, 1.0, 2 if straight else SAMPLES)
     away = coedge.uv(fraction)[:, line.axis] - line.value
     away[np.abs(away) <= slack] = 0.0
@@ -377,12 +378,10 @@ def _parts(coedge: CadCoedge, rows: list[tuple] | None) -> list[CadCoedge]:
 
 
 def _length(edge: CadEdge, t0: float, t1: float) -> float:
-    x, w = np.polynomial.legendre.leggauss(12)
-    step = (t1 - t0) / LENGTH_PANELS
-    starts = t0 + step * np.arange(LENGTH_PANELS)
-    t = (starts[:, None] + 0.5 * step * (x + 1.0)).ravel()
-    speed = np.linalg.norm(edge.curve.evaluate(t, 1)[1], axis=1)
-    return float(speed @ np.tile(0.5 * step * w, LENGTH_PANELS))
+    if edge.curve is None:
+        return 0.0
+    t, weights = gauss_rule(t0, t1, LENGTH_PANELS, 12)
+    return float(np.linalg.norm(edge.curve.evaluate(t, 1)[1], axis=1) @ weights)
 
 
 def _chains(loop: Loop, line: SingularLine, slack: float, above: bool) -> tuple[list[Loop], bool]:
@@ -396,7 +395,8 @@ def _chains(loop: Loop, line: SingularLine, slack: float, above: bool) -> tuple[
     begins = [there and far[0] <= slack for there, far in zip(here, away)]
     if not any(begins):
         return [], all(here)
-    chains, start = [], begins.index(True)
+    chains: list[list[CadCoedge]] = []
+    start = begins.index(True)
     for k in (*range(start, len(loop)), *range(start)):
         if begins[k]:
             chains.append([])

@@ -13,6 +13,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from surfmesh.geometry.quadrature import gauss_rule
 from surfmesh.geometry.surface import Surface
 
 DEGENERATE = 1e-10  # |r_u x r_v| / (E + G): the sine of r_u and r_v times their ratio; below
@@ -108,12 +109,12 @@ def area(surface: Surface, cells: int = 64, points: int = 8) -> float:
     surface. Trimming loops are followed exactly; a loop inside another is a hole in it.
     """
     if surface.loops:
-        return sum(
-            _loop_sign(number, surface.loops) * _area_in_loop(surface, loop, cells, points)
-            for number, loop in enumerate(surface.loops)
-        )
+        from surfmesh.geometry.inside_loops import nesting_depth  # shapely, where it is needed
+
+        areas = (_area_in_loop(surface, loop, cells, points) for loop in surface.loops)
+        return sum(-a if depth % 2 else a for a, depth in zip(areas, nesting_depth(surface.loops)))
     (u, u_weights), (v, v_weights) = (
-        _gauss(first, last, cells, points) for first, last in surface.domain
+        gauss_rule(first, last, cells, points) for first, last in surface.domain
     )
     rows = [_density(surface, u, np.full(len(u), row)) @ u_weights for row in v]
     return float(np.array(rows) @ v_weights)
@@ -125,7 +126,7 @@ def _area_in_loop(surface: Surface, loop: np.ndarray, cells: int, points: int) -
     A(u, v) is the integral of |r_u x r_v| along v = const from the domain's left side to u.
     """
     left = surface.domain[0][0]
-    t, weights = _gauss(0.0, 1.0, cells, points)
+    t, weights = gauss_rule(0.0, 1.0, cells, points)
     total = 0.0
     for start, end in zip(loop, np.roll(loop, -1, axis=0)):
         if start[1] == end[1]:
@@ -137,37 +138,13 @@ def _area_in_loop(surface: Surface, loop: np.ndarray, cells: int, points: int) -
 
 
 def _strip(surface: Surface, left: float, u: float, v: float, cells: int, points: int) -> float:
-    across, weights = _gauss(left, u, cells, points)
+    across, weights = gauss_rule(left, u, cells, points)
     return float(_density(surface, across, np.full(len(across), v)) @ weights)
-
-
-def _loop_sign(number: int, loops: tuple[np.ndarray, ...]) -> int:
-    """+1 for a loop that bounds the surface from outside, -1 for a hole."""
-    u, v = loops[number][0]
-    depth = 0
-    for other, loop in enumerate(loops):
-        if other == number:
-            continue
-        a, b = loop, np.roll(loop, -1, axis=0)
-        crossed = (a[:, 1] > v) != (b[:, 1] > v)
-        rise = np.where(crossed, b[:, 1] - a[:, 1], 1.0)
-        at = a[:, 0] + (v - a[:, 1]) * (b[:, 0] - a[:, 0]) / rise
-        depth += np.count_nonzero(crossed & (at > u)) % 2
-    return -1 if depth % 2 else 1
 
 
 def _density(surface: Surface, u: np.ndarray, v: np.ndarray) -> np.ndarray:
     _, r_u, r_v = surface.evaluate(np.column_stack([u, v]), 1)
     return _unit_normal(r_u, r_v)[1]
-
-
-def _gauss(first: float, last: float, cells: int, points: int) -> tuple[np.ndarray, np.ndarray]:
-    """Nodes and weights of Gauss's rule in each of `cells` equal parts of an interval."""
-    nodes, weights = np.polynomial.legendre.leggauss(points)
-    width = (last - first) / cells
-    starts = first + width * np.arange(cells)
-    places = (starts[:, None] + 0.5 * width * (nodes + 1.0)).ravel()
-    return places, np.tile(0.5 * width * weights, cells)
 
 
 def _dot(a: np.ndarray, b: np.ndarray) -> np.ndarray:

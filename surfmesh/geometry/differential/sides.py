@@ -14,6 +14,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from surfmesh.geometry.boxes import diagonal
 from surfmesh.geometry.differential.infinite_speed import rounding_of_sides
 from surfmesh.geometry.surface import Domain, Surface
 
@@ -30,9 +31,9 @@ class SideTopology:
     """How the sides of one surface are joined; each tuple has an entry a side."""
 
     domain: Domain
-    collapsed: tuple[bool, bool, bool, bool]  # the side is one point in space
-    partner: tuple[int, int, int, int]  # the side that it coincides with, or -1
-    reversed: tuple[bool, bool, bool, bool]  # t meets 1 - t of the partner
+    collapsed: tuple[bool, ...]  # the side is one point in space
+    partner: tuple[int, ...]  # the side that it coincides with, or -1
+    reversed: tuple[bool, ...]  # t meets 1 - t of the partner
 
     @property
     def one_sided(self) -> bool:
@@ -93,12 +94,9 @@ def find_sides(surface: Surface) -> SideTopology:
     (cloud,) = surface.evaluate(np.stack(grid, axis=-1).reshape(-1, 2), 0)
     curves = [surface.evaluate(side_points(surface.domain, side, t), 0)[0] for side in range(4)]
     cloud = np.concatenate([cloud, *curves])
-    diagonal = float(np.linalg.norm(np.ptp(cloud, axis=0)))
-    tolerance = diagonal * np.maximum(SAME, rounding_of_sides(surface))
+    tolerance = diagonal(cloud) * np.maximum(SAME, rounding_of_sides(surface))
 
-    collapsed = [
-        bool(np.linalg.norm(np.ptp(c, axis=0)) <= near) for c, near in zip(curves, tolerance)
-    ]
+    collapsed = [diagonal(c) <= near for c, near in zip(curves, tolerance)]
     partner, reverse = [-1] * 4, [False] * 4
     for first, second in _PAIRS:
         if collapsed[first] or collapsed[second] or partner[first] >= 0 or partner[second] >= 0:

@@ -4,21 +4,22 @@ from __future__ import annotations
 
 import hashlib
 import json
-from typing import Any
 
 import numpy as np
 
+from surfmesh.geometry.formulas.parametric import ParametricSurface
 from surfmesh.geometry.planar.planar_domain import PlanarDomain
+from surfmesh.geometry.surface import Surface, stated_facts
 from surfmesh.result.model_facts import ModelFacts
 
 
-def known_facts(surface: Any) -> ModelFacts:
+def known_facts(surface: Surface) -> ModelFacts:
     """Facts of one surface. A planar domain's area is exact, all else is as its file has it.
 
     The hash is that of its formulas, parameters and loops, or of its points and segments:
     equal for equal input, however the file is laid out.
     """
-    stated = getattr(surface, "facts", {})
+    stated = stated_facts(surface)
     digest = None
     area, volume = stated.get("area"), stated.get("volume")
     if isinstance(surface, PlanarDomain):
@@ -27,7 +28,7 @@ def known_facts(surface: Any) -> ModelFacts:
         digest = hashlib.sha256(graph.points.astype("<f8").tobytes())
         digest.update(graph.segments.astype("<i8").tobytes())
         digest.update(graph.lone_points.astype("<i8").tobytes())
-    elif hasattr(surface, "formulas"):
+    elif isinstance(surface, ParametricSurface):
         content = {
             "formulas": surface.formulas,
             "parameters": {k: float(x) for k, x in sorted(surface.parameters.items())},

@@ -17,8 +17,9 @@ import math
 import numbers
 import re
 import unicodedata
-from collections.abc import Callable, Mapping, Sequence
-from typing import NamedTuple
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from functools import reduce
+from typing import NamedTuple, NoReturn
 
 import sympy as sp
 
@@ -26,6 +27,7 @@ from surfmesh.errors import FormulaError, SurfaceError, shown
 from surfmesh.geometry.formulas import real_functions as real
 from surfmesh.geometry.formulas.compilation import compiled
 from surfmesh.geometry.formulas.program import FUNCTION_OPERATIONS
+from surfmesh.geometry.number_range import RANGE
 
 LONGEST = 10_000  # characters of a formula
 LONGEST_NAME = 20  # characters of one that a message shows
@@ -35,7 +37,6 @@ READY_DIGITS = 10_000  # binary digits of a number in it
 LARGEST_EXPONENT = 64  # of a power with a constant exponent
 MOST_DIGITS, ALL_DIGITS = 20_000, 200_000  # binary digits of one exact power, of all together
 MOST_OPERATIONS = 8_000  # of a ready-made expression, whose text may be endless
-LARGEST_NUMBER = 1e300  # of any constant part; its square root and square stay near floats
 
 
 class Function(NamedTuple):
@@ -145,7 +146,8 @@ def parse_number(text: str | float | sp.Expr) -> float:
         return _number(expression, str(expression), 1)
     if _is_number(text):
         return _finite(text)
-    return _Parser(_as_text(text), (), {}).formula().value
+    part = _Parser(_as_text(text), (), {}).formula()
+    return _number(part.expression, _as_text(text), 1) if part.value is None else part.value
 
 
 def symbol(name: str) -> sp.Symbol:
@@ -264,7 +266,7 @@ class _Parser:
 
     def _literal(self, digits: str, column: int) -> _Part:
         value = float(digits)
-        if value > LARGEST_NUMBER:
+        if value > RANGE.constant:
             self._refuse("the number is too large", column)
         short = len(digits) <= 30 and (value == 0.0 or 1e-30 < value < 1e30)
         # decimals stay exact: u**0.5 is a square root, and derivatives have clean coefficients
@@ -296,7 +298,8 @@ class _Parser:
 
     def _call(self, name: str, column: int) -> _Part:
         function = FUNCTIONS[name]
-        opening = self._next()[2]
+        opening = self._column()
+        self._next()
         self._enter(opening)
         arguments = []
         if not (self.place < len(self.tokens) and self.tokens[self.place][1] == ")"):
@@ -310,9 +313,8 @@ class _Parser:
                 wanted = f"{function.fewest} to {function.most}"
             plural = "" if wanted == "1" else "s"
             self._refuse(f"{name} takes {wanted} argument{plural}, not {len(arguments)}", column)
-        value = None
-        if all(argument.value is not None for argument in arguments):
-            value = self._value(function.value, [a.value for a in arguments], column)
+        known = [a.value for a in arguments if a.value is not None]
+        value = self._value(function.value, known, column) if len(known) == len(arguments) else None
         expression = function.build(*(argument.expression for argument in arguments))
         if sp.I in expression.args or (expression.is_Atom and expression.is_finite is False):
             self._refuse(f"{name} is not a finite real number here", column)
@@ -323,11 +325,10 @@ class _Parser:
         if len(parts) == 1:
             return parts[0]
         column = parts[0].column
+        known = [part.value for part in parts if part.value is not None]
         value = None
-        if all(part.value is not None for part in parts):
-            value = parts[0].value
-            for part in parts[1:]:
-                value = self._value(operation, (value, part.value), column)
+        if len(known) == len(parts):
+            value = reduce(lambda a, b: self._value(operation, (a, b), column), known)
         expression = build(*(part.expression for part in parts))
         if expression.is_Atom and expression.is_finite is False:  # sin(pi)**-1, exactly
             self._refuse("not a finite real number", column)
@@ -344,17 +345,17 @@ class _Parser:
             self._refuse("the number is too large", column)
         if isinstance(value, complex) or math.isnan(value):
             self._refuse("not a finite real number", column)
-        if abs(value) > LARGEST_NUMBER:
+        if abs(value) > RANGE.constant:
             self._refuse("the number is too large", column)
         return float(value)
 
-    def _tokens(self):
+    def _tokens(self) -> Iterator[tuple[str, str, int]]:
         position = 0
         while position < len(self.text):
             match = _TOKEN.match(self.text, position)
             if match is None:
                 self._refuse(_stray(self.text[position]), position + 1)
-            if match.lastgroup != "space":
+            if match.lastgroup is not None and match.lastgroup != "space":
                 yield match.lastgroup, match.group(), position + 1
             position = match.end()
 
@@ -367,7 +368,8 @@ class _Parser:
     def _take(self, *operators: str) -> str | None:
         """The next token if it is one of these operators."""
         if self.place < len(self.tokens) and self.tokens[self.place][1] in operators:
-            return self._next()[1]
+            self.place += 1
+            return self.tokens[self.place - 1][1]
         return None
 
     def _column(self) -> int:
@@ -392,7 +394,7 @@ class _Parser:
             self._refuse("a comma outside a function's parentheses", column)
         self._refuse(f"an operator is missing before {_shown(token[1])}", column)
 
-    def _refuse(self, reason: str, column: int):
+    def _refuse(self, reason: str, column: int) -> NoReturn:
         raise FormulaError(reason, self.text, column)
 
 
@@ -459,7 +461,7 @@ def _cut(token: str) -> str:
 
 def _rational(number) -> sp.Rational:
     """The shortest decimal that a number prints as, exactly."""
-    if not _is_number(number) or not abs(_finite(number)) <= LARGEST_NUMBER:
+    if not _is_number(number) or not abs(_finite(number)) <= RANGE.constant:
         raise SurfaceError(f"a parameter must be a finite number, not {shown(number)}")
     return sp.Rational(repr(float(number)))
 
@@ -474,7 +476,7 @@ def _number(expression: sp.Expr, text: str, column: int) -> float:
     if not expression.has(sp.I, sp.zoo, sp.nan, sp.oo):
         tape = compiled([expression], ())
         value = tape.constants[0] if tape.constants else math.nan
-        if abs(value) <= LARGEST_NUMBER:
+        if abs(value) <= RANGE.constant:
             return value
     raise FormulaError("not a finite real number", text, column)
 
@@ -531,7 +533,7 @@ def _refuse_endless(expression: sp.Expr) -> None:
         if levels > DEEPEST_READY:
             raise FormulaError(f"an expression of more than {DEEPEST_READY} levels{_CURE}")
         many = part.is_Rational and _digits(part) > READY_DIGITS
-        if many or (part.is_Number and part.is_finite and abs(part) > LARGEST_NUMBER):
+        if many or (part.is_Number and part.is_finite and abs(part) > RANGE.constant):
             raise FormulaError("a number in the expression is too large, or has too many digits")
         sizes[part] = operations, levels
 

@@ -17,10 +17,10 @@ from surfmesh.geometry.differential.infinite_speed import (
     kept_off,
     zeros_between,
 )
+from surfmesh.geometry.formulas.domain_bounds import bounds_of
 from surfmesh.geometry.formulas.tape import Tape
 from surfmesh.geometry.surface import Domain
 from surfmesh.geometry.surface_checks import (
-    bounds_of,
     loops_of,
     refuse_extremes,
     refuse_no_area,

@@ -1,5 +1,5 @@
 """Surfaces given by a Python function.
 
-numeric: surfaces given by a Python function instead of formulas.
+numeric: the surface, with derivatives that the caller gives or that differences give.
 differences: partial derivatives by differences that never leave the domain.
 """

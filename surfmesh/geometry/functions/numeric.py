@@ -19,20 +19,17 @@ from surfmesh.geometry.differential.infinite_speed import (
     kept_off,
     to_bent,
 )
+from surfmesh.geometry.formulas.domain_bounds import bounds_of
 from surfmesh.geometry.functions.differences import ORDERS, Differences, chosen_differences
+from surfmesh.geometry.number_range import RANGE
 from surfmesh.geometry.surface import Domain
 from surfmesh.geometry.surface_checks import (
-    LARGEST,
-    bounds_of,
     loops_of,
     refuse_extremes,
     refuse_no_area,
     sample_grid,
     table_of,
 )
-
-LARGEST_SLOPE = 1e140
-"""A derivative beyond it counts as infinite: its square would be."""
 
 LEAST_STEP = 1e-9
 """Of the domain: nodes nearer to each other differ by round-off."""
@@ -164,7 +161,7 @@ class NumericSurface:
         if len(given) < count:
             given = (*given[:2], *self._second_from_first(uv))
         given = tuple(given[:count])
-        broken = ~(np.abs(np.hstack(given)) <= LARGEST_SLOPE).all(axis=1)
+        broken = ~(np.abs(np.hstack(given)) <= RANGE.bend).all(axis=1)
         if broken.any():  # a pole, as a rule
             better = self._by_differences(uv[broken], count)
             for value, replacement in zip(given, better):
@@ -208,11 +205,11 @@ class NumericSurface:
 
     def _r(self, uv: np.ndarray) -> np.ndarray:
         (r,) = _called(self.function, uv, "f")
-        usable = (np.abs(r) <= LARGEST).all(axis=1)
+        usable = (np.abs(r) <= RANGE.coordinate).all(axis=1)
         if not usable.all():
             row = int(np.argmin(usable))
             beyond = np.isfinite(r[row]).all()
-            what = f"beyond {LARGEST:g}" if beyond else "not finite"
+            what = f"beyond {RANGE.coordinate:g}" if beyond else "not finite"
             raise SurfaceError(
                 f"f of {self.name!r} is {what} at (u, v) = ({uv[row, 0]:.6g}, {uv[row, 1]:.6g}); "
                 "change the function or the domain"

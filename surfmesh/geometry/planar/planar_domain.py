@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from surfmesh.errors import DomainError, shown
+from surfmesh.geometry.boxes import diagonal
 from surfmesh.geometry.planar.line_thinning import thinned
 from surfmesh.geometry.planar.segment_distance import SegmentDistance
 from surfmesh.geometry.planar.segment_graph import Line, SegmentGraph, segment_graph
@@ -205,7 +206,7 @@ class PlanarDomain(PlaneOfCoordinates):
     def _nested(
         cls, labels: Sequence[str], loops: Sequence[np.ndarray], *rest: Any
     ) -> PlanarDomain:
-        from surfmesh.geometry.planar.nesting import nesting_depth
+        from surfmesh.geometry.inside_loops import nesting_depth
 
         loops = [_loop(label, loop) for label, loop in zip(labels, loops)]
         if not loops:
@@ -365,7 +366,7 @@ def _merging(lines: Sequence[Line], merge: float | None) -> float:
     points = np.concatenate([line.points for line in lines])
     if merge is not None:
         return positive_distance("merge", merge)
-    return SAME * float(np.hypot(*np.ptp(points, axis=0)))
+    return SAME * diagonal(points)
 
 
 def _merged(lines: Sequence[Line], merge: float) -> list[str]:
@@ -374,7 +375,7 @@ def _merged(lines: Sequence[Line], merge: float) -> list[str]:
 
     points = np.concatenate([line.points for line in lines])
     starts = np.cumsum([0, *(len(line.points) for line in lines)])
-    rounding = ROUNDING * float(np.hypot(*np.ptp(points, axis=0)))
+    rounding = ROUNDING * diagonal(points)
     places, first = np.unique(points, axis=0, return_index=True)
     pairs = cKDTree(places).query_pairs(merge, output_type="ndarray")
     apart = np.linalg.norm(places[pairs[:, 1]] - places[pairs[:, 0]], axis=1)

@@ -12,11 +12,12 @@ from xml.etree import ElementTree
 import numpy as np
 
 from surfmesh.errors import DomainError, printable
+from surfmesh.geometry.boxes import diagonal
+from surfmesh.geometry.number_range import RANGE
 from surfmesh.geometry.text_file import text_of
 
 DEFAULT_TOLERANCE = 1e-3  # of the diagonal, between a curve and its polyline
 MOST_PIECES = 100_000  # of one curve: a tolerance that asks for more is a mistake
-FARTHEST = 1e100  # coordinate: squares of differences are finite
 MOST_ELEMENTS = 100_000  # of a drawing, each <use> in full
 DEEPEST = 100  # elements within each other
 LINK = "{http://www.w3.org/1999/xlink}href"
@@ -52,9 +53,9 @@ def svg_paths(source: str | Path, tolerance: float | None = None) -> Drawing:
     corners = np.array(
         [_pair(s.end) for _, segments in subpaths for s in segments if s.end is not None]
     ).reshape(-1, 2)
-    diagonal = float(np.hypot(*np.ptp(corners, axis=0))) if len(corners) else 0.0
+    size = diagonal(corners)
     if tolerance is None:
-        tolerance = DEFAULT_TOLERANCE * diagonal
+        tolerance = DEFAULT_TOLERANCE * size
     elif not (tolerance > 0.0 and math.isfinite(tolerance)):
         raise DomainError(f"the tolerance must be a positive number, not {tolerance!r}")
     loops, labels, lines = [], [], []
@@ -63,7 +64,7 @@ def svg_paths(source: str | Path, tolerance: float | None = None) -> Drawing:
         if not len(points):
             continue
         shut = any(type(segment).__name__ == "Close" for segment in segments)
-        if np.hypot(*(points[-1] - points[0])) <= CLOSED * diagonal:
+        if np.hypot(*(points[-1] - points[0])) <= CLOSED * size:
             points, shut = points[:-1], True
         if not shut:
             lines.append(points)
@@ -151,8 +152,8 @@ def _require_numbers(label: str, segments: list) -> None:
         numbers = _numbers(segment)
         if not all(math.isfinite(x) for x in numbers):
             raise DomainError(f"{label}: has a number that is not finite")
-        if any(abs(x) > FARTHEST for x in numbers):
-            raise DomainError(f"{label}: has a number beyond {FARTHEST:g}: scale the drawing")
+        if any(abs(x) > RANGE.square for x in numbers):
+            raise DomainError(f"{label}: has a number beyond {RANGE.square:g}: scale the drawing")
 
 
 def _polyline(segments: list, tolerance: float, label: str) -> np.ndarray:

@@ -7,6 +7,7 @@
 What two faces share are these nodes, by number: the mesh is watertight because of it.
 """
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import partial
 
@@ -33,8 +34,8 @@ between the same two vertices: their chords would be one edge of the mesh."""
 class EdgeNodes:
     """The nodes of one edge, from its start to its end."""
 
-    share: np.ndarray
-    """(n,) shares of the edge's parameter range, 0 to 1."""
+    t: np.ndarray
+    """(n,) normalised parameters of the edge, 0 to 1."""
     points: np.ndarray
     """(n, 3) on the edge's curve; the ends are the CAD vertices."""
     numbers: np.ndarray
@@ -46,7 +47,7 @@ class EdgeNodes:
         """Are the places and the sizes equal to the last bit?"""
         return (
             other is not None
-            and np.array_equal(self.share, other.share)
+            and np.array_equal(self.t, other.t)
             and np.array_equal(self.sizes, other.sizes)
         )
 
@@ -55,7 +56,7 @@ def cut_edges(
     model: CadModel,
     sizing: Sizing,
     samples: EdgeSamples,
-    limits: dict[int, SizeLimits],
+    limits: Mapping[int, SizeLimits],
     before: list[EdgeNodes | None] | None = None,
 ) -> list[EdgeNodes | None]:
     """Nodes of every edge (None: one vertex); vertices keep their numbers, others follow.
@@ -93,7 +94,7 @@ def cut_edges(
         cut = _cut(model, edge, number, samples, size, following, sizing.limit, mated.get(number))
         if not cut.same_as(nodes[number]):
             nodes[number] = cut
-            following += len(cut.share) - 2
+            following += len(cut.t) - 2
     return nodes
 
 
@@ -190,7 +191,7 @@ def _cut(
             share[0], share[-1] = 0.0, 1.0
     place = np.empty((pieces + 1, 3))
     if pieces > 1:
-        place[1:-1] = edge.curve.evaluate(edge.parameters(share[1:-1]), 0)[0]
+        place[1:-1] = edge.evaluate(share[1:-1], 0)[0]
     place[0], place[-1] = model.vertices[start].point, model.vertices[end].point
     numbers = np.arange(following - 1, following + pieces, dtype=np.int64)
     numbers[0], numbers[-1] = start, end

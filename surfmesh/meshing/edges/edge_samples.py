@@ -202,7 +202,7 @@ def _sampled(
     Faces that differ in their wishes are heard one after the other, then the edge itself.
     """
     edge = model.edges[number]
-    straight = getattr(edge.curve, "kind", "") == "line"
+    straight = edge.is_straight
     by_wishes: dict[int, tuple[Sizing, list]] = {}
     for face, coedge in uses:
         own = sizing.of_face(face)
@@ -214,12 +214,12 @@ def _sampled(
     share = _seen(edge, _STRAIGHT if straight else _CURVED, [own for own, _ in by_wishes.values()])
     turn = 0.0
     if straight:
-        (points,) = edge.curve.evaluate(edge.parameters(share), 0)
+        (points,) = edge.evaluate(share, 0)
         derivatives = None
         way = points[-1] - points[0]
         tangent = np.tile(way / max(np.linalg.norm(way), np.finfo(float).tiny), (len(share), 1))
     else:
-        points, *derivatives = edge.curve.evaluate(edge.parameters(share), 2)
+        points, *derivatives = edge.evaluate(share, 2)
         speed = np.linalg.norm(derivatives[0], axis=1)
         tangent = derivatives[0] / np.maximum(speed, np.finfo(float).tiny)[:, None]
         cosine = np.einsum("ij,ij->i", tangent[1:], tangent[:-1])
@@ -294,7 +294,7 @@ def _seen(edge: CadEdge, share: np.ndarray, wishes: list[Sizing]) -> np.ndarray:
             coarsest = min(coarsest, sizing.size)
         finest = sizing.min_size or 0.0
         for _ in range(MOST_HALVINGS):
-            (points,) = edge.curve.evaluate(edge.parameters(share), 0)
+            (points,) = edge.evaluate(share, 0)
             size = np.minimum(sizing.law_sizes(points), coarsest)
             length = np.linalg.norm(np.diff(points, axis=0), axis=1)
             least = np.maximum(0.5 * (size[1:] + size[:-1] - slope * length), finest)

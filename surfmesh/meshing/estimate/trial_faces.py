@@ -41,8 +41,8 @@ def ratios(jobs: list[FaceJob], counts: np.ndarray) -> np.ndarray:
             continue
         at = (np.arange(FACES) + 0.5) / FACES * sums[-1]
         chosen, times = np.unique(of[np.searchsorted(sums, at)], return_counts=True)
-        tried = np.array([_ratio(jobs[face], float(counts[face])) for face in chosen.tolist()])
-        found[of] = np.average(tried, weights=times)
+        of_chosen = np.array([_ratio(jobs[face], float(counts[face])) for face in chosen.tolist()])
+        found[of] = np.average(of_chosen, weights=times)
     return found
 
 
@@ -59,9 +59,9 @@ def _ratio(job: FaceJob, count: float) -> float:
         nonlocal made
         mesh = mesh_face(replace(job, limits=limits.get(0)))
         made = len(mesh.triangles) or made
-        if mesh.wishes is None or mesh.failure or made > SPREAD[1] * count:
+        if mesh.refinement is None or mesh.failure or made > SPREAD[1] * count:
             return made, {}
-        return made, {0: mesh.wishes}
+        return made, {0: mesh.refinement}
 
     known = {} if job.limits is None else {0: job.limits}
     made = refined_in_rounds(one_round, SizeLimits.joined_with, ROUNDS, known)

@@ -17,7 +17,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from surfmesh.errors import SurfmeshError
-from surfmesh.geometry.planar.inside_loops import is_inside
+from surfmesh.geometry.inside_loops import is_inside
 from surfmesh.geometry.surface import Surface
 from surfmesh.kernels.triangulation.local_operations import DEAD
 from surfmesh.meshing.boundary.boundary_loops import BoundaryLoops, cut_line

@@ -20,7 +20,7 @@ from surfmesh.cad.model.centres import boundary_polygons, inner_samples
 from surfmesh.cad.selection.selection import EVERYTHING
 from surfmesh.errors import SizingError, printable
 from surfmesh.geometry.differential.projection import closest_point
-from surfmesh.geometry.planar.inside_loops import is_inside
+from surfmesh.geometry.inside_loops import is_inside
 from surfmesh.geometry.surface import Surface, surface_label
 from surfmesh.meshing.edges.edge_samples import EdgeSamples
 from surfmesh.meshing.edges.face_proximity import AcrossTo
@@ -472,9 +472,9 @@ def _own_curvature(wanted: ModelSizing, rules: list[Rule], bend: float | None) -
 
 def _bend(edge: Any, share: float) -> float | None:
     """Curvature of an edge; None where it is straight."""
-    if getattr(edge.curve, "kind", "") == "line":
+    if edge.is_straight:
         return None
-    _, first, second = edge.curve.evaluate(edge.parameters(np.array([share])), 2)
+    _, first, second = edge.evaluate(np.array([share]), 2)
     speed = float(np.linalg.norm(first[0]))
     return float(np.linalg.norm(np.cross(first[0], second[0]))) / max(speed**3, 1e-300)
 

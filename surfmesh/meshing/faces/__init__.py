@@ -1,6 +1,7 @@
 """One face of a CAD model, and what is done where it is narrow, thin or faulty.
 
 face_data: what a face of a CAD model is meshed from, and what becomes of it: plain arrays.
+face_state: what is known of one face of a model between the rounds of meshing.
 face_mesh: one face of a CAD model: plain arrays in, a mesh of the face or the reason for none out.
 face_repair: faces whose boundary crosses itself in (u, v): taken apart in the plane, or closed
     in space.

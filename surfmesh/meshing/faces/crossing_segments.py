@@ -9,7 +9,7 @@ from __future__ import annotations
 import numpy as np
 from scipy.spatial import cKDTree
 
-from surfmesh.geometry.planar.nesting import nesting_depth
+from surfmesh.geometry.inside_loops import nesting_depth
 from surfmesh.meshing.boundary.coincident_nodes import coincident_nodes
 from surfmesh.meshing.boundary.untangling import meeting_pairs
 from surfmesh.meshing.faces.face_data import FaceJob

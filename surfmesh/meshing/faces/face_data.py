@@ -74,10 +74,12 @@ class FaceMesh:
     sizes: np.ndarray = field(default_factory=lambda: np.empty(0))
     inverse_sizes: np.ndarray | None = None
     """Of ``uv_points``, where sizes depend on the direction: see ``SurfaceMesh``."""
-    wishes: SizeLimits | None = None
+    refinement: SizeLimits | None = None
     """Smaller sizes that the face needs."""
     failure: str = ""
-    hopeless: bool = False
+    place: tuple[float, float, float] | None = None
+    """Where it failed, if that is known."""
+    unmeshable: bool = False
     """No sizes can mend what has failed."""
     remark: str = ""
     """What was done to it out of the ordinary."""

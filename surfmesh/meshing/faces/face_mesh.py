@@ -4,6 +4,7 @@ nodes of its edges -> (u, v) loops -> size field -> packing -> boundary -> optim
 (numbers, points)     seams twice     graded inward from the sizes of the edges
 """
 
+import logging
 from collections import Counter
 from dataclasses import replace
 from itertools import pairwise
@@ -40,6 +41,8 @@ from surfmesh.sizing.field.boundary_field import boundary_field, has_boundary_fi
 from surfmesh.sizing.field.size_field import SizeField, size_field
 from surfmesh.sizing.rules.size_limits import SizeLimits, along_lines
 
+logger = logging.getLogger(__name__)
+
 FINER = 0.5
 """Factor on the sizes where sides cannot be joined."""
 
@@ -57,7 +60,7 @@ PROJECTIONS = 4
 def mesh_face(job: FaceJob) -> FaceMesh:
     """Mesh one face. Never raises for what is wrong with the face: see ``failure``."""
     if job.exact is not None and job.exact.at_once:
-        return FaceMesh(failure=job.exact.at_once, hopeless=True)
+        return FaceMesh(failure=job.exact.at_once, unmeshable=True)
     reason = no_point(job)
     if reason and beyond_a_turn(job):
         return FaceMesh(failure=reason)
@@ -86,23 +89,24 @@ def _mesh_rest(job: FaceJob) -> FaceMesh:
             return _never_empty(job, _meshed(job))
         except SurfaceError:
             if job.exact is not None and job.exact.fault:
-                return FaceMesh(failure=job.exact.fault, hopeless=True)
+                return FaceMesh(failure=job.exact.fault, unmeshable=True)
             opened = untangled_job(job)
             if opened is None:
                 if job.exact is not None and job.exact.touch:
-                    return FaceMesh(failure=job.exact.touch, hopeless=True)
+                    return FaceMesh(failure=job.exact.touch, unmeshable=True)
                 raise
             return _never_empty(job, _meshed(opened, unfold=False))
     except SurfmeshError as error:
         closed = filled_face(job, str(error)) if job.last else None
         if closed is not None:
             return closed
-        wishes = None
+        refinement = None
         where = getattr(error, "where", None)
         if where is not None:
-            wishes = limits_where_crossing(job, np.atleast_2d(where))
-        return FaceMesh(failure=str(error), wishes=wishes)
+            refinement = limits_where_crossing(job, np.atleast_2d(where))
+        return FaceMesh(failure=str(error), refinement=refinement)
     except Exception as error:  # a mistake of ours: it must not take the other faces with it
+        logger.debug("internal error on %s", job.surface.name, exc_info=True)
         at = extract_tb(error.__traceback__)[-1]
         return FaceMesh(
             failure=f"internal error, please report it with the model: {type(error).__name__}: "
@@ -123,7 +127,7 @@ def _never_empty(job: FaceJob, mesh: FaceMesh) -> FaceMesh:
     return replace(mesh, failure="nothing is left of it at sizes this coarse")
 
 
-def edge_wishes(job: FaceJob) -> SizeLimits | None:
+def edge_refinement(job: FaceJob) -> SizeLimits | None:
     """What the sizes inside a face ask for along its edges, before it is meshed."""
     try:
         surface, field = face_field(job)
@@ -177,7 +181,7 @@ def _meshed(job: FaceJob, unfold: bool = True) -> FaceMesh:
         wishes = SizeLimits(parts.points[bad], finer, job.sizing.gradient, essential=True)
         wishes = wishes.joined_with(_round_tubes(surface, job))
         place = ", ".join(f"{x:.6g}" for x in parts.points[bad[0]])
-        return FaceMesh(failure=f"its sides cannot be joined near ({place})", wishes=wishes)
+        return FaceMesh(failure=f"its sides cannot be joined near ({place})", refinement=wishes)
     return FaceMesh(
         parts.points, slot[parts.place], parts.triangles, parts.uv_points, parts.uv_triangles,
         sizes, field.roots_of_mesh(xy, optimiser.embedding.scale[: len(xy)]), wishes,

@@ -8,7 +8,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from surfmesh.geometry.planar.inside_loops import is_inside
+from surfmesh.geometry.inside_loops import is_inside
 from surfmesh.meshing.faces.face_data import FaceJob, FaceMesh
 
 
@@ -55,10 +55,10 @@ def _together(parts: list[FaceMesh], slots: list[np.ndarray]) -> FaceMesh:
     first = np.cumsum([0, *(len(part.points) for part in parts)])
     first_uv = np.cumsum([0, *(len(part.uv_points) for part in parts)])
     own = [np.where(part.slots >= 0, slot[part.slots], -1) for part, slot in zip(parts, slots)]
-    wishes = None
+    refinement = None
     for part in parts:
-        if part.wishes is not None:
-            wishes = part.wishes.joined_with(wishes)
+        if part.refinement is not None:
+            refinement = part.refinement.joined_with(refinement)
     whole = parts[0].inverse_sizes is not None
     return replace(
         parts[0],
@@ -71,6 +71,6 @@ def _together(parts: list[FaceMesh], slots: list[np.ndarray]) -> FaceMesh:
         ).astype(np.int32),
         sizes=np.concatenate([part.sizes for part in parts]),
         inverse_sizes=np.concatenate([part.inverse_sizes for part in parts]) if whole else None,
-        wishes=wishes,
+        refinement=refinement,
         remark="; ".join(dict.fromkeys(part.remark for part in parts if part.remark)),
     )

@@ -4,6 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 
+from surfmesh.geometry.boxes import diagonal
 from surfmesh.meshing.boundary.coincident_nodes import coincident_nodes
 from surfmesh.meshing.boundary.untangling import untangled
 from surfmesh.meshing.faces.face_data import FaceJob, FaceMesh
@@ -28,7 +29,7 @@ def no_point(job: FaceJob) -> str:
     real = [piece.points for loop in job.loops for piece in loop if not piece.degenerate]
     if not real:
         return ""
-    size = float(np.linalg.norm(np.ptp(np.concatenate(real), axis=0)))
+    size = diagonal(np.concatenate(real))
     t = np.linspace(0.0, 1.0, ALONG)[:, None]
     for piece in (piece for loop in job.loops for piece in loop if piece.degenerate):
         (points,) = job.surface.evaluate((1.0 - t) * piece.uv[0] + t * piece.uv[-1], 0)

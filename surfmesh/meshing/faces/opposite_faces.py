@@ -104,7 +104,7 @@ def copied(found: FaceMesh, job: FaceJob, other: FaceJob, width: float) -> FaceM
         return None
     return replace(
         found, points=points, slots=own, triangles=triangles, uv_points=uv, uv_triangles=images,
-        inverse_sizes=None, wishes=None,
+        inverse_sizes=None, refinement=None,
     )  # fmt: skip
 
 

@@ -20,6 +20,7 @@ from surfmesh.accuracy.dihedral import (
 )
 from surfmesh.accuracy.folds import cosines_with_surface, sharp_radius
 from surfmesh.accuracy.samples import CENTROID
+from surfmesh.geometry.boxes import diagonal
 from surfmesh.geometry.differential.sharp_bends import bends_sharply
 from surfmesh.geometry.surface import Surface
 from surfmesh.kernels.optimisation.dihedral import find_dihedrals_over, lower_sizes
@@ -296,7 +297,7 @@ class Optimiser:
 
     def _diagonal(self) -> float:
         """Of the box of all vertices, model units."""
-        return float(np.linalg.norm(np.ptp(self.embedding.point[: int(self.t.count[0])], axis=0)))
+        return diagonal(self.embedding.point[: int(self.t.count[0])])
 
     def _straighten(self) -> None:
         """Lower the sizes where neighbouring triangles turn by more than ``angle``."""

@@ -4,6 +4,8 @@
 more than was asked for, the rule is told to aim lower, and the model is meshed again.
 """
 
+from collections.abc import Mapping
+
 import numpy as np
 
 from surfmesh.cad.model.cad_model import CadModel
@@ -19,27 +21,27 @@ LARGEST_STEP = 0.25
 
 
 class VolumeAims:
-    """What the volume rule aims at for each solid, mesh after mesh."""
+    """What the volume rule is to aim at for each solid, mesh after mesh."""
 
     def __init__(self, model: CadModel, asked: float | None) -> None:
         """asked: largest relative error of a volume; None: of no concern."""
         self.model, self.asked = model, asked
-        self.by_solid: dict[int, float] = {}
-        """Relative errors aimed at, of the solids that the rule was too coarse for."""
         self._errors: dict[int, float] = {}
 
-    def lowered_after(self, mesh: SurfaceMesh) -> bool:
-        """Lower the aims of solids that ``mesh`` has not kept the volume of; were there any?"""
+    def lowered_after(self, mesh: SurfaceMesh, aims: Mapping[int, float]) -> dict[int, float]:
+        """Lower aims for the solids that ``mesh`` has not kept the volume of.
+
+        aims: relative errors that it was made with, of the solids that the rule was too coarse for.
+        """
+        lowered: dict[int, float] = {}
         if self.asked is None:
-            return False
-        lowered = False
+            return lowered
         for number, error in volume_errors(self.model, mesh).items():
             before = self._errors.get(number, np.inf)
             self._errors[number] = error
             if self.asked < error <= IMPROVED * before:
                 step = max(LARGEST_STEP, AIM * self.asked / error)
-                self.by_solid[number] = step * self.by_solid.get(number, AIM * self.asked)
-                lowered = True
+                lowered[number] = step * aims.get(number, AIM * self.asked)
         return lowered
 
 
@@ -50,6 +52,7 @@ def volume_errors(model: CadModel, mesh: SurfaceMesh) -> dict[int, float]:
     cone = np.bincount(mesh.face_ids, np.einsum("ij,ij->i", a, np.cross(b, c)) / 6.0, faces)
     meshed = np.bincount(mesh.face_ids, minlength=faces) > 0
     behind = np.full(faces, -1)
+    assert mesh.solid_ids is not None  # noqa: S101 for mypy: every mesh of a model has them
     behind[mesh.face_ids] = mesh.solid_ids[:, 0]
     found = {}
     for number, solid in enumerate(model.solids):

@@ -13,11 +13,9 @@ histograms: how the quality is spread: counts in fixed bins, so that reports can
     side.
 inside: which points lie within a closed surface of triangles: crossings of a ray, counted.
 inward: closed surfaces whose triangles face their inside: their volume is negative.
-kept_volumes: volumes of solids against what ``Sizing(volume=)`` asked for.
 lengths: edge lengths against the wanted ones, and how fast they change from edge to edge.
 loose_edges: free rims of faces that lie edge to edge and share nothing: faces that were never sewn.
-lost: area and volume that a mesh has lost or won, beyond what its distance from the surface
-    explains.
+area_and_volume: how much area and volume a mesh loses or wins by its deviation from the surface.
 narrow: triangles of faces narrower than the chord: counted apart, as good shape is not owed there.
 pairs_of_ranges: ranges of places, one a row, written out as pairs.
 penetration: how deep two triangles go into each other, and how deep facets of a contact may.

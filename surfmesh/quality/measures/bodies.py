@@ -19,6 +19,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from surfmesh.geometry.boxes import diagonal
 from surfmesh.quality.measures.by_solid import SolidRow
 from surfmesh.quality.measures.inside import distance_to_triangles, inside
 from surfmesh.quality.measures.penetration import depths, distances_allowed
@@ -74,7 +75,7 @@ def bodies(
     count = int(table.max(initial=-1)) + 1
     if not len(pairs) and count < 2:
         return Bodies(own, 0, (), (), ())
-    least = SAME * float(np.linalg.norm(np.ptp(mesh.points, axis=0)))
+    least = SAME * diagonal(mesh.points)
     allowed = FACETS * distances_allowed(mesh, by_triangle)
     between = np.flatnonzero(_apart(mesh, pairs))
     of_triangle = _body_numbers(mesh, count)

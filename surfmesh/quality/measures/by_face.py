@@ -1,6 +1,5 @@
 """The figures of each face: one row a face, in the order of the faces."""
 
-from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -8,12 +7,8 @@ from numpy.typing import NDArray
 
 from surfmesh.geometry.surface import surface_kind
 from surfmesh.quality.measures.by_solid import relative_error
-from surfmesh.quality.measures.deviation import Deviation
-from surfmesh.quality.measures.dihedral import DihedralAngles
-from surfmesh.quality.measures.shape import Shapes
+from surfmesh.quality.measures.measurements import Measurements
 from surfmesh.quality.measures.tolerances import (
-    Tolerances,
-    UnattainableTolerance,
     exceeds_angle,
     exceeds_chord,
 )
@@ -48,22 +43,18 @@ class FaceRow:
     size_wanted: float | None  # mean of what was wanted of the same edges
 
 
-def by_face(
-    mesh: SurfaceMesh,
-    shape: Shapes,
-    fit: Deviation | None,
-    lengths: NDArray[np.float64],
-    folded: NDArray[np.bool_] | None,
-    tolerances: Tolerances,
-    limits: Sequence[UnattainableTolerance],
-    dihedrals: DihedralAngles | None,
-) -> tuple[FaceRow, ...]:
+def by_face(measured: Measurements) -> tuple[FaceRow, ...]:
     """Rows of all surfaces, or of the numbers that occur where none is known.
 
-    lengths: (ne,) of the edges of the mesh; folded: (m,) which triangles are. An edge between
-    two faces counts for both, the row's sizes are means over edges. No row of a mesh whose
-    ``face_ids`` are out of range.
+    An edge between two faces counts for both, the row's sizes are means over edges. No row of a
+    mesh whose ``face_ids`` are out of range.
     """
+    mesh, shape, fit, lengths = (
+        measured.mesh, measured.shapes, measured.deviation, measured.lengths,
+    )  # fmt: skip
+    tolerances, dihedrals, folded = (
+        measured.tolerances, measured.dihedral_angles, measured.folds,
+    )  # fmt: skip
     if mesh.surfaces:
         numbers, faces = np.arange(len(mesh.surfaces)), mesh.face_ids
         if len(faces) and not 0 <= faces.min() <= faces.max() < len(numbers):
@@ -84,7 +75,7 @@ def by_face(
         at = np.flatnonzero(fit.by_triangle == largest[faces])[::-1]
         worst[faces[at]] = at  # the first of equals
         square = np.bincount(faces, shape.area * fit.mean_square, count)
-        turned = np.bincount(faces, folded, count)
+        turned = np.bincount(faces, folded.ours, count)
         above = np.bincount(faces, exceeds_chord(tolerances, mesh, fit), count)
     turn, bent, inner = np.zeros(count), np.zeros(count), np.zeros(count, np.int64)
     if dihedrals is not None:
@@ -113,7 +104,7 @@ def by_face(
                 area_error=relative_error(float(area[k]), exact_area) if here else None,
                 chord=chord,
                 angle=angle,
-                limit="; ".join(str(limit) for limit in limits if limit.face == face),
+                limit="; ".join(str(limit) for limit in measured.limits if limit.face == face),
                 deviation_max=float(largest[k]) if known else None,
                 deviation_rms=rms,
                 deviation_triangle=int(worst[k]) if known else None,

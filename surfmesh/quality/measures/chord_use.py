@@ -12,13 +12,13 @@ from surfmesh.result.surface_mesh import SurfaceMesh
 from surfmesh.sizing.rules.curvature_size import chord_size, principal_chord_sizes
 
 SAMPLES = 20_000  # triangles that are looked at: a median is known to 1 % from so many
-DECIDED = 0.8  # share of the size that chord allows from which it is said to decide
+DECIDED = 0.8  # of the size that chord allows from which it is said to decide
 
 
 class ChordUse(NamedTuple):
     """Of the triangles whose size is what ``chord`` allows."""
 
-    share: float  # of all triangles
+    fraction: float  # of all triangles
     used: float | None  # median of deviation / chord; None when there are no such triangles
 
 

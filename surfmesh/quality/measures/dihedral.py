@@ -12,6 +12,7 @@ from surfmesh.accuracy.dihedral import (
     dihedral_angles,
     on_crease,
 )
+from surfmesh.geometry.boxes import diagonal
 from surfmesh.result.surface_mesh import SurfaceMesh
 from surfmesh.sizing.options.defaults import DEFAULT_ANGLE
 
@@ -57,11 +58,12 @@ def angles_within_faces(
     for face in np.unique(faces[large]):
         here = large[faces[large] == face]
         own = np.unique(mesh.triangles[mesh.face_ids == face])
-        diagonal = float(np.linalg.norm(np.ptp(mesh.points[own], axis=0)))
         beside = corners_beside(pairs[here])
         uv = mesh.uv_points[mesh.uv_triangles.ravel()[beside]]
         vertices = mesh.triangles.ravel()[beside]
-        bent = on_crease(mesh.surfaces[face], vertices, uv, float(limits[face]), diagonal)
+        bent = on_crease(
+            mesh.surfaces[face], vertices, uv, float(limits[face]), diagonal(mesh.points[own])
+        )
         angles[here[bent]] = 0.0
     return DihedralAngles(edges, faces, angles)
 

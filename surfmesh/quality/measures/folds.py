@@ -14,6 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from surfmesh.accuracy.folds import FOLDED, INVERTED, cosines_with_surface, sharp_radius
+from surfmesh.geometry.boxes import diagonal
 from surfmesh.geometry.differential.projection import closest_point
 from surfmesh.geometry.differential.sharp_bends import bends_sharply
 from surfmesh.result.surface_mesh import SurfaceMesh
@@ -57,7 +58,7 @@ def folds(mesh: SurfaceMesh, cosine: NDArray[np.float32]) -> Folds:
     ours = cosine < FOLDED
     own, off, moved = np.zeros(len(cosine), bool), np.zeros(len(cosine)), np.zeros(len(cosine))
     nearest = 0.0
-    radius = sharp_radius(mesh.sizing and mesh.sizing.chord, _diagonal(mesh))
+    radius = sharp_radius(mesh.sizing and mesh.sizing.chord, diagonal(mesh.points))
     bad = np.flatnonzero(ours)
     for face in np.unique(mesh.face_ids[bad]):
         some = bad[mesh.face_ids[bad] == face]
@@ -84,10 +85,6 @@ def _distances(
     return away, np.minimum(gap.reshape(-1, 3), away)
 
 
-def _diagonal(mesh: SurfaceMesh) -> float:
-    return float(np.linalg.norm(np.ptp(mesh.points, axis=0))) if len(mesh.points) else 0.0
-
-
 def most_folded(mesh: SurfaceMesh, found: Folds, count: int) -> tuple[FoldedTriangle, ...]:
     """The ``count`` triangles that are turned most: first those that the surface does not."""
     bad = np.flatnonzero(found.ours | found.own)
@@ -101,21 +98,3 @@ def most_folded(mesh: SurfaceMesh, found: Folds, count: int) -> tuple[FoldedTria
         )
         for t, turn, place in zip(bad, angle, places.tolist())
     )  # fmt: skip
-
-
-def folded_surfaces(mesh: SurfaceMesh, found: Folds, listed: int = 5) -> list[str]:
-    """A sentence about the faces that bend sharply or turn over, and where each does first."""
-    faces = np.unique(mesh.face_ids[found.own])
-    if not len(faces):
-        return []
-    places = []
-    for face in faces[:listed]:
-        some = np.flatnonzero(found.own & (mesh.face_ids == face))
-        worst = some[found.cosine[some].argmin()]
-        place = ", ".join(f"{x:.5g}" for x in mesh.points[mesh.triangles[worst]].mean(axis=0))
-        places.append(f"{mesh.face_name(int(face))} at ({place}), {len(some):,} triangles")
-    more = f" and {len(faces) - listed} more" if len(faces) > listed else ""
-    return [
-        f"folded in themselves, with radii below {found.radius:.3g} that no triangle follows: "
-        f"{'; '.join(places)}{more}"
-    ]

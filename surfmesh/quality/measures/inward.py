@@ -6,7 +6,7 @@ A void within another closed surface faces it rightly, as the solid around it li
 import numpy as np
 from numpy.typing import NDArray
 
-from surfmesh.quality.measures.by_solid import SolidRow
+from surfmesh.geometry.boxes import diagonal
 from surfmesh.quality.measures.inside import inside
 from surfmesh.quality.measures.topology import Topology, vertex_components
 from surfmesh.result.surface_mesh import SurfaceMesh
@@ -15,37 +15,7 @@ NO_VOLUME = 1e-9  # of area times diagonal: what encloses less is not told to fa
 MOST = 200  # pieces that are asked whether they are voids
 
 
-def turned_inward(mesh: SurfaceMesh, topo: Topology, solids: tuple[SolidRow, ...]) -> list[str]:
-    """A sentence about solids and closed pieces that face their inside."""
-    said = [
-        f"solid {row.solid}{f' ({row.name})' * bool(row.name)} faces its inside, its volume is "
-        f"{row.volume:.5g}: mesh.flipped() (--flip) turns the whole mesh over"
-        for row in solids
-        if row.volume is not None and row.volume < 0.0
-    ]
-    facts = mesh.facts
-    if topo.components == 1 and not topo.balanced:
-        return said
-    if mesh.one_sided or (facts is not None and facts.crosses_itself):
-        return said
-    volume, first, pieces = _inward_pieces(mesh, topo)
-    if not len(volume):
-        return said
-    place = ", ".join(f"{x:.5g}" for x in first)
-    if pieces == 1 and topo.components == 1:
-        return [
-            *said,
-            f"the closed surface faces its inside, its volume is {volume[0]:.5g}: mesh.flipped() "
-            "(--flip) turns it over",
-        ]
-    return [
-        *said,
-        f"{len(volume):,} of {pieces:,} closed pieces face{'s' * (len(volume) == 1)} the inside, "
-        f"first at ({place}), volume {volume[0]:.5g}: mesh.flipped() (--flip) turns all over",
-    ]
-
-
-def _inward_pieces(
+def inward_pieces(
     mesh: SurfaceMesh, topo: Topology
 ) -> tuple[NDArray[np.float64], NDArray[np.float64], int]:
     """Volumes (k,) of closed pieces of no solid that face their inside, a point of the first,
@@ -67,8 +37,8 @@ def _inward_pieces(
     closed[of[free]] = True
     closed[labels[loose]] = False
     closed[of[~free]] = False
-    diagonal = float(np.linalg.norm(np.ptp(mesh.points, axis=0)))
-    found = np.flatnonzero(closed & (volume < -NO_VOLUME * area * diagonal))
+    enclosed = NO_VOLUME * area * diagonal(mesh.points)
+    found = np.flatnonzero(closed & (volume < -enclosed))
     outward = closed & (volume > 0.0)
     kept = []
     for label in found[:MOST].tolist():

@@ -89,7 +89,7 @@ def growth(mesh: SurfaceMesh, lengths: NDArray[np.float64]) -> Growth:
 class SizeGrowth(NamedTuple):
     """By how much the sizes wanted at the two ends of an edge differ, over what is allowed."""
 
-    share: float  # of the edges, those along which it is more than allowed
+    fraction: float  # of the edges, those along which it is more than allowed
     largest: float  # 1 is allowed
     point: tuple[float, float, float]  # middle of that edge
 
@@ -117,5 +117,5 @@ def size_growth(mesh: SurfaceMesh, lengths: NDArray[np.float64], slope: float) -
     over = np.where(np.isfinite(over), over, 0.0)
     worst = int(over.argmax())
     place = mesh.points[mesh.edges[worst]].mean(axis=0)
-    share = float(np.mean(over > 1.0 + GROWTH_SLACK))
-    return SizeGrowth(share, float(over[worst]), tuple(place.tolist()))
+    fraction = float(np.mean(over > 1.0 + GROWTH_SLACK))
+    return SizeGrowth(fraction, float(over[worst]), tuple(place.tolist()))

@@ -10,6 +10,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from surfmesh.geometry.boxes import diagonal
 from surfmesh.quality.measures.penetration import distances_allowed, edge_sagittas
 from surfmesh.result.surface_mesh import SurfaceMesh
 
@@ -46,11 +47,10 @@ def loose_edges(
     distance, beside = _nearest(mesh, free, face)
     ends = mesh.points[mesh.edges[free]]
     length = np.linalg.norm(ends[:, 1] - ends[:, 0], axis=1)
-    diagonal = float(np.linalg.norm(np.ptp(mesh.points, axis=0)))
     model_edges, sagitta = _model_edges(mesh, free, distances_allowed(mesh, by_triangle)[triangle])
     sagitta = np.minimum(sagitta, OF_EDGE * length)
     gap = np.maximum(distance - sagitta - sagitta[beside], 0.0)
-    loose = np.flatnonzero(gap <= np.minimum(GAP * diagonal, OF_EDGE * length))
+    loose = np.flatnonzero(gap <= np.minimum(GAP * diagonal(mesh.points), OF_EDGE * length))
     if not len(loose):
         return None, set()
     worst = loose[int(np.argmax(gap[loose]))]

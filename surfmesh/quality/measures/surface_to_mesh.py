@@ -21,8 +21,7 @@ from numpy.typing import NDArray
 from surfmesh.geometry.differential.projection import closest_point
 from surfmesh.kernels.space.measure import interpolate
 from surfmesh.quality.measures.deviation import BLOCK, Deviation
-from surfmesh.quality.measures.tolerances import CHORD_SLACK, Tolerances, Violation
-from surfmesh.quality.verdict.problems import called
+from surfmesh.quality.measures.tolerances import CHORD_SLACK, Tolerances
 from surfmesh.result.quadratic_triangles import edge_rows
 from surfmesh.result.surface_mesh import SurfaceMesh
 
@@ -97,28 +96,6 @@ def both_ways(fit: Deviation, back: SurfaceDeviation | None) -> Deviation:
     return fit._replace(by_triangle=np.maximum(fit.by_triangle, back.by_triangle))
 
 
-def surface_too_far(
-    mesh: SurfaceMesh,
-    fit: Deviation,
-    back: SurfaceDeviation,
-    violation: Violation,
-    tolerances: Tolerances,
-) -> str | None:
-    """A sentence about the surface's distance from the mesh, where ``violation``, of both ways, is
-    that; None where it is the mesh's from the surface."""
-    if not back.by_triangle[violation.worst] > fit.by_triangle[violation.worst]:
-        return None
-    place = ", ".join(f"{x:.5g}" for x in back.point)
-    where = "on a rim" * back.at_rim or "between the mesh's samples"
-    there = f" on {called(mesh, violation.worst)}" * (not tolerances.uniform)
-    return (
-        f"the surface lies up to {violation.reached:.4g} from the mesh, {violation.asked:.4g} was "
-        f"asked for{there} ({100 * violation.fraction:.3g} % of the triangles are farther, one way "
-        f"or the other); worst over triangle {violation.worst}"
-        + (f", {where} at ({place})" if back.triangle == violation.worst else "")
-    )
-
-
 def _look_along_curves(search: _Search, mesh: SurfaceMesh, fit: Deviation) -> None:
     """At points of the CAD edges between the nodes of their segments.
 
@@ -138,7 +115,7 @@ def _look_along_curves(search: _Search, mesh: SurfaceMesh, fit: Deviation) -> No
             continue
         start, end = mesh.edge_parameters[own].T[:, :, None]
         share = start + shares * (end - start)
-        (points,) = edge.curve.evaluate(edge.parameters(share.ravel()), 0)
+        (points,) = edge.evaluate(share.ravel(), 0)
         points = points.reshape(len(own), len(shares), 3)
         nodes = mesh.points[mesh.edge_segments[own]]
         length = np.linalg.norm(nodes[:, 1] - nodes[:, 0], axis=1)
@@ -320,10 +297,10 @@ class _Search:
             if edge is None or edge.curve is None:
                 continue
             t = np.linspace(0.0, 1.0, ALONG)
-            at = edge.parameters(share[0] + t * (share[1] - share[0]))
+            (points,) = edge.evaluate(share[0] + t * (share[1] - share[0]))
             guess = ends[0] + t[:, None] * (ends[1] - ends[0])
             surface = mesh.surfaces[mesh.face_ids[triangle]]
-            line = closest_point(surface, edge.curve.evaluate(at, 0)[0], guess, PROJECTIONS)[0]
+            line = closest_point(surface, points, guess, PROJECTIONS)[0]
             line[0], line[-1] = ends
             if _crossings(places[(k + 2) % 3], uv, line) % 2:
                 return True

@@ -1,8 +1,8 @@
-"""What was promised of each face, where it does not hold, and where a ``min_size`` forbids it.
+"""What was asked for of each face, where it does not hold, and where a ``min_size`` forbids it.
 
 farther than the chord of its face ----> could smaller triangles hold it, of min_size at least?
-                                           yes: a broken promise, the mesh is not clean
-                                           no:  a limit that the user stated, a warning
+                                           yes: a violation, the mesh is not clean
+                                           no:  an unattainable tolerance, a warning
 """
 
 from __future__ import annotations
@@ -16,6 +16,7 @@ from numpy.typing import NDArray
 
 from surfmesh.quality.measures.deviation import Deviation
 from surfmesh.quality.measures.dihedral import DihedralAngles
+from surfmesh.quality.measures.places import Point, as_point, face_in_words
 from surfmesh.result.surface_mesh import SurfaceMesh
 
 CHORD_SLACK = 1e-9  # relative: rounding in the distance itself
@@ -34,27 +35,19 @@ class UnattainableTolerance:
     reached: float  # the largest on the face
     min_size: float
     share: float  # of its triangles, or its inner edges, that are beyond
-    point: tuple[float, float, float]  # where it is largest
+    point: Point  # where it is largest
 
     def __str__(self) -> str:
-        return _said([self])
+        return limits_in_words([self])
 
     @property
     def called(self) -> str:
         """ "face 3 (top)" """
-        plain = f"face {self.face}"
-        return plain if self.name in ("", plain) else f"{plain} ({self.name})"
+        return face_in_words(self.face, self.name)
 
 
-def stated(limits: Sequence[UnattainableTolerance]) -> list[str]:
-    """One line for each ``min_size`` and what it forbids, however many faces have it."""
-    groups: dict[tuple[str, float, float], list[UnattainableTolerance]] = {}
-    for limit in limits:
-        groups.setdefault((limit.option, limit.asked, limit.min_size), []).append(limit)
-    return [_said(group) for group in groups.values()]
-
-
-def _said(group: Sequence[UnattainableTolerance]) -> str:
+def limits_in_words(group: Sequence[UnattainableTolerance]) -> str:
+    """One line about faces that one ``min_size`` keeps from one tolerance."""
     worst = max(group, key=lambda limit: limit.reached)
     who, most, there = worst.called, "", ""
     if len(group) > 1:
@@ -69,7 +62,7 @@ def _said(group: Sequence[UnattainableTolerance]) -> str:
 
 
 class Violation(NamedTuple):
-    """Triangles or edges beyond a promise that sizes would have allowed to keep."""
+    """Triangles or edges beyond a tolerance that sizes would have allowed to keep."""
 
     fraction: float  # of all
     worst: int  # the one that is farthest beyond, by ratio
@@ -139,16 +132,32 @@ def exceeds_angle(tolerances: Tolerances, dihedrals: DihedralAngles) -> NDArray[
     return dihedrals.above(tolerances.at(tolerances.angle, dihedrals.faces))
 
 
-def chord_violation(
-    tolerances: Tolerances, mesh: SurfaceMesh, fit: Deviation
-) -> tuple[Violation | None, list[UnattainableTolerance]]:
-    """Broken promises of the distance from the surface, and those that ``min_size`` forbids.
+class ToleranceCheck(NamedTuple):
+    """What does not keep to a tolerance: by the mesher's fault, and by the user's ``min_size``."""
 
-    Deviation grows with the square of the size.
-    """
+    violation: Violation | None
+    limits: tuple[UnattainableTolerance, ...]
+
+
+class _Excess(NamedTuple):
+    """Triangles or edges beyond a tolerance."""
+
+    option: str  # "chord" or "angle"
+    rows: NDArray[np.intp]  # (k,) their numbers
+    faces: NDArray[np.int32]  # (k,)
+    reached: NDArray[np.float64]  # (k,)
+    asked: NDArray[np.float64]  # (k,)
+    needed: NDArray[np.float64]  # (k,) the size that would keep to it; infinite: not known
+    points: NDArray[np.float64]  # (k, 3)
+    by_face: NDArray[np.intp]  # (f,) how many triangles or edges there are in all
+    total: int
+
+
+def chord_check(tolerances: Tolerances, mesh: SurfaceMesh, fit: Deviation) -> ToleranceCheck:
+    """Of the deviation, which grows with the square of the size."""
     far = np.flatnonzero(exceeds_chord(tolerances, mesh, fit))
     if not len(far):
-        return None, []
+        return ToleranceCheck(None, ())
     faces, reached = mesh.face_ids[far], fit.by_triangle[far]
     chord = tolerances.at(tolerances.chord, faces)
     needed = np.full(len(far), np.inf)
@@ -156,23 +165,20 @@ def chord_violation(
         with np.errstate(invalid="ignore"):
             needed = mesh.sizes[mesh.triangles[far]].mean(axis=1) * np.sqrt(chord / reached)
     points = mesh.points[mesh.triangles[far]].mean(axis=1)
-    count = np.bincount(np.maximum(mesh.face_ids, 0))
-    return _split(
-        "chord", tolerances, mesh, far, faces, reached, chord, needed, points, count,
-        len(mesh.triangles),
-    )  # fmt: skip
+    by_face = np.bincount(np.maximum(mesh.face_ids, 0))
+    excess = _Excess(
+        "chord", far, faces, reached, chord, needed, points, by_face, len(mesh.triangles)
+    )
+    return _split(tolerances, mesh, excess)
 
 
-def angle_violation(
+def angle_check(
     tolerances: Tolerances, mesh: SurfaceMesh, dihedrals: DihedralAngles
-) -> tuple[Violation | None, list[UnattainableTolerance]]:
-    """The same for the angle between neighbours, which grows with the size.
-
-    ``worst`` is a row of ``dihedrals``.
-    """
+) -> ToleranceCheck:
+    """Of the dihedral angles, which grow with the size; the worst is a row of ``dihedrals``."""
     far = np.flatnonzero(exceeds_angle(tolerances, dihedrals))
     if not len(far):
-        return None, []
+        return ToleranceCheck(None, ())
     faces, reached = dihedrals.faces[far], dihedrals.angles[far]
     angle = tolerances.at(tolerances.angle, faces)
     ends = mesh.edges[dihedrals.edges[far]]
@@ -180,40 +186,44 @@ def angle_violation(
     if mesh.sizes is not None:
         needed = mesh.sizes[ends].mean(axis=1) * angle / reached
     points = mesh.points[ends].mean(axis=1)
+    by_face, total = np.bincount(dihedrals.faces), len(dihedrals.angles)
     return _split(
-        "angle", tolerances, mesh, far, faces, reached, angle, needed, points,
-        np.bincount(dihedrals.faces), len(dihedrals.angles),
-    )  # fmt: skip
+        tolerances,
+        mesh,
+        _Excess("angle", far, faces, reached, angle, needed, points, by_face, total),
+    )
 
 
-def _split(
-    option: str, tolerances: Tolerances, mesh: SurfaceMesh, far: NDArray, faces: NDArray,
-    reached: NDArray, asked: NDArray, needed: NDArray, points: NDArray, count: NDArray, total: int,
-) -> tuple[Violation | None, list[UnattainableTolerance]]:  # fmt: skip
-    """far: (k,) numbers of what is beyond; count: how many there are on each face."""
-    least = tolerances.at(tolerances.min_size, faces)
-    forbidden = needed < least
-    broken, limits = None, []
+def _split(tolerances: Tolerances, mesh: SurfaceMesh, excess: _Excess) -> ToleranceCheck:
+    """Those that smaller triangles would mend, and those where ``min_size`` forbids them."""
+    least = tolerances.at(tolerances.min_size, excess.faces)
+    forbidden = excess.needed < least
+    violation = None
     free = np.flatnonzero(~forbidden)
     if len(free):
         with np.errstate(invalid="ignore"):
-            worst = free[int(np.argmax(np.nan_to_num(reached[free] / asked[free], nan=np.inf)))]
-        broken = Violation(
-            len(free) / total, int(far[worst]), float(reached[worst]), float(asked[worst])
+            ratio = excess.reached[free] / excess.asked[free]
+        worst = free[int(np.argmax(np.nan_to_num(ratio, nan=np.inf)))]
+        violation = Violation(
+            fraction=len(free) / excess.total,
+            worst=int(excess.rows[worst]),
+            reached=float(excess.reached[worst]),
+            asked=float(excess.asked[worst]),
         )
-    for face in np.unique(faces[forbidden]).tolist():
-        here = np.flatnonzero(forbidden & (faces == face))
-        top = here[int(np.argmax(reached[here]))]
+    limits = []
+    for face in np.unique(excess.faces[forbidden]).tolist():
+        here = np.flatnonzero(forbidden & (excess.faces == face))
+        top = here[int(np.argmax(excess.reached[here]))]
         limits.append(
             UnattainableTolerance(
                 face=face,
                 name=mesh.face_name(face),
-                option=option,
-                asked=float(asked[top]),
-                reached=float(reached[top]),
+                option=excess.option,
+                asked=float(excess.asked[top]),
+                reached=float(excess.reached[top]),
                 min_size=float(least[top]),
-                share=len(here) / max(int(count[max(face, 0)]), 1),
-                point=tuple(points[top].tolist()),
+                share=len(here) / max(int(excess.by_face[max(face, 0)]), 1),
+                point=as_point(excess.points[top]),
             )
         )
-    return broken, limits
+    return ToleranceCheck(violation, tuple(limits))

@@ -13,6 +13,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from surfmesh.geometry.surface import BoundedSurface
 from surfmesh.quality.measures.deviation import Deviation
 from surfmesh.quality.measures.hidden_search import (
     BOXES,
@@ -75,7 +76,7 @@ def unseen(
     """Look between the samples of ``fit``; None where a surface has no bounds (a function), or
     there is no surface. Faces of CAD models are smooth between their knots: they are left out.
     """
-    bounded = [hasattr(surface, "all_bounds") for surface in mesh.surfaces]
+    bounded = [isinstance(surface, BoundedSurface) for surface in mesh.surfaces]
     if fit is None or not any(bounded) or not np.isfinite(fit.largest):
         return None
     found: list[tuple[NDArray[np.int64], Pieces]] = []
@@ -98,36 +99,6 @@ def unseen(
         tuple(_place(mesh, int(triangle[k]), place[k], reached[k], possible[k])
               for k in bad[:listed]),
     )  # fmt: skip
-
-
-def unseen_problems(found: Unseen | None) -> list[str]:
-    """A sentence about features that were found, and one about what cannot be excluded."""
-    if found is None:
-        return []
-    said = []
-    for count, first, is_found in (
-        (found.found, next((p for p in found.places if p.found), None), True),
-        (found.open, next((p for p in found.places if not p.found), None), False),
-    ):
-        if not count or (first is None and is_found):
-            continue
-        many = f"{count:,} triangle{'s' * (count > 1)}"
-        at = ""
-        if first is not None:
-            u, v = first.uv
-            at = f", first {first.triangle} at (u, v) = ({u:.8g}, {v:.8g})"
-        if is_found:
-            said.append(
-                f"features narrower than the triangles are missing: the surface lies up to "
-                f"{found.largest:.4g} from the mesh between the samples of {many}{at}"
-            )
-            continue
-        most = "any height" if np.isinf(found.possible) else f"a height up to {found.possible:.4g}"
-        said.append(
-            f"features narrower than the triangles cannot be excluded: the formula's bounds admit "
-            f"{most} between the samples of {many}{at}; lower the sizes there"
-        )
-    return said
 
 
 def _place(

@@ -6,23 +6,21 @@ word for it, the row says so and compares nothing.
 """
 
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
+from surfmesh.quality.figures.figures import Figures
+from surfmesh.quality.figures.second_opinion import OpinionRow, SecondOpinion
+from surfmesh.quality.measures.by_solid import SolidRow
 from surfmesh.quality.measures.shape import shapes
 from surfmesh.quality.measures.solids import around_solids, shares_faces
 from surfmesh.quality.opinion.libraries_asked import Answers, ask_pyvista, ask_trimesh
-from surfmesh.quality.opinion.opinion_rows import NO_ANSWER, OpinionRow, Witness, said_of
 from surfmesh.quality.opinion.rounding_bounds import Bounds, Placed, bounds, no_bounds, placed
 from surfmesh.quality.opinion.shapes_compared import compare_shapes
+from surfmesh.quality.opinion.witness import Witness
 from surfmesh.result.surface_mesh import SurfaceMesh
-
-if TYPE_CHECKING:
-    from surfmesh.quality.measures.by_solid import SolidRow
-    from surfmesh.quality.report import Report
 
 FARTHEST = 200
 """Largest binary exponent of lengths: products of four of them are doubles, and those of
@@ -35,20 +33,6 @@ BY_PYVISTA = (*INDICES_ALONE, "irregular", "nonmanifold")
 OF_SOLIDS = ("closed", "euler", "area", "volume")
 
 
-@dataclass(frozen=True, kw_only=True)
-class SecondOpinion:
-    """What trimesh and PyVista say of the mesh, figure by figure."""
-
-    compared: int  # rows where there is something to compare
-    agreed: int  # of these
-    rows: tuple[OpinionRow, ...]
-
-    @property
-    def disagreements(self) -> tuple[OpinionRow, ...]:
-        """The rows that do not agree."""
-        return tuple(row for row in self.rows if row.agree is False)
-
-
 class Seen(NamedTuple):
     """What the libraries are given, and how far rounding goes there."""
 
@@ -59,7 +43,7 @@ class Seen(NamedTuple):
     unmeasured: str  # why areas, volumes and shapes are not looked at, if they are not
 
 
-def second_opinion(mesh: SurfaceMesh, report: "Report") -> SecondOpinion:
+def second_opinion(mesh: SurfaceMesh, report: Figures) -> SecondOpinion:
     """Ask trimesh and PyVista for what ``report`` says of ``mesh``. What they raise becomes a
     row without an answer.
 
@@ -71,33 +55,6 @@ def second_opinion(mesh: SurfaceMesh, report: "Report") -> SecondOpinion:
         rows = [*_of_trimesh(mesh, report, seen), *_of_pyvista(mesh, report, seen)]
     agreeing = [row.agree for row in rows if row.agree is not None]
     return SecondOpinion(compared=len(agreeing), agreed=sum(agreeing), rows=tuple(rows))
-
-
-def disagreements(opinion: SecondOpinion) -> list[str]:
-    """A sentence for each figure of each library: the first row, and how many more there are."""
-    said, rows = [], opinion.disagreements
-    for whose, quantity in dict.fromkeys((row.whose, row.quantity) for row in rows):
-        first, *more = (row for row in rows if (row.whose, row.quantity) == (whose, quantity))
-        of = f" of {first.of}" if first.of else ""
-        near = "" if first.tolerance is None else f", rounding is below {first.tolerance:.2g}"
-        said.append(
-            f"second opinion: {quantity}{of} is {said_of(first.ours)} in the report and "
-            f"{said_of(first.theirs)} by {whose}{near}"
-            + (f"; and {len(more)} more of this kind" if more else "")
-        )
-    return said
-
-
-def unanswered(opinion: SecondOpinion) -> list[str]:
-    """A sentence for each library that raised, and each reason."""
-    said = []
-    failed = [row for row in opinion.rows if row.note.startswith(NO_ANSWER)]
-    for whose, note in dict.fromkeys((row.whose, row.note) for row in failed):
-        first, *more = (row.quantity for row in failed if (row.whose, row.note) == (whose, note))
-        others = f" and {len(more)} more" if more else ""
-        reason = note.removeprefix(NO_ANSWER)
-        said.append(f"second opinion: {whose} gave none on {first}{others}: {reason}")
-    return said
 
 
 def _seen(mesh: SurfaceMesh) -> Seen:
@@ -132,7 +89,7 @@ def _asked(ask: Callable[..., Answers], seen: Seen, *names: str) -> Answers:
     return ask(seen.whole, names) | ask(seen.enclosing, ("volume",))
 
 
-def _of_trimesh(mesh: SurfaceMesh, report: "Report", seen: Seen) -> Iterator[OpinionRow]:
+def _of_trimesh(mesh: SurfaceMesh, report: Figures, seen: Seen) -> Iterator[OpinionRow]:
     """Of the whole mesh, then of each solid."""
     more = () if seen.unmeasured else ("area", "closed")
     found = _asked(ask_trimesh, seen, *BY_TRIMESH, *more)
@@ -166,7 +123,7 @@ def _volume(
 
 
 def _of_solids(
-    mesh: SurfaceMesh, report: "Report", seen: Seen, found: Answers
+    mesh: SurfaceMesh, report: Figures, seen: Seen, found: Answers
 ) -> Iterator[OpinionRow]:
     """Of each solid, its triangles facing outwards; found: of the whole mesh."""
     around = around_solids(mesh)
@@ -184,7 +141,7 @@ def _of_solids(
 
 
 def _of_solid(
-    row: "SolidRow", found: Answers, near: Placed, limits: Bounds, unmeasured: str
+    row: SolidRow, found: Answers, near: Placed, limits: Bounds, unmeasured: str
 ) -> list[OpinionRow]:
     library = Witness("trimesh", near.exponent, unmeasured)
     of = f"solid {row.solid}" + f" ({row.name})" * bool(row.name)
@@ -195,7 +152,7 @@ def _of_solid(
     return library.rows
 
 
-def _of_pyvista(mesh: SurfaceMesh, report: "Report", seen: Seen) -> list[OpinionRow]:
+def _of_pyvista(mesh: SurfaceMesh, report: Figures, seen: Seen) -> list[OpinionRow]:
     """Of the whole mesh, and the shapes of its triangles."""
     reason = _why_not_vtk(mesh)
     more = () if seen.unmeasured else ("qualities",)

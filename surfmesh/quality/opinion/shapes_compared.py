@@ -1,17 +1,15 @@
 """Shapes of triangles by Verdict beside ours: of every triangle, and as the report has them."""
 
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
+from surfmesh.quality.figures.figures import Figures
 from surfmesh.quality.measures.shape import Shapes
 from surfmesh.quality.opinion.libraries_asked import QUALITIES, Failed
-from surfmesh.quality.opinion.opinion_rows import Witness
 from surfmesh.quality.opinion.rounding_bounds import ALPHA, EPS, angle_bounds
-
-if TYPE_CHECKING:
-    from surfmesh.quality.report import Report
+from surfmesh.quality.opinion.witness import Witness
 
 _OF_REPORT = (  # field, what it is of, how
     ("alpha_min", "alpha", "min"),
@@ -33,7 +31,7 @@ class Measure(NamedTuple):
 
 def compare_shapes(
     library: Witness,
-    report: "Report",
+    report: Figures,
     shape: Shapes,
     qualities: Any,
     cosine: NDArray[np.float64],

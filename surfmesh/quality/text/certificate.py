@@ -1,15 +1,12 @@
 """The report in full, as text: the summary, then tables of faces, solids and worst triangles."""
 
-from typing import TYPE_CHECKING
-
 from surfmesh.errors import printable
-from surfmesh.quality.opinion.opinion_rows import said_of
+from surfmesh.quality.figures.figures import Figures
+from surfmesh.quality.figures.second_opinion import figure_in_words
+from surfmesh.quality.measures.by_face import FaceRow
+from surfmesh.quality.measures.folds import FoldedTriangle
+from surfmesh.quality.measures.places import place_in_words
 from surfmesh.quality.text.summary import summary
-
-if TYPE_CHECKING:
-    from surfmesh.quality.measures.by_face import FaceRow
-    from surfmesh.quality.measures.folds import FoldedTriangle
-    from surfmesh.quality.report import Report
 
 SHOWN_FACES = 40  # those that are farthest from the surface
 SHOWN_OPINIONS = 80
@@ -17,7 +14,7 @@ LEFT = ("name", "at", "near", "by", "figure", "of", "note")  # columns of words
 BAR = 50  # characters of the longest bar of a histogram
 
 
-def certificate(report: "Report") -> str:
+def certificate(report: Figures) -> str:
     """Every part of ``report``; long lists of faces are cut, the JSON has them all."""
     parts = [summary(report), _faces(report), _solids(report), _worst(report), _folded(report)]
     parts += [_second_opinion(report), _meeting(report), _bodies(report), _histograms(report)]
@@ -25,7 +22,7 @@ def certificate(report: "Report") -> str:
     return "\n\n".join(part for part in parts if part)
 
 
-def _faces(report: "Report") -> str:
+def _faces(report: Figures) -> str:
     rows = [row for row in report.by_face if row.triangles]
     if not rows:
         return ""
@@ -44,7 +41,7 @@ def _faces(report: "Report") -> str:
                 _g(row.area_exact, 6), _error(row.area_error), _g(row.deviation_max),
                 _g(row.chord),
                 _g(row.deviation_rms), _percent(row.above_chord_share),
-                _place(row.deviation_point),
+                place_in_words(row.deviation_point, 4),
                 _g(row.angle_max if row.angle else None), _g(row.angle), _g(row.alpha_mean),
                 _g(row.alpha_min), _g(row.size_mean), _g(row.size_wanted),
             )
@@ -53,17 +50,17 @@ def _faces(report: "Report") -> str:
     )  # fmt: skip
 
 
-def _badness(row: "FaceRow") -> float:
+def _badness(row: FaceRow) -> float:
     return row.deviation_max if row.deviation_max is not None else 1.0 - row.alpha_min
 
 
-def _short(row: "FaceRow") -> str:
+def _short(row: FaceRow) -> str:
     """Its name, and its kind where the name does not say it."""
     name = row.name if row.kind in row.name else f"{row.name} {row.kind}"
     return name if len(name) <= 32 else name[:29] + "..."
 
 
-def _solids(report: "Report") -> str:
+def _solids(report: Figures) -> str:
     head = ("solid", "name", "triangles", "closed", "Euler", "model", "area", "exact", "off")
     rows = [
         (
@@ -79,7 +76,7 @@ def _solids(report: "Report") -> str:
     return _table(title, (*head, "volume", "exact", "off"), rows) if rows else ""
 
 
-def _worst(report: "Report") -> str:
+def _worst(report: Figures) -> str:
     head = ("triangle", "alpha", "angles", "at", "face", "name")
     return _table(
         "worst triangles",
@@ -87,7 +84,8 @@ def _worst(report: "Report") -> str:
         [
             (
                 str(row.triangle), f"{row.alpha:.4f}",
-                f"{row.min_angle_deg:.1f}° to {row.max_angle_deg:.1f}°", _place(row.point),
+                f"{row.min_angle_deg:.1f}° to {row.max_angle_deg:.1f}°",
+                place_in_words(row.point, 4),
                 str(row.face), row.name,
             )
             for row in report.worst
@@ -95,12 +93,12 @@ def _worst(report: "Report") -> str:
     )  # fmt: skip
 
 
-def _folded(report: "Report") -> str:
+def _folded(report: Figures) -> str:
     if not report.folded_at:
         return ""
     rows = [
         (
-            str(row.triangle), f"{row.angle_deg:.1f}°", _place(row.point), str(row.face),
+            str(row.triangle), f"{row.angle_deg:.1f}°", place_in_words(row.point, 4), str(row.face),
             _why(row),
         )
         for row in report.folded_at
@@ -108,7 +106,7 @@ def _folded(report: "Report") -> str:
     return _table("folded triangles", ("triangle", "turned", "at", "face", "why"), rows)
 
 
-def _why(row: "FoldedTriangle") -> str:
+def _why(row: FoldedTriangle) -> str:
     if row.by_surface:
         return "by the surface"
     if row.off >= row.moved:
@@ -116,30 +114,30 @@ def _why(row: "FoldedTriangle") -> str:
     return f"(u, v) of a corner {row.moved:.3g} away"
 
 
-def _bodies(report: "Report") -> str:
+def _bodies(report: Figures) -> str:
     head = ("kind", "name", "and", "solid", "solid", "triangles", "depth", "gap", "at")
     rows = [
         (
             pair.kind, *pair.names, *(str(k) if k >= 0 else "" for k in pair.solids),
-            f"{pair.triangles:,}", _g(pair.depth), _g(pair.gap), _place(pair.point),
+            f"{pair.triangles:,}", _g(pair.depth), _g(pair.gap), place_in_words(pair.point, 4),
         )
         for pair in report.bodies
     ]  # fmt: skip
     return _table("bodies that meet", head, rows)
 
 
-def _meeting(report: "Report") -> str:
+def _meeting(report: Figures) -> str:
     if not report.meeting:
         return ""
     rows = [
-        (*map(str, pair.triangles), *map(str, pair.faces), _place(pair.point))
+        (*map(str, pair.triangles), *map(str, pair.faces), place_in_words(pair.point, 4))
         for pair in report.meeting
     ]
     head = ("triangle", "meets", "face", "and face", "at")
     return _table("self-intersections", head, rows)
 
 
-def _second_opinion(report: "Report") -> str:
+def _second_opinion(report: Figures) -> str:
     """Ours beside theirs, those that disagree first."""
     opinion = report.second_opinion
     if opinion is None:
@@ -155,8 +153,8 @@ def _second_opinion(report: "Report") -> str:
         head,
         [
             (
-                row.whose, row.quantity, row.of[:32], said_of(row.ours),
-                said_of(row.theirs), _g(row.tolerance, 2),
+                row.whose, row.quantity, row.of[:32], figure_in_words(row.ours),
+                figure_in_words(row.theirs), _g(row.tolerance, 2),
                 "-" if row.agree is None else "yes" if row.agree else "NO", row.note,
             )
             for row in rows
@@ -164,7 +162,7 @@ def _second_opinion(report: "Report") -> str:
     )  # fmt: skip
 
 
-def _histograms(report: "Report") -> str:
+def _histograms(report: Figures) -> str:
     blocks = []
     for name, found in report.histograms.items():
         top = max(found.counts)
@@ -180,13 +178,13 @@ def _histograms(report: "Report") -> str:
     return "\n\n".join(blocks)
 
 
-def _healing(report: "Report") -> str:
+def _healing(report: Figures) -> str:
     if not report.healing:
         return ""
     return "\n".join(["healing", *(f"  {printable(sentence)}" for sentence in report.healing)])
 
 
-def _origin(report: "Report") -> str:
+def _origin(report: Figures) -> str:
     options = ", ".join(
         f"{name} {value:.6g}" if isinstance(value, float) else f"{name} {value}"
         for name, value in report.options.items()
@@ -227,7 +225,3 @@ def _percent(share: float | None) -> str:
 
 def _error(error: float | None) -> str:
     return "" if error is None else f"{100 * error:+.2g} %"
-
-
-def _place(point: tuple[float, ...] | None) -> str:
-    return "" if point is None else "(" + ", ".join(f"{value:.4g}" for value in point) + ")"

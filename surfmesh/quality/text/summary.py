@@ -1,21 +1,21 @@
 """The report as text: the verdict first, then one line for each thing a user asks about."""
 
 import textwrap
-from typing import TYPE_CHECKING
 
 from surfmesh.errors import printable
-
-if TYPE_CHECKING:
-    from surfmesh.quality.report import Report
+from surfmesh.quality.figures.figures import Figures
+from surfmesh.quality.measures.places import count_in_words, place_in_words
 
 WIDTH = 92
 _SHOWN_PROBLEMS, _SHOWN_WARNINGS, _SHOWN_STAGES = 5, 3, 8
 
 
-def summary(report: "Report") -> str:
+def summary(report: Figures) -> str:
     """At most 25 lines of text about ``report``."""
     clean = "clean, but for a stated limit" if report.limits else "clean"
-    verdict = clean if report.clean else f"NOT CLEAN: {_count(len(report.problems), 'problem')}"
+    verdict = (
+        clean if report.clean else f"NOT CLEAN: {count_in_words(len(report.problems), 'problem')}"
+    )
     name = f"{report.surface}: " if report.surface else ""
     lines = [f"{name}{report.nodes:,} nodes, {report.triangles:,} triangles - {verdict}"]
     lines += _listed(report.problems, _SHOWN_PROBLEMS, "problem")
@@ -69,13 +69,13 @@ def summary(report: "Report") -> str:
     return "\n".join(map(printable, lines))
 
 
-def _topology(report: "Report") -> str:
+def _topology(report: Figures) -> str:
     words = [
-        "closed" if report.closed else f"{_count(report.boundary_loops, 'boundary loop')}",
+        "closed" if report.closed else f"{count_in_words(report.boundary_loops, 'boundary loop')}",
         "manifold" if report.manifold else "not manifold",
         "one-sided" if report.one_sided else "oriented" if report.oriented else "not oriented",
         f"Euler number {report.euler}",
-        _count(report.components, "component"),
+        count_in_words(report.components, "component"),
     ]
     if report.euler_exact is not None:
         words[3] += (
@@ -91,13 +91,13 @@ def _topology(report: "Report") -> str:
     if report.contacts:
         words.append(f"separate bodies meet ({report.contacts:,} pairs of triangles)")
     if report.overlapping_bodies:
-        words.append(f"{_count(report.overlapping_bodies, 'pair')} of solids overlap")
+        words.append(f"{count_in_words(report.overlapping_bodies, 'pair')} of solids overlap")
     if report.faces > 1:
-        words.append(_count(report.faces, "face"))
+        words.append(count_in_words(report.faces, "face"))
     return ", ".join(words)
 
 
-def _size(report: "Report") -> str:
+def _size(report: Figures) -> str:
     words = []
     for name in ("area", "volume"):
         found, exact = getattr(report, name), getattr(report, f"{name}_exact")
@@ -110,11 +110,11 @@ def _size(report: "Report") -> str:
     return ", ".join(words) + (f" in {report.unit}" if report.unit else "")
 
 
-def _narrow(report: "Report") -> list[tuple[str, str]]:
+def _narrow(report: Figures) -> list[tuple[str, str]]:
     """Where faces are narrower than the chord."""
     if not report.narrow_triangles:
         return []
-    text = f"{_count(report.narrow_triangles, 'triangle')} on faces narrower than the chord"
+    text = f"{count_in_words(report.narrow_triangles, 'triangle')} on faces narrower than the chord"
     if report.alpha_mean_elsewhere is not None:
         text += (
             f"; without them alpha mean {report.alpha_mean_elsewhere:.4f}, "
@@ -123,7 +123,7 @@ def _narrow(report: "Report") -> list[tuple[str, str]]:
     return [("", text)]
 
 
-def _in_the_metric(report: "Report") -> list[tuple[str, str]]:
+def _in_the_metric(report: Figures) -> list[tuple[str, str]]:
     """Where sizes depend on the direction."""
     if report.alpha_metric_mean is None:
         return []
@@ -131,18 +131,18 @@ def _in_the_metric(report: "Report") -> list[tuple[str, str]]:
     return [("", f"in the metric: alpha mean {mean:.4f}, smallest {least:.4f}")]
 
 
-def _growth(report: "Report") -> str:
+def _growth(report: Figures) -> str:
     allowed = f"growth {report.growth:g} allows"
     if not report.above_growth_share:
         return f"wanted sizes differ along no edge by more than {allowed}"
-    place = ", ".join(f"{value:.4g}" for value in report.size_growth_point)
+    place = place_in_words(report.size_growth_point, 4)
     return (
         f"wanted sizes differ along {100 * report.above_growth_share:.2g} % of them by more than "
-        f"{allowed}, up to {report.size_growth_max:.3g} times as much at ({place})"
+        f"{allowed}, up to {report.size_growth_max:.3g} times as much at {place}"
     )
 
 
-def _deviation(report: "Report") -> str:
+def _deviation(report: Figures) -> str:
     if report.deviation_max is None:
         return "not known: the mesh carries no surface to compare with"
     asked = ""
@@ -158,37 +158,37 @@ def _deviation(report: "Report") -> str:
     used = ""
     if report.chord_used is not None:
         used = f"median {100 * report.chord_used:.0f} % of chord where it decides the size; "
-    place = ", ".join(f"{value:.4g}" for value in report.deviation_point)
+    place = place_in_words(report.deviation_point, 4)
     back = ""
     if report.surface_deviation_max is not None:
-        there = ", ".join(f"{value:.4g}" for value in report.surface_deviation_point)
+        there = place_in_words(report.surface_deviation_point, 4)
         rim = "a rim, " * report.surface_deviation_at_rim
         most = f"{report.surface_deviation_max:.4g}"
-        back = f"; the surface lies up to {most} from the mesh, at {rim}({there})"
+        back = f"; the surface lies up to {most} from the mesh, at {rim}{there}"
     return (
         f"largest {report.deviation_max:.4g}{asked}, rms {report.deviation_rms:.4g}; "
         f"{used}"
-        f"largest in triangle {report.deviation_triangle} at ({place}){back}"
+        f"largest in triangle {report.deviation_triangle} at {place}{back}"
         f"{_between_samples(report)}"
     )
 
 
-def _between_samples(report: "Report") -> str:
+def _between_samples(report: Figures) -> str:
     """What is known of features narrower than the triangles."""
     if report.functions:
         return "; features narrower than the triangles cannot be excluded: a function has no bounds"
     return "; nothing more between the samples, by the formula's bounds" * (report.unseen == 0)
 
 
-def _turning(report: "Report") -> str:
-    place = ", ".join(f"{value:.4g}" for value in report.angle_point)
+def _turning(report: Figures) -> str:
+    place = place_in_words(report.angle_point, 4)
     return (
         f"largest {report.angle_max:.4g}° between neighbours ({report.angle:.4g}° asked for); "
-        f"at ({place})"
+        f"at {place}"
     )
 
 
-def _second_opinion(report: "Report") -> str:
+def _second_opinion(report: Figures) -> str:
     opinion = report.second_opinion
     left = len(opinion.rows) - opinion.compared
     others = f" ({left:,} more cannot be compared)" if left else ""
@@ -196,13 +196,15 @@ def _second_opinion(report: "Report") -> str:
     if not found:
         return (
             f"trimesh and pyvista agree on {opinion.agreed:,} of "
-            f"{_count(opinion.compared, 'figure')}{others}"
+            f"{count_in_words(opinion.compared, 'figure')}{others}"
         )
     names = ", ".join(dict.fromkeys(f"{row.quantity} ({row.whose})" for row in found))
-    return f"{len(found):,} of {_count(opinion.compared, 'figure')} disagree{others}: {names}"
+    return (
+        f"{len(found):,} of {count_in_words(opinion.compared, 'figure')} disagree{others}: {names}"
+    )
 
 
-def _seconds(report: "Report") -> str:
+def _seconds(report: Figures) -> str:
     total = sum(report.seconds.values())
     rate = f", {report.triangles / total:,.0f} triangles a second" if total > 0 else ""
     longest = sorted(report.seconds, key=report.seconds.get, reverse=True)[:_SHOWN_STAGES]
@@ -218,9 +220,5 @@ def _listed(texts: "tuple[str, ...] | list[str]", shown: int, kind: str) -> list
     ]
     lines = [f"  {line}" for line in lines]
     if len(texts) > shown:
-        lines.append(f"  ! and {_count(len(texts) - shown, 'more ' + kind)}")
+        lines.append(f"  ! and {count_in_words(len(texts) - shown, 'more ' + kind)}")
     return lines
-
-
-def _count(number: int, word: str) -> str:
-    return f"{number:,} {word}{'' if number == 1 else 's'}"

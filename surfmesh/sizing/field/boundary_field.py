@@ -9,6 +9,7 @@ import math
 import numpy as np
 
 from surfmesh.errors import SizingError
+from surfmesh.geometry.boxes import diagonal
 from surfmesh.geometry.cad_surfaces.elementary import Cylinder, Plane
 from surfmesh.geometry.differential.chart import Chart
 from surfmesh.geometry.planar.planar_domain import PlanarDomain
@@ -178,4 +179,4 @@ def _diagonal(surface: Surface) -> float:
     u, v = np.linspace(u0, u1, 17), np.array([v0, v1])
     uv = np.stack(np.meshgrid(u, v), axis=-1).reshape(-1, 2)
     (points,) = surface.evaluate(uv, 0)
-    return float(np.linalg.norm(np.ptp(points, axis=0)))
+    return diagonal(points)

@@ -8,7 +8,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from surfmesh.geometry.planar.inside_loops import is_inside
+from surfmesh.geometry.inside_loops import is_inside
 from surfmesh.kernels.fields.background import Background
 from surfmesh.sizing.field.size_field import SizeField
 

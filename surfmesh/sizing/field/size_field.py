@@ -22,7 +22,7 @@ from surfmesh.geometry.differential.chart import Chart
 from surfmesh.geometry.differential.infinite_speed import at_infinite_speed, bent_axes_of
 from surfmesh.geometry.differential.sides import SideTopology
 from surfmesh.geometry.formulas.interval import width_along
-from surfmesh.geometry.surface import Surface
+from surfmesh.geometry.surface import BoundedSurface, Surface
 from surfmesh.kernels.fields.background import (
     Background,
     metric_roots_3d_at,
@@ -523,7 +523,7 @@ class _Builder:
         return hides & ~at_infinite_speed(bent_axes_of(self.surface), lo, hi)
 
     def _some_rise(self, nodes: np.ndarray) -> np.ndarray:
-        if not hasattr(self.surface, "all_bounds"):
+        if not isinstance(self.surface, BoundedSurface):
             return np.zeros(len(nodes), bool)
         lo, hi, _ = self._box(nodes)
         lower, upper = self.surface.all_bounds(lo, hi)

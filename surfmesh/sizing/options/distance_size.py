@@ -11,6 +11,7 @@ import numpy as np
 
 from surfmesh.errors import SizingError, shown
 from surfmesh.geometry.planar.segment_distance import SegmentDistance
+from surfmesh.geometry.surface import Surface, stated_sizes
 from surfmesh.sizing.options.positive import positive
 
 
@@ -74,9 +75,9 @@ class DistanceSize:
         return SegmentDistance(np.concatenate(starts), np.concatenate(ends))
 
 
-def default_wishes(surface: Any) -> dict[str, Any]:
+def default_wishes(surface: Surface) -> dict[str, Any]:
     """The surface's own sizing defaults; its table ``distance`` becomes a size law."""
-    wishes = dict(getattr(surface, "sizing_defaults", None) or {})
+    wishes = dict(stated_sizes(surface))
     table = wishes.pop("distance", None)
     if table is not None:
         wishes["size"] = DistanceSize(surface, **table)

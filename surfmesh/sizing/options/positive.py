@@ -5,8 +5,7 @@ import math
 import numpy as np
 
 from surfmesh.errors import SizingError, shown
-
-SMALLEST = 1e-60  # the fourth power of one over it is a number still
+from surfmesh.geometry.number_range import RANGE
 
 
 def positive(name: str, value: object) -> float:
@@ -17,6 +16,8 @@ def positive(name: str, value: object) -> float:
         number = math.nan
     if not (number > 0.0 and math.isfinite(number)):
         raise SizingError(f"{name} must be a positive number, not {shown(value)}")
-    if number < SMALLEST:
-        raise SizingError(f"{name} must be at least {SMALLEST:g}, not {number:g}: change the unit")
+    if number < RANGE.size:
+        raise SizingError(
+            f"{name} must be at least {RANGE.size:g}, not {number:g}: change the unit"
+        )
     return number

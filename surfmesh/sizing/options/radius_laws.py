@@ -6,16 +6,14 @@ from dataclasses import dataclass
 import numpy as np
 
 from surfmesh.errors import SizingError, shown
+from surfmesh.geometry.number_range import RANGE
 from surfmesh.sizing.options.positive import positive
 from surfmesh.sizing.options.sources import as_numbers
-
-LARGEST = 1e100
-"""Lengths and their inverses are less than that: their squares are numbers."""
 
 
 def require_computable(name: str, length: float) -> None:
     """Raise ``SizingError`` for a length that has no square, or no inverse of it."""
-    if not 1.0 / LARGEST < length < LARGEST:
+    if not 1.0 / RANGE.square < length < RANGE.square:
         size = "large" if length > 1.0 else "small"
         raise SizingError(f"{name} {length:g} is too {size} to compute with; scale what is packed")
 

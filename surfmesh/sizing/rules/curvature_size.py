@@ -14,6 +14,8 @@ import math
 
 import numpy as np
 
+from surfmesh.geometry.number_range import RANGE
+
 DEVIATION_RESERVE = 0.62
 """Share of ``chord`` that a unit triangle may use: real triangles are up to 1.26 times as
 large as the unit one (circumradius), and deviation grows with the square."""
@@ -21,9 +23,6 @@ large as the unit one (circumradius), and deviation grows with the square."""
 ROUND_RESERVE, BENT_RESERVE = 0.78, 0.94
 """Share of ``angle`` that two unit triangles may turn by: on a sphere, where all edges turn alike
 and some triangles are larger; and for what depends on the direction, as few edges lie worst."""
-
-LARGEST_RATIO = 1e100
-"""Of sizes along the principal directions: its square is a number."""
 
 STRETCHED_RESERVE, STRAIGHT_RESERVE = 0.7, 0.75
 """The same for anisotropic sizes, where triangles that lie too far are split: where the surface
@@ -125,4 +124,4 @@ def _balance(k1: np.ndarray, k2: np.ndarray, ratio: float) -> np.ndarray:
     small = np.where(first < second, k1, k2) * np.where(first < second, np.sign(k2), np.sign(k1))
     with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
         share = small / np.maximum(first, second)
-        return np.clip(np.nan_to_num(np.minimum(ratio, LARGEST_RATIO) ** 2 * share), -1.0, 1.0)
+        return np.clip(np.nan_to_num(np.minimum(ratio, RANGE.square) ** 2 * share), -1.0, 1.0)

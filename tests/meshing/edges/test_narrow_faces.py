@@ -4,8 +4,6 @@ import numpy as np
 import pytest
 
 import surfmesh as sm
-from surfmesh.meshing.faces.face_data import FaceMesh
-from surfmesh.meshing.model_mesh import PATIENCE, _Hope
 from surfmesh.sizing.field.size_field import LONGEST_ROW, _root_grid
 from surfmesh.sizing.rules.size_limits import SizeLimits, along_lines
 
@@ -72,20 +70,3 @@ def test_the_tightest_size_is_the_smallest_in_any_direction():
     # a size along a line is seen by its part in the tangent plane, squared: never more than it
     assert (tight >= around.min(axis=0) - 1e-3).all()
     assert (limits.along(at, direction[None])[0] <= tight + 1e-9).all()
-
-
-def test_hope_is_given_up_when_nothing_changes_and_not_before():
-    def left(places, triangles):
-        limits = SizeLimits(np.zeros((places, 3)), np.ones(places), 0.2)
-        return FaceMesh(triangles=np.zeros((triangles, 3), np.int32), wishes=limits)
-
-    hope = _Hope()
-    for places, triangles in ((50, 900), (20, 950), (19, 1100)):  # fewer, or at least finer
-        hope.hear(left(places, triangles))
-        assert hope.is_left
-    for _ in range(PATIENCE):
-        assert hope.is_left
-        hope.hear(left(19, 1101))
-    assert not hope.is_left
-    hope.hear(left(3, 1101))
-    assert hope.is_left

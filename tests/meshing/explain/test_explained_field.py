@@ -18,7 +18,7 @@ from surfmesh.sizing.field.size_law import SizeLaw
 from surfmesh.sizing.rules.rim_size import Rims
 
 SURFACES = ("helicoid", "ellipsoid", "cylinder", "hyperbolic_paraboloid", "monkey_saddle")
-WISHES = (
+SIZINGS = (
     {"chord": 0.02}, {"chord": 0.3, "growth": 3.0}, {"angle": 15.0}, {"size": 0.2},
     {"chord": 0.01, "size": 0.3, "growth": 1.1}, {"chord": 0.02, "max_size": 0.15}, {},
     {"chord": 0.01, "angle": 20.0, "min_size": 0.2}, {"chord": 0.5, "max_size": 5.0},
@@ -28,7 +28,7 @@ RATIOS = (1.0, 6.0)
 
 @cache
 def fields(name, row, ratio):
-    surface, sizing = sm.load(name), sm.Sizing(**WISHES[row], anisotropy=ratio)
+    surface, sizing = sm.load(name), sm.Sizing(**SIZINGS[row], anisotropy=ratio)
     sides = find_sides(surface)
     rims = Rims(surface, sides)
     field = size_field(surface, sizing, sides, rims=rims)
@@ -37,7 +37,7 @@ def fields(name, row, ratio):
 
 @settings(max_examples=25)
 @given(
-    st.sampled_from(SURFACES), st.integers(0, len(WISHES) - 1), st.sampled_from(RATIOS),
+    st.sampled_from(SURFACES), st.integers(0, len(SIZINGS) - 1), st.sampled_from(RATIOS),
     st.floats(0.02, 0.98), st.floats(0.02, 0.98), st.sampled_from(["inside", "rim"]),
 )  # fmt: skip
 def test_on_surfaces_of_the_gallery(name, row, ratio, a, b, where):
@@ -71,9 +71,11 @@ def part():
     return sm.from_cadquery(block)
 
 
-@pytest.mark.parametrize("wish", [{"chord": 0.05}, {"chord": 1.5, "growth": 2.0}, {"angle": 20.0}])
-def test_on_a_cad_part(part, wish):
-    sizing = sm.Sizing(**wish)
+@pytest.mark.parametrize(
+    "options", [{"chord": 0.05}, {"chord": 1.5, "growth": 2.0}, {"angle": 20.0}]
+)
+def test_on_a_cad_part(part, options):
+    sizing = sm.Sizing(**options)
     jobs = _unmeshed(part, sizing)[-1]
     rng = np.random.default_rng(3)
     for number in range(len(part.faces)):

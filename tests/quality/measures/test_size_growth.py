@@ -25,13 +25,13 @@ def strip(sizes, **more):
 def test_sizes_at_both_ends_of_edges():
     assert pytest.approx(0.4) == SLOPE
     _, just = strip([1.0, 1.4, 1.4, 1.0])
-    assert just.share == 0 and just.largest == pytest.approx(1.0)
+    assert just.fraction == 0 and just.largest == pytest.approx(1.0)
     mesh, more = strip([1.0, 1.8, 1.4, 1.0])
     # the edge 0-1 alone: its sizes differ by 0.8, 0.4 is allowed; 1-2 just so; 5 edges in all
-    assert more.share == pytest.approx(1 / 5) and more.largest == pytest.approx(2.0)
+    assert more.fraction == pytest.approx(1 / 5) and more.largest == pytest.approx(2.0)
     assert more.point == (0.5, 0.0, 0.0)
     report = sm.check(mesh)
-    assert (report.growth, report.above_growth_share) == (1.5, more.share)
+    assert (report.growth, report.above_growth_share) == (1.5, more.fraction)
     assert report.size_growth_max == more.largest and report.size_growth_point == more.point
     text = " ".join(str(report).split())
     assert "differ along 20 % of them by more than growth 1.5 allows, up to 2 times" in text

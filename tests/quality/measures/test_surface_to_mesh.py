@@ -1,7 +1,6 @@
 """The distance of the true surface from the mesh, on rims and between the mesh's samples."""
 
 from dataclasses import replace
-from types import SimpleNamespace
 
 import cadquery as cq
 import numpy as np
@@ -24,8 +23,8 @@ def sector(scale=1.0, turn=2.0):
 
 
 def coarse(surface, **sizing):
-    wish = SimpleNamespace(**{"chord": None, "angle": None, "min_size": None, "size": 0.3} | sizing)
-    return grid(surface, CELLS, sizing=wish, sizes=np.full((CELLS + 1) ** 2, 0.3))
+    asked = sm.Sizing(**{"size": 0.3} | sizing)
+    return grid(surface, CELLS, sizing=asked, sizes=np.full((CELLS + 1) ** 2, 0.3))
 
 
 @pytest.mark.parametrize("scale", [1e-3, 1.0, 1e3])

@@ -30,9 +30,9 @@ REFUSED = {
 
 @pytest.mark.parametrize("case", REFUSED)
 def test_refused(case):
-    wishes, message = REFUSED[case]
+    asked, message = REFUSED[case]
     with pytest.raises(SizingError, match=message) as error:
-        Sizing(**wishes)
+        Sizing(**asked)
     assert isinstance(error.value, ValueError)
 
 

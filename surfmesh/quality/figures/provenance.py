@@ -6,17 +6,44 @@ import platform
 import re
 import sys
 from collections.abc import Mapping
-from dataclasses import asdict, fields, is_dataclass
+from dataclasses import asdict, dataclass, fields, is_dataclass
 from functools import cache
 from importlib.metadata import PackageNotFoundError, version
 from typing import Any
 
 import numpy as np
 
+from surfmesh.quality.figures.part import Part
+from surfmesh.quality.measures.measurements import Measurements
 from surfmesh.result.surface_mesh import SurfaceMesh
 
 _ALWAYS = ("surfmesh", "numpy", "scipy", "numba")
 _CAD = ("cadquery", "cadquery-ocp")
+
+
+@dataclass(frozen=True, kw_only=True)
+class Provenance(Part):
+    """Where the mesh comes from."""
+
+    unit: str  # of lengths; empty when it is not known
+    source: str  # the file, or what else the mesh was made from
+    source_sha256: str | None
+    mesh_sha256: str  # of points and triangles
+    versions: Mapping[str, str]  # of the packages at work
+    healing: tuple[str, ...]  # what was changed in the model
+
+    @classmethod
+    def of(cls, measured: Measurements) -> "Provenance":
+        """What is known of the model beforehand, and what is at work here."""
+        facts, mesh = measured.facts, measured.mesh
+        return cls(
+            unit=facts.unit,
+            source=facts.source,
+            source_sha256=facts.sha256,
+            mesh_sha256=mesh_sha256(mesh),
+            versions=versions(mesh),
+            healing=facts.healing,
+        )
 
 
 def versions(mesh: SurfaceMesh) -> dict[str, str]:

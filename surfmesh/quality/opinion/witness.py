@@ -1,27 +1,13 @@
-"""One figure of the report beside that of a library, and whether they agree."""
+"""The rows of one library: its figures beside ours, and whether they agree."""
 
 import math
-from dataclasses import dataclass
 from typing import Any
 
+from surfmesh.quality.figures.second_opinion import OpinionRow
 from surfmesh.quality.opinion.libraries_asked import Failed
 
 NO_ANSWER = "no answer: "
 """How the note of a row starts whose library raised."""
-
-
-@dataclass(frozen=True, kw_only=True)
-class OpinionRow:
-    """In model units and degrees."""
-
-    whose: str  # "trimesh" or "pyvista"
-    quantity: str
-    of: str  # "": the whole mesh, else a solid or a triangle
-    ours: bool | int | float | None
-    theirs: bool | int | float | None
-    tolerance: float | None  # what rounding can make of it; None: the two must be equal
-    agree: bool | None  # None: not compared
-    note: str  # why it is not
 
 
 class Witness:
@@ -76,12 +62,3 @@ class Witness:
                 tolerance=tolerance, agree=agree, note=note,
             )
         )  # fmt: skip
-
-
-def said_of(value: bool | int | float | None) -> str:
-    """A figure with all its digits, yes or no, or a dash."""
-    if isinstance(value, bool):
-        return "yes" if value else "no"
-    if value is None:
-        return "-"
-    return repr(value) if isinstance(value, float) else f"{value:,}"

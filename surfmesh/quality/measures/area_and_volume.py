@@ -1,11 +1,11 @@
-"""Area and volume that a mesh has lost or won, beyond what its distance from the surface explains.
+"""How much area and volume a mesh loses or wins by its deviation from the surface.
 
     volume   the sum over triangles of area times distance; facets of a ball lose two thirds of it
     area     of a triangle of height h at the distance d, about (4 d / h)^2 / 2 of its area by its
              slant and as much by its depth; and along rims length times sagitta: all that plane
              faces lose
 
-Exact figures are those of the model, as well as they are known: those of splines are integrals.
+What is more than that is lost (``verdict/area_and_volume``).
 """
 
 from typing import NamedTuple
@@ -13,15 +13,10 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from surfmesh.quality.measures.by_face import FaceRow
-from surfmesh.quality.measures.by_solid import SolidRow
 from surfmesh.quality.measures.penetration import edge_sagittas
 from surfmesh.result.surface_mesh import SurfaceMesh
 
 SLANT = 16.0  # of (d / h)^2: what a triangle's area may differ by, of its own
-INEXACT = {"plane": 1e-3, "cylinder": 1e-3, "cone": 1e-3, "sphere": 1e-3, "torus": 1e-3}
-OTHERWISE = 0.02  # relative errors of exact figures by the kind of a face
-LEAST = 1e-6  # of the area of all: what a face may miss unsaid
 SHARPEST = 0.1  # sine of the least angle between faces that tells where their edge is
 CORNER = np.radians(60.0)  # a rim that turns by more has a corner there
 
@@ -126,81 +121,3 @@ def _turns_of_rims(mesh: SurfaceMesh, rim: NDArray[np.bool_]) -> NDArray[np.floa
     turn = 2.0 * np.arcsin(np.clip(np.linalg.norm(total, axis=1) / 2.0, 0.0, 1.0))
     turn = np.where((count == 2) & (turn < CORNER), turn, 0.0)
     return length * turn[ends].max(axis=1) / 4.0
-
-
-def lost(
-    mesh: SurfaceMesh, found: Explained, faces: tuple[FaceRow, ...], solids: tuple[SolidRow, ...],
-    area_exact: float | None,
-) -> list[str]:  # fmt: skip
-    """Sentences on solids and faces that have not the volume or area of the model."""
-    return _volumes(mesh, found, solids) + _areas(mesh, found, faces, area_exact)
-
-
-def _volumes(mesh: SurfaceMesh, found: Explained, solids: tuple[SolidRow, ...]) -> list[str]:
-    bad = []
-    kinds = mesh.facts.faces if mesh.facts is not None else ()
-    for row in solids:
-        if row.volume_error is None:
-            continue
-        own = (mesh.solid_ids == row.solid).any(axis=1)
-        allowed = float(found.volume[own].sum()) / row.volume_exact
-        inexact = [
-            _inexact(kinds[face].kind if face < len(kinds) else "")
-            for face in np.unique(mesh.face_ids[own]).tolist()
-        ]
-        if abs(row.volume_error) > allowed + max(inexact):
-            bad.append((row, allowed))
-    if not bad:
-        return []
-    row, allowed = max(bad, key=lambda one: abs(one[0].volume_error) - one[1])
-    name = f"solid {row.solid}" + f" ({row.name})" * bool(row.name)
-    more = f"; so have {len(bad) - 1} more" if len(bad) > 1 else ""
-    return [
-        f"{name} has the volume {row.volume:.6g}, {100 * row.volume_error:+.3g} % of the "
-        f"model's {row.volume_exact:.6g}: distances from the surface explain "
-        f"{100 * allowed:.2g} %{more}"
-    ]
-
-
-def _areas(
-    mesh: SurfaceMesh, found: Explained, faces: tuple[FaceRow, ...], area_exact: float | None
-) -> list[str]:
-    known = [row for row in faces if row.area_error is not None]
-    if not known:
-        return _whole_area(mesh, found, faces, area_exact)
-    allowed = np.bincount(mesh.face_ids, found.area, len(found.rims)) + found.rims
-    least = LEAST * sum(row.area_exact for row in known)
-    bad = []
-    for row in known:
-        off = abs(row.area - row.area_exact)
-        if off > allowed[row.face] + _inexact(row.kind) * row.area_exact + least:
-            bad.append(row)
-    if not bad:
-        return []
-    row = max(bad, key=lambda one: abs(one.area - one.area_exact) - allowed[one.face])
-    plain = f"face {row.face}"
-    name = plain if row.name in ("", plain) else f"{plain} ({row.name})"
-    more = f"; {len(bad) - 1} more have not that of the model" if len(bad) > 1 else ""
-    return [
-        f"{name} has the area {row.area:.6g}, in the model {row.area_exact:.6g}: distances from "
-        f"the surface and its rims explain {allowed[row.face]:.2g} of it{more}"
-    ]
-
-
-def _whole_area(
-    mesh: SurfaceMesh, found: Explained, faces: tuple[FaceRow, ...], area_exact: float | None
-) -> list[str]:
-    area = sum(row.area for row in faces)
-    if not area_exact or not faces:
-        return []
-    allowed = float(found.area.sum() + found.rims.sum())
-    if abs(area - area_exact) <= allowed + INEXACT["plane"] * area_exact:
-        return []
-    return [
-        f"the area is {area:.6g}, of the surface {area_exact:.6g}: distances from it and along "
-        f"its rims explain {allowed:.2g} of the difference"
-    ]
-
-
-def _inexact(kind: str) -> float:
-    return INEXACT.get(kind, OTHERWISE)

@@ -5,8 +5,8 @@ import numpy as np
 import pytest
 
 import surfmesh as sm
+from surfmesh.quality.measures.area_and_volume import explained
 from surfmesh.quality.measures.deviation import deviation
-from surfmesh.quality.measures.lost import explained
 from surfmesh.quality.measures.shape import shapes
 from surfmesh.result.model_facts import ModelFacts
 from surfmesh.result.surface_mesh import SurfaceMesh

@@ -1,0 +1,38 @@
+"""What was looked at: names and numbers."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from surfmesh.quality.figures.part import Part
+from surfmesh.quality.measures.measurements import Measurements
+from surfmesh.result.surface_mesh import SurfaceMesh
+
+SHOWN = 3  # names
+
+
+@dataclass(frozen=True, kw_only=True)
+class Counts(Part):
+    """How large the mesh is."""
+
+    surface: str  # names of the surfaces
+    nodes: int
+    triangles: int
+    faces: int
+
+    @classmethod
+    def of(cls, measured: Measurements) -> "Counts":
+        """Faces are those of the model where it is known."""
+        mesh = measured.mesh
+        return cls(
+            surface=_names(mesh),
+            nodes=len(mesh.points),
+            triangles=len(mesh.triangles),
+            faces=len(mesh.surfaces) or len(np.unique(mesh.face_ids)),
+        )
+
+
+def _names(mesh: SurfaceMesh) -> str:
+    names = list(dict.fromkeys(mesh.face_name(i) for i in range(len(mesh.surfaces))))
+    more = len(names) - SHOWN
+    return ", ".join(names[:SHOWN]) + (f" and {more} more" if more > 0 else "")

@@ -1,0 +1,57 @@
+"""Edge lengths, against the target sizes and against each other."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from surfmesh.quality.figures.part import Part, over
+from surfmesh.quality.measures.lengths import QUASI_UNIT
+from surfmesh.quality.measures.measurements import Measurements
+from surfmesh.quality.measures.places import Point
+
+
+@dataclass(frozen=True, kw_only=True)
+class SizeFigures(Part):
+    """In model units. None: no target sizes are known."""
+
+    edge_min: float
+    edge_mean: float
+    edge_max: float
+    quasi_unit_share: float | None  # edges within [1/sqrt 2, sqrt 2] of the target size
+    length_mean: float | None  # of length / target size, over all edges
+    length_std: float | None
+    length_min: float | None
+    length_max: float | None
+    growth_max: float  # longest over shortest edge at a vertex; in target sizes where those
+    # depend on the direction
+    growth_p99: float
+    growth: float | None  # asked for: the largest ratio of neighbouring sizes
+    above_growth_share: float | None  # edges whose ends have target sizes that differ by more
+    size_growth_max: float | None  # largest such difference over what growth allows: 1 is allowed
+    size_growth_point: Point | None  # middle of that edge
+
+    @classmethod
+    def of(cls, measured: Measurements) -> "SizeFigures":
+        """Lengths over target sizes are those in the metric."""
+        lengths, metric = measured.lengths, measured.metric_lengths
+        sizing, steep = measured.mesh.sizing, measured.size_growth
+        conform = None
+        if metric is not None and len(metric):
+            low, high = QUASI_UNIT
+            conform = float(np.count_nonzero((metric >= low) & (metric <= high)) / len(metric))
+        return cls(
+            edge_min=over(np.min, lengths),
+            edge_mean=over(np.mean, lengths),
+            edge_max=over(np.max, lengths),
+            quasi_unit_share=conform,
+            length_mean=None if metric is None else over(np.mean, metric),
+            length_std=None if metric is None else over(np.std, metric),
+            length_min=None if metric is None else over(np.min, metric),
+            length_max=None if metric is None else over(np.max, metric),
+            growth_max=measured.growth.largest,
+            growth_p99=measured.growth.p99,
+            growth=None if sizing is None else sizing.growth,
+            above_growth_share=None if steep is None else steep.fraction,
+            size_growth_max=None if steep is None else steep.largest,
+            size_growth_point=None if steep is None else steep.point,
+        )

@@ -1,0 +1,235 @@
+"""All that is measured of one mesh, each measure once, when it is first asked for.
+
+mesh -> Measurements -> figures of the report      (figures/)
+                     -> what is wrong              (verdict/)
+"""
+
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import NDArray
+
+from surfmesh.quality.measures.against_model import Unexpected, unexpected
+from surfmesh.quality.measures.area_and_volume import Explained, explained, is_known
+from surfmesh.quality.measures.bodies import Bodies, bodies
+from surfmesh.quality.measures.by_solid import SolidRow, by_solid, volume_of_all
+from surfmesh.quality.measures.chord_use import ChordUse, chord_use
+from surfmesh.quality.measures.deviation import Deviation, deviation
+from surfmesh.quality.measures.dihedral import DihedralAngles, angles_within_faces
+from surfmesh.quality.measures.folds import Folds, folds
+from surfmesh.quality.measures.lengths import (
+    Growth,
+    SizeGrowth,
+    edge_lengths,
+    growth,
+    metric_lengths,
+    size_growth,
+)
+from surfmesh.quality.measures.loose_edges import LooseEdges, loose_edges
+from surfmesh.quality.measures.self_intersection import meeting_pairs
+from surfmesh.quality.measures.shape import Shapes, enclosed_volume, metric_alpha, shapes
+from surfmesh.quality.measures.solids import shares_faces
+from surfmesh.quality.measures.surface_to_mesh import (
+    SurfaceDeviation,
+    both_ways,
+    surface_deviation,
+)
+from surfmesh.quality.measures.tolerances import (
+    ToleranceCheck,
+    Tolerances,
+    UnattainableTolerance,
+    angle_check,
+    chord_check,
+)
+from surfmesh.quality.measures.topology import Topology, topology
+from surfmesh.quality.measures.unseen import Unseen, unseen
+from surfmesh.result.model_facts import ModelFacts
+from surfmesh.result.surface_mesh import SurfaceMesh
+
+LISTED = 20  # places of one kind that a report holds
+
+
+class Measurements:
+    """None stands for what cannot be measured: of points that are not finite, without surfaces."""
+
+    def __init__(self, mesh: SurfaceMesh) -> None:
+        """Raises ``ValueError`` when indices are out of range."""
+        self.mesh = mesh
+        self.broken = mesh.check()  # the first broken invariant, in words
+        if self.broken and not _are_in_range(mesh):
+            raise ValueError(f"this is not a mesh: {self.broken}")
+        self.finite = bool(np.isfinite(mesh.points).all())
+        self.facts = mesh.facts or ModelFacts()
+        self.tolerances = Tolerances.of(mesh)
+
+    @cached_property
+    def topology(self) -> Topology:
+        """Of its triangles."""
+        return topology(self.mesh)
+
+    @cached_property
+    def unexpected(self) -> Unexpected:
+        """What of the topology is not as in the model."""
+        return unexpected(self.mesh, self.topology)
+
+    @cached_property
+    def shapes(self) -> Shapes:
+        """Of its triangles."""
+        return shapes(self.mesh)
+
+    @cached_property
+    def metric_alpha(self) -> NDArray[np.float64] | None:
+        """(m,) alpha in the metric, where sizes depend on the direction."""
+        return None if self.mesh.metric_root_3d is None else metric_alpha(self.mesh)
+
+    @cached_property
+    def lengths(self) -> NDArray[np.float64]:
+        """(ne,) of its edges."""
+        return edge_lengths(self.mesh)
+
+    @cached_property
+    def metric_lengths(self) -> NDArray[np.float64] | None:
+        """(ne,) the same over the target sizes."""
+        return None if self.mesh.sizes is None else metric_lengths(self.mesh, self.lengths)
+
+    @cached_property
+    def growth(self) -> Growth:
+        """Of edges at a vertex; in the metric, where sizes depend on the direction."""
+        stretched = self.mesh.metric_root_3d is not None and self.metric_lengths is not None
+        return growth(self.mesh, self.metric_lengths if stretched else self.lengths)
+
+    @cached_property
+    def size_growth(self) -> SizeGrowth | None:
+        """Of the target sizes."""
+        slope = None if self.mesh.sizing is None else self.mesh.sizing.gradient
+        if slope is None or not self.finite:
+            return None
+        return size_growth(self.mesh, self.lengths, slope)
+
+    @cached_property
+    def deviation(self) -> Deviation | None:
+        """Of the mesh from its surfaces."""
+        return deviation(self.mesh, self.shapes.area) if self.finite else None
+
+    @cached_property
+    def surface_deviation(self) -> SurfaceDeviation | None:
+        """Of the surfaces from the mesh."""
+        return surface_deviation(self.mesh, self.deviation, self.tolerances)
+
+    @cached_property
+    def deviation_both_ways(self) -> Deviation | None:
+        """The larger of both."""
+        if self.deviation is None:
+            return None
+        return both_ways(self.deviation, self.surface_deviation)
+
+    @cached_property
+    def unseen(self) -> Unseen | None:
+        """What may lie between the samples of both."""
+        return unseen(self.mesh, self.deviation_both_ways, self.tolerances, LISTED)
+
+    @cached_property
+    def chord_check(self) -> ToleranceCheck | None:
+        """Does the deviation, both ways, keep to the chord of each face? None: it has none."""
+        if self.deviation_both_ways is None or not np.isfinite(self.tolerances.chord).any():
+            return None
+        return chord_check(self.tolerances, self.mesh, self.deviation_both_ways)
+
+    @cached_property
+    def chord_use(self) -> ChordUse | None:
+        """How much of the chord is used."""
+        return chord_use(self.mesh, self.deviation, self.tolerances)
+
+    @cached_property
+    def dihedral_angles(self) -> DihedralAngles | None:
+        """Within faces."""
+        return angles_within_faces(self.mesh, self.tolerances.angle) if self.finite else None
+
+    @cached_property
+    def angle_check(self) -> ToleranceCheck | None:
+        """Do the dihedral angles keep to the angle of each face? None: it has none."""
+        dihedrals = self.dihedral_angles
+        if dihedrals is None or not len(dihedrals.angles):
+            return None
+        if not np.isfinite(self.tolerances.angle).any():
+            return None
+        return angle_check(self.tolerances, self.mesh, dihedrals)
+
+    @cached_property
+    def limits(self) -> tuple[UnattainableTolerance, ...]:
+        """Where a ``min_size`` of the user's forbids a chord or an angle."""
+        checks = (self.chord_check, self.angle_check)
+        return tuple(limit for one in checks if one is not None for limit in one.limits)
+
+    @cached_property
+    def folds(self) -> Folds | None:
+        """Triangles turned far from the surface's normals."""
+        return None if self.deviation is None else folds(self.mesh, self.deviation.cosine)
+
+    @cached_property
+    def solids(self) -> tuple[SolidRow, ...]:
+        """The figures of each solid."""
+        return by_solid(self.mesh, self.shapes) if self.finite else ()
+
+    @cached_property
+    def volume(self) -> float | None:
+        """Of what the mesh encloses; where solids share faces, the sum over the solids."""
+        if not self.finite or self.broken:
+            return None
+        if shares_faces(self.mesh):
+            return volume_of_all(self.solids)
+        return enclosed_volume(self.mesh) if self.topology.balanced else None
+
+    @cached_property
+    def explained(self) -> Explained | None:
+        """How much area and volume the deviation explains, where exact ones are known."""
+        found = self.deviation
+        if found is None or self.broken or not np.isfinite(found.largest):
+            return None
+        if not is_known(self.mesh):
+            return None
+        return explained(self.mesh, self.shapes.area, found.by_triangle)
+
+    @cached_property
+    def crosses_itself(self) -> bool:
+        """Does the surface by its nature? A closed one-sided surface has no room in space."""
+        return self.facts.crosses_itself or (self.mesh.one_sided and self.topology.closed)
+
+    @cached_property
+    def all_meeting(self) -> NDArray[np.int32] | None:
+        """(k, 2) triangles that meet where they share nothing."""
+        return meeting_pairs(self.mesh) if self.finite else None
+
+    @cached_property
+    def _loose(self) -> tuple[LooseEdges | None, set[tuple[int, int]]]:
+        by_triangle = None if self.deviation is None else self.deviation.by_triangle
+        return loose_edges(self.mesh, by_triangle)
+
+    @property
+    def loose_edges(self) -> LooseEdges | None:
+        """Rims of faces that lie along each other and share nothing."""
+        return self._loose[0] if self.finite else None
+
+    @cached_property
+    def bodies(self) -> Bodies | None:
+        """What became of the triangles that meet, and the bodies concerned."""
+        if self.all_meeting is None:
+            return None
+        by_triangle = None if self.deviation is None else self.deviation.by_triangle
+        return bodies(self.mesh, self.all_meeting, self.solids, by_triangle, self._loose[1])
+
+    @cached_property
+    def meeting(self) -> NDArray[np.int32] | None:
+        """(k, 2) those of one body: the mesh intersects itself there."""
+        if self.all_meeting is None or self.bodies is None:
+            return None
+        return self.all_meeting[self.bodies.own]
+
+
+def _are_in_range(mesh: SurfaceMesh) -> bool:
+    """Are all indices those of vertices and of corner parameters?"""
+    count = 0 if mesh.uv_points is None else len(mesh.uv_points)
+    return all(
+        indices is None or not indices.size or 0 <= int(indices.min()) <= int(indices.max()) < limit
+        for indices, limit in ((mesh.triangles, len(mesh.points)), (mesh.uv_triangles, count))
+    )
