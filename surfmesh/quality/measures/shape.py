@@ -5,6 +5,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from surfmesh.accuracy.shape import mean_ratio
 from surfmesh.kernels.space.measure import triangle_shapes
 from surfmesh.quality.measures.lengths import stretched
 from surfmesh.result.surface_mesh import SurfaceMesh
@@ -52,10 +53,7 @@ def metric_alpha(mesh: SurfaceMesh) -> NDArray[np.float64]:
         a, b, c = (mesh.points[corner] for corner in corners.T)
         mean = mesh.metric_root_3d[mesh.uv_triangles[start : start + BLOCK]].mean(axis=1)
         u, v = stretched(mean, b - a), stretched(mean, c - a)
-        area = np.linalg.norm(np.cross(u, v), axis=1)
-        total = (u * u + v * v + (u - v) ** 2).sum(axis=1)
-        shape = 2.0 * np.sqrt(3.0) * area / np.where(total > 0.0, total, 1.0)
-        found[start : start + BLOCK] = shape
+        found[start : start + BLOCK] = mean_ratio(u, v)
     return found
 
 
