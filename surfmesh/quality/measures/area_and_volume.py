@@ -14,6 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from surfmesh.quality.measures.penetration import edge_sagittas
+from surfmesh.result.quadratic_triangles import edge_rows
 from surfmesh.result.surface_mesh import SurfaceMesh
 
 SLANT = 16.0  # of (d / h)^2: what a triangle's area may differ by, of its own
@@ -52,14 +53,13 @@ def _along_rims(mesh: SurfaceMesh, by_triangle: NDArray[np.float64]) -> NDArray[
     table = mesh.connectivity
     sagitta = np.zeros(len(table.edges))
     rim = table.uses == 1
-    if mesh.edge_segments is None or not len(mesh.edge_segments):
+    links = mesh.edge_links
+    if links is None or not len(links.edge_segments):
         sagitta[rim] = _turns_of_rims(mesh, rim)
     else:
-        width = np.array([len(mesh.points), 1], np.int64)
-        keys, wanted = mesh.edges @ width, np.sort(mesh.edge_segments, axis=1) @ width
-        row = np.minimum(np.searchsorted(keys, wanted), len(keys) - 1)
-        on = keys[row] == wanted
-        np.maximum.at(sagitta, row[on], edge_sagittas(mesh)[on])
+        row = edge_rows(table, links.edge_segments)
+        on = row >= 0
+        np.maximum.at(sagitta, row[on], edge_sagittas(mesh, links)[on])
         rim[row[on]] = True
     half_edges = table.half_edges[rim]
     triangles, two = half_edges // 3, half_edges[:, 1] >= 0
@@ -69,9 +69,8 @@ def _along_rims(mesh: SurfaceMesh, by_triangle: NDArray[np.float64]) -> NDArray[
     slanted = beside.max(axis=1) / np.where(two, _sines(mesh, triangles), 1.0)
     lost = length * np.minimum(np.maximum(sagitta[rim], slanted), length)
     half_edge, row = _half_edges_along(mesh, mesh.edges[rim])
-    return np.bincount(
-        mesh.face_ids[half_edge // 3], lost[row], int(mesh.face_ids.max(initial=0)) + 1
-    )
+    faces = mesh.face_ids[half_edge // 3]
+    return np.bincount(faces, lost[row], int(mesh.face_ids.max(initial=0)) + 1).astype(float)
 
 
 def _sines(mesh: SurfaceMesh, pairs: NDArray[np.int32]) -> NDArray[np.float64]:

@@ -17,7 +17,7 @@ from surfmesh.result.surface_mesh import SurfaceMesh
 GAP = 1e-4  # of the diagonal: rims farther apart are no rims of one edge
 OF_EDGE = 0.1  # of an edge's length: nor are those farther apart than that
 NEAREST = 16  # places on other rims that are looked at from the middle of an edge
-SHARES = np.linspace(0.0, 1.0, 5)  # of an edge: its places
+PLACES = np.linspace(0.0, 1.0, 5)  # t along an edge
 
 
 @dataclass(frozen=True)
@@ -70,11 +70,11 @@ def _nearest(
     from scipy.spatial import cKDTree
 
     ends = mesh.points[mesh.edges[free]]
-    places = ends[:, 0, None] + SHARES[:, None] * (ends[:, 1] - ends[:, 0])[:, None]
+    places = ends[:, 0, None] + PLACES[:, None] * (ends[:, 1] - ends[:, 0])[:, None]
     middle = ends.mean(axis=1)
-    count = min(NEAREST, places.shape[0] * len(SHARES))
+    count = min(NEAREST, places.shape[0] * len(PLACES))
     place = cKDTree(places.reshape(-1, 3)).query(middle, count)[1].reshape(len(free), count)
-    other = place // len(SHARES)
+    other = place // len(PLACES)
     a, b = ends[other].transpose(2, 0, 1, 3)
     way = b - a
     size = np.maximum(np.einsum("ijk,ijk->ij", way, way), np.finfo(float).tiny)
@@ -87,21 +87,23 @@ def _nearest(
 
 
 def _model_edges(
-    mesh: SurfaceMesh, edges: NDArray, off: NDArray[np.float64]
+    mesh: SurfaceMesh, edges: NDArray[np.intp], deviation: NDArray[np.float64]
 ) -> tuple[NDArray[np.int64], NDArray[np.float64]]:
     """The edges of the model on which edges of the mesh (k,) lie, or numbers of their own; and
     how far these lie from their curves (k,).
 
-    off: (k,) how far their triangles lie from the surface: where a curve is one edge, or unknown.
+    deviation: (k,) of their triangles from the surface: where a curve is one edge, or unknown.
     """
-    if mesh.edge_segments is None or not len(mesh.edge_segments):
-        return edges.astype(np.int64), off
+    links = mesh.edge_links
+    if links is None or not len(links.edge_segments):
+        return edges.astype(np.int64), deviation
     width = np.array([len(mesh.points), 1], np.int64)
-    along = np.sort(mesh.edge_segments, axis=1) @ width
+    along = np.sort(links.edge_segments, axis=1) @ width
     order = np.argsort(along, kind="stable")
     keys = mesh.edges[edges] @ width
     row = order[np.minimum(np.searchsorted(along[order], keys), len(along) - 1)]
     known = along[row] == keys
-    cut = known & (np.bincount(mesh.edge_ids)[mesh.edge_ids[row]] > 1)
-    names = np.where(known, mesh.edge_ids[row], -1 - edges.astype(np.int64))
-    return names, np.where(cut, edge_sagittas(mesh)[row], off)
+    ids = links.edge_ids
+    cut = known & (np.bincount(ids)[ids[row]] > 1)
+    names = np.where(known, ids[row], -1 - edges.astype(np.int64))
+    return names, np.where(cut, edge_sagittas(mesh, links)[row], deviation)

@@ -1,12 +1,14 @@
 """What kind of surface the triangles form: closed, manifold, oriented, in how many pieces."""
 
-from typing import NamedTuple
+from typing import Any, NamedTuple, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
 
 from surfmesh.kernels.space.measure import component_labels
 from surfmesh.result.surface_mesh import SurfaceMesh
+
+AnyInt = TypeVar("AnyInt", bound=np.integer[Any])
 
 
 class Topology(NamedTuple):
@@ -145,5 +147,5 @@ def _fans(mesh: SurfaceMesh, crowded: tuple[NDArray, NDArray]) -> NDArray[np.int
     return np.bincount(heads, minlength=len(mesh.points))
 
 
-def _next(half_edge: NDArray[np.int32]) -> NDArray[np.int32]:
+def _next(half_edge: NDArray[AnyInt]) -> NDArray[AnyInt]:
     return half_edge + np.where(half_edge % 3 == 2, np.int32(-2), np.int32(1))

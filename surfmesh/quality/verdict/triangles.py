@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 from surfmesh.quality.measures.folds import Folds
 from surfmesh.quality.measures.measurements import Measurements
 from surfmesh.quality.measures.narrow import without_area
-from surfmesh.quality.measures.places import as_point, count_in_words, place_in_words
+from surfmesh.quality.measures.places import Point, as_point, count_in_words, place_in_words
 from surfmesh.quality.verdict.finding import Kind, Problem, Remark
 from surfmesh.result.surface_mesh import SurfaceMesh
 
@@ -53,7 +53,7 @@ class FoldedFace:
     """A face that bends sharply or turns over."""
 
     name: str
-    place: tuple[float, float, float]  # of the triangle that is turned most
+    place: Point  # of the triangle that is turned most
     triangles: int
 
 
@@ -86,7 +86,7 @@ def bad_triangles(measured: Measurements) -> Iterator[Problem]:
     yield from _triangles(mesh, flat, Kind.WITHOUT_AREA, "without area")
     if turned is None:
         return
-    folded = turned.ours & ~turned.inverted
+    folded = turned.by_mesh & ~turned.inverted
     for bad, kind, what in (
         (turned.inverted, Kind.INVERTED, "inverted against the surface"),
         (folded, Kind.FOLDED, "folded: turned more than 60° from the surface"),
@@ -97,11 +97,11 @@ def bad_triangles(measured: Measurements) -> Iterator[Problem]:
 def folded_surfaces(measured: Measurements) -> Iterator[Remark]:
     """Faces that bend sharply or turn over, and where each does most."""
     turned, mesh = measured.folds, measured.mesh
-    if turned is None or not turned.own.any():
+    if turned is None or not turned.by_surface.any():
         return
     faces = []
-    for face in np.unique(mesh.face_ids[turned.own]).tolist():
-        some = np.flatnonzero(turned.own & (mesh.face_ids == face))
+    for face in np.unique(mesh.face_ids[turned.by_surface]).tolist():
+        some = np.flatnonzero(turned.by_surface & (mesh.face_ids == face))
         worst = some[turned.cosine[some].argmin()]
         place = as_point(mesh.points[mesh.triangles[worst]].mean(axis=0))
         faces.append(FoldedFace(name=mesh.face_name(face), place=place, triangles=len(some)))
@@ -133,8 +133,8 @@ def _causes(turned: Folds, bad: NDArray[np.bool_]) -> tuple[FoldCause, ...]:
     )
     causes = []
     for reached, here, what in (
-        (turned.off, bad & (turned.off > 0.0), edges),
-        (turned.moved, bad & (turned.moved > turned.off), images),
+        (turned.off_surface, bad & (turned.off_surface > 0.0), edges),
+        (turned.misplaced, bad & (turned.misplaced > turned.off_surface), images),
     ):
         if here.any():
             most = float(reached[here].max())
