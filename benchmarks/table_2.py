@@ -131,7 +131,7 @@ def mesh_figures(surface: Surface, sizing: sm.Sizing, optimise: bool) -> dict:
 
 
 def sizing_at_papers_count(name: str, growth: float) -> sm.Sizing:
-    """The wishes whose raw mesh has about as many nodes as the paper's."""
+    """The sizing whose raw mesh has about as many nodes as the paper's."""
     surface, nodes = sm.load(name), PAPER[name]["nodes"]
     if not isinstance(surface, PlanarDomain):
         count = node_count(surface, optimise=False)

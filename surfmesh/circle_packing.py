@@ -9,6 +9,7 @@ import numpy as np
 
 from surfmesh.accuracy.shape import mean_ratio
 from surfmesh.errors import SizingError
+from surfmesh.geometry.number_range import RANGE
 from surfmesh.geometry.planar.planar_domain import PlanarRegion
 from surfmesh.kernels.fields.background import Background
 from surfmesh.kernels.packing.front import DONE
@@ -18,7 +19,6 @@ from surfmesh.meshing.patch.packing import NO_LIMIT, packed, packed_discs
 from surfmesh.renamed import Renamed
 from surfmesh.sizing.field.size_field import plane_field
 from surfmesh.sizing.options.radius_laws import (
-    LARGEST,
     TensorField,
     UniformRadius,
     require_computable,
@@ -168,7 +168,7 @@ def _limits(origin, count, distance, box):
     if distance is not None and not 0.0 < distance < np.inf:
         raise SizingError(f"distance must be a positive number, not {distance!r}")
     far = max(map(abs, (*origin, distance or 0.0, *(box or ()))))
-    if LARGEST <= far < np.inf:
+    if RANGE.square <= far < np.inf:
         raise SizingError(f"{far:g} is too far away to compute with; scale what is packed")
     if box is not None:
         box = tuple(float(x) for x in box)
@@ -258,7 +258,7 @@ def _tensors(radius: Any) -> Callable[[np.ndarray], np.ndarray]:
     def law(points: np.ndarray) -> np.ndarray:
         with np.errstate(all="ignore"):
             r = as_numbers(radius(points.copy()))
-        if r is None or r.shape != (len(points),) or not ((r > 0.0) & (r < LARGEST)).all():
+        if r is None or r.shape != (len(points),) or not ((r > 0.0) & (r < RANGE.square)).all():
             raise SizingError(
                 f"the radius law must give positive numbers of shape ({len(points)},) for points "
                 f"({len(points)}, 2)"

@@ -19,7 +19,7 @@ from surfmesh.meshing.boundary.boundary_recovery import DomainMesh, recovered
 from surfmesh.meshing.boundary.cusps import Cusp, closed_at, find_cusps, without_cusps
 from surfmesh.meshing.boundary.kink_segments import sides_met, with_kinks
 from surfmesh.meshing.estimate.estimation import Estimate, field_triangles, require_field_within
-from surfmesh.meshing.estimate.trial_mesh import WHOLE, tried
+from surfmesh.meshing.estimate.trial_mesh import WHOLE, counts_within_budget
 from surfmesh.meshing.estimate.trial_patches import triangles_per_unit
 from surfmesh.meshing.explain.explanation import Explanation, explain_surface
 from surfmesh.meshing.patch.gluing import Glued, glued, misglued
@@ -30,7 +30,7 @@ from surfmesh.meshing.progress import Progress, Stopwatch
 from surfmesh.result.surface_mesh import SurfaceMesh
 from surfmesh.sizing.field.size_field import SizeField, size_field
 from surfmesh.sizing.options.sizing import Sizing
-from surfmesh.sizing.rules.rim_size import Rims
+from surfmesh.sizing.rules.rim_rule import Rims
 from surfmesh.sizing.rules.size_limits import SizeLimits
 
 MOST_CELLS, CELLS_OF_TRIANGLE = 250_000, 50
@@ -109,6 +109,8 @@ class _Rounds:
                 if self._latest is None:
                     raise
                 return self._latest, {}  # what no size can mend: the report says what is left
+            cells = len(field.background.child) // 4  # each cell has a row for four parts
+            self.watch.spend(cells)
             loops, name = _loops(self.surface), self.surface.name
             require_field_within(self.sizing.limit, field, loops, name)
         try:
@@ -120,9 +122,10 @@ class _Rounds:
             self.not_followed = [f"no edges follow the kinks of {name!r}: {error}"]
             mesh, refinement, bad = self._meshed(field)
         self._latest = mesh, bad
+        self.watch.spend(len(mesh.triangles))
         if refinement is None or not _can_shrink(field, refinement):
             return self._latest, {}
-        self._cells += len(field.background.child) // 4  # each cell has a row for four parts
+        self._cells += cells
         self._stagnation.record(len(refinement.sizes), len(mesh.triangles))
         too_many = self._cells > max(MOST_CELLS, CELLS_OF_TRIANGLE * len(mesh.triangles))
         if too_many or self._stagnation.is_unchanged:  # the report says what is left
@@ -140,7 +143,9 @@ def estimate_parametric(surface: Surface, sizing: Sizing) -> Estimate:
     loops = _loops(part)
     asked = field_triangles(field, loops)
     if asked <= WHOLE:
-        made = tried(lambda stop: mesh_parametric(surface, sizing, progress=stop))
+        made = counts_within_budget(
+            lambda budget: mesh_parametric(surface, sizing, progress=budget)
+        )
         if made is not None:
             return Estimate.of(made, field.is_anisotropic)
     got = asked * (triangles_per_unit(part, field, loops) or 1.0)
@@ -151,7 +156,7 @@ def explain_parametric(surface: Surface, sizing: Sizing, point: np.ndarray) -> E
     """Which wish decides at the point of the surface that is nearest to ``point`` (3,)."""
     sides = find_sides(surface)
     field = size_field(surface, sizing, sides, rims=Rims(surface, sides))
-    return explain_surface(surface, sizing, field, point, Rims(surface, sides))
+    return explain_surface(surface, sizing, field, point)
 
 
 def _one_round(

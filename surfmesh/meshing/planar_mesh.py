@@ -27,7 +27,7 @@ from surfmesh.meshing.estimate.estimation import (
     require_field_within,
     require_within,
 )
-from surfmesh.meshing.estimate.trial_mesh import WHOLE, tried
+from surfmesh.meshing.estimate.trial_mesh import WHOLE, counts_within_budget
 from surfmesh.meshing.patch.optimise import Optimiser
 from surfmesh.meshing.patch.packing import packed_over
 from surfmesh.meshing.patch.refinement_loop import refined_in_rounds
@@ -36,8 +36,8 @@ from surfmesh.result.surface_mesh import SurfaceMesh
 from surfmesh.sizing.field.size_field import COUNTABLE, SizeField, size_field
 from surfmesh.sizing.options.sizing import Sizing
 from surfmesh.sizing.rules.across_gaps import size_across
-from surfmesh.sizing.rules.size_bounds import SizeBounds
 from surfmesh.sizing.rules.size_limits import SizeLimits
+from surfmesh.sizing.rules.size_rules import SizeRules
 
 GAP_ROUNDS = 3
 """How often the size field is made anew because gaps were found, at most."""
@@ -94,7 +94,7 @@ def mesh_planar(
 def _thinning_distance(domain: PlanarDomain, sizing: Sizing) -> float:
     if sizing.chord is not None:
         return sizing.chord
-    bounds = SizeBounds.of(sizing, diagonal(domain.graph.points))
+    bounds = SizeRules.of(sizing, diagonal(domain.graph.points))
     size = bounds.clamp[1]
     if sizing.has_law:
         points = np.column_stack([domain.graph.points, np.zeros(len(domain.graph.points))])
@@ -127,7 +127,7 @@ def estimate_planar(domain: PlanarDomain, sizing: Sizing) -> Estimate:
     loops = [*domain.outer, *domain.holes]
     asked = combined(field_triangles(field, loops), len(cut.uv), len(loops))
     if asked <= WHOLE:
-        made = tried(lambda stop: mesh_planar(domain, sizing, progress=stop))
+        made = counts_within_budget(lambda budget: mesh_planar(domain, sizing, progress=budget))
         if made is not None:
             return Estimate.of([made.sum()])
     return Estimate.of([asked])

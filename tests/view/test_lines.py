@@ -99,9 +99,9 @@ def test_the_worst_are_marked_worst_first():
 
 
 def test_what_is_drawn_over_what(saddle):
-    def names(by, **wishes):
-        wishes = {"draw_circles": False, "directions": False, "worst": None} | wishes
-        return [layer.name for layer in overlays(saddle, by, **wishes)]
+    def names(by, **drawn):
+        drawn = {"draw_circles": False, "directions": False, "worst": None} | drawn
+        return [layer.name for layer in overlays(saddle, by, **drawn)]
 
     assert names("alpha") == ["model edges", "the 10 worst triangles"]
     assert names("face") == ["model edges"]

@@ -19,7 +19,7 @@ PAPER = {
     "two_peaks": (8138, 1.145573, 0.946467, 0.6),
     "wavy": (40000, 1.105738, 0.951014, 0.6),
 }
-WISHES = {
+SIZINGS = {
     "two_peaks": sm.Sizing(chord=0.0048, growth=1.15),
     "wavy": sm.Sizing(chord=0.0476, growth=1.15),
 }
@@ -28,7 +28,7 @@ smooth_ones = pytest.mark.parametrize("name", PAPER)
 
 @cache
 def meshed(name, optimise):
-    return sm.mesh(sm.load(name), WISHES.get(name), optimise=optimise)
+    return sm.mesh(sm.load(name), SIZINGS.get(name), optimise=optimise)
 
 
 def test_random_size():

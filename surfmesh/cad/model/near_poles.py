@@ -66,7 +66,8 @@ def _straightened(
     pole = vertices[edges[coedges[at].edge].start].point
     (u0, u1), (v0, v1) = face.surface.domain
     width = np.array([u1 - u0, v1 - v0])
-    (corners,) = face.surface.evaluate([[u0, v0], [u1, v0], [u1, v1], [u0, v1]], 0)
+    box = np.array([[u0, v0], [u1, v0], [u1, v1], [u0, v1]])
+    (corners,) = face.surface.evaluate(box, 0)
     size = diagonal(corners)
     (side,) = face.surface.evaluate(coedges[at].uv(FRACTIONS), 0)
     extent = diagonal(side)
@@ -77,7 +78,7 @@ def _straightened(
         fraction = np.linspace(0.0, 1.0, SAMPLES)
         coedge = coedges[place]
         edge = edges[coedge.edge]
-        points = edge.curve.evaluate(edge.parameters(fraction), 0)[0]
+        points = edge.evaluate(fraction, 0)[0]
         uv = closest_point(face.surface, points, coedge.uv(fraction), STEPS, margin=0.0)[0]
         at_end = last != coedge.reversed  # of the edge's range: its end lies in the pole
         near = np.linalg.norm(points - pole, axis=1) < ZONE * extent

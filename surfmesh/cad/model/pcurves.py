@@ -53,12 +53,12 @@ def follows(surface: Surface, edge: CadEdge, coedge: CadCoedge, reach: float) ->
 def _feet(
     surface: Surface, edge: CadEdge, coedge: CadCoedge, fraction: np.ndarray
 ) -> tuple[np.ndarray, np.ndarray]:
-    points = edge.curve.evaluate(edge.parameters(fraction), 0)[0]
+    points = edge.evaluate(fraction, 0)[0]
     uv, distance, _ = closest_point(surface, points, coedge.uv(fraction), STEPS, margin=0.0)
     return uv, distance
 
 
 def _deviation(surface: Surface, edge: CadEdge, coedge: CadCoedge, fraction: np.ndarray) -> float:
-    points = edge.curve.evaluate(edge.parameters(fraction), 0)[0]
+    points = edge.evaluate(fraction, 0)[0]
     (on_face,) = surface.evaluate(coedge.uv(fraction), 0)
     return float(np.linalg.norm(on_face - points, axis=1).max())

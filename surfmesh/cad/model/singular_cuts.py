@@ -102,7 +102,7 @@ def _jump(face: CadFace, line: SingularLine, after: CadCoedge, here: CadCoedge) 
 
 def _crossings(coedge: CadCoedge, line: SingularLine, slack: float) -> list[float]:
     """Fractions of the edge's range, 0 and 1 excluded, at which its p-curve crosses the line."""
-    straight = getattr(coedge.pcurve, "kind", "") == "line"
+    straight = coedge.is_straight
     fraction = np.linspace(0.0, 1.0, 2 if straight else SAMPLES)
     away = coedge.uv(fraction)[:, line.axis] - line.value
     away[np.abs(away) <= slack] = 0.0
@@ -378,6 +378,8 @@ def _parts(coedge: CadCoedge, rows: list[tuple] | None) -> list[CadCoedge]:
 
 
 def _length(edge: CadEdge, t0: float, t1: float) -> float:
+    if edge.curve is None:
+        return 0.0
     t, weights = gauss_rule(t0, t1, LENGTH_PANELS, 12)
     return float(np.linalg.norm(edge.curve.evaluate(t, 1)[1], axis=1) @ weights)
 
@@ -393,7 +395,8 @@ def _chains(loop: Loop, line: SingularLine, slack: float, above: bool) -> tuple[
     begins = [there and far[0] <= slack for there, far in zip(here, away)]
     if not any(begins):
         return [], all(here)
-    chains, start = [], begins.index(True)
+    chains: list[list[CadCoedge]] = []
+    start = begins.index(True)
     for k in (*range(start, len(loop)), *range(start)):
         if begins[k]:
             chains.append([])

@@ -6,12 +6,14 @@ measured anew; p-curves that stray are replaced, and where that does not help to
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from dataclasses import replace
 
 import numpy as np
 
 from surfmesh.cad.model.cad_model import CadCoedge, CadEdge, CadFace, CadVertex
 from surfmesh.cad.model.invariants import ENDS, FRACTIONS, NOISE, distances_to_edges
+from surfmesh.cad.model.loops import Loop
 from surfmesh.cad.model.pcurves import follows
 from surfmesh.geometry.cad_surfaces.curve_on_surface import CurveOnSurface
 from surfmesh.geometry.cad_surfaces.face_surface import FaceSurface
@@ -122,7 +124,7 @@ def tolerances_that_hold(
     for edge in edges:
         if edge.curve is None:
             continue
-        ends = edge.curve.evaluate(edge.parameters(ENDS), 0)[0]
+        ends = edge.evaluate(ENDS, 0)[0]
         for vertex, point in zip((edge.start, edge.end), ends):
             known = vertices[vertex]
             gap = float(np.linalg.norm(point - known.point))
@@ -139,14 +141,14 @@ def tolerances_that_hold(
     ]
 
 
-def widened(surface: FaceSurface, loops: list) -> FaceSurface:
+def widened(surface: FaceSurface, loops: Iterable[Loop]) -> FaceSurface:
     """The surface with room for all samples of the loops in its domain."""
     lo, hi = joined(surface.domain, loops)
     domain = ((float(lo[0]), float(hi[0])), (float(lo[1]), float(hi[1])))
     return surface if domain == surface.domain else surface.with_domain(domain)
 
 
-def joined(domain: Domain, loops: list) -> tuple[np.ndarray, np.ndarray]:
+def joined(domain: Domain, loops: Iterable[Loop]) -> tuple[np.ndarray, np.ndarray]:
     samples = np.concatenate([coedge.uv(FRACTIONS) for loop in loops for coedge in loop])
     (u0, u1), (v0, v1) = domain
     lo = np.minimum(samples.min(axis=0), (u0, v0))

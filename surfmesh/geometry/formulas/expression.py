@@ -17,8 +17,9 @@ import math
 import numbers
 import re
 import unicodedata
-from collections.abc import Callable, Mapping, Sequence
-from typing import NamedTuple
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from functools import reduce
+from typing import NamedTuple, NoReturn
 
 import sympy as sp
 
@@ -145,7 +146,8 @@ def parse_number(text: str | float | sp.Expr) -> float:
         return _number(expression, str(expression), 1)
     if _is_number(text):
         return _finite(text)
-    return _Parser(_as_text(text), (), {}).formula().value
+    part = _Parser(_as_text(text), (), {}).formula()
+    return _number(part.expression, _as_text(text), 1) if part.value is None else part.value
 
 
 def symbol(name: str) -> sp.Symbol:
@@ -296,7 +298,8 @@ class _Parser:
 
     def _call(self, name: str, column: int) -> _Part:
         function = FUNCTIONS[name]
-        opening = self._next()[2]
+        opening = self._column()
+        self._next()
         self._enter(opening)
         arguments = []
         if not (self.place < len(self.tokens) and self.tokens[self.place][1] == ")"):
@@ -310,9 +313,8 @@ class _Parser:
                 wanted = f"{function.fewest} to {function.most}"
             plural = "" if wanted == "1" else "s"
             self._refuse(f"{name} takes {wanted} argument{plural}, not {len(arguments)}", column)
-        value = None
-        if all(argument.value is not None for argument in arguments):
-            value = self._value(function.value, [a.value for a in arguments], column)
+        known = [a.value for a in arguments if a.value is not None]
+        value = self._value(function.value, known, column) if len(known) == len(arguments) else None
         expression = function.build(*(argument.expression for argument in arguments))
         if sp.I in expression.args or (expression.is_Atom and expression.is_finite is False):
             self._refuse(f"{name} is not a finite real number here", column)
@@ -323,11 +325,10 @@ class _Parser:
         if len(parts) == 1:
             return parts[0]
         column = parts[0].column
+        known = [part.value for part in parts if part.value is not None]
         value = None
-        if all(part.value is not None for part in parts):
-            value = parts[0].value
-            for part in parts[1:]:
-                value = self._value(operation, (value, part.value), column)
+        if len(known) == len(parts):
+            value = reduce(lambda a, b: self._value(operation, (a, b), column), known)
         expression = build(*(part.expression for part in parts))
         if expression.is_Atom and expression.is_finite is False:  # sin(pi)**-1, exactly
             self._refuse("not a finite real number", column)
@@ -348,13 +349,13 @@ class _Parser:
             self._refuse("the number is too large", column)
         return float(value)
 
-    def _tokens(self):
+    def _tokens(self) -> Iterator[tuple[str, str, int]]:
         position = 0
         while position < len(self.text):
             match = _TOKEN.match(self.text, position)
             if match is None:
                 self._refuse(_stray(self.text[position]), position + 1)
-            if match.lastgroup != "space":
+            if match.lastgroup is not None and match.lastgroup != "space":
                 yield match.lastgroup, match.group(), position + 1
             position = match.end()
 
@@ -367,7 +368,8 @@ class _Parser:
     def _take(self, *operators: str) -> str | None:
         """The next token if it is one of these operators."""
         if self.place < len(self.tokens) and self.tokens[self.place][1] in operators:
-            return self._next()[1]
+            self.place += 1
+            return self.tokens[self.place - 1][1]
         return None
 
     def _column(self) -> int:
@@ -392,7 +394,7 @@ class _Parser:
             self._refuse("a comma outside a function's parentheses", column)
         self._refuse(f"an operator is missing before {_shown(token[1])}", column)
 
-    def _refuse(self, reason: str, column: int):
+    def _refuse(self, reason: str, column: int) -> NoReturn:
         raise FormulaError(reason, self.text, column)
 
 

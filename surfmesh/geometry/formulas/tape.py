@@ -22,6 +22,9 @@ from surfmesh.geometry.formulas import interval
 BLOCK = 2048  # points at a time: a register is 16 kB, a dozen of them fit the second cache
 
 
+Bounds = tuple[np.ndarray | np.float64, np.ndarray | np.float64]
+
+
 class Operation(NamedTuple):
     """One kind of instruction: on arrays, `point(*operands, out=...)`; on intervals, `bounds`."""
 
@@ -195,17 +198,18 @@ class Tape(NamedTuple):
         with np.errstate(all="ignore"):
             for start in range(0, count, BLOCK):
                 part = slice(start, start + BLOCK)
-                slots = [(lo[part, k], hi[part, k]) for k in range(self.inputs)]
+                slots: list[Bounds] = [(lo[part, k], hi[part, k]) for k in range(self.inputs)]
                 slots += [(constant, constant) for constant in map(np.float64, self.constants)]
-                slots += [None] * self.registers
+                nothing = np.zeros(len(lo[part]))
+                slots += [(nothing, nothing)] * self.registers  # each is written before it is read
                 for operation, target, operands, exponent in self.instructions:
                     values = [slots[operand] for operand in operands]
-                    if exponent:
-                        values.append(exponent)
                     if operation == "kink" and not kinks:
-                        slots[target] = (np.zeros(len(lo[part])),) * 2
-                        continue
-                    slots[target] = OPERATIONS[operation].bounds(*values)
+                        slots[target] = (nothing, nothing)
+                    elif exponent:
+                        slots[target] = OPERATIONS[operation].bounds(*values, exponent)
+                    else:
+                        slots[target] = OPERATIONS[operation].bounds(*values)
                 for place, slot in enumerate(self.outputs):
                     lower[part, place], upper[part, place] = slots[slot]
         # outwards by more than the round-off of a tape of ordinary length

@@ -17,7 +17,7 @@ RIGHT_ANGLE = 1e-9
 
 def graded_by_direction(
     points: list[np.ndarray],
-    wishes: list[np.ndarray],
+    targets: list[np.ndarray],
     ways: np.ndarray,
     ends: np.ndarray,
     slope: float,
@@ -25,13 +25,13 @@ def graded_by_direction(
 ) -> list[np.ndarray]:
     """Graded sizes along each edge.
 
-    points (n, 3), wishes (n,) at the samples of each edge; ways (e, 2, 3): unit tangents at its
+    points (n, 3), targets (n,) at the samples of each edge; ways (e, 2, 3): unit tangents at its
     start and end; ends (e, 2): vertices. Of two edges at a vertex, one is at most ``ratio`` times
     coarser, and at most 1 / cos of the angle between their lines: a size along one of them is a
     size along its part on the other too.
     """
     way = [_lengths(place) for place in points]
-    sizes = [_graded(size, step, slope) for size, step in zip(wishes, way)]
+    sizes = [_graded(size, step, slope) for size, step in zip(targets, way)]
     vertex = np.asarray(ends).reshape(-1)
     order = np.argsort(vertex, kind="stable")
     starts = np.flatnonzero(np.r_[True, np.diff(vertex[order]) != 0])

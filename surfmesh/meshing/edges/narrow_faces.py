@@ -258,20 +258,20 @@ def foot_on_edge(
     """Closest points of an edge to points (n, 3) from guesses: shares (n,), distances (n,)."""
     own = model.edges[edge]
     best = np.clip(share, 0.0, 1.0)
-    here = own.curve.evaluate(own.parameters(best), 1)
+    here = own.evaluate(best, 1)
     away = np.linalg.norm(here[0] - points, axis=1)
     for _ in range(FOOT_STEPS):
         speed = here[1] * (own.t1 - own.t0)
         square = np.maximum(np.einsum("ij,ij->i", speed, speed), np.finfo(float).tiny)
         step = np.einsum("ij,ij->i", points - here[0], speed) / square
         tried = np.clip(best + step, 0.0, 1.0)
-        here = own.curve.evaluate(own.parameters(tried), 1)
+        here = own.evaluate(tried, 1)
         now = np.linalg.norm(here[0] - points, axis=1)
         better = now < away
         best, away = np.where(better, tried, best), np.where(better, now, away)
         if not better.any():
             break
-        here = own.curve.evaluate(own.parameters(best), 1)
+        here = own.evaluate(best, 1)
     return best, away
 
 

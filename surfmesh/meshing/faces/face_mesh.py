@@ -4,6 +4,7 @@ nodes of its edges -> (u, v) loops -> size field -> packing -> boundary -> optim
 (numbers, points)     seams twice     graded inward from the sizes of the edges
 """
 
+import logging
 from collections import Counter
 from dataclasses import replace
 from itertools import pairwise
@@ -39,6 +40,8 @@ from surfmesh.meshing.patch.packing import packed_over
 from surfmesh.sizing.field.boundary_field import boundary_field, has_boundary_field
 from surfmesh.sizing.field.size_field import SizeField, size_field
 from surfmesh.sizing.rules.size_limits import SizeLimits, along_lines
+
+logger = logging.getLogger(__name__)
 
 FINER = 0.5
 """Factor on the sizes where sides cannot be joined."""
@@ -103,6 +106,7 @@ def _mesh_rest(job: FaceJob) -> FaceMesh:
             refinement = limits_where_crossing(job, np.atleast_2d(where))
         return FaceMesh(failure=str(error), refinement=refinement)
     except Exception as error:  # a mistake of ours: it must not take the other faces with it
+        logger.debug("internal error on %s", job.surface.name, exc_info=True)
         at = extract_tb(error.__traceback__)[-1]
         return FaceMesh(
             failure=f"internal error, please report it with the model: {type(error).__name__}: "

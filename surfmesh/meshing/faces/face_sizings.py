@@ -1,4 +1,4 @@
-"""What each face of a model has to heed: its wishes, and of the sources those that reach it."""
+"""What is asked for on each face of a model: its sizes, and of the sources those that reach it."""
 
 import numpy as np
 

@@ -127,7 +127,7 @@ class _Curves(NamedTuple):
         if edge is None or edge.curve is None:
             return None
         start, end = self.ends[segments].T[:, :, None]
-        (points,) = edge.curve.evaluate(edge.parameters((start + t * (end - start)).ravel()), 0)
+        (points,) = edge.evaluate((start + t * (end - start)).ravel(), 0)
         return points.reshape(len(segments), len(t), 3)
 
 

@@ -43,19 +43,19 @@ def test_a_cylinder_is_straight_one_way(tube):
     ids=["edge", "face beside it", "chord", "angle", "min_size"],
 )
 def test_the_rule_of_a_selection_wins(tube, extra, rule):
-    wish = {"*": sm.Sizing(chord=0.02, anisotropy=10), **extra}
-    short, long = sm.explain(tube, wish, (0, 5, 58)).axes
+    sizes = {"*": sm.Sizing(chord=0.02, anisotropy=10), **extra}
+    short, long = sm.explain(tube, sizes, (0, 5, 58)).axes
     assert short.winner.rule == rule and short.winner.key in extra
     if rule == "size 0.3":
-        assert short.origin.startswith("grown from edge") and short.size < short.wish
+        assert short.origin.startswith("grown from edge") and short.size < short.target_size
         assert long.origin.startswith("shrunk with the other size, grown from edge")
     else:
         assert not short.origin and short.size == pytest.approx(short.winner.size, rel=0.01)
 
 
 def test_an_edge_has_curvature_of_its_own(tube):
-    wish = {"*": sm.Sizing(chord=0.02, anisotropy=10), "type:cylinder": {"min_size": 2.0}}
-    short, _ = sm.explain(tube, wish, (0, 5, 58)).axes  # the plane beside it has no such bound
+    sizes = {"*": sm.Sizing(chord=0.02, anisotropy=10), "type:cylinder": {"min_size": 2.0}}
+    short, _ = sm.explain(tube, sizes, (0, 5, 58)).axes  # the plane beside it has no such bound
     assert "edge" in short.origin
     assert short.winner.rule == "chord 0.02 at the edge's own curvature 0.25 (radius 4)"
 

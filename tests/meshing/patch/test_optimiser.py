@@ -27,10 +27,10 @@ from surfmesh.sizing.field.size_field import size_field
 from surfmesh.sizing.options.sizing import Sizing
 
 
-def optimiser_of(name="two_peaks", **wishes):
+def optimiser_of(name="two_peaks", **asked):
     surface = load(name)
     sides = find_sides(surface)
-    sizing = Sizing(**(wishes or dict(chord=0.03, max_size=0.9, growth=1.3)))
+    sizing = Sizing(**(asked or dict(chord=0.03, max_size=0.9, growth=1.3)))
     field = size_field(surface, sizing, sides)
     width, height = field.chart.extent
     t = packed(field.background, (0, 0, width, height), (width / 2, height / 2), 2000).t
@@ -53,8 +53,8 @@ STEPS = ["_swap", "_smooth", "_swap_for_degree", "_smooth", "_swap", "_collapse"
 @pytest.mark.parametrize("name, euler", [("two_peaks", 1), ("pierced_saddle", 0), ("sphere", 1)])
 def test_every_step_keeps_the_invariants(name, euler):
     """Positive in the plane, the same domain, the same border, frozen vertices where they were."""
-    wishes = {"pierced_saddle": dict(size=0.12), "sphere": dict(size=0.2)}.get(name, {})
-    optimiser, domain = optimiser_of(name, **wishes)
+    asked = {"pierced_saddle": dict(size=0.12), "sphere": dict(size=0.2)}.get(name, {})
+    optimiser, domain = optimiser_of(name, **asked)
     t = optimiser.t
     border = {e for e, h in half_edges(t).items() if t.adj[h] == NIL}
     nodes = t.xy[domain.node].copy()

@@ -1,4 +1,4 @@
-"""The size field against the wishes it interpolates, measured on the surface."""
+"""The size field against the target sizes it interpolates, measured on the surface."""
 
 import numpy as np
 import pytest
