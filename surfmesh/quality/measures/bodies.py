@@ -21,11 +21,13 @@ from numpy.typing import NDArray
 
 from surfmesh.geometry.boxes import diagonal
 from surfmesh.quality.measures.by_solid import SolidRow
-from surfmesh.quality.measures.inside import distance_to_triangles, inside
+from surfmesh.quality.measures.inside import inside
 from surfmesh.quality.measures.known_surfaces import KnownSurfaces
 from surfmesh.quality.measures.penetration import depths, distances_allowed
+from surfmesh.quality.measures.places import Point, as_point
 from surfmesh.quality.measures.solids import solids_beside
 from surfmesh.quality.measures.topology import vertex_components
+from surfmesh.quality.measures.triangle_distances import triangle_distances
 from surfmesh.quality.measures.true_depth import true_depth, true_depth_of_faces
 from surfmesh.result.surface_mesh import SurfaceMesh
 
@@ -47,7 +49,7 @@ class BodyPair:
     triangles: int  # pairs of them that meet
     depth: float | None  # by which they overlap, or their facets do; None: one lies within
     gap: float | None  # between faces that are near
-    point: tuple[float, float, float]
+    point: Point
 
 
 class Bodies(NamedTuple):
@@ -191,7 +193,7 @@ def _pair(
     ]
     return BodyPair(
         (names[0], names[1]), (numbers[0], numbers[1]), kind, triangles, depth, gap,
-        tuple(place.tolist()),
+        as_point(place),
     )  # fmt: skip
 
 
@@ -274,7 +276,7 @@ def _probed(one: _Solid, other: _Solid, least: float) -> tuple[NDArray | None, N
     deep = None
     for k in _within(points, other):
         if inside(points[k : k + 1], one.corners)[0] and all(
-            distance_to_triangles(points[k], part.corners).min() > CLEAR * depth[k]
+            triangle_distances(points[k][None], part.corners).min() > CLEAR * depth[k]
             for part in (one, other)
         ):
             deep = points[k]

@@ -26,7 +26,7 @@ class ChordUse(NamedTuple):
 def chord_use(known: KnownSurfaces, fit: Deviation, tolerances: Tolerances) -> ChordUse | None:
     """None where no chord was asked for, or sizes are not known.
 
-    ``chord`` decides where the size wanted at a triangle is at least 0.8 of what the curvature
+    ``chord`` decides where the target size at a triangle is at least 0.8 of what the curvature
     at its centroid allows: not where growth, ``max_size``, ``angle`` or a source ask for less,
     nor where an earlier round has lowered the sizes by more than that.
     """
@@ -35,7 +35,7 @@ def chord_use(known: KnownSurfaces, fit: Deviation, tolerances: Tolerances) -> C
         return None
     step = -(-len(mesh.triangles) // SAMPLES)
     chosen = np.arange(0, len(mesh.triangles), step)
-    wanted = mesh.sizes[mesh.triangles[chosen]].mean(axis=1)
+    target = mesh.sizes[mesh.triangles[chosen]].mean(axis=1)
     decided = np.zeros(len(chosen), bool)
     faces = mesh.face_ids[chosen]
     for face in np.unique(faces):
@@ -43,7 +43,7 @@ def chord_use(known: KnownSurfaces, fit: Deviation, tolerances: Tolerances) -> C
         uv = known.uv(chosen[here]).mean(axis=1)
         chord = tolerances.one(tolerances.chord, int(face))
         if chord is not None:
-            decided[here] = wanted[here] >= DECIDED * _allowed(mesh, int(face), uv, chord)
+            decided[here] = target[here] >= DECIDED * _allowed(mesh, int(face), uv, chord)
     used = fit.by_triangle[chosen[decided]] / tolerances.at(tolerances.chord, faces[decided])
     return ChordUse(float(decided.mean()), float(np.median(used)) if len(used) else None)
 

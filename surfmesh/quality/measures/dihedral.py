@@ -24,10 +24,10 @@ class DihedralAngles(NamedTuple):
 
     edges: NDArray[np.intp]  # (k,) of ``mesh.edges``: between two triangles of one face
     faces: NDArray[np.int32]  # (k,)
-    angles: NDArray[np.float64]  # (k,) 0 where the surface itself bends
+    angles: NDArray[np.float64]  # (k,) 0 on a crease of the surface
 
     def above(self, angle: float | NDArray[np.float64]) -> NDArray[np.bool_]:
-        """(k,) which of them turn by more than ``angle``, degrees: one for all, or (k,)."""
+        """(k,) which of them are larger than ``angle``, degrees: one for all, or (k,)."""
         return self.angles > angle * (1 + SLACK)
 
 
@@ -62,10 +62,10 @@ def angles_within_faces(
         beside = corners_beside(pairs[here])
         uv = known.corners.uv_points[known.corners.uv_triangles.ravel()[beside]]
         vertices = mesh.triangles.ravel()[beside]
-        bent = on_crease(
+        creased = on_crease(
             mesh.surfaces[face], vertices, uv, float(limits[face]), diagonal(mesh.points[own])
         )
-        angles[here[bent]] = 0.0
+        angles[here[creased]] = 0.0
     return DihedralAngles(edges, faces, angles)
 
 

@@ -1,14 +1,15 @@
-"""Edge lengths against the wanted ones, and how fast they change from edge to edge."""
+"""Edge lengths against the target sizes, and how fast they change from edge to edge."""
 
 from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
+from surfmesh.quality.measures.places import Point, as_point
 from surfmesh.result.surface_mesh import SurfaceMesh
 from surfmesh.sizing.metric_roots import unpacked
 
-QUASI_UNIT = (0.5**0.5, 2.0**0.5)  # metric lengths that conform to the wanted sizes
+QUASI_UNIT = (0.5**0.5, 2.0**0.5)  # metric lengths that conform to the target sizes
 GROWTH_SLACK = 0.01  # relative: sizes are interpolated between the nodes of the field
 BLOCK = 1 << 15  # edges looked at together, to stay within the cache
 
@@ -90,15 +91,15 @@ def growth(mesh: SurfaceMesh, lengths: NDArray[np.float64]) -> Growth:
 
 
 class SizeGrowth(NamedTuple):
-    """By how much the sizes wanted at the two ends of an edge differ, over what is allowed."""
+    """By how much the target sizes at the two ends of an edge differ, over what is allowed."""
 
     fraction: float  # of the edges, those along which it is more than allowed
     largest: float  # 1 is allowed
-    point: tuple[float, float, float]  # middle of that edge
+    point: Point  # middle of that edge
 
 
 def size_growth(mesh: SurfaceMesh, lengths: NDArray[np.float64], slope: float) -> SizeGrowth | None:
-    """Growth of the wanted sizes over the edges of the mesh, in any direction.
+    """Growth of the target sizes over the edges of the mesh, in any direction.
 
     Along an edge of length l sizes may differ by ``slope`` l. Where sizes depend on the direction
     those along the edge are compared. None without sizes or edges of a length.
@@ -124,4 +125,4 @@ def size_growth(mesh: SurfaceMesh, lengths: NDArray[np.float64], slope: float) -
     worst = int(over.argmax())
     place = mesh.points[mesh.edges[worst]].mean(axis=0)
     fraction = float(np.mean(over > 1.0 + GROWTH_SLACK))
-    return SizeGrowth(fraction, float(over[worst]), tuple(place.tolist()))
+    return SizeGrowth(fraction, float(over[worst]), as_point(place))

@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 
 from surfmesh.geometry.boxes import diagonal
 from surfmesh.quality.measures.penetration import distances_allowed, edge_sagittas
+from surfmesh.quality.measures.places import Point, as_point
 from surfmesh.result.surface_mesh import SurfaceMesh
 
 GAP = 1e-4  # of the diagonal: rims farther apart are no rims of one edge
@@ -27,7 +28,7 @@ class LooseEdges:
     edges: int
     faces: int
     gap: float  # the widest between them that their chords do not explain, model units
-    point: tuple[float, float, float]  # where it is
+    point: Point  # where it is
 
 
 def loose_edges(
@@ -56,7 +57,7 @@ def loose_edges(
     worst = loose[int(np.argmax(gap[loose]))]
     found = LooseEdges(
         len(np.unique(model_edges[loose])), len(np.unique(face[loose])), float(gap[worst]),
-        tuple(ends[worst].mean(axis=0).tolist()),
+        as_point(ends[worst].mean(axis=0)),
     )  # fmt: skip
     pairs = np.sort(np.stack([face[loose], face[beside[loose]]], axis=1), axis=1)
     return found, set(map(tuple, np.unique(pairs, axis=0).tolist()))

@@ -104,10 +104,10 @@ def _at_sides(seen: NDArray, under: NDArray) -> NDArray:
             c, along = under[:, k], under[:, (k + 1) % 3] - under[:, k]
             area = way[:, 0] * along[:, 1] - way[:, 1] * along[:, 0]
             safe = np.where(area != 0.0, area, 1.0)
-            gap = c - a[:, :2]
+            apart = c - a[:, :2]
             with np.errstate(over="ignore"):  # nearly parallel: far away
-                t = (gap[:, 0] * along[:, 1] - gap[:, 1] * along[:, 0]) / safe
-                s = (gap[:, 0] * way[:, 1] - gap[:, 1] * way[:, 0]) / safe
+                t = (apart[:, 0] * along[:, 1] - apart[:, 1] * along[:, 0]) / safe
+                s = (apart[:, 0] * way[:, 1] - apart[:, 1] * way[:, 0]) / safe
             there = (area != 0.0) & (t >= 0.0) & (t <= 1.0) & (s >= 0.0) & (s <= 1.0)
             found[there, 3 * i + k] = a[there, 2] + t[there] * way[there, 2]
     return found

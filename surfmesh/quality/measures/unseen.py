@@ -26,8 +26,8 @@ from surfmesh.quality.measures.hidden_search import (
 )
 from surfmesh.quality.measures.known_surfaces import KnownSurfaces, Rows
 from surfmesh.quality.measures.places import Point, as_point, as_uv
-from surfmesh.quality.measures.surface_to_mesh import triangle_distances
 from surfmesh.quality.measures.tolerances import Tolerances
+from surfmesh.quality.measures.triangle_distances import triangle_distances
 from surfmesh.result.surface_mesh import SurfaceMesh
 
 SLACK = 1.3

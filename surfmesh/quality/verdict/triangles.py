@@ -81,31 +81,31 @@ class FoldedSurface(Remark):
 
 def bad_triangles(measured: Measurements) -> Iterator[Problem]:
     """Those without area, then those turned over, then those turned more than 60 degrees."""
-    mesh, turned = measured.mesh, measured.folds
+    mesh, folds = measured.mesh, measured.folds
     flat = without_area(mesh, measured.shapes.alpha)
     yield from _triangles(mesh, flat, Kind.WITHOUT_AREA, "without area")
-    if turned is None:
+    if folds is None:
         return
-    folded = turned.by_mesh & ~turned.inverted
+    folded = folds.by_mesh & ~folds.inverted
     for bad, kind, what in (
-        (turned.inverted, Kind.INVERTED, "inverted against the surface"),
+        (folds.inverted, Kind.INVERTED, "inverted against the surface"),
         (folded, Kind.FOLDED, "folded: turned more than 60° from the surface"),
     ):
-        yield from _triangles(mesh, bad, kind, what, _causes(turned, bad))
+        yield from _triangles(mesh, bad, kind, what, _causes(folds, bad))
 
 
 def folded_surfaces(measured: Measurements) -> Iterator[Remark]:
     """Faces that bend sharply or turn over, and where each does most."""
-    turned, mesh = measured.folds, measured.mesh
-    if turned is None or not turned.by_surface.any():
+    folds, mesh = measured.folds, measured.mesh
+    if folds is None or not folds.by_surface.any():
         return
     faces = []
-    for face in np.unique(mesh.face_ids[turned.by_surface]).tolist():
-        some = np.flatnonzero(turned.by_surface & (mesh.face_ids == face))
-        worst = some[turned.cosine[some].argmin()]
+    for face in np.unique(mesh.face_ids[folds.by_surface]).tolist():
+        some = np.flatnonzero(folds.by_surface & (mesh.face_ids == face))
+        worst = some[folds.cosine[some].argmin()]
         place = as_point(mesh.points[mesh.triangles[worst]].mean(axis=0))
         faces.append(FoldedFace(name=mesh.face_name(face), place=place, triangles=len(some)))
-    yield FoldedSurface(radius=turned.radius, faces=tuple(faces), place=faces[0].place)
+    yield FoldedSurface(radius=folds.radius, faces=tuple(faces), place=faces[0].place)
 
 
 def _triangles(
@@ -124,17 +124,17 @@ def _triangles(
         )
 
 
-def _causes(turned: Folds, bad: NDArray[np.bool_]) -> tuple[FoldCause, ...]:
+def _causes(folds: Folds, bad: NDArray[np.bool_]) -> tuple[FoldCause, ...]:
     """Edges off the surface, or images in (u, v) that are not those of their nodes."""
     edges = "beside edges that lie up to {:.3g} off the surface"
     images = (
-        f"beside nodes that lie on the surface to {turned.nearest:.2g} and their (u, v) up to "
+        f"beside nodes that lie on the surface to {folds.nearest:.2g} and their (u, v) up to "
         "{:.3g} from there, moved apart where the boundary crosses itself, or so in the file"
     )
     causes = []
     for reached, here, what in (
-        (turned.off_surface, bad & (turned.off_surface > 0.0), edges),
-        (turned.misplaced, bad & (turned.misplaced > turned.off_surface), images),
+        (folds.off_surface, bad & (folds.off_surface > 0.0), edges),
+        (folds.misplaced, bad & (folds.misplaced > folds.off_surface), images),
     ):
         if here.any():
             most = float(reached[here].max())
