@@ -19,7 +19,7 @@ import re
 import unicodedata
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from functools import reduce
-from typing import NamedTuple, NoReturn
+from typing import NamedTuple, NoReturn, TypeGuard
 
 import sympy as sp
 
@@ -413,7 +413,7 @@ def _negative(part: _Part) -> _Part:
     )
 
 
-def _as_text(text) -> str:
+def _as_text(text: object) -> str:
     if isinstance(text, str):
         # a line break would tear the caret from its column
         return re.sub(r"[\r\n\t]", " ", text)
@@ -423,11 +423,11 @@ def _as_text(text) -> str:
     raise FormulaError(f"a formula is text, a number or a SymPy expression, not {shown(text)}")
 
 
-def _is_number(value: object) -> bool:
+def _is_number(value: object) -> TypeGuard[numbers.Real]:
     return isinstance(value, numbers.Real) and not isinstance(value, bool)
 
 
-def is_finite(value) -> bool:
+def is_finite(value: numbers.Real) -> bool:
     """Is a real number of any type a number as a float too?"""
     try:
         return math.isfinite(float(value))
@@ -435,7 +435,7 @@ def is_finite(value) -> bool:
         return False
 
 
-def _finite(value) -> float:
+def _finite(value: numbers.Real) -> float:
     if not is_finite(value):
         raise FormulaError("a finite number is needed", shown(value))
     return float(value)
@@ -459,7 +459,7 @@ def _cut(token: str) -> str:
     return token if len(token) <= LONGEST_NAME else f"{token[:LONGEST_NAME]}..."
 
 
-def _rational(number) -> sp.Rational:
+def _rational(number: object) -> sp.Rational:
     """The shortest decimal that a number prints as, exactly."""
     if not _is_number(number) or not abs(_finite(number)) <= RANGE.constant:
         raise SurfaceError(f"a parameter must be a finite number, not {shown(number)}")

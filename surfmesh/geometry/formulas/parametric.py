@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numbers
 from collections.abc import Mapping, Sequence
-from typing import Any
+from typing import Any, NoReturn
 
 import numpy as np
 
@@ -298,7 +298,7 @@ def _halved(lo: np.ndarray, hi: np.ndarray, axis: int) -> tuple[np.ndarray, np.n
     return np.concatenate([lo, second_lo]), np.concatenate([first_hi, hi])
 
 
-def _refuse(surface: ParametricSurface, place: np.ndarray, axis: int):
+def _refuse(surface: ParametricSurface, place: np.ndarray, axis: int) -> NoReturn:
     formula = surface.formulas[axis]
     shown = formula if len(formula) <= 60 else formula[:57] + "..."
     raise SurfaceError(

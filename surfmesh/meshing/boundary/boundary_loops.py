@@ -43,6 +43,14 @@ class BoundaryLoops:
     """(k,) int64: the first node that is the same point in 3D, for most nodes itself."""
     inner: np.ndarray = field(default_factory=lambda: np.empty((0, 2), np.int32))
     """(j, 2) int32, pairs of nodes of segments within the domain: the surface is on both sides."""
+    points: np.ndarray | None = None
+    """(k, 3) where the nodes lie in space; None: on the surface. Edges of CAD models lie on their
+    faces with some tolerance only."""
+
+    @property
+    def joined(self) -> int:
+        """How many nodes are identified with others."""
+        return len(self.identity) - len(np.unique(self.identity))
 
 
 def boundary_loops(
