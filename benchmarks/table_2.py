@@ -157,7 +157,7 @@ def _deviation(ratio: np.ndarray) -> np.ndarray:
 def _placed_radii(surface: Surface, sizing: sm.Sizing) -> np.ndarray:
     """Got over wanted radius of the circles whose centres lie in the domain."""
     field, is_inside = _field(surface, sizing)
-    packing = packed_over(field)
+    packing = packed_over(field, field.chart)
     count = int(packing.t.count[0])
     return packing.radius[:count][is_inside(packing.t.xy[:count])]
 

@@ -5,7 +5,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from surfmesh.kernels.space.measure import component_labels
+from surfmesh.geometry.components import components
 from surfmesh.result.surface_mesh import SurfaceMesh
 
 
@@ -63,7 +63,7 @@ def topology(mesh: SurfaceMesh) -> Topology:
         triangles=len(mesh.triangles),
         components=_count(vertex_components(mesh), used),
         boundary_edges=len(boundary),
-        boundary_loops=_count(_labels(n, boundary), np.unique(boundary)),
+        boundary_loops=_count(components(n, boundary), np.unique(boundary)),
         crowded_edges=np.flatnonzero(table.uses > 2).astype(np.int32),
         pinched_vertices=np.flatnonzero(fans > 1).astype(np.int32),
         clashing_edges=clashing,
@@ -74,13 +74,7 @@ def topology(mesh: SurfaceMesh) -> Topology:
 
 def vertex_components(mesh: SurfaceMesh) -> NDArray[np.int32]:
     """(n,) the smallest number among the vertices that each hangs together with."""
-    return _labels(len(mesh.points), mesh.edges)
-
-
-def _labels(count: int, pairs: NDArray[np.int32]) -> NDArray[np.int32]:
-    labels = np.empty(count, np.int32)
-    component_labels(pairs, labels)
-    return labels
+    return components(len(mesh.points), mesh.edges)
 
 
 def _count(labels: NDArray[np.int32], members: NDArray) -> int:
@@ -139,7 +133,7 @@ def _fans(mesh: SurfaceMesh, crowded: tuple[NDArray, NDArray]) -> NDArray[np.int
     there_end = _next(there)
     links[0::2, 1] = np.where(same, there, there_end)
     links[1::2, 1] = np.where(same, there_end, there)
-    labels = _labels(len(corners), links)
+    labels = components(len(corners), links)
     del links
     heads = corners[labels == np.arange(len(corners), dtype=np.int32)]
     return np.bincount(heads, minlength=len(mesh.points))
