@@ -111,11 +111,11 @@ class ParametricSurface:
         if order == 0:
             return values
         if is_bent(self.bent_axes):
-            off = kept_off(self.bent_axes, uv)
-            near = np.flatnonzero((off != uv).any(axis=1))
-            for value, better in zip(values[1:], self.tape(order).evaluate(off[near])[1:]):
+            clear = kept_off(self.bent_axes, uv)
+            near = np.flatnonzero((clear != uv).any(axis=1))
+            for value, better in zip(values[1:], self.tape(order).evaluate(clear[near])[1:]):
                 value[near] = better
-            uv = off
+            uv = clear
         if all(np.isfinite(value).all() for value in values[1:]):
             return values
         broken = ~_finite_rows(values[1:])
