@@ -94,22 +94,22 @@ def _places(options: argparse.Namespace) -> list[str]:
 
 def _measured(place: str, options: argparse.Namespace) -> Iterator[dict]:
     """What each mesher makes of one model. The first says what the model is and its sizes."""
-    wishes = {"most_faces": options.most_faces}
+    asked = {"most_faces": options.most_faces}
     first = "ours" if "ours" in options.meshers else "facts"
-    known = _run(first, place, options, wishes)
+    known = _run(first, place, options, asked)
     yield known
     if "chord" not in known or known.get("left_out"):
         return
-    wishes = {name: known[name] for name in ("chord", "max_size", "diagonal")}
-    wishes["wanted"] = known.get("triangles")
+    asked = {name: known[name] for name in ("chord", "max_size", "diagonal")}
+    asked["wanted"] = known.get("triangles")
     for mesher in options.meshers:
         if mesher != "ours":
-            yield _run(mesher, place, options, wishes)
+            yield _run(mesher, place, options, asked)
 
 
-def _run(mesher: str, place: str, options: argparse.Namespace, wishes: dict) -> dict:
+def _run(mesher: str, place: str, options: argparse.Namespace, asked: dict) -> dict:
     start = perf_counter()
-    found = cad_meshers.run(mesher, place, options.time_limit, **wishes)
+    found = cad_meshers.run(mesher, place, options.time_limit, **asked)
     seconds = perf_counter() - start
     return {"file": Path(place).name, "mesher": mesher, **found, "seconds_process": seconds}
 

@@ -20,9 +20,9 @@ import numpy as np
 AGAIN = 8.0  # processor seconds up to which our mesh is made twice, then with warm kernels
 
 
-def run(mesher: str, place: str, timeout: float, **wishes: object) -> dict:
+def run(mesher: str, place: str, timeout: float, **asked: object) -> dict:
     """place: a file, or "part:NAME". Figures of the mesh, or "error" and how it "ended"."""
-    request = {"mesher": mesher, "place": place, "time_limit": timeout, **wishes}
+    request = {"mesher": mesher, "place": place, "time_limit": timeout, **asked}
     found = child_process.run("cad_meshers.py", request, timeout)
     if "error" in found and "triangles" in found:  # a first attempt is there
         found["cut_short"] = found.pop("error")

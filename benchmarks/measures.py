@@ -66,7 +66,7 @@ def packing_rate(name: str, sizing: dict, repeats: int) -> float:
     best = 0.0
     for _ in range(repeats):
         start = time.perf_counter()
-        packing = packed_over(field)
+        packing = packed_over(field, field.chart)
         seconds = time.perf_counter() - start
         triangles = np.count_nonzero(packing.t.region[: packing.t.count[1]] == DONE)
         best = max(best, triangles / seconds)

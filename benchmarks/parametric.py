@@ -144,9 +144,9 @@ def _meshes(name: str, sizes: list[int], options: argparse.Namespace, found: dic
 
 
 def _sizing_text(sizing: dict, extent: float) -> str:
-    (wish, value), *others = sizing.items()
+    (option, value), *others = sizing.items()
     rest = "".join(f", {name} {other:g}" for name, other in others)
-    return f"{wish} {value:g} ({value / extent:.2g} of the diagonal){rest}"
+    return f"{option} {value:g} ({value / extent:.2g} of the diagonal){rest}"
 
 
 def _speed(found: dict) -> int:

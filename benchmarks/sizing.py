@@ -103,11 +103,11 @@ def _name(place: str) -> str:
 
 def _measured(place: str, options: argparse.Namespace) -> Iterator[dict]:
     """A row for each mesher, deviation and ratio of one input."""
-    wishes = {name: getattr(options, name) for name in ("deviations", "ratios", "most")}
+    asked = {name: getattr(options, name) for name in ("deviations", "ratios", "most")}
     first = {"surface": _name(place)}
     if place.startswith(FORMULA):
         if "ours" in options.meshers:
-            yield from _rows("ours", place, options, wishes, first)
+            yield from _rows("ours", place, options, asked, first)
         return
     with tempfile.TemporaryDirectory(prefix="surfmesh-") as folder:
         truth = sizing_meshers.run("truth", place, options.time_limit, folder=folder)
@@ -115,16 +115,16 @@ def _measured(place: str, options: argparse.Namespace) -> Iterator[dict]:
             yield _said({**first, "mesher": "truth", "left_out": truth["error"]})
             return
         first |= {"faces_of_model": truth["faces"], "area_exact": truth["area"]}
-        wishes |= {"folder": folder, "diagonal": truth["diagonal"]}
-        wishes["max_size"] = LARGEST * truth["diagonal"]
+        asked |= {"folder": folder, "diagonal": truth["diagonal"]}
+        asked["max_size"] = LARGEST * truth["diagonal"]
         for mesher in options.meshers:
-            yield from _rows(mesher, place, options, wishes, first)
+            yield from _rows(mesher, place, options, asked, first)
 
 
 def _rows(
-    mesher: str, place: str, options: argparse.Namespace, wishes: dict, first: dict
+    mesher: str, place: str, options: argparse.Namespace, asked: dict, first: dict
 ) -> Iterator[dict]:
-    found = sizing_meshers.run(mesher, place, options.time_limit, **wishes)
+    found = sizing_meshers.run(mesher, place, options.time_limit, **asked)
     rows = found.get("rows", [])
     for row in rows:
         if "error" in found and row is rows[-1]:  # it ended in the middle of this one

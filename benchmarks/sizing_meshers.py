@@ -39,9 +39,9 @@ DEAREST = 1.5  # an attempt may cost this much more than the one before foretell
 Mesh = tuple[np.ndarray, np.ndarray, int]  # points (n, 3), triangles (m, 3), faces without any
 
 
-def run(mesher: str, place: str, timeout: float, **wishes: object) -> dict:
+def run(mesher: str, place: str, timeout: float, **asked: object) -> dict:
     """place: "formula:NAME", "shape:NAME" or a file. "rows", and "error" when it ended early."""
-    request = {"mesher": mesher, "place": place, "time_limit": timeout, **wishes}
+    request = {"mesher": mesher, "place": place, "time_limit": timeout, **asked}
     return child_process.run("sizing_meshers.py", request, timeout)
 
 

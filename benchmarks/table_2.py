@@ -97,8 +97,8 @@ def random_figures(seeds: int = SEEDS) -> dict:
         sm.pack(sm.UniformRadius(1.0, 1000.0, seed=seed), count=count).statistics
         for seed in range(seeds)
     ]
-    means = {key: float(np.mean([getattr(one, key) for one in found])) for key in keys}
-    ratios = [one.avg2 for one in found]
+    means = {key: float(np.mean([one.to_dict()[key] for one in found])) for key in keys}
+    ratios = [one.neighbour_ratio_mean for one in found]
     return means | {"avg2_least": float(np.min(ratios)), "avg2_most": float(np.max(ratios))}
 
 
@@ -131,7 +131,7 @@ def mesh_figures(surface: Surface, sizing: sm.Sizing, optimise: bool) -> dict:
 
 
 def sizing_at_papers_count(name: str, growth: float) -> sm.Sizing:
-    """The wishes whose raw mesh has about as many nodes as the paper's."""
+    """The sizing whose raw mesh has about as many nodes as the paper's."""
     surface, nodes = sm.load(name), PAPER[name]["nodes"]
     if not isinstance(surface, PlanarDomain):
         count = node_count(surface, optimise=False)
@@ -157,7 +157,7 @@ def _deviation(ratio: np.ndarray) -> np.ndarray:
 def _placed_radii(surface: Surface, sizing: sm.Sizing) -> np.ndarray:
     """Got over wanted radius of the circles whose centres lie in the domain."""
     field, is_inside = _field(surface, sizing)
-    packing = packed_over(field)
+    packing = packed_over(field, field.chart)
     count = int(packing.t.count[0])
     return packing.radius[:count][is_inside(packing.t.xy[:count])]
 

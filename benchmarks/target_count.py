@@ -55,10 +55,10 @@ def sizing_for(
     search = _Search(count, wanted, tolerance)
     if start is not None and start[1] < wanted:  # a finer mesh: the chord decides again
         found, number = start
-        wish = "size" if "size" in found else "chord"
-        power = -2.0 if wish == "size" else -1.0
-        guess = found[wish] * (wanted / number) ** (1.0 / power)
-        return search.run(wish, guess, {"growth": growth}, power)
+        option = "size" if "size" in found else "chord"
+        power = -2.0 if option == "size" else -1.0
+        guess = found[option] * (wanted / number) ** (1.0 / power)
+        return search.run(option, guess, {"growth": growth}, power)
     if search.run("chord", 1e-3 * extent, {"growth": growth}, -1.0) and not search.deaf:
         return search.sizing
     if abs(search.found / wanted - 1.0) < NEAR_ENOUGH:
@@ -66,12 +66,12 @@ def sizing_for(
     if search.found < wanted:
         edge = extent / math.sqrt(wanted)
         return search.run("size", edge, {"growth": growth}, -2.0)
-    wishes = {"angle": LARGEST_ANGLE, "growth": growth}
-    return search.run("chord", search.sizing["chord"], wishes, -1.0)
+    fixed = {"angle": LARGEST_ANGLE, "growth": growth}
+    return search.run("chord", search.sizing["chord"], fixed, -1.0)
 
 
 class _Search:
-    """Secant iterations on the logarithms of one wish and the count."""
+    """Secant iterations on the logarithms of one option and the count."""
 
     def __init__(self, count: Callable[[dict], int], wanted: int, tolerance: float) -> None:
         self.count, self.wanted, self.tolerance = count, wanted, tolerance
@@ -79,21 +79,21 @@ class _Search:
         self.found = 0
         self.deaf = False
 
-    def run(self, wish: str, value: float, others: dict, slope: float) -> dict:
-        """Turn ``wish`` from ``value`` on; the sizing whose count is nearest."""
+    def run(self, option: str, value: float, others: dict, slope: float) -> dict:
+        """Turn ``option`` from ``value`` on; the sizing whose count is nearest."""
         trials: list[tuple[float, int]] = []
         self.deaf = False
         for _ in range(MOST_TRIALS):
             value = float(f"{value:.5g}")
-            trials.append((value, self.count({wish: value, **others})))
+            trials.append((value, self.count({option: value, **others})))
             value, self.found = min(trials, key=lambda t: abs(math.log(t[1] / self.wanted)))
-            self.sizing = {wish: value, **others}
+            self.sizing = {option: value, **others}
             if abs(self.found / self.wanted - 1.0) < self.tolerance:
                 break
             if len(trials) > 1 and trials[-1][0] != trials[-2][0]:
                 (a, m), (b, n) = trials[-2:]
                 slope = math.log(m / n) / math.log(a / b)
-                if wish == "chord" and slope > -DEAF:
+                if option == "chord" and slope > -DEAF:
                     self.deaf = True
                     break
             step = math.log(self.wanted / self.found) / min(slope, -DEAF)

@@ -5,6 +5,11 @@ loop), and what to do about it. Each is also the builtin that a caller would exp
 """
 
 import re
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:  # errors import nothing
+    import numpy as np
+    from numpy.typing import NDArray
 
 UNSAFE = re.compile(
     "[\x00-\x1f\x7f-\x9f\xad\u061c\u180e\u200b\u200e\u200f\u2028-\u202e\u2060-\u206f\ufeff"
@@ -39,6 +44,9 @@ def shown(value: object, longest: int = 60) -> str:
 
 class SurfmeshError(Exception):
     """The parent of everything that surfmesh raises on purpose."""
+
+    where: "NDArray[np.float64] | None" = None
+    """(u, v) or (k, 2): the places in the parameter plane, where these are known."""
 
 
 class SurfaceError(SurfmeshError, ValueError):

@@ -22,7 +22,7 @@ from surfmesh.meshing.estimate.estimation import Estimate
 from surfmesh.meshing.estimate.model_estimate import model_counts, require_model_within
 from surfmesh.meshing.estimate.trial_faces import ratios
 from surfmesh.meshing.estimate.trial_mesh import ROUNDS as TRIAL_ROUNDS
-from surfmesh.meshing.estimate.trial_mesh import WHOLE, WHOLE_STRETCHED, tried
+from surfmesh.meshing.estimate.trial_mesh import WHOLE, WHOLE_STRETCHED, counts_within_budget
 from surfmesh.meshing.explain.explanation import Explanation, explain_model
 from surfmesh.meshing.faces.face_data import FaceJob, FaceMesh
 from surfmesh.meshing.faces.face_mesh import edge_refinement, mesh_face
@@ -42,6 +42,9 @@ from surfmesh.result.surface_mesh import SurfaceMesh
 from surfmesh.sizing.options.model_sizing import ModelSizing, model_sizing
 from surfmesh.sizing.rules.size_limits import SizeLimits
 from surfmesh.sizing.rules.volume_rule import with_volume_rule
+
+FACE_WORK = 400
+"""Units of work of a face besides its triangles, see ``WorkBudget``; from the seconds it takes."""
 
 MAX_VOLUME_ROUNDS = 4
 """How often a model is meshed for the sake of its volumes, at most: once in most cases."""
@@ -157,6 +160,7 @@ class _Rounds:
             meshes = _meshed_in_order(jobs, self.how.workers)
             for count, (state, mesh) in enumerate(zip(outdated, meshes), 1):
                 state.take(mesh)
+                self.watch.spend(FACE_WORK + state.job.nodes + len(mesh.triangles))
                 self.watch.pulse(count / len(outdated))
             self._copy_opposite({state.number for state in outdated})
 
@@ -196,8 +200,8 @@ def estimate_model(model: CadModel, sizing: Any) -> Estimate:
     stretched = before.wanted.is_anisotropic
     counts = model_counts(before.jobs)
     if counts.sum() <= (WHOLE_STRETCHED if stretched else WHOLE):
-        made = tried(lambda stop: mesh_model(
-            model, sizing, progress=stop, strict=False, rounds=TRIAL_ROUNDS
+        made = counts_within_budget(lambda budget: mesh_model(
+            model, sizing, progress=budget, strict=False, rounds=TRIAL_ROUNDS
         ))  # fmt: skip
         if made is not None:
             return Estimate.of(made, stretched, model=True)

@@ -15,17 +15,15 @@ from surfmesh.geometry.files.known_facts import known_facts
 from surfmesh.geometry.formulas.kinks import KinkLine, kink_lines
 from surfmesh.geometry.surface import Surface
 from surfmesh.meshing.boundary.boundary_loops import BoundaryLoops, boundary_loops
-from surfmesh.meshing.boundary.boundary_recovery import DomainMesh, recovered
 from surfmesh.meshing.boundary.cusps import Cusp, closed_at, find_cusps, without_cusps
 from surfmesh.meshing.boundary.kink_segments import sides_met, with_kinks
 from surfmesh.meshing.estimate.estimation import Estimate, field_triangles, require_field_within
-from surfmesh.meshing.estimate.trial_mesh import WHOLE, tried
+from surfmesh.meshing.estimate.trial_mesh import WHOLE, counts_within_budget
 from surfmesh.meshing.estimate.trial_patches import triangles_per_unit
 from surfmesh.meshing.explain.explanation import Explanation, explain_surface
-from surfmesh.meshing.patch.gluing import Glued, glued, misglued
-from surfmesh.meshing.patch.optimise import Optimiser
-from surfmesh.meshing.patch.packing import packed_over
+from surfmesh.meshing.patch.patch_mesh import mesh_patch
 from surfmesh.meshing.patch.refinement_loop import StagnationCheck, refined_in_rounds
+from surfmesh.meshing.patch.size_requests import joined
 from surfmesh.meshing.progress import Progress, Stopwatch
 from surfmesh.result.surface_mesh import SurfaceMesh
 from surfmesh.sizing.field.size_field import SizeField, size_field
@@ -38,7 +36,7 @@ MOST_CELLS, CELLS_OF_TRIANGLE = 250_000, 50
 triangle of the mesh if that is more: about a singular place each round needs more of them."""
 
 FINER = 0.6
-"""Factor on the sizes where the mesh is badly glued."""
+"""Factor on the sizes where sides cannot be joined."""
 
 
 def mesh_parametric(
@@ -109,6 +107,8 @@ class _Rounds:
                 if self._latest is None:
                     raise
                 return self._latest, {}  # what no size can mend: the report says what is left
+            cells = len(field.background.child) // 4  # each cell has a row for four parts
+            self.watch.spend(cells)
             loops, name = _loops(self.surface), self.surface.name
             require_field_within(self.sizing.limit, field, loops, name)
         try:
@@ -120,9 +120,10 @@ class _Rounds:
             self.not_followed = [f"no edges follow the kinks of {name!r}: {error}"]
             mesh, refinement, bad = self._meshed(field)
         self._latest = mesh, bad
+        self.watch.spend(len(mesh.triangles))
         if refinement is None or not _can_shrink(field, refinement):
             return self._latest, {}
-        self._cells += len(field.background.child) // 4  # each cell has a row for four parts
+        self._cells += cells
         self._stagnation.record(len(refinement.sizes), len(mesh.triangles))
         too_many = self._cells > max(MOST_CELLS, CELLS_OF_TRIANGLE * len(mesh.triangles))
         if too_many or self._stagnation.is_unchanged:  # the report says what is left
@@ -140,7 +141,9 @@ def estimate_parametric(surface: Surface, sizing: Sizing) -> Estimate:
     loops = _loops(part)
     asked = field_triangles(field, loops)
     if asked <= WHOLE:
-        made = tried(lambda stop: mesh_parametric(surface, sizing, progress=stop))
+        made = counts_within_budget(
+            lambda budget: mesh_parametric(surface, sizing, progress=budget)
+        )
         if made is not None:
             return Estimate.of(made, field.is_anisotropic)
     got = asked * (triangles_per_unit(part, field, loops) or 1.0)
@@ -159,74 +162,29 @@ def _one_round(
     optimise: bool, watch: Stopwatch,
 ) -> tuple[SurfaceMesh, SizeLimits | None, np.ndarray]:  # fmt: skip
     """The mesh for one size field; the smaller sizes it needs; points that are badly glued."""
-    with watch.stage("packing"):
-        packing = packed_over(field)
-    with watch.stage("boundary"):
-        loops = boundary_loops(surface, sides, field, sides_met(surface, kinks) if kinks else None)
-        if kinks:
-            loops = with_kinks(loops, surface, kinks, field)
-        domain = recovered(packing.t, loops, field, surface)
-        del packing
-    wishes: list[SizeLimits] = []
-    scale = np.ones(len(domain.t.xy))
-    same = domain.node[loops.identity]
-    creased = domain.node[np.unique(loops.inner)]
-    if not optimise:
-        with watch.stage("boundary"):
-            Optimiser(domain.t, domain.node, same, surface, field).settle()
-    else:
-        with watch.stage("optimisation"):
-            optimiser = Optimiser(domain.t, domain.node, same, surface, field, creased)
-            optimiser.before_pass = watch.pulse
-            changes = optimiser.run()
-            scale = optimiser.embedding.scale
-            if len(changes.far):
-                wishes.append(optimiser.approaching(changes.far))
-            if len(changes.folded):
-                wishes.append(optimiser.unfolding(changes.folded))
-            if len(changes.turned):
-                wishes.append(optimiser.straightening(changes.turned))
-            del optimiser
-    with watch.stage("mapping"):
-        mesh, parts = _in_space(surface, sides, field, loops, domain, scale, watch)
-        bad = np.empty(0, np.int64)
-        if (loops.identity != np.arange(len(loops.identity))).any():
-            bad = misglued(parts)
-            if len(bad):
-                sizes = FINER * mesh.sizes[bad]
-                wishes.append(SizeLimits(mesh.points[bad], sizes, field.sizing.gradient))
-    wishes = [wish for wish in wishes if len(wish.sizes)]
-    if not wishes:
-        return mesh, None, bad
-    wanted = wishes[0]
-    for more in wishes[1:]:
-        wanted = wanted.joined_with(more)
-    return mesh, wanted, bad
 
+    def cut_boundary() -> BoundaryLoops:
+        if not kinks:
+            return boundary_loops(surface, sides, field)
+        loops = boundary_loops(surface, sides, field, sides_met(surface, kinks))
+        return with_kinks(loops, surface, kinks, field)
 
-def _in_space(
-    surface: Surface, sides: SideTopology, field: SizeField, loops: BoundaryLoops,
-    domain: DomainMesh, scale: np.ndarray, watch: Stopwatch,
-) -> tuple[SurfaceMesh, Glued]:  # fmt: skip
-    xy = domain.t.xy[: int(domain.t.count[0])]
-    uv = field.chart.to_uv(xy)
-    uv[domain.node] = loops.uv  # to the last bit
-    parts = glued(surface, loops, domain, uv)
-    sizes = field.sizes(xy[parts.place])
+    patch = mesh_patch(surface, field.chart, field, cut_boundary, optimise=optimise, watch=watch)
     mesh = SurfaceMesh(
-        points=parts.points,
-        triangles=parts.triangles,
-        uv_points=parts.uv_points,
-        uv_triangles=parts.uv_triangles,
+        points=patch.space.points,
+        triangles=patch.space.triangles,
+        uv_points=patch.uv,
+        uv_triangles=patch.space.uv_triangles,
         surfaces=(surface,),
-        sizes=sizes * scale[parts.place],
-        metric_root_3d=field.roots_of_mesh(xy, scale[: len(xy)]),
+        sizes=patch.sizes,
+        metric_root_3d=patch.metric_root_3d,
         sizing=field.sizing,
         seconds=watch.seconds,
         one_sided=sides.one_sided and not len(surface.loops),
         facts=known_facts(surface),
     )
-    return mesh, parts
+    requests = joined(*patch.requests, patch.limits_for_seams(FINER))
+    return mesh, requests, patch.space.non_manifold
 
 
 def _loops(surface: Surface) -> list[np.ndarray] | None:

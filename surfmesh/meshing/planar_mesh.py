@@ -12,7 +12,7 @@ from surfmesh.geometry.boxes import diagonal
 from surfmesh.geometry.files.known_facts import known_facts
 from surfmesh.geometry.planar.planar_domain import PlanarDomain
 from surfmesh.kernels.insertion.insertion import label_patches
-from surfmesh.meshing.boundary.boundary_recovery import DomainMesh, recovered_regions
+from surfmesh.kernels.triangulation.triangulation import Triangulation
 from surfmesh.meshing.boundary.planar_segments import (
     PlanarSegments,
     cut_segments,
@@ -27,9 +27,8 @@ from surfmesh.meshing.estimate.estimation import (
     require_field_within,
     require_within,
 )
-from surfmesh.meshing.estimate.trial_mesh import WHOLE, tried
-from surfmesh.meshing.patch.optimise import Optimiser
-from surfmesh.meshing.patch.packing import packed_over
+from surfmesh.meshing.estimate.trial_mesh import WHOLE, counts_within_budget
+from surfmesh.meshing.patch.patch_mesh import PatchMesh, mesh_patch
 from surfmesh.meshing.patch.refinement_loop import refined_in_rounds
 from surfmesh.meshing.progress import Progress, Stopwatch
 from surfmesh.result.surface_mesh import SurfaceMesh
@@ -68,27 +67,16 @@ def mesh_planar(
     with watch.stage("sizing"):
         if simplify:
             domain = domain.simplified(_thinning_distance(domain, sizing))
-        field, cut = _field_and_segments(domain, sizing)
-        if cut is None:
+        field, found = _field_and_segments(domain, sizing)
+        if found is None:
             asked = Estimate.of([_asked(domain, field)])
             require_within(sizing.limit, asked, [domain.name])
+        assert found is not None  # noqa: S101  many times the limit was refused
+        cut = found
         loops = [*domain.outer, *domain.holes]
         require_field_within(sizing.limit, field, loops, domain.name)
-    with watch.stage("packing"):
-        packing = packed_over(field)
-    with watch.stage("boundary"):
-        inside = recovered_regions(packing.t, cut, field, domain)
-        del packing
-    scale = np.ones(len(inside.t.xy))
-    if optimise:
-        with watch.stage("optimisation"):
-            node = inside.node[inside.node >= 0]
-            optimiser = Optimiser(inside.t, node, node, domain, field)
-            optimiser.before_pass = watch.pulse
-            optimiser.run()
-            scale = optimiser.embedding.scale
-    with watch.stage("mapping"):
-        return _in_space(domain, field, cut, inside, scale, watch)
+    patch = mesh_patch(domain, field.chart, field, lambda: cut, optimise=optimise, watch=watch)
+    return _with_regions(domain, cut, patch, field.sizing, watch)
 
 
 def _thinning_distance(domain: PlanarDomain, sizing: Sizing) -> float:
@@ -127,7 +115,7 @@ def estimate_planar(domain: PlanarDomain, sizing: Sizing) -> Estimate:
     loops = [*domain.outer, *domain.holes]
     asked = combined(field_triangles(field, loops), len(cut.uv), len(loops))
     if asked <= WHOLE:
-        made = tried(lambda stop: mesh_planar(domain, sizing, progress=stop))
+        made = counts_within_budget(lambda budget: mesh_planar(domain, sizing, progress=budget))
         if made is not None:
             return Estimate.of([made.sum()])
     return Estimate.of([asked])
@@ -167,59 +155,47 @@ def _field_and_segments(
     return refined_in_rounds(one_round, SizeLimits.joined_with, GAP_ROUNDS, known)
 
 
-def _in_space(
-    domain: PlanarDomain, field: SizeField, cut: PlanarSegments, inside: DomainMesh,
-    scale: np.ndarray, watch: Stopwatch,
-) -> SurfaceMesh:  # fmt: skip
-    t = inside.t
-    vertices, triangles = int(t.count[0]), int(t.count[1])
-    patch = np.empty(triangles, np.int32)
-    patches = label_patches(t, patch)
-    live = patch >= 0
-    corners = t.tri[: 3 * triangles].reshape(-1, 3)[live]
-    used = np.zeros(vertices, bool)
-    used[corners.ravel()] = True
-    number = np.cumsum(used) - 1
-
-    uv = field.chart.to_uv(t.xy[:vertices])
-    met = inside.node >= 0
-    uv[inside.node[met]] = cut.uv[met]  # to the last bit
-    sizes = field.sizes(t.xy[:vertices])
-    regions = _region_numbers(t, cut, inside.node, patch, patches)
+def _with_regions(
+    domain: PlanarDomain, cut: PlanarSegments, patch: PatchMesh, sizing: Sizing, watch: Stopwatch
+) -> SurfaceMesh:
+    t = patch.domain.t
+    label = np.empty(int(t.count[1]), np.int32)
+    count = label_patches(t, label)
+    regions = _region_numbers(t, cut, patch.domain.node, label, count)
     return SurfaceMesh(
-        points=np.column_stack([uv, np.zeros(vertices)])[used],
-        triangles=number[corners],
-        uv_points=uv[used],
-        face_ids=regions[patch[live]],
-        surfaces=domain.region_surfaces(patches),
-        sizes=(sizes * scale[:vertices])[used],
-        sizing=field.sizing,
+        points=patch.space.points,
+        triangles=patch.space.triangles,
+        uv_points=patch.uv[patch.space.vertex],
+        face_ids=regions[label[label >= 0]],
+        surfaces=domain.region_surfaces(count),
+        sizes=patch.sizes,
+        sizing=sizing,
         seconds=watch.seconds,
-        warnings=(*domain.warnings, *_too_fine(domain, field.sizing)),
+        warnings=(*domain.warnings, *_too_fine(domain, sizing)),
         facts=known_facts(domain),
     )
 
 
 def _region_numbers(
-    t, cut: PlanarSegments, node: np.ndarray, patch: np.ndarray, patches: int
+    t: Triangulation, cut: PlanarSegments, node: np.ndarray, label: np.ndarray, count: int
 ) -> np.ndarray:
-    """The number of each patch (patches,): by the first segment along it, its left side first.
+    """The number of each region (count,): by the first segment along it, its left side first.
 
     Independent of the triangles, so that regions keep their numbers when sizes change.
     """
-    half_edges = np.flatnonzero(t.fixed[: 3 * len(patch)])
-    half_edges = half_edges[patch[half_edges // 3] >= 0]
+    half_edges = np.flatnonzero(t.fixed[: 3 * len(label)])
+    half_edges = half_edges[label[half_edges // 3] >= 0]
     width = np.int64(len(t.xy))
     following = half_edges + np.where(half_edges % 3 == 2, -2, 1)
     keys = t.tri[half_edges] * width + t.tri[following]
     order = np.argsort(keys)
-    first = np.full(patches, np.iinfo(np.int64).max)
+    first = np.full(count, np.iinfo(np.int64).max)
     a, b = node[cut.pieces].astype(np.int64).T
     for side, wanted in enumerate((a * width + b, b * width + a)):
         place = np.minimum(np.searchsorted(keys[order], wanted), len(keys) - 1)
         found = (keys[order][place] == wanted) & (a >= 0) & (b >= 0)
-        of = patch[half_edges[order][place[found]] // 3]
+        of = label[half_edges[order][place[found]] // 3]
         np.minimum.at(first, of, 2 * cut.segment[found].astype(np.int64) + side)
-    numbers = np.empty(patches, np.int32)
-    numbers[np.argsort(first, kind="stable")] = np.arange(patches)
+    numbers = np.empty(count, np.int32)
+    numbers[np.argsort(first, kind="stable")] = np.arange(count)
     return numbers

@@ -1,4 +1,4 @@
-"""The stages of meshing as the user sees them: seconds, the share of the work done, a way out."""
+"""The stages of meshing as the user sees them: seconds, how much of the work is done, a way out."""
 
 import logging
 import time
@@ -10,7 +10,7 @@ import numpy as np
 from surfmesh.errors import Cancelled
 
 Progress = Callable[[str, float], object]
-"""Called with the name of the stage and the share of the work done, 0 to 1, never falling.
+"""Called with the name of the stage and the fraction of the work done, 0 to 1, never falling.
 
 Called when a stage starts, before each pass of the optimiser and before each face of a CAD model,
 in the thread that meshes. Returning False (not None) stops the work with ``Cancelled``; what it
@@ -18,9 +18,23 @@ raises comes through.
 """
 
 _STAGES = {"sizing": 0.0, "packing": 0.2, "boundary": 0.4, "optimisation": 0.5, "mapping": 0.9}
-_NEARER = 0.1  # share of the rest of a stage that a pulse advances
+_NEARER = 0.1  # fraction of the rest of a stage that a pulse advances
 
 logger = logging.getLogger(__name__)
+
+
+class WorkBudget:
+    """A progress callback that stops the work when so many units of it are done.
+
+    A unit is a triangle that is made, or a cell of a size field: no clock is looked at, so that
+    the work ends at the same place on every machine.
+    """
+
+    def __init__(self, units: int) -> None:
+        self.left = units
+
+    def __call__(self, stage: str, done: float) -> bool:
+        return self.left >= 0
 
 
 class Stopwatch:
@@ -29,7 +43,7 @@ class Stopwatch:
     def __init__(self, progress: Progress | None) -> None:
         self.seconds: dict[str, float] = {}
         self._progress = progress
-        self._name, self._share = "sizing", 0.0
+        self._name, self._done = "sizing", 0.0
 
     @contextmanager
     def stage(self, name: str) -> Iterator[None]:
@@ -47,20 +61,25 @@ class Stopwatch:
     def pulse(self, within: float | None = None) -> None:
         """Say that the stage goes on; raises ``Cancelled`` when that is not wanted.
 
-        within: share of the way to the next stage, 0 to 1; None: a little nearer to it.
+        within: fraction of the way to the next stage, 0 to 1; None: a little nearer to it.
         """
         first = _STAGES[self._name]
-        last = min([share for share in _STAGES.values() if share > first], default=1.0)
+        last = min([start for start in _STAGES.values() if start > first], default=1.0)
         if within is None:
-            self._tell(self._share + _NEARER * max(0.0, last - self._share))
+            self._tell(self._done + _NEARER * max(0.0, last - self._done))
         else:
             self._tell(first + within * (last - first))
 
-    def _tell(self, share: float) -> None:
-        self._share = max(self._share, share)  # another round does not take back what was said
+    def spend(self, units: int) -> None:
+        """Take work that was done from a ``WorkBudget``, if there is one."""
+        if isinstance(self._progress, WorkBudget):
+            self._progress.left -= units
+
+    def _tell(self, done: float) -> None:
+        self._done = max(self._done, done)  # another round does not take back what was said
         if self._progress is None:
             return
-        answer = self._progress(self._name, self._share)
+        answer = self._progress(self._name, self._done)
         if isinstance(answer, (bool, np.bool_)) and not answer:
             raise Cancelled(
                 f"stopped in the stage {self._name!r}, as the progress callback asked; "

@@ -149,8 +149,8 @@ def _sizes(path: Path, found: Mutant) -> str:
     import surfmesh as sm
     from surfmesh.sizing.options.sizes_file import read_sizes
 
-    wishes = read_sizes(path)
-    return f"{len(wishes)} selections, {sm.estimate(_box(), wishes).triangles} triangles"
+    sizes = read_sizes(path)
+    return f"{len(sizes)} selections, {sm.estimate(_box(), sizes).triangles} triangles"
 
 
 @cache

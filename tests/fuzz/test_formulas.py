@@ -180,7 +180,7 @@ def test_what_a_function_raises_says_which_places_were_asked_for():
 
 
 @pytest.mark.parametrize(
-    "wish",
+    "asked",
     [
         {"chord": value}
         for value in (-1, 0, math.nan, math.inf, True, "x", [1], 1j, 10**400, 10**5000, 1e-300)
@@ -188,9 +188,9 @@ def test_what_a_function_raises_says_which_places_were_asked_for():
     + [{"size": 1e-300}, {"size": np.array([0.1])}, {"anisotropy": 1e300}, {"limit": 10**400}],
     ids=range(15),
 )
-def test_odd_wishes_are_refused_in_one_line(wish):
+def test_odd_requests_are_refused_in_one_line(asked):
     with pytest.raises(SizingError) as refusal:
-        sm.Sizing(**wish)
+        sm.Sizing(**asked)
     assert is_one_line(refusal.value)
 
 

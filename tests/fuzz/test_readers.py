@@ -36,7 +36,7 @@ def test_mutants_are_functions_of_seed_and_number(kind):
 
 
 def test_what_ends_a_process_is_told_and_the_rest_is_tried(monkeypatch):
-    """The judge itself: a crash, a loop, an endless wish for memory, a warning, a print."""
+    """The judge itself: a crash, a loop, an endless demand for memory, a warning, a print."""
     import warnings
 
     def work(path, found):

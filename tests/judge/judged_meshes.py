@@ -41,7 +41,7 @@ class Trial:
 BAD = ("silent", "false alarm", "crashed", "warned")
 
 
-def part_trial(seed: int, number: int, limit: float = 60.0) -> Trial:
+def part_trial(seed: int, number: int, limit: float | None = None) -> Trial:
     """Of the part of this number, isotropic where it is even, stretched where it is odd."""
     draw = Random(f"part {seed} {number}")
     part = None
@@ -61,7 +61,7 @@ def planar(domain: RandomDomain) -> sm.PlanarDomain:
     return sm.PlanarDomain(outer, holes, domain.lines, domain.dots)
 
 
-def domain_trial(seed: int, number: int, limit: float = 60.0) -> Trial:
+def domain_trial(seed: int, number: int, limit: float | None = None) -> Trial:
     domain = domain_of(seed, number)
     draw = Random(f"sizes of domain {seed} {number}")
     sizing = sm.Sizing(size=domain.size, growth=draw.choice(GROWTH), limit=MOST)
@@ -74,7 +74,7 @@ def domain_trial(seed: int, number: int, limit: float = 60.0) -> Trial:
     return _trial(name, lambda: planar(domain), sizing, judge, limit)
 
 
-def surface_trial(seed: int, number: int, limit: float = 60.0) -> Trial:
+def surface_trial(seed: int, number: int, limit: float | None = None) -> Trial:
     kind, truth = surface_of(seed, number)
     draw = Random(f"sizes of surface {seed} {number}")
     sizing = surface_sizing(draw, truth)
@@ -95,26 +95,26 @@ def surface_trial(seed: int, number: int, limit: float = 60.0) -> Trial:
 
 
 def surface_sizing(draw: Random, truth: surfaces.Truth) -> sm.Sizing:
-    """Wishes drawn at random; chord in most."""
+    """Options drawn at random; chord in most."""
     lines = [np.linspace(*span, 30) for span in (truth.u, truth.v)]
     uv = np.stack(np.meshgrid(*lines), axis=-1).reshape(-1, 2)
     diagonal = float(np.linalg.norm(np.ptp(truth.evaluate(uv)[0], axis=0)))
-    wishes: dict[str, Any] = {"growth": draw.choice(GROWTH), "limit": MOST}
+    asked: dict[str, Any] = {"growth": draw.choice(GROWTH), "limit": MOST}
     if draw.random() < 0.8:
-        wishes["chord"] = diagonal * 10 ** draw.uniform(-3.3, -1.7)
+        asked["chord"] = diagonal * 10 ** draw.uniform(-3.3, -1.7)
     else:
-        wishes["size"] = diagonal * 10 ** draw.uniform(-1.6, -1.0)
+        asked["size"] = diagonal * 10 ** draw.uniform(-1.6, -1.0)
     if draw.random() < 0.3:
-        wishes["angle"] = draw.uniform(5, 40)
+        asked["angle"] = draw.uniform(5, 40)
     if draw.random() < 0.3:
-        wishes["max_size"] = diagonal * draw.uniform(0.03, 0.3)
+        asked["max_size"] = diagonal * draw.uniform(0.03, 0.3)
     if draw.random() < 0.3:
-        wishes["anisotropy"] = draw.choice(STRETCH)
-    return sm.Sizing(**wishes)
+        asked["anisotropy"] = draw.choice(STRETCH)
+    return sm.Sizing(**asked)
 
 
 def _trial(
-    name: str, thing: Any, sizing: sm.Sizing, judge: Callable[[Any], Verdict], limit: float
+    name: str, thing: Any, sizing: sm.Sizing, judge: Callable[[Any], Verdict], limit: float | None
 ) -> Trial:
     start = process_time()
     with warnings.catch_warnings(record=True) as warned:
@@ -126,7 +126,7 @@ def _trial(
         except sm.errors.SurfmeshError as error:
             return Trial(name, "refused", (str(error),), 0, process_time() - start)
         except TimeoutError:
-            return Trial(name, "late", (f"not done in {limit:g} s",), 0, limit)
+            return Trial(name, "late", (f"not done in {limit} s",), 0, limit or 0.0)
         except Exception as error:
             said = (f"{type(error).__name__}: {error}",)
             return Trial(name, "crashed", said, 0, process_time() - start)
@@ -145,10 +145,10 @@ def _trial(
 
 
 @contextmanager
-def _time_limit(seconds: float) -> Any:
+def _time_limit(seconds: float | None) -> Any:
     """TimeoutError after so many seconds of processor time; only the main thread has alarms."""
     usable = hasattr(signal, "SIGPROF") and threading.current_thread() is threading.main_thread()
-    if not usable:
+    if seconds is None or not usable:
         yield
         return
 

@@ -117,9 +117,9 @@ def test_lines_are_drawn(drawn_by, saddle, tmp_path, monkeypatch):
         monkeypatch.setattr(picture, "can_draw", lambda: False)
     options = {"by": "mean", "edges": False, "size": (400, 300), "title": ""}
     bare = imread(plot(saddle, tmp_path / "bare.png", **options))
-    for wish in ({"circles": True}, {"directions": True}, {"worst": 3}):
-        drawn = imread(plot(saddle, tmp_path / "drawn.png", **options, **wish))
-        assert (np.abs(drawn - bare)[60:] > 0.2).any(axis=-1).sum() > 50, wish
+    for extra in ({"circles": True}, {"directions": True}, {"worst": 3}):
+        drawn = imread(plot(saddle, tmp_path / "drawn.png", **options, **extra))
+        assert (np.abs(drawn - bare)[60:] > 0.2).any(axis=-1).sum() > 50, extra
 
 
 def test_a_window_is_opened_where_there_is_a_display(saddle, monkeypatch):
@@ -129,8 +129,9 @@ def test_a_window_is_opened_where_there_is_a_display(saddle, monkeypatch):
         def show(self):
             opened.append("shown")
 
-    def stand_in(mesh, colours, lines, **options):
-        opened.append((colours.title, [layer.name for layer in lines], options["edges"]))
+    def stand_in(drawn, off_screen):
+        layers = [layer.name for layer in drawn.lines]
+        opened.append((drawn.colours.title, layers, drawn.edges))
         return Window()
 
     monkeypatch.setattr("surfmesh.view.scene.scene", stand_in)

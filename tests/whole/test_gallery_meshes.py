@@ -17,27 +17,27 @@ LENGTHS = ("size", "min_size", "max_size")
 TRIANGLES = {"spring": 12_000, "trefoil": 5000}  # tightly curved tubes
 
 
-def scaled_wishes(wishes, factor):
+def scaled_sizing(asked, factor):
     """Edges ``factor`` times as long; the deviation goes with their square."""
-    scaled = {k: v * factor if k in LENGTHS else v for k, v in wishes.items()}
-    if "chord" in wishes:
-        scaled["chord"] = wishes["chord"] * factor**2
+    scaled = {k: v * factor if k in LENGTHS else v for k, v in asked.items()}
+    if "chord" in asked:
+        scaled["chord"] = asked["chord"] * factor**2
     return scaled
 
 
 @cache
-def coarse_wishes(name):
+def coarse_sizing(name):
     surface = sm.load(name)
-    wishes = dict(surface.sizing_defaults)
-    field = size_field(surface, Sizing.of(wishes), find_sides(surface))
+    asked = dict(surface.sizing_defaults)
+    field = size_field(surface, Sizing.of(asked), find_sides(surface))
     expected = 2 * field.expected_vertices()
-    return scaled_wishes(wishes, max(1.0, (expected / TRIANGLES.get(name, 2000)) ** 0.5))
+    return scaled_sizing(asked, max(1.0, (expected / TRIANGLES.get(name, 2000)) ** 0.5))
 
 
 @cache
 def meshed(name):
     surface = sm.load(name)
-    mesh = sm.mesh(surface, coarse_wishes(name))
+    mesh = sm.mesh(surface, coarse_sizing(name))
     return surface, mesh, sm.check(mesh, second_opinion=True)
 
 
@@ -84,8 +84,8 @@ def test_deviation(name):
 
 
 def test_the_chord_is_kept_to_the_last_per_mille():
-    wishes = {"chord": 0.12236, "min_size": 0.12367295581492342, "max_size": 3.7101886744477026}
-    report = sm.check(sm.mesh(sm.load("seashell"), wishes))
+    asked = {"chord": 0.12236, "min_size": 0.12367295581492342, "max_size": 3.7101886744477026}
+    report = sm.check(sm.mesh(sm.load("seashell"), asked))
     assert report.deviation_max <= report.chord
 
 
@@ -107,7 +107,7 @@ def test_quality(name):
 @everyone
 def test_without_optimisation(name):
     surface = sm.load(name)
-    mesh = sm.mesh(surface, coarse_wishes(name), optimise=False)
+    mesh = sm.mesh(surface, coarse_sizing(name), optimise=False)
     report = sm.check(mesh)
     assert mesh.check() is None and report.manifold
     assert (report.euler, report.closed) == (surface.facts["euler"], surface.facts["closed"])
@@ -125,7 +125,7 @@ def test_vertices_lie_on_the_surface(name):
 @pytest.mark.parametrize("name", ["two_peaks", "torus", "klein", "sphere", "pierced_saddle"])
 def test_same_input_same_bits(name):
     _, first, _ = meshed(name)
-    second = sm.mesh(sm.load(name), coarse_wishes(name))
+    second = sm.mesh(sm.load(name), coarse_sizing(name))
     for field in ("points", "triangles", "uv_points", "uv_triangles", "sizes"):
         assert getattr(first, field).tobytes() == getattr(second, field).tobytes()
 
@@ -206,10 +206,10 @@ def test_units_of_length_do_not_matter(name, power):
     plain, _, report = meshed(name)
     factor = 2.0**power
     surface = said_otherwise(plain, [f"scale*({f})" for f in plain.formulas], scale=factor)
-    wishes = {
-        k: v * factor if k in (*LENGTHS, "chord") else v for k, v in coarse_wishes(name).items()
+    asked = {
+        k: v * factor if k in (*LENGTHS, "chord") else v for k, v in coarse_sizing(name).items()
     }
-    scaled = sm.mesh(surface, wishes)
+    scaled = sm.mesh(surface, asked)
     found = sm.check(scaled)
     assert found.problems == ()
     # round-off decides at the margin what another round makes finer
@@ -225,7 +225,7 @@ def test_the_order_of_parameters_does_not_matter(name):
     exchange = {"u": "v", "v": "u"}
     formulas = [_renamed(str(f), exchange) for f in plain.formulas]
     surface = said_otherwise(plain, formulas, (v, u))
-    found = sm.check(sm.mesh(surface, coarse_wishes(name)))
+    found = sm.check(sm.mesh(surface, coarse_sizing(name)))
     assert found.problems == ()
     assert found.triangles == pytest.approx(report.triangles, rel=0.12)  # rounds differ
     assert found.alpha_mean == pytest.approx(report.alpha_mean, abs=0.01)
@@ -237,7 +237,7 @@ def _renamed(formula, names):
     return re.sub(r"\b[uv]\b", lambda match: names[match[0]], formula)
 
 
-# wishes
+# sizings
 
 
 def test_a_domain_smaller_than_the_size_is_still_meshed():
@@ -249,7 +249,7 @@ def test_a_domain_smaller_than_the_size_is_still_meshed():
         assert len(mesh.triangles) < 12
 
 
-def test_unknown_wishes_and_things_that_are_no_surface_are_refused():
+def test_unknown_options_and_things_that_are_no_surface_are_refused():
     with pytest.raises(sm.errors.SurfaceError, match="cannot mesh a str"):
         sm.mesh("sphere")
     with pytest.raises(sm.errors.SizingError, match="unknown size option"):

@@ -41,12 +41,12 @@ def test_clean_within_the_chord_and_of_the_right_area(name, sizing):
     formulas, u, v, area = SURFACES[name]
     surface = sm.ParametricSurface(*formulas, u=u, v=v, name=name)
     scale = math.sqrt(area)
-    wishes = {
+    sizings = {
         "chord": sm.Sizing(chord=2e-3 * scale, max_size=0.1 * scale),
         "size": 0.06 * scale,
         "anisotropy": sm.Sizing(chord=2e-3 * scale, max_size=0.1 * scale, anisotropy=5),
     }
-    mesh = sm.mesh(surface, wishes[sizing])
+    mesh = sm.mesh(surface, sizings[sizing])
     report = sm.check(mesh)
     assert report.clean, report.problems
     assert report.area == pytest.approx(area, rel=0.02)

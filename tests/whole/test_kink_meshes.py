@@ -80,9 +80,9 @@ def test_flat_pieces_get_few_triangles(z, most, more):
 @pytest.mark.parametrize(
     "z", ["abs(u**2+v**2-0.5)", "0.2*abs(sin(5*u)*cos(3*v))", "max(0, 1-1000*abs(u-0.5137))"]
 )
-@pytest.mark.parametrize("wish", [{"chord": 5e-3}, {"size": 0.15}, {"chord": 0.02, "angle": 20}])
-def test_curved_and_steep_kinks_are_clean(z, wish):
-    report = sm.check(sm.mesh(height(z), sm.Sizing(**wish)))
+@pytest.mark.parametrize("asked", [{"chord": 5e-3}, {"size": 0.15}, {"chord": 0.02, "angle": 20}])
+def test_curved_and_steep_kinks_are_clean(z, asked):
+    report = sm.check(sm.mesh(height(z), sm.Sizing(**asked)))
     assert report.clean and report.unseen == 0 and report.triangles < 8000, report.problems
 
 
@@ -121,9 +121,9 @@ def test_an_edge_runs_where_the_speed_has_no_bound(x, options):
     surface = sm.ParametricSurface(x, f"{scale}*v", "0", u=(-1, 1), v=(-1, 1))
     (line,) = kink_lines(surface)
     assert np.ptp(line.uv[:, 0]) < 1e-15
-    wishes = {"chord": 0.005 * scale, **options}
-    wishes |= {"size": 0.15 * scale} if "size" in options else {}
-    report = sm.check(sm.mesh(surface, sm.Sizing(**wishes)))
+    asked = {"chord": 0.005 * scale, **options}
+    asked |= {"size": 0.15 * scale} if "size" in options else {}
+    report = sm.check(sm.mesh(surface, sm.Sizing(**asked)))
     assert report.clean, report.problems
     ends = surface.evaluate(np.array([[-1.0, 0.0], [1.0, 0.0]]))[0][:, 0]
     assert report.area == pytest.approx(2 * scale * np.ptp(ends), rel=1e-9)

@@ -7,7 +7,7 @@ from surfmesh import Sizing, check, from_cadquery, load, mesh
 
 
 @pytest.mark.parametrize(
-    "name, wishes",
+    "name, asked",
     [
         ("torus", dict(angle=20)),
         ("two_peaks", dict(angle=20)),
@@ -19,10 +19,10 @@ from surfmesh import Sizing, check, from_cadquery, load, mesh
         ("monkey_saddle", dict(angle=15, chord=0.01)),
     ],
 )
-def test_neighbours_turn_by_no_more_than_angle(name, wishes):
-    report = check(mesh(load(name), Sizing(**wishes)))
+def test_neighbours_turn_by_no_more_than_angle(name, asked):
+    report = check(mesh(load(name), Sizing(**asked)))
     assert report.clean, report.problems
-    assert report.angle == wishes["angle"] and report.above_angle_share == 0.0
+    assert report.angle == asked["angle"] and report.above_angle_share == 0.0
     assert 0.8 * report.angle < report.angle_max <= report.angle * (1 + 1e-9)
     if report.chord:
         assert report.deviation_max <= report.chord

@@ -78,10 +78,10 @@ REFUSED = {
 
 @pytest.mark.parametrize("case", REFUSED)
 def test_refused(block, case):
-    wish, message = REFUSED[case]
+    sizes, message = REFUSED[case]
     for verb in (sm.mesh, sm.estimate):
         with pytest.raises(SizingError, match=message):
-            verb(block, wish)
+            verb(block, sizes)
 
 
 def test_selections_need_a_model():
@@ -116,18 +116,18 @@ def test_triangles_across_thin_faces(growth):
 
 
 def test_explain_names_the_rule(block):
-    wish = {"*": 2.0, "lid": sm.Sizing(size=0.4)}
-    found = sm.explain(block, wish, (0, 0, 15))
+    sizes = {"*": 2.0, "lid": sm.Sizing(size=0.4)}
+    found = sm.explain(block, sizes, (0, 0, 15))
     assert found.winner.key == "lid" and found.size == pytest.approx(0.4)
     assert not found.origin and [row.size for row in found.rows] == [0.4, 2.0]
-    below = sm.explain(block, wish, (5, 0, 14))
+    below = sm.explain(block, sizes, (5, 0, 14))
     assert below.winner.key == "lid" and below.origin.startswith("edge")
     assert 0.4 < below.size < below.target_size == 2.0
     assert "grown from edge" in str(below)
-    far = sm.explain(block, wish, (5, 0, -10))
+    far = sm.explain(block, sizes, (5, 0, -10))
     assert far.winner.key == "*" and far.size == pytest.approx(2.0)
     with pytest.raises(SizingError, match="a point is three finite numbers"):
-        sm.explain(block, wish, (1, 2))
+        sm.explain(block, sizes, (1, 2))
 
 
 def test_explain_on_a_formula_surface():

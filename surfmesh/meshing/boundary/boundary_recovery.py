@@ -4,8 +4,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from surfmesh.errors import DomainError, MeshingError, SurfaceError
-from surfmesh.geometry.planar.planar_domain import PlanarDomain
+from surfmesh.errors import DomainError, MeshingError, SurfaceError, SurfmeshError
 from surfmesh.geometry.planar.segment_graph import inside_regions
 from surfmesh.geometry.surface import Surface
 from surfmesh.kernels import NIL
@@ -51,7 +50,19 @@ class DomainMesh:
 
     t: Triangulation
     node: np.ndarray
-    """(k,) int32: the vertex of each boundary node."""
+    """(k,) int32: the vertex of each boundary node, NIL where no triangle inside uses it."""
+    same: np.ndarray
+    """(k,) int32: the vertex of the node that each coincides with in space, or its own."""
+    on_kinks: np.ndarray
+    """(j,) int32: vertices where the surface has two normals."""
+    points: np.ndarray | None = None
+    """(k, 3) where the nodes lie in space; None: on the surface."""
+
+    @property
+    def is_used(self) -> np.ndarray:
+        """(k,) which boundary nodes have a vertex."""
+        used: np.ndarray = self.node != NIL
+        return used
 
 
 def recovered(
@@ -72,34 +83,36 @@ def recovered(
         error.where = loops.uv
         raise error
     _clear(t, row, vertex, edges, first_node)
-    return _cut_out(t, vertex, STRETCHED_ROOM if field.is_anisotropic else ROOM)
+    t, node = _cut_out(t, vertex, STRETCHED_ROOM if field.is_anisotropic else ROOM)
+    return DomainMesh(t, node, node[loops.identity], node[np.unique(inner)], loops.points)
 
 
 def recovered_regions(
-    t: Triangulation, cut: PlanarSegments, field: SizeField, domain: PlanarDomain
+    t: Triangulation, cut: PlanarSegments, field: SizeField, surface: Surface
 ) -> DomainMesh:
     """Insert the segments of a planar domain into the packing ``t`` and keep what is inside.
 
-    ``node`` is NIL for nodes that no inner triangle uses. Raises ``DomainError`` when nothing
+    Raises ``DomainError`` when nothing
     is inside.
     """
     row = np.concatenate([cut.pieces, cut.pieces[:, ::-1]])
-    t, vertex, edge, first_node = _inserted(t, cut.uv, cut.pieces, row, field, domain)
+    t, vertex, edge, first_node = _inserted(t, cut.uv, cut.pieces, row, field, surface)
     label = np.empty(int(t.count[1]), np.int32)
     label_patches(t, label)
     ghost = int(np.flatnonzero(t.tri[: 3 * len(label)] < 0)[0])
     left, right = label[edge // 3], label[t.adj[edge] // 3]
     _, first = np.unique(cut.segment, return_index=True)
-    inside = inside_regions(domain.graph, left[first], right[first], int(label[ghost // 3]))
+    inside = inside_regions(cut.graph, left[first], right[first], int(label[ghost // 3]))
     if not inside.any():
-        raise DomainError(f"no part of {domain.name!r} is inside: the holes cover all of it")
+        raise DomainError(f"no part of {surface.name!r} is inside: the holes cover all of it")
     live = label != NIL
     t.region[: len(label)][live] = np.where(inside[label[live]], INSIDE, OUTSIDE)
     sides = [inside[left], inside[right]]
     both = np.concatenate([cut.pieces[sides[0]], cut.pieces[sides[1]][:, ::-1]])
     edges = np.concatenate([edge[sides[0]], t.adj[edge[sides[1]]]])
     _clear(t, both, vertex, edges, first_node)
-    return _cut_out(t, vertex)
+    t, node = _cut_out(t, vertex)
+    return DomainMesh(t, node, node, node[:0])
 
 
 def _inserted(
@@ -166,7 +179,10 @@ def _with_room(t: Triangulation, nodes: int) -> Triangulation:
     return t._replace(fixed=np.zeros(len(t.tri), np.uint8))
 
 
-def _cut_out(t: Triangulation, vertex: np.ndarray, spare: float = ROOM) -> DomainMesh:
+def _cut_out(
+    t: Triangulation, vertex: np.ndarray, spare: float = ROOM
+) -> tuple[Triangulation, np.ndarray]:
+    """The triangles inside, with ``spare`` of their number for more, and the vertices of nodes."""
     triangle_number = np.empty(t.count[1], np.int32)
     vertex_number = np.empty(t.count[0], np.int32)
     _, vertices = number_inside(t, INSIDE, triangle_number, vertex_number)
@@ -174,7 +190,7 @@ def _cut_out(t: Triangulation, vertex: np.ndarray, spare: float = ROOM) -> Domai
     out = empty_triangulation(room)
     out = out._replace(fixed=np.zeros(len(out.tri), np.uint8))
     copy_inside(t, triangle_number, vertex_number, out)
-    return DomainMesh(out, vertex_number[vertex])
+    return out, vertex_number[vertex]
 
 
 def _refuse(
@@ -183,7 +199,7 @@ def _refuse(
     """Raise what the status means; ``where`` of the error is the place in (u, v)."""
     if status == insertion.NODE_TAKEN:
         u, v = uv[number]
-        error: Exception = SurfaceError(
+        error: SurfmeshError = SurfaceError(
             f"the boundary of {surface.name!r} touches itself at (u, v) = ({u:.6g}, {v:.6g})"
         )
         error.where = uv[number]

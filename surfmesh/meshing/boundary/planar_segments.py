@@ -34,6 +34,7 @@ class PlanarSegments:
     """(s, 2) int32 pairs of nodes."""
     segment: np.ndarray
     """(s,) int32, the segment of the graph that each piece is part of."""
+    graph: SegmentGraph
 
 
 def metric_length(graph: SegmentGraph, field: SizeField) -> float:
@@ -78,7 +79,7 @@ def cut_segments(graph: SegmentGraph, field: SizeField) -> PlanarSegments:
     uv = np.empty((len(unique), 2))
     uv[number] = np.concatenate([graph.points, between])
     pieces = np.stack([number[tokens[place]], number[tokens[place + 1]]], axis=1)
-    return PlanarSegments(uv, pieces, np.repeat(order, count).astype(np.int32))
+    return PlanarSegments(uv, pieces, np.repeat(order, count).astype(np.int32), graph)
 
 
 def _walk(graph: SegmentGraph) -> np.ndarray:

@@ -70,12 +70,12 @@ class Course(NamedTuple):
     @classmethod
     def of(cls, edge: CadEdge, fraction: np.ndarray) -> "Course":
         if is_straight(edge):
-            (points,) = edge.curve.evaluate(edge.parameters(fraction), 0)
+            (points,) = edge.evaluate(fraction, 0)
             way = points[-1] - points[0]
             way = way / max(np.linalg.norm(way), np.finfo(float).tiny)
             flat = CurveSamples(points, np.zeros(len(points)))
             return cls(fraction, flat, np.tile(way, (len(points), 1)), True)
-        points, first, second = edge.curve.evaluate(edge.parameters(fraction), 2)
+        points, first, second = edge.evaluate(fraction, 2)
         speed = np.linalg.norm(first, axis=1)
         tangent = first / np.maximum(speed, np.finfo(float).tiny)[:, None]
         bend = np.linalg.norm(np.cross(first, second), axis=1)
@@ -93,7 +93,7 @@ class Course(NamedTuple):
 
 
 def is_straight(edge: CadEdge) -> bool:
-    return getattr(edge.curve, "kind", "") == "line"
+    return edge.is_straight
 
 
 @dataclass

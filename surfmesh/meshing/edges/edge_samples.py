@@ -199,7 +199,7 @@ def _with_hidden(edge: CadEdge, share: np.ndarray, sizings: list[Sizing]) -> np.
             coarsest = min(coarsest, sizing.size)
         finest = sizing.min_size or 0.0
         for _ in range(MOST_HALVINGS):
-            (points,) = edge.curve.evaluate(edge.parameters(share), 0)
+            (points,) = edge.evaluate(share, 0)
             size = np.minimum(sizing.law_sizes(points), coarsest)
             length = np.linalg.norm(np.diff(points, axis=0), axis=1)
             least = np.maximum(0.5 * (size[1:] + size[:-1] - slope * length), finest)

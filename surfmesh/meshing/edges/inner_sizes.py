@@ -16,12 +16,10 @@ LOOKED_AT = (0.1, 0.3, 0.5, 0.7, 0.9)
 
 
 def sizes_along_edges(
-    sizing: Sizing, surface: Surface, field: SizeField, loops: BoundaryLoops, points: np.ndarray
+    sizing: Sizing, surface: Surface, field: SizeField, loops: BoundaryLoops
 ) -> SizeLimits | None:
-    """What sizes grown from the inside ask for along edges that know their own surroundings only.
-
-    points: (k, 3) of the nodes.
-    """
+    """What sizes grown from the inside ask for along edges, which know their surroundings only."""
+    points = surface.evaluate(loops.uv, 0)[0] if loops.points is None else loops.points
     first, second = loops.segments.T
     step = points[second] - points[first]
     length = np.linalg.norm(step, axis=1)

@@ -41,8 +41,8 @@ def ratios(jobs: list[FaceJob], counts: np.ndarray) -> np.ndarray:
             continue
         at = (np.arange(FACES) + 0.5) / FACES * sums[-1]
         chosen, times = np.unique(of[np.searchsorted(sums, at)], return_counts=True)
-        tried = np.array([_ratio(jobs[face], float(counts[face])) for face in chosen.tolist()])
-        found[of] = np.average(tried, weights=times)
+        of_chosen = np.array([_ratio(jobs[face], float(counts[face])) for face in chosen.tolist()])
+        found[of] = np.average(of_chosen, weights=times)
     return found
 
 

@@ -6,12 +6,11 @@ Nothing is known of a mesh of some hundred triangles that is cheaper to find out
 from __future__ import annotations
 
 from collections.abc import Callable
-from time import perf_counter
 
 import numpy as np
 
 from surfmesh.errors import SurfmeshError
-from surfmesh.meshing.progress import Progress
+from surfmesh.meshing.progress import Progress, WorkBudget
 from surfmesh.result.surface_mesh import SurfaceMesh
 
 WHOLE, WHOLE_STRETCHED = 5_000, 10_000
@@ -21,18 +20,17 @@ are made finer for one face have more triangles on the next."""
 ROUNDS = 4
 """How often at most: what comes later are a few places."""
 
-SECONDS = 6.0
-"""A model that takes longer than such a mesh may is left to the estimate."""
+BUDGET = 500_000
+"""Units of work, see ``WorkBudget``: a model that needs more is left to the estimate."""
 
 
-def tried(make: Callable[[Progress], SurfaceMesh]) -> np.ndarray | None:
+def counts_within_budget(make: Callable[[Progress], SurfaceMesh]) -> np.ndarray | None:
     """Triangles on each face (f,) of the mesh that ``make`` makes, stopped by its progress.
 
-    None where it fails, or takes too long.
+    None where it fails, or needs too much work.
     """
-    start = perf_counter()
     try:
-        mesh = make(lambda stage, share: perf_counter() - start < SECONDS)
+        mesh = make(WorkBudget(BUDGET))
     except SurfmeshError:
         return None
     return np.bincount(mesh.face_ids, minlength=len(mesh.surfaces))

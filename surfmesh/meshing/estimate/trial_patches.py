@@ -19,11 +19,8 @@ import numpy as np
 from surfmesh.errors import SurfmeshError
 from surfmesh.geometry.inside_loops import is_inside
 from surfmesh.geometry.surface import Surface
-from surfmesh.kernels.triangulation.local_operations import DEAD
 from surfmesh.meshing.boundary.boundary_loops import BoundaryLoops, cut_line
-from surfmesh.meshing.boundary.boundary_recovery import recovered
-from surfmesh.meshing.patch.optimise import Optimiser
-from surfmesh.meshing.patch.packing import packed
+from surfmesh.meshing.patch.patch_mesh import mesh_patch
 from surfmesh.sizing.field.metric_area import TRIANGLES, box_area, inner_cells
 from surfmesh.sizing.field.size_field import SizeField
 
@@ -105,12 +102,8 @@ def _meshed(surface: Surface, field: SizeField, box: np.ndarray) -> int | None:
     uv = np.concatenate(lines)
     ring = np.arange(len(uv), dtype=np.int32)
     loops = BoundaryLoops(uv, np.stack([ring, np.roll(ring, -1)], axis=1), ring.astype(np.int64))
-    middle = 0.5 * (box[:2] + box[2:])
     try:
-        packing = packed(field.background, tuple(box.tolist()), tuple(middle.tolist()), 2 * PATCH)
-        domain = recovered(packing.t, loops, field, surface)
+        patch = mesh_patch(surface, field.chart, field, lambda: loops, box=box)
     except SurfmeshError:
         return None
-    optimiser = Optimiser(domain.t, domain.node, domain.node, surface, field)
-    optimiser.run()
-    return int(np.count_nonzero(domain.t.region[: int(domain.t.count[1])] != DEAD))
+    return len(patch.space.triangles)

@@ -4,6 +4,7 @@ nodes of its edges -> (u, v) loops -> size field -> packing -> boundary -> optim
 (numbers, points)     seams twice     graded inward from the sizes of the edges
 """
 
+import logging
 from collections import Counter
 from dataclasses import replace
 from itertools import pairwise
@@ -17,7 +18,6 @@ from surfmesh.geometry.differential.projection import closest_point
 from surfmesh.geometry.differential.sides import find_sides
 from surfmesh.geometry.surface import Surface
 from surfmesh.meshing.boundary.boundary_loops import BoundaryLoops, cut_line
-from surfmesh.meshing.boundary.boundary_recovery import recovered
 from surfmesh.meshing.boundary.coincident_nodes import coincident_nodes
 from surfmesh.meshing.edges.inner_sizes import sizes_along_edges
 from surfmesh.meshing.faces.crossing_segments import limits_where_crossing
@@ -33,12 +33,13 @@ from surfmesh.meshing.faces.strip_triangulation import strip_mesh
 from surfmesh.meshing.faces.thin_tubes import without_tubes
 from surfmesh.meshing.faces.tube_limits import seam_limits
 from surfmesh.meshing.faces.tube_triangles import with_tubes
-from surfmesh.meshing.patch.gluing import glued, misglued
-from surfmesh.meshing.patch.optimise import Optimiser
-from surfmesh.meshing.patch.packing import packed_over
+from surfmesh.meshing.patch.patch_mesh import mesh_patch
+from surfmesh.meshing.patch.size_requests import joined
 from surfmesh.sizing.field.boundary_field import boundary_field, has_boundary_field
 from surfmesh.sizing.field.size_field import SizeField, size_field
 from surfmesh.sizing.rules.size_limits import SizeLimits, along_lines
+
+logger = logging.getLogger(__name__)
 
 FINER = 0.5
 """Factor on the sizes where sides cannot be joined."""
@@ -46,9 +47,6 @@ FINER = 0.5
 LONGER = 1.5
 """Boundary segments so many times longer than the sizes beside them: a plane's sizes depend on
 the direction from then on."""
-
-ASTRAY = 0.3
-"""Share of ``chord`` by which a node may lie off the surface of a face that uses it."""
 
 PROJECTIONS = 4
 """Steps to the closest point of a plane or a cylinder."""
@@ -98,11 +96,11 @@ def _mesh_rest(job: FaceJob) -> FaceMesh:
         if closed is not None:
             return closed
         refinement = None
-        where = getattr(error, "where", None)
-        if where is not None:
-            refinement = limits_where_crossing(job, np.atleast_2d(where))
+        if error.where is not None:
+            refinement = limits_where_crossing(job, np.atleast_2d(error.where))
         return FaceMesh(failure=str(error), refinement=refinement)
     except Exception as error:  # a mistake of ours: it must not take the other faces with it
+        logger.debug("internal error on %s", job.surface.name, exc_info=True)
         at = extract_tb(error.__traceback__)[-1]
         return FaceMesh(
             failure=f"internal error, please report it with the model: {type(error).__name__}: "
@@ -127,8 +125,7 @@ def edge_refinement(job: FaceJob) -> SizeLimits | None:
     """What the sizes inside a face ask for along its edges, before it is meshed."""
     try:
         surface, field = face_field(job)
-        loops, fixed, _ = _loops(job, field)
-        return sizes_along_edges(job.sizing, surface, field, loops, fixed)
+        return sizes_along_edges(job.sizing, surface, field, _loops(job, field)[0])
     except SurfmeshError:
         return None
 
@@ -136,62 +133,29 @@ def edge_refinement(job: FaceJob) -> SizeLimits | None:
 def _meshed(job: FaceJob, unfold: bool = True) -> FaceMesh:
     """unfold: ask for smaller sizes at folds. In space, edges that cross do so at any size."""
     surface, field = face_field(job)
-    loops, fixed, slots = _loops(job, field)
-    packing = packed_over(field)
-    domain = recovered(packing.t, loops, field, surface)
-    del packing
-    same = domain.node[loops.identity]
-    optimiser = Optimiser(domain.t, domain.node, same, surface, field)
-    optimiser.embedding.point[domain.node] = fixed  # the edges' nodes, not their images
-    wishes: SizeLimits | None = None
-    if job.limits is None:  # the edges heed them from now on
-        wishes = sizes_along_edges(job.sizing, surface, field, loops, fixed)
-    if job.optimise:
-        changes = optimiser.run(first=job.limits is None)
-        astray = np.zeros(len(domain.t.xy), bool)
-        astray[domain.node] = _astray(surface, loops, fixed, job.sizing.chord)
-        far, folded = (
-            found[~astray[domain.t.tri.reshape(-1, 3)[found]].any(axis=1)]
-            for found in (changes.far, changes.folded)
+    loops, slots = _loops(job, field)
+    first = job.limits is None
+    patch = mesh_patch(
+        surface, field.chart, field, lambda: loops, optimise=job.optimise, first=first
+    )
+    space = patch.space
+    if len(space.non_manifold):
+        finer = patch.limits_for_seams(FINER, essential=True)
+        place = ", ".join(f"{x:.6g}" for x in space.points[space.non_manifold[0]])
+        return FaceMesh(
+            failure=f"its sides cannot be joined near ({place})",
+            refinement=joined(finer, _round_tubes(surface, job)),
         )
-        for found, remedy in (
-            (far, optimiser.approaching), (folded, optimiser.unfolding),
-            (changes.turned, optimiser.straightening),
-        ):  # fmt: skip
-            if len(found) and (unfold or remedy != optimiser.unfolding):
-                more = remedy(found)
-                if len(more.sizes):
-                    wishes = more.joined_with(wishes)
-    else:
-        optimiser.settle()
-    xy = domain.t.xy[: int(domain.t.count[0])]
-    uv = field.chart.to_uv(xy)
-    uv[domain.node] = loops.uv
-    parts = glued(surface, loops, domain, uv)
-    slot = np.full(len(xy), -1, np.int64)
-    slot[domain.node] = slots
-    sizes = field.sizes(xy[parts.place]) * optimiser.embedding.scale[parts.place]
-    bad = misglued(parts)
-    if len(bad):
-        finer = FINER * sizes[bad]
-        wishes = SizeLimits(parts.points[bad], finer, job.sizing.gradient, essential=True)
-        wishes = wishes.joined_with(_round_tubes(surface, job))
-        place = ", ".join(f"{x:.6g}" for x in parts.points[bad[0]])
-        return FaceMesh(failure=f"its sides cannot be joined near ({place})", refinement=wishes)
+    along = None
+    if first:  # the edges follow them from now on
+        along = sizes_along_edges(job.sizing, surface, field, loops)
+    chord, folds, angle = patch.requests
+    slot = np.full(len(patch.uv), -1, np.int64)
+    slot[patch.domain.node] = slots
     return FaceMesh(
-        parts.points, slot[parts.place], parts.triangles, parts.uv_points, parts.uv_triangles,
-        sizes, field.roots_of_mesh(xy, optimiser.embedding.scale[: len(xy)]), wishes,
+        space.points, slot[space.vertex], space.triangles, patch.uv, space.uv_triangles,
+        patch.sizes, patch.metric_root_3d, joined(angle, folds if unfold else None, chord, along),
     )  # fmt: skip
-
-
-def _astray(
-    surface: Surface, loops: BoundaryLoops, points: np.ndarray, chord: float | None
-) -> np.ndarray:
-    """Which nodes (k,) lie so far off the surface themselves that smaller sizes are no help."""
-    if chord is None:
-        return np.zeros(len(points), bool)
-    (images,) = surface.evaluate(loops.uv, 0)
-    return np.linalg.norm(points - images, axis=1) > ASTRAY * chord
 
 
 def face_field(job: FaceJob) -> tuple[Surface, SizeField]:
@@ -285,39 +249,37 @@ def _nearest(points: np.ndarray, wanted: np.ndarray) -> np.ndarray:
     return cKDTree(points).query(wanted)[1]
 
 
-def _loops(job: FaceJob, field: SizeField) -> tuple:
-    """Nodes and segments in (u, v); the nodes' points, and their places in the job."""
-    uv, numbers, points, slots, segments = [], [], [], [], []
+def _loops(job: FaceJob, field: SizeField) -> tuple[BoundaryLoops, np.ndarray]:
+    """Nodes and segments in (u, v), with their points; the nodes' places in the job."""
+    parts, rings = [], []
     slot = total = 0
     for loop in job.loops:
         start = total
         for piece in loop:
-            count = len(piece.numbers)
-            place = slot + np.arange(count)
-            slot += count
-            if piece.degenerate:
-                t, line = cut_line(field, piece.uv[0], piece.uv[-1], 1)
-                uv.append(line[:-1])
-                place = np.full(len(t), place[0])
-                numbers.append(np.full(len(t) - 1, piece.numbers[0]))
-                points.append(np.repeat(piece.points[:1], len(t) - 1, axis=0))
-            else:
-                uv.append(piece.uv[:-1])
-                numbers.append(piece.numbers[:-1])
-                points.append(piece.points[:-1])
-            slots.append(place[:-1])
-            total += len(place) - 1
+            parts.append(_without_end(piece, field, slot))
+            slot += len(piece.numbers)
+            total += len(parts[-1][0])
         ring = np.arange(start, total)
-        segments.append(np.stack([ring, np.roll(ring, -1)], axis=1))
-    uv, numbers = np.concatenate(uv), np.concatenate(numbers)
-    points, slots = np.concatenate(points), np.concatenate(slots)
-    ring_segments = np.concatenate(segments)
-    kept = coincident_nodes(uv, numbers, ring_segments)
-    nodes, row = np.unique(kept, return_inverse=True)
-    segments = row[ring_segments].astype(np.int32)
+        rings.append(np.stack([ring, np.roll(ring, -1)], axis=1))
+    uv, numbers, points, slots = (np.concatenate(part) for part in zip(*parts))
+    along = np.concatenate(rings)
+    nodes, row = np.unique(coincident_nodes(uv, numbers, along), return_inverse=True)
+    segments = row[along].astype(np.int32)
     segments = segments[segments[:, 0] != segments[:, 1]]
     if len(np.unique(segments, axis=0)) < len(segments):
         raise SurfaceError(f"the boundary of {job.surface.name!r} runs twice the same way")
-    uv, numbers, points, slots = uv[nodes], numbers[nodes], points[nodes], slots[nodes]
-    _, first, inverse = np.unique(numbers, return_index=True, return_inverse=True)
-    return BoundaryLoops(uv, segments, first[inverse].astype(np.int64)), points, slots
+    _, first, inverse = np.unique(numbers[nodes], return_index=True, return_inverse=True)
+    identity = first[inverse].astype(np.int64)
+    return BoundaryLoops(uv[nodes], segments, identity, points=points[nodes]), slots[nodes]
+
+
+def _without_end(
+    piece: CoedgeNodes, field: SizeField, slot: int
+) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
+    """Parameters, numbers, points and slots of the nodes of one coedge but the last."""
+    if not piece.degenerate:
+        slots = slot + np.arange(len(piece.numbers) - 1)
+        return piece.uv[:-1], piece.numbers[:-1], piece.points[:-1], slots
+    line = cut_line(field, piece.uv[0], piece.uv[-1], 1)[1][:-1]
+    n = len(line)
+    return line, np.full(n, piece.numbers[0]), np.repeat(piece.points[:1], n, 0), np.full(n, slot)

@@ -1,9 +1,15 @@
-"""One (u, v) domain and one size field become triangles.
+"""One (u, v) domain and one size field become triangles: the spine of surfmesh, once.
+
+Others call ``mesh_patch``, go round in ``refined_in_rounds``, and pack by themselves with
+``packed``; the rest is of this room. In the order in which data passes:
 
 packing: drive the packing kernel: room for its arrays, growing them when they are full.
-optimise: the order of the optimiser's steps; what each does is in
-    kernels.optimisation.optimisation.
-gluing: from the parameter plane to space: points on the surface, joined sides glued.
+state: a triangulated domain with its surface frames, and the local operators on it.
+accuracy: where triangles are too far from the surface, folded, or meet at too large an angle.
+schedule: the order of the optimiser's passes.
+size_requests: upper bounds of the size, for another round, where these could not mend it.
+gluing: from the parameter plane to space, joined sides identified.
+patch_mesh: all of these in their order, for every kind of boundary.
 refinement_loop: rounds with smaller sizes until nothing is to be mended, or smaller sizes are no
     help.
 """

@@ -5,6 +5,7 @@ from collections.abc import Callable
 import numpy as np
 
 from surfmesh.errors import MeshingError
+from surfmesh.geometry.differential.chart import Chart
 from surfmesh.kernels.fields.background import Background
 from surfmesh.kernels.packing.disc_packing import LOOK_AHEAD
 from surfmesh.kernels.packing.front import Front, empty_front
@@ -20,16 +21,29 @@ from surfmesh.kernels.packing.packing import (
 )
 from surfmesh.kernels.packing.packing_state import Packing
 from surfmesh.kernels.triangulation.triangulation import Triangulation, empty_triangulation
+from surfmesh.sizing.field.metric_area import box_area
 from surfmesh.sizing.field.size_field import SizeField
 
 NO_LIMIT = 1 << 62
 
+VERTICES = 2.0 / np.sqrt(3.0)
+"""Unit circles on a unit of metric area."""
 
-def packed_over(field: SizeField) -> Packing:
-    """Pack the circles of a size field from the middle of its rectangle until it is covered."""
-    width, height = field.chart.extent
-    box = (0.0, 0.0, width, height)
-    return packed(field.background, box, (0.5 * width, 0.5 * height), field.expected_vertices())
+
+def packed_over(field: SizeField, chart: Chart, box: np.ndarray | None = None) -> Packing:
+    """Pack the circles of a size field from the middle of a rectangle until it is covered.
+
+    box: (4,) x0, y0, x1, y1 in the plane of ``chart``; None: the whole domain.
+    """
+    if box is None:
+        width, height = chart.extent.tolist()
+        x0, y0, x1, y1 = 0.0, 0.0, width, height
+        expected = field.expected_vertices()
+    else:
+        x0, y0, x1, y1 = box.tolist()
+        expected = int(VERTICES * box_area(field, box))
+    middle = 0.5 * (x0 + x1), 0.5 * (y0 + y1)
+    return packed(field.background, (x0, y0, x1, y1), middle, expected)
 
 
 def packed_discs(

@@ -1,7 +1,6 @@
 """Loops that no size can mend are refused at once, by name; those that finer cuts mend are not."""
 
 import math
-import time
 
 import cadquery as cq
 import numpy as np
@@ -18,9 +17,6 @@ import surfmesh as sm
 from surfmesh.cad.model.loop_faults import exact_loops
 from surfmesh.errors import MeshingError
 from surfmesh.meshing.edges.edge_samples import vertex_numbers
-from surfmesh.meshing.faces.face_data import FaceMesh
-from surfmesh.meshing.model_mesh import _Hope
-from surfmesh.sizing.rules.size_limits import SizeLimits
 
 BUILD = BRep_Builder()
 BOX = [(0, 0), (15, 0), (15, 10), (0, 10)]
@@ -137,10 +133,10 @@ def test_an_edge_there_and_back_outside_the_face_is_said():
     shape = torus.cut(cq.Workplane("YZ").circle(0.8).extrude(20, both=True)).val()
     model = sm.from_cadquery(shape)
     assert not shape.isValid()
-    start = time.process_time()
+    heard = []
     with pytest.raises(MeshingError, match=r"face 0 \(torus\): its edge \d+ runs there and back"):
-        sm.mesh(model, 1.0)
-    assert time.process_time() - start < 60.0  # it took minutes, or had no end
+        sm.mesh(model, 1.0, progress=lambda *said: heard.append(said))
+    assert len(heard) < 20  # no round of finer cuts: there were many, or had no end
 
 
 @pytest.mark.parametrize(
@@ -159,29 +155,6 @@ def test_good_faces_have_no_fault(shape):
     for number in range(len(model.faces)):
         exact = exact_loops(model, number, vertex)
         assert (exact.fault, exact.touch) == ("", "")
-
-
-def failed(places):
-    wishes = SizeLimits(np.zeros((places, 3)), np.ones(places), 0.2)
-    return FaceMesh(failure="crosses", wishes=wishes)
-
-
-def test_a_face_that_has_grown_without_end_is_given_up():
-    hope = _Hope()
-    for nodes in (400, 1600, 3000):
-        hope.hear(failed(12), nodes)
-        assert hope.is_left
-    hope.hear(failed(12), 8 * 400 + 1)
-    assert not hope.is_left
-
-
-def test_crossings_that_only_become_more_are_given_up():
-    hope = _Hope()
-    for places in (42, 90):
-        hope.hear(failed(places), 100)
-        assert hope.is_left
-    hope.hear(failed(183), 150)
-    assert not hope.is_left
 
 
 NESTED = {

@@ -185,10 +185,10 @@ def test_steps_suit_a_surface_that_changes_fast():
 @pytest.mark.parametrize("name", TWINS)
 def test_meshes_are_as_good_as_those_of_formulas(name):
     f, u, v, formulas = TWINS[name]
-    wishes = sm.Sizing(chord=0.03)
+    sizing = sm.Sizing(chord=0.03)
     given = sm.NumericSurface(f, u, v, name=name)
     reports = [
-        sm.check(sm.mesh(surface, wishes))
+        sm.check(sm.mesh(surface, sizing))
         for surface in (given, sm.ParametricSurface(*formulas, u=u, v=v))
     ]
     for report in reports:
@@ -228,8 +228,8 @@ def test_the_gallery_by_differences(name):
 def test_poles_seams_twists_and_loops_are_found(name):
     exact = sm.load(name)
     given = sm.NumericSurface(Wrapped(exact), *exact.domain, loops=exact.loops, name=name)
-    wishes = sm.Sizing(chord=0.005, max_size=0.5)
-    found, wanted = (sm.check(sm.mesh(surface, wishes)) for surface in (given, exact))
+    sizing = sm.Sizing(chord=0.005, max_size=0.5)
+    found, wanted = (sm.check(sm.mesh(surface, sizing)) for surface in (given, exact))
     assert found.clean, found.problems
     assert (found.euler, found.closed, found.oriented) == (
         wanted.euler, wanted.closed, wanted.oriented
@@ -253,15 +253,17 @@ def test_it_travels_and_does_not_change():
     "u, v, height",
     [((0, 10), (0, 10), lambda u, v: np.sin(u) * np.cos(v)), ((-1e-3, 2e-3), (5, 7), np.multiply)],
 )
-@pytest.mark.parametrize("wish", [{"chord": 0.02}, {"size": 0.8}, {"chord": 0.05, "anisotropy": 4}])
-def test_a_function_is_never_asked_outside_of_its_domain(u, v, height, wish):
+@pytest.mark.parametrize(
+    "options", [{"chord": 0.02}, {"size": 0.8}, {"chord": 0.05, "anisotropy": 4}]
+)
+def test_a_function_is_never_asked_outside_of_its_domain(u, v, height, options):
     asked = []
 
     def told(a, b):
         asked.append((a.min() - u[0], u[1] - a.max(), b.min() - v[0], v[1] - b.max()))
         return a * (10 / (u[1] - u[0])), b, height(a, b)
 
-    assert sm.check(sm.mesh(sm.NumericSurface(told, u=u, v=v), sm.Sizing(**wish))).clean
+    assert sm.check(sm.mesh(sm.NumericSurface(told, u=u, v=v), sm.Sizing(**options))).clean
     assert np.min(asked) >= 0.0
 
 

@@ -15,7 +15,7 @@ from naive.triangulation import (
     half_edges,
     live_triangles,
 )
-from naive.watchdog import within
+from naive.watchdog import watched
 
 from surfmesh.errors import SurfaceError
 from surfmesh.kernels.fields.background import sizes_at
@@ -165,7 +165,7 @@ def test_random_star_shapes(seed, n, ratio):
 
     domain_of(constant_background(0.3, 1.0, 1.0), square(3))  # compiled before the fork
     if polygon_area(polygon) > 0:
-        assert within(20, broken) is None
+        assert watched(broken) is None
 
 
 @settings(max_examples=15)

@@ -12,8 +12,8 @@ def at_the_corner(angle, ratio):
     turned = np.array([np.cos(np.radians(angle)), np.sin(np.radians(angle)), 0.0])
     points = [way[:, None] * turned, way[:, None] * [1.0, 0.0, 0.0]]
     ways = np.array([[turned, turned], [[1.0, 0.0, 0.0]] * 2])
-    wishes = [np.full(21, 100.0), np.ones(21)]
-    return graded_by_direction(points, wishes, ways, np.array([[0, 1], [0, 2]]), 0.2, ratio)[0]
+    sizes = [np.full(21, 100.0), np.ones(21)]
+    return graded_by_direction(points, sizes, ways, np.array([[0, 1], [0, 2]]), 0.2, ratio)[0]
 
 
 @pytest.mark.parametrize("angle", [0.0, 180.0])

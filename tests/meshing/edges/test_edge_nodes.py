@@ -14,7 +14,7 @@ from surfmesh.sizing.options.model_sizing import model_sizing
 from surfmesh.sizing.rules.size_limits import SizeLimits
 
 
-def naive_gaps(points, wish, first, ends, edges, first_of_face):
+def naive_gaps(points, size, first, ends, edges, first_of_face):
     """The smallest distance to any segment of any other edge of a face, all pairs tried."""
     gap = np.full(len(points), np.inf)
     for face in range(len(first_of_face) - 1):
@@ -29,7 +29,7 @@ def naive_gaps(points, wish, first, ends, edges, first_of_face):
                         square = along @ along
                         t = np.clip((points[p] - points[q]) @ along / square, 0, 1) if square else 0
                         d = np.linalg.norm(points[p] - points[q] - t * along)
-                        if d < wish[p]:
+                        if d < size[p]:
                             gap[p] = min(gap[p], d)
     return gap
 
@@ -39,16 +39,16 @@ def test_gaps_are_those_of_all_pairs(seed):
     draw = np.random.default_rng(seed)
     first = np.cumsum([0, *draw.integers(2, 6, size=5)])
     points = draw.normal(size=(first[-1], 3))
-    wish = draw.uniform(0.1, 3.0, size=first[-1])
+    size = draw.uniform(0.1, 3.0, size=first[-1])
     ends = draw.integers(0, 6, size=(5, 2))
     edges = np.array([0, 1, 2, 4, 3, 1, 2])
     first_of_face = np.array([0, 4, 4, 7])
     gap = np.full(len(points), np.inf)
     edge_gaps(
-        points, wish, first, ends, edges, first_of_face,
+        points, size, first, ends, edges, first_of_face,
         np.empty((len(points), 6)), np.empty((5, 6)), gap,
     )  # fmt: skip
-    expected = naive_gaps(points, wish, first, ends, edges, first_of_face)
+    expected = naive_gaps(points, size, first, ends, edges, first_of_face)
     assert np.allclose(gap, expected, rtol=1e-12, equal_nan=True)
 
 

@@ -17,13 +17,13 @@ from surfmesh.sizing.options.model_sizing import model_sizing
 CHORD = 0.05
 
 
-def judged(shape, euler=2, scale=1.0, **wishes):
+def judged(shape, euler=2, scale=1.0, **asked):
     """The mesh and its report, of a shape that must come out clean and closed."""
     model = sm.from_cadquery(shape)
-    order = wishes.pop("order", 1)
-    workers = wishes.pop("jobs", 1)
-    wishes = wishes or {"chord": CHORD * scale}
-    mesh = sm.mesh(model, sm.Sizing(**wishes), order=order, jobs=workers)
+    order = asked.pop("order", 1)
+    workers = asked.pop("jobs", 1)
+    asked = asked or {"chord": CHORD * scale}
+    mesh = sm.mesh(model, sm.Sizing(**asked), order=order, jobs=workers)
     report = sm.check(mesh)
     assert report.clean, report.problems
     assert report.closed and report.euler == euler
@@ -112,14 +112,14 @@ def test_what_is_narrower_than_the_chord_is_clean_and_cheap(name, share):
     assert report.triangles < most
 
 
-@pytest.mark.parametrize("wishes", [
+@pytest.mark.parametrize("asked", [
     {"size": 0.8}, {"chord": CHORD, "anisotropy": 8.0}, {"chord": CHORD, "order": 2},
     {"chord": CHORD, "jobs": 2}, {"chord": CHORD, "size": 0.7}, {"angle": 20.0, "chord": CHORD},
 ], ids=str)  # fmt: skip
-def test_narrow_faces_by_other_wishes(wishes):
-    wishes = dict(wishes)
-    judged(banded(0.01), **dict(wishes))
-    judged(cq.Workplane().box(10, 10, 10).faces(">Z").workplane().hole(0.002), 0, **dict(wishes))
+def test_narrow_faces_by_other_requests(asked):
+    asked = dict(asked)
+    judged(banded(0.01), **dict(asked))
+    judged(cq.Workplane().box(10, 10, 10).faces(">Z").workplane().hole(0.002), 0, **dict(asked))
 
 
 @pytest.mark.parametrize("share", [0.3, 1e-3])
@@ -156,7 +156,7 @@ def test_two_sides_are_cut_with_mates():
     assert len(samples.narrow) == 1 and samples.mates
     for run in samples.mates:
         own, other = nodes[run.edge], nodes[run.mate]
-        inside = (own.t >= run.share[0]) & (own.t <= run.share[-1])
+        inside = (own.t >= run.t[0]) & (own.t <= run.t[-1])
         away = np.linalg.norm(own.points[inside, None] - other.points, axis=2).min(axis=1)
         assert away.max() < 0.0011
 

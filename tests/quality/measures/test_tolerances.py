@@ -26,8 +26,8 @@ def cylinder(model):
 
 
 def test_a_min_size_that_forbids_the_chord_is_said_in_one_line(rounded):
-    wish = {"*": sm.Sizing(chord=0.01), "type:cylinder": {"min_size": 1.5}}
-    report = sm.check(sm.mesh(rounded, wish))
+    sizes = {"*": sm.Sizing(chord=0.01), "type:cylinder": {"min_size": 1.5}}
+    report = sm.check(sm.mesh(rounded, sizes))
     assert report.clean and report.chord == 0.01 and report.above_chord_share > 0
     (limit,) = report.limits
     assert (limit.face, limit.option, limit.asked) == (cylinder(rounded), "chord", 0.01)
@@ -53,8 +53,8 @@ def test_many_faces_with_one_limit_are_one_line():
 
 
 def test_a_limit_of_the_angle(rounded):
-    wish = {"*": sm.Sizing(angle=5), "type:cylinder": {"min_size": 1.0}}
-    report = sm.check(sm.mesh(rounded, wish))
+    sizes = {"*": sm.Sizing(angle=5), "type:cylinder": {"min_size": 1.0}}
+    report = sm.check(sm.mesh(rounded, sizes))
     (limit,) = report.limits
     assert report.clean and limit.option == "angle" and limit.reached > 15
     assert str(limit).endswith(f"from the angle 5°: neighbours turn by {limit.reached:.3g}°")

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 import surfmesh as sm
-from surfmesh.quality.measures.surface_to_mesh import triangle_distances
+from surfmesh.quality.measures.triangle_distances import triangle_distances
 
 
 def height(z, u=(0, 1), v=(0, 1)):
@@ -19,8 +19,8 @@ def test_a_spike_between_all_samples_is_found_with_its_place(width, place, scale
     z = f"{scale}*exp(-((u/{scale}-{a})**2+(v/{scale}-{b})**2)/{width}**2)"
     surface = height(z, (0, scale), (0, scale))
     chord = sm.Sizing(chord=0.02 * scale, min_size=0.05 * scale)
-    wish = sm.Sizing(size=0.07 * scale) if by_size else chord
-    report = sm.check(sm.mesh(surface, wish))
+    asked = sm.Sizing(size=0.07 * scale) if by_size else chord
+    report = sm.check(sm.mesh(surface, asked))
     assert not report.clean and report.unseen > 0
     first = report.unseen_at[0]
     assert first.found and np.allclose(first.uv, [scale * a, scale * b], atol=5 * width * scale)
@@ -55,9 +55,11 @@ def test_a_step_is_never_clean(z):
     ["0", "0.3*sin(3*u)*cos(2*v)", "u**2*v", "0.1*exp(-(u**2+v**2)/0.3**2)", "0.2*sqrt(u+v+0.01)",
      "0.1*cos(3*atan2(v-0.5, u-2))"],
 )  # fmt: skip
-@pytest.mark.parametrize("wish", [{"chord": 3e-3}, {"size": 0.1}, {"chord": 0.01, "anisotropy": 5}])
-def test_smooth_surfaces_are_proved_to_hide_nothing(z, wish):
-    report = sm.check(sm.mesh(height(z), sm.Sizing(**wish)))
+@pytest.mark.parametrize(
+    "asked", [{"chord": 3e-3}, {"size": 0.1}, {"chord": 0.01, "anisotropy": 5}]
+)
+def test_smooth_surfaces_are_proved_to_hide_nothing(z, asked):
+    report = sm.check(sm.mesh(height(z), sm.Sizing(**asked)))
     assert report.clean and report.unseen == 0 and report.unseen_at == ()
     assert "nothing more between the samples" in " ".join(str(report).split())
 

@@ -281,8 +281,8 @@ def test_face_numbers_of_any_size(saddle):
     rows = sm.check(tagged).by_face
     assert [row.face for row in rows] == [-5, 1_999_999_995]
     assert [row.triangles for row in rows] == [64, 64] and sm.check(tagged).faces == 2
-    astray = sm.check(changed(saddle, face_ids=saddle.face_ids + 1))
-    assert astray.by_face == () and "face_ids run from 1 to 2" in astray.problems[0]
+    shifted = sm.check(changed(saddle, face_ids=saddle.face_ids + 1))
+    assert shifted.by_face == () and "face_ids run from 1 to 2" in shifted.problems[0]
 
 
 def test_the_exit_status_tells_of_self_intersection(tmp_path, capsys):

@@ -21,62 +21,60 @@ from surfmesh.kernels.optimisation.surface_frames import (
 from surfmesh.kernels.triangulation.triangulation import empty_triangulation
 from surfmesh.meshing.boundary.boundary_loops import boundary_loops
 from surfmesh.meshing.boundary.boundary_recovery import recovered
-from surfmesh.meshing.patch.optimise import LONGEST, SHORTEST, Optimiser
 from surfmesh.meshing.patch.packing import packed
+from surfmesh.meshing.patch.schedule import optimise
+from surfmesh.meshing.patch.state import LONGEST, SHORTEST, PatchState
 from surfmesh.sizing.field.size_field import size_field
 from surfmesh.sizing.options.sizing import Sizing
 
 
-def optimiser_of(name="two_peaks", **wishes):
+def state_of(name="two_peaks", **asked):
     surface = load(name)
     sides = find_sides(surface)
-    sizing = Sizing(**(wishes or dict(chord=0.03, max_size=0.9, growth=1.3)))
+    sizing = Sizing(**(asked or dict(chord=0.03, max_size=0.9, growth=1.3)))
     field = size_field(surface, sizing, sides)
     width, height = field.chart.extent
     t = packed(field.background, (0, 0, width, height), (width / 2, height / 2), 2000).t
     loops = boundary_loops(surface, sides, field)
     domain = recovered(t, loops, field, surface)
-    same = domain.node[loops.identity]
-    return Optimiser(domain.t, domain.node, same, surface, field), domain
+    return PatchState(domain, surface, field.chart, field), domain
 
 
-def shapes(optimiser):
-    t = optimiser.t
-    return np.array(
-        [triangle_shape(optimiser.embedding, *row) for row in corners(t)[live_triangles(t)]]
-    )
+def shapes(state):
+    t = state.t
+    return np.array([triangle_shape(state.frames, *row) for row in corners(t)[live_triangles(t)]])
 
 
-STEPS = ["_swap", "_smooth", "_swap_for_degree", "_smooth", "_swap", "_collapse", "_split"]
+STEPS = ["swap", "smooth", "swap_for_degree", "smooth", "swap", "collapse", "split"]
 
 
 @pytest.mark.parametrize("name, euler", [("two_peaks", 1), ("pierced_saddle", 0), ("sphere", 1)])
 def test_every_step_keeps_the_invariants(name, euler):
     """Positive in the plane, the same domain, the same border, frozen vertices where they were."""
-    wishes = {"pierced_saddle": dict(size=0.12), "sphere": dict(size=0.2)}.get(name, {})
-    optimiser, domain = optimiser_of(name, **wishes)
-    t = optimiser.t
+    asked = {"pierced_saddle": dict(size=0.12), "sphere": dict(size=0.2)}.get(name, {})
+    state, domain = state_of(name, **asked)
+    t = state.t
     border = {e for e, h in half_edges(t).items() if t.adj[h] == NIL}
     nodes = t.xy[domain.node].copy()
     fixed = int(t.fixed.sum())
     assert check_domain(t, euler) is None
     for _ in range(2):
         for step in STEPS:
-            getattr(optimiser, step)()
+            getattr(state, step)()
             assert check_domain(t, euler) is None, step
             assert (t.xy[domain.node] == nodes).all(), step
             assert {e for e, h in half_edges(t).items() if t.adj[h] == NIL} == border, step
             assert int(t.fixed.sum()) == fixed
-    optimiser.run()
+    optimise(state)
     assert check_domain(t, euler) is None
     assert (t.xy[domain.node] == nodes).all()
 
 
 def test_run_betters_two_peaks():
-    optimiser, _ = optimiser_of()
-    before = shapes(optimiser)
-    changes = optimiser.run()
-    after = shapes(optimiser)
+    state, _ = state_of()
+    before = shapes(state)
+    changes = optimise(state)
+    after = shapes(state)
     assert changes.swaps > 0 and changes.passes > 0
     assert after.mean() > 0.955 > before.mean() + 0.01
     assert after.min() > before.min()
@@ -85,29 +83,29 @@ def test_run_betters_two_peaks():
 
 
 def test_a_second_run_has_little_left_to_do():
-    optimiser, _ = optimiser_of()
-    optimiser.run()
-    mean = shapes(optimiser).mean()
-    t = optimiser.t
+    state, _ = state_of()
+    optimise(state)
+    mean = shapes(state).mean()
+    t = state.t
     live = len(live_triangles(t))
-    optimiser.run()
-    assert shapes(optimiser).mean() > mean - 1e-3
+    optimise(state)
+    assert shapes(state).mean() > mean - 1e-3
     assert abs(len(live_triangles(t)) - live) < 0.02 * live
 
 
 def test_swaps_for_shape_only_better_the_worse_of_two():
-    optimiser, _ = optimiser_of()
-    before = np.sort(shapes(optimiser))
-    t, s = optimiser.t, optimiser.embedding
-    swaps = swap_for_shape(t, s, optimiser.shape, optimiser.dirty, optimiser.active, 0.82, 50)
-    after = np.sort(shapes(optimiser))
+    state, _ = state_of()
+    before = np.sort(shapes(state))
+    t, s = state.t, state.frames
+    swaps = swap_for_shape(t, s, state.shape, state.dirty, state.active, 0.82, 50)
+    after = np.sort(shapes(state))
     assert swaps > 0
     assert after[0] >= before[0] and after.mean() > before.mean()
-    assert not optimiser.dirty[: t.count[0]].any()
-    kept = [optimiser.shape[k] for k in live_triangles(t)]
+    assert not state.dirty[: t.count[0]].any()
+    kept = [state.shape[k] for k in live_triangles(t)]
     np.testing.assert_allclose(np.sort(kept), after, atol=1e-12)
-    optimiser.dirty[:] = 1
-    assert swap_for_shape(t, s, optimiser.shape, optimiser.dirty, optimiser.active, 0.82, 50) == 0
+    state.dirty[:] = 1
+    assert swap_for_shape(t, s, state.shape, state.dirty, state.active, 0.82, 50) == 0
 
 
 def counted_degrees(t):
@@ -115,53 +113,53 @@ def counted_degrees(t):
 
 
 def test_degrees_are_kept_up_to_date():
-    optimiser, _ = optimiser_of()
-    optimiser._swap()
-    optimiser._find_stars()
-    t, n = optimiser.t, int(optimiser.t.count[0])
+    state, _ = state_of()
+    state.swap()
+    state.find_stars()
+    t, n = state.t, int(state.t.count[0])
     before = counted_degrees(t)
-    assert (optimiser.degree[:n] == before[:n]).all()
-    irregular = ((before[:n] - 6) ** 2)[optimiser.frozen[:n] == 0].sum()
+    assert (state.degree[:n] == before[:n]).all()
+    irregular = ((before[:n] - 6) ** 2)[state.frozen[:n] == 0].sum()
     swaps = swap_for_degree(
-        t, optimiser.embedding, optimiser.frozen, optimiser.degree, optimiser.dirty,
-        optimiser.active, 0.4,
+        t, state.frames, state.frozen, state.degree, state.dirty,
+        state.active, 0.4,
     )  # fmt: skip
     after = counted_degrees(t)
-    assert (optimiser.degree[:n] == after[:n]).all()
-    now = ((after[:n] - 6) ** 2)[optimiser.frozen[:n] == 0].sum()
+    assert (state.degree[:n] == after[:n]).all()
+    now = ((after[:n] - 6) ** 2)[state.frozen[:n] == 0].sum()
     assert swaps > 0 and now <= irregular - 2 * swaps
     assert check_domain(t, 1) is None
 
 
 def test_frozen_vertices_are_those_on_the_border_or_a_fixed_edge():
-    optimiser, domain = optimiser_of("pierced_saddle", size=0.15)
-    optimiser._find_stars()
-    frozen = np.flatnonzero(optimiser.frozen[: optimiser.t.count[0]])
+    state, domain = state_of("pierced_saddle", size=0.15)
+    state.find_stars()
+    frozen = np.flatnonzero(state.frozen[: state.t.count[0]])
     assert set(frozen.tolist()) == set(domain.node.tolist())
-    star = optimiser.star[: optimiser.t.count[0]]
-    assert (optimiser.t.tri[star] == np.arange(len(star))).all()
+    star = state.star[: state.t.count[0]]
+    assert (state.t.tri[star] == np.arange(len(star))).all()
 
 
 def test_collapse_and_split_bring_lengths_into_range():
     """From sizes that are half, then twice, of what the packing was made for."""
-    for factor, step in ((2.0, "_collapse"), (0.5, "_split")):
-        optimiser, _ = optimiser_of()
-        t, s = optimiser.t, optimiser.embedding
+    for factor, step in ((2.0, "collapse"), (0.5, "split")):
+        state, _ = state_of()
+        t, s = state.t, state.frames
         s.scale[:] *= factor
-        optimiser._embed(np.arange(int(t.count[0]), dtype=np.int32))
+        state.set_frames(np.arange(int(t.count[0]), dtype=np.int32))
         live = len(live_triangles(t))
         for _ in range(8):
-            getattr(optimiser, step)()
-            optimiser._swap()
-            optimiser._smooth()
+            getattr(state, step)()
+            state.swap()
+            state.smooth()
         assert check_domain(t, 1) is None
         inner = {
             (a, b)
             for (a, b), e in half_edges(t).items()
-            if t.adj[e] != NIL and not (optimiser.frozen[a] or optimiser.frozen[b])
+            if t.adj[e] != NIL and not (state.frozen[a] or state.frozen[b])
         }
         lengths = np.array([edge_length(s, a, b) for a, b in inner])
-        if step == "_collapse":
+        if step == "collapse":
             assert len(live_triangles(t)) < 0.5 * live
             assert (lengths > SHORTEST).mean() > 0.9
         else:
@@ -246,8 +244,8 @@ def test_an_inverted_star_is_not_moved():
 
 
 def test_embedding_of_a_sphere_against_numpy():
-    optimiser, _ = optimiser_of("sphere", size=0.15)
-    t, s = optimiser.t, optimiser.embedding
+    state, _ = state_of("sphere", size=0.15)
+    t, s = state.t, state.frames
     rows = corners(t)[live_triangles(t)]
     regular = rows[(np.abs(s.point[rows][:, :, 2]) < 0.95).all(axis=1)]
     for a, b, c in regular[::29]:

@@ -3,8 +3,6 @@
 import numpy as np
 
 from surfmesh.meshing.patch.refinement_loop import (
-    FEW_BOUNDARY_NODES,
-    MAX_BOUNDARY_GROWTH,
     MAX_ROUNDS_WITHOUT_BEST,
     MAX_STALLED_ROUNDS,
     StagnationCheck,
@@ -57,16 +55,19 @@ def test_a_mesh_that_becomes_finer_is_given_up_without_a_new_best():
     assert check.is_stalled
 
 
-def test_crossings_that_multiply_and_boundaries_that_grow_are_given_up():
+def test_a_face_that_has_grown_without_end_is_given_up():
     check = StagnationCheck()
-    check.record(10, 0, failed=True)
-    for k in range(1, MAX_STALLED_ROUNDS + 1):
+    for nodes in (400, 1600, 3000):
+        check.record(12, 0, failed=True, nodes=nodes)
         assert not check.is_stalled
-        check.record(10 * 2**k, 0, failed=True)
+    check.record(12, 0, failed=True, nodes=8 * 400 + 1)
     assert check.is_stalled
+
+
+def test_crossings_that_only_become_more_are_given_up():
     check = StagnationCheck()
-    check.record(10, 100, nodes=FEW_BOUNDARY_NODES // MAX_BOUNDARY_GROWTH + 1)
-    check.record(8, 200, nodes=FEW_BOUNDARY_NODES + 1)
-    assert not check.is_stalled
-    check.record(6, 400, nodes=MAX_BOUNDARY_GROWTH * FEW_BOUNDARY_NODES)
+    for places in (42, 90):
+        check.record(places, 0, failed=True, nodes=100)
+        assert not check.is_stalled
+    check.record(183, 0, failed=True, nodes=150)
     assert check.is_stalled

@@ -1,12 +1,14 @@
 """What ``estimate`` says beforehand against the meshes: small, stretched, thin, large."""
 
+from functools import partial
+
 import cadquery as cq
 import numpy as np
 import pytest
 
 import surfmesh as sm
 from surfmesh.geometry.differential.sides import find_sides
-from surfmesh.meshing import parametric_mesh
+from surfmesh.meshing import model_mesh, parametric_mesh
 from surfmesh.meshing.estimate import trial_mesh
 from surfmesh.meshing.estimate.estimation import field_triangles
 from surfmesh.meshing.estimate.trial_patches import triangles_per_unit
@@ -90,10 +92,27 @@ def test_holes_that_the_volume_asks_to_be_finer_make_the_plate_finer_too():
     assert found.triangles == pytest.approx(len(mesh.triangles), rel=0.15)
 
 
-def test_a_trial_that_takes_too_long_is_given_up(monkeypatch):
-    monkeypatch.setattr(trial_mesh, "SECONDS", 0.0)
+def counts(subject, size):
+    make = partial(sm.mesh, subject, size)
+    return trial_mesh.counts_within_budget(lambda budget: make(progress=budget))
+
+
+def test_a_trial_that_needs_too_much_work_is_given_up(monkeypatch):
+    monkeypatch.setattr(trial_mesh, "BUDGET", 0)
     surface = sm.load("torus")
-    assert trial_mesh.tried(lambda stop: sm.mesh(surface, 0.3, progress=stop)) is None
+    assert counts(surface, 0.3) is None
     assert sm.estimate(surface, 0.3).triangles == pytest.approx(
         len(sm.mesh(surface, 0.3).triangles), rel=0.1
     )
+
+
+@pytest.mark.parametrize("budget, faces_meshed", [(0, 1), (2_000, 5), (10**9, 6)])
+def test_the_work_of_a_model_is_counted_face_by_face(monkeypatch, budget, faces_meshed):
+    """Six faces, each of some 400 units: no clock decides where the trial ends."""
+    model = sm.from_cadquery(cq.Workplane().box(1, 1, 1))
+    mesh_face, meshed = model_mesh.mesh_face, []
+    monkeypatch.setattr(model_mesh, "mesh_face", lambda job: meshed.append(job) or mesh_face(job))
+    monkeypatch.setattr(trial_mesh, "BUDGET", budget)
+    found = counts(model, 1.0)
+    assert len(meshed) == faces_meshed
+    assert (found is None) == (faces_meshed < 6)
