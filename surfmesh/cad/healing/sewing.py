@@ -35,6 +35,7 @@ from OCP.TopAbs import (
 from OCP.TopoDS import TopoDS, TopoDS_Shape, TopoDS_Solid
 
 from surfmesh.cad.healing.origins import Origins, remarks_again, tags_again
+from surfmesh.cad.model.cad_model import Colour
 from surfmesh.cad.parts import Detail, Part
 from surfmesh.cad.sub_shapes import (
     ByShape,
@@ -293,7 +294,7 @@ def _common(paths: list[Path]) -> Path:
     return first[: min(len(first), len(last)) if same is None else same]
 
 
-def _colour(parts: dict[Path, Part], path: Path, below: Path):
+def _colour(parts: dict[Path, Part], path: Path, below: Path) -> Colour | None:
     """What a part below another gives its faces and the other does not."""
     for end in range(len(below), len(path), -1):
         if parts[below[:end]].colour:

@@ -201,7 +201,7 @@ class Torus(_Elementary):
         return values
 
 
-def _products(u, v, turn_v: np.ndarray, products: np.ndarray) -> np.ndarray:
+def _products(u: np.ndarray, v: np.ndarray, turn_v: np.ndarray, products: np.ndarray) -> np.ndarray:
     """cos v, sin v into turn_v (2, n), times cos u, sin u into products (4, n).
 
     Returns cos u, sin u (2, n).

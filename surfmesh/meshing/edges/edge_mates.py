@@ -13,6 +13,7 @@ from __future__ import annotations
 from collections import deque
 from collections.abc import Callable
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -20,12 +21,15 @@ from surfmesh.cad.model.cad_model import CadModel
 from surfmesh.kernels.space.edge_distances import edge_gaps
 from surfmesh.meshing.edges.narrow_faces import Chain, chain_of, feet, foot_on_edge
 
+if TYPE_CHECKING:  # which finds narrow faces with this module
+    from surfmesh.meshing.edges.edge_samples import EdgeSamples
+
 SWEEPS = 6
 """How often feet of new nodes are looked for, at most."""
 
 SAME_SIZE, SAME_GAP = 0.3, 0.5
-"""A node that lies off the foot by less than this share of the size there is the mate itself;
-on bent edges by less than this share of the gap over the turn of a segment: chords would cross."""
+"""A node that lies off the foot by less than this fraction of the size there is the mate itself;
+on bent edges by less than this part of the gap over the turn of a segment: chords would cross."""
 
 ACUTE = 0.85
 """Cosine of the angle between edges that meet: wider wedges have no narrow part to speak of."""
@@ -41,19 +45,19 @@ COINCIDENT = 1e-12
 class MateRun:
     """A part of an edge and its feet on another one, at samples.
 
-    share (n,) rising, foot (n,): shares of both edges; gap (n,): distance.
+    t (n,) rising, foot (n,): normalised parameters of both edges; gap (n,): distance.
     """
 
     edge: int
     mate: int
-    share: np.ndarray
+    t: np.ndarray
     foot: np.ndarray
     gap: np.ndarray
 
 
-def mate_runs(model: CadModel, samples) -> list[MateRun]:
+def mate_runs(model: CadModel, samples: EdgeSamples) -> list[MateRun]:
     """Of the two sides of every narrow face, both ways, and of other edges of a face that are as
-    near to each other, inside or outside of it. samples: ``EdgeSamples``."""
+    near to each other, inside or outside of it."""
     found = []
     for number, narrow in samples.narrow.items():
         coedges = list(model.faces[number].coedges)
@@ -68,11 +72,11 @@ def mate_runs(model: CadModel, samples) -> list[MateRun]:
             widths[a, b] = max(widths.get((a, b), 0.0), float(samples.narrow_width[face]))
     for (a, b), width in widths.items():
         own, other = (_edge_chain(samples, edge) for edge in (a, b))
-        found += [run for run in _runs(model, own, other, width) if len(run.share) > 1]
+        found += [run for run in _runs(model, own, other, width) if len(run.t) > 1]
     return found
 
 
-def _meeting_pairs(model: CadModel, samples) -> list[tuple[int, int, int]]:
+def _meeting_pairs(model: CadModel, samples: EdgeSamples) -> list[tuple[int, int, int]]:
     """(face, edge, edge) of coedges that follow each other and turn back, both ways."""
     found = []
     for number, face in enumerate(model.faces):
@@ -92,7 +96,7 @@ def _meeting_pairs(model: CadModel, samples) -> list[tuple[int, int, int]]:
     return found
 
 
-def _near_pairs(model: CadModel, samples) -> list[tuple[int, int, int]]:
+def _near_pairs(model: CadModel, samples: EdgeSamples) -> list[tuple[int, int, int]]:
     """(face, edge, edge) of edges that do not meet and are somewhere narrowly apart, both ways."""
     points, first = samples.points, samples.first
     if len(points) < 3:
@@ -131,13 +135,13 @@ def _near_pairs(model: CadModel, samples) -> list[tuple[int, int, int]]:
     return found
 
 
-def _edge_chain(samples, edge: int) -> Chain:
+def _edge_chain(samples: EdgeSamples, edge: int) -> Chain:
     """One edge as a chain."""
     own = samples.of(edge)
-    points, share = samples.points[own], samples.share[own]
+    points, t = samples.points[own], samples.share[own]
     count = len(points) - 1
     length = float(np.linalg.norm(np.diff(points, axis=0), axis=1).sum())
-    return Chain(points, np.zeros(count, int), np.full(count, edge), share[:-1], share[1:], length)
+    return Chain(points, np.zeros(count, int), np.full(count, edge), t[:-1], t[1:], length)
 
 
 def _runs(model: CadModel, own: Chain, other: Chain, width: float) -> list[MateRun]:
@@ -145,36 +149,36 @@ def _runs(model: CadModel, own: Chain, other: Chain, width: float) -> list[MateR
     found = []
     for coedge in dict.fromkeys(own.coedge.tolist()):
         at = np.flatnonzero(own.coedge == coedge)
-        share = np.r_[own.share[at], own.share_end[at[-1]]]
+        t = np.r_[own.t[at], own.t_end[at[-1]]]
         points = own.points[np.r_[at, at[-1] + 1]]
         edge = int(own.edge[at[0]])
         place, foot, gap = feet(model, points, other)
         mate = other.edge[place]
         near = (gap <= width) & (mate != edge)
         starts = np.flatnonzero(np.r_[True, (np.diff(mate) != 0) | (near[1:] != near[:-1])])
-        for rows in np.split(np.arange(len(share)), starts[1:]):
+        for rows in np.split(np.arange(len(t)), starts[1:]):
             if not near[rows[0]]:
                 continue
-            order = rows[np.argsort(share[rows], kind="stable")]
-            found.append(MateRun(edge, int(mate[rows[0]]), share[order], foot[order], gap[order]))
+            order = rows[np.argsort(t[rows], kind="stable")]
+            found.append(MateRun(edge, int(mate[rows[0]]), t[order], foot[order], gap[order]))
     return found
 
 
-def share_sizes(samples, mates: list[MateRun], sizes: np.ndarray) -> None:
+def lower_to_mates(samples: EdgeSamples, mates: list[MateRun], sizes: np.ndarray) -> None:
     """Lower the sizes (n,) at samples, in place, to those of their mates."""
     for run in mates:
         own, other = samples.of(run.edge), samples.of(run.mate)
         found = np.interp(run.foot, samples.share[other], sizes[other])
-        rows = own.start + np.searchsorted(samples.share[own], run.share)
+        rows = own.start + np.searchsorted(samples.share[own], run.t)
         rows = np.minimum(rows, own.stop - 1)
         sizes[rows] = np.minimum(sizes[rows], found)
 
 
 class MatedCuts:
-    """Shares of the nodes of all edges with mates, found together."""
+    """Parameters of the nodes of all edges with mates, found together."""
 
     def __init__(
-        self, model: CadModel, samples, sizes: np.ndarray, fewest: Callable[[int], int]
+        self, model: CadModel, samples: EdgeSamples, sizes: np.ndarray, fewest: Callable[[int], int]
     ) -> None:
         """sizes (n,): at the samples, graded. fewest: segments of an edge, by number."""
         self.model, self.samples, self.sizes, self.fewest = model, samples, sizes, fewest
@@ -184,12 +188,12 @@ class MatedCuts:
                 continue  # feet would be told apart by rounding alone, without end
             self.runs.setdefault(run.edge, []).append(run)
             self.runs.setdefault(run.mate, [])
-        self.shares = {edge: np.array([0.0, 1.0]) for edge in self.runs}
+        self.t = {edge: np.array([0.0, 1.0]) for edge in self.runs}
         self._seen: dict[int, int] = {}  # nodes of the edge when feet of a run were looked for
         self._length = {edge: self._lengths(edge) for edge in self.runs}
 
     def cut(self) -> dict[int, np.ndarray]:
-        """Shares (k,) by edge, rising from 0 to 1."""
+        """Parameters (k,) by edge, rising from 0 to 1."""
         if not self.runs:
             return {}
         self._spread()  # the feet of vertices
@@ -201,13 +205,13 @@ class MatedCuts:
                 if own in done:
                     continue
                 done.add(own)
-                self.shares[own] = self._subdivided(own)
+                self.t[own] = self._subdivided(own)
                 for run in self.runs[own]:
                     if run.mate not in done:
                         self._add_feet(run)
                         queue.append(run.mate)
         self._spread()
-        return self.shares
+        return self.t
 
     def _spread(self) -> None:
         for _ in range(SWEEPS):
@@ -216,24 +220,24 @@ class MatedCuts:
 
     def _add_feet(self, run: MateRun) -> int:
         """Cut the mate where nodes of the edge have their feet; how many are new."""
-        own = self.shares[run.edge]
+        own = self.t[run.edge]
         if self._seen.get(id(run)) == len(own):
             return 0
         self._seen[id(run)] = len(own)
-        reach = 0.5 * np.diff(run.share).max() if len(run.share) > 1 else 0.0
-        own = own[(own >= run.share[0] - reach) & (own <= run.share[-1] + reach)]
+        reach = 0.5 * np.diff(run.t).max() if len(run.t) > 1 else 0.0
+        own = own[(own >= run.t[0] - reach) & (own <= run.t[-1] + reach)]
         if not len(own):
             return 0
         edge = self.model.edges[run.edge]
         points = edge.evaluate(own, 0)[0]
         for k in np.flatnonzero((own == 0.0) | (own == 1.0)):
             points[k] = self.model.vertices[edge.start if own[k] == 0.0 else edge.end].point
-        guess = np.interp(own, run.share, run.foot)
+        guess = np.interp(own, run.t, run.foot)
         foot, away = foot_on_edge(self.model, run.mate, points, guess)
-        gap = np.interp(own, run.share, run.gap)
+        gap = np.interp(own, run.t, run.gap)
         there = away <= 2.0 * gap + 1e-9 * self.model.diagonal
         foot, away = foot[there], away[there]
-        nodes = self.shares[run.mate]
+        nodes = self.t[run.mate]
         right = np.clip(np.searchsorted(nodes, foot), 1, len(nodes) - 1)
         along, ends = self._along(run.mate, foot), self._along(run.mate, nodes)
         near = np.minimum(np.abs(along - ends[right - 1]), np.abs(along - ends[right]))
@@ -244,16 +248,16 @@ class MatedCuts:
                 added.append(float(along[k]))
                 nodes = np.append(nodes, foot[k])
         if added:
-            self.shares[run.mate] = np.unique(nodes)
+            self.t[run.mate] = np.unique(nodes)
         return len(added)
 
     def _lengths(self, edge: int) -> np.ndarray:
         points = self.samples.points[self.samples.of(edge)]
         return np.r_[0.0, np.cumsum(np.linalg.norm(np.diff(points, axis=0), axis=1))]
 
-    def _along(self, edge: int, share: np.ndarray) -> np.ndarray:
-        """Lengths (n,) from the start of an edge to shares (n,)."""
-        return np.interp(share, self.samples.share[self.samples.of(edge)], self._length[edge])
+    def _along(self, edge: int, t: np.ndarray) -> np.ndarray:
+        """Lengths (n,) from the start of an edge to parameters (n,)."""
+        return np.interp(t, self.samples.share[self.samples.of(edge)], self._length[edge])
 
     def _same(self, edge: int, foot: np.ndarray, gap: np.ndarray) -> np.ndarray:
         """How near (n,) to its foot (n,) a node is the mate itself, where the gap is (n,)."""
@@ -267,18 +271,18 @@ class MatedCuts:
         return np.maximum(same, 1e-9 * length)
 
     def _subdivided(self, edge: int) -> np.ndarray:
-        """The shares with more between them, in pieces of metric length near 1."""
+        """The parameters with more between them, in pieces of metric length near 1."""
         at = self.samples.of(edge)
-        points, share, size = (a[at] for a in (self.samples.points, self.samples.share, self.sizes))
+        points, t, size = (a[at] for a in (self.samples.points, self.samples.share, self.sizes))
         step = np.linalg.norm(np.diff(points, axis=0), axis=1)
         metric = np.r_[0.0, np.cumsum(2.0 * step / (size[1:] + size[:-1]))]
-        ends = np.interp(self.shares[edge], share, metric)
+        ends = np.interp(self.t[edge], t, metric)
         pieces = np.maximum(1, np.round(np.diff(ends))).astype(int)
         fewest = self.fewest(edge)
         while pieces.sum() < fewest:
             pieces[(np.diff(ends) / pieces).argmax()] += 1
         cut = [
-            np.interp(a + (b - a) * np.arange(1, n) / n, metric, share)
+            np.interp(a + (b - a) * np.arange(1, n) / n, metric, t)
             for a, b, n in zip(ends[:-1], ends[1:], pieces.tolist())
         ]
-        return np.unique(np.concatenate([self.shares[edge], *cut]))
+        return np.unique(np.concatenate([self.t[edge], *cut]))

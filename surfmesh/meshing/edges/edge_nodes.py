@@ -16,7 +16,7 @@ import numpy as np
 from surfmesh.cad.model.cad_model import CadEdge, CadModel
 from surfmesh.errors import SizingError
 from surfmesh.meshing.edges.edge_gradation import graded_by_direction
-from surfmesh.meshing.edges.edge_mates import MatedCuts, share_sizes
+from surfmesh.meshing.edges.edge_mates import MatedCuts, lower_to_mates
 from surfmesh.meshing.edges.edge_samples import EdgeSamples
 from surfmesh.sizing.options.sizing import Sizing
 from surfmesh.sizing.rules.size_limits import SizeLimits
@@ -77,12 +77,12 @@ def cut_edges(
     grade = _graded_by_direction if samples.is_anisotropic else _graded
     if samples.mates:
         wish = wish.copy() if wish is samples.target_size else wish
-        share_sizes(samples, samples.mates, wish)
+        lower_to_mates(samples, samples.mates, wish)
     size = grade(model, samples, wish, sizing)
     for number in np.flatnonzero(samples.hidden).tolist():  # no neighbour hears of them
         size[samples.of(number)] = wish[samples.of(number)]
     if samples.mates:
-        share_sizes(samples, samples.mates, size)
+        lower_to_mates(samples, samples.mates, size)
     fewest = partial(_fewest, model, samples)
     mated = MatedCuts(model, samples, size, fewest).cut()
     nodes = before or [None] * len(model.edges)
@@ -166,9 +166,9 @@ def _fewest(model: CadModel, samples: EdgeSamples, number: int) -> int:
 
 def _cut(
     model: CadModel, edge: CadEdge, number: int, samples: EdgeSamples, sizes: np.ndarray,
-    following: int, limit: int, share: np.ndarray | None = None,
+    following: int, limit: int, t: np.ndarray | None = None,
 ) -> EdgeNodes:  # fmt: skip
-    """Pieces of equal metric length near 1, or those given by the shares of their ends."""
+    """Pieces of equal metric length near 1, or those between given parameters t."""
     own = samples.of(number)
     points, known, size = samples.points[own], samples.share[own], sizes[own]
     dx, dy, dz = (points[1:] - points[:-1]).T
@@ -177,22 +177,22 @@ def _cut(
     np.cumsum(2.0 * step / (size[1:] + size[:-1]), out=metric[1:])
     start, end = samples.vertex[[edge.start, edge.end]]
     pieces = max(_fewest(model, samples, number), round(float(metric[-1])))
-    if share is not None:
-        pieces = len(share) - 1
+    if t is not None:
+        pieces = len(t) - 1
     if pieces > limit:
         raise SizingError(
             f"edge {number} ({edge.name or 'no name'}) of length {edge.length:g} is to be cut in "
             f"{pieces:,} pieces, the limit is {limit:,} triangles: ask for a larger size there"
         )
-    if share is None:
-        share = np.arange(pieces + 1) / pieces
+    if t is None:
+        t = np.arange(pieces + 1) / pieces
         if metric[-1] > 0.0:
-            share = np.interp(share * metric[-1], metric, known)
-            share[0], share[-1] = 0.0, 1.0
+            t = np.interp(t * metric[-1], metric, known)
+            t[0], t[-1] = 0.0, 1.0
     place = np.empty((pieces + 1, 3))
     if pieces > 1:
-        place[1:-1] = edge.evaluate(share[1:-1], 0)[0]
+        place[1:-1] = edge.evaluate(t[1:-1], 0)[0]
     place[0], place[-1] = model.vertices[start].point, model.vertices[end].point
     numbers = np.arange(following - 1, following + pieces, dtype=np.int64)
     numbers[0], numbers[-1] = start, end
-    return EdgeNodes(share, place, numbers, np.interp(share, known, size))
+    return EdgeNodes(t, place, numbers, np.interp(t, known, size))

@@ -17,21 +17,25 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from itertools import combinations
 from math import pi
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from surfmesh.cad.model.cad_model import CadCoedge, CadFace, CadModel
 from surfmesh.sizing.options.defaults import DEFAULT_CHORD
+
+if TYPE_CHECKING:  # which finds narrow faces with this module
+    from surfmesh.meshing.edges.edge_samples import EdgeSamples
 from surfmesh.sizing.options.sizing import Sizing
 
 NARROW = 1.0
-"""Faces are narrow up to this share of ``chord``: any triangle across them lies within it."""
+"""Faces are narrow up to this fraction of ``chord``: any triangle across them lies within it."""
 
 OF_SIZE = 0.25
-"""And up to this share of the sizes that are asked for in so many words."""
+"""And up to this fraction of the sizes that are asked for in so many words."""
 
 OF_SIZE_ALONE = 0.1
-"""Where nothing but a size is asked for, faces are narrow up to this share of it."""
+"""Where nothing but a size is asked for, faces are narrow up to this fraction of it."""
 
 ROUND = 1.1 * pi
 """Ends, and ways across, are at most so many narrow widths long: round a tube."""
@@ -72,17 +76,17 @@ class NarrowFace:
 
 @dataclass(frozen=True)
 class Chain:
-    """Coedges one after the other, sampled: polygon with edge numbers and shares.
+    """Coedges one after the other, sampled: polygon with edge numbers and parameters.
 
-    points (n, 3); edge (n,) and share (n,) of the segment that starts there, and share_end (n,)
-    where it ends; coedge (n,) the place of its coedge.
+    points (n, 3); edge (n,) and its normalised parameter t (n,) where a segment starts, and t_end
+    (n,) where it ends; coedge (n,) the place of its coedge.
     """
 
     points: np.ndarray
     coedge: np.ndarray
     edge: np.ndarray
-    share: np.ndarray
-    share_end: np.ndarray
+    t: np.ndarray
+    t_end: np.ndarray
     length: float
 
 
@@ -94,7 +98,7 @@ EMPTY = 1e-10
 
 
 def narrow_width(sizing: Sizing, diagonal: float, points: np.ndarray) -> float:
-    """What is narrow on a face with these wishes, whose edges have the samples points (n, 3)."""
+    """What is narrow on a face with these size requests; points (n, 3): samples of its edges."""
     if sizing.gap is not None:
         return 0.0  # triangles across are asked for
     width = NARROW * (sizing.chord or DEFAULT_CHORD * diagonal)
@@ -107,11 +111,10 @@ def narrow_width(sizing: Sizing, diagonal: float, points: np.ndarray) -> float:
     return min([width, *(OF_SIZE * size for size in sizes)])
 
 
-def narrow_face(model: CadModel, face: CadFace, samples, width: float) -> NarrowFace | None:
-    """The sides and ends of a face that is narrower than ``width`` everywhere; None if it is not.
-
-    samples: ``EdgeSamples`` of the model.
-    """
+def narrow_face(
+    model: CadModel, face: CadFace, samples: EdgeSamples, width: float
+) -> NarrowFace | None:
+    """The sides and ends of a face that is narrower than ``width`` everywhere, or else None."""
     coedges = list(face.coedges)
     lengths = np.array([
         model.edges[c.edge].length if samples.first[c.edge] < samples.first[c.edge + 1] else 0.0
@@ -171,8 +174,8 @@ def _candidates(lengths: np.ndarray, width: float) -> Iterator[NarrowFace]:
 
 
 def _checked(
-    model: CadModel, face: CadFace, coedges: list[CadCoedge], samples, narrow: NarrowFace,
-    width: float,
+    model: CadModel, face: CadFace, coedges: list[CadCoedge], samples: EdgeSamples,
+    narrow: NarrowFace, width: float,
 ) -> NarrowFace | None:  # fmt: skip
     """The face with its width if its sides are nowhere farther apart than ``width``, else None."""
     sides = [chain_of(coedges, samples, side) for side in narrow.sides]
@@ -184,19 +187,21 @@ def _checked(
             return None
     largest = 0.0
     for own, other in (sides, sides[::-1]):
-        place, share, away = feet(model, own.points, other)
+        place, t, away = feet(model, own.points, other)
         if not away.max() <= width:
             return None
-        ways = _ways_across(face, coedges, own, other, place, share)
+        ways = _ways_across(face, coedges, own, other, place, t)
         if not ways.max() <= ROUND * width:
             return None
         largest = max(largest, float(ways.max()))
     return NarrowFace(narrow.sides, narrow.ends, narrow.closed, largest)
 
 
-def chain_of(coedges: list[CadCoedge], samples, places: tuple[int, ...]) -> Chain | None:
+def chain_of(
+    coedges: list[CadCoedge], samples: EdgeSamples, places: tuple[int, ...]
+) -> Chain | None:
     """The samples of some coedges in walking order; None where none of them has any."""
-    points, at, edge, share, end = [], [], [], [], []
+    points, at, edge, t, t_end = [], [], [], [], []
     last = None
     for place in places:
         coedge = coedges[place]
@@ -208,14 +213,14 @@ def chain_of(coedges: list[CadCoedge], samples, places: tuple[int, ...]) -> Chai
         points.append(p[:-1])
         at.append(np.full(len(p) - 1, place))
         edge.append(np.full(len(p) - 1, coedge.edge))
-        share.append(s[:-1])
-        end.append(s[1:])
+        t.append(s[:-1])
+        t_end.append(s[1:])
         last = p[-1:]
     if last is None:
         return None
     own = np.concatenate([*points, last])
     return Chain(
-        own, *(np.concatenate(column) for column in (at, edge, share, end)),
+        own, *(np.concatenate(column) for column in (at, edge, t, t_end)),
         float(np.linalg.norm(np.diff(own, axis=0), axis=1).sum()),
     )  # fmt: skip
 
@@ -223,7 +228,7 @@ def chain_of(coedges: list[CadCoedge], samples, places: tuple[int, ...]) -> Chai
 def feet(
     model: CadModel, points: np.ndarray, chain: Chain
 ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Closest points of a chain to points (n, 3): segment (n,), share (n,) of its edge, distance.
+    """Closest points of a chain to points (n, 3): segments, parameters of their edges, distances.
 
     First on the polygon of the samples, then on the curves themselves. The points run along the
     chain, the other way: where it is closed, this tells its end from its start.
@@ -237,38 +242,41 @@ def feet(
     for k in range(0, len(points), step):
         at = slice(k, min(k + step, len(points)))
         off = points[at, None] - start
-        t = np.clip(np.einsum("ijk,jk->ij", off, way) / square, 0.0, 1.0)
-        off -= t[:, :, None] * way
+        ratio = np.clip(np.einsum("ijk,jk->ij", off, way) / square, 0.0, 1.0)
+        off -= ratio[:, :, None] * way
         near = np.einsum("ijk,ijk->ij", off, off)
         tied = near <= near.min(axis=1)[:, None] * (1.0 + TIE) + TIE**2 * square.max()
         apart = np.where(tied, np.abs(middle - about[at, None]), np.inf)
         place[at] = apart.argmin(axis=1)
-        along[at] = t[np.arange(len(t)), place[at]]
-    share = (1.0 - along) * chain.share[place] + along * chain.share_end[place]
+        along[at] = ratio[np.arange(len(ratio)), place[at]]
+    t = (1.0 - along) * chain.t[place] + along * chain.t_end[place]
     away = np.empty(len(points))
     for edge in np.unique(chain.edge[place]).tolist():
         own = np.flatnonzero(chain.edge[place] == edge)
-        share[own], away[own] = foot_on_edge(model, edge, points[own], share[own])
-    return place, share, away
+        t[own], away[own] = foot_on_edge(model, edge, points[own], t[own])
+    return place, t, away
 
 
 def foot_on_edge(
-    model: CadModel, edge: int, points: np.ndarray, share: np.ndarray
+    model: CadModel, edge: int, points: np.ndarray, t: np.ndarray
 ) -> tuple[np.ndarray, np.ndarray]:
-    """Closest points of an edge to points (n, 3) from guesses: shares (n,), distances (n,)."""
+    """Closest points of an edge to points (n, 3): parameters (n,), distances (n,).
+
+    t: (n,) guesses.
+    """
     own = model.edges[edge]
-    best = np.clip(share, 0.0, 1.0)
+    best = np.clip(t, 0.0, 1.0)
     here = own.evaluate(best, 1)
     away = np.linalg.norm(here[0] - points, axis=1)
     for _ in range(FOOT_STEPS):
         speed = here[1] * (own.t1 - own.t0)
         square = np.maximum(np.einsum("ij,ij->i", speed, speed), np.finfo(float).tiny)
         step = np.einsum("ij,ij->i", points - here[0], speed) / square
-        tried = np.clip(best + step, 0.0, 1.0)
-        here = own.evaluate(tried, 1)
+        trial = np.clip(best + step, 0.0, 1.0)
+        here = own.evaluate(trial, 1)
         now = np.linalg.norm(here[0] - points, axis=1)
         better = now < away
-        best, away = np.where(better, tried, best), np.where(better, now, away)
+        best, away = np.where(better, trial, best), np.where(better, now, away)
         if not better.any():
             break
         here = own.evaluate(best, 1)
@@ -277,17 +285,17 @@ def foot_on_edge(
 
 def _ways_across(
     face: CadFace, coedges: list[CadCoedge], own: Chain, other: Chain, place: np.ndarray,
-    share: np.ndarray,
+    foot: np.ndarray,
 ) -> np.ndarray:  # fmt: skip
     """Lengths (n,) in space of the ways in (u, v) from samples of one side to their feet."""
     n = len(place) - 1
     here, there = np.empty((n, 2)), np.empty((n, 2))
     for k in np.unique(own.coedge).tolist():
         at = own.coedge == k
-        here[at] = coedges[k].uv(own.share[at])
+        here[at] = coedges[k].uv(own.t[at])
     for k in np.unique(other.coedge[place[:n]]).tolist():
         at = other.coedge[place[:n]] == k
-        there[at] = coedges[k].uv(share[:n][at])
+        there[at] = coedges[k].uv(foot[:n][at])
     t = np.linspace(0.0, 1.0, ACROSS)[:, None, None]
     uv = (1.0 - t) * here + t * there
     points = face.surface.evaluate(uv.reshape(-1, 2), 0)[0].reshape(ACROSS, n, 3)

@@ -15,6 +15,7 @@ import numpy as np
 
 from surfmesh.cad.model.cad_model import CadModel
 from surfmesh.geometry.differential.projection import closest_point
+from surfmesh.meshing.edges.edge_samples import EdgeSamples
 from surfmesh.meshing.faces.face_data import FaceJob, FaceMesh
 from surfmesh.meshing.faces.strip_triangulation import LEAST_COSINE, face_cosines
 
@@ -25,11 +26,8 @@ APART = 2.0
 """Feet may lie so many narrow widths away."""
 
 
-def opposite_pairs(model: CadModel, samples) -> list[tuple[int, int, float]]:
-    """(face, face, width): pairs whose edges are mates, with their narrow width.
-
-    samples: ``EdgeSamples``.
-    """
+def opposite_pairs(model: CadModel, samples: EdgeSamples) -> list[tuple[int, int, float]]:
+    """(face, face, width): pairs whose edges are mates, with their narrow width."""
     mates: dict[int, set[int]] = {}
     for run in samples.mates:
         mates.setdefault(run.edge, set()).add(run.mate)

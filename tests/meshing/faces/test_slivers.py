@@ -156,7 +156,7 @@ def test_two_sides_are_cut_with_mates():
     assert len(samples.narrow) == 1 and samples.mates
     for run in samples.mates:
         own, other = nodes[run.edge], nodes[run.mate]
-        inside = (own.t >= run.share[0]) & (own.t <= run.share[-1])
+        inside = (own.t >= run.t[0]) & (own.t <= run.t[-1])
         away = np.linalg.norm(own.points[inside, None] - other.points, axis=2).min(axis=1)
         assert away.max() < 0.0011
 
