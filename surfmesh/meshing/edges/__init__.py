@@ -1,5 +1,6 @@
 """Edges of a CAD model, each cut once for all its faces.
 
+polygon_lengths: how far along a polygon in space its nodes lie.
 edge_samples: samples along the edges of a CAD model, and the edge lengths that they ask for by
     themselves.
 edge_nodes: the edges of a CAD model, each cut once for all its faces.

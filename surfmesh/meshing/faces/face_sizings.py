@@ -1,4 +1,4 @@
-"""What each face of a model has to heed: its wishes, and of the sources those that reach it."""
+"""The size requests of each face of a model, and of the sources those that reach it."""
 
 import numpy as np
 
