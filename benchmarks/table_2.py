@@ -97,8 +97,8 @@ def random_figures(seeds: int = SEEDS) -> dict:
         sm.pack(sm.UniformRadius(1.0, 1000.0, seed=seed), count=count).statistics
         for seed in range(seeds)
     ]
-    means = {key: float(np.mean([getattr(one, key) for one in found])) for key in keys}
-    ratios = [one.avg2 for one in found]
+    means = {key: float(np.mean([one.to_dict()[key] for one in found])) for key in keys}
+    ratios = [one.neighbour_ratio_mean for one in found]
     return means | {"avg2_least": float(np.min(ratios)), "avg2_most": float(np.max(ratios))}
 
 

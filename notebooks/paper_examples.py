@@ -22,7 +22,7 @@ def random_size(folder: Path) -> None:
     packing.plot(folder / "paper_random_size.png", show="both")
     figures = packing.statistics
     print(f"random size    {figures.nodes:6} nodes {figures.elements:6} elements", end="")
-    print(f"   alpha {figures.avg3:.3f} (paper 0.824), at least {figures.min3:.3f}")
+    print(f"   alpha {figures.alpha_mean:.3f} (paper 0.824), at least {figures.alpha_min:.3f}")
 
 
 # %% 2. The letter a

@@ -30,7 +30,7 @@ from surfmesh.meshing.parametric_mesh import (
 from surfmesh.meshing.planar_mesh import estimate_planar, mesh_planar
 from surfmesh.meshing.progress import Progress
 from surfmesh.result.surface_mesh import SurfaceMesh
-from surfmesh.sizing.options.distance_size import default_wishes
+from surfmesh.sizing.options.distance_size import default_options
 from surfmesh.sizing.options.model_sizing import is_by_selection
 from surfmesh.sizing.options.sizing import SizeLaw, Sizing
 
@@ -182,7 +182,7 @@ def _model_or_surface(thing: Any) -> Surface | CadModel:
 def _one_sizing(surface: Surface, sizing: Sizes) -> Sizing:
     """One set of options for the surface: those that it brings where none are given."""
     if sizing is None:
-        sizing = default_wishes(surface) or None
+        sizing = default_options(surface) or None
     if isinstance(sizing, Mapping) and set(sizing) == {"*"}:
         sizing = sizing["*"]
     elif isinstance(sizing, Mapping) and is_by_selection(sizing):

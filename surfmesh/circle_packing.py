@@ -1,24 +1,25 @@
 """Section 2 of the paper alone: circles packed over the unbounded plane, and their triangles."""
 
-from collections.abc import Callable
-from dataclasses import dataclass
+from collections.abc import Callable, Sequence
+from dataclasses import astuple, dataclass
 from time import perf_counter
-from typing import Any
+from typing import Any, Protocol, runtime_checkable
 
 import numpy as np
 
+from surfmesh.accuracy.shape import mean_ratio
 from surfmesh.errors import SizingError
+from surfmesh.geometry.number_range import RANGE
 from surfmesh.geometry.planar.planar_domain import PlanarRegion
 from surfmesh.kernels.fields.background import Background
 from surfmesh.kernels.packing.front import DONE
 from surfmesh.kernels.packing.packing_state import FITS, STEPS, Packing
 from surfmesh.kernels.triangulation.predicates import orient_triangles
 from surfmesh.meshing.patch.packing import NO_LIMIT, packed, packed_discs
+from surfmesh.renamed import Renamed
 from surfmesh.sizing.field.size_field import plane_field
 from surfmesh.sizing.options.radius_laws import (
-    LARGEST,
     TensorField,
-    UniformRadius,
     require_computable,
 )
 from surfmesh.sizing.options.sources import as_numbers
@@ -41,18 +42,27 @@ MARGIN, GRID, MOST_RINGS = 1.5, 128, 400
 
 @dataclass(frozen=True)
 class PackingStatistics:
-    """The figures of the paper's Table 2."""
+    """The figures of the paper's Table 2; its columns are named in the comments."""
 
     nodes: int  # N
     elements: int  # M
-    max1: float  # size deviation max(rho / r, r / rho) - 1 of wanted and got radius
-    avg1: float
-    max2: float  # ratio of neighbouring radii, the larger over the smaller
-    avg2: float
-    min3: float  # shape alpha of the triangles; for a tensor field in its metric
-    avg3: float
+    size_error_max: float  # Max1: max(rho / r, r / rho) - 1 of the target radius and the reached
+    size_error_mean: float  # Avg1
+    neighbour_ratio_max: float  # Max2: of neighbouring radii, the larger over the smaller
+    neighbour_ratio_mean: float  # Avg2
+    alpha_min: float  # Min3: shape of the triangles; for a tensor field in its metric
+    alpha_mean: float  # Avg3
     iterations: float  # average number of iterations or trials a circle
     seconds: float
+
+    max1, avg1 = Renamed("size_error_max"), Renamed("size_error_mean")
+    max2, avg2 = Renamed("neighbour_ratio_max"), Renamed("neighbour_ratio_mean")
+    min3, avg3 = Renamed("alpha_min"), Renamed("alpha_mean")
+
+    def to_dict(self) -> dict[str, float]:
+        """By the columns of the paper's table, as JSON has them."""
+        columns = ("nodes", "elements", "max1", "avg1", "max2", "avg2", "min3", "avg3")
+        return dict(zip((*columns, "iterations", "seconds"), astuple(self), strict=True))
 
 
 @dataclass(frozen=True, eq=False)
@@ -108,7 +118,22 @@ class CirclePacking:
         return f"CirclePacking({len(self.centres)} circles, {len(self.triangles)} triangles)"
 
 
-RadiusLaw = float | Callable[[np.ndarray], np.ndarray] | TensorField | UniformRadius
+FieldLaw = float | Callable[[np.ndarray], np.ndarray] | TensorField
+
+
+@runtime_checkable
+class RandomLaw(Protocol):
+    """Radii in the order in which they are drawn, like ``UniformRadius``."""
+
+    def stream(self) -> Callable[[int], np.ndarray]:
+        """A function whose call with n gives the next n radii (n,)."""
+        ...
+
+
+RadiusLaw = FieldLaw | RandomLaw
+
+Box = tuple[float, float, float, float]
+"""x0, y0, x1, y1"""
 
 
 def pack(
@@ -130,54 +155,81 @@ def pack(
     in some ten thousand. Raises ``SizingError`` for a law or limits that make no sense, and
     ``MeshingError`` when no circles can be placed about the origin.
     """
-    origin, count, distance, box = _limits(origin, count, distance, box)
+    limits = _limits(origin, count, distance, box)
     start = perf_counter()
-    where = box or (-EVERYWHERE, -EVERYWHERE, EVERYWHERE, EVERYWHERE)
-    if hasattr(radius, "stream"):
-        _require_possible(radius.stream()(DRAWN), origin, count, distance, box)
-        expected = count if count < NO_LIMIT else 10_000
-        packing = packed_discs(radius.stream(), where, origin, expected, count, distance)
+    x0, y0, x1, y1 = limits.box or (-EVERYWHERE, -EVERYWHERE, EVERYWHERE, EVERYWHERE)
+    if isinstance(radius, RandomLaw):
+        _require_possible(radius.stream()(DRAWN), limits)
+        expected = limits.count if limits.count < NO_LIMIT else 10_000
+        packing = packed_discs(
+            radius.stream(), (x0, y0, x1, y1), limits.origin, expected, limits.count,
+            limits.distance,
+        )  # fmt: skip
         shift = np.zeros(2)
     else:
-        background, shift, expected = _background(radius, origin, count, distance, box)
-        inner = (where[0] - shift[0], where[1] - shift[1], where[2] - shift[0], where[3] - shift[1])
-        middle = (origin[0] - shift[0], origin[1] - shift[1])
-        packing = packed(background, inner, middle, expected, count, distance)
+        background, shift, expected = _background(radius, limits)
+        dx, dy = shift
+        inner, middle = (x0 - dx, y0 - dy, x1 - dx, y1 - dy), np.subtract(limits.origin, shift)
+        packing = packed(
+            background, inner, (middle[0], middle[1]), expected, limits.count, limits.distance
+        )
     return _result(packing, shift, perf_counter() - start, isinstance(radius, TensorField))
 
 
-def _limits(origin, count, distance, box):
-    origin = tuple(float(x) for x in origin)
-    if len(origin) != 2 or not np.isfinite(origin).all():
-        raise SizingError(f"origin is a point (x, y), not {origin!r}")
+@dataclass(frozen=True)
+class _Limits:
+    """Where the packing starts and where it ends."""
+
+    origin: tuple[float, float]
+    count: int
+    distance: float
+    box: Box | None
+
+
+def _limits(
+    origin: Sequence[float], count: int | None, distance: float | None, box: Sequence[float] | None
+) -> _Limits:
+    """The same as numbers, ``NO_LIMIT`` and infinity where nothing was said."""
+    start = tuple(float(x) for x in origin)
+    if len(start) != 2 or not np.isfinite(start).all():
+        raise SizingError(f"origin is a point (x, y), not {start!r}")
     if count is None and distance is None and box is None:
         raise SizingError("the plane has no end: give count, distance or box")
     if count is not None and (int(count) != count or count < 3):
         raise SizingError(f"count must be a whole number from 3, not {count!r}")
     if distance is not None and not 0.0 < distance < np.inf:
         raise SizingError(f"distance must be a positive number, not {distance!r}")
-    far = max(map(abs, (*origin, distance or 0.0, *(box or ()))))
-    if LARGEST <= far < np.inf:
+    far = max(map(abs, (*start, distance or 0.0, *(box or ()))))
+    if RANGE.square <= far < np.inf:
         raise SizingError(f"{far:g} is too far away to compute with; scale what is packed")
-    if box is not None:
-        box = tuple(float(x) for x in box)
-        if len(box) != 4 or not np.isfinite(box).all() or box[0] >= box[2] or box[1] >= box[3]:
-            raise SizingError(f"box is (x0, y0, x1, y1) with x0 < x1 and y0 < y1, not {box!r}")
-        if not (box[0] <= origin[0] <= box[2] and box[1] <= origin[1] <= box[3]):
-            raise SizingError(f"the origin {origin} lies outside the box {box}")
-    limit = NO_LIMIT if count is None else int(count)
-    return origin, limit, np.inf if distance is None else float(distance), box
+    return _Limits(
+        (start[0], start[1]),
+        NO_LIMIT if count is None else int(count),
+        np.inf if distance is None else float(distance),
+        None if box is None else _box(box, start),
+    )
 
 
-def _require_possible(
-    drawn: np.ndarray, origin: tuple[float, float], count: int, distance: float, box: Any
-) -> None:
+def _box(box: Sequence[float], origin: Sequence[float]) -> Box:
+    numbers = tuple(float(x) for x in box)
+    ordered = len(numbers) == 4 and numbers[0] < numbers[2] and numbers[1] < numbers[3]
+    if not ordered or not np.isfinite(numbers).all():
+        raise SizingError(f"box is (x0, y0, x1, y1) with x0 < x1 and y0 < y1, not {numbers!r}")
+    x0, y0, x1, y1 = numbers
+    if not (x0 <= origin[0] <= x1 and y0 <= origin[1] <= y1):
+        raise SizingError(f"the origin {origin} lies outside the box {numbers}")
+    return x0, y0, x1, y1
+
+
+def _require_possible(drawn: np.ndarray, limits: _Limits) -> None:
     """Of random radii (n,), the first that are drawn."""
-    area = np.pi * distance**2
-    if box is not None:
-        area = min(area, (box[2] - box[0]) * (box[3] - box[1]))
-    _require_near(origin, float(drawn.mean()))
-    _require_few(min(area / (2.0 * np.sqrt(3.0) * float((drawn**2).mean())), float(count)))
+    area = np.pi * limits.distance**2
+    if limits.box is not None:
+        x0, y0, x1, y1 = limits.box
+        area = min(area, (x1 - x0) * (y1 - y0))
+    _require_near(limits.origin, float(drawn.mean()))
+    mean_square = float((drawn**2).mean())
+    _require_few(min(area / (2.0 * np.sqrt(3.0) * mean_square), float(limits.count)))
 
 
 def _require_near(origin: tuple[float, float], radius: float) -> None:
@@ -196,10 +248,9 @@ def _require_few(number: float) -> None:
         )
 
 
-def _background(
-    radius: Any, origin: tuple[float, float], count: int, distance: float, box: Any
-) -> tuple[Background, np.ndarray, int]:
+def _background(radius: FieldLaw, limits: _Limits) -> tuple[Background, np.ndarray, int]:
     """Size tensors in coordinates from a corner (2,), and about how many circles there will be."""
+    origin, count, distance, box = limits.origin, limits.count, limits.distance, limits.box
     tensors = _tensors(radius)
     here = tensors(np.array([origin]))[0]
     step = float(np.sqrt(here[0] * here[2] - here[1] ** 2))
@@ -228,7 +279,7 @@ def _background(
     return plane_field(plane, tensors, FREE_GROWTH).background, np.array(box[:2]), expected
 
 
-def _tensors(radius: Any) -> Callable[[np.ndarray], np.ndarray]:
+def _tensors(radius: FieldLaw) -> Callable[[np.ndarray], np.ndarray]:
     if isinstance(radius, TensorField):
         return radius
     if not callable(radius):
@@ -247,7 +298,7 @@ def _tensors(radius: Any) -> Callable[[np.ndarray], np.ndarray]:
     def law(points: np.ndarray) -> np.ndarray:
         with np.errstate(all="ignore"):
             r = as_numbers(radius(points.copy()))
-        if r is None or r.shape != (len(points),) or not ((r > 0.0) & (r < LARGEST)).all():
+        if r is None or r.shape != (len(points),) or not ((r > 0.0) & (r < RANGE.square)).all():
             raise SizingError(
                 f"the radius law must give positive numbers of shape ({len(points)},) for points "
                 f"({len(points)}, 2)"
@@ -266,7 +317,7 @@ def _number_within(tensors: Callable, box: tuple[float, ...]) -> float:
 
 
 def _density(tensors: Callable, points: np.ndarray) -> np.ndarray:
-    """Circles per unit of area (n,): a circle's share of the plane is sqrt(3) / 2 det H."""
+    """Circles per unit of area (n,): a circle's part of the plane is sqrt(3) / 2 det H."""
     h = tensors(points)
     return 2.0 / np.sqrt(3.0) / (h[:, 0] * h[:, 2] - h[:, 1] ** 2)
 
@@ -349,5 +400,4 @@ def _alpha(centres: np.ndarray, triangles: np.ndarray, h: np.ndarray | None) -> 
             / det[:, None]
             for d in (u, v)
         )
-    squares = (u**2).sum(axis=1) + (v**2).sum(axis=1) + ((u - v) ** 2).sum(axis=1)
-    return 2.0 * np.sqrt(3.0) * (u[:, 0] * v[:, 1] - u[:, 1] * v[:, 0]) / squares
+    return mean_ratio(u, v)

@@ -227,8 +227,6 @@ def pack(options: Namespace) -> bool:
     if options.output:
         require_writable(options.output, *FORMATS)
 
-    from dataclasses import asdict
-
     from surfmesh.circle_packing import pack as packed
     from surfmesh.sizing.options.radius_laws import UniformRadius
 
@@ -238,7 +236,7 @@ def pack(options: Namespace) -> bool:
         law, options.origin, count=options.count, distance=options.distance, box=options.box
     )
     broken = found.check()
-    figures = asdict(found.statistics)
+    figures = found.statistics.to_dict()
     if options.output:
         found.plot(options.output, options.show)
     if options.json:

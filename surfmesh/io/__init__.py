@@ -1,4 +1,23 @@
-"""Meshes to files and back. The extension says the format; see ``FORMATS``."""
+"""Meshes to files and back. The extension says the format; see ``FORMATS``.
+
+formats: which module writes and reads which extension, and the verbs ``save`` and ``read``.
+atomic, leftovers: a file is written in full or not at all, and what is left when that is killed.
+asked_date: the date that files carry when one is asked for.
+stl, obj, off, ply, glb, threemf, vtk_xml, xdmf, msh, inp, bdf, med: one format each, ``write``
+    and ``read``.
+ply_reading, msh_reading, vtk_xml_reading, lz4_block, xml_writing: parts of these.
+to_trimesh, to_meshio: as meshes of other libraries, for what is not written here.
+group_record, colours: what is known of faces, solids and edges, in formats that have no place
+    for it, and colours as bytes.
+text_columns, xml_reading: numbers as text, and XML that somebody else wrote.
+expansion, glb_bounds, hdf5_bounds: how large a file may become, looked at before it is unpacked.
+welding: corners of triangles to shared vertices.
+found_mesh, numbers_of_groups: what is asked of a mesh from a file before anybody computes with it.
+manifests: what files were made with, and their hashes, for another machine to compare.
+
+Others use what is named below and ``atomic``, ``formats``, ``vtk_xml``, ``to_trimesh`` and
+``to_meshio``.
+"""
 
 from typing import TYPE_CHECKING, Any
 

@@ -211,8 +211,7 @@ def estimate_model(model: CadModel, sizing: Any) -> Estimate:
 def explain_size(model: CadModel, sizing: Any, point: np.ndarray) -> Explanation:
     """Which of the size requests decides at a point (3,), or at the nearest one of the model."""
     before = _Unmeshed(model, sizing)
-    sizings = [state.sizing for state in before.faces]
-    return explain_model(model, before.wanted, before.samples, sizings, before.jobs, point)
+    return explain_model(model, before.wanted, before.samples, before.jobs, point)
 
 
 def _with_model_rules(

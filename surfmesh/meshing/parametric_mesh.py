@@ -28,7 +28,7 @@ from surfmesh.meshing.progress import Progress, Stopwatch
 from surfmesh.result.surface_mesh import SurfaceMesh
 from surfmesh.sizing.field.size_field import SizeField, size_field
 from surfmesh.sizing.options.sizing import Sizing
-from surfmesh.sizing.rules.rim_size import Rims
+from surfmesh.sizing.rules.rim_rule import Rims
 from surfmesh.sizing.rules.size_limits import SizeLimits
 
 MOST_CELLS, CELLS_OF_TRIANGLE = 250_000, 50
@@ -154,7 +154,7 @@ def explain_parametric(surface: Surface, sizing: Sizing, point: np.ndarray) -> E
     """Which wish decides at the point of the surface that is nearest to ``point`` (3,)."""
     sides = find_sides(surface)
     field = size_field(surface, sizing, sides, rims=Rims(surface, sides))
-    return explain_surface(surface, sizing, field, point, Rims(surface, sides))
+    return explain_surface(surface, sizing, field, point)
 
 
 def _one_round(

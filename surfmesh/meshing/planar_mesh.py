@@ -35,8 +35,8 @@ from surfmesh.result.surface_mesh import SurfaceMesh
 from surfmesh.sizing.field.size_field import COUNTABLE, SizeField, size_field
 from surfmesh.sizing.options.sizing import Sizing
 from surfmesh.sizing.rules.across_gaps import size_across
-from surfmesh.sizing.rules.size_bounds import SizeBounds
 from surfmesh.sizing.rules.size_limits import SizeLimits
+from surfmesh.sizing.rules.size_rules import SizeRules
 
 GAP_ROUNDS = 3
 """How often the size field is made anew because gaps were found, at most."""
@@ -82,7 +82,7 @@ def mesh_planar(
 def _thinning_distance(domain: PlanarDomain, sizing: Sizing) -> float:
     if sizing.chord is not None:
         return sizing.chord
-    bounds = SizeBounds.of(sizing, diagonal(domain.graph.points))
+    bounds = SizeRules.of(sizing, diagonal(domain.graph.points))
     size = bounds.clamp[1]
     if sizing.has_law:
         points = np.column_stack([domain.graph.points, np.zeros(len(domain.graph.points))])

@@ -32,8 +32,7 @@ def name_of(mesh: SurfaceMesh) -> str:
 
 def unit_of(mesh: SurfaceMesh, count: int = 2) -> str:
     """The unit of length: that of the CAD model where it is known. count: one or several."""
-    known = getattr(getattr(mesh, "groups", None), "unit", None)
-    return known or ("model unit" if count == 1 else "model units")
+    return mesh.groups.unit or ("model unit" if count == 1 else "model units")
 
 
 def require_drawable(mesh: SurfaceMesh, path: Path) -> None:
@@ -45,9 +44,9 @@ def require_drawable(mesh: SurfaceMesh, path: Path) -> None:
         raise FileFormatError(f"{path}: vertex {lost[0]} has no finite place to be drawn at")
 
 
-def with_edges(mesh: SurfaceMesh, wish: bool | None, circles: bool = False) -> bool:
-    """``wish``, or when there is none whether the edges of ``mesh`` can be told apart.
+def with_edges(mesh: SurfaceMesh, asked: bool | None, circles: bool = False) -> bool:
+    """``asked``, or when that is None whether the edges of ``mesh`` can be told apart.
 
     Between circles they cannot.
     """
-    return len(mesh.triangles) <= EDGES_UP_TO and not circles if wish is None else wish
+    return len(mesh.triangles) <= EDGES_UP_TO and not circles if asked is None else asked

@@ -10,7 +10,7 @@ SHAPES = ("alpha", "angle", "quality")
 def overlays(
     mesh: SurfaceMesh, by: str, *, draw_circles: bool, directions: bool, worst: int | None
 ) -> list[Lines]:
-    """Edges of the model always, the rest as wished; the last is drawn over the others.
+    """Edges of the model always, the rest as asked for; the last is drawn over the others.
 
     worst: how many triangles of the smallest alpha are outlined; None: a few where the colours
     show shape. Raises ``ValueError`` for what the mesh carries no data for.

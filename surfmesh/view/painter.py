@@ -18,9 +18,8 @@ from surfmesh.geometry.boxes import diagonal
 from surfmesh.result.surface_mesh import SurfaceMesh
 from surfmesh.view.camera import Camera, framed
 from surfmesh.view.colour_maps import map_of
-from surfmesh.view.colouring import Colouring
+from surfmesh.view.drawing import Drawing
 from surfmesh.view.legend import INK
-from surfmesh.view.lines import Lines
 from surfmesh.view.overlays import legend
 
 AMBIENT = 0.35  # light from everywhere; the rest comes from the eye
@@ -29,59 +28,24 @@ HAIRLINE = 0.25  # points
 NEARER = 0.012  # of the mesh's diagonal: lines hide what is less than this before them
 
 
-def paint(
-    mesh: SurfaceMesh,
-    colours: Colouring,
-    lines: list[Lines],
-    file: BinaryIO,
-    *,
-    title: str,
-    edges: bool,
-    size: tuple[int, int],
-) -> None:
-    """Write a PNG of ``mesh`` to ``file``, ``size`` (width, height) in pixels."""
+def paint(drawn: Drawing, file: BinaryIO) -> None:
+    """Write a PNG to ``file``."""
+    mesh, colours, size = drawn.mesh, drawn.colours, drawn.size
     figure = Figure(figsize=(size[0] / DOTS_PER_INCH, size[1] / DOTS_PER_INCH), dpi=DOTS_PER_INCH)
     canvas = FigureCanvasAgg(figure)
     axes = figure.add_axes((0.02, 0.12, 0.96, 0.82))
     camera = framed(mesh.points, size[0] * 0.96 / (size[1] * 0.82))
 
-    triangles = mesh.triangles
-    seen, depth = _seen(mesh.points, camera)
-    norm = (LogNorm if colours.logarithmic else Normalize)(*colours.limits)
-    scale = ScalarMappable(norm, map_of(colours))
-    values = colours.within
-    values = values[triangles].mean(axis=1) if colours.per_vertex else values
-    faces = scale.to_rgba(values)
-    faces[:, :3] *= (AMBIENT + (1 - AMBIENT) * _facing(mesh, camera))[:, None]
-    # its own colour closes the hairlines
-    rims = np.tile(to_rgba(INK), (len(faces), 1)) if edges else faces
-    widths = np.full(len(faces), HAIRLINE)
-    depth = depth[triangles].mean(axis=1)
-    corners = seen[triangles]
-    for layer in lines:  # a line is a triangle without area, a little nearer than what it lies on
-        ends, behind = _seen(layer.segments, camera)
-        corners = np.concatenate((corners, ends[:, [0, 1, 1]]))
-        reach = NEARER * diagonal(mesh.points)
-        depth = np.concatenate((depth, behind.max(axis=1) + reach))
-        colour = np.tile(to_rgba(layer.colour), (len(ends), 1))
-        faces, rims = np.concatenate((faces, colour)), np.concatenate((rims, colour))
-        pixels = layer.width * size[1] / 1000
-        widths = np.concatenate((widths, np.full(len(ends), pixels * 72 / DOTS_PER_INCH)))
-    order = np.argsort(depth, kind="stable")
-    axes.add_collection(
-        PolyCollection(
-            corners[order],  # type: ignore[arg-type]  # its stubs know no arrays
-            facecolors=faces[order],
-            edgecolors=rims[order],
-            linewidths=widths[order],
-        )
+    scale = ScalarMappable(
+        (LogNorm if colours.logarithmic else Normalize)(*colours.limits), map_of(colours)
     )
+    axes.add_collection(_painted(drawn, camera, scale))
     half_width = camera.half_height * size[0] * 0.96 / (size[1] * 0.82)
     axes.set(xlim=(-half_width, half_width), ylim=(-camera.half_height, camera.half_height))
     axes.set_aspect("equal")
     axes.axis("off")
-    figure.text(0.02, 0.955, title, color=INK, fontsize=11)
-    for row, layer in enumerate(legend(lines), 1):
+    figure.text(0.02, 0.955, drawn.title, color=INK, fontsize=11)
+    for row, layer in enumerate(legend(drawn.lines), 1):
         figure.text(0.02, 0.955 - 0.03 * row, layer.name, color=layer.colour, fontsize=9)
     bar = figure.colorbar(
         scale, cax=figure.add_axes((0.25, 0.075, 0.5, 0.025)), orientation="horizontal"
@@ -90,6 +54,38 @@ def paint(
     if colours.hues:
         bar.set_ticks(range(colours.hues))
     canvas.print_png(file, metadata={"Software": None})  # the same with any version
+
+
+def _painted(drawn: Drawing, camera: Camera, scale: ScalarMappable) -> PolyCollection:
+    """Triangles and lines, from back to front."""
+    mesh, colours, triangles = drawn.mesh, drawn.colours, drawn.mesh.triangles
+    seen, depth = _seen(mesh.points, camera)
+    values = colours.within
+    values = values[triangles].mean(axis=1) if colours.per_vertex else values
+    faces = scale.to_rgba(values)
+    faces[:, :3] *= (AMBIENT + (1 - AMBIENT) * _facing(mesh, camera))[:, None]
+    # its own colour closes the hairlines
+    rims = np.tile(to_rgba(INK), (len(faces), 1)) if drawn.edges else faces
+    widths = np.full(len(faces), HAIRLINE)
+    depth = depth[triangles].mean(axis=1)
+    corners = seen[triangles]
+    # a line is a triangle without area, a little nearer than what it lies on
+    for layer in drawn.lines:
+        ends, behind = _seen(layer.segments, camera)
+        corners = np.concatenate((corners, ends[:, [0, 1, 1]]))
+        reach = NEARER * diagonal(mesh.points)
+        depth = np.concatenate((depth, behind.max(axis=1) + reach))
+        colour = np.tile(to_rgba(layer.colour), (len(ends), 1))
+        faces, rims = np.concatenate((faces, colour)), np.concatenate((rims, colour))
+        pixels = layer.width * drawn.size[1] / 1000
+        widths = np.concatenate((widths, np.full(len(ends), pixels * 72 / DOTS_PER_INCH)))
+    order = np.argsort(depth, kind="stable")
+    return PolyCollection(
+        corners[order],  # type: ignore[arg-type]  # its stubs know no arrays
+        facecolors=faces[order],
+        edgecolors=rims[order],
+        linewidths=widths[order],
+    )
 
 
 def _seen(points: NDArray, camera: Camera) -> tuple[NDArray, NDArray]:

@@ -4,10 +4,9 @@ import numpy as np
 import pyvista
 
 from surfmesh.io.vtk_xml import to_pyvista
-from surfmesh.result.surface_mesh import SurfaceMesh
 from surfmesh.view.camera import framed
 from surfmesh.view.colour_maps import map_of
-from surfmesh.view.colouring import Colouring
+from surfmesh.view.drawing import Drawing
 from surfmesh.view.legend import INK
 from surfmesh.view.lines import Lines
 from surfmesh.view.overlays import legend
@@ -18,20 +17,12 @@ SMOOTHED = 1.6  # supersampling makes lines thinner by this
 NEARER = -4.0  # depth units by which lines lie before the triangles that they are drawn on
 
 
-def scene(
-    mesh: SurfaceMesh,
-    colours: Colouring,
-    lines: list[Lines],
-    *,
-    title: str,
-    edges: bool,
-    size: tuple[int, int],
-    off_screen: bool,
-) -> pyvista.Plotter:
-    """A plotter with ``mesh``, title, colour bar and camera, ready to be shown."""
+def scene(drawn: Drawing, *, off_screen: bool) -> pyvista.Plotter:
+    """A plotter with the mesh, title, colour bar and camera, ready to be shown."""
+    size, colours = drawn.size, drawn.colours
     plotter = pyvista.Plotter(off_screen=off_screen, window_size=list(size))
     plotter.set_background("white")
-    data = to_pyvista(mesh)
+    data = to_pyvista(drawn.mesh)
     data.clear_data()
     values = data.point_data if colours.per_vertex else data.cell_data
     values[colours.title] = colours.within
@@ -43,7 +34,7 @@ def scene(
         clim=colours.limits,
         log_scale=colours.logarithmic,
         n_colors=colours.hues or 256,
-        show_edges=edges,
+        show_edges=drawn.edges,
         edge_color=INK,
         edge_opacity=0.55,
         line_width=0.7 * unit,
@@ -65,9 +56,18 @@ def scene(
         },
         annotations={float(k): str(k) for k in range(colours.hues)} if colours.hues else None,
     )
-    for layer in lines:
+    for layer in drawn.lines:
         _add_lines(plotter, layer, layer.width * unit * SMOOTHED)
-    said = [(title, INK), *((layer.name, layer.colour) for layer in legend(lines))]
+    _add_words(plotter, drawn, unit)
+    _set_camera(plotter, drawn)
+    if drawn.edges or drawn.lines:
+        plotter.enable_anti_aliasing("ssaa")
+    return plotter
+
+
+def _add_words(plotter: pyvista.Plotter, drawn: Drawing, unit: float) -> None:
+    layers = legend(drawn.lines)
+    said = [(drawn.title, INK), *((layer.name, layer.colour) for layer in layers)]
     for row, (text, colour) in enumerate(said):
         plotter.add_text(
             text,
@@ -76,16 +76,16 @@ def scene(
             font_size=round((11 if row == 0 else 9) * unit),
             color=colour,
         )
-    camera = framed(mesh.points, size[0] / size[1], margin=0.22)
+
+
+def _set_camera(plotter: pyvista.Plotter, drawn: Drawing) -> None:
+    camera = framed(drawn.mesh.points, drawn.size[0] / drawn.size[1], margin=0.22)
     centre = camera.centre - BAR * camera.half_height * camera.up
     eye = centre + camera.distance * camera.towards
     plotter.camera_position = [tuple(eye), tuple(centre), tuple(camera.up)]
     plotter.camera.parallel_projection = True
     plotter.camera.parallel_scale = camera.half_height
     plotter.reset_camera_clipping_range()
-    if edges or lines:
-        plotter.enable_anti_aliasing("ssaa")
-    return plotter
 
 
 def _add_lines(plotter: pyvista.Plotter, layer: Lines, width: float) -> None:

@@ -2,33 +2,24 @@
 
 import os
 import sys
+from typing import Unpack
 
 from surfmesh.errors import SurfmeshError
 from surfmesh.result.surface_mesh import SurfaceMesh
-from surfmesh.view.colouring import colouring
-from surfmesh.view.legend import title_of, with_edges
-from surfmesh.view.overlays import SHAPES, overlays
+from surfmesh.view.drawing import Look, drawing
+from surfmesh.view.overlays import SHAPES
 
 SIZE = (1200, 900)  # pixels
 
 
-def show(
-    mesh: SurfaceMesh,
-    *,
-    by: str = "alpha",
-    edges: bool | None = None,
-    circles: bool = False,
-    directions: bool = False,
-    worst: int | None = None,
-    title: str | None = None,
-) -> None:
+def show(mesh: SurfaceMesh, **look: Unpack[Look]) -> None:
     """Open a window to turn and zoom ``mesh``; in a notebook, a widget.
 
     Everything as in ``plot``. Returns when the window is closed. Raises ``SurfmeshError`` when
     there is no display.
     """
     if _in_notebook():
-        _show_page(mesh, by, edges, circles, directions, worst, title)
+        _show_page(mesh, look)
         return
     displays = ("DISPLAY", "WAYLAND_DISPLAY")
     if sys.platform == "linux" and not any(map(os.environ.get, displays)):
@@ -36,16 +27,7 @@ def show(
 
     from surfmesh.view.scene import scene
 
-    plotter = scene(
-        mesh,
-        colouring(mesh, by),
-        overlays(mesh, by, draw_circles=circles, directions=directions, worst=worst),
-        title=title_of(mesh) if title is None else title,
-        edges=with_edges(mesh, edges, circles),
-        size=SIZE,
-        off_screen=False,
-    )
-    plotter.show()
+    scene(drawing(mesh, SIZE, **look), off_screen=False).show()
 
 
 def _in_notebook() -> bool:
@@ -54,19 +36,17 @@ def _in_notebook() -> bool:
     return hasattr(shell, "kernel")
 
 
-def _show_page(
-    mesh: SurfaceMesh, by: str, edges: bool | None, circles: bool, directions: bool,
-    worst: int | None, title: str | None,
-) -> None:  # fmt: skip
+def _show_page(mesh: SurfaceMesh, look: Look) -> None:
     from surfmesh.view.html_report import page
     from surfmesh.view.notebook import show_in_notebook
 
-    wishes = {
-        "triangles": edges is not False,  # the page fades them where they are too many
+    by, worst = look.get("by", "alpha"), look.get("worst")
+    switches = {
+        "triangles": look.get("edges") is not False,  # the page fades them where they are too many
         "model edges": True,
-        "circles": circles,
-        "principal directions": directions,
+        "circles": look.get("circles", False),
+        "principal directions": look.get("directions", False),
         "worst": by in SHAPES if worst is None else worst > 0,
     }
-    shown = [name for name, wish in wishes.items() if wish]
-    show_in_notebook(page(mesh, by=by, title=title, shown=shown))
+    shown = [name for name, is_on in switches.items() if is_on]
+    show_in_notebook(page(mesh, by=by, title=look.get("title"), shown=shown))

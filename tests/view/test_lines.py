@@ -11,6 +11,7 @@ import surfmesh as sm
 from surfmesh.result.surface_mesh import SurfaceMesh
 from surfmesh.sizing.metric_roots import unpacked
 from surfmesh.view import show
+from surfmesh.view.drawing import drawing
 from surfmesh.view.lines import circles, model_edges, principal_directions, worst_triangles
 from surfmesh.view.overlays import overlays
 from surfmesh.view.scene import scene
@@ -99,9 +100,9 @@ def test_the_worst_are_marked_worst_first():
 
 
 def test_what_is_drawn_over_what(saddle):
-    def names(by, **drawn):
-        drawn = {"draw_circles": False, "directions": False, "worst": None} | drawn
-        return [layer.name for layer in overlays(saddle, by, **drawn)]
+    def names(by, **asked):
+        asked = {"draw_circles": False, "directions": False, "worst": None} | asked
+        return [layer.name for layer in overlays(saddle, by, **asked)]
 
     assert names("alpha") == ["model edges", "the 10 worst triangles"]
     assert names("face") == ["model edges"]
@@ -142,18 +143,14 @@ def test_a_notebook_gets_a_page_within_its_page(saddle, monkeypatch):
 
 
 def test_scene_has_a_line_actor_for_each_layer(saddle):
-    from surfmesh.view.colouring import colouring
     from surfmesh.view.opengl import can_draw
 
     if not can_draw():
         pytest.skip("no OpenGL on this machine")
-    layers = overlays(saddle, "size", draw_circles=True, directions=True, worst=1)
-    plotter = scene(
-        saddle, colouring(saddle, "size"), layers, title="t", edges=True, size=(200, 150),
-        off_screen=True,
-    )  # fmt: skip
+    drawn = drawing(saddle, (200, 150), by="size", circles=True, directions=True, worst=1)
+    plotter = scene(drawn, off_screen=True)
     lines = [a for a in plotter.actors.values() if getattr(a, "mapper", None) is not None]
-    assert len(lines) >= 1 + len(layers)
+    assert len(drawn.lines) == 5 and len(lines) >= 6
     plotter.close()
 
 

@@ -129,8 +129,9 @@ def test_a_window_is_opened_where_there_is_a_display(saddle, monkeypatch):
         def show(self):
             opened.append("shown")
 
-    def stand_in(mesh, colours, lines, **options):
-        opened.append((colours.title, [layer.name for layer in lines], options["edges"]))
+    def stand_in(drawn, off_screen):
+        layers = [layer.name for layer in drawn.lines]
+        opened.append((drawn.colours.title, layers, drawn.edges))
         return Window()
 
     monkeypatch.setattr("surfmesh.view.scene.scene", stand_in)

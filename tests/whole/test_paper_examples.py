@@ -37,15 +37,15 @@ def test_random_size():
     ]
     elements = np.mean([one.elements for one in found])
     assert elements == pytest.approx(1898, rel=0.03)
-    assert np.mean([one.avg1 for one in found]) <= 0.151276
-    assert np.mean([one.avg3 for one in found]) >= 0.823691
+    assert np.mean([one.size_error_mean for one in found]) <= 0.151276
+    assert np.mean([one.alpha_mean for one in found]) >= 0.823691
 
 
 def test_random_size_ratio_of_neighbours():
     """Avg2 says how radii were drawn more than how they were packed: it varies from 3.8 to 7.8
     over seeds, so the paper's 4.22, of one packing, must lie among them."""
     found = [
-        sm.pack(sm.UniformRadius(1, 1000, seed=seed), count=1000).statistics.avg2
+        sm.pack(sm.UniformRadius(1, 1000, seed=seed), count=1000).statistics.neighbour_ratio_mean
         for seed in range(10)
     ]
     assert min(found) < 4.222539 < max(found)

@@ -122,7 +122,7 @@ def test_explain_names_the_rule(block):
     assert not found.origin and [row.size for row in found.rows] == [0.4, 2.0]
     below = sm.explain(block, sizes, (5, 0, 14))
     assert below.winner.key == "lid" and below.origin.startswith("edge")
-    assert 0.4 < below.size < below.wish == 2.0
+    assert 0.4 < below.size < below.target_size == 2.0
     assert "grown from edge" in str(below)
     far = sm.explain(block, sizes, (5, 0, -10))
     assert far.winner.key == "*" and far.size == pytest.approx(2.0)
@@ -134,7 +134,7 @@ def test_explain_on_a_formula_surface():
     sizing = sm.Sizing(size=0.5, sources=sm.Near([0, 0, 1], size=0.05))
     found = sm.explain(sm.load("sphere"), sizing, (0.0, 0.1, 1.0))
     assert found.rows[0].rule.startswith("source Near") and found.winner == found.rows[0]
-    assert found.size == pytest.approx(found.wish, rel=0.1)
+    assert found.size == pytest.approx(found.target_size, rel=0.1)
     assert found.to_dict()["winner"]["key"] == "*"
 
 

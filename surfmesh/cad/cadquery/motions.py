@@ -11,7 +11,7 @@ from collections.abc import Iterator
 import numpy as np
 from OCP.BRep import BRep_Tool
 from OCP.BRepAdaptor import BRepAdaptor_Curve, BRepAdaptor_Surface
-from OCP.gp import gp_Trsf
+from OCP.gp import gp_Pnt, gp_Trsf
 from OCP.TopAbs import TopAbs_EDGE, TopAbs_FACE, TopAbs_VERTEX
 from OCP.TopoDS import TopoDS, TopoDS_Shape
 
@@ -71,7 +71,7 @@ def _samples(
             yield _triple(surface.Value(u0 + fraction * (u1 - u0), v0 + other * (v1 - v0)))
 
 
-def _triple(point) -> tuple[float, float, float]:
+def _triple(point: gp_Pnt) -> tuple[float, float, float]:
     return point.X(), point.Y(), point.Z()
 
 

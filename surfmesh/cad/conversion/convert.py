@@ -7,7 +7,7 @@ ends are the caller's. Locations are applied by the caller, through OCP.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from typing import Any
 
 import numpy as np
@@ -80,39 +80,41 @@ def _coordinates(point: Any) -> tuple[float, ...]:
     return _xyz(point) if hasattr(point, "Z") else (point.X(), point.Y())
 
 
+def _vector(point: Any) -> np.ndarray:
+    return np.array(_coordinates(point))
+
+
 # -------------------------------------------------------------------------------- surfaces
 
 
-def _frame(surface: Any) -> dict[str, tuple[float, float, float]]:
+def _frame(surface: Any) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
+    """Origin, x, y, z; y is to the left of x or, in a left-handed frame, to the right."""
     position = surface.Position()
-    return {
-        "origin": _xyz(position.Location()),
-        "x": _xyz(position.XDirection()),
-        "y": _xyz(position.YDirection()),  # to the left of x or, in a left-handed frame, right
-        "z": _xyz(position.Direction()),
-    }
+    axes = position.XDirection(), position.YDirection(), position.Direction()
+    x, y, z = (_vector(axis) for axis in axes)
+    return _vector(position.Location()), x, y, z
 
 
 def _plane(surface: Geom.Geom_Plane, **face: Any) -> Plane:
-    return Plane(**_frame(surface), **face)
+    return Plane(*_frame(surface), **face)
 
 
 def _cylinder(surface: Geom.Geom_CylindricalSurface, **face: Any) -> Cylinder:
-    return Cylinder(**_frame(surface), radius=surface.Radius(), **face)
+    return Cylinder(*_frame(surface), radius=surface.Radius(), **face)
 
 
 def _cone(surface: Geom.Geom_ConicalSurface, **face: Any) -> Cone:
     radius, angle = surface.RefRadius(), surface.SemiAngle()
-    return Cone(**_frame(surface), radius=radius, angle=angle, **face)
+    return Cone(*_frame(surface), radius=radius, angle=angle, **face)
 
 
 def _sphere(surface: Geom.Geom_SphericalSurface, **face: Any) -> Sphere:
-    return Sphere(**_frame(surface), radius=surface.Radius(), **face)
+    return Sphere(*_frame(surface), radius=surface.Radius(), **face)
 
 
 def _torus(surface: Geom.Geom_ToroidalSurface, **face: Any) -> Torus:
     radius, tube = surface.MajorRadius(), surface.MinorRadius()
-    return Torus(**_frame(surface), radius=radius, tube=tube, **face)
+    return Torus(*_frame(surface), radius=radius, tube=tube, **face)
 
 
 def _bezier_surface(surface: Geom.Geom_BezierSurface, **face: Any) -> BSplineSurface:
@@ -140,13 +142,13 @@ def _bspline_surface(surface: Geom.Geom_BSplineSurface, **face: Any) -> BSplineS
 
 
 def _extrusion(surface: Geom.Geom_SurfaceOfLinearExtrusion, **face: Any) -> ExtrusionSurface:
-    direction = _xyz(surface.Direction())
+    direction = _vector(surface.Direction())
     return ExtrusionSurface(curve_of(surface.BasisCurve()), direction, **face)
 
 
 def _revolution(surface: Geom.Geom_SurfaceOfRevolution, **face: Any) -> RevolutionSurface:
     axis = surface.Axis()
-    origin, direction = _xyz(axis.Location()), _xyz(axis.Direction())
+    origin, direction = _vector(axis.Location()), _vector(axis.Direction())
     return RevolutionSurface(curve_of(surface.BasisCurve()), origin, direction, **face)
 
 
@@ -170,34 +172,32 @@ def _net(surface: Any) -> tuple[np.ndarray, np.ndarray | None]:
 
 def _line(curve: Any) -> Line:
     position = curve.Position()
-    return Line(_coordinates(position.Location()), _coordinates(position.Direction()))
+    return Line(_vector(position.Location()), _vector(position.Direction()))
 
 
-def _axes(curve: Any) -> dict[str, tuple[float, ...]]:
-    return {
-        "origin": _coordinates(curve.Location()),
-        "x": _coordinates(curve.XAxis().Direction()),
-        "y": _coordinates(curve.YAxis().Direction()),
-    }
+def _axes(curve: Any) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Origin, x, y."""
+    x, y = (_vector(axis.Direction()) for axis in (curve.XAxis(), curve.YAxis()))
+    return _vector(curve.Location()), x, y
 
 
 def _circle(curve: Any) -> Circle:
-    return Circle(**_axes(curve), radius=curve.Radius())
+    return Circle(*_axes(curve), radius=curve.Radius())
 
 
 def _ellipse(curve: Any) -> Ellipse:
-    return Ellipse(**_axes(curve), major=curve.MajorRadius(), minor=curve.MinorRadius())
+    return Ellipse(*_axes(curve), major=curve.MajorRadius(), minor=curve.MinorRadius())
 
 
 def _hyperbola(curve: Any) -> Hyperbola:
-    return Hyperbola(**_axes(curve), major=curve.MajorRadius(), minor=curve.MinorRadius())
+    return Hyperbola(*_axes(curve), major=curve.MajorRadius(), minor=curve.MinorRadius())
 
 
 def _parabola(curve: Any) -> Parabola | Line:
-    axes = _axes(curve)
+    origin, x, y = _axes(curve)
     if curve.Focal() == 0.0:  # OCCT's degenerate parabola is its axis
-        return Line(axes["origin"], axes["x"])
-    return Parabola(**axes, focal=curve.Focal())
+        return Line(origin, x)
+    return Parabola(origin, x, y, focal=curve.Focal())
 
 
 def _bezier_curve(curve: Any) -> BSplineCurve:
@@ -214,7 +214,7 @@ def _bspline_curve(curve: Any) -> BSplineCurve:
 
 
 def _offset_curve(curve: Geom.Geom_OffsetCurve) -> OffsetCurve:
-    return OffsetCurve(curve_of(curve.BasisCurve()), curve.Offset(), _xyz(curve.Direction()))
+    return OffsetCurve(curve_of(curve.BasisCurve()), curve.Offset(), _vector(curve.Direction()))
 
 
 def _offset_curve2d(curve: Geom2d.Geom2d_OffsetCurve) -> OffsetCurve:
@@ -245,7 +245,7 @@ def _period(periodic: bool, knots: np.ndarray, degree: int) -> float | None:
     return float(knots[-1 - degree] - knots[degree]) if periodic else None
 
 
-_SURFACES = {
+_SURFACES: dict[type, Callable[..., FaceSurface]] = {
     Geom.Geom_Plane: _plane,
     Geom.Geom_CylindricalSurface: _cylinder,
     Geom.Geom_ConicalSurface: _cone,
@@ -257,7 +257,7 @@ _SURFACES = {
     Geom.Geom_SurfaceOfRevolution: _revolution,
     Geom.Geom_OffsetSurface: _offset_surface,
 }
-_CURVES = {
+_CURVES: dict[type, Callable[[Any], Curve]] = {
     Geom.Geom_Line: _line,
     Geom.Geom_Circle: _circle,
     Geom.Geom_Ellipse: _ellipse,

@@ -117,8 +117,8 @@ def _fault_split_faces(walk: Walk, root: Part) -> None:
         for shape, _ in part.remarks:
             if shape is None or shape.IsNull():
                 continue
-            numbers = [walk.face_number(face) for face in each(shape, TopAbs_FACE)]
-            numbers = sorted({number for number in numbers if number is not None})
+            known = {walk.face_number(face) for face in each(shape, TopAbs_FACE)}
+            numbers = sorted(number for number in known if number is not None)
             pieces = [walk.faces[number] for number in numbers]
             if len(pieces) < 2:
                 continue
@@ -134,7 +134,7 @@ def _in_words(walk: Walk, root: Part) -> list[str]:
     for part in root:
         for shape, text in part.remarks:
             found = [] if shape is None or shape.IsNull() else [shape]
-            if found and shape.ShapeType() not in (TopAbs_SOLID, TopAbs_FACE, TopAbs_EDGE):
+            if any(s.ShapeType() not in (TopAbs_SOLID, TopAbs_FACE, TopAbs_EDGE) for s in found):
                 found = list(each(shape, TopAbs_FACE))  # a face that was split
             names = [name for name in map(walk.number_of, found) if name]
             kind = names[0].split()[0] if names else ""
@@ -145,7 +145,7 @@ def _in_words(walk: Walk, root: Part) -> list[str]:
         numbers = list(dict.fromkeys(numbers))
         label = f"{kind}{'s' * (len(numbers) > 1)} " if kind else "part "
         sentences.append(f"{label}{listed(numbers)}: {text}")
-    notes = [note for part in root for note in part.notes]
-    places = [("" if shape is None else walk.number_of(shape)) for shape, _ in notes]
-    said = [f"{place}: {text}" if place else text for place, (_, text) in zip(places, notes)]
-    return sentences + said
+    for shape, text in (note for part in root for note in part.notes):
+        place = "" if shape is None else walk.number_of(shape)
+        sentences.append(f"{place}: {text}" if place else text)
+    return sentences

@@ -34,9 +34,9 @@ def _placed(
         place = place.Multiplied(part.place)
     ready = part
     if part.shape is not None:
-        ready = next((done for shape, done in known if shape.IsEqual(part.shape)), None)
-        if ready is None:
-            ready = _scaled(_usable(part, heal), scale)
+        met = next((done for shape, done in known if shape.IsEqual(part.shape)), None)
+        ready = _scaled(_usable(part, heal), scale) if met is None else met
+        if met is None:
             known.append((part.shape, replace(ready, remarks=[])))  # said once is enough
         ready = _moved(replace(ready, name=part.name, colour=part.colour), place, scale)
     children = [_placed(child, place, heal, scale, known) for child in part.children]

@@ -29,7 +29,7 @@ REACH = 0.4
 class ShortEdge:
     """From a vertex along u: curve in space, p-curve, both with parameters 0 to ``end``."""
 
-    curve: Curve | CurveOnSurface
+    curve: Curve
     pcurve: Line
     end: float
     length: float  # of its chord, in space
@@ -85,7 +85,7 @@ def _along_u(surface: FaceSurface, uv: np.ndarray, length: float) -> ShortEdge |
     low, high = surface.domain[0]
     way = 1.0 if uv[0] - low < high - uv[0] else -1.0
     end = min(length / speed, 0.5 * (high - low))
-    pcurve = Line(uv, (way, 0.0))
+    pcurve = Line(uv, np.array([way, 0.0]))
     if surface.kind == "plane":
         return ShortEdge(Line(r[0], way * r_u[0] / speed), pcurve, end, end * speed)
     curve = CurveOnSurface(surface, pcurve, 0.0, 1.0)

@@ -22,6 +22,7 @@ from OCP.TopAbs import (
     TopAbs_COMPSOLID,
     TopAbs_EDGE,
     TopAbs_FACE,
+    TopAbs_ShapeEnum,
     TopAbs_SHELL,
     TopAbs_SOLID,
     TopAbs_VERTEX,
@@ -51,6 +52,9 @@ and motions of placed parts are rounded, and no feature is as small."""
 LOST = 1e-5
 """Of its volume: so much the pieces of a solid may differ from it by integration alone; besides, by
 a layer as thick as the tolerance."""
+
+Owners = dict[TopAbs_ShapeEnum, ByShape[dict[int, None]]]
+"""Of shapes of each kind: the numbers of the bodies that have them, in order."""
 
 CURE = "repair the bodies, or try a larger imprint=TOLERANCE"
 
@@ -100,7 +104,7 @@ def _bodies(root: Part) -> list[_Body]:
     for part in root:
         if part.shape is None:
             continue
-        names = ByShape()
+        names: ByShape[str] = ByShape()
         for detail in part.details:
             names.setdefault(detail.shape, detail.name)
         solids = each(part.shape, TopAbs_SOLID)
@@ -214,7 +218,8 @@ def _notes(
     bodies: list[_Body], fused: _Fused, tolerance: float
 ) -> list[tuple[TopoDS_Shape | None, str]]:
     """What is shared, what overlapped, what was cut or lost."""
-    owners = {kind: ByShape() for kind in (TopAbs_SOLID, TopAbs_FACE, TopAbs_EDGE, TopAbs_VERTEX)}
+    kinds = (TopAbs_SOLID, TopAbs_FACE, TopAbs_EDGE, TopAbs_VERTEX)
+    owners: Owners = {kind: ByShape() for kind in kinds}
     for number, body in enumerate(bodies):
         for image in fused.images(body.shape):
             for kind, met in owners.items():
@@ -235,7 +240,7 @@ def _notes(
     return found
 
 
-def _shared(owners: dict, tolerance: float) -> str:
+def _shared(owners: Owners, tolerance: float) -> str:
     """How much bodies have in common, as a sentence."""
     words = []
     for kind, one, many in (

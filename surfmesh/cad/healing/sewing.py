@@ -35,6 +35,7 @@ from OCP.TopAbs import (
 from OCP.TopoDS import TopoDS, TopoDS_Shape, TopoDS_Solid
 
 from surfmesh.cad.healing.origins import Origins, remarks_again, tags_again
+from surfmesh.cad.model.cad_model import Colour
 from surfmesh.cad.parts import Detail, Part
 from surfmesh.cad.sub_shapes import (
     ByShape,
@@ -206,7 +207,7 @@ def _own_edges(face: TopoDS_Shape) -> list[TopoDS_Shape]:
 
 def _uses(faces: list[TopoDS_Shape]) -> list[int]:
     """How often each edge of faces bounds one of them."""
-    uses = ByShape()
+    uses: ByShape[list[TopoDS_Shape]] = ByShape()
     for face in faces:
         for edge in _own_edges(face):
             uses.setdefault(edge, []).append(face)
@@ -215,7 +216,7 @@ def _uses(faces: list[TopoDS_Shape]) -> list[int]:
 
 def _connected(faces: list[TopoDS_Shape]) -> list[list[TopoDS_Shape]]:
     """Faces in groups that hang together by edges."""
-    users = ByShape()
+    users: ByShape[list[int]] = ByShape()
     edges = [_own_edges(face) for face in faces]
     for number, own in enumerate(edges):
         for edge in own:
@@ -231,7 +232,7 @@ def _connected(faces: list[TopoDS_Shape]) -> list[list[TopoDS_Shape]]:
             number = waiting.pop()
             members.append(number)
             for edge in edges[number]:
-                for other in users.get(edge):
+                for other in users.get(edge) or ():
                     if group[other] < 0:
                         group[other] = group[first]
                         waiting.append(other)
@@ -266,7 +267,7 @@ def _regions(faces: list[TopoDS_Shape]) -> list[TopoDS_Shape]:
 
 def _shells(history: _Sewn, loose: list[_Loose], parts: dict[Path, Part]) -> list[_Shell]:
     """What hangs together, with the part it belongs to."""
-    of = ByShape()  # new face -> old ones
+    of: ByShape[list[tuple[_Loose, TopoDS_Shape]]] = ByShape()  # new face -> old ones
     for entry in loose:
         for image in history.images(entry.face):
             of.setdefault(image, []).append((entry, image))
@@ -293,7 +294,7 @@ def _common(paths: list[Path]) -> Path:
     return first[: min(len(first), len(last)) if same is None else same]
 
 
-def _colour(parts: dict[Path, Part], path: Path, below: Path):
+def _colour(parts: dict[Path, Part], path: Path, below: Path) -> Colour | None:
     """What a part below another gives its faces and the other does not."""
     for end in range(len(below), len(path), -1):
         if parts[below[:end]].colour:
@@ -380,7 +381,7 @@ def _noted(part: Part, *notes: str) -> Part:
 
 def _notes(loose: list[_Loose], history: _Sewn, bodies: list[_Body]) -> list[str]:
     """How many edges were joined, how many are left free, what became of it all."""
-    before = ByShape()
+    before: ByShape[list[TopoDS_Shape]] = ByShape()
     for entry in loose:
         for edge in unique(entry.face, TopAbs_EDGE):
             for image in history.images(edge):

@@ -9,6 +9,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator
 from dataclasses import replace
+from typing import Any
 
 from OCP.BRep import BRep_Builder, BRep_Tool
 from OCP.BRepBuilderAPI import BRepBuilderAPI_Copy
@@ -240,8 +241,8 @@ def _change(face: TopoDS_Face, new: TopoDS_Shape, context: BRepTools_ReShape) ->
     return "edges put in order" if old.issuperset(after) else "edges fitted anew"
 
 
-def _messages(whole: TopoDS_Shape, said) -> Iterator[tuple[TopoDS_Shape | None, str]]:
-    """What was said of each face, its loops and edges, of shells and of solids."""
+def _messages(whole: TopoDS_Shape, said: Any) -> Iterator[tuple[TopoDS_Shape | None, str]]:
+    """What was ``said`` (a map of OCP) of each face, its loops, edges, of shells and solids."""
     seen = set()
     for kind in (TopAbs_SOLID, TopAbs_SHELL):
         for shape in unique(whole, kind):
@@ -253,7 +254,7 @@ def _messages(whole: TopoDS_Shape, said) -> Iterator[tuple[TopoDS_Shape | None, 
                 yield from ((face, text) for text in _texts(shape, said))
 
 
-def _texts(shape: TopoDS_Shape, said) -> Iterator[str]:
+def _texts(shape: TopoDS_Shape, said: Any) -> Iterator[str]:
     if not said.IsBound(shape):
         return
     for message in said.Find(shape):

@@ -82,9 +82,8 @@ def _are_twins(one: TopoDS_Face, other: TopoDS_Face) -> bool:
     return max(apart, abs(spheres[0].Radius() - spheres[1].Radius())) < BRep_Tool.Tolerance_s(one)
 
 
-def _sphere(face: TopoDS_Face) -> gp_Sphere | None:
-    surface = BRepAdaptor_Surface(face, False)
-    return surface.Sphere() if surface.GetType() == GeomAbs_Sphere else None
+def _sphere(face: TopoDS_Face) -> gp_Sphere:
+    return BRepAdaptor_Surface(face, False).Sphere()
 
 
 def _real_edges(face: TopoDS_Face) -> list[TopoDS_Edge]:
@@ -110,9 +109,9 @@ def _directions(edge: TopoDS_Edge, sphere: gp_Sphere) -> np.ndarray:
 
 
 def _passes(face: TopoDS_Face) -> bool:
-    sphere = _sphere(face)
-    if sphere is None:
+    if BRepAdaptor_Surface(face, False).GetType() != GeomAbs_Sphere:
         return False
+    sphere = _sphere(face)
     for edge in _real_edges(face):
         if BRep_Tool.Curve_s(edge, 0.0, 0.0) is None:
             return False

@@ -18,11 +18,12 @@ import math
 from collections import Counter
 from collections.abc import Iterator
 from dataclasses import dataclass, field
-from typing import Any
 
 import numpy as np
 
 from surfmesh.cad.model.invariants import broken
+from surfmesh.geometry.cad_surfaces.curves import Curve
+from surfmesh.geometry.cad_surfaces.face_surface import FaceSurface
 
 Colour = tuple[float, float, float]
 
@@ -45,7 +46,7 @@ class CadEdge:
     was made of, where imprinting made it of several; ``name`` holds them too.
     """
 
-    curve: Any
+    curve: Curve | None
     t0: float
     t1: float
     start: int
@@ -61,9 +62,23 @@ class CadEdge:
         """Whether it ends where it starts."""
         return self.start == self.end
 
+    @property
+    def is_straight(self) -> bool:
+        """Whether it is a piece of a line."""
+        return self.curve is not None and self.curve.kind == "line"
+
     def parameters(self, fraction: np.ndarray) -> np.ndarray:
         """Fractions of the parameter range, 0 at the start and 1 at the end -> curve parameters."""
         return self.t0 + np.asarray(fraction, float) * (self.t1 - self.t0)
+
+    def evaluate(self, fraction: np.ndarray, order: int = 0) -> tuple[np.ndarray, ...]:
+        """Points (n, 3) at fractions (n,) of the range, and derivatives by the curve's parameter.
+
+        Raises ValueError for a degenerate edge, which has none.
+        """
+        if self.curve is None:
+            raise ValueError("a degenerate edge has no curve in space")
+        return self.curve.evaluate(self.parameters(fraction), order)
 
 
 @dataclass(frozen=True, eq=False)
@@ -77,10 +92,15 @@ class CadCoedge:
 
     edge: int
     reversed: bool
-    pcurve: Any
+    pcurve: Curve
     p0: float
     p1: float
     seam: bool
+
+    @property
+    def is_straight(self) -> bool:
+        """Whether it is a piece of a line in (u, v)."""
+        return self.pcurve.kind == "line"
 
     def uv(self, fraction: np.ndarray) -> np.ndarray:
         """Parameters at these fractions of the *edge's* range: (n,) -> (n, 2)."""
@@ -104,7 +124,7 @@ class CadFace:
     names: as of an edge.
     """
 
-    surface: Any
+    surface: FaceSurface
     loops: tuple[tuple[CadCoedge, ...], ...]
     reversed: bool
     tolerance: float

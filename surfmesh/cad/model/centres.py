@@ -31,7 +31,7 @@ def boundary_polygons(face: CadFace) -> list[np.ndarray]:
     for loop in face.loops:
         parts = []
         for coedge in loop:
-            straight = getattr(coedge.pcurve, "kind", "") == "line"
+            straight = coedge.is_straight
             fraction = np.linspace(0.0, 1.0, STRAIGHT if straight else CURVED)
             parts.append(coedge.walk(fraction)[:-1])
         found.append(np.concatenate(parts))
@@ -63,7 +63,7 @@ def face_area(face: CadFace) -> float:
 
 def _across(face: CadFace, coedge: CadCoedge, along_straight: int = 1) -> tuple[np.ndarray, ...]:
     """Weights (n,) in (u, v), points, r_u and r_v (n, 3) between the left side and a coedge."""
-    straight = getattr(coedge.pcurve, "kind", "") == "line"
+    straight = coedge.is_straight
     along, w_along = gauss_rule(0.0, 1.0, along_straight if straight else ALONG, POINTS)
     t, w = gauss_rule(0.0, 1.0, PANELS, POINTS)
     uv, speed = coedge.pcurve.evaluate(coedge.p0 + along * (coedge.p1 - coedge.p0), 1)
@@ -75,12 +75,10 @@ def _across(face: CadFace, coedge: CadCoedge, along_straight: int = 1) -> tuple[
     return ((dv * (u - u0))[:, None] * w).ravel(), point, r_u, r_v
 
 
-def edge_centre(edge: CadEdge) -> np.ndarray | None:
-    """Centre of mass (3,) of an edge; None for a degenerate one."""
-    if edge.degenerate or edge.curve is None:
-        return None
+def edge_centre(edge: CadEdge) -> np.ndarray:
+    """Centre of mass (3,) of an edge that is not degenerate."""
     t, w = gauss_rule(0.0, 1.0, ALONG, POINTS)
-    points, speed = edge.curve.evaluate(edge.parameters(t), 1)
+    points, speed = edge.evaluate(t, 1)
     w = w * np.linalg.norm(speed, axis=1)
     return w @ points / w.sum() if w.sum() > 0.0 else points.mean(axis=0)
 

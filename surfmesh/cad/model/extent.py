@@ -19,7 +19,7 @@ def diagonal(
     boxes = [_box(np.array([vertex.point for vertex in vertices]))]
     for edge in edges:
         if edge.curve is not None:
-            boxes.append(_box(edge.curve.evaluate(edge.parameters(EDGE_FRACTIONS), 0)[0]))
+            boxes.append(_box(edge.evaluate(EDGE_FRACTIONS, 0)[0]))
     for face in faces:
         uv = _inside(face)
         if face.kind != "plane" and len(uv):

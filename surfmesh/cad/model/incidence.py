@@ -18,6 +18,7 @@ import numpy as np
 
 from surfmesh.cad.model.cad_model import CadCoedge, CadFace, CadModel
 from surfmesh.cad.model.collapsed_edges import collapses, vanishes, vertex_numbers
+from surfmesh.geometry.components import components
 
 SAME_PLACE = 0.01  # of the (u, v) box: (u, v) of one vertex are as near, or a seam apart
 BESIDE = 1e-3  # fraction of an edge's range at which its direction is seen
@@ -53,13 +54,8 @@ def vertex_fans(model: CadModel) -> tuple[int, ...]:
     """Into how many fans the faces at each vertex fall that no edge joins; 0 where another
     vertex stands for this one, as only a tiny edge lies between."""
     number = vertex_numbers(model)
-    joined: dict[End, End] = {}
+    joined: list[tuple[End, End]] = []
     lone = [0] * len(model.vertices)
-
-    def root(end: End) -> End:
-        while joined.setdefault(end, end) != end:
-            end = joined[end]
-        return end
 
     for face in model.faces:
         if vanishes(model, face):
@@ -67,11 +63,12 @@ def vertex_fans(model: CadModel) -> tuple[int, ...]:
         passages, points = _passages(model, face, number)
         for vertex in set(points) - {passage.vertex for passage in passages}:
             lone[vertex] += 1
-        for first, second in _sectors(face, passages):
-            joined[root(first)] = root(second)
+        joined += _sectors(face, passages)
     fans = lone
-    for edge, at_end in [end for end in joined if root(end) == end]:
-        fans[number[model.edges[edge].end if at_end else model.edges[edge].start]] += 1
+    pairs = np.array(joined, np.int64).reshape(-1, 2, 2) @ (2, 1)  # ends: 2 edge + at its end
+    for end in np.unique(components(2 * len(model.edges), pairs)[pairs]).tolist():
+        edge = model.edges[end // 2]
+        fans[number[edge.end if end % 2 else edge.start]] += 1
     return tuple(fans)
 
 
@@ -139,5 +136,5 @@ def _between(here: list[_Passage]) -> list[tuple[End, End]]:
 
 def _angle(coedge: CadCoedge, fraction: float, vertex: float) -> float:
     """The direction in (u, v) from a vertex to a point of an edge beside it."""
-    away, at = coedge.walk(np.array([fraction, vertex]))
-    return math.atan2(away[1] - at[1], away[0] - at[0])
+    ahead, at = coedge.walk(np.array([fraction, vertex]))
+    return math.atan2(ahead[1] - at[1], ahead[0] - at[0])

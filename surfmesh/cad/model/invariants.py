@@ -85,7 +85,7 @@ def _broken_edge(model: CadModel, number: int, edge: CadEdge) -> Iterator[str]:
     if edge.curve is None:
         yield f"edge {number} has no curve"
         return
-    ends = edge.curve.evaluate(edge.parameters(ENDS), 0)[0]
+    ends = edge.evaluate(ENDS, 0)[0]
     for point, vertex in zip(ends, (edge.start, edge.end)):
         gap = float(np.linalg.norm(point - model.vertices[vertex].point))
         if not gap <= model.vertices[vertex].tolerance + NOISE * model.diagonal:
@@ -146,8 +146,8 @@ def _broken_pcurves(model: CadModel, number: int, face: CadFace) -> Iterator[str
     if outside.any():
         yield f"face {number} has edges outside its (u, v) box, at {uv[outside][0].tolist()}"
     noise = NOISE * model.diagonal
-    off = distances_to_edges(model.edges, model.vertices, coedges, r)
-    for coedge, distance in zip(coedges, off):
+    deviations = distances_to_edges(model.edges, model.vertices, coedges, r)
+    for coedge, distance in zip(coedges, deviations):
         edge = model.edges[coedge.edge]
         reach = edge.tolerance
         if edge.degenerate:
@@ -186,7 +186,7 @@ def distances_to_edges(
         if edge.curve is None:
             on_edge = vertices[edge.start].point
         else:
-            on_edge = edge.curve.evaluate(edge.parameters(FRACTIONS), 0)[0]
+            on_edge = edge.evaluate(FRACTIONS, 0)[0]
         worst[place] = np.linalg.norm(own - on_edge, axis=1).max()
     return worst
 

@@ -20,8 +20,9 @@ import numpy as np
 
 from surfmesh.cad.model.cad_model import CadCoedge, CadEdge, CadFace, CadModel
 from surfmesh.geometry.boxes import diagonal
+from surfmesh.geometry.cad_surfaces.nurbs import BSplineCurve
 from surfmesh.geometry.inside_loops import is_inside, nesting_depth
-from surfmesh.geometry.planar.curve_contacts import Contact, PlaneCurve, contacts, feet
+from surfmesh.geometry.planar.curve_contacts import Contact, PlaneCurve, closest, contacts
 
 ROUND_PIECES, SPAN_PIECES, MOST_PIECES = 16, 4, 256
 """Pieces of conics, of each span of a spline, and at most, in which curves hardly bend."""
@@ -132,11 +133,10 @@ class _Loops:
         self.near = np.clip(self.tolerance, NEAREST * size, NEAR * size) + rounding
 
     def _curve(self, coedge: CadCoedge) -> PlaneCurve:
-        kind = getattr(coedge.pcurve, "kind", "")
-        knots = getattr(coedge.pcurve, "knots", None)
-        pieces = 1 if kind == "line" else ROUND_PIECES
-        if knots is not None:
-            pieces = min(MOST_PIECES, max(ROUND_PIECES, SPAN_PIECES * (len(np.unique(knots)) - 1)))
+        pieces = 1 if coedge.is_straight else ROUND_PIECES
+        if isinstance(coedge.pcurve, BSplineCurve):
+            spans = len(np.unique(coedge.pcurve.knots)) - 1
+            pieces = min(MOST_PIECES, max(ROUND_PIECES, SPAN_PIECES * spans))
         return PlaneCurve(lambda fraction: coedge.walk(fraction) * self.mean, pieces)
 
     @cached_property
@@ -241,7 +241,7 @@ class _Loops:
         """Does the first curve stay as near to the other from the contact to its end?"""
         one, other = contact.curves
         t = np.linspace(contact.fractions[0][end], float(end), LOBE_SAMPLES)
-        return bool((feet(self.curves[other], self.curves[one].evaluate(t))[1] <= reach).all())
+        return bool((closest(self.curves[other], self.curves[one].evaluate(t))[1] <= reach).all())
 
     def _is_at(self, curve: int, fraction: tuple[float, float], end: int, reach: float) -> bool:
         """Is the end of the curve (0 or 1) within reach of its part between two fractions?"""
@@ -262,20 +262,22 @@ class _Loops:
     def _is_crossing(self, contact: Contact) -> bool:
         """Do the two branches of the one curve lie on both sides of those of the other?"""
         one, other = contact.curves
-        centre = 0.5 * sum(
-            self.curves[curve].evaluate(np.mean(fraction, keepdims=True))
+        first, second = (
+            self.curves[curve].evaluate(np.mean(fraction, keepdims=True))[0]
             for curve, fraction in zip(contact.curves, contact.fractions)
         )
+        centre = 0.5 * (first + second)
         near = max(self.near[one], self.near[other])
         radius = max(16.0 * near, 4.0 * self.tolerance[one], 4.0 * self.tolerance[other])
         for _ in range(40):
-            ways = [
-                self._branch(contact, place, forward, centre[0], radius)
+            branches = [
+                self._branch(contact, place, forward, centre, radius)
                 for place in (0, 1) for forward in (False, True)
             ]  # fmt: skip
-            if any(way is None for way in ways):
+            known = [branch for branch in branches if branch is not None]
+            if len(known) < len(branches):
                 return False
-            ways = np.array(ways) - centre
+            ways = np.array(known) - centre
             apart = np.linalg.norm(ways[:2, None] - ways[None, 2:], axis=2).min()
             if apart > 8.0 * near:
                 angle = np.arctan2(ways[:, 1], ways[:, 0])
@@ -291,9 +293,9 @@ class _Loops:
         curve, fraction = contact.curves[place], contact.fractions[place][int(forward)]
         for _ in range(len(self.exact.loops[self.loop_of[curve]]) + 1):
             t = np.linspace(fraction, 1.0 if forward else 0.0, BRANCH_SAMPLES)
-            away = np.linalg.norm(self.curves[curve].evaluate(t) - centre, axis=1)
-            if (away >= radius).any():
-                k = int((away >= radius).argmax())
+            distance = np.linalg.norm(self.curves[curve].evaluate(t) - centre, axis=1)
+            if (distance >= radius).any():
+                k = int((distance >= radius).argmax())
                 low, high = t[max(k - 1, 0)], t[k]
                 for _ in range(40):
                     middle = 0.5 * (low + high)
@@ -332,7 +334,7 @@ class _Loops:
         others = [k for k in range(self.first[loop], self.first[loop + 1]) if k != curve]
         if not others:
             return float(np.linalg.norm(points - points[:1], axis=1).max())
-        return float(np.min([feet(self.curves[k], points)[1] for k in others], axis=0).max())
+        return float(np.min([closest(self.curves[k], points)[1] for k in others], axis=0).max())
 
     def _encloses_nothing(self) -> str:
         """In words, when the loops leave no inside on their left."""
@@ -340,7 +342,7 @@ class _Loops:
         areas = np.array([_area(ring) for ring in rings])
         lengths = [np.linalg.norm(ring - np.roll(ring, 1, axis=0), axis=1).sum() for ring in rings]
         flat = np.abs(areas) <= np.maximum(FLAT * np.square(lengths), self._slack() * lengths)
-        for number in np.flatnonzero(flat):
+        for number in np.flatnonzero(flat).tolist():
             if not self._is_slit(number) and not self._is_shared(number):
                 return f"its loop {number} encloses nothing near {self._corner(number)}"
         real = np.flatnonzero(~flat)

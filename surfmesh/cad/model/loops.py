@@ -85,7 +85,7 @@ def there_and_back(
         if used[number]:
             continue
         walk: list[CadCoedge] = []
-        stack = [(start_of(forward, edges), None)]
+        stack: list[tuple[int, CadCoedge | None]] = [(start_of(forward, edges), None)]
         while stack:
             vertex, back = stack[-1]
             way = next(((n, r) for n, r in at[vertex] if not used[n]), None)
@@ -96,9 +96,9 @@ def there_and_back(
                 continue
             taken, from_end = way
             used[taken] = True
-            away, back = pairs[taken][::-1] if from_end else pairs[taken]
-            walk.append(away)
-            stack.append((end_of(away, edges), back))
+            there, return_way = pairs[taken][::-1] if from_end else pairs[taken]
+            walk.append(there)
+            stack.append((end_of(there, edges), return_way))
         loops.append(tuple(walk))
     return loops
 

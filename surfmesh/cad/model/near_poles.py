@@ -24,7 +24,7 @@ from surfmesh.geometry.differential.projection import closest_point
 ZONE = 30.0  # times the extent of the side: nearer to the pole a p-curve is not believed
 SWING = 0.02  # of the face's box: less is no swing
 LARGEST = 0.01  # of the face's size: a longer side is no pole
-SAMPLES, STEPS = 513, 8  # of a p-curve, and steps to the feet of its points
+SAMPLES, STEPS = 513, 8  # of a p-curve, and steps to the nearest points of the surface
 
 
 def pcurves_at_near_poles(
@@ -66,7 +66,8 @@ def _straightened(
     pole = vertices[edges[coedges[at].edge].start].point
     (u0, u1), (v0, v1) = face.surface.domain
     width = np.array([u1 - u0, v1 - v0])
-    (corners,) = face.surface.evaluate([[u0, v0], [u1, v0], [u1, v1], [u0, v1]], 0)
+    box = np.array([[u0, v0], [u1, v0], [u1, v1], [u0, v1]])
+    (corners,) = face.surface.evaluate(box, 0)
     size = diagonal(corners)
     (side,) = face.surface.evaluate(coedges[at].uv(FRACTIONS), 0)
     extent = diagonal(side)
@@ -77,7 +78,7 @@ def _straightened(
         fraction = np.linspace(0.0, 1.0, SAMPLES)
         coedge = coedges[place]
         edge = edges[coedge.edge]
-        points = edge.curve.evaluate(edge.parameters(fraction), 0)[0]
+        points = edge.evaluate(fraction, 0)[0]
         uv = closest_point(face.surface, points, coedge.uv(fraction), STEPS, margin=0.0)[0]
         at_end = last != coedge.reversed  # of the edge's range: its end lies in the pole
         near = np.linalg.norm(points - pole, axis=1) < ZONE * extent
@@ -85,9 +86,9 @@ def _straightened(
         edge_of_zone = zone.min() if at_end else zone.max()
         if near.all():
             return False
-        away = np.ptp(uv[zone], axis=0) / width
-        across = int(np.argmax(away))
-        if away[across] < SWING:
+        swing = np.ptp(uv[zone], axis=0) / width
+        across = int(np.argmax(swing))
+        if swing[across] < SWING:
             ends.append((place, coedge, coedge.walk(np.array([1.0 if last else 0.0]))[0], False))
             continue
         uv[zone, across] = uv[edge_of_zone, across]

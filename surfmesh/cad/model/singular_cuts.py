@@ -82,9 +82,9 @@ def _slack(face: CadFace, axis: int) -> float:
 def _crosses(face: CadFace, line: SingularLine) -> bool:
     """Does the face lie on both sides of the line?"""
     uv = np.concatenate([coedge.uv(FRACTIONS) for coedge in face.coedges])
-    away = uv[:, line.axis] - line.value
+    beside = uv[:, line.axis] - line.value
     slack = _slack(face, line.axis)
-    return bool((away < -slack).any() and (away > slack).any())
+    return bool((beside < -slack).any() and (beside > slack).any())
 
 
 def _jumps(face: CadFace, line: SingularLine, loop: Loop) -> bool:
@@ -102,22 +102,22 @@ def _jump(face: CadFace, line: SingularLine, after: CadCoedge, here: CadCoedge) 
 
 def _crossings(coedge: CadCoedge, line: SingularLine, slack: float) -> list[float]:
     """Fractions of the edge's range, 0 and 1 excluded, at which its p-curve crosses the line."""
-    straight = getattr(coedge.pcurve, "kind", "") == "line"
+    straight = coedge.is_straight
     fraction = np.linspace(0.0, 1.0, 2 if straight else SAMPLES)
-    away = coedge.uv(fraction)[:, line.axis] - line.value
-    away[np.abs(away) <= slack] = 0.0
-    found = [float(fraction[k]) for k in np.flatnonzero(away == 0.0) if 0 < k < len(fraction) - 1]
+    beside = coedge.uv(fraction)[:, line.axis] - line.value
+    beside[np.abs(beside) <= slack] = 0.0
+    found = [float(fraction[k]) for k in np.flatnonzero(beside == 0.0) if 0 < k < len(fraction) - 1]
     if len(found) > 2:  # it runs along the line
         return []
-    for k in np.flatnonzero(away[1:] * away[:-1] < 0.0):
+    for k in np.flatnonzero(beside[1:] * beside[:-1] < 0.0):
         low, high = float(fraction[k]), float(fraction[k + 1])
         if straight:
-            found.append(low + (high - low) * float(away[k] / (away[k] - away[k + 1])))
+            found.append(low + (high - low) * float(beside[k] / (beside[k] - beside[k + 1])))
             continue
         for _ in range(HALVINGS):
             middle = 0.5 * (low + high)
             here = coedge.uv(np.array([middle]))[0, line.axis] - line.value
-            low, high = (middle, high) if here * away[k] > 0.0 else (low, middle)
+            low, high = (middle, high) if here * beside[k] > 0.0 else (low, middle)
         found.append(0.5 * (low + high))
     return sorted(found)
 
@@ -378,6 +378,8 @@ def _parts(coedge: CadCoedge, rows: list[tuple] | None) -> list[CadCoedge]:
 
 
 def _length(edge: CadEdge, t0: float, t1: float) -> float:
+    if edge.curve is None:
+        return 0.0
     t, weights = gauss_rule(t0, t1, LENGTH_PANELS, 12)
     return float(np.linalg.norm(edge.curve.evaluate(t, 1)[1], axis=1) @ weights)
 
@@ -388,12 +390,13 @@ def _chains(loop: Loop, line: SingularLine, slack: float, above: bool) -> tuple[
     What lies on the line itself is in none of them.
     """
     sign = 1.0 if above else -1.0
-    away = [sign * (coedge.walk(FRACTIONS)[:, line.axis] - line.value) for coedge in loop]
-    here = [bool(far.max() > slack and far.max() > -far.min()) for far in away]
-    begins = [there and far[0] <= slack for there, far in zip(here, away)]
+    beside = [sign * (coedge.walk(FRACTIONS)[:, line.axis] - line.value) for coedge in loop]
+    here = [bool(far.max() > slack and far.max() > -far.min()) for far in beside]
+    begins = [there and far[0] <= slack for there, far in zip(here, beside)]
     if not any(begins):
         return [], all(here)
-    chains, start = [], begins.index(True)
+    chains: list[list[CadCoedge]] = []
+    start = begins.index(True)
     for k in (*range(start, len(loop)), *range(start)):
         if begins[k]:
             chains.append([])

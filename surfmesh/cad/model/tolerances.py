@@ -1,31 +1,33 @@
 """Tolerances that are true, and p-curves that keep to them.
 
-Files state how far edges lie off their faces as it was measured at a few points. Here it is
+Files state how far edges deviate from their faces as it was measured at a few points. Here it is
 measured anew; p-curves that stray are replaced, and where that does not help tolerances are raised.
 """
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from dataclasses import replace
 
 import numpy as np
 
 from surfmesh.cad.model.cad_model import CadCoedge, CadEdge, CadFace, CadVertex
 from surfmesh.cad.model.invariants import ENDS, FRACTIONS, NOISE, distances_to_edges
+from surfmesh.cad.model.loops import Loop
 from surfmesh.cad.model.pcurves import follows
 from surfmesh.geometry.cad_surfaces.curve_on_surface import CurveOnSurface
 from surfmesh.geometry.cad_surfaces.face_surface import FaceSurface
 from surfmesh.geometry.surface import Domain
 
-FAR_OFF = 10.0  # times its tolerance: an edge that lies so far off its face is reported
-LOOSE = 1e-4  # of its length: a curve that lies so far off all its faces may be replaced
+REPORTED = 10.0  # times its tolerance: an edge that deviates by more is reported
+LOOSE = 1e-4  # of its length: a curve that deviates so far from all its faces may be replaced
 AGREE = 0.5  # of that distance: p-curves that lie this near each other are believed instead
 CHORDS = 256  # that measure the length of a curve on a face
 MANY = 12  # numbers that a sentence lists
 
 
 def deviations(edges: list[CadEdge], vertices: list[CadVertex], face: CadFace) -> np.ndarray:
-    """(n,) How far the edges of each coedge lie off the face in space."""
+    """(n,) How far the edge of each coedge deviates from the face in space."""
     coedges = list(face.coedges)
     uv = np.concatenate([coedge.uv(FRACTIONS) for coedge in coedges])
     (on_face,) = face.surface.evaluate(uv, 0)
@@ -41,7 +43,7 @@ def pcurves_that_follow(
         better = {}
         for coedge, distance in zip(face.coedges, deviations(edges, vertices, face)):
             edge = edges[coedge.edge]
-            if edge.curve is None or distance <= FAR_OFF * edge.tolerance:
+            if edge.curve is None or distance <= REPORTED * edge.tolerance:
                 continue
             new = follows(face.surface, edge, coedge, max(edge.tolerance, NOISE * edge.length))
             if new is not coedge:
@@ -65,7 +67,7 @@ def pcurves_that_follow(
 def curves_on_their_faces(
     edges: list[CadEdge], vertices: list[CadVertex], faces: list[CadFace], unit: str
 ) -> list[str]:
-    """Replace, in place, curves that lie off their faces where the p-curves agree among themselves.
+    """Replace, in place, curves that deviate from their faces where p-curves agree.
 
     The border of a single face lies on that face, whatever the file says.
     """
@@ -122,13 +124,13 @@ def tolerances_that_hold(
     for edge in edges:
         if edge.curve is None:
             continue
-        ends = edge.curve.evaluate(edge.parameters(ENDS), 0)[0]
+        ends = edge.evaluate(ENDS, 0)[0]
         for vertex, point in zip((edge.start, edge.end), ends):
             known = vertices[vertex]
             gap = float(np.linalg.norm(point - known.point))
             if gap > known.tolerance:
                 vertices[vertex] = replace(known, tolerance=gap * (1.0 + NOISE))
-    far = np.flatnonzero(measured > FAR_OFF * stated)
+    far = np.flatnonzero(measured > REPORTED * stated)
     if not len(far):
         return []
     worst = far[np.argmax(measured[far])]
@@ -139,14 +141,14 @@ def tolerances_that_hold(
     ]
 
 
-def widened(surface: FaceSurface, loops: list) -> FaceSurface:
+def widened(surface: FaceSurface, loops: Iterable[Loop]) -> FaceSurface:
     """The surface with room for all samples of the loops in its domain."""
     lo, hi = joined(surface.domain, loops)
     domain = ((float(lo[0]), float(hi[0])), (float(lo[1]), float(hi[1])))
     return surface if domain == surface.domain else surface.with_domain(domain)
 
 
-def joined(domain: Domain, loops: list) -> tuple[np.ndarray, np.ndarray]:
+def joined(domain: Domain, loops: Iterable[Loop]) -> tuple[np.ndarray, np.ndarray]:
     samples = np.concatenate([coedge.uv(FRACTIONS) for loop in loops for coedge in loop])
     (u0, u1), (v0, v1) = domain
     lo = np.minimum(samples.min(axis=0), (u0, v0))

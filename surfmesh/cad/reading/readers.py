@@ -108,7 +108,7 @@ READERS = {
 }  # fmt: skip
 
 
-def _document(reader, path: Path) -> Part:
+def _document(reader: STEPCAFControl_Reader | IGESCAFControl_Reader, path: Path) -> Part:
     """Have the reader fill a document, and take its tree."""
     document = TDocStd_Document(TCollection_ExtendedString("BinXCAF"))
     if not reader.Transfer(document, Message_ProgressRange()):

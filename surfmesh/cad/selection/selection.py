@@ -150,20 +150,18 @@ def _is_called(name: str, pattern: str) -> bool:
 
 
 def _of_one_kind(model: CadModel, kind: str, rest: str, key: str) -> Selection:
-    items = {
-        "face": model.faces, "edge": model.edges, "vertex": model.vertices, "solid": model.solids
-    }[kind]  # fmt: skip
     many = "vertices" if kind == "vertex" else f"{kind}s"
+    count = len(getattr(model, many))
     if rest == EVERYTHING:
-        return Selection(**{many: tuple(range(len(items)))})
+        return Selection(**{many: tuple(range(count))})
     if _NUMBERS.fullmatch(rest.replace(" ", "")):
         wanted: set[int] = set()
         for span in rest.replace(" ", "").split(","):
             first, last = (_number(end) for end in (span.split("-") * 2)[:2])
-            if last >= len(items) or first > last:
+            if last >= count or first > last:
                 raise SizingError(
                     f"{key!r:.80}: there is no {kind} {span:.30}; "
-                    f"{model.name or model.source!r} has {len(items)}, numbered from 0"
+                    f"{model.name or model.source!r} has {count}, numbered from 0"
                 )
             wanted.update(range(first, last + 1))
         return Selection(**{many: tuple(sorted(wanted))})
@@ -171,7 +169,7 @@ def _of_one_kind(model: CadModel, kind: str, rest: str, key: str) -> Selection:
         return Selection(**{many: tuple(selected(model, kind, rest))})
     if kind in ("vertex", "solid"):
         return Selection(**{many: getattr(_named(model, rest), many)})
-    found = _matching(items, rest)
+    found = _matching(model.faces if kind == "face" else model.edges, rest)
     for tag in model.tags:
         if _is_called(tag.name, rest):
             found.update(getattr(tag, many))
@@ -207,8 +205,8 @@ def _colour(text: str) -> Colour:
 def _advice(model: CadModel, key: str, prefix: str) -> str:
     """What there is instead."""
     if prefix in ("color", "colour"):
-        known = sorted({_hexadecimal(face.colour) for face in model.faces if face.colour})
-        return f"its colours are {_some(known)}" if known else "none of its faces has a colour"
+        colours = sorted({_hexadecimal(face.colour) for face in model.faces if face.colour})
+        return f"its colours are {_some(colours)}" if colours else "none of its faces has a colour"
     if prefix == "type":
         return f"its kinds of faces are {_some(sorted({face.kind for face in model.faces}))}"
     known = names(model)

@@ -16,10 +16,11 @@ import math
 import re
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
+from typing import NoReturn
 
 import numpy as np
 
-from surfmesh.cad.model.cad_model import CadModel
+from surfmesh.cad.model.cad_model import CadEdge, CadFace, CadModel, CadSolid, CadVertex
 from surfmesh.cad.model.centres import edge_centre, face_centre, solid_centre
 from surfmesh.errors import SizingError
 from surfmesh.geometry.number_range import RANGE
@@ -28,6 +29,8 @@ TOLERANCE = 1e-4
 """As CadQuery has it: radians and lengths alike; lengths at least SPREAD of the diagonal."""
 
 SPREAD = 1e-6
+
+Item = CadFace | CadEdge | CadVertex | CadSolid
 
 KINDS = ("face", "edge", "vertex", "solid")
 
@@ -78,12 +81,16 @@ class _Things:
     """What selectors ask about the faces, edges, vertices or solids of a model."""
 
     def __init__(self, model: CadModel, kind: str) -> None:
-        self.model, self.kind = model, kind
-        of = {"face": model.faces, "edge": model.edges, "vertex": model.vertices}
-        self.items = of.get(kind, model.solids)
+        self.model = model
+        of: dict[str, Sequence[Item]] = {
+            "face": model.faces, "edge": model.edges, "vertex": model.vertices,
+            "solid": model.solids,
+        }  # fmt: skip
+        self.items = of[kind]
         self.all = {
-            k for k, item in enumerate(self.items) if not getattr(item, "degenerate", False)
-        }
+            k for k, item in enumerate(self.items)
+            if not (isinstance(item, CadEdge) and item.degenerate)
+        }  # fmt: skip
         self.tolerance = max(TOLERANCE, SPREAD * model.diagonal)
         self._against = {
             number: flag for solid in model.solids for shell in solid.shells
@@ -94,15 +101,15 @@ class _Things:
 
     def centre(self, number: int) -> np.ndarray:
         if number not in self._centres:
-            item = self.items[number]
-            if self.kind == "face":
-                found = face_centre(item)
-            elif self.kind == "edge":
-                found = edge_centre(item)
-            else:
-                found = item.point if self.kind == "vertex" else solid_centre(self.model, item)
-            self._centres[number] = found
+            self._centres[number] = self._centre(self.items[number])
         return self._centres[number]
+
+    def _centre(self, item: Item) -> np.ndarray:
+        if isinstance(item, CadFace):
+            return face_centre(item)
+        if isinstance(item, CadEdge):
+            return edge_centre(item)
+        return item.point if isinstance(item, CadVertex) else solid_centre(self.model, item)
 
     def direction(self, number: int) -> np.ndarray | None:
         """Normal (3,) of a plane face, out of its solid; tangent of a straight edge."""
@@ -112,14 +119,14 @@ class _Things:
 
     def _direction(self, number: int) -> np.ndarray | None:
         item = self.items[number]
-        if self.kind == "face" and item.kind == "plane":
+        if isinstance(item, CadFace) and item.kind == "plane":
             (u0, u1), (v0, v1) = item.surface.domain
             middle = np.array([[0.5 * (u0 + u1), 0.5 * (v0 + v1)]])
             _, r_u, r_v = item.surface.evaluate(middle, 1)
             normal = np.cross(r_u[0], r_v[0]) / np.linalg.norm(np.cross(r_u[0], r_v[0]))
             return -normal if item.reversed != self._against.get(number, False) else normal
-        if self.kind == "edge" and getattr(item.curve, "kind", "") == "line":
-            _, tangent = item.curve.evaluate(item.parameters(np.array([0.5])), 1)
+        if isinstance(item, CadEdge) and item.is_straight:
+            _, tangent = item.evaluate(np.array([0.5]), 1)
             return tangent[0] / np.linalg.norm(tangent[0])
         return None
 
@@ -241,7 +248,7 @@ class _Parser:
             return True
         return False
 
-    def _fail(self, reason: str) -> None:
+    def _fail(self, reason: str) -> NoReturn:
         rest = self.text[self.at :].strip()
         raise SizingError(
             f"selector {self.text!r:.200}: {reason} (column {self.at + 1}"
@@ -254,9 +261,11 @@ def selected_set(things: _Things, text: str) -> set[int]:
     return _Parser(things, text).expression()
 
 
-def _kind(item: object) -> str:
-    """As CadQuery calls it, in small letters."""
-    return str(getattr(item, "kind", "") or getattr(getattr(item, "curve", None), "kind", ""))
+def _kind(item: Item) -> str:
+    """As CadQuery calls it, in small letters; "" of what has no kind."""
+    if isinstance(item, CadEdge):
+        return "" if item.curve is None else item.curve.kind
+    return item.kind if isinstance(item, CadFace) else ""
 
 
 def _direction(text: str) -> np.ndarray:

@@ -14,9 +14,9 @@ Source: OCCT, packages ElCLib (parametrisations).
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from math import pi
-from typing import Protocol, Self, runtime_checkable
+from typing import ClassVar, Protocol, Self, runtime_checkable
 
 import numpy as np
 
@@ -33,8 +33,11 @@ class Curve(Protocol):
     period: c(t + period) = c(t), or None.
     """
 
-    kind: str
-    period: float | None
+    @property
+    def kind(self) -> str: ...
+
+    @property
+    def period(self) -> float | None: ...
 
     @property
     def dimension(self) -> int: ...
@@ -59,12 +62,13 @@ class _Elementary(PlainData):
     origin: np.ndarray  # (d,)
     x: np.ndarray  # (d,) unit vectors at right angles
     y: np.ndarray
+    _axes: np.ndarray = field(init=False)  # (2, d)
 
-    period = None
+    period: ClassVar[float | None] = None
 
     def __post_init__(self) -> None:
         self._set(**{name: frozen_array(getattr(self, name)) for name in ("origin", "x", "y")})
-        self._set(_axes=np.array([self.x, self.y]))
+        self._set(_axes=frozen_array([self.x, self.y]))
 
     @property
     def dimension(self) -> int:
@@ -92,7 +96,7 @@ class Line(PlainData):
     direction: np.ndarray  # (d,) of unit length, so that t is a length
 
     kind = "line"
-    period = None
+    period: ClassVar[float | None] = None
 
     def __post_init__(self) -> None:
         origin, direction = frozen_array(self.origin), frozen_array(self.direction)

@@ -19,7 +19,7 @@ Source: OCCT, package ElSLib (parametrisations).
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from math import cos, pi, sin
 from typing import ClassVar
 
@@ -62,12 +62,14 @@ class _Elementary(FaceSurface):
     y: np.ndarray
     z: np.ndarray
 
+    _table: np.ndarray = field(init=False)  # (derivatives, functions, 3)
+
     _OPERATORS: ClassVar[np.ndarray]
 
     def __post_init__(self) -> None:
         super().__post_init__()
         self._set(**{name: frozen_array(getattr(self, name)) for name in ("origin", "x", "y", "z")})
-        self._set(_table=self._OPERATORS @ self._coefficients())
+        self._set(_table=frozen_array(self._OPERATORS @ self._coefficients()))
 
     def evaluate(self, uv: np.ndarray, order: int = 0) -> tuple[np.ndarray, ...]:
         uv = parameter_pairs(uv)
@@ -199,7 +201,7 @@ class Torus(_Elementary):
         return values
 
 
-def _products(u, v, turn_v: np.ndarray, products: np.ndarray) -> np.ndarray:
+def _products(u: np.ndarray, v: np.ndarray, turn_v: np.ndarray, products: np.ndarray) -> np.ndarray:
     """cos v, sin v into turn_v (2, n), times cos u, sin u into products (4, n).
 
     Returns cos u, sin u (2, n).

@@ -9,7 +9,7 @@ period     of a closed curve given unrolled: knots and control points go on peri
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from typing import Self
 
 import numpy as np
@@ -42,6 +42,8 @@ class BSplineCurve(PlainData):
     period: float | None = None
     limits: tuple[float, float] | None = None  # the part in use; see `Curve.with_limits`
     kind: str = "bspline"  # or "bezier"
+    degree: int = field(init=False)
+    _arrays: tuple[np.ndarray, np.ndarray, np.ndarray] = field(init=False)  # for the kernel
 
     def __post_init__(self) -> None:
         knots, control = frozen_array(self.knots), frozen_array(self.control)
@@ -87,6 +89,8 @@ class BSplineSurface(FaceSurface):
     weights: np.ndarray | None = None  # (nu, nv)
     periods: tuple[float | None, float | None] = (None, None)
     kind: str = "bspline"  # or "bezier"
+    degrees: tuple[int, int] = field(init=False)
+    _arrays: tuple[np.ndarray, ...] = field(init=False)  # for the kernel
 
     def __post_init__(self) -> None:
         super().__post_init__()

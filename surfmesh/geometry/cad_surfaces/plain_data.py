@@ -11,18 +11,20 @@ import numpy as np
 
 @dataclasses.dataclass(frozen=True, eq=False, repr=False)
 class PlainData:
-    """Copied and pickled by its fields; what is derived from them is made anew."""
+    """Copied and pickled by its fields; what is derived from them (init=False) is made anew."""
 
     def _set(self, **values: Any) -> None:
         """Fields and derived values, at construction only."""
         self.__dict__.update(values)
 
+    def _given(self) -> dict[str, Any]:
+        return {f.name: getattr(self, f.name) for f in dataclasses.fields(self) if f.init}
+
     def __reduce__(self) -> tuple:
-        fields = {f.name: getattr(self, f.name) for f in dataclasses.fields(self)}
-        return _made, (type(self), fields)
+        return _made, (type(self), self._given())
 
     def __repr__(self) -> str:
-        shown = (f"{f.name}={_shown(getattr(self, f.name))}" for f in dataclasses.fields(self))
+        shown = (f"{name}={_shown(value)}" for name, value in self._given().items())
         return f"{type(self).__name__}({', '.join(shown)})"
 
 

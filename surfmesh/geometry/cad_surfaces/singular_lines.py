@@ -15,6 +15,7 @@ from math import acos, pi, sin
 import numpy as np
 
 from surfmesh.geometry.boxes import diagonal
+from surfmesh.geometry.cad_surfaces.elementary import Cone, Cylinder, Plane, Sphere, Torus
 from surfmesh.geometry.cad_surfaces.face_surface import FaceSurface
 from surfmesh.geometry.surface import Surface
 
@@ -46,9 +47,9 @@ class SingularLine:
 
 def singular_lines(surface: FaceSurface) -> list[SingularLine]:
     """All such lines in the surface's domain, its sides among them, in rising order of values."""
-    known = _KNOWN.get(surface.kind)
+    known = _known(surface)
     if known is not None:
-        values = [(1, value) for value in known(surface)]
+        values = [(1, value) for value in known]
     elif surface.kind == "extrusion":
         values = []
     else:
@@ -60,24 +61,23 @@ def singular_lines(surface: FaceSurface) -> list[SingularLine]:
         slack = POINT * (high - low)
         if low - slack <= value <= high + slack:
             middle = 0.5 * sum(surface.domain[1 - axis])
-            place = [value, middle] if axis == 0 else [middle, value]
-            lines.append(SingularLine(axis, float(value), surface.evaluate([place], 0)[0][0]))
+            place = np.array([[value, middle] if axis == 0 else [middle, value]])
+            lines.append(SingularLine(axis, float(value), surface.evaluate(place, 0)[0][0]))
     return lines
 
 
-def _none(surface: FaceSurface) -> list[float]:
-    return []
+def _known(surface: FaceSurface) -> list[float] | None:
+    """The values of v, of surfaces that say them."""
+    if isinstance(surface, (Plane, Cylinder)):
+        return []
+    if isinstance(surface, Sphere):
+        return [-0.5 * pi, 0.5 * pi]
+    if isinstance(surface, Cone):
+        return [-surface.radius / sin(surface.angle)]
+    return _of_torus(surface) if isinstance(surface, Torus) else None
 
 
-def _of_sphere(surface: FaceSurface) -> list[float]:
-    return [-0.5 * pi, 0.5 * pi]
-
-
-def _of_cone(surface: FaceSurface) -> list[float]:
-    return [-surface.radius / sin(surface.angle)]
-
-
-def _of_torus(surface: FaceSurface) -> list[float]:
+def _of_torus(surface: Torus) -> list[float]:
     """R + r cos v = 0, in all turns of v that the domain has a part of."""
     radius, tube = surface.radius, surface.tube
     if radius - tube > POINT * tube:
@@ -87,11 +87,6 @@ def _of_torus(surface: FaceSurface) -> list[float]:
     turns = range(int(low // (2.0 * pi)) - 1, int(high // (2.0 * pi)) + 2)
     found = {2.0 * pi * turn + side for turn in turns for side in (half, 2.0 * pi - half)}
     return sorted(found)
-
-
-_KNOWN = {
-    "plane": _none, "cylinder": _none, "sphere": _of_sphere, "cone": _of_cone, "torus": _of_torus,
-}  # fmt: skip
 
 
 def _found(surface: Surface, axis: int) -> list[float]:

@@ -11,7 +11,7 @@ Source: OCCT, Geom_SurfaceOfLinearExtrusion, Geom_SurfaceOfRevolution (parametri
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from math import pi
 
 import numpy as np
@@ -23,7 +23,8 @@ from surfmesh.geometry.cad_surfaces.face_surface import (
     derivative_count,
     parameter_pairs,
 )
-from surfmesh.geometry.cad_surfaces.nurbs import knot_spans
+from surfmesh.geometry.cad_surfaces.nurbs import BSplineCurve, knot_spans
+from surfmesh.geometry.cad_surfaces.offset import OffsetCurve
 from surfmesh.geometry.cad_surfaces.plain_data import frozen_array
 
 
@@ -65,6 +66,7 @@ class RevolutionSurface(FaceSurface):
     curve: Curve  # in space, its parameter is v
     origin: np.ndarray  # (3,) a point of the axis
     axis: np.ndarray  # (3,) of unit length; u is counter-clockwise seen against it
+    _parts: tuple[np.ndarray, ...] = field(init=False)  # (3, 3) each
 
     kind = "revolution"
 
@@ -103,5 +105,6 @@ class RevolutionSurface(FaceSurface):
 
 
 def _pieces(curve: Curve, first: float, last: float) -> int:
-    knots = getattr(getattr(curve, "curve", curve), "knots", None)  # that of an offset, too
-    return 1 if knots is None else knot_spans(knots, first, last)
+    if isinstance(curve, OffsetCurve):
+        curve = curve.curve
+    return knot_spans(curve.knots, first, last) if isinstance(curve, BSplineCurve) else 1

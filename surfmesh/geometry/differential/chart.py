@@ -132,16 +132,16 @@ class Chart:
         low, high = np.array(surface.domain, float).T
         along = np.linspace(0.0, 1.0, SAMPLES_ALONG)
         across = (np.arange(SAMPLES_ACROSS) + 0.5) / SAMPLES_ACROSS
-        axes, bent = [], bent_axes_of(surface)
-        for axis in (0, 1):
+        axes: list[Axis] = []
+        for axis, bent in enumerate(bent_axes_of(surface)):
             t = np.empty((SAMPLES_ACROSS, SAMPLES_ALONG, 2))
             t[..., axis] = along
             t[..., 1 - axis] = across[:, None]
             uv = (low + t * (high - low)).reshape(-1, 2)
-            rate = 1.0
-            if bent[axis] is not None:
-                rate = bent[axis].rates(uv[:, axis])[0]
-                uv[:, axis] = bent[axis].parameter(uv[:, axis])
+            rate = np.ones(1)
+            if bent is not None:
+                rate = bent.rates(uv[:, axis])[0]
+                uv[:, axis] = bent.parameter(uv[:, axis])
             r, *derivatives = surface.evaluate(uv, 1)
             speed = np.linalg.norm(derivatives[axis], axis=1) * rate
             speed = speed.reshape(SAMPLES_ACROSS, SAMPLES_ALONG).mean(axis=0)
@@ -149,15 +149,16 @@ class Chart:
             steps = np.linalg.norm(np.diff(r.reshape(*t.shape[:2], 3), axis=1), axis=2)
             way = steps.sum(axis=1).mean()
             if max(seen, way) <= MISSED * min(seen, way):
-                axes.append(Axis.of(low[axis], high[axis], along, speed, bent[axis]))
+                axes.append(Axis.of(low[axis], high[axis], along, speed, bent))
             else:
-                axes.append(Axis.of_length(*_lengths(surface, axis, bent[axis]), bent[axis]))
-        return cls(tuple(axes))
+                axes.append(Axis.of_length(*_lengths(surface, axis, bent), bent))
+        return cls((axes[0], axes[1]))
 
     @classmethod
     def uniform(cls, domain: Domain, speeds: tuple[float, float]) -> "Chart":
         """For a surface whose |r_u| and |r_v| are the same everywhere: nothing is sampled."""
-        return cls(tuple(Axis.linear(*span, speed) for span, speed in zip(domain, speeds)))
+        u, v = (Axis.linear(*span, speed) for span, speed in zip(domain, speeds))
+        return cls((u, v))
 
     @property
     def extent(self) -> np.ndarray:

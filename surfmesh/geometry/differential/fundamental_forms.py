@@ -62,7 +62,9 @@ def forms(surface: Surface, uv: np.ndarray) -> FundamentalForms:
     return result
 
 
-def forms_from_derivatives(r_u, r_v, r_uu, r_uv, r_vv) -> FundamentalForms:
+def forms_from_derivatives(
+    r_u: np.ndarray, r_v: np.ndarray, r_uu: np.ndarray, r_uv: np.ndarray, r_vv: np.ndarray
+) -> FundamentalForms:
     """Both forms from the derivatives of r, each (n, 3)."""
     E, F, G = _dot(r_u, r_u), _dot(r_u, r_v), _dot(r_v, r_v)
     normal, area = _unit_normal(r_u, r_v)

@@ -12,10 +12,10 @@ import numpy as np
 from surfmesh.geometry.surface import Surface
 
 MARGIN = 0.01  # of the domain: how far outside a foot may lie, so that seams are no walls
-SETTLED = 1e-3  # tangential step over distance: below it the distance is right to 5e-7
+CONVERGED = 1e-3  # tangential step over distance: below it the distance is right to 5e-7
 PARALLEL = 1e-12  # squared sine of r_u and r_v, below which only the longer one is followed
 FROM_CORNER = 0.1  # of the way to the foot known so far: where a search begins anew
-SHORTER = 0.25  # of a step that led away from the point is tried next
+SHORTER = 0.25  # of a step that led farther from the point is tried next
 
 
 def closest_point(
@@ -25,9 +25,9 @@ def closest_point(
     steps: int = 2,
     margin: float = MARGIN,
 ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Feet of points on a surface, found from guesses, never farther away than these.
+    """Nearest points of a surface to points, from guesses, never farther than these.
 
-    points: (n, 3), uv_guess: (n, 2). margin: fraction of the domain by which feet may leave it.
+    points: (n, 3), uv_guess: (n, 2). margin: fraction of the domain by which they may leave it.
     Returns uv (n, 2), distance (n,), foot (n, 3). The search is local: a nearer part of the
     surface that the guess does not lead to is not found.
     """
@@ -42,7 +42,7 @@ def closest_point(
     active = np.arange(len(points))
     step, progress = _gauss_newton(r_u, r_v, gap)
     for remaining in range(steps - 1, -1, -1):
-        going = progress > SETTLED**2 * squared[active]
+        going = progress > CONVERGED**2 * squared[active]
         active, step, progress = active[going], step[going], progress[going]
         if not len(active):
             break
@@ -55,7 +55,7 @@ def closest_point(
         uv[nearer], foot[nearer] = trial[better], trial_foot[better]
         squared[nearer] = trial_squared[better]
         if remaining:
-            fresh_step, fresh_progress = _gauss_newton(*tangents, gap)
+            fresh_step, fresh_progress = _gauss_newton(tangents[0], tangents[1], gap)
             step = np.where(better[:, None], fresh_step, SHORTER * step)
             progress = np.where(better, fresh_progress, progress)
     return uv, np.sqrt(squared), foot
@@ -69,10 +69,10 @@ def closest_from_corners(
     corners: np.ndarray,
     steps: int,
 ) -> tuple[np.ndarray, np.ndarray]:
-    """Feet that may be nearer: searched for anew from the ``corners`` (n, 3, 2) of triangles.
+    """Points that may be nearer: searched for anew from the ``corners`` (n, 3, 2) of triangles.
 
-    uv: (n, 2) feet of the points (n, 3) so far, and their ``distance`` (n,). About a singular
-    point the search from the middle finds other feet. Returns uv and distance, never larger.
+    uv: (n, 2) nearest to the points (n, 3) so far, and their ``distance`` (n,). About a singular
+    point the search from the middle finds others. Returns uv and distance, never larger.
     """
     uv, distance = uv.copy(), distance.copy()
     for corner in corners.transpose(1, 0, 2):
@@ -83,7 +83,9 @@ def closest_from_corners(
     return uv, distance
 
 
-def _gauss_newton(r_u, r_v, gap) -> tuple[np.ndarray, np.ndarray]:
+def _gauss_newton(
+    r_u: np.ndarray, r_v: np.ndarray, gap: np.ndarray
+) -> tuple[np.ndarray, np.ndarray]:
     """The step (n, 2) in (u, v), and the squared length (n,) that it has in space."""
     E, F, G = _dot(r_u, r_u), _dot(r_u, r_v), _dot(r_v, r_v)
     a, b = _dot(r_u, gap), _dot(r_v, gap)

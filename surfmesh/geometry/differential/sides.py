@@ -31,9 +31,9 @@ class SideTopology:
     """How the sides of one surface are joined; each tuple has an entry a side."""
 
     domain: Domain
-    collapsed: tuple[bool, bool, bool, bool]  # the side is one point in space
-    partner: tuple[int, int, int, int]  # the side that it coincides with, or -1
-    reversed: tuple[bool, bool, bool, bool]  # t meets 1 - t of the partner
+    collapsed: tuple[bool, ...]  # the side is one point in space
+    partner: tuple[int, ...]  # the side that it coincides with, or -1
+    reversed: tuple[bool, ...]  # t meets 1 - t of the partner
 
     @property
     def one_sided(self) -> bool:

@@ -57,12 +57,15 @@ def load_formula_file(path: str | Path) -> ParametricSurface:
         entries.expect(f"sizing.{key}", value, (int, float))
     for key, value in facts.items():
         entries.expect(f"facts.{key}", value, FACT_KEYS[key])
-    formulas = [entries.value(axis, (str, int, float)) for axis in "xyz"]
-    bounds = [_pair(entries, domain, variable) for variable in "uv"]
+    x, y, z = (entries.value(axis, (str, int, float)) for axis in "xyz")
+    u, v = (_pair(entries, domain, variable) for variable in "uv")
     try:
         return ParametricSurface(
-            *formulas,
-            *bounds,
+            x,
+            y,
+            z,
+            u,
+            v,
             parameters=entries.table("parameters"),
             loops=_loops(entries),
             name=entries.value("name", (str,)),
@@ -124,7 +127,7 @@ def _loops(entries: TomlEntries) -> list[list[tuple[float, float]]]:
             for number_or_text in point:
                 entries.expect(key, number_or_text, (int, float, str))
             try:
-                points.append(tuple(parse_number(x) for x in point))
+                points.append((parse_number(point[0]), parse_number(point[1])))
             except FormulaError as error:
                 reason = f"{entries.path}: '{key}': {error.reason}"
                 raise FormulaError(reason, error.text, error.column) from None

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 import tomllib
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping
 from pathlib import Path
 from typing import Any
 
@@ -123,7 +123,7 @@ class TomlEntries:
             raise self.error(f"{self.path}: '{key}' must be {wanted}, not {value!r:.60}")
         return value
 
-    def refuse_unknown(self, table: Mapping[str, Any], known, prefix: str) -> None:
+    def refuse_unknown(self, table: Mapping[str, Any], known: Collection[str], prefix: str) -> None:
         for key in table:
             if key not in known:
                 choices = ", ".join(sorted(known))

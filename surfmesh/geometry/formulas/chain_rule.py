@@ -54,7 +54,7 @@ class _Rates:
         if all(rate == self.zero for rate in rates):
             self._known[value] = self.zero
         elif operation == "integer_power":
-            self._known[value] = self.times(self.slope_of_power(*operands, exponent), *rates)
+            self._known[value] = self.times(self.slope_of_power(operands[0], exponent), *rates)
         elif operation in _RULES:
             self._known[value] = _RULES[operation](self, value, *operands, *rates)
         else:

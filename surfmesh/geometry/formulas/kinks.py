@@ -23,6 +23,7 @@ from numpy.typing import NDArray
 from surfmesh.errors import SurfaceError
 from surfmesh.geometry.differential.infinite_speed import bent_axes_of
 from surfmesh.geometry.formulas.parametric import ParametricSurface
+from surfmesh.geometry.formulas.tape import Tape
 from surfmesh.geometry.surface import Surface
 
 GRID = 96  # cells each way
@@ -54,8 +55,9 @@ class Guides:
 
     def __init__(self, surface: ParametricSurface) -> None:
         self.surface = surface
-        self.tape = surface.guides()
-        self.count = 0 if self.tape is None else len(self.tape.outputs) // 3
+        tape = surface.guides()
+        self.tape = Tape(2, (), (), 0, ()) if tape is None else tape  # without kinks: of nothing
+        self.count = len(self.tape.outputs) // 3
         self.lo, self.hi = np.array(surface.domain, float).T
         self.width = self.hi - self.lo
 
@@ -115,8 +117,8 @@ def _is_too_fast(guides: Guides, line: KinkLine) -> bool:
     for column, axis in enumerate(bent_axes_of(guides.surface)):
         if axis is not None:
             places = axis.places[1:-1]
-            off = np.abs(line.uv[:, column, None] - places) / guides.width[column]
-            if (off.max(axis=0) <= SHORTEST).any():
+            apart = np.abs(line.uv[:, column, None] - places) / guides.width[column]
+            if (apart.max(axis=0) <= SHORTEST).any():
                 return True
     return False
 
@@ -139,9 +141,8 @@ def _grid_lines(guides: Guides) -> tuple[NDArray[np.float64], NDArray[np.float64
             for axis in (0, 1):
                 if all(abs(place[axis] - x) > 1e-9 for x in more[axis]):
                     more[axis].append(place[axis])
-    return tuple(  # type: ignore[return-value]
-        np.unique(np.concatenate([fraction, extra[:MOST_LINES]])) for extra in more
-    )
+    u, v = (np.unique(np.concatenate([fraction, extra[:MOST_LINES]])) for extra in more)
+    return u, v
 
 
 def _may_vanish(guides: Guides, guide: int, lo: NDArray, hi: NDArray) -> NDArray[np.int64]:
@@ -160,7 +161,7 @@ def _changes_sign(guides: Guides, guide: int, lo: NDArray, hi: NDArray) -> NDArr
     places = _corners(lo, hi)[:, :4]
     g = guides.values(guide, guides.lo + places.reshape(-1, 2) * guides.width)[:, 0]
     positive = (g > 0.0).reshape(-1, 4)
-    return positive.any(axis=1) & ~positive.all(axis=1)
+    return np.logical_and(positive.any(axis=1), ~positive.all(axis=1))
 
 
 def _other_side(guides: Guides, guide: int, lo: NDArray, hi: NDArray) -> list[NDArray]:
@@ -315,10 +316,10 @@ def _crossings(a: NDArray, b: NDArray, width: NDArray) -> list[tuple]:
     found = []
     for i in range(len(p)):
         cross = r[i, 0] * w[:, 1] - r[i, 1] * w[:, 0]
-        away = q - p[i]
+        between = q - p[i]
         with np.errstate(divide="ignore", invalid="ignore"):
-            s = (away[:, 0] * w[:, 1] - away[:, 1] * w[:, 0]) / cross
-            t = (away[:, 0] * r[i, 1] - away[:, 1] * r[i, 0]) / cross
+            s = (between[:, 0] * w[:, 1] - between[:, 1] * w[:, 0]) / cross
+            t = (between[:, 0] * r[i, 1] - between[:, 1] * r[i, 0]) / cross
         for j in np.flatnonzero((s >= 0.0) & (s < 1.0) & (t >= 0.0) & (t < 1.0)):
             found.append((i, float(s[j]), int(j), float(t[j]), a[i] + s[j] * (a[i + 1] - a[i])))
     return found

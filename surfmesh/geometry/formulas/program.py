@@ -172,7 +172,7 @@ class Program:
 
     def tape(self, outputs: list[int]) -> Tape:
         """Values become slots; a register is free again after the last step that reads it."""
-        last_use = {}
+        last_use: dict[int, int] = {}
         for number, (_, operands, _) in enumerate(self.steps):
             last_use.update((operand, number) for operand in operands)
         last_use.update((output, len(self.steps)) for output in outputs)

@@ -12,13 +12,16 @@ no interval takes a broken function for a smooth one.
 
 from __future__ import annotations
 
+from collections.abc import Callable, Sequence
+from typing import Any
+
 import sympy as sp
 
 
 class _Break(sp.Function):
     """Zero, and without bounds over intervals that hold a break; so are its derivatives."""
 
-    def fdiff(self, argindex=1):
+    def fdiff(self, argindex: int = 1) -> sp.Expr:
         return self
 
 
@@ -51,7 +54,7 @@ class absolute(sp.Function):
 
     nargs = 1
 
-    def fdiff(self, argindex=1):
+    def fdiff(self, argindex: int = 1) -> sp.Expr:
         return side(self.args[0])
 
 
@@ -60,7 +63,7 @@ class side(sp.Function):
 
     nargs = 1
 
-    def fdiff(self, argindex=1):
+    def fdiff(self, argindex: int = 1) -> sp.Expr:
         return kink(self.args[0])
 
 
@@ -69,7 +72,7 @@ class signum(sp.Function):
 
     nargs = 1
 
-    def fdiff(self, argindex=1):
+    def fdiff(self, argindex: int = 1) -> sp.Expr:
         return jump(self.args[0])
 
 
@@ -78,7 +81,7 @@ class step(sp.Function):
 
     nargs = 1
 
-    def fdiff(self, argindex=1):
+    def fdiff(self, argindex: int = 1) -> sp.Expr:
         return kink(self.args[0])
 
 
@@ -87,7 +90,7 @@ class unit_step(sp.Function):
 
     nargs = 1
 
-    def fdiff(self, argindex=1):
+    def fdiff(self, argindex: int = 1) -> sp.Expr:
         return jump(self.args[0])
 
 
@@ -96,7 +99,7 @@ class integer_part(sp.Function):
 
     nargs = 1
 
-    def fdiff(self, argindex=1):
+    def fdiff(self, argindex: int = 1) -> sp.Expr:
         return tread(self.args[0])
 
 
@@ -105,7 +108,7 @@ class chosen(sp.Function):
 
     nargs = 3
 
-    def _eval_derivative(self, variable):
+    def _eval_derivative(self, variable: sp.Symbol) -> sp.Expr:
         d, a, b = self.args
         sides = a.diff(variable), b.diff(variable)
         # the side that is not chosen may be undefined: its derivative stays behind the choice
@@ -118,7 +121,7 @@ class minimum(sp.Function):
 
     nargs = 2
 
-    def fdiff(self, argindex=1):
+    def fdiff(self, argindex: int = 1) -> sp.Expr:
         a, b = self.args
         return step(b - a) if argindex == 1 else step(a - b)
 
@@ -128,7 +131,7 @@ class maximum(sp.Function):
 
     nargs = 2
 
-    def fdiff(self, argindex=1):
+    def fdiff(self, argindex: int = 1) -> sp.Expr:
         a, b = self.args
         return step(a - b) if argindex == 1 else step(b - a)
 
@@ -138,7 +141,7 @@ class cube_root(sp.Function):
 
     nargs = 1
 
-    def fdiff(self, argindex=1):
+    def fdiff(self, argindex: int = 1) -> sp.Expr:
         return 1 / (3 * self**2)
 
 
@@ -147,7 +150,7 @@ class angle(sp.Function):
 
     nargs = 2
 
-    def fdiff(self, argindex=1):
+    def fdiff(self, argindex: int = 1) -> sp.Expr:
         y, x = self.args
         return (x if argindex == 1 else -y) / (x**2 + y**2) + cut(y, x)
 
@@ -157,7 +160,7 @@ class turn(sp.Function):
 
     nargs = 2
 
-    def fdiff(self, argindex=1):
+    def fdiff(self, argindex: int = 1) -> sp.Expr:
         y, x = self.args
         return (x if argindex == 1 else -y) / (x**2 + y**2)
 
@@ -167,7 +170,7 @@ class sinc(sp.Function):
 
     nargs = 1
 
-    def fdiff(self, argindex=1):
+    def fdiff(self, argindex: int = 1) -> sp.Expr:
         return -sinc_1(self.args[0])
 
 
@@ -176,7 +179,7 @@ class sinc_1(sp.Function):
 
     nargs = 1
 
-    def fdiff(self, argindex=1):
+    def fdiff(self, argindex: int = 1) -> sp.Expr:
         x = self.args[0]
         return (sinc(x) - 2 * sinc_2(x)) / 3
 
@@ -276,7 +279,7 @@ def _pieces(*pieces) -> sp.Expr:
     return result
 
 
-def _excess(condition) -> sp.Expr:
+def _excess(condition: sp.Basic) -> sp.Expr:
     """A number that is positive where a condition holds and negative where it does not."""
     if isinstance(condition, (sp.Gt, sp.Ge)):
         return condition.lhs - condition.rhs
@@ -291,7 +294,7 @@ def _excess(condition) -> sp.Expr:
     return sp.Integer(1 if condition is sp.true else -1)
 
 
-def folded(pair, arguments):
+def folded(pair: Callable[[Any, Any], Any], arguments: Sequence[Any]) -> Any:
     """A function of two applied to many, from the left."""
     result = arguments[0]
     for argument in arguments[1:]:

@@ -22,6 +22,9 @@ from surfmesh.geometry.formulas import interval
 BLOCK = 2048  # points at a time: a register is 16 kB, a dozen of them fit the second cache
 
 
+Slot = np.ndarray | np.float64 | float
+
+
 class Operation(NamedTuple):
     """One kind of instruction: on arrays, `point(*operands, out=...)`; on intervals, `bounds`."""
 
@@ -38,7 +41,7 @@ class Instruction(NamedTuple):
     exponent: int = 0  # for "integer_power" only
 
 
-def integer_power(x, n: int, out):
+def integer_power(x: Slot, n: int, out: np.ndarray) -> None:
     """x**n for n >= 2 by repeated multiplication, bit by bit from the top; `out` is not `x`."""
     bits = bin(n)[3:]
     np.multiply(x, x, out=out)
@@ -50,22 +53,22 @@ def integer_power(x, n: int, out):
             np.multiply(out, x, out=out)
 
 
-def _step(x, out):
+def _step(x: Slot, out: np.ndarray) -> None:
     np.heaviside(x, 0.5, out=out)
 
 
-def _zero(*operands, out):
+def _zero(*operands: Slot, out: np.ndarray) -> None:
     out[...] = 0.0
 
 
-def _chosen(d, a, b, out):
+def _chosen(d: Slot, a: Slot, b: Slot, out: np.ndarray) -> None:
     out[...] = np.where(np.asarray(d) >= 0.0, a, b)
 
 
-def _bessel(order: int) -> Callable:
+def _bessel(order: int) -> Callable[[Slot], np.ndarray]:
     """The spherical Bessel function of an order, for either sign of x."""
 
-    def values(x):
+    def values(x: Slot) -> np.ndarray:
         sign = 1.0 if order % 2 == 0 else np.where(np.asarray(x) < 0.0, -1.0, 1.0)
         return sign * spherical_jn(order, np.abs(x))
 
@@ -75,7 +78,7 @@ def _bessel(order: int) -> Callable:
 def _bessel_operation(order: int, lowest: float, highest: float) -> Operation:
     values = _bessel(order)
 
-    def point(x, out):
+    def point(x: Slot, out: np.ndarray) -> None:
         out[...] = values(x)
 
     # the steepest slope of all is that of j0: 0.4362
@@ -195,17 +198,20 @@ class Tape(NamedTuple):
         with np.errstate(all="ignore"):
             for start in range(0, count, BLOCK):
                 part = slice(start, start + BLOCK)
-                slots = [(lo[part, k], hi[part, k]) for k in range(self.inputs)]
+                slots: list[interval.Interval] = [
+                    (lo[part, k], hi[part, k]) for k in range(self.inputs)
+                ]
                 slots += [(constant, constant) for constant in map(np.float64, self.constants)]
-                slots += [None] * self.registers
+                nothing = np.zeros(len(lo[part]))
+                slots += [(nothing, nothing)] * self.registers  # each is written before it is read
                 for operation, target, operands, exponent in self.instructions:
                     values = [slots[operand] for operand in operands]
-                    if exponent:
-                        values.append(exponent)
                     if operation == "kink" and not kinks:
-                        slots[target] = (np.zeros(len(lo[part])),) * 2
-                        continue
-                    slots[target] = OPERATIONS[operation].bounds(*values)
+                        slots[target] = (nothing, nothing)
+                    elif exponent:
+                        slots[target] = OPERATIONS[operation].bounds(*values, exponent)
+                    else:
+                        slots[target] = OPERATIONS[operation].bounds(*values)
                 for place, slot in enumerate(self.outputs):
                     lower[part, place], upper[part, place] = slots[slot]
         # outwards by more than the round-off of a tape of ordinary length

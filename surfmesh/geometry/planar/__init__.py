@@ -1,6 +1,7 @@
 """Domains of the plane: loops, holes, lines and points, and the regions that they bound.
 
 svg_paths: paths of an SVG drawing as polylines.
+given_arrays: what users give as loops, lines and points, as arrays.
 shapely_parts: shapely geometries taken apart into arrays.
 line_thinning: lines with fewer points: thinned by Douglas and Peucker, topology kept.
 noding: segments that meet anywhere are cut there, until they meet at common ends only.

@@ -15,6 +15,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
+from typing import NoReturn
 
 import numpy as np
 import shapely
@@ -81,44 +82,53 @@ def noded(
     merge = max(_merging_distance(points), float(np.ldexp(merge, -exponent)))
     points, number = _lexicographic(points)
     ends, given, lone = number[segments], np.arange(len(segments)), np.unique(number[places])
-    settled_use = np.zeros(len(ends), bool)
-    settled_lone = np.zeros(len(lone), bool)
+    checked_use = np.zeros(len(ends), bool)
+    checked_lone = np.zeros(len(lone), bool)
     for turn in range(ROUNDS):
         number, moved = _merging(points, merge)
-        settled_use &= ~moved[ends].any(axis=1)
-        settled_lone &= ~moved[lone]
+        checked_use &= ~moved[ends].any(axis=1)
+        checked_lone &= ~moved[lone]
         ends, (lone, first) = number[ends], np.unique(number[lone], return_index=True)
-        settled_lone = settled_lone[first]
+        checked_lone = checked_lone[first]
         kept = ends[:, 0] != ends[:, 1]
-        ends, given, settled_use = np.sort(ends[kept], axis=1), given[kept], settled_use[kept]
+        ends, given, checked_use = np.sort(ends[kept], axis=1), given[kept], checked_use[kept]
         unique, use = np.unique(ends[:, 0] * len(points) + ends[:, 1], return_inverse=True)
         segments = np.stack([unique // len(points), unique % len(points)], axis=1)
         kept = _once_or_twice(use, given)
-        use, given, settled_use = use[kept], given[kept], settled_use[kept]
+        use, given, checked_use = use[kept], given[kept], checked_use[kept]
         free = ~np.isin(lone, segments)
-        lone, settled_lone = lone[free], settled_lone[free]
-        settled = np.bincount(use[settled_use], minlength=len(segments)) > 0
-
-        def refuse(pair: np.ndarray, place: np.ndarray, use=use, given=given) -> None:
-            first, second = (int(given[use == s].min()) for s in pair)
-            raise refusal(first, second, np.ldexp(place, exponent))
-
+        lone, checked_lone = lone[free], checked_lone[free]
+        checked = np.bincount(use[checked_use], minlength=len(segments)) > 0
         pieces = np.concatenate([segments, np.stack([lone, lone], axis=1)])
-        fresh = ~np.concatenate([settled, settled_lone])
+        fresh = ~np.concatenate([checked, checked_lone])
         # a crossing that only appears later comes from the bending of cuts, and is no mistake
-        refused = refuse if refusal is not None and turn == 0 else None
+        refused = None
+        if refusal is not None and turn == 0:
+            refused = _of_segments(refusal, use, given, exponent)
         cut, vertex, crossings = _cuts(points, pieces, fresh, NEAR * merge, refused)
         if not cut.size:
             points = np.ldexp(points, exponent)
             return _compact(points, segments, np.stack([use, given], axis=1), lone)
         points = np.concatenate([points, crossings])
-        ends, given, settled_use = _cut(points, segments, cut, vertex, use, given)
-        settled_lone[:] = True
+        ends, given, checked_use = _cut(points, segments, cut, vertex, use, given)
+        checked_lone[:] = True
     x, y = np.ldexp(points[vertex[0]], exponent)
     raise DomainError(
         f"the segments do not come to rest after {ROUNDS} rounds of cutting near "
         f"({x:.9g}, {y:.9g}); move apart what nearly touches there"
     )
+
+
+def _of_segments(
+    refusal: Refusal, use: np.ndarray, given: np.ndarray, exponent: int
+) -> Callable[[np.ndarray, np.ndarray], NoReturn]:
+    """The refusal of a pair of cut segments, by the given ones that run along them."""
+
+    def refuse(pair: np.ndarray, place: np.ndarray) -> NoReturn:
+        first, second = (int(given[use == segment].min()) for segment in pair)
+        raise refusal(first, second, np.ldexp(place, exponent))
+
+    return refuse
 
 
 def size_exponent(points: np.ndarray) -> int:

@@ -2,16 +2,22 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
 from surfmesh.errors import DomainError, shown
 from surfmesh.geometry.boxes import diagonal
+from surfmesh.geometry.planar.given_arrays import (
+    line_arrays,
+    open_loop,
+    point_array,
+    shapely_geometries,
+)
 from surfmesh.geometry.planar.line_thinning import thinned
 from surfmesh.geometry.planar.segment_distance import SegmentDistance
 from surfmesh.geometry.planar.segment_graph import Line, SegmentGraph, segment_graph
@@ -57,6 +63,18 @@ class PlanarRegion(PlaneOfCoordinates):
     loops: tuple[np.ndarray, ...] = ()
 
 
+class _Asked(NamedTuple):
+    """What is asked beside loops, lines and points; as ``PlanarDomain`` has it."""
+
+    crossings: str
+    merge: float | None
+    simplify: float | None
+    name: str
+    description: str
+    sizing_defaults: Mapping[str, Any] | None
+    facts: Mapping[str, Any] | None
+
+
 class PlanarDomain(PlaneOfCoordinates):
     """A part of the plane z = 0, bounded by loops; (u, v) are x and y. Immutable.
 
@@ -92,13 +110,13 @@ class PlanarDomain(PlaneOfCoordinates):
         sizing_defaults: Mapping[str, Any] | None = None,
         facts: Mapping[str, Any] | None = None,
     ) -> None:
-        outer, holes = _arrays("outer loop", outer), _arrays("hole", holes)
+        outer, holes = line_arrays("outer loop", outer), line_arrays("hole", holes)
         if not outer:
             raise DomainError("there is no outer loop; give at least one loop (k, 2)")
         loops = [(f"outer loop {k}", loop, False) for k, loop in enumerate(outer)]
         loops += [(f"hole {k}", loop, True) for k, loop in enumerate(holes)]
-        about = (crossings, merge, simplify, name, description, sizing_defaults, facts)
-        self._settle(loops, constraints, points, *about)
+        asked = _Asked(crossings, merge, simplify, name, description, sizing_defaults, facts)
+        self._build(loops, constraints, points, asked)
 
     name: str
     domain: Domain  # bounding box of everything that was given
@@ -133,10 +151,10 @@ class PlanarDomain(PlaneOfCoordinates):
 
         The rest as for the class itself.
         """
-        arrays = _arrays("loop", loops)
+        arrays = line_arrays("loop", loops)
         labels = [f"loop {k}" for k in range(len(arrays))]
-        about = (crossings, merge, simplify, name, description, sizing_defaults, facts)
-        return cls._nested(labels, arrays, constraints, points, *about)
+        asked = _Asked(crossings, merge, simplify, name, description, sizing_defaults, facts)
+        return cls._nested(labels, arrays, constraints, points, asked)
 
     @classmethod
     def from_shapely(
@@ -156,15 +174,15 @@ class PlanarDomain(PlaneOfCoordinates):
         from surfmesh.geometry.planar.shapely_parts import parts
 
         taken = parts(geometry)
-        more = [parts(lines) for lines in _geometries(constraints)]
-        places = [parts(place) for place in _geometries(points)]
+        more = [parts(lines) for lines in shapely_geometries(constraints)]
+        places = [parts(place) for place in shapely_geometries(points)]
         if not taken.outer:
             raise DomainError("the shapely geometry holds no polygon; a domain needs one")
         lines = taken.lines + [line for part in more for line in part.outer + part.holes]
         lines += [line for part in more for line in part.lines]
-        lines += [] if more else _arrays("constraint", constraints)
+        lines += [] if more else line_arrays("constraint", constraints)
         dots = taken.points + [point for part in places for point in part.points]
-        dots += [] if places else list(_points(points))
+        dots += [] if places else list(point_array(points))
         return cls(taken.outer, taken.holes, lines, dots, **options)
 
     @classmethod
@@ -197,43 +215,43 @@ class PlanarDomain(PlaneOfCoordinates):
         drawing = svg_paths(source, tolerance)
         if not drawing.loops:
             raise DomainError(f"{drawing.name}: the drawing holds no closed path")
-        lines = list(drawing.lines) + _arrays("constraint", constraints)
+        lines = list(drawing.lines) + line_arrays("constraint", constraints)
         called = name or drawing.name
-        about = (crossings, merge, simplify, called, description, sizing_defaults, facts)
-        return cls._nested(drawing.labels, drawing.loops, lines, points, *about)
+        asked = _Asked(crossings, merge, simplify, called, description, sizing_defaults, facts)
+        return cls._nested(drawing.labels, drawing.loops, lines, points, asked)
 
     @classmethod
     def _nested(
-        cls, labels: Sequence[str], loops: Sequence[np.ndarray], *rest: Any
+        cls,
+        labels: Sequence[str],
+        loops: Sequence[np.ndarray],
+        constraints: Any,
+        points: Any,
+        asked: _Asked,
     ) -> PlanarDomain:
         from surfmesh.geometry.inside_loops import nesting_depth
 
-        loops = [_loop(label, loop) for label, loop in zip(labels, loops)]
+        loops = [open_loop(label, loop) for label, loop in zip(labels, loops)]
         if not loops:
             raise DomainError("there is no loop; give at least one loop (k, 2)")
         odd = nesting_depth(loops) % 2 == 1
         made = cls.__new__(cls)
-        made._settle(list(zip(labels, loops, odd.tolist())), *rest)
+        made._build(list(zip(labels, loops, odd.tolist())), constraints, points, asked)
         return made
 
-    def _settle(
+    def _build(
         self,
         loops: Sequence[tuple[str, np.ndarray, bool]],
         constraints: Any,
         points: Any,
-        crossings: str,
-        merge: float | None,
-        simplify: float | None,
-        name: str,
-        description: str,
-        sizing_defaults: Mapping[str, Any] | None,
-        facts: Mapping[str, Any] | None,
+        asked: _Asked,
     ) -> None:
-        if crossings not in CROSSINGS:
-            raise DomainError(f'crossings is "refuse" or "split", not {shown(crossings)}')
-        places = _points(points)
-        polylines = _arrays("constraint", constraints)
-        closed = [_loop(label, loop) for label, loop, _ in loops]
+        """loops: label, points, and whether it is a hole."""
+        if asked.crossings not in CROSSINGS:
+            raise DomainError(f'crossings is "refuse" or "split", not {shown(asked.crossings)}')
+        places = point_array(points)
+        polylines = line_arrays("constraint", constraints)
+        closed = [open_loop(label, loop) for label, loop, _ in loops]
         lines = [
             Line(label, loop, closed=True, loop=k)
             for k, ((label, _, _), loop) in enumerate(zip(loops, closed))
@@ -241,29 +259,29 @@ class PlanarDomain(PlaneOfCoordinates):
         lines += [Line(f"constraint {k}", line) for k, line in enumerate(polylines)]
         lines += [Line(f"point {k}", place[None]) for k, place in enumerate(places)]
         is_hole = [hole for _, _, hole in loops]
-        merge = _merging(lines, merge)
-        graph = segment_graph(lines, is_hole, crossings == "split", merge)
+        merge = _merging(lines, asked.merge)
+        graph = segment_graph(lines, is_hole, asked.crossings == "split", merge)
         changes = _merged(lines, merge)
-        if simplify is not None:
-            graph, said = _thinned(graph, simplify, places)
+        if asked.simplify is not None:
+            graph, said = _thinned(graph, asked.simplify, places)
             closed = [_still_there(loop, graph, merge) for loop in closed]
             polylines = [_still_there(line, graph, merge, 2) for line in polylines]
             changes.append(said)
         low, high = graph.points.min(axis=0).tolist(), graph.points.max(axis=0).tolist()
         self.__dict__.update(
-            name=str(name),
+            name=str(asked.name),
             domain=tuple(zip(low, high)),
             loops=(),
             outer=tuple(_frozen(loop) for loop, hole in zip(closed, is_hole) if not hole),
             holes=tuple(_frozen(loop) for loop, hole in zip(closed, is_hole) if hole),
             constraints=tuple(map(_frozen, polylines)),
             points=_frozen(places),
-            crossings=crossings,
+            crossings=asked.crossings,
             graph=graph,
             changes=tuple(changes),
-            description=str(description),
-            sizing_defaults=dict(sizing_defaults or {}),
-            facts=dict(facts or {}),
+            description=str(asked.description),
+            sizing_defaults=dict(asked.sizing_defaults or {}),
+            facts=dict(asked.facts or {}),
         )
 
     def distance(self, points: np.ndarray) -> np.ndarray:
@@ -417,77 +435,6 @@ def _still_there(line: np.ndarray, graph: SegmentGraph, merge: float, least: int
 
     kept = cKDTree(graph.points).query(line)[0] <= merge
     return _frozen(line[kept] if kept.sum() >= least else line)
-
-
-def _arrays(kind: str, given: Any) -> list[np.ndarray]:
-    """One array (k, 2), or several, as a list of arrays (k, 2)."""
-    if hasattr(given, "geom_type"):
-        raise DomainError(
-            f"{kind} is a shapely {given.geom_type}; use PlanarDomain.from_shapely for it"
-        )
-    if isinstance(given, np.ndarray) and given.ndim == 2:
-        given = [given]
-    if isinstance(given, (str, bytes, Mapping)) or not isinstance(given, Iterable):
-        raise DomainError(f"{kind}: an array (k, 2) or several are needed, not {shown(given)}")
-    given = list(given)
-    if given and all(_is_place(place) for place in given):
-        given = [given]
-    return [_coordinates(f"{kind} {number}", line) for number, line in enumerate(given)]
-
-
-def _is_place(given: Any) -> bool:
-    """Is it one point, so that what holds it is one line?"""
-    return np.ndim(given) == 1 if isinstance(given, np.ndarray) else _is_flat(given)
-
-
-def _is_flat(given: Any) -> bool:
-    return isinstance(given, (tuple, list)) and bool(given) and not any(map(np.ndim, given[:1]))
-
-
-def _coordinates(label: str, given: Any) -> np.ndarray:
-    try:
-        array = np.array(given if isinstance(given, np.ndarray) else list(given))
-        array = array.astype(float, casting="same_kind") if array.size else np.empty((0, 2))
-    except (TypeError, ValueError, OverflowError):
-        raise DomainError(f"{label} is not an array (k, 2) of numbers: {shown(given)}") from None
-    if array.ndim != 2 or array.shape[1] != 2:
-        raise DomainError(f"{label} has shape {array.shape}, not (k, 2)")
-    if not len(array):
-        raise DomainError(f"{label} holds no points; leave it out")
-    broken = ~np.isfinite(array).all(axis=1)
-    if broken.any():
-        k = int(broken.argmax())
-        raise DomainError(f"{label}, point {k} is not finite: {array[k].tolist()}")
-    return array
-
-
-def _loop(label: str, loop: np.ndarray) -> np.ndarray:
-    """The loop without a repeated first point; refused when it cannot have an area."""
-    if len(loop) > 1 and (loop[0] == loop[-1]).all():
-        loop = loop[:-1]
-    distinct = len(np.unique(loop, axis=0))
-    if distinct < 3:
-        raise DomainError(f"{label} has {distinct} distinct points; a loop needs three or more")
-    return loop
-
-
-def _points(given: Any) -> np.ndarray:
-    if not isinstance(given, np.ndarray):
-        if isinstance(given, (str, bytes, Mapping)) or not isinstance(given, Iterable):
-            raise DomainError(f"points are an array (p, 2), not {shown(given)}")
-        given = list(given)
-        if _is_flat(given):
-            given = [given]
-    return _coordinates("the array of points", given) if len(given) else np.empty((0, 2))
-
-
-def _geometries(given: Any) -> list:
-    """The shapely geometries in what was given; none when they are arrays."""
-    if hasattr(given, "geom_type"):
-        return [given]
-    if isinstance(given, (list, tuple)) and given and hasattr(given[0], "geom_type"):
-        return list(given)
-    return []
 
 
 def _frozen(array: np.ndarray) -> np.ndarray:

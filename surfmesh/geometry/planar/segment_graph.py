@@ -109,15 +109,14 @@ def segment_graph(
     """
     points = np.concatenate([line.points for line in lines])
     _refuse_extremes(lines, points)
-    segments, counts, first = [], [], 0
+    pieces, counts, first = [], [], 0
     for line in lines:
         index = first + np.arange(len(line.points))
         after = np.roll(index, -1)
         some = len(index) if line.closed else len(index) - 1
-        segments.append(np.stack([index, after], axis=1)[:some])
+        pieces.append(np.stack([index, after], axis=1)[:some])
         counts.append(some)
         first += len(index)
-    segments = np.concatenate(segments)
     label_start = np.concatenate([[0], np.cumsum(counts)]).astype(np.int32)
     labels = tuple(line.label for line in lines)
     sizes = np.array([len(line.points) for line in lines])
@@ -131,7 +130,7 @@ def segment_graph(
             'end one of them there, or pass crossings="split"'
         )
 
-    found = noded(points, segments, stays, None if split else refusal, merge)
+    found = noded(points, np.concatenate(pieces), stays, None if split else refusal, merge)
     loop_of_line = np.array([line.loop for line in lines])
     loop_of_given = np.repeat(loop_of_line, counts)
     segment, given = found.uses.T
@@ -162,9 +161,9 @@ def segment_graph(
     graph = SegmentGraph(**arrays, labels=labels)
     met = first_meeting(found.points, found.segments, found.lone)
     if met is not None:
-        first, second = (graph.origin(k) if k < len(found.segments) else "a point" for k in met)
+        one, other = (graph.origin(k) if k < len(found.segments) else "a point" for k in met)
         raise DomainError(
-            f"{first} and {second} still meet after cutting; move apart what nearly touches there"
+            f"{one} and {other} still meet after cutting; move apart what nearly touches there"
         )
     return graph
 
@@ -191,22 +190,26 @@ def inside_regions(
         if neighbours[a].setdefault(b, loops) != loops or (a == b and loops):
             raise DomainError(f"regions {a} and {b} are separated by different loops")
         neighbours[b][a] = loops
-    around: list[int | None] = [None] * regions
-    around[infinite] = 0
+    around = {int(infinite): 0}  # region -> the loops that it lies in
     reached = [int(infinite)]
     for region in reached:
         for other, loops in neighbours[region].items():
             expected = around[region] ^ loops
-            if around[other] is None:
+            if other not in around:
                 around[other] = expected
                 reached.append(other)
             elif around[other] != expected:
                 raise DomainError(f"region {other} lies in different loops by different ways")
     if len(reached) < regions:
-        raise DomainError(f"region {around.index(None)} cannot be reached from the infinite one")
+        lost = next(region for region in range(regions) if region not in around)
+        raise DomainError(f"region {lost} cannot be reached from the infinite one")
     holes = sum(1 << k for k in np.flatnonzero(graph.loop_is_hole).tolist())
     return np.array(
-        [(loops & ~holes).bit_count() > (loops & holes).bit_count() for loops in around], bool
+        [
+            (around[region] & ~holes).bit_count() > (around[region] & holes).bit_count()
+            for region in range(regions)
+        ],
+        bool,
     )
 
 

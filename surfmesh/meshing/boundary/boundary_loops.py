@@ -5,6 +5,7 @@ its nodes appear twice in (u, v) under one number; the nodes of a side that is a
 in 3D all have one number.
 """
 
+from collections.abc import Callable
 from dataclasses import dataclass, field
 from functools import partial
 from itertools import pairwise
@@ -12,6 +13,7 @@ from itertools import pairwise
 import numpy as np
 
 from surfmesh.errors import SizingError, SurfaceError
+from surfmesh.geometry.components import components
 from surfmesh.geometry.differential.sides import SideTopology
 from surfmesh.geometry.surface import Surface
 from surfmesh.sizing.field.size_field import SizeField
@@ -135,14 +137,15 @@ def _sides_loop(
         walked = (start[side] + np.arange(len(along[side]))) % total
         return walked[:: _WALK[side]]
 
-    same = _Classes(total)
+    same: list[np.ndarray] = [np.empty((0, 2), np.int64)]
     for side in range(4):
         if sides.collapsed[side]:
-            same.join(node(side)[:-1], node(side)[1:])
+            same.append(np.column_stack((node(side)[:-1], node(side)[1:])))
         elif sides.partner[side] > side:
             other = node(sides.partner[side])
-            same.join(node(side), other[::-1] if sides.reversed[side] else other)
-    return np.concatenate(uv), same.first()
+            other = other[::-1] if sides.reversed[side] else other
+            same.append(np.column_stack((node(side), other)))
+    return np.concatenate(uv), components(total, np.concatenate(same)).astype(np.int64)
 
 
 def _stops_on_sides(sides: SideTopology, stops: np.ndarray | None) -> list[np.ndarray]:
@@ -168,7 +171,12 @@ def _stops_on_sides(sides: SideTopology, stops: np.ndarray | None) -> list[np.nd
     return found
 
 
-def _through(cut, start: np.ndarray, end: np.ndarray, minimum: int, stops: np.ndarray):
+Cut = Callable[[np.ndarray, np.ndarray, int], tuple[np.ndarray, np.ndarray]]
+
+
+def _through(
+    cut: Cut, start: np.ndarray, end: np.ndarray, minimum: int, stops: np.ndarray
+) -> np.ndarray:
     """What ``cut(start, end, minimum)`` gives for each part of a line between stops, put together.
 
     Returns t (n + 1,) from 0 to 1.
@@ -288,25 +296,3 @@ def _sags(surface: Surface, uv: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         along = np.clip(np.einsum("ij,ij->i", way, chords) / squared, 0.0, 1.0)
         sag = np.fmax(sag, np.linalg.norm(way - along[:, None] * chords, axis=1))
     return sag, length
-
-
-class _Classes:
-    """Equivalence classes of nodes (union-find)."""
-
-    def __init__(self, count: int) -> None:
-        self.parent = list(range(count))
-
-    def _root(self, k: int) -> int:
-        while self.parent[k] != k:
-            self.parent[k] = self.parent[self.parent[k]]
-            k = self.parent[k]
-        return k
-
-    def join(self, first: np.ndarray, second: np.ndarray) -> None:
-        for a, b in zip(first.tolist(), second.tolist()):
-            a, b = self._root(a), self._root(b)
-            self.parent[max(a, b)] = min(a, b)
-
-    def first(self) -> np.ndarray:
-        """The smallest member of each node's class."""
-        return np.array([self._root(k) for k in range(len(self.parent))], np.int64)

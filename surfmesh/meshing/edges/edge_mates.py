@@ -231,7 +231,7 @@ class MatedCuts:
         if not len(own):
             return 0
         edge = self.model.edges[run.edge]
-        points = edge.curve.evaluate(edge.parameters(own), 0)[0]
+        points = edge.evaluate(own, 0)[0]
         for k in np.flatnonzero((own == 0.0) | (own == 1.0)):
             points[k] = self.model.vertices[edge.start if own[k] == 0.0 else edge.end].point
         guess = np.interp(own, run.t, run.foot)

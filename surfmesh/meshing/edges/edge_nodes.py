@@ -193,7 +193,7 @@ def _cut(
             t[0], t[-1] = 0.0, 1.0
     place = np.empty((pieces + 1, 3))
     if pieces > 1:
-        place[1:-1] = edge.curve.evaluate(edge.parameters(t[1:-1]), 0)[0]
+        place[1:-1] = edge.evaluate(t[1:-1], 0)[0]
     place[0], place[-1] = model.vertices[start].point, model.vertices[end].point
     numbers = np.arange(following - 1, following + pieces, dtype=np.int64)
     numbers[0], numbers[-1] = start, end

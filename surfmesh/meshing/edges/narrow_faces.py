@@ -267,20 +267,20 @@ def foot_on_edge(
     """
     own = model.edges[edge]
     best = np.clip(t, 0.0, 1.0)
-    here = own.curve.evaluate(own.parameters(best), 1)
+    here = own.evaluate(best, 1)
     away = np.linalg.norm(here[0] - points, axis=1)
     for _ in range(FOOT_STEPS):
         speed = here[1] * (own.t1 - own.t0)
         square = np.maximum(np.einsum("ij,ij->i", speed, speed), np.finfo(float).tiny)
         step = np.einsum("ij,ij->i", points - here[0], speed) / square
         trial = np.clip(best + step, 0.0, 1.0)
-        here = own.curve.evaluate(own.parameters(trial), 1)
+        here = own.evaluate(trial, 1)
         now = np.linalg.norm(here[0] - points, axis=1)
         better = now < away
         best, away = np.where(better, trial, best), np.where(better, now, away)
         if not better.any():
             break
-        here = own.curve.evaluate(own.parameters(best), 1)
+        here = own.evaluate(best, 1)
     return best, away
 
 

@@ -16,7 +16,7 @@ from surfmesh.meshing.faces.face_mesh import face_field
 from surfmesh.meshing.faces.strip_triangulation import strip_mesh
 from surfmesh.sizing.field.metric_area import TRIANGLES
 from surfmesh.sizing.options.sizing import Sizing
-from surfmesh.sizing.rules.size_bounds import SizeBounds
+from surfmesh.sizing.rules.size_rules import SizeRules
 
 FEW = 9
 """Points each way of a grid on a face."""
@@ -45,7 +45,7 @@ def bounds(
     for number, (face, sizing) in enumerate(zip(model.faces, sizings)):
         cuts = (nodes[coedge.edge] for coedge in face.coedges)
         edges = [float(cut.sizes.min()) for cut in cuts if cut is not None]
-        allowed = SizeBounds.of(sizing, model.diagonal)
+        allowed = SizeRules.of(sizing, model.diagonal)
         plain = face.surface.kind == "plane" and not sizing.has_law
         uv = np.empty((0, 2)) if plain else inner_samples(face, FEW)
         if not plain and not len(uv):

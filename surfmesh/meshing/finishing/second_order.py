@@ -73,7 +73,7 @@ def _on_surface(surface: Surface, a: NDArray, b: NDArray, t: NDArray) -> NDArray
 
 
 def _on_curve(edge: CadEdge, a: NDArray, b: NDArray, t: NDArray) -> NDArray[np.float64]:
-    return edge.curve.evaluate(edge.parameters(a + t * (b - a)), 0)[0]
+    return edge.evaluate(a + t * (b - a))[0]
 
 
 def _on_curves(mesh: SurfaceMesh, links: EdgeLinks, middles: NDArray) -> NDArray[np.int64]:

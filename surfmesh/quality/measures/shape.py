@@ -5,6 +5,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from surfmesh.accuracy.shape import mean_ratio
 from surfmesh.kernels.space.measure import triangle_shapes
 from surfmesh.quality.measures.lengths import stretched
 from surfmesh.result.surface_mesh import SurfaceMesh
@@ -44,18 +45,17 @@ def metric_alpha(mesh: SurfaceMesh) -> NDArray[np.float64]:
 
     In 3D where sizes are isotropic: there it is the same.
     """
-    if mesh.metric_root_3d is None:
+    parameters = mesh.parametrisation
+    if parameters is None or parameters.metric_root_3d is None:
         return alpha(mesh)
     found = np.zeros(len(mesh.triangles))
     for start in range(0, len(found), BLOCK):
         corners = mesh.triangles[start : start + BLOCK]
         a, b, c = (mesh.points[corner] for corner in corners.T)
-        mean = mesh.metric_root_3d[mesh.uv_triangles[start : start + BLOCK]].mean(axis=1)
+        rows = parameters.uv_triangles[start : start + BLOCK]
+        mean = parameters.metric_root_3d[rows].mean(axis=1)
         u, v = stretched(mean, b - a), stretched(mean, c - a)
-        area = np.linalg.norm(np.cross(u, v), axis=1)
-        total = (u * u + v * v + (u - v) ** 2).sum(axis=1)
-        shape = 2.0 * np.sqrt(3.0) * area / np.where(total > 0.0, total, 1.0)
-        found[start : start + BLOCK] = shape
+        found[start : start + BLOCK] = mean_ratio(u, v)
     return found
 
 

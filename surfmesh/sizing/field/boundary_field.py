@@ -24,8 +24,9 @@ from surfmesh.kernels.fields.source_tree import (
     grow_tree,
 )
 from surfmesh.sizing.field.size_field import SizeField
+from surfmesh.sizing.field.size_law import SizeLaw
 from surfmesh.sizing.options.sizing import Sizing
-from surfmesh.sizing.rules.size_bounds import SizeBounds
+from surfmesh.sizing.rules.size_rules import SizeRules
 
 FEW_ROOTS, MANY_TESTS = 2, 2e5
 """Sources to a root cell; every root cell looks at all sources, in all no more than so many."""
@@ -58,7 +59,7 @@ def boundary_field(
     """Sizes that grow by ``sizing.gradient`` from ``sizes`` (n,) at ``uv`` (n, 2).
 
     ``largest``, model units, bounds them from above; left out, and on a cylinder in any case,
-    the wishes do so as for any surface, with the diagonal of its box for their defaults.
+    the rules do so as for any surface, with the diagonal of its box for their defaults.
     None is smaller than ``min_size``, unless the sizes are ``as_cut``: those of edges.
     Raises ``SizingError`` for a surface whose metric changes, for a size law, and for sizes that
     are not positive numbers.
@@ -79,15 +80,17 @@ def boundary_field(
         )
     if not as_cut:
         sizes = np.maximum(sizes, sizing.min_size or 0.0)
-    if isinstance(surface, Cylinder) or largest is None:
-        stated = sizing.max_size and (sizing.chord or sizing.angle or sizing.size)
-        # the finest size alone is left to the diagonal: that of the rectangle will do
-        diagonal = math.hypot(*chart.extent) if stated else _diagonal(surface)
-        bounds = SizeBounds.of(sizing, diagonal)
-        sizing, allowed = bounds.sizing, bounds.clamp[1]
-        if isinstance(surface, Cylinder) and bounds.follows_curvature:
-            allowed = float(bounds.from_curvature(np.array([1.0 / radius]), 0.0)[0])
+    stated = sizing.max_size and (sizing.chord or sizing.angle or sizing.size)
+    # the finest size alone is left to the diagonal: that of the rectangle will do
+    diagonal = math.hypot(*chart.extent) if stated else _diagonal(surface)
+    rules = SizeRules.of(sizing, diagonal)
+    allowed = rules.clamp[1]
+    if isinstance(surface, Cylinder):
+        if rules.follows_curvature:
+            allowed = float(rules.from_curvature(np.array([1.0 / radius]), np.zeros(1))[0])
         largest = min(allowed, largest or math.inf)
+    elif largest is None:
+        largest = allowed
     if not 0.0 < largest < math.inf:
         raise SizingError(
             f"the largest size on {surface.name!r} must be a positive number, not {largest:g}"
@@ -97,7 +100,7 @@ def boundary_field(
     place = (uv - low) * [radius, 1.0]
     box = (0.0, 0.0, width, height)
     background = source_background(place, sizes, largest, sizing.gradient, box)
-    return SizeField(chart, background, sizing)
+    return SizeField(chart, background, SizeLaw(surface, chart, rules))
 
 
 def source_background(

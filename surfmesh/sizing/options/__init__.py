@@ -8,6 +8,6 @@ distance_size: sizes that grow with the distance from lines and points.
 radius_laws: what ``pack`` may be given beside a number or a callable: random radii, fields of
     tensors.
 sizes_file: sizes by selection in a TOML file.
-model_sizing: sizes by name: selections of a CAD model, resolved to wishes of each face, edge and
-    vertex.
+model_sizing: sizes by name: selections of a CAD model, resolved to the sizes of each face, edge
+    and vertex.
 """

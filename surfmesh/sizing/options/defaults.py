@@ -16,7 +16,7 @@ FINEST_SIZE = 1e-5
 """No size is smaller, unless ``min_size`` says so: at an apex the curvature is infinite."""
 
 FINEST_BY_ANGLE = 2e-4
-"""``angle`` asks for no smaller size: triangles about an apex turn by as much at any size."""
+"""``angle`` asks for no smaller size: triangles about an apex are bent by as much at any size."""
 
 DEFAULT_ANGLE = 45.0
 """Degrees; kept wherever sizes follow the curvature by ``chord`` alone."""

@@ -75,13 +75,13 @@ class DistanceSize:
         return SegmentDistance(np.concatenate(starts), np.concatenate(ends))
 
 
-def default_wishes(surface: Surface) -> dict[str, Any]:
+def default_options(surface: Surface) -> dict[str, Any]:
     """The surface's own sizing defaults; its table ``distance`` becomes a size law."""
-    wishes = dict(stated_sizes(surface))
-    table = wishes.pop("distance", None)
+    options = dict(stated_sizes(surface))
+    table = options.pop("distance", None)
     if table is not None:
-        wishes["size"] = DistanceSize(surface, **table)
-    return wishes
+        options["size"] = DistanceSize(surface, **table)
+    return options
 
 
 def polylines(given: Any) -> tuple[np.ndarray, ...]:

@@ -1,4 +1,4 @@
-"""Sizes by name: selections of a CAD model, resolved to wishes of each face, edge and vertex.
+"""Sizes by name: selections of a CAD model, resolved to the sizes of each face, edge and vertex.
 
     {"*": base, "fillet*": Sizing(chord=0.01), ">Z": 0.5, "vertex:3": 0.1}
         -> base with defaults; faces {4: ..., 5: ...}; edges {...}; vertices {3: 0.1}
@@ -27,8 +27,8 @@ OF_THE_MODEL = ("growth", "anisotropy", "limit", "gap_faces", "volume")
 """Options that cannot differ from selection to selection."""
 
 
-class Rule(NamedTuple):
-    """One entry: the key, its wishes, what it selects."""
+class Entry(NamedTuple):
+    """One entry: the key, its sizes, what it selects."""
 
     key: str
     sizing: Sizing
@@ -39,14 +39,14 @@ class Rule(NamedTuple):
 
 @dataclass(frozen=True)
 class ModelSizing:
-    """Wishes of a whole model; what is not listed has those of ``base``."""
+    """Sizes of a whole model; what is not listed has those of ``base``."""
 
     base: Sizing
     """With the model's defaults filled in."""
     faces: Mapping[int, Sizing] = field(default_factory=dict)
     edges: Mapping[int, Sizing] = field(default_factory=dict)
     vertices: Mapping[int, Sizing] = field(default_factory=dict)
-    rules: tuple[Rule, ...] = ()
+    entries: tuple[Entry, ...] = ()
     """As they were given, but for "*", and those that ``volume`` makes."""
     stated: Sizing = field(default_factory=Sizing)
     """``base`` without the defaults."""
@@ -59,7 +59,7 @@ class ModelSizing:
         return any(own.is_anisotropic for own in (self.base, *self.faces.values()))
 
     def of_face(self, number: int) -> Sizing:
-        """All that is wished on a face."""
+        """All that is asked for on a face."""
         return self.faces.get(number, self.base)
 
     def promises(self, count: int) -> np.ndarray | None:
@@ -68,46 +68,52 @@ class ModelSizing:
             return self.promised.promises(count)
         if not self.faces:
             return None
-        wishes = ("chord", "angle", "min_size")
-        every = [[getattr(self.of_face(k), name) for name in wishes] for k in range(count)]
+        names = ("chord", "angle", "min_size")
+        every = [[getattr(self.of_face(k), name) for name in names] for k in range(count)]
         return np.array(every, float)
 
-    def rules_of(self, kind: str, number: int) -> list[Rule]:
+    def entries_of(self, kind: str, number: int) -> list[Entry]:
         """The entries that select a face, also by its solid, an edge or a vertex."""
-        return [rule for rule in self.rules if number in getattr(rule.found, kind)]
+        return [entry for entry in self.entries if number in getattr(entry.found, kind)]
 
 
-def model_sizing(model: CadModel, wish: Any) -> ModelSizing:
+def model_sizing(model: CadModel, given: Any) -> ModelSizing:
     """From what a user may pass: a Sizing, a number, options, or a mapping of selections.
 
-    Raises ``SizingError`` for a key that selects nothing, an unknown option, and wishes that
+    Raises ``SizingError`` for a key that selects nothing, an unknown option, and sizes that
     contradict each other.
     """
-    if isinstance(wish, ModelSizing):
-        return wish
-    if not is_by_selection(wish):
-        stated = Sizing.of(wish)
+    if isinstance(given, ModelSizing):
+        return given
+    if not is_by_selection(given):
+        stated = Sizing.of(given)
         return ModelSizing(with_defaults(stated, model.diagonal), stated=stated)
-    base = Sizing.of(wish.get(EVERYTHING))
-    rules = []
-    for key, value in wish.items():
+    base = Sizing.of(given.get(EVERYTHING))
+    entries = []
+    for key, value in given.items():
         if key == EVERYTHING:
             continue
         if not isinstance(key, str):
             raise SizingError(f"sizes are selected by text, not by {shown(key)}")
-        own = _own_wishes(key, value)
-        rules.append(Rule(key, own, _with_faces(model, _selected(model, key, value))))
-    by_kind = (_combined(model, base, rules, kind) for kind in ("faces", "edges", "vertices"))
-    return ModelSizing(with_defaults(base, model.diagonal), *by_kind, tuple(rules), base)
+        own = _own_sizes(key, value)
+        entries.append(Entry(key, own, _with_faces(model, _selected(model, key, value))))
+    return ModelSizing(
+        with_defaults(base, model.diagonal),
+        faces=_combined(model, base, entries, "faces"),
+        edges=_combined(model, base, entries, "edges"),
+        vertices=_combined(model, base, entries, "vertices"),
+        entries=tuple(entries),
+        stated=base,
+    )
 
 
-def is_by_selection(wish: Any) -> bool:
+def is_by_selection(given: Any) -> bool:
     """Is it a mapping of selections, and not of options? Raises ``SizingError`` for a mixture."""
-    if not isinstance(wish, Mapping) or not wish:
+    if not isinstance(given, Mapping) or not given:
         return False
-    options = [key for key in wish if key in _OPTIONS]
-    if options and len(options) < len(wish):
-        other = next(key for key in wish if key not in _OPTIONS)
+    options = [key for key in given if key in _OPTIONS]
+    if options and len(options) < len(given):
+        other = next(key for key in given if key not in _OPTIONS)
         near = get_close_matches(str(other), _OPTIONS, 1)
         hint = f"did you mean {near[0]!r}? " if near else ""
         raise SizingError(
@@ -130,7 +136,7 @@ def _selected(model: CadModel, key: str, value: Any) -> Selection:
         raise
 
 
-def _own_wishes(key: str, value: Any) -> Sizing:
+def _own_sizes(key: str, value: Any) -> Sizing:
     try:
         sizing = Sizing.of(value)
     except SizingError as error:
@@ -155,25 +161,25 @@ def _with_faces(model: CadModel, found: Selection) -> Selection:
     return Selection(tuple(sorted(faces)), found.edges, found.vertices, found.solids)
 
 
-def _combined(model: CadModel, base: Sizing, rules: list[Rule], kind: str) -> dict[int, Sizing]:
-    """The wishes of everything of a kind that some rule selects; equal ones are one object."""
-    by_rules: dict[tuple[int, ...], Sizing] = {}
-    rules_of: dict[int, list[int]] = {}
-    for place, rule in enumerate(rules):
-        for number in getattr(rule.found, kind):
-            rules_of.setdefault(number, []).append(place)
+def _combined(model: CadModel, base: Sizing, entries: list[Entry], kind: str) -> dict[int, Sizing]:
+    """The sizes of everything of a kind that some entry selects; equal ones are one object."""
+    by_entries: dict[tuple[int, ...], Sizing] = {}
+    entries_of: dict[int, list[int]] = {}
+    for place, entry in enumerate(entries):
+        for number in getattr(entry.found, kind):
+            entries_of.setdefault(number, []).append(place)
     result = {}
-    for number, places in rules_of.items():
+    for number, places in entries_of.items():
         key = tuple(places)
-        if key not in by_rules:
-            given = [(EVERYTHING, base), *((rules[k].key, rules[k].sizing) for k in places)]
-            by_rules[key] = with_defaults(combined(given), model.diagonal)
-        result[number] = by_rules[key]
+        if key not in by_entries:
+            given = [(EVERYTHING, base), *((entries[k].key, entries[k].sizing) for k in places)]
+            by_entries[key] = with_defaults(combined(given), model.diagonal)
+        result[number] = by_entries[key]
     return result
 
 
 def combined(given: list[tuple[str, Sizing]]) -> Sizing:
-    """All wishes at once; the first is that of the whole model.
+    """All sizes at once; the first is that of the whole model.
 
     Raises ``SizingError`` when the largest ``min_size`` is above the smallest ``max_size``.
     """

@@ -1,6 +1,7 @@
 """What counts as a size: a finite number above zero."""
 
 import math
+from typing import Any
 
 import numpy as np
 
@@ -8,7 +9,7 @@ from surfmesh.errors import SizingError, shown
 from surfmesh.geometry.number_range import RANGE
 
 
-def positive(name: str, value: object) -> float:
+def positive(name: str, value: Any) -> float:
     """``value`` as a float. Raises ``SizingError`` that names it."""
     try:
         number = math.nan if isinstance(value, (bool, np.bool_)) or np.ndim(value) else float(value)

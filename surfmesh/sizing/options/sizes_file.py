@@ -51,7 +51,7 @@ def _sizing(value: Any) -> Sizing:
         value = value | {"sources": tuple(_source(dict(entry)) for entry in given)}
     if isinstance(value, dict):
         known = {item.name for item in fields(Sizing)} - {"sources"}
-        _require_numbers({name: wish for name, wish in value.items() if name in known})
+        _require_numbers({name: entry for name, entry in value.items() if name in known})
     elif isinstance(value, bool):
         raise SizingError("sizes are a number or a table, not true or false")
     return Sizing.of(value)

@@ -2,6 +2,7 @@
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, fields, replace
+from typing import Any
 
 import numpy as np
 
@@ -17,10 +18,10 @@ SizeLaw = Callable[[np.ndarray], np.ndarray]
 
 @dataclass(frozen=True, kw_only=True)
 class Sizing:
-    """The wanted mesh. All lengths are in model units, all wishes hold at once.
+    """The wanted mesh. All lengths are in model units, all options hold at once.
 
     With nothing given the size follows from the surface: a chord error of a thousandth of its
-    diagonal, at most a tenth of the diagonal. Raises ``SizingError`` for a wish that is not a
+    diagonal, at most a tenth of the diagonal. Raises ``SizingError`` for one that is not a
     positive number, or that contradicts another.
     """
 
@@ -153,23 +154,23 @@ class Sizing:
         slopes = [getattr(source, "slope", self.gradient) for source in self.sources]
         return max([self.gradient, *slopes])
 
-    def replaced(self, **changes: object) -> "Sizing":
-        """A copy with some wishes changed."""
+    def replaced(self, **changes: Any) -> "Sizing":
+        """A copy with some options changed."""
         return replace(self, **changes)
 
     @classmethod
-    def of(cls, wish: "Sizing | float | SizeLaw | Mapping | None") -> "Sizing":
+    def of(cls, given: "Sizing | float | SizeLaw | Mapping | None") -> "Sizing":
         """Sizing from what a user may pass: itself, a bare number, a mapping, or nothing."""
-        if wish is None:
+        if given is None:
             return cls()
-        if isinstance(wish, cls):
-            return wish
-        if isinstance(wish, Mapping):
+        if isinstance(given, cls):
+            return given
+        if isinstance(given, Mapping):
             known = {f.name for f in fields(cls)}
-            for name in wish:
+            for name in given:
                 if name not in known:
                     raise SizingError(f"unknown size option {name!r}; known: {sorted(known)}")
-            return cls(**wish)
-        if isinstance(wish, (int, float)) or callable(wish):
-            return cls(size=wish)
-        raise SizingError(f"sizes are a number, a Sizing or a mapping, not {type(wish).__name__}")
+            return cls(**given)
+        if isinstance(given, (int, float)) or callable(given):
+            return cls(size=given)
+        raise SizingError(f"sizes are a number, a Sizing or a mapping, not {type(given).__name__}")

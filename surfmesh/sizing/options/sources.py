@@ -110,11 +110,8 @@ class Near(Source):
 
     def __post_init__(self) -> None:
         self._check()
-        if (
-            isinstance(self.radius, str)
-            or not np.isscalar(self.radius)
-            or not (0.0 <= self.radius < np.inf)
-        ):
+        is_scalar = np.isscalar(self.radius)
+        if isinstance(self.radius, str) or not is_scalar or not (0.0 <= self.radius < np.inf):
             raise SizingError(f"radius must be a number from 0, not {shown(self.radius)}")
         given = self.geometry
         if isinstance(given, np.ndarray) or _is_points(given):
@@ -172,11 +169,11 @@ class InBall(Source):
         object.__setattr__(self, "centre", _point("centre", self.centre))
 
     def distance(self, points: np.ndarray) -> np.ndarray:
-        return np.linalg.norm(points - self.centre, axis=1)
+        return np.linalg.norm(points - np.asarray(self.centre), axis=1)
 
     @cached_property
     def marks(self) -> np.ndarray:
-        return self.centre[None]
+        return np.asarray(self.centre)[None]
 
     def __repr__(self) -> str:
         return f"InBall({_listed(self.centre)}, radius={self.radius:g}, size={self.size:g})"
@@ -203,29 +200,32 @@ class InBox(Source):
         self._check()
         for name in ("low", "high"):
             object.__setattr__(self, name, _point(name, getattr(self, name)))
-        if (self.low > self.high).any():
+        low, high = self._extent()
+        if (low > high).any():
             raise SizingError(
                 f"a box from {_listed(self.low)} to {_listed(self.high)} is inside out"
             )
 
     def distance(self, points: np.ndarray) -> np.ndarray:
-        outside = np.maximum(np.maximum(self.low - points, points - self.high), 0.0)
+        low, high = self._extent()
+        outside = np.maximum(np.maximum(low - points, points - high), 0.0)
         return np.linalg.norm(outside, axis=1)
 
     @cached_property
     def marks(self) -> np.ndarray:
-        extent = self.high - self.low
+        low, high = self._extent()
+        extent = high - low
         step = max(MARK_STEP * self.size, float(extent.max()) / 1000.0)
         while True:
             counts = np.ceil(extent / step).astype(int) + 1
             if counts.prod() <= MOST_MARKS:
                 break
             step *= 1.3
-        axes = [np.linspace(a, b, n) for a, b, n in zip(self.low, self.high, counts)]
+        axes = [np.linspace(a, b, n) for a, b, n in zip(low, high, counts)]
         return np.stack(np.meshgrid(*axes, indexing="ij"), axis=-1).reshape(-1, 3)
 
     def _extent(self) -> tuple[np.ndarray, np.ndarray]:
-        return self.low, self.high
+        return np.asarray(self.low), np.asarray(self.high)
 
     def __repr__(self) -> str:
         return f"InBox({_listed(self.low)}, {_listed(self.high)}, size={self.size:g})"
@@ -282,8 +282,8 @@ class SizeCloud(Source):
         used = (count > 0) & (total > 0.0)
         return cls(places[used], factor * total[used] / count[used], growth)
 
-    @property
-    def size(self) -> float:
+    @cached_property
+    def size(self) -> float:  # type: ignore[override]  # of no other source it is a result
         """The smallest."""
         return float(self.sizes.min())
 
@@ -412,5 +412,5 @@ def _point(name: str, given: Any) -> np.ndarray:
     return point
 
 
-def _listed(point: np.ndarray) -> str:
+def _listed(point: Sequence[float] | np.ndarray) -> str:
     return "(" + ", ".join(f"{x:g}" for x in point) + ")"

@@ -1,14 +1,19 @@
 """What each rule asks for at a point: one file a rule.
 
-across_gaps: sizes at the sides of a gap that put a number of triangles across it.
 curvature_size: the edge length that a curvature allows.
-direction_size: the edge length that a surface's curvature allows in a given direction.
-rim_size: the edge length that the curvature of a rim allows, the part within the surface included.
-size_bounds: what the wishes say at a given curvature: the sizes that size fields are made of.
+rule: what a size rule is: the edge length that it allows at a place, and words for it.
+chord_rule: ``chord``, of surfaces and of curves.
+angle_rule: ``angle``.
+default_angle_rule: the angle that holds where only a chord is asked for.
+size_rule: ``size``: a number, or a function of the place.
+source_rule: ``sources``: local sizes near points and lines, in balls and boxes, across gaps.
+size_rules: all rules that hold on one surface, and the bounds that their least is kept within.
 size_limits: upper bounds of the size near points: where a round of meshing has found it too large.
-size_rows: one wish a row: what each of them asks for at a point.
-direction_rates: how long an edge may be along the direction of low curvature before that turns
-    away from it.
-volume_rule: the chord at which closed solids keep their volume, where ``Sizing(volume=)`` asks
-    for it.
+rim_rule: ``chord`` where a surface ends: the edge length that the curvature of a rim allows.
+direction_rates: how long an edge may be where the direction of low curvature changes.
+direction_size: the edge length that a surface's curvature allows in a given direction.
+across_gaps: sizes at the sides of a gap that put a number of triangles across it.
+volume_rule: the chord at which closed solids keep their volume, where ``volume`` asks for it.
+
+A new rule is a file like ``size_rule`` and its name in ``size_rules.RULES``.
 """

@@ -15,6 +15,6 @@ def size_across(gap: float, count: float, slope: float) -> float:
     With the size h at the sides growing by ``slope`` towards the middle, the rows that fit are
     the integral of 1 / (ROW size):  2 / (ROW slope) ln(1 + slope gap / (2 h)) = count.
     """
-    turn = min(0.5 * ROW * count * slope, LARGEST)
-    grown = slope * gap / (2.0 * math.expm1(turn))
+    growth = min(0.5 * ROW * count * slope, LARGEST)
+    grown = slope * gap / (2.0 * math.expm1(growth))
     return min(grown, gap / count)

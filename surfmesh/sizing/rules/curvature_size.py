@@ -21,7 +21,7 @@ DEVIATION_RESERVE = 0.62
 large as the unit one (circumradius), and deviation grows with the square."""
 
 ROUND_RESERVE, BENT_RESERVE = 0.78, 0.94
-"""Share of ``angle`` that two unit triangles may turn by: on a sphere, where all edges turn alike
+"""Share of ``angle`` that two unit triangles may be bent by: on a sphere, where all edges are alike
 and some triangles are larger; and for what depends on the direction, as few edges lie worst."""
 
 STRETCHED_RESERVE, STRAIGHT_RESERVE = 0.7, 0.75
@@ -57,18 +57,18 @@ def dihedral_factor(k1: np.ndarray, k2: np.ndarray) -> np.ndarray:
 
 
 def angle_size(k1: np.ndarray, k2: np.ndarray, angle: float) -> np.ndarray:
-    """Edge length (n,) at which neighbouring triangles turn by at most ``angle`` (degrees).
+    """Edge length (n,) at which dihedral angles are at most ``angle`` (degrees).
 
     As ``dihedral_factor`` has it, with a reserve.
     """
     with np.errstate(divide="ignore", over="ignore", invalid="ignore"):  # both may be infinite
         mean, bent = np.where(k1 == -k2, 0.0, k1 + k2), np.where(k1 == k2, 0.0, k1 - k2)
-        turn = 0.5 * np.abs(mean) / ROUND_RESERVE + np.abs(bent) / BENT_RESERVE
-        return math.sqrt(3.0) * math.radians(angle) / turn
+        bend = 0.5 * np.abs(mean) / ROUND_RESERVE + np.abs(bent) / BENT_RESERVE
+        return math.sqrt(3.0) * math.radians(angle) / bend
 
 
 def normal_deviation_size(k1: np.ndarray, k2: np.ndarray, angle: float) -> np.ndarray:
-    """Edge length (n,) at which normals turn by at most ``angle`` (degrees) between neighbours.
+    """Edge length (n,) at which the normals of neighbours differ by at most ``angle`` (degrees).
 
     The normal of the surface, that is: a rule against folds, no bound on the triangles. The
     centres of two neighbouring equilateral triangles of side h are h / sqrt(3) apart.
@@ -79,7 +79,7 @@ def normal_deviation_size(k1: np.ndarray, k2: np.ndarray, angle: float) -> np.nd
 
 
 def principal_chord_sizes(
-    k1: np.ndarray, k2: np.ndarray, chord: float, ratio: float
+    k1: np.ndarray, k2: np.ndarray, chord: float, ratio: np.ndarray | float
 ) -> tuple[np.ndarray, np.ndarray]:
     """Edge lengths (n,) along the directions of k1 and k2 at which triangles stay within ``chord``.
 
@@ -100,9 +100,9 @@ def principal_chord_sizes(
 
 
 def principal_angle_sizes(
-    k1: np.ndarray, k2: np.ndarray, angle: float, ratio: float
+    k1: np.ndarray, k2: np.ndarray, angle: float, ratio: np.ndarray | float
 ) -> tuple[np.ndarray, np.ndarray]:
-    """Edge lengths (n,) along k1 and k2 at which triangles turn by at most ``angle`` (degrees).
+    """Edge lengths (n,) along k1 and k2 at which dihedral angles are at most ``angle`` (degrees).
 
     With h_i^2 |k_i| = a as above the slope jumps by a (3 - b) / (2 sqrt(3) h_i) across an edge
     at right angles to direction i, the shorter h_i decides. Sizes that keep h_i |k_i| alike
@@ -112,13 +112,13 @@ def principal_angle_sizes(
     large = np.maximum(first, second)
     balance = _balance(k1, k2, ratio)
     # (3 - b) / 2, the parts with a reserve each
-    turn = 0.5 * (1.0 + balance) / ROUND_RESERVE + (1.0 - balance) / BENT_RESERVE
-    wanted = math.sqrt(3.0) * math.radians(angle) / turn
+    bend = 0.5 * (1.0 + balance) / ROUND_RESERVE + (1.0 - balance) / BENT_RESERVE
+    wanted = math.sqrt(3.0) * math.radians(angle) / bend
     with np.errstate(divide="ignore", over="ignore"):
         return wanted / np.sqrt(large * first), wanted / np.sqrt(large * second)
 
 
-def _balance(k1: np.ndarray, k2: np.ndarray, ratio: float) -> np.ndarray:
+def _balance(k1: np.ndarray, k2: np.ndarray, ratio: np.ndarray | float) -> np.ndarray:
     """b (n,): signed ratio of h_i^2 k_i, -1 to 1, where sizes differ by up to ``ratio``."""
     first, second = np.abs(k1), np.abs(k2)
     small = np.where(first < second, k1, k2) * np.where(first < second, np.sign(k2), np.sign(k1))

@@ -1,4 +1,4 @@
-"""How long an edge may be along the direction of low curvature before that turns away from it.
+"""How long an edge may be along the direction of low curvature before that leaves the edge.
 
 Let t be the principal direction with the smaller curvature k, n the one with the larger K. By
 the equations of Codazzi the lines of curvature along t bend within the surface at the rate

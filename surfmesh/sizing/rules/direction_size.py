@@ -5,11 +5,11 @@ import numpy as np
 from surfmesh.geometry.differential.fundamental_forms import curvatures, forms_from_derivatives
 from surfmesh.geometry.surface import Surface
 from surfmesh.sizing.rules.direction_rates import ROUND, direction_rates, longest_along
-from surfmesh.sizing.rules.size_bounds import SizeBounds
+from surfmesh.sizing.rules.size_rules import SizeRules
 
 
 def size_along(
-    surface: Surface, uv: np.ndarray, directions: np.ndarray, bounds: SizeBounds
+    surface: Surface, uv: np.ndarray, directions: np.ndarray, rules: SizeRules
 ) -> np.ndarray:
     """Sizes (n,) at uv (n, 2) along tangent directions (n, 3), in the anisotropic metric.
 
@@ -19,10 +19,10 @@ def size_along(
     _, ru, rv, *second = surface.evaluate(uv, 2)
     forms = forms_from_derivatives(ru, rv, *second)
     k = curvatures(forms)
-    sizes = bounds.principal(k.k1, k.k2)
+    sizes = rules.principal(k.k1, k.k2)
     shorter, along_first = sizes.min(axis=1), sizes[:, 0] > sizes[:, 1]
     rates = direction_rates(surface, uv, k, along_first, shorter)
-    bound = longest_along(rates, k.k1, k.k2, shorter, bounds.sizing.chord or 0.0)
+    bound = longest_along(rates, k.k1, k.k2, shorter, rules.sizing.chord or 0.0)
     stretched = sizes.max(axis=1) > ROUND * shorter
     sizes = np.where(stretched[:, None], np.minimum(sizes, bound[:, None]), sizes)
     cosines = [

@@ -78,6 +78,10 @@ class SizeLimits:
         direction = np.cos(angle) * first + np.sin(angle) * second
         return np.take_along_axis(size, best, 1)[:, 0], direction
 
+    def chosen(self, rows: np.ndarray) -> "SizeLimits":
+        """The limits hold near their own points, whoever asks."""
+        return self
+
     def _nearest(self, points: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """Distances (n, k) and numbers (n, k) of the limits nearest to points (n, 3)."""
         count = min(NEAREST, len(self.sizes))

@@ -25,10 +25,10 @@ from surfmesh.cad.model.centres import inner_samples
 from surfmesh.cad.selection.selection import Selection
 from surfmesh.errors import SizingError
 from surfmesh.geometry.differential.fundamental_forms import curvatures, forms_from_derivatives
-from surfmesh.sizing.options.model_sizing import ModelSizing, Rule
+from surfmesh.sizing.options.model_sizing import Entry, ModelSizing
 from surfmesh.sizing.options.sizing import Sizing
 from surfmesh.sizing.rules.curvature_size import chord_size, principal_chord_sizes
-from surfmesh.sizing.rules.size_bounds import SizeBounds
+from surfmesh.sizing.rules.size_rules import SizeRules
 
 SAMPLES = 9
 """Points each way of a grid on a face."""
@@ -63,7 +63,7 @@ def with_volume_rule(
             f"volume {asked:g} is asked for, but {model.name or model.source!r} has no closed "
             "solid whose volume could be kept; ask for a chord"
         )
-    sizings, rules = dict(wanted.faces), list(wanted.rules)
+    sizings, entries = dict(wanted.faces), list(wanted.entries)
     for number in closed:
         solid = model.solids[number]
         faces = curved_faces(model, solid)
@@ -72,11 +72,11 @@ def with_volume_rule(
         if chord is None:
             continue
         key = f"volume {asked:g} of solid {number}"
-        rules.append(Rule(key, Sizing(chord=chord), Selection(faces=tuple(faces)), True))
+        entries.append(Entry(key, Sizing(chord=chord), Selection(faces=tuple(faces)), True))
         for face in faces:
             own = sizings.get(face, wanted.base)
             sizings[face] = own.replaced(chord=min(chord, own.chord or np.inf))
-    return replace(wanted, faces=sizings, rules=tuple(rules), promised=wanted)
+    return replace(wanted, faces=sizings, entries=tuple(entries), promised=wanted)
 
 
 def curved_faces(model: CadModel, solid: CadSolid) -> list[int]:
@@ -140,12 +140,12 @@ def _lost(face: CadFace, sizing: Sizing, diagonal: float, against: bool) -> _Los
     k1, k2 = k.k1[known], k.k2[known]
     area = np.sqrt(np.maximum(forms.E * forms.G - forms.F**2, 0.0))[known]
     area *= face.area / max(area.sum(), np.finfo(float).tiny)
-    bounds = SizeBounds.of(sizing, diagonal)
-    sizes = np.full((len(k1), 2), bounds.clamp[1])
-    if bounds.follows_curvature and bounds.sizing.is_anisotropic:
-        sizes = bounds.principal(k1, k2)
-    elif bounds.follows_curvature:
-        sizes[:] = bounds.from_curvature(k1, k2)[:, None]
+    rules = SizeRules.of(sizing, diagonal)
+    sizes = np.full((len(k1), 2), rules.clamp[1])
+    if rules.follows_curvature and rules.sizing.is_anisotropic:
+        sizes = rules.principal(k1, k2)
+    elif rules.follows_curvature:
+        sizes[:] = rules.from_curvature(k1, k2)[:, None]
     if isinstance(sizing.size, float):
         np.minimum(sizes, sizing.size, out=sizes)
     gap = _mean_gap(k1, k2, *sizes.T)

@@ -9,7 +9,7 @@ from surfmesh.api import load
 from surfmesh.errors import DomainError, FileFormatError
 from surfmesh.geometry.files.domain_file import load_domain_file
 from surfmesh.geometry.planar.domain_faces import inside_faces
-from surfmesh.sizing.options.distance_size import DistanceSize, default_wishes
+from surfmesh.sizing.options.distance_size import DistanceSize, default_options
 
 GOOD = """
 name = "plate"
@@ -58,10 +58,10 @@ def test_a_good_file(tmp_path):
     assert isinstance(domain, sm.PlanarDomain)
     assert (domain.name, domain.description) == ("plate", "one")
     assert (domain.area, domain.regions) == (11.25, 2)
-    wishes = default_wishes(domain)
-    assert wishes.keys() == {"growth", "size"} and wishes["growth"] == 1.3
-    assert sm.Sizing.of(wishes).size(np.array([[0.0, 0, 0], [4, 1, 0], [1.5, 1.5, 0]])).max() < 0.2
-    assert (wishes["size"].near, wishes["size"].far, wishes["size"].reach) == (0.02, 0.2, 1.0)
+    asked = default_options(domain)
+    assert asked.keys() == {"growth", "size"} and asked["growth"] == 1.3
+    assert sm.Sizing.of(asked).size(np.array([[0.0, 0, 0], [4, 1, 0], [1.5, 1.5, 0]])).max() < 0.2
+    assert (asked["size"].near, asked["size"].far, asked["size"].reach) == (0.02, 0.2, 1.0)
 
 
 @pytest.mark.parametrize("right, wrong, reason", WRONG, ids=lambda x: x[:24])
@@ -101,5 +101,5 @@ def test_facts(name):
     assert domain.regions == domain.facts["regions"]
     whole = shapely.union_all(inside_faces(domain.graph))
     assert whole.geom_type == "Polygon" and 1 - len(whole.interiors) == domain.facts["euler"]
-    law = default_wishes(domain)["size"]
+    law = default_options(domain)["size"]
     assert isinstance(law, DistanceSize) and (law.far - law.near) / law.reach < 0.25

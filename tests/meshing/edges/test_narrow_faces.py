@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 import surfmesh as sm
-from surfmesh.sizing.field.size_field import LONGEST_ROW, _root_grid
+from surfmesh.sizing.field.field_builder import LONGEST_ROW, _root_grid
 from surfmesh.sizing.rules.size_limits import SizeLimits, along_lines
 
 

@@ -47,7 +47,7 @@ def test_the_rule_of_a_selection_wins(tube, extra, rule):
     short, long = sm.explain(tube, sizes, (0, 5, 58)).axes
     assert short.winner.rule == rule and short.winner.key in extra
     if rule == "size 0.3":
-        assert short.origin.startswith("grown from edge") and short.size < short.wish
+        assert short.origin.startswith("grown from edge") and short.size < short.target_size
         assert long.origin.startswith("shrunk with the other size, grown from edge")
     else:
         assert not short.origin and short.size == pytest.approx(short.winner.size, rel=0.01)

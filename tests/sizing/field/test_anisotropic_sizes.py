@@ -19,8 +19,8 @@ from surfmesh.sizing.rules.curvature_size import (
     principal_chord_sizes,
 )
 from surfmesh.sizing.rules.direction_size import size_along
-from surfmesh.sizing.rules.size_bounds import SizeBounds
 from surfmesh.sizing.rules.size_limits import SizeLimits, along_lines
+from surfmesh.sizing.rules.size_rules import SizeRules
 
 
 def searched_deviation(k1, k2, h1, h2, turns=91, n=24):
@@ -68,7 +68,7 @@ def test_smooth_at_the_umbilics_of_an_ellipsoid():
     surface = ParametricSurface(
         f"{a}*cos(u)*cos(v)", f"{b}*sin(u)*cos(v)", f"{c}*sin(v)", (-3, 3), (-1.5, 1.5)
     )
-    law = SizeLaw(surface, Sizing(chord=1e-3, anisotropy=50.0), None)
+    law = SizeLaw.of(surface, Sizing(chord=1e-3, anisotropy=50.0), None)
     x, z = umbilic_of_ellipsoid(a, b, c)
     place = np.array([0.0, np.arcsin(z / c)])
     assert np.hypot(*surface.evaluate(place[None], 0)[0][0, [0, 2]] - (x, z)) < 1e-9
@@ -99,7 +99,7 @@ def test_the_field_is_what_the_curvature_asks_for(name, ratio):
     surface = load(name)
     sizing = Sizing(chord=1e-3, anisotropy=ratio, growth=50.0)
     field = size_field(surface, sizing, find_sides(surface))
-    bounds = SizeBounds.of(sizing, SizeLaw(surface, sizing, None).diagonal)
+    bounds = SizeLaw.of(surface, sizing).rules
     rng = np.random.default_rng(2)
     xy = rng.uniform(0.1, 0.9, (4000, 2)) * field.chart.extent
     uv, rates = field.chart.to_uv_and_rates(xy)
@@ -128,12 +128,12 @@ def test_the_ratio_is_bounded(ratio):
 
 
 def test_flat_places_are_round_and_sizes_clamped():
-    bounds = SizeBounds.of(Sizing(chord=1e-3, anisotropy=100.0, min_size=0.02, max_size=0.5), 10.0)
+    bounds = SizeRules.of(Sizing(chord=1e-3, anisotropy=100.0, min_size=0.02, max_size=0.5), 10.0)
     k = np.array([0.0, 1e-12, 1e-3, 1.0, 1e6])
     sizes = bounds.principal(k, 0 * k)
     assert sizes.min() >= 0.02 and sizes.max() <= 0.5
     np.testing.assert_array_equal(sizes[0], sizes[0, ::-1])
-    free = SizeBounds.of(Sizing(chord=1e-3, anisotropy=100.0), 10.0)
+    free = SizeRules.of(Sizing(chord=1e-3, anisotropy=100.0), 10.0)
     sizes = free.principal(np.geomspace(1e-9, 1.0, 2000), np.zeros(2000))
     assert (np.abs(np.diff(np.log(sizes), axis=0)) < 0.05).all()  # no jump on the way there
     assert sizes.max() <= 10.0

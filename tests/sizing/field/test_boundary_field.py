@@ -50,13 +50,13 @@ def test_sizes_grow_along_the_surface(surface):
 
 
 @pytest.mark.parametrize(
-    "asked",
+    "options",
     [dict(), dict(chord=0.01), dict(angle=10.0), dict(chord=0.01, max_size=0.1),
      dict(chord=1e-5, min_size=0.3), dict(size=0.7), dict(size=0.7, chord=0.001)],
 )  # fmt: skip
 @pytest.mark.parametrize("surface", [PLANE, CYLINDER])
-def test_the_largest_size_is_that_of_the_general_field(surface, asked):
-    sizing = Sizing(**asked)
+def test_the_largest_size_is_that_of_the_general_field(surface, options):
+    sizing = Sizing(**options)
     field, general = boundary_field(surface, sizing, *NOWHERE), size_field(surface, sizing)
     assert field.sizing == general.sizing
     xy = everywhere(field, 50)

@@ -30,9 +30,9 @@ REFUSED = {
 
 @pytest.mark.parametrize("case", REFUSED)
 def test_refused(case):
-    asked, message = REFUSED[case]
+    options, message = REFUSED[case]
     with pytest.raises(SizingError, match=message) as error:
-        Sizing(**asked)
+        Sizing(**options)
     assert isinstance(error.value, ValueError)
 
 

@@ -12,7 +12,7 @@ from surfmesh.sizing.field.size_law import SizeLaw
 from surfmesh.sizing.options.sizing import Sizing
 from surfmesh.sizing.rules.direction_rates import BENDING, FANNING, direction_rates, longest_along
 from surfmesh.sizing.rules.direction_size import size_along
-from surfmesh.sizing.rules.size_bounds import SizeBounds
+from surfmesh.sizing.rules.size_rules import SizeRules
 
 TURN = (0.0, 2 * np.pi)
 CONE = ParametricSurface("v*cos(u)", "v*sin(u)", "v", u=TURN, v=(0.5, 2.0))
@@ -72,7 +72,7 @@ def test_bounds_scale(factor):
 
 def test_edges_are_told_as_faces_are():
     """A ruling of a cone as an edge of a CAD face: long edges on it spoilt the face beside it."""
-    bounds = SizeBounds.of(Sizing(chord=1e-3, anisotropy=100.0), 4.0)
+    bounds = SizeRules.of(Sizing(chord=1e-3, anisotropy=100.0), 4.0)
     v = np.linspace(0.6, 1.9, 9)
     uv = np.stack([np.full(9, 1.0), v], axis=1)
     ruling = np.tile(np.array([np.cos(1.0), np.sin(1.0), 1.0]) / np.sqrt(2), (9, 1))
@@ -105,7 +105,7 @@ def test_what_long_edges_leave_of_the_chord_is_used():
     sizing = Sizing(chord=0.004, anisotropy=50.0)
     field = size_field(surface, sizing, find_sides(surface))
     xy = np.random.default_rng(1).uniform(0.1, 0.9, (2000, 2)) * field.chart.extent
-    nodes = SizeLaw(surface, sizing, None)(xy)
+    nodes = SizeLaw.of(surface, sizing, None)(xy)
     w = field.metric_roots_3d(xy)
     width = 1 / np.linalg.eigvalsh(w[:, [0, 1, 2, 1, 3, 4, 2, 4, 5]].reshape(-1, 3, 3))[:, 2]
     assert (width > 1.1 * nodes.size).mean() > 0.1

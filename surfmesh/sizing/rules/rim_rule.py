@@ -8,6 +8,7 @@ its own curvature. The surface's normal curvature is only a part of that: a flat
 """
 
 from collections.abc import Callable, Iterator
+from dataclasses import dataclass
 from typing import NamedTuple
 
 import numpy as np
@@ -15,6 +16,8 @@ import numpy as np
 from surfmesh.geometry.differential.chart import Chart
 from surfmesh.geometry.differential.sides import SideTopology
 from surfmesh.geometry.surface import Surface
+from surfmesh.sizing.rules.chord_rule import ChordRule
+from surfmesh.sizing.rules.rule import DirectedLimits, DirectedRule, Places
 from surfmesh.sizing.rules.size_limits import SizeLimits, along_lines
 
 RIM_RESERVE = 0.8
@@ -37,8 +40,12 @@ class RimSizes(NamedTuple):
     def chosen(self, rows: np.ndarray) -> "RimSizes":
         return RimSizes(self.sizes[rows], self.tangent[rows])
 
+    def __call__(self, points: np.ndarray) -> np.ndarray:
+        """The sizes at the n points themselves, which the other methods are asked about too."""
+        return self.sizes
+
     def along(self, points: np.ndarray, directions: np.ndarray) -> np.ndarray:
-        """Largest sizes (k, n) in k unit directions (k, n, 3) at the n points themselves."""
+        """Largest sizes (k, n) in k unit directions (k, n, 3)."""
         cosine = np.abs(np.einsum("kni,ni->kn", directions, self.tangent))
         return self.sizes / np.maximum(cosine, np.finfo(float).eps)
 
@@ -66,6 +73,51 @@ def rim_sizes(surface: Surface, uv: np.ndarray, step: np.ndarray, chord: float) 
     return RimSizes(sizes, np.where(known[:, None], tangent, 0.0))
 
 
+@dataclass(frozen=True)
+class RimRule(DirectedRule):
+    """``chord`` along an open side of the (u, v) rectangle."""
+
+    surface: Surface
+    chart: Chart
+    side: int
+    chord: float
+
+    def __str__(self) -> str:
+        return f"{self.stated_as} at the rim's own curvature"
+
+    @property
+    def stated_as(self) -> ChordRule:
+        return ChordRule(self.chord)
+
+    def limits(self, at: Places) -> tuple[np.ndarray, DirectedLimits]:
+        width, height = self.chart.extent
+        across, place = ((1, 0.0), (0, width), (1, height), (0, 0.0))[self.side]
+        rows = np.flatnonzero(at.xy[:, across] == place)
+        if not len(rows):
+            return rows, RimSizes(np.empty(0), np.empty((0, 3)))
+        step = np.zeros((len(rows), 2))
+        step[:, 1 - across] = 1.0
+        return rows, rim_sizes(self.surface, at.uv[rows], step, self.chord)
+
+
+@dataclass(frozen=True)
+class LoopRule(DirectedRule):
+    """``chord`` along trimming loops."""
+
+    chord: float
+    near_loops: SizeLimits
+
+    def __str__(self) -> str:
+        return f"{self.stated_as} at a trimming loop's own curvature"
+
+    @property
+    def stated_as(self) -> ChordRule:
+        return ChordRule(self.chord)
+
+    def limits(self, at: Places) -> tuple[np.ndarray, DirectedLimits]:
+        return np.arange(len(at.points)), self.near_loops
+
+
 class Rims:
     """Where a surface of formulas ends: open sides of its (u, v) rectangle, or trimming loops."""
 
@@ -79,27 +131,24 @@ class Rims:
             side for side in range(4) if sides.partner[side] < 0 and not sides.collapsed[side]
         ]  # fmt: skip
 
-    def on_sides(
-        self, chart: Chart, chord: float, xy: np.ndarray, uv: np.ndarray
-    ) -> Iterator[tuple[np.ndarray, RimSizes]]:
-        """For each open side the rows (k,) of points xy (n, 2) that lie on it, and their sizes."""
-        width, height = chart.extent
-        for side in self.open:
-            across, place = ((1, 0.0), (0, width), (1, height), (0, 0.0))[side]
-            rows = np.flatnonzero(xy[:, across] == place)
-            if len(rows):
-                step = np.zeros((len(rows), 2))
-                step[:, 1 - across] = 1.0
-                yield rows, rim_sizes(self.surface, uv[rows], step, chord)
+    def rules(
+        self, chart: Chart, chord: float, slope: float,
+        allowed: Callable[[np.ndarray], np.ndarray], narrow: bool,
+    ) -> Iterator[DirectedRule]:  # fmt: skip
+        """One for each open side; one for the loops, where these bend more than the surface does.
 
-    def on_loops(
+        allowed: sizes (n,) by the curvature of the surface at uv (n, 2). narrow: the limits of
+        loops hold along them, not across them.
+        """
+        for side in self.open:
+            yield RimRule(self.surface, chart, side, chord)
+        limits = self._on_loops(chord, slope, allowed, narrow)
+        if limits is not None:
+            yield LoopRule(chord, limits)
+
+    def _on_loops(
         self, chord: float, slope: float, allowed: Callable[[np.ndarray], np.ndarray], narrow: bool
     ) -> SizeLimits | None:
-        """Limits along loops, where these bend more than the surface does; None: nowhere.
-
-        allowed: sizes (n,) by the curvature of the surface at uv (n, 2). narrow: the limits hold
-        along the loops, not across them.
-        """
         if not len(self.lines):
             return None
         pieces = np.full(len(self.lines), max(2, FIRST_SAMPLES // len(self.lines)))

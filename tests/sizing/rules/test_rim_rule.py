@@ -7,7 +7,7 @@ from hypothesis import strategies as st
 
 import surfmesh as sm
 from surfmesh.geometry.differential.sides import find_sides
-from surfmesh.sizing.rules.rim_size import RIM_RESERVE, Rims, rim_sizes
+from surfmesh.sizing.rules.rim_rule import RIM_RESERVE, Rims, rim_sizes
 
 
 def rim_sag(surface, mesh, samples=17):

@@ -1,0 +1,64 @@
+"""``chord``: no triangle lies farther from the surface, no segment farther from its curve."""
+
+from collections.abc import Iterator
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from surfmesh.sizing.options.sizing import Sizing
+from surfmesh.sizing.rules.curvature_size import (
+    DEVIATION_RESERVE,
+    STRAIGHT_RESERVE,
+    chord_size,
+    principal_chord_sizes,
+)
+from surfmesh.sizing.rules.rule import CurvatureRule, CurveSamples
+
+KINK = 0.02
+"""Radians: smaller angles between the pieces of a curve are no corners."""
+
+
+@dataclass(frozen=True)
+class ChordRule(CurvatureRule):
+    chord: float
+    """Model units."""
+    is_anisotropic: bool = field(default=False, compare=False)
+
+    @classmethod
+    def asked_for(cls, sizing: Sizing, diagonal: float) -> Iterator["ChordRule"]:
+        if sizing.chord is not None:
+            yield cls(sizing.chord, sizing.is_anisotropic)
+
+    def __str__(self) -> str:
+        return f"chord {self.chord:g}"
+
+    def sizes(self, k1: np.ndarray, k2: np.ndarray) -> np.ndarray:
+        return chord_size(k1, k2, self.chord)
+
+    def principal_sizes(
+        self, k1: np.ndarray, k2: np.ndarray, ratio: np.ndarray | float
+    ) -> np.ndarray:
+        return np.stack(principal_chord_sizes(k1, k2, self.chord, ratio), axis=1)
+
+    def sizes_on_curve(self, curve: CurveSamples) -> np.ndarray:
+        reserve = STRAIGHT_RESERVE if self.is_anisotropic else DEVIATION_RESERVE
+        with np.errstate(divide="ignore", over="ignore"):
+            own = np.sqrt(8.0 * reserve * self.chord / curve.curvature)
+        return np.minimum(np.maximum(own, 2.0 * self.chord), self._at_corners(curve))
+
+    def _at_corners(self, curve: CurveSamples) -> np.ndarray:
+        """Sizes (n,) that cut the corners of polygonal curves by ``chord``; infinite elsewhere.
+
+        A corner is an angle between samples that the curvature there knows nothing of. A segment h
+        across one of angle a passes it at h/2 tan(a/2), about h a / 4.
+        """
+        step = np.diff(curve.points, axis=0)
+        length = np.linalg.norm(step, axis=1)
+        step /= np.maximum(length, np.finfo(float).tiny)[:, None]
+        angle = np.arccos(np.clip(np.einsum("ij,ij->i", step[1:], step[:-1]), -1.0, 1.0))
+        k = curve.curvature
+        known = np.maximum.reduce([k[:-2], k[1:-1], k[2:]])
+        corner = angle > np.maximum(KINK, known * (length[1:] + length[:-1]))
+        sizes = np.full(len(curve.points), np.inf)
+        sizes[1:-1][corner] = 4.0 * DEVIATION_RESERVE * self.chord / angle[corner]
+        return sizes

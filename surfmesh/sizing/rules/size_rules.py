@@ -1,0 +1,148 @@
+"""All rules that hold on one surface, and the bounds that their least size is kept within.
+
+ChordRule, AngleRule, ...  -> sizes by curvature --.
+SizeRule, SourceRule, ...  -> sizes by place ------+-- least -> within ``bounds``
+"""
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+import numpy as np
+
+from surfmesh.sizing.options.defaults import (
+    DEFAULT_MAX_SIZE,
+    FINEST_SIZE,
+    LONGEST,
+    with_default_chord,
+)
+from surfmesh.sizing.options.sizing import Sizing
+from surfmesh.sizing.rules.angle_rule import AngleRule
+from surfmesh.sizing.rules.chord_rule import ChordRule
+from surfmesh.sizing.rules.default_angle_rule import DefaultAngleRule
+from surfmesh.sizing.rules.rule import CurvatureRule, PlaceRule, Rule
+from surfmesh.sizing.rules.size_rule import SizeRule
+from surfmesh.sizing.rules.source_rule import SourceRule
+
+RULES: tuple[type[Rule], ...] = (ChordRule, AngleRule, DefaultAngleRule, SizeRule, SourceRule)
+"""Every kind of rule, in the order in which they are heard."""
+
+
+@dataclass(frozen=True)
+class Bound:
+    """What the least of all rules is kept within."""
+
+    words: str
+    size: float
+    is_floor: bool = False
+    is_default: bool = False
+
+    def __str__(self) -> str:
+        return self.words
+
+
+@dataclass(frozen=True)
+class SizeRules:
+    """What one ``Sizing`` asks for on a surface of known extent."""
+
+    sizing: Sizing
+    """With the default chord where nothing else was asked for."""
+    by_curvature: tuple[CurvatureRule, ...]
+    by_place: tuple[PlaceRule, ...]
+    bounds: tuple[Bound, ...]
+    """Stated ones and defaults; ``clamp`` says what follows from them and from a ``size``."""
+    clamp: tuple[float, float]
+    """The smallest and the largest size, model units; the largest may be infinite."""
+    longest: float
+    """The largest along the longer axis of an anisotropic metric."""
+
+    @classmethod
+    def of(cls, sizing: Sizing, diagonal: float) -> "SizeRules":
+        """``diagonal``: of the surface's bounding box, model units."""
+        sizing = with_default_chord(sizing, diagonal)
+        rules = [rule for kind in RULES for rule in kind.asked_for(sizing, diagonal)]
+        bounds = list(stated_bounds(sizing))
+        if sizing.max_size is None and sizing.size is None:
+            largest = DEFAULT_MAX_SIZE * diagonal
+            bounds.append(Bound("a tenth of the diagonal", largest, is_default=True))
+        tops = [bound.size for bound in bounds if not bound.is_floor]
+        tops += [sizing.size] if isinstance(sizing.size, float) else []
+        coarsest = min(tops, default=np.inf)  # where a law alone decides there is none
+        finest = sizing.min_size or min(FINEST_SIZE * diagonal, coarsest)
+        if not sizing.min_size:
+            words = "no size is smaller, unless min_size says so"
+            bounds.append(Bound(words, finest, is_floor=True, is_default=True))
+        coarsest = max(coarsest, finest)
+        longest = coarsest
+        if sizing.is_anisotropic and not sizing.max_size and not isinstance(sizing.size, float):
+            longest = max(coarsest, LONGEST * diagonal)
+        by_curvature = tuple(rule for rule in rules if isinstance(rule, CurvatureRule))
+        by_place = tuple(rule for rule in rules if isinstance(rule, PlaceRule))
+        return cls(sizing, by_curvature, by_place, tuple(bounds), (finest, coarsest), longest)
+
+    @property
+    def follows_curvature(self) -> bool:
+        return bool(self.by_curvature)
+
+    def at_curvature(
+        self, k1: np.ndarray, k2: np.ndarray
+    ) -> Iterator[tuple[CurvatureRule, np.ndarray]]:
+        """Each rule with its sizes (n,) at principal curvatures k1, k2 (n,)."""
+        for rule in self.by_curvature:
+            yield rule, rule.sizes(k1, k2)
+
+    def at_points(self, points: np.ndarray) -> Iterator[tuple[PlaceRule, np.ndarray]]:
+        """Each rule with its sizes (n,) at points (n, 3)."""
+        for rule in self.by_place:
+            yield rule, rule.sizes(points)
+
+    def from_curvature(self, k1: np.ndarray, k2: np.ndarray) -> np.ndarray:
+        """Size (n,) by the curvature alone, within the bounds."""
+        sizes = [size for _, size in self.at_curvature(k1, k2)]
+        return np.clip(np.minimum.reduce(sizes), *self.clamp)
+
+    def from_place(self, points: np.ndarray) -> np.ndarray:
+        """Size (n,) by the place alone, not within the bounds; infinite for none."""
+        size = np.full(len(points), np.inf)
+        for _, own in self.at_points(points):
+            np.minimum(size, own, out=size)
+        return size
+
+    def shorter(self, k1: np.ndarray, k2: np.ndarray) -> np.ndarray:
+        """Size (n,) in the direction that the curvature allows least in, within the bounds."""
+        if self.sizing.is_anisotropic:
+            return self.principal(k1, k2).min(axis=1)
+        return self.from_curvature(k1, k2)
+
+    def principal(
+        self, k1: np.ndarray, k2: np.ndarray, ratio: np.ndarray | float | None = None
+    ) -> np.ndarray:
+        """Sizes (n, 2) along the directions of k1 and k2 by curvature, within the bounds.
+
+        ratio: (n,) largest ratio of the two, instead of ``anisotropy``.
+        """
+        ratio = self.sizing.anisotropy if ratio is None else ratio
+        every = [rule.principal_sizes(k1, k2, ratio) for rule in self.by_curvature]
+        sizes = np.minimum.reduce(every)
+        wanted = sizes.min(axis=1)
+        shorter = np.clip(wanted, *self.clamp)
+        # where it is flat both ways no direction is known: the ratio falls to one
+        with np.errstate(invalid="ignore"):
+            curved = np.minimum(np.nan_to_num(shorter / wanted), 1.0) ** 2
+        longest = np.minimum(shorter * np.maximum(ratio * curved, 1.0), self.longest)
+        longest = np.maximum(longest, shorter)
+        return np.clip(sizes, shorter[:, None], longest[:, None])
+
+
+def stated_bounds(sizing: Sizing) -> Iterator[Bound]:
+    """``max_size`` and ``min_size``, where they are asked for."""
+    if sizing.max_size is not None:
+        yield Bound(f"max_size {sizing.max_size:g}", sizing.max_size)
+    if sizing.min_size is not None:
+        yield Bound(f"min_size {sizing.min_size:g}", sizing.min_size, is_floor=True)
+
+
+def stated_rules(sizing: Sizing) -> Iterator[Rule | Bound]:
+    """What ``sizing`` asks for by name: no defaults, on no surface in particular."""
+    for kind in RULES:
+        yield from (rule for rule in kind.asked_for(sizing, 0.0) if not rule.is_default)
+    yield from stated_bounds(sizing)

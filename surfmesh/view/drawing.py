@@ -1,0 +1,53 @@
+"""One picture before it is drawn: colours, lines over them, title and size, however it is drawn."""
+
+from typing import NamedTuple, TypedDict
+
+from surfmesh.result.surface_mesh import SurfaceMesh
+from surfmesh.view.colouring import Colouring, colouring
+from surfmesh.view.legend import title_of, with_edges
+from surfmesh.view.lines import Lines
+from surfmesh.view.overlays import overlays
+
+
+class Look(TypedDict, total=False):
+    """What is asked of a picture; see ``plot``."""
+
+    by: str
+    edges: bool | None
+    circles: bool
+    directions: bool
+    worst: int | None
+    title: str | None
+
+
+class Drawing(NamedTuple):
+    """What is drawn of a mesh."""
+
+    mesh: SurfaceMesh
+    colours: Colouring
+    lines: list[Lines]  # the last over the others
+    title: str
+    edges: bool  # those of the triangles
+    size: tuple[int, int]  # pixels
+
+
+def drawing(
+    mesh: SurfaceMesh,
+    size: tuple[int, int],
+    *,
+    by: str = "alpha",
+    edges: bool | None = None,
+    circles: bool = False,
+    directions: bool = False,
+    worst: int | None = None,
+    title: str | None = None,
+) -> Drawing:
+    """The drawing of ``mesh``; options and errors as of ``plot``."""
+    return Drawing(
+        mesh,
+        colouring(mesh, by),
+        overlays(mesh, by, draw_circles=circles, directions=directions, worst=worst),
+        title_of(mesh) if title is None else title,
+        with_edges(mesh, edges, circles),
+        size,
+    )
