@@ -6,7 +6,13 @@ import numpy as np
 import pytest
 
 import surfmesh as sm
-from surfmesh.geometry.surface import Surface
+from surfmesh.geometry.surface import (
+    BoundedSurface,
+    Surface,
+    stated_facts,
+    stated_sizes,
+    surface_kind,
+)
 from surfmesh.io import read
 
 
@@ -47,6 +53,11 @@ def surface(request):
     return request.param
 
 
+def test_what_it_does_not_say_is_nothing(surface):
+    assert not isinstance(surface, BoundedSurface)
+    assert (surface_kind(surface), stated_facts(surface), stated_sizes(surface)) == ("", {}, {})
+
+
 @pytest.mark.parametrize("ratio", [1.0, 5.0])
 def test_it_is_meshed_explained_and_estimated(surface, ratio):
     sizing = sm.Sizing(chord=0.03, anisotropy=ratio)
@@ -60,9 +71,9 @@ def test_it_is_meshed_explained_and_estimated(surface, ratio):
     assert sm.mesh(surface, sizing, order=2).order == 2
 
 
-def test_it_is_saved_and_drawn(tmp_path):
-    mesh = sm.mesh(Bowl(), 0.3)
+def test_it_is_saved_and_drawn(tmp_path, surface):
+    mesh = sm.mesh(surface, 0.3)
     for name in ("m.vtu", "m.stl"):
         assert len(read(mesh.save(tmp_path / name)).triangles) == len(mesh.triangles)
-    sm.show(Bowl(), 0.3, path=tmp_path / "field.png")
+    sm.show(surface, 0.3, path=tmp_path / "field.png")
     assert (tmp_path / "field.png").exists() and "SurfaceMesh" in mesh._repr_html_()

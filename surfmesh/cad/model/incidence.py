@@ -136,5 +136,5 @@ def _between(here: list[_Passage]) -> list[tuple[End, End]]:
 
 def _angle(coedge: CadCoedge, fraction: float, vertex: float) -> float:
     """The direction in (u, v) from a vertex to a point of an edge beside it."""
-    away, at = coedge.walk(np.array([fraction, vertex]))
-    return math.atan2(away[1] - at[1], away[0] - at[0])
+    ahead, at = coedge.walk(np.array([fraction, vertex]))
+    return math.atan2(ahead[1] - at[1], ahead[0] - at[0])

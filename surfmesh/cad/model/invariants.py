@@ -146,8 +146,8 @@ def _broken_pcurves(model: CadModel, number: int, face: CadFace) -> Iterator[str
     if outside.any():
         yield f"face {number} has edges outside its (u, v) box, at {uv[outside][0].tolist()}"
     noise = NOISE * model.diagonal
-    off = distances_to_edges(model.edges, model.vertices, coedges, r)
-    for coedge, distance in zip(coedges, off):
+    deviations = distances_to_edges(model.edges, model.vertices, coedges, r)
+    for coedge, distance in zip(coedges, deviations):
         edge = model.edges[coedge.edge]
         reach = edge.tolerance
         if edge.degenerate:

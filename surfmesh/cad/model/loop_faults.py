@@ -22,7 +22,7 @@ from surfmesh.cad.model.cad_model import CadCoedge, CadEdge, CadFace, CadModel
 from surfmesh.geometry.boxes import diagonal
 from surfmesh.geometry.cad_surfaces.nurbs import BSplineCurve
 from surfmesh.geometry.inside_loops import is_inside, nesting_depth
-from surfmesh.geometry.planar.curve_contacts import Contact, PlaneCurve, contacts, feet
+from surfmesh.geometry.planar.curve_contacts import Contact, PlaneCurve, closest, contacts
 
 ROUND_PIECES, SPAN_PIECES, MOST_PIECES = 16, 4, 256
 """Pieces of conics, of each span of a spline, and at most, in which curves hardly bend."""
@@ -241,7 +241,7 @@ class _Loops:
         """Does the first curve stay as near to the other from the contact to its end?"""
         one, other = contact.curves
         t = np.linspace(contact.fractions[0][end], float(end), LOBE_SAMPLES)
-        return bool((feet(self.curves[other], self.curves[one].evaluate(t))[1] <= reach).all())
+        return bool((closest(self.curves[other], self.curves[one].evaluate(t))[1] <= reach).all())
 
     def _is_at(self, curve: int, fraction: tuple[float, float], end: int, reach: float) -> bool:
         """Is the end of the curve (0 or 1) within reach of its part between two fractions?"""
@@ -293,9 +293,9 @@ class _Loops:
         curve, fraction = contact.curves[place], contact.fractions[place][int(forward)]
         for _ in range(len(self.exact.loops[self.loop_of[curve]]) + 1):
             t = np.linspace(fraction, 1.0 if forward else 0.0, BRANCH_SAMPLES)
-            away = np.linalg.norm(self.curves[curve].evaluate(t) - centre, axis=1)
-            if (away >= radius).any():
-                k = int((away >= radius).argmax())
+            distance = np.linalg.norm(self.curves[curve].evaluate(t) - centre, axis=1)
+            if (distance >= radius).any():
+                k = int((distance >= radius).argmax())
                 low, high = t[max(k - 1, 0)], t[k]
                 for _ in range(40):
                     middle = 0.5 * (low + high)
@@ -334,7 +334,7 @@ class _Loops:
         others = [k for k in range(self.first[loop], self.first[loop + 1]) if k != curve]
         if not others:
             return float(np.linalg.norm(points - points[:1], axis=1).max())
-        return float(np.min([feet(self.curves[k], points)[1] for k in others], axis=0).max())
+        return float(np.min([closest(self.curves[k], points)[1] for k in others], axis=0).max())
 
     def _encloses_nothing(self) -> str:
         """In words, when the loops leave no inside on their left."""

@@ -24,7 +24,7 @@ from surfmesh.geometry.differential.projection import closest_point
 ZONE = 30.0  # times the extent of the side: nearer to the pole a p-curve is not believed
 SWING = 0.02  # of the face's box: less is no swing
 LARGEST = 0.01  # of the face's size: a longer side is no pole
-SAMPLES, STEPS = 513, 8  # of a p-curve, and steps to the feet of its points
+SAMPLES, STEPS = 513, 8  # of a p-curve, and steps to the nearest points of the surface
 
 
 def pcurves_at_near_poles(
@@ -86,9 +86,9 @@ def _straightened(
         edge_of_zone = zone.min() if at_end else zone.max()
         if near.all():
             return False
-        away = np.ptp(uv[zone], axis=0) / width
-        across = int(np.argmax(away))
-        if away[across] < SWING:
+        swing = np.ptp(uv[zone], axis=0) / width
+        across = int(np.argmax(swing))
+        if swing[across] < SWING:
             ends.append((place, coedge, coedge.walk(np.array([1.0 if last else 0.0]))[0], False))
             continue
         uv[zone, across] = uv[edge_of_zone, across]

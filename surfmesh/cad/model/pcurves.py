@@ -2,7 +2,7 @@
 
 Programs make a p-curve from a few points and state the deviation at those; in between it can be
 ten thousand times worse, mostly because the p-curve runs at another pace than its edge. Then the
-feet of points of the edge give a better one.
+points of the face next to those of the edge give a better one.
 """
 
 from __future__ import annotations
@@ -20,7 +20,7 @@ from surfmesh.geometry.surface import Surface
 
 SPANS = (32, 128, 512)  # of the new p-curve, the first that is good enough
 BETWEEN = (0.3, 0.7)  # of a span: an error of pace may vanish in the middle
-STEPS = 8  # towards the foot of a point
+STEPS = 8  # towards the nearest point
 BETTER = 0.5  # of the old deviation, or the old p-curve stays
 
 
@@ -33,24 +33,24 @@ def follows(surface: Surface, edge: CadEdge, coedge: CadCoedge, reach: float) ->
     best, deviation = coedge, np.inf
     for spans in SPANS:
         fraction = np.linspace(0.0, 1.0, spans + 1)
-        uv, _ = _feet(surface, edge, coedge, fraction)
+        uv, _ = _closest(surface, edge, coedge, fraction)
         uv[[0, -1]] = coedge.uv(ENDS)
         parameters = coedge.p0 + fraction * (coedge.p1 - coedge.p0)
         spline = make_interp_spline(parameters, uv, k=3)
         trial = replace(coedge, pcurve=BSplineCurve(spline.t, spline.c))
         between = np.sort(np.concatenate([fraction[:-1] + at / spans for at in BETWEEN]))
-        off = _deviation(surface, edge, trial, between)
+        trial_deviation = _deviation(surface, edge, trial, between)
         if best is coedge:
             deviation = _deviation(surface, edge, coedge, between)
-        if off < BETTER * deviation:
-            best, deviation = trial, off
-        _, distance = _feet(surface, edge, trial, between)
+        if trial_deviation < BETTER * deviation:
+            best, deviation = trial, trial_deviation
+        _, distance = _closest(surface, edge, trial, between)
         if deviation <= max(reach, 1.1 * distance.max()):  # the face itself is no nearer
             break
     return best
 
 
-def _feet(
+def _closest(
     surface: Surface, edge: CadEdge, coedge: CadCoedge, fraction: np.ndarray
 ) -> tuple[np.ndarray, np.ndarray]:
     points = edge.evaluate(fraction, 0)[0]

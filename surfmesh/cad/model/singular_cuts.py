@@ -82,9 +82,9 @@ def _slack(face: CadFace, axis: int) -> float:
 def _crosses(face: CadFace, line: SingularLine) -> bool:
     """Does the face lie on both sides of the line?"""
     uv = np.concatenate([coedge.uv(FRACTIONS) for coedge in face.coedges])
-    away = uv[:, line.axis] - line.value
+    beside = uv[:, line.axis] - line.value
     slack = _slack(face, line.axis)
-    return bool((away < -slack).any() and (away > slack).any())
+    return bool((beside < -slack).any() and (beside > slack).any())
 
 
 def _jumps(face: CadFace, line: SingularLine, loop: Loop) -> bool:
@@ -104,20 +104,20 @@ def _crossings(coedge: CadCoedge, line: SingularLine, slack: float) -> list[floa
     """Fractions of the edge's range, 0 and 1 excluded, at which its p-curve crosses the line."""
     straight = coedge.is_straight
     fraction = np.linspace(0.0, 1.0, 2 if straight else SAMPLES)
-    away = coedge.uv(fraction)[:, line.axis] - line.value
-    away[np.abs(away) <= slack] = 0.0
-    found = [float(fraction[k]) for k in np.flatnonzero(away == 0.0) if 0 < k < len(fraction) - 1]
+    beside = coedge.uv(fraction)[:, line.axis] - line.value
+    beside[np.abs(beside) <= slack] = 0.0
+    found = [float(fraction[k]) for k in np.flatnonzero(beside == 0.0) if 0 < k < len(fraction) - 1]
     if len(found) > 2:  # it runs along the line
         return []
-    for k in np.flatnonzero(away[1:] * away[:-1] < 0.0):
+    for k in np.flatnonzero(beside[1:] * beside[:-1] < 0.0):
         low, high = float(fraction[k]), float(fraction[k + 1])
         if straight:
-            found.append(low + (high - low) * float(away[k] / (away[k] - away[k + 1])))
+            found.append(low + (high - low) * float(beside[k] / (beside[k] - beside[k + 1])))
             continue
         for _ in range(HALVINGS):
             middle = 0.5 * (low + high)
             here = coedge.uv(np.array([middle]))[0, line.axis] - line.value
-            low, high = (middle, high) if here * away[k] > 0.0 else (low, middle)
+            low, high = (middle, high) if here * beside[k] > 0.0 else (low, middle)
         found.append(0.5 * (low + high))
     return sorted(found)
 
@@ -390,9 +390,9 @@ def _chains(loop: Loop, line: SingularLine, slack: float, above: bool) -> tuple[
     What lies on the line itself is in none of them.
     """
     sign = 1.0 if above else -1.0
-    away = [sign * (coedge.walk(FRACTIONS)[:, line.axis] - line.value) for coedge in loop]
-    here = [bool(far.max() > slack and far.max() > -far.min()) for far in away]
-    begins = [there and far[0] <= slack for there, far in zip(here, away)]
+    beside = [sign * (coedge.walk(FRACTIONS)[:, line.axis] - line.value) for coedge in loop]
+    here = [bool(far.max() > slack and far.max() > -far.min()) for far in beside]
+    begins = [there and far[0] <= slack for there, far in zip(here, beside)]
     if not any(begins):
         return [], all(here)
     chains: list[list[CadCoedge]] = []

@@ -1,6 +1,6 @@
 """Tolerances that are true, and p-curves that keep to them.
 
-Files state how far edges lie off their faces as it was measured at a few points. Here it is
+Files state how far edges deviate from their faces as it was measured at a few points. Here it is
 measured anew; p-curves that stray are replaced, and where that does not help tolerances are raised.
 """
 
@@ -19,15 +19,15 @@ from surfmesh.geometry.cad_surfaces.curve_on_surface import CurveOnSurface
 from surfmesh.geometry.cad_surfaces.face_surface import FaceSurface
 from surfmesh.geometry.surface import Domain
 
-FAR_OFF = 10.0  # times its tolerance: an edge that lies so far off its face is reported
-LOOSE = 1e-4  # of its length: a curve that lies so far off all its faces may be replaced
+REPORTED = 10.0  # times its tolerance: an edge that deviates by more is reported
+LOOSE = 1e-4  # of its length: a curve that deviates so far from all its faces may be replaced
 AGREE = 0.5  # of that distance: p-curves that lie this near each other are believed instead
 CHORDS = 256  # that measure the length of a curve on a face
 MANY = 12  # numbers that a sentence lists
 
 
 def deviations(edges: list[CadEdge], vertices: list[CadVertex], face: CadFace) -> np.ndarray:
-    """(n,) How far the edges of each coedge lie off the face in space."""
+    """(n,) How far the edge of each coedge deviates from the face in space."""
     coedges = list(face.coedges)
     uv = np.concatenate([coedge.uv(FRACTIONS) for coedge in coedges])
     (on_face,) = face.surface.evaluate(uv, 0)
@@ -43,7 +43,7 @@ def pcurves_that_follow(
         better = {}
         for coedge, distance in zip(face.coedges, deviations(edges, vertices, face)):
             edge = edges[coedge.edge]
-            if edge.curve is None or distance <= FAR_OFF * edge.tolerance:
+            if edge.curve is None or distance <= REPORTED * edge.tolerance:
                 continue
             new = follows(face.surface, edge, coedge, max(edge.tolerance, NOISE * edge.length))
             if new is not coedge:
@@ -67,7 +67,7 @@ def pcurves_that_follow(
 def curves_on_their_faces(
     edges: list[CadEdge], vertices: list[CadVertex], faces: list[CadFace], unit: str
 ) -> list[str]:
-    """Replace, in place, curves that lie off their faces where the p-curves agree among themselves.
+    """Replace, in place, curves that deviate from their faces where p-curves agree.
 
     The border of a single face lies on that face, whatever the file says.
     """
@@ -130,7 +130,7 @@ def tolerances_that_hold(
             gap = float(np.linalg.norm(point - known.point))
             if gap > known.tolerance:
                 vertices[vertex] = replace(known, tolerance=gap * (1.0 + NOISE))
-    far = np.flatnonzero(measured > FAR_OFF * stated)
+    far = np.flatnonzero(measured > REPORTED * stated)
     if not len(far):
         return []
     worst = far[np.argmax(measured[far])]

@@ -99,20 +99,20 @@ class BentAxis:
     def kept_off(self, s: np.ndarray) -> np.ndarray:
         """Bent parameters (n,), those nearer to a place than derivatives are taken moved away."""
         piece, a, b, _, _ = self._pieces(s)
-        off = self._off()[piece] * (b - a)[:, None]
-        return np.clip(s, a + off[:, 0], b - off[:, 1])
+        clearance = self._clearance()[piece] * (b - a)[:, None]
+        return np.clip(s, a + clearance[:, 0], b - clearance[:, 1])
 
     def parameter_kept_off(self, u: np.ndarray) -> np.ndarray:
         """The same for parameters u (n,): the others stay as they are to the last bit."""
-        a, b, off = self.places[:-1], self.places[1:], self._off()
-        lowest = self.parameter(a + off[:, 0] * (b - a))
-        highest = self.parameter(b - off[:, 1] * (b - a))
+        a, b, clearance = self.places[:-1], self.places[1:], self._clearance()
+        lowest = self.parameter(a + clearance[:, 0] * (b - a))
+        highest = self.parameter(b - clearance[:, 1] * (b - a))
         piece = self._pieces(u)[0]
-        lowest = np.where(off[:, 0] > 0.0, lowest, -np.inf)[piece]
-        highest = np.where(off[:, 1] > 0.0, highest, np.inf)[piece]
+        lowest = np.where(clearance[:, 0] > 0.0, lowest, -np.inf)[piece]
+        highest = np.where(clearance[:, 1] > 0.0, highest, np.inf)[piece]
         return np.clip(u, lowest, highest)
 
-    def _off(self) -> np.ndarray:
+    def _clearance(self) -> np.ndarray:
         """How near to the ends of the pieces derivatives are taken (m, 2), fractions of them."""
         with np.errstate(divide="ignore"):
             slow = LARGEST_SPEED ** (-1.0 / (self.powers - 1.0))

@@ -15,7 +15,7 @@ MARGIN = 0.01  # of the domain: how far outside a foot may lie, so that seams ar
 CONVERGED = 1e-3  # tangential step over distance: below it the distance is right to 5e-7
 PARALLEL = 1e-12  # squared sine of r_u and r_v, below which only the longer one is followed
 FROM_CORNER = 0.1  # of the way to the foot known so far: where a search begins anew
-SHORTER = 0.25  # of a step that led away from the point is tried next
+SHORTER = 0.25  # of a step that led farther from the point is tried next
 
 
 def closest_point(
@@ -25,9 +25,9 @@ def closest_point(
     steps: int = 2,
     margin: float = MARGIN,
 ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Feet of points on a surface, found from guesses, never farther away than these.
+    """Nearest points of a surface to points, from guesses, never farther than these.
 
-    points: (n, 3), uv_guess: (n, 2). margin: fraction of the domain by which feet may leave it.
+    points: (n, 3), uv_guess: (n, 2). margin: fraction of the domain by which they may leave it.
     Returns uv (n, 2), distance (n,), foot (n, 3). The search is local: a nearer part of the
     surface that the guess does not lead to is not found.
     """
@@ -69,10 +69,10 @@ def closest_from_corners(
     corners: np.ndarray,
     steps: int,
 ) -> tuple[np.ndarray, np.ndarray]:
-    """Feet that may be nearer: searched for anew from the ``corners`` (n, 3, 2) of triangles.
+    """Points that may be nearer: searched for anew from the ``corners`` (n, 3, 2) of triangles.
 
-    uv: (n, 2) feet of the points (n, 3) so far, and their ``distance`` (n,). About a singular
-    point the search from the middle finds other feet. Returns uv and distance, never larger.
+    uv: (n, 2) nearest to the points (n, 3) so far, and their ``distance`` (n,). About a singular
+    point the search from the middle finds others. Returns uv and distance, never larger.
     """
     uv, distance = uv.copy(), distance.copy()
     for corner in corners.transpose(1, 0, 2):

@@ -1,6 +1,8 @@
 """Surfaces given by formulas: text to expressions, to tapes of numbers and intervals.
 
-expression: formulas as data: text to SymPy expressions through a whitelist, nothing executed.
+function_table: the functions and constants that may stand in a formula, by name.
+parser: formulas as text: recursive descent, through a whitelist.
+expression: formulas as data: text or ready-made SymPy expressions, nothing executed as Python.
 domain_bounds: bounds of a domain, which may be formulas without variables.
 real_functions: abs, min, cbrt ... for SymPy, differentiable almost everywhere.
 derivatives: partial derivatives by the chain rule over shared subexpressions.

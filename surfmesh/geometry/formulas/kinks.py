@@ -117,8 +117,8 @@ def _is_too_fast(guides: Guides, line: KinkLine) -> bool:
     for column, axis in enumerate(bent_axes_of(guides.surface)):
         if axis is not None:
             places = axis.places[1:-1]
-            off = np.abs(line.uv[:, column, None] - places) / guides.width[column]
-            if (off.max(axis=0) <= SHORTEST).any():
+            apart = np.abs(line.uv[:, column, None] - places) / guides.width[column]
+            if (apart.max(axis=0) <= SHORTEST).any():
                 return True
     return False
 
@@ -316,10 +316,10 @@ def _crossings(a: NDArray, b: NDArray, width: NDArray) -> list[tuple]:
     found = []
     for i in range(len(p)):
         cross = r[i, 0] * w[:, 1] - r[i, 1] * w[:, 0]
-        away = q - p[i]
+        between = q - p[i]
         with np.errstate(divide="ignore", invalid="ignore"):
-            s = (away[:, 0] * w[:, 1] - away[:, 1] * w[:, 0]) / cross
-            t = (away[:, 0] * r[i, 1] - away[:, 1] * r[i, 0]) / cross
+            s = (between[:, 0] * w[:, 1] - between[:, 1] * w[:, 0]) / cross
+            t = (between[:, 0] * r[i, 1] - between[:, 1] * r[i, 0]) / cross
         for j in np.flatnonzero((s >= 0.0) & (s < 1.0) & (t >= 0.0) & (t < 1.0)):
             found.append((i, float(s[j]), int(j), float(t[j]), a[i] + s[j] * (a[i + 1] - a[i])))
     return found

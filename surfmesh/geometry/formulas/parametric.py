@@ -111,11 +111,11 @@ class ParametricSurface:
         if order == 0:
             return values
         if is_bent(self.bent_axes):
-            off = kept_off(self.bent_axes, uv)
-            near = np.flatnonzero((off != uv).any(axis=1))
-            for value, better in zip(values[1:], self.tape(order).evaluate(off[near])[1:]):
+            clear = kept_off(self.bent_axes, uv)
+            near = np.flatnonzero((clear != uv).any(axis=1))
+            for value, better in zip(values[1:], self.tape(order).evaluate(clear[near])[1:]):
                 value[near] = better
-            uv = off
+            uv = clear
         if all(np.isfinite(value).all() for value in values[1:]):
             return values
         broken = ~_finite_rows(values[1:])
@@ -160,7 +160,7 @@ class ParametricSurface:
         """The functions whose zeros are kinks of the surface, each with its two derivatives."""
         if -1 not in self._tapes and "_expressions" in self.__dict__:
             from surfmesh.geometry.formulas.compilation import guide_tape
-            from surfmesh.geometry.formulas.expression import symbol
+            from surfmesh.geometry.formulas.parser import symbol
 
             made = guide_tape(self._expressions, (symbol("u"), symbol("v")))
             if made is None:
@@ -173,7 +173,7 @@ class ParametricSurface:
         if order not in self._tapes:
             # SymPy takes a third of a second to import: only where a formula is differentiated
             from surfmesh.geometry.formulas.compilation import surface_tape
-            from surfmesh.geometry.formulas.expression import symbol
+            from surfmesh.geometry.formulas.parser import symbol
 
             variables = (symbol("u"), symbol("v"))
             self._tapes[order] = surface_tape(self._expressions, variables, order)
@@ -213,7 +213,8 @@ def _finite_rows(values: Sequence[np.ndarray]) -> np.ndarray:
 
 def _named_numbers(parameters: Any) -> dict[str, float]:
     """Parameters as they were given, once they are known to be numbers with usable names."""
-    from surfmesh.geometry.formulas.expression import RESERVED, is_finite
+    from surfmesh.geometry.formulas.function_table import RESERVED
+    from surfmesh.geometry.formulas.parser import is_finite
 
     named = table_of("parameters", parameters)
     for name, value in named.items():
@@ -246,7 +247,7 @@ def _places_of_roots(
 ) -> tuple[list[float], list[float]]:
     """Values of u, and of v, between the ends of the domain at which a root is taken of zero."""
     from surfmesh.geometry.formulas.compilation import roots_of_one_parameter
-    from surfmesh.geometry.formulas.expression import symbol
+    from surfmesh.geometry.formulas.parser import symbol
 
     places: tuple[list[float], list[float]] = [], []
     for axis, tape in roots_of_one_parameter(expressions, (symbol("u"), symbol("v"))):

@@ -113,13 +113,13 @@ def chosen_differences(
             rule = Differences(domain, order, (fraction * extent[0], fraction * extent[1]))
             (second,) = rule._line(values, points, axis, (2,))
             found.append(second * extent[axis] ** 2)
-        misfit = [float(np.abs(a - b).max()) for a, b in pairwise(found)]
-        best = int(np.argmin(misfit))
+        disagreement = [float(np.abs(a - b).max()) for a, b in pairwise(found)]
+        best = int(np.argmin(disagreement))
         steps.append(ladder[best] * extent[axis])
-        errors.append((misfit[best], float(np.abs(found[best]).max())))
+        errors.append((disagreement[best], float(np.abs(found[best]).max())))
     flat = float(np.ptp(values(points), axis=0).max())  # second derivatives may be round-off
     largest = max(flat, *(size for _, size in errors))
-    error = max(misfit for misfit, _ in errors) / largest if largest > 0.0 else 0.0
+    error = max(disagreement for disagreement, _ in errors) / largest if largest > 0.0 else 0.0
     return Differences(domain, order, (steps[0], steps[1])), error
 
 

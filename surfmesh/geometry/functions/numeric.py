@@ -57,7 +57,7 @@ class NumericSurface:
     step: distance of their nodes as a fraction of the domain; None: chosen for each variable so
     that truncation and round-off balance. loops: polygons (k, 2) in (u, v) that trim the surface.
 
-    ``difference_error`` tells how far the differences are off; ``derivative_bounds`` knows
+    ``difference_error`` tells the error of the differences; ``derivative_bounds`` knows
     nothing, so that a feature smaller than the grid of the size field can be missed: state
     ``max_size`` where there are such. f must be safe to call from where ``mesh`` is called, and
     be picklable (no lambda) if the surface or its mesh shall travel to another process.
@@ -236,10 +236,10 @@ class NumericSurface:
         for name, given, found in zip(("r_u", "r_v"), self._given(uv), self._by_differences(uv, 2)):
             size = np.linalg.norm(found, axis=1)
             with np.errstate(invalid="ignore", over="ignore"):
-                off = np.linalg.norm(given - found, axis=1)
-                wrong = off > WRONG * np.maximum(size, np.median(size))
+                deviation = np.linalg.norm(given - found, axis=1)
+                wrong = deviation > WRONG * np.maximum(size, np.median(size))
             if np.mean(wrong) > MOSTLY:
-                row = int(np.argmax(np.where(wrong & np.isfinite(off), off, -1.0)))
+                row = int(np.argmax(np.where(wrong & np.isfinite(deviation), deviation, -1.0)))
                 raise SurfaceError(
                     f"derivatives of {self.name!r} gives {name} = {_listed(given[row])} at "
                     f"(u, v) = {_listed(uv[row])}, where f changes by {_listed(found[row])}: "

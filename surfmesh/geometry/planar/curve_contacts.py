@@ -3,7 +3,7 @@
 a ---.___         Pieces of curves are halved for as long as the fat line around one meets
          `--x     that around another: what is left is where the curves meet. Curves that
 b ------'  /      lie on each other would be halved for ever; where many pieces of them are
-          /       left, feet of one on the other tell.
+          /       left, points of one next to the other tell.
 """
 
 from __future__ import annotations
@@ -23,7 +23,7 @@ MANY = 96
 MOST_PAIRS = 100_000
 """Pairs of pieces at a time; beyond, what is undecided is given up."""
 
-FAT, FEET, STEPS = 2.0, 7, 8
+FAT, LOOKED_AT, STEPS = 2.0, 7, 8
 """Width of a piece, of its measured bulge; places that are looked at along a stretch; steps
 to the foot of a point."""
 
@@ -88,8 +88,8 @@ def contacts(curves: Sequence[PlaneCurve], reach: np.ndarray) -> list[Contact]:
     for _ in range(MOST_LEVELS):
         near = reach[pieces.curve[pairs]].max(axis=1)
         bulge = pieces.bulge
-        away = _distance(pieces.ends[pairs[:, 0]], pieces.ends[pairs[:, 1]])
-        kept = away <= bulge[pairs].sum(axis=1) + near
+        distance = _distance(pieces.ends[pairs[:, 0]], pieces.ends[pairs[:, 1]])
+        kept = distance <= bulge[pairs].sum(axis=1) + near
         pairs, near = pairs[kept], near[kept]
         done = bulge[pairs].sum(axis=1) <= 0.25 * near
         found.append(_rows(pieces, pairs[done], near[done]))
@@ -102,7 +102,7 @@ def contacts(curves: Sequence[PlaneCurve], reach: np.ndarray) -> list[Contact]:
     return _clustered(np.concatenate(found))
 
 
-def feet(curve: PlaneCurve, points: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+def closest(curve: PlaneCurve, points: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Fractions (n,) of the nearest places of a curve to points (n, 2), and the distances (n,)."""
     t = np.linspace(0.0, 1.0, 8 * curve.pieces + 1)
     line = curve.evaluate(t)
@@ -118,8 +118,8 @@ def feet(curve: PlaneCurve, points: np.ndarray) -> tuple[np.ndarray, np.ndarray]
         low, high = np.clip(fraction - width, 0.0, 1.0), np.clip(fraction + width, 0.0, 1.0)
         way = curve.evaluate(high) - curve.evaluate(low)
         speed = np.maximum(np.einsum("ij,ij->i", way, way), 1e-300)
-        off = points - curve.evaluate(fraction)
-        ahead = np.einsum("ij,ij->i", off, way) / speed * (high - low)
+        to_curve = points - curve.evaluate(fraction)
+        ahead = np.einsum("ij,ij->i", to_curve, way) / speed * (high - low)
         fraction = np.clip(fraction + np.clip(ahead, -width, width), 0.0, 1.0)
         width *= 0.25
     return fraction, np.linalg.norm(points - curve.evaluate(fraction), axis=1)
@@ -167,15 +167,17 @@ def _distance(one: np.ndarray, other: np.ndarray) -> np.ndarray:
     def side(p: np.ndarray, q: np.ndarray, r: np.ndarray) -> np.ndarray:
         return (q[:, 0] - p[:, 0]) * (r[:, 1] - p[:, 1]) - (q[:, 1] - p[:, 1]) * (r[:, 0] - p[:, 0])
 
-    def off(p: np.ndarray, q: np.ndarray, r: np.ndarray) -> np.ndarray:
+    def to_curve(p: np.ndarray, q: np.ndarray, r: np.ndarray) -> np.ndarray:
         way = r - q
         square = np.maximum(np.einsum("ij,ij->i", way, way), 1e-300)
         t = np.clip(np.einsum("ij,ij->i", p - q, way) / square, 0.0, 1.0)
         return np.linalg.norm(p - q - t[:, None] * way, axis=1)
 
     crosses = (side(a, b, c) * side(a, b, d) < 0.0) & (side(c, d, a) * side(c, d, b) < 0.0)
-    away = np.minimum.reduce([off(a, c, d), off(b, c, d), off(c, a, b), off(d, a, b)])
-    return np.where(crosses, 0.0, away)
+    distance = np.minimum.reduce(
+        [to_curve(a, c, d), to_curve(b, c, d), to_curve(c, a, b), to_curve(d, a, b)]
+    )
+    return np.where(crosses, 0.0, distance)
 
 
 def _halved(
@@ -261,11 +263,11 @@ def _stretches(
         gap = t[1:, 0] > np.maximum.accumulate(t[:, 1])[:-1] + 1e-12
         for group in np.split(np.arange(len(t)), np.flatnonzero(gap) + 1):
             low, high = t[group, 0].min(), t[group, 1].max()
-            looked = low + (high - low) * np.linspace(0.2, 0.8, FEET)
-            fraction, away = feet(curves[second], curves[first].evaluate(looked))
+            looked = low + (high - low) * np.linspace(0.2, 0.8, LOOKED_AT)
+            fraction, distance = closest(curves[second], curves[first].evaluate(looked))
             near = max(reach[first], reach[second])
-            if len(group) >= MANY and (away <= near).all() and np.ptp(fraction) > 0.0:
-                ends = feet(curves[second], curves[first].evaluate(np.array([low, high])))[0]
+            if len(group) >= MANY and (distance <= near).all() and np.ptp(fraction) > 0.0:
+                ends = closest(curves[second], curves[first].evaluate(np.array([low, high])))[0]
                 found.append(np.array([[first, second, low, high, ends.min(), ends.max(), 1.0]]))
                 kept[here[group]] = False
     return np.concatenate(found), pairs[kept]

@@ -5,8 +5,9 @@ import pytest
 
 from surfmesh.geometry.differential.sides import find_sides
 from surfmesh.geometry.files.formula_file import gallery, load_formula_file
-from surfmesh.geometry.formulas.expression import parse, symbol
+from surfmesh.geometry.formulas.expression import parse
 from surfmesh.geometry.formulas.parametric import ParametricSurface
+from surfmesh.geometry.formulas.parser import symbol
 
 OPEN = (-1, -1, -1, -1)
 # collapsed sides, partners, sides joined backwards; everything not listed is open

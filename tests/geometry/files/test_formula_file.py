@@ -7,7 +7,8 @@ from surfmesh.errors import FormulaError, SurfaceError
 from surfmesh.geometry.differential.fundamental_forms import area, curvatures, forms
 from surfmesh.geometry.files.formula_file import gallery, load_formula_file
 from surfmesh.geometry.formulas.compilation import compiled
-from surfmesh.geometry.formulas.expression import parse, symbol
+from surfmesh.geometry.formulas.expression import parse
+from surfmesh.geometry.formulas.parser import symbol
 
 GOOD = """
 name = "bump"

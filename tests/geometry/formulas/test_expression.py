@@ -11,7 +11,9 @@ from hypothesis import strategies as st
 
 from surfmesh.errors import FormulaError, SurfaceError
 from surfmesh.geometry.formulas.compilation import compiled, surface_tape
-from surfmesh.geometry.formulas.expression import FUNCTIONS, parse, parse_number, symbol
+from surfmesh.geometry.formulas.expression import parse, parse_number
+from surfmesh.geometry.formulas.function_table import FUNCTIONS
+from surfmesh.geometry.formulas.parser import symbol
 
 U, V = symbol("u"), symbol("v")
 

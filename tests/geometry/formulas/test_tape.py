@@ -15,7 +15,8 @@ from surfmesh.geometry.formulas.compilation import (
     long_surface_tape,
     surface_tape,
 )
-from surfmesh.geometry.formulas.expression import parse, symbol
+from surfmesh.geometry.formulas.expression import parse
+from surfmesh.geometry.formulas.parser import symbol
 from surfmesh.geometry.formulas.tape import BLOCK, integer_power
 
 U, V = VARIABLES = symbol("u"), symbol("v")
