@@ -12,7 +12,8 @@ import numpy as np
 from surfmesh.errors import MeshingError, SizingError, SurfaceError
 from surfmesh.geometry.differential.sides import SideTopology, find_sides
 from surfmesh.geometry.files.known_facts import known_facts
-from surfmesh.geometry.formulas.kinks import KinkLine, kink_lines
+from surfmesh.geometry.formulas.kink_tracing import KinkLine
+from surfmesh.geometry.formulas.kinks import kink_lines
 from surfmesh.geometry.surface import Surface
 from surfmesh.meshing.boundary.boundary_loops import BoundaryLoops, boundary_loops
 from surfmesh.meshing.boundary.cusps import Cusp, closed_at, find_cusps, without_cusps
