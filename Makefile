@@ -11,7 +11,7 @@ LOWEST := .venv-lowest
 CORE := tests/geometry tests/sizing tests/result/test_surface_mesh.py tests/cli/test_cli.py \
     tests/io/test_formats.py tests/io/test_format_groups.py tests/view/test_view.py \
     tests/quality/opinion tests/whole/test_gallery_meshes.py tests/whole/test_planar_regions.py \
-    tests/cad/conversion/test_convert.py tests/cad/cadquery tests/cad/reading/test_read_file.py \
+    tests/cad/conversion tests/cad/cadquery tests/cad/reading/test_read_file.py \
     tests/cad/selection
 
 # $(call install,ENVIRONMENT,CONSTRAINTS,REQUIREMENT): uv does it in seconds, pip where uv cannot

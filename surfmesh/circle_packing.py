@@ -1,9 +1,9 @@
 """Section 2 of the paper alone: circles packed over the unbounded plane, and their triangles."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import astuple, dataclass
 from time import perf_counter
-from typing import Any
+from typing import Any, Protocol, runtime_checkable
 
 import numpy as np
 
@@ -20,7 +20,6 @@ from surfmesh.renamed import Renamed
 from surfmesh.sizing.field.size_field import plane_field
 from surfmesh.sizing.options.radius_laws import (
     TensorField,
-    UniformRadius,
     require_computable,
 )
 from surfmesh.sizing.options.sources import as_numbers
@@ -119,7 +118,22 @@ class CirclePacking:
         return f"CirclePacking({len(self.centres)} circles, {len(self.triangles)} triangles)"
 
 
-RadiusLaw = float | Callable[[np.ndarray], np.ndarray] | TensorField | UniformRadius
+FieldLaw = float | Callable[[np.ndarray], np.ndarray] | TensorField
+
+
+@runtime_checkable
+class RandomLaw(Protocol):
+    """Radii in the order in which they are drawn, like ``UniformRadius``."""
+
+    def stream(self) -> Callable[[int], np.ndarray]:
+        """A function whose call with n gives the next n radii (n,)."""
+        ...
+
+
+RadiusLaw = FieldLaw | RandomLaw
+
+Box = tuple[float, float, float, float]
+"""x0, y0, x1, y1"""
 
 
 def pack(
@@ -141,54 +155,81 @@ def pack(
     in some ten thousand. Raises ``SizingError`` for a law or limits that make no sense, and
     ``MeshingError`` when no circles can be placed about the origin.
     """
-    origin, count, distance, box = _limits(origin, count, distance, box)
+    limits = _limits(origin, count, distance, box)
     start = perf_counter()
-    where = box or (-EVERYWHERE, -EVERYWHERE, EVERYWHERE, EVERYWHERE)
-    if hasattr(radius, "stream"):
-        _require_possible(radius.stream()(DRAWN), origin, count, distance, box)
-        expected = count if count < NO_LIMIT else 10_000
-        packing = packed_discs(radius.stream(), where, origin, expected, count, distance)
+    x0, y0, x1, y1 = limits.box or (-EVERYWHERE, -EVERYWHERE, EVERYWHERE, EVERYWHERE)
+    if isinstance(radius, RandomLaw):
+        _require_possible(radius.stream()(DRAWN), limits)
+        expected = limits.count if limits.count < NO_LIMIT else 10_000
+        packing = packed_discs(
+            radius.stream(), (x0, y0, x1, y1), limits.origin, expected, limits.count,
+            limits.distance,
+        )  # fmt: skip
         shift = np.zeros(2)
     else:
-        background, shift, expected = _background(radius, origin, count, distance, box)
-        inner = (where[0] - shift[0], where[1] - shift[1], where[2] - shift[0], where[3] - shift[1])
-        middle = (origin[0] - shift[0], origin[1] - shift[1])
-        packing = packed(background, inner, middle, expected, count, distance)
+        background, shift, expected = _background(radius, limits)
+        dx, dy = shift
+        inner, middle = (x0 - dx, y0 - dy, x1 - dx, y1 - dy), np.subtract(limits.origin, shift)
+        packing = packed(
+            background, inner, (middle[0], middle[1]), expected, limits.count, limits.distance
+        )
     return _result(packing, shift, perf_counter() - start, isinstance(radius, TensorField))
 
 
-def _limits(origin, count, distance, box):
-    origin = tuple(float(x) for x in origin)
-    if len(origin) != 2 or not np.isfinite(origin).all():
-        raise SizingError(f"origin is a point (x, y), not {origin!r}")
+@dataclass(frozen=True)
+class _Limits:
+    """Where the packing starts and where it ends."""
+
+    origin: tuple[float, float]
+    count: int
+    distance: float
+    box: Box | None
+
+
+def _limits(
+    origin: Sequence[float], count: int | None, distance: float | None, box: Sequence[float] | None
+) -> _Limits:
+    """The same as numbers, ``NO_LIMIT`` and infinity where nothing was said."""
+    start = tuple(float(x) for x in origin)
+    if len(start) != 2 or not np.isfinite(start).all():
+        raise SizingError(f"origin is a point (x, y), not {start!r}")
     if count is None and distance is None and box is None:
         raise SizingError("the plane has no end: give count, distance or box")
     if count is not None and (int(count) != count or count < 3):
         raise SizingError(f"count must be a whole number from 3, not {count!r}")
     if distance is not None and not 0.0 < distance < np.inf:
         raise SizingError(f"distance must be a positive number, not {distance!r}")
-    far = max(map(abs, (*origin, distance or 0.0, *(box or ()))))
+    far = max(map(abs, (*start, distance or 0.0, *(box or ()))))
     if RANGE.square <= far < np.inf:
         raise SizingError(f"{far:g} is too far away to compute with; scale what is packed")
-    if box is not None:
-        box = tuple(float(x) for x in box)
-        if len(box) != 4 or not np.isfinite(box).all() or box[0] >= box[2] or box[1] >= box[3]:
-            raise SizingError(f"box is (x0, y0, x1, y1) with x0 < x1 and y0 < y1, not {box!r}")
-        if not (box[0] <= origin[0] <= box[2] and box[1] <= origin[1] <= box[3]):
-            raise SizingError(f"the origin {origin} lies outside the box {box}")
-    limit = NO_LIMIT if count is None else int(count)
-    return origin, limit, np.inf if distance is None else float(distance), box
+    return _Limits(
+        (start[0], start[1]),
+        NO_LIMIT if count is None else int(count),
+        np.inf if distance is None else float(distance),
+        None if box is None else _box(box, start),
+    )
 
 
-def _require_possible(
-    drawn: np.ndarray, origin: tuple[float, float], count: int, distance: float, box: Any
-) -> None:
+def _box(box: Sequence[float], origin: Sequence[float]) -> Box:
+    numbers = tuple(float(x) for x in box)
+    ordered = len(numbers) == 4 and numbers[0] < numbers[2] and numbers[1] < numbers[3]
+    if not ordered or not np.isfinite(numbers).all():
+        raise SizingError(f"box is (x0, y0, x1, y1) with x0 < x1 and y0 < y1, not {numbers!r}")
+    x0, y0, x1, y1 = numbers
+    if not (x0 <= origin[0] <= x1 and y0 <= origin[1] <= y1):
+        raise SizingError(f"the origin {origin} lies outside the box {numbers}")
+    return x0, y0, x1, y1
+
+
+def _require_possible(drawn: np.ndarray, limits: _Limits) -> None:
     """Of random radii (n,), the first that are drawn."""
-    area = np.pi * distance**2
-    if box is not None:
-        area = min(area, (box[2] - box[0]) * (box[3] - box[1]))
-    _require_near(origin, float(drawn.mean()))
-    _require_few(min(area / (2.0 * np.sqrt(3.0) * float((drawn**2).mean())), float(count)))
+    area = np.pi * limits.distance**2
+    if limits.box is not None:
+        x0, y0, x1, y1 = limits.box
+        area = min(area, (x1 - x0) * (y1 - y0))
+    _require_near(limits.origin, float(drawn.mean()))
+    mean_square = float((drawn**2).mean())
+    _require_few(min(area / (2.0 * np.sqrt(3.0) * mean_square), float(limits.count)))
 
 
 def _require_near(origin: tuple[float, float], radius: float) -> None:
@@ -207,10 +248,9 @@ def _require_few(number: float) -> None:
         )
 
 
-def _background(
-    radius: Any, origin: tuple[float, float], count: int, distance: float, box: Any
-) -> tuple[Background, np.ndarray, int]:
+def _background(radius: FieldLaw, limits: _Limits) -> tuple[Background, np.ndarray, int]:
     """Size tensors in coordinates from a corner (2,), and about how many circles there will be."""
+    origin, count, distance, box = limits.origin, limits.count, limits.distance, limits.box
     tensors = _tensors(radius)
     here = tensors(np.array([origin]))[0]
     step = float(np.sqrt(here[0] * here[2] - here[1] ** 2))
@@ -239,7 +279,7 @@ def _background(
     return plane_field(plane, tensors, FREE_GROWTH).background, np.array(box[:2]), expected
 
 
-def _tensors(radius: Any) -> Callable[[np.ndarray], np.ndarray]:
+def _tensors(radius: FieldLaw) -> Callable[[np.ndarray], np.ndarray]:
     if isinstance(radius, TensorField):
         return radius
     if not callable(radius):

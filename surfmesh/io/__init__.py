@@ -4,8 +4,8 @@ formats: which module writes and reads which extension, and the verbs ``save`` a
 atomic, leftovers: a file is written in full or not at all, and what is left when that is killed.
 asked_date: the date that files carry when one is asked for.
 stl, obj, off, ply, glb, threemf, vtk_xml, xdmf, msh, inp, bdf, med: one format each, ``write``
-    and ``read``; ply_reading, msh_reading, vtk_xml_reading, lz4_block and xml_writing are parts
-    of them.
+    and ``read``.
+ply_reading, msh_reading, vtk_xml_reading, lz4_block, xml_writing: parts of these.
 to_trimesh, to_meshio: as meshes of other libraries, for what is not written here.
 group_record, colours: what is known of faces, solids and edges, in formats that have no place
     for it, and colours as bytes.

@@ -1,11 +1,13 @@
-"""The stages of meshing one surface, in the order in which they run.
+"""From a surface, a domain or a model and its sizes to triangles.
 
-parametric_mesh     the spine: all stages, and the way round again
-packing             room for the packing kernel
-boundary_loops      sides and loops cut to unit metric length
-boundary_recovery   loops into the packing, the domain cut out
-optimise            the order of the optimiser's steps
-estimation          triangles and memory before anything is packed
-explanation         which rule decides at a point
-gluing              into space, joined sides glued
+parametric_mesh, planar_mesh, model_mesh: the three drivers, which others call.
+boundary: loops in (u, v), cut to metric length, taken apart, inserted.
+patch: one domain and one size field become triangles, once for all; the rounds of refinement.
+edges: edges of a CAD model, each cut once for all its faces.
+faces: one face of a CAD model, and what is done where it is narrow, thin or faulty.
+solids: faces joined, groups, volumes.
+finishing: second order, and short edges collapsed.
+estimate: how many triangles there will be.
+explain: which rule decides the size at a point.
+progress: stages, their seconds, and a caller who may stop the work.
 """

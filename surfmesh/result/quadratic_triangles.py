@@ -31,6 +31,8 @@ def edge_rows(table: Connectivity, pairs: NDArray) -> NDArray[np.int64]:
     width = np.int64(max(int(table.edges.max(initial=0)), int(pairs.max(initial=0))) + 1)
     keys = table.edges.astype(np.int64) @ np.array([width, 1])  # ascending: see connect
     wanted = np.sort(pairs.astype(np.int64), axis=1) @ np.array([width, 1])
+    if not len(keys):
+        return np.full(len(pairs), -1)
     rows = np.minimum(np.searchsorted(keys, wanted), len(keys) - 1)
     return np.where(keys[rows] == wanted, rows, -1)
 

@@ -13,7 +13,7 @@ from surfmesh.result.surface_mesh import SurfaceMesh
 from surfmesh.view.legend import unit_of
 from surfmesh.view.vertex_parameters import vertex_parameters
 
-ROBUST = 0.995  # share of the values within the limits where a few would swallow the scale
+ROBUST = 0.995  # fraction of the values within the limits where a few would swallow the scale
 SIGNED_ROBUST = 0.95  # the same where both signs occur and no logarithm can help
 
 NARROW = 1.2  # ratio of the limits that no scale falls short of

@@ -1,4 +1,4 @@
-"""Every fenced block of code in README.md and docs/ does what it says.
+"""Every fenced block of code in README.md, CONTRIBUTING.md and docs/ does what it says.
 
 The blocks of a page are run in their order: python in one namespace, sh through the command line,
 toml as files of surfaces or of sizes; all in an empty folder with a bracket.step and an
@@ -21,7 +21,9 @@ from surfmesh.cli import main
 from surfmesh.sizing.options.sizes_file import read_sizes
 
 ROOT = Path(__file__).resolve().parents[2]
-PAGES = [ROOT / "README.md", *sorted((ROOT / "docs").glob("*.md"))]
+PAGES = [ROOT / "README.md", ROOT / "CONTRIBUTING.md", *sorted((ROOT / "docs").glob("*.md"))]
+FOLDERS = ("surfmesh", "tests", "benchmarks", "docs", "notebooks", "tools")
+FILES = [str(path.relative_to(ROOT)) for name in FOLDERS for path in (ROOT / name).rglob("*.py")]
 FENCE = re.compile(r"^```([^\n]*)\n(.*?)^```$", re.MULTILINE | re.DOTALL)
 SHOWN_ONLY = {"", "text", "{toctree}", "{eval-rst}"}
 SQUARE = '<svg xmlns="http://www.w3.org/2000/svg"><path d="M0 0 H4 V3 H0 Z"/></svg>'
@@ -75,8 +77,10 @@ def test_what_a_page_points_at_is_there(page):
     for target in re.findall(r"\]\(([^)#\s]+)", text):
         if "://" not in target:
             assert (page.parent / target).exists(), f"{page.name}: {target}"
-    for module in re.findall(r"`((?:surfmesh|docs|benchmarks|notebooks)/[\w./]+\.py)`", text):
-        assert (ROOT / module).is_file(), f"{page.name}: {module}"
+    for module in re.findall(r"`([a-z0-9_./]+\.py)[` ]", text):
+        assert any(f"/{path}".endswith(f"/{module}") for path in FILES), f"{page.name}: {module}"
+    for folder in re.findall(r"`([a-z0-9_./]+)/`", text):
+        assert any((ROOT / top / folder).is_dir() for top in ("", "surfmesh")), folder
 
 
 def test_every_public_name_is_in_the_reference():

@@ -5,6 +5,7 @@ its nodes appear twice in (u, v) under one number; the nodes of a side that is a
 in 3D all have one number.
 """
 
+from collections.abc import Callable
 from dataclasses import dataclass, field
 from functools import partial
 from itertools import pairwise
@@ -170,7 +171,12 @@ def _stops_on_sides(sides: SideTopology, stops: np.ndarray | None) -> list[np.nd
     return found
 
 
-def _through(cut, start: np.ndarray, end: np.ndarray, minimum: int, stops: np.ndarray):
+Cut = Callable[[np.ndarray, np.ndarray, int], tuple[np.ndarray, np.ndarray]]
+
+
+def _through(
+    cut: Cut, start: np.ndarray, end: np.ndarray, minimum: int, stops: np.ndarray
+) -> np.ndarray:
     """What ``cut(start, end, minimum)`` gives for each part of a line between stops, put together.
 
     Returns t (n + 1,) from 0 to 1.

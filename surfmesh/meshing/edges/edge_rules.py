@@ -39,8 +39,8 @@ class Demand(NamedTuple):
     """(n,) at the samples, or (1,) where it is the same at all; not within bounds."""
     face: int | None = None
     """Whose curvature it follows."""
-    curvatures: np.ndarray | None = None
-    """(n, k) those that it follows, 1 / model unit: two of a face, one of the edge itself."""
+    curvatures: tuple[np.ndarray, ...] = ()
+    """(n,) each, those that it follows, 1 / model unit: two of a face, one of the edge itself."""
 
 
 class DemandsOfOne(NamedTuple):
@@ -161,7 +161,7 @@ class EdgeRules:
 
     def _demands_of(self, rules: SizeRules, course: Course, uses: Uses) -> Iterator[Demand]:
         if not course.is_straight:
-            own = course.curve.curvature[:, None]
+            own = (course.curve.curvature,)
             for rule in rules.by_curvature:
                 yield Demand(rule, rule.sizes_on_curve(course.curve), None, own)
         for face, coedge in uses if rules.follows_curvature else ():
@@ -184,7 +184,6 @@ def _by_curvature(
     """What the face's curvature asks for along one of its edges."""
     forms = forms_from_derivatives(*surface.evaluate(uv, 2)[1:])
     k = curvatures(forms)
-    both = np.stack([k.k1, k.k2], axis=1)
     for rule, sizes in rules.at_curvature(k.k1, k.k2):
         unknown = forms.degenerate | ~np.isfinite(sizes)
-        yield Demand(rule, np.where(unknown, np.inf, sizes), face, both)
+        yield Demand(rule, np.where(unknown, np.inf, sizes), face, (k.k1, k.k2))

@@ -145,8 +145,8 @@ class _OnEdge(NamedTuple):
             yield self._of_metric(demand, size, rules, askers)
             return
         said = words(demand.rule)
-        if demand.curvatures is not None:
-            k = demand.curvatures[min(self.place, len(demand.curvatures) - 1)]
+        if demand.curvatures:
+            k = [float(own[min(self.place, len(own) - 1)]) for own in demand.curvatures]
             if len(k) == 2:
                 said += f" at curvatures {k[0]:.4g}, {k[1]:.4g}"
             elif k[0] > 0.0:

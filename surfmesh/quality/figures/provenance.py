@@ -68,8 +68,8 @@ def version_of(package: str) -> str | None:
 
 def mesh_sha256(mesh: SurfaceMesh) -> str:
     """SHA-256 of the points (float64) and triangles (int32), little-endian, one after the other."""
-    digest = hashlib.sha256(np.ascontiguousarray(mesh.points, "<f8"))
-    digest.update(np.ascontiguousarray(mesh.triangles, "<i4"))
+    digest = hashlib.sha256(np.ascontiguousarray(mesh.points, "<f8").data)
+    digest.update(np.ascontiguousarray(mesh.triangles, "<i4").data)
     return digest.hexdigest()
 
 

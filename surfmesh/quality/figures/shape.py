@@ -38,7 +38,7 @@ class ShapeFigures(Part):
             alpha_mean=over(np.mean, shape.alpha),
             alpha_p01=over(lambda alpha: np.quantile(alpha, 0.01), shape.alpha),
             alpha_min=over(np.min, shape.alpha),
-            narrow_triangles=narrow.count,
+            narrow_triangles=narrow.number,
             alpha_mean_elsewhere=narrow.alpha_mean_elsewhere,
             alpha_min_elsewhere=narrow.alpha_min_elsewhere,
             alpha_metric_mean=None if metric is None else over(np.mean, metric),
@@ -68,8 +68,8 @@ class FoldFigures(Part):
         if folds is None:
             return cls(folded=None, inverted=None, folded_by_surface=None, folded_at=())
         return cls(
-            folded=int(np.count_nonzero(folds.ours)),
+            folded=int(np.count_nonzero(folds.by_mesh)),
             inverted=int(np.count_nonzero(folds.inverted)),
-            folded_by_surface=int(np.count_nonzero(folds.own)),
+            folded_by_surface=int(np.count_nonzero(folds.by_surface)),
             folded_at=most_folded(measured.mesh, folds, LISTED),
         )

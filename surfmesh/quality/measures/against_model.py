@@ -4,12 +4,15 @@ A surface has one or two triangles along each edge and one fan of them at each v
 its model says otherwise: sheets that meet in a T, boxes that share an edge or a corner.
 """
 
-from typing import NamedTuple
+from typing import NamedTuple, Self
 
 import numpy as np
 from numpy.typing import NDArray
 
 from surfmesh.quality.measures.topology import Topology
+from surfmesh.result.mesh_parts import EdgeLinks
+from surfmesh.result.model_facts import ModelFacts
+from surfmesh.result.quadratic_triangles import edge_rows
 from surfmesh.result.surface_mesh import SurfaceMesh
 
 
@@ -30,13 +33,14 @@ def unexpected(mesh: SurfaceMesh, topo: Topology) -> Unexpected:
     crowded = topo.crowded_edges.astype(np.intp)
     pinched, clashing = topo.pinched_vertices.astype(np.intp), topo.clashing_edges.astype(np.intp)
     none = np.empty(0, np.intp)
-    if not _knows_model(mesh):
+    model = _Model.of(mesh)
+    if model is None:
         return Unexpected(crowded, none, pinched, none, clashing, none, False)
-    uses, models = _model_uses(mesh)
+    uses, models = model.uses(mesh)
     table = mesh.connectivity
     crowded = np.flatnonzero(table.uses > np.where(models > 0, np.maximum(uses, 2), 2))
     bare = np.flatnonzero((models == 1) & (table.uses < uses))
-    fans, vertices = _model_fans(mesh)
+    fans, vertices = model.fans(len(mesh.points))
     pinched = np.flatnonzero(topo.fans > np.maximum(fans, 1))
     joined = np.flatnonzero((vertices == 1) & (topo.fans < fans))
     sheets = np.zeros(len(clashing), bool)
@@ -46,35 +50,39 @@ def unexpected(mesh: SurfaceMesh, topo: Topology) -> Unexpected:
     return Unexpected(crowded, bare, pinched, joined, clashing[~sheets], clashing[sheets], True)
 
 
-def _knows_model(mesh: SurfaceMesh) -> bool:
-    facts = mesh.facts
-    if facts is None or mesh.edge_segments is None or mesh.edge_ids is None:
-        return False
-    if mesh.vertex_ids is None or len(mesh.vertex_ids) > len(facts.vertex_fans):
-        return False
-    return not len(mesh.edge_ids) or int(mesh.edge_ids.max()) < len(facts.edge_uses)
+class _Model(NamedTuple):
+    """Where edges and vertices of the model lie in the mesh, and what they are like."""
 
+    links: EdgeLinks
+    facts: ModelFacts
+    vertices: NDArray[np.int32]  # (c,) vertex of the mesh at each; -1: none
 
-def _model_uses(mesh: SurfaceMesh) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
-    """How often faces of the model use each edge of the mesh (ne,), and how many edges of the
-    model lie there (ne,): 0 within a face, two where a face between them has vanished."""
-    edges = mesh.connectivity.edges
-    width = np.array([len(mesh.points), 1], np.int64)
-    keys, wanted = edges @ width, np.sort(mesh.edge_segments, axis=1) @ width
-    row = np.minimum(np.searchsorted(keys, wanted), max(len(keys) - 1, 0))
-    there = keys[row] == wanted if len(keys) else np.zeros(len(wanted), bool)
-    uses = np.array(mesh.facts.edge_uses, np.int64)[mesh.edge_ids[there]]
-    total = np.bincount(row[there], uses, len(edges)).astype(np.int64)
-    return total, np.bincount(row[there], minlength=len(edges))
+    @classmethod
+    def of(cls, mesh: SurfaceMesh) -> Self | None:
+        """None where it is not known."""
+        facts, links, vertices = mesh.facts, mesh.edge_links, mesh.vertex_ids
+        if facts is None or links is None or vertices is None:
+            return None
+        if len(vertices) > len(facts.vertex_fans):
+            return None
+        if int(links.edge_ids.max(initial=-1)) >= len(facts.edge_uses):
+            return None
+        return cls(links, facts, vertices)
 
+    def uses(self, mesh: SurfaceMesh) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
+        """How often faces use each edge of the mesh (ne,), and how many edges of the model lie
+        there (ne,): 0 within a face, two where a face between them has vanished."""
+        row = edge_rows(mesh.connectivity, self.links.edge_segments)
+        there, count = row >= 0, len(mesh.edges)
+        uses = np.array(self.facts.edge_uses, np.int64)[self.links.edge_ids[there]]
+        total = np.bincount(row[there], uses, count).astype(np.int64)
+        return total, np.bincount(row[there], minlength=count)
 
-def _model_fans(mesh: SurfaceMesh) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
-    """Fans of the model at each vertex of the mesh (n,), and how many of its vertices stand
-    there (n,): where tiny edges have joined some, one stands for all."""
-    fans = np.array(mesh.facts.vertex_fans, np.int64)[: len(mesh.vertex_ids)]
-    kept = (mesh.vertex_ids >= 0) & (fans > 0)
-    at, count = mesh.vertex_ids[kept], len(mesh.points)
-    return (
-        np.bincount(at, fans[kept], count).astype(np.int64),
-        np.bincount(at, minlength=count),
-    )
+    def fans(self, count: int) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
+        """Fans at each of ``count`` vertices of the mesh, and how many vertices of the model stand
+        there: where tiny edges have joined some, one stands for all."""
+        fans = np.array(self.facts.vertex_fans, np.int64)[: len(self.vertices)]
+        kept = (self.vertices >= 0) & (fans > 0)
+        at = self.vertices[kept]
+        total = np.bincount(at, fans[kept], count).astype(np.int64)
+        return total, np.bincount(at, minlength=count)

@@ -14,11 +14,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from surfmesh.quality.measures.penetration import edge_sagittas
+from surfmesh.quality.measures.topology import half_edges_along
+from surfmesh.result.quadratic_triangles import edge_rows
 from surfmesh.result.surface_mesh import SurfaceMesh
 
 SLANT = 16.0  # of (d / h)^2: what a triangle's area may differ by, of its own
 SHARPEST = 0.1  # sine of the least angle between faces that tells where their edge is
-CORNER = np.radians(60.0)  # a rim that turns by more has a corner there
+CORNER = np.radians(60.0)  # a rim with a larger angle has a corner there
 
 
 class Explained(NamedTuple):
@@ -52,14 +54,13 @@ def _along_rims(mesh: SurfaceMesh, by_triangle: NDArray[np.float64]) -> NDArray[
     table = mesh.connectivity
     sagitta = np.zeros(len(table.edges))
     rim = table.uses == 1
-    if mesh.edge_segments is None or not len(mesh.edge_segments):
-        sagitta[rim] = _turns_of_rims(mesh, rim)
+    links = mesh.edge_links
+    if links is None or not len(links.edge_segments):
+        sagitta[rim] = _rim_sagittas(mesh, rim)
     else:
-        width = np.array([len(mesh.points), 1], np.int64)
-        keys, wanted = mesh.edges @ width, np.sort(mesh.edge_segments, axis=1) @ width
-        row = np.minimum(np.searchsorted(keys, wanted), len(keys) - 1)
-        on = keys[row] == wanted
-        np.maximum.at(sagitta, row[on], edge_sagittas(mesh)[on])
+        row = edge_rows(table, links.edge_segments)
+        on = row >= 0
+        np.maximum.at(sagitta, row[on], edge_sagittas(mesh, links)[on])
         rim[row[on]] = True
     half_edges = table.half_edges[rim]
     triangles, two = half_edges // 3, half_edges[:, 1] >= 0
@@ -68,10 +69,9 @@ def _along_rims(mesh: SurfaceMesh, by_triangle: NDArray[np.float64]) -> NDArray[
     beside[:, 1] = np.where(two, beside[:, 1], 0.0)
     slanted = beside.max(axis=1) / np.where(two, _sines(mesh, triangles), 1.0)
     lost = length * np.minimum(np.maximum(sagitta[rim], slanted), length)
-    half_edge, row = _half_edges_along(mesh, mesh.edges[rim])
-    return np.bincount(
-        mesh.face_ids[half_edge // 3], lost[row], int(mesh.face_ids.max(initial=0)) + 1
-    )
+    half_edge, row = half_edges_along(mesh, mesh.edges[rim])
+    faces = mesh.face_ids[half_edge // 3]
+    return np.bincount(faces, lost[row], int(mesh.face_ids.max(initial=0)) + 1).astype(float)
 
 
 def _sines(mesh: SurfaceMesh, pairs: NDArray[np.int32]) -> NDArray[np.float64]:
@@ -89,27 +89,8 @@ def _sines(mesh: SurfaceMesh, pairs: NDArray[np.int32]) -> NDArray[np.float64]:
     return np.maximum(np.linalg.norm(np.cross(normal[:, 0], normal[:, 1]), axis=1) / size, SHARPEST)
 
 
-def _half_edges_along(
-    mesh: SurfaceMesh, edges: NDArray[np.int32]
-) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
-    """All half-edges that run along some edges (k, 2) of the mesh, in its order, and which."""
-    corners = mesh.triangles.reshape(-1).astype(np.int64)
-    following = mesh.triangles[:, (1, 2, 0)].reshape(-1).astype(np.int64)
-    near = np.zeros(len(mesh.points), bool)
-    near[edges] = True
-    half_edges = np.flatnonzero(near[corners] & near[following])
-    if not len(edges):
-        return half_edges[:0], half_edges[:0]
-    width = np.array([len(mesh.points), 1], np.int64)
-    ends = np.stack([corners[half_edges], following[half_edges]], axis=1)
-    keys, wanted = np.sort(ends, axis=1) @ width, edges @ width
-    row = np.minimum(np.searchsorted(wanted, keys), len(wanted) - 1)
-    here = wanted[row] == keys
-    return half_edges[here], row[here]
-
-
-def _turns_of_rims(mesh: SurfaceMesh, rim: NDArray[np.bool_]) -> NDArray[np.float64]:
-    """(k,) about twice the sagittas of rims, by how much they turn at their ends."""
+def _rim_sagittas(mesh: SurfaceMesh, rim: NDArray[np.bool_]) -> NDArray[np.float64]:
+    """(k,) about twice the sagittas of rims, by the angles at their ends."""
     ends = mesh.edges[rim]
     way = mesh.points[ends[:, 1]] - mesh.points[ends[:, 0]]
     length = np.linalg.norm(way, axis=1)
@@ -117,7 +98,7 @@ def _turns_of_rims(mesh: SurfaceMesh, rim: NDArray[np.bool_]) -> NDArray[np.floa
     count = np.bincount(ends.ravel(), minlength=len(mesh.points))
     total = np.zeros((len(mesh.points), 3))
     np.add.at(total, ends[:, 0], way)
-    np.add.at(total, ends[:, 1], -way)  # of both edges away from the vertex: 2 sin(turn / 2)
-    turn = 2.0 * np.arcsin(np.clip(np.linalg.norm(total, axis=1) / 2.0, 0.0, 1.0))
-    turn = np.where((count == 2) & (turn < CORNER), turn, 0.0)
-    return length * turn[ends].max(axis=1) / 4.0
+    np.add.at(total, ends[:, 1], -way)  # of both edges away from the vertex: 2 sin(angle / 2)
+    angle = 2.0 * np.arcsin(np.clip(np.linalg.norm(total, axis=1) / 2.0, 0.0, 1.0))
+    angle = np.where((count == 2) & (angle < CORNER), angle, 0.0)
+    return length * angle[ends].max(axis=1) / 4.0

@@ -14,17 +14,21 @@ can cross, not overlap.
 
 from collections.abc import Set
 from dataclasses import dataclass
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from surfmesh.geometry.boxes import diagonal
 from surfmesh.quality.measures.by_solid import SolidRow
-from surfmesh.quality.measures.inside import distance_to_triangles, inside
+from surfmesh.quality.measures.inside import inside
+from surfmesh.quality.measures.known_surfaces import KnownSurfaces
 from surfmesh.quality.measures.penetration import depths, distances_allowed
+from surfmesh.quality.measures.places import Point, as_point
+from surfmesh.quality.measures.solids import solids_beside
 from surfmesh.quality.measures.topology import vertex_components
-from surfmesh.quality.measures.true_depth import can_be_seen, true_depth, true_depth_of_faces
+from surfmesh.quality.measures.triangle_distances import triangle_distances
+from surfmesh.quality.measures.true_depth import true_depth, true_depth_of_faces
 from surfmesh.result.surface_mesh import SurfaceMesh
 
 SAME = 1e-6  # of the diagonal: what lies nearer together is in one place
@@ -45,7 +49,7 @@ class BodyPair:
     triangles: int  # pairs of them that meet
     depth: float | None  # by which they overlap, or their facets do; None: one lies within
     gap: float | None  # between faces that are near
-    point: tuple[float, float, float]
+    point: Point
 
 
 class Bodies(NamedTuple):
@@ -108,7 +112,7 @@ def bodies(
     return Bodies(own, int((~deep).sum()), over, *kinds[1:])
 
 
-def _grouped(group: NDArray[np.intp], count: int) -> list[NDArray[np.intp]]:
+def _grouped(group: NDArray[np.integer[Any]], count: int) -> list[NDArray[np.intp]]:
     """The rows of each of ``count`` groups."""
     order = np.argsort(group, kind="stable")
     return np.split(order, np.searchsorted(group[order], np.arange(1, count)))
@@ -130,15 +134,16 @@ def _judged(
     worst = int(np.argmax(met.depth / met.limit))
     depth, place = float(met.depth[worst]), _meeting_point(mesh, met.pairs[worst])
     kind, gap = OVERLAP if depth > met.limit[worst] else TOUCH, None
-    if kind == TOUCH and (key < count).all() and can_be_seen(mesh):
-        true = true_depth(mesh, met.pairs, met.bodies, met.limit)
+    known = KnownSurfaces.of(mesh)
+    if kind == TOUCH and (key < count).all() and known is not None:
+        true = true_depth(known, met.pairs, met.bodies, met.limit)
         if not true.depth > least:  # corners of the triangles that meet do not tell
             solids = (int(key[0]), int(key[1]))
-            seen = true_depth_of_faces(mesh, solids, allowed, least)
+            seen = true_depth_of_faces(known, solids, allowed, least)
             true = max(true, seen, key=lambda one: one.depth)
-        if true.depth > least + 2.0 * true.off:
+        if true.depth > least + 2.0 * true.deviation:
             kind, depth, place = OVERLAP, true.depth, true.point
-        elif np.isfinite(true.depth) and -true.depth > least + 2.0 * true.off:
+        elif np.isfinite(true.depth) and -true.depth > least + 2.0 * true.deviation:
             kind, gap, place = NEAR, -true.depth, true.point
     return _pair(mesh, key, count, kind, len(met.pairs), depth, gap, place)
 
@@ -150,7 +155,7 @@ def _apart(mesh: SurfaceMesh, pairs: NDArray[np.int32]) -> NDArray[np.bool_]:
     """
     if not len(pairs):
         return np.zeros(0, bool)
-    first, second = mesh.solid_ids[pairs[:, 0]], mesh.solid_ids[pairs[:, 1]]
+    first, second = solids_beside(mesh)[pairs[:, 0]], solids_beside(mesh)[pairs[:, 1]]
     common = (first[:, :, None] == second[:, None, :]) & (first[:, :, None] >= 0)
     each = (first >= 0).any(axis=1) & (second >= 0).any(axis=1)
     pieces = vertex_components(mesh)[mesh.triangles[pairs][:, :, 0]]
@@ -159,7 +164,7 @@ def _apart(mesh: SurfaceMesh, pairs: NDArray[np.int32]) -> NDArray[np.bool_]:
 
 def _body_numbers(mesh: SurfaceMesh, count: int) -> NDArray[np.int64]:
     """(m,) the first solid of each triangle, or ``count`` and the number of its piece."""
-    behind, before = mesh.solid_ids.astype(np.int64).T
+    behind, before = solids_beside(mesh).astype(np.int64).T
     piece = count + vertex_components(mesh)[mesh.triangles[:, 0]].astype(np.int64)
     return np.where(behind >= 0, behind, np.where(before >= 0, before, piece))
 
@@ -188,7 +193,7 @@ def _pair(
     ]
     return BodyPair(
         (names[0], names[1]), (numbers[0], numbers[1]), kind, triangles, depth, gap,
-        tuple(place.tolist()),
+        as_point(place),
     )  # fmt: skip
 
 
@@ -216,12 +221,12 @@ def _solid(
     """rows: its triangles."""
     corners = mesh.points[mesh.triangles[rows]]
     normal = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
-    normal[mesh.solid_ids[rows, 0] != number] *= -1.0
+    normal[solids_beside(mesh)[rows, 0] != number] *= -1.0
     size = np.linalg.norm(normal, axis=1)
     order = np.lexsort((-size, mesh.face_ids[rows]))
     faces = mesh.face_ids[rows][order]
     rank = np.arange(len(rows)) - np.searchsorted(faces, faces)
-    alone = (mesh.solid_ids[rows[order]] >= 0).sum(axis=1) == 1
+    alone = (solids_beside(mesh)[rows[order]] >= 0).sum(axis=1) == 1
     chosen = order[(rank < PROBES) & (size[order] > 0.0) & alone]
     return _Solid(
         corners, corners.min(axis=(0, 1)), corners.max(axis=(0, 1)),
@@ -239,7 +244,7 @@ def _without_crossing(
     closed = [row.solid for row in solids if row.closed]
     if len(closed) < 2:
         return {}
-    of, rows = mesh.solid_ids.ravel(), np.repeat(np.arange(len(mesh.solid_ids)), 2)
+    of, rows = solids_beside(mesh).ravel(), np.repeat(np.arange(len(mesh.triangles)), 2)
     members = _grouped(of[of >= 0], int(of.max()) + 1)
     rows = rows[of >= 0]
     parts = {number: _solid(mesh, number, rows[members[number]], allowed) for number in closed}
@@ -271,7 +276,7 @@ def _probed(one: _Solid, other: _Solid, least: float) -> tuple[NDArray | None, N
     deep = None
     for k in _within(points, other):
         if inside(points[k : k + 1], one.corners)[0] and all(
-            distance_to_triangles(points[k], part.corners).min() > CLEAR * depth[k]
+            triangle_distances(points[k][None], part.corners).min() > CLEAR * depth[k]
             for part in (one, other)
         ):
             deep = points[k]

@@ -1,6 +1,7 @@
 """The figures of each face: one row a face, in the order of the faces."""
 
 from dataclasses import dataclass
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -8,6 +9,7 @@ from numpy.typing import NDArray
 from surfmesh.geometry.surface import surface_kind
 from surfmesh.quality.measures.by_solid import relative_error
 from surfmesh.quality.measures.measurements import Measurements
+from surfmesh.quality.measures.places import Point, as_point
 from surfmesh.quality.measures.tolerances import (
     exceeds_angle,
     exceeds_chord,
@@ -26,13 +28,13 @@ class FaceRow:
     area: float
     area_exact: float | None
     area_error: float | None  # area / area_exact - 1
-    chord: float | None  # promised of it: the largest distance from the surface
+    chord: float | None  # asked for: the largest distance from the surface
     angle: float | None  # likewise the largest between its triangles, degrees
     limit: str  # a min_size of the user's that forbids one of them, in words; else empty
     deviation_max: float | None
     deviation_rms: float | None
     deviation_triangle: int | None  # where deviation_max is
-    deviation_point: tuple[float, float, float] | None  # its centroid
+    deviation_point: Point | None  # its centroid
     above_chord_share: float | None  # of its triangles that are farther away than its chord
     angle_max: float | None  # largest between its triangles that share an edge, degrees
     above_angle_share: float | None  # of the edges within it, above its angle
@@ -40,7 +42,25 @@ class FaceRow:
     alpha_mean: float | None  # None where the face has no triangle
     alpha_min: float | None
     size_mean: float | None  # mean edge length that was reached
-    size_wanted: float | None  # mean of what was wanted of the same edges
+    size_wanted: float | None  # mean target size of the same edges
+
+
+class _Deviations(NamedTuple):
+    """By face (f,)."""
+
+    largest: NDArray[np.float64]
+    worst: NDArray[np.intp]  # the triangle where that is
+    square: NDArray[np.float64]  # mean square times area
+    above: NDArray[np.float64]  # triangles farther away than the chord
+    folded: NDArray[np.float64]  # triangles
+
+
+class _Dihedrals(NamedTuple):
+    """By face (f,)."""
+
+    largest: NDArray[np.float64]
+    above: NDArray[np.float64]  # edges
+    edges: NDArray[np.intp]  # within the face
 
 
 def by_face(measured: Measurements) -> tuple[FaceRow, ...]:
@@ -49,55 +69,38 @@ def by_face(measured: Measurements) -> tuple[FaceRow, ...]:
     An edge between two faces counts for both, the row's sizes are means over edges. No row of a
     mesh whose ``face_ids`` are out of range.
     """
-    mesh, shape, fit, lengths = (
-        measured.mesh, measured.shapes, measured.deviation, measured.lengths,
-    )  # fmt: skip
-    tolerances, dihedrals, folded = (
-        measured.tolerances, measured.dihedral_angles, measured.folds,
-    )  # fmt: skip
-    if mesh.surfaces:
-        numbers, faces = np.arange(len(mesh.surfaces)), mesh.face_ids
-        if len(faces) and not 0 <= faces.min() <= faces.max() < len(numbers):
-            return ()
-    else:
-        numbers, faces = np.unique(mesh.face_ids, return_inverse=True)
+    mesh, shape, tolerances = measured.mesh, measured.shapes, measured.tolerances
+    faces: NDArray[np.integer[Any]] = mesh.face_ids
+    numbers = np.arange(len(mesh.surfaces))
+    if not mesh.surfaces:
+        numbers, faces = np.unique(faces, return_inverse=True)
+    elif len(faces) and not 0 <= faces.min() <= faces.max() < len(numbers):
+        return ()
     count = len(numbers)
-    triangles = np.bincount(faces, minlength=count)
-    area = np.bincount(faces, shape.area, count)
+    triangles, area = np.bincount(faces, minlength=count), np.bincount(faces, shape.area, count)
     alpha_sum, alpha_min = np.bincount(faces, shape.alpha, count), np.full(count, np.inf)
     np.fmin.at(alpha_min, faces, shape.alpha)
-    size, wanted = _sizes(mesh, faces, count, lengths)
-    largest = np.zeros(count)
-    square, above, turned = np.zeros(count), np.zeros(count), np.zeros(count)
-    worst = np.zeros(count, np.int64)
-    if fit is not None:
-        np.maximum.at(largest, faces, fit.by_triangle)
-        at = np.flatnonzero(fit.by_triangle == largest[faces])[::-1]
-        worst[faces[at]] = at  # the first of equals
-        square = np.bincount(faces, shape.area * fit.mean_square, count)
-        turned = np.bincount(faces, folded.ours, count)
-        above = np.bincount(faces, exceeds_chord(tolerances, mesh, fit), count)
-    turn, bent, inner = np.zeros(count), np.zeros(count), np.zeros(count, np.int64)
-    if dihedrals is not None:
-        np.maximum.at(turn, dihedrals.faces, dihedrals.angles)
-        inner = np.bincount(dihedrals.faces, minlength=count)
-        bent = np.bincount(dihedrals.faces, exceeds_angle(tolerances, dihedrals), count)
-    exact = mesh.facts.faces if mesh.facts is not None else ()
+    size, target = _sizes(mesh, faces, count, measured.lengths)
+    fits, dihedrals = _deviations(measured, faces, count), _dihedrals(measured, count)
+    exact = measured.facts.faces
     rows = []
     for k, face in enumerate(numbers.tolist()):
-        here = int(triangles[k])
-        known = fit is not None and here > 0
-        surface = mesh.surfaces[face] if mesh.surfaces else None
-        place = mesh.points[mesh.triangles[worst[k]]].mean(axis=0) if known else ()
+        here, known = int(triangles[k]), exact[face] if 0 <= face < len(exact) else None
+        kind = surface_kind(mesh.surfaces[face]) if mesh.surfaces else ""
+        exact_area = None if known is None else known.area
         chord = tolerances.one(tolerances.chord, face)
         angle = tolerances.one(tolerances.angle, face)
-        exact_area = exact[face].area if 0 <= face < len(exact) else None
-        rms = float(square[k] / area[k]) ** 0.5 if known and area[k] > 0 else None
+        fit = fits if here else None
+        rms = float(fit.square[k] / area[k]) ** 0.5 if fit is not None and area[k] > 0 else None
+        dihedral = dihedrals if dihedrals is not None and dihedrals.edges[k] else None
+        above_angle = (
+            float(dihedral.above[k] / dihedral.edges[k]) if dihedral is not None and angle else None
+        )
         rows.append(
             FaceRow(
                 face=face,
                 name=mesh.face_name(face),
-                kind=exact[face].kind if 0 <= face < len(exact) else surface_kind(surface),
+                kind=kind if known is None else known.kind,
                 triangles=here,
                 area=float(area[k]),
                 area_exact=exact_area,
@@ -105,27 +108,65 @@ def by_face(measured: Measurements) -> tuple[FaceRow, ...]:
                 chord=chord,
                 angle=angle,
                 limit="; ".join(str(limit) for limit in measured.limits if limit.face == face),
-                deviation_max=float(largest[k]) if known else None,
+                deviation_max=None if fit is None else float(fit.largest[k]),
                 deviation_rms=rms,
-                deviation_triangle=int(worst[k]) if known else None,
-                deviation_point=tuple(map(float, place)) if known else None,
-                above_chord_share=float(above[k] / here) if known and chord else None,
-                angle_max=float(turn[k]) if inner[k] else None,
-                above_angle_share=float(bent[k] / inner[k]) if inner[k] and angle else None,
-                folded=int(turned[k]) if known else None,
+                deviation_triangle=None if fit is None else int(fit.worst[k]),
+                deviation_point=None if fit is None else _middle(mesh, fit.worst[k]),
+                above_chord_share=float(fit.above[k] / here) if fit is not None and chord else None,
+                angle_max=float(dihedral.largest[k]) if dihedral is not None else None,
+                above_angle_share=above_angle,
+                folded=None if fit is None else int(fit.folded[k]),
                 alpha_mean=float(alpha_sum[k] / here) if here else None,
                 alpha_min=float(alpha_min[k]) if here else None,
                 size_mean=float(size[k]) if here else None,
-                size_wanted=float(wanted[k]) if here and mesh.sizes is not None else None,
+                size_wanted=float(target[k]) if here and mesh.sizes is not None else None,
             )
         )
     return tuple(rows)
 
 
+def _deviations(
+    measured: Measurements, faces: NDArray[np.integer[Any]], count: int
+) -> _Deviations | None:
+    fit, folds = measured.deviation, measured.folds
+    if fit is None or folds is None:
+        return None
+    largest, worst = np.zeros(count), np.zeros(count, np.intp)
+    np.maximum.at(largest, faces, fit.by_triangle)
+    at = np.flatnonzero(fit.by_triangle == largest[faces])[::-1]
+    worst[faces[at]] = at  # the first of equals
+    return _Deviations(
+        largest,
+        worst,
+        square=_sums(faces, measured.shapes.area * fit.mean_square, count),
+        above=_sums(faces, exceeds_chord(measured.tolerances, measured.mesh, fit), count),
+        folded=_sums(faces, folds.by_mesh, count),
+    )
+
+
+def _dihedrals(measured: Measurements, count: int) -> _Dihedrals | None:
+    found = measured.dihedral_angles
+    if found is None:
+        return None
+    largest = np.zeros(count)
+    np.maximum.at(largest, found.faces, found.angles)
+    above = _sums(found.faces, exceeds_angle(measured.tolerances, found), count)
+    return _Dihedrals(largest, above, np.bincount(found.faces, minlength=count))
+
+
+def _sums(faces: NDArray[np.integer[Any]], values: NDArray[Any], count: int) -> NDArray[np.float64]:
+    """(f,) of values (k,) on each face."""
+    return np.bincount(faces, values, count).astype(np.float64, copy=False)
+
+
+def _middle(mesh: SurfaceMesh, triangle: np.intp) -> Point:
+    return as_point(mesh.points[mesh.triangles[triangle]].mean(axis=0))
+
+
 def _sizes(
-    mesh: SurfaceMesh, faces: NDArray, count: int, lengths: NDArray[np.float64]
+    mesh: SurfaceMesh, faces: NDArray[np.integer[Any]], count: int, lengths: NDArray[np.float64]
 ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Mean length of the edges of each face, and mean of what was wanted of them."""
+    """Mean length of the edges of each face, and mean target size of them."""
     table = mesh.connectivity
     first = faces[table.half_edges[:, 0] // 3]
     second = faces[np.maximum(table.half_edges[:, 1], 0) // 3]

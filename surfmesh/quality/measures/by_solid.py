@@ -94,5 +94,5 @@ def relative_error(found: float | None, exact: float | None) -> float | None:
 
 def volume_of_all(rows: tuple[SolidRow, ...]) -> float | None:
     """Sum over the solids, or None when one of them is open."""
-    volumes = [row.volume for row in rows]
-    return None if not rows or None in volumes else sum(volumes)
+    volumes = [row.volume for row in rows if row.volume is not None]
+    return sum(volumes) if rows and len(volumes) == len(rows) else None

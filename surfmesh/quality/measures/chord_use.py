@@ -7,6 +7,7 @@ from numpy.typing import NDArray
 
 from surfmesh.geometry.differential.fundamental_forms import curvatures, forms_from_derivatives
 from surfmesh.quality.measures.deviation import Deviation
+from surfmesh.quality.measures.known_surfaces import KnownSurfaces
 from surfmesh.quality.measures.tolerances import Tolerances
 from surfmesh.result.surface_mesh import SurfaceMesh
 from surfmesh.sizing.rules.curvature_size import chord_size, principal_chord_sizes
@@ -22,26 +23,27 @@ class ChordUse(NamedTuple):
     used: float | None  # median of deviation / chord; None when there are no such triangles
 
 
-def chord_use(mesh: SurfaceMesh, fit: Deviation | None, tolerances: Tolerances) -> ChordUse | None:
-    """None where no chord was asked for, or sizes, surfaces or distances are not known.
+def chord_use(known: KnownSurfaces, fit: Deviation, tolerances: Tolerances) -> ChordUse | None:
+    """None where no chord was asked for, or sizes are not known.
 
-    ``chord`` decides where the size wanted at a triangle is at least 0.8 of what the curvature
+    ``chord`` decides where the target size at a triangle is at least 0.8 of what the curvature
     at its centroid allows: not where growth, ``max_size``, ``angle`` or a source ask for less,
     nor where an earlier round has lowered the sizes by more than that.
     """
-    if fit is None or mesh.sizes is None or not np.isfinite(tolerances.chord).any():
+    mesh = known.mesh
+    if mesh.sizes is None or not np.isfinite(tolerances.chord).any():
         return None
     step = -(-len(mesh.triangles) // SAMPLES)
     chosen = np.arange(0, len(mesh.triangles), step)
-    wanted = mesh.sizes[mesh.triangles[chosen]].mean(axis=1)
+    target = mesh.sizes[mesh.triangles[chosen]].mean(axis=1)
     decided = np.zeros(len(chosen), bool)
     faces = mesh.face_ids[chosen]
     for face in np.unique(faces):
         here = np.flatnonzero(faces == face)
-        uv = mesh.uv_points[mesh.uv_triangles[chosen[here]]].mean(axis=1)
+        uv = known.uv(chosen[here]).mean(axis=1)
         chord = tolerances.one(tolerances.chord, int(face))
         if chord is not None:
-            decided[here] = wanted[here] >= DECIDED * _allowed(mesh, int(face), uv, chord)
+            decided[here] = target[here] >= DECIDED * _allowed(mesh, int(face), uv, chord)
     used = fit.by_triangle[chosen[decided]] / tolerances.at(tolerances.chord, faces[decided])
     return ChordUse(float(decided.mean()), float(np.median(used)) if len(used) else None)
 

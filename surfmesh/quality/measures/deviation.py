@@ -21,7 +21,8 @@ from surfmesh.accuracy.deviation import (
 )
 from surfmesh.accuracy.folds import cosines, triangle_normals
 from surfmesh.accuracy.samples import CENTROID, DENSE, MIDDLES
-from surfmesh.kernels.space.measure import interpolate
+from surfmesh.quality.measures.known_surfaces import KnownSurfaces
+from surfmesh.quality.measures.places import Point, as_point, as_uv
 from surfmesh.result.surface_mesh import SurfaceMesh
 
 BLOCK = 1 << 15  # samples looked at together: the temporaries stay within the cache
@@ -39,7 +40,7 @@ class Deviation(NamedTuple):
     largest: float
     rms: float  # root of the mean square over the mesh's area
     triangle: int  # where the largest is
-    point: tuple[float, float, float]  # on the mesh
+    point: Point  # on the mesh
     uv: tuple[float, float]  # parameters of the nearest surface point
 
 
@@ -49,14 +50,13 @@ def deviation(mesh: SurfaceMesh, area: NDArray[np.float64]) -> Deviation | None:
     ``area``: (m,) areas of the triangles, the weights of the mean square. Between samples
     the distance is not bounded: it is smooth, and the densest look is where it is largest.
     """
-    if not mesh.surfaces or mesh.uv_points is None or not len(mesh.triangles):
-        return None
-    if not 0 <= mesh.face_ids.min() <= mesh.face_ids.max() < len(mesh.surfaces):
+    known = KnownSurfaces.of(mesh)
+    if known is None:
         return None
     count = len(mesh.triangles)
     by_triangle, mean_square = np.zeros(count), np.zeros(count)
     cosine = np.ones(count, np.float32)
-    corners, uv_corners = mesh.triangles.reshape(-1), mesh.uv_triangles.reshape(-1)
+    corners, uv_corners = mesh.triangles.reshape(-1), known.corners.uv_triangles.reshape(-1)
     corner_of = np.full(len(mesh.points), -1, np.int32)
     corner_of[corners] = np.arange(len(corners), dtype=np.int32)
     at_vertex = np.zeros(len(mesh.points))
@@ -65,11 +65,11 @@ def deviation(mesh: SurfaceMesh, area: NDArray[np.float64]) -> Deviation | None:
     for surface, triangles, middles, vertices in _by_face(mesh, half_edges, corner_of):
         for block in _blocks(vertices):
             corner = corner_of[block]
-            points, uv = mesh.points[block], mesh.uv_points[uv_corners[corner]]
+            points, uv = mesh.points[block], known.corners.uv_points[uv_corners[corner]]
             at_vertex[block] = vertex_deviations(surface, points, uv, np.sqrt(area[corner // 3]))
         for block in _blocks(middles):
             triangle, side = np.divmod(half_edges[block], np.int32(3))
-            points, uv = _samples(mesh, triangle, side, MIDDLES)
+            points, uv = known.samples(triangle, side, MIDDLES)
             distance, _ = point_deviations(surface, points, uv, np.sqrt(area[triangle]))
             shared = twins[block] >= 0
             for beside, found in (
@@ -79,7 +79,7 @@ def deviation(mesh: SurfaceMesh, area: NDArray[np.float64]) -> Deviation | None:
                 np.add.at(mean_square, beside, MIDDLE_WEIGHT * found**2)
                 np.maximum.at(by_triangle, beside, found)
         for block in _blocks(triangles):
-            points, uv = _samples(mesh, block, np.zeros_like(block), CENTROID)
+            points, uv = known.samples(block, np.zeros_like(block), CENTROID)
             found, normals = point_deviations(surface, points, uv, np.sqrt(area[block]))
             mean_square[block] += CENTROID_WEIGHT * found**2
             by_triangle[block] = np.maximum(by_triangle[block], found)
@@ -93,7 +93,7 @@ def deviation(mesh: SurfaceMesh, area: NDArray[np.float64]) -> Deviation | None:
     total = float(area.sum())
     rms = (_dot(area, mean_square) / total) ** 0.5 if total > 0 else float("nan")
 
-    triangle, point, uv = _second_look(mesh, by_triangle)
+    triangle, point, uv = _second_look(known, by_triangle)
     largest = float(by_triangle[triangle])
     return Deviation(by_triangle, mean_square, cosine, largest, rms, triangle, point, uv)
 
@@ -141,16 +141,6 @@ def _blocks(members: NDArray, length: int = BLOCK) -> Iterator[NDArray]:
         yield members[start : start + length]
 
 
-def _samples(
-    mesh: SurfaceMesh, triangle: NDArray[np.int32], rule: NDArray[np.int32], weights: NDArray
-) -> tuple[NDArray, NDArray]:
-    """Points (k, 3) and parameters (k, 2) at ``weights[rule]`` of ``triangle``, both (k,)."""
-    points, uv = np.empty((len(triangle), 3)), np.empty((len(triangle), 2))
-    interpolate(mesh.points, mesh.triangles, triangle, rule, weights, points)
-    interpolate(mesh.uv_points, mesh.uv_triangles, triangle, rule, weights, uv)
-    return points, uv
-
-
 def _cosines(mesh: SurfaceMesh, triangle: NDArray, normals: NDArray, area: NDArray) -> NDArray:
     """Cosine between the normals of triangles and of the surface; 1 where either is missing."""
     own = triangle_normals(mesh.points[mesh.triangles[triangle]])
@@ -163,27 +153,26 @@ def _dot(a: NDArray, b: NDArray) -> float:
 
 
 def _second_look(
-    mesh: SurfaceMesh, by_triangle: NDArray
-) -> tuple[int, tuple[float, float, float], tuple[float, float]]:
+    known: KnownSurfaces, by_triangle: NDArray[np.float64]
+) -> tuple[int, Point, tuple[float, float]]:
     """Sample the worst triangles densely, in place; return the worst place of all."""
-    count = len(by_triangle)
+    mesh, count = known.mesh, len(by_triangle)
     chosen = min(count, max(SECOND_LOOK, count // 250))
     worst = np.argpartition(by_triangle, count - chosen)[count - chosen :].astype(np.int32)
     chord = (mesh.sizing and mesh.sizing.chord) or np.inf
-    best = (-1.0, 0, (0.0, 0.0, 0.0), (0.0, 0.0))
+    best, found = -1.0, (0, (0.0, 0.0, 0.0), (0.0, 0.0))
     for face in np.unique(mesh.face_ids[worst]):
         for block in _blocks(worst[mesh.face_ids[worst] == face], BLOCK // len(DENSE)):
             triangle = np.repeat(block, len(DENSE))
             rule = np.tile(np.arange(len(DENSE), dtype=np.int32), len(block))
-            points, uv = _samples(mesh, triangle, rule, DENSE)
-            corners = mesh.uv_points[mesh.uv_triangles[block]]
+            points, uv = known.samples(triangle, rule, DENSE)
             row = np.repeat(np.arange(len(block)), len(DENSE))
             foot_uv, distance = nearest_deviations(
-                mesh.surfaces[face], points, uv, corners, row, chord, STEPS
+                mesh.surfaces[face], points, uv, known.uv(block), row, chord, STEPS
             )
             by_triangle[block] = distance.reshape(len(block), -1).max(axis=1)
             top = int(distance.argmax())
-            if distance[top] > best[0]:
-                place = (tuple(map(float, points[top])), tuple(map(float, foot_uv[top])))
-                best = (float(distance[top]), int(triangle[top]), *place)
-    return best[1:]
+            if distance[top] > best:
+                best = float(distance[top])
+                found = (int(triangle[top]), as_point(points[top]), as_uv(foot_uv[top]))
+    return found

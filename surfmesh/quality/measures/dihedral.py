@@ -1,4 +1,4 @@
-"""By how much neighbouring triangles turn, where the surface itself does not."""
+"""Dihedral angles between neighbouring triangles, where the surface itself has no crease."""
 
 import math
 from typing import NamedTuple
@@ -13,6 +13,8 @@ from surfmesh.accuracy.dihedral import (
     on_crease,
 )
 from surfmesh.geometry.boxes import diagonal
+from surfmesh.quality.measures.known_surfaces import KnownSurfaces
+from surfmesh.quality.measures.places import Point, as_point
 from surfmesh.result.surface_mesh import SurfaceMesh
 from surfmesh.sizing.options.defaults import DEFAULT_ANGLE
 
@@ -22,10 +24,10 @@ class DihedralAngles(NamedTuple):
 
     edges: NDArray[np.intp]  # (k,) of ``mesh.edges``: between two triangles of one face
     faces: NDArray[np.int32]  # (k,)
-    angles: NDArray[np.float64]  # (k,) 0 where the surface itself bends
+    angles: NDArray[np.float64]  # (k,) 0 on a crease of the surface
 
     def above(self, angle: float | NDArray[np.float64]) -> NDArray[np.bool_]:
-        """(k,) which of them turn by more than ``angle``, degrees: one for all, or (k,)."""
+        """(k,) which of them are larger than ``angle``, degrees: one for all, or (k,)."""
         return self.angles > angle * (1 + SLACK)
 
 
@@ -39,9 +41,8 @@ def angles_within_faces(
     for (or than 45 degrees) the normals of the surface on both sides are compared. limits: by
     face number, or one for all, what was asked for, infinite for nothing; None: by ``sizing``.
     """
-    if not mesh.surfaces or mesh.uv_points is None or not len(mesh.triangles):
-        return None
-    if not 0 <= mesh.face_ids.min() <= mesh.face_ids.max() < len(mesh.surfaces):
+    known = KnownSurfaces.of(mesh)
+    if known is None:
         return None
     table = mesh.connectivity
     first, second = table.half_edges.T
@@ -59,24 +60,24 @@ def angles_within_faces(
         here = large[faces[large] == face]
         own = np.unique(mesh.triangles[mesh.face_ids == face])
         beside = corners_beside(pairs[here])
-        uv = mesh.uv_points[mesh.uv_triangles.ravel()[beside]]
+        uv = known.corners.uv_points[known.corners.uv_triangles.ravel()[beside]]
         vertices = mesh.triangles.ravel()[beside]
-        bent = on_crease(
+        creased = on_crease(
             mesh.surfaces[face], vertices, uv, float(limits[face]), diagonal(mesh.points[own])
         )
-        angles[here[bent]] = 0.0
+        angles[here[creased]] = 0.0
     return DihedralAngles(edges, faces, angles)
 
 
 def largest_angle(
     mesh: SurfaceMesh, dihedrals: DihedralAngles
-) -> tuple[float, tuple[int, int], tuple[float, float, float]] | None:
+) -> tuple[float, tuple[int, int], Point] | None:
     """The largest angle, the two triangles, and the middle of their edge; None without edges."""
     if not len(dihedrals.angles):
         return None
     worst = int(dihedrals.angles.argmax())
     edge = dihedrals.edges[worst]
     first, second = (mesh.connectivity.half_edges[edge] // 3).tolist()
-    place = mesh.points[mesh.edges[edge]].mean(axis=0)
+    place = as_point(mesh.points[mesh.edges[edge]].mean(axis=0))
     largest = float(dihedrals.angles[worst])
-    return (largest if math.isfinite(largest) else math.nan), (first, second), tuple(place.tolist())
+    return (largest if math.isfinite(largest) else math.nan), (first, second), place

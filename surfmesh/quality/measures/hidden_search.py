@@ -9,7 +9,7 @@ and e is 0 at the corners. Over a box of (u, v) with centre c and half widths a,
                           + (a^2 |e_uu| + 2 a b |e_uv| + b^2 |e_vv|) / 2
 
 Boxes are halved until the least of them is within the tolerance, or a point is found that is not.
-Before that, where the surface is smooth, nearly all triangles are settled as they are or cut in
+Before that, where the surface is smooth, nearly all triangles are bounded as they are or cut in
 four a few times: over a triangle with (u, v) edges d_ij linear interpolation of e errs by no more
 than 1/2 sum l_i l_j |e'' along d_ij|, l barycentric. Along an edge of a long thin triangle the
 second derivatives cancel as they do on the surface; over its box they would not.
@@ -19,22 +19,26 @@ Source: Moore, Kearfott, Cloud, "Introduction to Interval Analysis", SIAM 2009, 
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Any
+from typing import TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
 
 from surfmesh.geometry.formulas.interval import largest_along
+from surfmesh.geometry.surface import BoundedSurface
 
 BLOCK = 1 << 13  # boxes looked at together
 ROUNDS = 60  # halvings of a triangle's box at most
 BOXES, BOXES_EACH = 100_000, 4  # most boxes in all: so many, and so many for each triangle
 LEVELS = 3  # a triangle is cut in four so often before boxes are tried
-NEARLY = 1.02  # of the tolerance: a box is settled there, so that halving comes to an end
+NEARLY = 1.02  # of the tolerance: a box counts as within, so that halving comes to an end
 AHEAD = 16.0  # a box is at most so many times narrower across a place without bounds than along it
 NO_BOUND = 1e300  # what is more is infinite
 INSIDE = 1e-9  # barycentric: a centre so far outside is inside
+
+Deviations: TypeAlias = Callable[[NDArray[np.int64], NDArray[np.float64]], NDArray[np.float64]]
 
 
 @dataclass
@@ -67,7 +71,7 @@ class Pieces:
 @dataclass
 class _Boxes:
     piece: NDArray[np.int64]  # (n,)
-    lo: NDArray[np.float64]  # (n, 2), of segments (n, 1): shares of the way
+    lo: NDArray[np.float64]  # (n, 2), of segments (n, 1): t along them
     hi: NDArray[np.float64]
 
     def __len__(self) -> int:
@@ -90,49 +94,53 @@ class _Boxes:
         )
 
 
-def settled_at_once(surface: Any, pieces: Pieces, seen: NDArray[np.float64]) -> NDArray[np.bool_]:
+def bounded_at_once(
+    surface: BoundedSurface, pieces: Pieces, seen: NDArray[np.float64]
+) -> NDArray[np.bool_]:
     """(k,) triangles whose second derivatives alone say that nothing hides there.
 
     seen: (k,) largest distance at the corners, in the middles of the sides and at the centroid.
     """
-    settled = np.zeros(len(pieces.uv), bool)
-    for start in range(0, len(settled), BLOCK):
+    bounded = np.zeros(len(pieces.uv), bool)
+    for start in range(0, len(bounded), BLOCK):
         part = slice(start, start + BLOCK)
         lo, hi = pieces.uv[part].min(axis=1), pieces.uv[part].max(axis=1)
         lower, upper = surface.all_bounds(lo, hi)
         (du, dv), normal = (hi - lo).T, pieces.normal[part]
         with np.errstate(invalid="ignore", over="ignore"):
             uu, uvs, vv = (largest_along(lower[:, k], upper[:, k], normal)[:, 0] for k in (3, 4, 5))
-            off = (du * du * uu + 2.0 * du * dv * uvs + dv * dv * vv) / 8.0
-            settled[part] = seen[part] + 0.25 * off <= pieces.tolerance[part]
-    return settled
+            height = (du * du * uu + 2.0 * du * dv * uvs + dv * dv * vv) / 8.0
+            bounded[part] = seen[part] + 0.25 * height <= pieces.tolerance[part]
+    return bounded
 
 
-def settled_in_parts(surface: Any, pieces: Pieces) -> NDArray[np.bool_]:
+def bounded_in_parts(surface: BoundedSurface, pieces: Pieces) -> NDArray[np.bool_]:
     """(k,) triangles within their tolerance by second derivatives along edges of their parts."""
-    settled = np.ones(len(pieces.uv), bool)
-    piece, uv = np.arange(len(settled)), pieces.uv
+    bounded = np.ones(len(pieces.uv), bool)
+    piece, uv = np.arange(len(bounded)), pieces.uv
     for level in range(LEVELS + 1):
         within = np.empty(len(piece), bool)
         for start in range(0, len(piece), BLOCK):
             part = slice(start, start + BLOCK)
             within[part] = _interpolated_within(surface, pieces, piece[part], uv[part])
-        settled[piece[~within]] &= level < LEVELS
-        going = ~within & settled[piece]
+        bounded[piece[~within]] &= level < LEVELS
+        going = ~within & bounded[piece]
         piece, uv = np.repeat(piece[going], 4), _in_four(uv[going])
         if not len(piece):
             break
-    return settled
+    return bounded
 
 
 def _interpolated_within(
-    surface: Any, pieces: Pieces, piece: NDArray, uv: NDArray
+    surface: BoundedSurface, pieces: Pieces, piece: NDArray, uv: NDArray
 ) -> NDArray[np.bool_]:
     """(n,) do parts uv (n, 3, 2) of triangles keep to their tolerance?"""
     normal = pieces.normal[piece, 0]
     lower, upper = surface.all_bounds(uv.min(axis=1), uv.max(axis=1))
     (r,) = surface.evaluate(uv.reshape(-1, 2), 0)
-    off = np.abs(np.einsum("nij,nj->ni", r.reshape(-1, 3, 3) - pieces.corner[piece, None], normal))
+    height = np.abs(
+        np.einsum("nij,nj->ni", r.reshape(-1, 3, 3) - pieces.corner[piece, None], normal)
+    )
     du, dv = (uv[:, [1, 2, 0]] - uv).transpose(2, 0, 1)
     weights = np.stack([du * du, 2.0 * du * dv, dv * dv], axis=2)  # (n, 3 edges, 3 derivatives)
     with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
@@ -146,7 +154,7 @@ def _interpolated_within(
         inside = (a * (b + c - a) > 0.0) & (b * (c + a - b) > 0.0) & (c * (a + b - c) > 0.0)
         amid = np.maximum.reduce([a, b, c]) / 4.0
         bound = 0.5 * np.where(inside, np.maximum(peak, amid), amid)
-        return off.max(axis=1) + bound <= pieces.tolerance[piece]
+        return height.max(axis=1) + bound <= pieces.tolerance[piece]
 
 
 def _in_four(uv: NDArray) -> NDArray[np.float64]:
@@ -158,12 +166,16 @@ def _in_four(uv: NDArray) -> NDArray[np.float64]:
 
 
 def search_triangles(
-    surface: Any, pieces: Pieces, whole: NDArray[np.bool_], away: Any, budget: int
+    surface: BoundedSurface,
+    pieces: Pieces,
+    whole: NDArray[np.bool_],
+    deviation: Deviations,
+    budget: int,
 ) -> int:
     """Look into the triangles; fills in what was found. Returns the number of boxes.
 
     whole: (k,) where all of the box counts, not the triangle alone (beside a pole, where others
-    were dropped). away(piece (n,), point (n, 3)) -> distance (n,) of points from the mesh nearby.
+    were dropped). deviation(piece (n,), point (n, 3)) -> (n,) of points from the mesh nearby.
     """
     boxes = _Boxes(np.arange(len(pieces.uv)), pieces.uv.min(axis=1), pieces.uv.max(axis=1))
     looked = 0
@@ -174,7 +186,9 @@ def search_triangles(
         bound, axis = np.empty(len(boxes)), np.empty(len(boxes), np.int64)
         for start in range(0, len(boxes), BLOCK):
             part = np.arange(start, min(start + BLOCK, len(boxes)))
-            bound[part], axis[part] = _looked_into(surface, pieces, boxes.chosen(part), whole, away)
+            bound[part], axis[part] = _looked_into(
+                surface, pieces, boxes.chosen(part), whole, deviation
+            )
         going = bound > NEARLY * pieces.tolerance[boxes.piece]
         going &= pieces.reached[boxes.piece] == 0.0
         if looked + 2 * going.sum() > budget:
@@ -182,12 +196,16 @@ def search_triangles(
             return looked
         boxes = boxes.chosen(going).halved(axis[going])
         boxes = boxes.chosen(whole[boxes.piece] | _meet(boxes, pieces.uv))
-    _leave(pieces, boxes, np.full(len(boxes), np.inf))  # never settled
+    _leave(pieces, boxes, np.full(len(boxes), np.inf))  # not bounded yet
     return looked
 
 
 def _looked_into(
-    surface: Any, pieces: Pieces, boxes: _Boxes, whole: NDArray[np.bool_], away: Any
+    surface: BoundedSurface,
+    pieces: Pieces,
+    boxes: _Boxes,
+    whole: NDArray[np.bool_],
+    deviation: Deviations,
 ) -> tuple[NDArray[np.float64], NDArray[np.int64]]:
     """A bound (n,) of the distance over each box, and the axis (n,) to halve it along."""
     piece, normal = boxes.piece, pieces.normal[boxes.piece]
@@ -195,7 +213,7 @@ def _looked_into(
     lower, upper = surface.all_bounds(boxes.lo, boxes.hi)
     r, r_u, r_v = surface.evaluate(middle, 1)
     plane = normal[:, 0]
-    off = np.abs(np.einsum("ij,ij->i", plane, r - pieces.corner[piece]))
+    height = np.abs(np.einsum("ij,ij->i", plane, r - pieces.corner[piece]))
     with np.errstate(invalid="ignore", over="ignore"):
         corner = pieces.corner[piece]
         value = largest_along(lower[:, 0] - corner, upper[:, 0] - corner, normal)[:, 0]
@@ -207,19 +225,19 @@ def _looked_into(
         # each axis: by the mean value or by Taylor's formula, whichever is less
         bent_u = a * slope_u + 0.5 * a * (a * uu + b * uvs)
         bent_v = b * slope_v + 0.5 * b * (b * vv + a * uvs)
-        share_u, share_v = np.fmin(a * u, bent_u), np.fmin(b * v, bent_v)
-        bound = np.fmin(value, off + np.fmin(a * u + b * v, bent_u + bent_v))
+        part_u, part_v = np.fmin(a * u, bent_u), np.fmin(b * v, bent_v)
+        bound = np.fmin(value, height + np.fmin(a * u + b * v, bent_u + bent_v))
     bound[np.isnan(bound)] = np.inf
-    share = np.nan_to_num(np.stack([share_u, share_v], axis=1), nan=np.inf)
+    part = np.nan_to_num(np.stack([part_u, part_v], axis=1), nan=np.inf)
     widths = half / np.maximum(np.ptp(pieces.uv[piece], axis=1), 1e-300)
-    axis = np.where(share[:, 0] == share[:, 1], widths.argmax(axis=1), share.argmax(axis=1))
+    axis = np.where(part[:, 0] == part[:, 1], widths.argmax(axis=1), part.argmax(axis=1))
     # at a rim of infinite speed no halving across it makes that bound finite: the other one's turn
     row = np.arange(len(boxes))
-    endless = (share[row, axis] > NO_BOUND) & (AHEAD * widths[row, axis] < widths[row, 1 - axis])
+    endless = (part[row, axis] > NO_BOUND) & (AHEAD * widths[row, axis] < widths[row, 1 - axis])
     axis = np.where(endless, 1 - axis, axis)
-    far = np.flatnonzero(off > pieces.tolerance[piece])
+    far = np.flatnonzero(height > pieces.tolerance[piece])
     if len(far):
-        distance = away(piece[far], r[far])  # from the triangles around it too
+        distance = deviation(piece[far], r[far])  # from the triangles around it too
         truly = distance > pieces.tolerance[piece[far]]
         truly &= whole[piece[far]] | _holds(pieces.uv[piece[far]], middle[far])
         _remember(pieces, piece[far], middle[far], distance, truly)
@@ -248,8 +266,8 @@ def _leave(pieces: Pieces, boxes: _Boxes, bound: NDArray[np.float64]) -> None:
     if boxes.lo.shape[1] == 2:
         middle = 0.5 * (boxes.lo + boxes.hi)
     else:
-        share, ends = 0.5 * (boxes.lo + boxes.hi), pieces.uv[boxes.piece]
-        middle = ends[:, 0] + share * (ends[:, 1] - ends[:, 0])
+        t, ends = 0.5 * (boxes.lo + boxes.hi), pieces.uv[boxes.piece]
+        middle = ends[:, 0] + t * (ends[:, 1] - ends[:, 0])
     pieces.possible[chosen] = bound[order]
     pieces.place[chosen] = middle[order]
 
@@ -259,8 +277,8 @@ def _holds(uv: NDArray, point: NDArray) -> NDArray[np.bool_]:
     a, b, c = uv.transpose(1, 0, 2)
     area = _cross(b - a, c - a)
     with np.errstate(divide="ignore", invalid="ignore"):
-        shares = [_cross(q - p, point - p) / area for p, q in ((a, b), (b, c), (c, a))]
-        return np.min(shares, axis=0) >= -INSIDE
+        weights = [_cross(q - p, point - p) / area for p, q in ((a, b), (b, c), (c, a))]
+        return np.min(weights, axis=0) >= -INSIDE
 
 
 def _meet(boxes: _Boxes, uv: NDArray) -> NDArray[np.bool_]:
@@ -281,7 +299,7 @@ def _cross(a: NDArray, b: NDArray) -> NDArray:
     return a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0]
 
 
-def search_rims(surface: Any, pieces: Pieces, budget: int) -> int:
+def search_rims(surface: BoundedSurface, pieces: Pieces, budget: int) -> int:
     """The same along segments of the rim, one variable s from 0 to 1, distances from the chord."""
     boxes = _Boxes(
         np.arange(len(pieces.uv)), np.zeros((len(pieces.uv), 1)), np.ones((len(pieces.uv), 1))
@@ -302,11 +320,11 @@ def search_rims(surface: Any, pieces: Pieces, budget: int) -> int:
             return looked
         boxes = boxes.chosen(going)
         boxes = boxes.halved(np.zeros(len(boxes), np.int64))
-    _leave(pieces, boxes, np.full(len(boxes), np.inf))  # never settled
+    _leave(pieces, boxes, np.full(len(boxes), np.inf))  # not bounded yet
     return looked
 
 
-def _along_rim(surface: Any, pieces: Pieces, boxes: _Boxes) -> NDArray[np.float64]:
+def _along_rim(surface: BoundedSurface, pieces: Pieces, boxes: _Boxes) -> NDArray[np.float64]:
     """A bound (n,) of the distance from the line through the segment's ends."""
     piece, normal = boxes.piece, pieces.normal[boxes.piece]
     start, step = pieces.uv[piece, 0], pieces.uv[piece, 1] - pieces.uv[piece, 0]
@@ -316,7 +334,7 @@ def _along_rim(surface: Any, pieces: Pieces, boxes: _Boxes) -> NDArray[np.float6
     half = 0.5 * (boxes.hi - boxes.lo)[:, 0]
     r, r_u, r_v = surface.evaluate(middle, 1)
     corner = pieces.corner[piece]
-    off = np.abs(np.einsum("idj,ij->id", normal, r - corner))
+    height = np.abs(np.einsum("idj,ij->id", normal, r - corner))
     along = np.abs(np.einsum("idj,ij->id", normal, step[:, :1] * r_u + step[:, 1:] * r_v))
     a, b = np.abs(step).T[:, :, None]
     with np.errstate(invalid="ignore", over="ignore"):
@@ -326,9 +344,9 @@ def _along_rim(surface: Any, pieces: Pieces, boxes: _Boxes) -> NDArray[np.float6
             for k, times in zip(range(1, 6), (a, b, a * a, a * b, b * b))
         )
         bent = half[:, None] * along + 0.5 * half[:, None] ** 2 * (uu + 2.0 * uvs + vv)
-        bound = np.fmin(value, off + np.fmin(half[:, None] * (u + v), bent))
+        bound = np.fmin(value, height + np.fmin(half[:, None] * (u + v), bent))
     bound[np.isnan(bound)] = np.inf
-    distance = np.linalg.norm(off, axis=1)
+    distance = np.linalg.norm(height, axis=1)
     far = np.flatnonzero(distance > pieces.tolerance[piece])
     order = far[np.argsort(distance[far], kind="stable")]
     pieces.reached[piece[order]], pieces.place[piece[order]] = distance[order], middle[order]

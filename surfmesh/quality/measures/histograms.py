@@ -22,7 +22,7 @@ def histograms(
     shape: Shapes, metric: NDArray[np.float64] | None, by_triangle: NDArray[np.float64] | None
 ) -> dict[str, Histogram]:
     """Of alpha and the angles of the triangles, and where known of ``length`` (edge over
-    wanted length, 0 to 2.5) and ``deviation`` (largest in each triangle, model units).
+    target size, 0 to 2.5) and ``deviation`` (largest in each triangle, model units).
     """
     found = {
         "alpha": _counted("alpha", shape.alpha, 0.0, 1.0),

@@ -36,14 +36,14 @@ def _crossings(points: NDArray, corners: NDArray, direction: NDArray) -> NDArray
     triangle, point = triangle[near], point[near]
     offset = seen[triangle] - at[point][:, None, :]
     a, b, c = offset.transpose(1, 0, 2)
-    turns = np.stack([_turn(b, c), _turn(c, a), _turn(a, b)], axis=1)
-    hit = (turns > 0).all(axis=1) | (turns < 0).all(axis=1)
-    turns, offset = turns[hit], offset[hit]
-    height = np.einsum("ij,ij->i", turns, offset[:, :, 2]) / turns.sum(axis=1)
+    areas = np.stack([_cross(b, c), _cross(c, a), _cross(a, b)], axis=1)
+    hit = (areas > 0).all(axis=1) | (areas < 0).all(axis=1)
+    areas, offset = areas[hit], offset[hit]
+    height = np.einsum("ij,ij->i", areas, offset[:, :, 2]) / areas.sum(axis=1)
     return np.bincount(point[hit][height > 0.0], minlength=len(points))
 
 
-def _turn(a: NDArray, b: NDArray) -> NDArray:
+def _cross(a: NDArray, b: NDArray) -> NDArray:
     return a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0]
 
 
@@ -53,22 +53,3 @@ def _frame(direction: NDArray) -> NDArray:
     x = np.cross((0.0, 1.0, 0.0), z)
     x /= np.linalg.norm(x)
     return np.stack([x, np.cross(z, x), z], axis=1)
-
-
-def distance_to_triangles(
-    point: NDArray[np.float64], corners: NDArray[np.float64]
-) -> NDArray[np.float64]:
-    """(m,) distance of one point (3,) from each of triangles (m, 3, 3)."""
-    a, b, c = (corners - point).transpose(1, 0, 2)
-    normal = np.cross(b - a, c - a)
-    size = np.einsum("ij,ij->i", normal, normal)
-    found = np.full(len(corners), np.inf)
-    within = size > 0.0
-    for start, end in ((a, b), (b, c), (c, a)):
-        way = end - start
-        length = np.maximum(np.einsum("ij,ij->i", way, way), np.finfo(float).tiny)
-        t = np.clip(-np.einsum("ij,ij->i", start, way) / length, 0.0, 1.0)
-        found = np.minimum(found, np.linalg.norm(start + t[:, None] * way, axis=1))
-        within &= np.einsum("ij,ij->i", np.cross(start, end), normal) >= 0.0
-    height = np.abs(np.einsum("ij,ij->i", a, normal)) / np.sqrt(np.where(size > 0.0, size, 1.0))
-    return np.where(within, np.minimum(found, height), found)

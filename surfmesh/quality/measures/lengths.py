@@ -1,14 +1,15 @@
-"""Edge lengths against the wanted ones, and how fast they change from edge to edge."""
+"""Edge lengths against the target sizes, and how fast they change from edge to edge."""
 
 from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
+from surfmesh.quality.measures.places import Point, as_point
 from surfmesh.result.surface_mesh import SurfaceMesh
 from surfmesh.sizing.metric_roots import unpacked
 
-QUASI_UNIT = (0.5**0.5, 2.0**0.5)  # metric lengths that conform to the wanted sizes
+QUASI_UNIT = (0.5**0.5, 2.0**0.5)  # metric lengths that conform to the target sizes
 GROWTH_SLACK = 0.01  # relative: sizes are interpolated between the nodes of the field
 BLOCK = 1 << 15  # edges looked at together, to stay within the cache
 
@@ -23,36 +24,39 @@ def edge_lengths(mesh: SurfaceMesh) -> NDArray[np.float64]:
     return lengths
 
 
-def metric_lengths(mesh: SurfaceMesh, lengths: NDArray[np.float64]) -> NDArray[np.float64]:
-    """(ne,) length of pq over the mean of the sizes wanted at p and q; 1 is as wanted.
+def metric_lengths(mesh: SurfaceMesh, lengths: NDArray[np.float64]) -> NDArray[np.float64] | None:
+    """(ne,) length of pq over the mean of the target sizes at p and q; None where there are none.
 
-    Where sizes are anisotropic, of those wanted in the direction of pq.
+    Where sizes are anisotropic, of those in the direction of pq.
     """
+    sizes, corners = mesh.sizes, mesh.parametrisation
+    if sizes is None:
+        return None
+    root = None if corners is None else corners.metric_root_3d
     metric = 2.0 * lengths
     for begin in range(0, len(lengths), BLOCK):
         block = slice(begin, begin + BLOCK)
-        if mesh.metric_root_3d is None:
+        if root is None or corners is None:
             a, b = mesh.edges[block].T
-            metric[block] /= mesh.sizes[a] + mesh.sizes[b]
+            metric[block] /= sizes[a] + sizes[b]
             continue
-        first, second = _stretched_at_ends(mesh, block)
+        first, second = _stretched_at_ends(mesh, root, corners.uv_triangles, block)
         total = first + second
         metric[block] = 2.0 * first * second / np.where(total > 0.0, total, 1.0)
     return metric
 
 
 def _stretched_at_ends(
-    mesh: SurfaceMesh, block: slice
+    mesh: SurfaceMesh, root: NDArray[np.float64], uv_triangles: NDArray[np.int32], block: slice
 ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     """Lengths (k,) of edges in the metrics at either end, as one of their faces has them."""
     a, b = mesh.edges[block].T
-    corners = mesh.uv_triangles.ravel()
+    corners = uv_triangles.ravel()
     step = mesh.points[b] - mesh.points[a]
     start = mesh.connectivity.half_edges[block, 0]
     end = np.where(start % 3 == 2, start - 2, start + 1)
     first, second = (
-        np.linalg.norm(stretched(mesh.metric_root_3d[corners[e]], step), axis=1)
-        for e in (start, end)
+        np.linalg.norm(stretched(root[corners[e]], step), axis=1) for e in (start, end)
     )
     return first, second
 
@@ -60,7 +64,7 @@ def _stretched_at_ends(
 def stretched(
     metric_root_3d: NDArray[np.float64], step: NDArray[np.float64]
 ) -> NDArray[np.float64]:
-    """Steps (k, 3) in wanted lengths: W d, for W (k, 6)."""
+    """Steps (k, 3) in target sizes: W d, for W (k, 6)."""
     return np.einsum("kij,kj->ki", unpacked(metric_root_3d), step)
 
 
@@ -87,35 +91,38 @@ def growth(mesh: SurfaceMesh, lengths: NDArray[np.float64]) -> Growth:
 
 
 class SizeGrowth(NamedTuple):
-    """By how much the sizes wanted at the two ends of an edge differ, over what is allowed."""
+    """By how much the target sizes at the two ends of an edge differ, over what is allowed."""
 
     fraction: float  # of the edges, those along which it is more than allowed
     largest: float  # 1 is allowed
-    point: tuple[float, float, float]  # middle of that edge
+    point: Point  # middle of that edge
 
 
 def size_growth(mesh: SurfaceMesh, lengths: NDArray[np.float64], slope: float) -> SizeGrowth | None:
-    """Growth of the wanted sizes over the edges of the mesh, in any direction.
+    """Growth of the target sizes over the edges of the mesh, in any direction.
 
     Along an edge of length l sizes may differ by ``slope`` l. Where sizes depend on the direction
     those along the edge are compared. None without sizes or edges of a length.
     """
-    if mesh.sizes is None or not (lengths > 0.0).any() or not slope > 0.0:
+    sizes, corners = mesh.sizes, mesh.parametrisation
+    if sizes is None or not (lengths > 0.0).any() or not slope > 0.0:
         return None
+    root = None if corners is None else corners.metric_root_3d
     over = np.zeros(len(lengths))
     for begin in range(0, len(lengths), BLOCK):
         block = slice(begin, begin + BLOCK)
         length = lengths[block]
-        if mesh.metric_root_3d is None:
+        if root is None or corners is None:
             a, b = mesh.edges[block].T
-            first, second = mesh.sizes[a], mesh.sizes[b]
+            first, second = sizes[a], sizes[b]
         else:  # an edge of length l is l / h long in the metric
             with np.errstate(divide="ignore", invalid="ignore"):
-                first, second = (length / metric for metric in _stretched_at_ends(mesh, block))
+                ends = _stretched_at_ends(mesh, root, corners.uv_triangles, block)
+                first, second = (length / metric for metric in ends)
         with np.errstate(divide="ignore", invalid="ignore"):
             over[block] = np.abs(first - second) / (slope * length)
     over = np.where(np.isfinite(over), over, 0.0)
     worst = int(over.argmax())
     place = mesh.points[mesh.edges[worst]].mean(axis=0)
     fraction = float(np.mean(over > 1.0 + GROWTH_SLACK))
-    return SizeGrowth(fraction, float(over[worst]), tuple(place.tolist()))
+    return SizeGrowth(fraction, float(over[worst]), as_point(place))

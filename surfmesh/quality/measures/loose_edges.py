@@ -12,12 +12,13 @@ from numpy.typing import NDArray
 
 from surfmesh.geometry.boxes import diagonal
 from surfmesh.quality.measures.penetration import distances_allowed, edge_sagittas
+from surfmesh.quality.measures.places import Point, as_point
 from surfmesh.result.surface_mesh import SurfaceMesh
 
 GAP = 1e-4  # of the diagonal: rims farther apart are no rims of one edge
 OF_EDGE = 0.1  # of an edge's length: nor are those farther apart than that
 NEAREST = 16  # places on other rims that are looked at from the middle of an edge
-SHARES = np.linspace(0.0, 1.0, 5)  # of an edge: its places
+PLACES = np.linspace(0.0, 1.0, 5)  # t along an edge
 
 
 @dataclass(frozen=True)
@@ -27,7 +28,7 @@ class LooseEdges:
     edges: int
     faces: int
     gap: float  # the widest between them that their chords do not explain, model units
-    point: tuple[float, float, float]  # where it is
+    point: Point  # where it is
 
 
 def loose_edges(
@@ -56,7 +57,7 @@ def loose_edges(
     worst = loose[int(np.argmax(gap[loose]))]
     found = LooseEdges(
         len(np.unique(model_edges[loose])), len(np.unique(face[loose])), float(gap[worst]),
-        tuple(ends[worst].mean(axis=0).tolist()),
+        as_point(ends[worst].mean(axis=0)),
     )  # fmt: skip
     pairs = np.sort(np.stack([face[loose], face[beside[loose]]], axis=1), axis=1)
     return found, set(map(tuple, np.unique(pairs, axis=0).tolist()))
@@ -70,11 +71,11 @@ def _nearest(
     from scipy.spatial import cKDTree
 
     ends = mesh.points[mesh.edges[free]]
-    places = ends[:, 0, None] + SHARES[:, None] * (ends[:, 1] - ends[:, 0])[:, None]
+    places = ends[:, 0, None] + PLACES[:, None] * (ends[:, 1] - ends[:, 0])[:, None]
     middle = ends.mean(axis=1)
-    count = min(NEAREST, places.shape[0] * len(SHARES))
+    count = min(NEAREST, places.shape[0] * len(PLACES))
     place = cKDTree(places.reshape(-1, 3)).query(middle, count)[1].reshape(len(free), count)
-    other = place // len(SHARES)
+    other = place // len(PLACES)
     a, b = ends[other].transpose(2, 0, 1, 3)
     way = b - a
     size = np.maximum(np.einsum("ijk,ijk->ij", way, way), np.finfo(float).tiny)
@@ -87,21 +88,23 @@ def _nearest(
 
 
 def _model_edges(
-    mesh: SurfaceMesh, edges: NDArray, off: NDArray[np.float64]
+    mesh: SurfaceMesh, edges: NDArray[np.intp], deviation: NDArray[np.float64]
 ) -> tuple[NDArray[np.int64], NDArray[np.float64]]:
     """The edges of the model on which edges of the mesh (k,) lie, or numbers of their own; and
     how far these lie from their curves (k,).
 
-    off: (k,) how far their triangles lie from the surface: where a curve is one edge, or unknown.
+    deviation: (k,) of their triangles from the surface: where a curve is one edge, or unknown.
     """
-    if mesh.edge_segments is None or not len(mesh.edge_segments):
-        return edges.astype(np.int64), off
+    links = mesh.edge_links
+    if links is None or not len(links.edge_segments):
+        return edges.astype(np.int64), deviation
     width = np.array([len(mesh.points), 1], np.int64)
-    along = np.sort(mesh.edge_segments, axis=1) @ width
+    along = np.sort(links.edge_segments, axis=1) @ width
     order = np.argsort(along, kind="stable")
     keys = mesh.edges[edges] @ width
     row = order[np.minimum(np.searchsorted(along[order], keys), len(along) - 1)]
     known = along[row] == keys
-    cut = known & (np.bincount(mesh.edge_ids)[mesh.edge_ids[row]] > 1)
-    names = np.where(known, mesh.edge_ids[row], -1 - edges.astype(np.int64))
-    return names, np.where(cut, edge_sagittas(mesh)[row], off)
+    ids = links.edge_ids
+    cut = known & (np.bincount(ids)[ids[row]] > 1)
+    names = np.where(known, ids[row], -1 - edges.astype(np.int64))
+    return names, np.where(cut, edge_sagittas(mesh, links)[row], deviation)

@@ -17,6 +17,7 @@ from surfmesh.quality.measures.chord_use import ChordUse, chord_use
 from surfmesh.quality.measures.deviation import Deviation, deviation
 from surfmesh.quality.measures.dihedral import DihedralAngles, angles_within_faces
 from surfmesh.quality.measures.folds import Folds, folds
+from surfmesh.quality.measures.known_surfaces import KnownSurfaces
 from surfmesh.quality.measures.lengths import (
     Growth,
     SizeGrowth,
@@ -61,6 +62,7 @@ class Measurements:
         self.finite = bool(np.isfinite(mesh.points).all())
         self.facts = mesh.facts or ModelFacts()
         self.tolerances = Tolerances.of(mesh)
+        self.known = KnownSurfaces.of(mesh)
 
     @cached_property
     def topology(self) -> Topology:
@@ -90,13 +92,13 @@ class Measurements:
     @cached_property
     def metric_lengths(self) -> NDArray[np.float64] | None:
         """(ne,) the same over the target sizes."""
-        return None if self.mesh.sizes is None else metric_lengths(self.mesh, self.lengths)
+        return metric_lengths(self.mesh, self.lengths)
 
     @cached_property
     def growth(self) -> Growth:
         """Of edges at a vertex; in the metric, where sizes depend on the direction."""
-        stretched = self.mesh.metric_root_3d is not None and self.metric_lengths is not None
-        return growth(self.mesh, self.metric_lengths if stretched else self.lengths)
+        metric = None if self.mesh.metric_root_3d is None else self.metric_lengths
+        return growth(self.mesh, self.lengths if metric is None else metric)
 
     @cached_property
     def size_growth(self) -> SizeGrowth | None:
@@ -114,7 +116,9 @@ class Measurements:
     @cached_property
     def surface_deviation(self) -> SurfaceDeviation | None:
         """Of the surfaces from the mesh."""
-        return surface_deviation(self.mesh, self.deviation, self.tolerances)
+        if self.known is None or self.deviation is None:
+            return None
+        return surface_deviation(self.known, self.deviation, self.tolerances)
 
     @cached_property
     def deviation_both_ways(self) -> Deviation | None:
@@ -126,7 +130,9 @@ class Measurements:
     @cached_property
     def unseen(self) -> Unseen | None:
         """What may lie between the samples of both."""
-        return unseen(self.mesh, self.deviation_both_ways, self.tolerances, LISTED)
+        if self.known is None or self.deviation_both_ways is None:
+            return None
+        return unseen(self.known, self.deviation_both_ways, self.tolerances, LISTED)
 
     @cached_property
     def chord_check(self) -> ToleranceCheck | None:
@@ -138,7 +144,9 @@ class Measurements:
     @cached_property
     def chord_use(self) -> ChordUse | None:
         """How much of the chord is used."""
-        return chord_use(self.mesh, self.deviation, self.tolerances)
+        if self.known is None or self.deviation is None:
+            return None
+        return chord_use(self.known, self.deviation, self.tolerances)
 
     @cached_property
     def dihedral_angles(self) -> DihedralAngles | None:
@@ -164,7 +172,9 @@ class Measurements:
     @cached_property
     def folds(self) -> Folds | None:
         """Triangles turned far from the surface's normals."""
-        return None if self.deviation is None else folds(self.mesh, self.deviation.cosine)
+        if self.known is None or self.deviation is None:
+            return None
+        return folds(self.known, self.deviation.cosine)
 
     @cached_property
     def solids(self) -> tuple[SolidRow, ...]:

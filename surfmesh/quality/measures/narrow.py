@@ -17,7 +17,7 @@ DEGENERATE_NARROW = 1e-9
 class NarrowTriangles(NamedTuple):
     """How many there are, and the shapes of the others; None where there are no others."""
 
-    count: int
+    number: int
     alpha_mean_elsewhere: float | None
     alpha_min_elsewhere: float | None
 

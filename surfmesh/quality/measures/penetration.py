@@ -15,6 +15,7 @@ import math
 import numpy as np
 from numpy.typing import NDArray
 
+from surfmesh.result.mesh_parts import EdgeLinks
 from surfmesh.result.surface_mesh import SurfaceMesh
 
 BORDER = 1e-9  # of a triangle: how far beyond its sides still counts as over it
@@ -32,7 +33,7 @@ def depths(corners: NDArray[np.float64]) -> NDArray[np.float64]:
 def _common_length(first: NDArray, second: NDArray) -> NDArray:
     """(k,) how long a line triangles (k, 3, 3) have in common; infinite in one plane."""
     normals = [np.cross(t[:, 1] - t[:, 0], t[:, 2] - t[:, 0]) for t in (first, second)]
-    along = np.cross(*normals)
+    along = np.cross(normals[0], normals[1])
     size = np.linalg.norm(along, axis=1)
     steep = size > PARALLEL * np.prod(np.linalg.norm(normals, axis=2), axis=0)
     along /= np.where(steep, size, 1.0)[:, None]
@@ -103,10 +104,10 @@ def _at_sides(seen: NDArray, under: NDArray) -> NDArray:
             c, along = under[:, k], under[:, (k + 1) % 3] - under[:, k]
             area = way[:, 0] * along[:, 1] - way[:, 1] * along[:, 0]
             safe = np.where(area != 0.0, area, 1.0)
-            gap = c - a[:, :2]
+            apart = c - a[:, :2]
             with np.errstate(over="ignore"):  # nearly parallel: far away
-                t = (gap[:, 0] * along[:, 1] - gap[:, 1] * along[:, 0]) / safe
-                s = (gap[:, 0] * way[:, 1] - gap[:, 1] * way[:, 0]) / safe
+                t = (apart[:, 0] * along[:, 1] - apart[:, 1] * along[:, 0]) / safe
+                s = (apart[:, 0] * way[:, 1] - apart[:, 1] * way[:, 0]) / safe
             there = (area != 0.0) & (t >= 0.0) & (t <= 1.0) & (s >= 0.0) & (s <= 1.0)
             found[there, 3 * i + k] = a[there, 2] + t[there] * way[there, 2]
     return found
@@ -140,21 +141,22 @@ def distances_allowed(
         by_triangle = _by_angles(mesh)
     at_vertex = np.zeros(len(mesh.points))
     np.maximum.at(at_vertex, mesh.triangles.ravel(), np.repeat(by_triangle, 3))
-    if mesh.edge_segments is not None and len(mesh.edge_segments):
-        sagitta = edge_sagittas(mesh)
-        np.maximum.at(at_vertex, mesh.edge_segments.ravel(), np.repeat(sagitta, 2))
+    links = mesh.edge_links
+    if links is not None and len(links.edge_segments):
+        sagitta = edge_sagittas(mesh, links)
+        np.maximum.at(at_vertex, links.edge_segments.ravel(), np.repeat(sagitta, 2))
     return at_vertex[mesh.triangles].max(axis=1)
 
 
-def edge_sagittas(mesh: SurfaceMesh) -> NDArray[np.float64]:
+def edge_sagittas(mesh: SurfaceMesh, links: EdgeLinks) -> NDArray[np.float64]:
     """(k,) about twice how far segments of edges lie from their curves, by how these turn.
 
     An arc of length h that turns by a lies h a / 8 from its chord.
     """
-    segments = mesh.edge_segments
+    segments, ids = links.edge_segments, links.edge_ids
     way = mesh.points[segments[:, 1]] - mesh.points[segments[:, 0]]
     length = np.linalg.norm(way, axis=1)
-    on = (mesh.edge_ids[1:] == mesh.edge_ids[:-1]) & (segments[1:, 0] == segments[:-1, 1])
+    on = (ids[1:] == ids[:-1]) & (segments[1:, 0] == segments[:-1, 1])
     size = np.maximum(length[1:] * length[:-1], np.finfo(float).tiny)
     cosine = np.einsum("ij,ij->i", way[1:], way[:-1]) / size
     angle = np.where(on, np.arccos(np.clip(cosine, -1.0, 1.0)), 0.0)

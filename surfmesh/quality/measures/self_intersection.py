@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from surfmesh.kernels.space.box_tree import LEAF, curve_places, fill_boxes, find_meeting
 from surfmesh.kernels.space.space_predicates import WORKSPACE
+from surfmesh.quality.measures.places import Point, as_point
 from surfmesh.result.surface_mesh import SurfaceMesh
 
 MOST = 200_000  # pairs looked for: a mesh with more of them is broken beyond counting
@@ -23,7 +24,7 @@ class MeetingPair:
 
     triangles: tuple[int, int]
     faces: tuple[int, int]
-    point: tuple[float, float, float]  # near which they meet
+    point: Point  # near which they meet
 
 
 def meeting_pairs(mesh: SurfaceMesh) -> NDArray[np.int32]:
@@ -62,8 +63,8 @@ def located(mesh: SurfaceMesh, pairs: NDArray[np.int32]) -> tuple[MeetingPair, .
     corners = mesh.points[mesh.triangles[pairs]]  # (k, 2, 3, 3)
     low, high = corners.min(axis=2).max(axis=1), corners.max(axis=2).min(axis=1)
     return tuple(
-        MeetingPair(tuple(pair), tuple(mesh.face_ids[pair].tolist()), tuple(place))
-        for pair, place in zip(pairs.tolist(), ((low + high) / 2).tolist())
+        MeetingPair((a, b), (int(mesh.face_ids[a]), int(mesh.face_ids[b])), as_point(place))
+        for (a, b), place in zip(pairs.tolist(), (low + high) / 2)
     )
 
 

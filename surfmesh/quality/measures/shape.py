@@ -45,13 +45,15 @@ def metric_alpha(mesh: SurfaceMesh) -> NDArray[np.float64]:
 
     In 3D where sizes are isotropic: there it is the same.
     """
-    if mesh.metric_root_3d is None:
+    parameters = mesh.parametrisation
+    if parameters is None or parameters.metric_root_3d is None:
         return alpha(mesh)
     found = np.zeros(len(mesh.triangles))
     for start in range(0, len(found), BLOCK):
         corners = mesh.triangles[start : start + BLOCK]
         a, b, c = (mesh.points[corner] for corner in corners.T)
-        mean = mesh.metric_root_3d[mesh.uv_triangles[start : start + BLOCK]].mean(axis=1)
+        rows = parameters.uv_triangles[start : start + BLOCK]
+        mean = parameters.metric_root_3d[rows].mean(axis=1)
         u, v = stretched(mean, b - a), stretched(mean, c - a)
         found[start : start + BLOCK] = mean_ratio(u, v)
     return found

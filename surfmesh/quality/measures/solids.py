@@ -17,11 +17,19 @@ class AroundSolids(NamedTuple):
     solid: NDArray[np.int32]  # (k,)
 
 
+def solids_beside(mesh: SurfaceMesh) -> NDArray[np.int32]:
+    """(m, 2) solid behind each triangle and before it; -1, as where no solid is known: none."""
+    if mesh.solid_ids is None:
+        return np.full((len(mesh.triangles), 2), -1, np.int32)
+    return mesh.solid_ids
+
+
 def around_solids(mesh: SurfaceMesh) -> AroundSolids:
     """Those behind which a solid lies, then those before which one lies, turned over."""
-    ahead, against = (np.flatnonzero(ids >= 0) for ids in mesh.solid_ids.T)
+    behind, before = solids_beside(mesh).T
+    ahead, against = np.flatnonzero(behind >= 0), np.flatnonzero(before >= 0)
     rows = np.concatenate([ahead, against])
-    solid = np.concatenate([mesh.solid_ids[ahead, 0], mesh.solid_ids[against, 1]])
+    solid = np.concatenate([behind[ahead], before[against]])
     triangles = mesh.triangles[rows]
     triangles[len(ahead) :] = triangles[len(ahead) :, ::-1]
     return AroundSolids(triangles, rows, solid)
@@ -29,7 +37,7 @@ def around_solids(mesh: SurfaceMesh) -> AroundSolids:
 
 def solid_mesh(mesh: SurfaceMesh, solid: int) -> SurfaceMesh:
     """The triangles around one solid, facing outwards; on its own vertices, without (u, v)."""
-    behind, before = (mesh.solid_ids == solid).T
+    behind, before = (solids_beside(mesh) == solid).T
     rows = np.concatenate([np.flatnonzero(behind), np.flatnonzero(before)])
     plain = SurfaceMesh(
         points=mesh.points, triangles=mesh.triangles, face_ids=mesh.face_ids, sizes=mesh.sizes,

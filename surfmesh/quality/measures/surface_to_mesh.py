@@ -18,14 +18,17 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from surfmesh.cad.model.cad_model import CadEdge
 from surfmesh.geometry.differential.projection import closest_point
-from surfmesh.kernels.space.measure import interpolate
 from surfmesh.quality.measures.deviation import BLOCK, Deviation
+from surfmesh.quality.measures.known_surfaces import KnownSurfaces
+from surfmesh.quality.measures.places import Point, as_point, as_uv
 from surfmesh.quality.measures.tolerances import CHORD_SLACK, Tolerances
+from surfmesh.quality.measures.triangle_distances import triangle_distances
 from surfmesh.result.quadratic_triangles import edge_rows
 from surfmesh.result.surface_mesh import SurfaceMesh
 
-RIM_SHARES = np.arange(1, 8) / 8.0  # along each free edge
+ALONG_RIM = np.arange(1, 8) / 8.0  # along each free edge
 WITHIN = np.array([(4, 1, 1), (1, 4, 1), (1, 1, 4)]) / 6.0  # barycentric, over every triangle
 _GRID = 6
 CLOSELY = np.array(
@@ -45,21 +48,22 @@ class SurfaceDeviation(NamedTuple):
     by_triangle: NDArray[np.float64]  # (m,) over each triangle, an upper bound of what was seen:
     # exact where it is beyond the chord; 0 where the triangle itself is too far from the surface
     largest: float
-    point: tuple[float, float, float]  # of the surface, where it is largest
+    point: Point  # of the surface, where it is largest
     uv: tuple[float, float]
     triangle: int  # that the point is over
     at_rim: bool
 
 
 def surface_deviation(
-    mesh: SurfaceMesh, fit: Deviation | None, tolerances: Tolerances
+    known: KnownSurfaces, fit: Deviation, tolerances: Tolerances
 ) -> SurfaceDeviation | None:
-    """Distance of the surfaces from ``mesh``; None where ``fit``, the way back, is not known."""
-    if fit is None or not np.isfinite(fit.largest):
+    """Distance of the surfaces from the mesh; None where ``fit``, the way back, is not finite."""
+    if not np.isfinite(fit.largest):
         return None
-    search = _Search(mesh, fit, tolerances)
-    if mesh.edge_curves and mesh.edge_parameters is not None:
-        _look_along_curves(search, mesh, fit)
+    mesh = known.mesh
+    search = _Search(known, fit, tolerances)
+    if search.curves is not None:
+        _look_along_curves(search, search.curves, fit)
     else:
         search.look(*_on_rims(mesh), at_rim=True)
     count = len(mesh.triangles)
@@ -73,19 +77,22 @@ def surface_deviation(
     return search.result()
 
 
-def _over(triangles: NDArray, weights: NDArray) -> tuple[NDArray, NDArray, NDArray]:
+Rule = tuple[NDArray[np.int32], NDArray[np.int32], NDArray[np.float64]]
+
+
+def _over(triangles: NDArray[np.int32], weights: NDArray[np.float64]) -> Rule:
     """Triangles (k,) of points over each of them, the row (k,) of ``weights`` for each, weights."""
     rule = np.tile(np.arange(len(weights), dtype=np.int32), len(triangles))
     return np.repeat(triangles, len(weights)), rule, weights
 
 
-def _on_rims(mesh: SurfaceMesh) -> tuple[NDArray, NDArray, NDArray]:
+def _on_rims(mesh: SurfaceMesh) -> Rule:
     """The same along all edges of one triangle only."""
     half_edge = mesh.connectivity.half_edges[mesh.connectivity.uses == 1, 0]
-    triangle, side = np.divmod(np.repeat(half_edge, len(RIM_SHARES)), 3)
-    share = np.tile(RIM_SHARES, len(half_edge))
+    triangle, side = np.divmod(np.repeat(half_edge, len(ALONG_RIM)), 3)
+    t = np.tile(ALONG_RIM, len(half_edge))
     weights, rows = np.zeros((len(triangle), 3)), np.arange(len(triangle), dtype=np.int32)
-    weights[rows, side], weights[rows, (side + 1) % 3] = 1.0 - share, share
+    weights[rows, side], weights[rows, (side + 1) % 3] = 1.0 - t, t
     return triangle, rows, weights
 
 
@@ -96,35 +103,62 @@ def both_ways(fit: Deviation, back: SurfaceDeviation | None) -> Deviation:
     return fit._replace(by_triangle=np.maximum(fit.by_triangle, back.by_triangle))
 
 
-def _look_along_curves(search: _Search, mesh: SurfaceMesh, fit: Deviation) -> None:
+class _Curves(NamedTuple):
+    """The segments of CAD edges, and where their ends lie on the curves of these."""
+
+    segments: NDArray[np.int32]  # (k, 2) vertices
+    ids: NDArray[np.int32]  # (k,) edges
+    ends: NDArray[np.float64]  # (k, 2) t of the edge
+    edges: tuple[CadEdge, ...]
+
+    @classmethod
+    def of(cls, mesh: SurfaceMesh) -> _Curves | None:
+        """None where no curve is known."""
+        links = mesh.edge_links
+        if links is None or not links.edge_curves or links.edge_parameters is None:
+            return None
+        return cls(links.edge_segments, links.edge_ids, links.edge_parameters, links.edge_curves)
+
+    def points(
+        self, segments: NDArray[np.intp], t: NDArray[np.float64]
+    ) -> NDArray[np.float64] | None:
+        """(k, j, 3) at ``t`` (j,) of segments (k,) of one edge; None where it has no curve."""
+        number = int(self.ids[segments[0]])
+        edge = self.edges[number] if number < len(self.edges) else None
+        if edge is None or edge.curve is None:
+            return None
+        start, end = self.ends[segments].T[:, :, None]
+        (points,) = edge.evaluate((start + t * (end - start)).ravel(), 0)
+        return points.reshape(len(segments), len(t), 3)
+
+
+def _look_along_curves(search: _Search, curves: _Curves, fit: Deviation) -> None:
     """At points of the CAD edges between the nodes of their segments.
 
     They count for that one of two faces which is farther from the mesh itself: the round one.
     Where nodes lie off their curve, as after ``simplify``, what is between says nothing.
     """
-    rows = edge_rows(mesh.connectivity, mesh.edge_segments)
+    known = search.known
+    mesh = known.mesh
+    rows = edge_rows(mesh.connectivity, curves.segments)
     first, second = mesh.connectivity.half_edges[np.maximum(rows, 0)].T // 3
     free = second < 0
     farther = ~free & (fit.by_triangle[second] > fit.by_triangle[first])
     over = np.where(farther, second, first)
-    shares = np.concatenate([[0.0], RIM_SHARES, [1.0]])
-    for number in np.unique(mesh.edge_ids).tolist():
-        edge = mesh.edge_curves[number] if number < len(mesh.edge_curves) else None
-        own = np.flatnonzero((mesh.edge_ids == number) & (rows >= 0))
-        if edge is None or edge.curve is None or not len(own):
+    t = np.concatenate([[0.0], ALONG_RIM, [1.0]])
+    for number in np.unique(curves.ids).tolist():
+        own = np.flatnonzero((curves.ids == number) & (rows >= 0))
+        points = curves.points(own, t) if len(own) else None
+        if points is None:
             continue
-        start, end = mesh.edge_parameters[own].T[:, :, None]
-        share = start + shares * (end - start)
-        (points,) = edge.evaluate(share.ravel(), 0)
-        points = points.reshape(len(own), len(shares), 3)
-        nodes = mesh.points[mesh.edge_segments[own]]
+        nodes = mesh.points[curves.segments[own]]
         length = np.linalg.norm(nodes[:, 1] - nodes[:, 0], axis=1)
-        off = np.linalg.norm(points[:, [0, -1]] - nodes, axis=2).max(axis=1)
-        good = np.flatnonzero(off <= ON_CURVE * length)
+        from_curve = np.linalg.norm(points[:, [0, -1]] - nodes, axis=2).max(axis=1)
+        good = np.flatnonzero(from_curve <= ON_CURVE * length)
         for at_rim in (True, False):
             some = good[free[own[good]] == at_rim]
-            triangle = np.repeat(over[own[some]], len(RIM_SHARES))
-            uv = mesh.uv_points[mesh.uv_triangles[triangle]].mean(axis=1)  # about there
+            triangle = np.repeat(over[own[some]], len(ALONG_RIM))
+            uv = known.uv(triangle).mean(axis=1)  # about there
             search.look_at(points[some][:, 1:-1].reshape(-1, 3), uv, triangle, at_rim)
 
 
@@ -141,8 +175,10 @@ class _Candidate(NamedTuple):
 class _Search:
     """The distances over each triangle, and the points that are farthest."""
 
-    def __init__(self, mesh: SurfaceMesh, fit: Deviation, tolerances: Tolerances) -> None:
-        self.mesh = mesh
+    def __init__(self, known: KnownSurfaces, fit: Deviation, tolerances: Tolerances) -> None:
+        self.known, self.mesh = known, known.mesh
+        self.curves = _Curves.of(known.mesh)
+        mesh = known.mesh
         chord = tolerances.at(tolerances.chord, mesh.face_ids) * (1.0 + CHORD_SLACK)
         # a triangle that is too far from the surface itself needs no second proof
         self.far = fit.by_triangle > chord
@@ -158,13 +194,8 @@ class _Search:
         """At points over triangles (k,), at the barycentric ``weights[rule]``."""
         if not len(triangle):
             return
-        mesh = self.mesh
-        uv, points = np.empty((len(triangle), 2)), np.empty((len(triangle), 3))
-        interpolate(mesh.uv_points, mesh.uv_triangles, triangle, rule, weights, uv)
-        faces = mesh.face_ids[triangle]
-        for face in np.unique(faces).tolist() if len(mesh.surfaces) > 1 else [0]:
-            own = np.flatnonzero(faces == face) if len(mesh.surfaces) > 1 else slice(None)
-            points[own] = mesh.surfaces[face].evaluate(uv[own], 0)[0]
+        uv = self.known.sample_uv(triangle, rule, weights)
+        points = self.known.evaluate(self.mesh.face_ids[triangle], uv)
         self.look_at(points, uv, triangle, at_rim)
 
     def look_at(self, points: NDArray, uv: NDArray, triangle: NDArray, at_rim: bool) -> None:
@@ -271,36 +302,35 @@ class _Search:
             if best is None or exact > best.distance:
                 best = found._replace(distance=exact)
         if best is None:  # all that was looked at lies on the mesh to the last bit
-            mesh, corner = self.mesh, (0, 0)
-            place = mesh.uv_points[mesh.uv_triangles[corner]]
-            best = _Candidate(0.0, mesh.points[mesh.triangles[corner]], place, 0, False)
+            first = np.zeros(1, np.int32)
+            corner, uv = self.known.points(first)[0, 0], self.known.uv(first)[0, 0]
+            best = _Candidate(0.0, corner, uv, 0, False)
         self.by_triangle[self.far] = 0.0
-        point, uv = (tuple(map(float, place)) for place in (best.point, best.uv))
         return SurfaceDeviation(
-            self.by_triangle, best.distance, point, uv, best.triangle, best.at_rim
-        )
+            self.by_triangle, best.distance, as_point(best.point), as_uv(best.uv), best.triangle,
+            best.at_rim,
+        )  # fmt: skip
 
     def _is_off_face(self, uv: NDArray, triangle: int) -> bool:
         """Does uv (2,) over a triangle lie beyond an edge of its face? The sides of triangles are
         straight in (u, v), the curves that bound the face are not."""
-        mesh = self.mesh
+        mesh, curves = self.mesh, self.curves
+        if curves is None:
+            return False
         corners = mesh.triangles[triangle].tolist()
-        places = mesh.uv_points[mesh.uv_triangles[triangle]]
+        (places,) = self.known.uv(np.array([triangle]))
+        t = np.linspace(0.0, 1.0, ALONG)
         for k in range(3):
             segment = self._segments.get(frozenset((corners[k], corners[(k + 1) % 3])))
-            if segment is None:
+            points = None if segment is None else curves.points(np.array([segment]), t)
+            if segment is None or points is None:
                 continue
             ends = places[[k, (k + 1) % 3]]
-            if mesh.edge_segments[segment][0] != corners[k]:
+            if curves.segments[segment][0] != corners[k]:
                 ends = ends[::-1]
-            edge, share = mesh.edge_curves[mesh.edge_ids[segment]], mesh.edge_parameters[segment]
-            if edge is None or edge.curve is None:
-                continue
-            t = np.linspace(0.0, 1.0, ALONG)
-            (points,) = edge.evaluate(share[0] + t * (share[1] - share[0]))
             guess = ends[0] + t[:, None] * (ends[1] - ends[0])
             surface = mesh.surfaces[mesh.face_ids[triangle]]
-            line = closest_point(surface, points, guess, PROJECTIONS)[0]
+            line = closest_point(surface, points[0], guess, PROJECTIONS)[0]
             line[0], line[-1] = ends
             if _crossings(places[(k + 2) % 3], uv, line) % 2:
                 return True
@@ -309,9 +339,9 @@ class _Search:
     @cached_property
     def _segments(self) -> dict[frozenset[int], int]:
         """Rows of ``edge_segments`` by their nodes."""
-        if not self.mesh.edge_curves or self.mesh.edge_parameters is None:
+        if self.curves is None:
             return {}
-        return {frozenset(pair): k for k, pair in enumerate(self.mesh.edge_segments.tolist())}
+        return {frozenset(pair): k for k, pair in enumerate(self.curves.segments.tolist())}
 
     def _among_all(self, point: NDArray, distance: float) -> float:
         """Of a point (3,) from the whole mesh, known to be no more than ``distance``."""
@@ -340,34 +370,3 @@ def _crossings(start: NDArray, end: NDArray, line: NDArray) -> int:
         for place in (start, end)
     )
     return int(np.count_nonzero((side[1:] * side[:-1] < 0.0) & (ahead * behind < 0.0)))
-
-
-def triangle_distances(points: NDArray, corners: NDArray) -> NDArray[np.float64]:
-    """Distance (k,) of points (k, 3) from triangles with ``corners`` (k, 3, 3)."""
-    a = corners[:, 0]
-    ab, ac, ap = corners[:, 1] - a, corners[:, 2] - a, points - a
-    bb, bc, cc = _dot(ab, ab), _dot(ab, ac), _dot(ac, ac)
-    pb, pc = _dot(ap, ab), _dot(ap, ac)
-    with np.errstate(divide="ignore", invalid="ignore"):
-        det = bb * cc - bc * bc
-        v, w = (cc * pb - bc * pc) / det, (bb * pc - bc * pb) / det
-        inside = (v >= 0.0) & (w >= 0.0) & (v + w <= 1.0)
-        offset = ap - v[:, None] * ab - w[:, None] * ac
-        distance = np.sqrt(_dot(offset, offset))
-    out = np.flatnonzero(~inside)
-    if len(out):
-        ab, ac, ap = ab[out], ac[out], ap[out]
-        ends = ((ap, ab), (ap, ac), (ap - ab, ac - ab))
-        distance[out] = np.sqrt(np.minimum.reduce([_squared(*end) for end in ends]))
-    return distance
-
-
-def _squared(way: NDArray, side: NDArray) -> NDArray[np.float64]:
-    """Squared distance (k,) of ``way`` (k, 3) from the segment from 0 to ``side`` (k, 3)."""
-    share = np.clip(_dot(way, side) / np.maximum(_dot(side, side), np.finfo(float).tiny), 0.0, 1.0)
-    offset = way - share[:, None] * side
-    return _dot(offset, offset)
-
-
-def _dot(a: NDArray, b: NDArray) -> NDArray[np.float64]:
-    return np.einsum("ij,ij->i", a, b)

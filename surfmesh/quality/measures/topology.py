@@ -1,12 +1,14 @@
 """What kind of surface the triangles form: closed, manifold, oriented, in how many pieces."""
 
-from typing import NamedTuple
+from typing import Any, NamedTuple, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
 
 from surfmesh.geometry.components import components
 from surfmesh.result.surface_mesh import SurfaceMesh
+
+AnyInt = TypeVar("AnyInt", bound=np.integer[Any])
 
 
 class Topology(NamedTuple):
@@ -90,21 +92,34 @@ def _clashing(mesh: SurfaceMesh) -> NDArray[np.int32]:
     return np.flatnonzero(same).astype(np.int32)
 
 
+def half_edges_along(
+    mesh: SurfaceMesh, edges: NDArray[np.int32]
+) -> tuple[NDArray[np.int64], NDArray[np.intp]]:
+    """All half-edges that run along some of ``mesh.edges``, in its order, and the rows of these.
+
+    edges: (k, 2) in the order of ``mesh.edges``.
+    """
+    if not len(edges):
+        return np.empty(0, np.int64), np.empty(0, np.intp)
+    corners = mesh.triangles.reshape(-1).astype(np.int64)
+    following = mesh.triangles[:, (1, 2, 0)].reshape(-1).astype(np.int64)
+    near = np.zeros(len(mesh.points), bool)
+    near[edges] = True
+    half_edges = np.flatnonzero(near[corners] & near[following])
+    width = np.array([len(mesh.points), 1], np.int64)
+    ends = np.stack([corners[half_edges], following[half_edges]], axis=1)
+    keys, known = np.sort(ends, axis=1) @ width, edges @ width
+    row = np.minimum(np.searchsorted(known, keys), len(known) - 1)
+    here = known[row] == keys
+    return half_edges[here], row[here]
+
+
 def _crowded_half_edges(mesh: SurfaceMesh) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
     """Half-edges (k,) of edges of three triangles or more, in order of edges, and the edges."""
-    table, corners = mesh.connectivity, mesh.triangles.reshape(-1).astype(np.int64)
-    crowded = np.flatnonzero(table.uses > 2)
-    if not len(crowded):
-        return np.empty(0, np.int64), np.empty(0, np.int64)
-    width = np.array([len(mesh.points), 1], np.int64)
-    wanted = table.edges[crowded] @ width
-    half_edges = np.flatnonzero(np.isin(corners, table.edges[crowded]))
-    ends = np.stack([corners[half_edges], corners[_next(half_edges)]], axis=1)
-    keys = np.sort(ends, axis=1) @ width
-    row = np.minimum(np.searchsorted(wanted, keys), len(wanted) - 1)
-    here = wanted[row] == keys
-    order = np.argsort(row[here], kind="stable")
-    return half_edges[here][order], crowded[row[here][order]]
+    crowded = np.flatnonzero(mesh.connectivity.uses > 2)
+    half_edges, row = half_edges_along(mesh, mesh.edges[crowded])
+    order = np.argsort(row, kind="stable")
+    return half_edges[order], crowded[row[order]]
 
 
 def _is_balanced(mesh: SurfaceMesh, crowded: tuple[NDArray, NDArray]) -> bool:
@@ -139,5 +154,5 @@ def _fans(mesh: SurfaceMesh, crowded: tuple[NDArray, NDArray]) -> NDArray[np.int
     return np.bincount(heads, minlength=len(mesh.points))
 
 
-def _next(half_edge: NDArray[np.int32]) -> NDArray[np.int32]:
+def _next(half_edge: NDArray[AnyInt]) -> NDArray[AnyInt]:
     return half_edge + np.where(half_edge % 3 == 2, np.int32(-2), np.int32(1))

@@ -11,7 +11,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from surfmesh.geometry.differential.projection import closest_point
+from surfmesh.quality.measures.known_surfaces import KnownSurfaces, Rows
 from surfmesh.quality.measures.penetration import plane_weights
+from surfmesh.quality.measures.solids import solids_beside
 from surfmesh.result.surface_mesh import SurfaceMesh
 
 PROBES, NEAREST = 400, 8  # points of a solid's faces, and triangles of the other beside each
@@ -27,26 +29,20 @@ class TrueDepth(NamedTuple):
 
     depth: float  # the largest; minus infinity where no corner lies over the other body
     point: NDArray[np.float64]  # where that is
-    off: float  # by how much that corner lies off its own face
+    deviation: float  # of that corner from its own face
 
 
 NOWHERE = TrueDepth(-np.inf, np.full(3, np.nan), 0.0)
 
 
-def can_be_seen(mesh: SurfaceMesh) -> bool:
-    """Are surfaces known?"""
-    if not mesh.surfaces or mesh.uv_points is None or not len(mesh.face_ids):
-        return False
-    return 0 <= int(mesh.face_ids.min()) <= int(mesh.face_ids.max()) < len(mesh.surfaces)
-
-
 def true_depth(
-    mesh: SurfaceMesh, pairs: NDArray[np.int32], bodies: NDArray[np.int64],
+    known: KnownSurfaces, pairs: NDArray[np.int32], bodies: NDArray[np.int64],
     limit: NDArray[np.float64],
 ) -> TrueDepth:  # fmt: skip
     """pairs: (k, 2) triangles of two solids that meet; bodies: (k, 2) the solids; limit: (k,) as
     deep as their facets may lie within each other: what lies farther away is another face's."""
-    outward = np.where(mesh.solid_ids[pairs, 0] == bodies, 1.0, -1.0)
+    mesh, behind = known.mesh, solids_beside(known.mesh)[:, 0]
+    outward = np.where(behind[pairs] == bodies, 1.0, -1.0)
     facing = np.flatnonzero(outward.prod(axis=1) * _cosines(mesh, pairs) < FACING)
     kept = facing[:: max(-(-len(facing) // MOST), 1)]
     pairs, outward, limit = pairs[kept], outward[kept], limit[kept]
@@ -55,17 +51,17 @@ def true_depth(
         triangles, base = np.repeat(pairs[:, own], 3), np.repeat(pairs[:, 1 - own], 3)
         corner = np.tile([0, 1, 2], len(pairs))
         points = mesh.points[mesh.triangles[triangles, corner]]
-        uv = mesh.uv_points[mesh.uv_triangles[triangles, corner]]
-        found = _deepest(
-            mesh, points, triangles, uv, base, np.repeat(outward[:, 1 - own], 3),
-            np.repeat(limit, 3),
-        )  # fmt: skip
+        uv = known.corners.uv_points[known.corners.uv_triangles[triangles, corner]]
+        looked = _Looked(
+            points, triangles, uv, base, np.repeat(outward[:, 1 - own], 3), np.repeat(limit, 3)
+        )
+        found = _deepest(known, looked)
         best = max(best, found, key=lambda one: one.depth)
     return best
 
 
 def true_depth_of_faces(
-    mesh: SurfaceMesh, solids: tuple[int, int], allowed: NDArray[np.float64], least: float
+    known: KnownSurfaces, solids: tuple[int, int], allowed: NDArray[np.float64], least: float
 ) -> TrueDepth:
     """The same from points of the faces amid triangles, of two solids that are known to touch.
 
@@ -73,7 +69,8 @@ def true_depth_of_faces(
     """
     from scipy.spatial import cKDTree
 
-    rows = [np.flatnonzero((mesh.solid_ids == solid).any(axis=1)) for solid in solids]
+    mesh, beside = known.mesh, solids_beside(known.mesh)
+    rows = [np.flatnonzero((beside == solid).any(axis=1)) for solid in solids]
     middles = [mesh.points[mesh.triangles[own]].mean(axis=1) for own in rows]
     best = NOWHERE
     for k in (0, 1):
@@ -89,49 +86,51 @@ def true_depth_of_faces(
         base = rows[1 - k][place.reshape(len(own), count)].ravel()
         own = np.repeat(own, count)
         outward = [
-            np.where(mesh.solid_ids[t, 0] == solids[i], 1.0, -1.0)
-            for t, i in ((own, k), (base, 1 - k))
+            np.where(beside[t, 0] == solids[i], 1.0, -1.0) for t, i in ((own, k), (base, 1 - k))
         ]
         pairs = np.stack([own, base], axis=1)
         facing = outward[0] * outward[1] * _cosines(mesh, pairs) < FACING
         own, base, outwards = own[facing], base[facing], outward[1][facing]
-        uv = mesh.uv_points[mesh.uv_triangles[own]].mean(axis=1)
-        points = _on_surfaces(mesh, mesh.face_ids[own], uv)
+        uv = known.uv(own).mean(axis=1)
+        points = known.evaluate(mesh.face_ids[own], uv)
         limit = allowed[own] + allowed[base] + least
-        found = _deepest(mesh, points, own, uv, base, outwards, limit)
+        found = _deepest(known, _Looked(points, own, uv, base, outwards, limit))
         best = max(best, found, key=lambda one: one.depth)
     return best
 
 
-def _on_surfaces(mesh: SurfaceMesh, faces: NDArray, uv: NDArray) -> NDArray[np.float64]:
-    points = np.empty((len(uv), 3))
+class _Looked(NamedTuple):
+    """Points on faces of one body, and triangles of the other that they may lie over."""
+
+    points: NDArray[np.float64]  # (k, 3)
+    triangles: Rows  # (k,) their own
+    uv: NDArray[np.float64]  # (k, 2) on the faces of these
+    base: Rows  # (k,) triangles of the other body
+    outward: NDArray[np.float64]  # (k,) 1 where that body lies behind them, else -1
+    limit: NDArray[np.float64]  # (k,) what lies farther away is another face's
+
+    def chosen(self, rows: NDArray[np.intp]) -> "_Looked":
+        return _Looked(
+            self.points[rows], self.triangles[rows], self.uv[rows], self.base[rows],
+            self.outward[rows], self.limit[rows],
+        )  # fmt: skip
+
+
+def _deepest(known: KnownSurfaces, looked: _Looked) -> TrueDepth:
+    """The deepest of points that lie over triangles ``base`` (k,), face after face."""
+    mesh, best = known.mesh, NOWHERE
+    faces = mesh.face_ids[looked.base]
     for face in np.unique(faces).tolist():
-        here = faces == face
-        points[here] = mesh.surfaces[face].evaluate(uv[here], 0)[0]
-    return points
-
-
-def _deepest(
-    mesh: SurfaceMesh, points: NDArray, triangles: NDArray, uv: NDArray, base: NDArray,
-    outwards: NDArray, limit: NDArray,
-) -> TrueDepth:  # fmt: skip
-    """The deepest of points that lie over triangles ``base`` (k,), face after face.
-
-    uv: (k, 2) of the points on the faces of their own ``triangles``.
-    """
-    best = NOWHERE
-    faces = mesh.face_ids[base]
-    for face in np.unique(faces).tolist():
-        here = np.flatnonzero(faces == face)
-        depth, over = _over_face(mesh, face, points[here], base[here], outwards[here], limit[here])
+        here = looked.chosen(np.flatnonzero(faces == face))
+        depth, over = _over_face(known, face, here)
         if not over.any():
             continue
         worst = int(np.flatnonzero(over)[int(np.argmax(depth[over]))])
         if depth[worst] > best.depth:
-            k = here[worst]
-            (own,) = mesh.surfaces[int(mesh.face_ids[triangles[k]])].evaluate(uv[k][None], 0)
-            off = float(np.linalg.norm(own[0] - points[k]))
-            best = TrueDepth(float(depth[worst]), points[k], off)
+            own = mesh.surfaces[int(mesh.face_ids[here.triangles[worst]])]
+            (image,) = own.evaluate(here.uv[worst][None], 0)
+            deviation = float(np.linalg.norm(image[0] - here.points[worst]))
+            best = TrueDepth(float(depth[worst]), here.points[worst], deviation)
     return best
 
 
@@ -145,19 +144,18 @@ def _cosines(mesh: SurfaceMesh, pairs: NDArray[np.int32]) -> NDArray[np.float64]
 
 
 def _over_face(
-    mesh: SurfaceMesh, face: int, points: NDArray, base: NDArray, outwards: NDArray,
-    limit: NDArray,
-) -> tuple[NDArray[np.float64], NDArray[np.bool_]]:  # fmt: skip
-    """How deep points (k, 3) lie below one face, and which of them lie over triangles of it."""
-    surface = mesh.surfaces[face]
-    corners = mesh.uv_points[mesh.uv_triangles[base]]
-    foot_uv, distance, foot = closest_point(surface, points, corners.mean(axis=1), STEPS)
+    known: KnownSurfaces, face: int, looked: _Looked
+) -> tuple[NDArray[np.float64], NDArray[np.bool_]]:
+    """How deep the points lie below one face, and which of them lie over triangles of it."""
+    mesh, surface = known.mesh, known.mesh.surfaces[face]
+    corners = known.uv(looked.base)
+    foot_uv, distance, foot = closest_point(surface, looked.points, corners.mean(axis=1), STEPS)
     _, along_u, along_v = surface.evaluate(foot_uv, 1)
     normal = np.cross(along_u, along_v)
     normal /= np.maximum(np.linalg.norm(normal, axis=1), np.finfo(float).tiny)[:, None]
     turned = mesh.turned_faces is not None and bool(mesh.turned_faces[face])
-    normal *= ((-1.0 if turned else 1.0) * outwards)[:, None]
-    depth = -np.einsum("ij,ij->i", points - foot, normal)
-    over = (distance <= limit) & (plane_weights(foot_uv, corners).min(axis=1) >= OVER)
+    normal *= ((-1.0 if turned else 1.0) * looked.outward)[:, None]
+    depth = -np.einsum("ij,ij->i", looked.points - foot, normal)
+    over = (distance <= looked.limit) & (plane_weights(foot_uv, corners).min(axis=1) >= OVER)
     over &= distance - np.abs(depth) <= UPRIGHT * distance + np.finfo(float).eps
     return depth, over

@@ -19,13 +19,15 @@ from surfmesh.quality.measures.hidden_search import (
     BOXES,
     BOXES_EACH,
     Pieces,
+    bounded_at_once,
+    bounded_in_parts,
     search_rims,
     search_triangles,
-    settled_at_once,
-    settled_in_parts,
 )
-from surfmesh.quality.measures.surface_to_mesh import triangle_distances
+from surfmesh.quality.measures.known_surfaces import KnownSurfaces, Rows
+from surfmesh.quality.measures.places import Point, as_point, as_uv
 from surfmesh.quality.measures.tolerances import Tolerances
+from surfmesh.quality.measures.triangle_distances import triangle_distances
 from surfmesh.result.surface_mesh import SurfaceMesh
 
 SLACK = 1.3
@@ -55,7 +57,7 @@ class UnseenPlace:
     triangle: int
     face: int
     uv: tuple[float, float]
-    point: tuple[float, float, float]  # of the surface, there
+    point: Point  # of the surface, there
     found: bool  # it was found: else nothing excludes it
     deviation: float  # how far it lies, or may lie, from the mesh; infinite: no bound at all
 
@@ -71,21 +73,25 @@ class Unseen(NamedTuple):
 
 
 def unseen(
-    mesh: SurfaceMesh, fit: Deviation | None, tolerances: Tolerances, listed: int
+    known: KnownSurfaces, fit: Deviation, tolerances: Tolerances, listed: int
 ) -> Unseen | None:
-    """Look between the samples of ``fit``; None where a surface has no bounds (a function), or
-    there is no surface. Faces of CAD models are smooth between their knots: they are left out.
+    """Look between the samples of ``fit``; None where no surface has bounds: functions have none,
+    and faces of CAD models are smooth between their knots.
     """
-    bounded = [isinstance(surface, BoundedSurface) for surface in mesh.surfaces]
-    if fit is None or not any(bounded) or not np.isfinite(fit.largest):
+    mesh = known.mesh
+    bounded = [
+        (face, surface)
+        for face, surface in enumerate(mesh.surfaces)
+        if isinstance(surface, BoundedSurface)
+    ]
+    if not bounded or not np.isfinite(fit.largest):
         return None
-    found: list[tuple[NDArray[np.int64], Pieces]] = []
-    for face in np.flatnonzero(bounded):
+    found: list[tuple[Rows, Pieces]] = []
+    for face, surface in bounded:
         triangles = np.flatnonzero(mesh.face_ids == face)
         if len(triangles):
-            surface = mesh.surfaces[face]
-            found.append(_in_triangles(mesh, surface, triangles, fit, tolerances))
-            found.append(_along_rims(mesh, surface, triangles, fit, tolerances))
+            found.append(_in_triangles(known, surface, triangles, fit, tolerances))
+            found.append(_along_rims(known, surface, triangles, fit, tolerances))
     triangle = np.concatenate([t for t, _ in found] or [np.empty(0, np.int64)])
     reached = np.concatenate([p.reached for _, p in found] or [np.empty(0)])
     possible = np.concatenate([p.possible for _, p in found] or [np.empty(0)])
@@ -108,15 +114,16 @@ def _place(
     (point,) = mesh.surfaces[face].evaluate(uv[None], 0)
     is_found = bool(reached > 0.0)
     return UnseenPlace(
-        triangle, face, tuple(map(float, uv)), tuple(map(float, point[0])), is_found,
+        triangle, face, as_uv(uv), as_point(point[0]), is_found,
         float(reached if is_found else possible),
     )  # fmt: skip
 
 
 def _in_triangles(
-    mesh: SurfaceMesh, surface: Any, triangles: NDArray, fit: Deviation, tolerances: Tolerances
-) -> tuple[NDArray[np.int64], Pieces]:
-    corners, uv = _corners(mesh, triangles)
+    known: KnownSurfaces, surface: BoundedSurface, triangles: Rows, fit: Deviation,
+    tolerances: Tolerances,
+) -> tuple[Rows, Pieces]:  # fmt: skip
+    mesh, corners, uv = known.mesh, known.points(triangles), known.uv(triangles)
     normal = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
     longest = _longest(corners)
     area = np.linalg.norm(normal, axis=1)
@@ -126,29 +133,31 @@ def _in_triangles(
     seen = fit.by_triangle[triangles]
     tolerance = SLACK * _expected(mesh, triangles, fit, tolerances, longest[some])
     pieces = Pieces.of(uv, corners[:, 0], normal, tolerance)
-    left = np.flatnonzero(~settled_at_once(surface, pieces, seen))
+    left = np.flatnonzero(~bounded_at_once(surface, pieces, seen))
     triangles, tolerance = triangles[left], tolerance[left]
     pieces = Pieces.of(uv[left], corners[left, 0], normal[left], tolerance)
-    whole = _beside_poles(mesh, triangles)
-    hard = np.flatnonzero(whole | ~settled_in_parts(surface, pieces))
+    whole = _beside_poles(known, triangles)
+    hard = np.flatnonzero(whole | ~bounded_in_parts(surface, pieces))
     left, triangles, whole = left[hard], triangles[hard], whole[hard]
     pieces = Pieces.of(uv[left], corners[left, 0], normal[left], tolerance[hard])
     if len(left):
         around = _Around(mesh, triangles)
         budget = BOXES + BOXES_EACH * len(mesh.triangles)
-        search_triangles(surface, pieces, whole, around.away, budget)
+        search_triangles(surface, pieces, whole, around.deviation, budget)
     bad = pieces.is_open
     return triangles[bad], Pieces(*(getattr(pieces, name)[bad] for name in vars(pieces)))
 
 
 def _along_rims(
-    mesh: SurfaceMesh, surface: Any, triangles: NDArray, fit: Deviation, tolerances: Tolerances
-) -> tuple[NDArray[np.int64], Pieces]:
+    known: KnownSurfaces, surface: BoundedSurface, triangles: Rows, fit: Deviation,
+    tolerances: Tolerances,
+) -> tuple[Rows, Pieces]:  # fmt: skip
     """Segments of the free rims: in its own plane a triangle's rim may swing out unseen."""
+    mesh = known.mesh
     half_edges = mesh.connectivity.half_edges[mesh.connectivity.uses == 1, 0].astype(np.int64)
     half_edges = half_edges[np.isin(half_edges // 3, triangles)]
     triangle, side = np.divmod(half_edges, 3)
-    corners, uv = _corners(mesh, triangle)
+    corners, uv = known.points(triangle), known.uv(triangle)
     row = np.arange(len(side))
     ends = corners[row, side], corners[row, (side + 1) % 3]
     uv = np.stack([uv[row, side], uv[row, (side + 1) % 3]], axis=1)
@@ -162,10 +171,10 @@ def _along_rims(
     triangle, uv, start = triangle[some], uv[some], ends[0][some]
     normal = np.stack([across, beside], axis=1)
     seen = np.zeros(len(uv))
-    for share in (0.25, 0.5, 0.75):
-        (point,) = surface.evaluate(uv[:, 0] + share * (uv[:, 1] - uv[:, 0]), 0)
-        off = np.einsum("idj,ij->id", normal, point - start)
-        seen = np.maximum(seen, np.linalg.norm(off, axis=1))
+    for t in (0.25, 0.5, 0.75):
+        (point,) = surface.evaluate(uv[:, 0] + t * (uv[:, 1] - uv[:, 0]), 0)
+        from_chord = np.einsum("idj,ij->id", normal, point - start)
+        seen = np.maximum(seen, np.linalg.norm(from_chord, axis=1))
     expected = SLACK * _expected(mesh, triangle, fit, tolerances, length[some])
     pieces = Pieces.of(uv, start, normal, np.maximum(expected, RIM_SLACK * seen))
     if len(uv):
@@ -183,21 +192,18 @@ def _expected(
     return np.where(np.isfinite(chord), np.maximum(chord, fit.by_triangle[triangles]), without)
 
 
-def _corners(mesh: SurfaceMesh, triangles: NDArray) -> tuple[NDArray, NDArray]:
-    """Points (k, 3, 3) and parameters (k, 3, 2) of the corners."""
-    return mesh.points[mesh.triangles[triangles]], mesh.uv_points[mesh.uv_triangles[triangles]]
-
-
 def _longest(corners: NDArray) -> NDArray[np.float64]:
     return np.linalg.norm(corners - corners[:, [1, 2, 0]], axis=2).max(axis=1)
 
 
-def _beside_poles(mesh: SurfaceMesh, triangles: NDArray) -> NDArray[np.bool_]:
+def _beside_poles(known: KnownSurfaces, triangles: Rows) -> NDArray[np.bool_]:
     """(k,) triangles with a corner at a side that is one point: there others were dropped."""
-    pairs = np.stack([mesh.triangles.ravel(), mesh.uv_triangles.ravel()], axis=1)
+    mesh = known.mesh
+    pairs = np.stack([mesh.triangles.ravel(), known.corners.uv_triangles.ravel()], axis=1)
     vertex = np.unique(pairs, axis=0)[:, 0]
     images = np.bincount(vertex, minlength=len(mesh.points))
-    return (images[mesh.triangles[triangles]] > 4).any(axis=1)  # a corner of two seams has four
+    many = images[mesh.triangles[triangles]] > 4  # a corner of two seams has four
+    return np.any(many, axis=1)
 
 
 class _Around:
@@ -218,7 +224,7 @@ class _Around:
 
         return cKDTree(self.mesh.points[self.used])
 
-    def away(self, piece: NDArray, point: NDArray) -> NDArray[np.float64]:
+    def deviation(self, piece: NDArray, point: NDArray) -> NDArray[np.float64]:
         """Distance (n,) of points (n, 3) from the triangles around those of ``piece`` (n,)."""
         count = min(NEAREST, len(self.used))
         _, nearest = self._tree.query(point, k=[*range(1, count + 1)])

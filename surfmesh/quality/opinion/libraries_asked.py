@@ -115,8 +115,8 @@ def _polydata(mesh: Placed) -> "pyvista.PolyData":
 
 def _edges(data: "pyvista.PolyData", **kinds: bool) -> int:
     """How many edges there are of these kinds."""
-    wanted = dict.fromkeys(("boundary_edges", "non_manifold_edges", "manifold_edges"), False)
-    return int(data.extract_feature_edges(feature_edges=False, **(wanted | kinds)).n_cells)
+    none = dict.fromkeys(("boundary_edges", "non_manifold_edges", "manifold_edges"), False)
+    return int(data.extract_feature_edges(feature_edges=False, **(none | kinds)).n_cells)
 
 
 def _euler(data: "pyvista.PolyData") -> int:

@@ -169,9 +169,9 @@ def _of_pyvista(mesh: SurfaceMesh, report: Figures, seen: Seen) -> list[OpinionR
     qualities = found.get("qualities")
     area = float(qualities["area"].sum()) if isinstance(qualities, dict) else qualities
     library.near("area", report.area, area, seen.limits.area, 2, "", reason)
-    ours = None if report.volume is None else abs(report.volume)  # VTK's have no sign
+    volume = None if report.volume is None else abs(report.volume)  # VTK's have no sign
     limits = seen.enclosing_limits
-    _volume(library, ours, found.get("volume"), limits.volume + limits.heron, "", reason)
+    _volume(library, volume, found.get("volume"), limits.volume + limits.heron, "", reason)
     compare_shapes(library, report, shapes(mesh), qualities, seen.limits.cosine, reason)
     return library.rows
 

@@ -47,10 +47,9 @@ def compare_shapes(
         _each_triangle(library, name, measure)
     for field, name, how in _OF_REPORT:
         ours, theirs, bound, why = measures[name]
-        if isinstance(theirs, np.ndarray):
-            theirs = float(getattr(np, how)(theirs))
+        one = float(getattr(np, how)(theirs)) if isinstance(theirs, np.ndarray) else theirs
         most = _of_mean(bound) if how == "mean" else _of_extreme(ours, bound, how)
-        library.near(field, getattr(report, field), theirs, most, 0, "", why)
+        library.near(field, getattr(report, field), one, most, 0, "", why)
 
 
 def _measures(

@@ -1,5 +1,7 @@
 """The report in full, as text: the summary, then tables of faces, solids and worst triangles."""
 
+from collections.abc import Sequence
+
 from surfmesh.errors import printable
 from surfmesh.quality.figures.figures import Figures
 from surfmesh.quality.figures.second_opinion import figure_in_words
@@ -30,7 +32,9 @@ def _faces(report: Figures) -> str:
     if len(rows) > SHOWN_FACES:
         title = f"faces, the {SHOWN_FACES} farthest from the surface of {len(rows)}"
         rows = sorted(rows, key=_badness, reverse=True)[:SHOWN_FACES]
-    head = ("face", "name", "triangles", "area", "exact", "off", "largest", "chord", "rms")
+    head: tuple[str, ...] = (
+        "face", "name", "triangles", "area", "exact", "off", "largest", "chord", "rms",
+    )  # fmt: skip
     head += ("> chord", "near", "turn", "angle", "alpha", "min", "size", "wanted")
     return _table(
         title,
@@ -51,7 +55,9 @@ def _faces(report: Figures) -> str:
 
 
 def _badness(row: FaceRow) -> float:
-    return row.deviation_max if row.deviation_max is not None else 1.0 - row.alpha_min
+    if row.deviation_max is not None or row.alpha_min is None:
+        return row.deviation_max or 0.0
+    return 1.0 - row.alpha_min
 
 
 def _short(row: FaceRow) -> str:
@@ -197,7 +203,7 @@ def _origin(report: Figures) -> str:
     return "\n".join(["origin", *lines])
 
 
-def _table(title: str, head: tuple[str, ...], rows: list[tuple[str, ...]]) -> str:
+def _table(title: str, head: tuple[str, ...], rows: Sequence[tuple[str, ...]]) -> str:
     """Columns as wide as they must be; numbers to the right, words to the left."""
     if not rows:
         return ""
@@ -219,8 +225,8 @@ def _g(value: float | None, digits: int = 4) -> str:
     return "" if value is None else f"{value:.{digits}g}"
 
 
-def _percent(share: float | None) -> str:
-    return "" if share is None else f"{100 * share:.3g} %"
+def _percent(fraction: float | None) -> str:
+    return "" if fraction is None else f"{100 * fraction:.3g} %"
 
 
 def _error(error: float | None) -> str:

@@ -4,6 +4,7 @@ import textwrap
 
 from surfmesh.errors import printable
 from surfmesh.quality.figures.figures import Figures
+from surfmesh.quality.figures.second_opinion import SecondOpinion
 from surfmesh.quality.measures.places import count_in_words, place_in_words
 
 WIDTH = 92
@@ -53,9 +54,9 @@ def summary(report: Figures) -> str:
         rows.append(("", _growth(report)))
     rows.append(("deviation", _deviation(report)))
     if report.angle is not None and report.angle_max is not None:
-        rows.append(("turning", _turning(report)))
+        rows.append(("turning", _dihedral_angles(report)))
     if report.second_opinion is not None:
-        rows.append(("opinion", _second_opinion(report)))
+        rows.append(("opinion", _second_opinion(report.second_opinion)))
     if report.seconds:
         rows.append(("seconds", _seconds(report)))
     lines += [
@@ -145,16 +146,6 @@ def _growth(report: Figures) -> str:
 def _deviation(report: Figures) -> str:
     if report.deviation_max is None:
         return "not known: the mesh carries no surface to compare with"
-    asked = ""
-    rows = [row for row in report.by_face if row.chord and row.deviation_max is not None]
-    there = [row.chord for row in rows if row.deviation_triangle == report.deviation_triangle]
-    chord = there[0] if there else report.chord
-    if chord:
-        asked = f"{100 * report.deviation_max / chord:,.0f} % of chord {chord:.4g}"
-        if len({row.chord for row in rows}) > 1:
-            most = max(row.deviation_max / row.chord for row in rows)
-            asked += f" there, at most {100 * most:,.0f} % of that of any face"
-        asked = f" ({asked})"
     used = ""
     if report.chord_used is not None:
         used = f"median {100 * report.chord_used:.0f} % of chord where it decides the size; "
@@ -162,15 +153,33 @@ def _deviation(report: Figures) -> str:
     back = ""
     if report.surface_deviation_max is not None:
         there = place_in_words(report.surface_deviation_point, 4)
-        rim = "a rim, " * report.surface_deviation_at_rim
+        rim = "a rim, " if report.surface_deviation_at_rim else ""
         most = f"{report.surface_deviation_max:.4g}"
         back = f"; the surface lies up to {most} from the mesh, at {rim}{there}"
     return (
-        f"largest {report.deviation_max:.4g}{asked}, rms {report.deviation_rms:.4g}; "
-        f"{used}"
+        f"largest {report.deviation_max:.4g}{_of_chord(report, report.deviation_max)}, "
+        f"rms {report.deviation_rms:.4g}; {used}"
         f"largest in triangle {report.deviation_triangle} at {place}{back}"
         f"{_between_samples(report)}"
     )
+
+
+def _of_chord(report: Figures, deviation: float) -> str:
+    """How large the deviation is against the chord of its face, and of others."""
+    rows = [
+        (row.deviation_max, row.chord, row.deviation_triangle)
+        for row in report.by_face
+        if row.chord and row.deviation_max is not None
+    ]
+    there = [chord for _, chord, triangle in rows if triangle == report.deviation_triangle]
+    chord = there[0] if there else report.chord
+    if not chord:
+        return ""
+    words = f"{100 * deviation / chord:,.0f} % of chord {chord:.4g}"
+    if len({chord for _, chord, _ in rows}) > 1:
+        most = max(largest / chord for largest, chord, _ in rows)
+        words += f" there, at most {100 * most:,.0f} % of that of any face"
+    return f" ({words})"
 
 
 def _between_samples(report: Figures) -> str:
@@ -180,7 +189,7 @@ def _between_samples(report: Figures) -> str:
     return "; nothing more between the samples, by the formula's bounds" * (report.unseen == 0)
 
 
-def _turning(report: Figures) -> str:
+def _dihedral_angles(report: Figures) -> str:
     place = place_in_words(report.angle_point, 4)
     return (
         f"largest {report.angle_max:.4g}° between neighbours ({report.angle:.4g}° asked for); "
@@ -188,8 +197,7 @@ def _turning(report: Figures) -> str:
     )
 
 
-def _second_opinion(report: Figures) -> str:
-    opinion = report.second_opinion
+def _second_opinion(opinion: SecondOpinion) -> str:
     left = len(opinion.rows) - opinion.compared
     others = f" ({left:,} more cannot be compared)" if left else ""
     found = opinion.disagreements
@@ -207,7 +215,7 @@ def _second_opinion(report: Figures) -> str:
 def _seconds(report: Figures) -> str:
     total = sum(report.seconds.values())
     rate = f", {report.triangles / total:,.0f} triangles a second" if total > 0 else ""
-    longest = sorted(report.seconds, key=report.seconds.get, reverse=True)[:_SHOWN_STAGES]
+    longest = sorted(report.seconds, key=report.seconds.__getitem__, reverse=True)[:_SHOWN_STAGES]
     stages = ", ".join(
         f"{stage} {taken:.3f}" for stage, taken in report.seconds.items() if stage in longest
     )

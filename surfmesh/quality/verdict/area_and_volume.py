@@ -13,6 +13,7 @@ from surfmesh.quality.measures.area_and_volume import Explained
 from surfmesh.quality.measures.by_face import FaceRow
 from surfmesh.quality.measures.measurements import Measurements
 from surfmesh.quality.measures.places import face_in_words, more_in_words
+from surfmesh.quality.measures.solids import solids_beside
 from surfmesh.quality.verdict.connectivity import solid_in_words
 from surfmesh.quality.verdict.finding import Kind, Problem, Remark
 from surfmesh.result.surface_mesh import SurfaceMesh
@@ -120,10 +121,10 @@ def unexplained(measured: Measurements, faces: tuple[FaceRow, ...]) -> Iterator[
 def _volumes(measured: Measurements, found: Explained) -> Iterator[Problem]:
     mesh, kinds = measured.mesh, measured.facts.faces
     bad: list[tuple[float, VolumeUnexplained]] = []
-    for row in measured.solids if mesh.solid_ids is not None else ():
+    for row in measured.solids:
         if row.volume is None or row.volume_exact is None or row.volume_error is None:
             continue
-        own = (mesh.solid_ids == row.solid).any(axis=1)
+        own = (solids_beside(mesh) == row.solid).any(axis=1)
         allowed = float(found.volume[own].sum()) / row.volume_exact
         inexact = [
             _inexact(kinds[face].kind if face < len(kinds) else "")

@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 from surfmesh.quality.measures.folds import Folds
 from surfmesh.quality.measures.measurements import Measurements
 from surfmesh.quality.measures.narrow import without_area
-from surfmesh.quality.measures.places import as_point, count_in_words, place_in_words
+from surfmesh.quality.measures.places import Point, as_point, count_in_words, place_in_words
 from surfmesh.quality.verdict.finding import Kind, Problem, Remark
 from surfmesh.result.surface_mesh import SurfaceMesh
 
@@ -53,7 +53,7 @@ class FoldedFace:
     """A face that bends sharply or turns over."""
 
     name: str
-    place: tuple[float, float, float]  # of the triangle that is turned most
+    place: Point  # of the triangle that is turned most
     triangles: int
 
 
@@ -81,31 +81,31 @@ class FoldedSurface(Remark):
 
 def bad_triangles(measured: Measurements) -> Iterator[Problem]:
     """Those without area, then those turned over, then those turned more than 60 degrees."""
-    mesh, turned = measured.mesh, measured.folds
+    mesh, folds = measured.mesh, measured.folds
     flat = without_area(mesh, measured.shapes.alpha)
     yield from _triangles(mesh, flat, Kind.WITHOUT_AREA, "without area")
-    if turned is None:
+    if folds is None:
         return
-    folded = turned.ours & ~turned.inverted
+    folded = folds.by_mesh & ~folds.inverted
     for bad, kind, what in (
-        (turned.inverted, Kind.INVERTED, "inverted against the surface"),
+        (folds.inverted, Kind.INVERTED, "inverted against the surface"),
         (folded, Kind.FOLDED, "folded: turned more than 60° from the surface"),
     ):
-        yield from _triangles(mesh, bad, kind, what, _causes(turned, bad))
+        yield from _triangles(mesh, bad, kind, what, _causes(folds, bad))
 
 
 def folded_surfaces(measured: Measurements) -> Iterator[Remark]:
     """Faces that bend sharply or turn over, and where each does most."""
-    turned, mesh = measured.folds, measured.mesh
-    if turned is None or not turned.own.any():
+    folds, mesh = measured.folds, measured.mesh
+    if folds is None or not folds.by_surface.any():
         return
     faces = []
-    for face in np.unique(mesh.face_ids[turned.own]).tolist():
-        some = np.flatnonzero(turned.own & (mesh.face_ids == face))
-        worst = some[turned.cosine[some].argmin()]
+    for face in np.unique(mesh.face_ids[folds.by_surface]).tolist():
+        some = np.flatnonzero(folds.by_surface & (mesh.face_ids == face))
+        worst = some[folds.cosine[some].argmin()]
         place = as_point(mesh.points[mesh.triangles[worst]].mean(axis=0))
         faces.append(FoldedFace(name=mesh.face_name(face), place=place, triangles=len(some)))
-    yield FoldedSurface(radius=turned.radius, faces=tuple(faces), place=faces[0].place)
+    yield FoldedSurface(radius=folds.radius, faces=tuple(faces), place=faces[0].place)
 
 
 def _triangles(
@@ -124,17 +124,17 @@ def _triangles(
         )
 
 
-def _causes(turned: Folds, bad: NDArray[np.bool_]) -> tuple[FoldCause, ...]:
+def _causes(folds: Folds, bad: NDArray[np.bool_]) -> tuple[FoldCause, ...]:
     """Edges off the surface, or images in (u, v) that are not those of their nodes."""
     edges = "beside edges that lie up to {:.3g} off the surface"
     images = (
-        f"beside nodes that lie on the surface to {turned.nearest:.2g} and their (u, v) up to "
+        f"beside nodes that lie on the surface to {folds.nearest:.2g} and their (u, v) up to "
         "{:.3g} from there, moved apart where the boundary crosses itself, or so in the file"
     )
     causes = []
     for reached, here, what in (
-        (turned.off, bad & (turned.off > 0.0), edges),
-        (turned.moved, bad & (turned.moved > turned.off), images),
+        (folds.off_surface, bad & (folds.off_surface > 0.0), edges),
+        (folds.misplaced, bad & (folds.misplaced > folds.off_surface), images),
     ):
         if here.any():
             most = float(reached[here].max())

@@ -4,6 +4,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from surfmesh.quality.measures.places import Point, as_point
 from surfmesh.quality.measures.shape import Shapes, shapes
 from surfmesh.result.surface_mesh import SurfaceMesh
 
@@ -18,7 +19,7 @@ class WorstTriangle:
     max_angle_deg: float
     face: int
     name: str  # of the face
-    point: tuple[float, float, float]  # its centroid, model units
+    point: Point  # its centroid, model units
     corners: tuple[int, int, int]  # vertex numbers
 
 
@@ -45,8 +46,8 @@ def worst_triangles(
             max_angle_deg=float(shape.max_angle[t]),
             face=int(mesh.face_ids[t]),
             name=mesh.face_name(int(mesh.face_ids[t])),
-            point=tuple(map(float, place)),
-            corners=tuple(map(int, mesh.triangles[t])),
+            point=as_point(place),
+            corners=(int(a), int(b), int(c)),
         )
-        for t, place in zip(worst, centroids)
+        for t, place, (a, b, c) in zip(worst, centroids, mesh.triangles[worst])
     )

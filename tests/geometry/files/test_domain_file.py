@@ -58,10 +58,10 @@ def test_a_good_file(tmp_path):
     assert isinstance(domain, sm.PlanarDomain)
     assert (domain.name, domain.description) == ("plate", "one")
     assert (domain.area, domain.regions) == (11.25, 2)
-    wishes = default_options(domain)
-    assert wishes.keys() == {"growth", "size"} and wishes["growth"] == 1.3
-    assert sm.Sizing.of(wishes).size(np.array([[0.0, 0, 0], [4, 1, 0], [1.5, 1.5, 0]])).max() < 0.2
-    assert (wishes["size"].near, wishes["size"].far, wishes["size"].reach) == (0.02, 0.2, 1.0)
+    asked = default_options(domain)
+    assert asked.keys() == {"growth", "size"} and asked["growth"] == 1.3
+    assert sm.Sizing.of(asked).size(np.array([[0.0, 0, 0], [4, 1, 0], [1.5, 1.5, 0]])).max() < 0.2
+    assert (asked["size"].near, asked["size"].far, asked["size"].reach) == (0.02, 0.2, 1.0)
 
 
 @pytest.mark.parametrize("right, wrong, reason", WRONG, ids=lambda x: x[:24])

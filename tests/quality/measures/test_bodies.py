@@ -11,9 +11,10 @@ from OCP.BRepBuilderAPI import BRepBuilderAPI_Copy
 from OCP.TopoDS import TopoDS_Compound
 
 import surfmesh as sm
-from surfmesh.quality.measures.inside import distance_to_triangles, inside
+from surfmesh.quality.measures.inside import inside
 from surfmesh.quality.measures.penetration import depths
 from surfmesh.quality.measures.self_intersection import meeting_pairs
+from surfmesh.quality.measures.triangle_distances import triangle_distances
 from surfmesh.result.surface_mesh import SurfaceMesh
 
 
@@ -183,7 +184,7 @@ def test_distance_from_triangles_against_samples():
     samples = weights @ corners[0]
     for point in np.random.default_rng(4).uniform(-1, 2, (50, 3)):
         near = np.linalg.norm(samples - point, axis=1).min()
-        assert distance_to_triangles(point, corners)[0] == pytest.approx(near, abs=0.01)
+        assert triangle_distances(point[None], corners)[0] == pytest.approx(near, abs=0.01)
 
 
 @settings(max_examples=60)
