@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 
-from surfmesh.geometry.formulas.kinks import Guides, KinkLine
+from surfmesh.geometry.formulas.kink_tracing import Guides, KinkLine
 from surfmesh.geometry.surface import Surface
 from surfmesh.meshing.boundary.boundary_loops import BoundaryLoops
 from surfmesh.sizing.field.size_field import SizeField

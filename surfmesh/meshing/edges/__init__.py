@@ -1,5 +1,6 @@
 """Edges of a CAD model, each cut once for all its faces.
 
+polygon_lengths: how far along a polygon in space its nodes lie.
 edge_rules: what is asked of the edges by themselves: the rules at samples of one edge.
 edge_samples: samples along the edges of a CAD model, and the edge lengths that they ask for by
     themselves.

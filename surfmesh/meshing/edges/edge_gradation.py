@@ -8,6 +8,8 @@ right angles may differ by the largest ratio.
 
 import numpy as np
 
+from surfmesh.meshing.edges.polygon_lengths import lengths_along
+
 ROUNDS = 10
 """How often what vertices pass on is passed on again, at most."""
 
@@ -17,7 +19,7 @@ RIGHT_ANGLE = 1e-9
 
 def graded_by_direction(
     points: list[np.ndarray],
-    targets: list[np.ndarray],
+    target_sizes: list[np.ndarray],
     ways: np.ndarray,
     ends: np.ndarray,
     slope: float,
@@ -25,13 +27,13 @@ def graded_by_direction(
 ) -> list[np.ndarray]:
     """Graded sizes along each edge.
 
-    points (n, 3), targets (n,) at the samples of each edge; ways (e, 2, 3): unit tangents at its
-    start and end; ends (e, 2): vertices. Of two edges at a vertex, one is at most ``ratio`` times
-    coarser, and at most 1 / cos of the angle between their lines: a size along one of them is a
-    size along its part on the other too.
+    points (n, 3), target_sizes (n,) at the samples of each edge; ways (e, 2, 3): unit tangents at
+    its start and end; ends (e, 2): vertices. Of two edges at a vertex, one is at most ``ratio``
+    times coarser, and at most 1 / cos of the angle between their lines: a size along one of them
+    is a size along its part on the other too.
     """
-    way = [_lengths(place) for place in points]
-    sizes = [_graded(size, step, slope) for size, step in zip(targets, way)]
+    way = [lengths_along(place) for place in points]
+    sizes = [_graded(size, step, slope) for size, step in zip(target_sizes, way)]
     vertex = np.asarray(ends).reshape(-1)
     order = np.argsort(vertex, kind="stable")
     starts = np.flatnonzero(np.r_[True, np.diff(vertex[order]) != 0])
@@ -56,10 +58,6 @@ def graded_by_direction(
         if not lowered:
             break
     return sizes
-
-
-def _lengths(points: np.ndarray) -> np.ndarray:
-    return np.r_[0.0, np.cumsum(np.linalg.norm(np.diff(points, axis=0), axis=1))]
 
 
 def _graded(size: np.ndarray, way: np.ndarray, slope: float) -> np.ndarray:

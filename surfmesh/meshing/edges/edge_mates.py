@@ -20,6 +20,7 @@ import numpy as np
 from surfmesh.cad.model.cad_model import CadModel
 from surfmesh.kernels.space.edge_distances import edge_gaps
 from surfmesh.meshing.edges.narrow_faces import Chain, chain_of, feet, foot_on_edge
+from surfmesh.meshing.edges.polygon_lengths import lengths_along
 
 if TYPE_CHECKING:  # which finds narrow faces with this module
     from surfmesh.meshing.edges.edge_samples import EdgeSamples
@@ -61,8 +62,10 @@ def mate_runs(model: CadModel, samples: EdgeSamples) -> list[MateRun]:
     found = []
     for number, narrow in samples.narrow.items():
         coedges = list(model.faces[number].coedges)
-        sides = [chain_of(coedges, samples, side) for side in narrow.sides]
-        for own, other in (sides, sides[::-1]):
+        first, second = (chain_of(coedges, samples, side) for side in narrow.sides)
+        if first is None or second is None:
+            continue
+        for own, other in ((first, second), (second, first)):
             found += _runs(model, own, other, float(samples.narrow_width[number]))
     pairs = dict.fromkeys([*_meeting_pairs(model, samples), *_near_pairs(model, samples)])
     widths: dict[tuple[int, int], float] = {}
@@ -140,8 +143,7 @@ def _edge_chain(samples: EdgeSamples, edge: int) -> Chain:
     own = samples.of(edge)
     points, t = samples.points[own], samples.share[own]
     count = len(points) - 1
-    length = float(np.linalg.norm(np.diff(points, axis=0), axis=1).sum())
-    return Chain(points, np.zeros(count, int), np.full(count, edge), t[:-1], t[1:], length)
+    return Chain(points, np.zeros(count, int), np.full(count, edge), t[:-1], t[1:])
 
 
 def _runs(model: CadModel, own: Chain, other: Chain, width: float) -> list[MateRun]:
@@ -243,17 +245,16 @@ class MatedCuts:
         near = np.minimum(np.abs(along - ends[right - 1]), np.abs(along - ends[right]))
         same = self._same(run.mate, foot, away)
         added: list[float] = []
-        for k in np.flatnonzero(near > same).tolist():
-            if all(abs(along[k] - place) > same[k] for place in added):
-                added.append(float(along[k]))
-                nodes = np.append(nodes, foot[k])
+        for new in np.flatnonzero(near > same).tolist():
+            if all(abs(along[new] - place) > same[new] for place in added):
+                added.append(float(along[new]))
+                nodes = np.append(nodes, foot[new])
         if added:
             self.t[run.mate] = np.unique(nodes)
         return len(added)
 
     def _lengths(self, edge: int) -> np.ndarray:
-        points = self.samples.points[self.samples.of(edge)]
-        return np.r_[0.0, np.cumsum(np.linalg.norm(np.diff(points, axis=0), axis=1))]
+        return lengths_along(self.samples.points[self.samples.of(edge)])
 
     def _along(self, edge: int, t: np.ndarray) -> np.ndarray:
         """Lengths (n,) from the start of an edge to parameters (n,)."""

@@ -1,6 +1,6 @@
 """The edges of a CAD model, each cut once for all its faces.
 
-    wishes at samples of every edge -> graded along edges and through vertices -> cut to unit
+    target sizes at samples of edges -> graded along edges and through vertices -> cut to unit
     (edge_samples), limits of           (Dijkstra over all samples of the        metric length
     earlier rounds                       model; it is a shortest path)
 
@@ -64,23 +64,23 @@ def cut_edges(
     sizing: with the model's defaults filled in. limits: by face, from earlier rounds. before:
     the nodes of the last round; edges that have not changed since stay the same objects.
     """
-    wish = samples.target_size
+    target_size = samples.target_size
     if limits:
-        wish = wish.copy()
+        target_size = target_size.copy()
         for face, limit in limits.items():
             along = samples.along(face)
             if samples.is_anisotropic:
                 found = limit.along(samples.points[along], samples.tangent[along][None])[0]
             else:
                 found = limit(samples.points[along])
-            wish[along] = np.minimum(wish[along], found)
+            target_size[along] = np.minimum(target_size[along], found)
     grade = _graded_by_direction if samples.is_anisotropic else _graded
     if samples.mates:
-        wish = wish.copy() if wish is samples.target_size else wish
-        lower_to_mates(samples, samples.mates, wish)
-    size = grade(model, samples, wish, sizing)
+        target_size = target_size.copy() if target_size is samples.target_size else target_size
+        lower_to_mates(samples, samples.mates, target_size)
+    size = grade(model, samples, target_size, sizing)
     for number in np.flatnonzero(samples.hidden).tolist():  # no neighbour hears of them
-        size[samples.of(number)] = wish[samples.of(number)]
+        size[samples.of(number)] = target_size[samples.of(number)]
     if samples.mates:
         lower_to_mates(samples, samples.mates, size)
     fewest = partial(_fewest, model, samples)
@@ -98,28 +98,30 @@ def cut_edges(
     return nodes
 
 
-def _graded(model: CadModel, samples: EdgeSamples, wish: np.ndarray, sizing: Sizing) -> np.ndarray:
-    """Sizes (n,) at the samples: the wish w_j of any sample j plus the slope times the way."""
+def _graded(
+    model: CadModel, samples: EdgeSamples, target_size: np.ndarray, sizing: Sizing
+) -> np.ndarray:
+    """Sizes (n,) at the samples: the target size of any sample plus the slope times the way."""
     from scipy.sparse import coo_matrix
     from scipy.sparse.csgraph import dijkstra
 
-    total = len(wish)
+    total = len(target_size)
     if not total:
-        return wish
+        return target_size
     starts, ends = samples.first[:-1], samples.first[1:] - 1
     there = starts <= ends
     starts, ends = starts[there], ends[there]
     node = len(model.vertices) + np.arange(total)  # of the graph: vertices, samples, the root
     corners = samples.vertex[np.array([[edge.start, edge.end] for edge in model.edges])[there]]
     node[starts], node[ends] = corners.T
-    root = len(model.vertices) + total  # from which all wishes start
+    root = len(model.vertices) + total  # from which all sizes grow
     step = np.linalg.norm(samples.points[1:] - samples.points[:-1], axis=1)
     step = np.maximum(step, 1e-12 * model.diagonal)  # the sparse graph takes zero for no edge
     inside = np.ones(total - 1, bool)
     inside[ends[:-1]] = False
     graph = coo_matrix(
         (
-            np.concatenate([step[inside], wish / sizing.gradient]),
+            np.concatenate([step[inside], target_size / sizing.gradient]),
             (
                 np.concatenate([node[:-1][inside], np.full(total, root)]),
                 np.concatenate([node[1:][inside], node]),
@@ -136,18 +138,18 @@ def _graded(model: CadModel, samples: EdgeSamples, wish: np.ndarray, sizing: Siz
 
 
 def _graded_by_direction(
-    model: CadModel, samples: EdgeSamples, wish: np.ndarray, sizing: Sizing
+    model: CadModel, samples: EdgeSamples, target_size: np.ndarray, sizing: Sizing
 ) -> np.ndarray:
     """Sizes (n,) at the samples, where those along two edges differ at their vertex."""
     there = [k for k in range(len(model.edges)) if samples.first[k] < samples.first[k + 1]]
     if not there:
-        return wish
+        return target_size
     ends = np.array([samples.vertex[[model.edges[k].start, model.edges[k].end]] for k in there])
     own = [samples.of(k) for k in there]
     ways = np.array([samples.tangent[k][[0, -1]] for k in own])
     return np.concatenate(
         graded_by_direction(
-            [samples.points[k] for k in own], [wish[k] for k in own], ways, ends,
+            [samples.points[k] for k in own], [target_size[k] for k in own], ways, ends,
             sizing.gradient, sizing.anisotropy,
         )
     )  # fmt: skip

@@ -26,10 +26,10 @@ _STRAIGHT, _CURVED = (np.linspace(0.0, 1.0, n) for n in (STRAIGHT_SAMPLES, CURVE
 
 LONGER, LEAST_NARROW = 3.0, 0.3
 """Edges narrower than NARROWEST apart ask for so many times their distance, not below this
-share of NARROWEST: triangles of alpha 0.5."""
+fraction of NARROWEST: triangles of alpha 0.5."""
 
 SLIVER, MUCH_SMALLER = 5e-5, 1.0 / 150.0
-"""Gaps narrower than this share of the diagonal, or of the size asked for there without them,
+"""Gaps narrower than this fraction of the diagonal, or of the size asked for there without them,
 ask for nothing: a sliver along a whole part would flood it with triangles."""
 
 MOST_LONGER = 1e8
@@ -37,7 +37,7 @@ MOST_LONGER = 1e8
 longer than that count as having no area."""
 
 HIDDEN, MOST_HALVINGS, MOST_SAMPLES = 0.7, 30, 20_000
-"""Between samples, laws may ask for this share of the sizes at them; how hard that is pursued."""
+"""Between samples, laws may ask for this fraction of the sizes there; how hard that is pursued."""
 
 
 @dataclass(frozen=True)
@@ -174,7 +174,7 @@ def _find_narrow(samples: EdgeSamples, rules: EdgeRules) -> None:
 
 
 def _has_twin(
-    model: CadModel, first: np.ndarray, turn: np.ndarray, vertex: np.ndarray
+    model: CadModel, first: np.ndarray, total_curvature: np.ndarray, vertex: np.ndarray
 ) -> np.ndarray:
     """(e,) bool; see ``EdgeSamples``."""
     ends = np.array([[edge.start, edge.end] for edge in model.edges]).reshape(-1, 2)
@@ -183,10 +183,10 @@ def _has_twin(
     _, group, count = np.unique(ends[there], axis=0, return_inverse=True, return_counts=True)
     found = np.zeros(len(model.edges), bool)
     found[there] = count[group.reshape(-1)] > 1
-    return found & (turn > 0.0)
+    return found & (total_curvature > 0.0)
 
 
-def _with_hidden(edge: CadEdge, share: np.ndarray, sizings: list[Sizing]) -> np.ndarray:
+def _with_hidden(edge: CadEdge, fraction: np.ndarray, sizings: list[Sizing]) -> np.ndarray:
     """More fractions where laws may ask for much smaller sizes between two samples.
 
     A law of slope s that gives a and b at the ends of a piece of length l gives at least
@@ -199,17 +199,17 @@ def _with_hidden(edge: CadEdge, share: np.ndarray, sizings: list[Sizing]) -> np.
             coarsest = min(coarsest, sizing.size)
         finest = sizing.min_size or 0.0
         for _ in range(MOST_HALVINGS):
-            (points,) = edge.evaluate(share, 0)
+            (points,) = edge.evaluate(fraction, 0)
             size = np.minimum(sizing.law_sizes(points), coarsest)
             length = np.linalg.norm(np.diff(points, axis=0), axis=1)
             least = np.maximum(0.5 * (size[1:] + size[:-1] - slope * length), finest)
             smaller = np.minimum(size[1:], size[:-1])
             hiding = (least < HIDDEN * smaller) & (length > 0.5 * np.maximum(least, 0.1 * smaller))
-            if not hiding.any() or len(share) > MOST_SAMPLES:
+            if not hiding.any() or len(fraction) > MOST_SAMPLES:
                 break
-            middle = 0.5 * (share[1:] + share[:-1])[hiding]
-            share = np.sort(np.concatenate([share, middle]))
-    return share
+            middle = 0.5 * (fraction[1:] + fraction[:-1])[hiding]
+            fraction = np.sort(np.concatenate([fraction, middle]))
+    return fraction
 
 
 def _apply_vertices(samples: EdgeSamples, rules: EdgeRules) -> None:

@@ -28,13 +28,13 @@ GRID, PROJECTIONS = 17, 4
 class AcrossTo:
     """A source: sizes that put triangles across the gap to another face.
 
-    share: of the gap; ignored, least: gaps below ``ignored`` ask for nothing, none for less
+    fraction: of the gap; ignored, least: gaps below ``ignored`` ask for nothing, none for less
     than ``least``, model units.
     """
 
     number: int
     face: CadFace
-    share: float
+    fraction: float
     ignored: float
     least: float
 
@@ -45,7 +45,7 @@ class AcrossTo:
         foot, away, _ = closest_point(self.face.surface, points, guess, PROJECTIONS)
         gap = np.where(is_inside(self._rings, foot), away, np.inf)
         gap = np.minimum(gap, self._edges.query(points)[0])
-        return np.where(gap < self.ignored, np.inf, np.maximum(self.share * gap, self.least))
+        return np.where(gap < self.ignored, np.inf, np.maximum(self.fraction * gap, self.least))
 
     @cached_property
     def _rings(self) -> list[np.ndarray]:
@@ -71,7 +71,7 @@ class AcrossTo:
         return points.min(axis=0), points.max(axis=0)
 
     def __getstate__(self) -> dict:
-        kept = ("number", "face", "share", "ignored", "least")
+        kept = ("number", "face", "fraction", "ignored", "least")
         return {name: getattr(self, name) for name in kept}
 
     def __repr__(self) -> str:
@@ -79,12 +79,12 @@ class AcrossTo:
 
 
 def with_face_gaps(model: CadModel, wanted: ModelSizing) -> ModelSizing:
-    """The wishes with a source for each face of the same solid that may be near, if asked for."""
+    """With a source for each face of the same solid that may be near, if that is asked for."""
     if not wanted.base.gap_faces:
         return wanted
-    share = size_across(1.0, wanted.base.gap or 1.0, wanted.base.gradient)
+    fraction = size_across(1.0, wanted.base.gap or 1.0, wanted.base.gradient)
     ignored, least = SLIVER * model.diagonal, NARROWEST * model.diagonal
-    across = [AcrossTo(k, face, share, ignored, least) for k, face in enumerate(model.faces)]
+    across = [AcrossTo(k, face, fraction, ignored, least) for k, face in enumerate(model.faces)]
     corners = [
         {v for c in f.coedges for v in (model.edges[c.edge].start, model.edges[c.edge].end)}
         for f in model.faces
@@ -100,7 +100,7 @@ def with_face_gaps(model: CadModel, wanted: ModelSizing) -> ModelSizing:
             near = tuple(
                 across[other] for other in members
                 if other != number and not corners[number] & corners[other]
-                and share * _apart(across[number].box, across[other].box) < largest
+                and fraction * _apart(across[number].box, across[other].box) < largest
             )  # fmt: skip
             if near:
                 faces[number] = own.replaced(sources=own.sources + near)

@@ -87,7 +87,6 @@ class Chain:
     edge: np.ndarray
     t: np.ndarray
     t_end: np.ndarray
-    length: float
 
 
 FEW = 9
@@ -102,9 +101,11 @@ def narrow_width(sizing: Sizing, diagonal: float, points: np.ndarray) -> float:
     if sizing.gap is not None:
         return 0.0  # triangles across are asked for
     width = NARROW * (sizing.chord or DEFAULT_CHORD * diagonal)
-    sizes = [sizing.size] if isinstance(sizing.size, float) else []
-    if sizes and sizing.chord is None and sizing.angle is None:
-        width = max(width, OF_SIZE_ALONE * sizing.size)
+    sizes = []
+    if isinstance(sizing.size, float):
+        sizes.append(sizing.size)
+        if sizing.chord is None and sizing.angle is None:
+            width = max(width, OF_SIZE_ALONE * sizing.size)
     sizes += [sizing.max_size] if sizing.max_size else []
     if sizing.has_law and len(points):
         sizes.append(float(sizing.law_sizes(points).min()))
@@ -163,12 +164,12 @@ def _candidates(lengths: np.ndarray, width: float) -> Iterator[NarrowFace]:
             continue
         if one + other > 0.8 * whole:
             continue
-        ends = tuple(
+        ends = [
             tuple((at + step) % count for step in range(number)) for at, number in ((k, n), (i, m))
-        )
+        ]
         poles = sum(lengths[k] == 0.0 for end in ends for k in end)
         order = -(one + other), -poles, abs(a - b)
-        found.append((order, NarrowFace((sides[0], sides[1]), ends)))
+        found.append((order, NarrowFace((sides[0], sides[1]), (ends[0], ends[1]))))
     found.sort(key=lambda row: row[0])
     return (narrow for _, narrow in found[:MOST_CANDIDATES])
 
@@ -178,15 +179,16 @@ def _checked(
     narrow: NarrowFace, width: float,
 ) -> NarrowFace | None:  # fmt: skip
     """The face with its width if its sides are nowhere farther apart than ``width``, else None."""
-    sides = [chain_of(coedges, samples, side) for side in narrow.sides]
-    if any(side is None for side in sides):
+    first, second = (chain_of(coedges, samples, side) for side in narrow.sides)
+    if first is None or second is None:
         return None
-    for own, other in (sides, sides[::-1]):  # a few points tell most that are too far apart
+    both = (first, second), (second, first)
+    for own, other in both:  # a few points tell most that are too far apart
         few = np.linspace(0, len(own.points) - 1, min(FEW, len(own.points))).astype(int)
         if not feet(model, own.points[few], other)[2].max() <= width:
             return None
     largest = 0.0
-    for own, other in (sides, sides[::-1]):
+    for own, other in both:
         place, t, away = feet(model, own.points, other)
         if not away.max() <= width:
             return None
@@ -218,11 +220,10 @@ def chain_of(
         last = p[-1:]
     if last is None:
         return None
-    own = np.concatenate([*points, last])
     return Chain(
-        own, *(np.concatenate(column) for column in (at, edge, t, t_end)),
-        float(np.linalg.norm(np.diff(own, axis=0), axis=1).sum()),
-    )  # fmt: skip
+        np.concatenate([*points, last]),
+        *(np.concatenate(column) for column in (at, edge, t, t_end)),
+    )
 
 
 def feet(

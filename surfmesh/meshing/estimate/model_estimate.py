@@ -30,20 +30,21 @@ def model_counts(jobs: list[FaceJob]) -> np.ndarray:
 
 def _count(job: FaceJob) -> float:
     """Of one face; of a narrow one those between its sides, which cost nothing to make."""
-    strip = strip_mesh(job) if job.narrow is not None else None
+    strip = strip_mesh(job)
     return face_triangles(job, face_field(job)[1]) if strip is None else len(strip.triangles)
 
 
 def bounds(
     model: CadModel, nodes: list[EdgeNodes | None], sizings: list[Sizing]
 ) -> tuple[np.ndarray, np.ndarray]:
-    """Triangles (f,) that each face has at least and at most, of its wishes at a few points.
+    """Triangles (f,) that each face has at least and at most, of its size requests at a few points.
 
     At least: the largest size holds everywhere. At most: the smallest, also of sources.
     """
     least, most = np.zeros(len(model.faces)), np.zeros(len(model.faces))
     for number, (face, sizing) in enumerate(zip(model.faces, sizings)):
-        edges = [nodes[c.edge].sizes.min() for c in face.coedges if nodes[c.edge] is not None]
+        cuts = (nodes[coedge.edge] for coedge in face.coedges)
+        edges = [float(cut.sizes.min()) for cut in cuts if cut is not None]
         allowed = SizeRules.of(sizing, model.diagonal)
         plain = face.surface.kind == "plane" and not sizing.has_law
         uv = np.empty((0, 2)) if plain else inner_samples(face, FEW)

@@ -26,7 +26,7 @@ def limits_where_crossing(job: FaceJob, where: np.ndarray) -> SizeLimits | None:
     or else of the segments nearest to where (k, 2) the boundary could not be inserted. None when
     ``min_size`` forbids that.
     """
-    uv, numbers, points, segments, loop = _boundary(job)
+    uv, numbers, points, segments, loop = job.polygons
     nodes, row = np.unique(coincident_nodes(uv, numbers, segments), return_inverse=True)
     ends = row[segments]
     real = np.flatnonzero(ends[:, 0] != ends[:, 1])
@@ -46,23 +46,6 @@ def limits_where_crossing(job: FaceJob, where: np.ndarray) -> SizeLimits | None:
     if not (sizes > least).any():
         return None
     return SizeLimits(np.concatenate([start, middle, end]), sizes, job.sizing.gradient)
-
-
-def _boundary(job: FaceJob) -> tuple[np.ndarray, ...]:
-    """uv (n, 2), numbers (n,), points (n, 3), segments (n, 2) and their loops (n,)."""
-    uv, numbers, points, segments, loops = [], [], [], [], []
-    total = 0
-    for number, loop in enumerate(job.loops):
-        first = total
-        for piece in loop:
-            uv.append(piece.uv[:-1])
-            numbers.append(piece.numbers[:-1])
-            points.append(piece.points[:-1])
-            total += len(piece.uv) - 1
-        ring = np.arange(first, total)
-        segments.append(np.stack([ring, np.roll(ring, -1)], axis=1))
-        loops.append(np.full(len(ring), number))
-    return tuple(np.concatenate(part) for part in (uv, numbers, points, segments, loops))
 
 
 def _misplaced(uv: np.ndarray, segments: np.ndarray, loop: np.ndarray) -> list[int]:

@@ -1,11 +1,12 @@
 """What a face of a CAD model is meshed from, and what becomes of it: plain arrays."""
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
+from typing import NamedTuple, Self
 
 import numpy as np
 
 from surfmesh.cad.model.loop_faults import ExactLoops
-from surfmesh.geometry.surface import Surface
+from surfmesh.geometry.cad_surfaces.face_surface import FaceSurface
 from surfmesh.meshing.edges.narrow_faces import NarrowFace
 from surfmesh.sizing.options.sizing import Sizing
 from surfmesh.sizing.rules.size_limits import SizeLimits
@@ -28,14 +29,38 @@ class CoedgeNodes:
     """(n,)"""
     degenerate: bool = False
     tolerance: float = 0.0
-    """The edge lies this near its images, model units."""
+    """The edge lies this near its p-curves, model units."""
+
+    def part(self, first: int, last: int) -> Self:
+        """The nodes from ``first`` to ``last``, both included."""
+        return self._rows(slice(first, last + 1))
+
+    def backwards(self) -> Self:
+        """The same in the other direction."""
+        return self._rows(slice(None, None, -1))
+
+    def _rows(self, rows: slice) -> Self:
+        return replace(
+            self, uv=self.uv[rows], numbers=self.numbers[rows], points=self.points[rows],
+            sizes=self.sizes[rows],
+        )  # fmt: skip
+
+
+class Polygons(NamedTuple):
+    """Loops as closed polygons, all in one row: coedge after coedge, each without its last node."""
+
+    uv: np.ndarray  # (n, 2)
+    numbers: np.ndarray  # (n,)
+    points: np.ndarray  # (n, 3)
+    segments: np.ndarray  # (n, 2) rows of the nodes
+    loop: np.ndarray  # (n,) of each segment
 
 
 @dataclass(frozen=True)
 class FaceJob:
     """All that is needed to mesh one face; can be pickled, knows no CAD kernel."""
 
-    surface: Surface
+    surface: FaceSurface
     loops: tuple[tuple[CoedgeNodes, ...], ...]
     sizing: Sizing
     limits: SizeLimits | None = None
@@ -48,6 +73,24 @@ class FaceJob:
     """The curves that the loops are cut from."""
     narrow: NarrowFace | None = None
     """Its sides and ends, of a face narrower than the chord all along."""
+
+    @property
+    def polygons(self) -> Polygons:
+        """Its boundary as it is cut."""
+        pieces = [piece for loop in self.loops for piece in loop]
+        segments, loop_ids, start = [], [], 0
+        for number, loop in enumerate(self.loops):
+            ring = np.arange(start, start + sum(len(piece.uv) - 1 for piece in loop))
+            segments.append(np.stack([ring, np.roll(ring, -1)], axis=1))
+            loop_ids.append(np.full(len(ring), number))
+            start += len(ring)
+        return Polygons(
+            np.concatenate([piece.uv[:-1] for piece in pieces]),
+            np.concatenate([piece.numbers[:-1] for piece in pieces]),
+            np.concatenate([piece.points[:-1] for piece in pieces]),
+            np.concatenate(segments),
+            np.concatenate(loop_ids),
+        )
 
     @property
     def nodes(self) -> int:

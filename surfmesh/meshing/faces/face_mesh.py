@@ -14,6 +14,7 @@ from traceback import extract_tb
 import numpy as np
 
 from surfmesh.errors import SurfaceError, SurfmeshError
+from surfmesh.geometry.cad_surfaces.face_surface import FaceSurface
 from surfmesh.geometry.differential.projection import closest_point
 from surfmesh.geometry.differential.sides import find_sides
 from surfmesh.geometry.surface import Surface
@@ -77,7 +78,7 @@ def _mesh_parts(job: FaceJob) -> FaceMesh:
 def _mesh_rest(job: FaceJob) -> FaceMesh:
     """Mesh a face without thin tips and necks, or what is left of one."""
     try:
-        strip = strip_mesh(job) if job.narrow is not None else None
+        strip = strip_mesh(job)
         if strip is not None:
             return strip
         try:
@@ -158,7 +159,7 @@ def _meshed(job: FaceJob, unfold: bool = True) -> FaceMesh:
     )  # fmt: skip
 
 
-def face_field(job: FaceJob) -> tuple[Surface, SizeField]:
+def face_field(job: FaceJob) -> tuple[FaceSurface, SizeField]:
     """The surface over the box of the loops, and sizes graded inward from them.
 
     Raises ``SizingError``.
@@ -176,11 +177,12 @@ def face_field(job: FaceJob) -> tuple[Surface, SizeField]:
     if found is not None:
         found = found.not_below(job.sizing.min_size or 0.0)
     if real:
+        places = np.concatenate([piece.uv for piece in real])
         limits = SizeLimits(
             np.concatenate([piece.points for piece in real]),
             np.concatenate([piece.sizes for piece in real]),
             job.sizing.gradient,
-            np.concatenate([piece.uv for piece in real]),
+            places,
             as_cut=True,
         )
         # an edge knows nothing of the sizes across it, but for those that gaps ask for
@@ -189,7 +191,7 @@ def face_field(job: FaceJob) -> tuple[Surface, SizeField]:
             limits = replace(limits, metric_root_3d=along_lines(along, limits.sizes))
         if found is not None:
             near = _nearest(limits.points, found.points)
-            limits = limits.joined_with(replace(found, uv=limits.uv[near]))
+            limits = limits.joined_with(replace(found, uv=places[near]))
     numbers = np.concatenate([piece.numbers for piece in pieces])
     repeated = len(numbers) > len(np.unique(numbers)) + len(pieces)
     sides = None

@@ -12,7 +12,7 @@ from surfmesh.meshing.faces.polygon_filling import MOST_CORNERS, filled
 
 TOLERANCES, WITHIN = 2.0, 1.0
 """Images that cross may be moved by so many tolerances of their edges; the last time, when
-smaller sizes have not helped, by this share of the segments there."""
+smaller sizes have not helped, by this fraction of the segments there."""
 
 REACH, ALONG = 0.05, 17
 """Of a face's size: a degenerate edge whose image reaches farther is no point; its samples."""
@@ -55,19 +55,9 @@ def beyond_a_turn(job: FaceJob) -> bool:
 
 def untangled_job(job: FaceJob) -> FaceJob | None:
     """The job with images in (u, v) that do not cross; None when none do, or by too much."""
+    uv, numbers, _, ring, _ = job.polygons
     pieces = [piece for loop in job.loops for piece in loop]
-    uv, numbers, segments, starts = [], [], [], []
-    total = 0
-    for loop in job.loops:
-        first = total
-        for piece in loop:
-            starts.append(total)
-            uv.append(piece.uv[:-1])
-            numbers.append(piece.numbers[:-1])
-            total += len(piece.uv) - 1
-        ring = np.arange(first, total)
-        segments.append(np.stack([ring, np.roll(ring, -1)], axis=1))
-    uv, numbers, ring = np.concatenate(uv), np.concatenate(numbers), np.concatenate(segments)
+    starts = np.cumsum([0, *(len(piece.uv) - 1 for piece in pieces)]).tolist()
     nodes, row = np.unique(coincident_nodes(uv, numbers, ring), return_inverse=True)
     segments = row[ring]
     segments = segments[segments[:, 0] != segments[:, 1]]
@@ -89,7 +79,7 @@ def untangled_job(job: FaceJob) -> FaceJob | None:
     if moved is None or np.array_equal(moved, plane):
         return None
     moved = np.where(moved == plane, uv[nodes], moved / mean)[row]
-    following = np.empty(total, np.int64)
+    following = np.empty(len(uv), np.int64)
     following[ring[:, 0]] = ring[:, 1]
     loops, at = [], iter(starts)
     for loop in job.loops:
@@ -109,7 +99,7 @@ def filled_face(job: FaceJob, reason: str) -> FaceMesh | None:
     """
     rings, slot = [], 0
     for loop in job.loops:
-        ring = []
+        ring: list[tuple] = []
         for piece in loop:
             rows = zip(piece.numbers.tolist(), piece.points, piece.uv, piece.sizes)
             for place, (number, *row) in enumerate(rows, slot):

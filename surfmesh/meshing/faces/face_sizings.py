@@ -1,4 +1,4 @@
-"""What is asked for on each face of a model: its sizes, and of the sources those that reach it."""
+"""The size requests of each face of a model, and of the sources those that reach it."""
 
 import numpy as np
 

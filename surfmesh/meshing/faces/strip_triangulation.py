@@ -16,7 +16,9 @@ from typing import NamedTuple
 
 import numpy as np
 
+from surfmesh.geometry.cad_surfaces.face_surface import FaceSurface
 from surfmesh.geometry.surface import Surface
+from surfmesh.meshing.edges.polygon_lengths import fractions_along
 from surfmesh.meshing.faces.face_data import CoedgeNodes, FaceJob, FaceMesh
 
 TURN_ACROSS = 0.5 * math.pi
@@ -38,18 +40,22 @@ class Nodes(NamedTuple):
     uv: np.ndarray
     sizes: np.ndarray
 
-    def taken(self, rows) -> Nodes:
+    def taken(self, rows: list[int] | slice | np.ndarray) -> Nodes:
         """Some of them, or in another order."""
         return Nodes(*(column[rows] for column in self))
 
 
 def strip_mesh(job: FaceJob) -> FaceMesh | None:
-    """The mesh of a narrow face; None where its triangles would be folded."""
+    """The mesh of a narrow face; None of another one, or where its triangles would be folded."""
     narrow = job.narrow
+    if narrow is None:
+        return None
     start = np.cumsum([0, *(len(p.numbers) for loop in job.loops for p in loop)])
     pieces = [piece for loop in job.loops for piece in loop]
-    first, second = (_chain(pieces, start, side) for side in narrow.sides)
-    second = second.taken(slice(None, None, -1))
+    first, back = (_chain(pieces, start, side) for side in narrow.sides)
+    if first is None or back is None:
+        return None
+    second = back.taken(slice(None, None, -1))
     if narrow.closed:
         first, second = _opened(first, second)
     rungs = rungs_between(first.points, second.points)
@@ -58,11 +64,11 @@ def strip_mesh(job: FaceJob) -> FaceMesh | None:
         columns[-1] = columns[0]
     else:
         columns = _with_tips(columns)
-        end, back = (_chain(pieces, start, chain) for chain in narrow.ends)
-        if end is not None and len(columns) > 1:
-            columns[-1] = _spread(end, columns)
-        if back is not None:
-            columns[0] = _spread(back.taken(slice(None, None, -1)), columns)
+        last, begin = (_chain(pieces, start, chain) for chain in narrow.ends)
+        if last is not None and len(columns) > 1:
+            columns[-1] = _spread(last, columns)
+        if begin is not None:
+            columns[0] = _spread(begin.taken(slice(None, None, -1)), columns)
     return _assembled(job.surface, columns)
 
 
@@ -87,7 +93,7 @@ def _spread(end: Nodes, columns: list[Nodes]) -> Nodes:
 
 def _chain(pieces: list[CoedgeNodes], start: np.ndarray, places: tuple[int, ...]) -> Nodes | None:
     """The nodes of some pieces one after the other, common ones once."""
-    rows = []
+    rows: list[Nodes] = []
     if len(places) > 1 and all(pieces[place].degenerate for place in places):
         places = places[:1]
     for place in places:
@@ -151,7 +157,7 @@ def _columns(job: FaceJob, first: Nodes, second: Nodes, rungs: np.ndarray) -> li
     return columns
 
 
-def turn_across(surface: Surface, first: np.ndarray, second: np.ndarray) -> np.ndarray:
+def turn_across(surface: FaceSurface, first: np.ndarray, second: np.ndarray) -> np.ndarray:
     """By how much (n,) the normal turns on straight ways in (u, v) from (n, 2) to (n, 2)."""
     if surface.kind == "plane":
         return np.zeros(len(first))
@@ -203,7 +209,7 @@ def zipped(points: np.ndarray, left: np.ndarray, right: np.ndarray) -> list[tupl
          |  /  |            side of the strip, which is walked to the right with the inside
     left 1 --- right 1      on its left, to the second; that is against the picture's y
     """
-    s, t = (_shares(points[chain]) for chain in (left, right))
+    s, t = (fractions_along(points[chain]) for chain in (left, right))
     i = j = 0
     triangles = []
     while i < len(left) - 1 or j < len(right) - 1:
@@ -223,12 +229,6 @@ def zipped(points: np.ndarray, left: np.ndarray, right: np.ndarray) -> list[tupl
             triangles.append((int(left[i]), int(right[j]), int(right[j + 1])))
             j += 1
     return triangles
-
-
-def _shares(points: np.ndarray) -> np.ndarray:
-    """Of the length of a chain, 0 to 1."""
-    length = np.r_[0.0, np.cumsum(np.linalg.norm(np.diff(points, axis=0), axis=1))]
-    return length / length[-1] if length[-1] > 0.0 else np.linspace(0.0, 1.0, len(points))
 
 
 def face_cosines(surface: Surface, corners: np.ndarray, uv: np.ndarray) -> np.ndarray:

@@ -16,6 +16,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from surfmesh.geometry.surface import Surface
+from surfmesh.meshing.edges.polygon_lengths import fractions_along
 from surfmesh.meshing.faces.face_data import CoedgeNodes, FaceJob
 
 COLUMNS = 6
@@ -34,7 +35,7 @@ LEAST_TURN = 0.5
 """Radians by which the way round turns: what turns less is a corner, not a tube."""
 
 APART = 1e-3
-"""Images nearer than this share of the face's box are no two: an edge inside the face."""
+"""Images nearer than this fraction of the face's box are no two: an edge inside the face."""
 
 WAY = 33
 """Samples of the way round at a level."""
@@ -70,7 +71,7 @@ class _Open:
 
     def part(self, at: int, first: int, last: int) -> tuple[CoedgeNodes, np.ndarray]:
         """The nodes of one piece from ``first`` to ``last``, both included."""
-        return _part(self.pieces[at], first, last), self.slots[at][first : last + 1]
+        return self.pieces[at].part(first, last), self.slots[at][first : last + 1]
 
 
 def without_tubes(job: FaceJob) -> tuple[FaceJob, list[Tube], np.ndarray]:
@@ -82,9 +83,9 @@ def without_tubes(job: FaceJob) -> tuple[FaceJob, list[Tube], np.ndarray]:
     opened, slot = [], 0
     if job.surface.kind == "plane":
         return job, [], np.arange(sum(len(p.numbers) for loop in job.loops for p in loop))
-    for loop in job.loops:
-        own = _Open(list(loop), [])
-        for piece in loop:
+    for pieces in job.loops:
+        own = _Open(list(pieces), [])
+        for piece in pieces:
             own.slots.append(slot + np.arange(len(piece.numbers)))
             slot += len(piece.numbers)
         opened.append(own)
@@ -116,11 +117,11 @@ def _whole_cut(job: FaceJob, loop: _Open, following: int) -> tuple[Tube | None, 
     if len(pieces) != 4 or len(poles) != 2 or poles[1] - poles[0] != 2:
         return None, []
     before, after = (poles[0] - 1) % 4, poles[0] + 1
-    one, other = _backwards(pieces[before]), pieces[after]
+    one, other = pieces[before].backwards(), pieces[after]
     if not _thin(job, *map(_with_middle, (one.uv, other.uv, one.points)))[1:-1].all():
         return None, []
-    middle = (_with_middle(piece.uv) for piece in (one, other))
-    middle = [uv[len(uv) // 2] for uv in middle]
+    lines = [_with_middle(piece.uv) for piece in (one, other)]
+    middle = [line[len(line) // 2] for line in lines]
     if _turn(job.surface, *middle) < LEAST_TURN:
         return None, []
     slots = loop.slots[before][::-1], loop.slots[after]
@@ -159,12 +160,13 @@ def _tip_cut(job: FaceJob, loop: _Open, following: int) -> tuple[Tube | None, li
         left, left_slots = loop.part(before, end - levels, end)
         right, right_slots = loop.part(after, 0, levels)
         tube = _tube(
-            job.surface, _backwards(left), right, left_slots[::-1], right_slots, following,
+            job.surface, left.backwards(), right, left_slots[::-1], right_slots, following,
             (left.uv[0], right.uv[-1]), (True, False),
         )  # fmt: skip
         pieces, slots = loop.pieces.copy(), loop.slots.copy()
         pieces[before], slots[before] = loop.part(before, 0, end - levels)
         pieces[after], slots[after] = loop.part(after, levels, len(other.numbers) - 1)
+        assert tube.last is not None  # noqa: S101  it is no pole
         pieces[at], slots[at] = tube.last, _ring_slots(left_slots[0], tube, right_slots[-1])
         return tube, [_Open(pieces, slots)]
     return None, []
@@ -186,11 +188,12 @@ def _neck_cut(job: FaceJob, loop: _Open, following: int) -> tuple[Tube | None, l
             left, left_slots = loop.part(before, end - high, end - low)
             right, right_slots = loop.part(after, low, high)
             tube = _tube(
-                job.surface, _backwards(left), right, left_slots[::-1], right_slots, following,
+                job.surface, left.backwards(), right, left_slots[::-1], right_slots, following,
                 (left.uv[0], right.uv[-1]), (False, False),
             )  # fmt: skip
             beyond = [k % count for k in range(after + 1, before + count)]
             between = range(before + 1, after)
+            assert tube.last is not None and tube.first is not None  # noqa: S101  no poles
             upper = [loop.part(after, high, end)]
             upper += [(loop.pieces[k], loop.slots[k]) for k in beyond]
             upper += [loop.part(before, 0, end - high)]
@@ -259,10 +262,10 @@ def _tube(
     turn = _turn(surface, *round_way)
     count = int(np.ceil(COLUMNS * turn / (2.0 * np.pi) - 1e-6))
     count = max(count, 3 if seam else 1)
-    uv, share, other = left.uv, _shares(left.points), _shares(right.points)
+    uv, t, other = left.uv, fractions_along(left.points), fractions_along(right.points)
     if all(poles) and len(uv) == 2:
-        uv, share = _with_middle(uv), np.array([0.0, 0.5, 1.0])
-    beside = np.stack([np.interp(share, other, right.uv[:, k]) for k in (0, 1)], axis=1)
+        uv, t = _with_middle(uv), np.array([0.0, 0.5, 1.0])
+    beside = np.stack([np.interp(t, other, right.uv[:, k]) for k in (0, 1)], axis=1)
     inside = _wide_enough(surface, uv, beside)
     inner = [(uv + k / count * (beside - uv))[inside] for k in range(1, count)]
     columns = (left.uv, *inner, right.uv)
@@ -270,7 +273,7 @@ def _tube(
         None if pole else _ring(surface, columns, level, left, right, following + more)
         for pole, level, more in zip(poles, (0, -1), (len(columns), 0))
     ]
-    first = None if ends[0] is None else _backwards(ends[0])
+    first = None if ends[0] is None else ends[0].backwards()
     return Tube(left, right, left_slots, right_slots, ends[1], first, columns)
 
 
@@ -303,27 +306,6 @@ def _ring(
 
 def _ring_slots(start: int, tube: Tube, end: int) -> np.ndarray:
     return np.r_[start, np.full(len(tube.columns) - 2, -1), end]
-
-
-def _part(piece: CoedgeNodes, first: int, last: int) -> CoedgeNodes:
-    part = slice(first, last + 1)
-    return replace(
-        piece, uv=piece.uv[part], numbers=piece.numbers[part], points=piece.points[part],
-        sizes=piece.sizes[part],
-    )  # fmt: skip
-
-
-def _backwards(piece: CoedgeNodes) -> CoedgeNodes:
-    return replace(
-        piece, uv=piece.uv[::-1], numbers=piece.numbers[::-1], points=piece.points[::-1],
-        sizes=piece.sizes[::-1],
-    )  # fmt: skip
-
-
-def _shares(points: np.ndarray) -> np.ndarray:
-    """Of the length of a polygon, at its nodes."""
-    length = np.r_[0.0, np.cumsum(np.linalg.norm(np.diff(points, axis=0), axis=1))]
-    return length / max(length[-1], np.finfo(float).tiny)
 
 
 def _turn(surface: Surface, left: np.ndarray, right: np.ndarray) -> float:

@@ -16,10 +16,10 @@ EDGES_ROUND = 5.0
 
 SAMPLES = 9
 POLE = 1e-3
-"""Way round, as a share of the size there, below which a node is a pole."""
+"""Way round, as a fraction of the size there, below which a node is a pole."""
 
 SAME_PLACE = 1e-3
-"""Images nearer than this share of the face's box are no two images: an edge inside the face."""
+"""Images nearer than this fraction of the face's box are no two images: an edge inside the face."""
 
 
 def seam_limits(

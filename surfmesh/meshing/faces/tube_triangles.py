@@ -22,8 +22,8 @@ def with_tubes(
 
     old: the slots of the job for those of the rest.
     """
-    names = [piece.numbers for loop in rest.loops for piece in loop]
-    names = np.concatenate([np.empty(0, np.int64), *names])
+    numbers = [piece.numbers for loop in rest.loops for piece in loop]
+    names = np.concatenate([np.empty(0, np.int64), *numbers])
     rows = _Rows(len(mesh.points), len(mesh.uv_points))
     rows.row_of = {
         int(names[slot]): row for row, slot in enumerate(mesh.slots.tolist()) if slot >= 0
@@ -103,24 +103,24 @@ def _fill(surface: Surface, tube: Tube, rows: _Rows) -> None:
         for level, (uv, point) in enumerate(zip(column, points)):
             size = float(sizes[min(level, len(sizes) - 1)])
             number, slot = None, -1
-            end = level == len(column) - 1
-            at_pole = (level == 0 and tube.first is None) or (end and tube.last is None)
+            start, end = level == 0, level == len(column) - 1
+            at_pole = (start and tube.first is None) or (end and tube.last is None)
             if k in (0, count - 1) or at_pole:
                 side, slots = (tube.right, tube.right_slots) if k else (tube.left, tube.left_slots)
                 place = -1 if end else level
                 slot, point = int(slots[place]), side.points[place]
                 number = int(side.numbers[place])
-            elif level == 0:
+            elif start and tube.first is not None:
                 number = int(tube.first.numbers[count - 1 - k])
-            elif end:
+            elif end and tube.last is not None:
                 number = int(tube.last.numbers[k])
             own.append((rows.point(number, point, slot, size), rows.place(uv, size)))
         grid.append(own)
     for k, (one, other) in enumerate(pairwise(grid)):
-        for end, ring in ((0, tube.first), (-1, tube.last)):
+        for level, ring in ((0, tube.first), (-1, tube.last)):
             if ring is None:  # a pole is between the columns in (u, v)
-                middle = 0.5 * (tube.columns[k][end] + tube.columns[k + 1][end])
-                one[end] = other[end] = (one[end][0], rows.place(middle, float(sizes[end])))
+                middle = 0.5 * (tube.columns[k][level] + tube.columns[k + 1][level])
+                one[level] = other[level] = (one[level][0], rows.place(middle, float(sizes[level])))
         _zip(list(one), list(other), rows)
 
 
