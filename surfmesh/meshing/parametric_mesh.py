@@ -151,7 +151,7 @@ def estimate_parametric(surface: Surface, sizing: Sizing) -> Estimate:
 
 
 def explain_parametric(surface: Surface, sizing: Sizing, point: np.ndarray) -> Explanation:
-    """Which wish decides at the point of the surface that is nearest to ``point`` (3,)."""
+    """Which size request decides at the point of the surface that is nearest to ``point`` (3,)."""
     sides = find_sides(surface)
     field = size_field(surface, sizing, sides, rims=Rims(surface, sides))
     return explain_surface(surface, sizing, field, point)
@@ -191,6 +191,6 @@ def _loops(surface: Surface) -> list[np.ndarray] | None:
     return [np.asarray(loop, float) for loop in surface.loops] or None
 
 
-def _can_shrink(field: SizeField, wishes: SizeLimits) -> bool:
-    """Is any wished size still allowed, or do all lie below ``min_size``?"""
-    return bool((wishes.sizes >= (field.sizing.min_size or 0.0)).any())
+def _can_shrink(field: SizeField, refinement: SizeLimits) -> bool:
+    """Is any requested size still allowed, or do all lie below ``min_size``?"""
+    return bool((refinement.sizes >= (field.sizing.min_size or 0.0)).any())

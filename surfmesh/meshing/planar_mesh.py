@@ -50,7 +50,7 @@ MANY = 4.0
 """More than so many times the limit is refused before the lines are cut."""
 
 FAR_BELOW = 0.5
-"""Segments shorter than this share of ``min_size`` are worth a word."""
+"""Segments shorter than this fraction of ``min_size`` are worth a word."""
 
 
 def mesh_planar(
@@ -138,7 +138,7 @@ def _field_and_segments(
     domain: PlanarDomain, sizing: Sizing
 ) -> tuple[SizeField, PlanarSegments | None]:
     """None: far more triangles than the limit are asked for; no segment is cut."""
-    share = 1.0 if sizing.gap is None else size_across(1.0, sizing.gap, sizing.gradient)
+    fraction = 1.0 if sizing.gap is None else size_across(1.0, sizing.gap, sizing.gradient)
 
     def one_round(
         limits: Mapping[int, SizeLimits],
@@ -147,7 +147,7 @@ def _field_and_segments(
         if _is_suspicious(domain, field) and _asked(domain, field) > MANY * sizing.limit:
             return (field, None), {}
         cut = cut_segments(domain.graph, field)
-        gaps = narrow_gaps(domain, cut, field, sizing.gradient, share)
+        gaps = narrow_gaps(domain, cut, field, sizing.gradient, fraction)
         return (field, cut), {} if gaps is None else {0: gaps}
 
     short = short_segments(domain.graph, sizing.gradient)

@@ -12,7 +12,7 @@ COARSE = 2.0
 """Segments of the boundary so many times longer than the sizes inside allow are to be cut."""
 
 LOOKED_AT = (0.1, 0.3, 0.5, 0.7, 0.9)
-"""Shares of a segment at which the sizes inside are read."""
+"""Fractions of a segment at which the sizes inside are read."""
 
 
 def sizes_along_edges(
@@ -28,23 +28,23 @@ def sizes_along_edges(
     if not len(length):
         return None
     # where sizes have a direction segments may be long, and pass much on their way
-    shares = LOOKED_AT if sizing.is_anisotropic else LOOKED_AT[2:3]
+    fractions = LOOKED_AT if sizing.is_anisotropic else LOOKED_AT[2:3]
     ends = loops.uv[first], loops.uv[second]
-    uv = np.stack([(1.0 - share) * ends[0] + share * ends[1] for share in shares], axis=1)
+    uv = np.stack([(1.0 - t) * ends[0] + t * ends[1] for t in fractions], axis=1)
     xy = field.chart.to_plane(uv.reshape(-1, 2))
     if sizing.is_anisotropic:
         way = field.chart.to_plane(ends[1]) - field.chart.to_plane(ends[0])
-        way, whole = (np.repeat(a, len(shares), axis=0) for a in (way, length))
+        way, whole = (np.repeat(a, len(fractions), axis=0) for a in (way, length))
         sizes = whole / np.maximum(field.metric_lengths(xy, way), np.finfo(float).tiny)
     else:
         sizes = field.sizes(xy)
-    sizes = np.maximum(sizes, sizing.min_size or 0.0).reshape(-1, len(shares))
+    sizes = np.maximum(sizes, sizing.min_size or 0.0).reshape(-1, len(fractions))
     coarse = length > COARSE / (1.0 / sizes).mean(axis=1)
     if not coarse.any():
         return None
     (places,) = surface.evaluate(uv[coarse].reshape(-1, 2), 0)
     sizes, metric_root_3d = sizes[coarse].ravel(), None
     if sizing.is_anisotropic:
-        along = np.repeat(step[coarse] / length[coarse, None], len(shares), axis=0)
+        along = np.repeat(step[coarse] / length[coarse, None], len(fractions), axis=0)
         metric_root_3d = along_lines(along, sizes)
     return SizeLimits(places, sizes, sizing.gradient, metric_root_3d=metric_root_3d)
