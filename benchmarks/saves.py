@@ -27,7 +27,7 @@ class Output(NamedTuple):
 def outputs() -> list[Output]:
     """The 13 formats, .stl as text, pictures, the page and the texts of the command line."""
     import surfmesh as sm
-    from surfmesh.cli.commands import _written
+    from surfmesh.cli.outputs import written
     from surfmesh.io import FORMATS
     from surfmesh.view import html_report, plot
 
@@ -39,7 +39,7 @@ def outputs() -> list[Output]:
         Output(".stl as text", ".stl", lambda path: mesh.save(path, ascii=True)),
         Output("picture .png", ".png", lambda path: plot(mesh, path, size=(320, 240))),
         Output("report .html", ".html", lambda path: html_report(mesh, path, report=report)),
-        Output("report .json", ".json", lambda path: _written(report.to_json(), path)),
+        Output("report .json", ".json", lambda path: written(report.to_json(), path)),
         Output("packing .svg", ".svg", packing.plot),
         Output("packing .png", ".png", packing.plot),
     ]

@@ -1,7 +1,7 @@
 """Angles between neighbouring triangles, and which of them the surface makes.
 
 A surface bends by itself at a crease where two of its sides meet, or at an apex: there
-triangles turn by as much at any size.
+the angle is as large at any size.
 
               c                  half-edge e runs from a to b in a-b-c, half-edge f from b to a
              / \\                 in b-a-d: corners beside the edge are (a, b, c), (b, a, d)

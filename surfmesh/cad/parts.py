@@ -80,6 +80,10 @@ class Part:
         for child in self.children:
             yield from child
 
+    def noted(self, notes: Iterable[tuple[TopoDS_Shape | None, str]]) -> Part:
+        """The part with more to say about what is below it."""
+        return replace(self, notes=[*self.notes, *notes])
+
     def mapped(self, new_of: Callable[[TopoDS_Shape], TopoDS_Shape]) -> Part:
         """The part with every shape in it replaced; the places and the tree are as they were."""
         return replace(

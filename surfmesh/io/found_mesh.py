@@ -27,10 +27,6 @@ def usable(path: Path, mesh: SurfaceMesh) -> SurfaceMesh:
     n = len(mesh.points)
     _require_range(path, "edge_segments", mesh.edge_segments, 0, n)
     _require_range(path, "vertex_ids", mesh.vertex_ids, -1, n)
-    segments = 0 if mesh.edge_segments is None else len(mesh.edge_segments)
-    numbers = 0 if mesh.edge_ids is None else len(mesh.edge_ids)
-    if segments != numbers:
-        raise FileFormatError(f"{path}: has {segments} segments of edges and {numbers} numbers")
     rows = None if mesh.promises is None else len(mesh.promises)
     if rows not in (None, 1) and not -1 < int(mesh.face_ids.max()) < rows:
         raise FileFormatError(f"{path}: has promises for {rows} faces, but more faces")

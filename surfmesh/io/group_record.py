@@ -7,7 +7,7 @@ its own way too.
 
 import json
 import os
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from pathlib import Path
 from typing import Any
 
@@ -19,7 +19,9 @@ from surfmesh.result.mesh_groups import MeshGroups
 from surfmesh.result.surface_mesh import SurfaceMesh
 
 MARK = "surfmesh-groups "
-NUMBERED = ("edge_segments", "edge_ids", "vertex_ids")
+CAD_NUMBERS: dict[str, tuple[int, ...]] = {  # fields and the shapes of their arrays
+    "edge_segments": (-1, 2), "edge_ids": (-1,), "vertex_ids": (-1,)
+}  # fmt: skip
 WIDTH = 64  # characters a line: fits into cards of 72 and 80 columns
 
 
@@ -34,9 +36,7 @@ def group_lines(mesh: SurfaceMesh, numbered: bool = False) -> list[str]:
         starts = np.flatnonzero(np.diff(mesh.face_ids, prepend=mesh.face_ids[:1] - 1))
         counts = np.diff(starts, append=len(mesh.face_ids))
         record["runs"] = np.column_stack((mesh.face_ids[starts], counts)).tolist()
-        for name in NUMBERED:
-            if getattr(mesh, name) is not None:
-                record[name] = getattr(mesh, name).tolist()
+        record |= {name: numbers.tolist() for name, numbers in cad_numbers(mesh).items()}
     if mesh.solid_ids is not None:
         record["solids"] = solids_of_faces(mesh).tolist()
     text = json.dumps(record, separators=(",", ":"))
@@ -64,11 +64,7 @@ def group_fields(
     if not isinstance(record, dict) or not isinstance(record.get("groups"), dict):
         raise ValueError("the record of groups is damaged")
     found: dict[str, Any] = {"groups": MeshGroups.of_plain(record["groups"])}
-    for name in NUMBERED:
-        if name in record:
-            found[name] = np.array(record[name], np.int32)
-    if "edge_segments" in found:
-        found["edge_segments"] = found["edge_segments"].reshape(-1, 2)
+    found |= as_cad_numbers(record)
     if face_ids is None and "runs" in record:
         runs = np.array(record["runs"], np.int64).reshape(-1, 2)
         if (runs[:, 1] < 0).any() or sum(runs[:, 1].tolist()) != triangles:
@@ -81,6 +77,21 @@ def group_fields(
             raise ValueError(f"the record of groups knows the solids of {len(solids)} faces only")
         found["solid_ids"] = solids[face_ids]
     return found
+
+
+def cad_numbers(mesh: SurfaceMesh) -> dict[str, NDArray[np.int32]]:
+    """What is known of the edges and vertices of a CAD model, by the names of its fields."""
+    held = ((name, getattr(mesh, name)) for name in CAD_NUMBERS)
+    return {name: numbers for name, numbers in held if numbers is not None}
+
+
+def as_cad_numbers(record: Mapping[str, Any]) -> dict[str, Any]:
+    """The fields of a SurfaceMesh of what ``cad_numbers`` gave; there may be more in ``record``."""
+    return {
+        name: np.asarray(record[name]).reshape(shape)
+        for name, shape in CAD_NUMBERS.items()
+        if name in record
+    }
 
 
 def require_last_line(path: Path) -> None:

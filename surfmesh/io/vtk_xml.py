@@ -8,12 +8,13 @@ strings hold ASCII alone, and meshio refuses a file that has one.
 
 import json
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
 
 from surfmesh.io.colours import NO_COLOUR, triangle_colours
+from surfmesh.io.group_record import CAD_NUMBERS, as_cad_numbers, cad_numbers
 from surfmesh.io.vtk_xml_reading import read_vtk
 from surfmesh.io.xml_writing import Content, write_grid, write_polygons
 from surfmesh.quality.measures.shape import alpha
@@ -26,7 +27,6 @@ if TYPE_CHECKING:
     import pyvista
 
 GROUPS = "surfmesh_groups"
-BESIDE = ("edge_segments", "edge_ids", "vertex_ids")  # field data of the same names
 PROMISES = "surfmesh_promises"  # chord, angle, min_size of each face or of all; 0: not asked for
 METRIC, METRIC_ROWS = "surfmesh_inverse_sizes", "inverse_size_row"
 """Sizes that depend on the direction: a table W = xx, xy, xz, yy, yz, zz (|W d| is the step d in
@@ -75,9 +75,7 @@ def write(mesh: SurfaceMesh, path: Path) -> None:
     promises = tolerance_rows(mesh)
     if promises is not None:
         field[PROMISES] = np.nan_to_num(promises)  # VTK's XML has no nan
-    for name in BESIDE:
-        if getattr(mesh, name) is not None and len(getattr(mesh, name)):
-            field[name] = getattr(mesh, name)
+    field |= {name: numbers for name, numbers in cad_numbers(mesh).items() if len(numbers)}
     points, cells, sizes = mesh.points, mesh.triangles, mesh.sizes
     if grid:
         points, cells, sizes = mesh.nodes, mesh.elements, mesh.node_sizes
@@ -91,7 +89,7 @@ def read(path: Path) -> SurfaceMesh:
         path,
         point_data=("size",),
         cell_data=("face_id", "solid_id", "uv", METRIC_ROWS),
-        field_data=("one_sided", GROUPS, METRIC, PROMISES, *BESIDE),
+        field_data=("one_sided", GROUPS, METRIC, PROMISES, *CAD_NUMBERS),
     )
     points, triangles, cells, field = found.points, found.cells, found.cell_data, found.field_data
     sizes, mid_points = found.point_data.get("size"), None
@@ -115,9 +113,6 @@ def read(path: Path) -> SurfaceMesh:
         promises = field[PROMISES].astype(float).reshape(-1, 3)
         promises = np.where(promises > 0.0, promises, np.nan)
     groups = field[GROUPS].tobytes().decode() if GROUPS in field else "{}"
-    beside: dict[str, Any] = {name: field[name] for name in BESIDE if name in field}
-    if "edge_segments" in beside:
-        beside["edge_segments"] = beside["edge_segments"].reshape(-1, 2)
     return SurfaceMesh(
         points=points,
         triangles=triangles,
@@ -131,5 +126,5 @@ def read(path: Path) -> SurfaceMesh:
         solid_ids=cells.get("solid_id"),
         groups=MeshGroups.of_plain(json.loads(groups)),
         promises=promises,
-        **beside,
+        **as_cad_numbers(field),
     )

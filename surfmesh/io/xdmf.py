@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 
 from surfmesh.errors import FileFormatError
 from surfmesh.io.colours import NO_COLOUR, triangle_colours
+from surfmesh.io.group_record import as_cad_numbers, cad_numbers
 from surfmesh.io.text_columns import write_rows
 from surfmesh.io.xml_reading import root_of
 from surfmesh.result.mesh_groups import MeshGroups
@@ -24,14 +25,11 @@ from surfmesh.result.surface_mesh import SurfaceMesh
 TOPOLOGY = {1: "Triangle", 2: "Triangle_6"}
 NAMES = {"triangle": 3, "triangle_6": 6, "tri_6": 6}
 RECORD = "surfmesh-groups"
-BESIDE = ("edge_segments", "edge_ids", "vertex_ids")
 
 
 def write(mesh: SurfaceMesh, path: Path) -> None:
     record = {"groups": mesh.groups.plain()}
-    for name in BESIDE:
-        if getattr(mesh, name) is not None:
-            record[name] = getattr(mesh, name).tolist()
+    record |= {name: numbers.tolist() for name, numbers in cad_numbers(mesh).items()}
     cells: dict[str, NDArray] = {"face_id": mesh.face_ids}
     if mesh.solid_ids is not None:
         cells |= {"solid_behind": mesh.solid_ids[:, 0], "solid_before": mesh.solid_ids[:, 1]}
@@ -102,8 +100,8 @@ def read(path: Path) -> SurfaceMesh:
     fields: dict[str, Any] = {}
     for item in grid.findall("Information"):
         if item.get("Name") == RECORD:
-            fields = json.loads(item.get("Value") or "")
-            fields["groups"] = MeshGroups.of_plain(fields["groups"])
+            record = json.loads(item.get("Value") or "")
+            fields = {"groups": MeshGroups.of_plain(record["groups"]), **as_cad_numbers(record)}
     if "face_id" in values:
         fields["face_ids"] = _numbers(path, values["face_id"], np.int64)
     if "solid_behind" in values:

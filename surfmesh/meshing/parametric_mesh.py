@@ -1,6 +1,6 @@
 """One parametric surface, all stages: the spine of surfmesh.
 
-sides -> size field -> packing -> boundary -> optimisation -> space, joined sides glued
+sides -> size field -> packing -> boundary -> optimisation -> space, joined sides identified
   ^                                                              |
   +---------- smaller sizes where the mesh is not right ---------+
 """
@@ -10,9 +10,10 @@ from collections.abc import Mapping
 import numpy as np
 
 from surfmesh.errors import MeshingError, SizingError, SurfaceError
+from surfmesh.geometry.differential.chart import Chart
 from surfmesh.geometry.differential.sides import SideTopology, find_sides
 from surfmesh.geometry.files.known_facts import known_facts
-from surfmesh.geometry.formulas.kinks import KinkLine, kink_lines
+from surfmesh.geometry.formulas.kinks import kink_lines
 from surfmesh.geometry.surface import Surface
 from surfmesh.meshing.boundary.boundary_loops import BoundaryLoops, boundary_loops
 from surfmesh.meshing.boundary.cusps import Cusp, closed_at, find_cusps, without_cusps
@@ -44,11 +45,10 @@ def mesh_parametric(
 ) -> SurfaceMesh:
     """Mesh one surface over its (u, v) rectangle or inside its trimming loops.
 
-    Where the mesh is folded, badly glued, farther from the surface than ``chord``, or turns by
-    more than ``angle`` after the optimiser has done what it can, the sizes are lowered and
-    everything is done again. With
-    ``optimise=False`` only gluing is looked at. Raises ``SizingError``, ``SurfaceError`` or
-    ``MeshingError`` with the place and the reason.
+    Where triangles are folded, farther from the surface than ``chord`` or meet at more than
+    ``angle`` after the optimiser has done what it can, or sides cannot be joined, the sizes are
+    lowered and everything is done again. With ``optimise=False`` only joined sides are looked at.
+    Raises ``SizingError``, ``SurfaceError`` or ``MeshingError`` with the place and the reason.
     """
     watch = Stopwatch(progress)
     with watch.stage("sizing"):
@@ -79,7 +79,7 @@ class _Rounds:
     ) -> None:  # fmt: skip
         self.surface, self.sides, self.sizing = surface, sides, sizing
         self.optimise, self.watch = optimise, watch
-        self.kinks = kink_lines(surface)
+        self.chart, self.kinks = Chart.of(surface), kink_lines(surface)
         self.not_followed: list[str] = []
         self._stagnation, self._cells = StagnationCheck(), 0
         self._latest: tuple[SurfaceMesh, np.ndarray] | None = None
@@ -98,11 +98,11 @@ class _Rounds:
     def _round(
         self, limits: Mapping[int, SizeLimits]
     ) -> tuple[tuple[SurfaceMesh, np.ndarray], dict[int, SizeLimits]]:
-        """The mesh and its points that are badly glued; the smaller sizes it needs."""
+        """The mesh and its points where sides are not joined; the smaller sizes it needs."""
         with self.watch.stage("sizing"):
             try:
-                rims = Rims(self.surface, self.sides)
-                field = size_field(self.surface, self.sizing, self.sides, limits.get(0), rims)
+                rims, known = Rims(self.surface, self.sides), limits.get(0)
+                field = size_field(self.surface, self.sizing, self.sides, known, rims, self.chart)
             except SizingError:
                 if self._latest is None:
                     raise
@@ -131,7 +131,33 @@ class _Rounds:
         return self._latest, {0: refinement}
 
     def _meshed(self, field: SizeField) -> tuple[SurfaceMesh, SizeLimits | None, np.ndarray]:
-        return _one_round(self.surface, self.sides, self.kinks, field, self.optimise, self.watch)
+        """The mesh for one size field; the sizes it requests; points where sides are not joined."""
+        surface, sides = self.surface, self.sides
+        patch = mesh_patch(
+            surface, self.chart, field, lambda: self._boundary(field),
+            optimise=self.optimise, watch=self.watch,
+        )  # fmt: skip
+        mesh = SurfaceMesh(
+            points=patch.space.points,
+            triangles=patch.space.triangles,
+            uv_points=patch.uv,
+            uv_triangles=patch.space.uv_triangles,
+            surfaces=(surface,),
+            sizes=patch.sizes,
+            metric_root_3d=patch.metric_root_3d,
+            sizing=field.sizing,
+            seconds=self.watch.seconds,
+            one_sided=sides.one_sided and not len(surface.loops),
+            facts=known_facts(surface),
+        )
+        requests = joined(*patch.requests, patch.limits_for_seams(FINER))
+        return mesh, requests, patch.space.non_manifold
+
+    def _boundary(self, field: SizeField) -> BoundaryLoops:
+        if not self.kinks:
+            return boundary_loops(self.surface, self.sides, field)
+        loops = boundary_loops(self.surface, self.sides, field, sides_met(self.surface, self.kinks))
+        return with_kinks(loops, self.surface, self.kinks, field)
 
 
 def estimate_parametric(surface: Surface, sizing: Sizing) -> Estimate:
@@ -151,46 +177,16 @@ def estimate_parametric(surface: Surface, sizing: Sizing) -> Estimate:
 
 
 def explain_parametric(surface: Surface, sizing: Sizing, point: np.ndarray) -> Explanation:
-    """Which size request decides at the point of the surface that is nearest to ``point`` (3,)."""
+    """Which size rule decides at the point of the surface that is nearest to ``point`` (3,)."""
     sides = find_sides(surface)
     field = size_field(surface, sizing, sides, rims=Rims(surface, sides))
     return explain_surface(surface, sizing, field, point)
-
-
-def _one_round(
-    surface: Surface, sides: SideTopology, kinks: list[KinkLine], field: SizeField,
-    optimise: bool, watch: Stopwatch,
-) -> tuple[SurfaceMesh, SizeLimits | None, np.ndarray]:  # fmt: skip
-    """The mesh for one size field; the smaller sizes it needs; points that are badly glued."""
-
-    def cut_boundary() -> BoundaryLoops:
-        if not kinks:
-            return boundary_loops(surface, sides, field)
-        loops = boundary_loops(surface, sides, field, sides_met(surface, kinks))
-        return with_kinks(loops, surface, kinks, field)
-
-    patch = mesh_patch(surface, field.chart, field, cut_boundary, optimise=optimise, watch=watch)
-    mesh = SurfaceMesh(
-        points=patch.space.points,
-        triangles=patch.space.triangles,
-        uv_points=patch.uv,
-        uv_triangles=patch.space.uv_triangles,
-        surfaces=(surface,),
-        sizes=patch.sizes,
-        metric_root_3d=patch.metric_root_3d,
-        sizing=field.sizing,
-        seconds=watch.seconds,
-        one_sided=sides.one_sided and not len(surface.loops),
-        facts=known_facts(surface),
-    )
-    requests = joined(*patch.requests, patch.limits_for_seams(FINER))
-    return mesh, requests, patch.space.non_manifold
 
 
 def _loops(surface: Surface) -> list[np.ndarray] | None:
     return [np.asarray(loop, float) for loop in surface.loops] or None
 
 
-def _can_shrink(field: SizeField, refinement: SizeLimits) -> bool:
+def _can_shrink(field: SizeField, requests: SizeLimits) -> bool:
     """Is any requested size still allowed, or do all lie below ``min_size``?"""
-    return bool((refinement.sizes >= (field.sizing.min_size or 0.0)).any())
+    return bool((requests.sizes >= (field.sizing.min_size or 0.0)).any())

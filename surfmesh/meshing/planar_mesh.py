@@ -9,6 +9,7 @@ from collections.abc import Mapping
 import numpy as np
 
 from surfmesh.geometry.boxes import diagonal
+from surfmesh.geometry.differential.chart import Chart
 from surfmesh.geometry.files.known_facts import known_facts
 from surfmesh.geometry.planar.planar_domain import PlanarDomain
 from surfmesh.kernels.insertion.insertion import label_patches
@@ -91,7 +92,7 @@ def _thinning_distance(domain: PlanarDomain, sizing: Sizing) -> float:
 
 
 def _too_fine(domain: PlanarDomain, sizing: Sizing) -> list[str]:
-    """A sentence where lines are cut more finely than the smallest size that is wanted."""
+    """A sentence where lines are cut more finely than the smallest size that is asked for."""
     if not sizing.min_size:
         return []
     ends = domain.graph.points[domain.graph.segments]
@@ -140,10 +141,12 @@ def _field_and_segments(
     """None: far more triangles than the limit are asked for; no segment is cut."""
     fraction = 1.0 if sizing.gap is None else size_across(1.0, sizing.gap, sizing.gradient)
 
+    chart = Chart.of(domain)
+
     def one_round(
         limits: Mapping[int, SizeLimits],
     ) -> tuple[tuple[SizeField, PlanarSegments | None], dict[int, SizeLimits]]:
-        field = size_field(domain, sizing, None, limits.get(0))
+        field = size_field(domain, sizing, None, limits.get(0), chart=chart)
         if _is_suspicious(domain, field) and _asked(domain, field) > MANY * sizing.limit:
             return (field, None), {}
         cut = cut_segments(domain.graph, field)

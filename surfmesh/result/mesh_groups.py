@@ -9,7 +9,7 @@ from dataclasses import dataclass, fields, replace
 from math import isfinite
 from typing import Any, Self
 
-from surfmesh.geometry.surface import surface_kind
+from surfmesh.geometry.surface import Surface, surface_kind
 
 Colour = tuple[float, float, float]  # red, green, blue from 0 to 1, sRGB
 
@@ -41,10 +41,10 @@ class MeshGroups:
             object.__setattr__(self, name, tuple(found))
 
     @classmethod
-    def of_surfaces(cls, surfaces: Sequence[Any]) -> Self:
+    def of_surfaces(cls, surfaces: Sequence[Surface]) -> Self:
         """What surfaces say of themselves."""
         return cls(
-            face_names=tuple(getattr(surface, "name", "") for surface in surfaces),
+            face_names=tuple(surface.name for surface in surfaces),
             face_kinds=tuple(surface_kind(surface) for surface in surfaces),
         )
 

@@ -127,7 +127,7 @@ def _worst(mesh: SurfaceMesh) -> str:
 
 
 def _faces(rows: list[Mapping[str, Any]]) -> str:
-    """What was reached on each face beside what was promised of it."""
+    """What was reached on each face beside what was asked of it."""
     return _records(
         [{title: row[name] for title, name in _OF_FACES} for row in rows if row["triangles"]]
     )

@@ -28,12 +28,13 @@ from OCP.TopAbs import (
     TopAbs_FACE,
     TopAbs_IN,
     TopAbs_ON,
+    TopAbs_ShapeEnum,
     TopAbs_SHELL,
     TopAbs_SOLID,
     TopAbs_VERTEX,
     TopAbs_WIRE,
 )
-from OCP.TopoDS import TopoDS, TopoDS_Shape
+from OCP.TopoDS import TopoDS, TopoDS_Face, TopoDS_Shape
 
 from surfmesh.cad.cadquery.motions import motion_between
 from surfmesh.cad.parts import Tag
@@ -80,7 +81,7 @@ class _Final:
 
     def __init__(self, shape: TopoDS_Shape) -> None:
         self.parts = {kind: Numbering([shape], kind) for kind in _KINDS}
-        self.boxes: dict[Any, list[Bnd_Box]] = {}
+        self.boxes: dict[TopAbs_ShapeEnum, list[Bnd_Box]] = {}
         self.tolerance = max(COINCIDE * _box(shape, 0.0).SquareExtent() ** 0.5, 1e-7)
 
     def standing(self, shape: TopoDS_Shape, motion: gp_Trsf) -> list[TopoDS_Shape]:
@@ -122,7 +123,7 @@ def _same_face(final: TopoDS_Shape, tagged: TopoDS_Shape, tolerance: float) -> b
     return False
 
 
-def _inner(face: Any) -> list[tuple[gp_Pnt, gp_Vec | None]]:
+def _inner(face: TopoDS_Face) -> list[tuple[gp_Pnt, gp_Vec | None]]:
     """Points within a face with their normals (None where there is none)."""
     u0, u1, v0, v1 = BRepTools.UVBounds_s(face)
     inside = BRepTopAdaptor_FClass2d(face, 0.0)
@@ -143,7 +144,7 @@ def _inner(face: Any) -> list[tuple[gp_Pnt, gp_Vec | None]]:
 class _OnFace:
     """Whether points lie within a face."""
 
-    def __init__(self, face: Any, reach: float) -> None:
+    def __init__(self, face: TopoDS_Face, reach: float) -> None:
         self.nearest = ShapeAnalysis_Surface(BRep_Tool.Surface_s(face))
         self.inside = BRepTopAdaptor_FClass2d(face, 0.0)
         self.surface = BRepAdaptor_Surface(face, False)

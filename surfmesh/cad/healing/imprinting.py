@@ -73,7 +73,7 @@ def imprinted(root: Part, tolerance: float | None = None) -> Part:
     """
     bodies = _bodies(root)
     if len(bodies) < 2:
-        return _noted(root, [(None, "imprinted: there is one body alone")])
+        return root.noted([(None, "imprinted: there is one body alone")])
     if tolerance is None:
         tolerance = TOUCH * box_diagonal(body.shape for body in bodies)
     fused = _Fused(bodies, tolerance)
@@ -83,7 +83,7 @@ def imprinted(root: Part, tolerance: float | None = None) -> Part:
     solids = (image for b in bodies if b.is_solid for image in fused.images(b.shape))
     in_solids = Numbering(solids, TopAbs_FACE)
     done = _rebuilt(root, fused, origins, in_solids, Numbering())
-    return _noted(done, _notes(bodies, fused, tolerance))
+    return done.noted(_notes(bodies, fused, tolerance))
 
 
 @dataclass(frozen=True)
@@ -208,10 +208,6 @@ def _shell_again(
             taken.add(face)
             builder.Add(shell, face)
     return [shell, *beside] if len(beside) < len(faces) else beside
-
-
-def _noted(part: Part, notes: list[tuple[TopoDS_Shape | None, str]]) -> Part:
-    return replace(part, notes=[*part.notes, *notes])
 
 
 def _notes(

@@ -62,7 +62,7 @@ def sewn(root: Part, tolerance: float) -> Part:
     paths = list(_with_paths(root))
     loose = [_Loose(face, path) for path, part in paths for face in _loose_faces(part)]
     if not loose:
-        return _noted(root, "sewn: there are no loose faces")
+        return root.noted([(None, "sewn: there are no loose faces")])
     history = _Sewn([entry.face for entry in loose], tolerance)
     shells = _shells(history, loose, dict(paths))
     bodies = _bodies(shells)
@@ -70,7 +70,8 @@ def sewn(root: Part, tolerance: float) -> Part:
     for shell in shells:
         for face, colour in shell.inherited:
             origins.add(face, Detail(face, "", colour))
-    return _noted(_rebuilt(root, (), history, bodies, origins), *_notes(loose, history, bodies))
+    done = _rebuilt(root, (), history, bodies, origins)
+    return done.noted((None, note) for note in _notes(loose, history, bodies))
 
 
 @dataclass(frozen=True)
@@ -373,10 +374,6 @@ def _rebuilt(part: Part, path: Path, history: _Sewn, bodies: list[_Body], origin
         tags=tags_again(part, history),
         children=children,
     )
-
-
-def _noted(part: Part, *notes: str) -> Part:
-    return replace(part, notes=[*part.notes, *((None, note) for note in notes)])
 
 
 def _notes(loose: list[_Loose], history: _Sewn, bodies: list[_Body]) -> list[str]:

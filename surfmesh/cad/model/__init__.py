@@ -11,6 +11,7 @@ collapsed_edges: edges so short that the mesh has one vertex in their place, and
     their ends.
 pcurves: p-curves that follow their edge more closely than those of the file.
 near_poles: p-curves that end at a pole which is only nearly a point keep their direction there.
+singular_crossings: where faces and their edges cross lines that are one point in space.
 singular_cuts: faces are cut along lines inside them that are one point in space: the pinch of a
     torus, an apex.
 tolerances: tolerances that are true, and p-curves that keep to them.

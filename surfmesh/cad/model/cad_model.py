@@ -221,7 +221,7 @@ class CadModel:
     sha256: str = ""
     tags: tuple[CadTag, ...] = ()
     left_out: tuple[str, ...] = ()
-    _faces_of_edge: list = field(default_factory=list, compare=False)
+    _faces_of_edge: list[tuple[int, ...]] = field(default_factory=list, compare=False)
 
     def face_label(self, face: int) -> str:
         """What a face is called in messages; see ``CadFace.label``."""

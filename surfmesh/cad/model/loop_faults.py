@@ -14,12 +14,12 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Any
 
 import numpy as np
 
 from surfmesh.cad.model.cad_model import CadCoedge, CadEdge, CadFace, CadModel
 from surfmesh.geometry.boxes import diagonal
+from surfmesh.geometry.cad_surfaces.face_surface import FaceSurface
 from surfmesh.geometry.cad_surfaces.nurbs import BSplineCurve
 from surfmesh.geometry.inside_loops import is_inside, nesting_depth
 from surfmesh.geometry.planar.curve_contacts import Contact, PlaneCurve, closest, contacts
@@ -52,7 +52,7 @@ FLAT = 1e-9
 class ExactLoops:
     """The loops of a face as curves in (u, v); what is wrong with them is found when asked for."""
 
-    surface: Any
+    surface: FaceSurface
     loops: tuple[tuple[CadCoedge, ...], ...]
     ends: tuple[tuple[int, int], ...]
     """For each coedge the vertices where its loop enters and leaves it."""

@@ -33,15 +33,13 @@ from surfmesh.cad.model.cad_model import (
 from surfmesh.cad.model.centres import face_area
 from surfmesh.cad.model.invariants import ENDS, FRACTIONS, NOISE, signed_area
 from surfmesh.cad.model.loops import Loop, end_of, start_of
+from surfmesh.cad.model.singular_crossings import ON_LINE, crossings, lines_of, slack_of
 from surfmesh.geometry.cad_surfaces.curves import Line
-from surfmesh.geometry.cad_surfaces.singular_lines import SingularLine, singular_lines
+from surfmesh.geometry.cad_surfaces.singular_lines import SingularLine
 from surfmesh.geometry.inside_loops import is_inside
 from surfmesh.geometry.quadrature import gauss_rule
 
-ON_LINE = 1e-7  # of the face's box: a p-curve that ends so near a line ends on it
 LOOSE = 1e-8  # of the model's diagonal: tolerance of a new vertex
-SAMPLES = 65  # of a p-curve, between which it is looked for crossings
-HALVINGS = 60
 ASIDE = 0.01  # of an edge: so far from a line it is seen which of two p-curves lies to the right
 POLYGON = 33  # points of a coedge, to tell which loop a hole is in
 LENGTH_PANELS = 16  # of Gauss's rule with twelve points
@@ -53,7 +51,7 @@ def cut_at_singular_lines(model: CadModel) -> CadModel:
     The first piece keeps the number of its face, others are added at the end; a sentence of
     ``healing`` says which. Solids, shells, tags and names take in the new ones.
     """
-    lines = {number: _lines_of(face) for number, face in enumerate(model.faces)}
+    lines = {number: lines_of(face) for number, face in enumerate(model.faces)}
     lines = {number: found for number, found in lines.items() if found}
     if not lines:
         return model
@@ -62,64 +60,6 @@ def cut_at_singular_lines(model: CadModel) -> CadModel:
     for number, found in lines.items():
         work.cut(number, found)
     return work.result() if work.changed else model
-
-
-def _lines_of(face: CadFace) -> list[SingularLine]:
-    """Lines that run through the face, or along its rim where its p-curve jumps."""
-    if face.kind in ("plane", "cylinder", "extrusion"):
-        return []
-    return [
-        line for line in singular_lines(face.surface)
-        if _crosses(face, line) or any(_jumps(face, line, loop) for loop in face.loops)
-    ]  # fmt: skip
-
-
-def _slack(face: CadFace, axis: int) -> float:
-    low, high = face.surface.domain[axis]
-    return ON_LINE * (high - low)
-
-
-def _crosses(face: CadFace, line: SingularLine) -> bool:
-    """Does the face lie on both sides of the line?"""
-    uv = np.concatenate([coedge.uv(FRACTIONS) for coedge in face.coedges])
-    beside = uv[:, line.axis] - line.value
-    slack = _slack(face, line.axis)
-    return bool((beside < -slack).any() and (beside > slack).any())
-
-
-def _jumps(face: CadFace, line: SingularLine, loop: Loop) -> bool:
-    """Does a p-curve end on the line, and the next one begin elsewhere on it?"""
-    return any(_jump(face, line, one, loop[k - 1]) for k, one in enumerate(loop))
-
-
-def _jump(face: CadFace, line: SingularLine, after: CadCoedge, here: CadCoedge) -> bool:
-    leaves, enters = here.walk(ENDS[1:])[0], after.walk(ENDS[:1])[0]
-    on = np.abs(np.array([leaves, enters])[:, line.axis] - line.value)
-    across = 1 - line.axis
-    step = abs(leaves[across] - enters[across])
-    return bool((on <= _slack(face, line.axis)).all() and step > _slack(face, across))
-
-
-def _crossings(coedge: CadCoedge, line: SingularLine, slack: float) -> list[float]:
-    """Fractions of the edge's range, 0 and 1 excluded, at which its p-curve crosses the line."""
-    straight = coedge.is_straight
-    fraction = np.linspace(0.0, 1.0, 2 if straight else SAMPLES)
-    beside = coedge.uv(fraction)[:, line.axis] - line.value
-    beside[np.abs(beside) <= slack] = 0.0
-    found = [float(fraction[k]) for k in np.flatnonzero(beside == 0.0) if 0 < k < len(fraction) - 1]
-    if len(found) > 2:  # it runs along the line
-        return []
-    for k in np.flatnonzero(beside[1:] * beside[:-1] < 0.0):
-        low, high = float(fraction[k]), float(fraction[k + 1])
-        if straight:
-            found.append(low + (high - low) * float(beside[k] / (beside[k] - beside[k + 1])))
-            continue
-        for _ in range(HALVINGS):
-            middle = 0.5 * (low + high)
-            here = coedge.uv(np.array([middle]))[0, line.axis] - line.value
-            low, high = (middle, high) if here * beside[k] > 0.0 else (low, middle)
-        found.append(0.5 * (low + high))
-    return sorted(found)
 
 
 @dataclass
@@ -150,7 +90,7 @@ class _Work:
             face = self.faces[number]
             for line in found:
                 for coedge in face.coedges:
-                    for fraction in _crossings(coedge, line, _slack(face, line.axis)):
+                    for fraction in crossings(coedge, line, slack_of(face, line.axis)):
                         near = [s for s in places[coedge.edge] if abs(s - fraction) < ON_LINE]
                         if not near and not self.edges[coedge.edge].degenerate:
                             places[coedge.edge][fraction] = line.point
@@ -230,7 +170,7 @@ class _Work:
 
     def _one_vertex(self, face: CadFace, line: SingularLine, vertex: int) -> None:
         """All vertices of a face that lie on a line are one."""
-        slack = _slack(face, line.axis)
+        slack = slack_of(face, line.axis)
         others = set()
         for coedge in face.coedges:
             on = np.abs(coedge.walk(ENDS)[:, line.axis] - line.value) <= slack
@@ -250,7 +190,7 @@ class _Work:
         for above in (False, True):
             whole, chains = [], []
             for loop in loops:
-                found, closed = _chains(loop, line, _slack(face, line.axis), above)
+                found, closed = _chains(loop, line, slack_of(face, line.axis), above)
                 chains += found
                 if closed:
                     whole.append(loop)
@@ -413,7 +353,7 @@ def _ranks(
     Of two at the same place the one that lies ahead a little away from the line comes last.
     """
     across = 1 - line.axis
-    low, slack = face.surface.domain[across][0], _slack(face, across)
+    low, slack = face.surface.domain[across][0], slack_of(face, across)
 
     def rank(coedge: CadCoedge, at: float, beside: float) -> tuple[float, float]:
         here, aside = coedge.walk(np.array([at, beside]))[:, across]

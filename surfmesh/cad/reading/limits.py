@@ -22,7 +22,7 @@ from surfmesh.errors import CadError
 try:
     import resource
 except ImportError:  # Windows
-    resource = None  # type: ignore[assignment]
+    resource = None  # type: ignore[assignment]  # a module elsewhere
 
 SECONDS, SECONDS_A_MEGABYTE = 8.0, 25.0  # of processor time
 MEGABYTES, MEGABYTES_A_MEGABYTE = 1000.0, 100.0  # of memory
@@ -77,11 +77,11 @@ class Limits:
 
 
 def _chosen(name: str, given: float | None, variable: str, default: float) -> float:
-    found: object = given
+    found: float | str = default if given is None else given
     if given is None:
         name, found = variable, os.environ.get(variable, "").strip() or default
     try:
-        value = float(found)  # type: ignore[arg-type]
+        value = float(found)
     except (TypeError, ValueError):
         value = math.nan
     if not value > 0.0:

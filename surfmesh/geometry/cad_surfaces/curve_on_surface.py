@@ -7,24 +7,26 @@ c'' = r_uu u'^2 + 2 r_uv u' v' + r_vv v'^2 + r_u u'' + r_v v''
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any, Self
+from typing import ClassVar, Self
 
 import numpy as np
 
+from surfmesh.geometry.cad_surfaces.curves import Curve
 from surfmesh.geometry.cad_surfaces.plain_data import PlainData
+from surfmesh.geometry.surface import Surface
 
 
 @dataclass(frozen=True, eq=False, repr=False)
 class CurveOnSurface(PlainData):
     """surface: r(u, v). pcurve: in its (u, v), with the parameter p = shift + rate t."""
 
-    surface: Any
-    pcurve: Any
+    surface: Surface
+    pcurve: Curve
     shift: float
     rate: float
 
     kind = "on surface"
-    period = None
+    period: ClassVar[float | None] = None
     dimension = 3
 
     def evaluate(self, t: np.ndarray, order: int = 0) -> tuple[np.ndarray, ...]:

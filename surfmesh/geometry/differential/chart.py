@@ -29,8 +29,8 @@ MISSED = 1.5
 samples miss something: tan(u) up to 1.57 has 93 % of its length in the last of 257 steps."""
 
 LONG_STEP, FINEST_STEP, MOST_STEPS = 1.0 / 64.0, 1e-14, 4000
-"""Then steps are halved: those longer than this share of the whole, unless they are as short as
-the next share of the domain, or so many already."""
+"""Then steps are halved: those longer than this fraction of the whole, unless they are as short as
+the next fraction of the domain, or so many already."""
 
 
 @dataclass(frozen=True)

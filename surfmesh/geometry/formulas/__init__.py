@@ -12,5 +12,6 @@ compilation: from SymPy expressions to a tape, with derivatives.
 tape: a straight-line program of numpy operations, for points and for intervals.
 interval: a function of an interval is an interval that holds its range.
 parametric: the surface of three formulas in u and v.
+kink_tracing: where the guides of a formula are zero: lines in (u, v), traced on a grid.
 kinks: lines along which such a surface is bent sharply: kinks of abs, max, min and sign.
 """

@@ -321,7 +321,7 @@ def _refuse_scalar_functions(
 ) -> None:
     """Raise SurfaceError with a cure if the function understands numbers, but no arrays."""
     try:
-        one = function(u, v)  # type: ignore[arg-type]
+        one = function(u, v)  # type: ignore[arg-type]  # numbers on purpose
         size = np.size(one[0]) if what == "derivatives" else np.size(one)
     except Exception:  # whatever it is: what was raised first is said
         return

@@ -11,7 +11,6 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 
 from surfmesh.errors import DomainError, shown
-from surfmesh.geometry.boxes import diagonal
 from surfmesh.geometry.planar.given_arrays import (
     line_arrays,
     open_loop,
@@ -19,6 +18,11 @@ from surfmesh.geometry.planar.given_arrays import (
     shapely_geometries,
 )
 from surfmesh.geometry.planar.line_thinning import thinned
+from surfmesh.geometry.planar.point_merging import (
+    merged_points,
+    merging_distance,
+    positive_distance,
+)
 from surfmesh.geometry.planar.segment_distance import SegmentDistance
 from surfmesh.geometry.planar.segment_graph import Line, SegmentGraph, segment_graph
 from surfmesh.geometry.surface import Domain
@@ -27,11 +31,6 @@ if TYPE_CHECKING:
     from shapely.geometry.base import BaseGeometry
 
 CROSSINGS = ("refuse", "split")
-SAME = 1e-9
-"""Of the diagonal: points nearer to each other are one, a thousandth of the shortest segments that
-are promised to survive."""
-ROUNDING = 1e-12
-"""Of the diagonal: points that are merged from no farther away are not worth a word."""
 FAR_AWAY = 1e-8  # last place of the largest coordinate over the diagonal: worth a warning
 
 
@@ -259,9 +258,9 @@ class PlanarDomain(PlaneOfCoordinates):
         lines += [Line(f"constraint {k}", line) for k, line in enumerate(polylines)]
         lines += [Line(f"point {k}", place[None]) for k, place in enumerate(places)]
         is_hole = [hole for _, _, hole in loops]
-        merge = _merging(lines, asked.merge)
+        merge = merging_distance(lines, asked.merge)
         graph = segment_graph(lines, is_hole, asked.crossings == "split", merge)
-        changes = _merged(lines, merge)
+        changes = merged_points(lines, merge)
         if asked.simplify is not None:
             graph, said = _thinned(graph, asked.simplify, places)
             closed = [_still_there(loop, graph, merge) for loop in closed]
@@ -366,48 +365,6 @@ class PlanarDomain(PlaneOfCoordinates):
 
 
 _CACHED = ("_distance", "area", "regions", "warnings")
-
-
-def positive_distance(name: str, given: Any) -> float:
-    """A positive finite number. Raises DomainError."""
-    try:
-        distance = float(given)
-    except (TypeError, ValueError, OverflowError):
-        distance = np.nan
-    if not 0.0 < distance < np.inf:
-        raise DomainError(f"{name} is a positive distance, not {shown(given)}")
-    return distance
-
-
-def _merging(lines: Sequence[Line], merge: float | None) -> float:
-    """The distance below which points are one."""
-    points = np.concatenate([line.points for line in lines])
-    if merge is not None:
-        return positive_distance("merge", merge)
-    return SAME * diagonal(points)
-
-
-def _merged(lines: Sequence[Line], merge: float) -> list[str]:
-    """A sentence about points that differ and yet are one, by more than rounding."""
-    from scipy.spatial import cKDTree
-
-    points = np.concatenate([line.points for line in lines])
-    starts = np.cumsum([0, *(len(line.points) for line in lines)])
-    rounding = ROUNDING * diagonal(points)
-    places, first = np.unique(points, axis=0, return_index=True)
-    pairs = cKDTree(places).query_pairs(merge, output_type="ndarray")
-    apart = np.linalg.norm(places[pairs[:, 1]] - places[pairs[:, 0]], axis=1)
-    pairs, apart = pairs[apart > rounding], apart[apart > rounding]
-    if not len(pairs):
-        return []
-    count = len(np.unique(pairs[:, 1]))
-    given = int(first[pairs[0]].max())
-    line = int(np.searchsorted(starts, given, side="right")) - 1
-    many = "1 point lies" if count == 1 else f"{count:,} points lie"
-    return [
-        f"{many} within {apart.max():.3g} of another and {'is' if count == 1 else 'are'} merged "
-        f"with it, first {lines[line].label}, point {given - starts[line]} (merge={merge:.3g})"
-    ]
 
 
 def _thinned(graph: SegmentGraph, distance: Any, places: np.ndarray) -> tuple[SegmentGraph, str]:

@@ -131,14 +131,9 @@ def segment_graph(
         )
 
     found = noded(points, np.concatenate(pieces), stays, None if split else refusal, merge)
-    loop_of_line = np.array([line.loop for line in lines])
-    loop_of_given = np.repeat(loop_of_line, counts)
     segment, given = found.uses.T
-    loop = loop_of_given[given]
-    row, times = np.unique(
-        np.stack([segment, loop], axis=1)[loop >= 0].reshape(-1, 2), axis=0, return_counts=True
-    )
-    loop_segments = row[times % 2 == 1].astype(np.int32)
+    loop = np.repeat([line.loop for line in lines], counts)[given]
+    loop_segments = _loop_segments(segment, loop)
     for k in np.setdiff1d(np.arange(len(loop_is_hole)), loop_segments[:, 1]):
         label = next(line.label for line in lines if line.loop == k)
         raise DomainError(
@@ -166,6 +161,13 @@ def segment_graph(
             f"{one} and {other} still meet after cutting; move apart what nearly touches there"
         )
     return graph
+
+
+def _loop_segments(segment: np.ndarray, loop: np.ndarray) -> np.ndarray:
+    """Rows (segment, loop) of uses (n,) that occur an odd number of times; -1 is no loop."""
+    uses = np.stack([segment, loop], axis=1)[loop >= 0].reshape(-1, 2)
+    row, times = np.unique(uses, axis=0, return_counts=True)
+    return row[times % 2 == 1].astype(np.int32)
 
 
 def inside_regions(

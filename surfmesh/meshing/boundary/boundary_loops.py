@@ -26,8 +26,8 @@ _CLOSED_SEGMENTS = 3
 """Fewest segments of a side that is a closed curve in 3D, fewer are not a polygon."""
 
 RIM_ROUNDS, RIM_MARGIN, MANY_PIECES = 8, 0.98, 64
-"""How often a rim is cut anew; what is aimed at, as a share of ``chord``; from so many pieces those
-that sag too much are halved, rather than all made shorter."""
+"""How often a rim is cut anew; what is aimed at, as a fraction of ``chord``; from so many pieces
+those that sag too much are halved, rather than all made shorter."""
 
 RIM_SAMPLES = (0.25, 0.5, 0.75)
 
@@ -154,11 +154,11 @@ def _stops_on_sides(sides: SideTopology, stops: np.ndarray | None) -> list[np.nd
     if stops is None or not len(stops):
         return found
     low, high = np.array(sides.domain).T
-    share = (stops - low) / (high - low)
+    t = (stops - low) / (high - low)
     for side in range(4):
         along, fixed = (0, 1) if side in (0, 2) else (1, 0)
-        there = np.abs(share[:, fixed] - (0.0, 1.0, 1.0, 0.0)[side]) <= SAME_STOP
-        found[side] = share[there, along]
+        there = np.abs(t[:, fixed] - (0.0, 1.0, 1.0, 0.0)[side]) <= SAME_STOP
+        found[side] = t[there, along]
     own = list(found)
     for side, partner in enumerate(sides.partner):
         if partner >= 0:
@@ -187,8 +187,8 @@ def _through(
     parts = [np.zeros(1)]
     least = -(-minimum // (len(t) - 1))
     for a, b in pairwise(t):
-        share = cut(start + a * (end - start), start + b * (end - start), least)[0]
-        inner = a + (b - a) * share[1:]
+        part = cut(start + a * (end - start), start + b * (end - start), least)[0]
+        inner = a + (b - a) * part[1:]
         inner[-1] = b
         parts.append(inner)
     return np.concatenate(parts)
@@ -290,8 +290,8 @@ def _sags(surface: Surface, uv: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     length = np.linalg.norm(chords, axis=1)
     squared = np.maximum(length**2, np.finfo(float).tiny)
     sag = np.zeros(len(length))
-    for share in RIM_SAMPLES:
-        (point,) = surface.evaluate(uv[:-1] + share * np.diff(uv, axis=0), 0)
+    for t in RIM_SAMPLES:
+        (point,) = surface.evaluate(uv[:-1] + t * np.diff(uv, axis=0), 0)
         way = point - ends[:-1]
         along = np.clip(np.einsum("ij,ij->i", way, chords) / squared, 0.0, 1.0)
         sag = np.fmax(sag, np.linalg.norm(way - along[:, None] * chords, axis=1))

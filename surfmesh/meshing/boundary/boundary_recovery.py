@@ -38,7 +38,7 @@ BAD_SHAPE, SWEEPS = 0.7, 8
 """Triangles below this alpha, left by the packing or the boundary, are offered a swap."""
 
 ROOM, STRETCHED_ROOM = 1 / 16, 1 / 2
-"""Room for more vertices, as a share of those there are, for the optimiser's splits."""
+"""Room for more vertices, as a fraction of those there are, for the optimiser's splits."""
 
 QUEUE = 1 << 16
 """Most edges that one segment may cut."""

@@ -3,10 +3,10 @@
 import numpy as np
 
 SAME_PLACE = 1e-6
-"""Images of one node nearer than this share of the face's box are one node in (u, v)."""
+"""Images of one node nearer than this fraction of the face's box are one node in (u, v)."""
 
 NEAR_STEP = 0.1
-"""Or nearer than this share of the segments there."""
+"""Or nearer than this fraction of the segments there."""
 
 
 def coincident_nodes(uv: np.ndarray, numbers: np.ndarray, segments: np.ndarray) -> np.ndarray:

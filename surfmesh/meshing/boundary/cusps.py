@@ -28,13 +28,13 @@ from surfmesh.sizing.options.defaults import DEFAULT_CHORD
 from surfmesh.sizing.options.sizing import Sizing
 
 FAR, NEAR = 1e-2, 1e-4
-"""Shares of the domain from the pole between which width over distance is compared."""
+"""Fractions of the domain from the pole between which width over distance is compared."""
 
 POINTED = 0.5
 """Factor by which it falls from the one to the other at least: at cones and spheres it stays."""
 
 DEEPEST = 0.5
-"""Share of the domain that is cut off at most."""
+"""Fraction of the domain that is cut off at most."""
 
 ROUND = 33
 """Points of a ring that are looked at."""
@@ -67,9 +67,9 @@ def find_cusps(surface: Surface, sides: SideTopology, sizing: Sizing) -> tuple[C
         width, distance = _rings(surface, axis, pole, way, np.array([FAR, NEAR]))
         if width[1] * distance[0] > POINTED * width[0] * distance[1]:
             continue
-        share = _first_as_wide(surface, axis, pole, way, _wanted_width(surface, sizing))
-        if share is not None:
-            found.append(Cusp(int(side), axis, pole, pole + share * way))
+        fraction = _first_as_wide(surface, axis, pole, way, _target_width(surface, sizing))
+        if fraction is not None:
+            found.append(Cusp(int(side), axis, pole, pole + fraction * way))
     return tuple(found)
 
 
@@ -112,7 +112,7 @@ def _with_fan(mesh: SurfaceMesh, surface: Surface, cusp: Cusp) -> SurfaceMesh:
     )
 
 
-def _wanted_width(surface: Surface, sizing: Sizing) -> float:
+def _target_width(surface: Surface, sizing: Sizing) -> float:
     """Radius of the first ring."""
     edge = sizing.min_size or 0.0
     chord = sizing.chord
@@ -129,12 +129,12 @@ def _wanted_width(surface: Surface, sizing: Sizing) -> float:
 
 
 def _rings(
-    surface: Surface, axis: int, pole: float, way: float, shares: np.ndarray
+    surface: Surface, axis: int, pole: float, way: float, fractions: np.ndarray
 ) -> tuple[np.ndarray, np.ndarray]:
-    """Radii (k,) of the rings at ``shares`` (k,) of the way, and their distances from the pole."""
+    """Radii (k,) of the rings at ``fractions`` (k,) of the way, their distances from the pole."""
     first, last = surface.domain[1 - axis]
-    uv = np.empty((len(shares) + 1, ROUND, 2))
-    uv[..., axis] = pole + way * np.append(shares, 0.0)[:, None]
+    uv = np.empty((len(fractions) + 1, ROUND, 2))
+    uv[..., axis] = pole + way * np.append(fractions, 0.0)[:, None]
     uv[..., 1 - axis] = np.linspace(first, last, ROUND)
     r = surface.evaluate(uv.reshape(-1, 2))[0].reshape(len(uv), ROUND, 3)
     centre = 0.5 * (r.max(axis=1) + r.min(axis=1))
@@ -143,17 +143,17 @@ def _rings(
 
 
 def _first_as_wide(
-    surface: Surface, axis: int, pole: float, way: float, wanted: float
+    surface: Surface, axis: int, pole: float, way: float, target: float
 ) -> float | None:
-    """Share of the way to the first ring of the ``wanted`` radius; None if that is too far."""
-    shares = np.geomspace(1e-6, DEEPEST, 80)
-    wide = np.flatnonzero(_rings(surface, axis, pole, way, shares)[0] >= wanted)
+    """Fraction of the way to the first ring of the ``target`` radius; None if that is too far."""
+    fractions = np.geomspace(1e-6, DEEPEST, 80)
+    wide = np.flatnonzero(_rings(surface, axis, pole, way, fractions)[0] >= target)
     if not len(wide) or wide[0] == 0:
         return None
-    low, high = shares[wide[0] - 1], shares[wide[0]]
+    low, high = fractions[wide[0] - 1], fractions[wide[0]]
     for _ in range(HALVES):
         middle = 0.5 * (low + high)
-        if _rings(surface, axis, pole, way, np.array([middle]))[0][0] < wanted:
+        if _rings(surface, axis, pole, way, np.array([middle]))[0][0] < target:
             low = middle
         else:
             high = middle

@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 
-from surfmesh.geometry.formulas.kinks import Guides, KinkLine
+from surfmesh.geometry.formulas.kink_tracing import Guides, KinkLine
 from surfmesh.geometry.surface import Surface
 from surfmesh.meshing.boundary.boundary_loops import BoundaryLoops
 from surfmesh.sizing.field.size_field import SizeField
@@ -31,8 +31,8 @@ def sides_met(surface: Surface, lines: list[KinkLine]) -> np.ndarray:
     """(j, 2) ends of kink lines that lie on the sides of the (u, v) rectangle."""
     ends = np.concatenate([line.uv[[0, -1]] for line in lines if not line.closed] or [_NONE])
     low, high = np.array(surface.domain).T
-    share = (ends - low) / (high - low)
-    return ends[(np.minimum(share, 1.0 - share) <= SAME).any(axis=1)]
+    t = (ends - low) / (high - low)
+    return ends[(np.minimum(t, 1.0 - t) <= SAME).any(axis=1)]
 
 
 def with_kinks(
@@ -120,8 +120,8 @@ def _sag(
     ((ends,), (between,)) = surface.evaluate(points, 0), surface.evaluate(middle, 0)
     start, along = ends[:-1], np.diff(ends, axis=0)
     squared = np.maximum(np.einsum("ij,ij->i", along, along), np.finfo(float).tiny)
-    share = np.clip(np.einsum("ij,ij->i", between - start, along) / squared, 0.0, 1.0)
-    return float(np.linalg.norm(between - start - share[:, None] * along, axis=1).max(initial=0.0))
+    t = np.clip(np.einsum("ij,ij->i", between - start, along) / squared, 0.0, 1.0)
+    return float(np.linalg.norm(between - start - t[:, None] * along, axis=1).max(initial=0.0))
 
 
 _NONE = np.empty((0, 2))

@@ -1,6 +1,6 @@
 """Step 1 of section 3 in the plane: the segments of a domain, cut to unit metric length.
 
-A segment that is shorter than the wanted size, or a gap between two lines that is narrower,
+A segment that is shorter than the target size, or a gap between two lines that is narrower,
 asks for a smaller size there; from there sizes grow again as ``growth`` allows.
 """
 
@@ -41,8 +41,8 @@ def metric_length(graph: SegmentGraph, field: SizeField) -> float:
     """Of all segments, roughly: about how many pieces they will be cut into."""
     start, end = (graph.points[graph.segments[:, k]] for k in (0, 1))
     owner = np.arange(len(start))
-    shares = [np.full(len(start), share) for share in (0.0, 0.5, 1.0)]
-    first, middle, last = (_speed(field, start, end, owner, share) for share in shares)
+    places = [np.full(len(start), t) for t in (0.0, 0.5, 1.0)]
+    first, middle, last = (_speed(field, start, end, owner, t) for t in places)
     return float((first + 4.0 * middle + last).sum() / 6.0)
 
 
@@ -50,7 +50,7 @@ def cut_segments(graph: SegmentGraph, field: SizeField) -> PlanarSegments:
     """Cut every segment into pieces of equal metric length near 1; lone points become nodes."""
     order = _walk(graph)
     start, end = (graph.points[graph.segments[order, k]] for k in (0, 1))
-    share, steps = _metric_steps(field, start, end)
+    fractions, steps = _metric_steps(field, start, end)
     lengths = np.array([part[-1] for part in steps])
     count = np.maximum(1, np.round(lengths)).astype(np.int64)
     inner = count - 1
@@ -60,7 +60,7 @@ def cut_segments(graph: SegmentGraph, field: SizeField) -> PlanarSegments:
     begin = np.cumsum(inner) - inner
     for k in np.flatnonzero(inner).tolist():
         wanted = lengths[k] * within[begin[k] : begin[k] + inner[k]] / count[k]
-        t[begin[k] : begin[k] + inner[k]] = np.interp(wanted, steps[k], share[k])
+        t[begin[k] : begin[k] + inner[k]] = np.interp(wanted, steps[k], fractions[k])
     between = start[owner] + t[:, None] * (end - start)[owner]
 
     # one row of tokens a segment: its first point, its inner nodes, its last point
@@ -109,7 +109,7 @@ def _walk(graph: SegmentGraph) -> np.ndarray:
 def _metric_steps(
     field: SizeField, start: np.ndarray, end: np.ndarray
 ) -> tuple[list[np.ndarray], list[np.ndarray]]:
-    """Shares of each segment from 0 to 1, and the metric length up to there.
+    """Fractions of each segment from 0 to 1, and the metric length up to there.
 
     Intervals are halved until the size hardly changes within each.
     """
@@ -134,14 +134,14 @@ def _metric_steps(
     owner, first, length = (np.concatenate(part) for part in zip(*parts))
     order = np.lexsort((first, owner))
     cuts = np.searchsorted(owner[order], np.arange(1, len(start)))
-    shares = [np.append(part, 1.0) for part in np.split(first[order], cuts)]
-    return shares, [np.append(0.0, np.cumsum(part)) for part in np.split(length[order], cuts)]
+    fractions = [np.append(part, 1.0) for part in np.split(first[order], cuts)]
+    return fractions, [np.append(0.0, np.cumsum(part)) for part in np.split(length[order], cuts)]
 
 
 def _speed(
     field: SizeField, start: np.ndarray, end: np.ndarray, owner: np.ndarray, t: np.ndarray
 ) -> np.ndarray:
-    """Metric length a unit of share (n,), at shares ``t`` (n,) of the segments ``owner``."""
+    """Metric length a unit of ``t`` (n,), fractions of the segments ``owner``."""
     step = (end - start)[owner]
     xy = field.chart.to_plane(start[owner] + t[:, None] * step)
     return field.metric_lengths(xy, step / field.chart.rates(xy))
@@ -160,29 +160,29 @@ def short_segments(graph: SegmentGraph, slope: float) -> SizeLimits | None:
 
 
 def narrow_gaps(
-    domain: PlanarDomain, cut: PlanarSegments, field: SizeField, slope: float, share: float = 1.0
+    domain: PlanarDomain, cut: PlanarSegments, field: SizeField, slope: float, fraction: float = 1.0
 ) -> SizeLimits | None:
-    """Sizes no larger than this share of the distance to lines that a node's own does not meet.
+    """Sizes no larger than this fraction of the distance to lines that a node's own does not meet.
 
     Lines that share a point with it are left out: their corner is as sharp as it is.
     """
     import shapely
 
     graph = domain.graph
-    wanted = field.sizes(field.chart.to_plane(cut.uv))
+    target = field.sizes(field.chart.to_plane(cut.uv))
     lines = shapely.linestrings(graph.points[graph.segments])
     tree = shapely.STRtree(lines)
     places = shapely.points(cut.uv)
-    node, near = tree.query(places, predicate="dwithin", distance=SHORT * wanted / share)
+    node, near = tree.query(places, predicate="dwithin", distance=SHORT * target / fraction)
     # a node may end several segments: it meets whatever shares a point with one of them
     meets = _meeting(graph, cut, node, near)
     node, near = node[~meets], near[~meets]
     if not len(node):
         return None
-    gap = share * shapely.distance(places[node], lines[near])
+    gap = fraction * shapely.distance(places[node], lines[near])
     narrowest = np.full(len(cut.uv), np.inf)
     np.minimum.at(narrowest, node, gap)
-    found = np.flatnonzero(narrowest < SHORT * wanted)
+    found = np.flatnonzero(narrowest < SHORT * target)
     return _limits(cut.uv[found], narrowest[found], slope) if len(found) else None
 
 

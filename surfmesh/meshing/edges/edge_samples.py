@@ -37,7 +37,7 @@ MOST_LONGER = 1e8
 longer than that count as having no area."""
 
 HIDDEN, MOST_HALVINGS, MOST_SAMPLES = 0.7, 30, 20_000
-"""Between samples laws may ask for this fraction of the sizes at them; how hard it is pursued."""
+"""Between samples, laws may ask for this fraction of the sizes there; how hard that is pursued."""
 
 
 @dataclass(frozen=True)
@@ -174,7 +174,7 @@ def _find_narrow(samples: EdgeSamples, rules: EdgeRules) -> None:
 
 
 def _has_twin(
-    model: CadModel, first: np.ndarray, turn: np.ndarray, vertex: np.ndarray
+    model: CadModel, first: np.ndarray, total_curvature: np.ndarray, vertex: np.ndarray
 ) -> np.ndarray:
     """(e,) bool; see ``EdgeSamples``."""
     ends = np.array([[edge.start, edge.end] for edge in model.edges]).reshape(-1, 2)
@@ -183,7 +183,7 @@ def _has_twin(
     _, group, count = np.unique(ends[there], axis=0, return_inverse=True, return_counts=True)
     found = np.zeros(len(model.edges), bool)
     found[there] = count[group.reshape(-1)] > 1
-    return found & (turn > 0.0)
+    return found & (total_curvature > 0.0)
 
 
 def _with_hidden(edge: CadEdge, t: np.ndarray, sizings: list[Sizing]) -> np.ndarray:

@@ -1,7 +1,7 @@
 """Small patches of a face, meshed for real: what becomes of the triangles a size field asks for.
 
-The optimiser splits triangles that are too far from the surface or turn too far, and collapses
-short edges. How many it does of each depends on the surface; a few patches tell.
+The optimiser splits triangles that are too far from the surface or meet at too large angles, and
+collapses short edges. How many it does of each depends on the surface; a few patches tell.
 
     +-----------------------+
     |    [ ]          [ ]   |     patches of equal metric area, spread evenly
@@ -38,7 +38,7 @@ def triangles_per_unit(
 
     loops: (k, 2) in (u, v).
     """
-    wanted = got = 0.0
+    total = got = 0.0
     rings = None if loops is None else [field.chart.to_plane(loop) for loop in loops]
     for centre in _centres(field, rings, patches):
         box = _patch(field, centre, PATCH)
@@ -51,8 +51,8 @@ def triangles_per_unit(
             continue
         made = _meshed(surface, field, box)
         if made is not None:
-            wanted, got = wanted + asked, got + made
-    return got / wanted if wanted > 0.0 else None
+            total, got = total + asked, got + made
+    return got / total if total > 0.0 else None
 
 
 def _centres(field: SizeField, rings: list[np.ndarray] | None, count: int) -> np.ndarray:

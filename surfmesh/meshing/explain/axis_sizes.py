@@ -17,7 +17,7 @@ import numpy as np
 from surfmesh.geometry.differential.fundamental_forms import curvatures, forms_from_derivatives
 from surfmesh.geometry.surface import Surface
 from surfmesh.meshing.explain.rulings import Ruling, with_radius
-from surfmesh.meshing.explain.size_row import SizeRow, in_order
+from surfmesh.meshing.explain.size_row import IN_JSON, SizeRow, in_order
 from surfmesh.renamed import Renamed
 from surfmesh.sizing.field.size_field import SizeField
 from surfmesh.sizing.metric_roots import unpacked
@@ -106,8 +106,8 @@ class AxisSize:
 
     def to_dict(self) -> dict[str, Any]:
         """Plain data for JSON."""
-        plain = asdict(self) | {"radius": self.radius}
-        plain["wish"] = plain.pop("target_size")
+        plain = {IN_JSON.get(name, name): value for name, value in asdict(self).items()}
+        plain["radius"] = self.radius
         plain["rows"] = [row._asdict() for row in self.rows]
         plain["winner"] = self.winner._asdict()
         return plain

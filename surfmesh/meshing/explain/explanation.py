@@ -39,7 +39,7 @@ from surfmesh.meshing.explain.nearest_place import (
 )
 from surfmesh.meshing.explain.origins import EdgePlaces, InnerPlaces
 from surfmesh.meshing.explain.rulings import ruling, rulings
-from surfmesh.meshing.explain.size_row import SizeRow, in_order
+from surfmesh.meshing.explain.size_row import IN_JSON, SizeRow, in_order
 from surfmesh.meshing.faces.face_data import FaceJob
 from surfmesh.meshing.faces.face_mesh import face_field
 from surfmesh.renamed import Renamed
@@ -108,8 +108,7 @@ class Explanation:
 
     def to_dict(self) -> dict[str, Any]:
         """Plain data for JSON."""
-        plain = asdict(self)
-        plain["wish"] = plain.pop("target_size")
+        plain = {IN_JSON.get(name, name): value for name, value in asdict(self).items()}
         plain["rows"] = [row._asdict() for row in self.rows]
         plain["winner"] = self.winner._asdict()
         plain["axes"] = [axis.to_dict() for axis in self.axes]

@@ -12,7 +12,7 @@ from typing import NamedTuple
 import numpy as np
 
 from surfmesh.meshing.edges.edge_rules import NARROWEST, Course, Demand, DemandsOfOne, EdgeRules
-from surfmesh.meshing.edges.edge_samples import EdgeSamples
+from surfmesh.meshing.edges.edge_samples import MOST_LONGER, EdgeSamples
 from surfmesh.meshing.explain.askers import DEFAULT, Askers, bound_row, words
 from surfmesh.meshing.explain.axis_sizes import Elsewhere, Principal
 from surfmesh.meshing.explain.rulings import (
@@ -105,6 +105,9 @@ class EdgePlaces(NamedTuple):
         vertex = ends.get(at.place, -1)
         if vertex in rules.wanted.vertices:
             found.append(_at_vertex(rules, vertex))
+        for face in {face for face, _ in rules.uses[edge]} & samples.narrow.keys():
+            rule = f"{MOST_LONGER:g} times the width of narrow face {face}"
+            found.append(SizeRow(DEFAULT, rule, MOST_LONGER * samples.narrow[face].width))
         gap = float(samples.gap_size[sample])
         if gap < np.inf:
             found.append(SizeRow("gap", "gap to another edge of a face", gap))

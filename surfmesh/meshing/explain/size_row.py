@@ -3,6 +3,9 @@
 from collections.abc import Iterable
 from typing import NamedTuple
 
+IN_JSON = {"target_size": "wish"}
+"""Attributes that have another name there."""
+
 EXACT = 1e-9
 """Relative: sizes that differ by less are one."""
 

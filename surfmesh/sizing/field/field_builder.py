@@ -17,9 +17,7 @@ import numpy as np
 from surfmesh.errors import SizingError
 from surfmesh.geometry.cad_surfaces.face_surface import FaceSurface
 from surfmesh.geometry.differential.sides import SideTopology
-from surfmesh.kernels.fields.background import (
-    Background,
-)
+from surfmesh.kernels.fields.background import Background
 from surfmesh.kernels.fields.gradation import Metric, grade, patch_errors
 from surfmesh.sizing.field.field_cells import GRID_DEPTH, Cells, SourceCells, coarse_beside_fine
 from surfmesh.sizing.field.hidden_features import SeenCells, may_bend, may_rise

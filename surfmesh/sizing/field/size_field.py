@@ -96,16 +96,18 @@ def size_field(
     sides: SideTopology | None = None,
     limits: SizeLimits | None = None,
     rims: Rims | None = None,
+    chart: Chart | None = None,
 ) -> SizeField:
     """Build the background for ``surface``; ``sides`` tells which sides are joined.
 
     ``limits``: upper bounds of the size near points, from an earlier round. ``rims``: where the
     surface ends, of a surface of formulas: the edges of a CAD model are cut before its faces.
+    ``chart``: of the surface; None: it is made.
 
     Raises ``SizingError`` when a size law gives something else than positive numbers, or when
     the wanted sizes need an unreasonable number of cells.
     """
-    law = SizeLaw.of(surface, sizing, limits, rims)
+    law = SizeLaw.of(surface, sizing, limits, rims, chart)
     return SizeField(law.chart, FieldBuilder(law, sides).background(), law)
 
 

@@ -169,15 +169,15 @@ class SizeLaw:
     @classmethod
     def of(
         cls, surface: Surface, sizing: Sizing, limits: SizeLimits | None = None,
-        rims: Rims | None = None,
+        rims: Rims | None = None, chart: Chart | None = None,
     ) -> "SizeLaw":  # fmt: skip
-        """With the defaults that follow from the extent of the surface."""
+        """With the defaults that follow from the extent of the surface, and its chart."""
         (u0, u1), (v0, v1) = surface.domain
         grid = np.linspace(0.0, 1.0, 17)
         t = np.stack(np.meshgrid(grid, grid), axis=-1).reshape(-1, 2)
         (points,) = surface.evaluate(np.array([u0, v0]) + t * np.array([u1 - u0, v1 - v0]), 0)
         rules = SizeRules.of(sizing, diagonal(points))
-        return cls(surface, Chart.of(surface), rules, limits, rims)
+        return cls(surface, chart or Chart.of(surface), rules, limits, rims)
 
     def without_limits(self) -> "SizeLaw":
         """What the rules say by themselves."""

@@ -2,10 +2,14 @@
 
 from dataclasses import dataclass, fields, replace
 from functools import cached_property
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from surfmesh.sizing.metric_roots import outer, uniform
+
+if TYPE_CHECKING:
+    from scipy.spatial import cKDTree
 
 NEAREST = 8
 """How many of the points may decide at a place: the others are farther and not much finer."""
@@ -88,7 +92,7 @@ class SizeLimits:
         return self._tree.query(points, k=[*range(1, count + 1)])
 
     @cached_property
-    def _tree(self):
+    def _tree(self) -> "cKDTree":
         from scipy.spatial import cKDTree
 
         return cKDTree(self.points)

@@ -305,6 +305,7 @@ def test_on_the_command_line(command):
         (["a.step"], False, None),
     ):
         options = parse([*given, *words])
-        assert (options.input, options.imprint, options.sew) == ("a.step", imprint, sew)
+        found = options.reading["imprint"], options.reading["sew"]
+        assert (options.input, *found) == ("a.step", imprint, sew)
     with pytest.raises(SystemExit):
         parse([*given, "a.step", "--imprint", "0"])
