@@ -141,7 +141,7 @@ def _near_pairs(model: CadModel, samples: EdgeSamples) -> list[tuple[int, int, i
 def _edge_chain(samples: EdgeSamples, edge: int) -> Chain:
     """One edge as a chain."""
     own = samples.of(edge)
-    points, t = samples.points[own], samples.share[own]
+    points, t = samples.points[own], samples.t[own]
     count = len(points) - 1
     return Chain(points, np.zeros(count, int), np.full(count, edge), t[:-1], t[1:])
 
@@ -170,8 +170,8 @@ def lower_to_mates(samples: EdgeSamples, mates: list[MateRun], sizes: np.ndarray
     """Lower the sizes (n,) at samples, in place, to those of their mates."""
     for run in mates:
         own, other = samples.of(run.edge), samples.of(run.mate)
-        found = np.interp(run.foot, samples.share[other], sizes[other])
-        rows = own.start + np.searchsorted(samples.share[own], run.t)
+        found = np.interp(run.foot, samples.t[other], sizes[other])
+        rows = own.start + np.searchsorted(samples.t[own], run.t)
         rows = np.minimum(rows, own.stop - 1)
         sizes[rows] = np.minimum(sizes[rows], found)
 
@@ -258,12 +258,12 @@ class MatedCuts:
 
     def _along(self, edge: int, t: np.ndarray) -> np.ndarray:
         """Lengths (n,) from the start of an edge to parameters (n,)."""
-        return np.interp(t, self.samples.share[self.samples.of(edge)], self._length[edge])
+        return np.interp(t, self.samples.t[self.samples.of(edge)], self._length[edge])
 
     def _same(self, edge: int, foot: np.ndarray, gap: np.ndarray) -> np.ndarray:
         """How near (n,) to its foot (n,) a node is the mate itself, where the gap is (n,)."""
         at = self.samples.of(edge)
-        size = np.interp(foot, self.samples.share[at], self.sizes[at])
+        size = np.interp(foot, self.samples.t[at], self.sizes[at])
         length = max(self.model.edges[edge].length, np.finfo(float).tiny)
         turn = np.maximum(
             self.samples.total_curvature[edge] * np.minimum(size / length, 1.0), LEAST_TURN
@@ -274,7 +274,7 @@ class MatedCuts:
     def _subdivided(self, edge: int) -> np.ndarray:
         """The parameters with more between them, in pieces of metric length near 1."""
         at = self.samples.of(edge)
-        points, t, size = (a[at] for a in (self.samples.points, self.samples.share, self.sizes))
+        points, t, size = (a[at] for a in (self.samples.points, self.samples.t, self.sizes))
         step = np.linalg.norm(np.diff(points, axis=0), axis=1)
         metric = np.r_[0.0, np.cumsum(2.0 * step / (size[1:] + size[:-1]))]
         ends = np.interp(self.t[edge], t, metric)

@@ -172,7 +172,7 @@ def _cut(
 ) -> EdgeNodes:  # fmt: skip
     """Pieces of equal metric length near 1, or those between given parameters t."""
     own = samples.of(number)
-    points, known, size = samples.points[own], samples.share[own], sizes[own]
+    points, known, size = samples.points[own], samples.t[own], sizes[own]
     dx, dy, dz = (points[1:] - points[:-1]).T
     step = np.sqrt(dx * dx + dy * dy + dz * dz)
     metric = np.zeros(len(points))

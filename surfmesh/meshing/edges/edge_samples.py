@@ -28,7 +28,7 @@ LONGER, LEAST_NARROW = 3.0, 0.3
 """Edges narrower than NARROWEST apart ask for so many times their distance, not below this
 fraction of NARROWEST: triangles of alpha 0.5."""
 
-SLIVER, MUCH_SMALLER = 5e-5, 1.0 / 150.0
+SLIVER, PROXIMITY_FLOOR = 5e-5, 1.0 / 150.0
 """Gaps narrower than this fraction of the diagonal, or of the size asked for there without them,
 ask for nothing: a sliver along a whole part would flood it with triangles."""
 
@@ -46,8 +46,8 @@ class EdgeSamples:
 
     first: np.ndarray
     """(e + 1,) int64. Edges that are one vertex of the mesh have no samples."""
-    share: np.ndarray
-    """(n,) shares of the edge's parameter range, 0 to 1."""
+    t: np.ndarray
+    """(n,) normalised parameters of the edges, 0 to 1."""
     points: np.ndarray
     """(n, 3)"""
     target_size: np.ndarray
@@ -167,7 +167,7 @@ def _find_narrow(samples: EdgeSamples, rules: EdgeRules) -> None:
         if samples.is_cut_by_shape(model, number):
             size = np.full(at.stop - at.start, sizing.base.max_size or model.diagonal)
         else:
-            course = Course.of(model.edges[number], samples.share[at])
+            course = Course.of(model.edges[number], samples.t[at])
             size = rules.target_size(number, course, samples.narrow)
         samples.target_size[at] = np.minimum(size, MOST_LONGER * min(widths))
     samples.mates.extend(mate_runs(model, samples))
@@ -186,7 +186,7 @@ def _has_twin(
     return found & (total_curvature > 0.0)
 
 
-def _with_hidden(edge: CadEdge, fraction: np.ndarray, sizings: list[Sizing]) -> np.ndarray:
+def _with_hidden(edge: CadEdge, t: np.ndarray, sizings: list[Sizing]) -> np.ndarray:
     """More fractions where laws may ask for much smaller sizes between two samples.
 
     A law of slope s that gives a and b at the ends of a piece of length l gives at least
@@ -199,17 +199,17 @@ def _with_hidden(edge: CadEdge, fraction: np.ndarray, sizings: list[Sizing]) -> 
             coarsest = min(coarsest, sizing.size)
         finest = sizing.min_size or 0.0
         for _ in range(MOST_HALVINGS):
-            (points,) = edge.evaluate(fraction, 0)
+            (points,) = edge.evaluate(t, 0)
             size = np.minimum(sizing.law_sizes(points), coarsest)
             length = np.linalg.norm(np.diff(points, axis=0), axis=1)
             least = np.maximum(0.5 * (size[1:] + size[:-1] - slope * length), finest)
             smaller = np.minimum(size[1:], size[:-1])
             hiding = (least < HIDDEN * smaller) & (length > 0.5 * np.maximum(least, 0.1 * smaller))
-            if not hiding.any() or len(fraction) > MOST_SAMPLES:
+            if not hiding.any() or len(t) > MOST_SAMPLES:
                 break
-            middle = 0.5 * (fraction[1:] + fraction[:-1])[hiding]
-            fraction = np.sort(np.concatenate([fraction, middle]))
-    return fraction
+            middle = 0.5 * (t[1:] + t[:-1])[hiding]
+            t = np.sort(np.concatenate([t, middle]))
+    return t
 
 
 def _apply_vertices(samples: EdgeSamples, rules: EdgeRules) -> None:
@@ -255,7 +255,7 @@ def _apply_gaps(model: CadModel, samples: EdgeSamples, sizing: ModelSizing) -> N
             samples.points, asked / fraction, samples.first, ends, np.concatenate(edges),
             first, *room, gap,
         )  # fmt: skip
-        ignored = np.maximum(max(SLIVER * model.diagonal, narrow), MUCH_SMALLER * asked)
+        ignored = np.maximum(max(SLIVER * model.diagonal, narrow), PROXIMITY_FLOOR * asked)
         rows = np.flatnonzero((gap >= ignored) & np.isfinite(gap))
         sliver = np.minimum(LONGER * gap[rows], narrowest)
         sliver[sliver < LEAST_NARROW * narrowest] = narrowest

@@ -209,7 +209,7 @@ def chain_of(
         coedge = coedges[place]
         own = samples.of(coedge.edge)
         order = slice(None, None, -1) if coedge.reversed else slice(None)
-        p, s = samples.points[own][order], samples.share[own][order]
+        p, s = samples.points[own][order], samples.t[own][order]
         if not len(p):
             continue
         points.append(p[:-1])

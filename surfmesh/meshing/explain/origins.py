@@ -94,7 +94,7 @@ class EdgePlaces(NamedTuple):
         if samples.is_cut_by_shape(rules.model, edge):
             return SizeRow(DEFAULT, "the shape of a narrow tube, which its edge is cut by", target)
         own = samples.of(edge)
-        at = _OnEdge(rules, edge, Course.of(item, samples.share[own]), sample - own.start)
+        at = _OnEdge(rules, edge, Course.of(item, samples.t[own]), sample - own.start)
         every = rules.demands(edge, at.course, samples.narrow)
         found = [at.decided(one) for one in every]
         length = max(item.length, NARROWEST * rules.model.diagonal)

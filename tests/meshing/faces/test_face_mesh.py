@@ -1,0 +1,37 @@
+"""One face: what becomes of a mistake of our own inside it."""
+
+import logging
+
+import cadquery as cq
+import pytest
+
+import surfmesh as sm
+from surfmesh.errors import MeshingError
+from surfmesh.meshing.faces import face_mesh
+
+
+def test_an_internal_error_leaves_its_traceback_in_the_log(monkeypatch, caplog):
+    def broken(job):
+        raise IndexError("no such slot")
+
+    monkeypatch.setattr(face_mesh, "_meshed", broken)
+    caplog.set_level(logging.DEBUG, "surfmesh")
+    with pytest.raises(MeshingError, match=r"internal error, please report .* no such slot"):
+        sm.mesh(cq.Workplane().box(1, 1, 1), 0.5)
+    assert "in broken" in caplog.text and "IndexError: no such slot" in caplog.text
+
+
+def test_missing_faces_are_findings_with_their_number(monkeypatch):
+    real = face_mesh._meshed
+
+    def broken(job, unfold=True):
+        if all(piece.points[:, 2].min() > 0.4 for loop in job.loops for piece in loop):
+            raise IndexError("no such slot")
+        return real(job, unfold)
+
+    monkeypatch.setattr(face_mesh, "_meshed", broken)
+    model = sm.from_cadquery(cq.Workplane().box(1, 1, 1))
+    mesh = sm.mesh(model, 0.5, strict=False)
+    (found,) = mesh.findings
+    assert found.text in mesh.warnings and found.label == model.face_label(found.face)
+    assert found.kind.name == "NOT_MESHED" and found.face not in mesh.face_ids
