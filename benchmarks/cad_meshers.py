@@ -52,7 +52,7 @@ def _ours(request: dict) -> dict:
     from surfmesh.quality.measures.deviation import deviation
     from surfmesh.quality.measures.shape import shapes
     from surfmesh.quality.measures.solids import solid_mesh
-    from surfmesh.result.surface_mesh import NOT_MESHED
+    from surfmesh.result.findings import FindingKind
     from surfmesh.sizing.options.model_sizing import with_defaults
 
     place = request["place"]
@@ -87,8 +87,9 @@ def _ours(request: dict) -> dict:
     start = perf_counter()
     shape = shapes(mesh)
     fit = deviation(mesh, shape.area)
-    failed = [text for text in mesh.warnings if text.startswith(NOT_MESHED)]
-    failed_faces = {int(text.removeprefix(NOT_MESHED).split()[1]) for text in failed}
+    missing = [one for one in mesh.findings if one.kind is FindingKind.NOT_MESHED]
+    failed = [one.text for one in missing]
+    failed_faces = {one.face for one in missing if one.face is not None}
     bare = set(range(len(model.faces))) - set(np.unique(mesh.face_ids).tolist())
     return {
         **known,

@@ -16,7 +16,7 @@ import numpy as np
 
 from surfmesh.cad.model.cad_model import CadModel
 from surfmesh.meshing.edges.edge_nodes import EdgeNodes, cut_edges
-from surfmesh.meshing.edges.edge_samples import sample_edges
+from surfmesh.meshing.edges.edge_sampling import sample_edges
 from surfmesh.meshing.edges.face_proximity import with_face_gaps
 from surfmesh.meshing.estimate.estimation import Estimate
 from surfmesh.meshing.estimate.model_estimate import model_counts, require_model_within

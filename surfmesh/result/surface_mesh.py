@@ -23,7 +23,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from surfmesh.renamed import Renamed, new_names
 from surfmesh.result.connectivity import Connectivity, connect
-from surfmesh.result.findings import Finding, FindingKind
+from surfmesh.result.findings import Finding
 from surfmesh.result.invariants import first_broken
 from surfmesh.result.mesh_fields import MeshFields, OfPart
 from surfmesh.result.mesh_groups import MeshGroups
@@ -54,9 +54,6 @@ if TYPE_CHECKING:
     from surfmesh.quality.verdict.worst import WorstTriangle
     from surfmesh.result.model_facts import ModelFacts
     from surfmesh.sizing.options.sizing import Sizing
-
-NOT_MESHED = FindingKind.NOT_MESHED.value
-"""How the warning about a CAD face starts that is missing: such a mesh is not clean."""
 
 
 @dataclass(frozen=True, eq=False, repr=False, init=False, kw_only=True)

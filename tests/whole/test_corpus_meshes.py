@@ -11,7 +11,7 @@ pytest.importorskip("OCP")
 
 import surfmesh as sm
 from surfmesh.cad.reading.read_file import SUFFIXES, read_cad
-from surfmesh.result.surface_mesh import NOT_MESHED
+from surfmesh.result.findings import FindingKind
 
 FEW = [
     "cadquery__simple.step",  # an assembly of boxes
@@ -50,7 +50,7 @@ def test_meshes_of_real_files(cad_folder):
     for name, model in models(cad_folder):
         mesh = sm.mesh(model, strict=False)
         report = sm.check(mesh, second_opinion=True)
-        failed = [said for said in mesh.warnings if said.startswith(NOT_MESHED)]
+        failed = [one.text for one in mesh.findings if one.kind is FindingKind.NOT_MESHED]
         assert name in OPEN or not failed, (name, failed)
         assert report.inverted == 0 or name in LOOSE, name
         if name in LOOSE:

@@ -2,7 +2,9 @@
 
 polygon_lengths: how far along a polygon in space its nodes lie.
 edge_rules: what is asked of the edges by themselves: the rules at samples of one edge.
-edge_samples: samples along the edges of a CAD model, and the edge lengths that they ask for by
+edge_samples: what is known of the edges of a model before they are cut: samples, narrow faces,
+    mates.
+edge_sampling: samples along the edges of a CAD model, and the edge lengths that they ask for by
     themselves.
 edge_nodes: the edges of a CAD model, each cut once for all its faces.
 edge_gradation: gradation of the edges of a CAD model where sizes depend on the direction.

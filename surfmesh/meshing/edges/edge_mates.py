@@ -12,18 +12,14 @@ from __future__ import annotations
 
 from collections import deque
 from collections.abc import Callable
-from dataclasses import dataclass
-from typing import TYPE_CHECKING
 
 import numpy as np
 
 from surfmesh.cad.model.cad_model import CadModel
 from surfmesh.kernels.space.edge_distances import edge_gaps
+from surfmesh.meshing.edges.edge_samples import EdgeSamples, MateRun
 from surfmesh.meshing.edges.narrow_faces import Chain, chain_of, feet, foot_on_edge
 from surfmesh.meshing.edges.polygon_lengths import lengths_along
-
-if TYPE_CHECKING:  # which finds narrow faces with this module
-    from surfmesh.meshing.edges.edge_samples import EdgeSamples
 
 SWEEPS = 6
 """How often feet of new nodes are looked for, at most."""
@@ -40,20 +36,6 @@ LEAST_TURN = 1e-3
 
 COINCIDENT = 1e-12
 """Of the diagonal: edges nearer than this all along lie on each other and have no mates."""
-
-
-@dataclass(frozen=True)
-class MateRun:
-    """A part of an edge and its feet on another one, at samples.
-
-    t (n,) rising, foot (n,): normalised parameters of both edges; gap (n,): distance.
-    """
-
-    edge: int
-    mate: int
-    t: np.ndarray
-    foot: np.ndarray
-    gap: np.ndarray
 
 
 def mate_runs(model: CadModel, samples: EdgeSamples) -> list[MateRun]:

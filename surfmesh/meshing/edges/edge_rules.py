@@ -69,7 +69,7 @@ class Course(NamedTuple):
 
     @classmethod
     def of(cls, edge: CadEdge, fraction: np.ndarray) -> "Course":
-        if is_straight(edge):
+        if edge.is_straight:
             (points,) = edge.evaluate(fraction, 0)
             way = points[-1] - points[0]
             way = way / max(np.linalg.norm(way), np.finfo(float).tiny)
@@ -90,10 +90,6 @@ class Course(NamedTuple):
             return 0.0
         cosine = np.einsum("ij,ij->i", self.tangent[1:], self.tangent[:-1])
         return float(np.arccos(np.clip(cosine, -1.0, 1.0)).sum())
-
-
-def is_straight(edge: CadEdge) -> bool:
-    return edge.is_straight
 
 
 @dataclass

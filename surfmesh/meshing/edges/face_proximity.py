@@ -16,7 +16,7 @@ from surfmesh.cad.model.cad_model import CadFace, CadModel
 from surfmesh.cad.model.centres import boundary_polygons, inner_samples
 from surfmesh.geometry.differential.projection import closest_point
 from surfmesh.geometry.inside_loops import is_inside
-from surfmesh.meshing.edges.edge_samples import NARROWEST, SLIVER
+from surfmesh.meshing.edges.edge_sampling import NARROWEST, SLIVER
 from surfmesh.sizing.options.model_sizing import ModelSizing
 from surfmesh.sizing.rules.across_gaps import size_across
 

@@ -17,15 +17,12 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from itertools import combinations
 from math import pi
-from typing import TYPE_CHECKING
 
 import numpy as np
 
 from surfmesh.cad.model.cad_model import CadCoedge, CadFace, CadModel
+from surfmesh.meshing.edges.edge_samples import EdgeSamples, NarrowFace
 from surfmesh.sizing.options.defaults import DEFAULT_CHORD
-
-if TYPE_CHECKING:  # which finds narrow faces with this module
-    from surfmesh.meshing.edges.edge_samples import EdgeSamples
 from surfmesh.sizing.options.sizing import Sizing
 
 NARROW = 1.0
@@ -57,21 +54,6 @@ AT_ONCE = 100_000
 
 FOOT_STEPS = 4
 """Of Newton's method, to the closest point of a curve."""
-
-
-@dataclass(frozen=True)
-class NarrowFace:
-    """Coedges by their place in the row of all coedges of the face.
-
-    sides: both in walking order, the second one comes back. ends: from the first side to the
-    second, and back; empty for a tip, and where ``closed``: each side is a loop.
-    """
-
-    sides: tuple[tuple[int, ...], tuple[int, ...]]
-    ends: tuple[tuple[int, ...], tuple[int, ...]] = ((), ())
-    closed: bool = False
-    width: float = 0.0
-    """Largest way across, model units."""
 
 
 @dataclass(frozen=True)

@@ -12,7 +12,8 @@ from typing import NamedTuple
 import numpy as np
 
 from surfmesh.meshing.edges.edge_rules import NARROWEST, Course, Demand, DemandsOfOne, EdgeRules
-from surfmesh.meshing.edges.edge_samples import MOST_LONGER, EdgeSamples
+from surfmesh.meshing.edges.edge_samples import EdgeSamples
+from surfmesh.meshing.edges.edge_sampling import MOST_LONGER
 from surfmesh.meshing.explain.askers import DEFAULT, Askers, bound_row, words
 from surfmesh.meshing.explain.axis_sizes import Elsewhere, Principal
 from surfmesh.meshing.explain.rulings import (

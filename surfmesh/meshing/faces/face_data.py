@@ -7,7 +7,7 @@ import numpy as np
 
 from surfmesh.cad.model.loop_faults import ExactLoops
 from surfmesh.geometry.cad_surfaces.face_surface import FaceSurface
-from surfmesh.meshing.edges.narrow_faces import NarrowFace
+from surfmesh.meshing.edges.edge_samples import NarrowFace
 from surfmesh.sizing.options.sizing import Sizing
 from surfmesh.sizing.rules.size_limits import SizeLimits
 

@@ -96,10 +96,14 @@ def _mesh_rest(job: FaceJob) -> FaceMesh:
         closed = filled_face(job, str(error)) if job.last else None
         if closed is not None:
             return closed
-        refinement = None
-        if error.where is not None:
-            refinement = limits_where_crossing(job, np.atleast_2d(error.where))
-        return FaceMesh(failure=str(error), refinement=refinement)
+        if error.where is None:
+            return FaceMesh(failure=str(error))
+        where = np.atleast_2d(error.where)
+        return FaceMesh(
+            failure=str(error),
+            refinement=limits_where_crossing(job, where),
+            place=tuple(job.surface.evaluate(where[:1])[0][0].tolist()),
+        )
     except Exception as error:  # a mistake of ours: it must not take the other faces with it
         logger.debug("internal error on %s", job.surface.name, exc_info=True)
         at = extract_tb(error.__traceback__)[-1]

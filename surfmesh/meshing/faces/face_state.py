@@ -8,8 +8,7 @@ import numpy as np
 from surfmesh.cad.model.cad_model import CadCoedge, CadFace, CadModel
 from surfmesh.cad.model.loop_faults import ExactLoops, exact_loops
 from surfmesh.meshing.edges.edge_nodes import EdgeNodes
-from surfmesh.meshing.edges.edge_samples import EdgeSamples
-from surfmesh.meshing.edges.narrow_faces import NarrowFace
+from surfmesh.meshing.edges.edge_samples import EdgeSamples, NarrowFace
 from surfmesh.meshing.faces.face_data import CoedgeNodes, FaceJob, FaceMesh
 from surfmesh.meshing.faces.face_sizings import face_sizings
 from surfmesh.meshing.patch.refinement_loop import StagnationCheck

@@ -16,7 +16,7 @@ from OCP.TopoDS import TopoDS, TopoDS_Compound, TopoDS_Face, TopoDS_Vertex, Topo
 import surfmesh as sm
 from surfmesh.cad.model.loop_faults import exact_loops
 from surfmesh.errors import MeshingError
-from surfmesh.meshing.edges.edge_samples import vertex_numbers
+from surfmesh.meshing.edges.edge_sampling import vertex_numbers
 
 BUILD = BRep_Builder()
 BOX = [(0, 0), (15, 0), (15, 10), (0, 10)]

@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 import surfmesh as sm
 from surfmesh.kernels.space.edge_distances import edge_gaps
 from surfmesh.meshing.edges.edge_nodes import cut_edges
-from surfmesh.meshing.edges.edge_samples import sample_edges
+from surfmesh.meshing.edges.edge_sampling import sample_edges
 from surfmesh.sizing.options.model_sizing import model_sizing
 from surfmesh.sizing.rules.size_limits import SizeLimits
 

@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 
 import surfmesh as sm
 from surfmesh.meshing.edges.edge_nodes import cut_edges
-from surfmesh.meshing.edges.edge_samples import sample_edges
+from surfmesh.meshing.edges.edge_sampling import sample_edges
 from surfmesh.meshing.faces.strip_triangulation import rungs_between, zipped
 from surfmesh.sizing.options.model_sizing import model_sizing
 

@@ -1,0 +1,205 @@
+"""Samples along the edges of a CAD model, and the edge lengths that they ask for by themselves.
+
+    own curvature, curvature of the faces, size law, sources, length, gaps to other edges of a
+    face; each as the sizes of the edge, of its faces and of its vertices have it
+
+Made once for a model. What earlier rounds of meshing have found out, and the growth of sizes
+along edges and through vertices, comes later: see ``edge_nodes``.
+"""
+
+import numpy as np
+
+from surfmesh.cad.model.cad_model import CadEdge, CadModel
+from surfmesh.cad.model.collapsed_edges import collapses, vertex_numbers
+from surfmesh.kernels.space.edge_distances import edge_gaps
+from surfmesh.meshing.edges.edge_mates import mate_runs
+from surfmesh.meshing.edges.edge_rules import NARROWEST, Course, EdgeRules
+from surfmesh.meshing.edges.edge_samples import EdgeSamples
+from surfmesh.meshing.edges.narrow_faces import ROUND, narrow_face, narrow_width
+from surfmesh.sizing.options.model_sizing import ModelSizing
+from surfmesh.sizing.options.sizing import Sizing
+from surfmesh.sizing.rules.across_gaps import size_across
+
+STRAIGHT_SAMPLES, CURVED_SAMPLES = 33, 129
+_STRAIGHT, _CURVED = (np.linspace(0.0, 1.0, n) for n in (STRAIGHT_SAMPLES, CURVED_SAMPLES))
+
+LONGER, LEAST_NARROW = 3.0, 0.3
+"""Edges narrower than NARROWEST apart ask for so many times their distance, not below this
+fraction of NARROWEST: triangles of alpha 0.5."""
+
+SLIVER, PROXIMITY_FLOOR = 5e-5, 1.0 / 150.0
+"""Gaps narrower than this fraction of the diagonal, or of the size asked for there without them,
+ask for nothing: a sliver along a whole part would flood it with triangles."""
+
+MOST_LONGER = 1e8
+"""Segments beside a narrow face are at most so many times longer than it is wide: triangles
+longer than that count as having no area."""
+
+HIDDEN, MOST_HALVINGS, MOST_SAMPLES = 0.7, 30, 20_000
+"""Between samples, laws may ask for this fraction of the sizes there; how hard that is pursued."""
+
+
+def sample_edges(model: CadModel, sizing: ModelSizing) -> EdgeSamples:
+    """Samples of all edges. Raises ``SizingError`` for laws that give no sizes."""
+    rules = EdgeRules(model, sizing)
+    fractions, points, sizes, tangents = [], [], [], []
+    count = np.zeros(len(model.edges) + 1, np.int64)
+    total_curvature = np.zeros(len(model.edges))
+    for number, edge in enumerate(model.edges):
+        if collapses(model, edge):
+            continue
+        grid = _STRAIGHT if edge.is_straight else _CURVED
+        fraction = _with_hidden(edge, grid, [own for own, _ in rules.sizings_at(number)])
+        course = Course.of(edge, fraction)
+        fractions.append(fraction)
+        points.append(course.curve.points)
+        sizes.append(rules.target_size(number, course))
+        tangents.append(course.tangent)
+        total_curvature[number] = course.total_curvature
+        count[number + 1] = len(fraction)
+    first = np.cumsum(count)
+    edges_of_face = tuple(
+        np.array(sorted({c.edge for c in face.coedges if count[c.edge + 1]}), np.int64)
+        for face in model.faces
+    )
+    vertex = vertex_numbers(model)
+    samples = EdgeSamples(
+        first,
+        np.concatenate(fractions) if fractions else np.empty(0),
+        np.concatenate(points) if points else np.empty((0, 3)),
+        np.concatenate(sizes) if sizes else np.empty(0),
+        np.concatenate(tangents) if tangents and sizing.is_anisotropic else np.empty((0, 3)),
+        total_curvature,
+        _has_twin(model, first, total_curvature, vertex),
+        vertex,
+        edges_of_face,
+        np.zeros(len(model.faces)),
+        {},
+        np.zeros(len(model.edges), bool),
+        np.zeros(len(model.edges), bool),
+        [],
+        np.full(int(first[-1]), np.inf),
+    )
+    _find_narrow(samples, rules)
+    _apply_vertices(samples, rules)
+    _apply_gaps(model, samples, sizing)
+    return samples
+
+
+def _find_narrow(samples: EdgeSamples, rules: EdgeRules) -> None:
+    """Fill in what is narrow; edges of narrow faces do not hear the curvature across these."""
+    model, sizing = rules.model, rules.wanted
+    for number, face in enumerate(model.faces):
+        points = samples.points[samples.along(number)]
+        width = narrow_width(sizing.of_face(number), model.diagonal, points)
+        samples.narrow_width[number] = width
+        found = narrow_face(model, face, samples, width)
+        if found is not None:
+            samples.narrow[number] = found
+    for number, uses in enumerate(rules.uses):
+        at = samples.of(number)
+        widths = [samples.narrow[face].width for face, _ in uses if face in samples.narrow]
+        if not widths or at.start == at.stop:
+            continue
+        width = max(samples.narrow_width[face] for face, _ in uses)
+        samples.tiny[number] = model.edges[number].length <= ROUND * width
+        samples.hidden[number] = len(widths) == len(uses)
+        if samples.is_cut_by_shape(model, number):
+            size = np.full(at.stop - at.start, sizing.base.max_size or model.diagonal)
+        else:
+            course = Course.of(model.edges[number], samples.t[at])
+            size = rules.target_size(number, course, samples.narrow)
+        samples.target_size[at] = np.minimum(size, MOST_LONGER * min(widths))
+    samples.mates.extend(mate_runs(model, samples))
+
+
+def _has_twin(
+    model: CadModel, first: np.ndarray, total_curvature: np.ndarray, vertex: np.ndarray
+) -> np.ndarray:
+    """(e,) bool; see ``EdgeSamples``."""
+    ends = np.array([[edge.start, edge.end] for edge in model.edges]).reshape(-1, 2)
+    ends = np.sort(vertex[ends], axis=1)
+    there = np.diff(first) > 0
+    _, group, count = np.unique(ends[there], axis=0, return_inverse=True, return_counts=True)
+    found = np.zeros(len(model.edges), bool)
+    found[there] = count[group.reshape(-1)] > 1
+    return found & (total_curvature > 0.0)
+
+
+def _with_hidden(edge: CadEdge, t: np.ndarray, sizings: list[Sizing]) -> np.ndarray:
+    """More fractions where laws may ask for much smaller sizes between two samples.
+
+    A law of slope s that gives a and b at the ends of a piece of length l gives at least
+    (a + b - s l) / 2 in between.
+    """
+    for sizing in {id(own): own for own in sizings if own.has_law}.values():
+        slope = sizing.law_slope
+        coarsest = min(sizing.max_size or np.inf, edge.length)
+        if isinstance(sizing.size, float):
+            coarsest = min(coarsest, sizing.size)
+        finest = sizing.min_size or 0.0
+        for _ in range(MOST_HALVINGS):
+            (points,) = edge.evaluate(t, 0)
+            size = np.minimum(sizing.law_sizes(points), coarsest)
+            length = np.linalg.norm(np.diff(points, axis=0), axis=1)
+            least = np.maximum(0.5 * (size[1:] + size[:-1] - slope * length), finest)
+            smaller = np.minimum(size[1:], size[:-1])
+            hiding = (least < HIDDEN * smaller) & (length > 0.5 * np.maximum(least, 0.1 * smaller))
+            if not hiding.any() or len(t) > MOST_SAMPLES:
+                break
+            middle = 0.5 * (t[1:] + t[:-1])[hiding]
+            t = np.sort(np.concatenate([t, middle]))
+    return t
+
+
+def _apply_vertices(samples: EdgeSamples, rules: EdgeRules) -> None:
+    """Lower the sizes, in place, at the ends of edges to what their vertices ask for."""
+    allowed = {number: rules.at_vertex(number) for number in rules.wanted.vertices}
+    for number, edge in enumerate(rules.model.edges) if allowed else ():
+        start, end = samples.first[number], samples.first[number + 1]
+        if start < end:
+            for vertex, place in ((edge.start, start), (edge.end, end - 1)):
+                size = allowed.get(vertex, np.inf)
+                samples.target_size[place] = min(samples.target_size[place], size)
+
+
+def _apply_gaps(model: CadModel, samples: EdgeSamples, sizing: ModelSizing) -> None:
+    """Lower the sizes, in place, for the distance of edges of the same face that do not meet.
+
+    To that distance, or as small as ``gap`` says. Where triangles may be longer than wide and no
+    number of them is asked for, to so many times the distance.
+    """
+    if not len(samples.points):
+        return
+    ends = samples.vertex[np.array([[edge.start, edge.end] for edge in model.edges])]
+    by_sizes: dict[tuple[float | None, float, float], list[int]] = {}
+    for face in range(len(model.faces)):
+        if face in samples.narrow:
+            continue  # across it is nothing to be meshed, beside the end of one side neither
+        own, narrow = sizing.of_face(face), float(samples.narrow_width[face])
+        by_sizes.setdefault((own.gap, own.min_size or 0.0, narrow), []).append(face)
+    slope = sizing.base.gradient
+    ratio = sizing.base.anisotropy if sizing.is_anisotropic else 1.0
+    room = np.empty((len(samples.points), 6)), np.empty((len(model.edges), 6))
+    narrowest = NARROWEST * model.diagonal
+    asked = samples.target_size
+    for (count, least, narrow), faces in by_sizes.items():
+        edges = [samples.edges_of_face[face] for face in faces]
+        first = np.zeros(len(faces) + 1, np.int64)
+        np.cumsum([len(own) for own in edges], out=first[1:])
+        if not first[-1]:
+            continue
+        gap = np.full(len(samples.points), np.inf)
+        fraction = 1.0 if count is None else size_across(1.0, count, slope)
+        edge_gaps(
+            samples.points, asked / fraction, samples.first, ends, np.concatenate(edges),
+            first, *room, gap,
+        )  # fmt: skip
+        ignored = np.maximum(max(SLIVER * model.diagonal, narrow), PROXIMITY_FLOOR * asked)
+        rows = np.flatnonzero((gap >= ignored) & np.isfinite(gap))
+        sliver = np.minimum(LONGER * gap[rows], narrowest)
+        sliver[sliver < LEAST_NARROW * narrowest] = narrowest
+        along = ratio if count is None else fraction
+        size = np.maximum(along * gap[rows], np.maximum(sliver, least))
+        samples.gap_size[rows] = np.minimum(samples.gap_size[rows], size)
+    np.minimum(samples.target_size, samples.gap_size, out=samples.target_size)
