@@ -7,7 +7,7 @@ import surfmesh as sm
 from surfmesh.errors import MeshingError, SizingError
 from surfmesh.geometry.differential.chart import Chart
 from surfmesh.meshing import parametric_mesh
-from surfmesh.sizing.field import size_field
+from surfmesh.sizing.field import field_builder
 
 TURN = (0, "2*pi")
 
@@ -15,7 +15,7 @@ TURN = (0, "2*pi")
 @pytest.fixture(autouse=True)
 def small_budgets(monkeypatch):
     """The same rules with fewer cells, for quick tests."""
-    monkeypatch.setattr(size_field, "FREE_CELLS", 20_000)
+    monkeypatch.setattr(field_builder, "FREE_CELLS", 20_000)
     monkeypatch.setattr(parametric_mesh, "MOST_CELLS", 25_000)
 
 
@@ -34,7 +34,7 @@ def test_an_inner_circle_that_is_a_point_is_refused_with_its_place():
 
 
 def test_scherk_near_its_poles_ends_and_says_what_is_left(monkeypatch):
-    monkeypatch.setattr(size_field, "FREE_CELLS", 100_000)
+    monkeypatch.setattr(field_builder, "FREE_CELLS", 100_000)
     side = 1.5707
     scherk = sm.ParametricSurface("u", "v", "log(cos(v)/cos(u))", u=(-side, side), v=(-side, side))
     report = sm.check(sm.mesh(scherk))

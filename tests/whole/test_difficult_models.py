@@ -12,7 +12,7 @@ import surfmesh as sm
 from surfmesh.cad.model.invariants import signed_area
 from surfmesh.errors import MeshingError
 from surfmesh.geometry.cad_surfaces.nurbs import BSplineCurve
-from surfmesh.meshing.faces import face_mesh as face_job
+from surfmesh.meshing.faces import face_mesh
 from surfmesh.quality.measures.solids import solid_mesh
 
 
@@ -105,10 +105,10 @@ def test_a_border_is_cut_as_finely_as_the_inside_asks():
 
 
 def test_mistakes_of_ours_are_called_so(monkeypatch):
-    def broken(*_):
+    def broken(*_, **__):
         raise IndexError("no such slot")
 
-    monkeypatch.setattr(face_job, "packed_over", broken)
+    monkeypatch.setattr(face_mesh, "mesh_patch", broken)
     with pytest.raises(MeshingError, match=r"internal error, please report .* slot"):
         sm.mesh(cq.Workplane().box(1, 1, 1), 0.5)
 
