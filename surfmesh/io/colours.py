@@ -41,12 +41,6 @@ def hexadecimal(colour: Colour) -> str:
     return "#{:02X}{:02X}{:02X}".format(*as_bytes(colour))
 
 
-def of_hexadecimal(text: str) -> Colour:
-    """The colour of #RRGGBB or #RRGGBBAA."""
-    red, green, blue = (int(text[at : at + 2], 16) / 255 for at in (1, 3, 5))
-    return red, green, blue
-
-
 def linear(channel: float) -> float:
     """sRGB -> linear light, as glTF wants it. Source: IEC 61966-2-1."""
     return channel / 12.92 if channel <= 0.04045 else ((channel + 0.055) / 1.055) ** 2.4

@@ -66,23 +66,23 @@ class BentAxis:
 
     def parameter(self, s: np.ndarray) -> np.ndarray:
         """u (n,) at bent parameters s (n,); those outside are moved to the ends."""
-        _, a, b, q0, q1 = self._pieces(s)
-        before, after = np.clip((s - a) / (b - a), 0.0, 1.0), np.clip((b - s) / (b - a), 0.0, 1.0)
-        # from the nearer end, where digits count
-        return np.where(
-            before < 0.5,
-            a + (b - a) * betainc(q0, q1, before),
-            b - (b - a) * betainc(q1, q0, after),
-        )
+        return self._from_nearer_end(s, betainc)
 
     def bent(self, u: np.ndarray) -> np.ndarray:
         """The bent parameter s (n,) of u (n,): ``parameter`` inverted."""
-        _, a, b, q0, q1 = self._pieces(u)
-        before, after = np.clip((u - a) / (b - a), 0.0, 1.0), np.clip((b - u) / (b - a), 0.0, 1.0)
+        return self._from_nearer_end(u, _beta_inverse)
+
+    def _from_nearer_end(
+        self, x: np.ndarray, way: Callable[[np.ndarray, np.ndarray, np.ndarray], np.ndarray]
+    ) -> np.ndarray:
+        """Where x (n,) goes by ``way`` (q0, q1, fraction of the piece), within its piece.
+
+        From the nearer end, where digits count.
+        """
+        _, a, b, q0, q1 = self._pieces(x)
+        before, after = np.clip((x - a) / (b - a), 0.0, 1.0), np.clip((b - x) / (b - a), 0.0, 1.0)
         return np.where(
-            before < 0.5,
-            a + (b - a) * _beta_inverse(q0, q1, before),
-            b - (b - a) * _beta_inverse(q1, q0, after),
+            before < 0.5, a + (b - a) * way(q0, q1, before), b - (b - a) * way(q1, q0, after)
         )
 
     def rates(self, s: np.ndarray) -> tuple[np.ndarray, np.ndarray]:

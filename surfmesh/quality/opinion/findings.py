@@ -1,6 +1,6 @@
 """What the second opinion says of a mesh, in sentences."""
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass
 
 from surfmesh.quality.figures.second_opinion import OpinionRow, SecondOpinion, figure_in_words
@@ -47,18 +47,22 @@ class Unanswered(Remark):
 
 def disagreements(opinion: SecondOpinion) -> Iterator[Problem]:
     """One for each figure of each library."""
-    groups: dict[tuple[str, str], list[OpinionRow]] = {}
-    for row in opinion.disagreements:
-        groups.setdefault((row.whose, row.quantity), []).append(row)
-    for rows in groups.values():
-        yield Disagreement(rows=tuple(rows))
+    for rows in _grouped(opinion.disagreements, lambda row: row.quantity):
+        yield Disagreement(rows=rows)
 
 
 def unanswered(opinion: SecondOpinion) -> Iterator[Remark]:
     """One for each library that raised, and each reason."""
+    raised = (row for row in opinion.rows if row.note.startswith(NO_ANSWER))
+    for rows in _grouped(raised, lambda row: row.note):
+        yield Unanswered(rows=rows)
+
+
+def _grouped(
+    rows: Iterable[OpinionRow], what: Callable[[OpinionRow], str]
+) -> Iterator[tuple[OpinionRow, ...]]:
+    """Rows of one library and alike in ``what``, in the order in which the first of each stands."""
     groups: dict[tuple[str, str], list[OpinionRow]] = {}
-    for row in opinion.rows:
-        if row.note.startswith(NO_ANSWER):
-            groups.setdefault((row.whose, row.note), []).append(row)
-    for rows in groups.values():
-        yield Unanswered(rows=tuple(rows))
+    for row in rows:
+        groups.setdefault((row.whose, what(row)), []).append(row)
+    yield from map(tuple, groups.values())
