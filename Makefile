@@ -5,6 +5,7 @@ VENV ?= .venv
 CONSTRAINTS ?= constraints.txt
 LOWEST_PYTHON ?= python3.11
 BIN := $(VENV)/bin
+BUILD ?= build/dev
 LOWEST := .venv-lowest
 
 # what the lowest versions are tried with: all that calls the libraries, little of what is our own
@@ -26,7 +27,7 @@ define install
 endef
 
 .DEFAULT_GOAL := help
-.PHONY: help venv mesh test fuzz lint lowest docs bench constraints licences clean
+.PHONY: help venv core stubs mesh test fuzz lint lowest docs bench constraints licences clean
 
 COMPILE := $(BIN)/uv pip compile --quiet --only-binary=:all: --python-version 3.11 \
     --no-annotate --custom-compile-command 'make constraints'
@@ -35,6 +36,14 @@ help: ## this list
 	@grep -E '^[a-z]+:.*##' $(MAKEFILE_LIST) | sed -E 's/^([a-z]+):[^#]*## /  make \1\t/' | expand -t 20
 
 venv: $(VENV)/.installed ## virtual environment with surfmesh (VENV=.venv, PYTHON=python3)
+
+core: ## the compiled core, built where it lies (BUILD=build/dev, CORE_OPTIONS=-D...)
+	@test -f $(BUILD)/build.ninja || cmake -S . -B $(BUILD) -G Ninja -DSURFMESH_WARNINGS=ON \
+	    -DPython_EXECUTABLE=$(abspath $(BIN)/python) $(CORE_OPTIONS) >/dev/null
+	cmake --build $(BUILD)
+
+stubs: core ## types of the compiled core, for mypy: surfmesh/_core/*.pyi
+	PYTHONPATH=. $(BIN)/python -m nanobind.stubgen -q -r -m surfmesh._core -O surfmesh
 
 mesh: $(VENV)/.installed ## mesh, check and draw the wavy surface; results in outputs/
 	$(BIN)/surfmesh mesh wavy -o outputs/wavy.vtu --picture outputs/wavy.png --report outputs/wavy.json --second-opinion

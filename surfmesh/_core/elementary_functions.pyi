@@ -1,0 +1,3 @@
+"""
+Sine, cosine, exponential and the like: one implementation, the same bits everywhere.
+"""

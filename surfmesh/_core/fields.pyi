@@ -1,0 +1,1 @@
+"""Size tensors, their gradation, and the look-up in a background."""

@@ -1,0 +1,1 @@
+"""Surfaces of CAD models and of formulas, evaluated in blocks."""
