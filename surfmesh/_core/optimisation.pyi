@@ -1,0 +1,1 @@
+"""Swaps, smoothing, collapse and split, measured on the surface."""
