@@ -26,6 +26,8 @@ from surfmesh.sizing.options.distance_size import default_options
 from surfmesh.sizing.options.sizing import SizeLaw, Sizing
 
 if TYPE_CHECKING:
+    from concurrent.futures import Executor
+
     from surfmesh.cad.model.cad_model import CadModel
     from surfmesh.geometry.planar.planar_domain import PlanarDomain
     from surfmesh.meshing.estimate.estimation import Estimate
@@ -99,6 +101,7 @@ def mesh(
     strict: bool = True,
     simplify: bool = False,
     jobs: int = 1,
+    executor: Executor | None = None,
     order: int = 1,
 ) -> SurfaceMesh:
     """Triangulate a surface, or a CAD model (or whatever CadQuery object makes one).
@@ -110,7 +113,9 @@ def mesh(
     listed in the mesh's ``warnings``. simplify=True: tiny edges of a CAD model are collapsed,
     those below ``min_size`` or a two-thousandth of the diagonal; lines of a planar domain that
     are finer than the sizes are thinned; topology is kept. jobs: faces
-    of a CAD model meshed at once; the mesh is the same with any number of them. order=2: nodes
+    of a CAD model meshed at once; the mesh is the same with any number of them. executor: meshes
+    them instead, in other processes or on other machines: any of ``concurrent.futures``, or
+    ``dask.distributed.Client(...).get_executor()``. order=2: nodes
     amid the edges too, on the true curves and surfaces (``mesh.mid_points``).
 
     Stages and their seconds go to the log ``surfmesh`` at level INFO, the mesh's warnings at
@@ -123,9 +128,11 @@ def mesh(
         raise SizingError(f"order is {shown(order)}: meshes are of order 1 or 2")
     model = _model_or_surface(surface)
     if not isinstance(model, Surface):
+        from surfmesh.meshing.faces.face_workers import FaceWorkers
         from surfmesh.meshing.model_mesh import mesh_model
 
-        made = mesh_model(model, sizing, optimise, progress, strict, simplify, jobs)
+        workers = FaceWorkers(jobs, executor)
+        made = mesh_model(model, sizing, optimise, progress, strict, simplify, workers)
     elif _is_domain(model):
         from surfmesh.meshing.planar_mesh import mesh_planar
 

@@ -18,6 +18,7 @@ from surfmesh.cli.inputs import (
 )
 from surfmesh.cli.outputs import manifest_written, naming, report_written, require_outputs
 from surfmesh.cli.progress import ProgressBar, announce_compilation
+from surfmesh.cli.scheduler import executor_of
 from surfmesh.cli.terminal import say, say_json
 from surfmesh.errors import FileFormatError, SurfmeshError, printable
 
@@ -34,7 +35,7 @@ def mesh(options: Namespace) -> bool:
 
         surface = surface_wanted()
     announce_compilation()
-    with ProgressBar() as progress:
+    with ProgressBar() as progress, executor_of(options.scheduler) as executor:
         result = api.mesh(
             surface,
             sizing,
@@ -43,6 +44,7 @@ def mesh(options: Namespace) -> bool:
             strict=not options.no_strict,
             simplify=options.simplify,
             jobs=options.jobs,
+            executor=executor,
             order=options.order,
         )
         result = result.flipped() if options.flip else result
