@@ -18,7 +18,6 @@ from naive.triangulation import (
 from naive.watchdog import watched
 
 from surfmesh.errors import SurfaceError
-from surfmesh.kernels.fields.background import sizes_at
 from surfmesh.kernels.insertion.boundary_row import insert_row
 from surfmesh.kernels.insertion.insertion import (
     FINISHED,
@@ -68,9 +67,7 @@ class PlainField:
         self.background = background
 
     def tensors(self, xy):
-        out = np.empty((len(xy), 3))
-        sizes_at(self.background, np.ascontiguousarray(xy), out)
-        return out
+        return self.background.sizes(xy)
 
 
 def packing_for(background):
