@@ -3,6 +3,7 @@
 import logging
 import sys
 from collections.abc import Mapping, Sequence
+from concurrent.futures import Executor
 from pathlib import Path
 from typing import Any, TypeAlias
 
@@ -20,6 +21,7 @@ from surfmesh.geometry.planar.planar_domain import PlanarDomain
 from surfmesh.geometry.surface import Surface
 from surfmesh.meshing.estimate.estimation import Estimate
 from surfmesh.meshing.explain.explanation import Explanation
+from surfmesh.meshing.faces.face_workers import FaceWorkers
 from surfmesh.meshing.finishing.second_order import of_second_order
 from surfmesh.meshing.model_mesh import estimate_model, explain_size, mesh_model
 from surfmesh.meshing.parametric_mesh import (
@@ -93,6 +95,7 @@ def mesh(
     strict: bool = True,
     simplify: bool = False,
     jobs: int = 1,
+    executor: Executor | None = None,
     order: int = 1,
 ) -> SurfaceMesh:
     """Triangulate a surface, or a CAD model (or whatever CadQuery object makes one).
@@ -104,7 +107,9 @@ def mesh(
     listed in the mesh's ``warnings``. simplify=True: tiny edges of a CAD model are collapsed,
     those below ``min_size`` or a two-thousandth of the diagonal; lines of a planar domain that
     are finer than the sizes are thinned; topology is kept. jobs: faces
-    of a CAD model meshed at once; the mesh is the same with any number of them. order=2: nodes
+    of a CAD model meshed at once; the mesh is the same with any number of them. executor: meshes
+    them instead, in other processes or on other machines: any of ``concurrent.futures``, or
+    ``dask.distributed.Client(...).get_executor()``. order=2: nodes
     amid the edges too, on the true curves and surfaces (``mesh.mid_points``).
 
     Stages and their seconds go to the log ``surfmesh`` at level INFO, the mesh's warnings at
@@ -117,7 +122,8 @@ def mesh(
         raise SizingError(f"order is {shown(order)}: meshes are of order 1 or 2")
     model = _model_or_surface(surface)
     if isinstance(model, CadModel):
-        made = mesh_model(model, sizing, optimise, progress, strict, simplify, jobs)
+        workers = FaceWorkers(jobs, executor)
+        made = mesh_model(model, sizing, optimise, progress, strict, simplify, workers)
     elif isinstance(model, PlanarDomain):
         made = mesh_planar(model, _one_sizing(model, sizing), optimise, progress, simplify)
     else:

@@ -120,6 +120,10 @@ def _add_mesh(commands: _Commands) -> None:
     mesh.add_argument(
         "--jobs", type=_whole(1, 1000), default=1, help="faces meshed at once (default 1)"
     )
+    mesh.add_argument(
+        "--scheduler", metavar="ADDRESS",
+        help="mesh the faces on the machines of a Dask scheduler, such as tcp://host:8786",
+    )  # fmt: skip
     mesh.add_argument("--picture", metavar="PNG", help="write a picture too")
     mesh.add_argument("--by", default="alpha", choices=_COLOURS, help="colour of the picture")
     mesh.add_argument("--report", metavar="JSON|HTML", help="write the report too")

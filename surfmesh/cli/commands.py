@@ -19,6 +19,7 @@ from surfmesh.cli.inputs import (
 )
 from surfmesh.cli.outputs import manifest_written, naming, report_written, require_two_files
 from surfmesh.cli.progress import ProgressBar, announce_compilation
+from surfmesh.cli.scheduler import executor_of
 from surfmesh.cli.terminal import say, say_json
 from surfmesh.errors import FileFormatError, SurfmeshError, printable
 
@@ -41,7 +42,7 @@ def mesh(options: Namespace) -> bool:
     from surfmesh.quality import check as checked
 
     announce_compilation()
-    with ProgressBar() as progress:
+    with ProgressBar() as progress, executor_of(options.scheduler) as executor:
         result = api.mesh(
             surface,
             sizing,
@@ -50,6 +51,7 @@ def mesh(options: Namespace) -> bool:
             strict=not options.no_strict,
             simplify=options.simplify,
             jobs=options.jobs,
+            executor=executor,
             order=options.order,
         )
         result = result.flipped() if options.flip else result
