@@ -61,9 +61,8 @@ std::span<const T> rows(const Given& array) {
 }
 
 /// An array of numpy over the memory of the core's: (n,) or (n, columns).
-template <class T>
+template <class T, class Number = typename Row<T>::Number>
 auto view(const Array<T>& array) {
-    using Number = typename Row<T>::Number;
     constexpr std::size_t columns = Row<T>::columns;
     using Memory = std::shared_ptr<T[]>;
     auto* kept = new Memory(array.memory());  // what the capsule deletes
@@ -77,6 +76,12 @@ auto view(const Array<T>& array) {
         const std::size_t shape[] = {array.size(), columns};
         return nb::ndarray<nb::numpy, Number, nb::shape<-1, columns>>(data, 2, shape, owner);
     }
+}
+
+/// The same, not to be written to.
+template <class T>
+auto read_only_view(const Array<T>& array) {
+    return view<T, const typename Row<T>::Number>(array);
 }
 
 /// Refuse indices outside 0 .. count - 1; ``what`` names the argument.

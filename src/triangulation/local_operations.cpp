@@ -55,6 +55,7 @@ bool collect_star(Triangulation& t, HalfEdge e) {
         t.rim.push_back(outer);
         t.cavity.push_back(f / 3);
         f = rotate_ccw(t, f);
+        if (f == NIL) return false;  // a star that ends at the border
     } while (f != e);
     return t.rim.size() >= 3;
 }

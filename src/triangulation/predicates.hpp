@@ -14,32 +14,12 @@
 #include "values/array.hpp"
 #include "values/conventions.hpp"
 #include "values/point.hpp"
+#include "values/rounded_number.hpp"
 
 namespace surfmesh {
 
 inline constexpr double EPSILON = 0x1p-53;
 inline constexpr double UNDERFLOW_BOUND = 0x1p-900;  // far above what underflow can take away
-
-struct RoundedNumber {
-    double high, low;
-};
-
-/// a b as a sum (high, low) without error, by Dekker's splitting.
-inline RoundedNumber two_product(double a, double b) {
-    constexpr double SPLITTER = 0x1p27 + 1.0;
-    const double high = a * b;
-    double t = SPLITTER * a;
-    const double a1 = t - (t - a), a0 = a - a1;
-    t = SPLITTER * b;
-    const double b1 = t - (t - b), b0 = b - b1;
-    return {high, a0 * b0 - (((high - a1 * b1) - a0 * b1) - a1 * b0)};
-}
-
-/// a + b as (rounded sum, error), without error (Knuth).
-inline RoundedNumber two_sum(double a, double b) {
-    const double sum = a + b, bb = sum - a;
-    return {sum, (a - (sum - bb)) + (b - bb)};
-}
 
 /// What ``orient`` falls back on where the filter does not decide.
 double orient_without_filter(Point2 a, Point2 b, Point2 c);

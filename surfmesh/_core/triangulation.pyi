@@ -1,5 +1,6 @@
 """The triangulation of the plane, its predicates, and its local changes."""
 
+from collections.abc import Sequence
 from typing import Annotated
 
 import numpy
@@ -49,6 +50,8 @@ class Triangulation:
     A triangulation in flat arrays. Arrays are views: they go stale where it grows.
     """
 
+    def __init__(self, xy: Annotated[NDArray[numpy.float64], dict(shape=(None, 2), order='C', device='cpu', writable=False)], size: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)], tri: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], adj: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], region: Annotated[NDArray[numpy.uint8], dict(shape=(None,), order='C', device='cpu', writable=False)], fixed: Annotated[NDArray[numpy.uint8], dict(shape=(None,), order='C', device='cpu', writable=False)]) -> None: ...
+
     @property
     def xy(self) -> Annotated[NDArray[numpy.float64], dict(shape=(None, 2))]:
         """(vertices, 2)"""
@@ -80,3 +83,28 @@ class Triangulation:
     @property
     def triangles(self) -> int:
         """How many triangles there are, dead ones included."""
+
+    def locate(self, start: int, x: float, y: float, stop: bool = False) -> tuple[int, int]:
+        """
+        Walk from a half-edge to the triangle of (x, y): the triangle, and NIL or, with ``stop``, the barrier that is in the way.
+        """
+
+    def insert_vertex(self, start: int, x: float, y: float, size: Sequence[float], wide: bool = True) -> int:
+        """
+        Insert a vertex at (x, y) with size tensor (h11, h12, h22), found from a half-edge.
+
+        ``wide``: its star takes the triangles whose metric circumcircle holds it. Returns the vertex, or NIL where a barrier is in the way or no valid star can be made.
+        """
+
+    def is_convex(self, e: int) -> bool:
+        """
+        Can e be swapped: is its quadrilateral strictly convex at both ends of e?
+        """
+
+    def swap_edge(self, e: int) -> None:
+        """Replace the edge a-b by c-d; the two triangles keep their slots."""
+
+    def remove_vertex(self, e: int) -> int:
+        """
+        Remove the vertex at the start of e: a half-edge of the new triangles, or NIL where it cannot go. Two slots go DEAD.
+        """

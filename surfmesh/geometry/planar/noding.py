@@ -19,7 +19,6 @@ from typing import NoReturn
 
 import numpy as np
 import shapely
-from scipy.spatial import cKDTree
 
 from surfmesh._core.triangulation import CROSSING, find_meetings
 from surfmesh.errors import DomainError
@@ -172,6 +171,8 @@ def _merging(points: np.ndarray, merge: float) -> tuple[np.ndarray, np.ndarray]:
     Point by point: whichever is not taken yet takes all that are near it. So no point moves by
     more than ``merge``, however dense a line of points is.
     """
+    from scipy.spatial import cKDTree
+
     number = np.arange(len(points))
     close = cKDTree(points).query_pairs(merge, output_type="ndarray")
     taken = np.zeros(len(points), bool)
