@@ -100,9 +100,14 @@ void bind_surface_class(nb::module_& m) {
 
 }  // namespace
 
+void bind_curves(nb::module_& m);
+void bind_face_surfaces(nb::module_& m);
+
 void bind_surfaces(nb::module_& m) {
     m.doc() = "Surfaces of CAD models and of formulas, evaluated in blocks.";
     bind_surface_class(m);
+    bind_curves(m);
+    bind_face_surfaces(m);
 }
 
 }  // namespace surfmesh::binding
