@@ -44,17 +44,16 @@ nb::ndarray<nb::numpy, double, nb::ndim<3>> evaluate(const Curve& curve, const N
         throw nb::value_error("the order of derivatives is out of range");
     const std::size_t dimension = static_cast<std::size_t>(curve.dimension());
     const std::size_t shape[] = {static_cast<std::size_t>(order + 1), t.shape(0), dimension};
-    Array<double> found(shape[0] * shape[1] * dimension);
+    Array<Point3> values(shape[0] * shape[1]);
     {
         const nb::gil_scoped_release released;
-        const CurveValues values(curve, numbers(t), order);
-        double* place = found.data();
-        for (const Point3& p : values.all()) {
-            const double coordinates[] = {p.x, p.y, p.z};
-            place = std::copy_n(coordinates, dimension, place);
-        }
+        curve.evaluate(numbers(t), order, {values.data(), values.size()});
     }
-    return {found.data(), 3, shape, nb::cast(view(found))};
+    if (dimension == 3)
+        return {reinterpret_cast<double*>(values.data()), 3, shape, owner_of(values)};
+    Array<Point2> found(values.size());
+    for (std::size_t i = 0; i < values.size(); ++i) found[i] = {values[i].x, values[i].y};
+    return {reinterpret_cast<double*>(found.data()), 3, shape, owner_of(found)};
 }
 
 SharedCurve conic(ConicKind kind, const Numbers& origin, const Numbers& x, const Numbers& y,
@@ -107,8 +106,7 @@ void bind_basis(nb::module_& m) {
             Array<double> table(columns * columns), found(shape[0] * columns);
             basis.derivatives(place, order, {table.data(), table.size()},
                               {found.data(), found.size()});
-            return std::tuple(place.span, place.t,
-                              Basis(found.data(), 2, shape, nb::cast(view(found))));
+            return std::tuple(place.span, place.t, Basis(found.data(), 2, shape, owner_of(found)));
         },
         nb::arg("knots"), nb::arg("degree"), nb::arg("t"), nb::arg("order"), nb::arg("first"),
         nb::arg("last"), nb::arg("period"),

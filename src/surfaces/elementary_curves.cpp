@@ -1,11 +1,17 @@
 #include "surfaces/elementary_curves.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "elementary_functions/sine_cosine.hpp"
 
 namespace surfmesh {
+namespace {
+
+constexpr std::size_t CHUNK = 64;  // parameters whose sines are computed at a time
+
+}  // namespace
 
 void Line::evaluate(std::span<const double> t, int order, std::span<Point3> out) const {
     for (std::size_t i = 0; i < t.size(); ++i) out[i] = origin_ + t[i] * direction_;
@@ -28,25 +34,34 @@ Point2 Conic::on_parabola(double t, int derivative) const {
     }
 }
 
+/// The cosines and sines of a block, or the hyperbolic ones: what f and g of the others are of.
+void Conic::compute_functions(std::span<const double> t, std::span<double> f,
+                              std::span<double> g) const {
+    if (kind_ == ConicKind::ELLIPSE) elementary::sincos(t, g, f);
+    if (kind_ != ConicKind::HYPERBOLA) return;
+    for (std::size_t i = 0; i < t.size(); ++i) {
+        f[i] = std::cosh(t[i]);
+        g[i] = std::sinh(t[i]);
+    }
+}
+
 void Conic::evaluate(std::span<const double> t, int order, std::span<Point3> out) const {
     const auto& [origin, x, y] = axes_;
-    for (std::size_t i = 0; i < t.size(); ++i) {
-        double f = 0.0, g = 0.0;  // cosine and sine, or the hyperbolic ones
-        if (kind_ == ConicKind::ELLIPSE) {
-            const elementary::SineCosine turn = elementary::sincos(t[i]);
-            f = turn.cosine;
-            g = turn.sine;
-        } else if (kind_ == ConicKind::HYPERBOLA) {
-            f = std::cosh(t[i]);
-            g = std::sinh(t[i]);
-        }
-        for (int k = 0; k <= order; ++k) {
-            const Point2 at = kind_ == ConicKind::PARABOLA ? on_parabola(t[i], k)
-                                                           : Point2{major_ * f, minor_ * g};
-            const Point3 value = at.x * x + at.y * y;
-            out[static_cast<std::size_t>(k) * t.size() + i] = k == 0 ? origin + value : value;
-            std::swap(f, g);
-            if (kind_ == ConicKind::ELLIPSE) f = -f;
+    std::array<double, CHUNK> first{}, second{};
+    for (std::size_t start = 0; start < t.size(); start += CHUNK) {
+        const std::size_t count = std::min(CHUNK, t.size() - start);
+        compute_functions(t.subspan(start, count), {first.data(), count}, {second.data(), count});
+        for (std::size_t i = 0; i < count; ++i) {
+            double f = first[i], g = second[i];
+            for (int k = 0; k <= order; ++k) {
+                const Point2 at = kind_ == ConicKind::PARABOLA ? on_parabola(t[start + i], k)
+                                                               : Point2{major_ * f, minor_ * g};
+                const Point3 value = at.x * x + at.y * y;
+                out[static_cast<std::size_t>(k) * t.size() + start + i] =
+                    k == 0 ? origin + value : value;
+                std::swap(f, g);
+                if (kind_ == ConicKind::ELLIPSE) f = -f;
+            }
         }
     }
 }

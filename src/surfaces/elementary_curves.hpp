@@ -43,6 +43,8 @@ class Conic final : public Curve {
 
   private:
     [[nodiscard]] Point2 on_parabola(double t, int derivative) const;
+    void compute_functions(std::span<const double> t, std::span<double> f,
+                           std::span<double> g) const;
 
     int dimension_;
     ConicKind kind_;
