@@ -4,6 +4,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from surfmesh._core import triangulation as core
 from surfmesh.errors import DomainError, MeshingError, SurfaceError, SurfmeshError
 from surfmesh.geometry.planar.segment_graph import inside_regions
 from surfmesh.geometry.surface import Surface
@@ -66,16 +67,16 @@ class DomainMesh:
 
 
 def recovered(
-    t: Triangulation, loops: BoundaryLoops, field: SizeField, surface: Surface
+    packing: core.Triangulation, loops: BoundaryLoops, field: SizeField, surface: Surface
 ) -> DomainMesh:
-    """Insert the loops into the packing ``t`` (which is used up) and keep their inside.
+    """Insert the loops into a copy of the packing and keep their inside.
 
     Raises ``SurfaceError`` when loops touch or cross, naming the place.
     """
     rim, inner = loops.segments, loops.inner
     segments = np.concatenate([rim, inner])
     row = np.concatenate([segments, inner[:, ::-1]])  # inner ones have the surface on both sides
-    t, vertex, edge, first_node = _inserted(t, loops.uv, segments, row, field, surface)
+    t, vertex, edge, first_node = _inserted(packing, loops.uv, segments, row, field, surface)
     back = t.adj[edge[len(rim) :]]
     edges = np.concatenate([edge, back])
     if grow_inside(t, edges) != FINISHED:
@@ -88,15 +89,14 @@ def recovered(
 
 
 def recovered_regions(
-    t: Triangulation, cut: PlanarSegments, field: SizeField, surface: Surface
+    packing: core.Triangulation, cut: PlanarSegments, field: SizeField, surface: Surface
 ) -> DomainMesh:
-    """Insert the segments of a planar domain into the packing ``t`` and keep what is inside.
+    """Insert the segments of a planar domain into a copy of the packing and keep what is inside.
 
-    Raises ``DomainError`` when nothing
-    is inside.
+    Raises ``DomainError`` when nothing is inside.
     """
     row = np.concatenate([cut.pieces, cut.pieces[:, ::-1]])
-    t, vertex, edge, first_node = _inserted(t, cut.uv, cut.pieces, row, field, surface)
+    t, vertex, edge, first_node = _inserted(packing, cut.uv, cut.pieces, row, field, surface)
     label = np.empty(int(t.count[1]), np.int32)
     label_patches(t, label)
     ghost = int(np.flatnonzero(t.tri[: 3 * len(label)] < 0)[0])
@@ -116,7 +116,7 @@ def recovered_regions(
 
 
 def _inserted(
-    t: Triangulation, uv: np.ndarray, segments: np.ndarray, with_row: np.ndarray,
+    packing: core.Triangulation, uv: np.ndarray, segments: np.ndarray, with_row: np.ndarray,
     field: SizeField, surface: Surface,
 ) -> tuple[Triangulation, np.ndarray, np.ndarray, int]:  # fmt: skip
     """Steps 2 and 3: the triangulation with all segments, vertices of nodes, their half-edges.
@@ -126,7 +126,7 @@ def _inserted(
     """
     xy = field.chart.to_plane(uv)
     row = _apexes(xy, with_row, field)
-    t = _with_room(t, len(xy) + len(row))
+    t = _with_room(packing, len(xy) + len(row))
     insert_row(t, row, field.tensors(row), APART, AROUND)
     first_node = int(t.count[0])
     vertex = np.full(len(xy), NIL, np.int32)
@@ -166,17 +166,16 @@ def _clear(
     swap_bad(t, np.empty(int(t.count[1])), BAD_SHAPE, SWEEPS)
 
 
-def _with_room(t: Triangulation, nodes: int) -> Triangulation:
-    """The triangulation as one region, with room for more vertices and for fixed edges."""
-    need = int(t.count[0]) + nodes + 8
-    fresh = empty_triangulation(need)
-    grown = [
-        old if len(old) >= len(new) else np.concatenate([old, np.zeros_like(new[len(old) :])])
-        for old, new in zip(t, fresh)
-    ]
-    t = Triangulation(*grown)
-    t.region[: t.count[1]] = INSIDE
-    return t._replace(fixed=np.zeros(len(t.tri), np.uint8))
+def _with_room(packing: core.Triangulation, nodes: int) -> Triangulation:
+    """A copy as one region, with room for more vertices and for fixed edges."""
+    t = empty_triangulation(packing.vertices + nodes + 8)
+    t = t._replace(fixed=np.zeros(len(t.tri), np.uint8))
+    for name in ("xy", "size", "tri", "adj"):
+        given = getattr(packing, name)
+        getattr(t, name)[: len(given)] = given
+    t.count[:] = packing.vertices, packing.triangles
+    t.region[: packing.triangles] = INSIDE
+    return t
 
 
 def _cut_out(

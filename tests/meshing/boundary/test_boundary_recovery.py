@@ -186,7 +186,7 @@ def test_nodes_on_vertices_and_segments_along_edges_of_the_packing():
     """The square's corners are circles' centres of the packing, its sides run through others."""
     background = constant_background(0.05, 1.0, 1.0)
     t = packing_for(background).t
-    xy = t.xy[: t.count[0]]
+    xy = t.xy
     inner = [0.5 + s * np.array(d) for d, s in zip([(-1, -1), (1, -1), (1, 1), (-1, 1)], [0.3] * 4)]
     polygon = np.array([xy[np.argmin(np.linalg.norm(xy - p, axis=1))] for p in inner])
     loops = loops_of(polygon)
