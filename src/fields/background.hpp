@@ -21,6 +21,7 @@
 #include <span>
 
 #include "values/array.hpp"
+#include "values/conventions.hpp"
 #include "values/size_tensor.hpp"
 
 namespace surfmesh {
@@ -93,12 +94,6 @@ struct Background {
     /// The wanted edge length h in space, the shorter of two, from the interpolated 1 / h.
     [[nodiscard]] double scalar_size_at(double x, double y) const;
 };
-
-/// Lower left corner and width of a root cell, as the cells of a forest are walked through.
-struct CellPlace {
-    double x, y, wide, high;
-};
-[[nodiscard]] CellPlace root_place(const Background& b, Cell root);
 
 /// H = A^-1 with its eigenvalues capped at `largest` (those of A floored at 1 / largest).
 [[nodiscard]] SizeTensor invert(SizeTensor a, double largest);
