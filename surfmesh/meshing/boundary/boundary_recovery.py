@@ -46,7 +46,7 @@ class DomainMesh:
 
 
 def recovered(
-    t: Triangulation, loops: BoundaryLoops, field: SizeField, surface: Surface
+    t: core_triangulation.Triangulation, loops: BoundaryLoops, field: SizeField, surface: Surface
 ) -> DomainMesh:
     """Insert the loops into the packing ``t`` (which is used up) and keep their inside.
 
@@ -54,7 +54,7 @@ def recovered(
     """
     nodes = field.chart.to_plane(loops.uv)
     found = core.recover(
-        triangulation_in_core(t), background_in_core(field.background),
+        t, background_in_core(field.background),
         nodes, loops.segments, loops.inner, loops.identity, loops.points,
     )  # fmt: skip
     if found.outcome.status != Recovery.FINISHED:
@@ -67,7 +67,7 @@ def recovered(
 
 
 def recovered_regions(
-    t: Triangulation, cut: PlanarSegments, field: SizeField, surface: Surface
+    t: core_triangulation.Triangulation, cut: PlanarSegments, field: SizeField, surface: Surface
 ) -> DomainMesh:
     """Insert the segments of a planar domain into the packing ``t`` and keep what is inside.
 
@@ -75,25 +75,13 @@ def recovered_regions(
     """
     nodes = field.chart.to_plane(cut.uv)
     found = core.recover_regions(
-        triangulation_in_core(t), background_in_core(field.background),
+        t, background_in_core(field.background),
         nodes, cut.pieces, cut.segment, cut.graph.loop_segments, cut.graph.loop_is_hole,
     )  # fmt: skip
     if found.outcome.status != Recovery.FINISHED:
         _refuse(found.outcome, cut.uv, cut.pieces, surface)
     domain = found.domain
     return DomainMesh(_with_room(domain.t, ROOM), domain.node, domain.same, domain.on_kinks)
-
-
-def triangulation_in_core(
-    t: Triangulation | core_triangulation.Triangulation,
-) -> core_triangulation.Triangulation:
-    """The packing as the core has it."""
-    if isinstance(t, core_triangulation.Triangulation):
-        return t
-    n, m = t.vertices, t.triangles
-    return core_triangulation.Triangulation(
-        t.xy[:n], t.size[:n], t.tri[: 3 * m], t.adj[: 3 * m], t.region[:m], t.fixed[:0]
-    )
 
 
 def background_in_core(given: Background | core_fields.Background) -> core_fields.Background:

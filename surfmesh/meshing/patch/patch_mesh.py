@@ -81,7 +81,7 @@ def mesh_patch(
         return watch.stage(name) if watch is not None else nullcontext()
 
     with stage("packing"):
-        packing = packed_over(field, chart, box)
+        packing = packed_over(field, chart, box, watch)
     with stage("boundary"):
         boundary = cut_boundary()
         if isinstance(boundary, PlanarSegments):

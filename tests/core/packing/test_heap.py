@@ -2,10 +2,11 @@
 
 import heapq
 
+import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from surfmesh.kernels.packing.heap import empty_heap, pop, push
+from surfmesh._core.packing import EdgeHeap
 
 # few different numbers: ties of the key, of key and a, of all three
 entry = st.tuples(
@@ -16,22 +17,27 @@ entry = st.tuples(
 @settings(max_examples=200)
 @given(st.lists(entry, max_size=40))
 def test_sorted(entries):
-    heap = empty_heap(len(entries) + 1)
+    heap = EdgeHeap()
     for key, a, b in entries:
-        push(heap, key, a, b)
-    assert [pop(heap) for _ in entries] == sorted(entries)
-    assert heap.count[0] == 0
+        heap.push(key, a, b)
+    assert [heap.pop() for _ in entries] == sorted(entries)
+    assert len(heap) == 0
 
 
 @settings(max_examples=200)
 @given(st.lists(st.one_of(entry, st.none()), max_size=60))
 def test_pushes_and_pops_in_any_order(actions):
     """None pops. The twin is heapq on tuples."""
-    heap, twin = empty_heap(len(actions) + 1), []
+    heap, twin = EdgeHeap(), []
     for action in actions:
         if action is not None:
-            push(heap, *action)
+            heap.push(*action)
             heapq.heappush(twin, action)
         elif twin:
-            assert pop(heap) == heapq.heappop(twin)
-    assert heap.count[0] == len(twin)
+            assert heap.pop() == heapq.heappop(twin)
+    assert len(heap) == len(twin)
+
+
+def test_nothing_to_pop():
+    with pytest.raises(IndexError):
+        EdgeHeap().pop()

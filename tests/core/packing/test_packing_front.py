@@ -1,5 +1,7 @@
 """Packing: the triangulation is valid and the front one simple loop, whatever the sizes."""
 
+from types import SimpleNamespace
+
 import numpy as np
 import pytest
 from hypothesis import given, settings
@@ -14,10 +16,11 @@ from naive.metric import alpha, length
 from naive.triangulation import check_front, check_triangulation, corners, front_loop
 from naive.watchdog import watched
 
-from surfmesh.kernels.fields.background import for_kernels
-from surfmesh.kernels.packing.front import DONE
-from surfmesh.kernels.packing.packing import FULL, pack, start_packing
-from surfmesh.meshing.patch.packing import _grown, _room_for, packed
+from surfmesh._core import fields
+from surfmesh._core.packing import PackingStatus, pack
+from surfmesh._core.triangulation import DONE
+from surfmesh.errors import MeshingError
+from surfmesh.meshing.patch.packing import NO_LIMIT, packed
 
 UNIT = (0.0, 0.0, 1.0, 1.0)
 
@@ -28,8 +31,7 @@ def assert_valid(packing, simple_up_to=600):
 
 
 def done_triangles(packing):
-    m = int(packing.t.count[1])
-    return corners(packing.t)[packing.t.region[:m] == DONE]
+    return corners(packing.t)[packing.t.region == DONE]
 
 
 def covers_box(packing, box=UNIT):
@@ -59,7 +61,7 @@ def test_any_field_limited_by_count(seed, cells, ratio, stretch, wanted):
     field = random_background(seed, cells, ratio, stretch, size=0.01)
     packing = packed(field, UNIT, (0.5, 0.5), 600, wanted)
     assert_valid(packing)
-    assert packing.t.count[0] == wanted or not packing.heap.count[0]
+    assert packing.t.vertices == wanted or covers_box(packing)
 
 
 @settings(max_examples=25)
@@ -70,7 +72,6 @@ def test_any_field_limited_by_count(seed, cells, ratio, stretch, wanted):
     stretch=st.sampled_from([1.0, 3.0, 10.0]),
 )
 def test_uneven_fields_limited_by_a_box(seed, cells, ratio, stretch):
-    packed(constant_background(0.3, 1.0, 1.0), UNIT, (0.5, 0.5), 40)  # compiled before the fork
     assert watched(lambda: broken_invariant((seed, cells, ratio, stretch, 0.15))) is None
 
 
@@ -91,24 +92,18 @@ DENTED_THE_HULL = [
 def broken_invariant(case):
     packing = packed(random_background(*case), UNIT, (0.5, 0.5), 4000, 4000)
     broken = check_triangulation(packing.t) or check_front(packing, 200)
-    if broken is None and packing.t.count[0] < 4000 and not covers_box(packing):
+    if broken is None and packing.t.vertices < 4000 and not covers_box(packing):
         broken = "the front has not left the box"
     return broken
 
 
-@pytest.fixture(scope="module")
-def compiled():
-    """Kernels ready before a child process inherits them."""
-    packed(constant_background(0.3, 1.0, 1.0), UNIT, (0.5, 0.5), 40)
-
-
 @pytest.mark.parametrize("case", NEVER_ENDED, ids=lambda case: f"seed {case[0]}")
-def test_packing_ends(case, compiled):
+def test_packing_ends(case):
     assert watched(lambda: broken_invariant(case)) is None
 
 
 @pytest.mark.parametrize("case", DENTED_THE_HULL, ids=lambda case: f"seed {case[0]}")
-def test_hull_stays_convex(case, compiled):
+def test_hull_stays_convex(case):
     assert watched(lambda: broken_invariant(case)) is None
 
 
@@ -128,7 +123,7 @@ def many_rough_fields():
     return None
 
 
-def test_rough_fields(compiled):
+def test_rough_fields():
     """Sizes of neighbours 1 : 1000, stretch 10,000: always valid, the box always covered."""
     assert watched(many_rough_fields) is None
 
@@ -143,11 +138,10 @@ def test_rough_fields(compiled):
 def test_sizes_as_large_as_the_domain(seed, size, x, y):
     def broken():
         packing = packed(random_background(seed, 2, 4.0, 3.0, size), UNIT, (x, y), 50, 3000)
-        if packing.t.count[0] == 3000 or not covers_box(packing):
-            return f"the box is not covered by {packing.t.count[0]} circles"
+        if packing.t.vertices == 3000 or not covers_box(packing):
+            return f"the box is not covered by {packing.t.vertices} circles"
         return check_triangulation(packing.t) or check_front(packing)
 
-    packed(constant_background(0.3, 1.0, 1.0), UNIT, (0.5, 0.5), 40)
     assert watched(broken) is None
 
 
@@ -160,10 +154,9 @@ def test_thin_boxes(seed, aspect):
         box = (0.0, 0.0, width, height)
         packing = packed(field, box, (width / 2, height / 2), 3000, 20_000)
         if not covers_box(packing, box):
-            return f"the box is not covered by {packing.t.count[0]} circles"
+            return f"the box is not covered by {packing.t.vertices} circles"
         return check_triangulation(packing.t) or check_front(packing)
 
-    packed(constant_background(0.3, 1.0, 1.0), UNIT, (0.5, 0.5), 40)
     assert watched(broken) is None
 
 
@@ -179,10 +172,8 @@ def test_units_of_length_do_not_matter(scale):
         metric_root=field.metric_root / power,
     )
     scaled = packed(field, (0, 0, power, power), (0.5 * power, 0.5 * power), 300)
-    n, m = plain.t.count
-    assert (scaled.t.count == plain.t.count).all()
-    assert (scaled.t.tri[: 3 * m] == plain.t.tri[: 3 * m]).all()
-    assert (scaled.t.xy[:n] == plain.t.xy[:n] * power).all()
+    assert np.array_equal(scaled.t.tri, plain.t.tri)
+    assert np.array_equal(scaled.t.xy, plain.t.xy * power)
 
 
 # known packings
@@ -198,7 +189,7 @@ def test_a_constant_field_gives_the_hexagonal_packing(tensor):
     packing = packed(field, UNIT, (0.5, 0.5), 2000)
     assert_valid(packing)
     assert covers_box(packing)
-    metric = np.linalg.solve(np.array(tensor), packing.t.xy[: packing.t.count[0]].T).T
+    metric = np.linalg.solve(np.array(tensor), packing.t.xy.T).T
     shapes = [alpha(*metric[row]) for row in done_triangles(packing)]
     assert np.mean(shapes) == pytest.approx(1.0, abs=1e-6)
     assert min(shapes) > 1 - 1e-4
@@ -222,7 +213,7 @@ def test_smooth_fields(slope):
     assert_valid(packing, simple_up_to=0)
     assert covers_box(packing)
     t = packing.t
-    h = t.size[: t.count[0]]
+    h = t.size
     shapes = [alpha(*t.xy[row]) for row in done_triangles(packing)]
     assert np.mean(shapes) > 0.9 and min(shapes) > 0.3
     lengths = np.array(
@@ -238,31 +229,16 @@ def test_smooth_fields(slope):
 @pytest.mark.parametrize("wanted", [3, 4, 10, 1000])
 def test_the_wanted_number_of_circles(wanted):
     packing = packed(constant_background(0.01, 1.0, 1.0), UNIT, (0.5, 0.5), 10, wanted)
-    assert packing.t.count[0] == wanted
+    assert packing.t.vertices == wanted
     assert_valid(packing)
-
-
-def tiny_room(wanted, origin=(0.5, 0.5)):
-    """A packing whose arrays are full almost at once."""
-    packing = _room_for(8, wanted, UNIT, origin)
-    return packing._replace(
-        heap=packing.heap._replace(key=packing.heap.key[:12], edge=packing.heap.edge[:12]),
-        parked=packing.parked[:4],
-    )
 
 
 @pytest.mark.parametrize("ratio, seed", [(1.0, 1), (30.0, 2), (1000.0, 3)])
 def test_growing_arrays_changes_nothing(ratio, seed):
-    field = random_background(seed, 4, ratio, 3.0, size=0.05)
-    roomy = packed(field, UNIT, (0.5, 0.5), 5000, 1500)
-    packing, grown = tiny_room(1500), 0
-    start_packing(packing, for_kernels(field))
-    while pack(packing, for_kernels(field)) == FULL:
-        packing = _grown(packing)
-        grown += 1
-    assert grown > 5
-    assert_same(packing, roomy)
-    assert_valid(packing)
+    field = random_background(seed, 4, ratio, 3.0, size=0.01)
+    roomy, tight = (packed(field, UNIT, (0.5, 0.5), room, 6000) for room in (6000, 0))
+    assert_same(tight, roomy)
+    assert_valid(tight)
 
 
 def test_the_same_input_gives_the_same_bits():
@@ -272,16 +248,54 @@ def test_the_same_input_gives_the_same_bits():
 
 
 def assert_same(first, second):
-    n, m = (int(c) for c in first.t.count)
-    assert (second.t.count == (n, m)).all()
-    for name in ("xy", "size"):
-        assert (getattr(first.t, name)[:n] == getattr(second.t, name)[:n]).all()
-    for name in ("tri", "adj"):
-        assert (getattr(first.t, name)[: 3 * m] == getattr(second.t, name)[: 3 * m]).all()
-    assert (first.t.region[:m] == second.t.region[:m]).all()
-    assert (first.radius[:n] == second.radius[:n]).all()
-    for a, b in zip(first.front, second.front):
-        assert (a[:n] == b[:n]).all()
+    for name in ("xy", "size", "tri", "adj", "region"):
+        assert np.array_equal(getattr(first.t, name), getattr(second.t, name))
+    assert np.array_equal(first.radius, second.radius)
+    assert np.array_equal(first.front, second.front)
+
+
+# statuses, and who watches
+
+
+def test_no_circles_about_an_origin_without_size():
+    field = constant_background(1e-20, 1.0, 1.0)
+    with pytest.raises(MeshingError, match=r"no circles can be placed about the origin \(0.5, 0.5"):
+        packed(field, UNIT, (0.5, 0.5), 10, 10)
+    bad = pack(fields.Background(*field), UNIT, (0.5, 0.5), 10, 10, np.inf)
+    assert (bad.status, bad.place) == (PackingStatus.BAD_START, (0.5, 0.5))
+
+
+def test_whoever_watches_may_stop_it():
+    field = fields.Background(*constant_background(0.003, 1.0, 1.0))
+    told = []
+
+    def watch(circles):
+        told.append(circles)
+        if len(told) == 3:
+            raise KeyError("enough")
+
+    with pytest.raises(KeyError, match="enough"):
+        pack(field, UNIT, (0.5, 0.5), 0, NO_LIMIT, np.inf, watch)
+    assert len(told) == 3 and told == sorted(told) and 1000 < told[0] < 30_000
+
+
+def test_the_watch_changes_nothing():
+    field = fields.Background(*random_background(3, 4, 3.0, 3.0, size=0.005))
+    alone, watched_one = (
+        pack(field, UNIT, (0.5, 0.5), 0, NO_LIMIT, np.inf, watch) for watch in (None, id)
+    )
+    assert_same(alone, watched_one)
+
+
+@pytest.mark.parametrize("wrong", [
+    dict(origin=(np.nan, 0.0)), dict(box=(0.0, 0.0, np.inf, 1.0)), dict(distance=-1.0),
+    dict(distance=np.nan),
+])  # fmt: skip
+def test_limits_must_be_numbers(wrong):
+    field = fields.Background(*constant_background(0.1, 1.0, 1.0))
+    limits = dict(box=UNIT, origin=(0.5, 0.5), expected=10, wanted=10, distance=np.inf) | wrong
+    with pytest.raises(ValueError, match="to be"):
+        pack(field, **limits)
 
 
 # the checks themselves
@@ -291,9 +305,10 @@ def broken_copies(packing):
     """(what was done, packing with that done to it)"""
 
     def copy():
-        t = packing.t._replace(**{k: getattr(packing.t, k).copy() for k in ("xy", "tri", "adj")})
-        front = packing.front._replace(next=packing.front.next.copy())
-        return packing._replace(t=t._replace(region=packing.t.region.copy()), front=front)
+        t = packing.t
+        arrays = {k: getattr(t, k).copy() for k in ("xy", "tri", "adj", "region", "fixed")}
+        t = SimpleNamespace(vertices=t.vertices, triangles=t.triangles, **arrays)
+        return SimpleNamespace(t=t, front=packing.front.copy())
 
     p = copy()
     p.t.adj[0] = 5
@@ -305,7 +320,7 @@ def broken_copies(packing):
     p.t.tri[0], p.t.tri[1] = p.t.tri[1], p.t.tri[0]
     yield "a triangle turned over", p
     p = copy()
-    p.front.next[front_loop(p)[0]] = front_loop(p)[2]
+    p.front[front_loop(p)[0], 0] = front_loop(p)[2]
     yield "a front that skips a vertex", p
     p = copy()
     p.t.region[int(np.flatnonzero(p.t.region == DONE)[0])] = 1 - DONE
