@@ -34,3 +34,25 @@ class CallbackSurface(Surface):
         """
         surface: has ``domain``, ``evaluate`` and ``derivative_bounds`` as the protocol surfmesh.geometry.surface.Surface.
         """
+
+def closest_points(surface: Surface, points: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)], uv_guess: Annotated[NDArray[numpy.float64], dict(shape=(None, 2), order='C', device='cpu', writable=False)], steps: int = 2, margin: float = 0.01) -> tuple[Annotated[NDArray[numpy.float64], dict(shape=(None, 2))], Annotated[NDArray[numpy.float64], dict(shape=(None,))], Annotated[NDArray[numpy.float64], dict(shape=(None, 3))]]:
+    """
+    Nearest points of a surface to points (n, 3), from guesses (n, 2), never farther.
+
+    margin: fraction of the domain by which they may leave it. Returns uv (n, 2), distance (n,), foot (n, 3).
+    The search is local: a nearer part of the surface that the guess does not lead to is not found.
+    """
+
+def closest_points_in_triangles(surface: Surface, points: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)], uv: Annotated[NDArray[numpy.float64], dict(shape=(None, 2), order='C', device='cpu', writable=False)], corners: Annotated[NDArray[numpy.float64], dict(shape=(None, 3, 2), order='C', device='cpu', writable=False)], triangle: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], limit: float, steps: int) -> tuple[Annotated[NDArray[numpy.float64], dict(shape=(None, 2))], Annotated[NDArray[numpy.float64], dict(shape=(None,))]]:
+    """
+    Parameters (n, 2) of the nearest points of the surface, and the distances (n,).
+
+    uv: (n, 2) first guesses. corners: (m, 3, 2) of triangles and ``triangle`` (n,) that of each point: the search begins anew from them where a point seems farther away than ``limit``.
+    """
+
+def bends_sharply(surface: Surface, triangles: Annotated[NDArray[numpy.float64], dict(shape=(None, 3, 2), order='C', device='cpu', writable=False)], radius: float) -> Annotated[NDArray[numpy.uint8], dict(shape=(None,))]:
+    """
+    Does the surface bend with less than ``radius`` (model units) within triangles (k, 3, 2) of (u, v)? (k,) of 0 and 1.
+
+    Bends are found where the curvature of a sample shows them, or where the normals of two samples differ.
+    """

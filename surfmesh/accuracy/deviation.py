@@ -11,8 +11,8 @@ that suffices, and to the nearest point of the surface where it does not:
 import numpy as np
 from numpy.typing import NDArray
 
-from surfmesh.accuracy.samples import CENTROID, DENSE_INNER, MIDDLES
 from surfmesh._core import space
+from surfmesh.accuracy.samples import CENTROID, DENSE_INNER, MIDDLES
 from surfmesh.geometry.differential.chart import Chart
 from surfmesh.geometry.differential.projection import closest_from_corners, closest_point
 from surfmesh.geometry.surface import Surface
