@@ -1,5 +1,5 @@
-#include <tuple>
 #include <nanobind/stl/tuple.h>
+#include <tuple>
 
 #include "binding/arrays.hpp"
 #include "patch/seam_identification.hpp"
@@ -21,8 +21,8 @@ SurfaceTriangles identified(const Numbers& tri, const Numbers& adj,
     require_indices(rows<Vertex>(tri), count, "tri");
     require_rows(identity.shape(0), node.shape(0), "identity");
     require_indices(rows<std::int64_t>(identity), node.shape(0), "identity");
-    require_indices(std::span<const std::int32_t>(segments.data(), segments.size()),
-                    node.shape(0), "segments");
+    require_indices(std::span<const std::int32_t>(segments.data(), segments.size()), node.shape(0),
+                    "segments");
     for (const Vertex v : rows<Vertex>(node))
         if (v != NIL && (v < 0 || static_cast<std::size_t>(v) >= count))
             throw nb::value_error("node has a vertex that is out of range");
@@ -51,7 +51,8 @@ void bind_seams(nb::module_& m) {
         "tri, adj (3 m,), region (m,), vertices: of the domain's triangulation. node (k,) int32: "
         "the vertex of each\nnode of the boundary, or NIL. segments (s, 2) int32: pairs of nodes. "
         "identity (k,) int64: the first node\nthat is the same point. Returns triangles (3 t,) "
-        "int32 of points, their corners (3 t,) int32 in the domain,\nthe vertex (n,) of each point, "
+        "int32 of points, their corners (3 t,) int32 in the domain,\nthe vertex (n,) of each "
+        "point, "
         "and the points (j,) where there is no surface.");
 }
 

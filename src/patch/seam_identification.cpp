@@ -152,9 +152,9 @@ class Identification {
 
     const DomainTriangles& domain_;
     Expected expected_;
-    Array<Vertex> same_;              // of the vertices: the one that stands for the point
-    Array<std::uint8_t> is_joined_;   // of the vertices: does another coincide with it?
-    Array<std::int32_t> point_;       // of the vertices, or NIL
+    Array<Vertex> same_;             // of the vertices: the one that stands for the point
+    Array<std::uint8_t> is_joined_;  // of the vertices: does another coincide with it?
+    Array<std::int32_t> point_;      // of the vertices, or NIL
     SurfaceTriangles found_;
     std::vector<std::int32_t> lost_points_;
     std::vector<Edge> at_seams_;
@@ -163,8 +163,7 @@ class Identification {
 
 }  // namespace
 
-SurfaceTriangles identify_seams(const DomainTriangles& domain,
-                                const IdentifiedBoundary& boundary) {
+SurfaceTriangles identify_seams(const DomainTriangles& domain, const IdentifiedBoundary& boundary) {
     return Identification(domain, boundary).triangles();
 }
 

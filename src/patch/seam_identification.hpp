@@ -34,10 +34,10 @@ struct IdentifiedBoundary {
 };
 
 struct SurfaceTriangles {
-    Array<std::int32_t> triangles;       // three points each
-    Array<Vertex> corners;               // of the triangles, in the domain: three vertices each
-    Array<std::int64_t> vertex;          // of the domain, that each point is computed from
-    Array<std::int64_t> non_manifold;    // points where identification has not made a surface
+    Array<std::int32_t> triangles;     // three points each
+    Array<Vertex> corners;             // of the triangles, in the domain: three vertices each
+    Array<std::int64_t> vertex;        // of the domain, that each point is computed from
+    Array<std::int64_t> non_manifold;  // points where identification has not made a surface
 };
 
 /// Triangles with two corners on one collapsed side are dropped: they are edges in space.
