@@ -40,19 +40,21 @@ def identify_seams(
     Triangles with two corners on one collapsed side are dropped: they are edges in space.
     loops: None where no nodes coincide.
     """
+    node, segments, identity = _NO_NODES, _NO_SEGMENTS, _NO_IDENTITY
+    if loops is not None:
+        node, segments, identity = domain.node, loops.segments, loops.identity
     t, triangles = domain.t, domain.t.triangles
     half_edges = 3 * triangles
-    boundary = (_NONE, _NO_SEGMENTS, _NONE)
-    if loops is not None:
-        boundary = (domain.node, loops.segments, loops.identity)
     corners, uv_corners, vertex, non_manifold = core.identify_seams(
-        t.tri[:half_edges], t.adj[:half_edges], t.region[:triangles], len(uv), *boundary
-    )
+        t.tri[:half_edges], t.adj[:half_edges], t.region[:triangles], len(uv),
+        node, segments, identity,
+    )  # fmt: skip
     (points,) = surface.evaluate(uv[vertex], 0)
     return SurfaceTriangles(
         points, corners.reshape(-1, 3), uv_corners.reshape(-1, 3), vertex, non_manifold
     )
 
 
-_NONE = np.empty(0, np.int32)
+_NO_NODES = np.empty(0, np.int32)
 _NO_SEGMENTS = np.empty((0, 2), np.int32)
+_NO_IDENTITY = np.empty(0, np.int64)
