@@ -19,6 +19,7 @@ struct Row<Dihedrals::Pair> {
 };
 
 void bind_accuracy(nb::module_& m);
+void bind_seams(nb::module_& m);
 
 namespace {
 
@@ -346,6 +347,7 @@ void bind_patch(nb::module_& m) {
     m.attr("LONGEST") = LONGEST;
     bind_chart(m);
     bind_accuracy(m);
+    bind_seams(m);
     bind_results(m);
     nb::class_<BoundPatch> patch(m, "PatchState",
                                  "A triangulated domain with its surface frames, and the passes "

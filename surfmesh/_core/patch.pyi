@@ -77,6 +77,16 @@ def on_crease(surface: surfmesh._core.surfaces.Surface, uv: Annotated[NDArray[nu
     uv: (k, 2, 3, 2) of the corners of both triangles, the ends of the edge first. alike: (k,) whether both begin at one end. As good as at an apex: curved so much that ``angle`` (degrees) would ask for less than the finest size, a fraction of the diagonal.
     """
 
+def identify_seams(tri: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], adj: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], region: Annotated[NDArray[numpy.uint8], dict(shape=(None,), order='C', device='cpu', writable=False)], vertices: int, node: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], segments: Annotated[NDArray[numpy.int32], dict(shape=(None, 2), order='C', device='cpu', writable=False)], identity: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)]) -> tuple[Annotated[NDArray[numpy.int32], dict(shape=(None,))], Annotated[NDArray[numpy.int32], dict(shape=(None,))], Annotated[NDArray[numpy.int64], dict(shape=(None,))], Annotated[NDArray[numpy.int64], dict(shape=(None,))]]:
+    """
+    The triangles in space of a domain, whose boundary nodes may be one point there.
+
+    tri, adj (3 m,), region (m,), vertices: of the domain's triangulation. node (k,) int32: the vertex of each
+    node of the boundary, or NIL. segments (s, 2) int32: pairs of nodes. identity (k,) int64: the first node
+    that is the same point. Returns triangles (3 t,) int32 of points, their corners (3 t,) int32 in the domain,
+    the vertex (n,) of each point, and the points (j,) where there is no surface.
+    """
+
 class Unmended:
     """What the optimiser has left."""
 
