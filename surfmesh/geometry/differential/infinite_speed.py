@@ -102,12 +102,12 @@ class BentAxis:
     def kept_off(self, s: np.ndarray) -> np.ndarray:
         """Bent parameters (n,), those nearer to a place than derivatives are taken moved away."""
         piece, a, b, _, _ = self._pieces(s)
-        clearance = self._clearance()[piece] * (b - a)[:, None]
+        clearance = self.clearance()[piece] * (b - a)[:, None]
         return np.clip(s, a + clearance[:, 0], b - clearance[:, 1])
 
     def parameter_kept_off(self, u: np.ndarray) -> np.ndarray:
         """The same for parameters u (n,): the others stay as they are to the last bit."""
-        a, b, clearance = self.places[:-1], self.places[1:], self._clearance()
+        a, b, clearance = self.places[:-1], self.places[1:], self.clearance()
         lowest = self.parameter(a + clearance[:, 0] * (b - a))
         highest = self.parameter(b - clearance[:, 1] * (b - a))
         piece = self._pieces(u)[0]
@@ -115,7 +115,7 @@ class BentAxis:
         highest = np.where(clearance[:, 1] > 0.0, highest, np.inf)[piece]
         return np.clip(u, lowest, highest)
 
-    def _clearance(self) -> np.ndarray:
+    def clearance(self) -> np.ndarray:
         """How near to the ends of the pieces derivatives are taken (m, 2), fractions of them."""
         with np.errstate(divide="ignore"):
             slow = LARGEST_SPEED ** (-1.0 / (self.powers - 1.0))

@@ -11,8 +11,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from surfmesh.geometry.surface import Surface
-from surfmesh.kernels.triangulation.local_operations import DEAD
-from surfmesh.kernels.triangulation.triangulation import Triangulation
+from surfmesh._core.triangulation import DEAD, Triangulation
 from surfmesh.meshing.boundary.boundary_loops import BoundaryLoops
 from surfmesh.meshing.boundary.boundary_recovery import DomainMesh
 from surfmesh.result.connectivity import connect
@@ -75,8 +74,7 @@ def identify_seams(
 
 def live_triangles(t: Triangulation) -> np.ndarray:
     """(m, 3)"""
-    triangles = int(t.count[1])
-    corners: np.ndarray = t.tri[: 3 * triangles].reshape(-1, 3)[t.region[:triangles] != DEAD]
+    corners: np.ndarray = t.tri.reshape(-1, 3)[t.region != DEAD]
     return corners
 
 
@@ -93,7 +91,5 @@ def _euler_of_identification(loops: BoundaryLoops) -> tuple[int, int]:
 
 def _euler_of_domain(t: Triangulation, corners: np.ndarray, vertices: int) -> int:
     """Vertices - edges + triangles: its border has as many edges as half-edges."""
-    triangles = int(t.count[1])
-    live = t.region[:triangles] != DEAD
-    border = int((t.adj[: 3 * triangles].reshape(-1, 3)[live] < 0).sum())
+    border = int((t.adj.reshape(-1, 3)[t.region != DEAD] < 0).sum())
     return vertices - (3 * len(corners) + border) // 2 + len(corners)
