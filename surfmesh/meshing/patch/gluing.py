@@ -10,8 +10,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from surfmesh.geometry.surface import Surface
 from surfmesh._core.triangulation import DEAD, Triangulation
+from surfmesh.geometry.surface import Surface
 from surfmesh.meshing.boundary.boundary_loops import BoundaryLoops
 from surfmesh.meshing.boundary.boundary_recovery import DomainMesh
 from surfmesh.result.connectivity import connect

@@ -10,7 +10,7 @@ way. What they differ in is their boundary, and what they do with the requests.
 
 from collections.abc import Callable
 from contextlib import AbstractContextManager, nullcontext
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 
@@ -100,7 +100,7 @@ def mesh_patch(
             left = state.optimise(first)
             found = state.size_requests(left, _off_surface(domain, surface, field, boundary.uv))
             requests = SizeRequests.of(found, field.sizing.gradient)
-    domain, scale = replace(domain, t=state.t), state.frames.scale
+    scale = state.frames.scale
     del state
     with stage("mapping"):
         xy = domain.t.xy

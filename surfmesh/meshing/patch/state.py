@@ -4,15 +4,11 @@ from collections.abc import Callable
 
 import numpy as np
 
-from surfmesh._core import fields as core_fields
 from surfmesh._core import patch as core
-from surfmesh._core import triangulation as core_triangulation
 from surfmesh.geometry.core_surface import as_core_surface
 from surfmesh.geometry.differential.chart import Chart
 from surfmesh.geometry.surface import Surface
-from surfmesh.kernels.fields.background import Background
-from surfmesh.kernels.triangulation.triangulation import Triangulation
-from surfmesh.meshing.boundary.boundary_recovery import DomainMesh
+from surfmesh.meshing.boundary.boundary_recovery import DomainMesh, background_in_core
 from surfmesh.sizing.field.size_field import SizeField
 
 
@@ -29,26 +25,9 @@ def patch_state(
     """
     used, sizing = domain.is_used, field.sizing
     return core.PatchState(
-        _triangulation(domain.t), domain.node[used], domain.same[used],
+        domain.t, domain.node[used], domain.same[used],
         domain.on_kinks.astype(np.int32, copy=False),
         None if domain.points is None else domain.points[used],
-        as_core_surface(surface), chart.core, _background(field.background),
+        as_core_surface(surface), chart.core, background_in_core(field.background),
         sizing.chord, sizing.angle, sizing.min_size or 0.0, before_pass,
     )  # fmt: skip
-
-
-def _triangulation(
-    t: Triangulation | core_triangulation.Triangulation,
-) -> core_triangulation.Triangulation:
-    """The triangulation of a domain as the core has it."""
-    if isinstance(t, core_triangulation.Triangulation):
-        return t
-    n, m = t.vertices, t.triangles
-    return core_triangulation.Triangulation(
-        t.xy[:n], t.size[:n], t.tri[: 3 * m], t.adj[: 3 * m], t.region[:m], t.fixed[: 3 * m]
-    )
-
-
-def _background(given: Background | core_fields.Background) -> core_fields.Background:
-    """The background as the core has it."""
-    return given if isinstance(given, core_fields.Background) else core_fields.Background(*given)
