@@ -111,7 +111,6 @@ def swap_out(plane: Triangulation, a: int, b: int, cut: list[Edge]) -> None:
 def clear_boundary(plane: Triangulation, inner: list[Edge], nodes: set[int]) -> None:
     """Step 4: remove the vertices left of the segments that are too near to them."""
     for a, b in inner:
-
         def crowds(v: int) -> bool:
             return v not in nodes and distance(plane, a, b, v) < CROWDED
 

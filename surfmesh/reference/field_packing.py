@@ -26,10 +26,7 @@ class FieldPacking(Front):
     def step(self, a: int, b: int, forced: bool) -> bool:
         apex = self.apex(b, a)
         far = (a, apex) if apex == self.next[b] else (apex, b) if apex == self.prev[a] else None
-        if (
-            far is not None
-            and self.measure(self.points[far[0]], self.sizes[far[0]], far[1])[0] < CLOSE_BELOW
-        ):
+        if far is not None and self.measure(self.points[far[0]], self.sizes[far[0]], far[1])[0] < CLOSE_BELOW:
             return self.close_corner(a, b)
         p, h = self.fit_to_two(a, b)
         cavity, rim, other = self.look((b, a), (a, b), p, h)

@@ -166,9 +166,7 @@ class RandomPacking(Front):
 
     def most_overlapped(self, circles: Iterable[int], p: complex, r: float) -> int:
         """The circle that one of radius r at p overlaps most, by d / (r1 + r2); or NIL (2.3.3)."""
-        reached = (
-            (length(self.points[v] - p) / (r + self.radius(v)), v) for v in circles if v != NIL
-        )
+        reached = ((length(self.points[v] - p) / (r + self.radius(v)), v) for v in circles if v != NIL)
         return min([(1.0 - TOLERATED, NIL), *reached])[1]
 
     def circles_near(self, rim: list[Edge], p: complex, r: float) -> list[int]:
@@ -179,10 +177,8 @@ class RandomPacking(Front):
             if t not in seen:
                 seen.add(t)
                 near.append(c)
-                further = ((c, b), (a, c))
-                ways += (
-                    e for e in further if e not in self.barriers and self.reaches(e, p, REACH * r)
-                )
+                further = ((c, b), (a, c)) 
+                ways += (e for e in further if e not in self.barriers and self.reaches(e, p, REACH * r))
         return near
 
     def reaches(self, edge: Edge, p: complex, r: float) -> bool:
