@@ -13,7 +13,6 @@ from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
-from scipy.special import beta
 
 from surfmesh._core import patch as core
 from surfmesh.geometry.differential.infinite_speed import BentAxis, bent_axes_of
@@ -92,11 +91,7 @@ class Axis:
 
     def in_core(self) -> core.ChartAxis:
         """The map to the parameter as the core has it."""
-        pieces = None
-        if self.bent is not None:
-            q0, q1 = self.bent.powers.T
-            ends = self.bent.places[:-1], self.bent.places[1:]
-            pieces = np.column_stack([*ends, q0, q1, beta(q0, q1), self.bent.clearance()])
+        pieces = None if self.bent is None else self.bent.pieces()
         return core.ChartAxis(self.extent, self.knots, self.slopes, pieces)
 
     def _knotted(self, x: np.ndarray) -> tuple[np.ndarray, np.ndarray]:

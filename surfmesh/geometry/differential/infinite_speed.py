@@ -102,12 +102,12 @@ class BentAxis:
     def kept_off(self, s: np.ndarray) -> np.ndarray:
         """Bent parameters (n,), those nearer to a place than derivatives are taken moved away."""
         piece, a, b, _, _ = self._pieces(s)
-        clearance = self.clearance()[piece] * (b - a)[:, None]
+        clearance = self._clearance()[piece] * (b - a)[:, None]
         return np.clip(s, a + clearance[:, 0], b - clearance[:, 1])
 
     def parameter_kept_off(self, u: np.ndarray) -> np.ndarray:
         """The same for parameters u (n,): the others stay as they are to the last bit."""
-        a, b, clearance = self.places[:-1], self.places[1:], self.clearance()
+        a, b, clearance = self.places[:-1], self.places[1:], self._clearance()
         lowest = self.parameter(a + clearance[:, 0] * (b - a))
         highest = self.parameter(b - clearance[:, 1] * (b - a))
         piece = self._pieces(u)[0]
@@ -115,7 +115,16 @@ class BentAxis:
         highest = np.where(clearance[:, 1] > 0.0, highest, np.inf)[piece]
         return np.clip(u, lowest, highest)
 
-    def clearance(self) -> np.ndarray:
+    def pieces(self) -> np.ndarray:
+        """What the core needs to know (m, 7): beginning, end, both powers of each piece, their
+        beta function, and the clearance at both ends."""
+        from scipy.special import beta
+
+        q0, q1 = self.powers.T
+        ends = self.places[:-1], self.places[1:]
+        return np.column_stack([*ends, q0, q1, beta(q0, q1), self._clearance()])
+
+    def _clearance(self) -> np.ndarray:
         """How near to the ends of the pieces derivatives are taken (m, 2), fractions of them."""
         with np.errstate(divide="ignore"):
             slow = LARGEST_SPEED ** (-1.0 / (self.powers - 1.0))
