@@ -43,10 +43,9 @@ def identify_seams(
     node, segments, identity = _NO_NODES, _NO_SEGMENTS, _NO_IDENTITY
     if loops is not None:
         node, segments, identity = domain.node, loops.segments, loops.identity
-    t, triangles = domain.t, domain.t.triangles
-    half_edges = 3 * triangles
+    t = domain.t
     corners, uv_corners, vertex, non_manifold = core.identify_seams(
-        t.tri[:half_edges], t.adj[:half_edges], t.region[:triangles], len(uv),
+        t.tri, t.adj, t.region, len(uv),
         node, segments, identity,
     )  # fmt: skip
     (points,) = surface.evaluate(uv[vertex], 0)

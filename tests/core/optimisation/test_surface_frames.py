@@ -5,17 +5,15 @@ import pytest
 from naive.background import replaced, uniform_background
 from naive.metric import alpha, metric_root_3d
 
-from surfmesh.kernels.fields.background import for_kernels, metric_roots_3d_at
-from surfmesh.kernels.optimisation.surface_frames import (
+from surfmesh._core.optimisation import (
+    SurfaceFrames,
     chord,
     edge_length,
-    empty_frames,
     lift,
-    set_frames,
     shorten,
     triangle_shape,
 )
-from surfmesh.kernels.triangulation.triangulation import empty_triangulation
+from surfmesh._core.triangulation import Triangulation
 
 
 def embedded(seed=0, ratio=30.0):
@@ -30,14 +28,12 @@ def embedded(seed=0, ratio=30.0):
     six = w[[0, 0, 0, 1, 1, 2], [0, 1, 2, 1, 2, 2]]
     xy = rng.uniform(0, 1, (4, 2))
     background = uniform_background(np.tile([1.0, 0.0, 1.0, 5.0], (2, 2, 1)), 1.0, 1.0)
-    background = for_kernels(replaced(background, metric_root_3d=np.tile(six, (4, 1))))
-    mesh = empty_triangulation(8)
-    mesh.xy[:4] = xy
-    mesh.count[0] = 4
-    s = empty_frames(8, True)
+    background = replaced(background, metric_root_3d=np.tile(six, (4, 1)))
+    none = np.empty(0, np.int32), np.empty(0, np.int32), *[np.empty(0, np.uint8)] * 2
+    mesh, s = Triangulation(xy, np.zeros((4, 3)), *none), SurfaceFrames(4, True)
     points = xy @ jacobian.T
     rx, ry = (np.tile(column, (4, 1)) for column in jacobian.T)
-    set_frames(mesh, s, background, np.arange(4, dtype=np.int32), points, rx, ry, 1e6)
+    s.set(mesh, background, np.arange(4, dtype=np.int32), points, rx, ry, 1e6)
     return mesh, s, jacobian, w, points, background
 
 
@@ -71,7 +67,6 @@ def test_lengths_and_shapes(seed):
 
 def test_the_background_interpolates_w():
     *_, w, _, background = embedded()
-    found = np.empty((3, 6))
-    metric_roots_3d_at(background, np.random.default_rng(0).uniform(0, 1, (3, 2)), found)
-    for row in found:
+    places = np.random.default_rng(0).uniform(0, 1, (3, 2))
+    for row in background.metric_roots_3d(places):
         np.testing.assert_allclose(metric_root_3d(row), w, rtol=1e-12)

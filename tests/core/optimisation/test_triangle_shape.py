@@ -1,25 +1,24 @@
 """alpha of triangles that stand up from the surface."""
 
 import math
-from types import SimpleNamespace
 
 import numpy as np
 import pytest
 
 import surfmesh as sm
-from surfmesh.kernels.optimisation.optimisation import find_folded
-from surfmesh.kernels.optimisation.surface_frames import empty_frames, triangle_shape
+from surfmesh._core.optimisation import SurfaceFrames, find_folded, triangle_shape
+from surfmesh._core.triangulation import Triangulation
 
 
 def shape_at(tilt: float, stretched: bool = True) -> float:
     """alpha of an equilateral triangle turned by ``tilt`` degrees against the normal z."""
-    s = empty_frames(3, stretched)
+    s = SurfaceFrames(3, stretched)
     angles = 2.0 * np.pi / 3.0 * np.arange(3)
     x, y = np.cos(angles), np.sin(angles)
     c, w = math.cos(math.radians(tilt)), math.sin(math.radians(tilt))
     s.point[:] = np.stack([x, c * y, w * y], axis=1)
     s.normal[:] = (0.0, 0.0, 1.0)
-    s.metric_root_3d[:] = [1.0, 0.0, 0.0, 1.0, 0.0, 1.0]
+    s.metric_root_3d[:] = [1.0, 0.0, 0.0, 1.0, 0.0, 1.0]  # none where sizes are isotropic
     return triangle_shape(s, 0, 1, 2)
 
 
@@ -43,12 +42,13 @@ def test_a_narrow_strip_round_a_cylinder_needs_its_two_edges_only():
 
 def test_at_a_pole_the_other_corners_decide():
     """A corner without a normal: turned by 80 degrees the triangle is looked at, and let pass."""
-    s = empty_frames(3)
+    s = SurfaceFrames(3)
     tilt = math.radians(80.0)
     s.point[:] = [(0.0, 0.0, 0.0), (1.0, 0.0, 0.0), (0.0, math.cos(tilt), math.sin(tilt))]
     s.normal[:] = [(0.0, 0.0, 0.0), (0.0, 0.0, 1.0), (0.0, 0.0, 1.0)]
-    t = SimpleNamespace(count=np.array([3, 1]), region=np.zeros(1), tri=np.array([0, 1, 2]))
-    flag = np.zeros(1, np.uint8)
-    look = getattr(find_folded, "py_func", find_folded)
-    assert look(t, s, 0.35, 0.85, flag) == 1 == flag[0]
-    assert look(t, s, 0.35, 0.0, flag) == 0 == flag[0]
+    xy = np.array([(0.0, 0.0), (1.0, 0.0), (0.0, 1.0)])
+    corners, none = np.array([0, 1, 2], np.int32), np.full(3, -1, np.int32)
+    no = np.zeros(3, np.uint8)
+    t = Triangulation(xy, np.tile([1.0, 0.0, 1.0], (3, 1)), corners, none, no[:1], no)
+    assert find_folded(t, s, 0.35, 0.85).tolist() == [1]
+    assert find_folded(t, s, 0.35, 0.0).tolist() == [0]
