@@ -5,6 +5,8 @@ VENV ?= .venv
 CONSTRAINTS ?= constraints.txt
 LOWEST_PYTHON ?= python3.11
 BIN := $(VENV)/bin
+BUILD ?= build/dev
+SOURCES := $(shell find src -name '*.[ch]pp')
 LOWEST := .venv-lowest
 
 # what the lowest versions are tried with: all that calls the libraries, little of what is our own
@@ -16,6 +18,7 @@ CORE := tests/geometry tests/sizing tests/result/test_surface_mesh.py tests/cli/
 
 # $(call install,ENVIRONMENT,CONSTRAINTS,REQUIREMENT): uv does it in seconds, pip where uv cannot
 define install
+@$(1)/bin/python tools/build_backend.py
 @echo "installing $(3) and what it needs into $(1)"
 @$(1)/bin/python -m pip --disable-pip-version-check install -qq --only-binary=:all: -c $(CONSTRAINTS) uv || \
     echo "there is no uv for this machine" >&2
@@ -26,7 +29,8 @@ define install
 endef
 
 .DEFAULT_GOAL := help
-.PHONY: help venv mesh test fuzz lint lowest docs bench constraints licences clean
+.PHONY: help venv core stubs wheel mesh test sanitize fuzz lint lowest docs bench constraints licences \
+    clean
 
 COMPILE := $(BIN)/uv pip compile --quiet --only-binary=:all: --python-version 3.11 \
     --no-annotate --custom-compile-command 'make constraints'
@@ -36,18 +40,48 @@ help: ## this list
 
 venv: $(VENV)/.installed ## virtual environment with surfmesh (VENV=.venv, PYTHON=python3)
 
+core: ## the compiled core anew, where it lies (BUILD=build/dev, CORE_OPTIONS=-D...)
+	@test -f $(BUILD)/build.ninja || cmake -S . -B $(BUILD) -G Ninja -DSURFMESH_WARNINGS=ON \
+	    -DPython_EXECUTABLE=$(abspath $(BIN)/python) $(CORE_OPTIONS) >/dev/null
+	cmake --build $(BUILD)
+
+stubs: core ## types of the compiled core, for mypy: surfmesh/_core/*.pyi
+	PYTHONPATH=. $(BIN)/python -m nanobind.stubgen -q -r -m surfmesh._core -O surfmesh
+
+wheel: $(VENV)/.installed-dev ## a wheel in dist/, tried in an empty environment
+	rm -rf dist build/wheel-try
+	$(BIN)/python -m build --wheel --installer uv --outdir dist .
+	$(BIN)/python -m venv build/wheel-try
+	$(BIN)/uv pip install --quiet --python build/wheel-try/bin/python --only-binary=:all: \
+	    -c $(CONSTRAINTS) dist/surfmesh-*.whl
+	cd build/wheel-try && bin/python -P -I -m surfmesh mesh torus -o torus.vtu && \
+	    bin/python -P -I -m surfmesh check torus.vtu
+
 mesh: $(VENV)/.installed ## mesh, check and draw the wavy surface; results in outputs/
 	$(BIN)/surfmesh mesh wavy -o outputs/wavy.vtu --picture outputs/wavy.png --report outputs/wavy.json --second-opinion
 
 test: lint ## lint, layers, types and tests
 	$(BIN)/python -m pytest -n 2 --dist worksteal
 
+SANITIZED := build/sanitize/package/surfmesh
+PRELOADED = $(shell $(or $(CXX),c++) -print-file-name=libasan.so) \
+    $(shell $(or $(CXX),c++) -print-file-name=libstdc++.so)
+sanitize: $(VENV)/.installed-dev ## tests of the core under address and undefined-behaviour sanitizers
+	mkdir -p $(SANITIZED) && ln -sfn $(filter-out surfmesh/_core%,$(wildcard $(CURDIR)/surfmesh/*)) $(SANITIZED)
+	rm -f $(SANITIZED)/_core*
+	PATH="$(abspath $(BIN)):$$PATH" cmake -S . -B build/sanitize -G Ninja -DSURFMESH_SANITIZE=ON \
+	    -DPython_EXECUTABLE=$(abspath $(BIN)/python) -DSURFMESH_MODULE=$(abspath $(SANITIZED)) >/dev/null
+	PATH="$(abspath $(BIN)):$$PATH" cmake --build build/sanitize
+	LD_PRELOAD="$(PRELOADED)" ASAN_OPTIONS=detect_leaks=0 PYTHONPATH=build/sanitize/package \
+	    $(BIN)/python -m pytest -q -p no:cacheprovider -n 0 tests/core
+
 fuzz: $(VENV)/.installed-dev ## hostile input by thousands: the table (SURFMESH_FUZZ=1000 a kind)
 	SURFMESH_FUZZ=$${SURFMESH_FUZZ:-1000} $(BIN)/python benchmarks/trust.py --parts readers formulas random
 
-lint: $(VENV)/.installed-dev ## ruff, the layers of the package, types of the public face
+lint: $(VENV)/.installed-dev ## ruff, clang-format, the layers of the package, types
 	$(BIN)/ruff check .
 	$(BIN)/ruff format --check --quiet .
+	$(BIN)/clang-format --dry-run -Werror $(SOURCES)
 	$(BIN)/lint-imports --no-logo
 	$(BIN)/mypy
 
@@ -85,10 +119,10 @@ $(LOWEST)/bin/python:
 		{ echo "the lowest versions are for Python 3.11: make lowest LOWEST_PYTHON=..." >&2; exit 1; }
 	@$(LOWEST_PYTHON) -m venv $(LOWEST)
 
-$(VENV)/.installed: pyproject.toml $(CONSTRAINTS) | $(VENV)/bin/python
+$(VENV)/.installed: pyproject.toml $(CONSTRAINTS) CMakeLists.txt $(SOURCES) | $(VENV)/bin/python
 	$(call install,$(VENV),$(CONSTRAINTS),.)
 
-$(VENV)/.installed-%: pyproject.toml $(CONSTRAINTS) | $(VENV)/bin/python
+$(VENV)/.installed-%: pyproject.toml $(CONSTRAINTS) CMakeLists.txt $(SOURCES) | $(VENV)/bin/python
 	$(call install,$(VENV),$(CONSTRAINTS),.[$*])
 	@touch $@
 

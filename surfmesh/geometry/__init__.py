@@ -3,6 +3,7 @@
 Used by others: all that is listed here; of the folders the modules that are in brackets.
 
 surface         what every surface can do, and what it may say of itself
+core_surface    how a surface of Python becomes one of the compiled core
 surface_checks  what a surface over a rectangle is refused for, however its points are made
 formulas        surfaces of formulas (parametric, kinks, interval)
 functions       surfaces of Python functions (numeric)

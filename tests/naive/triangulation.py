@@ -6,29 +6,31 @@ import numpy as np
 from scipy.spatial import Delaunay
 
 from naive.exact import first_crossing, orient_signs
-from surfmesh.kernels import NIL
-from surfmesh.kernels.packing.front import DONE
-from surfmesh.kernels.triangulation.local_operations import DEAD
+from surfmesh._core import NIL
+from surfmesh._core import triangulation as core
+from surfmesh._core.triangulation import DEAD, DONE
 from surfmesh.kernels.triangulation.triangulation import Triangulation, empty_triangulation
 
+AnyTriangulation = core.Triangulation | Triangulation
 
-def live_triangles(t: Triangulation) -> np.ndarray:
+
+def live_triangles(t: AnyTriangulation) -> np.ndarray:
     """Numbers of the slots in use."""
-    m = int(t.count[1])
+    m = t.triangles
     return np.flatnonzero(t.region[:m] != DEAD)
 
 
-def corners(t: Triangulation) -> np.ndarray:
+def corners(t: AnyTriangulation) -> np.ndarray:
     """(m, 3) vertices of all slots, dead ones too."""
-    return t.tri[: 3 * int(t.count[1])].reshape(-1, 3)
+    return t.tri[: 3 * t.triangles].reshape(-1, 3)
 
 
-def check_half_edges(t: Triangulation, border: bool) -> str | None:
+def check_half_edges(t: AnyTriangulation, border: bool) -> str | None:
     """Twins point back and run the other way; real triangles are counter-clockwise, exactly.
 
     ``border``: half-edges without twin are allowed, ghosts are not.
     """
-    n, m = int(t.count[0]), int(t.count[1])
+    n, m = t.vertices, t.triangles
     live = live_triangles(t)
     tri = corners(t)
     for k in live:
@@ -64,12 +66,12 @@ def check_half_edges(t: Triangulation, border: bool) -> str | None:
     return None
 
 
-def check_triangulation(t: Triangulation, removed: int = 0) -> str | None:
+def check_triangulation(t: AnyTriangulation, removed: int = 0) -> str | None:
     """Invariants of a triangulation of the whole plane; ``removed`` vertices are unused."""
     broken = check_half_edges(t, border=False)
     if broken:
         return broken
-    n = int(t.count[0]) - removed
+    n = t.vertices - removed
     live = live_triangles(t)
     tri = corners(t)[live]
     if len(live) != 2 * n - 2:
@@ -118,7 +120,7 @@ def check_front(packing, simple_up_to: int = 600) -> str | None:
     The crossing test of all pairs is left out for fronts longer than ``simple_up_to``.
     """
     t, front = packing.t, packing.front
-    n, m = int(t.count[0]), int(t.count[1])
+    n, m = t.vertices, t.triangles
     region, tri = t.region[:m], corners(t)
     if (tri[region == DONE] < 0).any():
         return "a ghost is done"
@@ -157,7 +159,7 @@ def check_front(packing, simple_up_to: int = 600) -> str | None:
     return None
 
 
-def check_domain(t: Triangulation, euler: int) -> str | None:
+def check_domain(t: AnyTriangulation, euler: int) -> str | None:
     """Invariants of a triangulated domain, whose border half-edges have no twin."""
     broken = check_half_edges(t, border=True)
     if broken:
@@ -168,35 +170,44 @@ def check_domain(t: Triangulation, euler: int) -> str | None:
     return None if found == euler else f"V - E + F = {found}, expected {euler}"
 
 
-def plane_triangulation(xy: np.ndarray, size: np.ndarray | None = None, room: int = 64):
-    """Delaunay's triangulation of points (n, 2) as a ``Triangulation`` with ghosts.
+def plane_triangulation(xy: np.ndarray, size: np.ndarray | None = None) -> core.Triangulation:
+    """Delaunay's triangulation of points (n, 2) with ghosts, ready for fixed edges.
 
     Its sizes are the unit circle's unless given (n, 3). All triangles have region 0.
     """
     xy = np.asarray(xy, float)
-    n = len(xy)
     rows = []
     for a, b, c in Delaunay(xy).simplices.tolist():
         s = orient_signs(*(xy[[v]] for v in (a, b, c)))[0]
         rows.append((a, b, c) if s > 0 else (a, c, b))
     edges = {(p, q) for row in rows for p, q in zip(row, row[1:] + row[:1])}
     rows += [(b, a, NIL) for a, b in sorted(edges) if (b, a) not in edges]
-    t = empty_triangulation(n + room)
-    t = t._replace(fixed=np.zeros(len(t.tri), np.uint8))
-    t.xy[:n] = xy
-    t.size[:n] = (1.0, 0.0, 1.0) if size is None else size
-    t.count[:] = n, len(rows)
-    t.tri[: 3 * len(rows)] = np.array(rows).ravel()
     where = {}
     for k, row in enumerate(rows):
         for i in range(3):
             where[row[i], row[(i + 1) % 3]] = 3 * k + i
+    adj = np.empty(3 * len(rows), np.int32)
     for (a, b), e in where.items():
-        t.adj[e] = where[b, a]
-    return t
+        adj[e] = where[b, a]
+    if size is None:
+        size = np.tile([1.0, 0.0, 1.0], (len(xy), 1))
+    tri = np.array(rows, np.int32).ravel()
+    nothing = np.zeros(len(rows), np.uint8)
+    return core.Triangulation(xy, size, tri, adj, nothing, np.repeat(nothing, 3))
 
 
-def half_edges(t: Triangulation) -> dict[tuple[int, int], int]:
+def in_flat_arrays(t: core.Triangulation, room: int = 64) -> Triangulation:
+    """A copy for the kernels that are not in the core yet, with room for more vertices."""
+    copy = empty_triangulation(t.vertices + room)
+    copy = copy._replace(fixed=np.zeros(len(copy.tri), np.uint8))
+    for name in ("xy", "size", "tri", "adj", "region", "fixed"):
+        given = getattr(t, name)
+        getattr(copy, name)[: len(given)] = given
+    copy.count[:] = t.vertices, t.triangles
+    return copy
+
+
+def half_edges(t: AnyTriangulation) -> dict[tuple[int, int], int]:
     """(start, end) -> half-edge, for all live triangles."""
     return {
         (int(t.tri[3 * k + i]), int(t.tri[3 * k + (i + 1) % 3])): int(3 * k + i)
@@ -205,7 +216,7 @@ def half_edges(t: Triangulation) -> dict[tuple[int, int], int]:
     }
 
 
-def triangle_set(t: Triangulation) -> set[tuple[int, int, int]]:
+def triangle_set(t: AnyTriangulation) -> set[tuple[int, int, int]]:
     """The live triangles, each turned so that its smallest vertex comes first."""
     turned = set()
     for row in corners(t)[live_triangles(t)].tolist():

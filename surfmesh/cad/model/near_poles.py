@@ -11,7 +11,6 @@ from __future__ import annotations
 from dataclasses import replace
 
 import numpy as np
-from scipy.interpolate import make_interp_spline
 
 from surfmesh.cad.model.cad_model import CadCoedge, CadEdge, CadFace, CadVertex
 from surfmesh.cad.model.centres import face_area
@@ -94,8 +93,7 @@ def _straightened(
         uv[zone, across] = uv[edge_of_zone, across]
         parameters = coedge.p0 + fraction * (coedge.p1 - coedge.p0)
         order = slice(None) if parameters[-1] > parameters[0] else slice(None, None, -1)
-        spline = make_interp_spline(parameters[order], uv[order], k=1)
-        better = replace(coedge, pcurve=BSplineCurve(spline.t, spline.c))
+        better = replace(coedge, pcurve=_polyline(parameters[order], uv[order]))
         ends.append((place, better, better.walk(np.array([1.0 if last else 0.0]))[0], True))
     if not any(swings for *_, swings in ends):
         return False
@@ -107,3 +105,8 @@ def _straightened(
     line = Line(first, step / max(length, np.finfo(float).tiny))
     coedges[at] = replace(coedges[at], reversed=False, pcurve=line, p0=0.0, p1=length)
     return True
+
+
+def _polyline(parameters: np.ndarray, uv: np.ndarray) -> BSplineCurve:
+    """Straight from point to point: uv (n, 2) at rising parameters (n,)."""
+    return BSplineCurve(np.concatenate([parameters[:1], parameters, parameters[-1:]]), uv)

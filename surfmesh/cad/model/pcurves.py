@@ -10,7 +10,6 @@ from __future__ import annotations
 from dataclasses import replace
 
 import numpy as np
-from scipy.interpolate import make_interp_spline
 
 from surfmesh.cad.model.cad_model import CadCoedge, CadEdge
 from surfmesh.cad.model.invariants import ENDS
@@ -30,6 +29,8 @@ def follows(surface: Surface, edge: CadEdge, coedge: CadCoedge, reach: float) ->
     The ends stay where they were, so that loops stay closed. The same coedge when no p-curve is
     much better. The edge is not degenerate.
     """
+    from scipy.interpolate import make_interp_spline  # heavy, and few p-curves are made anew
+
     best, deviation = coedge, np.inf
     for spans in SPANS:
         fraction = np.linspace(0.0, 1.0, spans + 1)

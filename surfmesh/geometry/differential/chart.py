@@ -11,9 +11,9 @@ have no bound (square roots) it is a function of the bent parameter instead.
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.interpolate import PchipInterpolator
 
 from surfmesh.geometry.differential.infinite_speed import BentAxis, bent_axes_of
+from surfmesh.geometry.differential.monotone_cubic import MonotoneCubic
 from surfmesh.geometry.surface import Domain, Surface
 from surfmesh.kernels.fields.axis_bending import bend
 
@@ -73,12 +73,12 @@ class Axis:
         cls, parameters: np.ndarray, length: np.ndarray, bent: BentAxis | None = None
     ) -> "Axis":
         """From the mean ``length`` (n,) of the way to ``parameters`` (n,); both rise."""
-        spline = PchipInterpolator(length, parameters)
+        spline = MonotoneCubic(length, parameters)
         x = np.linspace(0.0, length[-1], KNOTS)
         knots = spline(x)
         knots[0], knots[-1] = parameters[0], parameters[-1]
         # slopes of a monotone cubic on the even knots (Fritsch and Carlson 1980)
-        slopes = PchipInterpolator(x, knots).derivative()(x)
+        slopes = MonotoneCubic(x, knots).derivative(x)
         return cls(float(length[-1]), knots, slopes, bent)
 
     @classmethod

@@ -9,6 +9,7 @@ pole. With w the distance from the place,
     u  a----------|----------b    pieces between such places; on each u is the integral of
     s  a----------|----------b    s^(q0 - 1) (1 - s)^(q1 - 1), q = 1 / p at either end
 
+SciPy is imported where an axis is bent: most are not, and it takes longer than a small mesh.
 Derivatives by u at such a place are those a little way inside, and the rate du/ds of the bent
 parameter is taken there too: their product is finite and right to the length of that way.
 """
@@ -21,8 +22,6 @@ from fractions import Fraction
 from itertools import pairwise
 
 import numpy as np
-from scipy.optimize import brentq
-from scipy.special import beta, betainc, betaincinv
 
 from surfmesh.geometry.surface import Domain, Surface
 
@@ -66,6 +65,8 @@ class BentAxis:
 
     def parameter(self, s: np.ndarray) -> np.ndarray:
         """u (n,) at bent parameters s (n,); those outside are moved to the ends."""
+        from scipy.special import betainc
+
         return self._from_nearer_end(s, betainc)
 
     def bent(self, u: np.ndarray) -> np.ndarray:
@@ -87,6 +88,8 @@ class BentAxis:
 
     def rates(self, s: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """du/ds and d2u/ds2 (n,) at s (n,) kept off the places."""
+        from scipy.special import beta
+
         s = self.kept_off(s)
         _, a, b, q0, q1 = self._pieces(s)
         before, after = (s - a) / (b - a), (b - s) / (b - a)
@@ -127,6 +130,8 @@ class BentAxis:
 
 def _beta_inverse(q0: np.ndarray, q1: np.ndarray, fraction: np.ndarray) -> np.ndarray:
     """s (n,) with ``betainc(q0, q1, s)`` = fraction; its leading power where SciPy underflows."""
+    from scipy.special import beta, betaincinv
+
     s = betaincinv(q0, q1, fraction)
     return np.where(np.isnan(s), (fraction * q0 * beta(q0, q1)) ** (1.0 / q0), s)
 
@@ -236,7 +241,12 @@ def zeros_between(values: np.ndarray, at: np.ndarray, function: Values) -> list[
     samples, and by halving between those of opposite signs."""
     found = at[values == 0.0].tolist()
     signs = np.sign(values)
-    for k in np.flatnonzero(signs[1:] * signs[:-1] < 0.0).tolist():
+    changes = np.flatnonzero(signs[1:] * signs[:-1] < 0.0).tolist()
+    if not changes:
+        return found
+    from scipy.optimize import brentq
+
+    for k in changes:
         found.append(float(brentq(function, at[k], at[k + 1], xtol=4.0 * np.finfo(float).eps)))
     return found
 

@@ -12,10 +12,9 @@ in it is ever compiled or executed as Python.
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
-from scipy.special import erf, spherical_jn
 
 from surfmesh.geometry.formulas import interval
 
@@ -65,10 +64,22 @@ def _chosen(d: Slot, a: Slot, b: Slot, out: np.ndarray) -> None:
     out[...] = np.where(np.asarray(d) >= 0.0, a, b)
 
 
+def _error_function(x: Slot) -> Any:
+    from scipy.special import erf  # heavy, and few formulas have it
+
+    return erf(x)
+
+
+def _erf(x: Slot, out: np.ndarray) -> None:
+    out[...] = _error_function(x)
+
+
 def _bessel(order: int) -> Callable[[Slot], np.ndarray]:
     """The spherical Bessel function of an order, for either sign of x."""
 
     def values(x: Slot) -> np.ndarray:
+        from scipy.special import spherical_jn
+
         sign = 1.0 if order % 2 == 0 else np.where(np.asarray(x) < 0.0, -1.0, 1.0)
         return sign * spherical_jn(order, np.abs(x))
 
@@ -111,7 +122,7 @@ OPERATIONS: dict[str, Operation] = {
     "asinh": Operation(np.arcsinh, interval.increasing(np.arcsinh)),
     "acosh": Operation(np.arccosh, interval.acosh),
     "atanh": Operation(np.arctanh, interval.atanh),
-    "erf": Operation(erf, interval.increasing(erf)),
+    "erf": Operation(_erf, interval.increasing(_error_function)),
     "absolute": Operation(np.absolute, interval.absolute),
     "signum": Operation(np.sign, interval.increasing(np.sign)),
     "unit_step": Operation(_step, interval.step),

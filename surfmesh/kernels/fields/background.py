@@ -18,6 +18,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+import surfmesh._core.fields as core
 from surfmesh.kernels.jit import kernel
 
 _ISOTROPIC = np.empty((0, 6))
@@ -31,6 +32,12 @@ class Background(NamedTuple):
     metric_root: np.ndarray  # (nodes, 4) float64: A = H^-1, and 1 / h
     # (nodes, 6) float64: W, the inverse sizes in space; empty where they are isotropic, Id / h
     metric_root_3d: np.ndarray = _ISOTROPIC
+
+
+def for_kernels(background: core.Background) -> Background:
+    """The arrays of the core's background, as the kernels take them."""
+    arrays = (getattr(background, name) for name in Background._fields)
+    return Background(*(np.array(array) for array in arrays))
 
 
 @kernel

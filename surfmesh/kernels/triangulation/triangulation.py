@@ -32,6 +32,16 @@ class Triangulation(NamedTuple):
     rim: np.ndarray  # (vertices,) int32 scratch: half-edges around the cavity, seen from inside
     stamp: np.ndarray  # (2,) int64: number of the current search, triangles of the cavity
 
+    @property
+    def vertices(self) -> int:
+        """How many vertices there are."""
+        return int(self.count[0])
+
+    @property
+    def triangles(self) -> int:
+        """How many triangles there are, dead ones included."""
+        return int(self.count[1])
+
 
 def empty_triangulation(vertices: int) -> Triangulation:
     """Room for ``vertices``: with ghosts there are exactly 2 n - 2 triangles (Euler)."""

@@ -7,7 +7,6 @@ the rest of the boundary as it is.
 from __future__ import annotations
 
 import numpy as np
-from scipy.spatial import cKDTree
 
 from surfmesh.geometry.inside_loops import nesting_depth
 from surfmesh.meshing.boundary.coincident_nodes import coincident_nodes
@@ -35,6 +34,8 @@ def limits_where_crossing(job: FaceJob, where: np.ndarray) -> SizeLimits | None:
     if not len(bad):
         bad = np.flatnonzero(np.isin(loop, _misplaced(uv, segments, loop)))
     if not len(bad):
+        from scipy.spatial import cKDTree
+
         near = cKDTree(points).query(job.surface.evaluate(where, 0)[0])[1]
         bad = np.flatnonzero(np.isin(segments, near).any(axis=1))
     start, end = points[segments[bad]].transpose(1, 0, 2)

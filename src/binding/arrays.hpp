@@ -1,0 +1,104 @@
+// How arrays pass between numpy and the core: spans in, shared memory out, shapes checked.
+#pragma once
+
+#include <nanobind/nanobind.h>
+#include <nanobind/ndarray.h>
+
+#include <cstdint>
+#include <span>
+#include <stdexcept>
+#include <string>
+
+#include "values/array.hpp"
+#include "values/point.hpp"
+#include "values/size_tensor.hpp"
+
+namespace surfmesh::binding {
+
+namespace nb = nanobind;
+
+/// How a value looks to numpy: its numbers, and how many there are in a row.
+template <class T>
+struct Row {
+    using Number = T;
+    static constexpr std::size_t columns = 1;
+};
+template <>
+struct Row<Point2> {
+    using Number = double;
+    static constexpr std::size_t columns = 2;
+};
+template <>
+struct Row<Point3> {
+    using Number = double;
+    static constexpr std::size_t columns = 3;
+};
+template <>
+struct Row<SizeTensor> {
+    using Number = double;
+    static constexpr std::size_t columns = 3;
+};
+template <>
+struct Row<MetricRoot3> {
+    using Number = double;
+    static constexpr std::size_t columns = 6;
+};
+
+/// An array of numpy that a function takes: C-contiguous rows, converted where the type differs.
+template <class T>
+using Vector = nb::ndarray<const T, nb::ndim<1>, nb::c_contig, nb::device::cpu>;
+template <class T, std::size_t columns>
+using Matrix = nb::ndarray<const T, nb::shape<-1, columns>, nb::c_contig, nb::device::cpu>;
+using Points2 = Matrix<double, 2>;
+using Points3 = Matrix<double, 3>;
+using SizeTensors = Matrix<double, 3>;
+
+/// The rows of an array as values.
+template <class T, class Given>
+std::span<const T> rows(const Given& array) {
+    static_assert(sizeof(T) % sizeof(typename Row<T>::Number) == 0);
+    return {reinterpret_cast<const T*>(array.data()), array.shape(0)};
+}
+
+/// An array of numpy over the memory of the core's: (n,) or (n, columns).
+template <class T, class Number = typename Row<T>::Number>
+auto view(const Array<T>& array) {
+    constexpr std::size_t columns = Row<T>::columns;
+    using Memory = std::shared_ptr<T[]>;
+    auto* kept = new Memory(array.memory());  // what the capsule deletes
+    const nb::capsule owner(kept,
+                            [](void* memory) noexcept { delete static_cast<Memory*>(memory); });
+    auto* data = reinterpret_cast<Number*>(array.data());
+    if constexpr (columns == 1) {
+        const std::size_t shape[] = {array.size()};
+        return nb::ndarray<nb::numpy, Number, nb::ndim<1>>(data, 1, shape, owner);
+    } else {
+        const std::size_t shape[] = {array.size(), columns};
+        return nb::ndarray<nb::numpy, Number, nb::shape<-1, columns>>(data, 2, shape, owner);
+    }
+}
+
+/// The same, not to be written to.
+template <class T>
+auto read_only_view(const Array<T>& array) {
+    return view<T, const typename Row<T>::Number>(array);
+}
+
+/// Refuse indices outside 0 .. count - 1; ``what`` names the argument.
+template <class Number>
+void require_indices(std::span<const Number> indices, std::size_t count, const char* what) {
+    for (const Number index : indices)
+        if (index < 0 || static_cast<std::size_t>(index) >= count)
+            throw nb::value_error(
+                (std::string(what) + " has an index that is out of range").c_str());
+}
+
+/// Refuse what does not have the wanted number of rows.
+inline void require_rows(std::size_t found, std::size_t wanted, const char* what) {
+    if (found != wanted)
+        throw nb::value_error((std::string(what) + " has " + std::to_string(found) +
+                               " rows instead of " + std::to_string(wanted))
+                                  .c_str());
+}
+
+}  // namespace surfmesh::binding

@@ -1,0 +1,45 @@
+// The extension surfmesh._core: one submodule a room, in the order in which they build on each
+// other.
+#include <nanobind/nanobind.h>
+
+#include "values/conventions.hpp"
+
+namespace surfmesh::binding {
+
+namespace nb = nanobind;
+
+void bind_elementary_functions(nb::module_& m);
+void bind_fields(nb::module_& m);
+void bind_triangulation(nb::module_& m);
+void bind_space(nb::module_& m);
+void bind_packing(nb::module_& m);
+void bind_insertion(nb::module_& m);
+void bind_optimisation(nb::module_& m);
+void bind_surfaces(nb::module_& m);
+void bind_patch(nb::module_& m);
+
+namespace {
+
+/// Add a room to the module.
+void add(nb::module_& m, const char* name, void (*bind)(nb::module_&)) {
+    nb::module_ room = m.def_submodule(name);
+    bind(room);
+}
+
+}  // namespace
+}  // namespace surfmesh::binding
+
+NB_MODULE(_core, m) {
+    using namespace surfmesh::binding;
+    m.doc() = "The compiled core of surfmesh: arrays in, arrays and a status out.";
+    m.attr("NIL") = surfmesh::NIL;
+    add(m, "elementary_functions", bind_elementary_functions);
+    add(m, "fields", bind_fields);
+    add(m, "triangulation", bind_triangulation);
+    add(m, "space", bind_space);
+    add(m, "packing", bind_packing);
+    add(m, "insertion", bind_insertion);
+    add(m, "optimisation", bind_optimisation);
+    add(m, "surfaces", bind_surfaces);
+    add(m, "patch", bind_patch);
+}
