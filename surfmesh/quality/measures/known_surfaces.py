@@ -41,14 +41,14 @@ class KnownSurfaces(NamedTuple):
         return self.mesh.points[self.mesh.triangles[triangles]]
 
     def samples(
-        self, triangle: Rows, rule: NDArray[np.int32], weights: NDArray[np.float64]
+        self, triangle: NDArray[np.int32], rule: NDArray[np.int32], weights: NDArray[np.float64]
     ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
         """Points (k, 3) and parameters (k, 2) at ``weights[rule]`` of ``triangle``, both (k,)."""
         points = interpolate(self.mesh.points, self.mesh.triangles, _int32(triangle), rule, weights)
         return points, self.sample_uv(triangle, rule, weights)
 
     def sample_uv(
-        self, triangle: Rows, rule: NDArray[np.int32], weights: NDArray[np.float64]
+        self, triangle: NDArray[np.int32], rule: NDArray[np.int32], weights: NDArray[np.float64]
     ) -> NDArray[np.float64]:
         """(k, 2) the parameters alone."""
         uv_points, uv_triangles = self.corners.uv_points, self.corners.uv_triangles

@@ -7,7 +7,6 @@ from hypothesis import strategies as st
 from naive.sources import graded_sizes, leaves
 
 from surfmesh.errors import SizingError
-from surfmesh.kernels.fields.background import scalar_sizes_at, sizes_at
 from surfmesh.sizing.field.boundary_field import source_background
 
 SLOPE = 2.0 * 0.2 / 2.2  # a growth of 1.2
@@ -16,9 +15,7 @@ ISOTROPIC = np.array([1.0, 0.0, 1.0])
 
 
 def sizes(background, xy):
-    out = np.empty(len(xy))
-    scalar_sizes_at(background, np.ascontiguousarray(xy), out)
-    return out
+    return background.scalar_sizes(xy)
 
 
 def corners(found):
@@ -109,9 +106,7 @@ def test_size_tensors_are_the_size_times_the_inverse_root_of_the_metric():
     place, size = np.array([[0.3, 0.6]]), np.array([0.1])
     background = source_background(place, size, 0.5, SLOPE, UNIT, metric)
     xy = np.random.default_rng(2).uniform(0, 1, (50, 2))
-    tensor, h = np.empty((50, 3)), sizes(background, xy)
-    sizes_at(background, xy, tensor)
-    for (h11, h12, h22), s in zip(tensor, h):
+    for (h11, h12, h22), s in zip(background.sizes(xy), sizes(background, xy)):
         inverse = np.linalg.inv([[h11, h12], [h12, h22]]) * s
         np.testing.assert_allclose(inverse @ inverse, [[4.0, 1.0], [1.0, 3.0]], rtol=1e-9)
 

@@ -4,16 +4,11 @@ import numpy as np
 import pytest
 from naive.background import constant_background, looked_up, random_tree
 
-from surfmesh.kernels.fields.coverage import STACK, metric_area_of_box
-
-
-def area(background, x1, y1):
-    return metric_area_of_box(background, x1, y1, np.empty((STACK, 5)))
-
 
 def test_constant():
     h = np.array([[0.2, 0.05], [0.05, 0.1]])
-    assert area(constant_background(h, 3.0, 2.0), 3.0, 2.0) == pytest.approx(6.0 / np.linalg.det(h))
+    field = constant_background(h, 3.0, 2.0)
+    assert field.metric_area(3.0, 2.0) == pytest.approx(6.0 / np.linalg.det(h))
 
 
 @pytest.mark.parametrize("x1, y1", [(1.0, 1.0), (0.7, 1.0), (0.31, 0.12)])
@@ -23,9 +18,9 @@ def test_trees_cut_by_the_rectangle(x1, y1):
     x, y = np.meshgrid((np.arange(n) + 0.5) / n * x1, (np.arange(n) + 0.5) / n * y1)
     a = np.array([looked_up(tree, *point) for point in zip(x.ravel(), y.ravel())])
     dense = (a[:, 0] * a[:, 2] - a[:, 1] ** 2).mean() * x1 * y1
-    assert area(tree, x1, y1) == pytest.approx(dense, rel=0.01)
+    assert tree.metric_area(x1, y1) == pytest.approx(dense, rel=0.01)
 
 
 def test_beyond_the_background_nothing_is_added():
     field = constant_background(0.5, 1.0, 1.0)
-    assert area(field, 9.0, 9.0) == area(field, 1.0, 1.0) == pytest.approx(4.0)
+    assert field.metric_area(9.0, 9.0) == field.metric_area(1.0, 1.0) == pytest.approx(4.0)

@@ -5,9 +5,9 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from naive.metric import tangent_metric, turned
-from naive.patches import ISOTROPIC, NONE, patches
+from naive.patches import NONE, patches
 
-from surfmesh.kernels.fields.gradation import TURN_SLOPE, Metric, grade
+from surfmesh._core.fields import TURN_SLOPE, grade, grade_stretched
 
 
 def neighbours(patch):
@@ -18,6 +18,14 @@ def neighbours(patch):
                 if i != j and abs(i % 3 - j % 3) <= 1 and abs(i // 3 - j // 3) <= 1:
                     pairs.add((p[i], p[j]))
     return pairs
+
+
+def stretched(patch, joined, r, slope, h, long, along, normal, changed, sweeps=400):
+    """Grade in place; says whether the sweeps sufficed."""
+    round = np.empty(0, np.uint8)
+    return grade_stretched(
+        patch, joined, r, slope, h, long, along, normal, round, changed, 2, sweeps
+    )[1]
 
 
 def random_field(rng, n, ratio, turn):
@@ -47,7 +55,7 @@ def test_every_metric_contains_its_neighbours_grown(seed, slope, ratio, turn):
     h0, long0, along, normal, r = random_field(rng, 5, ratio, turn)
     h, long, t = h0.copy(), long0.copy(), along.copy()
     changed = np.ones(len(h), np.int32)
-    assert grade(patch, NONE, r, slope, h, Metric(long, t, normal), changed, 2, 4000) > 0
+    assert stretched(patch, NONE, r, slope, h, long, t, normal, changed, 4000)
     assert (h <= h0).all() and (long <= long0).all()
     np.testing.assert_array_equal(t, along)  # directions are the surface's, not changed
     for a, b in neighbours(patch):
@@ -73,8 +81,8 @@ def test_round_metrics_are_graded_as_sizes_are():
     h0, _, along, normal, r = random_field(rng, 5, 1.0, 3.0)
     sizes, h, long = h0.copy(), h0.copy(), h0.copy()
     changed = np.ones((2, len(h)), np.int32)
-    grade(patch, NONE, r, 0.2, sizes, ISOTROPIC, changed[0], 2, 400)
-    grade(patch, NONE, r, 0.2, h, Metric(long, along, normal), changed[1], 2, 400)
+    grade(patch, NONE, r, 0.2, sizes, changed[0], 2, 400)
+    stretched(patch, NONE, r, 0.2, h, long, along, normal, changed[1])
     np.testing.assert_allclose(h, sizes, rtol=2e-3)
     np.testing.assert_allclose(long, sizes, rtol=2e-3)
 
@@ -85,7 +93,7 @@ def test_nodes_without_a_normal_stay_round():
     normal[4] = 0.0
     h0[4] = long0[4] = 1e3
     h, long = h0.copy(), long0.copy()
-    grade(patch, NONE, r, 0.2, h, Metric(long, along, normal), np.ones(9, np.int32), 2, 400)
+    stretched(patch, NONE, r, 0.2, h, long, along, normal, np.ones(9, np.int32))
     assert h[4] == long[4] < 1e3
 
 
@@ -96,9 +104,9 @@ def test_a_joint_of_opposite_normals_does_not_matter():
     both = [np.concatenate([a, b]) for a, b in (
         (h0, 3 * h0), (long0, 3 * long0), (along, along), (normal, -normal), (r, r),
     )]  # fmt: skip
-    joined = np.stack([np.arange(9), np.arange(9, 18)], axis=1)
+    joined = np.stack([np.arange(9), np.arange(9, 18)], axis=1).astype(np.int32)
     h, long, t, n, points = both
-    grade(patch, joined, points, 0.2, h, Metric(long, t, n), np.ones(18, np.int32), 2, 400)
+    stretched(patch, joined, points, 0.2, h, long, t, n, np.ones(18, np.int32))
     np.testing.assert_allclose(h[:9], h[9:], rtol=2e-3)
     np.testing.assert_allclose(long[:9], long[9:], rtol=2e-3)
 
@@ -118,7 +126,7 @@ def test_directions_that_turn_shorten_the_longer_size(bend):
     normal = np.tile([0.0, 0.0, 1.0], (len(r), 1))
     h, long = np.full(len(r), h0), np.full(len(r), 1e3)
     changed = np.ones(len(r), np.int32)
-    assert grade(patch, NONE, r, slope, h, Metric(long, along, normal), changed, 2, 4000) > 0
+    assert stretched(patch, NONE, r, slope, h, long, along, normal, changed, 4000)
     assert (h == h0).all()
     expected = np.sqrt(2 * TURN_SLOPE * slope * h0 / bend)
     inner = long[len(angle) + 10 : 2 * len(angle) - 10]
