@@ -10,6 +10,9 @@
 #include "surfaces/surface.hpp"
 
 namespace surfmesh::binding {
+
+void bind_formulas(nb::module_& m);  // formula_bindings.cpp
+
 namespace {
 
 using Interval = std::pair<double, double>;
@@ -103,6 +106,7 @@ void bind_surface_class(nb::module_& m) {
 void bind_surfaces(nb::module_& m) {
     m.doc() = "Surfaces of CAD models and of formulas, evaluated in blocks.";
     bind_surface_class(m);
+    bind_formulas(m);
 }
 
 }  // namespace surfmesh::binding
