@@ -1,5 +1,6 @@
 """Surfaces of CAD models and of formulas, evaluated in blocks."""
 
+from collections.abc import Sequence
 from typing import Annotated
 
 import numpy
@@ -35,26 +36,30 @@ class CallbackSurface(Surface):
         surface: has ``domain``, ``evaluate`` and ``derivative_bounds`` as the protocol surfmesh.geometry.surface.Surface.
         """
 
-PROJECTION_MARGIN: float = 0.01
+OPERATIONS: tuple = ...
 
-def closest_points(surface: Surface, points: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)], uv_guess: Annotated[NDArray[numpy.float64], dict(shape=(None, 2), order='C', device='cpu', writable=False)], steps: int = 2, margin: float = 0.01) -> tuple[Annotated[NDArray[numpy.float64], dict(shape=(None, 2))], Annotated[NDArray[numpy.float64], dict(shape=(None,))], Annotated[NDArray[numpy.float64], dict(shape=(None, 3))]]:
-    """
-    Nearest points of a surface to points (n, 3), from guesses (n, 2), never farther.
+BLOCK: int = 256
 
-    margin: fraction of the domain by which they may leave it. Returns uv (n, 2), distance (n,), foot (n, 3).
-    The search is local: a nearer part of the surface that the guess does not lead to is not found.
-    """
+class Tape:
+    """A straight-line program of elementary operations. Immutable."""
 
-def closest_points_in_triangles(surface: Surface, points: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)], uv: Annotated[NDArray[numpy.float64], dict(shape=(None, 2), order='C', device='cpu', writable=False)], corners: Annotated[NDArray[numpy.float64], dict(shape=(None, 3, 2), order='C', device='cpu', writable=False)], triangle: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], limit: float, steps: int) -> tuple[Annotated[NDArray[numpy.float64], dict(shape=(None, 2))], Annotated[NDArray[numpy.float64], dict(shape=(None,))]]:
-    """
-    Parameters (n, 2) of the nearest points of the surface, and the distances (n,).
+    def __init__(self, inputs: int, constants: Sequence[float], instructions: Sequence[tuple[str, int, Sequence[int], int]], registers: int, outputs: Sequence[int]) -> None:
+        """
+        Slots are numbered inputs first, then constants, then registers.
 
-    uv: (n, 2) first guesses. corners: (m, 3, 2) of triangles and ``triangle`` (n,) that of each point: the search begins anew from them where a point seems farther away than ``limit``.
-    """
+        instructions: (operation, target, operands, exponent) each, operation one of OPERATIONS, exponent 0 but for "integer_power". ValueError for a program that reads what was not written, writes elsewhere than into registers, or the like.
+        """
 
-def bends_sharply(surface: Surface, triangles: Annotated[NDArray[numpy.float64], dict(shape=(None, 3, 2), order='C', device='cpu', writable=False)], radius: float) -> Annotated[NDArray[numpy.uint8], dict(shape=(None,))]:
-    """
-    Does the surface bend with less than ``radius`` (model units) within triangles (k, 3, 2) of (u, v)? (k,) of 0 and 1.
+    def evaluate(self, points: Annotated[NDArray[numpy.float64], dict(shape=(None, None), order='C', device='cpu', writable=False)]) -> Annotated[NDArray[numpy.float64], dict(shape=(None, None, 3))]:
+        """
+        Outputs at points (n, inputs), three together: (m, n, 3).
 
-    Bends are found where the curvature of a sample shows them, or where the normals of two samples differ.
-    """
+        What is undefined comes out as nan or infinity.
+        """
+
+    def bounds(self, lo: Annotated[NDArray[numpy.float64], dict(shape=(None, None), order='C', device='cpu', writable=False)], hi: Annotated[NDArray[numpy.float64], dict(shape=(None, None), order='C', device='cpu', writable=False)], kinks: bool) -> tuple[Annotated[NDArray[numpy.float64], dict(shape=(None, None))], Annotated[NDArray[numpy.float64], dict(shape=(None, None))]]:
+        """
+        Bounds over cells: lo, hi (n, inputs) -> lower, upper (n, outputs).
+
+        Infinite where nothing is known. kinks: False leaves out what second derivatives are across kinks.
+        """
