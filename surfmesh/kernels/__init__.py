@@ -5,7 +5,6 @@ fields: size tensors, their gradation, and the look-up in a background.
 triangulation: the triangulation of the plane, its predicates, and its local changes.
 packing: section 2 of the paper: the front, and circles placed at it.
 optimisation: swaps, smoothing, collapse and split, measured on the surface.
-space: what is measured and decided in three dimensions.
 
 Conventions, once for all kernels
 ---------------------------------
