@@ -3,7 +3,6 @@
 jit: the one decorator that compiles every kernel.
 fields: size tensors, their gradation, and the look-up in a background.
 triangulation: the triangulation of the plane, its predicates, and its local changes.
-space: what is measured and decided in three dimensions.
 
 Conventions, once for all kernels
 ---------------------------------

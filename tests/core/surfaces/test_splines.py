@@ -1,4 +1,4 @@
-"""Spline kernels against the definition of B-splines, and at knots, ends and seams."""
+"""Splines of the core against the definition of B-splines, and at knots, ends and seams."""
 
 import numpy as np
 import pytest
@@ -6,12 +6,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from naive import nurbs as naive
 
-from surfmesh.kernels.space.nurbs import (
-    basis_derivatives,
-    curve_derivatives,
-    locate,
-    surface_derivatives,
-)
+from surfmesh._core import surfaces
 
 NO_LIMITS = (np.nan, np.nan, 0.0)
 NUMBERS = [(s - l, l) for s in range(4) for l in range(s + 1)]
@@ -26,20 +21,27 @@ def random_knots(rng, degree, spans):
 
 
 def curve(knots, control, t, order, dimension, limits=NO_LIMITS):
-    t = np.atleast_1d(np.asarray(t, dtype=float))
-    degree = len(knots) - len(control) - 1
-    scratch = np.empty((degree + 3 + 2 * order, max(degree, dimension) + 1))
-    out = np.empty((order + 1, len(t), dimension))
-    curve_derivatives(knots, control, np.array(limits), t, order, scratch, out)
-    return out
+    weights = control[:, dimension] if control.shape[1] > dimension else None
+    first, last, period = limits
+    points = np.zeros((len(control), max(dimension, 2)))  # a function is a curve on an axis
+    points[:, :dimension] = control[:, :dimension]
+    core = surfaces.spline_curve(knots, points, weights, (first, last), period)
+    assert core.dimension == points.shape[1]
+    return core.evaluate(np.atleast_1d(np.asarray(t, dtype=float)), order)[..., :dimension]
 
 
 def surface(knots_u, knots_v, control, uv, order, limits=NO_LIMITS * 2):
-    degree = max(len(knots_u) - control.shape[0], len(knots_v) - control.shape[1]) - 1
-    scratch = np.empty((degree + 19, max(degree + 1, 4)))
-    out = np.empty(((order + 1) * (order + 2) // 2, len(uv), 3))
-    surface_derivatives(knots_u, knots_v, control, np.array(limits), uv, order, scratch, out)
-    return out
+    weights = control[..., 3] if control.shape[2] > 3 else None
+    u0, u1, period_u, v0, v1, period_v = limits
+    core = surfaces.spline_surface(
+        ((u0, u1), (v0, v1)), knots_u, knots_v, control[..., :3], weights, (period_u, period_v)
+    )
+    return core.evaluate(uv, order)
+
+
+def basis(knots, degree, t, order, limits=NO_LIMITS):
+    """The span, the parameter brought into it, the functions and their derivatives."""
+    return surfaces.spline_basis(knots, degree, t, order, *limits)
 
 
 @settings(deadline=None, max_examples=30)
@@ -48,11 +50,9 @@ def test_basis_functions_are_those_of_the_definition(degree, spans, seed):
     rng = np.random.default_rng(seed)
     knots = random_knots(rng, degree, spans)
     t = rng.uniform(0.0, 1.0)
-    span, local = locate(knots, degree, t, np.nan, np.nan, 0.0)
+    span, local, out = basis(knots, degree, t, 3)
     assert local == t
     assert knots[span] <= t < knots[span + 1]
-    out, table = np.empty((4, degree + 1)), np.empty((degree + 1, degree + 1))
-    basis_derivatives(knots, degree, span, t, 3, table, out)
     for k in range(4):
         expected = [
             naive.basis(knots, degree, i, t, k) if k <= degree else 0.0
@@ -65,10 +65,8 @@ def test_basis_functions_are_those_of_the_definition(degree, spans, seed):
 def test_basis_functions_add_up_to_one_and_their_derivatives_to_nothing(degree):
     rng = np.random.default_rng(degree)
     knots = random_knots(rng, degree, 6)
-    out, table = np.empty((4, degree + 1)), np.empty((degree + 1, degree + 1))
     for t in rng.uniform(0.0, 1.0, 20):
-        span, _ = locate(knots, degree, t, np.nan, np.nan, 0.0)
-        basis_derivatives(knots, degree, span, t, 3, table, out)
+        _, _, out = basis(knots, degree, t, 3)
         assert (out[0] >= 0.0).all()
         assert out[0].sum() == pytest.approx(1.0, abs=1e-13)
         assert np.abs(out[1:].sum(axis=1) / np.abs(out[1:]).max(axis=1).clip(1)).max() < 1e-12
@@ -184,7 +182,33 @@ def test_beyond_the_ends_the_polynomial_goes_on():
 
 def test_empty_spans_at_the_ends_are_passed_over():
     knots = np.array([0, 0, 0, 0, 1, 2, 2, 2, 2.0])  # degree 2 with a knot too many at each end
-    assert locate(knots, 2, -0.5, np.nan, np.nan, 0.0) == (3, -0.5)
-    assert locate(knots, 2, 2.0, np.nan, np.nan, 0.0) == (4, 2.0)
-    assert locate(knots, 2, 2.0, 0.0, 2.0, 0.0) == (4, 2.0)
-    assert locate(knots, 2, 0.0, 0.0, 2.0, 0.0) == (3, 0.0)
+    assert basis(knots, 2, -0.5, 0, (np.nan, np.nan, 0.0))[:2] == (3, -0.5)
+    assert basis(knots, 2, 2.0, 0, (np.nan, np.nan, 0.0))[:2] == (4, 2.0)
+    assert basis(knots, 2, 2.0, 0, (0.0, 2.0, 0.0))[:2] == (4, 2.0)
+    assert basis(knots, 2, 0.0, 0, (0.0, 2.0, 0.0))[:2] == (3, 0.0)
+
+
+@pytest.mark.parametrize(
+    "knots, count",
+    [
+        ([0, 0, 1, 1], 1),  # fewer points than a degree has
+        ([0, 0, 1, 1], 3),  # too few knots
+        ([0, 0, 1, 0.5, 1], 3),
+        ([0, 0, np.nan, 1, 1], 3),
+        ([0, 0, 0, 0, 0], 3),
+    ],
+)
+def test_splines_that_are_none_are_refused(knots, count):
+    with pytest.raises(ValueError, match="knots"):
+        surfaces.spline_curve(np.array(knots, float), np.zeros((count, 3)), None, None, 0.0)
+
+
+def test_weights_of_another_number_are_refused():
+    knots = np.array([0.0, 0.0, 1.0, 1.0])
+    with pytest.raises(ValueError, match="weights"):
+        surfaces.spline_curve(knots, np.zeros((2, 3)), np.ones(3), None, 0.0)
+    domain = (0.0, 1.0), (0.0, 1.0)
+    with pytest.raises(ValueError, match="weight"):
+        surfaces.spline_surface(
+            domain, knots, knots, np.zeros((2, 2, 3)), np.ones((2, 3)), (0.0, 0.0)
+        )
