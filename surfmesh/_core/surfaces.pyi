@@ -109,6 +109,8 @@ def offset_surface(basis: Surface, distance: float) -> Surface:
     r + distance n with n along r_u x r_v, for a basis that has third derivatives.
     """
 
+PROJECTION_MARGIN: float = 0.01
+
 def closest_points(surface: Surface, points: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)], uv_guess: Annotated[NDArray[numpy.float64], dict(shape=(None, 2), order='C', device='cpu', writable=False)], steps: int = 2, margin: float = 0.01) -> tuple[Annotated[NDArray[numpy.float64], dict(shape=(None, 2))], Annotated[NDArray[numpy.float64], dict(shape=(None,))], Annotated[NDArray[numpy.float64], dict(shape=(None, 3))]]:
     """
     Nearest points of a surface to points (n, 3), from guesses (n, 2), never farther.

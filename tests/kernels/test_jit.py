@@ -50,14 +50,14 @@ import numpy as np
 import surfmesh as sm
 from surfmesh.kernels.triangulation.predicates import orient
 from surfmesh.meshing.patch.packing import packed
-from surfmesh.kernels.fields.background import Background
+from surfmesh._core.fields import Background
 
 field = Background(
     np.array([0.0, 0.0, 1.0, 1.0, 1e30]), np.array([1, 1]), np.array([-1], np.int32),
     np.arange(4, dtype=np.int32).reshape(1, 4), np.array([[5.0, 1.0, 4.0, 4.0]] * 4),
 )
 packing = packed(field, (0.0, 0.0, 1.0, 1.0), (0.5, 0.5), 30)
-print("circles", packing.t.count.tolist(), float(packing.t.xy[: packing.t.count[0]].sum()))
+print("circles", [packing.t.vertices, packing.t.triangles], float(packing.t.xy.sum()))
 {more}
 print("compiled", hasattr(orient, "py_func"))
 """

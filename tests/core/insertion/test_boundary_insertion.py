@@ -10,7 +10,6 @@ from naive.triangulation import check_triangulation, corners, live_triangles
 from surfmesh._core import insertion as core
 from surfmesh._core.insertion import APART, AROUND, LOWEST, Recovery
 from surfmesh._core.triangulation import INSIDE
-from surfmesh.meshing.boundary.boundary_recovery import background_in_core, triangulation_in_core
 from surfmesh.meshing.patch.packing import packed
 
 HOLES = [square(20), square(1, 0.1, 0.4)[::-1], star(5, 0.5, 0.1, (0.7, 0.7), 0.2)[::-1]]
@@ -20,7 +19,7 @@ def constant(h):
     """A packing of circles of size h, and their background."""
     background = constant_background(h, 1.0, 1.0)
     packing = packed(background, (0.0, 0.0, 1.0, 1.0), (0.5, 0.5), 2000, 20_000)
-    return triangulation_in_core(packing.t), background_in_core(background)
+    return packing.t, background
 
 
 def ring(first, count):
