@@ -21,7 +21,6 @@ import numpy as np
 import surfmesh as sm
 from surfmesh.geometry.differential.projection import closest_point
 from surfmesh.geometry.surface import Surface
-from surfmesh.kernels.fields.background import scalar_size_at
 from surfmesh.sizing.field.size_field import SizeField
 
 SPLINE_GRID = 160  # points each way that the spline interpolates
@@ -61,7 +60,7 @@ class WantedSize:
         p = np.array((x, y, z))
         i = self.tree.query(p)[1]
         x, y = self.xy[i] + self.inverse[i] @ (p - self.point[i])
-        wanted = scalar_size_at(self.field.background, x, y)
+        wanted = float(self.field.background.scalar_sizes(np.array([[x, y]]))[0])
         self.seconds += time.perf_counter() - start
         return wanted
 
@@ -215,7 +214,6 @@ def _measure(request: dict) -> dict:
     if surface.loops:
         return {"error": "trimming loops are not handed to other meshers"}
     size = WantedSize(surface, field_of(surface, request["sizing"]))
-    scalar_size_at(size.field.background, 0.0, 0.0)  # compiled or loaded outside the clock
     points, triangles, seconds = MESHERS[request["mesher"]](surface, size, request["expected"])
     triangles = triangles[_cornered(points, triangles)]
     used, corners = np.unique(triangles, return_inverse=True)

@@ -7,11 +7,11 @@ from typing import Any, Protocol, runtime_checkable
 
 import numpy as np
 
+from surfmesh._core.fields import Background
 from surfmesh.accuracy.shape import mean_ratio
 from surfmesh.errors import SizingError
 from surfmesh.geometry.number_range import RANGE
 from surfmesh.geometry.planar.planar_domain import PlanarRegion
-from surfmesh.kernels.fields.background import Background
 from surfmesh.kernels.packing.front import DONE
 from surfmesh.kernels.packing.packing_state import FITS, STEPS, Packing
 from surfmesh.kernels.triangulation.predicates import orient_triangles

@@ -31,11 +31,6 @@ Background::Check Background::check() const {
     return {BackgroundFault::none, 0};
 }
 
-CellPlace root_place(const Background& b, Cell root) {
-    return {b.box.x0 + (root % b.grid.nx) / b.box.across, b.box.y0 + (root / b.grid.nx) / b.box.up,
-            1.0 / b.box.across, 1.0 / b.box.up};
-}
-
 Array<SizeTensor> sizes(const Background& b, std::span<const Point2> xy) {
     Array<SizeTensor> out;
     out.reserve(xy.size());

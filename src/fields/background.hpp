@@ -21,6 +21,7 @@
 #include <span>
 
 #include "values/array.hpp"
+#include "values/conventions.hpp"
 #include "values/size_tensor.hpp"
 
 namespace surfmesh {
@@ -94,12 +95,6 @@ struct Background {
     [[nodiscard]] double scalar_size_at(double x, double y) const;
 };
 
-/// Lower left corner and width of a root cell, as the cells of a forest are walked through.
-struct CellPlace {
-    double x, y, wide, high;
-};
-[[nodiscard]] CellPlace root_place(const Background& b, Cell root);
-
 /// H = A^-1 with its eigenvalues capped at `largest` (those of A floored at 1 / largest).
 [[nodiscard]] SizeTensor invert(SizeTensor a, double largest);
 
@@ -150,12 +145,12 @@ inline SizeTensor Background::size_at(double x, double y) const {
 }
 
 inline MetricRoot3 Background::metric_root_3d_at(double x, double y) const {
-    const LeafWeights at = leaf(x, y);
     const Array<MetricRoot3>& w = metric_root_3d;
     if (w.empty()) {
-        const double inverse = at.mean([&](Node n) { return metric_root[n].inverse_size; });
+        const double inverse = 1.0 / scalar_size_at(x, y);
         return {inverse, 0.0, 0.0, inverse, 0.0, inverse};
     }
+    const LeafWeights at = leaf(x, y);
     return {at.mean([&](Node n) { return w[n].xx; }), at.mean([&](Node n) { return w[n].xy; }),
             at.mean([&](Node n) { return w[n].xz; }), at.mean([&](Node n) { return w[n].yy; }),
             at.mean([&](Node n) { return w[n].yz; }), at.mean([&](Node n) { return w[n].zz; })};

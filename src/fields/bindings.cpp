@@ -1,9 +1,15 @@
 #include <nanobind/stl/optional.h>
+#include <nanobind/stl/pair.h>
+#include <nanobind/stl/tuple.h>
 
 #include <optional>
 
 #include "binding/arrays.hpp"
+#include "fields/axis_bending.hpp"
 #include "fields/background.hpp"
+#include "fields/coverage.hpp"
+#include "fields/gradation.hpp"
+#include "fields/source_tree.hpp"
 #include "fields/tensors.hpp"
 
 namespace surfmesh::binding {
@@ -130,6 +136,9 @@ void bind_background(nb::module_& m) {
                                b.attr("metric_root"), b.attr("metric_root_3d")));
         },
         "So that it can be copied and sent to other processes.");
+    c.def("metric_area", &metric_area_of_box, nb::arg("x1"), nb::arg("y1"),
+          nb::call_guard<nb::gil_scoped_release>(),
+          "Integral of 1 / det H over [x0, x1] x [y0, y1], (x0, y0) the corner of the box.");
     c.def_prop_ro("is_anisotropic", &Background::is_anisotropic);
     bind_look_up(c, "sizes", &sizes, "Size tensors H (n, 3) at points (n, 2).");
     bind_look_up(c, "metric_roots", &metric_roots, "A = H^-1 (n, 3) at points (n, 2).");
@@ -139,11 +148,224 @@ void bind_background(nb::module_& m) {
                  "W (n, 6) at points (n, 2): Id / h where sizes are isotropic.");
 }
 
+/// An array that is changed in place.
+template <class T>
+using Changed = nb::ndarray<T, nb::ndim<1>, nb::c_contig, nb::device::cpu>;
+
+using Patches = Matrix<std::int32_t, 9>;
+using Pairs = Matrix<std::int32_t, 2>;
+
+/// What makes sizes anisotropic; nothing where they are isotropic.
+struct Directions {
+    std::span<double> longer;
+    std::span<const Point3> along, normal;
+    std::span<const std::uint8_t> round;
+};
+
+GradedSizes graded_sizes(const Points3& point, double slope, Changed<double>& size,
+                         Changed<std::int32_t>& changed, const Directions& directions) {
+    const std::size_t nodes = point.shape(0);
+    require_rows(size.size(), nodes, "size");
+    require_rows(changed.size(), nodes, "changed");
+    if (!directions.longer.empty()) {
+        require_rows(directions.longer.size(), nodes, "longer");
+        require_rows(directions.along.size(), nodes, "along");
+        require_rows(directions.normal.size(), nodes, "normal");
+        if (!directions.round.empty()) require_rows(directions.round.size(), nodes, "round");
+    }
+    return {{size.data(), nodes}, directions.longer,   directions.along,        directions.normal,
+            directions.round,     rows<Point3>(point), {changed.data(), nodes}, slope};
+}
+
+std::pair<std::int32_t, bool> graded(const Patches& patches, const Pairs& joined,
+                                     const GradedSizes& sizes, std::int32_t first,
+                                     std::int32_t sweeps) {
+    require_indices(std::span(patches.data(), patches.size()), sizes.size.size(), "patches");
+    require_indices(std::span(joined.data(), joined.size()), sizes.size.size(), "joined");
+    const nb::gil_scoped_release released;
+    const SweepsDone done =
+        grade(rows<Patch>(patches), rows<JoinedNodes>(joined), sizes, first, sweeps);
+    return {done.next, done.finished};
+}
+
+void bind_gradation(nb::module_& m) {
+    m.attr("TURN_SLOPE") = TURN_SLOPE;
+    m.def(
+        "grade",
+        [](const Patches& patches, const Pairs& joined, const Points3& point, double slope,
+           Changed<double> size, Changed<std::int32_t> changed, std::int32_t first,
+           std::int32_t sweeps) {
+            const auto sizes = graded_sizes(point, slope, size, changed, {});
+            return graded(patches, joined, sizes, first, sweeps);
+        },
+        nb::arg("patches"), nb::arg("joined"), nb::arg("point"), nb::arg("slope"),
+        nb::arg("size").noconvert(), nb::arg("changed").noconvert(), nb::arg("first"),
+        nb::arg("sweeps"),
+        "Lower size (nodes,), in place, until no neighbours differ by more than slope allows.\n\n"
+        "patches (cells, 9), joined (k, 2): nodes; point (nodes, 3). changed (nodes,): the number "
+        "of the last sweep that lowered a node.\nReturns the number of the next sweep, and "
+        "whether the sweeps sufficed.");
+    m.def(
+        "grade_stretched",
+        [](const Patches& patches, const Pairs& joined, const Points3& point, double slope,
+           Changed<double> size, Changed<double> longer, const Points3& along,
+           const Points3& normal, const Vector<std::uint8_t>& round, Changed<std::int32_t> changed,
+           std::int32_t first, std::int32_t sweeps) {
+            const Directions directions{{longer.data(), longer.size()},
+                                        rows<Point3>(along),
+                                        rows<Point3>(normal),
+                                        rows<std::uint8_t>(round)};
+            require_rows(longer.size(), point.shape(0), "longer");
+            const auto sizes = graded_sizes(point, slope, size, changed, directions);
+            return graded(patches, joined, sizes, first, sweeps);
+        },
+        nb::arg("patches"), nb::arg("joined"), nb::arg("point"), nb::arg("slope"),
+        nb::arg("size").noconvert(), nb::arg("longer").noconvert(), nb::arg("along"),
+        nb::arg("normal"), nb::arg("round"), nb::arg("changed").noconvert(), nb::arg("first"),
+        nb::arg("sweeps"),
+        "The same of two sizes: longer (nodes,) along the unit tangents along (nodes, 3), size at "
+        "right angles to them.\n\nnormal (nodes, 3): unit, or zero where there is none. round: "
+        "(nodes,) where longer stays the longer one, or (0,).");
+    m.def(
+        "patch_errors",
+        [](const Patches& patches, const SizeTensors& metric_root, const Points2& step,
+           double largest) {
+            require_indices(std::span(patches.data(), patches.size()), metric_root.shape(0),
+                            "patches");
+            require_rows(step.shape(0), patches.shape(0), "step");
+            Array<double> error, extent;
+            for (std::size_t k = 0; k < patches.shape(0); ++k) {
+                const PatchError found =
+                    patch_error(rows<Patch>(patches)[k], rows<SizeTensor>(metric_root),
+                                rows<Point2>(step)[k], largest);
+                error.push_back(found.error);
+                extent.push_back(found.extent);
+            }
+            return std::pair(view(error), view(extent));
+        },
+        nb::arg("patches"), nb::arg("metric_root"), nb::arg("step"), nb::arg("largest"),
+        "How far the field in each patch (cells, 9) is from bilinear, relative, (cells,); and how "
+        "many edges wide it is, (cells,).\n\nmetric_root (nodes, 3): A = H^-1. step (cells, 2): "
+        "width and height. largest: size above which none counts.");
+}
+
+void bind_sources(nb::module_& m) {
+    m.attr("MOST_IN_A_ROW") = MOST_IN_A_ROW;
+    m.def(
+        "grow_tree",
+        [](const Points2& place, const Vector<double>& size,
+           std::tuple<double, double, double> metric, double slope, double largest,
+           std::tuple<double, double, double, double> root, std::pair<double, double> upper,
+           std::pair<std::int32_t, std::int32_t> grid, double largest_in_plane,
+           std::int64_t most_cells) -> std::optional<Background> {
+            require_rows(size.shape(0), place.shape(0), "size");
+            const auto [nx, ny] = grid;
+            if (nx < 1 || ny < 1 || nx > MOST_IN_A_ROW || ny > MOST_IN_A_ROW)
+                throw nb::value_error("grid is not positive, or larger than MOST_IN_A_ROW");
+            if (most_cells < 1 || most_cells > (std::int64_t{1} << 30))
+                throw nb::value_error("most_cells is not from 1 to 2^30");
+            if (place.shape(0) > (std::size_t{1} << 30))
+                throw nb::value_error("there are more than 2^30 sources");
+            const auto [e, f, g] = metric;
+            const auto [x0, y0, wide, high] = root;
+            const Sources sources{rows<Point2>(place), rows<double>(size), e, f, g, slope, largest};
+            const RootCells roots{x0, y0, wide, high, upper.first, upper.second, nx, ny};
+            const nb::gil_scoped_release released;
+            GrownTree grown = grow_tree(sources, roots, largest_in_plane, most_cells);
+            if (grown.status == TreeStatus::too_many_cells) return std::nullopt;
+            return std::move(grown.background);
+        },
+        nb::arg("place"), nb::arg("size"), nb::arg("metric"), nb::arg("slope"), nb::arg("largest"),
+        nb::arg("root"), nb::arg("upper"), nb::arg("grid"), nb::arg("largest_in_plane"),
+        nb::arg("most_cells"),
+        "The background of the sizes min(largest, size_k + slope distance_k) of sources at place "
+        "(n, 2).\n\nmetric: the constant E, F, G. root: x0, y0, width and height of a root cell; "
+        "upper: the corner of what is asked for; grid: root cells along x and y. None when more "
+        "than most_cells are needed.");
+}
+
+void bind_axis_bending(nb::module_& m) {
+    m.def(
+        "bend",
+        [](const Vector<double>& x, double extent, const Vector<double>& knots,
+           const Vector<double>& slopes) {
+            if (!(extent > 0.0) || !std::isfinite(extent))
+                throw nb::value_error("extent is not a positive number");
+            if (knots.shape(0) < 2) throw nb::value_error("there are fewer than two knots");
+            require_rows(slopes.shape(0), knots.shape(0), "slopes");
+            const BentAxis axis{extent, rows<double>(knots), rows<double>(slopes)};
+            Array<double> parameter(x.shape(0)), rate(x.shape(0));
+            for (std::size_t k = 0; k < x.shape(0); ++k) {
+                const ParameterAndRate at = bend(axis, x(k));
+                parameter[k] = at.parameter;
+                rate[k] = at.rate;
+            }
+            return std::pair(view(parameter), view(rate));
+        },
+        nb::arg("x"), nb::arg("extent"), nb::arg("knots"), nb::arg("slopes"),
+        "The parameter (n,) at scaled coordinates x (n,), and its derivative by x (n,).\n\nknots "
+        "and slopes (k,): the parameter and its derivative at k even coordinates from 0 to extent; "
+        "linear outside.");
+}
+
+void bind_tensors(nb::module_& m) {
+    m.def(
+        "solve",
+        [](std::tuple<double, double, double> h, double x, double y) {
+            const auto [xx, xy, yy] = h;
+            const Point2 found = solve(SizeTensor{xx, xy, yy}, Point2{x, y});
+            return std::pair(found.x, found.y);
+        },
+        nb::arg("h"), nb::arg("x"), nb::arg("y"), "H^-1 (x, y).");
+    m.def(
+        "invert",
+        [](double xx, double xy, double yy, double largest) {
+            const SizeTensor h = invert({xx, xy, yy}, largest);
+            return std::tuple(h.xx, h.xy, h.yy);
+        },
+        nb::arg("xx"), nb::arg("xy"), nb::arg("yy"), nb::arg("largest"),
+        "H = A^-1 with its eigenvalues capped at largest.");
+    m.def(
+        "edge_lengths",
+        [](const Points2& xy, const SizeTensors& size, const Pairs& edges) {
+            require_rows(size.shape(0), xy.shape(0), "size");
+            require_indices(std::span(edges.data(), edges.size()), xy.shape(0), "edges");
+            const Array<Point2> point(rows<Point2>(xy));
+            const Array<SizeTensor> tensor(rows<SizeTensor>(size));
+            Array<double> length;
+            for (std::size_t k = 0; k < edges.shape(0); ++k)
+                length.push_back(edge_length(point, tensor, edges(k, 0), edges(k, 1)));
+            return view(length);
+        },
+        nb::arg("xy"), nb::arg("size"), nb::arg("edges"),
+        "Metric lengths (n,) of edges (n, 2) between vertices at xy (v, 2) with size tensors "
+        "(v, 3).");
+    m.def(
+        "shape",
+        [](double ux, double uy, double vx, double vy) { return shape({ux, uy}, {vx, vy}); },
+        nb::arg("ux"), nb::arg("uy"), nb::arg("vx"), nb::arg("vy"),
+        "alpha = 4 sqrt(3) area / sum of squared edges, of a triangle with edge vectors u, v.");
+    m.def(
+        "triangle_shape",
+        [](const Points2& xy, const SizeTensors& size) {
+            require_rows(xy.shape(0), 3, "xy");
+            require_rows(size.shape(0), 3, "size");
+            return triangle_shape(Array<Point2>(rows<Point2>(xy)),
+                                  Array<SizeTensor>(rows<SizeTensor>(size)), 0, 1, 2);
+        },
+        nb::arg("xy"), nb::arg("size"),
+        "alpha of the triangle xy (3, 2) in the mean metric of its corners' tensors (3, 3).");
+}
+
 }  // namespace
 
 void bind_fields(nb::module_& m) {
     m.doc() = "Size tensors, their gradation, and the look-up in a background.";
+    bind_tensors(m);
+    bind_axis_bending(m);
     bind_background(m);
+    bind_sources(m);
+    bind_gradation(m);
 }
 
 }  // namespace surfmesh::binding

@@ -1,7 +1,243 @@
+#include <nanobind/stl/pair.h>
+
+#include <algorithm>
+#include <string>
+
 #include "binding/arrays.hpp"
+#include "space/box_tree.hpp"
+#include "space/edge_distances.hpp"
+#include "space/measure.hpp"
+#include "space/orient_space.hpp"
+#include "space/triangle_pairs.hpp"
 
 namespace surfmesh::binding {
 
-void bind_space(nb::module_& m) { m.doc() = "What is measured and decided in three dimensions."; }
+template <>
+struct Row<MeetingTriangles> {
+    using Number = std::int32_t;
+    static constexpr std::size_t columns = 2;
+};
+template <>
+struct Row<TriangleCorners> {
+    using Number = std::int32_t;
+    static constexpr std::size_t columns = 3;
+};
+template <>
+struct Row<ThingPair> {
+    using Number = std::int32_t;
+    static constexpr std::size_t columns = 2;
+};
+template <>
+struct Row<TriangleShape> {
+    using Number = double;
+    static constexpr std::size_t columns = 5;
+};
+template <>
+struct Row<TangentPlaneOffset> {
+    using Number = double;
+    static constexpr std::size_t columns = 7;
+};
+template <>
+struct Row<Box3> {
+    using Number = double;
+    static constexpr std::size_t columns = 6;
+};
+
+namespace {
+
+using Triangles = Matrix<std::int32_t, 3>;
+using Indices = Vector<std::int64_t>;
+
+void require_corners(const Triangles& triangles, std::size_t points) {
+    require_indices(std::span(triangles.data(), triangles.size()), points, "triangles");
+}
+
+void bind_triangle_pairs(nb::module_& m) {
+    m.def(
+        "orient_space",
+        [](const Points3& corners) {
+            require_rows(corners.shape(0), 4, "corners");
+            const auto p = rows<Point3>(corners);
+            return orient_space(p[0], p[1], p[2], p[3]);
+        },
+        nb::arg("corners"),
+        "Six times the signed volume of abcd, the rows of (4, 3); its sign is exact: > 0 where abc "
+        "is seen from d clockwise. nan where a coordinate is not finite.");
+    m.def(
+        "triangles_meet",
+        [](const Points3& corners) {
+            require_rows(corners.shape(0), 6, "corners");
+            const auto triangles = rows<Point3>(corners);
+            return triangles_meet({triangles[0], triangles[1], triangles[2]},
+                                  {triangles[3], triangles[4], triangles[5]});
+        },
+        nb::arg("corners"),
+        "Do two triangles, the rows of (6, 3), finite, meet where they should not?");
+    m.def(
+        "curve_places",
+        [](const Points3& points, const Triangles& triangles,
+           const nb::ndarray<const double, nb::shape<3>, nb::c_contig, nb::device::cpu>& low,
+           double scale) {
+            require_corners(triangles, points.shape(0));
+            Array<std::int64_t> places;
+            {
+                const nb::gil_scoped_release released;
+                places = curve_places(rows<Point3>(points), rows<TriangleCorners>(triangles),
+                                      {low.data()[0], low.data()[1], low.data()[2]}, scale);
+            }
+            return view(places);
+        },
+        nb::arg("points"), nb::arg("triangles"), nb::arg("low"), nb::arg("scale"),
+        "Place (m,) of each triangle's centroid along the Z-order curve through a box.\n\n"
+        "points (n, 3), finite; triangles (m, 3); low (3,): corner of the box; scale: 2^20 over "
+        "its longest side, a little less.");
+    m.def(
+        "meeting_triangles",
+        [](const Points3& corners, std::size_t most) {
+            if (corners.shape(0) % 3 != 0) throw nb::value_error("corners has 3 rows a triangle");
+            Array<MeetingTriangles> found;
+            {
+                const nb::gil_scoped_release released;
+                const auto* triangles = reinterpret_cast<const Triangle3*>(corners.data());
+                found = meeting_triangles({triangles, corners.shape(0) / 3}, most);
+            }
+            return view(found);
+        },
+        nb::arg("corners"), nb::arg("most"),
+        "Pairs (k, 2) of triangles that meet where they should not, the lower first.\n\ncorners: "
+        "(3 m, 3), finite; quick where near triangles are near in the row. The search ends after "
+        "the triangle with which there are ``most`` pairs or more.");
+}
+
+void bind_edge_gaps(nb::module_& m) {
+    m.def(
+        "edge_gaps",
+        [](const Points3& points, const Vector<double>& reach, const Indices& first,
+           const Matrix<std::int64_t, 2>& ends, const Indices& edges,
+           const Indices& first_of_face) {
+            const auto require_offsets = [](const Indices& offsets, std::size_t last,
+                                            const char* what) {
+                const auto values = rows<std::int64_t>(offsets);
+                if (values.empty() || values.front() != 0 ||
+                    values.back() != static_cast<std::int64_t>(last) ||
+                    !std::is_sorted(values.begin(), values.end()))
+                    throw nb::value_error((std::string(what) + " are no offsets").c_str());
+            };
+            require_rows(reach.shape(0), points.shape(0), "reach");
+            require_offsets(first, points.shape(0), "first");
+            require_rows(ends.shape(0), first.shape(0) - 1, "ends");
+            require_offsets(first_of_face, edges.shape(0), "first_of_face");
+            require_indices(rows<std::int64_t>(edges), ends.shape(0), "edges");
+            EdgeGaps found;
+            {
+                const nb::gil_scoped_release released;
+                found = edge_gaps({rows<Point3>(points), rows<double>(reach),
+                                   rows<std::int64_t>(first), rows<SegmentEnds>(ends),
+                                   rows<std::int64_t>(edges), rows<std::int64_t>(first_of_face)});
+            }
+            return std::pair(view(found.gap), view(found.boxes));
+        },
+        nb::arg("points"), nb::arg("reach"), nb::arg("first"), nb::arg("ends"), nb::arg("edges"),
+        nb::arg("first_of_face"),
+        "Distance (n,) of each sample from the edges that share a face with its own but no vertex, "
+        "and boxes (e, 6) around the edges, rows (low, high).\n\npoints (n, 3): samples, of edge e "
+        "those from first[e] to first[e + 1]; reach (n,): farther than this is not looked at, the "
+        "distance is infinite. ends (e, 2): vertices; edges, first_of_face: those of each face in "
+        "one row.");
+}
+
+void bind_shapes(nb::module_& m) {
+    m.def(
+        "triangle_shapes",
+        [](const Points3& points, const Triangles& triangles) {
+            require_corners(triangles, points.shape(0));
+            Array<TriangleShape> shapes;
+            {
+                const nb::gil_scoped_release released;
+                shapes = triangle_shapes(rows<Point3>(points), rows<TriangleCorners>(triangles));
+            }
+            return view(shapes);
+        },
+        nb::arg("points"), nb::arg("triangles"),
+        "Shape (m, 5) of every triangle, measured in 3D: area; alpha = 4 sqrt(3) area / sum of "
+        "squared edges; radius ratio 2 r_in / r_circum; smallest and largest angle in radians.\n\n"
+        "1 is best for alpha and the radius ratio, 0 is a triangle without area.");
+    m.def(
+        "interpolate",
+        [](const nb::ndarray<const double, nb::ndim<2>, nb::c_contig, nb::device::cpu>& values,
+           const Triangles& corners, const Vector<std::int32_t>& triangle,
+           const Vector<std::int32_t>& rule, const Matrix<double, 3>& weights) {
+            require_corners(corners, values.shape(0));
+            require_indices(rows<std::int32_t>(triangle), corners.shape(0), "triangle");
+            require_rows(rule.shape(0), triangle.shape(0), "rule");
+            require_indices(rows<std::int32_t>(rule), weights.shape(0), "rule");
+            const std::size_t shape[] = {triangle.shape(0), values.shape(1)};
+            Array<double> found;
+            {
+                const nb::gil_scoped_release released;
+                found = interpolate({values.data(), values.size()}, shape[1],
+                                    rows<TriangleCorners>(corners), rows<std::int32_t>(triangle),
+                                    rows<std::int32_t>(rule), rows<Weights>(weights));
+            }
+            return nb::ndarray<nb::numpy, double, nb::ndim<2>>(found.data(), 2, shape,
+                                                               owner_of(found));
+        },
+        nb::arg("corner_values"), nb::arg("corners"), nb::arg("triangle"), nb::arg("rule"),
+        nb::arg("weights"),
+        "Values (k, d) at barycentric places in triangles.\n\ncorner_values (n, d); corners (m, "
+        "3): "
+        "rows of them; triangle (k,), rule (k,): the triangle of each sample, and its row of "
+        "weights (w, 3).");
+}
+
+void bind_distances(nb::module_& m) {
+    m.def(
+        "tangent_plane_offsets",
+        [](const Points3& points, const Points3& feet, const Points3& ru, const Points3& rv) {
+            const std::size_t count = points.shape(0);
+            require_rows(feet.shape(0), count, "feet");
+            require_rows(ru.shape(0), count, "ru");
+            require_rows(rv.shape(0), count, "rv");
+            Array<TangentPlaneOffset> found;
+            {
+                const nb::gil_scoped_release released;
+                found.reserve(count);
+                for (std::size_t i = 0; i < count; ++i)
+                    found.push_back(tangent_plane_offset(
+                        rows<Point3>(points)[i],
+                        {rows<Point3>(feet)[i], rows<Point3>(ru)[i], rows<Point3>(rv)[i]}));
+            }
+            return view(found);
+        },
+        nb::arg("points"), nb::arg("feet"), nb::arg("ru"), nb::arg("rv"),
+        "Where points (n, 3) lie relative to the tangent planes at feet r(u, v) near them: (n, 7)."
+        "\n\nUnit normal along r_u x r_v (zero where there is none); distance along it (the whole "
+        "distance where there is none); distance within the tangent plane; the step in (u, v) that "
+        "covers the latter (Gauss-Newton).");
+    m.def(
+        "component_labels",
+        [](std::size_t count, const Matrix<std::int32_t, 2>& pairs) {
+            require_indices(std::span(pairs.data(), pairs.size()), count, "pairs");
+            Array<std::int32_t> labels;
+            {
+                const nb::gil_scoped_release released;
+                labels = component_labels(count, rows<ThingPair>(pairs));
+            }
+            return view(labels);
+        },
+        nb::arg("count"), nb::arg("pairs"),
+        "Label (count,) things 0 .. count - 1 by connected component: the smallest member of each."
+        "\n\npairs: (k, 2), things that belong together.");
+}
+
+}  // namespace
+
+void bind_space(nb::module_& m) {
+    m.doc() = "What is measured and decided in space: shapes, distances, triangles that meet.";
+    bind_triangle_pairs(m);
+    bind_edge_gaps(m);
+    bind_shapes(m);
+    bind_distances(m);
+}
 
 }  // namespace surfmesh::binding

@@ -6,6 +6,34 @@ import numpy
 from numpy.typing import NDArray
 
 
+def solve(h: tuple[float, float, float], x: float, y: float) -> tuple[float, float]:
+    """H^-1 (x, y)."""
+
+def invert(xx: float, xy: float, yy: float, largest: float) -> tuple[float, float, float]:
+    """H = A^-1 with its eigenvalues capped at largest."""
+
+def edge_lengths(xy: Annotated[NDArray[numpy.float64], dict(shape=(None, 2), order='C', device='cpu', writable=False)], size: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)], edges: Annotated[NDArray[numpy.int32], dict(shape=(None, 2), order='C', device='cpu', writable=False)]) -> Annotated[NDArray[numpy.float64], dict(shape=(None,))]:
+    """
+    Metric lengths (n,) of edges (n, 2) between vertices at xy (v, 2) with size tensors (v, 3).
+    """
+
+def shape(ux: float, uy: float, vx: float, vy: float) -> float:
+    """
+    alpha = 4 sqrt(3) area / sum of squared edges, of a triangle with edge vectors u, v.
+    """
+
+def triangle_shape(xy: Annotated[NDArray[numpy.float64], dict(shape=(None, 2), order='C', device='cpu', writable=False)], size: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)]) -> float:
+    """
+    alpha of the triangle xy (3, 2) in the mean metric of its corners' tensors (3, 3).
+    """
+
+def bend(x: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)], extent: float, knots: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)], slopes: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)]) -> tuple[Annotated[NDArray[numpy.float64], dict(shape=(None,))], Annotated[NDArray[numpy.float64], dict(shape=(None,))]]:
+    """
+    The parameter (n,) at scaled coordinates x (n,), and its derivative by x (n,).
+
+    knots and slopes (k,): the parameter and its derivative at k even coordinates from 0 to extent; linear outside.
+    """
+
 class Background:
     """Size tensors on a forest of quadtrees over a box of the scaled plane."""
 
@@ -47,6 +75,11 @@ class Background:
     def __reduce__(self) -> tuple:
         """So that it can be copied and sent to other processes."""
 
+    def metric_area(self, x1: float, y1: float) -> float:
+        """
+        Integral of 1 / det H over [x0, x1] x [y0, y1], (x0, y0) the corner of the box.
+        """
+
     @property
     def is_anisotropic(self) -> bool: ...
 
@@ -63,3 +96,36 @@ class Background:
 
     def metric_roots_3d(self, xy: Annotated[NDArray[numpy.float64], dict(shape=(None, 2), order='C', device='cpu', writable=False)]) -> Annotated[NDArray[numpy.float64], dict(shape=(None, 6))]:
         """W (n, 6) at points (n, 2): Id / h where sizes are isotropic."""
+
+MOST_IN_A_ROW: int = 64
+
+def grow_tree(place: Annotated[NDArray[numpy.float64], dict(shape=(None, 2), order='C', device='cpu', writable=False)], size: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)], metric: tuple[float, float, float], slope: float, largest: float, root: tuple[float, float, float, float], upper: tuple[float, float], grid: tuple[int, int], largest_in_plane: float, most_cells: int) -> Background | None:
+    """
+    The background of the sizes min(largest, size_k + slope distance_k) of sources at place (n, 2).
+
+    metric: the constant E, F, G. root: x0, y0, width and height of a root cell; upper: the corner of what is asked for; grid: root cells along x and y. None when more than most_cells are needed.
+    """
+
+TURN_SLOPE: float = 3.0
+
+def grade(patches: Annotated[NDArray[numpy.int32], dict(shape=(None, 9), order='C', device='cpu', writable=False)], joined: Annotated[NDArray[numpy.int32], dict(shape=(None, 2), order='C', device='cpu', writable=False)], point: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)], slope: float, size: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu')], changed: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu')], first: int, sweeps: int) -> tuple[int, bool]:
+    """
+    Lower size (nodes,), in place, until no neighbours differ by more than slope allows.
+
+    patches (cells, 9), joined (k, 2): nodes; point (nodes, 3). changed (nodes,): the number of the last sweep that lowered a node.
+    Returns the number of the next sweep, and whether the sweeps sufficed.
+    """
+
+def grade_stretched(patches: Annotated[NDArray[numpy.int32], dict(shape=(None, 9), order='C', device='cpu', writable=False)], joined: Annotated[NDArray[numpy.int32], dict(shape=(None, 2), order='C', device='cpu', writable=False)], point: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)], slope: float, size: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu')], longer: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu')], along: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)], normal: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)], round: Annotated[NDArray[numpy.uint8], dict(shape=(None,), order='C', device='cpu', writable=False)], changed: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu')], first: int, sweeps: int) -> tuple[int, bool]:
+    """
+    The same of two sizes: longer (nodes,) along the unit tangents along (nodes, 3), size at right angles to them.
+
+    normal (nodes, 3): unit, or zero where there is none. round: (nodes,) where longer stays the longer one, or (0,).
+    """
+
+def patch_errors(patches: Annotated[NDArray[numpy.int32], dict(shape=(None, 9), order='C', device='cpu', writable=False)], metric_root: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)], step: Annotated[NDArray[numpy.float64], dict(shape=(None, 2), order='C', device='cpu', writable=False)], largest: float) -> tuple[Annotated[NDArray[numpy.float64], dict(shape=(None,))], Annotated[NDArray[numpy.float64], dict(shape=(None,))]]:
+    """
+    How far the field in each patch (cells, 9) is from bilinear, relative, (cells,); and how many edges wide it is, (cells,).
+
+    metric_root (nodes, 3): A = H^-1. step (cells, 2): width and height. largest: size above which none counts.
+    """

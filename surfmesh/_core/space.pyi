@@ -1,1 +1,68 @@
-"""What is measured and decided in three dimensions."""
+"""
+What is measured and decided in space: shapes, distances, triangles that meet.
+"""
+
+from typing import Annotated
+
+import numpy
+from numpy.typing import NDArray
+
+
+def orient_space(corners: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)]) -> float:
+    """
+    Six times the signed volume of abcd, the rows of (4, 3); its sign is exact: > 0 where abc is seen from d clockwise. nan where a coordinate is not finite.
+    """
+
+def triangles_meet(corners: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)]) -> bool:
+    """
+    Do two triangles, the rows of (6, 3), finite, meet where they should not?
+    """
+
+def curve_places(points: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)], triangles: Annotated[NDArray[numpy.int32], dict(shape=(None, 3), order='C', device='cpu', writable=False)], low: Annotated[NDArray[numpy.float64], dict(shape=(3), order='C', device='cpu', writable=False)], scale: float) -> Annotated[NDArray[numpy.int64], dict(shape=(None,))]:
+    """
+    Place (m,) of each triangle's centroid along the Z-order curve through a box.
+
+    points (n, 3), finite; triangles (m, 3); low (3,): corner of the box; scale: 2^20 over its longest side, a little less.
+    """
+
+def meeting_triangles(corners: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)], most: int) -> Annotated[NDArray[numpy.int32], dict(shape=(None, 2))]:
+    """
+    Pairs (k, 2) of triangles that meet where they should not, the lower first.
+
+    corners: (3 m, 3), finite; quick where near triangles are near in the row. The search ends after the triangle with which there are ``most`` pairs or more.
+    """
+
+def edge_gaps(points: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)], reach: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)], first: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], ends: Annotated[NDArray[numpy.int64], dict(shape=(None, 2), order='C', device='cpu', writable=False)], edges: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], first_of_face: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)]) -> tuple[Annotated[NDArray[numpy.float64], dict(shape=(None,))], Annotated[NDArray[numpy.float64], dict(shape=(None, 6))]]:
+    """
+    Distance (n,) of each sample from the edges that share a face with its own but no vertex, and boxes (e, 6) around the edges, rows (low, high).
+
+    points (n, 3): samples, of edge e those from first[e] to first[e + 1]; reach (n,): farther than this is not looked at, the distance is infinite. ends (e, 2): vertices; edges, first_of_face: those of each face in one row.
+    """
+
+def triangle_shapes(points: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)], triangles: Annotated[NDArray[numpy.int32], dict(shape=(None, 3), order='C', device='cpu', writable=False)]) -> Annotated[NDArray[numpy.float64], dict(shape=(None, 5))]:
+    """
+    Shape (m, 5) of every triangle, measured in 3D: area; alpha = 4 sqrt(3) area / sum of squared edges; radius ratio 2 r_in / r_circum; smallest and largest angle in radians.
+
+    1 is best for alpha and the radius ratio, 0 is a triangle without area.
+    """
+
+def interpolate(corner_values: Annotated[NDArray[numpy.float64], dict(shape=(None, None), order='C', device='cpu', writable=False)], corners: Annotated[NDArray[numpy.int32], dict(shape=(None, 3), order='C', device='cpu', writable=False)], triangle: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], rule: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], weights: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)]) -> Annotated[NDArray[numpy.float64], dict(shape=(None, None))]:
+    """
+    Values (k, d) at barycentric places in triangles.
+
+    corner_values (n, d); corners (m, 3): rows of them; triangle (k,), rule (k,): the triangle of each sample, and its row of weights (w, 3).
+    """
+
+def tangent_plane_offsets(points: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)], feet: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)], ru: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)], rv: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)]) -> Annotated[NDArray[numpy.float64], dict(shape=(None, 7))]:
+    """
+    Where points (n, 3) lie relative to the tangent planes at feet r(u, v) near them: (n, 7).
+
+    Unit normal along r_u x r_v (zero where there is none); distance along it (the whole distance where there is none); distance within the tangent plane; the step in (u, v) that covers the latter (Gauss-Newton).
+    """
+
+def component_labels(count: int, pairs: Annotated[NDArray[numpy.int32], dict(shape=(None, 2), order='C', device='cpu', writable=False)]) -> Annotated[NDArray[numpy.int32], dict(shape=(None,))]:
+    """
+    Label (count,) things 0 .. count - 1 by connected component: the smallest member of each.
+
+    pairs: (k, 2), things that belong together.
+    """

@@ -11,11 +11,11 @@ that suffices, and to the nearest point of the surface where it does not:
 import numpy as np
 from numpy.typing import NDArray
 
+from surfmesh._core import space
 from surfmesh.accuracy.samples import CENTROID, DENSE_INNER, MIDDLES
 from surfmesh.geometry.differential.chart import Chart
 from surfmesh.geometry.differential.projection import closest_from_corners, closest_point
 from surfmesh.geometry.surface import Surface
-from surfmesh.kernels.space.measure import tangent_plane_distances
 
 NEAR_FOOT = 0.05
 """Of the triangle's size. With d near k h^2 / 8 for the distance to the tangent plane at a foot
@@ -47,10 +47,7 @@ def tangent_plane_offsets(
 
     Unit normal, distance along it and across it, and the step in (u, v) across.
     """
-    found = np.empty((len(points), 7))
-    foot = (np.ascontiguousarray(array, np.float64) for array in surface.evaluate(uv, 1))
-    tangent_plane_distances(points, *foot, found)
-    return found
+    return space.tangent_plane_offsets(points, *surface.evaluate(uv, 1))
 
 
 def point_deviations(

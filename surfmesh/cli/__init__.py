@@ -7,6 +7,7 @@ arguments: what can be typed; the options of ``Sizing`` and of ``load`` are name
 commands: what each command does.
 inputs: the sizes asked for, and the surface or mesh that INPUT names.
 outputs: the files beside the mesh.
+scheduler: the machines that a Dask scheduler knows, as an executor.
 progress, terminal: what is said while the user waits, and what reaches the terminal.
 """
 

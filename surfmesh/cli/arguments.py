@@ -120,6 +120,10 @@ def _add_mesh(commands: _Commands) -> None:
     mesh.add_argument(
         "--jobs", type=_whole(1, 1000), default=1, help="faces meshed at once (default 1)"
     )
+    mesh.add_argument(
+        "--scheduler", metavar="ADDRESS",
+        help="mesh the faces on the machines of a Dask scheduler, such as tcp://host:8786",
+    )  # fmt: skip
     mesh.add_argument("--picture", metavar="PNG", help="write a picture too")
     mesh.add_argument("--by", default="alpha", choices=_COLOURS, help="colour of the picture")
     mesh.add_argument("--report", metavar="JSON|HTML", help="write the report too")
@@ -278,6 +282,12 @@ def _add_units(parser: argparse.ArgumentParser) -> None:
         metavar="MB",
         help="of memory for reading a CAD file (default 1000 and 100 for each MB of it)",
     )
+    parser.add_argument(
+        "--no-isolate",
+        dest="isolate",
+        action="store_false",
+        help="read a CAD file that you trust in this process, without limits",
+    )
 
 
 def _add_second_opinion(parser: argparse.ArgumentParser) -> None:
@@ -339,7 +349,7 @@ _SIZES: dict[str, tuple[Callable[[str], float], str]] = {  # options of Sizing
     "gap": (_positive, "triangles across thin faces and gaps"),
     "limit": (_whole(1), "most triangles (default 20 million)"),
 }
-_READING = ("units", "imprint", "sew", "time_limit", "memory_limit")  # options of load
+_READING = ("units", "imprint", "sew", "time_limit", "memory_limit", "isolate")  # options of load
 
 
 def _brief(text: str) -> str:

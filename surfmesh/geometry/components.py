@@ -3,11 +3,9 @@
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from surfmesh.kernels.space.measure import component_labels
+from surfmesh._core.space import component_labels
 
 
 def components(count: int, pairs: ArrayLike) -> NDArray[np.int32]:
     """(count,) the smallest of those that each thing hangs together with; pairs: (k, 2) things."""
-    labels = np.empty(count, np.int32)
-    component_labels(np.ascontiguousarray(pairs, np.int32).reshape(-1, 2), labels)
-    return labels
+    return component_labels(count, np.ascontiguousarray(pairs, np.int32).reshape(-1, 2))

@@ -6,11 +6,12 @@ edges cut once -> one job a face -> faces meshed -> joined by node numbers
         failed or lie too far away
 """
 
-from collections.abc import Iterator, Mapping
-from concurrent.futures import ThreadPoolExecutor
+from __future__ import annotations
+
+from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from functools import partial
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -23,10 +24,9 @@ from surfmesh.meshing.estimate.model_estimate import model_counts, require_model
 from surfmesh.meshing.estimate.trial_faces import ratios
 from surfmesh.meshing.estimate.trial_mesh import ROUNDS as TRIAL_ROUNDS
 from surfmesh.meshing.estimate.trial_mesh import WHOLE, WHOLE_STRETCHED, counts_within_budget
-from surfmesh.meshing.explain.explanation import Explanation, explain_model
-from surfmesh.meshing.faces.face_data import FaceJob, FaceMesh
 from surfmesh.meshing.faces.face_mesh import edge_refinement, mesh_face
 from surfmesh.meshing.faces.face_state import FaceState, face_states, first_jobs
+from surfmesh.meshing.faces.face_workers import FaceWorkers
 from surfmesh.meshing.faces.opposite_faces import copied, opposite_pairs
 from surfmesh.meshing.finishing.edge_collapse import LEAST, simplified
 from surfmesh.meshing.patch.refinement_loop import MAX_ROUNDS, refined_in_rounds
@@ -43,6 +43,9 @@ from surfmesh.sizing.options.model_sizing import ModelSizing, model_sizing
 from surfmesh.sizing.rules.size_limits import SizeLimits
 from surfmesh.sizing.rules.volume_rule import with_volume_rule
 
+if TYPE_CHECKING:
+    from surfmesh.meshing.explain.explanation import Explanation
+
 FACE_WORK = 400
 """Units of work of a face besides its triangles, see ``WorkBudget``; from the seconds it takes."""
 
@@ -52,20 +55,21 @@ MAX_VOLUME_ROUNDS = 4
 
 def mesh_model(
     model: CadModel, sizing: Any, optimise: bool = True, progress: Progress | None = None,
-    strict: bool = True, simplify: bool = False, workers: int = 1, rounds: int = MAX_ROUNDS,
+    strict: bool = True, simplify: bool = False, workers: FaceWorkers | None = None,
+    rounds: int = MAX_ROUNDS,
 ) -> SurfaceMesh:  # fmt: skip
     """Mesh all faces of a model; neighbours share the nodes of their common edges.
 
     sizing: what ``model_sizing`` takes, sizes by name among it.
     simplify=True collapses what is shorter than ``min_size``, or else than a two-thousandth of
-    the diagonal, at the end. workers: threads that mesh faces; the mesh is the same with any
-    number of them.
+    the diagonal, at the end. workers: who meshes the faces; the mesh is the same with any number
+    of them.
     strict=False delivers what could be meshed and lists the other faces in ``warnings``.
     Raises ``MeshingError`` that names the faces that could not be meshed, with the reasons.
     """
     if strict:
         require_all_read(model)
-    how = _How(optimise, strict, workers, rounds, Stopwatch(progress))
+    how = _How(optimise, strict, workers or FaceWorkers(), rounds, Stopwatch(progress))
     asked = model_sizing(model, sizing)
     aims = VolumeAims(model, asked.base.volume)
 
@@ -85,7 +89,7 @@ class _How:
 
     optimise: bool
     strict: bool
-    workers: int
+    workers: FaceWorkers
     rounds: int
     watch: Stopwatch
 
@@ -157,7 +161,7 @@ class _Rounds:
                     self.model, self.nodes, self.samples, limit, self.how.optimise
                 )
                 jobs.append(state.job)
-            meshes = _meshed_in_order(jobs, self.how.workers)
+            meshes = self.how.workers.meshed(jobs)
             for count, (state, mesh) in enumerate(zip(outdated, meshes), 1):
                 state.take(mesh)
                 self.watch.spend(FACE_WORK + state.job.nodes + len(mesh.triangles))
@@ -184,15 +188,6 @@ class _Rounds:
         return joined_mesh(self.model, self.faces, self.nodes, vertex, sizing, seconds)
 
 
-def _meshed_in_order(jobs: list[FaceJob], workers: int) -> Iterator[FaceMesh]:
-    """The meshes of all jobs, in their order."""
-    if workers <= 1 or len(jobs) <= 1:
-        yield from map(mesh_face, jobs)
-        return
-    with ThreadPoolExecutor(workers) as threads:
-        yield from threads.map(mesh_face, jobs)
-
-
 def estimate_model(model: CadModel, sizing: Any) -> Estimate:
     """Triangles and memory of ``mesh_model``. Raises ``SizingError`` for requests that cannot be
     met."""
@@ -211,6 +206,8 @@ def estimate_model(model: CadModel, sizing: Any) -> Estimate:
 def explain_size(model: CadModel, sizing: Any, point: np.ndarray) -> Explanation:
     """Which of the size requests decides at a point (3,), or at the nearest one of the model."""
     before = _Unmeshed(model, sizing)
+    from surfmesh.meshing.explain.explanation import explain_model
+
     return explain_model(model, before.wanted, before.samples, before.jobs, point)
 
 

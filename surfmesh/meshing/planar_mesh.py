@@ -8,11 +8,11 @@ from collections.abc import Mapping
 
 import numpy as np
 
+from surfmesh._core.insertion import label_patches
 from surfmesh.geometry.boxes import diagonal
 from surfmesh.geometry.differential.chart import Chart
 from surfmesh.geometry.files.known_facts import known_facts
 from surfmesh.geometry.planar.planar_domain import PlanarDomain
-from surfmesh.kernels.insertion.insertion import label_patches
 from surfmesh.kernels.triangulation.triangulation import Triangulation
 from surfmesh.meshing.boundary.planar_segments import (
     PlanarSegments,
@@ -162,8 +162,8 @@ def _with_regions(
     domain: PlanarDomain, cut: PlanarSegments, patch: PatchMesh, sizing: Sizing, watch: Stopwatch
 ) -> SurfaceMesh:
     t = patch.domain.t
-    label = np.empty(int(t.count[1]), np.int32)
-    count = label_patches(t, label)
+    half_edges = 3 * t.triangles
+    label, count = label_patches(t.adj[:half_edges], t.fixed[:half_edges], t.region[: t.triangles])
     regions = _region_numbers(t, cut, patch.domain.node, label, count)
     return SurfaceMesh(
         points=patch.space.points,

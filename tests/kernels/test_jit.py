@@ -50,7 +50,7 @@ import numpy as np
 import surfmesh as sm
 from surfmesh.kernels.triangulation.predicates import orient
 from surfmesh.meshing.patch.packing import packed
-from surfmesh.kernels.fields.background import Background
+from surfmesh._core.fields import Background
 
 field = Background(
     np.array([0.0, 0.0, 1.0, 1.0, 1e30]), np.array([1, 1]), np.array([-1], np.int32),

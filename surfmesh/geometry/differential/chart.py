@@ -12,10 +12,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from surfmesh._core.fields import bend
 from surfmesh.geometry.differential.infinite_speed import BentAxis, bent_axes_of
 from surfmesh.geometry.differential.monotone_cubic import MonotoneCubic
 from surfmesh.geometry.surface import Domain, Surface
-from surfmesh.kernels.fields.axis_bending import bend
 
 SAMPLES_ALONG = 257
 SAMPLES_ACROSS = 17
@@ -102,9 +102,7 @@ class Axis:
             rate = np.empty(len(x))
             rate.fill(self.slopes[0])
             return self.knots[0] + x * self.slopes[0], rate
-        parameter, rate = np.empty(len(x)), np.empty(len(x))
-        bend(x, self.extent, self.knots, self.slopes, parameter, rate)
-        return parameter, rate
+        return bend(x, self.extent, self.knots, self.slopes)
 
     def coordinate(self, u: np.ndarray) -> np.ndarray:
         """The scaled coordinate (n,) of parameters u (n,): ``parameter_and_rate`` inverted."""

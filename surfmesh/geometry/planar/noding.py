@@ -20,9 +20,9 @@ from typing import NoReturn
 import numpy as np
 import shapely
 
+from surfmesh._core.triangulation import CROSSING, find_meetings
 from surfmesh.errors import DomainError
 from surfmesh.geometry.boxes import diagonal
-from surfmesh.kernels.triangulation.segments import CROSSING, meetings
 
 MERGE = 1e-12
 """Of the diagonal: points closer than this are one. A crossing is computed to about 1e-15 of
@@ -194,7 +194,7 @@ def _meetings(
     points: np.ndarray, pieces: np.ndarray, fresh: np.ndarray, tolerance: float
 ) -> Iterator[tuple[np.ndarray, np.ndarray, np.ndarray]]:
     """Pairs of pieces, one of them fresh, that meet: pairs (k, 2), flags (k,), places (k, 2)."""
-    # the tree proposes by bounding boxes, the kernel decides: faster than any predicate of shapely
+    # the tree proposes by bounding boxes, the core decides: faster than any predicate of shapely
     reach = tolerance + 4.0 * float(np.spacing(np.abs(points).max()))
     low, high = points[pieces].min(axis=1) - reach, points[pieces].max(axis=1) + reach
     boxes = shapely.box(*low.T, *high.T)
@@ -207,9 +207,7 @@ def _meetings(
         once = (asked < found) | ~fresh[found]
         pairs = np.stack([asked[once], found[once]], axis=1)
         pairs.sort(axis=1)
-        flags = np.empty(len(pairs), np.int64)
-        places = np.full((len(pairs), 2), np.nan)
-        meetings(points, pieces, pairs, tolerance, flags, places)
+        flags, places = find_meetings(points, pieces, pairs, tolerance)
         meet = flags > 0
         if meet.any():
             pairs, flags, places = pairs[meet], flags[meet], places[meet]

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from surfmesh.kernels.triangulation.segments import BLOCK, distances
+from surfmesh._core.triangulation import BLOCK, distances
 
 CELLS = 10  # bits each way of the grid along whose Z-curve segments are sorted
 
@@ -28,9 +28,8 @@ class SegmentDistance:
         if not len(points):
             return np.empty(0)
         order = _z_order(points)  # what is nearest to a point bounds the search of the next
-        found, out = np.empty(len(points)), np.empty(len(points))
-        distances(points[order], self._segments, self._boxes, self._groups, found)
-        out[order] = found
+        out = np.empty(len(points))
+        out[order] = distances(points[order], self._segments, self._boxes, self._groups)
         return out
 
 

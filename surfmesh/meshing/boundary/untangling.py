@@ -11,7 +11,7 @@ a --`x--- b              before, at x. No finer cutting cures that. The node b i
 import numpy as np
 import shapely
 
-from surfmesh.kernels.triangulation.segments import CROSSING, meetings
+from surfmesh._core.triangulation import CROSSING, find_meetings
 
 ROUNDS = 200
 CLEARANCE = 0.05
@@ -65,8 +65,7 @@ def meeting_pairs(nodes: np.ndarray, segments: np.ndarray) -> tuple[np.ndarray, 
     lines = shapely.linestrings(nodes[segments])
     first, second = shapely.STRtree(lines).query(lines)
     pairs = np.stack([first, second], axis=1)[first < second]
-    flags, places = np.zeros(len(pairs), np.int64), np.empty((len(pairs), 2))
-    meetings(nodes, segments, pairs, 0.0, flags, places)
+    flags, _ = find_meetings(nodes, segments, pairs, 0.0)
     return pairs[flags != 0], flags[flags != 0]
 
 

@@ -15,8 +15,8 @@ from collections.abc import Callable
 
 import numpy as np
 
+from surfmesh._core.space import edge_gaps
 from surfmesh.cad.model.cad_model import CadModel
-from surfmesh.kernels.space.edge_distances import edge_gaps
 from surfmesh.meshing.edges.edge_samples import EdgeSamples, MateRun
 from surfmesh.meshing.edges.narrow_faces import Chain, chain_of, feet, foot_on_edge
 from surfmesh.meshing.edges.polygon_lengths import lengths_along
@@ -97,19 +97,17 @@ def _near_pairs(model: CadModel, samples: EdgeSamples) -> list[tuple[int, int, i
     for face, width in enumerate(samples.narrow_width.tolist()):
         if width > 0.0 and face not in samples.narrow and len(samples.edges_of_face[face]) > 1:
             by_width.setdefault(width, []).append(face)
-    room = np.empty((len(points), 6)), np.empty((len(model.edges), 6))
     found = []
     for width, faces in by_width.items():
         edges = [samples.edges_of_face[face] for face in faces]
         start = np.zeros(len(faces) + 1, np.int64)
         np.cumsum([len(own) for own in edges], out=start[1:])
         reach = np.repeat(width + sag + sag.max(), np.diff(first))
-        gap = np.full(len(points), np.inf)
-        edge_gaps(points, reach, first, ends, np.concatenate(edges), start, *room, gap)
+        gap, boxes = edge_gaps(points, reach, first, ends, np.concatenate(edges), start)
         owner = np.repeat(np.arange(len(model.edges)), np.diff(first))
         near = np.zeros(len(model.edges), bool)
         near[owner[np.isfinite(gap)]] = True
-        low, high = room[1][:, :3], room[1][:, 3:]
+        low, high = boxes[:, :3], boxes[:, 3:]
         for face, own in zip(faces, edges):
             own = own[near[own]]
             for a in own.tolist():

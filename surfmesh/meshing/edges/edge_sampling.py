@@ -9,9 +9,9 @@ along edges and through vertices, comes later: see ``edge_nodes``.
 
 import numpy as np
 
+from surfmesh._core.space import edge_gaps
 from surfmesh.cad.model.cad_model import CadEdge, CadModel
 from surfmesh.cad.model.collapsed_edges import collapses, vertex_numbers
-from surfmesh.kernels.space.edge_distances import edge_gaps
 from surfmesh.meshing.edges.edge_mates import mate_runs
 from surfmesh.meshing.edges.edge_rules import NARROWEST, Course, EdgeRules
 from surfmesh.meshing.edges.edge_samples import EdgeSamples
@@ -180,7 +180,6 @@ def _apply_gaps(model: CadModel, samples: EdgeSamples, sizing: ModelSizing) -> N
         by_sizes.setdefault((own.gap, own.min_size or 0.0, narrow), []).append(face)
     slope = sizing.base.gradient
     ratio = sizing.base.anisotropy if sizing.is_anisotropic else 1.0
-    room = np.empty((len(samples.points), 6)), np.empty((len(model.edges), 6))
     narrowest = NARROWEST * model.diagonal
     asked = samples.target_size
     for (count, least, narrow), faces in by_sizes.items():
@@ -189,12 +188,10 @@ def _apply_gaps(model: CadModel, samples: EdgeSamples, sizing: ModelSizing) -> N
         np.cumsum([len(own) for own in edges], out=first[1:])
         if not first[-1]:
             continue
-        gap = np.full(len(samples.points), np.inf)
         fraction = 1.0 if count is None else size_across(1.0, count, slope)
-        edge_gaps(
-            samples.points, asked / fraction, samples.first, ends, np.concatenate(edges),
-            first, *room, gap,
-        )  # fmt: skip
+        gap, _ = edge_gaps(
+            samples.points, asked / fraction, samples.first, ends, np.concatenate(edges), first
+        )
         ignored = np.maximum(max(SLIVER * model.diagonal, narrow), PROXIMITY_FLOOR * asked)
         rows = np.flatnonzero((gap >= ignored) & np.isfinite(gap))
         sliver = np.minimum(LONGER * gap[rows], narrowest)

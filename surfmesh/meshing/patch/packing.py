@@ -4,9 +4,10 @@ from collections.abc import Callable
 
 import numpy as np
 
+from surfmesh._core.fields import Background
 from surfmesh.errors import MeshingError
 from surfmesh.geometry.differential.chart import Chart
-from surfmesh.kernels.fields.background import Background
+from surfmesh.kernels.fields.background import for_kernels
 from surfmesh.kernels.packing.disc_packing import LOOK_AHEAD
 from surfmesh.kernels.packing.front import Front, empty_front
 from surfmesh.kernels.packing.heap import Heap, empty_heap
@@ -83,9 +84,10 @@ def packed(
     circles can be placed about the origin.
     """
     packing = _room_for(int(1.1 * expected) + 1000, wanted, box, origin, distance)
-    if start_packing(packing, background) == BAD_START:
+    arrays = for_kernels(background)
+    if start_packing(packing, arrays) == BAD_START:
         raise MeshingError(f"no circles can be placed about the origin {origin}")
-    while (status := pack(packing, background)) == FULL:
+    while (status := pack(packing, arrays)) == FULL:
         packing = _grown(packing)
     return _finished(packing, status)
 

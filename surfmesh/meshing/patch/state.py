@@ -120,7 +120,7 @@ class PatchState:
 
     def set_frames(self, vertices: np.ndarray, on_kink: bool = False) -> None:
         """Put vertices (n,) back on the surface, with their exact metric."""
-        background = self.field.background
+        background = self.field.arrays
         largest = 1e3 * float(background.box[4]) / float(self.chart.extent.max())
         for start in range(0, len(vertices), BLOCK):
             some = vertices[start : start + BLOCK]
@@ -171,7 +171,7 @@ class PatchState:
             self.before_pass()
         self.find_stars()
         moved = smooth(
-            self.t, self.frames, self.field.background,
+            self.t, self.frames, self.field.arrays,
             self.star, self.frozen, self.active, self.dirty, stiffness, self.moved,
         )  # fmt: skip
         self.set_frames(self.moved[:moved])

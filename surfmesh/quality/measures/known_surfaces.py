@@ -8,8 +8,8 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from surfmesh._core.space import interpolate
 from surfmesh.geometry.surface import Surface
-from surfmesh.kernels.space.measure import interpolate
 from surfmesh.result.mesh_parts import Parametrisation
 from surfmesh.result.surface_mesh import SurfaceMesh
 
@@ -41,21 +41,18 @@ class KnownSurfaces(NamedTuple):
         return self.mesh.points[self.mesh.triangles[triangles]]
 
     def samples(
-        self, triangle: Rows, rule: NDArray[np.int32], weights: NDArray[np.float64]
+        self, triangle: NDArray[np.int32], rule: NDArray[np.int32], weights: NDArray[np.float64]
     ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
         """Points (k, 3) and parameters (k, 2) at ``weights[rule]`` of ``triangle``, both (k,)."""
-        points = np.empty((len(triangle), 3))
-        interpolate(self.mesh.points, self.mesh.triangles, triangle, rule, weights, points)
+        points = interpolate(self.mesh.points, self.mesh.triangles, _int32(triangle), rule, weights)
         return points, self.sample_uv(triangle, rule, weights)
 
     def sample_uv(
-        self, triangle: Rows, rule: NDArray[np.int32], weights: NDArray[np.float64]
+        self, triangle: NDArray[np.int32], rule: NDArray[np.int32], weights: NDArray[np.float64]
     ) -> NDArray[np.float64]:
         """(k, 2) the parameters alone."""
-        uv = np.empty((len(triangle), 2))
         uv_points, uv_triangles = self.corners.uv_points, self.corners.uv_triangles
-        interpolate(uv_points, uv_triangles, triangle, rule, weights, uv)
-        return uv
+        return interpolate(uv_points, uv_triangles, _int32(triangle), rule, weights)
 
     def by_surface(self, faces: Rows) -> Iterator[tuple[Surface, NDArray[np.intp]]]:
         """Each surface that occurs among ``faces`` (k,), and the rows where it does."""
@@ -70,3 +67,7 @@ class KnownSurfaces(NamedTuple):
         for surface, here in self.by_surface(faces):
             points[here] = surface.evaluate(uv[here], 0)[0]
         return points
+
+
+def _int32(rows: Rows) -> NDArray[np.int32]:
+    return rows.astype(np.int32, copy=False)

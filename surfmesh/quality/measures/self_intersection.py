@@ -1,7 +1,7 @@
 """Triangles that meet where they share nothing: every pair, by an exact test.
 
-Near pairs come from a tree of boxes; the test is that of ``kernels/triangle_pairs``. What only
-comes near, or touches in a corner at the very same place, does not meet.
+Near pairs come from a tree of boxes; the test is that of ``src/space/triangle_pairs.hpp``. What
+only comes near, or touches in a corner at the very same place, does not meet.
 """
 
 from dataclasses import dataclass
@@ -9,8 +9,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from surfmesh.kernels.space.box_tree import LEAF, curve_places, fill_boxes, find_meeting
-from surfmesh.kernels.space.space_predicates import WORKSPACE
+from surfmesh._core.space import curve_places, meeting_triangles
 from surfmesh.quality.measures.places import Point, as_point
 from surfmesh.result.surface_mesh import SurfaceMesh
 
@@ -33,26 +32,11 @@ def meeting_pairs(mesh: SurfaceMesh) -> NDArray[np.int32]:
     Points must be finite, vertex numbers in range. A triangle without area meets nothing, and
     two triangles on the same three vertices are left to ``mesh.check()``.
     """
-    count = len(mesh.triangles)
-    if count < 2:
+    if len(mesh.triangles) < 2:
         return np.empty((0, 2), np.int32)
     order = _along_a_curve(mesh)
     corners = mesh.points[mesh.triangles[order]].reshape(-1, 3)
-    leaves = 1
-    while leaves * LEAF < count:
-        leaves *= 2
-    boxes, tree = np.empty((count, 6)), np.empty((2 * leaves - 1, 6))
-    fill_boxes(corners, boxes, tree)
-
-    met, start, total = [], 0, 0
-    pairs, expansion = np.empty((4096, 2), np.int32), np.empty(WORKSPACE)
-    while start < count and total < MOST:
-        found, start = find_meeting(corners, boxes, tree, start, expansion, pairs)
-        met.append(order[pairs[:found]])
-        total += found
-        if start < count and not found:  # one triangle meets more than there is room for
-            pairs = np.empty((2 * len(pairs), 2), np.int32)
-    pairs = np.sort(np.concatenate(met), axis=1)
+    pairs = np.sort(order[meeting_triangles(corners, MOST)], axis=1)
     a, b = np.sort(mesh.triangles[pairs], axis=2).transpose(1, 0, 2)
     pairs = pairs[(a != b).any(axis=1)]
     return pairs[np.lexsort(pairs.T[::-1])][:MOST]
@@ -73,6 +57,5 @@ def _along_a_curve(mesh: SurfaceMesh) -> NDArray[np.int32]:
     low, high = mesh.points.min(axis=0), mesh.points.max(axis=0)
     extent = float((high - low).max())
     scale = (2**_BITS - 1) / extent if extent > 0 else 0.0
-    places = np.empty(len(mesh.triangles), np.int64)
-    curve_places(mesh.points, mesh.triangles, low, scale, places)
+    places = curve_places(mesh.points, mesh.triangles, low, scale)
     return np.argsort(places, kind="stable").astype(np.int32)

@@ -5,8 +5,8 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from surfmesh._core.space import triangle_shapes
 from surfmesh.accuracy.shape import mean_ratio
-from surfmesh.kernels.space.measure import triangle_shapes
 from surfmesh.quality.measures.lengths import stretched
 from surfmesh.result.surface_mesh import SurfaceMesh
 
@@ -29,8 +29,7 @@ class Shapes(NamedTuple):
 
 def shapes(mesh: SurfaceMesh) -> Shapes:
     """Shape of every triangle of ``mesh``."""
-    values = np.empty((len(mesh.triangles), 5))
-    triangle_shapes(mesh.points, mesh.triangles, values)
+    values = triangle_shapes(mesh.points, mesh.triangles)
     values[:, 3:] *= 180.0 / np.pi
     return Shapes(*values.T)
 

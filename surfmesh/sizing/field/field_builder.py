@@ -1,7 +1,7 @@
 """The background of a size field: the sizes of one surface, graded, on a balanced quadtree.
 
 The background is built level by level. Every cell carries nine nodes (see
-kernels.fields.gradation); at each level the sizes of all nodes are graded together, each cell is
+src/fields/gradation.hpp); at each level the sizes of all nodes are graded together, each cell is
 compared with its test nodes, and the cells that miss are split into four. The test nodes of a leaf
 are kept: they make the final field twice as fine as the one that was tested.
 
@@ -14,11 +14,10 @@ from typing import NoReturn
 
 import numpy as np
 
+from surfmesh._core.fields import Background, grade, grade_stretched, patch_errors
 from surfmesh.errors import SizingError
 from surfmesh.geometry.cad_surfaces.face_surface import FaceSurface
 from surfmesh.geometry.differential.sides import SideTopology
-from surfmesh.kernels.fields.background import Background
-from surfmesh.kernels.fields.gradation import Metric, grade, patch_errors
 from surfmesh.sizing.field.field_cells import GRID_DEPTH, Cells, SourceCells, coarse_beside_fine
 from surfmesh.sizing.field.hidden_features import SeenCells, may_bend, may_rise
 from surfmesh.sizing.field.size_law import FieldNodes, SizeLaw, TensorLaw
@@ -60,8 +59,6 @@ POLE_DISTANCE = 0.9
 
 REACHED = 1.1
 """How much more than the reached ratio of the two sizes the shorter one leaves room for."""
-
-_NO_DIRECTIONS = np.empty(0), np.empty((0, 3)), np.empty((0, 3))
 
 MAX_CELLS, FREE_CELLS, CELLS_OF_TRIANGLE = 800_000, 200_000, 4
 """A field may have so many cells; and beyond the second number no more than the third for each
@@ -287,8 +284,7 @@ class FieldBuilder:
         new = np.full(len(self.nodes.size) - len(self.changed), self.sweep, np.int32)
         self.changed = np.concatenate([self.changed, new])
         nodes = self.nodes
-        metric = Metric(nodes.long, nodes.along, nodes.normal, nodes.is_round)
-        self._spread(patch, nodes.size, metric)
+        self._spread(patch, nodes.size, nodes if nodes.is_anisotropic else None)
 
     def _grade_anew(self, patch: np.ndarray, size: np.ndarray, long: np.ndarray) -> None:
         """Gradation of other sizes, as if all nodes were new."""
@@ -301,31 +297,39 @@ class FieldBuilder:
 
         The width of a triangle is then known: it is at most what growth allows in any metric.
         """
-        nodes, round_metric = self.nodes, Metric(*_NO_DIRECTIONS)
+        nodes = self.nodes
         size, long = nodes.asked.T.copy()
         width = size.copy()
         self.changed[:] = self.sweep
-        self._spread(patch, width, round_metric)
+        self._spread(patch, width)
         long = np.minimum(long, law.longest_along(nodes, width))
         self._grade_anew(patch, size, long)
         ratio = REACHED * nodes.long / nodes.size
         size = law.regained(nodes, ratio)
         self._grade_anew(patch, size, np.minimum(long, ratio * size))
 
-    def _spread(self, patch: np.ndarray, size: np.ndarray, metric: Metric) -> None:
-        nodes, first = self.nodes, self.sweep + 1
+    def _spread(
+        self, patch: np.ndarray, size: np.ndarray, stretched: FieldNodes | None = None
+    ) -> None:
+        point, first = self.nodes.point, self.sweep + 1
+        joined = self.joined.astype(np.int32)
         for chunk in range(MAX_CHUNKS):
             if chunk >= PATIENT_CHUNKS:
                 self.slow += SWEEPS * len(patch)
             if self.slow > MOST_SLOW:
                 break
             order = np.argsort(size[patch].min(axis=1))
-            following = grade(
-                patch[order], self.joined, nodes.point, self.slope, size, metric,
-                self.changed, first, SWEEPS,
-            )  # fmt: skip
-            self.sweep = first = abs(following)  # the last sweep's changes are still to be spread
-            if following > 0:
+            cells = patch[order], joined, point, self.slope, size
+            sweeps = self.changed, first, SWEEPS
+            if stretched is None:
+                first, finished = grade(*cells, *sweeps)
+            else:
+                s = stretched
+                first, finished = grade_stretched(
+                    *cells, s.long, s.along, s.normal, s.is_round, *sweeps
+                )
+            self.sweep = first  # the last sweep's changes are still to be spread
+            if finished:
                 return
         creeping = np.flatnonzero(self.changed >= first - SWEEPS)
         u, v = self.chart.to_uv(self._xy_of(creeping[[len(creeping) // 2]]))[0]
@@ -344,9 +348,8 @@ class FieldBuilder:
 
     def _inaccurate(self, cells: Cells, patch: np.ndarray) -> np.ndarray:
         step = self.root_step / (1 << cells.depth)[:, None]
-        error, extent = np.empty(len(patch)), np.empty(len(patch))
         nodes = self.nodes
-        patch_errors(patch, nodes.inverse_sizes(), step, self._largest, error, extent)
+        error, extent = patch_errors(patch, nodes.inverse_sizes(), step, self._largest)
         graded = (nodes.size < 0.98 * nodes.target_size)[patch].any(axis=1)
         if nodes.is_anisotropic:
             graded |= (nodes.long < 0.98 * nodes.long_target_size)[patch].any(axis=1)
@@ -425,6 +428,6 @@ class FieldBuilder:
         inverse = np.empty((len(self.nodes.size), 4))
         inverse[:, :3] = self.nodes.inverse_sizes()
         inverse[:, 3] = 1.0 / self.nodes.size
-        metric_root_3d = self.nodes.metric_roots_3d()
+        metric_root_3d = self.nodes.metric_roots_3d() if self.nodes.is_anisotropic else None
         box = np.array([0.0, 0.0, *(1.0 / self.root_step), self._largest])
         return Background(box, np.array([self.nx, self.ny]), child, corner, inverse, metric_root_3d)

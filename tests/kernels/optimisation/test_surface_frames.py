@@ -2,10 +2,10 @@
 
 import numpy as np
 import pytest
-from naive.background import uniform_background
+from naive.background import replaced, uniform_background
 from naive.metric import alpha, metric_root_3d
 
-from surfmesh.kernels.fields.background import metric_roots_3d_at
+from surfmesh.kernels.fields.background import for_kernels, metric_roots_3d_at
 from surfmesh.kernels.optimisation.surface_frames import (
     chord,
     edge_length,
@@ -30,7 +30,7 @@ def embedded(seed=0, ratio=30.0):
     six = w[[0, 0, 0, 1, 1, 2], [0, 1, 2, 1, 2, 2]]
     xy = rng.uniform(0, 1, (4, 2))
     background = uniform_background(np.tile([1.0, 0.0, 1.0, 5.0], (2, 2, 1)), 1.0, 1.0)
-    background = background._replace(metric_root_3d=np.tile(six, (4, 1)))
+    background = for_kernels(replaced(background, metric_root_3d=np.tile(six, (4, 1))))
     mesh = empty_triangulation(8)
     mesh.xy[:4] = xy
     mesh.count[0] = 4

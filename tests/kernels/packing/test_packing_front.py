@@ -4,11 +4,17 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from naive.background import constant_background, random_background, uniform_background
+from naive.background import (
+    constant_background,
+    random_background,
+    replaced,
+    uniform_background,
+)
 from naive.metric import alpha, length
 from naive.triangulation import check_front, check_triangulation, corners, front_loop
 from naive.watchdog import watched
 
+from surfmesh.kernels.fields.background import for_kernels
 from surfmesh.kernels.packing.front import DONE
 from surfmesh.kernels.packing.packing import FULL, pack, start_packing
 from surfmesh.meshing.patch.packing import _grown, _room_for, packed
@@ -167,7 +173,8 @@ def test_units_of_length_do_not_matter(scale):
     power = 2.0 ** round(np.log2(scale))
     plain = packed(random_background(5, 3, 10.0, 3.0, 0.1), UNIT, (0.5, 0.5), 300)
     field = random_background(5, 3, 10.0, 3.0, 0.1)
-    field = field._replace(
+    field = replaced(
+        field,
         box=field.box * [power, power, 1 / power, 1 / power, power],
         metric_root=field.metric_root / power,
     )
@@ -249,8 +256,8 @@ def test_growing_arrays_changes_nothing(ratio, seed):
     field = random_background(seed, 4, ratio, 3.0, size=0.05)
     roomy = packed(field, UNIT, (0.5, 0.5), 5000, 1500)
     packing, grown = tiny_room(1500), 0
-    start_packing(packing, field)
-    while pack(packing, field) == FULL:
+    start_packing(packing, for_kernels(field))
+    while pack(packing, for_kernels(field)) == FULL:
         packing = _grown(packing)
         grown += 1
     assert grown > 5

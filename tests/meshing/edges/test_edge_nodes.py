@@ -7,7 +7,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 import surfmesh as sm
-from surfmesh.kernels.space.edge_distances import edge_gaps
+from surfmesh._core.space import edge_gaps
 from surfmesh.meshing.edges.edge_nodes import cut_edges
 from surfmesh.meshing.edges.edge_sampling import sample_edges
 from surfmesh.sizing.options.model_sizing import model_sizing
@@ -43,13 +43,11 @@ def test_gaps_are_those_of_all_pairs(seed):
     ends = draw.integers(0, 6, size=(5, 2))
     edges = np.array([0, 1, 2, 4, 3, 1, 2])
     first_of_face = np.array([0, 4, 4, 7])
-    gap = np.full(len(points), np.inf)
-    edge_gaps(
-        points, size, first, ends, edges, first_of_face,
-        np.empty((len(points), 6)), np.empty((5, 6)), gap,
-    )  # fmt: skip
+    gap, boxes = edge_gaps(points, size, first, ends, edges, first_of_face)
     expected = naive_gaps(points, size, first, ends, edges, first_of_face)
     assert np.allclose(gap, expected, rtol=1e-12, equal_nan=True)
+    own = [points[first[e] : first[e + 1]] for e in range(5)]
+    assert np.array_equal(boxes, [[*p.min(axis=0), *p.max(axis=0)] for p in own])
 
 
 @pytest.fixture(scope="module")

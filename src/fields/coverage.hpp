@@ -1,0 +1,14 @@
+// The metric area that a background gives to a rectangle: how many circles will cover it.
+#pragma once
+
+#include "fields/background.hpp"
+
+namespace surfmesh {
+
+/// Integral of det A = 1 / det H over [x0, x1] x [y0, y1], (x0, y0) the background's corner.
+///
+/// A is bilinear in a leaf, its determinant of degree two in x and in y: two by two points of
+/// Gauss are exact, also in a leaf that the rectangle cuts.
+[[nodiscard]] double metric_area_of_box(const Background& background, double x1, double y1);
+
+}  // namespace surfmesh

@@ -1,0 +1,212 @@
+#include "fields/gradation.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace surfmesh {
+namespace {
+
+constexpr double FINISHED_BELOW = 1e-3;  // relative change of a sweep
+
+double squared(double x) { return x * x; }
+
+double distance(Point3 a, Point3 b) {
+    return std::sqrt(squared(a.x - b.x) + squared(a.y - b.y) + squared(a.z - b.z));
+}
+
+/// Let neither of the sizes of a and b exceed the other by more than slope times their distance.
+///
+/// Returns the relative change, and notes in `changed` which node it was.
+double limit(const GradedSizes& s, Node a, Node b, std::int32_t sweep) {
+    double &ha = s.size[a], &hb = s.size[b];
+    if (ha == hb) return 0.0;
+    const double rise = s.slope * distance(s.point[a], s.point[b]);
+    if (ha > hb + rise) {
+        const double change = ha - hb - rise;
+        ha = hb + rise;
+        s.changed[a] = sweep;
+        return change / ha;
+    }
+    if (hb > ha + rise) {
+        const double change = hb - ha - rise;
+        hb = ha + rise;
+        s.changed[b] = sweep;
+        return change / hb;
+    }
+    return 0.0;
+}
+
+struct Direction {
+    double along, left;
+};
+
+/// `along` of a in the tangent plane of b: components along and left of that of b.
+///
+/// Turned with the normal by the smallest rotation. Normals may be opposite across a joint.
+Direction carried(const GradedSizes& sizes, Node a, Node b) {
+    const Point3 n = sizes.normal[a], m = sizes.normal[b], t = sizes.along[a];
+    const double c = dot(n, m);
+    const double sign = c >= 0.0 ? 1.0 : -1.0;
+    const double k = sign * dot(t, m) / (1.0 + std::abs(c));
+    const double x = t.x - k * (n.x + sign * m.x);
+    const double y = t.y - k * (n.y + sign * m.y);
+    const double z = t.z - k * (n.z + sign * m.z);
+    const Point3 s = sizes.along[b];
+    const double along = x * s.x + y * s.y + z * s.z;
+    const double left =
+        x * (m.y * s.z - m.z * s.y) + y * (m.z * s.x - m.x * s.z) + z * (m.x * s.y - m.y * s.x);
+    const double d = std::sqrt(along * along + left * left);
+    if (d == 0.0) return {1.0, 0.0};
+    return {along / d, left / d};
+}
+
+/// The metric of a in the axes of b: x for its longer, y for its shorter one.
+struct CarriedMetric {
+    double mx, my, mxy;
+};
+
+CarriedMetric carried_metric(const GradedSizes& s, Node a, Node b) {
+    const auto [c, d] = carried(s, a, b);
+    const double x = 1.0 / (s.longer[a] * s.longer[a]), y = 1.0 / (s.size[a] * s.size[a]);
+    return {c * c * x + d * d * y, d * d * x + c * c * y, c * d * (y - x)};
+}
+
+/// The distance from a to b in the metric of a.
+double metric_distance(const GradedSizes& s, Node a, Node b) {
+    const Point3 d = s.point[b] - s.point[a];
+    double along = dot(d, s.along[a]);
+    const double left = std::max(d.x * d.x + d.y * d.y + d.z * d.z - along * along, 0.0);
+    along /= s.longer[a];
+    return std::sqrt(along * along + left / (s.size[a] * s.size[a]));
+}
+
+/// Lower the sizes of b until its metric contains that of a, grown over their distance.
+///
+/// Over the distance l, in the metric of a, the sizes in the directions of b may grow by
+/// g = 1 + slope l; as a whole, M_b - M_a / f^2 must be positive definite for the faster
+/// f = 1 + TURN_SLOPE slope l. The first bounds both sizes of b; what is wanting in the second
+/// is due to a direction that turns, and shortens the size along `along` alone, as long as
+/// none smaller than the smallest of a, grown, is needed: principal directions stay what they
+/// are, and the size along one may become the shorter. Returns the relative change of b.
+double bind(const GradedSizes& s, Node a, Node b, std::int32_t sweep) {
+    const double l = metric_distance(s, a, b);
+    const double growth = 1.0 + s.slope * l;
+    const double least = growth * std::min(s.size[a], s.longer[a]);
+    const double hb = s.size[b], lb = s.longer[b];
+    if (std::max(hb, lb) <= least) return 0.0;
+    const Point3 n = s.normal[b];
+    if (n.x == 0.0 && n.y == 0.0 && n.z == 0.0) {
+        s.size[b] = std::min(hb, least);
+        s.longer[b] = std::min(lb, least);
+        s.changed[b] = sweep;
+        return std::max(hb, lb) / least - 1.0;
+    }
+    const auto [mx, my, mxy] = carried_metric(s, a, b);
+    const double f = 1.0 / squared(1.0 + TURN_SLOPE * s.slope * l);
+    const double g = 1.0 / (growth * growth);
+    double y = std::max(1.0 / (hb * hb), g * my);
+    double x = std::max(1.0 / (lb * lb), g * mx);
+    // no direction needs less than the smallest size of a, grown
+    const double most = 1.0 / (least * least);
+    double need = 0.0;
+    if (y > f * my)  // not between two images of one point
+        need = std::min(f * mx + squared(f * mxy) / (y - f * my), most);
+    x = std::max(x, need);
+    if (need == most)
+        y = std::max(
+            y, std::min(f * my + squared(f * mxy) / std::max(x - f * mx, 1e-12 * most), most));
+    if (x > y && !s.round.empty() && s.round[b] != 0) y = x;
+    const double longer = std::min(1.0 / std::sqrt(x), lb);
+    const double shorter = std::min(1.0 / std::sqrt(y), hb);
+    const double change = std::max(lb / longer, hb / shorter) - 1.0;
+    if (change <= ROUNDING) return 0.0;
+    s.size[b] = shorter;
+    s.longer[b] = longer;
+    s.changed[b] = sweep;
+    return change;
+}
+
+/// Let neither of a and b exceed what the other allows; returns the relative change.
+double level(const GradedSizes& s, Node a, Node b, std::int32_t sweep) {
+    if (s.longer.empty()) return limit(s, a, b, sweep);
+    const double first = bind(s, a, b, sweep);
+    return std::max(first, bind(s, b, a, sweep));
+}
+
+/// Level the neighbours in a patch: right, up and the two diagonals of each node of the 3 x 3.
+double level_patch(const GradedSizes& s, const Patch& patch, std::int32_t sweep) {
+    const auto& p = patch.node;
+    double largest = 0.0;
+    for (int i = 0; i < 9; ++i) {
+        const bool right = i % 3 < 2, up = i < 6;
+        if (right) largest = std::max(largest, level(s, p[i], p[i + 1], sweep));
+        if (up) largest = std::max(largest, level(s, p[i], p[i + 3], sweep));
+        if (right && up) {
+            largest = std::max(largest, level(s, p[i], p[i + 4], sweep));
+            largest = std::max(largest, level(s, p[i + 1], p[i + 3], sweep));
+        }
+    }
+    return largest;
+}
+
+/// Frobenius norm of A^-1 (X - A), with the eigenvalues of A kept above `floor`.
+double relative_error(SizeTensor x, SizeTensor a, double floor) {
+    const SizeTensor d{x.xx - a.xx, x.xy - a.xy, x.yy - a.yy};
+    a.xx += floor;
+    a.yy += floor;
+    const double det = determinant(a);
+    const double e11 = a.yy * d.xx - a.xy * d.xy;
+    const double e12 = a.yy * d.xy - a.xy * d.yy;
+    const double e21 = a.xx * d.xy - a.xy * d.xx;
+    const double e22 = a.xx * d.yy - a.xy * d.xy;
+    return std::sqrt(e11 * e11 + e12 * e12 + e21 * e21 + e22 * e22) / det;
+}
+
+/// What the corners give at node i of a patch, bilinear.
+SizeTensor by_corners(const Patch& patch, std::span<const SizeTensor> metric_root, int i) {
+    SizeTensor x{0.0, 0.0, 0.0};
+    for (int c = 0; c < 4; ++c) {
+        const int column = 2 * (c % 2), row = 2 * (c / 2);
+        const double w = 0.25 * (2 - std::abs(i % 3 - column)) * (2 - std::abs(i / 3 - row));
+        x = x + w * metric_root[patch.node[3 * row + column]];
+    }
+    return x;
+}
+
+}  // namespace
+
+SweepsDone grade(std::span<const Patch> patches, std::span<const JoinedNodes> joined,
+                 const GradedSizes& s, std::int32_t first, std::int32_t sweeps) {
+    for (std::int32_t sweep = first; sweep < first + sweeps; ++sweep) {
+        double largest = 0.0;
+        for (const Patch& patch : patches) {
+            std::int32_t latest = 0;
+            for (const Node n : patch.node) latest = std::max(latest, s.changed[n]);
+            if (latest < sweep - 1) continue;
+            largest = std::max(largest, level_patch(s, patch, sweep));
+        }
+        for (const auto [a, b] : joined) largest = std::max(largest, level(s, a, b, sweep));
+        // nothing is newer than the sweep before the next
+        if (largest < FINISHED_BELOW) return {sweep + 2, true};
+    }
+    return {first + sweeps, false};
+}
+
+PatchError patch_error(const Patch& patch, std::span<const SizeTensor> metric_root, Point2 step,
+                       double largest) {
+    const double floor = 1.0 / largest;
+    PatchError found{0.0, 0.0};
+    for (const int i : {1, 3, 5, 7, 4}) {
+        const SizeTensor x = by_corners(patch, metric_root, i);
+        const SizeTensor a = metric_root[patch.node[i]];
+        found.error = std::max(found.error, relative_error(x, a, floor));
+    }
+    for (const Node n : patch.node) {
+        const SizeTensor a = metric_root[n];
+        found.extent = std::max(found.extent, step.x * std::sqrt(a.xx * a.xx + a.xy * a.xy));
+        found.extent = std::max(found.extent, step.y * std::sqrt(a.xy * a.xy + a.yy * a.yy));
+    }
+    return found;
+}
+
+}  // namespace surfmesh

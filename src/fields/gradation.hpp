@@ -1,0 +1,74 @@
+// Gradation and accuracy of a size field on patches of nine nodes.
+//
+// In: cells of the background under construction, each a patch of nine nodes, and the sizes of
+// the nodes. `grade` lowers the sizes until no two neighbours differ by more than the slope
+// allows; `patch_errors` tells how far the sizes in a patch are from bilinear. Nodes are numbered
+// row by row:
+//
+//         6 - 7 - 8
+//         |   |   |       corners 0 2 6 8 are the cell's own;
+//         3 - 4 - 5       the other five test it, and serve its children when it is split
+//         |   |   |
+//         0 - 1 - 2
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+#include "fields/background.hpp"
+#include "values/point.hpp"
+#include "values/size_tensor.hpp"
+
+namespace surfmesh {
+
+inline constexpr double ROUNDING = 1e-9;   // a size is not lowered for less
+inline constexpr double TURN_SLOPE = 3.0;  // how much faster than sizes a metric may change
+                                           // because its direction turns
+
+struct Patch {
+    Node node[9];
+};
+
+/// Two nodes that are neighbours across a joint of two sides.
+struct JoinedNodes {
+    Node a, b;
+};
+
+/// Sizes of nodes under gradation. The middle four are empty where sizes are isotropic.
+struct GradedSizes {
+    std::span<double> size;          // lowered in place; at right angles to `along`
+    std::span<double> longer;        // size along `along`; gradation may make it the shorter one
+    std::span<const Point3> along;   // unit vector in the tangent plane
+    std::span<const Point3> normal;  // unit, or zero where there is none: isotropic there
+    std::span<const std::uint8_t> round;  // `longer` stays the longer one here; or empty
+    std::span<const Point3> point;
+    std::span<std::int32_t> changed;  // number of the last sweep that lowered the node
+    double slope;                     // growth of the size per length
+};
+
+struct SweepsDone {
+    std::int32_t next;  // number for the next sweep
+    bool finished;      // or did the sweeps not suffice?
+};
+
+/// Lower the sizes until no two neighbours differ by more than the slope allows.
+///
+/// Sweeps are numbered from `first` on and pass over patches that the sweep before has left
+/// alone. Sizes spread from small to large, so a few sweeps do when the patches with the smallest
+/// sizes come first. Stops when the largest relative change is below 0.1 %, or after `sweeps`.
+[[nodiscard]] SweepsDone grade(std::span<const Patch> patches, std::span<const JoinedNodes> joined,
+                               const GradedSizes& sizes, std::int32_t first, std::int32_t sweeps);
+
+struct PatchError {
+    double error;   // largest relative error at the five test nodes
+    double extent;  // width or height in metric length, whichever is larger
+};
+
+/// How far the field in a patch is from bilinear, and how many edges wide the patch is.
+///
+/// metric_root: A = H^-1 of the nodes; step: the patch's width and height; largest: size above
+/// which none counts.
+[[nodiscard]] PatchError patch_error(const Patch& patch, std::span<const SizeTensor> metric_root,
+                                     Point2 step, double largest);
+
+}  // namespace surfmesh

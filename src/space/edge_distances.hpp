@@ -1,0 +1,30 @@
+// How far the edges of a face are apart: distances from samples of one to the others.
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+#include "triangulation/segments.hpp"
+#include "values/array.hpp"
+
+namespace surfmesh {
+
+/// Samples along edges, and which edges each face has.
+struct SampledEdges {
+    std::span<const Point3> points;
+    std::span<const double> reach;                // of the samples: farther is not looked at
+    std::span<const std::int64_t> first;          // samples of edge e: first[e] to first[e + 1]
+    std::span<const SegmentEnds> ends;            // of the edges: vertices
+    std::span<const std::int64_t> edges;          // those of each face in one row
+    std::span<const std::int64_t> first_of_face;  // where they begin, and how many there are
+};
+
+struct EdgeGaps {
+    Array<double> gap;  // of the samples, infinite where nothing is in reach
+    Array<Box3> boxes;  // of the edges, around their samples
+};
+
+/// Distance of each sample from the edges that share a face with its own but no vertex.
+EdgeGaps edge_gaps(const SampledEdges& sampled);
+
+}  // namespace surfmesh

@@ -1,0 +1,98 @@
+"""Who meshes the faces of a model: this thread, threads of this process, or any executor.
+
+faces, most work first -> batches -> workers -> meshes in the order of the faces
+
+A face is meshed from plain arrays and knows nothing of the others, so that its mesh is the same
+whoever makes it, and when.
+"""
+
+import os
+from collections.abc import Iterator
+from concurrent.futures import BrokenExecutor, Executor, Future, ThreadPoolExecutor
+from dataclasses import dataclass
+from heapq import heappop, heappush
+
+from surfmesh.errors import MeshingError
+from surfmesh.meshing.faces.face_data import FaceJob, FaceMesh
+from surfmesh.meshing.faces.face_mesh import mesh_face
+
+BATCHES = 64
+"""Most batches that an executor is handed at a time: some for each of a dozen workers, so that
+none waits long at the end, and not one for each of thousands of faces."""
+
+FIXED_WORK = 400.0
+"""Work of a face besides its triangles, in triangles."""
+
+
+@dataclass(frozen=True)
+class FaceWorkers:
+    """Meshes faces side by side."""
+
+    threads: int = 1
+    """How many of this process; 1: the caller's alone."""
+    executor: Executor | None = None
+    """Instead of threads: processes, or other machines. Jobs and meshes are pickled."""
+
+    def meshed(self, jobs: list[FaceJob]) -> Iterator[FaceMesh]:
+        """The meshes of all jobs, in their order.
+
+        Where the iterator is closed early, what has not begun is not done. Raises
+        ``MeshingError`` when the executor has lost its workers.
+        """
+        if self.executor is not None:
+            yield from _by_executor(self.executor, jobs, BATCHES)
+        elif self.threads > 1 and len(jobs) > 1:
+            with ThreadPoolExecutor(min(self.threads, len(jobs))) as threads:
+                yield from _by_executor(threads, jobs, len(jobs))
+        else:
+            yield from map(mesh_face, jobs)
+
+
+def processors() -> int:
+    """How many this process may use."""
+    try:
+        return len(os.sched_getaffinity(0))
+    except AttributeError:  # not on macOS and Windows
+        return os.cpu_count() or 1
+
+
+def _by_executor(executor: Executor, jobs: list[FaceJob], batches: int) -> Iterator[FaceMesh]:
+    futures: dict[int, tuple[Future[list[FaceMesh]], int]] = {}
+    try:
+        for batch in batches_of(list(map(expected_work, jobs)), batches):
+            future = executor.submit(_mesh_batch, [jobs[k] for k in batch])
+            futures.update({k: (future, place) for place, k in enumerate(batch)})
+        for k in range(len(jobs)):
+            future, place = futures[k]
+            yield future.result()[place]
+    except BrokenExecutor as error:
+        raise MeshingError(f"the workers that mesh the faces are lost: {error}") from error
+    finally:
+        for future, _ in futures.values():
+            future.cancel()
+
+
+def _mesh_batch(jobs: list[FaceJob]) -> list[FaceMesh]:
+    return list(map(mesh_face, jobs))
+
+
+def expected_work(job: FaceJob) -> float:
+    """About how much there is to do, in triangles: as of a square with so many nodes around."""
+    return FIXED_WORK + job.nodes**2 / 8.0
+
+
+def batches_of(work: list[float], count: int) -> list[list[int]]:
+    """Numbers 0, 1, ... in at most ``count`` batches of about the same work, most work first.
+
+    Each number goes, most work first, to the batch with the least (Graham's rule).
+    """
+    order = sorted(range(len(work)), key=lambda k: -work[k])
+    if len(order) <= count:
+        return [[k] for k in order]
+    batches: list[list[int]] = [[] for _ in range(count)]
+    heap = [(0.0, n) for n in range(count)]
+    for k in order:
+        load, n = heappop(heap)
+        batches[n].append(k)
+        heappush(heap, (load + work[k], n))
+    return batches

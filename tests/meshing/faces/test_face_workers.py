@@ -1,0 +1,108 @@
+"""Faces are meshed side by side, by threads, processes and machines: the same mesh, bit for bit."""
+
+import os
+import pickle
+import signal
+import subprocess
+import sys
+from concurrent.futures import Future, ProcessPoolExecutor
+from multiprocessing import get_context
+from threading import Thread
+from time import sleep
+
+import cadquery as cq
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+import surfmesh as sm
+from surfmesh.errors import MeshingError
+from surfmesh.meshing.faces.face_workers import batches_of
+from surfmesh.meshing.model_mesh import _Unmeshed
+
+SIZE = 0.7
+
+
+def part():
+    return cq.Workplane().box(4, 3, 1).faces(">Z").workplane().hole(1).edges("|Z").fillet(0.3)
+
+
+def same(one, other) -> bool:
+    return np.array_equal(one.points, other.points) and np.array_equal(
+        one.triangles, other.triangles
+    )
+
+
+@pytest.fixture(scope="module")
+def by_one():
+    return sm.mesh(part(), SIZE)
+
+
+@given(st.lists(st.floats(0.0, 1e9), max_size=40), st.integers(1, 9))
+def test_batches_hold_each_number_once_and_share_the_work(work, count):
+    batches = batches_of(work, count)
+    assert len(batches) <= max(count, len(work)) and len(batches) <= max(count, 1)
+    assert sorted(k for batch in batches for k in batch) == list(range(len(work)))
+    loads = [sum(work[k] for k in batch) for batch in batches]
+    if work:
+        assert max(loads) <= sum(work) / count + max(work) * (1 + 1e-9) + 1e-6
+
+
+def test_threads_change_nothing(by_one):
+    assert same(by_one, sm.mesh(part(), SIZE, jobs=3))
+
+
+def test_processes_change_nothing(by_one):
+    model = sm.from_cadquery(part())
+    with ProcessPoolExecutor(2, mp_context=get_context("spawn")) as executor:
+        assert same(by_one, sm.mesh(model, SIZE, executor=executor))
+
+
+def test_a_job_is_done_without_the_cad_kernel():
+    jobs = pickle.dumps(_Unmeshed(sm.from_cadquery(part()), SIZE).jobs)
+    code = """if True:
+        import pickle, sys
+        from surfmesh.meshing.faces.face_mesh import mesh_face
+        meshes = [mesh_face(job) for job in pickle.load(sys.stdin.buffer)]
+        assert all(len(mesh.triangles) for mesh in meshes)
+        sys.exit("OCP" in sys.modules)
+    """
+    subprocess.run([sys.executable, "-c", code], input=jobs, check=True)
+
+
+class OneIsLost(ProcessPoolExecutor):
+    """Kills its workers when the first batch is handed over."""
+
+    def submit(self, *what, **more) -> Future:
+        future = super().submit(*what, **more)
+        for process in list(self._processes.values()):
+            os.kill(process.pid, signal.SIGKILL)
+        return future
+
+
+@pytest.mark.skipif(os.name == "nt", reason="processes are killed by a signal")
+def test_lost_processes_are_named():
+    with OneIsLost(1, mp_context=get_context("spawn")) as executor:
+        with pytest.raises(MeshingError, match="workers that mesh the faces are lost"):
+            sm.mesh(part(), SIZE, executor=executor)
+
+
+@pytest.mark.skipif(os.name == "nt", reason="a worker is killed by a signal")
+def test_two_machines_one_of_them_killed_half_way(by_one):
+    distributed = pytest.importorskip("distributed", reason="Dask is not installed")
+    with distributed.LocalCluster(
+        n_workers=2, threads_per_worker=1, processes=True, dashboard_address=None
+    ) as cluster, distributed.Client(cluster) as client:  # fmt: skip
+        model = sm.from_cadquery(part())
+        victim = next(iter(client.run(os.getpid).values()))
+
+        def kill() -> None:
+            sleep(0.3)
+            os.kill(victim, signal.SIGKILL)
+
+        killer = Thread(target=kill)
+        killer.start()
+        mesh = sm.mesh(model, SIZE, executor=client.get_executor())
+        killer.join()
+    assert same(by_one, mesh)
