@@ -11,8 +11,8 @@
 
 namespace surfmesh::binding {
 
-void bind_formulas(nb::module_& m);  // formula_bindings.cpp
 void bind_surface_searches(nb::module_& m);
+void bind_formulas(nb::module_& m);  // formula_bindings.cpp
 
 namespace {
 
@@ -110,10 +110,10 @@ void bind_face_surfaces(nb::module_& m);
 void bind_surfaces(nb::module_& m) {
     m.doc() = "Surfaces of CAD models and of formulas, evaluated in blocks.";
     bind_surface_class(m);
-    bind_formulas(m);
     bind_curves(m);
     bind_face_surfaces(m);
     bind_surface_searches(m);
+    bind_formulas(m);
 }
 
 }  // namespace surfmesh::binding

@@ -121,6 +121,15 @@ class BentAxis:
         piece = self._pieces(u)[0]
         return np.clip(u, np.array(lowest)[piece], np.array(highest)[piece])
 
+    def pieces(self) -> np.ndarray:
+        """What the core needs to know (m, 7): beginning, end, both powers of each piece, their
+        beta function, and the clearance at both ends."""
+        from scipy.special import beta
+
+        q0, q1 = self.powers.T
+        ends = self.places[:-1], self.places[1:]
+        return np.column_stack([*ends, q0, q1, beta(q0, q1), self._clearance()])
+
     def _clearance(self) -> np.ndarray:
         """How near to the ends of the pieces derivatives are taken (m, 2), fractions of them."""
         with np.errstate(divide="ignore"):
