@@ -1,40 +1,38 @@
-"""The verbs: ``load`` a surface or a CAD model, ``mesh`` it, ``show`` what is on it."""
+"""The verbs: ``load`` a surface or a CAD model, ``mesh`` it, ``show`` what is on it.
+
+What only one kind of surface needs is imported once it is there: the first mesh of a formula
+waits for no CAD.
+"""
+
+from __future__ import annotations
 
 import logging
 import sys
 from collections.abc import Mapping, Sequence
-from concurrent.futures import Executor
 from pathlib import Path
-from typing import Any, TypeAlias
+from typing import TYPE_CHECKING, Any, TypeAlias, TypeGuard
 
 import numpy as np
 from numpy.typing import NDArray
 
-from surfmesh.cad.cadquery.from_cadquery import from_cadquery
 from surfmesh.cad.healing.joining import Joining
-from surfmesh.cad.model.cad_model import CadModel
-from surfmesh.cad.reading.read_file import SUFFIXES, read_cad
+from surfmesh.cad.reading.read_file import SUFFIXES, begun_reading
 from surfmesh.errors import CadError, FileFormatError, SizingError, SurfaceError, shown
 from surfmesh.geometry.files.surface_file import gallery, load_surface_file
 from surfmesh.geometry.number_range import RANGE
-from surfmesh.geometry.planar.planar_domain import PlanarDomain
 from surfmesh.geometry.surface import Surface
-from surfmesh.meshing.estimate.estimation import Estimate
-from surfmesh.meshing.explain.explanation import Explanation
-from surfmesh.meshing.faces.face_workers import FaceWorkers
-from surfmesh.meshing.finishing.second_order import of_second_order
-from surfmesh.meshing.model_mesh import estimate_model, explain_size, mesh_model
-from surfmesh.meshing.parametric_mesh import (
-    estimate_parametric,
-    explain_parametric,
-    mesh_parametric,
-)
-from surfmesh.meshing.planar_mesh import estimate_planar, mesh_planar
-from surfmesh.meshing.progress import Progress
 from surfmesh.result.surface_mesh import SurfaceMesh
 from surfmesh.sizing.options.distance_size import default_options
-from surfmesh.sizing.options.model_sizing import is_by_selection
 from surfmesh.sizing.options.sizing import SizeLaw, Sizing
+
+if TYPE_CHECKING:
+    from concurrent.futures import Executor
+
+    from surfmesh.cad.model.cad_model import CadModel
+    from surfmesh.geometry.planar.planar_domain import PlanarDomain
+    from surfmesh.meshing.estimate.estimation import Estimate
+    from surfmesh.meshing.explain.explanation import Explanation
+    from surfmesh.meshing.progress import Progress
 
 logger = logging.getLogger(__name__)
 Sizes: TypeAlias = Sizing | float | SizeLaw | Mapping[str, Any] | None
@@ -49,6 +47,7 @@ def load(
     sew: float | None = None,
     time_limit: float | None = None,
     memory_limit: float | None = None,
+    isolate: bool = True,
 ) -> Surface | CadModel:
     """The surface or CAD model of a file, or the surface of the gallery by its name.
 
@@ -63,6 +62,10 @@ def load(
     may take, inf for no limit. None: the environment variables SURFMESH_READ_SECONDS and
     SURFMESH_READ_MEMORY, else 8 s and 1000 MB and, for each MB of the file, 25 s and 100 MB.
 
+    isolate: a CAD file is read in a process of its own, which is ended at those limits. False reads
+    a file that you trust in this one, sooner where OCP is loaded already; no limit holds then, and
+    a file that makes OCP crash ends your program.
+
     Raises ``CadError`` for a CAD file without a model, ``FileFormatError`` for a file of
     another kind, ``SurfaceError`` or ``DomainError`` for what is wrong in it.
     """
@@ -72,10 +75,13 @@ def load(
         raise FileFormatError(f"a path or a name is needed, not {shown(path)}") from None
     joins = bool(Joining.of(imprint, sew))
     if place.suffix.lower() in SUFFIXES:
-        return read_cad(
+        with begun_reading(
             place, units=units, time_limit=time_limit, memory_limit=memory_limit, imprint=imprint,
-            sew=sew,
-        )  # fmt: skip
+            sew=sew, isolate=isolate,
+        ) as reading:  # fmt: skip
+            import surfmesh.meshing.model_mesh  # noqa: F401  needed next, while a child reads
+
+            return reading.model()
     if joins:
         raise CadError(f"imprint and sew are for CAD models, and {place.name} holds none")
     if place.suffix == "" and not place.exists():
@@ -121,14 +127,25 @@ def mesh(
     if order not in (1, 2):
         raise SizingError(f"order is {shown(order)}: meshes are of order 1 or 2")
     model = _model_or_surface(surface)
-    if isinstance(model, CadModel):
+    if not isinstance(model, Surface):
+        from surfmesh.meshing.faces.face_workers import FaceWorkers
+        from surfmesh.meshing.model_mesh import mesh_model
+
         workers = FaceWorkers(jobs, executor)
         made = mesh_model(model, sizing, optimise, progress, strict, simplify, workers)
-    elif isinstance(model, PlanarDomain):
+    elif _is_domain(model):
+        from surfmesh.meshing.planar_mesh import mesh_planar
+
         made = mesh_planar(model, _one_sizing(model, sizing), optimise, progress, simplify)
     else:
+        from surfmesh.meshing.parametric_mesh import mesh_parametric
+
         made = mesh_parametric(model, _one_sizing(model, sizing), optimise, progress)
-    return _logged(made if order == 1 else of_second_order(made), model)
+    if order == 2:
+        from surfmesh.meshing.finishing.second_order import of_second_order
+
+        made = of_second_order(made)
+    return _logged(made, model)
 
 
 def estimate(surface: Surface | CadModel | Any, sizing: Sizes = None) -> Estimate:
@@ -139,10 +156,16 @@ def estimate(surface: Surface | CadModel | Any, sizing: Sizes = None) -> Estimat
     but for their limit.
     """
     model = _model_or_surface(surface)
-    if isinstance(model, CadModel):
+    if not isinstance(model, Surface):
+        from surfmesh.meshing.model_mesh import estimate_model
+
         return estimate_model(model, sizing)
-    if isinstance(model, PlanarDomain):
+    if _is_domain(model):
+        from surfmesh.meshing.planar_mesh import estimate_planar
+
         return estimate_planar(model, _one_sizing(model, sizing))
+    from surfmesh.meshing.parametric_mesh import estimate_parametric
+
     return estimate_parametric(model, _one_sizing(model, sizing))
 
 
@@ -157,8 +180,12 @@ def explain(
     ``mesh`` raises for sizes that cannot be met, and ``SizingError`` for what is no point.
     """
     model = _model_or_surface(surface)
-    if isinstance(model, CadModel):
+    if not isinstance(model, Surface):
+        from surfmesh.meshing.model_mesh import explain_size
+
         return explain_size(model, sizing, _place(point))
+    from surfmesh.meshing.parametric_mesh import explain_parametric
+
     wanted = _one_sizing(model, sizing)
     return explain_parametric(model, wanted, _place(point))
 
@@ -178,11 +205,21 @@ def _place(point: Sequence[float]) -> NDArray[np.float64]:
 
 def _model_or_surface(thing: Any) -> Surface | CadModel:
     """What is to be meshed; of an object of CadQuery its model."""
-    if not isinstance(thing, (CadModel, Surface)) and _is_cad(thing):
-        thing = from_cadquery(thing)
-    if not isinstance(thing, (CadModel, Surface)):
+    # a class that nobody has imported has no instances
+    home = sys.modules.get("surfmesh.cad.model.cad_model")
+    if isinstance(thing, Surface) or (home is not None and isinstance(thing, home.CadModel)):
+        return thing
+    if not _is_cad(thing):
         raise SurfaceError(f"cannot mesh a {type(thing).__name__}: a Surface is needed")
-    return thing
+    from surfmesh.cad.cadquery.from_cadquery import from_cadquery
+
+    return from_cadquery(thing)
+
+
+def _is_domain(thing: Any) -> TypeGuard[PlanarDomain]:
+    """Without importing what only domains need."""
+    home = sys.modules.get("surfmesh.geometry.planar.planar_domain")
+    return home is not None and isinstance(thing, home.PlanarDomain)
 
 
 def _one_sizing(surface: Surface, sizing: Sizes) -> Sizing:
@@ -191,7 +228,7 @@ def _one_sizing(surface: Surface, sizing: Sizes) -> Sizing:
         sizing = default_options(surface) or None
     if isinstance(sizing, Mapping) and set(sizing) == {"*"}:
         sizing = sizing["*"]
-    elif isinstance(sizing, Mapping) and is_by_selection(sizing):
+    elif isinstance(sizing, Mapping) and _by_selection(sizing):
         if any(isinstance(own, (Sizing, Mapping)) for own in sizing.values()):
             raise SizingError(
                 f"sizes by selection ({', '.join(map(repr, sizing))}) need a CAD model; a "
@@ -204,6 +241,12 @@ def _one_sizing(surface: Surface, sizing: Sizes) -> Sizing:
             f"{type(surface).__name__} ask for a chord"
         )
     return made
+
+
+def _by_selection(sizing: Mapping[str, Any]) -> bool:
+    from surfmesh.sizing.options.model_sizing import is_by_selection
+
+    return is_by_selection(sizing)
 
 
 def show(
@@ -230,7 +273,7 @@ def show(
         drawn: dict[str, Any] = {"by": by or "alpha"}
     else:  # the raw packing carries the field to where it changes
         shown = mesh(thing, sizing, optimise=False, strict=False)
-        flat = isinstance(thing, PlanarDomain)
+        flat = _is_domain(thing)
         first = "curvature" if sizing is None and not flat else "size"
         name = getattr(thing, "name", "") or name_of(shown)
         what = "curvature" if first == "curvature" else "size field"

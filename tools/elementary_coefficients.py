@@ -22,6 +22,7 @@ HEAD = """\
 #include <cstdint>
 
 namespace surfmesh::elementary {
+// clang-format off
 """
 
 
@@ -91,10 +92,85 @@ def sine_and_cosine() -> None:
     polynomial("COSINE", cosine, 0, last, 6, "(cos x - 1 + x^2 / 2) / x^4 in x^2, likewise")
 
 
+def exponential_and_logarithm() -> None:
+    constant("LOG2_E", 1 / mp.ln(2), "1 / ln 2")
+    table("LN2_PARTS", parts(mp.ln(2), [42, 42]), "ln 2 = their sum; 42 bits each")
+    last = mp.ln(2) / 2 * mp.mpf("1.0001")
+    exponential = power_series(lambda k: 1 / factorial(k + 2))
+    polynomial("EXPONENTIAL", exponential, -last, last, 11, "(e^x - 1 - x) / x^2, |x| <= ln 2 / 2")
+    last = ((mp.sqrt(2) - 1) / (mp.sqrt(2) + 1)) ** 2 * mp.mpf("1.0001")
+    what = "(log((1 + s) / (1 - s)) - 2 s) / s^3 in s^2, (1 + s) / (1 - s) in [sqrt(1/2), sqrt(2)]"
+    polynomial("LOGARITHM", power_series(lambda k: mp.mpf(2) / (2 * k + 3)), 0, last, 8, what)
+    table("TWO_THIRDS", parts(mp.mpf(2) / 3), "2/3 = their sum")
+    sinh = power_series(lambda k: 1 / factorial(2 * k + 3))
+    cosh = power_series(lambda k: 1 / factorial(2 * k + 2))
+    polynomial("HYPERBOLIC_SINE", sinh, 0, 1, 7, "(sinh x - x) / x^3 in x^2, |x| <= 1")
+    polynomial("HYPERBOLIC_COSINE", cosh, 0, 1, 7, "(cosh x - 1) / x^2 in x^2, |x| <= 1")
+
+
+def central(k: int) -> mp.mpf:
+    """Of asin x = sum of central(k) x^(2k + 1)."""
+    return mp.binomial(2 * k, k) / (mp.mpf(4) ** k * (2 * k + 1))
+
+
+def inverse_functions() -> None:
+    table("QUARTER_PI", parts(mp.pi / 4), "pi/4 = their sum")
+    constant("TAN_OF_PI_8", mp.tan(mp.pi / 8), "tan(pi/8)")
+    last = mp.tan(mp.pi / 8) ** 2 * mp.mpf("1.0001")
+    atan = power_series(lambda k: mp.mpf((-1) ** (k + 1)) / (2 * k + 3))
+    polynomial("ARC_TANGENT", atan, 0, last, 12, "(atan x - x) / x^3 in x^2, |x| <= tan(pi/8)")
+    asin = power_series(lambda k: central(k + 1))
+    polynomial("ARC_SINE", asin, 0, mp.mpf(1) / 4, 14, "(asin x - x) / x^3 in x^2, |x| <= 1/2")
+    asinh = power_series(lambda k: (-1) ** (k + 1) * central(k + 1))
+    last = mp.mpf(1) / 64
+    polynomial("AREA_SINE", asinh, 0, last, 7, "(asinh x - x) / x^3 in x^2, |x| <= 1/8")
+    polynomial("CUBE_ROOT", mp.cbrt, 1, 8, 8, "cbrt x, 1 <= x <= 8, a first approximation")
+
+
+def error_function() -> None:
+    """erf on [0, 6] in 12 pieces."""
+    first = power_series(
+        lambda k: 2 / mp.sqrt(mp.pi) * (-1) ** (k + 1) / (factorial(k + 1) * (2 * k + 3))
+    )
+    table("TWO_OVER_ROOT_PI", parts(2 / mp.sqrt(mp.pi)), "2 / sqrt(pi) = their sum")
+    what = "(erf x - 2 x / sqrt(pi)) / x^3 in x^2, |x| <= 1/2"
+    polynomial("ERROR_FUNCTION", first, 0, mp.mpf(1) / 4, 9, what)
+    print("\n// erf x, k/2 <= x < (k + 1)/2, k = 1 ... 11, in x - (2 k + 1)/4: high, low, slopes")
+    print("inline constexpr double ERROR_FUNCTION_PIECES[][16] = {")
+    for k in range(1, 12):
+        middle = mp.mpf(2 * k + 1) / 4
+        high, low = parts(mp.erf(middle))
+
+        def rest(d: mp.mpf, middle: mp.mpf = middle) -> mp.mpf:
+            if abs(d) < mp.mpf("1e-20"):
+                return 2 / mp.sqrt(mp.pi) * mp.exp(-(middle**2))
+            return (mp.erf(middle + d) - mp.erf(middle)) / d
+
+        with mp.workdps(100):
+            falling = mp.chebyfit(rest, [-mp.mpf(1) / 4, mp.mpf(1) / 4], 14)
+        numbers = ", ".join(hexadecimal(number) for number in [high, low, *falling[::-1]])
+        print(f"    {{{numbers}}},")
+    print("};")
+
+
+def bessel_functions() -> None:
+    for n, last, terms in ((1, 4, 10), (2, 9, 12)):
+        series = power_series(
+            lambda k, n=n: mp.mpf(-1) ** k / (2**k * factorial(k) * mp.fac2(2 * n + 2 * k + 1)), 60
+        )
+        what = f"j{n}(x) / x^{n} in x^2, |x| <= {int(last**0.5)}"
+        polynomial(f"BESSEL_{n}", series, 0, last, terms, what)
+
+
 def main() -> None:
     print(HEAD, end="")
     sine_and_cosine()
-    print("\n}  // namespace surfmesh::elementary")
+    exponential_and_logarithm()
+    inverse_functions()
+    error_function()
+    bessel_functions()
+    print("\n// clang-format on")
+    print("}  // namespace surfmesh::elementary")
 
 
 if __name__ == "__main__":

@@ -31,4 +31,9 @@ void map_blocks(std::span<const double> x, std::span<double> out, Ordinary ordin
     }
 }
 
+/// out[i] = f(x[i]), one after the other. x and out have one length and may be the same.
+inline void map_each(std::span<const double> x, std::span<double> out, double (*f)(double)) {
+    for (std::size_t k = 0; k < x.size(); ++k) out[k] = f(x[k]);
+}
+
 }  // namespace surfmesh::elementary

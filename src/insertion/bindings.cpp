@@ -127,21 +127,25 @@ void bind_outcomes(nb::module_& m) {
         .def_ro("half_edge", &BoundaryOutcome::half_edge, "The one concerned, or NIL.");
 }
 
+/// A property that gives an array of its owner as a view.
+template <class Owner, class T>
+void bind_array(nb::class_<Owner>& c, const char* name, Array<T> Owner::* member, const char* doc) {
+    c.def_prop_ro(
+        name, [member](const Owner& owner) { return view(owner.*member); },
+        nb::rv_policy::automatic, doc);  // the view keeps the memory alive by itself
+}
+
 void bind_domain(nb::module_& m) {
-    nb::class_<DomainMesh>(m, "DomainMesh", "A triangulated domain of the scaled plane.")
-        .def_ro("t", &DomainMesh::t)
-        .def_prop_ro(
-            "node", [](const DomainMesh& d) { return view(d.node); },
-            "(k,) int32: the vertex of each boundary node, NIL where no triangle uses it.")
-        .def_prop_ro(
-            "same", [](const DomainMesh& d) { return view(d.same); },
-            "(k,) int32: the vertex of the node that each coincides with in space, or its own.")
-        .def_prop_ro(
-            "on_kinks", [](const DomainMesh& d) { return view(d.on_kinks); },
-            "(j,) int32: vertices where the surface has two normals.")
-        .def_prop_ro(
-            "points", [](const DomainMesh& d) { return view(d.points); },
-            "(k, 3) where the nodes lie in space, or (0, 3): on the surface.");
+    nb::class_<DomainMesh> domain(m, "DomainMesh", "A triangulated domain of the scaled plane.");
+    domain.def_ro("t", &DomainMesh::t);
+    bind_array(domain, "node", &DomainMesh::node,
+               "(k,) int32: the vertex of each boundary node, NIL where no triangle uses it.");
+    bind_array(domain, "same", &DomainMesh::same,
+               "(k,) int32: the vertex of the node that each coincides with in space, or its own.");
+    bind_array(domain, "on_kinks", &DomainMesh::on_kinks,
+               "(j,) int32: vertices where the surface has two normals.");
+    bind_array(domain, "points", &DomainMesh::points,
+               "(k, 3) where the nodes lie in space, or (0, 3): on the surface.");
     nb::class_<RecoveredDomain>(m, "RecoveredDomain", "What comes of a recovery.")
         .def_ro("outcome", &RecoveredDomain::outcome)
         .def_ro("domain", &RecoveredDomain::domain, "Of meaning where the outcome is FINISHED.");
@@ -249,15 +253,12 @@ void bind_row(nb::module_& m) {
 
 /// The steps one by one: for tests, which look at the triangulation after each of them.
 void bind_steps(nb::module_& m) {
-    nb::class_<Insertion>(m, "Insertion", "A packing with a boundary in it, step by step.")
-        .def_ro("outcome", &Insertion::outcome)
+    nb::class_<Insertion> made(m, "Insertion", "A packing with a boundary in it, step by step.");
+    bind_array(made, "vertex", &Insertion::vertex, "(k,) of the nodes");
+    bind_array(made, "edge", &Insertion::edge, "(s,) half-edges of the segments");
+    made.def_ro("outcome", &Insertion::outcome)
         .def_ro("t", &Insertion::t)
         .def_ro("first_node", &Insertion::first_node, "Vertices from this one on are nodes.")
-        .def_prop_ro(
-            "vertex", [](const Insertion& made) { return view(made.vertex); }, "(k,) of the nodes")
-        .def_prop_ro(
-            "edge", [](const Insertion& made) { return view(made.edge); },
-            "(s,) half-edges of the segments")
         .def(
             "grow_inside",
             [](Insertion& made) {
@@ -293,6 +294,10 @@ void bind_steps(nb::module_& m) {
 
 void bind_insertion(nb::module_& m) {
     m.doc() = "Section 3 of the paper: boundary nodes and segments by tracing neighbours.";
+    m.attr("APART") = APART;
+    m.attr("AROUND") = AROUND;
+    m.attr("LOWEST") = LOWEST;
+    m.attr("CROWDED") = CROWDED;
     bind_outcomes(m);
     bind_domain(m);
     bind_recovery(m);

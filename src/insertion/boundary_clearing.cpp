@@ -8,8 +8,6 @@
 namespace surfmesh {
 namespace {
 
-constexpr double CROWDED = 0.5;  // metric distance from a segment below which a vertex is removed
-
 // Triangles below this alpha, left by the packing or the boundary, are offered a swap; how often
 // all are gone through at most; by how much a swap has to raise the smaller alpha.
 constexpr double BAD_SHAPE = 0.7;

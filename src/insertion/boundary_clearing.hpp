@@ -13,10 +13,14 @@
 
 namespace surfmesh {
 
+/// Metric distance from the boundary below which an interior vertex is removed.
+inline constexpr double CROWDED = 0.5;
+
 /// Remove interior vertices that are too near to a segment between vertices, or to its ends.
 ///
-/// ``edge``: the half-edges of the segments; they are kept up to date. Vertices from
-/// ``first_node`` on are nodes and stay. Gives the number of those removed, or the segment lost.
+/// ``edge``: the half-edges of the segments; each is up to date once its segment has had its turn,
+/// and those of segments near by may be stale after. Vertices from ``first_node`` on are nodes and
+/// stay. Gives the number of those removed, or the segment lost.
 struct Cleared {
     BoundaryOutcome outcome;
     std::int64_t removed = 0;

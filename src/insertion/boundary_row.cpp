@@ -9,10 +9,6 @@
 namespace surfmesh {
 namespace {
 
-// In metric lengths: how far apart the vertices of the row are, how near to them others are
-// removed, and how low the row's triangles may be where segments are long.
-constexpr double APART = 0.65, AROUND = 0.6, LOWEST = 0.7;
-
 /// Squared metric length from vertex v to a point with its size tensor.
 double squared_distance(const Triangulation& t, Vertex v, Point2 p, SizeTensor h) {
     const Point2 u = solve(0.5 * (t.size[v] + h), t.xy[v] - p);

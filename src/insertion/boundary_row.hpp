@@ -18,6 +18,10 @@
 
 namespace surfmesh {
 
+// In metric lengths: how far apart the vertices of the row are, how near to them others are
+// removed, and how low the row's triangles may be where segments are long.
+inline constexpr double APART = 0.65, AROUND = 0.6, LOWEST = 0.7;
+
 /// Apexes of isosceles triangles with unit legs on the left of segments between nodes.
 ///
 /// Two nodes at one place have none.

@@ -1,9 +1,399 @@
+#include <nanobind/stl/pair.h>
+#include <nanobind/stl/tuple.h>
+
 #include "binding/arrays.hpp"
+#include "optimisation/collapse.hpp"
+#include "optimisation/deviation_estimate.hpp"
+#include "optimisation/dihedral.hpp"
+#include "optimisation/marked_triangles.hpp"
+#include "optimisation/smoothing.hpp"
+#include "optimisation/splits.hpp"
+#include "optimisation/surface_frames.hpp"
+#include "optimisation/swaps.hpp"
 
 namespace surfmesh::binding {
 
+template <>
+struct Row<TangentMap> {
+    using Number = double;
+    static constexpr std::size_t columns = 6;
+};
+template <>
+struct Row<HalfEdgePair> {
+    using Number = std::int32_t;
+    static constexpr std::size_t columns = 2;
+};
+
+namespace {
+
+using Numbers = Vector<std::int32_t>;
+
+/// Refuse frames that are not those of the triangulation, and one that is not of a domain.
+void require_domain(const Triangulation& t, const SurfaceFrames& s) {
+    require_rows(s.point.size(), t.xy.size(), "frames");
+    if (!t.has_segments() && t.triangles() > 0)
+        throw nb::value_error("the triangulation has no ``fixed``");
+    for (HalfEdge e = 0; e < 3 * t.triangles(); ++e)
+        if (t.tri[e] == NIL && t.region[e / 3] != DEAD)
+            throw nb::value_error("the triangulation has a ghost triangle");
+}
+
+void require_stars(const Triangulation& t, const Stars& stars) {
+    require_rows(stars.start.size(), t.xy.size(), "stars");
+    for (Vertex v = 0; v < t.vertices(); ++v) {
+        const HalfEdge e = stars.start[v];
+        if (e == NIL) continue;
+        if (e < 0 || e >= 3 * t.triangles() || t.tri[e] != v || t.region[e / 3] == DEAD)
+            throw nb::value_error("stars are not those of the triangulation");
+    }
+}
+
+void require_marks(const Triangulation& t, const VertexMarks& marks) {
+    require_rows(marks.active.size(), t.xy.size(), "marks");
+    require_rows(marks.dirty.size(), t.xy.size(), "marks");
+}
+
+void require_vertex(const SurfaceFrames& s, Vertex v) {
+    if (v < 0 || static_cast<std::size_t>(v) >= s.point.size())
+        throw nb::value_error("there is no such vertex");
+}
+
+/// A property that gives an array as a view.
+template <class Owner, class T>
+void bind_array(nb::class_<Owner>& c, const char* name, Array<T> Owner::* member, const char* doc) {
+    c.def_prop_ro(
+        name, [member](const Owner& owner) { return view(owner.*member); },
+        nb::rv_policy::automatic, doc);
+}
+
+void bind_frames(nb::module_& m) {
+    nb::class_<SurfaceFrames> c(m, "SurfaceFrames",
+                                "Where the vertices lie in space, and how to measure there. "
+                                "Arrays are views: they go stale where vertices are added.");
+    c.def(nb::init<std::size_t, bool>(), nb::arg("vertices"), nb::arg("anisotropic") = false,
+          "Frames of so many vertices, all zero but for ``scale``, which is 1.");
+    bind_array(c, "point", &SurfaceFrames::point, "(vertices, 3): r");
+    bind_array(c, "tangent_map", &SurfaceFrames::tangent_map,
+               "(vertices, 6): B, its two rows one after the other");
+    bind_array(c, "normal", &SurfaceFrames::normal,
+               "(vertices, 3): unit normal, zero at a degenerate point");
+    bind_array(c, "size", &SurfaceFrames::size, "(vertices,): wanted edge length h");
+    bind_array(c, "scale", &SurfaceFrames::scale,
+               "(vertices,): h over that of the size field, at most 1");
+    bind_array(c, "metric_root_3d", &SurfaceFrames::metric_root,
+               "(vertices, 6): W; empty where sizes are isotropic");
+    c.def_ro("is_anisotropic", &SurfaceFrames::is_anisotropic,
+             "Do the sizes depend on the direction?");
+    c.def(
+        "set",
+        [](SurfaceFrames& s, Triangulation& t, const Background& background,
+           const Numbers& vertices, const Points3& r, const Points3& rx, const Points3& ry,
+           double largest) {
+            require_rows(s.point.size(), t.xy.size(), "frames");
+            require_indices(rows<Vertex>(vertices), t.xy.size(), "vertices");
+            require_rows(r.shape(0), vertices.shape(0), "r");
+            require_rows(rx.shape(0), vertices.shape(0), "rx");
+            require_rows(ry.shape(0), vertices.shape(0), "ry");
+            if (s.is_anisotropic && background.metric_root_3d.empty())
+                throw nb::value_error("the background has no metric_root_3d");
+            for (std::size_t k = 0; k < vertices.shape(0); ++k)
+                set_frame(t, s, background, vertices(k),
+                          {rows<Point3>(r)[k], rows<Point3>(rx)[k], rows<Point3>(ry)[k]}, largest);
+        },
+        nb::arg("t"), nb::arg("background"), nb::arg("vertices"), nb::arg("r"), nb::arg("rx"),
+        nb::arg("ry"), nb::arg("largest"),
+        "Set the frames of vertices (n,), and their size tensors, from r, r_x, r_y (n, 3).");
+}
+
+void bind_measures(nb::module_& m) {
+    m.def(
+        "chord",
+        [](const SurfaceFrames& s, Vertex v, Vertex p) {
+            require_vertex(s, v);
+            require_vertex(s, p);
+            const Point2 found = chord(s, v, p);
+            return std::pair(found.x, found.y);
+        },
+        nb::arg("frames"), nb::arg("v"), nb::arg("p"),
+        "The chord from v to p in the unit tangent plane of v.");
+    m.def(
+        "edge_length",
+        [](const SurfaceFrames& s, Vertex v, Vertex p) {
+            require_vertex(s, v);
+            require_vertex(s, p);
+            return edge_length(s, v, p);
+        },
+        nb::arg("frames"), nb::arg("v"), nb::arg("p"),
+        "Length of the chord in units of the mean wanted size, in its direction, of its ends.");
+    m.def(
+        "lift",
+        [](const SurfaceFrames& s, Vertex v, double x, double y) {
+            require_vertex(s, v);
+            const Point3 found = lift(s, v, {x, y});
+            return std::tuple(found.x, found.y, found.z);
+        },
+        nb::arg("frames"), nb::arg("v"), nb::arg("x"), nb::arg("y"),
+        "The step in space, along the tangent plane of v, that looks like (x, y) there.");
+    m.def(
+        "shorten",
+        [](SurfaceFrames& s, Vertex v, double factor) {
+            require_vertex(s, v);
+            shorten(s, v, factor);
+        },
+        nb::arg("frames"), nb::arg("v"), nb::arg("factor"), "Scale the wanted lengths at v.");
+    const auto of_triangle = [&m](const char* name,
+                                  double (*measure)(const SurfaceFrames&, Vertex, Vertex, Vertex),
+                                  const char* doc) {
+        m.def(
+            name,
+            [measure](const SurfaceFrames& s, Vertex a, Vertex b, Vertex c) {
+                for (const Vertex v : {a, b, c}) require_vertex(s, v);
+                return measure(s, a, b, c);
+            },
+            nb::arg("frames"), nb::arg("a"), nb::arg("b"), nb::arg("c"), doc);
+    };
+    of_triangle("triangle_shape", &triangle_shape,
+                "alpha of abc in space, negative when it is turned over against the normals.");
+    of_triangle("triangle_deviation", &triangle_deviation,
+                "About how far abc lies from a surface with these tangent planes.");
+}
+
+void bind_marks(nb::module_& m) {
+    nb::class_<Stars> stars(m, "Stars", "The star of each vertex of a domain.");
+    stars.def(
+        "__init__",
+        [](Stars* made, const Triangulation& t) {
+            require_domain(t, SurfaceFrames(t.xy.size(), false));
+            find_stars(t, *new (made) Stars);
+        },
+        nb::arg("t"));
+    bind_array(stars, "start", &Stars::start, "(vertices,): a half-edge that leaves it, or NIL");
+    bind_array(stars, "frozen", &Stars::frozen, "(vertices,): on the border or a fixed edge");
+    bind_array(stars, "degree", &Stars::degree, "(vertices,): how many triangles it has");
+    nb::class_<VertexMarks> marks(m, "VertexMarks",
+                                  "What the passes of the optimiser tell each other.");
+    marks.def(nb::init<std::size_t>(), nb::arg("vertices"));
+    bind_array(marks, "active", &VertexMarks::active,
+               "(vertices,): smoothing and splits look at it");
+    bind_array(marks, "dirty", &VertexMarks::dirty,
+               "(vertices,): its triangles have changed since swaps last looked at them");
+}
+
+void bind_swaps(nb::module_& m) {
+    m.def(
+        "swap_for_shape",
+        [](Triangulation& t, const SurfaceFrames& s, VertexMarks& marks, double good, int sweeps) {
+            require_domain(t, s);
+            require_marks(t, marks);
+            Array<double> shape;
+            const int swaps = swap_for_shape(t, s, shape, marks, good, sweeps);
+            return std::pair(swaps, view(shape));
+        },
+        nb::arg("t"), nb::arg("frames"), nb::arg("marks"), nb::arg("good"), nb::arg("sweeps"),
+        "Swap edges at dirty vertices while that raises the smaller alpha of the pair.\n\n"
+        "Only of triangles below ``good``. Returns the swaps made, and alpha (triangles,) of those "
+        "at dirty vertices, 1 for others.");
+    m.def(
+        "swap_for_degree",
+        [](Triangulation& t, const SurfaceFrames& s, Stars& stars, VertexMarks& marks,
+           double least) {
+            require_domain(t, s);
+            require_stars(t, stars);
+            require_marks(t, marks);
+            return swap_for_degree(t, s, stars, marks, least);
+        },
+        nb::arg("t"), nb::arg("frames"), nb::arg("stars"), nb::arg("marks"), nb::arg("least"),
+        "Swap edges that bring the degrees of their four vertices nearer to six.\n\n"
+        "Only where the new triangles are better than ``least``. Returns the swaps made.");
+}
+
+void bind_smoothing(nb::module_& m) {
+    m.def(
+        "newton_step",
+        [](const Triangulation& t, const SurfaceFrames& s, const Stars& stars, Vertex v,
+           double stiffness) {
+            require_domain(t, s);
+            require_stars(t, stars);
+            require_vertex(s, v);
+            if (stars.frozen[v] != 0 || stars.start[v] == NIL)
+                throw nb::value_error("the vertex has no whole star");
+            const NewtonStep found = newton_step(t, s, v, stars.start[v], stiffness);
+            return std::tuple(found.step.x, found.step.y, found.worst);
+        },
+        nb::arg("t"), nb::arg("frames"), nb::arg("stars"), nb::arg("v"), nb::arg("stiffness"),
+        "The step of v in its unit tangent plane that lowers the energy of its star.\n\n"
+        "Returns x, y and the smallest alpha of the star, -1 where a triangle is turned over.");
+    m.def(
+        "smooth",
+        [](Triangulation& t, SurfaceFrames& s, const Background& background, const Stars& stars,
+           VertexMarks& marks, double stiffness) {
+            require_domain(t, s);
+            require_stars(t, stars);
+            require_marks(t, marks);
+            Array<Vertex> moved;
+            smooth(t, s, background, stars, marks, stiffness, moved);
+            return view(moved);
+        },
+        nb::arg("t"), nb::arg("frames"), nb::arg("background"), nb::arg("stars"), nb::arg("marks"),
+        nb::arg("stiffness"),
+        "Move every active vertex by one Newton step; returns the vertices that moved.");
+}
+
+void bind_collapse_and_splits(nb::module_& m) {
+    m.def(
+        "collapse_short_edges",
+        [](Triangulation& t, const SurfaceFrames& s, Stars& stars, VertexMarks& marks,
+           double shortest, int few) {
+            require_domain(t, s);
+            require_stars(t, stars);
+            require_marks(t, marks);
+            return collapse_short_edges(t, s, stars, marks, shortest, few);
+        },
+        nb::arg("t"), nb::arg("frames"), nb::arg("stars"), nb::arg("marks"), nb::arg("shortest"),
+        nb::arg("few"),
+        "Remove interior vertices with an edge below ``shortest`` or at most ``few`` triangles.");
+    m.def(
+        "split_edge",
+        [](Triangulation& t, HalfEdge e, double x, double y) {
+            if (e < 0 || e >= 3 * t.triangles() || t.region[e / 3] == DEAD || t.adj[e] == NIL)
+                throw nb::value_error("there is no such edge in the interior");
+            for (const Triangle k : {e / 3, t.adj[e] / 3})
+                for (const HalfEdge h : {3 * k, 3 * k + 1, 3 * k + 2})
+                    if (t.tri[h] == NIL) throw nb::value_error("a ghost triangle is beside e");
+            if (!t.has_segments() || t.fixed[e] != 0)
+                throw nb::value_error("the edge is fixed, or the triangulation has no ``fixed``");
+            return split_edge(t, e, {x, y});
+        },
+        nb::arg("t"), nb::arg("e"), nb::arg("x"), nb::arg("y"),
+        "Put a vertex at (x, y), on or near the interior edge e, and join it to four corners.\n\n"
+        "Returns the vertex, or NIL when a triangle would not be positive.");
+    m.def(
+        "split_long_edges",
+        [](Triangulation& t, SurfaceFrames& s, VertexMarks& marks, double longest) {
+            require_domain(t, s);
+            require_marks(t, marks);
+            return split_long_edges(t, s, marks, longest);
+        },
+        nb::arg("t"), nb::arg("frames"), nb::arg("marks"), nb::arg("longest"),
+        "Split interior edges of active vertices longer than ``longest``: the first new vertex.");
+    m.def(
+        "split_far_edges",
+        [](Triangulation& t, SurfaceFrames& s, VertexMarks& marks, const Numbers& triangles) {
+            require_domain(t, s);
+            require_marks(t, marks);
+            require_indices(rows<Triangle>(triangles), t.region.size(), "triangles");
+            return split_far_edges(t, s, marks, rows<Triangle>(triangles));
+        },
+        nb::arg("t"), nb::arg("frames"), nb::arg("marks"), nb::arg("triangles"),
+        "Split, in each of the triangles (n,), the edge that lies farthest from the surface: the "
+        "first new vertex.");
+}
+
+void bind_sizes(nb::module_& m) {
+    m.def(
+        "estimate_deviations",
+        [](const Triangulation& t, const SurfaceFrames& s) {
+            require_domain(t, s);
+            return view(estimate_deviations(t, s));
+        },
+        nb::arg("t"), nb::arg("frames"),
+        "Second-order estimate (triangles,) of each triangle's distance from the surface.");
+    m.def(
+        "shrink_far",
+        [](const Triangulation& t, SurfaceFrames& s, VertexMarks& marks, const Numbers& triangles,
+           const Vector<double>& deviation, double limit) {
+            require_domain(t, s);
+            require_marks(t, marks);
+            require_indices(rows<Triangle>(triangles), t.region.size(), "triangles");
+            require_rows(deviation.shape(0), triangles.shape(0), "deviation");
+            return shrink_far(t, s, marks, rows<Triangle>(triangles), rows<double>(deviation),
+                              limit);
+        },
+        nb::arg("t"), nb::arg("frames"), nb::arg("marks"), nb::arg("triangles"),
+        nb::arg("deviation"), nb::arg("limit"),
+        "Ask for smaller edges where the deviation (n,) of triangles (n,) exceeds ``limit``: how "
+        "many there are.");
+    m.def(
+        "lower_sizes",
+        [](SurfaceFrames& s, VertexMarks& marks, const Numbers& vertices,
+           const Vector<double>& factors, double smallest) {
+            require_rows(marks.active.size(), s.point.size(), "marks");
+            require_indices(rows<Vertex>(vertices), s.point.size(), "vertices");
+            require_rows(factors.shape(0), vertices.shape(0), "factors");
+            return lower_sizes(s, marks, rows<Vertex>(vertices), rows<double>(factors), smallest);
+        },
+        nb::arg("frames"), nb::arg("marks"), nb::arg("vertices"), nb::arg("factors"),
+        nb::arg("smallest"),
+        "Scale the wanted lengths at vertices (n,), down to ``smallest`` of what they were: how "
+        "many were scaled.");
+}
+
+void bind_triangles(nb::module_& m) {
+    m.def(
+        "find_folded",
+        [](const Triangulation& t, const SurfaceFrames& s, double least, double at_apex) {
+            require_domain(t, s);
+            return view(find_folded(t, s, least, at_apex));
+        },
+        nb::arg("t"), nb::arg("frames"), nb::arg("least"), nb::arg("at_apex"),
+        "Which triangles (triangles,) are turned against the surface at one of their corners.\n\n"
+        "``least``: cosine of the largest angle between the normals; ``at_apex``: the same where "
+        "a corner has no normal.");
+    m.def(
+        "activate_bad",
+        [](const Triangulation& t, const SurfaceFrames& s, VertexMarks& marks, double least) {
+            require_domain(t, s);
+            require_marks(t, marks);
+            return activate_bad(t, s, marks, least);
+        },
+        nb::arg("t"), nb::arg("frames"), nb::arg("marks"), nb::arg("least"),
+        "Make the corners of triangles with alpha below ``least`` active; returns how many.");
+    m.def(
+        "find_dihedrals_over",
+        [](const Triangulation& t, const SurfaceFrames& s, double limit) {
+            require_domain(t, s);
+            const DihedralAngles found = find_dihedrals_over(t, s.point, limit);
+            return std::pair(view(found.edges), view(found.angles));
+        },
+        nb::arg("t"), nb::arg("frames"), nb::arg("limit"),
+        "Half-edges (k, 2) across which triangles turn by more than ``limit`` (radians), and the "
+        "angles (k,).");
+    m.def(
+        "dihedral_angles",
+        [](const Points3& points, const Matrix<std::int32_t, 3>& triangles,
+           const Matrix<std::int32_t, 2>& half_edges) {
+            const std::span<const Vertex> corners{triangles.data(), triangles.size()};
+            require_indices(corners, points.shape(0), "triangles");
+            const std::span<const HalfEdgePair> edges = rows<HalfEdgePair>(half_edges);
+            for (const auto [first, second] : edges)
+                if (first < 0 || second < NIL ||
+                    static_cast<std::size_t>(std::max(first, second)) >= corners.size())
+                    throw nb::value_error("half_edges has an index that is out of range");
+            Array<double> angles;
+            {
+                const nb::gil_scoped_release released;
+                angles = dihedral_angles(rows<Point3>(points), corners, edges);
+            }
+            return view(angles);
+        },
+        nb::arg("points"), nb::arg("triangles"), nb::arg("half_edges"),
+        "Radians (k,) between the normals of the triangles at pairs of half-edges (k, 2).\n\n"
+        "points: (n, 3). triangles: (m, 3). -1 in the second column: 0, there is no angle. Where "
+        "both run the same way, as somewhere on a Moebius strip, one triangle is turned over.");
+}
+
+}  // namespace
+
 void bind_optimisation(nb::module_& m) {
     m.doc() = "Swaps, smoothing, collapse and split, measured on the surface.";
+    bind_frames(m);
+    bind_measures(m);
+    bind_marks(m);
+    bind_swaps(m);
+    bind_smoothing(m);
+    bind_collapse_and_splits(m);
+    bind_sizes(m);
+    bind_triangles(m);
 }
 
 }  // namespace surfmesh::binding

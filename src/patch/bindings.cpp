@@ -1,9 +1,360 @@
+#include <nanobind/stl/optional.h>
+#include <nanobind/stl/pair.h>
+
+#include <memory>
+#include <optional>
+
 #include "binding/arrays.hpp"
+#include "patch/patch_state.hpp"
+#include "patch/schedule.hpp"
+#include "patch/size_requests.hpp"
+#include "surfaces/callback_surface.hpp"
 
 namespace surfmesh::binding {
 
+template <>
+struct Row<Dihedrals::Pair> {
+    using Number = std::int32_t;
+    static constexpr std::size_t columns = 2;
+};
+
+void bind_accuracy(nb::module_& m);
+void bind_seams(nb::module_& m);
+
+namespace {
+
+using Numbers = Vector<std::int32_t>;
+using Pieces = Matrix<double, 7>;
+
+/// One axis of a chart from its arrays.
+ChartAxis axis_of(double extent, const Vector<double>& knots, const Vector<double>& slopes,
+                  const std::optional<Pieces>& pieces) {
+    if (!(extent > 0.0)) throw nb::value_error("extent is not positive");
+    if (knots.shape(0) < 2) throw nb::value_error("knots are at least two");
+    require_rows(slopes.shape(0), knots.shape(0), "slopes");
+    ChartAxis axis;
+    axis.extent = extent;
+    axis.knots = Array<double>(rows<double>(knots));
+    axis.slopes = Array<double>(rows<double>(slopes));
+    if (pieces) axis.pieces = Array<BentPiece>(rows<BentPiece>(*pieces));
+    return axis;
+}
+
+void bind_chart(nb::module_& m) {
+    nb::class_<ChartAxis>(m, "ChartAxis",
+                          "A monotone map between one parameter and its scaled coordinate.")
+        .def(
+            "__init__",
+            [](ChartAxis* made, double extent, const Vector<double>& knots,
+               const Vector<double>& slopes, const std::optional<Pieces>& pieces) {
+                new (made) ChartAxis(axis_of(extent, knots, slopes, pieces));
+            },
+            nb::arg("extent"), nb::arg("knots"), nb::arg("slopes"), nb::arg("pieces") = nb::none(),
+            "knots, slopes (k,): the parameter and its derivative at k even coordinates from 0 to "
+            "extent.\npieces (p, 7), where knots are of the bent parameter: first, last, powers at "
+            "both ends, their beta function, clearance at both ends.")
+        .def_prop_ro("extent", [](const ChartAxis& axis) { return axis.extent; })
+        .def(
+            "parameter_and_rate",
+            [](const ChartAxis& axis, const Vector<double>& x) {
+                Array<double> parameter(x.shape(0)), rate(x.shape(0));
+                for (std::size_t i = 0; i < x.shape(0); ++i) {
+                    const ValueAndRate found = axis.parameter(rows<double>(x)[i]);
+                    parameter[i] = found.value;
+                    rate[i] = found.rate;
+                }
+                return std::pair(view(parameter), view(rate));
+            },
+            nb::arg("x"),
+            "The parameter (n,) at scaled coordinates x (n,), and its derivative by x (n,).\n\n"
+            "Linear outside [0, extent], constant where the parameter is bent.");
+    nb::class_<Chart>(m, "Chart", "(u, v) of a surface and the scaled plane, axis by axis.")
+        .def(
+            "__init__",
+            [](Chart* made, const ChartAxis& u, const ChartAxis& v) { new (made) Chart{u, v}; },
+            nb::arg("u"), nb::arg("v"))
+        .def(
+            "to_uv_and_rates",
+            [](const Chart& chart, const Points2& xy) {
+                Array<Point2> uv(xy.shape(0)), rates(xy.shape(0));
+                for (std::size_t i = 0; i < xy.shape(0); ++i) {
+                    const ChartPoint at = chart.at(rows<Point2>(xy)[i]);
+                    uv[i] = at.uv;
+                    rates[i] = at.rates;
+                }
+                return std::pair(view(uv), view(rates));
+            },
+            nb::arg("xy"), "xy (n, 2) -> uv (n, 2) and (du/dx, dv/dy) (n, 2).");
+}
+
+/// A callable of Python that is told of each pass, and what it raised.
+struct PassHook {
+    nb::object call;
+    std::exception_ptr raised;
+
+    bool operator()() {
+        const nb::gil_scoped_acquire held;
+        try {
+            call();
+            return true;
+        } catch (...) {
+            raised = std::current_exception();
+            return false;
+        }
+    }
+};
+
+/// A patch that is driven from Python, pass by pass or as a whole.
+struct BoundPatch {
+    const Surface& surface;
+    std::shared_ptr<PassHook> hook;
+    PatchState state;
+
+    /// Do something with the state, the interpreter released; raise what stopped it.
+    template <class Work>
+    auto run(Work work) {
+        require_rows(state.frames.point.size(), state.t.xy.size(), "frames");
+        require_rows(state.marks.active.size(), state.t.xy.size(), "marks");
+        auto found = [&] {
+            const nb::gil_scoped_release released;
+            return work(state);
+        }();
+        raise_if_stopped();
+        return found;
+    }
+    void run_pass(void (*pass)(PatchState&)) {
+        run([pass](PatchState& s) {
+            pass(s);
+            return true;
+        });
+    }
+    void raise_if_stopped() {
+        if (state.status() == PatchStatus::SURFACE_FAILED)
+            raise_failure(surface, state.surface().status());
+        if (state.status() == PatchStatus::CANCELLED) std::rethrow_exception(hook->raised);
+    }
+};
+
+void require_domain(const Triangulation& t) {
+    if (!t.has_segments() && t.triangles() > 0)
+        throw nb::value_error("the triangulation has no ``fixed``");
+    for (HalfEdge e = 0; e < 3 * t.triangles(); ++e)
+        if (t.tri[e] == NIL && t.region[e / 3] != DEAD)
+            throw nb::value_error("the triangulation has a ghost triangle");
+}
+
+BoundaryNodes nodes_of(const Triangulation& t, const Numbers& vertex, const Numbers& same,
+                       const Numbers& on_kinks, const std::optional<Points3>& points) {
+    require_rows(same.shape(0), vertex.shape(0), "same");
+    require_indices(rows<Vertex>(vertex), t.xy.size(), "node");
+    require_indices(rows<Vertex>(same), t.xy.size(), "same");
+    require_indices(rows<Vertex>(on_kinks), t.xy.size(), "on_kinks");
+    if (points) require_rows(points->shape(0), vertex.shape(0), "points");
+    return {Array<Vertex>(rows<Vertex>(vertex)), Array<Vertex>(rows<Vertex>(same)),
+            Array<Vertex>(rows<Vertex>(on_kinks)),
+            points ? Array<Point3>(rows<Point3>(*points)) : Array<Point3>()};
+}
+
+void construct(BoundPatch* made, Triangulation& t, const Numbers& node, const Numbers& same,
+               const Numbers& on_kinks, const std::optional<Points3>& points,
+               const Surface& surface, const Chart& chart, const Background& background,
+               std::optional<double> chord, std::optional<double> angle, double min_size,
+               const nb::object& before_pass) {
+    require_domain(t);
+    BoundaryNodes nodes = nodes_of(t, node, same, on_kinks, points);
+    std::shared_ptr<PassHook> hook;
+    if (!before_pass.is_none()) hook = std::make_shared<PassHook>(PassHook{before_pass, {}});
+    PatchSetting setting{surface, chart, background, {chord, angle, min_size}, {}};
+    if (hook) setting.before_pass = [hook] { return (*hook)(); };
+    auto patch = [&] {
+        const nb::gil_scoped_release released;
+        return BoundPatch{surface, hook, PatchState(t, std::move(nodes), setting)};
+    }();
+    patch.raise_if_stopped();
+    new (made) BoundPatch(std::move(patch));
+}
+
+void bind_passes(nb::class_<BoundPatch>& c) {
+    c.def("find_stars", [](BoundPatch& p) { p.run_pass([](PatchState& s) { s.find_stars(); }); });
+    c.def(
+        "set_frames",
+        [](BoundPatch& p, const Numbers& vertices) {
+            require_indices(rows<Vertex>(vertices), p.state.t.xy.size(), "vertices");
+            p.run([&](PatchState& s) {
+                s.set_frames(rows<Vertex>(vertices));
+                return true;
+            });
+        },
+        nb::arg("vertices"), "Put vertices (n,) back on the surface, with their exact metric.");
+    c.def(
+        "smooth",
+        [](BoundPatch& p, double stiffness) {
+            return p.run([&](PatchState& s) { return s.smooth(stiffness); });
+        },
+        nb::arg("stiffness") = STIFFNESS,
+        "Move every active vertex by one Newton step; returns how many have moved.");
+    c.def(
+        "swap",
+        [](BoundPatch& p, double good) {
+            p.run([&](PatchState& s) {
+                s.swap(good);
+                return true;
+            });
+        },
+        nb::arg("good") = GOOD_SHAPE,
+        "Swap edges of triangles below the alpha ``good`` while that raises the smaller one.");
+    c.def(
+        "swap_for_degree",
+        [](BoundPatch& p) { p.run_pass([](PatchState& s) { s.swap_for_degree(); }); },
+        "Swap edges that bring the degrees of their four vertices nearer to six.");
+    c.def(
+        "collapse", [](BoundPatch& p) { p.run_pass([](PatchState& s) { s.collapse(); }); },
+        "Remove interior vertices with a short edge, or with few triangles.");
+    c.def(
+        "split",
+        [](BoundPatch& p, double longest) {
+            p.run([&](PatchState& s) {
+                s.split(longest);
+                return true;
+            });
+        },
+        nb::arg("longest") = LONGEST, "Split interior edges of active vertices that are longer.");
+    c.def(
+        "split_farthest",
+        [](BoundPatch& p, const Numbers& triangles) {
+            require_indices(rows<Triangle>(triangles), p.state.t.region.size(), "triangles");
+            return p.run(
+                [&](PatchState& s) { return s.split_farthest(rows<Triangle>(triangles)); });
+        },
+        nb::arg("triangles"),
+        "Split the edge of each of the triangles (n,) that lies farthest from the surface; "
+        "returns how many were split.");
+}
+
+void bind_results(nb::module_& m) {
+    nb::class_<Unmended>(m, "Unmended", "What the optimiser has left.")
+        .def_prop_ro(
+            "far", [](const Unmended& u) { return view(u.far); }, nb::rv_policy::automatic,
+            "Triangles (n,) still farther than ``chord`` from the surface.")
+        .def_prop_ro(
+            "folded", [](const Unmended& u) { return view(u.folded); }, nb::rv_policy::automatic,
+            "Triangles (n,) turned far from the surface's normals.")
+        .def_prop_ro(
+            "bent", [](const Unmended& u) { return view(u.dihedrals.triangles); },
+            nb::rv_policy::automatic,
+            "Triangles (k, 2) on both sides of edges with more than ``angle`` between them.")
+        .def_prop_ro(
+            "angles", [](const Unmended& u) { return view(u.dihedrals.angles); },
+            nb::rv_policy::automatic, "The angles (k,) there, radians.");
+    nb::class_<SizeLimitArrays>(m, "SizeLimitArrays", "At each point the size is at most this.")
+        .def_prop_ro(
+            "points", [](const SizeLimitArrays& l) { return view(l.points); },
+            nb::rv_policy::automatic, "(k, 3) in space")
+        .def_prop_ro(
+            "sizes", [](const SizeLimitArrays& l) { return view(l.sizes); },
+            nb::rv_policy::automatic, "(k,) model units")
+        .def_prop_ro(
+            "uv", [](const SizeLimitArrays& l) { return view(l.uv); }, nb::rv_policy::automatic,
+            "(k, 2) parameters of the points; empty where sizes are isotropic")
+        .def_prop_ro(
+            "metric_root_3d", [](const SizeLimitArrays& l) { return view(l.metric_root); },
+            nb::rv_policy::automatic, "(k, 6) W; empty where sizes are isotropic");
+    nb::class_<SizeRequests>(m, "SizeRequests",
+                             "What a patch asks for, by what is not right there.")
+        .def_ro("chord", &SizeRequests::chord)
+        .def_ro("folds", &SizeRequests::folds)
+        .def_ro("angle", &SizeRequests::angle);
+}
+
+/// A property that gives a member of the state, which lives as long as the patch.
+template <class T>
+void bind_member(nb::class_<BoundPatch>& c, const char* name, T PatchState::* member) {
+    c.def_prop_ro(
+        name, [member](BoundPatch& p) -> T& { return p.state.*member; },
+        nb::rv_policy::reference_internal);
+}
+
+void bind_state(nb::class_<BoundPatch>& c) {
+    c.def("__init__", &construct, nb::arg("t"), nb::arg("node"), nb::arg("same"),
+          nb::arg("on_kinks"), nb::arg("points").none(), nb::arg("surface"), nb::arg("chart"),
+          nb::arg("background"), nb::arg("chord") = nb::none(), nb::arg("angle") = nb::none(),
+          nb::arg("min_size") = 0.0, nb::arg("before_pass") = nb::none(), nb::keep_alive<1, 2>(),
+          nb::keep_alive<1, 7>(), nb::keep_alive<1, 8>(), nb::keep_alive<1, 9>(),
+          "t: of the domain, changed in place. node, same (k,): vertices of the boundary's nodes, "
+          "and of those they coincide with in space. on_kinks (j,): vertices where the surface has "
+          "two normals. points (k, 3): where the nodes lie; None: on the surface.\nchord (model "
+          "units), angle (degrees): what is asked for. before_pass: called before each pass of "
+          "smoothing; may raise to stop the work.");
+    c.def_prop_ro(
+        "t", [](BoundPatch& p) -> Triangulation& { return p.state.t; },
+        nb::rv_policy::reference_internal, "The triangulation of the domain.");
+    bind_member(c, "frames", &PatchState::frames);
+    bind_member(c, "stars", &PatchState::stars);
+    bind_member(c, "marks", &PatchState::marks);
+    c.def_prop_ro(
+        "shape", [](const BoundPatch& p) { return view(p.state.shape); }, nb::rv_policy::automatic,
+        "(triangles,) alpha, as swaps have last seen it");
+    c.def_prop_ro("swaps", [](const BoundPatch& p) { return p.state.swaps; });
+    c.def_prop_ro("collapses", [](const BoundPatch& p) { return p.state.collapses; });
+    c.def_prop_ro("splits", [](const BoundPatch& p) { return p.state.splits; });
+    c.def_prop_ro("passes", [](const BoundPatch& p) { return p.state.passes; });
+}
+
+void bind_schedule(nb::class_<BoundPatch>& c) {
+    c.def(
+        "optimise",
+        [](BoundPatch& p, bool first) {
+            return p.run([&](PatchState& s) { return optimise(s, first); });
+        },
+        nb::arg("first") = true,
+        "Optimise in place; what is good already is left alone. Returns what is left.\n\n"
+        "first: the sizes come from no earlier round, and one with finer sizes may follow.");
+    c.def(
+        "choose_diagonals", [](BoundPatch& p) { p.run_pass(&choose_diagonals); },
+        "Only choose better diagonals for what the packing and the boundary left over.");
+    c.def(
+        "size_requests",
+        [](BoundPatch& p, const Unmended& left,
+           const std::optional<Vector<std::uint8_t>>& off_surface) {
+            for (const Triangle k : left.far)
+                if (k >= p.state.t.triangles()) throw nb::value_error("left is of another patch");
+            for (const Triangle k : left.folded)
+                if (k >= p.state.t.triangles()) throw nb::value_error("left is of another patch");
+            for (const auto [a, b] : left.dihedrals.triangles)
+                if (std::max(a, b) >= p.state.t.triangles())
+                    throw nb::value_error("left is of another patch");
+            if ((left.far.size() > 0 && !p.state.asked().chord) ||
+                (left.dihedrals.angles.size() > 0 && !p.state.asked().angle))
+                throw nb::value_error("left is of another patch");
+            std::span<const std::uint8_t> off;
+            if (off_surface) {
+                require_rows(off_surface->shape(0), p.state.nodes().vertex.size(), "off_surface");
+                off = rows<std::uint8_t>(*off_surface);
+            }
+            return p.run([&](PatchState& s) { return size_requests(s, left, off); });
+        },
+        nb::arg("left"), nb::arg("off_surface") = nb::none(),
+        "Upper bounds of the size under which what is ``left`` would be right.\n\n"
+        "off_surface: (k,) marks of the nodes that lie off the surface themselves: for the "
+        "triangles at them smaller sizes are no help.");
+}
+
+}  // namespace
+
 void bind_patch(nb::module_& m) {
     m.doc() = "A whole (u, v) domain and its size field become triangles in one call.";
+    m.attr("SHORTEST") = SHORTEST;
+    m.attr("LONGEST") = LONGEST;
+    bind_chart(m);
+    bind_accuracy(m);
+    bind_seams(m);
+    bind_results(m);
+    nb::class_<BoundPatch> patch(m, "PatchState",
+                                 "A triangulated domain with its surface frames, and the passes "
+                                 "of the optimiser on it.");
+    bind_state(patch);
+    bind_passes(patch);
+    bind_schedule(patch);
 }
 
 }  // namespace surfmesh::binding

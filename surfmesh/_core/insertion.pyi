@@ -12,6 +12,14 @@ import surfmesh._core.fields
 import surfmesh._core.triangulation
 
 
+APART: float = 0.65
+
+AROUND: float = 0.6
+
+LOWEST: float = 0.7
+
+CROWDED: float = 0.5
+
 class Recovery(enum.Enum):
     """How the insertion of a boundary ends."""
 
@@ -142,6 +150,14 @@ class Insertion:
     """A packing with a boundary in it, step by step."""
 
     @property
+    def vertex(self) -> Annotated[NDArray[numpy.int32], dict(shape=(None,))]:
+        """(k,) of the nodes"""
+
+    @property
+    def edge(self) -> Annotated[NDArray[numpy.int32], dict(shape=(None,))]:
+        """(s,) half-edges of the segments"""
+
+    @property
     def outcome(self) -> BoundaryOutcome: ...
 
     @property
@@ -150,14 +166,6 @@ class Insertion:
     @property
     def first_node(self) -> int:
         """Vertices from this one on are nodes."""
-
-    @property
-    def vertex(self) -> Annotated[NDArray[numpy.int32], dict(shape=(None,))]:
-        """(k,) of the nodes"""
-
-    @property
-    def edge(self) -> Annotated[NDArray[numpy.int32], dict(shape=(None,))]:
-        """(s,) half-edges of the segments"""
 
     def grow_inside(self) -> Recovery:
         """Step 5: INSIDE is what is connected to the left side of a segment."""

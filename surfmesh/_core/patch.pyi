@@ -1,1 +1,243 @@
 """A whole (u, v) domain and its size field become triangles in one call."""
+
+from typing import Annotated
+
+import numpy
+from numpy.typing import NDArray
+
+import surfmesh._core.fields
+import surfmesh._core.optimisation
+import surfmesh._core.surfaces
+import surfmesh._core.triangulation
+
+
+SHORTEST: float = 0.66
+
+LONGEST: float = 1.45
+
+class ChartAxis:
+    """A monotone map between one parameter and its scaled coordinate."""
+
+    def __init__(self, extent: float, knots: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)], slopes: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)], pieces: Annotated[NDArray[numpy.float64], dict(shape=(None, 7), order='C', device='cpu', writable=False)] | None = None) -> None:
+        """
+        knots, slopes (k,): the parameter and its derivative at k even coordinates from 0 to extent.
+        pieces (p, 7), where knots are of the bent parameter: first, last, powers at both ends, their beta function, clearance at both ends.
+        """
+
+    @property
+    def extent(self) -> float: ...
+
+    def parameter_and_rate(self, x: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)]) -> tuple[Annotated[NDArray[numpy.float64], dict(shape=(None,))], Annotated[NDArray[numpy.float64], dict(shape=(None,))]]:
+        """
+        The parameter (n,) at scaled coordinates x (n,), and its derivative by x (n,).
+
+        Linear outside [0, extent], constant where the parameter is bent.
+        """
+
+class Chart:
+    """(u, v) of a surface and the scaled plane, axis by axis."""
+
+    def __init__(self, u: ChartAxis, v: ChartAxis) -> None: ...
+
+    def to_uv_and_rates(self, xy: Annotated[NDArray[numpy.float64], dict(shape=(None, 2), order='C', device='cpu', writable=False)]) -> tuple[Annotated[NDArray[numpy.float64], dict(shape=(None, 2))], Annotated[NDArray[numpy.float64], dict(shape=(None, 2))]]:
+        """xy (n, 2) -> uv (n, 2) and (du/dx, dv/dy) (n, 2)."""
+
+FINEST_SIZE: float = 1e-05
+
+FINEST_BY_ANGLE: float = 0.0002
+
+LEAST_OF_CHORD: float = 0.5
+
+ROUND_RESERVE: float = 0.78
+
+BENT_RESERVE: float = 0.94
+
+def dense_samples() -> Annotated[NDArray[numpy.float64], dict(shape=(None, 3))]:
+    """
+    Barycentric places (25, 3) at which the mesher looks at triangles that are nearly too far: those of the report without the corners, which lie on the surface.
+    """
+
+def point_deviations(surface: surfmesh._core.surfaces.Surface, points: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)], uv: Annotated[NDArray[numpy.float64], dict(shape=(None, 2), order='C', device='cpu', writable=False)], size: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)]) -> tuple[Annotated[NDArray[numpy.float64], dict(shape=(None,))], Annotated[NDArray[numpy.float64], dict(shape=(None, 3))]]:
+    """
+    Distances (n,) of points (n, 3) from the surface, and its normals (n, 3) near them.
+
+    uv: (n, 2) parameters of a surface point nearby; size: (n,) of the triangle. Read in the tangent plane where the foot is near, else in the one a Newton step further, else by projection.
+    """
+
+def vertex_deviations(surface: surfmesh._core.surfaces.Surface, points: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)], uv: Annotated[NDArray[numpy.float64], dict(shape=(None, 2), order='C', device='cpu', writable=False)], size: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)]) -> Annotated[NDArray[numpy.float64], dict(shape=(None,))]:
+    """
+    The same (n,) of points that should be r(u, v) itself: looked at closely only if not.
+    """
+
+def triangle_deviations(surface: surfmesh._core.surfaces.Surface, chart: Chart, corners: Annotated[NDArray[numpy.float64], dict(shape=(None, 3, 3), order='C', device='cpu', writable=False)], xy: Annotated[NDArray[numpy.float64], dict(shape=(None, 3, 2), order='C', device='cpu', writable=False)], limit: float) -> Annotated[NDArray[numpy.float64], dict(shape=(None,))]:
+    """
+    Largest distance (n,) from the surface at samples of triangles (n, 3, 3) with corners on it.
+
+    xy: (n, 3, 2) the corners in the plane of ``chart``. Four samples each, read in the tangent planes; where these come near to ``limit``, the samples of the report, each with its nearest point.
+    """
+
+def cosines_with_surface(surface: surfmesh._core.surfaces.Surface, corners: Annotated[NDArray[numpy.float64], dict(shape=(None, 3, 3), order='C', device='cpu', writable=False)], uv: Annotated[NDArray[numpy.float64], dict(shape=(None, 2), order='C', device='cpu', writable=False)]) -> Annotated[NDArray[numpy.float64], dict(shape=(None,))]:
+    """
+    Of the angles (n,) between triangles (n, 3, 3) and the surface's normals at uv (n, 2).
+
+    NaN where there is no normal.
+    """
+
+def on_crease(surface: surfmesh._core.surfaces.Surface, uv: Annotated[NDArray[numpy.float64], dict(shape=(None, 2, 3, 2), order='C', device='cpu', writable=False)], alike: Annotated[NDArray[numpy.uint8], dict(shape=(None,), order='C', device='cpu', writable=False)], angle: float, diagonal: float) -> Annotated[NDArray[numpy.uint8], dict(shape=(None,))]:
+    """
+    Which edges (k,) lie on a crease, at an apex, or as good as at one: 0 and 1.
+
+    uv: (k, 2, 3, 2) of the corners of both triangles, the ends of the edge first. alike: (k,) whether both begin at one end. As good as at an apex: curved so much that ``angle`` (degrees) would ask for less than the finest size, a fraction of the diagonal.
+    """
+
+def identify_seams(tri: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], adj: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], region: Annotated[NDArray[numpy.uint8], dict(shape=(None,), order='C', device='cpu', writable=False)], vertices: int, node: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], segments: Annotated[NDArray[numpy.int32], dict(shape=(None, 2), order='C', device='cpu', writable=False)], identity: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)]) -> tuple[Annotated[NDArray[numpy.int32], dict(shape=(None,))], Annotated[NDArray[numpy.int32], dict(shape=(None,))], Annotated[NDArray[numpy.int64], dict(shape=(None,))], Annotated[NDArray[numpy.int64], dict(shape=(None,))]]:
+    """
+    The triangles in space of a domain, whose boundary nodes may be one point there.
+
+    tri, adj (3 m,), region (m,), vertices: of the domain's triangulation. node (k,) int32: the vertex of each
+    node of the boundary, or NIL. segments (s, 2) int32: pairs of nodes. identity (k,) int64: the first node
+    that is the same point. Returns triangles (3 t,) int32 of points, their corners (3 t,) int32 in the domain,
+    the vertex (n,) of each point, and the points (j,) where there is no surface.
+    """
+
+class Unmended:
+    """What the optimiser has left."""
+
+    @property
+    def far(self) -> Annotated[NDArray[numpy.int32], dict(shape=(None,))]:
+        """Triangles (n,) still farther than ``chord`` from the surface."""
+
+    @property
+    def folded(self) -> Annotated[NDArray[numpy.int32], dict(shape=(None,))]:
+        """Triangles (n,) turned far from the surface's normals."""
+
+    @property
+    def bent(self) -> Annotated[NDArray[numpy.int32], dict(shape=(None, 2))]:
+        """
+        Triangles (k, 2) on both sides of edges with more than ``angle`` between them.
+        """
+
+    @property
+    def angles(self) -> Annotated[NDArray[numpy.float64], dict(shape=(None,))]:
+        """The angles (k,) there, radians."""
+
+class SizeLimitArrays:
+    """At each point the size is at most this."""
+
+    @property
+    def points(self) -> Annotated[NDArray[numpy.float64], dict(shape=(None, 3))]:
+        """(k, 3) in space"""
+
+    @property
+    def sizes(self) -> Annotated[NDArray[numpy.float64], dict(shape=(None,))]:
+        """(k,) model units"""
+
+    @property
+    def uv(self) -> Annotated[NDArray[numpy.float64], dict(shape=(None, 2))]:
+        """(k, 2) parameters of the points; empty where sizes are isotropic"""
+
+    @property
+    def metric_root_3d(self) -> Annotated[NDArray[numpy.float64], dict(shape=(None, 6))]:
+        """(k, 6) W; empty where sizes are isotropic"""
+
+class SizeRequests:
+    """What a patch asks for, by what is not right there."""
+
+    @property
+    def chord(self) -> SizeLimitArrays | None: ...
+
+    @property
+    def folds(self) -> SizeLimitArrays | None: ...
+
+    @property
+    def angle(self) -> SizeLimitArrays | None: ...
+
+class PatchState:
+    """
+    A triangulated domain with its surface frames, and the passes of the optimiser on it.
+    """
+
+    def __init__(self, t: surfmesh._core.triangulation.Triangulation, node: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], same: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], on_kinks: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], points: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)] | None, surface: surfmesh._core.surfaces.Surface, chart: Chart, background: surfmesh._core.fields.Background, chord: float | None = None, angle: float | None = None, min_size: float = 0.0, before_pass: object | None = None) -> None:
+        """
+        t: of the domain, changed in place. node, same (k,): vertices of the boundary's nodes, and of those they coincide with in space. on_kinks (j,): vertices where the surface has two normals. points (k, 3): where the nodes lie; None: on the surface.
+        chord (model units), angle (degrees): what is asked for. before_pass: called before each pass of smoothing; may raise to stop the work.
+        """
+
+    @property
+    def t(self) -> surfmesh._core.triangulation.Triangulation:
+        """The triangulation of the domain."""
+
+    @property
+    def frames(self) -> surfmesh._core.optimisation.SurfaceFrames: ...
+
+    @property
+    def stars(self) -> surfmesh._core.optimisation.Stars: ...
+
+    @property
+    def marks(self) -> surfmesh._core.optimisation.VertexMarks: ...
+
+    @property
+    def shape(self) -> Annotated[NDArray[numpy.float64], dict(shape=(None,))]:
+        """(triangles,) alpha, as swaps have last seen it"""
+
+    @property
+    def swaps(self) -> int: ...
+
+    @property
+    def collapses(self) -> int: ...
+
+    @property
+    def splits(self) -> int: ...
+
+    @property
+    def passes(self) -> int: ...
+
+    def find_stars(self) -> None: ...
+
+    def set_frames(self, vertices: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)]) -> None:
+        """Put vertices (n,) back on the surface, with their exact metric."""
+
+    def smooth(self, stiffness: float = 2.0) -> int:
+        """
+        Move every active vertex by one Newton step; returns how many have moved.
+        """
+
+    def swap(self, good: float = 0.82) -> None:
+        """
+        Swap edges of triangles below the alpha ``good`` while that raises the smaller one.
+        """
+
+    def swap_for_degree(self) -> None:
+        """
+        Swap edges that bring the degrees of their four vertices nearer to six.
+        """
+
+    def collapse(self) -> None:
+        """Remove interior vertices with a short edge, or with few triangles."""
+
+    def split(self, longest: float = 1.45) -> None:
+        """Split interior edges of active vertices that are longer."""
+
+    def split_farthest(self, triangles: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)]) -> int:
+        """
+        Split the edge of each of the triangles (n,) that lies farthest from the surface; returns how many were split.
+        """
+
+    def optimise(self, first: bool = True) -> Unmended:
+        """
+        Optimise in place; what is good already is left alone. Returns what is left.
+
+        first: the sizes come from no earlier round, and one with finer sizes may follow.
+        """
+
+    def choose_diagonals(self) -> None:
+        """
+        Only choose better diagonals for what the packing and the boundary left over.
+        """
+
+    def size_requests(self, left: Unmended, off_surface: Annotated[NDArray[numpy.uint8], dict(shape=(None,), order='C', device='cpu', writable=False)] | None = None) -> SizeRequests:
+        """
+        Upper bounds of the size under which what is ``left`` would be right.
+
+        off_surface: (k,) marks of the nodes that lie off the surface themselves: for the triangles at them smaller sizes are no help.
+        """

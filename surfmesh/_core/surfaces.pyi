@@ -1,5 +1,6 @@
 """Surfaces of CAD models and of formulas, evaluated in blocks."""
 
+from collections.abc import Sequence
 from typing import Annotated
 
 import numpy
@@ -33,4 +34,32 @@ class CallbackSurface(Surface):
     def __init__(self, surface: object) -> None:
         """
         surface: has ``domain``, ``evaluate`` and ``derivative_bounds`` as the protocol surfmesh.geometry.surface.Surface.
+        """
+
+OPERATIONS: tuple = ...
+
+BLOCK: int = 256
+
+class Tape:
+    """A straight-line program of elementary operations. Immutable."""
+
+    def __init__(self, inputs: int, constants: Sequence[float], instructions: Sequence[tuple[str, int, Sequence[int], int]], registers: int, outputs: Sequence[int]) -> None:
+        """
+        Slots are numbered inputs first, then constants, then registers.
+
+        instructions: (operation, target, operands, exponent) each, operation one of OPERATIONS, exponent 0 but for "integer_power". ValueError for a program that reads what was not written, writes elsewhere than into registers, or the like.
+        """
+
+    def evaluate(self, points: Annotated[NDArray[numpy.float64], dict(shape=(None, None), order='C', device='cpu', writable=False)]) -> Annotated[NDArray[numpy.float64], dict(shape=(None, None, 3))]:
+        """
+        Outputs at points (n, inputs), three together: (m, n, 3).
+
+        What is undefined comes out as nan or infinity.
+        """
+
+    def bounds(self, lo: Annotated[NDArray[numpy.float64], dict(shape=(None, None), order='C', device='cpu', writable=False)], hi: Annotated[NDArray[numpy.float64], dict(shape=(None, None), order='C', device='cpu', writable=False)], kinks: bool) -> tuple[Annotated[NDArray[numpy.float64], dict(shape=(None, None))], Annotated[NDArray[numpy.float64], dict(shape=(None, None))]]:
+        """
+        Bounds over cells: lo, hi (n, inputs) -> lower, upper (n, outputs).
+
+        Infinite where nothing is known. kinks: False leaves out what second derivatives are across kinks.
         """

@@ -282,6 +282,12 @@ def _add_units(parser: argparse.ArgumentParser) -> None:
         metavar="MB",
         help="of memory for reading a CAD file (default 1000 and 100 for each MB of it)",
     )
+    parser.add_argument(
+        "--no-isolate",
+        dest="isolate",
+        action="store_false",
+        help="read a CAD file that you trust in this process, without limits",
+    )
 
 
 def _add_second_opinion(parser: argparse.ArgumentParser) -> None:
@@ -343,7 +349,7 @@ _SIZES: dict[str, tuple[Callable[[str], float], str]] = {  # options of Sizing
     "gap": (_positive, "triangles across thin faces and gaps"),
     "limit": (_whole(1), "most triangles (default 20 million)"),
 }
-_READING = ("units", "imprint", "sew", "time_limit", "memory_limit")  # options of load
+_READING = ("units", "imprint", "sew", "time_limit", "memory_limit", "isolate")  # options of load
 
 
 def _brief(text: str) -> str:

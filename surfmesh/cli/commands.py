@@ -12,12 +12,11 @@ from typing import Any
 from surfmesh.cli.inputs import (
     asked_sizing,
     called,
-    named_surface,
     on_surface,
     shown_mesh,
-    surface_of,
+    surface_begun,
 )
-from surfmesh.cli.outputs import manifest_written, naming, report_written, require_two_files
+from surfmesh.cli.outputs import manifest_written, naming, report_written, require_outputs
 from surfmesh.cli.progress import ProgressBar, announce_compilation
 from surfmesh.cli.scheduler import executor_of
 from surfmesh.cli.terminal import say, say_json
@@ -26,21 +25,15 @@ from surfmesh.errors import FileFormatError, SurfmeshError, printable
 
 def mesh(options: Namespace) -> bool:
     """Mesh, check, write; the files are looked at before the work is done."""
-    from surfmesh.io.formats import require_writable
+    with surface_begun(None, options) as surface_wanted:
+        require_outputs(options)
+        sizing = asked_sizing(options)
 
-    require_writable(options.output, *([".stl"] if options.ascii else []))
-    wanted = (options.picture, ".png"), (options.report, ".json", ".html")
-    for path, *extensions in (*wanted, (options.manifest, ".json")):
-        if path:
-            require_writable(path, *extensions)
-    require_two_files(options.report, options.manifest)
-    sizing = asked_sizing(options)
-    surface = surface_of(options)
+        from surfmesh import api
+        from surfmesh.io import save
+        from surfmesh.quality import check as checked
 
-    from surfmesh import api
-    from surfmesh.io import save
-    from surfmesh.quality import check as checked
-
+        surface = surface_wanted()
     announce_compilation()
     with ProgressBar() as progress, executor_of(options.scheduler) as executor:
         result = api.mesh(
@@ -82,16 +75,16 @@ def mesh(options: Namespace) -> bool:
 def check(options: Namespace) -> bool:
     """Report on a mesh file, against its surface when that is named."""
     from surfmesh.io import read
-    from surfmesh.quality import check as checked
 
-    found = read(options.input)
     if options.surface:
-        if found.uv_points is None:
-            raise FileFormatError(
-                f"{options.input}: carries no (u, v) to compare it with a surface; "
-                "save it as .vtu or .vtp"
-            )
-        found = on_surface(found, named_surface(options.surface, options))
+        with surface_begun(options.surface, options) as surface_wanted:
+            found = read(options.input)
+            if found.uv_points is None:
+                raise FileFormatError(
+                    f"{options.input}: carries no (u, v) to compare it with a surface; "
+                    "save it as .vtu or .vtp"
+                )
+            found = on_surface(found, surface_wanted())
         broken = found.check()
         if broken:
             raise FileFormatError(f"{options.input}: {broken}")
@@ -99,7 +92,12 @@ def check(options: Namespace) -> bool:
         from surfmesh.result.model_facts import ModelFacts, file_sha256
 
         source = Path(options.input)
-        found = found.replaced(facts=ModelFacts(source=source.name, sha256=file_sha256(source)))
+        found = read(options.input).replaced(
+            facts=ModelFacts(source=source.name, sha256=file_sha256(source))
+        )
+
+    from surfmesh.quality import check as checked
+
     report = checked(found, second_opinion=options.second_opinion)
     if options.json:
         say_json(report.to_dict())
@@ -193,11 +191,12 @@ def report(options: Namespace) -> bool:
 
 def explain(options: Namespace) -> bool:
     """Say which rule decides the size at a point."""
-    sizing = asked_sizing(options)
-    surface = named_surface(options.input, options)
+    with surface_begun(options.input, options) as surface_wanted:
+        sizing = asked_sizing(options)
 
-    from surfmesh import api
+        from surfmesh import api
 
+        surface = surface_wanted()
     found = api.explain(surface, sizing, options.at)
     if options.json:
         say_json(found.to_dict())
@@ -208,11 +207,12 @@ def explain(options: Namespace) -> bool:
 
 def estimate(options: Namespace) -> bool:
     """Say how many triangles there would be, and how much memory they need."""
-    sizing = asked_sizing(options)
-    surface = named_surface(options.input, options)
+    with surface_begun(options.input, options) as surface_wanted:
+        sizing = asked_sizing(options)
 
-    from surfmesh import api
+        from surfmesh import api
 
+        surface = surface_wanted()
     found = api.estimate(surface, sizing)
     if options.json:
         say_json(found.to_dict())

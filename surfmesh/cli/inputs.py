@@ -3,10 +3,13 @@
 from __future__ import annotations
 
 from argparse import Namespace
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from difflib import get_close_matches
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
+from surfmesh.cad.reading.read_file import SUFFIXES, begun_reading
 from surfmesh.cli.progress import ProgressBar, announce_compilation
 from surfmesh.errors import SurfaceError, printable
 
@@ -32,15 +35,46 @@ def asked_sizing(options: Namespace) -> Sizing | dict[str, Sizing] | None:
     return found
 
 
+@contextmanager
+def surface_begun(
+    name: str | None, options: Namespace
+) -> Iterator[Callable[[], Surface | CadModel]]:
+    """What gives the surface ``name`` once it is wanted; None: that of the ``mesh`` command.
+
+    A CAD file is read from now on by a child process, while this one loads what it will need; the
+    end of the ``with`` statement ends it.
+    """
+    path = Path((options.input if name is None else name) or "")
+    if path.suffix.lower() in SUFFIXES and path.is_file() and not _formulas(options):
+        with begun_reading(path, **options.reading) as reading:
+
+            def model() -> CadModel:
+                import surfmesh.meshing.model_mesh  # noqa: F401  needed next
+
+                return reading.model()
+
+            yield model
+    elif name is None:
+        yield lambda: surface_of(options)
+    else:
+        yield lambda: named_surface(name, options)
+
+
+def _formulas(options: Namespace) -> dict[str, Any]:
+    """What was given of --x --y --z --u --v and --param, by name."""
+    given = {name: getattr(options, name, None) for name in (*"xyzuv", "param")}
+    return {name: value for name, value in given.items() if value}
+
+
 def surface_of(options: Namespace) -> Surface | CadModel:
     """The surface of the ``mesh`` command: INPUT, or --x --y --z --u --v."""
-    formulas = {name: getattr(options, name) for name in "xyzuv"}
-    if not any(formulas.values()) and not options.param:
+    if not _formulas(options):
         if not options.input:
             raise SurfaceError("name a formula file or a gallery surface, or give --x --y --z")
         return named_surface(options.input, options)
     if options.input:
         raise SurfaceError(f"either INPUT ('{options.input}') or formulas, not both")
+    formulas = {name: getattr(options, name) for name in "xyzuv"}
     missing = [f"--{name}" for name, value in formulas.items() if value is None]
     if missing:
         raise SurfaceError(f"a surface by formulas needs {', '.join(missing)} too")
@@ -82,11 +116,12 @@ def shown_mesh(options: Namespace, progress: ProgressBar) -> SurfaceMesh:
 
     if Path(options.input).suffix.lower() in FORMATS:
         return read(options.input)
-    sizing = asked_sizing(options)
-    surface = named_surface(options.input, options)
+    with surface_begun(options.input, options) as surface_wanted:
+        sizing = asked_sizing(options)
 
-    from surfmesh import api
+        from surfmesh import api
 
+        surface = surface_wanted()
     announce_compilation()
     return api.mesh(surface, sizing, progress=progress, strict=not options.no_strict)
 

@@ -40,7 +40,7 @@ def manifest_written(result: SurfaceMesh, files: dict[str, str], options: Namesp
     from surfmesh.io import Manifest
 
     asked = {name: value for name, value in vars(options).items() if name not in _NOT_RECORDED}
-    asked |= options.reading
+    asked |= {**options.reading, "isolate": None}  # which changes nothing in the files
     hashed = [path for path in files.values() if Path(path).suffix.lower() != ".json"]
     return Manifest.of(
         result,
@@ -50,7 +50,19 @@ def manifest_written(result: SurfaceMesh, files: dict[str, str], options: Namesp
     ).save(options.manifest)
 
 
-def require_two_files(report: str | None, manifest: str | None) -> None:
+def require_outputs(options: Namespace) -> None:
+    """Raise FileFormatError for a file of the ``mesh`` command that could not be written."""
+    from surfmesh.io.formats import require_writable
+
+    require_writable(options.output, *([".stl"] if options.ascii else []))
+    wanted = (options.picture, ".png"), (options.report, ".json", ".html")
+    for path, *extensions in (*wanted, (options.manifest, ".json")):
+        if path:
+            require_writable(path, *extensions)
+    _require_two_files(options.report, options.manifest)
+
+
+def _require_two_files(report: str | None, manifest: str | None) -> None:
     if report and manifest and os.path.realpath(report) == os.path.realpath(manifest):
         raise FileFormatError(f"{manifest}: is the place of the report already")
 

@@ -3,10 +3,6 @@
 jit: the one decorator that compiles every kernel.
 fields: size tensors, their gradation, and the look-up in a background.
 triangulation: the triangulation of the plane, its predicates, and its local changes.
-packing: section 2 of the paper: the front, and circles placed at it.
-insertion: section 3 of the paper: boundary nodes and segments by tracing neighbours.
-optimisation: swaps, smoothing, collapse and split, measured on the surface.
-space: what is measured and decided in three dimensions.
 
 Conventions, once for all kernels
 ---------------------------------

@@ -6,10 +6,12 @@ edges cut once -> one job a face -> faces meshed -> joined by node numbers
         failed or lie too far away
 """
 
+from __future__ import annotations
+
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from functools import partial
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -22,7 +24,6 @@ from surfmesh.meshing.estimate.model_estimate import model_counts, require_model
 from surfmesh.meshing.estimate.trial_faces import ratios
 from surfmesh.meshing.estimate.trial_mesh import ROUNDS as TRIAL_ROUNDS
 from surfmesh.meshing.estimate.trial_mesh import WHOLE, WHOLE_STRETCHED, counts_within_budget
-from surfmesh.meshing.explain.explanation import Explanation, explain_model
 from surfmesh.meshing.faces.face_mesh import edge_refinement, mesh_face
 from surfmesh.meshing.faces.face_state import FaceState, face_states, first_jobs
 from surfmesh.meshing.faces.face_workers import FaceWorkers
@@ -41,6 +42,9 @@ from surfmesh.result.surface_mesh import SurfaceMesh
 from surfmesh.sizing.options.model_sizing import ModelSizing, model_sizing
 from surfmesh.sizing.rules.size_limits import SizeLimits
 from surfmesh.sizing.rules.volume_rule import with_volume_rule
+
+if TYPE_CHECKING:
+    from surfmesh.meshing.explain.explanation import Explanation
 
 FACE_WORK = 400
 """Units of work of a face besides its triangles, see ``WorkBudget``; from the seconds it takes."""
@@ -202,6 +206,8 @@ def estimate_model(model: CadModel, sizing: Any) -> Estimate:
 def explain_size(model: CadModel, sizing: Any, point: np.ndarray) -> Explanation:
     """Which of the size requests decides at a point (3,), or at the nearest one of the model."""
     before = _Unmeshed(model, sizing)
+    from surfmesh.meshing.explain.explanation import explain_model
+
     return explain_model(model, before.wanted, before.samples, before.jobs, point)
 
 

@@ -5,7 +5,10 @@ sides -> size field -> packing -> boundary -> optimisation -> space, joined side
   +---------- smaller sizes where the mesh is not right ---------+
 """
 
+from __future__ import annotations
+
 from collections.abc import Mapping
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -21,7 +24,6 @@ from surfmesh.meshing.boundary.kink_segments import sides_met, with_kinks
 from surfmesh.meshing.estimate.estimation import Estimate, field_triangles, require_field_within
 from surfmesh.meshing.estimate.trial_mesh import WHOLE, counts_within_budget
 from surfmesh.meshing.estimate.trial_patches import triangles_per_unit
-from surfmesh.meshing.explain.explanation import Explanation, explain_surface
 from surfmesh.meshing.patch.patch_mesh import mesh_patch
 from surfmesh.meshing.patch.refinement_loop import StagnationCheck, refined_in_rounds
 from surfmesh.meshing.patch.size_requests import joined
@@ -31,6 +33,9 @@ from surfmesh.sizing.field.size_field import SizeField, size_field
 from surfmesh.sizing.options.sizing import Sizing
 from surfmesh.sizing.rules.rim_rule import Rims
 from surfmesh.sizing.rules.size_limits import SizeLimits
+
+if TYPE_CHECKING:
+    from surfmesh.meshing.explain.explanation import Explanation
 
 MOST_CELLS, CELLS_OF_TRIANGLE = 250_000, 50
 """No further round once the size fields of all rounds had so many cells, or so many for each
@@ -180,6 +185,8 @@ def explain_parametric(surface: Surface, sizing: Sizing, point: np.ndarray) -> E
     """Which size rule decides at the point of the surface that is nearest to ``point`` (3,)."""
     sides = find_sides(surface)
     field = size_field(surface, sizing, sides, rims=Rims(surface, sides))
+    from surfmesh.meshing.explain.explanation import explain_surface
+
     return explain_surface(surface, sizing, field, point)
 
 

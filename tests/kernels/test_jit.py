@@ -57,7 +57,7 @@ field = Background(
     np.arange(4, dtype=np.int32).reshape(1, 4), np.array([[5.0, 1.0, 4.0, 4.0]] * 4),
 )
 packing = packed(field, (0.0, 0.0, 1.0, 1.0), (0.5, 0.5), 30)
-print("circles", packing.t.count.tolist(), float(packing.t.xy[: packing.t.count[0]].sum()))
+print("circles", [packing.t.vertices, packing.t.triangles], float(packing.t.xy.sum()))
 {more}
 print("compiled", hasattr(orient, "py_func"))
 """

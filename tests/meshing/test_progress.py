@@ -89,10 +89,14 @@ def test_stages_and_warnings_reach_the_log(caplog):
 
 
 def test_warnings_reach_the_log(caplog, monkeypatch):
-    from surfmesh import api
+    from surfmesh.meshing import planar_mesh
 
-    real = api.mesh_planar
-    monkeypatch.setattr(api, "mesh_planar", lambda *a: real(*a).with_warnings("a hair's breadth"))
+    real = planar_mesh.mesh_planar
+
+    def warned_mesh(*given):
+        return real(*given).with_warnings("a hair's breadth")
+
+    monkeypatch.setattr(planar_mesh, "mesh_planar", warned_mesh)
     sm.mesh(PLATE, 1.0)
     warned = [record for record in caplog.records if record.levelno == logging.WARNING]
     assert [record.getMessage() for record in warned] == [f"{PLATE.name}: a hair's breadth"]

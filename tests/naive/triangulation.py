@@ -106,11 +106,12 @@ def _one_loop(after: dict[int, int]) -> list[int] | str:
 
 def front_loop(packing) -> list[int]:
     """The vertices of the front in order."""
-    start = int(np.flatnonzero(packing.front.next != NIL)[0])
-    loop, v = [start], int(packing.front.next[start])
-    while v != start and len(loop) <= len(packing.front.next):
+    following = packing.front[:, 0]
+    start = int(np.flatnonzero(following != NIL)[0])
+    loop, v = [start], int(following[start])
+    while v != start and len(loop) <= len(following):
         loop.append(v)
-        v = int(packing.front.next[v])
+        v = int(following[v])
     return loop
 
 
@@ -119,9 +120,10 @@ def check_front(packing, simple_up_to: int = 600) -> str | None:
 
     The crossing test of all pairs is left out for fronts longer than ``simple_up_to``.
     """
-    t, front = packing.t, packing.front
+    t = packing.t
+    following, before, edge = packing.front.T
     n, m = t.vertices, t.triangles
-    region, tri = t.region[:m], corners(t)
+    region, tri = t.region, corners(t)
     if (tri[region == DONE] < 0).any():
         return "a ghost is done"
     half = np.arange(3 * m)
@@ -132,15 +134,15 @@ def check_front(packing, simple_up_to: int = 600) -> str | None:
         if a in after:
             return f"the border of what is done passes vertex {a} twice"
         after[a] = b
-        if front.next[a] != b or front.prev[b] != a or front.edge[a] != e:
+        if following[a] != b or before[b] != a or edge[a] != e:
             return (
-                f"border {a} -> {b} is half-edge {e}, the front has next {front.next[a]}, "
-                f"prev {front.prev[b]}, edge {front.edge[a]}"
+                f"border {a} -> {b} is half-edge {e}, the front has next {following[a]}, "
+                f"prev {before[b]}, edge {edge[a]}"
             )
-    linked = np.flatnonzero(front.next != NIL)
+    linked = np.flatnonzero(following != NIL)
     if set(linked.tolist()) != set(after) or (linked >= n).any():
         return "the front has vertices that are not on the border of what is done"
-    if set(np.flatnonzero(front.prev != NIL).tolist()) != set(after):
+    if set(np.flatnonzero(before != NIL).tolist()) != set(after):
         return "next and prev of the front disagree"
     loop = _one_loop(after)
     if isinstance(loop, str):

@@ -26,6 +26,21 @@ def test_files_are_read_and_written_without_what_meshes_and_judges():
     assert run(code) == "False"
 
 
+@pytest.mark.parametrize(
+    ("what", "not_needed"),
+    [
+        ("sm.ParametricSurface('u', 'v', 'u * v', u=(0, 1), v=(0, 1))",
+         "scipy.interpolate scipy.optimize scipy.special OCP surfmesh.cad.parts"),
+        ("sm.PlanarDomain([(0, 0), (1, 0), (1, 1)])",
+         "scipy.interpolate scipy.optimize sympy OCP surfmesh.cad.parts"),
+    ],
+)  # fmt: skip
+def test_a_mesh_imports_what_its_surface_needs(what, not_needed):
+    code = f"import sys, surfmesh as sm; sm.mesh({what}, 0.5)\n"
+    code += f"print([m for m in {not_needed.split()} if m in sys.modules])"
+    assert run(code) == "[]"
+
+
 def test_a_mesh_and_its_report_need_no_viewer():
     heavy = run(
         "import sys; import surfmesh as sm; sm.SurfaceMesh, sm.check, sm.Sizing; "

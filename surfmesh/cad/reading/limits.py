@@ -64,8 +64,6 @@ class Limits:
         """
         if resource is None:
             return
-        from surfmesh.cad.reading.processor_clock import stop_while_compiling  # numba is heavy
-
         if math.isfinite(self.megabytes):
             _, most = resource.getrlimit(resource.RLIMIT_DATA)
             wanted = _data_bytes() + int((OWN_MEGABYTES + self.megabytes) * 1e6)
@@ -73,7 +71,10 @@ class Limits:
             resource.setrlimit(resource.RLIMIT_DATA, (wanted, most))
         if math.isfinite(self.seconds):
             signal.setitimer(signal.ITIMER_PROF, min(self.seconds, LONGEST))
-            stop_while_compiling()
+            if "numba" in sys.modules:
+                from surfmesh.cad.reading.processor_clock import stop_while_compiling
+
+                stop_while_compiling()
 
 
 def _chosen(name: str, given: float | None, variable: str, default: float) -> float:

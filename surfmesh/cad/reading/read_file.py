@@ -1,7 +1,14 @@
 """Reading a CAD file safely: in a child process with limits of processor time and memory.
 
 OCP can crash, loop or grow on a bad file. Then the child ends, and the caller gets a `CadError`.
-The child ends with the caller too, and there is no file that either could leave behind.
+The child ends with the caller too, and there is no file that either could leave behind. Whoever
+trusts a file may read it without a child, ``isolate=False``.
+
+    begun_reading  --> child:  OCP ... file ... model --.
+         |                                               |
+         `-- the caller loads what it will need ------ model()
+
+Nothing heavy is imported here, so that the child starts at once.
 """
 
 from __future__ import annotations
@@ -16,14 +23,16 @@ import tempfile
 from collections.abc import Mapping
 from dataclasses import replace
 from pathlib import Path
-from typing import IO, Any
+from typing import IO, TYPE_CHECKING, Any, Self
 
 from surfmesh.cad.healing.joining import Joining
-from surfmesh.cad.model.cad_model import CadModel
 from surfmesh.cad.reading.limits import MORE_MEMORY, MORE_TIME, Limits, peak_megabytes
 from surfmesh.cad.units import checked_unit
 from surfmesh.errors import CadError
 from surfmesh.result.model_facts import file_sha256
+
+if TYPE_CHECKING:
+    from surfmesh.cad.model.cad_model import CadModel
 
 SUFFIXES = (".step", ".stp", ".p21", ".iges", ".igs", ".brep", ".brp")
 WEEK = 604800.0  # seconds; longer is no limit
@@ -40,6 +49,7 @@ def read_cad(
     *,
     imprint: bool | float = False,
     sew: float | None = None,
+    isolate: bool = True,
 ) -> CadModel:
     """The model in a STEP (.step, .stp, .p21), IGES (.iges, .igs) or BREP (.brep, .brp) file.
 
@@ -52,7 +62,31 @@ def read_cad(
     SURFMESH_READ_MEMORY say, else by the size of the file, see ``cad.reading.limits``;
     inf: no limit.
 
+    isolate=False reads a file that is trusted in this process: no child is started, OCP is
+    imported here, no limit holds, and a fault in OCP ends this process.
+
     Raises CadError in one line when there is no model to be had.
+    """
+    with begun_reading(
+        path, heal, units, time_limit, memory_limit, imprint=imprint, sew=sew, isolate=isolate
+    ) as reading:
+        return reading.model()
+
+
+def begun_reading(
+    path: str | Path,
+    heal: bool = True,
+    units: str | None = None,
+    time_limit: float | None = None,
+    memory_limit: float | None = None,
+    *,
+    imprint: bool | float = False,
+    sew: float | None = None,
+    isolate: bool = True,
+) -> Reading:
+    """``read_cad`` begun: a child reads while the caller does something else.
+
+    To be used in a ``with`` statement: a child whose model is not waited for is ended.
     """
     place = Path(path)
     if place.suffix.lower() not in SUFFIXES:
@@ -65,69 +99,144 @@ def read_cad(
         raise CadError(f"{place.name} is empty")
     checked_unit(units)
     joining = Joining.of(imprint, sew)
+    if not isolate:
+        if time_limit is not None or memory_limit is not None:
+            raise CadError("limits of time and memory hold in a child process alone: leave them "
+                           "out, or the file is read with isolate=True")  # fmt: skip
+        return _ReadingHere(place, bool(heal), units, joining)
     limits = Limits.of(place, time_limit, memory_limit, bool(joining))
     wanted = {"path": str(place.resolve()), "heal": bool(heal), "units": units}
     wanted |= {"imprint": joining.imprint, "sew": joining.sew}
     command = [sys.executable, "-P", "-m", "surfmesh.cad.reading.child"]
-    answer = answer_of(command, wanted, place.name, limits)
-    if isinstance(answer, str):
-        raise CadError(answer if place.name in answer else f"{place.name}: {answer}")
-    return replace(answer, sha256=file_sha256(place))
+    return _ReadingByChild(place, Child(command, wanted, place.name, limits))
+
+
+class Reading:
+    """A file that is being read; the end of a ``with`` statement ends what has not ended."""
+
+    def __init__(self, path: Path) -> None:
+        self.path = path
+
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(self, *_: object) -> None: ...
+
+    def model(self) -> CadModel:
+        """Wait for the model. Raises CadError in one line when there is none to be had."""
+        raise NotImplementedError
+
+
+class _ReadingByChild(Reading):
+    def __init__(self, path: Path, child: Child) -> None:
+        super().__init__(path)
+        self._child = child
+
+    def __exit__(self, *_: object) -> None:
+        self._child.end()
+
+    def model(self) -> CadModel:
+        digest = file_sha256(self.path)
+        answer = self._child.answer()
+        if isinstance(answer, str):
+            raise CadError(_with_name(answer, self.path))
+        return replace(answer, sha256=digest)
+
+
+class _ReadingHere(Reading):
+    def __init__(self, path: Path, heal: bool, units: str | None, joining: Joining) -> None:
+        super().__init__(path)
+        self._how = heal, units, joining
+
+    def model(self) -> CadModel:
+        from surfmesh.cad.reading.in_this_process import model_of_file
+
+        try:
+            found = model_of_file(self.path, *self._how)
+        except CadError as error:
+            raise CadError(_with_name(str(error), self.path)) from error
+        return replace(found, sha256=file_sha256(self.path))
+
+
+def _with_name(said: str, path: Path) -> str:
+    return said if path.name in said else f"{path.name}: {said}"
 
 
 def answer_of(command: list[str], wanted: Mapping[str, Any], name: str, limits: Limits) -> Any:
-    """Run a child that takes ``wanted`` as JSON and writes a pickle, and load it.
+    """What a ``Child`` answers."""
+    child = Child(command, wanted, name, limits)
+    try:
+        return child.answer()
+    finally:
+        child.end()
 
-    name: of the file that it reads. Raises CadError when the child crashes, goes beyond the
-    limits, which it imposes on itself, or leaves no result.
+
+class Child:
+    """A process that takes ``wanted`` as JSON and writes a pickle; it imposes limits on itself.
+
+    name: of the file that it reads. Raises CadError when it cannot be started.
     """
-    own = {"parent": os.getpid(), "seconds": limits.seconds, "megabytes": limits.megabytes}
-    # files without a name: nothing is left behind when this process is killed
-    with (
-        tempfile.TemporaryFile() as request,
-        tempfile.TemporaryFile() as result,
-        tempfile.TemporaryFile() as complaints,
-    ):
-        request.write(json.dumps({**wanted, **own}).encode())
-        request.seek(0)
+
+    def __init__(
+        self, command: list[str], wanted: Mapping[str, Any], name: str, limits: Limits
+    ) -> None:
+        self.name, self.limits = name, limits
+        own = {"parent": os.getpid(), "seconds": limits.seconds, "megabytes": limits.megabytes}
+        # files without a name: nothing is left behind when this process is killed
+        self._result: IO[bytes] = tempfile.TemporaryFile()
+        self._complaints: IO[bytes] = tempfile.TemporaryFile()
         try:
-            code, peak = _ended(command, (request, result, complaints), limits)
+            with tempfile.TemporaryFile() as request:
+                request.write(json.dumps({**wanted, **own}).encode())
+                request.seek(0)
+                self._process = subprocess.Popen(  # noqa: S603 a list of our own, no shell
+                    command, stdin=request, stdout=self._result, stderr=self._complaints,
+                    env={**os.environ, "PYTHONPATH": _import_path()},
+                )  # fmt: skip
         except OSError as error:
+            self._close()
             raise CadError(f"{name}: no process could be started to read it ({error})") from None
-        for file in (result, complaints):
+
+    def answer(self) -> Any:
+        """Wait for the end, and load what it wrote.
+
+        Raises CadError when it crashes, goes beyond the limits, or leaves no result.
+        """
+        code, peak = self._ended()
+        for file in (self._result, self._complaints):
             file.seek(0)
         if code < 0:
-            raise CadError(_death(name, -code, peak, limits))
-        if code or not result.read(1):
-            said = complaints.read().decode(errors="replace").strip().splitlines()
+            raise CadError(_death(self.name, -code, peak, self.limits))
+        if code or not self._result.read(1):
+            said = self._complaints.read().decode(errors="replace").strip().splitlines()
             reason = said[-1] if said else f"status {code}"
             reason += f"; {MORE_MEMORY}" if "memory" in reason.lower() else ""
-            raise CadError(f"{name} made the CAD reader fail: {reason}")
-        result.seek(0)
-        return pickle.load(result)  # noqa: S301 our own child's, in a file without a name
+            raise CadError(f"{self.name} made the CAD reader fail: {reason}")
+        self._result.seek(0)
+        return pickle.load(self._result)  # noqa: S301 our own child's, in a file without a name
 
+    def _ended(self) -> tuple[int, float]:
+        """How it ended, minus the number of the signal that ended it, and its peak in MB."""
+        try:
+            if sys.platform == "win32":  # which has no limits for a process: the wall's clock
+                wall = self.limits.seconds if self.limits.seconds < WEEK else None
+                return self._process.wait(wall), 0.0
+            _, status, usage = os.wait4(self._process.pid, 0)
+            self._process.returncode = os.waitstatus_to_exitcode(status)
+            return self._process.returncode, peak_megabytes(usage)
+        except subprocess.TimeoutExpired:
+            return -TIME_SIGNAL, 0.0
 
-def _ended(
-    command: list[str], files: tuple[IO[bytes], IO[bytes], IO[bytes]], limits: Limits
-) -> tuple[int, float]:
-    """How the child ended, minus the number of the signal that ended it, and its peak in MB."""
-    where = {**os.environ, "PYTHONPATH": _import_path()}
-    child = subprocess.Popen(  # noqa: S603 a list of our own, no shell
-        command, stdin=files[0], stdout=files[1], stderr=files[2], env=where
-    )
-    try:
-        if sys.platform == "win32":  # which has no limits for a process: those of the wall's clock
-            wall = limits.seconds if limits.seconds < WEEK else None
-            return child.wait(wall), 0.0
-        _, status, usage = os.wait4(child.pid, 0)
-        child.returncode = os.waitstatus_to_exitcode(status)
-        return child.returncode, peak_megabytes(usage)
-    except subprocess.TimeoutExpired:
-        return -TIME_SIGNAL, 0.0
-    finally:
-        if child.returncode is None:
-            child.kill()
-            child.wait()
+    def end(self) -> None:
+        """End it if it has not ended; what it wrote is gone."""
+        if self._process.returncode is None:
+            self._process.kill()
+            self._process.wait()
+        self._close()
+
+    def _close(self) -> None:
+        self._result.close()
+        self._complaints.close()
 
 
 def _death(name: str, number: int, peak: float, limits: Limits) -> str:

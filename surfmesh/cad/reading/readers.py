@@ -1,4 +1,4 @@
-"""STEP, IGES and BREP files -> a tree of parts, by OCP's readers. Runs in a child process.
+"""STEP, IGES and BREP files -> a tree of parts, by OCP's readers.
 
 Names, colours and the assembly come from the document that OCP fills; lengths are brought to
 millimetres by its readers.

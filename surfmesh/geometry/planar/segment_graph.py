@@ -170,51 +170,6 @@ def _loop_segments(segment: np.ndarray, loop: np.ndarray) -> np.ndarray:
     return row[times % 2 == 1].astype(np.int32)
 
 
-def inside_regions(
-    graph: SegmentGraph, left: np.ndarray, right: np.ndarray, infinite: int
-) -> np.ndarray:
-    """Which regions of the plane are inside the domain.
-
-    left, right: (s,) int, the regions on both sides of every segment; one region twice for a
-    line that ends freely. infinite: number of the unbounded region. Returns (R,) bool, with R
-    one more than the largest number.
-
-    Raises DomainError for a region that cannot be reached from the infinite one, or that lies
-    in different loops by different ways: then left and right are wrong.
-    """
-    left, right = np.asarray(left), np.asarray(right)
-    regions = 1 + max(int(infinite), *(int(side.max(initial=-1)) for side in (left, right)))
-    crossed = [0] * len(graph.segments)  # bit k: the segment belongs to loop k
-    for segment, loop in graph.loop_segments.tolist():
-        crossed[segment] ^= 1 << loop
-    neighbours: list[dict[int, int]] = [{} for _ in range(regions)]
-    for a, b, loops in zip(left.tolist(), right.tolist(), crossed):
-        if neighbours[a].setdefault(b, loops) != loops or (a == b and loops):
-            raise DomainError(f"regions {a} and {b} are separated by different loops")
-        neighbours[b][a] = loops
-    around = {int(infinite): 0}  # region -> the loops that it lies in
-    reached = [int(infinite)]
-    for region in reached:
-        for other, loops in neighbours[region].items():
-            expected = around[region] ^ loops
-            if other not in around:
-                around[other] = expected
-                reached.append(other)
-            elif around[other] != expected:
-                raise DomainError(f"region {other} lies in different loops by different ways")
-    if len(reached) < regions:
-        lost = next(region for region in range(regions) if region not in around)
-        raise DomainError(f"region {lost} cannot be reached from the infinite one")
-    holes = sum(1 << k for k in np.flatnonzero(graph.loop_is_hole).tolist())
-    return np.array(
-        [
-            (around[region] & ~holes).bit_count() > (around[region] & holes).bit_count()
-            for region in range(regions)
-        ],
-        bool,
-    )
-
-
 def _origin(labels: tuple[str, ...], label_start: np.ndarray, given: int) -> str:
     line = int(np.searchsorted(label_start, given, side="right")) - 1
     return f"{labels[line]}, segment {given - label_start[line]}"

@@ -41,18 +41,18 @@ class KnownSurfaces(NamedTuple):
         return self.mesh.points[self.mesh.triangles[triangles]]
 
     def samples(
-        self, triangle: Rows, rule: NDArray[np.int32], weights: NDArray[np.float64]
+        self, triangle: NDArray[np.int32], rule: NDArray[np.int32], weights: NDArray[np.float64]
     ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
         """Points (k, 3) and parameters (k, 2) at ``weights[rule]`` of ``triangle``, both (k,)."""
-        points = interpolate(self.mesh.points, self.mesh.triangles, triangle, rule, weights)
+        points = interpolate(self.mesh.points, self.mesh.triangles, _int32(triangle), rule, weights)
         return points, self.sample_uv(triangle, rule, weights)
 
     def sample_uv(
-        self, triangle: Rows, rule: NDArray[np.int32], weights: NDArray[np.float64]
+        self, triangle: NDArray[np.int32], rule: NDArray[np.int32], weights: NDArray[np.float64]
     ) -> NDArray[np.float64]:
         """(k, 2) the parameters alone."""
         uv_points, uv_triangles = self.corners.uv_points, self.corners.uv_triangles
-        return interpolate(uv_points, uv_triangles, triangle, rule, weights)
+        return interpolate(uv_points, uv_triangles, _int32(triangle), rule, weights)
 
     def by_surface(self, faces: Rows) -> Iterator[tuple[Surface, NDArray[np.intp]]]:
         """Each surface that occurs among ``faces`` (k,), and the rows where it does."""
@@ -67,3 +67,7 @@ class KnownSurfaces(NamedTuple):
         for surface, here in self.by_surface(faces):
             points[here] = surface.evaluate(uv[here], 0)[0]
         return points
+
+
+def _int32(rows: Rows) -> NDArray[np.int32]:
+    return rows.astype(np.int32, copy=False)

@@ -1,7 +1,7 @@
 """Triangles that meet where they share nothing: every pair, by an exact test.
 
-Near pairs come from a tree of boxes; the test is that of ``src/space/triangle_pairs.hpp``. What only
-comes near, or touches in a corner at the very same place, does not meet.
+Near pairs come from a tree of boxes; the test is that of ``src/space/triangle_pairs.hpp``. What
+only comes near, or touches in a corner at the very same place, does not meet.
 """
 
 from dataclasses import dataclass

@@ -14,7 +14,7 @@ cq = pytest.importorskip("cadquery")
 import shapes  # noqa: E402
 
 from surfmesh.cad.reading.limits import Limits  # noqa: E402
-from surfmesh.cad.reading.read_file import answer_of, read_cad  # noqa: E402
+from surfmesh.cad.reading.read_file import Child, answer_of, begun_reading, read_cad  # noqa: E402
 from surfmesh.errors import CadError  # noqa: E402
 
 
@@ -69,9 +69,10 @@ def test_an_unknown_unit_is_refused_before_anything_is_read(tmp_path):
 
 
 def test_the_time_limit(tmp_path):
-    shapes.write_brep(shapes.bare_sphere(), tmp_path / "sphere.brep")
-    with pytest.raises(CadError, match=r"sphere\.brep was not read within 0\.01 s of processor"):
-        read_cad(tmp_path / "sphere.brep", time_limit=0.01)
+    sieve = cq.Workplane().box(9, 9, 1).rarray(1, 1, 8, 8).circle(0.3).cutThruAll()
+    cq.exporters.export(sieve, str(tmp_path / "sieve.step"))
+    with pytest.raises(CadError, match=r"sieve\.step was not read within 0\.01 s of processor"):
+        read_cad(tmp_path / "sieve.step", time_limit=0.01)
 
 
 def test_a_child_that_waits_for_the_processor_is_not_ended(tmp_path):
@@ -90,7 +91,7 @@ answer = 'read'
 
 
 def test_the_compilation_of_kernels_is_not_counted():
-    program = CHILD.format(COMPILES)
+    program = "import numba\n" + CHILD.format(COMPILES)
     assert answer_of([sys.executable, "-c", program], {}, "part.step", Limits(0.3, 100.0)) == "read"
     with pytest.raises(CadError, match="not read within"):
         answer_of([sys.executable, "-c", program + "while True: pass"], {}, "part.step",
@@ -218,3 +219,66 @@ def test_nothing_is_left_behind(tmp_path, monkeypatch):
     with pytest.raises(CadError):
         answer_of([sys.executable, "-c", "pass"], {}, "part.step", Limits(30.0, 1000.0))
     assert list(Path(tmp_path, "temporary").iterdir()) == []
+
+
+def test_a_trusted_file_is_read_without_a_child(tmp_path, monkeypatch, capfd):
+    path = tmp_path / "whole.step"
+    assembly().export(str(path))
+    apart = read_cad(path, units="cm")
+    monkeypatch.setattr(subprocess, "Popen", None)  # nothing can be started
+    capfd.readouterr()
+    here = read_cad(path, units="cm", isolate=False)
+    assert capfd.readouterr().out == ""  # OCP talks
+    assert here.sha256 == apart.sha256
+    assert str(here.tree) == str(apart.tree)
+    assert [face.area for face in here.faces] == [face.area for face in apart.faces]
+    assert [tuple(v.point) for v in here.vertices] == [tuple(v.point) for v in apart.vertices]
+
+
+def test_what_is_wrong_with_a_trusted_file_is_said_as_of_any_other(tmp_path, capfd):
+    path = tmp_path / "damaged.step"
+    assembly().export(str(path))
+    path.write_bytes(path.read_bytes()[:2000])
+    said = []
+    for isolate in (True, False):
+        with pytest.raises(CadError, match=r"damaged\.step") as caught:
+            read_cad(path, isolate=isolate)
+        said.append(str(caught.value))
+    assert said[0] == said[1]
+    assert capfd.readouterr().out == ""
+
+
+@pytest.mark.parametrize("limit", [{"time_limit": 1.0}, {"memory_limit": math.inf}])
+def test_limits_need_a_child(tmp_path, limit):
+    shapes.write_brep(shapes.bare_sphere(), tmp_path / "sphere.brep")
+    with pytest.raises(CadError, match="hold in a child process alone"):
+        read_cad(tmp_path / "sphere.brep", isolate=False, **limit)
+
+
+def test_a_child_whose_model_is_not_wanted_is_ended(tmp_path):
+    shapes.write_brep(shapes.bare_sphere(), tmp_path / "sphere.brep")
+    with begun_reading(tmp_path / "sphere.brep") as reading:
+        process = reading._child._process
+        assert process.poll() is None
+    assert process.returncode != 0
+
+
+def test_a_child_answers_once_its_parent_is_ready():
+    program = CHILD.format("answer = 'read'")
+    child = Child([sys.executable, "-c", program], {}, "part.step", Limits(5.0, 100.0))
+    time.sleep(0.5)  # it has ended by now
+    assert child.answer() == "read"
+    child.end()
+
+
+def test_the_child_loads_nothing_that_a_file_does_not_need(tmp_path):
+    shapes.write_brep(shapes.bare_sphere(), tmp_path / "sphere.brep")
+    code = (
+        "import sys\nfrom surfmesh.cad.reading.read_file import read_cad\n"
+        "assert 'numpy' not in sys.modules\n"  # so that the child starts at once
+        f"read_cad({str(tmp_path / 'sphere.brep')!r}, isolate=False)\n"
+        "print([m for m in ('scipy.interpolate', 'sympy', 'trimesh', 'vtkmodules', 'cadquery', "
+        "'surfmesh.meshing', 'surfmesh.quality') if m in sys.modules])"
+    )
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+    assert done.stdout.strip() == "[]"

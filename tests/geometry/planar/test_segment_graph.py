@@ -10,10 +10,12 @@ from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 from naive import plane_graph
 
+from surfmesh._core import insertion as core
+from surfmesh._core.insertion import Recovery
 from surfmesh.errors import DomainError
 from surfmesh.geometry.planar.domain_faces import bounded_faces, inside_faces
 from surfmesh.geometry.planar.noding import MERGE
-from surfmesh.geometry.planar.segment_graph import Line, inside_regions, segment_graph
+from surfmesh.geometry.planar.segment_graph import Line, segment_graph
 
 SQUARE = np.array([[0, 0], [1, 0], [1, 1], [0, 1]], float)
 
@@ -31,6 +33,18 @@ def graph_of(outer=(SQUARE,), holes=(), constraints=(), points=(), split=True):
 
 def area(graph):
     return sum(face.area for face in inside_faces(graph))
+
+
+def status_of_regions(graph, left, right):
+    """The status, the region that contradicts, and which are inside; region 0 is infinite."""
+    sides = np.stack([left, right], axis=1)
+    return core.inside_regions(sides, graph.loop_segments, graph.loop_is_hole, 0)
+
+
+def inside_regions(graph, left, right):
+    status, _, inside = status_of_regions(graph, left, right)
+    assert status == Recovery.FINISHED
+    return inside.astype(bool)
 
 
 def same(one, other):
@@ -176,7 +190,7 @@ def test_the_regions_fill_the_outline(star):
     polygons, around = bounded_faces(graph)
     left, right = plane_graph.sides(graph, polygons)
     wanted = around[:, :2].sum(axis=1) > around[:, 2]
-    found = inside_regions(graph, left, right, 0)
+    found = inside_regions(graph, left, right)
     assert not found[0] and found[1:].tolist() == wanted.tolist()
 
 
@@ -220,7 +234,7 @@ def test_regions():
     )
     polygons, _ = bounded_faces(graph)
     left, right = plane_graph.sides(graph, polygons)
-    inside = inside_regions(graph, left, right, 0)
+    inside = inside_regions(graph, left, right)
     assert sorted(p.area for p, k in zip(polygons, inside[1:]) if k) == [0.5, 0.5, 12.0]
     assert np.count_nonzero(inside) == 3
 
@@ -229,10 +243,10 @@ def test_wrong_regions_are_refused():
     graph = graph_of(constraints=[[[0, 0.5], [1, 0.5]]])
     polygons, _ = bounded_faces(graph)
     left, right = plane_graph.sides(graph, polygons)
-    with pytest.raises(DomainError, match="region 1 cannot be reached"):
-        inside_regions(graph, np.where(left == 0, left, 4), np.where(right == 0, right, 4), 0)
-    with pytest.raises(DomainError, match="different loops"):
-        inside_regions(graph, np.where(left == 2, 0, left), np.where(right == 2, 0, right), 0)
+    outside, other = np.where(left == 0, left, 4), np.where(right == 0, right, 4)
+    assert status_of_regions(graph, outside, other)[:2] == (Recovery.UNREACHABLE_REGION, 1)
+    outside, other = np.where(left == 2, 0, left), np.where(right == 2, 0, right)
+    assert status_of_regions(graph, outside, other)[0] == Recovery.DIFFERENT_LOOPS
 
 
 def test_check_names_what_is_broken():

@@ -8,36 +8,19 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from naive.background import constant_background, random_background
 from naive.exact import polygon_area, triangles_area
+from naive.polygons import spike, square, star
 from naive.triangulation import (
     check_domain,
-    check_triangulation,
     corners,
     half_edges,
     live_triangles,
 )
 from naive.watchdog import watched
 
+from surfmesh._core.insertion import CROWDED
 from surfmesh.errors import SurfaceError
-from surfmesh.kernels.insertion.boundary_row import insert_row
-from surfmesh.kernels.insertion.insertion import (
-    FINISHED,
-    INSIDE,
-    clear_boundary,
-    find_segments,
-    grow_inside,
-    insert_boundary,
-)
 from surfmesh.meshing.boundary.boundary_loops import BoundaryLoops
-from surfmesh.meshing.boundary.boundary_recovery import (
-    APART,
-    AROUND,
-    CROWDED,
-    LOWEST,
-    QUEUE,
-    _apexes,
-    _with_room,
-    recovered,
-)
+from surfmesh.meshing.boundary.boundary_recovery import recovered
 from surfmesh.meshing.patch.packing import packed
 
 SURFACE = SimpleNamespace(name="test")
@@ -89,27 +72,6 @@ def assert_recovered(loops, domain, *polygons):
     assert all(t.fixed[edges[edge]] for edge in border)
     rows = corners(t)[live_triangles(t)].tolist()
     assert triangles_area(t.xy, rows) == sum(polygon_area(p) for p in polygons)
-
-
-def square(cuts, low=0.0, high=1.0):
-    t = low + (high - low) * np.arange(cuts) / cuts
-    low, high = np.full(cuts, low), np.full(cuts, high)
-    sides = [(t, low), (high, t), (high - t + low, high), (low, high - t + low)]
-    return np.concatenate([np.stack(side, axis=1) for side in sides])
-
-
-def star(points, inner, phase=0.1, centre=(0.5, 0.5), radius=0.49):
-    angle = phase + np.pi * np.arange(2 * points) / points
-    r = radius * np.where(np.arange(2 * points) % 2, inner, 1.0)
-    return np.stack([centre[0] + r * np.cos(angle), centre[1] + r * np.sin(angle)], axis=1)
-
-
-def spike(degrees):
-    """A square with a thin notch of this angle."""
-    half = 0.4 * np.tan(np.radians(degrees) / 2)
-    return np.array(
-        [(0, 0), (1, 0), (1, 1), (0.5 + half, 1), (0.5, 0.6), (0.5 - half, 1), (0, 1)], float
-    )
 
 
 SHAPES = {
@@ -183,7 +145,7 @@ def test_nodes_on_vertices_and_segments_along_edges_of_the_packing():
     """The square's corners are circles' centres of the packing, its sides run through others."""
     background = constant_background(0.05, 1.0, 1.0)
     t = packing_for(background).t
-    xy = t.xy[: t.count[0]]
+    xy = t.xy[: t.vertices]
     inner = [0.5 + s * np.array(d) for d, s in zip([(-1, -1), (1, -1), (1, 1), (-1, 1)], [0.3] * 4)]
     polygon = np.array([xy[np.argmin(np.linalg.norm(xy - p, axis=1))] for p in inner])
     loops = loops_of(polygon)
@@ -191,38 +153,10 @@ def test_nodes_on_vertices_and_segments_along_edges_of_the_packing():
     assert_recovered(loops, domain, polygon)
 
 
-def test_each_step_keeps_the_triangulation_of_the_plane():
-    background = constant_background(0.05, 1.0, 1.0)
-    polygons = SHAPES["two holes, one long-sided"]
-    loops = loops_of(*polygons)
-    t = _with_room(packing_for(background).t, len(loops.uv))
-    first_node = int(t.count[0])
-    assert check_triangulation(t) is None
-    vertex, edge = np.full(len(loops.uv), -1, np.int32), np.full(len(loops.segments), -1, np.int32)
-    arrays = (np.empty(QUEUE, np.int32), np.zeros(2, np.int64))
-    tensors = PlainField(background).tensors(loops.uv)
-    assert insert_boundary(t, loops.uv, tensors, loops.segments, vertex, edge, *arrays) == FINISHED
-    used = np.unique(corners(t)[live_triangles(t)])
-    moved = first_node + len(loops.uv) - (len(used) - 1)  # vertices that became nodes, or left
-    assert check_triangulation(t, moved) is None
-    # nothing is known of the segments' half-edges yet: what lies before the first is not read
-    t.tri[-1], t.tri[-3] = vertex[loops.segments[0]]
-    assert find_segments(t, loops.segments, vertex, edge) == FINISHED
-    assert grow_inside(t, edge) == FINISHED
-    assert check_triangulation(t, moved) is None
-    area = sum(polygon_area(p) for p in polygons)
-    inside = corners(t)[t.region[: t.count[1]] == INSIDE]
-    assert triangles_area(t.xy, inside.tolist()) == area
-    removed = clear_boundary(t, loops.segments, vertex, edge, first_node, CROWDED)
-    assert check_triangulation(t, moved + removed) is None
-    inside = corners(t)[t.region[: t.count[1]] == INSIDE]
-    assert triangles_area(t.xy, inside.tolist()) == area
-
-
 def test_interior_vertices_keep_their_distance_from_the_boundary():
     _, domain = domain_of(constant_background(0.05, 1.0, 1.0), square(20))
     t = domain.t
-    inner = np.setdiff1d(np.arange(int(t.count[0])), domain.node)
+    inner = np.setdiff1d(np.arange(t.vertices), domain.node)
     away = np.minimum(t.xy[inner], 1 - t.xy[inner]).min(axis=1)
     assert away.min() > CROWDED * 0.05 * (1 - 1e-9)
 
@@ -251,27 +185,3 @@ def test_named_errors(case, h):
     polygons, message = BROKEN[case]
     with pytest.raises(SurfaceError, match=message):
         domain_of(constant_background(h, 1.0, 1.0), *polygons)
-
-
-@pytest.mark.parametrize("h", [0.03, 0.05, 0.11])
-def test_a_row_of_vertices_stands_along_the_boundary(h):
-    background = constant_background(h, 1.0, 1.0)
-    angle = np.arange(40) * (2.0 * np.pi / 40)
-    ring = 0.5 + 0.4 * np.stack([np.cos(angle), np.sin(angle)], axis=1)
-    segments = np.stack([np.arange(40), np.roll(np.arange(40), -1)], axis=1)
-    field = PlainField(background)
-    row = _apexes(ring, segments, field)
-    t = _with_room(packing_for(background).t, len(row))
-    first = insert_row(t, row, field.tensors(row), APART, AROUND)
-    used = np.unique(corners(t)[live_triangles(t)])
-    used = used[used >= 0]
-    assert check_triangulation(t, int(t.count[0]) - len(used)) is None
-    new = t.xy[used[used >= first]]
-    apart = np.linalg.norm(new[:, None] - new, axis=2) + 9.0 * np.eye(len(new))
-    assert apart.min() > 0.5 * APART * h  # two that join meet half-way
-    old = t.xy[used[used < first]]
-    assert np.linalg.norm(new[:, None] - old, axis=2).min() > 0.9 * AROUND * h
-    length = np.linalg.norm(ring[1] - ring[0])
-    height = np.sqrt(max(h * h - 0.25 * length**2, (LOWEST * h) ** 2))
-    inside = 0.4 * np.cos(np.pi / 40) - height
-    assert np.allclose(np.linalg.norm(row - 0.5, axis=1), inside)

@@ -1,0 +1,28 @@
+// How far triangles are from the surface by its tangent planes, and smaller sizes where too far.
+#pragma once
+
+#include <span>
+
+#include "optimisation/surface_frames.hpp"
+#include "optimisation/vertex_marks.hpp"
+
+namespace surfmesh {
+
+/// Second-order estimate of each triangle's distance from the surface, 0 for a dead one.
+Array<double> estimate_deviations(const Triangulation& t, const SurfaceFrames& s);
+
+/// Ask for smaller edges where the ``deviation`` of ``triangles`` exceeds ``limit``.
+///
+/// The sizes of their corners are scaled by what deviation, of second order in the size, needs;
+/// they become active. Returns the number of such triangles.
+int shrink_far(const Triangulation& t, SurfaceFrames& s, VertexMarks& marks,
+               std::span<const Triangle> triangles, std::span<const double> deviation,
+               double limit);
+
+/// Scale the wanted lengths at ``vertices`` by ``factors``, down to ``smallest`` of what they were.
+///
+/// They become active. Returns how many were scaled.
+int lower_sizes(SurfaceFrames& s, VertexMarks& marks, std::span<const Vertex> vertices,
+                std::span<const double> factors, double smallest);
+
+}  // namespace surfmesh

@@ -1,0 +1,50 @@
+#include "optimisation/dihedral.hpp"
+
+#include <cmath>
+
+namespace surfmesh {
+namespace {
+
+// squared sine of the angle between two sides, or one at a pole: only rounding
+constexpr double NO_AREA = 1e-24;
+
+}  // namespace
+
+double dihedral_angle(Point3 a, Point3 b, Point3 c, Point3 d) {
+    const Point3 u = b - a, v = c - a, w = d - a;
+    const Point3 m = cross(u, v), n = cross(w, u);
+    const double uu = dot(u, u), vv = dot(v, v), ww = dot(w, w), mm = dot(m, m), nn = dot(n, n);
+    if (!(mm > NO_AREA * uu * vv && nn > NO_AREA * uu * ww)) return 0.0;
+    return std::atan2(norm(cross(m, n)), dot(m, n));
+}
+
+DihedralAngles find_dihedrals_over(const Triangulation& t, const Array<Point3>& point,
+                                   double limit) {
+    DihedralAngles found;
+    for (HalfEdge e = 0; e < 3 * t.triangles(); ++e) {
+        const HalfEdge f = t.adj[e];
+        if (f <= e || t.region[e / 3] == DEAD || t.region[f / 3] == DEAD) continue;
+        const double angle =
+            dihedral_angle(point[t.tri[e]], point[t.tri[f]], point[t.tri[prev_half_edge(e)]],
+                           point[t.tri[prev_half_edge(f)]]);
+        if (!(angle > limit)) continue;
+        found.edges.push_back({e, f});
+        found.angles.push_back(angle);
+    }
+    return found;
+}
+
+Array<double> dihedral_angles(std::span<const Point3> points, std::span<const Vertex> corners,
+                              std::span<const HalfEdgePair> edges) {
+    Array<double> angles(edges.size(), 0.0);
+    for (std::size_t k = 0; k < edges.size(); ++k) {
+        const auto [e, f] = edges[k];
+        if (f < 0) continue;
+        const auto at = [&](HalfEdge h) { return points[corners[h]]; };
+        angles[k] = dihedral_angle(at(e), at(next_half_edge(e)), at(prev_half_edge(e)),
+                                   at(prev_half_edge(f)));
+    }
+    return angles;
+}
+
+}  // namespace surfmesh

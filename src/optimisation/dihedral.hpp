@@ -1,0 +1,37 @@
+// Angles between the normals of two triangles that share an edge.
+#pragma once
+
+#include <span>
+
+#include "triangulation/triangulation.hpp"
+#include "values/point.hpp"
+
+namespace surfmesh {
+
+/// Radians between the normals of a-b-c and b-a-d; 0 where one has no area.
+double dihedral_angle(Point3 a, Point3 b, Point3 c, Point3 d);
+
+/// Two half-edges that meet, one in each of two triangles; -1 in the second: there is no other.
+struct HalfEdgePair {
+    HalfEdge first, second;
+};
+
+/// Edges across which triangles meet, and the angles there, radians.
+struct DihedralAngles {
+    Array<HalfEdgePair> edges;
+    Array<double> angles;
+};
+
+/// The edges across which triangles turn by more than ``limit`` (radians), with their angles.
+///
+/// One half-edge of each edge between two triangles; borders, seams among them, have none.
+DihedralAngles find_dihedrals_over(const Triangulation& t, const Array<Point3>& point,
+                                   double limit);
+
+/// Angle, radians, across edges of a finished mesh; 0 where there is no second half-edge.
+///
+/// Where both run the same way, as somewhere on a Moebius strip, one triangle is turned over.
+Array<double> dihedral_angles(std::span<const Point3> points, std::span<const Vertex> corners,
+                              std::span<const HalfEdgePair> edges);
+
+}  // namespace surfmesh

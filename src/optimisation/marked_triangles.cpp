@@ -1,0 +1,56 @@
+#include "optimisation/marked_triangles.hpp"
+
+namespace surfmesh {
+namespace {
+
+/// Is triangle abc turned against the normals at its corners?
+bool is_folded(const SurfaceFrames& s, Vertex a, Vertex b, Vertex c, double least, double at_apex) {
+    const Point3 n = cross(s.point[b] - s.point[a], s.point[c] - s.point[a]);
+    const double area = norm(n);
+    double worst = area;
+    bool regular = true;
+    for (const Vertex v : {a, b, c}) {
+        if (is_zero(s.normal[v]))
+            regular = false;
+        else
+            worst = std::min(worst, dot(n, s.normal[v]));
+    }
+    return worst < (regular ? least : at_apex) * area;
+}
+
+}  // namespace
+
+Array<std::uint8_t> find_folded(const Triangulation& t, const SurfaceFrames& s, double least,
+                                double at_apex) {
+    Array<std::uint8_t> folded(t.region.size(), 0);
+    for (Triangle k = 0; k < t.triangles(); ++k) {
+        const Vertex a = t.tri[3 * k], b = t.tri[3 * k + 1], c = t.tri[3 * k + 2];
+        if (t.region[k] == DEAD || is_collapsed(s, a, b, c)) continue;
+        folded[k] = is_folded(s, a, b, c, least, at_apex);
+    }
+    return folded;
+}
+
+Array<Triangle> triangles_at(const Triangulation& t, const Array<std::uint8_t>& vertices) {
+    Array<Triangle> found;
+    for (Triangle k = 0; k < t.triangles(); ++k) {
+        if (t.region[k] == DEAD) continue;
+        if (vertices[t.tri[3 * k]] || vertices[t.tri[3 * k + 1]] || vertices[t.tri[3 * k + 2]])
+            found.push_back(k);
+    }
+    return found;
+}
+
+int activate_bad(const Triangulation& t, const SurfaceFrames& s, VertexMarks& marks, double least) {
+    int bad = 0;
+    for (Triangle k = 0; k < t.triangles(); ++k) {
+        if (t.region[k] == DEAD) continue;
+        const Vertex a = t.tri[3 * k], b = t.tri[3 * k + 1], c = t.tri[3 * k + 2];
+        if (is_collapsed(s, a, b, c) || !(triangle_shape(s, a, b, c) < least)) continue;
+        ++bad;
+        marks.active[a] = marks.active[b] = marks.active[c] = 1;
+    }
+    return bad;
+}
+
+}  // namespace surfmesh

@@ -1,0 +1,116 @@
+#include "optimisation/splits.hpp"
+
+namespace surfmesh {
+namespace {
+
+double middle(double a, double b) { return 0.5 * (a + b); }
+Point3 middle(Point3 a, Point3 b) { return 0.5 * (a + b); }
+MetricRoot3 middle(const MetricRoot3& a, const MetricRoot3& b) {
+    return {middle(a.xx, b.xx), middle(a.xy, b.xy), middle(a.xz, b.xz),
+            middle(a.yy, b.yy), middle(a.yz, b.yz), middle(a.zz, b.zz)};
+}
+
+/// Split the edge e in the middle; what is known at the new vertex is taken from its ends.
+void halve(Triangulation& t, SurfaceFrames& s, VertexMarks& marks, HalfEdge e) {
+    const Vertex a = t.tri[e], b = t.tri[t.adj[e]];
+    const Vertex p = split_edge(t, e, 0.5 * (t.xy[a] + t.xy[b]));
+    if (p == NIL) return;
+    s.resize(t.xy.size());
+    marks.resize(t.xy.size());
+    s.point[p] = middle(s.point[a], s.point[b]);
+    s.tangent_map[p] = s.tangent_map[a];
+    s.normal[p] = s.normal[a];
+    t.size[p] = t.size[a];
+    s.scale[p] = middle(s.scale[a], s.scale[b]);
+    s.size[p] = middle(s.size[a], s.size[b]);
+    if (s.is_anisotropic) s.metric_root[p] = middle(s.metric_root[a], s.metric_root[b]);
+    marks.touch(p);
+    marks.touch(a);
+    marks.touch(b);
+}
+
+void join(Triangulation& t, HalfEdge e, HalfEdge twin) {
+    t.adj[e] = twin;
+    if (twin >= 0) t.adj[twin] = e;
+}
+
+/// The edge of triangle k that lies farthest from the surface and may be split, or NIL.
+///
+/// NIL too where a corner is ``first`` or a later vertex.
+HalfEdge farthest_edge(const Triangulation& t, const SurfaceFrames& s, Triangle k, Vertex first) {
+    HalfEdge best = NIL;
+    double farthest = 0.0;
+    for (HalfEdge e = 3 * k; e < 3 * k + 3; ++e) {
+        const Vertex a = t.tri[e], b = t.tri[next_half_edge(e)];
+        if (a >= first || b >= first) return NIL;
+        if (t.adj[e] < 0 || t.fixed[e] != 0) continue;
+        const double far = std::abs(rise(s, a, b)) + std::abs(rise(s, b, a));
+        if (far > farthest) {
+            best = e;
+            farthest = far;
+        }
+    }
+    return best;
+}
+
+}  // namespace
+
+Vertex split_edge(Triangulation& t, HalfEdge e, Point2 place) {
+    const HalfEdge f = t.adj[e];
+    const HalfEdge e1 = next_half_edge(e), f1 = next_half_edge(f);
+    const Vertex a = t.tri[e], b = t.tri[f];
+    const Vertex c = t.tri[prev_half_edge(e)], d = t.tri[prev_half_edge(f)];
+    const auto positive = [&](Vertex from, Vertex to) {
+        return orient(place, t.xy[from], t.xy[to]) > 0.0;
+    };
+    if (!positive(c, a) || !positive(b, c) || !positive(d, b) || !positive(a, d)) return NIL;
+    const Vertex p = t.add_vertex(place, t.size[a]);
+    const Triangle k = t.add_triangle();
+    t.region[k] = t.region[e / 3];
+    t.region[t.add_triangle()] = t.region[f / 3];
+    const HalfEdge g = 3 * k, h = g + 3;  // (p, b, c), (p, a, d)
+    const HalfEdge twin_bc = t.adj[e1], twin_ad = t.adj[f1];
+    t.tri[g] = p;
+    t.tri[g + 1] = b;
+    t.tri[g + 2] = c;
+    t.tri[h] = p;
+    t.tri[h + 1] = a;
+    t.tri[h + 2] = d;
+    t.tri[e1] = p;       // e: a -> p, e1: p -> c
+    t.tri[f1] = p;       // f: b -> p, f1: p -> d
+    join(t, e, h);       // a -> p meets p -> a
+    join(t, f, g);       // b -> p meets p -> b
+    join(t, e1, g + 2);  // p -> c meets c -> p
+    join(t, f1, h + 2);  // p -> d meets d -> p
+    join(t, g + 1, twin_bc);
+    join(t, h + 1, twin_ad);
+    t.fixed[g + 1] = t.fixed[e1];
+    t.fixed[h + 1] = t.fixed[f1];
+    t.fixed[e1] = t.fixed[f1] = 0;
+    return p;
+}
+
+Vertex split_long_edges(Triangulation& t, SurfaceFrames& s, VertexMarks& marks, double longest) {
+    const Vertex first = t.vertices();
+    const HalfEdge end = 3 * t.triangles();
+    for (HalfEdge e = 0; e < end; ++e) {
+        const Vertex a = t.tri[e];
+        if (a >= first || t.adj[e] <= e || t.fixed[e] != 0 || t.region[e / 3] == DEAD) continue;
+        const Vertex b = t.tri[t.adj[e]];
+        if (b >= first || (marks.active[a] == 0 && marks.active[b] == 0)) continue;
+        if (edge_length(s, a, b) > longest) halve(t, s, marks, e);
+    }
+    return first;
+}
+
+Vertex split_far_edges(Triangulation& t, SurfaceFrames& s, VertexMarks& marks,
+                       std::span<const Triangle> triangles) {
+    const Vertex first = t.vertices();
+    for (const Triangle k : triangles) {
+        const HalfEdge e = farthest_edge(t, s, k, first);
+        if (e != NIL) halve(t, s, marks, e);
+    }
+    return first;
+}
+
+}  // namespace surfmesh

@@ -1,0 +1,149 @@
+#include "optimisation/surface_frames.hpp"
+
+namespace surfmesh {
+namespace {
+
+constexpr double DEGENERATE = 1e-10;  // |r_x x r_y| over |r_x|^2 + |r_y|^2: below, no normal
+
+/// A 2 x 2 matrix by rows.
+struct Matrix2 {
+    double xx, xy, yx, yy;
+};
+
+/// V = Q^T W Q, with Q^T = h B.
+SizeTensor tangential(const MetricRoot3& w, const TangentMap& b, double h) {
+    const Point3 wx = apply(w, b.x), wy = apply(w, b.y);
+    const double square = h * h;
+    return {square * dot(b.x, wx), square * dot(b.y, wx), square * dot(b.y, wy)};
+}
+
+/// Make H and B of v anisotropic; they are isotropic, and ``j`` is I^(1/2).
+void stretch(Triangulation& t, SurfaceFrames& s, Vertex v, SizeTensor j) {
+    const double h = s.size[v];
+    TangentMap& b = s.tangent_map[v];
+    const SizeTensor q = tangential(s.metric_root[v], b, h);
+    const Matrix2 g = {q.xx * j.xx + q.xy * j.xy, q.xx * j.xy + q.xy * j.yy,
+                       q.xy * j.xx + q.yy * j.xy, q.xy * j.xy + q.yy * j.yy};
+    // M^(1/2) = (M + d Id) / c, d = det M^(1/2); its inverse by Cramer's rule
+    const double d = std::abs(g.xx * g.yy - g.xy * g.yx);
+    const SizeTensor m = {g.xx * g.xx + g.yx * g.yx, g.xx * g.xy + g.yx * g.yy,
+                          g.xy * g.xy + g.yy * g.yy};
+    double c = std::sqrt(m.xx + m.yy + 2.0 * d);
+    if (!(d > 0.0 && c > 0.0)) return;
+    c = 1.0 / (c * d);
+    const SizeTensor H = {c * (m.yy + d), -c * m.xy, c * (m.xx + d)};
+    t.size[v] = H;
+    // H G^T V, to be applied to Q^T
+    const Matrix2 a = {H.xx * g.xx + H.xy * g.xy, H.xx * g.yx + H.xy * g.yy,
+                       H.xy * g.xx + H.yy * g.xy, H.xy * g.yx + H.yy * g.yy};
+    const Matrix2 to = {a.xx * q.xx + a.xy * q.xy, a.xx * q.xy + a.xy * q.yy,
+                        a.yx * q.xx + a.yy * q.xy, a.yx * q.xy + a.yy * q.yy};
+    const Point3 x = h * b.x, y = h * b.y;
+    b.x = to.xx * x + to.xy * y;
+    b.y = to.yx * x + to.yy * y;
+}
+
+/// The step d in the sum of the metrics of a, b and c.
+Point3 stretched(const SurfaceFrames& s, Vertex a, Vertex b, Vertex c, Point3 d) {
+    const MetricRoot3 &p = s.metric_root[a], &q = s.metric_root[b], &r = s.metric_root[c];
+    const MetricRoot3 sum = {p.xx + q.xx + r.xx, p.xy + q.xy + r.xy, p.xz + q.xz + r.xz,
+                             p.yy + q.yy + r.yy, p.yz + q.yz + r.yz, p.zz + q.zz + r.zz};
+    return apply(sum, d);
+}
+
+}  // namespace
+
+SurfaceFrames::SurfaceFrames(std::size_t vertices, bool anisotropic) : is_anisotropic(anisotropic) {
+    resize(vertices);
+}
+
+void SurfaceFrames::resize(std::size_t vertices) {
+    point.resize(vertices);
+    tangent_map.resize(vertices);
+    normal.resize(vertices);
+    size.resize(vertices);
+    scale.resize(vertices, 1.0);
+    if (is_anisotropic) metric_root.resize(vertices);
+}
+
+void set_frame(Triangulation& t, SurfaceFrames& s, const Background& background, Vertex v,
+               const SurfacePoint& at, double largest) {
+    const Point2 xy = t.xy[v];
+    const double h = s.scale[v] * background.scalar_size_at(xy.x, xy.y);
+    double e = dot(at.rx, at.rx), g = dot(at.ry, at.ry);
+    const double f = dot(at.rx, at.ry);
+    const Point3 n = cross(at.rx, at.ry);
+    const double area = norm(n);
+    s.point[v] = at.r;
+    s.normal[v] = (area > DEGENERATE * (e + g) ? 1.0 / area : 0.0) * n;
+    const double floor = (e + g) / (largest * largest) + 1e-300;
+    e += floor;
+    g += floor;
+    // I^(-1/2) = (tr + 2 s)^(-1/2) (Id + s I^-1), s = sqrt(det I)
+    const double det = std::max(e * g - f * f, floor * floor);
+    const double root = std::sqrt(det);
+    const double scale = 1.0 / std::sqrt(e + g + 2.0 * root);
+    const SizeTensor m = {scale * (1.0 + g / root), -scale * f / root, scale * (1.0 + e / root)};
+    s.size[v] = h;
+    t.size[v] = h * m;
+    const auto over_h = [h](Point3 a) { return Point3{a.x / h, a.y / h, a.z / h}; };
+    s.tangent_map[v] = {over_h(m.xx * at.rx + m.xy * at.ry), over_h(m.xy * at.rx + m.yy * at.ry)};
+    if (!s.is_anisotropic) return;
+    const MetricRoot3 w = background.metric_root_3d_at(xy.x, xy.y);
+    const double by = s.scale[v];
+    s.metric_root[v] = {w.xx / by, w.xy / by, w.xz / by, w.yy / by, w.yz / by, w.zz / by};
+    stretch(t, s, v, {scale * (e + root), scale * f, scale * (g + root)});
+}
+
+Point3 lift(const SurfaceFrames& s, Vertex v, Point2 step) {
+    const TangentMap& b = s.tangent_map[v];
+    if (!s.is_anisotropic) {
+        step = s.size[v] * s.size[v] * step;
+    } else {
+        const double p = dot(b.x, b.x), q = dot(b.x, b.y), r = dot(b.y, b.y);
+        const double d = p * r - q * q;
+        if (!(d > 0.0)) return {0.0, 0.0, 0.0};
+        step = {(r * step.x - q * step.y) / d, (p * step.y - q * step.x) / d};
+    }
+    return step.x * b.x + step.y * b.y;
+}
+
+void shorten(SurfaceFrames& s, Vertex v, double factor) {
+    s.size[v] *= factor;
+    s.scale[v] *= factor;
+    if (!s.is_anisotropic) return;
+    MetricRoot3& w = s.metric_root[v];
+    w = {w.xx / factor, w.xy / factor, w.xz / factor, w.yy / factor, w.yz / factor, w.zz / factor};
+}
+
+double triangle_deviation(const SurfaceFrames& s, Vertex a, Vertex b, Vertex c) {
+    const double ab = rise(s, a, b), ba = rise(s, b, a);
+    const double bc = rise(s, b, c), cb = rise(s, c, b);
+    const double ca = rise(s, c, a), ac = rise(s, a, c);
+    const double edges = std::max({std::abs(ab + ba) + 2.0 * std::abs(ab - ba),
+                                   std::abs(bc + cb) + 2.0 * std::abs(bc - cb),
+                                   std::abs(ca + ac) + 2.0 * std::abs(ca - ac)});
+    const double unsure = std::abs(ab - ba) + std::abs(bc - cb) + std::abs(ca - ac);
+    return std::max(edges / 8.0, (0.5 * std::abs(ab + ba + bc + cb + ca + ac) + unsure) / 9.0);
+}
+
+double triangle_shape(const SurfaceFrames& s, Vertex a, Vertex b, Vertex c) {
+    Point3 u = s.point[b] - s.point[a], v = s.point[c] - s.point[a];
+    Point3 n = cross(u, v);
+    const Point3 m = s.normal[a] + s.normal[b] + s.normal[c];
+    const double outward = dot(n, m);
+    if (s.is_anisotropic) {
+        u = stretched(s, a, b, c, u);
+        v = stretched(s, a, b, c, v);
+        n = cross(u, v);
+        const double length = dot(m, m);
+        if (length > 0.0) n = dot(n, m) / length * m;
+    }
+    const double uu = dot(u, u), uv = dot(u, v), vv = dot(v, v);
+    const double total = 2.0 * (uu + vv - uv);
+    if (total == 0.0) return 0.0;
+    const double alpha = 3.4641016151377544 * norm(n) / total;
+    return outward > 0.0 ? alpha : -alpha;
+}
+
+}  // namespace surfmesh

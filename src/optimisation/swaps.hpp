@@ -1,0 +1,31 @@
+// Swaps of edges: for the shape of triangles, and for the degrees of vertices.
+//
+// In: a domain with its frames. What is better is measured in space; a swap is made only where it
+// keeps both triangles positive in the plane, exactly, and where the new edge is short in the
+// plane as it is in space. Fixed edges and the border stay. Vertices of swapped edges become
+// active and dirty; stars are stale afterwards, but for their degrees.
+#pragma once
+
+#include "optimisation/stars.hpp"
+#include "optimisation/surface_frames.hpp"
+#include "optimisation/vertex_marks.hpp"
+
+namespace surfmesh {
+
+/// Swap edges while that raises the smaller alpha of the pair. Returns the swaps made.
+///
+/// ``shape`` keeps alpha of the triangles from call to call; only triangles with a dirty corner
+/// are measured again and looked at, and of these only those below ``good``, in at most
+/// ``sweeps`` sweeps. No vertex is dirty afterwards.
+int swap_for_shape(Triangulation& t, const SurfaceFrames& s, Array<double>& shape,
+                   VertexMarks& marks, double good, int sweeps);
+
+/// Swap edges that bring the degrees of their four vertices nearer to six. Returns the swaps made.
+///
+/// A 7-7 edge between two 5s is the whole of a pair of dislocations: swapping it leaves four
+/// regular vertices, and the smoothing that follows a regular patch. Only where the new
+/// triangles are better than ``least``.
+int swap_for_degree(Triangulation& t, const SurfaceFrames& s, Stars& stars, VertexMarks& marks,
+                    double least);
+
+}  // namespace surfmesh

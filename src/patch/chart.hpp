@@ -1,0 +1,58 @@
+// The chart of a surface, the scaled plane (x, y): u and v stretched so that speeds are about one.
+//
+// x is a function of u alone, and y of v: linear, or a monotone cubic on even knots. Where speeds
+// have no bound (square roots) it is one of a bent parameter s instead, and u follows from s by an
+// incomplete beta function on each piece between such places:
+//
+//     u  a----------|----------b    on each piece u is the integral of s^(q0 - 1) (1 - s)^(q1 - 1)
+//     s  a----------|----------b
+//
+// Charts are made in Python (surfmesh.geometry.differential.chart); here they are evaluated.
+#pragma once
+
+#include <optional>
+#include <span>
+
+#include "values/array.hpp"
+#include "values/point.hpp"
+
+namespace surfmesh {
+
+/// A piece of an axis between places of infinite speed, or ends of the axis.
+struct BentPiece {
+    double first, last;             // the same for u and s
+    double q0, q1;                  // powers at its ends, 1 where the speed is finite
+    double beta;                    // B(q0, q1)
+    double clearance0, clearance1;  // fractions of it within which no rate is taken
+};
+
+/// A parameter or a coordinate, and its derivative.
+struct ValueAndRate {
+    double value, rate;
+};
+
+/// A monotone map from one scaled coordinate to its parameter.
+struct ChartAxis {
+    double extent = 0.0;
+    Array<double> knots, slopes;  // parameter and derivative at even coordinates up to ``extent``
+    Array<BentPiece> pieces;      // where knots are those of the bent parameter, else none
+
+    /// Linear outside [0, extent], constant where the parameter is bent.
+    [[nodiscard]] ValueAndRate parameter(double x) const;
+};
+
+/// (u, v) and (du/dx, dv/dy).
+struct ChartPoint {
+    Point2 uv, rates;
+};
+
+struct Chart {
+    ChartAxis u, v;
+
+    [[nodiscard]] Point2 extent() const { return {u.extent, v.extent}; }
+    [[nodiscard]] ChartPoint at(Point2 xy) const;
+    [[nodiscard]] Point2 to_uv(Point2 xy) const { return at(xy).uv; }
+    [[nodiscard]] Array<Point2> to_uv(std::span<const Point2> xy) const;
+};
+
+}  // namespace surfmesh

@@ -1,0 +1,202 @@
+#include "patch/patch_state.hpp"
+
+#include <numeric>
+#include <utility>
+
+#include "optimisation/collapse.hpp"
+#include "optimisation/smoothing.hpp"
+#include "optimisation/splits.hpp"
+#include "optimisation/swaps.hpp"
+
+namespace surfmesh {
+namespace {
+
+constexpr int FEW = 4;  // an interior vertex with at most this many triangles is removed
+constexpr double LEAST_FOR_DEGREE = 0.4;  // worst alpha that a swap for degrees may leave
+constexpr int SWEEPS = 8;                 // of swaps over all edges, at most
+constexpr std::size_t BLOCK = 1 << 15;    // vertices put on the surface together
+
+// Of the domain: how far from a kink its two sides are looked at, and in which directions.
+constexpr double BESIDE_KINK = 1e-6;
+constexpr Point2 AROUND_KINK[] = {{1.0, 0.4}, {-1.0, -0.4}, {0.4, -1.0}, {-0.4, 1.0}};
+
+std::span<const Vertex> all(const Array<Vertex>& vertices) {
+    return {vertices.data(), vertices.size()};
+}
+
+Array<Vertex> vertices_from(Vertex first, Vertex end) {
+    Array<Vertex> numbers(static_cast<std::size_t>(end - first));
+    std::iota(numbers.begin(), numbers.end(), first);
+    return numbers;
+}
+
+}  // namespace
+
+PatchState::PatchState(Triangulation& triangulation, BoundaryNodes nodes,
+                       const PatchSetting& setting)
+    : t(triangulation),
+      frames(t.xy.size(), !setting.background.metric_root_3d.empty()),
+      marks(t.xy.size()),
+      nodes_(std::move(nodes)),
+      setting_(setting),
+      surface_(setting.surface),
+      largest_(1e3 * setting.background.box.largest /
+               std::max(setting.chart.u.extent, setting.chart.v.extent)) {
+    set_frames(all(vertices_from(0, t.vertices())));
+    place_nodes();
+}
+
+PatchStatus PatchState::status() const {
+    if (surface_.failed()) return PatchStatus::SURFACE_FAILED;
+    return cancelled_ ? PatchStatus::CANCELLED : PatchStatus::DONE;
+}
+
+double PatchState::diagonal() const {
+    if (frames.point.empty()) return 0.0;
+    Point3 low = frames.point[0], high = low;
+    for (const Point3 p : frames.point) {
+        low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
+        high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
+    }
+    return norm(high - low);
+}
+
+Array<Vertex> PatchState::identified() const {
+    Array<Vertex> number = vertices_from(0, t.vertices());
+    for (std::size_t k = 0; k < nodes_.vertex.size(); ++k)
+        number[nodes_.vertex[k]] = nodes_.same[k];
+    return number;
+}
+
+void PatchState::set_frames(std::span<const Vertex> vertices) { set_frames(vertices, false); }
+
+void PatchState::set_frames(std::span<const Vertex> vertices, bool on_kink) {
+    for (std::size_t start = 0; start < vertices.size(); start += BLOCK)
+        set_block(vertices.subspan(start, std::min(BLOCK, vertices.size() - start)), on_kink);
+}
+
+void PatchState::set_block(std::span<const Vertex> vertices, bool on_kink) {
+    Array<Point2> uv(vertices.size()), rates(vertices.size());
+    for (std::size_t k = 0; k < vertices.size(); ++k) {
+        const ChartPoint at = setting_.chart.at(t.xy[vertices[k]]);
+        uv[k] = at.uv;
+        rates[k] = at.rates;
+    }
+    Array<Point3> ru, rv;
+    if (on_kink) read_mean_slopes({uv.data(), uv.size()}, ru, rv);
+    surface_.read({uv.data(), uv.size()}, 1);
+    for (std::size_t k = 0; k < vertices.size(); ++k) {
+        const Point3 du = on_kink ? ru[k] : surface_[1][k], dv = on_kink ? rv[k] : surface_[2][k];
+        set_frame(t, frames, setting_.background, vertices[k],
+                  {surface_[0][k], rates[k].x * du, rates[k].y * dv}, largest_);
+    }
+}
+
+void PatchState::set_frames_on_kinks() {
+    if (nodes_.on_kinks.empty()) return;
+    set_frames(all(nodes_.on_kinks), true);
+    place_nodes();
+}
+
+/// Boundary nodes lie where edges have them, or on each other to the last bit.
+void PatchState::place_nodes() {
+    const std::size_t count = nodes_.vertex.size();
+    if (!nodes_.point.empty()) {
+        for (std::size_t k = 0; k < count; ++k) frames.point[nodes_.vertex[k]] = nodes_.point[k];
+        return;
+    }
+    Array<Point3> points;
+    for (const Vertex v : nodes_.same) points.push_back(frames.point[v]);
+    for (std::size_t k = 0; k < count; ++k) frames.point[nodes_.vertex[k]] = points[k];
+}
+
+/// r_u and r_v on kinks: the mean of what they are around.
+void PatchState::read_mean_slopes(std::span<const Point2> uv, Array<Point3>& ru,
+                                  Array<Point3>& rv) {
+    const ParameterBox box = surface_.domain();
+    const Point2 step = BESIDE_KINK * (box.high - box.low);
+    ru.resize(uv.size());
+    rv.resize(uv.size());
+    Array<Point2> places(uv.size());
+    for (std::size_t way = 0; way < std::size(AROUND_KINK); ++way) {
+        for (std::size_t k = 0; k < uv.size(); ++k) {
+            const Point2 to = {uv[k].x + step.x * AROUND_KINK[way].x,
+                               uv[k].y + step.y * AROUND_KINK[way].y};
+            places[k] = {std::min(std::max(to.x, box.low.x), box.high.x),
+                         std::min(std::max(to.y, box.low.y), box.high.y)};
+        }
+        surface_.read({places.data(), places.size()}, 1);
+        for (std::size_t k = 0; k < uv.size(); ++k) {
+            ru[k] = way == 0 ? surface_[1][k] : ru[k] + surface_[1][k];
+            rv[k] = way == 0 ? surface_[2][k] : rv[k] + surface_[2][k];
+        }
+    }
+    constexpr double FRACTION = 1.0 / std::size(AROUND_KINK);
+    for (std::size_t k = 0; k < uv.size(); ++k) {
+        ru[k] = FRACTION * ru[k];
+        rv[k] = FRACTION * rv[k];
+    }
+}
+
+void PatchState::find_stars() {
+    if (stars_known_) return;
+    surfmesh::find_stars(t, stars);
+    for (const Vertex v : nodes_.vertex) stars.frozen[v] = 1;
+    stars_known_ = true;
+}
+
+int PatchState::smooth(double stiffness) {
+    moved.clear();
+    if (!stopped() && setting_.before_pass) cancelled_ = !setting_.before_pass();
+    if (stopped()) return 0;
+    find_stars();
+    surfmesh::smooth(t, frames, setting_.background, stars, marks, stiffness, moved);
+    set_frames(all(moved));
+    ++passes;
+    return static_cast<int>(moved.size());
+}
+
+void PatchState::swap(double good) {
+    if (stopped()) return;
+    const int made = swap_for_shape(t, frames, shape, marks, good, SWEEPS);
+    stars_known_ = stars_known_ && made == 0;
+    swaps += made;
+}
+
+void PatchState::swap_for_degree() {
+    if (stopped()) return;
+    find_stars();
+    const int made = surfmesh::swap_for_degree(t, frames, stars, marks, LEAST_FOR_DEGREE);
+    stars_known_ = stars_known_ && made == 0;
+    swaps += made;
+}
+
+void PatchState::collapse() {
+    if (stopped()) return;
+    find_stars();
+    const int made = collapse_short_edges(t, frames, stars, marks, SHORTEST, FEW);
+    stars_known_ = stars_known_ && made == 0;
+    collapses += made;
+}
+
+void PatchState::split(double longest) {
+    if (stopped()) return;
+    set_new(split_long_edges(t, frames, marks, longest));
+}
+
+int PatchState::split_farthest(std::span<const Triangle> triangles) {
+    if (stopped()) return 0;
+    return set_new(split_far_edges(t, frames, marks, triangles));
+}
+
+/// Set the frames of vertices from number ``first`` on; returns how many there are.
+int PatchState::set_new(Vertex first) {
+    const Array<Vertex> added = vertices_from(first, t.vertices());
+    if (added.empty()) return 0;
+    set_frames(all(added));
+    stars_known_ = false;
+    splits += static_cast<int>(added.size());
+    return static_cast<int>(added.size());
+}
+
+}  // namespace surfmesh

@@ -1,0 +1,119 @@
+// A triangulated domain with its surface frames, and the passes of the optimiser on it.
+//
+// In: the triangulation of a domain, which changes in place; its surface, chart and size field,
+// which do not; where the nodes of its boundary are, which stay. A pass changes only what is
+// active, and marks what it has changed as active and dirty. After each of them the vertices that
+// moved are put back on the true surface.
+#pragma once
+
+#include <functional>
+#include <optional>
+
+#include "fields/background.hpp"
+#include "optimisation/stars.hpp"
+#include "optimisation/surface_frames.hpp"
+#include "optimisation/vertex_marks.hpp"
+#include "patch/chart.hpp"
+#include "patch/limits.hpp"
+#include "surfaces/surface_reader.hpp"
+
+namespace surfmesh {
+
+/// Metric lengths beyond which an edge is collapsed or split.
+inline constexpr double SHORTEST = 0.66, LONGEST = 1.45;
+
+/// Weight of unit edges against good shapes: 1 gives better shapes, 4 better lengths.
+inline constexpr double STIFFNESS = 2.0;
+
+/// Triangles above this alpha keep their edges.
+inline constexpr double GOOD_SHAPE = 0.82;
+
+/// The nodes of a boundary, in a domain that was cut out.
+struct BoundaryNodes {
+    Array<Vertex> vertex;    // of each node that has one
+    Array<Vertex> same;      // of the node that it coincides with in space, or its own
+    Array<Vertex> on_kinks;  // vertices where the surface has two normals
+    Array<Point3> point;     // of each node where it lies in space; none: on the surface
+};
+
+/// What a patch lies on, and what is asked of it. All of it outlives the patch.
+struct PatchSetting {
+    const Surface& surface;
+    const Chart& chart;
+    const Background& background;
+    AskedAccuracy asked;
+    std::function<bool()> before_pass;  // of smoothing: goes on if it says so; may be empty
+};
+
+enum class [[nodiscard]] PatchStatus {
+    DONE,
+    CANCELLED,       // before_pass said so
+    SURFACE_FAILED,  // the surface keeps the reason
+};
+
+class PatchState {
+  public:
+    PatchState(Triangulation& t, BoundaryNodes nodes, const PatchSetting& setting);
+
+    Triangulation& t;
+    SurfaceFrames frames;
+    Stars stars;
+    VertexMarks marks;
+    Array<double> shape;  // alpha of the triangles, as swaps have last seen it
+    Array<Vertex> moved;  // by the last pass of smoothing
+    int swaps = 0, collapses = 0, splits = 0, passes = 0;
+
+    [[nodiscard]] const AskedAccuracy& asked() const { return setting_.asked; }
+    [[nodiscard]] const Chart& chart() const { return setting_.chart; }
+    [[nodiscard]] const BoundaryNodes& nodes() const { return nodes_; }
+    SurfaceReader& surface() { return surface_; }
+    [[nodiscard]] bool is_anisotropic() const { return frames.is_anisotropic; }
+
+    /// Whether to give up: no pass does anything any more.
+    [[nodiscard]] bool stopped() const { return cancelled_ || surface_.failed(); }
+    [[nodiscard]] PatchStatus status() const;
+
+    /// Of the box of all vertices, model units.
+    [[nodiscard]] double diagonal() const;
+    /// For each vertex the one that it coincides with in space, or itself.
+    [[nodiscard]] Array<Vertex> identified() const;
+
+    /// Put vertices back on the surface, with their exact metric.
+    void set_frames(std::span<const Vertex> vertices);
+    /// Give vertices on kinks the mean of the frames around them.
+    ///
+    /// With the normal of one side, triangles of the other would seem to be turned over.
+    void set_frames_on_kinks();
+    /// Bring the stars up to date.
+    void find_stars();
+
+    /// Move every active vertex by one Newton step; returns how many have moved.
+    int smooth(double stiffness = STIFFNESS);
+    /// Swap edges of triangles below the alpha ``good`` while that raises the smaller one.
+    void swap(double good = GOOD_SHAPE);
+    /// Swap edges that bring the degrees of their four vertices nearer to six.
+    void swap_for_degree();
+    /// Remove interior vertices with a short edge, or with few triangles.
+    void collapse();
+    /// Split interior edges of active vertices longer than ``longest``.
+    void split(double longest = LONGEST);
+    /// Split the edge of each of the triangles that lies farthest from the surface.
+    ///
+    /// All other vertices stay where they are. Returns how many were split.
+    int split_farthest(std::span<const Triangle> triangles);
+
+  private:
+    void set_frames(std::span<const Vertex> vertices, bool on_kink);
+    void set_block(std::span<const Vertex> vertices, bool on_kink);
+    void read_mean_slopes(std::span<const Point2> uv, Array<Point3>& ru, Array<Point3>& rv);
+    void place_nodes();
+    int set_new(Vertex first);
+
+    BoundaryNodes nodes_;
+    PatchSetting setting_;
+    SurfaceReader surface_;
+    bool stars_known_ = false, cancelled_ = false;
+    double largest_;  // eigenvalue of a size tensor, near degenerate points
+};
+
+}  // namespace surfmesh

@@ -1,0 +1,43 @@
+// A surface that is asked for block after block, and whether it has failed in any of them.
+//
+// Once it has, all values are zero and the surface is not asked again: whoever reads goes on with
+// what makes no sense until the next look at ``status``, and gives up there.
+#pragma once
+
+#include <algorithm>
+#include <span>
+
+#include "surfaces/surface.hpp"
+#include "values/array.hpp"
+
+namespace surfmesh {
+
+class SurfaceReader {
+  public:
+    explicit SurfaceReader(const Surface& surface) : surface_(surface) {}
+
+    [[nodiscard]] ParameterBox domain() const { return surface_.domain(); }
+    [[nodiscard]] SurfaceStatus status() const { return status_; }
+    [[nodiscard]] bool failed() const { return status_ != SurfaceStatus::DONE; }
+
+    /// Read r and its derivatives up to an order at uv; the block before is forgotten.
+    void read(std::span<const Point2> uv, int order) {
+        points_ = uv.size();
+        values_.resize(derivative_count(order) * points_);
+        const std::span<Point3> out{values_.data(), derivative_count(order) * points_};
+        if (!failed()) status_ = surface_.evaluate(uv, order, out);
+        if (failed()) std::fill(out.begin(), out.end(), Point3{0.0, 0.0, 0.0});
+    }
+    /// Derivative k at all points of the block, in the sequence of ``derivative_count``.
+    [[nodiscard]] std::span<const Point3> operator[](std::size_t k) const {
+        return {values_.data() + k * points_, points_};
+    }
+
+  private:
+    const Surface& surface_;
+    SurfaceStatus status_ = SurfaceStatus::DONE;
+    Array<Point3> values_;
+    std::size_t points_ = 0;
+};
+
+}  // namespace surfmesh
