@@ -158,8 +158,7 @@ def _placed_radii(surface: Surface, sizing: sm.Sizing) -> np.ndarray:
     """Got over wanted radius of the circles whose centres lie in the domain."""
     field, is_inside = _field(surface, sizing)
     packing = packed_over(field, field.chart)
-    count = int(packing.t.count[0])
-    return packing.radius[:count][is_inside(packing.t.xy[:count])]
+    return packing.radius[is_inside(packing.t.xy)]
 
 
 def _field(surface: Surface, sizing: sm.Sizing) -> tuple[SizeField, Callable]:

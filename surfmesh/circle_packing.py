@@ -7,14 +7,14 @@ from typing import Any, Protocol, runtime_checkable
 
 import numpy as np
 
+from surfmesh._core import NIL
 from surfmesh._core.fields import Background
+from surfmesh._core.packing import Packing
+from surfmesh._core.triangulation import DONE, first_not_ccw
 from surfmesh.accuracy.shape import mean_ratio
 from surfmesh.errors import SizingError
 from surfmesh.geometry.number_range import RANGE
 from surfmesh.geometry.planar.planar_domain import PlanarRegion
-from surfmesh.kernels.packing.front import DONE
-from surfmesh.kernels.packing.packing_state import FITS, STEPS, Packing
-from surfmesh.kernels.triangulation.predicates import orient_triangles
 from surfmesh.meshing.patch.packing import NO_LIMIT, packed, packed_discs
 from surfmesh.renamed import Renamed
 from surfmesh.sizing.field.size_field import plane_field
@@ -89,7 +89,7 @@ class CirclePacking:
         Every triangle is positively oriented, exactly; the whole is a topological disc, and
         the front is its border.
         """
-        turned = orient_triangles(self.centres, self.triangles)
+        turned = first_not_ccw(self.centres, self.triangles)
         if turned >= 0:
             return f"triangle {turned} = {self.triangles[turned].tolist()} is not positive"
         start = self.triangles.ravel().astype(np.int64)
@@ -344,34 +344,36 @@ def _half_width(tensors: Callable, origin: tuple[float, float], count: int, step
 
 def _result(packing: Packing, shift: np.ndarray, seconds: float, stretched: bool) -> CirclePacking:
     t = packing.t
-    n, m = int(t.count[0]), int(t.count[1])
-    triangles = t.tri[: 3 * m].reshape(-1, 3)[t.region[:m] == DONE]
-    h = t.size[:n].copy()
+    n = t.vertices
+    is_done = t.region == DONE
+    triangles = t.tri.reshape(-1, 3)[is_done]
+    h = t.size.copy()
     radii = 0.5 * np.sqrt(h[:, 0] * h[:, 2] - h[:, 1] ** 2)
     if len(packing.drawn):
         wanted = packing.drawn[:n].copy()
-        trials = packing.count[FITS] / max(n, 1)
+        trials = packing.fits / n
     else:
         wanted = radii
-        radii = wanted * packing.radius[:n]
-        trials = packing.count[STEPS] / max(packing.count[FITS], 1)
-    front = [int(np.flatnonzero(packing.front.next[:n] >= 0)[0])]
-    while (v := int(packing.front.next[front[-1]])) != front[0]:
+        radii = wanted * packing.radius
+        trials = packing.steps / max(packing.fits, 1)
+    following = packing.front[:, 0]
+    front = [int(np.flatnonzero(following != NIL)[0])]
+    while (v := int(following[front[-1]])) != front[0]:
         front.append(v)
-    centres = t.xy[:n] + shift
-    done = np.repeat(t.region[:m] == DONE, 3)
+    centres = t.xy + shift
+    done = np.repeat(is_done, 3)
     half_edges = np.flatnonzero(done)
     twins = t.adj[half_edges]
     once = (half_edges < twins) | ~done[twins]
-    following = half_edges + np.where(half_edges % 3 == 2, -2, 1)
-    edges = np.stack([t.tri[half_edges], t.tri[following]], axis=1)[once]
+    ends = half_edges + np.where(half_edges % 3 == 2, -2, 1)
+    edges = np.stack([t.tri[half_edges], t.tri[ends]], axis=1)[once]
     statistics = PackingStatistics(
         n,
         len(triangles),
         *_extremes(np.maximum(radii / wanted, wanted / radii) - 1.0, np.max),
         *_extremes(_ratio(*radii[edges].T), np.max),
         *_extremes(_alpha(centres, triangles, h if stretched else None), np.min),
-        float(trials),
+        trials,
         seconds,
     )
     arrays = (centres, radii, wanted, h, triangles, np.array(front, np.int32))

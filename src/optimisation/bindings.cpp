@@ -255,10 +255,13 @@ void bind_collapse_and_splits(nb::module_& m) {
     m.def(
         "split_edge",
         [](Triangulation& t, HalfEdge e, double x, double y) {
-            require_domain(t, SurfaceFrames(t.xy.size(), false));
-            if (e < 0 || e >= 3 * t.triangles() || t.region[e / 3] == DEAD || t.adj[e] == NIL ||
-                t.fixed[e] != 0)
+            if (e < 0 || e >= 3 * t.triangles() || t.region[e / 3] == DEAD || t.adj[e] == NIL)
                 throw nb::value_error("there is no such edge in the interior");
+            for (const Triangle k : {e / 3, t.adj[e] / 3})
+                for (const HalfEdge h : {3 * k, 3 * k + 1, 3 * k + 2})
+                    if (t.tri[h] == NIL) throw nb::value_error("a ghost triangle is beside e");
+            if (!t.has_segments() || t.fixed[e] != 0)
+                throw nb::value_error("the edge is fixed, or the triangulation has no ``fixed``");
             return split_edge(t, e, {x, y});
         },
         nb::arg("t"), nb::arg("e"), nb::arg("x"), nb::arg("y"),

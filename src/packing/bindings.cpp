@@ -1,11 +1,11 @@
 #include <nanobind/stl/array.h>
-#include <nanobind/stl/optional.h>
 #include <nanobind/stl/pair.h>
+#include <nanobind/stl/tuple.h>
 
 #include <array>
 #include <cmath>
 #include <exception>
-#include <optional>
+#include <tuple>
 
 #include "binding/arrays.hpp"
 #include "packing/packing.hpp"
@@ -115,6 +115,23 @@ void bind_status(nb::module_& m) {
         .value("STOPPED", PackingStatus::stopped, "Whoever watches wanted no more.");
 }
 
+void bind_heap(nb::module_& m) {
+    nb::class_<EdgeHeap> c(m, "EdgeHeap", "Directed edges (a, b) with a key, smallest first.");
+    c.def(nb::init<>());
+    c.def("__len__", &EdgeHeap::size);
+    c.def(
+        "push", [](EdgeHeap& heap, double key, Vertex a, Vertex b) { heap.push({key, {a, b}}); },
+        nb::arg("key"), nb::arg("a"), nb::arg("b"));
+    c.def(
+        "pop",
+        [](EdgeHeap& heap) {
+            if (heap.empty()) throw nb::index_error("the heap is empty");
+            const auto [key, edge] = heap.pop();
+            return std::tuple(key, edge.a, edge.b);
+        },
+        "Remove and return the smallest (key, a, b).");
+}
+
 void bind_packing_class(nb::module_& m) {
     nb::class_<Packing> c(m, "Packing",
                           "Circles, their triangulation of the whole plane, and the front.");
@@ -154,6 +171,7 @@ void bind_packing_class(nb::module_& m) {
 void bind_packing(nb::module_& m) {
     m.doc() = "Section 2 of the paper: the front, and circles placed at it.";
     bind_status(m);
+    bind_heap(m);
     bind_packing_class(m);
     m.def("pack", &packed, nb::arg("background"), nb::arg("box"), nb::arg("origin"),
           nb::arg("expected"), nb::arg("wanted"), nb::arg("distance"),

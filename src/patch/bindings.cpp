@@ -19,6 +19,7 @@ struct Row<Dihedrals::Pair> {
 };
 
 void bind_accuracy(nb::module_& m);
+void bind_seams(nb::module_& m);
 
 namespace {
 
@@ -325,16 +326,16 @@ void bind_schedule(nb::class_<BoundPatch>& c) {
             if ((left.far.size() > 0 && !p.state.asked().chord) ||
                 (left.dihedrals.angles.size() > 0 && !p.state.asked().angle))
                 throw nb::value_error("left is of another patch");
-            Array<std::uint8_t> off;
+            std::span<const std::uint8_t> off;
             if (off_surface) {
-                require_rows(off_surface->shape(0), p.state.t.xy.size(), "off_surface");
-                off = Array<std::uint8_t>(rows<std::uint8_t>(*off_surface));
+                require_rows(off_surface->shape(0), p.state.nodes().vertex.size(), "off_surface");
+                off = rows<std::uint8_t>(*off_surface);
             }
             return p.run([&](PatchState& s) { return size_requests(s, left, off); });
         },
         nb::arg("left"), nb::arg("off_surface") = nb::none(),
         "Upper bounds of the size under which what is ``left`` would be right.\n\n"
-        "off_surface: (vertices,) marks of those that lie off the surface themselves: for the "
+        "off_surface: (k,) marks of the nodes that lie off the surface themselves: for the "
         "triangles at them smaller sizes are no help.");
 }
 
@@ -346,6 +347,7 @@ void bind_patch(nb::module_& m) {
     m.attr("LONGEST") = LONGEST;
     bind_chart(m);
     bind_accuracy(m);
+    bind_seams(m);
     bind_results(m);
     nb::class_<BoundPatch> patch(m, "PatchState",
                                  "A triangulated domain with its surface frames, and the passes "

@@ -12,6 +12,7 @@
 namespace surfmesh::binding {
 
 void bind_surface_searches(nb::module_& m);
+void bind_formulas(nb::module_& m);  // formula_bindings.cpp
 
 namespace {
 
@@ -112,6 +113,7 @@ void bind_surfaces(nb::module_& m) {
     bind_curves(m);
     bind_face_surfaces(m);
     bind_surface_searches(m);
+    bind_formulas(m);
 }
 
 }  // namespace surfmesh::binding

@@ -31,6 +31,18 @@ class PackingStatus(enum.Enum):
     STOPPED = 4
     """Whoever watches wanted no more."""
 
+class EdgeHeap:
+    """Directed edges (a, b) with a key, smallest first."""
+
+    def __init__(self) -> None: ...
+
+    def __len__(self) -> int: ...
+
+    def push(self, key: float, a: int, b: int) -> None: ...
+
+    def pop(self) -> tuple[float, int, int]:
+        """Remove and return the smallest (key, a, b)."""
+
 class Packing:
     """Circles, their triangulation of the whole plane, and the front."""
 

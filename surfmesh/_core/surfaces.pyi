@@ -1,5 +1,6 @@
 """Surfaces of CAD models and of formulas, evaluated in blocks."""
 
+from collections.abc import Sequence
 from typing import Annotated
 
 import numpy
@@ -109,6 +110,8 @@ def offset_surface(basis: Surface, distance: float) -> Surface:
     r + distance n with n along r_u x r_v, for a basis that has third derivatives.
     """
 
+PROJECTION_MARGIN: float = 0.01
+
 def closest_points(surface: Surface, points: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)], uv_guess: Annotated[NDArray[numpy.float64], dict(shape=(None, 2), order='C', device='cpu', writable=False)], steps: int = 2, margin: float = 0.01) -> tuple[Annotated[NDArray[numpy.float64], dict(shape=(None, 2))], Annotated[NDArray[numpy.float64], dict(shape=(None,))], Annotated[NDArray[numpy.float64], dict(shape=(None, 3))]]:
     """
     Nearest points of a surface to points (n, 3), from guesses (n, 2), never farther.
@@ -130,3 +133,31 @@ def bends_sharply(surface: Surface, triangles: Annotated[NDArray[numpy.float64],
 
     Bends are found where the curvature of a sample shows them, or where the normals of two samples differ.
     """
+
+OPERATIONS: tuple = ...
+
+BLOCK: int = 256
+
+class Tape:
+    """A straight-line program of elementary operations. Immutable."""
+
+    def __init__(self, inputs: int, constants: Sequence[float], instructions: Sequence[tuple[str, int, Sequence[int], int]], registers: int, outputs: Sequence[int]) -> None:
+        """
+        Slots are numbered inputs first, then constants, then registers.
+
+        instructions: (operation, target, operands, exponent) each, operation one of OPERATIONS, exponent 0 but for "integer_power". ValueError for a program that reads what was not written, writes elsewhere than into registers, or the like.
+        """
+
+    def evaluate(self, points: Annotated[NDArray[numpy.float64], dict(shape=(None, None), order='C', device='cpu', writable=False)]) -> Annotated[NDArray[numpy.float64], dict(shape=(None, None, 3))]:
+        """
+        Outputs at points (n, inputs), three together: (m, n, 3).
+
+        What is undefined comes out as nan or infinity.
+        """
+
+    def bounds(self, lo: Annotated[NDArray[numpy.float64], dict(shape=(None, None), order='C', device='cpu', writable=False)], hi: Annotated[NDArray[numpy.float64], dict(shape=(None, None), order='C', device='cpu', writable=False)], kinks: bool) -> tuple[Annotated[NDArray[numpy.float64], dict(shape=(None, None))], Annotated[NDArray[numpy.float64], dict(shape=(None, None))]]:
+        """
+        Bounds over cells: lo, hi (n, inputs) -> lower, upper (n, outputs).
+
+        Infinite where nothing is known. kinks: False leaves out what second derivatives are across kinks.
+        """

@@ -9,23 +9,20 @@ from naive.exact import first_crossing, orient_signs
 from surfmesh._core import NIL
 from surfmesh._core import triangulation as core
 from surfmesh._core.triangulation import DEAD, DONE
-from surfmesh.kernels.triangulation.triangulation import Triangulation, empty_triangulation
-
-AnyTriangulation = core.Triangulation | Triangulation
 
 
-def live_triangles(t: AnyTriangulation) -> np.ndarray:
+def live_triangles(t: core.Triangulation) -> np.ndarray:
     """Numbers of the slots in use."""
     m = t.triangles
     return np.flatnonzero(t.region[:m] != DEAD)
 
 
-def corners(t: AnyTriangulation) -> np.ndarray:
+def corners(t: core.Triangulation) -> np.ndarray:
     """(m, 3) vertices of all slots, dead ones too."""
     return t.tri[: 3 * t.triangles].reshape(-1, 3)
 
 
-def check_half_edges(t: AnyTriangulation, border: bool) -> str | None:
+def check_half_edges(t: core.Triangulation, border: bool) -> str | None:
     """Twins point back and run the other way; real triangles are counter-clockwise, exactly.
 
     ``border``: half-edges without twin are allowed, ghosts are not.
@@ -66,7 +63,7 @@ def check_half_edges(t: AnyTriangulation, border: bool) -> str | None:
     return None
 
 
-def check_triangulation(t: AnyTriangulation, removed: int = 0) -> str | None:
+def check_triangulation(t: core.Triangulation, removed: int = 0) -> str | None:
     """Invariants of a triangulation of the whole plane; ``removed`` vertices are unused."""
     broken = check_half_edges(t, border=False)
     if broken:
@@ -106,11 +103,12 @@ def _one_loop(after: dict[int, int]) -> list[int] | str:
 
 def front_loop(packing) -> list[int]:
     """The vertices of the front in order."""
-    start = int(np.flatnonzero(packing.front.next != NIL)[0])
-    loop, v = [start], int(packing.front.next[start])
-    while v != start and len(loop) <= len(packing.front.next):
+    following = packing.front[:, 0]
+    start = int(np.flatnonzero(following != NIL)[0])
+    loop, v = [start], int(following[start])
+    while v != start and len(loop) <= len(following):
         loop.append(v)
-        v = int(packing.front.next[v])
+        v = int(following[v])
     return loop
 
 
@@ -119,9 +117,10 @@ def check_front(packing, simple_up_to: int = 600) -> str | None:
 
     The crossing test of all pairs is left out for fronts longer than ``simple_up_to``.
     """
-    t, front = packing.t, packing.front
+    t = packing.t
+    following, before, edge = packing.front.T
     n, m = t.vertices, t.triangles
-    region, tri = t.region[:m], corners(t)
+    region, tri = t.region, corners(t)
     if (tri[region == DONE] < 0).any():
         return "a ghost is done"
     half = np.arange(3 * m)
@@ -132,15 +131,15 @@ def check_front(packing, simple_up_to: int = 600) -> str | None:
         if a in after:
             return f"the border of what is done passes vertex {a} twice"
         after[a] = b
-        if front.next[a] != b or front.prev[b] != a or front.edge[a] != e:
+        if following[a] != b or before[b] != a or edge[a] != e:
             return (
-                f"border {a} -> {b} is half-edge {e}, the front has next {front.next[a]}, "
-                f"prev {front.prev[b]}, edge {front.edge[a]}"
+                f"border {a} -> {b} is half-edge {e}, the front has next {following[a]}, "
+                f"prev {before[b]}, edge {edge[a]}"
             )
-    linked = np.flatnonzero(front.next != NIL)
+    linked = np.flatnonzero(following != NIL)
     if set(linked.tolist()) != set(after) or (linked >= n).any():
         return "the front has vertices that are not on the border of what is done"
-    if set(np.flatnonzero(front.prev != NIL).tolist()) != set(after):
+    if set(np.flatnonzero(before != NIL).tolist()) != set(after):
         return "next and prev of the front disagree"
     loop = _one_loop(after)
     if isinstance(loop, str):
@@ -159,7 +158,7 @@ def check_front(packing, simple_up_to: int = 600) -> str | None:
     return None
 
 
-def check_domain(t: AnyTriangulation, euler: int) -> str | None:
+def check_domain(t: core.Triangulation, euler: int) -> str | None:
     """Invariants of a triangulated domain, whose border half-edges have no twin."""
     broken = check_half_edges(t, border=True)
     if broken:
@@ -196,18 +195,7 @@ def plane_triangulation(xy: np.ndarray, size: np.ndarray | None = None) -> core.
     return core.Triangulation(xy, size, tri, adj, nothing, np.repeat(nothing, 3))
 
 
-def in_flat_arrays(t: core.Triangulation, room: int = 64) -> Triangulation:
-    """A copy for the kernels that are not in the core yet, with room for more vertices."""
-    copy = empty_triangulation(t.vertices + room)
-    copy = copy._replace(fixed=np.zeros(len(copy.tri), np.uint8))
-    for name in ("xy", "size", "tri", "adj", "region", "fixed"):
-        given = getattr(t, name)
-        getattr(copy, name)[: len(given)] = given
-    copy.count[:] = t.vertices, t.triangles
-    return copy
-
-
-def half_edges(t: AnyTriangulation) -> dict[tuple[int, int], int]:
+def half_edges(t: core.Triangulation) -> dict[tuple[int, int], int]:
     """(start, end) -> half-edge, for all live triangles."""
     return {
         (int(t.tri[3 * k + i]), int(t.tri[3 * k + (i + 1) % 3])): int(3 * k + i)
@@ -216,7 +204,7 @@ def half_edges(t: AnyTriangulation) -> dict[tuple[int, int], int]:
     }
 
 
-def triangle_set(t: AnyTriangulation) -> set[tuple[int, int, int]]:
+def triangle_set(t: core.Triangulation) -> set[tuple[int, int, int]]:
     """The live triangles, each turned so that its smallest vertex comes first."""
     turned = set()
     for row in corners(t)[live_triangles(t)].tolist():

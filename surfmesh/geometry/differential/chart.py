@@ -8,10 +8,13 @@ the function is linear, otherwise a monotone cubic spline, once differentiable. 
 have no bound (square roots) it is a function of the bent parameter instead.
 """
 
+from collections.abc import Callable
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 
+from surfmesh._core import patch as core
 from surfmesh._core.fields import bend
 from surfmesh.geometry.differential.infinite_speed import BentAxis, bent_axes_of
 from surfmesh.geometry.differential.monotone_cubic import MonotoneCubic
@@ -86,15 +89,10 @@ class Axis:
         """Stretched by the same factor everywhere."""
         return cls(speed * (high - low), np.array([low, high]), np.full(2, 1.0 / speed), bent)
 
-    def parameter_and_rate(self, x: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """The parameter (n,) at scaled coordinates x (n,), and its derivative by x (n,).
-
-        Linear outside [0, extent], constant where the parameter is bent.
-        """
-        parameter, rate = self._knotted(x)
-        if self.bent is None:
-            return parameter, rate
-        return self.bent.parameter(parameter), rate * self.bent.rates(parameter)[0]
+    def in_core(self) -> core.ChartAxis:
+        """The map to the parameter as the core has it."""
+        pieces = None if self.bent is None else self.bent.pieces()
+        return core.ChartAxis(self.extent, self.knots, self.slopes, pieces)
 
     def _knotted(self, x: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """The parameter, or the bent one, and its derivative by x (n,)."""
@@ -105,7 +103,7 @@ class Axis:
         return bend(x, self.extent, self.knots, self.slopes)
 
     def coordinate(self, u: np.ndarray) -> np.ndarray:
-        """The scaled coordinate (n,) of parameters u (n,): ``parameter_and_rate`` inverted."""
+        """The scaled coordinate (n,) of parameters u (n,)."""
         u = np.asarray(u, float)
         if self.bent is not None:
             u = self.bent.bent(u)
@@ -124,6 +122,14 @@ class Chart:
     """Coordinates of one surface: its (u, v) and the scaled plane (x, y), axis by axis."""
 
     axes: tuple[Axis, Axis]
+
+    @cached_property
+    def core(self) -> core.Chart:
+        """The way to (u, v) as the core has it."""
+        return core.Chart(*(axis.in_core() for axis in self.axes))
+
+    def __reduce__(self) -> tuple[Callable[..., "Chart"], tuple[tuple[Axis, Axis]]]:
+        return Chart, (self.axes,)  # what the core has is made anew
 
     @classmethod
     def of(cls, surface: Surface) -> "Chart":
@@ -179,11 +185,11 @@ class Chart:
         return self.to_uv_and_rates(xy)[1]
 
     def to_uv_and_rates(self, xy: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """xy (n, 2) -> uv (n, 2) and (du/dx, dv/dy) (n, 2)."""
-        uv, rates = np.empty((len(xy), 2)), np.empty((len(xy), 2))
-        for k, axis in enumerate(self.axes):
-            uv[:, k], rates[:, k] = axis.parameter_and_rate(xy[:, k])
-        return uv, rates
+        """xy (n, 2) -> uv (n, 2) and (du/dx, dv/dy) (n, 2).
+
+        Linear outside the domain, constant where the parameter is bent.
+        """
+        return self.core.to_uv_and_rates(np.ascontiguousarray(xy, float))
 
 
 def _lengths(surface: Surface, axis: int, bent: BentAxis | None) -> tuple[np.ndarray, np.ndarray]:

@@ -115,6 +115,15 @@ class BentAxis:
         highest = np.where(clearance[:, 1] > 0.0, highest, np.inf)[piece]
         return np.clip(u, lowest, highest)
 
+    def pieces(self) -> np.ndarray:
+        """What the core needs to know (m, 7): beginning, end, both powers of each piece, their
+        beta function, and the clearance at both ends."""
+        from scipy.special import beta
+
+        q0, q1 = self.powers.T
+        ends = self.places[:-1], self.places[1:]
+        return np.column_stack([*ends, q0, q1, beta(q0, q1), self._clearance()])
+
     def _clearance(self) -> np.ndarray:
         """How near to the ends of the pieces derivatives are taken (m, 2), fractions of them."""
         with np.errstate(divide="ignore"):

@@ -10,12 +10,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from surfmesh._core import patch as core
 from surfmesh.geometry.surface import Surface
-from surfmesh.kernels.triangulation.local_operations import DEAD
-from surfmesh.kernels.triangulation.triangulation import Triangulation
 from surfmesh.meshing.boundary.boundary_loops import BoundaryLoops
 from surfmesh.meshing.boundary.boundary_recovery import DomainMesh
-from surfmesh.result.connectivity import connect
 
 
 @dataclass(frozen=True)
@@ -42,58 +40,20 @@ def identify_seams(
     Triangles with two corners on one collapsed side are dropped: they are edges in space.
     loops: None where no nodes coincide.
     """
-    corners = live_triangles(domain.t)
-    same = np.arange(len(uv), dtype=np.int64)
-    joined = loops is not None and loops.joined > 0
-    if joined:
-        same[domain.node] = domain.same
-    used = np.zeros(len(uv), bool)
-    used[corners.ravel()] = True
-    kept = used & (same == np.arange(len(uv)))
-    number = np.cumsum(kept) - 1
-    triangles = number[same[corners]].astype(np.int32)
-    (points,) = surface.evaluate(uv[kept], 0)
-    if loops is None or not joined:
-        return SurfaceTriangles(
-            points, triangles, corners, np.flatnonzero(kept), np.empty(0, np.int64)
-        )
-    a, b, c = triangles.T
-    solid = (a != b) & (b != c) & (c != a)
-    collapsed, change = _euler_of_identification(loops)
-    lost = triangles[~solid]
-    bad = np.unique(lost) if len(lost) != collapsed else np.empty(0, np.int64)
-    triangles = triangles[solid]
-    table = connect(triangles)
-    bad = np.union1d(table.edges[table.uses > 2], bad)
-    euler = len(points) - len(table.edges) + len(triangles)
-    if not len(bad) and euler != _euler_of_domain(domain.t, corners, int(used.sum())) + change:
-        bad = np.arange(len(points))
+    node, segments, identity = _NO_NODES, _NO_SEGMENTS, _NO_IDENTITY
+    if loops is not None:
+        node, segments, identity = domain.node, loops.segments, loops.identity
+    t = domain.t
+    corners, uv_corners, vertex, non_manifold = core.identify_seams(
+        t.tri, t.adj, t.region, len(uv),
+        node, segments, identity,
+    )  # fmt: skip
+    (points,) = surface.evaluate(uv[vertex], 0)
     return SurfaceTriangles(
-        points, triangles, corners[solid], np.flatnonzero(kept), bad.astype(np.int64)
+        points, corners.reshape(-1, 3), uv_corners.reshape(-1, 3), vertex, non_manifold
     )
 
 
-def live_triangles(t: Triangulation) -> np.ndarray:
-    """(m, 3)"""
-    triangles = int(t.count[1])
-    corners: np.ndarray = t.tri[: 3 * triangles].reshape(-1, 3)[t.region[:triangles] != DEAD]
-    return corners
-
-
-def _euler_of_identification(loops: BoundaryLoops) -> tuple[int, int]:
-    """How many segments collapse to points, and by how much Euler's number changes."""
-    # an edge inside is walked there and back: two segments of the loops, one of the domain
-    segments = np.unique(np.sort(loops.segments, axis=1), axis=0)
-    start, end = loops.identity[segments].T
-    collapsed = int((start == end).sum())
-    pairs = np.sort(loops.identity[segments], axis=1)[start != end]
-    identified = len(pairs) - len(np.unique(pairs, axis=0))
-    return collapsed, collapsed + identified - loops.joined
-
-
-def _euler_of_domain(t: Triangulation, corners: np.ndarray, vertices: int) -> int:
-    """Vertices - edges + triangles: its border has as many edges as half-edges."""
-    triangles = int(t.count[1])
-    live = t.region[:triangles] != DEAD
-    border = int((t.adj[: 3 * triangles].reshape(-1, 3)[live] < 0).sum())
-    return vertices - (3 * len(corners) + border) // 2 + len(corners)
+_NO_NODES = np.empty(0, np.int32)
+_NO_SEGMENTS = np.empty((0, 2), np.int32)
+_NO_IDENTITY = np.empty(0, np.int64)

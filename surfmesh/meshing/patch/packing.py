@@ -1,27 +1,15 @@
-"""Drive the packing kernel: room for its arrays, growing them when they are full."""
+"""Circles packed over a rectangle or the plane by one call of the core; what failed is raised."""
 
 from collections.abc import Callable
 
 import numpy as np
 
+from surfmesh._core import packing as core
 from surfmesh._core.fields import Background
-from surfmesh.errors import MeshingError
+from surfmesh._core.packing import Packing, PackingStatus
+from surfmesh.errors import MeshingError, SizingError
 from surfmesh.geometry.differential.chart import Chart
-from surfmesh.kernels.fields.background import for_kernels
-from surfmesh.kernels.packing.disc_packing import LOOK_AHEAD
-from surfmesh.kernels.packing.front import Front, empty_front
-from surfmesh.kernels.packing.heap import Heap, empty_heap
-from surfmesh.kernels.packing.packing import (
-    BAD_START,
-    FULL,
-    STUCK,
-    pack,
-    pack_discs,
-    start_packing,
-    start_packing_discs,
-)
-from surfmesh.kernels.packing.packing_state import Packing
-from surfmesh.kernels.triangulation.triangulation import Triangulation, empty_triangulation
+from surfmesh.meshing.progress import Stopwatch
 from surfmesh.sizing.field.metric_area import box_area
 from surfmesh.sizing.field.size_field import SizeField
 
@@ -31,10 +19,16 @@ VERTICES = 2.0 / np.sqrt(3.0)
 """Unit circles on a unit of metric area."""
 
 
-def packed_over(field: SizeField, chart: Chart, box: np.ndarray | None = None) -> Packing:
+def packed_over(
+    field: SizeField,
+    chart: Chart,
+    box: np.ndarray | None = None,
+    watch: Stopwatch | None = None,
+) -> Packing:
     """Pack the circles of a size field from the middle of a rectangle until it is covered.
 
-    box: (4,) x0, y0, x1, y1 in the plane of ``chart``; None: the whole domain.
+    box: (4,) x0, y0, x1, y1 in the plane of ``chart``; None: the whole domain. watch: is told now
+    and then that the stage goes on.
     """
     if box is None:
         width, height = chart.extent.tolist()
@@ -44,7 +38,7 @@ def packed_over(field: SizeField, chart: Chart, box: np.ndarray | None = None) -
         x0, y0, x1, y1 = box.tolist()
         expected = int(VERTICES * box_area(field, box))
     middle = 0.5 * (x0 + x1), 0.5 * (y0 + y1)
-    return packed(field.background, (x0, y0, x1, y1), middle, expected)
+    return packed(field.background, (x0, y0, x1, y1), middle, expected, watch=watch)
 
 
 def packed_discs(
@@ -57,17 +51,17 @@ def packed_discs(
 ) -> Packing:
     """Pack circles of random radii over the plane; ``draw(n)`` gives the next n radii.
 
-    Raises ``MeshingError`` when the packing cannot go on.
+    Raises ``MeshingError`` when the packing cannot go on, ``SizingError`` for what are no radii.
     """
-    packing = _room_for(int(1.1 * expected) + 1000, wanted, box, origin, distance)
-    packing = packing._replace(drawn=draw(len(packing.t.xy) + LOOK_AHEAD))
-    if start_packing_discs(packing) == BAD_START:
-        raise MeshingError(f"no circles can be placed about the origin {origin}")
-    while (status := pack_discs(packing)) == FULL:
-        packing = _grown(packing)
-        more = draw(len(packing.t.xy) + LOOK_AHEAD - len(packing.drawn))
-        packing = packing._replace(drawn=np.concatenate([packing.drawn, more]))
-    return _finished(packing, status)
+
+    def radii(count: int) -> np.ndarray:
+        drawn = np.asarray(draw(count))
+        if drawn.shape != (count,) or not ((drawn > 0.0) & np.isfinite(drawn)).all():
+            raise SizingError(f"the random law must give {count} positive radii ({count},)")
+        return drawn
+
+    packing = core.pack_discs(radii, box, origin, expected, wanted, distance)
+    return _finished(packing, origin)
 
 
 def packed(
@@ -77,69 +71,26 @@ def packed(
     expected: int,
     wanted: int = NO_LIMIT,
     distance: float = np.inf,
+    watch: Stopwatch | None = None,
 ) -> Packing:
     """Pack circles over the plane from ``origin`` until the front has left ``box``.
 
     ``expected``: about how many circles there will be. Raises ``MeshingError`` when no three
-    circles can be placed about the origin.
+    circles can be placed about the origin, and ``Cancelled`` when the one who watches wants that.
     """
-    packing = _room_for(int(1.1 * expected) + 1000, wanted, box, origin, distance)
-    arrays = for_kernels(background)
-    if start_packing(packing, arrays) == BAD_START:
+
+    def pulse(circles: int) -> None:
+        if watch is not None:
+            watch.pulse(min(1.0, circles / max(expected, 1)))
+
+    return _finished(core.pack(background, box, origin, expected, wanted, distance, pulse), origin)
+
+
+def _finished(packing: Packing, origin: tuple[float, float]) -> Packing:
+    if packing.status == PackingStatus.FINISHED:
+        return packing
+    if packing.status == PackingStatus.BAD_START:
         raise MeshingError(f"no circles can be placed about the origin {origin}")
-    while (status := pack(packing, arrays)) == FULL:
-        packing = _grown(packing)
-    return _finished(packing, status)
-
-
-def _finished(packing: Packing, status: int) -> Packing:
-    if status == STUCK:
-        raise MeshingError("the packing cannot go on: please report this")
-    return packing
-
-
-def _room_for(
-    vertices: int,
-    wanted: int,
-    box: tuple[float, float, float, float],
-    origin: tuple[float, float],
-    distance: float = np.inf,
-) -> Packing:
-    count = np.zeros(10, np.int64)
-    count[0] = wanted
-    edges = vertices // 4 + 5000
-    return Packing(
-        empty_triangulation(vertices),
-        empty_front(vertices),
-        empty_heap(edges),
-        np.empty((edges, 2), np.int32),
-        np.ones(vertices),
-        np.empty(0),
-        np.array([*origin, *box, 1.0, 0.0, 1.0, distance * distance]),
-        count,
-    )
-
-
-def _grown(p: Packing) -> Packing:
-    """The same packing with half as much room again."""
-    vertices = len(p.t.xy) * 3 // 2
-    edges = len(p.heap.key) * 3 // 2
-    t = empty_triangulation(vertices)
-    return Packing(
-        Triangulation(*(_extended(old, len(new)) for old, new in zip(p.t, t))),
-        Front(*(_extended(old, vertices, -1) for old in p.front)),
-        Heap(_extended(p.heap.key, edges), _extended(p.heap.edge, edges), p.heap.count),
-        _extended(p.parked, edges),
-        _extended(p.radius, vertices, 1.0),
-        p.drawn,
-        p.where,
-        p.count,
-    )
-
-
-def _extended(array: np.ndarray, length: int, fill: float = 0) -> np.ndarray:
-    if len(array) >= length:
-        return array
-    longer = np.full((length, *array.shape[1:]), fill, array.dtype)
-    longer[: len(array)] = array
-    return longer
+    if packing.status == PackingStatus.TOO_MANY:
+        raise MeshingError(f"{packing.t.vertices:,} circles do not suffice: ask for larger sizes")
+    raise MeshingError("the packing cannot go on: please report this")

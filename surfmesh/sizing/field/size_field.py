@@ -1,8 +1,7 @@
-"""The size field of one surface: wanted sizes everywhere, ready for the kernels."""
+"""The size field of one surface: wanted sizes everywhere, ready for the core."""
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from functools import cached_property
 
 import numpy as np
 
@@ -10,8 +9,6 @@ from surfmesh._core.fields import Background
 from surfmesh.geometry.differential.chart import Chart
 from surfmesh.geometry.differential.sides import SideTopology
 from surfmesh.geometry.surface import Surface
-from surfmesh.kernels.fields.background import Background as KernelBackground
-from surfmesh.kernels.fields.background import for_kernels
 from surfmesh.sizing.field.field_builder import FieldBuilder
 from surfmesh.sizing.field.size_law import SizeLaw, TensorLaw
 from surfmesh.sizing.options.sizing import Sizing
@@ -24,7 +21,7 @@ COUNTABLE = 1e18
 
 @dataclass(frozen=True)
 class SizeField:
-    """Wanted sizes on one surface, ready for the kernels.
+    """Wanted sizes on one surface, ready for the core.
 
     ``background`` gives size tensors in the scaled plane of ``chart``.
     """
@@ -33,11 +30,6 @@ class SizeField:
     background: Background
     law: SizeLaw | TensorLaw
     """What it is made from."""
-
-    @cached_property
-    def arrays(self) -> KernelBackground:
-        """The background as the kernels take it that are not in the core yet."""
-        return for_kernels(self.background)
 
     @property
     def sizing(self) -> Sizing:
