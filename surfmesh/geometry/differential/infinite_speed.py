@@ -105,15 +105,21 @@ class BentAxis:
         clearance = self._clearance()[piece] * (b - a)[:, None]
         return np.clip(s, a + clearance[:, 0], b - clearance[:, 1])
 
-    def parameter_kept_off(self, u: np.ndarray) -> np.ndarray:
-        """The same for parameters u (n,): the others stay as they are to the last bit."""
+    def limits(self) -> tuple[list[float], list[float]]:
+        """Lowest and highest parameter (m,) of each piece at which derivatives are taken."""
         a, b, clearance = self.places[:-1], self.places[1:], self._clearance()
         lowest = self.parameter(a + clearance[:, 0] * (b - a))
         highest = self.parameter(b - clearance[:, 1] * (b - a))
+        return (
+            np.where(clearance[:, 0] > 0.0, lowest, -np.inf).tolist(),
+            np.where(clearance[:, 1] > 0.0, highest, np.inf).tolist(),
+        )
+
+    def parameter_kept_off(self, u: np.ndarray) -> np.ndarray:
+        """The same for parameters u (n,): the others stay as they are to the last bit."""
+        lowest, highest = self.limits()
         piece = self._pieces(u)[0]
-        lowest = np.where(clearance[:, 0] > 0.0, lowest, -np.inf)[piece]
-        highest = np.where(clearance[:, 1] > 0.0, highest, np.inf)[piece]
-        return np.clip(u, lowest, highest)
+        return np.clip(u, np.array(lowest)[piece], np.array(highest)[piece])
 
     def pieces(self) -> np.ndarray:
         """What the core needs to know (m, 7): beginning, end, both powers of each piece, their

@@ -12,6 +12,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from surfmesh._core import elementary_functions
 from surfmesh.cad.model.cad_model import CadCoedge, CadEdge, CadModel
 from surfmesh.geometry.differential.fundamental_forms import curvatures, forms_from_derivatives
 from surfmesh.geometry.surface import Surface
@@ -89,7 +90,7 @@ class Course(NamedTuple):
         if self.is_straight:
             return 0.0
         cosine = np.einsum("ij,ij->i", self.tangent[1:], self.tangent[:-1])
-        return float(np.arccos(np.clip(cosine, -1.0, 1.0)).sum())
+        return float(elementary_functions.acos(np.clip(cosine, -1.0, 1.0)).sum())
 
 
 @dataclass

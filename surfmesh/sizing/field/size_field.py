@@ -5,6 +5,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from surfmesh._core import elementary_functions
 from surfmesh._core.fields import Background
 from surfmesh.geometry.differential.chart import Chart
 from surfmesh.geometry.differential.sides import SideTopology
@@ -68,7 +69,7 @@ class SizeField:
         """|H^-1 step| (n,) of small steps (n, 2) at points xy (n, 2) of the scaled plane."""
         a = self.background.metric_roots(xy)
         dx, dy = steps.T
-        return np.hypot(a[:, 0] * dx + a[:, 1] * dy, a[:, 1] * dx + a[:, 2] * dy)
+        return elementary_functions.hypot(a[:, 0] * dx + a[:, 1] * dy, a[:, 1] * dx + a[:, 2] * dy)
 
 
 def size_field(
