@@ -65,6 +65,7 @@ class PatchState {
 
     [[nodiscard]] const AskedAccuracy& asked() const { return setting_.asked; }
     [[nodiscard]] const Chart& chart() const { return setting_.chart; }
+    [[nodiscard]] const Background& background() const { return setting_.background; }
     [[nodiscard]] const BoundaryNodes& nodes() const { return nodes_; }
     SurfaceReader& surface() { return surface_; }
     [[nodiscard]] bool is_anisotropic() const { return frames.is_anisotropic; }
