@@ -181,7 +181,9 @@ class FieldBuilder:
         """Triangles that cells ask for (n,), by the median of some of their nodes (n, k)."""
         a11, a12, a22 = self.nodes.inverse_sizes().T
         density = np.median((a11 * a22 - a12 * a12)[patch], axis=1)
-        return self.root_step.prod() / 4.0**cells.depth * density * (4.0 / np.sqrt(3.0))
+        return (
+            self.root_step.prod() / np.ldexp(1.0, 2 * cells.depth) * density * (4.0 / np.sqrt(3.0))
+        )
 
     def _refuse_far_beyond(self, cells: Cells, patch: np.ndarray) -> None:
         """Raise SizingError before a field is made for far more triangles than there may be."""

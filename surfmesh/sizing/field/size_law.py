@@ -108,7 +108,8 @@ class FieldNodes(NamedTuple):
         f = self.root[:, 1] * (self.root[:, 0] + self.root[:, 2])
         g = self.root[:, 1] ** 2 + self.root[:, 2] ** 2
         p, q = np.einsum("nij,ni->jn", self.jacobian, self.along)
-        scale, less = self.size**-2.0, self.size**-2.0 - self.long**-2.0
+        scale = 1.0 / self.size**2
+        less = scale - 1.0 / self.long**2
         # det M without cancellation, as det I = det(root)^2
         det = (self.root[:, 0] * self.root[:, 2] - self.root[:, 1] ** 2) / (self.size * self.long)
         e, f, g = scale * e - less * p * p, scale * f - less * p * q, scale * g - less * q * q
