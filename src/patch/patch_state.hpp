@@ -103,7 +103,7 @@ class PatchState {
     int split_farthest(std::span<const Triangle> triangles);
 
   private:
-    void set_frames(std::span<const Vertex> vertices, bool on_kink);
+    void set_sized_frames(std::span<const Vertex> vertices, bool on_kink = false);
     void set_block(std::span<const Vertex> vertices, bool on_kink);
     void read_mean_slopes(std::span<const Point2> uv, Array<Point3>& ru, Array<Point3>& rv);
     void place_nodes();

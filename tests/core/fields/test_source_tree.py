@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from naive.sources import graded_sizes, leaves
+from naive.sources import graded_sizes, is_balanced, leaves
 
 from surfmesh.errors import SizingError
 from surfmesh.sizing.field.boundary_field import source_background
@@ -38,21 +38,7 @@ def check(background, place, size, largest, slope, metric=ISOTROPIC):
     assert len(np.unique(np.round(at / scale, 12), axis=0)) == len(at)
     exact = graded_sizes(at, place, size, largest, slope, metric)
     np.testing.assert_allclose(1.0 / background.metric_root[:, 3], exact, rtol=1e-7)
-    balanced(found)
-
-
-def balanced(found):
-    """No leaf has a neighbour across a side that is more than twice as wide."""
-    x, y, wide, high = found[:, :4].T
-    for a in range(0, len(found), 200):
-        few = slice(a, a + 200)
-        thin = 1e-6 * wide[few, None]
-        left, right = x[few, None] - thin, (x + wide)[few, None] + thin
-        low, up = y[few, None] - thin, (y + high)[few, None] + thin
-        in_x = (x + wide > x[few, None] + thin) & (x < (x + wide)[few, None] - thin)
-        in_y = (y + high > y[few, None] + thin) & (y < (y + high)[few, None] - thin)
-        beside = in_y & (x < right) & (x + wide > left) | in_x & (y < up) & (y + high > low)
-        assert (np.where(beside, wide, 0.0) <= 2.000001 * wide[few, None]).all()
+    assert is_balanced(found)
 
 
 @settings(max_examples=25, deadline=None)
