@@ -143,8 +143,8 @@ class FieldBuilder:
         if status == "too_many_cells":
             raise SizingError(
                 f"the sizes asked for on {self.surface.name!r} need more than {int(number):,} "
-                f"cells to describe, most {near}, where the surface may be singular: raise min_size or "
-                "growth, or leave that place out of the domain"
+                f"cells to describe, most {near}, where the surface may be singular: raise "
+                "min_size or growth, or leave that place out of the domain"
             )
         raise SizingError(
             f"the sizes on {self.surface.name!r} cannot be graded from one place to the next, "
