@@ -1,12 +1,13 @@
 """How fast surfmesh is, beside gmsh, netgen, MMGS and Triangle. One command:
 
-    python benchmarks/speed.py [--only SECTION ...] [--large] [--json PATH]
+    python benchmarks/speed.py [--only SECTION ...] [--quick | --large] [--json PATH]
 
 Sections: start, cad, plane, surfaces, stretched, cores, memory. Everything is timed in processes of
 its own with one thread, as processor time, which other work on the machine hardly changes; medians
 of three. Only ``cores`` looks at the clock on the wall. Beside each figure stands what is wanted of
 it; the exit status is 1 when something is missed. ``--large`` adds a million triangles of each
-surface, four million on two cores and ten million in one mesh.
+surface, four million on two cores and ten million in one mesh; ``--quick`` does everything once and
+leaves the model of 978 faces out.
 """
 
 import single_thread  # noqa: F401  (before numpy)
@@ -49,7 +50,8 @@ class Figures:
     """Rows of one section: a figure, what is wanted of it, and a remark."""
 
     folder: Path
-    large: bool
+    large: bool = False
+    times: int = 3
     rows: list[tuple[Wanted, float | None, str]] = field(default_factory=list)
 
     def add(self, row: Wanted, value: float | None, remark: str = "") -> None:
@@ -58,7 +60,7 @@ class Figures:
     def ask(self, job: str, **request: object) -> dict:
         """What a job says; a failure becomes a row."""
         with console.status(job):
-            found = speed_jobs.run(job, TIMEOUT, **request)
+            found = speed_jobs.run(job, TIMEOUT, times=self.times, **request)
         if "error" in found:
             self.add(Wanted(f"{job} failed"), None, found["error"])
         return found
@@ -69,7 +71,7 @@ def main() -> int:
     missed, results = 0, {}
     with tempfile.TemporaryDirectory(prefix="surfmesh-") as folder:
         for name in options.only or SECTIONS:
-            figures = Figures(Path(folder), options.large)
+            figures = Figures(Path(folder), options.large, 1 if options.quick else 3)
             SECTIONS[name](figures)
             missed += _show(name, figures)
             results[name] = [(row.title, value, remark) for row, value, remark in figures.rows]
@@ -83,6 +85,7 @@ def _options() -> argparse.Namespace:
     parser = argparse.ArgumentParser(description="How fast surfmesh is, beside other meshers.")
     parser.add_argument("--only", nargs="+", choices=SECTIONS, metavar="SECTION")
     parser.add_argument("--large", action="store_true", help="meshes of millions of triangles too")
+    parser.add_argument("--quick", action="store_true", help="once, and no large model")
     parser.add_argument("--json", metavar="PATH", help="write everything as one JSON object")
     return parser.parse_args()
 
@@ -105,32 +108,32 @@ def _show(name: str, figures: Figures) -> int:
 
 def start(figures: Figures) -> None:
     """processor seconds of whole commands, interpreter and all"""
-    python, folder = sys.executable, figures.folder
-    part, many = (str(speed_parts.written(folder, faces)) for faces in (11, 978))
+    python, folder, times = sys.executable, figures.folder, figures.times
     mesh = [python, "-m", "surfmesh", "mesh"]
     cached = {"SURFMESH_CACHE_DIR": str(folder / "kernels")}
     first = [python, "-c", "import surfmesh as sm; sm.mesh(sm.load('torus'))"]
-    figures.add(Wanted("first mesh ever", most=1.5, digits=2), spent(first, 1, cached))
-    figures.add(Wanted("a first mesh afterwards", most=1.5, digits=2), spent(first))
-    torus = spent([*mesh, "torus", "-o", str(folder / "torus.vtu")])
+    if times > 1:
+        figures.add(Wanted("first mesh ever", most=1.5, digits=2), spent(first, 1, cached))
+    figures.add(Wanted("a first mesh afterwards", most=1.5, digits=2), spent(first, times))
+    torus = spent([*mesh, "torus", "-o", str(folder / "torus.vtu")], times)
     figures.add(Wanted("torus by command", most=1.0, digits=2), torus)
-    bare = spent([python, "-c", "import OCP"])
+    bare = spent([python, "-c", "import OCP"], times)
     figures.add(Wanted("bare import of OCP", digits=2), bare)
-    ours = spent([*mesh, part, "-o", str(folder / "part.vtu")])
-    row = Wanted("11 faces by command, over the import of OCP", most=0.9, digits=2)
-    figures.add(row, ours - bare, f"{ours:.2f} in all")
-    ours = spent(
-        [*mesh, many, "-o", str(folder / "many.vtu"), "--size", str(CAD_SIZE), "--jobs", "1"]
-    )
-    figures.add(Wanted("978 faces by command", digits=2), ours)
-    if (gmsh := gmsh_command()) is None:
-        note("no gmsh command beside this interpreter")
-        return
     size = ["-clmin", str(CAD_SIZE), "-clmax", str(CAD_SIZE), "-nt", "1", "-v", "0"]
-    for file, name in (part, "11 faces"), (many, "978 faces"):
-        theirs = spent([*gmsh, file, "-2", *size, "-o", str(folder / "gmsh.msh")])
-        figures.add(Wanted(f"{name} by gmsh's command", digits=2), theirs)
-    figures.add(Wanted("978 faces: gmsh's over ours", least=1.0, digits=2), theirs / ours)
+    for faces in (11, 978) if times > 1 else (11,):
+        file = str(speed_parts.written(folder, faces))
+        options = ["-o", str(folder / "part.vtu"), "--size", str(CAD_SIZE), "--jobs", "1"]
+        ours = spent([*mesh, file, *options], times)
+        figures.add(Wanted(f"{faces} faces by command", digits=2), ours)
+        if faces == 11:
+            row = Wanted("11 faces, over the import of OCP", most=0.9, digits=2)
+            figures.add(row, ours - bare)
+        if gmsh := gmsh_command():
+            theirs = spent([*gmsh, file, "-2", *size, "-o", str(folder / "gmsh.msh")], times)
+            figures.add(Wanted(f"{faces} faces by gmsh's command", digits=2), theirs)
+            least = 1.0 if faces > 11 else None
+            row = Wanted(f"{faces} faces: gmsh's over ours", least=least, digits=2)
+            figures.add(row, theirs / ours)
 
 
 def gmsh_command() -> list[str] | None:
@@ -140,7 +143,7 @@ def gmsh_command() -> list[str] | None:
     return [found] if (found := shutil.which("gmsh")) else None
 
 
-def spent(command: list[str], times: int = 3, environment: dict | None = None) -> float:
+def spent(command: list[str], times: int, environment: dict | None = None) -> float:
     """Processor seconds of a command and its children, the median."""
     seconds = []
     for _ in range(times):
@@ -160,7 +163,8 @@ def spent(command: list[str], times: int = 3, environment: dict | None = None) -
 
 def cad(figures: Figures) -> None:
     """CAD models, the same sizes and counts; processor time of the mesh alone"""
-    for faces in (*speed_parts.FACES, None):
+    models = speed_parts.FACES if figures.times > 1 else speed_parts.FACES[:-1]
+    for faces in (*models, None):
         file = str(speed_parts.written(figures.folder, faces))
         name = f"{faces} faces" if faces else f"{speed_parts.LOFTS} lofts"
         ours = figures.ask("cad_surfmesh", file=file, size=CAD_SIZE)
@@ -249,12 +253,12 @@ def cores(figures: Figures) -> None:
     """the clock on the wall with jobs=1 over that with jobs=2"""
     file = str(speed_parts.written(figures.folder, 978))
     size = {"size": CAD_SIZE}
-    cases = {"978 faces": {"file": file, "sizing": size, "warm": size, "times": 3}}
+    cases = {"978 faces": {"file": file, "sizing": size, "warm": size}}
     if figures.large:
         chord = CHORDS["wavy"]
         fine, warm = ({"chord": part * chord, "growth": GROWTH} for part in (1.0 / 40.0, 1.0))
         cases["one face of 4 million triangles"] = {
-            "name": "wavy", "sizing": fine, "warm": warm, "times": 1,
+            "name": "wavy", "sizing": fine, "warm": warm,
         }  # fmt: skip
     for name, request in cases.items():
         found = figures.ask("cores_surfmesh", **request)

@@ -1,7 +1,7 @@
 """The work that ``speed.py`` times: each job in a process of its own, one thread, processor time.
 
-A job is done three times after one that warms up, and the median counts. Shapes of all meshers
-are measured by the same functions.
+A job is done request["times"] times after one that warms up, and the median counts. Shapes of all
+meshers are measured by the same functions.
 """
 
 import single_thread  # noqa: F401  (before numpy)
@@ -20,7 +20,6 @@ import psutil
 import surfmesh as sm
 from surfmesh.quality.measures.shape import shapes
 
-TIMES = 3
 PLANE_GROWTH, SMALLEST_PART = 1.1, 0.2  # of the graded plane: largest over smallest size is 5
 EQUILATERAL = np.sqrt(3.0) / 4.0  # area of the triangle of side 1
 REFINEMENTS = 30  # of Triangle, at most
@@ -31,13 +30,14 @@ Mesh = tuple[np.ndarray, np.ndarray]
 
 
 def timed(
+    request: dict,
     work: Callable[[], Any],
     before: Callable[[], object] = lambda: None,
     arrays: Callable[[Any], Mesh] = lambda mesh: mesh,
 ) -> dict:
     """Processor seconds (median) and shape of what ``work`` makes; the others are not timed."""
     seconds = []
-    for _ in range(TIMES + 1):
+    for _ in range(request["times"] + 1):
         before()
         start = time.process_time()
         mesh = work()
@@ -68,7 +68,7 @@ def cad_surfmesh(request: dict) -> dict:
         mesh = sm.mesh(model, sm.Sizing(size=request["size"]), jobs=1)
         return mesh.points, mesh.triangles
 
-    return timed(work) | {"faces": len(model.faces)}
+    return timed(request, work) | {"faces": len(model.faces)}
 
 
 def cad_gmsh(request: dict) -> dict:
@@ -84,7 +84,7 @@ def cad_gmsh(request: dict) -> dict:
         return generated(gmsh)
 
     size = as_many(work, request)
-    found = timed(lambda: work(size), gmsh.model.mesh.clear)
+    found = timed(request, lambda: work(size), gmsh.model.mesh.clear)
     return found | {"faces": len(gmsh.model.getEntities(2)), "size": size}
 
 
@@ -102,7 +102,7 @@ def cad_netgen(request: dict) -> dict:
         return points, np.array([[v.nr - 1 for v in e.vertices] for e in mesh.Elements2D()])
 
     size = as_many(lambda size: arrays(work(size)), request)
-    return timed(lambda: work(size), arrays=arrays) | {"size": size}
+    return timed(request, lambda: work(size), arrays=arrays) | {"size": size}
 
 
 def as_many(work: Callable[[float], Mesh], request: dict) -> float:
@@ -150,7 +150,7 @@ def plane_surfmesh(request: dict) -> dict:
         mesh = sm.mesh(plate, sm.Sizing(size=lambda p: law(p), growth=PLANE_GROWTH))
         return mesh.points, mesh.triangles
 
-    return timed(work)
+    return timed(request, work)
 
 
 def plane_triangle(request: dict) -> dict:
@@ -172,7 +172,7 @@ def plane_triangle(request: dict) -> dict:
             made = triangle.triangulate(made, "rpq30a")
         return np.pad(made["vertices"], ((0, 0), (0, 1))), made["triangles"]
 
-    return timed(work)
+    return timed(request, work)
 
 
 def plane_gmsh(request: dict) -> dict:
@@ -187,7 +187,7 @@ def plane_gmsh(request: dict) -> dict:
     formula = f"{request['size']:.17g} + {slope:.17g} * Sqrt((x-0.5)*(x-0.5) + (y-0.5)*(y-0.5))"
     gmsh.model.mesh.field.setString(law, "F", formula)
     gmsh.model.mesh.field.setAsBackgroundMesh(law)
-    return timed(lambda: generated(gmsh), gmsh.model.mesh.clear)
+    return timed(request, lambda: generated(gmsh), gmsh.model.mesh.clear)
 
 
 # surfaces of formulas: request["name"], request["sizing"]
@@ -202,7 +202,7 @@ def surface_surfmesh(request: dict) -> dict:
         stages.append(dict(mesh.seconds))
         return mesh.points, mesh.triangles
 
-    return timed(work) | {"stages": stages[-1]}
+    return timed(request, work) | {"stages": stages[-1]}
 
 
 # one mesh alone: what it takes of memory over the interpreter with everything loaded

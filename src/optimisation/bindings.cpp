@@ -96,9 +96,11 @@ void bind_frames(nb::module_& m) {
             require_rows(ry.shape(0), vertices.shape(0), "ry");
             if (s.is_anisotropic && background.metric_root_3d.empty())
                 throw nb::value_error("the background has no metric_root_3d");
-            for (std::size_t k = 0; k < vertices.shape(0); ++k)
+            for (std::size_t k = 0; k < vertices.shape(0); ++k) {
+                set_size(t, s, background, vertices(k));
                 set_frame(t, s, background, vertices(k),
                           {rows<Point3>(r)[k], rows<Point3>(rx)[k], rows<Point3>(ry)[k]}, largest);
+            }
         },
         nb::arg("t"), nb::arg("background"), nb::arg("vertices"), nb::arg("r"), nb::arg("rx"),
         nb::arg("ry"), nb::arg("largest"),

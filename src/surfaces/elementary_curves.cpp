@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "elementary_functions/hyperbolic.hpp"
 #include "elementary_functions/sine_cosine.hpp"
 
 namespace surfmesh {
@@ -39,10 +40,8 @@ void Conic::compute_functions(std::span<const double> t, std::span<double> f,
                               std::span<double> g) const {
     if (kind_ == ConicKind::ELLIPSE) elementary::sincos(t, g, f);
     if (kind_ != ConicKind::HYPERBOLA) return;
-    for (std::size_t i = 0; i < t.size(); ++i) {
-        f[i] = std::cosh(t[i]);
-        g[i] = std::sinh(t[i]);
-    }
+    elementary::cosh(t, f);
+    elementary::sinh(t, g);
 }
 
 void Conic::evaluate(std::span<const double> t, int order, std::span<Point3> out) const {

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "binding/arrays.hpp"
+#include "surfaces/formula_surface.hpp"
 #include "surfaces/tape.hpp"
 #include "surfaces/tape_bounds.hpp"
 #include "surfaces/tape_evaluation.hpp"
@@ -139,8 +140,61 @@ void bind_tape(nb::module_& m) {
              "are across kinks.");
 }
 
+using SharedTape = std::shared_ptr<Tape>;
+using Limits = std::tuple<std::vector<double>, std::vector<double>, std::vector<double>>;
+
+SpeedLimits speed_limits(const Limits& given) {
+    const auto& [places, lowest, highest] = given;
+    const std::size_t pieces = places.empty() ? 0 : places.size() - 1;
+    if (lowest.size() != pieces || highest.size() != pieces)
+        throw nb::value_error("the limits of m places are m - 1 lowest and m - 1 highest numbers");
+    const auto array = [](const std::vector<double>& x) {
+        return Array<double>(std::span<const double>(x));
+    };
+    return {array(places), array(lowest), array(highest)};
+}
+
+FormulaSurface::Tapes surface_tapes(const std::vector<SharedTape>& given) {
+    if (given.size() != 3) throw nb::value_error("there are three tapes, of order 0, 1 and 2");
+    FormulaSurface::Tapes tapes;
+    for (std::size_t order = 0; order < 3; ++order) {
+        const SharedTape& tape = given[order];
+        const std::size_t wanted = 3 * derivative_count(static_cast<int>(order));
+        if (tape && (tape->inputs() != 2 || tape->outputs().size() != wanted))
+            throw nb::value_error("a tape of a surface has two inputs and 3, 9 or 18 outputs");
+        tapes[order] = tape;
+    }
+    return tapes;
+}
+
+void bind_formula_surface(nb::module_& m) {
+    using Ends = std::pair<double, double>;
+    nb::class_<FormulaSurface, Surface>(m, "FormulaSurface", "The surface of three formulas.")
+        .def(
+            "__init__",
+            [](FormulaSurface* self, const std::vector<SharedTape>& tapes,
+               const std::pair<Ends, Ends>& domain, const std::pair<Limits, Limits>& limits) {
+                const auto& [u, v] = domain;
+                std::construct_at(
+                    self, surface_tapes(tapes),
+                    ParameterBox{{u.first, v.first}, {u.second, v.second}},
+                    std::array{speed_limits(limits.first), speed_limits(limits.second)});
+            },
+            nb::sig("def __init__(self, tapes: Sequence[Tape | None], domain: tuple[tuple[float, "
+                    "float], tuple[float, float]], limits: Sequence[tuple[Sequence[float], "
+                    "Sequence[float], Sequence[float]]]) -> None"),
+            nb::arg("tapes"), nb::arg("domain"), nb::arg("limits"),
+            "tapes: of r, with r_u and r_v, with r_uu, r_uv, r_vv; None for an order that is not "
+            "wanted.\n\nlimits: for u and for v (places, lowest, highest): places of infinite "
+            "speed, and within which limits derivatives are taken between them; all empty where "
+            "the speed is finite.");
+}
+
 }  // namespace
 
-void bind_formulas(nb::module_& m) { bind_tape(m); }
+void bind_formulas(nb::module_& m) {
+    bind_tape(m);
+    bind_formula_surface(m);
+}
 
 }  // namespace surfmesh::binding

@@ -152,6 +152,39 @@ class SizeRequests:
     @property
     def angle(self) -> SizeLimitArrays | None: ...
 
+class MappedPatch:
+    """The triangles of a patch in space."""
+
+    @property
+    def uv(self) -> Annotated[NDArray[numpy.float64], dict(shape=(None, 2))]:
+        """(k, 2) parameters of the vertices of the domain"""
+
+    @property
+    def points(self) -> Annotated[NDArray[numpy.float64], dict(shape=(None, 3))]:
+        """(n, 3)"""
+
+    @property
+    def triangles(self) -> Annotated[NDArray[numpy.int32], dict(shape=(None, 3))]:
+        """(m, 3) of the points"""
+
+    @property
+    def uv_triangles(self) -> Annotated[NDArray[numpy.int32], dict(shape=(None, 3))]:
+        """(m, 3) of vertices of the domain"""
+
+    @property
+    def vertex(self) -> Annotated[NDArray[numpy.int64], dict(shape=(None,))]:
+        """(n,) vertex of the domain that each point was computed from"""
+
+    @property
+    def non_manifold(self) -> Annotated[NDArray[numpy.int64], dict(shape=(None,))]:
+        """(k,) points where identification has made no surface"""
+
+    @property
+    def sizes(self) -> Annotated[NDArray[numpy.float64], dict(shape=(None,))]:
+        """
+        (n,) of the points: what the field asks for, with what the optimiser made smaller
+        """
+
 class PatchState:
     """
     A triangulated domain with its surface frames, and the passes of the optimiser on it.
@@ -221,6 +254,13 @@ class PatchState:
     def split_farthest(self, triangles: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)]) -> int:
         """
         Split the edge of each of the triangles (n,) that lies farthest from the surface; returns how many were split.
+        """
+
+    def mapped(self, node_uv: Annotated[NDArray[numpy.float64], dict(shape=(None, 2), order='C', device='cpu', writable=False)], node: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], segments: Annotated[NDArray[numpy.int32], dict(shape=(None, 2), order='C', device='cpu', writable=False)], identity: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)]) -> MappedPatch:
+        """
+        The triangles in space, seams identified.
+
+        node_uv: (j, 2) of the nodes that have a vertex, to the last bit. node (k,), segments (s, 2), identity (k,): of boundary loops, the vertex of each node or NIL, pairs of nodes, and for each node the first that is the same point in space; empty where nothing is identified.
         """
 
     def optimise(self, first: bool = True) -> Unmended:

@@ -161,3 +161,13 @@ class Tape:
 
         Infinite where nothing is known. kinks: False leaves out what second derivatives are across kinks.
         """
+
+class FormulaSurface(Surface):
+    """The surface of three formulas."""
+
+    def __init__(self, tapes: Sequence[Tape | None], domain: tuple[tuple[float, float], tuple[float, float]], limits: Sequence[tuple[Sequence[float], Sequence[float], Sequence[float]]]) -> None:
+        """
+        tapes: of r, with r_u and r_v, with r_uu, r_uv, r_vv; None for an order that is not wanted.
+
+        limits: for u and for v (places, lowest, highest): places of infinite speed, and within which limits derivatives are taken between them; all empty where the speed is finite.
+        """

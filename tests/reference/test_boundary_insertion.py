@@ -74,7 +74,7 @@ def fast_triangles(field, nodes, rim, lines):
     loops = BoundaryLoops(uv, segments, np.arange(len(uv)), inner)
     packing = packed_over(field, field.chart)
     domain = recovered(packing.t, loops, field, SimpleNamespace(name="domain"))
-    triangles = domain.t.tri[: 3 * int(domain.t.count[1])].reshape(-1, 3)
+    triangles = domain.t.tri.reshape(-1, 3)
     return (domain.t.xy @ [1, 1j])[triangles]
 
 

@@ -33,6 +33,8 @@ class _Elementary(FaceSurface):
     y: np.ndarray
     z: np.ndarray
 
+    steady_axes = (True, True)
+
     def _frame(self) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
         frame = tuple(frozen_array(v) for v in (self.origin, self.x, self.y, self.z))
         origin, x, y, z = frame

@@ -31,6 +31,7 @@ class FaceSurface(PlainData):
     name: str = ""
 
     kind = ""  # not annotated, so that a subclass may make it a field
+    steady_axes = (False, False)  # see `geometry.surface`
     loops = ()  # a face's trimming curves belong to the model, not to the surface
 
     def __post_init__(self) -> None:

@@ -27,6 +27,7 @@ class ExtrusionSurface(FaceSurface):
     direction: np.ndarray  # (3,) of unit length, so that v is a length
 
     kind = "extrusion"
+    steady_axes = (False, True)
 
     @property
     def periods(self) -> tuple[float | None, float | None]:
@@ -49,6 +50,7 @@ class RevolutionSurface(FaceSurface):
     axis: np.ndarray  # (3,) of unit length; u is counter-clockwise seen against it
 
     kind = "revolution"
+    steady_axes = (True, False)
 
     @property
     def periods(self) -> tuple[float | None, float | None]:

@@ -6,7 +6,6 @@ Others call ``mesh_patch``, go round in ``refined_in_rounds``, and pack by thems
 packing: drive the packing kernel: room for its arrays, growing them when they are full.
 state: the state of the optimiser, which runs in the core (src/patch).
 size_requests: upper bounds of the size, for another round, where that could not mend it.
-gluing: from the parameter plane to space, joined sides identified.
 patch_mesh: all of these in their order, for every kind of boundary.
 refinement_loop: rounds with smaller sizes until nothing is to be mended, or smaller sizes are no
     help.

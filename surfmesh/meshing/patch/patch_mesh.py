@@ -19,7 +19,6 @@ from surfmesh.geometry.surface import Surface
 from surfmesh.meshing.boundary.boundary_loops import BoundaryLoops
 from surfmesh.meshing.boundary.boundary_recovery import DomainMesh, recovered, recovered_regions
 from surfmesh.meshing.boundary.planar_segments import PlanarSegments
-from surfmesh.meshing.patch.gluing import SurfaceTriangles, identify_seams
 from surfmesh.meshing.patch.packing import packed_over
 from surfmesh.meshing.patch.size_requests import SizeRequests
 from surfmesh.meshing.patch.state import patch_state
@@ -29,6 +28,22 @@ from surfmesh.sizing.rules.size_limits import SizeLimits
 
 OFF_SURFACE = 0.3
 """Fraction of ``chord`` by which a node may lie off the surface of a face that uses it."""
+
+
+@dataclass(frozen=True)
+class SurfaceTriangles:
+    """Points in space and triangles on them, with their corners in the parameter plane."""
+
+    points: np.ndarray
+    """(n, 3)"""
+    triangles: np.ndarray
+    """(m, 3) int32, rows of ``points``."""
+    uv_triangles: np.ndarray
+    """(m, 3) int32, vertices of the domain."""
+    vertex: np.ndarray
+    """(n,) int64: vertex of the domain that each point was computed from."""
+    non_manifold: np.ndarray
+    """(k,) int64: points where identification has not made a surface, sizes are too coarse."""
 
 
 @dataclass(frozen=True)
@@ -98,20 +113,24 @@ def mesh_patch(
                 domain, surface, chart, field, None if watch is None else watch.pulse
             )
             left = state.optimise(first)
-            found = state.size_requests(left, _off_surface(domain, surface, field, boundary.uv))
-            requests = SizeRequests.of(found, field.sizing.gradient)
-    scale = state.frames.scale
-    del state
+            off = _off_surface(domain, surface, field, boundary.uv)
+            requests = SizeRequests.of(state.size_requests(left, off), field.sizing.gradient)
     with stage("mapping"):
-        xy = domain.t.xy
-        uv = chart.to_uv(xy)
-        used = domain.is_used
-        uv[domain.node[used]] = boundary.uv[used]  # to the last bit
-        loops = boundary if isinstance(boundary, BoundaryLoops) else None
-        space = identify_seams(surface, domain, uv, loops)
-        sizes = field.sizes(xy[space.vertex]) * scale[space.vertex]
-        roots = field.roots_of_mesh(xy, scale)
-    return PatchMesh(domain, uv, space, sizes, roots, requests, field.sizing.gradient)
+        found = state.mapped(boundary.uv[domain.is_used], *_identified(domain, boundary))
+        roots = field.roots_of_mesh(domain.t.xy, state.frames.scale)
+    space = SurfaceTriangles(
+        found.points, found.triangles, found.uv_triangles, found.vertex, found.non_manifold
+    )
+    return PatchMesh(domain, found.uv, space, found.sizes, roots, requests, field.sizing.gradient)
+
+
+def _identified(
+    domain: DomainMesh, boundary: BoundaryLoops | PlanarSegments
+) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Vertices of nodes, segments, identity: of what may be identified."""
+    if isinstance(boundary, BoundaryLoops):
+        return domain.node, boundary.segments, boundary.identity
+    return np.empty(0, np.int32), np.empty((0, 2), np.int32), np.empty(0, np.int64)
 
 
 def _off_surface(

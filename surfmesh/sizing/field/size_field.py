@@ -1,17 +1,15 @@
-"""The size field of one surface: wanted sizes everywhere, ready for the kernels."""
+"""The size field of one surface: wanted sizes everywhere, ready for the core."""
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from functools import cached_property
 
 import numpy as np
 
+from surfmesh._core import elementary_functions
 from surfmesh._core.fields import Background
 from surfmesh.geometry.differential.chart import Chart
 from surfmesh.geometry.differential.sides import SideTopology
 from surfmesh.geometry.surface import Surface
-from surfmesh.kernels.fields.background import Background as KernelBackground
-from surfmesh.kernels.fields.background import for_kernels
 from surfmesh.sizing.field.field_builder import FieldBuilder
 from surfmesh.sizing.field.size_law import SizeLaw, TensorLaw
 from surfmesh.sizing.options.sizing import Sizing
@@ -24,7 +22,7 @@ COUNTABLE = 1e18
 
 @dataclass(frozen=True)
 class SizeField:
-    """Wanted sizes on one surface, ready for the kernels.
+    """Wanted sizes on one surface, ready for the core.
 
     ``background`` gives size tensors in the scaled plane of ``chart``.
     """
@@ -33,11 +31,6 @@ class SizeField:
     background: Background
     law: SizeLaw | TensorLaw
     """What it is made from."""
-
-    @cached_property
-    def arrays(self) -> KernelBackground:
-        """The background as the kernels take it that are not in the core yet."""
-        return for_kernels(self.background)
 
     @property
     def sizing(self) -> Sizing:
@@ -76,7 +69,7 @@ class SizeField:
         """|H^-1 step| (n,) of small steps (n, 2) at points xy (n, 2) of the scaled plane."""
         a = self.background.metric_roots(xy)
         dx, dy = steps.T
-        return np.hypot(a[:, 0] * dx + a[:, 1] * dy, a[:, 1] * dx + a[:, 2] * dy)
+        return elementary_functions.hypot(a[:, 0] * dx + a[:, 1] * dy, a[:, 1] * dx + a[:, 2] * dy)
 
 
 def size_field(
