@@ -36,6 +36,36 @@ double limit(const GradedSizes& s, Node a, Node b, std::int32_t sweep) {
     return 0.0;
 }
 
+/// Lower the size of c to what grows from the segment between a and b, sizes linear on it.
+///
+/// The formula of Hopf and Lax on a flat triangle (Bornemann and Rasch 2006, section 3): with q
+/// and p the coordinates of c along ab and away from it, and k the rise along ab per length over
+/// the slope, the least of  h(x) + slope |c - x|  lies at  q - k p / sqrt(1 - k^2)  from a. Where
+/// that is beyond an end, the end decides, and `limit` has seen to it.
+double limit_across(const GradedSizes& s, Node c, Node a, Node b, std::int32_t sweep) {
+    const double ha = s.size[a], hb = s.size[b];
+    double& hc = s.size[c];
+    if (hc <= std::min(ha, hb)) return 0.0;
+    const Point3 ab = s.point[b] - s.point[a], ac = s.point[c] - s.point[a];
+    const double square = dot(ab, ab), onward = dot(ab, ac);
+    const double area = dot(ac, ac) * square - onward * onward;  // p^2 l^2
+    const double above = hc - std::min(ha, hb);
+    if (square == 0.0 || above * above * square <= s.slope * s.slope * area) return 0.0;
+    const double l = std::sqrt(square), q = onward / l;
+    const double k = (hb - ha) / (l * s.slope), free = 1.0 - k * k;
+    if (free <= 0.0) return 0.0;
+    const double root = std::sqrt(free), p = std::sqrt(std::max(area, 0.0)) / l;
+    const double from_a = q - k * p / root;
+    if (from_a <= 0.0 || from_a >= l) return 0.0;
+    const double allowed = ha + s.slope * (k * q + p * root);
+    if (hc <= allowed) return 0.0;
+    const double change = (hc - allowed) / allowed;
+    if (change <= ROUNDING) return 0.0;
+    hc = allowed;
+    s.changed[c] = sweep;
+    return change;
+}
+
 struct Direction {
     double along, left;
 };
@@ -133,6 +163,24 @@ double level(const GradedSizes& s, Node a, Node b, std::int32_t sweep) {
     return std::max(first, bind(s, b, a, sweep));
 }
 
+/// Level each corner of the four quarters of a patch with the two triangles that it sees them as.
+///
+///      b --- o        of corner c: c a o and c o b
+///      |  /  |
+///      c --- a
+double level_across(const GradedSizes& s, const Patch& patch, std::int32_t sweep) {
+    constexpr int corners[4][4] = {{0, 1, 4, 3}, {1, 2, 5, 4}, {3, 4, 7, 6}, {4, 5, 8, 7}};
+    double largest = 0.0;
+    for (const auto& quarter : corners)
+        for (int i = 0; i < 4; ++i) {
+            const Node c = patch.node[quarter[i]], a = patch.node[quarter[(i + 1) % 4]];
+            const Node o = patch.node[quarter[(i + 2) % 4]], b = patch.node[quarter[(i + 3) % 4]];
+            largest = std::max(largest, limit_across(s, c, a, o, sweep));
+            largest = std::max(largest, limit_across(s, c, o, b, sweep));
+        }
+    return largest;
+}
+
 /// Level the neighbours in a patch: right, up and the two diagonals of each node of the 3 x 3.
 double level_patch(const GradedSizes& s, const Patch& patch, std::int32_t sweep) {
     const auto& p = patch.node;
@@ -146,6 +194,7 @@ double level_patch(const GradedSizes& s, const Patch& patch, std::int32_t sweep)
             largest = std::max(largest, level(s, p[i + 1], p[i + 3], sweep));
         }
     }
+    if (s.longer.empty()) largest = std::max(largest, level_across(s, patch, sweep));
     return largest;
 }
 

@@ -99,7 +99,20 @@ class SizeGrowth(NamedTuple):
 
 
 def size_growth(mesh: SurfaceMesh, lengths: NDArray[np.float64], slope: float) -> SizeGrowth | None:
-    """Growth of the target sizes over the edges of the mesh, in any direction.
+    """Growth of the target sizes over the edges of the mesh; None as for ``growth_of_edges``."""
+    over = growth_of_edges(mesh, lengths, slope)
+    if over is None:
+        return None
+    worst = int(over.argmax())
+    place = mesh.points[mesh.edges[worst]].mean(axis=0)
+    fraction = float(np.mean(over > 1.0 + GROWTH_SLACK))
+    return SizeGrowth(fraction, float(over[worst]), as_point(place))
+
+
+def growth_of_edges(
+    mesh: SurfaceMesh, lengths: NDArray[np.float64], slope: float
+) -> NDArray[np.float64] | None:
+    """Growth of the target sizes over each edge (k,), in any direction; 1 is what is allowed.
 
     Along an edge of length l sizes may differ by ``slope`` l. Where sizes depend on the direction
     those along the edge are compared. None without sizes or edges of a length.
@@ -121,8 +134,4 @@ def size_growth(mesh: SurfaceMesh, lengths: NDArray[np.float64], slope: float) -
                 first, second = (length / metric for metric in ends)
         with np.errstate(divide="ignore", invalid="ignore"):
             over[block] = np.abs(first - second) / (slope * length)
-    over = np.where(np.isfinite(over), over, 0.0)
-    worst = int(over.argmax())
-    place = mesh.points[mesh.edges[worst]].mean(axis=0)
-    fraction = float(np.mean(over > 1.0 + GROWTH_SLACK))
-    return SizeGrowth(fraction, float(over[worst]), as_point(place))
+    return np.where(np.isfinite(over), over, 0.0)

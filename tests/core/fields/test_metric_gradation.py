@@ -4,10 +4,11 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from naive.gradation import graded_by_dijkstra
 from naive.metric import tangent_metric, turned
 from naive.patches import NONE, patches
 
-from surfmesh._core.fields import TURN_SLOPE, grade, grade_stretched
+from surfmesh._core.fields import TURN_SLOPE, grade_stretched
 
 
 def neighbours(patch):
@@ -75,14 +76,13 @@ def test_every_metric_contains_its_neighbours_grown(seed, slope, ratio, turn):
         assert excess.min() > -1e-9 * np.abs(of_b).max()
 
 
-def test_round_metrics_are_graded_as_sizes_are():
+def test_round_metrics_are_graded_as_sizes_are_along_edges():
     rng = np.random.default_rng(3)
     patch = patches(2, 2)
     h0, _, along, normal, r = random_field(rng, 5, 1.0, 3.0)
-    sizes, h, long = h0.copy(), h0.copy(), h0.copy()
-    changed = np.ones((2, len(h)), np.int32)
-    grade(patch, NONE, r, 0.2, sizes, changed[0], 2, 400)
-    stretched(patch, NONE, r, 0.2, h, long, along, normal, changed[1])
+    h, long = h0.copy(), h0.copy()
+    sizes = graded_by_dijkstra(patch, NONE, r, 0.2, h0)
+    stretched(patch, NONE, r, 0.2, h, long, along, normal, np.ones(len(h), np.int32))
     np.testing.assert_allclose(h, sizes, rtol=2e-3)
     np.testing.assert_allclose(long, sizes, rtol=2e-3)
 

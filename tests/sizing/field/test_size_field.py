@@ -90,15 +90,14 @@ def test_a_bump_of_a_thousandth_of_the_domain_is_found(seed):
     assert graded.sizes(xy)[0] == pytest.approx(exact(surface, field, xy)[0][0], rel=0.02)
 
 
-ACROSS_THE_GRID = pytest.mark.xfail(
+IN_CURVED_CELLS = pytest.mark.xfail(
     strict=True,
-    reason="where (u, v) is stretched at an angle to its axes, distances along the edges and "
-    "diagonals of the cells overrate those on the surface: 1 % of the slopes is 1.2 to 1.6 times "
-    "what growth allows",
+    reason="one slope in a thousand is 1.36 times what growth allows, where the surface bends much "
+    "within a cell",
 )
 GROWTH = [
-    pytest.param("two_peaks", 1.1, marks=ACROSS_THE_GRID),
-    pytest.param("wavy", 1.3, marks=ACROSS_THE_GRID),
+    pytest.param("two_peaks", 1.1, marks=IN_CURVED_CELLS),
+    ("wavy", 1.3),
     ("helicoid", 1.05),
 ]
 
@@ -120,8 +119,8 @@ def test_growth_along_the_surface(name, growth):
     distance = np.linalg.norm(places[1] - places[0], axis=1)
     change = np.abs(field.sizes(q) - h)
     keep = distance > 0.1 * h
-    # growth along grid edges and diagonals overrates distances by up to 8%
     slope = change[keep] / distance[keep]
+    assert np.quantile(slope, 0.99) < 1.03 * sizing.gradient
     assert np.quantile(slope, 0.999) < 1.05 * 1.09 * sizing.gradient
 
 
