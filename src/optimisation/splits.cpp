@@ -44,6 +44,7 @@ HalfEdge farthest_edge(const Triangulation& t, const SurfaceFrames& s, Triangle 
         const Vertex a = t.tri[e], b = t.tri[next_half_edge(e)];
         if (a >= first || b >= first) return NIL;
         if (t.adj[e] < 0 || t.fixed[e] != 0) continue;
+        if (s.least_size > 0.0 && norm(s.point[b] - s.point[a]) < 2.0 * s.least_size) continue;
         const double far = std::abs(rise(s, a, b)) + std::abs(rise(s, b, a));
         if (far > farthest) {
             best = e;

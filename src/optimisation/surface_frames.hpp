@@ -39,6 +39,7 @@ struct SurfaceFrames {
     Array<double> scale;             // h over that of the size field, at most 1
     Array<MetricRoot3> metric_root;  // W; empty where sizes are isotropic
     bool is_anisotropic = false;     // do the sizes depend on the direction?
+    double least_size = 0.0;         // no h is scaled below it, no edge split into shorter halves
 
     SurfaceFrames() = default;
     SurfaceFrames(std::size_t vertices, bool anisotropic);
@@ -67,7 +68,7 @@ void set_frame(Triangulation& t, SurfaceFrames& s, const Background& background,
 /// The step in space, along the tangent plane of v, that looks like ``step`` there.
 Point3 lift(const SurfaceFrames& s, Vertex v, Point2 step);
 
-/// Scale the wanted lengths at v.
+/// Scale the wanted lengths at v, not below the least size.
 void shorten(SurfaceFrames& s, Vertex v, double factor);
 
 /// alpha of abc in space, negative when it is turned over against the surface's normals.

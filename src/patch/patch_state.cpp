@@ -42,6 +42,7 @@ PatchState::PatchState(Triangulation& triangulation, BoundaryNodes nodes,
       surface_(setting.surface),
       largest_(1e3 * setting.background.box.largest /
                std::max(setting.chart.u.extent, setting.chart.v.extent)) {
+    frames.least_size = setting.asked.min_size;
     set_frames(all(vertices_from(0, t.vertices())));
     place_nodes();
 }
