@@ -5,6 +5,5 @@ predicates: exact orientation of three points: the one judge of every topologica
 exact_sums: the sign of a sum of numbers of any size, exactly: what predicates fall back on.
 local_operations: local changes of a triangulation: swap an edge, remove a vertex. Orientation is
     kept exactly.
-compaction: from the triangulation of the plane to that of a domain: what is INSIDE, numbered anew.
 segments: how two segments of the plane meet, decided exactly; and distances to many segments.
 """

@@ -6,7 +6,7 @@ from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 from naive import exact
 
-from surfmesh.kernels.triangulation.predicates import orient
+from surfmesh._core.triangulation import orient
 
 coordinate = st.floats(-1.0, 1.0, allow_subnormal=False)
 scale = st.sampled_from([1e-9, 1e-3, 1.0, 1e3, 1e9])
