@@ -4,8 +4,8 @@
                                     [--sizes 10000 100000 1000000] [--growth 1.15] [--no-gmsh]
 
 Everything runs on a single thread. A: meshes of wanted counts. B: other meshers. C: accuracy of
-the size field. D: seconds to the first mesh. Exits with 1 when a wanted figure is missed. The
-paper's own figures: ``paper.py``.
+the size field. Exits with 1 when a wanted figure is missed. The paper's own figures:
+``paper.py``; how fast it all is, and how it starts: ``speed.py``.
 """
 
 import single_thread  # noqa: F401  (before numpy)
@@ -23,7 +23,6 @@ import measures
 import memory
 import numpy as np
 import peers
-import start_up
 import wanted
 from tables import heading, note, show
 from target_count import diagonal, sizing_for
@@ -55,7 +54,6 @@ def main() -> int:
         except SurfmeshError as error:
             missed += _failed(name, error, found)
     missed += _field(names, options, results)
-    missed += _start(results)
     results["missed"] = missed
     results["machine"]["load"] = load = os.getloadavg()[0] if hasattr(os, "getloadavg") else None
     if load is not None and load > BUSY:
@@ -197,7 +195,7 @@ PEER_ROWS = (
 )  # fmt: skip
 
 
-# C, D
+# C
 
 
 def _field(names: list[str], options: argparse.Namespace, results: dict) -> int:
@@ -222,12 +220,6 @@ def _field(names: list[str], options: argparse.Namespace, results: dict) -> int:
                 f"largest at (u, v) = ({found['uv'][0]:.6g}, {found['uv'][1]:.6g})"
             )
     return missed
-
-
-def _start(results: dict) -> int:
-    results["start_up"] = start_up.start_up()
-    heading("D. start-up, each in a fresh process")
-    return show(wanted.START, {"seconds": results["start_up"]})
 
 
 if __name__ == "__main__":

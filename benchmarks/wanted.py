@@ -62,12 +62,6 @@ SPEED = Wanted("triangles a second", least=150_000, digits=0)
 
 EXPONENT = Wanted("time ~ triangles ^", most=1.05)
 
-START = {
-    "first_ever": Wanted("first use ever: seconds to the first mesh file", most=40.0, digits=1),
-    "later": Wanted("later start: seconds to a small mesh file", most=2.5, digits=2),
-    "import": Wanted("import surfmesh, seconds", most=0.3, digits=3),
-}
-
 FIELD = {
     "largest": Wanted("size tensor, largest relative error", most=0.02, percent=True, digits=2),
     "p999": Wanted("size tensor, 99.9 % are below", most=0.02, percent=True, digits=2),

@@ -31,6 +31,7 @@ void add(nb::module_& m, const char* name, void (*bind)(nb::module_&)) {
 
 NB_MODULE(_core, m) {
     using namespace surfmesh::binding;
+    nanobind::set_leak_warnings(false);  // what callers keep until the end is no fault
     m.doc() = "The compiled core of surfmesh: arrays in, arrays and a status out.";
     m.attr("NIL") = surfmesh::NIL;
     add(m, "elementary_functions", bind_elementary_functions);

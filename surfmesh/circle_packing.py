@@ -8,13 +8,13 @@ from typing import Any, Protocol, runtime_checkable
 import numpy as np
 
 from surfmesh._core import NIL
+from surfmesh._core.fields import Background
 from surfmesh._core.packing import Packing
 from surfmesh._core.triangulation import DONE, first_not_ccw
 from surfmesh.accuracy.shape import mean_ratio
 from surfmesh.errors import SizingError
 from surfmesh.geometry.number_range import RANGE
 from surfmesh.geometry.planar.planar_domain import PlanarRegion
-from surfmesh.kernels.fields.background import Background
 from surfmesh.meshing.patch.packing import NO_LIMIT, packed, packed_discs
 from surfmesh.renamed import Renamed
 from surfmesh.sizing.field.size_field import plane_field

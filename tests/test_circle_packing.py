@@ -170,9 +170,11 @@ def test_command_line(tmp_path, capsys):
     assert "give count, distance or box" in capsys.readouterr().err
 
 
-@pytest.mark.parametrize("radii", [
-    lambda n: np.zeros(n), lambda n: np.full(n, np.inf), lambda n: np.ones(n - 1 if n > 1000 else n),
-])  # fmt: skip
+@pytest.mark.parametrize(
+    "radii",
+    [lambda n: np.zeros(n), lambda n: np.full(n, np.inf), lambda n: np.ones(n - 1)],
+    ids=["none", "infinite", "too few"],
+)
 def test_a_random_law_that_gives_no_radii_is_refused(radii):
     class Law:
         def stream(self):

@@ -60,14 +60,19 @@ std::span<const T> rows(const Given& array) {
     return {reinterpret_cast<const T*>(array.data()), array.shape(0)};
 }
 
+/// What keeps the memory of an array for numpy.
+template <class T>
+nb::capsule owner_of(const Array<T>& array) {
+    using Memory = std::shared_ptr<T[]>;
+    auto* kept = new Memory(array.memory());  // what the capsule deletes
+    return nb::capsule(kept, [](void* memory) noexcept { delete static_cast<Memory*>(memory); });
+}
+
 /// An array of numpy over the memory of the core's: (n,) or (n, columns).
 template <class T, class Number = typename Row<T>::Number>
 auto view(const Array<T>& array) {
     constexpr std::size_t columns = Row<T>::columns;
-    using Memory = std::shared_ptr<T[]>;
-    auto* kept = new Memory(array.memory());  // what the capsule deletes
-    const nb::capsule owner(kept,
-                            [](void* memory) noexcept { delete static_cast<Memory*>(memory); });
+    const nb::capsule owner = owner_of(array);
     auto* data = reinterpret_cast<Number*>(array.data());
     if constexpr (columns == 1) {
         const std::size_t shape[] = {array.size()};

@@ -26,13 +26,9 @@ std::span<const double> all(const Numbers& x) { return {x.data(), x.size()}; }
 
 /// A new array of the shape of x over the memory of `values`.
 NewNumbers shaped_as(const Numbers& x, const Array<double>& values) {
-    using Memory = std::shared_ptr<double[]>;
-    auto* kept = new Memory(values.memory());  // what the capsule deletes
-    const nb::capsule owner(kept,
-                            [](void* memory) noexcept { delete static_cast<Memory*>(memory); });
     Array<std::size_t> shape;
     for (std::size_t k = 0; k < x.ndim(); ++k) shape.push_back(x.shape(k));
-    return NewNumbers(values.data(), x.ndim(), shape.data(), owner);
+    return NewNumbers(values.data(), x.ndim(), shape.data(), owner_of(values));
 }
 
 /// f of a number, and of an array of any shape.
@@ -128,6 +124,8 @@ void bind_others(nb::module_& m) {
     using namespace elementary;
     bind_function_of_two(m, "pow", pow, pow, "x", "y",
                          "x to the power y; error below 1 ulp; nan for x < 0 unless y is whole.");
+    bind_function_of_two(m, "hypot", hypot, hypot, "x", "y",
+                         "sqrt(x^2 + y^2) without overflow on the way; error below 0.51 ulp.");
     bind_function(m, "cbrt", cbrt, cbrt, "Cube root, of either sign; error below 0.51 ulp.");
     bind_function(m, "erf", erf, erf, "The error function; error below 1 ulp.");
     bind_function(m, "bessel_0", bessel_0, bessel_0,

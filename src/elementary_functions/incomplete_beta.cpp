@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "elementary_functions/power.hpp"
+
 namespace surfmesh::elementary {
 namespace {
 
@@ -33,7 +35,7 @@ double continued_fraction(double a, double b, double x) {
 double incomplete_beta(double a, double b, double beta, double x) {
     if (!(x > 0.0)) return 0.0;
     if (!(x < 1.0)) return 1.0;
-    const double front = std::pow(x, a) * std::pow(1.0 - x, b) / beta;
+    const double front = pow(x, a) * pow(1.0 - x, b) / beta;
     if (x < (a + 1.0) / (a + b + 2.0)) return front * continued_fraction(a, b, x) / a;
     return 1.0 - front * continued_fraction(b, a, 1.0 - x) / b;
 }

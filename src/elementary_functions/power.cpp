@@ -1,5 +1,6 @@
 #include "elementary_functions/power.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -65,8 +66,23 @@ double cbrt(double x) {
     return std::copysign(std::ldexp(t, third), x);
 }
 
+double hypot(double x, double y) {
+    const double a = std::max(std::abs(x), std::abs(y)), b = std::min(std::abs(x), std::abs(y));
+    if (std::isinf(x) || std::isinf(y)) return INFINITE;
+    if (std::isnan(x) || std::isnan(y)) return x + y;
+    if (b == 0.0) return a;
+    // squares and their errors are normal numbers between these; b counts for nothing far below a
+    const double scale = a > 0x1p500 ? 0x1p-600 : a < 0x1p-400 ? 0x1p600 : 1.0;
+    const double p = a * scale, q = b * scale;
+    if (q < 0x1p-60 * p) return a;
+    return root(sum(two_product(p, p), two_product(q, q))).high / scale;
+}
+
 void pow(std::span<const double> x, std::span<const double> y, std::span<double> out) {
     for (std::size_t k = 0; k < x.size(); ++k) out[k] = pow(x[k], y[k]);
+}
+void hypot(std::span<const double> x, std::span<const double> y, std::span<double> out) {
+    for (std::size_t k = 0; k < x.size(); ++k) out[k] = hypot(x[k], y[k]);
 }
 void cbrt(std::span<const double> x, std::span<double> out) { map_each(x, out, cbrt); }
 

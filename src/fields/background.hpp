@@ -145,12 +145,12 @@ inline SizeTensor Background::size_at(double x, double y) const {
 }
 
 inline MetricRoot3 Background::metric_root_3d_at(double x, double y) const {
-    const LeafWeights at = leaf(x, y);
     const Array<MetricRoot3>& w = metric_root_3d;
     if (w.empty()) {
-        const double inverse = at.mean([&](Node n) { return metric_root[n].inverse_size; });
+        const double inverse = 1.0 / scalar_size_at(x, y);
         return {inverse, 0.0, 0.0, inverse, 0.0, inverse};
     }
+    const LeafWeights at = leaf(x, y);
     return {at.mean([&](Node n) { return w[n].xx; }), at.mean([&](Node n) { return w[n].xy; }),
             at.mean([&](Node n) { return w[n].xz; }), at.mean([&](Node n) { return w[n].yy; }),
             at.mean([&](Node n) { return w[n].yz; }), at.mean([&](Node n) { return w[n].zz; })};

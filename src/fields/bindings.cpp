@@ -14,6 +14,8 @@
 
 namespace surfmesh::binding {
 
+void bind_field_builder(nb::module_& m);
+
 template <>
 struct Row<NodeSize> {
     using Number = double;
@@ -366,6 +368,7 @@ void bind_fields(nb::module_& m) {
     bind_background(m);
     bind_sources(m);
     bind_gradation(m);
+    bind_field_builder(m);
 }
 
 }  // namespace surfmesh::binding

@@ -13,10 +13,18 @@
 #include "insertion/boundary_insertion.hpp"
 #include "insertion/boundary_recovery.hpp"
 #include "insertion/boundary_row.hpp"
+#include "insertion/coincident_nodes.hpp"
 #include "insertion/inside.hpp"
 #include "insertion/inside_regions.hpp"
 
 namespace surfmesh::binding {
+
+template <>
+struct Row<Segment> {
+    using Number = std::int32_t;
+    static constexpr std::size_t columns = 2;
+};
+
 namespace {
 
 using Pairs = Matrix<std::int32_t, 2>;
@@ -125,6 +133,47 @@ void bind_outcomes(nb::module_& m) {
         .def_ro("number", &BoundaryOutcome::number,
                 "Of the node, segment or region reached, or NIL.")
         .def_ro("half_edge", &BoundaryOutcome::half_edge, "The one concerned, or NIL.");
+}
+
+void require_lengths(const Numbers& lengths, std::size_t total) {
+    std::size_t sum = 0;
+    for (const std::int32_t length : rows<std::int32_t>(lengths)) {
+        if (length < 0) throw nb::value_error("lengths has a negative one");
+        sum += static_cast<std::size_t>(length);
+    }
+    if (sum != total) throw nb::value_error("lengths do not add up to the number of nodes");
+}
+
+/// Step 1: what is one node.
+void bind_nodes(nb::module_& m) {
+    m.def(
+        "coincident_nodes",
+        [](const Points2& uv, const Vector<std::int64_t>& numbers, const Pairs& segments) {
+            require_rows(numbers.shape(0), uv.shape(0), "numbers");
+            require_pairs(segments, uv.shape(0), "segments");
+            const CoincidentNodes found = coincident_nodes(
+                rows<Point2>(uv), rows<std::int64_t>(numbers), rows<Segment>(segments));
+            return std::pair(view(found.nodes), view(found.row));
+        },
+        nb::arg("uv"), nb::arg("numbers"), nb::arg("segments"),
+        "Which nodes of a boundary are one: by number in space, by place in (u, v).\n\nuv (k, 2), "
+        "numbers (k,) int64, segments (s, 2) int32: pairs of nodes. Returns the nodes (n,) that "
+        "are kept,\nrising, and for each node (k,) where its own is among these.");
+    m.def(
+        "loop_nodes",
+        [](const Points2& uv, const Vector<std::int64_t>& numbers, const Numbers& lengths) {
+            require_rows(numbers.shape(0), uv.shape(0), "numbers");
+            require_lengths(lengths, uv.shape(0));
+            const LoopNodes found = loop_nodes(rows<Point2>(uv), rows<std::int64_t>(numbers),
+                                               rows<std::int32_t>(lengths));
+            return std::tuple(view(found.nodes), view(found.segments), view(found.identity),
+                              found.runs_twice);
+        },
+        nb::arg("uv"), nb::arg("numbers"), nb::arg("lengths"),
+        "The same for closed loops, one after the other, that have ``lengths`` (l,) nodes each.\n\n"
+        "Returns the nodes (n,) that are kept, segments (s, 2) int32 between these, for each of "
+        "these\n(n,) int64 the first with its number, and whether a segment runs twice the same "
+        "way.");
 }
 
 /// A property that gives an array of its owner as a view.
@@ -299,6 +348,7 @@ void bind_insertion(nb::module_& m) {
     m.attr("LOWEST") = LOWEST;
     m.attr("CROWDED") = CROWDED;
     bind_outcomes(m);
+    bind_nodes(m);
     bind_domain(m);
     bind_recovery(m);
     bind_inside(m);

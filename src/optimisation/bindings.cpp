@@ -96,9 +96,11 @@ void bind_frames(nb::module_& m) {
             require_rows(ry.shape(0), vertices.shape(0), "ry");
             if (s.is_anisotropic && background.metric_root_3d.empty())
                 throw nb::value_error("the background has no metric_root_3d");
-            for (std::size_t k = 0; k < vertices.shape(0); ++k)
+            for (std::size_t k = 0; k < vertices.shape(0); ++k) {
+                set_size(t, s, background, vertices(k));
                 set_frame(t, s, background, vertices(k),
                           {rows<Point3>(r)[k], rows<Point3>(rx)[k], rows<Point3>(ry)[k]}, largest);
+            }
         },
         nb::arg("t"), nb::arg("background"), nb::arg("vertices"), nb::arg("r"), nb::arg("rx"),
         nb::arg("ry"), nb::arg("largest"),
@@ -255,10 +257,13 @@ void bind_collapse_and_splits(nb::module_& m) {
     m.def(
         "split_edge",
         [](Triangulation& t, HalfEdge e, double x, double y) {
-            require_domain(t, SurfaceFrames(t.xy.size(), false));
-            if (e < 0 || e >= 3 * t.triangles() || t.region[e / 3] == DEAD || t.adj[e] == NIL ||
-                t.fixed[e] != 0)
+            if (e < 0 || e >= 3 * t.triangles() || t.region[e / 3] == DEAD || t.adj[e] == NIL)
                 throw nb::value_error("there is no such edge in the interior");
+            for (const Triangle k : {e / 3, t.adj[e] / 3})
+                for (const HalfEdge h : {3 * k, 3 * k + 1, 3 * k + 2})
+                    if (t.tri[h] == NIL) throw nb::value_error("a ghost triangle is beside e");
+            if (!t.has_segments() || t.fixed[e] != 0)
+                throw nb::value_error("the edge is fixed, or the triangulation has no ``fixed``");
             return split_edge(t, e, {x, y});
         },
         nb::arg("t"), nb::arg("e"), nb::arg("x"), nb::arg("y"),

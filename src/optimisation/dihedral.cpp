@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "elementary_functions/inverse_trigonometric.hpp"
+
 namespace surfmesh {
 namespace {
 
@@ -15,7 +17,7 @@ double dihedral_angle(Point3 a, Point3 b, Point3 c, Point3 d) {
     const Point3 m = cross(u, v), n = cross(w, u);
     const double uu = dot(u, u), vv = dot(v, v), ww = dot(w, w), mm = dot(m, m), nn = dot(n, n);
     if (!(mm > NO_AREA * uu * vv && nn > NO_AREA * uu * ww)) return 0.0;
-    return std::atan2(norm(cross(m, n)), dot(m, n));
+    return elementary::atan2(norm(cross(m, n)), dot(m, n));
 }
 
 DihedralAngles find_dihedrals_over(const Triangulation& t, const Array<Point3>& point,

@@ -3,7 +3,8 @@
 namespace surfmesh {
 namespace {
 
-constexpr double DEGENERATE = 1e-10;  // |r_x x r_y| over |r_x|^2 + |r_y|^2: below, no normal
+constexpr double CLEARLY = 1.0 + 1e-9;  // factor on a bound, beyond which rounding does not count
+constexpr double DEGENERATE = 1e-10;    // |r_x x r_y| over |r_x|^2 + |r_y|^2: below, no normal
 
 /// A 2 x 2 matrix by rows.
 struct Matrix2 {
@@ -51,6 +52,28 @@ Point3 stretched(const SurfaceFrames& s, Vertex a, Vertex b, Vertex c, Point3 d)
     return apply(sum, d);
 }
 
+/// What alpha = sqrt(12 area_squared) / total of a triangle is made from.
+struct ShapeParts {
+    double area_squared;  // of twice the area
+    double total;         // the sum of the squared edges
+    double outward;       // along the normals at the corners
+};
+
+ShapeParts shape_parts(const SurfaceFrames& s, Vertex a, Vertex b, Vertex c) {
+    Point3 u = s.point[b] - s.point[a], v = s.point[c] - s.point[a];
+    Point3 n = cross(u, v);
+    const Point3 m = s.normal[a] + s.normal[b] + s.normal[c];
+    const double outward = dot(n, m);
+    if (s.is_anisotropic) {
+        u = stretched(s, a, b, c, u);
+        v = stretched(s, a, b, c, v);
+        n = cross(u, v);
+        const double length = dot(m, m);
+        if (length > 0.0) n = dot(n, m) / length * m;
+    }
+    return {dot(n, n), 2.0 * (dot(u, u) + dot(v, v) - dot(u, v)), outward};
+}
+
 }  // namespace
 
 SurfaceFrames::SurfaceFrames(std::size_t vertices, bool anisotropic) : is_anisotropic(anisotropic) {
@@ -68,8 +91,7 @@ void SurfaceFrames::resize(std::size_t vertices) {
 
 void set_frame(Triangulation& t, SurfaceFrames& s, const Background& background, Vertex v,
                const SurfacePoint& at, double largest) {
-    const Point2 xy = t.xy[v];
-    const double h = s.scale[v] * background.scalar_size_at(xy.x, xy.y);
+    const double h = s.size[v];
     double e = dot(at.rx, at.rx), g = dot(at.ry, at.ry);
     const double f = dot(at.rx, at.ry);
     const Point3 n = cross(at.rx, at.ry);
@@ -84,12 +106,11 @@ void set_frame(Triangulation& t, SurfaceFrames& s, const Background& background,
     const double root = std::sqrt(det);
     const double scale = 1.0 / std::sqrt(e + g + 2.0 * root);
     const SizeTensor m = {scale * (1.0 + g / root), -scale * f / root, scale * (1.0 + e / root)};
-    s.size[v] = h;
     t.size[v] = h * m;
     const auto over_h = [h](Point3 a) { return Point3{a.x / h, a.y / h, a.z / h}; };
     s.tangent_map[v] = {over_h(m.xx * at.rx + m.xy * at.ry), over_h(m.xy * at.rx + m.yy * at.ry)};
     if (!s.is_anisotropic) return;
-    const MetricRoot3 w = background.metric_root_3d_at(xy.x, xy.y);
+    const MetricRoot3 w = background.metric_root_3d_at(t.xy[v].x, t.xy[v].y);
     const double by = s.scale[v];
     s.metric_root[v] = {w.xx / by, w.xy / by, w.xz / by, w.yy / by, w.yz / by, w.zz / by};
     stretch(t, s, v, {scale * (e + root), scale * f, scale * (g + root)});
@@ -128,22 +149,17 @@ double triangle_deviation(const SurfaceFrames& s, Vertex a, Vertex b, Vertex c) 
 }
 
 double triangle_shape(const SurfaceFrames& s, Vertex a, Vertex b, Vertex c) {
-    Point3 u = s.point[b] - s.point[a], v = s.point[c] - s.point[a];
-    Point3 n = cross(u, v);
-    const Point3 m = s.normal[a] + s.normal[b] + s.normal[c];
-    const double outward = dot(n, m);
-    if (s.is_anisotropic) {
-        u = stretched(s, a, b, c, u);
-        v = stretched(s, a, b, c, v);
-        n = cross(u, v);
-        const double length = dot(m, m);
-        if (length > 0.0) n = dot(n, m) / length * m;
-    }
-    const double uu = dot(u, u), uv = dot(u, v), vv = dot(v, v);
-    const double total = 2.0 * (uu + vv - uv);
-    if (total == 0.0) return 0.0;
-    const double alpha = 3.4641016151377544 * norm(n) / total;
-    return outward > 0.0 ? alpha : -alpha;
+    const ShapeParts parts = shape_parts(s, a, b, c);
+    if (parts.total == 0.0) return 0.0;
+    const double alpha = 3.4641016151377544 * std::sqrt(parts.area_squared) / parts.total;
+    return parts.outward > 0.0 ? alpha : -alpha;
+}
+
+bool is_shape_below(const SurfaceFrames& s, Vertex a, Vertex b, Vertex c, double least) {
+    const ShapeParts parts = shape_parts(s, a, b, c);
+    const double bound = CLEARLY * least * parts.total;
+    if (parts.outward > 0.0 && 12.0 * parts.area_squared > bound * bound) return false;
+    return triangle_shape(s, a, b, c) < least;  // near the bound, to the last bit
 }
 
 }  // namespace surfmesh

@@ -52,7 +52,13 @@ struct SurfacePoint {
     Point3 r, rx, ry;
 };
 
-/// Set the frame of vertex v, and its size tensor to the exact H = h I^(-1/2).
+/// Set the wanted length at v from the size field.
+inline void set_size(const Triangulation& t, SurfaceFrames& s, const Background& background,
+                     Vertex v) {
+    s.size[v] = s.scale[v] * background.scalar_size_at(t.xy[v].x, t.xy[v].y);
+}
+
+/// Set the frame of vertex v, whose size is set, and its size tensor to the exact H = h I^(-1/2).
 ///
 /// Near a degenerate point the eigenvalues of I^(-1/2) are capped at ``largest``.
 void set_frame(Triangulation& t, SurfaceFrames& s, const Background& background, Vertex v,
@@ -69,6 +75,9 @@ void shorten(SurfaceFrames& s, Vertex v, double factor);
 /// Where sizes are anisotropic it is measured in the mean metric of the corners, and of the area
 /// only what faces as the surface does counts: a triangle on its edge can have a fine shape.
 double triangle_shape(const SurfaceFrames& s, Vertex a, Vertex b, Vertex c);
+
+/// Is alpha of abc, as ``triangle_shape`` gives it, less than ``least``, which is not negative?
+bool is_shape_below(const SurfaceFrames& s, Vertex a, Vertex b, Vertex c, double least);
 
 /// About how far the triangle abc lies from a surface with these tangent planes.
 ///

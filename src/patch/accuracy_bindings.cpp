@@ -4,9 +4,18 @@
 #include "patch/creases.hpp"
 #include "patch/deviation.hpp"
 #include "patch/folds.hpp"
+#include "patch/limits.hpp"
+#include "patch/samples.hpp"
 #include "surfaces/callback_surface.hpp"
 
 namespace surfmesh::binding {
+
+template <>
+struct Row<BarycentricWeights> {
+    using Number = double;
+    static constexpr std::size_t columns = 3;
+};
+
 namespace {
 
 using SpaceTriangles =
@@ -84,7 +93,15 @@ void bind_deviations(nb::module_& m) {
 }  // namespace
 
 void bind_accuracy(nb::module_& m) {
-    m.attr("CHORD_MARGIN") = CHORD_MARGIN;
+    m.attr("FINEST_SIZE") = FINEST_SIZE;
+    m.attr("FINEST_BY_ANGLE") = FINEST_BY_ANGLE;
+    m.attr("LEAST_OF_CHORD") = LEAST_OF_CHORD;
+    m.attr("ROUND_RESERVE") = ROUND_RESERVE;
+    m.attr("BENT_RESERVE") = BENT_RESERVE;
+    m.def(
+        "dense_samples", [] { return view(Array<BarycentricWeights>(std::span(DENSE_SAMPLES))); },
+        "Barycentric places (25, 3) at which the mesher looks at triangles that are nearly too "
+        "far: those of the report without the corners, which lie on the surface.");
     bind_deviations(m);
     m.def(
         "cosines_with_surface",

@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "binding/arrays.hpp"
+#include "patch/mapping.hpp"
 #include "patch/patch_state.hpp"
 #include "patch/schedule.hpp"
 #include "patch/size_requests.hpp"
@@ -12,13 +13,9 @@
 
 namespace surfmesh::binding {
 
-template <>
-struct Row<Dihedrals::Pair> {
-    using Number = std::int32_t;
-    static constexpr std::size_t columns = 2;
-};
-
+void bind_results(nb::module_& m);
 void bind_accuracy(nb::module_& m);
+void bind_seams(nb::module_& m);
 
 namespace {
 
@@ -230,39 +227,21 @@ void bind_passes(nb::class_<BoundPatch>& c) {
         "returns how many were split.");
 }
 
-void bind_results(nb::module_& m) {
-    nb::class_<Unmended>(m, "Unmended", "What the optimiser has left.")
-        .def_prop_ro(
-            "far", [](const Unmended& u) { return view(u.far); }, nb::rv_policy::automatic,
-            "Triangles (n,) still farther than ``chord`` from the surface.")
-        .def_prop_ro(
-            "folded", [](const Unmended& u) { return view(u.folded); }, nb::rv_policy::automatic,
-            "Triangles (n,) turned far from the surface's normals.")
-        .def_prop_ro(
-            "bent", [](const Unmended& u) { return view(u.dihedrals.triangles); },
-            nb::rv_policy::automatic,
-            "Triangles (k, 2) on both sides of edges with more than ``angle`` between them.")
-        .def_prop_ro(
-            "angles", [](const Unmended& u) { return view(u.dihedrals.angles); },
-            nb::rv_policy::automatic, "The angles (k,) there, radians.");
-    nb::class_<SizeLimitArrays>(m, "SizeLimitArrays", "At each point the size is at most this.")
-        .def_prop_ro(
-            "points", [](const SizeLimitArrays& l) { return view(l.points); },
-            nb::rv_policy::automatic, "(k, 3) in space")
-        .def_prop_ro(
-            "sizes", [](const SizeLimitArrays& l) { return view(l.sizes); },
-            nb::rv_policy::automatic, "(k,) model units")
-        .def_prop_ro(
-            "uv", [](const SizeLimitArrays& l) { return view(l.uv); }, nb::rv_policy::automatic,
-            "(k, 2) parameters of the points; empty where sizes are isotropic")
-        .def_prop_ro(
-            "metric_root_3d", [](const SizeLimitArrays& l) { return view(l.metric_root); },
-            nb::rv_policy::automatic, "(k, 6) W; empty where sizes are isotropic");
-    nb::class_<SizeRequests>(m, "SizeRequests",
-                             "What a patch asks for, by what is not right there.")
-        .def_ro("chord", &SizeRequests::chord)
-        .def_ro("folds", &SizeRequests::folds)
-        .def_ro("angle", &SizeRequests::angle);
+MappedPatch mapped(BoundPatch& p, const Points2& node_uv, const Numbers& node,
+                   const Matrix<std::int32_t, 2>& segments, const Vector<std::int64_t>& identity) {
+    require_rows(node_uv.shape(0), p.state.nodes().vertex.size(), "node_uv");
+    require_rows(identity.shape(0), node.shape(0), "identity");
+    require_indices(rows<std::int64_t>(identity), node.shape(0), "identity");
+    require_indices(std::span<const std::int32_t>(segments.data(), segments.size()), node.shape(0),
+                    "segments");
+    for (const Vertex v : rows<Vertex>(node))
+        if (v < NIL || v >= p.state.t.vertices())
+            throw nb::value_error("node has a vertex that is out of range");
+    return p.run([&](PatchState& s) {
+        return map_to_space(
+            s, rows<Point2>(node_uv),
+            {rows<Vertex>(node), rows<Segment>(segments), rows<std::int64_t>(identity)});
+    });
 }
 
 /// A property that gives a member of the state, which lives as long as the patch.
@@ -300,6 +279,12 @@ void bind_state(nb::class_<BoundPatch>& c) {
 }
 
 void bind_schedule(nb::class_<BoundPatch>& c) {
+    c.def("mapped", &mapped, nb::arg("node_uv"), nb::arg("node"), nb::arg("segments"),
+          nb::arg("identity"),
+          "The triangles in space, seams identified.\n\nnode_uv: (j, 2) of the nodes that have a "
+          "vertex, to the last bit. node (k,), segments (s, 2), identity (k,): of boundary loops, "
+          "the vertex of each node or NIL, pairs of nodes, and for each node the first that is the "
+          "same point in space; empty where nothing is identified.");
     c.def(
         "optimise",
         [](BoundPatch& p, bool first) {
@@ -325,16 +310,16 @@ void bind_schedule(nb::class_<BoundPatch>& c) {
             if ((left.far.size() > 0 && !p.state.asked().chord) ||
                 (left.dihedrals.angles.size() > 0 && !p.state.asked().angle))
                 throw nb::value_error("left is of another patch");
-            Array<std::uint8_t> off;
+            std::span<const std::uint8_t> off;
             if (off_surface) {
-                require_rows(off_surface->shape(0), p.state.t.xy.size(), "off_surface");
-                off = Array<std::uint8_t>(rows<std::uint8_t>(*off_surface));
+                require_rows(off_surface->shape(0), p.state.nodes().vertex.size(), "off_surface");
+                off = rows<std::uint8_t>(*off_surface);
             }
             return p.run([&](PatchState& s) { return size_requests(s, left, off); });
         },
         nb::arg("left"), nb::arg("off_surface") = nb::none(),
         "Upper bounds of the size under which what is ``left`` would be right.\n\n"
-        "off_surface: (vertices,) marks of those that lie off the surface themselves: for the "
+        "off_surface: (k,) marks of the nodes that lie off the surface themselves: for the "
         "triangles at them smaller sizes are no help.");
 }
 
@@ -346,6 +331,7 @@ void bind_patch(nb::module_& m) {
     m.attr("LONGEST") = LONGEST;
     bind_chart(m);
     bind_accuracy(m);
+    bind_seams(m);
     bind_results(m);
     nb::class_<BoundPatch> patch(m, "PatchState",
                                  "A triangulated domain with its surface frames, and the passes "

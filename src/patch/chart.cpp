@@ -5,6 +5,7 @@
 #include <cstdint>
 
 #include "elementary_functions/incomplete_beta.hpp"
+#include "elementary_functions/power.hpp"
 
 namespace surfmesh {
 namespace {
@@ -52,7 +53,7 @@ double rate_of_bending(const Array<BentPiece>& pieces, double s) {
     const BentPiece& p = piece_at(pieces, s);
     const double width = p.last - p.first;
     const double before = (s - p.first) / width, after = (p.last - s) / width;
-    return std::pow(before, p.q0 - 1.0) * std::pow(after, p.q1 - 1.0) / p.beta;
+    return elementary::pow(before, p.q0 - 1.0) * elementary::pow(after, p.q1 - 1.0) / p.beta;
 }
 
 }  // namespace

@@ -13,11 +13,6 @@ namespace {
 // apex there is none, and at a crease one for each side.
 constexpr double INSIDE = 1e-3;
 
-// Fraction of ``angle`` that two unit triangles may be bent by: on a sphere, where all edges are
-// alike and some triangles are larger; and for what depends on the direction, as few edges lie
-// worst.
-constexpr double ROUND_RESERVE = 0.78, BENT_RESERVE = 0.94;
-
 // Cosine of one degree, between the normals on both sides: from there it is a crease.
 constexpr double CREASE = 0.9998476951563913;
 

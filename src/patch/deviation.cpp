@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "elementary_functions/power.hpp"
 #include "patch/samples.hpp"
 #include "space/measure.hpp"
 
@@ -66,8 +67,8 @@ Array<std::int32_t> look_again(SurfaceReader& surface, std::span<const Point3> p
     for (std::size_t k = 0; k < far.size(); ++k) {
         const std::int32_t i = far[k];
         distance[i] = again[k].along;
-        const bool better = std::hypot(again[k].along, again[k].across) <=
-                            std::hypot(found[i].along, found[i].across);
+        const bool better = elementary::hypot(again[k].along, again[k].across) <=
+                            elementary::hypot(found[i].along, found[i].across);
         if (!(again[k].across <= NEAR_FOOT * size[i] && better)) left.push_back(i);
     }
     return left;

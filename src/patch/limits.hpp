@@ -16,6 +16,11 @@ inline constexpr double FINEST_BY_ANGLE = 2e-4;
 /// A bend is sharp, and no size smaller, below this fraction of ``chord``.
 inline constexpr double LEAST_OF_CHORD = 0.5;
 
+/// Fraction of ``angle`` that two unit triangles may be bent by: on a sphere, where all edges are
+/// alike and some triangles are larger; and for what depends on the direction, as few edges lie
+/// worst.
+inline constexpr double ROUND_RESERVE = 0.78, BENT_RESERVE = 0.94;
+
 /// What was asked for, in model units and degrees; nothing where there is no value.
 struct AskedAccuracy {
     std::optional<double> chord, angle;

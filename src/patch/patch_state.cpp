@@ -68,9 +68,13 @@ Array<Vertex> PatchState::identified() const {
     return number;
 }
 
-void PatchState::set_frames(std::span<const Vertex> vertices) { set_frames(vertices, false); }
+void PatchState::set_frames(std::span<const Vertex> vertices) {
+    for (const Vertex v : vertices) set_size(t, frames, setting_.background, v);
+    set_sized_frames(vertices);
+}
 
-void PatchState::set_frames(std::span<const Vertex> vertices, bool on_kink) {
+/// The same where sizes are those of the places already.
+void PatchState::set_sized_frames(std::span<const Vertex> vertices, bool on_kink) {
     for (std::size_t start = 0; start < vertices.size(); start += BLOCK)
         set_block(vertices.subspan(start, std::min(BLOCK, vertices.size() - start)), on_kink);
 }
@@ -94,7 +98,7 @@ void PatchState::set_block(std::span<const Vertex> vertices, bool on_kink) {
 
 void PatchState::set_frames_on_kinks() {
     if (nodes_.on_kinks.empty()) return;
-    set_frames(all(nodes_.on_kinks), true);
+    set_sized_frames(all(nodes_.on_kinks), true);
     place_nodes();
 }
 
@@ -151,7 +155,7 @@ int PatchState::smooth(double stiffness) {
     if (stopped()) return 0;
     find_stars();
     surfmesh::smooth(t, frames, setting_.background, stars, marks, stiffness, moved);
-    set_frames(all(moved));
+    set_sized_frames(all(moved));
     ++passes;
     return static_cast<int>(moved.size());
 }

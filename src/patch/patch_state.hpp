@@ -65,6 +65,7 @@ class PatchState {
 
     [[nodiscard]] const AskedAccuracy& asked() const { return setting_.asked; }
     [[nodiscard]] const Chart& chart() const { return setting_.chart; }
+    [[nodiscard]] const Background& background() const { return setting_.background; }
     [[nodiscard]] const BoundaryNodes& nodes() const { return nodes_; }
     SurfaceReader& surface() { return surface_; }
     [[nodiscard]] bool is_anisotropic() const { return frames.is_anisotropic; }
@@ -103,7 +104,7 @@ class PatchState {
     int split_farthest(std::span<const Triangle> triangles);
 
   private:
-    void set_frames(std::span<const Vertex> vertices, bool on_kink);
+    void set_sized_frames(std::span<const Vertex> vertices, bool on_kink = false);
     void set_block(std::span<const Vertex> vertices, bool on_kink);
     void read_mean_slopes(std::span<const Point2> uv, Array<Point3>& ru, Array<Point3>& rv);
     void place_nodes();

@@ -100,13 +100,16 @@ SizeLimitArrays limits_for_angle(PatchState& state, const Dihedrals& dihedrals) 
     return wanted.limits(FINEST_BY_ANGLE * state.diagonal());
 }
 
-/// The triangles with no corner that is marked.
-Array<Triangle> without(const Triangulation& t, const Array<Triangle>& triangles,
-                        const Array<std::uint8_t>& marked) {
+/// The triangles with no node at a corner that is marked.
+Array<Triangle> without(const PatchState& state, const Array<Triangle>& triangles,
+                        std::span<const std::uint8_t> marked_nodes) {
+    const Array<Vertex>& tri = state.t.tri;
+    Array<std::uint8_t> marked(state.t.xy.size(), 0);
+    for (std::size_t k = 0; k < marked_nodes.size(); ++k)
+        if (marked_nodes[k]) marked[state.nodes().vertex[k]] = 1;
     Array<Triangle> kept;
     for (const Triangle k : triangles)
-        if (marked.empty() ||
-            !(marked[t.tri[3 * k]] || marked[t.tri[3 * k + 1]] || marked[t.tri[3 * k + 2]]))
+        if (!(marked[tri[3 * k]] || marked[tri[3 * k + 1]] || marked[tri[3 * k + 2]]))
             kept.push_back(k);
     return kept;
 }
@@ -114,10 +117,10 @@ Array<Triangle> without(const Triangulation& t, const Array<Triangle>& triangles
 }  // namespace
 
 SizeRequests size_requests(PatchState& state, const Unmended& left,
-                           const Array<std::uint8_t>& off_surface) {
+                           std::span<const std::uint8_t> off_surface) {
     SizeRequests requests;
-    const Array<Triangle> far = without(state.t, left.far, off_surface);
-    const Array<Triangle> folded = without(state.t, left.folded, off_surface);
+    const Array<Triangle> far = without(state, left.far, off_surface);
+    const Array<Triangle> folded = without(state, left.folded, off_surface);
     if (!far.empty()) requests.chord = limits_for_chord(state, far);
     if (!folded.empty()) requests.folds = limits_for_folds(state, folded);
     if (!left.dihedrals.angles.empty()) requests.angle = limits_for_angle(state, left.dihedrals);

@@ -21,9 +21,9 @@ struct SizeRequests {
 
 /// What would mend what the optimiser has left.
 ///
-/// off_surface: marks of the vertices that lie off the surface themselves, or none: for the
-/// triangles at them smaller sizes are no help.
+/// off_surface: marks of the nodes that lie off the surface themselves, or none: for the triangles
+/// at them smaller sizes are no help.
 SizeRequests size_requests(PatchState& state, const Unmended& left,
-                           const Array<std::uint8_t>& off_surface);
+                           std::span<const std::uint8_t> off_surface);
 
 }  // namespace surfmesh

@@ -180,7 +180,7 @@ void bind_shapes(nb::module_& m) {
                                     rows<std::int32_t>(rule), rows<Weights>(weights));
             }
             return nb::ndarray<nb::numpy, double, nb::ndim<2>>(found.data(), 2, shape,
-                                                               nb::cast(view(found)));
+                                                               owner_of(found));
         },
         nb::arg("corner_values"), nb::arg("corners"), nb::arg("triangle"), nb::arg("rule"),
         nb::arg("weights"),

@@ -120,8 +120,7 @@ Array<std::int64_t> curve_places(std::span<const Point3> points,
         for (const Vertex v : {t.a, t.b, t.c}) sum = sum + scale * (points[v] - low);
         std::int64_t place = 0;
         int bit = 0;
-        for (const double s : {sum.x, sum.y, sum.z})
-            place |= spread(bits_of(s / 3.0)) << bit++;
+        for (const double s : {sum.x, sum.y, sum.z}) place |= spread(bits_of(s / 3.0)) << bit++;
         places.push_back(place);
     }
     return places;

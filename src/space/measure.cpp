@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "elementary_functions/inverse_trigonometric.hpp"
+
 namespace surfmesh {
 namespace {
 
@@ -20,9 +22,9 @@ TriangleShape triangle_shape(Point3 a, Point3 b, Point3 c) {
     if (product > 0.0)  // r_in = 2 A / perimeter, r_circum = abc / 4 A
         shape.radius_ratio = 4.0 * twice_area * twice_area / product;
     // products of edges, not the law of cosines: its squares cancel in needles
-    const double at_a = std::atan2(twice_area, dot(ab, ac));
-    const double at_b = std::atan2(twice_area, -dot(ab, bc));
-    const double at_c = std::atan2(twice_area, dot(ac, bc));
+    const double at_a = elementary::atan2(twice_area, dot(ab, ac));
+    const double at_b = elementary::atan2(twice_area, -dot(ab, bc));
+    const double at_c = elementary::atan2(twice_area, dot(ac, bc));
     shape.least_angle = std::min(std::min(at_a, at_b), at_c);
     shape.largest_angle = std::max(std::max(at_a, at_b), at_c);
     return shape;

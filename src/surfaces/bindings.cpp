@@ -12,6 +12,7 @@
 namespace surfmesh::binding {
 
 void bind_surface_searches(nb::module_& m);
+void bind_formulas(nb::module_& m);  // formula_bindings.cpp
 
 namespace {
 
@@ -23,7 +24,7 @@ using BoundArrays = nb::ndarray<nb::numpy, double, nb::shape<-1, 5, 3>>;
 template <class Shaped>
 Shaped shaped(const Array<Point3>& values, std::size_t rows, std::size_t columns) {
     const std::size_t shape[] = {rows, columns, 3};
-    const nb::object owner = nb::cast(view(values));
+    const nb::capsule owner = owner_of(values);
     return Shaped(reinterpret_cast<double*>(values.data()), 3, shape, owner);
 }
 
@@ -103,10 +104,16 @@ void bind_surface_class(nb::module_& m) {
 
 }  // namespace
 
+void bind_curves(nb::module_& m);
+void bind_face_surfaces(nb::module_& m);
+
 void bind_surfaces(nb::module_& m) {
     m.doc() = "Surfaces of CAD models and of formulas, evaluated in blocks.";
     bind_surface_class(m);
+    bind_curves(m);
+    bind_face_surfaces(m);
     bind_surface_searches(m);
+    bind_formulas(m);
 }
 
 }  // namespace surfmesh::binding

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "elementary_functions/power.hpp"
+
 namespace surfmesh {
 namespace {
 
@@ -33,7 +35,7 @@ PrincipalCurvatures principal_curvatures(const FundamentalForms& forms) {
     const double s12 = (M - b * L / a) / (a * c);
     const double s22 = (N - 2.0 * b * M / a + b * b * L / (a * a)) / (c * c);
     const double mean = 0.5 * (s11 + s22), half = 0.5 * (s11 - s22);
-    const double radius = std::hypot(half, s12);
+    const double radius = elementary::hypot(half, s12);
     return {mean + radius, mean - radius};
 }
 

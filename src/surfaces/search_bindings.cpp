@@ -18,6 +18,7 @@ auto arrays_of(const ClosestPoints& found) {
 }  // namespace
 
 void bind_surface_searches(nb::module_& m) {
+    m.attr("PROJECTION_MARGIN") = PROJECTION_MARGIN;
     m.def(
         "closest_points",
         [](const Surface& surface, const Points3& points, const Points2& uv_guess, int steps,

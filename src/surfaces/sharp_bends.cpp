@@ -3,6 +3,7 @@
 #include <array>
 #include <cmath>
 
+#include "elementary_functions/inverse_trigonometric.hpp"
 #include "surfaces/fundamental_forms.hpp"
 
 namespace surfmesh {
@@ -22,7 +23,7 @@ struct Sample {
 };
 
 double angle_between(Point3 n, Point3 m) {
-    return std::acos(std::min(std::max(dot(n, m), -1.0), 1.0));
+    return elementary::acos(std::min(std::max(dot(n, m), -1.0), 1.0));
 }
 
 /// Fill in what the surface is at the samples.

@@ -3,6 +3,7 @@
 
 #include "binding/arrays.hpp"
 #include "triangulation/compaction.hpp"
+#include "triangulation/exact_sums.hpp"
 #include "triangulation/local_operations.hpp"
 #include "triangulation/predicates.hpp"
 #include "triangulation/segments.hpp"
@@ -19,6 +20,17 @@ void bind_predicates(nb::module_& m) {
         },
         nb::arg("ax"), nb::arg("ay"), nb::arg("bx"), nb::arg("by"), nb::arg("cx"), nb::arg("cy"),
         "Twice the signed area of abc; its sign is exact: > 0 for counter-clockwise.");
+    m.def(
+        "exact_sum",
+        [](const Vector<double>& mantissas, const Vector<std::int32_t>& exponents) {
+            require_rows(exponents.shape(0), mantissas.shape(0), "exponents");
+            Array<ScaledNumber> terms;
+            for (std::size_t k = 0; k < mantissas.shape(0); ++k)
+                terms.push_back({mantissas.data()[k], exponents.data()[k]});
+            return exact_sum({terms.data(), terms.size()});
+        },
+        nb::arg("mantissas"), nb::arg("exponents"),
+        "About the sum of mantissas 2**exponents (n,), at most 255; its sign is exact.");
     m.def(
         "first_not_ccw",
         [](const Points2& xy, const Matrix<std::int64_t, 3>& triangles) {

@@ -145,6 +145,14 @@ def pow(x: Annotated[NDArray[numpy.float64], dict(order='C', device='cpu', writa
     """Likewise, for each pair of two arrays of one shape."""
 
 @overload
+def hypot(x: float, y: float) -> float:
+    """sqrt(x^2 + y^2) without overflow on the way; error below 0.51 ulp."""
+
+@overload
+def hypot(x: Annotated[NDArray[numpy.float64], dict(order='C', device='cpu', writable=False)], y: Annotated[NDArray[numpy.float64], dict(order='C', device='cpu', writable=False)]) -> NDArray[numpy.float64]:
+    """Likewise, for each pair of two arrays of one shape."""
+
+@overload
 def cbrt(x: float) -> float:
     """Cube root, of either sign; error below 0.51 ulp."""
 

@@ -1,5 +1,6 @@
 """Size tensors, their gradation, and the look-up in a background."""
 
+from collections.abc import Sequence
 from typing import Annotated
 
 import numpy
@@ -129,3 +130,41 @@ def patch_errors(patches: Annotated[NDArray[numpy.int32], dict(shape=(None, 9), 
 
     metric_root (nodes, 3): A = H^-1. step (cells, 2): width and height. largest: size above which none counts.
     """
+
+GRID_DEPTH: int = 20
+
+class FieldBuilder:
+    """Makes the background of one size field."""
+
+    def __init__(self, grid: tuple[int, int], extent: tuple[float, float], root_step: tuple[float, float], slope: float, largest: float, sides: tuple[Sequence[int], Sequence[bool]], sources: Annotated[NDArray[numpy.int64], dict(shape=(None, 3), order='C', device='cpu', writable=False)], known_sizes: bool, counts_triangles: bool, most_triangles: float, looks_for_hidden: tuple[bool, bool]) -> None:
+        """
+        grid: root cells along x and y. extent: of the scaled plane. root_step: width and height of a root cell. slope: growth of the size per length. largest: size in the scaled plane above which none counts.
+        sides: of each the one that it is joined with, or -1, and whether it runs against it. sources (k, 3): x, y of small sizes on the grid of GRID_DEPTH, and how deep the cell there shall be.
+        known_sizes: points of known size have such cells. counts_triangles: cells may not be many more than triangles. most_triangles: more are refused, or inf.
+        looks_for_hidden: features between the nodes are looked for at all, and in deep cells.
+        """
+
+    def refine(self, law: object, hidden: object) -> tuple[str, tuple[float, float], float]:
+        """
+        Split cells until the field is accurate: status, place, and number of triangles or cells.
+
+        law(xy (n, 2)) -> the twelve arrays of FieldNodes. hidden(deep, low, high (n, 2), normal (n, 3), root (9 n, 3), smallest size (n,)) -> (n,) bool.
+        Raises what they raise. The status is done, too_many_triangles, too_many_cells or not_graded.
+        """
+
+    def grade_anew(self) -> tuple[str, tuple[float, float], float]:
+        """
+        Grade the sizes of all nodes, as if they were new; returned as by refine.
+        """
+
+    def spread(self, size: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu')]) -> tuple[str, tuple[float, float], float]:
+        """Grade isotropic sizes (nodes,) in place; returned as by refine."""
+
+    def nodes(self) -> tuple:
+        """The twelve arrays of FieldNodes, as views; the jacobian (nodes, 6)."""
+
+    def plane(self) -> Annotated[NDArray[numpy.float64], dict(shape=(None, 2))]:
+        """Places (nodes, 2) of the nodes in the scaled plane."""
+
+    def background(self) -> Background:
+        """The background; the builder is done with."""

@@ -66,6 +66,22 @@ class BoundaryOutcome:
     def half_edge(self) -> int:
         """The one concerned, or NIL."""
 
+def coincident_nodes(uv: Annotated[NDArray[numpy.float64], dict(shape=(None, 2), order='C', device='cpu', writable=False)], numbers: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], segments: Annotated[NDArray[numpy.int32], dict(shape=(None, 2), order='C', device='cpu', writable=False)]) -> tuple[Annotated[NDArray[numpy.int32], dict(shape=(None,))], Annotated[NDArray[numpy.int32], dict(shape=(None,))]]:
+    """
+    Which nodes of a boundary are one: by number in space, by place in (u, v).
+
+    uv (k, 2), numbers (k,) int64, segments (s, 2) int32: pairs of nodes. Returns the nodes (n,) that are kept,
+    rising, and for each node (k,) where its own is among these.
+    """
+
+def loop_nodes(uv: Annotated[NDArray[numpy.float64], dict(shape=(None, 2), order='C', device='cpu', writable=False)], numbers: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], lengths: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)]) -> tuple[Annotated[NDArray[numpy.int32], dict(shape=(None,))], Annotated[NDArray[numpy.int32], dict(shape=(None, 2))], Annotated[NDArray[numpy.int64], dict(shape=(None,))], bool]:
+    """
+    The same for closed loops, one after the other, that have ``lengths`` (l,) nodes each.
+
+    Returns the nodes (n,) that are kept, segments (s, 2) int32 between these, for each of these
+    (n,) int64 the first with its number, and whether a segment runs twice the same way.
+    """
+
 class DomainMesh:
     """A triangulated domain of the scaled plane."""
 

@@ -42,7 +42,20 @@ class Chart:
     def to_uv_and_rates(self, xy: Annotated[NDArray[numpy.float64], dict(shape=(None, 2), order='C', device='cpu', writable=False)]) -> tuple[Annotated[NDArray[numpy.float64], dict(shape=(None, 2))], Annotated[NDArray[numpy.float64], dict(shape=(None, 2))]]:
         """xy (n, 2) -> uv (n, 2) and (du/dx, dv/dy) (n, 2)."""
 
-CHORD_MARGIN: float = 0.96
+FINEST_SIZE: float = 1e-05
+
+FINEST_BY_ANGLE: float = 0.0002
+
+LEAST_OF_CHORD: float = 0.5
+
+ROUND_RESERVE: float = 0.78
+
+BENT_RESERVE: float = 0.94
+
+def dense_samples() -> Annotated[NDArray[numpy.float64], dict(shape=(None, 3))]:
+    """
+    Barycentric places (25, 3) at which the mesher looks at triangles that are nearly too far: those of the report without the corners, which lie on the surface.
+    """
 
 def point_deviations(surface: surfmesh._core.surfaces.Surface, points: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)], uv: Annotated[NDArray[numpy.float64], dict(shape=(None, 2), order='C', device='cpu', writable=False)], size: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)]) -> tuple[Annotated[NDArray[numpy.float64], dict(shape=(None,))], Annotated[NDArray[numpy.float64], dict(shape=(None, 3))]]:
     """
@@ -75,6 +88,16 @@ def on_crease(surface: surfmesh._core.surfaces.Surface, uv: Annotated[NDArray[nu
     Which edges (k,) lie on a crease, at an apex, or as good as at one: 0 and 1.
 
     uv: (k, 2, 3, 2) of the corners of both triangles, the ends of the edge first. alike: (k,) whether both begin at one end. As good as at an apex: curved so much that ``angle`` (degrees) would ask for less than the finest size, a fraction of the diagonal.
+    """
+
+def identify_seams(tri: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], adj: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], region: Annotated[NDArray[numpy.uint8], dict(shape=(None,), order='C', device='cpu', writable=False)], vertices: int, node: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], segments: Annotated[NDArray[numpy.int32], dict(shape=(None, 2), order='C', device='cpu', writable=False)], identity: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)]) -> tuple[Annotated[NDArray[numpy.int32], dict(shape=(None,))], Annotated[NDArray[numpy.int32], dict(shape=(None,))], Annotated[NDArray[numpy.int64], dict(shape=(None,))], Annotated[NDArray[numpy.int64], dict(shape=(None,))]]:
+    """
+    The triangles in space of a domain, whose boundary nodes may be one point there.
+
+    tri, adj (3 m,), region (m,), vertices: of the domain's triangulation. node (k,) int32: the vertex of each
+    node of the boundary, or NIL. segments (s, 2) int32: pairs of nodes. identity (k,) int64: the first node
+    that is the same point. Returns triangles (3 t,) int32 of points, their corners (3 t,) int32 in the domain,
+    the vertex (n,) of each point, and the points (j,) where there is no surface.
     """
 
 class Unmended:
@@ -128,6 +151,39 @@ class SizeRequests:
 
     @property
     def angle(self) -> SizeLimitArrays | None: ...
+
+class MappedPatch:
+    """The triangles of a patch in space."""
+
+    @property
+    def uv(self) -> Annotated[NDArray[numpy.float64], dict(shape=(None, 2))]:
+        """(k, 2) parameters of the vertices of the domain"""
+
+    @property
+    def points(self) -> Annotated[NDArray[numpy.float64], dict(shape=(None, 3))]:
+        """(n, 3)"""
+
+    @property
+    def triangles(self) -> Annotated[NDArray[numpy.int32], dict(shape=(None, 3))]:
+        """(m, 3) of the points"""
+
+    @property
+    def uv_triangles(self) -> Annotated[NDArray[numpy.int32], dict(shape=(None, 3))]:
+        """(m, 3) of vertices of the domain"""
+
+    @property
+    def vertex(self) -> Annotated[NDArray[numpy.int64], dict(shape=(None,))]:
+        """(n,) vertex of the domain that each point was computed from"""
+
+    @property
+    def non_manifold(self) -> Annotated[NDArray[numpy.int64], dict(shape=(None,))]:
+        """(k,) points where identification has made no surface"""
+
+    @property
+    def sizes(self) -> Annotated[NDArray[numpy.float64], dict(shape=(None,))]:
+        """
+        (n,) of the points: what the field asks for, with what the optimiser made smaller
+        """
 
 class PatchState:
     """
@@ -200,6 +256,13 @@ class PatchState:
         Split the edge of each of the triangles (n,) that lies farthest from the surface; returns how many were split.
         """
 
+    def mapped(self, node_uv: Annotated[NDArray[numpy.float64], dict(shape=(None, 2), order='C', device='cpu', writable=False)], node: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], segments: Annotated[NDArray[numpy.int32], dict(shape=(None, 2), order='C', device='cpu', writable=False)], identity: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)]) -> MappedPatch:
+        """
+        The triangles in space, seams identified.
+
+        node_uv: (j, 2) of the nodes that have a vertex, to the last bit. node (k,), segments (s, 2), identity (k,): of boundary loops, the vertex of each node or NIL, pairs of nodes, and for each node the first that is the same point in space; empty where nothing is identified.
+        """
+
     def optimise(self, first: bool = True) -> Unmended:
         """
         Optimise in place; what is good already is left alone. Returns what is left.
@@ -216,5 +279,5 @@ class PatchState:
         """
         Upper bounds of the size under which what is ``left`` would be right.
 
-        off_surface: (vertices,) marks of those that lie off the surface themselves: for the triangles at them smaller sizes are no help.
+        off_surface: (k,) marks of the nodes that lie off the surface themselves: for the triangles at them smaller sizes are no help.
         """

@@ -1,5 +1,6 @@
 """Surfaces of CAD models and of formulas, evaluated in blocks."""
 
+from collections.abc import Sequence
 from typing import Annotated
 
 import numpy
@@ -35,6 +36,82 @@ class CallbackSurface(Surface):
         surface: has ``domain``, ``evaluate`` and ``derivative_bounds`` as the protocol surfmesh.geometry.surface.Surface.
         """
 
+class Curve:
+    """A map from a parameter into space or into the (u, v) plane."""
+
+    @property
+    def dimension(self) -> int:
+        """2 or 3"""
+
+    def evaluate(self, t: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)], order: int = 0) -> Annotated[NDArray[numpy.float64], dict(shape=(None, None, None))]:
+        """(n,) -> (order + 1, n, dimension): c, c', c'', ..."""
+
+def line(origin: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)], direction: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)]) -> Curve:
+    """origin + t direction"""
+
+def ellipse(origin: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)], x: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)], y: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)], major: float, minor: float) -> Curve:
+    """origin + major cos t x + minor sin t y"""
+
+def hyperbola(origin: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)], x: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)], y: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)], major: float, minor: float) -> Curve:
+    """origin + major cosh t x + minor sinh t y"""
+
+def parabola(origin: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)], x: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)], y: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)], focal: float) -> Curve:
+    """origin + t^2 / (4 focal) x + t y"""
+
+def spline_curve(knots: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)], control: Annotated[NDArray[numpy.float64], dict(shape=(None, None), order='C', device='cpu', writable=False)], weights: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)] | None, limits: tuple[float, float] | None, period: float) -> Curve:
+    """
+    control (n, 2) or (n, 3); weights (n,) or None; limits: first and last parameter of the part in use, at whose ends the derivatives are those inside; period: 0 for none.
+    """
+
+def offset_curve(curve: Curve, distance: float, direction: Annotated[NDArray[numpy.float64], dict(shape=(3), order='C', device='cpu', writable=False)] | None, limits: tuple[float, float] | None) -> Curve:
+    """
+    A curve beside another: c + distance m / |m| with m = c' x direction in space, (c'_y, -c'_x) in the plane, where direction is None.
+    """
+
+def spline_basis(knots: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)], degree: int, t: float, order: int, first: float, last: float, period: float) -> tuple[int, float, Annotated[NDArray[numpy.float64], dict(shape=(None, None))]]:
+    """
+    The span of t, t brought into it by whole periods, and the spline functions that are not zero there with their derivatives, (order + 1, degree + 1).
+
+    At a knot that is an end of first .. last, the part in use, the span lies inside. period: 0 for none.
+    """
+
+def plane(domain: tuple[tuple[float, float], tuple[float, float]], origin: Annotated[NDArray[numpy.float64], dict(shape=(3), order='C', device='cpu', writable=False)], x: Annotated[NDArray[numpy.float64], dict(shape=(3), order='C', device='cpu', writable=False)], y: Annotated[NDArray[numpy.float64], dict(shape=(3), order='C', device='cpu', writable=False)]) -> Surface:
+    """origin + u x + v y"""
+
+def cylinder(domain: tuple[tuple[float, float], tuple[float, float]], origin: Annotated[NDArray[numpy.float64], dict(shape=(3), order='C', device='cpu', writable=False)], x: Annotated[NDArray[numpy.float64], dict(shape=(3), order='C', device='cpu', writable=False)], y: Annotated[NDArray[numpy.float64], dict(shape=(3), order='C', device='cpu', writable=False)], z: Annotated[NDArray[numpy.float64], dict(shape=(3), order='C', device='cpu', writable=False)], radius: float) -> Surface:
+    """origin + radius e(u) + v z, with e(u) = cos u x + sin u y"""
+
+def cone(domain: tuple[tuple[float, float], tuple[float, float]], origin: Annotated[NDArray[numpy.float64], dict(shape=(3), order='C', device='cpu', writable=False)], x: Annotated[NDArray[numpy.float64], dict(shape=(3), order='C', device='cpu', writable=False)], y: Annotated[NDArray[numpy.float64], dict(shape=(3), order='C', device='cpu', writable=False)], z: Annotated[NDArray[numpy.float64], dict(shape=(3), order='C', device='cpu', writable=False)], radius: float, angle: float) -> Surface:
+    """origin + (radius + v sin angle) e(u) + v cos angle z"""
+
+def sphere(domain: tuple[tuple[float, float], tuple[float, float]], origin: Annotated[NDArray[numpy.float64], dict(shape=(3), order='C', device='cpu', writable=False)], x: Annotated[NDArray[numpy.float64], dict(shape=(3), order='C', device='cpu', writable=False)], y: Annotated[NDArray[numpy.float64], dict(shape=(3), order='C', device='cpu', writable=False)], z: Annotated[NDArray[numpy.float64], dict(shape=(3), order='C', device='cpu', writable=False)], radius: float) -> Surface:
+    """origin + radius cos v e(u) + radius sin v z"""
+
+def torus(domain: tuple[tuple[float, float], tuple[float, float]], origin: Annotated[NDArray[numpy.float64], dict(shape=(3), order='C', device='cpu', writable=False)], x: Annotated[NDArray[numpy.float64], dict(shape=(3), order='C', device='cpu', writable=False)], y: Annotated[NDArray[numpy.float64], dict(shape=(3), order='C', device='cpu', writable=False)], z: Annotated[NDArray[numpy.float64], dict(shape=(3), order='C', device='cpu', writable=False)], radius: float, tube: float) -> Surface:
+    """origin + (radius + tube cos v) e(u) + tube sin v z"""
+
+def spline_surface(domain: tuple[tuple[float, float], tuple[float, float]], knots_u: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)], knots_v: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)], control: Annotated[NDArray[numpy.float64], dict(shape=(None, None, 3), order='C', device='cpu', writable=False)], weights: Annotated[NDArray[numpy.float64], dict(shape=(None, None), order='C', device='cpu', writable=False)] | None, periods: tuple[float, float]) -> Surface:
+    """
+    control (nu, nv, 3); weights (nu, nv) or None; periods of u and v: 0 for none.
+
+    At a crease that is a side of the domain, the derivatives are those inside.
+    """
+
+def extrusion(domain: tuple[tuple[float, float], tuple[float, float]], curve: Curve, direction: Annotated[NDArray[numpy.float64], dict(shape=(3), order='C', device='cpu', writable=False)]) -> Surface:
+    """c(u) + v direction"""
+
+def revolution(domain: tuple[tuple[float, float], tuple[float, float]], curve: Curve, origin: Annotated[NDArray[numpy.float64], dict(shape=(3), order='C', device='cpu', writable=False)], axis: Annotated[NDArray[numpy.float64], dict(shape=(3), order='C', device='cpu', writable=False)]) -> Surface:
+    """
+    c(v) turned by the angle u about the axis through origin, of unit length
+    """
+
+def offset_surface(basis: Surface, distance: float) -> Surface:
+    """
+    r + distance n with n along r_u x r_v, for a basis that has third derivatives.
+    """
+
+PROJECTION_MARGIN: float = 0.01
+
 def closest_points(surface: Surface, points: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)], uv_guess: Annotated[NDArray[numpy.float64], dict(shape=(None, 2), order='C', device='cpu', writable=False)], steps: int = 2, margin: float = 0.01) -> tuple[Annotated[NDArray[numpy.float64], dict(shape=(None, 2))], Annotated[NDArray[numpy.float64], dict(shape=(None,))], Annotated[NDArray[numpy.float64], dict(shape=(None, 3))]]:
     """
     Nearest points of a surface to points (n, 3), from guesses (n, 2), never farther.
@@ -56,3 +133,41 @@ def bends_sharply(surface: Surface, triangles: Annotated[NDArray[numpy.float64],
 
     Bends are found where the curvature of a sample shows them, or where the normals of two samples differ.
     """
+
+OPERATIONS: tuple = ...
+
+BLOCK: int = 256
+
+class Tape:
+    """A straight-line program of elementary operations. Immutable."""
+
+    def __init__(self, inputs: int, constants: Sequence[float], instructions: Sequence[tuple[str, int, Sequence[int], int]], registers: int, outputs: Sequence[int]) -> None:
+        """
+        Slots are numbered inputs first, then constants, then registers.
+
+        instructions: (operation, target, operands, exponent) each, operation one of OPERATIONS, exponent 0 but for "integer_power". ValueError for a program that reads what was not written, writes elsewhere than into registers, or the like.
+        """
+
+    def evaluate(self, points: Annotated[NDArray[numpy.float64], dict(shape=(None, None), order='C', device='cpu', writable=False)]) -> Annotated[NDArray[numpy.float64], dict(shape=(None, None, 3))]:
+        """
+        Outputs at points (n, inputs), three together: (m, n, 3).
+
+        What is undefined comes out as nan or infinity.
+        """
+
+    def bounds(self, lo: Annotated[NDArray[numpy.float64], dict(shape=(None, None), order='C', device='cpu', writable=False)], hi: Annotated[NDArray[numpy.float64], dict(shape=(None, None), order='C', device='cpu', writable=False)], kinks: bool) -> tuple[Annotated[NDArray[numpy.float64], dict(shape=(None, None))], Annotated[NDArray[numpy.float64], dict(shape=(None, None))]]:
+        """
+        Bounds over cells: lo, hi (n, inputs) -> lower, upper (n, outputs).
+
+        Infinite where nothing is known. kinks: False leaves out what second derivatives are across kinks.
+        """
+
+class FormulaSurface(Surface):
+    """The surface of three formulas."""
+
+    def __init__(self, tapes: Sequence[Tape | None], domain: tuple[tuple[float, float], tuple[float, float]], limits: Sequence[tuple[Sequence[float], Sequence[float], Sequence[float]]]) -> None:
+        """
+        tapes: of r, with r_u and r_v, with r_uu, r_uv, r_vv; None for an order that is not wanted.
+
+        limits: for u and for v (places, lowest, highest): places of infinite speed, and within which limits derivatives are taken between them; all empty where the speed is finite.
+        """

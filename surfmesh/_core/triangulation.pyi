@@ -22,6 +22,11 @@ def orient(ax: float, ay: float, bx: float, by: float, cx: float, cy: float) -> 
     Twice the signed area of abc; its sign is exact: > 0 for counter-clockwise.
     """
 
+def exact_sum(mantissas: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)], exponents: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)]) -> float:
+    """
+    About the sum of mantissas 2**exponents (n,), at most 255; its sign is exact.
+    """
+
 def first_not_ccw(xy: Annotated[NDArray[numpy.float64], dict(shape=(None, 2), order='C', device='cpu', writable=False)], triangles: Annotated[NDArray[numpy.int64], dict(shape=(None, 3), order='C', device='cpu', writable=False)]) -> int:
     """
     The first of the triangles (m, 3) that is not counter-clockwise, or -1; judged exactly.

@@ -5,6 +5,8 @@ import math
 import numpy as np
 from numpy.typing import NDArray
 
+from surfmesh._core import patch as core
+from surfmesh.geometry.core_surface import as_core_surface
 from surfmesh.geometry.surface import Surface
 from surfmesh.sizing.options.defaults import FINEST_SIZE, LEAST_OF_CHORD
 
@@ -33,10 +35,7 @@ def cosines_with_surface(
     surface: Surface, corners: NDArray[np.float64], uv: NDArray[np.float64]
 ) -> NDArray[np.float64]:
     """Of the angles between triangles (n, 3, 3) and the surface's normals at uv (n, 2)."""
-    _, ru, rv = surface.evaluate(uv, 1)
-    normals, true = triangle_normals(corners), np.cross(ru, rv)
-    lengths = np.linalg.norm(normals, axis=1) * np.linalg.norm(true, axis=1)
-    return cosines(normals, true, lengths)
+    return core.cosines_with_surface(as_core_surface(surface), corners, uv)
 
 
 def sharp_radius(chord: float | None, diagonal: float) -> float:

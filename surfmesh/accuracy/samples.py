@@ -1,4 +1,4 @@
-"""Barycentric places (n, 3) at which triangles are looked at."""
+"""Barycentric places (n, 3) at which the report looks at triangles."""
 
 import numpy as np
 
@@ -13,6 +13,3 @@ DENSE = np.array(
 ) / float(_GRID)
 """The sides in six, corners included: between the samples of a coarser grid were 3% more in
 triangles across a direction that turns."""
-
-DENSE_INNER = DENSE[DENSE.max(axis=1) < 1.0]
-"""The same without the corners: in the mesher these lie on the surface."""

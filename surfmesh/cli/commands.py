@@ -17,7 +17,7 @@ from surfmesh.cli.inputs import (
     surface_begun,
 )
 from surfmesh.cli.outputs import manifest_written, naming, report_written, require_outputs
-from surfmesh.cli.progress import ProgressBar, announce_compilation
+from surfmesh.cli.progress import ProgressBar
 from surfmesh.cli.scheduler import executor_of
 from surfmesh.cli.terminal import say, say_json
 from surfmesh.errors import FileFormatError, SurfmeshError, printable
@@ -34,7 +34,6 @@ def mesh(options: Namespace) -> bool:
         from surfmesh.quality import check as checked
 
         surface = surface_wanted()
-    announce_compilation()
     with ProgressBar() as progress, executor_of(options.scheduler) as executor:
         result = api.mesh(
             surface,
@@ -233,7 +232,6 @@ def pack(options: Namespace) -> bool:
     from surfmesh.sizing.options.radius_laws import UniformRadius
 
     law = options.radius or UniformRadius(options.uniform[0], options.uniform[1], options.seed)
-    announce_compilation()
     found = packed(
         law, options.origin, count=options.count, distance=options.distance, box=options.box
     )

@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from surfmesh.cad.reading.read_file import SUFFIXES, begun_reading
-from surfmesh.cli.progress import ProgressBar, announce_compilation
+from surfmesh.cli.progress import ProgressBar
 from surfmesh.errors import SurfaceError, printable
 
 if TYPE_CHECKING:
@@ -122,7 +122,6 @@ def shown_mesh(options: Namespace, progress: ProgressBar) -> SurfaceMesh:
         from surfmesh import api
 
         surface = surface_wanted()
-    announce_compilation()
     return api.mesh(surface, sizing, progress=progress, strict=not options.no_strict)
 
 

@@ -50,16 +50,3 @@ class ProgressBar:
         bar.add_task("", total=1.0)
         bar.start()
         return bar
-
-
-def announce_compilation() -> None:
-    """Say that kernels are about to be compiled, when none are kept from an earlier run."""
-    from surfmesh.kernels.jit import compiled_before, keeps_kernels
-
-    if not compiled_before():
-        once = "; this happens once and" if keeps_kernels() else ", which"
-        print(
-            f"compiling the kernels{once} takes about half a minute ...",
-            file=sys.stderr,
-            flush=True,
-        )

@@ -14,9 +14,13 @@ def is_inside(loops: Sequence[np.ndarray], points: np.ndarray) -> np.ndarray:
     for loop in loops:
         if len(loop) < 3:
             continue
+        low, high = loop.min(axis=0), loop.max(axis=0)  # most loops are small holes
+        near = np.flatnonzero(((points >= low) & (points <= high)).all(axis=1))
+        if not len(near):
+            continue
         outline = shapely.make_valid(shapely.Polygon(loop))
         shapely.prepare(outline)
-        inside ^= shapely.contains_xy(outline, points[:, 0], points[:, 1])
+        inside[near] ^= shapely.contains_xy(outline, points[near, 0], points[near, 1])
     return inside
 
 

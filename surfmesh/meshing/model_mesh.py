@@ -193,7 +193,7 @@ def estimate_model(model: CadModel, sizing: Any) -> Estimate:
     met."""
     before = _Unmeshed(model, sizing)
     stretched = before.wanted.is_anisotropic
-    counts = model_counts(before.jobs)
+    counts = model_counts(model, before.jobs)
     if counts.sum() <= (WHOLE_STRETCHED if stretched else WHOLE):
         made = counts_within_budget(lambda budget: mesh_model(
             model, sizing, progress=budget, strict=False, rounds=TRIAL_ROUNDS

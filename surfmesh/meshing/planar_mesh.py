@@ -9,11 +9,11 @@ from collections.abc import Mapping
 import numpy as np
 
 from surfmesh._core.insertion import label_patches
+from surfmesh._core.triangulation import Triangulation
 from surfmesh.geometry.boxes import diagonal
 from surfmesh.geometry.differential.chart import Chart
 from surfmesh.geometry.files.known_facts import known_facts
 from surfmesh.geometry.planar.planar_domain import PlanarDomain
-from surfmesh.kernels.triangulation.triangulation import Triangulation
 from surfmesh.meshing.boundary.planar_segments import (
     PlanarSegments,
     cut_segments,
@@ -162,8 +162,7 @@ def _with_regions(
     domain: PlanarDomain, cut: PlanarSegments, patch: PatchMesh, sizing: Sizing, watch: Stopwatch
 ) -> SurfaceMesh:
     t = patch.domain.t
-    half_edges = 3 * t.triangles
-    label, count = label_patches(t.adj[:half_edges], t.fixed[:half_edges], t.region[: t.triangles])
+    label, count = label_patches(t.adj, t.fixed, t.region)
     regions = _region_numbers(t, cut, patch.domain.node, label, count)
     return SurfaceMesh(
         points=patch.space.points,
@@ -186,7 +185,7 @@ def _region_numbers(
 
     Independent of the triangles, so that regions keep their numbers when sizes change.
     """
-    half_edges = np.flatnonzero(t.fixed[: 3 * len(label)])
+    half_edges = np.flatnonzero(t.fixed)
     half_edges = half_edges[label[half_edges // 3] >= 0]
     width = np.int64(len(t.xy))
     following = half_edges + np.where(half_edges % 3 == 2, -2, 1)

@@ -30,7 +30,7 @@ def insert_boundary(
         recover_segment(plane, a, b, set(vertices))
     inner = segments + [(b, a) for a, b in segments[len(rim) :]]
     clear_boundary(plane, inner, set(vertices))
-    inside = plane.patch(plane.left[side] for side in inner)
+    inside = plane.patch(plane.left[side] for side in inner)  # step 5
     if any(NIL in plane.triangles[t] for t in inside):
         raise ValueError("the boundary does not enclose a domain")
     swap_bad(plane, inside)
@@ -45,18 +45,17 @@ def insert_node(
     A near vertex is moved there, or the triangle, or the edge, that holds p is split.
     """
     t, _ = plane.locate(edge, p)
-    triangle = plane.triangles[t]
-    for v, w in sides(triangle):
+    for v, w in sides(plane.triangles[t]):
         if v in nodes or v == NIL or length(h.solve(plane.points[v] - p)) >= MOVE_WITHIN:
             continue
         star = plane.around(v, w)
         if NIL not in star and all(plane.side(a, b, p) > 0 for a, b in zip(star, star[1:] + [w])):
             plane.points[v], plane.sizes[v] = p, h
             return v, w
-    for wide in (True, False):
-        cavity, rim = plane.open_cavity(t, p, h, wide)
-        if rim:
-            return plane.fill_cavity(cavity, rim, p, h), rim[0][0]
+    for metric in (h, None):
+        cavity = plane.open_cavity(t, p, metric)
+        if cavity.rim:
+            return plane.fill_cavity(cavity, p, h), cavity.rim[0][0]
     raise ValueError(f"the boundary touches itself at {p}")
 
 
@@ -111,23 +110,21 @@ def swap_out(plane: Triangulation, a: int, b: int, cut: list[Edge]) -> None:
 def clear_boundary(plane: Triangulation, inner: list[Edge], nodes: set[int]) -> None:
     """Step 4: remove the vertices left of the segments that are too near to them."""
     for a, b in inner:
-
-        def crowds(v: int) -> bool:
-            return v not in nodes and distance(plane, a, b, v) < CROWDED
-
-        while crowds(v := plane.apex(a, b)) and plane.remove_vertex(v, a):
-            pass
-        w = b
-        while (a, w := plane.apex(a, w)) not in plane.barriers:
-            if crowds(w) and plane.remove_vertex(w, a):
-                w = b
+        v = plane.apex(a, b)
+        while crowds(plane, a, b, v, nodes) and plane.remove_vertex(v, a):
+            v = plane.apex(a, b)
+        v = b
+        while (a, v := plane.apex(a, v)) not in plane.barriers:
+            if crowds(plane, a, b, v, nodes) and plane.remove_vertex(v, a):
+                v = b
 
 
-def distance(plane: Triangulation, a: int, b: int, v: int) -> float:
-    """Metric distance of v from the segment a-b."""
+def crowds(plane: Triangulation, a: int, b: int, v: int, nodes: set[int]) -> bool:
+    """Is v, which is no node, too near to the segment a-b?"""
     metric = mean(plane.sizes[a], plane.sizes[b], plane.sizes[v], plane.sizes[v])
     way, step = (metric.solve(plane.points[w] - plane.points[a]) for w in (b, v))
-    return length(step - min(max(dot(way, step) / dot(way, way), 0.0), 1.0) * way)
+    t = min(max(dot(way, step) / dot(way, way), 0.0), 1.0)
+    return v not in nodes and length(step - t * way) < CROWDED
 
 
 def swap_bad(plane: Triangulation, inside: list[int]) -> None:

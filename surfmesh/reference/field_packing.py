@@ -4,7 +4,7 @@ import math
 from collections.abc import Callable
 
 from surfmesh.reference.generation_front import Front, Limits
-from surfmesh.reference.plane_triangulation import NIL, Edge, sides
+from surfmesh.reference.plane_triangulation import NIL, Edge
 from surfmesh.reference.size_tensors import SizeTensor, common_step, cross, length, mean, orient
 
 CLOSENESS, FIT_STEPS = 0.98, 8  # beta1 beta2 above which a fit is accepted (2.3.2)
@@ -23,30 +23,25 @@ class FieldPacking(Front):
         points = [limits.origin + size(limits.origin).times(corner) for corner in corners]
         super().__init__(points, [size(p) for p in points], limits)
 
-    def step(self, a: int, b: int, forced: bool) -> bool:
+    def step(self, a: int, b: int) -> bool:
         apex = self.apex(b, a)
-        far = (a, apex) if apex == self.next[b] else (apex, b) if apex == self.prev[a] else None
+        far = {self.prev[a]: b, self.next[b]: a}.get(apex)  # the circle across a corner
         if (
             far is not None
-            and self.measure(self.points[far[0]], self.sizes[far[0]], far[1])[0] < CLOSE_BELOW
+            and self.measure(self.points[far], self.sizes[far], apex)[0] < CLOSE_BELOW
         ):
             return self.close_corner(a, b)
         p, h = self.fit_to_two(a, b)
-        cavity, rim, other = self.look((b, a), (a, b), p, h)
-        if rim and self.left[b, a] in cavity:
-            other, better = self.relax_against_neighbours(rim, (a, b), p, h, OVERLAP)
+        cavity, other = self.look((b, a), (a, b), p, h)
+        if cavity.rim and self.left[b, a] in cavity.numbers:
+            other, better = self.relax_against_neighbours(cavity.rim, (a, b), p, h, OVERLAP)
             if other == NIL:
-                if better is not None and self.is_rim_visible(rim, better):
+                if better is not None and self.is_rim_visible(cavity.rim, better):
                     p, h = better, self.size(better)
-                self.place(a, b, cavity, rim, p, h)
+                self.place(a, b, cavity, p, h)
                 return True
-        elif other == NIL:
-            other = apex
-        return (
-            self.push_out(a, b, other, p)
-            or self.close_corner(a, b)
-            or (forced and self.make_fit(a, b))
-        )
+        other = apex if other == NIL else other
+        return self.push_out(a, b, other, p) or self.close_corner(a, b)
 
     def measure(self, p: complex, h: SizeTensor, v: int) -> tuple[float, complex]:
         """The metric length l(p, v) and its gradient by p; the paper's k is 1 / l (2.3.1)."""
@@ -96,26 +91,24 @@ class FieldPacking(Front):
                 continue
             if v not in support:
                 crowded = crowded or abs(l - 1.0) > TOUCHED_WITHIN
-                if l < shortest:
-                    nearest, shortest = v, l
+                nearest, shortest = (v, l) if l < shortest else (nearest, shortest)
             row_x, row_y, right = row_x + g.real * g, row_y + g.imag * g, right + (1.0 - l) * g
         move = common_step(row_x, right.real, row_y, right.imag, 1e-12) if crowded else None
         return nearest, None if move is None else p + move
 
     def is_rim_visible(self, rim: list[Edge], p: complex) -> bool:
-        """May the cavity be filled from p? It sees the rim, and the hull stays convex there."""
+        """May the cavity be filled from p? It sees the rim, and the hull stays convex."""
         hull = {}
         for a, b in rim:
-            if NIL not in (a, b):
-                if self.side(a, b, p) <= 0:
+            if NIL in (a, b):
+                hull[b] = a  # it would run hull[NIL] -> p -> the other
+                ghost = self.triangles[self.left[b, a]]  # the next one along the hull
+                if self.in_circle(ghost, p, self.sizes[0]):
                     return False
-                continue
-            hull[b == NIL] = b if a == NIL else a  # it would run hull[True] -> p -> hull[False]
-            ghost = self.triangles[self.left[b, a]]  # the next one along the hull
-            c, d = next(side for side in sides(ghost) if NIL not in side)
-            if self.side(c, d, p) > 0:
+            elif self.side(a, b, p) <= 0:
                 return False
-        return not hull or self.side(hull[False], hull[True], p) > 0
+        last = next((b for b in hull if b != NIL), NIL)
+        return not hull or self.side(last, hull[NIL], p) > 0
 
     def push_out(self, a: int, b: int, other: int, p: complex) -> bool:
         """The support grows to the circle in the way: try the one tangent to all three (2.3.3)."""
@@ -125,13 +118,11 @@ class FieldPacking(Front):
         p, h, r = found
         if orient(self.points[a], self.points[b], p) >= 0:
             return False
-        cavity, rim, _ = self.look((b, a), (a, b), p, h)
-        if not rim or self.left[b, a] not in cavity:
+        cavity, _ = self.look((b, a), (a, b), p, h)
+        if self.left[b, a] not in cavity.numbers or not cavity.rim:
             return False
-        if self.relax_against_neighbours(rim, (a, b), p, h, 0.9 * r)[0] != NIL:
-            return False
-        self.place(a, b, cavity, rim, p, h)
-        return True
+        nearest, _ = self.relax_against_neighbours(cavity.rim, (a, b), p, h, 0.9 * r)
+        return nearest == NIL and self.place(a, b, cavity, p, h) != NIL
 
     def fit_to_three(
         self, a: int, b: int, c: int, p: complex
@@ -148,14 +139,3 @@ class FieldPacking(Front):
                 break
             p += move
         return None
-
-    def make_fit(self, a: int, b: int) -> bool:
-        """All edges wait: do what is valid although it is not good."""
-        if self.apex(b, a) != NIL:
-            return self.close_first_corner(b)
-        p, h = self.fit_to_two(a, b)  # on the hull nothing is in the way but circles too near
-        cavity, rim, _ = self.look((b, a), (a, b), p, h)
-        if not rim or self.left[b, a] not in cavity:
-            return False
-        self.place(a, b, cavity, rim, p, h)
-        return True

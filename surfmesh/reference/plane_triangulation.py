@@ -9,6 +9,8 @@ No search crosses a barrier: an edge of the front, or a segment of the boundary.
 """
 
 from collections.abc import Iterable
+from fractions import Fraction
+from typing import NamedTuple
 
 from surfmesh.reference.size_tensors import SizeTensor, cross, dot, mean, orient, shape
 
@@ -18,29 +20,30 @@ Triangle = tuple[int, int, int]
 DEAD = (NIL, NIL, NIL)  # a number without a triangle
 
 
+class Cavity(NamedTuple):
+    numbers: list[int]  # of triangles to be replaced
+    rim: list[Edge]  # seen from inside
+
+
 def sides(triangle: Triangle) -> tuple[Edge, Edge, Edge]:
     a, b, c = triangle
     return (a, b), (b, c), (c, a)
-
-
-def replaced(triangle: Triangle, old: int, new: int) -> Triangle:
-    a, b, c = (new if v == old else v for v in triangle)
-    return a, b, c
 
 
 class Triangulation:
     def __init__(self, points: list[complex], sizes: list[SizeTensor]) -> None:
         """Of three points, counter-clockwise."""
         self.points, self.sizes = points, sizes
-        self.triangles: list[Triangle] = 4 * [DEAD]
+        self.triangles: list[Triangle] = []
         self.left: dict[Edge, int] = {}
         self.barriers: set[Edge] = set()  # in both directions
-        for t, corners in enumerate([(0, 1, 2), (1, 0, NIL), (2, 1, NIL), (0, 2, NIL)]):
-            self.write(t, corners)
+        for triangle in (0, 1, 2), (1, 0, NIL), (2, 1, NIL), (0, 2, NIL):
+            self.triangles.append(DEAD)
+            self.write(len(self.triangles) - 1, *triangle)
 
-    def write(self, t: int, triangle: Triangle) -> None:
-        self.triangles[t] = triangle
-        self.left.update((side, t) for side in sides(triangle))
+    def write(self, t: int, a: int, b: int, c: int) -> None:
+        self.triangles[t] = a, b, c
+        self.left[a, b] = self.left[b, c] = self.left[c, a] = t
 
     def erase(self, numbers: Iterable[int]) -> None:
         for t in numbers:
@@ -57,9 +60,9 @@ class Triangulation:
             star.append(c)
         return star
 
-    def side(self, a: int, b: int, p: complex) -> float:
-        """> 0 where p is left of a -> b, exactly; an edge to infinity has all points on its left."""
-        return 1.0 if NIL in (a, b) else orient(self.points[a], self.points[b], p)
+    def side(self, a: int, b: int, p: complex) -> Fraction:
+        """> 0 where p is left of a -> b, exactly; of an edge to infinity all points are."""
+        return Fraction(1) if NIL in (a, b) else orient(self.points[a], self.points[b], p)
 
     def shape(self, *corners: int) -> float:
         """alpha in the mean metric of the corners."""
@@ -78,8 +81,8 @@ class Triangulation:
                     return NIL, onward
                 edge = onward[1], onward[0]
             dice = (dice * 1103515245 + 12345) & 0x7FFFFFFF
-            ways = [(edge[1], self.apex(*edge)), (self.apex(*edge), edge[0])]
-            ways = ways if dice & 0x10000 else ways[::-1]
+            (a, b), c = edge, self.apex(*edge)
+            ways = ((b, c), (c, a)) if dice & 0x10000 else ((c, a), (b, c))
             onward = next((way for way in ways if self.side(*way, p) < 0), None)
             if onward is None:
                 return self.left[edge], None
@@ -87,17 +90,14 @@ class Triangulation:
     def in_circle(self, triangle: Triangle, p: complex, h: SizeTensor) -> bool:
         """Is p in the circumcircle, in the metric of h? A ghost's is what lies beyond its edge."""
         if NIL in triangle:
-            a, b = next(side for side in sides(triangle) if NIL not in side)
-            return self.side(a, b, p) > 0
+            return all(NIL in side or self.side(*side, p) > 0 for side in sides(triangle))
         a, b, c = (h.solve(self.points[v] - p) for v in triangle)
         return dot(a, a) * cross(b, c) - dot(b, b) * cross(a, c) + dot(c, c) * cross(a, b) > 0.0
 
-    def open_cavity(
-        self, t: int, p: complex, h: SizeTensor, wide: bool = True
-    ) -> tuple[list[int], list[Edge]]:
-        """The triangles that a vertex at p, in t, replaces (Bowyer-Watson), and the rim.
+    def open_cavity(self, t: int, p: complex, h: SizeTensor | None) -> Cavity:
+        """What a vertex at p, in the triangle t, replaces (Bowyer-Watson).
 
-        Not ``wide``: only what its place demands. No rim: p does not see all of it.
+        Without a metric: only what its place demands. No rim: p does not see all of it.
         """
         cavity = [t]
         for t in cavity:  # which grows
@@ -105,43 +105,40 @@ class Triangulation:
                 beyond, on_edge = self.left[b, a], self.side(a, b, p) == 0
                 if beyond in cavity or (a, b) in self.barriers:
                     continue
-                if on_edge or (wide and self.in_circle(self.triangles[beyond], p, h)):
-                    c = self.apex(b, a)
-                    if on_edge or (self.side(a, c, p) > 0 and self.side(c, b, p) > 0):
-                        cavity.append(beyond)
-        edges = [side for t in cavity for side in sides(self.triangles[t])]
+                c, near = self.apex(b, a), h and self.in_circle(self.triangles[beyond], p, h)
+                if on_edge or (near and self.side(a, c, p) > 0 and self.side(c, b, p) > 0):
+                    cavity.append(beyond)
+        edges = (side for t in cavity for side in sides(self.triangles[t]))
         rim = [(a, b) for a, b in edges if self.left[b, a] not in cavity]
         seen = len(rim) == len(cavity) + 2 and all(self.side(a, b, p) > 0 for a, b in rim)
-        return cavity, rim if seen else []
+        return Cavity(cavity, rim if seen else [])
 
-    def fill_cavity(self, cavity: list[int], rim: list[Edge], p: complex, h: SizeTensor) -> int:
+    def fill_cavity(self, cavity: Cavity, p: complex, h: SizeTensor) -> int:
         """Put the star of a new vertex at p in the place of the cavity. Returns the vertex."""
         v, fresh = len(self.points), len(self.triangles)
         self.points.append(p)
         self.sizes.append(h)
-        self.erase(cavity)
+        self.erase(cavity.numbers)
         self.triangles += [DEAD, DEAD]
-        for t, (a, b) in zip([*cavity, fresh, fresh + 1], rim):
-            self.write(t, (a, b, v))
+        for t, (a, b) in zip([*cavity.numbers, fresh, fresh + 1], cavity.rim):
+            self.write(t, a, b, v)
         return v
 
     def swap(self, a: int, b: int) -> bool:
-        """Replace a-b by d-c, if the quadrilateral is strictly convex at a and b.
+        """Replace a-b by c-d, if the quadrilateral is strictly convex at a and b.
 
-              c              c
-            / | \\          /   \\
-           a  |  b   ->   a --- b      (drawn turned: the triangles become a, d, c and b, c, d)
-            \\ | /          \\   /
-              d              d
+              c                c
+            / | \\            /   \\
+           a  |  b    ->    a --- b        drawn turned: the triangles become (a, d, c), (b, c, d)
+            \\ | /            \\   /
+              d                d
         """
         c, d = self.apex(a, b), self.apex(b, a)
-        if NIL in (a, b, c, d):
+        corners_are_seen = NIL not in (a, b, c, d) and self.side(a, d, self.points[c]) > 0
+        if not corners_are_seen or self.side(b, c, self.points[d]) <= 0:
             return False
-        if self.side(a, d, self.points[c]) <= 0 or self.side(b, c, self.points[d]) <= 0:
-            return False
-        s, t = self.left.pop((a, b)), self.left.pop((b, a))
-        self.write(s, replaced(self.triangles[s], b, d))
-        self.write(t, replaced(self.triangles[t], a, c))
+        for t, old, new in (self.left.pop((a, b)), b, d), (self.left.pop((b, a)), a, c):
+            self.write(t, *(new if v == old else v for v in self.triangles[t]))
         return True
 
     def remove_vertex(self, v: int, first: int) -> Edge | None:
@@ -157,7 +154,7 @@ class Triangulation:
         while (n := len(polygon)) > 2:
             i = 0 if n == 3 else max(range(n), key=lambda k: self._ear(polygon[k:] + polygon[:k]))
             a, b, c = polygon[i], polygon[(i + 1) % n], polygon[(i + 2) % n]
-            self.write(numbers.pop(), (a, b, c))
+            self.write(numbers.pop(), a, b, c)
             polygon.remove(b)
         return a, b
 

@@ -20,8 +20,6 @@ LOOK_AHEAD = 32  # drawn radii among which one is sought that spans a wide gap
 PUSHES, POCKET = 9, 8  # most circles, and edges, of the polygon that is left over (2.3.3)
 GROWN = 5.0  # a circle may grow by this to touch three, while it stays the smallest of the four
 NEARLY = 1.25  # got over drawn radius, or drawn over got, of a circle that touches three
-SHRINKS, SHRINK = 24, 0.8  # last resort: smaller circles
-REACH = 2.0  # of its radius: how far behind the front a circle looks for others
 LEAST_HEIGHT = 0.3  # of its radius: how far a circle between two distant ones stands off
 
 PLACED, CLOSED, USELESS = NIL, -2, -3  # what came of a trial; CLOSED: its polygon, without it
@@ -39,15 +37,13 @@ class RandomPacking(Front):
         shift = limits.origin - sum(corners) / 3.0
         super().__init__([c + shift for c in corners], [circle(r) for r in self.drawn], limits)
 
-    def step(self, a: int, b: int, forced: bool) -> bool:
+    def step(self, a: int, b: int) -> bool:
         r = self.draw(0.55 * self.gap(a, b))
         if self.grow_to_three(a, b, r) or self.push_out(a, b, r) or self.next.get(a) != b:
             return True  # or a polygon was closed in part
         c = self.apex(b, a)
-        near = (c == self.next[b] and self.gap(a, c) < 2.0 * r) or (
-            c == self.prev[a] and self.gap(c, b) < 2.0 * r
-        )
-        return near and self.close_corner(a, b)
+        far = {self.prev[a]: b, self.next[b]: a}.get(c)  # the circle across a corner
+        return far is not None and self.gap(far, c) < 2.0 * r and self.close_corner(a, b)
 
     def draw(self, least: float) -> float:
         """The next radius; where the gap is too wide for it, a later one goes first."""
@@ -65,10 +61,7 @@ class RandomPacking(Front):
         return length(self.points[b] - self.points[a]) - self.radius(a) - self.radius(b)
 
     def touch_two(self, a: int, b: int, r: float) -> Circle:
-        """The circle of radius r that touches those of a and b, right of a -> b (2.3.2).
-
-        Where the gap between a and b is too wide for it the radius is raised.
-        """
+        """The circle of radius r, or of more if the gap is wide, that touches a and b (2.3.2)."""
         way, r = self.points[b] - self.points[a], max(r, 0.55 * self.gap(a, b))
         d, p, q = length(way), self.radius(a) + r, self.radius(b) + r
         along = 0.5 * (d + (p - q) * (p + q) / d)
@@ -89,23 +82,20 @@ class RandomPacking(Front):
         if still is None or moving is None:
             return None
         k2, k1, k0 = dot(moving, moving) - 1.0, dot(still, moving) - ra, dot(still, still) - ra * ra
-        if k1 * k1 < k2 * k0:
-            return None
-        root = math.sqrt(k1 * k1 - k2 * k0)
+        root = math.sqrt(max(k1 * k1 - k2 * k0, 0.0))
         roots = [k0 / divisor for divisor in (-k1 + root, -k1 - root) if divisor != 0.0]
         r = min((r for r in roots if r > 0.0), default=0.0)
-        return (self.points[a] + still + r * moving, r) if r > 0.0 else None
+        exists = k1 * k1 >= k2 * k0 and r > 0.0
+        return (self.points[a] + still + r * moving, r) if exists else None
 
     def grow_to_three(self, a: int, b: int, wanted: float) -> bool:
         """Try the circle that touches a, b and the one across, if that is a little larger (2.2)."""
-        apex = self.apex(b, a)
-        found = self.touch_three(a, b, apex) if apex != NIL else None
-        if found is None:
+        c = self.apex(b, a)
+        found = self.touch_three(a, b, c) if c != NIL else None
+        if found is None or found[1] >= min(self.radius(v) for v in (a, b, c)):
             return False
-        smallest = min(self.radius(v) for v in (a, b, apex))
-        if not wanted < found[1] < min(GROWN * wanted, smallest):
-            return False
-        return self.try_circle((b, a), (a, b), found) in (PLACED, CLOSED)
+        larger = wanted < found[1] < GROWN * wanted
+        return larger and self.try_circle((b, a), (a, b), found) in (PLACED, CLOSED)
 
     def push_out(self, a: int, b: int, wanted: float) -> bool:
         """Fit the circle to a and b; push the support out until nothing overlaps (2.3.3)."""
@@ -147,49 +137,27 @@ class RandomPacking(Front):
         other = self.most_overlapped((self.prev[a], self.next[b], self.apex(*edge)), p, r)
         if other not in (NIL, a, b):
             return other
-        cavity, rim, other = self.look(edge, support, p, circle(r))
-        if not rim:
+        cavity, other = self.look(edge, support, p, circle(r))
+        if not cavity.rim:
             return other if other != NIL else USELESS
-        near = set(self.circles_near(rim, p, r)).difference(support)
-        other = self.most_overlapped(near, p, r)
+        other = self.most_overlapped(set(range(len(self.points))).difference(support), p, r)
         if other != NIL:
             return other
         base = a  # an edge of the front between a and b that the new circle sees
-        while (self.next[base], base) not in rim:
+        while (self.next[base], base) not in cavity.rim:
             base = self.next[base]
             if base == b:
                 return CLOSED if self.close_polygon(a, b) else USELESS
-        v = self.place(base, self.next[base], cavity, rim, p, circle(r))
+        v = self.place(base, self.next[base], cavity, p, circle(r))
         self.close_polygon(a, v)
         self.close_polygon(v, b)
         return PLACED
 
     def most_overlapped(self, circles: Iterable[int], p: complex, r: float) -> int:
         """The circle that one of radius r at p overlaps most, by d / (r1 + r2); or NIL (2.3.3)."""
-        reached = (
-            (length(self.points[v] - p) / (r + self.radius(v)), v) for v in circles if v != NIL
-        )
+        known = (v for v in circles if v != NIL)
+        reached = ((length(self.points[v] - p) / (r + self.radius(v)), v) for v in known)
         return min([(1.0 - TOLERATED, NIL), *reached])[1]
-
-    def circles_near(self, rim: list[Edge], p: complex, r: float) -> list[int]:
-        """Those on the rim, and behind the front as far as the circle reaches through its edges."""
-        near, ways, seen = [a for a, _ in rim], [e for e in rim if e in self.barriers], set()
-        for a, b in ways:  # which grows; b -> a is an edge of a triangle that is done
-            t, c = self.left[b, a], self.apex(b, a)
-            if t not in seen:
-                seen.add(t)
-                near.append(c)
-                further = ((c, b), (a, c))
-                ways += (
-                    e for e in further if e not in self.barriers and self.reaches(e, p, REACH * r)
-                )
-        return near
-
-    def reaches(self, edge: Edge, p: complex, r: float) -> bool:
-        """Does a circle of radius r at p reach the edge?"""
-        start, way = self.points[edge[0]], self.points[edge[1]] - self.points[edge[0]]
-        s = min(max(dot(p - start, way) / dot(way, way), 0.0), 1.0)
-        return length(p - start - s * way) < r
 
     def close_polygon(self, a: int, b: int) -> bool:
         """Triangulate the polygon between the front from a to b and the edge a-b, ear by ear."""

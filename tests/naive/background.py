@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from surfmesh.kernels.fields.background import Background
+from surfmesh._core.fields import Background
 
 
 def uniform_background(inverse: np.ndarray, width: float, height: float, largest: float = 1e30):
@@ -78,6 +78,15 @@ def random_tree(seed: int, nx: int, ny: int, splits: int, largest: float = 1e30)
         corner,
         inverse,
     )
+
+
+def replaced(background: Background, **arrays: np.ndarray) -> Background:
+    """The same but for the ``arrays`` given by name."""
+    names = ("box", "grid", "child", "corner", "metric_root", "metric_root_3d")
+    kept = {name: getattr(background, name) for name in names}
+    if not background.is_anisotropic:
+        del kept["metric_root_3d"]
+    return Background(**(kept | arrays))
 
 
 def looked_up(background: Background, x: float, y: float) -> np.ndarray:

@@ -2,10 +2,7 @@
 
 import numpy as np
 
-from surfmesh.kernels.fields.gradation import Metric
-
-NONE = np.empty((0, 2), np.int64)
-ISOTROPIC = Metric(np.empty(0), np.empty((0, 3)), np.empty((0, 3)))
+NONE = np.empty((0, 2), np.int32)
 
 
 def patches(nx, ny):

@@ -40,3 +40,19 @@ def leaves(background) -> np.ndarray:
             dx, dy = 0.5 * wide * (k % 2), 0.5 * high * (k // 2)
             todo.append((x + dx, y + dy, 0.5 * wide, 0.5 * high, first + k))
     return np.array(found)
+
+
+def is_balanced(found: np.ndarray) -> bool:
+    """No leaf of ``leaves`` has a neighbour across a side that is more than twice as wide."""
+    x, y, wide, high = found[:, :4].T
+    for a in range(0, len(found), 200):
+        few = slice(a, a + 200)
+        thin = 1e-6 * wide[few, None]
+        left, right = x[few, None] - thin, (x + wide)[few, None] + thin
+        low, up = y[few, None] - thin, (y + high)[few, None] + thin
+        in_x = (x + wide > x[few, None] + thin) & (x < (x + wide)[few, None] - thin)
+        in_y = (y + high > y[few, None] + thin) & (y < (y + high)[few, None] - thin)
+        beside = in_y & (x < right) & (x + wide > left) | in_x & (y < up) & (y + high > low)
+        if (np.where(beside, wide, 0.0) > 2.000001 * wide[few, None]).any():
+            return False
+    return True

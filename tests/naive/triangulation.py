@@ -9,23 +9,20 @@ from naive.exact import first_crossing, orient_signs
 from surfmesh._core import NIL
 from surfmesh._core import triangulation as core
 from surfmesh._core.triangulation import DEAD, DONE
-from surfmesh.kernels.triangulation.triangulation import Triangulation, empty_triangulation
-
-AnyTriangulation = core.Triangulation | Triangulation
 
 
-def live_triangles(t: AnyTriangulation) -> np.ndarray:
+def live_triangles(t: core.Triangulation) -> np.ndarray:
     """Numbers of the slots in use."""
     m = t.triangles
     return np.flatnonzero(t.region[:m] != DEAD)
 
 
-def corners(t: AnyTriangulation) -> np.ndarray:
+def corners(t: core.Triangulation) -> np.ndarray:
     """(m, 3) vertices of all slots, dead ones too."""
     return t.tri[: 3 * t.triangles].reshape(-1, 3)
 
 
-def check_half_edges(t: AnyTriangulation, border: bool) -> str | None:
+def check_half_edges(t: core.Triangulation, border: bool) -> str | None:
     """Twins point back and run the other way; real triangles are counter-clockwise, exactly.
 
     ``border``: half-edges without twin are allowed, ghosts are not.
@@ -66,7 +63,7 @@ def check_half_edges(t: AnyTriangulation, border: bool) -> str | None:
     return None
 
 
-def check_triangulation(t: AnyTriangulation, removed: int = 0) -> str | None:
+def check_triangulation(t: core.Triangulation, removed: int = 0) -> str | None:
     """Invariants of a triangulation of the whole plane; ``removed`` vertices are unused."""
     broken = check_half_edges(t, border=False)
     if broken:
@@ -161,7 +158,7 @@ def check_front(packing, simple_up_to: int = 600) -> str | None:
     return None
 
 
-def check_domain(t: AnyTriangulation, euler: int) -> str | None:
+def check_domain(t: core.Triangulation, euler: int) -> str | None:
     """Invariants of a triangulated domain, whose border half-edges have no twin."""
     broken = check_half_edges(t, border=True)
     if broken:
@@ -198,18 +195,7 @@ def plane_triangulation(xy: np.ndarray, size: np.ndarray | None = None) -> core.
     return core.Triangulation(xy, size, tri, adj, nothing, np.repeat(nothing, 3))
 
 
-def in_flat_arrays(t: core.Triangulation, room: int = 64) -> Triangulation:
-    """A copy for the kernels that are not in the core yet, with room for more vertices."""
-    copy = empty_triangulation(t.vertices + room)
-    copy = copy._replace(fixed=np.zeros(len(copy.tri), np.uint8))
-    for name in ("xy", "size", "tri", "adj", "region", "fixed"):
-        given = getattr(t, name)
-        getattr(copy, name)[: len(given)] = given
-    copy.count[:] = t.vertices, t.triangles
-    return copy
-
-
-def half_edges(t: AnyTriangulation) -> dict[tuple[int, int], int]:
+def half_edges(t: core.Triangulation) -> dict[tuple[int, int], int]:
     """(start, end) -> half-edge, for all live triangles."""
     return {
         (int(t.tri[3 * k + i]), int(t.tri[3 * k + (i + 1) % 3])): int(3 * k + i)
@@ -218,7 +204,7 @@ def half_edges(t: AnyTriangulation) -> dict[tuple[int, int], int]:
     }
 
 
-def triangle_set(t: AnyTriangulation) -> set[tuple[int, int, int]]:
+def triangle_set(t: core.Triangulation) -> set[tuple[int, int, int]]:
     """The live triangles, each turned so that its smallest vertex comes first."""
     turned = set()
     for row in corners(t)[live_triangles(t)].tolist():

@@ -14,7 +14,14 @@ import numpy as np
 from OCP import Geom, Geom2d
 
 from surfmesh.errors import CadError
-from surfmesh.geometry.cad_surfaces.curves import Circle, Curve, Ellipse, Hyperbola, Line, Parabola
+from surfmesh.geometry.cad_surfaces.curves import (
+    Circle,
+    CoreCurve,
+    Ellipse,
+    Hyperbola,
+    Line,
+    Parabola,
+)
 from surfmesh.geometry.cad_surfaces.elementary import Cone, Cylinder, Plane, Sphere, Torus
 from surfmesh.geometry.cad_surfaces.face_surface import FaceSurface
 from surfmesh.geometry.cad_surfaces.nurbs import BSplineCurve, BSplineSurface, bezier_knots
@@ -39,14 +46,14 @@ def surface_of(surface: Geom.Geom_Surface, domain: Domain, name: str = "") -> Fa
     return make(surface, domain=domain, name=name)
 
 
-def curve_of(curve: Geom.Geom_Curve) -> Curve:
+def curve_of(curve: Geom.Geom_Curve) -> CoreCurve:
     """The curve of an edge in space. Raises CadError for a kind that is not known."""
     while isinstance(curve, Geom.Geom_TrimmedCurve):
         curve = curve.BasisCurve()
     return _curve(curve)
 
 
-def curve2d_of(curve: Geom2d.Geom2d_Curve) -> Curve:
+def curve2d_of(curve: Geom2d.Geom2d_Curve) -> CoreCurve:
     """The curve of an edge in the (u, v) plane of a face.
 
     Raises CadError for a kind that is not known.
@@ -56,7 +63,7 @@ def curve2d_of(curve: Geom2d.Geom2d_Curve) -> Curve:
     return _curve(curve)
 
 
-def _curve(curve: Any) -> Curve:
+def _curve(curve: Any) -> CoreCurve:
     make = _CURVES.get(type(curve))
     if make is None:
         raise CadError(
@@ -257,7 +264,7 @@ _SURFACES: dict[type, Callable[..., FaceSurface]] = {
     Geom.Geom_SurfaceOfRevolution: _revolution,
     Geom.Geom_OffsetSurface: _offset_surface,
 }
-_CURVES: dict[type, Callable[[Any], Curve]] = {
+_CURVES: dict[type, Callable[[Any], CoreCurve]] = {
     Geom.Geom_Line: _line,
     Geom.Geom_Circle: _circle,
     Geom.Geom_Ellipse: _ellipse,

@@ -7,5 +7,4 @@ in_this_process: a CAD file read where it is asked for, by the child or by who t
 child: ``python -m surfmesh.cad.reading.child``: read one CAD file, hand the model back.
 limits: how much a CAD file may cost to read: processor time and memory of the child that reads it.
 lifeline: a child process that does not outlive its parent.
-processor_clock: the timer of processor time in the process that reads a CAD file.
 """

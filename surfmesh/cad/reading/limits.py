@@ -58,10 +58,7 @@ class Limits:
         )  # fmt: skip
 
     def impose(self) -> None:
-        """Let the system end this process beyond the limits; on Windows it has none of these.
-
-        The compilation of kernels is not counted: it is no fault of the file.
-        """
+        """Let the system end this process beyond the limits; on Windows it has none of these."""
         if resource is None:
             return
         if math.isfinite(self.megabytes):
@@ -71,10 +68,6 @@ class Limits:
             resource.setrlimit(resource.RLIMIT_DATA, (wanted, most))
         if math.isfinite(self.seconds):
             signal.setitimer(signal.ITIMER_PROF, min(self.seconds, LONGEST))
-            if "numba" in sys.modules:
-                from surfmesh.cad.reading.processor_clock import stop_while_compiling
-
-                stop_while_compiling()
 
 
 def _chosen(name: str, given: float | None, variable: str, default: float) -> float:

@@ -7,17 +7,13 @@ from typing import Self
 
 import numpy as np
 
+from surfmesh._core import surfaces
 from surfmesh.errors import SurfaceError
 from surfmesh.geometry.cad_surfaces.plain_data import PlainData
 from surfmesh.geometry.surface import Domain
 
 DERIVATIVES = ((0, 0), (1, 0), (0, 1), (2, 0), (1, 1), (0, 2), (3, 0), (2, 1), (1, 2), (0, 3))
 """How often by u and by v, in the order in which `evaluate` gives them."""
-
-
-def derivative_count(order: int) -> int:
-    """How many arrays `evaluate` gives: 1, 3, 6 or 10."""
-    return (order + 1) * (order + 2) // 2
 
 
 @dataclasses.dataclass(frozen=True, eq=False, kw_only=True, repr=False)
@@ -28,10 +24,14 @@ class FaceSurface(PlainData):
     periodic surface. `evaluate` takes points outside the box too.
     """
 
+    core: surfaces.Surface = dataclasses.field(init=False)
+    """The surface of the compiled core that evaluates this one, made when it is."""
+
     domain: Domain
     name: str = ""
 
     kind = ""  # not annotated, so that a subclass may make it a field
+    steady_axes = (False, False)  # see `geometry.surface`
     loops = ()  # a face's trimming curves belong to the model, not to the surface
 
     def __post_init__(self) -> None:
@@ -44,6 +44,7 @@ class FaceSurface(PlainData):
                 f"v {v0:g} to {v1:g} is empty or not finite; give the box of the face"
             )
         self._set(domain=domain, name=self.name or self.kind)
+        self._set(core=self._made())
 
     @property
     def periods(self) -> tuple[float | None, float | None]:
@@ -61,6 +62,10 @@ class FaceSurface(PlainData):
         Order 0: (r,). Order 1: (r, r_u, r_v). Order 2: and r_uu, r_uv, r_vv. Order 3: and
         r_uuu, r_uuv, r_uvv, r_vvv.
         """
+        return tuple(self.core.evaluate(parameter_pairs(uv), order))
+
+    def _made(self) -> surfaces.Surface:
+        """The surface of the core. Vectors and arrays are made plain here, as this comes first."""
         raise NotImplementedError
 
     def derivative_bounds(self, lo: np.ndarray, hi: np.ndarray) -> None:

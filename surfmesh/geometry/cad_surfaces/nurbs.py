@@ -5,6 +5,8 @@ range      from knots[degree] to knots[-1 - degree]
 weights    None: not rational
 period     of a closed curve given unrolled: knots and control points go on periodically
            beyond the range as far as the spans within it need them
+
+They are evaluated by the compiled core (``src/surfaces/spline_surface.hpp``, ``spline_curve.hpp``).
 """
 
 from __future__ import annotations
@@ -14,14 +16,11 @@ from typing import Self
 
 import numpy as np
 
+from surfmesh._core import surfaces
 from surfmesh.errors import SurfaceError
-from surfmesh.geometry.cad_surfaces.face_surface import (
-    FaceSurface,
-    derivative_count,
-    parameter_pairs,
-)
-from surfmesh.geometry.cad_surfaces.plain_data import PlainData, frozen_array
-from surfmesh.kernels.space.nurbs import curve_derivatives, surface_derivatives
+from surfmesh.geometry.cad_surfaces.curves import PlainCurve
+from surfmesh.geometry.cad_surfaces.face_surface import FaceSurface
+from surfmesh.geometry.cad_surfaces.plain_data import frozen_array
 
 
 def bezier_knots(degree: int) -> np.ndarray:
@@ -30,7 +29,7 @@ def bezier_knots(degree: int) -> np.ndarray:
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class BSplineCurve(PlainData):
+class BSplineCurve(PlainCurve):
     """A spline in the plane (d = 2) or in space (d = 3).
 
     Raises SurfaceError when knots, control points and weights do not fit together.
@@ -43,7 +42,6 @@ class BSplineCurve(PlainData):
     limits: tuple[float, float] | None = None  # the part in use; see `Curve.with_limits`
     kind: str = "bspline"  # or "bezier"
     degree: int = field(init=False)
-    _arrays: tuple[np.ndarray, np.ndarray, np.ndarray] = field(init=False)  # for the kernel
 
     def __post_init__(self) -> None:
         knots, control = frozen_array(self.knots), frozen_array(self.control)
@@ -51,25 +49,11 @@ class BSplineCurve(PlainData):
         if control.ndim != 2:
             raise SurfaceError("the control points of a curve are an array (n, d)")
         degree = _checked_degree("curve", knots, len(control))
-        points = control.base
         if self.weights is not None:
-            self._set(weights=frozen_array(self.weights))
-            points = _weighted("curve", control, self.weights)
-        first, last = self.limits or (np.nan, np.nan)
-        limits = np.array([first, last, self.period or 0.0])
-        self._set(degree=degree, _arrays=(knots.base, points, limits))
-
-    @property
-    def dimension(self) -> int:
-        return self.control.shape[1]
-
-    def evaluate(self, t: np.ndarray, order: int = 0) -> tuple[np.ndarray, ...]:
-        t = np.ascontiguousarray(t, dtype=float).reshape(-1)
-        out = np.empty((order + 1, len(t), self.dimension))
-        size = self.degree + 1
-        scratch = np.empty((size + 2 * (order + 1), max(size, self.dimension + 1)))
-        curve_derivatives(*self._arrays, t, order, scratch, out)
-        return tuple(out)
+            self._set(weights=_checked_weights("curve", control, self.weights))
+        period = self.period or 0.0
+        core = surfaces.spline_curve(knots, control, self.weights, self.limits, period)
+        self._set(degree=degree, core=core)
 
     def with_limits(self, first: float, last: float) -> Self:
         return replace(self, limits=(float(first), float(last)))
@@ -90,10 +74,8 @@ class BSplineSurface(FaceSurface):
     periods: tuple[float | None, float | None] = (None, None)
     kind: str = "bspline"  # or "bezier"
     degrees: tuple[int, int] = field(init=False)
-    _arrays: tuple[np.ndarray, ...] = field(init=False)  # for the kernel
 
-    def __post_init__(self) -> None:
-        super().__post_init__()
+    def _made(self) -> surfaces.Surface:
         knots_u, knots_v = frozen_array(self.knots_u), frozen_array(self.knots_v)
         control = frozen_array(self.control)
         self._set(knots_u=knots_u, knots_v=knots_v, control=control)
@@ -101,22 +83,14 @@ class BSplineSurface(FaceSurface):
             raise SurfaceError(f"{self.name}: the control points are an array (nu, nv, 3)")
         degree_u = _checked_degree(f"{self.name}, u", knots_u, control.shape[0])
         degree_v = _checked_degree(f"{self.name}, v", knots_v, control.shape[1])
-        points = control.base
         if self.weights is not None:
-            self._set(weights=frozen_array(self.weights))
-            points = _weighted(self.name, control, self.weights)
-        period_u, period_v = (period or 0.0 for period in self.periods)
-        limits = np.array([*self.domain[0], period_u, *self.domain[1], period_v])
+            self._set(weights=_checked_weights(self.name, control, self.weights))
         self._set(degrees=(degree_u, degree_v))
-        self._set(_arrays=(knots_u.base, knots_v.base, points, limits))
-
-    def evaluate(self, uv: np.ndarray, order: int = 0) -> tuple[np.ndarray, ...]:
-        uv = parameter_pairs(uv)
-        out = np.empty((derivative_count(order), len(uv), 3))
-        size = max(self.degrees) + 1
-        scratch = np.empty((size + 18, max(size, 4)))
-        surface_derivatives(*self._arrays, uv, order, scratch, out)
-        return tuple(out)
+        period_u, period_v = self.periods
+        periods = (period_u or 0.0, period_v or 0.0)
+        return surfaces.spline_surface(
+            self.domain, knots_u, knots_v, control, self.weights, periods
+        )
 
     @property
     def pieces(self) -> int:
@@ -149,10 +123,10 @@ def _checked_degree(what: str, knots: np.ndarray, count: int) -> int:
     return degree
 
 
-def _weighted(what: str, control: np.ndarray, weights: np.ndarray) -> np.ndarray:
-    """(..., d) and (...) -> (..., d + 1): each point with its weight."""
+def _checked_weights(what: str, control: np.ndarray, given: np.ndarray) -> np.ndarray:
+    weights = frozen_array(given)
     if weights.shape != control.shape[:-1]:
         raise SurfaceError(f"{what}: there must be one weight for each control point")
     if not (weights > 0.0).all():
         raise SurfaceError(f"{what}: weights must be positive")
-    return np.concatenate([control, weights[..., None]], axis=-1)
+    return weights

@@ -29,10 +29,7 @@ class PlainData:
 
 
 def frozen_array(values: Sequence | np.ndarray) -> np.ndarray:
-    """A read-only view of a float array of its own.
-
-    The array under it (`base`) stays writable in numba's eyes, so kernels are compiled once.
-    """
+    """A read-only view of a float array of its own."""
     view = np.array(values, dtype=float, order="C").view()
     view.setflags(write=False)
     return view

@@ -3,26 +3,19 @@
     extrusion     r(u, v) = c(u) + v d
     revolution    r(u, v) = c(v) turned by the angle u about the axis
 
-With q = c - o for a point o of the axis and its direction a, q splits into the part h along
-the axis and the part p across it; turned by u it is h + cos u p + sin u (a x p).
-
-Source: OCCT, Geom_SurfaceOfLinearExtrusion, Geom_SurfaceOfRevolution (parametrisations).
+They are evaluated by the compiled core (``src/surfaces/swept_surfaces.hpp``).
 """
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from math import pi
 
 import numpy as np
 
-from surfmesh.geometry.cad_surfaces.curves import Curve
-from surfmesh.geometry.cad_surfaces.face_surface import (
-    DERIVATIVES,
-    FaceSurface,
-    derivative_count,
-    parameter_pairs,
-)
+from surfmesh._core import surfaces
+from surfmesh.geometry.cad_surfaces.curves import CoreCurve
+from surfmesh.geometry.cad_surfaces.face_surface import FaceSurface
 from surfmesh.geometry.cad_surfaces.nurbs import BSplineCurve, knot_spans
 from surfmesh.geometry.cad_surfaces.offset import OffsetCurve
 from surfmesh.geometry.cad_surfaces.plain_data import frozen_array
@@ -30,15 +23,11 @@ from surfmesh.geometry.cad_surfaces.plain_data import frozen_array
 
 @dataclass(frozen=True, eq=False, repr=False)
 class ExtrusionSurface(FaceSurface):
-    curve: Curve  # in space, its parameter is u
+    curve: CoreCurve  # in space, its parameter is u
     direction: np.ndarray  # (3,) of unit length, so that v is a length
 
     kind = "extrusion"
-
-    def __post_init__(self) -> None:
-        super().__post_init__()
-        curve = self.curve.with_limits(*self.domain[0])
-        self._set(curve=curve, direction=frozen_array(self.direction))
+    steady_axes = (False, True)
 
     @property
     def periods(self) -> tuple[float | None, float | None]:
@@ -48,35 +37,20 @@ class ExtrusionSurface(FaceSurface):
     def pieces(self) -> int:
         return _pieces(self.curve, *self.domain[0])
 
-    def evaluate(self, uv: np.ndarray, order: int = 0) -> tuple[np.ndarray, ...]:
-        uv = parameter_pairs(uv)
-        along = self.curve.evaluate(uv[:, 0], order)
-        results = np.zeros((derivative_count(order), len(uv), 3))
-        for number, (k, l) in enumerate(DERIVATIVES[: len(results)]):
-            if l == 0:
-                results[number] = along[k]
-        results[0] += uv[:, 1:] * self.direction
-        if order:
-            results[2] = self.direction
-        return tuple(results)
+    def _made(self) -> surfaces.Surface:
+        curve = self.curve.with_limits(*self.domain[0])
+        self._set(curve=curve, direction=frozen_array(self.direction))
+        return surfaces.extrusion(self.domain, curve.core, self.direction)
 
 
 @dataclass(frozen=True, eq=False, repr=False)
 class RevolutionSurface(FaceSurface):
-    curve: Curve  # in space, its parameter is v
+    curve: CoreCurve  # in space, its parameter is v
     origin: np.ndarray  # (3,) a point of the axis
     axis: np.ndarray  # (3,) of unit length; u is counter-clockwise seen against it
-    _parts: tuple[np.ndarray, ...] = field(init=False)  # (3, 3) each
 
     kind = "revolution"
-
-    def __post_init__(self) -> None:
-        super().__post_init__()
-        curve = self.curve.with_limits(*self.domain[1])
-        self._set(curve=curve, origin=frozen_array(self.origin), axis=frozen_array(self.axis))
-        along = np.outer(self.axis, self.axis)
-        beside = np.cross(self.axis, np.eye(3))  # q @ beside = axis x q
-        self._set(_parts=(along, np.eye(3) - along, beside))
+    steady_axes = (True, False)
 
     @property
     def periods(self) -> tuple[float | None, float | None]:
@@ -86,25 +60,13 @@ class RevolutionSurface(FaceSurface):
     def pieces(self) -> int:
         return _pieces(self.curve, *self.domain[1])
 
-    def evaluate(self, uv: np.ndarray, order: int = 0) -> tuple[np.ndarray, ...]:
-        uv = parameter_pairs(uv)
-        moved = np.array(self.curve.evaluate(uv[:, 1], order))  # (order + 1, n, 3)
-        moved[0] -= self.origin
-        along, across, beside = (moved @ part for part in self._parts)
-        cos, sin = np.cos(uv[:, :1]), np.sin(uv[:, :1])
-        results = np.empty((derivative_count(order), len(uv), 3))
-        turns = ((cos, sin), (-sin, cos), (-cos, -sin), (sin, -cos))
-        for number, (k, l) in enumerate(DERIVATIVES[: len(results)]):
-            c, s = turns[k]
-            np.multiply(c, across[l], out=results[number])
-            results[number] += s * beside[l]
-            if k == 0:
-                results[number] += along[l]
-        results[0] += self.origin
-        return tuple(results)
+    def _made(self) -> surfaces.Surface:
+        curve = self.curve.with_limits(*self.domain[1])
+        self._set(curve=curve, origin=frozen_array(self.origin), axis=frozen_array(self.axis))
+        return surfaces.revolution(self.domain, curve.core, self.origin, self.axis)
 
 
-def _pieces(curve: Curve, first: float, last: float) -> int:
+def _pieces(curve: CoreCurve, first: float, last: float) -> int:
     if isinstance(curve, OffsetCurve):
         curve = curve.curve
     return knot_spans(curve.knots, first, last) if isinstance(curve, BSplineCurve) else 1

@@ -8,17 +8,21 @@ the function is linear, otherwise a monotone cubic spline, once differentiable. 
 have no bound (square roots) it is a function of the bent parameter instead.
 """
 
+from collections.abc import Callable
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 
+from surfmesh._core import patch as core
+from surfmesh._core.fields import bend
 from surfmesh.geometry.differential.infinite_speed import BentAxis, bent_axes_of
 from surfmesh.geometry.differential.monotone_cubic import MonotoneCubic
-from surfmesh.geometry.surface import Domain, Surface
-from surfmesh.kernels.fields.axis_bending import bend
+from surfmesh.geometry.surface import Domain, Surface, steady_axes
 
 SAMPLES_ALONG = 257
 SAMPLES_ACROSS = 17
+_ACROSS = (np.arange(SAMPLES_ACROSS) + 0.5) / SAMPLES_ACROSS
 UNEVEN = 1.3
 """Ratio of the largest to the smallest mean speed above which an axis is bent."""
 SLOWEST = 1e-4
@@ -86,15 +90,10 @@ class Axis:
         """Stretched by the same factor everywhere."""
         return cls(speed * (high - low), np.array([low, high]), np.full(2, 1.0 / speed), bent)
 
-    def parameter_and_rate(self, x: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """The parameter (n,) at scaled coordinates x (n,), and its derivative by x (n,).
-
-        Linear outside [0, extent], constant where the parameter is bent.
-        """
-        parameter, rate = self._knotted(x)
-        if self.bent is None:
-            return parameter, rate
-        return self.bent.parameter(parameter), rate * self.bent.rates(parameter)[0]
+    def in_core(self) -> core.ChartAxis:
+        """The map to the parameter as the core has it."""
+        pieces = None if self.bent is None else self.bent.pieces()
+        return core.ChartAxis(self.extent, self.knots, self.slopes, pieces)
 
     def _knotted(self, x: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """The parameter, or the bent one, and its derivative by x (n,)."""
@@ -102,12 +101,10 @@ class Axis:
             rate = np.empty(len(x))
             rate.fill(self.slopes[0])
             return self.knots[0] + x * self.slopes[0], rate
-        parameter, rate = np.empty(len(x)), np.empty(len(x))
-        bend(x, self.extent, self.knots, self.slopes, parameter, rate)
-        return parameter, rate
+        return bend(x, self.extent, self.knots, self.slopes)
 
     def coordinate(self, u: np.ndarray) -> np.ndarray:
-        """The scaled coordinate (n,) of parameters u (n,): ``parameter_and_rate`` inverted."""
+        """The scaled coordinate (n,) of parameters u (n,)."""
         u = np.asarray(u, float)
         if self.bent is not None:
             u = self.bent.bent(u)
@@ -127,32 +124,23 @@ class Chart:
 
     axes: tuple[Axis, Axis]
 
+    @cached_property
+    def core(self) -> core.Chart:
+        """The way to (u, v) as the core has it."""
+        return core.Chart(*(axis.in_core() for axis in self.axes))
+
+    def __reduce__(self) -> tuple[Callable[..., "Chart"], tuple[tuple[Axis, Axis]]]:
+        return Chart, (self.axes,)  # what the core has is made anew
+
     @classmethod
     def of(cls, surface: Surface) -> "Chart":
-        low, high = np.array(surface.domain, float).T
-        along = np.linspace(0.0, 1.0, SAMPLES_ALONG)
-        across = (np.arange(SAMPLES_ACROSS) + 0.5) / SAMPLES_ACROSS
-        axes: list[Axis] = []
-        for axis, bent in enumerate(bent_axes_of(surface)):
-            t = np.empty((SAMPLES_ACROSS, SAMPLES_ALONG, 2))
-            t[..., axis] = along
-            t[..., 1 - axis] = across[:, None]
-            uv = (low + t * (high - low)).reshape(-1, 2)
-            rate = np.ones(1)
-            if bent is not None:
-                rate = bent.rates(uv[:, axis])[0]
-                uv[:, axis] = bent.parameter(uv[:, axis])
-            r, *derivatives = surface.evaluate(uv, 1)
-            speed = np.linalg.norm(derivatives[axis], axis=1) * rate
-            speed = speed.reshape(SAMPLES_ACROSS, SAMPLES_ALONG).mean(axis=0)
-            seen = (speed[1:] + speed[:-1]).sum() * 0.5 * (high - low)[axis] / (SAMPLES_ALONG - 1)
-            steps = np.linalg.norm(np.diff(r.reshape(*t.shape[:2], 3), axis=1), axis=2)
-            way = steps.sum(axis=1).mean()
-            if max(seen, way) <= MISSED * min(seen, way):
-                axes.append(Axis.of(low[axis], high[axis], along, speed, bent))
-            else:
-                axes.append(Axis.of_length(*_lengths(surface, axis, bent), bent))
-        return cls((axes[0], axes[1]))
+        steady, bent = steady_axes(surface), bent_axes_of(surface)
+        u, v = (
+            _steady_axis(surface, axis) if steady[axis] and bent[axis] is None
+            else _sampled_axis(surface, axis, bent[axis])
+            for axis in (0, 1)
+        )  # fmt: skip
+        return cls((u, v))
 
     @classmethod
     def uniform(cls, domain: Domain, speeds: tuple[float, float]) -> "Chart":
@@ -181,11 +169,43 @@ class Chart:
         return self.to_uv_and_rates(xy)[1]
 
     def to_uv_and_rates(self, xy: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """xy (n, 2) -> uv (n, 2) and (du/dx, dv/dy) (n, 2)."""
-        uv, rates = np.empty((len(xy), 2)), np.empty((len(xy), 2))
-        for k, axis in enumerate(self.axes):
-            uv[:, k], rates[:, k] = axis.parameter_and_rate(xy[:, k])
-        return uv, rates
+        """xy (n, 2) -> uv (n, 2) and (du/dx, dv/dy) (n, 2).
+
+        Linear outside the domain, constant where the parameter is bent.
+        """
+        return self.core.to_uv_and_rates(np.ascontiguousarray(xy, float))
+
+
+def _steady_axis(surface: Surface, axis: int) -> Axis:
+    """From one line across, as the speed is the same all along the axis."""
+    (low, high), (first, last) = surface.domain[axis], surface.domain[1 - axis]
+    uv = np.empty((SAMPLES_ACROSS, 2))
+    uv[:, axis] = 0.5 * (low + high)
+    uv[:, 1 - axis] = first + _ACROSS * (last - first)
+    speed = float(np.linalg.norm(surface.evaluate(uv, 1)[1 + axis], axis=1).mean())
+    return Axis.linear(low, high, speed if speed > 0.0 else 1.0)
+
+
+def _sampled_axis(surface: Surface, axis: int, bent: BentAxis | None) -> Axis:
+    """From speeds on lines across and along, or from chords where the speeds miss something."""
+    low, high = np.array(surface.domain, float).T
+    t = np.empty((SAMPLES_ACROSS, SAMPLES_ALONG, 2))
+    t[..., axis] = along = np.linspace(0.0, 1.0, SAMPLES_ALONG)
+    t[..., 1 - axis] = _ACROSS[:, None]
+    uv = (low + t * (high - low)).reshape(-1, 2)
+    rate = np.ones(1)
+    if bent is not None:
+        rate = bent.rates(uv[:, axis])[0]
+        uv[:, axis] = bent.parameter(uv[:, axis])
+    r, *derivatives = surface.evaluate(uv, 1)
+    speed = np.linalg.norm(derivatives[axis], axis=1) * rate
+    speed = speed.reshape(SAMPLES_ACROSS, SAMPLES_ALONG).mean(axis=0)
+    seen = (speed[1:] + speed[:-1]).sum() * 0.5 * (high - low)[axis] / (SAMPLES_ALONG - 1)
+    steps = np.linalg.norm(np.diff(r.reshape(*t.shape[:2], 3), axis=1), axis=2)
+    way = steps.sum(axis=1).mean()
+    if max(seen, way) <= MISSED * min(seen, way):
+        return Axis.of(low[axis], high[axis], along, speed, bent)
+    return Axis.of_length(*_lengths(surface, axis, bent), bent)
 
 
 def _lengths(surface: Surface, axis: int, bent: BentAxis | None) -> tuple[np.ndarray, np.ndarray]:
@@ -198,8 +218,7 @@ def _lengths(surface: Surface, axis: int, bent: BentAxis | None) -> tuple[np.nda
     def points(s: np.ndarray) -> np.ndarray:
         uv = np.empty((len(s), SAMPLES_ACROSS, 2))
         uv[..., axis] = (s if bent is None else bent.parameter(s))[:, None]
-        t = (np.arange(SAMPLES_ACROSS) + 0.5) / SAMPLES_ACROSS
-        uv[..., 1 - axis] = across[0] + t * (across[1] - across[0])
+        uv[..., 1 - axis] = across[0] + _ACROSS * (across[1] - across[0])
         return surface.evaluate(uv.reshape(-1, 2), 0)[0].reshape(len(s), SAMPLES_ACROSS, 3)
 
     s = np.linspace(low, high, SAMPLES_ALONG)

@@ -13,6 +13,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from surfmesh._core import elementary_functions
 from surfmesh.geometry.quadrature import gauss_rule
 from surfmesh.geometry.surface import Surface
 
@@ -94,10 +95,10 @@ def curvatures(forms: FundamentalForms) -> PrincipalCurvatures:
     mean = np.where(degenerate, 0.0, 0.5 * (s11 + s22))
     half = np.where(degenerate, 0.0, 0.5 * (s11 - s22))
     s12 = np.where(degenerate, 0.0, s12)
-    radius = np.hypot(half, s12)
+    radius = elementary_functions.hypot(half, s12)
     umbilic = radius <= UMBILIC * np.abs(mean)
-    turn = np.where(umbilic, 0.0, 0.5 * np.arctan2(s12, half))
-    cos, sin = np.cos(turn), np.sin(turn)
+    turn = np.where(umbilic, 0.0, 0.5 * elementary_functions.atan2(s12, half))
+    sin, cos = elementary_functions.sincos(turn)
     d1 = np.stack([cos / a - b * sin / (a * c), sin / c], axis=1)
     d2 = np.stack([-sin / a - b * cos / (a * c), cos / c], axis=1)
     k1, k2 = mean + radius, mean - radius

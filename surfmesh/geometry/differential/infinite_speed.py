@@ -23,6 +23,7 @@ from itertools import pairwise
 
 import numpy as np
 
+from surfmesh._core import elementary_functions as functions
 from surfmesh.geometry.surface import Domain, Surface
 
 STEPS = (1e-4, 1e-6, 1e-8)
@@ -93,7 +94,7 @@ class BentAxis:
         s = self.kept_off(s)
         _, a, b, q0, q1 = self._pieces(s)
         before, after = (s - a) / (b - a), (b - s) / (b - a)
-        first = before ** (q0 - 1.0) * after ** (q1 - 1.0) / beta(q0, q1)
+        first = functions.pow(before, q0 - 1.0) * functions.pow(after, q1 - 1.0) / beta(q0, q1)
         with np.errstate(divide="ignore", invalid="ignore"):
             bending = np.where(q0 > 1.0, (q0 - 1.0) / before, 0.0)
             bending -= np.where(q1 > 1.0, (q1 - 1.0) / after, 0.0)
@@ -105,20 +106,36 @@ class BentAxis:
         clearance = self._clearance()[piece] * (b - a)[:, None]
         return np.clip(s, a + clearance[:, 0], b - clearance[:, 1])
 
-    def parameter_kept_off(self, u: np.ndarray) -> np.ndarray:
-        """The same for parameters u (n,): the others stay as they are to the last bit."""
+    def limits(self) -> tuple[list[float], list[float]]:
+        """Lowest and highest parameter (m,) of each piece at which derivatives are taken."""
         a, b, clearance = self.places[:-1], self.places[1:], self._clearance()
         lowest = self.parameter(a + clearance[:, 0] * (b - a))
         highest = self.parameter(b - clearance[:, 1] * (b - a))
+        return (
+            np.where(clearance[:, 0] > 0.0, lowest, -np.inf).tolist(),
+            np.where(clearance[:, 1] > 0.0, highest, np.inf).tolist(),
+        )
+
+    def parameter_kept_off(self, u: np.ndarray) -> np.ndarray:
+        """The same for parameters u (n,): the others stay as they are to the last bit."""
+        lowest, highest = self.limits()
         piece = self._pieces(u)[0]
-        lowest = np.where(clearance[:, 0] > 0.0, lowest, -np.inf)[piece]
-        highest = np.where(clearance[:, 1] > 0.0, highest, np.inf)[piece]
-        return np.clip(u, lowest, highest)
+        return np.clip(u, np.array(lowest)[piece], np.array(highest)[piece])
+
+    def pieces(self) -> np.ndarray:
+        """What the core needs to know (m, 7): beginning, end, both powers of each piece, their
+        beta function, and the clearance at both ends."""
+        from scipy.special import beta
+
+        q0, q1 = self.powers.T
+        ends = self.places[:-1], self.places[1:]
+        return np.column_stack([*ends, q0, q1, beta(q0, q1), self._clearance()])
 
     def _clearance(self) -> np.ndarray:
         """How near to the ends of the pieces derivatives are taken (m, 2), fractions of them."""
         with np.errstate(divide="ignore"):
-            slow = LARGEST_SPEED ** (-1.0 / (self.powers - 1.0))
+            exponent = -1.0 / (self.powers - 1.0)
+        slow = functions.pow(np.full_like(exponent, LARGEST_SPEED), exponent)
         return np.where(self.powers > 1.0, np.maximum(NEAREST, slow), 0.0)
 
     def _pieces(self, s: np.ndarray) -> tuple[np.ndarray, ...]:
@@ -260,7 +277,7 @@ def _power(values: Values, domain: Domain, axis: int, place: float, way: float) 
     r = values(uv.reshape(-1, 2)).reshape(len(STEPS) + 1, ACROSS, 3)
     with np.errstate(all="ignore"):
         far = np.linalg.norm(r[1:] - r[0], axis=2).mean(axis=1)
-        exponents = np.diff(np.log(far)) / np.diff(np.log(STEPS))
+        exponents = np.diff(functions.log(far)) / np.diff(functions.log(np.array(STEPS)))
     p = float(exponents[-1])
     if not SMALLEST_EXPONENT <= p <= LARGEST_EXPONENT or abs(p - exponents[0]) > STEADY:
         return 1.0

@@ -87,13 +87,11 @@ def side_points(domain: Domain, side: int, t: np.ndarray) -> np.ndarray:
 
 def find_sides(surface: Surface) -> SideTopology:
     """Compare the sides of a surface in space."""
-    t = _samples()
-    (u0, u1), (v0, v1) = surface.domain
-    coarse = np.linspace(0.0, 1.0, 9)
-    grid = np.meshgrid(u0 + coarse * (u1 - u0), v0 + coarse * (v1 - v0))
-    (cloud,) = surface.evaluate(np.stack(grid, axis=-1).reshape(-1, 2), 0)
-    curves = [surface.evaluate(side_points(surface.domain, side, t), 0)[0] for side in range(4)]
-    cloud = np.concatenate([cloud, *curves])
+    low, high = np.array(surface.domain, float).T
+    # ends exact, as those of `side_points`
+    uv = np.where(_PLACES < 1.0, low + _PLACES * (high - low), high)
+    (cloud,) = surface.evaluate(uv, 0)
+    curves = cloud[-4 * SAMPLES :].reshape(4, SAMPLES, 3)
     tolerance = diagonal(cloud) * np.maximum(SAME, rounding_of_sides(surface))
 
     collapsed = [diagonal(c) <= near for c, near in zip(curves, tolerance)]
@@ -117,3 +115,13 @@ def _samples() -> np.ndarray:
     golden = 0.5 * (np.sqrt(5.0) - 1.0)
     half = 0.5 * np.sort((np.arange(1, count) * golden) % 1.0)
     return np.concatenate([[0.0], half, [0.5], 1.0 - half[::-1], [1.0]])
+
+
+def _places() -> np.ndarray:
+    """Where a surface is compared, on the unit square: a grid, then the samples of each side."""
+    coarse, unit = np.linspace(0.0, 1.0, 9), ((0.0, 1.0), (0.0, 1.0))
+    grid = np.stack(np.meshgrid(coarse, coarse), axis=-1).reshape(-1, 2)
+    return np.concatenate([grid, *(side_points(unit, side, _samples()) for side in range(4))])
+
+
+_PLACES = _places()

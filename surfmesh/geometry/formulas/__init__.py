@@ -9,8 +9,8 @@ derivatives: partial derivatives by the chain rule over shared subexpressions.
 program: straight-line programs: values numbered by what computes them, constants folded.
 chain_rule: derivatives of such programs, step by step.
 compilation: from SymPy expressions to a tape, with derivatives.
-tape: a straight-line program of numpy operations, for points and for intervals.
-interval: a function of an interval is an interval that holds its range.
+tape: a straight-line program of elementary operations, for points and for intervals.
+interval: bounds of vectors seen along directions.
 parametric: the surface of three formulas in u and v.
 kink_tracing: where the guides of a formula are zero: lines in (u, v), traced on a grid.
 kinks: lines along which such a surface is bent sharply: kinks of abs, max, min and sign.

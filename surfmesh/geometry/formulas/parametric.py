@@ -8,13 +8,12 @@ from typing import Any, NoReturn
 
 import numpy as np
 
+from surfmesh._core import surfaces
 from surfmesh.errors import FormulaError, SurfaceError, shown
 from surfmesh.geometry.differential.infinite_speed import (
     STRAIGHT,
     BentAxes,
     bent_axes,
-    is_bent,
-    kept_off,
     zeros_between,
 )
 from surfmesh.geometry.formulas.domain_bounds import bounds_of
@@ -31,7 +30,6 @@ from surfmesh.geometry.surface_checks import (
 ROOT_SAMPLES = 1025
 """Points along an axis at which signs of what roots are taken of are looked at."""
 
-NUDGE = 1e-9  # of the domain: how far inwards a derivative is taken where it is not finite
 POLE_DEPTH = 52  # halvings of a cell before a value without bounds counts as a pole
 POLE_CELLS = 64  # cells followed at a time in the search for a pole
 
@@ -74,6 +72,7 @@ class ParametricSurface:
         fixed["_expressions"] = _parsed((x, y, z), fixed["parameters"])
         fixed["formulas"] = tuple(" ".join(str(axis).split()) for axis in (x, y, z))
         fixed["_tapes"] = {}
+        fixed["_core_surfaces"] = {}
         fixed["bent_axes"] = STRAIGHT
         self.__dict__.update(fixed)
         with np.errstate(all="ignore"):  # what cannot be used is refused with its place
@@ -82,6 +81,7 @@ class ParametricSurface:
             self.__dict__["bent_axes"] = bent_axes(
                 lambda uv: self.evaluate(uv)[0], self.domain, self._root_places
             )
+            self._core_surfaces.clear()  # made before the axes were known
             refuse_no_area(self)
 
     name: str
@@ -97,6 +97,7 @@ class ParametricSurface:
     _expressions: tuple[Any, Any, Any]
     _root_places: tuple[list[float], list[float]]
     _tapes: dict[int, Tape]
+    _core_surfaces: dict[tuple[int, ...], surfaces.FormulaSurface]
 
     def evaluate(self, uv: np.ndarray, order: int = 0) -> tuple[np.ndarray, ...]:
         """(n, 2) float -> (n, 3) float arrays: (r,), (r, r_u, r_v) or up to r_uu, r_uv, r_vv.
@@ -107,26 +108,26 @@ class ParametricSurface:
         left as it is.
         """
         uv = np.asarray(uv, dtype=float).reshape(-1, 2)
-        values = self.tape(order).evaluate(uv)
-        if order == 0:
-            return values
-        if is_bent(self.bent_axes):
-            clear = kept_off(self.bent_axes, uv)
-            near = np.flatnonzero((clear != uv).any(axis=1))
-            for value, better in zip(values[1:], self.tape(order).evaluate(clear[near])[1:]):
-                value[near] = better
-            uv = clear
-        if all(np.isfinite(value).all() for value in values[1:]):
-            return values
-        broken = ~_finite_rows(values[1:])
-        for nudge in (NUDGE, 1e3 * NUDGE):
-            inside = self.tape(order).evaluate(self._nudged(uv[broken], nudge))
-            for value, better in zip(values[1:], inside[1:]):
-                value[broken] = better
-            broken[broken] = ~_finite_rows(inside[1:])
-        for value in values[1:]:
-            value[broken] = 0.0
-        return values
+        return tuple(self._in_core(order).evaluate(uv, order))
+
+    @property
+    def core(self) -> surfaces.FormulaSurface:
+        """The same surface in the core, with all that it can do."""
+        return self._in_core(0, 1, 2)
+
+    def _in_core(self, *orders: int) -> surfaces.FormulaSurface:
+        """The same with derivatives of these orders alone: each takes time to differentiate."""
+        if orders not in self._core_surfaces:
+            limits = [
+                ([], [], []) if axis is None else (axis.places.tolist(), *axis.limits())
+                for axis in self.bent_axes
+            ]
+            self._core_surfaces[orders] = surfaces.FormulaSurface(
+                [self.tape(order).program if order in orders else None for order in range(3)],
+                self.domain,
+                (limits[0], limits[1]),
+            )
+        return self._core_surfaces[orders]
 
     def derivative_bounds(self, lo: np.ndarray, hi: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """Bounds of r_u, r_v, r_uu, r_uv, r_vv over cells by interval arithmetic.
@@ -135,16 +136,19 @@ class ParametricSurface:
 
         lo, hi: (n, 2) corners of the cells -> lower, upper: (n, 5, 3), infinite where unknown.
         """
-        lower, upper = self.tape(2).bounds(lo, hi, kinks=False)
-        return lower[:, 3:].reshape(-1, 5, 3), upper[:, 3:].reshape(-1, 5, 3)
+        lo, hi = np.asarray(lo, dtype=float), np.asarray(hi, dtype=float)
+        found = self._in_core(2).derivative_bounds(lo, hi)
+        assert found is not None  # noqa: S101  a surface of formulas always knows them
+        return found
 
     def with_domain(self, domain: Domain) -> ParametricSurface:
         """The same formulas over another domain, within this one."""
         other = object.__new__(ParametricSurface)
-        other.__dict__.update(self.__dict__, domain=domain)
+        other.__dict__.update(self.__dict__, domain=domain, _core_surfaces={})
         other.__dict__["bent_axes"] = bent_axes(
             lambda uv: other.evaluate(uv)[0], domain, self._root_places
         )
+        other._core_surfaces.clear()
         return other
 
     def all_bounds(self, lo: np.ndarray, hi: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
@@ -179,12 +183,6 @@ class ParametricSurface:
             self._tapes[order] = surface_tape(self._expressions, variables, order)
         return self._tapes[order]
 
-    def _nudged(self, uv: np.ndarray, fraction: float) -> np.ndarray:
-        """Points moved towards the middle of the domain, those in the middle away from it."""
-        lo, hi = np.array(self.domain).T
-        towards = np.where(uv > 0.5 * (lo + hi), -1.0, 1.0)
-        return uv + towards * fraction * (hi - lo)
-
     def __repr__(self) -> str:
         formulas = ", ".join(f"{c}={f!r}" for c, f in zip("xyz", self.formulas))
         (u0, u1), (v0, v1) = self.domain
@@ -201,14 +199,11 @@ class ParametricSurface:
         for order in range(3):
             self.tape(order)
         self.guides()
-        return {key: value for key, value in self.__dict__.items() if key != "_expressions"}
+        stays = ("_expressions", "_core_surfaces")
+        return {key: value for key, value in self.__dict__.items() if key not in stays}
 
     def __setstate__(self, state: dict[str, Any]) -> None:
-        self.__dict__.update(state)
-
-
-def _finite_rows(values: Sequence[np.ndarray]) -> np.ndarray:
-    return np.logical_and.reduce([np.isfinite(value).all(axis=1) for value in values])
+        self.__dict__.update(state, _core_surfaces={})
 
 
 def _named_numbers(parameters: Any) -> dict[str, float]:

@@ -5,12 +5,11 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 
-import numpy as np
 import sympy as sp
 
 from surfmesh.errors import SurfaceError
 from surfmesh.geometry.formulas import real_functions
-from surfmesh.geometry.formulas.tape import OPERATIONS, Instruction, Tape, integer_power
+from surfmesh.geometry.formulas.tape import Instruction, Tape, result_of
 
 # the operation behind each function that may stand in an expression
 FUNCTION_OPERATIONS: dict[type, str] = {
@@ -161,14 +160,9 @@ class Program:
         return self._by_constant[number]
 
     def _result(self, operation: str, operands: tuple[int, ...], exponent: int) -> float:
-        arguments = [np.array([self.constants[-1 - operand]]) for operand in operands]
-        result = np.empty(1)
-        with np.errstate(all="ignore"):
-            if exponent:
-                integer_power(arguments[0], exponent, out=result)
-            else:
-                OPERATIONS[operation].point(*arguments, out=result)
-        return float(result[0])
+        return result_of(
+            operation, [self.constants[-1 - operand] for operand in operands], exponent
+        )
 
     def tape(self, outputs: list[int]) -> Tape:
         """Values become slots; a register is free again after the last step that reads it."""

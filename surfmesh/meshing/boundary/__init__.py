@@ -6,7 +6,6 @@ planar_segments: step 1 of section 3 in the plane: the segments of a domain, cut
     length.
 boundary_recovery: insert boundary loops into a packing and cut the domain out (section 3, steps
     2 to 5).
-coincident_nodes: which nodes of a boundary are one: by number in space, by place in (u, v).
 untangling: boundaries that cross themselves by less than the tolerance of their edges, taken apart.
 kink_segments: kink lines of a surface cut to metric length: segments that the mesh follows within.
 cusps: poles where the surface is thinner than any cone: horns, needles, drops with a pointed end.

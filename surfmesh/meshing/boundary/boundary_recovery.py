@@ -8,27 +8,21 @@ from dataclasses import dataclass
 import numpy as np
 
 from surfmesh._core import NIL
-from surfmesh._core import fields as core_fields
 from surfmesh._core import insertion as core
 from surfmesh._core import triangulation as core_triangulation
 from surfmesh._core.insertion import BoundaryOutcome, Recovery
 from surfmesh.errors import DomainError, MeshingError, SurfaceError, SurfmeshError
 from surfmesh.geometry.surface import Surface
-from surfmesh.kernels.fields.background import Background
-from surfmesh.kernels.triangulation.triangulation import Triangulation, empty_triangulation
 from surfmesh.meshing.boundary.boundary_loops import BoundaryLoops
 from surfmesh.meshing.boundary.planar_segments import PlanarSegments
 from surfmesh.sizing.field.size_field import SizeField
 
-ROOM, STRETCHED_ROOM = 1 / 16, 1 / 2
-"""Room for more vertices, as a fraction of those there are, for the optimiser's splits."""
-
 
 @dataclass(frozen=True)
 class DomainMesh:
-    """A triangulated domain of the scaled plane, with room to optimise it in place."""
+    """A triangulated domain of the scaled plane, which is optimised in place."""
 
-    t: Triangulation
+    t: core_triangulation.Triangulation
     node: np.ndarray
     """(k,) int32: the vertex of each boundary node, NIL where no triangle inside uses it."""
     same: np.ndarray
@@ -54,16 +48,13 @@ def recovered(
     """
     nodes = field.chart.to_plane(loops.uv)
     found = core.recover(
-        t, background_in_core(field.background),
+        t, field.background,
         nodes, loops.segments, loops.inner, loops.identity, loops.points,
     )  # fmt: skip
     if found.outcome.status != Recovery.FINISHED:
         _refuse(found.outcome, loops.uv, np.concatenate([loops.segments, loops.inner]), surface)
     domain = found.domain
-    spare = STRETCHED_ROOM if field.is_anisotropic else ROOM
-    return DomainMesh(
-        _with_room(domain.t, spare), domain.node, domain.same, domain.on_kinks, loops.points
-    )
+    return DomainMesh(domain.t, domain.node, domain.same, domain.on_kinks, loops.points)
 
 
 def recovered_regions(
@@ -75,34 +66,13 @@ def recovered_regions(
     """
     nodes = field.chart.to_plane(cut.uv)
     found = core.recover_regions(
-        t, background_in_core(field.background),
+        t, field.background,
         nodes, cut.pieces, cut.segment, cut.graph.loop_segments, cut.graph.loop_is_hole,
     )  # fmt: skip
     if found.outcome.status != Recovery.FINISHED:
         _refuse(found.outcome, cut.uv, cut.pieces, surface)
     domain = found.domain
-    return DomainMesh(_with_room(domain.t, ROOM), domain.node, domain.same, domain.on_kinks)
-
-
-def background_in_core(given: Background | core_fields.Background) -> core_fields.Background:
-    """The background as the core has it."""
-    if isinstance(given, core_fields.Background):
-        return given
-    root_3d = given.metric_root_3d if len(given.metric_root_3d) else None
-    return core_fields.Background(
-        given.box, given.grid, given.child, given.corner, given.metric_root, root_3d
-    )
-
-
-def _with_room(t: core_triangulation.Triangulation, spare: float) -> Triangulation:
-    """A copy for the kernels that are not in the core yet, with ``spare`` of it for more."""
-    out = empty_triangulation(t.vertices + int(spare * t.vertices) + 64)
-    out = out._replace(fixed=np.zeros(len(out.tri), np.uint8))
-    for name in ("xy", "size", "tri", "adj", "region", "fixed"):
-        found = getattr(t, name)
-        getattr(out, name)[: len(found)] = found
-    out.count[:] = t.vertices, t.triangles
-    return out
+    return DomainMesh(domain.t, domain.node, domain.same, domain.on_kinks)
 
 
 def _refuse(

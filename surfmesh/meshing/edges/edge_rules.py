@@ -12,6 +12,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from surfmesh._core import elementary_functions
 from surfmesh.cad.model.cad_model import CadCoedge, CadEdge, CadModel
 from surfmesh.geometry.differential.fundamental_forms import curvatures, forms_from_derivatives
 from surfmesh.geometry.surface import Surface
@@ -80,7 +81,7 @@ class Course(NamedTuple):
         tangent = first / np.maximum(speed, np.finfo(float).tiny)[:, None]
         bend = np.linalg.norm(np.cross(first, second), axis=1)
         with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
-            curvature = np.nan_to_num(bend / speed**3, nan=0.0, posinf=0.0)
+            curvature = np.nan_to_num(bend / (speed * speed * speed), nan=0.0, posinf=0.0)
         return cls(fraction, CurveSamples(points, curvature), tangent, False)
 
     @property
@@ -89,7 +90,7 @@ class Course(NamedTuple):
         if self.is_straight:
             return 0.0
         cosine = np.einsum("ij,ij->i", self.tangent[1:], self.tangent[:-1])
-        return float(np.arccos(np.clip(cosine, -1.0, 1.0)).sum())
+        return float(elementary_functions.acos(np.clip(cosine, -1.0, 1.0)).sum())
 
 
 @dataclass

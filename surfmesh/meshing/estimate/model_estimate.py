@@ -11,6 +11,7 @@ from surfmesh.cad.model.centres import inner_samples
 from surfmesh.geometry.differential.fundamental_forms import curvatures, forms_from_derivatives
 from surfmesh.meshing.edges.edge_nodes import EdgeNodes
 from surfmesh.meshing.estimate.estimation import Estimate, face_triangles, require_within
+from surfmesh.meshing.estimate.face_counts import counts_of_faces
 from surfmesh.meshing.faces.face_data import FaceJob
 from surfmesh.meshing.faces.face_mesh import face_field
 from surfmesh.meshing.faces.strip_triangulation import strip_mesh
@@ -22,10 +23,10 @@ FEW = 9
 """Points each way of a grid on a face."""
 
 
-def model_counts(jobs: list[FaceJob]) -> np.ndarray:
+def model_counts(model: CadModel, jobs: list[FaceJob]) -> np.ndarray:
     """Triangles on each face (f,) in the first round. Raises ``SizingError`` where a size field
     cannot be made."""
-    return np.array([_count(job) for job in jobs], float)
+    return counts_of_faces(jobs, np.array([face.area for face in model.faces]), _count)
 
 
 def _count(job: FaceJob) -> float:
@@ -80,5 +81,5 @@ def require_model_within(
         return
     names = [face.label(number) for number, face in enumerate(model.faces)]
     require_within(sizing.limit, Estimate.of(least), names)
-    counts = model_counts(jobs())
+    counts = model_counts(model, jobs())
     require_within(sizing.limit, Estimate.of(counts, model=True), names)

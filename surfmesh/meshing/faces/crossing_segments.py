@@ -8,8 +8,8 @@ from __future__ import annotations
 
 import numpy as np
 
+from surfmesh._core.insertion import coincident_nodes
 from surfmesh.geometry.inside_loops import nesting_depth
-from surfmesh.meshing.boundary.coincident_nodes import coincident_nodes
 from surfmesh.meshing.boundary.untangling import meeting_pairs
 from surfmesh.meshing.faces.face_data import FaceJob
 from surfmesh.sizing.rules.size_limits import SizeLimits
@@ -26,7 +26,7 @@ def limits_where_crossing(job: FaceJob, where: np.ndarray) -> SizeLimits | None:
     ``min_size`` forbids that.
     """
     uv, numbers, points, segments, loop = job.polygons
-    nodes, row = np.unique(coincident_nodes(uv, numbers, segments), return_inverse=True)
+    nodes, row = coincident_nodes(uv, numbers, segments)
     ends = row[segments]
     real = np.flatnonzero(ends[:, 0] != ends[:, 1])
     pairs, _ = meeting_pairs(uv[nodes], ends[real])

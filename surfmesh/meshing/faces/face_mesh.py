@@ -13,13 +13,13 @@ from traceback import extract_tb
 
 import numpy as np
 
+from surfmesh._core.insertion import loop_nodes
 from surfmesh.errors import SurfaceError, SurfmeshError
 from surfmesh.geometry.cad_surfaces.face_surface import FaceSurface
 from surfmesh.geometry.differential.projection import closest_point
 from surfmesh.geometry.differential.sides import find_sides
 from surfmesh.geometry.surface import Surface
 from surfmesh.meshing.boundary.boundary_loops import BoundaryLoops, cut_line
-from surfmesh.meshing.boundary.coincident_nodes import coincident_nodes
 from surfmesh.meshing.edges.inner_sizes import sizes_along_edges
 from surfmesh.meshing.faces.crossing_segments import limits_where_crossing
 from surfmesh.meshing.faces.face_data import CoedgeNodes, FaceJob, FaceMesh
@@ -257,25 +257,17 @@ def _nearest(points: np.ndarray, wanted: np.ndarray) -> np.ndarray:
 
 def _loops(job: FaceJob, field: SizeField) -> tuple[BoundaryLoops, np.ndarray]:
     """Nodes and segments in (u, v), with their points; the nodes' places in the job."""
-    parts, rings = [], []
-    slot = total = 0
+    parts, lengths, slot = [], [], 0
     for loop in job.loops:
-        start = total
+        lengths.append(0)
         for piece in loop:
             parts.append(_without_end(piece, field, slot))
             slot += len(piece.numbers)
-            total += len(parts[-1][0])
-        ring = np.arange(start, total)
-        rings.append(np.stack([ring, np.roll(ring, -1)], axis=1))
+            lengths[-1] += len(parts[-1][0])
     uv, numbers, points, slots = (np.concatenate(part) for part in zip(*parts))
-    along = np.concatenate(rings)
-    nodes, row = np.unique(coincident_nodes(uv, numbers, along), return_inverse=True)
-    segments = row[along].astype(np.int32)
-    segments = segments[segments[:, 0] != segments[:, 1]]
-    if len(np.unique(segments, axis=0)) < len(segments):
+    nodes, segments, identity, runs_twice = loop_nodes(uv, numbers, np.array(lengths, np.int32))
+    if runs_twice:
         raise SurfaceError(f"the boundary of {job.surface.name!r} runs twice the same way")
-    _, first, inverse = np.unique(numbers[nodes], return_index=True, return_inverse=True)
-    identity = first[inverse].astype(np.int64)
     return BoundaryLoops(uv[nodes], segments, identity, points=points[nodes]), slots[nodes]
 
 

@@ -4,8 +4,8 @@ from dataclasses import replace
 
 import numpy as np
 
+from surfmesh._core.insertion import coincident_nodes
 from surfmesh.geometry.boxes import diagonal
-from surfmesh.meshing.boundary.coincident_nodes import coincident_nodes
 from surfmesh.meshing.boundary.untangling import untangled
 from surfmesh.meshing.faces.face_data import FaceJob, FaceMesh
 from surfmesh.meshing.faces.polygon_filling import MOST_CORNERS, filled
@@ -58,7 +58,7 @@ def untangled_job(job: FaceJob) -> FaceJob | None:
     uv, numbers, _, ring, _ = job.polygons
     pieces = [piece for loop in job.loops for piece in loop]
     starts = np.cumsum([0, *(len(piece.uv) - 1 for piece in pieces)]).tolist()
-    nodes, row = np.unique(coincident_nodes(uv, numbers, ring), return_inverse=True)
+    nodes, row = coincident_nodes(uv, numbers, ring)
     segments = row[ring]
     segments = segments[segments[:, 0] != segments[:, 1]]
     _, along_u, along_v = job.surface.evaluate(uv[nodes], 1)

@@ -16,6 +16,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from surfmesh._core import elementary_functions
 from surfmesh.geometry.cad_surfaces.face_surface import FaceSurface
 from surfmesh.geometry.surface import Surface
 from surfmesh.meshing.edges.polygon_lengths import fractions_along
@@ -165,7 +166,7 @@ def turn_across(surface: FaceSurface, first: np.ndarray, second: np.ndarray) -> 
     uv = ((1.0 - t) * first + t * second).reshape(-1, 2)
     normal = _normals(surface, uv).reshape(SAMPLES, -1, 3)
     cosine = np.einsum("ijk,ijk->ij", normal[1:], normal[:-1])
-    return np.arccos(np.clip(cosine, -1.0, 1.0)).sum(axis=0)
+    return elementary_functions.acos(np.clip(cosine, -1.0, 1.0)).sum(axis=0)
 
 
 def _normals(surface: Surface, uv: np.ndarray) -> np.ndarray:

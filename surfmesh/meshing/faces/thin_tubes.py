@@ -15,6 +15,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from surfmesh._core import elementary_functions
 from surfmesh.geometry.surface import Surface
 from surfmesh.meshing.edges.polygon_lengths import fractions_along
 from surfmesh.meshing.faces.face_data import CoedgeNodes, FaceJob
@@ -314,4 +315,6 @@ def _turn(surface: Surface, left: np.ndarray, right: np.ndarray) -> float:
     step = np.diff(surface.evaluate(left + t * (right - left), 0)[0], axis=0)
     step /= np.maximum(np.linalg.norm(step, axis=1), np.finfo(float).tiny)[:, None]
     cosine = np.einsum("ij,ij->i", step[1:], step[:-1])
-    return float(np.arccos(np.clip(cosine, -1.0, 1.0)).sum()) * (WAY - 1) / (WAY - 2)
+    return (
+        float(elementary_functions.acos(np.clip(cosine, -1.0, 1.0)).sum()) * (WAY - 1) / (WAY - 2)
+    )

@@ -4,11 +4,8 @@ Others call ``mesh_patch``, go round in ``refined_in_rounds``, and pack by thems
 ``packed``; the rest is of this room. In the order in which data passes:
 
 packing: drive the packing kernel: room for its arrays, growing them when they are full.
-state: a triangulated domain with its surface frames, and the local operators on it.
-accuracy: where triangles are too far from the surface, folded, or meet at too large an angle.
-schedule: the order of the optimiser's passes.
-size_requests: upper bounds of the size, for another round, where these could not mend it.
-gluing: from the parameter plane to space, joined sides identified.
+state: the state of the optimiser, which runs in the core (src/patch).
+size_requests: upper bounds of the size, for another round, where that could not mend it.
 patch_mesh: all of these in their order, for every kind of boundary.
 refinement_loop: rounds with smaller sizes until nothing is to be mended, or smaller sizes are no
     help.

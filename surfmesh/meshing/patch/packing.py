@@ -5,11 +5,10 @@ from collections.abc import Callable
 import numpy as np
 
 from surfmesh._core import packing as core
+from surfmesh._core.fields import Background
 from surfmesh._core.packing import Packing, PackingStatus
 from surfmesh.errors import MeshingError, SizingError
 from surfmesh.geometry.differential.chart import Chart
-from surfmesh.kernels.fields.background import Background
-from surfmesh.meshing.boundary.boundary_recovery import background_in_core
 from surfmesh.meshing.progress import Stopwatch
 from surfmesh.sizing.field.metric_area import box_area
 from surfmesh.sizing.field.size_field import SizeField
@@ -84,8 +83,7 @@ def packed(
         if watch is not None:
             watch.pulse(min(1.0, circles / max(expected, 1)))
 
-    sizes = background_in_core(background)
-    return _finished(core.pack(sizes, box, origin, expected, wanted, distance, pulse), origin)
+    return _finished(core.pack(background, box, origin, expected, wanted, distance, pulse), origin)
 
 
 def _finished(packing: Packing, origin: tuple[float, float]) -> Packing:

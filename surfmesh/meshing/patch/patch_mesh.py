@@ -19,17 +19,31 @@ from surfmesh.geometry.surface import Surface
 from surfmesh.meshing.boundary.boundary_loops import BoundaryLoops
 from surfmesh.meshing.boundary.boundary_recovery import DomainMesh, recovered, recovered_regions
 from surfmesh.meshing.boundary.planar_segments import PlanarSegments
-from surfmesh.meshing.patch import schedule
-from surfmesh.meshing.patch.gluing import SurfaceTriangles, identify_seams
 from surfmesh.meshing.patch.packing import packed_over
-from surfmesh.meshing.patch.size_requests import SizeRequests, size_requests
-from surfmesh.meshing.patch.state import PatchState
+from surfmesh.meshing.patch.size_requests import SizeRequests
+from surfmesh.meshing.patch.state import patch_state
 from surfmesh.meshing.progress import Stopwatch
 from surfmesh.sizing.field.size_field import SizeField
 from surfmesh.sizing.rules.size_limits import SizeLimits
 
 OFF_SURFACE = 0.3
 """Fraction of ``chord`` by which a node may lie off the surface of a face that uses it."""
+
+
+@dataclass(frozen=True)
+class SurfaceTriangles:
+    """Points in space and triangles on them, with their corners in the parameter plane."""
+
+    points: np.ndarray
+    """(n, 3)"""
+    triangles: np.ndarray
+    """(m, 3) int32, rows of ``points``."""
+    uv_triangles: np.ndarray
+    """(m, 3) int32, vertices of the domain."""
+    vertex: np.ndarray
+    """(n,) int64: vertex of the domain that each point was computed from."""
+    non_manifold: np.ndarray
+    """(k,) int64: points where identification has not made a surface, sizes are too coarse."""
 
 
 @dataclass(frozen=True)
@@ -90,38 +104,43 @@ def mesh_patch(
             domain = recovered(packing.t, boundary, field, surface)
         del packing
         if not optimise:
-            state = PatchState(domain, surface, chart, field)
-            schedule.choose_diagonals(state)
+            state = patch_state(domain, surface, chart, field)
+            state.choose_diagonals()
             requests = SizeRequests()
     if optimise:
         with stage("optimisation"):
-            state = PatchState(
+            state = patch_state(
                 domain, surface, chart, field, None if watch is None else watch.pulse
             )
-            changes = schedule.optimise(state, first)
-            requests = size_requests(state, changes, _off_surface(state, boundary.uv))
-    scale = state.frames.scale
-    del state
+            left = state.optimise(first)
+            off = _off_surface(domain, surface, field, boundary.uv)
+            requests = SizeRequests.of(state.size_requests(left, off), field.sizing.gradient)
     with stage("mapping"):
-        xy = domain.t.xy[: int(domain.t.count[0])]
-        uv = chart.to_uv(xy)
-        used = domain.is_used
-        uv[domain.node[used]] = boundary.uv[used]  # to the last bit
-        loops = boundary if isinstance(boundary, BoundaryLoops) else None
-        space = identify_seams(surface, domain, uv, loops)
-        sizes = field.sizes(xy[space.vertex]) * scale[space.vertex]
-        roots = field.roots_of_mesh(xy, scale[: len(xy)])
-    return PatchMesh(domain, uv, space, sizes, roots, requests, field.sizing.gradient)
+        found = state.mapped(boundary.uv[domain.is_used], *_identified(domain, boundary))
+        roots = field.roots_of_mesh(domain.t.xy, state.frames.scale)
+    space = SurfaceTriangles(
+        found.points, found.triangles, found.uv_triangles, found.vertex, found.non_manifold
+    )
+    return PatchMesh(domain, found.uv, space, found.sizes, roots, requests, field.sizing.gradient)
 
 
-def _off_surface(state: PatchState, uv: np.ndarray) -> np.ndarray | None:
-    """Which vertices lie so far off the surface themselves that smaller sizes are no help."""
-    chord, domain = state.field.sizing.chord, state.domain
+def _identified(
+    domain: DomainMesh, boundary: BoundaryLoops | PlanarSegments
+) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Vertices of nodes, segments, identity: of what may be identified."""
+    if isinstance(boundary, BoundaryLoops):
+        return domain.node, boundary.segments, boundary.identity
+    return np.empty(0, np.int32), np.empty((0, 2), np.int32), np.empty(0, np.int64)
+
+
+def _off_surface(
+    domain: DomainMesh, surface: Surface, field: SizeField, uv: np.ndarray
+) -> np.ndarray | None:
+    """Marks of the nodes in use that lie so far off the surface that smaller sizes are no help."""
+    chord = field.sizing.chord
     if chord is None or domain.points is None:
         return None
     used = domain.is_used
-    (images,) = state.surface.evaluate(uv[used], 0)
-    found = np.zeros(len(state.t.xy), bool)
+    (images,) = surface.evaluate(uv[used], 0)
     deviation = np.linalg.norm(domain.points[used] - images, axis=1)
-    found[domain.node[used]] = deviation > OFF_SURFACE * chord
-    return found
+    return (deviation > OFF_SURFACE * chord).view(np.uint8)

@@ -17,7 +17,7 @@ from surfmesh.quality.figures.part import Part
 from surfmesh.quality.measures.measurements import Measurements
 from surfmesh.result.surface_mesh import SurfaceMesh
 
-_ALWAYS = ("surfmesh", "numpy", "scipy", "numba")
+_ALWAYS = ("surfmesh", "numpy", "scipy")
 _CAD = ("cadquery", "cadquery-ocp")
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from itertools import pairwise
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -44,29 +45,49 @@ class KnownSurfaces(NamedTuple):
         self, triangle: Rows, rule: NDArray[np.int32], weights: NDArray[np.float64]
     ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
         """Points (k, 3) and parameters (k, 2) at ``weights[rule]`` of ``triangle``, both (k,)."""
-        points = interpolate(self.mesh.points, self.mesh.triangles, _int32(triangle), rule, weights)
+        points = self._at(self.mesh.points, self.mesh.triangles, triangle, rule, weights)
         return points, self.sample_uv(triangle, rule, weights)
 
     def sample_uv(
         self, triangle: Rows, rule: NDArray[np.int32], weights: NDArray[np.float64]
     ) -> NDArray[np.float64]:
         """(k, 2) the parameters alone."""
-        uv_points, uv_triangles = self.corners.uv_points, self.corners.uv_triangles
-        return interpolate(uv_points, uv_triangles, _int32(triangle), rule, weights)
+        corners = self.corners
+        return self._at(corners.uv_points, corners.uv_triangles, triangle, rule, weights)
+
+    @staticmethod
+    def _at(
+        values: NDArray[np.float64], triangles: NDArray[np.int32], triangle: Rows,
+        rule: NDArray[np.int32], weights: NDArray[np.float64],
+    ) -> NDArray[np.float64]:  # fmt: skip
+        """Only the triangles that are asked for are handed on: every one of them is checked."""
+        rows = np.arange(len(triangle), dtype=np.int32)
+        return interpolate(values, triangles[triangle], rows, rule, weights)
 
     def by_surface(self, faces: Rows) -> Iterator[tuple[Surface, NDArray[np.intp]]]:
         """Each surface that occurs among ``faces`` (k,), and the rows where it does."""
-        for face in np.unique(faces).tolist():
-            yield self.mesh.surfaces[face], np.flatnonzero(faces == face)
-
-    def evaluate(self, faces: Rows, uv: NDArray[np.float64]) -> NDArray[np.float64]:
-        """(k, 3) points of the surfaces of ``faces`` (k,) at uv (k, 2)."""
+        if not len(faces):
+            return
         if len(self.mesh.surfaces) == 1:
-            return self.mesh.surfaces[0].evaluate(uv, 0)[0]
-        points = np.empty((len(uv), 3))
+            yield self.mesh.surfaces[0], np.arange(len(faces))
+            return
+        order = np.argsort(faces, kind="stable")
+        starts = np.flatnonzero(np.diff(faces[order], prepend=-1))
+        for start, end in pairwise([*starts.tolist(), len(faces)]):
+            yield self.mesh.surfaces[int(faces[order[start]])], order[start:end]
+
+    def evaluate(
+        self, faces: Rows, uv: NDArray[np.float64], order: int = 0
+    ) -> tuple[NDArray[np.float64], ...]:
+        """What the surfaces of ``faces`` (k,) give at uv (k, 2): points (k, 3), at order 1 r_u and
+        r_v too."""
+        if len(self.mesh.surfaces) == 1:
+            return self.mesh.surfaces[0].evaluate(uv, order)
+        found = tuple(np.empty((len(uv), 3)) for _ in range(1 + 2 * order))
         for surface, here in self.by_surface(faces):
-            points[here] = surface.evaluate(uv[here], 0)[0]
-        return points
+            for array, values in zip(found, surface.evaluate(uv[here], order)):
+                array[here] = values
+        return found
 
 
 def _int32(rows: Rows) -> NDArray[np.int32]:

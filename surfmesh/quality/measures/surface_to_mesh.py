@@ -12,6 +12,7 @@ farthest few among all. Between the points nothing is bounded.
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from functools import cached_property
 from typing import NamedTuple
 
@@ -146,8 +147,10 @@ def _look_along_curves(search: _Search, curves: _Curves, fit: Deviation) -> None
     farther = ~free & (fit.by_triangle[second] > fit.by_triangle[first])
     over = np.where(farther, second, first)
     t = np.concatenate([[0.0], ALONG_RIM, [1.0]])
-    for number in np.unique(curves.ids).tolist():
-        own = np.flatnonzero((curves.ids == number) & (rows >= 0))
+    known_rows = np.flatnonzero(rows >= 0)
+    by_edge = known_rows[np.argsort(curves.ids[known_rows], kind="stable")]
+    found, segments = [], []
+    for own in np.split(by_edge, np.flatnonzero(np.diff(curves.ids[by_edge])) + 1):
         points = curves.points(own, t) if len(own) else None
         if points is None:
             continue
@@ -155,11 +158,22 @@ def _look_along_curves(search: _Search, curves: _Curves, fit: Deviation) -> None
         length = np.linalg.norm(nodes[:, 1] - nodes[:, 0], axis=1)
         from_curve = np.linalg.norm(points[:, [0, -1]] - nodes, axis=2).max(axis=1)
         good = np.flatnonzero(from_curve <= ON_CURVE * length)
-        for at_rim in (True, False):
-            some = good[free[own[good]] == at_rim]
-            triangle = np.repeat(over[own[some]], len(ALONG_RIM))
+        found.append(points[good, 1:-1])
+        segments.append(own[good])
+    if not found:
+        return
+    between, segment = np.concatenate(found), np.concatenate(segments)
+    for at_rim in (True, False):
+        some = np.flatnonzero(free[segment] == at_rim)
+        for block in _blocks(some, BLOCK // len(ALONG_RIM)):
+            triangle = np.repeat(over[segment[block]], len(ALONG_RIM))
             uv = known.uv(triangle).mean(axis=1)  # about there
-            search.look_at(points[some][:, 1:-1].reshape(-1, 3), uv, triangle, at_rim)
+            search.look_at(between[block].reshape(-1, 3), uv, triangle, at_rim)
+
+
+def _blocks(members: NDArray, length: int) -> Iterator[NDArray]:
+    for start in range(0, len(members), length):
+        yield members[start : start + length]
 
 
 class _Candidate(NamedTuple):
@@ -195,7 +209,7 @@ class _Search:
         if not len(triangle):
             return
         uv = self.known.sample_uv(triangle, rule, weights)
-        points = self.known.evaluate(self.mesh.face_ids[triangle], uv)
+        (points,) = self.known.evaluate(self.mesh.face_ids[triangle], uv)
         self.look_at(points, uv, triangle, at_rim)
 
     def look_at(self, points: NDArray, uv: NDArray, triangle: NDArray, at_rim: bool) -> None:

@@ -4,9 +4,8 @@ two_sizes: two sizes at each place, along two directions, and how limits lower t
 size_law: the ungraded target sizes at points of one surface, with what a size field stores there.
 small_sizes: where on a surface small sizes lie that samples of it may miss.
 hidden_features: features that lie between the samples of a cell, where derivatives are bounded.
-field_cells: the cells of a size field under construction: the leaves of a forest of quadtrees.
 field_builder: the background of a size field: sizes graded on a balanced quadtree.
-size_field: the size field of one surface, ready for the kernels.
+size_field: the size field of one surface, ready for the core.
 boundary_field: the size field of a plane or a cylinder from the sizes at points of its boundary.
 metric_area: the metric area within loops: how many triangles a size field asks for there.
 """

@@ -1,28 +1,20 @@
 """The size field of a plane or a cylinder from the sizes at points of its boundary.
 
 The metric is the same everywhere and the curvature too: one size bounds all others, and from
-each point of known size the sizes grow with the distance. See kernels.fields.source_tree.
+each point of known size the sizes grow with the distance. See src/fields/source_tree.hpp.
 """
 
 import math
 
 import numpy as np
 
+from surfmesh._core.fields import MOST_IN_A_ROW, Background, grow_tree
 from surfmesh.errors import SizingError
 from surfmesh.geometry.boxes import diagonal
 from surfmesh.geometry.cad_surfaces.elementary import Cylinder, Plane
 from surfmesh.geometry.differential.chart import Chart
 from surfmesh.geometry.planar.planar_domain import PlanarDomain
 from surfmesh.geometry.surface import Surface
-from surfmesh.kernels.fields.background import Background
-from surfmesh.kernels.fields.source_tree import (
-    FULL,
-    MOST_IN_A_ROW,
-    SPLIT_STACK,
-    Sources,
-    SourceTree,
-    grow_tree,
-)
 from surfmesh.sizing.field.size_field import SizeField
 from surfmesh.sizing.field.size_law import SizeLaw
 from surfmesh.sizing.options.sizing import Sizing
@@ -31,10 +23,9 @@ from surfmesh.sizing.rules.size_rules import SizeRules
 FEW_ROOTS, MANY_TESTS = 2, 2e5
 """Sources to a root cell; every root cell looks at all sources, in all no more than so many."""
 
-CELLS, MOST_CELLS = (500, 16), 1 << 26
-"""Room to begin with: so many and so many a source. And the most that is tried."""
+MOST_CELLS = 1 << 26
 
-_ISOTROPIC = np.array([1.0, 0.0, 1.0])
+_ISOTROPIC = (1.0, 0.0, 1.0)
 
 
 def has_boundary_field(surface: Surface, sizing: Sizing) -> bool:
@@ -109,12 +100,12 @@ def source_background(
     largest: float,
     slope: float,
     box: tuple[float, float, float, float],
-    metric: np.ndarray = _ISOTROPIC,
+    metric: tuple[float, float, float] = _ISOTROPIC,
 ) -> Background:
     """The background over ``box`` (x0, y0, x1, y1) of the size min(largest, h_k + slope d_k).
 
-    ``sizes`` (n,) are the h_k, at ``xy`` (n, 2), contiguous; d_k is the distance in ``metric``
-    (3,), the constant E, F, G. What lies beyond the box's upper and right sides may be covered
+    ``sizes`` (n,) are the h_k, at ``xy`` (n, 2); d_k is the distance in ``metric``, the constant
+    E, F, G. What lies beyond the box's upper and right sides may be covered
     too. Raises ``SizingError`` for a box or a metric without area.
     """
     x0, y0, x1, y1 = box
@@ -126,21 +117,17 @@ def source_background(
     wide, high = math.sqrt(E) * (x1 - x0), math.sqrt(G) * (y1 - y0)
     active = int(np.count_nonzero(sizes < largest))
     nx, ny, step = _root_grid(wide, high, active)
-    root = np.array([x0, y0, step / math.sqrt(E), step / math.sqrt(G), x1, y1])
-    sources = Sources(xy, sizes, np.asarray(metric, float), np.array([slope, largest]))
-    cells = nx * ny + (CELLS[0] + CELLS[1] * active if active else 0)
-    while grow_tree(sources, tree := _room(root, (nx, ny), cells, active)) == FULL:
-        cells *= 4
-        if cells > MOST_CELLS:
-            raise SizingError(
-                f"the sizes asked for need more than {cells // 4:,} cells to describe: raise "
-                "min_size or growth"
-            )
-    cells, nodes = tree.count.tolist()
-    reach = np.array([x0, y0, 1.0 / root[2], 1.0 / root[3], 16.0 * max(x1 - x0, y1 - y0)])
-    return Background(
-        reach, tree.grid, tree.child[:cells], tree.corner[:cells], tree.metric_root[:nodes]
+    root = (x0, y0, step / math.sqrt(E), step / math.sqrt(G))
+    reach = 16.0 * max(x1 - x0, y1 - y0)
+    background = grow_tree(
+        xy, sizes, (E, F, G), slope, largest, root, (x1, y1), (nx, ny), reach, MOST_CELLS
     )
+    if background is None:
+        raise SizingError(
+            f"the sizes asked for need more than {MOST_CELLS:,} cells to describe: raise "
+            "min_size or growth"
+        )
+    return background
 
 
 def _root_grid(wide: float, high: float, active: int) -> tuple[int, int, float]:
@@ -154,26 +141,6 @@ def _root_grid(wide: float, high: float, active: int) -> tuple[int, int, float]:
     # a box that is a hair too high needs no second row: look-up takes the nearest point
     nx, ny = (max(1, math.ceil(length / step - 1e-9)) for length in (wide, high))
     return nx, ny, step
-
-
-def _room(root: np.ndarray, grid: tuple[int, int], cells: int, active: int) -> SourceTree:
-    nodes = (grid[0] + 1) * (grid[1] + 1) + 5 * (cells // 4)
-    slots = 1 << (2 * nodes - 1).bit_length()
-    listed = 4 * active + 1000 + cells // 4
-    return SourceTree(
-        root,
-        np.array(grid, np.int64),
-        np.empty(cells, np.int32),
-        np.empty((cells, 3), np.int32),
-        np.empty((cells, 4), np.int32),
-        np.empty((nodes, 4)),
-        np.empty(slots, np.int64),
-        np.empty(slots, np.int32),
-        np.empty((SPLIT_STACK, 3), np.int64),
-        np.empty(listed, np.int32),
-        np.empty(listed),
-        np.zeros(2, np.int64),
-    )
 
 
 def _diagonal(surface: Surface) -> float:

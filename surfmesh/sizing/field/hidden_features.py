@@ -8,10 +8,11 @@ from typing import NamedTuple
 
 import numpy as np
 
+from surfmesh._core import elementary_functions
 from surfmesh.geometry.differential.infinite_speed import at_infinite_speed, bent_axes_of
 from surfmesh.geometry.formulas.interval import width_along
 from surfmesh.geometry.surface import BoundedSurface
-from surfmesh.sizing.field.size_law import FieldNodes, SizeLaw
+from surfmesh.sizing.field.size_law import SizeLaw
 
 HIDDEN_RISE = 0.25
 """Of ``chord``: what rises less within a cell is no feature."""
@@ -21,27 +22,23 @@ CELLS_AT_ONCE = 50_000
 
 
 class SeenCells(NamedTuple):
-    """Cells with their nine nodes."""
+    """Cells, with what is known at their nine nodes."""
 
     low: np.ndarray  # (n, 2) corners in the chart
     high: np.ndarray  # (n, 2)
-    patch: np.ndarray  # (n, 9) nodes
-    nodes: FieldNodes
+    normal: np.ndarray  # (n, 3) at the middle
+    root: np.ndarray  # (n, 9, 3) I^(1/2) in the scaled plane
+    smallest: np.ndarray  # (n,) of the nine sizes
 
     def parts(self) -> "list[SeenCells]":
         """A part of them at a time."""
-        starts = range(0, len(self.patch), CELLS_AT_ONCE)
+        starts = range(0, len(self.low), CELLS_AT_ONCE)
         cuts = (slice(k, k + CELLS_AT_ONCE) for k in starts)
-        return [SeenCells(self.low[c], self.high[c], self.patch[c], self.nodes) for c in cuts]
+        return [SeenCells(*(array[cut] for array in self)) for cut in cuts]
 
     def corners(self, law: SizeLaw) -> tuple[np.ndarray, np.ndarray]:
         """(n, 2), (n, 2) in (u, v)."""
         return law.chart.to_uv(self.low), law.chart.to_uv(self.high)
-
-    @property
-    def middle(self) -> np.ndarray:
-        """(n,) nodes."""
-        return self.patch[:, 4]
 
 
 def may_bend(law: SizeLaw, cells: SeenCells) -> np.ndarray:
@@ -60,18 +57,17 @@ def may_rise(law: SizeLaw, chord: float, cells: SeenCells) -> np.ndarray:
 
 
 def _may_bend(law: SizeLaw, cells: SeenCells) -> np.ndarray:
-    nodes = cells.nodes
     lo, hi = cells.corners(law)
     bounds = law.surface.derivative_bounds(lo, hi)
     if bounds is None:
-        return np.zeros(len(cells.patch), bool)
-    normal = np.abs(nodes.normal[cells.middle])
+        return np.zeros(len(cells.low), bool)
+    normal = np.abs(cells.normal)
     du, dv = law.chart.rates(0.5 * (cells.low + cells.high)).T
     second = np.maximum(np.abs(bounds[0]), np.abs(bounds[1]))[:, 2:]
     second *= np.stack([du * du, du * dv, dv * dv], axis=1)[:, :, None]
     with np.errstate(over="ignore", invalid="ignore"):
         form = np.einsum("nki,ni->nk", second, normal)  # |L|, |M|, |N| at most
-    root = nodes.root[cells.patch]
+    root = cells.root
     e = (root[..., 0] ** 2 + root[..., 1] ** 2).max(axis=1)
     g = (root[..., 1] ** 2 + root[..., 2] ** 2).max(axis=1)
     with np.errstate(divide="ignore", over="ignore", invalid="ignore"):
@@ -79,17 +75,17 @@ def _may_bend(law: SizeLaw, cells: SeenCells) -> np.ndarray:
             (form[:, 0] / e) ** 2 + 2.0 * form[:, 1] ** 2 / (e * g) + (form[:, 2] / g) ** 2
         )
     possible = law.from_curvature(np.where(np.isnan(bound), np.inf, bound))
-    hides = possible < 0.5 * nodes.size[cells.patch].min(axis=1)
+    hides = possible < 0.5 * cells.smallest
     # beside a rim of infinite speed there is no bound at any depth: there the report looks
     return hides & ~at_infinite_speed(bent_axes_of(law.surface), lo, hi)
 
 
 def _may_rise(law: SizeLaw, chord: float, cells: SeenCells) -> np.ndarray:
     if not isinstance(law.surface, BoundedSurface):
-        return np.zeros(len(cells.patch), bool)
+        return np.zeros(len(cells.low), bool)
     lo, hi = cells.corners(law)
     lower, upper = law.surface.all_bounds(lo, hi)
-    normal = cells.nodes.normal[cells.middle][:, None]
+    normal = cells.normal[:, None]
     half = 0.5 * (hi - lo)
     with np.errstate(invalid="ignore", over="ignore"):
         value = width_along(lower[:, 0], upper[:, 0], normal)[:, 0]
@@ -97,7 +93,7 @@ def _may_rise(law: SizeLaw, chord: float, cells: SeenCells) -> np.ndarray:
         bent = half[:, 0] * slopes[0] + half[:, 1] * slopes[1]
     # no size could follow what is narrower than the least of them: the report finds it
     step = np.abs(cells.high - cells.low)
-    root = cells.nodes.root[cells.middle]
-    wide = np.hypot(root[:, 0], root[:, 1]) * step[:, 0] > law.clamp[0]
-    wide |= np.hypot(root[:, 1], root[:, 2]) * step[:, 1] > law.clamp[0]
+    root = cells.root[:, 4]
+    wide = elementary_functions.hypot(root[:, 0], root[:, 1]) * step[:, 0] > law.clamp[0]
+    wide |= elementary_functions.hypot(root[:, 1], root[:, 2]) * step[:, 1] > law.clamp[0]
     return wide & ~(np.fmin(value, bent) <= HIDDEN_RISE * chord)

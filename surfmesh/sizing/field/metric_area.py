@@ -8,8 +8,8 @@ from collections.abc import Sequence
 
 import numpy as np
 
+from surfmesh._core.fields import Background
 from surfmesh.geometry.inside_loops import is_inside
-from surfmesh.kernels.fields.background import Background
 from surfmesh.sizing.field.size_field import SizeField
 
 TRIANGLES = 4.0 / np.sqrt(3.0)

@@ -1,24 +1,17 @@
-"""The size field of one surface: wanted sizes everywhere, ready for the kernels."""
+"""The size field of one surface: wanted sizes everywhere, ready for the core."""
 
 from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
 
+from surfmesh._core import elementary_functions
+from surfmesh._core.fields import Background
 from surfmesh.geometry.differential.chart import Chart
 from surfmesh.geometry.differential.sides import SideTopology
 from surfmesh.geometry.surface import Surface
-from surfmesh.kernels.fields.background import (
-    Background,
-    metric_roots_3d_at,
-    metric_roots_at,
-    scalar_sizes_at,
-    sizes_at,
-)
-from surfmesh.kernels.fields.coverage import STACK, metric_area_of_box
 from surfmesh.sizing.field.field_builder import FieldBuilder
 from surfmesh.sizing.field.size_law import SizeLaw, TensorLaw
-from surfmesh.sizing.metric_roots import uniform
 from surfmesh.sizing.options.sizing import Sizing
 from surfmesh.sizing.rules.rim_rule import Rims
 from surfmesh.sizing.rules.size_limits import SizeLimits
@@ -29,7 +22,7 @@ COUNTABLE = 1e18
 
 @dataclass(frozen=True)
 class SizeField:
-    """Wanted sizes on one surface, ready for the kernels.
+    """Wanted sizes on one surface, ready for the core.
 
     ``background`` gives size tensors in the scaled plane of ``chart``.
     """
@@ -47,30 +40,22 @@ class SizeField:
     @property
     def is_anisotropic(self) -> bool:
         """Do the sizes depend on the direction?"""
-        return len(self.background.metric_root_3d) > 0
+        return self.background.is_anisotropic
 
     def expected_vertices(self) -> int:
         """About how many circles cover the domain: its metric area over that of a circle's
         share, sqrt(3) / 2."""
         width, height = self.chart.extent
-        area = metric_area_of_box(
-            self.background, float(width), float(height), np.empty((STACK, 5))
-        )
+        area = self.background.metric_area(float(width), float(height))
         return int(min(area * 2.0 / np.sqrt(3.0), COUNTABLE)) + 100
 
     def sizes(self, xy: np.ndarray) -> np.ndarray:
         """Wanted edge lengths (n,) at points xy (n, 2) of the scaled plane, the shorter of two."""
-        out = np.empty(len(xy))
-        scalar_sizes_at(self.background, np.ascontiguousarray(xy), out)
-        return out
+        return self.background.scalar_sizes(xy)
 
     def metric_roots_3d(self, xy: np.ndarray) -> np.ndarray:
         """W (n, 6) at points xy (n, 2), for steps in space: see ``metric_roots``."""
-        if not self.is_anisotropic:
-            return uniform(1.0 / self.sizes(xy))
-        out = np.empty((len(xy), 6))
-        metric_roots_3d_at(self.background, np.ascontiguousarray(xy), out)
-        return out
+        return self.background.metric_roots_3d(xy)
 
     def roots_of_mesh(self, xy: np.ndarray, scale: np.ndarray) -> np.ndarray | None:
         """The same for sizes times ``scale`` (n,); None where ``sizing`` asks for no directions."""
@@ -78,16 +63,13 @@ class SizeField:
 
     def tensors(self, xy: np.ndarray) -> np.ndarray:
         """Size tensors (n, 3) at points xy (n, 2) of the scaled plane."""
-        out = np.empty((len(xy), 3))
-        sizes_at(self.background, np.ascontiguousarray(xy), out)
-        return out
+        return self.background.sizes(xy)
 
     def metric_lengths(self, xy: np.ndarray, steps: np.ndarray) -> np.ndarray:
         """|H^-1 step| (n,) of small steps (n, 2) at points xy (n, 2) of the scaled plane."""
-        a = np.empty((len(xy), 3))
-        metric_roots_at(self.background, np.ascontiguousarray(xy), a)
+        a = self.background.metric_roots(xy)
         dx, dy = steps.T
-        return np.hypot(a[:, 0] * dx + a[:, 1] * dy, a[:, 1] * dx + a[:, 2] * dy)
+        return elementary_functions.hypot(a[:, 0] * dx + a[:, 1] * dy, a[:, 1] * dx + a[:, 2] * dy)
 
 
 def size_field(

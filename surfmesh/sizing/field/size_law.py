@@ -16,16 +16,13 @@ from surfmesh.geometry.differential.fundamental_forms import (
 )
 from surfmesh.geometry.surface import Surface
 from surfmesh.sizing.field.two_sizes import TwoSizes
-from surfmesh.sizing.metric_roots import DIAGONAL, outer, symmetric_root
+from surfmesh.sizing.metric_roots import symmetric_root
 from surfmesh.sizing.options.sizing import Sizing
 from surfmesh.sizing.rules.direction_rates import ROUND, direction_rates, longest_along
 from surfmesh.sizing.rules.rim_rule import LoopRule, Rims
 from surfmesh.sizing.rules.rule import DirectedRule, Places, Rule
 from surfmesh.sizing.rules.size_limits import SizeLimits
 from surfmesh.sizing.rules.size_rules import SizeRules
-
-ALIKE = 1.01
-"""Ratio up to which they are one size: on flat places ``along`` is round-off."""
 
 
 class FieldNodes(NamedTuple):
@@ -70,62 +67,9 @@ class FieldNodes(NamedTuple):
             pairs,
         )
 
-    @classmethod
-    def none(cls) -> "FieldNodes":
-        no, vectors = np.empty(0), np.empty((0, 3))
-        return cls.isotropic(no, no, vectors, vectors, vectors)
-
     @property
     def is_anisotropic(self) -> bool:
         return len(self.long) > 0
-
-    def joined_with(self, others: "FieldNodes") -> "FieldNodes":
-        """These nodes, then the others."""
-        return FieldNodes(*(np.concatenate(pair) for pair in zip(self, others)))
-
-    @property
-    def is_round(self) -> np.ndarray:
-        """Where (n,) uint8 one size was asked for: gradation may stretch it, but only ``along``."""
-        size, long = self.asked.T
-        return (long <= ALIKE * size).astype(np.uint8)
-
-    def in_order(self) -> "FieldNodes":
-        """The same metric with the longer size along ``along``: gradation may have swapped them."""
-        if not self.is_anisotropic:
-            return self
-        other = self.long < self.size
-        along = self.along.copy()
-        along[other] = np.cross(self.normal, self.along)[other]
-        size, long = np.minimum(self.size, self.long), np.maximum(self.size, self.long)
-        return self._replace(size=size, long=long, along=along)
-
-    def inverse_sizes(self) -> np.ndarray:
-        """A = H^-1 = M^(1/2) (n, 3) in the scaled plane."""
-        if not self.is_anisotropic:
-            return self.root / self.size[:, None]
-        # M = I / h^2 - (1 / h^2 - 1 / long^2) p p^T, with p = J^T along
-        e = self.root[:, 0] ** 2 + self.root[:, 1] ** 2
-        f = self.root[:, 1] * (self.root[:, 0] + self.root[:, 2])
-        g = self.root[:, 1] ** 2 + self.root[:, 2] ** 2
-        p, q = np.einsum("nij,ni->jn", self.jacobian, self.along)
-        scale, less = self.size**-2.0, self.size**-2.0 - self.long**-2.0
-        # det M without cancellation, as det I = det(root)^2
-        det = (self.root[:, 0] * self.root[:, 2] - self.root[:, 1] ** 2) / (self.size * self.long)
-        e, f, g = scale * e - less * p * p, scale * f - less * p * q, scale * g - less * q * q
-        return symmetric_root(e, f, g, np.maximum(det, 0.0))
-
-    def metric_roots_3d(self) -> np.ndarray:
-        """W = Id / h - (1 / h - 1 / long) t t^T (n, 6), t = along: xx, xy, xz, yy, yz, zz.
-
-        Across the surface the shorter size holds, so that W does not change where the surface
-        bends about its straighter direction alone. Empty where sizes are isotropic.
-        """
-        if not self.is_anisotropic:
-            return np.empty((0, 6))
-        less = 1.0 / self.size - 1.0 / self.long
-        w = outer(-less[:, None] * self.along, self.along)
-        w[:, DIAGONAL] += 1.0 / self.size[:, None]
-        return w
 
 
 def root_of_form(forms: FundamentalForms, rates: np.ndarray) -> np.ndarray:

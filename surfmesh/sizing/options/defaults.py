@@ -1,6 +1,7 @@
 """What holds where nothing is asked for, in one place: lengths are relative to the diagonal of the
 bounding box, model units."""
 
+from surfmesh._core import patch
 from surfmesh.sizing.options.sizing import Sizing
 
 DEFAULT_CHORD = 1e-3
@@ -12,16 +13,16 @@ DEFAULT_MAX_SIZE = 0.1
 LONGEST = 1.0
 """Likewise for the longer of two sizes of an anisotropic metric."""
 
-FINEST_SIZE = 1e-5
+FINEST_SIZE = patch.FINEST_SIZE  # 1e-5
 """No size is smaller, unless ``min_size`` says so: at an apex the curvature is infinite."""
 
-FINEST_BY_ANGLE = 2e-4
+FINEST_BY_ANGLE = patch.FINEST_BY_ANGLE  # 2e-4
 """``angle`` asks for no smaller size: triangles about an apex are bent by as much at any size."""
 
 DEFAULT_ANGLE = 45.0
 """Degrees; kept wherever sizes follow the curvature by ``chord`` alone."""
 
-LEAST_OF_CHORD = 0.5
+LEAST_OF_CHORD = patch.LEAST_OF_CHORD  # 0.5
 """The default angle asks for nothing smaller than this fraction of ``chord``: an apex is no
 fold."""
 

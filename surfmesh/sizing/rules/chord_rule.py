@@ -5,6 +5,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
+from surfmesh._core import elementary_functions
 from surfmesh.sizing.options.sizing import Sizing
 from surfmesh.sizing.rules.curvature_size import (
     DEVIATION_RESERVE,
@@ -55,7 +56,9 @@ class ChordRule(CurvatureRule):
         step = np.diff(curve.points, axis=0)
         length = np.linalg.norm(step, axis=1)
         step /= np.maximum(length, np.finfo(float).tiny)[:, None]
-        angle = np.arccos(np.clip(np.einsum("ij,ij->i", step[1:], step[:-1]), -1.0, 1.0))
+        angle = elementary_functions.acos(
+            np.clip(np.einsum("ij,ij->i", step[1:], step[:-1]), -1.0, 1.0)
+        )
         k = curve.curvature
         known = np.maximum.reduce([k[:-2], k[1:-1], k[2:]])
         corner = angle > np.maximum(KINK, known * (length[1:] + length[:-1]))

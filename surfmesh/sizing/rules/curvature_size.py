@@ -14,13 +14,14 @@ import math
 
 import numpy as np
 
+from surfmesh._core import patch
 from surfmesh.geometry.number_range import RANGE
 
 DEVIATION_RESERVE = 0.62
 """Share of ``chord`` that a unit triangle may use: real triangles are up to 1.26 times as
 large as the unit one (circumradius), and deviation grows with the square."""
 
-ROUND_RESERVE, BENT_RESERVE = 0.78, 0.94
+ROUND_RESERVE, BENT_RESERVE = patch.ROUND_RESERVE, patch.BENT_RESERVE  # 0.78, 0.94
 """Share of ``angle`` that two unit triangles may be bent by: on a sphere, where all edges are alike
 and some triangles are larger; and for what depends on the direction, as few edges lie worst."""
 

@@ -2,6 +2,7 @@
 
 import numpy as np
 
+from surfmesh._core import elementary_functions
 from surfmesh.geometry.differential.fundamental_forms import curvatures, forms_from_derivatives
 from surfmesh.geometry.surface import Surface
 from surfmesh.sizing.rules.direction_rates import ROUND, direction_rates, longest_along
@@ -28,8 +29,8 @@ def size_along(
     cosines = [
         np.einsum("ij,ij->i", d[:, :1] * ru + d[:, 1:] * rv, directions) for d in (k.d1, k.d2)
     ]
-    length = np.hypot(*cosines)  # of the direction's part in the tangent plane
-    inverse = np.hypot(cosines[0] / sizes[:, 0], cosines[1] / sizes[:, 1])
+    length = elementary_functions.hypot(*cosines)  # of the direction's part in the tangent plane
+    inverse = elementary_functions.hypot(cosines[0] / sizes[:, 0], cosines[1] / sizes[:, 1])
     with np.errstate(divide="ignore", invalid="ignore"):
         size = length / inverse
     return np.where(forms.degenerate | ~np.isfinite(size), np.inf, size)

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from surfmesh._core import elementary_functions
 from surfmesh.sizing.metric_roots import outer, uniform
 
 if TYPE_CHECKING:
@@ -74,12 +75,13 @@ class SizeLimits:
 
         a, b, c = form(first, first), form(first, second), form(second, second)
         mean, half = 0.5 * (a + c), 0.5 * (a - c)
-        largest = mean + np.hypot(half, b)
+        largest = mean + elementary_functions.hypot(half, b)
         size = 1.0 / np.maximum(largest, np.finfo(float).tiny) + self.slope * distance
         best = size.argmin(axis=1)[:, None]
         b, half = (np.take_along_axis(x, best, 1) for x in (b, half))
-        angle = 0.5 * np.arctan2(b, half)
-        direction = np.cos(angle) * first + np.sin(angle) * second
+        angle = 0.5 * elementary_functions.atan2(b, half)
+        sine, cosine = elementary_functions.sincos(angle)
+        direction = cosine * first + sine * second
         return np.take_along_axis(size, best, 1)[:, 0], direction
 
     def chosen(self, rows: np.ndarray) -> "SizeLimits":

@@ -80,24 +80,6 @@ def test_a_child_that_waits_for_the_processor_is_not_ended(tmp_path):
     assert answer_of([sys.executable, "-c", program], {}, "part.step", Limits(0.5, 100.0)) == "read"
 
 
-COMPILES = """
-import time
-from numba.core import event
-with event.trigger_event("numba:compile"), event.trigger_event("numba:compile"):
-    start = time.process_time()
-    while time.process_time() < start + 0.5: pass
-answer = 'read'
-"""
-
-
-def test_the_compilation_of_kernels_is_not_counted():
-    program = "import numba\n" + CHILD.format(COMPILES)
-    assert answer_of([sys.executable, "-c", program], {}, "part.step", Limits(0.3, 100.0)) == "read"
-    with pytest.raises(CadError, match="not read within"):
-        answer_of([sys.executable, "-c", program + "while True: pass"], {}, "part.step",
-                  Limits(0.3, 100.0))  # fmt: skip
-
-
 @pytest.mark.parametrize(
     ("program", "words"),
     [

@@ -167,6 +167,10 @@ ANGLES = [
     *[(INF, -INF, 3 * np.pi / 4), (-INF, -INF, -3 * np.pi / 4), (5e-324, 5e-324, np.pi / 4)],
     *[(NAN, 1.0, NAN), (1.0, NAN, NAN), (1e-320, 1e300, 0.0), (1e300, 1e-320, np.pi / 2)],
 ]
+LENGTHS = [
+    *[(INF, NAN, INF), (NAN, -INF, INF), (NAN, 1.0, NAN), (0.0, -0.0, 0.0), (-3.0, 4.0, 5.0)],
+    *[(3e300, -4e300, 5e300), (3e-310, 4e-310, 5e-310), (1.7e308, 1.7e308, INF)],
+]
 POWERS = [
     *[(x, y, 1.0) for x in (0.0, -2.0, INF, NAN) for y in (0.0, -0.0)],
     *[(1.0, y, 1.0) for y in (-3.0, INF, -INF, NAN)],
@@ -183,7 +187,9 @@ POWERS = [
 
 @pytest.mark.parametrize(
     ("name", "a", "b", "expected"),
-    [("atan2", *case) for case in ANGLES] + [("pow", *case) for case in POWERS],
+    [("atan2", *case) for case in ANGLES]
+    + [("pow", *case) for case in POWERS]
+    + [("hypot", *case) for case in LENGTHS],
 )
 def test_special_values_of_two_numbers(name, a, b, expected):
     """Those of C99, annex F.10."""
@@ -210,6 +216,15 @@ def test_errors_of_the_angle():
             truth = mpmath.atan2(mpmath.mpf(a), mpmath.mpf(b))
             assert error_in_ulps(found, truth) <= 0.7, f"at {a.hex()}, {b.hex()}"
             assert own.atan2(a, b) == found
+
+
+def test_errors_of_lengths():
+    x, y = pairs_of_numbers(np.random.default_rng(8))
+    with mpmath.workprec(180):
+        for a, b, found in zip(x.tolist(), y.tolist(), own.hypot(x, y).tolist()):
+            truth = mpmath.sqrt(mpmath.mpf(a) ** 2 + mpmath.mpf(b) ** 2)
+            assert error_in_ulps(found, truth) <= 0.51, f"at {a.hex()}, {b.hex()}"
+            assert own.hypot(a, b) == found
 
 
 def test_errors_of_powers():

@@ -6,12 +6,16 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from naive.background import constant_background, random_background, uniform_background
+from naive.background import (
+    constant_background,
+    random_background,
+    replaced,
+    uniform_background,
+)
 from naive.metric import alpha, length
 from naive.triangulation import check_front, check_triangulation, corners, front_loop
 from naive.watchdog import watched
 
-from surfmesh._core import fields
 from surfmesh._core.packing import PackingStatus, pack
 from surfmesh._core.triangulation import DONE
 from surfmesh.errors import MeshingError
@@ -161,7 +165,8 @@ def test_units_of_length_do_not_matter(scale):
     power = 2.0 ** round(np.log2(scale))
     plain = packed(random_background(5, 3, 10.0, 3.0, 0.1), UNIT, (0.5, 0.5), 300)
     field = random_background(5, 3, 10.0, 3.0, 0.1)
-    field = field._replace(
+    field = replaced(
+        field,
         box=field.box * [power, power, 1 / power, 1 / power, power],
         metric_root=field.metric_root / power,
     )
@@ -255,12 +260,12 @@ def test_no_circles_about_an_origin_without_size():
     field = constant_background(1e-20, 1.0, 1.0)
     with pytest.raises(MeshingError, match=r"no circles can be placed about the origin \(0.5, 0.5"):
         packed(field, UNIT, (0.5, 0.5), 10, 10)
-    bad = pack(fields.Background(*field), UNIT, (0.5, 0.5), 10, 10, np.inf)
+    bad = pack(field, UNIT, (0.5, 0.5), 10, 10, np.inf)
     assert (bad.status, bad.place) == (PackingStatus.BAD_START, (0.5, 0.5))
 
 
 def test_whoever_watches_may_stop_it():
-    field = fields.Background(*constant_background(0.003, 1.0, 1.0))
+    field = constant_background(0.003, 1.0, 1.0)
     told = []
 
     def watch(circles):
@@ -274,7 +279,7 @@ def test_whoever_watches_may_stop_it():
 
 
 def test_the_watch_changes_nothing():
-    field = fields.Background(*random_background(3, 4, 3.0, 3.0, size=0.005))
+    field = random_background(3, 4, 3.0, 3.0, size=0.005)
     alone, watched_one = (
         pack(field, UNIT, (0.5, 0.5), 0, NO_LIMIT, np.inf, watch) for watch in (None, id)
     )
@@ -286,7 +291,7 @@ def test_the_watch_changes_nothing():
     dict(distance=np.nan),
 ])  # fmt: skip
 def test_limits_must_be_numbers(wrong):
-    field = fields.Background(*constant_background(0.1, 1.0, 1.0))
+    field = constant_background(0.1, 1.0, 1.0)
     limits = dict(box=UNIT, origin=(0.5, 0.5), expected=10, wanted=10, distance=np.inf) | wrong
     with pytest.raises(ValueError, match="to be"):
         pack(field, **limits)

@@ -7,27 +7,24 @@ from hypothesis import strategies as st
 from naive import meeting as slow
 from naive.exact import sign
 
-from surfmesh.kernels.space.space_predicates import WORKSPACE, orient_space
-from surfmesh.kernels.space.triangle_pairs import triangles_meet
+from surfmesh._core.space import meeting_triangles, orient_space, triangles_meet
 from surfmesh.quality.measures.self_intersection import meeting_pairs
 from surfmesh.result.surface_mesh import SurfaceMesh
 
-WORK = np.empty(WORKSPACE)
 coarse = st.integers(-2, 2).map(float)  # many coincidences
 seeds = st.integers(0, 2**31)
 
 
 def meet(first, second):
-    corners = np.array([*first, *second], float)
-    found = triangles_meet(corners, 0, 3, WORK)
-    assert found == triangles_meet(corners, 3, 0, WORK)
-    return bool(found)
+    found = triangles_meet(np.array([*first, *second], float))
+    assert found == triangles_meet(np.array([*second, *first], float))
+    return found
 
 
 @given(st.lists(st.tuples(*[st.floats(-1e3, 1e3).map(lambda x: round(x, 9))] * 3), min_size=4,
                 max_size=4))  # fmt: skip
 def test_orientation_has_the_sign_of_fractions(points):
-    found = float(orient_space(np.array(points), 0, 1, 2, 3, WORK))
+    found = orient_space(np.array(points))
     assert sign(found) == sign(slow.orient_space(*points))
 
 
@@ -37,9 +34,9 @@ def test_orientation_of_points_that_are_nearly_in_a_plane(seed):
     a, b, c = rng.normal(size=(3, 3))
     s, t = rng.normal(size=2)
     points = np.array([a, b, c, a + s * (b - a) + t * (c - a)]) + rng.choice([0, 100])
-    found = float(orient_space(points, 0, 1, 2, 3, WORK))
+    found = orient_space(points)
     assert sign(found) == sign(slow.orient_space(*points))
-    assert sign(float(orient_space(points, 1, 0, 2, 3, WORK))) == -sign(found)
+    assert sign(orient_space(points[[1, 0, 2, 3]])) == -sign(found)
 
 
 @settings(max_examples=200)
@@ -109,10 +106,22 @@ def test_all_pairs_of_a_soup(count, size, seed):
     assert [tuple(pair) for pair in meeting_pairs(mesh)] == slow.meeting_pairs(points, triangles)
 
 
-def test_more_pairs_than_there_is_room_for_at_first():
+def test_many_pairs():
     count = 150  # triangles that all go through the middle
     rng = np.random.default_rng(0)
     points = rng.normal(size=(count, 3, 3))
     points[:, 2] = -points[:, :2].sum(axis=1)
     mesh = SurfaceMesh(points=points.reshape(-1, 3), triangles=np.arange(3 * count).reshape(-1, 3))
     assert len(meeting_pairs(mesh)) == count * (count - 1) // 2
+    corners = points.reshape(-1, 3)
+    assert len(meeting_triangles(corners, 1000)) in range(1000, 1000 + count)
+    assert len(meeting_triangles(corners, 0)) == 0
+
+
+def test_wrong_shapes_are_refused():
+    with pytest.raises(ValueError, match="corners has 5 rows instead of 6"):
+        triangles_meet(np.zeros((5, 3)))
+    with pytest.raises(ValueError, match="corners has 3 rows instead of 4"):
+        orient_space(np.zeros((3, 3)))
+    with pytest.raises(ValueError, match="3 rows a triangle"):
+        meeting_triangles(np.zeros((5, 3)), 10)

@@ -13,8 +13,9 @@ from surfmesh.geometry.cad_surfaces.face_surface import DERIVATIVES
 from surfmesh.geometry.cad_surfaces.nurbs import BSplineCurve, BSplineSurface, bezier_knots
 from surfmesh.geometry.cad_surfaces.offset import OffsetSurface
 from surfmesh.geometry.cad_surfaces.swept import ExtrusionSurface, RevolutionSurface
+from surfmesh.geometry.differential.chart import Chart
 from surfmesh.geometry.differential.fundamental_forms import area, curvatures, forms
-from surfmesh.geometry.surface import Surface
+from surfmesh.geometry.surface import Surface, steady_axes
 
 TURN = 2.0 * np.pi
 BOX = ((0.2, 1.3), (0.1, 0.9))
@@ -266,3 +267,20 @@ def test_what_makes_no_surface_is_refused():
         BSplineSurface(*knots, good.control, -good.weights, domain=BOX)
     with pytest.raises(SurfaceError, match="to order 2 only"):
         SURFACES[-1].evaluate(inside(BOX), 3)
+
+
+class Unsteady:
+    """A surface that does not say where its speeds are the same."""
+
+    name, loops = "unsteady", ()
+
+    def __init__(self, surface):
+        self.domain, self.evaluate = surface.domain, surface.evaluate  # all that a chart asks
+
+
+@pytest.mark.parametrize("surface", SURFACES, ids=NAMES)
+def test_speeds_said_to_be_steady_are_those_of_all_samples(surface):
+    said, sampled = Chart.of(surface), Chart.of(Unsteady(surface))
+    assert said.extent == pytest.approx(sampled.extent, rel=1e-13)
+    for axis, steady in zip(said.axes, steady_axes(surface)):
+        assert not steady or len(axis.knots) == 2

@@ -9,9 +9,11 @@ import pytest
 import surfmesh as sm
 from surfmesh.geometry.differential.sides import find_sides
 from surfmesh.meshing import model_mesh, parametric_mesh
-from surfmesh.meshing.estimate import trial_mesh
+from surfmesh.meshing.estimate import model_estimate, trial_mesh
 from surfmesh.meshing.estimate.estimation import field_triangles
+from surfmesh.meshing.estimate.face_counts import counts_of_faces
 from surfmesh.meshing.estimate.trial_patches import triangles_per_unit
+from surfmesh.meshing.faces import face_workers
 from surfmesh.sizing.field.metric_area import box_area, metric_area
 from surfmesh.sizing.field.size_field import size_field
 
@@ -110,9 +112,34 @@ def test_a_trial_that_needs_too_much_work_is_given_up(monkeypatch):
 def test_the_work_of_a_model_is_counted_face_by_face(monkeypatch, budget, faces_meshed):
     """Six faces, each of some 400 units: no clock decides where the trial ends."""
     model = sm.from_cadquery(cq.Workplane().box(1, 1, 1))
-    mesh_face, meshed = model_mesh.mesh_face, []
-    monkeypatch.setattr(model_mesh, "mesh_face", lambda job: meshed.append(job) or mesh_face(job))
+    mesh_face, meshed = face_workers.mesh_face, []
+    monkeypatch.setattr(face_workers, "mesh_face", lambda job: meshed.append(job) or mesh_face(job))
     monkeypatch.setattr(trial_mesh, "BUDGET", budget)
     found = counts(model, 1.0)
     assert len(meshed) == faces_meshed
     assert (found is None) == (faces_meshed < 6)
+
+
+def test_many_faces_are_counted_by_a_close_look_at_some():
+    """Alike holes once; where all differ a sample, and the total is as near as the others are."""
+    sizes = np.linspace(0.3, 0.9, 70)
+    places = [(x, y) for x in range(10) for y in range(7)]
+    plate = cq.Workplane().box(24, 18, 1)
+    differing = plate
+    alike = plate.faces(">Z").workplane().rarray(2.2, 2.2, 10, 7).hole(1.0)
+    for (x, y), diameter in zip(places, sizes.tolist()):
+        centre = (2.2 * (x - 4.5), 2.2 * (y - 3))
+        top = differing.faces(">Z").workplane(origin=(0, 0, 0.5))
+        differing = top.center(*centre).hole(diameter)
+    looked = []
+    for shape, most in ((alike, 20), (differing, 80)):
+        model = sm.from_cadquery(shape)
+        before = model_mesh._Unmeshed(model, 0.15)
+        areas = np.array([face.area for face in model.faces])
+        every = np.array([model_estimate._count(job) for job in before.jobs])
+        looked.clear()
+        found = counts_of_faces(
+            before.jobs, areas, lambda job: looked.append(job) or model_estimate._count(job)
+        )
+        assert len(looked) < min(most, len(model.faces))
+        assert found.sum() == pytest.approx(every.sum(), rel=0.03)

@@ -1,0 +1,256 @@
+// The builder of size fields, with laws that are the caller's own objects in Python.
+#include <nanobind/stl/array.h>
+#include <nanobind/stl/pair.h>
+#include <nanobind/stl/tuple.h>
+
+#include <exception>
+#include <tuple>
+
+#include "binding/arrays.hpp"
+#include "fields/field_builder.hpp"
+
+namespace surfmesh::binding {
+
+template <>
+struct Row<PlaneJacobian> {
+    using Number = double;
+    static constexpr std::size_t columns = 6;
+};
+template <>
+struct Row<NumberPair> {
+    using Number = double;
+    static constexpr std::size_t columns = 2;
+};
+
+void bind_field_builder(nb::module_& m);
+
+namespace {
+
+using Numbers = nb::ndarray<const double, nb::c_contig, nb::device::cpu>;
+using Flags = nb::ndarray<const bool, nb::ndim<1>, nb::c_contig, nb::device::cpu>;
+
+/// The rows of an array that a law returned: one for each place, or none.
+template <class T>
+Array<T> returned(const nb::tuple& arrays, std::size_t number) {
+    Numbers kept;
+    constexpr std::size_t columns = Row<T>::columns;
+    if (!nb::try_cast(arrays[number], kept) || kept.size() % columns != 0)
+        throw nb::value_error(
+            ("a law returned what is no array of numbers, as array " + std::to_string(number))
+                .c_str());
+    return Array<T>(
+        std::span<const T>{reinterpret_cast<const T*>(kept.data()), kept.size() / columns});
+}
+
+/// Sizes that an object in Python asks for; its first exception is kept.
+class CallbackLaw final : public NodeLaw {
+  public:
+    explicit CallbackLaw(const nb::object& law) : law_(law) {}
+
+    bool ask(std::span<const Point2> xy, FieldNodes& nodes) override {
+        const nb::gil_scoped_acquire held;
+        try {
+            const nb::tuple arrays(law_(view(Array<Point2>(xy))));
+            if (arrays.size() != 12) throw nb::value_error("a law returns twelve arrays");
+            nodes = {returned<double>(arrays, 0),        returned<double>(arrays, 1),
+                     returned<SizeTensor>(arrays, 2),    returned<Point3>(arrays, 3),
+                     returned<Point3>(arrays, 4),        returned<double>(arrays, 5),
+                     returned<double>(arrays, 6),        returned<Point3>(arrays, 7),
+                     returned<PlaneJacobian>(arrays, 8), returned<NumberPair>(arrays, 9),
+                     returned<NumberPair>(arrays, 10),   returned<NumberPair>(arrays, 11)};
+            if (nodes.count() != xy.size() || !nodes.is_complete())
+                throw nb::value_error("a law returned arrays that do not fit the places");
+            return true;
+        } catch (...) {
+            failure = std::current_exception();
+            return false;
+        }
+    }
+
+    std::exception_ptr failure;
+
+  private:
+    const nb::object& law_;
+};
+
+/// Features that an object in Python looks for; its first exception is kept.
+class CallbackFeatures final : public HiddenFeatures {
+  public:
+    explicit CallbackFeatures(const nb::object& search) : search_(search) {}
+
+    bool find(const SeenCells& cells, bool deep, std::span<std::uint8_t> found) override {
+        const nb::gil_scoped_acquire held;
+        try {
+            const nb::object given =
+                search_(deep, view(cells.low), view(cells.high), view(cells.normal),
+                        view(cells.root), view(cells.smallest_size));
+            Flags flags;
+            if (!nb::try_cast(given, flags) || flags.size() != found.size())
+                throw nb::value_error("a search for features returns a flag for each cell");
+            std::copy(flags.data(), flags.data() + flags.size(), found.begin());
+            return true;
+        } catch (...) {
+            failure = std::current_exception();
+            return false;
+        }
+    }
+
+    std::exception_ptr failure;
+
+  private:
+    const nb::object& search_;
+};
+
+const char* name_of(FieldStatus status) {
+    switch (status) {
+        case FieldStatus::done:
+            return "done";
+        case FieldStatus::too_many_triangles:
+            return "too_many_triangles";
+        case FieldStatus::too_many_cells:
+            return "too_many_cells";
+        case FieldStatus::not_graded:
+            return "not_graded";
+        case FieldStatus::failed:
+            return "failed";
+    }
+    return "failed";
+}
+
+/// Status, place in the scaled plane, and a number of triangles or cells.
+using Outcome = std::tuple<const char*, std::pair<double, double>, double>;
+
+Outcome told(const FieldOutcome& outcome) {
+    return {name_of(outcome.status), {outcome.place.x, outcome.place.y}, outcome.number};
+}
+
+Outcome refine(FieldBuilder& builder, const nb::object& law, const nb::object& search) {
+    CallbackLaw asked(law);
+    CallbackFeatures hidden(search);
+    FieldOutcome outcome{};
+    {
+        const nb::gil_scoped_release released;
+        outcome = builder.refine(asked, hidden);
+    }
+    if (asked.failure) std::rethrow_exception(asked.failure);
+    if (hidden.failure) std::rethrow_exception(hidden.failure);
+    return told(outcome);
+}
+
+void require_finished(const FieldBuilder& builder) {
+    if (!builder.is_finished()) throw nb::value_error("the field is not refined yet");
+}
+
+using Sides = std::pair<std::array<int, 4>, std::array<bool, 4>>;
+using Places = nb::ndarray<const std::int64_t, nb::shape<-1, 3>, nb::c_contig, nb::device::cpu>;
+
+void construct(FieldBuilder* builder, std::pair<std::int32_t, std::int32_t> grid,
+               std::pair<double, double> extent, std::pair<double, double> root_step, double slope,
+               double largest, const Sides& sides, const Places& sources, bool known_sizes,
+               bool counts_triangles, double most_triangles,
+               std::pair<bool, bool> looks_for_hidden) {
+    const auto [nx, ny] = grid;
+    if (nx < 1 || ny < 1 || std::int64_t{nx} * ny > (1 << 20))
+        throw nb::value_error("grid is not positive, or has more than 2^20 root cells");
+    for (int side = 0; side < 4; ++side)
+        if (const int other = sides.first[side];
+            other < -1 || other > 3 || other == side || (other >= 0 && sides.first[other] != side))
+            throw nb::value_error("a side is joined with one that is not joined with it");
+    FieldPlan plan{{nx, ny},
+                   {extent.first, extent.second},
+                   {root_step.first, root_step.second},
+                   slope,
+                   largest,
+                   sides.first,
+                   sides.second,
+                   {},
+                   known_sizes,
+                   counts_triangles,
+                   most_triangles,
+                   looks_for_hidden.first,
+                   looks_for_hidden.second};
+    for (std::size_t k = 0; k < sources.shape(0); ++k) {
+        const SmallSource source{sources(k, 0), sources(k, 1), sources(k, 2)};
+        if (source.x < 0 || source.y < 0 || source.x >> GRID_DEPTH >= nx ||
+            source.y >> GRID_DEPTH >= ny || source.depth > GRID_DEPTH)
+            throw nb::value_error("a source lies outside the grid, or is too deep");
+        plan.sources.push_back(source);
+    }
+    new (builder) FieldBuilder(std::move(plan));
+}
+
+}  // namespace
+
+void bind_field_builder(nb::module_& m) {
+    m.attr("GRID_DEPTH") = GRID_DEPTH;
+    nb::class_<FieldBuilder> c(m, "FieldBuilder", "Makes the background of one size field.");
+    c.def("__init__", &construct, nb::arg("grid"), nb::arg("extent"), nb::arg("root_step"),
+          nb::arg("slope"), nb::arg("largest"), nb::arg("sides"), nb::arg("sources"),
+          nb::arg("known_sizes"), nb::arg("counts_triangles"), nb::arg("most_triangles"),
+          nb::arg("looks_for_hidden"),
+          "grid: root cells along x and y. extent: of the scaled plane. root_step: width and "
+          "height of a root cell. slope: growth of the size per length. largest: size in the "
+          "scaled plane above which none counts.\nsides: of each the one that it is joined with, "
+          "or -1, and whether it runs against it. sources (k, 3): x, y of small sizes on the grid "
+          "of GRID_DEPTH, and how deep the cell there shall be.\nknown_sizes: points of known "
+          "size have such cells. counts_triangles: cells may not be many more than triangles. "
+          "most_triangles: more are refused, or inf.\nlooks_for_hidden: features between the "
+          "nodes are looked for at all, and in deep cells.");
+    c.def("refine", &refine, nb::arg("law"), nb::arg("hidden"),
+          "Split cells until the field is accurate: status, place, and number of triangles or "
+          "cells.\n\nlaw(xy (n, 2)) -> the twelve arrays of FieldNodes. hidden(deep, low, high "
+          "(n, 2), normal (n, 3), root (9 n, 3), smallest size (n,)) -> (n,) bool.\nRaises what "
+          "they raise. The status is done, too_many_triangles, too_many_cells or not_graded.");
+    c.def(
+        "grade_anew",
+        [](FieldBuilder& builder) {
+            require_finished(builder);
+            FieldOutcome outcome{};
+            {
+                const nb::gil_scoped_release released;
+                builder.touch_all();
+                outcome = builder.grade_nodes();
+            }
+            return told(outcome);
+        },
+        "Grade the sizes of all nodes, as if they were new; returned as by refine.");
+    c.def(
+        "spread",
+        [](FieldBuilder& builder,
+           nb::ndarray<double, nb::ndim<1>, nb::c_contig, nb::device::cpu> size) {
+            require_finished(builder);
+            require_rows(size.size(), builder.nodes.count(), "size");
+            FieldOutcome outcome{};
+            {
+                const nb::gil_scoped_release released;
+                builder.touch_all();
+                outcome = builder.spread(std::span<double>(size.data(), size.size()));
+            }
+            return told(outcome);
+        },
+        nb::arg("size").noconvert(),
+        "Grade isotropic sizes (nodes,) in place; returned as by refine.");
+    c.def(
+        "nodes",
+        [](const FieldBuilder& builder) {
+            const FieldNodes& n = builder.nodes;
+            return nb::make_tuple(view(n.size), view(n.target_size), view(n.root), view(n.normal),
+                                  view(n.point), view(n.longer), view(n.longer_target),
+                                  view(n.along), view(n.jacobian), view(n.asked), view(n.curvature),
+                                  view(n.turn_rates));
+        },
+        "The twelve arrays of FieldNodes, as views; the jacobian (nodes, 6).");
+    c.def(
+        "plane", [](const FieldBuilder& builder) { return view(builder.plane()); },
+        "Places (nodes, 2) of the nodes in the scaled plane.");
+    c.def(
+        "background",
+        [](FieldBuilder& builder) {
+            require_finished(builder);
+            const nb::gil_scoped_release released;
+            return builder.background();
+        },
+        "The background; the builder is done with.");
+}
+
+}  // namespace surfmesh::binding

@@ -1,0 +1,58 @@
+// Nodes by their place on the finest grid: a table with open addressing, which grows.
+#pragma once
+
+#include <cstdint>
+
+#include "fields/background.hpp"
+#include "values/array.hpp"
+
+namespace surfmesh {
+
+class NodeTable {
+  public:
+    NodeTable() { clear(1024); }
+
+    /// The node of a key, which is NIL where the key is new; the key is in the table then.
+    Node& operator[](std::int64_t key) {
+        if (2 * (count_ + 1) > key_.size()) grow();
+        const std::size_t at = slot(key);
+        if (key_[at] == FREE) {
+            key_[at] = key;
+            ++count_;
+        }
+        return node_[at];
+    }
+
+  private:
+    static constexpr std::int64_t FREE = -1;
+
+    void clear(std::size_t slots) {
+        count_ = 0;
+        key_ = Array<std::int64_t>(slots, FREE);
+        node_ = Array<Node>(slots, NIL);
+    }
+
+    void grow() {
+        const Array<std::int64_t> key = std::move(key_);
+        const Array<Node> node = std::move(node_);
+        clear(4 * key.size());
+        for (std::size_t k = 0; k < key.size(); ++k)
+            if (key[k] != FREE) (*this)[key[k]] = node[k];
+    }
+
+    [[nodiscard]] std::size_t slot(std::int64_t key) const {
+        const std::size_t mask = key_.size() - 1;
+        // keys of coarse cells are multiples of high powers of two: high bits have to come down
+        std::uint64_t mixed = static_cast<std::uint64_t>(key) * 0x9E3779B97F4A7C15U;
+        mixed = (mixed ^ (mixed >> 32)) * 0x9E3779B97F4A7C15U;
+        std::size_t at = (mixed ^ (mixed >> 32)) & mask;
+        while (key_[at] != FREE && key_[at] != key) at = (at + 1) & mask;
+        return at;
+    }
+
+    std::size_t count_ = 0;
+    Array<std::int64_t> key_;  // a power of two of them
+    Array<Node> node_;
+};
+
+}  // namespace surfmesh

@@ -1,0 +1,170 @@
+#include "patch/seam_identification.hpp"
+
+#include <algorithm>
+#include <utility>
+#include <vector>
+
+namespace surfmesh {
+namespace {
+
+/// An edge without direction: its smaller end comes first.
+using Edge = std::pair<std::int64_t, std::int64_t>;
+
+Edge edge_of(std::int64_t a, std::int64_t b) { return {std::min(a, b), std::max(a, b)}; }
+
+/// Sort and count: how many there are without those that are there twice.
+template <class Value>
+std::int64_t distinct(std::vector<Value>& values) {
+    std::sort(values.begin(), values.end());
+    values.erase(std::unique(values.begin(), values.end()), values.end());
+    return static_cast<std::int64_t>(values.size());
+}
+
+/// What identification must make of a boundary.
+struct Expected {
+    std::int64_t joined = 0;        // nodes that are identified with others
+    std::int64_t collapsed = 0;     // segments that become points
+    std::int64_t euler_change = 0;  // of Euler's number
+};
+
+Expected expected_of(const IdentifiedBoundary& boundary) {
+    std::vector<std::int64_t> identities(boundary.identity.begin(), boundary.identity.end());
+    Expected expected;
+    expected.joined = static_cast<std::int64_t>(identities.size()) - distinct(identities);
+    if (expected.joined == 0) return expected;
+    std::vector<Edge> segments, pairs;
+    // an edge inside is walked there and back: two segments of the loops, one of the domain
+    for (const auto [a, b] : boundary.segments) segments.push_back(edge_of(a, b));
+    distinct(segments);
+    for (const auto& [a, b] : segments) {
+        const std::int64_t start = boundary.identity[a], end = boundary.identity[b];
+        if (start == end)
+            ++expected.collapsed;
+        else
+            pairs.push_back(edge_of(start, end));
+    }
+    const auto before = static_cast<std::int64_t>(pairs.size());
+    const std::int64_t identified = before - distinct(pairs);
+    expected.euler_change = expected.collapsed + identified - expected.joined;
+    return expected;
+}
+
+/// Vertices of a domain become points.
+class Identification {
+  public:
+    Identification(const DomainTriangles& domain, const IdentifiedBoundary& boundary)
+        : domain_(domain),
+          expected_(expected_of(boundary)),
+          same_(domain.vertices),
+          is_joined_(domain.vertices, 0) {
+        for (Vertex v = 0; v < domain.vertices; ++v) same_[v] = v;
+        if (expected_.joined > 0) join(boundary);
+    }
+
+    SurfaceTriangles triangles() {
+        number_points();
+        for (std::size_t k = 0; k < domain_.region.size(); ++k)
+            if (domain_.region[k] != DEAD) add_triangle(static_cast<Triangle>(k));
+        if (expected_.joined > 0) check();
+        return std::move(found_);
+    }
+
+  private:
+    /// Nodes take the vertex of the first node that they coincide with.
+    void join(const IdentifiedBoundary& boundary) {
+        for (std::size_t k = 0; k < boundary.node.size(); ++k) {
+            const Vertex v = boundary.node[k], first = boundary.node[boundary.identity[k]];
+            if (v == NIL || first == NIL || v == first) continue;
+            same_[v] = first;
+            is_joined_[v] = is_joined_[first] = 1;
+        }
+    }
+
+    /// Points are the vertices in use that stand for themselves, in their order.
+    void number_points() {
+        Array<std::uint8_t> used(domain_.vertices, 0);
+        for (std::size_t e = 0; e < domain_.tri.size(); ++e)
+            if (domain_.region[e / 3] != DEAD) used[domain_.tri[e]] = 1;
+        point_.resize(domain_.vertices, NIL);
+        for (Vertex v = 0; v < domain_.vertices; ++v) {
+            used_ += used[v];
+            if (!used[v] || same_[v] != v) continue;
+            point_[v] = static_cast<std::int32_t>(found_.vertex.size());
+            found_.vertex.push_back(v);
+        }
+    }
+
+    [[nodiscard]] std::int32_t point(HalfEdge e) const { return point_[same_[domain_.tri[e]]]; }
+
+    void add_triangle(Triangle k) {
+        ++live_;
+        const HalfEdge e = 3 * k;
+        for (HalfEdge f = e; f < e + 3; ++f) border_ += domain_.adj[f] < 0;
+        const std::int32_t a = point(e), b = point(e + 1), c = point(e + 2);
+        if (expected_.joined > 0 && (a == b || b == c || c == a)) {
+            ++lost_;
+            for (const std::int32_t corner : {a, b, c}) lost_points_.push_back(corner);
+            return;
+        }
+        for (const std::int32_t corner : {a, b, c}) found_.triangles.push_back(corner);
+        for (HalfEdge f = e; f < e + 3; ++f) {
+            found_.corners.push_back(domain_.tri[f]);
+            if (expected_.joined > 0) count_edge(f);
+        }
+    }
+
+    /// An edge away from the seams has two half-edges, or one on the border. Of the others all are
+    /// kept: identification may lay any of them on each other.
+    void count_edge(HalfEdge e) {
+        const Vertex start = domain_.tri[e], end = domain_.tri[next_half_edge(e)];
+        if (is_joined_[start] || is_joined_[end])
+            at_seams_.push_back(edge_of(point(e), point(next_half_edge(e))));
+        else
+            edges_ += domain_.adj[e] < e;
+    }
+
+    /// Find the points where there is no surface.
+    void check() {
+        std::vector<std::int64_t> bad;
+        if (lost_ != expected_.collapsed) bad.assign(lost_points_.begin(), lost_points_.end());
+        std::sort(at_seams_.begin(), at_seams_.end());
+        for (std::size_t k = 0; k + 2 < at_seams_.size(); ++k)
+            if (at_seams_[k] == at_seams_[k + 2]) {
+                bad.push_back(at_seams_[k].first);
+                bad.push_back(at_seams_[k].second);
+            }
+        edges_ += distinct(at_seams_);
+        if (bad.empty() && euler() != euler_of_domain() + expected_.euler_change)
+            for (std::size_t k = 0; k < found_.vertex.size(); ++k)
+                bad.push_back(static_cast<std::int64_t>(k));
+        distinct(bad);
+        found_.non_manifold = Array<std::int64_t>(std::span<const std::int64_t>(bad));
+    }
+
+    /// Vertices - edges + triangles.
+    [[nodiscard]] std::int64_t euler() const {
+        return static_cast<std::int64_t>(found_.vertex.size()) - edges_ + (live_ - lost_);
+    }
+    /// The same before: the border has as many edges as half-edges.
+    [[nodiscard]] std::int64_t euler_of_domain() const {
+        return used_ - (3 * live_ + border_) / 2 + live_;
+    }
+
+    const DomainTriangles& domain_;
+    Expected expected_;
+    Array<Vertex> same_;             // of the vertices: the one that stands for the point
+    Array<std::uint8_t> is_joined_;  // of the vertices: does another coincide with it?
+    Array<std::int32_t> point_;      // of the vertices, or NIL
+    SurfaceTriangles found_;
+    std::vector<std::int32_t> lost_points_;
+    std::vector<Edge> at_seams_;
+    std::int64_t live_ = 0, lost_ = 0, border_ = 0, used_ = 0, edges_ = 0;
+};
+
+}  // namespace
+
+SurfaceTriangles identify_seams(const DomainTriangles& domain, const IdentifiedBoundary& boundary) {
+    return Identification(domain, boundary).triangles();
+}
+
+}  // namespace surfmesh

@@ -1,0 +1,50 @@
+// What every curve of the core can do: c(t) and its derivatives for a block of parameters.
+//
+// Curves of the (u, v) plane are curves in space with z = 0. The calls change nothing, so that
+// several threads may use one curve, and none of them fails.
+#pragma once
+
+#include <span>
+
+#include "values/array.hpp"
+#include "values/point.hpp"
+
+namespace surfmesh {
+
+class Curve {
+  public:
+    virtual ~Curve() = default;
+
+    /// 2 in the (u, v) plane, 3 in space.
+    [[nodiscard]] virtual int dimension() const = 0;
+
+    /// Derivative k at t[i] into out[k n + i], for the n parameters t and all k up to the order.
+    virtual void evaluate(std::span<const double> t, int order, std::span<Point3> out) const = 0;
+
+  protected:
+    Curve() = default;
+    Curve(const Curve&) = default;
+    Curve(Curve&&) = default;
+    Curve& operator=(const Curve&) = default;
+    Curve& operator=(Curve&&) = default;
+};
+
+/// A curve's values at a block of parameters, with their memory.
+class CurveValues {
+  public:
+    CurveValues(const Curve& curve, std::span<const double> t, int order)
+        : values_(static_cast<std::size_t>(order + 1) * t.size()), count_(t.size()) {
+        curve.evaluate(t, order, {values_.data(), values_.size()});
+    }
+    /// Derivative k at all parameters.
+    [[nodiscard]] std::span<Point3> operator[](int k) const {
+        return {values_.data() + static_cast<std::size_t>(k) * count_, count_};
+    }
+    [[nodiscard]] const Array<Point3>& all() const { return values_; }
+
+  private:
+    Array<Point3> values_;
+    std::size_t count_;
+};
+
+}  // namespace surfmesh

@@ -1,0 +1,136 @@
+#include "surfaces/formula_surface.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "surfaces/tape_bounds.hpp"
+#include "surfaces/tape_evaluation.hpp"
+
+namespace surfmesh {
+namespace {
+
+constexpr double NUDGE = 1e-9;  // of the domain: how far inwards derivatives are taken
+
+std::span<const double> as_numbers(std::span<const Point2> uv) {
+    static_assert(sizeof(Point2) == 2 * sizeof(double));
+    return {reinterpret_cast<const double*>(uv.data()), 2 * uv.size()};
+}
+
+std::span<double> as_numbers(std::span<Point3> values) {
+    static_assert(sizeof(Point3) == 3 * sizeof(double));
+    return {reinterpret_cast<double*>(values.data()), 3 * values.size()};
+}
+
+bool is_finite(Point3 p) { return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z); }
+
+/// Some of n points, and where their derivatives are taken instead.
+struct Moved {
+    Array<std::int64_t> points;
+    Array<Point2> uv;
+};
+
+/// Derivatives of moved points into those of all n: out[k n + i], k >= 1.
+void evaluate_moved(const Tape& tape, const Moved& moved, std::size_t n, std::span<Point3> out) {
+    const std::size_t count = moved.points.size(), derivatives = out.size() / n;
+    Array<Point3> found(derivatives * count);
+    evaluate(tape, as_numbers({moved.uv.data(), count}), {found.data(), found.size()});
+    for (std::size_t k = 1; k < derivatives; ++k)
+        for (std::size_t i = 0; i < count; ++i)
+            out[k * n + static_cast<std::size_t>(moved.points[i])] = found[k * count + i];
+}
+
+/// Is a derivative of point i not finite?
+bool is_broken(std::span<const Point3> out, std::size_t n, std::size_t i) {
+    for (std::size_t k = n + i; k < out.size(); k += n)
+        if (!is_finite(out[k])) return true;
+    return false;
+}
+
+}  // namespace
+
+double SpeedLimits::kept_off(double u) const {
+    if (lowest.empty()) return u;
+    const auto after = std::upper_bound(places.begin(), places.end(), u) - places.begin();
+    const auto last = static_cast<std::ptrdiff_t>(lowest.size()) - 1;
+    const std::ptrdiff_t piece = std::clamp<std::ptrdiff_t>(after - 1, 0, last);
+    return std::min(std::max(u, lowest[piece]), highest[piece]);
+}
+
+FormulaSurface::FormulaSurface(Tapes tapes, ParameterBox domain, std::array<SpeedLimits, 2> limits)
+    : tapes_(std::move(tapes)), domain_(domain), limits_(std::move(limits)) {}
+
+Point2 FormulaSurface::kept_off(Point2 uv) const {
+    return {limits_[0].kept_off(uv.x), limits_[1].kept_off(uv.y)};
+}
+
+/// Towards the middle of the domain; away from it in the middle.
+Point2 FormulaSurface::nudged(Point2 uv, double fraction) const {
+    const auto moved = [fraction](double x, double first, double last) {
+        const double towards = x > 0.5 * (first + last) ? -1.0 : 1.0;
+        return x + towards * fraction * (last - first);
+    };
+    return {moved(uv.x, domain_.low.x, domain_.high.x), moved(uv.y, domain_.low.y, domain_.high.y)};
+}
+
+SurfaceStatus FormulaSurface::evaluate(std::span<const Point2> uv, int order,
+                                       std::span<Point3> out) const {
+    if (order < 0 || order > 2) return SurfaceStatus::UNKNOWN;
+    const Tape* tape = tapes_[static_cast<std::size_t>(order)].get();
+    if (tape == nullptr) return SurfaceStatus::UNKNOWN;
+    const std::size_t n = uv.size();
+    surfmesh::evaluate(*tape, as_numbers(uv), out);
+    if (order == 0 || n == 0) return SurfaceStatus::DONE;
+
+    const bool bent = !limits_[0].lowest.empty() || !limits_[1].lowest.empty();
+    if (bent) {
+        Moved near;
+        for (std::size_t i = 0; i < n; ++i) {
+            const Point2 clear = kept_off(uv[i]);
+            if (clear.x == uv[i].x && clear.y == uv[i].y) continue;
+            near.points.push_back(static_cast<std::int64_t>(i));
+            near.uv.push_back(clear);
+        }
+        evaluate_moved(*tape, near, n, out);
+    }
+    mend(*tape, uv, out);
+    return SurfaceStatus::DONE;
+}
+
+void FormulaSurface::mend(const Tape& tape, std::span<const Point2> uv,
+                          std::span<Point3> out) const {
+    const std::size_t n = uv.size();
+    Array<std::int64_t> broken;
+    for (std::size_t i = 0; i < n; ++i)
+        if (is_broken(out, n, i)) broken.push_back(static_cast<std::int64_t>(i));
+    for (const double fraction : {NUDGE, 1e3 * NUDGE}) {
+        Moved inside;
+        for (const std::int64_t i : broken) {
+            inside.points.push_back(i);
+            inside.uv.push_back(nudged(kept_off(uv[static_cast<std::size_t>(i)]), fraction));
+        }
+        evaluate_moved(tape, inside, n, out);
+        broken.clear();
+        for (const std::int64_t i : inside.points)
+            if (is_broken(out, n, static_cast<std::size_t>(i))) broken.push_back(i);
+    }
+    for (const std::int64_t i : broken)
+        for (std::size_t k = n + static_cast<std::size_t>(i); k < out.size(); k += n)
+            out[k] = {0.0, 0.0, 0.0};
+}
+
+SurfaceStatus FormulaSurface::derivative_bounds(std::span<const ParameterBox> cells,
+                                                std::span<Point3> lower,
+                                                std::span<Point3> upper) const {
+    if (tapes_[2] == nullptr) return SurfaceStatus::UNKNOWN;
+    Array<Point2> low, high;
+    for (const ParameterBox& cell : cells) {
+        low.push_back(cell.low);
+        high.push_back(cell.high);
+    }
+    bounds(*tapes_[2], as_numbers({low.data(), low.size()}), as_numbers({high.data(), high.size()}),
+           Kinks::LEFT_OUT, 3, as_numbers(lower), as_numbers(upper));
+    return SurfaceStatus::DONE;
+}
+
+}  // namespace surfmesh

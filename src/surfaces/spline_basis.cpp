@@ -1,0 +1,100 @@
+#include "surfaces/spline_basis.hpp"
+
+#include <cmath>
+
+namespace surfmesh {
+namespace {
+
+// of the knots' range: an end of the part in use this near to a knot is that knot
+constexpr double SNAP = 1e-12;
+
+}  // namespace
+
+/// The span of t by bisection; beyond the ends the outermost span that is not empty.
+std::int64_t SplineBasis::last_knot_not_above(double t) const {
+    const std::int64_t first = degree_,
+                       last = static_cast<std::int64_t>(knots_.size()) - degree_ - 2;
+    std::int64_t low = first, high = last;
+    while (low < high) {
+        const std::int64_t middle = (low + high + 1) >> 1;
+        if (knots_[middle] <= t)
+            low = middle;
+        else
+            high = middle - 1;
+    }
+    std::int64_t span = low;
+    while (span > first && knots_[span] == knots_[span + 1]) --span;
+    while (span < last && knots_[span] == knots_[span + 1]) ++span;
+    return span;
+}
+
+KnotPlace SplineBasis::locate(double t) const {
+    const double start = knots_[degree_];
+    const double end = knots_[static_cast<std::int64_t>(knots_.size()) - degree_ - 1];
+    const double tiny = SNAP * (end - start);
+    const auto& [first, last, period] = limits_;
+    double local = t;
+    if (period > 0.0 && (t < start || t > end))
+        local = t - period * std::floor((t - start) / period);
+    std::int64_t span = last_knot_not_above(local);
+    if (std::abs(t - last) <= tiny && local - knots_[span] <= tiny) {
+        if (span > degree_ && knots_[span] > start) {
+            --span;
+            while (span > degree_ && knots_[span] == knots_[span + 1]) --span;
+        } else if (period > 0.0) {
+            local += period;
+            span = last_knot_not_above(end);
+        }
+    } else if (std::abs(t - first) <= tiny && knots_[span + 1] - local <= tiny) {
+        if (knots_[span + 1] < end) {
+            span = last_knot_not_above(knots_[span + 1]);
+        } else if (period > 0.0) {
+            local -= period;
+            span = last_knot_not_above(start);
+        }
+    }
+    return {span, local};
+}
+
+// Above the diagonal of the table is table[r, j] = N_{span-j+r} of degree j, below it table[j, r]
+// = the knots' distance that the function of degree j is divided by. No such distance is less
+// than the span, which is not empty.
+void SplineBasis::derivatives(KnotPlace place, int order, std::span<double> table,
+                              std::span<double> out) const {
+    const std::int64_t columns = degree_ + 1;
+    const double t = place.t, *knots = knots_.data() + place.span + 1;
+    double* T = table.data();
+    T[0] = 1.0;
+    for (std::int64_t j = 1; j <= degree_; ++j) {
+        double saved = 0.0;
+        for (std::int64_t r = 0; r < j; ++r) {
+            const double low = knots[r - j], high = knots[r], width = high - low;
+            T[j * columns + r] = width;
+            const double part = T[r * columns + j - 1] / width;
+            T[r * columns + j] = saved + (high - t) * part;
+            saved = (t - low) * part;
+        }
+        T[j * columns + j] = saved;
+    }
+    for (std::int64_t r = 0; r < columns; ++r) out[r] = T[r * columns + degree_];
+    for (int k = 1; k <= order; ++k) {
+        double* row = out.data() + k * columns;
+        if (k > degree_) {
+            for (std::int64_t r = 0; r < columns; ++r) row[r] = 0.0;
+            continue;
+        }
+        // N'_i of degree q = q (N_i / width_i - N_{i+1} / width_{i+1}), both of degree q - 1
+        for (std::int64_t r = 0; r <= degree_ - k; ++r) row[r] = T[r * columns + degree_ - k];
+        for (std::int64_t q = degree_ - k + 1; q <= degree_; ++q) {
+            double left = 0.0;
+            for (std::int64_t r = 0; r < q; ++r) {
+                const double right = row[r] / T[q * columns + r];
+                row[r] = static_cast<double>(q) * (left - right);
+                left = right;
+            }
+            row[q] = static_cast<double>(q) * left;
+        }
+    }
+}
+
+}  // namespace surfmesh

@@ -1,0 +1,40 @@
+// B-spline surfaces, rational or not; Bezier ones have one span.
+//
+// Source: Piegl, Tiller, "The NURBS Book", 2nd edition, 1997: A3.6 (sums over control points) and
+// A4.4 (quotient rule). Sums run over the distances from a control point in the middle of the
+// span, as those of curves do.
+#pragma once
+
+#include "surfaces/face_surface.hpp"
+#include "surfaces/spline_basis.hpp"
+
+namespace surfmesh {
+
+class SplineSurface final : public FaceSurface {
+  public:
+    /// control: rows of v, one for each control point along u. weights: one a control point, or
+    /// none. At a crease that is a side of the domain, the derivatives are those inside.
+    SplineSurface(const ParameterBox& domain, const SplineBasis& u, const SplineBasis& v,
+                  std::size_t columns, std::span<const Point3> control,
+                  std::span<const double> weights)
+        : FaceSurface(domain),
+          u_(u),
+          v_(v),
+          columns_(static_cast<std::int64_t>(columns)),
+          control_(control),
+          weights_(weights) {}
+
+    SurfaceStatus evaluate(std::span<const Point2> uv, int order,
+                           std::span<Point3> out) const override;
+
+  private:
+    template <int order, bool rational>
+    void evaluate_as(std::span<const Point2> uv, std::span<Point3> out) const;
+
+    SplineBasis u_, v_;
+    std::int64_t columns_;
+    Array<Point3> control_;
+    Array<double> weights_;
+};
+
+}  // namespace surfmesh

@@ -1,0 +1,255 @@
+#include "surfaces/tape_bounds.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "elementary_functions/bessel.hpp"
+#include "elementary_functions/error_function.hpp"
+#include "elementary_functions/exponential.hpp"
+#include "elementary_functions/hyperbolic.hpp"
+#include "elementary_functions/inverse_trigonometric.hpp"
+#include "elementary_functions/logarithm.hpp"
+#include "elementary_functions/power.hpp"
+#include "surfaces/tape_evaluation.hpp"
+
+namespace surfmesh {
+namespace {
+
+using Slots = TapeSlots<Interval>;
+
+/// What one instruction reads and writes: n intervals each.
+struct Operands {
+    Interval* out;
+    const Interval *a, *b, *c;
+    std::size_t n;
+};
+
+template <class Function>
+void each(const Operands& o, Function f) {
+    for (std::size_t k = 0; k < o.n; ++k) o.out[k] = f(o.a[k]);
+}
+
+template <class Function>
+void each_pair(const Operands& o, Function f) {
+    for (std::size_t k = 0; k < o.n; ++k) o.out[k] = f(o.a[k], o.b[k]);
+}
+
+void each_increasing(const Operands& o, double (*f)(double), double first = -intervals::INFINITE,
+                     double last = intervals::INFINITE) {
+    each(o, [=](Interval a) { return intervals::increasing(a, f, first, last); });
+}
+
+void each_steady(const Operands& o, double (*f)(double), double lowest, double highest) {
+    constexpr double STEEPEST = 0.44;  // the steepest slope of all is that of j0: 0.4362
+    each(o, [=](Interval a) { return intervals::steady(a, f, STEEPEST, lowest, highest); });
+}
+
+/// Sums, products and what else needs no function. False: none of them.
+bool run_arithmetic(const Instruction& step, const Operands& o) {
+    namespace i = intervals;
+    switch (step.operation) {
+        case Operation::ADD:
+            each_pair(o, i::add);
+            return true;
+        case Operation::SUBTRACT:
+            each_pair(o, i::subtract);
+            return true;
+        case Operation::MULTIPLY:
+            each_pair(o, i::multiply);
+            return true;
+        case Operation::DIVIDE:
+            each_pair(o, i::divide);
+            return true;
+        case Operation::NEGATIVE:
+            each(o, i::negative);
+            return true;
+        case Operation::RECIPROCAL:
+            each(o, i::reciprocal);
+            return true;
+        case Operation::INTEGER_POWER:
+            each(o, [n = step.exponent](Interval a) { return i::integer_power(a, n); });
+            return true;
+        case Operation::SQRT:
+            each(o, i::sqrt);
+            return true;
+        case Operation::ABSOLUTE:
+            each(o, i::absolute);
+            return true;
+        case Operation::FLOOR:
+            each_increasing(o, [](double x) { return std::floor(x); });
+            return true;
+        case Operation::MINIMUM:
+            each_pair(o, i::minimum);
+            return true;
+        case Operation::MAXIMUM:
+            each_pair(o, i::maximum);
+            return true;
+        default:
+            return false;
+    }
+}
+
+/// Choices and the slopes of what breaks off. False: none of them.
+bool run_choice(const Instruction& instruction, const Operands& o, Kinks kinks) {
+    namespace i = intervals;
+    switch (instruction.operation) {
+        case Operation::SIGNUM:
+            each(o, i::signum);
+            return true;
+        case Operation::SIDE:
+            each(o, i::slope_side);
+            return true;
+        case Operation::UNIT_STEP:
+            each(o, i::step);
+            return true;
+        case Operation::STEP:
+            each(o, i::slope_step);
+            return true;
+        case Operation::CHOSEN:
+            for (std::size_t k = 0; k < o.n; ++k) o.out[k] = i::chosen(o.a[k], o.b[k], o.c[k]);
+            return true;
+        case Operation::KINK:
+            if (kinks == Kinks::LEFT_OUT)
+                std::fill_n(o.out, o.n, Interval{0.0, 0.0});
+            else
+                each(o, i::kink);
+            return true;
+        case Operation::JUMP:
+            each(o, i::jump);
+            return true;
+        case Operation::TREAD:
+            each(o, i::tread);
+            return true;
+        case Operation::CUT:
+            each_pair(o, i::cut);
+            return true;
+        default:
+            return false;
+    }
+}
+
+/// The functions that increase, where they are defined. False: none of them.
+bool run_increasing(const Instruction& step, const Operands& o) {
+    namespace e = elementary;
+    switch (step.operation) {
+        case Operation::CUBE_ROOT:
+            each_increasing(o, e::cbrt);
+            return true;
+        case Operation::EXP:
+            each_increasing(o, e::exp);
+            return true;
+        case Operation::LOG:
+            each_increasing(o, e::log, 0.0);
+            return true;
+        case Operation::ASIN:
+            each_increasing(o, e::asin, -1.0, 1.0);
+            return true;
+        case Operation::ATAN:
+            each_increasing(o, e::atan);
+            return true;
+        case Operation::SINH:
+            each_increasing(o, e::sinh);
+            return true;
+        case Operation::TANH:
+            each_increasing(o, e::tanh);
+            return true;
+        case Operation::ASINH:
+            each_increasing(o, e::asinh);
+            return true;
+        case Operation::ACOSH:
+            each_increasing(o, e::acosh, 1.0);
+            return true;
+        case Operation::ATANH:
+            each_increasing(o, e::atanh, -1.0, 1.0);
+            return true;
+        case Operation::ERF:
+            each_increasing(o, e::erf);
+            return true;
+        default:
+            return false;
+    }
+}
+
+void run_function(const Instruction& step, const Operands& o) {
+    namespace i = intervals;
+    switch (step.operation) {
+        case Operation::POWER:
+            return each_pair(o, i::power);
+        case Operation::SIN:
+            return each(o, i::sin);
+        case Operation::COS:
+            return each(o, i::cos);
+        case Operation::TAN:
+            return each(o, i::tan);
+        case Operation::ACOS:
+            return each(o, i::acos);
+        case Operation::COSH:
+            return each(o, i::cosh);
+        case Operation::ANGLE:
+            return each_pair(o, i::angle);
+        case Operation::TURN:
+            return each_pair(o, i::turn);
+        case Operation::BESSEL_0:
+            return each_steady(o, elementary::bessel_0, -0.2173, 1.0);
+        case Operation::BESSEL_1:
+            return each_steady(o, elementary::bessel_1, -0.4362, 0.4362);
+        case Operation::BESSEL_2:
+            return each_steady(o, elementary::bessel_2, -0.1396, 0.3069);
+        default:
+            return;
+    }
+}
+
+void run(const Instruction& step, const Slots& slots, std::size_t n, Kinks kinks) {
+    const auto [a, b, c] = step.operands;
+    const Operands o{slots[step.target], slots[a], slots[b], slots[c], n};
+    if (!run_arithmetic(step, o) && !run_choice(step, o, kinks) && !run_increasing(step, o))
+        run_function(step, o);
+}
+
+/// Outwards by more than the round-off of a tape of ordinary length: of the larger end, since
+/// that much may have cancelled, or of the one that is finite.
+Interval widened(Interval a) {
+    const double low = std::abs(a.lo), high = std::abs(a.hi);
+    const double larger = intervals::larger(low, high);
+    const double size = std::isfinite(larger) ? larger : std::isfinite(low) ? low : high;
+    const double margin = std::isfinite(size) ? 1e-13 * size : 0.0;
+    return {a.lo - margin, a.hi + margin};
+}
+
+}  // namespace
+
+void bounds(const Tape& tape, std::span<const double> lo, std::span<const double> hi, Kinks kinks,
+            std::size_t first, std::span<double> lower, std::span<double> upper) {
+    const std::size_t inputs = tape.inputs();
+    const std::size_t count = inputs == 0 ? 0 : lo.size() / inputs;
+    const std::size_t lanes = std::min(count, TAPE_BLOCK);
+    const std::span<const std::int32_t> outputs = tape.outputs();
+    if (first >= outputs.size()) return;
+    const std::size_t stride = outputs.size() - first;
+    const Slots slots(tape, lanes);
+    auto constant = static_cast<std::int32_t>(inputs);
+    for (const double value : tape.constants())
+        std::fill_n(slots[constant++], lanes, Interval{value, value});
+    for (std::size_t start = 0; start < count; start += lanes) {
+        const std::size_t n = std::min(lanes, count - start);
+        for (std::size_t column = 0; column < inputs; ++column) {
+            Interval* input = slots[static_cast<std::int32_t>(column)];
+            for (std::size_t k = 0; k < n; ++k) {
+                const std::size_t from = (start + k) * inputs + column;
+                input[k] = {lo[from], hi[from]};
+            }
+        }
+        for (const Instruction& step : tape.instructions()) run(step, slots, n, kinks);
+        for (std::size_t k = 0; k < stride; ++k) {
+            const Interval* found = slots[outputs[first + k]];
+            for (std::size_t i = 0; i < n; ++i) {
+                const Interval wide = widened(found[i]);
+                lower[(start + i) * stride + k] = wide.lo;
+                upper[(start + i) * stride + k] = wide.hi;
+            }
+        }
+    }
+}
+
+}  // namespace surfmesh

@@ -1,0 +1,96 @@
+"""The triangles of many faces, by a close look at some of them.
+
+    faces -> classes of alike faces -> one face of each class: its size field, its strip
+                                    -> of many classes a sample; the others in proportion to
+                                       what their boundary nodes and their area say
+
+A bolt circle has one class of holes. Where there are many classes, one is chosen as often as it
+holds a quantile of all triangles; planes and curved faces are two populations.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+
+from surfmesh.meshing.estimate.estimation import combined
+from surfmesh.meshing.faces.face_data import FaceJob
+from surfmesh.sizing.field.metric_area import TRIANGLES
+
+CLASSES = 32
+"""Of each population all are looked at closely up to so many, so many of more than that."""
+
+DIGITS = 6
+"""To which alike faces agree in lengths, areas and sizes."""
+
+
+def counts_of_faces(
+    jobs: list[FaceJob], areas: np.ndarray, count: Callable[[FaceJob], float]
+) -> np.ndarray:
+    """Triangles (f,) on each face. areas: (f,) of the faces; count: looks closely at one."""
+    first, class_of = _classes(jobs, areas)
+    rough = np.array([_rough(jobs[face], areas[face]) for face in first], float)
+    members = np.bincount(class_of, minlength=len(first))
+    plane = np.array([jobs[face].surface.kind == "plane" for face in first], bool)
+    counts = np.zeros(len(first))
+    for of in (np.flatnonzero(plane), np.flatnonzero(~plane)):
+        chosen, times = _sample(of, (rough * members)[of])
+        counts[chosen] = [count(jobs[first[number]]) for number in chosen.tolist()]
+        others = np.setdiff1d(of, chosen)
+        if len(others):
+            factor = np.average(counts[chosen] / rough[chosen], weights=times)
+            counts[others] = factor * rough[others]
+    return counts[class_of]
+
+
+def _sample(of: np.ndarray, weights: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Which of some classes are looked at closely, and how often each was chosen."""
+    if len(of) <= CLASSES:
+        return of, np.ones(len(of))
+    sums = np.cumsum(weights)
+    at = (np.arange(CLASSES) + 0.5) / CLASSES * sums[-1]
+    return np.unique(of[np.searchsorted(sums, at)], return_counts=True)
+
+
+def _classes(jobs: list[FaceJob], areas: np.ndarray) -> tuple[list[int], np.ndarray]:
+    """The first face of each class of alike ones, and the class (f,) of each face."""
+    known: dict[Any, int] = {}
+    first: list[int] = []
+    class_of = np.empty(len(jobs), int)
+    for number, (job, area) in enumerate(zip(jobs, areas.tolist())):
+        key = _likeness(job, area) or number
+        if key not in known:
+            known[key] = len(first)
+            first.append(number)
+        class_of[number] = known[key]
+    return first, class_of
+
+
+def _likeness(job: FaceJob, area: float) -> Any:
+    """What alike faces have in common; None where the place of a face counts too."""
+    if job.limits is not None or job.sizing.has_law or job.sizing.sources:
+        return None
+    loops = []
+    for loop in job.loops:
+        points = np.concatenate([piece.points for piece in loop])
+        length = float(np.linalg.norm(np.diff(points, axis=0), axis=1).sum())
+        sizes = np.concatenate([piece.sizes for piece in loop])
+        real = sizes[np.isfinite(sizes)]
+        loops.append((len(points), _rounded(length), _rounded(float(real.sum()))))
+    narrow = job.narrow is not None
+    return job.surface.kind, job.sizing, narrow, _rounded(area), tuple(sorted(loops))
+
+
+def _rounded(value: float) -> str:
+    return f"{value:.{DIGITS - 1}e}"
+
+
+def _rough(job: FaceJob, area: float) -> float:
+    """Triangles, if the sizes of its boundary hold all over it."""
+    sizes = np.concatenate([piece.sizes for loop in job.loops for piece in loop])
+    real = sizes[np.isfinite(sizes)]
+    nodes = sum(len(piece.sizes) - 1 for loop in job.loops for piece in loop)
+    inside = TRIANGLES * area / float(real.mean()) ** 2 if len(real) else 0.0
+    return max(combined(inside, nodes, len(job.loops)), 1.0)

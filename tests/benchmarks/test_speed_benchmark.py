@@ -1,0 +1,68 @@
+"""The speed benchmark's own arithmetic: its models, its size law, figures that are missed."""
+
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+pytest.importorskip("OCP")
+pytest.importorskip("psutil")
+BENCHMARKS = Path(__file__).resolve().parents[2] / "benchmarks"
+
+
+@pytest.fixture(scope="module", autouse=True)
+def benchmarks_in_path():
+    sys.path.insert(0, str(BENCHMARKS))
+    yield
+    sys.path.remove(str(BENCHMARKS))
+
+
+@pytest.mark.parametrize("faces", [11, 81])
+def test_a_plate_has_the_faces_that_are_asked_for(faces, tmp_path):
+    from speed_parts import plate, written
+
+    assert plate(faces).faces().size() == faces
+    assert written(tmp_path, faces).stat().st_size > 0
+
+
+def test_the_sizes_of_the_plane_grow_fivefold():
+    from speed_jobs import plane_sizes
+
+    sizes = plane_sizes(0.01)(np.array([[0.5, 0.5], [0.0, 0.0], [1.0, 0.0]]))
+    assert sizes == pytest.approx([0.01, 0.05, 0.05])
+
+
+def test_a_size_is_changed_until_the_count_is_right():
+    from speed_jobs import as_many
+
+    def work(size):
+        return None, np.empty((round(2.0 / size**2), 3))
+
+    size = as_many(work, {"size": 0.1, "wanted": 1000})
+    assert len(work(size)[1]) == pytest.approx(1000, rel=0.01)
+
+
+def test_medians_and_shape():
+    from speed_jobs import timed
+
+    points = np.array([[0.0, 0, 0], [1, 0, 0], [0.5, np.sqrt(0.75), 0], [9, 9, 9]])
+    made = []
+
+    def work():
+        made.append(1)
+        return points, np.array([[0, 1, 2]])
+
+    found = timed({"times": 3}, work)
+    assert len(made) == 4 and found["seconds"] >= 0.0
+    assert found["triangles"] == 1 and found["alpha_min"] == pytest.approx(1.0)
+
+
+def test_what_is_missed_is_counted(tmp_path):
+    from speed import SECTIONS, Figures, _show
+    from wanted import Wanted
+
+    figures = Figures(tmp_path)
+    for value in (1.0, 3.0, None):
+        figures.add(Wanted("times as fast", least=2.0), value)
+    assert _show(next(iter(SECTIONS)), figures) == 1

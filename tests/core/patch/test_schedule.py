@@ -1,0 +1,191 @@
+"""The optimiser: what it may do to a triangulated domain, and what it must not."""
+
+import numpy as np
+import pytest
+from naive.triangulation import check_domain, corners, half_edges, live_triangles
+
+from surfmesh._core import NIL
+from surfmesh._core.optimisation import (
+    chord,
+    edge_length,
+    swap_for_degree,
+    swap_for_shape,
+    triangle_deviation,
+    triangle_shape,
+)
+from surfmesh._core.patch import LONGEST, SHORTEST
+from surfmesh.api import load
+from surfmesh.geometry.differential.sides import find_sides
+from surfmesh.meshing.boundary.boundary_loops import boundary_loops
+from surfmesh.meshing.boundary.boundary_recovery import recovered
+from surfmesh.meshing.patch.packing import packed
+from surfmesh.meshing.patch.state import patch_state
+from surfmesh.sizing.field.size_field import size_field
+from surfmesh.sizing.options.sizing import Sizing
+
+
+def state_of(name="two_peaks", **asked):
+    surface = load(name)
+    sides = find_sides(surface)
+    sizing = Sizing(**(asked or dict(chord=0.03, max_size=0.9, growth=1.3)))
+    field = size_field(surface, sizing, sides)
+    width, height = field.chart.extent
+    t = packed(field.background, (0, 0, width, height), (width / 2, height / 2), 2000).t
+    loops = boundary_loops(surface, sides, field)
+    domain = recovered(t, loops, field, surface)
+    return patch_state(domain, surface, field.chart, field), domain
+
+
+def shapes(state):
+    t = state.t
+    return np.array([triangle_shape(state.frames, *row) for row in corners(t)[live_triangles(t)]])
+
+
+STEPS = ["swap", "smooth", "swap_for_degree", "smooth", "swap", "collapse", "split"]
+
+
+@pytest.mark.parametrize("name, euler", [("two_peaks", 1), ("pierced_saddle", 0), ("sphere", 1)])
+def test_every_step_keeps_the_invariants(name, euler):
+    """Positive in the plane, the same domain, the same border, frozen vertices where they were."""
+    asked = {"pierced_saddle": dict(size=0.12), "sphere": dict(size=0.2)}.get(name, {})
+    state, domain = state_of(name, **asked)
+    t = state.t
+    border = {e for e, h in half_edges(t).items() if t.adj[h] == NIL}
+    nodes = t.xy[domain.node].copy()
+    fixed = int(t.fixed.sum())
+    assert check_domain(t, euler) is None
+    for _ in range(2):
+        for step in STEPS:
+            getattr(state, step)()
+            assert check_domain(t, euler) is None, step
+            assert (t.xy[domain.node] == nodes).all(), step
+            assert {e for e, h in half_edges(t).items() if t.adj[h] == NIL} == border, step
+            assert int(t.fixed.sum()) == fixed
+    state.optimise()
+    assert check_domain(t, euler) is None
+    assert (t.xy[domain.node] == nodes).all()
+
+
+def test_run_betters_two_peaks():
+    state, _ = state_of()
+    before = shapes(state)
+    left = state.optimise()
+    after = shapes(state)
+    assert state.swaps > 0 and state.passes > 0
+    assert after.mean() > 0.955 > before.mean() + 0.01
+    assert after.min() > before.min()
+    assert len(left.folded) < 0.01 * len(after)
+    assert len(left.far) < 0.01 * len(after)  # what is left is for another round
+
+
+def test_a_second_run_has_little_left_to_do():
+    state, _ = state_of()
+    state.optimise()
+    mean = shapes(state).mean()
+    t = state.t
+    live = len(live_triangles(t))
+    state.optimise()
+    assert shapes(state).mean() > mean - 1e-3
+    assert abs(len(live_triangles(t)) - live) < 0.02 * live
+
+
+def test_swaps_for_shape_only_better_the_worse_of_two():
+    state, _ = state_of()
+    before = np.sort(shapes(state))
+    t, s = state.t, state.frames
+    swaps, alpha = swap_for_shape(t, s, state.marks, 0.82, 50)
+    after = np.sort(shapes(state))
+    assert swaps > 0
+    assert after[0] >= before[0] and after.mean() > before.mean()
+    assert not state.marks.dirty.any()
+    kept = alpha[live_triangles(t)]
+    np.testing.assert_allclose(np.sort(kept), after, atol=1e-12)
+    state.marks.dirty[:] = 1
+    assert swap_for_shape(t, s, state.marks, 0.82, 50)[0] == 0
+
+
+def counted_degrees(t):
+    return np.bincount(corners(t)[live_triangles(t)].ravel(), minlength=len(t.xy))
+
+
+def test_degrees_are_kept_up_to_date():
+    state, _ = state_of()
+    state.swap()
+    state.find_stars()
+    t, n = state.t, state.t.vertices
+    before = counted_degrees(t)
+    assert (state.stars.degree == before[:n]).all()
+    irregular = ((before[:n] - 6) ** 2)[state.stars.frozen == 0].sum()
+    swaps = swap_for_degree(t, state.frames, state.stars, state.marks, 0.4)
+    after = counted_degrees(t)
+    assert (state.stars.degree == after[:n]).all()
+    now = ((after[:n] - 6) ** 2)[state.stars.frozen == 0].sum()
+    assert swaps > 0 and now <= irregular - 2 * swaps
+    assert check_domain(t, 1) is None
+
+
+def test_frozen_vertices_are_those_on_the_border_or_a_fixed_edge():
+    state, domain = state_of("pierced_saddle", size=0.15)
+    state.find_stars()
+    frozen = np.flatnonzero(state.stars.frozen)
+    assert set(frozen.tolist()) == set(domain.node.tolist())
+    star = state.stars.start
+    assert (state.t.tri[star] == np.arange(len(star))).all()
+
+
+def test_collapse_and_split_bring_lengths_into_range():
+    """From sizes that are half, then twice, of what the packing was made for."""
+    for factor, step in ((2.0, "collapse"), (0.5, "split")):
+        state, _ = state_of()
+        t, s = state.t, state.frames
+        s.scale[:] *= factor
+        state.set_frames(np.arange(t.vertices, dtype=np.int32))
+        live = len(live_triangles(t))
+        for _ in range(8):
+            getattr(state, step)()
+            state.swap()
+            state.smooth()
+        assert check_domain(t, 1) is None
+        state.find_stars()
+        frozen = state.stars.frozen
+        inner = {
+            (a, b)
+            for (a, b), e in half_edges(t).items()
+            if t.adj[e] != NIL and not (frozen[a] or frozen[b])
+        }
+        lengths = np.array([edge_length(s, a, b) for a, b in inner])
+        if step == "collapse":
+            assert len(live_triangles(t)) < 0.5 * live
+            assert (lengths > SHORTEST).mean() > 0.9
+        else:
+            assert len(live_triangles(t)) > 2 * live
+            assert (lengths < LONGEST).mean() > 0.95
+
+
+# measures on the embedding
+
+
+def test_embedding_of_a_sphere_against_numpy():
+    state, _ = state_of("sphere", size=0.15)
+    t, s = state.t, state.frames
+    rows = corners(t)[live_triangles(t)]
+    regular = rows[(np.abs(s.point[rows][:, :, 2]) < 0.95).all(axis=1)]
+    for a, b, c in regular[::29]:
+        p = s.point[[a, b, c]]
+        assert edge_length(s, a, b) == pytest.approx(
+            np.linalg.norm(p[1] - p[0]) / (0.5 * (s.size[a] + s.size[b]))
+        )
+        normal = np.cross(p[1] - p[0], p[2] - p[0])
+        total = sum(np.sum((p[i] - p[i - 1]) ** 2) for i in range(3))
+        expected = 2 * np.sqrt(3) * np.linalg.norm(normal) / total
+        assert triangle_shape(s, a, b, c) == pytest.approx(expected)
+        assert triangle_shape(s, a, c, b) == pytest.approx(-expected)
+        # the chord in the unit tangent plane: its length is that of the tangential part
+        d = p[1] - p[0]
+        tangential = d - (d @ p[0]) * p[0]
+        assert np.hypot(*chord(s, a, b)) == pytest.approx(
+            np.linalg.norm(tangential) / s.size[a], rel=1e-6
+        )
+        centre_radius = abs(normal @ p[0]) / np.linalg.norm(normal)
+        assert triangle_deviation(s, a, b, c) == pytest.approx(1 - centre_radius, rel=0.1)
+        assert np.abs(s.normal[a] - p[0]).max() < 1e-9

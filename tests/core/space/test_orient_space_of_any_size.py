@@ -1,0 +1,52 @@
+"""Orientation in space against fractions for all finite numbers: subnormal, huge, both at once."""
+
+import math
+
+import numpy as np
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from naive import exact, meeting
+
+from surfmesh._core.space import orient_space, triangles_meet
+
+EDGES = [0.0, 5e-324, 2.0**-1074 * 3, 2.0**-1022, 1e-200, 1e-160, 1e-136, 1.0, 1e150, 1e300]
+finite = st.floats(allow_nan=False, allow_infinity=False)
+sized = st.one_of(finite, st.sampled_from([*EDGES, *(-x for x in EDGES), 1.7976931348623157e308]))
+powers = st.one_of(st.integers(-1074, 960), st.sampled_from([-1074, -1040, -540, -450, -300, 500]))
+small = st.integers(-(2**12), 2**12)
+few = st.integers(-3, 3)
+
+
+def right_in_space(points) -> bool:
+    found = orient_space(np.array(points, float))
+    return exact.sign(found) == exact.sign(meeting.orient_space(*points))
+
+
+@settings(max_examples=300)
+@given(st.lists(st.tuples(sized, sized, sized), min_size=4, max_size=4))
+def test_any_four_points(points):
+    assert right_in_space(points)
+
+
+@settings(max_examples=200)
+@given(st.tuples(*[small] * 9), few, few, few, st.tuples(powers, powers, powers))
+def test_nearly_in_a_plane_at_any_scale(numbers, s, t, last, scales):
+    a, b, c = np.array(numbers).reshape(3, 3)
+    d = a + s * (b - a) + t * (c - a) + np.array([0, 0, last])
+    points = [tuple(math.ldexp(int(x), k) for x, k in zip(p, scales)) for p in (a, b, c, d)]
+    assert right_in_space(points)
+    assert right_in_space([points[k] for k in (3, 1, 0, 2)])
+
+
+@settings(max_examples=150)
+@given(st.lists(st.tuples(few, few, few), min_size=6, max_size=6), st.sampled_from(
+    [2.0**-1074, 2.0**-1022, 1e-200, 1e-160, 1e-108, 1e-9, 1e9, 1e108, 1e150, 5e307]))  # fmt: skip
+def test_triangles_meet_at_any_scale(points, scale):
+    corners = scale * np.array(points, float)
+    found = triangles_meet(corners)
+    assert found == meeting.meet(points[:3], points[3:])
+
+
+def test_what_is_not_finite_is_nan():
+    corners = np.array([[0, 0, 0], [0, 1, 0], [1, 0, 0], [0, 0, math.inf]])
+    assert math.isnan(orient_space(corners))
