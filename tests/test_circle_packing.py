@@ -168,3 +168,17 @@ def test_command_line(tmp_path, capsys):
     assert said["nodes"] == 200 and said["problem"] is None and drawing.exists()
     assert main(["pack", "--radius", "1"]) == 2
     assert "give count, distance or box" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize(
+    "radii",
+    [lambda n: np.zeros(n), lambda n: np.full(n, np.inf), lambda n: np.ones(n - 1)],
+    ids=["none", "infinite", "too few"],
+)
+def test_a_random_law_that_gives_no_radii_is_refused(radii):
+    class Law:
+        def stream(self):
+            return lambda n: np.ones(n) if n == 1000 else radii(n)
+
+    with pytest.raises(SizingError, match=r"the random law must give \d+ positive radii"):
+        sm.pack(Law(), count=100)

@@ -11,17 +11,21 @@ constexpr int FIT_STEPS = 8;
 constexpr double NEIGHBOURS_WITHIN = 1.4;  // circles nearer than this are neighbours of a new one
 constexpr double TOUCHED_WITHIN = 0.08;    // a neighbour at 1 -+ this is touched well enough
 
-/// Metric length of a step from a vertex, and its gradient.
+/// The metric distance of a point from a vertex.
 struct Distance {
     double length;
-    Point2 gradient;
+    Point2 step;      // to the point, in the metric
+    SizeTensor mean;  // of the two sizes
+
+    [[nodiscard]] Point2 gradient() const {
+        return solve(mean, {step.x / length, step.y / length});
+    }
 };
 
 Distance distance_from(const Triangulation& t, Vertex v, Point2 p, SizeTensor h) {
     const SizeTensor mean = 0.5 * (h + t.size[v]);
-    const Point2 u = solve(mean, p - t.xy[v]);
-    const double length = norm(u);
-    return {length, solve(mean, {u.x / length, u.y / length})};
+    const Point2 step = solve(mean, p - t.xy[v]);
+    return {norm(step), step, mean};
 }
 
 /// Step from the middle of an edge d to the apex on its right, both sides unit.
@@ -42,11 +46,12 @@ FittedCircle fit_to_two(const Triangulation& t, const Background& background, Fr
     for (int step = 0; step < FIT_STEPS; ++step) {
         const SizeTensor h = background.size_at(p.x, p.y);
         ++steps;
-        const auto [la, ga] = distance_from(t, edge.a, p, h);
-        const auto [lb, gb] = distance_from(t, edge.b, p, h);
+        const Distance to_a = distance_from(t, edge.a, p, h), to_b = distance_from(t, edge.b, p, h);
+        const double la = to_a.length, lb = to_b.length;
         const double close = std::min(la, 1.0 / la) * std::min(lb, 1.0 / lb);
         if (close > best.closeness) best = {{p, h}, close};
         if (close > CLOSENESS) break;
+        const Point2 ga = to_a.gradient(), gb = to_b.gradient();
         const double det = ga.x * gb.y - ga.y * gb.x;
         if (std::abs(det) < 1e-3 * (std::abs(ga.x * gb.y) + std::abs(ga.y * gb.x))) break;
         const double ra = 1.0 - la, rb = 1.0 - lb;
@@ -63,15 +68,16 @@ TangentCircle fit_to_three(const Triangulation& t, const Background& background,
     Point2 p = start;
     SizeTensor h = background.size_at(p.x, p.y);
     for (int step = 0; step < FIT_STEPS; ++step) {
-        const auto [la, ga] = distance_from(t, edge.a, p, h);
-        const auto [lb, gb] = distance_from(t, edge.b, p, h);
-        const auto [lc, gc] = distance_from(t, c, p, h);
+        const Distance to_a = distance_from(t, edge.a, p, h), to_b = distance_from(t, edge.b, p, h),
+                       to_c = distance_from(t, c, p, h);
+        const double la = to_a.length, lb = to_b.length, lc = to_c.length;
         if (la < 1e-12 || lb < 1e-12 || lc < 1e-12) return {{p, h}, 0.0};
         const double r = (la + lb + lc) / 3.0;
         const double off = std::max(std::max(std::abs(la - r), std::abs(lb - r)), std::abs(lc - r));
         if (off < 0.01 * r) return {{p, h}, r};
         // (ga - gb) d = lb - la, (ga - gc) d = lc - la
-        const Point2 m0 = ga - gb, m1 = ga - gc;
+        const Point2 ga = to_a.gradient();
+        const Point2 m0 = ga - to_b.gradient(), m1 = ga - to_c.gradient();
         const double det = m0.x * m1.y - m0.y * m1.x;
         if (std::abs(det) < 1e-6 * (std::abs(m0.x * m1.y) + std::abs(m0.y * m1.x)))
             return {{p, h}, 0.0};

@@ -13,7 +13,10 @@ bool is_before(const QueuedEdge& p, const QueuedEdge& q) {
 
 void EdgeHeap::push(QueuedEdge added) {
     entries_.push_back(added);
-    auto i = static_cast<std::ptrdiff_t>(entries_.size()) - 1;
+    rise(static_cast<std::ptrdiff_t>(entries_.size()) - 1, added);
+}
+
+void EdgeHeap::rise(std::ptrdiff_t i, QueuedEdge added) {
     while (i > 0) {
         const std::ptrdiff_t parent = (i - 1) / 2;
         if (!is_before(added, entries_[parent])) break;
@@ -23,18 +26,20 @@ void EdgeHeap::push(QueuedEdge added) {
     entries_[i] = added;
 }
 
+// The hole left by the top sinks along the smaller children to the bottom; the last entry, which
+// comes from there, most often belongs not far above it.
 QueuedEdge EdgeHeap::pop() {
     const QueuedEdge top = entries_[0], last = entries_.pop_back();
     const auto n = static_cast<std::ptrdiff_t>(entries_.size());
     if (n == 0) return top;
+    QueuedEdge* const entries = entries_.data();
     std::ptrdiff_t i = 0;
     for (std::ptrdiff_t child = 1; child < n; child = 2 * i + 1) {
-        if (child + 1 < n && is_before(entries_[child + 1], entries_[child])) ++child;
-        if (!is_before(entries_[child], last)) break;
-        entries_[i] = entries_[child];
+        child += child + 1 < n && is_before(entries[child + 1], entries[child]);
+        entries[i] = entries[child];
         i = child;
     }
-    entries_[i] = last;
+    rise(i, last);
     return top;
 }
 

@@ -23,6 +23,9 @@ class EdgeHeap {
     QueuedEdge pop();
 
   private:
+    /// Put an entry into place i, which is free, or above it.
+    void rise(std::ptrdiff_t i, QueuedEdge added);
+
     Array<QueuedEdge> entries_;  // the children of i are 2 i + 1 and 2 i + 2
 };
 

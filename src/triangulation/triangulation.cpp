@@ -23,21 +23,32 @@ bool in_circle(const Triangulation& t, Triangle triangle, Point2 p, SizeTensor h
     return det > 0.0;
 }
 
-/// The triangles of the cavity, from ``cavity[0]`` on.
+/// Does triangle n belong to the cavity of p, which is open as far as its edge a-b?
+bool joins(const Triangulation& t, HalfEdge twin, Vertex a, Vertex b, bool on_edge, Point2 p,
+           SizeTensor h, bool wide) {
+    if (on_edge) return true;
+    if (!wide || !in_circle(t, twin / 3, p, h)) return false;
+    const Vertex z = t.tri[prev_half_edge(twin)];
+    return side(t, a, z, p) > 0.0 && side(t, z, b, p) > 0.0;
+}
+
+/// The triangles of the cavity, from ``cavity[0]`` on, and the half-edges that end it.
 void collect_cavity(Triangulation& t, Point2 p, SizeTensor h, bool wide) {
+    const Region region = t.region[t.cavity[0]];
     for (std::size_t k = 0; k < t.cavity.size(); ++k) {
         const HalfEdge base = 3 * t.cavity[k];
         for (HalfEdge e = base; e < base + 3; ++e) {
             const HalfEdge twin = t.adj[e];
             const Triangle n = twin / 3;
-            if (t.mark[n] == t.search || is_barrier(t, e)) continue;
-            const Vertex a = t.tri[e], b = t.tri[next_half_edge(e)];
-            const bool on_edge = side(t, a, b, p) == 0.0;
-            if (!on_edge && !(wide && in_circle(t, n, p, h))) continue;
-            const Vertex z = t.tri[prev_half_edge(twin)];
-            if (on_edge || (side(t, a, z, p) > 0.0 && side(t, z, b, p) > 0.0)) {
+            if (t.mark[n] == t.search) continue;
+            const Vertex a = t.tri[e], b = t.tri[e == base + 2 ? base : e + 1];
+            const double from = side(t, a, b, p);
+            const bool is_barrier = t.region[n] != region || (t.has_segments() && t.fixed[e] != 0);
+            if (!is_barrier && joins(t, twin, a, b, from == 0.0, p, h, wide)) {
                 t.mark[n] = t.search;
                 t.cavity.push_back(n);
+            } else {
+                t.candidates.push_back({e, n, from});
             }
         }
     }
@@ -101,14 +112,13 @@ bool open_cavity(Triangulation& t, Triangle start, Point2 p, SizeTensor h, bool 
     t.cavity.clear();
     t.cavity.push_back(start);
     t.mark[start] = t.search;
+    t.candidates.clear();
     collect_cavity(t, p, h, wide);
     t.rim.clear();
-    for (const Triangle triangle : t.cavity) {
-        for (HalfEdge e = 3 * triangle; e < 3 * triangle + 3; ++e) {
-            if (t.mark[t.adj[e] / 3] == t.search) continue;
-            if (side(t, t.tri[e], t.tri[next_half_edge(e)], p) <= 0.0) return false;
-            t.rim.push_back(e);
-        }
+    for (const RimCandidate& candidate : t.candidates) {
+        if (t.mark[candidate.beyond] == t.search) continue;  // joined from elsewhere
+        if (candidate.side <= 0.0) return false;
+        t.rim.push_back(candidate.e);
     }
     return t.rim.size() == t.cavity.size() + 2;
 }

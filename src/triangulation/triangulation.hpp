@@ -21,6 +21,13 @@ inline constexpr Region TODO = 0, DONE = 1;       // while circles are packed: t
 inline constexpr Region OUTSIDE = 0, INSIDE = 1;  // once boundaries are inserted
 inline constexpr Region DEAD = 255;               // a triangle slot that is no longer used
 
+/// A half-edge that may be on the rim of the open cavity.
+struct RimCandidate {
+    HalfEdge e;
+    Triangle beyond;  // the triangle on its other side
+    double side;      // > 0 where the new point is on its left, exactly
+};
+
 struct Triangulation {
     Array<Point2> xy;           // of the vertices
     Array<SizeTensor> size;     // H of the vertices
@@ -42,6 +49,8 @@ struct Triangulation {
     Vertex add_vertex(Point2 place, SizeTensor tensor);
     Triangle add_triangle();
     void reserve(std::size_t vertices);
+
+    Array<RimCandidate> candidates;  // scratch of ``open_cavity``
 
   private:
     friend void fill_cavity(Triangulation& t, Vertex p);
