@@ -153,8 +153,8 @@ def estimate(surface: Surface | CadModel | Any, sizing: Sizes = None) -> Estimat
 
     Size fields are made and measured, of models with many faces those of some faces: of alike ones
     one, of many that differ a sample (``by_face`` is rougher there than the total). Of large meshes
-    a few patches are made to learn from, up to some thousand triangles all are. Raises what ``mesh`` raises for sizes that cannot be met,
-    but for their limit.
+    a few patches are made to learn from, up to some thousand triangles all are. Raises what
+    ``mesh`` raises for sizes that cannot be met, but for their limit.
     """
     model = _model_or_surface(surface)
     if not isinstance(model, Surface):

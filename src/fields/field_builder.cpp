@@ -255,7 +255,7 @@ bool FieldBuilder::ask_hidden(HiddenFeatures& hidden, std::span<const std::int32
 
 /// Triangles that a cell asks for.
 double FieldBuilder::triangles(const FieldCell& cell, double at) const {
-    const double area = plan_.root_step.x * plan_.root_step.y / std::pow(4.0, cell.depth);
+    const double area = std::ldexp(plan_.root_step.x * plan_.root_step.y, -2 * cell.depth);
     return area * at * (4.0 / std::sqrt(3.0));
 }
 

@@ -42,10 +42,13 @@ void SplineSurface::evaluate_as(std::span<const Point2> uv, std::span<Point3> ou
     const auto rows = static_cast<std::int64_t>(u_.degree()) + 1;
     const auto columns = static_cast<std::int64_t>(v_.degree()) + 1;
     SplineFunctions by_u(u_.degree(), order), by_v(v_.degree(), order);
+    KnotPlace u{}, v{};
     for (std::size_t point = 0; point < uv.size(); ++point) {
-        const KnotPlace u = u_.locate(uv[point].x), v = v_.locate(uv[point].y);
-        by_u.evaluate(u_, u);
-        by_v.evaluate(v_, v);
+        // points often lie in rows, along which one parameter is the same
+        if (point == 0 || uv[point].x != uv[point - 1].x)
+            by_u.evaluate(u_, u = u_.locate(uv[point].x));
+        if (point == 0 || uv[point].y != uv[point - 1].y)
+            by_v.evaluate(v_, v = v_.locate(uv[point].y));
         const std::int64_t corner = (u.span - rows + 1) * columns_ + v.span - columns + 1;
         const Point3 middle = control_[corner + (rows - 1) / 2 * columns_ + (columns - 1) / 2];
         PointDerivatives<order> r{};

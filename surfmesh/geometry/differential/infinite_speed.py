@@ -23,6 +23,7 @@ from itertools import pairwise
 
 import numpy as np
 
+from surfmesh._core import elementary_functions as functions
 from surfmesh.geometry.surface import Domain, Surface
 
 STEPS = (1e-4, 1e-6, 1e-8)
@@ -93,7 +94,7 @@ class BentAxis:
         s = self.kept_off(s)
         _, a, b, q0, q1 = self._pieces(s)
         before, after = (s - a) / (b - a), (b - s) / (b - a)
-        first = before ** (q0 - 1.0) * after ** (q1 - 1.0) / beta(q0, q1)
+        first = functions.pow(before, q0 - 1.0) * functions.pow(after, q1 - 1.0) / beta(q0, q1)
         with np.errstate(divide="ignore", invalid="ignore"):
             bending = np.where(q0 > 1.0, (q0 - 1.0) / before, 0.0)
             bending -= np.where(q1 > 1.0, (q1 - 1.0) / after, 0.0)
@@ -133,7 +134,8 @@ class BentAxis:
     def _clearance(self) -> np.ndarray:
         """How near to the ends of the pieces derivatives are taken (m, 2), fractions of them."""
         with np.errstate(divide="ignore"):
-            slow = LARGEST_SPEED ** (-1.0 / (self.powers - 1.0))
+            exponent = -1.0 / (self.powers - 1.0)
+        slow = functions.pow(np.full_like(exponent, LARGEST_SPEED), exponent)
         return np.where(self.powers > 1.0, np.maximum(NEAREST, slow), 0.0)
 
     def _pieces(self, s: np.ndarray) -> tuple[np.ndarray, ...]:
@@ -275,7 +277,7 @@ def _power(values: Values, domain: Domain, axis: int, place: float, way: float) 
     r = values(uv.reshape(-1, 2)).reshape(len(STEPS) + 1, ACROSS, 3)
     with np.errstate(all="ignore"):
         far = np.linalg.norm(r[1:] - r[0], axis=2).mean(axis=1)
-        exponents = np.diff(np.log(far)) / np.diff(np.log(STEPS))
+        exponents = np.diff(functions.log(far)) / np.diff(functions.log(np.array(STEPS)))
     p = float(exponents[-1])
     if not SMALLEST_EXPONENT <= p <= LARGEST_EXPONENT or abs(p - exponents[0]) > STEADY:
         return 1.0

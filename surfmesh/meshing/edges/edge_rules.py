@@ -81,7 +81,7 @@ class Course(NamedTuple):
         tangent = first / np.maximum(speed, np.finfo(float).tiny)[:, None]
         bend = np.linalg.norm(np.cross(first, second), axis=1)
         with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
-            curvature = np.nan_to_num(bend / speed**3, nan=0.0, posinf=0.0)
+            curvature = np.nan_to_num(bend / (speed * speed * speed), nan=0.0, posinf=0.0)
         return cls(fraction, CurveSamples(points, curvature), tangent, False)
 
     @property

@@ -8,6 +8,7 @@ the search starts, what counts as too much, and what errors say.
 import numpy as np
 
 import surfmesh._core.fields as core
+from surfmesh._core import elementary_functions
 from surfmesh._core.fields import Background
 from surfmesh.errors import SizingError
 from surfmesh.geometry.cad_surfaces.face_surface import FaceSurface
@@ -143,8 +144,8 @@ class FieldBuilder:
         if status == "too_many_cells":
             raise SizingError(
                 f"the sizes asked for on {self.surface.name!r} need more than {int(number):,} "
-                f"cells to describe, most {near}, where the surface may be singular: raise min_size or "
-                "growth, or leave that place out of the domain"
+                f"cells to describe, most {near}, where the surface may be singular: raise "
+                "min_size or growth, or leave that place out of the domain"
             )
         raise SizingError(
             f"the sizes on {self.surface.name!r} cannot be graded from one place to the next, "
@@ -201,7 +202,7 @@ class FieldBuilder:
             far = (0.0, width, height, 0.0)[side]
             away = np.abs(xy[:, across] - far)
             # metric speed across the side, of the nodes themselves: finite at the pole
-            speed = np.hypot(*nodes.root[:, across : across + 2].T)
+            speed = elementary_functions.hypot(*nodes.root[:, across : across + 2].T)
             depth = np.minimum(
                 POLE_DISTANCE * nodes.size / np.maximum(speed, 1e-300),
                 0.25 * self.chart.extent[across],

@@ -8,6 +8,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from surfmesh._core import elementary_functions
 from surfmesh.geometry.differential.infinite_speed import at_infinite_speed, bent_axes_of
 from surfmesh.geometry.formulas.interval import width_along
 from surfmesh.geometry.surface import BoundedSurface
@@ -93,6 +94,6 @@ def _may_rise(law: SizeLaw, chord: float, cells: SeenCells) -> np.ndarray:
     # no size could follow what is narrower than the least of them: the report finds it
     step = np.abs(cells.high - cells.low)
     root = cells.root[:, 4]
-    wide = np.hypot(root[:, 0], root[:, 1]) * step[:, 0] > law.clamp[0]
-    wide |= np.hypot(root[:, 1], root[:, 2]) * step[:, 1] > law.clamp[0]
+    wide = elementary_functions.hypot(root[:, 0], root[:, 1]) * step[:, 0] > law.clamp[0]
+    wide |= elementary_functions.hypot(root[:, 1], root[:, 2]) * step[:, 1] > law.clamp[0]
     return wide & ~(np.fmin(value, bent) <= HIDDEN_RISE * chord)

@@ -63,7 +63,7 @@ class TwoSizes:
         slant = np.flatnonzero(~flat)
         at = rows[slant]
         onward = np.einsum("ij,ij->i", rim.tangent[slant], self.along[at]) ** 2
-        wanted = np.maximum(rim.sizes[slant], least) ** -2.0
+        wanted = 1.0 / np.maximum(rim.sizes[slant], least) ** 2
         short_part, long_part = (1.0 - onward) / size[at] ** 2, onward / long[at] ** 2
         with np.errstate(divide="ignore", invalid="ignore"):
             factors = [

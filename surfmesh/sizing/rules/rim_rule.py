@@ -65,7 +65,7 @@ def rim_sizes(surface: Surface, uv: np.ndarray, step: np.ndarray, chord: float) 
     second = du * du * ruu + 2.0 * du * dv * ruv + dv * dv * rvv
     with np.errstate(all="ignore"):
         speed = np.linalg.norm(first, axis=1)
-        curvature = np.linalg.norm(np.cross(first, second), axis=1) / speed**3
+        curvature = np.linalg.norm(np.cross(first, second), axis=1) / (speed * speed * speed)
         sizes = np.sqrt(8.0 * RIM_RESERVE * chord / curvature)
         tangent = first / speed[:, None]
     known = np.isfinite(curvature) & np.isfinite(tangent).all(axis=1)

@@ -78,3 +78,16 @@ def test_wrong_vectors_are_refused():
         surfaces.line(np.zeros(4), np.zeros(4))
     with pytest.raises(ValueError, match="order"):
         surfaces.line(ORIGIN, X).evaluate(np.zeros(3), -1)
+
+
+def test_points_in_rows_change_no_bit():
+    rng = np.random.default_rng(3)
+    knots = np.array([0.0, 0.0, 0.0, 0.4, 1.0, 1.0, 1.0])
+    spline = surfaces.spline_surface(
+        DOMAIN, knots, knots, rng.random((4, 4, 3)), rng.uniform(1, 2, (4, 4)), (0.0, 0.0)
+    )
+    u, v = np.meshgrid(rng.random(9), rng.random(5), indexing="ij")
+    for grid in (np.stack([u, v], axis=-1), np.stack([u.T, v.T], axis=-1)):
+        uv = grid.reshape(-1, 2)
+        alone = [spline.evaluate(pair[None], 2)[:, 0] for pair in uv]
+        assert np.array_equal(spline.evaluate(uv, 2), np.stack(alone, axis=1))
