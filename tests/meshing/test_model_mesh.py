@@ -9,6 +9,7 @@ import pytest
 import surfmesh as sm
 from surfmesh.errors import MeshingError
 from surfmesh.meshing import model_mesh
+from surfmesh.meshing.faces import face_workers
 from surfmesh.meshing.faces.face_data import FaceMesh
 from surfmesh.quality.measures.solids import solid_mesh
 
@@ -114,7 +115,8 @@ def test_faces_that_fail_are_named(monkeypatch):
     def failing(job):
         return FaceMesh(failure="no luck") if job.surface is top else work(job)
 
-    monkeypatch.setattr(model_mesh, "mesh_face", failing)
+    for module in (model_mesh, face_workers):
+        monkeypatch.setattr(module, "mesh_face", failing)
     with pytest.raises(MeshingError, match=r"1 of 6 faces .* face 2 .*no luck"):
         sm.mesh(model, 0.5)
     mesh = sm.mesh(model, 0.5, strict=False)
