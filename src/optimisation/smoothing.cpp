@@ -66,7 +66,8 @@ void edge_terms(const StarPart& part, double stiffness, EnergyTerms& e) {
         const double l = d / scale;
         const double nx = px / d, ny = py / d;
         const double stiff = 2.0 * stiffness / (scale * scale);
-        const double across = std::max(stiff * (l - 1.0) / l, 0.0);
+        const double bend = stiff * (l - 1.0) / l;
+        const double across = 0.5 * (bend + std::abs(bend));  // its maximum with 0, exactly
         e.gx[k] = stiff * scale * (l - 1.0) * nx;
         e.gy[k] = stiff * scale * (l - 1.0) * ny;
         e.a11[k] = stiff * nx * nx + across * ny * ny;

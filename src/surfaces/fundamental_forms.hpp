@@ -11,7 +11,8 @@
 
 namespace surfmesh {
 
-/// a . b, summed as two lanes of a processor do.
+/// a . b, first and third product first: two lanes of a processor add up so, as numpy does, with
+/// which the meshes of old were made.
 constexpr double lane_dot(Point3 a, Point3 b) { return (a.x * b.x + a.z * b.z) + a.y * b.y; }
 
 struct FundamentalForms {

@@ -15,9 +15,7 @@ auto arrays_of(const ClosestPoints& found) {
     return std::tuple(view(found.uv), view(found.distance), view(found.foot));
 }
 
-}  // namespace
-
-void bind_surface_searches(nb::module_& m) {
+void bind_closest_points(nb::module_& m) {
     m.attr("PROJECTION_MARGIN") = PROJECTION_MARGIN;
     m.def(
         "closest_points",
@@ -68,6 +66,12 @@ void bind_surface_searches(nb::module_& m) {
         "uv: (n, 2) first guesses. corners: (m, 3, 2) of triangles and ``triangle`` (n,) that of "
         "each point: the search begins anew from them where a point seems farther away than "
         "``limit``.");
+}
+
+}  // namespace
+
+void bind_surface_searches(nb::module_& m) {
+    bind_closest_points(m);
     m.def(
         "bends_sharply",
         [](const Surface& surface, const ParameterTriangles& triangles, double radius) {
