@@ -206,16 +206,16 @@ void bind_sizes(nb::module_& m) {
     m.def(
         "shrink_far",
         [](const Triangulation& t, SurfaceFrames& s, VertexMarks& marks, const Numbers& triangles,
-           const Vector<double>& deviation, double limit, double min_size) {
+           const Vector<double>& deviation, double limit) {
             require_domain(t, s);
             require_marks(t, marks);
             require_indices(rows<Triangle>(triangles), t.region.size(), "triangles");
             require_rows(deviation.shape(0), triangles.shape(0), "deviation");
             return shrink_far(t, s, marks, rows<Triangle>(triangles), rows<double>(deviation),
-                              limit, min_size);
+                              limit);
         },
         nb::arg("t"), nb::arg("frames"), nb::arg("marks"), nb::arg("triangles"),
-        nb::arg("deviation"), nb::arg("limit"), nb::arg("min_size") = 0.0,
+        nb::arg("deviation"), nb::arg("limit"),
         "Ask for smaller edges where the deviation (n,) of triangles (n,) exceeds ``limit``: how "
         "many there are.");
     m.def(

@@ -17,8 +17,8 @@ Array<double> estimate_deviations(const Triangulation& t, const SurfaceFrames& s
 }
 
 int shrink_far(const Triangulation& t, SurfaceFrames& s, VertexMarks& marks,
-               std::span<const Triangle> triangles, std::span<const double> deviation, double limit,
-               double min_size) {
+               std::span<const Triangle> triangles, std::span<const double> deviation,
+               double limit) {
     int far = 0;
     for (std::size_t k = 0; k < triangles.size(); ++k) {
         if (deviation[k] <= limit) continue;
@@ -26,8 +26,7 @@ int shrink_far(const Triangulation& t, SurfaceFrames& s, VertexMarks& marks,
         const double factor = std::max(std::sqrt(limit / deviation[k]), SMALLEST_SHRINK);
         for (HalfEdge e = 3 * triangles[k]; e < 3 * triangles[k] + 3; ++e) {
             const Vertex v = t.tri[e];
-            if (s.scale[v] * factor >= SMALLEST_SCALE && s.size[v] * factor >= min_size)
-                shorten(s, v, factor);
+            if (s.scale[v] * factor >= SMALLEST_SCALE) shorten(s, v, factor);
             marks.active[v] = 1;
         }
     }

@@ -13,11 +13,11 @@ Array<double> estimate_deviations(const Triangulation& t, const SurfaceFrames& s
 
 /// Ask for smaller edges where the ``deviation`` of ``triangles`` exceeds ``limit``.
 ///
-/// The sizes of their corners are scaled by what deviation, of second order in the size, needs, but
-/// not below ``min_size``; they become active. Returns the number of such triangles.
+/// The sizes of their corners are scaled by what deviation, of second order in the size, needs;
+/// they become active. Returns the number of such triangles.
 int shrink_far(const Triangulation& t, SurfaceFrames& s, VertexMarks& marks,
-               std::span<const Triangle> triangles, std::span<const double> deviation, double limit,
-               double min_size);
+               std::span<const Triangle> triangles, std::span<const double> deviation,
+               double limit);
 
 /// Scale the wanted lengths at ``vertices`` by ``factors``, down to ``smallest`` of what they were.
 ///

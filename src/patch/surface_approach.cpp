@@ -109,7 +109,7 @@ Triangles approach_surface(PatchState& state, bool first) {
         if (suspects.empty()) return suspects;
         const Array<double> error = deviations(state, all(suspects), chord);
         if (shrink_far(state.t, state.frames, state.marks, all(suspects),
-                       {error.data(), error.size()}, limit, state.asked().min_size) == 0)
+                       {error.data(), error.size()}, limit) == 0)
             break;
         Changes changes(state);
         state.split();

@@ -159,7 +159,7 @@ def estimate_deviations(t: surfmesh._core.triangulation.Triangulation, frames: S
     Second-order estimate (triangles,) of each triangle's distance from the surface.
     """
 
-def shrink_far(t: surfmesh._core.triangulation.Triangulation, frames: SurfaceFrames, marks: VertexMarks, triangles: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], deviation: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)], limit: float, min_size: float = 0.0) -> int:
+def shrink_far(t: surfmesh._core.triangulation.Triangulation, frames: SurfaceFrames, marks: VertexMarks, triangles: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], deviation: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)], limit: float) -> int:
     """
     Ask for smaller edges where the deviation (n,) of triangles (n,) exceeds ``limit``: how many there are.
     """
