@@ -147,7 +147,7 @@ using Places = nb::ndarray<const std::int64_t, nb::shape<-1, 3>, nb::c_contig, n
 void construct(FieldBuilder* builder, std::pair<std::int32_t, std::int32_t> grid,
                std::pair<double, double> extent, std::pair<double, double> root_step, double slope,
                double largest, const Sides& sides, const Places& sources, bool known_sizes,
-               bool counts_triangles, double most_triangles,
+               bool counts_triangles, double free_cells, double most_triangles,
                std::pair<bool, bool> looks_for_hidden) {
     const auto [nx, ny] = grid;
     if (nx < 1 || ny < 1 || std::int64_t{nx} * ny > (1 << 20))
@@ -166,6 +166,7 @@ void construct(FieldBuilder* builder, std::pair<std::int32_t, std::int32_t> grid
                    {},
                    known_sizes,
                    counts_triangles,
+                   free_cells,
                    most_triangles,
                    looks_for_hidden.first,
                    looks_for_hidden.second};
@@ -186,14 +187,15 @@ void bind_field_builder(nb::module_& m) {
     nb::class_<FieldBuilder> c(m, "FieldBuilder", "Makes the background of one size field.");
     c.def("__init__", &construct, nb::arg("grid"), nb::arg("extent"), nb::arg("root_step"),
           nb::arg("slope"), nb::arg("largest"), nb::arg("sides"), nb::arg("sources"),
-          nb::arg("known_sizes"), nb::arg("counts_triangles"), nb::arg("most_triangles"),
-          nb::arg("looks_for_hidden"),
+          nb::arg("known_sizes"), nb::arg("counts_triangles"), nb::arg("free_cells"),
+          nb::arg("most_triangles"), nb::arg("looks_for_hidden"),
           "grid: root cells along x and y. extent: of the scaled plane. root_step: width and "
           "height of a root cell. slope: growth of the size per length. largest: size in the "
           "scaled plane above which none counts.\nsides: of each the one that it is joined with, "
           "or -1, and whether it runs against it. sources (k, 3): x, y of small sizes on the grid "
           "of GRID_DEPTH, and how deep the cell there shall be.\nknown_sizes: points of known "
-          "size have such cells. counts_triangles: cells may not be many more than triangles. "
+          "size have such cells. counts_triangles: beyond free_cells, cells may not be many more "
+          "than triangles. "
           "most_triangles: more are refused, or inf.\nlooks_for_hidden: features between the "
           "nodes are looked for at all, and in deep cells.");
     c.def("refine", &refine, nb::arg("law"), nb::arg("hidden"),

@@ -25,9 +25,10 @@ constexpr double LOWERED = 0.98;  // of the target size: below it gradation deci
 // they depend on the direction too, so that gradation brings kinks of its own.
 constexpr double FINEST_EXTENT = 0.2, FINEST_GRADED = 1.0, FINEST_STRETCHED = 2.0;
 
-// A field may have so many cells; and beyond the second number no more than the third for each
-// triangle that it asks for so far: what needs more is no size, but a place where r is singular.
-constexpr double MAX_CELLS = 800'000, FREE_CELLS = 200'000, CELLS_OF_TRIANGLE = 4;
+// A field may have so many cells; and beyond those that are free no more than the second number for
+// each triangle that it asks for so far: what needs more is no size, but a place where r is
+// singular.
+constexpr double MAX_CELLS = 800'000, CELLS_OF_TRIANGLE = 4;
 constexpr int MAX_ROUNDS = 60;
 
 // Sweeps of the gradation before the cells are sorted anew, and how often that is done. So often
@@ -90,7 +91,7 @@ FieldOutcome FieldBuilder::refine(NodeLaw& law, HiddenFeatures& hidden) {
         if (count <= few && !is_demanded) break;
         cells_.balance(all(marks.split));
         replace(marks);
-        if (static_cast<double>(cells_.total()) > FREE_CELLS &&
+        if (static_cast<double>(cells_.total()) > plan_.free_cells &&
             static_cast<double>(cells_.total()) > most_cells())
             return refused(all(marks.split));
         const std::size_t first = patches_.size();
@@ -289,7 +290,7 @@ double FieldBuilder::most_cells() const {
     double total = 0.0;
     for (std::size_t k = 0; k < before_.size(); ++k)
         total += triangles(leaves_before_[k], density(metric_root[before_[k].node[4]]));
-    const double free = FREE_CELLS + 4.0 * static_cast<double>(looked_into_);
+    const double free = plan_.free_cells + 4.0 * static_cast<double>(looked_into_);
     return std::min(MAX_CELLS, std::max(free, CELLS_OF_TRIANGLE * total));
 }
 

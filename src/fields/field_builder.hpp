@@ -57,6 +57,7 @@ struct FieldPlan {
     Array<SmallSource> sources;
     bool known_sizes;       // sizes are limited by points of known size, which have cells
     bool counts_triangles;  // cells may not be many more than the triangles that are asked for
+    double free_cells;      // so many are allowed before cells are held to triangles
     double most_triangles;  // so many are not asked for by mistake; infinite: not looked at
     bool looks_for_hidden, looks_deep;
 };

@@ -26,11 +26,9 @@ class FieldPacking(Front):
     def step(self, a: int, b: int) -> bool:
         apex = self.apex(b, a)
         far = {self.prev[a]: b, self.next[b]: a}.get(apex)  # the circle across a corner
-        if (
-            far is not None
-            and self.measure(self.points[far], self.sizes[far], apex)[0] < CLOSE_BELOW
-        ):
-            return self.close_corner(a, b)
+        if far is not None:
+            if self.measure(self.points[far], self.sizes[far], apex)[0] < CLOSE_BELOW:
+                return self.close_corner(a, b)
         p, h = self.fit_to_two(a, b)
         cavity, other = self.look((b, a), (a, b), p, h)
         if cavity.rim and self.left[b, a] in cavity.numbers:

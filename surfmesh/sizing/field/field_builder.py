@@ -52,6 +52,10 @@ def _root_grid(width: float, height: float, cells: int) -> tuple[int, int]:
     return (longer, shorter) if width > height else (shorter, longer)
 
 
+FREE_CELLS = 200_000
+"""Of a surface of formulas: beyond so many, cells are held to the triangles that they ask for."""
+
+
 class FieldBuilder:
     """Makes one background."""
 
@@ -77,6 +81,7 @@ class FieldBuilder:
             sources=self._sources(step),
             known_sizes=law.limits is not None and law.limits.uv is not None,
             counts_triangles=self._is_of_formulas,
+            free_cells=FREE_CELLS,
             most_triangles=self._most_triangles,
             looks_for_hidden=(
                 isinstance(law, SizeLaw) and law.follows_curvature,

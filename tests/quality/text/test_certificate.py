@@ -3,6 +3,7 @@
 import hashlib
 import json
 import pickle
+from contextlib import nullcontext
 from pathlib import Path
 
 import cadquery as cq
@@ -229,7 +230,7 @@ def test_a_file_its_mesh_and_the_command(tmp_path, capsys, monkeypatch):
     assert mesh.report.source_sha256 == hashlib.sha256(path.read_bytes()).hexdigest()
     mesh.save(mesh_path)
     # read once is enough
-    monkeypatch.setattr(commands, "named_surface", lambda name, *more: model)
+    monkeypatch.setattr(commands, "surface_begun", lambda *_: nullcontext(lambda: model))
     assert main(["check", mesh_path, "--surface", str(path)]) == 0
     printed = capsys.readouterr().out
     for words in ("faces\n", "solids\n", "worst triangles\n", "as in the model", "sha256"):
