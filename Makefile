@@ -73,7 +73,7 @@ sanitize: $(VENV)/.installed-dev ## tests of the core under address and undefine
 	    -DPython_EXECUTABLE=$(abspath $(BIN)/python) -DSURFMESH_MODULE=$(abspath $(SANITIZED)) >/dev/null
 	PATH="$(abspath $(BIN)):$$PATH" cmake --build build/sanitize
 	LD_PRELOAD="$(PRELOADED)" ASAN_OPTIONS=detect_leaks=0 PYTHONPATH=build/sanitize/package \
-	    $(BIN)/python -m pytest -q -p no:cacheprovider -n 0 tests/core
+	    $(BIN)/python -m pytest -q -p no:cacheprovider -n 2 tests/core
 
 fuzz: $(VENV)/.installed-dev ## hostile input by thousands: the table (SURFMESH_FUZZ=1000 a kind)
 	SURFMESH_FUZZ=$${SURFMESH_FUZZ:-1000} $(BIN)/python benchmarks/trust.py --parts readers formulas random
