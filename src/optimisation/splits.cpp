@@ -12,6 +12,7 @@ MetricRoot3 middle(const MetricRoot3& a, const MetricRoot3& b) {
 
 /// Split the edge e in the middle; what is known at the new vertex is taken from its ends.
 void halve(Triangulation& t, SurfaceFrames& s, VertexMarks& marks, HalfEdge e) {
+    if (t.xy.size() >= s.limits.most_vertices) return;
     const Vertex a = t.tri[e], b = t.tri[t.adj[e]];
     const Vertex p = split_edge(t, e, 0.5 * (t.xy[a] + t.xy[b]));
     if (p == NIL) return;
@@ -44,7 +45,8 @@ HalfEdge farthest_edge(const Triangulation& t, const SurfaceFrames& s, Triangle 
         const Vertex a = t.tri[e], b = t.tri[next_half_edge(e)];
         if (a >= first || b >= first) return NIL;
         if (t.adj[e] < 0 || t.fixed[e] != 0) continue;
-        if (s.least_size > 0.0 && norm(s.point[b] - s.point[a]) < 2.0 * s.least_size) continue;
+        const double least = s.limits.least_size;
+        if (least > 0.0 && norm(s.point[b] - s.point[a]) < 2.0 * least) continue;
         const double far = std::abs(rise(s, a, b)) + std::abs(rise(s, b, a));
         if (far > farthest) {
             best = e;

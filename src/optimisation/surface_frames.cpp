@@ -130,7 +130,8 @@ Point3 lift(const SurfaceFrames& s, Vertex v, Point2 step) {
 }
 
 void shorten(SurfaceFrames& s, Vertex v, double factor) {
-    if (s.size[v] * factor < s.least_size) factor = std::min(s.least_size / s.size[v], 1.0);
+    if (s.size[v] * factor < s.limits.least_size)
+        factor = std::min(s.limits.least_size / s.size[v], 1.0);
     s.size[v] *= factor;
     s.scale[v] *= factor;
     if (!s.is_anisotropic) return;

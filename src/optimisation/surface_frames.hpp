@@ -18,6 +18,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <span>
 
 #include "fields/background.hpp"
@@ -30,6 +31,12 @@ struct TangentMap {
     Point3 x, y;
 };
 
+/// How fine the optimiser may make what the size field has left too coarse.
+struct RefinementLimits {
+    double least_size = 0.0;  // no h is scaled below it, no edge split into shorter halves
+    std::size_t most_vertices = std::numeric_limits<std::size_t>::max();  // no edge is split beyond
+};
+
 /// Of each vertex; the arrays grow with the vertices.
 struct SurfaceFrames {
     Array<Point3> point;             // r
@@ -39,7 +46,7 @@ struct SurfaceFrames {
     Array<double> scale;             // h over that of the size field, at most 1
     Array<MetricRoot3> metric_root;  // W; empty where sizes are isotropic
     bool is_anisotropic = false;     // do the sizes depend on the direction?
-    double least_size = 0.0;         // no h is scaled below it, no edge split into shorter halves
+    RefinementLimits limits;
 
     SurfaceFrames() = default;
     SurfaceFrames(std::size_t vertices, bool anisotropic);

@@ -30,6 +30,12 @@ Array<Vertex> vertices_from(Vertex first, Vertex end) {
     return numbers;
 }
 
+/// A patch may grow by so much while it is optimised, and by a few more. What needs more splits than
+/// that asks for smaller sizes: they cost fewer triangles, and on a faulty face splits have no end.
+std::size_t most_vertices(std::size_t vertices, bool anisotropic) {
+    return vertices + vertices / (anisotropic ? 2 : 16) + 64;
+}
+
 }  // namespace
 
 PatchState::PatchState(Triangulation& triangulation, BoundaryNodes nodes,
@@ -42,7 +48,7 @@ PatchState::PatchState(Triangulation& triangulation, BoundaryNodes nodes,
       surface_(setting.surface),
       largest_(1e3 * setting.background.box.largest /
                std::max(setting.chart.u.extent, setting.chart.v.extent)) {
-    frames.least_size = setting.asked.min_size;
+    frames.limits = {setting.asked.min_size, most_vertices(t.xy.size(), frames.is_anisotropic)};
     set_frames(all(vertices_from(0, t.vertices())));
     place_nodes();
 }
