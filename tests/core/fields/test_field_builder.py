@@ -33,7 +33,8 @@ def builder_of(grid=(4, 4), **changed):
     plan = dict(
         grid=grid, extent=(1.0, 1.0), root_step=step, slope=0.2,
         largest=16.0, sides=OPEN, sources=NOTHING, known_sizes=False,
-        counts_triangles=True, free_cells=200_000, most_triangles=np.inf, looks_for_hidden=(False, False),
+        counts_triangles=True, free_cells=200_000, most_triangles=np.inf,
+        looks_for_hidden=(False, False),
     )  # fmt: skip
     return FieldBuilder(**(plan | changed))
 
