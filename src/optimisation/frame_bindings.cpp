@@ -101,6 +101,10 @@ void bind_frames(nb::module_& m) {
                "(vertices, 6): W; empty where sizes are isotropic");
     c.def_ro("is_anisotropic", &SurfaceFrames::is_anisotropic,
              "Do the sizes depend on the direction?");
+    c.def_prop_rw(
+        "most_vertices", [](const SurfaceFrames& s) { return s.limits.most_vertices; },
+        [](SurfaceFrames& s, std::size_t most) { s.limits.most_vertices = most; },
+        "No edge is split once there are so many.");
     c.def(
         "set",
         [](SurfaceFrames& s, Triangulation& t, const Background& background,

@@ -93,13 +93,6 @@ void bind_deviations(nb::module_& m) {
 }  // namespace
 
 void bind_accuracy(nb::module_& m) {
-    m.def(
-        "dense_samples",
-        [] {
-            return view(
-                Array<BarycentricWeights>(std::span<const BarycentricWeights>(DENSE_SAMPLES)));
-        },
-        "Barycentric places (n, 3) at which the mesher looks at stretched triangles.");
     m.attr("FINEST_SIZE") = FINEST_SIZE;
     m.attr("FINEST_BY_ANGLE") = FINEST_BY_ANGLE;
     m.attr("LEAST_OF_CHORD") = LEAST_OF_CHORD;

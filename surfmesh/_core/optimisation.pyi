@@ -45,6 +45,13 @@ class SurfaceFrames:
     def is_anisotropic(self) -> bool:
         """Do the sizes depend on the direction?"""
 
+    @property
+    def most_vertices(self) -> int:
+        """No edge is split once there are so many."""
+
+    @most_vertices.setter
+    def most_vertices(self, arg: int, /) -> None: ...
+
     def set(self, t: surfmesh._core.triangulation.Triangulation, background: surfmesh._core.fields.Background, vertices: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], r: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)], rx: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)], ry: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)], largest: float) -> None:
         """
         Set the frames of vertices (n,), and their size tensors, from r, r_x, r_y (n, 3).

@@ -1,6 +1,6 @@
 """A whole (u, v) domain and its size field become triangles in one call."""
 
-from typing import Annotated, overload
+from typing import Annotated
 
 import numpy
 from numpy.typing import NDArray
@@ -42,18 +42,6 @@ class Chart:
     def to_uv_and_rates(self, xy: Annotated[NDArray[numpy.float64], dict(shape=(None, 2), order='C', device='cpu', writable=False)]) -> tuple[Annotated[NDArray[numpy.float64], dict(shape=(None, 2))], Annotated[NDArray[numpy.float64], dict(shape=(None, 2))]]:
         """xy (n, 2) -> uv (n, 2) and (du/dx, dv/dy) (n, 2)."""
 
-@overload
-def dense_samples() -> Annotated[NDArray[numpy.float64], dict(shape=(None, 3))]:
-    """
-    Barycentric places (n, 3) at which the mesher looks at stretched triangles.
-    """
-
-@overload
-def dense_samples() -> Annotated[NDArray[numpy.float64], dict(shape=(None, 3))]:
-    """
-    Barycentric places (25, 3) at which the mesher looks at triangles that are nearly too far: those of the report without the corners, which lie on the surface.
-    """
-
 FINEST_SIZE: float = 1e-05
 
 FINEST_BY_ANGLE: float = 0.0002
@@ -63,6 +51,11 @@ LEAST_OF_CHORD: float = 0.5
 ROUND_RESERVE: float = 0.78
 
 BENT_RESERVE: float = 0.94
+
+def dense_samples() -> Annotated[NDArray[numpy.float64], dict(shape=(None, 3))]:
+    """
+    Barycentric places (25, 3) at which the mesher looks at triangles that are nearly too far: those of the report without the corners, which lie on the surface.
+    """
 
 def point_deviations(surface: surfmesh._core.surfaces.Surface, points: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)], uv: Annotated[NDArray[numpy.float64], dict(shape=(None, 2), order='C', device='cpu', writable=False)], size: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)]) -> tuple[Annotated[NDArray[numpy.float64], dict(shape=(None,))], Annotated[NDArray[numpy.float64], dict(shape=(None, 3))]]:
     """

@@ -139,6 +139,7 @@ def test_collapse_and_split_bring_lengths_into_range():
         state, _ = state_of()
         t, s = state.t, state.frames
         s.scale[:] *= factor
+        s.most_vertices = 8 * t.vertices
         state.set_frames(np.arange(t.vertices, dtype=np.int32))
         live = len(live_triangles(t))
         for _ in range(8):
@@ -160,6 +161,17 @@ def test_collapse_and_split_bring_lengths_into_range():
         else:
             assert len(live_triangles(t)) > 2 * live
             assert (lengths < LONGEST).mean() > 0.95
+
+
+def test_a_patch_grows_by_a_sixteenth_at_most():
+    """On faulty faces splits have no end."""
+    state, _ = state_of()
+    before = state.t.vertices
+    state.frames.scale[:] *= 0.25
+    state.set_frames(np.arange(before, dtype=np.int32))
+    for _ in range(4):
+        state.split()
+    assert state.t.vertices == before + before // 16 + 64
 
 
 # measures on the embedding
