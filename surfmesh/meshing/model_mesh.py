@@ -26,7 +26,7 @@ from surfmesh.meshing.estimate.trial_mesh import ROUNDS as TRIAL_ROUNDS
 from surfmesh.meshing.estimate.trial_mesh import WHOLE, WHOLE_STRETCHED, counts_within_budget
 from surfmesh.meshing.faces.face_mesh import edge_refinement, mesh_face
 from surfmesh.meshing.faces.face_state import FaceState, face_states, first_jobs
-from surfmesh.meshing.faces.face_workers import FaceWorkers
+from surfmesh.meshing.faces.face_workers import FACE_WORK, FaceWorkers
 from surfmesh.meshing.faces.opposite_faces import copied, opposite_pairs
 from surfmesh.meshing.finishing.edge_collapse import LEAST, simplified
 from surfmesh.meshing.patch.refinement_loop import MAX_ROUNDS, refined_in_rounds
@@ -45,9 +45,6 @@ from surfmesh.sizing.rules.volume_rule import with_volume_rule
 
 if TYPE_CHECKING:
     from surfmesh.meshing.explain.explanation import Explanation
-
-FACE_WORK = 400
-"""Units of work of a face besides its triangles, see ``WorkBudget``; from the seconds it takes."""
 
 MAX_VOLUME_ROUNDS = 4
 """How often a model is meshed for the sake of its volumes, at most: once in most cases."""

@@ -6,7 +6,6 @@ A face is meshed from plain arrays and knows nothing of the others, so that its 
 whoever makes it, and when.
 """
 
-import os
 from collections.abc import Iterator
 from concurrent.futures import BrokenExecutor, Executor, Future, ThreadPoolExecutor
 from dataclasses import dataclass
@@ -20,8 +19,8 @@ BATCHES = 64
 """Most batches that an executor is handed at a time: some for each of a dozen workers, so that
 none waits long at the end, and not one for each of thousands of faces."""
 
-FIXED_WORK = 400.0
-"""Work of a face besides its triangles, in triangles."""
+FACE_WORK = 400
+"""Work of a face besides its triangles, in triangles; from the seconds it takes."""
 
 
 @dataclass(frozen=True)
@@ -48,14 +47,6 @@ class FaceWorkers:
             yield from map(mesh_face, jobs)
 
 
-def processors() -> int:
-    """How many this process may use."""
-    try:
-        return len(os.sched_getaffinity(0))
-    except AttributeError:  # not on macOS and Windows
-        return os.cpu_count() or 1
-
-
 def _by_executor(executor: Executor, jobs: list[FaceJob], batches: int) -> Iterator[FaceMesh]:
     futures: dict[int, tuple[Future[list[FaceMesh]], int]] = {}
     try:
@@ -78,7 +69,7 @@ def _mesh_batch(jobs: list[FaceJob]) -> list[FaceMesh]:
 
 def expected_work(job: FaceJob) -> float:
     """About how much there is to do, in triangles: as of a square with so many nodes around."""
-    return FIXED_WORK + job.nodes**2 / 8.0
+    return FACE_WORK + job.nodes**2 / 8.0
 
 
 def batches_of(work: list[float], count: int) -> list[list[int]]:
