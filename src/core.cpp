@@ -2,7 +2,11 @@
 // other.
 #include <nanobind/nanobind.h>
 
+#include <algorithm>
+#include <utility>
+
 #include "values/conventions.hpp"
+#include "values/threads.hpp"
 
 namespace surfmesh::binding {
 
@@ -34,6 +38,12 @@ NB_MODULE(_core, m) {
     nanobind::set_leak_warnings(false);  // what callers keep until the end is no fault
     m.doc() = "The compiled core of surfmesh: arrays in, arrays and a status out.";
     m.attr("NIL") = surfmesh::NIL;
+    m.def(
+        "allow_threads",
+        [](int count) { return std::exchange(surfmesh::allowed_threads(), std::max(1, count)); },
+        nanobind::arg("count"),
+        "How many threads calls from this thread of Python may use; returns how many they were "
+        "allowed.\n\nResults do not depend on it. 1 in every new thread.");
     add(m, "elementary_functions", bind_elementary_functions);
     add(m, "fields", bind_fields);
     add(m, "triangulation", bind_triangulation);

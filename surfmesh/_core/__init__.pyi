@@ -14,3 +14,10 @@ from surfmesh._core import (
 
 
 NIL: int = -1
+
+def allow_threads(count: int) -> int:
+    """
+    How many threads calls from this thread of Python may use; returns how many they were allowed.
+
+    Results do not depend on it. 1 in every new thread.
+    """

@@ -1,0 +1,44 @@
+// Work on blocks of a range by several threads of one call.
+//
+// In: how many elements there are, how many make a block, and work on [first, last). Blocks are
+// the same whatever the number of threads, and work must write only what belongs to its own block:
+// so the result is the same, bit for bit, however many threads there are and in whatever order
+// they take the blocks. Nothing is handed from one block to another.
+#pragma once
+
+#include <algorithm>
+#include <atomic>
+#include <cstddef>
+#include <thread>
+#include <vector>
+
+namespace surfmesh {
+
+/// How many threads work that this thread begins may use; 1 in every new thread.
+inline int& allowed_threads() {
+    thread_local int count = 1;
+    return count;
+}
+
+/// Call work(first, last) for blocks of [0, count). Work must not throw.
+template <class Work>
+void for_each_block(std::size_t count, std::size_t block, const Work& work) {
+    const std::size_t blocks = (count + block - 1) / block;
+    const auto take = [&](std::size_t k) { work(k * block, std::min(count, (k + 1) * block)); };
+    const std::size_t threads =
+        std::min(blocks, static_cast<std::size_t>(std::max(1, allowed_threads())));
+    if (threads < 2) {
+        for (std::size_t k = 0; k < blocks; ++k) take(k);
+        return;
+    }
+    std::atomic<std::size_t> next = 0;
+    const auto drain = [&] {
+        for (std::size_t k = next++; k < blocks; k = next++) take(k);
+    };
+    std::vector<std::thread> others;
+    for (std::size_t n = 1; n < threads; ++n) others.emplace_back(drain);
+    drain();
+    for (std::thread& other : others) other.join();
+}
+
+}  // namespace surfmesh
