@@ -20,6 +20,7 @@ void bind_packing(nb::module_& m);
 void bind_insertion(nb::module_& m);
 void bind_optimisation(nb::module_& m);
 void bind_surfaces(nb::module_& m);
+void bind_sizing(nb::module_& m);
 void bind_patch(nb::module_& m);
 
 namespace {
@@ -52,5 +53,6 @@ NB_MODULE(_core, m) {
     add(m, "insertion", bind_insertion);
     add(m, "optimisation", bind_optimisation);
     add(m, "surfaces", bind_surfaces);
+    add(m, "sizing", bind_sizing);
     add(m, "patch", bind_patch);
 }

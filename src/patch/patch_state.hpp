@@ -13,8 +13,8 @@
 #include "optimisation/stars.hpp"
 #include "optimisation/surface_frames.hpp"
 #include "optimisation/vertex_marks.hpp"
-#include "patch/chart.hpp"
 #include "patch/limits.hpp"
+#include "surfaces/chart.hpp"
 #include "surfaces/surface_reader.hpp"
 
 namespace surfmesh {

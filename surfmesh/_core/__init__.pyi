@@ -7,6 +7,7 @@ from surfmesh._core import (
     optimisation as optimisation,
     packing as packing,
     patch as patch,
+    sizing as sizing,
     space as space,
     surfaces as surfaces,
     triangulation as triangulation

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from surfmesh._core.patch import ChartAxis
+from surfmesh._core.surfaces import ChartAxis
 from surfmesh.geometry.differential.infinite_speed import BentAxis
 
 PLACES = np.array([-1.0, -0.3, 0.6, 1.0])
