@@ -16,6 +16,7 @@ namespace surfmesh::binding {
 void bind_results(nb::module_& m);
 void bind_accuracy(nb::module_& m);
 void bind_seams(nb::module_& m);
+void bind_patch_mesh(nb::module_& m);
 
 namespace {
 
@@ -276,6 +277,7 @@ void bind_patch(nb::module_& m) {
     bind_state(patch);
     bind_passes(patch);
     bind_schedule(patch);
+    bind_patch_mesh(m);
 }
 
 }  // namespace surfmesh::binding

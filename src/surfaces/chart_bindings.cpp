@@ -72,7 +72,15 @@ void bind_chart(nb::module_& m) {
                 }
                 return std::pair(view(uv), view(rates));
             },
-            nb::arg("xy"), "xy (n, 2) -> uv (n, 2) and (du/dx, dv/dy) (n, 2).");
+            nb::arg("xy"), "xy (n, 2) -> uv (n, 2) and (du/dx, dv/dy) (n, 2).")
+        .def(
+            "to_plane",
+            [](const Chart& chart, const Points2& uv) {
+                return view(chart.to_plane(rows<Point2>(uv)));
+            },
+            nb::arg("uv"),
+            "uv (n, 2), bent parameters where there are some -> xy (n, 2).\n\nExact at the ends of "
+            "the axes; what lies beyond is moved there.");
 }
 
 }  // namespace surfmesh::binding
