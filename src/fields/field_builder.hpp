@@ -118,6 +118,7 @@ class FieldBuilder {
     [[nodiscard]] FieldOutcome refused(std::span<const std::uint8_t> split) const;
     void mark_inaccurate(std::int32_t seen, std::span<std::uint8_t> split) const;
     [[nodiscard]] bool is_graded(const Patch& patch) const;
+    [[nodiscard]] PatchRoots metric_roots(const Patch& patch) const;
     [[nodiscard]] bool mark_hidden(HiddenFeatures& hidden, Marks& marks);
     [[nodiscard]] bool ask_hidden(HiddenFeatures& hidden, std::span<const std::int32_t> cells,
                                   bool deep, std::span<std::uint8_t> found) const;
