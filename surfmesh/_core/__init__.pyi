@@ -1,6 +1,7 @@
 """The compiled core of surfmesh: arrays in, arrays and a status out."""
 
 from surfmesh._core import (
+    edges as edges,
     elementary_functions as elementary_functions,
     fields as fields,
     insertion as insertion,

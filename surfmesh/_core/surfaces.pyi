@@ -105,6 +105,11 @@ def revolution(domain: tuple[tuple[float, float], tuple[float, float]], curve: C
     c(v) turned by the angle u about the axis through origin, of unit length
     """
 
+def curve_on_surface(surface: Surface, pcurve: Curve, shift: float, rate: float) -> Curve:
+    """
+    r(p(shift + rate t)) with a curve p in (u, v); derivatives beyond the second are no numbers.
+    """
+
 def offset_surface(basis: Surface, distance: float) -> Surface:
     """
     r + distance n with n along r_u x r_v, for a basis that has third derivatives.
