@@ -23,3 +23,10 @@ def allow_threads(count: int) -> int:
 
     Results do not depend on it. 1 in every new thread.
     """
+
+def return_free_memory(triangles: int) -> None:
+    """
+    After work on a mesh of so many triangles: give memory back to the system that the C library keeps although it is free.
+
+    Does nothing for small meshes.
+    """
