@@ -67,8 +67,8 @@ class CoreCurve(Curve, Protocol):
 
 def points_on(curves: Sequence[Curve], t: np.ndarray) -> np.ndarray:
     """Points of n curves of one dimension d, row i of t (n, k) on curve i: (n, k, d) float."""
-    cores = [getattr(curve, "core", None) for curve in curves]
-    if None not in cores:
+    cores = [curve.core for curve in curves if isinstance(curve, PlainCurve)]
+    if len(cores) == len(curves):
         return surfaces.points_on(cores, t)
     return np.stack([curve.evaluate(row, 0)[0] for curve, row in zip(curves, t)])
 
