@@ -5,7 +5,6 @@
 #include <optional>
 
 #include "binding/arrays.hpp"
-#include "fields/axis_bending.hpp"
 #include "fields/background.hpp"
 #include "fields/coverage.hpp"
 #include "fields/gradation.hpp"
@@ -286,30 +285,6 @@ void bind_sources(nb::module_& m) {
         "than most_cells are needed.");
 }
 
-void bind_axis_bending(nb::module_& m) {
-    m.def(
-        "bend",
-        [](const Vector<double>& x, double extent, const Vector<double>& knots,
-           const Vector<double>& slopes) {
-            if (!(extent > 0.0) || !std::isfinite(extent))
-                throw nb::value_error("extent is not a positive number");
-            if (knots.shape(0) < 2) throw nb::value_error("there are fewer than two knots");
-            require_rows(slopes.shape(0), knots.shape(0), "slopes");
-            const BentAxis axis{extent, rows<double>(knots), rows<double>(slopes)};
-            Array<double> parameter(x.shape(0)), rate(x.shape(0));
-            for (std::size_t k = 0; k < x.shape(0); ++k) {
-                const ParameterAndRate at = bend(axis, x(k));
-                parameter[k] = at.parameter;
-                rate[k] = at.rate;
-            }
-            return std::pair(view(parameter), view(rate));
-        },
-        nb::arg("x"), nb::arg("extent"), nb::arg("knots"), nb::arg("slopes"),
-        "The parameter (n,) at scaled coordinates x (n,), and its derivative by x (n,).\n\nknots "
-        "and slopes (k,): the parameter and its derivative at k even coordinates from 0 to extent; "
-        "linear outside.");
-}
-
 void bind_tensors(nb::module_& m) {
     m.def(
         "solve",
@@ -364,7 +339,6 @@ void bind_tensors(nb::module_& m) {
 void bind_fields(nb::module_& m) {
     m.doc() = "Size tensors, their gradation, and the look-up in a background.";
     bind_tensors(m);
-    bind_axis_bending(m);
     bind_background(m);
     bind_sources(m);
     bind_gradation(m);

@@ -16,6 +16,7 @@ namespace surfmesh::binding {
 void bind_results(nb::module_& m);
 void bind_accuracy(nb::module_& m);
 void bind_seams(nb::module_& m);
+void bind_patch_mesh(nb::module_& m);
 
 namespace {
 
@@ -80,7 +81,15 @@ void bind_chart(nb::module_& m) {
                 }
                 return std::pair(view(uv), view(rates));
             },
-            nb::arg("xy"), "xy (n, 2) -> uv (n, 2) and (du/dx, dv/dy) (n, 2).");
+            nb::arg("xy"), "xy (n, 2) -> uv (n, 2) and (du/dx, dv/dy) (n, 2).")
+        .def(
+            "to_plane",
+            [](const Chart& chart, const Points2& uv) {
+                return view(chart.to_plane(rows<Point2>(uv)));
+            },
+            nb::arg("uv"),
+            "uv (n, 2), bent parameters where there are some -> xy (n, 2).\n\nExact at the ends of "
+            "the axes; what lies beyond is moved there.");
 }
 
 /// A callable of Python that is told of each pass, and what it raised.
@@ -339,6 +348,7 @@ void bind_patch(nb::module_& m) {
     bind_state(patch);
     bind_passes(patch);
     bind_schedule(patch);
+    bind_patch_mesh(m);
 }
 
 }  // namespace surfmesh::binding

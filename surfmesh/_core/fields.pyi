@@ -28,13 +28,6 @@ def triangle_shape(xy: Annotated[NDArray[numpy.float64], dict(shape=(None, 2), o
     alpha of the triangle xy (3, 2) in the mean metric of its corners' tensors (3, 3).
     """
 
-def bend(x: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)], extent: float, knots: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)], slopes: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)]) -> tuple[Annotated[NDArray[numpy.float64], dict(shape=(None,))], Annotated[NDArray[numpy.float64], dict(shape=(None,))]]:
-    """
-    The parameter (n,) at scaled coordinates x (n,), and its derivative by x (n,).
-
-    knots and slopes (k,): the parameter and its derivative at k even coordinates from 0 to extent; linear outside.
-    """
-
 class Background:
     """Size tensors on a forest of quadtrees over a box of the scaled plane."""
 

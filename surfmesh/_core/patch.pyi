@@ -1,12 +1,16 @@
 """A whole (u, v) domain and its size field become triangles in one call."""
 
+from collections.abc import Sequence
+import enum
 from typing import Annotated
 
 import numpy
 from numpy.typing import NDArray
 
 import surfmesh._core.fields
+import surfmesh._core.insertion
 import surfmesh._core.optimisation
+import surfmesh._core.packing
 import surfmesh._core.surfaces
 import surfmesh._core.triangulation
 
@@ -41,6 +45,13 @@ class Chart:
 
     def to_uv_and_rates(self, xy: Annotated[NDArray[numpy.float64], dict(shape=(None, 2), order='C', device='cpu', writable=False)]) -> tuple[Annotated[NDArray[numpy.float64], dict(shape=(None, 2))], Annotated[NDArray[numpy.float64], dict(shape=(None, 2))]]:
         """xy (n, 2) -> uv (n, 2) and (du/dx, dv/dy) (n, 2)."""
+
+    def to_plane(self, uv: Annotated[NDArray[numpy.float64], dict(shape=(None, 2), order='C', device='cpu', writable=False)]) -> Annotated[NDArray[numpy.float64], dict(shape=(None, 2))]:
+        """
+        uv (n, 2), bent parameters where there are some -> xy (n, 2).
+
+        Exact at the ends of the axes; what lies beyond is moved there.
+        """
 
 FINEST_SIZE: float = 1e-05
 
@@ -281,3 +292,83 @@ class PatchState:
 
         off_surface: (k,) marks of the nodes that lie off the surface themselves: for the triangles at them smaller sizes are no help.
         """
+
+class PatchSettings:
+    """What a patch is meshed on, and how."""
+
+    def __init__(self, surface: object, chart: object, background: object, chord: float | None = None, angle: float | None = None, min_size: float = 0.0, *, box: Sequence[float], expected: int, optimise: bool = True, first: bool = True, with_roots: bool = False, before_stage: object | None = None, while_packing: object | None = None, before_pass: object | None = None) -> None:
+        """
+        chord (model units), angle (degrees): what is asked for. box: x0, y0, x1, y1 of the plane that is packed, in which about ``expected`` circles have room. optimise: else only diagonals are chosen. first: the sizes come from no earlier round. with_roots: W of the vertices is wanted.
+        before_stage is called with each PatchStage, while_packing now and then with the number of circles, before_pass before each pass of smoothing; what they raise stops the work and comes through.
+        """
+
+class PatchStage(enum.Enum):
+    """Where the work on a patch is."""
+
+    PACKING = 0
+
+    BOUNDARY = 1
+
+    OPTIMISATION = 2
+
+    MAPPING = 3
+
+class PatchEnd(enum.Enum):
+    """How the work on a patch ended."""
+
+    DONE = 0
+
+    PACKING_FAILED = 1
+    """see ``packing``"""
+
+    BOUNDARY_FAILED = 2
+    """see ``boundary``"""
+
+    SURFACE_FAILED = 3
+    """its reason is raised"""
+
+    CANCELLED = 4
+    """what the caller raised comes through"""
+
+class PatchMesh:
+    """What has become of a patch."""
+
+    @property
+    def end(self) -> PatchEnd:
+        """All else is there where it is DONE."""
+
+    @property
+    def packing(self) -> surfmesh._core.packing.PackingStatus: ...
+
+    @property
+    def circles(self) -> int:
+        """How many were packed."""
+
+    @property
+    def boundary(self) -> surfmesh._core.insertion.BoundaryOutcome: ...
+
+    @property
+    def domain(self) -> surfmesh._core.insertion.DomainMesh:
+        """The triangles in the scaled plane."""
+
+    @property
+    def mapped(self) -> MappedPatch:
+        """The triangles in space."""
+
+    @property
+    def metric_root_3d(self) -> Annotated[NDArray[numpy.float64], dict(shape=(None, 6))]:
+        """(k, 6) W of the domain's vertices, if they are wanted"""
+
+    @property
+    def requests(self) -> SizeRequests:
+        """Smaller sizes, for another round."""
+
+def mesh_loops(settings: PatchSettings, uv: Annotated[NDArray[numpy.float64], dict(shape=(None, 2), order='C', device='cpu', writable=False)], nodes: Annotated[NDArray[numpy.float64], dict(shape=(None, 2), order='C', device='cpu', writable=False)], segments: Annotated[NDArray[numpy.int32], dict(shape=(None, 2), order='C', device='cpu', writable=False)], inner: Annotated[NDArray[numpy.int32], dict(shape=(None, 2), order='C', device='cpu', writable=False)], identity: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], points: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)] | None = None) -> PatchMesh:
+    """
+    Mesh what is on the left of loops, without the interpreter.
+
+    uv (k, 2), nodes (k, 2): the same in the scaled plane; the others as ``recover`` in the room insertion takes them.
+    """
+
+def mesh_regions(settings: PatchSettings, uv: Annotated[NDArray[numpy.float64], dict(shape=(None, 2), order='C', device='cpu', writable=False)], nodes: Annotated[NDArray[numpy.float64], dict(shape=(None, 2), order='C', device='cpu', writable=False)], pieces: Annotated[NDArray[numpy.int32], dict(shape=(None, 2), order='C', device='cpu', writable=False)], segment: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], loop_segments: Annotated[NDArray[numpy.int32], dict(shape=(None, 2), order='C', device='cpu', writable=False)], is_hole: Annotated[NDArray[numpy.uint8], dict(shape=(None,), order='C', device='cpu', writable=False)]) -> PatchMesh:
+    """The same for a planar domain, as ``recover_regions`` takes it."""

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from surfmesh._core.patch import ChartAxis
+from surfmesh._core.patch import Chart, ChartAxis
 from surfmesh.geometry.differential.infinite_speed import BentAxis
 
 PLACES = np.array([-1.0, -0.3, 0.6, 1.0])
@@ -32,3 +32,16 @@ def test_bent_axes_are_those_of_scipy():
 def test_what_is_no_axis_is_refused(arguments):
     with pytest.raises(ValueError):
         ChartAxis(*arguments)
+
+
+def test_coordinates_are_the_inverse_of_parameters():
+    x = np.linspace(0.0, 2.0, 9)
+    knots, slopes = x + 0.1 * x * x, 1.0 + 0.2 * x
+    chart = Chart(
+        ChartAxis(2.0, knots, slopes), ChartAxis(4.0, np.array([1.0, 3.0]), np.full(2, 0.5))
+    )
+    uv = np.column_stack([np.linspace(knots[0], knots[-1], 41), np.linspace(1.0, 3.0, 41)])
+    xy = chart.to_plane(uv)
+    assert xy[0].tolist() == [0.0, 0.0] and xy[-1].tolist() == [2.0, 4.0]
+    np.testing.assert_allclose(chart.to_uv_and_rates(xy)[0], uv, rtol=0, atol=1e-14)
+    assert chart.to_plane(np.array([[-1.0, 9.0]])).tolist() == [[0.0, 4.0]]

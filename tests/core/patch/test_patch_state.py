@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from stages import patch_state, recovered
 
 from surfmesh._core import patch as core
 from surfmesh._core.surfaces import CallbackSurface
@@ -9,9 +10,7 @@ from surfmesh._core.triangulation import Triangulation
 from surfmesh.api import load
 from surfmesh.geometry.differential.sides import find_sides
 from surfmesh.meshing.boundary.boundary_loops import boundary_loops
-from surfmesh.meshing.boundary.boundary_recovery import recovered
 from surfmesh.meshing.patch.packing import packed_over
-from surfmesh.meshing.patch.state import patch_state
 from surfmesh.sizing.field.size_field import size_field
 from surfmesh.sizing.options.sizing import Sizing
 
