@@ -46,6 +46,11 @@ class Curve:
     def evaluate(self, t: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)], order: int = 0) -> Annotated[NDArray[numpy.float64], dict(shape=(None, None, None))]:
         """(n,) -> (order + 1, n, dimension): c, c', c'', ..."""
 
+def points_on(curves: Sequence[Curve], t: Annotated[NDArray[numpy.float64], dict(shape=(None, None), order='C', device='cpu', writable=False)]) -> Annotated[NDArray[numpy.float64], dict(shape=(None, None, None))]:
+    """
+    Points of n curves of one dimension, row i of t (n, k) on curve i -> (n, k, dimension).
+    """
+
 def line(origin: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)], direction: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)]) -> Curve:
     """origin + t direction"""
 
