@@ -10,6 +10,7 @@ from typing import ClassVar, NamedTuple, Protocol
 
 import numpy as np
 
+from surfmesh._core import sizing as core_sizing
 from surfmesh.sizing.options.sizing import Sizing
 
 
@@ -45,6 +46,11 @@ class Rule:
 class CurvatureRule(Rule):
     """Sizes that follow from the curvature; infinite where it allows any."""
 
+    @property
+    def core(self) -> core_sizing.CurvatureRule:
+        """What the core asks: this object itself, for blocks of places, where it has no other."""
+        return core_sizing.CallbackCurvatureRule(self)
+
     def sizes(self, k1: np.ndarray, k2: np.ndarray) -> np.ndarray:
         """(n,) in every direction, at principal curvatures k1, k2 (n,), 1 / model unit."""
         raise NotImplementedError
@@ -62,6 +68,11 @@ class CurvatureRule(Rule):
 
 class PlaceRule(Rule):
     """Sizes that depend on the place alone, and hold in every direction."""
+
+    @property
+    def core(self) -> core_sizing.PlaceRule:
+        """What the core asks: this object itself, for blocks of places, where it has no other."""
+        return core_sizing.CallbackPlaceRule(self)
 
     def sizes(self, points: np.ndarray) -> np.ndarray:
         """(n,) at points (n, 3); infinite where nothing is asked for.
