@@ -18,6 +18,7 @@ from functools import cached_property
 import numpy as np
 
 from surfmesh.cad.model.cad_model import CadCoedge, CadEdge, CadFace, CadModel
+from surfmesh.cad.model.model_arrays import model_arrays
 from surfmesh.geometry.boxes import diagonal
 from surfmesh.geometry.cad_surfaces.face_surface import FaceSurface
 from surfmesh.geometry.cad_surfaces.nurbs import BSplineCurve
@@ -79,13 +80,26 @@ class ExactLoops:
         return _Loops(self).touch()
 
 
-def exact_loops(model: CadModel, number: int, vertex: np.ndarray) -> ExactLoops:
-    """Of a face of a model; vertex: (v,) the numbers that its vertices have in the mesh."""
-    face = model.faces[number]
-    shared = [
-        any(user != number for user in model.faces_of_edge(coedge.edge)) for coedge in face.coedges
-    ]
-    return _exact(face, face.loops, model.edges, vertex, shared)
+def exact_loops(model: CadModel) -> list[ExactLoops]:
+    """Of each face of a model, with the numbers that its vertices have in a mesh."""
+    arrays = model_arrays(model)
+    edge, face = arrays.coedge_edge, arrays.coedge_face
+    ends = arrays.mesh_ends[edge]
+    ends[arrays.coedge_reversed] = ends[arrays.coedge_reversed, ::-1]
+    lowest, highest = np.full((2, len(model.edges)), [[len(model.faces)], [-1]])
+    np.minimum.at(lowest, edge, face)
+    np.maximum.at(highest, edge, face)
+    shared = ((lowest[edge] != face) | (highest[edge] != face)).tolist()
+    ways = list(map(tuple, ends.tolist()))
+    tolerances = [model.edges[k].tolerance for k in edge.tolist()]
+    rows = zip(model.faces, arrays.first_of_face[:-1].tolist(), arrays.first_of_face[1:].tolist())
+    return [
+        ExactLoops(
+            own.surface, own.loops, tuple(ways[a:b]), tuple(tolerances[a:b]), tuple(shared[a:b]),
+            own.fault,
+        )
+        for own, a, b in rows
+    ]  # fmt: skip
 
 
 def fault_of_pieces(faces: Sequence[CadFace], edges: Sequence[CadEdge], vertices: int) -> str:

@@ -1,6 +1,7 @@
 """What a face of a CAD model is meshed from, and what becomes of it: plain arrays."""
 
 from dataclasses import dataclass, field, replace
+from functools import cached_property
 from typing import NamedTuple, Self
 
 import numpy as np
@@ -92,7 +93,7 @@ class FaceJob:
             np.concatenate(loop_ids),
         )
 
-    @property
+    @cached_property
     def nodes(self) -> int:
         """How many nodes its boundary has."""
         return sum(len(piece.numbers) for loop in self.loops for piece in loop)

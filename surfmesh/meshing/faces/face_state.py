@@ -18,6 +18,7 @@ from surfmesh.sizing.options.sizing import Sizing
 from surfmesh.sizing.rules.size_limits import SizeLimits
 
 _ENDS = np.array([0.0, 1.0])
+_NOT_MESHED = FaceMesh()
 
 
 @dataclass
@@ -31,7 +32,7 @@ class FaceState:
     exact: ExactLoops
     job: FaceJob = field(init=False)
     """What it is meshed from; there from the first round on."""
-    mesh: FaceMesh = field(default_factory=FaceMesh)
+    mesh: FaceMesh = field(default_factory=lambda: _NOT_MESHED)
     stagnation: StagnationCheck = field(default_factory=StagnationCheck)
 
     @property
@@ -76,13 +77,11 @@ class FaceState:
 def face_states(model: CadModel, samples: EdgeSamples, wanted: ModelSizing) -> list[FaceState]:
     """All faces before the first round."""
     sizings = face_sizings(model, samples, wanted)
+    rows = zip(model.faces, sizings, exact_loops(model))
     return [
-        FaceState(
-            number, face, sizings[number], samples.narrow.get(number),
-            exact_loops(model, number, samples.vertex),
-        )
-        for number, face in enumerate(model.faces)
-    ]  # fmt: skip
+        FaceState(number, face, sizing, samples.narrow.get(number), exact)
+        for number, (face, sizing, exact) in enumerate(rows)
+    ]
 
 
 def face_jobs(

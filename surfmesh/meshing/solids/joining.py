@@ -18,6 +18,7 @@ from surfmesh.meshing.faces.face_data import FaceMesh
 from surfmesh.meshing.faces.face_state import FaceState
 from surfmesh.meshing.solids.groups import groups_of
 from surfmesh.meshing.solids.model_findings import face_findings, loose_edges
+from surfmesh.result.connectivity import connect
 from surfmesh.result.surface_mesh import SurfaceMesh
 from surfmesh.sizing.options.sizing import Sizing
 from surfmesh.sizing.rules.size_limits import SizeLimits
@@ -208,6 +209,16 @@ def orientation(model: CadModel) -> tuple[np.ndarray, np.ndarray]:
     return turned ^ inward, solids
 
 
+def _between_shared_nodes(mesh: SurfaceMesh) -> np.ndarray:
+    """Corners (m, 3) of the triangles with two nodes or more that faces may share: all edges that
+    more than one face can use are among theirs."""
+    shared = np.zeros(len(mesh.points), bool)
+    shared[mesh.edge_segments] = True
+    assert mesh.vertex_ids is not None  # noqa: S101 for mypy: every mesh of a model has them
+    shared[mesh.vertex_ids[mesh.vertex_ids >= 0]] = True
+    return mesh.triangles[shared[mesh.triangles].sum(axis=1) > 1]
+
+
 def limits_where_crowded(
     model: CadModel, mesh: SurfaceMesh, sizing: Sizing
 ) -> dict[int, SizeLimits]:
@@ -215,9 +226,11 @@ def limits_where_crowded(
 
     Along an edge of the model there are as many triangles as it has uses.
     """
-    table = mesh.connectivity
+    if mesh.edge_segments is None or not len(mesh.edge_segments):
+        return {}
+    table = connect(_between_shared_nodes(mesh))
     crowded = table.uses > 2
-    if not crowded.any() or mesh.edge_segments is None or not len(mesh.edge_segments):
+    if not crowded.any():
         return {}
     code = np.array([len(mesh.points), 1], np.int64)
     along, place = np.unique(np.sort(mesh.edge_segments, axis=1) @ code, return_inverse=True)
