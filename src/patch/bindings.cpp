@@ -220,7 +220,8 @@ void bind_state(nb::class_<BoundPatch>& c) {
 void bind_schedule(nb::class_<BoundPatch>& c) {
     c.def("mapped", &mapped, nb::arg("node_uv"), nb::arg("node"), nb::arg("segments"),
           nb::arg("identity"),
-          "The triangles in space, seams identified.\n\nnode_uv: (j, 2) of the nodes that have a "
+          "The triangles in space, seams identified; no pass may come after.\n\nnode_uv: (j, 2) of "
+          "the nodes that have a "
           "vertex, to the last bit. node (k,), segments (s, 2), identity (k,): of boundary loops, "
           "the vertex of each node or NIL, pairs of nodes, and for each node the first that is the "
           "same point in space; empty where nothing is identified.");

@@ -231,7 +231,7 @@ class PatchState:
 
     def mapped(self, node_uv: Annotated[NDArray[numpy.float64], dict(shape=(None, 2), order='C', device='cpu', writable=False)], node: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], segments: Annotated[NDArray[numpy.int32], dict(shape=(None, 2), order='C', device='cpu', writable=False)], identity: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)]) -> MappedPatch:
         """
-        The triangles in space, seams identified.
+        The triangles in space, seams identified; no pass may come after.
 
         node_uv: (j, 2) of the nodes that have a vertex, to the last bit. node (k,), segments (s, 2), identity (k,): of boundary loops, the vertex of each node or NIL, pairs of nodes, and for each node the first that is the same point in space; empty where nothing is identified.
         """

@@ -46,6 +46,11 @@ class Curve:
     def evaluate(self, t: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)], order: int = 0) -> Annotated[NDArray[numpy.float64], dict(shape=(None, None, None))]:
         """(n,) -> (order + 1, n, dimension): c, c', c'', ..."""
 
+def points_on(curves: Sequence[Curve], t: Annotated[NDArray[numpy.float64], dict(shape=(None, None), order='C', device='cpu', writable=False)]) -> Annotated[NDArray[numpy.float64], dict(shape=(None, None, None))]:
+    """
+    Points of n curves of one dimension, row i of t (n, k) on curve i -> (n, k, dimension).
+    """
+
 def line(origin: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)], direction: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)]) -> Curve:
     """origin + t direction"""
 
@@ -103,6 +108,11 @@ def extrusion(domain: tuple[tuple[float, float], tuple[float, float]], curve: Cu
 def revolution(domain: tuple[tuple[float, float], tuple[float, float]], curve: Curve, origin: Annotated[NDArray[numpy.float64], dict(shape=(3), order='C', device='cpu', writable=False)], axis: Annotated[NDArray[numpy.float64], dict(shape=(3), order='C', device='cpu', writable=False)]) -> Surface:
     """
     c(v) turned by the angle u about the axis through origin, of unit length
+    """
+
+def curve_on_surface(surface: Surface, pcurve: Curve, shift: float, rate: float) -> Curve:
+    """
+    r(p(shift + rate t)) with a curve p in (u, v); derivatives beyond the second are no numbers.
     """
 
 def offset_surface(basis: Surface, distance: float) -> Surface:

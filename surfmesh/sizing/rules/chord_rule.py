@@ -69,4 +69,5 @@ class ChordRule(CurvatureRule):
         corner = angle > np.maximum(KINK, known * (length[1:] + length[:-1]))
         sizes = np.full(len(curve.points), np.inf)
         sizes[1:-1][corner] = 4.0 * DEVIATION_RESERVE * self.chord / angle[corner]
+        sizes[curve.first[:-1]] = sizes[curve.first[1:] - 1] = np.inf  # from one curve to the next
         return sizes

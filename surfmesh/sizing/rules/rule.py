@@ -15,10 +15,12 @@ from surfmesh.sizing.options.sizing import Sizing
 
 
 class CurveSamples(NamedTuple):
-    """Points of a curve in space, in order, and what rules need to know of it there."""
+    """Points of curves in space, in order, one curve after the other, and what rules need to know
+    of them there."""
 
     points: np.ndarray  # (n, 3)
     curvature: np.ndarray  # (n,) 1 / model unit; 0 where it is straight or not known
+    first: np.ndarray  # (c + 1,) where each curve begins, and n
 
 
 class Rule:
@@ -60,7 +62,7 @@ class CurvatureRule(Rule):
         raise NotImplementedError
 
     def sizes_on_curve(self, curve: CurveSamples) -> np.ndarray:
-        """(n,) along a curve that is bent itself, by whatever surfaces meet there."""
+        """(n,) along curves that are bent themselves, by whatever surfaces meet there."""
         raise NotImplementedError
 
 
