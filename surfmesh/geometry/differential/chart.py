@@ -81,7 +81,8 @@ def _pieces(bent: BentAxes) -> tuple[np.ndarray | None, np.ndarray | None]:
 
 def _of_arrays(arrays: tuple, bent: BentAxes) -> Chart:
     """The chart that was taken apart for another process."""
-    axes = (
-        surfaces.ChartAxis(*own, pieces) for own, pieces in zip(arrays, _pieces(bent), strict=True)
+    u, v = (
+        surfaces.ChartAxis(extent, knots, slopes, own)
+        for (extent, knots, slopes), own in zip(arrays, _pieces(bent), strict=True)
     )
-    return Chart(surfaces.Chart(*axes), bent)
+    return Chart(surfaces.Chart(u, v), bent)
