@@ -33,9 +33,11 @@ ChartAxis axis_of(double extent, const Vector<double>& knots, const Vector<doubl
 using Domain = std::pair<std::pair<double, double>, std::pair<double, double>>;
 
 Chart made_of(const Surface& surface, std::pair<bool, bool> steady,
-              const std::pair<std::optional<Pieces>, std::optional<Pieces>>& pieces) {
-    const auto known = [](bool is_steady, const std::optional<Pieces>& given) {
-        KnownAxis axis{is_steady, {}};
+              const std::pair<std::optional<Pieces>, std::optional<Pieces>>& pieces,
+              std::size_t samples) {
+    if (samples < 2 || samples > 100'000) throw nb::value_error("samples are at least two");
+    const auto known = [samples](bool is_steady, const std::optional<Pieces>& given) {
+        KnownAxis axis{is_steady, {}, samples};
         if (given) axis.pieces = Array<BentPiece>(rows<BentPiece>(*given));
         return axis;
     };
@@ -112,8 +114,10 @@ void bind_chart(nb::module_& m) {
             nb::arg("u"), nb::arg("v"))
         .def_static(
             "of", &made_of, nb::arg("surface"), nb::arg("steady"), nb::arg("pieces"),
+            nb::arg("samples"),
             "The chart of a surface from its speeds. steady: axes along which the speed is the "
-            "same everywhere. pieces: (p, 7) of the axes with speeds without bound, or None.")
+            "same everywhere. pieces: (p, 7) of the axes with speeds without bound, or None. "
+            "samples: along each axis.")
         .def_static(
             "uniform",
             [](const Domain& domain, std::pair<double, double> speeds) {

@@ -9,7 +9,7 @@
 namespace surfmesh {
 namespace {
 
-constexpr std::size_t ALONG = 257, ACROSS = 17;  // samples
+constexpr std::size_t ACROSS = 17;  // lines along which a surface is sampled
 
 // Ratio of the largest to the smallest mean speed above which an axis is bent, and the smallest
 // speed that is told apart, relative to the mean: a stop is not infinitely long.
@@ -30,8 +30,9 @@ struct Lines {
     SurfaceReader& surface;
     std::size_t axis;
     const Array<BentPiece>& pieces;
-    double low, high;    // of the axis
-    double first, last;  // across it
+    double low, high;     // of the axis
+    double first, last;   // across it
+    std::size_t samples;  // along each
 
     [[nodiscard]] double across(std::size_t line) const {
         const double t = (static_cast<double>(line) + 0.5) / static_cast<double>(ACROSS);
@@ -79,15 +80,16 @@ ChartAxis axis_of_speeds(double low, double high, Array<double> speed) {
     const auto [slowest, fastest] = std::minmax_element(speed.begin(), speed.end());
     if (*fastest <= UNEVEN * *slowest) return linear_axis(low, high, average);
     const double extent = average * (high - low);
-    Array<double> parameters(ALONG), length(ALONG);
-    for (std::size_t k = 0; k < ALONG; ++k) {
-        const double t = static_cast<double>(k) / static_cast<double>(ALONG - 1);
+    const std::size_t count = speed.size();
+    Array<double> parameters(count), length(count);
+    for (std::size_t k = 0; k < count; ++k) {
+        const double t = static_cast<double>(k) / static_cast<double>(count - 1);
         parameters[k] = low + t * (high - low);
         length[k] = k == 0 ? 0.0 : length[k - 1] + 0.5 * (speed[k] + speed[k - 1]);
     }
-    const double scale = extent / length[ALONG - 1];
+    const double scale = extent / length[count - 1];
     for (double& x : length) x *= scale;
-    length[ALONG - 1] = extent;
+    length[count - 1] = extent;
     return axis_of_length(all(parameters), all(length));
 }
 
@@ -153,10 +155,11 @@ void halve(const Lines& lines, std::span<const std::uint8_t> is_long, Array<doub
 /// surface is fast.
 ChartAxis axis_of_chords(const Lines& lines) {
     const double range = lines.high - lines.low;
-    Array<double> s(ALONG);
-    for (std::size_t k = 0; k < ALONG; ++k)
-        s[k] = lines.low + static_cast<double>(k) * (range / static_cast<double>(ALONG - 1));
-    s[ALONG - 1] = lines.high;
+    const std::size_t count = lines.samples;
+    Array<double> s(count);
+    for (std::size_t k = 0; k < count; ++k)
+        s[k] = lines.low + static_cast<double>(k) * (range / static_cast<double>(count - 1));
+    s[count - 1] = lines.high;
     Array<Point3> r = points_at(lines, all(s));
     Array<double> steps = mean_steps(r);
     double total = pairwise_sum(all(steps));
@@ -181,25 +184,26 @@ ChartAxis axis_of_chords(const Lines& lines) {
 /// From speeds on lines across and along, or from chords where the speeds miss something.
 ChartAxis sampled_axis(const Lines& lines) {
     const double range = lines.high - lines.low;
-    Array<Point2> uv(ACROSS * ALONG);
-    Array<double> rate(ALONG, 1.0);
-    for (std::size_t k = 0; k < ALONG; ++k) {
+    const std::size_t count = lines.samples;
+    Array<Point2> uv(ACROSS * count);
+    Array<double> rate(count, 1.0);
+    for (std::size_t k = 0; k < count; ++k) {
         const double s =
-            lines.low + static_cast<double>(k) / static_cast<double>(ALONG - 1) * range;
+            lines.low + static_cast<double>(k) / static_cast<double>(count - 1) * range;
         if (!lines.pieces.empty()) rate[k] = rate_of_bending(lines.pieces, s);
-        for (std::size_t line = 0; line < ACROSS; ++line) uv[line * ALONG + k] = lines.at(s, line);
+        for (std::size_t line = 0; line < ACROSS; ++line) uv[line * count + k] = lines.at(s, line);
     }
     lines.surface.read({uv.data(), uv.size()}, 1);
-    Array<double> speed(ALONG, 0.0), ways(ACROSS), steps(ALONG - 1), both(ALONG - 1);
+    Array<double> speed(count, 0.0), ways(ACROSS), steps(count - 1), both(count - 1);
     for (std::size_t line = 0; line < ACROSS; ++line) {
-        const auto r = lines.surface[0].subspan(line * ALONG, ALONG);
-        for (std::size_t k = 0; k < ALONG; ++k) speed[k] += lines.speed(line * ALONG + k) * rate[k];
-        for (std::size_t k = 0; k + 1 < ALONG; ++k) steps[k] = length_between(r[k], r[k + 1]);
+        const auto r = lines.surface[0].subspan(line * count, count);
+        for (std::size_t k = 0; k < count; ++k) speed[k] += lines.speed(line * count + k) * rate[k];
+        for (std::size_t k = 0; k + 1 < count; ++k) steps[k] = length_between(r[k], r[k + 1]);
         ways[line] = pairwise_sum(all(steps));
     }
     for (double& x : speed) x /= static_cast<double>(ACROSS);
-    for (std::size_t k = 0; k + 1 < ALONG; ++k) both[k] = speed[k + 1] + speed[k];
-    const double seen = pairwise_sum(all(both)) * 0.5 * range / static_cast<double>(ALONG - 1);
+    for (std::size_t k = 0; k + 1 < count; ++k) both[k] = speed[k + 1] + speed[k];
+    const double seen = pairwise_sum(all(both)) * 0.5 * range / static_cast<double>(count - 1);
     const double way = mean(all(ways));
     if (std::max(seen, way) <= MISSED * std::min(seen, way))
         return axis_of_speeds(lines.low, lines.high, std::move(speed));
@@ -225,7 +229,7 @@ Chart chart_of(SurfaceReader& surface, const std::array<KnownAxis, 2>& known) {
     for (std::size_t k = 0; k < 2; ++k) {
         const auto& [first, last] = ends[k];
         const auto& [left, right] = ends[1 - k];
-        const Lines lines{surface, k, known[k].pieces, first, last, left, right};
+        const Lines lines{surface, k, known[k].pieces, first, last, left, right, known[k].samples};
         axes[k] =
             known[k].steady && lines.pieces.empty() ? steady_axis(lines) : sampled_axis(lines);
         axes[k].pieces = lines.pieces;

@@ -18,8 +18,9 @@ namespace surfmesh {
 
 /// What is known of an axis before it is sampled.
 struct KnownAxis {
-    bool steady;              // the speed is the same all along it
-    Array<BentPiece> pieces;  // where the speed has no bound, or none
+    bool steady;                // the speed is the same all along it
+    Array<BentPiece> pieces;    // where the speed has no bound, or none
+    std::size_t samples = 257;  // along it, at least two
 };
 
 /// Sampled where nothing is known; the reader says whether it could be.

@@ -218,9 +218,9 @@ class Chart:
     def __init__(self, u: ChartAxis, v: ChartAxis) -> None: ...
 
     @staticmethod
-    def of(surface: Surface, steady: tuple[bool, bool], pieces: tuple[Annotated[NDArray[numpy.float64], dict(shape=(None, 7), order='C', device='cpu', writable=False)] | None, Annotated[NDArray[numpy.float64], dict(shape=(None, 7), order='C', device='cpu', writable=False)] | None]) -> Chart:
+    def of(surface: Surface, steady: tuple[bool, bool], pieces: tuple[Annotated[NDArray[numpy.float64], dict(shape=(None, 7), order='C', device='cpu', writable=False)] | None, Annotated[NDArray[numpy.float64], dict(shape=(None, 7), order='C', device='cpu', writable=False)] | None], samples: int) -> Chart:
         """
-        The chart of a surface from its speeds. steady: axes along which the speed is the same everywhere. pieces: (p, 7) of the axes with speeds without bound, or None.
+        The chart of a surface from its speeds. steady: axes along which the speed is the same everywhere. pieces: (p, 7) of the axes with speeds without bound, or None. samples: along each axis.
         """
 
     @staticmethod
