@@ -88,7 +88,7 @@ def steady_axes(surface: Surface) -> tuple[bool, bool]:
 
 
 def smooth_pieces(surface: Surface) -> int | None:
-    """Of how many smooth pieces it says it is made, as a spline between its knots; None: unknown."""
+    """Of how many smooth pieces it says it is made, as a spline between its knots."""
     return getattr(surface, "pieces", None)
 
 

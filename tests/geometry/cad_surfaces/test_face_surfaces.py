@@ -276,6 +276,7 @@ class Unsteady:
 
     def __init__(self, surface):
         self.domain, self.evaluate = surface.domain, surface.evaluate  # all that a chart asks
+        self.pieces = surface.pieces  # but for how finely it asks
 
 
 @pytest.mark.parametrize("surface", SURFACES, ids=NAMES)
