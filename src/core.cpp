@@ -21,6 +21,7 @@ void bind_insertion(nb::module_& m);
 void bind_optimisation(nb::module_& m);
 void bind_surfaces(nb::module_& m);
 void bind_patch(nb::module_& m);
+void bind_faces(nb::module_& m);
 
 namespace {
 
@@ -53,4 +54,5 @@ NB_MODULE(_core, m) {
     add(m, "optimisation", bind_optimisation);
     add(m, "surfaces", bind_surfaces);
     add(m, "patch", bind_patch);
+    add(m, "faces", bind_faces);
 }

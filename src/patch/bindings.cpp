@@ -1,6 +1,7 @@
 #include <nanobind/stl/optional.h>
 #include <nanobind/stl/pair.h>
 
+#include <cmath>
 #include <memory>
 #include <optional>
 
@@ -26,7 +27,8 @@ using Pieces = Matrix<double, 7>;
 /// One axis of a chart from its arrays.
 ChartAxis axis_of(double extent, const Vector<double>& knots, const Vector<double>& slopes,
                   const std::optional<Pieces>& pieces) {
-    if (!(extent > 0.0)) throw nb::value_error("extent is not positive");
+    if (!(extent > 0.0) || !std::isfinite(extent))
+        throw nb::value_error("extent is not a positive number");
     if (knots.shape(0) < 2) throw nb::value_error("knots are at least two");
     require_rows(slopes.shape(0), knots.shape(0), "slopes");
     ChartAxis axis;

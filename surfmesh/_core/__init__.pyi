@@ -2,6 +2,7 @@
 
 from surfmesh._core import (
     elementary_functions as elementary_functions,
+    faces as faces,
     fields as fields,
     insertion as insertion,
     optimisation as optimisation,

@@ -5,11 +5,13 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
+from surfmesh._core.faces import BoundaryBuilder
+from surfmesh._core.surfaces import Curve
 from surfmesh.cad.model.cad_model import CadCoedge, CadFace, CadModel
 from surfmesh.cad.model.loop_faults import ExactLoops, exact_loops
 from surfmesh.meshing.edges.edge_nodes import EdgeNodes
 from surfmesh.meshing.edges.edge_samples import EdgeSamples, NarrowFace
-from surfmesh.meshing.faces.face_data import CoedgeNodes, FaceJob, FaceMesh
+from surfmesh.meshing.faces.face_data import FaceJob, FaceMesh
 from surfmesh.meshing.faces.face_sizings import face_sizings
 from surfmesh.meshing.patch.refinement_loop import StagnationCheck
 from surfmesh.sizing.options.model_sizing import ModelSizing
@@ -74,14 +76,13 @@ class FaceState:
         limits: SizeLimits | None = None, optimise: bool = True,
     ) -> FaceJob:  # fmt: skip
         """What it is meshed from when its edges have these nodes."""
-        loops = tuple(
-            tuple(
-                _coedge_nodes(model, coedge, nodes[coedge.edge], samples.vertex) for coedge in loop
-            )
-            for loop in self.face.loops
-        )
+        builder = BoundaryBuilder()
+        for loop in self.face.loops:
+            for coedge in loop:
+                _add(builder, model, coedge, nodes[coedge.edge], samples.vertex)
+            builder.end_loop()
         return FaceJob(
-            self.face.surface, loops, self.sizing, limits, optimise,
+            self.face.surface, builder.boundary(), self.sizing, limits, optimise,
             exact=self.exact, narrow=self.narrow,
         )  # fmt: skip
 
@@ -107,26 +108,25 @@ def first_jobs(
     return [state.job_from(model, nodes, samples, known.get(state.number)) for state in faces]
 
 
-def _coedge_nodes(
-    model: CadModel, coedge: CadCoedge, cut: EdgeNodes | None, vertex: np.ndarray
-) -> CoedgeNodes:
+def _add(
+    builder: BoundaryBuilder, model: CadModel, coedge: CadCoedge, cut: EdgeNodes | None,
+    vertex: np.ndarray,
+) -> None:  # fmt: skip
     """The nodes of an edge as a loop walks along it; of one that is a vertex, both ends."""
-    edge = model.edges[coedge.edge]
+    edge, curve = model.edges[coedge.edge], getattr(coedge.pcurve, "core", None)
     if cut is None:
         number = int(vertex[edge.start])
-        return CoedgeNodes(
-            uv=coedge.walk(np.array([0.0, 1.0])),
-            numbers=np.full(2, number, np.int64),
-            points=np.tile(model.vertices[number].point, (2, 1)),
-            sizes=np.full(2, np.inf),
-            degenerate=True,
-            tolerance=edge.tolerance,
-        )
-    order = slice(None, None, -1) if coedge.reversed else slice(None)
-    return CoedgeNodes(
-        uv=coedge.uv(cut.t)[order],
-        numbers=cut.numbers[order],
-        points=cut.points[order],
-        sizes=cut.sizes[order],
-        tolerance=edge.tolerance,
-    )
+        uv, numbers = coedge.walk(np.array([0.0, 1.0])), np.full(2, number, np.int64)
+        points = np.tile(model.vertices[number].point, (2, 1))
+        builder.add_nodes(uv, numbers, points, np.full(2, np.inf), True, edge.tolerance)
+    elif isinstance(curve, Curve):
+        builder.add(
+            curve, coedge.p0, coedge.p1, coedge.reversed,
+            cut.t, cut.numbers, cut.points, cut.sizes, edge.tolerance,
+        )  # fmt: skip
+    else:
+        way = slice(None, None, -1) if coedge.reversed else slice(None)
+        builder.add_nodes(
+            coedge.uv(cut.t)[way], cut.numbers[way], cut.points[way], cut.sizes[way], False,
+            edge.tolerance,
+        )  # fmt: skip
