@@ -2,6 +2,7 @@
 #include <nanobind/stl/optional.h>
 #include <nanobind/stl/pair.h>
 #include <nanobind/stl/tuple.h>
+#include <nanobind/stl/vector.h>
 
 #include <array>
 #include <tuple>
@@ -126,16 +127,57 @@ void bind_boundary(nb::module_& m) {
     m.attr("WAY_SAMPLES") = WAY_SAMPLES;
 }
 
-/// The rows of an edge, of one length, two at least.
-EdgeNodeRows rows_of(const Sizes& t, const Ids& numbers, const Points3& points,
+EdgeNodeRows rows_of(const Points2& uv, const Ids& numbers, const Points3& points,
                      const Sizes& sizes) {
-    const std::size_t count = numbers.shape(0);
-    if (count < 2) throw nb::value_error("an edge has two nodes at least");
-    require_rows(t.shape(0), count, "t");
-    require_rows(points.shape(0), count, "points");
-    require_rows(sizes.shape(0), count, "sizes");
-    return {rows<double>(t), rows<std::int64_t>(numbers), rows<Point3>(points),
+    require_finite(uv, "uv");
+    require_rows(numbers.shape(0), uv.shape(0), "numbers");
+    require_rows(points.shape(0), uv.shape(0), "points");
+    require_rows(sizes.shape(0), uv.shape(0), "sizes");
+    return {rows<Point2>(uv), rows<std::int64_t>(numbers), rows<Point3>(points),
             rows<double>(sizes)};
+}
+
+/// Numbers that are not negative and add up to ``total``.
+void require_sum(const Numbers& counts, std::size_t total, const char* what) {
+    std::size_t sum = 0;
+    for (const std::int32_t count : rows<std::int32_t>(counts)) {
+        if (count < 0) throw nb::value_error("a count is negative");
+        sum += static_cast<std::size_t>(count);
+    }
+    if (sum != total) throw nb::value_error(what);
+}
+
+/// Two nodes to a coedge at least.
+void require_first(const Ids& first, std::size_t coedges, std::size_t nodes) {
+    require_rows(first.shape(0), coedges + 1, "first");
+    for (std::size_t k = 0; k < coedges; ++k)
+        if (first(k + 1) - first(k) < 2) throw nb::value_error("an edge has two nodes at least");
+    if (first(0) != 0 || first(coedges) != static_cast<std::int64_t>(nodes))
+        throw nb::value_error("first is not that of the nodes");
+}
+
+std::vector<FaceBoundary> boundaries(const Points2& uv, const Ids& numbers, const Points3& points,
+                                     const Sizes& sizes, const Ids& first, const Bytes& is_reversed,
+                                     const Bytes& is_degenerate, const Sizes& tolerance,
+                                     const Numbers& coedges, const Numbers& loops) {
+    const std::size_t count = is_reversed.shape(0);
+    const EdgeNodeRows nodes = rows_of(uv, numbers, points, sizes);
+    require_first(first, count, uv.shape(0));
+    require_rows(is_degenerate.shape(0), count, "is_degenerate");
+    require_rows(tolerance.shape(0), count, "tolerance");
+    require_sum(coedges, count, "coedges do not add up to all");
+    require_sum(loops, coedges.shape(0), "loops do not add up to all");
+    for (const std::int32_t coedge : rows<std::int32_t>(coedges))
+        if (coedge < 1) throw nb::value_error("a loop has no coedge");
+    const CoedgeRows all{nodes,
+                         rows<std::int64_t>(first),
+                         rows<std::uint8_t>(is_reversed),
+                         rows<std::uint8_t>(is_degenerate),
+                         rows<double>(tolerance),
+                         rows<std::int32_t>(coedges),
+                         rows<std::int32_t>(loops)};
+    const nb::gil_scoped_release released;
+    return boundaries_of(all);
 }
 
 void bind_builder(nb::module_& m) {
@@ -144,33 +186,27 @@ void bind_builder(nb::module_& m) {
         .def(nb::init<>())
         .def(
             "add",
-            [](BoundaryBuilder& builder, const Curve& pcurve, double p0, double p1,
-               bool is_reversed, const Sizes& t, const Ids& numbers, const Points3& points,
-               const Sizes& sizes, double tolerance) {
-                builder.add({pcurve, p0, p1, is_reversed}, rows_of(t, numbers, points, sizes),
-                            tolerance);
-            },
-            nb::arg("pcurve"), nb::arg("p0"), nb::arg("p1"), nb::arg("is_reversed"), nb::arg("t"),
-            nb::arg("numbers"), nb::arg("points"), nb::arg("sizes"), nb::arg("tolerance"),
-            "A use of an edge, whose nodes are given from its start to its end. pcurve: its image "
-            "in (u, v), from p0 at t = 0 to p1 at t = 1.")
-        .def(
-            "add_nodes",
             [](BoundaryBuilder& builder, const Points2& uv, const Ids& numbers,
                const Points3& points, const Sizes& sizes, bool is_degenerate, double tolerance) {
-                require_rows(uv.shape(0), numbers.shape(0), "uv");
-                builder.add_nodes(rows<Point2>(uv), rows_of(sizes, numbers, points, sizes),
-                                  is_degenerate, tolerance);
+                if (uv.shape(0) < 2) throw nb::value_error("an edge has two nodes at least");
+                builder.add(rows_of(uv, numbers, points, sizes), {false, is_degenerate, tolerance});
             },
             nb::arg("uv"), nb::arg("numbers"), nb::arg("points"), nb::arg("sizes"),
             nb::arg("is_degenerate"), nb::arg("tolerance"),
-            "A use of an edge whose nodes are known in (u, v), in walking order.")
+            "A use of an edge: its nodes in walking order.")
         .def("end_loop", &BoundaryBuilder::end_loop)
         .def("boundary", [](const BoundaryBuilder& builder) {
             FaceBoundary made = builder.boundary();
             if (made.check() != BoundaryFault::none) throw nb::value_error("a loop is not ended");
             return made;
         });
+    m.def("face_boundaries", &boundaries, nb::arg("uv"), nb::arg("numbers"), nb::arg("points"),
+          nb::arg("sizes"), nb::arg("first"), nb::arg("is_reversed"), nb::arg("is_degenerate"),
+          nb::arg("tolerance"), nb::arg("coedges"), nb::arg("loops"),
+          "The boundaries of many faces.\n\nuv (n, 2), numbers, points (n, 3), sizes: of the nodes "
+          "of all coedges, face after face, in the direction of the edges. first (c + 1,): rows of "
+          "the coedges. is_reversed, is_degenerate, tolerance (c,): of the coedges. coedges (l,) "
+          "int32: of each loop; loops (f,) int32: of each face.");
 }
 
 void bind_polygons(nb::module_& m) {

@@ -86,17 +86,19 @@ class BoundaryBuilder:
 
     def __init__(self) -> None: ...
 
-    def add(self, pcurve: surfmesh._core.surfaces.Curve, p0: float, p1: float, is_reversed: bool, t: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)], numbers: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], points: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)], sizes: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)], tolerance: float) -> None:
-        """
-        A use of an edge, whose nodes are given from its start to its end. pcurve: its image in (u, v), from p0 at t = 0 to p1 at t = 1.
-        """
-
-    def add_nodes(self, uv: Annotated[NDArray[numpy.float64], dict(shape=(None, 2), order='C', device='cpu', writable=False)], numbers: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], points: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)], sizes: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)], is_degenerate: bool, tolerance: float) -> None:
-        """A use of an edge whose nodes are known in (u, v), in walking order."""
+    def add(self, uv: Annotated[NDArray[numpy.float64], dict(shape=(None, 2), order='C', device='cpu', writable=False)], numbers: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], points: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)], sizes: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)], is_degenerate: bool, tolerance: float) -> None:
+        """A use of an edge: its nodes in walking order."""
 
     def end_loop(self) -> None: ...
 
     def boundary(self) -> FaceBoundary: ...
+
+def face_boundaries(uv: Annotated[NDArray[numpy.float64], dict(shape=(None, 2), order='C', device='cpu', writable=False)], numbers: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], points: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)], sizes: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)], first: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], is_reversed: Annotated[NDArray[numpy.uint8], dict(shape=(None,), order='C', device='cpu', writable=False)], is_degenerate: Annotated[NDArray[numpy.uint8], dict(shape=(None,), order='C', device='cpu', writable=False)], tolerance: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)], coedges: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], loops: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)]) -> list[FaceBoundary]:
+    """
+    The boundaries of many faces.
+
+    uv (n, 2), numbers, points (n, 3), sizes: of the nodes of all coedges, face after face, in the direction of the edges. first (c + 1,): rows of the coedges. is_reversed, is_degenerate, tolerance (c,): of the coedges. coedges (l,) int32: of each loop; loops (f,) int32: of each face.
+    """
 
 class FacePolygons:
     """Loops as closed polygons: each coedge without its last node."""
@@ -127,7 +129,7 @@ class CoarseSegments:
     def along(self) -> Annotated[NDArray[numpy.float64], dict(shape=(None, 3), writable=False)]:
         """(k, 3) unit directions of the segments"""
 
-def coarse_segments(surface: surfmesh._core.surfaces.Surface, chart: surfmesh._core.patch.Chart, background: surfmesh._core.fields.Background, polygons: FacePolygons, min_size: float, is_anisotropic: bool) -> CoarseSegments:
+def coarse_segments(surface: surfmesh._core.surfaces.Surface, chart: surfmesh._core.surfaces.Chart, background: surfmesh._core.fields.Background, polygons: FacePolygons, min_size: float, is_anisotropic: bool) -> CoarseSegments:
     """
     Where segments of the loops are more than twice as long as the sizes inside allow.
     """
@@ -176,7 +178,7 @@ class FaceMesh:
     def segments(self) -> Annotated[NDArray[numpy.int32], dict(shape=(None, 2), writable=False)]:
         """(s, 2) int32 between these"""
 
-def mesh_face(surface: surfmesh._core.surfaces.Surface, chart: surfmesh._core.patch.Chart, background: surfmesh._core.fields.Background, polygons: FacePolygons, manner: tuple[float | None, float | None, float, bool, bool, bool]) -> FaceMesh:
+def mesh_face(surface: surfmesh._core.surfaces.Surface, chart: surfmesh._core.surfaces.Chart, background: surfmesh._core.fields.Background, polygons: FacePolygons, manner: tuple[float | None, float | None, float, bool, bool, bool]) -> FaceMesh:
     """
     Mesh a face with a given size field, without the interpreter.
 

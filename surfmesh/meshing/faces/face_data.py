@@ -65,7 +65,7 @@ def boundary_of(loops: Iterable[Iterable[CoedgeNodes]]) -> FaceBoundary:
     builder = BoundaryBuilder()
     for loop in loops:
         for piece in loop:
-            builder.add_nodes(
+            builder.add(
                 piece.uv, piece.numbers, piece.points, piece.sizes, piece.degenerate,
                 piece.tolerance,
             )  # fmt: skip

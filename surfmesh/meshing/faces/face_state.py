@@ -1,14 +1,14 @@
 """What is known of one face of a model between the rounds of meshing."""
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 
 import numpy as np
 
-from surfmesh._core.faces import BoundaryBuilder
-from surfmesh._core.surfaces import Curve
-from surfmesh.cad.model.cad_model import CadCoedge, CadFace, CadModel
+from surfmesh._core.faces import face_boundaries
+from surfmesh.cad.model.cad_model import CadFace, CadModel
 from surfmesh.cad.model.loop_faults import ExactLoops, exact_loops
+from surfmesh.cad.model.model_arrays import model_arrays, offsets, rows_of
 from surfmesh.meshing.edges.edge_nodes import EdgeNodes
 from surfmesh.meshing.edges.edge_samples import EdgeSamples, NarrowFace
 from surfmesh.meshing.faces.face_data import FaceJob, FaceMesh
@@ -17,6 +17,8 @@ from surfmesh.meshing.patch.refinement_loop import StagnationCheck
 from surfmesh.sizing.options.model_sizing import ModelSizing
 from surfmesh.sizing.options.sizing import Sizing
 from surfmesh.sizing.rules.size_limits import SizeLimits
+
+_ENDS = np.array([0.0, 1.0])
 
 
 @dataclass
@@ -71,21 +73,6 @@ class FaceState:
         places = 0 if mesh.refinement is None else len(mesh.refinement.sizes)
         self.stagnation.record(places, len(mesh.triangles), bool(mesh.failure), self.job.nodes)
 
-    def job_from(
-        self, model: CadModel, nodes: list[EdgeNodes | None], samples: EdgeSamples,
-        limits: SizeLimits | None = None, optimise: bool = True,
-    ) -> FaceJob:  # fmt: skip
-        """What it is meshed from when its edges have these nodes."""
-        builder = BoundaryBuilder()
-        for loop in self.face.loops:
-            for coedge in loop:
-                _add(builder, model, coedge, nodes[coedge.edge], samples.vertex)
-            builder.end_loop()
-        return FaceJob(
-            self.face.surface, builder.boundary(), self.sizing, limits, optimise,
-            exact=self.exact, narrow=self.narrow,
-        )  # fmt: skip
-
 
 def face_states(model: CadModel, samples: EdgeSamples, wanted: ModelSizing) -> list[FaceState]:
     """All faces before the first round."""
@@ -99,34 +86,60 @@ def face_states(model: CadModel, samples: EdgeSamples, wanted: ModelSizing) -> l
     ]  # fmt: skip
 
 
-def first_jobs(
-    model: CadModel, faces: list[FaceState], nodes: list[EdgeNodes | None], samples: EdgeSamples,
-    limits: Mapping[int, SizeLimits] | None = None,
+def face_jobs(
+    model: CadModel, faces: Sequence[FaceState], nodes: list[EdgeNodes | None],
+    limits: Mapping[int, SizeLimits] | None = None, optimise: bool = True,
 ) -> list[FaceJob]:  # fmt: skip
-    """The jobs of all faces before anything is known of their meshes."""
-    known = limits or {}
-    return [state.job_from(model, nodes, samples, known.get(state.number)) for state in faces]
+    """What some faces are meshed from when the edges have these nodes; limits: by face."""
+    known, arrays = limits or {}, model_arrays(model)
+    numbers = np.array([state.number for state in faces], np.int64)
+    which = rows_of(arrays.first_of_face, numbers)
+    coedges = [len(loop) for state in faces for loop in state.face.loops]
+    loops = [len(state.face.loops) for state in faces]
+    boundaries = face_boundaries(
+        *_nodes(model, which, nodes), *_uses(model, which, nodes),
+        np.array(coedges, np.int32), np.array(loops, np.int32),
+    )  # fmt: skip
+    return [
+        FaceJob(
+            state.face.surface, boundary, state.sizing, known.get(state.number), optimise,
+            exact=state.exact, narrow=state.narrow,
+        )
+        for state, boundary in zip(faces, boundaries)
+    ]  # fmt: skip
 
 
-def _add(
-    builder: BoundaryBuilder, model: CadModel, coedge: CadCoedge, cut: EdgeNodes | None,
-    vertex: np.ndarray,
-) -> None:  # fmt: skip
-    """The nodes of an edge as a loop walks along it; of one that is a vertex, both ends."""
-    edge, curve = model.edges[coedge.edge], getattr(coedge.pcurve, "core", None)
-    if cut is None:
-        number = int(vertex[edge.start])
-        uv, numbers = coedge.walk(np.array([0.0, 1.0])), np.full(2, number, np.int64)
-        points = np.tile(model.vertices[number].point, (2, 1))
-        builder.add_nodes(uv, numbers, points, np.full(2, np.inf), True, edge.tolerance)
-    elif isinstance(curve, Curve):
-        builder.add(
-            curve, coedge.p0, coedge.p1, coedge.reversed,
-            cut.t, cut.numbers, cut.points, cut.sizes, edge.tolerance,
-        )  # fmt: skip
-    else:
-        way = slice(None, None, -1) if coedge.reversed else slice(None)
-        builder.add_nodes(
-            coedge.uv(cut.t)[way], cut.numbers[way], cut.points[way], cut.sizes[way], False,
-            edge.tolerance,
-        )  # fmt: skip
+def _nodes(
+    model: CadModel, which: np.ndarray, nodes: list[EdgeNodes | None]
+) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
+    """uv, numbers, points and sizes of the nodes of some coedges, in the direction of the edges;
+    of an edge that is a vertex, both ends. And where the rows of each coedge begin."""
+    arrays = model_arrays(model)
+    cuts = [
+        nodes[edge] or _point_nodes(model, arrays.vertex, edge)
+        for edge in arrays.coedge_edge[which].tolist()
+    ]
+    first = offsets(np.array([len(cut.t) for cut in cuts], np.int64))
+    t = np.concatenate([np.empty(0), *(cut.t for cut in cuts)])
+    sizes = np.concatenate([np.empty(0), *(cut.sizes for cut in cuts)])
+    numbers = np.concatenate([np.empty(0, np.int64), *(cut.numbers for cut in cuts)])
+    points = np.concatenate([np.empty((0, 3)), *(cut.points for cut in cuts)])
+    uv = np.ascontiguousarray(arrays.pcurves.points(which, first, t)[:, :2])
+    return uv, numbers, points, sizes, first
+
+
+def _uses(
+    model: CadModel, which: np.ndarray, nodes: list[EdgeNodes | None]
+) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Of some coedges: are they reversed, are they one point, the tolerance of their edges."""
+    arrays = model_arrays(model)
+    edges = arrays.coedge_edge[which]
+    is_point = np.array([nodes[edge] is None for edge in edges.tolist()], np.uint8)
+    return arrays.coedge_reversed[which].view(np.uint8), is_point, arrays.tolerance[edges]
+
+
+def _point_nodes(model: CadModel, vertex: np.ndarray, edge: int) -> EdgeNodes:
+    """Both ends of an edge that is one point in space."""
+    number = int(vertex[model.edges[edge].start])
+    points = np.tile(model.vertices[number].point, (2, 1))
+    return EdgeNodes(np.array([0.0, 1.0]), points, np.full(2, number, np.int64), np.full(2, np.inf))

@@ -8,7 +8,6 @@ import pytest
 from surfmesh._core import faces as core
 from surfmesh._core.faces import BoundaryBuilder, FaceBoundary, FaceEnd, FacePolygons
 from surfmesh._core.surfaces import cylinder, plane
-from surfmesh.geometry.cad_surfaces.curves import Line
 from surfmesh.geometry.cad_surfaces.elementary import Cylinder, Plane
 from surfmesh.sizing.field.boundary_field import boundary_field, largest_size
 from surfmesh.sizing.options.sizing import Sizing
@@ -29,7 +28,7 @@ def square(size=0.25, parts=4):
         uv = start + t[:, None] * (end - start)
         numbers = (k * parts + np.arange(parts + 1)) % (4 * parts)
         points = np.column_stack([uv, np.zeros(len(uv))])
-        builder.add_nodes(uv, numbers, points, np.full(len(uv), size), False, 1e-6)
+        builder.add(uv, numbers, points, np.full(len(uv), size), False, 1e-6)
     builder.end_loop()
     return builder.boundary()
 
@@ -44,23 +43,28 @@ def tube(radius, height, count=9):
     for start, end, numbers in zip(corners, np.roll(corners, -1, axis=0), rows):
         uv = start + t[:, None] * (end - start)
         points = np.column_stack([radius * np.cos(uv[:, 0]), radius * np.sin(uv[:, 0]), uv[:, 1]])
-        builder.add_nodes(uv, numbers, points, np.ones(count), False, 0.0)
+        builder.add(uv, numbers, points, np.ones(count), False, 0.0)
     builder.end_loop()
     domain = (0.0, TURN), (0.0, height)
     return cylinder(domain, O, X, Y, Z, radius), builder.boundary()
 
 
-def test_a_coedge_is_walked_as_its_loop_runs():
-    line = Line(np.array([2.0, 1.0]), np.array([1.0, 0.0]))
-    t, numbers, sizes = np.array([0.0, 0.5, 1.0]), np.array([7, 8, 9]), np.array([1.0, 2.0, 3.0])
-    builder = BoundaryBuilder()
-    builder.add(line.core, 0.0, 4.0, True, t, numbers, np.ones((3, 3)), sizes, 0.5)
-    builder.end_loop()
-    found = builder.boundary()
-    assert found.uv.tolist() == [[6.0, 1.0], [4.0, 1.0], [2.0, 1.0]]
-    assert found.numbers.tolist() == [9, 8, 7] and found.sizes.tolist() == [3.0, 2.0, 1.0]
-    assert found.tolerance.tolist() == [0.5] and not found.has_degenerate
-    assert found.box == ((2.0, 6.0), (1.0, 1.0))
+def test_coedges_are_walked_as_their_loops_run():
+    uv, numbers = (
+        np.array([[2.0, 1.0], [4.0, 1.0], [6.0, 1.0], [0.0, 0.0], [1.0, 1.0]]),
+        np.arange(5),
+    )
+    sizes, flags = np.arange(1.0, 6.0), np.zeros(2, np.uint8)
+    first, ones = np.array([0, 3, 5]), np.ones(2, np.int32)
+    one, other = core.face_boundaries(
+        uv, numbers, np.ones((5, 3)), sizes, first, np.array([1, 0], np.uint8), flags,
+        np.array([0.5, 0.25]), ones, ones,
+    )  # fmt: skip
+    assert one.uv.tolist() == [[6.0, 1.0], [4.0, 1.0], [2.0, 1.0]]
+    assert one.numbers.tolist() == [2, 1, 0] and one.sizes.tolist() == [3.0, 2.0, 1.0]
+    assert one.tolerance.tolist() == [0.5] and not one.has_degenerate
+    assert one.box == ((2.0, 6.0), (1.0, 1.0))
+    assert other.numbers.tolist() == [3, 4] and other.tolerance.tolist() == [0.25]
 
 
 def test_it_travels_between_processes():
@@ -80,7 +84,7 @@ def test_what_is_no_boundary_is_refused():
     with pytest.raises(ValueError, match="length"):
         FaceBoundary(*rows, np.array([4], np.int32), *flags, np.array([1], np.int32))
     with pytest.raises(ValueError, match="two nodes"):
-        BoundaryBuilder().add_nodes(
+        BoundaryBuilder().add(
             np.zeros((1, 2)), np.zeros(1, int), np.zeros((1, 3)), np.ones(1), False, 0.0
         )
 
