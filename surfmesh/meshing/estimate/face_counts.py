@@ -62,7 +62,7 @@ def _classes(jobs: list[FaceJob], areas: np.ndarray) -> tuple[list[int], np.ndar
     class_of = np.empty(len(jobs), int)
     loops = _loops_in_figures(jobs)
     for number, (job, area) in enumerate(zip(jobs, areas.tolist())):
-        own = tuple(sorted(next(loops) for _ in job.loops))
+        own = tuple(sorted(next(loops) for _ in job.boundary.loop_end))
         key = _likeness(job, area, own) or number
         if key not in known:
             known[key] = len(first)
@@ -80,13 +80,14 @@ def _likeness(job: FaceJob, area: float, loops: tuple) -> Any:
 
 def _loops_in_figures(jobs: list[FaceJob]) -> Iterator[tuple[int, str, str]]:
     """Of each loop of all jobs how many nodes, how long, and the sum of the sizes there."""
-    loops = [loop for job in jobs for loop in job.loops]
-    if not loops:
+    boundaries = [job.boundary for job in jobs]
+    if not boundaries:
         return iter(())
-    pieces = [piece for loop in loops for piece in loop]
-    first = offsets(np.array([sum(len(piece.sizes) for piece in loop) for loop in loops]))
-    points = np.concatenate([piece.points for piece in pieces])
-    sizes = np.concatenate([piece.sizes for piece in pieces])
+    start = offsets(np.array(list(map(len, boundaries))))
+    ends = [own.piece_end[own.loop_end - 1] + at for own, at in zip(boundaries, start.tolist())]
+    first = np.concatenate([[0], *ends])
+    points = np.concatenate([own.points for own in boundaries])
+    sizes = np.concatenate([own.sizes for own in boundaries])
     step = np.zeros(len(points))
     step[1:] = np.linalg.norm(np.diff(points, axis=0), axis=1)
     step[first[:-1]] = 0.0  # from one loop to the next
@@ -101,8 +102,8 @@ def _rounded(value: float) -> str:
 
 def _rough(job: FaceJob, area: float) -> float:
     """Triangles, if the sizes of its boundary hold all over it."""
-    sizes = np.concatenate([piece.sizes for loop in job.loops for piece in loop])
+    sizes, loops = job.boundary.sizes, len(job.boundary.loop_end)
     real = sizes[np.isfinite(sizes)]
-    nodes = sum(len(piece.sizes) - 1 for loop in job.loops for piece in loop)
+    nodes = len(sizes) - len(job.boundary.piece_end)
     inside = TRIANGLES * area / float(real.mean()) ** 2 if len(real) else 0.0
-    return max(combined(inside, nodes, len(job.loops)), 1.0)
+    return max(combined(inside, nodes, loops), 1.0)
