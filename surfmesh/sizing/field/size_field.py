@@ -2,6 +2,7 @@
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 
@@ -45,6 +46,10 @@ class SizeField:
     def expected_vertices(self) -> int:
         """About how many circles cover the domain: its metric area over that of a circle's
         share, sqrt(3) / 2."""
+        return self._expected_vertices
+
+    @cached_property
+    def _expected_vertices(self) -> int:
         width, height = self.chart.extent
         area = self.background.metric_area(float(width), float(height))
         return int(min(area * 2.0 / np.sqrt(3.0), COUNTABLE)) + 100
