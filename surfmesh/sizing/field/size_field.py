@@ -2,6 +2,7 @@
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 
@@ -44,6 +45,10 @@ class SizeField:
 
     def expected_vertices(self) -> int:
         """About how many circles cover the domain."""
+        return self._expected_vertices
+
+    @cached_property
+    def _expected_vertices(self) -> int:
         width, height = self.chart.extent.tolist()
         return self.background.expected_circles(width, height)
 
