@@ -44,8 +44,8 @@ class SizeField:
 
     def expected_vertices(self) -> int:
         """About how many circles cover the domain."""
-        u, v = self.chart.axes
-        return self.background.expected_circles(float(u.extent), float(v.extent))
+        chart = self.chart.core
+        return self.background.expected_circles(chart.u.extent, chart.v.extent)
 
     def sizes(self, xy: np.ndarray) -> np.ndarray:
         """Wanted edge lengths (n,) at points xy (n, 2) of the scaled plane, the shorter of two."""
