@@ -34,9 +34,9 @@ def chord_size(k1: np.ndarray, k2: np.ndarray, chord: float | np.ndarray) -> np.
 
     Here and below k1, k2 are of one shape, and so is what is returned.
     """
-    if np.ndim(chord) == 0:
-        return _each(core.chord_size, k1, k2, chord)
-    return _by_chord(lambda *rows: (core.chord_size(*rows),), chord, k1, k2)[0]
+    if isinstance(chord, np.ndarray) and chord.ndim:
+        return _by_chord(lambda *rows: (core.chord_size(*rows),), chord, k1, k2)[0]
+    return _each(core.chord_size, k1, k2, float(chord))
 
 
 def dihedral_factor(k1: np.ndarray, k2: np.ndarray) -> np.ndarray:
@@ -60,10 +60,10 @@ def principal_chord_sizes(
 ) -> tuple[np.ndarray, np.ndarray]:
     """Edge lengths along the directions of k1 and k2 at which triangles stay within ``chord``, for
     a ``ratio`` of the two at most."""
-    if np.ndim(chord):
+    if isinstance(chord, np.ndarray) and chord.ndim:
         first, second = _by_chord(core.principal_chord_sizes, chord, k1, k2, _each_of(ratio, k1))
         return first, second
-    return core.principal_chord_sizes(*_rows(k1, k2), chord, _each_of(ratio, k1))
+    return core.principal_chord_sizes(*_rows(k1, k2), float(chord), _each_of(ratio, k1))
 
 
 def principal_angle_sizes(
