@@ -11,6 +11,7 @@ holds a quantile of all triangles; planes and curved faces are two populations.
 from __future__ import annotations
 
 from collections.abc import Callable
+from itertools import pairwise
 from typing import Any
 
 import numpy as np
@@ -72,11 +73,11 @@ def _likeness(job: FaceJob, area: float) -> Any:
     """What alike faces have in common; None where the place of a face counts too."""
     if job.limits is not None or job.sizing.has_law or job.sizing.sources:
         return None
-    loops = []
-    for loop in job.loops:
-        points = np.concatenate([piece.points for piece in loop])
+    loops, nodes = [], job.boundary
+    for first, after in pairwise([0, *nodes.piece_end[nodes.loop_end - 1].tolist()]):
+        points = nodes.points[first:after]
         length = float(np.linalg.norm(np.diff(points, axis=0), axis=1).sum())
-        sizes = np.concatenate([piece.sizes for piece in loop])
+        sizes = nodes.sizes[first:after]
         real = sizes[np.isfinite(sizes)]
         loops.append((len(points), _rounded(length), _rounded(float(real.sum()))))
     narrow = job.narrow is not None
@@ -89,8 +90,8 @@ def _rounded(value: float) -> str:
 
 def _rough(job: FaceJob, area: float) -> float:
     """Triangles, if the sizes of its boundary hold all over it."""
-    sizes = np.concatenate([piece.sizes for loop in job.loops for piece in loop])
+    sizes, loops = job.boundary.sizes, len(job.boundary.loop_end)
     real = sizes[np.isfinite(sizes)]
-    nodes = sum(len(piece.sizes) - 1 for loop in job.loops for piece in loop)
+    nodes = len(sizes) - len(job.boundary.piece_end)
     inside = TRIANGLES * area / float(real.mean()) ** 2 if len(real) else 0.0
-    return max(combined(inside, nodes, len(job.loops)), 1.0)
+    return max(combined(inside, nodes, loops), 1.0)

@@ -78,12 +78,9 @@ def face_states(model: CadModel, samples: EdgeSamples, wanted: ModelSizing) -> l
     """All faces before the first round."""
     sizings = face_sizings(model, samples, wanted)
     return [
-        FaceState(
-            number, face, sizings[number], samples.narrow.get(number),
-            exact_loops(model, number, samples.vertex),
-        )
-        for number, face in enumerate(model.faces)
-    ]  # fmt: skip
+        FaceState(number, face, sizings[number], samples.narrow.get(number), exact)
+        for number, (face, exact) in enumerate(zip(model.faces, exact_loops(model)))
+    ]
 
 
 def face_jobs(

@@ -111,14 +111,14 @@ class _Joined(NamedTuple):
 def _joined(shared: _Shared, faces: list[FaceState], turned: np.ndarray) -> _Joined:
     """With the inner points of face after face; turned: (f,) of all faces of the model."""
     meshes = [state.mesh for state in faces]
-    names = [[p.numbers for loop in state.job.loops for p in loop] for state in faces]
-    first_name = offsets(np.array([sum(map(len, own)) for own in names], np.int64))
+    names = [state.job.boundary.numbers for state in faces]
+    first_name = offsets(np.array([len(own) for own in names], np.int64))
     count = np.array([len(mesh.points) for mesh in meshes])
     slots = np.concatenate([mesh.slots for mesh in meshes])
     inside = slots < 0
     own = np.empty(len(slots), np.int64)
     on_edges = (slots + np.repeat(first_name[:-1], count))[~inside]
-    own[~inside] = np.concatenate([part for parts in names for part in parts])[on_edges]
+    own[~inside] = np.concatenate(names)[on_edges]
     own[inside] = len(shared.points) + np.arange(int(inside.sum()))
     points = np.concatenate([mesh.points for mesh in meshes])
     sizes = np.concatenate([mesh.sizes for mesh in meshes])
