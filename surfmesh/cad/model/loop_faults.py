@@ -14,6 +14,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
+from itertools import pairwise
 
 import numpy as np
 
@@ -81,24 +82,23 @@ class ExactLoops:
 
 
 def exact_loops(model: CadModel) -> list[ExactLoops]:
-    """Of each face of a model, with the numbers that its vertices have in a mesh."""
+    """Of all faces of a model; vertices by the numbers that they have in a mesh."""
     arrays = model_arrays(model)
-    edge, face = arrays.coedge_edge, arrays.coedge_face
-    ends = arrays.mesh_ends[edge]
-    ends[arrays.coedge_reversed] = ends[arrays.coedge_reversed, ::-1]
-    lowest, highest = np.full((2, len(model.edges)), [[len(model.faces)], [-1]])
-    np.minimum.at(lowest, edge, face)
-    np.maximum.at(highest, edge, face)
-    shared = ((lowest[edge] != face) | (highest[edge] != face)).tolist()
-    ways = list(map(tuple, ends.tolist()))
-    tolerances = [model.edges[k].tolerance for k in edge.tolist()]
-    rows = zip(model.faces, arrays.first_of_face[:-1].tolist(), arrays.first_of_face[1:].tolist())
+    edge, back = arrays.coedge_edge, arrays.coedge_reversed
+    ends = np.where(back[:, None], arrays.mesh_ends[edge][:, ::-1], arrays.mesh_ends[edge])
+    lowest = np.full(len(model.edges), len(model.faces))
+    highest = np.full(len(model.edges), -1)
+    np.minimum.at(lowest, edge, arrays.coedge_face)
+    np.maximum.at(highest, edge, arrays.coedge_face)
+    shared = (lowest < highest)[edge]
+    ways = [(start, end) for start, end in ends.tolist()]
+    tolerances, uses = arrays.tolerance[edge].tolist(), shared.tolist()
     return [
         ExactLoops(
-            own.surface, own.loops, tuple(ways[a:b]), tuple(tolerances[a:b]), tuple(shared[a:b]),
-            own.fault,
+            face.surface, tuple(face.loops), tuple(ways[a:b]), tuple(tolerances[a:b]),
+            tuple(uses[a:b]), face.fault,
         )
-        for own, a, b in rows
+        for face, (a, b) in zip(model.faces, pairwise(arrays.first_of_face.tolist()))
     ]  # fmt: skip
 
 

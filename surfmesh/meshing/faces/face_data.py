@@ -132,6 +132,15 @@ class FaceJob:
         )
 
     @property
+    def rings(self) -> list[np.ndarray]:
+        """The loops as closed polygons (k, 2) in (u, v)."""
+        nodes = self.boundary
+        ends, loops = nodes.piece_end, nodes.loop_end
+        kept = np.ones(len(nodes), bool)
+        kept[ends - 1] = False
+        return np.split(nodes.uv[kept], (ends[loops - 1] - loops)[:-1])
+
+    @property
     def nodes(self) -> int:
         """How many nodes its boundary has."""
         return len(self.boundary)

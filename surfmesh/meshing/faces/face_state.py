@@ -78,10 +78,9 @@ class FaceState:
 def face_states(model: CadModel, samples: EdgeSamples, wanted: ModelSizing) -> list[FaceState]:
     """All faces before the first round."""
     sizings = face_sizings(model, samples, wanted)
-    rows = zip(model.faces, sizings, exact_loops(model))
     return [
-        FaceState(number, face, sizing, samples.narrow.get(number), exact)
-        for number, (face, sizing, exact) in enumerate(rows)
+        FaceState(number, face, sizings[number], samples.narrow.get(number), exact)
+        for number, (face, exact) in enumerate(zip(model.faces, exact_loops(model)))
     ]
 
 

@@ -113,7 +113,7 @@ def _joined(shared: _Shared, faces: list[FaceState], turned: np.ndarray) -> _Joi
     """With the inner points of face after face; turned: (f,) of all faces of the model."""
     meshes = [state.mesh for state in faces]
     names = [state.job.boundary.numbers for state in faces]
-    first_name = offsets(np.array(list(map(len, names)), np.int64))
+    first_name = offsets(np.array([len(own) for own in names], np.int64))
     count = np.array([len(mesh.points) for mesh in meshes])
     slots = np.concatenate([mesh.slots for mesh in meshes])
     inside = slots < 0
