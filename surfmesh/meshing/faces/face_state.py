@@ -67,7 +67,7 @@ class FaceState:
         """Its mesh of this round."""
         self.mesh = mesh
         places = 0 if mesh.refinement is None else len(mesh.refinement.sizes)
-        self.stagnation.record(places, len(mesh.triangles), bool(mesh.failure), self.job.nodes)
+        self.stagnation.record(places, mesh.count, bool(mesh.failure), self.job.nodes)
 
     def job_from(
         self, model: CadModel, nodes: list[EdgeNodes | None], samples: EdgeSamples,

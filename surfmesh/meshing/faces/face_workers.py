@@ -6,7 +6,7 @@ A face is meshed from plain arrays and knows nothing of the others, so that its 
 whoever makes it, and when.
 """
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from concurrent.futures import BrokenExecutor, Executor, Future, ThreadPoolExecutor
 from dataclasses import dataclass
 from heapq import heappop, heappush
@@ -14,6 +14,7 @@ from heapq import heappop, heappush
 from surfmesh.errors import MeshingError
 from surfmesh.meshing.faces.face_data import FaceJob, FaceMesh
 from surfmesh.meshing.faces.face_mesh import mesh_face
+from surfmesh.meshing.faces.partitions import FaceStore
 
 BATCHES = 64
 """Most batches that an executor is handed at a time: some for each of a dozen workers, so that
@@ -31,6 +32,17 @@ class FaceWorkers:
     """How many of this process; 1: the caller's alone."""
     executor: Executor | None = None
     """Instead of threads: processes, or other machines. Jobs and meshes are pickled."""
+    store: FaceStore | None = None
+    """Where the meshes of faces stay; None: with the caller."""
+
+    @property
+    def work(self) -> Callable[[FaceJob], FaceMesh]:
+        """What is done for each face."""
+        return mesh_face if self.store is None else self.store.meshed
+
+    def kept(self, mesh: FaceMesh) -> FaceMesh:
+        """A mesh that the caller has made of others, as ``meshed`` gives it."""
+        return mesh if self.store is None else self.store.kept(mesh)
 
     def meshed(self, jobs: list[FaceJob]) -> Iterator[FaceMesh]:
         """The meshes of all jobs, in their order.
@@ -39,19 +51,21 @@ class FaceWorkers:
         ``MeshingError`` when the executor has lost its workers.
         """
         if self.executor is not None:
-            yield from _by_executor(self.executor, jobs, BATCHES)
+            yield from _by_executor(self.executor, jobs, BATCHES, self.work)
         elif self.threads > 1 and len(jobs) > 1:
             with ThreadPoolExecutor(min(self.threads, len(jobs))) as threads:
-                yield from _by_executor(threads, jobs, len(jobs))
+                yield from _by_executor(threads, jobs, len(jobs), self.work)
         else:
-            yield from map(mesh_face, jobs)
+            yield from map(self.work, jobs)
 
 
-def _by_executor(executor: Executor, jobs: list[FaceJob], batches: int) -> Iterator[FaceMesh]:
+def _by_executor(
+    executor: Executor, jobs: list[FaceJob], batches: int, work: Callable[[FaceJob], FaceMesh]
+) -> Iterator[FaceMesh]:
     futures: dict[int, tuple[Future[list[FaceMesh]], int]] = {}
     try:
         for batch in batches_of(list(map(expected_work, jobs)), batches):
-            future = executor.submit(_mesh_batch, [jobs[k] for k in batch])
+            future = executor.submit(_mesh_batch, work, [jobs[k] for k in batch])
             futures.update({k: (future, place) for place, k in enumerate(batch)})
         for k in range(len(jobs)):
             future, place = futures[k]
@@ -63,8 +77,8 @@ def _by_executor(executor: Executor, jobs: list[FaceJob], batches: int) -> Itera
             future.cancel()
 
 
-def _mesh_batch(jobs: list[FaceJob]) -> list[FaceMesh]:
-    return list(map(mesh_face, jobs))
+def _mesh_batch(work: Callable[[FaceJob], FaceMesh], jobs: list[FaceJob]) -> list[FaceMesh]:
+    return list(map(work, jobs))
 
 
 def expected_work(job: FaceJob) -> float:

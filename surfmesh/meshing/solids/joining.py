@@ -41,7 +41,7 @@ def joined_mesh(
         if len(state.mesh.triangles):
             joined.add(state, turned[state.number])
             if is_stretched:
-                joined.roots.append(_metric_roots(state.mesh))
+                joined.roots.append(metric_roots(state.mesh))
     if not joined.triangles:
         reasons = [state.reason for state in faces if state.reason]
         raise MeshingError(f"no face could be meshed: {'; '.join(reasons[:5])}")
@@ -120,7 +120,7 @@ class _Joined:
         self.face_ids.append(np.full(len(mesh.triangles), state.number, np.int32))
 
 
-def _metric_roots(mesh: FaceMesh) -> np.ndarray:
+def metric_roots(mesh: FaceMesh) -> np.ndarray:
     """Of the ``uv_points`` of a face (n, 6), also of one whose sizes are the same all ways."""
     if mesh.inverse_sizes is not None:
         return mesh.inverse_sizes
