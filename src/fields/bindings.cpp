@@ -236,9 +236,10 @@ void bind_gradation(nb::module_& m) {
             require_rows(step.shape(0), patches.shape(0), "step");
             Array<double> error, extent;
             for (std::size_t k = 0; k < patches.shape(0); ++k) {
-                const PatchError found =
-                    patch_error(rows<Patch>(patches)[k], rows<SizeTensor>(metric_root),
-                                rows<Point2>(step)[k], largest);
+                PatchRoots roots;
+                for (std::size_t i = 0; i < 9; ++i)
+                    roots[i] = rows<SizeTensor>(metric_root)[rows<Patch>(patches)[k].node[i]];
+                const PatchError found = patch_error(roots, rows<Point2>(step)[k], largest);
                 error.push_back(found.error);
                 extent.push_back(found.extent);
             }

@@ -19,49 +19,11 @@ SHORTEST: float = 0.66
 
 LONGEST: float = 1.45
 
-class ChartAxis:
-    """A monotone map between one parameter and its scaled coordinate."""
-
-    def __init__(self, extent: float, knots: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)], slopes: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)], pieces: Annotated[NDArray[numpy.float64], dict(shape=(None, 7), order='C', device='cpu', writable=False)] | None = None) -> None:
-        """
-        knots, slopes (k,): the parameter and its derivative at k even coordinates from 0 to extent.
-        pieces (p, 7), where knots are of the bent parameter: first, last, powers at both ends, their beta function, clearance at both ends.
-        """
-
-    @property
-    def extent(self) -> float: ...
-
-    def parameter_and_rate(self, x: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)]) -> tuple[Annotated[NDArray[numpy.float64], dict(shape=(None,))], Annotated[NDArray[numpy.float64], dict(shape=(None,))]]:
-        """
-        The parameter (n,) at scaled coordinates x (n,), and its derivative by x (n,).
-
-        Linear outside [0, extent], constant where the parameter is bent.
-        """
-
-class Chart:
-    """(u, v) of a surface and the scaled plane, axis by axis."""
-
-    def __init__(self, u: ChartAxis, v: ChartAxis) -> None: ...
-
-    def to_uv_and_rates(self, xy: Annotated[NDArray[numpy.float64], dict(shape=(None, 2), order='C', device='cpu', writable=False)]) -> tuple[Annotated[NDArray[numpy.float64], dict(shape=(None, 2))], Annotated[NDArray[numpy.float64], dict(shape=(None, 2))]]:
-        """xy (n, 2) -> uv (n, 2) and (du/dx, dv/dy) (n, 2)."""
-
-    def to_plane(self, uv: Annotated[NDArray[numpy.float64], dict(shape=(None, 2), order='C', device='cpu', writable=False)]) -> Annotated[NDArray[numpy.float64], dict(shape=(None, 2))]:
-        """
-        uv (n, 2), bent parameters where there are some -> xy (n, 2).
-
-        Exact at the ends of the axes; what lies beyond is moved there.
-        """
-
 FINEST_SIZE: float = 1e-05
 
 FINEST_BY_ANGLE: float = 0.0002
 
 LEAST_OF_CHORD: float = 0.5
-
-ROUND_RESERVE: float = 0.78
-
-BENT_RESERVE: float = 0.94
 
 def dense_samples() -> Annotated[NDArray[numpy.float64], dict(shape=(None, 3))]:
     """
@@ -80,7 +42,7 @@ def vertex_deviations(surface: surfmesh._core.surfaces.Surface, points: Annotate
     The same (n,) of points that should be r(u, v) itself: looked at closely only if not.
     """
 
-def triangle_deviations(surface: surfmesh._core.surfaces.Surface, chart: Chart, corners: Annotated[NDArray[numpy.float64], dict(shape=(None, 3, 3), order='C', device='cpu', writable=False)], xy: Annotated[NDArray[numpy.float64], dict(shape=(None, 3, 2), order='C', device='cpu', writable=False)], limit: float) -> Annotated[NDArray[numpy.float64], dict(shape=(None,))]:
+def triangle_deviations(surface: surfmesh._core.surfaces.Surface, chart: surfmesh._core.surfaces.Chart, corners: Annotated[NDArray[numpy.float64], dict(shape=(None, 3, 3), order='C', device='cpu', writable=False)], xy: Annotated[NDArray[numpy.float64], dict(shape=(None, 3, 2), order='C', device='cpu', writable=False)], limit: float) -> Annotated[NDArray[numpy.float64], dict(shape=(None,))]:
     """
     Largest distance (n,) from the surface at samples of triangles (n, 3, 3) with corners on it.
 
@@ -201,7 +163,7 @@ class PatchState:
     A triangulated domain with its surface frames, and the passes of the optimiser on it.
     """
 
-    def __init__(self, t: surfmesh._core.triangulation.Triangulation, node: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], same: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], on_kinks: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], points: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)] | None, surface: surfmesh._core.surfaces.Surface, chart: Chart, background: surfmesh._core.fields.Background, chord: float | None = None, angle: float | None = None, min_size: float = 0.0, before_pass: object | None = None) -> None:
+    def __init__(self, t: surfmesh._core.triangulation.Triangulation, node: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], same: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], on_kinks: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], points: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)] | None, surface: surfmesh._core.surfaces.Surface, chart: surfmesh._core.surfaces.Chart, background: surfmesh._core.fields.Background, chord: float | None = None, angle: float | None = None, min_size: float = 0.0, before_pass: object | None = None) -> None:
         """
         t: of the domain, changed in place. node, same (k,): vertices of the boundary's nodes, and of those they coincide with in space. on_kinks (j,): vertices where the surface has two normals. points (k, 3): where the nodes lie; None: on the surface.
         chord (model units), angle (degrees): what is asked for. before_pass: called before each pass of smoothing; may raise to stop the work.
@@ -269,7 +231,7 @@ class PatchState:
 
     def mapped(self, node_uv: Annotated[NDArray[numpy.float64], dict(shape=(None, 2), order='C', device='cpu', writable=False)], node: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], segments: Annotated[NDArray[numpy.int32], dict(shape=(None, 2), order='C', device='cpu', writable=False)], identity: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)]) -> MappedPatch:
         """
-        The triangles in space, seams identified.
+        The triangles in space, seams identified; no pass may come after.
 
         node_uv: (j, 2) of the nodes that have a vertex, to the last bit. node (k,), segments (s, 2), identity (k,): of boundary loops, the vertex of each node or NIL, pairs of nodes, and for each node the first that is the same point in space; empty where nothing is identified.
         """

@@ -14,7 +14,7 @@ from functools import cached_property
 
 import numpy as np
 
-from surfmesh._core import patch as core
+from surfmesh._core import surfaces as core
 from surfmesh.geometry.differential.infinite_speed import BentAxis, bent_axes_of, is_bent
 from surfmesh.geometry.differential.monotone_cubic import MonotoneCubic
 from surfmesh.geometry.surface import Domain, Surface, steady_axes

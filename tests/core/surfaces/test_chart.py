@@ -2,8 +2,9 @@
 
 import numpy as np
 import pytest
+from scipy.interpolate import CubicHermiteSpline
 
-from surfmesh._core.patch import Chart, ChartAxis
+from surfmesh._core.surfaces import Chart, ChartAxis
 from surfmesh.geometry.differential.infinite_speed import BentAxis
 
 PLACES = np.array([-1.0, -0.3, 0.6, 1.0])
@@ -45,3 +46,16 @@ def test_coordinates_are_the_inverse_of_parameters():
     assert xy[0].tolist() == [0.0, 0.0] and xy[-1].tolist() == [2.0, 4.0]
     np.testing.assert_allclose(chart.to_uv_and_rates(xy)[0], uv, rtol=0, atol=1e-14)
     assert chart.to_plane(np.array([[-1.0, 9.0]])).tolist() == [[0.0, 4.0]]
+
+
+@pytest.mark.parametrize("seed", range(5))
+def test_knots_are_joined_by_a_cubic_hermite_spline(seed):
+    rng = np.random.default_rng(seed)
+    n, extent = int(rng.integers(3, 30)), 10.0 ** rng.uniform(-3, 3)
+    knots, slopes = np.cumsum(rng.uniform(0, 1, n)), rng.uniform(0, 3, n)
+    spline = CubicHermiteSpline(np.linspace(0, extent, n), knots, slopes)
+    x = extent * rng.uniform(0, 1, 200)
+    parameter, rate = ChartAxis(extent, knots, slopes).parameter_and_rate(x)
+    np.testing.assert_allclose(parameter, spline(x), rtol=1e-9, atol=1e-9)
+    expected = spline.derivative()(x)
+    np.testing.assert_allclose(rate, expected, rtol=1e-6, atol=1e-9 * np.abs(expected).max())

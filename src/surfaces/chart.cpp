@@ -1,4 +1,4 @@
-#include "patch/chart.hpp"
+#include "surfaces/chart.hpp"
 
 #include <algorithm>
 #include <cmath>
