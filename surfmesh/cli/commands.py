@@ -3,12 +3,11 @@
 import json
 import tomllib
 from argparse import Namespace
-from concurrent.futures import Executor
 from dataclasses import replace
 from pathlib import Path
 from textwrap import fill
 from time import perf_counter
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from surfmesh.cli.inputs import (
     asked_sizing,
@@ -28,6 +27,9 @@ from surfmesh.cli.progress import ProgressBar
 from surfmesh.cli.scheduler import executor_of
 from surfmesh.cli.terminal import say, say_json
 from surfmesh.errors import FileFormatError, SurfmeshError, printable
+
+if TYPE_CHECKING:
+    from concurrent.futures import Executor
 
 
 def mesh(options: Namespace) -> bool:
@@ -81,7 +83,7 @@ def mesh(options: Namespace) -> bool:
 
 
 def _mesh_in_pieces(
-    model: Any, sizing: Any, options: Namespace, executor: Executor, progress: ProgressBar
+    model: Any, sizing: Any, options: Namespace, executor: "Executor", progress: ProgressBar
 ) -> bool:
     """Mesh a CAD model into a .pvtu file by the workers; no process holds the whole."""
     from surfmesh.partitioned_mesh import mesh_into_pieces
