@@ -7,7 +7,10 @@
 namespace surfmesh {
 namespace {
 
-constexpr int ROUNDS = 2, FINAL_PASSES = 2;
+// Up to this fraction of the triangles only what collapses and splits change is smoothed anew.
+constexpr double MANY_CHANGES = 0.01;
+
+constexpr int STRETCHED_PASSES = 2;
 constexpr double LEFT_OVER = 0.7;  // below this alpha, what packing or boundary have left over
 
 // Triangles below this alpha get passes of their own, with little weight of unit edges.
@@ -15,23 +18,37 @@ constexpr double BAD_SHAPE = 0.72;
 
 // Weight of unit edges in the passes for the worst triangles, and in those for all shapes.
 constexpr double WORST_STIFFNESS = 0.3, SHAPE_STIFFNESS = 0.6;
-constexpr int WORST_PASSES = 4, SHAPE_PASSES = 4;
+// Vertices that have moved by less, in unit lengths, keep their frames until all is settled: they
+// are off the surface by about half its curvature times the square.
+constexpr double KEPT_DRIFT = 0.15, KEPT_DRIFT_STRETCHED = 0.1;
+
+constexpr int WORST_PASSES = 4, SHAPE_PASSES = 3;
+
+void smooth_and_swap(PatchState& state) {
+    state.smooth();
+    state.swap_for_degree();
+    state.smooth();
+    state.swap();
+}
 
 /// Swaps, collapses and splits between passes of smoothing.
 void relax(PatchState& state) {
     state.swap();
-    for (int round = 1; round <= ROUNDS; ++round) {
-        state.smooth();
-        state.swap_for_degree();
-        state.smooth();
+    smooth_and_swap(state);
+    const int before = state.collapses + state.splits;
+    state.collapse();
+    state.split();
+    const int changes = state.collapses + state.splits - before;
+    if (state.is_anisotropic()) {  // its moves are larger, and no passes for shape follow
+        smooth_and_swap(state);
+        for (int pass = 0; pass < STRETCHED_PASSES; ++pass)
+            if (state.smooth() == 0) break;
         state.swap();
-        if (round == ROUNDS) break;
-        state.collapse();
-        state.split();
+        return;
     }
-    for (int pass = 0; pass < FINAL_PASSES; ++pass)
-        if (state.smooth() == 0) break;
-    state.swap();
+    if (changes == 0) return;
+    if (changes < MANY_CHANGES * state.t.triangles()) state.marks.active = state.marks.dirty;
+    smooth_and_swap(state);
 }
 
 /// Passes for the worst triangles alone.
@@ -58,11 +75,14 @@ void smooth_for_shape(PatchState& state) {
 
 Unmended optimise(PatchState& state, bool first) {
     state.set_frames_on_kinks();
+    state.kept_drift = state.is_anisotropic() ? KEPT_DRIFT_STRETCHED : KEPT_DRIFT;
     relax(state);
     if (state.stopped()) return {};
     improve_worst(state);
     // it leaves all vertices moving, and so dihedral angles
     if (!state.is_anisotropic()) smooth_for_shape(state);
+    state.settle();
+    state.kept_drift = 0.0;
     reduce_dihedrals(state);
     Array<Triangle> far = approach_surface(state, first);
     if (state.stopped()) return {};

@@ -303,6 +303,10 @@ class PatchMesh:
     def packing(self) -> surfmesh._core.packing.PackingStatus: ...
 
     @property
+    def place(self) -> tuple[float, float]:
+        """Where the packing ended, if not by its limits."""
+
+    @property
     def circles(self) -> int:
         """How many were packed."""
 

@@ -43,11 +43,9 @@ class SizeField:
         return self.background.is_anisotropic
 
     def expected_vertices(self) -> int:
-        """About how many circles cover the domain: its metric area over that of a circle's
-        share, sqrt(3) / 2."""
-        width, height = self.chart.extent
-        area = self.background.metric_area(float(width), float(height))
-        return int(min(area * 2.0 / np.sqrt(3.0), COUNTABLE)) + 100
+        """About how many circles cover the domain."""
+        u, v = self.chart.core.u, self.chart.core.v
+        return self.background.expected_circles(float(u.extent), float(v.extent))
 
     def sizes(self, xy: np.ndarray) -> np.ndarray:
         """Wanted edge lengths (n,) at points xy (n, 2) of the scaled plane, the shorter of two."""
