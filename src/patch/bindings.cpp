@@ -140,6 +140,17 @@ void bind_passes(nb::class_<BoundPatch>& c) {
         nb::arg("good") = GOOD_SHAPE,
         "Swap edges of triangles below the alpha ``good`` while that raises the smaller one.");
     c.def(
+        "raise_worst",
+        [](BoundPatch& p, double least) {
+            p.run([&](PatchState& s) {
+                s.raise_worst(least);
+                return true;
+            });
+        },
+        nb::arg("least"),
+        "Raise the smallest alpha around triangles below ``least`` by moves of their free "
+        "corners.");
+    c.def(
         "swap_for_degree",
         [](BoundPatch& p) { p.run_pass([](PatchState& s) { s.swap_for_degree(); }); },
         "Swap edges that bring the degrees of their four vertices nearer to six.");

@@ -7,6 +7,7 @@
 #include "optimisation/smoothing.hpp"
 #include "optimisation/splits.hpp"
 #include "optimisation/swaps.hpp"
+#include "optimisation/worst_shapes.hpp"
 
 namespace surfmesh {
 namespace {
@@ -174,6 +175,13 @@ int PatchState::smooth(double stiffness) {
     renew_frames(all(moved), kept_drift);
     ++passes;
     return static_cast<int>(moved.size());
+}
+
+void PatchState::raise_worst(double least) {
+    if (stopped()) return;
+    find_stars();
+    surfmesh::raise_worst(t, frames, stars, marks, least, moved);
+    renew_frames(all(moved), kept_drift);
 }
 
 void PatchState::swap(double good) {

@@ -93,6 +93,8 @@ class PatchState {
 
     /// Move every active vertex by one Newton step; returns how many have moved.
     int smooth(double stiffness = STIFFNESS);
+    /// Raise the smallest alpha around triangles below ``least`` by moves of their free corners.
+    void raise_worst(double least);
     /// Swap edges of triangles below the alpha ``good`` while that raises the smaller one.
     void swap(double good = GOOD_SHAPE);
     /// Swap edges that bring the degrees of their four vertices nearer to six.

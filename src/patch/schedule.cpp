@@ -1,5 +1,7 @@
 #include "patch/schedule.hpp"
 
+#include <algorithm>
+
 #include "optimisation/marked_triangles.hpp"
 #include "patch/angle_reduction.hpp"
 #include "patch/surface_approach.hpp"
@@ -11,13 +13,20 @@ namespace {
 constexpr double MANY_CHANGES = 0.01;
 
 constexpr int STRETCHED_PASSES = 2;
-constexpr double LEFT_OVER = 0.7;  // below this alpha, what packing or boundary have left over
 
 // Triangles below this alpha get passes of their own, with little weight of unit edges.
 constexpr double BAD_SHAPE = 0.72;
 
+// In the end this part of the triangles is raised to the alpha of the others, within limits: below
+// the first is always bad, above the second always good. Their neighbours lose what they gain.
+constexpr double WORST_PART = 0.0005, RAISED[] = {0.65, 0.86};
+constexpr int RAISING_PASSES = 3;
+
+constexpr double LEFT_OVER = 0.7;  // below this alpha, what packing or boundary have left over
+
 // Weight of unit edges in the passes for the worst triangles, and in those for all shapes.
 constexpr double WORST_STIFFNESS = 0.3, SHAPE_STIFFNESS = 0.6;
+
 // Vertices that have moved by less, in unit lengths, keep their frames until all is settled: they
 // are off the surface by about half its curvature times the square.
 constexpr double KEPT_DRIFT = 0.15, KEPT_DRIFT_STRETCHED = 0.1;
@@ -61,6 +70,29 @@ void improve_worst(PatchState& state) {
     }
 }
 
+/// Alpha of the triangle that has WORST_PART of all before it, as swaps have last seen them.
+double shape_of_worst_part(const PatchState& state) {
+    Array<double> shapes;
+    for (Triangle k = 0; k < state.t.triangles(); ++k)
+        if (state.t.region[k] != DEAD) shapes.push_back(state.shape[k]);
+    if (shapes.empty()) return 1.0;
+    double* const nth = shapes.begin() + static_cast<std::ptrdiff_t>(
+                                             WORST_PART * static_cast<double>(shapes.size()));
+    std::nth_element(shapes.begin(), nth, shapes.end());
+    return *nth;
+}
+
+/// Raise the smallest alpha of the few worst triangles, whatever their edges.
+void raise_worst(PatchState& state) {
+    if (state.stopped() || state.shape.size() < state.t.region.size()) return;
+    const double least = std::clamp(shape_of_worst_part(state), RAISED[0], RAISED[1]);
+    for (int pass = 0; pass < RAISING_PASSES; ++pass) {
+        state.raise_worst(least);
+        if (state.moved.empty()) break;
+        state.swap(least);
+    }
+}
+
 /// Last passes over all vertices, for shapes more than for unit edges.
 void smooth_for_shape(PatchState& state) {
     state.marks.active.fill(1);
@@ -80,7 +112,10 @@ Unmended optimise(PatchState& state, bool first) {
     if (state.stopped()) return {};
     improve_worst(state);
     // it leaves all vertices moving, and so dihedral angles
-    if (!state.is_anisotropic()) smooth_for_shape(state);
+    if (!state.is_anisotropic()) {
+        smooth_for_shape(state);
+        raise_worst(state);
+    }
     state.settle();
     state.kept_drift = 0.0;
     reduce_dihedrals(state);

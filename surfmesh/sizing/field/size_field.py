@@ -2,6 +2,7 @@
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 
@@ -44,8 +45,12 @@ class SizeField:
 
     def expected_vertices(self) -> int:
         """About how many circles cover the domain."""
-        u, v = self.chart.core.u, self.chart.core.v
-        return self.background.expected_circles(float(u.extent), float(v.extent))
+        return self._expected_vertices
+
+    @cached_property
+    def _expected_vertices(self) -> int:
+        width, height = self.chart.extent.tolist()
+        return self.background.expected_circles(width, height)
 
     def sizes(self, xy: np.ndarray) -> np.ndarray:
         """Wanted edge lengths (n,) at points xy (n, 2) of the scaled plane, the shorter of two."""
