@@ -7,7 +7,7 @@ from dataclasses import replace
 from pathlib import Path
 from textwrap import fill
 from time import perf_counter
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from surfmesh.cli.inputs import (
     asked_sizing,
@@ -16,11 +16,20 @@ from surfmesh.cli.inputs import (
     shown_mesh,
     surface_begun,
 )
-from surfmesh.cli.outputs import manifest_written, naming, report_written, require_outputs
+from surfmesh.cli.outputs import (
+    in_pieces,
+    manifest_written,
+    naming,
+    report_written,
+    require_outputs,
+)
 from surfmesh.cli.progress import ProgressBar
 from surfmesh.cli.scheduler import executor_of
 from surfmesh.cli.terminal import say, say_json
 from surfmesh.errors import FileFormatError, SurfmeshError, printable
+
+if TYPE_CHECKING:
+    from concurrent.futures import Executor
 
 
 def mesh(options: Namespace) -> bool:
@@ -35,6 +44,8 @@ def mesh(options: Namespace) -> bool:
 
         surface = surface_wanted()
     with ProgressBar() as progress, executor_of(options.scheduler) as executor:
+        if executor is not None and in_pieces(options, surface):
+            return _mesh_in_pieces(surface, sizing, options, executor, progress)
         result = api.mesh(
             surface,
             sizing,
@@ -69,6 +80,24 @@ def mesh(options: Namespace) -> bool:
         say(report)
         say(f"  written    {printable(', '.join(files.values()))}")
     return report.clean
+
+
+def _mesh_in_pieces(
+    model: Any, sizing: Any, options: Namespace, executor: "Executor", progress: ProgressBar
+) -> bool:
+    """Mesh a CAD model into a .pvtu file by the workers; no process holds the whole."""
+    from surfmesh.partitioned_mesh import mesh_into_pieces
+
+    found = mesh_into_pieces(
+        Path(options.output), model, sizing, executor, optimise=not options.no_optimise,
+        progress=progress, strict=not options.no_strict,
+    )  # fmt: skip
+    if options.json:
+        say_json(found.to_dict() | {"files": {"mesh": str(found.path)}})
+    else:
+        say(found)
+        say(f"  written    {printable(str(found.path))}")
+    return found.clean
 
 
 def check(options: Namespace) -> bool:

@@ -176,3 +176,12 @@ class FaceMesh:
     """What was done to it out of the ordinary."""
     narrow: bool = False
     """It was closed between its sides: good shape is not owed there."""
+
+    @property
+    def count(self) -> int:
+        """How many triangles the face has, wherever they are."""
+        return len(self.triangles)
+
+    def whole(self) -> "FaceMesh":
+        """With all of its arrays: see ``partitions``."""
+        return self

@@ -72,7 +72,7 @@ class FaceState:
         """Its mesh of this round."""
         self.mesh = mesh
         places = 0 if mesh.refinement is None else len(mesh.refinement.sizes)
-        self.stagnation.record(places, len(mesh.triangles), bool(mesh.failure), self.job.nodes)
+        self.stagnation.record(places, mesh.count, bool(mesh.failure), self.job.nodes)
 
 
 def face_states(model: CadModel, samples: EdgeSamples, wanted: ModelSizing) -> list[FaceState]:

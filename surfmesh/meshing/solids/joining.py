@@ -67,7 +67,7 @@ def joined_mesh(
         sizes=np.where(np.isfinite(sizes), sizes, model.diagonal)[used],
         groups=groups_of(model),
         metric_root_3d=(
-            np.concatenate([_metric_roots(state.mesh) for state in there]) if is_stretched else None
+            np.concatenate([metric_roots(state.mesh) for state in there]) if is_stretched else None
         ),
         sizing=sizing,
         seconds=seconds,
@@ -156,7 +156,7 @@ def _in_one(parts: list[np.ndarray], nothing: np.ndarray) -> np.ndarray:
     return np.concatenate([nothing, *parts])
 
 
-def _metric_roots(mesh: FaceMesh) -> np.ndarray:
+def metric_roots(mesh: FaceMesh) -> np.ndarray:
     """Of the ``uv_points`` of a face (n, 6), also of one whose sizes are the same all ways."""
     if mesh.inverse_sizes is not None:
         return mesh.inverse_sizes
