@@ -1,4 +1,4 @@
-"""The verbs: ``load`` a surface or a CAD model, ``mesh`` it, ``show`` what is on it.
+"""The verbs: ``load`` a surface or a CAD model, ``intersect`` several, ``mesh`` it, ``show`` it.
 
 What only one kind of surface needs is imported once it is there: the first mesh of a formula
 waits for no CAD.
@@ -146,6 +146,43 @@ def mesh(
 
         made = of_second_order(made)
     return _logged(made, model)
+
+
+def intersect(
+    surfaces: Sequence[Surface | CadModel | Any],
+    keep: str | Mapping[Any, Any] = "all",
+) -> CadModel:
+    """Surfaces and CAD models that cut each other, as one model for ``mesh``.
+
+    surfaces: two or more of formulas, of functions, CAD models or CadQuery objects, in any mix.
+    Their common curves become edges that the faces on all sides share, each cut once: meshes join
+    there by index. Points where three meet become vertices of all three.
+
+    keep: what of them.
+
+        "all"             everything: a complex of sheets, also with dangling parts
+        "union", "difference" (the first without the others), "common"
+                          of closed inputs, models or closed surfaces: closed solids
+        {name: side}      of the inputs named, by ``name`` or number, the parts on one side;
+                          "+other": outside of it, or where its normal points; "-other"; a list of
+                          these, which must all hold; a point (3,): the part that is nearest;
+                          "all" or "none". Inputs that are not named are kept whole.
+
+    Faces have the names that they had, or that of their surface; edges along common curves
+    "one/other". Tags select the faces of an input ("wing"), and on one side of another
+    ("wing+body"), so that sizes can be asked for by these names. A face that is on both sides,
+    as a cut ends inside it, has neither.
+
+    Curves lie within 1e-10 of the diagonal of both surfaces as a rule; the tolerance of the edge
+    says how near. No branch is missed on formulas, planes, cylinders, cones, spheres and tori,
+    whose bends have bounds; of others ``model.healing`` says that they were sampled.
+
+    Raises ``SurfaceError`` with the place where surfaces touch along a curve, at a point or on a
+    patch, where an edge lies on a surface, and for a ``keep`` that cannot be met.
+    """
+    from surfmesh.intersection.intersect import intersected
+
+    return intersected([_model_or_surface(surface) for surface in surfaces], keep)
 
 
 def estimate(surface: Surface | CadModel | Any, sizing: Sizes = None) -> Estimate:

@@ -1,0 +1,202 @@
+"""All branches of the curve in which two faces meet.
+
+open branches     from the ends that are known: where edges of one face meet the other
+closed branches   found by halving pairs of (u, v) cells:
+
+    boxes apart                           nothing there
+    no normals parallel (`cross_surely`)  the surfaces cross in one curve at most, which is a
+                                          graph over its direction and cannot close within the
+                                          pair; Newton gives a point of it, or none, and then the
+                                          pair is halved
+    else                                  halved, down to SMALLEST; what remains is named: the
+                                          surfaces touch there
+
+(Sederberg and Meyers, Loop detection in surface patch intersections, CAGD 5 (1988) 161-171, is
+the condition on normals.) A point on no branch so far starts a new one.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from surfmesh.cad.model.cad_model import CadFace
+from surfmesh.errors import SurfaceError
+from surfmesh.intersection.bounds import cross_surely, overlap
+from surfmesh.intersection.cells import FaceCells, Numbered
+from surfmesh.intersection.newton import Pulled, pulled_onto_both, uv_directions
+from surfmesh.intersection.regions import Region
+from surfmesh.intersection.tracing import End, Trace, Tracer, place
+
+SMALLEST = 2e-4
+"""Of the diagonal: pairs of cells as small as that are not halved."""
+
+LEVELS, MOST_PAIRS = 20, 20_000
+"""Halvings, and undecided pairs of one level, at most: more of them touch along a patch."""
+
+AROUND = 0.1
+"""Of a cell: how far outside it a point still answers for it."""
+
+FIRST_STEP = 0.02
+"""Of the smaller diagonal of both faces: the first step of a trace."""
+
+TRACED = 1e-7
+"""Of the diagonal: points so near to a traced branch are on it."""
+
+
+class FacePair:
+    """Two faces that may meet. size: of all that is intersected; gap: what is on both surfaces."""
+
+    def __init__(
+        self, a: CadFace, b: CadFace, cells: tuple[FaceCells, FaceCells],
+        regions: tuple[Region, Region], size: float, gap: float,
+    ) -> None:  # fmt: skip
+        self.a, self.b = a.surface, b.surface
+        self.cells_a, self.cells_b = cells
+        self.region_a, self.region_b = regions
+        self.size, self.gap = size, gap
+        extent = min(_extent(cells[0]), _extent(cells[1]))
+        self.tracer = Tracer(self.a, self.b, FIRST_STEP * extent, gap)
+        self.traces: list[Trace] = []
+
+    def all_branches(self, ends: Sequence[End]) -> list[Trace]:
+        """Branches from all ``ends``, then closed ones. Raises ``SurfaceError``: see `Tracer`."""
+        for start in ends:
+            if start.used:
+                continue
+            start.used = True
+            trace = self.tracer.trace(start, ends)
+            assert trace.end is not None  # noqa: S101  an open one
+            trace.end.used = True
+            self.traces.append(trace)
+        self._find_closed()
+        return self.traces
+
+    def _find_closed(self) -> None:
+        first = self.cells_a.start(), self.cells_b.start()
+        i, j = (k.ravel() for k in np.meshgrid(*(np.arange(len(k)) for k in first)))
+        a, b = first[0][i], first[1][j]
+        for level in range(LEVELS):
+            one, other = Numbered(self.cells_a, a, level), Numbered(self.cells_b, b, level)
+            meet = overlap(one.boxes, one.of, other.boxes, other.of)
+            a, b, i, j = a[meet], b[meet], one.of[meet], other.of[meet]
+            if not len(a):
+                return
+            surely = np.flatnonzero(cross_surely(one.cones, i, other.cones, j))
+            still = np.ones(len(a), bool)
+            if len(surely):
+                still[surely] = ~self._answered(a[surely], b[surely], level)
+            a, b, i, j = a[still], b[still], i[still], j[still]
+            if not len(a):
+                return
+            size = max(
+                np.linalg.norm(boxes.high[of] - boxes.low[of], axis=1).max()
+                for boxes, of in ((one.boxes, i), (other.boxes, j))
+            )
+            if size < SMALLEST * self.size or len(a) > MOST_PAIRS:
+                break
+            a = np.repeat(FaceCells.children(a), 4, axis=1).reshape(-1, 2)
+            b = np.tile(FaceCells.children(b), (1, 4, 1)).reshape(-1, 2)
+        self._refuse(a, b, level)
+
+    def _refuse(self, a: np.ndarray, b: np.ndarray, level: int) -> None:
+        """Name the place of pairs that are neither apart nor cross."""
+        middle_a, middle_b = self.cells_a.middles(a, level), self.cells_b.middles(b, level)
+        inside = ~self.region_a.surely_outside(middle_a) & ~self.region_b.surely_outside(middle_b)
+        if not inside.any():
+            return
+        points = self.a.evaluate(middle_a[inside], 0)[0]
+        where = points[len(points) // 2]
+        spread = float(np.linalg.norm(np.ptp(points, axis=0)))
+        what = "at" if spread < 0.02 * self.size else "along a curve or patch through"
+        raise SurfaceError(
+            f"{self.a.name} and {self.b.name} touch {what} {place(where)}, or lie within "
+            f"{SMALLEST * self.size:.2g} of each other there with one tangent plane: such contacts "
+            "are not intersected; move or change one of them"
+        )
+
+    def _answered(self, a: np.ndarray, b: np.ndarray, level: int) -> np.ndarray:
+        """For each pair, does a branch pass through it, or nearly? New ones are traced."""
+        corners_a, corners_b = self.cells_a.corners(a, level), self.cells_b.corners(b, level)
+        middle_a, middle_b = self.cells_a.middles(a, level), self.cells_b.middles(b, level)
+        found = pulled_onto_both(self.a, self.b, middle_a, middle_b)
+        middle = np.hstack([middle_a, middle_b])
+        half = 0.5 * np.hstack([corners_a[1] - corners_a[0], corners_b[1] - corners_b[0]])
+        there = np.flatnonzero(found.gap <= self.gap)
+        moved = self._moved_into(
+            np.hstack([found.uv_a, found.uv_b])[there], middle[there], half[there]
+        )
+        found = pulled_onto_both(self.a, self.b, moved[:, :2], moved[:, 2:])
+        off = np.abs(np.hstack([found.uv_a, found.uv_b]) - middle[there]) / half[there]
+        fine = (found.gap <= self.gap) & (off <= 1.0 + 2.0 * AROUND).all(axis=1)
+        near = np.zeros(len(a), bool)
+        near[there[fine]] = True
+        self._trace_new(found, np.flatnonzero(fine))
+        return near
+
+    def _moved_into(self, place: np.ndarray, middle: np.ndarray, half: np.ndarray) -> np.ndarray:
+        """Places (n, 4) on both surfaces, moved along the curve into boxes, or as near as may be.
+
+        half: (n, 4) of the sides of the boxes around middle.
+        """
+        tangent = self.tracer.tangent(place[:, :2], place[:, 2:])[0]
+        rate = np.hstack([
+            uv_directions(self.a, place[:, :2], tangent),
+            uv_directions(self.b, place[:, 2:], tangent),
+        ])  # fmt: skip
+        # |place + s rate - middle| <= half (1 + AROUND), in each of the four: an interval of s
+        rate = np.where(np.abs(rate) < 1e-300, 1e-300, rate)
+        one = (middle - half * (1.0 + AROUND) - place) / rate
+        other = (middle + half * (1.0 + AROUND) - place) / rate
+        first = np.minimum(one, other).max(axis=1)
+        last = np.maximum(one, other).min(axis=1)
+        s = np.where((first <= 0.0) & (last >= 0.0), 0.0, 0.5 * (first + last))
+        step = s[:, None] * rate
+        return np.where((np.abs(step) <= 4.0 * half).all(axis=1)[:, None], place + step, place)
+
+    def _trace_new(self, found: Pulled, rows: np.ndarray) -> None:
+        """Trace the branches through points that lie in both faces and on none so far."""
+        for k in rows:
+            uv_a, uv_b, point = found.uv_a[k], found.uv_b[k], found.point[k]
+            if self._is_traced(uv_a, uv_b, point):
+                continue
+            if not self.region_a.surely_inside(uv_a[None])[0]:
+                continue
+            if not self.region_b.surely_inside(uv_b[None])[0]:
+                continue
+            self._trace_closed(uv_a, uv_b, point)
+
+    def _trace_closed(self, uv_a: np.ndarray, uv_b: np.ndarray, point: np.ndarray) -> None:
+        way = self.tracer.tangent(uv_a[None], uv_b[None])[0][0]
+        start = End(-1, uv_a, uv_b, point, way)
+        end = End(-1, uv_a, uv_b, point, -way)
+        self.traces.append(self.tracer.trace(start, [end], closed=True))
+
+    def _is_traced(self, uv_a: np.ndarray, uv_b: np.ndarray, point: np.ndarray) -> bool:
+        """Does a traced branch pass through the point?"""
+        for trace in self.traces:
+            p, step = trace.points[:-1], np.diff(trace.points, axis=0)
+            square = np.einsum("ij,ij->i", step, step)
+            t = np.clip(np.einsum("ij,ij->i", point - p, step) / square, 0.0, 1.0)
+            distance = np.linalg.norm(p + t[:, None] * step - point, axis=1)
+            for k in np.argsort(distance)[:3]:
+                if distance[k] > 0.1 * np.sqrt(square[k]):
+                    continue
+                guess_a, guess_b = (
+                    uv[k] + t[k] * (uv[k + 1] - uv[k]) for uv in (trace.uv_a, trace.uv_b)
+                )
+                normal = step[k] / np.sqrt(square[k])
+                found = pulled_onto_both(
+                    self.a, self.b, guess_a[None], guess_b[None], normal[None], point[None]
+                )
+                if np.linalg.norm(found.point[0] - point) <= TRACED * self.size:
+                    return True
+        return False
+
+
+def _extent(cells: FaceCells) -> float:
+    line = np.linspace(0.0, 1.0, 9)
+    uv = cells.low + np.stack(np.meshgrid(line, line), -1).reshape(-1, 2) * cells.width
+    points = cells.surface.evaluate(uv, 0)[0]
+    return float(np.linalg.norm(np.ptp(points, axis=0)))
