@@ -6,49 +6,24 @@
 #include <span>
 
 #include "triangulation/exact_sums.hpp"
+#include "triangulation/expansion.hpp"
 #include "triangulation/predicates.hpp"
 
 namespace surfmesh {
 namespace {
 
-constexpr double FILTER = (7.0 + 56.0 * EPSILON) * EPSILON;  // Shewchuk's o3derrboundA
-constexpr std::size_t TERMS = 96;                            // of the sum
+constexpr double FILTER = (7.0 + 56.0 * EPSILON) * EPSILON;               // Shewchuk's o3derrboundA
+constexpr double B_BOUND = (3.0 + 28.0 * EPSILON) * EPSILON;              // his o3derrboundB
+constexpr double C_BOUND = (26.0 + 288.0 * EPSILON) * EPSILON * EPSILON;  // his o3derrboundC
+constexpr std::size_t TERMS = 96;  // of the sum of all products
 // products of three numbers between them have exact errors
 constexpr double SMALL = 0x1p-300, LARGE = 0x1p330;
 
 using Coordinates = std::array<double, 3>;
 constexpr Coordinates coordinates(Point3 p) { return {p.x, p.y, p.z}; }
 
-/// A sum of numbers that do not overlap, the largest last; it never has more than TERMS.
-class Expansion {
-  public:
-    /// Add a b c, which is a sum of four numbers.
-    void add_product(double a, double b, double c) {
-        const RoundedNumber ab = two_product(a, b);
-        const RoundedNumber upper = two_product(ab.high, c), lower = two_product(ab.low, c);
-        for (const double term : {upper.low, upper.high, lower.low, lower.high}) grow(term);
-    }
-    [[nodiscard]] double largest() const { return length_ > 0 ? numbers_[length_ - 1] : 0.0; }
-
-  private:
-    /// Shewchuk's Grow-Expansion; zeros are left out.
-    void grow(double term) {
-        std::size_t kept = 0;
-        for (std::size_t i = 0; i < length_; ++i) {
-            const RoundedNumber sum = two_sum(term, numbers_[i]);
-            term = sum.high;
-            if (sum.low != 0.0) numbers_[kept++] = sum.low;
-        }
-        if (term != 0.0) numbers_[kept++] = term;
-        length_ = kept;
-    }
-
-    std::array<double, TERMS> numbers_;
-    std::size_t length_ = 0;
-};
-
 /// Add sign times the determinant of three points.
-void add_determinant(Expansion& sum, double sign, Point3 a, Point3 b, Point3 c) {
+void add_determinant(Expansion<TERMS>& sum, double sign, Point3 a, Point3 b, Point3 c) {
     const Coordinates p = coordinates(a), q = coordinates(b), r = coordinates(c);
     for (std::size_t i = 0; i < 3; ++i) {
         const std::size_t j = (i + 1) % 3, k = (i + 2) % 3;
@@ -58,12 +33,52 @@ void add_determinant(Expansion& sum, double sign, Point3 a, Point3 b, Point3 c) 
 }
 
 double orient_exact(Point3 a, Point3 b, Point3 c, Point3 d) {
-    Expansion sum;
+    Expansion<TERMS> sum;
     add_determinant(sum, 1.0, a, b, c);
     add_determinant(sum, -1.0, d, b, c);
     add_determinant(sum, -1.0, a, d, c);
     add_determinant(sum, -1.0, a, b, d);
-    return sum.largest();
+    return sum.estimate();
+}
+
+/// The difference of two points and its rounding errors.
+struct Difference {
+    Point3 high, low;
+};
+
+Difference difference(Point3 a, Point3 b) {
+    const RoundedNumber x = two_sum(a.x, -b.x), y = two_sum(a.y, -b.y), z = two_sum(a.z, -b.z);
+    return {{x.high, y.high, z.high}, {x.low, y.low, z.low}};
+}
+
+bool is_zero(Point3 p) { return p.x == 0.0 && p.y == 0.0 && p.z == 0.0; }
+
+/// p.z (q.x r.y - q.y r.x) without error.
+void add_minor(Expansion<24>& sum, Point3 p, Point3 q, Point3 r) {
+    sum.add_product(q.x, r.y, p.z);
+    sum.add_product(-q.y, r.x, p.z);
+}
+
+/// What the rounding errors of the differences add to p.z (q.x r.y - q.y r.x), in first order.
+double minor_change(const Difference& p, const Difference& q, const Difference& r) {
+    return p.high.z * ((q.high.x * r.low.y + r.high.y * q.low.x) -
+                       (q.high.y * r.low.x + r.high.x * q.low.y)) +
+           p.low.z * (q.high.x * r.high.y - q.high.y * r.high.x);
+}
+
+/// Stages B to D of Shewchuk's adaptive orientation, as in the plane (predicates.cpp).
+double orient_in_stages(Point3 a, Point3 b, Point3 c, Point3 d, double permanent) {
+    const Difference p = difference(a, d), q = difference(b, d), r = difference(c, d);
+    Expansion<24> sum;
+    add_minor(sum, p.high, q.high, r.high);
+    add_minor(sum, q.high, r.high, p.high);
+    add_minor(sum, r.high, p.high, q.high);
+    double det = sum.estimate();
+    if (std::abs(det) >= B_BOUND * permanent) return det;
+    if (is_zero(p.low) && is_zero(q.low) && is_zero(r.low)) return det;
+    const double bound = C_BOUND * permanent + RESULT_BOUND * std::abs(det);
+    det += minor_change(p, q, r) + minor_change(q, r, p) + minor_change(r, p, q);
+    return std::abs(det) >= bound ? det : orient_exact(a, b, c, d);
 }
 
 bool is_ordinary(double x) { return x == 0.0 || (SMALL < std::abs(x) && std::abs(x) < LARGE); }
@@ -108,9 +123,9 @@ double orient_of_any_size(Point3 a, Point3 b, Point3 c, Point3 d) {
     return exact_sum(terms);
 }
 
-double orient_without_filter(Point3 a, Point3 b, Point3 c, Point3 d) {
+double orient_without_filter(Point3 a, Point3 b, Point3 c, Point3 d, double permanent) {
     const bool ordinary = is_ordinary(a) && is_ordinary(b) && is_ordinary(c) && is_ordinary(d);
-    return ordinary ? orient_exact(a, b, c, d) : orient_of_any_size(a, b, c, d);
+    return ordinary ? orient_in_stages(a, b, c, d, permanent) : orient_of_any_size(a, b, c, d);
 }
 
 }  // namespace
@@ -128,7 +143,7 @@ double orient_space(Point3 a, Point3 b, Point3 c, Point3 d) {
     if ((p.x == 0.0 && q.x == 0.0 && r.x == 0.0) || (p.y == 0.0 && q.y == 0.0 && r.y == 0.0) ||
         (p.z == 0.0 && q.z == 0.0 && r.z == 0.0))
         return 0.0;  // on a plane across an axis: common, and a difference of zero is exact
-    return orient_without_filter(a, b, c, d);
+    return orient_without_filter(a, b, c, d, permanent);
 }
 
 }  // namespace surfmesh

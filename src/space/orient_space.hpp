@@ -1,10 +1,11 @@
 // Exact orientation of four points in space, by the same means as in the plane (predicates.hpp).
 //
-// A floating-point filter settles almost every case; the rest is a sum of 96 products without
-// error, kept as an expansion: numbers that do not overlap, the largest last (J.R. Shewchuk,
-// Adaptive precision floating-point arithmetic, Discrete & Computational Geometry 18, 1997).
-// Where products of three coordinates may under- or overflow, their exponents are kept as
-// integers (exact_sums.hpp): the sign is that of the given numbers for all finite ones.
+// A floating-point filter settles almost every case; the rest goes in stages: the determinant of
+// the rounded differences without error, their errors in first order, and at last a sum of 96
+// terms without error (J.R. Shewchuk, Adaptive precision floating-point arithmetic, Discrete &
+// Computational Geometry 18, 1997, 4.3). Where products of three coordinates may under- or
+// overflow, their exponents are kept as integers (exact_sums.hpp): the sign is that of the given
+// numbers for all finite ones.
 #pragma once
 
 #include "values/point.hpp"

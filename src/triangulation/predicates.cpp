@@ -4,12 +4,45 @@
 #include <limits>
 
 #include "triangulation/exact_sums.hpp"
+#include "triangulation/expansion.hpp"
 
 namespace surfmesh {
 namespace {
 
 // products of two numbers between them have exact errors
 constexpr double SMALL = 0x1p-450, LARGE = 0x1p500;
+
+/// Stages B to D of Shewchuk's adaptive orientation: each is exact for more triples, and costs more.
+///
+/// The differences of the coordinates are kept with their rounding errors, ``low``.
+double orient_in_stages(Point2 a, Point2 b, Point2 c) {
+    constexpr double B = (2.0 + 12.0 * EPSILON) * EPSILON;            // his ccwerrboundB
+    constexpr double C = (9.0 + 64.0 * EPSILON) * EPSILON * EPSILON;  // his ccwerrboundC
+    const RoundedNumber ax = two_sum(a.x, -c.x), ay = two_sum(a.y, -c.y);
+    const RoundedNumber bx = two_sum(b.x, -c.x), by = two_sum(b.y, -c.y);
+    const double magnitude = std::abs(ax.high * by.high) + std::abs(ay.high * bx.high);
+
+    Expansion<16> sum;  // B: the determinant of the rounded differences, without error
+    sum.add_product(ax.high, by.high);
+    sum.add_product(-ay.high, bx.high);
+    double det = sum.estimate();
+    if (std::abs(det) >= B * magnitude) return det;
+    if (ax.low == 0.0 && ay.low == 0.0 && bx.low == 0.0 && by.low == 0.0) return det;
+
+    const double bound = C * magnitude + RESULT_BOUND * std::abs(det);  // C: errors, rounded
+    det += (ax.high * by.low + by.high * ax.low) - (ay.high * bx.low + bx.high * ay.low);
+    if (std::abs(det) >= bound) return det;
+
+    sum.add_product(ax.low, by.low);  // D: all without error
+    sum.add_product(-ay.low, bx.low);
+    sum.add_product(ax.low, by.high);
+    sum.add_product(-ay.low, bx.high);
+    sum.add_product(ax.high, by.low);
+    sum.add_product(-ay.high, bx.low);
+    return sum.estimate();
+}
+
+bool is_ordinary(double x) { return x == 0.0 || (SMALL < std::abs(x) && std::abs(x) < LARGE); }
 
 using Terms = std::array<double, 12>;
 
@@ -26,27 +59,7 @@ Terms products(Point2 a, Point2 b, Point2 c) {
     return terms;
 }
 
-/// Sign-exact sum. Sweeps of error-free additions carry the sum to the last term. At the fixed
-/// point each term is negligible beside the next, so the last one has the sign of the sum.
-double orient_exact(Point2 a, Point2 b, Point2 c) {
-    Terms t = products(a, b, c);
-    for (int sweep = 0; sweep < 64; ++sweep) {
-        const Terms old = t;
-        double sum = t[0];
-        for (std::size_t k = 1; k < t.size(); ++k) {
-            const RoundedNumber s = two_sum(sum, t[k]);
-            sum = s.high;
-            t[k - 1] = s.low;
-        }
-        t.back() = sum;
-        if (old == t) break;
-    }
-    return t.back();
-}
-
-bool is_ordinary(double x) { return x == 0.0 || (SMALL < std::abs(x) && std::abs(x) < LARGE); }
-
-/// As ``orient_exact``, on mantissas; nan where a coordinate is not finite.
+/// As ``orient_in_stages``, on mantissas and exponents; nan where a coordinate is not finite.
 double orient_of_any_size(Point2 a, Point2 b, Point2 c) {
     double m[6] = {a.x, a.y, b.x, b.y, c.x, c.y};
     int e[6];
@@ -67,7 +80,7 @@ double orient_of_any_size(Point2 a, Point2 b, Point2 c) {
 double orient_without_filter(Point2 a, Point2 b, Point2 c) {
     const bool ordinary = is_ordinary(a.x) && is_ordinary(a.y) && is_ordinary(b.x) &&
                           is_ordinary(b.y) && is_ordinary(c.x) && is_ordinary(c.y);
-    return ordinary ? orient_exact(a, b, c) : orient_of_any_size(a, b, c);
+    return ordinary ? orient_in_stages(a, b, c) : orient_of_any_size(a, b, c);
 }
 
 std::int64_t first_not_ccw(std::span<const Point2> xy, std::span<const std::int64_t> triangles) {

@@ -1,10 +1,10 @@
 // Exact orientation of three points: the one judge of every topological decision.
 //
-// A floating-point filter settles almost every case; what it cannot settle is computed exactly
-// with error-free additions (J.R. Shewchuk, Adaptive precision floating-point arithmetic and fast
-// robust geometric predicates, Discrete & Computational Geometry 18, 1997). Where products of
-// coordinates may under- or overflow, their exponents are kept as integers (exact_sums.hpp): the
-// sign is that of the given numbers for all finite ones.
+// A floating-point filter settles almost every case; what it cannot settle is computed in stages,
+// with error-free additions and only as exactly as its sign needs (J.R. Shewchuk, Adaptive precision
+// floating-point arithmetic and fast robust geometric predicates, Discrete & Computational Geometry
+// 18, 1997, 4.3). Where products of coordinates may under- or overflow, their exponents are kept as
+// integers (exact_sums.hpp): the sign is that of the given numbers for all finite ones.
 #pragma once
 
 #include <cmath>
@@ -20,6 +20,8 @@ namespace surfmesh {
 
 inline constexpr double EPSILON = 0x1p-53;
 inline constexpr double UNDERFLOW_BOUND = 0x1p-900;  // far above what underflow can take away
+inline constexpr double RESULT_BOUND =
+    (3.0 + 8.0 * EPSILON) * EPSILON;  // Shewchuk's resulterrbound
 
 /// What ``orient`` falls back on where the filter does not decide.
 double orient_without_filter(Point2 a, Point2 b, Point2 c);

@@ -15,6 +15,7 @@ sized = st.one_of(finite, st.sampled_from([*EDGES, *(-x for x in EDGES), 1.79769
 powers = st.one_of(st.integers(-1074, 960), st.sampled_from([-1074, -1040, -540, -450, -300, 500]))
 small = st.integers(-(2**12), 2**12)
 few = st.integers(-3, 3)
+spread = st.integers(-40, 40)
 
 
 def right_in_space(points) -> bool:
@@ -36,6 +37,19 @@ def test_nearly_in_a_plane_at_any_scale(numbers, s, t, last, scales):
     points = [tuple(math.ldexp(int(x), k) for x, k in zip(p, scales)) for p in (a, b, c, d)]
     assert right_in_space(points)
     assert right_in_space([points[k] for k in (3, 1, 0, 2)])
+
+
+@settings(max_examples=300)
+@given(st.tuples(*[st.floats(-1, 1, allow_subnormal=False)] * 9), st.tuples(*[spread] * 4), few)
+def test_differences_that_are_rounded(numbers, powers, last):
+    """Points in a plane at distances of other sizes than their coordinates: all stages decide."""
+    numbers = [x if abs(x) > 1e-60 else 0.0 for x in numbers]
+    a, p, q = np.array(numbers).reshape(3, 3)
+    i, j, k, n = (2.0**m for m in powers)
+    b, c, d = a + i * p, a + j * q, a + k * p - n * q
+    d[2] += last * np.spacing(np.abs(d).max())
+    assert right_in_space([a, b, c, d])
+    assert right_in_space([d, c, b, a])
 
 
 @settings(max_examples=150)

@@ -87,3 +87,16 @@ def test_far_from_the_origin():
         for j in range(0, 64, 5):
             a = (0.5 + i * unit, 0.5 + j * unit)
             assert agrees(a, (12.0, 12.0), (24.0, 24.0))
+
+
+@settings(max_examples=300)
+@given(st.tuples(*[coordinate] * 4), st.integers(-45, 45), st.integers(-45, 45), tiny, tiny)
+def test_differences_that_are_rounded(numbers, near, far, i, j):
+    """Points on a line at distances of other sizes than their coordinates: all stages decide."""
+    cx, cy, dx, dy = numbers
+    assume(not underflows(*numbers))
+    c, d = np.array([cx, cy]), np.array([dx, dy])
+    a = c + 2.0**near * d
+    b = c + 2.0**far * d
+    b += np.array([i, j]) * np.spacing(np.abs(b).max())
+    assert agrees(a, b, c) and agrees(c, a, b) and agrees(b, c, a)
