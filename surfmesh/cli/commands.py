@@ -1,5 +1,7 @@
 """What each command does. Every one returns whether all is well."""
 
+from __future__ import annotations
+
 import json
 import tomllib
 from argparse import Namespace
@@ -7,11 +9,13 @@ from dataclasses import replace
 from pathlib import Path
 from textwrap import fill
 from time import perf_counter
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from surfmesh.cli.inputs import (
+    asked_keep,
     asked_sizing,
     called,
+    named_surface,
     on_surface,
     shown_mesh,
     surface_begun,
@@ -22,6 +26,11 @@ from surfmesh.cli.scheduler import executor_of
 from surfmesh.cli.terminal import say, say_json
 from surfmesh.errors import FileFormatError, SurfmeshError, printable
 
+if TYPE_CHECKING:
+    from surfmesh.api import Sizes
+    from surfmesh.cad.model.cad_model import CadModel
+    from surfmesh.geometry.surface import Surface
+
 
 def mesh(options: Namespace) -> bool:
     """Mesh, check, write; the files are looked at before the work is done."""
@@ -29,11 +38,32 @@ def mesh(options: Namespace) -> bool:
         require_outputs(options)
         sizing = asked_sizing(options)
 
-        from surfmesh import api
-        from surfmesh.io import save
-        from surfmesh.quality import check as checked
+        # loaded while a child process reads a CAD file
+        import surfmesh.api
+        import surfmesh.io
+        import surfmesh.quality  # noqa: F401
 
         surface = surface_wanted()
+    return _made(surface, sizing, options)
+
+
+def intersect(options: Namespace) -> bool:
+    """Intersect, then as ``mesh``."""
+    require_outputs(options)
+    sizing = asked_sizing(options)
+
+    from surfmesh import api
+
+    surfaces = [named_surface(name, options) for name in options.inputs]
+    return _made(api.intersect(surfaces, asked_keep(options.keep)), sizing, options)
+
+
+def _made(surface: Surface | CadModel, sizing: Sizes, options: Namespace) -> bool:
+    """The mesh of a surface, checked and written with all that is asked for beside it."""
+    from surfmesh import api
+    from surfmesh.io import save
+    from surfmesh.quality import check as checked
+
     with ProgressBar() as progress, executor_of(options.scheduler) as executor:
         result = api.mesh(
             surface,
