@@ -15,10 +15,13 @@ newton: points pulled onto two surfaces, or onto a curve and a surface.
 regions: which points of the (u, v) plane lie within the loops of a face.
 piercings: where an edge meets the surface of a face: all places.
 contacts: where the edges of each of two complexes meet the faces and edges of the other: nodes.
+touching: points where a curve touches a surface, or two surfaces, and the ways out of them.
+poles: where curves leave a pole of a surface.
 tracing: curves traced on two surfaces, from a start to the end that they come to.
 branches: all branches of the curve in which two faces meet, closed ones too.
 curve_fitting: a traced branch as splines, in space and in both (u, v).
 arrangement: the curves on one face cut it into regions.
+borders: the border of a face with its coedges cut at nodes, and the places of nodes.
 meeting: two complexes become one: their faces cut each other along common edges.
 contents: areas of faces and volumes under them, by integrals over their regions in (u, v).
 insides: which points lie inside closed models, by rays.

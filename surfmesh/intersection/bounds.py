@@ -38,10 +38,13 @@ Bends = np.ndarray
 
 
 class Boxes(NamedTuple):
-    """Of cells, (n, 3) corners."""
+    """Of cells or pieces: low, high (n, 3); each lies within ``sag`` (n, 3) of the hull of its
+    ``corners`` (n, k, 3)."""
 
     low: np.ndarray
     high: np.ndarray
+    corners: np.ndarray
+    sag: np.ndarray
 
 
 class Cones(NamedTuple):
@@ -123,7 +126,7 @@ def boxes_and_cones(surface: FaceSurface, lo: np.ndarray, hi: np.ndarray) -> tup
     points = points.reshape(4, len(lo), 3)
     sag = (du**2 * bent[:, 0] + dv**2 * bent[:, 2]) / 8.0
     sag = np.where(np.isfinite(sag), sag, np.inf) + ROUNDING * np.abs(points).max(axis=0)
-    boxes = Boxes(points.min(axis=0) - sag, points.max(axis=0) + sag)
+    boxes = Boxes(points.min(axis=0) - sag, points.max(axis=0) + sag, points.swapaxes(0, 1), sag)
     return boxes, _cones(surface, 0.5 * (lo + hi), du, dv, bent)
 
 
@@ -159,16 +162,34 @@ def curve_boxes(edge: CadEdge, lo: np.ndarray, hi: np.ndarray) -> tuple[Boxes, C
     step = (hi - lo) * (edge.t1 - edge.t0)
     sag = (step**2 * bound / 8.0)[:, None] + ROUNDING * np.abs(points).max(axis=1)
     ends = points[:, [0, -1]]
-    boxes = Boxes(ends.min(axis=1) - sag, ends.max(axis=1) + sag)
+    boxes = Boxes(ends.min(axis=1) - sag, ends.max(axis=1) + sag, ends, sag)
     axis = first[:, CURVE_GRID // 2]
     speed = np.linalg.norm(axis, axis=1)
     part = np.minimum(0.5 * step * bound / np.maximum(speed, 1e-300), 1.0)
     return boxes, Cones(axis / np.maximum(speed, 1e-300)[:, None], np.arcsin(part))
 
 
-def overlap(one: Boxes, i: np.ndarray, other: Boxes, j: np.ndarray) -> np.ndarray:
-    """Do box i of the one and box j of the other meet? (n,) bool."""
-    return (one.low[i] <= other.high[j]).all(axis=1) & (other.low[j] <= one.high[i]).all(axis=1)
+def overlap(one: Boxes, i: np.ndarray, other: Boxes, j: np.ndarray, normals: Cones) -> np.ndarray:
+    """May cell i of the one and cell j of the other meet? (n,) bool.
+
+    normals: of the other, along which slabs are compared too: cells that hardly bend are thin.
+    """
+    meet = (one.low[i] <= other.high[j]).all(axis=1) & (other.low[j] <= one.high[i]).all(axis=1)
+    rows = np.flatnonzero(meet)
+    i, j = i[rows], j[rows]
+    axis = normals.axis[j]
+    low, high = _slabs(one, i, axis)
+    low_2, high_2 = _slabs(other, j, axis)
+    meet[rows[(low > high_2) | (low_2 > high)]] = False  # not so where a sag is infinite
+    return meet
+
+
+def _slabs(boxes: Boxes, i: np.ndarray, axis: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Between which distances along axes (n, 3) the cells i lie."""
+    along = np.einsum("nkj,nj->nk", boxes.corners[i], axis)
+    with np.errstate(invalid="ignore"):
+        room = np.einsum("nj,nj->n", boxes.sag[i], np.abs(axis))
+    return along.min(axis=1) - room, along.max(axis=1) + room
 
 
 def cross_surely(one: Cones, i: np.ndarray, other: Cones, j: np.ndarray) -> np.ndarray:

@@ -17,23 +17,30 @@ the condition on normals.) A point on no branch so far starts a new one.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 
 import numpy as np
 
 from surfmesh.cad.model.cad_model import CadFace
 from surfmesh.errors import SurfaceError
-from surfmesh.intersection.bounds import cross_surely, overlap
+from surfmesh.intersection.bounds import Boxes, cross_surely, overlap
 from surfmesh.intersection.cells import FaceCells, Numbered
 from surfmesh.intersection.newton import Pulled, pulled_onto_both, uv_directions
 from surfmesh.intersection.regions import Region
+from surfmesh.intersection.touching import Touch, touch_of_surfaces
 from surfmesh.intersection.tracing import End, Trace, Tracer, place
 
-SMALLEST = 2e-4
+SMALLEST = 1e-6
 """Of the diagonal: pairs of cells as small as that are not halved."""
 
-LEVELS, MOST_PAIRS = 20, 20_000
+LEVELS, MOST_PAIRS = 26, 6000
 """Halvings, and undecided pairs of one level, at most: more of them touch along a patch."""
+
+BESIDE = 2e-3
+"""Of the diagonal: so near to a branch point or a pole the surfaces meet in its curves alone."""
+
+TRIED = 64
+"""Undecided pairs that branch points are looked for from."""
 
 AROUND = 0.1
 """Of a cell: how far outside it a point still answers for it."""
@@ -59,6 +66,8 @@ class FacePair:
         extent = min(_extent(cells[0]), _extent(cells[1]))
         self.tracer = Tracer(self.a, self.b, FIRST_STEP * extent, gap)
         self.traces: list[Trace] = []
+        self.singular: list[np.ndarray] = []
+        """Points where normals do not tell how the surfaces meet: branch points, poles."""
 
     def all_branches(self, ends: Sequence[End]) -> list[Trace]:
         """Branches from all ``ends``, then closed ones. Raises ``SurfaceError``: see `Tracer`."""
@@ -73,23 +82,62 @@ class FacePair:
         self._find_closed()
         return self.traces
 
+    def branch_points(self) -> list[Touch]:
+        """Points in the inside of both faces in which the surfaces have one tangent plane.
+
+        Raises ``SurfaceError`` where they touch along a curve or a patch.
+        """
+        a, b, level = self._undecided(lambda a, b, level: np.ones(len(a), bool))
+        if not len(a):
+            return []
+        middle = np.hstack([self.cells_a.middles(a, level), self.cells_b.middles(b, level)])
+        points = self.a.evaluate(middle[:, :2], 0)[0]
+        found: list[Touch] = []
+        rows = np.unique(np.linspace(0, len(a) - 1, min(len(a), TRIED)).astype(int))
+        for k in rows:
+            if any(np.linalg.norm(t.point - points[k]) <= BESIDE * self.size for t in found):
+                continue
+            touch = touch_of_surfaces(self.a, self.b, middle[k])
+            if touch.found and touch.gap <= 10.0 * self.gap:
+                if not any(
+                    np.linalg.norm(t.point - touch.point) <= TRACED * self.size for t in found
+                ):
+                    found.append(touch)
+        far = np.ones(len(a), bool)
+        for place_ in [*(touch.point for touch in found), *self.singular]:
+            far &= np.linalg.norm(points - place_, axis=1) > BESIDE * self.size
+        self._refuse(a[far], b[far], level)
+        return [touch for touch in found if self._is_in_both(touch)]
+
+    def _is_in_both(self, touch: Touch) -> bool:
+        uv_a, uv_b = touch.place[None, :2], touch.place[None, 2:]
+        return bool(self.region_a.inside(uv_a)[0] and self.region_b.inside(uv_b)[0])
+
     def _find_closed(self) -> None:
+        a, b, level = self._undecided(self._answered)
+        self._refuse(a, b, level)
+
+    def _undecided(
+        self, answered: Callable[[np.ndarray, np.ndarray, int], np.ndarray]
+    ) -> tuple[np.ndarray, np.ndarray, int]:
+        """Pairs of cells (n, 2), (n, 2) of a level that can be halved no more.
+
+        answered: of pairs of a level that cross in one curve at most, are they done with?
+        """
         first = self.cells_a.start(), self.cells_b.start()
         i, j = (k.ravel() for k in np.meshgrid(*(np.arange(len(k)) for k in first)))
         a, b = first[0][i], first[1][j]
         for level in range(LEVELS):
             one, other = Numbered(self.cells_a, a, level), Numbered(self.cells_b, b, level)
-            meet = overlap(one.boxes, one.of, other.boxes, other.of)
+            meet = overlap(one.boxes, one.of, other.boxes, other.of, other.cones)
             a, b, i, j = a[meet], b[meet], one.of[meet], other.of[meet]
-            if not len(a):
-                return
             surely = np.flatnonzero(cross_surely(one.cones, i, other.cones, j))
-            still = np.ones(len(a), bool)
+            still = ~self._are_singular(one.boxes, i)
             if len(surely):
-                still[surely] = ~self._answered(a[surely], b[surely], level)
+                still[surely] &= ~answered(a[surely], b[surely], level)
             a, b, i, j = a[still], b[still], i[still], j[still]
             if not len(a):
-                return
+                break
             size = max(
                 np.linalg.norm(boxes.high[of] - boxes.low[of], axis=1).max()
                 for boxes, of in ((one.boxes, i), (other.boxes, j))
@@ -98,11 +146,21 @@ class FacePair:
                 break
             a = np.repeat(FaceCells.children(a), 4, axis=1).reshape(-1, 2)
             b = np.tile(FaceCells.children(b), (1, 4, 1)).reshape(-1, 2)
-        self._refuse(a, b, level)
+        return a, b, level
+
+    def _are_singular(self, boxes: Boxes, i: np.ndarray) -> np.ndarray:
+        """Of cells, do they lie beside a branch point or a pole, where the curves are known?"""
+        near = np.zeros(len(i), bool)
+        for point in self.singular:
+            reach = np.maximum(np.abs(boxes.low[i] - point), np.abs(boxes.high[i] - point))
+            near |= np.linalg.norm(reach, axis=1) <= BESIDE * self.size
+        return near
 
     def _refuse(self, a: np.ndarray, b: np.ndarray, level: int) -> None:
         """Name the place of pairs that are neither apart nor cross."""
         middle_a, middle_b = self.cells_a.middles(a, level), self.cells_b.middles(b, level)
+        if not len(a):
+            return
         inside = ~self.region_a.surely_outside(middle_a) & ~self.region_b.surely_outside(middle_b)
         if not inside.any():
             return

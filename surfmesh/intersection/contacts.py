@@ -7,14 +7,16 @@ lies, and at which (u, v) inside a face. What edges and faces share is the node'
 from __future__ import annotations
 
 from collections.abc import Iterator
+from typing import NamedTuple
 
 import numpy as np
 
-from surfmesh.cad.model.cad_model import CadEdge, CadVertex
+from surfmesh.cad.model.cad_model import CadEdge, CadFace, CadVertex
 from surfmesh.errors import SurfaceError
-from surfmesh.intersection.bounds import Boxes
+from surfmesh.intersection.bounds import Boxes as CellBoxes
 from surfmesh.intersection.cells import EdgePieces, FaceCells
 from surfmesh.intersection.complex import Complex
+from surfmesh.intersection.newton import unit_normals
 from surfmesh.intersection.piercings import crossings
 from surfmesh.intersection.regions import Region
 from surfmesh.intersection.tracing import place
@@ -22,8 +24,18 @@ from surfmesh.intersection.tracing import place
 SAME = 1e-8
 """Of the diagonal: places nearer than that are one."""
 
+TANGENT_PLANES = 1e-5
+"""Sine of the angle between planes that are taken for one."""
+
 SEARCHED = 129
 """Points of an edge among which the nearest to a point is looked for first."""
+
+
+class Boxes(NamedTuple):
+    """Around whole faces or edges, (n, 3) each."""
+
+    low: np.ndarray
+    high: np.ndarray
 
 
 class Side:
@@ -93,24 +105,42 @@ class Contacts:
     def _meet(self, own: Side, number: int, other: Side, face: int) -> None:
         edge, patch = own.whole.edges[number], other.whole.patches[face]
         found = crossings(edge, other.cells[face], self.same)
-        if found.touching is not None:
+        if found.along is not None:
             raise SurfaceError(
                 f"an edge of {_label(own)} lies on {patch.face.surface.name or patch.face.kind}, "
-                f"or touches it, at {place(found.touching)}: such contacts are not intersected; "
+                f"or touches it, at {place(found.along)}: such contacts are not intersected; "
                 "move or change one of them"
             )
-        for t, uv, point in zip(found.fraction, found.uv, found.point):
+        for t, uv, point, touches in zip(found.fraction, found.uv, found.point, found.touches):
             met = self._edge_there(other, face, point)
-            if met is None:
-                if not self._is_inside(other, face, uv):
-                    continue
-                node = self._cut(own, number, float(t), point)
-                places = other.inner[face].setdefault(node, [])
-                if not any(np.abs(uv - known).max() < 1e-6 for known in places):
-                    places.append(uv)
-            else:
-                node = self._cut(own, number, float(t), point)
+            if met is None and not self._is_inside(other, face, uv):
+                continue
+            if touches:
+                self._require_tangent_planes(own, number, float(t), patch.face, uv, point)
+            node = self._cut(own, number, float(t), point)
+            if met is not None:
                 self._cut(other, *met, self.vertices[node].point)
+                continue
+            places = other.inner[face].setdefault(node, [])
+            if not any(np.abs(uv - known).max() < 1e-6 for known in places):
+                places.append(uv)
+
+    def _require_tangent_planes(
+        self, own: Side, number: int, t: float, other: CadFace, uv: np.ndarray, point: np.ndarray
+    ) -> None:
+        """Raise where an edge touches a face that none of its own faces touches there: a curve
+        would come along the edge."""
+        normal = unit_normals(other.surface, uv[None])
+        for patch in own.whole.patches:
+            for coedge in patch.face.coedges:
+                if coedge.edge == number:
+                    own_normal = unit_normals(patch.face.surface, coedge.uv(np.array([t])))
+                    if np.linalg.norm(np.cross(normal, own_normal)) < TANGENT_PLANES:
+                        return
+        raise SurfaceError(
+            f"an edge of {_label(own)} touches {other.surface.name or other.kind} at "
+            f"{place(point)} without going through; move or change one of them"
+        )
 
     def _cut(self, side: Side, number: int, fraction: float, point: np.ndarray) -> int:
         """The node where an edge is met: one of its ends, or a cut of it."""
@@ -170,7 +200,7 @@ def _label(side: Side) -> str:
     return face.name or face.surface.name or face.kind
 
 
-def _box(boxes: Boxes) -> tuple[np.ndarray, np.ndarray]:
+def _box(boxes: CellBoxes) -> tuple[np.ndarray, np.ndarray]:
     return boxes.low.min(axis=0), boxes.high.max(axis=0)
 
 

@@ -65,7 +65,7 @@ class Body:
         total = 0
         for cells, region in zip(self.cells, self.regions):
             found = crossings(ray, cells, SAME * self.size)
-            if found.touching is not None:
+            if found.along is not None or found.touches.any():
                 return None
             if not len(found.uv):
                 continue

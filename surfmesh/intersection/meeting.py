@@ -8,7 +8,8 @@ contacts (nodes)  ->  ends of branches  ->  branches of each pair of faces  ->  
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
+from functools import partial
 from itertools import pairwise
 
 import numpy as np
@@ -16,7 +17,8 @@ import numpy as np
 from surfmesh.cad.model.cad_model import CadCoedge, CadEdge, CadFace, CadVertex
 from surfmesh.errors import SurfaceError
 from surfmesh.geometry.cad_surfaces.face_surface import FaceSurface
-from surfmesh.intersection.arrangement import HalfEdge, half_edge, regions, turn
+from surfmesh.intersection.arrangement import regions
+from surfmesh.intersection.borders import FaceBorder, Image, Part
 from surfmesh.intersection.branches import FacePair
 from surfmesh.intersection.complex import (
     Complex,
@@ -28,93 +30,20 @@ from surfmesh.intersection.complex import (
 from surfmesh.intersection.contacts import Contacts, Side
 from surfmesh.intersection.contents import region_area
 from surfmesh.intersection.curve_fitting import FittedCurve, fitted
-from surfmesh.intersection.newton import uv_directions
+from surfmesh.intersection.newton import unit_normals, uv_directions
+from surfmesh.intersection.poles import ways_out_of_pole
 from surfmesh.intersection.regions import polygon_of
+from surfmesh.intersection.touching import Touch, branch_ways
 from surfmesh.intersection.tracing import End, Trace, place
 
 GAP = 1e-11
 """Of the diagonal: points so near to both surfaces are on both."""
 
-GRAZING = 1e-5
-"""Radians: a curve that comes to an edge at a smaller angle touches it."""
-
-TANGENT = 1e-6
-"""Sine of the angle between tangent planes at the end of a curve."""
+TANGENT = 1e-5
+"""Sine of the angle between planes that are taken for one."""
 
 ROOM = 1e-9
 """Of the box: samples of curves may lie so far outside the box of a new face."""
-
-
-@dataclass(frozen=True, eq=False)
-class Image:
-    """A place of a node in the (u, v) of a face. key: among those of the face. leaves, enters:
-    (2,) directions of the loop there, None inside the face."""
-
-    key: object
-    uv: np.ndarray
-    leaves: np.ndarray | None = None
-    enters: np.ndarray | None = None
-
-
-class FaceBorder:
-    """The loops of a face with their coedges cut at the nodes."""
-
-    def __init__(self, meeting: Meeting, side: Side, number: int) -> None:
-        self.face = side.whole.patches[number].face
-        surface = self.face.surface
-        box = np.array(surface.domain)
-        line = np.linspace(0.0, 1.0, 9)
-        grid = np.stack(np.meshgrid(line, line), -1).reshape(-1, 2)
-        _, r_u, r_v = surface.evaluate(box[:, 0] + grid * (box[:, 1] - box[:, 0]), 1)
-        self.scale = np.array([np.linalg.norm(d, axis=1).mean() for d in (r_u, r_v)])
-        self.halves: list[HalfEdge] = []
-        self.images: dict[int, list[Image]] = {}
-        self.is_cut = False
-        for number_of_loop, loop in enumerate(self.face.loops):
-            parts = [part for coedge in loop for part in meeting.parts_of(side, coedge)]
-            self.is_cut |= len(parts) > len(loop)
-            halves = [
-                half_edge(
-                    coedge, (number_of_loop, k), (number_of_loop, (k + 1) % len(parts)), self.scale
-                )
-                for k, (coedge, _) in enumerate(parts)
-            ]
-            for k, (half, (coedge, node)) in enumerate(zip(halves, parts)):
-                image = Image(
-                    half.start, coedge.walk(np.zeros(1))[0], half.leaves, halves[k - 1].enters
-                )
-                self.images.setdefault(node, []).append(image)
-            self.halves += halves
-        for node, places in side.inner[number].items():
-            for k, uv in enumerate(places):
-                self.images.setdefault(node, []).append(Image((node, k, "inside"), uv))
-
-    def add_curve(
-        self, edge: int, pcurve: object, length: float, start: object, end: object
-    ) -> None:
-        """Both half-edges of a curve between two places."""
-        forward = CadCoedge(edge, False, pcurve, 0.0, length, False)  # type: ignore[arg-type]
-        backward = replace(forward, reversed=True)
-        self.halves.append(half_edge(forward, start, end, self.scale))
-        self.halves.append(half_edge(backward, end, start, self.scale))
-        self.is_cut = True
-
-    def enters(self, image: Image, way: np.ndarray) -> bool:
-        """Does a direction (2,) lead from a place into the face? Raises where it runs along its
-        border."""
-        if image.leaves is None or image.enters is None:
-            return True
-        way = way * self.scale
-        open_angle = turn(image.leaves, -image.enters) or 2.0 * np.pi
-        angle = turn(image.leaves, way)
-        for edge in (0.0, open_angle, 2.0 * np.pi):
-            if abs(angle - edge) < GRAZING:
-                where = place(self.face.surface.evaluate(image.uv[None], 0)[0][0])
-                raise SurfaceError(
-                    f"{self.face.surface.name}: a curve touches its edge at {where}; move or "
-                    "change one of the surfaces"
-                )
-        return angle < open_angle
 
 
 class Meeting:
@@ -125,11 +54,17 @@ class Meeting:
         self.contacts = Contacts(p, q, size)
         self.edges: list[CadEdge] = []
         self.pieces: dict[tuple[int, int], list[tuple[int, float, float]]] = {}
+        self.leaving: dict[tuple[int, bool], tuple[np.ndarray, np.ndarray, int]] = {}
+        """Where a part of a degenerate edge starts, or starts when walked backwards, the curve
+        that leaves the pole: its way (3,), its rate (2,) in (u, v), the face it is common with."""
         for which, side in enumerate(self.contacts.sides):
             for number, edge in enumerate(side.whole.edges):
                 self._add_pieces(which, side, number, edge)
         self.borders = [
-            [FaceBorder(self, side, k) for k in range(len(side.whole.patches))]
+            [
+                FaceBorder(patch.face, side.inner[k], partial(self.parts_of, side))
+                for k, patch in enumerate(side.whole.patches)
+            ]
             for side in self.contacts.sides
         ]
         one, other = self.contacts.sides
@@ -149,6 +84,9 @@ class Meeting:
 
     def _add_pieces(self, which: int, side: Side, number: int, edge: CadEdge) -> None:
         start, end = self.contacts.ends_of(side, edge)
+        if edge.degenerate:
+            self._add_pole(which, side, number, edge, start)
+            return
         cuts = sorted((t, node) for node, t in side.cuts[number].items())
         stops = [(0.0, start), *cuts, (1.0, end)]
         own = self.pieces[(which, number)] = []
@@ -159,15 +97,43 @@ class Meeting:
             else:
                 self.edges.append(replace(edge, start=first, end=last))
 
-    def parts_of(self, side: Side, coedge: CadCoedge) -> list[tuple[CadCoedge, int]]:
-        """A coedge cut at the nodes, in walking order; with the node where each part starts."""
+    def _add_pole(self, which: int, side: Side, number: int, edge: CadEdge, node: int) -> None:
+        """A degenerate edge, cut where curves leave the pole."""
+        own = self.pieces[(which, number)] = []
+        leaving = []
+        other = self.contacts.sides[1 - which]
+        face, coedge = next(
+            (patch.face, coedge) for patch in side.whole.patches for coedge in patch.face.coedges
+            if coedge.edge == number
+        )  # fmt: skip
+        for k, inner in enumerate(other.inner):
+            for uv in inner.get(node, []):
+                normal = unit_normals(other.whole.patches[k].face.surface, uv[None])[0]
+                leaving += [
+                    (out.fraction, out.way, out.rate, k)
+                    for out in ways_out_of_pole(face.surface, coedge, normal)
+                ]
+        leaving.sort(key=lambda out: out[0])
+        stops = [0.0, *(out[0] for out in leaving), 1.0]
+        for k, (t0, t1) in enumerate(pairwise(stops)):
+            piece = len(self.edges)
+            own.append((piece, t0, t1))
+            self.edges.append(part_of_edge(edge, t0, t1, node, node))
+            if k:  # the place where it starts
+                self.leaving[(piece, False)] = leaving[k - 1][1:]
+                self.leaving[(piece - 1, True)] = leaving[k - 1][1:]
+
+    def parts_of(self, side: Side, coedge: CadCoedge) -> list[Part]:
+        """A coedge cut at the nodes, in walking order."""
         which = self.contacts.sides.index(side)
         found = []
         for edge, t0, t1 in self.pieces[(which, coedge.edge)]:
             p0, p1 = coedge.p0 + np.array([t0, t1]) * (coedge.p1 - coedge.p0)
             part = replace(coedge, edge=edge, p0=float(p0), p1=float(p1))
             made = self.edges[edge]
-            found.append((part, made.end if coedge.reversed else made.start))
+            leaving = self.leaving.get((edge, coedge.reversed), (None, None, -1))
+            node = made.end if coedge.reversed else made.start
+            found.append(Part(part, node, made.degenerate, leaving))
         return found[::-1] if coedge.reversed else found
 
     def _pair(self, i: int, j: int) -> None:
@@ -178,32 +144,54 @@ class Meeting:
             a.face, b.face, (one.cells[i], other.cells[j]), (one.regions[i], other.regions[j]),
             self.size, GAP * self.size,
         )  # fmt: skip
-        ends = [end for node in a.images.keys() & b.images.keys() for end in self._ends(node, a, b)]
+        pair.singular = self._poles(a, j) + self._poles(b, i)
+        for touch in pair.branch_points():
+            self._add_branch_point(touch, a, b)
+        nodes = sorted(a.images.keys() & b.images.keys())
+        ends = [end for node in nodes for end in self._ends(node, a, b, i, j)]
+        pair.singular += [end.point for end in ends if end.singular]
         for trace in pair.all_branches(ends):
             made = fitted(trace, a.face.surface, b.face.surface, self.size)
             self._add_curve(trace, made, a, b)
 
-    def _ends(self, node: int, a: FaceBorder, b: FaceBorder) -> list[End]:
+    def _poles(self, border: FaceBorder, other: int) -> list[np.ndarray]:
+        """Poles of a face through which another face of the other side passes."""
+        return [
+            self.contacts.vertices[node].point
+            for node, images in border.images.items()
+            if any(image.other == other and image.way is not None for image in images)
+        ]
+
+    def _add_branch_point(self, touch: Touch, a: FaceBorder, b: FaceBorder) -> None:
+        """A node where two faces touch, unless there is one."""
+        node = self.contacts.node_at(touch.point)
+        for border, uv in ((a, touch.place[:2]), (b, touch.place[2:])):
+            if node not in border.images:
+                border.images[node] = [Image((node, 0, "inside"), uv)]
+
+    def _ends(self, node: int, a: FaceBorder, b: FaceBorder, i: int, j: int) -> list[End]:
         """Where branches of a pair of faces start in a node, each with its way into both."""
         found = []
         point = self.contacts.vertices[node].point
         for one in a.images[node]:
             for other in b.images[node]:
-                way, sine = _tangent(a.face.surface, b.face.surface, one.uv, other.uv)
-                if sine < TANGENT:
-                    raise SurfaceError(
-                        f"{a.face.surface.name} and {b.face.surface.name} have one tangent plane "
-                        f"at {place(point)}: such contacts are not intersected; move one of them"
-                    )
-                for sign in (1.0, -1.0):
+                if one.is_pole or other.is_pole:
+                    ways, singular = _ways_at_pole(one, other, i, j), True
+                else:
+                    ways, singular = _ways(a.face.surface, b.face.surface, one.uv, other.uv, point)
+                for way in ways:
                     along_a, along_b = (
-                        uv_directions(border.face.surface, image.uv[None], sign * way[None])[0]
+                        uv_directions(border.face.surface, image.uv[None], way[None])[0]
+                        if image.rate is None else image.rate
                         for border, image in ((a, one), (b, other))
-                    )
+                    )  # fmt: skip
                     if a.enters(one, along_a) and b.enters(other, along_b):
                         found.append(
-                            End(node, one.uv, other.uv, point, sign * way, one.key, other.key)
-                        )
+                            End(
+                                node, one.uv, other.uv, point, way, one.key, other.key, singular,
+                                one.rate, other.rate,
+                            )
+                        )  # fmt: skip
         return found
 
     def _add_curve(self, trace: Trace, made: FittedCurve, a: FaceBorder, b: FaceBorder) -> None:
@@ -248,17 +236,30 @@ def _part_of_face(face: CadFace, loops: Sequence[tuple[CadCoedge, ...]]) -> CadF
     return replace(face, surface=surface, loops=marked, area=region_area(surface, marked))
 
 
-def _tangent(
-    a: FaceSurface, b: FaceSurface, uv_a: np.ndarray, uv_b: np.ndarray
-) -> tuple[np.ndarray, float]:
-    normals = []
-    for surface, uv in ((a, uv_a), (b, uv_b)):
-        _, r_u, r_v = surface.evaluate(uv[None], 1)
-        normal = np.cross(r_u[0], r_v[0])
-        normals.append(normal / max(float(np.linalg.norm(normal)), 1e-300))
-    cross = np.cross(normals[0], normals[1])
+def _ways(
+    a: FaceSurface, b: FaceSurface, uv_a: np.ndarray, uv_b: np.ndarray, point: np.ndarray
+) -> tuple[list[np.ndarray], bool]:
+    """The directions (3,) of common curves in a common point; is it a branch point?"""
+    cross = np.cross(unit_normals(a, uv_a[None])[0], unit_normals(b, uv_b[None])[0])
     sine = float(np.linalg.norm(cross))
-    return cross / max(sine, 1e-300), sine
+    if sine >= TANGENT:
+        return [cross / sine, -cross / sine], False
+    what, ways = branch_ways(a, b, uv_a, uv_b)
+    if what == "cross":
+        return ways, True
+    raise SurfaceError(
+        f"{a.name} and {b.name} touch {'along a curve through' if what == 'along' else 'at'} "
+        f"{place(point)}: such contacts are not intersected; move or change one of them"
+    )
+
+
+def _ways_at_pole(one: Image, other: Image, i: int, j: int) -> list[np.ndarray]:
+    """The way that leaves a pole of one face, where it is common with the other."""
+    if one.way is not None and one.other == j and not other.is_pole:
+        return [one.way]
+    if other.way is not None and other.other == i and not one.is_pole:
+        return [other.way]
+    return []
 
 
 def joined(complexes: Sequence[Complex], size: float) -> Complex:

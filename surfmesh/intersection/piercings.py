@@ -15,33 +15,47 @@ import numpy as np
 from surfmesh.cad.model.cad_model import CadEdge
 from surfmesh.intersection.bounds import overlap, pierces_surely
 from surfmesh.intersection.cells import EdgePieces, FaceCells, Numbered
-from surfmesh.intersection.newton import pulled_onto_curve
+from surfmesh.intersection.newton import Curve, pulled_onto_curve, unit_normals
+from surfmesh.intersection.touching import touch_of_curve
 
-LEVELS = 26
+LEVELS = 30
 """Halvings at most."""
 
-MOST_PAIRS = 6000
+MOST_PAIRS = 3000
 """Undecided pairs of one level: more of them lie on a common curve."""
 
 AROUND = 0.05
 """Of a piece or cell: how far outside it a place still answers for it."""
 
+TANGENT = 1e-6
+"""Sine between an edge and a surface below which it touches."""
+
+SMALLEST = 100.0
+"""Times what is the same: pairs so small are not halved."""
+
+BESIDE = 1e5
+"""Times what is the same: undecided pairs so near to a touch are due to it."""
+
+TRIED = 40
+"""Undecided pairs that a touch is looked for from."""
+
 
 class Crossings(NamedTuple):
-    """Places where an edge meets a surface.
+    """Places where an edge meets a surface: it goes through, or only touches it.
 
-    fraction: (n,) of the edge's range. uv: (n, 2). point: (n, 3). touching: (3,) a place where
-    the edge touches the surface or lies on it, None for none.
+    fraction: (n,) of the edge's range. uv: (n, 2). point: (n, 3). touches: of each, whether it
+    touches. along: (3,) a place where the edge runs along the surface, None for none.
     """
 
     fraction: np.ndarray
     uv: np.ndarray
     point: np.ndarray
-    touching: np.ndarray | None
+    touches: np.ndarray
+    along: np.ndarray | None
 
 
 def crossings(edge: CadEdge, cells: FaceCells, same: float) -> Crossings:
-    """All crossings of an edge, not degenerate, with the surface over the box of a face.
+    """All places where an edge, not degenerate, meets the surface over the box of a face.
 
     same: model units; places nearer than that are one, and gaps below a hundredth of it none.
     """
@@ -52,48 +66,83 @@ def crossings(edge: CadEdge, cells: FaceCells, same: float) -> Crossings:
     found = _Found(same, cells.width)
     for level in range(LEVELS):
         own, other = Numbered(pieces, p, level), Numbered(cells, c, level)
-        meet = overlap(own.boxes, own.of, other.boxes, other.of)
+        meet = overlap(own.boxes, own.of, other.boxes, other.of, other.cones)
         p, c, i, j = p[meet], c[meet], own.of[meet], other.of[meet]
         if not len(p):
             return found.crossings(None)
         surely = pierces_surely(own.cones, i, other.cones, j)
-        answered = _answered(edge, pieces, cells, p, c, level, found, same)
-        open_pairs = ~(surely & answered)
-        p, c = p[open_pairs], c[open_pairs]
-        tiny = np.linalg.norm(other.boxes.high - other.boxes.low, axis=1).max() < 10.0 * same
-        if len(p) > MOST_PAIRS or (tiny and len(p)):
+        answered = _answered(edge, pieces, cells, p, c, level, found)
+        undecided = ~(surely & answered)
+        p, c, j = p[undecided], c[undecided], j[undecided]
+        if not len(p):
+            return found.crossings(None)
+        size = np.linalg.norm(other.boxes.high[j] - other.boxes.low[j], axis=1).max()
+        if len(p) > MOST_PAIRS or size < SMALLEST * same:
             break
         p = np.repeat(EdgePieces.children(p), 4, axis=1).ravel()
         c = np.tile(FaceCells.children(c), (1, 2, 1)).reshape(-1, 2)
-    if not len(p):
-        return found.crossings(None)
-    lo, hi = pieces.corners(p[:1], level)
-    return found.crossings(edge.evaluate(0.5 * (lo + hi), 0)[0][0])
+    return found.crossings(_touched(edge, pieces, cells, p, c, level, found))
 
 
-def _answered(
+def _touched(
     edge: CadEdge, pieces: EdgePieces, cells: FaceCells, p: np.ndarray, c: np.ndarray,
-    level: int, found: _Found, same: float,
-) -> np.ndarray:  # fmt: skip
-    """For each pair, has it, or nearly, a place? Those are kept."""
+    level: int, found: _Found,
+) -> np.ndarray | None:  # fmt: skip
+    """Find the touches behind undecided pairs; a place that no touch explains, or None."""
     lo, hi = pieces.corners(p, level)
-    low, high = cells.corners(c, level)
-    middle, place = 0.5 * (lo + hi), 0.5 * (low + high)
+    middle, place = 0.5 * (lo + hi), cells.middles(c, level)
+    points = edge.evaluate(middle, 0)[0]
+    rows = np.unique(np.linspace(0, len(p) - 1, min(len(p), TRIED)).astype(int))
+    near: list[np.ndarray] = []
+    for k in rows:
+        touch = touch_of_curve(by_fraction(edge), cells.surface, np.array([middle[k], *place[k]]))
+        if touch.found and touch.gap <= 0.01 * found.same:
+            near.append(touch.point)
+            found.add(touch.place[0], touch.place[1:], touch.point, touches=True)
+    far = np.ones(len(points), bool)
+    for point in near:
+        far &= np.linalg.norm(points - point, axis=1) > BESIDE * found.same
+    return points[far][0] if far.any() else None
+
+
+def by_fraction(edge: CadEdge) -> Curve:
+    """The curve of an edge, by fractions of its range."""
 
     def curve(fraction: np.ndarray, order: int) -> tuple[np.ndarray, ...]:
         values = edge.evaluate(fraction, order)
         rate = edge.t1 - edge.t0
         return tuple(value * rate**k for k, value in enumerate(values))
 
-    t, uv, point, gap = pulled_onto_curve(curve, cells.surface, middle, place)
+    return curve
+
+
+def _answered(
+    edge: CadEdge, pieces: EdgePieces, cells: FaceCells, p: np.ndarray, c: np.ndarray,
+    level: int, found: _Found,
+) -> np.ndarray:  # fmt: skip
+    """For each pair, has it, or nearly, a place? Those are kept."""
+    lo, hi = pieces.corners(p, level)
+    low, high = cells.corners(c, level)
+    middle, place = 0.5 * (lo + hi), 0.5 * (low + high)
+    t, uv, point, gap = pulled_onto_curve(by_fraction(edge), cells.surface, middle, place)
     half, width = 0.5 * (hi - lo), 0.5 * (high - low)
     near = (np.abs(t - middle) <= half * (1.0 + 2.0 * AROUND) + 1e-12) & (
         np.abs(uv - place) <= width * (1.0 + 2.0 * AROUND) + 1e-12 * cells.width
     ).all(axis=1)
-    there = near & (gap <= 0.01 * same)
-    for k in np.flatnonzero(there):
+    there = near & (gap <= 0.01 * found.same)
+    sine = np.abs(_sines(edge, cells, t, uv))
+    crosses = (sine > TANGENT) & (gap <= found.same * sine)  # near a touch gaps are small all along
+    for k in np.flatnonzero(there & crosses):
         found.add(t[k], uv[k], point[k])
-    return there
+    return there & crosses
+
+
+def _sines(edge: CadEdge, cells: FaceCells, t: np.ndarray, uv: np.ndarray) -> np.ndarray:
+    """(n,) of the angles at which an edge goes through a surface."""
+    way = edge.evaluate(t, 1)[1]
+    normal = unit_normals(cells.surface, uv)
+    speed = np.maximum(np.linalg.norm(way, axis=1), 1e-300)
+    return np.einsum("ij,ij->i", way, normal) / speed
 
 
 class _Found:
@@ -104,22 +153,27 @@ class _Found:
         self.fraction: list[float] = []
         self.uv: list[np.ndarray] = []
         self.point: list[np.ndarray] = []
+        self.touches: list[bool] = []
 
-    def add(self, fraction: float, uv: np.ndarray, point: np.ndarray) -> None:
+    def add(
+        self, fraction: float, uv: np.ndarray, point: np.ndarray, touches: bool = False
+    ) -> None:
         for k, other in enumerate(self.point):
             apart = np.abs((self.uv[k] - uv) / self.width).max()
-            near = np.linalg.norm(other - point) <= self.same
+            near = np.linalg.norm(other - point) <= (100.0 if touches else 1.0) * self.same
             if near and abs(self.fraction[k] - fraction) < 1e-3 and apart < 1e-2:
                 return
         self.fraction.append(float(fraction))
         self.uv.append(uv)
         self.point.append(point)
+        self.touches.append(touches)
 
-    def crossings(self, touching: np.ndarray | None) -> Crossings:
+    def crossings(self, along: np.ndarray | None) -> Crossings:
         order = np.argsort(self.fraction, kind="stable")
         return Crossings(
             np.array(self.fraction)[order],
             np.array(self.uv).reshape(-1, 2)[order],
             np.array(self.point).reshape(-1, 3)[order],
-            touching,
+            np.array(self.touches, bool)[order],
+            along,
         )

@@ -47,7 +47,9 @@ class End:
     """A place where a branch starts or ends: on both surfaces.
 
     way: (3,) unit direction into both faces. node: its number; image_a, image_b: which of the
-    places in (u, v) of the faces it is.
+    places in (u, v) of the faces it is. singular: a branch point, or a pole of a surface, where
+    no normal tells the way. rate_a, rate_b: (2,) of u and v along the way, where the surfaces do
+    not say.
     """
 
     node: int
@@ -57,6 +59,9 @@ class End:
     way: np.ndarray
     image_a: object = None
     image_b: object = None
+    singular: bool = False
+    rate_a: np.ndarray | None = None
+    rate_b: np.ndarray | None = None
     used: bool = field(default=False, compare=False)
 
 
@@ -83,6 +88,7 @@ class Tracer:
 
     def __init__(self, a: FaceSurface, b: FaceSurface, step: float, gap: float) -> None:
         self.a, self.b, self.step, self.gap = a, b, step, gap
+        self.singular: list[np.ndarray] = []
 
     def tangent(self, uv_a: np.ndarray, uv_b: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """Unit n_A x n_B (n, 3), and the sine of the angle between the tangent planes (n,)."""
@@ -100,6 +106,8 @@ class Tracer:
         points, uvs_a, uvs_b = [start.point], [start.uv_a], [start.uv_b]
         step = self.step
         here = start.point, start.uv_a, start.uv_b
+        self.singular = [end.point for end in [start, *ends] if end.singular]
+        rates = start.rate_a, start.rate_b
         while len(points) < MOST_POINTS:
             reach = AHEAD * step
             looks = not closed or len(points) > 3
@@ -112,13 +120,14 @@ class Tracer:
                 uvs_b.append(end.uv_b)
                 arrays = np.array(points), np.array(uvs_a), np.array(uvs_b)
                 return Trace(*arrays, None if closed else start, None if closed else end)
-            taken = self._step(here, way, step)
+            taken = self._step(here, way, step, rates)
             if taken is None:
                 step *= 0.5
                 if step < LEAST_STEP * self.step:
                     break
                 continue
             here, new_way = taken
+            rates = None, None
             points.append(here[0])
             uvs_a.append(here[1])
             uvs_b.append(here[2])
@@ -130,11 +139,13 @@ class Tracer:
             f"{place(here[0])}: the surfaces touch there, or leave their domain"
         )
 
-    def _step(self, here: tuple, way: np.ndarray, step: float) -> tuple | None:
+    def _step(self, here: tuple, way: np.ndarray, step: float, rates: tuple) -> tuple | None:
         """The point a step ahead, and the tangent there; None where that is too far."""
         point, uv_a, uv_b = here
-        along_a = uv_directions(self.a, uv_a[None], way[None])[0]
-        along_b = uv_directions(self.b, uv_b[None], way[None])[0]
+        along_a, along_b = (
+            uv_directions(surface, uv[None], way[None])[0] if rate is None else rate
+            for surface, uv, rate in ((self.a, uv_a, rates[0]), (self.b, uv_b, rates[1]))
+        )
         found = pulled_onto_both(
             self.a, self.b, (uv_a + step * along_a)[None], (uv_b + step * along_b)[None],
             way[None], (point + step * way)[None],
@@ -151,7 +162,10 @@ class Tracer:
             sine[0] > FLAT
             and float(tangent @ way) > np.cos(TURN)
             and 0.8 * step < length < 1.25 * step
-            and self._is_one_curve(here[1:], (found.uv_a[0], found.uv_b[0]))
+            and (
+                self._is_near_singular(point)
+                or self._is_one_curve(here[1:], (found.uv_a[0], found.uv_b[0]))
+            )
         ):
             return None
         return (new, found.uv_a[0], found.uv_b[0]), tangent
@@ -159,11 +173,12 @@ class Tracer:
     def _ahead(self, here: tuple, way: np.ndarray, reach: float, ends: Sequence[End]) -> End | None:
         """The nearest end within reach that lies straight ahead and is entered the same way."""
         point, uv_a, uv_b = here
-        best, nearest = None, reach
+        best, nearest, aslant = None, reach, 1.0
         for end in ends:
             step = end.point - point
             distance = float(np.linalg.norm(step))
-            if end.used or not self.gap < distance <= nearest or float(step @ way) <= 0.0:
+            same = self.gap + 1e-6 * distance
+            if end.used or not same < distance <= nearest + same or float(step @ way) <= 0.0:
                 continue
             sine = np.linalg.norm(np.cross(step / distance, way))
             turned = np.linalg.norm(np.cross(end.way, way))
@@ -172,10 +187,20 @@ class Tracer:
             if (
                 self._straight(self.a, uv_a, end.uv_a, step)
                 and self._straight(self.b, uv_b, end.uv_b, step)
-                and self._is_one_curve((uv_a, uv_b), (end.uv_a, end.uv_b))
+                and (
+                    (end.singular and self._is_near_singular(point))
+                    or self._is_one_curve((uv_a, uv_b), (end.uv_a, end.uv_b))
+                )
             ):
-                best, nearest = end, distance
+                # several leave a branch point: the one straight ahead
+                if best is not None and distance > nearest - same and sine + turned >= aslant:
+                    continue
+                best, nearest, aslant = end, distance, float(sine + turned)
         return best
+
+    def _is_near_singular(self, point: np.ndarray) -> bool:
+        """Is a branch point or pole so near that normals tell nothing?"""
+        return any(np.linalg.norm(point - other) <= self.step for other in self.singular)
 
     def _is_one_curve(
         self, here: tuple[np.ndarray, np.ndarray], there: tuple[np.ndarray, np.ndarray]

@@ -180,3 +180,29 @@ def test_a_drilled_box_and_a_box_with_a_ball():
     h = 0.4  # of the cap of the ball outside the box
     assert not mixed.check()
     assert mixed.volume == pytest.approx(8.0 + pi * h * h * (1.5 - h) / 3.0, rel=1e-9)
+
+
+def test_equal_tubes_meet_in_two_ellipses_that_cross():
+    model = sm.intersect([tube("z", 1.0, 3.0, "up"), tube("x", 1.0, 3.0, "across")])
+    assert not model.check()
+    edges = common_edges(model)
+    for edge in edges:
+        x, y, z = edge.evaluate(np.linspace(0.0, 1.0, 101))[0].T
+        assert np.abs(np.abs(x) - np.abs(z)).max() < 1e-9  # in the planes x = z and x = -z
+        assert np.abs(np.hypot(x, y) - 1.0).max() < 1e-9
+    at = np.array([vertex.point for vertex in model.vertices])
+    branch = [int(np.argmin(np.linalg.norm(at - (0, y, 0), axis=1))) for y in (-1.0, 1.0)]
+    for vertex in branch:
+        assert sum((edge.start == vertex) + (edge.end == vertex) for edge in edges) == 4
+    assert sm.check(sm.mesh(model, 0.3)).clean
+
+
+def test_a_plane_through_the_poles_of_a_sphere():
+    upright = sm.ParametricSurface("0.3*u", "u", "v", u=(-3, 3.1), v=(-3, 3.1), name="wall")
+    model = sm.intersect([sphere(name="ball"), upright], keep={"wall": "-ball"})
+    assert not model.check()
+    edges = common_edges(model)
+    assert sum(edge.length for edge in edges) == pytest.approx(2.0 * pi, rel=1e-9)
+    disc = [face.area for face in model.faces if face.name == "wall"]
+    assert sum(disc) == pytest.approx(pi, rel=1e-9)
+    assert sm.check(sm.mesh(model, 0.3)).clean
