@@ -19,6 +19,7 @@ from surfmesh.cad.healing.joining import Joining
 from surfmesh.cad.reading.read_file import SUFFIXES, begun_reading
 from surfmesh.errors import CadError, FileFormatError, SizingError, SurfaceError, shown
 from surfmesh.geometry.files.surface_file import gallery, load_surface_file
+from surfmesh.geometry.files.toml_entries import sets_key
 from surfmesh.geometry.number_range import RANGE
 from surfmesh.geometry.surface import Surface
 from surfmesh.result.surface_mesh import SurfaceMesh
@@ -51,7 +52,8 @@ def load(
 ) -> Surface | CadModel:
     """The surface or CAD model of a file, or the surface of the gallery by its name.
 
-    A ``.toml`` file holds formulas or a planar domain, a ``.svg`` drawing a planar domain;
+    A ``.toml`` file holds formulas, a planar domain or surfaces that meet (which give a model as
+    ``intersect`` does), a ``.svg`` drawing a planar domain;
     STEP, IGES and BREP files hold CAD models, in ``units`` ("mm", "m", "in", ...; None: mm).
 
     imprint, sew: of a CAD model, lengths in its units. imprint=True: bodies that touch share
@@ -85,11 +87,24 @@ def load(
     if joins:
         raise CadError(f"imprint and sew are for CAD models, and {place.name} holds none")
     if place.suffix == "" and not place.exists():
-        known = gallery()
-        if str(path) in known:
-            return load_surface_file(known[str(path)])
-        raise FileFormatError(f"no file and no gallery surface called {str(path)!r}")
+        place = _of_gallery(str(path))
+    if place.suffix.lower() == ".toml" and sets_key(place, "intersect"):
+        from surfmesh.intersection.meeting_file import load_meeting_file
+
+        return load_meeting_file(place)
     return load_surface_file(place)
+
+
+def _of_gallery(name: str) -> Path:
+    """The file of a gallery surface, or of ready-made surfaces that meet."""
+    known = gallery()
+    if name not in known:
+        from surfmesh.intersection.meeting_file import meeting_gallery
+
+        known = meeting_gallery()
+    if name not in known:
+        raise FileFormatError(f"no file and no gallery surface called {name!r}")
+    return known[name]
 
 
 def mesh(

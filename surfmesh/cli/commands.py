@@ -292,9 +292,10 @@ _PACKING_ROWS = {
 def gallery(options: Namespace) -> bool:
     """List the ready-made surfaces."""
     from surfmesh.geometry.files.surface_file import gallery as surfaces
+    from surfmesh.intersection.meeting_file import meeting_gallery
 
     described = []
-    for name, path in surfaces().items():
+    for name, path in (surfaces() | meeting_gallery()).items():
         content = tomllib.loads(path.read_text(encoding="utf-8"))
         described.append((name, content.get("description", ""), path))
     if options.json:

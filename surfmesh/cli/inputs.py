@@ -123,10 +123,11 @@ def named_surface(name: str, options: Namespace) -> Surface | CadModel:
     """A file, or else a surface of the gallery; ``options.reading``: how a CAD file is read."""
     from surfmesh import api
     from surfmesh.geometry.files.surface_file import gallery as surfaces
+    from surfmesh.intersection.meeting_file import meeting_gallery
 
     if Path(name).is_file():
         return api.load(name, **options.reading)
-    known = surfaces()
+    known = surfaces() | meeting_gallery()
     if name in known:
         return api.load(known[name], **options.reading)
     close = get_close_matches(name, known, n=1)

@@ -6,6 +6,7 @@
 The paper's last section: "the boundary of surface can be conveniently introduced through the
 intersection of discretised surfaces". Others use ``intersect`` alone.
 
+meeting_file: surfaces that meet, as a TOML file; ready-made ones.
 intersect: the whole way, and the tags of the result.
 sheets: what is intersected, each as a model: a surface over a rectangle becomes one face.
 complex: vertices, edges and faces that share them by number, and where each face comes from.

@@ -22,8 +22,11 @@ from surfmesh.intersection.meeting import joined
 from surfmesh.intersection.sheets import as_model
 
 
-def intersected(things: Sequence[Any], keep: Any = "all") -> CadModel:
-    """The model of surfaces and models that cut each other; see ``surfmesh.intersect``."""
+def intersected(things: Sequence[Any], keep: Any = "all", name: str = "") -> CadModel:
+    """The model of surfaces and models that cut each other; see ``surfmesh.intersect``.
+
+    name: of the model; that of all inputs together where it is empty.
+    """
     if len(things) < 2:
         raise SurfaceError(f"two surfaces or more are needed to intersect, not {len(things)}")
     names = _names(things)
@@ -36,6 +39,7 @@ def intersected(things: Sequence[Any], keep: Any = "all") -> CadModel:
     vertices, edges, faces = compacted(whole.vertices, whole.edges, [p.face for p, _ in kept])
     solids = keeping.solids(faces, edges, vertices, [against for _, against in kept])
     patches = [patch for patch, _ in kept]
+    called = name or " and ".join(names)
     held = {face for solid in solids for shell in solid.shells for face, _ in shell}
     free = tuple(k for k in range(len(faces)) if k not in held)
     return CadModel(
@@ -45,12 +49,12 @@ def intersected(things: Sequence[Any], keep: Any = "all") -> CadModel:
         solids=tuple(solids),
         free_shells=(),
         free_faces=free,
-        name=" and ".join(names),
+        name=called,
         unit=models[0].unit,
         file_unit=models[0].file_unit,
         diagonal=diagonal(vertices, edges, faces),
         tree=CadNode(
-            " and ".join(names),
+            called,
             tuple(range(len(solids))),
             (),
             tuple(
@@ -59,7 +63,7 @@ def intersected(things: Sequence[Any], keep: Any = "all") -> CadModel:
             ),
         ),
         healing=_remarks(models, names),
-        source=" and ".join(names),
+        source=called,
         tags=_tags(keeping, patches, names, models),
     )
 
