@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "values/conventions.hpp"
+#include "values/free_memory.hpp"
 #include "values/threads.hpp"
 
 namespace surfmesh::binding {
@@ -20,7 +21,9 @@ void bind_packing(nb::module_& m);
 void bind_insertion(nb::module_& m);
 void bind_optimisation(nb::module_& m);
 void bind_surfaces(nb::module_& m);
+void bind_sizing(nb::module_& m);
 void bind_patch(nb::module_& m);
+void bind_edges(nb::module_& m);
 
 namespace {
 
@@ -44,6 +47,15 @@ NB_MODULE(_core, m) {
         nanobind::arg("count"),
         "How many threads calls from this thread of Python may use; returns how many they were "
         "allowed.\n\nResults do not depend on it. 1 in every new thread.");
+    m.def(
+        "return_free_memory",
+        [](long long triangles) {
+            const nanobind::gil_scoped_release released;
+            surfmesh::return_free_memory(triangles);
+        },
+        nanobind::arg("triangles"),
+        "After work on a mesh of so many triangles: give memory back to the system that the C "
+        "library keeps although it is free.\n\nDoes nothing for small meshes.");
     add(m, "elementary_functions", bind_elementary_functions);
     add(m, "fields", bind_fields);
     add(m, "triangulation", bind_triangulation);
@@ -52,5 +64,7 @@ NB_MODULE(_core, m) {
     add(m, "insertion", bind_insertion);
     add(m, "optimisation", bind_optimisation);
     add(m, "surfaces", bind_surfaces);
+    add(m, "sizing", bind_sizing);
     add(m, "patch", bind_patch);
+    add(m, "edges", bind_edges);
 }

@@ -15,6 +15,7 @@ from typing import TYPE_CHECKING, Any, TypeAlias, TypeGuard
 import numpy as np
 from numpy.typing import NDArray
 
+from surfmesh._core import return_free_memory
 from surfmesh.cad.healing.joining import Joining
 from surfmesh.cad.reading.read_file import SUFFIXES, begun_reading
 from surfmesh.errors import CadError, FileFormatError, SizingError, SurfaceError, shown
@@ -160,6 +161,7 @@ def mesh(
         from surfmesh.meshing.finishing.second_order import of_second_order
 
         made = of_second_order(made)
+    return_free_memory(len(made.triangles))
     return _logged(made, model)
 
 

@@ -5,7 +5,6 @@
 #include <optional>
 
 #include "binding/arrays.hpp"
-#include "fields/axis_bending.hpp"
 #include "fields/background.hpp"
 #include "fields/coverage.hpp"
 #include "fields/gradation.hpp"
@@ -237,9 +236,10 @@ void bind_gradation(nb::module_& m) {
             require_rows(step.shape(0), patches.shape(0), "step");
             Array<double> error, extent;
             for (std::size_t k = 0; k < patches.shape(0); ++k) {
-                const PatchError found =
-                    patch_error(rows<Patch>(patches)[k], rows<SizeTensor>(metric_root),
-                                rows<Point2>(step)[k], largest);
+                PatchRoots roots;
+                for (std::size_t i = 0; i < 9; ++i)
+                    roots[i] = rows<SizeTensor>(metric_root)[rows<Patch>(patches)[k].node[i]];
+                const PatchError found = patch_error(roots, rows<Point2>(step)[k], largest);
                 error.push_back(found.error);
                 extent.push_back(found.extent);
             }
@@ -284,30 +284,6 @@ void bind_sources(nb::module_& m) {
         "(n, 2).\n\nmetric: the constant E, F, G. root: x0, y0, width and height of a root cell; "
         "upper: the corner of what is asked for; grid: root cells along x and y. None when more "
         "than most_cells are needed.");
-}
-
-void bind_axis_bending(nb::module_& m) {
-    m.def(
-        "bend",
-        [](const Vector<double>& x, double extent, const Vector<double>& knots,
-           const Vector<double>& slopes) {
-            if (!(extent > 0.0) || !std::isfinite(extent))
-                throw nb::value_error("extent is not a positive number");
-            if (knots.shape(0) < 2) throw nb::value_error("there are fewer than two knots");
-            require_rows(slopes.shape(0), knots.shape(0), "slopes");
-            const BentAxis axis{extent, rows<double>(knots), rows<double>(slopes)};
-            Array<double> parameter(x.shape(0)), rate(x.shape(0));
-            for (std::size_t k = 0; k < x.shape(0); ++k) {
-                const ParameterAndRate at = bend(axis, x(k));
-                parameter[k] = at.parameter;
-                rate[k] = at.rate;
-            }
-            return std::pair(view(parameter), view(rate));
-        },
-        nb::arg("x"), nb::arg("extent"), nb::arg("knots"), nb::arg("slopes"),
-        "The parameter (n,) at scaled coordinates x (n,), and its derivative by x (n,).\n\nknots "
-        "and slopes (k,): the parameter and its derivative at k even coordinates from 0 to extent; "
-        "linear outside.");
 }
 
 void bind_tensors(nb::module_& m) {
@@ -364,7 +340,6 @@ void bind_tensors(nb::module_& m) {
 void bind_fields(nb::module_& m) {
     m.doc() = "Size tensors, their gradation, and the look-up in a background.";
     bind_tensors(m);
-    bind_axis_bending(m);
     bind_background(m);
     bind_sources(m);
     bind_gradation(m);

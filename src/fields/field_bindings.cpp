@@ -5,22 +5,13 @@
 
 #include <exception>
 #include <tuple>
+#include <utility>
 
 #include "binding/arrays.hpp"
 #include "fields/field_builder.hpp"
+#include "fields/field_node_arrays.hpp"
 
 namespace surfmesh::binding {
-
-template <>
-struct Row<PlaneJacobian> {
-    using Number = double;
-    static constexpr std::size_t columns = 6;
-};
-template <>
-struct Row<NumberPair> {
-    using Number = double;
-    static constexpr std::size_t columns = 2;
-};
 
 void bind_field_builder(nb::module_& m);
 
@@ -62,14 +53,14 @@ class CallbackLaw final : public NodeLaw {
                 throw nb::value_error("a law returned arrays that do not fit the places");
             return true;
         } catch (...) {
-            failure = std::current_exception();
+            failure_ = std::current_exception();
             return false;
         }
     }
-
-    std::exception_ptr failure;
+    std::exception_ptr take_failure() override { return std::exchange(failure_, nullptr); }
 
   private:
+    std::exception_ptr failure_;
     const nb::object& law_;
 };
 
@@ -90,14 +81,14 @@ class CallbackFeatures final : public HiddenFeatures {
             std::copy(flags.data(), flags.data() + flags.size(), found.begin());
             return true;
         } catch (...) {
-            failure = std::current_exception();
+            failure_ = std::current_exception();
             return false;
         }
     }
-
-    std::exception_ptr failure;
+    std::exception_ptr take_failure() override { return std::exchange(failure_, nullptr); }
 
   private:
+    std::exception_ptr failure_;
     const nb::object& search_;
 };
 
@@ -124,17 +115,28 @@ Outcome told(const FieldOutcome& outcome) {
     return {name_of(outcome.status), {outcome.place.x, outcome.place.y}, outcome.number};
 }
 
-Outcome refine(FieldBuilder& builder, const nb::object& law, const nb::object& search) {
-    CallbackLaw asked(law);
-    CallbackFeatures hidden(search);
+Outcome refine(FieldBuilder& builder, NodeLaw& law, HiddenFeatures& hidden) {
     FieldOutcome outcome{};
     {
         const nb::gil_scoped_release released;
-        outcome = builder.refine(asked, hidden);
+        outcome = builder.refine(law, hidden);
     }
-    if (asked.failure) std::rethrow_exception(asked.failure);
-    if (hidden.failure) std::rethrow_exception(hidden.failure);
+    if (outcome.status == FieldStatus::failed) {
+        if (const std::exception_ptr failure = law.take_failure()) std::rethrow_exception(failure);
+        if (const std::exception_ptr failure = hidden.take_failure())
+            std::rethrow_exception(failure);
+    }
     return told(outcome);
+}
+
+/// With a law and a search of the core, or with objects of Python that are called for blocks.
+Outcome refine_by(FieldBuilder& builder, const nb::object& law, const nb::object& search) {
+    CallbackLaw called_law(law);
+    CallbackFeatures called_search(search);
+    NodeLaw* own_law = nullptr;
+    HiddenFeatures* own_search = nullptr;
+    return refine(builder, nb::try_cast(law, own_law) ? *own_law : called_law,
+                  nb::try_cast(search, own_search) ? *own_search : called_search);
 }
 
 void require_finished(const FieldBuilder& builder) {
@@ -184,6 +186,9 @@ void construct(FieldBuilder* builder, std::pair<std::int32_t, std::int32_t> grid
 
 void bind_field_builder(nb::module_& m) {
     m.attr("GRID_DEPTH") = GRID_DEPTH;
+    nb::class_<NodeLaw>(m, "NodeLaw", "What sizes are asked for at the nodes of a field.");
+    nb::class_<HiddenFeatures>(m, "HiddenFeatures",
+                               "Where a surface may have features between the nodes of a cell.");
     nb::class_<FieldBuilder> c(m, "FieldBuilder", "Makes the background of one size field.");
     c.def("__init__", &construct, nb::arg("grid"), nb::arg("extent"), nb::arg("root_step"),
           nb::arg("slope"), nb::arg("largest"), nb::arg("sides"), nb::arg("sources"),
@@ -198,9 +203,10 @@ void bind_field_builder(nb::module_& m) {
           "than triangles. "
           "most_triangles: more are refused, or inf.\nlooks_for_hidden: features between the "
           "nodes are looked for at all, and in deep cells.");
-    c.def("refine", &refine, nb::arg("law"), nb::arg("hidden"),
+    c.def("refine", &refine_by, nb::arg("law"), nb::arg("hidden"),
           "Split cells until the field is accurate: status, place, and number of triangles or "
-          "cells.\n\nlaw(xy (n, 2)) -> the twelve arrays of FieldNodes. hidden(deep, low, high "
+          "cells.\n\nlaw, hidden: of the core, or callables: law(xy (n, 2)) -> the twelve arrays "
+          "of FieldNodes. hidden(deep, low, high "
           "(n, 2), normal (n, 3), root (9 n, 3), smallest size (n,)) -> (n,) bool.\nRaises what "
           "they raise. The status is done, too_many_triangles, too_many_cells or not_graded.");
     c.def(
@@ -233,14 +239,7 @@ void bind_field_builder(nb::module_& m) {
         nb::arg("size").noconvert(),
         "Grade isotropic sizes (nodes,) in place; returned as by refine.");
     c.def(
-        "nodes",
-        [](const FieldBuilder& builder) {
-            const FieldNodes& n = builder.nodes;
-            return nb::make_tuple(view(n.size), view(n.target_size), view(n.root), view(n.normal),
-                                  view(n.point), view(n.longer), view(n.longer_target),
-                                  view(n.along), view(n.jacobian), view(n.asked), view(n.curvature),
-                                  view(n.turn_rates));
-        },
+        "nodes", [](const FieldBuilder& builder) { return node_arrays(builder.nodes); },
         "The twelve arrays of FieldNodes, as views; the jacobian (nodes, 6).");
     c.def(
         "plane", [](const FieldBuilder& builder) { return view(builder.plane()); },

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 namespace surfmesh {
 namespace {
@@ -143,8 +142,11 @@ FieldOutcome FieldBuilder::spread(std::span<double> size, bool stretched) {
         graded.round = all(round_);
     }
     std::int32_t first = sweep_ + 1;
-    Array<double> smallest(patches_.size());
-    Array<std::int32_t> order(patches_.size());
+    struct Ranked {
+        double smallest;
+        std::int32_t patch;
+    };
+    Array<Ranked> order(patches_.size());
     Array<Patch> sorted(patches_.size());
     for (int chunk = 0; chunk < MAX_CHUNKS; ++chunk) {
         if (chunk >= PATIENT_CHUNKS) slow_ += SWEEPS * static_cast<std::int64_t>(patches_.size());
@@ -152,12 +154,12 @@ FieldOutcome FieldBuilder::spread(std::span<double> size, bool stretched) {
         for (std::size_t k = 0; k < patches_.size(); ++k) {
             double least = size[patches_[k].node[0]];
             for (const Node n : patches_[k].node) least = std::min(least, size[n]);
-            smallest[k] = least;
+            order[k] = {least, static_cast<std::int32_t>(k)};
         }
-        std::iota(order.begin(), order.end(), 0);
-        std::stable_sort(order.begin(), order.end(),
-                         [&](std::int32_t a, std::int32_t b) { return smallest[a] < smallest[b]; });
-        for (std::size_t k = 0; k < order.size(); ++k) sorted[k] = patches_[order[k]];
+        std::sort(order.begin(), order.end(), [](const Ranked& a, const Ranked& b) {
+            return a.smallest < b.smallest || (a.smallest == b.smallest && a.patch < b.patch);
+        });
+        for (std::size_t k = 0; k < order.size(); ++k) sorted[k] = patches_[order[k].patch];
         const SweepsDone done = grade(all(sorted), all(joined_), graded, first, SWEEPS);
         sweep_ = first = done.next;  // the last sweep's changes are still to be spread
         if (done.finished) return DONE_WELL;
@@ -188,9 +190,14 @@ bool FieldBuilder::is_graded(const Patch& patch) const {
     return false;
 }
 
+PatchRoots FieldBuilder::metric_roots(const Patch& patch) const {
+    PatchRoots found;
+    for (std::size_t i = 0; i < 9; ++i) found[i] = nodes.metric_root(patch.node[i]);
+    return found;
+}
+
 /// Mark cells whose sizes have changed since a sweep and are not bilinear enough.
 void FieldBuilder::mark_inaccurate(std::int32_t seen, std::span<std::uint8_t> split) const {
-    const Array<SizeTensor> metric_root = nodes.metric_roots();
     const double coarse = nodes.is_anisotropic() ? FINEST_STRETCHED : FINEST_GRADED;
     const auto leaves = cells_.leaves();
     for (std::size_t k = 0; k < leaves.size(); ++k) {
@@ -200,7 +207,7 @@ void FieldBuilder::mark_inaccurate(std::int32_t seen, std::span<std::uint8_t> sp
         if (fresh_[k] == 0 && latest < seen) continue;
         const auto parts = static_cast<double>(std::int64_t{1} << leaves[k].depth);
         const Point2 step{plan_.root_step.x / parts, plan_.root_step.y / parts};
-        const PatchError found = patch_error(patch, all(metric_root), step, plan_.largest);
+        const PatchError found = patch_error(metric_roots(patch), step, plan_.largest);
         const bool graded = is_graded(patch);
         const double finest = graded && plan_.known_sizes ? coarse : FINEST_EXTENT;
         if (found.error > (graded ? GRADED_ERROR : TEST_ERROR) && found.extent > finest)
@@ -263,12 +270,12 @@ double FieldBuilder::triangles(const FieldCell& cell, double at) const {
 /// Are far more triangles asked for than there may be?
 FieldOutcome FieldBuilder::far_beyond() const {
     if (patches_.size() < MANY_CELLS || !std::isfinite(plan_.most_triangles)) return DONE_WELL;
-    const Array<SizeTensor> metric_root = nodes.metric_roots();
     double total = 0.0, most = -1.0;
     std::size_t worst = 0;
     for (std::size_t k = 0; k < patches_.size(); ++k) {
         std::array<double, 9> at{};
-        for (std::size_t i = 0; i < 9; ++i) at[i] = density(metric_root[patches_[k].node[i]]);
+        const PatchRoots metric_root = metric_roots(patches_[k]);
+        for (std::size_t i = 0; i < 9; ++i) at[i] = density(metric_root[i]);
         std::nth_element(at.begin(), at.begin() + 4, at.end());
         const double asked = triangles(cells_.leaves()[k], at[4]);
         total += asked;
@@ -286,10 +293,9 @@ FieldOutcome FieldBuilder::far_beyond() const {
 /// How many cells are allowed for what the leaves ask for, those that were split last whole.
 double FieldBuilder::most_cells() const {
     if (!plan_.counts_triangles) return MAX_CELLS;
-    const Array<SizeTensor> metric_root = nodes.metric_roots();
     double total = 0.0;
     for (std::size_t k = 0; k < before_.size(); ++k)
-        total += triangles(leaves_before_[k], density(metric_root[before_[k].node[4]]));
+        total += triangles(leaves_before_[k], density(nodes.metric_root(before_[k].node[4])));
     const double free = plan_.free_cells + 4.0 * static_cast<double>(looked_into_);
     return std::min(MAX_CELLS, std::max(free, CELLS_OF_TRIANGLE * total));
 }

@@ -13,6 +13,7 @@
 
 #include <array>
 #include <cstdint>
+#include <exception>
 #include <span>
 
 #include "fields/field_cells.hpp"
@@ -27,6 +28,8 @@ class NodeLaw {
   public:
     virtual ~NodeLaw() = default;
     [[nodiscard]] virtual bool ask(std::span<const Point2> xy, FieldNodes& nodes) = 0;
+    /// The exception of the caller's own code for which it could not, once.
+    [[nodiscard]] virtual std::exception_ptr take_failure() { return {}; }
 };
 
 /// Cells in which features may hide, with what is known at their nine nodes.
@@ -44,6 +47,8 @@ class HiddenFeatures {
     /// deep: only what rises by more than a fraction of the chord error counts.
     [[nodiscard]] virtual bool find(const SeenCells& cells, bool deep,
                                     std::span<std::uint8_t> found) = 0;
+    /// The exception of the caller's own code for which it could not, once.
+    [[nodiscard]] virtual std::exception_ptr take_failure() { return {}; }
 };
 
 struct FieldPlan {
@@ -113,6 +118,7 @@ class FieldBuilder {
     [[nodiscard]] FieldOutcome refused(std::span<const std::uint8_t> split) const;
     void mark_inaccurate(std::int32_t seen, std::span<std::uint8_t> split) const;
     [[nodiscard]] bool is_graded(const Patch& patch) const;
+    [[nodiscard]] PatchRoots metric_roots(const Patch& patch) const;
     [[nodiscard]] bool mark_hidden(HiddenFeatures& hidden, Marks& marks);
     [[nodiscard]] bool ask_hidden(HiddenFeatures& hidden, std::span<const std::int32_t> cells,
                                   bool deep, std::span<std::uint8_t> found) const;

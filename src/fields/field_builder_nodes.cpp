@@ -2,12 +2,14 @@
 #include <algorithm>
 
 #include "fields/field_builder.hpp"
+#include "values/threads.hpp"
 
 namespace surfmesh {
 namespace {
 
 constexpr std::size_t NODES_AT_ONCE = 250'000;  // whose sizes are asked for at a time
-constexpr double SAME_PLACE = 1e-9;             // along a side, of its length
+constexpr std::size_t NODES_TO_CONVERT = 4096;
+constexpr double SAME_PLACE = 1e-9;  // along a side, of its length
 
 }  // namespace
 
@@ -38,22 +40,25 @@ bool FieldBuilder::make_patches(std::size_t first, NodeLaw& law) {
     };
     constexpr Node ASKED_FOR = -2;
     Array<std::int64_t> wanted;
-    for (std::size_t k = first; k < leaves.size(); ++k)
+    for (std::size_t k = first; k < leaves.size(); ++k) {
+        Patch patch{};
         for (int i = 0; i < 9; ++i) {
             Node& node = table_[key_at(leaves[k], i)];
+            patch.node[i] = node == NIL ? ASKED_FOR : node;
             if (node != NIL) continue;
             node = ASKED_FOR;
             wanted.push_back(key_at(leaves[k], i));
         }
+        patches_.push_back(patch);
+    }
     std::sort(wanted.begin(), wanted.end());
     for (std::size_t k = 0; k < wanted.size(); ++k)
         table_[wanted[k]] = static_cast<Node>(key_.size() + k);
     if (!create({wanted.data(), wanted.size()}, law)) return false;
-    for (std::size_t k = first; k < leaves.size(); ++k) {
-        Patch patch{};
-        for (int i = 0; i < 9; ++i) patch.node[i] = table_[key_at(leaves[k], i)];
-        patches_.push_back(patch);
-    }
+    for (std::size_t k = first; k < leaves.size(); ++k)
+        for (int i = 0; i < 9; ++i)
+            if (Node& node = patches_[k].node[i]; node == ASKED_FOR)
+                node = table_[key_at(leaves[k], i)];
     return true;
 }
 
@@ -132,9 +137,11 @@ Background FieldBuilder::background() {
         for (std::size_t q = 0; q < 4; ++q)
             for (std::size_t c = 0; c < 4; ++c)
                 made.corner[first + 4 * k + q].node[c] = patches_[k].node[quarter[q][c]];
-    const Array<SizeTensor> metric_root = nodes.metric_roots();
-    for (std::size_t n = 0; n < nodes.count(); ++n)
-        made.metric_root.push_back({metric_root[n], 1.0 / nodes.size[n]});
+    made.metric_root.resize(nodes.count());
+    for_each_block(nodes.count(), NODES_TO_CONVERT, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t n = begin; n < end; ++n)
+            made.metric_root[n] = {nodes.metric_root(n), 1.0 / nodes.size[n]};
+    });
     made.metric_root_3d = nodes.metric_roots_3d();
     return made;
 }

@@ -61,31 +61,23 @@ void FieldNodes::put_in_order() {
     }
 }
 
-Array<SizeTensor> FieldNodes::metric_roots() const {
-    Array<SizeTensor> found;
-    found.reserve(count());
-    for (std::size_t n = 0; n < count(); ++n) {
-        const SizeTensor r = root[n];
-        const double h = size[n];
-        if (!is_anisotropic()) {
-            found.push_back({r.xx / h, r.xy / h, r.yy / h});
-            continue;
-        }
-        // M = I / h^2 - (1 / h^2 - 1 / longer^2) p p^T, with p = J^T along
-        const auto& j = jacobian[n].x;
-        const Point3 t = along[n];
-        const double p = j[0][0] * t.x + j[1][0] * t.y + j[2][0] * t.z;
-        const double q = j[0][1] * t.x + j[1][1] * t.y + j[2][1] * t.z;
-        const double e = r.xx * r.xx + r.xy * r.xy, f = r.xy * (r.xx + r.yy);
-        const double g = r.xy * r.xy + r.yy * r.yy;
-        const double scale = inverse_square(h), less = scale - inverse_square(longer[n]);
-        // det M without cancellation, as det I = det(root)^2
-        const double det = (r.xx * r.yy - r.xy * r.xy) / (h * longer[n]);
-        found.push_back(symmetric_root(
-            {scale * e - less * p * p, scale * f - less * p * q, scale * g - less * q * q},
-            std::max(det, 0.0)));
-    }
-    return found;
+SizeTensor FieldNodes::metric_root(std::ptrdiff_t n) const {
+    const SizeTensor r = root[n];
+    const double h = size[n];
+    if (!is_anisotropic()) return {r.xx / h, r.xy / h, r.yy / h};
+    // M = I / h^2 - (1 / h^2 - 1 / longer^2) p p^T, with p = J^T along
+    const auto& j = jacobian[n].x;
+    const Point3 t = along[n];
+    const double p = j[0][0] * t.x + j[1][0] * t.y + j[2][0] * t.z;
+    const double q = j[0][1] * t.x + j[1][1] * t.y + j[2][1] * t.z;
+    const double e = r.xx * r.xx + r.xy * r.xy, f = r.xy * (r.xx + r.yy);
+    const double g = r.xy * r.xy + r.yy * r.yy;
+    const double scale = inverse_square(h), less = scale - inverse_square(longer[n]);
+    // det M without cancellation, as det I = det(root)^2
+    const double det = (r.xx * r.yy - r.xy * r.xy) / (h * longer[n]);
+    return symmetric_root(
+        {scale * e - less * p * p, scale * f - less * p * q, scale * g - less * q * q},
+        std::max(det, 0.0));
 }
 
 Array<MetricRoot3> FieldNodes::metric_roots_3d() const {

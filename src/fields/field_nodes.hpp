@@ -49,7 +49,7 @@ struct FieldNodes {
     /// The same metric with the longer size along `along`: gradation may have swapped them.
     void put_in_order();
     /// A = H^-1 = M^(1/2) in the scaled plane.
-    [[nodiscard]] Array<SizeTensor> metric_roots() const;
+    [[nodiscard]] SizeTensor metric_root(std::ptrdiff_t node) const;
     /// W = Id / h - (1 / h - 1 / longer) t t^T, t = along; empty where sizes are isotropic.
     ///
     /// Across the surface the shorter size holds, so that W does not change where the surface

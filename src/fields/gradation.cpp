@@ -1,6 +1,7 @@
 #include "fields/gradation.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace surfmesh {
@@ -34,36 +35,6 @@ double limit(const GradedSizes& s, Node a, Node b, std::int32_t sweep) {
         return change / hb;
     }
     return 0.0;
-}
-
-/// Lower the size of c to what grows from the segment between a and b, sizes linear on it.
-///
-/// The formula of Hopf and Lax on a flat triangle (Bornemann and Rasch 2006, section 3): with q
-/// and p the coordinates of c along ab and away from it, and k the rise along ab per length over
-/// the slope, the least of  h(x) + slope |c - x|  lies at  q - k p / sqrt(1 - k^2)  from a. Where
-/// that is beyond an end, the end decides, and `limit` has seen to it.
-double limit_across(const GradedSizes& s, Node c, Node a, Node b, std::int32_t sweep) {
-    const double ha = s.size[a], hb = s.size[b];
-    double& hc = s.size[c];
-    if (hc <= std::min(ha, hb)) return 0.0;
-    const Point3 ab = s.point[b] - s.point[a], ac = s.point[c] - s.point[a];
-    const double square = dot(ab, ab), onward = dot(ab, ac);
-    const double area = dot(ac, ac) * square - onward * onward;  // p^2 l^2
-    const double above = hc - std::min(ha, hb);
-    if (square == 0.0 || above * above * square <= s.slope * s.slope * area) return 0.0;
-    const double l = std::sqrt(square), q = onward / l;
-    const double k = (hb - ha) / (l * s.slope), free = 1.0 - k * k;
-    if (free <= 0.0) return 0.0;
-    const double root = std::sqrt(free), p = std::sqrt(std::max(area, 0.0)) / l;
-    const double from_a = q - k * p / root;
-    if (from_a <= 0.0 || from_a >= l) return 0.0;
-    const double allowed = ha + s.slope * (k * q + p * root);
-    if (hc <= allowed) return 0.0;
-    const double change = (hc - allowed) / allowed;
-    if (change <= ROUNDING) return 0.0;
-    hc = allowed;
-    s.changed[c] = sweep;
-    return change;
 }
 
 struct Direction {
@@ -163,38 +134,142 @@ double level(const GradedSizes& s, Node a, Node b, std::int32_t sweep) {
     return std::max(first, bind(s, b, a, sweep));
 }
 
-/// Level each corner of the four quarters of a patch with the two triangles that it sees them as.
-///
-///      b --- o        of corner c: c a o and c o b
-///      |  /  |
-///      c --- a
-double level_across(const GradedSizes& s, const Patch& patch, std::int32_t sweep) {
-    constexpr int corners[4][4] = {{0, 1, 4, 3}, {1, 2, 5, 4}, {3, 4, 7, 6}, {4, 5, 8, 7}};
-    double largest = 0.0;
-    for (const auto& quarter : corners)
-        for (int i = 0; i < 4; ++i) {
-            const Node c = patch.node[quarter[i]], a = patch.node[quarter[(i + 1) % 4]];
-            const Node o = patch.node[quarter[(i + 2) % 4]], b = patch.node[quarter[(i + 3) % 4]];
-            largest = std::max(largest, limit_across(s, c, a, o, sweep));
-            largest = std::max(largest, limit_across(s, c, o, b, sweep));
-        }
-    return largest;
-}
+/// Neighbours in a patch: right, up and the two diagonals of each node of the 3 x 3.
+struct NodePair {
+    int a, b;
+};
+constexpr NodePair PAIRS[20] = {{0, 1}, {0, 3}, {0, 4}, {1, 3}, {1, 2}, {1, 4}, {1, 5},
+                                {2, 4}, {2, 5}, {3, 4}, {3, 6}, {3, 7}, {4, 6}, {4, 5},
+                                {4, 7}, {4, 8}, {5, 7}, {5, 8}, {6, 7}, {7, 8}};
 
-/// Level the neighbours in a patch: right, up and the two diagonals of each node of the 3 x 3.
-double level_patch(const GradedSizes& s, const Patch& patch, std::int32_t sweep) {
-    const auto& p = patch.node;
-    double largest = 0.0;
-    for (int i = 0; i < 9; ++i) {
-        const bool right = i % 3 < 2, up = i < 6;
-        if (right) largest = std::max(largest, level(s, p[i], p[i + 1], sweep));
-        if (up) largest = std::max(largest, level(s, p[i], p[i + 3], sweep));
-        if (right && up) {
-            largest = std::max(largest, level(s, p[i], p[i + 4], sweep));
-            largest = std::max(largest, level(s, p[i + 1], p[i + 3], sweep));
+/// Numbers of the pairs by their nodes, either way round.
+constexpr std::array<std::array<int, 9>, 9> numbers_of_pairs() {
+    std::array<std::array<int, 9>, 9> number{};
+    for (int k = 0; k < 20; ++k) {
+        number[PAIRS[k].a][PAIRS[k].b] = k;
+        number[PAIRS[k].b][PAIRS[k].a] = k;
+    }
+    return number;
+}
+constexpr auto PAIR_OF = numbers_of_pairs();
+
+/// A patch whose isotropic sizes are levelled apart from the others, and then put back.
+///
+/// Most pairs and triangles allow what they have. A bound that rounding cannot reach says so
+/// without a root: SURE below one for pairs, and for triangles the area from the three squares
+/// of sides with what it may be wrong by.
+class PatchOfSizes {
+  public:
+    PatchOfSizes(const GradedSizes& s, const Patch& patch, std::int32_t sweep)
+        : sizes_(s), patch_(patch), sweep_(sweep) {
+        for (int i = 0; i < 9; ++i) {
+            h_[i] = s.size[patch.node[i]];
+            point_[i] = s.point[patch.node[i]];
+        }
+        for (int k = 0; k < 20; ++k) {
+            const Point3 a = point_[PAIRS[k].a], b = point_[PAIRS[k].b];
+            square_[k] = squared(a.x - b.x) + squared(a.y - b.y) + squared(a.z - b.z);
         }
     }
-    if (s.longer.empty()) largest = std::max(largest, level_across(s, patch, sweep));
+
+    /// Level all neighbours, then each corner of the four quarters with the two triangles that it
+    /// sees them as; returns the largest relative change.
+    ///
+    ///      b --- o        of corner c: c a o and c o b
+    ///      |  /  |
+    ///      c --- a
+    double level() {
+        double largest = 0.0;
+        for (int k = 0; k < 20; ++k) largest = std::max(largest, limit(k));
+        constexpr int corners[4][4] = {{0, 1, 4, 3}, {1, 2, 5, 4}, {3, 4, 7, 6}, {4, 5, 8, 7}};
+        for (const auto& quarter : corners)
+            for (int i = 0; i < 4; ++i) {
+                const int c = quarter[i], a = quarter[(i + 1) % 4];
+                const int o = quarter[(i + 2) % 4], b = quarter[(i + 3) % 4];
+                largest = std::max(largest, limit_across(c, a, o));
+                largest = std::max(largest, limit_across(c, o, b));
+            }
+        return largest;
+    }
+
+  private:
+    static constexpr double SURE = 1.0 - 1e-10, WRONG = 1e-12;
+
+    double lower(int node, double size, double change) {
+        h_[node] = size;
+        sizes_.size[patch_.node[node]] = size;
+        sizes_.changed[patch_.node[node]] = sweep_;
+        return change;
+    }
+
+    /// As for two nodes apart, see there.
+    double limit(int pair) {
+        const auto [a, b] = PAIRS[pair];
+        const double apart = h_[a] - h_[b], slope = sizes_.slope;
+        if (apart * apart < SURE * (slope * slope * square_[pair])) return 0.0;
+        if (apart == 0.0) return 0.0;
+        const double rise = slope * std::sqrt(square_[pair]);
+        if (h_[a] > h_[b] + rise) {
+            const double change = apart - rise, size = h_[b] + rise;
+            return lower(a, size, change / size);
+        }
+        if (h_[b] > h_[a] + rise) {
+            const double change = h_[b] - h_[a] - rise, size = h_[a] + rise;
+            return lower(b, size, change / size);
+        }
+        return 0.0;
+    }
+
+    /// Lower the size of c to what grows from the segment between a and b, sizes linear on it.
+    ///
+    /// The formula of Hopf and Lax on a flat triangle (Bornemann and Rasch 2006, section 3): with q
+    /// and p the coordinates of c along ab and away from it, and k the rise along ab per length
+    /// over the slope, the least of  h(x) + slope |c - x|  lies at  q - k p / sqrt(1 - k^2)  from
+    /// a. Where that is beyond an end, the end decides, and `limit` has seen to it.
+    double limit_across(int c, int a, int b) {
+        const double ha = h_[a], hb = h_[b], hc = h_[c], slope = sizes_.slope;
+        const double above = hc - std::min(ha, hb);
+        if (above <= 0.0) return 0.0;
+        const double square = square_[PAIR_OF[a][b]];
+        if (is_level(above, square, square_[PAIR_OF[a][c]], square_[PAIR_OF[b][c]])) return 0.0;
+        const Point3 ab = point_[b] - point_[a], ac = point_[c] - point_[a];
+        const double onward = dot(ab, ac);
+        const double area = dot(ac, ac) * square - onward * onward;  // p^2 l^2
+        if (square == 0.0 || above * above * square <= slope * slope * area) return 0.0;
+        const double l = std::sqrt(square), q = onward / l;
+        const double k = (hb - ha) / (l * slope), free = 1.0 - k * k;
+        if (free <= 0.0) return 0.0;
+        const double root = std::sqrt(free), p = std::sqrt(std::max(area, 0.0)) / l;
+        const double from_a = q - k * p / root;
+        if (from_a <= 0.0 || from_a >= l) return 0.0;
+        const double allowed = ha + slope * (k * q + p * root);
+        if (hc <= allowed) return 0.0;
+        const double change = (hc - allowed) / allowed;
+        if (change <= ROUNDING) return 0.0;
+        return lower(c, allowed, change);
+    }
+
+    /// Is a node surely no farther above the side ab of its triangle than the slope allows?
+    [[nodiscard]] bool is_level(double above, double ab, double ac, double bc) const {
+        const double onward = 0.5 * (ab + ac - bc), sum = ab + ac + bc;
+        const double area = ac * ab - onward * onward - WRONG * (sum * sum);
+        return above * above * ab < SURE * (sizes_.slope * sizes_.slope * area);
+    }
+
+    const GradedSizes& sizes_;
+    const Patch& patch_;
+    std::int32_t sweep_;
+    double h_[9];
+    Point3 point_[9];
+    double square_[20];
+};
+
+/// Level the neighbours in a patch.
+double level_patch(const GradedSizes& s, const Patch& patch, std::int32_t sweep) {
+    if (s.longer.empty()) return PatchOfSizes(s, patch, sweep).level();
+    double largest = 0.0;
+    for (const auto [a, b] : PAIRS)
+        largest = std::max(largest, level(s, patch.node[a], patch.node[b], sweep));
     return largest;
 }
 
@@ -212,12 +287,12 @@ double relative_error(SizeTensor x, SizeTensor a, double floor) {
 }
 
 /// What the corners give at node i of a patch, bilinear.
-SizeTensor by_corners(const Patch& patch, std::span<const SizeTensor> metric_root, int i) {
+SizeTensor by_corners(const PatchRoots& metric_root, int i) {
     SizeTensor x{0.0, 0.0, 0.0};
     for (int c = 0; c < 4; ++c) {
         const int column = 2 * (c % 2), row = 2 * (c / 2);
         const double w = 0.25 * (2 - std::abs(i % 3 - column)) * (2 - std::abs(i / 3 - row));
-        x = x + w * metric_root[patch.node[3 * row + column]];
+        x = x + w * metric_root[3 * row + column];
     }
     return x;
 }
@@ -241,17 +316,14 @@ SweepsDone grade(std::span<const Patch> patches, std::span<const JoinedNodes> jo
     return {first + sweeps, false};
 }
 
-PatchError patch_error(const Patch& patch, std::span<const SizeTensor> metric_root, Point2 step,
-                       double largest) {
+PatchError patch_error(const PatchRoots& metric_root, Point2 step, double largest) {
     const double floor = 1.0 / largest;
     PatchError found{0.0, 0.0};
     for (const int i : {1, 3, 5, 7, 4}) {
-        const SizeTensor x = by_corners(patch, metric_root, i);
-        const SizeTensor a = metric_root[patch.node[i]];
-        found.error = std::max(found.error, relative_error(x, a, floor));
+        const SizeTensor x = by_corners(metric_root, i);
+        found.error = std::max(found.error, relative_error(x, metric_root[i], floor));
     }
-    for (const Node n : patch.node) {
-        const SizeTensor a = metric_root[n];
+    for (const SizeTensor a : metric_root) {
         found.extent = std::max(found.extent, step.x * std::sqrt(a.xx * a.xx + a.xy * a.xy));
         found.extent = std::max(found.extent, step.y * std::sqrt(a.xy * a.xy + a.yy * a.yy));
     }

@@ -12,6 +12,7 @@
 //         0 - 1 - 2
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <span>
 
@@ -64,11 +65,12 @@ struct PatchError {
     double extent;  // width or height in metric length, whichever is larger
 };
 
+/// A = H^-1 at the nodes of a patch.
+using PatchRoots = std::array<SizeTensor, 9>;
+
 /// How far the field in a patch is from bilinear, and how many edges wide the patch is.
 ///
-/// metric_root: A = H^-1 of the nodes; step: the patch's width and height; largest: size above
-/// which none counts.
-[[nodiscard]] PatchError patch_error(const Patch& patch, std::span<const SizeTensor> metric_root,
-                                     Point2 step, double largest);
+/// step: the patch's width and height; largest: size above which none counts.
+[[nodiscard]] PatchError patch_error(const PatchRoots& metric_root, Point2 step, double largest);
 
 }  // namespace surfmesh

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "binding/arrays.hpp"
+#include "insertion/boundary_arguments.hpp"
 #include "insertion/boundary_clearing.hpp"
 #include "insertion/boundary_insertion.hpp"
 #include "insertion/boundary_recovery.hpp"
@@ -19,33 +20,7 @@
 
 namespace surfmesh::binding {
 
-template <>
-struct Row<Segment> {
-    using Number = std::int32_t;
-    static constexpr std::size_t columns = 2;
-};
-
 namespace {
-
-using Pairs = Matrix<std::int32_t, 2>;
-using Numbers = Vector<std::int32_t>;
-using Bytes = Vector<std::uint8_t>;
-
-void require_finite(const Points2& points, const char* what) {
-    for (const Point2 p : rows<Point2>(points))
-        if (!std::isfinite(p.x) || !std::isfinite(p.y))
-            throw nb::value_error((std::string(what) + " has a place that is not finite").c_str());
-}
-
-void require_pairs(const Pairs& pairs, std::size_t count, const char* what) {
-    require_indices(std::span<const std::int32_t>(pairs.data(), pairs.size()), count, what);
-}
-
-/// Column ``k`` of pairs has indices below ``count``.
-void require_column(const Pairs& pairs, std::size_t k, std::size_t count, const char* what) {
-    for (std::size_t i = 0; i < pairs.shape(0); ++i)
-        require_indices(std::span<const std::int32_t>(&pairs(i, k), 1), count, what);
-}
 
 /// Refuse what is no triangulation of the whole plane, for instance one that was used up.
 void require_plane(const Triangulation& t) {
@@ -67,51 +42,19 @@ RecoveredDomain recover_loops(Triangulation& t, const Background& background, co
                               const Pairs& segments, const Pairs& inner,
                               const Vector<std::int64_t>& identity,
                               const std::optional<Points3>& points) {
-    require_finite(nodes, "nodes");
-    require_pairs(segments, nodes.shape(0), "segments");
-    require_pairs(inner, nodes.shape(0), "inner");
-    require_rows(identity.shape(0), nodes.shape(0), "identity");
-    require_indices(rows<std::int64_t>(identity), nodes.shape(0), "identity");
-    if (points) require_rows(points->shape(0), nodes.shape(0), "points");
-    LoopBoundary boundary{rows<Point2>(nodes),
-                          rows<Segment>(segments),
-                          rows<Segment>(inner),
-                          rows<std::int64_t>(identity),
-                          {}};
-    if (points) boundary.points = rows<Point3>(*points);
+    const LoopBoundary boundary = loop_boundary(nodes, segments, inner, identity, points);
     Triangulation packing = taken(t);
     const nb::gil_scoped_release released;
     return recover(std::move(packing), background, boundary);
 }
 
-/// Each number 0 .. the largest has to occur; returns how many there are.
-std::size_t require_all_segments(const Numbers& segment) {
-    const std::span<const std::int32_t> numbers = rows<std::int32_t>(segment);
-    require_indices(numbers, numbers.size(), "segment");
-    std::size_t count = 0, seen = 0;
-    Array<std::uint8_t> occurs(numbers.size(), 0);
-    for (const std::int32_t number : numbers) {
-        count = std::max(count, static_cast<std::size_t>(number) + 1);
-        seen += occurs[number] == 0;
-        occurs[number] = 1;
-    }
-    if (seen != count) throw nb::value_error("segment leaves out a number");
-    return count;
-}
-
 RecoveredDomain recover_planar(Triangulation& t, const Background& background, const Points2& nodes,
                                const Pairs& pieces, const Numbers& segment,
                                const Pairs& loop_segments, const Bytes& is_hole) {
-    require_finite(nodes, "nodes");
-    require_pairs(pieces, nodes.shape(0), "pieces");
-    require_rows(segment.shape(0), pieces.shape(0), "segment");
-    require_column(loop_segments, 0, require_all_segments(segment), "loop_segments");
-    require_column(loop_segments, 1, is_hole.shape(0), "loop_segments");
+    const PlanarBoundary boundary = planar_boundary(nodes, pieces, segment, loop_segments, is_hole);
     Triangulation packing = taken(t);
     const nb::gil_scoped_release released;
-    return recover_regions(std::move(packing), background,
-                           {rows<Point2>(nodes), rows<Segment>(pieces), rows<std::int32_t>(segment),
-                            rows<LoopSegment>(loop_segments), rows<std::uint8_t>(is_hole)});
+    return recover_regions(std::move(packing), background, boundary);
 }
 
 void bind_outcomes(nb::module_& m) {

@@ -4,10 +4,10 @@
 
 #include <array>
 #include <cmath>
-#include <exception>
 #include <tuple>
 
 #include "binding/arrays.hpp"
+#include "binding/calls_back.hpp"
 #include "packing/packing.hpp"
 
 namespace surfmesh::binding {
@@ -29,30 +29,6 @@ PackingLimits limits_of(const Box& box, const Place& origin, std::int64_t wanted
     if (!(distance > 0.0)) throw nb::value_error("distance is to be positive");
     return {{origin[0], origin[1]}, {box[0], box[1]}, {box[2], box[3]}, distance, wanted};
 }
-
-/// Calls of Python out of the running core. What one raises stops the core, and comes through.
-class CallsBack {
-  public:
-    /// Run ``call`` with the interpreter held; false once something was raised.
-    template <class Call>
-    bool run(Call call) {
-        const nb::gil_scoped_acquire held;
-        try {
-            if (PyErr_CheckSignals() != 0) throw nb::python_error();
-            call();
-        } catch (...) {
-            raised_ = std::current_exception();
-        }
-        return raised_ == nullptr;
-    }
-    /// Raise what was raised.
-    void finish() {
-        if (raised_) std::rethrow_exception(raised_);
-    }
-
-  private:
-    std::exception_ptr raised_;
-};
 
 Watch watch_of(CallsBack& calls, const nb::object& watch) {
     return [&calls, &watch](Vertex circles) {

@@ -96,8 +96,6 @@ void bind_accuracy(nb::module_& m) {
     m.attr("FINEST_SIZE") = FINEST_SIZE;
     m.attr("FINEST_BY_ANGLE") = FINEST_BY_ANGLE;
     m.attr("LEAST_OF_CHORD") = LEAST_OF_CHORD;
-    m.attr("ROUND_RESERVE") = ROUND_RESERVE;
-    m.attr("BENT_RESERVE") = BENT_RESERVE;
     m.def(
         "dense_samples", [] { return view(Array<BarycentricWeights>(std::span(DENSE_SAMPLES))); },
         "Barycentric places (25, 3) at which the mesher looks at triangles that are nearly too "

@@ -16,72 +16,11 @@ namespace surfmesh::binding {
 void bind_results(nb::module_& m);
 void bind_accuracy(nb::module_& m);
 void bind_seams(nb::module_& m);
+void bind_patch_mesh(nb::module_& m);
 
 namespace {
 
 using Numbers = Vector<std::int32_t>;
-using Pieces = Matrix<double, 7>;
-
-/// One axis of a chart from its arrays.
-ChartAxis axis_of(double extent, const Vector<double>& knots, const Vector<double>& slopes,
-                  const std::optional<Pieces>& pieces) {
-    if (!(extent > 0.0)) throw nb::value_error("extent is not positive");
-    if (knots.shape(0) < 2) throw nb::value_error("knots are at least two");
-    require_rows(slopes.shape(0), knots.shape(0), "slopes");
-    ChartAxis axis;
-    axis.extent = extent;
-    axis.knots = Array<double>(rows<double>(knots));
-    axis.slopes = Array<double>(rows<double>(slopes));
-    if (pieces) axis.pieces = Array<BentPiece>(rows<BentPiece>(*pieces));
-    return axis;
-}
-
-void bind_chart(nb::module_& m) {
-    nb::class_<ChartAxis>(m, "ChartAxis",
-                          "A monotone map between one parameter and its scaled coordinate.")
-        .def(
-            "__init__",
-            [](ChartAxis* made, double extent, const Vector<double>& knots,
-               const Vector<double>& slopes, const std::optional<Pieces>& pieces) {
-                new (made) ChartAxis(axis_of(extent, knots, slopes, pieces));
-            },
-            nb::arg("extent"), nb::arg("knots"), nb::arg("slopes"), nb::arg("pieces") = nb::none(),
-            "knots, slopes (k,): the parameter and its derivative at k even coordinates from 0 to "
-            "extent.\npieces (p, 7), where knots are of the bent parameter: first, last, powers at "
-            "both ends, their beta function, clearance at both ends.")
-        .def_prop_ro("extent", [](const ChartAxis& axis) { return axis.extent; })
-        .def(
-            "parameter_and_rate",
-            [](const ChartAxis& axis, const Vector<double>& x) {
-                Array<double> parameter(x.shape(0)), rate(x.shape(0));
-                for (std::size_t i = 0; i < x.shape(0); ++i) {
-                    const ValueAndRate found = axis.parameter(rows<double>(x)[i]);
-                    parameter[i] = found.value;
-                    rate[i] = found.rate;
-                }
-                return std::pair(view(parameter), view(rate));
-            },
-            nb::arg("x"),
-            "The parameter (n,) at scaled coordinates x (n,), and its derivative by x (n,).\n\n"
-            "Linear outside [0, extent], constant where the parameter is bent.");
-    nb::class_<Chart>(m, "Chart", "(u, v) of a surface and the scaled plane, axis by axis.")
-        .def(
-            "__init__",
-            [](Chart* made, const ChartAxis& u, const ChartAxis& v) { new (made) Chart{u, v}; },
-            nb::arg("u"), nb::arg("v"))
-        .def(
-            "to_uv_and_rates",
-            [](const Chart& chart, const Points2& xy) {
-                Array<Point2> uv(xy.shape(0)), rates(xy.shape(0));
-                for (std::size_t i = 0; i < xy.shape(0); ++i) {
-                    const ChartPoint at = chart.at(rows<Point2>(xy)[i]);
-                    uv[i] = at.uv;
-                    rates[i] = at.rates;
-                }
-                return std::pair(view(uv), view(rates));
-            },
-            nb::arg("xy"), "xy (n, 2) -> uv (n, 2) and (du/dx, dv/dy) (n, 2).");
-}
 
 /// A callable of Python that is told of each pass, and what it raised.
 struct PassHook {
@@ -281,7 +220,8 @@ void bind_state(nb::class_<BoundPatch>& c) {
 void bind_schedule(nb::class_<BoundPatch>& c) {
     c.def("mapped", &mapped, nb::arg("node_uv"), nb::arg("node"), nb::arg("segments"),
           nb::arg("identity"),
-          "The triangles in space, seams identified.\n\nnode_uv: (j, 2) of the nodes that have a "
+          "The triangles in space, seams identified; no pass may come after.\n\nnode_uv: (j, 2) of "
+          "the nodes that have a "
           "vertex, to the last bit. node (k,), segments (s, 2), identity (k,): of boundary loops, "
           "the vertex of each node or NIL, pairs of nodes, and for each node the first that is the "
           "same point in space; empty where nothing is identified.");
@@ -329,7 +269,6 @@ void bind_patch(nb::module_& m) {
     m.doc() = "A whole (u, v) domain and its size field become triangles in one call.";
     m.attr("SHORTEST") = SHORTEST;
     m.attr("LONGEST") = LONGEST;
-    bind_chart(m);
     bind_accuracy(m);
     bind_seams(m);
     bind_results(m);
@@ -339,6 +278,7 @@ void bind_patch(nb::module_& m) {
     bind_state(patch);
     bind_passes(patch);
     bind_schedule(patch);
+    bind_patch_mesh(m);
 }
 
 }  // namespace surfmesh::binding

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "patch/limits.hpp"
+#include "sizing/curvature_sizes.hpp"
 #include "surfaces/fundamental_forms.hpp"
 
 namespace surfmesh {
@@ -39,17 +40,10 @@ NormalAt normal_at(const SurfaceReader& surface, std::size_t i, double angle, do
     const PrincipalCurvatures k = principal_curvatures(forms);
     const bool known =
         !forms.degenerate && std::isfinite(n.x) && std::isfinite(n.y) && std::isfinite(n.z);
-    return {n, !known || angle_size(k.k1, k.k2, angle) < least};
+    return {n, !known || angle_size(k, angle) < least};
 }
 
 }  // namespace
-
-double angle_size(double k1, double k2, double angle) {
-    // both may be infinite
-    const double mean = k1 == -k2 ? 0.0 : k1 + k2, bent = k1 == k2 ? 0.0 : k1 - k2;
-    const double bend = 0.5 * std::abs(mean) / ROUND_RESERVE + std::abs(bent) / BENT_RESERVE;
-    return std::sqrt(3.0) * radians(angle) / bend;
-}
 
 Array<std::uint8_t> on_crease(SurfaceReader& surface, std::span<const CornersBesideEdge> edges,
                               std::span<const std::uint8_t> alike, double angle, double diagonal) {

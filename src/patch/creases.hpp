@@ -33,7 +33,4 @@ struct CornersBesideEdge {
 Array<std::uint8_t> on_crease(SurfaceReader& surface, std::span<const CornersBesideEdge> edges,
                               std::span<const std::uint8_t> alike, double angle, double diagonal);
 
-/// Edge length at which dihedral angles are at most ``angle`` (degrees), with a reserve.
-double angle_size(double k1, double k2, double angle);
-
 }  // namespace surfmesh

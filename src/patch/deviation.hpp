@@ -12,7 +12,7 @@
 #include <array>
 #include <span>
 
-#include "patch/chart.hpp"
+#include "surfaces/chart.hpp"
 #include "surfaces/closest_point.hpp"
 #include "surfaces/surface_reader.hpp"
 

@@ -1,9 +1,17 @@
 #include "patch/mapping.hpp"
 
+#include <algorithm>
+
 namespace surfmesh {
+namespace {
+
+constexpr std::size_t BLOCK = 1 << 15;  // points put into space together
+
+}  // namespace
 
 MappedPatch map_to_space(PatchState& state, std::span<const Point2> node_uv,
                          const IdentifiedBoundary& boundary) {
+    state.end_passes();
     const Triangulation& t = state.t;
     MappedPatch found;
     found.uv = state.chart().to_uv({t.xy.data(), t.xy.size()});
@@ -13,14 +21,20 @@ MappedPatch map_to_space(PatchState& state, std::span<const Point2> node_uv,
                                      {t.region.data(), t.region.size()},
                                      t.vertices()},
                                     boundary);
-    Array<Point2> places;
-    for (const std::int64_t v : found.seamless.vertex) {
-        const double size = state.background().scalar_size_at(t.xy[v].x, t.xy[v].y);
-        found.sizes.push_back(size * state.frames.scale[v]);
-        places.push_back(found.uv[v]);
+    const std::span<const std::int64_t> vertex{found.seamless.vertex.data(),
+                                               found.seamless.vertex.size()};
+    found.sizes.reserve(vertex.size());
+    found.points.reserve(vertex.size());
+    for (std::size_t start = 0; start < vertex.size(); start += BLOCK) {
+        Array<Point2> places;
+        for (const auto v : vertex.subspan(start, std::min(BLOCK, vertex.size() - start))) {
+            const double size = state.background().scalar_size_at(t.xy[v].x, t.xy[v].y);
+            found.sizes.push_back(size * state.frames.scale[v]);
+            places.push_back(found.uv[v]);
+        }
+        state.surface().read({places.data(), places.size()}, 0);
+        for (const Point3 r : state.surface()[0]) found.points.push_back(r);
     }
-    state.surface().read({places.data(), places.size()}, 0);
-    found.points = Array<Point3>(state.surface()[0]);
     return found;
 }
 

@@ -13,7 +13,7 @@ struct MappedPatch {
     Array<double> sizes;   // of the points: of the field, with what the optimiser has made smaller
 };
 
-/// Map a patch to space and identify its seams.
+/// Map a patch to space and identify its seams. No pass of the optimiser may come after it.
 ///
 /// node_uv: of the boundary's nodes that have a vertex, to the last bit. boundary: which of them
 /// are one point in space; empty where none are.

@@ -200,6 +200,19 @@ int PatchState::split_farthest(std::span<const Triangle> triangles) {
     return set_new(split_far_edges(t, frames, marks, triangles));
 }
 
+void PatchState::end_passes() {
+    const bool is_anisotropic = frames.is_anisotropic;
+    Array<double> scale = std::move(frames.scale);
+    frames = SurfaceFrames();
+    frames.scale = std::move(scale);
+    frames.is_anisotropic = is_anisotropic;
+    stars = Stars();
+    stars_known_ = false;
+    marks = VertexMarks();
+    shape = Array<double>();
+    moved = Array<Vertex>();
+}
+
 /// Set the frames of vertices from number ``first`` on; returns how many there are.
 int PatchState::set_new(Vertex first) {
     const Array<Vertex> added = vertices_from(first, t.vertices());

@@ -13,8 +13,8 @@
 #include "optimisation/stars.hpp"
 #include "optimisation/surface_frames.hpp"
 #include "optimisation/vertex_marks.hpp"
-#include "patch/chart.hpp"
 #include "patch/limits.hpp"
+#include "surfaces/chart.hpp"
 #include "surfaces/surface_reader.hpp"
 
 namespace surfmesh {
@@ -102,6 +102,8 @@ class PatchState {
     ///
     /// All other vertices stay where they are. Returns how many were split.
     int split_farthest(std::span<const Triangle> triangles);
+    /// Free what only passes need; the frames keep their scales.
+    void end_passes();
 
   private:
     void set_sized_frames(std::span<const Vertex> vertices, bool on_kink = false);

@@ -63,6 +63,8 @@ class Identification {
 
     SurfaceTriangles triangles() {
         number_points();
+        found_.triangles.reserve(domain_.tri.size());
+        found_.corners.reserve(domain_.tri.size());
         for (std::size_t k = 0; k < domain_.region.size(); ++k)
             if (domain_.region[k] != DEAD) add_triangle(static_cast<Triangle>(k));
         if (expected_.joined > 0) check();

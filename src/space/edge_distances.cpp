@@ -44,19 +44,46 @@ double squared_distance_between(const Box3& a, const Box3& b) {
            apart(a.low.z, a.high.z, b.low.z, b.high.z);
 }
 
+/// Segments of all edges, and boxes around RUN of them in a row.
+struct Segments {
+    Array<Segment3> segments;
+    Array<Box3> boxes;              // of the runs of all edges
+    Array<std::int64_t> first_box;  // of each edge
+};
+
+constexpr std::int64_t RUN = 8;
+
+Segments runs_of_segments(const SampledEdges& sampled) {
+    Segments found{segments_between(sampled), {}, {}};
+    for (std::size_t e = 0; e + 1 < sampled.first.size(); ++e) {
+        found.first_box.push_back(static_cast<std::int64_t>(found.boxes.size()));
+        for (std::int64_t p = sampled.first[e]; p < sampled.first[e + 1] - 1; p += RUN) {
+            const std::int64_t last = std::min(p + RUN, sampled.first[e + 1] - 1);
+            found.boxes.push_back(box_around(sampled.points.subspan(
+                static_cast<std::size_t>(p), static_cast<std::size_t>(last - p + 1))));
+        }
+    }
+    return found;
+}
+
 /// Lower the gaps of the samples of edge a to their distances from edge b.
-void lower_gaps(const SampledEdges& sampled, const Array<Segment3>& segments, std::int64_t a,
-                std::int64_t b, EdgeGaps& found) {
+void lower_gaps(const SampledEdges& sampled, const Segments& runs, std::int64_t a, std::int64_t b,
+                EdgeGaps& found) {
+    const std::int64_t end = sampled.first[b + 1] - 1;
     for (std::int64_t p = sampled.first[a]; p < sampled.first[a + 1]; ++p) {
         const Point3 point = sampled.points[p];
         const double reach = std::min(found.gap[p], sampled.reach[p]);
         double nearest = reach * reach;
         if (squared_distance(found.boxes[b], point) >= nearest) continue;
-        for (std::int64_t s = sampled.first[b]; s < sampled.first[b + 1] - 1; ++s) {
-            const double here = squared_distance(segments[s], point);
-            if (here < nearest) {
-                nearest = here;
-                found.gap[p] = std::sqrt(here);
+        std::int64_t box = runs.first_box[b];
+        for (std::int64_t run = sampled.first[b]; run < end; run += RUN, ++box) {
+            if (squared_distance(runs.boxes[box], point) >= nearest) continue;
+            for (std::int64_t s = run; s < std::min(run + RUN, end); ++s) {
+                const double here = squared_distance(runs.segments[s], point);
+                if (here < nearest) {
+                    nearest = here;
+                    found.gap[p] = std::sqrt(here);
+                }
             }
         }
     }
@@ -65,7 +92,7 @@ void lower_gaps(const SampledEdges& sampled, const Array<Segment3>& segments, st
 }  // namespace
 
 EdgeGaps edge_gaps(const SampledEdges& sampled) {
-    const Array<Segment3> segments = segments_between(sampled);
+    const Segments runs = runs_of_segments(sampled);
     EdgeGaps found{Array<double>(sampled.points.size(), INFINITE), {}};
     Array<double> farthest;  // squares of the largest reach of each edge
     for (std::size_t e = 0; e + 1 < sampled.first.size(); ++e) {
@@ -85,7 +112,7 @@ EdgeGaps edge_gaps(const SampledEdges& sampled) {
             for (const std::int64_t b : own)
                 if (a != b && !have_common_vertex(sampled.ends[a], sampled.ends[b]) &&
                     squared_distance_between(found.boxes[a], found.boxes[b]) < farthest[a])
-                    lower_gaps(sampled, segments, a, b, found);
+                    lower_gaps(sampled, runs, a, b, found);
     }
     return found;
 }

@@ -13,6 +13,7 @@ namespace surfmesh::binding {
 
 void bind_surface_searches(nb::module_& m);
 void bind_formulas(nb::module_& m);  // formula_bindings.cpp
+void bind_chart(nb::module_& m);
 
 namespace {
 
@@ -114,6 +115,7 @@ void bind_surfaces(nb::module_& m) {
     bind_face_surfaces(m);
     bind_surface_searches(m);
     bind_formulas(m);
+    bind_chart(m);
 }
 
 }  // namespace surfmesh::binding

@@ -81,24 +81,26 @@ SurfaceStatus CallbackSurface::evaluate(std::span<const Point2> uv, int order,
     }
 }
 
-SurfaceStatus CallbackSurface::derivative_bounds(std::span<const ParameterBox> cells,
-                                                 std::span<Point3> lower,
-                                                 std::span<Point3> upper) const {
+/// Bounds over cells as the object's ``method`` gives them.
+SurfaceStatus CallbackSurface::bounds_by(const char* method, std::span<const ParameterBox> cells,
+                                         std::span<Point3> lower, std::span<Point3> upper) const {
     const nb::gil_scoped_acquire held;
+    if (cells.empty()) return SurfaceStatus::DONE;
     try {
+        if (!nb::hasattr(surface_, method)) return SurfaceStatus::UNKNOWN;
         Array<Point2> low(cells.size()), high(cells.size());
         for (std::size_t i = 0; i < cells.size(); ++i) {
             low[i] = cells[i].low;
             high[i] = cells[i].high;
         }
-        const nb::object given = surface_.attr("derivative_bounds")(nb::cast(binding::view(low)),
-                                                                    nb::cast(binding::view(high)));
+        const nb::object given =
+            surface_.attr(method)(nb::cast(binding::view(low)), nb::cast(binding::view(high)));
         if (given.is_none()) return SurfaceStatus::UNKNOWN;
         const nb::tuple results = checked_results(given, 2);
         for (const auto& [number, out] : {std::pair{0, lower}, std::pair{1, upper}}) {
             Numbers kept;
             const auto values =
-                checked_rows(results[number], {cells.size(), BOUNDED_DERIVATIVES, 3}, kept);
+                checked_rows(results[number], {cells.size(), lower.size() / cells.size(), 3}, kept);
             std::copy(values.begin(), values.end(), out.begin());
         }
         return SurfaceStatus::DONE;
@@ -106,6 +108,17 @@ SurfaceStatus CallbackSurface::derivative_bounds(std::span<const ParameterBox> c
         if (!failure_) failure_ = std::current_exception();
         return SurfaceStatus::FAILED;
     }
+}
+
+SurfaceStatus CallbackSurface::derivative_bounds(std::span<const ParameterBox> cells,
+                                                 std::span<Point3> lower,
+                                                 std::span<Point3> upper) const {
+    return bounds_by("derivative_bounds", cells, lower, upper);
+}
+
+SurfaceStatus CallbackSurface::all_bounds(std::span<const ParameterBox> cells,
+                                          std::span<Point3> lower, std::span<Point3> upper) const {
+    return bounds_by("all_bounds", cells, lower, upper);
 }
 
 std::exception_ptr CallbackSurface::take_failure() const {

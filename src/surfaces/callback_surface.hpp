@@ -24,12 +24,18 @@ class CallbackSurface final : public Surface {
                            std::span<Point3> out) const override;
     SurfaceStatus derivative_bounds(std::span<const ParameterBox> cells, std::span<Point3> lower,
                                     std::span<Point3> upper) const override;
+    /// UNKNOWN where the object has none.
+    SurfaceStatus all_bounds(std::span<const ParameterBox> cells, std::span<Point3> lower,
+                             std::span<Point3> upper) const override;
     [[nodiscard]] std::exception_ptr take_failure() const override;
 
     /// The object, for the collector of cyclic references, which may take it away.
     [[nodiscard]] nanobind::object& object() { return surface_; }
 
   private:
+    SurfaceStatus bounds_by(const char* method, std::span<const ParameterBox> cells,
+                            std::span<Point3> lower, std::span<Point3> upper) const;
+
     nanobind::object surface_;  // touched only while the interpreter is held, as is failure_
     ParameterBox domain_;
     mutable std::exception_ptr failure_;

@@ -2,11 +2,13 @@
 #include <nanobind/stl/pair.h>
 #include <nanobind/stl/shared_ptr.h>
 #include <nanobind/stl/tuple.h>
+#include <nanobind/stl/vector.h>
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <memory>
+#include <vector>
 
 #include "surfaces/elementary_curves.hpp"
 #include "surfaces/offset_curve.hpp"
@@ -54,6 +56,34 @@ nb::ndarray<nb::numpy, double, nb::ndim<3>> evaluate(const Curve& curve, const N
     Array<Point2> found(values.size());
     for (std::size_t i = 0; i < values.size(); ++i) found[i] = {values[i].x, values[i].y};
     return {reinterpret_cast<double*>(found.data()), 3, shape, owner_of(found)};
+}
+
+/// Row i of t on curve i; the curves are of one dimension.
+nb::ndarray<nb::numpy, double, nb::ndim<3>> points_on(const std::vector<SharedCurve>& curves,
+                                                      const Table& t) {
+    require_rows(t.shape(0), curves.size(), "t");
+    const std::size_t dimension =
+        curves.empty() ? 3 : static_cast<std::size_t>(curves[0]->dimension());
+    for (const SharedCurve& curve : curves)
+        if (static_cast<std::size_t>(curve->dimension()) != dimension)
+            throw nb::value_error("the curves differ in their dimension");
+    const std::size_t columns = t.shape(1);
+    const std::size_t shape[] = {curves.size(), columns, dimension};
+    Array<Point3> row(columns);
+    Array<double> found(shape[0] * shape[1] * shape[2]);
+    {
+        const nb::gil_scoped_release released;
+        double* out = found.data();
+        for (std::size_t i = 0; i < curves.size(); ++i) {
+            curves[i]->evaluate({t.data() + i * columns, columns}, 0, {row.data(), columns});
+            for (const Point3& point : std::span<const Point3>(row.data(), columns)) {
+                *out++ = point.x;
+                *out++ = point.y;
+                if (dimension == 3) *out++ = point.z;
+            }
+        }
+    }
+    return {found.data(), 3, shape, owner_of(found)};
 }
 
 SharedCurve conic(ConicKind kind, const Numbers& origin, const Numbers& x, const Numbers& y,
@@ -133,6 +163,9 @@ void bind_curves(nb::module_& m) {
         .def_prop_ro("dimension", &Curve::dimension, "2 or 3")
         .def("evaluate", &evaluate, nb::arg("t"), nb::arg("order") = 0,
              "(n,) -> (order + 1, n, dimension): c, c', c'', ...");
+    m.def(
+        "points_on", &points_on, nb::arg("curves"), nb::arg("t"),
+        "Points of n curves of one dimension, row i of t (n, k) on curve i -> (n, k, dimension).");
     m.def(
         "line",
         [](const Numbers& origin, const Numbers& direction) -> SharedCurve {

@@ -4,6 +4,7 @@
 
 #include <memory>
 
+#include "surfaces/curve_on_surface.hpp"
 #include "surfaces/elementary_surfaces.hpp"
 #include "surfaces/offset_surface.hpp"
 #include "surfaces/spline_surface.hpp"
@@ -118,6 +119,16 @@ void bind_derived(nb::module_& m) {
         },
         nb::arg("domain"), nb::arg("curve"), nb::arg("origin"), nb::arg("axis"),
         "c(v) turned by the angle u about the axis through origin, of unit length");
+    m.def(
+        "curve_on_surface",
+        [](const SharedSurface& surface, const SharedCurve& pcurve, double shift,
+           double rate) -> SharedCurve {
+            if (pcurve->dimension() != 2) throw nb::value_error("the curve must lie in (u, v)");
+            return std::make_shared<CurveOnSurface>(surface, pcurve, shift, rate);
+        },
+        nb::arg("surface"), nb::arg("pcurve"), nb::arg("shift"), nb::arg("rate"),
+        "r(p(shift + rate t)) with a curve p in (u, v); derivatives beyond the second are no "
+        "numbers.");
     m.def(
         "offset_surface",
         [](const SharedSurface& basis, double distance) -> SharedSurface {

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <utility>
 
-#include "surfaces/tape_bounds.hpp"
 #include "surfaces/tape_evaluation.hpp"
 
 namespace surfmesh {
@@ -119,18 +118,30 @@ void FormulaSurface::mend(const Tape& tape, std::span<const Point2> uv,
             out[k] = {0.0, 0.0, 0.0};
 }
 
+/// Bounds of r and its derivatives, those of the ``first`` numbers left out.
+SurfaceStatus FormulaSurface::bounds_from(std::size_t first, Kinks kinks,
+                                          std::span<const ParameterBox> cells,
+                                          std::span<Point3> lower, std::span<Point3> upper) const {
+    if (tapes_[2] == nullptr) return SurfaceStatus::UNKNOWN;
+    Array<Point2> low(cells.size()), high(cells.size());
+    for (std::size_t i = 0; i < cells.size(); ++i) {
+        low[i] = cells[i].low;
+        high[i] = cells[i].high;
+    }
+    bounds(*tapes_[2], as_numbers({low.data(), low.size()}), as_numbers({high.data(), high.size()}),
+           kinks, first, as_numbers(lower), as_numbers(upper));
+    return SurfaceStatus::DONE;
+}
+
 SurfaceStatus FormulaSurface::derivative_bounds(std::span<const ParameterBox> cells,
                                                 std::span<Point3> lower,
                                                 std::span<Point3> upper) const {
-    if (tapes_[2] == nullptr) return SurfaceStatus::UNKNOWN;
-    Array<Point2> low, high;
-    for (const ParameterBox& cell : cells) {
-        low.push_back(cell.low);
-        high.push_back(cell.high);
-    }
-    bounds(*tapes_[2], as_numbers({low.data(), low.size()}), as_numbers({high.data(), high.size()}),
-           Kinks::LEFT_OUT, 3, as_numbers(lower), as_numbers(upper));
-    return SurfaceStatus::DONE;
+    return bounds_from(3, Kinks::LEFT_OUT, cells, lower, upper);
+}
+
+SurfaceStatus FormulaSurface::all_bounds(std::span<const ParameterBox> cells,
+                                         std::span<Point3> lower, std::span<Point3> upper) const {
+    return bounds_from(0, Kinks::UNBOUNDED, cells, lower, upper);
 }
 
 }  // namespace surfmesh

@@ -11,6 +11,7 @@
 
 #include "surfaces/surface.hpp"
 #include "surfaces/tape.hpp"
+#include "surfaces/tape_bounds.hpp"
 
 namespace surfmesh {
 
@@ -39,8 +40,12 @@ class FormulaSurface final : public Surface {
     /// Of the smooth pieces in a cell, whether there are kinks between them or not.
     SurfaceStatus derivative_bounds(std::span<const ParameterBox> cells, std::span<Point3> lower,
                                     std::span<Point3> upper) const override;
+    SurfaceStatus all_bounds(std::span<const ParameterBox> cells, std::span<Point3> lower,
+                             std::span<Point3> upper) const override;
 
   private:
+    SurfaceStatus bounds_from(std::size_t first, Kinks kinks, std::span<const ParameterBox> cells,
+                              std::span<Point3> lower, std::span<Point3> upper) const;
     /// Derivatives that are not finite replaced by those further inside, in the end by 0.
     void mend(const Tape& tape, std::span<const Point2> uv, std::span<Point3> out) const;
     [[nodiscard]] Point2 kept_off(Point2 uv) const;

@@ -58,6 +58,15 @@ class Surface {
         return SurfaceStatus::UNKNOWN;
     }
 
+    /// The same with bounds of r itself before them, so that nothing is missed between points:
+    /// 1 + BOUNDED_DERIVATIVES a cell. Second derivatives have none across a kink, first ones none
+    /// across a jump.
+    virtual SurfaceStatus all_bounds(std::span<const ParameterBox> /*cells*/,
+                                     std::span<Point3> /*lower*/,
+                                     std::span<Point3> /*upper*/) const {
+        return SurfaceStatus::UNKNOWN;
+    }
+
     /// The exception behind FAILED, once. A surface that is made of others asks them.
     [[nodiscard]] virtual std::exception_ptr take_failure() const { return {}; }
 

@@ -28,13 +28,6 @@ def triangle_shape(xy: Annotated[NDArray[numpy.float64], dict(shape=(None, 2), o
     alpha of the triangle xy (3, 2) in the mean metric of its corners' tensors (3, 3).
     """
 
-def bend(x: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)], extent: float, knots: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)], slopes: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)]) -> tuple[Annotated[NDArray[numpy.float64], dict(shape=(None,))], Annotated[NDArray[numpy.float64], dict(shape=(None,))]]:
-    """
-    The parameter (n,) at scaled coordinates x (n,), and its derivative by x (n,).
-
-    knots and slopes (k,): the parameter and its derivative at k even coordinates from 0 to extent; linear outside.
-    """
-
 class Background:
     """Size tensors on a forest of quadtrees over a box of the scaled plane."""
 
@@ -133,6 +126,12 @@ def patch_errors(patches: Annotated[NDArray[numpy.int32], dict(shape=(None, 9), 
 
 GRID_DEPTH: int = 20
 
+class NodeLaw:
+    """What sizes are asked for at the nodes of a field."""
+
+class HiddenFeatures:
+    """Where a surface may have features between the nodes of a cell."""
+
 class FieldBuilder:
     """Makes the background of one size field."""
 
@@ -148,7 +147,7 @@ class FieldBuilder:
         """
         Split cells until the field is accurate: status, place, and number of triangles or cells.
 
-        law(xy (n, 2)) -> the twelve arrays of FieldNodes. hidden(deep, low, high (n, 2), normal (n, 3), root (9 n, 3), smallest size (n,)) -> (n,) bool.
+        law, hidden: of the core, or callables: law(xy (n, 2)) -> the twelve arrays of FieldNodes. hidden(deep, low, high (n, 2), normal (n, 3), root (9 n, 3), smallest size (n,)) -> (n,) bool.
         Raises what they raise. The status is done, too_many_triangles, too_many_cells or not_graded.
         """
 

@@ -1,12 +1,16 @@
 """A whole (u, v) domain and its size field become triangles in one call."""
 
+from collections.abc import Sequence
+import enum
 from typing import Annotated
 
 import numpy
 from numpy.typing import NDArray
 
 import surfmesh._core.fields
+import surfmesh._core.insertion
 import surfmesh._core.optimisation
+import surfmesh._core.packing
 import surfmesh._core.surfaces
 import surfmesh._core.triangulation
 
@@ -15,42 +19,11 @@ SHORTEST: float = 0.66
 
 LONGEST: float = 1.45
 
-class ChartAxis:
-    """A monotone map between one parameter and its scaled coordinate."""
-
-    def __init__(self, extent: float, knots: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)], slopes: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)], pieces: Annotated[NDArray[numpy.float64], dict(shape=(None, 7), order='C', device='cpu', writable=False)] | None = None) -> None:
-        """
-        knots, slopes (k,): the parameter and its derivative at k even coordinates from 0 to extent.
-        pieces (p, 7), where knots are of the bent parameter: first, last, powers at both ends, their beta function, clearance at both ends.
-        """
-
-    @property
-    def extent(self) -> float: ...
-
-    def parameter_and_rate(self, x: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)]) -> tuple[Annotated[NDArray[numpy.float64], dict(shape=(None,))], Annotated[NDArray[numpy.float64], dict(shape=(None,))]]:
-        """
-        The parameter (n,) at scaled coordinates x (n,), and its derivative by x (n,).
-
-        Linear outside [0, extent], constant where the parameter is bent.
-        """
-
-class Chart:
-    """(u, v) of a surface and the scaled plane, axis by axis."""
-
-    def __init__(self, u: ChartAxis, v: ChartAxis) -> None: ...
-
-    def to_uv_and_rates(self, xy: Annotated[NDArray[numpy.float64], dict(shape=(None, 2), order='C', device='cpu', writable=False)]) -> tuple[Annotated[NDArray[numpy.float64], dict(shape=(None, 2))], Annotated[NDArray[numpy.float64], dict(shape=(None, 2))]]:
-        """xy (n, 2) -> uv (n, 2) and (du/dx, dv/dy) (n, 2)."""
-
 FINEST_SIZE: float = 1e-05
 
 FINEST_BY_ANGLE: float = 0.0002
 
 LEAST_OF_CHORD: float = 0.5
-
-ROUND_RESERVE: float = 0.78
-
-BENT_RESERVE: float = 0.94
 
 def dense_samples() -> Annotated[NDArray[numpy.float64], dict(shape=(None, 3))]:
     """
@@ -69,7 +42,7 @@ def vertex_deviations(surface: surfmesh._core.surfaces.Surface, points: Annotate
     The same (n,) of points that should be r(u, v) itself: looked at closely only if not.
     """
 
-def triangle_deviations(surface: surfmesh._core.surfaces.Surface, chart: Chart, corners: Annotated[NDArray[numpy.float64], dict(shape=(None, 3, 3), order='C', device='cpu', writable=False)], xy: Annotated[NDArray[numpy.float64], dict(shape=(None, 3, 2), order='C', device='cpu', writable=False)], limit: float) -> Annotated[NDArray[numpy.float64], dict(shape=(None,))]:
+def triangle_deviations(surface: surfmesh._core.surfaces.Surface, chart: surfmesh._core.surfaces.Chart, corners: Annotated[NDArray[numpy.float64], dict(shape=(None, 3, 3), order='C', device='cpu', writable=False)], xy: Annotated[NDArray[numpy.float64], dict(shape=(None, 3, 2), order='C', device='cpu', writable=False)], limit: float) -> Annotated[NDArray[numpy.float64], dict(shape=(None,))]:
     """
     Largest distance (n,) from the surface at samples of triangles (n, 3, 3) with corners on it.
 
@@ -190,7 +163,7 @@ class PatchState:
     A triangulated domain with its surface frames, and the passes of the optimiser on it.
     """
 
-    def __init__(self, t: surfmesh._core.triangulation.Triangulation, node: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], same: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], on_kinks: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], points: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)] | None, surface: surfmesh._core.surfaces.Surface, chart: Chart, background: surfmesh._core.fields.Background, chord: float | None = None, angle: float | None = None, min_size: float = 0.0, before_pass: object | None = None) -> None:
+    def __init__(self, t: surfmesh._core.triangulation.Triangulation, node: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], same: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], on_kinks: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], points: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)] | None, surface: surfmesh._core.surfaces.Surface, chart: surfmesh._core.surfaces.Chart, background: surfmesh._core.fields.Background, chord: float | None = None, angle: float | None = None, min_size: float = 0.0, before_pass: object | None = None) -> None:
         """
         t: of the domain, changed in place. node, same (k,): vertices of the boundary's nodes, and of those they coincide with in space. on_kinks (j,): vertices where the surface has two normals. points (k, 3): where the nodes lie; None: on the surface.
         chord (model units), angle (degrees): what is asked for. before_pass: called before each pass of smoothing; may raise to stop the work.
@@ -258,7 +231,7 @@ class PatchState:
 
     def mapped(self, node_uv: Annotated[NDArray[numpy.float64], dict(shape=(None, 2), order='C', device='cpu', writable=False)], node: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], segments: Annotated[NDArray[numpy.int32], dict(shape=(None, 2), order='C', device='cpu', writable=False)], identity: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)]) -> MappedPatch:
         """
-        The triangles in space, seams identified.
+        The triangles in space, seams identified; no pass may come after.
 
         node_uv: (j, 2) of the nodes that have a vertex, to the last bit. node (k,), segments (s, 2), identity (k,): of boundary loops, the vertex of each node or NIL, pairs of nodes, and for each node the first that is the same point in space; empty where nothing is identified.
         """
@@ -281,3 +254,83 @@ class PatchState:
 
         off_surface: (k,) marks of the nodes that lie off the surface themselves: for the triangles at them smaller sizes are no help.
         """
+
+class PatchSettings:
+    """What a patch is meshed on, and how."""
+
+    def __init__(self, surface: object, chart: object, background: object, chord: float | None = None, angle: float | None = None, min_size: float = 0.0, *, box: Sequence[float], expected: int, optimise: bool = True, first: bool = True, with_roots: bool = False, before_stage: object | None = None, while_packing: object | None = None, before_pass: object | None = None) -> None:
+        """
+        chord (model units), angle (degrees): what is asked for. box: x0, y0, x1, y1 of the plane that is packed, in which about ``expected`` circles have room. optimise: else only diagonals are chosen. first: the sizes come from no earlier round. with_roots: W of the vertices is wanted.
+        before_stage is called with each PatchStage, while_packing now and then with the number of circles, before_pass before each pass of smoothing; what they raise stops the work and comes through.
+        """
+
+class PatchStage(enum.Enum):
+    """Where the work on a patch is."""
+
+    PACKING = 0
+
+    BOUNDARY = 1
+
+    OPTIMISATION = 2
+
+    MAPPING = 3
+
+class PatchEnd(enum.Enum):
+    """How the work on a patch ended."""
+
+    DONE = 0
+
+    PACKING_FAILED = 1
+    """see ``packing``"""
+
+    BOUNDARY_FAILED = 2
+    """see ``boundary``"""
+
+    SURFACE_FAILED = 3
+    """its reason is raised"""
+
+    CANCELLED = 4
+    """what the caller raised comes through"""
+
+class PatchMesh:
+    """What has become of a patch."""
+
+    @property
+    def end(self) -> PatchEnd:
+        """All else is there where it is DONE."""
+
+    @property
+    def packing(self) -> surfmesh._core.packing.PackingStatus: ...
+
+    @property
+    def circles(self) -> int:
+        """How many were packed."""
+
+    @property
+    def boundary(self) -> surfmesh._core.insertion.BoundaryOutcome: ...
+
+    @property
+    def domain(self) -> surfmesh._core.insertion.DomainMesh:
+        """The triangles in the scaled plane."""
+
+    @property
+    def mapped(self) -> MappedPatch:
+        """The triangles in space."""
+
+    @property
+    def metric_root_3d(self) -> Annotated[NDArray[numpy.float64], dict(shape=(None, 6))]:
+        """(k, 6) W of the domain's vertices, if they are wanted"""
+
+    @property
+    def requests(self) -> SizeRequests:
+        """Smaller sizes, for another round."""
+
+def mesh_loops(settings: PatchSettings, uv: Annotated[NDArray[numpy.float64], dict(shape=(None, 2), order='C', device='cpu', writable=False)], nodes: Annotated[NDArray[numpy.float64], dict(shape=(None, 2), order='C', device='cpu', writable=False)], segments: Annotated[NDArray[numpy.int32], dict(shape=(None, 2), order='C', device='cpu', writable=False)], inner: Annotated[NDArray[numpy.int32], dict(shape=(None, 2), order='C', device='cpu', writable=False)], identity: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], points: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)] | None = None) -> PatchMesh:
+    """
+    Mesh what is on the left of loops, without the interpreter.
+
+    uv (k, 2), nodes (k, 2): the same in the scaled plane; the others as ``recover`` in the room insertion takes them.
+    """
+
+def mesh_regions(settings: PatchSettings, uv: Annotated[NDArray[numpy.float64], dict(shape=(None, 2), order='C', device='cpu', writable=False)], nodes: Annotated[NDArray[numpy.float64], dict(shape=(None, 2), order='C', device='cpu', writable=False)], pieces: Annotated[NDArray[numpy.int32], dict(shape=(None, 2), order='C', device='cpu', writable=False)], segment: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], loop_segments: Annotated[NDArray[numpy.int32], dict(shape=(None, 2), order='C', device='cpu', writable=False)], is_hole: Annotated[NDArray[numpy.uint8], dict(shape=(None,), order='C', device='cpu', writable=False)]) -> PatchMesh:
+    """The same for a planar domain, as ``recover_regions`` takes it."""

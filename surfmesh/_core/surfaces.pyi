@@ -46,6 +46,11 @@ class Curve:
     def evaluate(self, t: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)], order: int = 0) -> Annotated[NDArray[numpy.float64], dict(shape=(None, None, None))]:
         """(n,) -> (order + 1, n, dimension): c, c', c'', ..."""
 
+def points_on(curves: Sequence[Curve], t: Annotated[NDArray[numpy.float64], dict(shape=(None, None), order='C', device='cpu', writable=False)]) -> Annotated[NDArray[numpy.float64], dict(shape=(None, None, None))]:
+    """
+    Points of n curves of one dimension, row i of t (n, k) on curve i -> (n, k, dimension).
+    """
+
 def line(origin: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)], direction: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)]) -> Curve:
     """origin + t direction"""
 
@@ -103,6 +108,11 @@ def extrusion(domain: tuple[tuple[float, float], tuple[float, float]], curve: Cu
 def revolution(domain: tuple[tuple[float, float], tuple[float, float]], curve: Curve, origin: Annotated[NDArray[numpy.float64], dict(shape=(3), order='C', device='cpu', writable=False)], axis: Annotated[NDArray[numpy.float64], dict(shape=(3), order='C', device='cpu', writable=False)]) -> Surface:
     """
     c(v) turned by the angle u about the axis through origin, of unit length
+    """
+
+def curve_on_surface(surface: Surface, pcurve: Curve, shift: float, rate: float) -> Curve:
+    """
+    r(p(shift + rate t)) with a curve p in (u, v); derivatives beyond the second are no numbers.
     """
 
 def offset_surface(basis: Surface, distance: float) -> Surface:
@@ -170,4 +180,38 @@ class FormulaSurface(Surface):
         tapes: of r, with r_u and r_v, with r_uu, r_uv, r_vv; None for an order that is not wanted.
 
         limits: for u and for v (places, lowest, highest): places of infinite speed, and within which limits derivatives are taken between them; all empty where the speed is finite.
+        """
+
+class ChartAxis:
+    """A monotone map between one parameter and its scaled coordinate."""
+
+    def __init__(self, extent: float, knots: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)], slopes: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)], pieces: Annotated[NDArray[numpy.float64], dict(shape=(None, 7), order='C', device='cpu', writable=False)] | None = None) -> None:
+        """
+        knots, slopes (k,): the parameter and its derivative at k even coordinates from 0 to extent.
+        pieces (p, 7), where knots are of the bent parameter: first, last, powers at both ends, their beta function, clearance at both ends.
+        """
+
+    @property
+    def extent(self) -> float: ...
+
+    def parameter_and_rate(self, x: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)]) -> tuple[Annotated[NDArray[numpy.float64], dict(shape=(None,))], Annotated[NDArray[numpy.float64], dict(shape=(None,))]]:
+        """
+        The parameter (n,) at scaled coordinates x (n,), and its derivative by x (n,).
+
+        Linear outside [0, extent], constant where the parameter is bent.
+        """
+
+class Chart:
+    """(u, v) of a surface and the scaled plane, axis by axis."""
+
+    def __init__(self, u: ChartAxis, v: ChartAxis) -> None: ...
+
+    def to_uv_and_rates(self, xy: Annotated[NDArray[numpy.float64], dict(shape=(None, 2), order='C', device='cpu', writable=False)]) -> tuple[Annotated[NDArray[numpy.float64], dict(shape=(None, 2))], Annotated[NDArray[numpy.float64], dict(shape=(None, 2))]]:
+        """xy (n, 2) -> uv (n, 2) and (du/dx, dv/dy) (n, 2)."""
+
+    def to_plane(self, uv: Annotated[NDArray[numpy.float64], dict(shape=(None, 2), order='C', device='cpu', writable=False)]) -> Annotated[NDArray[numpy.float64], dict(shape=(None, 2))]:
+        """
+        uv (n, 2), bent parameters where there are some -> xy (n, 2).
+
+        Exact at the ends of the axes; what lies beyond is moved there.
         """

@@ -137,9 +137,9 @@ def named_surface(name: str, options: Namespace) -> Surface | CadModel:
 
 def shown_mesh(options: Namespace, progress: ProgressBar) -> SurfaceMesh:
     """The mesh of INPUT: read from its file, or made of what is in it."""
-    from surfmesh.io import FORMATS, read
+    from surfmesh.io import FORMATS, IN_PIECES, read
 
-    if Path(options.input).suffix.lower() in FORMATS:
+    if Path(options.input).suffix.lower() in FORMATS | IN_PIECES:
         return read(options.input)
     with surface_begun(options.input, options) as surface_wanted:
         sizing = asked_sizing(options)

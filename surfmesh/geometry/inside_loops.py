@@ -5,11 +5,12 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 import numpy as np
-import shapely
 
 
 def is_inside(loops: Sequence[np.ndarray], points: np.ndarray) -> np.ndarray:
     """(n,) bool for points (n, 2): within an odd number of the loops (k, 2), not closed."""
+    import shapely  # late: most faces have one loop
+
     inside = np.zeros(len(points), bool)
     for loop in loops:
         if len(loop) < 3:
@@ -30,6 +31,8 @@ def nesting_depth(loops: Sequence[np.ndarray]) -> np.ndarray:
     A loop lies in a larger one that holds a point of its interior; of two equal ones the later
     lies in the earlier, so that by even-odd they cancel.
     """
+    import shapely
+
     with np.errstate(over="ignore", invalid="ignore"):  # of extremes, which are refused later
         polygons = shapely.make_valid([shapely.Polygon(loop) for loop in loops])
         area = shapely.area(polygons)

@@ -5,6 +5,7 @@ atomic, leftovers: a file is written in full or not at all, and what is left whe
 asked_date: the date that files carry when one is asked for.
 stl, obj, off, ply, glb, threemf, vtk_xml, xdmf, msh, inp, bdf, med: one format each, ``write``
     and ``read``.
+pvtu: a mesh in several .vtu files and an index of them.
 ply_reading, msh_reading, vtk_xml_reading, lz4_block, xml_writing: parts of these.
 to_trimesh, to_meshio: as meshes of other libraries, for what is not written here.
 group_record, colours: what is known of faces, solids and edges, in formats that have no place
@@ -21,12 +22,12 @@ Others use what is named below and ``atomic``, ``formats``, ``vtk_xml``, ``to_tr
 
 from typing import TYPE_CHECKING, Any
 
-from surfmesh.io.formats import FORMATS, read, save
+from surfmesh.io.formats import FORMATS, IN_PIECES, read, save
 
 if TYPE_CHECKING:
     from surfmesh.io.manifests import Entry, Manifest
 
-__all__ = ["FORMATS", "Entry", "Manifest", "read", "save"]
+__all__ = ["FORMATS", "IN_PIECES", "Entry", "Manifest", "read", "save"]
 
 
 def __getattr__(name: str) -> Any:

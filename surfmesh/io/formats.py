@@ -29,7 +29,11 @@ FORMATS = {
     ".3mf": "surfmesh.io.threemf",
 }
 
-SECOND_ORDER = (".vtu", ".msh", ".inp", ".bdf", ".xdmf", ".med")
+IN_PIECES = {".pvtu": "surfmesh.io.pvtu"}
+"""Formats of several files: an index and, in a folder beside it, pieces. Such a module has
+``save(mesh, path)`` and ``read(path)``."""
+
+SECOND_ORDER = (".vtu", ".pvtu", ".msh", ".inp", ".bdf", ".xdmf", ".med")
 """Formats that hold nodes amid edges."""
 
 LONGEST = 400  # characters of a refusal beside the path: it may quote what is in the file
@@ -44,8 +48,9 @@ def save(mesh: SurfaceMesh, path: str | Path, *, ascii: bool = False) -> Path:
     other programs. ``size`` is in .vtu, .vtp, .ply, .msh and .xdmf; corner parameters ``uv``,
     sizes that depend on the direction and what was promised of the faces are in .vtu and .vtp;
     nodes of order 2 in .vtu, .msh, .inp, .bdf, .xdmf and .med (needs meshio and h5py), the other
-    formats hold the corners alone, which a ``UserWarning`` says. ascii: .stl as text, one body
-    with a name for each solid.
+    formats hold the corners alone, which a ``UserWarning`` says. .pvtu is an index of several .vtu
+    files in a folder beside it, cut between faces, for meshes too large for one. ascii: .stl as
+    text, one body with a name for each solid.
 
     Raises ``FileFormatError`` for an extension that is not known, a folder that is not
     there, a place that cannot be written, a mesh without triangles.
@@ -62,6 +67,9 @@ def save(mesh: SurfaceMesh, path: str | Path, *, ascii: bool = False) -> Path:
         )
     if ascii and not hasattr(module, "write_ascii"):
         raise FileFormatError(f"{path}: only .stl has an ASCII form to choose; leave ascii out")
+    if path.suffix.lower() in IN_PIECES:
+        module.save(mesh, path)
+        return path
     with replacing(path) as temporary:
         (module.write_ascii if ascii else module.write)(mesh, temporary)
     return path
@@ -116,10 +124,11 @@ def _module(path: Path) -> ModuleType:
 
 def _home(path: Path) -> str:
     """Name of the module for ``path``."""
+    homes = FORMATS | IN_PIECES
     try:
-        return FORMATS[path.suffix.lower()]
+        return homes[path.suffix.lower()]
     except KeyError:
-        known = " ".join(FORMATS)
+        known = " ".join(homes)
         found = f"extension '{path.suffix}' is not known" if path.suffix else "has no extension"
         raise FileFormatError(f"{path}: {found}; known are {known}") from None
 

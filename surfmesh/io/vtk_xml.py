@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 
 from surfmesh.io.colours import NO_COLOUR, triangle_colours
 from surfmesh.io.group_record import CAD_NUMBERS, as_cad_numbers, cad_numbers
-from surfmesh.io.vtk_xml_reading import read_vtk
+from surfmesh.io.vtk_xml_reading import VtkContent, read_vtk
 from surfmesh.io.xml_writing import Content, write_grid, write_polygons
 from surfmesh.quality.measures.shape import alpha
 from surfmesh.quality.measures.tolerances import tolerance_rows
@@ -31,6 +31,11 @@ PROMISES = "surfmesh_promises"  # chord, angle, min_size of each face or of all;
 METRIC, METRIC_ROWS = "surfmesh_inverse_sizes", "inverse_size_row"
 """Sizes that depend on the direction: a table W = xx, xy, xz, yy, yz, zz (|W d| is the step d in
 wanted lengths) in field data, and the rows of the three corners of each triangle."""
+
+
+POINT_DATA, CELL_DATA = ("size",), ("face_id", "solid_id", "uv", METRIC_ROWS)
+FIELD_DATA = ("one_sided", GROUPS, METRIC, PROMISES, *CAD_NUMBERS)
+"""The arrays that are read."""
 
 
 def to_pyvista(mesh: SurfaceMesh) -> "pyvista.PolyData":
@@ -63,6 +68,11 @@ def _of_triangles(mesh: SurfaceMesh) -> dict[str, NDArray]:
 
 def write(mesh: SurfaceMesh, path: Path) -> None:
     grid = path.suffix.lower() == ".vtu"
+    (write_grid if grid else write_polygons)(content_of(mesh, grid), path)
+
+
+def content_of(mesh: SurfaceMesh, grid: bool = True) -> Content:
+    """All that a file holds. grid: with the nodes of second order."""
     of_triangles = _of_triangles(mesh)
     field: dict[str, NDArray] = {"one_sided": np.array([mesh.one_sided], np.uint8)}
     corners = mesh.parametrisation
@@ -80,17 +90,15 @@ def write(mesh: SurfaceMesh, path: Path) -> None:
     if grid:
         points, cells, sizes = mesh.nodes, mesh.elements, mesh.node_sizes
     of_points = {} if sizes is None else {"size": sizes}
-    content = Content(points, cells, of_points, of_triangles, field)
-    (write_grid if grid else write_polygons)(content, path)
+    return Content(points, cells, of_points, of_triangles, field)
 
 
 def read(path: Path) -> SurfaceMesh:
-    found = read_vtk(
-        path,
-        point_data=("size",),
-        cell_data=("face_id", "solid_id", "uv", METRIC_ROWS),
-        field_data=("one_sided", GROUPS, METRIC, PROMISES, *CAD_NUMBERS),
-    )
+    return mesh_of(read_vtk(path, POINT_DATA, CELL_DATA, FIELD_DATA))
+
+
+def mesh_of(found: VtkContent) -> SurfaceMesh:
+    """The mesh that ``content_of`` made this of, or what another program has written."""
     points, triangles, cells, field = found.points, found.cells, found.cell_data, found.field_data
     sizes, mid_points = found.point_data.get("size"), None
     if triangles.shape[1] == 6:

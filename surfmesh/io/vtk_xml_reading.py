@@ -85,6 +85,22 @@ def read_vtk(
     )
 
 
+def read_index(path: Path, field_data: tuple[str, ...]) -> tuple[list[str], dict[str, NDArray]]:
+    """The files that a .pvtu file names, and those of the arrays named in its own field data.
+
+    Raises ``FileFormatError`` for what is damaged, or is no such file.
+    """
+    data = path.read_bytes()
+    root = root_of(path, data)
+    found = root.find("PUnstructuredGrid") if root.tag == "VTKFile" else None
+    if found is None:
+        raise FileFormatError(f"{path}: not a .pvtu file")
+    arrays = _Arrays.of(path, root, b"", len(data))
+    names = [(n, c) for n in field_data if (c := _named(found.find("FieldData"), n)) is not None]
+    sources = [piece.get("Source", "") for piece in found.findall("Piece")]
+    return sources, {name: arrays.field(element) for name, element in names}
+
+
 def _split(path: Path, data: bytes) -> tuple[bytes, bytes]:
     """The XML without its appended data, and these from behind their underscore."""
     start = data.find(b"<AppendedData")

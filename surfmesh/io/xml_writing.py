@@ -8,7 +8,7 @@ Format: VTK User's Guide, "VTK File Formats", "XML File Formats"; version 0.1, a
 import base64
 import sys
 import zlib
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import BinaryIO, NamedTuple
 from xml.sax.saxutils import quoteattr
@@ -22,6 +22,8 @@ KINDS = {"f8": "Float64", "i4": "Int32", "i8": "Int64", "u1": "UInt8"}
 TRIANGLE, QUADRATIC_TRIANGLE = 5, 22  # VTK's numbers of cells
 
 Arrays = Mapping[str, NDArray]
+POINT_IDS, CELL_IDS = "GlobalPointIds", "GlobalCellIds"
+"""Arrays (n,) of points and (m,) of cells: their numbers in a mesh that lies in several files."""
 
 
 class Content(NamedTuple):
@@ -52,6 +54,35 @@ def write_polygons(content: Content, path: Path) -> None:
     _write(path, "PolyData", content, {"Points": len(content.points)} | counts, parts)
 
 
+def write_index(pieces: Sequence[str], like: Content, of_all: Arrays, path: Path) -> None:
+    """A .pvtu file that names .vtu files, which hold the same arrays as ``like``.
+
+    of_all: field data of the whole, which VTK passes over here.
+    """
+    with open(path, "wb") as file:
+        file.write(_head("PUnstructuredGrid", ' GhostLevel="0"'))
+        _write_section(file, "FieldData", of_all, counted=True)
+        for name, arrays in (
+            ("PPointData", like.of_points), ("PCellData", like.of_cells),
+            ("PPoints", {"Points": like.points}),
+        ):  # fmt: skip
+            file.write(f"<{name}{_ids_among(arrays)}>\n".encode())
+            for title, values in arrays.items():
+                file.write(f"<PDataArray {_described(title, values)}/>\n".encode())
+            file.write(f"</{name}>\n".encode())
+        for piece in pieces:
+            file.write(f"<Piece Source={quoteattr(piece)}/>\n".encode())
+        file.write(b"</PUnstructuredGrid>\n</VTKFile>\n")
+
+
+def _head(kind: str, more: str = "") -> bytes:
+    order = "LittleEndian" if sys.byteorder == "little" else "BigEndian"
+    return (
+        f'<?xml version="1.0"?>\n<VTKFile type="{kind}" version="0.1" byte_order="{order}" '
+        f'header_type="UInt32" compressor="vtkZLibDataCompressor">\n<{kind}{more}>\n'
+    ).encode()
+
+
 def _runs(cells: NDArray, kind: type) -> dict[str, NDArray]:
     """Corners of all cells in a row, and where those of each cell end."""
     ends = cells.shape[1] * np.arange(1, len(cells) + 1)
@@ -61,14 +92,9 @@ def _runs(cells: NDArray, kind: type) -> dict[str, NDArray]:
 def _write(
     path: Path, kind: str, content: Content, counts: Mapping[str, int], parts: Mapping[str, Arrays]
 ) -> None:  # fmt: skip
-    order = "LittleEndian" if sys.byteorder == "little" else "BigEndian"
     sizes = "".join(f' NumberOf{name}="{count}"' for name, count in counts.items())
     with open(path, "wb") as file:
-        file.write(
-            b'<?xml version="1.0"?>\n'
-            + f'<VTKFile type="{kind}" version="0.1" byte_order="{order}" header_type="UInt32" '
-            f'compressor="vtkZLibDataCompressor">\n<{kind}>\n'.encode()
-        )
+        file.write(_head(kind))
         _write_section(file, "FieldData", content.of_all, counted=True)
         file.write(f"<Piece{sizes}>\n".encode())
         _write_section(file, "PointData", content.of_points)
@@ -81,17 +107,25 @@ def _write(
 
 def _write_section(file: BinaryIO, name: str, arrays: Arrays, counted: bool = False) -> None:
     """counted: with the number of rows, which nothing else in the file tells."""
-    file.write(f"<{name}>\n".encode())
+    file.write(f"<{name}{_ids_among(arrays)}>\n".encode())
     for title, values in arrays.items():
-        words = f'type="{KINDS[values.dtype.str[1:]]}" Name={quoteattr(title)}'
-        if values.ndim > 1:
-            words += f' NumberOfComponents="{values.shape[1]}"'
+        words = _described(title, values)
         if counted:
             words += f' NumberOfTuples="{len(values)}"'
         file.write(f'<DataArray {words} format="binary">\n'.encode())
         _write_numbers(file, values)
         file.write(b"\n</DataArray>\n")
     file.write(f"</{name}>\n".encode())
+
+
+def _described(title: str, values: NDArray) -> str:
+    words = f'type="{KINDS[values.dtype.str[1:]]}" Name={quoteattr(title)}'
+    return words + (f' NumberOfComponents="{values.shape[1]}"' if values.ndim > 1 else "")
+
+
+def _ids_among(arrays: Arrays) -> str:
+    """What tells VTK which array holds the numbers in the whole."""
+    return "".join(f' GlobalIds="{name}"' for name in (POINT_IDS, CELL_IDS) if name in arrays)
 
 
 def _write_numbers(file: BinaryIO, values: NDArray) -> None:

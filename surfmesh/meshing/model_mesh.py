@@ -25,7 +25,7 @@ from surfmesh.meshing.estimate.trial_faces import ratios
 from surfmesh.meshing.estimate.trial_mesh import ROUNDS as TRIAL_ROUNDS
 from surfmesh.meshing.estimate.trial_mesh import WHOLE, WHOLE_STRETCHED, counts_within_budget
 from surfmesh.meshing.faces.face_mesh import edge_refinement, mesh_face
-from surfmesh.meshing.faces.face_state import FaceState, face_states, first_jobs
+from surfmesh.meshing.faces.face_state import FaceState, face_jobs, face_states
 from surfmesh.meshing.faces.face_workers import FACE_WORK, FaceWorkers
 from surfmesh.meshing.faces.opposite_faces import copied, opposite_pairs
 from surfmesh.meshing.finishing.edge_collapse import LEAST, simplified
@@ -145,19 +145,15 @@ class _Rounds:
         with self.watch.stage("sizing"):
             self.nodes = cut_edges(model, sizing, self.samples, limits, self.nodes)
             if first:
-                jobs = partial(first_jobs, model, self.faces, self.nodes, self.samples)
+                jobs = partial(face_jobs, model, self.faces, self.nodes)
                 sizings = [state.sizing for state in self.faces]
                 require_model_within(model, jobs, self.nodes, sizings, sizing)
 
     def _mesh_faces(self, outdated: list[FaceState], limits: Mapping[int, SizeLimits]) -> None:
         with self.watch.stage("packing"):
-            jobs = []
-            for state in outdated:
-                limit = limits.get(state.number)
-                state.job = state.job_from(
-                    self.model, self.nodes, self.samples, limit, self.how.optimise
-                )
-                jobs.append(state.job)
+            jobs = face_jobs(self.model, outdated, self.nodes, limits, self.how.optimise)
+            for state, job in zip(outdated, jobs):
+                state.job = job
             meshes = self.how.workers.meshed(jobs)
             for count, (state, mesh) in enumerate(zip(outdated, meshes), 1):
                 state.take(mesh)
@@ -223,8 +219,8 @@ class _Unmeshed:
         self.samples = sample_edges(model, self.wanted)
         self.faces = face_states(model, self.samples, self.wanted)
         nodes = cut_edges(model, self.wanted.base, self.samples, {})
-        self.jobs = first_jobs(model, self.faces, nodes, self.samples)
+        self.jobs = face_jobs(model, self.faces, nodes)
         if self.wanted.is_anisotropic:  # long edges are cut again, and many of them
             limits = {k: more for k, job in enumerate(self.jobs) if (more := edge_refinement(job))}
             nodes = cut_edges(model, self.wanted.base, self.samples, limits, nodes)
-            self.jobs = first_jobs(model, self.faces, nodes, self.samples, limits)
+            self.jobs = face_jobs(model, self.faces, nodes, limits)

@@ -138,10 +138,11 @@ class _Rounds:
     def _meshed(self, field: SizeField) -> tuple[SurfaceMesh, SizeLimits | None, np.ndarray]:
         """The mesh for one size field; the sizes it requests; points where sides are not joined."""
         surface, sides = self.surface, self.sides
+        with self.watch.stage("sizing"):
+            loops = self._boundary(field)
         patch = mesh_patch(
-            surface, self.chart, field, lambda: self._boundary(field),
-            optimise=self.optimise, watch=self.watch,
-        )  # fmt: skip
+            surface, self.chart, field, loops, optimise=self.optimise, watch=self.watch
+        )
         mesh = SurfaceMesh(
             points=patch.space.points,
             triangles=patch.space.triangles,

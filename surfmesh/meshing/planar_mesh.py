@@ -76,7 +76,7 @@ def mesh_planar(
         cut = found
         loops = [*domain.outer, *domain.holes]
         require_field_within(sizing.limit, field, loops, domain.name)
-    patch = mesh_patch(domain, field.chart, field, lambda: cut, optimise=optimise, watch=watch)
+    patch = mesh_patch(domain, field.chart, field, cut, optimise=optimise, watch=watch)
     return _with_regions(domain, cut, patch, field.sizing, watch)
 
 

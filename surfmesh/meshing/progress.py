@@ -3,7 +3,7 @@
 import logging
 import time
 from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from contextlib import ExitStack, contextmanager
 
 import numpy as np
 
@@ -57,6 +57,17 @@ class Stopwatch:
             took = time.perf_counter() - start
             self.seconds[name] = self.seconds.get(name, 0.0) + took
         logger.info("%s: %.3f s", name, took)
+
+    @contextmanager
+    def stages(self) -> Iterator[Callable[[str], None]]:
+        """Gives a function that ends one stage and begins the one of its argument."""
+        with ExitStack() as current:
+
+            def begin(name: str) -> None:
+                current.close()
+                current.enter_context(self.stage(name))
+
+            yield begin
 
     def pulse(self, within: float | None = None) -> None:
         """Say that the stage goes on; raises ``Cancelled`` when that is not wanted.

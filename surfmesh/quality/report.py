@@ -3,6 +3,7 @@
 from dataclasses import dataclass, replace
 from time import perf_counter
 
+from surfmesh._core import return_free_memory
 from surfmesh.quality.figures.accuracy import (
     BetweenSamples,
     ChordUseFigures,
@@ -57,6 +58,8 @@ def check(mesh: SurfaceMesh, *, second_opinion: bool = False) -> Report:
     start = perf_counter()
     measured = Measurements(mesh)
     report = _report(measured)
+    del measured
+    return_free_memory(len(mesh.triangles))
     report = replace(report, seconds={**mesh.seconds, "check": perf_counter() - start})
     return with_second_opinion(report, mesh) if second_opinion else report
 

@@ -6,10 +6,10 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 from naive.boundary_row import insert_row
+from stages import recovered
 
 from surfmesh.geometry.planar.planar_domain import PlanarRegion
 from surfmesh.meshing.boundary.boundary_loops import BoundaryLoops
-from surfmesh.meshing.boundary.boundary_recovery import recovered
 from surfmesh.meshing.patch.packing import packed_over
 from surfmesh.reference.boundary_insertion import insert_boundary
 from surfmesh.reference.field_packing import FieldPacking

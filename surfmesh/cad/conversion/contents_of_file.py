@@ -122,8 +122,10 @@ def _held(path: Path) -> Counter[str]:
     """How many entities of each kind a file has; none of a BREP file."""
     suffix = path.suffix.lower()
     if suffix in (".step", ".stp", ".p21"):
-        names = Counter(match[1].decode() for match in _STEP_NAME.finditer(path.read_bytes()))
-        return Counter({k.one: sum(names[name] for name in k.step) for k in (*_BODIES, *_OTHERS)})
+        names = Counter(_STEP_NAME.findall(path.read_bytes()))
+        return Counter(
+            {k.one: sum(names[name.encode()] for name in k.step) for k in (*_BODIES, *_OTHERS)}
+        )
     if suffix in (".iges", ".igs"):
         numbers = Counter(_iges_numbers(path))
         return Counter({k.one: sum(numbers[name] for name in k.iges) for k in (*_BODIES, *_OTHERS)})

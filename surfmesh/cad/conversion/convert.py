@@ -77,18 +77,9 @@ def _kind(geometry: Any) -> str:
     return "null" if geometry is None else geometry.DynamicType().Name()
 
 
-def _xyz(point: Any) -> tuple[float, float, float]:
-    """A gp_Pnt, gp_Dir or gp_Vec."""
-    return point.X(), point.Y(), point.Z()
-
-
-def _coordinates(point: Any) -> tuple[float, ...]:
-    """The same in space or in the plane."""
-    return _xyz(point) if hasattr(point, "Z") else (point.X(), point.Y())
-
-
 def _vector(point: Any) -> np.ndarray:
-    return np.array(_coordinates(point))
+    """The coordinates of a point, a direction or a vector, in space or in the plane."""
+    return np.array(point.Coord())
 
 
 # -------------------------------------------------------------------------------- surfaces
@@ -168,7 +159,7 @@ def _net(surface: Any) -> tuple[np.ndarray, np.ndarray | None]:
     """Control points (nu, nv, 3) and weights (nu, nv), or None where they are all the same."""
     rows, columns = range(1, surface.NbUPoles() + 1), range(1, surface.NbVPoles() + 1)
     poles = surface.Poles()  # called with two indices: OCP 7.8 gives arrays no Value
-    control = np.array([[_xyz(poles(i, j)) for j in columns] for i in rows])
+    control = np.array([[poles(i, j).Coord() for j in columns] for i in rows])
     if not (surface.IsURational() or surface.IsVRational()):
         return control, None
     return control, np.array([[surface.Weight(i, j) for j in columns] for i in rows])
@@ -231,7 +222,7 @@ def _offset_curve2d(curve: Geom2d.Geom2d_OffsetCurve) -> OffsetCurve:
 def _polygon(curve: Any) -> tuple[np.ndarray, np.ndarray | None]:
     """Control points (n, d) and weights (n,), or None where they are all the same."""
     poles = range(1, curve.NbPoles() + 1)
-    control = np.array([_coordinates(curve.Pole(i)) for i in poles])
+    control = np.array([curve.Pole(i).Coord() for i in poles])
     return control, np.array([curve.Weight(i) for i in poles]) if curve.IsRational() else None
 
 

@@ -18,7 +18,7 @@ from OCP.TopoDS import TopoDS, TopoDS_Face, TopoDS_Iterator, TopoDS_Vertex
 from surfmesh.cad.model.cad_model import CadCoedge
 from surfmesh.cad.model.invariants import FRACTIONS
 from surfmesh.geometry.cad_surfaces.curve_on_surface import CurveOnSurface
-from surfmesh.geometry.cad_surfaces.curves import Curve, Line
+from surfmesh.geometry.cad_surfaces.curves import CoreCurve, Line
 from surfmesh.geometry.cad_surfaces.face_surface import FaceSurface
 
 REACH = 0.4
@@ -29,7 +29,7 @@ REACH = 0.4
 class ShortEdge:
     """From a vertex along u: curve in space, p-curve, both with parameters 0 to ``end``."""
 
-    curve: Curve
+    curve: CoreCurve
     pcurve: Line
     end: float
     length: float  # of its chord, in space

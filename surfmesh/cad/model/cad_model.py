@@ -22,7 +22,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from surfmesh.cad.model.invariants import broken
-from surfmesh.geometry.cad_surfaces.curves import Curve
+from surfmesh.geometry.cad_surfaces.curves import CoreCurve
 from surfmesh.geometry.cad_surfaces.face_surface import FaceSurface
 
 Colour = tuple[float, float, float]
@@ -46,7 +46,7 @@ class CadEdge:
     was made of, where imprinting made it of several; ``name`` holds them too.
     """
 
-    curve: Curve | None
+    curve: CoreCurve | None
     t0: float
     t1: float
     start: int
@@ -92,7 +92,7 @@ class CadCoedge:
 
     edge: int
     reversed: bool
-    pcurve: Curve
+    pcurve: CoreCurve
     p0: float
     p1: float
     seam: bool

@@ -98,10 +98,14 @@ def solid_centre(model: CadModel, solid: CadSolid) -> np.ndarray:
     return moment / total if total else moment
 
 
+def cell_centres(count: int) -> np.ndarray:
+    """Centres (n, 2) of count x count cells of the unit square, row after row."""
+    at = (np.arange(count) + 0.5) / count
+    return np.stack(np.meshgrid(at, at), axis=-1).reshape(-1, 2)
+
+
 def inner_samples(face: CadFace, count: int) -> np.ndarray:
     """uv (n, 2) of about count x count points of a grid that lie in the face."""
-    (u0, u1), (v0, v1) = face.surface.domain
-    at = (np.arange(count) + 0.5) / count
-    grid = np.stack(np.meshgrid(u0 + at * (u1 - u0), v0 + at * (v1 - v0)), axis=-1)
-    grid = grid.reshape(-1, 2)
+    low, high = np.array(face.surface.domain).T
+    grid = low + cell_centres(count) * (high - low)
     return grid[is_inside(boundary_polygons(face), grid)]

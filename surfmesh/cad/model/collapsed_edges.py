@@ -27,6 +27,11 @@ def collapses(model: CadModel, edge: CadEdge) -> bool:
     return edge.degenerate or edge.length <= min(COLLAPSED * model.diagonal, LOOSE * loose)
 
 
+def collapsed_edges(model: CadModel) -> list[bool]:
+    """For each edge whether it collapses."""
+    return [collapses(model, edge) for edge in model.edges]
+
+
 def vertex_numbers(model: CadModel) -> np.ndarray:
     """For each CAD vertex the first one that tiny edges join it to, mostly itself."""
     number = np.arange(len(model.vertices))

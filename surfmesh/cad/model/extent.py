@@ -7,6 +7,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from surfmesh.cad.model.cad_model import CadEdge, CadFace, CadVertex
+from surfmesh.cad.model.curve_samples import next_ones, points_of, walked
 
 EDGE_FRACTIONS = np.linspace(0.0, 1.0, 17)
 GRID = 9  # points each way in the (u, v) box of a face; eight intervals meet the axes of a sphere
@@ -17,9 +18,9 @@ def diagonal(
 ) -> float:
     """Diagonal of the box around the points; a box of curved faces may be a little larger."""
     boxes = [_box(np.array([vertex.point for vertex in vertices]))]
-    for edge in edges:
-        if edge.curve is not None:
-            boxes.append(_box(edge.evaluate(EDGE_FRACTIONS, 0)[0]))
+    real = [edge for edge in edges if edge.curve is not None]
+    if real:
+        boxes.append(_box(points_of(real, EDGE_FRACTIONS).reshape(-1, 3)))
     for face in faces:
         uv = _inside(face)
         if face.kind != "plane" and len(uv):
@@ -40,8 +41,8 @@ def _inside(face: CadFace) -> np.ndarray:
     grid = np.stack(np.meshgrid(*lines, indexing="ij"), axis=-1).reshape(-1, 2)
     crossings = np.zeros(len(grid), int)
     for loop in face.loops:
-        corners = np.concatenate([coedge.walk(EDGE_FRACTIONS[:-1]) for coedge in loop])
-        (u0, v0), (u1, v1) = corners.T, np.roll(corners, -1, axis=0).T
+        corners = walked(loop, EDGE_FRACTIONS[:-1]).reshape(-1, 2)
+        (u0, v0), (u1, v1) = corners.T, next_ones(corners).T
         rise = np.where(v1 == v0, 1.0, v1 - v0)
         u, v = grid[:, :1], grid[:, 1:]
         spans = (v0 > v) != (v1 > v)

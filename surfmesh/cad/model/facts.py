@@ -10,7 +10,8 @@ from weakref import WeakKeyDictionary
 import numpy as np
 
 from surfmesh.cad.model.cad_model import CadFace, CadModel
-from surfmesh.cad.model.collapsed_edges import collapses, vanishes, vertex_numbers
+from surfmesh.cad.model.collapsed_edges import collapsed_edges, vanishes, vertex_numbers
+from surfmesh.cad.model.curve_samples import walked
 from surfmesh.cad.model.incidence import SAME_PLACE, edge_uses, vertex_fans
 from surfmesh.cad.model.invariants import signed_area
 from surfmesh.cad.model.loops import closes
@@ -29,10 +30,11 @@ def model_facts(model: CadModel) -> ModelFacts:
 def _model_facts(model: CadModel) -> ModelFacts:
     solids = []
     number = vertex_numbers(model)
+    collapsed = collapsed_edges(model)
     for solid in model.solids:
         faces = {face for shell in solid.shells for face, _ in shell}
         area = math.fsum(model.faces[face].area for face in faces)
-        euler = euler_number(model, faces, number)
+        euler = _euler_number(model, faces, number, collapsed)
         solids.append(SolidFacts(solid.name, area, solid.volume, euler, solid.closed))
     return ModelFacts(
         source=model.source,
@@ -40,7 +42,7 @@ def _model_facts(model: CadModel) -> ModelFacts:
         unit=model.unit,
         area=model.area,
         volume=model.volume if model.solids else None,
-        euler=euler_number(model, range(len(model.faces)), number),
+        euler=_euler_number(model, range(len(model.faces)), number, collapsed),
         faces=tuple(FaceFacts(face.kind, face.area) for face in model.faces),
         solids=tuple(solids),
         edge_uses=edge_uses(model),
@@ -49,23 +51,29 @@ def _model_facts(model: CadModel) -> ModelFacts:
     )
 
 
-def euler_number(model: CadModel, faces: Iterable[int], number: np.ndarray | None = None) -> int:
+def euler_number(model: CadModel, faces: Iterable[int]) -> int:
     """V - E + F of what these faces form, a face with L loops counted as 2 - L.
 
     One with islands, or with outer loops beside each other, is several pieces: 2 for each.
 
     A seam is one edge, a degenerate edge only its vertex: so a sphere has two vertices, one
     edge and one face. So is an edge that the mesh has as one vertex, being tiny.
-    number: ``vertex_numbers(model)``, where they are known.
     """
-    number = vertex_numbers(model) if number is None else number
+    return _euler_number(model, faces, vertex_numbers(model), collapsed_edges(model))
+
+
+def _euler_number(
+    model: CadModel, faces: Iterable[int], number: np.ndarray, collapsed: list[bool]
+) -> int:
+    """number: ``vertex_numbers(model)``. collapsed: ``collapsed_edges(model)``."""
+    of_vertex = number.tolist()
     vertices, edges = set(), set()
     inside = 0
     for face in (model.faces[k] for k in faces):
         for coedge in face.coedges:
             edge = model.edges[coedge.edge]
-            vertices |= {int(number[edge.start]), int(number[edge.end])}
-            if not collapses(model, edge):
+            vertices |= {of_vertex[edge.start], of_vertex[edge.end]}
+            if not collapsed[coedge.edge]:
                 edges.add(coedge.edge)
         if not vanishes(model, face):
             inside += 2 * _pieces(model, face) - _borders(model, face, number)
@@ -100,10 +108,9 @@ def _borders(model: CadModel, face: CadFace, number: np.ndarray) -> int:
     passed: dict[int, list[tuple[int, np.ndarray]]] = {}
     of = list(range(len(face.loops)))
     for loop, coedges in enumerate(face.loops):
-        for coedge in coedges:
+        for coedge, place in zip(coedges, walked(coedges, np.zeros(1))[:, 0]):
             edge = model.edges[coedge.edge]
             vertex = int(number[edge.end if coedge.reversed else edge.start])
-            place = coedge.walk(np.zeros(1))[0]
             for other, there in passed.setdefault(vertex, []):
                 if of[other] != of[loop] and (np.abs(place - there) <= near).all():
                     joined = of[other], of[loop]

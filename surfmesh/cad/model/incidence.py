@@ -17,7 +17,7 @@ from typing import NamedTuple
 import numpy as np
 
 from surfmesh.cad.model.cad_model import CadCoedge, CadFace, CadModel
-from surfmesh.cad.model.collapsed_edges import collapses, vanishes, vertex_numbers
+from surfmesh.cad.model.collapsed_edges import collapsed_edges, vanishes, vertex_numbers
 from surfmesh.geometry.components import components
 
 SAME_PLACE = 0.01  # of the (u, v) box: (u, v) of one vertex are as near, or a seam apart
@@ -53,14 +53,14 @@ def edge_uses(model: CadModel) -> tuple[int, ...]:
 def vertex_fans(model: CadModel) -> tuple[int, ...]:
     """Into how many fans the faces at each vertex fall that no edge joins; 0 where another
     vertex stands for this one, as only a tiny edge lies between."""
-    number = vertex_numbers(model)
+    number, collapsed = vertex_numbers(model), collapsed_edges(model)
     joined: list[tuple[End, End]] = []
     lone = [0] * len(model.vertices)
 
     for face in model.faces:
         if vanishes(model, face):
             continue
-        passages, points = _passages(model, face, number)
+        passages, points = _passages(model, face, number, collapsed)
         for vertex in set(points) - {passage.vertex for passage in passages}:
             lone[vertex] += 1
         joined += _sectors(face, passages)
@@ -73,12 +73,12 @@ def vertex_fans(model: CadModel) -> tuple[int, ...]:
 
 
 def _passages(
-    model: CadModel, face: CadFace, number: np.ndarray
+    model: CadModel, face: CadFace, number: np.ndarray, collapsed: list[bool]
 ) -> tuple[list[_Passage], list[int]]:
     """Where the loops of a face go through vertices, and the vertices that are loops of theirs."""
     passages, points = [], []
     for loop in face.loops:
-        real = [k for k, c in enumerate(loop) if not collapses(model, model.edges[c.edge])]
+        real = [k for k, c in enumerate(loop) if not collapsed[c.edge]]
         if not real and loop:
             points.append(int(number[model.edges[loop[0].edge].start]))
         for k, following in zip(real, real[1:] + real[:1]):

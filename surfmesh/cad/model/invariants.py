@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from surfmesh.cad.model.curve_samples import next_ones, points_of, uv_of, walked
 from surfmesh.geometry.inside_loops import nesting_depth
 
 if TYPE_CHECKING:
@@ -35,10 +36,13 @@ def step_between(here: CadCoedge, after: CadCoedge) -> np.ndarray:
 
 def signed_area(loop: tuple[CadCoedge, ...], samples: int = 24) -> float:
     """Area in (u, v) that a loop runs round, positive counter-clockwise."""
-    fraction = np.arange(samples) / samples
-    points = np.concatenate([coedge.walk(fraction) for coedge in loop])
-    u, v = (points - points.mean(axis=0)).T
-    return 0.5 * float(u @ np.roll(v, -1) - v @ np.roll(u, -1))
+    return ring_area(walked(loop, np.arange(samples) / samples).reshape(-1, 2))
+
+
+def ring_area(ring: np.ndarray) -> float:
+    """Area that a polygon (k, 2) runs round, positive counter-clockwise."""
+    u, v = (ring - ring.mean(axis=0)).T
+    return 0.5 * float(u @ next_ones(v) - v @ next_ones(u))
 
 
 def broken(model: CadModel) -> Iterator[str]:
@@ -124,7 +128,7 @@ def _broken_face(model: CadModel, number: int, face: CadFace) -> Iterator[str]:
 def _is_hole(loops: Sequence[tuple[CadCoedge, ...]], number: int) -> bool:
     """Does the loop lie within an odd number of others? Else it is an outer one, or an island."""
     fraction = np.arange(24) / 24
-    rings = [np.concatenate([coedge.walk(fraction) for coedge in loop]) for loop in loops]
+    rings = [walked(loop, fraction).reshape(-1, 2) for loop in loops]
     return bool(nesting_depth(rings)[number] % 2)
 
 
@@ -136,7 +140,7 @@ def _broken_pcurves(model: CadModel, number: int, face: CadFace) -> Iterator[str
         yield f"face {number} has the (u, v) box {box.tolist()}"
         return
     coedges = list(face.coedges)
-    uv = np.concatenate([coedge.uv(FRACTIONS) for coedge in coedges])
+    uv = uv_of(coedges, FRACTIONS).reshape(-1, 2)
     r, r_u, r_v = face.surface.evaluate(uv, 1)
     if not np.isfinite(r).all():
         yield f"face {number} has points that are not finite"
@@ -180,15 +184,13 @@ def distances_to_edges(
 
     on_face: (n * 11, 3) the p-curves, coedge after coedge.
     """
-    worst = np.zeros(len(coedges))
-    for place, (coedge, own) in enumerate(zip(coedges, np.split(on_face, len(coedges)))):
-        edge = edges[coedge.edge]
-        if edge.curve is None:
-            on_edge = vertices[edge.start].point
-        else:
-            on_edge = edge.evaluate(FRACTIONS, 0)[0]
-        worst[place] = np.linalg.norm(own - on_edge, axis=1).max()
-    return worst
+    used = [edges[coedge.edge] for coedge in coedges]
+    real = np.array([edge.curve is not None for edge in used], bool)
+    on_edge = np.empty((len(used), len(FRACTIONS), 3))
+    on_edge[real] = points_of([edge for edge in used if edge.curve is not None], FRACTIONS)
+    for place in np.flatnonzero(~real):
+        on_edge[place] = vertices[used[place].start].point
+    return np.linalg.norm(on_face.reshape(on_edge.shape) - on_edge, axis=2).max(axis=1)
 
 
 def _broken_solids(model: CadModel) -> Iterator[str]:

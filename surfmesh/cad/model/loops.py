@@ -9,7 +9,8 @@ from dataclasses import replace
 import numpy as np
 
 from surfmesh.cad.model.cad_model import CadCoedge, CadEdge
-from surfmesh.cad.model.invariants import ENDS, OPEN_FRACTION, signed_area, step_between
+from surfmesh.cad.model.curve_samples import next_ones, walked
+from surfmesh.cad.model.invariants import ENDS, OPEN_FRACTION, ring_area, signed_area
 from surfmesh.geometry.inside_loops import nesting_depth
 
 Loop = tuple[CadCoedge, ...]
@@ -43,9 +44,9 @@ def chained(coedges: Sequence[CadCoedge], edges: Sequence[CadEdge]) -> list[Loop
     The next coedge starts at the vertex where the last one ends. Where several do (both p-curves
     of a seam, a pole) it is the one that is nearest in (u, v).
     """
-    ends = np.array([coedge.walk(ENDS) for coedge in coedges])  # (n, 2 ends, 2)
+    ends = walked(coedges, ENDS)  # (n, 2 ends, 2)
     scale = np.maximum(np.ptp(ends.reshape(-1, 2), axis=0), 1e-300)
-    ends = ends / scale
+    ends = (ends / scale).tolist()
     leaving = defaultdict(list)
     for place, coedge in enumerate(coedges):
         leaving[start_of(coedge, edges)].append(place)
@@ -56,11 +57,12 @@ def chained(coedges: Sequence[CadCoedge], edges: Sequence[CadEdge]) -> list[Loop
         used[first], loop, home = True, [first], start_of(coedges[first], edges)
         while True:
             last = loop[-1]
-            vertex, here = end_of(coedges[last], edges), ends[last, 1]
+            vertex, (u, v) = end_of(coedges[last], edges), ends[last][1]
             ways = [p for p in leaving[vertex] if not used[p]] + [first] * (vertex == home)
             if not ways:
                 break  # an open wire; `check` says so
-            steps = [np.abs(ends[place, 0] - here).max() for place in ways]
+            starts = [ends[place][0] for place in ways]
+            steps = [max(abs(start[0] - u), abs(start[1] - v)) for start in starts]
             # touching itself, a wire falls into simple loops: home wins among equals
             near = min(steps) + 1e-6
             after = first if vertex == home and steps[-1] <= near else ways[int(np.argmin(steps))]
@@ -105,8 +107,9 @@ def there_and_back(
 
 def outer_first(loops: Sequence[Loop]) -> tuple[Loop, ...]:
     """The loop with the largest counter-clockwise area in (u, v) comes first."""
-    areas = [signed_area(loop) for loop in loops]
-    outer = int(np.argmax(areas)) if areas else 0
+    if len(loops) < 2:
+        return tuple(loops)
+    outer = int(np.argmax([signed_area(loop) for loop in loops]))
     return (*loops[outer : outer + 1], *loops[:outer], *loops[outer + 1 :])
 
 
@@ -118,17 +121,18 @@ def misdirected(loops: Sequence[Loop], closed: bool) -> list[int]:
     there and back, or come close to each other. closed: the surface is a sphere or the like, on
     which an outer loop that runs clockwise leaves all but its inside.
     """
-    fraction = np.arange(SAMPLES) / SAMPLES
-    rings = [np.concatenate([coedge.walk(fraction) for coedge in loop]) for loop in loops]
-    extent = np.ptp(np.concatenate(rings), axis=0)
+    samples = walked([coedge for loop in loops for coedge in loop], np.arange(SAMPLES) / SAMPLES)
+    ends = np.cumsum([len(loop) for loop in loops])[:-1]
+    rings = [ring.reshape(-1, 2) for ring in np.split(samples, ends)]
+    extent = np.ptp(samples.reshape(-1, 2), axis=0)
     if not (extent > 0.0).all() or not all(closes(loop, extent) for loop in loops):
         return []
-    areas = np.array([signed_area(loop, SAMPLES) for loop in loops]) / np.prod(extent)
+    areas = np.array([ring_area(ring) for ring in rings]) / np.prod(extent)
     boxes = np.array([np.ptp(ring / extent, axis=0).max() for ring in rings])
     slack = np.array([_sag_area(ring / extent) for ring in rings])
     if (np.abs(areas) <= np.maximum(FLAT * boxes**2, SURE * slack)).any():
         return []
-    depth = nesting_depth([ring / extent for ring in rings])
+    depth = nesting_depth([ring / extent for ring in rings]) if len(rings) > 1 else np.zeros(1, int)
     wrong = (areas > 0.0) != (depth % 2 == 0)
     if closed and (wrong & (depth == 0)).any():
         return []
@@ -139,7 +143,7 @@ def misdirected(loops: Sequence[Loop], closed: bool) -> list[int]:
 
 def _sag_area(ring: np.ndarray) -> float:
     """By how much the area of a polygon (k, 2) may differ from that within its curves."""
-    before, after = np.roll(ring, 1, axis=0), np.roll(ring, -1, axis=0)
+    before, after = np.concatenate([ring[-1:], ring[:-1]]), next_ones(ring)
     sag = np.linalg.norm(ring - 0.5 * (before + after), axis=1)
     return float(sag @ np.linalg.norm(after - before, axis=1))
 
@@ -151,10 +155,9 @@ def turned(loop: Loop) -> Loop:
 
 def closes(loop: Loop, extent: np.ndarray) -> bool:
     """Is it closed in (u, v), and not a way round a closed surface?"""
-    return all(
-        (np.abs(step_between(here, after)) <= OPEN_FRACTION * extent).all()
-        for here, after in zip(loop, loop[1:] + loop[:1])
-    )
+    ends = walked(loop, ENDS)  # (n, 2 ends, 2)
+    steps = next_ones(ends[:, 0]) - ends[:, 1]
+    return bool((np.abs(steps) <= OPEN_FRACTION * extent).all())
 
 
 def _are_apart(rings: Sequence[np.ndarray], sizes: np.ndarray) -> bool:

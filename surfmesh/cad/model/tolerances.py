@@ -12,6 +12,7 @@ from dataclasses import replace
 import numpy as np
 
 from surfmesh.cad.model.cad_model import CadCoedge, CadEdge, CadFace, CadVertex
+from surfmesh.cad.model.curve_samples import points_of, uv_of
 from surfmesh.cad.model.invariants import ENDS, FRACTIONS, NOISE, distances_to_edges
 from surfmesh.cad.model.loops import Loop
 from surfmesh.cad.model.pcurves import follows
@@ -26,12 +27,16 @@ CHORDS = 256  # that measure the length of a curve on a face
 MANY = 12  # numbers that a sentence lists
 
 
-def deviations(edges: list[CadEdge], vertices: list[CadVertex], face: CadFace) -> np.ndarray:
-    """(n,) How far the edge of each coedge deviates from the face in space."""
-    coedges = list(face.coedges)
-    uv = np.concatenate([coedge.uv(FRACTIONS) for coedge in coedges])
-    (on_face,) = face.surface.evaluate(uv, 0)
-    return distances_to_edges(edges, vertices, coedges, on_face)
+def deviations(
+    edges: list[CadEdge], vertices: list[CadVertex], faces: list[CadFace]
+) -> list[np.ndarray]:
+    """For each face (n,) how far the edge of each coedge deviates from the face in space."""
+    coedges = [list(face.coedges) for face in faces]
+    every = [coedge for own in coedges for coedge in own]
+    ends = np.cumsum([len(own) for own in coedges])[:-1]
+    pcurves = np.split(uv_of(every, FRACTIONS), ends)
+    on_faces = [face.surface.evaluate(uv.reshape(-1, 2), 0)[0] for face, uv in zip(faces, pcurves)]
+    return np.split(distances_to_edges(edges, vertices, every, np.concatenate(on_faces)), ends)
 
 
 def pcurves_that_follow(
@@ -39,9 +44,9 @@ def pcurves_that_follow(
 ) -> list[str]:
     """Replace, in place, p-curves that deviate from their edge by more than the file states."""
     replaced, worst = set(), 0.0
-    for number, face in enumerate(faces):
-        better = {}
-        for coedge, distance in zip(face.coedges, deviations(edges, vertices, face)):
+    for number, distances in enumerate(deviations(edges, vertices, faces)):
+        face, better = faces[number], {}
+        for coedge, distance in zip(face.coedges, distances):
             edge = edges[coedge.edge]
             if edge.curve is None or distance <= REPORTED * edge.tolerance:
                 continue
@@ -73,8 +78,8 @@ def curves_on_their_faces(
     """
     users: dict[int, list[tuple[CadFace, CadCoedge]]] = {}
     loose: dict[int, float] = {}
-    for face in faces:
-        for coedge, distance in zip(face.coedges, deviations(edges, vertices, face)):
+    for face, distances in zip(faces, deviations(edges, vertices, faces)):
+        for coedge, distance in zip(face.coedges, distances):
             edge = edges[coedge.edge]
             users.setdefault(coedge.edge, []).append((face, coedge))
             if edge.curve is not None and distance > LOOSE * edge.length:
@@ -115,17 +120,18 @@ def tolerances_that_hold(
     Files state what was measured at a few points of an edge; in between it may be worse.
     """
     measured = np.array([edge.tolerance for edge in edges])
-    for face in faces:
-        users = [coedge.edge for coedge in face.coedges]
-        np.maximum.at(measured, users, deviations(edges, vertices, face))
+    users = [coedge.edge for face in faces for coedge in face.coedges]
+    np.maximum.at(measured, users, np.concatenate(deviations(edges, vertices, faces)))
     stated = np.array([edge.tolerance for edge in edges])
     for number in np.flatnonzero(measured > stated):
         edges[number] = replace(edges[number], tolerance=float(measured[number]))
-    for edge in edges:
-        if edge.curve is None:
-            continue
-        ends = edge.evaluate(ENDS, 0)[0]
-        for vertex, point in zip((edge.start, edge.end), ends):
+    real = [edge for edge in edges if edge.curve is not None]
+    places = points_of(real, ENDS)
+    gaps = np.linalg.norm(places - _ends_of(real, vertices), axis=2)
+    held = np.array([[vertices[v].tolerance for v in (e.start, e.end)] for e in real])
+    for place in np.flatnonzero((gaps > (1.0 - NOISE) * held.reshape(-1, 2)).any(axis=1)):
+        edge = real[place]
+        for vertex, point in zip((edge.start, edge.end), places[place]):
             known = vertices[vertex]
             gap = float(np.linalg.norm(point - known.point))
             if gap > known.tolerance:
@@ -141,6 +147,12 @@ def tolerances_that_hold(
     ]
 
 
+def _ends_of(edges: list[CadEdge], vertices: list[CadVertex]) -> np.ndarray:
+    """(n, 2, 3) The vertices at the ends of edges."""
+    points = [[vertices[v].point for v in (edge.start, edge.end)] for edge in edges]
+    return np.array(points).reshape(-1, 2, 3)
+
+
 def widened(surface: FaceSurface, loops: Iterable[Loop]) -> FaceSurface:
     """The surface with room for all samples of the loops in its domain."""
     lo, hi = joined(surface.domain, loops)
@@ -149,7 +161,7 @@ def widened(surface: FaceSurface, loops: Iterable[Loop]) -> FaceSurface:
 
 
 def joined(domain: Domain, loops: Iterable[Loop]) -> tuple[np.ndarray, np.ndarray]:
-    samples = np.concatenate([coedge.uv(FRACTIONS) for loop in loops for coedge in loop])
+    samples = uv_of([coedge for loop in loops for coedge in loop], FRACTIONS).reshape(-1, 2)
     (u0, u1), (v0, v1) = domain
     lo = np.minimum(samples.min(axis=0), (u0, v0))
     return lo, np.maximum(samples.max(axis=0), (u1, v1))

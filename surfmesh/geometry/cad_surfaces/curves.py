@@ -14,6 +14,7 @@ from another in `offset`.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 from math import pi
 from typing import ClassVar, Protocol, Self, runtime_checkable
@@ -62,6 +63,14 @@ class CoreCurve(Curve, Protocol):
 
     @property
     def core(self) -> surfaces.Curve: ...
+
+
+def points_on(curves: Sequence[Curve], t: np.ndarray) -> np.ndarray:
+    """Points of n curves of one dimension d, row i of t (n, k) on curve i: (n, k, d) float."""
+    cores = [curve.core for curve in curves if isinstance(curve, PlainCurve)]
+    if len(cores) == len(curves):
+        return surfaces.points_on(cores, t)
+    return np.stack([curve.evaluate(row, 0)[0] for curve, row in zip(curves, t)])
 
 
 @dataclass(frozen=True, eq=False, repr=False)

@@ -14,9 +14,8 @@ from functools import cached_property
 
 import numpy as np
 
-from surfmesh._core import patch as core
-from surfmesh._core.fields import bend
-from surfmesh.geometry.differential.infinite_speed import BentAxis, bent_axes_of
+from surfmesh._core import surfaces as core
+from surfmesh.geometry.differential.infinite_speed import BentAxis, bent_axes_of, is_bent
 from surfmesh.geometry.differential.monotone_cubic import MonotoneCubic
 from surfmesh.geometry.surface import Domain, Surface, steady_axes
 
@@ -95,28 +94,6 @@ class Axis:
         pieces = None if self.bent is None else self.bent.pieces()
         return core.ChartAxis(self.extent, self.knots, self.slopes, pieces)
 
-    def _knotted(self, x: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """The parameter, or the bent one, and its derivative by x (n,)."""
-        if len(self.knots) == 2:
-            rate = np.empty(len(x))
-            rate.fill(self.slopes[0])
-            return self.knots[0] + x * self.slopes[0], rate
-        return bend(x, self.extent, self.knots, self.slopes)
-
-    def coordinate(self, u: np.ndarray) -> np.ndarray:
-        """The scaled coordinate (n,) of parameters u (n,)."""
-        u = np.asarray(u, float)
-        if self.bent is not None:
-            u = self.bent.bent(u)
-        step = self.extent / (len(self.knots) - 1)
-        x = np.interp(u, self.knots, step * np.arange(len(self.knots)))
-        if len(self.knots) > 2:
-            for _ in range(6):  # Newton from the piecewise linear inverse, a cell away at most
-                parameter, rate = self._knotted(x)
-                x = np.clip(x - (parameter - u) / rate, 0.0, self.extent)
-        x = np.where(u == self.knots[0], 0.0, x)
-        return np.where(u == self.knots[-1], self.extent, x)
-
 
 @dataclass(frozen=True)
 class Chart:
@@ -126,7 +103,7 @@ class Chart:
 
     @cached_property
     def core(self) -> core.Chart:
-        """The way to (u, v) as the core has it."""
+        """The map as the core has it, between the plane and (u, v) or bent parameters."""
         return core.Chart(*(axis.in_core() for axis in self.axes))
 
     def __reduce__(self) -> tuple[Callable[..., "Chart"], tuple[tuple[Axis, Axis]]]:
@@ -155,10 +132,12 @@ class Chart:
 
     def to_plane(self, uv: np.ndarray) -> np.ndarray:
         """uv (n, 2) -> xy (n, 2)."""
-        xy = np.empty((len(uv), 2))
-        for k, axis in enumerate(self.axes):
-            xy[:, k] = axis.coordinate(uv[:, k])
-        return xy
+        if is_bent((self.axes[0].bent, self.axes[1].bent)):
+            uv = np.array(uv, float)
+            for k, axis in enumerate(self.axes):
+                if axis.bent is not None:
+                    uv[:, k] = axis.bent.bent(uv[:, k])
+        return self.core.to_plane(np.ascontiguousarray(uv, float))
 
     def to_uv(self, xy: np.ndarray) -> np.ndarray:
         """xy (n, 2) -> uv (n, 2)."""

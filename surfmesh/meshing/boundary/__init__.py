@@ -4,8 +4,7 @@ boundary_loops: the boundary of a surface in (u, v): sides and trimming loops cu
     length.
 planar_segments: step 1 of section 3 in the plane: the segments of a domain, cut to unit metric
     length.
-boundary_recovery: insert boundary loops into a packing and cut the domain out (section 3, steps
-    2 to 5).
+boundary_recovery: what is wrong with a boundary that cannot be inserted into a packing (section 3).
 untangling: boundaries that cross themselves by less than the tolerance of their edges, taken apart.
 kink_segments: kink lines of a surface cut to metric length: segments that the mesh follows within.
 cusps: poles where the surface is thinner than any cone: horns, needles, drops with a pointed end.

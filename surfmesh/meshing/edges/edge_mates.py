@@ -11,12 +11,12 @@ are: cut one by one they would where the distance is less than the sag of a segm
 from __future__ import annotations
 
 from collections import deque
-from collections.abc import Callable
 
 import numpy as np
 
 from surfmesh._core.space import edge_gaps
 from surfmesh.cad.model.cad_model import CadModel
+from surfmesh.cad.model.model_arrays import model_arrays, offsets
 from surfmesh.meshing.edges.edge_samples import EdgeSamples, MateRun
 from surfmesh.meshing.edges.narrow_faces import Chain, chain_of, feet, foot_on_edge
 from surfmesh.meshing.edges.polygon_lengths import lengths_along
@@ -63,21 +63,34 @@ def mate_runs(model: CadModel, samples: EdgeSamples) -> list[MateRun]:
 
 def _meeting_pairs(model: CadModel, samples: EdgeSamples) -> list[tuple[int, int, int]]:
     """(face, edge, edge) of coedges that follow each other and turn back, both ways."""
+    arrays = model_arrays(model)
+    looked_at = samples.narrow_width > 0.0
+    looked_at[list(samples.narrow)] = False
+    loop = np.repeat(np.arange(len(arrays.first_of_loop) - 1), np.diff(arrays.first_of_loop))
+    real = ~arrays.collapsed[arrays.coedge_edge] & looked_at[arrays.coedge_face]
+    one = np.flatnonzero(real)
+    if not len(one):
+        return []
+    starts = np.flatnonzero(np.r_[True, np.diff(loop[one]) != 0])
+    following = np.r_[np.arange(1, len(one)), 0]
+    following[np.r_[starts[1:], len(one)] - 1] = starts  # the last one of a loop: its first
+    other = one[following]
+    edge = arrays.coedge_edge
+    low, high = samples.first[edge], samples.first[edge + 1] - 1
+    back = arrays.coedge_reversed
+    at_start = np.where(back, high, low), np.where(back, high - 1, low + 1)  # of walking
+    at_end = np.where(back, low, high), np.where(back, low + 1, high - 1)
+    points = samples.points
+    into = points[at_end[1][one]] - points[at_end[0][one]]
+    out = points[at_start[1][other]] - points[at_start[0][other]]
+    lengths = np.linalg.norm(into, axis=1) * np.linalg.norm(out, axis=1)
+    acute = ((into * out).sum(axis=1) > ACUTE * lengths) & (edge[one] != edge[other])
     found = []
-    for number, face in enumerate(model.faces):
-        if number in samples.narrow or not samples.narrow_width[number] > 0.0:
-            continue
-        for loop in face.loops:
-            real = [c for c in loop if samples.first[c.edge] < samples.first[c.edge + 1]]
-            for c, d in zip(real, real[1:] + real[:1]):
-                if c.edge == d.edge:
-                    continue
-                one, other = samples.of(c.edge), samples.of(d.edge)
-                into = samples.points[one][:2] if c.reversed else samples.points[one][-2:][::-1]
-                out = samples.points[other][-2:][::-1] if d.reversed else samples.points[other][:2]
-                back, on = into[1] - into[0], out[1] - out[0]
-                if back @ on > ACUTE * np.linalg.norm(back) * np.linalg.norm(on):
-                    found += [(number, c.edge, d.edge), (number, d.edge, c.edge)]
+    for c, d in zip(
+        one[acute & (edge[one] != edge[other])], other[acute & (edge[one] != edge[other])]
+    ):
+        face, a, b = int(arrays.coedge_face[c]), int(edge[c]), int(edge[d])
+        found += [(face, a, b), (face, b, a)]
     return found
 
 
@@ -86,36 +99,43 @@ def _near_pairs(model: CadModel, samples: EdgeSamples) -> list[tuple[int, int, i
     points, first = samples.points, samples.first
     if len(points) < 3:
         return []
-    ends = samples.vertex[np.array([[edge.start, edge.end] for edge in model.edges])]
-    sag = np.zeros(len(model.edges))
-    for edge in range(len(model.edges)):
-        own = points[samples.of(edge)]
-        if len(own) > 2:
-            bend = np.linalg.norm(own[2:] - 2.0 * own[1:-1] + own[:-2], axis=1)
-            sag[edge] = bend.max() / 8.0
+    ends, sag = model_arrays(model).mesh_ends, _sags(samples)
     by_width: dict[float, list[int]] = {}
     for face, width in enumerate(samples.narrow_width.tolist()):
         if width > 0.0 and face not in samples.narrow and len(samples.edges_of_face[face]) > 1:
             by_width.setdefault(width, []).append(face)
+    owner = np.repeat(np.arange(len(model.edges)), np.diff(first))
     found = []
     for width, faces in by_width.items():
         edges = [samples.edges_of_face[face] for face in faces]
-        start = np.zeros(len(faces) + 1, np.int64)
-        np.cumsum([len(own) for own in edges], out=start[1:])
-        reach = np.repeat(width + sag + sag.max(), np.diff(first))
-        gap, boxes = edge_gaps(points, reach, first, ends, np.concatenate(edges), start)
-        owner = np.repeat(np.arange(len(model.edges)), np.diff(first))
+        start = offsets(np.array([len(own) for own in edges], np.int64))
+        in_a_row = np.concatenate(edges)
+        reach = (width + sag + sag.max())[owner]
+        gap, boxes = edge_gaps(points, reach, first, ends, in_a_row, start)
         near = np.zeros(len(model.edges), bool)
         near[owner[np.isfinite(gap)]] = True
         low, high = boxes[:, :3], boxes[:, 3:]
-        for face, own in zip(faces, edges):
-            own = own[near[own]]
+        several = np.add.reduceat(near[in_a_row], start[:-1], dtype=np.int64) > 1
+        for k in np.flatnonzero(several).tolist():
+            face, own = faces[k], edges[k][near[edges[k]]]
             for a in own.tolist():
                 apart = np.maximum(np.maximum(low[own] - high[a], low[a] - high[own]), 0.0)
                 close = np.linalg.norm(apart, axis=1) <= width + sag[a] + sag[own]
                 meets = (ends[own, :, None] == ends[a]).any(axis=(1, 2))
                 found += [(face, a, b) for b in own[close & ~meets].tolist()]
     return found
+
+
+def _sags(samples: EdgeSamples) -> np.ndarray:
+    """How far (e,) the segments between samples lie off their edges, at most."""
+    points, first = samples.points, samples.first
+    bend = np.zeros(len(points))
+    bend[1:-1] = np.linalg.norm(points[2:] - 2.0 * points[1:-1] + points[:-2], axis=1)
+    there = np.flatnonzero(first[:-1] < first[1:])
+    bend[first[there]] = bend[first[there + 1] - 1] = 0.0  # from one edge to the next
+    sag = np.zeros(len(first) - 1)
+    sag[there] = np.maximum.reduceat(bend, first[there]) / 8.0
+    return sag
 
 
 def _edge_chain(samples: EdgeSamples, edge: int) -> Chain:
@@ -160,9 +180,9 @@ class MatedCuts:
     """Parameters of the nodes of all edges with mates, found together."""
 
     def __init__(
-        self, model: CadModel, samples: EdgeSamples, sizes: np.ndarray, fewest: Callable[[int], int]
+        self, model: CadModel, samples: EdgeSamples, sizes: np.ndarray, fewest: np.ndarray
     ) -> None:
-        """sizes (n,): at the samples, graded. fewest: segments of an edge, by number."""
+        """sizes (n,): at the samples, graded. fewest: (e,) segments of the edges."""
         self.model, self.samples, self.sizes, self.fewest = model, samples, sizes, fewest
         self.runs: dict[int, list[MateRun]] = {}
         for run in samples.mates:
@@ -259,7 +279,7 @@ class MatedCuts:
         metric = np.r_[0.0, np.cumsum(2.0 * step / (size[1:] + size[:-1]))]
         ends = np.interp(self.t[edge], t, metric)
         pieces = np.maximum(1, np.round(np.diff(ends))).astype(int)
-        fewest = self.fewest(edge)
+        fewest = self.fewest[edge]
         while pieces.sum() < fewest:
             pieces[(np.diff(ends) / pieces).argmax()] += 1
         cut = [

@@ -9,11 +9,13 @@ What two faces share are these nodes, by number: the mesh is watertight because 
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from functools import partial
+from typing import NamedTuple
 
 import numpy as np
 
-from surfmesh.cad.model.cad_model import CadEdge, CadModel
+from surfmesh._core.edges import cut_to_metric_length, graded_along_edges
+from surfmesh.cad.model.cad_model import CadModel
+from surfmesh.cad.model.model_arrays import model_arrays, offsets
 from surfmesh.errors import SizingError
 from surfmesh.meshing.edges.edge_gradation import graded_by_direction
 from surfmesh.meshing.edges.edge_mates import MatedCuts, lower_to_mates
@@ -25,6 +27,11 @@ LARGEST_TURN = np.pi / 3.0
 """No segment of an edge turns farther, so that polygons keep the shape of their loops."""
 LARGEST_TURN_TINY = np.pi / 2.0
 """Nor farther than this where it is narrower than the chord: four segments round a needle."""
+LEAST_STEP = 1e-12
+"""Of the diagonal: steps along edges are not taken to be shorter."""
+
+_NONE = np.empty(0)
+
 CLOSED_SEGMENTS, TWIN_SEGMENTS = 3, 2
 """Fewest segments of an edge that ends where it starts, and of a curved one beside another edge
 between the same two vertices: their chords would be one edge of the mesh."""
@@ -42,14 +49,6 @@ class EdgeNodes:
     """(n,) int64 numbers in the whole mesh."""
     sizes: np.ndarray
     """(n,) wanted edge lengths."""
-
-    def same_as(self, other: "EdgeNodes | None") -> bool:
-        """Are the places and the sizes equal to the last bit?"""
-        return (
-            other is not None
-            and np.array_equal(self.t, other.t)
-            and np.array_equal(self.sizes, other.sizes)
-        )
 
 
 def cut_edges(
@@ -83,68 +82,30 @@ def cut_edges(
         size[samples.of(number)] = target_size[samples.of(number)]
     if samples.mates:
         lower_to_mates(samples, samples.mates, size)
-    fewest = partial(_fewest, model, samples)
+    fewest = _fewest(model, samples)
     mated = MatedCuts(model, samples, size, fewest).cut()
-    nodes = before or [None] * len(model.edges)
-    following = 1 + max([len(model.vertices) - 1, *(int(n.numbers.max()) for n in nodes if n)])
-    nodes = list(nodes)
-    for number, edge in enumerate(model.edges):
-        if samples.first[number] == samples.first[number + 1]:
-            continue
-        cut = _cut(model, edge, number, samples, size, following, sizing.limit, mated.get(number))
-        if not cut.same_as(nodes[number]):
-            nodes[number] = cut
-            following += len(cut.t) - 2
-    return nodes
+    return _numbered(model, _cut(model, samples, size, fewest, mated, sizing.limit), before)
 
 
 def _graded(
     model: CadModel, samples: EdgeSamples, target_size: np.ndarray, sizing: Sizing
 ) -> np.ndarray:
     """Sizes (n,) at the samples: the target size of any sample plus the slope times the way."""
-    from scipy.sparse import coo_matrix
-    from scipy.sparse.csgraph import dijkstra
-
-    total = len(target_size)
-    if not total:
-        return target_size
-    starts, ends = samples.first[:-1], samples.first[1:] - 1
-    there = starts <= ends
-    starts, ends = starts[there], ends[there]
-    node = len(model.vertices) + np.arange(total)  # of the graph: vertices, samples, the root
-    corners = samples.vertex[np.array([[edge.start, edge.end] for edge in model.edges])[there]]
-    node[starts], node[ends] = corners.T
-    root = len(model.vertices) + total  # from which all sizes grow
-    step = np.linalg.norm(samples.points[1:] - samples.points[:-1], axis=1)
-    step = np.maximum(step, 1e-12 * model.diagonal)  # the sparse graph takes zero for no edge
-    inside = np.ones(total - 1, bool)
-    inside[ends[:-1]] = False
-    graph = coo_matrix(
-        (
-            np.concatenate([step[inside], target_size / sizing.gradient]),
-            (
-                np.concatenate([node[:-1][inside], np.full(total, root)]),
-                np.concatenate([node[1:][inside], node]),
-            ),
-        ),
-        shape=(root + 1, root + 1),
-    )
-    # parallel edges would be summed: keep the shorter one
-    order = np.lexsort((graph.data, graph.col, graph.row))
-    row, column, data = graph.row[order], graph.col[order], graph.data[order]
-    kept = np.r_[True, (np.diff(row) != 0) | (np.diff(column) != 0)]
-    graph = coo_matrix((data[kept], (row[kept], column[kept])), graph.shape).tocsr()
-    return (sizing.gradient * dijkstra(graph, directed=False, indices=root))[node]
+    arrays = model_arrays(model)
+    return graded_along_edges(
+        samples.points, target_size, samples.first, arrays.mesh_ends, len(arrays.corners),
+        sizing.gradient, LEAST_STEP * model.diagonal,
+    )  # fmt: skip
 
 
 def _graded_by_direction(
     model: CadModel, samples: EdgeSamples, target_size: np.ndarray, sizing: Sizing
 ) -> np.ndarray:
     """Sizes (n,) at the samples, where those along two edges differ at their vertex."""
-    there = [k for k in range(len(model.edges)) if samples.first[k] < samples.first[k + 1]]
+    there = np.flatnonzero(np.diff(samples.first)).tolist()
     if not there:
         return target_size
-    ends = np.array([samples.vertex[[model.edges[k].start, model.edges[k].end]] for k in there])
+    ends = model_arrays(model).mesh_ends[there]
     own = [samples.of(k) for k in there]
     ways = np.array([samples.tangent[k][[0, -1]] for k in own])
     return np.concatenate(
@@ -155,46 +116,71 @@ def _graded_by_direction(
     )  # fmt: skip
 
 
-def _fewest(model: CadModel, samples: EdgeSamples, number: int) -> int:
-    """Segments that an edge needs for its shape and for its topology."""
-    edge = model.edges[number]
-    most = LARGEST_TURN_TINY if samples.tiny[number] else LARGEST_TURN
-    fewest = max(1, int(np.ceil(samples.total_curvature[number] / most - 1e-9)))
-    if samples.has_twin[number]:
-        fewest = max(fewest, TWIN_SEGMENTS)
-    start, end = samples.vertex[[edge.start, edge.end]]
-    return max(CLOSED_SEGMENTS if start == end else 1, fewest)
+def _fewest(model: CadModel, samples: EdgeSamples) -> np.ndarray:
+    """Segments (e,) that edges need for their shape and for their topology."""
+    most = np.where(samples.tiny, LARGEST_TURN_TINY, LARGEST_TURN)
+    fewest = np.maximum(1, np.ceil(samples.total_curvature / most - 1e-9)).astype(np.int64)
+    fewest[samples.has_twin] = np.maximum(fewest[samples.has_twin], TWIN_SEGMENTS)
+    start, end = model_arrays(model).mesh_ends.T
+    return np.maximum(fewest, np.where(start == end, CLOSED_SEGMENTS, 1))
+
+
+class _Cuts(NamedTuple):
+    """The nodes of some edges in one row, as ``EdgeNodes`` has them."""
+
+    edges: np.ndarray  # (k,)
+    first: np.ndarray  # (k + 1,)
+    t: np.ndarray
+    points: np.ndarray
+    sizes: np.ndarray
 
 
 def _cut(
-    model: CadModel, edge: CadEdge, number: int, samples: EdgeSamples, sizes: np.ndarray,
-    following: int, limit: int, t: np.ndarray | None = None,
-) -> EdgeNodes:  # fmt: skip
-    """Pieces of equal metric length near 1, or those between given parameters t."""
-    own = samples.of(number)
-    points, known, size = samples.points[own], samples.t[own], sizes[own]
-    dx, dy, dz = (points[1:] - points[:-1]).T
-    step = np.sqrt(dx * dx + dy * dy + dz * dz)
-    metric = np.zeros(len(points))
-    np.cumsum(2.0 * step / (size[1:] + size[:-1]), out=metric[1:])
-    start, end = samples.vertex[[edge.start, edge.end]]
-    pieces = max(_fewest(model, samples, number), round(float(metric[-1])))
-    if t is not None:
-        pieces = len(t) - 1
-    if pieces > limit:
+    model: CadModel, samples: EdgeSamples, sizes: np.ndarray, fewest: np.ndarray,
+    mated: Mapping[int, np.ndarray], limit: int,
+) -> _Cuts:  # fmt: skip
+    """Pieces of equal metric length near 1, or those between given parameters; of all edges."""
+    arrays = model_arrays(model)
+    edges = np.flatnonzero(np.diff(samples.first))
+    given = [mated.get(edge, _NONE) for edge in edges.tolist()] if mated else []
+    first_given = offsets(np.array([len(t) for t in given] or np.zeros(len(edges)), np.int64))
+    first, t, points, found, refused, pieces = cut_to_metric_length(
+        arrays.curves, samples.points, samples.t, sizes, samples.first, arrays.mesh_ends,
+        arrays.corners, edges, fewest[edges], first_given, np.concatenate([_NONE, *given]), limit,
+    )  # fmt: skip
+    if refused >= 0:
+        number = int(edges[refused])
+        edge = model.edges[number]
         raise SizingError(
             f"edge {number} ({edge.name or 'no name'}) of length {edge.length:g} is to be cut in "
-            f"{pieces:,} pieces, the limit is {limit:,} triangles: ask for a larger size there"
+            f"{pieces:,.0f} pieces, the limit is {limit:,} triangles: ask for a larger size there"
         )
-    if t is None:
-        t = np.arange(pieces + 1) / pieces
-        if metric[-1] > 0.0:
-            t = np.interp(t * metric[-1], metric, known)
-            t[0], t[-1] = 0.0, 1.0
-    place = np.empty((pieces + 1, 3))
-    if pieces > 1:
-        place[1:-1] = edge.evaluate(t[1:-1], 0)[0]
-    place[0], place[-1] = model.vertices[start].point, model.vertices[end].point
-    numbers = np.arange(following - 1, following + pieces, dtype=np.int64)
-    numbers[0], numbers[-1] = start, end
-    return EdgeNodes(t, place, numbers, np.interp(t, known, size))
+    return _Cuts(edges, first, t, points, found)
+
+
+def _numbered(
+    model: CadModel, cuts: _Cuts, before: list[EdgeNodes | None] | None
+) -> list[EdgeNodes | None]:
+    """The nodes of each edge. What has not changed keeps its nodes, others get new numbers."""
+    nodes = list(before or [None] * len(model.edges))
+    following = 1 + max([len(model.vertices) - 1, *(int(n.numbers.max()) for n in nodes if n)])
+    rows = list(zip(cuts.edges.tolist(), cuts.first[:-1].tolist(), cuts.first[1:].tolist()))
+    if before:
+        rows = [(edge, a, b) for edge, a, b in rows if not _is_same(nodes[edge], cuts, a, b)]
+    ends = model_arrays(model).mesh_ends[[edge for edge, _, _ in rows]].tolist()
+    for (edge, a, b), (start, end) in zip(rows, ends):
+        numbers = np.arange(following - 1, following + b - a - 1, dtype=np.int64)
+        numbers[0], numbers[-1] = start, end
+        nodes[edge] = EdgeNodes(cuts.t[a:b], cuts.points[a:b], numbers, cuts.sizes[a:b])
+        following += b - a - 2
+    return nodes
+
+
+def _is_same(nodes: EdgeNodes | None, cuts: _Cuts, first: int, last: int) -> bool:
+    """Are the places and the sizes equal to the last bit?"""
+    return (
+        nodes is not None
+        and len(nodes.t) == last - first
+        and np.array_equal(nodes.t, cuts.t[first:last])
+        and np.array_equal(nodes.sizes, cuts.sizes[first:last])
+    )

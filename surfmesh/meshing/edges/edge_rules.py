@@ -1,9 +1,10 @@
-"""What is asked of the edges of a CAD model by themselves: the rules at samples of one edge.
+"""What is asked of the edges of a CAD model by themselves: the rules at samples of edges.
 
-    for each set of sizes that holds there: rules of its own curvature, of the faces' curvature,
+    for each set of sizes that holds there: rules of their own curvature, of the faces' curvature,
     of the place -> least, within the bounds of that set -> least of all sets
 
-The sampler takes the least, ``explain`` names it.
+All edges that hear a set of sizes are looked at together. The sampler takes the least, ``explain``
+names it.
 """
 
 from collections.abc import Collection, Iterator
@@ -12,10 +13,9 @@ from typing import NamedTuple
 
 import numpy as np
 
-from surfmesh._core import elementary_functions
-from surfmesh.cad.model.cad_model import CadCoedge, CadEdge, CadModel
-from surfmesh.geometry.differential.fundamental_forms import curvatures, forms_from_derivatives
-from surfmesh.geometry.surface import Surface
+from surfmesh._core.edges import curvatures_along, edge_courses
+from surfmesh.cad.model.cad_model import CadModel
+from surfmesh.cad.model.model_arrays import ModelArrays, model_arrays, offsets, rows_of
 from surfmesh.sizing.options.model_sizing import ModelSizing
 from surfmesh.sizing.options.sizing import Sizing
 from surfmesh.sizing.rules.direction_rates import has_even_curvature
@@ -27,70 +27,81 @@ NARROWEST = 5e-4
 """Gaps narrower and edges shorter than this fraction of the diagonal do not ask for still smaller
 sizes by themselves: the mesh would be flooded by what is too small to matter."""
 
-Uses = list[tuple[int, CadCoedge]]
-"""Numbers of faces, with their coedges of one edge."""
-
 
 class Demand(NamedTuple):
-    """What one rule asks for along an edge."""
+    """What one rule asks for along edges."""
 
     rule: Rule | None
     """None: those by curvature of a face together, where sizes depend on the direction."""
+    rows: np.ndarray | None
+    """(k,) among the samples that hear the set of sizes; None: all of them. A sample between two
+    curved faces is there twice."""
     sizes: np.ndarray
-    """(n,) at the samples, or (1,) where it is the same at all; not within bounds."""
-    face: int | None = None
-    """Whose curvature it follows."""
+    """(k,) there, not within bounds."""
+    coedges: np.ndarray | None = None
+    """(k,) on whose faces the curvature is."""
     curvatures: tuple[np.ndarray, ...] = ()
-    """(n,) each, those that it follows, 1 / model unit: two of a face, one of the edge itself."""
+    """(k,) each, those that it follows, 1 / model unit: two of a face, one of the edge itself."""
 
 
 class DemandsOfOne(NamedTuple):
     """What one set of sizes asks for."""
 
     rules: SizeRules
+    rows: np.ndarray | None
+    """(m,) the samples that hear it; None: all."""
     faces: tuple[int, ...]
     """That have these sizes; none: those of the edge itself."""
     demands: list[Demand]
 
     def least(self, count: int) -> np.ndarray:
-        """(count,) within the bounds."""
+        """(m,) within the bounds; count: m."""
         size = np.full(count, self.rules.clamp[1])
         for demand in self.demands:
-            np.minimum(size, demand.sizes, out=size)
-        return np.maximum(size, self.rules.clamp[0])
+            if demand.rows is None:
+                np.minimum(size, demand.sizes, out=size)
+            else:
+                np.minimum.at(size, demand.rows, demand.sizes)
+        return np.maximum(size, self.rules.clamp[0], out=size)
 
 
-class Course(NamedTuple):
-    """An edge at n samples."""
+class Courses(NamedTuple):
+    """Some edges at n samples in all."""
 
+    edges: np.ndarray  # (k,) int64, rising
+    first: np.ndarray  # (k + 1,) int64: samples of each
     fraction: np.ndarray  # (n,) of its parameter range
-    curve: CurveSamples
+    points: np.ndarray  # (n, 3)
+    curvature: np.ndarray  # (n,) 1 / model unit; 0 where it is straight or not known
     tangent: np.ndarray  # (n, 3) unit
-    is_straight: bool
+    total_curvature: np.ndarray  # (k,) its integral along each edge, radians
 
     @classmethod
-    def of(cls, edge: CadEdge, fraction: np.ndarray) -> "Course":
-        if edge.is_straight:
-            (points,) = edge.evaluate(fraction, 0)
-            way = points[-1] - points[0]
-            way = way / max(np.linalg.norm(way), np.finfo(float).tiny)
-            flat = CurveSamples(points, np.zeros(len(points)))
-            return cls(fraction, flat, np.tile(way, (len(points), 1)), True)
-        points, first, second = edge.evaluate(fraction, 2)
-        speed = np.linalg.norm(first, axis=1)
-        tangent = first / np.maximum(speed, np.finfo(float).tiny)[:, None]
-        bend = np.linalg.norm(np.cross(first, second), axis=1)
-        with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
-            curvature = np.nan_to_num(bend / (speed * speed * speed), nan=0.0, posinf=0.0)
-        return cls(fraction, CurveSamples(points, curvature), tangent, False)
+    def of(
+        cls, arrays: ModelArrays, edges: np.ndarray, first: np.ndarray, fraction: np.ndarray
+    ) -> "Courses":
+        straight = arrays.straight[edges].astype(np.uint8)
+        found = edge_courses(arrays.curves, edges, first, fraction, straight)
+        points, tangent, curvature, total = found
+        return cls(edges, first, fraction, points, curvature, tangent, total)
 
-    @property
-    def total_curvature(self) -> float:
-        """Its integral along the edge, radians."""
-        if self.is_straight:
-            return 0.0
-        cosine = np.einsum("ij,ij->i", self.tangent[1:], self.tangent[:-1])
-        return float(elementary_functions.acos(np.clip(cosine, -1.0, 1.0)).sum())
+    def chosen(self, which: np.ndarray) -> tuple["Courses", np.ndarray]:
+        """Those of some edges (rows of ``edges``), and their samples here."""
+        rows = rows_of(self.first, which)
+        first = offsets(self.first[which + 1] - self.first[which])
+        return Courses(
+            self.edges[which], first, self.fraction[rows], self.points[rows], self.curvature[rows],
+            self.tangent[rows], self.total_curvature[which],
+        ), rows  # fmt: skip
+
+
+class _Hearing(NamedTuple):
+    """A set of sizes, and who hears it."""
+
+    sizing: Sizing
+    edges: list[int]
+    coedges: list[int]  # of the faces that have these sizes, or of the edges that do
+    is_of_edges: bool = False  # they have them themselves
 
 
 @dataclass
@@ -99,27 +110,28 @@ class EdgeRules:
 
     model: CadModel
     wanted: ModelSizing
-    uses: list[Uses] = field(init=False)
-    """Of each edge."""
+    arrays: ModelArrays = field(init=False)
+    _coedges_of: np.ndarray = field(init=False)  # coedges in the order of their edges
+    _first_coedge: np.ndarray = field(init=False)  # (e + 1,) where those of each edge begin
     _rules: dict[int, SizeRules] = field(default_factory=dict, init=False)
 
     def __post_init__(self) -> None:
-        self.uses = [[] for _ in self.model.edges]
-        for number, face in enumerate(self.model.faces):
-            for coedge in face.coedges:
-                self.uses[coedge.edge].append((number, coedge))
+        self.arrays = model_arrays(self.model)
+        edge = self.arrays.coedge_edge
+        self._coedges_of = np.argsort(edge, kind="stable")
+        self._first_coedge = offsets(np.bincount(edge, minlength=len(self.model.edges)))
 
-    def sizings_at(self, edge: int) -> list[tuple[Sizing, Uses]]:
-        """Each set of sizes that holds along an edge, with the uses that it is asked for: faces
-        that differ are heard one after the other, then the edge itself."""
-        found: dict[int, tuple[Sizing, Uses]] = {}
-        for face, coedge in self.uses[edge]:
-            own = self.wanted.of_face(face)
-            found.setdefault(id(own), (own, []))[1].append((face, coedge))
-        sizings = list(found.values()) or [(self.wanted.base, [])]  # an edge of no face
-        if edge in self.wanted.edges:
-            sizings.append((self.wanted.edges[edge], self.uses[edge]))
-        return sizings
+    def coedges_of(self, edge: int) -> np.ndarray:
+        """The coedges of an edge."""
+        return self._coedges_of[self._first_coedge[edge] : self._first_coedge[edge + 1]]
+
+    def faces_of(self, edge: int) -> list[int]:
+        """Their faces."""
+        return self.arrays.coedge_face[self.coedges_of(edge)].tolist()
+
+    def sizings_at(self, edge: int) -> list[Sizing]:
+        """Each set of sizes that holds along an edge, once: of its faces, then its own."""
+        return [own.sizing for own in self._hearings(np.array([edge]))]
 
     def rules_of(self, sizing: Sizing) -> SizeRules:
         """The rules of a set of sizes, made once."""
@@ -127,28 +139,32 @@ class EdgeRules:
             self._rules[id(sizing)] = SizeRules.of(sizing, self.model.diagonal)
         return self._rules[id(sizing)]
 
-    def demands(
-        self, edge: int, course: Course, left_out: Collection[int] = ()
-    ) -> list[DemandsOfOne]:
-        """left_out: faces whose curvature is not asked for."""
-        found = []
-        for sizing, uses in self.sizings_at(edge):
-            rules = self.rules_of(sizing)
-            users = [(face, coedge) for face, coedge in uses if face not in left_out]
-            faces = tuple(dict.fromkeys(face for face, _ in uses))
-            is_own = sizing is self.wanted.edges.get(edge)
-            every = list(self._demands_of(rules, course, users))
-            found.append(DemandsOfOne(rules, () if is_own else faces, every))
-        return found
+    def demands(self, courses: Courses, left_out: Collection[int] = ()) -> Iterator[DemandsOfOne]:
+        """Of each set of sizes that some of the edges hear: faces that differ are heard one after
+        the other, then the edges. left_out: faces whose curvature is not asked for."""
+        for own in self._hearings(courses.edges):
+            rules = self.rules_of(own.sizing)
+            edges, coedges = np.array(own.edges, np.int64), np.array(own.coedges, np.int64)
+            heard, rows = courses, None
+            if len(edges) < len(courses.edges):
+                heard, rows = courses.chosen(np.searchsorted(courses.edges, edges))
+            faces = self.arrays.coedge_face[coedges]
+            named = () if own.is_of_edges else tuple(dict.fromkeys(faces.tolist()))
+            if left_out:
+                coedges = coedges[~np.isin(faces, list(left_out))]
+            yield DemandsOfOne(rules, rows, named, list(self._demands_of(rules, heard, coedges)))
 
-    def target_size(self, edge: int, course: Course, left_out: Collection[int] = ()) -> np.ndarray:
+    def target_size(self, courses: Courses, left_out: Collection[int] = ()) -> np.ndarray:
         """The least of all demands (n,), and no more than the edge is long."""
-        model, count = self.model, len(course.fraction)
-        size = np.full(count, max(model.edges[edge].length, NARROWEST * model.diagonal))
-        every = self.demands(edge, course, left_out)
-        for own in every:
-            np.minimum(size, own.least(count), out=size)
-        return np.maximum(size, min(own.rules.clamp[0] for own in every), out=size)
+        count = np.diff(courses.first)
+        longest = np.maximum(self.arrays.length[courses.edges], NARROWEST * self.model.diagonal)
+        size, floor = np.repeat(longest, count), np.full(len(courses.fraction), np.inf)
+        for own in self.demands(courses, left_out):
+            rows = slice(None) if own.rows is None else own.rows
+            least = own.least(len(size) if own.rows is None else len(own.rows))
+            size[rows] = np.minimum(size[rows], least)
+            floor[rows] = np.minimum(floor[rows], own.rules.clamp[0])
+        return np.maximum(size, floor, out=size)
 
     def at_vertex(self, number: int) -> float:
         """Largest size at a vertex of which something is asked."""
@@ -156,31 +172,90 @@ class EdgeRules:
         point = self.model.vertices[number].point[None]
         return float(np.clip(rules.from_place(point), *rules.clamp)[0])
 
-    def _demands_of(self, rules: SizeRules, course: Course, uses: Uses) -> Iterator[Demand]:
-        if not course.is_straight:
-            own = (course.curve.curvature,)
-            for rule in rules.by_curvature:
-                yield Demand(rule, rule.sizes_on_curve(course.curve), None, own)
-        for face, coedge in uses if rules.follows_curvature else ():
-            surface = self.model.faces[face].surface
-            if surface.kind == "plane":
-                continue
-            if rules.sizing.is_anisotropic:
-                uv = coedge.uv(course.fraction)
-                yield Demand(None, size_along(surface, uv, course.tangent, rules), face)
-            else:
-                some = course.fraction[:1] if has_even_curvature(surface) else course.fraction
-                yield from _by_curvature(rules, face, surface, coedge.uv(some))
-        for place_rule, sizes in rules.at_points(course.curve.points):
-            yield Demand(place_rule, sizes)
+    def _hearings(self, edges: np.ndarray) -> list[_Hearing]:
+        """The sets of sizes that some edges hear."""
+        wanted, face_of = self.wanted, self.arrays.coedge_face
+        if not wanted.faces and not wanted.edges:
+            coedges = self._coedges_of[rows_of(self._first_coedge, edges)]
+            return [_Hearing(wanted.base, edges.tolist(), coedges.tolist())]
+        by_faces: dict[int, _Hearing] = {}
+        by_edges: dict[int, _Hearing] = {}
 
+        def add(found: dict[int, _Hearing], sizing: Sizing, edge: int, coedges: list[int]) -> None:
+            own = found.setdefault(id(sizing), _Hearing(sizing, [], [], found is by_edges))
+            if not own.edges or own.edges[-1] != edge:
+                own.edges.append(edge)
+            own.coedges.extend(coedges)
 
-def _by_curvature(
-    rules: SizeRules, face: int, surface: Surface, uv: np.ndarray
-) -> Iterator[Demand]:
-    """What the face's curvature asks for along one of its edges."""
-    forms = forms_from_derivatives(*surface.evaluate(uv, 2)[1:])
-    k = curvatures(forms)
-    for rule, sizes in rules.at_curvature(k.k1, k.k2):
-        unknown = forms.degenerate | ~np.isfinite(sizes)
-        yield Demand(rule, np.where(unknown, np.inf, sizes), face, (k.k1, k.k2))
+        for edge in edges.tolist():
+            coedges = self.coedges_of(edge).tolist()
+            for coedge in coedges:
+                add(by_faces, wanted.of_face(int(face_of[coedge])), edge, [coedge])
+            if not coedges:  # of no face
+                add(by_faces, wanted.base, edge, [])
+            if edge in wanted.edges:
+                add(by_edges, wanted.edges[edge], edge, coedges)
+        return [*by_faces.values(), *by_edges.values()]
+
+    def _demands_of(
+        self, rules: SizeRules, courses: Courses, coedges: np.ndarray
+    ) -> Iterator[Demand]:
+        yield from self._by_own_curvature(rules, courses)
+        if rules.follows_curvature:
+            surfaces = [self.model.faces[face].surface for face in self.arrays.coedge_face[coedges]]
+            curved = np.array([surface.kind != "plane" for surface in surfaces], bool)
+            along = self._directed if rules.sizing.is_anisotropic else self._by_curvature
+            yield from along(rules, courses, coedges[curved])
+        for place_rule, sizes in rules.at_points(courses.points):
+            yield Demand(place_rule, None, sizes)
+
+    def _by_own_curvature(self, rules: SizeRules, courses: Courses) -> Iterator[Demand]:
+        bent = np.flatnonzero(~self.arrays.straight[courses.edges])
+        if not len(bent) or not rules.by_curvature:
+            return
+        own, rows = courses.chosen(bent)
+        curve = CurveSamples(own.points, own.curvature, own.first)
+        for rule in rules.by_curvature:
+            yield Demand(rule, rows, rule.sizes_on_curve(curve), None, (curve.curvature,))
+
+    def _by_curvature(
+        self, rules: SizeRules, courses: Courses, coedges: np.ndarray
+    ) -> Iterator[Demand]:
+        """What the curvature of faces asks for along their edges; looked up once where it is the
+        same everywhere."""
+        if not len(coedges):
+            return
+        arrays = self.arrays
+        surfaces = [self.model.faces[face].surface for face in arrays.coedge_face[coedges]]
+        even = np.array([has_even_curvature(surface) for surface in surfaces], bool)
+        of = np.searchsorted(courses.edges, arrays.coedge_edge[coedges])
+        count = courses.first[of + 1] - courses.first[of]
+        looked_at = np.where(even, 1, count)
+        first = offsets(looked_at)
+        places = np.repeat(courses.first[of] - first[:-1], looked_at) + np.arange(first[-1])
+        k1, k2, degenerate = curvatures_along(
+            arrays.pcurves, coedges, first, courses.fraction[places],
+            [surface.core for surface in surfaces],
+        )  # fmt: skip
+        rows = rows_of(courses.first, of)
+        start = offsets(count)
+        value = np.repeat(first[:-1], count)  # of the samples, among those looked at
+        along = np.arange(start[-1]) - np.repeat(start[:-1], count)
+        value += np.where(np.repeat(even, count), 0, along)
+        whose = np.repeat(coedges, count)
+        for rule, sizes in rules.at_curvature(k1, k2):
+            sizes = np.where(degenerate.astype(bool) | ~np.isfinite(sizes), np.inf, sizes)
+            yield Demand(rule, rows, sizes[value], whose, (k1[value], k2[value]))
+
+    def _directed(
+        self, rules: SizeRules, courses: Courses, coedges: np.ndarray
+    ) -> Iterator[Demand]:
+        """The same where sizes depend on the direction."""
+        arrays = self.arrays
+        for coedge in coedges.tolist():
+            of = np.searchsorted(courses.edges, arrays.coedge_edge[coedge])
+            at = slice(courses.first[of], courses.first[of + 1])
+            face = self.model.faces[arrays.coedge_face[coedge]]
+            uv = arrays.coedges[coedge].uv(courses.fraction[at])
+            sizes = size_along(face.surface, uv, courses.tangent[at], rules)
+            yield Demand(None, np.arange(at.start, at.stop), sizes, np.full(len(uv), coedge))

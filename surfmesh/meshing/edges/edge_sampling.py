@@ -11,11 +11,16 @@ import numpy as np
 
 from surfmesh._core.space import edge_gaps
 from surfmesh.cad.model.cad_model import CadEdge, CadModel
-from surfmesh.cad.model.collapsed_edges import collapses, vertex_numbers
+from surfmesh.cad.model.model_arrays import ModelArrays, model_arrays, offsets
 from surfmesh.meshing.edges.edge_mates import mate_runs
-from surfmesh.meshing.edges.edge_rules import NARROWEST, Course, EdgeRules
+from surfmesh.meshing.edges.edge_rules import NARROWEST, Courses, EdgeRules
 from surfmesh.meshing.edges.edge_samples import EdgeSamples
-from surfmesh.meshing.edges.narrow_faces import ROUND, narrow_face, narrow_width
+from surfmesh.meshing.edges.narrow_faces import (
+    ROUND,
+    may_be_narrow,
+    narrow_face,
+    narrow_width,
+)
 from surfmesh.sizing.options.model_sizing import ModelSizing
 from surfmesh.sizing.options.sizing import Sizing
 from surfmesh.sizing.rules.across_gaps import size_across
@@ -42,37 +47,24 @@ HIDDEN, MOST_HALVINGS, MOST_SAMPLES = 0.7, 30, 20_000
 def sample_edges(model: CadModel, sizing: ModelSizing) -> EdgeSamples:
     """Samples of all edges. Raises ``SizingError`` for laws that give no sizes."""
     rules = EdgeRules(model, sizing)
-    fractions, points, sizes, tangents = [], [], [], []
-    count = np.zeros(len(model.edges) + 1, np.int64)
-    total_curvature = np.zeros(len(model.edges))
-    for number, edge in enumerate(model.edges):
-        if collapses(model, edge):
-            continue
-        grid = _STRAIGHT if edge.is_straight else _CURVED
-        fraction = _with_hidden(edge, grid, [own for own, _ in rules.sizings_at(number)])
-        course = Course.of(edge, fraction)
-        fractions.append(fraction)
-        points.append(course.curve.points)
-        sizes.append(rules.target_size(number, course))
-        tangents.append(course.tangent)
-        total_curvature[number] = course.total_curvature
-        count[number + 1] = len(fraction)
-    first = np.cumsum(count)
-    edges_of_face = tuple(
-        np.array(sorted({c.edge for c in face.coedges if count[c.edge + 1]}), np.int64)
-        for face in model.faces
-    )
-    vertex = vertex_numbers(model)
+    arrays = rules.arrays
+    edges = np.flatnonzero(~arrays.collapsed)
+    fractions = _fractions(rules, edges)
+    first = offsets(np.array([len(own) for own in fractions], np.int64))
+    courses = Courses.of(arrays, edges, first, np.concatenate([np.empty(0), *fractions]))
+    count, total_curvature = np.zeros((2, len(model.edges)))
+    count[edges], total_curvature[edges] = np.diff(first), courses.total_curvature
+    first = offsets(count.astype(np.int64))
     samples = EdgeSamples(
         first,
-        np.concatenate(fractions) if fractions else np.empty(0),
-        np.concatenate(points) if points else np.empty((0, 3)),
-        np.concatenate(sizes) if sizes else np.empty(0),
-        np.concatenate(tangents) if tangents and sizing.is_anisotropic else np.empty((0, 3)),
+        courses.fraction,
+        courses.points,
+        rules.target_size(courses),
+        courses.tangent if sizing.is_anisotropic else np.empty((0, 3)),
         total_curvature,
-        _has_twin(model, first, total_curvature, vertex),
-        vertex,
-        edges_of_face,
+        _has_twin(arrays, total_curvature),
+        arrays.vertex,
+        _edges_of_faces(arrays),
         np.zeros(len(model.faces)),
         {},
         np.zeros(len(model.edges), bool),
@@ -86,42 +78,70 @@ def sample_edges(model: CadModel, sizing: ModelSizing) -> EdgeSamples:
     return samples
 
 
+def _fractions(rules: EdgeRules, edges: np.ndarray) -> list[np.ndarray]:
+    """Of the parameter ranges of the edges, where they are sampled."""
+    wanted = rules.wanted
+    grids = [_STRAIGHT if line else _CURVED for line in rules.arrays.straight[edges].tolist()]
+    if not any(
+        own.has_law for own in (wanted.base, *wanted.faces.values(), *wanted.edges.values())
+    ):
+        return grids
+    return [
+        _with_hidden(rules.model.edges[edge], grid, rules.sizings_at(edge))
+        for edge, grid in zip(edges.tolist(), grids)
+    ]
+
+
+def _edges_of_faces(arrays: ModelArrays) -> tuple[np.ndarray, ...]:
+    """For each face the edges with samples, each once, rising."""
+    there = ~arrays.collapsed[arrays.coedge_edge]
+    count = len(arrays.collapsed)
+    both = np.unique(arrays.coedge_face[there] * count + arrays.coedge_edge[there])
+    first = np.searchsorted(both, np.arange(1, len(arrays.area)) * count)
+    return tuple(np.split(both % max(count, 1), first))
+
+
 def _find_narrow(samples: EdgeSamples, rules: EdgeRules) -> None:
     """Fill in what is narrow; edges of narrow faces do not hear the curvature across these."""
-    model, sizing = rules.model, rules.wanted
-    for number, face in enumerate(model.faces):
-        points = samples.points[samples.along(number)]
-        width = narrow_width(sizing.of_face(number), model.diagonal, points)
-        samples.narrow_width[number] = width
-        found = narrow_face(model, face, samples, width)
+    model, sizing, arrays = rules.model, rules.wanted, rules.arrays
+    known: dict[int, float] = {}  # by the sizing, where it is the same all over the model
+    for number in range(len(model.faces)):
+        own = sizing.of_face(number)
+        if own.has_law or id(own) not in known:
+            points = samples.points[samples.along(number)] if own.has_law else np.empty((0, 3))
+            known[id(own)] = narrow_width(own, model.diagonal, points)
+        samples.narrow_width[number] = known[id(own)]
+    for number in may_be_narrow(arrays, samples.narrow_width).tolist():
+        width = float(samples.narrow_width[number])
+        found = narrow_face(model, model.faces[number], samples, width)
         if found is not None:
             samples.narrow[number] = found
-    for number, uses in enumerate(rules.uses):
-        at = samples.of(number)
-        widths = [samples.narrow[face].width for face, _ in uses if face in samples.narrow]
-        if not widths or at.start == at.stop:
+    beside = {c.edge for number in samples.narrow for c in model.faces[number].coedges}
+    for edge in sorted(beside):
+        at, faces = samples.of(edge), rules.faces_of(edge)
+        if at.start == at.stop:
             continue
-        width = max(samples.narrow_width[face] for face, _ in uses)
-        samples.tiny[number] = model.edges[number].length <= ROUND * width
-        samples.hidden[number] = len(widths) == len(uses)
-        if samples.is_cut_by_shape(model, number):
+        widths = [samples.narrow[face].width for face in faces if face in samples.narrow]
+        width = max(samples.narrow_width[face] for face in faces)
+        samples.tiny[edge] = model.edges[edge].length <= ROUND * width
+        samples.hidden[edge] = len(widths) == len(faces)
+        if samples.is_cut_by_shape(model, edge):
             size = np.full(at.stop - at.start, sizing.base.max_size or model.diagonal)
         else:
-            course = Course.of(model.edges[number], samples.t[at])
-            size = rules.target_size(number, course, samples.narrow)
+            limits = np.array([0, at.stop - at.start])
+            courses = Courses.of(arrays, np.array([edge]), limits, samples.t[at])
+            size = rules.target_size(courses, samples.narrow)
         samples.target_size[at] = np.minimum(size, MOST_LONGER * min(widths))
     samples.mates.extend(mate_runs(model, samples))
 
 
-def _has_twin(
-    model: CadModel, first: np.ndarray, total_curvature: np.ndarray, vertex: np.ndarray
-) -> np.ndarray:
+def _has_twin(arrays: ModelArrays, total_curvature: np.ndarray) -> np.ndarray:
     """(e,) bool; see ``EdgeSamples``."""
-    ends = np.array([[edge.start, edge.end] for edge in model.edges]).reshape(-1, 2)
-    ends = np.sort(vertex[ends], axis=1)
-    there = np.diff(first) > 0
-    _, group, count = np.unique(ends[there], axis=0, return_inverse=True, return_counts=True)
-    found = np.zeros(len(model.edges), bool)
+    there = ~arrays.collapsed
+    ends = np.sort(arrays.mesh_ends[there], axis=1)
+    code = ends @ np.array([len(arrays.corners), 1])
+    _, group, count = np.unique(code, return_inverse=True, return_counts=True)
+    found = np.zeros(len(there), bool)
     found[there] = count[group.reshape(-1)] > 1
     return found & (total_curvature > 0.0)
 
@@ -171,7 +191,7 @@ def _apply_gaps(model: CadModel, samples: EdgeSamples, sizing: ModelSizing) -> N
     """
     if not len(samples.points):
         return
-    ends = samples.vertex[np.array([[edge.start, edge.end] for edge in model.edges])]
+    ends = model_arrays(model).mesh_ends
     by_sizes: dict[tuple[float | None, float, float], list[int]] = {}
     for face in range(len(model.faces)):
         if face in samples.narrow:

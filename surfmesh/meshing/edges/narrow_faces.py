@@ -21,6 +21,7 @@ from math import pi
 import numpy as np
 
 from surfmesh.cad.model.cad_model import CadCoedge, CadFace, CadModel
+from surfmesh.cad.model.model_arrays import ModelArrays
 from surfmesh.meshing.edges.edge_samples import EdgeSamples, NarrowFace
 from surfmesh.sizing.options.defaults import DEFAULT_CHORD
 from surfmesh.sizing.options.sizing import Sizing
@@ -36,6 +37,9 @@ OF_SIZE_ALONE = 0.1
 
 ROUND = 1.1 * pi
 """Ends, and ways across, are at most so many narrow widths long: round a tube."""
+
+SURELY = 1.0 + 1e-9
+"""For sums that are rounded in another order."""
 
 MOST_COEDGES = 40
 """Faces of more edges are not looked at: pairs of ends are many."""
@@ -92,6 +96,14 @@ def narrow_width(sizing: Sizing, diagonal: float, points: np.ndarray) -> float:
     if sizing.has_law and len(points):
         sizes.append(float(sizing.law_sizes(points).min()))
     return min([width, *(OF_SIZE * size for size in sizes)])
+
+
+def may_be_narrow(arrays: ModelArrays, width: np.ndarray) -> np.ndarray:
+    """Numbers of the faces that lengths and areas do not show to be wider; width: (f,)."""
+    length = np.where(arrays.collapsed, 0.0, arrays.length)[arrays.coedge_edge]
+    count = np.diff(arrays.first_of_face)
+    around = np.bincount(arrays.coedge_face, length, len(count))
+    return np.flatnonzero((count > 0) & ~(2.0 * arrays.area > SURELY * ROUND * width * around))
 
 
 def narrow_face(

@@ -6,8 +6,11 @@ from collections.abc import Callable
 
 import numpy as np
 
+from surfmesh._core.edges import curvatures_at
 from surfmesh.cad.model.cad_model import CadModel
-from surfmesh.cad.model.centres import inner_samples
+from surfmesh.cad.model.centres import cell_centres, inner_samples
+from surfmesh.cad.model.model_arrays import model_arrays, offsets
+from surfmesh.geometry.cad_surfaces.face_surface import FaceSurface
 from surfmesh.geometry.differential.fundamental_forms import curvatures, forms_from_derivatives
 from surfmesh.meshing.edges.edge_nodes import EdgeNodes
 from surfmesh.meshing.estimate.estimation import Estimate, face_triangles, require_within
@@ -17,6 +20,7 @@ from surfmesh.meshing.faces.face_mesh import face_field
 from surfmesh.meshing.faces.strip_triangulation import strip_mesh
 from surfmesh.sizing.field.metric_area import TRIANGLES
 from surfmesh.sizing.options.sizing import Sizing
+from surfmesh.sizing.rules.direction_rates import has_even_curvature
 from surfmesh.sizing.rules.size_rules import SizeRules
 
 FEW = 9
@@ -70,12 +74,55 @@ def bounds(
     return least, most
 
 
+def quick_bound(model: CadModel, nodes: list[EdgeNodes | None], sizings: list[Sizing]) -> float:
+    """Triangles of the whole model at most, of size requests at a few points of the faces' boxes,
+    all faces at once; infinite where sizes depend on the place by a law."""
+    arrays = model_arrays(model)
+    edges = np.full(len(nodes), np.inf)
+    cut = np.flatnonzero([own is not None for own in nodes])
+    edges[cut] = [own.sizes.min() for own in nodes if own is not None]
+    smallest = np.full(len(sizings), np.inf)
+    np.minimum.at(smallest, arrays.coedge_face, edges[arrays.coedge_edge])
+    by_sizing: dict[int, list[int]] = {}
+    for number, sizing in enumerate(sizings):
+        by_sizing.setdefault(id(sizing), []).append(number)
+    for faces in by_sizing.values():
+        sizing = sizings[faces[0]]
+        if sizing.has_law:
+            return np.inf
+        allowed = SizeRules.of(sizing, model.diagonal)
+        sizes = [allowed.clamp[1], *(getattr(s, "size", np.inf) for s in sizing.sources)]
+        smallest[faces] = np.minimum(smallest[faces], min(sizes))
+        curved = [face for face in faces if model.faces[face].surface.kind != "plane"]
+        if curved and allowed.follows_curvature:
+            found = _least_by_curvature([model.faces[face].surface for face in curved], allowed)
+            smallest[curved] = np.minimum(smallest[curved], found)
+        smallest[faces] = np.maximum(smallest[faces], allowed.clamp[0])
+    return float((TRIANGLES * arrays.area / smallest**2).sum())
+
+
+def _least_by_curvature(surfaces: list[FaceSurface], allowed: SizeRules) -> np.ndarray:
+    """The smallest size (k,) that the curvature of each surface asks for within its box."""
+    every = [1 if has_even_curvature(surface) else FEW for surface in surfaces]
+    grids = {count: cell_centres(count) for count in set(every)}
+    low, high = np.array([surface.domain for surface in surfaces]).transpose(2, 0, 1)
+    uv = [a + grids[count] * (b - a) for count, a, b in zip(every, low, high)]
+    first = offsets(np.square(every))
+    k1, k2, degenerate = curvatures_at(
+        np.concatenate(uv), first, [surface.core for surface in surfaces]
+    )
+    sizes = np.where(degenerate.astype(bool), allowed.clamp[1], allowed.shorter(k1, k2))
+    return np.minimum.reduceat(sizes, first[:-1])
+
+
 def require_model_within(
     model: CadModel, jobs: Callable[[], list[FaceJob]], nodes: list[EdgeNodes | None],
     sizings: list[Sizing], sizing: Sizing,
 ) -> None:  # fmt: skip
     """Raise ``SizingError`` with advice when a model would have more than ``sizing.limit``
     triangles. ``jobs``: makes them; asked only where the bounds leave it open."""
+    if quick_bound(model, nodes, sizings) <= sizing.limit:
+        return
     least, most = bounds(model, nodes, sizings)
     if most.sum() <= sizing.limit:
         return

@@ -103,7 +103,7 @@ def _meshed(surface: Surface, field: SizeField, box: np.ndarray) -> int | None:
     ring = np.arange(len(uv), dtype=np.int32)
     loops = BoundaryLoops(uv, np.stack([ring, np.roll(ring, -1)], axis=1), ring.astype(np.int64))
     try:
-        patch = mesh_patch(surface, field.chart, field, lambda: loops, box=box)
+        patch = mesh_patch(surface, field.chart, field, loops, box=box)
     except SurfmeshError:
         return None
     return len(patch.space.triangles)

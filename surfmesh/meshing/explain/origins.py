@@ -11,7 +11,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from surfmesh.meshing.edges.edge_rules import NARROWEST, Course, Demand, DemandsOfOne, EdgeRules
+from surfmesh.meshing.edges.edge_rules import NARROWEST, Courses, Demand, DemandsOfOne, EdgeRules
 from surfmesh.meshing.edges.edge_samples import EdgeSamples
 from surfmesh.meshing.edges.edge_sampling import MOST_LONGER
 from surfmesh.meshing.explain.askers import DEFAULT, Askers, bound_row, words
@@ -95,8 +95,10 @@ class EdgePlaces(NamedTuple):
         if samples.is_cut_by_shape(rules.model, edge):
             return SizeRow(DEFAULT, "the shape of a narrow tube, which its edge is cut by", target)
         own = samples.of(edge)
-        at = _OnEdge(rules, edge, Course.of(item, samples.t[own]), sample - own.start)
-        every = rules.demands(edge, at.course, samples.narrow)
+        t = samples.t[own]
+        courses = Courses.of(rules.arrays, np.array([edge]), np.array([0, len(t)]), t)
+        at = _OnEdge(rules, edge, courses, sample - own.start)
+        every = list(rules.demands(courses, samples.narrow))
         found = [at.decided(one) for one in every]
         length = max(item.length, NARROWEST * rules.model.diagonal)
         found.append(SizeRow(DEFAULT, f"length {item.length:.4g} of edge {edge}", length))
@@ -106,7 +108,7 @@ class EdgePlaces(NamedTuple):
         vertex = ends.get(at.place, -1)
         if vertex in rules.wanted.vertices:
             found.append(_at_vertex(rules, vertex))
-        for face in {face for face, _ in rules.uses[edge]} & samples.narrow.keys():
+        for face in set(rules.faces_of(edge)) & samples.narrow.keys():
             rule = f"{MOST_LONGER:g} times the width of narrow face {face}"
             found.append(SizeRow(DEFAULT, rule, MOST_LONGER * samples.narrow[face].width))
         gap = float(samples.gap_size[sample])
@@ -120,7 +122,7 @@ class _OnEdge(NamedTuple):
 
     rules: EdgeRules
     edge: int
-    course: Course
+    course: Courses
     place: int
 
     def decided(self, one: DemandsOfOne) -> SizeRow:
@@ -142,32 +144,37 @@ class _OnEdge(NamedTuple):
         return Askers.of(self.rules.wanted, "edges", self.edge)
 
     def _rows(self, demand: Demand, rules: SizeRules, askers: Askers) -> Iterator[SizeRow]:
-        size = float(demand.sizes[min(self.place, len(demand.sizes) - 1)])
-        if not np.isfinite(size):
-            return
-        if demand.rule is None:
-            yield self._of_metric(demand, size, rules, askers)
-            return
-        said = words(demand.rule)
-        if demand.curvatures:
-            k = [float(own[min(self.place, len(own) - 1)]) for own in demand.curvatures]
-            if len(k) == 2:
-                said += f" at curvatures {k[0]:.4g}, {k[1]:.4g}"
-            elif k[0] > 0.0:
-                said += f" at the edge's own curvature {with_radius(k[0])}"
-            else:
-                said += " at a corner of the edge"
-        yield SizeRow(askers.key_of(demand.rule), said, size)
+        """What one rule asks for here, of each curved face that meets the edge."""
+        rows = demand.rows
+        at = [self.place] if rows is None else np.flatnonzero(rows == self.place).tolist()
+        for row in at:
+            size = float(demand.sizes[row])
+            if not np.isfinite(size):
+                continue
+            if demand.rule is None:
+                yield self._of_metric(demand, row, rules, askers)
+                continue
+            said = words(demand.rule)
+            if demand.curvatures:
+                k = [float(own[row]) for own in demand.curvatures]
+                if len(k) == 2:
+                    said += f" at curvatures {k[0]:.4g}, {k[1]:.4g}"
+                elif k[0] > 0.0:
+                    said += f" at the edge's own curvature {with_radius(k[0])}"
+                else:
+                    said += " at a corner of the edge"
+            yield SizeRow(askers.key_of(demand.rule), said, size)
 
-    def _of_metric(self, demand: Demand, size: float, rules: SizeRules, askers: Askers) -> SizeRow:
+    def _of_metric(self, demand: Demand, row: int, rules: SizeRules, askers: Askers) -> SizeRow:
         """The rule of a face along the principal direction that is nearest to the edge."""
-        uses = self.rules.uses[self.edge]
-        face, coedge = next(use for use in uses if use[0] == demand.face)
-        uv = coedge.uv(self.course.fraction[[self.place]])[0]
-        principal = Principal.at(self.rules.model.faces[face].surface, uv)
+        assert demand.coedges is not None  # noqa: S101 for mypy: the metric is of a face
+        arrays, number = self.rules.arrays, int(demand.coedges[row])
+        face = self.rules.model.faces[arrays.coedge_face[number]]
+        uv = arrays.coedges[number].uv(self.course.fraction[[self.place]])[0]
+        principal = Principal.at(face.surface, uv)
         axis = principal.nearest(self.course.tangent[self.place])
-        points = self.course.curve.points[[self.place]]
-        ratio = rules.sizing.anisotropy
+        points = self.course.points[[self.place]]
+        ratio, size = rules.sizing.anisotropy, float(demand.sizes[row])
         winner = deciding(principal_rows(rules, askers, principal.k, axis, points, ratio))
         return (winner or SizeRow("*", f"anisotropy {ratio:g}", size))._replace(size=size)
 

@@ -140,9 +140,7 @@ def _meshed(job: FaceJob, unfold: bool = True) -> FaceMesh:
     surface, field = face_field(job)
     loops, slots = _loops(job, field)
     first = job.limits is None
-    patch = mesh_patch(
-        surface, field.chart, field, lambda: loops, optimise=job.optimise, first=first
-    )
+    patch = mesh_patch(surface, field.chart, field, loops, optimise=job.optimise, first=first)
     space = patch.space
     if len(space.non_manifold):
         finer = patch.limits_for_seams(FINER, essential=True)

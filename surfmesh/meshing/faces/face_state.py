@@ -1,12 +1,13 @@
 """What is known of one face of a model between the rounds of meshing."""
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 
 import numpy as np
 
 from surfmesh.cad.model.cad_model import CadCoedge, CadFace, CadModel
 from surfmesh.cad.model.loop_faults import ExactLoops, exact_loops
+from surfmesh.cad.model.model_arrays import model_arrays, offsets, rows_of
 from surfmesh.meshing.edges.edge_nodes import EdgeNodes
 from surfmesh.meshing.edges.edge_samples import EdgeSamples, NarrowFace
 from surfmesh.meshing.faces.face_data import CoedgeNodes, FaceJob, FaceMesh
@@ -15,6 +16,8 @@ from surfmesh.meshing.patch.refinement_loop import StagnationCheck
 from surfmesh.sizing.options.model_sizing import ModelSizing
 from surfmesh.sizing.options.sizing import Sizing
 from surfmesh.sizing.rules.size_limits import SizeLimits
+
+_ENDS = np.array([0.0, 1.0])
 
 
 @dataclass
@@ -69,22 +72,6 @@ class FaceState:
         places = 0 if mesh.refinement is None else len(mesh.refinement.sizes)
         self.stagnation.record(places, len(mesh.triangles), bool(mesh.failure), self.job.nodes)
 
-    def job_from(
-        self, model: CadModel, nodes: list[EdgeNodes | None], samples: EdgeSamples,
-        limits: SizeLimits | None = None, optimise: bool = True,
-    ) -> FaceJob:  # fmt: skip
-        """What it is meshed from when its edges have these nodes."""
-        loops = tuple(
-            tuple(
-                _coedge_nodes(model, coedge, nodes[coedge.edge], samples.vertex) for coedge in loop
-            )
-            for loop in self.face.loops
-        )
-        return FaceJob(
-            self.face.surface, loops, self.sizing, limits, optimise,
-            exact=self.exact, narrow=self.narrow,
-        )  # fmt: skip
-
 
 def face_states(model: CadModel, samples: EdgeSamples, wanted: ModelSizing) -> list[FaceState]:
     """All faces before the first round."""
@@ -98,35 +85,63 @@ def face_states(model: CadModel, samples: EdgeSamples, wanted: ModelSizing) -> l
     ]  # fmt: skip
 
 
-def first_jobs(
-    model: CadModel, faces: list[FaceState], nodes: list[EdgeNodes | None], samples: EdgeSamples,
-    limits: Mapping[int, SizeLimits] | None = None,
+def face_jobs(
+    model: CadModel, faces: Sequence[FaceState], nodes: list[EdgeNodes | None],
+    limits: Mapping[int, SizeLimits] | None = None, optimise: bool = True,
 ) -> list[FaceJob]:  # fmt: skip
-    """The jobs of all faces before anything is known of their meshes."""
-    known = limits or {}
-    return [state.job_from(model, nodes, samples, known.get(state.number)) for state in faces]
+    """What some faces are meshed from when the edges have these nodes; limits: by face."""
+    known, arrays = limits or {}, model_arrays(model)
+    numbers = np.array([state.number for state in faces], np.int64)
+    pieces = _coedge_nodes(model, rows_of(arrays.first_of_face, numbers), nodes)
+    jobs, start = [], 0
+    for state in faces:
+        loops = []
+        for loop in state.face.loops:
+            loops.append(tuple(pieces[start : start + len(loop)]))
+            start += len(loop)
+        jobs.append(
+            FaceJob(
+                state.face.surface, tuple(loops), state.sizing, known.get(state.number), optimise,
+                exact=state.exact, narrow=state.narrow,
+            )
+        )  # fmt: skip
+    return jobs
 
 
 def _coedge_nodes(
-    model: CadModel, coedge: CadCoedge, cut: EdgeNodes | None, vertex: np.ndarray
+    model: CadModel, which: np.ndarray, nodes: list[EdgeNodes | None]
+) -> list[CoedgeNodes]:
+    """The nodes of the edges of some coedges as loops walk along them; of an edge that is a
+    vertex, both ends."""
+    arrays = model_arrays(model)
+    cuts = [nodes[edge] for edge in arrays.coedge_edge[which].tolist()]
+    fractions = [_ENDS if cut is None else cut.t for cut in cuts]
+    first = offsets(np.array([len(t) for t in fractions], np.int64))
+    places = arrays.pcurves.points(which, first, np.concatenate([_ENDS[:0], *fractions]))
+    uv = np.ascontiguousarray(places[:, :2])
+    rows = zip(which.tolist(), cuts, first[:-1].tolist(), first[1:].tolist())
+    return [
+        _nodes_of_one(model, arrays.coedges[number], cut, uv[a:b]) for number, cut, a, b in rows
+    ]
+
+
+def _nodes_of_one(
+    model: CadModel, coedge: CadCoedge, cut: EdgeNodes | None, uv: np.ndarray
 ) -> CoedgeNodes:
-    """The nodes of an edge as a loop walks along it; of one that is a vertex, both ends."""
+    """uv (n, 2): of its nodes in the direction of the edge."""
     edge = model.edges[coedge.edge]
+    order = slice(None, None, -1 if coedge.reversed else 1)
     if cut is None:
-        number = int(vertex[edge.start])
+        number = int(model_arrays(model).vertex[edge.start])
         return CoedgeNodes(
-            uv=coedge.walk(np.array([0.0, 1.0])),
+            uv=uv[order],
             numbers=np.full(2, number, np.int64),
             points=np.tile(model.vertices[number].point, (2, 1)),
             sizes=np.full(2, np.inf),
             degenerate=True,
             tolerance=edge.tolerance,
         )
-    order = slice(None, None, -1) if coedge.reversed else slice(None)
     return CoedgeNodes(
-        uv=coedge.uv(cut.t)[order],
-        numbers=cut.numbers[order],
-        points=cut.points[order],
-        sizes=cut.sizes[order],
+        uv[order], cut.numbers[order], cut.points[order], cut.sizes[order],
         tolerance=edge.tolerance,
-    )
+    )  # fmt: skip

@@ -3,10 +3,9 @@
 Others call ``mesh_patch``, go round in ``refined_in_rounds``, and pack by themselves with
 ``packed``; the rest is of this room. In the order in which data passes:
 
-packing: drive the packing kernel: room for its arrays, growing them when they are full.
-state: the state of the optimiser, which runs in the core (src/patch).
-size_requests: upper bounds of the size, for another round, where that could not mend it.
-patch_mesh: all of these in their order, for every kind of boundary.
+packing: what circles are packed over; packing by itself; why a packing cannot go on.
+size_requests: upper bounds of the size, for another round, where the optimiser could not mend it.
+patch_mesh: all stages in one call of the core (src/patch), for every kind of boundary.
 refinement_loop: rounds with smaller sizes until nothing is to be mended, or smaller sizes are no
     help.
 """

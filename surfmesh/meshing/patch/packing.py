@@ -1,6 +1,7 @@
 """Circles packed over a rectangle or the plane by one call of the core; what failed is raised."""
 
 from collections.abc import Callable
+from typing import NamedTuple
 
 import numpy as np
 
@@ -19,26 +20,38 @@ VERTICES = 2.0 / np.sqrt(3.0)
 """Unit circles on a unit of metric area."""
 
 
-def packed_over(
-    field: SizeField,
-    chart: Chart,
-    box: np.ndarray | None = None,
-    watch: Stopwatch | None = None,
-) -> Packing:
-    """Pack the circles of a size field from the middle of a rectangle until it is covered.
+class RoomForPacking(NamedTuple):
+    """What circles are packed over."""
 
-    box: (4,) x0, y0, x1, y1 in the plane of ``chart``; None: the whole domain. watch: is told now
-    and then that the stage goes on.
-    """
+    box: tuple[float, float, float, float]  # x0, y0, x1, y1 of the scaled plane
+    expected: int  # about how many circles have room
+
+    @property
+    def middle(self) -> tuple[float, float]:
+        """Where the packing begins."""
+        x0, y0, x1, y1 = self.box
+        return 0.5 * (x0 + x1), 0.5 * (y0 + y1)
+
+    def told(self, watch: Stopwatch) -> Callable[[int], None]:
+        """What the core calls with the number of circles so far."""
+        return lambda circles: watch.pulse(min(1.0, circles / max(self.expected, 1)))
+
+
+def room_for_packing(field: SizeField, chart: Chart, box: np.ndarray | None) -> RoomForPacking:
+    """box: (4,) in the plane of ``chart``; None: the whole domain."""
     if box is None:
-        width, height = chart.extent.tolist()
-        x0, y0, x1, y1 = 0.0, 0.0, width, height
-        expected = field.expected_vertices()
-    else:
-        x0, y0, x1, y1 = box.tolist()
-        expected = int(VERTICES * box_area(field, box))
-    middle = 0.5 * (x0 + x1), 0.5 * (y0 + y1)
-    return packed(field.background, (x0, y0, x1, y1), middle, expected, watch=watch)
+        u, v = chart.axes
+        return RoomForPacking(
+            (0.0, 0.0, float(u.extent), float(v.extent)), field.expected_vertices()
+        )
+    x0, y0, x1, y1 = box.tolist()
+    return RoomForPacking((x0, y0, x1, y1), int(VERTICES * box_area(field, box)))
+
+
+def packed_over(field: SizeField, chart: Chart) -> Packing:
+    """Pack the circles of a size field from the middle of its rectangle until it is covered."""
+    room = room_for_packing(field, chart, None)
+    return packed(field.background, room.box, room.middle, room.expected)
 
 
 def packed_discs(
@@ -71,26 +84,25 @@ def packed(
     expected: int,
     wanted: int = NO_LIMIT,
     distance: float = np.inf,
-    watch: Stopwatch | None = None,
 ) -> Packing:
     """Pack circles over the plane from ``origin`` until the front has left ``box``.
 
     ``expected``: about how many circles there will be. Raises ``MeshingError`` when no three
-    circles can be placed about the origin, and ``Cancelled`` when the one who watches wants that.
+    circles can be placed about the origin.
     """
-
-    def pulse(circles: int) -> None:
-        if watch is not None:
-            watch.pulse(min(1.0, circles / max(expected, 1)))
-
-    return _finished(core.pack(background, box, origin, expected, wanted, distance, pulse), origin)
+    return _finished(core.pack(background, box, origin, expected, wanted, distance), origin)
 
 
 def _finished(packing: Packing, origin: tuple[float, float]) -> Packing:
     if packing.status == PackingStatus.FINISHED:
         return packing
-    if packing.status == PackingStatus.BAD_START:
-        raise MeshingError(f"no circles can be placed about the origin {origin}")
-    if packing.status == PackingStatus.TOO_MANY:
-        raise MeshingError(f"{packing.t.vertices:,} circles do not suffice: ask for larger sizes")
-    raise MeshingError("the packing cannot go on: please report this")
+    raise packing_error(packing.status, packing.t.vertices, origin)
+
+
+def packing_error(status: PackingStatus, circles: int, origin: tuple[float, float]) -> MeshingError:
+    """What it means that a packing is not finished."""
+    if status == PackingStatus.BAD_START:
+        return MeshingError(f"no circles can be placed about the origin {origin}")
+    if status == PackingStatus.TOO_MANY:
+        return MeshingError(f"{circles:,} circles do not suffice: ask for larger sizes")
+    return MeshingError("the packing cannot go on: please report this")

@@ -5,29 +5,37 @@ packing -> boundary -> optimisation -> space, joined sides identified
                             +-> size requests <-+   for another round, where this did not do
 
 Whole surfaces, faces of CAD models, planar domains and the patches of an estimate all go this
-way. What they differ in is their boundary, and what they do with the requests.
+way. What they differ in is their boundary, and what they do with the requests. All of it is one
+call of the core (src/patch/patch_mesh.hpp); what its status says is put into words here.
 """
 
 from collections.abc import Callable
-from contextlib import AbstractContextManager, nullcontext
+from contextlib import nullcontext
 from dataclasses import dataclass
 
 import numpy as np
 
+from surfmesh._core import patch as core
+from surfmesh._core.insertion import DomainMesh
+from surfmesh._core.patch import PatchEnd, PatchStage
+from surfmesh.geometry.core_surface import as_core_surface
 from surfmesh.geometry.differential.chart import Chart
 from surfmesh.geometry.surface import Surface
 from surfmesh.meshing.boundary.boundary_loops import BoundaryLoops
-from surfmesh.meshing.boundary.boundary_recovery import DomainMesh, recovered, recovered_regions
+from surfmesh.meshing.boundary.boundary_recovery import boundary_error
 from surfmesh.meshing.boundary.planar_segments import PlanarSegments
-from surfmesh.meshing.patch.packing import packed_over
+from surfmesh.meshing.patch.packing import packing_error, room_for_packing
 from surfmesh.meshing.patch.size_requests import SizeRequests
-from surfmesh.meshing.patch.state import patch_state
 from surfmesh.meshing.progress import Stopwatch
 from surfmesh.sizing.field.size_field import SizeField
 from surfmesh.sizing.rules.size_limits import SizeLimits
 
-OFF_SURFACE = 0.3
-"""Fraction of ``chord`` by which a node may lie off the surface of a face that uses it."""
+STAGES = {
+    PatchStage.PACKING: "packing",
+    PatchStage.BOUNDARY: "boundary",
+    PatchStage.OPTIMISATION: "optimisation",
+    PatchStage.MAPPING: "mapping",
+}
 
 
 @dataclass(frozen=True)
@@ -77,7 +85,7 @@ def mesh_patch(
     surface: Surface,
     chart: Chart,
     field: SizeField,
-    cut_boundary: Callable[[], BoundaryLoops | PlanarSegments],
+    boundary: BoundaryLoops | PlanarSegments,
     *,
     optimise: bool = True,
     first: bool = True,
@@ -86,61 +94,55 @@ def mesh_patch(
 ) -> PatchMesh:
     """Mesh the inside of a boundary, with sizes of one field in the plane of ``chart``.
 
-    cut_boundary: gives its nodes and segments. first: the sizes come from no earlier round.
-    box: (4,) in the plane, what is packed where it is not the whole domain. watch: is told of
-    the stages. Raises ``SurfaceError``, ``DomainError`` or ``MeshingError`` with the reason.
+    first: the sizes come from no earlier round. box: (4,) in the plane, what is packed where it is
+    not the whole domain. watch: is told of the stages. Raises ``SurfaceError``, ``DomainError`` or
+    ``MeshingError`` with the reason.
     """
-
-    def stage(name: str) -> AbstractContextManager[None]:
-        return watch.stage(name) if watch is not None else nullcontext()
-
-    with stage("packing"):
-        packing = packed_over(field, chart, box, watch)
-    with stage("boundary"):
-        boundary = cut_boundary()
-        if isinstance(boundary, PlanarSegments):
-            domain = recovered_regions(packing.t, boundary, field, surface)
-        else:
-            domain = recovered(packing.t, boundary, field, surface)
-        del packing
-        if not optimise:
-            state = patch_state(domain, surface, chart, field)
-            state.choose_diagonals()
-            requests = SizeRequests()
-    if optimise:
-        with stage("optimisation"):
-            state = patch_state(
-                domain, surface, chart, field, None if watch is None else watch.pulse
-            )
-            left = state.optimise(first)
-            off = _off_surface(domain, surface, field, boundary.uv)
-            requests = SizeRequests.of(state.size_requests(left, off), field.sizing.gradient)
-    with stage("mapping"):
-        found = state.mapped(boundary.uv[domain.is_used], *_identified(domain, boundary))
-        roots = field.roots_of_mesh(domain.t.xy, state.frames.scale)
+    with nullcontext() if watch is None else watch.stages() as begin:
+        found = _meshed(surface, chart, field, boundary, optimise, first, box, watch, begin)
+    mapped = found.mapped
     space = SurfaceTriangles(
-        found.points, found.triangles, found.uv_triangles, found.vertex, found.non_manifold
+        mapped.points, mapped.triangles, mapped.uv_triangles, mapped.vertex, mapped.non_manifold
     )
-    return PatchMesh(domain, found.uv, space, found.sizes, roots, requests, field.sizing.gradient)
+    roots = found.metric_root_3d if field.sizing.is_anisotropic else None
+    requests = SizeRequests.of(found.requests, field.sizing.gradient)
+    return PatchMesh(
+        found.domain, mapped.uv, space, mapped.sizes, roots, requests, field.sizing.gradient
+    )
 
 
-def _identified(
-    domain: DomainMesh, boundary: BoundaryLoops | PlanarSegments
-) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Vertices of nodes, segments, identity: of what may be identified."""
-    if isinstance(boundary, BoundaryLoops):
-        return domain.node, boundary.segments, boundary.identity
-    return np.empty(0, np.int32), np.empty((0, 2), np.int32), np.empty(0, np.int64)
-
-
-def _off_surface(
-    domain: DomainMesh, surface: Surface, field: SizeField, uv: np.ndarray
-) -> np.ndarray | None:
-    """Marks of the nodes in use that lie so far off the surface that smaller sizes are no help."""
-    chord = field.sizing.chord
-    if chord is None or domain.points is None:
-        return None
-    used = domain.is_used
-    (images,) = surface.evaluate(uv[used], 0)
-    deviation = np.linalg.norm(domain.points[used] - images, axis=1)
-    return (deviation > OFF_SURFACE * chord).view(np.uint8)
+def _meshed(
+    surface: Surface, chart: Chart, field: SizeField, boundary: BoundaryLoops | PlanarSegments,
+    optimise: bool, first: bool, box: np.ndarray | None, watch: Stopwatch | None,
+    begin: Callable[[str], None] | None,
+) -> core.PatchMesh:  # fmt: skip
+    """What the core makes of a patch; what failed is raised."""
+    sizing, room = field.sizing, room_for_packing(field, chart, box)
+    settings = core.PatchSettings(
+        as_core_surface(surface), chart.core, field.background,
+        sizing.chord, sizing.angle, sizing.min_size or 0.0,
+        box=room.box, expected=room.expected, optimise=optimise, first=first,
+        with_roots=sizing.is_anisotropic,
+        before_stage=None if begin is None else lambda stage: begin(STAGES[stage]),
+        while_packing=None if watch is None else room.told(watch),
+        before_pass=None if watch is None else watch.pulse,
+    )  # fmt: skip
+    uv, nodes = boundary.uv, chart.to_plane(boundary.uv)
+    if isinstance(boundary, PlanarSegments):
+        segments = boundary.pieces
+        graph = boundary.graph
+        found = core.mesh_regions(
+            settings, uv, nodes, segments, boundary.segment,
+            graph.loop_segments, graph.loop_is_hole,
+        )  # fmt: skip
+    else:
+        segments = np.concatenate([boundary.segments, boundary.inner])
+        found = core.mesh_loops(
+            settings, uv, nodes, boundary.segments, boundary.inner, boundary.identity,
+            boundary.points,
+        )  # fmt: skip
+    if found.end == PatchEnd.PACKING_FAILED:
+        raise packing_error(found.packing, found.circles, room.middle)
+    if found.end == PatchEnd.BOUNDARY_FAILED:
+        raise boundary_error(found.boundary, uv, segments, surface)
+    return found

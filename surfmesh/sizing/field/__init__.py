@@ -3,7 +3,6 @@
 two_sizes: two sizes at each place, along two directions, and how limits lower them.
 size_law: the ungraded target sizes at points of one surface, with what a size field stores there.
 small_sizes: where on a surface small sizes lie that samples of it may miss.
-hidden_features: features that lie between the samples of a cell, where derivatives are bounded.
 field_builder: the background of a size field: sizes graded on a balanced quadtree.
 size_field: the size field of one surface, ready for the core.
 boundary_field: the size field of a plane or a cylinder from the sizes at points of its boundary.

@@ -9,11 +9,11 @@ import numpy as np
 
 import surfmesh._core.fields as core
 from surfmesh._core import elementary_functions
+from surfmesh._core import sizing as core_sizing
 from surfmesh._core.fields import Background
 from surfmesh.errors import SizingError
 from surfmesh.geometry.cad_surfaces.face_surface import FaceSurface
 from surfmesh.geometry.differential.sides import SideTopology
-from surfmesh.sizing.field.hidden_features import SeenCells, may_bend, may_rise
 from surfmesh.sizing.field.size_law import FieldNodes, SizeLaw, TensorLaw
 from surfmesh.sizing.field.small_sizes import small_sizes
 from surfmesh.sizing.rules.direction_rates import has_even_curvature
@@ -84,14 +84,14 @@ class FieldBuilder:
             free_cells=FREE_CELLS,
             most_triangles=self._most_triangles,
             looks_for_hidden=(
-                isinstance(law, SizeLaw) and law.follows_curvature,
+                self._is_of_formulas and law.follows_curvature,  # splines bound nothing
                 law.sizing.chord is not None,
             ),
         )
 
     def background(self) -> Background:
         """Raises ``SizingError`` when the sizes need an unreasonable number of cells."""
-        self._require_done(self.core.refine(self.law, self._may_hide))
+        self._require_done(self.core.refine(*self._asked()))
         nodes = self._nodes
         if isinstance(self.law, SizeLaw) and nodes.is_anisotropic:
             if not has_even_curvature(self.surface):
@@ -177,19 +177,17 @@ class FieldBuilder:
         nodes.size[:], nodes.long[:] = size, long
         self._require_done(self.core.grade_anew())
 
-    def _may_hide(
-        self, deep: bool, low: np.ndarray, high: np.ndarray, normal: np.ndarray,
-        root: np.ndarray, smallest: np.ndarray,
-    ) -> np.ndarray:  # fmt: skip
-        """Cells (n,) whose bounds admit curvature that would at least halve the sizes seen."""
+    def _asked(self) -> tuple:
+        """The law, and where features may hide, as the core asks for them."""
         law = self.law
         if not isinstance(law, SizeLaw):  # nothing hides in what is given: see looks_for_hidden
-            return np.zeros(len(low), bool)
-        seen = SeenCells(low, high, normal, root.reshape(-1, 9, 3), smallest)
-        hide = may_bend(law, seen)
-        if deep and law.sizing.chord is not None:
-            hide &= may_rise(law, law.sizing.chord, seen)
-        return hide
+            return law, _nothing_hides
+        in_core = law.in_core()
+        # where both curvatures are alike ``angle`` allows least, where one is zero ``chord``
+        hidden = core_sizing.BoundedFeatures(
+            in_core, law.sizing.angle is not None, law.sizing.chord
+        )
+        return law if law.sizing.is_anisotropic else in_core, hidden
 
     def _blunt_poles(self, nodes: FieldNodes) -> None:
         """Cap the stretch near sides that are one point in space.
@@ -220,3 +218,8 @@ class FieldBuilder:
             if nodes.is_anisotropic:
                 nodes.along[near] = elsewhere.along
                 nodes.jacobian[near] = elsewhere.jacobian
+
+
+def _nothing_hides(deep: bool, low: np.ndarray, *_: np.ndarray) -> np.ndarray:
+    """In what is given over a plane."""
+    return np.zeros(len(low), bool)

@@ -6,7 +6,9 @@ from typing import NamedTuple
 
 import numpy as np
 
+from surfmesh._core import sizing as core
 from surfmesh.geometry.boxes import diagonal
+from surfmesh.geometry.core_surface import as_core_surface
 from surfmesh.geometry.differential.chart import Chart
 from surfmesh.geometry.differential.fundamental_forms import (
     FundamentalForms,
@@ -19,7 +21,7 @@ from surfmesh.sizing.field.two_sizes import TwoSizes
 from surfmesh.sizing.metric_roots import symmetric_root
 from surfmesh.sizing.options.sizing import Sizing
 from surfmesh.sizing.rules.direction_rates import ROUND, direction_rates, longest_along
-from surfmesh.sizing.rules.rim_rule import LoopRule, Rims
+from surfmesh.sizing.rules.rim_rule import LoopRule, RimRule, Rims
 from surfmesh.sizing.rules.rule import DirectedRule, Places, Rule
 from surfmesh.sizing.rules.size_limits import SizeLimits
 from surfmesh.sizing.rules.size_rules import SizeRules
@@ -141,31 +143,26 @@ class SizeLaw:
         k = curvatures(forms)
         return np.where(forms.degenerate, self.clamp[1], self.rules.shorter(k.k1, k.k2))
 
-    def from_curvature(self, k: np.ndarray) -> np.ndarray:
-        """Largest size (n,) where the surface is curved by at most k (n,), 1 / model unit."""
-        # curved one way only chord allows most, curved both ways alike angle does
-        other = np.zeros(len(k)) if self.sizing.angle is None else k
-        if self.sizing.is_anisotropic:
-            return self.rules.principal(k, other).min(axis=1)
-        return self.rules.from_curvature(k, other)
-
     def __call__(self, xy: np.ndarray) -> FieldNodes:
         """Nodes at xy (n, 2) of the chart."""
-        local = self.local(xy)
         if self.sizing.is_anisotropic:
-            return self._anisotropic(local)
-        at, forms = local.at, local.forms
-        size = np.full(len(xy), self.clamp[1])
-        for _, allowed in self.demands(local):
-            np.minimum(size, allowed, out=size)
-        np.maximum(size, self.clamp[0], out=size)
-        target_size = size
+            return self._anisotropic(self.local(xy))
+        nodes = FieldNodes(*self.in_core().nodes(np.ascontiguousarray(xy, float)))
+        return nodes._replace(jacobian=nodes.jacobian.reshape(-1, 3, 2))
+
+    def in_core(self) -> core.SurfaceLaw:
+        """The same law as the core asks it. It lives as long as the caller keeps it."""
+        rims = limits = None
+        if self.directed and self.sizing.chord is not None:
+            near_loops = None if self.loop_limits is None else self.loop_limits.core
+            sides = [rule.side for rule in self.directed if isinstance(rule, RimRule)]
+            rims = self.sizing.chord, [side in sides for side in range(4)], near_loops
         if self.limits is not None:
-            size = np.minimum(size, np.maximum(self.limits(at.points), self._least(self.limits)))
-            if self.limits.uv is None:
-                target_size = size
-        root = root_of_form(forms, local.rates)
-        return FieldNodes.isotropic(size, target_size, root, forms.normal, at.points)
+            are_targets = self.limits.uv is None
+            limits = self.limits.core, self._least(self.limits), are_targets
+        return core.SurfaceLaw(
+            as_core_surface(self.surface), self.chart.core, self.rules.core, rims, limits
+        )
 
     def local(self, xy: np.ndarray) -> "Local":
         """What the rules are asked with, at xy (n, 2) of the chart."""

@@ -5,6 +5,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
+from surfmesh._core import sizing as core_sizing
 from surfmesh.sizing.options.defaults import FINEST_BY_ANGLE
 from surfmesh.sizing.options.sizing import Sizing
 from surfmesh.sizing.rules.curvature_size import (
@@ -29,6 +30,10 @@ class AngleRule(CurvatureRule):
 
     def __str__(self) -> str:
         return f"angle {self.angle:g} degrees"
+
+    @property
+    def core(self) -> core_sizing.CurvatureRule:
+        return core_sizing.AngleRule(self.angle, self.finest)
 
     def sizes(self, k1: np.ndarray, k2: np.ndarray) -> np.ndarray:
         return np.maximum(angle_size(k1, k2, self.angle), self.finest)

@@ -6,6 +6,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from surfmesh._core import elementary_functions
+from surfmesh._core import sizing as core_sizing
 from surfmesh.sizing.options.sizing import Sizing
 from surfmesh.sizing.rules.curvature_size import (
     DEVIATION_RESERVE,
@@ -32,6 +33,10 @@ class ChordRule(CurvatureRule):
 
     def __str__(self) -> str:
         return f"chord {self.chord:g}"
+
+    @property
+    def core(self) -> core_sizing.CurvatureRule:
+        return core_sizing.ChordRule(self.chord)
 
     def sizes(self, k1: np.ndarray, k2: np.ndarray) -> np.ndarray:
         return chord_size(k1, k2, self.chord)
@@ -64,4 +69,5 @@ class ChordRule(CurvatureRule):
         corner = angle > np.maximum(KINK, known * (length[1:] + length[:-1]))
         sizes = np.full(len(curve.points), np.inf)
         sizes[1:-1][corner] = 4.0 * DEVIATION_RESERVE * self.chord / angle[corner]
+        sizes[curve.first[:-1]] = sizes[curve.first[1:] - 1] = np.inf  # from one curve to the next
         return sizes

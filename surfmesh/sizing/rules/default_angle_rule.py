@@ -10,6 +10,7 @@ from typing import ClassVar
 
 import numpy as np
 
+from surfmesh._core import sizing as core_sizing
 from surfmesh.sizing.options.defaults import DEFAULT_ANGLE, LEAST_OF_CHORD
 from surfmesh.sizing.options.sizing import Sizing
 from surfmesh.sizing.rules.curvature_size import normal_deviation_size
@@ -30,6 +31,10 @@ class DefaultAngleRule(CurvatureRule):
 
     def __str__(self) -> str:
         return f"angle {DEFAULT_ANGLE:g} degrees"
+
+    @property
+    def core(self) -> core_sizing.CurvatureRule:
+        return core_sizing.NormalDeviationRule(DEFAULT_ANGLE, LEAST_OF_CHORD * self.chord)
 
     def sizes(self, k1: np.ndarray, k2: np.ndarray) -> np.ndarray:
         sizes = normal_deviation_size(k1, k2, DEFAULT_ANGLE)

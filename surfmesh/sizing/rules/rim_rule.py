@@ -13,19 +13,14 @@ from typing import NamedTuple
 
 import numpy as np
 
+from surfmesh._core import sizing as core
+from surfmesh.geometry.core_surface import as_core_surface
 from surfmesh.geometry.differential.chart import Chart
 from surfmesh.geometry.differential.sides import SideTopology
 from surfmesh.geometry.surface import Surface
 from surfmesh.sizing.rules.chord_rule import ChordRule
 from surfmesh.sizing.rules.rule import DirectedLimits, DirectedRule, Places
 from surfmesh.sizing.rules.size_limits import SizeLimits, along_lines
-
-RIM_RESERVE = 0.8
-"""Share of ``chord`` that an edge of the wanted length may sag by: a line is cut into equal edges,
-which are never much longer than wanted, unlike the sides of triangles."""
-
-LEAST_RIM = 2.0
-"""In ``chord``: a shorter edge is within ``chord`` of its arc, whatever the curvature."""
 
 FIRST_SAMPLES, SAMPLES_AN_EDGE, MOST_SAMPLES = 1024, 4, 1 << 16
 """Points of all loops that are looked at first; then so many for each edge, and of one line."""
@@ -59,18 +54,10 @@ def rim_sizes(surface: Surface, uv: np.ndarray, step: np.ndarray, chord: float) 
 
     ``chord``: model units. Infinite where the line has no speed, as at a pole.
     """
-    _, ru, rv, ruu, ruv, rvv = surface.evaluate(uv, 2)
-    du, dv = step[:, :1], step[:, 1:]
-    first = du * ru + dv * rv
-    second = du * du * ruu + 2.0 * du * dv * ruv + dv * dv * rvv
-    with np.errstate(all="ignore"):
-        speed = np.linalg.norm(first, axis=1)
-        curvature = np.linalg.norm(np.cross(first, second), axis=1) / (speed * speed * speed)
-        sizes = np.sqrt(8.0 * RIM_RESERVE * chord / curvature)
-        tangent = first / speed[:, None]
-    known = np.isfinite(curvature) & np.isfinite(tangent).all(axis=1)
-    sizes = np.where(known, np.maximum(sizes, LEAST_RIM * chord), np.inf)
-    return RimSizes(sizes, np.where(known[:, None], tangent, 0.0))
+    sizes, tangent = core.rim_sizes(
+        as_core_surface(surface), np.ascontiguousarray(uv), np.ascontiguousarray(step), chord
+    )
+    return RimSizes(sizes, tangent)
 
 
 @dataclass(frozen=True)

@@ -10,14 +10,17 @@ from typing import ClassVar, NamedTuple, Protocol
 
 import numpy as np
 
+from surfmesh._core import sizing as core_sizing
 from surfmesh.sizing.options.sizing import Sizing
 
 
 class CurveSamples(NamedTuple):
-    """Points of a curve in space, in order, and what rules need to know of it there."""
+    """Points of curves in space, in order, one curve after the other, and what rules need to know
+    of them there."""
 
     points: np.ndarray  # (n, 3)
     curvature: np.ndarray  # (n,) 1 / model unit; 0 where it is straight or not known
+    first: np.ndarray  # (c + 1,) where each curve begins, and n
 
 
 class Rule:
@@ -43,6 +46,11 @@ class Rule:
 class CurvatureRule(Rule):
     """Sizes that follow from the curvature; infinite where it allows any."""
 
+    @property
+    def core(self) -> core_sizing.CurvatureRule:
+        """What the core asks: this object itself, for blocks of places, where it has no other."""
+        return core_sizing.CallbackCurvatureRule(self)
+
     def sizes(self, k1: np.ndarray, k2: np.ndarray) -> np.ndarray:
         """(n,) in every direction, at principal curvatures k1, k2 (n,), 1 / model unit."""
         raise NotImplementedError
@@ -54,12 +62,17 @@ class CurvatureRule(Rule):
         raise NotImplementedError
 
     def sizes_on_curve(self, curve: CurveSamples) -> np.ndarray:
-        """(n,) along a curve that is bent itself, by whatever surfaces meet there."""
+        """(n,) along curves that are bent themselves, by whatever surfaces meet there."""
         raise NotImplementedError
 
 
 class PlaceRule(Rule):
     """Sizes that depend on the place alone, and hold in every direction."""
+
+    @property
+    def core(self) -> core_sizing.PlaceRule:
+        """What the core asks: this object itself, for blocks of places, where it has no other."""
+        return core_sizing.CallbackPlaceRule(self)
 
     def sizes(self, points: np.ndarray) -> np.ndarray:
         """(n,) at points (n, 3); infinite where nothing is asked for.

@@ -5,6 +5,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from surfmesh._core import sizing as core_sizing
 from surfmesh.sizing.options.model_sizing import LeastOf
 from surfmesh.sizing.options.sizing import SizeLaw, Sizing
 from surfmesh.sizing.options.sources import checked_sizes
@@ -27,6 +28,10 @@ class SizeRule(PlaceRule):
 
     def __str__(self) -> str:
         return f"size law {called(self.size)}" if callable(self.size) else f"size {self.size:g}"
+
+    @property
+    def core(self) -> core_sizing.PlaceRule:
+        return super().core if callable(self.size) else core_sizing.ConstantSize(self.size)
 
     def sizes(self, points: np.ndarray) -> np.ndarray:
         if callable(self.size):

@@ -9,6 +9,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from surfmesh._core import sizing as core_sizing
 from surfmesh.sizing.options.defaults import (
     DEFAULT_MAX_SIZE,
     FINEST_SIZE,
@@ -78,6 +79,14 @@ class SizeRules:
         by_curvature = tuple(rule for rule in rules if isinstance(rule, CurvatureRule))
         by_place = tuple(rule for rule in rules if isinstance(rule, PlaceRule))
         return cls(sizing, by_curvature, by_place, tuple(bounds), (finest, coarsest), longest)
+
+    @property
+    def core(self) -> core_sizing.SizeRules:
+        """The same rules as the core has them."""
+        return core_sizing.SizeRules(
+            [rule.core for rule in self.by_curvature], [rule.core for rule in self.by_place],
+            self.clamp, self.longest, self.sizing.anisotropy,
+        )  # fmt: skip
 
     @property
     def follows_curvature(self) -> bool:

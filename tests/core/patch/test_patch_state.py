@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from stages import patch_state, recovered
 
 from surfmesh._core import patch as core
 from surfmesh._core.surfaces import CallbackSurface
@@ -9,9 +10,7 @@ from surfmesh._core.triangulation import Triangulation
 from surfmesh.api import load
 from surfmesh.geometry.differential.sides import find_sides
 from surfmesh.meshing.boundary.boundary_loops import boundary_loops
-from surfmesh.meshing.boundary.boundary_recovery import recovered
 from surfmesh.meshing.patch.packing import packed_over
-from surfmesh.meshing.patch.state import patch_state
 from surfmesh.sizing.field.size_field import size_field
 from surfmesh.sizing.options.sizing import Sizing
 
@@ -123,3 +122,16 @@ def test_findings_of_another_patch_are_refused():
         state.size_requests(left, np.zeros(3, np.uint8))
     with pytest.raises(ValueError):
         state.split_farthest(np.array([10**6], np.int32))
+
+
+def test_no_pass_comes_after_the_mapping():
+    """What passes need is freed there; the domain and the scales of its sizes are kept."""
+    surface, field, domain = prepared()
+    state = patch_state(domain, surface, field.chart, field)
+    nothing = np.empty(0, np.int32), np.empty((0, 2), np.int32), np.empty(0, np.int64)
+    uv = np.zeros((int((domain.node >= 0).sum()), 2))
+    mapped = state.mapped(uv, *nothing)
+    assert len(mapped.points) == len(domain.t.xy) == len(state.frames.scale)
+    for a_pass in (state.smooth, state.optimise, state.find_stars):
+        with pytest.raises(ValueError, match="frames"):
+            a_pass()

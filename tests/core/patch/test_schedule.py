@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 from naive.triangulation import check_domain, corners, half_edges, live_triangles
+from stages import patch_state, recovered
 
 from surfmesh._core import NIL
 from surfmesh._core.optimisation import (
@@ -17,9 +18,7 @@ from surfmesh._core.patch import LONGEST, SHORTEST
 from surfmesh.api import load
 from surfmesh.geometry.differential.sides import find_sides
 from surfmesh.meshing.boundary.boundary_loops import boundary_loops
-from surfmesh.meshing.boundary.boundary_recovery import recovered
 from surfmesh.meshing.patch.packing import packed
-from surfmesh.meshing.patch.state import patch_state
 from surfmesh.sizing.field.size_field import size_field
 from surfmesh.sizing.options.sizing import Sizing
 

@@ -7,7 +7,15 @@ import numpy as np
 import pytest
 
 from surfmesh.errors import SurfaceError
-from surfmesh.geometry.cad_surfaces.curves import Circle, Curve, Ellipse, Hyperbola, Line, Parabola
+from surfmesh.geometry.cad_surfaces.curves import (
+    Circle,
+    Curve,
+    Ellipse,
+    Hyperbola,
+    Line,
+    Parabola,
+    points_on,
+)
 from surfmesh.geometry.cad_surfaces.nurbs import BSplineCurve, bezier_knots
 from surfmesh.geometry.cad_surfaces.offset import OffsetCurve
 
@@ -129,3 +137,20 @@ def test_what_makes_no_curve_is_refused():
         BSplineCurve([0, 1, 1, 2.0], [[0, 0], [1, 1.0]])
     with pytest.raises(SurfaceError, match="none in the plane"):
         OffsetCurve(CURVES[-1], 0.3, (0, 0, 1))
+
+
+@pytest.mark.parametrize("frame", [PLANE, SPACE])
+def test_many_curves_at_once_give_what_each_gives_alone(frame):
+    every = curves(frame)
+    t = np.linspace(0.1, 1.2, 5) + np.arange(len(every))[:, None] / 100
+    found = points_on(every, t)
+    assert found.shape == (len(every), 5, len(frame["origin"]))
+    for own, curve, row in zip(found, every, t):
+        assert np.array_equal(own, curve.evaluate(row, 0)[0])
+
+
+def test_curves_of_both_dimensions_have_no_common_array():
+    with pytest.raises(ValueError, match="dimension"):
+        points_on([Circle(**PLANE, radius=1.0), Circle(**SPACE, radius=1.0)], np.zeros((2, 1)))
+    with pytest.raises(ValueError, match="rows"):
+        points_on([Circle(**PLANE, radius=1.0)], np.zeros((2, 1)))

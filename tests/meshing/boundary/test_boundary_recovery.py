@@ -16,11 +16,11 @@ from naive.triangulation import (
     live_triangles,
 )
 from naive.watchdog import watched
+from stages import recovered
 
 from surfmesh._core.insertion import CROWDED
 from surfmesh.errors import SurfaceError
 from surfmesh.meshing.boundary.boundary_loops import BoundaryLoops
-from surfmesh.meshing.boundary.boundary_recovery import recovered
 from surfmesh.meshing.patch.packing import packed
 
 SURFACE = SimpleNamespace(name="test")

@@ -18,7 +18,7 @@ def patch_of(name, **asked):
     surface = sm.load(name)
     sides, chart = find_sides(surface), Chart.of(surface)
     field = size_field(surface, sm.Sizing(**asked), sides, chart=chart)
-    return mesh_patch(surface, chart, field, lambda: boundary_loops(surface, sides, field))
+    return mesh_patch(surface, chart, field, boundary_loops(surface, sides, field))
 
 
 @pytest.mark.parametrize("name, euler", [("torus", 0), ("klein", 0), ("mobius", 0), ("sphere", 2)])

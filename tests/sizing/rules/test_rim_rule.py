@@ -6,8 +6,9 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import surfmesh as sm
+from surfmesh._core.sizing import RIM_RESERVE
 from surfmesh.geometry.differential.sides import find_sides
-from surfmesh.sizing.rules.rim_rule import RIM_RESERVE, Rims, rim_sizes
+from surfmesh.sizing.rules.rim_rule import Rims, rim_sizes
 
 
 def rim_sag(surface, mesh, samples=17):

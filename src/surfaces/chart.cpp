@@ -1,4 +1,4 @@
-#include "patch/chart.hpp"
+#include "surfaces/chart.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -9,6 +9,9 @@
 
 namespace surfmesh {
 namespace {
+
+/// Newton's steps from the piecewise linear inverse, which is a cell away at most.
+constexpr int INVERSION_STEPS = 6;
 
 /// The parameter or the bent one, and its derivative by x: cubic Hermite interpolation.
 ValueAndRate knotted(const ChartAxis& axis, double x) {
@@ -56,12 +59,36 @@ double rate_of_bending(const Array<BentPiece>& pieces, double s) {
     return elementary::pow(before, p.q0 - 1.0) * elementary::pow(after, p.q1 - 1.0) / p.beta;
 }
 
+/// The coordinate of a parameter where the axis is linear from knot to knot.
+double piecewise_linear(const ChartAxis& axis, double u) {
+    const Array<double>& knots = axis.knots;
+    const auto last = static_cast<std::ptrdiff_t>(knots.size()) - 1;
+    const double step = axis.extent / static_cast<double>(last);
+    if (!(u < knots[last])) return std::isnan(u) ? u : step * static_cast<double>(last);
+    if (u < knots[0]) return 0.0;
+    const std::ptrdiff_t i = std::upper_bound(knots.begin(), knots.end(), u) - knots.begin() - 1;
+    const double low = step * static_cast<double>(i), high = step * static_cast<double>(i + 1);
+    return (high - low) / (knots[i + 1] - knots[i]) * (u - knots[i]) + low;
+}
+
 }  // namespace
 
 ValueAndRate ChartAxis::parameter(double x) const {
     const ValueAndRate found = knotted(*this, x);
     if (pieces.empty()) return found;
     return {unbent(pieces, found.value), found.rate * rate_of_bending(pieces, found.value)};
+}
+
+double ChartAxis::coordinate(double given) const {
+    if (given == knots.end()[-1]) return extent;
+    if (given == knots[0]) return 0.0;
+    double x = piecewise_linear(*this, given);
+    if (knots.size() == 2) return x;
+    for (int k = 0; k < INVERSION_STEPS; ++k) {
+        const ValueAndRate at = knotted(*this, x);
+        x = clipped(x - (at.value - given) / at.rate, 0.0, extent);
+    }
+    return x;
 }
 
 ChartPoint Chart::at(Point2 xy) const {
@@ -73,6 +100,12 @@ Array<Point2> Chart::to_uv(std::span<const Point2> xy) const {
     Array<Point2> uv(xy.size());
     for (std::size_t i = 0; i < xy.size(); ++i) uv[i] = to_uv(xy[i]);
     return uv;
+}
+
+Array<Point2> Chart::to_plane(std::span<const Point2> uv) const {
+    Array<Point2> xy(uv.size());
+    for (std::size_t i = 0; i < uv.size(); ++i) xy[i] = to_plane(uv[i]);
+    return xy;
 }
 
 }  // namespace surfmesh

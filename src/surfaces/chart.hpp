@@ -39,6 +39,9 @@ struct ChartAxis {
 
     /// Linear outside [0, extent], constant where the parameter is bent.
     [[nodiscard]] ValueAndRate parameter(double x) const;
+    /// The scaled coordinate of a parameter, or of the bent one where there are ``pieces``; exact
+    /// at the ends, and those beyond are moved to them.
+    [[nodiscard]] double coordinate(double u) const;
 };
 
 /// (u, v) and (du/dx, dv/dy).
@@ -53,6 +56,11 @@ struct Chart {
     [[nodiscard]] ChartPoint at(Point2 xy) const;
     [[nodiscard]] Point2 to_uv(Point2 xy) const { return at(xy).uv; }
     [[nodiscard]] Array<Point2> to_uv(std::span<const Point2> xy) const;
+    /// The plane's point of (u, v), or of the bent parameters where there are some.
+    [[nodiscard]] Point2 to_plane(Point2 uv) const {
+        return {u.coordinate(uv.x), v.coordinate(uv.y)};
+    }
+    [[nodiscard]] Array<Point2> to_plane(std::span<const Point2> uv) const;
 };
 
 }  // namespace surfmesh

@@ -1,0 +1,123 @@
+#include "edges/edge_cutting.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace surfmesh {
+namespace {
+
+/// Values of a piecewise linear function, at places that rise: (at[i], value[i]), constant beyond.
+class Interpolation {
+  public:
+    Interpolation(std::span<const double> at, std::span<const double> value)
+        : at_(at), value_(value) {}
+
+    double operator()(double x) {
+        const std::size_t last = at_.size() - 1;
+        if (x > at_[last]) return value_[last];
+        if (x < at_[0]) return value_[0];
+        const auto after = std::upper_bound(at_.begin(), at_.end(), x);
+        const std::size_t j = static_cast<std::size_t>(after - at_.begin()) - 1;
+        if (j == last || at_[j] == x) return value_[j];
+        const double slope = (value_[j + 1] - value_[j]) / (at_[j + 1] - at_[j]);
+        const double found = slope * (x - at_[j]) + value_[j];
+        return std::isnan(found) ? slope * (x - at_[j + 1]) + value_[j + 1] : found;
+    }
+
+  private:
+    std::span<const double> at_, value_;
+};
+
+class Cutting {
+  public:
+    Cutting(const EdgeNetwork& edges, std::span<const double> fraction,
+            std::span<const double> sizes, const CutRequests& asked)
+        : edges_(edges), fraction_(fraction), sizes_(sizes), asked_(asked) {
+        found_.first.push_back(0);
+    }
+
+    /// The parameters and sizes of the nodes of all edges, as far as none has too many pieces.
+    CutEdges nodes() {
+        for (std::size_t k = 0; k < asked_.which.size(); ++k)
+            if (!cut(k)) break;
+        return std::move(found_);
+    }
+
+  private:
+    std::span<const double> of(std::span<const double> values, std::int64_t edge) const {
+        const auto start = static_cast<std::size_t>(edges_.first[edge]);
+        return values.subspan(start, static_cast<std::size_t>(edges_.first[edge + 1]) - start);
+    }
+
+    /// Metric length from the start of an edge to each of its samples.
+    void measure(std::int64_t edge) {
+        metric_.clear();
+        metric_.push_back(0.0);
+        for (std::int64_t i = edges_.first[edge]; i + 1 < edges_.first[edge + 1]; ++i) {
+            const double step = norm(edges_.points[i + 1] - edges_.points[i]);
+            metric_.push_back(metric_.back() + 2.0 * step / (sizes_[i + 1] + sizes_[i]));
+        }
+    }
+
+    /// Add the nodes of one row; false where there are too many pieces.
+    bool cut(std::size_t k) {
+        const std::int64_t edge = asked_.which[k];
+        measure(edge);
+        const std::int64_t given = asked_.first_given[k + 1] - asked_.first_given[k];
+        const double pieces = given > 0 ? static_cast<double>(given - 1)
+                                        : std::max(static_cast<double>(asked_.fewest[k]),
+                                                   std::nearbyint(metric_.back()));
+        if (!(pieces <= asked_.most)) {
+            found_.refused = static_cast<std::int64_t>(k);
+            found_.pieces = pieces;
+            return false;
+        }
+        if (given > 0)
+            for (std::int64_t i = asked_.first_given[k]; i < asked_.first_given[k + 1]; ++i)
+                found_.t.push_back(asked_.given[i]);
+        else
+            divide(edge, static_cast<std::size_t>(pieces));
+        Interpolation size(of(fraction_, edge), of(sizes_, edge));
+        for (std::size_t i = found_.sizes.size(); i < found_.t.size(); ++i)
+            found_.sizes.push_back(size(found_.t.data()[i]));
+        found_.first.push_back(static_cast<std::int64_t>(found_.t.size()));
+        return true;
+    }
+
+    /// Add the nodes of so many pieces of equal metric length.
+    void divide(std::int64_t edge, std::size_t pieces) {
+        Interpolation parameter({metric_.data(), metric_.size()}, of(fraction_, edge));
+        const double length = metric_.back();
+        for (std::size_t i = 0; i <= pieces; ++i) {
+            const double t = static_cast<double>(i) / static_cast<double>(pieces);
+            const bool is_end = i == 0 || i == pieces;
+            found_.t.push_back(is_end || !(length > 0.0) ? t : parameter(t * length));
+        }
+    }
+
+    const EdgeNetwork& edges_;
+    std::span<const double> fraction_, sizes_;
+    const CutRequests& asked_;
+    Array<double> metric_;
+    CutEdges found_;
+};
+
+}  // namespace
+
+CutEdges cut_to_metric_length(const CurvePieces& curves, const EdgeNetwork& edges,
+                              std::span<const double> fraction, std::span<const double> sizes,
+                              std::span<const Point3> corners, const CutRequests& asked) {
+    CutEdges found = Cutting(edges, fraction, sizes, asked).nodes();
+    if (found.refused >= 0) return found;
+    found.points = points_on(
+        curves,
+        {asked.which, {found.first.data(), found.first.size()}, {found.t.data(), found.t.size()}});
+    for (std::size_t k = 0; k < asked.which.size(); ++k) {
+        const SegmentEnds ends = edges.ends[asked.which[k]];
+        found.points[found.first[k]] = corners[ends.start];
+        found.points[found.first[k + 1] - 1] = corners[ends.end];
+    }
+    return found;
+}
+
+}  // namespace surfmesh

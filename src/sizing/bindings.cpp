@@ -1,0 +1,212 @@
+#include <nanobind/stl/array.h>
+#include <nanobind/stl/optional.h>
+#include <nanobind/stl/pair.h>
+#include <nanobind/stl/shared_ptr.h>
+#include <nanobind/stl/tuple.h>
+#include <nanobind/stl/vector.h>
+
+#include "binding/arrays.hpp"
+#include "fields/field_node_arrays.hpp"
+#include "sizing/bounded_features.hpp"
+#include "sizing/callback_rules.hpp"
+#include "sizing/rim_sizes.hpp"
+#include "sizing/size_rules.hpp"
+#include "sizing/surface_law.hpp"
+#include "surfaces/callback_surface.hpp"
+
+namespace surfmesh::binding {
+
+void bind_sizing(nb::module_& m);
+void bind_size_limits(nb::module_& m);
+
+namespace {
+
+using Numbers = Vector<double>;
+
+PrincipalCurvatures pair_at(const Numbers& k1, const Numbers& k2, std::size_t i) {
+    return {k1.data()[i], k2.data()[i]};
+}
+
+/// A formula of two curvatures and one number, at each of n places.
+template <double (*formula)(PrincipalCurvatures, double)>
+auto at_each(const Numbers& k1, const Numbers& k2, double number) {
+    require_rows(k2.shape(0), k1.shape(0), "k2");
+    Array<double> found(k1.shape(0));
+    for (std::size_t i = 0; i < found.size(); ++i) found[i] = formula(pair_at(k1, k2, i), number);
+    return view(found);
+}
+
+template <PrincipalSizes (*formula)(PrincipalCurvatures, double, double)>
+auto principal_at_each(const Numbers& k1, const Numbers& k2, double number, const Numbers& ratio) {
+    require_rows(k2.shape(0), k1.shape(0), "k2");
+    require_rows(ratio.shape(0), k1.shape(0), "ratio");
+    Array<double> first(k1.shape(0)), second(k1.shape(0));
+    for (std::size_t i = 0; i < first.size(); ++i) {
+        const PrincipalSizes found = formula(pair_at(k1, k2, i), number, ratio.data()[i]);
+        first[i] = found.first;
+        second[i] = found.second;
+    }
+    return std::pair(view(first), view(second));
+}
+
+void bind_formulas_of_sizes(nb::module_& m) {
+    m.attr("DEVIATION_RESERVE") = DEVIATION_RESERVE;
+    m.attr("ROUND_RESERVE") = ROUND_RESERVE;
+    m.attr("BENT_RESERVE") = BENT_RESERVE;
+    m.attr("STRETCHED_RESERVE") = STRETCHED_RESERVE;
+    m.attr("STRAIGHT_RESERVE") = STRAIGHT_RESERVE;
+    m.def(
+        "deviation_factor",
+        [](const Numbers& k1, const Numbers& k2) {
+            require_rows(k2.shape(0), k1.shape(0), "k2");
+            Array<double> found(k1.shape(0));
+            for (std::size_t i = 0; i < found.size(); ++i)
+                found[i] = deviation_factor(pair_at(k1, k2, i));
+            return view(found);
+        },
+        nb::arg("k1"), nb::arg("k2"), "c (n,) with deviation = c h^2.");
+    m.def("chord_size", &at_each<chord_size>, nb::arg("k1"), nb::arg("k2"), nb::arg("chord"),
+          "Edge length (n,) at which triangles stay within chord.");
+    m.def("angle_size", &at_each<angle_size>, nb::arg("k1"), nb::arg("k2"), nb::arg("angle"),
+          "Edge length (n,) at which dihedral angles are at most angle (degrees).");
+    m.def("normal_deviation_size", &at_each<normal_deviation_size>, nb::arg("k1"), nb::arg("k2"),
+          nb::arg("angle"),
+          "Edge length (n,) at which the normals of neighbours differ by at most angle (degrees).");
+    m.def("principal_chord_sizes", &principal_at_each<principal_chord_sizes>, nb::arg("k1"),
+          nb::arg("k2"), nb::arg("chord"), nb::arg("ratio"),
+          "Edge lengths (n,), (n,) along the directions of k1 and k2, likewise.");
+    m.def("principal_angle_sizes", &principal_at_each<principal_angle_sizes>, nb::arg("k1"),
+          nb::arg("k2"), nb::arg("angle"), nb::arg("ratio"),
+          "Edge lengths (n,), (n,) along the directions of k1 and k2, likewise.");
+    m.attr("RIM_RESERVE") = RIM_RESERVE;
+    m.attr("LEAST_RIM") = LEAST_RIM;
+    m.def(
+        "rim_sizes",
+        [](const Surface& surface, const Points2& uv, const Points2& step, double chord) {
+            require_rows(step.shape(0), uv.shape(0), "step");
+            Array<double> sizes(uv.shape(0));
+            Array<Point3> tangents(uv.shape(0));
+            SurfaceReader reader(surface);
+            {
+                const nb::gil_scoped_release released;
+                reader.read(rows<Point2>(uv), 2);
+                for (std::size_t i = 0; i < sizes.size(); ++i) {
+                    const RimSize found = rim_size(reader, i, rows<Point2>(step)[i], chord);
+                    sizes[i] = found.size;
+                    tangents[i] = found.tangent;
+                }
+            }
+            raise_failure(surface, reader.status());
+            return std::pair(view(sizes), view(tangents));
+        },
+        nb::arg("surface"), nb::arg("uv"), nb::arg("step"), nb::arg("chord"),
+        "Sizes (n,) that the curvature of lines of (u, v) allows along them, at uv (n, 2) in the "
+        "directions step (n, 2), and unit tangents (n, 3); infinite and zero where a line has no "
+        "speed.");
+}
+
+void bind_rules(nb::module_& m) {
+    nb::class_<CurvatureRule>(m, "CurvatureRule", "Sizes that follow from the curvature.");
+    nb::class_<PlaceRule>(m, "PlaceRule", "Sizes that depend on the place alone.");
+    nb::class_<ChordRule, CurvatureRule>(m, "ChordRule").def(nb::init<double>(), nb::arg("chord"));
+    nb::class_<AngleRule, CurvatureRule>(m, "AngleRule")
+        .def(nb::init<double, double>(), nb::arg("angle"), nb::arg("finest"),
+             "angle: degrees. finest: nothing smaller is asked for, model units.");
+    nb::class_<NormalDeviationRule, CurvatureRule>(m, "NormalDeviationRule")
+        .def(nb::init<double, double>(), nb::arg("angle"), nb::arg("finest"), "Likewise.");
+    nb::class_<ConstantSize, PlaceRule>(m, "ConstantSize").def(nb::init<double>(), nb::arg("size"));
+    nb::class_<CallbackCurvatureRule, CurvatureRule>(m, "CallbackCurvatureRule")
+        .def(nb::init<nb::object>(), nb::arg("rule"),
+             "rule: a CurvatureRule of surfmesh.sizing.rules.rule.");
+    nb::class_<CallbackPlaceRule, PlaceRule>(m, "CallbackPlaceRule")
+        .def(nb::init<nb::object>(), nb::arg("rule"),
+             "rule: a PlaceRule of surfmesh.sizing.rules.rule.");
+    nb::class_<SizeRules>(m, "SizeRules", "All rules that hold on one surface.")
+        .def(
+            "__init__",
+            [](SizeRules* made, std::vector<std::shared_ptr<CurvatureRule>> by_curvature,
+               std::vector<std::shared_ptr<PlaceRule>> by_place, std::pair<double, double> clamp,
+               double longest, double anisotropy) {
+                new (made) SizeRules{{by_curvature.begin(), by_curvature.end()},
+                                     {by_place.begin(), by_place.end()},
+                                     clamp.first,
+                                     clamp.second,
+                                     longest,
+                                     anisotropy};
+            },
+            nb::arg("by_curvature"), nb::arg("by_place"), nb::arg("clamp"), nb::arg("longest"),
+            nb::arg("anisotropy"),
+            "clamp: the smallest and the largest size. longest: the largest along the longer axis "
+            "of an anisotropic metric. anisotropy: largest ratio of two sizes.");
+}
+
+void raise_failure_of(std::exception_ptr failure) {
+    if (failure) std::rethrow_exception(failure);
+    throw nb::value_error("the sizes could not be found");
+}
+
+using Limits = std::shared_ptr<SizeLimits>;
+
+void bind_law(nb::module_& m) {
+    nb::class_<SurfaceLaw, NodeLaw>(m, "SurfaceLaw", "Ungraded target sizes on one surface.")
+        .def(
+            "__init__",
+            [](SurfaceLaw* made, const Surface& surface, const Chart& chart, const SizeRules& rules,
+               std::optional<std::tuple<double, std::array<bool, 4>, std::optional<Limits>>> rims,
+               std::optional<std::tuple<Limits, double, bool>> limits) {
+                std::optional<Rims> ends;
+                if (rims)
+                    ends = Rims{std::get<0>(*rims), std::get<1>(*rims),
+                                std::get<2>(*rims).value_or(nullptr)};
+                OuterLimits outer{nullptr, 0.0, false};
+                if (limits)
+                    outer = {std::get<0>(*limits), std::get<1>(*limits), std::get<2>(*limits)};
+                new (made) SurfaceLaw(surface, chart, rules, std::move(ends), std::move(outer));
+            },
+            nb::arg("surface"), nb::arg("chart"), nb::arg("rules"), nb::arg("rims") = nb::none(),
+            nb::arg("limits") = nb::none(), nb::keep_alive<1, 2>(),
+            "rims: chord, which sides of the rectangle are open, limits near trimming loops or "
+            "None. limits: of edges or earlier rounds, what none goes below, and whether sizes "
+            "within them count as asked for.")
+        .def(
+            "nodes",
+            [](SurfaceLaw& law, const Points2& xy) {
+                FieldNodes nodes;
+                const bool told = [&] {
+                    const nb::gil_scoped_release released;
+                    return law.ask(rows<Point2>(xy), nodes);
+                }();
+                if (!told) raise_failure_of(law.take_failure());
+                return node_arrays(nodes);
+            },
+            nb::arg("xy"), "The twelve arrays of FieldNodes at xy (n, 2) of the chart.");
+    nb::class_<BoundedFeatures, HiddenFeatures>(m, "BoundedFeatures",
+                                                "Features between samples, where derivatives are "
+                                                "bounded.")
+        .def(
+            "__init__",
+            [](BoundedFeatures* made, const SurfaceLaw& law, bool curved_alike,
+               std::optional<double> chord) {
+                new (made)
+                    BoundedFeatures(law.surface(), law.chart(), law.rules(), curved_alike, chord);
+            },
+            nb::arg("law"), nb::arg("curved_alike"), nb::arg("chord").none(),
+            nb::keep_alive<1, 2>(),
+            "curved_alike: sizes are smallest where a surface is curved both ways alike; else "
+            "where "
+            "it is curved one way only.\nchord: what rises less than a fraction of it within a "
+            "deep cell is no feature.");
+}
+
+}  // namespace
+
+void bind_sizing(nb::module_& m) {
+    m.doc() =
+        "What sizes are asked for on one surface: rules, limits, and the law of a size field.";
+    bind_formulas_of_sizes(m);
+    bind_rules(m);
+    bind_size_limits(m);
+    bind_law(m);
+}
+
+}  // namespace surfmesh::binding

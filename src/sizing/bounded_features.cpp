@@ -1,0 +1,169 @@
+#include "sizing/bounded_features.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "elementary_functions/power.hpp"
+#include "values/threads.hpp"
+
+namespace surfmesh {
+namespace {
+
+constexpr double HIDDEN_RISE = 0.25;  // of ``chord``: what rises less within a cell is no feature
+constexpr std::size_t BLOCK = 512;    // cells of which bounds are taken at a time
+
+Array<ParameterBox> boxes_of(const Chart& chart, const SeenCells& cells, std::size_t first,
+                             std::size_t count) {
+    Array<ParameterBox> boxes(count);
+    for (std::size_t i = 0; i < count; ++i)
+        boxes[i] = {chart.to_uv(cells.low[first + i]), chart.to_uv(cells.high[first + i])};
+    return boxes;
+}
+
+double farther(double a, double b) { return most(std::abs(a), std::abs(b)); }
+
+/// Bound of |n . x| for x between two corners of a box, times a scale; the lanes as of numpy.
+double largest_along(Point3 low, Point3 high, double scale, Point3 n) {
+    const Point3 x{farther(low.x, high.x) * scale, farther(low.y, high.y) * scale,
+                   farther(low.z, high.z) * scale};
+    return lane_dot(x, {std::abs(n.x), std::abs(n.y), std::abs(n.z)});
+}
+
+/// Width of the interval of n . x for x between two corners of a box.
+double width_along(Point3 low, Point3 high, Point3 n) {
+    const auto part = [](double normal, double a, double b) {  // times infinity is 0: x is finite
+        return normal == 0.0 ? 0.0 : normal * (normal > 0.0 ? a : b);
+    };
+    const double least_of_all =
+        part(n.x, low.x, high.x) + part(n.y, low.y, high.y) + part(n.z, low.z, high.z);
+    const double most_of_all =
+        part(n.x, high.x, low.x) + part(n.y, high.y, low.y) + part(n.z, high.z, low.z);
+    return most_of_all - least_of_all;
+}
+
+double smaller_number(double a, double b) {
+    if (std::isnan(a)) return b;
+    return std::isnan(b) || a <= b ? a : b;
+}
+
+}  // namespace
+
+std::exception_ptr BoundedFeatures::take_failure() {
+    if (status_ == SurfaceStatus::FAILED)
+        if (const std::exception_ptr failure = surface_.take_failure()) return failure;
+    return rules_.take_failure();
+}
+
+bool BoundedFeatures::find(const SeenCells& cells, bool deep, std::span<std::uint8_t> found) {
+    const std::size_t count = cells.low.size();
+    Array<double> k(count), possible(count);
+    for_each_block(count, BLOCK, [&](std::size_t first, std::size_t last) {
+        bound_curvature(cells, first, {k.data() + first, last - first});
+    });
+    std::fill(found.begin(), found.end(), std::uint8_t{0});
+    if (status_ == SurfaceStatus::UNKNOWN) return true;
+    if (status_ != SurfaceStatus::DONE) return false;
+    Array<PrincipalCurvatures> curved(count);
+    for (std::size_t i = 0; i < count; ++i) curved[i] = {k[i], curved_alike_ ? k[i] : 0.0};
+    if (!rules_.shorter({curved.data(), count}, {possible.data(), count})) return false;
+    Array<std::int32_t> some;
+    for (std::size_t i = 0; i < count; ++i) {
+        if (!(possible[i] < 0.5 * cells.smallest_size[i])) continue;
+        // beside a rim of infinite speed there is no bound at any depth: there the report looks
+        if (beside_infinite_speed(cells.low[i], cells.high[i])) continue;
+        found[i] = 1;
+        some.push_back(static_cast<std::int32_t>(i));
+    }
+    if (deep && chord_) keep_rising(cells, {some.data(), some.size()}, found);
+    return status_ == SurfaceStatus::DONE;
+}
+
+/// Bounds of the curvature of cells from ``first`` on.
+void BoundedFeatures::bound_curvature(const SeenCells& cells, std::size_t first,
+                                      std::span<double> k) {
+    const std::size_t count = k.size();
+    const Array<ParameterBox> boxes = boxes_of(chart_, cells, first, count);
+    Array<Point3> lower(BOUNDED_DERIVATIVES * count), upper(BOUNDED_DERIVATIVES * count);
+    const SurfaceStatus status = surface_.derivative_bounds(
+        {boxes.data(), count}, {lower.data(), lower.size()}, {upper.data(), upper.size()});
+    if (status != SurfaceStatus::DONE) {
+        status_.store(status);
+        return;
+    }
+    for (std::size_t i = 0; i < count; ++i) {
+        const std::size_t cell = first + i;
+        const Point2 middle = 0.5 * (cells.low[cell] + cells.high[cell]);
+        const auto [du, dv] = chart_.at(middle).rates;
+        const double scale[] = {du * du, du * dv, dv * dv};
+        double form[3];  // |L|, |M|, |N| at most
+        for (std::size_t j = 0; j < 3; ++j) {
+            const std::size_t row = BOUNDED_DERIVATIVES * i + 2 + j;
+            form[j] = largest_along(lower[row], upper[row], scale[j], cells.normal[cell]);
+        }
+        double e = 0.0, g = 0.0;
+        for (std::size_t node = 0; node < 9; ++node) {
+            const SizeTensor root = cells.root[9 * cell + node];
+            e = most(e, root.xx * root.xx + root.xy * root.xy);
+            g = most(g, root.xy * root.xy + root.yy * root.yy);
+        }
+        const double l = form[0] / e, n = form[2] / g;
+        const double bound = std::sqrt(l * l + 2.0 * (form[1] * form[1]) / (e * g) + n * n);
+        k[i] = std::isnan(bound) ? std::numeric_limits<double>::infinity() : bound;
+    }
+}
+
+/// Of the cells found, those in which the surface may lie off its tangent plane by a fraction of
+/// the chord: by the mean value or by its values, which hold across kinks and jumps too.
+void BoundedFeatures::keep_rising(const SeenCells& cells, std::span<const std::int32_t> some,
+                                  std::span<std::uint8_t> found) {
+    for_each_block(some.size(), BLOCK, [&](std::size_t first, std::size_t last) {
+        const std::size_t count = last - first;
+        Array<ParameterBox> boxes(count);
+        for (std::size_t i = 0; i < count; ++i)
+            boxes[i] = {chart_.to_uv(cells.low[some[first + i]]),
+                        chart_.to_uv(cells.high[some[first + i]])};
+        constexpr std::size_t rows = 1 + BOUNDED_DERIVATIVES;
+        Array<Point3> lower(rows * count), upper(rows * count);
+        const SurfaceStatus status = surface_.all_bounds(
+            {boxes.data(), count}, {lower.data(), lower.size()}, {upper.data(), upper.size()});
+        if (status == SurfaceStatus::FAILED) status_.store(status);
+        for (std::size_t i = 0; i < count; ++i) {
+            const std::int32_t cell = some[first + i];
+            if (status != SurfaceStatus::DONE) {
+                found[cell] = 0;
+                continue;
+            }
+            const Point3 n = cells.normal[cell];
+            const auto width = [&](std::size_t k) {
+                return width_along(lower[rows * i + k], upper[rows * i + k], n);
+            };
+            const Point2 half = 0.5 * (boxes[i].high - boxes[i].low);
+            const double bent = half.x * width(1) + half.y * width(2);
+            // no size could follow what is narrower than the least of them: the report finds it
+            const Point2 step = cells.high[cell] - cells.low[cell];
+            const SizeTensor root = cells.root[9 * cell + 4];
+            const bool wide =
+                elementary::hypot(root.xx, root.xy) * std::abs(step.x) > rules_.smallest ||
+                elementary::hypot(root.xy, root.yy) * std::abs(step.y) > rules_.smallest;
+            const double rise = smaller_number(width(0), bent);
+            found[cell] = wide && !(rise <= HIDDEN_RISE * *chord_) ? 1 : 0;
+        }
+    });
+}
+
+/// Does a cell hold a place where derivatives have no bound?
+bool BoundedFeatures::beside_infinite_speed(Point2 low, Point2 high) const {
+    const auto holds = [](const ChartAxis& axis, double first, double last) {
+        for (const BentPiece& piece : axis.pieces) {
+            if (piece.q0 > 1.0 && first <= piece.first && piece.first <= last) return true;
+            if (piece.q1 > 1.0 && first <= piece.last && piece.last <= last) return true;
+        }
+        return false;
+    };
+    if (chart_.u.pieces.empty() && chart_.v.pieces.empty()) return false;
+    const Point2 a = chart_.to_uv(low), b = chart_.to_uv(high);
+    return holds(chart_.u, a.x, b.x) || holds(chart_.v, a.y, b.y);
+}
+
+}  // namespace surfmesh

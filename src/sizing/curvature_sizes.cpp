@@ -1,0 +1,64 @@
+#include "sizing/curvature_sizes.hpp"
+
+#include <cmath>
+
+namespace surfmesh {
+namespace {
+
+// Largest ratio of two sizes of which no more than the square is taken.
+constexpr double LARGEST_RATIO = 1e100;
+
+constexpr double SQRT3 = 1.7320508075688772;
+
+double sign(double x) { return x > 0.0 ? 1.0 : x < 0.0 ? -1.0 : x; }
+
+/// b: signed ratio of h_i^2 k_i, -1 to 1, where sizes differ by up to ``ratio``.
+double balance(PrincipalCurvatures k, double ratio) {
+    const double first = std::abs(k.k1), second = std::abs(k.k2);
+    const double small = first < second ? k.k1 * sign(k.k2) : k.k2 * sign(k.k1);
+    const double bound = least(ratio, LARGEST_RATIO);
+    const double found = bound * bound * (small / most(first, second));
+    if (std::isnan(found)) return 0.0;
+    return least(most(found, -1.0), 1.0);
+}
+
+}  // namespace
+
+double deviation_factor(PrincipalCurvatures k) {
+    return most(std::abs(k.k1 + k.k2) / 12.0, most(std::abs(k.k1), std::abs(k.k2)) / 8.0);
+}
+
+double chord_size(PrincipalCurvatures k, double chord) {
+    return most(std::sqrt(DEVIATION_RESERVE * chord / deviation_factor(k)), 2.0 * chord);
+}
+
+double angle_size(PrincipalCurvatures k, double angle) {
+    // both may be infinite
+    const double mean = k.k1 == -k.k2 ? 0.0 : k.k1 + k.k2;
+    const double bent = k.k1 == k.k2 ? 0.0 : k.k1 - k.k2;
+    const double bend = 0.5 * std::abs(mean) / ROUND_RESERVE + std::abs(bent) / BENT_RESERVE;
+    return SQRT3 * radians(angle) / bend;
+}
+
+double normal_deviation_size(PrincipalCurvatures k, double angle) {
+    return SQRT3 * 0.75 * radians(angle) / most(std::abs(k.k1), std::abs(k.k2));
+}
+
+PrincipalSizes principal_chord_sizes(PrincipalCurvatures k, double chord, double ratio) {
+    const double b = balance(k, ratio);
+    const double reserve = STRAIGHT_RESERVE + (STRETCHED_RESERVE - STRAIGHT_RESERVE) * std::abs(b);
+    const double bound = reserve * chord / most(0.125, (1.0 + b) / 12.0);
+    return {most(std::sqrt(bound / std::abs(k.k1)), 2.0 * chord),
+            most(std::sqrt(bound / std::abs(k.k2)), 2.0 * chord)};
+}
+
+PrincipalSizes principal_angle_sizes(PrincipalCurvatures k, double angle, double ratio) {
+    const double first = std::abs(k.k1), second = std::abs(k.k2), large = most(first, second);
+    const double b = balance(k, ratio);
+    // (3 - b) / 2, the parts with a reserve each
+    const double bend = 0.5 * (1.0 + b) / ROUND_RESERVE + (1.0 - b) / BENT_RESERVE;
+    const double wanted = SQRT3 * radians(angle) / bend;
+    return {wanted / std::sqrt(large * first), wanted / std::sqrt(large * second)};
+}
+
+}  // namespace surfmesh

@@ -1,0 +1,82 @@
+// The edge length that a curvature allows.
+//
+// A triangle with its corners on the quadric z = (k1 x^2 + k2 y^2) / 2 misses it by the linear
+// interpolation error of z. For an equilateral triangle of side h this error is
+//
+// - at the centroid        h^2 |k1 + k2| / 12     (the same for every orientation),
+// - at an edge's middle    h^2 |kn| / 8           (kn the normal curvature along the edge),
+//
+// and nowhere larger than the larger of the two, with kn at most max |k1|, |k2|, up to 4.2%
+// in between (tests compare it with a dense search). On a sphere that is h^2 k / 6.
+#pragma once
+
+#include "surfaces/fundamental_forms.hpp"
+
+namespace surfmesh {
+
+/// Fraction of ``chord`` that a unit triangle may use: real triangles are up to 1.26 times as
+/// large as the unit one (circumradius), and deviation grows with the square.
+inline constexpr double DEVIATION_RESERVE = 0.62;
+
+/// Fraction of ``angle`` that two unit triangles may be bent by: on a sphere, where all edges are
+/// alike and some triangles are larger; and for what depends on the direction, as few edges lie
+/// worst.
+inline constexpr double ROUND_RESERVE = 0.78, BENT_RESERVE = 0.94;
+
+/// The same for anisotropic sizes, where triangles that lie too far are split: where the surface is
+/// curved both ways, and where one way only. There edges alone decide, and few of those that run
+/// that way are more than 1.15 times as long as wanted.
+inline constexpr double STRETCHED_RESERVE = 0.7, STRAIGHT_RESERVE = 0.75;
+
+constexpr double radians(double degrees) { return degrees * (3.141592653589793 / 180.0); }
+
+/// The smaller of two numbers, and not a number where either is none: as numpy has it.
+constexpr double least(double a, double b) { return a <= b || a != a ? a : b; }
+/// The larger one, likewise.
+constexpr double most(double a, double b) { return a >= b || a != a ? a : b; }
+
+/// c with deviation = c h^2, for principal curvatures in 1 / model unit.
+double deviation_factor(PrincipalCurvatures k);
+
+/// Edge length at which triangles stay within ``chord`` of the surface.
+///
+/// Never less than 2 ``chord``: a smaller triangle is within ``chord`` whatever the curvature.
+double chord_size(PrincipalCurvatures k, double chord);
+
+/// Edge length at which dihedral angles are at most ``angle`` (degrees), with a reserve.
+///
+/// Across an edge along t, with n at right angles to it, the slope of linear interpolation of
+/// a quadric jumps by h (3 k_nn - k_tt) / (2 sqrt(3)): the far corners rise by k_nn, the edge
+/// itself sags by k_tt. The largest value over all directions of the edge is
+/// h (|k1 + k2| / 2 + |k1 - k2|) / sqrt(3).
+double angle_size(PrincipalCurvatures k, double angle);
+
+/// Edge length at which the normals of neighbours differ by at most ``angle`` (degrees).
+///
+/// The normal of the surface, that is: a rule against folds, no bound on the triangles. The
+/// centres of two neighbouring equilateral triangles of side h are h / sqrt(3) apart.
+double normal_deviation_size(PrincipalCurvatures k, double angle);
+
+/// Edge lengths along the directions of k1 and k2.
+struct PrincipalSizes {
+    double first, second;
+};
+
+/// At which triangles stay within ``chord``, for a ``ratio`` of the two at most.
+///
+/// With h_i^2 |k_i| = a in both directions the errors above are, for triangles that are
+/// equilateral in this metric, (1 + b) a / 12 at the centroid and a / 8 in the middle of an
+/// edge. b is the signed ratio of the h_i^2 k_i: 1 or -1, or between where one size is bound by
+/// ``ratio`` times the other. For a ratio of 1 it is the rule of ``chord_size``. The tensor with
+/// these sizes is a function of the shape operator without regard to the order of k1 and k2, and so
+/// as smooth as that at umbilics.
+PrincipalSizes principal_chord_sizes(PrincipalCurvatures k, double chord, double ratio);
+
+/// At which dihedral angles are at most ``angle`` (degrees).
+///
+/// With h_i^2 |k_i| = a as above the slope jumps by a (3 - b) / (2 sqrt(3) h_i) across an edge
+/// at right angles to direction i, the shorter h_i decides. Sizes that keep h_i |k_i| alike
+/// would not do: the sag of a long edge tilts the narrow triangles beside it.
+PrincipalSizes principal_angle_sizes(PrincipalCurvatures k, double angle, double ratio);
+
+}  // namespace surfmesh

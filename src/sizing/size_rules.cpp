@@ -1,0 +1,128 @@
+#include "sizing/size_rules.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace surfmesh {
+namespace {
+
+constexpr double INFINITE = std::numeric_limits<double>::infinity();
+
+double ratio_of(std::span<const double> ratio, std::size_t i) {
+    return ratio.size() == 1 ? ratio[0] : ratio[i];
+}
+
+}  // namespace
+
+bool ChordRule::sizes(std::span<const PrincipalCurvatures> k, std::span<double> out) const {
+    for (std::size_t i = 0; i < k.size(); ++i) out[i] = chord_size(k[i], chord_);
+    return true;
+}
+
+bool ChordRule::principal_sizes(std::span<const PrincipalCurvatures> k,
+                                std::span<const double> ratio,
+                                std::span<PrincipalSizes> out) const {
+    for (std::size_t i = 0; i < k.size(); ++i)
+        out[i] = principal_chord_sizes(k[i], chord_, ratio_of(ratio, i));
+    return true;
+}
+
+bool AngleRule::sizes(std::span<const PrincipalCurvatures> k, std::span<double> out) const {
+    for (std::size_t i = 0; i < k.size(); ++i) out[i] = most(angle_size(k[i], angle_), finest_);
+    return true;
+}
+
+bool AngleRule::principal_sizes(std::span<const PrincipalCurvatures> k,
+                                std::span<const double> ratio,
+                                std::span<PrincipalSizes> out) const {
+    for (std::size_t i = 0; i < k.size(); ++i) {
+        const auto [first, second] = principal_angle_sizes(k[i], angle_, ratio_of(ratio, i));
+        out[i] = {most(first, finest_), most(second, finest_)};
+    }
+    return true;
+}
+
+bool NormalDeviationRule::sizes(std::span<const PrincipalCurvatures> k,
+                                std::span<double> out) const {
+    for (std::size_t i = 0; i < k.size(); ++i)
+        out[i] = most(normal_deviation_size(k[i], angle_), finest_);
+    return true;
+}
+
+bool NormalDeviationRule::principal_sizes(std::span<const PrincipalCurvatures> k,
+                                          std::span<const double> /*ratio*/,
+                                          std::span<PrincipalSizes> out) const {
+    for (std::size_t i = 0; i < k.size(); ++i)
+        out[i] = {most(normal_deviation_size({k[i].k1, k[i].k1}, angle_), finest_),
+                  most(normal_deviation_size({k[i].k2, k[i].k2}, angle_), finest_)};
+    return true;
+}
+
+bool ConstantSize::sizes(std::span<const Point3> points, std::span<double> out) const {
+    std::fill_n(out.begin(), points.size(), size_);
+    return true;
+}
+
+bool SizeRules::from_curvature(std::span<const PrincipalCurvatures> k,
+                               std::span<double> out) const {
+    Array<double> own(k.size());
+    std::fill(out.begin(), out.end(), INFINITE);
+    for (const auto& rule : by_curvature) {
+        if (!rule->sizes(k, {own.data(), own.size()})) return false;
+        for (std::size_t i = 0; i < k.size(); ++i) out[i] = least(out[i], own[i]);
+    }
+    for (double& size : out) size = within(size);
+    return true;
+}
+
+bool SizeRules::shorter(std::span<const PrincipalCurvatures> k, std::span<double> out) const {
+    if (!is_anisotropic()) return from_curvature(k, out);
+    Array<PrincipalSizes> both(k.size());
+    if (!principal(k, {&anisotropy, 1}, {both.data(), both.size()})) return false;
+    for (std::size_t i = 0; i < k.size(); ++i) out[i] = least(both[i].first, both[i].second);
+    return true;
+}
+
+bool SizeRules::principal(std::span<const PrincipalCurvatures> k, std::span<const double> ratio,
+                          std::span<PrincipalSizes> out) const {
+    Array<PrincipalSizes> own(k.size());
+    std::fill(out.begin(), out.end(), PrincipalSizes{INFINITE, INFINITE});
+    for (const auto& rule : by_curvature) {
+        if (!rule->principal_sizes(k, ratio, {own.data(), own.size()})) return false;
+        for (std::size_t i = 0; i < k.size(); ++i)
+            out[i] = {least(out[i].first, own[i].first), least(out[i].second, own[i].second)};
+    }
+    for (std::size_t i = 0; i < k.size(); ++i) {
+        const double wanted = least(out[i].first, out[i].second);
+        const double shorter = within(wanted);
+        // where it is flat both ways no direction is known: the ratio falls to one
+        const double fraction = shorter / wanted;
+        const double flat = std::isnan(fraction) ? 0.0 : least(fraction, 1.0);
+        double most_long = least(shorter * most(ratio_of(ratio, i) * (flat * flat), 1.0), longest);
+        most_long = most(most_long, shorter);
+        out[i] = {least(most(out[i].first, shorter), most_long),
+                  least(most(out[i].second, shorter), most_long)};
+    }
+    return true;
+}
+
+bool SizeRules::from_place(std::span<const Point3> points, std::span<double> out) const {
+    Array<double> own(points.size());
+    std::fill(out.begin(), out.end(), INFINITE);
+    for (const auto& rule : by_place) {
+        if (!rule->sizes(points, {own.data(), own.size()})) return false;
+        for (std::size_t i = 0; i < points.size(); ++i) out[i] = least(out[i], own[i]);
+    }
+    return true;
+}
+
+std::exception_ptr SizeRules::take_failure() const {
+    for (const auto& rule : by_curvature)
+        if (const std::exception_ptr failure = rule->take_failure()) return failure;
+    for (const auto& rule : by_place)
+        if (const std::exception_ptr failure = rule->take_failure()) return failure;
+    return {};
+}
+
+}  // namespace surfmesh

@@ -1,0 +1,145 @@
+#include "sizing/surface_law.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "values/threads.hpp"
+
+namespace surfmesh {
+namespace {
+
+constexpr std::size_t BLOCK = 1024;  // places that are read at a time
+
+/// I^(1/2) in the scaled plane, whose axes run at ``rates``.
+SizeTensor root_of_form(const FundamentalForms& forms, Point2 rates) {
+    const double e = forms.E * rates.x * rates.x, f = forms.F * rates.x * rates.y;
+    const double g = forms.G * rates.y * rates.y;
+    const double s = std::sqrt(most(e * g - f * f, 0.0));
+    const double t = std::sqrt(most(e + g + 2.0 * s, std::numeric_limits<double>::min()));
+    return {(e + s) / t, f / t, (g + s) / t};
+}
+
+}  // namespace
+
+SurfaceLaw::SurfaceLaw(const Surface& surface, Chart chart, SizeRules rules,
+                       std::optional<Rims> rims, OuterLimits outer)
+    : surface_(surface),
+      chart_(std::move(chart)),
+      rules_(std::move(rules)),
+      rims_(std::move(rims)),
+      outer_(std::move(outer)) {}
+
+std::exception_ptr SurfaceLaw::take_failure() {
+    if (status_ == SurfaceStatus::FAILED)
+        if (const std::exception_ptr failure = surface_.take_failure()) return failure;
+    return rules_.take_failure();
+}
+
+bool SurfaceLaw::ask(std::span<const Point2> xy, FieldNodes& nodes) {
+    const std::size_t count = xy.size();
+    nodes.size.resize(count, rules_.largest);
+    nodes.target_size.resize(count);
+    nodes.root.resize(count);
+    nodes.normal.resize(count);
+    nodes.point.resize(count);
+    Places places{Array<PrincipalCurvatures>(count), Array<std::uint8_t>(count)};
+    for_each_block(count, BLOCK, [&](std::size_t first, std::size_t last) {
+        read(xy.subspan(first, last - first), first, nodes, places);
+    });
+    if (status_ != SurfaceStatus::DONE || !lower_by_rules(places, nodes)) return false;
+    for_each_block(count, BLOCK, [&](std::size_t first, std::size_t last) {
+        if (rims_) lower_at_rims(xy.subspan(first, last - first), first, nodes);
+        bound(first, last, nodes);
+    });
+    return status_ == SurfaceStatus::DONE;
+}
+
+/// The surface at some places: what is stored of it, and what rules are asked with.
+void SurfaceLaw::read(std::span<const Point2> xy, std::size_t first, FieldNodes& nodes,
+                      Places& places) {
+    Array<Point2> uv(xy.size()), rates(xy.size());
+    for (std::size_t i = 0; i < xy.size(); ++i) {
+        const ChartPoint at = chart_.at(xy[i]);
+        uv[i] = at.uv;
+        rates[i] = at.rates;
+    }
+    SurfaceValues r;
+    const SurfaceStatus status = r.evaluate(surface_, {uv.data(), uv.size()}, 2);
+    if (status != SurfaceStatus::DONE) {
+        status_.store(status);
+        return;
+    }
+    for (std::size_t i = 0; i < xy.size(); ++i) {
+        const FundamentalForms forms =
+            fundamental_forms(r[1][i], r[2][i], {r[3][i], r[4][i], r[5][i]});
+        const std::size_t node = first + i;
+        places.curvature[node] = principal_curvatures(forms);
+        places.degenerate[node] = forms.degenerate ? 1 : 0;
+        nodes.root[node] = root_of_form(forms, rates[i]);
+        nodes.normal[node] = forms.normal;
+        nodes.point[node] = r[0][i];
+    }
+}
+
+/// Lower sizes to what each rule allows. The caller's own are asked here, by one thread.
+bool SurfaceLaw::lower_by_rules(const Places& places, FieldNodes& nodes) const {
+    const std::size_t count = nodes.size.size();
+    Array<double> own(count);
+    const std::span<double> out{own.data(), count};
+    for (const auto& rule : rules_.by_curvature) {
+        if (!rule->sizes({places.curvature.data(), count}, out)) return false;
+        for (std::size_t i = 0; i < count; ++i)
+            // nothing is known at a pole or a cusp: gradation brings the neighbours' size
+            if (places.degenerate[i] == 0) nodes.size[i] = least(nodes.size[i], own[i]);
+    }
+    for (const auto& rule : rules_.by_place) {
+        if (!rule->sizes({nodes.point.data(), count}, out)) return false;
+        for (std::size_t i = 0; i < count; ++i) nodes.size[i] = least(nodes.size[i], own[i]);
+    }
+    return true;
+}
+
+/// Lower sizes on open sides, and near trimming loops, to what the curvature there allows.
+void SurfaceLaw::lower_at_rims(std::span<const Point2> xy, std::size_t first, FieldNodes& nodes) {
+    const Point2 end = chart_.extent();
+    for (std::size_t side = 0; side < 4; ++side) {
+        if (!rims_->open_sides[side]) continue;
+        Array<Point2> uv;
+        Array<std::size_t> rows;
+        for (std::size_t i = 0; i < xy.size(); ++i) {
+            const bool on_it[] = {xy[i].y == 0.0, xy[i].x == end.x, xy[i].y == end.y,
+                                  xy[i].x == 0.0};
+            if (!on_it[side]) continue;
+            rows.push_back(first + i);
+            uv.push_back(chart_.to_uv(xy[i]));
+        }
+        if (rows.empty()) continue;
+        SurfaceReader reader(surface_);
+        reader.read({uv.data(), uv.size()}, 2);
+        if (reader.failed()) {
+            status_.store(reader.status());
+            return;
+        }
+        const Point2 step = side % 2 == 0 ? Point2{1.0, 0.0} : Point2{0.0, 1.0};
+        for (std::size_t k = 0; k < rows.size(); ++k)
+            nodes.size[rows[k]] =
+                least(nodes.size[rows[k]], rim_size(reader, k, step, rims_->chord).size);
+    }
+    if (rims_->loops == nullptr) return;
+    for (std::size_t i = first; i < first + xy.size(); ++i)
+        nodes.size[i] = least(nodes.size[i], rims_->loops->at(nodes.point[i]));
+}
+
+/// Keep sizes within the bounds, and then within limits of edges or of earlier rounds.
+void SurfaceLaw::bound(std::size_t first, std::size_t last, FieldNodes& nodes) const {
+    for (std::size_t i = first; i < last; ++i) {
+        double& size = nodes.size[i];
+        size = nodes.target_size[i] = most(size, rules_.smallest);
+        if (outer_.limits == nullptr) continue;
+        size = least(size, most(outer_.limits->at(nodes.point[i]), outer_.least));
+        if (outer_.are_targets) nodes.target_size[i] = size;
+    }
+}
+
+}  // namespace surfmesh

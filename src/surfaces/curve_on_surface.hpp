@@ -1,0 +1,32 @@
+// A curve in space that lies on a surface: c(t) = r(p(shift + rate t)) with a curve p in (u, v).
+//
+//     c'  = r_u u' + r_v v'
+//     c'' = r_uu u'^2 + 2 r_uv u' v' + r_vv v'^2 + r_u u'' + r_v v''
+//
+// Derivatives beyond the second are no numbers, as is all where the surface cannot be evaluated.
+#pragma once
+
+#include <memory>
+#include <utility>
+
+#include "surfaces/curve.hpp"
+#include "surfaces/surface.hpp"
+
+namespace surfmesh {
+
+class CurveOnSurface final : public Curve {
+  public:
+    CurveOnSurface(std::shared_ptr<const Surface> surface, std::shared_ptr<const Curve> pcurve,
+                   double shift, double rate)
+        : surface_(std::move(surface)), pcurve_(std::move(pcurve)), shift_(shift), rate_(rate) {}
+
+    [[nodiscard]] int dimension() const override { return 3; }
+    void evaluate(std::span<const double> t, int order, std::span<Point3> out) const override;
+
+  private:
+    std::shared_ptr<const Surface> surface_;
+    std::shared_ptr<const Curve> pcurve_;
+    double shift_, rate_;
+};
+
+}  // namespace surfmesh

@@ -1,0 +1,53 @@
+"""The edges of a CAD model: samples, gradation along them, nodes."""
+
+from typing import Annotated
+
+import numpy
+from numpy.typing import NDArray
+
+
+class CurvePieces:
+    """The curves of all edges, or coedges, of a model between their ends."""
+
+    def __init__(self, curves: list, t0: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)], t1: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)]) -> None:
+        """curves: n of the core, or None; t0, t1 (n,): parameters at the ends."""
+
+    def __len__(self) -> int: ...
+
+    def points(self, which: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], first: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], fraction: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)]) -> Annotated[NDArray[numpy.float64], dict(shape=(None, 3))]:
+        """
+        Points (n, 3), with z = 0 of curves in the plane, at fractions (n,) of the ranges of pieces which (k,); of row i those from first[i] to first[i + 1].
+        """
+
+def edge_courses(pieces: CurvePieces, which: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], first: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], fraction: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)], straight: Annotated[NDArray[numpy.uint8], dict(shape=(None,), order='C', device='cpu', writable=False)]) -> tuple[Annotated[NDArray[numpy.float64], dict(shape=(None, 3))], Annotated[NDArray[numpy.float64], dict(shape=(None, 3))], Annotated[NDArray[numpy.float64], dict(shape=(None,))], Annotated[NDArray[numpy.float64], dict(shape=(None,))]]:
+    """
+    Points and unit tangents (n, 3), curvature (n,) along pieces which (k,) at fractions (n,) of their ranges, and the integral of the curvature (k,), radians.
+
+    straight: (k,) uint8, the piece is of a line.
+    """
+
+def curvatures_along(pieces: CurvePieces, which: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], first: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], fraction: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)], surfaces: list) -> tuple[Annotated[NDArray[numpy.float64], dict(shape=(None,))], Annotated[NDArray[numpy.float64], dict(shape=(None,))], Annotated[NDArray[numpy.uint8], dict(shape=(None,))]]:
+    """
+    Principal curvatures k1 >= k2 (n,) of surfaces along their coedges, and where they are degenerate (n,).
+
+    pieces: the coedges; surfaces: k, one for each of which (k,).
+    """
+
+def curvatures_at(uv: Annotated[NDArray[numpy.float64], dict(shape=(None, 2), order='C', device='cpu', writable=False)], first: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], surfaces: list) -> tuple[Annotated[NDArray[numpy.float64], dict(shape=(None,))], Annotated[NDArray[numpy.float64], dict(shape=(None,))], Annotated[NDArray[numpy.uint8], dict(shape=(None,))]]:
+    """
+    The same of k surfaces at uv (n, 2); of surface i those from first[i] to first[i + 1].
+    """
+
+def graded_along_edges(points: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)], sizes: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)], first: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], ends: Annotated[NDArray[numpy.int64], dict(shape=(None, 2), order='C', device='cpu', writable=False)], vertices: int, slope: float, least_step: float) -> Annotated[NDArray[numpy.float64], dict(shape=(None,))]:
+    """
+    Sizes (n,) that grow by no more than slope times the way along edges and through vertices.
+
+    points (n, 3), sizes (n,): samples, of edge e those from first[e] to first[e + 1]; ends (e, 2): vertices; steps between samples count as least_step at least.
+    """
+
+def cut_to_metric_length(curves: CurvePieces, points: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)], fraction: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)], sizes: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)], first: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], ends: Annotated[NDArray[numpy.int64], dict(shape=(None, 2), order='C', device='cpu', writable=False)], corners: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)], which: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], fewest: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], first_given: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], given: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)], most: float) -> tuple[Annotated[NDArray[numpy.int64], dict(shape=(None,))], Annotated[NDArray[numpy.float64], dict(shape=(None,))], Annotated[NDArray[numpy.float64], dict(shape=(None, 3))], Annotated[NDArray[numpy.float64], dict(shape=(None,))], int, float]:
+    """
+    Nodes of the edges in which (k,): offsets (k + 1,), fractions t (m,), points (m, 3), sizes (m,); and the row of an edge of more than ``most`` pieces with their number, or -1.
+
+    points (n, 3), fraction (n,), sizes (n,): samples, of edge e those from first[e] to first[e + 1]; ends (e, 2): rows of corners (v, 3). fewest (k,): pieces. given: the nodes of row i from first_given[i] to first_given[i + 1], none where they are to be found.
+    """

@@ -1,0 +1,127 @@
+"""
+What sizes are asked for on one surface: rules, limits, and the law of a size field.
+"""
+
+from collections.abc import Sequence
+from typing import Annotated
+
+import numpy
+from numpy.typing import NDArray
+
+import surfmesh._core.fields
+import surfmesh._core.surfaces
+
+
+DEVIATION_RESERVE: float = 0.62
+
+ROUND_RESERVE: float = 0.78
+
+BENT_RESERVE: float = 0.94
+
+STRETCHED_RESERVE: float = 0.7
+
+STRAIGHT_RESERVE: float = 0.75
+
+def deviation_factor(k1: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)], k2: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)]) -> Annotated[NDArray[numpy.float64], dict(shape=(None,))]:
+    """c (n,) with deviation = c h^2."""
+
+def chord_size(k1: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)], k2: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)], chord: float) -> Annotated[NDArray[numpy.float64], dict(shape=(None,))]:
+    """Edge length (n,) at which triangles stay within chord."""
+
+def angle_size(k1: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)], k2: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)], angle: float) -> Annotated[NDArray[numpy.float64], dict(shape=(None,))]:
+    """Edge length (n,) at which dihedral angles are at most angle (degrees)."""
+
+def normal_deviation_size(k1: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)], k2: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)], angle: float) -> Annotated[NDArray[numpy.float64], dict(shape=(None,))]:
+    """
+    Edge length (n,) at which the normals of neighbours differ by at most angle (degrees).
+    """
+
+def principal_chord_sizes(k1: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)], k2: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)], chord: float, ratio: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)]) -> tuple[Annotated[NDArray[numpy.float64], dict(shape=(None,))], Annotated[NDArray[numpy.float64], dict(shape=(None,))]]:
+    """Edge lengths (n,), (n,) along the directions of k1 and k2, likewise."""
+
+def principal_angle_sizes(k1: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)], k2: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)], angle: float, ratio: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)]) -> tuple[Annotated[NDArray[numpy.float64], dict(shape=(None,))], Annotated[NDArray[numpy.float64], dict(shape=(None,))]]:
+    """Edge lengths (n,), (n,) along the directions of k1 and k2, likewise."""
+
+RIM_RESERVE: float = 0.8
+
+LEAST_RIM: float = 2.0
+
+def rim_sizes(surface: surfmesh._core.surfaces.Surface, uv: Annotated[NDArray[numpy.float64], dict(shape=(None, 2), order='C', device='cpu', writable=False)], step: Annotated[NDArray[numpy.float64], dict(shape=(None, 2), order='C', device='cpu', writable=False)], chord: float) -> tuple[Annotated[NDArray[numpy.float64], dict(shape=(None,))], Annotated[NDArray[numpy.float64], dict(shape=(None, 3))]]:
+    """
+    Sizes (n,) that the curvature of lines of (u, v) allows along them, at uv (n, 2) in the directions step (n, 2), and unit tangents (n, 3); infinite and zero where a line has no speed.
+    """
+
+class CurvatureRule:
+    """Sizes that follow from the curvature."""
+
+class PlaceRule:
+    """Sizes that depend on the place alone."""
+
+class ChordRule(CurvatureRule):
+    def __init__(self, chord: float) -> None: ...
+
+class AngleRule(CurvatureRule):
+    def __init__(self, angle: float, finest: float) -> None:
+        """angle: degrees. finest: nothing smaller is asked for, model units."""
+
+class NormalDeviationRule(CurvatureRule):
+    def __init__(self, angle: float, finest: float) -> None:
+        """Likewise."""
+
+class ConstantSize(PlaceRule):
+    def __init__(self, size: float) -> None: ...
+
+class CallbackCurvatureRule(CurvatureRule):
+    def __init__(self, rule: object) -> None:
+        """rule: a CurvatureRule of surfmesh.sizing.rules.rule."""
+
+class CallbackPlaceRule(PlaceRule):
+    def __init__(self, rule: object) -> None:
+        """rule: a PlaceRule of surfmesh.sizing.rules.rule."""
+
+class SizeRules:
+    """All rules that hold on one surface."""
+
+    def __init__(self, by_curvature: Sequence[CurvatureRule], by_place: Sequence[PlaceRule], clamp: tuple[float, float], longest: float, anisotropy: float) -> None:
+        """
+        clamp: the smallest and the largest size. longest: the largest along the longer axis of an anisotropic metric. anisotropy: largest ratio of two sizes.
+        """
+
+class SizeLimits:
+    """Upper bounds of the size near points."""
+
+    def __init__(self, points: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)], sizes: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)], slope: float, metric_root_3d: Annotated[NDArray[numpy.float64], dict(shape=(None, 6), order='C', device='cpu', writable=False)] | None = None) -> None:
+        """
+        points (k, 3), sizes (k,), metric_root_3d (k, 6) or None, for every direction.
+        """
+
+    def at(self, points: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)]) -> Annotated[NDArray[numpy.float64], dict(shape=(None,))]:
+        """Largest size (n,) at points (n, 3)."""
+
+    def along(self, points: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)], directions: Annotated[NDArray[numpy.float64], dict(shape=(None, None, 3), order='C', device='cpu', writable=False)]) -> Annotated[NDArray[numpy.float64], dict(shape=(None, None))]:
+        """Largest sizes (k, n) at points (n, 3) in k unit directions (k, n, 3)."""
+
+    def tightest(self, points: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)], normals: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)]) -> tuple[Annotated[NDArray[numpy.float64], dict(shape=(None,))], Annotated[NDArray[numpy.float64], dict(shape=(None, 3))]]:
+        """
+        The smallest size (n,) in any direction of the tangent planes at points (n, 3) with unit normals (n, 3), and a unit direction (n, 3) it holds in.
+        """
+
+class SurfaceLaw(surfmesh._core.fields.NodeLaw):
+    """Ungraded target sizes on one surface."""
+
+    def __init__(self, surface: surfmesh._core.surfaces.Surface, chart: surfmesh._core.surfaces.Chart, rules: SizeRules, rims: tuple[float, Sequence[bool], SizeLimits | None] | None = None, limits: tuple[SizeLimits, float, bool] | None = None) -> None:
+        """
+        rims: chord, which sides of the rectangle are open, limits near trimming loops or None. limits: of edges or earlier rounds, what none goes below, and whether sizes within them count as asked for.
+        """
+
+    def nodes(self, xy: Annotated[NDArray[numpy.float64], dict(shape=(None, 2), order='C', device='cpu', writable=False)]) -> tuple:
+        """The twelve arrays of FieldNodes at xy (n, 2) of the chart."""
+
+class BoundedFeatures(surfmesh._core.fields.HiddenFeatures):
+    """Features between samples, where derivatives are bounded."""
+
+    def __init__(self, law: SurfaceLaw, curved_alike: bool, chord: float | None) -> None:
+        """
+        curved_alike: sizes are smallest where a surface is curved both ways alike; else where it is curved one way only.
+        chord: what rises less than a fraction of it within a deep cell is no feature.
+        """

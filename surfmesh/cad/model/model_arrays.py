@@ -1,0 +1,113 @@
+"""A model as arrays over all its vertices, edges and coedges: made once for each model.
+
+edges      0 .. e - 1, as in the model
+coedges    0 .. c - 1: face after face, loop after loop, in walking order
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+from weakref import WeakKeyDictionary
+
+import numpy as np
+
+from surfmesh._core.edges import CurvePieces
+from surfmesh.cad.model.cad_model import CadCoedge, CadModel
+from surfmesh.cad.model.collapsed_edges import collapses, vertex_numbers
+
+_KNOWN: WeakKeyDictionary[CadModel, ModelArrays] = WeakKeyDictionary()  # asked for every round
+
+
+def model_arrays(model: CadModel) -> ModelArrays:
+    """The arrays of a model."""
+    if model not in _KNOWN:
+        _KNOWN[model] = ModelArrays.of(model)
+    return _KNOWN[model]
+
+
+@dataclass(frozen=True, eq=False)
+class ModelArrays:
+    corners: np.ndarray
+    """(v, 3) points of the vertices."""
+    vertex: np.ndarray
+    """(v,) for each vertex the number that it has in a mesh."""
+    ends: np.ndarray
+    """(e, 2) int64, vertices where the edges start and end."""
+    length: np.ndarray
+    """(e,) model units."""
+    straight: np.ndarray
+    """(e,) bool."""
+    collapsed: np.ndarray
+    """(e,) bool: the edge is one vertex of a mesh."""
+    curves: CurvePieces
+    """Of the edges in space."""
+    coedges: tuple[CadCoedge, ...]
+    coedge_edge: np.ndarray
+    """(c,) int64."""
+    coedge_face: np.ndarray
+    """(c,) int64."""
+    first_of_face: np.ndarray
+    """(f + 1,) int64: coedges of each face."""
+    first_of_loop: np.ndarray
+    """(l + 1,) int64: coedges of each loop of all faces."""
+    area: np.ndarray
+    """(f,) of the faces, model units squared."""
+
+    @classmethod
+    def of(cls, model: CadModel) -> ModelArrays:
+        edges, faces = model.edges, model.faces
+        loops = [loop for face in faces for loop in face.loops]
+        coedges = tuple(coedge for loop in loops for coedge in loop)
+        of_face = np.array([sum(map(len, face.loops)) for face in faces], np.int64)
+        curves = [None if edge.curve is None else edge.curve.core for edge in edges]
+        return cls(
+            np.array([vertex.point for vertex in model.vertices], float).reshape(-1, 3),
+            vertex_numbers(model),
+            np.array([(edge.start, edge.end) for edge in edges], np.int64).reshape(-1, 2),
+            np.array([edge.length for edge in edges], float),
+            np.array([edge.is_straight for edge in edges], bool),
+            np.array([collapses(model, edge) for edge in edges], bool),
+            _pieces(curves, [(edge.t0, edge.t1) for edge in edges]),
+            coedges,
+            np.array([coedge.edge for coedge in coedges], np.int64),
+            np.repeat(np.arange(len(faces)), of_face),
+            offsets(of_face),
+            offsets(np.array([len(loop) for loop in loops], np.int64)),
+            np.array([face.area for face in faces], float),
+        )
+
+    @property
+    def mesh_ends(self) -> np.ndarray:
+        """(e, 2) int64, the ends of the edges by the numbers that vertices have in a mesh."""
+        return self.vertex[self.ends]
+
+    @cached_property
+    def pcurves(self) -> CurvePieces:
+        """Of the coedges, in the (u, v) of their faces; parameters run as those of the edges."""
+        curves = [coedge.pcurve.core for coedge in self.coedges]
+        return _pieces(curves, [(coedge.p0, coedge.p1) for coedge in self.coedges])
+
+    @cached_property
+    def coedge_reversed(self) -> np.ndarray:
+        """(c,) bool."""
+        return np.array([coedge.reversed for coedge in self.coedges], bool)
+
+
+def offsets(counts: np.ndarray) -> np.ndarray:
+    """Where rows of so many (n,) begin, and how many there are in all: (n + 1,) int64."""
+    found = np.zeros(len(counts) + 1, np.int64)
+    np.cumsum(counts, out=found[1:])
+    return found
+
+
+def rows_of(first: np.ndarray, which: np.ndarray) -> np.ndarray:
+    """The rows first[k] to first[k + 1] of each k in ``which``, one after the other: (n,) int64."""
+    count = first[which + 1] - first[which]
+    own = offsets(count)
+    return np.repeat(first[which] - own[:-1], count) + np.arange(own[-1])
+
+
+def _pieces(curves: list, limits: list[tuple[float, float]]) -> CurvePieces:
+    t0, t1 = np.array(limits, float).reshape(-1, 2).T
+    return CurvePieces(curves, np.ascontiguousarray(t0), np.ascontiguousarray(t1))
