@@ -191,8 +191,8 @@ def intersect(
     as a cut ends inside it, has neither.
 
     Curves lie within 1e-10 of the diagonal of both surfaces as a rule; the tolerance of the edge
-    says how near. No branch is missed on formulas, planes, cylinders, cones, spheres and tori,
-    whose bends have bounds; of others ``model.healing`` says that they were sampled.
+    says how near. No branch is missed on formulas, splines, planes, cylinders, cones, spheres
+    and tori, whose bends have bounds; of others ``model.healing`` says that they were sampled.
 
     Raises ``SurfaceError`` with the place where surfaces touch along a curve, at a point or on a
     patch, where an edge lies on a surface, and for a ``keep`` that cannot be met.

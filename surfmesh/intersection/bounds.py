@@ -3,12 +3,13 @@
 Over a cell of the sides du, dv the surface differs from the bilinear patch through its corners by
 at most (du^2 |r_uu| + dv^2 |r_vv|) / 8, coordinate by coordinate (the error of linear
 interpolation, once a parameter); so the box of the corners, wider by that, holds it. |r_uu|,
-|r_uv|, |r_vv| are bounded by interval arithmetic for formulas, in closed form for planes,
-cylinders, cones, spheres and tori. Others are sampled: see ``are_known``.
+|r_uv|, |r_vv| are bounded by interval arithmetic for formulas, by control points for splines, in
+closed form for planes, cylinders, cones, spheres and tori. Others are sampled: see ``are_known``.
 """
 
 from __future__ import annotations
 
+from functools import lru_cache
 from math import pi
 from typing import NamedTuple
 
@@ -17,6 +18,8 @@ import numpy as np
 from surfmesh.cad.model.cad_model import CadEdge
 from surfmesh.geometry.cad_surfaces.elementary import Cone, Cylinder, Plane, Sphere, Torus
 from surfmesh.geometry.cad_surfaces.face_surface import FaceSurface
+from surfmesh.geometry.cad_surfaces.nurbs import BSplineSurface
+from surfmesh.intersection.spline_bounds import SplineBounds, is_smooth
 
 SAMPLED = 2.0
 """Times the largest second derivative of the samples in a cell, where there are no bounds."""
@@ -56,6 +59,8 @@ class Cones(NamedTuple):
 
 def are_known(surface: FaceSurface) -> bool:
     """Are there bounds, or only samples?"""
+    if isinstance(surface, BSplineSurface):
+        return is_smooth(surface)
     return isinstance(surface, (Plane, Cylinder, Cone, Sphere, Torus)) or surface.kind == "formula"
 
 
@@ -64,11 +69,18 @@ def bends(surface: FaceSurface, lo: np.ndarray, hi: np.ndarray) -> Bends:
     closed = _closed_form(surface, lo, hi)
     if closed is not None:
         return closed
+    if isinstance(surface, BSplineSurface) and is_smooth(surface):
+        return _splines(surface).bends(lo, hi)
     known = surface.derivative_bounds(lo, hi)
     if known is not None:
         lower, upper = known
         return np.maximum(np.abs(lower), np.abs(upper))[:, 2:]
     return _sampled(surface, lo, hi)
+
+
+@lru_cache(maxsize=64)
+def _splines(surface: BSplineSurface) -> SplineBounds:
+    return SplineBounds(surface)
 
 
 def _closed_form(surface: FaceSurface, lo: np.ndarray, hi: np.ndarray) -> Bends | None:
