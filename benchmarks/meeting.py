@@ -240,7 +240,12 @@ def peers() -> None:
         seconds = time.process_time() - start
         print(f"{name:24} surfmesh  {seconds:8.2f} {len(mesh.triangles):9,} {model.volume:10.6f}")
         start = time.process_time()
-        triangles, volume = by_gmsh(gmsh, bodies, size)
+        try:
+            triangles, volume = by_gmsh(gmsh, bodies, size)
+        except Exception as error:  # gmsh has no others
+            print(f"{'':24} gmsh      failed: {error}")
+            gmsh.finalize()
+            continue
         seconds = time.process_time() - start
         print(f"{'':24} gmsh      {seconds:8.2f} {triangles:9,} {volume:10.6f}")
 

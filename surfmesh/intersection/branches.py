@@ -24,7 +24,7 @@ import numpy as np
 from surfmesh.cad.model.cad_model import CadFace
 from surfmesh.errors import SurfaceError
 from surfmesh.intersection.bounds import Boxes, cross_surely, overlap
-from surfmesh.intersection.cells import FaceCells, Numbered
+from surfmesh.intersection.cells import FaceCells, Numbered, Pairs
 from surfmesh.intersection.newton import Pulled, pulled_onto_both, uv_directions
 from surfmesh.intersection.regions import Region
 from surfmesh.intersection.touching import Touch, touch_of_surfaces
@@ -87,26 +87,25 @@ class FacePair:
 
         Raises ``SurfaceError`` where they touch along a curve or a patch.
         """
-        a, b, level = self._undecided(lambda a, b, level: np.ones(len(a), bool))
-        if not len(a):
+        pairs = self._undecided(lambda pairs: np.ones(len(pairs), bool))
+        if not len(pairs):
             return []
-        middle = np.hstack([self.cells_a.middles(a, level), self.cells_b.middles(b, level)])
+        middle = pairs.middles
         points = self.a.evaluate(middle[:, :2], 0)[0]
         found: list[Touch] = []
-        rows = np.unique(np.linspace(0, len(a) - 1, min(len(a), TRIED)).astype(int))
+        rows = np.unique(np.linspace(0, len(pairs) - 1, min(len(pairs), TRIED)).astype(int))
         for k in rows:
             if any(np.linalg.norm(t.point - points[k]) <= BESIDE * self.size for t in found):
                 continue
             touch = touch_of_surfaces(self.a, self.b, middle[k])
+            apart = [np.linalg.norm(t.point - touch.point) for t in found]
             if touch.found and touch.gap <= 10.0 * self.gap:
-                if not any(
-                    np.linalg.norm(t.point - touch.point) <= TRACED * self.size for t in found
-                ):
+                if all(distance > TRACED * self.size for distance in apart):
                     found.append(touch)
-        far = np.ones(len(a), bool)
-        for place_ in [*(touch.point for touch in found), *self.singular]:
-            far &= np.linalg.norm(points - place_, axis=1) > BESIDE * self.size
-        self._refuse(a[far], b[far], level)
+        far = np.ones(len(pairs), bool)
+        for point in [*(touch.point for touch in found), *self.singular]:
+            far &= np.linalg.norm(points - point, axis=1) > BESIDE * self.size
+        self._refuse(pairs.kept(far))
         return [touch for touch in found if self._is_in_both(touch)]
 
     def _is_in_both(self, touch: Touch) -> bool:
@@ -114,39 +113,32 @@ class FacePair:
         return bool(self.region_a.inside(uv_a)[0] and self.region_b.inside(uv_b)[0])
 
     def _find_closed(self) -> None:
-        a, b, level = self._undecided(self._answered)
-        self._refuse(a, b, level)
+        self._refuse(self._undecided(self._answered))
 
-    def _undecided(
-        self, answered: Callable[[np.ndarray, np.ndarray, int], np.ndarray]
-    ) -> tuple[np.ndarray, np.ndarray, int]:
-        """Pairs of cells (n, 2), (n, 2) of a level that can be halved no more.
+    def _undecided(self, answered: Callable[[Pairs], np.ndarray]) -> Pairs:
+        """Pairs of cells that can be halved no more.
 
-        answered: of pairs of a level that cross in one curve at most, are they done with?
+        answered: of pairs that cross in one curve at most, are they done with?
         """
-        first = self.cells_a.start(), self.cells_b.start()
-        i, j = (k.ravel() for k in np.meshgrid(*(np.arange(len(k)) for k in first)))
-        a, b = first[0][i], first[1][j]
-        for level in range(LEVELS):
-            one, other = Numbered(self.cells_a, a, level), Numbered(self.cells_b, b, level)
+        pairs = Pairs.of(self.cells_a, self.cells_b)
+        for _ in range(LEVELS):
+            one = Numbered(self.cells_a, pairs.a, pairs.level_a)
+            other = Numbered(self.cells_b, pairs.b, pairs.level_b)
             meet = overlap(one.boxes, one.of, other.boxes, other.of, other.cones)
-            a, b, i, j = a[meet], b[meet], one.of[meet], other.of[meet]
+            rows = np.flatnonzero(meet)
+            pairs, i, j = pairs.kept(rows), one.of[rows], other.of[rows]
             surely = np.flatnonzero(cross_surely(one.cones, i, other.cones, j))
             still = ~self._are_singular(one.boxes, i)
             if len(surely):
-                still[surely] &= ~answered(a[surely], b[surely], level)
-            a, b, i, j = a[still], b[still], i[still], j[still]
-            if not len(a):
+                still[surely] &= ~answered(pairs.kept(surely))
+            pairs, rows = pairs.kept(still), rows[still]
+            if not len(pairs):
                 break
-            size = max(
-                np.linalg.norm(boxes.high[of] - boxes.low[of], axis=1).max()
-                for boxes, of in ((one.boxes, i), (other.boxes, j))
-            )
-            if size < SMALLEST * self.size or len(a) > MOST_PAIRS:
+            sizes = one.size(rows), other.size(rows)
+            if max(sizes) < SMALLEST * self.size or len(pairs) > MOST_PAIRS:
                 break
-            a = np.repeat(FaceCells.children(a), 4, axis=1).reshape(-1, 2)
-            b = np.tile(FaceCells.children(b), (1, 4, 1)).reshape(-1, 2)
-        return a, b, level
+            pairs = pairs.halved(*sizes)
+        return pairs
 
     def _are_singular(self, boxes: Boxes, i: np.ndarray) -> np.ndarray:
         """Of cells, do they lie beside a branch point or a pole, where the curves are known?"""
@@ -156,11 +148,11 @@ class FacePair:
             near |= np.linalg.norm(reach, axis=1) <= BESIDE * self.size
         return near
 
-    def _refuse(self, a: np.ndarray, b: np.ndarray, level: int) -> None:
+    def _refuse(self, pairs: Pairs) -> None:
         """Name the place of pairs that are neither apart nor cross."""
-        middle_a, middle_b = self.cells_a.middles(a, level), self.cells_b.middles(b, level)
-        if not len(a):
+        if not len(pairs):
             return
+        middle_a, middle_b = np.hsplit(pairs.middles, 2)
         inside = ~self.region_a.surely_outside(middle_a) & ~self.region_b.surely_outside(middle_b)
         if not inside.any():
             return
@@ -174,21 +166,18 @@ class FacePair:
             "are not intersected; move or change one of them"
         )
 
-    def _answered(self, a: np.ndarray, b: np.ndarray, level: int) -> np.ndarray:
+    def _answered(self, pairs: Pairs) -> np.ndarray:
         """For each pair, does a branch pass through it, or nearly? New ones are traced."""
-        corners_a, corners_b = self.cells_a.corners(a, level), self.cells_b.corners(b, level)
-        middle_a, middle_b = self.cells_a.middles(a, level), self.cells_b.middles(b, level)
-        found = pulled_onto_both(self.a, self.b, middle_a, middle_b)
-        middle = np.hstack([middle_a, middle_b])
-        half = 0.5 * np.hstack([corners_a[1] - corners_a[0], corners_b[1] - corners_b[0]])
+        low, high = pairs.corners
+        middle, half = 0.5 * (low + high), 0.5 * (high - low)
+        found = pulled_onto_both(self.a, self.b, middle[:, :2], middle[:, 2:], widths=half)
         there = np.flatnonzero(found.gap <= self.gap)
-        moved = self._moved_into(
-            np.hstack([found.uv_a, found.uv_b])[there], middle[there], half[there]
-        )
-        found = pulled_onto_both(self.a, self.b, moved[:, :2], moved[:, 2:])
+        place_ = np.hstack([found.uv_a, found.uv_b])[there]
+        moved = self._moved_into(place_, middle[there], half[there])
+        found = pulled_onto_both(self.a, self.b, moved[:, :2], moved[:, 2:], widths=half[there])
         off = np.abs(np.hstack([found.uv_a, found.uv_b]) - middle[there]) / half[there]
         fine = (found.gap <= self.gap) & (off <= 1.0 + 2.0 * AROUND).all(axis=1)
-        near = np.zeros(len(a), bool)
+        near = np.zeros(len(pairs), bool)
         near[there[fine]] = True
         self._trace_new(found, np.flatnonzero(fine))
         return near

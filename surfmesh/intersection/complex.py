@@ -29,9 +29,14 @@ class Complex:
     patches: Sequence[Patch]
 
     @staticmethod
-    def of(model: CadModel, source: int) -> Complex:
-        """All faces of a model."""
-        patches = [Patch(face, source, k) for k, face in enumerate(model.faces)]
+    def of(model: CadModel, source: int, name: str) -> Complex:
+        """All faces of a model, which is called ``name`` in messages."""
+        patches = []
+        for k, face in enumerate(model.faces):
+            if face.surface.name != name:
+                called = replace(face.surface, name=f"{name}, {face.surface.name}")
+                face = replace(face, surface=called)
+            patches.append(Patch(face, source, k))
         return Complex(model.vertices, model.edges, patches)
 
 

@@ -32,6 +32,9 @@ class Body:
     def __init__(self, faces: Sequence[CadFace], size: float, name: str) -> None:
         self.size, self.name = size, name
         self.cells = [FaceCells(face) for face in faces]
+        boxes = [cells.bounds(cells.start(), 0)[0] for cells in self.cells]
+        self.low = np.array([box.low.min(axis=0) for box in boxes])
+        self.high = np.array([box.high.max(axis=0) for box in boxes])
         self.regions = [Region(face) for face in faces]
 
     @staticmethod
@@ -63,7 +66,8 @@ class Body:
             degenerate=False, name="", length=length,
         )  # fmt: skip
         total = 0
-        for cells, region in zip(self.cells, self.regions):
+        for k in np.flatnonzero(self._are_on_ray(point, way)).tolist():
+            cells, region = self.cells[k], self.regions[k]
             found = crossings(ray, cells, SAME * self.size)
             if found.along is not None or found.touches.any():
                 return None
@@ -73,3 +77,10 @@ class Body:
                 return None
             total += int(region.inside(found.uv).sum())
         return total
+
+    def _are_on_ray(self, point: np.ndarray, way: np.ndarray) -> np.ndarray:
+        """Faces whose boxes a ray passes through, or nearly: it runs along no axis."""
+        room = SAME * self.size
+        one, other = (self.low - room - point) / way, (self.high + room - point) / way
+        first, last = np.minimum(one, other).max(axis=1), np.maximum(one, other).min(axis=1)
+        return (first <= last) & (last >= 0.0)

@@ -34,7 +34,7 @@ def intersected(things: Sequence[Any], keep: Any = "all", name: str = "") -> Cad
     _refuse_units(models)
     size = _size(models)
     keeping = Keeping(keep, names, models, size)
-    whole = joined([Complex.of(model, k) for k, model in enumerate(models)], size)
+    whole = joined([Complex.of(model, k, names[k]) for k, model in enumerate(models)], size)
     kept = keeping.kept(whole)
     vertices, edges, faces = compacted(whole.vertices, whole.edges, [p.face for p, _ in kept])
     solids = keeping.solids(faces, edges, vertices, [against for _, against in kept])

@@ -40,9 +40,11 @@ def limits_of(surface: FaceSurface) -> tuple[np.ndarray, np.ndarray]:
 def pulled_onto_both(
     a: FaceSurface, b: FaceSurface, uv_a: np.ndarray, uv_b: np.ndarray,
     normal: np.ndarray | None = None, through: np.ndarray | None = None, steps: int = STEPS,
+    widths: np.ndarray | None = None,
 ) -> Pulled:  # fmt: skip
     """Points on both surfaces near guesses (n, 2); with ``normal`` and ``through`` (n, 3) in the
-    planes that these give.
+    planes that these give. widths: (n, 4) of u, v, s, t that count as equally long steps; None:
+    such as are equally long in space.
 
     Those that have not come together have a gap, nan where the surface is not finite.
     """
@@ -54,6 +56,8 @@ def pulled_onto_both(
         gap = ra[0] - rb[0]
         columns = np.stack([ra[1], ra[2], -rb[1], -rb[2]], axis=2)  # (n, 3, 4)
         speed = np.maximum(np.linalg.norm(columns, axis=1), 1e-300)
+        if widths is not None:
+            speed = (speed * widths).max(axis=1, keepdims=True) / widths
         columns = columns / speed[:, None]
         if normal is None or through is None:
             step = _least_step(columns, gap)

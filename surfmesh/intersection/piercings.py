@@ -14,7 +14,7 @@ import numpy as np
 
 from surfmesh.cad.model.cad_model import CadEdge
 from surfmesh.intersection.bounds import overlap, pierces_surely
-from surfmesh.intersection.cells import EdgePieces, FaceCells, Numbered
+from surfmesh.intersection.cells import EdgePieces, FaceCells, Numbered, Pairs
 from surfmesh.intersection.newton import Curve, pulled_onto_curve, unit_normals
 from surfmesh.intersection.touching import touch_of_curve
 
@@ -59,43 +59,35 @@ def crossings(edge: CadEdge, cells: FaceCells, same: float) -> Crossings:
 
     same: model units; places nearer than that are one, and gaps below a hundredth of it none.
     """
-    pieces = EdgePieces(edge)
-    first = pieces.start(), cells.start()
-    piece, cell = (k.ravel() for k in np.meshgrid(*(np.arange(len(k)) for k in first)))
-    p, c = first[0][piece], first[1][cell]
+    pairs = Pairs.of(EdgePieces(edge), cells)
     found = _Found(same, cells.width)
-    for level in range(LEVELS):
-        own, other = Numbered(pieces, p, level), Numbered(cells, c, level)
-        meet = overlap(own.boxes, own.of, other.boxes, other.of, other.cones)
-        p, c, i, j = p[meet], c[meet], own.of[meet], other.of[meet]
-        if not len(p):
+    for _ in range(LEVELS):
+        own = Numbered(pairs.one, pairs.a, pairs.level_a)
+        other = Numbered(cells, pairs.b, pairs.level_b)
+        meet = np.flatnonzero(overlap(own.boxes, own.of, other.boxes, other.of, other.cones))
+        pairs = pairs.kept(meet)
+        if not len(pairs):
             return found.crossings(None)
-        surely = pierces_surely(own.cones, i, other.cones, j)
-        answered = _answered(edge, pieces, cells, p, c, level, found)
-        undecided = ~(surely & answered)
-        p, c, j = p[undecided], c[undecided], j[undecided]
-        if not len(p):
+        surely = pierces_surely(own.cones, own.of[meet], other.cones, other.of[meet])
+        undecided = ~(surely & _answered(edge, pairs, found))
+        pairs, rows = pairs.kept(undecided), meet[undecided]
+        if not len(pairs):
             return found.crossings(None)
-        size = np.linalg.norm(other.boxes.high[j] - other.boxes.low[j], axis=1).max()
-        if len(p) > MOST_PAIRS or size < SMALLEST * same:
+        sizes = own.size(rows), other.size(rows)
+        if len(pairs) > MOST_PAIRS or max(sizes) < SMALLEST * same:
             break
-        p = np.repeat(EdgePieces.children(p), 4, axis=1).ravel()
-        c = np.tile(FaceCells.children(c), (1, 2, 1)).reshape(-1, 2)
-    return found.crossings(_touched(edge, pieces, cells, p, c, level, found))
+        pairs = pairs.halved(*sizes)
+    return found.crossings(_touched(edge, pairs, found))
 
 
-def _touched(
-    edge: CadEdge, pieces: EdgePieces, cells: FaceCells, p: np.ndarray, c: np.ndarray,
-    level: int, found: _Found,
-) -> np.ndarray | None:  # fmt: skip
+def _touched(edge: CadEdge, pairs: Pairs, found: _Found) -> np.ndarray | None:
     """Find the touches behind undecided pairs; a place that no touch explains, or None."""
-    lo, hi = pieces.corners(p, level)
-    middle, place = 0.5 * (lo + hi), cells.middles(c, level)
-    points = edge.evaluate(middle, 0)[0]
-    rows = np.unique(np.linspace(0, len(p) - 1, min(len(p), TRIED)).astype(int))
+    middle = pairs.middles
+    points = edge.evaluate(middle[:, 0], 0)[0]
+    rows = np.unique(np.linspace(0, len(pairs) - 1, min(len(pairs), TRIED)).astype(int))
     near: list[np.ndarray] = []
     for k in rows:
-        touch = touch_of_curve(by_fraction(edge), cells.surface, np.array([middle[k], *place[k]]))
+        touch = touch_of_curve(by_fraction(edge), pairs.other.surface, middle[k])
         if touch.found and touch.gap <= 0.01 * found.same:
             near.append(touch.point)
             found.add(touch.place[0], touch.place[1:], touch.point, touches=True)
@@ -116,19 +108,15 @@ def by_fraction(edge: CadEdge) -> Curve:
     return curve
 
 
-def _answered(
-    edge: CadEdge, pieces: EdgePieces, cells: FaceCells, p: np.ndarray, c: np.ndarray,
-    level: int, found: _Found,
-) -> np.ndarray:  # fmt: skip
+def _answered(edge: CadEdge, pairs: Pairs, found: _Found) -> np.ndarray:
     """For each pair, has it, or nearly, a place? Those are kept."""
-    lo, hi = pieces.corners(p, level)
-    low, high = cells.corners(c, level)
-    middle, place = 0.5 * (lo + hi), 0.5 * (low + high)
-    t, uv, point, gap = pulled_onto_curve(by_fraction(edge), cells.surface, middle, place)
-    half, width = 0.5 * (hi - lo), 0.5 * (high - low)
-    near = (np.abs(t - middle) <= half * (1.0 + 2.0 * AROUND) + 1e-12) & (
-        np.abs(uv - place) <= width * (1.0 + 2.0 * AROUND) + 1e-12 * cells.width
-    ).all(axis=1)
+    low, high = pairs.corners
+    middle, half, cells = 0.5 * (low + high), 0.5 * (high - low), pairs.other
+    t, uv, point, gap = pulled_onto_curve(
+        by_fraction(edge), cells.surface, middle[:, 0], middle[:, 1:]
+    )
+    off = np.abs(np.column_stack([t, uv]) - middle) - half * (1.0 + 2.0 * AROUND)
+    near = (off <= 1e-12 * np.array([1.0, *cells.width])).all(axis=1)
     there = near & (gap <= 0.01 * found.same)
     sine = np.abs(_sines(edge, cells, t, uv))
     crosses = (sine > TANGENT) & (gap <= found.same * sine)  # near a touch gaps are small all along
