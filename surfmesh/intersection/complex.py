@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
 
 from surfmesh.cad.model.cad_model import CadCoedge, CadEdge, CadFace, CadModel, CadVertex
+from surfmesh.intersection.contents import region_area
 
 
 @dataclass(frozen=True, eq=False)
@@ -60,6 +62,14 @@ def compacted(
         for face in faces
     ]
     return [vertices[k] for k in ends], kept, numbered
+
+
+def with_areas(faces: Sequence[CadFace]) -> list[CadFace]:
+    """Faces that were cut, whose areas are nan, with them."""
+    return [
+        replace(face, area=region_area(face.surface, face.loops)) if math.isnan(face.area) else face
+        for face in faces
+    ]
 
 
 def with_seams_marked(loops: Sequence[Sequence[CadCoedge]]) -> tuple[tuple[CadCoedge, ...], ...]:

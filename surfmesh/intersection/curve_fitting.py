@@ -24,8 +24,9 @@ COUNTS = (16, 32, 64, 128, 256, 512, 1024, 2048)
 NEAR = 1e-10
 """Of the diagonal: how far the curve may be off either surface."""
 
-LOOSEST = 1e-7
-"""Of the diagonal: a curve that cannot be followed so closely is refused."""
+LOOSEST = 1e-6
+"""Of the diagonal: a curve that cannot be followed so closely is refused. Those of splines whose
+second derivative jumps are followed less closely than others; the edge's tolerance says so."""
 
 BETWEEN = np.array([0.113, 0.31, 0.5, 0.69, 0.887])
 """Of a span: where splines are compared with the surfaces."""

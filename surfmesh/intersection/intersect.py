@@ -16,7 +16,7 @@ from surfmesh.cad.model.extent import diagonal
 from surfmesh.errors import SurfaceError
 from surfmesh.geometry.cad_surfaces.face_surface import FaceSurface
 from surfmesh.intersection.bounds import are_known
-from surfmesh.intersection.complex import Complex, compacted
+from surfmesh.intersection.complex import Complex, compacted, with_areas
 from surfmesh.intersection.keeping import Keeping
 from surfmesh.intersection.meeting import joined
 from surfmesh.intersection.sheets import as_model
@@ -37,6 +37,7 @@ def intersected(things: Sequence[Any], keep: Any = "all", name: str = "") -> Cad
     whole = joined([Complex.of(model, k, names[k]) for k, model in enumerate(models)], size)
     kept = keeping.kept(whole)
     vertices, edges, faces = compacted(whole.vertices, whole.edges, [p.face for p, _ in kept])
+    faces = with_areas(faces)
     solids = keeping.solids(faces, edges, vertices, [against for _, against in kept])
     patches = [patch for patch, _ in kept]
     called = name or " and ".join(names)

@@ -128,7 +128,10 @@ class Keeping:
         return False
 
     def _is_of_solid(self, patch: Patch) -> bool:
-        inside = {other: sign < 0 for other, sign in self.sides(patch).items()}
+        sides = self.sides(patch)
+        if self.signs is not None and not all(sides.values()):
+            raise SurfaceError(next(iter(self.signs.reasons.values())))
+        inside = {other: sign < 0 for other, sign in sides.items()}
         if self.what == "common":
             return all(inside.values())
         if self.what == "difference" and patch.source > 0:

@@ -7,6 +7,7 @@ contacts (nodes)  ->  ends of branches  ->  branches of each pair of faces  ->  
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from dataclasses import replace
 from functools import partial
@@ -28,7 +29,6 @@ from surfmesh.intersection.complex import (
     with_seams_marked,
 )
 from surfmesh.intersection.contacts import Contacts, Side
-from surfmesh.intersection.contents import region_area
 from surfmesh.intersection.curve_fitting import FittedCurve, fitted
 from surfmesh.intersection.newton import unit_normals, uv_directions
 from surfmesh.intersection.poles import ways_out_of_pole
@@ -226,14 +226,15 @@ class Meeting:
 
 
 def _part_of_face(face: CadFace, loops: Sequence[tuple[CadCoedge, ...]]) -> CadFace:
-    ones = np.ones(2)
-    corners = np.concatenate([polygon_of(c, ones)[0] for loop in loops for c in loop])
+    polygons = [polygon_of(c, np.ones(2)) for loop in loops for c in loop]
+    corners = np.concatenate([polygon for polygon, _ in polygons])
     low, high = corners.min(axis=0), corners.max(axis=0)
-    room = ROOM * (high - low)
+    # between its samples a curve may go out further
+    room = ROOM * (high - low) + 2.0 * max(float(sag.max()) for _, sag in polygons)
     box = ((low - room)[0], (high + room)[0]), ((low - room)[1], (high + room)[1])
     surface = face.surface.with_domain(box)
     marked = with_seams_marked(loops)
-    return replace(face, surface=surface, loops=marked, area=region_area(surface, marked))
+    return replace(face, surface=surface, loops=marked, area=math.nan)  # see ``with_areas``
 
 
 def _ways(

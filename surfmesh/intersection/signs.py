@@ -7,6 +7,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from surfmesh.cad.model.cad_model import CadCoedge, CadModel
+from surfmesh.errors import SurfaceError
 from surfmesh.geometry.differential.projection import closest_point
 from surfmesh.intersection.complex import Complex, Patch
 from surfmesh.intersection.insides import Body
@@ -34,6 +35,8 @@ class Signs:
                 self.users.setdefault(coedge.edge, []).append((number, coedge))
         self._known: dict[int, dict[int, int]] = {}
         self._open: dict[int, list[int]] = {}
+        self.reasons: dict[tuple[int, int], str] = {}
+        """Why it is not known on which side of a closed input a patch lies."""
         self._points: dict[int, np.ndarray] = {}
 
     def of(self, patch: Patch) -> dict[int, int]:
@@ -50,7 +53,11 @@ class Signs:
     def _sign(self, number: int, other: int) -> int:
         body = self.bodies[other]
         if body is not None:
-            return -1 if body.holds(self._point(number)) else 1
+            try:
+                return -1 if body.holds(self._point(number)) else 1
+            except SurfaceError as error:  # said where somebody needs it
+                self.reasons[(number, other)] = str(error)
+                return 0
         if other not in self._open:
             self._open[other] = self._beside(other)
         return self._open[other][number]
