@@ -23,6 +23,7 @@ void bind_optimisation(nb::module_& m);
 void bind_surfaces(nb::module_& m);
 void bind_sizing(nb::module_& m);
 void bind_patch(nb::module_& m);
+void bind_faces(nb::module_& m);
 void bind_edges(nb::module_& m);
 
 namespace {
@@ -66,5 +67,6 @@ NB_MODULE(_core, m) {
     add(m, "surfaces", bind_surfaces);
     add(m, "sizing", bind_sizing);
     add(m, "patch", bind_patch);
+    add(m, "faces", bind_faces);
     add(m, "edges", bind_edges);
 }

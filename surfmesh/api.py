@@ -116,7 +116,7 @@ def mesh(
     progress: Progress | None = None,
     strict: bool = True,
     simplify: bool = False,
-    jobs: int = 1,
+    jobs: int | None = None,
     executor: Executor | None = None,
     order: int = 1,
 ) -> SurfaceMesh:
@@ -128,9 +128,10 @@ def mesh(
     the work stops. strict=False: faces of a CAD model that cannot be meshed are left out and
     listed in the mesh's ``warnings``. simplify=True: tiny edges of a CAD model are collapsed,
     those below ``min_size`` or a two-thousandth of the diagonal; lines of a planar domain that
-    are finer than the sizes are thinned; topology is kept. jobs: faces
-    of a CAD model meshed at once; the mesh is the same with any number of them. executor: meshes
-    them instead, in other processes or on other machines: any of ``concurrent.futures``, or
+    are finer than the sizes are thinned; topology is kept. jobs: how
+    many threads mesh, faces of a CAD model at once or within one; by default as many as this
+    process may use processors. The mesh is the same with any number of them. executor: meshes
+    faces instead, in other processes or on other machines: any of ``concurrent.futures``, or
     ``dask.distributed.Client(...).get_executor()``. order=2: nodes
     amid the edges too, on the true curves and surfaces (``mesh.mid_points``).
 
@@ -143,20 +144,25 @@ def mesh(
     if order not in (1, 2):
         raise SizingError(f"order is {shown(order)}: meshes are of order 1 or 2")
     model = _model_or_surface(surface)
+    from surfmesh.meshing.processors import allowed_threads, processors
+
+    threads = processors() if jobs is None else jobs
     if not isinstance(model, Surface):
         from surfmesh.meshing.faces.face_workers import FaceWorkers
         from surfmesh.meshing.model_mesh import mesh_model
 
-        workers = FaceWorkers(jobs, executor)
+        workers = FaceWorkers(threads, executor)
         made = mesh_model(model, sizing, optimise, progress, strict, simplify, workers)
     elif _is_domain(model):
         from surfmesh.meshing.planar_mesh import mesh_planar
 
-        made = mesh_planar(model, _one_sizing(model, sizing), optimise, progress, simplify)
+        with allowed_threads(threads):
+            made = mesh_planar(model, _one_sizing(model, sizing), optimise, progress, simplify)
     else:
         from surfmesh.meshing.parametric_mesh import mesh_parametric
 
-        made = mesh_parametric(model, _one_sizing(model, sizing), optimise, progress)
+        with allowed_threads(threads):
+            made = mesh_parametric(model, _one_sizing(model, sizing), optimise, progress)
     if order == 2:
         from surfmesh.meshing.finishing.second_order import of_second_order
 

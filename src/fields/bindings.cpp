@@ -8,7 +8,7 @@
 #include "fields/background.hpp"
 #include "fields/coverage.hpp"
 #include "fields/gradation.hpp"
-#include "fields/source_tree.hpp"
+#include "fields/grown_sizes.hpp"
 #include "fields/tensors.hpp"
 
 namespace surfmesh::binding {
@@ -140,6 +140,11 @@ void bind_background(nb::module_& m) {
     c.def("metric_area", &metric_area_of_box, nb::arg("x1"), nb::arg("y1"),
           nb::call_guard<nb::gil_scoped_release>(),
           "Integral of 1 / det H over [x0, x1] x [y0, y1], (x0, y0) the corner of the box.");
+    c.def(
+        "expected_circles",
+        [](const Background& b, double x1, double y1) { return expected_circles(b, {x1, y1}); },
+        nb::arg("x1"), nb::arg("y1"), nb::call_guard<nb::gil_scoped_release>(),
+        "About how many circles cover the same rectangle.");
     c.def_prop_ro("is_anisotropic", &Background::is_anisotropic);
     bind_look_up(c, "sizes", &sizes, "Size tensors H (n, 3) at points (n, 2).");
     bind_look_up(c, "metric_roots", &metric_roots, "A = H^-1 (n, 3) at points (n, 2).");
@@ -252,38 +257,33 @@ void bind_gradation(nb::module_& m) {
 }
 
 void bind_sources(nb::module_& m) {
-    m.attr("MOST_IN_A_ROW") = MOST_IN_A_ROW;
     m.def(
-        "grow_tree",
+        "grow_sizes",
         [](const Points2& place, const Vector<double>& size,
            std::tuple<double, double, double> metric, double slope, double largest,
-           std::tuple<double, double, double, double> root, std::pair<double, double> upper,
-           std::pair<std::int32_t, std::int32_t> grid, double largest_in_plane,
-           std::int64_t most_cells) -> std::optional<Background> {
+           std::tuple<double, double, double, double> box) -> std::optional<Background> {
             require_rows(size.shape(0), place.shape(0), "size");
-            const auto [nx, ny] = grid;
-            if (nx < 1 || ny < 1 || nx > MOST_IN_A_ROW || ny > MOST_IN_A_ROW)
-                throw nb::value_error("grid is not positive, or larger than MOST_IN_A_ROW");
-            if (most_cells < 1 || most_cells > (std::int64_t{1} << 30))
-                throw nb::value_error("most_cells is not from 1 to 2^30");
             if (place.shape(0) > (std::size_t{1} << 30))
                 throw nb::value_error("there are more than 2^30 sources");
             const auto [e, f, g] = metric;
-            const auto [x0, y0, wide, high] = root;
+            const auto [x0, y0, x1, y1] = box;
+            constexpr double MOST = std::numeric_limits<double>::max();
+            if (!(0.0 < x1 - x0 && x1 - x0 <= MOST && 0.0 < y1 - y0 && y1 - y0 <= MOST))
+                throw nb::value_error("box has no width or no height, or is not finite");
+            if (!(e > 0.0 && e * g > f * f)) throw nb::value_error("metric is not positive");
             const Sources sources{rows<Point2>(place), rows<double>(size), e, f, g, slope, largest};
-            const RootCells roots{x0, y0, wide, high, upper.first, upper.second, nx, ny};
             const nb::gil_scoped_release released;
-            GrownTree grown = grow_tree(sources, roots, largest_in_plane, most_cells);
+            GrownTree grown = grow_sizes(sources, {{x0, y0}, {x1, y1}});
             if (grown.status == TreeStatus::too_many_cells) return std::nullopt;
             return std::move(grown.background);
         },
         nb::arg("place"), nb::arg("size"), nb::arg("metric"), nb::arg("slope"), nb::arg("largest"),
-        nb::arg("root"), nb::arg("upper"), nb::arg("grid"), nb::arg("largest_in_plane"),
-        nb::arg("most_cells"),
+        nb::arg("box"),
         "The background of the sizes min(largest, size_k + slope distance_k) of sources at place "
-        "(n, 2).\n\nmetric: the constant E, F, G. root: x0, y0, width and height of a root cell; "
-        "upper: the corner of what is asked for; grid: root cells along x and y. None when more "
-        "than most_cells are needed.");
+        "(n, 2), over box: x0, y0, x1, y1.\n\nmetric: the constant E, F, G. What lies beyond the "
+        "upper and right sides may be covered too. None where more than MOST_SOURCE_CELLS cells "
+        "are needed.");
+    m.attr("MOST_SOURCE_CELLS") = MOST_SOURCE_CELLS;
 }
 
 void bind_tensors(nb::module_& m) {

@@ -54,4 +54,11 @@ double metric_area_of_box(const Background& b, double x1, double y1) {
     return total;
 }
 
+std::size_t expected_circles(const Background& background, Point2 upper) {
+    constexpr double COUNTABLE = 1e18;  // more are as many
+    const double area = metric_area_of_box(background, upper.x, upper.y);
+    const double circles = area * 2.0 / std::sqrt(3.0);
+    return static_cast<std::size_t>(circles < COUNTABLE ? circles : COUNTABLE) + 100;
+}
+
 }  // namespace surfmesh

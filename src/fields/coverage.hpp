@@ -11,4 +11,8 @@ namespace surfmesh {
 /// Gauss are exact, also in a leaf that the rectangle cuts.
 [[nodiscard]] double metric_area_of_box(const Background& background, double x1, double y1);
 
+/// About how many circles cover the rectangle: its metric area over that of a circle's share,
+/// sqrt(3) / 2, and some more.
+[[nodiscard]] std::size_t expected_circles(const Background& background, Point2 upper);
+
 }  // namespace surfmesh

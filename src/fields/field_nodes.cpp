@@ -12,8 +12,9 @@ constexpr double ALIKE = 1.01;  // ratio up to which they are one size: on flat 
 
 template <class T>
 void extend(Array<T>& array, const Array<T>& more) {
-    array.reserve(array.size() + more.size());
-    for (const T& value : more) array.push_back(value);
+    const std::size_t first = array.size();
+    array.resize(first + more.size());
+    std::copy(more.begin(), more.end(), array.begin() + first);
 }
 
 /// Square root of the symmetric (e f; f g), s = sqrt(det): (I + s Id) / t, t^2 = tr I + 2 s.

@@ -78,15 +78,6 @@ void bind_outcomes(nb::module_& m) {
         .def_ro("half_edge", &BoundaryOutcome::half_edge, "The one concerned, or NIL.");
 }
 
-void require_lengths(const Numbers& lengths, std::size_t total) {
-    std::size_t sum = 0;
-    for (const std::int32_t length : rows<std::int32_t>(lengths)) {
-        if (length < 0) throw nb::value_error("lengths has a negative one");
-        sum += static_cast<std::size_t>(length);
-    }
-    if (sum != total) throw nb::value_error("lengths do not add up to the number of nodes");
-}
-
 /// Step 1: what is one node.
 void bind_nodes(nb::module_& m) {
     m.def(

@@ -38,6 +38,15 @@ void require_column(const Pairs& pairs, std::size_t k, std::size_t count, const 
         require_indices(std::span<const std::int32_t>(&pairs(i, k), 1), count, what);
 }
 
+void require_lengths(const Numbers& lengths, std::size_t total) {
+    std::size_t sum = 0;
+    for (const std::int32_t length : rows<std::int32_t>(lengths)) {
+        if (length < 0) throw nb::value_error("lengths has a negative one");
+        sum += static_cast<std::size_t>(length);
+    }
+    if (sum != total) throw nb::value_error("lengths do not add up to the number of nodes");
+}
+
 LoopBoundary loop_boundary(const Points2& nodes, const Pairs& segments, const Pairs& inner,
                            const Vector<std::int64_t>& identity,
                            const std::optional<Points3>& points) {

@@ -23,6 +23,9 @@ void require_pairs(const Pairs& pairs, std::size_t count, const char* what);
 /// Column ``k`` of pairs has indices below ``count``.
 void require_column(const Pairs& pairs, std::size_t k, std::size_t count, const char* what);
 
+/// Lengths of loops add up to the number of nodes.
+void require_lengths(const Numbers& lengths, std::size_t total);
+
 /// Views of the arrays; raises ``ValueError`` for indices out of range and places not finite.
 LoopBoundary loop_boundary(const Points2& nodes, const Pairs& segments, const Pairs& inner,
                            const Vector<std::int64_t>& identity,

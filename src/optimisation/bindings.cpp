@@ -130,17 +130,16 @@ void bind_smoothing(nb::module_& m) {
         "Returns x, y and the smallest alpha of the star, -1 where a triangle is turned over.");
     m.def(
         "smooth",
-        [](Triangulation& t, SurfaceFrames& s, const Background& background, const Stars& stars,
-           VertexMarks& marks, double stiffness) {
+        [](Triangulation& t, SurfaceFrames& s, const Stars& stars, VertexMarks& marks,
+           double stiffness) {
             require_domain(t, s);
             require_stars(t, stars);
             require_marks(t, marks);
             Array<Vertex> moved;
-            smooth(t, s, background, stars, marks, stiffness, moved);
+            smooth(t, s, stars, marks, stiffness, moved);
             return view(moved);
         },
-        nb::arg("t"), nb::arg("frames"), nb::arg("background"), nb::arg("stars"), nb::arg("marks"),
-        nb::arg("stiffness"),
+        nb::arg("t"), nb::arg("frames"), nb::arg("stars"), nb::arg("marks"), nb::arg("stiffness"),
         "Move every active vertex by one Newton step; returns the vertices that moved.");
 }
 

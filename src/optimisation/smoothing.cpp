@@ -9,9 +9,11 @@ namespace {
 
 constexpr double LEAST_SHAPE = 0.6;   // a move may lower the worst alpha, but not below this
 constexpr double LONGEST_STEP = 0.3;  // of the wanted edge length
-constexpr double STILL =
-    0.02;  // a vertex that moves less (unit lengths) leaves its neighbours alone
+// A vertex that moves less (unit lengths) leaves its neighbours alone. Newton steps are taken
+// longer, so that passes settle sooner; not where sizes depend on the direction
+constexpr double STILL = 0.03, STILL_STRETCHED = 0.02, OVER_RELAXATION = 1.2;
 constexpr double SMALLEST_MOVE = 1e-4;  // in unit lengths: shorter steps are not made
+constexpr double GOOD_IN_PLANE = 0.72;  // alpha in the tangent plane: space is not asked
 constexpr double HALF_INVERSE_ROOT_3 = 0.28867513459481287;
 
 /// Edges of a star that are looked at together, so that a compiler can compute several at a time.
@@ -31,48 +33,60 @@ struct StarPart {
         qy[count] = q.y;
         scale[count++] = mean_size;
     }
+    /// Fill the rest with the first edge, to be computed for nothing.
+    void fill() {
+        for (std::size_t k = count; k < CHUNK; ++k) {
+            px[k] = px[0];
+            py[k] = py[0];
+            qx[k] = qx[0];
+            qy[k] = qy[0];
+            scale[k] = scale[0];
+        }
+    }
 };
 
-/// What single triangles or edges add to the gradient and the Hessian.
+/// Twice the areas of the triangles p, q.
+void areas(const StarPart& part, Numbers& area) {
+    for (std::size_t k = 0; k < CHUNK; ++k)
+        area[k] = part.px[k] * part.qy[k] - part.py[k] * part.qx[k];
+}
+
+/// What single triangles and edges add to the gradient and the Hessian.
 struct EnergyTerms {
     Numbers gx, gy, a11, a12, a22;
 };
 
-/// Terms of (1 / alpha)^2 / 2 of the triangles p, q, and 1 / alpha.
-void triangle_terms(const StarPart& part, EnergyTerms& e, Numbers& inverse_alpha, Numbers& area) {
+/// Terms of (1 / alpha)^2 / 2 of the triangles p, q, and of stiffness (l - 1)^2 of the edges p.
+///
+/// One division gives the reciprocals of the area, of the length d of p and of the mean size:
+/// each is that of their product times the two others.
+void energy_terms(const StarPart& part, const Numbers& area, double stiffness, EnergyTerms& e,
+                  Numbers& inverse_alpha) {
     for (std::size_t k = 0; k < CHUNK; ++k) {
         const double px = part.px[k], py = part.py[k], qx = part.qx[k], qy = part.qy[k];
-        area[k] = px * qy - py * qx;  // twice the area
-        const double total = 2.0 * (px * px + py * py + qx * qx + qy * qy - px * qx - py * qy);
-        const double i = 1.0 / area[k];
+        const double square = px * px + py * py, d = std::sqrt(square);
+        const double d_scale = d * part.scale[k];
+        const double all = 1.0 / (area[k] * d_scale);
+        const double i = all * d_scale;
+        const double total = 2.0 * (square + qx * qx + qy * qy - px * qx - py * qy);
         const double f = HALF_INVERSE_ROOT_3 * total * i;  // 1 / alpha = total / (2 sqrt 3 area)
         const double tx = -2.0 * (px + qx), ty = -2.0 * (py + qy);  // gradient of total
-        const double rx = py - qy, ry = qx - px;                    // gradient of area
-        const double c = HALF_INVERSE_ROOT_3 * i * f;
+        const double rx = (py - qy) * i, ry = (qx - px) * i;        // of area, over area
+        const double c = HALF_INVERSE_ROOT_3 * i * f, both = 2.0 * total;
         inverse_alpha[k] = f;
-        e.gx[k] = c * (tx - total * rx * i);
-        e.gy[k] = c * (ty - total * ry * i);
-        e.a11[k] = c * (4.0 - 2.0 * tx * rx * i + 2.0 * total * rx * rx * i * i);
-        e.a12[k] = c * (-(tx * ry + ty * rx) * i + 2.0 * total * rx * ry * i * i);
-        e.a22[k] = c * (4.0 - 2.0 * ty * ry * i + 2.0 * total * ry * ry * i * i);
-    }
-}
 
-/// Terms of stiffness (l - 1)^2 of the edges p; the gradient is to be taken off.
-void edge_terms(const StarPart& part, double stiffness, EnergyTerms& e) {
-    for (std::size_t k = 0; k < CHUNK; ++k) {
-        const double px = part.px[k], py = part.py[k], scale = part.scale[k];
-        const double d = std::sqrt(px * px + py * py);
-        const double l = d / scale;
-        const double nx = px / d, ny = py / d;
-        const double stiff = 2.0 * stiffness / (scale * scale);
-        const double bend = stiff * (l - 1.0) / l;
+        const double over_d = all * area[k] * part.scale[k], over_scale = all * area[k] * d;
+        const double nx = px * over_d, ny = py * over_d;
+        const double stiff = 2.0 * stiffness * over_scale * over_scale;
+        const double pull = stiff * (d - part.scale[k]);
+        const double bend = pull * over_d;
         const double across = 0.5 * (bend + std::abs(bend));  // its maximum with 0, exactly
-        e.gx[k] = stiff * scale * (l - 1.0) * nx;
-        e.gy[k] = stiff * scale * (l - 1.0) * ny;
-        e.a11[k] = stiff * nx * nx + across * ny * ny;
-        e.a12[k] = (stiff - across) * nx * ny;
-        e.a22[k] = stiff * ny * ny + across * nx * nx;
+        const double along = stiff - across;
+        e.gx[k] = c * (tx - total * rx) - pull * nx;
+        e.gy[k] = c * (ty - total * ry) - pull * ny;
+        e.a11[k] = c * (4.0 + rx * (both * rx - 2.0 * tx)) + (across + along * nx * nx);
+        e.a12[k] = c * (both * rx * ry - (tx * ry + ty * rx)) + along * nx * ny;
+        e.a22[k] = c * (4.0 + ry * (both * ry - 2.0 * ty)) + (across + along * ny * ny);
     }
 }
 
@@ -80,26 +94,22 @@ void edge_terms(const StarPart& part, double stiffness, EnergyTerms& e) {
 struct Energy {
     double gx = 0.0, gy = 0.0, a11 = 0.0, a12 = 0.0, a22 = 0.0, inverse_alpha = 0.0;
 
-    /// Add a part of the star, which is emptied; false where a triangle is turned over.
+    /// Add a part of the star; false where a triangle is turned over.
     bool add(StarPart& part, double stiffness) {
-        EnergyTerms of_triangle, of_edge;
+        EnergyTerms terms;
         Numbers inverse, area;
-        for (std::size_t k = part.count; k < CHUNK; ++k) {  // what is computed for nothing
-            part.px[k] = part.qy[k] = part.scale[k] = 1.0;
-            part.py[k] = part.qx[k] = 0.0;
-        }
-        triangle_terms(part, of_triangle, inverse, area);
-        edge_terms(part, stiffness, of_edge);
+        part.fill();
+        areas(part, area);
+        if (!(*std::min_element(area.begin(), area.end()) > 0.0)) return false;
+        energy_terms(part, area, stiffness, terms, inverse);
         for (std::size_t k = 0; k < part.count; ++k) {
-            if (area[k] <= 0.0) return false;
             inverse_alpha = std::max(inverse_alpha, inverse[k]);
-            gx = gx + of_triangle.gx[k] - of_edge.gx[k];
-            gy = gy + of_triangle.gy[k] - of_edge.gy[k];
-            a11 = a11 + of_triangle.a11[k] + of_edge.a11[k];
-            a12 = a12 + of_triangle.a12[k] + of_edge.a12[k];
-            a22 = a22 + of_triangle.a22[k] + of_edge.a22[k];
+            gx += terms.gx[k];
+            gy += terms.gy[k];
+            a11 += terms.a11[k];
+            a12 += terms.a12[k];
+            a22 += terms.a22[k];
         }
-        part.count = 0;
         return true;
     }
 
@@ -133,15 +143,85 @@ bool is_spoilt(const Triangulation& t, const SurfaceFrames& s, Vertex v, HalfEdg
     return false;
 }
 
-/// Move v by ``step`` in its unit tangent plane, unless a triangle turns over or a bad star worse.
-bool move(Triangulation& t, SurfaceFrames& s, Vertex v, HalfEdge start, const NewtonStep& by) {
+/// A vertex that may move, and the star around it: triangles v, p, q in their order.
+struct MovingVertex {
+    Vertex v;
+    HalfEdge start;
+    NewtonStep by;
+    bool whole = false;  // is all of its star in ``part`` and ``ring``?
+    StarPart part;
+    std::array<Vertex, CHUNK + 1> ring;  // the first once more at the end
+};
+
+/// Find the step of v; what is left of its star in ``part`` is the whole where that is not large.
+void find_step(const Triangulation& t, const SurfaceFrames& s, double stiffness, MovingVertex& m) {
+    const Vertex v = m.v;
+    Energy energy;
+    StarPart& part = m.part;
+    part.count = 0;
+    m.whole = true;
+    m.by = {{0.0, 0.0}, -1.0};
+    HalfEdge e = m.start;
+    Vertex p = t.tri[next_half_edge(e)];
+    Point2 to_p = chord(s, v, p);
+    do {
+        if (part.count == CHUNK) {
+            m.whole = false;
+            if (!energy.add(part, stiffness)) return;
+            part.count = 0;
+        }
+        const HalfEdge before = prev_half_edge(e);
+        const Vertex q = t.tri[before];
+        const Point2 to_q = chord(s, v, q);
+        e = t.adj[before];
+        if (coincide(s, p, q)) {  // will collapse: neither shape nor a second edge
+            m.whole = false;
+            p = q;
+            continue;
+        }
+        m.ring[part.count] = p;
+        part.add(to_p, to_q, mean_size(s, v, p, to_p));
+        p = q;
+        to_p = to_q;
+    } while (e != m.start);
+    if (part.count > 0 && !energy.add(part, stiffness)) return;
+    m.ring[part.count] = p;
+    m.by = {energy.step(), std::min(1.0, 1.0 / energy.inverse_alpha)};
+}
+
+/// Are all triangles of a whole star surely good after the step, in the tangent plane of v?
+bool stays_good(const MovingVertex& m) {
+    constexpr double BOUND = GOOD_IN_PLANE * HALF_INVERSE_ROOT_3;
+    std::array<double, CHUNK> spare;
+    for (std::size_t k = 0; k < CHUNK; ++k) {
+        const double px = m.part.px[k] - m.by.step.x, py = m.part.py[k] - m.by.step.y;
+        const double qx = m.part.qx[k] - m.by.step.x, qy = m.part.qy[k] - m.by.step.y;
+        const double total = 2.0 * (px * px + py * py + qx * qx + qy * qy - px * qx - py * qy);
+        spare[k] = px * qy - py * qx - BOUND * total;  // alpha = 2 sqrt 3 area / total
+    }
+    return *std::min_element(spare.begin(), spare.end()) > 0.0;
+}
+
+/// Are all triangles of a whole star positive in the plane, exactly?
+bool stays_positive(const Triangulation& t, const MovingVertex& m) {
+    for (std::size_t k = 0; k < m.part.count; ++k)
+        if (orient(t.xy, m.v, m.ring[k], m.ring[k + 1]) <= 0.0) return false;
+    return true;
+}
+
+/// Move v by its step in its unit tangent plane, unless a triangle turns over or a bad star worse.
+bool move(Triangulation& t, SurfaceFrames& s, const MovingVertex& m) {
+    const Vertex v = m.v;
     const Point2 xy = t.xy[v];
     const Point3 point = s.point[v];
     const SizeTensor h = t.size[v];
-    t.xy[v] = {xy.x + h.xx * by.step.x + h.xy * by.step.y,
-               xy.y + h.xy * by.step.x + h.yy * by.step.y};
-    s.point[v] = point + lift(s, v, by.step);
-    if (!is_spoilt(t, s, v, start, std::min(by.worst, LEAST_SHAPE))) return true;
+    const Point2 step = m.by.step;
+    t.xy[v] = {xy.x + h.xx * step.x + h.xy * step.y, xy.y + h.xy * step.x + h.yy * step.y};
+    s.point[v] = point + lift(s, v, step);
+    const bool fine = m.whole && stays_good(m)
+                          ? stays_positive(t, m)
+                          : !is_spoilt(t, s, v, m.start, std::min(m.by.worst, LEAST_SHAPE));
+    if (fine) return true;
     t.xy[v] = xy;
     s.point[v] = point;
     return false;
@@ -151,39 +231,34 @@ bool move(Triangulation& t, SurfaceFrames& s, Vertex v, HalfEdge start, const Ne
 
 NewtonStep newton_step(const Triangulation& t, const SurfaceFrames& s, Vertex v, HalfEdge start,
                        double stiffness) {
-    Energy energy;
-    StarPart part;
-    HalfEdge e = start;
-    Point2 to_p = chord(s, v, t.tri[next_half_edge(e)]);
-    do {
-        const Vertex p = t.tri[next_half_edge(e)], q = t.tri[prev_half_edge(e)];
-        const Point2 to_q = chord(s, v, q);
-        e = rotate_ccw(t, e);
-        if (coincide(s, p, q)) continue;  // will collapse: neither shape nor a second edge
-        part.add(to_p, to_q, mean_size(s, v, p, to_p));
-        if (part.count == CHUNK && !energy.add(part, stiffness)) return {{0.0, 0.0}, -1.0};
-        to_p = to_q;
-    } while (e != start);
-    if (part.count > 0 && !energy.add(part, stiffness)) return {{0.0, 0.0}, -1.0};
-    return {energy.step(), std::min(1.0, 1.0 / energy.inverse_alpha)};
+    MovingVertex m;
+    m.v = v;
+    m.start = start;
+    find_step(t, s, stiffness, m);
+    return m.by;
 }
 
-void smooth(Triangulation& t, SurfaceFrames& s, const Background& background, const Stars& stars,
-            VertexMarks& marks, double stiffness, Array<Vertex>& moved) {
+void smooth(Triangulation& t, SurfaceFrames& s, const Stars& stars, VertexMarks& marks,
+            double stiffness, Array<Vertex>& moved) {
     moved.clear();
+    const double longer = s.is_anisotropic ? 1.0 : OVER_RELAXATION;
+    const double still = s.is_anisotropic ? STILL_STRETCHED : STILL;
+    MovingVertex m;
     for (Vertex v = 0; v < t.vertices(); ++v) {
-        const HalfEdge start = stars.start[v];
-        if (marks.active[v] == 0 || stars.frozen[v] != 0 || start == NIL) continue;
+        m.v = v;
+        m.start = stars.start[v];
+        if (marks.active[v] == 0 || stars.frozen[v] != 0 || m.start == NIL) continue;
         marks.active[v] = 0;
-        const NewtonStep by = newton_step(t, s, v, start, stiffness);
-        const double squared = dot(by.step, by.step);
-        if (squared < SMALLEST_MOVE * SMALLEST_MOVE || !move(t, s, v, start, by)) continue;
-        set_size(t, s, background, v);
+        find_step(t, s, stiffness, m);
+        m.by.step = longer * m.by.step;
+        const double squared = dot(m.by.step, m.by.step);
+        if (squared < SMALLEST_MOVE * SMALLEST_MOVE || !move(t, s, m)) continue;
+        s.drift[v] += std::sqrt(squared);
         moved.push_back(v);
         marks.dirty[v] = 1;
-        if (squared > STILL * STILL) {
+        if (squared > still * still) {
             marks.active[v] = 1;
-            for_each_in_star(t, start,
+            for_each_in_star(t, m.start,
                              [&](HalfEdge e) { marks.active[t.tri[next_half_edge(e)]] = 1; });
         }
     }

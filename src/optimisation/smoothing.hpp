@@ -1,8 +1,9 @@
 // Smoothing: each vertex goes to where its star has good shapes and unit edges.
 //
 // In: a domain with its frames and stars. A vertex moves by one Newton step in its unit tangent
-// plane, in the parameter plane and in space alike; the caller puts it back on the surface. Fixed
-// edges and the border stay, every triangle stays positive, exactly.
+// plane, in the parameter plane and in space alike, and keeps its frame: the caller puts it back on
+// the surface where it has drifted far. Fixed edges and the border stay, every triangle stays
+// positive, exactly.
 #pragma once
 
 #include "optimisation/stars.hpp"
@@ -30,7 +31,7 @@ NewtonStep newton_step(const Triangulation& t, const SurfaceFrames& s, Vertex v,
 ///
 /// A move that would turn a triangle over, or make a bad star worse, is not made. Vertices that
 /// have moved noticeably, and their neighbours, stay active.
-void smooth(Triangulation& t, SurfaceFrames& s, const Background& background, const Stars& stars,
-            VertexMarks& marks, double stiffness, Array<Vertex>& moved);
+void smooth(Triangulation& t, SurfaceFrames& s, const Stars& stars, VertexMarks& marks,
+            double stiffness, Array<Vertex>& moved);
 
 }  // namespace surfmesh

@@ -86,6 +86,7 @@ void SurfaceFrames::resize(std::size_t vertices) {
     normal.resize(vertices);
     size.resize(vertices);
     scale.resize(vertices, 1.0);
+    drift.resize(vertices);
     if (is_anisotropic) metric_root.resize(vertices);
 }
 
@@ -97,6 +98,7 @@ void set_frame(Triangulation& t, SurfaceFrames& s, const Background& background,
     const Point3 n = cross(at.rx, at.ry);
     const double area = norm(n);
     s.point[v] = at.r;
+    s.drift[v] = 0.0;
     s.normal[v] = (area > DEGENERATE * (e + g) ? 1.0 / area : 0.0) * n;
     const double floor = (e + g) / (largest * largest) + 1e-300;
     e += floor;

@@ -44,6 +44,7 @@ struct SurfaceFrames {
     Array<Point3> normal;            // unit normal, zero at a degenerate point
     Array<double> size;              // wanted edge length h
     Array<double> scale;             // h over that of the size field, at most 1
+    Array<double> drift;             // how far it has moved since its frame was set, unit lengths
     Array<MetricRoot3> metric_root;  // W; empty where sizes are isotropic
     bool is_anisotropic = false;     // do the sizes depend on the direction?
     RefinementLimits limits;

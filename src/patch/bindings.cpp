@@ -1,6 +1,7 @@
 #include <nanobind/stl/optional.h>
 #include <nanobind/stl/pair.h>
 
+#include <cmath>
 #include <memory>
 #include <optional>
 
@@ -138,6 +139,17 @@ void bind_passes(nb::class_<BoundPatch>& c) {
         },
         nb::arg("good") = GOOD_SHAPE,
         "Swap edges of triangles below the alpha ``good`` while that raises the smaller one.");
+    c.def(
+        "raise_worst",
+        [](BoundPatch& p, double least) {
+            p.run([&](PatchState& s) {
+                s.raise_worst(least);
+                return true;
+            });
+        },
+        nb::arg("least"),
+        "Raise the smallest alpha around triangles below ``least`` by moves of their free "
+        "corners.");
     c.def(
         "swap_for_degree",
         [](BoundPatch& p) { p.run_pass([](PatchState& s) { s.swap_for_degree(); }); },

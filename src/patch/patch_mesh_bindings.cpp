@@ -1,6 +1,7 @@
 // The whole way of a patch, with hooks that are the caller's own functions in Python.
 #include <nanobind/stl/array.h>
 #include <nanobind/stl/optional.h>
+#include <nanobind/stl/pair.h>
 
 #include <array>
 
@@ -112,6 +113,12 @@ void bind_mesh(nb::module_& m) {
     nb::class_<PatchMesh>(m, "PatchMesh", "What has become of a patch.")
         .def_ro("end", &PatchMesh::end, "All else is there where it is DONE.")
         .def_prop_ro("packing", [](const PatchMesh& made) { return made.packing.status; })
+        .def_prop_ro(
+            "place",
+            [](const PatchMesh& made) {
+                return std::pair(made.packing.place.x, made.packing.place.y);
+            },
+            "Where the packing ended, if not by its limits.")
         .def_ro("circles", &PatchMesh::circles, "How many were packed.")
         .def_ro("boundary", &PatchMesh::boundary)
         .def_ro("domain", &PatchMesh::domain, "The triangles in the scaled plane.")

@@ -7,6 +7,7 @@
 #include "optimisation/smoothing.hpp"
 #include "optimisation/splits.hpp"
 #include "optimisation/swaps.hpp"
+#include "optimisation/worst_shapes.hpp"
 
 namespace surfmesh {
 namespace {
@@ -103,6 +104,15 @@ void PatchState::set_block(std::span<const Vertex> vertices, bool on_kink) {
     }
 }
 
+void PatchState::renew_frames(std::span<const Vertex> vertices, double drift) {
+    Array<Vertex> far;
+    for (const Vertex v : vertices)
+        if (frames.drift[v] > drift) far.push_back(v);
+    set_frames(all(far));
+}
+
+void PatchState::settle() { renew_frames(all(vertices_from(0, t.vertices())), 0.0); }
+
 void PatchState::set_frames_on_kinks() {
     if (nodes_.on_kinks.empty()) return;
     set_sized_frames(all(nodes_.on_kinks), true);
@@ -161,10 +171,17 @@ int PatchState::smooth(double stiffness) {
     if (!stopped() && setting_.before_pass) cancelled_ = !setting_.before_pass();
     if (stopped()) return 0;
     find_stars();
-    surfmesh::smooth(t, frames, setting_.background, stars, marks, stiffness, moved);
-    set_sized_frames(all(moved));
+    surfmesh::smooth(t, frames, stars, marks, stiffness, moved);
+    renew_frames(all(moved), kept_drift);
     ++passes;
     return static_cast<int>(moved.size());
+}
+
+void PatchState::raise_worst(double least) {
+    if (stopped()) return;
+    find_stars();
+    surfmesh::raise_worst(t, frames, stars, marks, least, moved);
+    renew_frames(all(moved), kept_drift);
 }
 
 void PatchState::swap(double good) {

@@ -3,7 +3,7 @@
 // In: the triangulation of a domain, which changes in place; its surface, chart and size field,
 // which do not; where the nodes of its boundary are, which stay. A pass changes only what is
 // active, and marks what it has changed as active and dirty. After each of them the vertices that
-// moved are put back on the true surface.
+// have moved by more than ``kept_drift`` are put back on the true surface.
 #pragma once
 
 #include <functional>
@@ -59,8 +59,9 @@ class PatchState {
     SurfaceFrames frames;
     Stars stars;
     VertexMarks marks;
-    Array<double> shape;  // alpha of the triangles, as swaps have last seen it
-    Array<Vertex> moved;  // by the last pass of smoothing
+    Array<double> shape;      // alpha of the triangles, as swaps have last seen it
+    Array<Vertex> moved;      // by the last pass of smoothing
+    double kept_drift = 0.0;  // what a vertex may move, in unit lengths, before it is put back
     int swaps = 0, collapses = 0, splits = 0, passes = 0;
 
     [[nodiscard]] const AskedAccuracy& asked() const { return setting_.asked; }
@@ -81,6 +82,8 @@ class PatchState {
 
     /// Put vertices back on the surface, with their exact metric.
     void set_frames(std::span<const Vertex> vertices);
+    /// Put all vertices that have moved back on the surface.
+    void settle();
     /// Give vertices on kinks the mean of the frames around them.
     ///
     /// With the normal of one side, triangles of the other would seem to be turned over.
@@ -90,6 +93,8 @@ class PatchState {
 
     /// Move every active vertex by one Newton step; returns how many have moved.
     int smooth(double stiffness = STIFFNESS);
+    /// Raise the smallest alpha around triangles below ``least`` by moves of their free corners.
+    void raise_worst(double least);
     /// Swap edges of triangles below the alpha ``good`` while that raises the smaller one.
     void swap(double good = GOOD_SHAPE);
     /// Swap edges that bring the degrees of their four vertices nearer to six.
@@ -106,6 +111,7 @@ class PatchState {
     void end_passes();
 
   private:
+    void renew_frames(std::span<const Vertex> vertices, double drift);
     void set_sized_frames(std::span<const Vertex> vertices, bool on_kink = false);
     void set_block(std::span<const Vertex> vertices, bool on_kink);
     void read_mean_slopes(std::span<const Point2> uv, Array<Point3>& ru, Array<Point3>& rv);

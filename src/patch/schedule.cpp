@@ -1,5 +1,7 @@
 #include "patch/schedule.hpp"
 
+#include <algorithm>
+
 #include "optimisation/marked_triangles.hpp"
 #include "patch/angle_reduction.hpp"
 #include "patch/surface_approach.hpp"
@@ -7,31 +9,55 @@
 namespace surfmesh {
 namespace {
 
-constexpr int ROUNDS = 2, FINAL_PASSES = 2;
-constexpr double LEFT_OVER = 0.7;  // below this alpha, what packing or boundary have left over
+// Up to this fraction of the triangles only what collapses and splits change is smoothed anew.
+constexpr double MANY_CHANGES = 0.01;
+
+constexpr int STRETCHED_PASSES = 2;
 
 // Triangles below this alpha get passes of their own, with little weight of unit edges.
 constexpr double BAD_SHAPE = 0.72;
 
+// In the end this part of the triangles is raised to the alpha of the others, within limits: below
+// the first is always bad, above the second always good. Their neighbours lose what they gain.
+constexpr double WORST_PART = 0.0005, RAISED[] = {0.65, 0.86};
+constexpr int RAISING_PASSES = 3;
+
+constexpr double LEFT_OVER = 0.7;  // below this alpha, what packing or boundary have left over
+
 // Weight of unit edges in the passes for the worst triangles, and in those for all shapes.
 constexpr double WORST_STIFFNESS = 0.3, SHAPE_STIFFNESS = 0.6;
-constexpr int WORST_PASSES = 4, SHAPE_PASSES = 4;
+
+// Vertices that have moved by less, in unit lengths, keep their frames until all is settled: they
+// are off the surface by about half its curvature times the square.
+constexpr double KEPT_DRIFT = 0.15, KEPT_DRIFT_STRETCHED = 0.1;
+
+constexpr int WORST_PASSES = 4, SHAPE_PASSES = 3;
+
+void smooth_and_swap(PatchState& state) {
+    state.smooth();
+    state.swap_for_degree();
+    state.smooth();
+    state.swap();
+}
 
 /// Swaps, collapses and splits between passes of smoothing.
 void relax(PatchState& state) {
     state.swap();
-    for (int round = 1; round <= ROUNDS; ++round) {
-        state.smooth();
-        state.swap_for_degree();
-        state.smooth();
+    smooth_and_swap(state);
+    const int before = state.collapses + state.splits;
+    state.collapse();
+    state.split();
+    const int changes = state.collapses + state.splits - before;
+    if (state.is_anisotropic()) {  // its moves are larger, and no passes for shape follow
+        smooth_and_swap(state);
+        for (int pass = 0; pass < STRETCHED_PASSES; ++pass)
+            if (state.smooth() == 0) break;
         state.swap();
-        if (round == ROUNDS) break;
-        state.collapse();
-        state.split();
+        return;
     }
-    for (int pass = 0; pass < FINAL_PASSES; ++pass)
-        if (state.smooth() == 0) break;
-    state.swap();
+    if (changes == 0) return;
+    if (changes < MANY_CHANGES * state.t.triangles()) state.marks.active = state.marks.dirty;
+    smooth_and_swap(state);
 }
 
 /// Passes for the worst triangles alone.
@@ -41,6 +67,29 @@ void improve_worst(PatchState& state) {
         if (activate_bad(state.t, state.frames, state.marks, BAD_SHAPE) == 0) break;
         state.smooth(WORST_STIFFNESS);
         state.swap();
+    }
+}
+
+/// Alpha of the triangle that has WORST_PART of all before it, as swaps have last seen them.
+double shape_of_worst_part(const PatchState& state) {
+    Array<double> shapes;
+    for (Triangle k = 0; k < state.t.triangles(); ++k)
+        if (state.t.region[k] != DEAD) shapes.push_back(state.shape[k]);
+    if (shapes.empty()) return 1.0;
+    double* const nth = shapes.begin() + static_cast<std::ptrdiff_t>(
+                                             WORST_PART * static_cast<double>(shapes.size()));
+    std::nth_element(shapes.begin(), nth, shapes.end());
+    return *nth;
+}
+
+/// Raise the smallest alpha of the few worst triangles, whatever their edges.
+void raise_worst(PatchState& state) {
+    if (state.stopped() || state.shape.size() < state.t.region.size()) return;
+    const double least = std::clamp(shape_of_worst_part(state), RAISED[0], RAISED[1]);
+    for (int pass = 0; pass < RAISING_PASSES; ++pass) {
+        state.raise_worst(least);
+        if (state.moved.empty()) break;
+        state.swap(least);
     }
 }
 
@@ -58,11 +107,17 @@ void smooth_for_shape(PatchState& state) {
 
 Unmended optimise(PatchState& state, bool first) {
     state.set_frames_on_kinks();
+    state.kept_drift = state.is_anisotropic() ? KEPT_DRIFT_STRETCHED : KEPT_DRIFT;
     relax(state);
     if (state.stopped()) return {};
     improve_worst(state);
     // it leaves all vertices moving, and so dihedral angles
-    if (!state.is_anisotropic()) smooth_for_shape(state);
+    if (!state.is_anisotropic()) {
+        smooth_for_shape(state);
+        raise_worst(state);
+    }
+    state.settle();
+    state.kept_drift = 0.0;
     reduce_dihedrals(state);
     Array<Triangle> far = approach_surface(state, first);
     if (state.stopped()) return {};

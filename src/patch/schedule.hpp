@@ -1,6 +1,6 @@
 // The order of the optimiser's passes; what each does is in the room optimisation.
 //
-// swap -> smooth -> degrees -> smooth -> swap -> collapse, split -> ... -> smooth until still
+// swap -> smooth -> degrees -> smooth -> swap -> collapse, split -> once more
 // -> the worst triangles -> shapes -> dihedral angles -> distance from the surface
 #pragma once
 

@@ -37,28 +37,6 @@ const BentPiece& piece_at(const Array<BentPiece>& pieces, double s) {
 
 double clipped(double x, double low, double high) { return std::min(std::max(x, low), high); }
 
-/// u at a bent parameter, from the nearer end of the piece, where digits count.
-double unbent(const Array<BentPiece>& pieces, double s) {
-    const BentPiece& p = piece_at(pieces, s);
-    const double width = p.last - p.first;
-    const double before = clipped((s - p.first) / width, 0.0, 1.0);
-    const double after = clipped((p.last - s) / width, 0.0, 1.0);
-    if (before < 0.5)
-        return p.first + width * elementary::incomplete_beta(p.q0, p.q1, p.beta, before);
-    return p.last - width * elementary::incomplete_beta(p.q1, p.q0, p.beta, after);
-}
-
-/// du/ds at a bent parameter that is kept off the places.
-double rate_of_bending(const Array<BentPiece>& pieces, double s) {
-    const BentPiece& at = piece_at(pieces, s);
-    const double wide = at.last - at.first;
-    s = clipped(s, at.first + at.clearance0 * wide, at.last - at.clearance1 * wide);
-    const BentPiece& p = piece_at(pieces, s);
-    const double width = p.last - p.first;
-    const double before = (s - p.first) / width, after = (p.last - s) / width;
-    return elementary::pow(before, p.q0 - 1.0) * elementary::pow(after, p.q1 - 1.0) / p.beta;
-}
-
 /// The coordinate of a parameter where the axis is linear from knot to knot.
 double piecewise_linear(const ChartAxis& axis, double u) {
     const Array<double>& knots = axis.knots;
@@ -72,6 +50,26 @@ double piecewise_linear(const ChartAxis& axis, double u) {
 }
 
 }  // namespace
+
+double unbent(const Array<BentPiece>& pieces, double s) {
+    const BentPiece& p = piece_at(pieces, s);
+    const double width = p.last - p.first;
+    const double before = clipped((s - p.first) / width, 0.0, 1.0);
+    const double after = clipped((p.last - s) / width, 0.0, 1.0);
+    if (before < 0.5)
+        return p.first + width * elementary::incomplete_beta(p.q0, p.q1, p.beta, before);
+    return p.last - width * elementary::incomplete_beta(p.q1, p.q0, p.beta, after);
+}
+
+double rate_of_bending(const Array<BentPiece>& pieces, double s) {
+    const BentPiece& at = piece_at(pieces, s);
+    const double wide = at.last - at.first;
+    s = clipped(s, at.first + at.clearance0 * wide, at.last - at.clearance1 * wide);
+    const BentPiece& p = piece_at(pieces, s);
+    const double width = p.last - p.first;
+    const double before = (s - p.first) / width, after = (p.last - s) / width;
+    return elementary::pow(before, p.q0 - 1.0) * elementary::pow(after, p.q1 - 1.0) / p.beta;
+}
 
 ValueAndRate ChartAxis::parameter(double x) const {
     const ValueAndRate found = knotted(*this, x);

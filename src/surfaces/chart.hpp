@@ -7,7 +7,7 @@
 //     u  a----------|----------b    on each piece u is the integral of s^(q0 - 1) (1 - s)^(q1 - 1)
 //     s  a----------|----------b
 //
-// Charts are made in Python (surfmesh.geometry.differential.chart); here they are evaluated.
+// Charts are made in chart_making.hpp; here they are evaluated.
 #pragma once
 
 #include <optional>
@@ -30,6 +30,11 @@ struct BentPiece {
 struct ValueAndRate {
     double value, rate;
 };
+
+/// u at a bent parameter, from the nearer end of the piece, where digits count.
+[[nodiscard]] double unbent(const Array<BentPiece>& pieces, double s);
+/// du/ds at a bent parameter that is kept off the places.
+[[nodiscard]] double rate_of_bending(const Array<BentPiece>& pieces, double s);
 
 /// A monotone map from one scaled coordinate to its parameter.
 struct ChartAxis {

@@ -1,10 +1,14 @@
 #include <nanobind/stl/optional.h>
 #include <nanobind/stl/pair.h>
 
+#include <array>
 #include <optional>
+#include <utility>
 
 #include "binding/arrays.hpp"
-#include "surfaces/chart.hpp"
+#include "surfaces/callback_surface.hpp"
+#include "surfaces/chart_making.hpp"
+#include "surfaces/monotone_cubic.hpp"
 
 namespace surfmesh::binding {
 
@@ -26,9 +30,50 @@ ChartAxis axis_of(double extent, const Vector<double>& knots, const Vector<doubl
     return axis;
 }
 
+using Domain = std::pair<std::pair<double, double>, std::pair<double, double>>;
+
+Chart made_of(const Surface& surface, std::pair<bool, bool> steady,
+              const std::pair<std::optional<Pieces>, std::optional<Pieces>>& pieces,
+              std::size_t samples) {
+    if (samples < 2 || samples > 100'000) throw nb::value_error("samples are at least two");
+    const auto known = [samples](bool is_steady, const std::optional<Pieces>& given) {
+        KnownAxis axis{is_steady, {}, samples};
+        if (given) axis.pieces = Array<BentPiece>(rows<BentPiece>(*given));
+        return axis;
+    };
+    const std::array axes = {known(steady.first, pieces.first),
+                             known(steady.second, pieces.second)};
+    SurfaceReader reader(surface);
+    Chart made;
+    {
+        const nb::gil_scoped_release released;
+        made = chart_of(reader, axes);
+    }
+    raise_failure(surface, reader.status());
+    if (reader.failed()) throw nb::value_error("the surface has no first derivatives");
+    return made;
+}
+
 }  // namespace
 
 void bind_chart(nb::module_& m) {
+    m.def(
+        "monotone_cubic",
+        [](const Vector<double>& x, const Vector<double>& y, const Vector<double>& at) {
+            if (x.shape(0) < 2) throw nb::value_error("x are at least two");
+            require_rows(y.shape(0), x.shape(0), "y");
+            const MonotoneCubic cubic(rows<double>(x), rows<double>(y));
+            Array<double> value(at.shape(0)), derivative(at.shape(0));
+            for (std::size_t i = 0; i < at.shape(0); ++i) {
+                value[i] = cubic.value(at.data()[i]);
+                derivative[i] = cubic.derivative(at.data()[i]);
+            }
+            return std::pair(view(value), view(derivative));
+        },
+        nb::arg("x"), nb::arg("y"), nb::arg("at"),
+        "Values and derivatives (m,) at ``at`` (m,) of a cubic through y (n,) at rising x (n,) "
+        "that "
+        "rises where they do.");
     nb::class_<ChartAxis>(m, "ChartAxis",
                           "A monotone map between one parameter and its scaled coordinate.")
         .def(
@@ -42,6 +87,12 @@ void bind_chart(nb::module_& m) {
             "extent.\npieces (p, 7), where knots are of the bent parameter: first, last, powers at "
             "both ends, their beta function, clearance at both ends.")
         .def_prop_ro("extent", [](const ChartAxis& axis) { return axis.extent; })
+        .def_prop_ro(
+            "knots", [](const ChartAxis& axis) { return read_only_view(axis.knots); },
+            nb::rv_policy::automatic)
+        .def_prop_ro(
+            "slopes", [](const ChartAxis& axis) { return read_only_view(axis.slopes); },
+            nb::rv_policy::automatic)
         .def(
             "parameter_and_rate",
             [](const ChartAxis& axis, const Vector<double>& x) {
@@ -61,6 +112,22 @@ void bind_chart(nb::module_& m) {
             "__init__",
             [](Chart* made, const ChartAxis& u, const ChartAxis& v) { new (made) Chart{u, v}; },
             nb::arg("u"), nb::arg("v"))
+        .def_static(
+            "of", &made_of, nb::arg("surface"), nb::arg("steady"), nb::arg("pieces"),
+            nb::arg("samples"),
+            "The chart of a surface from its speeds. steady: axes along which the speed is the "
+            "same everywhere. pieces: (p, 7) of the axes with speeds without bound, or None. "
+            "samples: along each axis.")
+        .def_static(
+            "uniform",
+            [](const Domain& domain, std::pair<double, double> speeds) {
+                const auto& [u, v] = domain;
+                return Chart{linear_axis(u.first, u.second, speeds.first),
+                             linear_axis(v.first, v.second, speeds.second)};
+            },
+            nb::arg("domain"), nb::arg("speeds"), "Where |r_u| and |r_v| are the same everywhere.")
+        .def_prop_ro("u", [](const Chart& chart) { return chart.u; })
+        .def_prop_ro("v", [](const Chart& chart) { return chart.v; })
         .def(
             "to_uv_and_rates",
             [](const Chart& chart, const Points2& xy) {

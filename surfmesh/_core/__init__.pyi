@@ -3,6 +3,7 @@
 from surfmesh._core import (
     edges as edges,
     elementary_functions as elementary_functions,
+    faces as faces,
     fields as fields,
     insertion as insertion,
     optimisation as optimisation,

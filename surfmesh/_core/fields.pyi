@@ -74,6 +74,9 @@ class Background:
         Integral of 1 / det H over [x0, x1] x [y0, y1], (x0, y0) the corner of the box.
         """
 
+    def expected_circles(self, x1: float, y1: float) -> int:
+        """About how many circles cover the same rectangle."""
+
     @property
     def is_anisotropic(self) -> bool: ...
 
@@ -91,14 +94,14 @@ class Background:
     def metric_roots_3d(self, xy: Annotated[NDArray[numpy.float64], dict(shape=(None, 2), order='C', device='cpu', writable=False)]) -> Annotated[NDArray[numpy.float64], dict(shape=(None, 6))]:
         """W (n, 6) at points (n, 2): Id / h where sizes are isotropic."""
 
-MOST_IN_A_ROW: int = 64
-
-def grow_tree(place: Annotated[NDArray[numpy.float64], dict(shape=(None, 2), order='C', device='cpu', writable=False)], size: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)], metric: tuple[float, float, float], slope: float, largest: float, root: tuple[float, float, float, float], upper: tuple[float, float], grid: tuple[int, int], largest_in_plane: float, most_cells: int) -> Background | None:
+def grow_sizes(place: Annotated[NDArray[numpy.float64], dict(shape=(None, 2), order='C', device='cpu', writable=False)], size: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)], metric: tuple[float, float, float], slope: float, largest: float, box: tuple[float, float, float, float]) -> Background | None:
     """
-    The background of the sizes min(largest, size_k + slope distance_k) of sources at place (n, 2).
+    The background of the sizes min(largest, size_k + slope distance_k) of sources at place (n, 2), over box: x0, y0, x1, y1.
 
-    metric: the constant E, F, G. root: x0, y0, width and height of a root cell; upper: the corner of what is asked for; grid: root cells along x and y. None when more than most_cells are needed.
+    metric: the constant E, F, G. What lies beyond the upper and right sides may be covered too. None where more than MOST_SOURCE_CELLS cells are needed.
     """
+
+MOST_SOURCE_CELLS: int = 67108864
 
 TURN_SLOPE: float = 3.0
 

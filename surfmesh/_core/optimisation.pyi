@@ -134,7 +134,7 @@ def newton_step(t: surfmesh._core.triangulation.Triangulation, frames: SurfaceFr
     Returns x, y and the smallest alpha of the star, -1 where a triangle is turned over.
     """
 
-def smooth(t: surfmesh._core.triangulation.Triangulation, frames: SurfaceFrames, background: surfmesh._core.fields.Background, stars: Stars, marks: VertexMarks, stiffness: float) -> Annotated[NDArray[numpy.int32], dict(shape=(None,))]:
+def smooth(t: surfmesh._core.triangulation.Triangulation, frames: SurfaceFrames, stars: Stars, marks: VertexMarks, stiffness: float) -> Annotated[NDArray[numpy.int32], dict(shape=(None,))]:
     """
     Move every active vertex by one Newton step; returns the vertices that moved.
     """

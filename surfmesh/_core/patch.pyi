@@ -213,6 +213,11 @@ class PatchState:
         Swap edges of triangles below the alpha ``good`` while that raises the smaller one.
         """
 
+    def raise_worst(self, least: float) -> None:
+        """
+        Raise the smallest alpha around triangles below ``least`` by moves of their free corners.
+        """
+
     def swap_for_degree(self) -> None:
         """
         Swap edges that bring the degrees of their four vertices nearer to six.
@@ -301,6 +306,10 @@ class PatchMesh:
 
     @property
     def packing(self) -> surfmesh._core.packing.PackingStatus: ...
+
+    @property
+    def place(self) -> tuple[float, float]:
+        """Where the packing ended, if not by its limits."""
 
     @property
     def circles(self) -> int:

@@ -182,6 +182,11 @@ class FormulaSurface(Surface):
         limits: for u and for v (places, lowest, highest): places of infinite speed, and within which limits derivatives are taken between them; all empty where the speed is finite.
         """
 
+def monotone_cubic(x: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)], y: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)], at: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)]) -> tuple[Annotated[NDArray[numpy.float64], dict(shape=(None,))], Annotated[NDArray[numpy.float64], dict(shape=(None,))]]:
+    """
+    Values and derivatives (m,) at ``at`` (m,) of a cubic through y (n,) at rising x (n,) that rises where they do.
+    """
+
 class ChartAxis:
     """A monotone map between one parameter and its scaled coordinate."""
 
@@ -194,6 +199,12 @@ class ChartAxis:
     @property
     def extent(self) -> float: ...
 
+    @property
+    def knots(self) -> Annotated[NDArray[numpy.float64], dict(shape=(None,), writable=False)]: ...
+
+    @property
+    def slopes(self) -> Annotated[NDArray[numpy.float64], dict(shape=(None,), writable=False)]: ...
+
     def parameter_and_rate(self, x: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)]) -> tuple[Annotated[NDArray[numpy.float64], dict(shape=(None,))], Annotated[NDArray[numpy.float64], dict(shape=(None,))]]:
         """
         The parameter (n,) at scaled coordinates x (n,), and its derivative by x (n,).
@@ -205,6 +216,22 @@ class Chart:
     """(u, v) of a surface and the scaled plane, axis by axis."""
 
     def __init__(self, u: ChartAxis, v: ChartAxis) -> None: ...
+
+    @staticmethod
+    def of(surface: Surface, steady: tuple[bool, bool], pieces: tuple[Annotated[NDArray[numpy.float64], dict(shape=(None, 7), order='C', device='cpu', writable=False)] | None, Annotated[NDArray[numpy.float64], dict(shape=(None, 7), order='C', device='cpu', writable=False)] | None], samples: int) -> Chart:
+        """
+        The chart of a surface from its speeds. steady: axes along which the speed is the same everywhere. pieces: (p, 7) of the axes with speeds without bound, or None. samples: along each axis.
+        """
+
+    @staticmethod
+    def uniform(domain: tuple[tuple[float, float], tuple[float, float]], speeds: tuple[float, float]) -> Chart:
+        """Where |r_u| and |r_v| are the same everywhere."""
+
+    @property
+    def u(self) -> ChartAxis: ...
+
+    @property
+    def v(self) -> ChartAxis: ...
 
     def to_uv_and_rates(self, xy: Annotated[NDArray[numpy.float64], dict(shape=(None, 2), order='C', device='cpu', writable=False)]) -> tuple[Annotated[NDArray[numpy.float64], dict(shape=(None, 2))], Annotated[NDArray[numpy.float64], dict(shape=(None, 2))]]:
         """xy (n, 2) -> uv (n, 2) and (du/dx, dv/dy) (n, 2)."""

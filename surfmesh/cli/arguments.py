@@ -136,7 +136,7 @@ def _add_made(mesh: argparse.ArgumentParser) -> None:
     )
     mesh.add_argument("--ascii", action="store_true", help="an .stl as text, solids by name")
     mesh.add_argument(
-        "--jobs", type=_whole(1, 1000), default=1, help="faces meshed at once (default 1)"
+        "--jobs", type=_whole(1, 1000), help="threads that mesh (default: all processors)"
     )
     mesh.add_argument(
         "--scheduler", metavar="ADDRESS",

@@ -24,6 +24,7 @@ class Surface(Protocol):
         surface_kind      ``kind``: "plane", "cylinder", ...; nothing is taken for granted without
         stated_facts      ``facts``: area, volume, Euler number, embedded
         stated_sizes      ``sizing_defaults``: what is asked where the caller asks for nothing
+        smooth_pieces     ``pieces``: how many, of a spline between its knots
         steady_axes       ``steady_axes``: where |r_u| or |r_v| need not be sampled
 
     What only surfaces of formulas or of CAD faces can do is in their classes: ``ParametricSurface``
@@ -84,6 +85,11 @@ def steady_axes(surface: Surface) -> tuple[bool, bool]:
     """Whether |r_u| is the same all along u (it may depend on v), and |r_v| all along v."""
     u, v = getattr(surface, "steady_axes", None) or (False, False)
     return bool(u), bool(v)
+
+
+def smooth_pieces(surface: Surface) -> int | None:
+    """Of how many smooth pieces it says it is made, as a spline between its knots."""
+    return getattr(surface, "pieces", None)
 
 
 def surface_label(surface: Surface) -> str:

@@ -9,5 +9,6 @@ solids: faces joined, groups, volumes.
 finishing: second order, and short edges collapsed.
 estimate: how many triangles there will be.
 explain: which rule decides the size at a point.
+processors: how many there are, and how many threads a call of the core may use.
 progress: stages, their seconds, and a caller who may stop the work.
 """

@@ -30,6 +30,7 @@ from surfmesh.meshing.faces.face_workers import FACE_WORK, FaceWorkers
 from surfmesh.meshing.faces.opposite_faces import copied, opposite_pairs
 from surfmesh.meshing.finishing.edge_collapse import LEAST, simplified
 from surfmesh.meshing.patch.refinement_loop import MAX_ROUNDS, refined_in_rounds
+from surfmesh.meshing.processors import allowed_threads
 from surfmesh.meshing.progress import Progress, Stopwatch
 from surfmesh.meshing.solids.joining import joined_mesh, limits_where_crowded
 from surfmesh.meshing.solids.model_findings import (
@@ -97,7 +98,8 @@ class _Rounds:
     def __init__(self, model: CadModel, wanted: ModelSizing, how: _How) -> None:
         self.model, self.wanted, self.how, self.watch = model, wanted, how, how.watch
         with self.watch.stage("sizing"):
-            self.samples = sample_edges(model, wanted)
+            with allowed_threads(how.workers.threads):
+                self.samples = sample_edges(model, wanted)
             self.faces = face_states(model, self.samples, wanted)
             self.opposite = opposite_pairs(model, self.samples)
         self.nodes: list[EdgeNodes | None] = []
@@ -155,7 +157,8 @@ class _Rounds:
             for state, job in zip(outdated, jobs):
                 state.job = job
             meshes = self.how.workers.meshed(jobs)
-            for count, (state, mesh) in enumerate(zip(outdated, meshes), 1):
+            for count, (place, mesh) in enumerate(meshes, 1):
+                state = outdated[place]
                 state.take(mesh)
                 self.watch.spend(FACE_WORK + state.job.nodes + len(mesh.triangles))
                 self.watch.pulse(count / len(outdated))

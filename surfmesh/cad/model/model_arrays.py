@@ -40,6 +40,8 @@ class ModelArrays:
     """(e,) bool."""
     collapsed: np.ndarray
     """(e,) bool: the edge is one vertex of a mesh."""
+    tolerance: np.ndarray
+    """(e,) of the edges, model units."""
     curves: CurvePieces
     """Of the edges in space."""
     coedges: tuple[CadCoedge, ...]
@@ -68,6 +70,7 @@ class ModelArrays:
             np.array([edge.length for edge in edges], float),
             np.array([edge.is_straight for edge in edges], bool),
             np.array([collapses(model, edge) for edge in edges], bool),
+            np.array([edge.tolerance for edge in edges], float),
             _pieces(curves, [(edge.t0, edge.t1) for edge in edges]),
             coedges,
             np.array([coedge.edge for coedge in coedges], np.int64),

@@ -12,6 +12,7 @@ They are evaluated by the compiled core (``src/surfaces/spline_surface.hpp``, ``
 from __future__ import annotations
 
 from dataclasses import dataclass, field, replace
+from functools import cached_property
 from typing import Self
 
 import numpy as np
@@ -92,7 +93,7 @@ class BSplineSurface(FaceSurface):
             self.domain, knots_u, knots_v, control, self.weights, periods
         )
 
-    @property
+    @cached_property
     def pieces(self) -> int:
         """Knot spans over the domain."""
         (u0, u1), (v0, v1) = self.domain

@@ -3,7 +3,6 @@
 fundamental_forms: first and second forms, normals, principal curvatures and directions, areas.
 infinite_speed: places on an axis of (u, v) where the speed has no bound, and the axis bent until
     it has one.
-monotone_cubic: the spline through points that rises where they do.
 chart: the scaled plane (x, y): u and v each stretched so that speeds are about one.
 sides: the four sides of the (u, v) rectangle: which coincide in space, which shrink to a point.
 projection: the closest point of a surface, near a guess.

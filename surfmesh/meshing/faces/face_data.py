@@ -1,10 +1,14 @@
 """What a face of a CAD model is meshed from, and what becomes of it: plain arrays."""
 
+from collections.abc import Iterable
 from dataclasses import dataclass, field, replace
-from typing import NamedTuple, Self
+from functools import cached_property
+from itertools import pairwise
+from typing import Any, NamedTuple, Self
 
 import numpy as np
 
+from surfmesh._core.faces import BoundaryBuilder, FaceBoundary
 from surfmesh.cad.model.loop_faults import ExactLoops
 from surfmesh.geometry.cad_surfaces.face_surface import FaceSurface
 from surfmesh.meshing.edges.edge_samples import NarrowFace
@@ -56,12 +60,26 @@ class Polygons(NamedTuple):
     loop: np.ndarray  # (n,) of each segment
 
 
+def boundary_of(loops: Iterable[Iterable[CoedgeNodes]]) -> FaceBoundary:
+    """The nodes of all loops in one row each, as the core has them."""
+    builder = BoundaryBuilder()
+    for loop in loops:
+        for piece in loop:
+            builder.add(
+                piece.uv, piece.numbers, piece.points, piece.sizes, piece.degenerate,
+                piece.tolerance,
+            )  # fmt: skip
+        builder.end_loop()
+    return builder.boundary()
+
+
 @dataclass(frozen=True)
 class FaceJob:
     """All that is needed to mesh one face; can be pickled, knows no CAD kernel."""
 
     surface: FaceSurface
-    loops: tuple[tuple[CoedgeNodes, ...], ...]
+    boundary: FaceBoundary
+    """The nodes of its edges, loop after loop: see ``boundary_of``, and ``loops``."""
     sizing: Sizing
     limits: SizeLimits | None = None
     """From earlier rounds."""
@@ -73,6 +91,27 @@ class FaceJob:
     """The curves that the loops are cut from."""
     narrow: NarrowFace | None = None
     """Its sides and ends, of a face narrower than the chord all along."""
+
+    @cached_property
+    def loops(self) -> tuple[tuple[CoedgeNodes, ...], ...]:
+        """The boundary coedge by coedge, for what is out of the ordinary."""
+        nodes = self.boundary
+        uv, numbers, points, sizes = nodes.uv, nodes.numbers, nodes.points, nodes.sizes
+        ends, degenerate = [0, *nodes.piece_end.tolist()], nodes.degenerate.tolist()
+        pieces = [
+            CoedgeNodes(
+                uv[first:after], numbers[first:after], points[first:after], sizes[first:after],
+                bool(point), tolerance,
+            )
+            for first, after, point, tolerance in zip(
+                ends, ends[1:], degenerate, nodes.tolerance.tolist()
+            )
+        ]  # fmt: skip
+        last = [0, *nodes.loop_end.tolist()]
+        return tuple(tuple(pieces[first:after]) for first, after in pairwise(last))
+
+    def __getstate__(self) -> dict[str, Any]:
+        return {name: value for name, value in self.__dict__.items() if name != "loops"}
 
     @property
     def polygons(self) -> Polygons:
@@ -95,7 +134,7 @@ class FaceJob:
     @property
     def nodes(self) -> int:
         """How many nodes its boundary has."""
-        return sum(len(piece.numbers) for loop in self.loops for piece in loop)
+        return len(self.boundary)
 
     def __post_init__(self) -> None:
         if self.limits is not None and self.limits.essential and self.sizing.min_size:

@@ -13,13 +13,15 @@ from traceback import extract_tb
 
 import numpy as np
 
-from surfmesh._core.insertion import loop_nodes
+from surfmesh._core import faces as core
+from surfmesh._core.faces import FaceEnd, FacePolygons, coarse_segments, may_have_tubes
 from surfmesh.errors import SurfaceError, SurfmeshError
 from surfmesh.geometry.cad_surfaces.face_surface import FaceSurface
+from surfmesh.geometry.core_surface import as_core_surface
 from surfmesh.geometry.differential.projection import closest_point
 from surfmesh.geometry.differential.sides import find_sides
 from surfmesh.geometry.surface import Surface
-from surfmesh.meshing.boundary.boundary_loops import BoundaryLoops, cut_line
+from surfmesh.meshing.boundary.boundary_loops import cut_line
 from surfmesh.meshing.edges.inner_sizes import sizes_along_edges
 from surfmesh.meshing.faces.crossing_segments import limits_where_crossing
 from surfmesh.meshing.faces.face_data import CoedgeNodes, FaceJob, FaceMesh
@@ -34,10 +36,16 @@ from surfmesh.meshing.faces.strip_triangulation import strip_mesh
 from surfmesh.meshing.faces.thin_tubes import without_tubes
 from surfmesh.meshing.faces.tube_limits import seam_limits
 from surfmesh.meshing.faces.tube_triangles import with_tubes
-from surfmesh.meshing.patch.patch_mesh import mesh_patch
-from surfmesh.meshing.patch.size_requests import joined
-from surfmesh.sizing.field.boundary_field import boundary_field, has_boundary_field
+from surfmesh.meshing.patch.patch_mesh import patch_error
+from surfmesh.meshing.patch.size_requests import SizeRequests, joined
+from surfmesh.sizing.field.boundary_field import (
+    boundary_field,
+    has_boundary_field,
+    largest_size,
+    speeds_of,
+)
 from surfmesh.sizing.field.size_field import SizeField, size_field
+from surfmesh.sizing.options.sizing import Sizing
 from surfmesh.sizing.rules.size_limits import SizeLimits, along_lines
 
 logger = logging.getLogger(__name__)
@@ -57,7 +65,7 @@ def mesh_face(job: FaceJob) -> FaceMesh:
     """Mesh one face. Never raises for what is wrong with the face: see ``failure``."""
     if job.exact is not None and job.exact.at_once:
         return FaceMesh(failure=job.exact.at_once, unmeshable=True)
-    reason = no_point(job)
+    reason = no_point(job) if job.boundary.has_degenerate else ""
     if reason and beyond_a_turn(job):
         return FaceMesh(failure=reason)
     mesh = _mesh_parts(job)
@@ -66,6 +74,9 @@ def mesh_face(job: FaceJob) -> FaceMesh:
 
 def _mesh_parts(job: FaceJob) -> FaceMesh:
     """Mesh a face, its thin tips and necks by themselves."""
+    surface = job.surface
+    if surface.kind == "plane" or not may_have_tubes(as_core_surface(surface), job.boundary):
+        return _mesh_rest(job)
     rest, tubes, slots = without_tubes(job)
     if not tubes or (job.narrow is not None and rest.loops):
         return _mesh_rest(job)
@@ -130,34 +141,83 @@ def edge_refinement(job: FaceJob) -> SizeLimits | None:
     """What the sizes inside a face ask for along its edges, before it is meshed."""
     try:
         surface, field = face_field(job)
-        return sizes_along_edges(job.sizing, surface, field, _loops(job, field)[0])
+        polygons = _polygons(job, field)
     except SurfmeshError:
         return None
+    coarse = coarse_segments(
+        as_core_surface(surface), field.chart.core, field.background, polygons,
+        job.sizing.min_size or 0.0, job.sizing.is_anisotropic,
+    )  # fmt: skip
+    return sizes_along_edges(job.sizing, coarse)
 
 
 def _meshed(job: FaceJob, unfold: bool = True) -> FaceMesh:
     """unfold: ask for smaller sizes at folds. In space, edges that cross do so at any size."""
-    surface, field = face_field(job)
-    loops, slots = _loops(job, field)
-    first = job.limits is None
-    patch = mesh_patch(surface, field.chart, field, loops, optimise=job.optimise, first=first)
-    space = patch.space
-    if len(space.non_manifold):
-        finer = patch.limits_for_seams(FINER, essential=True)
-        place = ", ".join(f"{x:.6g}" for x in space.points[space.non_manifold[0]])
+    made = _made(job)
+    patch, gradient = made.patch, job.sizing.gradient
+    mapped = patch.mapped
+    if made.end == FaceEnd.NOT_JOINED:
+        bad = mapped.non_manifold
+        place = ", ".join(f"{x:.6g}" for x in mapped.points[bad[0]])
+        finer = SizeLimits(mapped.points[bad], FINER * mapped.sizes[bad], gradient, essential=True)
         return FaceMesh(
             failure=f"its sides cannot be joined near ({place})",
-            refinement=joined(finer, _round_tubes(surface, job)),
+            refinement=joined(finer, _round_tubes(job)),
         )
-    along = None
-    if first:  # the edges follow them from now on
-        along = sizes_along_edges(job.sizing, surface, field, loops)
-    chord, folds, angle = patch.requests
-    slot = np.full(len(patch.uv), -1, np.int64)
-    slot[patch.domain.node] = slots
+    chord, folds, angle = SizeRequests.of(patch.requests, gradient)
+    along = sizes_along_edges(job.sizing, made.coarse)  # the edges follow them from now on
     return FaceMesh(
-        space.points, slot[space.vertex], space.triangles, patch.uv, space.uv_triangles,
-        patch.sizes, patch.metric_root_3d, joined(angle, folds if unfold else None, chord, along),
+        mapped.points, made.slots, mapped.triangles, mapped.uv, mapped.uv_triangles, mapped.sizes,
+        patch.metric_root_3d if job.sizing.is_anisotropic else None,
+        joined(angle, folds if unfold else None, chord, along),
+    )  # fmt: skip
+
+
+def _made(job: FaceJob) -> core.FaceMesh:
+    """What the core makes of a face; what failed is raised, but for sides that are not joined."""
+    made = _grown_and_meshed(job) if _can_grow_inward(job) else None
+    if made is None or made.end == FaceEnd.UNPREPARED:
+        surface, field = face_field(job)
+        made = core.mesh_face(
+            as_core_surface(surface), field.chart.core, field.background, _polygons(job, field),
+            _manner(job, field.sizing),
+        )  # fmt: skip
+    if made.end == FaceEnd.RUNS_TWICE:
+        raise SurfaceError(f"the boundary of {job.surface.name!r} runs twice the same way")
+    if made.end == FaceEnd.PATCH_FAILED:
+        raise patch_error(made.patch, made.uv, made.segments, job.surface)
+    return made
+
+
+def _can_grow_inward(job: FaceJob) -> bool:
+    """Does the core know all of a face's sizes: those of its edges and one that bounds them?"""
+    sizing = job.sizing
+    return (
+        job.limits is None
+        and not sizing.is_anisotropic
+        and not (sizing.chord is None and sizing.angle is None and sizing.size is None)
+        and has_boundary_field(job.surface, sizing)
+        and not job.boundary.has_degenerate
+    )
+
+
+def _grown_and_meshed(job: FaceJob) -> core.FaceMesh | None:
+    """A plane or a cylinder with the sizes of its edges, grown inward; None without a box."""
+    surface, sizing, domain = job.surface, job.sizing, job.boundary.box
+    if not all(first < last for first, last in domain):
+        return None
+    return core.mesh_inward(
+        as_core_surface(surface), job.boundary, speeds_of(surface),
+        largest_size(surface, sizing, domain), sizing.gradient, _manner(job, sizing),
+    )  # fmt: skip
+
+
+def _manner(
+    job: FaceJob, sizing: Sizing
+) -> tuple[float | None, float | None, float, bool, bool, bool]:
+    return (
+        sizing.chord, sizing.angle, sizing.min_size or 0.0,
+        job.optimise, job.limits is None, sizing.is_anisotropic,
     )  # fmt: skip
 
 
@@ -167,9 +227,7 @@ def face_field(job: FaceJob) -> tuple[FaceSurface, SizeField]:
     Raises ``SizingError``.
     """
     pieces = [piece for loop in job.loops for piece in loop]
-    uv = np.concatenate([piece.uv for piece in pieces])
-    low, high = uv.min(axis=0), uv.max(axis=0)
-    surface = job.surface.with_domain(((low[0], high[0]), (low[1], high[1])))
+    surface = job.surface.with_domain(job.boundary.box)
     real = [piece for piece in pieces if not piece.degenerate]
     if real and has_boundary_field(surface, job.sizing):
         field = _grown_inward(surface, job, real)
@@ -202,12 +260,12 @@ def face_field(job: FaceJob) -> tuple[FaceSurface, SizeField]:
     return surface, size_field(surface, job.sizing, sides, limits)
 
 
-def _round_tubes(surface: Surface, job: FaceJob) -> SizeLimits | None:
+def _round_tubes(job: FaceJob) -> SizeLimits | None:
     real = [piece for loop in job.loops for piece in loop if not piece.degenerate]
     if not real:
         return None
     return seam_limits(
-        surface,
+        job.surface,
         np.concatenate([piece.uv for piece in real]),
         np.concatenate([piece.numbers for piece in real]),
         np.concatenate([piece.sizes for piece in real]),
@@ -253,8 +311,10 @@ def _nearest(points: np.ndarray, wanted: np.ndarray) -> np.ndarray:
     return cKDTree(points).query(wanted)[1]
 
 
-def _loops(job: FaceJob, field: SizeField) -> tuple[BoundaryLoops, np.ndarray]:
-    """Nodes and segments in (u, v), with their points; the nodes' places in the job."""
+def _polygons(job: FaceJob, field: SizeField) -> FacePolygons:
+    """The loops in (u, v), their poles cut to unit metric length."""
+    if not job.boundary.has_degenerate:
+        return FacePolygons.of(job.boundary)
     parts, lengths, slot = [], [], 0
     for loop in job.loops:
         lengths.append(0)
@@ -263,10 +323,7 @@ def _loops(job: FaceJob, field: SizeField) -> tuple[BoundaryLoops, np.ndarray]:
             slot += len(piece.numbers)
             lengths[-1] += len(parts[-1][0])
     uv, numbers, points, slots = (np.concatenate(part) for part in zip(*parts))
-    nodes, segments, identity, runs_twice = loop_nodes(uv, numbers, np.array(lengths, np.int32))
-    if runs_twice:
-        raise SurfaceError(f"the boundary of {job.surface.name!r} runs twice the same way")
-    return BoundaryLoops(uv[nodes], segments, identity, points=points[nodes]), slots[nodes]
+    return FacePolygons(uv, numbers, points, slots, np.array(lengths, np.int32))
 
 
 def _without_end(

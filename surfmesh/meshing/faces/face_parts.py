@@ -9,7 +9,7 @@ from dataclasses import replace
 import numpy as np
 
 from surfmesh.geometry.inside_loops import is_inside
-from surfmesh.meshing.faces.face_data import FaceJob, FaceMesh
+from surfmesh.meshing.faces.face_data import FaceJob, FaceMesh, boundary_of
 
 
 def in_parts(job: FaceJob, mesh: Callable[[FaceJob], FaceMesh]) -> FaceMesh:
@@ -21,7 +21,7 @@ def in_parts(job: FaceJob, mesh: Callable[[FaceJob], FaceMesh]) -> FaceMesh:
     starts = np.cumsum([0, *counts])
     found, slots = [], []
     for group in groups:
-        part = mesh(replace(job, loops=tuple(job.loops[k] for k in group)))
+        part = mesh(replace(job, boundary=boundary_of(job.loops[k] for k in group)))
         if part.failure:
             return part
         found.append(part)

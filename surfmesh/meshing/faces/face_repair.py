@@ -7,7 +7,7 @@ import numpy as np
 from surfmesh._core.insertion import coincident_nodes
 from surfmesh.geometry.boxes import diagonal
 from surfmesh.meshing.boundary.untangling import untangled
-from surfmesh.meshing.faces.face_data import FaceJob, FaceMesh
+from surfmesh.meshing.faces.face_data import FaceJob, FaceMesh, boundary_of
 from surfmesh.meshing.faces.polygon_filling import MOST_CORNERS, filled
 
 TOLERANCES, WITHIN = 2.0, 1.0
@@ -89,7 +89,7 @@ def untangled_job(job: FaceJob) -> FaceJob | None:
             own = np.arange(start, start + len(piece.uv) - 1)
             changed.append(replace(piece, uv=moved[np.r_[own, following[own[-1]]]]))
         loops.append(tuple(changed))
-    return replace(job, loops=tuple(loops))
+    return replace(job, boundary=boundary_of(loops))
 
 
 def filled_face(job: FaceJob, reason: str) -> FaceMesh | None:

@@ -5,12 +5,13 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from surfmesh.cad.model.cad_model import CadCoedge, CadFace, CadModel
+from surfmesh._core.faces import face_boundaries
+from surfmesh.cad.model.cad_model import CadFace, CadModel
 from surfmesh.cad.model.loop_faults import ExactLoops, exact_loops
 from surfmesh.cad.model.model_arrays import model_arrays, offsets, rows_of
 from surfmesh.meshing.edges.edge_nodes import EdgeNodes
 from surfmesh.meshing.edges.edge_samples import EdgeSamples, NarrowFace
-from surfmesh.meshing.faces.face_data import CoedgeNodes, FaceJob, FaceMesh
+from surfmesh.meshing.faces.face_data import FaceJob, FaceMesh
 from surfmesh.meshing.faces.face_sizings import face_sizings
 from surfmesh.meshing.patch.refinement_loop import StagnationCheck
 from surfmesh.sizing.options.model_sizing import ModelSizing
@@ -92,56 +93,53 @@ def face_jobs(
     """What some faces are meshed from when the edges have these nodes; limits: by face."""
     known, arrays = limits or {}, model_arrays(model)
     numbers = np.array([state.number for state in faces], np.int64)
-    pieces = _coedge_nodes(model, rows_of(arrays.first_of_face, numbers), nodes)
-    jobs, start = [], 0
-    for state in faces:
-        loops = []
-        for loop in state.face.loops:
-            loops.append(tuple(pieces[start : start + len(loop)]))
-            start += len(loop)
-        jobs.append(
-            FaceJob(
-                state.face.surface, tuple(loops), state.sizing, known.get(state.number), optimise,
-                exact=state.exact, narrow=state.narrow,
-            )
-        )  # fmt: skip
-    return jobs
-
-
-def _coedge_nodes(
-    model: CadModel, which: np.ndarray, nodes: list[EdgeNodes | None]
-) -> list[CoedgeNodes]:
-    """The nodes of the edges of some coedges as loops walk along them; of an edge that is a
-    vertex, both ends."""
-    arrays = model_arrays(model)
-    cuts = [nodes[edge] for edge in arrays.coedge_edge[which].tolist()]
-    fractions = [_ENDS if cut is None else cut.t for cut in cuts]
-    first = offsets(np.array([len(t) for t in fractions], np.int64))
-    places = arrays.pcurves.points(which, first, np.concatenate([_ENDS[:0], *fractions]))
-    uv = np.ascontiguousarray(places[:, :2])
-    rows = zip(which.tolist(), cuts, first[:-1].tolist(), first[1:].tolist())
-    return [
-        _nodes_of_one(model, arrays.coedges[number], cut, uv[a:b]) for number, cut, a, b in rows
-    ]
-
-
-def _nodes_of_one(
-    model: CadModel, coedge: CadCoedge, cut: EdgeNodes | None, uv: np.ndarray
-) -> CoedgeNodes:
-    """uv (n, 2): of its nodes in the direction of the edge."""
-    edge = model.edges[coedge.edge]
-    order = slice(None, None, -1 if coedge.reversed else 1)
-    if cut is None:
-        number = int(model_arrays(model).vertex[edge.start])
-        return CoedgeNodes(
-            uv=uv[order],
-            numbers=np.full(2, number, np.int64),
-            points=np.tile(model.vertices[number].point, (2, 1)),
-            sizes=np.full(2, np.inf),
-            degenerate=True,
-            tolerance=edge.tolerance,
-        )
-    return CoedgeNodes(
-        uv[order], cut.numbers[order], cut.points[order], cut.sizes[order],
-        tolerance=edge.tolerance,
+    which = rows_of(arrays.first_of_face, numbers)
+    coedges = [len(loop) for state in faces for loop in state.face.loops]
+    loops = [len(state.face.loops) for state in faces]
+    boundaries = face_boundaries(
+        *_nodes(model, which, nodes), *_uses(model, which, nodes),
+        np.array(coedges, np.int32), np.array(loops, np.int32),
     )  # fmt: skip
+    return [
+        FaceJob(
+            state.face.surface, boundary, state.sizing, known.get(state.number), optimise,
+            exact=state.exact, narrow=state.narrow,
+        )
+        for state, boundary in zip(faces, boundaries)
+    ]  # fmt: skip
+
+
+def _nodes(
+    model: CadModel, which: np.ndarray, nodes: list[EdgeNodes | None]
+) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
+    """uv, numbers, points and sizes of the nodes of some coedges, in the direction of the edges;
+    of an edge that is a vertex, both ends. And where the rows of each coedge begin."""
+    arrays = model_arrays(model)
+    cuts = [
+        nodes[edge] or _point_nodes(model, arrays.vertex, edge)
+        for edge in arrays.coedge_edge[which].tolist()
+    ]
+    first = offsets(np.array([len(cut.t) for cut in cuts], np.int64))
+    t = np.concatenate([np.empty(0), *(cut.t for cut in cuts)])
+    sizes = np.concatenate([np.empty(0), *(cut.sizes for cut in cuts)])
+    numbers = np.concatenate([np.empty(0, np.int64), *(cut.numbers for cut in cuts)])
+    points = np.concatenate([np.empty((0, 3)), *(cut.points for cut in cuts)])
+    uv = np.ascontiguousarray(arrays.pcurves.points(which, first, t)[:, :2])
+    return uv, numbers, points, sizes, first
+
+
+def _uses(
+    model: CadModel, which: np.ndarray, nodes: list[EdgeNodes | None]
+) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Of some coedges: are they reversed, are they one point, the tolerance of their edges."""
+    arrays = model_arrays(model)
+    edges = arrays.coedge_edge[which]
+    is_point = np.array([nodes[edge] is None for edge in edges.tolist()], np.uint8)
+    return arrays.coedge_reversed[which].view(np.uint8), is_point, arrays.tolerance[edges]
+
+
+def _point_nodes(model: CadModel, vertex: np.ndarray, edge: int) -> EdgeNodes:
+    """Both ends of an edge that is one point in space."""
+    number = int(vertex[model.edges[edge].start])
+    points = np.tile(model.vertices[number].point, (2, 1))
+    return EdgeNodes(np.array([0.0, 1.0]), points, np.full(2, number, np.int64), np.full(2, np.inf))

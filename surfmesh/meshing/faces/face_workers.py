@@ -1,6 +1,8 @@
 """Who meshes the faces of a model: this thread, threads of this process, or any executor.
 
-faces, most work first -> batches -> workers -> meshes in the order of the faces
+faces, most work first -> batches -> workers -> meshes, each with the number of its face
+   |
+   +-- one that would keep a thread busy after all others are done -> by itself, all threads
 
 A face is meshed from plain arrays and knows nothing of the others, so that its mesh is the same
 whoever makes it, and when.
@@ -10,10 +12,12 @@ from collections.abc import Iterator
 from concurrent.futures import BrokenExecutor, Executor, Future, ThreadPoolExecutor
 from dataclasses import dataclass
 from heapq import heappop, heappush
+from queue import SimpleQueue
 
 from surfmesh.errors import MeshingError
 from surfmesh.meshing.faces.face_data import FaceJob, FaceMesh
 from surfmesh.meshing.faces.face_mesh import mesh_face
+from surfmesh.meshing.processors import allowed_threads
 
 BATCHES = 64
 """Most batches that an executor is handed at a time: some for each of a dozen workers, so that
@@ -21,6 +25,13 @@ none waits long at the end, and not one for each of thousands of faces."""
 
 FACE_WORK = 400
 """Work of a face besides its triangles, in triangles; from the seconds it takes."""
+
+
+WITHIN_ONE = 0.7
+"""What a thread does within a face that several mesh, of what it does on one of its own."""
+
+LITTLE = 20_000
+"""Work in all, in triangles, that threads are not begun for: some hundredths of a second."""
 
 
 @dataclass(frozen=True)
@@ -32,22 +43,64 @@ class FaceWorkers:
     executor: Executor | None = None
     """Instead of threads: processes, or other machines. Jobs and meshes are pickled."""
 
-    def meshed(self, jobs: list[FaceJob]) -> Iterator[FaceMesh]:
-        """The meshes of all jobs, in their order.
+    def meshed(self, jobs: list[FaceJob]) -> Iterator[tuple[int, FaceMesh]]:
+        """The number and the mesh of each job; by threads in the order in which they are done.
 
         Where the iterator is closed early, what has not begun is not done. Raises
         ``MeshingError`` when the executor has lost its workers.
         """
+        work = list(map(expected_work, jobs))
         if self.executor is not None:
             yield from _by_executor(self.executor, jobs, BATCHES)
-        elif self.threads > 1 and len(jobs) > 1:
-            with ThreadPoolExecutor(min(self.threads, len(jobs))) as threads:
-                yield from _by_executor(threads, jobs, len(jobs))
+        elif self.threads > 1 and sum(work) > LITTLE:
+            yield from self._by_threads(jobs, work)
         else:
-            yield from map(mesh_face, jobs)
+            yield from enumerate(map(mesh_face, jobs))
+
+    def _is_to_be_shared(self, largest: float, whole: float) -> bool:
+        """Is all done sooner where threads work on the largest face together, then on the rest?"""
+        shared = largest / (WITHIN_ONE * self.threads) + (whole - largest) / self.threads
+        return largest > max(shared, whole / self.threads)
+
+    def _by_threads(self, jobs: list[FaceJob], work: list[float]) -> Iterator[tuple[int, FaceMesh]]:
+        """Most work first; what would keep one thread busy for long after all has all threads."""
+        waiting = sorted(range(len(jobs)), key=lambda k: (work[k], -k))  # the last is taken first
+        if self._is_to_be_shared(work[waiting[-1]], sum(work)):
+            largest = waiting.pop()
+            with allowed_threads(self.threads):
+                mesh = mesh_face(jobs[largest])
+            yield largest, mesh
+        done: SimpleQueue[tuple[int, FaceMesh] | BaseException] = SimpleQueue()
+        left = len(waiting)
+
+        def take_all() -> None:
+            while True:
+                try:
+                    k = waiting.pop()
+                except IndexError:  # none is left
+                    return
+                try:
+                    done.put((k, mesh_face(jobs[k])))
+                except BaseException as error:
+                    done.put(error)
+                    return
+
+        with ThreadPoolExecutor(self.threads) as pool:
+            try:
+                for _ in range(min(self.threads, left)):
+                    pool.submit(take_all)
+                for _ in range(left):
+                    found = done.get()
+                    if isinstance(found, BaseException):
+                        raise found
+                    yield found
+            finally:
+                waiting.clear()
 
 
-def _by_executor(executor: Executor, jobs: list[FaceJob], batches: int) -> Iterator[FaceMesh]:
+def _by_executor(
+    executor: Executor, jobs: list[FaceJob], batches: int
+) -> Iterator[tuple[int, FaceMesh]]:
     futures: dict[int, tuple[Future[list[FaceMesh]], int]] = {}
     try:
         for batch in batches_of(list(map(expected_work, jobs)), batches):
@@ -55,7 +108,7 @@ def _by_executor(executor: Executor, jobs: list[FaceJob], batches: int) -> Itera
             futures.update({k: (future, place) for place, k in enumerate(batch)})
         for k in range(len(jobs)):
             future, place = futures[k]
-            yield future.result()[place]
+            yield k, future.result()[place]
     except BrokenExecutor as error:
         raise MeshingError(f"the workers that mesh the faces are lost: {error}") from error
     finally:

@@ -15,15 +15,15 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from surfmesh._core import elementary_functions
+from surfmesh._core import elementary_functions, faces
 from surfmesh.geometry.surface import Surface
 from surfmesh.meshing.edges.polygon_lengths import fractions_along
-from surfmesh.meshing.faces.face_data import CoedgeNodes, FaceJob
+from surfmesh.meshing.faces.face_data import CoedgeNodes, FaceJob, boundary_of
 
 COLUMNS = 6
 """Triangles round a full tube: so many normals turn from one to the next by 60 degrees."""
 
-FEWEST = 2.5
+FEWEST = faces.FEWEST_STEPS  # 2.5
 """A level whose way round is less than so many steps along the edges is thin."""
 
 THREAD = 1e-3
@@ -35,10 +35,10 @@ BLUNT = 0.5
 LEAST_TURN = 0.5
 """Radians by which the way round turns: what turns less is a corner, not a tube."""
 
-APART = 1e-3
+APART = faces.APART  # 1e-3
 """Images nearer than this fraction of the face's box are no two: an edge inside the face."""
 
-WAY = 33
+WAY = faces.WAY_SAMPLES  # 33
 """Samples of the way round at a level."""
 
 
@@ -106,9 +106,9 @@ def without_tubes(job: FaceJob) -> tuple[FaceJob, list[Tube], np.ndarray]:
         opened[:0] = rest
     if not tubes:
         return job, [], np.arange(slot)
-    loops = tuple(tuple(loop.pieces) for loop in done)
+    left = replace(job, boundary=boundary_of(loop.pieces for loop in done))
     kept = [slots for loop in done for slots in loop.slots]
-    return replace(job, loops=loops), tubes, np.concatenate([np.empty(0, np.int64), *kept])
+    return left, tubes, np.concatenate([np.empty(0, np.int64), *kept])
 
 
 def _whole_cut(job: FaceJob, loop: _Open, following: int) -> tuple[Tube | None, list[_Open]]:

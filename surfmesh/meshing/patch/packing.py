@@ -40,10 +40,8 @@ class RoomForPacking(NamedTuple):
 def room_for_packing(field: SizeField, chart: Chart, box: np.ndarray | None) -> RoomForPacking:
     """box: (4,) in the plane of ``chart``; None: the whole domain."""
     if box is None:
-        u, v = chart.axes
-        return RoomForPacking(
-            (0.0, 0.0, float(u.extent), float(v.extent)), field.expected_vertices()
-        )
+        width, height = chart.extent.tolist()
+        return RoomForPacking((0.0, 0.0, width, height), field.expected_vertices())
     x0, y0, x1, y1 = box.tolist()
     return RoomForPacking((x0, y0, x1, y1), int(VERTICES * box_area(field, box)))
 

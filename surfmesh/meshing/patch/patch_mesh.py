@@ -18,6 +18,7 @@ import numpy as np
 from surfmesh._core import patch as core
 from surfmesh._core.insertion import DomainMesh
 from surfmesh._core.patch import PatchEnd, PatchStage
+from surfmesh.errors import SurfmeshError
 from surfmesh.geometry.core_surface import as_core_surface
 from surfmesh.geometry.differential.chart import Chart
 from surfmesh.geometry.surface import Surface
@@ -141,8 +142,15 @@ def _meshed(
             settings, uv, nodes, boundary.segments, boundary.inner, boundary.identity,
             boundary.points,
         )  # fmt: skip
-    if found.end == PatchEnd.PACKING_FAILED:
-        raise packing_error(found.packing, found.circles, room.middle)
-    if found.end == PatchEnd.BOUNDARY_FAILED:
-        raise boundary_error(found.boundary, uv, segments, surface)
+    if found.end != PatchEnd.DONE:
+        raise patch_error(found, uv, segments, surface)
     return found
+
+
+def patch_error(
+    found: core.PatchMesh, uv: np.ndarray, segments: np.ndarray, surface: Surface
+) -> SurfmeshError:
+    """What it means that a patch is not done. uv (k, 2), segments (s, 2): of its boundary."""
+    if found.end == PatchEnd.PACKING_FAILED:
+        return packing_error(found.packing, found.circles, found.place)
+    return boundary_error(found.boundary, uv, segments, surface)

@@ -11,6 +11,7 @@ import numpy as np
 
 from surfmesh.cad.model.cad_model import CadModel
 from surfmesh.cad.model.facts import model_facts
+from surfmesh.cad.model.model_arrays import model_arrays, offsets
 from surfmesh.errors import MeshingError
 from surfmesh.meshing.edges.edge_nodes import EdgeNodes
 from surfmesh.meshing.faces.face_data import FaceMesh
@@ -36,17 +37,12 @@ def joined_mesh(
     """
     turned, solids = orientation(model)
     is_stretched = any(state.mesh.inverse_sizes is not None for state in faces)
-    joined = _Joined(model, nodes)
-    for state in faces:
-        if len(state.mesh.triangles):
-            joined.add(state, turned[state.number])
-            if is_stretched:
-                joined.roots.append(_metric_roots(state.mesh))
-    if not joined.triangles:
+    there = [state for state in faces if len(state.mesh.triangles)]
+    if not there:
         reasons = [state.reason for state in faces if state.reason]
         raise MeshingError(f"no face could be meshed: {'; '.join(reasons[:5])}")
-    points, sizes = np.concatenate(joined.points), np.concatenate(joined.sizes)
-    triangles, face_ids = np.concatenate(joined.triangles), np.concatenate(joined.face_ids)
+    joined = _joined(_shared_nodes(model, nodes), there, turned)
+    points, sizes, triangles, face_ids = joined[:4]
     used = np.zeros(len(points), bool)
     used[triangles.ravel()] = True
     rank = np.where(used, np.cumsum(used) - 1, -1)
@@ -55,8 +51,8 @@ def joined_mesh(
     return SurfaceMesh(
         points=points[used],
         triangles=rank[triangles],
-        uv_points=np.concatenate(joined.uv_points),
-        uv_triangles=np.concatenate(joined.uv_triangles),
+        uv_points=joined.uv_points,
+        uv_triangles=joined.uv_triangles,
         face_ids=face_ids,
         surfaces=tuple(face.surface for face in model.faces),
         turned_faces=turned,
@@ -69,7 +65,9 @@ def joined_mesh(
         vertex_ids=rank[vertex],
         sizes=np.where(np.isfinite(sizes), sizes, model.diagonal)[used],
         groups=groups_of(model),
-        metric_root_3d=np.concatenate(joined.roots) if is_stretched else None,
+        metric_root_3d=(
+            np.concatenate([_metric_roots(state.mesh) for state in there]) if is_stretched else None
+        ),
         sizing=sizing,
         seconds=seconds,
         warnings=(
@@ -80,44 +78,81 @@ def joined_mesh(
     )  # fmt: skip
 
 
-class _Joined:
-    """The arrays of the whole mesh while face after face is added to them."""
+class _Shared(NamedTuple):
+    """What faces may share: CAD vertices and the nodes of edges."""
 
-    def __init__(self, model: CadModel, nodes: list[EdgeNodes | None]) -> None:
-        cuts = [cut for cut in nodes if cut is not None]
-        shared = max([len(model.vertices), *(int(cut.numbers.max()) + 1 for cut in cuts)])
-        points, self.shared_sizes = np.zeros((shared, 3)), np.full(shared, np.inf)
-        points[: len(model.vertices)] = [vertex.point for vertex in model.vertices]
-        for cut in cuts:
-            points[cut.numbers] = cut.points
-            np.minimum.at(self.shared_sizes, cut.numbers, cut.sizes)
-        self.points, self.sizes = [points], [self.shared_sizes]
-        self.triangles: list[np.ndarray] = []
-        self.face_ids: list[np.ndarray] = []
-        self.uv_points: list[np.ndarray] = []
-        self.uv_triangles: list[np.ndarray] = []
-        self.roots: list[np.ndarray] = []
-        self._total, self._uv_total = shared, 0
+    points: np.ndarray  # (s, 3)
+    sizes: np.ndarray  # (s,) infinite where nothing is known
 
-    def add(self, state: FaceState, turned: bool) -> None:
-        """Add the triangles of a face, turned over or not."""
-        mesh = state.mesh
-        names = np.concatenate([piece.numbers for loop in state.job.loops for piece in loop])
-        inside = mesh.slots < 0
-        own = np.empty(len(mesh.points), np.int64)
-        own[~inside] = names[mesh.slots[~inside]]
-        own[inside] = self._total + np.arange(int(inside.sum()))
-        self._total += int(inside.sum())
-        # poles have no edge of a size
-        np.minimum.at(self.shared_sizes, own[~inside], mesh.sizes[~inside])
-        self.points.append(mesh.points[inside])
-        self.sizes.append(mesh.sizes[inside])
-        order = [0, 2, 1] if turned else [0, 1, 2]
-        self.triangles.append(own[mesh.triangles][:, order])
-        self.uv_points.append(mesh.uv_points)
-        self.uv_triangles.append(self._uv_total + mesh.uv_triangles[:, order].astype(np.int64))
-        self._uv_total += len(mesh.uv_points)
-        self.face_ids.append(np.full(len(mesh.triangles), state.number, np.int32))
+
+def _shared_nodes(model: CadModel, nodes: list[EdgeNodes | None]) -> _Shared:
+    cuts = [cut for cut in nodes if cut is not None]
+    numbers = _in_one([cut.numbers for cut in cuts], np.empty(0, np.int64))
+    corners = model_arrays(model).corners
+    points = np.zeros((max(len(corners), int(numbers.max(initial=-1)) + 1), 3))
+    points[: len(corners)] = corners
+    points[numbers] = _in_one([cut.points for cut in cuts], np.empty((0, 3)))
+    sizes = np.full(len(points), np.inf)
+    np.minimum.at(sizes, numbers, _in_one([cut.sizes for cut in cuts], np.empty(0)))
+    return _Shared(points, sizes)
+
+
+class _Joined(NamedTuple):
+    """The arrays of the whole mesh."""
+
+    points: np.ndarray
+    sizes: np.ndarray
+    triangles: np.ndarray
+    face_ids: np.ndarray
+    uv_points: np.ndarray
+    uv_triangles: np.ndarray
+
+
+def _joined(shared: _Shared, faces: list[FaceState], turned: np.ndarray) -> _Joined:
+    """With the inner points of face after face; turned: (f,) of all faces of the model."""
+    meshes = [state.mesh for state in faces]
+    names = [[p.numbers for loop in state.job.loops for p in loop] for state in faces]
+    first_name = offsets(np.array([sum(map(len, own)) for own in names], np.int64))
+    count = np.array([len(mesh.points) for mesh in meshes])
+    slots = np.concatenate([mesh.slots for mesh in meshes])
+    inside = slots < 0
+    own = np.empty(len(slots), np.int64)
+    on_edges = (slots + np.repeat(first_name[:-1], count))[~inside]
+    own[~inside] = np.concatenate([part for parts in names for part in parts])[on_edges]
+    own[inside] = len(shared.points) + np.arange(int(inside.sum()))
+    points = np.concatenate([mesh.points for mesh in meshes])
+    sizes = np.concatenate([mesh.sizes for mesh in meshes])
+    np.minimum.at(shared.sizes, own[~inside], sizes[~inside])  # poles have no edge of a size
+    triangles = np.array([len(mesh.triangles) for mesh in meshes])
+    numbers = np.array([state.number for state in faces], np.int32)
+    back = np.repeat(turned[numbers], triangles)
+    corners = _in_one_row([mesh.triangles for mesh in meshes], count, triangles, back)
+    images = np.array([len(mesh.uv_points) for mesh in meshes])
+    return _Joined(
+        np.concatenate([shared.points, points[inside]]),
+        np.concatenate([shared.sizes, sizes[inside]]),
+        own[corners],
+        np.repeat(numbers, triangles),
+        np.concatenate([mesh.uv_points for mesh in meshes]),
+        _in_one_row([mesh.uv_triangles for mesh in meshes], images, triangles, back),
+    )
+
+
+def _in_one_row(
+    parts: list[np.ndarray], points: np.ndarray, triangles: np.ndarray, back: np.ndarray
+) -> np.ndarray:
+    """Triangles (m, 3) int64 of parts, numbered on; of which those in ``back`` (m,) turn over.
+
+    points, triangles: how many each part has.
+    """
+    found = np.concatenate(parts).astype(np.int64)
+    found += np.repeat(offsets(points)[:-1], triangles)[:, None]
+    found[back, 1:] = found[back, 2:0:-1]
+    return found
+
+
+def _in_one(parts: list[np.ndarray], nothing: np.ndarray) -> np.ndarray:
+    return np.concatenate([nothing, *parts])
 
 
 def _metric_roots(mesh: FaceMesh) -> np.ndarray:
@@ -142,16 +177,16 @@ def _edge_segments(nodes: list[EdgeNodes | None], rank: np.ndarray) -> _EdgeSegm
     edges = [(number, cut) for number, cut in enumerate(nodes) if cut is not None]
     if not edges:
         return _EdgeSegments(np.empty((0, 2), np.int64), np.empty(0, np.int64), np.empty((0, 2)))
-    segments = rank[np.concatenate([_pairs(cut.numbers) for _, cut in edges])]
-    ids = np.concatenate([np.full(len(cut.t) - 1, number) for number, cut in edges])
-    parameters = np.concatenate([_pairs(cut.t) for _, cut in edges])
+    first = offsets(np.array([len(cut.t) for _, cut in edges]))
+    is_start = np.ones(first[-1], bool)
+    is_start[first[1:] - 1] = False
+    start = np.flatnonzero(is_start)
+    pairs = np.stack([start, start + 1], axis=1)
+    segments = rank[np.concatenate([cut.numbers for _, cut in edges])[pairs]]
+    ids = np.repeat(np.array([number for number, _ in edges]), np.diff(first) - 1)
+    parameters = np.concatenate([cut.t for _, cut in edges])[pairs]
     there = (segments >= 0).all(axis=1)
     return _EdgeSegments(segments[there], ids[there], parameters[there])
-
-
-def _pairs(values: np.ndarray) -> np.ndarray:
-    """Each value with the one after it: (n,) -> (n - 1, 2)."""
-    return np.stack([values[:-1], values[1:]], axis=1)
 
 
 def orientation(model: CadModel) -> tuple[np.ndarray, np.ndarray]:
@@ -186,7 +221,7 @@ def limits_where_crowded(
         return {}
     code = np.array([len(mesh.points), 1], np.int64)
     along, place = np.unique(np.sort(mesh.edge_segments, axis=1) @ code, return_inverse=True)
-    users = np.array([len(model.faces_of_edge(edge)) for edge in range(len(model.edges))])
+    users = np.bincount(model_arrays(model).coedge_edge, minlength=len(model.edges))
     allowed = np.bincount(place.reshape(-1), users[mesh.edge_ids])
     keys = table.edges @ code
     row = np.minimum(np.searchsorted(along, keys), len(along) - 1)

@@ -5,25 +5,22 @@ each point of known size the sizes grow with the distance. See src/fields/source
 """
 
 import math
+from functools import lru_cache
 
 import numpy as np
 
-from surfmesh._core.fields import MOST_IN_A_ROW, Background, grow_tree
+from surfmesh._core.faces import extent_over
+from surfmesh._core.fields import MOST_SOURCE_CELLS, Background, grow_sizes
 from surfmesh.errors import SizingError
-from surfmesh.geometry.boxes import diagonal
 from surfmesh.geometry.cad_surfaces.elementary import Cylinder, Plane
+from surfmesh.geometry.core_surface import as_core_surface
 from surfmesh.geometry.differential.chart import Chart
 from surfmesh.geometry.planar.planar_domain import PlanarDomain
-from surfmesh.geometry.surface import Surface
+from surfmesh.geometry.surface import Domain, Surface
 from surfmesh.sizing.field.size_field import SizeField
 from surfmesh.sizing.field.size_law import SizeLaw
 from surfmesh.sizing.options.sizing import Sizing
 from surfmesh.sizing.rules.size_rules import SizeRules
-
-FEW_ROOTS, MANY_TESTS = 2, 2e5
-"""Sources to a root cell; every root cell looks at all sources, in all no more than so many."""
-
-MOST_CELLS = 1 << 26
 
 _ISOTROPIC = (1.0, 0.0, 1.0)
 
@@ -60,8 +57,8 @@ def boundary_field(
             f"the metric of {surface.name!r} is not constant, or a size law is given: use "
             "size_field"
         )
-    radius = surface.radius if isinstance(surface, Cylinder) else 1.0
-    chart = Chart.uniform(surface.domain, (radius, 1.0))
+    speeds = speeds_of(surface)
+    chart = Chart.uniform(surface.domain, speeds)
     sizes = np.ascontiguousarray(sizes, float)
     uv = np.ascontiguousarray(uv, float).reshape(-1, 2)
     if sizes.shape != (len(uv),) or not (sizes > 0.0).all() or not np.isfinite(uv).all():
@@ -71,24 +68,18 @@ def boundary_field(
         )
     if not as_cut:
         sizes = np.maximum(sizes, sizing.min_size or 0.0)
-    stated = sizing.max_size and (sizing.chord or sizing.angle or sizing.size)
-    # the finest size alone is left to the diagonal: that of the rectangle will do
-    diagonal = math.hypot(*chart.extent) if stated else _diagonal(surface)
-    rules = SizeRules.of(sizing, diagonal)
-    allowed = rules.clamp[1]
+    rules = SizeRules.of(sizing, _diagonal(surface, sizing, surface.domain))
     if isinstance(surface, Cylinder):
-        if rules.follows_curvature:
-            allowed = float(rules.from_curvature(np.array([1.0 / radius]), np.zeros(1))[0])
-        largest = min(allowed, largest or math.inf)
+        largest = min(_allowed(rules, surface.radius), largest or math.inf)
     elif largest is None:
-        largest = allowed
+        largest = _allowed(rules, None)
     if not 0.0 < largest < math.inf:
         raise SizingError(
             f"the largest size on {surface.name!r} must be a positive number, not {largest:g}"
         )
     width, height = (float(extent) for extent in chart.extent)
     low = [surface.domain[0][0], surface.domain[1][0]]
-    place = (uv - low) * [radius, 1.0]
+    place = (uv - low) * speeds
     box = (0.0, 0.0, width, height)
     background = source_background(place, sizes, largest, sizing.gradient, box)
     return SizeField(chart, background, SizeLaw(surface, chart, rules))
@@ -114,39 +105,54 @@ def source_background(
         raise SizingError(f"a size field needs a box with width and height, not {box}")
     if not (E > 0.0 and E * G > F * F):
         raise SizingError(f"a metric with E = {E:g}, F = {F:g}, G = {G:g} is not positive")
-    wide, high = math.sqrt(E) * (x1 - x0), math.sqrt(G) * (y1 - y0)
-    active = int(np.count_nonzero(sizes < largest))
-    nx, ny, step = _root_grid(wide, high, active)
-    root = (x0, y0, step / math.sqrt(E), step / math.sqrt(G))
-    reach = 16.0 * max(x1 - x0, y1 - y0)
-    background = grow_tree(
-        xy, sizes, (E, F, G), slope, largest, root, (x1, y1), (nx, ny), reach, MOST_CELLS
-    )
+    background = grow_sizes(xy, sizes, metric, slope, largest, box)
     if background is None:
         raise SizingError(
-            f"the sizes asked for need more than {MOST_CELLS:,} cells to describe: raise "
+            f"the sizes asked for need more than {MOST_SOURCE_CELLS:,} cells to describe: raise "
             "min_size or growth"
         )
     return background
 
 
-def _root_grid(wide: float, high: float, active: int) -> tuple[int, int, float]:
-    """Cells along x and y, and their side: squares, the longer side of the box met exactly."""
-    wanted = max(1.0, min(active / FEW_ROOTS, MANY_TESTS / max(active, 1), MOST_IN_A_ROW**2))
-    longer, shorter = max(wide, high), min(wide, high)
-    side = math.sqrt(longer / wanted) * math.sqrt(shorter)
-    if side > shorter:  # one row
-        side = max(shorter, longer / wanted)
-    step = longer / min(max(int(longer / side), 1), MOST_IN_A_ROW)
-    # a box that is a hair too high needs no second row: look-up takes the nearest point
-    nx, ny = (max(1, math.ceil(length / step - 1e-9)) for length in (wide, high))
-    return nx, ny, step
+def speeds_of(surface: Surface) -> tuple[float, float]:
+    """|r_u| and |r_v| of a plane or a cylinder."""
+    return (surface.radius if isinstance(surface, Cylinder) else 1.0), 1.0
 
 
-def _diagonal(surface: Surface) -> float:
-    """Of the bounding box in space, from the points of a coarse grid."""
-    (u0, u1), (v0, v1) = surface.domain
-    u, v = np.linspace(u0, u1, 17), np.array([v0, v1])
-    uv = np.stack(np.meshgrid(u, v), axis=-1).reshape(-1, 2)
-    (points,) = surface.evaluate(uv, 0)
-    return diagonal(points)
+def largest_size(surface: Surface, sizing: Sizing, domain: Domain) -> float:
+    """What all rules allow on a plane or a cylinder over a box of its parameters."""
+    radius = surface.radius if isinstance(surface, Cylinder) else None
+    reach = 2.0 * _extent(surface, domain)  # the diagonal is no longer
+    found = _largest_within(sizing, radius, 2.0 ** math.ceil(math.log2(reach)))
+    if found is not None:
+        return found
+    return _allowed(SizeRules.of(sizing, _diagonal(surface, sizing, domain)), radius)
+
+
+@lru_cache(maxsize=1024)
+def _largest_within(sizing: Sizing, radius: float | None, reach: float) -> float | None:
+    """The same where it does not depend on the diagonal, for any up to ``reach``: no size falls
+    as the diagonal grows."""
+    low, high = (_allowed(SizeRules.of(sizing, diagonal), radius) for diagonal in (0.0, reach))
+    return low if 0.0 < low == high else None
+
+
+def _allowed(rules: SizeRules, radius: float | None) -> float:
+    """The largest size on a plane, or on a cylinder of this radius."""
+    if radius is None or not rules.follows_curvature:
+        return rules.clamp[1]
+    return float(rules.from_curvature(np.array([1.0 / radius]), np.zeros(1))[0])
+
+
+def _extent(surface: Surface, domain: Domain) -> float:
+    """Of the box in the scaled plane."""
+    (u0, u1), (v0, v1) = domain
+    return math.hypot(speeds_of(surface)[0] * (u1 - u0), v1 - v0)
+
+
+def _diagonal(surface: Surface, sizing: Sizing, domain: Domain) -> float:
+    """What the rules take for the diagonal of a plane or a cylinder over a box."""
+    stated = sizing.max_size and (sizing.chord or sizing.angle or sizing.size)
+    if stated:  # the finest size alone is left to the diagonal: that of the rectangle will do
+        return _extent(surface, domain)
+    return float(np.linalg.norm(extent_over(as_core_surface(surface), *domain)))

@@ -5,6 +5,8 @@ blocks of nodes, and where features may hide between them. Here is what is asked
 the search starts, what counts as too much, and what errors say.
 """
 
+import math
+
 import numpy as np
 
 import surfmesh._core.fields as core
@@ -47,8 +49,9 @@ def _root_grid(width: float, height: float, cells: int) -> tuple[int, int]:
     """
     ratio = max(width, height) / min(width, height)
     most = max(cells // 4, min(round(2.0 * ratio), LONGEST_ROW))
-    longer = int(np.clip(round(np.sqrt(cells * ratio)), 4, most))
-    shorter = int(np.clip(round(cells / longer), 2 if longer > cells // 4 else 4, cells // 4))
+    longer = min(max(round(math.sqrt(cells * ratio)), 4), most)
+    least = 2 if longer > cells // 4 else 4
+    shorter = min(max(round(cells / longer), least), cells // 4)
     return (longer, shorter) if width > height else (shorter, longer)
 
 
@@ -65,10 +68,11 @@ class FieldBuilder:
         self.sides = sides
         self.chart = law.chart
         self.law = law
-        width, height = self.chart.extent
+        width, height = self.chart.extent.tolist()
         roots = ROOT_CELLS
         if isinstance(surface, FaceSurface):
-            roots = int(np.clip(CELLS_OF_PIECE * surface.pieces, *CELLS_OF_FACE))
+            fewest, most = CELLS_OF_FACE
+            roots = min(max(CELLS_OF_PIECE * surface.pieces, fewest), most)
         nx, ny = _root_grid(width, height, roots)
         step = np.array([width / nx, height / ny])
         self.core = core.FieldBuilder(
@@ -76,7 +80,7 @@ class FieldBuilder:
             extent=(width, height),
             root_step=(step[0], step[1]),
             slope=law.sizing.gradient,
-            largest=16.0 * float(self.chart.extent.max()),  # for degenerate points
+            largest=16.0 * max(width, height),  # for degenerate points
             sides=_OPEN_SIDES if sides is None else (list(sides.partner), list(sides.reversed)),
             sources=self._sources(step),
             known_sizes=law.limits is not None and law.limits.uv is not None,
@@ -92,11 +96,10 @@ class FieldBuilder:
     def background(self) -> Background:
         """Raises ``SizingError`` when the sizes need an unreasonable number of cells."""
         self._require_done(self.core.refine(*self._asked()))
-        nodes = self._nodes
-        if isinstance(self.law, SizeLaw) and nodes.is_anisotropic:
+        if isinstance(self.law, SizeLaw) and self.law.sizing.is_anisotropic:
             if not has_even_curvature(self.surface):
-                self._limit_longer_sizes(self.law, nodes)
-        self._blunt_poles(nodes)
+                self._limit_longer_sizes(self.law, self._nodes)
+        self._blunt_poles()
         return self.core.background()
 
     @property
@@ -189,7 +192,7 @@ class FieldBuilder:
         )
         return law if law.sizing.is_anisotropic else in_core, hidden
 
-    def _blunt_poles(self, nodes: FieldNodes) -> None:
+    def _blunt_poles(self) -> None:
         """Cap the stretch near sides that are one point in space.
 
         There the wanted length along the side is infinite in (u, v): whoever comes nearer to
@@ -198,7 +201,7 @@ class FieldBuilder:
         """
         if self.sides is None or not any(self.sides.collapsed):
             return
-        xy = self.core.plane()
+        xy, nodes = self.core.plane(), self._nodes
         width, height = self.chart.extent
         for side in np.flatnonzero(self.sides.collapsed):
             across = 1 if side in (0, 2) else 0

@@ -2,6 +2,7 @@
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 
@@ -43,11 +44,13 @@ class SizeField:
         return self.background.is_anisotropic
 
     def expected_vertices(self) -> int:
-        """About how many circles cover the domain: its metric area over that of a circle's
-        share, sqrt(3) / 2."""
-        width, height = self.chart.extent
-        area = self.background.metric_area(float(width), float(height))
-        return int(min(area * 2.0 / np.sqrt(3.0), COUNTABLE)) + 100
+        """About how many circles cover the domain."""
+        return self._expected_vertices
+
+    @cached_property
+    def _expected_vertices(self) -> int:
+        width, height = self.chart.extent.tolist()
+        return self.background.expected_circles(width, height)
 
     def sizes(self, xy: np.ndarray) -> np.ndarray:
         """Wanted edge lengths (n,) at points xy (n, 2) of the scaled plane, the shorter of two."""

@@ -26,6 +26,9 @@ from surfmesh.sizing.rules.rule import DirectedRule, Places, Rule
 from surfmesh.sizing.rules.size_limits import SizeLimits
 from surfmesh.sizing.rules.size_rules import SizeRules
 
+_GRID = np.stack(np.meshgrid(*[np.linspace(0.0, 1.0, 17)] * 2), axis=-1).reshape(-1, 2)
+"""Where the extent of a surface is looked at, on the unit square."""
+
 
 class FieldNodes(NamedTuple):
     """What is known at n nodes of a size field; lengths are in model units.
@@ -119,9 +122,7 @@ class SizeLaw:
     ) -> "SizeLaw":  # fmt: skip
         """With the defaults that follow from the extent of the surface, and its chart."""
         (u0, u1), (v0, v1) = surface.domain
-        grid = np.linspace(0.0, 1.0, 17)
-        t = np.stack(np.meshgrid(grid, grid), axis=-1).reshape(-1, 2)
-        (points,) = surface.evaluate(np.array([u0, v0]) + t * np.array([u1 - u0, v1 - v0]), 0)
+        (points,) = surface.evaluate(np.array([u0, v0]) + _GRID * np.array([u1 - u0, v1 - v0]), 0)
         rules = SizeRules.of(sizing, diagonal(points))
         return cls(surface, chart or Chart.of(surface), rules, limits, rims)
 

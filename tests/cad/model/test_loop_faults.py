@@ -14,9 +14,9 @@ from OCP.gp import gp_Ax3, gp_Pln, gp_Pnt2d
 from OCP.TopoDS import TopoDS, TopoDS_Compound, TopoDS_Face, TopoDS_Vertex, TopoDS_Wire
 
 import surfmesh as sm
+from surfmesh.cad.model.collapsed_edges import vertex_numbers
 from surfmesh.cad.model.loop_faults import exact_loops
 from surfmesh.errors import MeshingError
-from surfmesh.meshing.edges.edge_sampling import vertex_numbers
 
 BUILD = BRep_Builder()
 BOX = [(0, 0), (15, 0), (15, 10), (0, 10)]

@@ -12,7 +12,7 @@ from OCP.TopoDS import TopoDS_Face, TopoDS_Wire
 
 import surfmesh as sm
 from surfmesh.geometry.cad_surfaces.elementary import Cone
-from surfmesh.meshing.faces.face_data import CoedgeNodes, FaceJob
+from surfmesh.meshing.faces.face_data import CoedgeNodes, FaceJob, boundary_of
 from surfmesh.meshing.faces.face_mesh import mesh_face
 from surfmesh.sizing.options.sizing import Sizing
 
@@ -66,6 +66,6 @@ def test_a_degenerate_edge_that_is_long_is_refused_with_its_place():
         piece([(3.0, 3.0), (0.0, 3.0), (-3.0, 3.0)], [3, 4, 5]),
         piece([(-3.0, 3.0), (-3.0, 0.0)], [5, 0]),
     )
-    mesh = mesh_face(FaceJob(band, (loop,), Sizing(size=1.0)))
+    mesh = mesh_face(FaceJob(band, boundary_of((loop,)), Sizing(size=1.0)))
     assert "is to be one point" in mesh.failure
     assert "(-9.89992, -1.4112, 0)" in mesh.failure

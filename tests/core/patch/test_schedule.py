@@ -103,6 +103,22 @@ def test_swaps_for_shape_only_better_the_worse_of_two():
     assert swap_for_shape(t, s, state.marks, 0.82, 50)[0] == 0
 
 
+def test_the_worst_triangles_are_raised_and_none_gets_worse_than_they_were():
+    """Where ``least`` is out of reach, others of a star may fall below it, not below its worst."""
+    state, domain = state_of()
+    state.swap()
+    state.smooth()
+    least, nodes, before = 0.8, state.t.xy[domain.node].copy(), shapes(state)
+    state.raise_worst(least)
+    after = shapes(state)
+    worse = before < least
+    assert 0 < worse.sum() and (after < least).sum() < worse.sum()
+    assert after[worse].mean() > before[worse].mean() + 0.02
+    assert after.min() > before.min() - 0.01  # they were put back on the surface since
+    assert check_domain(state.t, 1) is None
+    assert (state.t.xy[domain.node] == nodes).all()
+
+
 def counted_degrees(t):
     return np.bincount(corners(t)[live_triangles(t)].ravel(), minlength=len(t.xy))
 

@@ -11,12 +11,12 @@ from surfmesh.sizing.field.size_law import SizeLaw
 from surfmesh.sizing.rules.rim_rule import Rims
 from surfmesh.sizing.rules.size_limits import SizeLimits
 
-SIZINGS = [
-    sm.Sizing(chord=0.01),
-    sm.Sizing(angle=20.0),
-    sm.Sizing(chord=0.02, angle=15.0, max_size=0.3, min_size=0.02),
-    sm.Sizing(chord=0.02, size=lambda p: 0.1 + np.abs(p[:, 0])),
-]
+SIZINGS = {
+    "chord": sm.Sizing(chord=0.01),
+    "angle": sm.Sizing(angle=20.0),
+    "both": sm.Sizing(chord=0.02, angle=15.0, max_size=0.3, min_size=0.02),
+    "law": sm.Sizing(chord=0.02, size=lambda p: 0.1 + np.abs(p[:, 0])),
+}
 
 
 def places(law):
@@ -24,7 +24,7 @@ def places(law):
     return grid.reshape(-1, 2)
 
 
-@pytest.mark.parametrize("sizing", SIZINGS, ids=str)
+@pytest.mark.parametrize("sizing", SIZINGS.values(), ids=SIZINGS)
 @pytest.mark.parametrize("name", ["two_peaks", "torus", "sphere"])
 def test_nodes_are_the_least_of_all_rules(name, sizing):
     surface = sm.load(name)

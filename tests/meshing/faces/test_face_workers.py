@@ -7,8 +7,9 @@ import subprocess
 import sys
 from concurrent.futures import Future, ProcessPoolExecutor
 from multiprocessing import get_context
-from threading import Thread
+from threading import Thread, active_count
 from time import sleep
+from types import SimpleNamespace
 
 import cadquery as cq
 import numpy as np
@@ -17,8 +18,10 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 import surfmesh as sm
-from surfmesh.errors import MeshingError
-from surfmesh.meshing.faces.face_workers import batches_of
+from surfmesh._core import allow_threads
+from surfmesh.errors import Cancelled, MeshingError
+from surfmesh.meshing.faces import face_workers
+from surfmesh.meshing.faces.face_workers import FaceWorkers, batches_of
 from surfmesh.meshing.model_mesh import _Unmeshed
 
 SIZE = 0.7
@@ -49,8 +52,66 @@ def test_batches_hold_each_number_once_and_share_the_work(work, count):
         assert max(loads) <= sum(work) / count + max(work) * (1 + 1e-9) + 1e-6
 
 
-def test_threads_change_nothing(by_one):
-    assert same(by_one, sm.mesh(part(), SIZE, jobs=3))
+@pytest.fixture
+def threads_for_all(monkeypatch):
+    monkeypatch.setattr(face_workers, "LITTLE", 0)
+
+
+ARRAYS = "points triangles uv_points uv_triangles face_ids sizes edge_segments vertex_ids".split()
+
+
+@pytest.mark.parametrize("sizing", [sm.Sizing(size=SIZE), sm.Sizing(chord=0.01, anisotropy=4)])
+def test_threads_change_no_byte(sizing, threads_for_all):
+    model = sm.from_cadquery(part())
+    first, *others = [sm.mesh(model, sizing, jobs=jobs) for jobs in (1, 2, 3)]
+    for mesh in others:
+        for name in ARRAYS:
+            assert getattr(first, name).tobytes() == getattr(mesh, name).tobytes(), name
+
+
+def test_one_large_face_has_all_threads_and_others_one_each(threads_for_all, monkeypatch):
+    def mesh_face(job):
+        allowed = allow_threads(1)
+        allow_threads(allowed)
+        return job.nodes, allowed
+
+    monkeypatch.setattr(face_workers, "mesh_face", mesh_face)
+    jobs = [SimpleNamespace(nodes=nodes) for nodes in (8, 900, 40, 12)]
+    asked = dict(FaceWorkers(2).meshed(jobs))
+    assert asked == {0: (8, 1), 1: (900, 2), 2: (40, 1), 3: (12, 1)} and next(iter(asked)) == 1
+    assert dict(FaceWorkers(2).meshed(jobs[2:])) == {0: (40, 1), 1: (12, 1)}
+    even = [SimpleNamespace(nodes=40)] * 5
+    assert dict(FaceWorkers(2).meshed(even)) == dict.fromkeys(range(5), (40, 1))
+
+
+def test_what_goes_wrong_in_a_thread_comes_out(threads_for_all, monkeypatch):
+    def broken(job):
+        raise MemoryError("no room")
+
+    monkeypatch.setattr(face_workers, "mesh_face", broken)
+    with pytest.raises(MemoryError, match="no room"):
+        sm.mesh(part(), SIZE, jobs=2)
+
+
+def test_threads_end_when_the_caller_stops(threads_for_all, monkeypatch):
+    made = []
+
+    def mesh_face(job):
+        sleep(0.01)
+        made.append(job)
+        return job
+
+    monkeypatch.setattr(face_workers, "mesh_face", mesh_face)
+    before = active_count()
+    meshes = FaceWorkers(2).meshed([SimpleNamespace(nodes=4)] * 500)
+    next(meshes)
+    meshes.close()
+    assert len(made) < 250 and active_count() == before
+
+
+def test_the_callers_no_is_heard_between_faces(threads_for_all):
+    with pytest.raises(Cancelled):
+        sm.mesh(part(), SIZE, jobs=2, progress=lambda stage, done: done < 0.21)
 
 
 def test_processes_change_nothing(by_one):

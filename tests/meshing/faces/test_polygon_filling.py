@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from surfmesh.geometry.cad_surfaces.elementary import Plane
-from surfmesh.meshing.faces.face_data import CoedgeNodes, FaceJob, FaceMesh
+from surfmesh.meshing.faces.face_data import CoedgeNodes, FaceJob, FaceMesh, boundary_of
 from surfmesh.meshing.faces.face_mesh import _never_empty, mesh_face
 from surfmesh.meshing.faces.polygon_filling import filled
 from surfmesh.sizing.options.sizing import Sizing
@@ -48,7 +48,7 @@ def square_with(images, last):
         for k in range(4)
     )
     plane = Plane(np.zeros(3), *np.eye(3), domain=((0.0, 1.0), (0.0, 1.0)))
-    found = mesh_face(FaceJob(plane, (pieces,), Sizing(size=2.0), last=last))
+    found = mesh_face(FaceJob(plane, boundary_of((pieces,)), Sizing(size=2.0), last=last))
     points = np.concatenate([piece.points for piece in pieces])[found.slots]
     return found, np.linalg.norm(areas(points, found.triangles), axis=1).sum()
 
@@ -76,7 +76,7 @@ def test_a_face_without_triangles_says_why(back, said):
     place = np.zeros((len(back), 3))
     there = CoedgeNodes(np.zeros((2, 2)), np.array([0, 1]), np.zeros((2, 3)), np.ones(2))
     again = CoedgeNodes(place[:, :2], np.array(back), place, np.ones(len(back)))
-    job = FaceJob(SimpleNamespace(kind="plane"), ((there, again),), Sizing())
+    job = FaceJob(SimpleNamespace(kind="plane"), boundary_of(((there, again),)), Sizing())
     mesh = _never_empty(job, FaceMesh())
     assert said in mesh.remark + mesh.failure
     assert bool(mesh.failure) == (said == "nothing is left")

@@ -1,0 +1,47 @@
+// The boundaries of faces put together coedge by coedge, as their loops are walked.
+#pragma once
+
+#include <vector>
+
+#include "faces/face_boundary.hpp"
+
+namespace surfmesh {
+
+/// Nodes along an edge.
+struct EdgeNodeRows {
+    std::span<const Point2> uv;  // in the plane of the face
+    std::span<const std::int64_t> numbers;
+    std::span<const Point3> points;
+    std::span<const double> sizes;
+};
+
+/// A use of an edge by a face.
+struct EdgeUse {
+    bool is_reversed;  // the loop runs against the order of the nodes
+    bool is_degenerate;
+    double tolerance;
+};
+
+class BoundaryBuilder {
+  public:
+    void add(const EdgeNodeRows& nodes, const EdgeUse& use);
+    void end_loop() { made_.loop_end.push_back(made_.pieces()); }
+    [[nodiscard]] const FaceBoundary& boundary() const { return made_; }
+
+  private:
+    FaceBoundary made_;
+};
+
+/// The coedges of many faces, loop after loop: nodes of all in one row.
+struct CoedgeRows {
+    EdgeNodeRows nodes;                   // in the direction of the edges
+    std::span<const std::int64_t> first;  // of the coedges and behind the last: their rows
+    std::span<const std::uint8_t> is_reversed, is_degenerate;
+    std::span<const double> tolerance;
+    std::span<const std::int32_t> coedges;  // of the loops: how many
+    std::span<const std::int32_t> loops;    // of the faces: how many
+};
+
+[[nodiscard]] std::vector<FaceBoundary> boundaries_of(const CoedgeRows& rows);
+
+}  // namespace surfmesh

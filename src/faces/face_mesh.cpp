@@ -1,0 +1,165 @@
+#include "faces/face_mesh.hpp"
+
+#include <cmath>
+#include <utility>
+
+#include "faces/surface_over_box.hpp"
+#include "fields/coverage.hpp"
+
+namespace surfmesh {
+namespace {
+
+ChartAxis linear_axis(double low, double high, double speed) {
+    ChartAxis axis;
+    axis.extent = speed * (high - low);
+    for (const double knot : {low, high}) {
+        axis.knots.push_back(knot);
+        axis.slopes.push_back(1.0 / speed);
+    }
+    return axis;
+}
+
+/// The plane of a surface whose speeds are the same everywhere.
+Chart uniform_chart(const PlaneBox& box, Point2 speeds) {
+    return {linear_axis(box.low.x, box.high.x, speeds.x),
+            linear_axis(box.low.y, box.high.y, speeds.y)};
+}
+
+bool is_box(const PlaneBox& box) {
+    return std::isfinite(box.low.x) && std::isfinite(box.low.y) && std::isfinite(box.high.x) &&
+           std::isfinite(box.high.y) && box.low.x < box.high.x && box.low.y < box.high.y;
+}
+
+/// Sizes that grow from the nodes of the edges. Places are in the scaled plane.
+GrownTree grown_inward(const FaceBoundary& b, const PlaneBox& box, const InwardGrowth& growth,
+                       Point2 extent) {
+    Array<Point2> place;
+    place.reserve(b.uv.size());
+    for (const Point2 uv : b.uv) {
+        const Point2 p = uv - box.low;
+        place.push_back({p.x * growth.speeds.x, p.y * growth.speeds.y});
+    }
+    const Sources sources{{place.data(), place.size()},
+                          {b.sizes.data(), b.sizes.size()},
+                          1.0,
+                          0.0,
+                          1.0,
+                          growth.slope,
+                          growth.largest};
+    return grow_sizes(sources, {{0.0, 0.0}, extent});
+}
+
+bool are_sizes(const FaceBoundary& b) {
+    for (const double size : b.sizes)
+        if (!(size > 0.0)) return false;
+    return true;
+}
+
+/// Of the points: the rows of their nodes in the boundary.
+Array<std::int64_t> slots_of_points(const PatchMesh& patch, std::span<const std::int64_t> slots) {
+    Array<std::int64_t> of_vertex(patch.domain.t.xy.size(), -1);
+    for (std::size_t k = 0; k < slots.size(); ++k)
+        if (patch.domain.node[k] != NIL) of_vertex[patch.domain.node[k]] = slots[k];
+    Array<std::int64_t> found;
+    found.reserve(patch.mapped.seamless.vertex.size());
+    for (const std::int64_t v : patch.mapped.seamless.vertex) found.push_back(of_vertex[v]);
+    return found;
+}
+
+/// The loops of a face, what is one node being one.
+struct FaceLoops {
+    LoopNodes nodes;
+    Array<Point2> uv;
+    Array<Point3> points;
+    Array<std::int64_t> slots;
+
+    [[nodiscard]] SegmentsInSpace in_space() const {
+        return {{uv.data(), uv.size()},
+                {points.data(), points.size()},
+                {nodes.segments.data(), nodes.segments.size()}};
+    }
+};
+
+FaceLoops loops_of(const FacePolygons& polygons) {
+    FaceLoops found;
+    found.nodes = loop_nodes({polygons.uv.data(), polygons.uv.size()},
+                             {polygons.numbers.data(), polygons.numbers.size()},
+                             {polygons.lengths.data(), polygons.lengths.size()});
+    for (const std::int32_t k : found.nodes.nodes) {
+        found.uv.push_back(polygons.uv[k]);
+        found.points.push_back(polygons.points[k]);
+        found.slots.push_back(polygons.slots[k]);
+    }
+    return found;
+}
+
+}  // namespace
+
+FaceMesh mesh_face(const FaceField& field, const FacePolygons& polygons, const FaceManner& manner,
+                   const PatchHooks& hooks) {
+    const FaceLoops loops = loops_of(polygons);
+    const SegmentsInSpace in_space = loops.in_space();
+    FaceMesh made;
+    made.uv = loops.uv;
+    made.segments = loops.nodes.segments;
+    if (loops.nodes.runs_twice) {
+        made.end = FaceEnd::runs_twice;
+        return made;
+    }
+    const Array<Point2> xy = field.chart.to_plane(in_space.uv);
+    const Point2 extent = field.chart.extent();
+    const PatchTask task{field.surface,
+                         field.chart,
+                         field.background,
+                         manner.asked,
+                         {0.0, 0.0},
+                         extent,
+                         expected_circles(field.background, extent),
+                         manner.optimise,
+                         manner.first,
+                         manner.is_anisotropic};
+    const Array<std::int64_t>& identity = loops.nodes.identity;
+    const LoopBoundary boundary{{xy.data(), xy.size()},
+                                in_space.segments,
+                                {},
+                                {identity.data(), identity.size()},
+                                in_space.points};
+    made.patch = mesh_patch(task, in_space.uv, boundary, hooks);
+    if (made.patch.end != PatchEnd::done) {
+        made.end = FaceEnd::patch_failed;
+        return made;
+    }
+    made.slots = slots_of_points(made.patch, {loops.slots.data(), loops.slots.size()});
+    if (!made.patch.mapped.seamless.non_manifold.empty())
+        made.end = FaceEnd::not_joined;
+    else if (manner.first)
+        made.coarse =
+            coarse_segments(field, in_space, manner.asked.min_size, manner.is_anisotropic);
+    return made;
+}
+
+CoarseSegments coarse_segments(const FaceField& field, const FacePolygons& polygons,
+                               double min_size, bool is_anisotropic) {
+    const FaceLoops loops = loops_of(polygons);
+    if (loops.nodes.runs_twice) return {};
+    return coarse_segments(field, loops.in_space(), min_size, is_anisotropic);
+}
+
+FaceMesh mesh_inward(const Surface& surface, const FaceBoundary& boundary,
+                     const InwardGrowth& growth, const FaceManner& manner,
+                     const PatchHooks& hooks) {
+    const auto unprepared = [] {
+        FaceMesh made;
+        made.end = FaceEnd::unprepared;
+        return made;
+    };
+    const PlaneBox box = boundary.box();
+    if (!is_box(box) || !are_sizes(boundary)) return unprepared();
+    const Chart chart = uniform_chart(box, growth.speeds);
+    const GrownTree grown = grown_inward(boundary, box, growth, chart.extent());
+    if (grown.status != TreeStatus::grown) return unprepared();
+    const SurfaceOverBox over(surface, {box.low, box.high});
+    return mesh_face({over, chart, grown.background}, polygons_of(boundary), manner, hooks);
+}
+
+}  // namespace surfmesh

@@ -1,0 +1,95 @@
+#include "optimisation/worst_shapes.hpp"
+
+#include <cmath>
+
+namespace surfmesh {
+namespace {
+
+constexpr double FIRST_RADIUS = 0.16, LAST_RADIUS = 0.02;  // of the search, in unit lengths
+constexpr double LONGEST_WAY = 0.5;                        // in all, unit lengths
+constexpr double GAIN = 2e-3;                              // least gain of alpha for a step
+constexpr double DIAGONAL = 0.70710678118654752;
+constexpr Point2 WAYS[] = {{1.0, 0.0},  {DIAGONAL, DIAGONAL},   {0.0, 1.0},  {-DIAGONAL, DIAGONAL},
+                           {-1.0, 0.0}, {-DIAGONAL, -DIAGONAL}, {0.0, -1.0}, {DIAGONAL, -DIAGONAL}};
+
+/// The smallest alpha in the star of v; -1 where a triangle is not positive in the plane.
+double smallest_shape(const Triangulation& t, const SurfaceFrames& s, Vertex v, HalfEdge start) {
+    double smallest = 1.0;
+    HalfEdge e = start;
+    do {
+        const Vertex p = t.tri[next_half_edge(e)], q = t.tri[prev_half_edge(e)];
+        if (orient(t.xy, v, p, q) <= 0.0) return -1.0;
+        if (!coincide(s, p, q)) smallest = std::min(smallest, triangle_shape(s, v, p, q));
+        e = rotate_ccw(t, e);
+    } while (e != start);
+    return smallest;
+}
+
+/// Where a vertex is, and the way it came from where it was.
+class Position {
+  public:
+    Position(const Triangulation& t, const SurfaceFrames& s, Vertex v)
+        : v_(v), xy_(t.xy[v]), point_(s.point[v]) {}
+
+    void place(Triangulation& t, SurfaceFrames& s, Point2 way) const {
+        const SizeTensor h = t.size[v_];
+        t.xy[v_] = {xy_.x + h.xx * way.x + h.xy * way.y, xy_.y + h.xy * way.x + h.yy * way.y};
+        s.point[v_] = point_ + lift(s, v_, way);
+    }
+
+  private:
+    Vertex v_;
+    Point2 xy_;
+    Point3 point_;
+};
+
+/// Move v until no triangle of its star is below ``least``, or to where it is best; the length of
+/// its way, unit lengths.
+double move_to_best(Triangulation& t, SurfaceFrames& s, Vertex v, HalfEdge start, double least) {
+    const Position from(t, s, v);
+    Point2 way = {0.0, 0.0};
+    double shape = smallest_shape(t, s, v, start);
+    for (double radius = FIRST_RADIUS; radius >= LAST_RADIUS && shape < least;) {
+        Point2 best_way = way;
+        double best = shape + GAIN;
+        for (const Point2 direction : WAYS) {
+            const Point2 trial = way + radius * direction;
+            if (norm(trial) > LONGEST_WAY) continue;
+            from.place(t, s, trial);
+            const double found = smallest_shape(t, s, v, start);
+            if (!(found > best)) continue;
+            best = found;
+            best_way = trial;
+        }
+        if (best > shape + GAIN)
+            shape = best;
+        else
+            radius *= 0.5;
+        way = best_way;
+    }
+    from.place(t, s, way);
+    return norm(way);
+}
+
+}  // namespace
+
+void raise_worst(Triangulation& t, SurfaceFrames& s, const Stars& stars, VertexMarks& marks,
+                 double least, Array<Vertex>& moved) {
+    moved.clear();
+    for (Triangle k = 0; k < t.triangles(); ++k) {
+        if (t.region[k] == DEAD) continue;
+        for (HalfEdge e = 3 * k; e < 3 * k + 3; ++e) {
+            const Vertex a = t.tri[3 * k], b = t.tri[3 * k + 1], c = t.tri[3 * k + 2], v = t.tri[e];
+            if (is_collapsed(s, a, b, c) || !is_shape_below(s, a, b, c, least)) break;
+            if (stars.frozen[v] != 0 || stars.start[v] == NIL) continue;
+            const double length = move_to_best(t, s, v, stars.start[v], least);
+            if (length == 0.0) continue;
+            s.drift[v] += length;
+            marks.active[v] = 0;
+            marks.dirty[v] = 1;
+            moved.push_back(v);
+        }
+    }
+}
+
+}  // namespace surfmesh

@@ -1,0 +1,32 @@
+// The chart of a surface from its speeds: see chart.hpp.
+//
+// On a CAD cylinder u is radians and v millimetres; on a badly parametrised surface the speed
+// |r_u| changes a thousandfold along u. Both would make circles in (u, v) grotesque. So x is a
+// function of u alone, with dx/du the mean over v of |r_u|, and y likewise of v: lengths of the
+// surface's own order, on which predicates keep their digits. Where the mean speed hardly changes
+// the function is linear, otherwise a monotone cubic spline, once differentiable. Where speeds
+// have no bound (square roots) it is a function of the bent parameter instead.
+#pragma once
+
+#include <array>
+#include <span>
+
+#include "surfaces/chart.hpp"
+#include "surfaces/surface_reader.hpp"
+
+namespace surfmesh {
+
+/// What is known of an axis before it is sampled.
+struct KnownAxis {
+    bool steady;                // the speed is the same all along it
+    Array<BentPiece> pieces;    // where the speed has no bound, or none
+    std::size_t samples = 257;  // along it, at least two
+};
+
+/// Sampled where nothing is known; the reader says whether it could be.
+Chart chart_of(SurfaceReader& surface, const std::array<KnownAxis, 2>& known);
+
+/// Stretched by the same factor everywhere.
+ChartAxis linear_axis(double low, double high, double speed);
+
+}  // namespace surfmesh

@@ -1,0 +1,191 @@
+"""A face of a CAD model: its boundary in, its triangles out."""
+
+from collections.abc import Sequence
+import enum
+from typing import Annotated
+
+import numpy
+from numpy.typing import NDArray
+
+import surfmesh._core.fields
+import surfmesh._core.patch
+import surfmesh._core.surfaces
+
+
+class FaceBoundary:
+    """
+    The boundary of a face, cut into nodes: coedge after coedge, each with both its ends, loop after loop.
+    """
+
+    def __init__(self, uv: Annotated[NDArray[numpy.float64], dict(shape=(None, 2), order='C', device='cpu', writable=False)], numbers: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], points: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)], sizes: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)], piece_end: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], degenerate: Annotated[NDArray[numpy.uint8], dict(shape=(None,), order='C', device='cpu', writable=False)], tolerance: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)], loop_end: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)]) -> None: ...
+
+    @property
+    def uv(self) -> Annotated[NDArray[numpy.float64], dict(shape=(None, 2), writable=False)]:
+        """(n, 2)"""
+
+    @property
+    def numbers(self) -> Annotated[NDArray[numpy.int64], dict(shape=(None,), writable=False)]:
+        """(n,) int64 in the whole mesh"""
+
+    @property
+    def points(self) -> Annotated[NDArray[numpy.float64], dict(shape=(None, 3), writable=False)]:
+        """(n, 3) on the edges' curves"""
+
+    @property
+    def sizes(self) -> Annotated[NDArray[numpy.float64], dict(shape=(None,), writable=False)]:
+        """(n,) wanted lengths"""
+
+    @property
+    def piece_end(self) -> Annotated[NDArray[numpy.int32], dict(shape=(None,), writable=False)]:
+        """(p,) int32 of the coedges: the row after their last node"""
+
+    @property
+    def degenerate(self) -> Annotated[NDArray[numpy.uint8], dict(shape=(None,), writable=False)]:
+        """
+        (p,) uint8 of the coedges: one point in space, cut when the metric is known
+        """
+
+    @property
+    def tolerance(self) -> Annotated[NDArray[numpy.float64], dict(shape=(None,), writable=False)]:
+        """(p,) of the coedges: so near is the edge to its images, model units"""
+
+    @property
+    def loop_end(self) -> Annotated[NDArray[numpy.int32], dict(shape=(None,), writable=False)]:
+        """(l,) int32 of the loops: the coedge after their last one"""
+
+    @property
+    def has_degenerate(self) -> bool: ...
+
+    @property
+    def box(self) -> tuple[tuple[float, float], tuple[float, float]]:
+        """Of all nodes: (u0, u1), (v0, v1)."""
+
+    def __len__(self) -> int: ...
+
+    def __reduce__(self) -> tuple:
+        """So that it can be copied and sent to other processes."""
+
+def may_have_tubes(surface: surfmesh._core.surfaces.Surface, boundary: FaceBoundary) -> bool:
+    """
+    Is there a pole, or a seam so near to itself all round that no ring of wanted edges fits? A cheap look.
+    """
+
+def extent_over(surface: surfmesh._core.surfaces.Surface, u: tuple[float, float], v: tuple[float, float]) -> tuple[float, float, float]:
+    """
+    Width, depth and height of the bounding box of a plane or a cylinder over u (u0, u1) and v (v0, v1), from points of a coarse grid.
+    """
+
+FEWEST_STEPS: float = 2.5
+
+APART: float = 0.001
+
+WAY_SAMPLES: int = 33
+
+class BoundaryBuilder:
+    """A boundary put together coedge by coedge, as loops are walked."""
+
+    def __init__(self) -> None: ...
+
+    def add(self, uv: Annotated[NDArray[numpy.float64], dict(shape=(None, 2), order='C', device='cpu', writable=False)], numbers: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], points: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)], sizes: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)], is_degenerate: bool, tolerance: float) -> None:
+        """A use of an edge: its nodes in walking order."""
+
+    def end_loop(self) -> None: ...
+
+    def boundary(self) -> FaceBoundary: ...
+
+def face_boundaries(uv: Annotated[NDArray[numpy.float64], dict(shape=(None, 2), order='C', device='cpu', writable=False)], numbers: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], points: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)], sizes: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)], first: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], is_reversed: Annotated[NDArray[numpy.uint8], dict(shape=(None,), order='C', device='cpu', writable=False)], is_degenerate: Annotated[NDArray[numpy.uint8], dict(shape=(None,), order='C', device='cpu', writable=False)], tolerance: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)], coedges: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], loops: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)]) -> list[FaceBoundary]:
+    """
+    The boundaries of many faces.
+
+    uv (n, 2), numbers, points (n, 3), sizes: of the nodes of all coedges, face after face, in the direction of the edges. first (c + 1,): rows of the coedges. is_reversed, is_degenerate, tolerance (c,): of the coedges. coedges (l,) int32: of each loop; loops (f,) int32: of each face.
+    """
+
+class FacePolygons:
+    """Loops as closed polygons: each coedge without its last node."""
+
+    def __init__(self, uv: Annotated[NDArray[numpy.float64], dict(shape=(None, 2), order='C', device='cpu', writable=False)], numbers: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], points: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)], slots: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], lengths: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)]) -> None:
+        """
+        uv (n, 2), numbers (n,), points (n, 3) of the nodes; slots (n,): their rows in the boundary; lengths (l,): nodes of each loop.
+        """
+
+    @staticmethod
+    def of(boundary: FaceBoundary) -> FacePolygons:
+        """Those of a boundary without degenerate coedges."""
+
+class CoarseSegments:
+    """
+    Where segments of a boundary are far longer than the sizes inside allow.
+    """
+
+    @property
+    def points(self) -> Annotated[NDArray[numpy.float64], dict(shape=(None, 3), writable=False)]:
+        """(k, 3) on the surface"""
+
+    @property
+    def sizes(self) -> Annotated[NDArray[numpy.float64], dict(shape=(None,), writable=False)]:
+        """(k,) of the field there"""
+
+    @property
+    def along(self) -> Annotated[NDArray[numpy.float64], dict(shape=(None, 3), writable=False)]:
+        """(k, 3) unit directions of the segments"""
+
+def coarse_segments(surface: surfmesh._core.surfaces.Surface, chart: surfmesh._core.surfaces.Chart, background: surfmesh._core.fields.Background, polygons: FacePolygons, min_size: float, is_anisotropic: bool) -> CoarseSegments:
+    """
+    Where segments of the loops are more than twice as long as the sizes inside allow.
+    """
+
+class FaceEnd(enum.Enum):
+    """How the work on a face ended."""
+
+    DONE = 0
+
+    UNPREPARED = 1
+    """
+    There is no box, no positive sizes, or more cells are needed than are allowed.
+    """
+
+    RUNS_TWICE = 2
+    """A segment runs twice the same way."""
+
+    PATCH_FAILED = 3
+    """See ``patch``."""
+
+    NOT_JOINED = 4
+    """At the non-manifold points of ``patch``."""
+
+class FaceMesh:
+    """What has become of a face."""
+
+    @property
+    def end(self) -> FaceEnd: ...
+
+    @property
+    def patch(self) -> surfmesh._core.patch.PatchMesh: ...
+
+    @property
+    def coarse(self) -> CoarseSegments:
+        """Segments that are to be cut; of a first round."""
+
+    @property
+    def slots(self) -> Annotated[NDArray[numpy.int64], dict(shape=(None,), writable=False)]:
+        """(n,) of the points: row in the boundary, -1 inside"""
+
+    @property
+    def uv(self) -> Annotated[NDArray[numpy.float64], dict(shape=(None, 2), writable=False)]:
+        """(k, 2) of the nodes of the loops"""
+
+    @property
+    def segments(self) -> Annotated[NDArray[numpy.int32], dict(shape=(None, 2), writable=False)]:
+        """(s, 2) int32 between these"""
+
+def mesh_face(surface: surfmesh._core.surfaces.Surface, chart: surfmesh._core.surfaces.Chart, background: surfmesh._core.fields.Background, polygons: FacePolygons, manner: tuple[float | None, float | None, float, bool, bool, bool]) -> FaceMesh:
+    """
+    Mesh a face with a given size field, without the interpreter.
+
+    manner: chord (model units), angle (degrees), min_size; whether to optimise, whether it is a first round, whether sizes depend on the direction.
+    """
+
+def mesh_inward(surface: surfmesh._core.surfaces.Surface, boundary: FaceBoundary, speeds: Sequence[float], largest: float, slope: float, manner: tuple[float | None, float | None, float, bool, bool, bool]) -> FaceMesh:
+    """
+    The same on a surface with constant speeds |r_u|, |r_v|, whose sizes grow inward from those of its edges, by ``slope`` per length up to ``largest``.
+    """

@@ -1,0 +1,150 @@
+"""The boundary of a face in rows, and a face in one call of the core."""
+
+import pickle
+
+import numpy as np
+import pytest
+
+from surfmesh._core import faces as core
+from surfmesh._core.faces import BoundaryBuilder, FaceBoundary, FaceEnd, FacePolygons
+from surfmesh._core.surfaces import cylinder, plane
+from surfmesh.geometry.cad_surfaces.elementary import Cylinder, Plane
+from surfmesh.sizing.field.boundary_field import boundary_field, largest_size
+from surfmesh.sizing.options.sizing import Sizing
+from surfmesh.sizing.rules.size_rules import SizeRules
+
+O, X, Y, Z = np.zeros(3), *np.eye(3)
+SURFACE = plane(((0.0, 1.0), (0.0, 1.0)), O, X, Y)
+TURN = 2.0 * np.pi
+CORNERS = np.array([[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]])
+PLAIN = None, None, 0.0, True, True, False
+
+
+def square(size=0.25, parts=4):
+    """A unit square, each side in so many parts."""
+    builder = BoundaryBuilder()
+    for k, (start, end) in enumerate(zip(CORNERS, np.roll(CORNERS, -1, axis=0))):
+        t = np.linspace(0.0, 1.0, parts + 1)
+        uv = start + t[:, None] * (end - start)
+        numbers = (k * parts + np.arange(parts + 1)) % (4 * parts)
+        points = np.column_stack([uv, np.zeros(len(uv))])
+        builder.add(uv, numbers, points, np.full(len(uv), size), False, 1e-6)
+    builder.end_loop()
+    return builder.boundary()
+
+
+def tube(radius, height, count=9):
+    """A whole cylinder: round, up its seam, back round, down its seam."""
+    builder = BoundaryBuilder()
+    t = np.linspace(0.0, 1.0, count)
+    corners = np.array([[0.0, 0.0], [TURN, 0.0], [TURN, height], [0.0, height]])
+    ring, seam = np.arange(count - 1), 100 + np.arange(count)
+    rows = [np.append(ring, 0), seam, np.append(50 + ring, 50)[::-1], seam[::-1]]
+    for start, end, numbers in zip(corners, np.roll(corners, -1, axis=0), rows):
+        uv = start + t[:, None] * (end - start)
+        points = np.column_stack([radius * np.cos(uv[:, 0]), radius * np.sin(uv[:, 0]), uv[:, 1]])
+        builder.add(uv, numbers, points, np.ones(count), False, 0.0)
+    builder.end_loop()
+    domain = (0.0, TURN), (0.0, height)
+    return cylinder(domain, O, X, Y, Z, radius), builder.boundary()
+
+
+def test_coedges_are_walked_as_their_loops_run():
+    uv, numbers = (
+        np.array([[2.0, 1.0], [4.0, 1.0], [6.0, 1.0], [0.0, 0.0], [1.0, 1.0]]),
+        np.arange(5),
+    )
+    sizes, flags = np.arange(1.0, 6.0), np.zeros(2, np.uint8)
+    first, ones = np.array([0, 3, 5]), np.ones(2, np.int32)
+    one, other = core.face_boundaries(
+        uv, numbers, np.ones((5, 3)), sizes, first, np.array([1, 0], np.uint8), flags,
+        np.array([0.5, 0.25]), ones, ones,
+    )  # fmt: skip
+    assert one.uv.tolist() == [[6.0, 1.0], [4.0, 1.0], [2.0, 1.0]]
+    assert one.numbers.tolist() == [2, 1, 0] and one.sizes.tolist() == [3.0, 2.0, 1.0]
+    assert one.tolerance.tolist() == [0.5] and not one.has_degenerate
+    assert one.box == ((2.0, 6.0), (1.0, 1.0))
+    assert other.numbers.tolist() == [3, 4] and other.tolerance.tolist() == [0.25]
+
+
+def test_it_travels_between_processes():
+    one = square()
+    other = pickle.loads(pickle.dumps(one))
+    for name in ("uv", "numbers", "points", "sizes", "piece_end", "loop_end", "tolerance"):
+        assert np.array_equal(getattr(one, name), getattr(other, name))
+
+
+def test_what_is_no_boundary_is_refused():
+    rows = np.zeros((4, 2)), np.arange(4), np.zeros((4, 3)), np.ones(4)
+    flags = np.zeros(2, np.uint8), np.zeros(2)
+    with pytest.raises(ValueError, match="piece_end"):
+        FaceBoundary(*rows, np.array([1, 4], np.int32), *flags, np.array([2], np.int32))
+    with pytest.raises(ValueError, match="loop_end"):
+        FaceBoundary(*rows, np.array([2, 4], np.int32), *flags, np.array([1], np.int32))
+    with pytest.raises(ValueError, match="length"):
+        FaceBoundary(*rows, np.array([4], np.int32), *flags, np.array([1], np.int32))
+    with pytest.raises(ValueError, match="two nodes"):
+        BoundaryBuilder().add(
+            np.zeros((1, 2)), np.zeros(1, int), np.zeros((1, 3)), np.ones(1), False, 0.0
+        )
+
+
+def test_a_square_is_meshed_between_its_nodes():
+    boundary = square()
+    made = core.mesh_inward(SURFACE, boundary, (1.0, 1.0), 1.0, 0.2, PLAIN)
+    assert made.end == FaceEnd.DONE and not len(made.coarse.sizes)
+    mapped, slots = made.patch.mapped, made.slots
+    known = slots >= 0
+    assert np.count_nonzero(known) == 16 and known.sum() < len(mapped.points)
+    assert np.array_equal(mapped.points[known], boundary.points[slots[known]])
+    corners = mapped.points[mapped.triangles]
+    normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+    assert 0.5 * normals[:, 2].sum() == pytest.approx(1.0) and (normals[:, 2] > 0.0).all()
+
+
+def test_segments_far_longer_than_the_sizes_inside_are_named():
+    made = core.mesh_inward(SURFACE, square(0.5, 1), (1.0, 1.0), 0.1, 0.2, PLAIN)
+    middles = 0.5 * (CORNERS + np.roll(CORNERS, -1, axis=0))
+    assert np.allclose(made.coarse.points[:, :2], middles) and (made.coarse.sizes <= 0.1).all()
+
+
+def test_sizes_that_are_none_are_a_status():
+    assert core.mesh_inward(SURFACE, square(-1.0), (1.0, 1.0), 1.0, 0.2, PLAIN).end == (
+        FaceEnd.UNPREPARED
+    )
+
+
+def test_a_loop_that_runs_twice_is_a_status():
+    uv, points = np.tile(CORNERS, (2, 1)), np.zeros((8, 3))
+    polygons = FacePolygons(uv, np.tile(np.arange(4), 2), points, np.arange(8), np.array([8], "i4"))
+    surface = Plane(domain=((0.0, 1.0), (0.0, 1.0)), origin=O, x=X, y=Y, z=Z)
+    sizes = boundary_field(surface, Sizing(size=0.5), CORNERS, np.full(4, 0.5))
+    chart = sizes.chart.core
+    made = core.mesh_face(surface.core, chart, sizes.background, polygons, PLAIN)
+    assert made.end == FaceEnd.RUNS_TWICE
+
+
+@pytest.mark.parametrize("radius, thin", [(0.05, True), (0.1, False), (1.0, False)])
+def test_a_seam_near_to_itself_may_be_a_tube(radius, thin):
+    """The seam has steps of 1/8: less than 2.5 of them go round a radius of 0.0497."""
+    assert core.may_have_tubes(*tube(radius * 0.99, 1.0)) == thin
+    assert not core.may_have_tubes(SURFACE, square())
+
+
+@pytest.mark.parametrize(
+    "asked",
+    [dict(size=1.0), dict(chord=0.01), dict(chord=0.01, max_size=0.3), dict(angle=20.0),
+     dict(angle=1.0, size=3.0), dict(max_size=0.2, angle=20.0, min_size=0.1)],
+)  # fmt: skip
+@pytest.mark.parametrize("radius", [1e-3, 1.0, 300.0])
+def test_the_largest_size_is_that_of_the_rules(asked, radius):
+    domain = (0.0, TURN), (0.0, 40.0)
+    surface = Cylinder(domain=domain, origin=O, x=X, y=Y, z=Z, radius=radius)
+    box = np.array([2.0 * radius, 2.0 * radius, 40.0])
+    stated = "max_size" in asked
+    diagonal = np.hypot(TURN * radius, 40.0) if stated else np.linalg.norm(box)
+    rules = SizeRules.of(Sizing(**asked), float(diagonal))
+    wanted = rules.clamp[1]
+    if rules.follows_curvature:
+        wanted = float(rules.from_curvature(np.array([1.0 / radius]), np.zeros(1))[0])
+    assert largest_size(surface, Sizing(**asked), domain) == pytest.approx(wanted, rel=1e-14)
