@@ -24,6 +24,7 @@ if TYPE_CHECKING:
     from surfmesh.geometry.formulas.parametric import ParametricSurface
     from surfmesh.geometry.functions.numeric import NumericSurface
     from surfmesh.geometry.planar.planar_domain import PlanarDomain
+    from surfmesh.partitioned_mesh import PartitionedMesh, mesh_into_pieces
     from surfmesh.quality import Report, check
     from surfmesh.result.surface_mesh import SurfaceMesh
     from surfmesh.sizing.options.distance_size import DistanceSize
@@ -46,6 +47,7 @@ _HOMES = {
     "Near": "surfmesh.sizing.options.sources",
     "NumericSurface": "surfmesh.geometry.functions.numeric",
     "ParametricSurface": "surfmesh.geometry.formulas.parametric",
+    "PartitionedMesh": "surfmesh.partitioned_mesh",
     "PlanarDomain": "surfmesh.geometry.planar.planar_domain",
     "Report": "surfmesh.quality",
     "SizeCloud": "surfmesh.sizing.options.sources",
@@ -61,6 +63,7 @@ _HOMES = {
     "intersect": "surfmesh.api",
     "load": "surfmesh.api",
     "mesh": "surfmesh.api",
+    "mesh_into_pieces": "surfmesh.partitioned_mesh",
     "pack": "surfmesh.circle_packing",
     "show": "surfmesh.api",
 }
@@ -75,6 +78,7 @@ __all__ = [
     "Near",
     "NumericSurface",
     "ParametricSurface",
+    "PartitionedMesh",
     "PlanarDomain",
     "Report",
     "SizeCloud",
@@ -93,6 +97,7 @@ __all__ = [
     "io",
     "load",
     "mesh",
+    "mesh_into_pieces",
     "pack",
     "show",
     "view",

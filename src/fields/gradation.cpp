@@ -9,6 +9,13 @@ namespace {
 
 constexpr double FINISHED_BELOW = 1e-3;  // relative change of a sweep
 
+// How much rather the longer size is lowered than the shorter one, by what either contributes.
+constexpr double LONGER_FIRST = 16.0;
+
+// Of the square that a way is to be long in the metric: what is let pass, as turning metrics creep
+// towards the rest in many sweeps.
+constexpr double ENOUGH_ALONG = 0.98;
+
 double squared(double x) { return x * x; }
 
 double distance(Point3 a, Point3 b) {
@@ -81,10 +88,43 @@ double metric_distance(const GradedSizes& s, Node a, Node b) {
     return std::sqrt(along * along + left / (s.size[a] * s.size[a]));
 }
 
+/// A way in the tangent plane of a node: squares of the cosine and sine of its angle to `along`.
+struct Way {
+    double along, left;
+};
+
+/// The direction of d at node n; nowhere where d is across the surface.
+Way way_at(const GradedSizes& s, Node n, Point3 d) {
+    const double along = squared(dot(d, s.along[n]));
+    const double left = squared(dot(d, cross(s.normal[n], s.along[n])));
+    const double sum = along + left;
+    return sum > 0.0 ? Way{along / sum, left / sum} : Way{0.0, 0.0};
+}
+
+/// Raise x = 1 / longer^2 of b, or y = 1 / size^2 where the way from a goes across, not above
+/// `most`, until the size along that way is no larger than what it grows to from that at a.
+///
+/// What turns and what grows add up there: each alone may be within its limits. Not both are
+/// raised, which would spread round sizes over all that turns.
+void hold_along(const GradedSizes& s, Node a, Node b, double most, double& x, double& y) {
+    const Point3 d = s.point[b] - s.point[a];
+    const Way from = way_at(s, a, d), to = way_at(s, b, d);
+    const double inverse = from.along / squared(s.longer[a]) + from.left / squared(s.size[a]);
+    if (inverse == 0.0) return;
+    const double allowed = 1.0 / std::sqrt(inverse) + s.slope * std::sqrt(dot(d, d));
+    const double least = std::min(1.0 / squared(allowed), most);
+    const double by_longer = to.along * x, by_shorter = to.left * y;
+    if (by_longer + by_shorter >= ENOUGH_ALONG * least) return;
+    if (LONGER_FIRST * by_longer > by_shorter)
+        x = std::max(x, std::min((least - by_shorter) / to.along, most));
+    else
+        y = std::max(y, std::min((least - by_longer) / to.left, most));
+}
+
 /// Lower the sizes of b until its metric contains that of a, grown over their distance.
 ///
 /// Over the distance l, in the metric of a, the sizes in the directions of b may grow by
-/// g = 1 + slope l; as a whole, M_b - M_a / f^2 must be positive definite for the faster
+/// g = 1 + slope l, and so may the size along the way from a to b; as a whole, M_b - M_a / f^2 must be positive definite for the faster
 /// f = 1 + TURN_SLOPE slope l. The first bounds both sizes of b; what is wanting in the second
 /// is due to a direction that turns, and shortens the size along `along` alone, as long as
 /// none smaller than the smallest of a, grown, is needed: principal directions stay what they
@@ -116,6 +156,7 @@ double bind(const GradedSizes& s, Node a, Node b, std::int32_t sweep) {
     if (need == most)
         y = std::max(
             y, std::min(f * my + squared(f * mxy) / std::max(x - f * mx, 1e-12 * most), most));
+    hold_along(s, a, b, most, x, y);
     if (x > y && !s.round.empty() && s.round[b] != 0) y = x;
     const double longer = std::min(1.0 / std::sqrt(x), lb);
     const double shorter = std::min(1.0 / std::sqrt(y), hb);

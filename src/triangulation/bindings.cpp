@@ -1,9 +1,13 @@
 #include <nanobind/stl/array.h>
 #include <nanobind/stl/pair.h>
 
+#include <algorithm>
+#include <cmath>
+
 #include "binding/arrays.hpp"
 #include "triangulation/compaction.hpp"
 #include "triangulation/exact_sums.hpp"
+#include "triangulation/inside_loops.hpp"
 #include "triangulation/local_operations.hpp"
 #include "triangulation/predicates.hpp"
 #include "triangulation/segments.hpp"
@@ -31,6 +35,27 @@ void bind_predicates(nb::module_& m) {
         },
         nb::arg("mantissas"), nb::arg("exponents"),
         "About the sum of mantissas 2**exponents (n,), at most 255; its sign is exact.");
+    m.def(
+        "inside_loops",
+        [](const Points2& corners, const Vector<std::int64_t>& first, const Points2& points) {
+            const auto offsets = rows<std::int64_t>(first);
+            if (offsets.empty() || offsets.front() != 0 ||
+                offsets.back() != static_cast<std::int64_t>(corners.shape(0)) ||
+                !std::is_sorted(offsets.begin(), offsets.end()))
+                throw nb::value_error("first has no offsets of the corners");
+            if (!std::all_of(corners.data(), corners.data() + corners.size(),
+                             [](double x) { return std::isfinite(x); }))
+                throw nb::value_error("a corner of a loop is not finite");
+            Array<std::uint8_t> found;
+            {
+                const nb::gil_scoped_release released;
+                found = inside_loops({rows<Point2>(corners), offsets}, rows<Point2>(points));
+            }
+            return view(found);
+        },
+        nb::arg("corners"), nb::arg("first"), nb::arg("points"),
+        "1 for each of points (n, 2) within an odd number of loops, 0 for others and for those on "
+        "a loop.\n\ncorners (m, 2), finite, of loop k from first[k] to first[k + 1], not closed.");
     m.def(
         "first_not_ccw",
         [](const Points2& xy, const Matrix<std::int64_t, 3>& triangles) {

@@ -27,6 +27,13 @@ def exact_sum(mantissas: Annotated[NDArray[numpy.float64], dict(shape=(None,), o
     About the sum of mantissas 2**exponents (n,), at most 255; its sign is exact.
     """
 
+def inside_loops(corners: Annotated[NDArray[numpy.float64], dict(shape=(None, 2), order='C', device='cpu', writable=False)], first: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], points: Annotated[NDArray[numpy.float64], dict(shape=(None, 2), order='C', device='cpu', writable=False)]) -> Annotated[NDArray[numpy.uint8], dict(shape=(None,))]:
+    """
+    1 for each of points (n, 2) within an odd number of loops, 0 for others and for those on a loop.
+
+    corners (m, 2), finite, of loop k from first[k] to first[k + 1], not closed.
+    """
+
 def first_not_ccw(xy: Annotated[NDArray[numpy.float64], dict(shape=(None, 2), order='C', device='cpu', writable=False)], triangles: Annotated[NDArray[numpy.int64], dict(shape=(None, 3), order='C', device='cpu', writable=False)]) -> int:
     """
     The first of the triangles (m, 3) that is not counter-clockwise, or -1; judged exactly.

@@ -20,13 +20,21 @@ from surfmesh.cli.inputs import (
     shown_mesh,
     surface_begun,
 )
-from surfmesh.cli.outputs import manifest_written, naming, report_written, require_outputs
+from surfmesh.cli.outputs import (
+    in_pieces,
+    manifest_written,
+    naming,
+    report_written,
+    require_outputs,
+)
 from surfmesh.cli.progress import ProgressBar
 from surfmesh.cli.scheduler import executor_of
 from surfmesh.cli.terminal import say, say_json
 from surfmesh.errors import FileFormatError, SurfmeshError, printable
 
 if TYPE_CHECKING:
+    from concurrent.futures import Executor
+
     from surfmesh.api import Sizes
     from surfmesh.cad.model.cad_model import CadModel
     from surfmesh.geometry.surface import Surface
@@ -65,6 +73,8 @@ def _made(surface: Surface | CadModel, sizing: Sizes, options: Namespace) -> boo
     from surfmesh.quality import check as checked
 
     with ProgressBar() as progress, executor_of(options.scheduler) as executor:
+        if executor is not None and in_pieces(options, surface):
+            return _mesh_in_pieces(surface, sizing, options, executor, progress)
         result = api.mesh(
             surface,
             sizing,
@@ -99,6 +109,24 @@ def _made(surface: Surface | CadModel, sizing: Sizes, options: Namespace) -> boo
         say(report)
         say(f"  written    {printable(', '.join(files.values()))}")
     return report.clean
+
+
+def _mesh_in_pieces(
+    model: Any, sizing: Any, options: Namespace, executor: Executor, progress: ProgressBar
+) -> bool:
+    """Mesh a CAD model into a .pvtu file by the workers; no process holds the whole."""
+    from surfmesh.partitioned_mesh import mesh_into_pieces
+
+    found = mesh_into_pieces(
+        Path(options.output), model, sizing, executor, optimise=not options.no_optimise,
+        progress=progress, strict=not options.no_strict,
+    )  # fmt: skip
+    if options.json:
+        say_json(found.to_dict() | {"files": {"mesh": str(found.path)}})
+    else:
+        say(found)
+        say(f"  written    {printable(str(found.path))}")
+    return found.clean
 
 
 def check(options: Namespace) -> bool:

@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from surfmesh.cli.inputs import called
-from surfmesh.errors import FileFormatError
+from surfmesh.errors import FileFormatError, MeshingError
 
 if TYPE_CHECKING:
     from surfmesh.quality.report import Report
@@ -60,6 +60,29 @@ def require_outputs(options: Namespace) -> None:
         if path:
             require_writable(path, *extensions)
     _require_two_files(options.report, options.manifest)
+
+
+_WHOLE = ("picture", "report", "manifest", "second_opinion", "simplify", "flip")
+
+
+def in_pieces(options: Namespace, surface: object) -> bool:
+    """Whether a CAD model goes into a .pvtu file by workers, so that none holds the whole.
+
+    Raises ``MeshingError`` for an option that needs the whole mesh.
+    """
+    from surfmesh.cad.model.cad_model import CadModel
+    from surfmesh.io import IN_PIECES
+
+    if not isinstance(surface, CadModel) or Path(options.output).suffix.lower() not in IN_PIECES:
+        return False
+    asked = [f"--{name.replace('_', '-')}" for name in _WHOLE if getattr(options, name)]
+    asked += ["--order 2"] if options.order == 2 else []
+    if asked:
+        raise MeshingError(
+            f"{asked[0]} needs the whole mesh, which --scheduler does not gather for a .pvtu file: "
+            "leave one of them out"
+        )
+    return True
 
 
 def _require_two_files(report: str | None, manifest: str | None) -> None:

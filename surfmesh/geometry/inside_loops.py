@@ -6,23 +6,14 @@ from collections.abc import Sequence
 
 import numpy as np
 
+from surfmesh._core.triangulation import inside_loops
+
 
 def is_inside(loops: Sequence[np.ndarray], points: np.ndarray) -> np.ndarray:
     """(n,) bool for points (n, 2): within an odd number of the loops (k, 2), not closed."""
-    import shapely  # late: most faces have one loop
-
-    inside = np.zeros(len(points), bool)
-    for loop in loops:
-        if len(loop) < 3:
-            continue
-        low, high = loop.min(axis=0), loop.max(axis=0)  # most loops are small holes
-        near = np.flatnonzero(((points >= low) & (points <= high)).all(axis=1))
-        if not len(near):
-            continue
-        outline = shapely.make_valid(shapely.Polygon(loop))
-        shapely.prepare(outline)
-        inside[near] ^= shapely.contains_xy(outline, points[near, 0], points[near, 1])
-    return inside
+    first = np.cumsum([0, *map(len, loops)])
+    corners = np.concatenate([np.empty((0, 2)), *loops])
+    return inside_loops(corners, first, np.ascontiguousarray(points, float)).astype(bool)
 
 
 def nesting_depth(loops: Sequence[np.ndarray]) -> np.ndarray:

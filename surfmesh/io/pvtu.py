@@ -14,7 +14,7 @@ removed after that.
 import hashlib
 import re
 import time
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from contextlib import suppress
 from pathlib import Path, PurePosixPath
 
@@ -50,56 +50,97 @@ _NAME = re.compile(r"[0-9a-f]{16}-[0-9]+\.vtu")
 
 def save(mesh: SurfaceMesh, path: Path) -> None:
     """Write pieces and index. Raises ``FileFormatError``; an old mesh is then as it was."""
-    require_place(path)
     whole = content_of(mesh)
-    pieces = [_piece(whole, kept) for kept in _parts(mesh.face_ids)]
+    parts = _parts(mesh.face_ids)
+
+    def write(places: list[Path]) -> Content:
+        for place, kept in zip(places, parts):
+            piece = _piece(whole, kept)
+            write_piece(piece, place)
+        return piece
+
     held = {name: values for name, values in whole.of_all.items() if name != METRIC}
-    digest = _digest(whole)
-    save_pieces(path, digest, pieces, held)
+    save_pieces(path, _digest(whole), len(parts), write, held)
+
+
+def write_piece(piece: Content, place: Path) -> None:
+    """One of the files, in full or not at all."""
+    with replacing(place) as temporary:
+        write_grid(piece, temporary)
+
+
+def folder_of(path: Path) -> Path:
+    """Where the pieces of an index are, which is made. Raises ``FileFormatError``."""
+    require_place(path)
+    folder = path.with_name(f"{path.name}.pieces")
+    try:
+        folder.mkdir(exist_ok=True)
+    except OSError as error:
+        raise _refusal(path, error) from error
+    return folder
 
 
 def save_pieces(
-    path: Path, digest: str, pieces: list[Content], of_all: Mapping[str, NDArray]
+    path: Path,
+    digest: str,
+    count: int,
+    write: Callable[[list[Path]], Content],
+    of_all: Mapping[str, NDArray],
 ) -> None:
-    """Write these pieces of one mesh, and an index of them with the field data of the whole.
+    """Have pieces written to these places, then the index with the field data of the whole.
 
-    digest: 16 hexadecimal digits that no other mesh has.
+    digest: 16 hexadecimal digits that no other mesh has. write: returns a piece, or one without
+    rows: the arrays of all of them. Raises ``FileFormatError``.
     """
-    folder = path.with_name(f"{path.name}.pieces")
-    names = [f"{digest}-{number}.vtu" for number in range(len(pieces))]
     before = _named_by(path)
-    made: list[Path] = []
+    folder = folder_of(path)
+    places = [folder / f"{digest}-{number}.vtu" for number in range(count)]
+    new = [place for place in places if not place.exists()]
     try:
-        if not folder.is_dir():
-            folder.mkdir()
-        for name, piece in zip(names, pieces):
-            new = not (folder / name).exists()
-            with replacing(folder / name) as temporary:
-                write_grid(piece, temporary)
-            made += [folder / name] * new
+        like = write(places)
         with replacing(path) as temporary:
-            sources = [f"{folder.name}/{name}" for name in names]
-            write_index(sources, pieces[0], of_all, temporary)
+            sources = [f"{folder.name}/{place.name}" for place in places]
+            write_index(sources, like, of_all, temporary)
     except BaseException as error:
-        _remove(made)
-        with suppress(OSError):
-            folder.rmdir()  # if it is empty
+        _remove(new)
+        forget_empty(folder)
         if isinstance(error, OSError):
-            reason = error.strerror or str(error)
-            raise FileFormatError(f"{path}: cannot be written: {reason}") from error
+            raise _refusal(path, error) from error
         raise
-    _remove(piece for piece in _unused(folder, before) if piece.name not in names)
+    _remove(piece for piece in _unused(folder, before) if piece not in places)
+
+
+def _refusal(path: Path, error: OSError) -> FileFormatError:
+    return FileFormatError(f"{path}: cannot be written: {error.strerror or error}")
 
 
 def _parts(face_ids: NDArray) -> list[NDArray[np.int64]]:
-    """Triangles of each piece, ascending: whole faces, in their order, about as many each."""
+    """Triangles of each piece, ascending."""
     faces, of = np.unique(face_ids, return_inverse=True)
     counts = np.bincount(of.reshape(-1), minlength=len(faces))
-    ends = np.cumsum(counts)
-    pieces = max(1, round(len(face_ids) / LARGEST))
-    piece = ((ends - 0.5 * counts) * pieces / len(face_ids)).astype(np.int64)
-    own = piece[of.reshape(-1)]
-    return [np.flatnonzero(own == number) for number in np.unique(piece).tolist()]
+    piece = np.empty(len(faces), np.int64)
+    parts = parts_of(counts)
+    for number, own in enumerate(parts):
+        piece[own] = number
+    of_triangle = piece[of.reshape(-1)]
+    return [np.flatnonzero(of_triangle == number) for number in range(len(parts))]
+
+
+def parts_of(counts: NDArray) -> list[NDArray[np.int64]]:
+    """Rows of the faces of each piece, in their order, about as many triangles each.
+
+    counts: (f,) triangles of the faces.
+    """
+    total = int(counts.sum())
+    middles = (np.cumsum(counts) - 0.5 * counts) / total
+    piece = (middles * max(1, round(total / LARGEST))).astype(int)
+    return [np.flatnonzero(piece == number) for number in np.unique(piece).tolist()]
+
+
+def forget_empty(folder: Path) -> None:
+    """Remove the folder of pieces where there are none."""
+    with suppress(OSError):
+        folder.rmdir()
 
 
 def _piece(whole: Content, kept: NDArray[np.int64]) -> Content:

@@ -11,7 +11,6 @@ import zlib
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import BinaryIO, NamedTuple
-from xml.sax.saxutils import quoteattr
 
 import numpy as np
 from numpy.typing import NDArray
@@ -71,7 +70,7 @@ def write_index(pieces: Sequence[str], like: Content, of_all: Arrays, path: Path
                 file.write(f"<PDataArray {_described(title, values)}/>\n".encode())
             file.write(f"</{name}>\n".encode())
         for piece in pieces:
-            file.write(f"<Piece Source={quoteattr(piece)}/>\n".encode())
+            file.write(f"<Piece Source={_quoted(piece)}/>\n".encode())
         file.write(b"</PUnstructuredGrid>\n</VTKFile>\n")
 
 
@@ -119,8 +118,15 @@ def _write_section(file: BinaryIO, name: str, arrays: Arrays, counted: bool = Fa
 
 
 def _described(title: str, values: NDArray) -> str:
-    words = f'type="{KINDS[values.dtype.str[1:]]}" Name={quoteattr(title)}'
+    words = f'type="{KINDS[values.dtype.str[1:]]}" Name={_quoted(title)}'
     return words + (f' NumberOfComponents="{values.shape[1]}"' if values.ndim > 1 else "")
+
+
+def _quoted(text: str) -> str:
+    """As the value of an attribute; ``xml.sax`` would import all that opens addresses."""
+    for sign, name in (("&", "amp"), ("<", "lt"), (">", "gt"), ('"', "quot"), ("\n", "#10")):
+        text = text.replace(sign, f"&{name};")
+    return f'"{text}"'
 
 
 def _ids_among(arrays: Arrays) -> str:

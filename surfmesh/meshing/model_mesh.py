@@ -11,11 +11,12 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from functools import partial
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
 from surfmesh.cad.model.cad_model import CadModel
+from surfmesh.errors import SizingError
 from surfmesh.meshing.edges.edge_nodes import EdgeNodes, cut_edges
 from surfmesh.meshing.edges.edge_sampling import sample_edges
 from surfmesh.meshing.edges.face_proximity import with_face_gaps
@@ -24,7 +25,7 @@ from surfmesh.meshing.estimate.model_estimate import model_counts, require_model
 from surfmesh.meshing.estimate.trial_faces import ratios
 from surfmesh.meshing.estimate.trial_mesh import ROUNDS as TRIAL_ROUNDS
 from surfmesh.meshing.estimate.trial_mesh import WHOLE, WHOLE_STRETCHED, counts_within_budget
-from surfmesh.meshing.faces.face_mesh import edge_refinement, mesh_face
+from surfmesh.meshing.faces.face_mesh import edge_refinement
 from surfmesh.meshing.faces.face_state import FaceState, face_jobs, face_states
 from surfmesh.meshing.faces.face_workers import FACE_WORK, FaceWorkers
 from surfmesh.meshing.faces.opposite_faces import copied, opposite_pairs
@@ -79,6 +80,35 @@ def mesh_model(
 
     mesh = refined_in_rounds(one_round, lambda lower, _: lower, MAX_VOLUME_ROUNDS)
     return simplified(mesh, asked.base.min_size or LEAST * model.diagonal) if simplify else mesh
+
+
+class FacesApart(NamedTuple):
+    """A model whose faces lie in files, each by itself."""
+
+    rims: SurfaceMesh
+    """Of each face the triangles at its boundary; what faces share has the numbers of the whole."""
+    faces: list[FaceState]
+    nodes: list[EdgeNodes | None]
+
+
+def mesh_faces_apart(
+    model: CadModel, sizing: Any, workers: FaceWorkers, optimise: bool = True,
+    progress: Progress | None = None, strict: bool = True,
+) -> FacesApart:  # fmt: skip
+    """As ``mesh_model``, without joining the faces, which ``workers.store`` keeps.
+
+    Raises ``SizingError`` for what needs the whole mesh: ``volume``.
+    """
+    if strict:
+        require_all_read(model)
+    how = _How(optimise, strict, workers, MAX_ROUNDS, Stopwatch(progress))
+    asked = model_sizing(model, sizing)
+    if asked.base.volume is not None:
+        raise SizingError("volume needs the whole mesh: it cannot be kept of one in partitions")
+    with how.watch.stage("sizing"):
+        wanted = _with_model_rules(model, asked)
+    rounds = _Rounds(model, wanted, how)
+    return FacesApart(rounds.mesh(), rounds.faces, rounds.nodes)
 
 
 @dataclass(frozen=True)
@@ -160,7 +190,7 @@ class _Rounds:
             for count, (place, mesh) in enumerate(meshes, 1):
                 state = outdated[place]
                 state.take(mesh)
-                self.watch.spend(FACE_WORK + state.job.nodes + len(mesh.triangles))
+                self.watch.spend(FACE_WORK + state.job.nodes + mesh.count)
                 self.watch.pulse(count / len(outdated))
             self._copy_opposite({state.number for state in outdated})
 
@@ -169,15 +199,15 @@ class _Rounds:
         for first, second, width in self.opposite:
             if first in changed or second in changed:
                 one, other = self.faces[first], self.faces[second]
-                twin = copied(one.mesh, one.job, other.job, width)
-                other.mesh = other.mesh if twin is None else twin
+                twin = copied(one.mesh.whole(), one.job, other.job, width)
+                other.mesh = other.mesh if twin is None else self.how.workers.kept(twin)
 
     def _force_faces(self) -> None:
         """Faces that have failed in every round are meshed as well as they can be."""
         with self.watch.stage("packing"):
             for state in self.faces:
                 if state.may_be_forced:
-                    state.mesh = mesh_face(replace(state.job, last=True))
+                    state.mesh = self.how.workers.work(replace(state.job, last=True))
 
     def _joined(self) -> SurfaceMesh:
         vertex, sizing, seconds = self.samples.vertex, self.wanted.base, self.watch.seconds

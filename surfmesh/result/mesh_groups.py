@@ -98,7 +98,10 @@ class MeshGroups:
 
 
 def _printable(text: str | None) -> str:
-    return "".join(mark if mark.isprintable() else " " for mark in str(text or ""))
+    said = str(text or "")
+    if said.isprintable():
+        return said
+    return "".join(mark if mark.isprintable() else " " for mark in said)
 
 
 def _entry(values: tuple, number: int) -> Any:

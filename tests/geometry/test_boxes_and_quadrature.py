@@ -4,6 +4,9 @@ import math
 
 import numpy as np
 import pytest
+import shapely
+from hypothesis import given
+from hypothesis import strategies as st
 
 from surfmesh.geometry.boxes import diagonal
 from surfmesh.geometry.inside_loops import is_inside, nesting_depth
@@ -36,3 +39,29 @@ def test_loops_lie_in_loops_by_even_and_odd():
     assert nesting_depth(loops).tolist() == [2, 0, 1]
     points = np.array([(0.5, 0.5), (0.1, 0.1), (2.0, 2.0), (9.0, 0.0)])
     assert is_inside(loops, points).tolist() == [True, False, True, False]
+
+
+@given(seed=st.integers(0, 10_000))
+def test_points_within_loops_are_those_that_shapely_finds(seed):
+    draw = np.random.default_rng(seed)
+    loops = [  # stars: they do not cross themselves; corners on a grid, where points lie on sides
+        np.round(draw.uniform(-3, 3, 2) + draw.uniform(0.5, 4, (n, 1)) * np.stack(
+            [np.cos(a := np.sort(draw.uniform(0, 2 * np.pi, n))), np.sin(a)], axis=1
+        ), int(draw.integers(0, 3)))
+        for n in draw.integers(2, 12, size=3)
+    ]  # fmt: skip
+    points = np.concatenate([np.round(draw.uniform(-6, 6, (200, 2))), draw.uniform(-6, 6, (99, 2))])
+    expected = np.zeros(len(points), bool)
+    for loop in loops:
+        outline = shapely.Polygon(loop) if len(loop) > 2 else shapely.Polygon()
+        if not outline.is_valid:
+            return
+        expected ^= shapely.contains_xy(outline, *points.T)
+    assert np.array_equal(is_inside(loops, points), expected)
+
+
+def test_what_is_not_finite_lies_in_no_loop():
+    points = np.array([(np.nan, 0.5), (0.5, np.inf), (0.5, 0.5)])
+    assert is_inside([SQUARE], points).tolist() == [False, False, True]
+    with pytest.raises(ValueError, match="not finite"):
+        is_inside([np.full((3, 2), np.nan)], points)

@@ -14,10 +14,12 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
+from itertools import pairwise
 
 import numpy as np
 
 from surfmesh.cad.model.cad_model import CadCoedge, CadEdge, CadFace, CadModel
+from surfmesh.cad.model.model_arrays import model_arrays
 from surfmesh.geometry.boxes import diagonal
 from surfmesh.geometry.cad_surfaces.face_surface import FaceSurface
 from surfmesh.geometry.cad_surfaces.nurbs import BSplineCurve
@@ -79,13 +81,25 @@ class ExactLoops:
         return _Loops(self).touch()
 
 
-def exact_loops(model: CadModel, number: int, vertex: np.ndarray) -> ExactLoops:
-    """Of a face of a model; vertex: (v,) the numbers that its vertices have in the mesh."""
-    face = model.faces[number]
-    shared = [
-        any(user != number for user in model.faces_of_edge(coedge.edge)) for coedge in face.coedges
-    ]
-    return _exact(face, face.loops, model.edges, vertex, shared)
+def exact_loops(model: CadModel) -> list[ExactLoops]:
+    """Of all faces of a model; vertices by the numbers that they have in a mesh."""
+    arrays = model_arrays(model)
+    edge, back = arrays.coedge_edge, arrays.coedge_reversed
+    ends = np.where(back[:, None], arrays.mesh_ends[edge][:, ::-1], arrays.mesh_ends[edge])
+    lowest = np.full(len(model.edges), len(model.faces))
+    highest = np.full(len(model.edges), -1)
+    np.minimum.at(lowest, edge, arrays.coedge_face)
+    np.maximum.at(highest, edge, arrays.coedge_face)
+    shared = (lowest < highest)[edge]
+    ways = [(start, end) for start, end in ends.tolist()]
+    tolerances, uses = arrays.tolerance[edge].tolist(), shared.tolist()
+    return [
+        ExactLoops(
+            face.surface, tuple(face.loops), tuple(ways[a:b]), tuple(tolerances[a:b]),
+            tuple(uses[a:b]), face.fault,
+        )
+        for face, (a, b) in zip(model.faces, pairwise(arrays.first_of_face.tolist()))
+    ]  # fmt: skip
 
 
 def fault_of_pieces(faces: Sequence[CadFace], edges: Sequence[CadEdge], vertices: int) -> str:

@@ -17,11 +17,13 @@ from __future__ import annotations
 
 import sysconfig
 from collections.abc import Mapping
+from functools import cache
 from pathlib import Path
 from typing import Any
 
 from surfmesh.errors import FormulaError, SurfaceError
 from surfmesh.geometry.files.toml_entries import TomlEntries, sets_key
+from surfmesh.geometry.formulas.compiled_ahead import CompiledFormulas, compiled_ahead, key_of
 from surfmesh.geometry.formulas.parametric import ParametricSurface
 
 KEYS = {"name", "description", "x", "y", "z", "parameters", "domain", "loops", "sizing", "facts"}
@@ -38,16 +40,16 @@ FACT_KEYS = {
 }
 
 
-def load_formula_file(path: str | Path) -> ParametricSurface:
-    """The surface of a TOML formula file.
+def load_formula_file(path: str | Path, ahead: bool = True) -> ParametricSurface:
+    """The surface of a TOML formula file; ahead: what the gallery has of it is not compiled anew.
 
     Raises SurfaceError that names the file and the key for anything missing, unknown or of the
     wrong type, FormulaError with the column for a formula that is refused.
     """
-    return formula_surface(TomlEntries(Path(path)))
+    return formula_surface(TomlEntries(Path(path)), ahead)
 
 
-def formula_surface(entries: TomlEntries) -> ParametricSurface:
+def formula_surface(entries: TomlEntries, ahead: bool = True) -> ParametricSurface:
     """The surface of the entries of a file, or of a table in one; raises as above."""
     path = entries.path
     entries.refuse_unknown(entries.content, KEYS, "")
@@ -63,6 +65,7 @@ def formula_surface(entries: TomlEntries) -> ParametricSurface:
         entries.expect(f"facts.{key}", value, FACT_KEYS[key])
     x, y, z = (entries.value(axis, (str, int, float)) for axis in "xyz")
     u, v = (_pair(entries, domain, variable) for variable in "uv")
+    key = key_of((x, y, z), (u, v), entries.table("parameters"))
     try:
         return ParametricSurface(
             x,
@@ -76,6 +79,7 @@ def formula_surface(entries: TomlEntries) -> ParametricSurface:
             description=entries.value("description", (str,), default=""),
             sizing_defaults=sizing,
             facts=facts,
+            compiled=_of_gallery(key) if ahead else None,
         )
     except FormulaError as error:
         raise FormulaError(f"{path}: {error.reason}", error.text, error.column) from None
@@ -83,6 +87,23 @@ def formula_surface(entries: TomlEntries) -> ParametricSurface:
         raise SurfaceError(f"{path}: {error}") from None
 
 
+def _of_gallery(key: str) -> CompiledFormulas | None:
+    try:
+        return compiled_ahead(gallery_folder(), key)
+    except SurfaceError:  # there is no gallery
+        return None
+
+
+def key_of_file(path: Path) -> str:
+    """What its formulas are looked up by among those that are compiled ahead."""
+    entries = TomlEntries(path)
+    domain = entries.table("domain", required=True)
+    bounds = [_pair(entries, domain, variable) for variable in "uv"]
+    formulas = [entries.value(axis, (str, int, float)) for axis in "xyz"]
+    return key_of(formulas, bounds, entries.table("parameters"))
+
+
+@cache
 def gallery_folder() -> Path:
     """The folder of ready-made surfaces: in the source tree, else where the wheel put it.
 
@@ -119,10 +140,13 @@ def _pair(entries: TomlEntries, domain: Mapping[str, Any], variable: str) -> tup
 
 
 def _loops(entries: TomlEntries) -> list[list[tuple[float, float]]]:
+    given = entries.value("loops", (list,), default=[])
+    if not given:
+        return []
     from surfmesh.geometry.formulas.expression import parse_number
 
     loops = []
-    for number, loop in enumerate(entries.value("loops", (list,), default=[])):
+    for number, loop in enumerate(given):
         key = f"loops[{number}]"
         points = []
         for point in entries.expect(key, loop, (list,)):

@@ -10,6 +10,7 @@ program: straight-line programs: values numbered by what computes them, constant
 chain_rule: derivatives of such programs, step by step.
 compilation: from SymPy expressions to a tape, with derivatives.
 tape: a straight-line program of elementary operations, for points and for intervals.
+compiled_ahead: the tapes of the gallery, made before anybody asks for them.
 interval: bounds of vectors seen along directions.
 parametric: the surface of three formulas in u and v.
 kink_tracing: where the guides of a formula are zero: lines in (u, v), traced on a grid.

@@ -16,6 +16,7 @@ from surfmesh.geometry.differential.infinite_speed import (
     bent_axes,
     zeros_between,
 )
+from surfmesh.geometry.formulas.compiled_ahead import CompiledFormulas
 from surfmesh.geometry.formulas.domain_bounds import bounds_of
 from surfmesh.geometry.formulas.tape import Tape
 from surfmesh.geometry.surface import Domain
@@ -40,7 +41,8 @@ class ParametricSurface:
     x, y, z: formulas as text, SymPy expressions or numbers. u, v: (first, last), numbers or
     text such as "2*pi". parameters: names used in the formulas, with their values. loops:
     polygons (k, 2) in (u, v) that trim the surface. description, sizing_defaults, facts: what
-    is known about the surface, kept for whoever asks.
+    is known about the surface, kept for whoever asks. compiled: what follows from formulas, bounds
+    and parameters, where that is known already.
 
     Raises FormulaError for a formula that is refused, SurfaceError when the domain is empty,
     a coordinate is not finite somewhere in it, or the surface has no area.
@@ -59,25 +61,32 @@ class ParametricSurface:
         description: str = "",
         sizing_defaults: Mapping[str, Any] | None = None,
         facts: Mapping[str, Any] | None = None,
+        *,
+        compiled: CompiledFormulas | None = None,
     ) -> None:
+        ready = compiled
         fixed: dict[str, Any] = {
             "name": str(name),
-            "parameters": _named_numbers(parameters),
-            "domain": (bounds_of("u", u), bounds_of("v", v)),
+            "parameters": dict(parameters or {}) if ready else _named_numbers(parameters),
+            "domain": ready.domain if ready else (bounds_of("u", u), bounds_of("v", v)),
             "description": str(description),
             "sizing_defaults": table_of("sizing_defaults", sizing_defaults),
             "facts": table_of("facts", facts),
             "loops": loops_of(loops),
         }
-        fixed["_expressions"] = _parsed((x, y, z), fixed["parameters"])
+        if ready is None:
+            fixed["_expressions"] = _parsed((x, y, z), fixed["parameters"])
         fixed["formulas"] = tuple(" ".join(str(axis).split()) for axis in (x, y, z))
-        fixed["_tapes"] = {}
+        fixed["_tapes"] = {} if ready is None else dict(ready.tapes)
         fixed["_core_surfaces"] = {}
         fixed["bent_axes"] = STRAIGHT
         self.__dict__.update(fixed)
         with np.errstate(all="ignore"):  # what cannot be used is refused with its place
             _refuse_values_that_are_not_finite(self)
-            self.__dict__["_root_places"] = _places_of_roots(self._expressions, self.domain)
+            self.__dict__["_root_places"] = (
+                _places_of_roots(self._expressions, self.domain) if ready is None
+                else ready.root_places
+            )  # fmt: skip
             self.__dict__["bent_axes"] = bent_axes(
                 lambda uv: self.evaluate(uv)[0], self.domain, self._root_places
             )
@@ -172,6 +181,13 @@ class ParametricSurface:
             self._tapes[-1] = made
         return self._tapes.get(-1)
 
+    def compiled(self) -> CompiledFormulas:
+        """What follows from the formulas, to make the same surface of without SymPy."""
+        for order in range(3):
+            self.tape(order)
+        self.guides()
+        return CompiledFormulas(self.domain, self._root_places, dict(self._tapes))
+
     def tape(self, order: int) -> Tape:
         """The program behind `evaluate`, made when it is first needed."""
         if order not in self._tapes:
@@ -196,9 +212,7 @@ class ParametricSurface:
 
     def __getstate__(self) -> dict[str, Any]:
         # tapes travel, expressions do not: a worker process then never needs SymPy
-        for order in range(3):
-            self.tape(order)
-        self.guides()
+        self.compiled()
         stays = ("_expressions", "_core_surfaces")
         return {key: value for key, value in self.__dict__.items() if key not in stays}
 

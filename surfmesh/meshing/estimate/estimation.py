@@ -104,7 +104,7 @@ def field_triangles(field: SizeField, loops: Sequence[np.ndarray] | None = None)
 
 def face_triangles(job: FaceJob, field: SizeField) -> float:
     """Triangles on a face whose boundary is cut already."""
-    loops = [np.concatenate([piece.uv[:-1] for piece in loop]) for loop in job.loops]
+    loops = job.rings
     return combined(field_triangles(field, loops), sum(len(loop) for loop in loops), len(loops))
 
 

@@ -10,11 +10,12 @@ holds a quantile of all triangles; planes and curved faces are two populations.
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from typing import Any
 
 import numpy as np
 
+from surfmesh.cad.model.model_arrays import offsets
 from surfmesh.meshing.estimate.estimation import combined
 from surfmesh.meshing.faces.face_data import FaceJob
 from surfmesh.sizing.field.metric_area import TRIANGLES
@@ -59,8 +60,10 @@ def _classes(jobs: list[FaceJob], areas: np.ndarray) -> tuple[list[int], np.ndar
     known: dict[Any, int] = {}
     first: list[int] = []
     class_of = np.empty(len(jobs), int)
+    loops = _loops_in_figures(jobs)
     for number, (job, area) in enumerate(zip(jobs, areas.tolist())):
-        key = _likeness(job, area) or number
+        own = tuple(sorted(next(loops) for _ in job.boundary.loop_end))
+        key = _likeness(job, area, own) or number
         if key not in known:
             known[key] = len(first)
             first.append(number)
@@ -68,19 +71,29 @@ def _classes(jobs: list[FaceJob], areas: np.ndarray) -> tuple[list[int], np.ndar
     return first, class_of
 
 
-def _likeness(job: FaceJob, area: float) -> Any:
+def _likeness(job: FaceJob, area: float, loops: tuple) -> Any:
     """What alike faces have in common; None where the place of a face counts too."""
     if job.limits is not None or job.sizing.has_law or job.sizing.sources:
         return None
-    loops = []
-    for loop in job.loops:
-        points = np.concatenate([piece.points for piece in loop])
-        length = float(np.linalg.norm(np.diff(points, axis=0), axis=1).sum())
-        sizes = np.concatenate([piece.sizes for piece in loop])
-        real = sizes[np.isfinite(sizes)]
-        loops.append((len(points), _rounded(length), _rounded(float(real.sum()))))
-    narrow = job.narrow is not None
-    return job.surface.kind, job.sizing, narrow, _rounded(area), tuple(sorted(loops))
+    return job.surface.kind, job.sizing, job.narrow is not None, _rounded(area), loops
+
+
+def _loops_in_figures(jobs: list[FaceJob]) -> Iterator[tuple[int, str, str]]:
+    """Of each loop of all jobs how many nodes, how long, and the sum of the sizes there."""
+    boundaries = [job.boundary for job in jobs]
+    if not boundaries:
+        return iter(())
+    start = offsets(np.array(list(map(len, boundaries))))
+    ends = [own.piece_end[own.loop_end - 1] + at for own, at in zip(boundaries, start.tolist())]
+    first = np.concatenate([[0], *ends])
+    points = np.concatenate([own.points for own in boundaries])
+    sizes = np.concatenate([own.sizes for own in boundaries])
+    step = np.zeros(len(points))
+    step[1:] = np.linalg.norm(np.diff(points, axis=0), axis=1)
+    step[first[:-1]] = 0.0  # from one loop to the next
+    lengths = np.add.reduceat(step, first[:-1]).tolist()
+    sums = np.add.reduceat(np.where(np.isfinite(sizes), sizes, 0.0), first[:-1]).tolist()
+    return zip(np.diff(first).tolist(), map(_rounded, lengths), map(_rounded, sums))
 
 
 def _rounded(value: float) -> str:
@@ -89,8 +102,8 @@ def _rounded(value: float) -> str:
 
 def _rough(job: FaceJob, area: float) -> float:
     """Triangles, if the sizes of its boundary hold all over it."""
-    sizes = np.concatenate([piece.sizes for loop in job.loops for piece in loop])
+    sizes, loops = job.boundary.sizes, len(job.boundary.loop_end)
     real = sizes[np.isfinite(sizes)]
-    nodes = sum(len(piece.sizes) - 1 for loop in job.loops for piece in loop)
+    nodes = len(sizes) - len(job.boundary.piece_end)
     inside = TRIANGLES * area / float(real.mean()) ** 2 if len(real) else 0.0
-    return max(combined(inside, nodes, len(job.loops)), 1.0)
+    return max(combined(inside, nodes, loops), 1.0)

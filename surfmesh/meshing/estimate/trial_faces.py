@@ -49,7 +49,7 @@ def ratios(jobs: list[FaceJob], counts: np.ndarray) -> np.ndarray:
 def _ratio(job: FaceJob, count: float) -> float:
     """Triangles got for each of ``count``; 1 where that cannot be found out."""
     if count > SMALL:
-        loops = [np.concatenate([piece.uv[:-1] for piece in loop]) for loop in job.loops]
+        loops = job.rings
         found = triangles_per_unit(*face_field(job), loops, PATCHES)
         if found is not None or count > MEDIUM:
             return 1.0 if found is None else float(np.clip(found, *SPREAD))

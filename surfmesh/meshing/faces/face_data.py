@@ -132,6 +132,15 @@ class FaceJob:
         )
 
     @property
+    def rings(self) -> list[np.ndarray]:
+        """The loops as closed polygons (k, 2) in (u, v)."""
+        nodes = self.boundary
+        ends, loops = nodes.piece_end, nodes.loop_end
+        kept = np.ones(len(nodes), bool)
+        kept[ends - 1] = False
+        return np.split(nodes.uv[kept], (ends[loops - 1] - loops)[:-1])
+
+    @property
     def nodes(self) -> int:
         """How many nodes its boundary has."""
         return len(self.boundary)
@@ -167,3 +176,12 @@ class FaceMesh:
     """What was done to it out of the ordinary."""
     narrow: bool = False
     """It was closed between its sides: good shape is not owed there."""
+
+    @property
+    def count(self) -> int:
+        """How many triangles the face has, wherever they are."""
+        return len(self.triangles)
+
+    def whole(self) -> "FaceMesh":
+        """With all of its arrays: see ``partitions``."""
+        return self

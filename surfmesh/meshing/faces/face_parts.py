@@ -31,7 +31,7 @@ def in_parts(job: FaceJob, mesh: Callable[[FaceJob], FaceMesh]) -> FaceMesh:
 
 def _groups(job: FaceJob) -> list[list[int]]:
     """Numbers of the loops of each piece: an outer loop and its holes."""
-    rings = [np.concatenate([piece.uv[:-1] for piece in loop]) for loop in job.loops]
+    rings = job.rings
     areas = [_area(ring) for ring in rings]
     outer = sorted((k for k, area in enumerate(areas) if area > 0.0), key=lambda k: areas[k])
     if len(outer) < 2:

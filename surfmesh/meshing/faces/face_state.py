@@ -19,6 +19,7 @@ from surfmesh.sizing.options.sizing import Sizing
 from surfmesh.sizing.rules.size_limits import SizeLimits
 
 _ENDS = np.array([0.0, 1.0])
+_NOT_MESHED = FaceMesh()
 
 
 @dataclass
@@ -32,7 +33,7 @@ class FaceState:
     exact: ExactLoops
     job: FaceJob = field(init=False)
     """What it is meshed from; there from the first round on."""
-    mesh: FaceMesh = field(default_factory=FaceMesh)
+    mesh: FaceMesh = field(default_factory=lambda: _NOT_MESHED)
     stagnation: StagnationCheck = field(default_factory=StagnationCheck)
 
     @property
@@ -71,19 +72,16 @@ class FaceState:
         """Its mesh of this round."""
         self.mesh = mesh
         places = 0 if mesh.refinement is None else len(mesh.refinement.sizes)
-        self.stagnation.record(places, len(mesh.triangles), bool(mesh.failure), self.job.nodes)
+        self.stagnation.record(places, mesh.count, bool(mesh.failure), self.job.nodes)
 
 
 def face_states(model: CadModel, samples: EdgeSamples, wanted: ModelSizing) -> list[FaceState]:
     """All faces before the first round."""
     sizings = face_sizings(model, samples, wanted)
     return [
-        FaceState(
-            number, face, sizings[number], samples.narrow.get(number),
-            exact_loops(model, number, samples.vertex),
-        )
-        for number, face in enumerate(model.faces)
-    ]  # fmt: skip
+        FaceState(number, face, sizings[number], samples.narrow.get(number), exact)
+        for number, (face, exact) in enumerate(zip(model.faces, exact_loops(model)))
+    ]
 
 
 def face_jobs(

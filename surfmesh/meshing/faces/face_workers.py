@@ -8,7 +8,7 @@ A face is meshed from plain arrays and knows nothing of the others, so that its 
 whoever makes it, and when.
 """
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from concurrent.futures import BrokenExecutor, Executor, Future, ThreadPoolExecutor
 from dataclasses import dataclass
 from heapq import heappop, heappush
@@ -17,6 +17,7 @@ from queue import SimpleQueue
 from surfmesh.errors import MeshingError
 from surfmesh.meshing.faces.face_data import FaceJob, FaceMesh
 from surfmesh.meshing.faces.face_mesh import mesh_face
+from surfmesh.meshing.faces.partitions import FaceStore
 from surfmesh.meshing.processors import allowed_threads
 
 BATCHES = 64
@@ -42,6 +43,17 @@ class FaceWorkers:
     """How many of this process; 1: the caller's alone."""
     executor: Executor | None = None
     """Instead of threads: processes, or other machines. Jobs and meshes are pickled."""
+    store: FaceStore | None = None
+    """Where the meshes of faces stay; None: with the caller."""
+
+    @property
+    def work(self) -> Callable[[FaceJob], FaceMesh]:
+        """What is done for each face."""
+        return mesh_face if self.store is None else self.store.meshed
+
+    def kept(self, mesh: FaceMesh) -> FaceMesh:
+        """A mesh that the caller has made of others, as ``meshed`` gives it."""
+        return mesh if self.store is None else self.store.kept(mesh)
 
     def meshed(self, jobs: list[FaceJob]) -> Iterator[tuple[int, FaceMesh]]:
         """The number and the mesh of each job; by threads in the order in which they are done.
@@ -51,11 +63,11 @@ class FaceWorkers:
         """
         work = list(map(expected_work, jobs))
         if self.executor is not None:
-            yield from _by_executor(self.executor, jobs, BATCHES)
+            yield from _by_executor(self.executor, jobs, BATCHES, self.work)
         elif self.threads > 1 and sum(work) > LITTLE:
             yield from self._by_threads(jobs, work)
         else:
-            yield from enumerate(map(mesh_face, jobs))
+            yield from enumerate(map(self.work, jobs))
 
     def _is_to_be_shared(self, largest: float, whole: float) -> bool:
         """Is all done sooner where threads work on the largest face together, then on the rest?"""
@@ -68,7 +80,7 @@ class FaceWorkers:
         if self._is_to_be_shared(work[waiting[-1]], sum(work)):
             largest = waiting.pop()
             with allowed_threads(self.threads):
-                mesh = mesh_face(jobs[largest])
+                mesh = self.work(jobs[largest])
             yield largest, mesh
         done: SimpleQueue[tuple[int, FaceMesh] | BaseException] = SimpleQueue()
         left = len(waiting)
@@ -80,7 +92,7 @@ class FaceWorkers:
                 except IndexError:  # none is left
                     return
                 try:
-                    done.put((k, mesh_face(jobs[k])))
+                    done.put((k, self.work(jobs[k])))
                 except BaseException as error:
                     done.put(error)
                     return
@@ -99,12 +111,12 @@ class FaceWorkers:
 
 
 def _by_executor(
-    executor: Executor, jobs: list[FaceJob], batches: int
+    executor: Executor, jobs: list[FaceJob], batches: int, work: Callable[[FaceJob], FaceMesh]
 ) -> Iterator[tuple[int, FaceMesh]]:
     futures: dict[int, tuple[Future[list[FaceMesh]], int]] = {}
     try:
         for batch in batches_of(list(map(expected_work, jobs)), batches):
-            future = executor.submit(_mesh_batch, [jobs[k] for k in batch])
+            future = executor.submit(_mesh_batch, work, [jobs[k] for k in batch])
             futures.update({k: (future, place) for place, k in enumerate(batch)})
         for k in range(len(jobs)):
             future, place = futures[k]
@@ -116,8 +128,8 @@ def _by_executor(
             future.cancel()
 
 
-def _mesh_batch(jobs: list[FaceJob]) -> list[FaceMesh]:
-    return list(map(mesh_face, jobs))
+def _mesh_batch(work: Callable[[FaceJob], FaceMesh], jobs: list[FaceJob]) -> list[FaceMesh]:
+    return list(map(work, jobs))
 
 
 def expected_work(job: FaceJob) -> float:

@@ -28,6 +28,8 @@ APART = 2.0
 
 def opposite_pairs(model: CadModel, samples: EdgeSamples) -> list[tuple[int, int, float]]:
     """(face, face, width): pairs whose edges are mates, with their narrow width."""
+    if not samples.mates:
+        return []
     mates: dict[int, set[int]] = {}
     for run in samples.mates:
         mates.setdefault(run.edge, set()).add(run.mate)

@@ -18,6 +18,7 @@ from surfmesh.meshing.faces.face_data import FaceMesh
 from surfmesh.meshing.faces.face_state import FaceState
 from surfmesh.meshing.solids.groups import groups_of
 from surfmesh.meshing.solids.model_findings import face_findings, loose_edges
+from surfmesh.result.connectivity import connect
 from surfmesh.result.surface_mesh import SurfaceMesh
 from surfmesh.sizing.options.sizing import Sizing
 from surfmesh.sizing.rules.size_limits import SizeLimits
@@ -66,7 +67,7 @@ def joined_mesh(
         sizes=np.where(np.isfinite(sizes), sizes, model.diagonal)[used],
         groups=groups_of(model),
         metric_root_3d=(
-            np.concatenate([_metric_roots(state.mesh) for state in there]) if is_stretched else None
+            np.concatenate([metric_roots(state.mesh) for state in there]) if is_stretched else None
         ),
         sizing=sizing,
         seconds=seconds,
@@ -111,14 +112,14 @@ class _Joined(NamedTuple):
 def _joined(shared: _Shared, faces: list[FaceState], turned: np.ndarray) -> _Joined:
     """With the inner points of face after face; turned: (f,) of all faces of the model."""
     meshes = [state.mesh for state in faces]
-    names = [[p.numbers for loop in state.job.loops for p in loop] for state in faces]
-    first_name = offsets(np.array([sum(map(len, own)) for own in names], np.int64))
+    names = [state.job.boundary.numbers for state in faces]
+    first_name = offsets(np.array([len(own) for own in names], np.int64))
     count = np.array([len(mesh.points) for mesh in meshes])
     slots = np.concatenate([mesh.slots for mesh in meshes])
     inside = slots < 0
     own = np.empty(len(slots), np.int64)
     on_edges = (slots + np.repeat(first_name[:-1], count))[~inside]
-    own[~inside] = np.concatenate([part for parts in names for part in parts])[on_edges]
+    own[~inside] = np.concatenate(names)[on_edges]
     own[inside] = len(shared.points) + np.arange(int(inside.sum()))
     points = np.concatenate([mesh.points for mesh in meshes])
     sizes = np.concatenate([mesh.sizes for mesh in meshes])
@@ -155,7 +156,7 @@ def _in_one(parts: list[np.ndarray], nothing: np.ndarray) -> np.ndarray:
     return np.concatenate([nothing, *parts])
 
 
-def _metric_roots(mesh: FaceMesh) -> np.ndarray:
+def metric_roots(mesh: FaceMesh) -> np.ndarray:
     """Of the ``uv_points`` of a face (n, 6), also of one whose sizes are the same all ways."""
     if mesh.inverse_sizes is not None:
         return mesh.inverse_sizes
@@ -208,6 +209,16 @@ def orientation(model: CadModel) -> tuple[np.ndarray, np.ndarray]:
     return turned ^ inward, solids
 
 
+def _between_shared_nodes(mesh: SurfaceMesh) -> np.ndarray:
+    """Corners (m, 3) of the triangles with two nodes or more that faces may share: all edges that
+    more than one face can use are among theirs."""
+    shared = np.zeros(len(mesh.points), bool)
+    shared[mesh.edge_segments] = True
+    assert mesh.vertex_ids is not None  # noqa: S101 for mypy: every mesh of a model has them
+    shared[mesh.vertex_ids[mesh.vertex_ids >= 0]] = True
+    return mesh.triangles[shared[mesh.triangles].sum(axis=1) > 1]
+
+
 def limits_where_crowded(
     model: CadModel, mesh: SurfaceMesh, sizing: Sizing
 ) -> dict[int, SizeLimits]:
@@ -215,9 +226,11 @@ def limits_where_crowded(
 
     Along an edge of the model there are as many triangles as it has uses.
     """
-    table = mesh.connectivity
+    if mesh.edge_segments is None or not len(mesh.edge_segments):
+        return {}
+    table = connect(_between_shared_nodes(mesh))
     crowded = table.uses > 2
-    if not crowded.any() or mesh.edge_segments is None or not len(mesh.edge_segments):
+    if not crowded.any():
         return {}
     code = np.array([len(mesh.points), 1], np.int64)
     along, place = np.unique(np.sort(mesh.edge_segments, axis=1) @ code, return_inverse=True)

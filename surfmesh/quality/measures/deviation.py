@@ -55,7 +55,7 @@ def deviation(mesh: SurfaceMesh, area: NDArray[np.float64]) -> Deviation | None:
         return None
     count = len(mesh.triangles)
     by_triangle, mean_square = np.zeros(count), np.zeros(count)
-    cosine = np.ones(count, np.float32)
+    normals = np.zeros((count, 3))  # of the surfaces, at the triangles' centroids
     corners, uv_corners = mesh.triangles.reshape(-1), known.corners.uv_triangles.reshape(-1)
     corner_of = np.full(len(mesh.points), -1, np.int32)
     corner_of[corners] = np.arange(len(corners), dtype=np.int32)
@@ -80,10 +80,13 @@ def deviation(mesh: SurfaceMesh, area: NDArray[np.float64]) -> Deviation | None:
                 np.maximum.at(by_triangle, beside, found)
         for block in _blocks(triangles):
             points, uv = known.samples(block, np.zeros_like(block), CENTROID)
-            found, normals = point_deviations(surface, points, uv, np.sqrt(area[block]))
+            found, normals[block] = point_deviations(surface, points, uv, np.sqrt(area[block]))
             mean_square[block] += CENTROID_WEIGHT * found**2
             by_triangle[block] = np.maximum(by_triangle[block], found)
-            cosine[block] = _cosines(mesh, block, normals, area[block])
+    cosine = np.ones(count, np.float32)
+    for block in _blocks(_count(count)):
+        cosine[block] = _cosines(mesh, block, normals[block], area[block])
+    del normals
     if mesh.turned_faces is not None:
         cosine[mesh.turned_faces[mesh.face_ids]] *= -1.0
     for block in _blocks(_count(count)):

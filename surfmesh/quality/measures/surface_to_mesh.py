@@ -19,6 +19,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from surfmesh._core.edges import CurvePieces
 from surfmesh.cad.model.cad_model import CadEdge
 from surfmesh.geometry.differential.projection import closest_point
 from surfmesh.quality.measures.deviation import BLOCK, Deviation
@@ -122,15 +123,22 @@ class _Curves(NamedTuple):
 
     def points(
         self, segments: NDArray[np.intp], t: NDArray[np.float64]
-    ) -> NDArray[np.float64] | None:
-        """(k, j, 3) at ``t`` (j,) of segments (k,) of one edge; None where it has no curve."""
-        number = int(self.ids[segments[0]])
-        edge = self.edges[number] if number < len(self.edges) else None
-        if edge is None or edge.curve is None:
-            return None
-        start, end = self.ends[segments].T[:, :, None]
-        (points,) = edge.evaluate((start + t * (end - start)).ravel(), 0)
-        return points.reshape(len(segments), len(t), 3)
+    ) -> tuple[NDArray[np.float64], NDArray[np.bool_]]:
+        """(k, j, 3) at ``t`` (j,) of segments (k,), those of one edge one after the other; and
+        which (k,) have a curve at all."""
+        numbers = self.ids[segments]
+        curves = [None if edge.curve is None else edge.curve.core for edge in self.edges]
+        known = np.array([*(curve is not None for curve in curves), False])
+        there = known[np.minimum(numbers, len(curves))]
+        start, end = self.ends[segments[there]].T[:, :, None]
+        which, count = np.unique(numbers[there], return_counts=True)
+        limits = np.array([(edge.t0, edge.t1) for edge in self.edges], float).reshape(-1, 2)
+        pieces = CurvePieces(curves, *np.ascontiguousarray(limits.T))
+        first = np.cumsum([0, *(count * len(t))])
+        found = np.zeros((len(segments), len(t), 3))
+        places = pieces.points(which.astype(np.int64), first, (start + t * (end - start)).ravel())
+        found[there] = places.reshape(-1, len(t), 3)
+        return found, there
 
 
 def _look_along_curves(search: _Search, curves: _Curves, fit: Deviation) -> None:
@@ -149,20 +157,12 @@ def _look_along_curves(search: _Search, curves: _Curves, fit: Deviation) -> None
     t = np.concatenate([[0.0], ALONG_RIM, [1.0]])
     known_rows = np.flatnonzero(rows >= 0)
     by_edge = known_rows[np.argsort(curves.ids[known_rows], kind="stable")]
-    found, segments = [], []
-    for own in np.split(by_edge, np.flatnonzero(np.diff(curves.ids[by_edge])) + 1):
-        points = curves.points(own, t) if len(own) else None
-        if points is None:
-            continue
-        nodes = mesh.points[curves.segments[own]]
-        length = np.linalg.norm(nodes[:, 1] - nodes[:, 0], axis=1)
-        from_curve = np.linalg.norm(points[:, [0, -1]] - nodes, axis=2).max(axis=1)
-        good = np.flatnonzero(from_curve <= ON_CURVE * length)
-        found.append(points[good, 1:-1])
-        segments.append(own[good])
-    if not found:
-        return
-    between, segment = np.concatenate(found), np.concatenate(segments)
+    points, there = curves.points(by_edge, t)
+    nodes = mesh.points[curves.segments[by_edge]]
+    length = np.linalg.norm(nodes[:, 1] - nodes[:, 0], axis=1)
+    from_curve = np.linalg.norm(points[:, [0, -1]] - nodes, axis=2).max(axis=1)
+    good = np.flatnonzero(there & (from_curve <= ON_CURVE * length))
+    between, segment = points[good, 1:-1], by_edge[good]
     for at_rim in (True, False):
         some = np.flatnonzero(free[segment] == at_rim)
         for block in _blocks(some, BLOCK // len(ALONG_RIM)):

@@ -82,8 +82,8 @@ def unseen(
     bounded = [
         (face, surface)
         for face, surface in enumerate(mesh.surfaces)
-        if isinstance(surface, BoundedSurface)
-    ]
+        if hasattr(surface, "all_bounds") and isinstance(surface, BoundedSurface)
+    ]  # to ask for the whole protocol takes its time, of thousands of faces
     if not bounded or not np.isfinite(fit.largest):
         return None
     found: list[tuple[Rows, Pieces]] = []

@@ -41,9 +41,8 @@ def metric_area(field: SizeField, loops: Sequence[np.ndarray] | None = None) -> 
     from scipy.spatial import cKDTree
 
     rings = [field.chart.to_plane(loop) for loop in loops]
-    dense = [_dense(field, ring) for ring in rings]
-    nodes = np.concatenate(dense)
-    spacing = np.concatenate([_spacing(ring) for ring in dense])
+    nodes, first = _dense(field, rings)
+    spacing = _spacing(nodes, first)
     tree = cKDTree(nodes)
     total = 0.0
     while len(low):
@@ -151,21 +150,37 @@ def _quartered(
     return np.concatenate([p[0] for p in parts]), np.concatenate([p[1] for p in parts])
 
 
-def _dense(field: SizeField, ring: np.ndarray) -> np.ndarray:
-    """The ring with more points, so that no segment is much longer than a triangle there."""
+def _dense(field: SizeField, rings: list[np.ndarray]) -> tuple[np.ndarray, np.ndarray]:
+    """Nodes (n, 2) of the rings, with more points, so that no segment is much longer than a
+    triangle there; and where those of each begin (k + 1,)."""
+    nodes = np.concatenate(rings)
+    first = np.cumsum([0, *map(len, rings)])
     for _ in range(MOST_HALVINGS):
-        step = np.roll(ring, -1, axis=0) - ring
-        middle = ring + 0.5 * step
+        step = nodes[_following(first)] - nodes
+        middle = nodes + 0.5 * step
         h = field.tensors(middle)
         across = np.abs(step) / np.maximum(h[:, [0, 2]], np.finfo(float).tiny)
-        long = np.flatnonzero(across.max(axis=1) > LONGEST)
-        if not len(long) or len(ring) > MOST_PARTS:
+        few = np.repeat(np.diff(first) <= MOST_PARTS, np.diff(first))
+        long = np.flatnonzero((across.max(axis=1) > LONGEST) & few)
+        if not len(long):
             break
-        ring = np.insert(ring, long + 1, middle[long], axis=0)
-    return ring
+        nodes = np.insert(nodes, long + 1, middle[long], axis=0)
+        first = first + np.searchsorted(long, first)
+    return nodes, first
 
 
-def _spacing(ring: np.ndarray) -> np.ndarray:
-    """The longer of the two segments at each node of a closed ring."""
-    step = np.linalg.norm(np.roll(ring, -1, axis=0) - ring, axis=1)
-    return np.maximum(step, np.roll(step, 1))
+def _following(first: np.ndarray) -> np.ndarray:
+    """The node after each in its closed ring: (n,); of ring k those from first[k] on."""
+    following = np.arange(1, first[-1] + 1)
+    there = first[1:] > first[:-1]
+    following[first[1:][there] - 1] = first[:-1][there]
+    return following
+
+
+def _spacing(nodes: np.ndarray, first: np.ndarray) -> np.ndarray:
+    """The longer of the two segments at each node of closed rings."""
+    following = _following(first)
+    step = np.linalg.norm(nodes[following] - nodes, axis=1)
+    longer = step.copy()
+    longer[following] = np.maximum(step[following], step)
+    return longer

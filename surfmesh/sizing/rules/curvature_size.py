@@ -29,12 +29,14 @@ def deviation_factor(k1: np.ndarray, k2: np.ndarray) -> np.ndarray:
     return _each(core.deviation_factor, k1, k2)
 
 
-def chord_size(k1: np.ndarray, k2: np.ndarray, chord: float) -> np.ndarray:
+def chord_size(k1: np.ndarray, k2: np.ndarray, chord: float | np.ndarray) -> np.ndarray:
     """Edge length at which triangles stay within ``chord`` of the surface; never below 2 ``chord``.
 
     Here and below k1, k2 are of one shape, and so is what is returned.
     """
-    return _each(core.chord_size, k1, k2, chord)
+    if isinstance(chord, np.ndarray) and chord.ndim:
+        return _by_chord(lambda *rows: (core.chord_size(*rows),), chord, k1, k2)[0]
+    return _each(core.chord_size, k1, k2, float(chord))
 
 
 def dihedral_factor(k1: np.ndarray, k2: np.ndarray) -> np.ndarray:
@@ -54,11 +56,14 @@ def normal_deviation_size(k1: np.ndarray, k2: np.ndarray, angle: float) -> np.nd
 
 
 def principal_chord_sizes(
-    k1: np.ndarray, k2: np.ndarray, chord: float, ratio: np.ndarray | float
+    k1: np.ndarray, k2: np.ndarray, chord: float | np.ndarray, ratio: np.ndarray | float
 ) -> tuple[np.ndarray, np.ndarray]:
     """Edge lengths along the directions of k1 and k2 at which triangles stay within ``chord``, for
     a ``ratio`` of the two at most."""
-    return core.principal_chord_sizes(*_rows(k1, k2), chord, _each_of(ratio, k1))
+    if isinstance(chord, np.ndarray) and chord.ndim:
+        first, second = _by_chord(core.principal_chord_sizes, chord, k1, k2, _each_of(ratio, k1))
+        return first, second
+    return core.principal_chord_sizes(*_rows(k1, k2), float(chord), _each_of(ratio, k1))
 
 
 def principal_angle_sizes(
@@ -71,6 +76,23 @@ def principal_angle_sizes(
 def _each(formula: Callable[..., np.ndarray], k1: Any, k2: Any, *number: float) -> np.ndarray:
     first, second = _rows(k1, k2)
     return formula(first.ravel(), second.ravel(), *number).reshape(first.shape)
+
+
+def _by_chord(
+    formula: Callable[..., tuple[np.ndarray, ...]], chord: np.ndarray, k1: np.ndarray,
+    k2: np.ndarray, *others: np.ndarray,
+) -> list[np.ndarray]:  # fmt: skip
+    """What a formula says of places (n,) that have a chord each."""
+    parts = []
+    order = np.argsort(chord, kind="stable")
+    for here in np.split(order, np.flatnonzero(np.diff(chord[order])) + 1):
+        if len(here):
+            given = k1[here], k2[here], float(chord[here[0]]), *(row[here] for row in others)
+            parts.append(formula(*given))
+    found = [np.empty(len(chord)) for _ in zip(*parts)]
+    for column, values in zip(found, zip(*parts)):
+        column[order] = np.concatenate(values)
+    return found
 
 
 def _rows(k1: Any, k2: Any) -> tuple[np.ndarray, np.ndarray]:

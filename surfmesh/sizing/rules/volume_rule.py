@@ -149,12 +149,14 @@ def _lost(face: CadFace, sizing: Sizing, diagonal: float, against: bool) -> _Los
     if isinstance(sizing.size, float):
         np.minimum(sizes, sizing.size, out=sizes)
     gap = _mean_gap(k1, k2, *sizes.T)
-    chord = FAINT / np.maximum(np.maximum(np.abs(k1), np.abs(k2)), np.finfo(float).tiny)
+    # at a chord of FAINT times the radius; with lengths in radii, as sizes go with them
+    curvature = np.maximum(np.maximum(np.abs(k1), np.abs(k2)), np.finfo(float).tiny)
+    first, second = k1 / curvature, k2 / curvature
     if sizing.anisotropy > 1.0:
-        unit = principal_chord_sizes(k1, k2, chord, sizing.anisotropy)
+        unit = principal_chord_sizes(first, second, FAINT, sizing.anisotropy)
     else:
-        unit = (chord_size(k1, k2, chord),) * 2
-    of_chord = _mean_gap(k1, k2, *unit) / chord
+        unit = (chord_size(first, second, FAINT),) * 2
+    of_chord = _mean_gap(first, second, *unit) / FAINT
     # a surface that bends away from its normal, as a sphere does, has k1 + k2 < 0
     outward = -1.0 if against != face.reversed else 1.0
     return _Lost(np.where(outward * gap < 0.0, 1.0, -1.0), area, np.abs(of_chord), np.abs(gap))

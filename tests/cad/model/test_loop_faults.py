@@ -14,7 +14,6 @@ from OCP.gp import gp_Ax3, gp_Pln, gp_Pnt2d
 from OCP.TopoDS import TopoDS, TopoDS_Compound, TopoDS_Face, TopoDS_Vertex, TopoDS_Wire
 
 import surfmesh as sm
-from surfmesh.cad.model.collapsed_edges import vertex_numbers
 from surfmesh.cad.model.loop_faults import exact_loops
 from surfmesh.errors import MeshingError
 
@@ -151,9 +150,7 @@ def test_an_edge_there_and_back_outside_the_face_is_said():
 )
 def test_good_faces_have_no_fault(shape):
     model = sm.from_cadquery(shape)
-    vertex = vertex_numbers(model)
-    for number in range(len(model.faces)):
-        exact = exact_loops(model, number, vertex)
+    for exact in exact_loops(model):
         assert (exact.fault, exact.touch) == ("", "")
 
 

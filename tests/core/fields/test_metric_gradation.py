@@ -70,6 +70,14 @@ def test_every_metric_contains_its_neighbours_grown(seed, slope, ratio, turn):
         growth = 1.0 + slope * distance
         for size, direction in ((h[b], across), (long[b], along[b])):
             assert size <= 1.002 * growth / np.sqrt(direction @ of_a @ direction)
+        chord = np.sqrt(step @ step)
+        ways = [step - (step @ n) * n for n in (normal[a], normal[b])]
+        at_a, at_b = (
+            np.sqrt(way @ way / (way @ metric @ way))
+            for way, metric in zip(ways, (tangent_metric(h[a], long[a], along[a], normal[a]), of_b))
+        )
+        is_least = min(h[b], long[b]) <= 1.002 * growth * min(h[a], long[a])
+        assert at_b <= 1.012 * (at_a + slope * chord) or is_least
         faster = 1.0 + TURN_SLOPE * slope * distance
         basis = np.stack([along[b], across], axis=1)
         excess = np.linalg.eigvalsh(basis.T @ (of_b * 1.005 - of_a / faster**2) @ basis)
