@@ -185,7 +185,38 @@ def stretched(folder: Path) -> None:
     plotter.close()
 
 
-FIGURES = (packing_steps, pushing_out, random_radii, boundary, on_the_surface, stretched)
+def meeting(folder: Path) -> None:
+    """A pipe through a wider one, with finer triangles along their common curve."""
+    made = sm.mesh(sm.load("crossing_pipes"), {"*": 0.25, "edge:main/branch": 0.08})
+    made.plot(folder / "meeting.png", by="face", size=(1000, 750))
+
+
+def meeting_examples(folder: Path) -> None:
+    """The ready-made surfaces that meet."""
+    import pyvista as pv
+
+    names = "crossing_pipes", "wing_and_fuselage", "wavy_cut", "three_sheets"
+    colours = "#f2c14e", "#7fb7be", "#d96c52", "#9aa77a", "#b8a1c9", "#e8d5a3", "#6f8fb3"
+    plotter = pv.Plotter(off_screen=True, shape=(2, 2), window_size=(1500, 1150), border=False)
+    for place, name in enumerate(names):
+        model = sm.load(name)
+        mesh = sm.mesh(model, sm.Sizing(chord=2e-3 * model.diagonal, max_size=model.diagonal / 20))
+        plotter.subplot(*divmod(place, 2))
+        for face in range(len(model.faces)):
+            own = np.insert(mesh.triangles[mesh.face_ids == face], 0, 3, axis=1).ravel()
+            plotter.add_mesh(
+                pv.PolyData(mesh.points, own), color=colours[face % len(colours)],
+                show_edges=True, edge_color=INK, line_width=0.5,
+            )  # fmt: skip
+        plotter.add_text(f"{name}: {len(mesh.triangles):,} triangles", font_size=9, color=INK)
+    plotter.screenshot(folder / "meeting_examples.png")
+    plotter.close()
+
+
+FIGURES = (
+    packing_steps, pushing_out, random_radii, boundary, on_the_surface, stretched, meeting,
+    meeting_examples,
+)  # fmt: skip
 
 
 if __name__ == "__main__":

@@ -16,7 +16,7 @@ from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from surfmesh import errors, io, view
-    from surfmesh.api import estimate, explain, load, mesh, show
+    from surfmesh.api import estimate, explain, intersect, load, mesh, show
     from surfmesh.cad.cadquery.from_cadquery import from_cadquery
     from surfmesh.cad.model.cad_model import CadModel
     from surfmesh.circle_packing import CirclePacking, pack
@@ -60,6 +60,7 @@ _HOMES = {
     "explain": "surfmesh.api",
     "from_cadquery": "surfmesh.cad.cadquery.from_cadquery",
     "gallery": "surfmesh.geometry.files.surface_file",
+    "intersect": "surfmesh.api",
     "load": "surfmesh.api",
     "mesh": "surfmesh.api",
     "mesh_into_pieces": "surfmesh.partitioned_mesh",
@@ -92,6 +93,7 @@ __all__ = [
     "explain",
     "from_cadquery",
     "gallery",
+    "intersect",
     "io",
     "load",
     "mesh",

@@ -1,4 +1,4 @@
-"""The verbs: ``load`` a surface or a CAD model, ``mesh`` it, ``show`` what is on it.
+"""The verbs: ``load`` a surface or a CAD model, ``intersect`` several, ``mesh`` it, ``show`` it.
 
 What only one kind of surface needs is imported once it is there: the first mesh of a formula
 waits for no CAD.
@@ -20,6 +20,7 @@ from surfmesh.cad.healing.joining import Joining
 from surfmesh.cad.reading.read_file import SUFFIXES, begun_reading
 from surfmesh.errors import CadError, FileFormatError, SizingError, SurfaceError, shown
 from surfmesh.geometry.files.surface_file import gallery, load_surface_file
+from surfmesh.geometry.files.toml_entries import sets_key
 from surfmesh.geometry.number_range import RANGE
 from surfmesh.geometry.surface import Surface
 from surfmesh.result.surface_mesh import SurfaceMesh
@@ -52,7 +53,8 @@ def load(
 ) -> Surface | CadModel:
     """The surface or CAD model of a file, or the surface of the gallery by its name.
 
-    A ``.toml`` file holds formulas or a planar domain, a ``.svg`` drawing a planar domain;
+    A ``.toml`` file holds formulas, a planar domain or surfaces that meet (which give a model as
+    ``intersect`` does), a ``.svg`` drawing a planar domain;
     STEP, IGES and BREP files hold CAD models, in ``units`` ("mm", "m", "in", ...; None: mm).
 
     imprint, sew: of a CAD model, lengths in its units. imprint=True: bodies that touch share
@@ -86,11 +88,24 @@ def load(
     if joins:
         raise CadError(f"imprint and sew are for CAD models, and {place.name} holds none")
     if place.suffix == "" and not place.exists():
-        known = gallery()
-        if str(path) in known:
-            return load_surface_file(known[str(path)])
-        raise FileFormatError(f"no file and no gallery surface called {str(path)!r}")
+        place = _of_gallery(str(path))
+    if place.suffix.lower() == ".toml" and sets_key(place, "intersect"):
+        from surfmesh.intersection.meeting_file import load_meeting_file
+
+        return load_meeting_file(place)
     return load_surface_file(place)
+
+
+def _of_gallery(name: str) -> Path:
+    """The file of a gallery surface, or of ready-made surfaces that meet."""
+    known = gallery()
+    if name not in known:
+        from surfmesh.intersection.meeting_file import meeting_gallery
+
+        known = meeting_gallery()
+    if name not in known:
+        raise FileFormatError(f"no file and no gallery surface called {name!r}")
+    return known[name]
 
 
 def mesh(
@@ -154,6 +169,43 @@ def mesh(
         made = of_second_order(made)
     return_free_memory(len(made.triangles))
     return _logged(made, model)
+
+
+def intersect(
+    surfaces: Sequence[Surface | CadModel | Any],
+    keep: str | Mapping[Any, Any] = "all",
+) -> CadModel:
+    """Surfaces and CAD models that cut each other, as one model for ``mesh``.
+
+    surfaces: two or more of formulas, of functions, CAD models or CadQuery objects, in any mix.
+    Their common curves become edges that the faces on all sides share, each cut once: meshes join
+    there by index. Points where three meet become vertices of all three.
+
+    keep: what of them.
+
+        "all"             everything: a complex of sheets, also with dangling parts
+        "union", "difference" (the first without the others), "common"
+                          of closed inputs, models or closed surfaces: closed solids
+        {name: side}      of the inputs named, by ``name`` or number, the parts on one side;
+                          "+other": outside of it, or where its normal points; "-other"; a list of
+                          these, which must all hold; a point (3,): the part that is nearest;
+                          "all" or "none". Inputs that are not named are kept whole.
+
+    Faces have the names that they had, or that of their surface; edges along common curves
+    "one/other". Tags select the faces of an input ("wing"), and on one side of another
+    ("wing+body"), so that sizes can be asked for by these names. A face that is on both sides,
+    as a cut ends inside it, has neither.
+
+    Curves lie within 1e-10 of the diagonal of both surfaces as a rule; the tolerance of the edge
+    says how near. No branch is missed on formulas, splines, planes, cylinders, cones, spheres
+    and tori, whose bends have bounds; of others ``model.healing`` says that they were sampled.
+
+    Raises ``SurfaceError`` with the place where surfaces touch along a curve, at a point or on a
+    patch, where an edge lies on a surface, and for a ``keep`` that cannot be met.
+    """
+    from surfmesh.intersection.intersect import intersected
+
+    return intersected([_model_or_surface(surface) for surface in surfaces], keep)
 
 
 def estimate(surface: Surface | CadModel | Any, sizing: Sizes = None) -> Estimate:

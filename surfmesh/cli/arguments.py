@@ -17,6 +17,7 @@ _EXAMPLES = """examples:
   surfmesh mesh wavy -o wavy.vtu --chord 0.05 --picture wavy.png
   surfmesh mesh my_surface.toml -o my_surface.stl --size 0.1
   surfmesh mesh --x u --y v --z "u**2 - v**2" --u -1 1 --v -1 1 -o saddle.ply
+  surfmesh intersect torus plane -o cut.vtu --keep torus=+plane --chord 0.01
   surfmesh check wavy.vtu --surface wavy
   surfmesh report bracket.step -o bracket.html --chord 0.05
   surfmesh mesh bracket.step -o bracket.vtu --sizes sizes.toml
@@ -83,8 +84,8 @@ def _parser() -> _Parser:
     commands = parser.add_subparsers(dest="command", required=True, metavar="COMMAND")
 
     for add in (
-        _add_mesh, _add_check, _add_view, _add_report, _add_compare, _add_explain, _add_estimate,
-        _add_pack, _add_gallery,
+        _add_mesh, _add_intersect, _add_check, _add_view, _add_report, _add_compare,
+        _add_explain, _add_estimate, _add_pack, _add_gallery,
     ):  # fmt: skip
         add(commands)
     return parser
@@ -102,6 +103,23 @@ def _add_mesh(commands: _Commands) -> None:
     formulas.add_argument(
         "--param", action="append", default=[], metavar="NAME=VALUE", help="a named number"
     )
+    _add_made(mesh)
+
+
+def _add_intersect(commands: _Commands) -> None:
+    meet = commands.add_parser("intersect", help="mesh surfaces and models that cut each other")
+    meet.add_argument("inputs", nargs="+", metavar="INPUT", help=_MODEL)
+    meet.add_argument("-o", "--output", required=True, metavar="OUT", help="mesh file to write")
+    meet.add_argument(
+        "--keep", action="append", default=[], metavar="all|union|difference|common|NAME=SIDE",
+        help="what is kept (default all); NAME=+OTHER, NAME=-OTHER or NAME=X,Y,Z: of an input the "
+        "parts on one side, or nearest to a point; may be given several times",
+    )  # fmt: skip
+    _add_made(meet)
+
+
+def _add_made(mesh: argparse.ArgumentParser) -> None:
+    """What is asked of a mesh that is made, checked and written."""
     _add_sizes(mesh)
     mesh.add_argument("--no-optimise", action="store_true", help="the raw packing, for comparison")
     _add_cad(mesh)

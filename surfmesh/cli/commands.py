@@ -1,5 +1,7 @@
 """What each command does. Every one returns whether all is well."""
 
+from __future__ import annotations
+
 import json
 import tomllib
 from argparse import Namespace
@@ -10,8 +12,10 @@ from time import perf_counter
 from typing import TYPE_CHECKING, Any
 
 from surfmesh.cli.inputs import (
+    asked_keep,
     asked_sizing,
     called,
+    named_surface,
     on_surface,
     shown_mesh,
     surface_begun,
@@ -31,6 +35,10 @@ from surfmesh.errors import FileFormatError, SurfmeshError, printable
 if TYPE_CHECKING:
     from concurrent.futures import Executor
 
+    from surfmesh.api import Sizes
+    from surfmesh.cad.model.cad_model import CadModel
+    from surfmesh.geometry.surface import Surface
+
 
 def mesh(options: Namespace) -> bool:
     """Mesh, check, write; the files are looked at before the work is done."""
@@ -38,11 +46,32 @@ def mesh(options: Namespace) -> bool:
         require_outputs(options)
         sizing = asked_sizing(options)
 
-        from surfmesh import api
-        from surfmesh.io import save
-        from surfmesh.quality import check as checked
+        # loaded while a child process reads a CAD file
+        import surfmesh.api
+        import surfmesh.io
+        import surfmesh.quality  # noqa: F401
 
         surface = surface_wanted()
+    return _made(surface, sizing, options)
+
+
+def intersect(options: Namespace) -> bool:
+    """Intersect, then as ``mesh``."""
+    require_outputs(options)
+    sizing = asked_sizing(options)
+
+    from surfmesh import api
+
+    surfaces = [named_surface(name, options) for name in options.inputs]
+    return _made(api.intersect(surfaces, asked_keep(options.keep)), sizing, options)
+
+
+def _made(surface: Surface | CadModel, sizing: Sizes, options: Namespace) -> bool:
+    """The mesh of a surface, checked and written with all that is asked for beside it."""
+    from surfmesh import api
+    from surfmesh.io import save
+    from surfmesh.quality import check as checked
+
     with ProgressBar() as progress, executor_of(options.scheduler) as executor:
         if executor is not None and in_pieces(options, surface):
             return _mesh_in_pieces(surface, sizing, options, executor, progress)
@@ -83,7 +112,7 @@ def mesh(options: Namespace) -> bool:
 
 
 def _mesh_in_pieces(
-    model: Any, sizing: Any, options: Namespace, executor: "Executor", progress: ProgressBar
+    model: Any, sizing: Any, options: Namespace, executor: Executor, progress: ProgressBar
 ) -> bool:
     """Mesh a CAD model into a .pvtu file by the workers; no process holds the whole."""
     from surfmesh.partitioned_mesh import mesh_into_pieces
@@ -291,9 +320,10 @@ _PACKING_ROWS = {
 def gallery(options: Namespace) -> bool:
     """List the ready-made surfaces."""
     from surfmesh.geometry.files.surface_file import gallery as surfaces
+    from surfmesh.intersection.meeting_file import meeting_gallery
 
     described = []
-    for name, path in surfaces().items():
+    for name, path in (surfaces() | meeting_gallery()).items():
         content = tomllib.loads(path.read_text(encoding="utf-8"))
         described.append((name, content.get("description", ""), path))
     if options.json:

@@ -35,6 +35,30 @@ def asked_sizing(options: Namespace) -> Sizing | dict[str, Sizing] | None:
     return found
 
 
+def asked_keep(given: list[str]) -> str | dict[str, list[Any]]:
+    """What ``--keep`` says: a word, or the sides of inputs by name."""
+    if not given:
+        return "all"
+    if len(given) == 1 and "=" not in given[0]:
+        return given[0]
+    sides: dict[str, list[Any]] = {}
+    for entry in given:
+        name, sign, side = entry.partition("=")
+        if not sign:
+            raise SurfaceError(f"--keep '{entry}': one word alone, or NAME=SIDE several times")
+        sides.setdefault(name.strip(), []).append(_side(side.strip()))
+    return sides
+
+
+def _side(text: str) -> str | tuple[float, ...]:
+    """A point "x,y,z" as numbers; anything else as it is."""
+    try:
+        point = tuple(float(part) for part in text.split(","))
+    except ValueError:
+        return text
+    return point if len(point) == 3 else text
+
+
 @contextmanager
 def surface_begun(
     name: str | None, options: Namespace
@@ -99,10 +123,11 @@ def named_surface(name: str, options: Namespace) -> Surface | CadModel:
     """A file, or else a surface of the gallery; ``options.reading``: how a CAD file is read."""
     from surfmesh import api
     from surfmesh.geometry.files.surface_file import gallery as surfaces
+    from surfmesh.intersection.meeting_file import meeting_gallery
 
     if Path(name).is_file():
         return api.load(name, **options.reading)
-    known = surfaces()
+    known = surfaces() | meeting_gallery()
     if name in known:
         return api.load(known[name], **options.reading)
     close = get_close_matches(name, known, n=1)

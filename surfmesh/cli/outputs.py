@@ -28,8 +28,8 @@ def report_written(result: SurfaceMesh, report: Report, options: Namespace) -> P
 
 
 _NOT_RECORDED = (
-    "command", "input", "output", "picture", "report", "manifest", "sizes", "json", "jobs",
-    "sizing", "reading",
+    "command", "input", "inputs", "output", "picture", "report", "manifest", "sizes", "json",
+    "jobs", "sizing", "reading",
 )  # fmt: skip
 """Options that are no part of a manifest: places, what is in the mesh's sizing, what changes
 nothing in the files."""

@@ -68,7 +68,9 @@ class FaceSurface(PlainData):
         """The surface of the core. Vectors and arrays are made plain here, as this comes first."""
         raise NotImplementedError
 
-    def derivative_bounds(self, lo: np.ndarray, hi: np.ndarray) -> None:
+    def derivative_bounds(
+        self, lo: np.ndarray, hi: np.ndarray
+    ) -> tuple[np.ndarray, np.ndarray] | None:
         """Not known."""
         return None
 

@@ -46,8 +46,12 @@ def load_formula_file(path: str | Path, ahead: bool = True) -> ParametricSurface
     Raises SurfaceError that names the file and the key for anything missing, unknown or of the
     wrong type, FormulaError with the column for a formula that is refused.
     """
-    path = Path(path)
-    entries = TomlEntries(path)
+    return formula_surface(TomlEntries(Path(path)), ahead)
+
+
+def formula_surface(entries: TomlEntries, ahead: bool = True) -> ParametricSurface:
+    """The surface of the entries of a file, or of a table in one; raises as above."""
+    path = entries.path
     entries.refuse_unknown(entries.content, KEYS, "")
     domain = entries.table("domain", required=True)
     entries.refuse_unknown(domain, {"u", "v"}, "domain.")

@@ -100,11 +100,17 @@ def _brief(reason: ValueError) -> str:
 
 
 class TomlEntries:
-    """The entries of one file. error: what is raised for anything missing, unknown or wrong."""
+    """The entries of one file. error: what is raised for anything missing, unknown or wrong.
 
-    def __init__(self, path: Path, error: type[SurfmeshError] = SurfaceError) -> None:
+    content: of one table of the file, where not all of it is meant.
+    """
+
+    def __init__(
+        self, path: Path, error: type[SurfmeshError] = SurfaceError,
+        content: dict[str, Any] | None = None,
+    ) -> None:  # fmt: skip
         self.path, self.error = path, error
-        self.content = toml_content(path, error)
+        self.content = toml_content(path, error) if content is None else content
 
     def value(self, key: str, types: tuple[type, ...], default: Any = None) -> Any:
         if key not in self.content:

@@ -1,0 +1,166 @@
+"""The curves on one face cut it into regions.
+
+            a                    Half-edges: the coedges of the loops, inside on the left, and
+      ------>------o  k          every curve both ways. Where several meet in a place k of (u, v),
+      <-----       ^  |          a walk that comes in by h goes on by the first half-edge
+         h     next|  v          clockwise from where it came: it keeps to its region's border.
+
+Walks that turn counter-clockwise are outer loops, the others holes in the smallest outer loop
+around them; a curve that ends inside is walked there and back.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from surfmesh.cad.model.cad_model import CadCoedge, CadFace
+from surfmesh.errors import SurfaceError
+from surfmesh.intersection.regions import polygon_of
+from surfmesh.intersection.tracing import place
+
+PARALLEL = 1e-6
+"""Radians: half-edges that leave one place nearer to each other than that cannot be told apart."""
+
+FLAT = 1e-12
+"""Of the square of its box: a walk that encloses less goes there and back."""
+
+Loop = tuple[CadCoedge, ...]
+
+
+@dataclass(frozen=True, eq=False)
+class HalfEdge:
+    """A coedge between two places. start, end: keys of these. leaves, enters: (2,) directions in
+    (u, v), scaled to lengths: as it leaves its start, and as it comes to its end."""
+
+    coedge: CadCoedge
+    start: object
+    end: object
+    leaves: np.ndarray
+    enters: np.ndarray
+
+
+def half_edge(coedge: CadCoedge, start: object, end: object, scale: np.ndarray) -> HalfEdge:
+    """scale: (2,) lengths in space of a unit of u and of v, on average."""
+    rates = coedge.pcurve.evaluate(np.array([coedge.p0, coedge.p1]), 1)[1]
+    rates = rates * (coedge.p1 - coedge.p0)
+    if coedge.reversed:
+        rates = -rates[::-1]
+    return HalfEdge(coedge, start, end, rates[0] * scale, rates[1] * scale)
+
+
+def turn(first: np.ndarray, second: np.ndarray) -> float:
+    """Counter-clockwise angle from one direction to another, 0 to 2 pi."""
+    angle = math.atan2(second[1], second[0]) - math.atan2(first[1], first[0])
+    return angle % (2.0 * math.pi)
+
+
+def regions(face: CadFace, halves: Sequence[HalfEdge]) -> list[tuple[Loop, ...]]:
+    """The loops of each region, the outer one first. Raises ``SurfaceError``."""
+    walks = _walks(face, halves)
+    scale = np.ptp(np.array(face.surface.domain), axis=1)
+    rings = [_ring(walk, scale) for walk in walks]
+    areas = np.array([_area(ring) for ring in rings])
+    size = np.array([float(np.prod(np.ptp(ring, axis=0)) + 1e-300) for ring in rings])
+    outer = np.flatnonzero(areas > FLAT * size)
+    outer = outer[~np.array([_is_slit(walks[k]) for k in outer], bool)]
+    if not len(outer):
+        raise SurfaceError(f"{face.surface.name}: its curves enclose nothing")
+    held: dict[int, list[Loop]] = {int(k): [walks[k]] for k in outer}
+    for k in range(len(walks)):
+        if k in held:
+            continue
+        own = {coedge.edge for coedge in walks[k]}
+        around = [
+            o for o in outer
+            if own.isdisjoint(coedge.edge for coedge in walks[o]) and _is_in(rings[k], rings[o])
+        ]  # fmt: skip
+        if not around:
+            middle = face.surface.evaluate((rings[k][:1]) * scale, 0)[0][0]
+            raise SurfaceError(
+                f"{face.surface.name}: a loop of curves through {place(middle)} lies in no region"
+            )
+        held[int(min(around, key=lambda o: areas[o]))].append(walks[k])
+    return [tuple(loops) for loops in held.values()]
+
+
+def _walks(face: CadFace, halves: Sequence[HalfEdge]) -> list[Loop]:
+    leaving: dict[object, list[int]] = {}
+    for number, half in enumerate(halves):
+        leaving.setdefault(half.start, []).append(number)
+    used = [False] * len(halves)
+    walks = []
+    for first in range(len(halves)):
+        if used[first]:
+            continue
+        walk, number = [], first
+        while not used[number]:
+            used[number] = True
+            walk.append(halves[number].coedge)
+            number = _next(face, halves, halves[number], leaving)
+        if number != first:
+            raise SurfaceError(f"{face.surface.name}: curves on it do not close to regions")
+        walks.append(tuple(walk))
+    return walks
+
+
+def _next(
+    face: CadFace, halves: Sequence[HalfEdge], half: HalfEdge, leaving: dict[object, list[int]]
+) -> int:
+    ways = leaving.get(half.end, [])
+    if len(ways) == 1:
+        return ways[0]
+    back = -half.enters
+    # clockwise from the way back; the twin itself last
+    turns = [turn(halves[k].leaves, back) for k in ways]
+    for place_, k in enumerate(ways):
+        twin = halves[k].coedge.edge == half.coedge.edge and (
+            halves[k].coedge.reversed != half.coedge.reversed
+        )
+        if min(turns[place_], 2.0 * math.pi - turns[place_]) < PARALLEL and twin:
+            turns[place_] = 2.0 * math.pi
+    order = np.argsort(turns)
+    if not len(order):
+        raise SurfaceError(f"{face.surface.name}: a curve on it ends at no other")
+    best = turns[order[0]]
+    close = best < PARALLEL or (len(order) > 1 and turns[order[1]] - best < PARALLEL)
+    if close:
+        where = half.coedge.walk(np.array([1.0]))
+        raise SurfaceError(
+            f"{face.surface.name}: curves on it touch at "
+            f"{place(face.surface.evaluate(where, 0)[0][0])}; move one of the surfaces"
+        )
+    return ways[int(order[0])]
+
+
+def _ring(walk: Loop, scale: np.ndarray) -> np.ndarray:
+    return np.concatenate([polygon_of(coedge, scale)[0][:-1] for coedge in walk])
+
+
+def _area(ring: np.ndarray) -> float:
+    u, v = (ring - ring.mean(axis=0)).T
+    return 0.5 * float(u @ np.roll(v, -1) - v @ np.roll(u, -1))
+
+
+def _is_slit(walk: Loop) -> bool:
+    """Does it run along each edge there and back?"""
+    ways: dict[int, int] = {}
+    for coedge in walk:
+        ways[coedge.edge] = ways.get(coedge.edge, 0) + (-1 if coedge.reversed else 1)
+    return not any(ways.values())
+
+
+def _is_in(inner: np.ndarray, outer: np.ndarray) -> bool:
+    """Is the most of a ring's points within another? They do not cross, but may touch."""
+    a, b = outer, np.roll(outer, -1, axis=0)
+    steps = inner[:: max(1, len(inner) // 33)]
+    middles = 0.5 * (steps + np.roll(steps, -1, axis=0)) if len(steps) < 3 else steps
+    u, v = middles.T[..., None]
+    rise = np.where(b[:, 1] == a[:, 1], 1.0, b[:, 1] - a[:, 1])
+    spans = (a[:, 1] > v) != (b[:, 1] > v)
+    crossing = a[:, 0] + (v - a[:, 1]) / rise * (b[:, 0] - a[:, 0])
+    inside = (spans & (crossing < u)).sum(axis=1) % 2 == 1
+    return bool(inside.mean() > 0.5)

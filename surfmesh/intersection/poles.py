@@ -1,0 +1,83 @@
+"""Where curves leave a pole of a surface: a side of its (u, v) that is one point in space.
+
+v1 +---o-------o---+     r_v leads out of the pole in another direction at each u; a surface
+   |   |       |   |     with the normal n through the pole is met in a curve that leaves it
+   |   |       |   |     where r_v . n = 0
+v0 +---------------+
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import NamedTuple
+
+import numpy as np
+
+from surfmesh.cad.model.cad_model import CadCoedge
+from surfmesh.errors import SurfaceError
+from surfmesh.geometry.cad_surfaces.face_surface import FaceSurface
+from surfmesh.intersection.tracing import place
+
+SAMPLES = 257
+NEAR_END = 1e-7
+"""Of the range of the side: a curve that leaves there runs along the next edge."""
+
+
+class WayOut(NamedTuple):
+    """fraction: of the degenerate edge. way: (3,) unit. rate: (2,) of u and v along it."""
+
+    fraction: float
+    way: np.ndarray
+    rate: np.ndarray
+
+
+def ways_out_of_pole(surface: FaceSurface, coedge: CadCoedge, normal: np.ndarray) -> list[WayOut]:
+    """All places of a degenerate side where a curve on a surface with this normal (3,) leaves.
+
+    Raises ``SurfaceError`` where one leaves along an edge, or the surface touches the pole.
+    """
+    ends = coedge.uv(np.array([0.0, 1.0]))
+    axis = int(np.argmin(np.abs(ends[1] - ends[0])))  # the parameter that leads out
+    low, high = surface.domain[axis]
+    inward = 1.0 if ends[0, axis] - low < high - ends[0, axis] else -1.0
+
+    def out(fraction: np.ndarray) -> np.ndarray:
+        return inward * surface.evaluate(coedge.uv(fraction), 1)[1 + axis]
+
+    def height(fraction: float) -> float:
+        return float(out(np.array([fraction]))[0] @ normal)
+
+    fractions = np.linspace(0.0, 1.0, SAMPLES)
+    ways = out(fractions)
+    heights = ways @ normal
+    size = np.linalg.norm(ways, axis=1).max()
+    if np.abs(heights).max() < 1e-6 * size:
+        raise SurfaceError(
+            f"{surface.name} is touched at its pole {place(surface.evaluate(ends[:1])[0][0])}"
+        )
+    found = []
+    for k in np.flatnonzero((heights[:-1] > 0.0) != (heights[1:] > 0.0)):
+        t = _root(height, fractions[k], fractions[k + 1])
+        if min(t, 1.0 - t) < NEAR_END:
+            raise SurfaceError(
+                f"a curve on {surface.name} leaves its pole along an edge at "
+                f"{place(surface.evaluate(ends[:1])[0][0])}; turn one of the surfaces"
+            )
+        way = out(np.array([t]))[0]
+        speed = float(np.linalg.norm(way))
+        rate = np.zeros(2)
+        rate[axis] = inward / speed
+        found.append(WayOut(float(t), way / speed, rate))
+    return found
+
+
+def _root(height: Callable[[float], float], low: float, high: float) -> float:
+    """By halving: signs differ at both ends."""
+    rising = height(low) < height(high)
+    for _ in range(60):
+        middle = 0.5 * (low + high)
+        if (height(middle) > 0.0) == rising:
+            high = middle
+        else:
+            low = middle
+    return 0.5 * (low + high)

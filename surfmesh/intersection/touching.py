@@ -1,0 +1,140 @@
+"""Points where a curve touches a surface, or two surfaces each other, and how curves leave them.
+
+Where the difference of both surfaces over the common tangent plane, D = S_A - S_B in second order,
+has two signs, two curves cross in the point: a branch point, as of two equal tubes. Their
+directions x are x^T D x = 0. One sign: the surfaces touch in that point alone.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import NamedTuple
+
+import numpy as np
+
+from surfmesh.geometry.cad_surfaces.face_surface import FaceSurface
+from surfmesh.intersection.newton import Curve, limits_of
+
+STEPS = 20
+FLAT = 1e-5
+"""Of the larger curvature of D: a smaller one is none, and the surfaces touch along a curve."""
+
+
+class Touch(NamedTuple):
+    """A place on both: the distance there, and whether it was found to rounding."""
+
+    place: np.ndarray
+    point: np.ndarray
+    gap: float
+    found: bool
+
+
+def touch_of_curve(curve: Curve, surface: FaceSurface, place: np.ndarray) -> Touch:
+    """The place (t, u, v) near a guess (3,) where the curve is nearest to the surface:
+
+    (c - r) . r_u = (c - r) . r_v = 0,  c' . (r_u x r_v) = 0.
+    """
+
+    def equations(at: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        c, c1, c2 = (value[0] for value in curve(at[:1], 2))
+        r, ru, rv, ruu, ruv, rvv = (value[0] for value in surface.evaluate(at[None, 1:], 2))
+        away, normal = c - r, np.cross(ru, rv)
+        normal_u = np.cross(ruu, rv) + np.cross(ru, ruv)
+        normal_v = np.cross(ruv, rv) + np.cross(ru, rvv)
+        value = np.array([away @ ru, away @ rv, c1 @ normal])
+        slope = np.array([
+            [c1 @ ru, -ru @ ru + away @ ruu, -rv @ ru + away @ ruv],
+            [c1 @ rv, -ru @ rv + away @ ruv, -rv @ rv + away @ rvv],
+            [c2 @ normal, c1 @ normal_u, c1 @ normal_v],
+        ])  # fmt: skip
+        return value, slope
+
+    low, high = limits_of(surface)
+    limits = np.array([0.0, *low]), np.array([1.0, *high])
+    at, found = _solved(equations, place, limits)
+    c, r = curve(at[:1], 0)[0][0], surface.evaluate(at[None, 1:], 0)[0][0]
+    return Touch(at, c, float(np.linalg.norm(c - r)), found)
+
+
+def touch_of_surfaces(a: FaceSurface, b: FaceSurface, place: np.ndarray) -> Touch:
+    """The place (u, v, s, t) near a guess (4,) where both have one normal and the line between
+    them is along it: (r_A - r_B) . r_A,u = (r_A - r_B) . r_A,v = 0,  N_A . r_B,s = N_A . r_B,t = 0.
+    """
+
+    def equations(at: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        r, ru, rv, ruu, ruv, rvv = (value[0] for value in a.evaluate(at[None, :2], 2))
+        q, qs, qt, qss, qst, qtt = (value[0] for value in b.evaluate(at[None, 2:], 2))
+        away, normal = r - q, np.cross(ru, rv)
+        normal_u = np.cross(ruu, rv) + np.cross(ru, ruv)
+        normal_v = np.cross(ruv, rv) + np.cross(ru, rvv)
+        value = np.array([away @ ru, away @ rv, normal @ qs, normal @ qt])
+        slope = np.array([
+            [ru @ ru + away @ ruu, rv @ ru + away @ ruv, -qs @ ru, -qt @ ru],
+            [ru @ rv + away @ ruv, rv @ rv + away @ rvv, -qs @ rv, -qt @ rv],
+            [normal_u @ qs, normal_v @ qs, normal @ qss, normal @ qst],
+            [normal_u @ qt, normal_v @ qt, normal @ qst, normal @ qtt],
+        ])  # fmt: skip
+        return value, slope
+
+    (low_a, high_a), (low_b, high_b) = limits_of(a), limits_of(b)
+    limits = np.concatenate([low_a, low_b]), np.concatenate([high_a, high_b])
+    at, found = _solved(equations, place, limits)
+    p, q = a.evaluate(at[None, :2], 0)[0][0], b.evaluate(at[None, 2:], 0)[0][0]
+    return Touch(at, 0.5 * (p + q), float(np.linalg.norm(p - q)), found)
+
+
+def _solved(
+    equations: Callable[[np.ndarray], tuple[np.ndarray, np.ndarray]], place: np.ndarray,
+    limits: tuple[np.ndarray, np.ndarray],
+) -> tuple[np.ndarray, bool]:  # fmt: skip
+    """Newton from a guess; and whether the last step was nothing."""
+    at = np.array(place, float)
+    width = np.maximum(limits[1] - limits[0], 1e-300)
+    for _ in range(STEPS):
+        value, slope = equations(at)
+        if not (np.isfinite(value).all() and np.isfinite(slope).all()):
+            return at, False
+        step = np.linalg.lstsq(slope * width, value, rcond=1e-12)[0]
+        step /= max(1.0, 5.0 * float(np.abs(step).max()))
+        at = np.clip(at - step * width, *limits)
+        if np.abs(step).max() < 1e-13:
+            return at, True
+    return at, bool(np.abs(step).max() < 1e-9)
+
+
+def branch_ways(
+    a: FaceSurface, b: FaceSurface, uv_a: np.ndarray, uv_b: np.ndarray
+) -> tuple[str, list[np.ndarray]]:
+    """What two surfaces do where they have one tangent plane: "cross" with the four unit
+    directions (3,) in which their curves leave, "touch" in a point, or "along" a curve."""
+    _, ru, rv = (value[0] for value in a.evaluate(uv_a[None], 1))
+    normal = np.cross(ru, rv)
+    normal /= np.linalg.norm(normal)
+    first = ru / np.linalg.norm(ru)
+    frame = np.stack([first, np.cross(normal, first)])
+    bent = _second(a, uv_a, normal, frame) - _second(b, uv_b, normal, frame)
+    values, axes = np.linalg.eigh(bent)
+    size = np.abs(values).max()
+    curved = max(np.abs(_second(a, uv_a, normal, frame)).max(), size)
+    if size <= FLAT * curved or np.abs(values).min() <= FLAT * size:
+        return "along", []
+    if values[0] * values[1] > 0.0:
+        return "touch", []
+    slope = np.sqrt(-values[0] / values[1])
+    ways = []
+    for sign in (1.0, -1.0):
+        way = axes[:, 0] + sign * slope * axes[:, 1]
+        way = way @ frame
+        way /= np.linalg.norm(way)
+        ways += [way, -way]
+    return "cross", ways
+
+
+def _second(
+    surface: FaceSurface, uv: np.ndarray, normal: np.ndarray, frame: np.ndarray
+) -> np.ndarray:
+    """Second derivatives (2, 2) of the height over the tangent plane, in its frame (2, 3)."""
+    _, ru, rv, ruu, ruv, rvv = (value[0] for value in surface.evaluate(uv[None], 2))
+    form = np.array([[ruu @ normal, ruv @ normal], [ruv @ normal, rvv @ normal]])
+    inverse = np.linalg.inv(np.stack([frame @ ru, frame @ rv], axis=1))
+    return inverse.T @ form @ inverse

@@ -1,0 +1,34 @@
+"""``surfmesh intersect``: inputs by file or gallery name, what is kept, what is refused."""
+
+import json
+
+import pytest
+
+from surfmesh.cli import main
+
+
+def test_a_torus_cut_by_a_plane(tmp_path, capsys):
+    out = str(tmp_path / "cut.vtu")
+    plane = tmp_path / "floor.toml"
+    plane.write_text(
+        'name = "floor"\nx = "u"\ny = "v"\nz = "0.3 + 0.01*u"\n[domain]\nu = [-5, 5]\n'
+        "v = [-5.1, 5.2]\n"
+    )
+    argv = ["intersect", "torus", str(plane), "-o", out, "--size", "0.5", "--json"]
+    assert main([*argv, "--keep", "torus=+floor", "--keep", "floor=0,0,0.3"]) == 0
+    report = json.loads(capsys.readouterr().out)
+    assert report["clean"] and not report["closed"]
+    assert report["files"]["mesh"] == out
+
+
+@pytest.mark.parametrize(
+    ("keep", "said"),
+    [(["union"], "is not closed"), (["most"], "keep"), (["union", "torus=+wavy"], "NAME=SIDE")],
+)
+def test_what_cannot_be_kept_is_said_in_one_line(tmp_path, capsys, keep, said):
+    argv = ["intersect", "wavy", "torus", "-o", str(tmp_path / "a.vtu")]
+    for word in keep:
+        argv += ["--keep", word]
+    assert main(argv) == 2
+    told = capsys.readouterr().err
+    assert said in told and told.count("\n") == 1
