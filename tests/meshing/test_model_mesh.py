@@ -8,7 +8,6 @@ import pytest
 
 import surfmesh as sm
 from surfmesh.errors import MeshingError
-from surfmesh.meshing import model_mesh
 from surfmesh.meshing.faces import face_workers
 from surfmesh.meshing.faces.face_data import FaceMesh
 from surfmesh.quality.measures.solids import solid_mesh
@@ -110,13 +109,12 @@ def test_same_input_same_mesh():
 
 def test_faces_that_fail_are_named(monkeypatch):
     model = sm.from_cadquery(cq.Workplane().box(1, 2, 3))
-    work, top = model_mesh.mesh_face, model.faces[2].surface
+    work, top = face_workers.mesh_face, model.faces[2].surface
 
     def failing(job):
         return FaceMesh(failure="no luck") if job.surface is top else work(job)
 
-    for module in (model_mesh, face_workers):
-        monkeypatch.setattr(module, "mesh_face", failing)
+    monkeypatch.setattr(face_workers, "mesh_face", failing)
     with pytest.raises(MeshingError, match=r"1 of 6 faces .* face 2 .*no luck"):
         sm.mesh(model, 0.5)
     mesh = sm.mesh(model, 0.5, strict=False)

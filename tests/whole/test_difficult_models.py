@@ -108,7 +108,7 @@ def test_mistakes_of_ours_are_called_so(monkeypatch):
     def broken(*_, **__):
         raise IndexError("no such slot")
 
-    monkeypatch.setattr(face_mesh, "mesh_patch", broken)
+    monkeypatch.setattr(face_mesh, "_made", broken)
     with pytest.raises(MeshingError, match=r"internal error, please report .* slot"):
         sm.mesh(cq.Workplane().box(1, 1, 1), 0.5)
 

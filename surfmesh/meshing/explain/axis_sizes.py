@@ -28,6 +28,9 @@ LOWERED = 0.97
 ROUND = 1.02
 """Ratio of two sizes up to which the metric has no axes of its own."""
 
+RAISED = 1.05
+"""Times the size that is asked for: above it something is said of it."""
+
 NEARLY = 1.15
 """What explains a size predicts it within this factor."""
 
@@ -85,7 +88,8 @@ class AxisSize:
     rows: tuple[SizeRow, ...]
     """All that apply along it at the point, the smallest first, bounds last."""
     origin: str = ""
-    """Where a size that is smaller than ``target_size`` has grown from, or what has shrunk it."""
+    """Where a size that is smaller than ``target_size`` has grown from, what has shrunk it, or why
+    it is larger."""
 
     wish = Renamed("target_size")
 
@@ -173,6 +177,8 @@ def explained_axes(
                 origin, winner = f"shrunk with the other size, {done[0].origin}", done[0].winner
             else:
                 origin = "shortened as the directions of the metric change nearby"
+        elif size > RAISED * own.size:  # a short edge leaves more of the chord to the other one
+            origin = "raised as the other size is not reached"
         bend = None
         if principal.k is not None:
             first, second = principal.along @ direction

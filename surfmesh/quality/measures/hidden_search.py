@@ -37,6 +37,9 @@ NEARLY = 1.02  # of the tolerance: a box counts as within, so that halving comes
 AHEAD = 16.0  # a box is at most so many times narrower across a place without bounds than along it
 NO_BOUND = 1e300  # what is more is infinite
 INSIDE = 1e-9  # barycentric: a centre so far outside is inside
+CLIMBED = 50  # found points, the farthest first, that are moved to where the distance is largest
+CLIMB_STEPS, SHORTER = 80, 0.7  # of the pattern search: down to 1e-12 of the triangle
+EIGHT_WAYS = np.array([(a, b) for a in (-1.0, 0.0, 1.0) for b in (-1.0, 0.0, 1.0) if a or b])
 
 Deviations: TypeAlias = Callable[[NDArray[np.int64], NDArray[np.float64]], NDArray[np.float64]]
 
@@ -257,6 +260,25 @@ def _remember(
     worst = distance[truly][order] > pieces.reached[chosen]
     pieces.reached[chosen[worst]] = distance[truly][order][worst]
     pieces.place[chosen[worst]] = uv[truly][order][worst]
+
+
+def climb(surface: BoundedSurface, pieces: Pieces, deviation: Deviations) -> None:
+    """From the points that were found uphill: the search ends at the first, on a feature's slope.
+
+    Eight ways round a point are tried within its triangle, step by step shorter (pattern search).
+    """
+    found = np.flatnonzero(pieces.reached > 0.0)
+    found = found[np.argsort(-pieces.reached[found], kind="stable")][:CLIMBED]
+    step = np.ptp(pieces.uv[found], axis=1)
+    for _ in range(CLIMB_STEPS if len(found) else 0):
+        trial = pieces.place[found, None] + step[:, None] * EIGHT_WAYS
+        piece, uv = np.repeat(found, len(EIGHT_WAYS)), trial.reshape(-1, 2)
+        held = _holds(pieces.uv[piece], uv)
+        piece, uv = piece[held], uv[held]
+        if len(piece):
+            distance = deviation(piece, surface.evaluate(uv, 0)[0])
+            _remember(pieces, piece, uv, distance, np.isfinite(distance))
+        step *= SHORTER
 
 
 def _leave(pieces: Pieces, boxes: _Boxes, bound: NDArray[np.float64]) -> None:

@@ -21,6 +21,7 @@ from surfmesh.quality.measures.hidden_search import (
     Pieces,
     bounded_at_once,
     bounded_in_parts,
+    climb,
     search_rims,
     search_triangles,
 )
@@ -144,6 +145,7 @@ def _in_triangles(
         around = _Around(mesh, triangles)
         budget = BOXES + BOXES_EACH * len(mesh.triangles)
         search_triangles(surface, pieces, whole, around.deviation, budget)
+        climb(surface, pieces, around.deviation)
     bad = pieces.is_open
     return triangles[bad], Pieces(*(getattr(pieces, name)[bad] for name in vars(pieces)))
 
