@@ -48,5 +48,5 @@ def test_it_is_stored_without_outputs(path):
     assert notebook.cells[0].cell_type == "markdown" and notebook.cells[0].source.startswith("# ")
 
 
-def test_there_are_seven():
-    assert [path.stem[0] for path in NOTEBOOKS] == list("1234567")
+def test_there_are_eight():
+    assert [path.stem[0] for path in NOTEBOOKS] == list("12345678")

@@ -88,8 +88,7 @@ class AxisSize:
     rows: tuple[SizeRow, ...]
     """All that apply along it at the point, the smallest first, bounds last."""
     origin: str = ""
-    """Where a size that is smaller than ``target_size`` has grown from, what has shrunk it, or why
-    it is larger."""
+    """Where a size that is smaller than ``target_size`` has grown from, or what has shrunk it."""
 
     wish = Renamed("target_size")
 
@@ -98,6 +97,14 @@ class AxisSize:
         """Of curvature; None where it is straight along the direction."""
         return 1.0 / abs(self.curvature) if self.curvature else None
 
+    @property
+    def is_raised(self) -> bool:
+        """Is it larger than what is asked for, as the other size is not reached?
+
+        A shorter edge takes less of the chord and leaves more of it to the other one.
+        """
+        return self.size > RAISED * self.target_size
+
     def lines(self) -> list[str]:
         """As text."""
         along = ", ".join(f"{round(x, 4) + 0.0:g}" for x in self.direction)
@@ -105,6 +112,8 @@ class AxisSize:
         decides = f"{self.winner.key!r} decides: {self.winner.rule}"
         if self.origin:
             decides = f"{self.origin}, where {decides} -> {self.winner.size:.6g}"
+        if self.is_raised:
+            decides += f" -> {self.winner.size:.6g}, raised as the other size is not reached"
         head = f"{self.size:.6g} along ({along}){bend}: {decides}"
         return [head, *(f"  {row}" for row in self.rows)]
 
@@ -177,8 +186,6 @@ def explained_axes(
                 origin, winner = f"shrunk with the other size, {done[0].origin}", done[0].winner
             else:
                 origin = "shortened as the directions of the metric change nearby"
-        elif size > RAISED * own.size:  # a short edge leaves more of the chord to the other one
-            origin = "raised as the other size is not reached"
         bend = None
         if principal.k is not None:
             first, second = principal.along @ direction
