@@ -17,32 +17,24 @@ namespace surfmesh::binding {
 
 namespace nb = nanobind;
 
+/// So many numbers in a row.
+template <class T, std::size_t count>
+struct RowOf {
+    using Number = T;
+    static constexpr std::size_t columns = count;
+};
+
 /// How a value looks to numpy: its numbers, and how many there are in a row.
 template <class T>
-struct Row {
-    using Number = T;
-    static constexpr std::size_t columns = 1;
-};
+struct Row : RowOf<T, 1> {};
 template <>
-struct Row<Point2> {
-    using Number = double;
-    static constexpr std::size_t columns = 2;
-};
+struct Row<Point2> : RowOf<double, 2> {};
 template <>
-struct Row<Point3> {
-    using Number = double;
-    static constexpr std::size_t columns = 3;
-};
+struct Row<Point3> : RowOf<double, 3> {};
 template <>
-struct Row<SizeTensor> {
-    using Number = double;
-    static constexpr std::size_t columns = 3;
-};
+struct Row<SizeTensor> : RowOf<double, 3> {};
 template <>
-struct Row<MetricRoot3> {
-    using Number = double;
-    static constexpr std::size_t columns = 6;
-};
+struct Row<MetricRoot3> : RowOf<double, 6> {};
 
 /// An array of numpy that a function takes: C-contiguous rows, converted where the type differs.
 template <class T>
@@ -87,6 +79,23 @@ auto view(const Array<T>& array) {
 template <class T>
 auto read_only_view(const Array<T>& array) {
     return view<T, const typename Row<T>::Number>(array);
+}
+
+/// A property that gives an array of its owner as a view, which keeps the memory alive by itself.
+template <class Owner, class T>
+void bind_array(nb::class_<Owner>& c, const char* name, Array<T> Owner::* member, const char* doc) {
+    c.def_prop_ro(
+        name, [member](const Owner& owner) { return view(owner.*member); },
+        nb::rv_policy::automatic, doc);
+}
+
+/// The same, not to be written to.
+template <class Owner, class T>
+void bind_read_only_array(nb::class_<Owner>& c, const char* name, Array<T> Owner::* member,
+                          const char* doc) {
+    c.def_prop_ro(
+        name, [member](const Owner& owner) { return read_only_view(owner.*member); },
+        nb::rv_policy::automatic, doc);
 }
 
 /// Refuse indices outside 0 .. count - 1; ``what`` names the argument.

@@ -58,13 +58,6 @@ void construct(FaceBoundary* made, const Points2& uv, const Ids& numbers, const 
     new (made) FaceBoundary(std::move(boundary));
 }
 
-template <class Owner, class T>
-void bind_array(nb::class_<Owner>& c, const char* name, Array<T> Owner::* member, const char* doc) {
-    c.def_prop_ro(
-        name, [member](const Owner& owner) { return read_only_view(owner.*member); },
-        nb::rv_policy::automatic, doc);
-}
-
 void bind_boundary(nb::module_& m) {
     nb::class_<FaceBoundary> c(m, "FaceBoundary",
                                "The boundary of a face, cut into nodes: coedge after coedge, each "
@@ -72,18 +65,19 @@ void bind_boundary(nb::module_& m) {
     c.def("__init__", &construct, nb::arg("uv"), nb::arg("numbers"), nb::arg("points"),
           nb::arg("sizes"), nb::arg("piece_end"), nb::arg("degenerate"), nb::arg("tolerance"),
           nb::arg("loop_end"));
-    bind_array(c, "uv", &FaceBoundary::uv, "(n, 2)");
-    bind_array(c, "numbers", &FaceBoundary::numbers, "(n,) int64 in the whole mesh");
-    bind_array(c, "points", &FaceBoundary::points, "(n, 3) on the edges' curves");
-    bind_array(c, "sizes", &FaceBoundary::sizes, "(n,) wanted lengths");
-    bind_array(c, "piece_end", &FaceBoundary::piece_end,
-               "(p,) int32 of the coedges: the row after their last node");
-    bind_array(c, "degenerate", &FaceBoundary::degenerate,
-               "(p,) uint8 of the coedges: one point in space, cut when the metric is known");
-    bind_array(c, "tolerance", &FaceBoundary::tolerance,
-               "(p,) of the coedges: so near is the edge to its images, model units");
-    bind_array(c, "loop_end", &FaceBoundary::loop_end,
-               "(l,) int32 of the loops: the coedge after their last one");
+    bind_read_only_array(c, "uv", &FaceBoundary::uv, "(n, 2)");
+    bind_read_only_array(c, "numbers", &FaceBoundary::numbers, "(n,) int64 in the whole mesh");
+    bind_read_only_array(c, "points", &FaceBoundary::points, "(n, 3) on the edges' curves");
+    bind_read_only_array(c, "sizes", &FaceBoundary::sizes, "(n,) wanted lengths");
+    bind_read_only_array(c, "piece_end", &FaceBoundary::piece_end,
+                         "(p,) int32 of the coedges: the row after their last node");
+    bind_read_only_array(
+        c, "degenerate", &FaceBoundary::degenerate,
+        "(p,) uint8 of the coedges: one point in space, cut when the metric is known");
+    bind_read_only_array(c, "tolerance", &FaceBoundary::tolerance,
+                         "(p,) of the coedges: so near is the edge to its images, model units");
+    bind_read_only_array(c, "loop_end", &FaceBoundary::loop_end,
+                         "(l,) int32 of the loops: the coedge after their last one");
     c.def_prop_ro("has_degenerate", &FaceBoundary::has_degenerate);
     c.def_prop_ro(
         "box",
@@ -269,9 +263,10 @@ void bind_coarse(nb::module_& m) {
     nb::class_<CoarseSegments> c(m, "CoarseSegments",
                                  "Where segments of a boundary are far longer than the sizes "
                                  "inside allow.");
-    bind_array(c, "points", &CoarseSegments::points, "(k, 3) on the surface");
-    bind_array(c, "sizes", &CoarseSegments::sizes, "(k,) of the field there");
-    bind_array(c, "along", &CoarseSegments::along, "(k, 3) unit directions of the segments");
+    bind_read_only_array(c, "points", &CoarseSegments::points, "(k, 3) on the surface");
+    bind_read_only_array(c, "sizes", &CoarseSegments::sizes, "(k,) of the field there");
+    bind_read_only_array(c, "along", &CoarseSegments::along,
+                         "(k, 3) unit directions of the segments");
     m.def(
         "coarse_segments",
         [](const Surface& surface, const Chart& chart, const Background& background,
@@ -303,9 +298,10 @@ void bind_ends(nb::module_& m) {
     c.def_ro("end", &FaceMesh::end);
     c.def_ro("patch", &FaceMesh::patch);
     c.def_ro("coarse", &FaceMesh::coarse, "Segments that are to be cut; of a first round.");
-    bind_array(c, "slots", &FaceMesh::slots, "(n,) of the points: row in the boundary, -1 inside");
-    bind_array(c, "uv", &FaceMesh::uv, "(k, 2) of the nodes of the loops");
-    bind_array(c, "segments", &FaceMesh::segments, "(s, 2) int32 between these");
+    bind_read_only_array(c, "slots", &FaceMesh::slots,
+                         "(n,) of the points: row in the boundary, -1 inside");
+    bind_read_only_array(c, "uv", &FaceMesh::uv, "(k, 2) of the nodes of the loops");
+    bind_read_only_array(c, "segments", &FaceMesh::segments, "(s, 2) int32 between these");
 }
 
 void bind_work(nb::module_& m) {

@@ -5,19 +5,10 @@
 
 #include "faces/surface_over_box.hpp"
 #include "fields/coverage.hpp"
+#include "surfaces/chart_making.hpp"
 
 namespace surfmesh {
 namespace {
-
-ChartAxis linear_axis(double low, double high, double speed) {
-    ChartAxis axis;
-    axis.extent = speed * (high - low);
-    for (const double knot : {low, high}) {
-        axis.knots.push_back(knot);
-        axis.slopes.push_back(1.0 / speed);
-    }
-    return axis;
-}
 
 /// The plane of a surface whose speeds are the same everywhere.
 Chart uniform_chart(const PlaneBox& box, Point2 speeds) {

@@ -16,15 +16,9 @@ namespace surfmesh::binding {
 void bind_field_builder(nb::module_& m);
 
 template <>
-struct Row<NodeSize> {
-    using Number = double;
-    static constexpr std::size_t columns = 4;
-};
+struct Row<NodeSize> : RowOf<double, 4> {};
 template <>
-struct Row<CellCorners> {
-    using Number = std::int32_t;
-    static constexpr std::size_t columns = 4;
-};
+struct Row<CellCorners> : RowOf<std::int32_t, 4> {};
 
 namespace {
 
@@ -70,15 +64,6 @@ void construct(Background* b, const Vector<double>& box, const Vector<std::int64
     new (b) Background(std::move(made));
 }
 
-/// A property that gives an array of the background as a view that cannot be written to.
-template <class T>
-void bind_array(nb::class_<Background>& c, const char* name, Array<T> Background::* member,
-                const char* doc) {
-    c.def_prop_ro(
-        name, [member](const Background& b) { return read_only_view(b.*member); },
-        nb::rv_policy::reference, doc);
-}
-
 /// A method that gives values at points.
 template <class T>
 void bind_look_up(nb::class_<Background>& c, const char* name,
@@ -122,12 +107,14 @@ void bind_background(nb::module_& m) {
             return read_only_view(Array<std::int64_t>(std::span<const std::int64_t>(grid)));
         },
         nb::rv_policy::reference, "(2,): root cells along x and y");
-    bind_array(c, "child", &Background::child,
-               "(cells,): first of four children, or -1 for a leaf");
-    bind_array(c, "corner", &Background::corner, "(cells, 4): nodes; of no meaning but in leaves");
-    bind_array(c, "metric_root", &Background::metric_root, "(nodes, 4): A = H^-1, and 1 / h");
-    bind_array(c, "metric_root_3d", &Background::metric_root_3d,
-               "(nodes, 6): W, or (0, 6) where sizes are isotropic");
+    bind_read_only_array(c, "child", &Background::child,
+                         "(cells,): first of four children, or -1 for a leaf");
+    bind_read_only_array(c, "corner", &Background::corner,
+                         "(cells, 4): nodes; of no meaning but in leaves");
+    bind_read_only_array(c, "metric_root", &Background::metric_root,
+                         "(nodes, 4): A = H^-1, and 1 / h");
+    bind_read_only_array(c, "metric_root_3d", &Background::metric_root_3d,
+                         "(nodes, 6): W, or (0, 6) where sizes are isotropic");
     c.def(
         "__reduce__",
         [](nb::handle b) {

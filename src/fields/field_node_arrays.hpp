@@ -7,15 +7,9 @@
 namespace surfmesh::binding {
 
 template <>
-struct Row<PlaneJacobian> {
-    using Number = double;
-    static constexpr std::size_t columns = 6;
-};
+struct Row<PlaneJacobian> : RowOf<double, 6> {};
 template <>
-struct Row<NumberPair> {
-    using Number = double;
-    static constexpr std::size_t columns = 2;
-};
+struct Row<NumberPair> : RowOf<double, 2> {};
 
 /// As views; the jacobian (nodes, 6).
 inline nb::tuple node_arrays(const FieldNodes& n) {

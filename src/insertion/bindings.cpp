@@ -48,15 +48,6 @@ RecoveredDomain recover_loops(Triangulation& t, const Background& background, co
     return recover(std::move(packing), background, boundary);
 }
 
-RecoveredDomain recover_planar(Triangulation& t, const Background& background, const Points2& nodes,
-                               const Pairs& pieces, const Numbers& segment,
-                               const Pairs& loop_segments, const Bytes& is_hole) {
-    const PlanarBoundary boundary = planar_boundary(nodes, pieces, segment, loop_segments, is_hole);
-    Triangulation packing = taken(t);
-    const nb::gil_scoped_release released;
-    return recover_regions(std::move(packing), background, boundary);
-}
-
 void bind_outcomes(nb::module_& m) {
     nb::enum_<Recovery>(m, "Recovery", "How the insertion of a boundary ends.")
         .value("FINISHED", Recovery::finished)
@@ -110,14 +101,6 @@ void bind_nodes(nb::module_& m) {
         "way.");
 }
 
-/// A property that gives an array of its owner as a view.
-template <class Owner, class T>
-void bind_array(nb::class_<Owner>& c, const char* name, Array<T> Owner::* member, const char* doc) {
-    c.def_prop_ro(
-        name, [member](const Owner& owner) { return view(owner.*member); },
-        nb::rv_policy::automatic, doc);  // the view keeps the memory alive by itself
-}
-
 void bind_domain(nb::module_& m) {
     nb::class_<DomainMesh> domain(m, "DomainMesh", "A triangulated domain of the scaled plane.");
     domain.def_ro("t", &DomainMesh::t);
@@ -143,12 +126,6 @@ void bind_recovery(nb::module_& m) {
           "the inside on their left.\ninner (j, 2) int32: segments with the surface on both "
           "sides. identity (k,) int64: the first node\nthat is the same point in space. points "
           "(k, 3): of the nodes in space, left out where they lie\non the surface.");
-    m.def("recover_regions", &recover_planar, nb::arg("t"), nb::arg("background"), nb::arg("nodes"),
-          nb::arg("pieces"), nb::arg("segment"), nb::arg("loop_segments"), nb::arg("is_hole"),
-          "The same for a planar domain: keep the regions that lie in more outer loops than "
-          "holes.\n\nnodes (k, 2). pieces (p, 2) int32: pairs of nodes. segment (p,) int32: the "
-          "segment that each is\npart of. loop_segments (m, 2) int32: segment and loop. is_hole: "
-          "(loops,) uint8.");
 }
 
 InsideRegions found_inside(const Pairs& sides, const Pairs& loop_segments, const Bytes& is_hole,

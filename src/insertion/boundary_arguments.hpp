@@ -9,10 +9,7 @@
 namespace surfmesh::binding {
 
 template <>
-struct Row<Segment> {
-    using Number = std::int32_t;
-    static constexpr std::size_t columns = 2;
-};
+struct Row<Segment> : RowOf<std::int32_t, 2> {};
 
 using Pairs = Matrix<std::int32_t, 2>;
 using Numbers = Vector<std::int32_t>;

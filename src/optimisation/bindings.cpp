@@ -10,14 +10,12 @@
 #include "optimisation/splits.hpp"
 #include "optimisation/surface_frames.hpp"
 #include "optimisation/swaps.hpp"
+#include "optimisation/vertex_arguments.hpp"
 
 namespace surfmesh::binding {
 
 template <>
-struct Row<HalfEdgePair> {
-    using Number = std::int32_t;
-    static constexpr std::size_t columns = 2;
-};
+struct Row<HalfEdgePair> : RowOf<std::int32_t, 2> {};
 
 void bind_frames(nb::module_& m);
 
@@ -48,19 +46,6 @@ void require_stars(const Triangulation& t, const Stars& stars) {
 void require_marks(const Triangulation& t, const VertexMarks& marks) {
     require_rows(marks.active.size(), t.xy.size(), "marks");
     require_rows(marks.dirty.size(), t.xy.size(), "marks");
-}
-
-void require_vertex(const SurfaceFrames& s, Vertex v) {
-    if (v < 0 || static_cast<std::size_t>(v) >= s.point.size())
-        throw nb::value_error("there is no such vertex");
-}
-
-/// A property that gives an array as a view.
-template <class Owner, class T>
-void bind_array(nb::class_<Owner>& c, const char* name, Array<T> Owner::* member, const char* doc) {
-    c.def_prop_ro(
-        name, [member](const Owner& owner) { return view(owner.*member); },
-        nb::rv_policy::automatic, doc);
 }
 
 void bind_marks(nb::module_& m) {

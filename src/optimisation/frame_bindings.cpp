@@ -3,30 +3,15 @@
 
 #include "binding/arrays.hpp"
 #include "optimisation/surface_frames.hpp"
+#include "optimisation/vertex_arguments.hpp"
 
 namespace surfmesh::binding {
 
 template <>
-struct Row<TangentMap> {
-    using Number = double;
-    static constexpr std::size_t columns = 6;
-};
+struct Row<TangentMap> : RowOf<double, 6> {};
 namespace {
 
 using Numbers = Vector<std::int32_t>;
-
-void require_vertex(const SurfaceFrames& s, Vertex v) {
-    if (v < 0 || static_cast<std::size_t>(v) >= s.point.size())
-        throw nb::value_error("there is no such vertex");
-}
-
-/// A property that gives an array as a view.
-template <class Owner, class T>
-void bind_array(nb::class_<Owner>& c, const char* name, Array<T> Owner::* member, const char* doc) {
-    c.def_prop_ro(
-        name, [member](const Owner& owner) { return view(owner.*member); },
-        nb::rv_policy::automatic, doc);
-}
 
 void bind_measures(nb::module_& m) {
     m.def(

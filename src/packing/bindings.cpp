@@ -13,10 +13,7 @@
 namespace surfmesh::binding {
 
 template <>
-struct Row<FrontLink> {
-    using Number = std::int32_t;
-    static constexpr std::size_t columns = 3;
-};
+struct Row<FrontLink> : RowOf<std::int32_t, 3> {};
 
 namespace {
 

@@ -11,10 +11,7 @@
 namespace surfmesh::binding {
 
 template <>
-struct Row<BarycentricWeights> {
-    using Number = double;
-    static constexpr std::size_t columns = 3;
-};
+struct Row<BarycentricWeights> : RowOf<double, 3> {};
 
 namespace {
 

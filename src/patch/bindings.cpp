@@ -246,9 +246,6 @@ void bind_schedule(nb::class_<BoundPatch>& c) {
         "Optimise in place; what is good already is left alone. Returns what is left.\n\n"
         "first: the sizes come from no earlier round, and one with finer sizes may follow.");
     c.def(
-        "choose_diagonals", [](BoundPatch& p) { p.run_pass(&choose_diagonals); },
-        "Only choose better diagonals for what the packing and the boundary left over.");
-    c.def(
         "size_requests",
         [](BoundPatch& p, const Unmended& left,
            const std::optional<Vector<std::uint8_t>>& off_surface) {

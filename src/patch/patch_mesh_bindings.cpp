@@ -159,7 +159,10 @@ void bind_patch_mesh(nb::module_& m) {
         },
         nb::arg("settings"), nb::arg("uv"), nb::arg("nodes"), nb::arg("pieces"), nb::arg("segment"),
         nb::arg("loop_segments"), nb::arg("is_hole"),
-        "The same for a planar domain, as ``recover_regions`` takes it.");
+        "The same for a planar domain: keep the regions that lie in more outer loops than "
+        "holes.\n\n"
+        "nodes (k, 2). pieces (p, 2) int32: pairs of nodes. segment (p,) int32: the segment that "
+        "each is\npart of. loop_segments (m, 2) int32: segment and loop. is_hole: (loops,) uint8.");
 }
 
 }  // namespace surfmesh::binding

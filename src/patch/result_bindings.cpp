@@ -8,10 +8,7 @@
 namespace surfmesh::binding {
 
 template <>
-struct Row<Dihedrals::Pair> {
-    using Number = std::int32_t;
-    static constexpr std::size_t columns = 2;
-};
+struct Row<Dihedrals::Pair> : RowOf<std::int32_t, 2> {};
 
 namespace {
 

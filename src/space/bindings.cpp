@@ -13,35 +13,17 @@
 namespace surfmesh::binding {
 
 template <>
-struct Row<MeetingTriangles> {
-    using Number = std::int32_t;
-    static constexpr std::size_t columns = 2;
-};
+struct Row<MeetingTriangles> : RowOf<std::int32_t, 2> {};
 template <>
-struct Row<TriangleCorners> {
-    using Number = std::int32_t;
-    static constexpr std::size_t columns = 3;
-};
+struct Row<TriangleCorners> : RowOf<std::int32_t, 3> {};
 template <>
-struct Row<ThingPair> {
-    using Number = std::int32_t;
-    static constexpr std::size_t columns = 2;
-};
+struct Row<ThingPair> : RowOf<std::int32_t, 2> {};
 template <>
-struct Row<TriangleShape> {
-    using Number = double;
-    static constexpr std::size_t columns = 5;
-};
+struct Row<TriangleShape> : RowOf<double, 5> {};
 template <>
-struct Row<TangentPlaneOffset> {
-    using Number = double;
-    static constexpr std::size_t columns = 7;
-};
+struct Row<TangentPlaneOffset> : RowOf<double, 7> {};
 template <>
-struct Row<Box3> {
-    using Number = double;
-    static constexpr std::size_t columns = 6;
-};
+struct Row<Box3> : RowOf<double, 6> {};
 
 namespace {
 

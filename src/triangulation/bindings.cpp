@@ -109,15 +109,6 @@ void bind_segments(nb::module_& m) {
         "the same for BLOCK boxes in a row.");
 }
 
-/// A property that gives an array of the triangulation as a view.
-template <class T>
-void bind_array(nb::class_<Triangulation>& c, const char* name, Array<T> Triangulation::* member,
-                const char* doc) {
-    c.def_prop_ro(
-        name, [member](const Triangulation& t) { return view(t.*member); },
-        nb::rv_policy::automatic, doc);  // the view keeps the memory alive by itself
-}
-
 using Numbers = Vector<std::int32_t>;
 using Bytes = Vector<std::uint8_t>;
 

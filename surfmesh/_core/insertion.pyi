@@ -128,14 +128,6 @@ def recover(t: surfmesh._core.triangulation.Triangulation, background: surfmesh.
     on the surface.
     """
 
-def recover_regions(t: surfmesh._core.triangulation.Triangulation, background: surfmesh._core.fields.Background, nodes: Annotated[NDArray[numpy.float64], dict(shape=(None, 2), order='C', device='cpu', writable=False)], pieces: Annotated[NDArray[numpy.int32], dict(shape=(None, 2), order='C', device='cpu', writable=False)], segment: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], loop_segments: Annotated[NDArray[numpy.int32], dict(shape=(None, 2), order='C', device='cpu', writable=False)], is_hole: Annotated[NDArray[numpy.uint8], dict(shape=(None,), order='C', device='cpu', writable=False)]) -> RecoveredDomain:
-    """
-    The same for a planar domain: keep the regions that lie in more outer loops than holes.
-
-    nodes (k, 2). pieces (p, 2) int32: pairs of nodes. segment (p,) int32: the segment that each is
-    part of. loop_segments (m, 2) int32: segment and loop. is_hole: (loops,) uint8.
-    """
-
 def inside_regions(sides: Annotated[NDArray[numpy.int32], dict(shape=(None, 2), order='C', device='cpu', writable=False)], loop_segments: Annotated[NDArray[numpy.int32], dict(shape=(None, 2), order='C', device='cpu', writable=False)], is_hole: Annotated[NDArray[numpy.uint8], dict(shape=(None,), order='C', device='cpu', writable=False)], infinite: int) -> tuple[Recovery, int, Annotated[NDArray[numpy.uint8], dict(shape=(None,))]]:
     """
     Which regions of the plane lie in more outer loops than holes.

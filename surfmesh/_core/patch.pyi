@@ -248,11 +248,6 @@ class PatchState:
         first: the sizes come from no earlier round, and one with finer sizes may follow.
         """
 
-    def choose_diagonals(self) -> None:
-        """
-        Only choose better diagonals for what the packing and the boundary left over.
-        """
-
     def size_requests(self, left: Unmended, off_surface: Annotated[NDArray[numpy.uint8], dict(shape=(None,), order='C', device='cpu', writable=False)] | None = None) -> SizeRequests:
         """
         Upper bounds of the size under which what is ``left`` would be right.
@@ -342,4 +337,9 @@ def mesh_loops(settings: PatchSettings, uv: Annotated[NDArray[numpy.float64], di
     """
 
 def mesh_regions(settings: PatchSettings, uv: Annotated[NDArray[numpy.float64], dict(shape=(None, 2), order='C', device='cpu', writable=False)], nodes: Annotated[NDArray[numpy.float64], dict(shape=(None, 2), order='C', device='cpu', writable=False)], pieces: Annotated[NDArray[numpy.int32], dict(shape=(None, 2), order='C', device='cpu', writable=False)], segment: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], loop_segments: Annotated[NDArray[numpy.int32], dict(shape=(None, 2), order='C', device='cpu', writable=False)], is_hole: Annotated[NDArray[numpy.uint8], dict(shape=(None,), order='C', device='cpu', writable=False)]) -> PatchMesh:
-    """The same for a planar domain, as ``recover_regions`` takes it."""
+    """
+    The same for a planar domain: keep the regions that lie in more outer loops than holes.
+
+    nodes (k, 2). pieces (p, 2) int32: pairs of nodes. segment (p,) int32: the segment that each is
+    part of. loop_segments (m, 2) int32: segment and loop. is_hole: (loops,) uint8.
+    """

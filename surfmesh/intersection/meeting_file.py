@@ -19,14 +19,9 @@ from surfmesh.cad.model.cad_model import CadModel
 from surfmesh.errors import SurfaceError
 from surfmesh.geometry.files.formula_file import formula_surface, gallery_folder
 from surfmesh.geometry.files.surface_file import load_surface_file
-from surfmesh.geometry.files.toml_entries import TomlEntries, sets_key
+from surfmesh.geometry.files.toml_entries import TomlEntries
 from surfmesh.geometry.surface import Surface
 from surfmesh.intersection.intersect import intersected
-
-
-def is_meeting_file(path: Path) -> bool:
-    """Does a file hold surfaces that meet?"""
-    return path.suffix.lower() == ".toml" and sets_key(path, "intersect")
 
 
 def load_meeting_file(path: str | Path) -> CadModel:

@@ -215,18 +215,6 @@ def by_parameters(
     return r_u, r_v, (r_ss - p * r_u) / a**2, r_st / (a * b), (r_tt - q * r_v) / b**2
 
 
-def at_infinite_speed(axes: BentAxes, lo: np.ndarray, hi: np.ndarray) -> np.ndarray:
-    """Do cells from lo (n, 2) to hi (n, 2) hold a place where derivatives have no bound? (n,)."""
-    found = np.zeros(len(lo), bool)
-    for column, axis in enumerate(axes):
-        if axis is None:
-            continue
-        powers = np.append(axis.powers[:, 0], 1.0), np.append(1.0, axis.powers[:, 1])
-        for place in axis.places[np.maximum(*powers) > 1.0]:
-            found |= (lo[:, column] <= place) & (hi[:, column] >= place)
-    return found
-
-
 def bent_axes_of(surface: Surface) -> BentAxes:
     """What a surface knows about itself; surfaces that know nothing have finite speeds."""
     return getattr(surface, "bent_axes", STRAIGHT)

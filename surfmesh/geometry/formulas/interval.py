@@ -19,9 +19,3 @@ def largest_along(lower: np.ndarray, upper: np.ndarray, normal: np.ndarray) -> n
     """Bound (n, d) of |n.x|, likewise."""
     low, high = along((lower, upper), normal)
     return np.maximum(np.abs(low), np.abs(high))
-
-
-def width_along(lower: np.ndarray, upper: np.ndarray, normal: np.ndarray) -> np.ndarray:
-    """Width (n, d) of the interval of n.x, likewise."""
-    low, high = along((lower, upper), normal)
-    return high - low

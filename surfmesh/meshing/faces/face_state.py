@@ -18,7 +18,6 @@ from surfmesh.sizing.options.model_sizing import ModelSizing
 from surfmesh.sizing.options.sizing import Sizing
 from surfmesh.sizing.rules.size_limits import SizeLimits
 
-_ENDS = np.array([0.0, 1.0])
 _NOT_MESHED = FaceMesh()
 
 

@@ -88,7 +88,3 @@ class KnownSurfaces(NamedTuple):
             for array, values in zip(found, surface.evaluate(uv[here], order)):
                 array[here] = values
         return found
-
-
-def _int32(rows: Rows) -> NDArray[np.int32]:
-    return rows.astype(np.int32, copy=False)

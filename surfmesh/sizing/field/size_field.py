@@ -60,10 +60,6 @@ class SizeField:
         """W (n, 6) at points xy (n, 2), for steps in space: see ``metric_roots``."""
         return self.background.metric_roots_3d(xy)
 
-    def roots_of_mesh(self, xy: np.ndarray, scale: np.ndarray) -> np.ndarray | None:
-        """The same for sizes times ``scale`` (n,); None where ``sizing`` asks for no directions."""
-        return self.metric_roots_3d(xy) / scale[:, None] if self.sizing.is_anisotropic else None
-
     def tensors(self, xy: np.ndarray) -> np.ndarray:
         """Size tensors (n, 3) at points xy (n, 2) of the scaled plane."""
         return self.background.sizes(xy)
