@@ -60,6 +60,11 @@ def tangent_plane_offsets(points: Annotated[NDArray[numpy.float64], dict(shape=(
     Unit normal along r_u x r_v (zero where there is none); distance along it (the whole distance where there is none); distance within the tangent plane; the step in (u, v) that covers the latter (Gauss-Newton).
     """
 
+def triangle_distances(points: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)], corners: Annotated[NDArray[numpy.float64], dict(shape=(None, 3, 3), order='C', device='cpu', writable=False)]) -> Annotated[NDArray[numpy.float64], dict(shape=(None,))]:
+    """
+    Distance (k,) of points (k, 3), or of one (1, 3), from triangles with corners (k, 3, 3).
+    """
+
 def component_labels(count: int, pairs: Annotated[NDArray[numpy.int32], dict(shape=(None, 2), order='C', device='cpu', writable=False)]) -> Annotated[NDArray[numpy.int32], dict(shape=(None,))]:
     """
     Label (count,) things 0 .. count - 1 by connected component: the smallest member of each.
