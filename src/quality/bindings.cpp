@@ -5,6 +5,7 @@
 
 #include "binding/arrays.hpp"
 #include "quality/mesh_deviation.hpp"
+#include "quality/solid_counts.hpp"
 #include "quality/surface_points.hpp"
 #include "quality/triangle_stars.hpp"
 #include "surfaces/callback_surface.hpp"
@@ -159,12 +160,35 @@ void bind_stars(nb::module_& m) {
             "Distance (k,) of places (k, 3) from all triangles at vertices (k, j).");
 }
 
+void bind_solids(nb::module_& m) {
+    m.def(
+        "solid_counts",
+        [](const Triangles& triangles, const Numbers& solid, std::size_t vertices,
+           std::size_t solids) {
+            require_corners(triangles, vertices, "triangles");
+            require_rows(solid.shape(0), triangles.shape(0), "solid");
+            require_indices(rows<std::int32_t>(solid), solids, "solid");
+            SolidCounts found;
+            {
+                const nb::gil_scoped_release released;
+                found = solid_counts(rows<TriangleCorners>(triangles), rows<std::int32_t>(solid),
+                                     vertices, solids);
+            }
+            return std::tuple(view(found.vertices), view(found.edges), view(found.open_edges));
+        },
+        nb::arg("triangles"), nb::arg("solid"), nb::arg("vertices"), nb::arg("solids"),
+        "Vertices, edges and open edges (s,) of each of so many solids, by triangles (k, 3) around "
+        "solid (k,), facing outwards.\n\nAn edge is open where it is not run along as often one "
+        "way as the other.");
+}
+
 }  // namespace
 
 void bind_quality(nb::module_& m) {
     m.doc() = "What a report measures of a finished mesh: its distance from its surfaces and back.";
     bind_surfaces_of_faces(m);
     bind_stars(m);
+    bind_solids(m);
 }
 
 }  // namespace surfmesh::binding

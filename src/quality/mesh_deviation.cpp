@@ -4,9 +4,9 @@
 #include <cmath>
 #include <limits>
 
-#include "quality/by_face.hpp"
 #include "patch/deviation.hpp"
 #include "patch/samples.hpp"
+#include "quality/by_face.hpp"
 #include "values/conventions.hpp"
 
 namespace surfmesh {

@@ -89,7 +89,7 @@ void bind_triangle_pairs(nb::module_& m) {
         nb::arg("corners"), nb::arg("most"),
         "Pairs (k, 2) of triangles that meet where they should not, the lower first.\n\ncorners: "
         "(3 m, 3), finite; quick where near triangles are near in the row. The search ends after "
-        "the triangle with which there are ``most`` pairs or more.");
+        "the leaf with which there are ``most`` pairs or more.");
 }
 
 void bind_edge_gaps(nb::module_& m) {

@@ -36,3 +36,10 @@ class TriangleStars:
 
     def distances_from_stars(self, places: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)], vertices: Annotated[NDArray[numpy.int32], dict(shape=(None, None), order='C', device='cpu', writable=False)]) -> Annotated[NDArray[numpy.float64], dict(shape=(None,))]:
         """Distance (k,) of places (k, 3) from all triangles at vertices (k, j)."""
+
+def solid_counts(triangles: Annotated[NDArray[numpy.int32], dict(shape=(None, 3), order='C', device='cpu', writable=False)], solid: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], vertices: int, solids: int) -> tuple[Annotated[NDArray[numpy.int64], dict(shape=(None,))], Annotated[NDArray[numpy.int64], dict(shape=(None,))], Annotated[NDArray[numpy.int64], dict(shape=(None,))]]:
+    """
+    Vertices, edges and open edges (s,) of each of so many solids, by triangles (k, 3) around solid (k,), facing outwards.
+
+    An edge is open where it is not run along as often one way as the other.
+    """

@@ -29,7 +29,7 @@ def meeting_triangles(corners: Annotated[NDArray[numpy.float64], dict(shape=(Non
     """
     Pairs (k, 2) of triangles that meet where they should not, the lower first.
 
-    corners: (3 m, 3), finite; quick where near triangles are near in the row. The search ends after the triangle with which there are ``most`` pairs or more.
+    corners: (3 m, 3), finite; quick where near triangles are near in the row. The search ends after the leaf with which there are ``most`` pairs or more.
     """
 
 def edge_gaps(points: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)], reach: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)], first: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], ends: Annotated[NDArray[numpy.int64], dict(shape=(None, 2), order='C', device='cpu', writable=False)], edges: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], first_of_face: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)]) -> tuple[Annotated[NDArray[numpy.float64], dict(shape=(None,))], Annotated[NDArray[numpy.float64], dict(shape=(None, 6))]]:

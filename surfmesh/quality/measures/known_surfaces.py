@@ -2,7 +2,11 @@
 
 from __future__ import annotations
 
-from typing import Any, NamedTuple
+from collections.abc import Iterator
+from dataclasses import dataclass
+from functools import cached_property
+from itertools import pairwise
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -17,7 +21,8 @@ from surfmesh.result.surface_mesh import SurfaceMesh
 Rows = NDArray[np.integer[Any]]
 
 
-class KnownSurfaces(NamedTuple):
+@dataclass(frozen=True)
+class KnownSurfaces:
     """The mesh and the parameters of its corners."""
 
     mesh: SurfaceMesh
@@ -64,7 +69,7 @@ class KnownSurfaces(NamedTuple):
         rows = np.arange(len(triangle), dtype=np.int32)
         return interpolate(values, triangles[triangle], rows, rule, weights)
 
-    @property
+    @cached_property
     def core_surfaces(self) -> list[CoreSurface]:
         """Those of the mesh, as the core has them."""
         return [as_core_surface(surface) for surface in self.mesh.surfaces]
@@ -73,3 +78,13 @@ class KnownSurfaces(NamedTuple):
         """(k, 3) of the surfaces of ``faces`` (k,) at uv (k, 2)."""
         (points,) = surface_points(self.core_surfaces, faces.astype(np.int32, copy=False), uv, 0)
         return points
+
+
+def rows_of_faces(faces: Rows) -> Iterator[tuple[int, NDArray[np.intp]]]:
+    """Each face that occurs among ``faces`` (k,), and the rows where it does."""
+    if not len(faces):
+        return
+    order = np.argsort(faces, kind="stable")
+    starts = np.flatnonzero(np.diff(faces[order], prepend=-1))
+    for start, end in pairwise([*starts.tolist(), len(faces)]):
+        yield int(faces[order[start]]), order[start:end]
