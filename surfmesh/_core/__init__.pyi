@@ -9,6 +9,7 @@ from surfmesh._core import (
     optimisation as optimisation,
     packing as packing,
     patch as patch,
+    proof as proof,
     sizing as sizing,
     space as space,
     surfaces as surfaces,
