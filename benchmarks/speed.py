@@ -28,9 +28,7 @@ from pathlib import Path
 
 import speed_jobs
 import speed_parts
-from rich.box import SIMPLE_HEAD
 from rich.markup import escape
-from rich.table import Table
 from tables import MARK, console, heading, note
 from wanted import Wanted
 
@@ -43,6 +41,7 @@ STRETCH = 8.0
 SURFACE_SPEED, PLANE_SPEED = 300e3, 400e3
 TARGET_SHAPE = {"alpha_mean": 0.993, "alpha_p01": 0.94, "alpha_min": 0.85}
 PER_FACE = 3.0  # times as fast as gmsh
+MOST_FOR_NETGEN = 100  # faces: with more it takes minutes
 
 
 @dataclass
@@ -55,7 +54,14 @@ class Figures:
     rows: list[tuple[Wanted, float | None, str]] = field(default_factory=list)
 
     def add(self, row: Wanted, value: float | None, remark: str = "") -> None:
+        """One more row, shown at once: others may take minutes, or never come."""
         self.rows.append((row, value, remark))
+        columns = f"{escape(row.title):<45} {row.shown(value):>10} {row.bound:>10}"
+        console.print(f"{columns} {MARK[row.met(value)]} {escape(remark)}", soft_wrap=True)
+
+    @property
+    def missed(self) -> int:
+        return sum(row.met(value) is False for row, value, _ in self.rows)
 
     def ask(self, job: str, **request: object) -> dict:
         """What a job says; a failure becomes a row."""
@@ -72,8 +78,9 @@ def main() -> int:
     with tempfile.TemporaryDirectory(prefix="surfmesh-") as folder:
         for name in options.only or SECTIONS:
             figures = Figures(Path(folder), options.large, 1 if options.quick else 3)
+            heading(f"{name}: {SECTIONS[name].__doc__}")
             SECTIONS[name](figures)
-            missed += _show(name, figures)
+            missed += figures.missed
             results[name] = [(row.title, value, remark) for row, value, remark in figures.rows]
     note(f"load average {os.getloadavg()[0]:.1f}; {missed} figures are missed")
     if options.json:
@@ -88,19 +95,6 @@ def _options() -> argparse.Namespace:
     parser.add_argument("--quick", action="store_true", help="once, and no large model")
     parser.add_argument("--json", metavar="PATH", help="write everything as one JSON object")
     return parser.parse_args()
-
-
-def _show(name: str, figures: Figures) -> int:
-    heading(f"{name}: {SECTIONS[name].__doc__}")
-    table = Table(box=SIMPLE_HEAD, padding=(0, 1))
-    for title in ("", "measured", "wanted", "", ""):
-        table.add_column(title, justify="right" if title else "left", no_wrap=bool(title))
-    for row, value, remark in figures.rows:
-        table.add_row(
-            escape(row.title), row.shown(value), row.bound, MARK[row.met(value)], escape(remark)
-        )
-    console.print(table)
-    return sum(row.met(value) is False for row, value, _ in figures.rows)
 
 
 # start: whole commands, each with its children
@@ -168,7 +162,8 @@ def cad(figures: Figures) -> None:
             continue
         per_face = 1e3 * ours["seconds"] / ours["faces"]
         figures.add(Wanted(f"{name}: milliseconds a face", digits=2), per_face, shape_text(ours))
-        for mesher in ("cad_gmsh", "cad_netgen"):
+        few = (faces or speed_parts.LOFTS) <= MOST_FOR_NETGEN
+        for mesher in ("cad_gmsh", "cad_netgen") if few else ("cad_gmsh",):
             theirs = figures.ask(mesher, file=file, size=CAD_SIZE, wanted=ours["triangles"])
             if "error" not in theirs:
                 least = PER_FACE if mesher == "cad_gmsh" else None

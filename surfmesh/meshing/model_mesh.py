@@ -17,7 +17,7 @@ import numpy as np
 
 from surfmesh.cad.model.cad_model import CadModel
 from surfmesh.errors import SizingError
-from surfmesh.meshing.edges.edge_nodes import EdgeNodes, cut_edges
+from surfmesh.meshing.edges.edge_nodes import CutEdges, cut_edges
 from surfmesh.meshing.edges.edge_sampling import sample_edges
 from surfmesh.meshing.edges.face_proximity import with_face_gaps
 from surfmesh.meshing.estimate.estimation import Estimate
@@ -91,7 +91,7 @@ class FacesApart(NamedTuple):
     rims: SurfaceMesh
     """Of each face the triangles at its boundary; what faces share has the numbers of the whole."""
     faces: list[FaceState]
-    nodes: list[EdgeNodes | None]
+    nodes: CutEdges
 
 
 def mesh_faces_apart(
@@ -135,7 +135,7 @@ class _Rounds:
                 self.samples = sample_edges(model, wanted)
             self.faces = face_states(model, self.samples, wanted)
             self.opposite = opposite_pairs(model, self.samples)
-        self.nodes: list[EdgeNodes | None] = []
+        self.nodes = CutEdges()
         self.not_refined: list[FaceState] = []
 
     def mesh(self) -> SurfaceMesh:
