@@ -10,6 +10,7 @@ from surfmesh._core import (
     packing as packing,
     patch as patch,
     quality as quality,
+    proof as proof,
     sizing as sizing,
     space as space,
     surfaces as surfaces,
