@@ -34,6 +34,9 @@ AROUND = 0.05
 PARALLEL = 1e-9
 """Sine between lines that never cross."""
 
+TANGENT = 1e-6
+"""Sine between edges below which they touch."""
+
 STEPS = 20
 TRIED = 12
 """Undecided pairs that a touch is looked for from."""
@@ -186,8 +189,11 @@ class _Halving:
             t, s = after_t, after_s
             if moved < 1e-15:
                 break
-        gap = np.linalg.norm(self._at(self.a, t, 0)[0] - self._at(self.b, s, 0)[0])
-        return (float(t), float(s)) if gap <= self.reach else None
+        (p, p1), (q, q1) = self._at(self.a, t, 1), self._at(self.b, s, 1)
+        sine = np.linalg.norm(np.cross(p1, q1)) / (np.linalg.norm(p1) * np.linalg.norm(q1))
+        # near a touch gaps are small all along
+        crosses = sine > TANGENT and np.linalg.norm(p - q) <= self.reach * sine
+        return (float(t), float(s)) if crosses else None
 
     @staticmethod
     def _at(edge: CadEdge, t: float, order: int) -> list[np.ndarray]:
