@@ -4,8 +4,10 @@
 // several threads may use one curve, and none of them fails.
 #pragma once
 
+#include <array>
 #include <span>
 
+#include "surfaces/interval.hpp"
 #include "values/array.hpp"
 #include "values/point.hpp"
 
@@ -20,6 +22,13 @@ class Curve {
 
     /// Derivative k at t[i] into out[k n + i], for the n parameters t and all k up to the order.
     virtual void evaluate(std::span<const double> t, int order, std::span<Point3> out) const = 0;
+
+    /// Proved bounds of w . (c - about), w . c' and w . c'' over a range of t, for a vector w;
+    /// false where none are known.
+    [[nodiscard]] virtual bool enclose_along(Interval /*t*/, Point3 /*w*/, Point3 /*about*/,
+                                             std::array<Interval, 3>& /*out*/) const {
+        return false;
+    }
 
   protected:
     Curve() = default;

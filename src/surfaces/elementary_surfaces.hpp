@@ -29,6 +29,10 @@ class Plane final : public FaceSurface {
     Plane(const ParameterBox& domain, const Frame& frame) : FaceSurface(domain), frame_(frame) {}
     SurfaceStatus evaluate(std::span<const Point2> uv, int order,
                            std::span<Point3> out) const override;
+    SurfaceStatus enclose(std::span<const Point2> uv, std::span<EnclosedPoint> out) const override;
+    SurfaceStatus enclose_bends(std::span<const ParameterBox> cells,
+                                std::span<const Directions> directions,
+                                std::span<Bends> out) const override;
 
   private:
     Frame frame_;
@@ -49,6 +53,10 @@ class TurnedProfile final : public FaceSurface {
         : FaceSurface(domain), frame_(frame), profile_(profile) {}
     SurfaceStatus evaluate(std::span<const Point2> uv, int order,
                            std::span<Point3> out) const override;
+    SurfaceStatus enclose(std::span<const Point2> uv, std::span<EnclosedPoint> out) const override;
+    SurfaceStatus enclose_bends(std::span<const ParameterBox> cells,
+                                std::span<const Directions> directions,
+                                std::span<Bends> out) const override;
 
   private:
     Frame frame_;

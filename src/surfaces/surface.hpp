@@ -10,6 +10,7 @@
 #include <exception>
 #include <span>
 
+#include "surfaces/enclosure.hpp"
 #include "values/array.hpp"
 #include "values/point.hpp"
 
@@ -64,6 +65,20 @@ class Surface {
     virtual SurfaceStatus all_bounds(std::span<const ParameterBox> /*cells*/,
                                      std::span<Point3> /*lower*/,
                                      std::span<Point3> /*upper*/) const {
+        return SurfaceStatus::UNKNOWN;
+    }
+
+    /// The points with a proved bound of their round-off. UNKNOWN where the surface knows none.
+    virtual SurfaceStatus enclose(std::span<const Point2> /*uv*/,
+                                  std::span<EnclosedPoint> /*out*/) const {
+        return SurfaceStatus::UNKNOWN;
+    }
+
+    /// Proved bounds of the second derivatives over cells, each along its own directions; infinite
+    /// where they are not known, and across kinks. UNKNOWN where the surface knows none.
+    virtual SurfaceStatus enclose_bends(std::span<const ParameterBox> /*cells*/,
+                                        std::span<const Directions> /*directions*/,
+                                        std::span<Bends> /*out*/) const {
         return SurfaceStatus::UNKNOWN;
     }
 

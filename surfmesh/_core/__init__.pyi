@@ -9,6 +9,8 @@ from surfmesh._core import (
     optimisation as optimisation,
     packing as packing,
     patch as patch,
+    quality as quality,
+    proof as proof,
     sizing as sizing,
     space as space,
     surfaces as surfaces,
