@@ -136,3 +136,13 @@ def test_a_saddle_crosses_its_tangent_plane_in_two_curves():
     for edge in edges:
         x, y, _ = edge.evaluate(np.linspace(0.0, 1.0, 51))[0].T
         assert np.abs(np.abs(x) - np.abs(y)).max() < 1e-9
+
+
+@pytest.mark.parametrize("size", [0.6, 0.4])
+def test_the_circles_of_villarceau_have_a_clean_mesh(size):
+    slope = np.tan(np.arcsin(1.0 / 3.0))
+    model = sm.intersect(called(TORUS, plane("u", "v", f"{slope}*u", 5.0)))
+    edges = common(model)
+    assert sum(edge.length for edge in edges) == pytest.approx(12.0 * pi, rel=1e-9)
+    report = sm.check(sm.mesh(model, size))
+    assert report.clean, report.problems
