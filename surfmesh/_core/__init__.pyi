@@ -10,6 +10,7 @@ from surfmesh._core import (
     packing as packing,
     patch as patch,
     proof as proof,
+    quality as quality,
     sizing as sizing,
     space as space,
     surfaces as surfaces,

@@ -66,6 +66,9 @@ class FacePair:
         extent = min(_extent(cells[0]), _extent(cells[1]))
         self.tracer = Tracer(self.a, self.b, FIRST_STEP * extent, gap)
         self.traces: list[Trace] = []
+        self.known: list[Trace] = []
+        """Edges that both faces have, which are parts of their common curve."""
+        self.is_one_surface = False
         self.singular: list[np.ndarray] = []
         """Points where normals do not tell how the surfaces meet: branch points, poles."""
 
@@ -222,7 +225,7 @@ class FacePair:
 
     def _is_traced(self, uv_a: np.ndarray, uv_b: np.ndarray, point: np.ndarray) -> bool:
         """Does a traced branch pass through the point?"""
-        for trace in self.traces:
+        for trace in [*self.known, *self.traces]:
             p, step = trace.points[:-1], np.diff(trace.points, axis=0)
             square = np.einsum("ij,ij->i", step, step)
             t = np.clip(np.einsum("ij,ij->i", point - p, step) / square, 0.0, 1.0)

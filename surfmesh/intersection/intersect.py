@@ -13,7 +13,7 @@ import numpy as np
 
 from surfmesh.cad.model.cad_model import CadModel, CadNode, CadTag
 from surfmesh.cad.model.extent import diagonal
-from surfmesh.errors import SurfaceError
+from surfmesh.errors import SurfaceError, shown
 from surfmesh.geometry.cad_surfaces.face_surface import FaceSurface
 from surfmesh.intersection.bounds import are_known
 from surfmesh.intersection.complex import Complex, compacted, with_areas
@@ -21,12 +21,18 @@ from surfmesh.intersection.keeping import Keeping
 from surfmesh.intersection.meeting import joined
 from surfmesh.intersection.sheets import as_model
 
+COINCIDENT = ("refuse", "merge")
 
-def intersected(things: Sequence[Any], keep: Any = "all", name: str = "") -> CadModel:
+
+def intersected(
+    things: Sequence[Any], keep: Any = "all", name: str = "", coincident: str = "refuse"
+) -> CadModel:
     """The model of surfaces and models that cut each other; see ``surfmesh.intersect``.
 
     name: of the model; that of all inputs together where it is empty.
     """
+    if coincident not in COINCIDENT:
+        raise SurfaceError(f"coincident={shown(coincident)}: one of {', '.join(COINCIDENT)}")
     if len(things) < 2:
         raise SurfaceError(f"two surfaces or more are needed to intersect, not {len(things)}")
     names = _names(things)
@@ -34,7 +40,11 @@ def intersected(things: Sequence[Any], keep: Any = "all", name: str = "") -> Cad
     _refuse_units(models)
     size = _size(models)
     keeping = Keeping(keep, names, models, size)
-    whole = joined([Complex.of(model, k, names[k]) for k, model in enumerate(models)], size)
+    whole = joined(
+        [Complex.of(model, k, names[k]) for k, model in enumerate(models)],
+        size,
+        coincident == "merge",
+    )
     kept = keeping.kept(whole)
     vertices, edges, faces = compacted(whole.vertices, whole.edges, [p.face for p, _ in kept])
     faces = with_areas(faces)
@@ -59,7 +69,7 @@ def intersected(things: Sequence[Any], keep: Any = "all", name: str = "") -> Cad
             tuple(range(len(solids))),
             (),
             tuple(
-                CadNode(name, (), tuple(k for k, p in enumerate(patches) if p.source == number))
+                CadNode(name, (), tuple(k for k, p in enumerate(patches) if p.is_of(number)))
                 for number, name in enumerate(names)
             ),
         ),
@@ -124,11 +134,12 @@ def _tags(
     """The faces of each input, and those on each side of another: "wing", "wing+body"."""
     faces: dict[str, list[int]] = {name: [] for name in names}
     for number, patch in enumerate(patches):
-        faces[names[patch.source]].append(number)
-        for other, sign in keeping.sides(patch).items():
-            if sign:
-                name = f"{names[patch.source]}{'+' if sign > 0 else '-'}{names[other]}"
-                faces.setdefault(name, []).append(number)
+        for source in dict.fromkeys(origin.source for origin in patch.origins):
+            faces[names[source]].append(number)
+            for other, sign in keeping.sides(patch).items():
+                if sign:
+                    name = f"{names[source]}{'+' if sign > 0 else '-'}{names[other]}"
+                    faces.setdefault(name, []).append(number)
     return tuple(
         CadTag(name, f"{len(found)} face{'s' * (len(found) != 1)}", tuple(found))
         for name, found in faces.items()
