@@ -5,9 +5,10 @@
 Sections: start, cad, plane, surfaces, stretched, cores, memory. Everything is timed in processes of
 its own with one thread, as processor time, which other work on the machine hardly changes; medians
 of three. Only ``cores`` looks at the clock on the wall. Beside each figure stands what is wanted of
-it; the exit status is 1 when something is missed. ``--large`` adds a million triangles of each
-surface, four million on two cores and ten million in one mesh; ``--quick`` does everything once and
-leaves the model of 978 faces out.
+it, printed as soon as it is measured; the exit status is 1 when something is missed. ``--large``
+adds a million triangles of each surface, four million on two cores and ten million in one mesh;
+``--quick`` does everything once and leaves the model of 978 faces out. On that netgen, which takes
+minutes, is not asked.
 """
 
 import single_thread  # noqa: F401  (before numpy)
@@ -32,7 +33,8 @@ from rich.markup import escape
 from tables import MARK, console, heading, note
 from wanted import Wanted
 
-TIMEOUT = 900.0
+TIMEOUT, QUICK_TIMEOUT = 900.0, 120.0
+NETGEN_FACES = 100  # of larger models netgen is not asked
 PLANE_SIZE = 0.00175  # the smallest edge: 100 thousand triangles
 CAD_SIZE = 1.0
 CHORDS = {"two_peaks": 6.8e-4, "wavy": 3.5e-2}  # 100 thousand triangles at GROWTH
@@ -41,32 +43,35 @@ STRETCH = 8.0
 SURFACE_SPEED, PLANE_SPEED = 300e3, 400e3
 TARGET_SHAPE = {"alpha_mean": 0.993, "alpha_p01": 0.94, "alpha_min": 0.85}
 PER_FACE = 3.0  # times as fast as gmsh
-MOST_FOR_NETGEN = 100  # faces: with more it takes minutes
 
 
 @dataclass
 class Figures:
-    """Rows of one section: a figure, what is wanted of it, and a remark."""
+    """Rows of one section, printed one by one: a figure, what is wanted of it, and a remark."""
 
     folder: Path
     large: bool = False
     times: int = 3
     rows: list[tuple[Wanted, float | None, str]] = field(default_factory=list)
 
-    def add(self, row: Wanted, value: float | None, remark: str = "") -> None:
-        """One more row, shown at once: others may take minutes, or never come."""
-        self.rows.append((row, value, remark))
-        columns = f"{escape(row.title):<45} {row.shown(value):>10} {row.bound:>10}"
-        console.print(f"{columns} {MARK[row.met(value)]} {escape(remark)}", soft_wrap=True)
+    @property
+    def timeout(self) -> float:
+        """Seconds for one job."""
+        return TIMEOUT if self.times > 1 else QUICK_TIMEOUT
 
     @property
     def missed(self) -> int:
         return sum(row.met(value) is False for row, value, _ in self.rows)
 
+    def add(self, row: Wanted, value: float | None, remark: str = "") -> None:
+        self.rows.append((row, value, remark))
+        figure = f"  {row.title:<46} {row.shown(value):>9}  {row.bound:<10}"
+        console.print(f"{escape(figure)} {MARK[row.met(value)]} {escape(remark)}".rstrip())
+
     def ask(self, job: str, **request: object) -> dict:
         """What a job says; a failure becomes a row."""
         with console.status(job):
-            found = speed_jobs.run(job, TIMEOUT, times=self.times, **request)
+            found = speed_jobs.run(job, self.timeout, times=self.times, **request)
         if "error" in found:
             self.add(Wanted(f"{job} failed"), None, found["error"])
         return found
@@ -162,7 +167,7 @@ def cad(figures: Figures) -> None:
             continue
         per_face = 1e3 * ours["seconds"] / ours["faces"]
         figures.add(Wanted(f"{name}: milliseconds a face", digits=2), per_face, shape_text(ours))
-        few = (faces or speed_parts.LOFTS) <= MOST_FOR_NETGEN
+        few = faces is None or faces <= NETGEN_FACES
         for mesher in ("cad_gmsh", "cad_netgen") if few else ("cad_gmsh",):
             theirs = figures.ask(mesher, file=file, size=CAD_SIZE, wanted=ours["triangles"])
             if "error" not in theirs:
@@ -212,7 +217,7 @@ def surfaces(figures: Figures) -> None:
             row = Wanted(f"{name}: triangles a second", least=SURFACE_SPEED, digits=0)
             figures.add(row, speed, f"{shape_text(ours)}; {stages_text(ours['stages'])}")
             for mesher in ("gmsh spline", "mmgs") if millions < 1.0 else ():
-                theirs = peers.peer(mesher, name, sizing, ours["triangles"], TIMEOUT)
+                theirs = peers.peer(mesher, name, sizing, ours["triangles"], figures.timeout)
                 if "error" in theirs:
                     figures.add(Wanted(f"{name}: {mesher}"), None, theirs["error"])
                     continue

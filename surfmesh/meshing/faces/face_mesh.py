@@ -38,6 +38,7 @@ from surfmesh.meshing.faces.thin_tubes import without_tubes
 from surfmesh.meshing.faces.tube_limits import seam_limits
 from surfmesh.meshing.faces.tube_triangles import with_tubes
 from surfmesh.meshing.patch.patch_mesh import patch_error
+from surfmesh.meshing.patch.proof_requests import requests_for_proof
 from surfmesh.meshing.patch.size_requests import SizeRequests, joined
 from surfmesh.sizing.field.boundary_field import boundary_field, has_boundary_field
 from surfmesh.sizing.field.size_field import SizeField, size_field
@@ -168,10 +169,18 @@ def _meshed(
         )
     chord, folds, angle = SizeRequests.of(patch.requests, gradient)
     along = sizes_along_edges(job.sizing, made.coarse)  # the edges follow them from now on
+    roots = patch.metric_root_3d if job.sizing.is_anisotropic else None
+    unproved = None
+    if job.optimise and job.sizing.proof:
+        corners = mapped.uv_triangles
+        unproved = requests_for_proof(
+            job.surface, job.sizing, mapped.points, mapped.triangles, mapped.uv[corners],
+            mapped.sizes, None if roots is None else roots[corners[:, 0]],
+        )  # fmt: skip
+        unproved = None if unproved is None else replace(unproved, uv=None)
     return FaceMesh(
         mapped.points, made.slots, mapped.triangles, mapped.uv, mapped.uv_triangles, mapped.sizes,
-        patch.metric_root_3d if job.sizing.is_anisotropic else None,
-        joined(angle, folds if unfold else None, chord, along),
+        roots, joined(angle, folds if unfold else None, chord, along, unproved),
     )  # fmt: skip
 
 
