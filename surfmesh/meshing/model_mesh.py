@@ -138,6 +138,8 @@ class _Rounds:
             self.opposite = opposite_pairs(model, self.samples)
         self.nodes = CutEdges()
         self.not_refined: list[FaceState] = []
+        self.may_be_crowded = True
+        """May faces have made the same chord in the mesh that was joined last?"""
 
     def mesh(self) -> SurfaceMesh:
         """The mesh of the last round, with what could not be mended in it."""
@@ -147,9 +149,11 @@ class _Rounds:
             self._force_faces()
             with self.watch.stage("mapping"):
                 mesh = self._joined()
+            self.may_be_crowded = True
         if self.how.strict:
             require_all_meshed(self.model, self.faces)
-        mesh = with_crowded_chords_cut(self.model, mesh)
+        if self.may_be_crowded:
+            mesh = with_crowded_chords_cut(self.model, mesh)
         mesh = mesh.replaced(promises=self.wanted.promises(len(self.faces)))
         return mesh.with_warnings(*not_refined(not_refined_yet))
 
@@ -171,6 +175,7 @@ class _Rounds:
             with self.watch.stage("mapping"):
                 mesh = self._joined()
                 crowded = limits_where_crowded(self.model, mesh, self.wanted.base)
+            self.may_be_crowded = bool(crowded)
             for number, limit in crowded.items():
                 refinements[number] = limit.joined_with(refinements.get(number))
         self.not_refined = [self.faces[k] for k in sorted(asking | set(refinements))]
