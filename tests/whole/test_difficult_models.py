@@ -12,7 +12,7 @@ import surfmesh as sm
 from surfmesh.cad.model.invariants import signed_area
 from surfmesh.errors import MeshingError
 from surfmesh.geometry.cad_surfaces.nurbs import BSplineCurve
-from surfmesh.meshing.faces import face_mesh
+from surfmesh.meshing.faces import face_mesh, face_queue
 from surfmesh.quality.measures.solids import solid_mesh
 
 
@@ -109,6 +109,7 @@ def test_mistakes_of_ours_are_called_so(monkeypatch):
         raise IndexError("no such slot")
 
     monkeypatch.setattr(face_mesh, "_made", broken)
+    monkeypatch.setattr(face_queue, "_ordinary", lambda job: None)
     with pytest.raises(MeshingError, match=r"internal error, please report .* slot"):
         sm.mesh(cq.Workplane().box(1, 1, 1), 0.5)
 

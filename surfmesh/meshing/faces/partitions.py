@@ -18,8 +18,7 @@ from typing import Self
 import numpy as np
 
 from surfmesh.errors import MeshingError
-from surfmesh.meshing.faces.face_data import FaceJob, FaceMesh
-from surfmesh.meshing.faces.face_mesh import mesh_face
+from surfmesh.meshing.faces.face_data import FaceMesh
 
 MARK = "shared"
 """A file that the caller puts into the folder: who does not see it sees another folder."""
@@ -80,10 +79,6 @@ class FaceStore:
     def mark(self) -> Path:
         """The file that says that the folder is there."""
         return Path(self.folder, MARK)
-
-    def meshed(self, job: FaceJob) -> FaceMesh:
-        """Mesh a face and keep it."""
-        return self.kept(mesh_face(job))
 
     def kept(self, mesh: FaceMesh) -> FaceMesh:
         """Put a face into a file; one without triangles stays as it is.
