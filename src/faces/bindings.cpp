@@ -20,12 +20,14 @@ namespace {
 
 using Ids = Vector<std::int64_t>;
 using Sizes = Vector<double>;
-/// chord, angle, min_size; whether to optimise, a first round, sizes that depend on the direction.
-using Manner = std::tuple<std::optional<double>, std::optional<double>, double, bool, bool, bool>;
+/// chord, angle, min_size, slope; whether to optimise, a first round, sizes that depend on the
+/// direction.
+using Manner = std::tuple<std::optional<double>, std::optional<double>, double,
+                          std::optional<double>, bool, bool, bool>;
 
 FaceManner manner_of(const Manner& given) {
-    const auto [chord, angle, min_size, optimise, first, is_anisotropic] = given;
-    return {{chord, angle, min_size}, optimise, first, is_anisotropic};
+    const auto [chord, angle, min_size, slope, optimise, first, is_anisotropic] = given;
+    return {{chord, angle, min_size, slope}, optimise, first, is_anisotropic};
 }
 
 template <class T, class Given>
@@ -317,7 +319,8 @@ void bind_work(nb::module_& m) {
         nb::arg("surface"), nb::arg("chart"), nb::arg("background"), nb::arg("polygons"),
         nb::arg("manner"),
         "Mesh a face with a given size field, without the interpreter.\n\nmanner: chord (model "
-        "units), angle (degrees), min_size; whether to optimise, whether it is a first round, "
+        "units), angle (degrees), min_size, slope or None; whether to optimise, whether it is a "
+        "first round, "
         "whether sizes depend on the direction.");
     m.def(
         "mesh_inward",

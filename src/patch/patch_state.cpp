@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "optimisation/collapse.hpp"
+#include "optimisation/scale_gradation.hpp"
 #include "optimisation/smoothing.hpp"
 #include "optimisation/splits.hpp"
 #include "optimisation/swaps.hpp"
@@ -222,6 +223,11 @@ void PatchState::split(double longest) {
 int PatchState::split_farthest(std::span<const Triangle> triangles) {
     if (stopped()) return 0;
     return set_new(split_far_edges(t, frames, marks, triangles));
+}
+
+int PatchState::hold_growth(bool around_all) {
+    if (!is_anisotropic() || !asked().slope || stopped()) return 0;
+    return grade_scales(t, frames, marks, *asked().slope, around_all);
 }
 
 void PatchState::end_passes() {

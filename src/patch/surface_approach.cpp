@@ -111,6 +111,7 @@ Triangles approach_surface(PatchState& state, bool first) {
         if (shrink_far(state.t, state.frames, state.marks, all(suspects),
                        {error.data(), error.size()}, limit) == 0)
             break;
+        state.hold_growth(false);
         Changes changes(state);
         state.split();
         for (int pass = 0; pass < 2; ++pass) {

@@ -178,14 +178,14 @@ class FaceMesh:
     def segments(self) -> Annotated[NDArray[numpy.int32], dict(shape=(None, 2), writable=False)]:
         """(s, 2) int32 between these"""
 
-def mesh_face(surface: surfmesh._core.surfaces.Surface, chart: surfmesh._core.surfaces.Chart, background: surfmesh._core.fields.Background, polygons: FacePolygons, manner: tuple[float | None, float | None, float, bool, bool, bool]) -> FaceMesh:
+def mesh_face(surface: surfmesh._core.surfaces.Surface, chart: surfmesh._core.surfaces.Chart, background: surfmesh._core.fields.Background, polygons: FacePolygons, manner: tuple[float | None, float | None, float, float | None, bool, bool, bool]) -> FaceMesh:
     """
     Mesh a face with a given size field, without the interpreter.
 
-    manner: chord (model units), angle (degrees), min_size; whether to optimise, whether it is a first round, whether sizes depend on the direction.
+    manner: chord (model units), angle (degrees), min_size, slope or None; whether to optimise, whether it is a first round, whether sizes depend on the direction.
     """
 
-def mesh_inward(surface: surfmesh._core.surfaces.Surface, boundary: FaceBoundary, speeds: Sequence[float], largest: float, slope: float, manner: tuple[float | None, float | None, float, bool, bool, bool]) -> FaceMesh:
+def mesh_inward(surface: surfmesh._core.surfaces.Surface, boundary: FaceBoundary, speeds: Sequence[float], largest: float, slope: float, manner: tuple[float | None, float | None, float, float | None, bool, bool, bool]) -> FaceMesh:
     """
     The same on a surface with constant speeds |r_u|, |r_v|, whose sizes grow inward from those of its edges, by ``slope`` per length up to ``largest``.
     """

@@ -214,9 +214,9 @@ def _grown_and_meshed(job: FaceJob) -> core.FaceMesh | None:
 
 def _manner(
     job: FaceJob, sizing: Sizing
-) -> tuple[float | None, float | None, float, bool, bool, bool]:
+) -> tuple[float | None, float | None, float, float | None, bool, bool, bool]:
     return (
-        sizing.chord, sizing.angle, sizing.min_size or 0.0,
+        sizing.chord, sizing.angle, sizing.min_size or 0.0, sizing.gradient,
         job.optimise, job.limits is None, sizing.is_anisotropic,
     )  # fmt: skip
 
