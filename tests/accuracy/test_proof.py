@@ -6,9 +6,9 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import surfmesh as sm
+from surfmesh._core.space import triangle_distances
 from surfmesh.accuracy.proof import FaceTriangles, proved_distances, twins_of
 from surfmesh.geometry.differential.projection import closest_point
-from surfmesh.quality.measures.triangle_distances import triangle_distances
 
 SIDE = 6
 WEIGHTS = np.array(
