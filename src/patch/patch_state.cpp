@@ -71,7 +71,8 @@ void read_mean_slopes(SurfaceReader& surface, std::span<const Point2> uv, Array<
 PatchState::PatchState(Triangulation& triangulation, BoundaryNodes nodes,
                        const PatchSetting& setting)
     : t(triangulation),
-      frames(t.xy.size(), !setting.background.metric_root_3d.empty()),
+      frames(t.xy.size(), setting.background.is_anisotropic(),
+             most_vertices(t.xy.size(), setting.background.is_anisotropic())),
       marks(t.xy.size()),
       nodes_(std::move(nodes)),
       setting_(setting),
