@@ -166,9 +166,13 @@ def turned(loop: Loop) -> Loop:
     return tuple(replace(coedge, reversed=not coedge.reversed) for coedge in loop[::-1])
 
 
+def closes(loop: Loop, extent: np.ndarray) -> bool:
+    """Is it closed in (u, v), and not a way round a closed surface?"""
+    return _meet(walked(loop, ENDS), extent)
+
+
 def _meet(ends: np.ndarray, extent: np.ndarray) -> bool:
-    """Is a loop of coedges with these ends (n, 2 ends, 2) closed in (u, v), and not a way round a
-    closed surface?"""
+    """Do coedges with these ends (n, 2 ends, 2) follow each other in (u, v)?"""
     steps = next_ones(ends[:, 0]) - ends[:, 1]
     return bool((np.abs(steps) <= OPEN_FRACTION * extent).all())
 
