@@ -25,6 +25,7 @@ void bind_sizing(nb::module_& m);
 void bind_patch(nb::module_& m);
 void bind_faces(nb::module_& m);
 void bind_edges(nb::module_& m);
+void bind_intersection(nb::module_& m);
 
 namespace {
 
@@ -69,4 +70,5 @@ NB_MODULE(_core, m) {
     add(m, "patch", bind_patch);
     add(m, "faces", bind_faces);
     add(m, "edges", bind_edges);
+    add(m, "intersection", bind_intersection);
 }

@@ -20,6 +20,8 @@ class Line final : public Curve {
 
     [[nodiscard]] int dimension() const override { return dimension_; }
     void evaluate(std::span<const double> t, int order, std::span<Point3> out) const override;
+    [[nodiscard]] bool derivative_magnitudes(std::span<const ParameterRange> ranges, int order,
+                                             std::span<Point3> out) const override;
 
   private:
     int dimension_;
@@ -40,6 +42,8 @@ class Conic final : public Curve {
 
     [[nodiscard]] int dimension() const override { return dimension_; }
     void evaluate(std::span<const double> t, int order, std::span<Point3> out) const override;
+    [[nodiscard]] bool derivative_magnitudes(std::span<const ParameterRange> ranges, int order,
+                                             std::span<Point3> out) const override;
 
   private:
     [[nodiscard]] Point2 on_parabola(double t, int derivative) const;

@@ -29,6 +29,8 @@ class Plane final : public FaceSurface {
     Plane(const ParameterBox& domain, const Frame& frame) : FaceSurface(domain), frame_(frame) {}
     SurfaceStatus evaluate(std::span<const Point2> uv, int order,
                            std::span<Point3> out) const override;
+    SurfaceStatus derivative_magnitudes(std::span<const ParameterBox> cells, int order,
+                                        std::span<Point3> out) const override;
 
   private:
     Frame frame_;
@@ -49,6 +51,8 @@ class TurnedProfile final : public FaceSurface {
         : FaceSurface(domain), frame_(frame), profile_(profile) {}
     SurfaceStatus evaluate(std::span<const Point2> uv, int order,
                            std::span<Point3> out) const override;
+    SurfaceStatus derivative_magnitudes(std::span<const ParameterBox> cells, int order,
+                                        std::span<Point3> out) const override;
 
   private:
     Frame frame_;

@@ -26,6 +26,8 @@ class SplineSurface final : public FaceSurface {
 
     SurfaceStatus evaluate(std::span<const Point2> uv, int order,
                            std::span<Point3> out) const override;
+    SurfaceStatus derivative_magnitudes(std::span<const ParameterBox> cells, int order,
+                                        std::span<Point3> out) const override;
 
   private:
     template <int order, bool rational>

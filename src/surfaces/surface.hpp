@@ -67,6 +67,12 @@ class Surface {
         return SurfaceStatus::UNKNOWN;
     }
 
+    /// Bounds of the absolute values of all derivatives up to the order, 2 or 3, by coordinate:
+    /// that of derivative k over cell i into out[derivative_count(order) i + k], of r itself 0.
+    /// UNKNOWN where the surface has none. By default what ``derivative_bounds`` gives.
+    virtual SurfaceStatus derivative_magnitudes(std::span<const ParameterBox> cells, int order,
+                                                std::span<Point3> out) const;
+
     /// The exception behind FAILED, once. A surface that is made of others asks them.
     [[nodiscard]] virtual std::exception_ptr take_failure() const { return {}; }
 
