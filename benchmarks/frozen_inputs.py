@@ -49,7 +49,7 @@ def _meshed(request: dict[str, Any]) -> dict[str, Any]:
         subject, sizing = _subject(request)
         mesh = sm.mesh(subject, sizing, **_unstrict(subject))
         answer = {"sha256": mesh.report.mesh_sha256, "triangles": len(mesh.triangles)}
-    except sm.SurfmeshError as error:
+    except sm.errors.SurfmeshError as error:
         answer = {"error": " ".join(str(error).split())}
     return {**answer, "seconds": round(process_time() - start, 2)}
 
