@@ -5,6 +5,7 @@
 #include <tuple>
 
 #include "binding/arrays.hpp"
+#include "intersection/strip_integrals.hpp"
 #include "intersection/tracing.hpp"
 #include "surfaces/callback_surface.hpp"
 #include "surfaces/vectors.hpp"
@@ -210,6 +211,26 @@ auto on_branch(const Surface& a, const Surface& b, const Points3& trace, const P
     return view(found);
 }
 
+auto integrals_over_strips(const Surface& surface, double fixed, const Points2& ends,
+                           const Vector<double>& knots, const Vector<double>& places,
+                           const Vector<double>& weights, double agree, int halvings,
+                           const std::optional<Vector3>& origin) {
+    require_rows(weights.shape(0), places.shape(0), "weights");
+    if (places.shape(0) < 1) throw nb::value_error("a rule has one place at least");
+    std::optional<Point3> from;
+    if (origin) from = point(*origin);
+    SurfaceReader reader(surface);
+    Array<double> found;
+    {
+        const nb::gil_scoped_release released;
+        found =
+            strip_integrals(reader, fixed, rows<Point2>(ends), rows<double>(knots),
+                            {rows<double>(places), rows<double>(weights), agree, halvings}, from);
+    }
+    raise_failure(surface, reader.status());
+    return view(found);
+}
+
 void bind_newton(nb::module_& m) {
     m.def("pull_onto_both", &pulled_onto_both, nb::arg("a"), nb::arg("b"), nb::arg("uv_a"),
           nb::arg("uv_b"), nb::arg("normal") = nb::none(), nb::arg("through") = nb::none(),
@@ -255,6 +276,14 @@ void bind_intersection(nb::module_& m) {
           "whether it came to one, its row, the points (n, 3), their uv_a, uv_b (n, 2).\n\n"
           "rate_a, rate_b: (2,) of u and v along the way at the start, where the surfaces do not "
           "say. step: the first; gap: what is on both surfaces.");
+    m.def("strip_integrals", &integrals_over_strips, nb::arg("surface"), nb::arg("fixed"),
+          nb::arg("ends"), nb::arg("knots"), nb::arg("places"), nb::arg("weights"),
+          nb::arg("agree"), nb::arg("halvings"), nb::arg("origin") = nb::none(),
+          "Integrals (n,) over u from ``fixed`` to ends (n, 2), each at its v: of the area, or of "
+          "the volume between the surface and an origin.\n\nplaces, weights: a rule over [0, 1], "
+          "used between all knots (k,), which rise, and on halves until two results agree, "
+          "relative to "
+          "the integral of the absolute value.");
     m.def("lie_on_branch", &on_branch, nb::arg("a"), nb::arg("b"), nb::arg("trace"),
           nb::arg("uv_a"), nb::arg("uv_b"), nb::arg("points"), nb::arg("tolerance"),
           "Which points (n, 3), on both surfaces, lie on a traced branch? (n,) 0 or 1.");

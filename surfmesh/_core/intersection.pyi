@@ -54,6 +54,13 @@ def trace_branch(a: surfmesh._core.surfaces.Surface, b: surfmesh._core.surfaces.
     rate_a, rate_b: (2,) of u and v along the way at the start, where the surfaces do not say. step: the first; gap: what is on both surfaces.
     """
 
+def strip_integrals(surface: surfmesh._core.surfaces.Surface, fixed: float, ends: Annotated[NDArray[numpy.float64], dict(shape=(None, 2), order='C', device='cpu', writable=False)], knots: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)], places: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)], weights: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)], agree: float, halvings: int, origin: Annotated[NDArray[numpy.float64], dict(shape=(3), order='C', device='cpu', writable=False)] | None = None) -> Annotated[NDArray[numpy.float64], dict(shape=(None,))]:
+    """
+    Integrals (n,) over u from ``fixed`` to ends (n, 2), each at its v: of the area, or of the volume between the surface and an origin.
+
+    places, weights: a rule over [0, 1], used between all knots (k,), which rise, and on halves until two results agree, relative to the integral of the absolute value.
+    """
+
 def lie_on_branch(a: surfmesh._core.surfaces.Surface, b: surfmesh._core.surfaces.Surface, trace: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)], uv_a: Annotated[NDArray[numpy.float64], dict(shape=(None, 2), order='C', device='cpu', writable=False)], uv_b: Annotated[NDArray[numpy.float64], dict(shape=(None, 2), order='C', device='cpu', writable=False)], points: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)], tolerance: float) -> Annotated[NDArray[numpy.uint8], dict(shape=(None,))]:
     """
     Which points (n, 3), on both surfaces, lie on a traced branch? (n,) 0 or 1.
