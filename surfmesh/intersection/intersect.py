@@ -19,6 +19,7 @@ from surfmesh.intersection.bounds import are_known
 from surfmesh.intersection.complex import Complex, compacted, with_areas
 from surfmesh.intersection.keeping import Keeping
 from surfmesh.intersection.meeting import joined
+from surfmesh.intersection.seams import with_clear_seams
 from surfmesh.intersection.sheets import as_model
 
 
@@ -30,7 +31,8 @@ def intersected(things: Sequence[Any], keep: Any = "all", name: str = "") -> Cad
     if len(things) < 2:
         raise SurfaceError(f"two surfaces or more are needed to intersect, not {len(things)}")
     names = _names(things)
-    models = [as_model(thing, name) for thing, name in zip(things, names)]
+    clear = with_clear_seams(things)
+    models = [as_model(thing, name) for thing, name in zip(clear, names)]
     _refuse_units(models)
     size = _size(models)
     keeping = Keeping(keep, names, models, size)
