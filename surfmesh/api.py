@@ -174,6 +174,7 @@ def mesh(
 def intersect(
     surfaces: Sequence[Surface | CadModel | Any],
     keep: str | Mapping[Any, Any] = "all",
+    coincident: str = "refuse",
 ) -> CadModel:
     """Surfaces and CAD models that cut each other, as one model for ``mesh``.
 
@@ -205,7 +206,9 @@ def intersect(
     """
     from surfmesh.intersection.intersect import intersected
 
-    return intersected([_model_or_surface(surface) for surface in surfaces], keep)
+    return intersected(
+        [_model_or_surface(surface) for surface in surfaces], keep, coincident=coincident
+    )
 
 
 def estimate(surface: Surface | CadModel | Any, sizing: Sizes = None) -> Estimate:

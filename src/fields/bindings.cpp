@@ -170,15 +170,17 @@ GradedSizes graded_sizes(const Points3& point, double slope, Changed<double>& si
             directions.round,     rows<Point3>(point), {changed.data(), nodes}, slope};
 }
 
-std::pair<std::int32_t, bool> graded(const Patches& patches, const Pairs& joined,
-                                     const GradedSizes& sizes, std::int32_t first,
-                                     std::int32_t sweeps) {
+std::pair<std::int64_t, bool> graded(const Patches& patches, const Pairs& joined,
+                                     const GradedSizes& sizes, std::int32_t number,
+                                     std::int64_t most_visits) {
     require_indices(std::span(patches.data(), patches.size()), sizes.size.size(), "patches");
     require_indices(std::span(joined.data(), joined.size()), sizes.size.size(), "joined");
+    if (patches.shape(0) >= std::size_t{1} << 27)
+        throw nb::value_error("there are 2^27 patches or more");
     const nb::gil_scoped_release released;
-    const SweepsDone done =
-        grade(rows<Patch>(patches), rows<JoinedNodes>(joined), sizes, first, sweeps);
-    return {done.next, done.finished};
+    const GradationDone done =
+        grade(rows<Patch>(patches), rows<JoinedNodes>(joined), sizes, number, most_visits);
+    return {done.visits, done.finished};
 }
 
 void bind_gradation(nb::module_& m) {
@@ -186,36 +188,37 @@ void bind_gradation(nb::module_& m) {
     m.def(
         "grade",
         [](const Patches& patches, const Pairs& joined, const Points3& point, double slope,
-           Changed<double> size, Changed<std::int32_t> changed, std::int32_t first,
-           std::int32_t sweeps) {
+           Changed<double> size, Changed<std::int32_t> changed, std::int32_t number,
+           std::int64_t most_visits) {
             const auto sizes = graded_sizes(point, slope, size, changed, {});
-            return graded(patches, joined, sizes, first, sweeps);
+            return graded(patches, joined, sizes, number, most_visits);
         },
         nb::arg("patches"), nb::arg("joined"), nb::arg("point"), nb::arg("slope"),
-        nb::arg("size").noconvert(), nb::arg("changed").noconvert(), nb::arg("first"),
-        nb::arg("sweeps"),
+        nb::arg("size").noconvert(), nb::arg("changed").noconvert(), nb::arg("number"),
+        nb::arg("most_visits"),
         "Lower size (nodes,), in place, until no neighbours differ by more than slope allows.\n\n"
         "patches (cells, 9), joined (k, 2): nodes; point (nodes, 3). changed (nodes,): the number "
-        "of the last sweep that lowered a node.\nReturns the number of the next sweep, and "
-        "whether the sweeps sufficed.");
+        "of the last gradation that lowered a node; those with the number of this one, and what "
+        "they lower, are looked at.\nReturns how often a node was visited, and whether "
+        "most_visits sufficed.");
     m.def(
         "grade_stretched",
         [](const Patches& patches, const Pairs& joined, const Points3& point, double slope,
            Changed<double> size, Changed<double> longer, const Points3& along,
            const Points3& normal, const Vector<std::uint8_t>& round, Changed<std::int32_t> changed,
-           std::int32_t first, std::int32_t sweeps) {
+           std::int32_t number, std::int64_t most_visits) {
             const Directions directions{{longer.data(), longer.size()},
                                         rows<Point3>(along),
                                         rows<Point3>(normal),
                                         rows<std::uint8_t>(round)};
             require_rows(longer.size(), point.shape(0), "longer");
             const auto sizes = graded_sizes(point, slope, size, changed, directions);
-            return graded(patches, joined, sizes, first, sweeps);
+            return graded(patches, joined, sizes, number, most_visits);
         },
         nb::arg("patches"), nb::arg("joined"), nb::arg("point"), nb::arg("slope"),
         nb::arg("size").noconvert(), nb::arg("longer").noconvert(), nb::arg("along"),
-        nb::arg("normal"), nb::arg("round"), nb::arg("changed").noconvert(), nb::arg("first"),
-        nb::arg("sweeps"),
+        nb::arg("normal"), nb::arg("round"), nb::arg("changed").noconvert(), nb::arg("number"),
+        nb::arg("most_visits"),
         "The same of two sizes: longer (nodes,) along the unit tangents along (nodes, 3), size at "
         "right angles to them.\n\nnormal (nodes, 3): unit, or zero where there is none. round: "
         "(nodes,) where longer stays the longer one, or (0,).");

@@ -30,11 +30,9 @@ constexpr double FINEST_EXTENT = 0.2, FINEST_GRADED = 1.0, FINEST_STRETCHED = 2.
 constexpr double MAX_CELLS = 800'000, CELLS_OF_TRIANGLE = 4;
 constexpr int MAX_ROUNDS = 60;
 
-// Sweeps of the gradation before the cells are sorted anew, and how often that is done. So often
-// it is done as a rule; cells times sweeps that may come after it, in all rounds: where the
-// surface is a wall sizes creep up it, a cell a sweep.
-constexpr int SWEEPS = 16, MAX_CHUNKS = 400, PATIENT_CHUNKS = 4;
-constexpr std::int64_t MOST_SLOW = 40'000'000;
+// Visits of nodes by the gradation, in all rounds: most nodes are visited once a round. Where
+// directions turn on a surface as steep as a wall sizes may creep.
+constexpr std::int64_t MOST_VISITS = 60'000'000;
 
 // Of the slope, where sizes are stretched: they grow along edges and diagonals of cells, and such
 // ways are up to 8 % longer than the straight ones.
@@ -68,7 +66,7 @@ FieldBuilder::FieldBuilder(FieldPlan plan) : plan_(std::move(plan)), cells_(plan
 FieldOutcome FieldBuilder::refine(NodeLaw& law, HiddenFeatures& hidden) {
     if (!make_patches(0, law)) return FAILED;
     for (int round = 0; round < MAX_ROUNDS + GRID_DEPTH; ++round) {
-        const std::int32_t seen = sweep_;
+        const std::int32_t seen = number_;
         if (const FieldOutcome found = grade_nodes(); found.status != FieldStatus::done)
             return found;
         if (const FieldOutcome found = far_beyond(); found.status != FieldStatus::done)
@@ -129,7 +127,7 @@ void FieldBuilder::replace(const Marks& marks) {
 // sizes
 
 FieldOutcome FieldBuilder::grade_nodes() {
-    changed_.resize(nodes.count(), sweep_);
+    changed_.resize(nodes.count(), number_);
     for (std::size_t n = round_.size(); n < nodes.asked.size(); ++n)
         round_.push_back(nodes.is_round(static_cast<std::ptrdiff_t>(n)) ? 1 : 0);
     return spread(all(nodes.size), nodes.is_anisotropic());
@@ -146,43 +144,13 @@ FieldOutcome FieldBuilder::spread(std::span<double> size, bool stretched) {
         graded.normal = all(nodes.normal);
         graded.round = all(round_);
     }
-    std::int32_t first = sweep_ + 1;
-    struct Ranked {
-        double smallest;
-        std::int32_t patch;
-    };
-    Array<Ranked> order(patches_.size());
-    Array<Patch> sorted(patches_.size());
-    for (int chunk = 0; chunk < MAX_CHUNKS; ++chunk) {
-        if (chunk >= PATIENT_CHUNKS) slow_ += SWEEPS * static_cast<std::int64_t>(patches_.size());
-        if (slow_ > MOST_SLOW) break;
-        for (std::size_t k = 0; k < patches_.size(); ++k) {
-            double least = size[patches_[k].node[0]];
-            for (const Node n : patches_[k].node) least = std::min(least, size[n]);
-            order[k] = {least, static_cast<std::int32_t>(k)};
-        }
-        std::sort(order.begin(), order.end(), [](const Ranked& a, const Ranked& b) {
-            return a.smallest < b.smallest || (a.smallest == b.smallest && a.patch < b.patch);
-        });
-        for (std::size_t k = 0; k < order.size(); ++k) sorted[k] = patches_[order[k].patch];
-        const SweepsDone done = grade(all(sorted), all(joined_), graded, first, SWEEPS);
-        sweep_ = first = done.next;  // the last sweep's changes are still to be spread
-        if (done.finished) return DONE_WELL;
-    }
-    return creeping();
-}
-
-/// A place in the midst of those where sizes have changed last.
-FieldOutcome FieldBuilder::creeping() const {
-    Array<Node> last;
-    for (std::size_t n = 0; n < changed_.size(); ++n)
-        if (changed_[n] >= sweep_ - SWEEPS) last.push_back(static_cast<Node>(n));
-    Point2 place{0.0, 0.0};
-    if (!last.empty()) {
-        const std::int64_t key = key_[last[last.size() / 2]];
-        place = place_of(key / stride(), key % stride());
-    }
-    return {FieldStatus::not_graded, place, 0.0};
+    const std::int32_t number = number_++;
+    const GradationDone done =
+        grade(all(patches_), all(joined_), graded, number, MOST_VISITS - visits_);
+    visits_ += done.visits;
+    if (done.finished) return DONE_WELL;
+    const std::int64_t key = done.last == NIL ? 0 : key_[done.last];
+    return {FieldStatus::not_graded, place_of(key / stride(), key % stride()), 0.0};
 }
 
 /// Is the size lowered by gradation at one of the nodes?
@@ -201,7 +169,7 @@ PatchRoots FieldBuilder::metric_roots(const Patch& patch) const {
     return found;
 }
 
-/// Mark cells whose sizes have changed since a sweep and are not bilinear enough.
+/// Mark cells whose sizes have changed since a gradation and are not bilinear enough.
 void FieldBuilder::mark_inaccurate(std::int32_t seen, std::span<std::uint8_t> split) const {
     const double coarse = nodes.is_anisotropic() ? FINEST_STRETCHED : FINEST_GRADED;
     const auto leaves = cells_.leaves();

@@ -92,7 +92,7 @@ class FieldBuilder {
     /// Grade other isotropic sizes of the nodes.
     [[nodiscard]] FieldOutcome spread(std::span<double> size);
     /// All nodes count as new to the gradation.
-    void touch_all() { changed_.fill(sweep_); }
+    void touch_all() { changed_.fill(number_); }
     /// Every leaf is split once more, onto its test nodes.
     [[nodiscard]] Background background();
 
@@ -113,7 +113,6 @@ class FieldBuilder {
     [[nodiscard]] Point2 place_of(std::int64_t x, std::int64_t y) const;
     [[nodiscard]] std::int64_t stride() const;
     [[nodiscard]] FieldOutcome spread(std::span<double> size, bool stretched);
-    [[nodiscard]] FieldOutcome creeping() const;
     [[nodiscard]] FieldOutcome far_beyond() const;
     [[nodiscard]] FieldOutcome refused(std::span<const std::uint8_t> split) const;
     void mark_inaccurate(std::int32_t seen, std::span<std::uint8_t> split) const;
@@ -142,10 +141,10 @@ class FieldBuilder {
     std::array<Array<SideNode>, 4> side_;  // nodes on each side, along it
     Array<JoinedNodes> joined_;    // nodes next to each other, or one point in space, across joints
     Array<std::uint8_t> round_;    // of the nodes, where sizes are anisotropic
-    Array<std::int32_t> changed_;  // last sweep of the gradation that lowered a node
-    std::int32_t sweep_ = 1;       // number of the next one
+    Array<std::int32_t> changed_;  // last gradation that lowered a node
+    std::int32_t number_ = 1;      // of the next one
     std::int64_t looked_into_ = 0;  // cells beyond HIDDEN_DEPTH, for what hides in them
-    std::int64_t slow_ = 0;         // cells times sweeps of slow gradation
+    std::int64_t visits_ = 0;       // of nodes by the gradation
     bool finished_ = false;
 };
 

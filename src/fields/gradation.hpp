@@ -22,7 +22,7 @@
 
 namespace surfmesh {
 
-inline constexpr double ROUNDING = 1e-9;   // a size is not lowered for less
+inline constexpr double ROUNDING = 1e-9;   // relative: a size is not lowered for less
 inline constexpr double TURN_SLOPE = 3.0;  // how much faster than sizes a metric may change
                                            // because its direction turns
 
@@ -43,22 +43,25 @@ struct GradedSizes {
     std::span<const Point3> normal;  // unit, or zero where there is none: isotropic there
     std::span<const std::uint8_t> round;  // `longer` stays the longer one here; or empty
     std::span<const Point3> point;
-    std::span<std::int32_t> changed;  // number of the last sweep that lowered the node
+    std::span<std::int32_t> changed;  // number of the last gradation that lowered the node
     double slope;                     // growth of the size per length
 };
 
-struct SweepsDone {
-    std::int32_t next;  // number for the next sweep
-    bool finished;      // or did the sweeps not suffice?
+struct GradationDone {
+    std::int64_t visits;  // nodes whose sizes have been spread, each time it was done
+    Node last;            // the last of them, or NIL
+    bool finished;        // or did the visits not suffice?
 };
 
 /// Lower the sizes until no two neighbours differ by more than the slope allows.
 ///
-/// Sweeps are numbered from `first` on and pass over patches that the sweep before has left
-/// alone. Sizes spread from small to large, so a few sweeps do when the patches with the smallest
-/// sizes come first. Stops when the largest relative change is below 0.1 %, or after `sweeps`.
-[[nodiscard]] SweepsDone grade(std::span<const Patch> patches, std::span<const JoinedNodes> joined,
-                               const GradedSizes& sizes, std::int32_t first, std::int32_t sweeps);
+/// In the patches of nodes whose number is `number`, and from there as far as something changes:
+/// the rest is graded already. Lowered nodes get the number. Sizes are spread from the smallest
+/// on, as in Dijkstra's and the fast marching methods (Sethian 1999, chapter 8), so that most
+/// nodes are visited once; what is lowered later is visited anew.
+[[nodiscard]] GradationDone grade(std::span<const Patch> patches,
+                                  std::span<const JoinedNodes> joined, const GradedSizes& sizes,
+                                  std::int32_t number, std::int64_t most_visits);
 
 struct PatchError {
     double error;   // largest relative error at the five test nodes

@@ -31,12 +31,13 @@ double known(double sag) {
 }
 
 /// |r_uu|, |r_uv|, |r_vv| over one cell, at most.
-struct Bends {
+struct SecondDerivatives {
     Point3 uu, uv, vv;
 };
 
 /// From samples of each cell, where the surface has no bounds.
-Array<Bends> sampled_bends(SurfaceReader& surface, std::span<const ParameterBox> cells) {
+Array<SecondDerivatives> sampled_bends(SurfaceReader& surface,
+                                       std::span<const ParameterBox> cells) {
     Array<Point2> uv;
     for (const auto& [low, high] : cells)
         for (std::size_t j = 0; j < GRID; ++j)
@@ -46,10 +47,10 @@ Array<Bends> sampled_bends(SurfaceReader& surface, std::span<const ParameterBox>
                 uv.push_back({low.x + s * (high.x - low.x), low.y + t * (high.y - low.y)});
             }
     surface.read({uv.data(), uv.size()}, 2);
-    Array<Bends> found;
+    Array<SecondDerivatives> found;
     constexpr std::size_t EACH = GRID * GRID;
     for (std::size_t cell = 0; cell < cells.size(); ++cell) {
-        Bends bends{};
+        SecondDerivatives bends{};
         for (std::size_t k = cell * EACH; k < (cell + 1) * EACH; ++k) {
             bends.uu = larger(bends.uu, absolute(surface[3][k]));
             bends.uv = larger(bends.uv, absolute(surface[4][k]));
@@ -60,12 +61,12 @@ Array<Bends> sampled_bends(SurfaceReader& surface, std::span<const ParameterBox>
     return found;
 }
 
-Array<Bends> bends_of(SurfaceReader& surface, std::span<const ParameterBox> cells) {
+Array<SecondDerivatives> bends_of(SurfaceReader& surface, std::span<const ParameterBox> cells) {
     constexpr std::size_t EACH = derivative_count(2);
     Array<Point3> magnitudes(EACH * cells.size());
     if (!surface.read_magnitudes(cells, 2, {magnitudes.data(), magnitudes.size()}))
         return sampled_bends(surface, cells);
-    Array<Bends> found;
+    Array<SecondDerivatives> found;
     for (std::size_t cell = 0; cell < cells.size(); ++cell) {
         const Point3* own = magnitudes.data() + cell * EACH;
         found.push_back({own[3], own[4], own[5]});
@@ -79,7 +80,7 @@ struct Cone {
     double angle;
 };
 
-Cone cone_of(Point3 r_u, Point3 r_v, Point2 width, const Bends& bends) {
+Cone cone_of(Point3 r_u, Point3 r_v, Point2 width, const SecondDerivatives& bends) {
     const Point3 normal = cross(r_u, r_v);
     const double size = norm(normal);
     const double change_u = norm(0.5 * (width.x * bends.uu + width.y * bends.uv));
@@ -110,7 +111,7 @@ void add_box(CellBounds& bounds, std::span<const Point3> corners, Point3 sag) {
 
 CellBounds bound_cells(SurfaceReader& surface, std::span<const ParameterBox> cells) {
     CellBounds found{CORNERS, {}, {}, {}, {}, {}, {}};
-    const Array<Bends> bends = bends_of(surface, cells);
+    const Array<SecondDerivatives> bends = bends_of(surface, cells);
     Array<Point2> corners, middles;
     for (const auto& [low, high] : cells) {
         for (const Point2 corner : {low, Point2{high.x, low.y}, high, Point2{low.x, high.y}})
@@ -119,7 +120,7 @@ CellBounds bound_cells(SurfaceReader& surface, std::span<const ParameterBox> cel
     }
     surface.read({corners.data(), corners.size()}, 0);
     for (std::size_t i = 0; i < cells.size(); ++i) {
-        const Bends& bent = bends[static_cast<std::ptrdiff_t>(i)];
+        const SecondDerivatives& bent = bends[static_cast<std::ptrdiff_t>(i)];
         const Point2 width = cells[i].high - cells[i].low;
         const Point3 sag =
             (1.0 / 8.0) * (width.x * width.x * bent.uu + width.y * width.y * bent.vv);

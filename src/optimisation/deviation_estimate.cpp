@@ -1,7 +1,11 @@
 #include "optimisation/deviation_estimate.hpp"
 
+#include "values/threads.hpp"
+
 namespace surfmesh {
 namespace {
+
+constexpr std::size_t BLOCK = 1 << 14;  // triangles estimated together
 
 constexpr double SMALLEST_SHRINK = 0.85;  // least factor by which one round lowers a wanted size
 constexpr double SMALLEST_SCALE = 0.6;    // what is not near enough then needs another field
@@ -10,9 +14,12 @@ constexpr double SMALLEST_SCALE = 0.6;    // what is not near enough then needs 
 
 Array<double> estimate_deviations(const Triangulation& t, const SurfaceFrames& s) {
     Array<double> deviation(t.region.size(), 0.0);
-    for (Triangle k = 0; k < t.triangles(); ++k)
-        if (t.region[k] != DEAD)
-            deviation[k] = triangle_deviation(s, t.tri[3 * k], t.tri[3 * k + 1], t.tri[3 * k + 2]);
+    for_each_block(t.region.size(), BLOCK, [&](std::size_t first, std::size_t last) {
+        for (auto k = static_cast<Triangle>(first); k < static_cast<Triangle>(last); ++k)
+            if (t.region[k] != DEAD)
+                deviation[k] =
+                    triangle_deviation(s, t.tri[3 * k], t.tri[3 * k + 1], t.tri[3 * k + 2]);
+    });
     return deviation;
 }
 

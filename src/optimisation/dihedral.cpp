@@ -3,12 +3,14 @@
 #include <cmath>
 
 #include "elementary_functions/inverse_trigonometric.hpp"
+#include "values/threads.hpp"
 
 namespace surfmesh {
 namespace {
 
 // squared sine of the angle between two sides, or one at a pole: only rounding
 constexpr double NO_AREA = 1e-24;
+constexpr std::size_t BLOCK = 3 << 14;  // half-edges looked at together
 
 }  // namespace
 
@@ -22,15 +24,24 @@ double dihedral_angle(Point3 a, Point3 b, Point3 c, Point3 d) {
 
 DihedralAngles find_dihedrals_over(const Triangulation& t, const Array<Point3>& point,
                                    double limit) {
+    struct Found {
+        HalfEdgePair edge;
+        double angle;
+    };
+    const Array<Found> over = collect_by_blocks<Found>(
+        t.tri.size(), BLOCK, [&](std::size_t first, std::size_t last, Array<Found>& own) {
+            for (auto e = static_cast<HalfEdge>(first); e < static_cast<HalfEdge>(last); ++e) {
+                const HalfEdge f = t.adj[e];
+                if (f <= e || t.region[e / 3] == DEAD || t.region[f / 3] == DEAD) continue;
+                const double angle = dihedral_angle(point[t.tri[e]], point[t.tri[f]],
+                                                    point[t.tri[prev_half_edge(e)]],
+                                                    point[t.tri[prev_half_edge(f)]]);
+                if (angle > limit) own.push_back({{e, f}, angle});
+            }
+        });
     DihedralAngles found;
-    for (HalfEdge e = 0; e < 3 * t.triangles(); ++e) {
-        const HalfEdge f = t.adj[e];
-        if (f <= e || t.region[e / 3] == DEAD || t.region[f / 3] == DEAD) continue;
-        const double angle =
-            dihedral_angle(point[t.tri[e]], point[t.tri[f]], point[t.tri[prev_half_edge(e)]],
-                           point[t.tri[prev_half_edge(f)]]);
-        if (!(angle > limit)) continue;
-        found.edges.push_back({e, f});
+    for (const auto& [edge, angle] : over) {
+        found.edges.push_back(edge);
         found.angles.push_back(angle);
     }
     return found;

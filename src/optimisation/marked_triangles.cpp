@@ -1,7 +1,11 @@
 #include "optimisation/marked_triangles.hpp"
 
+#include "values/threads.hpp"
+
 namespace surfmesh {
 namespace {
+
+constexpr std::size_t BLOCK = 1 << 14;  // triangles looked at together
 
 /// Is triangle abc turned against the normals at its corners?
 bool is_folded(const SurfaceFrames& s, Vertex a, Vertex b, Vertex c, double least, double at_apex) {
@@ -23,34 +27,41 @@ bool is_folded(const SurfaceFrames& s, Vertex a, Vertex b, Vertex c, double leas
 Array<std::uint8_t> find_folded(const Triangulation& t, const SurfaceFrames& s, double least,
                                 double at_apex) {
     Array<std::uint8_t> folded(t.region.size(), 0);
-    for (Triangle k = 0; k < t.triangles(); ++k) {
-        const Vertex a = t.tri[3 * k], b = t.tri[3 * k + 1], c = t.tri[3 * k + 2];
-        if (t.region[k] == DEAD || is_collapsed(s, a, b, c)) continue;
-        folded[k] = is_folded(s, a, b, c, least, at_apex);
-    }
+    for_each_block(t.region.size(), BLOCK, [&](std::size_t first, std::size_t last) {
+        for (auto k = static_cast<Triangle>(first); k < static_cast<Triangle>(last); ++k) {
+            const Vertex a = t.tri[3 * k], b = t.tri[3 * k + 1], c = t.tri[3 * k + 2];
+            if (t.region[k] == DEAD || is_collapsed(s, a, b, c)) continue;
+            folded[k] = is_folded(s, a, b, c, least, at_apex);
+        }
+    });
     return folded;
 }
 
 Array<Triangle> triangles_at(const Triangulation& t, const Array<std::uint8_t>& vertices) {
-    Array<Triangle> found;
-    for (Triangle k = 0; k < t.triangles(); ++k) {
-        if (t.region[k] == DEAD) continue;
-        if (vertices[t.tri[3 * k]] || vertices[t.tri[3 * k + 1]] || vertices[t.tri[3 * k + 2]])
-            found.push_back(k);
-    }
-    return found;
+    return collect_by_blocks<Triangle>(
+        t.region.size(), BLOCK, [&](std::size_t first, std::size_t last, Array<Triangle>& found) {
+            for (auto k = static_cast<Triangle>(first); k < static_cast<Triangle>(last); ++k) {
+                if (t.region[k] == DEAD) continue;
+                if (vertices[t.tri[3 * k]] || vertices[t.tri[3 * k + 1]] ||
+                    vertices[t.tri[3 * k + 2]])
+                    found.push_back(k);
+            }
+        });
 }
 
 int activate_bad(const Triangulation& t, const SurfaceFrames& s, VertexMarks& marks, double least) {
-    int bad = 0;
-    for (Triangle k = 0; k < t.triangles(); ++k) {
-        if (t.region[k] == DEAD) continue;
-        const Vertex a = t.tri[3 * k], b = t.tri[3 * k + 1], c = t.tri[3 * k + 2];
-        if (is_collapsed(s, a, b, c) || !(triangle_shape(s, a, b, c) < least)) continue;
-        ++bad;
-        marks.active[a] = marks.active[b] = marks.active[c] = 1;
-    }
-    return bad;
+    const Array<Triangle> bad = collect_by_blocks<Triangle>(
+        t.region.size(), BLOCK, [&](std::size_t first, std::size_t last, Array<Triangle>& found) {
+            for (auto k = static_cast<Triangle>(first); k < static_cast<Triangle>(last); ++k) {
+                if (t.region[k] == DEAD) continue;
+                const Vertex a = t.tri[3 * k], b = t.tri[3 * k + 1], c = t.tri[3 * k + 2];
+                if (!is_collapsed(s, a, b, c) && triangle_shape(s, a, b, c) < least)
+                    found.push_back(k);
+            }
+        });
+    for (const Triangle k : bad)
+        for (HalfEdge e = 3 * k; e < 3 * k + 3; ++e) marks.active[t.tri[e]] = 1;
+    return static_cast<int>(bad.size());
 }
 
 }  // namespace surfmesh

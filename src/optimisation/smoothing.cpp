@@ -4,6 +4,8 @@
 #include <array>
 #include <cmath>
 
+#include "triangulation/parts.hpp"
+
 namespace surfmesh {
 namespace {
 
@@ -227,6 +229,35 @@ bool move(Triangulation& t, SurfaceFrames& s, const MovingVertex& m) {
     return false;
 }
 
+/// A pass over vertices: what it works on, and how far it goes.
+struct SmoothingPass {
+    Triangulation& t;
+    SurfaceFrames& s;
+    const Stars& stars;
+    VertexMarks& marks;
+    double stiffness, longer, still;
+
+    /// Move m.v by a Newton step if it may and should; one that has moved goes to ``moved``.
+    void visit(MovingVertex& m, Array<Vertex>& moved) const {
+        const Vertex v = m.v;
+        m.start = stars.start[v];
+        if (marks.active[v] == 0 || stars.frozen[v] != 0 || m.start == NIL) return;
+        marks.active[v] = 0;
+        find_step(t, s, stiffness, m);
+        m.by.step = longer * m.by.step;
+        const double squared = dot(m.by.step, m.by.step);
+        if (squared < SMALLEST_MOVE * SMALLEST_MOVE || !move(t, s, m)) return;
+        s.drift[v] += std::sqrt(squared);
+        moved.push_back(v);
+        marks.dirty[v] = 1;
+        if (squared > still * still) {
+            marks.active[v] = 1;
+            for_each_in_star(t, m.start,
+                             [&](HalfEdge e) { marks.active[t.tri[next_half_edge(e)]] = 1; });
+        }
+    }
+};
+
 }  // namespace
 
 NewtonStep newton_step(const Triangulation& t, const SurfaceFrames& s, Vertex v, HalfEdge start,
@@ -240,28 +271,24 @@ NewtonStep newton_step(const Triangulation& t, const SurfaceFrames& s, Vertex v,
 
 void smooth(Triangulation& t, SurfaceFrames& s, const Stars& stars, VertexMarks& marks,
             double stiffness, Array<Vertex>& moved) {
-    moved.clear();
-    const double longer = s.is_anisotropic ? 1.0 : OVER_RELAXATION;
-    const double still = s.is_anisotropic ? STILL_STRETCHED : STILL;
+    const SmoothingPass pass{t,
+                             s,
+                             stars,
+                             marks,
+                             stiffness,
+                             s.is_anisotropic ? 1.0 : OVER_RELAXATION,
+                             s.is_anisotropic ? STILL_STRETCHED : STILL};
+    moved = collect_by_blocks<Vertex>(
+        count_parts(t), 1, [&](std::size_t n, std::size_t, Array<Vertex>& own) {
+            const Part part = part_of(t, n);
+            MovingVertex m;
+            for (m.v = part.first_vertex; m.v < part.end_vertex; ++m.v)
+                if (!stars.is_shared(m.v)) pass.visit(m, own);
+        });
+    if (t.parts.empty()) return;
     MovingVertex m;
-    for (Vertex v = 0; v < t.vertices(); ++v) {
-        m.v = v;
-        m.start = stars.start[v];
-        if (marks.active[v] == 0 || stars.frozen[v] != 0 || m.start == NIL) continue;
-        marks.active[v] = 0;
-        find_step(t, s, stiffness, m);
-        m.by.step = longer * m.by.step;
-        const double squared = dot(m.by.step, m.by.step);
-        if (squared < SMALLEST_MOVE * SMALLEST_MOVE || !move(t, s, m)) continue;
-        s.drift[v] += std::sqrt(squared);
-        moved.push_back(v);
-        marks.dirty[v] = 1;
-        if (squared > still * still) {
-            marks.active[v] = 1;
-            for_each_in_star(t, m.start,
-                             [&](HalfEdge e) { marks.active[t.tri[next_half_edge(e)]] = 1; });
-        }
-    }
+    for (m.v = 0; m.v < t.vertices(); ++m.v)
+        if (stars.is_shared(m.v)) pass.visit(m, moved);
 }
 
 }  // namespace surfmesh

@@ -30,7 +30,8 @@ NewtonStep newton_step(const Triangulation& t, const SurfaceFrames& s, Vertex v,
 /// Move every active vertex by one Newton step; the vertices that moved go to ``moved``.
 ///
 /// A move that would turn a triangle over, or make a bad star worse, is not made. Vertices that
-/// have moved noticeably, and their neighbours, stay active.
+/// have moved noticeably, and their neighbours, stay active. In a large domain the parts are done
+/// side by side, then the vertices whose stars lie in several.
 void smooth(Triangulation& t, SurfaceFrames& s, const Stars& stars, VertexMarks& marks,
             double stiffness, Array<Vertex>& moved);
 

@@ -1,7 +1,11 @@
 #include "optimisation/splits.hpp"
 
+#include "values/threads.hpp"
+
 namespace surfmesh {
 namespace {
+
+constexpr std::size_t BLOCK = 1 << 14;  // triangles looked at together
 
 double middle(double a, double b) { return 0.5 * (a + b); }
 Point3 middle(Point3 a, Point3 b) { return 0.5 * (a + b); }
@@ -56,6 +60,32 @@ HalfEdge farthest_edge(const Triangulation& t, const SurfaceFrames& s, Triangle 
     return best;
 }
 
+/// Is e, as the first half-edge of its edge, to be split? Not at vertices from ``first`` on.
+bool is_long(const Triangulation& t, const SurfaceFrames& s, const VertexMarks& marks, HalfEdge e,
+             Vertex first, double longest) {
+    const Vertex a = t.tri[e];
+    if (a >= first || t.adj[e] <= e || t.fixed[e] != 0 || t.region[e / 3] == DEAD) return false;
+    const Vertex b = t.tri[t.adj[e]];
+    if (b >= first || (marks.active[a] == 0 && marks.active[b] == 0)) return false;
+    return edge_length(s, a, b) > longest;
+}
+
+/// The triangles with an edge to be split, as they are before any is.
+Array<Triangle> with_long_edge(const Triangulation& t, const SurfaceFrames& s,
+                               const VertexMarks& marks, double longest) {
+    const Vertex end = t.vertices();
+    return collect_by_blocks<Triangle>(
+        t.region.size(), BLOCK, [&](std::size_t first, std::size_t last, Array<Triangle>& own) {
+            for (auto k = static_cast<Triangle>(first); k < static_cast<Triangle>(last); ++k) {
+                const HalfEdge e = 3 * k;
+                if (is_long(t, s, marks, e, end, longest) ||
+                    is_long(t, s, marks, e + 1, end, longest) ||
+                    is_long(t, s, marks, e + 2, end, longest))
+                    own.push_back(k);
+            }
+        });
+}
+
 }  // namespace
 
 Vertex split_edge(Triangulation& t, HalfEdge e, Point2 place) {
@@ -95,13 +125,15 @@ Vertex split_edge(Triangulation& t, HalfEdge e, Point2 place) {
 
 Vertex split_long_edges(Triangulation& t, SurfaceFrames& s, VertexMarks& marks, double longest) {
     const Vertex first = t.vertices();
-    const HalfEdge end = 3 * t.triangles();
-    for (HalfEdge e = 0; e < end; ++e) {
-        const Vertex a = t.tri[e];
-        if (a >= first || t.adj[e] <= e || t.fixed[e] != 0 || t.region[e / 3] == DEAD) continue;
-        const Vertex b = t.tri[t.adj[e]];
-        if (b >= first || (marks.active[a] == 0 && marks.active[b] == 0)) continue;
-        if (edge_length(s, a, b) > longest) halve(t, s, marks, e);
+    const Triangle end = t.triangles();
+    const auto split_edges_of = [&](Triangle k) {
+        for (HalfEdge e = 3 * k; e < 3 * k + 3; ++e)
+            if (is_long(t, s, marks, e, first, longest)) halve(t, s, marks, e);
+    };
+    if (t.parts.empty()) {
+        for (Triangle k = 0; k < end; ++k) split_edges_of(k);
+    } else {
+        for (const Triangle k : with_long_edge(t, s, marks, longest)) split_edges_of(k);
     }
     return first;
 }

@@ -27,6 +27,7 @@ Vertex split_edge(Triangulation& t, HalfEdge e, Point2 place);
 
 /// Split interior edges of active vertices longer than ``longest``.
 ///
+/// In a large domain those of vertices that become active on the way wait for the next call.
 /// Returns the first of the new vertices.
 Vertex split_long_edges(Triangulation& t, SurfaceFrames& s, VertexMarks& marks, double longest);
 

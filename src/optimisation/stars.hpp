@@ -11,6 +11,9 @@ struct Stars {
     Array<HalfEdge> start;       // of each vertex a half-edge that leaves it, NIL where none does
     Array<std::uint8_t> frozen;  // not to be moved: on the border, or on a fixed edge
     Array<std::int32_t> degree;  // of each vertex, how many triangles it has
+    Array<std::uint8_t> shared;  // is its star in more than one part? Empty where there are none
+
+    [[nodiscard]] bool is_shared(Vertex v) const { return !shared.empty() && shared[v] != 0; }
 };
 
 /// Find the stars of all vertices.

@@ -1,11 +1,15 @@
 #include "optimisation/swaps.hpp"
 
+#include <atomic>
+
 #include "triangulation/local_operations.hpp"
+#include "triangulation/parts.hpp"
 
 namespace surfmesh {
 namespace {
 
-constexpr double SWAP_GAIN = 1e-3;  // smallest betterment of the worse alpha for a swap
+constexpr std::size_t BLOCK = 1 << 14;  // triangles measured together
+constexpr double SWAP_GAIN = 1e-3;      // smallest betterment of the worse alpha for a swap
 
 /// The corners of the two triangles at an edge that is not on the border: a-b-c and b-a-d.
 struct Quadrilateral {
@@ -48,11 +52,10 @@ bool is_dirty(const Triangulation& t, const VertexMarks& marks, Triangle k) {
            marks.dirty[t.tri[3 * k + 2]];
 }
 
-/// Swap e if that raises the smaller alpha of its two triangles.
+/// Swap e, which may be, if that raises the smaller alpha of its two triangles.
 bool swap_if_better(Triangulation& t, const SurfaceFrames& s, Array<double>& shape,
                     VertexMarks& marks, HalfEdge e) {
     const HalfEdge f = t.adj[e];
-    if (f < 0 || t.fixed[e] != 0) return false;
     const Quadrilateral q = corners_around(t, e);
     const double old = std::min(shape[e / 3], shape[f / 3]);
     const double first = triangle_shape(s, q.a, q.d, q.c);
@@ -65,24 +68,115 @@ bool swap_if_better(Triangulation& t, const SurfaceFrames& s, Array<double>& sha
     return true;
 }
 
+/// One look at the edges of triangles below ``good``, and what it is done with.
+struct ShapeSwaps {
+    Triangulation& t;
+    const SurfaceFrames& s;
+    Array<double>& shape;
+    VertexMarks& marks;
+    double good;
+
+    /// Swap edges of triangle k with others within the part; returns the swaps made.
+    int swap_within(const Part& part, Triangle k, Array<Triangle>& left) const {
+        int swaps = 0;
+        bool waits = false;
+        for (HalfEdge e = 3 * k; e < 3 * k + 3; ++e) {
+            if (t.adj[e] < 0 || t.fixed[e] != 0) continue;
+            if (is_within(t, part, t.adj[e] / 3))
+                swaps += swap_if_better(t, s, shape, marks, e);
+            else
+                waits = true;
+        }
+        if (waits) left.push_back(k);
+        return swaps;
+    }
+
+    int sweep() const {
+        std::atomic<int> swaps = 0;
+        const Array<Triangle> left = for_each_part(t, [&](const Part& part, Array<Triangle>& own) {
+            int made = 0;
+            for (Triangle k = part.first_triangle; k < part.end_triangle; ++k) {
+                if (shape[k] > good || t.region[k] == DEAD) continue;
+                if (!is_within(t, part, k))
+                    own.push_back(k);
+                else if (is_dirty(t, marks, k))
+                    made += swap_within(part, k, own);
+            }
+            swaps += made;
+        });
+        Array<Triangle> none;
+        for (const Triangle k : left)
+            if (shape[k] <= good && t.region[k] != DEAD && is_dirty(t, marks, k))
+                swaps += swap_within(whole_of(t), k, none);
+        return swaps;
+    }
+};
+
+/// Swaps that bring degrees nearer to six, and what they work on.
+struct DegreeSwaps {
+    Triangulation& t;
+    const SurfaceFrames& s;
+    Stars& stars;
+    VertexMarks& marks;
+    double least;
+
+    [[nodiscard]] bool is_wanted(HalfEdge e, const Quadrilateral& q) const {
+        const Array<std::int32_t>& degree = stars.degree;
+        const int inner = degree[q.a] + degree[q.b];
+        if (inner < 13 || inner - degree[q.c] - degree[q.d] < 3) return false;
+        if (stars.frozen[q.a] || stars.frozen[q.b] || stars.frozen[q.c] || stars.frozen[q.d])
+            return false;
+        return triangle_shape(s, q.a, q.d, q.c) > least &&
+               triangle_shape(s, q.b, q.c, q.d) > least && may_swap(t, s, e);
+    }
+
+    /// Swap edges of triangle k with others within the part; returns the swaps made.
+    int swap_within(const Part& part, Triangle k, Array<Triangle>& left) const {
+        int swaps = 0;
+        bool waits = false;
+        for (HalfEdge e = 3 * k; e < 3 * k + 3; ++e) {
+            if (t.adj[e] <= e || t.fixed[e] != 0) continue;
+            if (!is_within(t, part, t.adj[e] / 3)) {
+                waits = true;
+                continue;
+            }
+            const Quadrilateral q = corners_around(t, e);
+            if (!is_wanted(e, q)) continue;
+            swap_edge(t, e);
+            stars.degree[q.a] -= 1;
+            stars.degree[q.b] -= 1;
+            stars.degree[q.c] += 1;
+            stars.degree[q.d] += 1;
+            touch(marks, q);
+            ++swaps;
+        }
+        if (waits) left.push_back(k);
+        return swaps;
+    }
+};
+
+/// Measure the triangles with a dirty corner anew.
+void measure_dirty(const Triangulation& t, const SurfaceFrames& s, const VertexMarks& marks,
+                   Array<double>& shape) {
+    shape.resize(t.region.size(), 1.0);
+    for_each_block(t.region.size(), BLOCK, [&](std::size_t first, std::size_t last) {
+        for (auto k = static_cast<Triangle>(first); k < static_cast<Triangle>(last); ++k)
+            if (t.region[k] != DEAD && is_dirty(t, marks, k))
+                shape[k] = triangle_shape(s, t.tri[3 * k], t.tri[3 * k + 1], t.tri[3 * k + 2]);
+    });
+}
+
 }  // namespace
 
 int swap_for_shape(Triangulation& t, const SurfaceFrames& s, Array<double>& shape,
                    VertexMarks& marks, double good, int sweeps) {
-    shape.resize(t.region.size(), 1.0);
-    for (Triangle k = 0; k < t.triangles(); ++k)
-        if (t.region[k] != DEAD && is_dirty(t, marks, k))
-            shape[k] = triangle_shape(s, t.tri[3 * k], t.tri[3 * k + 1], t.tri[3 * k + 2]);
+    measure_dirty(t, s, marks, shape);
+    const ShapeSwaps swaps{t, s, shape, marks, good};
     int total = 0;
     for (int sweep = 0; sweep < sweeps; ++sweep) {
-        int swaps = 0;
-        for (Triangle k = 0; k < t.triangles(); ++k) {
-            if (shape[k] > good || t.region[k] == DEAD || !is_dirty(t, marks, k)) continue;
-            for (HalfEdge e = 3 * k; e < 3 * k + 3; ++e)
-                swaps += swap_if_better(t, s, shape, marks, e);
-        }
-        total += swaps;
-        if (swaps == 0) break;
+        const int made = swaps.sweep();
+        total += made;
+        if (made == 0) break;
     }
     marks.dirty.fill(0);
     return total;
@@ -90,26 +184,23 @@ int swap_for_shape(Triangulation& t, const SurfaceFrames& s, Array<double>& shap
 
 int swap_for_degree(Triangulation& t, const SurfaceFrames& s, Stars& stars, VertexMarks& marks,
                     double least) {
-    Array<std::int32_t>& degree = stars.degree;
-    int swaps = 0;
-    for (HalfEdge e = 0; e < 3 * t.triangles(); ++e) {
-        if (t.adj[e] <= e || t.fixed[e] != 0 || t.region[e / 3] == DEAD) continue;
-        const Quadrilateral q = corners_around(t, e);
-        const int inner = degree[q.a] + degree[q.b];
-        if (inner < 13 || inner - degree[q.c] - degree[q.d] < 3) continue;
-        if (stars.frozen[q.a] || stars.frozen[q.b] || stars.frozen[q.c] || stars.frozen[q.d])
-            continue;
-        if (!(triangle_shape(s, q.a, q.d, q.c) > least)) continue;
-        if (!(triangle_shape(s, q.b, q.c, q.d) > least) || !may_swap(t, s, e)) continue;
-        swap_edge(t, e);
-        degree[q.a] -= 1;
-        degree[q.b] -= 1;
-        degree[q.c] += 1;
-        degree[q.d] += 1;
-        touch(marks, q);
-        ++swaps;
-    }
-    return swaps;
+    const DegreeSwaps swaps{t, s, stars, marks, least};
+    std::atomic<int> total = 0;
+    const Array<Triangle> left = for_each_part(t, [&](const Part& part, Array<Triangle>& own) {
+        int made = 0;
+        for (Triangle k = part.first_triangle; k < part.end_triangle; ++k) {
+            if (t.region[k] == DEAD) continue;
+            if (is_within(t, part, k))
+                made += swaps.swap_within(part, k, own);
+            else
+                own.push_back(k);
+        }
+        total += made;
+    });
+    Array<Triangle> none;
+    for (const Triangle k : left)
+        if (t.region[k] != DEAD) total += swaps.swap_within(whole_of(t), k, none);
+    return total;
 }
 
 }  // namespace surfmesh

@@ -3,7 +3,8 @@
 // In: a domain with its frames. What is better is measured in space; a swap is made only where it
 // keeps both triangles positive in the plane, exactly, and where the new edge is short in the
 // plane as it is in space. Fixed edges and the border stay. Vertices of swapped edges become
-// active and dirty; stars are stale afterwards, but for their degrees.
+// active and dirty; stars are stale afterwards, but for their degrees. In a large domain the parts
+// are done side by side, then what is in several.
 #pragma once
 
 #include "optimisation/stars.hpp"

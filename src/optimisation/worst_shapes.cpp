@@ -2,8 +2,12 @@
 
 #include <cmath>
 
+#include "values/threads.hpp"
+
 namespace surfmesh {
 namespace {
+
+constexpr std::size_t BLOCK = 1 << 14;  // triangles looked at together
 
 constexpr double FIRST_RADIUS = 0.16, LAST_RADIUS = 0.02;  // of the search, in unit lengths
 constexpr double LONGEST_WAY = 0.5;                        // in all, unit lengths
@@ -71,13 +75,23 @@ double move_to_best(Triangulation& t, SurfaceFrames& s, Vertex v, HalfEdge start
     return norm(way);
 }
 
+/// The triangles with alpha below ``least``, as they are before any is changed.
+Array<Triangle> triangles_below(const Triangulation& t, const SurfaceFrames& s, double least) {
+    return collect_by_blocks<Triangle>(
+        t.region.size(), BLOCK, [&](std::size_t first, std::size_t last, Array<Triangle>& own) {
+            for (auto k = static_cast<Triangle>(first); k < static_cast<Triangle>(last); ++k)
+                if (t.region[k] != DEAD &&
+                    is_shape_below(s, t.tri[3 * k], t.tri[3 * k + 1], t.tri[3 * k + 2], least))
+                    own.push_back(k);
+        });
+}
+
 }  // namespace
 
 void raise_worst(Triangulation& t, SurfaceFrames& s, const Stars& stars, VertexMarks& marks,
                  double least, Array<Vertex>& moved) {
     moved.clear();
-    for (Triangle k = 0; k < t.triangles(); ++k) {
-        if (t.region[k] == DEAD) continue;
+    const auto raise = [&](Triangle k) {
         for (HalfEdge e = 3 * k; e < 3 * k + 3; ++e) {
             const Vertex a = t.tri[3 * k], b = t.tri[3 * k + 1], c = t.tri[3 * k + 2], v = t.tri[e];
             if (is_collapsed(s, a, b, c) || !is_shape_below(s, a, b, c, least)) break;
@@ -89,6 +103,12 @@ void raise_worst(Triangulation& t, SurfaceFrames& s, const Stars& stars, VertexM
             marks.dirty[v] = 1;
             moved.push_back(v);
         }
+    };
+    if (t.parts.empty()) {
+        for (Triangle k = 0; k < t.triangles(); ++k)
+            if (t.region[k] != DEAD) raise(k);
+    } else {
+        for (const Triangle k : triangles_below(t, s, least)) raise(k);
     }
 }
 

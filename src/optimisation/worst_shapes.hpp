@@ -14,6 +14,7 @@ namespace surfmesh {
 
 /// Move the free corners of triangles with alpha below ``least``; those that moved go to ``moved``.
 ///
+/// In a large domain triangles that get below it on the way wait for the next call.
 /// A search by steps in the unit tangent plane: eight ways at each radius, the best is taken. It
 /// ends where all triangles of the star have ``least``: the others lose no more than they must.
 void raise_worst(Triangulation& t, SurfaceFrames& s, const Stars& stars, VertexMarks& marks,

@@ -175,13 +175,15 @@ Array<double> triangle_deviations(SurfaceReader& surface, const Chart& chart,
                                   std::span<const SpaceTriangle> corners,
                                   std::span<const PlaneTriangle> xy, double limit) {
     Array<double> error(corners.size(), 0.0);
-    for (std::size_t start = 0; start < corners.size(); start += BLOCK) {
-        const std::size_t count = std::min(BLOCK, corners.size() - start);
-        const TriangleBlock block{
-            corners.subspan(start, count), xy.subspan(start, count), {error.data() + start, count}};
-        const Array<std::int32_t> close = look_at_few(surface, chart, block, limit);
-        if (!close.empty()) look_at_many(surface, chart, block, close, limit);
-    }
+    surface.for_each_block(
+        corners.size(), BLOCK, [&](SurfaceReader& reader, std::size_t first, std::size_t last) {
+            const std::size_t count = last - first;
+            const TriangleBlock block{corners.subspan(first, count),
+                                      xy.subspan(first, count),
+                                      {error.data() + first, count}};
+            const Array<std::int32_t> close = look_at_few(reader, chart, block, limit);
+            if (!close.empty()) look_at_many(reader, chart, block, close, limit);
+        });
     return error;
 }
 

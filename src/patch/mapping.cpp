@@ -5,7 +5,7 @@
 namespace surfmesh {
 namespace {
 
-constexpr std::size_t BLOCK = 1 << 15;  // points put into space together
+constexpr std::size_t BLOCK = 1 << 12;  // points put into space together
 
 }  // namespace
 
@@ -14,7 +14,10 @@ MappedPatch map_to_space(PatchState& state, std::span<const Point2> node_uv,
     state.end_passes();
     const Triangulation& t = state.t;
     MappedPatch found;
-    found.uv = state.chart().to_uv({t.xy.data(), t.xy.size()});
+    found.uv.resize(t.xy.size());
+    for_each_block(t.xy.size(), BLOCK, [&](std::size_t first, std::size_t last) {
+        for (std::size_t v = first; v < last; ++v) found.uv[v] = state.chart().to_uv(t.xy[v]);
+    });
     for (std::size_t k = 0; k < node_uv.size(); ++k) found.uv[state.nodes().vertex[k]] = node_uv[k];
     found.seamless = identify_seams({{t.tri.data(), t.tri.size()},
                                      {t.adj.data(), t.adj.size()},
@@ -23,18 +26,20 @@ MappedPatch map_to_space(PatchState& state, std::span<const Point2> node_uv,
                                     boundary);
     const std::span<const std::int64_t> vertex{found.seamless.vertex.data(),
                                                found.seamless.vertex.size()};
-    found.sizes.reserve(vertex.size());
-    found.points.reserve(vertex.size());
-    for (std::size_t start = 0; start < vertex.size(); start += BLOCK) {
-        Array<Point2> places;
-        for (const auto v : vertex.subspan(start, std::min(BLOCK, vertex.size() - start))) {
-            const double size = state.background().scalar_size_at(t.xy[v].x, t.xy[v].y);
-            found.sizes.push_back(size * state.frames.scale[v]);
-            places.push_back(found.uv[v]);
-        }
-        state.surface().read({places.data(), places.size()}, 0);
-        for (const Point3 r : state.surface()[0]) found.points.push_back(r);
-    }
+    found.sizes.resize(vertex.size());
+    found.points.resize(vertex.size());
+    state.surface().for_each_block(
+        vertex.size(), BLOCK, [&](SurfaceReader& reader, std::size_t first, std::size_t last) {
+            Array<Point2> places;
+            for (std::size_t k = first; k < last; ++k) {
+                const std::int64_t v = vertex[k];
+                const double size = state.background().scalar_size_at(t.xy[v].x, t.xy[v].y);
+                found.sizes[k] = size * state.frames.scale[v];
+                places.push_back(found.uv[v]);
+            }
+            reader.read({places.data(), places.size()}, 0);
+            std::copy(reader[0].begin(), reader[0].end(), found.points.data() + first);
+        });
     return found;
 }
 

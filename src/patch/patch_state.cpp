@@ -15,7 +15,7 @@ namespace {
 constexpr int FEW = 4;  // an interior vertex with at most this many triangles is removed
 constexpr double LEAST_FOR_DEGREE = 0.4;  // worst alpha that a swap for degrees may leave
 constexpr int SWEEPS = 8;                 // of swaps over all edges, at most
-constexpr std::size_t BLOCK = 1 << 15;    // vertices put on the surface together
+constexpr std::size_t BLOCK = 1 << 12;    // vertices put on the surface together
 
 // Of the domain: how far from a kink its two sides are looked at, and in which directions.
 constexpr double BESIDE_KINK = 1e-6;
@@ -35,6 +35,34 @@ Array<Vertex> vertices_from(Vertex first, Vertex end) {
 /// that asks for smaller sizes: they cost fewer triangles, and on a faulty face splits have no end.
 std::size_t most_vertices(std::size_t vertices, bool anisotropic) {
     return vertices + vertices / (anisotropic ? 2 : 16) + 64;
+}
+
+/// r_u and r_v on kinks: the mean of what they are around.
+void read_mean_slopes(SurfaceReader& surface, std::span<const Point2> uv, Array<Point3>& ru,
+                      Array<Point3>& rv) {
+    const ParameterBox box = surface.domain();
+    const Point2 step = BESIDE_KINK * (box.high - box.low);
+    ru.resize(uv.size());
+    rv.resize(uv.size());
+    Array<Point2> places(uv.size());
+    for (std::size_t way = 0; way < std::size(AROUND_KINK); ++way) {
+        for (std::size_t k = 0; k < uv.size(); ++k) {
+            const Point2 to = {uv[k].x + step.x * AROUND_KINK[way].x,
+                               uv[k].y + step.y * AROUND_KINK[way].y};
+            places[k] = {std::min(std::max(to.x, box.low.x), box.high.x),
+                         std::min(std::max(to.y, box.low.y), box.high.y)};
+        }
+        surface.read({places.data(), places.size()}, 1);
+        for (std::size_t k = 0; k < uv.size(); ++k) {
+            ru[k] = way == 0 ? surface[1][k] : ru[k] + surface[1][k];
+            rv[k] = way == 0 ? surface[2][k] : rv[k] + surface[2][k];
+        }
+    }
+    constexpr double FRACTION = 1.0 / std::size(AROUND_KINK);
+    for (std::size_t k = 0; k < uv.size(); ++k) {
+        ru[k] = FRACTION * ru[k];
+        rv[k] = FRACTION * rv[k];
+    }
 }
 
 }  // namespace
@@ -77,17 +105,22 @@ Array<Vertex> PatchState::identified() const {
 }
 
 void PatchState::set_frames(std::span<const Vertex> vertices) {
-    for (const Vertex v : vertices) set_size(t, frames, setting_.background, v);
+    for_each_block(vertices.size(), BLOCK, [&](std::size_t first, std::size_t last) {
+        for (const Vertex v : vertices.subspan(first, last - first))
+            set_size(t, frames, setting_.background, v);
+    });
     set_sized_frames(vertices);
 }
 
 /// The same where sizes are those of the places already.
 void PatchState::set_sized_frames(std::span<const Vertex> vertices, bool on_kink) {
-    for (std::size_t start = 0; start < vertices.size(); start += BLOCK)
-        set_block(vertices.subspan(start, std::min(BLOCK, vertices.size() - start)), on_kink);
+    surface_.for_each_block(vertices.size(), BLOCK,
+                            [&](SurfaceReader& reader, std::size_t first, std::size_t last) {
+                                set_block(reader, vertices.subspan(first, last - first), on_kink);
+                            });
 }
 
-void PatchState::set_block(std::span<const Vertex> vertices, bool on_kink) {
+void PatchState::set_block(SurfaceReader& reader, std::span<const Vertex> vertices, bool on_kink) {
     Array<Point2> uv(vertices.size()), rates(vertices.size());
     for (std::size_t k = 0; k < vertices.size(); ++k) {
         const ChartPoint at = setting_.chart.at(t.xy[vertices[k]]);
@@ -95,19 +128,21 @@ void PatchState::set_block(std::span<const Vertex> vertices, bool on_kink) {
         rates[k] = at.rates;
     }
     Array<Point3> ru, rv;
-    if (on_kink) read_mean_slopes({uv.data(), uv.size()}, ru, rv);
-    surface_.read({uv.data(), uv.size()}, 1);
+    if (on_kink) read_mean_slopes(reader, {uv.data(), uv.size()}, ru, rv);
+    reader.read({uv.data(), uv.size()}, 1);
     for (std::size_t k = 0; k < vertices.size(); ++k) {
-        const Point3 du = on_kink ? ru[k] : surface_[1][k], dv = on_kink ? rv[k] : surface_[2][k];
+        const Point3 du = on_kink ? ru[k] : reader[1][k], dv = on_kink ? rv[k] : reader[2][k];
         set_frame(t, frames, setting_.background, vertices[k],
-                  {surface_[0][k], rates[k].x * du, rates[k].y * dv}, largest_);
+                  {reader[0][k], rates[k].x * du, rates[k].y * dv}, largest_);
     }
 }
 
 void PatchState::renew_frames(std::span<const Vertex> vertices, double drift) {
-    Array<Vertex> far;
-    for (const Vertex v : vertices)
-        if (frames.drift[v] > drift) far.push_back(v);
+    const Array<Vertex> far = collect_by_blocks<Vertex>(
+        vertices.size(), BLOCK, [&](std::size_t first, std::size_t last, Array<Vertex>& own) {
+            for (const Vertex v : vertices.subspan(first, last - first))
+                if (frames.drift[v] > drift) own.push_back(v);
+        });
     set_frames(all(far));
 }
 
@@ -129,34 +164,6 @@ void PatchState::place_nodes() {
     Array<Point3> points;
     for (const Vertex v : nodes_.same) points.push_back(frames.point[v]);
     for (std::size_t k = 0; k < count; ++k) frames.point[nodes_.vertex[k]] = points[k];
-}
-
-/// r_u and r_v on kinks: the mean of what they are around.
-void PatchState::read_mean_slopes(std::span<const Point2> uv, Array<Point3>& ru,
-                                  Array<Point3>& rv) {
-    const ParameterBox box = surface_.domain();
-    const Point2 step = BESIDE_KINK * (box.high - box.low);
-    ru.resize(uv.size());
-    rv.resize(uv.size());
-    Array<Point2> places(uv.size());
-    for (std::size_t way = 0; way < std::size(AROUND_KINK); ++way) {
-        for (std::size_t k = 0; k < uv.size(); ++k) {
-            const Point2 to = {uv[k].x + step.x * AROUND_KINK[way].x,
-                               uv[k].y + step.y * AROUND_KINK[way].y};
-            places[k] = {std::min(std::max(to.x, box.low.x), box.high.x),
-                         std::min(std::max(to.y, box.low.y), box.high.y)};
-        }
-        surface_.read({places.data(), places.size()}, 1);
-        for (std::size_t k = 0; k < uv.size(); ++k) {
-            ru[k] = way == 0 ? surface_[1][k] : ru[k] + surface_[1][k];
-            rv[k] = way == 0 ? surface_[2][k] : rv[k] + surface_[2][k];
-        }
-    }
-    constexpr double FRACTION = 1.0 / std::size(AROUND_KINK);
-    for (std::size_t k = 0; k < uv.size(); ++k) {
-        ru[k] = FRACTION * ru[k];
-        rv[k] = FRACTION * rv[k];
-    }
 }
 
 void PatchState::find_stars() {

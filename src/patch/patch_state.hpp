@@ -113,8 +113,7 @@ class PatchState {
   private:
     void renew_frames(std::span<const Vertex> vertices, double drift);
     void set_sized_frames(std::span<const Vertex> vertices, bool on_kink = false);
-    void set_block(std::span<const Vertex> vertices, bool on_kink);
-    void read_mean_slopes(std::span<const Point2> uv, Array<Point3>& ru, Array<Point3>& rv);
+    void set_block(SurfaceReader& reader, std::span<const Vertex> vertices, bool on_kink);
     void place_nodes();
     int set_new(Vertex first);
 

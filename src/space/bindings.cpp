@@ -8,6 +8,7 @@
 #include "space/edge_distances.hpp"
 #include "space/measure.hpp"
 #include "space/orient_space.hpp"
+#include "space/triangle_distance.hpp"
 #include "space/triangle_pairs.hpp"
 
 namespace surfmesh::binding {
@@ -88,7 +89,7 @@ void bind_triangle_pairs(nb::module_& m) {
         nb::arg("corners"), nb::arg("most"),
         "Pairs (k, 2) of triangles that meet where they should not, the lower first.\n\ncorners: "
         "(3 m, 3), finite; quick where near triangles are near in the row. The search ends after "
-        "the triangle with which there are ``most`` pairs or more.");
+        "the leaf with which there are ``most`` pairs or more.");
 }
 
 void bind_edge_gaps(nb::module_& m) {
@@ -196,6 +197,23 @@ void bind_distances(nb::module_& m) {
         "\n\nUnit normal along r_u x r_v (zero where there is none); distance along it (the whole "
         "distance where there is none); distance within the tangent plane; the step in (u, v) that "
         "covers the latter (Gauss-Newton).");
+    m.def(
+        "triangle_distances",
+        [](const Points3& points, const nb::ndarray<const double, nb::shape<-1, 3, 3>, nb::c_contig,
+                                                    nb::device::cpu>& corners) {
+            const std::size_t step = points.shape(0) == 1 ? 0 : 1;
+            if (step == 1) require_rows(points.shape(0), corners.shape(0), "points");
+            Array<double> found(corners.shape(0));
+            {
+                const nb::gil_scoped_release released;
+                const auto* triangles = reinterpret_cast<const Triangle3*>(corners.data());
+                for (std::size_t i = 0; i < found.size(); ++i)
+                    found[i] = triangle_distance(rows<Point3>(points)[i * step], triangles[i]);
+            }
+            return view(found);
+        },
+        nb::arg("points"), nb::arg("corners"),
+        "Distance (k,) of points (k, 3), or of one (1, 3), from triangles with corners (k, 3, 3).");
     m.def(
         "component_labels",
         [](std::size_t count, const Matrix<std::int32_t, 2>& pairs) {

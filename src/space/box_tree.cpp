@@ -40,9 +40,12 @@ struct Bounds {
     void add(Point3 p) { add({{p.x, p.y, p.z}, {p.x, p.y, p.z}}); }
 };
 
+/// All six comparisons, without a branch: which of them decides cannot be foretold.
 bool overlap(const Bounds& a, const Bounds& b) {
-    return a.low[0] <= b.high[0] && b.low[0] <= a.high[0] && a.low[1] <= b.high[1] &&
-           b.low[1] <= a.high[1] && a.low[2] <= b.high[2] && b.low[2] <= a.high[2];
+    bool all = true;
+    for (int k = 0; k < 3; ++k)
+        all &= static_cast<int>(a.low[k] <= b.high[k]) & static_cast<int>(b.low[k] <= a.high[k]);
+    return all;
 }
 
 /// The boxes around triangles, and around what lies below each node of the tree over them.
@@ -76,29 +79,45 @@ BoxTree tree_over(std::span<const Triangle3> triangles) {
     return tree;
 }
 
-/// Add the pairs of triangle t and those after it that meet.
-void add_meetings(std::span<const Triangle3> triangles, const BoxTree& tree, std::size_t t,
+/// The triangles of a leaf: from the first to before the last.
+struct Leaf {
+    std::size_t first, end;
+};
+
+Leaf leaf_of(std::size_t number, std::size_t triangles) {
+    const std::size_t first = std::min(number * LEAF, triangles);
+    return {first, std::min(first + LEAF, triangles)};
+}
+
+/// Add the pairs of two leaves that meet; of one leaf with itself each pair once.
+void add_meetings_of(std::span<const Triangle3> triangles, const BoxTree& tree, std::size_t own,
+                     std::size_t other, Array<MeetingTriangles>& found) {
+    const Leaf here = leaf_of(own, triangles.size()), there = leaf_of(other, triangles.size());
+    const Bounds& around = tree.nodes[tree.leaves - 1 + other];
+    for (std::size_t s = here.first; s < here.end; ++s) {
+        if (!overlap(tree.boxes[s], around)) continue;
+        for (std::size_t t = std::max(there.first, s + 1); t < there.end; ++t)
+            if (overlap(tree.boxes[s], tree.boxes[t]) && triangles_meet(triangles[s], triangles[t]))
+                found.push_back({static_cast<std::int32_t>(s), static_cast<std::int32_t>(t)});
+    }
+}
+
+/// Add the pairs of a leaf's triangles and those after them that meet.
+void add_meetings(std::span<const Triangle3> triangles, const BoxTree& tree, std::size_t leaf,
                   Array<MeetingTriangles>& found) {
-    const std::size_t own = tree.leaves + t / LEAF;  // by one more than its node, as is ``node``
+    const std::size_t own = tree.leaves + leaf;  // by one more than its node, as is ``node``
+    const Bounds box = tree.nodes[own - 1];
     std::size_t node = 1;
     int above = tree.depth;  // levels down to the leaves
     while (true) {
-        // what ends before the own leaf has met this triangle already
-        const bool near = node >= own >> above && overlap(tree.boxes[t], tree.nodes[node - 1]);
+        // what ends before the own leaf has met it already
+        const bool near = node >= own >> above && overlap(box, tree.nodes[node - 1]);
         if (near && above > 0) {
             node *= 2;
             --above;
             continue;
         }
-        if (near) {
-            const std::size_t first = (node - tree.leaves) * LEAF;
-            const std::size_t end = std::min(first + LEAF, triangles.size());
-            for (std::size_t other = std::max(first, t + 1); other < end; ++other)
-                if (overlap(tree.boxes[t], tree.boxes[other]) &&
-                    triangles_meet(triangles[t], triangles[other]))
-                    found.push_back(
-                        {static_cast<std::int32_t>(t), static_cast<std::int32_t>(other)});
-        }
+        if (near) add_meetings_of(triangles, tree, leaf, node - tree.leaves, found);
         while (node % 2 == 1 && node > 1) {  // done with a right child: up
             node /= 2;
             ++above;
@@ -129,8 +148,8 @@ Array<std::int64_t> curve_places(std::span<const Point3> points,
 Array<MeetingTriangles> meeting_triangles(std::span<const Triangle3> triangles, std::size_t most) {
     const BoxTree tree = tree_over(triangles);
     Array<MeetingTriangles> found;
-    for (std::size_t t = 0; t < triangles.size() && found.size() < most; ++t)
-        add_meetings(triangles, tree, t, found);
+    for (std::size_t leaf = 0; leaf * LEAF < triangles.size() && found.size() < most; ++leaf)
+        add_meetings(triangles, tree, leaf, found);
     return found;
 }
 

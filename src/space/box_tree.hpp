@@ -36,7 +36,7 @@ struct MeetingTriangles {
 
 /// Pairs of triangles that meet where they should not (``triangles_meet``), the lower first.
 ///
-/// Each triangle is compared with those after it. The search ends after the triangle with which
+/// Each leaf is compared with itself and those after it. The search ends after the leaf with which
 /// there are ``most`` pairs or more.
 Array<MeetingTriangles> meeting_triangles(std::span<const Triangle3> triangles, std::size_t most);
 

@@ -31,13 +31,21 @@ Point3 direction(Point3 a, Point3 b) {
     return {d.x / length, d.y / length, d.z / length};
 }
 
+/// Has a plane through a with the normal w surely bc on one side and de on the other?
+bool are_parted_at(Point3 a, Point3 b, Point3 c, Point3 d, Point3 e, Point3 w) {
+    const int side = side_of_plane(a, b, w);
+    return side != 0 && side_of_plane(a, c, w) == side && side_of_plane(a, d, w) == -side &&
+           side_of_plane(a, e, w) == -side;
+}
+
 /// Is there surely a plane through a with bc on one side and de on the other?
 ///
-///      b   d         tried: the plane half-way between the two nearest of the rays from a,
-///       \ : /        then between the two middles
-///    c - a - e
+///      b   d         tried: the plane between the two middles, by the sides as they are long, which
+///       \ : /        suffices for most; then that half-way between the two nearest of the rays
+///    c - a - e       from a, then between the middles of the rays
 ///        :
 bool are_parted_at_vertex(Point3 a, Point3 b, Point3 c, Point3 d, Point3 e) {
+    if (are_parted_at(a, b, c, d, e, b + c - d - e)) return true;
     const Point3 rb = direction(a, b), rc = direction(a, c), rd = direction(a, d),
                  re = direction(a, e);
     const double bd = dot(rb, rd), be = dot(rb, re), cd = dot(rc, rd), ce = dot(rc, re);
@@ -46,13 +54,8 @@ bool are_parted_at_vertex(Point3 a, Point3 b, Point3 c, Point3 d, Point3 e) {
                             : nearest == be ? rb - re
                             : nearest == cd ? rc - rd
                                             : rc - re;
-    for (const Point3 w : {half_way, rb + rc - rd - re}) {
-        const int side = side_of_plane(a, b, w);
-        if (side != 0 && side_of_plane(a, c, w) == side && side_of_plane(a, d, w) == -side &&
-            side_of_plane(a, e, w) == -side)
-            return true;
-    }
-    return false;
+    return are_parted_at(a, b, c, d, e, half_way) ||
+           are_parted_at(a, b, c, d, e, rb + rc - rd - re);
 }
 
 /// Are all corners of t surely farther along w than all of s?
@@ -82,11 +85,16 @@ double orient_along(int axis, Point3 a, Point3 b, Point3 c) {
     return orient(seen_along(axis, a), seen_along(axis, b), seen_along(axis, c));
 }
 
-/// The axis along which a triangle is seen best, or -1 when it has no area; exact.
-int flattest_axis(const Triangle3& s) {
+/// The axis along which a triangle seems to be seen best.
+int steepest_axis(const Triangle3& s) {
     const Point3 n = cross(s[1] - s[0], s[2] - s[0]);
     const double x = std::abs(n.x), y = std::abs(n.y), z = std::abs(n.z);
-    const int best = x >= y && x >= z ? 0 : y >= z ? 1 : 2;
+    return x >= y && x >= z ? 0 : y >= z ? 1 : 2;
+}
+
+/// The axis along which a triangle is seen best, or -1 when it has no area; exact.
+int flattest_axis(const Triangle3& s) {
+    const int best = steepest_axis(s);
     for (int k = 0; k < 3; ++k) {
         const int axis = (best + k) % 3;
         if (orient_along(axis, s[0], s[1], s[2]) != 0.0) return axis;
@@ -157,16 +165,31 @@ SharedCorners shared_corners(const Triangle3& s, const Triangle3& t) {
     return shared;
 }
 
+/// What two triangles with two corners in common have: the ends of their side, and a third each.
+struct CommonSide {
+    Point3 start, end, third_s, third_t;
+};
+
+CommonSide common_side(const Triangle3& s, const Triangle3& t, const SharedCorners& shared) {
+    return {s[shared.before[0]], s[shared.last[0]], s[3 - shared.before[0] - shared.last[0]],
+            t[3 - shared.before[1] - shared.last[1]]};
+}
+
+/// Do the third corners lie on opposite sides of the common one, seen along an axis? Then they are
+/// no fold, whatever the axis: in a plane along it neither would lie on any side.
+bool are_opposite(const CommonSide& side, int axis) {
+    const double here = orient_along(axis, side.start, side.end, side.third_s);
+    const double there = orient_along(axis, side.start, side.end, side.third_t);
+    return (here > 0.0 && there < 0.0) || (here < 0.0 && there > 0.0);
+}
+
 /// Do two triangles with two corners in common lie in one plane, on the same side of their edge?
-bool are_folded(const Triangle3& s, const Triangle3& t, const SharedCorners& shared, int axis) {
-    const std::size_t third_s = 3 - shared.before[0] - shared.last[0];
-    const std::size_t third_t = 3 - shared.before[1] - shared.last[1];
-    const Point3 start = s[shared.before[0]], end = s[shared.last[0]];
-    const double here = orient_along(axis, start, end, s[third_s]);
-    const double there = orient_along(axis, start, end, t[third_t]);
+bool are_folded(const CommonSide& side, int axis) {
+    const double here = orient_along(axis, side.start, side.end, side.third_s);
+    const double there = orient_along(axis, side.start, side.end, side.third_t);
     if ((here > 0.0) != (there > 0.0) || there == 0.0)
         return false;  // in one plane they would lie on opposite sides
-    return orient_space(start, end, s[third_s], t[third_t]) == 0.0;
+    return orient_space(side.start, side.end, side.third_s, side.third_t) == 0.0;
 }
 
 }  // namespace
@@ -177,6 +200,8 @@ bool triangles_meet(const Triangle3& s, const Triangle3& t) {
     const Point3 b = s[next(a)], c = s[(a + 2) % 3], e = t[next(d)], f = t[(d + 2) % 3];
     if (shared.count == 0 && (are_parted_by(s, t) || are_parted_by(t, s))) return false;
     if (shared.count == 1 && are_parted_at_vertex(s[a], b, c, e, f)) return false;
+    if (shared.count == 2 && are_opposite(common_side(s, t, shared), steepest_axis(s)))
+        return false;
     const int axis_s = flattest_axis(s), axis_t = flattest_axis(t);
     if (axis_s < 0 || axis_t < 0) return false;
     if (shared.count == 0) {
@@ -187,7 +212,7 @@ bool triangles_meet(const Triangle3& s, const Triangle3& t) {
     }
     // where they part beyond the common vertex, one of them ends at the side that is opposite it
     if (shared.count == 1) return pierces(b, c, t, axis_t) || pierces(e, f, s, axis_s);
-    return shared.count > 2 || are_folded(s, t, shared, axis_s);
+    return shared.count > 2 || are_folded(common_side(s, t, shared), axis_s);
 }
 
 }  // namespace surfmesh

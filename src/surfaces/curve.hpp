@@ -4,8 +4,10 @@
 // several threads may use one curve, and none of them fails.
 #pragma once
 
+#include <array>
 #include <span>
 
+#include "surfaces/interval.hpp"
 #include "values/array.hpp"
 #include "values/point.hpp"
 
@@ -32,6 +34,13 @@ class Curve {
     [[nodiscard]] virtual bool derivative_magnitudes(std::span<const ParameterRange> /*ranges*/,
                                                      int /*order*/,
                                                      std::span<Point3> /*out*/) const {
+        return false;
+    }
+
+    /// Proved bounds of w . (c - about), w . c' and w . c'' over a range of t, for a vector w;
+    /// false where none are known.
+    [[nodiscard]] virtual bool enclose_along(Interval /*t*/, Point3 /*w*/, Point3 /*about*/,
+                                             std::array<Interval, 3>& /*out*/) const {
         return false;
     }
 

@@ -22,6 +22,8 @@ class Line final : public Curve {
     void evaluate(std::span<const double> t, int order, std::span<Point3> out) const override;
     [[nodiscard]] bool derivative_magnitudes(std::span<const ParameterRange> ranges, int order,
                                              std::span<Point3> out) const override;
+    [[nodiscard]] bool enclose_along(Interval t, Point3 w, Point3 about,
+                                     std::array<Interval, 3>& out) const override;
 
   private:
     int dimension_;
@@ -44,6 +46,8 @@ class Conic final : public Curve {
     void evaluate(std::span<const double> t, int order, std::span<Point3> out) const override;
     [[nodiscard]] bool derivative_magnitudes(std::span<const ParameterRange> ranges, int order,
                                              std::span<Point3> out) const override;
+    [[nodiscard]] bool enclose_along(Interval t, Point3 w, Point3 about,
+                                     std::array<Interval, 3>& out) const override;
 
   private:
     [[nodiscard]] Point2 on_parabola(double t, int derivative) const;

@@ -31,6 +31,10 @@ class Plane final : public FaceSurface {
                            std::span<Point3> out) const override;
     SurfaceStatus derivative_magnitudes(std::span<const ParameterBox> cells, int order,
                                         std::span<Point3> out) const override;
+    SurfaceStatus enclose(std::span<const Point2> uv, std::span<EnclosedPoint> out) const override;
+    SurfaceStatus enclose_bends(std::span<const ParameterBox> cells,
+                                std::span<const Directions> directions,
+                                std::span<Bends> out) const override;
 
   private:
     Frame frame_;
@@ -53,6 +57,10 @@ class TurnedProfile final : public FaceSurface {
                            std::span<Point3> out) const override;
     SurfaceStatus derivative_magnitudes(std::span<const ParameterBox> cells, int order,
                                         std::span<Point3> out) const override;
+    SurfaceStatus enclose(std::span<const Point2> uv, std::span<EnclosedPoint> out) const override;
+    SurfaceStatus enclose_bends(std::span<const ParameterBox> cells,
+                                std::span<const Directions> directions,
+                                std::span<Bends> out) const override;
 
   private:
     Frame frame_;

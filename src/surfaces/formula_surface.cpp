@@ -144,4 +144,47 @@ SurfaceStatus FormulaSurface::all_bounds(std::span<const ParameterBox> cells,
     return bounds_from(0, Kinks::UNBOUNDED, cells, lower, upper);
 }
 
+SurfaceStatus FormulaSurface::enclose(std::span<const Point2> uv,
+                                      std::span<EnclosedPoint> out) const {
+    if (tapes_[0] == nullptr) return SurfaceStatus::UNKNOWN;
+    Array<Point3> lower(uv.size()), upper(uv.size());
+    enclosures(*tapes_[0], as_numbers(uv), as_numbers(uv), 0,
+               as_numbers({lower.data(), lower.size()}), as_numbers({upper.data(), upper.size()}));
+    for (std::size_t i = 0; i < uv.size(); ++i) {
+        const Point3 middle = 0.5 * (lower[i] + upper[i]), wide = upper[i] - lower[i];
+        // half of it, and as much again for the rounding of the middle
+        out[i] = {middle, std::max({wide.x, wide.y, wide.z})};
+    }
+    return SurfaceStatus::DONE;
+}
+
+SurfaceStatus FormulaSurface::enclose_bends(std::span<const ParameterBox> cells,
+                                            std::span<const Directions> directions,
+                                            std::span<Bends> out) const {
+    constexpr std::size_t FIRST = 9;  // after r, r_u and r_v
+    if (tapes_[2] == nullptr) return SurfaceStatus::UNKNOWN;
+    Array<Point2> low(cells.size()), high(cells.size());
+    for (std::size_t i = 0; i < cells.size(); ++i) {
+        low[i] = cells[i].low;
+        high[i] = cells[i].high;
+    }
+    Array<Point3> lower(3 * cells.size()), upper(3 * cells.size());
+    enclosures(*tapes_[2], as_numbers({low.data(), low.size()}),
+               as_numbers({high.data(), high.size()}), FIRST,
+               as_numbers({lower.data(), lower.size()}), as_numbers({upper.data(), upper.size()}));
+    for (std::size_t i = 0; i < cells.size(); ++i) {
+        std::array<BoxedVector, 3> second;
+        for (std::size_t k = 0; k < 3; ++k) {
+            const Point3 a = lower[3 * i + k], b = upper[3 * i + k];
+            second[k] = {{a.x, b.x}, {a.y, b.y}, {a.z, b.z}};
+        }
+        for (std::size_t d = 0; d < 3; ++d) {
+            out[i].uu[d] = along(directions[i][d], second[0]);
+            out[i].uv[d] = along(directions[i][d], second[1]);
+            out[i].vv[d] = along(directions[i][d], second[2]);
+        }
+    }
+    return SurfaceStatus::DONE;
+}
+
 }  // namespace surfmesh

@@ -42,6 +42,10 @@ class FormulaSurface final : public Surface {
                                     std::span<Point3> upper) const override;
     SurfaceStatus all_bounds(std::span<const ParameterBox> cells, std::span<Point3> lower,
                              std::span<Point3> upper) const override;
+    SurfaceStatus enclose(std::span<const Point2> uv, std::span<EnclosedPoint> out) const override;
+    SurfaceStatus enclose_bends(std::span<const ParameterBox> cells,
+                                std::span<const Directions> directions,
+                                std::span<Bends> out) const override;
 
   private:
     SurfaceStatus bounds_from(std::size_t first, Kinks kinks, std::span<const ParameterBox> cells,

@@ -45,6 +45,8 @@ class SplineBasis {
         : knots_(knots), degree_(static_cast<std::int64_t>(degree)), limits_(limits) {}
 
     [[nodiscard]] std::size_t degree() const { return static_cast<std::size_t>(degree_); }
+    [[nodiscard]] std::span<const double> knots() const { return {knots_.data(), knots_.size()}; }
+    [[nodiscard]] double period() const { return limits_.period; }
 
     /// At a knot that is an end of the part in use, the span lies inside.
     [[nodiscard]] KnotPlace locate(double t) const;

@@ -5,6 +5,7 @@
 // span, as those of curves do.
 #pragma once
 
+#include "surfaces/bezier_piece.hpp"
 #include "surfaces/face_surface.hpp"
 #include "surfaces/spline_basis.hpp"
 
@@ -28,10 +29,18 @@ class SplineSurface final : public FaceSurface {
                            std::span<Point3> out) const override;
     SurfaceStatus derivative_magnitudes(std::span<const ParameterBox> cells, int order,
                                         std::span<Point3> out) const override;
+    SurfaceStatus enclose(std::span<const Point2> uv, std::span<EnclosedPoint> out) const override;
+    SurfaceStatus enclose_bends(std::span<const ParameterBox> cells,
+                                std::span<const Directions> directions,
+                                std::span<Bends> out) const override;
 
   private:
     template <int order, bool rational>
     void evaluate_as(std::span<const Point2> uv, std::span<Point3> out) const;
+
+    Bends bends_of_part(const SpanPart& u, const SpanPart& v, const Directions& directions,
+                        Array<Homogeneous>& control, Array<Homogeneous>& line, Array<double>& along,
+                        Array<double>& weights) const;
 
     SplineBasis u_, v_;
     std::int64_t columns_;

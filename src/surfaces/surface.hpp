@@ -10,6 +10,7 @@
 #include <exception>
 #include <span>
 
+#include "surfaces/enclosure.hpp"
 #include "values/array.hpp"
 #include "values/point.hpp"
 
@@ -72,6 +73,20 @@ class Surface {
     /// UNKNOWN where the surface has none. By default what ``derivative_bounds`` gives.
     virtual SurfaceStatus derivative_magnitudes(std::span<const ParameterBox> cells, int order,
                                                 std::span<Point3> out) const;
+
+    /// The points with a proved bound of their round-off. UNKNOWN where the surface knows none.
+    virtual SurfaceStatus enclose(std::span<const Point2> /*uv*/,
+                                  std::span<EnclosedPoint> /*out*/) const {
+        return SurfaceStatus::UNKNOWN;
+    }
+
+    /// Proved bounds of the second derivatives over cells, each along its own directions; infinite
+    /// where they are not known, and across kinks. UNKNOWN where the surface knows none.
+    virtual SurfaceStatus enclose_bends(std::span<const ParameterBox> /*cells*/,
+                                        std::span<const Directions> /*directions*/,
+                                        std::span<Bends> /*out*/) const {
+        return SurfaceStatus::UNKNOWN;
+    }
 
     /// The exception behind FAILED, once. A surface that is made of others asks them.
     [[nodiscard]] virtual std::exception_ptr take_failure() const { return {}; }

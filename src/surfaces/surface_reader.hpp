@@ -5,10 +5,12 @@
 #pragma once
 
 #include <algorithm>
+#include <atomic>
 #include <span>
 
 #include "surfaces/surface.hpp"
 #include "values/array.hpp"
+#include "values/threads.hpp"
 
 namespace surfmesh {
 
@@ -19,6 +21,20 @@ class SurfaceReader {
     [[nodiscard]] ParameterBox domain() const { return surface_.domain(); }
     [[nodiscard]] SurfaceStatus status() const { return status_; }
     [[nodiscard]] bool failed() const { return status_ != SurfaceStatus::DONE; }
+
+    /// Call ``work(reader, first, last)`` for blocks of [0, count), side by side, each with a
+    /// reader of its own. Where one of them fails this one has failed.
+    template <class Work>
+    void for_each_block(std::size_t count, std::size_t block, const Work& work) {
+        std::atomic<SurfaceStatus> worst = status_;
+        surfmesh::for_each_block(count, block, [&](std::size_t first, std::size_t last) {
+            SurfaceReader own(surface_);
+            own.status_ = worst.load();
+            work(own, first, last);
+            if (own.failed()) worst.store(own.status_);
+        });
+        status_ = worst.load();
+    }
 
     /// Read r and its derivatives up to an order at uv; the block before is forgotten.
     void read(std::span<const Point2> uv, int order) {

@@ -26,6 +26,10 @@ class ExtrusionSurface final : public FaceSurface {
                            std::span<Point3> out) const override;
     SurfaceStatus derivative_magnitudes(std::span<const ParameterBox> cells, int order,
                                         std::span<Point3> out) const override;
+    SurfaceStatus enclose(std::span<const Point2> uv, std::span<EnclosedPoint> out) const override;
+    SurfaceStatus enclose_bends(std::span<const ParameterBox> cells,
+                                std::span<const Directions> directions,
+                                std::span<Bends> out) const override;
 
   private:
     std::shared_ptr<const Curve> curve_;
@@ -42,6 +46,10 @@ class RevolutionSurface final : public FaceSurface {
                            std::span<Point3> out) const override;
     SurfaceStatus derivative_magnitudes(std::span<const ParameterBox> cells, int order,
                                         std::span<Point3> out) const override;
+    SurfaceStatus enclose(std::span<const Point2> uv, std::span<EnclosedPoint> out) const override;
+    SurfaceStatus enclose_bends(std::span<const ParameterBox> cells,
+                                std::span<const Directions> directions,
+                                std::span<Bends> out) const override;
 
   private:
     std::shared_ptr<const Curve> curve_;

@@ -10,6 +10,7 @@
 #include "elementary_functions/inverse_trigonometric.hpp"
 #include "elementary_functions/logarithm.hpp"
 #include "elementary_functions/power.hpp"
+#include "surfaces/outward.hpp"
 #include "surfaces/tape_evaluation.hpp"
 
 namespace surfmesh {
@@ -217,10 +218,89 @@ Interval widened(Interval a) {
     return {a.lo - margin, a.hi + margin};
 }
 
-}  // namespace
+/// By how many ulps an operation's computed ends are off at most: their headers say how exact the
+/// elementary functions are.
+double ulps_of(const Instruction& step) {
+    switch (step.operation) {
+        case Operation::NEGATIVE:
+        case Operation::ABSOLUTE:
+        case Operation::MINIMUM:
+        case Operation::MAXIMUM:
+        case Operation::SIGNUM:
+        case Operation::SIDE:
+        case Operation::UNIT_STEP:
+        case Operation::STEP:
+        case Operation::FLOOR:
+        case Operation::CHOSEN:
+        case Operation::KINK:
+        case Operation::JUMP:
+        case Operation::TREAD:
+        case Operation::CUT:
+            return 0.0;
+        case Operation::ADD:
+        case Operation::SUBTRACT:
+        case Operation::MULTIPLY:
+        case Operation::RECIPROCAL:
+        case Operation::SQRT:
+            return 0.5;
+        case Operation::INTEGER_POWER:  // a product's relative error is the sum of its factors'
+            return static_cast<double>(step.exponent);
+        case Operation::TURN:  // pi is added
+            return 4.0;
+        default:
+            return 3.0;
+    }
+}
 
-void bounds(const Tape& tape, std::span<const double> lo, std::span<const double> hi, Kinks kinks,
-            std::size_t first, std::span<double> lower, std::span<double> upper) {
+bool is_bessel(Operation operation) {
+    return operation == Operation::BESSEL_0 || operation == Operation::BESSEL_1 ||
+           operation == Operation::BESSEL_2;
+}
+
+/// Waves of angles so large say nothing: their phase is not known well enough.
+Interval known_phase(Interval a, Interval found) {
+    constexpr double FARTHEST = 1e6;
+    return std::abs(a.lo) < FARTHEST && std::abs(a.hi) < FARTHEST ? found : Interval{-1.0, 1.0};
+}
+
+/// One instruction with its result rounded outwards.
+void run_outward(const Instruction& step, const Slots& slots, std::size_t n) {
+    const auto [a, b, c] = step.operands;
+    const Operands o{slots[step.target], slots[a], slots[b], slots[c], n};
+    if (step.operation == Operation::DIVIDE) return each_pair(o, outward::divide);
+    if (is_bessel(step.operation)) {  // a middle, and a slope from there
+        constexpr double ROUNDING = 0x1p-47;
+        run(step, slots, n, Kinks::UNBOUNDED);
+        return each_pair({o.out, o.out, o.a, o.a, n}, [](Interval found, Interval) {
+            return Interval{found.lo - ROUNDING, found.hi + ROUNDING};
+        });
+    }
+    const bool wave = step.operation == Operation::SIN || step.operation == Operation::COS;
+    if (wave) {
+        const bool is_sine = step.operation == Operation::SIN;
+        return each(o, [is_sine](Interval angle) {
+            const Interval found = is_sine ? intervals::sin(angle) : intervals::cos(angle);
+            return outward::widened(known_phase(angle, found), 1.0);
+        });
+    }
+    run(step, slots, n, Kinks::UNBOUNDED);
+    const double ulps = ulps_of(step);
+    if (ulps == 0.5)
+        for (std::size_t k = 0; k < n; ++k) o.out[k] = outward::rounded(o.out[k]);
+    else if (ulps > 0.0)
+        for (std::size_t k = 0; k < n; ++k) o.out[k] = outward::widened(o.out[k], ulps);
+}
+
+/// Which numbers tapes are run in, and what becomes of their outputs.
+struct Arithmetic {
+    Interval (*constant)(double);
+    void (*run)(const Instruction&, const Slots&, std::size_t, Kinks);
+    Interval (*output)(Interval);
+};
+
+void bounds_in(const Arithmetic& arithmetic, const Tape& tape, std::span<const double> lo,
+               std::span<const double> hi, Kinks kinks, std::size_t first, std::span<double> lower,
+               std::span<double> upper) {
     const std::size_t inputs = tape.inputs();
     const std::size_t count = inputs == 0 ? 0 : lo.size() / inputs;
     const std::size_t lanes = std::min(count, TAPE_BLOCK);
@@ -230,7 +310,7 @@ void bounds(const Tape& tape, std::span<const double> lo, std::span<const double
     const Slots slots(tape, lanes);
     auto constant = static_cast<std::int32_t>(inputs);
     for (const double value : tape.constants())
-        std::fill_n(slots[constant++], lanes, Interval{value, value});
+        std::fill_n(slots[constant++], lanes, arithmetic.constant(value));
     for (std::size_t start = 0; start < count; start += lanes) {
         const std::size_t n = std::min(lanes, count - start);
         for (std::size_t column = 0; column < inputs; ++column) {
@@ -240,16 +320,38 @@ void bounds(const Tape& tape, std::span<const double> lo, std::span<const double
                 input[k] = {lo[from], hi[from]};
             }
         }
-        for (const Instruction& step : tape.instructions()) run(step, slots, n, kinks);
+        for (const Instruction& step : tape.instructions()) arithmetic.run(step, slots, n, kinks);
         for (std::size_t k = 0; k < stride; ++k) {
             const Interval* found = slots[outputs[first + k]];
             for (std::size_t i = 0; i < n; ++i) {
-                const Interval wide = widened(found[i]);
+                const Interval wide = arithmetic.output(found[i]);
                 lower[(start + i) * stride + k] = wide.lo;
                 upper[(start + i) * stride + k] = wide.hi;
             }
         }
     }
+}
+
+}  // namespace
+
+void bounds(const Tape& tape, std::span<const double> lo, std::span<const double> hi, Kinks kinks,
+            std::size_t first, std::span<double> lower, std::span<double> upper) {
+    constexpr Arithmetic NEAREST = {[](double x) { return Interval{x, x}; }, run, widened};
+    bounds_in(NEAREST, tape, lo, hi, kinks, first, lower, upper);
+}
+
+void enclosures(const Tape& tape, std::span<const double> lo, std::span<const double> hi,
+                std::size_t first, std::span<double> lower, std::span<double> upper) {
+    constexpr Arithmetic OUTWARD = {
+        [](double x) {
+            const bool whole = x == std::floor(x) && std::abs(x) < 0x1p53;
+            return whole ? Interval{x, x} : outward::widened({x, x}, 4.0);
+        },
+        [](const Instruction& step, const Slots& slots, std::size_t n, Kinks) {
+            run_outward(step, slots, n);
+        },
+        [](Interval found) { return found; }};
+    bounds_in(OUTWARD, tape, lo, hi, Kinks::UNBOUNDED, first, lower, upper);
 }
 
 }  // namespace surfmesh

@@ -19,4 +19,12 @@ enum class Kinks { UNBOUNDED, LEFT_OUT };
 void bounds(const Tape& tape, std::span<const double> lo, std::span<const double> hi, Kinks kinks,
             std::size_t first, std::span<double> lower, std::span<double> upper);
 
+/// The same from output ``first`` on with round-off in them, so that they are proved: every
+/// operation is rounded outwards, and constants are taken within four ulps, whole numbers exactly.
+///
+/// A place where the formula breaks off that lies within 1e-12 of a cell's side, of its distance
+/// from zero there, counts as that side.
+void enclosures(const Tape& tape, std::span<const double> lo, std::span<const double> hi,
+                std::size_t first, std::span<double> lower, std::span<double> upper);
+
 }  // namespace surfmesh

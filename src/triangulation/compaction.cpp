@@ -1,36 +1,105 @@
 #include "triangulation/compaction.hpp"
 
-namespace surfmesh {
+#include <algorithm>
 
-DomainTriangulation cut_inside(const Triangulation& t) {
-    Array<Triangle> triangle_number(t.region.size(), NIL);
-    DomainTriangulation domain{{}, Array<Vertex>(t.xy.size(), NIL)};
-    Triangle triangles = 0;
-    for (Triangle k = 0; k < t.triangles(); ++k) {
-        if (t.region[k] != INSIDE) continue;
-        triangle_number[k] = triangles++;
-        for (HalfEdge e = 3 * k; e < 3 * k + 3; ++e) domain.vertex_number[t.tri[e]] = 0;
-    }
-    Triangulation& out = domain.t;
+#include "triangulation/space_filling_order.hpp"
+
+namespace surfmesh {
+namespace {
+
+/// From so many triangles on a domain is numbered along a space-filling curve and cut into parts:
+/// it does not fit into the memory near a processor, and is worth a second one.
+constexpr Triangle LARGE = 50'000;
+constexpr std::size_t VERTICES_OF_PART = 32'768;  // about
+
+/// The vertices that triangles inside use, in the order they will have.
+Array<Vertex> vertices_inside(const Triangulation& t, Triangle triangles) {
+    Array<std::uint8_t> used(t.xy.size(), 0);
+    for (HalfEdge e = 0; e < 3 * t.triangles(); ++e)
+        if (t.region[e / 3] == INSIDE) used[t.tri[e]] = 1;
+    Array<Vertex> inside;
     for (Vertex v = 0; v < t.vertices(); ++v)
-        if (domain.vertex_number[v] != NIL)
-            domain.vertex_number[v] = out.add_vertex(t.xy[v], t.size[v]);
-    const std::size_t half_edges = 3 * static_cast<std::size_t>(triangles);
-    out.tri.resize(half_edges);
-    out.adj.resize(half_edges, NIL);
-    out.fixed.resize(half_edges);
-    out.region.resize(half_edges / 3, 0);
-    out.mark.resize(half_edges / 3, 0);
+        if (used[v]) inside.push_back(v);
+    if (triangles < LARGE) return inside;
+    return along_hilbert_curve({t.xy.data(), t.xy.size()}, {inside.data(), inside.size()});
+}
+
+/// The number of each triangle inside, NIL for others, in the order they have.
+Array<Triangle> number_triangles(const Triangulation& t) {
+    Array<Triangle> number(t.region.size(), NIL);
+    Triangle count = 0;
+    for (Triangle k = 0; k < t.triangles(); ++k)
+        if (t.region[k] == INSIDE) number[k] = count++;
+    return number;
+}
+
+/// The same in the order of their first vertices; ``first``: of each vertex, its first triangle.
+Array<Triangle> number_by_vertex(const Triangulation& t, const Array<Vertex>& vertex_number,
+                                 Array<Triangle>& first) {
+    const auto vertex_of = [&](Triangle k) {
+        return std::min({vertex_number[t.tri[3 * k]], vertex_number[t.tri[3 * k + 1]],
+                         vertex_number[t.tri[3 * k + 2]]});
+    };
+    for (Triangle k = 0; k < t.triangles(); ++k)
+        if (t.region[k] == INSIDE) ++first[vertex_of(k) + 1];
+    for (std::size_t v = 1; v < first.size(); ++v) first[v] += first[v - 1];
+    Array<Triangle> next(first), number(t.region.size(), NIL);
+    for (Triangle k = 0; k < t.triangles(); ++k)
+        if (t.region[k] == INSIDE) number[k] = next[vertex_of(k)]++;
+    return number;
+}
+
+/// Parts of equally many vertices. ``first``: of each vertex, its first triangle.
+Array<Part> parts_of(const Array<Triangle>& first) {
+    const std::size_t vertices = first.size() - 1;
+    const std::size_t count = std::max<std::size_t>(2, vertices / VERTICES_OF_PART);
+    const std::size_t each = (vertices + count - 1) / count;
+    Array<Part> parts;
+    for (std::size_t start = 0; start < vertices; start += each) {
+        const std::size_t end = std::min(start + each, vertices);
+        parts.push_back(
+            {static_cast<Vertex>(start), static_cast<Vertex>(end), first[start], first[end]});
+    }
+    return parts;
+}
+
+void copy_triangles(const Triangulation& t, const Array<Triangle>& number,
+                    DomainTriangulation& domain) {
+    Triangulation& out = domain.t;
     for (HalfEdge e = 0; e < 3 * t.triangles(); ++e) {
-        const Triangle n = triangle_number[e / 3];
+        const Triangle n = number[e / 3];
         if (n == NIL) continue;
         const HalfEdge f = 3 * n + e % 3;
         out.tri[f] = domain.vertex_number[t.tri[e]];
         out.fixed[f] = t.fixed[e];
         const HalfEdge twin = t.adj[e];
-        const Triangle m = twin >= 0 ? triangle_number[twin / 3] : NIL;
+        const Triangle m = twin >= 0 ? number[twin / 3] : NIL;
         out.adj[f] = m != NIL ? 3 * m + twin % 3 : NIL;
     }
+}
+
+}  // namespace
+
+DomainTriangulation cut_inside(const Triangulation& t) {
+    const auto triangles =
+        static_cast<Triangle>(std::count(t.region.begin(), t.region.end(), INSIDE));
+    DomainTriangulation domain{{}, Array<Vertex>(t.xy.size(), NIL)};
+    Triangulation& out = domain.t;
+    for (const Vertex v : vertices_inside(t, triangles))
+        domain.vertex_number[v] = out.add_vertex(t.xy[v], t.size[v]);
+    const auto half_edges = 3 * static_cast<std::size_t>(triangles);
+    out.tri.resize(half_edges);
+    out.adj.resize(half_edges, NIL);
+    out.fixed.resize(half_edges);
+    out.region.resize(half_edges / 3, 0);
+    out.mark.resize(half_edges / 3, 0);
+    if (triangles < LARGE) {
+        copy_triangles(t, number_triangles(t), domain);
+        return domain;
+    }
+    Array<Triangle> first(out.xy.size() + 1, 0);
+    copy_triangles(t, number_by_vertex(t, domain.vertex_number, first), domain);
+    out.parts = parts_of(first);
     return domain;
 }
 

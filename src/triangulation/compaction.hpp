@@ -11,6 +11,9 @@ struct DomainTriangulation {
 };
 
 /// The triangles inside and their vertices, in the order they have. There are segments.
+///
+/// A large domain is numbered along a space-filling curve, its triangles by their first vertices,
+/// and cut into parts.
 DomainTriangulation cut_inside(const Triangulation& t);
 
 }  // namespace surfmesh

@@ -28,6 +28,12 @@ struct RimCandidate {
     double side;      // > 0 where the new point is on its left, exactly
 };
 
+/// A range of vertices, and one of triangles; see triangulation/parts.hpp.
+struct Part {
+    Vertex first_vertex, end_vertex;
+    Triangle first_triangle, end_triangle;
+};
+
 struct Triangulation {
     Array<Point2> xy;           // of the vertices
     Array<SizeTensor> size;     // H of the vertices
@@ -35,6 +41,7 @@ struct Triangulation {
     Array<HalfEdge> adj;        // three a triangle: twin half-edges
     Array<Region> region;       // of the triangles
     Array<std::uint8_t> fixed;  // three a triangle, or none while there are no segments
+    Array<Part> parts;          // of a large domain: on which threads work side by side
 
     Array<Triangle> cavity;    // the open cavity
     Array<HalfEdge> rim;       // half-edges around it, seen from inside

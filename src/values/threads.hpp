@@ -12,6 +12,8 @@
 #include <thread>
 #include <vector>
 
+#include "values/array.hpp"
+
 namespace surfmesh {
 
 /// How many threads work that this thread begins may use; 1 in every new thread.
@@ -39,6 +41,25 @@ void for_each_block(std::size_t count, std::size_t block, const Work& work) {
     for (std::size_t n = 1; n < threads; ++n) others.emplace_back(drain);
     drain();
     for (std::thread& other : others) other.join();
+}
+
+/// What work(first, last, found) adds to ``found``, for blocks of [0, count) in their order.
+template <class Value, class Work>
+Array<Value> collect_by_blocks(std::size_t count, std::size_t block, const Work& work) {
+    std::vector<Array<Value>> found((count + block - 1) / block);
+    for_each_block(count, block, [&](std::size_t first, std::size_t last) {
+        Array<Value> own;
+        work(first, last, own);
+        found[first / block].swap(own);
+    });
+    if (found.size() == 1) return std::move(found[0]);
+    std::size_t size = 0;
+    for (const Array<Value>& some : found) size += some.size();
+    Array<Value> all;
+    all.reserve(size);
+    for (const Array<Value>& some : found)
+        for (const Value value : some) all.push_back(value);
+    return all;
 }
 
 }  // namespace surfmesh

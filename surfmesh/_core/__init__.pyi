@@ -10,6 +10,8 @@ from surfmesh._core import (
     optimisation as optimisation,
     packing as packing,
     patch as patch,
+    proof as proof,
+    quality as quality,
     sizing as sizing,
     space as space,
     surfaces as surfaces,

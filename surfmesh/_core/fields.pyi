@@ -105,15 +105,15 @@ MOST_SOURCE_CELLS: int = 67108864
 
 TURN_SLOPE: float = 3.0
 
-def grade(patches: Annotated[NDArray[numpy.int32], dict(shape=(None, 9), order='C', device='cpu', writable=False)], joined: Annotated[NDArray[numpy.int32], dict(shape=(None, 2), order='C', device='cpu', writable=False)], point: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)], slope: float, size: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu')], changed: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu')], first: int, sweeps: int) -> tuple[int, bool]:
+def grade(patches: Annotated[NDArray[numpy.int32], dict(shape=(None, 9), order='C', device='cpu', writable=False)], joined: Annotated[NDArray[numpy.int32], dict(shape=(None, 2), order='C', device='cpu', writable=False)], point: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)], slope: float, size: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu')], changed: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu')], number: int, most_visits: int) -> tuple[int, bool]:
     """
     Lower size (nodes,), in place, until no neighbours differ by more than slope allows.
 
-    patches (cells, 9), joined (k, 2): nodes; point (nodes, 3). changed (nodes,): the number of the last sweep that lowered a node.
-    Returns the number of the next sweep, and whether the sweeps sufficed.
+    patches (cells, 9), joined (k, 2): nodes; point (nodes, 3). changed (nodes,): the number of the last gradation that lowered a node; those with the number of this one, and what they lower, are looked at.
+    Returns how often a node was visited, and whether most_visits sufficed.
     """
 
-def grade_stretched(patches: Annotated[NDArray[numpy.int32], dict(shape=(None, 9), order='C', device='cpu', writable=False)], joined: Annotated[NDArray[numpy.int32], dict(shape=(None, 2), order='C', device='cpu', writable=False)], point: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)], slope: float, size: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu')], longer: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu')], along: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)], normal: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)], round: Annotated[NDArray[numpy.uint8], dict(shape=(None,), order='C', device='cpu', writable=False)], changed: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu')], first: int, sweeps: int) -> tuple[int, bool]:
+def grade_stretched(patches: Annotated[NDArray[numpy.int32], dict(shape=(None, 9), order='C', device='cpu', writable=False)], joined: Annotated[NDArray[numpy.int32], dict(shape=(None, 2), order='C', device='cpu', writable=False)], point: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)], slope: float, size: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu')], longer: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu')], along: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)], normal: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)], round: Annotated[NDArray[numpy.uint8], dict(shape=(None,), order='C', device='cpu', writable=False)], changed: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu')], number: int, most_visits: int) -> tuple[int, bool]:
     """
     The same of two sizes: longer (nodes,) along the unit tangents along (nodes, 3), size at right angles to them.
 

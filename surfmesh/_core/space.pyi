@@ -29,7 +29,7 @@ def meeting_triangles(corners: Annotated[NDArray[numpy.float64], dict(shape=(Non
     """
     Pairs (k, 2) of triangles that meet where they should not, the lower first.
 
-    corners: (3 m, 3), finite; quick where near triangles are near in the row. The search ends after the triangle with which there are ``most`` pairs or more.
+    corners: (3 m, 3), finite; quick where near triangles are near in the row. The search ends after the leaf with which there are ``most`` pairs or more.
     """
 
 def edge_gaps(points: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)], reach: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)], first: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], ends: Annotated[NDArray[numpy.int64], dict(shape=(None, 2), order='C', device='cpu', writable=False)], edges: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], first_of_face: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)]) -> tuple[Annotated[NDArray[numpy.float64], dict(shape=(None,))], Annotated[NDArray[numpy.float64], dict(shape=(None, 6))]]:
@@ -58,6 +58,11 @@ def tangent_plane_offsets(points: Annotated[NDArray[numpy.float64], dict(shape=(
     Where points (n, 3) lie relative to the tangent planes at feet r(u, v) near them: (n, 7).
 
     Unit normal along r_u x r_v (zero where there is none); distance along it (the whole distance where there is none); distance within the tangent plane; the step in (u, v) that covers the latter (Gauss-Newton).
+    """
+
+def triangle_distances(points: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)], corners: Annotated[NDArray[numpy.float64], dict(shape=(None, 3, 3), order='C', device='cpu', writable=False)]) -> Annotated[NDArray[numpy.float64], dict(shape=(None,))]:
+    """
+    Distance (k,) of points (k, 3), or of one (1, 3), from triangles with corners (k, 3, 3).
     """
 
 def component_labels(count: int, pairs: Annotated[NDArray[numpy.int32], dict(shape=(None, 2), order='C', device='cpu', writable=False)]) -> Annotated[NDArray[numpy.int32], dict(shape=(None,))]:

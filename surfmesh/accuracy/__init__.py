@@ -6,5 +6,6 @@ samples: barycentric places at which triangles are looked at.
 deviation: the distance of points, and of triangles, from the true surface.
 folds: angles between the normals of triangles and surface, and which of them the surface makes.
 shape: the mean ratio of triangles, alpha, by their edge vectors.
+proof: the same distances both ways as proved bounds, of one face.
 dihedral: angles between neighbouring triangles, and which of them the surface makes.
 """

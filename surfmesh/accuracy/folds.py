@@ -14,23 +14,6 @@ FOLDED, INVERTED = math.cos(math.radians(60.0)), 0.0
 """Cosines between the two normals below which a triangle is folded, or turned over."""
 
 
-def cosines(
-    normals: NDArray[np.float64], true: NDArray[np.float64], lengths: NDArray[np.float64]
-) -> NDArray[np.float64]:
-    """Of the angles between vectors (n, 3) and (n, 3) with these products of lengths (n,).
-
-    NaN where the length is zero: there is no normal.
-    """
-    along = np.einsum("ij,ij->i", normals, true)
-    known = lengths > 0.0
-    return np.where(known, along / np.where(known, lengths, 1.0), np.nan)
-
-
-def triangle_normals(corners: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Normals (n, 3) of triangles (n, 3, 3), twice their area long."""
-    return np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
-
-
 def cosines_with_surface(
     surface: Surface, corners: NDArray[np.float64], uv: NDArray[np.float64]
 ) -> NDArray[np.float64]:

@@ -2,11 +2,6 @@
 
 import numpy as np
 
-MIDDLES = np.array([(0.5, 0.5, 0.0), (0.0, 0.5, 0.5), (0.5, 0.0, 0.5)])
-"""Of sides 0, 1 and 2."""
-
-CENTROID = np.full((1, 3), 1 / 3)
-
 _GRID = 6
 DENSE = np.array(
     [(i, j, _GRID - i - j) for i in range(_GRID + 1) for j in range(_GRID + 1 - i)]

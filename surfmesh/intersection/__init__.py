@@ -16,6 +16,9 @@ cells: the (u, v) box of a face in cells, an edge in pieces, halved level after 
 newton: points pulled onto two surfaces, or onto a curve and a surface.
 regions: which points of the (u, v) plane lie within the loops of a face.
 piercings: where an edge meets the surface of a face: all places.
+elementary_distances: planes, cylinders, cones, spheres, tori: distances, and which are one surface.
+edge_meetings: where two edges meet, and where they run together.
+pcurve_fitting: curves in the (u, v) of a face that follow an edge lying on it.
 contacts: where the edges of each of two complexes meet the faces and edges of the other: nodes.
 touching: points where a curve touches a surface, or two surfaces, and the ways out of them.
 poles: where curves leave a pole of a surface.
@@ -24,6 +27,8 @@ branches: all branches of the curve in which two faces meet, closed ones too.
 curve_fitting: a traced branch as splines, in space and in both (u, v).
 arrangement: the curves on one face cut it into regions.
 borders: the border of a face with its coedges cut at nodes, and the places of nodes.
+edge_parts: edges cut at nodes: parts that both complexes share, parts that lie in faces.
+overlaps: patches of both complexes that coincide: merged, or refused.
 meeting: two complexes become one: their faces cut each other along common edges.
 contents: areas of faces and volumes under them, by integrals over their regions in (u, v).
 insides: which points lie inside closed models, by rays.

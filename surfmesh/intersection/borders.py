@@ -16,6 +16,12 @@ from surfmesh.intersection.tracing import place
 GRAZING = 1e-5
 """Radians: a curve that comes to an edge at a smaller angle touches it."""
 
+ALONG = 1e-3
+"""Radians: an edge that both faces have is their common curve if it leaves so near to that."""
+
+NEAR = 1e-2
+"""Of the (u, v) box: an image of a node so near to the end of an edge is the end."""
+
 
 @dataclass(frozen=True, eq=False)
 class Image:
@@ -57,15 +63,21 @@ Inner = Mapping[int, list[np.ndarray]]
 class FaceBorder:
     """The loops of a face with their coedges cut at the nodes."""
 
-    def __init__(self, face: CadFace, inner: Inner, parts_of: PartsOf) -> None:
+    def __init__(
+        self, face: CadFace, inner: Inner, parts_of: PartsOf,
+        is_inside: Callable[[np.ndarray], bool],
+    ) -> None:  # fmt: skip
         self.face = face
+        self.is_inside = is_inside
         surface = self.face.surface
         box = np.array(surface.domain)
         line = np.linspace(0.0, 1.0, 9)
         grid = np.stack(np.meshgrid(line, line), -1).reshape(-1, 2)
-        _, r_u, r_v = surface.evaluate(box[:, 0] + grid * (box[:, 1] - box[:, 0]), 1)
+        points, r_u, r_v = surface.evaluate(box[:, 0] + grid * (box[:, 1] - box[:, 0]), 1)
         self.scale = np.array([np.linalg.norm(d, axis=1).mean() for d in (r_u, r_v)])
+        self.extent = float(np.linalg.norm(np.ptp(np.nan_to_num(points), axis=0)))
         self.halves: list[HalfEdge] = []
+        self.degenerate: set[int] = set()
         self.images: dict[int, list[Image]] = {}
         self.is_cut = False
         for number_of_loop, loop in enumerate(face.loops):
@@ -78,6 +90,8 @@ class FaceBorder:
                 for k, (coedge, *_) in enumerate(parts)
             ]
             for k, (half, part) in enumerate(zip(halves, parts)):
+                if part.degenerate:
+                    self.degenerate.add(part.coedge.edge)
                 way, rate, other = part.leaving
                 image = Image(
                     half.start, part.coedge.walk(np.zeros(1))[0], half.leaves,
@@ -100,19 +114,57 @@ class FaceBorder:
         self.halves.append(half_edge(backward, end, start, self.scale))
         self.is_cut = True
 
-    def enters(self, image: Image, way: np.ndarray) -> bool:
-        """Does a direction (2,) lead from a place into the face? Raises where it runs along its
-        border."""
+    def image_at(self, node: int, uv: np.ndarray) -> Image:
+        """The image of a node nearest to a place (2,); a new one inside the face if there is none.
+
+        Raises ``SurfaceError`` where those that there are lie elsewhere.
+        """
+        images = self.images.setdefault(node, [])
+        if not images:
+            images.append(Image((node, 0, "inside"), uv))
+        width = np.ptp(np.array(self.face.surface.domain), axis=1)
+        off = [float(np.abs((image.uv - uv) / width).max()) for image in images]
+        best = int(np.argmin(off))
+        if off[best] > NEAR:
+            where = place(self.face.surface.evaluate(uv[None], 0)[0][0])
+            raise SurfaceError(
+                f"{self.face.surface.name}: an edge that lies on it leads nowhere at {where}"
+            )
+        return images[best]
+
+    def uses(self, edge: int) -> list[CadCoedge]:
+        """The coedges of an edge, of one inside the face the first."""
+        found = [half.coedge for half in self.halves if half.coedge.edge == edge]
+        return [c for k, c in enumerate(found) if all(c.pcurve is not o.pcurve for o in found[:k])]
+
+    def shared_with(self, other: FaceBorder) -> list[int]:
+        """Edges that both faces have, on their borders or inside; no degenerate ones."""
+        own, theirs = (
+            {half.coedge.edge for half in border.halves} - border.degenerate
+            for border in (self, other)
+        )
+        return sorted(own & theirs)
+
+    def edges_along(self, image: Image, way: np.ndarray) -> set[int]:
+        """The edges that leave a place in a direction (2,), or nearly."""
+        way = way * self.scale
+        found = set()
+        for half in self.halves:
+            for key, leaves in ((half.start, half.leaves), (half.end, -half.enters)):
+                if key == image.key:
+                    angle = turn(leaves, way)
+                    if min(angle, 2.0 * np.pi - angle) < ALONG:
+                        found.add(half.coedge.edge)
+        return found
+
+    def enters(self, image: Image, way: np.ndarray, ahead: np.ndarray) -> bool:
+        """Does a direction (2,) lead from a place into the face? Where it runs along the border,
+        by whether a place (2,) a little ahead lies within."""
         if image.leaves is None or image.enters is None:
             return True
         way = way * self.scale
         open_angle = turn(image.leaves, -image.enters) or 2.0 * np.pi
         angle = turn(image.leaves, way)
-        for edge in (0.0, open_angle, 2.0 * np.pi):
-            if abs(angle - edge) < GRAZING:
-                where = place(self.face.surface.evaluate(image.uv[None], 0)[0][0])
-                raise SurfaceError(
-                    f"{self.face.surface.name}: a curve touches its edge at {where}; move or "
-                    "change one of the surfaces"
-                )
+        if any(abs(angle - edge) < GRAZING for edge in (0.0, open_angle, 2.0 * np.pi)):
+            return self.is_inside(ahead)
         return angle < open_angle

@@ -66,6 +66,9 @@ class FacePair:
         extent = min(_extent(cells[0]), _extent(cells[1]))
         self.tracer = Tracer(self.a, self.b, FIRST_STEP * extent, gap)
         self.traces: list[Trace] = []
+        self.known: list[Trace] = []
+        """Edges that both faces have, which are parts of their common curve."""
+        self.is_one_surface = False
         self.singular: list[np.ndarray] = []
         """Points where normals do not tell how the surfaces meet: branch points, poles."""
 
@@ -204,7 +207,7 @@ class FacePair:
 
     def _trace_new(self, found: Pulled, rows: np.ndarray) -> None:
         """Trace the branches through points that lie in both faces and on none so far."""
-        for trace in self.traces:
+        for trace in [*self.known, *self.traces]:
             rows = self._beside(trace, found, rows)
         rows = rows[
             self.region_a.surely_inside(found.uv_a[rows])

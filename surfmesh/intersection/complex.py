@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from typing import NamedTuple
 
 import numpy as np
 
@@ -12,14 +13,34 @@ from surfmesh.cad.model.cad_model import CadCoedge, CadEdge, CadFace, CadModel, 
 from surfmesh.intersection.contents import region_area
 
 
+class Origin(NamedTuple):
+    """What a patch is of besides: source, original as of a `Patch`; is r_u x r_v of that face
+    against that of the patch, and is that face reversed?"""
+
+    source: int
+    original: int
+    against: bool
+    reversed: bool
+
+
 @dataclass(frozen=True, eq=False)
 class Patch:
     """A face, or a part of one. source: the number of what was intersected; original: of the face
-    there."""
+    there; also: the faces of others that coincide with it."""
 
     face: CadFace
     source: int
     original: int
+    also: tuple[Origin, ...] = ()
+
+    @property
+    def origins(self) -> tuple[Origin, ...]:
+        """All that it is of."""
+        return (Origin(self.source, self.original, False, self.face.reversed), *self.also)
+
+    def is_of(self, source: int) -> bool:
+        """Is it a part of one of the inputs, also?"""
+        return any(origin.source == source for origin in self.origins)
 
 
 @dataclass(frozen=True, eq=False)

@@ -11,24 +11,22 @@ from typing import NamedTuple
 
 import numpy as np
 
-from surfmesh.cad.model.cad_model import CadEdge, CadFace, CadVertex
-from surfmesh.errors import SurfaceError
+from surfmesh.cad.model.cad_model import CadEdge, CadVertex
+from surfmesh.geometry.cad_surfaces.elementary import Cone, Cylinder, Plane, Sphere, Torus
+from surfmesh.geometry.cad_surfaces.face_surface import FaceSurface
 from surfmesh.intersection.bounds import Boxes as CellBoxes
 from surfmesh.intersection.cells import EdgePieces, FaceCells
 from surfmesh.intersection.complex import Complex
-from surfmesh.intersection.newton import unit_normals
+from surfmesh.intersection.edge_meetings import meetings, nearest_on_edge
+from surfmesh.intersection.elementary_distances import distance_to_elementary
 from surfmesh.intersection.piercings import crossings
 from surfmesh.intersection.regions import Region
-from surfmesh.intersection.tracing import place
 
 SAME = 1e-8
 """Of the diagonal: places nearer than that are one."""
 
-TANGENT_PLANES = 1e-5
-"""Sine of the angle between planes that are taken for one."""
-
-SEARCHED = 129
-"""Points of an edge among which the nearest to a point is looked for first."""
+LOOKED_AT = np.linspace(0.0, 1.0, 23)
+"""Fractions of an edge at which it is compared with a surface."""
 
 
 class Boxes(NamedTuple):
@@ -68,6 +66,11 @@ class Contacts:
         self.sides = Side(p, 0), Side(q, len(p.vertices))
         self.node_of = list(range(len(self.vertices)))
         """Nodes for which another one stands, as both are one place."""
+        self.lying: list[tuple[Side, int, Side, int]] = []
+        """Edges, a part of which lies on a surface: side and edge, other side and face."""
+        self.unsure: list[tuple[Side, int, Side, int, np.ndarray]] = []
+        """Of these, such as may only touch it: with the place."""
+        self._met: set[tuple[int, int, int]] = set()
         self._join_vertices(len(p.vertices))
         for own, other in (self.sides, self.sides[::-1]):
             for number, edge in enumerate(own.whole.edges):
@@ -104,19 +107,17 @@ class Contacts:
 
     def _meet(self, own: Side, number: int, other: Side, face: int) -> None:
         edge, patch = own.whole.edges[number], other.whole.patches[face]
+        if lies_on_elementary(edge, patch.face.surface, self.same):
+            self._lies_on(own, number, other, face)
+            return
         found = crossings(edge, other.cells[face], self.same)
         if found.along is not None:
-            raise SurfaceError(
-                f"an edge of {_label(own)} lies on {patch.face.surface.name or patch.face.kind}, "
-                f"or touches it, at {place(found.along)}: such contacts are not intersected; "
-                "move or change one of them"
-            )
-        for t, uv, point, touches in zip(found.fraction, found.uv, found.point, found.touches):
+            self._lies_on(own, number, other, face)
+            self.unsure.append((own, number, other, face, found.along))
+        for t, uv, point in zip(found.fraction, found.uv, found.point):
             met = self._edge_there(other, face, point)
-            if met is None and not self._is_inside(other, face, uv):
+            if met is None and not self.is_inside(other, face, uv):
                 continue
-            if touches:
-                self._require_tangent_planes(own, number, float(t), patch.face, uv, point)
             node = self._cut(own, number, float(t), point)
             if met is not None:
                 self._cut(other, *met, self.vertices[node].point)
@@ -125,22 +126,30 @@ class Contacts:
             if not any(np.abs(uv - known).max() < 1e-6 for known in places):
                 places.append(uv)
 
-    def _require_tangent_planes(
-        self, own: Side, number: int, t: float, other: CadFace, uv: np.ndarray, point: np.ndarray
-    ) -> None:
-        """Raise where an edge touches a face that none of its own faces touches there: a curve
-        would come along the edge."""
-        normal = unit_normals(other.surface, uv[None])
-        for patch in own.whole.patches:
-            for coedge in patch.face.coedges:
-                if coedge.edge == number:
-                    own_normal = unit_normals(patch.face.surface, coedge.uv(np.array([t])))
-                    if np.linalg.norm(np.cross(normal, own_normal)) < TANGENT_PLANES:
-                        return
-        raise SurfaceError(
-            f"an edge of {_label(own)} touches {other.surface.name or other.kind} at "
-            f"{place(point)} without going through; move or change one of them"
-        )
+    def _lies_on(self, own: Side, number: int, other: Side, face: int) -> None:
+        """An edge lies on a surface, or a part of it does: it comes in and out of the face where it
+        meets the edges of the face, or runs along these."""
+        self.lying.append((own, number, other, face))
+        edge = own.whole.edges[number]
+        for second in dict.fromkeys(c.edge for c in other.whole.patches[face].face.coedges):
+            key = (own.first_node, number, second)
+            if own is self.sides[1]:
+                key = (other.first_node, second, number)
+            border = other.whole.edges[second]
+            if border.degenerate or key in self._met or not self._may_meet(own, number, second):
+                continue
+            self._met.add(key)
+            for t, s in meetings(edge, border, self.same):
+                point = edge.evaluate(np.array([t]), 0)[0][0]
+                node = self._cut(own, number, t, point)
+                self._cut(other, second, s, self.vertices[node].point)
+
+    def _may_meet(self, own: Side, number: int, second: int) -> bool:
+        """Do the boxes of two edges meet?"""
+        other = self.sides[1] if own is self.sides[0] else self.sides[0]
+        one, two = own.edge_boxes, other.edge_boxes
+        below = (one.low[number] <= two.high[second] + self.same).all()
+        return bool(below and (two.low[second] <= one.high[number] + self.same).all())
 
     def _cut(self, side: Side, number: int, fraction: float, point: np.ndarray) -> int:
         """The node where an edge is met: one of its ends, or a cut of it."""
@@ -167,35 +176,25 @@ class Contacts:
                 return number, fraction
         return None
 
-    def _is_inside(self, side: Side, face: int, uv: np.ndarray) -> bool:
+    def is_inside(self, side: Side, face: int, uv: np.ndarray) -> bool:
+        """Does a place (2,) lie within the loops of a face? On its border either may be said."""
         region = side.regions[face]
         if region.distance(uv[None])[0] > 0.0:
             return bool(region.inside(uv[None])[0])
         return region.beside_curve(uv)
 
 
-def nearest_on_edge(edge: CadEdge, point: np.ndarray) -> tuple[float, float]:
-    """The fraction of an edge nearest to a point, and the distance."""
-    fractions = np.linspace(0.0, 1.0, SEARCHED)
-    distance = np.linalg.norm(edge.evaluate(fractions, 0)[0] - point, axis=1)
-    t = fractions[int(np.argmin(distance))]
-    rate = edge.t1 - edge.t0
-    for _ in range(12):
-        c, first, second = edge.evaluate(np.array([t]), 2)
-        step, d1, d2 = c[0] - point, first[0] * rate, second[0] * rate**2
-        slope, bend = float(step @ d1), float(d1 @ d1 + step @ d2)
-        if not bend > 0.0:
-            bend = float(d1 @ d1)
-        if not bend > 0.0:
-            break
-        after = min(max(t - slope / bend, 0.0), 1.0)
-        moved, t = abs(after - t), after
-        if moved < 1e-16:
-            break
-    return float(t), float(np.linalg.norm(edge.evaluate(np.array([t]), 0)[0][0] - point))
+def lies_on_elementary(edge: CadEdge, surface: FaceSurface, same: float) -> bool:
+    """Does an edge lie on a plane, cylinder, cone, sphere or torus, taken as a whole?"""
+    if not isinstance(surface, (Plane, Cylinder, Cone, Sphere, Torus)):
+        return False
+    points = edge.evaluate(LOOKED_AT, 0)[0]
+    away = distance_to_elementary(surface, points)
+    return bool((away <= same + edge.tolerance).all())
 
 
-def _label(side: Side) -> str:
+def label(side: Side) -> str:
+    """What messages call one of both."""
     face = side.whole.patches[0].face
     return face.name or face.surface.name or face.kind
 

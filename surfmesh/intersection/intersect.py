@@ -6,28 +6,36 @@ surfaces, models -> models (``sheets``) -> cut by each other (``meeting``) -> wh
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from typing import Any
 
 import numpy as np
 
-from surfmesh.cad.model.cad_model import CadModel, CadNode, CadTag
+from surfmesh.cad.model.cad_model import CadEdge, CadModel, CadNode, CadTag
 from surfmesh.cad.model.extent import diagonal
-from surfmesh.errors import SurfaceError
+from surfmesh.errors import SurfaceError, shown
 from surfmesh.geometry.cad_surfaces.face_surface import FaceSurface
 from surfmesh.intersection.bounds import are_known
 from surfmesh.intersection.complex import Complex, compacted, with_areas
+from surfmesh.intersection.curve_fitting import NEAR
 from surfmesh.intersection.keeping import Keeping
 from surfmesh.intersection.meeting import joined
 from surfmesh.intersection.seams import with_clear_seams
 from surfmesh.intersection.sheets import as_model
+from surfmesh.intersection.tracing import place
+
+COINCIDENT = ("refuse", "merge")
 
 
-def intersected(things: Sequence[Any], keep: Any = "all", name: str = "") -> CadModel:
+def intersected(
+    things: Sequence[Any], keep: Any = "all", name: str = "", coincident: str = "refuse"
+) -> CadModel:
     """The model of surfaces and models that cut each other; see ``surfmesh.intersect``.
 
     name: of the model; that of all inputs together where it is empty.
     """
+    if coincident not in COINCIDENT:
+        raise SurfaceError(f"coincident={shown(coincident)}: one of {', '.join(COINCIDENT)}")
     if len(things) < 2:
         raise SurfaceError(f"two surfaces or more are needed to intersect, not {len(things)}")
     names = _names(things)
@@ -36,7 +44,11 @@ def intersected(things: Sequence[Any], keep: Any = "all", name: str = "") -> Cad
     _refuse_units(models)
     size = _size(models)
     keeping = Keeping(keep, names, models, size)
-    whole = joined([Complex.of(model, k, names[k]) for k, model in enumerate(models)], size)
+    whole = joined(
+        [Complex.of(model, k, names[k]) for k, model in enumerate(models)],
+        size,
+        coincident == "merge",
+    )
     kept = keeping.kept(whole)
     vertices, edges, faces = compacted(whole.vertices, whole.edges, [p.face for p, _ in kept])
     faces = with_areas(faces)
@@ -61,11 +73,11 @@ def intersected(things: Sequence[Any], keep: Any = "all", name: str = "") -> Cad
             tuple(range(len(solids))),
             (),
             tuple(
-                CadNode(name, (), tuple(k for k, p in enumerate(patches) if p.source == number))
+                CadNode(name, (), tuple(k for k, p in enumerate(patches) if p.is_of(number)))
                 for number, name in enumerate(names)
             ),
         ),
-        healing=_remarks(models, names),
+        healing=(*_remarks(models, names), *_loose_curves(models, edges, size)),
         source=called,
         tags=_tags(keeping, patches, names, models),
     )
@@ -116,6 +128,22 @@ def _remarks(models: Sequence[CadModel], names: Sequence[str]) -> tuple[str, ...
     return tuple(said)
 
 
+def _loose_curves(
+    models: Sequence[CadModel], edges: Sequence[CadEdge], size: float
+) -> Iterator[str]:
+    """Of the curves found, those that do not keep as near to both surfaces as is tried."""
+    given = {edge.name for model in models for edge in model.edges}
+    for edge in edges:
+        is_found = "/" in edge.name and edge.name not in given
+        if is_found and edge.tolerance > 2.0 * NEAR * size:  # twice what was measured
+            middle = edge.evaluate(np.array([0.5]))[0][0]
+            yield (
+                f"{edge.name}: the curve through {place(middle)} is up to "
+                f"{0.5 * edge.tolerance:.1g} off its surfaces, not {NEAR * size:.1g}: one of them "
+                "bends too abruptly there to be followed closer"
+            )
+
+
 def _kind(surface: FaceSurface) -> str:
     return "" if are_known(surface) else surface.kind
 
@@ -126,11 +154,12 @@ def _tags(
     """The faces of each input, and those on each side of another: "wing", "wing+body"."""
     faces: dict[str, list[int]] = {name: [] for name in names}
     for number, patch in enumerate(patches):
-        faces[names[patch.source]].append(number)
-        for other, sign in keeping.sides(patch).items():
-            if sign:
-                name = f"{names[patch.source]}{'+' if sign > 0 else '-'}{names[other]}"
-                faces.setdefault(name, []).append(number)
+        for source in dict.fromkeys(origin.source for origin in patch.origins):
+            faces[names[source]].append(number)
+            for other, sign in keeping.sides(patch).items():
+                if sign:
+                    name = f"{names[source]}{'+' if sign > 0 else '-'}{names[other]}"
+                    faces.setdefault(name, []).append(number)
     return tuple(
         CadTag(name, f"{len(found)} face{'s' * (len(found) != 1)}", tuple(found))
         for name, found in faces.items()

@@ -19,7 +19,7 @@ import numpy as np
 
 from surfmesh.cad.model.cad_model import CadEdge, CadFace, CadModel, CadSolid, CadVertex
 from surfmesh.errors import SurfaceError, shown
-from surfmesh.intersection.complex import Complex, Patch
+from surfmesh.intersection.complex import Complex, Origin, Patch
 from surfmesh.intersection.contents import region_cone
 from surfmesh.intersection.insides import Body
 from surfmesh.intersection.regions import Region
@@ -89,13 +89,16 @@ class Keeping:
         """The patches that are kept; with each whether outside is against its normal."""
         self.signs = Signs(whole, self.models, self.bodies, self.size)
         patches = list(whole.patches)
-        if self.what == "sides":
-            patches = [patch for patch in patches if self._is_wanted(patch, patches)]
-        elif self.what != "all":
-            patches = [patch for patch in patches if self._is_of_solid(patch)]
-        if not patches:
+        if self.what in ("all", "sides"):
+            if self.what == "sides":
+                patches = [patch for patch in patches if self._is_wanted(patch, patches)]
+            kept = [(patch, False) for patch in patches]
+        else:
+            turned = [(patch, self._outside_against(patch)) for patch in patches]
+            kept = [(patch, against) for patch, against in turned if against is not None]
+        if not kept:
             raise SurfaceError("nothing is left of what is to be kept")
-        return [(patch, self._against(patch)) for patch in patches]
+        return kept
 
     def sides(self, patch: Patch) -> dict[int, int]:
         """On which side of each other input a patch lies: +1, -1, or 0 where that is not known."""
@@ -118,29 +121,52 @@ class Keeping:
         shells = shells_of(faces, edges, against)
         return solids_of(faces, edges, shells, cones, self.size, self.what)
 
-    def _against(self, patch: Patch) -> bool:
-        for solid in self.models[patch.source].solids:
-            for shell in solid.shells:
-                for face, against in shell:
-                    if face == patch.original:
-                        turned = self.what == "difference" and patch.source > 0
-                        return against != turned
-        return False
-
-    def _is_of_solid(self, patch: Patch) -> bool:
+    def _outside_against(self, patch: Patch) -> bool | None:
+        """Of a patch that separates what is kept from what is not, whether the outside is against
+        its normal; None of one that does not."""
         sides = self.sides(patch)
         if self.signs is not None and not all(sides.values()):
             raise SurfaceError(next(iter(self.signs.reasons.values())))
-        inside = {other: sign < 0 for other, sign in sides.items()}
+        front = {other: sign < 0 for other, sign in sides.items()}
+        back = dict(front)
+        for origin in patch.origins:
+            ahead, behind = self._inside_beside(origin)
+            if origin.source in front:  # of two of its faces
+                ahead, behind = ahead or front[origin.source], behind or back[origin.source]
+            front[origin.source], back[origin.source] = ahead, behind
+        ahead, behind = self._holds(front), self._holds(back)
+        return None if ahead == behind else ahead != patch.face.reversed
+
+    def _inside_beside(self, origin: Origin) -> tuple[bool, bool]:
+        """Is it inside of an input on the side that r_u x r_v of a patch points to, and on the
+        other? Both, of a face between two of its solids."""
+        ahead = behind = False
+        for solid in self.models[origin.source].solids:
+            for shell in solid.shells:
+                for face, against in shell:
+                    if face == origin.original:
+                        outwards = against == origin.reversed  # along its own r_u x r_v
+                        if outwards == origin.against:
+                            ahead = True
+                        else:
+                            behind = True
+        return ahead, behind
+
+    def _holds(self, inside: Mapping[int, bool]) -> bool:
+        """Is a place kept that lies inside of these inputs?"""
         if self.what == "common":
             return all(inside.values())
-        if self.what == "difference" and patch.source > 0:
-            first = inside.pop(0)
-            return first and not any(inside.values())
-        return not any(inside.values())
+        if self.what == "union":
+            return any(inside.values())
+        return inside[0] and not any(held for k, held in inside.items() if k)
 
     def _is_wanted(self, patch: Patch, patches: Sequence[Patch]) -> bool:
-        for side in self.wanted.get(patch.source, ["all"]):
+        """Is a patch kept for the sake of one of its inputs?"""
+        sources = {origin.source for origin in patch.origins}
+        return any(self._is_wanted_of(patch, source, patches) for source in sources)
+
+    def _is_wanted_of(self, patch: Patch, source: int, patches: Sequence[Patch]) -> bool:
+        for side in self.wanted.get(source, ["all"]):
             if isinstance(side, str):
                 if side == "all":
                     continue
@@ -149,7 +175,7 @@ class Keeping:
                 other, sign = self._signed(side)
                 if self.sides(patch).get(other) != sign:
                     return False
-            elif patch is not _nearest(patches, patch.source, np.asarray(side, float)):
+            elif patch is not _nearest(patches, source, np.asarray(side, float)):
                 return False
         return True
 
@@ -174,7 +200,7 @@ def _nearest(patches: Sequence[Patch], source: int, point: np.ndarray) -> Patch:
     line = (np.arange(64) + 0.5) / 64
     grid = np.stack(np.meshgrid(line, line), axis=-1).reshape(-1, 2)
     for patch in patches:
-        if patch.source != source:
+        if not patch.is_of(source):
             continue
         box = np.array(patch.face.surface.domain)
         region = Region(patch.face)

@@ -11,7 +11,6 @@ import math
 from collections.abc import Sequence
 from dataclasses import replace
 from functools import partial
-from itertools import pairwise
 
 import numpy as np
 
@@ -19,19 +18,16 @@ from surfmesh.cad.model.cad_model import CadCoedge, CadEdge, CadFace, CadVertex
 from surfmesh.errors import SurfaceError
 from surfmesh.geometry.cad_surfaces.face_surface import FaceSurface
 from surfmesh.intersection.arrangement import regions
-from surfmesh.intersection.borders import FaceBorder, Image, Part
+from surfmesh.intersection.borders import FaceBorder, Image
 from surfmesh.intersection.branches import FacePair
-from surfmesh.intersection.complex import (
-    Complex,
-    Patch,
-    measured_length,
-    part_of_edge,
-    with_seams_marked,
-)
-from surfmesh.intersection.contacts import Contacts, Side
+from surfmesh.intersection.complex import Complex, Patch, measured_length, with_seams_marked
+from surfmesh.intersection.contacts import Contacts
 from surfmesh.intersection.curve_fitting import FittedCurve, fitted
-from surfmesh.intersection.newton import unit_normals, uv_directions
-from surfmesh.intersection.poles import ways_out_of_pole
+from surfmesh.intersection.edge_parts import EdgeParts, Lying
+from surfmesh.intersection.elementary_distances import are_one_surface
+from surfmesh.intersection.newton import pulled_onto_both, unit_normals, uv_directions
+from surfmesh.intersection.overlaps import Overlaps
+from surfmesh.intersection.pcurve_fitting import pcurve_along
 from surfmesh.intersection.regions import polygon_of
 from surfmesh.intersection.touching import Touch, branch_ways
 from surfmesh.intersection.tracing import End, Trace, place
@@ -42,31 +38,41 @@ GAP = 1e-11
 TANGENT = 1e-5
 """Sine of the angle between planes that are taken for one."""
 
+LOOSEST = 1e-6
+"""Of the diagonal: so near a curve must follow an edge that lies on a face."""
+
+KNOWN = 65
+"""Places of a common edge that is known before."""
+
+PROBED = 1e-3
+"""Of the smaller face: how far ahead it is looked whether a curve leads into both."""
+
 ROOM = 1e-9
 """Of the box: samples of curves may lie so far outside the box of a new face."""
 
 
 class Meeting:
-    """Of two complexes. size: the diagonal of all."""
+    """Of two complexes. size: the diagonal of all; merge: what coincides becomes one patch."""
 
-    def __init__(self, p: Complex, q: Complex, size: float) -> None:
-        self.size = size
+    def __init__(self, p: Complex, q: Complex, size: float, merge: bool) -> None:
+        self.size, self.merge = size, merge
         self.contacts = Contacts(p, q, size)
-        self.edges: list[CadEdge] = []
-        self.pieces: dict[tuple[int, int], list[tuple[int, float, float]]] = {}
-        self.leaving: dict[tuple[int, bool], tuple[np.ndarray, np.ndarray, int]] = {}
-        """Where a part of a degenerate edge starts, or starts when walked backwards, the curve
-        that leaves the pole: its way (3,), its rate (2,) in (u, v), the face it is common with."""
-        for which, side in enumerate(self.contacts.sides):
-            for number, edge in enumerate(side.whole.edges):
-                self._add_pieces(which, side, number, edge)
+        self.parts = EdgeParts(self.contacts)
+        self.edges = self.parts.edges
+        self.coincident: list[tuple[int, int]] = []
+        """Faces of the one and the other side on one surface."""
         self.borders = [
             [
-                FaceBorder(patch.face, side.inner[k], partial(self.parts_of, side))
+                FaceBorder(
+                    patch.face, side.inner[k], partial(self.parts.parts_of, side, patch.face),
+                    partial(self.contacts.is_inside, side, k),
+                )
                 for k, patch in enumerate(side.whole.patches)
             ]
             for side in self.contacts.sides
-        ]
+        ]  # fmt: skip
+        for lying in self.parts.lying:
+            self._embed(lying)
         one, other = self.contacts.sides
         for i in range(len(one.whole.patches)):
             for j in other.faces_near(one.boxes, i):
@@ -74,78 +80,52 @@ class Meeting:
 
     def joined(self) -> Complex:
         """Both complexes, cut along their common edges."""
-        patches = [
-            part
+        first, second = (
+            [self._parts(patch, border) for patch, border in zip(side.whole.patches, borders)]
             for side, borders in zip(self.contacts.sides, self.borders)
-            for patch, border in zip(side.whole.patches, borders)
-            for part in self._parts(patch, border)
-        ]
+        )
+        overlap = Overlaps(self.contacts, self.edges, self.coincident, self.merge)
+        patches = overlap.joined(first, second)
         return Complex(self.contacts.vertices, self.edges, patches)
 
-    def _add_pieces(self, which: int, side: Side, number: int, edge: CadEdge) -> None:
-        start, end = self.contacts.ends_of(side, edge)
-        if edge.degenerate:
-            self._add_pole(which, side, number, edge, start)
-            return
-        cuts = sorted((t, node) for node, t in side.cuts[number].items())
-        stops = [(0.0, start), *cuts, (1.0, end)]
-        own = self.pieces[(which, number)] = []
-        for (t0, first), (t1, last) in pairwise(stops):
-            own.append((len(self.edges), t0, t1))
-            if cuts:
-                self.edges.append(part_of_edge(edge, t0, t1, first, last))
-            else:
-                self.edges.append(replace(edge, start=first, end=last))
-
-    def _add_pole(self, which: int, side: Side, number: int, edge: CadEdge, node: int) -> None:
-        """A degenerate edge, cut where curves leave the pole."""
-        own = self.pieces[(which, number)] = []
-        leaving = []
-        other = self.contacts.sides[1 - which]
-        face, coedge = next(
-            (patch.face, coedge) for patch in side.whole.patches for coedge in patch.face.coedges
-            if coedge.edge == number
-        )  # fmt: skip
-        for k, inner in enumerate(other.inner):
-            for uv in inner.get(node, []):
-                normal = unit_normals(other.whole.patches[k].face.surface, uv[None])[0]
-                leaving += [
-                    (out.fraction, out.way, out.rate, k)
-                    for out in ways_out_of_pole(face.surface, coedge, normal)
-                ]
-        leaving.sort(key=lambda out: out[0])
-        stops = [0.0, *(out[0] for out in leaving), 1.0]
-        for k, (t0, t1) in enumerate(pairwise(stops)):
-            piece = len(self.edges)
-            own.append((piece, t0, t1))
-            self.edges.append(part_of_edge(edge, t0, t1, node, node))
-            if k:  # the place where it starts
-                self.leaving[(piece, False)] = leaving[k - 1][1:]
-                self.leaving[(piece - 1, True)] = leaving[k - 1][1:]
-
-    def parts_of(self, side: Side, coedge: CadCoedge) -> list[Part]:
-        """A coedge cut at the nodes, in walking order."""
-        which = self.contacts.sides.index(side)
-        found = []
-        for edge, t0, t1 in self.pieces[(which, coedge.edge)]:
-            p0, p1 = coedge.p0 + np.array([t0, t1]) * (coedge.p1 - coedge.p0)
-            part = replace(coedge, edge=edge, p0=float(p0), p1=float(p1))
-            made = self.edges[edge]
-            leaving = self.leaving.get((edge, coedge.reversed), (None, None, -1))
-            node = made.end if coedge.reversed else made.start
-            found.append(Part(part, node, made.degenerate, leaving))
-        return found[::-1] if coedge.reversed else found
+    def _embed(self, lying: Lying) -> None:
+        """An edge of the one side becomes a curve on a face of the other in which it lies."""
+        border = self.borders[lying.which][lying.face]
+        edge, places = self.edges[lying.edge], lying.places.copy()
+        keys = []
+        for node, k in ((edge.start, 0), (edge.end, -1)):
+            image = border.image_at(node, places[k])
+            places[k] = image.uv
+            keys.append(image.key)
+        surface = border.face.surface
+        curve, length, off = pcurve_along(edge, surface, places, GAP * self.size)
+        if off > edge.tolerance:
+            if off > LOOSEST * self.size:
+                raise SurfaceError(
+                    f"{surface.name}: no curve follows an edge that lies on it, near "
+                    f"{place(edge.evaluate(np.array([0.5]))[0][0])}: the best is {off:.2g} off"
+                )
+            self.edges[lying.edge] = replace(edge, tolerance=1.1 * off)
+        border.add_curve(lying.edge, curve, length, *keys)
 
     def _pair(self, i: int, j: int) -> None:
         """All curves in which face i of the one and face j of the other meet."""
         one, other = self.contacts.sides
         a, b = self.borders[0][i], self.borders[1][j]
+        if are_one_surface(a.face.surface, b.face.surface, self.contacts.same):
+            self.coincident.append((i, j))
+            return
         pair = FacePair(
             a.face, b.face, (one.cells[i], other.cells[j]), (one.regions[i], other.regions[j]),
             self.size, GAP * self.size,
         )  # fmt: skip
+        pair.known = [trace for edge in a.shared_with(b) for trace in self._known(edge, a, b)]
         pair.singular = self._poles(a, j) + self._poles(b, i)
-        for touch in pair.branch_points():
+        touches = pair.branch_points()
+        if pair.is_one_surface:
+            self.coincident.append((i, j))
+            return
+        for touch in touches:
             self._add_branch_point(touch, a, b)
         nodes = sorted(a.images.keys() & b.images.keys())
         ends = [end for node in nodes for end in self._ends(node, a, b, i, j)]
@@ -153,6 +133,16 @@ class Meeting:
         for trace in pair.all_branches(ends):
             made = fitted(trace, a.face.surface, b.face.surface, self.size)
             self._add_curve(trace, made, a, b)
+
+    def _known(self, number: int, a: FaceBorder, b: FaceBorder) -> list[Trace]:
+        """An edge that both faces have, as a trace on both."""
+        edge = self.edges[number]
+        fraction = np.linspace(0.0, 1.0, KNOWN)
+        points = edge.evaluate(fraction, 0)[0]
+        return [
+            Trace(points, one.uv(fraction), other.uv(fraction), None, None)
+            for one in a.uses(number) for other in b.uses(number)
+        ]  # fmt: skip
 
     def _poles(self, border: FaceBorder, other: int) -> list[np.ndarray]:
         """Poles of a face through which another face of the other side passes."""
@@ -180,19 +170,34 @@ class Meeting:
                 else:
                     ways, singular = _ways(a.face.surface, b.face.surface, one.uv, other.uv, point)
                 for way in ways:
-                    along_a, along_b = (
-                        uv_directions(border.face.surface, image.uv[None], way[None])[0]
-                        if image.rate is None else image.rate
-                        for border, image in ((a, one), (b, other))
+                    end = End(
+                        node, one.uv, other.uv, point, way, one.key, other.key, singular,
+                        one.rate, other.rate,
                     )  # fmt: skip
-                    if a.enters(one, along_a) and b.enters(other, along_b):
-                        found.append(
-                            End(
-                                node, one.uv, other.uv, point, way, one.key, other.key, singular,
-                                one.rate, other.rate,
-                            )
-                        )  # fmt: skip
+                    if self._leads_into_both(end, a, b, one, other):
+                        found.append(end)
         return found
+
+    def _leads_into_both(
+        self, end: End, a: FaceBorder, b: FaceBorder, one: Image, other: Image
+    ) -> bool:
+        """Does a way out of a node lead into both faces, and along no edge that both have?"""
+        along_a, along_b = (
+            uv_directions(border.face.surface, image.uv[None], end.way[None])[0]
+            if image.rate is None else image.rate
+            for border, image in ((a, one), (b, other))
+        )  # fmt: skip
+        if a.edges_along(one, along_a) & b.edges_along(other, along_b):
+            return False
+        step = PROBED * min(a.extent, b.extent)
+        ahead = pulled_onto_both(
+            a.face.surface, b.face.surface, (one.uv + step * along_a)[None],
+            (other.uv + step * along_b)[None], end.way[None], (end.point + step * end.way)[None],
+        )  # fmt: skip
+        uv_a, uv_b = ahead.uv_a[0], ahead.uv_b[0]
+        if not ahead.gap[0] <= GAP * self.size:
+            uv_a, uv_b = one.uv + step * along_a, other.uv + step * along_b
+        return a.enters(one, along_a, uv_a) and b.enters(other, along_b, uv_b)
 
     def _add_curve(self, trace: Trace, made: FittedCurve, a: FaceBorder, b: FaceBorder) -> None:
         number = len(self.edges)
@@ -215,7 +220,8 @@ class Meeting:
         a.add_curve(number, made.pcurve_a, made.length, *keys_a)
         b.add_curve(number, made.pcurve_b, made.length, *keys_b)
 
-    def _parts(self, patch: Patch, border: FaceBorder) -> list[Patch]:
+    @staticmethod
+    def _parts(patch: Patch, border: FaceBorder) -> list[Patch]:
         if not border.is_cut:  # its edges have new numbers
             coedges = iter(border.halves)
             loops = [[next(coedges).coedge for _ in loop] for loop in patch.face.loops]
@@ -263,10 +269,11 @@ def _ways_at_pole(one: Image, other: Image, i: int, j: int) -> list[np.ndarray]:
     return []
 
 
-def joined(complexes: Sequence[Complex], size: float) -> Complex:
+def joined(complexes: Sequence[Complex], size: float, merge: bool) -> Complex:
     """All complexes cut by each other, one after the other: so three faces through a point have
-    it as a vertex, as the third cuts the edge of the first two there."""
+    it as a vertex, as the third cuts the edge of the first two there. merge: what coincides
+    becomes one patch, else it is refused."""
     whole = complexes[0]
     for other in complexes[1:]:
-        whole = Meeting(whole, other, size).joined()
+        whole = Meeting(whole, other, size, merge).joined()
     return whole

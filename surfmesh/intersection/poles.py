@@ -23,6 +23,10 @@ NEAR_END = 1e-7
 """Of the range of the side: a curve that leaves there runs along the next edge."""
 
 
+BESIDE = 1e-2
+"""Of the length of the side: places so near to it are on it."""
+
+
 class WayOut(NamedTuple):
     """fraction: of the degenerate edge. way: (3,) unit. rate: (2,) of u and v along it."""
 
@@ -31,10 +35,13 @@ class WayOut(NamedTuple):
     rate: np.ndarray
 
 
-def ways_out_of_pole(surface: FaceSurface, coedge: CadCoedge, normal: np.ndarray) -> list[WayOut]:
+def ways_out_of_pole(
+    surface: FaceSurface, coedge: CadCoedge, normal: np.ndarray, along_edges: bool = False
+) -> list[WayOut]:
     """All places of a degenerate side where a curve on a surface with this normal (3,) leaves.
 
-    Raises ``SurfaceError`` where one leaves along an edge, or the surface touches the pole.
+    along_edges: those that leave along the next edges are these edges, and left out. Raises
+    ``SurfaceError`` where one leaves along an edge otherwise, or the surface touches the pole.
     """
     ends = coedge.uv(np.array([0.0, 1.0]))
     axis = int(np.argmin(np.abs(ends[1] - ends[0])))  # the parameter that leads out
@@ -59,6 +66,8 @@ def ways_out_of_pole(surface: FaceSurface, coedge: CadCoedge, normal: np.ndarray
     for k in np.flatnonzero((heights[:-1] > 0.0) != (heights[1:] > 0.0)):
         t = _root(height, fractions[k], fractions[k + 1])
         if min(t, 1.0 - t) < NEAR_END:
+            if along_edges:
+                continue
             raise SurfaceError(
                 f"a curve on {surface.name} leaves its pole along an edge at "
                 f"{place(surface.evaluate(ends[:1])[0][0])}; turn one of the surfaces"
@@ -69,6 +78,15 @@ def ways_out_of_pole(surface: FaceSurface, coedge: CadCoedge, normal: np.ndarray
         rate[axis] = inward / speed
         found.append(WayOut(float(t), way / speed, rate))
     return found
+
+
+def fraction_at_pole(coedge: CadCoedge, uv: np.ndarray) -> float | None:
+    """Where on a degenerate side a place (2,) lies; None for elsewhere."""
+    start, end = coedge.uv(np.array([0.0, 1.0]))
+    step = end - start
+    fraction = float((uv - start) @ step / (step @ step))
+    off = np.abs(uv - start - fraction * step).max()
+    return fraction if -1e-3 < fraction < 1.001 and off <= BESIDE * np.abs(step).max() else None
 
 
 def _root(height: Callable[[float], float], low: float, high: float) -> float:

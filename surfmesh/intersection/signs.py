@@ -17,6 +17,9 @@ from surfmesh.intersection.regions import Region
 MIDDLE = np.array([0.47])
 """Of a common curve: where the side is seen."""
 
+TANGENT = 1e-6
+"""Sine: a patch that leaves a curve so near to a surface does not tell its side there."""
+
 GRID = 33
 """Samples each way of a face, of which the nearest to a point is looked for first."""
 
@@ -46,7 +49,7 @@ class Signs:
             self._known[number] = {
                 other: self._sign(number, other)
                 for other in range(len(self.models))
-                if other != patch.source
+                if not patch.is_of(other)
             }
         return self._known[number]
 
@@ -76,15 +79,18 @@ class Signs:
         seen: list[set[int]] = [set() for _ in range(count)]
         neighbours: list[set[int]] = [set() for _ in range(count)]
         for users in self.users.values():
-            cutting = [user for user in users if self.whole.patches[user[0]].source == other]
-            own = [user for user in users if self.whole.patches[user[0]].source != other]
+            cutting = [user for user in users if self.whole.patches[user[0]].is_of(other)]
+            own = [user for user in users if not self.whole.patches[user[0]].is_of(other)]
             for number, coedge in own:
                 if cutting:
-                    seen[number].add(self._at_curve(number, coedge, *cutting[0]))
+                    seen[number] |= {
+                        sign for user in cutting
+                        if (sign := self._at_curve(number, coedge, *user))
+                    }  # fmt: skip
             if not cutting:
                 for one, _ in own:
                     for two, _ in own:
-                        same = self.whole.patches[one].source == self.whole.patches[two].source
+                        same = self.whole.patches[two].is_of(self.whole.patches[one].source)
                         if one != two and same:
                             neighbours[one].add(two)
         signs = [next(iter(s)) if len(s) == 1 else 0 for s in seen]
@@ -95,12 +101,13 @@ class Signs:
                     signs[near] = signs[k]
                     front.append(near)
         for k in range(count):
-            if not seen[k] and not signs[k] and self.whole.patches[k].source != other:
+            if not seen[k] and not signs[k] and not self.whole.patches[k].is_of(other):
                 signs[k] = self._at_nearest(k, other)
         return signs
 
     def _at_curve(self, number: int, coedge: CadCoedge, other: int, cut: CadCoedge) -> int:
-        """Seen on a common curve: where the inside of a patch, on the left of its coedge, lies."""
+        """Seen on a common curve: where the inside of a patch, on the left of its coedge, lies; 0
+        where it is tangent there."""
         patch, across = self.whole.patches[number], self.whole.patches[other]
         edge = self.whole.edges[coedge.edge]
         tangent = edge.evaluate(MIDDLE, 1)[1]
@@ -110,7 +117,8 @@ class Signs:
         normal = unit_normals(across.face.surface, cut.uv(MIDDLE))
         if across.face.reversed:
             normal = -normal
-        return 1 if float(np.einsum("ij,ij->", left, normal)) > 0.0 else -1
+        up = float(np.einsum("ij,ij->", left, normal)) / float(np.linalg.norm(tangent))
+        return 0 if abs(up) < TANGENT else 1 if up > 0.0 else -1
 
     def _at_nearest(self, number: int, other: int) -> int:
         """By the normal at the nearest point of an input that the patch does not meet."""

@@ -4,8 +4,12 @@ import numpy as np
 import pytest
 
 import surfmesh as sm
-from surfmesh._core.patch import dense_samples, triangle_deviations
-from surfmesh.accuracy.deviation import point_deviations, vertex_deviations
+from surfmesh._core.patch import (
+    dense_samples,
+    point_deviations,
+    triangle_deviations,
+    vertex_deviations,
+)
 from surfmesh.accuracy.dihedral import corners_beside
 from surfmesh.accuracy.folds import cosines_with_surface
 from surfmesh.accuracy.samples import DENSE
@@ -38,11 +42,11 @@ def test_points_at_a_distance():
     (r,) = SPHERE.evaluate(uv, 0)
     radius = np.linalg.norm(r, axis=1)
     size = np.full(len(uv), 0.1)
-    assert vertex_deviations(SPHERE, r, uv, size).max() == 0.0
+    assert vertex_deviations(SPHERE.core, r, uv, size).max() == 0.0
     for factor in (0.9, 1.02):
         away = np.abs(factor - 1.0) * radius
         # feet are far enough off to be looked for
-        found, normals = point_deviations(SPHERE, factor * r, uv + 0.01, size)
+        found, normals = point_deviations(SPHERE.core, factor * r, uv + 0.01, size)
         assert found == pytest.approx(away, rel=1e-3)
         assert np.linalg.norm(normals, axis=1) == pytest.approx(1.0)
 

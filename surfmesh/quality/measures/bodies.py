@@ -19,6 +19,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from surfmesh._core.space import triangle_distances
 from surfmesh.geometry.boxes import diagonal
 from surfmesh.quality.measures.by_solid import SolidRow
 from surfmesh.quality.measures.inside import inside
@@ -27,7 +28,6 @@ from surfmesh.quality.measures.penetration import depths, distances_allowed
 from surfmesh.quality.measures.places import Point, as_point
 from surfmesh.quality.measures.solids import solids_beside
 from surfmesh.quality.measures.topology import vertex_components
-from surfmesh.quality.measures.triangle_distances import triangle_distances
 from surfmesh.quality.measures.true_depth import true_depth, true_depth_of_faces
 from surfmesh.result.surface_mesh import SurfaceMesh
 

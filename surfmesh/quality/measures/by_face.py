@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 from surfmesh.geometry.surface import surface_kind
 from surfmesh.quality.measures.by_solid import relative_error
 from surfmesh.quality.measures.measurements import Measurements
-from surfmesh.quality.measures.places import Point, as_point
+from surfmesh.quality.measures.places import Point
 from surfmesh.quality.measures.tolerances import (
     exceeds_angle,
     exceeds_chord,
@@ -50,6 +50,7 @@ class _Deviations(NamedTuple):
 
     largest: NDArray[np.float64]
     worst: NDArray[np.intp]  # the triangle where that is
+    places: list[Point]  # the centroids of these
     square: NDArray[np.float64]  # mean square times area
     above: NDArray[np.float64]  # triangles farther away than the chord
     folded: NDArray[np.float64]  # triangles
@@ -83,15 +84,19 @@ def by_face(measured: Measurements) -> tuple[FaceRow, ...]:
     size, target = _sizes(mesh, faces, count, measured.lengths)
     fits, dihedrals = _deviations(measured, faces, count), _dihedrals(measured, count)
     exact = measured.facts.faces
+    chords = tolerances.of_each(tolerances.chord, numbers)
+    angles = tolerances.of_each(tolerances.angle, numbers)
+    limits: dict[int, list[str]] = {}
+    for limit in measured.limits:
+        limits.setdefault(limit.face, []).append(str(limit))
     rows = []
     for k, face in enumerate(numbers.tolist()):
         here, known = int(triangles[k]), exact[face] if 0 <= face < len(exact) else None
         kind = surface_kind(mesh.surfaces[face]) if mesh.surfaces else ""
         exact_area = None if known is None else known.area
-        chord = tolerances.one(tolerances.chord, face)
-        angle = tolerances.one(tolerances.angle, face)
+        own_area, chord, angle = float(area[k]), chords[k], angles[k]
         fit = fits if here else None
-        rms = float(fit.square[k] / area[k]) ** 0.5 if fit is not None and area[k] > 0 else None
+        rms = (float(fit.square[k]) / own_area) ** 0.5 if fit and own_area > 0 else None
         dihedral = dihedrals if dihedrals is not None and dihedrals.edges[k] else None
         above_angle = (
             float(dihedral.above[k] / dihedral.edges[k]) if dihedral is not None and angle else None
@@ -102,16 +107,16 @@ def by_face(measured: Measurements) -> tuple[FaceRow, ...]:
                 name=mesh.face_name(face),
                 kind=kind if known is None else known.kind,
                 triangles=here,
-                area=float(area[k]),
+                area=own_area,
                 area_exact=exact_area,
-                area_error=relative_error(float(area[k]), exact_area) if here else None,
+                area_error=relative_error(own_area, exact_area) if here else None,
                 chord=chord,
                 angle=angle,
-                limit="; ".join(str(limit) for limit in measured.limits if limit.face == face),
+                limit="; ".join(limits.get(face, ())),
                 deviation_max=None if fit is None else float(fit.largest[k]),
                 deviation_rms=rms,
                 deviation_triangle=None if fit is None else int(fit.worst[k]),
-                deviation_point=None if fit is None else _middle(mesh, fit.worst[k]),
+                deviation_point=None if fit is None else fit.places[k],
                 above_chord_share=float(fit.above[k] / here) if fit is not None and chord else None,
                 angle_max=float(dihedral.largest[k]) if dihedral is not None else None,
                 above_angle_share=above_angle,
@@ -138,6 +143,7 @@ def _deviations(
     return _Deviations(
         largest,
         worst,
+        _middles(measured.mesh, worst),
         square=_sums(faces, measured.shapes.area * fit.mean_square, count),
         above=_sums(faces, exceeds_chord(measured.tolerances, measured.mesh, fit), count),
         folded=_sums(faces, folds.by_mesh, count),
@@ -159,8 +165,10 @@ def _sums(faces: NDArray[np.integer[Any]], values: NDArray[Any], count: int) -> 
     return np.bincount(faces, values, count).astype(np.float64, copy=False)
 
 
-def _middle(mesh: SurfaceMesh, triangle: np.intp) -> Point:
-    return as_point(mesh.points[mesh.triangles[triangle]].mean(axis=0))
+def _middles(mesh: SurfaceMesh, triangles: NDArray[np.intp]) -> list[Point]:
+    """The centroids of triangles (f,)."""
+    x, y, z = mesh.points[mesh.triangles[triangles]].mean(axis=1).T.tolist()
+    return list(zip(x, y, z))
 
 
 def _sizes(

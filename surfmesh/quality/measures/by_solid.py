@@ -5,6 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from surfmesh._core.quality import solid_counts
 from surfmesh.quality.measures.shape import Shapes
 from surfmesh.quality.measures.solids import around_solids
 from surfmesh.result.surface_mesh import SurfaceMesh
@@ -44,17 +45,7 @@ def by_solid(mesh: SurfaceMesh, shape: Shapes) -> tuple[SolidRow, ...]:
     a, b, c = (mesh.points[corner] - apex for corner in corners.T)
     volume = np.bincount(solid, np.einsum("ij,ij->i", a, np.cross(b, c)) / 6.0, count)
 
-    width = len(mesh.points)
-    starts, ends = corners.ravel(), corners[:, (1, 2, 0)].ravel()
-    of = np.repeat(solid.astype(np.int64), 3)
-    vertices = np.bincount(np.unique(of * width + starts) // width, minlength=count)
-    keys, place = np.unique(
-        of * width**2 + np.minimum(starts, ends) * width + np.maximum(starts, ends),
-        return_inverse=True,
-    )  # fits 64 bits for a hundred solids of a hundred million vertices
-    edges = np.bincount(keys // width**2, minlength=count)
-    balance = np.bincount(place, np.where(starts < ends, 1.0, -1.0))
-    opened = np.bincount(keys // width**2, balance != 0, count)
+    vertices, edges, opened = solid_counts(around, solid, len(mesh.points), count)
     euler = vertices - edges + triangles
     closed = [bool(triangles[k] > 0 and opened[k] == 0) for k in range(count)]
     exact_area = [exact[k].area if k < len(exact) else None for k in range(count)]

@@ -1,34 +1,26 @@
 """How far the mesh lies from the true surface, and which triangles face the wrong way.
 
-Samples are the vertices, the middles of the edges (once each; between two faces once for
-either) and the centroids: the seven points of a rule that integrates cubics over a triangle
-exactly. At each, the distance is to
-the nearest point of the surface, not to the image r(u, v) of the interpolated parameters.
-The worst triangles are then sampled densely.
+Samples are the vertices, the middles of the edges and the centroids, in one call of the core for
+all faces (``src/measures/mesh_deviation.hpp``). At each, the distance is to the nearest point of
+the surface, not to the image r(u, v) of the interpolated parameters. The worst triangles are then
+sampled densely.
 """
 
 from collections.abc import Iterator
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-from surfmesh.accuracy.deviation import (
-    STEPS,
-    nearest_deviations,
-    point_deviations,
-    vertex_deviations,
-)
-from surfmesh.accuracy.folds import cosines, triangle_normals
-from surfmesh.accuracy.samples import CENTROID, DENSE, MIDDLES
+from surfmesh._core.quality import mesh_deviation
+from surfmesh.accuracy.deviation import STEPS, nearest_deviations
+from surfmesh.accuracy.samples import DENSE
 from surfmesh.quality.measures.known_surfaces import KnownSurfaces
 from surfmesh.quality.measures.places import Point, as_point, as_uv
 from surfmesh.result.surface_mesh import SurfaceMesh
 
 BLOCK = 1 << 15  # samples looked at together: the temporaries stay within the cache
 SECOND_LOOK = 400  # triangles sampled densely, or one in 250 if that is more
-# barycentric weights of the seven-point rule (Zienkiewicz & Taylor, The Finite Element Method)
-VERTEX_WEIGHT, MIDDLE_WEIGHT, CENTROID_WEIGHT = 1 / 20, 2 / 15, 9 / 20
 
 
 class Deviation(NamedTuple):
@@ -53,46 +45,12 @@ def deviation(mesh: SurfaceMesh, area: NDArray[np.float64]) -> Deviation | None:
     known = KnownSurfaces.of(mesh)
     if known is None:
         return None
-    count = len(mesh.triangles)
-    by_triangle, mean_square = np.zeros(count), np.zeros(count)
-    normals = np.zeros((count, 3))  # of the surfaces, at the triangles' centroids
-    corners, uv_corners = mesh.triangles.reshape(-1), known.corners.uv_triangles.reshape(-1)
-    corner_of = np.full(len(mesh.points), -1, np.int32)
-    corner_of[corners] = np.arange(len(corners), dtype=np.int32)
-    at_vertex = np.zeros(len(mesh.points))
-
-    half_edges, twins = _measured_half_edges(mesh)
-    for surface, triangles, middles, vertices in _by_face(mesh, half_edges, corner_of):
-        for block in _blocks(vertices):
-            corner = corner_of[block]
-            points, uv = mesh.points[block], known.corners.uv_points[uv_corners[corner]]
-            at_vertex[block] = vertex_deviations(surface, points, uv, np.sqrt(area[corner // 3]))
-        for block in _blocks(middles):
-            triangle, side = np.divmod(half_edges[block], np.int32(3))
-            points, uv = known.samples(triangle, side, MIDDLES)
-            distance, _ = point_deviations(surface, points, uv, np.sqrt(area[triangle]))
-            shared = twins[block] >= 0
-            for beside, found in (
-                (triangle, distance),
-                (twins[block[shared]] // 3, distance[shared]),
-            ):
-                np.add.at(mean_square, beside, MIDDLE_WEIGHT * found**2)
-                np.maximum.at(by_triangle, beside, found)
-        for block in _blocks(triangles):
-            points, uv = known.samples(block, np.zeros_like(block), CENTROID)
-            found, normals[block] = point_deviations(surface, points, uv, np.sqrt(area[block]))
-            mean_square[block] += CENTROID_WEIGHT * found**2
-            by_triangle[block] = np.maximum(by_triangle[block], found)
-    cosine = np.ones(count, np.float32)
-    for block in _blocks(_count(count)):
-        cosine[block] = _cosines(mesh, block, normals[block], area[block])
-    del normals
+    by_triangle, mean_square, cosine = mesh_deviation(
+        known.core_surfaces, mesh.points, mesh.triangles, known.corners.uv_points,
+        known.corners.uv_triangles, mesh.face_ids, _measured_edges(mesh), area,
+    )  # fmt: skip
     if mesh.turned_faces is not None:
         cosine[mesh.turned_faces[mesh.face_ids]] *= -1.0
-    for block in _blocks(_count(count)):
-        found = at_vertex[mesh.triangles[block]]
-        mean_square[block] += VERTEX_WEIGHT * np.square(found).sum(axis=1)
-        by_triangle[block] = np.maximum(by_triangle[block], found.max(axis=1))
     total = float(area.sum())
     rms = (_dot(area, mean_square) / total) ** 0.5 if total > 0 else float("nan")
 
@@ -101,54 +59,27 @@ def deviation(mesh: SurfaceMesh, area: NDArray[np.float64]) -> Deviation | None:
     return Deviation(by_triangle, mean_square, cosine, largest, rms, triangle, point, uv)
 
 
-def _measured_half_edges(mesh: SurfaceMesh) -> tuple[NDArray[np.int32], NDArray[np.int32]]:
-    """Half-edges (k,) whose middles are looked at, and those (k,) that share the finding or -1.
+def _measured_edges(mesh: SurfaceMesh) -> NDArray[np.int32]:
+    """Half-edges (k, 2) whose middles are looked at, and those that share the finding or -1.
 
     An edge within a face is looked at once, an edge between two faces from both of them.
     """
-    first, second = mesh.connectivity.half_edges.T
+    pairs = mesh.connectivity.half_edges
     if len(mesh.surfaces) == 1:
-        return first, second
-    between = (second >= 0) & (mesh.face_ids[first // 3] != mesh.face_ids[second // 3])
-    again = second[between]
-    return (
-        np.concatenate([first, again]),
-        np.concatenate([np.where(between, -1, second), np.full_like(again, -1)]),
+        return pairs
+    first, second = mesh.face_ids[pairs // 3].T
+    between = (pairs[:, 1] >= 0) & (first != second)
+    again = pairs[between]
+    once = pairs.copy()
+    once[between, 1] = -1
+    return np.concatenate([once, np.column_stack([again[:, 1], np.full(len(again), -1)])]).astype(
+        np.int32, copy=False
     )
-
-
-def _by_face(
-    mesh: SurfaceMesh, half_edges: NDArray[np.int32], corner_of: NDArray[np.int32]
-) -> Iterator[tuple[Any, ...]]:
-    """Each surface with its triangles and half-edges, and the vertices first seen from them."""
-    edge_face = mesh.face_ids[half_edges // 3]
-    used = np.flatnonzero(corner_of >= 0).astype(np.int32)
-    vertex_face = mesh.face_ids[corner_of[used] // 3]
-    if len(mesh.surfaces) == 1:
-        yield mesh.surfaces[0], _count(len(mesh.face_ids)), _count(len(edge_face)), used
-        return
-    members = []
-    for faces in (mesh.face_ids, edge_face, vertex_face):
-        order = np.argsort(faces, kind="stable").astype(np.int32)
-        members.append(np.split(order, np.searchsorted(faces[order], range(1, len(mesh.surfaces)))))
-    for surface, triangles, middles, vertices in zip(mesh.surfaces, *members):
-        yield surface, triangles, middles, used[vertices]
-
-
-def _count(length: int) -> NDArray[np.int32]:
-    return np.arange(length, dtype=np.int32)
 
 
 def _blocks(members: NDArray, length: int = BLOCK) -> Iterator[NDArray]:
     for start in range(0, len(members), length):
         yield members[start : start + length]
-
-
-def _cosines(mesh: SurfaceMesh, triangle: NDArray, normals: NDArray, area: NDArray) -> NDArray:
-    """Cosine between the normals of triangles and of the surface; 1 where either is missing."""
-    own = triangle_normals(mesh.points[mesh.triangles[triangle]])
-    lengths = np.where(normals.any(axis=1), 2.0 * area, 0.0)
-    return np.where(lengths == 0.0, 1.0, cosines(own, normals, lengths))
 
 
 def _dot(a: NDArray, b: NDArray) -> float:

@@ -13,7 +13,7 @@ from surfmesh.accuracy.dihedral import (
     on_crease,
 )
 from surfmesh.geometry.boxes import diagonal
-from surfmesh.quality.measures.known_surfaces import KnownSurfaces
+from surfmesh.quality.measures.known_surfaces import KnownSurfaces, rows_of_faces
 from surfmesh.quality.measures.places import Point, as_point
 from surfmesh.result.surface_mesh import SurfaceMesh
 from surfmesh.sizing.options.defaults import DEFAULT_ANGLE
@@ -56,15 +56,14 @@ def angles_within_faces(
     limits = np.where(np.isfinite(limits), limits, DEFAULT_ANGLE)
     limits = np.broadcast_to(limits, len(mesh.surfaces)) if len(limits) == 1 else limits
     large = np.flatnonzero(angles > limits[faces] * (1 + SLACK))
-    for face in np.unique(faces[large]):
-        here = large[faces[large] == face]
-        own = np.unique(mesh.triangles[mesh.face_ids == face])
+    own = dict(rows_of_faces(mesh.face_ids)) if len(large) else {}
+    for face, here in rows_of_faces(faces[large]):
+        here = large[here]
         beside = corners_beside(pairs[here])
         uv = known.corners.uv_points[known.corners.uv_triangles.ravel()[beside]]
         vertices = mesh.triangles.ravel()[beside]
-        creased = on_crease(
-            mesh.surfaces[face], vertices, uv, float(limits[face]), diagonal(mesh.points[own])
-        )
+        size = diagonal(mesh.points[mesh.triangles[own[face]].ravel()])
+        creased = on_crease(mesh.surfaces[face], vertices, uv, float(limits[face]), size)
         angles[here[creased]] = 0.0
     return DihedralAngles(edges, faces, angles)
 

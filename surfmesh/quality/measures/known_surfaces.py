@@ -3,21 +3,26 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from dataclasses import dataclass
+from functools import cached_property
 from itertools import pairwise
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
+from surfmesh._core.quality import surface_points
 from surfmesh._core.space import interpolate
-from surfmesh.geometry.surface import Surface
+from surfmesh._core.surfaces import Surface as CoreSurface
+from surfmesh.geometry.core_surface import as_core_surface
 from surfmesh.result.mesh_parts import Parametrisation
 from surfmesh.result.surface_mesh import SurfaceMesh
 
 Rows = NDArray[np.integer[Any]]
 
 
-class KnownSurfaces(NamedTuple):
+@dataclass(frozen=True)
+class KnownSurfaces:
     """The mesh and the parameters of its corners."""
 
     mesh: SurfaceMesh
@@ -64,27 +69,22 @@ class KnownSurfaces(NamedTuple):
         rows = np.arange(len(triangle), dtype=np.int32)
         return interpolate(values, triangles[triangle], rows, rule, weights)
 
-    def by_surface(self, faces: Rows) -> Iterator[tuple[Surface, NDArray[np.intp]]]:
-        """Each surface that occurs among ``faces`` (k,), and the rows where it does."""
-        if not len(faces):
-            return
-        if len(self.mesh.surfaces) == 1:
-            yield self.mesh.surfaces[0], np.arange(len(faces))
-            return
-        order = np.argsort(faces, kind="stable")
-        starts = np.flatnonzero(np.diff(faces[order], prepend=-1))
-        for start, end in pairwise([*starts.tolist(), len(faces)]):
-            yield self.mesh.surfaces[int(faces[order[start]])], order[start:end]
+    @cached_property
+    def core_surfaces(self) -> list[CoreSurface]:
+        """Those of the mesh, as the core has them."""
+        return [as_core_surface(surface) for surface in self.mesh.surfaces]
 
-    def evaluate(
-        self, faces: Rows, uv: NDArray[np.float64], order: int = 0
-    ) -> tuple[NDArray[np.float64], ...]:
-        """What the surfaces of ``faces`` (k,) give at uv (k, 2): points (k, 3), at order 1 r_u and
-        r_v too."""
-        if len(self.mesh.surfaces) == 1:
-            return self.mesh.surfaces[0].evaluate(uv, order)
-        found = tuple(np.empty((len(uv), 3)) for _ in range(1 + 2 * order))
-        for surface, here in self.by_surface(faces):
-            for array, values in zip(found, surface.evaluate(uv[here], order)):
-                array[here] = values
-        return found
+    def points_at(self, faces: Rows, uv: NDArray[np.float64]) -> NDArray[np.float64]:
+        """(k, 3) of the surfaces of ``faces`` (k,) at uv (k, 2)."""
+        (points,) = surface_points(self.core_surfaces, faces.astype(np.int32, copy=False), uv, 0)
+        return points
+
+
+def rows_of_faces(faces: Rows) -> Iterator[tuple[int, NDArray[np.intp]]]:
+    """Each face that occurs among ``faces`` (k,), and the rows where it does."""
+    if not len(faces):
+        return
+    order = np.argsort(faces, kind="stable")
+    starts = np.flatnonzero(np.diff(faces[order], prepend=-1))
+    for start, end in pairwise([*starts.tolist(), len(faces)]):
+        yield int(faces[order[start]]), order[start:end]

@@ -20,13 +20,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from surfmesh._core.edges import CurvePieces
+from surfmesh._core.quality import TriangleStars
+from surfmesh._core.space import triangle_distances
 from surfmesh.cad.model.cad_model import CadEdge
 from surfmesh.geometry.differential.projection import closest_point
 from surfmesh.quality.measures.deviation import BLOCK, Deviation
 from surfmesh.quality.measures.known_surfaces import KnownSurfaces
 from surfmesh.quality.measures.places import Point, as_point, as_uv
 from surfmesh.quality.measures.tolerances import CHORD_SLACK, Tolerances
-from surfmesh.quality.measures.triangle_distances import triangle_distances
 from surfmesh.result.quadratic_triangles import edge_rows
 from surfmesh.result.surface_mesh import SurfaceMesh
 
@@ -64,14 +65,15 @@ def surface_deviation(
         return None
     mesh = known.mesh
     search = _Search(known, fit, tolerances)
-    if search.curves is not None:
-        _look_along_curves(search, search.curves, fit)
-    else:
-        search.look(*_on_rims(mesh), at_rim=True)
     count = len(mesh.triangles)
     length = BLOCK // len(WITHIN)
     for start in range(0, count, length):
         search.look(*_over(np.arange(start, min(start + length, count), dtype=np.int32), WITHIN))
+    # after these, which tell what is not worth a search along flat faces
+    if search.curves is not None:
+        _look_along_curves(search, search.curves, fit)
+    else:
+        search.look(*_on_rims(mesh), at_rim=True)
     worth = np.maximum(fit.by_triangle, search.by_triangle)
     chosen = min(count, max(SECOND_LOOK, count // 250))
     worst = np.sort(np.argpartition(worth, count - chosen)[count - chosen :]).astype(np.int32)
@@ -209,15 +211,14 @@ class _Search:
         if not len(triangle):
             return
         uv = self.known.sample_uv(triangle, rule, weights)
-        (points,) = self.known.evaluate(self.mesh.face_ids[triangle], uv)
+        points = self.known.points_at(self.mesh.face_ids[triangle], uv)
         self.look_at(points, uv, triangle, at_rim)
 
     def look_at(self, points: NDArray, uv: NDArray, triangle: NDArray, at_rim: bool) -> None:
         """At points (k, 3) of the surface, with parameters (k, 2) over triangles (k,)."""
         if not len(triangle):
             return
-        mesh = self.mesh
-        distance = triangle_distances(points, mesh.points[mesh.triangles[triangle]])
+        distance = self._stars.distances(points, triangle)
         distance[~np.isfinite(distance)] = 0.0  # where a formula has no value
         known = self._refine(points, uv, triangle, distance)
         np.maximum.at(self.by_triangle, triangle, distance)
@@ -251,26 +252,7 @@ class _Search:
         self, points: NDArray, uv: NDArray, triangle: NDArray, distance: NDArray
     ) -> NDArray:
         """Distances (k,) to nearer triangles, from neighbour to neighbour while there are such."""
-        distance, nearest = distance.copy(), triangle.copy()
-        order, first = self._around
-        active = np.arange(len(points))
-        while len(active):
-            corners = self.mesh.triangles[nearest[active]].astype(np.int64)
-            counts = first[corners + 1] - first[corners]
-            total = counts.sum(axis=1)
-            row = np.repeat(np.arange(3 * len(active)), counts.ravel())
-            start = np.cumsum(counts.ravel()) - counts.ravel()
-            near = order[first[corners.ravel()][row] + np.arange(len(row)) - start[row]]
-            found = triangle_distances(
-                points[active[row // 3]], self.mesh.points[self.mesh.triangles[near]]
-            )
-            ends = np.cumsum(total)
-            least = np.minimum.reduceat(found, ends - total)
-            mine = np.flatnonzero(found == np.repeat(least, total))
-            chosen = near[mine[np.searchsorted(mine, ends - total)]]
-            nearer = least < distance[active]
-            active = active[nearer]
-            nearest[active], distance[active] = chosen[nearer], least[nearer]
+        distance = self._stars.walk(points, triangle, distance)
         self._compare_beyond(points, uv, triangle, distance)
         return distance
 
@@ -292,13 +274,8 @@ class _Search:
             distance[k] = exact
 
     @cached_property
-    def _around(self) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
-        """Triangles at the vertices one after the other, and where those of each begin."""
-        corners = self.mesh.triangles.ravel()
-        order = np.argsort(corners, kind="stable") // 3
-        first = np.zeros(len(self.mesh.points) + 1, np.int64)
-        np.cumsum(np.bincount(corners, minlength=len(self.mesh.points)), out=first[1:])
-        return order, first
+    def _stars(self) -> TriangleStars:
+        return TriangleStars(self.mesh.points, self.mesh.triangles)
 
     def result(self) -> SurfaceDeviation:
         """What is found; the farthest points, if they are farther than any of the mesh from the
@@ -364,8 +341,7 @@ class _Search:
         corners = self.mesh.points[self.mesh.triangles[near]]
         if not len(corners):
             return distance
-        points = np.broadcast_to(point, (len(corners), 3))
-        return min(distance, float(triangle_distances(points, corners).min()))
+        return min(distance, float(triangle_distances(point[None], corners).min()))
 
     @cached_property
     def _balls(self) -> tuple[NDArray[np.float64], NDArray[np.float64]]:

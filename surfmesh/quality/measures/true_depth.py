@@ -92,7 +92,7 @@ def true_depth_of_faces(
         facing = outward[0] * outward[1] * _cosines(mesh, pairs) < FACING
         own, base, outwards = own[facing], base[facing], outward[1][facing]
         uv = known.uv(own).mean(axis=1)
-        (points,) = known.evaluate(mesh.face_ids[own], uv)
+        points = known.points_at(mesh.face_ids[own], uv)
         limit = allowed[own] + allowed[base] + least
         found = _deepest(known, _Looked(points, own, uv, base, outwards, limit))
         best = max(best, found, key=lambda one: one.depth)

@@ -13,6 +13,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from surfmesh._core.quality import TriangleStars
 from surfmesh.geometry.surface import BoundedSurface
 from surfmesh.quality.measures.deviation import Deviation
 from surfmesh.quality.measures.hidden_search import (
@@ -28,7 +29,6 @@ from surfmesh.quality.measures.hidden_search import (
 from surfmesh.quality.measures.known_surfaces import KnownSurfaces, Rows
 from surfmesh.quality.measures.places import Point, as_point, as_uv
 from surfmesh.quality.measures.tolerances import Tolerances
-from surfmesh.quality.measures.triangle_distances import triangle_distances
 from surfmesh.result.surface_mesh import SurfaceMesh
 
 SLACK = 1.3
@@ -215,10 +215,8 @@ class _Around:
 
     def __init__(self, mesh: SurfaceMesh, triangles: NDArray) -> None:
         self.mesh, self.triangles = mesh, triangles
-        corner = mesh.triangles.ravel()
-        self.order = np.argsort(corner, kind="stable") // 3
-        self.start = np.searchsorted(np.sort(corner), np.arange(len(mesh.points) + 1))
-        self.used = np.unique(corner)
+        self.stars = TriangleStars(mesh.points, mesh.triangles)
+        self.used = np.unique(mesh.triangles)
 
     @cached_property
     def _tree(self) -> Any:
@@ -231,14 +229,6 @@ class _Around:
         count = min(NEAREST, len(self.used))
         _, nearest = self._tree.query(point, k=[*range(1, count + 1)])
         own = self.mesh.triangles[self.triangles[piece]]
-        corner = np.concatenate([own, self.used[nearest]], axis=1)
-        first, count = self.start[corner], self.start[corner + 1] - self.start[corner]
-        rows = np.repeat(np.arange(len(piece)), count.sum(axis=1))
-        begin = np.repeat(first.ravel(), count.ravel())
-        ends = np.cumsum(count.ravel())
-        within = np.arange(ends[-1]) - np.repeat(ends - count.ravel(), count.ravel())
-        triangle = self.order[begin + within]
-        distance = np.full(len(piece), np.inf)
-        found = triangle_distances(point[rows], self.mesh.points[self.mesh.triangles[triangle]])
-        np.minimum.at(distance, rows, found)
-        return distance
+        return self.stars.distances_from_stars(
+            point, np.concatenate([own, self.used[nearest]], axis=1)
+        )

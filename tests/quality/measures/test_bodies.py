@@ -11,10 +11,10 @@ from OCP.BRepBuilderAPI import BRepBuilderAPI_Copy
 from OCP.TopoDS import TopoDS_Compound
 
 import surfmesh as sm
+from surfmesh._core.space import triangle_distances
 from surfmesh.quality.measures.inside import inside
 from surfmesh.quality.measures.penetration import depths
 from surfmesh.quality.measures.self_intersection import meeting_pairs
-from surfmesh.quality.measures.triangle_distances import triangle_distances
 from surfmesh.result.surface_mesh import SurfaceMesh
 
 

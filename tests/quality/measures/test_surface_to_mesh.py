@@ -10,7 +10,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import surfmesh as sm
-from surfmesh.quality.measures.triangle_distances import triangle_distances
+from surfmesh._core.space import triangle_distances
 
 CELLS = 8
 

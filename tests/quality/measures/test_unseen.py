@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 import surfmesh as sm
-from surfmesh.quality.measures.triangle_distances import triangle_distances
+from surfmesh._core.space import triangle_distances
 
 
 def height(z, u=(0, 1), v=(0, 1)):

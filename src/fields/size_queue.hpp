@@ -1,0 +1,78 @@
+// Nodes whose sizes are to be spread, the smallest first.
+//
+// A node that is lowered while it waits moves forward. Ties are broken by the node, so that the
+// order does not depend on the history of the queue. A node is put in anew when what it has been
+// lowered by since it was taken out adds up to more than a tolerance: less is not spread.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "fields/background.hpp"
+#include "values/array.hpp"
+
+namespace surfmesh {
+
+class SizeQueue {
+  public:
+    SizeQueue(std::size_t nodes, double tolerance)
+        : waits_with_(nodes, NOT_WAITING), unspread_(nodes, 0.0), tolerance_(tolerance) {}
+
+    /// Put in a node before `start`. What is no number is not spread.
+    void seed(Node node, double size) {
+        if (waits_with_[node] != NOT_WAITING || std::isnan(size)) return;
+        waits_with_[node] = size;
+        seeds_.push_back({size, node});
+    }
+    void start() { std::sort(seeds_.begin(), seeds_.end(), is_before); }
+    /// A node is lowered to a size, by a relative change.
+    void lowered(Node node, double size, double change) {
+        unspread_[node] += change;
+        if (unspread_[node] <= tolerance_ || !(size < waits_with_[node])) return;
+        waits_with_[node] = size;
+        heap_.push_back({size, node});
+        std::push_heap(heap_.begin(), heap_.end(), is_after);
+    }
+    /// The next node to be spread, or NIL.
+    Node take() {
+        while (next_ < seeds_.size() || !heap_.empty()) {
+            const auto [size, node] = first();
+            if (size != waits_with_[node]) continue;  // it has moved forward
+            waits_with_[node] = NOT_WAITING;
+            unspread_[node] = 0.0;
+            return node;
+        }
+        return NIL;
+    }
+
+  private:
+    static constexpr double NOT_WAITING = std::numeric_limits<double>::infinity();
+
+    struct Entry {
+        double size;
+        Node node;
+    };
+    static bool is_before(const Entry& a, const Entry& b) {
+        return a.size < b.size || (a.size == b.size && a.node < b.node);
+    }
+    static bool is_after(const Entry& a, const Entry& b) { return is_before(b, a); }
+
+    /// The smaller of the first seed and the top of the heap, taken out.
+    Entry first() {
+        const bool is_seed = next_ < seeds_.size();
+        if (is_seed && (heap_.empty() || is_before(seeds_[next_], heap_[0])))
+            return seeds_[next_++];
+        std::pop_heap(heap_.begin(), heap_.end(), is_after);
+        return heap_.pop_back();
+    }
+
+    Array<Entry> seeds_;  // in order, of which those before `next_` are taken
+    Array<Entry> heap_;   // nodes that are lowered
+    std::size_t next_ = 0;
+    Array<double> waits_with_;  // size with which a node stands in the queue
+    Array<double> unspread_;    // relative changes since it was taken out, added up
+    double tolerance_;
+};
+
+}  // namespace surfmesh

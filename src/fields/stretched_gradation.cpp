@@ -1,0 +1,147 @@
+#include "fields/stretched_gradation.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace surfmesh {
+namespace {
+
+// How much rather the longer size is lowered than the shorter one, by what either contributes.
+constexpr double LONGER_FIRST = 16.0;
+
+// Of the square that a way is to be long in the metric: what is let pass, as turning metrics creep
+// towards the rest in many visits.
+constexpr double ENOUGH_ALONG = 0.98;
+
+double squared(double x) { return x * x; }
+
+bool is_zero(Point3 n) { return n.x == 0.0 && n.y == 0.0 && n.z == 0.0; }
+
+}  // namespace
+
+StretchedGradation::StretchedGradation(const GradedSizes& sizes, const NodeNeighbours& neighbours,
+                                       std::int32_t number)
+    : s_(sizes), neighbours_(neighbours), number_(number) {
+    nodes_.reserve(s_.size.size());
+    for (std::size_t n = 0; n < s_.size.size(); ++n) {
+        const double h = s_.size[n], longer = s_.longer[n];
+        nodes_.push_back({s_.point[n], s_.normal[n], s_.along[n], cross(s_.normal[n], s_.along[n]),
+                          longer, h, 1.0 / (longer * longer), 1.0 / (h * h)});
+    }
+}
+
+void StretchedGradation::visit(Node p, SizeQueue& queue) {
+    neighbours_.collect(p, around_);
+    const bool is_new = s_.changed[p] >= number_;
+    for (const Node n : around_) {
+        if (!is_new && s_.changed[n] < number_) continue;  // graded in an earlier round
+        const double change = bind(nodes_[p], n);
+        if (change == 0.0) continue;
+        s_.size[n] = nodes_[n].size;
+        s_.longer[n] = nodes_[n].longer;
+        s_.changed[n] = number_;
+        queue.lowered(n, key(n), change);
+    }
+}
+
+/// The metric of a in the axes of b.
+///
+/// Turned with the normal by the smallest rotation. Normals may be opposite across a joint.
+StretchedGradation::AxisMetric StretchedGradation::carried(const StretchedNode& a,
+                                                           const StretchedNode& b) {
+    const double c = dot(a.normal, b.normal), sign = c >= 0.0 ? 1.0 : -1.0;
+    const double k = sign * dot(a.along, b.normal) / (1.0 + std::abs(c));
+    const Point3 turned = a.along - k * (a.normal + sign * b.normal);
+    const double x = dot(turned, b.along), y = dot(turned, b.left);
+    const double square = x * x + y * y;
+    if (square == 0.0) return {a.by_longer, a.by_shorter, 0.0};
+    const double by_along = x * x / square, by_left = y * y / square;
+    return {by_along * a.by_longer + by_left * a.by_shorter,
+            by_left * a.by_longer + by_along * a.by_shorter,
+            (x * y / square) * (a.by_shorter - a.by_longer)};
+}
+
+/// Raise the metric of b along, or left where the way from a goes across, not above `most`, until
+/// the size along that way is no larger than what it grows to from that at a.
+///
+/// What turns and what grows add up there: each alone may be within its limits. Not both are
+/// raised, which would spread round sizes over all that turns.
+void StretchedGradation::hold_along(const StretchedNode& a, const StretchedNode& b, double most,
+                                    AxisMetric& m) const {
+    const Point3 step = b.point - a.point;
+    const double onward = squared(dot(step, a.along)), aside = squared(dot(step, a.left));
+    double along = squared(dot(step, b.along)), left = squared(dot(step, b.left));
+    const double across = onward + aside, sum = along + left;
+    if (!(across > 0.0 && sum > 0.0)) return;  // the way leads off the surface
+    const double square = onward * a.by_longer + aside * a.by_shorter;
+    if ((along * m.along + left * m.left) * across >= square * sum) return;  // no larger than at a
+    along /= sum;
+    left /= sum;
+    // 1 / (h + slope |step|)^2 with h^-2 = inverse
+    const double inverse = square / across;
+    const double grown = 1.0 + s_.slope * std::sqrt(inverse * dot(step, step));
+    const double least = std::min(inverse / (grown * grown), most);
+    const double by_longer = along * m.along, by_shorter = left * m.left;
+    if (by_longer + by_shorter >= ENOUGH_ALONG * least) return;
+    if (LONGER_FIRST * by_longer > by_shorter)
+        m.along = std::max(m.along, std::min((least - by_shorter) / along, most));
+    else
+        m.left = std::max(m.left, std::min((least - by_longer) / left, most));
+}
+
+/// Lower the sizes of b until its metric contains that of a, grown over their distance.
+///
+/// Over the distance l, in the metric of a, the sizes in the directions of b may grow by
+/// g = 1 + slope l, and so may the size along the way from a to b; as a whole, M_b - M_a / f^2
+/// must be positive definite for the faster f = 1 + TURN_SLOPE slope l. The first bounds both
+/// sizes of b; what is wanting in the second is due to a direction that turns, and shortens the
+/// size along `along` alone, as long as none smaller than the smallest of a, grown, is needed:
+/// principal directions stay what they are, and the size along one may become the shorter. Returns
+/// the relative change of b.
+double StretchedGradation::bind(const StretchedNode& a, Node number) {
+    StretchedNode& b = nodes_[number];
+    const double hb = b.size, lb = b.longer, longest = std::max(hb, lb);
+    const double least_of_a = std::min(a.size, a.longer);
+    if (longest <= least_of_a) return 0.0;
+    const Point3 step = b.point - a.point;
+    const double onward = squared(dot(step, a.along));
+    const double aside = std::max(dot(step, step) - onward, 0.0);
+    const double l = std::sqrt(onward * a.by_longer + aside * a.by_shorter);
+    const double growth = 1.0 + s_.slope * l, least = growth * least_of_a;
+    if (longest <= least) return 0.0;
+    if (is_zero(b.normal)) {
+        set(b, std::min(hb, least), std::min(lb, least));
+        return longest / least - 1.0;
+    }
+    const AxisMetric of_a = carried(a, b);
+    const double f = 1.0 / squared(1.0 + TURN_SLOPE * s_.slope * l), g = 1.0 / (growth * growth);
+    AxisMetric m{std::max(b.by_longer, g * of_a.along), std::max(b.by_shorter, g * of_a.left), 0.0};
+    // no direction needs less than the smallest size of a, grown
+    const double most = 1.0 / (least * least), mixed = squared(f * of_a.mixed);
+    double need = 0.0;
+    if (m.left > f * of_a.left)  // not between two images of one point
+        need = std::min(f * of_a.along + mixed / (m.left - f * of_a.left), most);
+    m.along = std::max(m.along, need);
+    if (need == most) {
+        const double over = std::max(m.along - f * of_a.along, 1e-12 * most);
+        m.left = std::max(m.left, std::min(f * of_a.left + mixed / over, most));
+    }
+    hold_along(a, b, most, m);
+    if (m.along > m.left && !s_.round.empty() && s_.round[number] != 0) m.left = m.along;
+    if (m.along == b.by_longer && m.left == b.by_shorter) return 0.0;
+    const double longer = std::min(1.0 / std::sqrt(m.along), lb);
+    const double shorter = std::min(1.0 / std::sqrt(m.left), hb);
+    const double change = std::max(lb / longer, hb / shorter) - 1.0;
+    if (change <= ROUNDING) return 0.0;
+    set(b, shorter, longer);
+    return change;
+}
+
+void StretchedGradation::set(StretchedNode& node, double size, double longer) {
+    node.size = size;
+    node.longer = longer;
+    node.by_shorter = 1.0 / (size * size);
+    node.by_longer = 1.0 / (longer * longer);
+}
+
+}  // namespace surfmesh

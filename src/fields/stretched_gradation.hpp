@@ -1,0 +1,52 @@
+// Gradation of sizes that depend on the direction: from one node to those around it.
+//
+// In: sizes of nodes along and across a unit tangent (see GradedSizes). A visit to a node lowers
+// the sizes of its neighbours until their metrics contain that of the node, grown over the way:
+// metrics are carried from one tangent plane to another, grow, and are intersected with those that
+// are there (Alauzet 2010, section 3). Directions stay what they are.
+#pragma once
+
+#include <algorithm>
+
+#include "fields/gradation.hpp"
+#include "fields/node_neighbours.hpp"
+#include "fields/size_queue.hpp"
+#include "values/array.hpp"
+
+namespace surfmesh {
+
+class StretchedGradation {
+  public:
+    StretchedGradation(const GradedSizes& sizes, const NodeNeighbours& neighbours,
+                       std::int32_t number);
+
+    /// Sizes are spread in the order of the shorter ones.
+    [[nodiscard]] double key(Node n) const { return std::min(nodes_[n].size, nodes_[n].longer); }
+    [[nodiscard]] bool is_level(const Quarter& /*quarter*/) const { return false; }  // not known
+    void visit(Node p, SizeQueue& queue);
+
+  private:
+    /// A metric in the axes of a node, `along` first: 1 / size^2 in the diagonal.
+    struct AxisMetric {
+        double along, left, mixed;
+    };
+    struct StretchedNode {
+        Point3 point, normal, along, left;
+        double longer, size;           // along and at right angles
+        double by_longer, by_shorter;  // 1 / longer^2, 1 / size^2
+    };
+
+    double bind(const StretchedNode& a, Node number);
+    static void set(StretchedNode& node, double size, double longer);
+    [[nodiscard]] static AxisMetric carried(const StretchedNode& a, const StretchedNode& b);
+    void hold_along(const StretchedNode& a, const StretchedNode& b, double most,
+                    AxisMetric& m) const;
+
+    GradedSizes s_;
+    const NodeNeighbours& neighbours_;
+    std::int32_t number_;
+    Array<StretchedNode> nodes_;
+    Array<Node> around_;
+};
+
+}  // namespace surfmesh

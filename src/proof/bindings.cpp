@@ -1,0 +1,136 @@
+#include <nanobind/stl/optional.h>
+#include <nanobind/stl/pair.h>
+
+#include <optional>
+
+#include "binding/arrays.hpp"
+#include "proof/closer_look.hpp"
+#include "proof/ring_bounds.hpp"
+#include "proof/triangle_bounds.hpp"
+#include "surfaces/callback_surface.hpp"
+
+namespace surfmesh::binding {
+
+namespace {
+
+constexpr std::size_t COLUMNS = sizeof(TriangleBounds) / sizeof(double);
+using Corners3 = nb::ndarray<const double, nb::shape<-1, 3, 3>, nb::c_contig, nb::device::cpu>;
+using Corners2 = nb::ndarray<const double, nb::shape<-1, 3, 2>, nb::c_contig, nb::device::cpu>;
+using BoundRows = Matrix<double, COLUMNS>;
+using NewBoundRows = nb::ndarray<nb::numpy, double, nb::shape<-1, COLUMNS>>;
+
+std::optional<NewBoundRows> bounds_of(const Surface& surface, const Corners3& corners,
+                                      const Corners2& uv, const Vector<double>& limits,
+                                      const Vector<std::uint8_t>& rims, int depth,
+                                      bool corners_are_on_surface) {
+    constexpr int DEEPEST = 12;
+    const std::size_t count = corners.shape(0);
+    require_rows(uv.shape(0), count, "uv");
+    require_rows(limits.shape(0), count, "limits");
+    require_rows(rims.shape(0), count, "rims");
+    if (depth < 0 || depth > DEEPEST) throw nb::value_error("depth is 0 to 12");
+    Array<TriangleBounds> found(count);
+    SurfaceStatus status;
+    {
+        const nb::gil_scoped_release released;
+        status = triangle_bounds(
+            surface,
+            {rows<SpaceCorners>(corners), rows<PlaneCorners>(uv), rows<double>(limits),
+             rows<std::uint8_t>(rims), corners_are_on_surface},
+            depth, {found.data(), found.size()});
+    }
+    raise_failure(surface, status);
+    if (status == SurfaceStatus::UNKNOWN) return std::nullopt;
+    const std::size_t shape[] = {count, COLUMNS};
+    return NewBoundRows(reinterpret_cast<double*>(found.data()), 2, shape, owner_of(found));
+}
+
+void require_mesh(std::size_t count, const Matrix<std::int32_t, 3>& triangles,
+                  const Vector<std::int32_t>& twins, const BoundRows& bounds) {
+    require_rows(triangles.shape(0), count, "triangles");
+    require_rows(twins.shape(0), 3 * count, "twins");
+    require_rows(bounds.shape(0), count, "bounds");
+    for (const std::int32_t twin : rows<std::int32_t>(twins))
+        if (twin < NIL || (twin >= 0 && static_cast<std::size_t>(twin) >= 3 * count))
+            throw nb::value_error("twins has an index that is out of range");
+    for (std::size_t k = 0; k < 3 * count; ++k)
+        if (triangles.data()[k] < 0 || static_cast<std::size_t>(triangles.data()[k]) >= 3 * count)
+            throw nb::value_error("triangles has an index that is out of range");
+}
+
+auto around(const Corners3& corners, const Matrix<std::int32_t, 3>& triangles,
+            const Vector<std::int32_t>& twins, const BoundRows& bounds) {
+    const std::size_t count = corners.shape(0);
+    require_mesh(count, triangles, twins, bounds);
+    RingBounds found;
+    {
+        const nb::gil_scoped_release released;
+        found = ring_bounds(rows<SpaceCorners>(corners), {triangles.data(), 3 * count},
+                            rows<std::int32_t>(twins), rows<TriangleBounds>(bounds));
+    }
+    return std::pair(view(found.bound), view(found.by_ring));
+}
+
+auto closer(const Surface& surface, const Corners3& corners, const Corners2& uv,
+            const Matrix<std::int32_t, 3>& triangles, const Vector<std::int32_t>& twins,
+            const BoundRows& bounds, const Vector<std::int32_t>& which,
+            const Vector<double>& limits, int levels, const Vector<double>& bound,
+            const Corners2& gaps, const Vector<std::int32_t>& gap_owners,
+            const BoundRows& gap_bounds) {
+    constexpr int FINEST = 6;
+    const std::size_t count = corners.shape(0);
+    require_rows(uv.shape(0), count, "uv");
+    require_rows(limits.shape(0), count, "limits");
+    require_rows(bound.shape(0), count, "bound");
+    require_indices(rows<std::int32_t>(which), count, "which");
+    require_mesh(count, triangles, twins, bounds);
+    require_rows(gap_owners.shape(0), gaps.shape(0), "gap_owners");
+    require_rows(gap_bounds.shape(0), gaps.shape(0), "gap_bounds");
+    if (levels < 0 || levels > FINEST) throw nb::value_error("levels is 0 to 6");
+    Array<double> found(rows<double>(bound));
+    SurfaceStatus status;
+    {
+        const nb::gil_scoped_release released;
+        const ProofMesh mesh{rows<SpaceCorners>(corners),
+                             rows<PlaneCorners>(uv),
+                             {triangles.data(), 3 * count},
+                             rows<std::int32_t>(twins),
+                             rows<TriangleBounds>(bounds)};
+        const PoleGaps between{rows<PlaneCorners>(gaps), rows<std::int32_t>(gap_owners),
+                               rows<TriangleBounds>(gap_bounds)};
+        status = look_closer(surface, mesh, between, rows<std::int32_t>(which),
+                             rows<double>(limits), levels, {found.data(), found.size()});
+    }
+    raise_failure(surface, status);
+    return view(found);
+}
+
+}  // namespace
+
+void bind_proof(nb::module_& m) {
+    m.doc() = "Proved bounds of the distance between triangles and surfaces.";
+    m.def("triangle_bounds", &bounds_of, nb::arg("surface"), nb::arg("corners"), nb::arg("uv"),
+          nb::arg("limits"), nb::arg("rims"), nb::arg("depth"),
+          nb::arg("corners_are_on_surface") = true,
+          "Of triangles with corners (m, 3, 3) and parameters (m, 3, 2): (m, 10) lengths, or None "
+          "where the surface has no bounds.\n\nHeight over the plane; how far the piece leaves "
+          "the sides 0, 1, 2 within it; how far it is from these at rims; shift within the plane; "
+          "the whole distance point by point; how far corners are off. Triangles whose height, or "
+          "distance at a rim (bit k of ``rims``: side k), is beyond ``limits`` are cut in four, "
+          "``depth`` times. corners_are_on_surface=False: the corners give the plane alone.");
+    m.def("ring_bounds", &around, nb::arg("corners"), nb::arg("triangles"), nb::arg("twins"),
+          nb::arg("bounds"),
+          "(m,) how far triangles and surface are from each other at most, both ways, each with "
+          "its neighbours; (m,) whether it took them.\n\ntriangles: (m, 3) vertices; twins: (3 m,) "
+          "the opposite half-edge of each, -1 at rims; bounds: of ``triangle_bounds``.");
+    m.def("look_closer", &closer, nb::arg("surface"), nb::arg("corners"), nb::arg("uv"),
+          nb::arg("triangles"), nb::arg("twins"), nb::arg("bounds"), nb::arg("which"),
+          nb::arg("limits"), nb::arg("levels"), nb::arg("bound"), nb::arg("gaps"),
+          nb::arg("gap_owners"), nb::arg("gap_bounds"),
+          "The bounds ``bound`` (m,) of ``ring_bounds``, lower for those ``which`` (k,) of which "
+          "a closer look at up to 4^levels cells each shows that.\n\ngaps: (g, 3, 2) triangles of "
+          "the (u, v) plane that have none in space, at poles; gap_owners: (g,) the triangle that "
+          "each lies beside, ascending; gap_bounds: their bounds along the axes of these.");
+}
+
+}  // namespace surfmesh::binding

@@ -1,0 +1,58 @@
+// How far a triangle is at most from its piece of the surface, proved.
+//
+// A triangle with corners r(u_i) stands for the piece r(u) over the straight triangle of the u_i in
+// the (u, v) plane. With barycentric coordinates l of u, edges e_ij = u_j - u_i and any vector d,
+//
+//     | d . (r - L) |  <=  1/2 sum_{i<j} l_i l_j  sup | d . (r_uu du^2 + 2 r_uv du dv + r_vv dv^2) |
+//
+// with L the linear interpolant, (du, dv) = e_ij and the supremum over the triangle. (Write
+// v_i - x as the sum of l_j (v_i - v_j) in sum l_i (f(v_i) - f(x)), and join the terms ij and ji;
+// S. Waldron, The error in linear interpolation at the vertices of a simplex, SIAM J. Numer. Anal.
+// 35 (1998), 1191-1200.) The suprema come from the surface's proved bounds over boxes around the
+// triangle, or around the 4, 16, ... that it is cut into.
+//
+// In: corners in space and in (u, v); how far a corner is off r(u_i) at most. Out: numbers for
+// ring_bounds.hpp. Nothing is changed; what a surface cannot bound comes out infinite.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+
+#include "surfaces/surface.hpp"
+#include "values/array.hpp"
+
+namespace surfmesh {
+
+using SpaceCorners = std::array<Point3, 3>;
+using PlaneCorners = std::array<Point2, 3>;
+
+/// Bounds over one triangle; side k runs from corner k to corner k + 1. Lengths.
+struct TriangleBounds {
+    double height;                  // of the piece over the triangle's plane
+    std::array<double, 3> outward;  // how far the piece over a side leaves it within the plane
+    std::array<double, 3> rim;      // how far the piece at a side is from it at most
+    double shift;                   // the largest of |r''(e, e)| / 2: how far points move within
+    double whole;                   // of |r - L|, whatever the shapes
+    double corner;                  // how far a corner is off r(u_i)
+};
+
+/// Bit k: side k is a rim of the surface, or of a face.
+using RimSides = std::uint8_t;
+
+/// Triangles (m), their corners in space and in (u, v), what they should keep to, their rims.
+struct ProofRequest {
+    std::span<const SpaceCorners> corners;
+    std::span<const PlaneCorners> uv;
+    std::span<const double> limits;
+    std::span<const RimSides> rims;
+    // false: the corners give the plane alone, and r(u_i) lies elsewhere
+    bool corners_are_on_surface;
+};
+
+/// Bounds of each triangle into ``out``. Those beyond their limit, by height or at a rim, are cut
+/// further, at most ``depth`` times. FAILED and UNKNOWN as the surface says.
+SurfaceStatus triangle_bounds(const Surface& surface, const ProofRequest& asked, int depth,
+                              std::span<TriangleBounds> out);
+
+}  // namespace surfmesh

@@ -1,0 +1,156 @@
+"""Proved bounds of the distance between triangles and their surface, both ways: one face at a time.
+
+bounds over boxes -> of each triangle -> with its neighbours -> a closer look where that is too much
+(by the surface)     height, shift        both ways              cells, and all triangles around
+
+The work is done in the core (src/proof), with round-off in the bounds; docs/proof.md says what is
+proved, and why. Here it is seen which sides are rims, and where a pole leaves a gap in (u, v).
+"""
+
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from surfmesh._core import proof
+from surfmesh.geometry.core_surface import as_core_surface
+from surfmesh.geometry.surface import Surface
+
+DEPTH = 3
+"""How often a triangle is cut in four where its bounds are not good enough."""
+
+LEVELS = 4
+"""A closer look has up to 4^levels cells."""
+
+SAME = 1e-9
+"""Of a side: the curves over it of two neighbours are the same, as at a seam."""
+
+BITS = np.array([1, 2, 4], np.uint8)
+
+
+class FaceTriangles(NamedTuple):
+    """The triangles of one face. Half-edge 3 t + k runs from corner k of triangle t to k + 1."""
+
+    corners: NDArray[np.float64]  # (m, 3, 3)
+    uv: NDArray[np.float64]  # (m, 3, 2)
+    vertices: NDArray[np.int32]  # (m, 3), of the face alone: less than 3 m
+    twins: NDArray[np.int32]  # (3 m,) the opposite half-edge within the face, -1 at its rims
+
+
+class Gaps(NamedTuple):
+    """Triangles of (u, v) that are none in space, between neighbours at a pole."""
+
+    uv: NDArray[np.float64]  # (g, 3, 2)
+    owners: NDArray[np.int32]  # (g,) ascending
+    unknown: NDArray[np.intp]  # triangles whose neighbours do not go on where they end
+
+
+def proved_distances(
+    surface: Surface, face: FaceTriangles, limits: NDArray[np.float64]
+) -> NDArray[np.float64] | None:
+    """(m,) how far triangles and surface are from each other at most; None without bounds.
+
+    limits: (m,) how near it is worth to look. Infinite where nothing is proved.
+    """
+    core = as_core_surface(surface)
+    count = len(face.corners)
+    rims = (BITS * (face.twins.reshape(-1, 3) < 0)).sum(axis=1).astype(np.uint8)
+    bounds = proof.triangle_bounds(core, face.corners, face.uv, limits, rims, DEPTH)
+    if bounds is None:
+        return None
+    gaps = _gaps(surface, face)
+    if len(gaps.unknown):
+        bounds[gaps.unknown] = np.inf
+    bound, _ = proof.ring_bounds(face.corners, face.vertices, face.twins, bounds)
+    bound[gaps.owners] = np.inf
+    which = np.flatnonzero(~(bound <= limits)).astype(np.int32)
+    if not len(which):
+        return bound
+    beside = proof.triangle_bounds(
+        core, face.corners[gaps.owners], gaps.uv, limits[gaps.owners],
+        np.zeros(len(gaps.owners), np.uint8), DEPTH, False,
+    )  # fmt: skip
+    if beside is None:
+        return np.full(count, np.inf)
+    return proof.look_closer(
+        core, face.corners, face.uv, face.vertices, face.twins, bounds, which, limits, LEVELS,
+        bound, gaps.uv, gaps.owners, beside,
+    )  # fmt: skip
+
+
+def twins_of(
+    half_edges: NDArray[np.int32], uses: NDArray[np.int32], count: int
+) -> NDArray[np.int32]:
+    """(3 count,) the opposite half-edge of each where two triangles share an edge, else -1."""
+    twins = np.full(3 * count, -1, np.int32)
+    first, second = half_edges[uses == 2].T
+    twins[first], twins[second] = second, first
+    return twins
+
+
+def _gaps(surface: Surface, face: FaceTriangles) -> Gaps:
+    """Where the parameters of neighbours differ along their side, and not only by a seam."""
+    first = np.flatnonzero(face.twins > np.arange(len(face.twins)))
+    second = face.twins[first]
+    starts, ends = face.uv.reshape(-1, 2), face.uv[:, (1, 2, 0)].reshape(-1, 2)
+    vertex = face.vertices.reshape(-1)
+    alike = (vertex[first] == vertex[second])[:, None]
+    a = np.stack([starts[first], ends[first]], axis=1)
+    b = np.stack([
+        np.where(alike, starts[second], ends[second]),
+        np.where(alike, ends[second], starts[second]),
+    ], axis=1)  # fmt: skip
+    same = (a == b).all(axis=2)
+    odd = np.flatnonzero(~same.all(axis=1))
+    if len(odd):
+        odd = odd[~_are_one_curve(surface, a[odd], b[odd])]
+    fixed = np.where(_is_pole(surface, a[odd], b[odd], 0), 1, 0)
+    row = np.arange(len(odd))
+    shift = a[odd][row, fixed] - b[odd][row, fixed]  # a seam that ends at the pole
+    one, other = a[odd][row, 1 - fixed], b[odd][row, 1 - fixed] + shift
+    uv = np.stack([a[odd][row, fixed], one, other], axis=1)
+    good = _is_pole(surface, a[odd], b[odd], 1 - fixed) & _goes_on(surface, uv, shift)
+    at_pole, rest, uv = odd[good], odd[~good], uv[good]
+    owners = np.minimum(first[at_pole], second[at_pole]) // 3
+    order = np.argsort(owners, kind="stable")
+    unknown = np.unique(np.concatenate([first[rest], second[rest]]) // 3)
+    return Gaps(np.ascontiguousarray(uv[order]), owners[order].astype(np.int32), unknown)
+
+
+def _is_pole(
+    surface: Surface, a: NDArray[np.float64], b: NDArray[np.float64], end: NDArray[np.intp] | int
+) -> NDArray[np.bool_]:
+    """(k,) are ends a and b (k, 2, 2) there one point, as is what lies between them?"""
+    rows = np.arange(len(a))
+    one, other = a[rows, end], b[rows, end]
+    apart = np.zeros(len(a))
+    (first,) = surface.evaluate(one, 0)
+    for t in (0.25, 0.5, 0.75, 1.0):
+        (point,) = surface.evaluate((1.0 - t) * one + t * other, 0)
+        apart = np.maximum(apart, np.linalg.norm(point - first, axis=1))
+    (start,), (finish,) = surface.evaluate(a[:, 0], 0), surface.evaluate(a[:, 1], 0)
+    length = np.linalg.norm(finish - start, axis=1)
+    return (apart <= SAME * length) & (one != other).any(axis=1)
+
+
+def _goes_on(
+    surface: Surface, uv: NDArray[np.float64], shift: NDArray[np.float64]
+) -> NDArray[np.bool_]:
+    """(k,) is the surface the same over triangles uv (k, 3, 2) and ``shift`` (k, 2) away?"""
+    middle = uv.mean(axis=1)
+    (here,), (there,) = surface.evaluate(middle, 0), surface.evaluate(middle - shift, 0)
+    (start,), (end,) = surface.evaluate(uv[:, 0], 0), surface.evaluate(uv[:, 1], 0)
+    return np.linalg.norm(here - there, axis=1) <= SAME * np.linalg.norm(end - start, axis=1)
+
+
+def _are_one_curve(
+    surface: Surface, a: NDArray[np.float64], b: NDArray[np.float64]
+) -> NDArray[np.bool_]:
+    """(k,) do two straight lines of (u, v), ends a and b (k, 2, 2), lie on each other in space?"""
+    apart = np.zeros(len(a))
+    for t in (0.25, 0.5, 0.75):
+        (one,) = surface.evaluate((1.0 - t) * a[:, 0] + t * a[:, 1], 0)
+        (other,) = surface.evaluate((1.0 - t) * b[:, 0] + t * b[:, 1], 0)
+        apart = np.maximum(apart, np.linalg.norm(one - other, axis=1))
+    (start,), (end,) = surface.evaluate(a[:, 0], 0), surface.evaluate(a[:, 1], 0)
+    return apart <= SAME * np.linalg.norm(end - start, axis=1)

@@ -1,0 +1,191 @@
+"""No point of a surface is farther from a triangle than what is proved of it."""
+
+from itertools import pairwise
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+import surfmesh as sm
+from surfmesh._core import proof, surfaces
+
+SIDE = 16
+WEIGHTS = np.array(
+    [(i, j, SIDE - i - j) for i in range(SIDE + 1) for j in range(SIDE + 1 - i)]
+) / float(SIDE)
+
+X, Y, Z = np.eye(3)
+TURNED = np.linalg.qr(np.array([[1.0, 2.0, 0.3], [-0.4, 1.0, 0.7], [0.2, -0.5, 1.5]]))[0]
+BOX = ((-3.0, 3.0), (-3.0, 3.0))
+rng = np.random.default_rng(5)
+
+
+def spline(degrees, inner, weights, seed=0):
+    draw = np.random.default_rng(seed)
+    knots = [np.concatenate([[0.0] * (p + 1), inner, [1.0] * (p + 1)]) for p in degrees]
+    shape = [len(k) - p - 1 for k, p in zip(knots, degrees)]
+    grid = np.stack(np.meshgrid(*(np.linspace(0, 2, n) for n in shape), indexing="ij"), axis=-1)
+    control = np.concatenate([grid, draw.normal(0, 0.3, (*shape, 1))], axis=2)
+    w = draw.uniform(0.5, 2.0, shape) if weights else None
+    domain = ((0.0, 1.0), (0.0, 1.0))
+    return surfaces.spline_surface(domain, *knots, control, w, (0.0, 0.0))
+
+
+def formula(x, y, z):
+    return sm.ParametricSurface(x, y, z, u=(-2, 2), v=(-2, 2)).core
+
+
+ELLIPSE = surfaces.ellipse(np.array([1.0, 2.0, 0.0]), X, Z, 0.7, 0.4)
+CURVE = surfaces.spline_curve(
+    np.array([0, 0, 0, 0, 0.4, 1, 1, 1, 1.0]), rng.normal(0, 1, (5, 3)) + [3, 0, 0], None,
+    None, 0.0,
+)  # fmt: skip
+UNIT = ((0.0, 1.0), (0.0, 1.0))
+
+SURFACES = {
+    "paraboloid": formula("u", "v", "u**2 - 0.3*v**2"),
+    "waves": formula("u", "v", "sin(3*u)*cos(2*v) + 0.1*u*v"),
+    "bell": formula("u", "v", "exp(-u**2 - 2*v**2)"),
+    "functions": formula("u + tanh(v)/3", "v*sqrt(3 + u)", "log(3 + u*v/2) + atan(u)*asinh(v)"),
+    "powers": formula("u**3", "v + (3 + u)**0.7", "erf(v) + cosh(u/2) - 1/(4 + u)"),
+    "plane": surfaces.plane(BOX, X, TURNED[0], TURNED[1]),
+    "cylinder": surfaces.cylinder(BOX, X, *TURNED, 1.3),
+    "cone": surfaces.cone(BOX, X, *TURNED, 4.0, 0.4),
+    "sphere": surfaces.sphere(BOX, X, *TURNED, 2.0),
+    "torus": surfaces.torus(BOX, X, *TURNED, 2.0, 0.6),
+    "bicubic": spline((3, 3), [0.3, 0.55, 0.8], False),
+    "rational": spline((3, 2), [0.4], True),
+    "bilinear and quintic": spline((1, 5), [], True, 3),
+    "extrusion": surfaces.extrusion(UNIT, CURVE, Y),
+    "revolution": surfaces.revolution(BOX, ELLIPSE, -3 * X, Y),
+    "turned spline": surfaces.revolution(UNIT, CURVE, np.zeros(3), Z),
+}
+
+number = st.floats(0.0, 1.0)
+
+
+def triangles(draw_size, seed, surface):
+    """Corners in (u, v) of a few triangles of about one size, and in space."""
+    draw = np.random.default_rng(seed)
+    (u0, u1), (v0, v1) = surface.domain
+    low, wide = np.array([u0, v0]), np.array([u1 - u0, v1 - v0])
+    size = 10.0 ** (-3.0 * draw_size) / 2
+    at = draw.uniform(0, 1 - size, (6, 1, 2)) + size * draw.uniform(0, 1, (6, 3, 2))
+    uv = low + wide * at
+    return uv, surface.evaluate(uv.reshape(-1, 2), 0)[0].reshape(-1, 3, 3)
+
+
+def bounds_of(surface, corners, uv, depth=2, limit=0.0):
+    count = len(uv)
+    return proof.triangle_bounds(
+        surface, corners, uv, np.full(count, limit), np.zeros(count, np.uint8), depth
+    )
+
+
+@pytest.mark.parametrize("name", SURFACES)
+@settings(max_examples=40, deadline=None)
+@given(size=number, seed=st.integers(0, 2**32 - 1), depth=st.integers(0, 3))
+def test_no_sample_is_beyond_the_bounds(name, size, seed, depth):
+    surface = SURFACES[name]
+    uv, corners = triangles(size, seed, surface)
+    found = bounds_of(surface, corners, uv, depth)
+    at = np.einsum("qk,mkd->mqd", WEIGHTS, uv)
+    points = surface.evaluate(at.reshape(-1, 2), 0)[0].reshape(len(uv), -1, 3)
+    flat = np.einsum("qk,mkd->mqd", WEIGHTS, corners)
+    rounding = 1e-13 * (1.0 + np.abs(points).max())  # of the samples themselves
+    away = points - flat
+    assert (np.linalg.norm(away, axis=2).max(axis=1) <= found[:, 8] + rounding).all()
+    normal = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+    area = np.linalg.norm(normal, axis=1)
+    longest = np.linalg.norm(corners - np.roll(corners, 1, axis=1), axis=2).max(axis=1)
+    good = area > 1e-3 * longest**2
+    normal[good] /= area[good, None]
+    height = np.abs(np.einsum("mqd,md->mq", away, normal)).max(axis=1)
+    assert (height <= found[:, 0] + rounding)[good].all()
+    for side in range(3):
+        along = corners[:, (side + 1) % 3] - corners[:, side]
+        inward = np.cross(normal, along)
+        inward /= np.maximum(np.linalg.norm(inward, axis=1), 1e-300)[:, None]
+        on_side = WEIGHTS[:, (side + 2) % 3] == 0.0
+        across = np.abs(np.einsum("mqd,md->mq", away[:, on_side], inward)).max(axis=1)
+        assert (across <= found[:, 1 + side] + rounding)[good].all()
+
+
+@pytest.mark.parametrize("name", SURFACES)
+def test_bounds_of_small_triangles_are_tight(name):
+    surface = SURFACES[name]
+    uv, corners = triangles(0.7, 11, surface)
+    found = bounds_of(surface, corners, uv, 3)
+    at = np.einsum("qk,mkd->mqd", WEIGHTS, uv)
+    points = surface.evaluate(at.reshape(-1, 2), 0)[0].reshape(len(uv), -1, 3)
+    flat = np.einsum("qk,mkd->mqd", WEIGHTS, corners)
+    away = np.linalg.norm(points - flat, axis=2).max(axis=1)
+    assert (found[:, 8] <= 2.0 * away + 1e-12).all()
+    assert (found[:, 8] >= away - 1e-13).all()
+
+
+def test_each_cut_makes_bounds_no_worse():
+    surface = SURFACES["waves"]
+    uv, corners = triangles(0.0, 2, surface)
+    whole = [bounds_of(surface, corners, uv, depth)[:, 8] for depth in range(4)]
+    assert all((b <= a * (1 + 1e-12)).all() for a, b in pairwise(whole))
+    assert (whole[-1] < 0.9 * whole[0]).any()
+
+
+def test_triangles_within_their_limit_are_not_cut():
+    surface = SURFACES["waves"]
+    uv, corners = triangles(0.0, 2, surface)
+    assert (bounds_of(surface, corners, uv, 3, np.inf) == bounds_of(surface, corners, uv, 0)).all()
+
+
+def test_a_corner_off_the_surface_is_said():
+    surface = SURFACES["sphere"]
+    uv, corners = triangles(0.5, 3, surface)
+    corners[0, 1] += [0.0, 0.003, 0.004]
+    found = bounds_of(surface, corners, uv)[:, 9]
+    assert found[0] == pytest.approx(0.005, rel=1e-6) and (found[1:] < 1e-13).all()
+
+
+def test_a_kink_within_a_triangle_has_no_bound():
+    surface = formula("u", "v", "abs(u - 0.1)")
+    uv = np.array([[(0, 0), (0.3, 0), (0, 0.3)], [(0.1, 0), (0.3, 0), (0.1, 0.3)]], float)
+    corners = surface.evaluate(uv.reshape(-1, 2), 0)[0].reshape(-1, 3, 3)
+    found = bounds_of(surface, corners, uv)[:, 8]
+    assert np.isinf(found[0]) and found[1] < 1e-12
+
+
+def test_a_crease_of_a_spline_within_a_triangle_has_no_bound():
+    knots = np.array([0, 0, 0, 0.5, 0.5, 1, 1, 1.0])
+    other = np.array([0, 0, 1, 1.0])
+    control = np.zeros((5, 2, 3))
+    control[..., 0], control[..., 1] = np.linspace(0, 1, 5)[:, None], np.arange(2)
+    control[2, :, 2] = 1.0
+    surface = surfaces.spline_surface(UNIT, knots, other, control, None, (0.0, 0.0))
+    uv = np.array([[(0.4, 0), (0.6, 0), (0.4, 0.3)], [(0.5, 0), (0.7, 0), (0.5, 0.3)]], float)
+    corners = surface.evaluate(uv.reshape(-1, 2), 0)[0].reshape(-1, 3, 3)
+    found = bounds_of(surface, corners, uv)[:, 8]
+    assert np.isinf(found[0]) and found[1] < 0.2
+
+
+def test_a_function_of_the_caller_has_no_bounds():
+    surface = sm.NumericSurface(lambda u, v: (u, v, u * v), u=(0, 1), v=(0, 1))
+    uv = np.array([[(0, 0), (1, 0), (0, 1)]], float)
+    core = surfaces.CallbackSurface(surface)
+    corners = core.evaluate(uv[0], 0)
+    assert bounds_of(core, corners, uv) is None
+
+
+def test_given_arrays_are_looked_at():
+    surface = SURFACES["plane"]
+    uv, corners = triangles(0.5, 3, surface)
+    with pytest.raises(ValueError, match="limits"):
+        proof.triangle_bounds(surface, corners, uv, np.zeros(2), np.zeros(6, np.uint8), 1)
+    with pytest.raises(ValueError, match="depth"):
+        bounds_of(surface, corners, uv, 99)
+    found = bounds_of(surface, corners, uv)
+    vertices = np.arange(18, dtype=np.int32).reshape(-1, 3)
+    with pytest.raises(ValueError, match="twins"):
+        proof.ring_bounds(corners, vertices, np.full(18, 18, np.int32), found)
+    with pytest.raises(ValueError, match="triangles"):
+        proof.ring_bounds(corners, vertices + 1, np.full(18, -1, np.int32), found)
