@@ -4,11 +4,11 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from surfmesh.quality.measures.triangle_distances import triangle_distances
 
 import surfmesh as sm
 from surfmesh.accuracy.proof import FaceTriangles, proved_distances, twins_of
 from surfmesh.geometry.differential.projection import closest_point
-from surfmesh.quality.measures.triangle_distances import triangle_distances
 
 SIDE = 6
 WEIGHTS = np.array(
