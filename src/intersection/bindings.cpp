@@ -1,6 +1,7 @@
 #include <nanobind/stl/optional.h>
 #include <nanobind/stl/tuple.h>
 
+#include <cmath>
 #include <optional>
 #include <tuple>
 
@@ -167,6 +168,8 @@ std::optional<Point2> as_rate(const std::optional<Vector2>& rate) {
     return Point2{rate->data()[0], rate->data()[1]};
 }
 
+constexpr double LEAST_FIRST_STEP = 1e-280;  // its halves are no zeros
+
 /// Row 0 is the start.
 auto traced(const Surface& a, const Surface& b, const Points2& uv_a, const Points2& uv_b,
             const Points3& point, const Points3& way, const Flags& singular, double step,
@@ -178,6 +181,8 @@ auto traced(const Surface& a, const Surface& b, const Points2& uv_a, const Point
     require_rows(way.shape(0), count, "way");
     require_rows(singular.shape(0), count, "singular");
     if (count < 1) throw nb::value_error("a branch has a start");
+    if (!(step >= LEAST_FIRST_STEP && std::isfinite(step)))
+        throw nb::value_error("the first step is a length");
     Array<TraceEnd> ends;
     for (std::size_t i = 0; i < count; ++i)
         ends.push_back({rows<Point2>(uv_a)[i], rows<Point2>(uv_b)[i], rows<Point3>(point)[i],
@@ -211,12 +216,16 @@ auto on_branch(const Surface& a, const Surface& b, const Points3& trace, const P
     return view(found);
 }
 
+constexpr int MOST_HALVINGS = 12;
+
 auto integrals_over_strips(const Surface& surface, double fixed, const Points2& ends,
                            const Vector<double>& knots, const Vector<double>& places,
                            const Vector<double>& weights, double agree, int halvings,
                            const std::optional<Vector3>& origin) {
     require_rows(weights.shape(0), places.shape(0), "weights");
     if (places.shape(0) < 1) throw nb::value_error("a rule has one place at least");
+    if (halvings < 0 || halvings > MOST_HALVINGS)
+        throw nb::value_error("pieces are halved 0 to 12 times");
     std::optional<Point3> from;
     if (origin) from = point(*origin);
     SurfaceReader reader(surface);

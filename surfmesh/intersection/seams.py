@@ -25,8 +25,8 @@ from surfmesh.geometry.surface import Domain, Surface
 PLACES = 16
 """Parts of the period at which a seam is tried."""
 
-ALONG, GRID = 65, 33
-"""Samples of a seam; of another surface each way."""
+ALONG, GRID, LEAST_GRID = 65, 33, 3
+"""Samples of a seam; of another surface each way, fewer of each face of a model, at least."""
 
 SAME = 1e-9
 """Of the largest: derivatives that differ by less a period apart are the same."""
@@ -50,12 +50,13 @@ Samples = tuple[np.ndarray, float]
 def _samples(thing: Any) -> Samples:
     surfaces = [face.surface for face in thing.faces] if isinstance(thing, CadModel) else [thing]
     points, apart = [np.empty((0, 3))], 0.0
+    grid = max(LEAST_GRID, int(GRID / max(len(surfaces), 1) ** 0.5))
     for surface in surfaces:
         if not isinstance(surface, Surface):
             continue  # refused later
         (u0, u1), (v0, v1) = surface.domain
-        uv = np.stack(np.meshgrid(np.linspace(u0, u1, GRID), np.linspace(v0, v1, GRID)), axis=-1)
-        own = surface.evaluate(uv.reshape(-1, 2), 0)[0].reshape(GRID, GRID, 3)
+        uv = np.stack(np.meshgrid(np.linspace(u0, u1, grid), np.linspace(v0, v1, grid)), axis=-1)
+        own = surface.evaluate(uv.reshape(-1, 2), 0)[0].reshape(grid, grid, 3)
         steps = np.diff(own, axis=0), np.diff(own, axis=1)
         apart = max(apart, *(float(np.linalg.norm(step, axis=-1).max()) for step in steps))
         points.append(own.reshape(-1, 3))

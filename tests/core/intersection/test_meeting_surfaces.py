@@ -112,6 +112,10 @@ def test_what_a_callers_surface_raises_comes_through():
         lambda: intersection.strip_integrals(
             BALL, 0.0, np.zeros((1, 2)), np.empty(0), np.empty(0), np.empty(0), 1e-9, 3
         ),
+        lambda: intersection.trace_branch(
+            BALL, FLOOR, np.zeros((2, 2)), np.zeros((2, 2)), np.zeros((2, 3)), np.zeros((2, 3)),
+            np.zeros(2, np.uint8), np.nan, 1e-11, False,
+        ),
     ],
 )  # fmt: skip
 def test_arrays_that_do_not_fit_are_refused(call):
