@@ -156,7 +156,8 @@ def check(options: Namespace) -> bool:
 
     from surfmesh.quality import check as checked
 
-    report = checked(found, second_opinion=options.second_opinion)
+    prove = True if options.prove else None
+    report = checked(found, second_opinion=options.second_opinion, prove=prove)
     if options.json:
         say_json(report.to_dict())
     else:

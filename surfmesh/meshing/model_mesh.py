@@ -69,7 +69,10 @@ def mesh_model(
     """
     if strict:
         require_all_read(model)
-    how = _How(optimise, strict, workers or FaceWorkers(), rounds, Stopwatch(progress))
+    watch, workers = Stopwatch(progress), workers or FaceWorkers()
+    if watch.counts_work:  # which ends at the same face everywhere
+        workers = replace(workers, at_once=1)
+    how = _How(optimise, strict, workers, rounds, watch)
     asked = model_sizing(model, sizing)
     aims = VolumeAims(model, asked.base.volume)
 
