@@ -7,6 +7,7 @@ import pytest
 
 import surfmesh as sm
 from surfmesh.errors import SurfaceError
+from surfmesh.geometry.cad_surfaces.nurbs import BSplineSurface
 
 TURN = (0, "2*pi")
 
@@ -197,3 +198,19 @@ def test_a_plane_through_the_poles_of_a_sphere():
     disc = [face.area for face in model.faces if face.name == "wall"]
     assert sum(disc) == pytest.approx(pi, rel=1e-9)
     assert sm.check(sm.mesh(model, 0.3)).clean
+
+
+def test_a_curve_that_is_not_followed_closely_is_said():
+    # second derivatives of a quadratic spline jump at its knots
+    rng = np.random.default_rng(3)
+    knots = np.array([0, 0, 0, 0.31, 0.64, 1, 1, 1.0])
+    grid = np.stack(np.meshgrid(np.linspace(-1, 1, 5), np.linspace(-1, 1, 5)), axis=-1)
+    control = np.concatenate([grid, rng.uniform(-0.5, 0.5, (5, 5, 1))], axis=2).swapaxes(0, 1)
+    spline = BSplineSurface(
+        domain=((0.0, 1.0), (0.0, 1.0)), knots_u=knots, knots_v=knots, control=control, name="hide"
+    )
+    plane = sm.ParametricSurface("u", "v", "0.4*u + 0.01", u=(-2, 2), v=(-2, 2), name="plane")
+    model = sm.intersect([spline, plane])
+    loose = [edge for edge in model.edges if edge.tolerance > 2e-10 * model.diagonal]
+    said = [sentence for sentence in model.healing if "off its surfaces" in sentence]
+    assert len(said) == len([edge for edge in loose if edge.name == "hide/plane"]) > 0
