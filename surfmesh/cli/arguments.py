@@ -115,6 +115,10 @@ def _add_intersect(commands: _Commands) -> None:
         help="what is kept (default all); NAME=+OTHER, NAME=-OTHER or NAME=X,Y,Z: of an input the "
         "parts on one side, or nearest to a point; may be given several times",
     )  # fmt: skip
+    meet.add_argument(
+        "--coincident", choices=("refuse", "merge"), default="refuse",
+        help="patches of two inputs that coincide: an error (default), or one patch of both",
+    )  # fmt: skip
     _add_made(meet)
 
 

@@ -137,7 +137,10 @@ def boxes_and_cones(surface: FaceSurface, lo: np.ndarray, hi: np.ndarray) -> tup
     (points,) = surface.evaluate(corners.reshape(-1, 2), 0)
     points = points.reshape(4, len(lo), 3)
     sag = (du**2 * bent[:, 0] + dv**2 * bent[:, 2]) / 8.0
-    sag = np.where(np.isfinite(sag), sag, np.inf) + ROUNDING * np.abs(points).max(axis=0)
+    sag = (
+        np.where(np.isfinite(sag), sag, np.inf)
+        + ROUNDING * np.abs(points).max(axis=(0, 2))[:, None]
+    )
     boxes = Boxes(points.min(axis=0) - sag, points.max(axis=0) + sag, points.swapaxes(0, 1), sag)
     return boxes, _cones(surface, 0.5 * (lo + hi), du, dv, bent)
 
@@ -172,7 +175,7 @@ def curve_boxes(edge: CadEdge, lo: np.ndarray, hi: np.ndarray) -> tuple[Boxes, C
     factor = 1.0 if edge.curve is not None and edge.curve.kind in ("line", "circle") else SAMPLED
     bound = factor * np.linalg.norm(second, axis=2).max(axis=1)
     step = (hi - lo) * (edge.t1 - edge.t0)
-    sag = (step**2 * bound / 8.0)[:, None] + ROUNDING * np.abs(points).max(axis=1)
+    sag = (step**2 * bound / 8.0)[:, None] + ROUNDING * np.abs(points).max(axis=(1, 2))[:, None]
     ends = points[:, [0, -1]]
     boxes = Boxes(ends.min(axis=1) - sag, ends.max(axis=1) + sag, ends, sag)
     axis = first[:, CURVE_GRID // 2]
