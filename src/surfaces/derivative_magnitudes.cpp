@@ -156,23 +156,31 @@ SurfaceStatus RevolutionSurface::derivative_magnitudes(std::span<const Parameter
 
 namespace {
 
-/// Bounds of |n_u|, |n_v|, |n_uu|, |n_uv|, |n_vv| from those r of the basis's derivatives and
-/// the least |N| = s; see the header for the rules.
-std::array<double, 6> normal_magnitudes(std::span<const Point3> basis, double s) {
-    std::array<double, 10> r{};
-    for (std::size_t k = 1; k < r.size(); ++k) r[k] = norm(basis[k]);
-    const double u = r[3] * r[2] + r[1] * r[4], v = r[4] * r[2] + r[1] * r[5];  // |N_u|, |N_v|
-    const double uu = r[6] * r[2] + 2.0 * r[3] * r[4] + r[1] * r[7];
-    const double uv = r[7] * r[2] + r[3] * r[5] + r[1] * r[8];
-    const double vv = r[8] * r[2] + 2.0 * r[4] * r[5] + r[1] * r[9];
-    // |s_u| <= |N_u|, and n_u is the part of N_u / s across n
+/// Bounds over a cell of the derivatives of n = N / s, s = |N|: by u, v, twice by each.
+struct NormalMagnitudes {
+    double u, v, uu, uv, vv;
+};
+
+/// From N_u and N_v in the middle, which change by second derivatives of N at most:
+///
+///     n_uu = (N_uu)' / s - 2 s_u n_u / s - |n_u|^2 n        ' the part across n; |s_u| <= |N_u|
+///
+/// r: the basis in the middle, to the second order; bound: its derivatives over the cell, to the
+/// third. Infinite where N may vanish.
+NormalMagnitudes normal_magnitudes(const std::array<Point3, 6>& r, std::span<const Point3> bound,
+                                   Point2 half) {
+    constexpr double NOT_KNOWN = std::numeric_limits<double>::infinity();
+    std::array<double, 10> b{};
+    for (std::size_t k = 1; k < b.size(); ++k) b[k] = norm(bound[k]);
+    const double uu = b[6] * b[2] + 2.0 * b[3] * b[4] + b[1] * b[7];  // |N_uu|
+    const double uv = b[7] * b[2] + b[3] * b[5] + b[1] * b[8];
+    const double vv = b[8] * b[2] + 2.0 * b[4] * b[5] + b[1] * b[9];
+    const double u = norm(cross(r[3], r[2]) + cross(r[1], r[4])) + half.x * uu + half.y * uv;
+    const double v = norm(cross(r[4], r[2]) + cross(r[1], r[5])) + half.x * uv + half.y * vv;
+    const double s = norm(cross(r[1], r[2])) - (half.x * u + half.y * v);
+    if (!(s > 0.0)) return {NOT_KNOWN, NOT_KNOWN, NOT_KNOWN, NOT_KNOWN, NOT_KNOWN};
     const double n_u = u / s, n_v = v / s;
-    return {0.0,
-            n_u,
-            n_v,
-            (2.0 * uu + 3.0 * n_u * u) / s,
-            (2.0 * uv + n_v * u + u * n_v + v * n_u) / s,
-            (2.0 * vv + 3.0 * n_v * v) / s};
+    return {n_u, n_v, uu / s + 3.0 * n_u * n_u, uv / s + 3.0 * n_u * n_v, vv / s + 3.0 * n_v * n_v};
 }
 
 }  // namespace
@@ -180,7 +188,6 @@ std::array<double, 6> normal_magnitudes(std::span<const Point3> basis, double s)
 SurfaceStatus OffsetSurface::derivative_magnitudes(std::span<const ParameterBox> cells, int order,
                                                    std::span<Point3> out) const {
     if (order > 2) return SurfaceStatus::UNKNOWN;
-    constexpr double NOT_KNOWN = std::numeric_limits<double>::infinity();
     const std::size_t count = derivative_count(order), third = derivative_count(3);
     Array<Point3> basis(third * cells.size());
     if (const auto status = basis_->derivative_magnitudes(cells, 3, {basis.data(), basis.size()});
@@ -188,23 +195,22 @@ SurfaceStatus OffsetSurface::derivative_magnitudes(std::span<const ParameterBox>
         return status;
     Array<Point2> middles;
     for (const auto& [low, high] : cells) middles.push_back(0.5 * (low + high));
-    SurfaceValues r;
-    if (const auto status = r.evaluate(*basis_, {middles.data(), middles.size()}, 1);
+    SurfaceValues middle;
+    if (const auto status = middle.evaluate(*basis_, {middles.data(), middles.size()}, 2);
         status != SurfaceStatus::DONE)
         return status;
     for (std::size_t i = 0; i < cells.size(); ++i) {
         const std::span<const Point3> own{basis.data() + i * third, third};
-        const Point2 half = 0.5 * (cells[i].high - cells[i].low);
-        const double turned_u = norm(own[3]) * norm(own[2]) + norm(own[1]) * norm(own[4]);
-        const double turned_v = norm(own[4]) * norm(own[2]) + norm(own[1]) * norm(own[5]);
-        const double least =
-            norm(cross(r[1][i], r[2][i])) - (half.x * turned_u + half.y * turned_v);
-        const auto normal = normal_magnitudes(own, least);
-        for (std::size_t k = 0; k < count; ++k) {
-            const double wider = least > 0.0 ? std::abs(distance_) * normal[k] : NOT_KNOWN;
+        std::array<Point3, 6> r{};
+        for (std::size_t k = 0; k < r.size(); ++k) r[k] = middle[k][i];
+        const auto [u, v, uu, uv, vv] =
+            normal_magnitudes(r, own, 0.5 * (cells[i].high - cells[i].low));
+        const std::array<double, 6> normal{0.0, u, v, uu, uv, vv};
+        out[i * count] = {0.0, 0.0, 0.0};
+        for (std::size_t k = 1; k < count; ++k) {
+            const double wider = std::abs(distance_) * normal[k];
             out[i * count + k] = own[k] + Point3{wider, wider, wider};
         }
-        out[i * count] = {0.0, 0.0, 0.0};
     }
     return SurfaceStatus::DONE;
 }

@@ -7,7 +7,9 @@ import pytest
 
 import surfmesh as sm
 from surfmesh.errors import SurfaceError
+from surfmesh.geometry.cad_surfaces.elementary import Torus
 from surfmesh.geometry.cad_surfaces.nurbs import BSplineSurface
+from surfmesh.geometry.cad_surfaces.offset import OffsetSurface
 
 TURN = (0, "2*pi")
 
@@ -214,3 +216,25 @@ def test_a_curve_that_is_not_followed_closely_is_said():
     loose = [edge for edge in model.edges if edge.tolerance > 2e-10 * model.diagonal]
     said = [sentence for sentence in model.healing if "off its surfaces" in sentence]
     assert len(said) == len([edge for edge in loose if edge.name == "hide/plane"]) > 0
+
+
+def test_a_small_loop_on_an_offset_surface_is_found():
+    turn = (-pi, pi)
+    frame = dict(zip(("origin", "x", "y", "z"), np.concatenate([np.zeros((1, 3)), np.eye(3)])))
+    basis = Torus(domain=((0.0, 2.0 * pi), turn), radius=3.0, tube=1.0, **frame)
+    ring = OffsetSurface(domain=basis.domain, basis=basis, distance=0.5, name="ring")
+    c, s, deep = np.cos(0.7), np.sin(0.7), 1e-4  # a plane that cuts a cap of this depth off
+    away = 4.5 - deep
+    plane = sm.ParametricSurface(
+        f"{away * c} - {s}*u", f"{away * s} + {c}*u", "v", u=(-5, 5), v=(-2, 2.1), name="plane"
+    )
+    model = sm.intersect([ring, plane])
+    curves = [edge for edge in model.edges if edge.name == "ring/plane"]
+    assert len(curves) == 1 and curves[0].closed and not model.healing
+    half = np.sqrt(2.0 * deep * np.array([4.5, 1.5]))  # of the ellipse that it nearly is
+    points = curves[0].evaluate(np.linspace(0.0, 1.0, 101))[0]
+    across = points @ np.array([-s, c, 0.0])
+    assert np.abs(across).max() == pytest.approx(half[0], rel=1e-3)
+    assert np.abs(points[:, 2]).max() == pytest.approx(half[1], rel=1e-3)
+    off = np.hypot(np.hypot(points[:, 0], points[:, 1]) - 3.0, points[:, 2]) - 1.5
+    assert np.abs(off).max() < 1e-10 * model.diagonal
