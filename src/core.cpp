@@ -25,6 +25,7 @@ void bind_sizing(nb::module_& m);
 void bind_patch(nb::module_& m);
 void bind_faces(nb::module_& m);
 void bind_edges(nb::module_& m);
+void bind_intersection(nb::module_& m);
 void bind_quality(nb::module_& m);
 void bind_proof(nb::module_& m);
 
@@ -71,6 +72,7 @@ NB_MODULE(_core, m) {
     add(m, "patch", bind_patch);
     add(m, "faces", bind_faces);
     add(m, "edges", bind_edges);
+    add(m, "intersection", bind_intersection);
     add(m, "quality", bind_quality);
     add(m, "proof", bind_proof);
 }

@@ -20,6 +20,10 @@ class SurfaceOverBox final : public Surface {
                                     std::span<Point3> upper) const override {
         return surface_.derivative_bounds(cells, lower, upper);
     }
+    SurfaceStatus derivative_magnitudes(std::span<const ParameterBox> cells, int order,
+                                        std::span<Point3> out) const override {
+        return surface_.derivative_magnitudes(cells, order, out);
+    }
     [[nodiscard]] std::exception_ptr take_failure() const override {
         return surface_.take_failure();
     }

@@ -63,6 +63,25 @@ std::optional<std::pair<BoundArrays, BoundArrays>> derivative_bounds(const Surfa
                      shaped<BoundArrays>(upper, count, BOUNDED_DERIVATIVES));
 }
 
+std::optional<DerivativeArrays> derivative_magnitudes(const Surface& surface, const Points2& lo,
+                                                      const Points2& hi, int order) {
+    const std::size_t count = lo.shape(0);
+    require_rows(hi.shape(0), count, "hi");
+    if (order < 2 || order > 3) throw nb::value_error("the order is 2 or 3");
+    Array<ParameterBox> cells(count);
+    for (std::size_t i = 0; i < count; ++i) cells[i] = {rows<Point2>(lo)[i], rows<Point2>(hi)[i]};
+    Array<Point3> found(derivative_count(order) * count);
+    SurfaceStatus status;
+    {
+        const nb::gil_scoped_release released;
+        status = surface.derivative_magnitudes({cells.data(), count}, order,
+                                               {found.data(), found.size()});
+    }
+    raise_failure(surface, status);
+    if (status == SurfaceStatus::UNKNOWN) return std::nullopt;
+    return shaped<DerivativeArrays>(found, count, derivative_count(order));
+}
+
 /// What the collector of cyclic references must see: an object may lead back to its surface.
 int visit_object(PyObject* self, visitproc visit, void* arg) {
     Py_VISIT(Py_TYPE(self));
@@ -95,7 +114,12 @@ void bind_surface_class(nb::module_& m) {
         .def("derivative_bounds", &derivative_bounds, nb::arg("lo"), nb::arg("hi"),
              "Bounds of r_u, r_v, r_uu, r_uv, r_vv over cells, or None when they are not known.\n\n"
              "lo, hi: (n, 2) corners of the cells -> lower, upper (n, 5, 3), infinite where "
-             "unknown.");
+             "unknown.")
+        .def("derivative_magnitudes", &derivative_magnitudes, nb::arg("lo"), nb::arg("hi"),
+             nb::arg("order") = 2,
+             "Bounds of the absolute values of all derivatives over cells, or None when they are "
+             "not known.\n\nlo, hi: (n, 2) corners -> (n, m, 3) in the sequence of ``evaluate``, "
+             "those of r itself 0. order: 2 or 3.");
     nb::class_<CallbackSurface, Surface>(m, "CallbackSurface", nb::type_slots(callback_slots),
                                          "An object of Python that is asked for each block.")
         .def(nb::init<nb::object>(), nb::arg("surface"),

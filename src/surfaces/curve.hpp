@@ -13,6 +13,11 @@
 
 namespace surfmesh {
 
+/// Parameters of a piece of a curve.
+struct ParameterRange {
+    double first, last;
+};
+
 class Curve {
   public:
     virtual ~Curve() = default;
@@ -22,6 +27,15 @@ class Curve {
 
     /// Derivative k at t[i] into out[k n + i], for the n parameters t and all k up to the order.
     virtual void evaluate(std::span<const double> t, int order, std::span<Point3> out) const = 0;
+
+    /// Bounds of the absolute values of the derivatives 1 to ``order`` over ranges, by
+    /// coordinate: that of derivative k over range i into out[(order + 1) i + k], of c itself 0.
+    /// False where the curve has none.
+    [[nodiscard]] virtual bool derivative_magnitudes(std::span<const ParameterRange> /*ranges*/,
+                                                     int /*order*/,
+                                                     std::span<Point3> /*out*/) const {
+        return false;
+    }
 
     /// Proved bounds of w . (c - about), w . c' and w . c'' over a range of t, for a vector w;
     /// false where none are known.

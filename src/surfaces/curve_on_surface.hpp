@@ -22,6 +22,8 @@ class CurveOnSurface final : public Curve {
 
     [[nodiscard]] int dimension() const override { return 3; }
     void evaluate(std::span<const double> t, int order, std::span<Point3> out) const override;
+    [[nodiscard]] bool derivative_magnitudes(std::span<const ParameterRange> ranges, int order,
+                                             std::span<Point3> out) const override;
 
   private:
     std::shared_ptr<const Surface> surface_;

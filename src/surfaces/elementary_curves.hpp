@@ -20,6 +20,8 @@ class Line final : public Curve {
 
     [[nodiscard]] int dimension() const override { return dimension_; }
     void evaluate(std::span<const double> t, int order, std::span<Point3> out) const override;
+    [[nodiscard]] bool derivative_magnitudes(std::span<const ParameterRange> ranges, int order,
+                                             std::span<Point3> out) const override;
     [[nodiscard]] bool enclose_along(Interval t, Point3 w, Point3 about,
                                      std::array<Interval, 3>& out) const override;
 
@@ -42,6 +44,8 @@ class Conic final : public Curve {
 
     [[nodiscard]] int dimension() const override { return dimension_; }
     void evaluate(std::span<const double> t, int order, std::span<Point3> out) const override;
+    [[nodiscard]] bool derivative_magnitudes(std::span<const ParameterRange> ranges, int order,
+                                             std::span<Point3> out) const override;
     [[nodiscard]] bool enclose_along(Interval t, Point3 w, Point3 about,
                                      std::array<Interval, 3>& out) const override;
 

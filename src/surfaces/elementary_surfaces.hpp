@@ -29,6 +29,8 @@ class Plane final : public FaceSurface {
     Plane(const ParameterBox& domain, const Frame& frame) : FaceSurface(domain), frame_(frame) {}
     SurfaceStatus evaluate(std::span<const Point2> uv, int order,
                            std::span<Point3> out) const override;
+    SurfaceStatus derivative_magnitudes(std::span<const ParameterBox> cells, int order,
+                                        std::span<Point3> out) const override;
     SurfaceStatus enclose(std::span<const Point2> uv, std::span<EnclosedPoint> out) const override;
     SurfaceStatus enclose_bends(std::span<const ParameterBox> cells,
                                 std::span<const Directions> directions,
@@ -53,6 +55,8 @@ class TurnedProfile final : public FaceSurface {
         : FaceSurface(domain), frame_(frame), profile_(profile) {}
     SurfaceStatus evaluate(std::span<const Point2> uv, int order,
                            std::span<Point3> out) const override;
+    SurfaceStatus derivative_magnitudes(std::span<const ParameterBox> cells, int order,
+                                        std::span<Point3> out) const override;
     SurfaceStatus enclose(std::span<const Point2> uv, std::span<EnclosedPoint> out) const override;
     SurfaceStatus enclose_bends(std::span<const ParameterBox> cells,
                                 std::span<const Directions> directions,

@@ -27,6 +27,9 @@ class OffsetSurface final : public FaceSurface {
     /// UNKNOWN for derivatives beyond the second.
     SurfaceStatus evaluate(std::span<const Point2> uv, int order,
                            std::span<Point3> out) const override;
+    /// To the second order, where the basis has them to the third.
+    SurfaceStatus derivative_magnitudes(std::span<const ParameterBox> cells, int order,
+                                        std::span<Point3> out) const override;
     [[nodiscard]] std::exception_ptr take_failure() const override {
         return basis_->take_failure();
     }

@@ -32,6 +32,11 @@ struct KnotPlace {
     double t;
 };
 
+/// First and last of some spans.
+struct SpanRange {
+    std::int64_t first, last;
+};
+
 /// The spline functions of one parameter. The knots do not decrease, and knots[degree] is less
 /// than knots[size - degree - 1].
 class SplineBasis {
@@ -50,6 +55,16 @@ class SplineBasis {
     /// degree + 1 derivatives k. table: (degree + 1)^2 numbers to work in.
     void derivatives(KnotPlace place, int order, std::span<double> table,
                      std::span<double> out) const;
+
+    /// The spans that a range meets; all of them where it goes beyond the knots.
+    [[nodiscard]] SpanRange spans(double low, double high) const;
+
+    /// Is there a tangent everywhere: no knot inside as often as the degree?
+    [[nodiscard]] bool is_smooth() const;
+
+    /// What the difference of control points ``first`` and first + 1 is multiplied with in the
+    /// derivative ``times`` + 1, whose own derivative ``times`` these belong to.
+    [[nodiscard]] double difference_factor(std::int64_t first, int times) const;
 
   private:
     [[nodiscard]] std::int64_t last_knot_not_above(double t) const;

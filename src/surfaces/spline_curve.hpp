@@ -23,6 +23,8 @@ class SplineCurve final : public Curve {
 
     [[nodiscard]] int dimension() const override { return dimension_; }
     void evaluate(std::span<const double> t, int order, std::span<Point3> out) const override;
+    [[nodiscard]] bool derivative_magnitudes(std::span<const ParameterRange> ranges, int order,
+                                             std::span<Point3> out) const override;
     [[nodiscard]] bool enclose_along(Interval t, Point3 w, Point3 about,
                                      std::array<Interval, 3>& out) const override;
 

@@ -27,6 +27,8 @@ class SplineSurface final : public FaceSurface {
 
     SurfaceStatus evaluate(std::span<const Point2> uv, int order,
                            std::span<Point3> out) const override;
+    SurfaceStatus derivative_magnitudes(std::span<const ParameterBox> cells, int order,
+                                        std::span<Point3> out) const override;
     SurfaceStatus enclose(std::span<const Point2> uv, std::span<EnclosedPoint> out) const override;
     SurfaceStatus enclose_bends(std::span<const ParameterBox> cells,
                                 std::span<const Directions> directions,

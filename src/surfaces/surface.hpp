@@ -68,6 +68,12 @@ class Surface {
         return SurfaceStatus::UNKNOWN;
     }
 
+    /// Bounds of the absolute values of all derivatives up to the order, 2 or 3, by coordinate:
+    /// that of derivative k over cell i into out[derivative_count(order) i + k], of r itself 0.
+    /// UNKNOWN where the surface has none. By default what ``derivative_bounds`` gives.
+    virtual SurfaceStatus derivative_magnitudes(std::span<const ParameterBox> cells, int order,
+                                                std::span<Point3> out) const;
+
     /// The points with a proved bound of their round-off. UNKNOWN where the surface knows none.
     virtual SurfaceStatus enclose(std::span<const Point2> /*uv*/,
                                   std::span<EnclosedPoint> /*out*/) const {

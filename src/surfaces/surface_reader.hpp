@@ -44,6 +44,15 @@ class SurfaceReader {
         if (!failed()) status_ = surface_.evaluate(uv, order, out);
         if (failed()) std::fill(out.begin(), out.end(), Point3{0.0, 0.0, 0.0});
     }
+    /// Bounds of derivatives over cells, as ``Surface::derivative_magnitudes`` gives them; false
+    /// where there are none.
+    [[nodiscard]] bool read_magnitudes(std::span<const ParameterBox> cells, int order,
+                                       std::span<Point3> out) {
+        if (failed()) return false;
+        const SurfaceStatus found = surface_.derivative_magnitudes(cells, order, out);
+        if (found == SurfaceStatus::FAILED) status_ = found;
+        return found == SurfaceStatus::DONE;
+    }
     /// Derivative k at all points of the block, in the sequence of ``derivative_count``.
     [[nodiscard]] std::span<const Point3> operator[](std::size_t k) const {
         return {values_.data() + k * points_, points_};

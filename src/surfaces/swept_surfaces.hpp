@@ -24,6 +24,8 @@ class ExtrusionSurface final : public FaceSurface {
         : FaceSurface(domain), curve_(std::move(curve)), direction_(direction) {}
     SurfaceStatus evaluate(std::span<const Point2> uv, int order,
                            std::span<Point3> out) const override;
+    SurfaceStatus derivative_magnitudes(std::span<const ParameterBox> cells, int order,
+                                        std::span<Point3> out) const override;
     SurfaceStatus enclose(std::span<const Point2> uv, std::span<EnclosedPoint> out) const override;
     SurfaceStatus enclose_bends(std::span<const ParameterBox> cells,
                                 std::span<const Directions> directions,
@@ -42,6 +44,8 @@ class RevolutionSurface final : public FaceSurface {
         : FaceSurface(domain), curve_(std::move(curve)), origin_(origin), axis_(axis) {}
     SurfaceStatus evaluate(std::span<const Point2> uv, int order,
                            std::span<Point3> out) const override;
+    SurfaceStatus derivative_magnitudes(std::span<const ParameterBox> cells, int order,
+                                        std::span<Point3> out) const override;
     SurfaceStatus enclose(std::span<const Point2> uv, std::span<EnclosedPoint> out) const override;
     SurfaceStatus enclose_bends(std::span<const ParameterBox> cells,
                                 std::span<const Directions> directions,

@@ -6,6 +6,7 @@ from surfmesh._core import (
     faces as faces,
     fields as fields,
     insertion as insertion,
+    intersection as intersection,
     optimisation as optimisation,
     packing as packing,
     patch as patch,

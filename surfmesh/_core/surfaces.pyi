@@ -28,6 +28,13 @@ class Surface:
         lo, hi: (n, 2) corners of the cells -> lower, upper (n, 5, 3), infinite where unknown.
         """
 
+    def derivative_magnitudes(self, lo: Annotated[NDArray[numpy.float64], dict(shape=(None, 2), order='C', device='cpu', writable=False)], hi: Annotated[NDArray[numpy.float64], dict(shape=(None, 2), order='C', device='cpu', writable=False)], order: int = 2) -> Annotated[NDArray[numpy.float64], dict(shape=(None, None, 3))] | None:
+        """
+        Bounds of the absolute values of all derivatives over cells, or None when they are not known.
+
+        lo, hi: (n, 2) corners -> (n, m, 3) in the sequence of ``evaluate``, those of r itself 0. order: 2 or 3.
+        """
+
 class CallbackSurface(Surface):
     """An object of Python that is asked for each block."""
 

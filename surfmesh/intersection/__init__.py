@@ -8,9 +8,9 @@ intersection of discretised surfaces". Others use ``intersect`` alone.
 
 meeting_file: surfaces that meet, as a TOML file; ready-made ones.
 intersect: the whole way, and the tags of the result.
+seams: where closed surfaces of formulas have their seams: out of the way of the others.
 sheets: what is intersected, each as a model: a surface over a rectangle becomes one face.
 complex: vertices, edges and faces that share them by number, and where each face comes from.
-spline_bounds: bounds of second derivatives of spline surfaces, by control points.
 bounds: how far surfaces and curves bend over cells: boxes that hold them, cones of normals.
 cells: the (u, v) box of a face in cells, an edge in pieces, halved level after level.
 newton: points pulled onto two surfaces, or onto a curve and a surface.

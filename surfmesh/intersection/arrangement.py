@@ -32,6 +32,10 @@ BESIDE = 0.05
 FLAT = 1e-12
 """Of the square of its box: a walk that encloses less goes there and back."""
 
+MIDDLE = np.array([0.5])
+SAME = 1e-9
+"""In (u, v): two uses of an edge whose middles are so near are one curve."""
+
 Loop = tuple[CadCoedge, ...]
 
 
@@ -186,11 +190,16 @@ def _area(ring: np.ndarray) -> float:
 
 
 def _is_slit(walk: Loop) -> bool:
-    """Does it run along each edge there and back?"""
-    ways: dict[int, int] = {}
+    """Does it run along each curve of (u, v) there and back? A seam's two sides are two."""
+    uses: dict[int, list[CadCoedge]] = {}
     for coedge in walk:
-        ways[coedge.edge] = ways.get(coedge.edge, 0) + (-1 if coedge.reversed else 1)
-    return not any(ways.values())
+        uses.setdefault(coedge.edge, []).append(coedge)
+    return all(
+        len(own) == 2
+        and own[0].reversed != own[1].reversed
+        and np.allclose(own[0].uv(MIDDLE), own[1].uv(MIDDLE), rtol=0.0, atol=SAME)
+        for own in uses.values()
+    )
 
 
 def _is_in(inner: np.ndarray, outer: np.ndarray) -> bool:

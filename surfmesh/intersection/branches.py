@@ -304,42 +304,26 @@ class FacePair:
 
     def _trace_new(self, found: Pulled, rows: np.ndarray) -> None:
         """Trace the branches through points that lie in both faces and on none so far."""
-        for k in rows:
-            uv_a, uv_b, point = found.uv_a[k], found.uv_b[k], found.point[k]
-            if self._is_traced(uv_a, uv_b, point):
-                continue
-            if not self.region_a.surely_inside(uv_a[None])[0]:
-                continue
-            if not self.region_b.surely_inside(uv_b[None])[0]:
-                continue
-            self._trace_closed(uv_a, uv_b, point)
+        for trace in [*self.known, *self.traces]:
+            rows = self._beside(trace, found, rows)
+        rows = rows[
+            self.region_a.surely_inside(found.uv_a[rows])
+            & self.region_b.surely_inside(found.uv_b[rows])
+        ]
+        while len(rows):
+            self._trace_closed(found.uv_a[rows[0]], found.uv_b[rows[0]], found.point[rows[0]])
+            rows = self._beside(self.traces[-1], found, rows[1:])
+
+    def _beside(self, trace: Trace, found: Pulled, rows: np.ndarray) -> np.ndarray:
+        """Those rows of points that do not lie on a traced branch."""
+        on = self.tracer.lie_on(trace, found.point[rows], TRACED * self.size)
+        return rows[~on]
 
     def _trace_closed(self, uv_a: np.ndarray, uv_b: np.ndarray, point: np.ndarray) -> None:
         way = self.tracer.tangent(uv_a[None], uv_b[None])[0][0]
         start = End(-1, uv_a, uv_b, point, way)
         end = End(-1, uv_a, uv_b, point, -way)
         self.traces.append(self.tracer.trace(start, [end], closed=True))
-
-    def _is_traced(self, uv_a: np.ndarray, uv_b: np.ndarray, point: np.ndarray) -> bool:
-        """Does a traced branch pass through the point?"""
-        for trace in [*self.known, *self.traces]:
-            p, step = trace.points[:-1], np.diff(trace.points, axis=0)
-            square = np.einsum("ij,ij->i", step, step)
-            t = np.clip(np.einsum("ij,ij->i", point - p, step) / square, 0.0, 1.0)
-            distance = np.linalg.norm(p + t[:, None] * step - point, axis=1)
-            for k in np.argsort(distance)[:3]:
-                if distance[k] > 0.1 * np.sqrt(square[k]):
-                    continue
-                guess_a, guess_b = (
-                    uv[k] + t[k] * (uv[k + 1] - uv[k]) for uv in (trace.uv_a, trace.uv_b)
-                )
-                normal = step[k] / np.sqrt(square[k])
-                found = pulled_onto_both(
-                    self.a, self.b, guess_a[None], guess_b[None], normal[None], point[None]
-                )
-                if np.linalg.norm(found.point[0] - point) <= TRACED * self.size:
-                    return True
-        return False
 
 
 def _extent(cells: FaceCells) -> float:

@@ -86,8 +86,12 @@ class Numbered:
     """Cells that pairs name, each once, with its bounds: cell ``of[k]`` is that of pair k."""
 
     def __init__(self, owner: FaceCells | EdgePieces, named: np.ndarray, level: int) -> None:
-        self.cells, self.of = np.unique(named, axis=0, return_inverse=True)
-        self.of = self.of.reshape(-1)
+        order = np.lexsort(named.T[::-1])
+        rows = named[order]
+        first = np.ones(len(rows), bool)
+        first[1:] = (rows[1:] != rows[:-1]).any(axis=1)
+        self.cells, self.of = rows[first], np.empty(len(rows), np.int64)
+        self.of[order] = np.cumsum(first) - 1
         self.boxes, self.cones = owner.bounds(self.cells, level)
 
     def size(self, rows: np.ndarray) -> float:

@@ -17,7 +17,7 @@ from surfmesh.errors import SurfaceError
 from surfmesh.geometry.cad_surfaces.face_surface import FaceSurface
 from surfmesh.intersection.newton import Pulled, limits_of, unit_normals, uv_directions
 from surfmesh.intersection.touching import branch_ways
-from surfmesh.intersection.tracing import AHEAD, ALIKE, GROWN, STRAIGHTER, TURN, End, Trace, place
+from surfmesh.intersection.tracing import End, Trace, place
 
 STEPS = 30
 WEAK = 1e-7
@@ -25,6 +25,16 @@ WEAK = 1e-7
 
 PARALLEL = 1e-6
 """Sine between the normals where surfaces touch."""
+
+TURN, STRAIGHTER = 0.16, 0.08
+"""Radians between ways of neighbouring places, at most; below the second, steps grow."""
+
+GROWN = 1.5
+AHEAD = 1.6
+"""Steps ahead in which ends are looked for."""
+
+ALIKE = 0.45
+"""Sine, and relative error in (u, v), within which an end lies straight ahead."""
 
 LEAST_STEP = 1e-5
 """Of the first step."""

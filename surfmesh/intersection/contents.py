@@ -8,18 +8,17 @@ Gauss-Legendre rules both ways, on more and more pieces until two results agree.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 
 import numpy as np
 
+from surfmesh._core import intersection
 from surfmesh.cad.model.cad_model import CadCoedge
 from surfmesh.geometry.cad_surfaces.nurbs import BSplineCurve, BSplineSurface
+from surfmesh.geometry.core_surface import as_core_surface
 from surfmesh.geometry.surface import Surface, surface_kind
 
 Loops = Sequence[Sequence[CadCoedge]]
-Density = Callable[[np.ndarray], np.ndarray]
-"""(n, 2) -> (n,): what is integrated over u and v."""
-
 RULES = {count: np.polynomial.legendre.leggauss(count) for count in (3, 8)}
 
 MANY = 24
@@ -41,44 +40,50 @@ FEWER = 3
 
 def region_area(surface: Surface, loops: Loops) -> float:
     """The area within loops of a surface, model units squared."""
-
-    def density(uv: np.ndarray) -> np.ndarray:
-        _, r_u, r_v = surface.evaluate(uv, 1)
-        return np.linalg.norm(np.cross(r_u, r_v), axis=1)
-
-    return region_integral(density, surface, loops)
+    return _region_integral(surface, loops, None)
 
 
 def region_cone(surface: Surface, loops: Loops, origin: np.ndarray) -> float:
     """The signed volume between the inside of loops and a point: (r - o) . (r_u x r_v) / 3."""
-
-    def density(uv: np.ndarray) -> np.ndarray:
-        r, r_u, r_v = surface.evaluate(uv, 1)
-        return np.einsum("ij,ij->i", r - origin, np.cross(r_u, r_v)) / 3.0
-
-    return region_integral(density, surface, loops)
+    return _region_integral(surface, loops, origin)
 
 
-def region_integral(density: Density, surface: Surface, loops: Loops) -> float:
-    """Of a density over the inside of loops."""
+def _region_integral(surface: Surface, loops: Loops, origin: np.ndarray | None) -> float:
+    """Of the element of area, or of volume, over the inside of loops."""
     is_smooth = surface_kind(surface) in SMOOTH
     agree = AGREE if is_smooth else AGREE_FREE_FORM
-    before = np.inf
-    for pieces in PIECES if is_smooth else PIECES[:-FEWER]:
-        total, size = _integral(density, surface, loops, pieces)
-        if abs(total - before) <= agree * size:
-            break
-        before = total
+    refined = PIECES[1:] if is_smooth else PIECES[1:-FEWER]
+    strips = _Strips(surface, origin, agree, len(refined))
+    coedges = [coedge for loop in loops for coedge in loop]
+    coarse = [strips.along(coedge, PIECES[0]) for coedge in coedges]
+    enough = agree * sum(size for _, size in coarse) / len(coedges)
+    total = 0.0
+    for coedge, (before, _) in zip(coedges, coarse):
+        for pieces in refined:
+            found, _ = strips.along(coedge, pieces)
+            close = abs(found - before) <= enough
+            before = found
+            if close:
+                break
+        total += before
     return total
 
 
-def _integral(density: Density, surface: Surface, loops: Loops, pieces: int) -> tuple[float, float]:
-    """The integral, and the sum of the absolute values along the loops."""
-    knots = _knots(surface)
-    fixed = 0.5 * sum(surface.domain[0])
-    total = size = 0.0
-    for coedge in (coedge for loop in loops for coedge in loop):
-        stops = _stops(coedge, pieces, knots)
+class _Strips:
+    """Integrals over u from a fixed one to a coedge, and over v along it."""
+
+    def __init__(
+        self, surface: Surface, origin: np.ndarray | None, agree: float, halvings: int
+    ) -> None:
+        self.core, self.origin = as_core_surface(surface), origin
+        self.knots = _knots(surface)
+        self.fixed = 0.5 * sum(surface.domain[0])
+        rule = _rule(np.array([0.0, 1.0]), 8 if len(self.knots[0]) < MANY else 3)
+        self.settings = (*rule, agree, halvings)
+
+    def along(self, coedge: CadCoedge, pieces: int) -> tuple[float, float]:
+        """The integral along a coedge in pieces, and the sum of the absolute values."""
+        stops = _stops(coedge, pieces, self.knots)
         fraction, along = _rule(stops, 3 if len(stops) > MANY + 2 * pieces else 8)
         parameters = coedge.p0 + fraction * (coedge.p1 - coedge.p0)
         uv, rate = coedge.pcurve.evaluate(parameters, 1)
@@ -86,13 +91,11 @@ def _integral(density: Density, surface: Surface, loops: Loops, pieces: int) -> 
         if coedge.reversed:
             dv = -dv
         if not np.abs(dv).max() > 0.0:
-            continue
-        u, weight = _strips(fixed, uv[:, 0], knots[0], pieces)  # (n, m)
-        places = np.stack([u, np.broadcast_to(uv[:, 1:], u.shape)], axis=-1).reshape(-1, 2)
-        strips = (density(places).reshape(u.shape) * weight).sum(axis=1)
-        total += float(strips @ dv)
-        size += float(np.abs(strips) @ np.abs(dv))
-    return total, size
+            return 0.0, 0.0
+        strips = intersection.strip_integrals(
+            self.core, self.fixed, uv, self.knots[0], *self.settings, self.origin
+        )
+        return float(strips @ dv), float(np.abs(strips) @ np.abs(dv))
 
 
 def _knots(surface: Surface) -> tuple[np.ndarray, np.ndarray]:
@@ -104,19 +107,6 @@ def _knots(surface: Surface) -> tuple[np.ndarray, np.ndarray]:
         distinct = np.unique(knots)
         own.append(distinct[(distinct > low) & (distinct < high)])
     return own[0], own[1]
-
-
-def _strips(
-    fixed: float, end: np.ndarray, knots: np.ndarray, pieces: int
-) -> tuple[np.ndarray, np.ndarray]:
-    """Places (n, m) between a fixed u and ends (n,), with weights: a rule between all knots."""
-    low, high = np.minimum(fixed, end)[:, None], np.maximum(fixed, end)[:, None]
-    stops = np.hstack([low, np.clip(knots[None], low, high), high])
-    inner, weight = _rule(np.linspace(0.0, 1.0, pieces + 1), 8 if len(knots) < MANY else 3)
-    width = np.diff(stops, axis=1)[..., None]
-    places = stops[:, :-1, None] + width * inner
-    sign = np.where(end < fixed, -1.0, 1.0)[:, None]
-    return places.reshape(len(end), -1), (width * weight).reshape(len(end), -1) * sign
 
 
 def _rule(stops: np.ndarray, count: int) -> tuple[np.ndarray, np.ndarray]:

@@ -6,20 +6,23 @@ surfaces, models -> models (``sheets``) -> cut by each other (``meeting``) -> wh
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from typing import Any
 
 import numpy as np
 
-from surfmesh.cad.model.cad_model import CadModel, CadNode, CadTag
+from surfmesh.cad.model.cad_model import CadEdge, CadModel, CadNode, CadTag
 from surfmesh.cad.model.extent import diagonal
 from surfmesh.errors import SurfaceError, shown
 from surfmesh.geometry.cad_surfaces.face_surface import FaceSurface
 from surfmesh.intersection.bounds import are_known
 from surfmesh.intersection.complex import Complex, compacted, with_areas
+from surfmesh.intersection.curve_fitting import NEAR
 from surfmesh.intersection.keeping import Keeping
 from surfmesh.intersection.meeting import joined
+from surfmesh.intersection.seams import with_clear_seams
 from surfmesh.intersection.sheets import as_model
+from surfmesh.intersection.tracing import place
 
 COINCIDENT = ("refuse", "merge")
 
@@ -36,7 +39,8 @@ def intersected(
     if len(things) < 2:
         raise SurfaceError(f"two surfaces or more are needed to intersect, not {len(things)}")
     names = _names(things)
-    models = [as_model(thing, name) for thing, name in zip(things, names)]
+    clear = with_clear_seams(things)
+    models = [as_model(thing, name) for thing, name in zip(clear, names)]
     _refuse_units(models)
     size = _size(models)
     keeping = Keeping(keep, names, models, size)
@@ -73,7 +77,7 @@ def intersected(
                 for number, name in enumerate(names)
             ),
         ),
-        healing=_remarks(models, names) + remarks,
+        healing=(*_remarks(models, names), *remarks, *_loose_curves(models, edges, size)),
         source=called,
         tags=_tags(keeping, patches, names, models),
     )
@@ -122,6 +126,22 @@ def _remarks(models: Sequence[CadModel], names: Sequence[str]) -> tuple[str, ...
                 "a branch of its curves that is smaller than these may have been missed"
             )
     return tuple(said)
+
+
+def _loose_curves(
+    models: Sequence[CadModel], edges: Sequence[CadEdge], size: float
+) -> Iterator[str]:
+    """Of the curves found, those that do not keep as near to both surfaces as is tried."""
+    given = {edge.name for model in models for edge in model.edges}
+    for edge in edges:
+        is_found = "/" in edge.name and edge.name not in given
+        if is_found and edge.tolerance > 2.0 * NEAR * size:  # twice what was measured
+            middle = edge.evaluate(np.array([0.5]))[0][0]
+            yield (
+                f"{edge.name}: the curve through {place(middle)} is up to "
+                f"{0.5 * edge.tolerance:.1g} off its surfaces, not {NEAR * size:.1g}: one of them "
+                "bends too abruptly there to be followed closer"
+            )
 
 
 def _kind(surface: FaceSurface) -> str:

@@ -117,9 +117,7 @@ def _answered(edge: CadEdge, pairs: Pairs, found: _Found) -> np.ndarray:
     """For each pair, has it, or nearly, a place? Those are kept."""
     low, high = pairs.corners
     middle, half, cells = 0.5 * (low + high), 0.5 * (high - low), pairs.other
-    t, uv, point, gap = pulled_onto_curve(
-        by_fraction(edge), cells.surface, middle[:, 0], middle[:, 1:]
-    )
+    t, uv, point, gap = pulled_onto_curve(edge, cells.surface, middle[:, 0], middle[:, 1:])
     off = np.abs(np.column_stack([t, uv]) - middle) - half * (1.0 + 2.0 * AROUND)
     near = (off <= 1e-12 * np.array([1.0, *cells.width])).all(axis=1)
     # an end may come short of the surface by its tolerance

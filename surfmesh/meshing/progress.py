@@ -74,6 +74,8 @@ class Stopwatch:
 
         within: fraction of the way to the next stage, 0 to 1; None: a little nearer to it.
         """
+        if self._progress is None:
+            return
         first = _STAGES[self._name]
         last = min([start for start in _STAGES.values() if start > first], default=1.0)
         if within is None:

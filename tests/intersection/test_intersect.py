@@ -7,6 +7,9 @@ import pytest
 
 import surfmesh as sm
 from surfmesh.errors import SurfaceError
+from surfmesh.geometry.cad_surfaces.elementary import Torus
+from surfmesh.geometry.cad_surfaces.nurbs import BSplineSurface
+from surfmesh.geometry.cad_surfaces.offset import OffsetSurface
 
 TURN = (0, "2*pi")
 
@@ -197,3 +200,41 @@ def test_a_plane_through_the_poles_of_a_sphere():
     disc = [face.area for face in model.faces if face.name == "wall"]
     assert sum(disc) == pytest.approx(pi, rel=1e-9)
     assert sm.check(sm.mesh(model, 0.3)).clean
+
+
+def test_a_curve_that_is_not_followed_closely_is_said():
+    # second derivatives of a quadratic spline jump at its knots
+    rng = np.random.default_rng(3)
+    knots = np.array([0, 0, 0, 0.31, 0.64, 1, 1, 1.0])
+    grid = np.stack(np.meshgrid(np.linspace(-1, 1, 5), np.linspace(-1, 1, 5)), axis=-1)
+    control = np.concatenate([grid, rng.uniform(-0.5, 0.5, (5, 5, 1))], axis=2).swapaxes(0, 1)
+    spline = BSplineSurface(
+        domain=((0.0, 1.0), (0.0, 1.0)), knots_u=knots, knots_v=knots, control=control, name="hide"
+    )
+    plane = sm.ParametricSurface("u", "v", "0.4*u + 0.01", u=(-2, 2), v=(-2, 2), name="plane")
+    model = sm.intersect([spline, plane])
+    loose = [edge for edge in model.edges if edge.tolerance > 2e-10 * model.diagonal]
+    said = [sentence for sentence in model.healing if "off its surfaces" in sentence]
+    assert len(said) == len([edge for edge in loose if edge.name == "hide/plane"]) > 0
+
+
+def test_a_small_loop_on_an_offset_surface_is_found():
+    turn = (-pi, pi)
+    frame = dict(zip(("origin", "x", "y", "z"), np.concatenate([np.zeros((1, 3)), np.eye(3)])))
+    basis = Torus(domain=((0.0, 2.0 * pi), turn), radius=3.0, tube=1.0, **frame)
+    ring = OffsetSurface(domain=basis.domain, basis=basis, distance=0.5, name="ring")
+    c, s, deep = np.cos(0.7), np.sin(0.7), 1e-4  # a plane that cuts a cap of this depth off
+    away = 4.5 - deep
+    plane = sm.ParametricSurface(
+        f"{away * c} - {s}*u", f"{away * s} + {c}*u", "v", u=(-5, 5), v=(-2, 2.1), name="plane"
+    )
+    model = sm.intersect([ring, plane])
+    curves = [edge for edge in model.edges if edge.name == "ring/plane"]
+    assert len(curves) == 1 and curves[0].closed and not model.healing
+    half = np.sqrt(2.0 * deep * np.array([4.5, 1.5]))  # of the ellipse that it nearly is
+    points = curves[0].evaluate(np.linspace(0.0, 1.0, 101))[0]
+    across = points @ np.array([-s, c, 0.0])
+    assert np.abs(across).max() == pytest.approx(half[0], rel=1e-3)
+    assert np.abs(points[:, 2]).max() == pytest.approx(half[1], rel=1e-3)
+    off = np.hypot(np.hypot(points[:, 0], points[:, 1]) - 3.0, points[:, 2]) - 1.5
+    assert np.abs(off).max() < 1e-10 * model.diagonal
