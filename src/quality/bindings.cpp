@@ -31,7 +31,18 @@ void require_corners(const Triangles& triangles, std::size_t count, const char* 
     require_indices(std::span(triangles.data(), triangles.size()), count, what);
 }
 
-void bind_surfaces_of_faces(nb::module_& m) {
+/// A number of each of so many things, found with the interpreter released.
+template <class Work>
+auto number_of_each(std::size_t count, const Work& work) {
+    Array<double> found(count);
+    {
+        const nb::gil_scoped_release released;
+        for (std::size_t i = 0; i < count; ++i) found[i] = work(i);
+    }
+    return view(found);
+}
+
+void bind_surface_points(nb::module_& m) {
     m.def(
         "surface_points",
         [](const nb::list& surfaces, const Numbers& faces, const Points2& uv, int order) {
@@ -51,6 +62,9 @@ void bind_surfaces_of_faces(nb::module_& m) {
         },
         nb::arg("surfaces"), nb::arg("faces"), nb::arg("uv"), nb::arg("order"),
         "Points (n, 3) of the surfaces of faces (n,) at uv (n, 2); at order 1 r_u and r_v too.");
+}
+
+void bind_mesh_deviation(nb::module_& m) {
     m.def(
         "mesh_deviation",
         [](const nb::list& surfaces, const Points3& points, const Triangles& triangles,
@@ -109,13 +123,9 @@ void bind_stars(nb::module_& m) {
             [](const TriangleStars& stars, const Points3& places, const Numbers& triangle) {
                 require_rows(triangle.shape(0), places.shape(0), "triangle");
                 require_indices(rows<std::int32_t>(triangle), stars.triangles(), "triangle");
-                Array<double> found(places.shape(0));
-                {
-                    const nb::gil_scoped_release released;
-                    for (std::size_t i = 0; i < found.size(); ++i)
-                        found[i] = stars.from(rows<Point3>(places)[i], triangle.data()[i]);
-                }
-                return view(found);
+                return number_of_each(places.shape(0), [&](std::size_t i) {
+                    return stars.from(rows<Point3>(places)[i], triangle.data()[i]);
+                });
             },
             nb::arg("places"), nb::arg("triangle"),
             "Distance (k,) of places (k, 3) from one triangle each (k,).")
@@ -126,14 +136,10 @@ void bind_stars(nb::module_& m) {
                 require_rows(triangle.shape(0), places.shape(0), "triangle");
                 require_rows(distance.shape(0), places.shape(0), "distance");
                 require_indices(rows<std::int32_t>(triangle), stars.triangles(), "triangle");
-                Array<double> found(places.shape(0));
-                {
-                    const nb::gil_scoped_release released;
-                    for (std::size_t i = 0; i < found.size(); ++i)
-                        found[i] = stars.walk(rows<Point3>(places)[i], triangle.data()[i],
-                                              distance.data()[i]);
-                }
-                return view(found);
+                return number_of_each(places.shape(0), [&](std::size_t i) {
+                    return stars.walk(rows<Point3>(places)[i], triangle.data()[i],
+                                      distance.data()[i]);
+                });
             },
             nb::arg("places"), nb::arg("triangle"), nb::arg("distance"),
             "The least of the distances (k,) known of places (k, 3) and those from the triangles "
@@ -146,15 +152,11 @@ void bind_stars(nb::module_& m) {
                 require_rows(vertices.shape(0), places.shape(0), "vertices");
                 require_indices(std::span(vertices.data(), vertices.size()), stars.vertices(),
                                 "vertices");
-                Array<double> found(places.shape(0));
-                {
-                    const nb::gil_scoped_release released;
-                    const std::size_t count = vertices.shape(1);
-                    for (std::size_t i = 0; i < found.size(); ++i)
-                        found[i] = stars.from_stars(rows<Point3>(places)[i],
-                                                    {vertices.data() + i * count, count});
-                }
-                return view(found);
+                const std::size_t count = vertices.shape(1);
+                return number_of_each(places.shape(0), [&](std::size_t i) {
+                    return stars.from_stars(rows<Point3>(places)[i],
+                                            {vertices.data() + i * count, count});
+                });
             },
             nb::arg("places"), nb::arg("vertices"),
             "Distance (k,) of places (k, 3) from all triangles at vertices (k, j).");
@@ -186,7 +188,8 @@ void bind_solids(nb::module_& m) {
 
 void bind_quality(nb::module_& m) {
     m.doc() = "What a report measures of a finished mesh: its distance from its surfaces and back.";
-    bind_surfaces_of_faces(m);
+    bind_surface_points(m);
+    bind_mesh_deviation(m);
     bind_stars(m);
     bind_solids(m);
 }
