@@ -29,7 +29,7 @@ define install
 endef
 
 .DEFAULT_GOAL := help
-.PHONY: help venv core stubs wheel mesh test sanitize fuzz lint lowest docs bench constraints licences \
+.PHONY: help venv core stubs wheel mesh test sanitize races fuzz lint lowest docs bench constraints licences \
     clean
 
 COMPILE := $(BIN)/uv pip compile --quiet --only-binary=:all: --python-version 3.11 \
@@ -74,6 +74,17 @@ sanitize: $(VENV)/.installed-dev ## tests of the core under address and undefine
 	PATH="$(abspath $(BIN)):$$PATH" cmake --build build/sanitize
 	LD_PRELOAD="$(PRELOADED)" ASAN_OPTIONS=detect_leaks=0 PYTHONPATH=build/sanitize/package \
 	    $(BIN)/python -m pytest -q -p no:cacheprovider -n 2 tests/core
+
+RACES := build/races/package/surfmesh
+races: $(VENV)/.installed-dev ## tests of what threads of one call do, under the thread sanitizer
+	mkdir -p $(RACES) && ln -sfn $(filter-out surfmesh/_core%,$(wildcard $(CURDIR)/surfmesh/*)) $(RACES)
+	rm -f $(RACES)/_core*
+	PATH="$(abspath $(BIN)):$$PATH" cmake -S . -B build/races -G Ninja -DSURFMESH_RACES=ON \
+	    -DPython_EXECUTABLE=$(abspath $(BIN)/python) -DSURFMESH_MODULE=$(abspath $(RACES)) >/dev/null
+	PATH="$(abspath $(BIN)):$$PATH" cmake --build build/races
+	LD_PRELOAD="$(shell $(or $(CXX),c++) -print-file-name=libtsan.so)" TSAN_OPTIONS=halt_on_error=1 \
+	    PYTHONPATH=build/races/package $(BIN)/python -m pytest -q -x -p no:cacheprovider -n 0 \
+	    tests/core/patch/test_parts_of_a_patch.py tests/core/packing/test_packing_in_halves.py
 
 fuzz: $(VENV)/.installed-dev ## hostile input by thousands: the table (SURFMESH_FUZZ=1000 a kind)
 	SURFMESH_FUZZ=$${SURFMESH_FUZZ:-1000} $(BIN)/python benchmarks/trust.py --parts readers formulas random

@@ -192,6 +192,9 @@ def intersect(
                           these, which must all hold; a point (3,): the part that is nearest;
                           "all" or "none". Inputs that are not named are kept whole.
 
+    coincident: what becomes of patches that lie on each other, as of a box that stands on another:
+    "refuse" raises ``SurfaceError`` with the place, "merge" makes them one patch of both inputs.
+
     Faces have the names that they had, or that of their surface; edges along common curves
     "one/other". Tags select the faces of an input ("wing"), and on one side of another
     ("wing+body"), so that sizes can be asked for by these names. A face that is on both sides,
@@ -201,8 +204,12 @@ def intersect(
     says how near. No branch is missed on formulas, splines, planes, cylinders, cones, spheres
     and tori, whose bends have bounds; of others ``model.healing`` says that they were sampled.
 
-    Raises ``SurfaceError`` with the place where surfaces touch along a curve, at a point or on a
-    patch, where an edge lies on a surface, and for a ``keep`` that cannot be met.
+    Where an edge of one lies on another, it is their common curve as it is. Surfaces that touch
+    along a curve share it, and nothing is cut off there; a touch in a point within both faces is
+    said in ``model.healing``, and leaves them as they are.
+
+    Raises ``SurfaceError`` with the place where surfaces come near each other with one tangent
+    plane without these contacts, and for a ``keep`` that cannot be met.
     """
     from surfmesh.intersection.intersect import intersected
 

@@ -21,6 +21,7 @@ from surfmesh.cad.model.cad_model import CadModel
 from surfmesh.errors import MeshingError
 from surfmesh.geometry.surface import Surface
 from surfmesh.io import pvtu
+from surfmesh.io.leftovers import held, is_left
 from surfmesh.io.vtk_xml import METRIC, content_of
 from surfmesh.io.xml_writing import CELL_IDS, POINT_IDS, Content
 from surfmesh.meshing.faces.face_data import FaceMesh
@@ -105,24 +106,28 @@ def mesh_into_pieces(
     the folder; ``FileFormatError`` where it cannot be written. The old mesh is then as it was.
     """
     folder = pvtu.folder_of(path)
+    for left in FaceStore.all_in(folder):  # by callers that were killed
+        if is_left(left.mark):
+            left.remove()
     store = FaceStore.made_in(folder)
     try:
-        workers = FaceWorkers(executor=executor, store=store)
-        apart = mesh_faces_apart(model, sizing, workers, optimise, progress, strict)
-        whole = _numbered(model, apart)
-        parts = pvtu.parts_of(whole.counts)
-        orders = [whole.order(part) for part in parts]
-        sums: list[PieceSums] = []
+        with held(store.mark):
+            workers = FaceWorkers(executor=executor, store=store)
+            apart = mesh_faces_apart(model, sizing, workers, optimise, progress, strict)
+            whole = _numbered(model, apart)
+            parts = pvtu.parts_of(whole.counts)
+            orders = [whole.order(part) for part in parts]
+            sums: list[PieceSums] = []
 
-        def write(places: list[Path]) -> Content:
-            if progress is not None:
-                progress("write", 0.95)
-            found = _by_executor(executor, orders, places)
-            sums.extend(own for own, _ in found)
-            return found[0][1]
+            def write(places: list[Path]) -> Content:
+                if progress is not None:
+                    progress("write", 0.95)
+                found = _by_executor(executor, orders, places)
+                sums.extend(own for own, _ in found)
+                return found[0][1]
 
-        field = {n: v for n, v in content_of(apart.rims).of_all.items() if n != METRIC}
-        pvtu.save_pieces(path, whole.digest, len(parts), write, field)
+            field = {n: v for n, v in content_of(apart.rims).of_all.items() if n != METRIC}
+            pvtu.save_pieces(path, whole.digest, len(parts), write, field)
     finally:
         store.remove()
         pvtu.forget_empty(folder)

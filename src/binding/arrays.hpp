@@ -81,6 +81,13 @@ auto read_only_view(const Array<T>& array) {
     return view<T, const typename Row<T>::Number>(array);
 }
 
+/// Indices as rows of three.
+inline nb::ndarray<nb::numpy, std::int32_t, nb::shape<-1, 3>> in_threes(
+    const Array<std::int32_t>& corners) {
+    const std::size_t shape[] = {corners.size() / 3, 3};
+    return {corners.data(), 2, shape, owner_of(corners)};
+}
+
 /// A property that gives an array of its owner as a view, which keeps the memory alive by itself.
 template <class Owner, class T>
 void bind_array(nb::class_<Owner>& c, const char* name, Array<T> Owner::* member, const char* doc) {

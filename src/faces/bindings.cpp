@@ -1,237 +1,23 @@
+// The work on faces, one by one and in a queue.
 #include <nanobind/stl/array.h>
 #include <nanobind/stl/optional.h>
 #include <nanobind/stl/pair.h>
-#include <nanobind/stl/tuple.h>
+#include <nanobind/stl/shared_ptr.h>
 #include <nanobind/stl/vector.h>
 
 #include <array>
-#include <tuple>
 
 #include "binding/arrays.hpp"
 #include "binding/calls_back.hpp"
-#include "faces/boundary_builder.hpp"
-#include "faces/face_mesh.hpp"
-#include "faces/surface_over_box.hpp"
+#include "faces/face_queue.hpp"
 #include "insertion/boundary_arguments.hpp"
 #include "surfaces/callback_surface.hpp"
 
 namespace surfmesh::binding {
+
+void bind_boundaries(nb::module_& m);
+
 namespace {
-
-using Ids = Vector<std::int64_t>;
-using Sizes = Vector<double>;
-/// chord, angle, min_size; whether to optimise, a first round, sizes that depend on the direction.
-using Manner = std::tuple<std::optional<double>, std::optional<double>, double, bool, bool, bool>;
-
-FaceManner manner_of(const Manner& given) {
-    const auto [chord, angle, min_size, optimise, first, is_anisotropic] = given;
-    return {{chord, angle, min_size}, optimise, first, is_anisotropic};
-}
-
-template <class T, class Given>
-Array<T> copied(const Given& given) {
-    return Array<T>(rows<T>(given));
-}
-
-void construct(FaceBoundary* made, const Points2& uv, const Ids& numbers, const Points3& points,
-               const Sizes& sizes, const Numbers& piece_end, const Bytes& degenerate,
-               const Sizes& tolerance, const Numbers& loop_end) {
-    require_finite(uv, "uv");
-    FaceBoundary boundary{copied<Point2>(uv),
-                          copied<std::int64_t>(numbers),
-                          copied<Point3>(points),
-                          copied<double>(sizes),
-                          copied<std::int32_t>(piece_end),
-                          copied<std::uint8_t>(degenerate),
-                          copied<double>(tolerance),
-                          copied<std::int32_t>(loop_end)};
-    switch (boundary.check()) {
-        case BoundaryFault::rows:
-            throw nb::value_error("the arrays differ in length");
-        case BoundaryFault::pieces:
-            throw nb::value_error("piece_end is not that of the nodes");
-        case BoundaryFault::loops:
-            throw nb::value_error("loop_end is not that of the coedges");
-        case BoundaryFault::none:
-            break;
-    }
-    new (made) FaceBoundary(std::move(boundary));
-}
-
-void bind_boundary(nb::module_& m) {
-    nb::class_<FaceBoundary> c(m, "FaceBoundary",
-                               "The boundary of a face, cut into nodes: coedge after coedge, each "
-                               "with both its ends, loop after loop.");
-    c.def("__init__", &construct, nb::arg("uv"), nb::arg("numbers"), nb::arg("points"),
-          nb::arg("sizes"), nb::arg("piece_end"), nb::arg("degenerate"), nb::arg("tolerance"),
-          nb::arg("loop_end"));
-    bind_read_only_array(c, "uv", &FaceBoundary::uv, "(n, 2)");
-    bind_read_only_array(c, "numbers", &FaceBoundary::numbers, "(n,) int64 in the whole mesh");
-    bind_read_only_array(c, "points", &FaceBoundary::points, "(n, 3) on the edges' curves");
-    bind_read_only_array(c, "sizes", &FaceBoundary::sizes, "(n,) wanted lengths");
-    bind_read_only_array(c, "piece_end", &FaceBoundary::piece_end,
-                         "(p,) int32 of the coedges: the row after their last node");
-    bind_read_only_array(
-        c, "degenerate", &FaceBoundary::degenerate,
-        "(p,) uint8 of the coedges: one point in space, cut when the metric is known");
-    bind_read_only_array(c, "tolerance", &FaceBoundary::tolerance,
-                         "(p,) of the coedges: so near is the edge to its images, model units");
-    bind_read_only_array(c, "loop_end", &FaceBoundary::loop_end,
-                         "(l,) int32 of the loops: the coedge after their last one");
-    c.def_prop_ro("has_degenerate", &FaceBoundary::has_degenerate);
-    c.def_prop_ro(
-        "box",
-        [](const FaceBoundary& b) {
-            const auto [low, high] = b.box();
-            return std::pair(std::pair(low.x, high.x), std::pair(low.y, high.y));
-        },
-        "Of all nodes: (u0, u1), (v0, v1).");
-    c.def("__len__", [](const FaceBoundary& b) { return b.uv.size(); });
-    c.def(
-        "__reduce__",
-        [](nb::handle b) {
-            return nb::make_tuple(
-                b.type(), nb::make_tuple(b.attr("uv"), b.attr("numbers"), b.attr("points"),
-                                         b.attr("sizes"), b.attr("piece_end"), b.attr("degenerate"),
-                                         b.attr("tolerance"), b.attr("loop_end")));
-        },
-        "So that it can be copied and sent to other processes.");
-    m.def("may_have_tubes", &may_have_tubes, nb::arg("surface"), nb::arg("boundary"),
-          nb::call_guard<nb::gil_scoped_release>(),
-          "Is there a pole, or a seam so near to itself all round that no ring of wanted edges "
-          "fits? A cheap look.");
-    m.def(
-        "extent_over",
-        [](const Surface& surface, const std::pair<double, double>& u,
-           const std::pair<double, double>& v) {
-            Point3 found{};
-            {
-                const nb::gil_scoped_release released;
-                found = extent_over(surface, {{u.first, v.first}, {u.second, v.second}});
-            }
-            if (std::isnan(found.x)) raise_failure(surface, SurfaceStatus::FAILED);
-            return std::tuple(found.x, found.y, found.z);
-        },
-        nb::arg("surface"), nb::arg("u"), nb::arg("v"),
-        "Width, depth and height of the bounding box of a plane or a cylinder over u (u0, u1) and "
-        "v (v0, v1), from points "
-        "of a coarse grid.");
-    m.attr("FEWEST_STEPS") = FEWEST_STEPS;
-    m.attr("APART") = APART;
-    m.attr("WAY_SAMPLES") = WAY_SAMPLES;
-}
-
-EdgeNodeRows rows_of(const Points2& uv, const Ids& numbers, const Points3& points,
-                     const Sizes& sizes) {
-    require_finite(uv, "uv");
-    require_rows(numbers.shape(0), uv.shape(0), "numbers");
-    require_rows(points.shape(0), uv.shape(0), "points");
-    require_rows(sizes.shape(0), uv.shape(0), "sizes");
-    return {rows<Point2>(uv), rows<std::int64_t>(numbers), rows<Point3>(points),
-            rows<double>(sizes)};
-}
-
-/// Numbers that are not negative and add up to ``total``.
-void require_sum(const Numbers& counts, std::size_t total, const char* what) {
-    std::size_t sum = 0;
-    for (const std::int32_t count : rows<std::int32_t>(counts)) {
-        if (count < 0) throw nb::value_error("a count is negative");
-        sum += static_cast<std::size_t>(count);
-    }
-    if (sum != total) throw nb::value_error(what);
-}
-
-/// Two nodes to a coedge at least.
-void require_first(const Ids& first, std::size_t coedges, std::size_t nodes) {
-    require_rows(first.shape(0), coedges + 1, "first");
-    for (std::size_t k = 0; k < coedges; ++k)
-        if (first(k + 1) - first(k) < 2) throw nb::value_error("an edge has two nodes at least");
-    if (first(0) != 0 || first(coedges) != static_cast<std::int64_t>(nodes))
-        throw nb::value_error("first is not that of the nodes");
-}
-
-std::vector<FaceBoundary> boundaries(const Points2& uv, const Ids& numbers, const Points3& points,
-                                     const Sizes& sizes, const Ids& first, const Bytes& is_reversed,
-                                     const Bytes& is_degenerate, const Sizes& tolerance,
-                                     const Numbers& coedges, const Numbers& loops) {
-    const std::size_t count = is_reversed.shape(0);
-    const EdgeNodeRows nodes = rows_of(uv, numbers, points, sizes);
-    require_first(first, count, uv.shape(0));
-    require_rows(is_degenerate.shape(0), count, "is_degenerate");
-    require_rows(tolerance.shape(0), count, "tolerance");
-    require_sum(coedges, count, "coedges do not add up to all");
-    require_sum(loops, coedges.shape(0), "loops do not add up to all");
-    for (const std::int32_t coedge : rows<std::int32_t>(coedges))
-        if (coedge < 1) throw nb::value_error("a loop has no coedge");
-    const CoedgeRows all{nodes,
-                         rows<std::int64_t>(first),
-                         rows<std::uint8_t>(is_reversed),
-                         rows<std::uint8_t>(is_degenerate),
-                         rows<double>(tolerance),
-                         rows<std::int32_t>(coedges),
-                         rows<std::int32_t>(loops)};
-    const nb::gil_scoped_release released;
-    return boundaries_of(all);
-}
-
-void bind_builder(nb::module_& m) {
-    nb::class_<BoundaryBuilder>(m, "BoundaryBuilder",
-                                "A boundary put together coedge by coedge, as loops are walked.")
-        .def(nb::init<>())
-        .def(
-            "add",
-            [](BoundaryBuilder& builder, const Points2& uv, const Ids& numbers,
-               const Points3& points, const Sizes& sizes, bool is_degenerate, double tolerance) {
-                if (uv.shape(0) < 2) throw nb::value_error("an edge has two nodes at least");
-                builder.add(rows_of(uv, numbers, points, sizes), {false, is_degenerate, tolerance});
-            },
-            nb::arg("uv"), nb::arg("numbers"), nb::arg("points"), nb::arg("sizes"),
-            nb::arg("is_degenerate"), nb::arg("tolerance"),
-            "A use of an edge: its nodes in walking order.")
-        .def("end_loop", &BoundaryBuilder::end_loop)
-        .def("boundary", [](const BoundaryBuilder& builder) {
-            FaceBoundary made = builder.boundary();
-            if (made.check() != BoundaryFault::none) throw nb::value_error("a loop is not ended");
-            return made;
-        });
-    m.def("face_boundaries", &boundaries, nb::arg("uv"), nb::arg("numbers"), nb::arg("points"),
-          nb::arg("sizes"), nb::arg("first"), nb::arg("is_reversed"), nb::arg("is_degenerate"),
-          nb::arg("tolerance"), nb::arg("coedges"), nb::arg("loops"),
-          "The boundaries of many faces.\n\nuv (n, 2), numbers, points (n, 3), sizes: of the nodes "
-          "of all coedges, face after face, in the direction of the edges. first (c + 1,): rows of "
-          "the coedges. is_reversed, is_degenerate, tolerance (c,): of the coedges. coedges (l,) "
-          "int32: of each loop; loops (f,) int32: of each face.");
-}
-
-void bind_polygons(nb::module_& m) {
-    nb::class_<FacePolygons>(m, "FacePolygons",
-                             "Loops as closed polygons: each coedge without its last node.")
-        .def(
-            "__init__",
-            [](FacePolygons* made, const Points2& uv, const Ids& numbers, const Points3& points,
-               const Ids& slots, const Numbers& lengths) {
-                require_finite(uv, "uv");
-                require_rows(numbers.shape(0), uv.shape(0), "numbers");
-                require_rows(points.shape(0), uv.shape(0), "points");
-                require_rows(slots.shape(0), uv.shape(0), "slots");
-                require_lengths(lengths, uv.shape(0));
-                new (made) FacePolygons{copied<Point2>(uv), copied<std::int64_t>(numbers),
-                                        copied<Point3>(points), copied<std::int64_t>(slots),
-                                        copied<std::int32_t>(lengths)};
-            },
-            nb::arg("uv"), nb::arg("numbers"), nb::arg("points"), nb::arg("slots"),
-            nb::arg("lengths"),
-            "uv (n, 2), numbers (n,), points (n, 3) of the nodes; slots (n,): their rows in the "
-            "boundary; lengths (l,): nodes of each loop.")
-        .def_static(
-            "of",
-            [](const FaceBoundary& boundary) {
-                if (boundary.has_degenerate())
-                    throw nb::value_error("a degenerate coedge is not cut yet");
-                return polygons_of(boundary);
-            },
-            nb::arg("boundary"), "Those of a boundary without degenerate coedges.");
-}
 
 void require_unbent(const Chart& chart) {
     if (!chart.u.pieces.empty() || !chart.v.pieces.empty())
@@ -291,6 +77,7 @@ void bind_ends(nb::module_& m) {
         .value("DONE", FaceEnd::done)
         .value("UNPREPARED", FaceEnd::unprepared,
                "There is no box, no positive sizes, or more cells are needed than are allowed.")
+        .value("TUBES", FaceEnd::tubes, "It may have thin tubes, which are meshed by themselves.")
         .value("RUNS_TWICE", FaceEnd::runs_twice, "A segment runs twice the same way.")
         .value("PATCH_FAILED", FaceEnd::patch_failed, "See ``patch``.")
         .value("NOT_JOINED", FaceEnd::not_joined, "At the non-manifold points of ``patch``.");
@@ -304,51 +91,152 @@ void bind_ends(nb::module_& m) {
     bind_read_only_array(c, "segments", &FaceMesh::segments, "(s, 2) int32 between these");
 }
 
+void bind_manner(nb::module_& m) {
+    nb::class_<FaceManner>(m, "FaceManner", "How a face is meshed, whatever its sizes.")
+        .def(
+            "__init__",
+            [](FaceManner* made, std::optional<double> chord, std::optional<double> angle,
+               double min_size, bool optimise, bool first, bool is_anisotropic) {
+                new (made) FaceManner{{chord, angle, min_size}, optimise, first, is_anisotropic};
+            },
+            nb::arg("chord").none(), nb::arg("angle").none(), nb::arg("min_size"),
+            nb::arg("optimise") = true, nb::arg("first") = true, nb::arg("is_anisotropic") = false,
+            "chord (model units), angle (degrees), min_size: what is asked for, with 0 for no "
+            "least size. optimise: else only diagonals are chosen. first: the sizes come from no "
+            "earlier round. is_anisotropic: they depend on the direction.");
+}
+
+InwardFace inward_face(std::shared_ptr<Surface> surface, std::shared_ptr<FaceBoundary> boundary,
+                       const std::array<double, 2>& speeds, double largest, double slope,
+                       const FaceManner& manner, bool look_for_tubes) {
+    if (boundary->has_degenerate()) throw nb::value_error("a degenerate coedge is not cut yet");
+    for (const double x : {speeds[0], speeds[1], largest, slope})
+        if (!(x > 0.0) || !std::isfinite(x))
+            throw nb::value_error("speeds, largest and slope are to be positive");
+    return {std::move(surface),
+            std::move(boundary),
+            {{speeds[0], speeds[1]}, largest, slope},
+            manner,
+            look_for_tubes};
+}
+
+void bind_inward(nb::module_& m) {
+    nb::class_<InwardFace>(m, "InwardFace",
+                           "A face with constant speeds |r_u|, |r_v|, whose sizes grow inward "
+                           "from those of its edges.")
+        .def(
+            "__init__",
+            [](InwardFace* made, std::shared_ptr<Surface> surface,
+               std::shared_ptr<FaceBoundary> boundary, const std::array<double, 2>& speeds,
+               double largest, double slope, const FaceManner& manner, bool look_for_tubes) {
+                new (made) InwardFace(inward_face(std::move(surface), std::move(boundary), speeds,
+                                                  largest, slope, manner, look_for_tubes));
+            },
+            nb::arg("surface"), nb::arg("boundary"), nb::arg("speeds"), nb::arg("largest"),
+            nb::arg("slope"), nb::arg("manner"), nb::arg("look_for_tubes") = false,
+            "Sizes grow by ``slope`` per length up to ``largest``. look_for_tubes: a face that may "
+            "have thin tubes is not meshed, see FaceEnd.");
+}
+
+/// What a call of the queue finishes; what a signal or a surface raises ends all work.
+FinishedFaces finished(FaceQueue& queue, std::int64_t triangles) {
+    CallsBack calls;
+    FinishedFaces made = [&] {
+        const nb::gil_scoped_release released;
+        return queue.work(triangles, [&] { return calls.run([] {}); });
+    }();
+    calls.finish();
+    for (const auto& [face, other] : made.others) raise_if_failed(*queue.face(face).surface, other);
+    return made;
+}
+
+void bind_rows(nb::module_& m) {
+    nb::class_<FaceRows> c(m, "FaceRows",
+                           "Meshes of faces in rows: those of a face go up to its ends, from those "
+                           "of the face before it.");
+    bind_array(c, "face", &FaceRows::face, "(k,) int64 numbers in the queue");
+    bind_array(c, "point_end", &FaceRows::point_end, "(k,) int64");
+    bind_array(c, "triangle_end", &FaceRows::triangle_end, "(k,) int64");
+    bind_array(c, "corner_end", &FaceRows::corner_end, "(k,) int64");
+    bind_array(c, "points", &FaceRows::points, "(n, 3)");
+    bind_array(c, "slots", &FaceRows::slots, "(n,) of the points: row in the boundary, -1 inside");
+    bind_array(c, "sizes", &FaceRows::sizes, "(n,) of the points");
+    c.def_prop_ro(
+        "triangles", [](const FaceRows& r) { return in_threes(r.triangles); },
+        nb::rv_policy::automatic, "(m, 3) of the face's own points");
+    c.def_prop_ro(
+        "uv_triangles", [](const FaceRows& r) { return in_threes(r.uv_triangles); },
+        nb::rv_policy::automatic, "(m, 3) of the face's own corners");
+    bind_array(c, "uv", &FaceRows::uv, "(k, 2) of the corners");
+}
+
+void bind_queue(nb::module_& m) {
+    bind_rows(m);
+    nb::class_<FinishedFaces>(m, "FinishedFaces", "Faces that a call of ``FaceQueue.work`` meshed.")
+        .def_ro("rows", &FinishedFaces::rows, "Those that ask for nothing.")
+        .def_prop_ro(
+            "others",
+            [](FinishedFaces& made) {
+                nb::list found;
+                for (OtherFace& other : made.others)
+                    found.append(nb::make_tuple(other.face, std::move(other.made)));
+                made.others.clear();
+                return found;
+            },
+            nb::sig("def others(self) -> list[tuple[int, FaceMesh]]"),
+            "Number and mesh of every other face; they are handed out once.")
+        .def("__bool__", [](const FinishedFaces& made) { return !made.empty(); });
+    nb::class_<FaceQueue>(m, "FaceQueue",
+                          "Faces that any threads mesh one after the other, in their order.")
+        .def(
+            "__init__",
+            [](FaceQueue* made, const std::vector<const InwardFace*>& faces) {
+                std::vector<InwardFace> copies;
+                copies.reserve(faces.size());
+                for (const InwardFace* face : faces) {
+                    if (face == nullptr) throw nb::type_error("None is no face");
+                    copies.push_back(*face);
+                }
+                new (made) FaceQueue(std::move(copies));
+            },
+            nb::arg("faces"))
+        .def("work", &finished, nb::arg("triangles"),
+             "Mesh faces that nobody has begun, without the interpreter, until so many triangles "
+             "are made; nothing when none is left.")
+        .def("stop", &FaceQueue::stop, "Begin no face any more, and finish none.");
+}
+
 void bind_work(nb::module_& m) {
     m.def(
         "mesh_face",
         [](const Surface& surface, const Chart& chart, const Background& background,
-           const FacePolygons& polygons, const Manner& manner) {
+           const FacePolygons& polygons, const FaceManner& manner) {
             require_unbent(chart);
             return worked(surface, [&](const PatchHooks& hooks) {
-                return mesh_face({surface, chart, background}, polygons, manner_of(manner), hooks);
+                return mesh_face({surface, chart, background}, polygons, manner, hooks);
             });
         },
         nb::arg("surface"), nb::arg("chart"), nb::arg("background"), nb::arg("polygons"),
-        nb::arg("manner"),
-        "Mesh a face with a given size field, without the interpreter.\n\nmanner: chord (model "
-        "units), angle (degrees), min_size; whether to optimise, whether it is a first round, "
-        "whether sizes depend on the direction.");
+        nb::arg("manner"), "Mesh a face with a given size field, without the interpreter.");
     m.def(
         "mesh_inward",
-        [](const Surface& surface, const FaceBoundary& boundary,
-           const std::array<double, 2>& speeds, double largest, double slope,
-           const Manner& manner) {
-            if (boundary.has_degenerate())
-                throw nb::value_error("a degenerate coedge is not cut yet");
-            for (const double x : {speeds[0], speeds[1], largest, slope})
-                if (!(x > 0.0) || !std::isfinite(x))
-                    throw nb::value_error("speeds, largest and slope are to be positive");
-            return worked(surface, [&](const PatchHooks& hooks) {
-                return mesh_inward(surface, boundary, {{speeds[0], speeds[1]}, largest, slope},
-                                   manner_of(manner), hooks);
-            });
+        [](const InwardFace& face) {
+            return worked(*face.surface,
+                          [&](const PatchHooks& hooks) { return mesh_inward(face, hooks); });
         },
-        nb::arg("surface"), nb::arg("boundary"), nb::arg("speeds"), nb::arg("largest"),
-        nb::arg("slope"), nb::arg("manner"),
-        "The same on a surface with constant speeds |r_u|, |r_v|, whose sizes grow inward from "
-        "those of its edges, by ``slope`` per length up to ``largest``.");
+        nb::arg("face"), "Mesh a face whose sizes grow inward, without the interpreter.");
 }
 
 }  // namespace
 
 void bind_faces(nb::module_& m) {
     m.doc() = "A face of a CAD model: its boundary in, its triangles out.";
-    bind_boundary(m);
-    bind_builder(m);
-    bind_polygons(m);
+    bind_boundaries(m);
     bind_coarse(m);
     bind_ends(m);
+    bind_manner(m);
+    bind_inward(m);
+    bind_queue(m);
     bind_work(m);
 }
 

@@ -136,21 +136,22 @@ CoarseSegments coarse_segments(const FaceField& field, const FacePolygons& polyg
     return coarse_segments(field, loops.in_space(), min_size, is_anisotropic);
 }
 
-FaceMesh mesh_inward(const Surface& surface, const FaceBoundary& boundary,
-                     const InwardGrowth& growth, const FaceManner& manner,
-                     const PatchHooks& hooks) {
-    const auto unprepared = [] {
+FaceMesh mesh_inward(const InwardFace& face, const PatchHooks& hooks) {
+    const FaceBoundary& boundary = *face.boundary;
+    const auto ended = [](FaceEnd end) {
         FaceMesh made;
-        made.end = FaceEnd::unprepared;
+        made.end = end;
         return made;
     };
+    if (face.look_for_tubes && may_have_tubes(*face.surface, boundary))
+        return ended(FaceEnd::tubes);
     const PlaneBox box = boundary.box();
-    if (!is_box(box) || !are_sizes(boundary)) return unprepared();
-    const Chart chart = uniform_chart(box, growth.speeds);
-    const GrownTree grown = grown_inward(boundary, box, growth, chart.extent());
-    if (grown.status != TreeStatus::grown) return unprepared();
-    const SurfaceOverBox over(surface, {box.low, box.high});
-    return mesh_face({over, chart, grown.background}, polygons_of(boundary), manner, hooks);
+    if (!is_box(box) || !are_sizes(boundary)) return ended(FaceEnd::unprepared);
+    const Chart chart = uniform_chart(box, face.growth.speeds);
+    const GrownTree grown = grown_inward(boundary, box, face.growth, chart.extent());
+    if (grown.status != TreeStatus::grown) return ended(FaceEnd::unprepared);
+    const SurfaceOverBox over(*face.surface, {box.low, box.high});
+    return mesh_face({over, chart, grown.background}, polygons_of(boundary), face.manner, hooks);
 }
 
 }  // namespace surfmesh

@@ -8,6 +8,7 @@
 // the exceptional ways and the words, goes on from there. Nothing that comes in is changed.
 #pragma once
 
+#include <memory>
 #include <optional>
 
 #include "faces/face_boundary.hpp"
@@ -19,6 +20,7 @@ namespace surfmesh {
 enum class [[nodiscard]] FaceEnd : std::uint8_t {
     done,
     unprepared,    // no box, no positive sizes, or more cells than are allowed
+    tubes,         // it may have thin tubes, which are meshed by themselves
     runs_twice,    // a segment runs twice the same way
     patch_failed,  // see ``patch``
     not_joined,    // its sides, at the non-manifold points of ``patch``
@@ -65,10 +67,16 @@ struct InwardGrowth {
     double slope;    // of the size, per length
 };
 
-/// No coedge of the boundary is degenerate.
-[[nodiscard]] FaceMesh mesh_inward(const Surface& surface, const FaceBoundary& boundary,
-                                   const InwardGrowth& growth, const FaceManner& manner,
-                                   const PatchHooks& hooks);
+/// A plane or a cylinder, of whose boundary no coedge is degenerate.
+struct InwardFace {
+    std::shared_ptr<const Surface> surface;
+    std::shared_ptr<const FaceBoundary> boundary;
+    InwardGrowth growth;
+    FaceManner manner;
+    bool look_for_tubes;  // thin tubes are not cut off it yet
+};
+
+[[nodiscard]] FaceMesh mesh_inward(const InwardFace& face, const PatchHooks& hooks);
 
 /// Loops whose segments may be far longer than the sizes beside them.
 struct SegmentsInSpace {

@@ -10,6 +10,7 @@
 #include "binding/arrays.hpp"
 #include "fields/field_builder.hpp"
 #include "fields/field_node_arrays.hpp"
+#include "fields/field_outcome_tuple.hpp"
 
 namespace surfmesh::binding {
 
@@ -92,30 +93,7 @@ class CallbackFeatures final : public HiddenFeatures {
     const nb::object& search_;
 };
 
-const char* name_of(FieldStatus status) {
-    switch (status) {
-        case FieldStatus::done:
-            return "done";
-        case FieldStatus::too_many_triangles:
-            return "too_many_triangles";
-        case FieldStatus::too_many_cells:
-            return "too_many_cells";
-        case FieldStatus::not_graded:
-            return "not_graded";
-        case FieldStatus::failed:
-            return "failed";
-    }
-    return "failed";
-}
-
-/// Status, place in the scaled plane, and a number of triangles or cells.
-using Outcome = std::tuple<const char*, std::pair<double, double>, double>;
-
-Outcome told(const FieldOutcome& outcome) {
-    return {name_of(outcome.status), {outcome.place.x, outcome.place.y}, outcome.number};
-}
-
-Outcome refine(FieldBuilder& builder, NodeLaw& law, HiddenFeatures& hidden) {
+OutcomeTuple refine(FieldBuilder& builder, NodeLaw& law, HiddenFeatures& hidden) {
     FieldOutcome outcome{};
     {
         const nb::gil_scoped_release released;
@@ -126,11 +104,11 @@ Outcome refine(FieldBuilder& builder, NodeLaw& law, HiddenFeatures& hidden) {
         if (const std::exception_ptr failure = hidden.take_failure())
             std::rethrow_exception(failure);
     }
-    return told(outcome);
+    return outcome_tuple(outcome);
 }
 
 /// With a law and a search of the core, or with objects of Python that are called for blocks.
-Outcome refine_by(FieldBuilder& builder, const nb::object& law, const nb::object& search) {
+OutcomeTuple refine_by(FieldBuilder& builder, const nb::object& law, const nb::object& search) {
     CallbackLaw called_law(law);
     CallbackFeatures called_search(search);
     NodeLaw* own_law = nullptr;
@@ -209,35 +187,6 @@ void bind_field_builder(nb::module_& m) {
           "of FieldNodes. hidden(deep, low, high "
           "(n, 2), normal (n, 3), root (9 n, 3), smallest size (n,)) -> (n,) bool.\nRaises what "
           "they raise. The status is done, too_many_triangles, too_many_cells or not_graded.");
-    c.def(
-        "grade_anew",
-        [](FieldBuilder& builder) {
-            require_finished(builder);
-            FieldOutcome outcome{};
-            {
-                const nb::gil_scoped_release released;
-                builder.touch_all();
-                outcome = builder.grade_nodes();
-            }
-            return told(outcome);
-        },
-        "Grade the sizes of all nodes, as if they were new; returned as by refine.");
-    c.def(
-        "spread",
-        [](FieldBuilder& builder,
-           nb::ndarray<double, nb::ndim<1>, nb::c_contig, nb::device::cpu> size) {
-            require_finished(builder);
-            require_rows(size.size(), builder.nodes.count(), "size");
-            FieldOutcome outcome{};
-            {
-                const nb::gil_scoped_release released;
-                builder.touch_all();
-                outcome = builder.spread(std::span<double>(size.data(), size.size()));
-            }
-            return told(outcome);
-        },
-        nb::arg("size").noconvert(),
-        "Grade isotropic sizes (nodes,) in place; returned as by refine.");
     c.def(
         "nodes", [](const FieldBuilder& builder) { return node_arrays(builder.nodes); },
         "The twelve arrays of FieldNodes, as views; the jacobian (nodes, 6).");

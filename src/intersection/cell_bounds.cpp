@@ -101,7 +101,8 @@ void add_box(CellBounds& bounds, std::span<const Point3> corners, Point3 sag) {
         size = larger(size, absolute(corner));
         bounds.corners.push_back(corner);
     }
-    const Point3 wider = Point3{known(sag.x), known(sag.y), known(sag.z)} + ROUNDING * size;
+    const double rounding = ROUNDING * std::max({size.x, size.y, size.z});
+    const Point3 wider{known(sag.x) + rounding, known(sag.y) + rounding, known(sag.z) + rounding};
     bounds.sag.push_back(wider);
     bounds.low.push_back(low - wider);
     bounds.high.push_back(high + wider);

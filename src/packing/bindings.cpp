@@ -8,7 +8,7 @@
 
 #include "binding/arrays.hpp"
 #include "binding/calls_back.hpp"
-#include "packing/packing.hpp"
+#include "packing/packing_in_halves.hpp"
 
 namespace surfmesh::binding {
 
@@ -44,6 +44,19 @@ Packing packed(const Background& background, const Box& box, const Place& origin
     {
         const nb::gil_scoped_release released;
         made = pack(background, limits, expected, watch_of(calls, watch));
+    }
+    calls.finish();
+    return made;
+}
+
+Packing packed_box(const Background& background, const Box& box, std::size_t expected,
+                   const nb::object& watch) {
+    const PackingLimits limits = limits_of(box, {0.0, 0.0}, 1, 1.0);
+    CallsBack calls;
+    Packing made;
+    {
+        const nb::gil_scoped_release released;
+        made = pack_box(background, limits.low, limits.high, expected, watch_of(calls, watch));
     }
     calls.finish();
     return made;
@@ -137,6 +150,7 @@ void bind_packing_class(nb::module_& m) {
     bind_count("forced", &PackingCounts::forced, "Rounds in which all edges waited.");
     bind_count("overlapping", &PackingCounts::overlapping,
                "Circles of drawn radius placed although they overlap others.");
+    bind_count("halves", &PackingCounts::halves, "2 where a box was packed in halves, else 0.");
 }
 
 }  // namespace
@@ -153,6 +167,12 @@ void bind_packing(nb::module_& m) {
           "the box (x0, y0, x1, y1).\n\nexpected: about how many there will be. wanted: how many "
           "at most. distance: from the origin, at most. watch: called now and then with the number "
           "of circles so far; what it raises ends the packing. Read how it ended in ``status``.");
+    m.def(
+        "pack_box", &packed_box, nb::arg("background"), nb::arg("box"), nb::arg("expected"),
+        nb::arg("watch") = nb::none(),
+        "The same for all of a box, from its middle; where 50,000 circles or more are expected in "
+        "two halves from a line of circles, side by side in the threads that are allowed. "
+        "``halves`` is 2 then, and there is no front.");
     m.def("pack_discs", &packed_discs, nb::arg("draw"), nb::arg("box"), nb::arg("origin"),
           nb::arg("expected"), nb::arg("wanted"), nb::arg("distance"),
           nb::arg("watch") = nb::none(),

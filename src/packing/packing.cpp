@@ -25,16 +25,6 @@ constexpr Point2 START[] = {{0x1.4611bfd437b1ap-55, -0x1.279a74590331dp-1},
                             {0x1.0000000000001p-1, 0x1.279a74590331bp-2},
                             {-0x1.fffffffffffffp-2, 0x1.279a745903320p-2}};
 
-Packing empty_packing(const PackingLimits& limits, std::size_t expected) {
-    Packing p;
-    p.limits = limits;
-    const std::size_t room = expected + expected / 10 + 1000;
-    p.t.reserve(room);
-    p.front.links.reserve(room);
-    p.radius.reserve(room);
-    return p;
-}
-
 /// The first triangle of three circles, its ghosts around it, and its sides as the front.
 PackingStatus start(Packing& p, const Circle (&circles)[3]) {
     Triangulation& t = p.t;
@@ -223,14 +213,28 @@ PackingEnd run(Packing& p, const Watch& watch, IsReady is_ready, Step step) {
 
 }  // namespace
 
+Packing empty_packing(const PackingLimits& limits, std::size_t expected) {
+    Packing p;
+    p.limits = limits;
+    const std::size_t room = expected + expected / 10 + 1000;
+    p.t.reserve(room);
+    p.front.links.reserve(room);
+    p.radius.reserve(room);
+    return p;
+}
+
+PackingEnd advance_front(Packing& p, const Background& background, const Watch& watch) {
+    return run(
+        p, watch, [] { return true; },
+        [&](FrontEdge edge, bool forced) { return advance(p, background, edge, forced); });
+}
+
 Packing pack(const Background& background, const PackingLimits& limits, std::size_t expected,
              const Watch& watch) {
     Packing p = empty_packing(limits, expected);
     p.end = {start_at(p, background), limits.origin};
     if (p.end.status != PackingStatus::finished) return p;
-    p.end = run(
-        p, watch, [] { return true; },
-        [&](FrontEdge edge, bool forced) { return advance(p, background, edge, forced); });
+    p.end = advance_front(p, background, watch);
     return p;
 }
 

@@ -29,4 +29,11 @@ using Draw = std::function<bool(std::size_t count, Array<double>& drawn)>;
 [[nodiscard]] Packing pack_discs(const Draw& draw, const PackingLimits& limits,
                                  std::size_t expected, const Watch& watch = {});
 
+/// A packing without circles, with room for about ``expected``.
+[[nodiscard]] Packing empty_packing(const PackingLimits& limits, std::size_t expected);
+
+/// Advance the front of circles of the background's sizes until there is no more to do.
+[[nodiscard]] PackingEnd advance_front(Packing& p, const Background& background,
+                                       const Watch& watch);
+
 }  // namespace surfmesh

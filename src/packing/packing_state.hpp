@@ -32,6 +32,7 @@ struct PackingCounts {
     std::int64_t closed = 0;       // corners of the front that were filled
     std::int64_t forced = 0;       // rounds in which all edges waited
     std::int64_t overlapping = 0;  // circles of drawn radius placed although they overlap others
+    std::int64_t halves = 0;       // 2 where a box was packed in halves
 };
 
 enum class PackingStatus : std::uint8_t {

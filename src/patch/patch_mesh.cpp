@@ -1,8 +1,8 @@
 #include "patch/patch_mesh.hpp"
 
-#include <limits>
 #include <utility>
 
+#include "packing/packing_in_halves.hpp"
 #include "patch/schedule.hpp"
 
 namespace surfmesh {
@@ -46,11 +46,8 @@ class PatchWork {
 
 bool PatchWork::packed() {
     if (!begins(PatchStage::packing)) return false;
-    constexpr double NO_DISTANCE = std::numeric_limits<double>::infinity();
-    constexpr std::int64_t NO_LIMIT = std::int64_t{1} << 62;
-    const PackingLimits limits{0.5 * (task_.low + task_.high), task_.low, task_.high, NO_DISTANCE,
-                               NO_LIMIT};
-    Packing packing = pack(task_.background, limits, task_.expected, hooks_.while_packing);
+    Packing packing =
+        pack_box(task_.background, task_.low, task_.high, task_.expected, hooks_.while_packing);
     made_.packing = packing.end;
     made_.circles = packing.t.vertices();
     std::swap(plane_, packing.t);

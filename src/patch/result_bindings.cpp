@@ -12,12 +12,6 @@ struct Row<Dihedrals::Pair> : RowOf<std::int32_t, 2> {};
 
 namespace {
 
-/// Indices as rows of three.
-nb::ndarray<nb::numpy, std::int32_t, nb::shape<-1, 3>> in_threes(const Array<Vertex>& corners) {
-    const std::size_t shape[] = {corners.size() / 3, 3};
-    return {corners.data(), 2, shape, nb::cast(view(corners))};
-}
-
 void bind_mapped(nb::module_& m) {
     nb::class_<MappedPatch>(m, "MappedPatch", "The triangles of a patch in space.")
         .def_prop_ro(

@@ -5,6 +5,7 @@
 
 #include "binding/arrays.hpp"
 #include "proof/closer_look.hpp"
+#include "proof/curve_bounds.hpp"
 #include "proof/ring_bounds.hpp"
 #include "proof/triangle_bounds.hpp"
 #include "surfaces/callback_surface.hpp"
@@ -105,6 +106,20 @@ auto closer(const Surface& surface, const Corners3& corners, const Corners2& uv,
     return view(found);
 }
 
+using Segments3 = nb::ndarray<const double, nb::shape<-1, 2, 3>, nb::c_contig, nb::device::cpu>;
+
+auto bounds_of_curve(const Curve& curve, const Matrix<double, 2>& t, const Segments3& ends) {
+    constexpr int PARTS = 8;
+    require_rows(ends.shape(0), t.shape(0), "ends");
+    if (curve.dimension() != 3) throw nb::value_error("the curve must lie in space");
+    Array<double> found;
+    {
+        const nb::gil_scoped_release released;
+        found = curve_bounds(curve, rows<ParameterEnds>(t), rows<SegmentEnds>(ends), PARTS);
+    }
+    return view(found);
+}
+
 }  // namespace
 
 void bind_proof(nb::module_& m) {
@@ -118,6 +133,10 @@ void bind_proof(nb::module_& m) {
           "the whole distance point by point; how far corners are off. Triangles whose height, or "
           "distance at a rim (bit k of ``rims``: side k), is beyond ``limits`` are cut in four, "
           "``depth`` times. corners_are_on_surface=False: the corners give the plane alone.");
+    m.def("curve_bounds", &bounds_of_curve, nb::arg("curve"), nb::arg("t"), nb::arg("ends"),
+          "(k,) how far pieces of a curve, from t[:, 0] to t[:, 1], and the segments between "
+          "``ends`` (k, 2, 3) are from each other at most; infinite where the curve has no "
+          "bounds.");
     m.def("ring_bounds", &around, nb::arg("corners"), nb::arg("triangles"), nb::arg("twins"),
           nb::arg("bounds"),
           "(m,) how far triangles and surface are from each other at most, both ways, each with "

@@ -77,6 +77,7 @@ struct Neighbour {
 struct Ring {
     std::array<Neighbour, MOST_AROUND> members;
     std::size_t count = 0;
+    std::array<std::size_t, 3> across{};  // members over the triangle's own sides; 0: none
     double free;  // how far the ring's boundary, but for rims, is from the triangle, less its shift
     double longest;
 };
@@ -105,6 +106,9 @@ class Looker {
     /// Lower ``bound`` as far as the look shows.
     SurfaceStatus look(std::int32_t t, double limit, int levels, double& bound) {
         if (!begin(t)) return SurfaceStatus::DONE;
+        if (const auto status = look_point_by_point(t, limit, levels, bound);
+            status != SurfaceStatus::DONE)
+            return status;
         for (int layer = 0; layer < LAYERS && !(bound <= limit); ++layer) {
             if (!add_layer(t)) return SurfaceStatus::DONE;
             if (!(ring_.free > 0.0)) continue;
@@ -148,6 +152,7 @@ class Looker {
         }
         return SurfaceStatus::DONE;
     }
+    SurfaceStatus look_point_by_point(std::int32_t t, double limit, int levels, double& bound);
     bool begin(std::int32_t t);
     bool add_layer(std::int32_t t);
     bool take(std::int32_t other);
@@ -158,8 +163,9 @@ class Looker {
     [[nodiscard]] double highest(std::size_t side, double scale) const;
     [[nodiscard]] double height_of(const Cell& cell, double scale) const;
     [[nodiscard]] double farthest_at_rims(std::size_t side, double scale) const;
-    [[nodiscard]] bool may_leave(const Neighbour& member, std::size_t m, std::size_t s,
-                                 const Cell& cell, double beside) const;
+    [[nodiscard]] double beyond_rim(const Neighbour& member, std::size_t m, std::size_t s,
+                                    const Cell& cell, double grown, double beside) const;
+    [[nodiscard]] double over_side(std::size_t m, double own, const Cell& cell, double grown) const;
     SurfaceStatus compute_points(std::size_t side);
 
     const Surface& surface_;
@@ -219,11 +225,39 @@ bool Looker::begin(std::int32_t t) {
     axes_ = {first, cross(own.normal, first)};
     origin_ = p[0];
     ring_.count = 0;
+    ring_.across = {};
     ring_.members[0].plane = own;
     ring_.longest = std::max({norm(along), norm(p[2] - p[1]), norm(p[0] - p[2])});
     members_.clear();
     members_.push_back(t);
     return take(t);
+}
+
+/// |r - L| at the corners of cells, and how far it may rise between them: both ways, by itself.
+SurfaceStatus Looker::look_point_by_point(std::int32_t t, double limit, int levels, double& bound) {
+    if (std::binary_search(gaps_.owner.begin(), gaps_.owner.end(), t)) return SurfaceStatus::DONE;
+    piece_ = {mesh_.uv[t], bounds_[t], true};
+    const SpaceCorners& p = mesh_.corners[t];
+    for (int level = FIRST_LEVEL; level <= levels && !(bound <= limit); ++level) {
+        const std::size_t side = std::size_t{1} << level;
+        if (const auto status = compute_points(side); status != SurfaceStatus::DONE) return status;
+        double most = 0.0;
+        const double n = static_cast<double>(side);
+        std::size_t k = 0;
+        for (std::size_t i = 0; i <= side; ++i)
+            for (std::size_t j = 0; i + j <= side; ++j, ++k) {
+                const double a = static_cast<double>(i) / n, b = static_cast<double>(j) / n;
+                const Point3 flat = (1.0 - a - b) * p[0] + a * p[1] + b * p[2];
+                most = std::max(most, norm(points_[k].value - flat) + 2.0 * points_[k].error);
+            }
+        const double size = norm(p[0]) + norm(p[1]) + norm(p[2]);
+        const double between = bounds_[t].whole / (n * n);
+        const double found = most * (1.0 + ROUNDING) + between + ROUNDING * 0x1p-4 * size +
+                             rounded_uv_ * ring_.longest;
+        bound = std::min(bound, found);
+        if (most > limit) break;
+    }
+    return SurfaceStatus::DONE;
 }
 
 /// All triangles that share a vertex with those so far; false where no statement holds with them.
@@ -237,6 +271,10 @@ bool Looker::add_layer(std::int32_t t) {
             if (mark_[other] == t) continue;
             members_.push_back(other);
             if (!take(other)) return false;
+            for (std::size_t s = 0; s < 3; ++s) {
+                const std::int32_t twin = mesh_.twins[3 * static_cast<std::size_t>(t) + s];
+                if (twin != NIL && twin / 3 == other) ring_.across[s] = ring_.count - 1;
+            }
         }
     }
     ring_.free = free_around(t);
@@ -360,9 +398,9 @@ double Looker::highest(std::size_t side, double scale) const {
     return most;
 }
 
-/// May a cell lie beyond side s of a member, a rim?
-bool Looker::may_leave(const Neighbour& member, std::size_t m, std::size_t s, const Cell& cell,
-                       double beside) const {
+/// How far a cell may lie beyond side s of a member, a rim, from that side; 0: it cannot.
+double Looker::beyond_rim(const Neighbour& member, std::size_t m, std::size_t s, const Cell& cell,
+                          double grown, double beside) const {
     const std::array<double, 3>* inside = inside_.data() + m * uv_.size();
     double least = intervals::INFINITE, first = intervals::INFINITE, last = -first;
     const Point2 end = member.corners[(s + 1) % 3] - member.corners[s];
@@ -374,7 +412,12 @@ bool Looker::may_leave(const Neighbour& member, std::size_t m, std::size_t s, co
         last = std::max(last, along);
     }
     const double reach = farthest_ + beside;
-    return least < beside && last >= -reach && first <= length + reach;
+    if (least >= beside || last < -reach || first > length + reach) return 0.0;
+    // what lies beyond is so far across the side, and so far along it from its ends
+    const double across = std::max(0.0, -least) + grown;
+    const double past = std::max({0.0, -first, last - length}) + grown;
+    return first >= grown && last <= length - grown ? across
+                                                    : std::sqrt(across * across + past * past);
 }
 
 /// Of one cell: over the members that it may lie over, and from the rims that it may lie beyond.
@@ -383,33 +426,46 @@ double Looker::height_of(const Cell& cell, double scale) const {
     const double rounded = (ROUNDING + rounded_uv_) * ring_.longest;
     const double grown = scale * piece_.bounds.whole + rounded;
     const auto& [a, b, c] = cell;
-    double most = 0.0, from_rim = intervals::INFINITE;
+    double most = 0.0, from_rim = intervals::INFINITE, own = 0.0;
     bool leaves = false;
     for (std::size_t m = 0; m < ring_.count; ++m) {
         const Neighbour& member = ring_.members[m];
-        if (!member.is_near && !(member.is_rim[0] || member.is_rim[1] || member.is_rim[2]))
-            continue;
+        const bool has_rim = member.is_rim[0] || member.is_rim[1] || member.is_rim[2];
+        if (!member.is_near && !has_rim) continue;
         const double* height = height_.data() + m * count;
         const std::array<double, 3>* inside = inside_.data() + m * count;
         const double sag = scale * (piece_.bounds.height + 2.0 * member.sine * piece_.bounds.whole);
         const double high = std::max({height[a], height[b], height[c]}) + sag + rounded;
+        if (m == 0) own = high;
         // a foot along this member's normal is off by so much
         const double beside = grown + 2.0 * high * member.sine;
         bool is_over = true;
         for (std::size_t s = 0; s < 3; ++s) {
             if (std::max({inside[a][s], inside[b][s], inside[c][s]}) < -beside) is_over = false;
-            if (!member.is_rim[s] || !may_leave(member, m, s, cell, beside)) continue;
+            if (!member.is_rim[s]) continue;
+            const double away = beyond_rim(member, m, s, cell, grown, beside);
+            if (away == 0.0) continue;
             leaves = true;
-            double away = 0.0;
-            for (const std::size_t k : cell)
-                away = std::max(away, distance_to_segment(feet_[k], member.corners[s],
-                                                          member.corners[(s + 1) % 3]));
-            away += grown;
             from_rim = std::min(from_rim, std::sqrt(high * high + away * away) / member.cosine);
         }
-        if (is_over) most = std::max(most, high / member.cosine);
+        if (!is_over) continue;
+        most = std::max(most, std::min(high / member.cosine, over_side(m, own, cell, grown)));
     }
     return leaves ? std::max(most, from_rim) : most;
+}
+
+/// Over a neighbour across one of the triangle's own sides: both planes meet in that side, so that
+/// the height over the one is that over the other, and how far beyond the side times their slope.
+double Looker::over_side(std::size_t m, double own, const Cell& cell, double grown) const {
+    for (std::size_t s = 0; s < 3; ++s) {
+        if (m == 0 || ring_.across[s] != m) continue;
+        double least = 0.0;
+        for (const std::size_t k : cell) least = std::min(least, inside_[k][s]);
+        const Neighbour& member = ring_.members[m];
+        const double slack = 2.0 * own * member.sine;  // along its normal, and not this one
+        return own + (grown - least + slack) * member.sine / member.cosine;
+    }
+    return intervals::INFINITE;
 }
 
 /// How far the curves over the triangle's own rims are from them.

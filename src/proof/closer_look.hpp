@@ -17,6 +17,9 @@
 // of the curve over the rim. Where one ring of triangles does not suffice there are two. The proof
 // is in docs/proof.md.
 //
+// Before that |r - L| itself is looked at, point by point: where pieces are hardly shifted that is
+// enough, whatever the triangles around.
+//
 // In: the triangles of one face, their bounds so far. Out: better bounds, where there are such.
 #pragma once
 

@@ -1,23 +1,18 @@
-#include <nanobind/stl/array.h>
-#include <nanobind/stl/optional.h>
 #include <nanobind/stl/pair.h>
 #include <nanobind/stl/shared_ptr.h>
-#include <nanobind/stl/tuple.h>
 #include <nanobind/stl/vector.h>
 
 #include "binding/arrays.hpp"
-#include "fields/field_node_arrays.hpp"
-#include "sizing/bounded_features.hpp"
 #include "sizing/callback_rules.hpp"
 #include "sizing/rim_sizes.hpp"
 #include "sizing/size_rules.hpp"
-#include "sizing/surface_law.hpp"
 #include "surfaces/callback_surface.hpp"
 
 namespace surfmesh::binding {
 
 void bind_sizing(nb::module_& m);
 void bind_size_limits(nb::module_& m);
+void bind_size_laws(nb::module_& m);
 
 namespace {
 
@@ -140,64 +135,6 @@ void bind_rules(nb::module_& m) {
             "of an anisotropic metric. anisotropy: largest ratio of two sizes.");
 }
 
-void raise_failure_of(std::exception_ptr failure) {
-    if (failure) std::rethrow_exception(failure);
-    throw nb::value_error("the sizes could not be found");
-}
-
-using Limits = std::shared_ptr<SizeLimits>;
-
-void bind_law(nb::module_& m) {
-    nb::class_<SurfaceLaw, NodeLaw>(m, "SurfaceLaw", "Ungraded target sizes on one surface.")
-        .def(
-            "__init__",
-            [](SurfaceLaw* made, const Surface& surface, const Chart& chart, const SizeRules& rules,
-               std::optional<std::tuple<double, std::array<bool, 4>, std::optional<Limits>>> rims,
-               std::optional<std::tuple<Limits, double, bool>> limits) {
-                std::optional<Rims> ends;
-                if (rims)
-                    ends = Rims{std::get<0>(*rims), std::get<1>(*rims),
-                                std::get<2>(*rims).value_or(nullptr)};
-                OuterLimits outer{nullptr, 0.0, false};
-                if (limits)
-                    outer = {std::get<0>(*limits), std::get<1>(*limits), std::get<2>(*limits)};
-                new (made) SurfaceLaw(surface, chart, rules, std::move(ends), std::move(outer));
-            },
-            nb::arg("surface"), nb::arg("chart"), nb::arg("rules"), nb::arg("rims") = nb::none(),
-            nb::arg("limits") = nb::none(), nb::keep_alive<1, 2>(),
-            "rims: chord, which sides of the rectangle are open, limits near trimming loops or "
-            "None. limits: of edges or earlier rounds, what none goes below, and whether sizes "
-            "within them count as asked for.")
-        .def(
-            "nodes",
-            [](SurfaceLaw& law, const Points2& xy) {
-                FieldNodes nodes;
-                const bool told = [&] {
-                    const nb::gil_scoped_release released;
-                    return law.ask(rows<Point2>(xy), nodes);
-                }();
-                if (!told) raise_failure_of(law.take_failure());
-                return node_arrays(nodes);
-            },
-            nb::arg("xy"), "The twelve arrays of FieldNodes at xy (n, 2) of the chart.");
-    nb::class_<BoundedFeatures, HiddenFeatures>(m, "BoundedFeatures",
-                                                "Features between samples, where derivatives are "
-                                                "bounded.")
-        .def(
-            "__init__",
-            [](BoundedFeatures* made, const SurfaceLaw& law, bool curved_alike,
-               std::optional<double> chord) {
-                new (made)
-                    BoundedFeatures(law.surface(), law.chart(), law.rules(), curved_alike, chord);
-            },
-            nb::arg("law"), nb::arg("curved_alike"), nb::arg("chord").none(),
-            nb::keep_alive<1, 2>(),
-            "curved_alike: sizes are smallest where a surface is curved both ways alike; else "
-            "where "
-            "it is curved one way only.\nchord: what rises less than a fraction of it within a "
-            "deep cell is no feature.");
-}
-
 }  // namespace
 
 void bind_sizing(nb::module_& m) {
@@ -206,7 +143,7 @@ void bind_sizing(nb::module_& m) {
     bind_formulas_of_sizes(m);
     bind_rules(m);
     bind_size_limits(m);
-    bind_law(m);
+    bind_size_laws(m);
 }
 
 }  // namespace surfmesh::binding

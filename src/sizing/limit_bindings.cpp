@@ -38,7 +38,8 @@ SizeRows along(const SizeLimits& limits, const Points3& points, const Directions
     {
         const nb::gil_scoped_release released;
         for (std::size_t i = 0; i < found.size(); ++i)
-            found[i] = limits.along(rows<Point3>(points)[i % count], direction[i]);
+            found[i] =
+                SizeLimits::Here(limits, rows<Point3>(points)[i % count]).along(direction[i]);
     }
     const std::size_t shape[] = {directions.shape(0), count};
     return SizeRows(found.data(), 2, shape, nb::cast(view(found)));
@@ -75,7 +76,8 @@ void bind_size_limits(nb::module_& m) {
                     const nb::gil_scoped_release released;
                     for (std::size_t i = 0; i < sizes.size(); ++i) {
                         const auto [size, direction] =
-                            limits.tightest(rows<Point3>(points)[i], rows<Point3>(normals)[i]);
+                            SizeLimits::Here(limits, rows<Point3>(points)[i])
+                                .tightest(rows<Point3>(normals)[i]);
                         sizes[i] = size;
                         directions[i] = direction;
                     }

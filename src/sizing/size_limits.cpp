@@ -44,44 +44,36 @@ SizeLimits::SizeLimits(std::span<const Point3> points, std::span<const double> s
                        std::span<const MetricRoot3> metric_root_3d)
     : tree_(points), sizes_(sizes), slope_(slope), metric_root_3d_(metric_root_3d) {}
 
-double SizeLimits::least_of(const Near& near, std::size_t count) const {
+double SizeLimits::Here::least() const {
     double least = INFINITE;
-    for (std::size_t k = 0; k < count; ++k)
-        least = std::min(least, sizes_[near[k].number] + slope_ * near[k].distance);
+    for (std::size_t k = 0; k < count_; ++k)
+        least =
+            std::min(least, limits_.sizes_[near_[k].number] + limits_.slope_ * near_[k].distance);
     return least;
 }
 
-double SizeLimits::at(Point3 place) const {
-    Near near;
-    return least_of(near, tree_.nearest(place, near));
-}
-
-double SizeLimits::along(Point3 place, Point3 direction) const {
-    Near near;
-    const std::size_t count = tree_.nearest(place, near);
-    if (metric_root_3d_.empty()) return least_of(near, count);
+double SizeLimits::Here::along(Point3 direction) const {
+    if (limits_.metric_root_3d_.empty()) return least();
     double least = INFINITE;
-    for (std::size_t k = 0; k < count; ++k) {
-        const double square = square_along(metric_root_3d_[near[k].number], direction);
+    for (std::size_t k = 0; k < count_; ++k) {
+        const double square = square_along(limits_.metric_root_3d_[near_[k].number], direction);
         const double inverse = std::max(std::sqrt(square), TINY);
-        least = std::min(least, 1.0 / inverse + slope_ * near[k].distance);
+        least = std::min(least, 1.0 / inverse + limits_.slope_ * near_[k].distance);
     }
     return least;
 }
 
-SizeLimits::Tightest SizeLimits::tightest(Point3 place, Point3 normal) const {
-    Near near;
-    const std::size_t count = tree_.nearest(place, near);
+SizeLimits::Tightest SizeLimits::Here::tightest(Point3 normal) const {
     const Point3 first = across(normal), second = cross(normal, first);
-    if (metric_root_3d_.empty()) return {least_of(near, count), first};
+    if (limits_.metric_root_3d_.empty()) return {least(), first};
     Tightest found{INFINITE, first};
     double best_b = 0.0, best_half = 0.0;
-    for (std::size_t k = 0; k < count; ++k) {
-        const MetricRoot3& w = metric_root_3d_[near[k].number];
+    for (std::size_t k = 0; k < count_; ++k) {
+        const MetricRoot3& w = limits_.metric_root_3d_[near_[k].number];
         const double a = form(w, first, first), b = form(w, first, second);
         const double c = form(w, second, second), mean = 0.5 * (a + c), half = 0.5 * (a - c);
         const double largest = std::max(mean + elementary::hypot(half, b), TINY);
-        const double size = 1.0 / largest + slope_ * near[k].distance;
+        const double size = 1.0 / largest + limits_.slope_ * near_[k].distance;
         if (k > 0 && !(size < found.size)) continue;
         found.size = size;
         best_b = b;

@@ -24,21 +24,34 @@ class SizeLimits {
     SizeLimits(std::span<const Point3> points, std::span<const double> sizes, double slope,
                std::span<const MetricRoot3> metric_root_3d);
 
-    /// Largest size at a place.
-    [[nodiscard]] double at(Point3 place) const;
-    /// Largest size there in a unit direction.
-    [[nodiscard]] double along(Point3 place, Point3 direction) const;
-    /// The smallest size in any direction of a tangent plane, and a unit direction it holds in.
     struct Tightest {
         double size;
         Point3 direction;
     };
-    [[nodiscard]] Tightest tightest(Point3 place, Point3 normal) const;
+
+    /// What the limits say at one place; they outlive it.
+    class Here {
+      public:
+        Here(const SizeLimits& limits, Point3 place)
+            : limits_(limits), count_(limits.tree_.nearest(place, near_)) {}
+
+        /// Largest size in every direction.
+        [[nodiscard]] double least() const;
+        /// Largest size in a unit direction.
+        [[nodiscard]] double along(Point3 direction) const;
+        /// The smallest size in any direction of a tangent plane, and a unit direction it holds in.
+        [[nodiscard]] Tightest tightest(Point3 normal) const;
+
+      private:
+        const SizeLimits& limits_;
+        std::array<NearPoint, NEAREST_LIMITS> near_;
+        std::size_t count_;
+    };
+
+    /// Largest size at a place.
+    [[nodiscard]] double at(Point3 place) const { return Here(*this, place).least(); }
 
   private:
-    using Near = std::array<NearPoint, NEAREST_LIMITS>;
-    [[nodiscard]] double least_of(const Near& near, std::size_t count) const;
-
     PointTree tree_;
     Array<double> sizes_;
     double slope_;

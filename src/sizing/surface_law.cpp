@@ -11,7 +11,8 @@ namespace {
 
 constexpr std::size_t BLOCK = 1024;  // places that are read at a time
 
-/// I^(1/2) in the scaled plane, whose axes run at ``rates``.
+}  // namespace
+
 SizeTensor root_of_form(const FundamentalForms& forms, Point2 rates) {
     const double e = forms.E * rates.x * rates.x, f = forms.F * rates.x * rates.y;
     const double g = forms.G * rates.y * rates.y;
@@ -19,8 +20,6 @@ SizeTensor root_of_form(const FundamentalForms& forms, Point2 rates) {
     const double t = std::sqrt(most(e + g + 2.0 * s, std::numeric_limits<double>::min()));
     return {(e + s) / t, f / t, (g + s) / t};
 }
-
-}  // namespace
 
 SurfaceLaw::SurfaceLaw(const Surface& surface, Chart chart, SizeRules rules,
                        std::optional<Rims> rims, OuterLimits outer)
@@ -100,32 +99,20 @@ bool SurfaceLaw::lower_by_rules(const Places& places, FieldNodes& nodes) const {
     return true;
 }
 
+/// Is a place of the chart on a side, numbered as Python's ``sides``?
+bool SurfaceLaw::is_on_side(Point2 xy, std::size_t side) const {
+    const Point2 end = chart_.extent();
+    const bool on_it[] = {xy.y == 0.0, xy.x == end.x, xy.y == end.y, xy.x == 0.0};
+    return on_it[side];
+}
+
 /// Lower sizes on open sides, and near trimming loops, to what the curvature there allows.
 void SurfaceLaw::lower_at_rims(std::span<const Point2> xy, std::size_t first, FieldNodes& nodes) {
-    const Point2 end = chart_.extent();
-    for (std::size_t side = 0; side < 4; ++side) {
-        if (!rims_->open_sides[side]) continue;
-        Array<Point2> uv;
-        Array<std::size_t> rows;
-        for (std::size_t i = 0; i < xy.size(); ++i) {
-            const bool on_it[] = {xy[i].y == 0.0, xy[i].x == end.x, xy[i].y == end.y,
-                                  xy[i].x == 0.0};
-            if (!on_it[side]) continue;
-            rows.push_back(first + i);
-            uv.push_back(chart_.to_uv(xy[i]));
-        }
-        if (rows.empty()) continue;
-        SurfaceReader reader(surface_);
-        reader.read({uv.data(), uv.size()}, 2);
-        if (reader.failed()) {
-            status_.store(reader.status());
-            return;
-        }
-        const Point2 step = side % 2 == 0 ? Point2{1.0, 0.0} : Point2{0.0, 1.0};
-        for (std::size_t k = 0; k < rows.size(); ++k)
-            nodes.size[rows[k]] =
-                least(nodes.size[rows[k]], rim_size(reader, k, step, rims_->chord).size);
-    }
+    for (std::size_t side = 0; side < 4; ++side)
+        if (rims_->open_sides[side])
+            at_side(side, xy, [&](std::size_t i, const RimSize& rim) {
+                nodes.size[first + i] = least(nodes.size[first + i], rim.size);
+            });
     if (rims_->loops == nullptr) return;
     for (std::size_t i = first; i < first + xy.size(); ++i)
         nodes.size[i] = least(nodes.size[i], rims_->loops->at(nodes.point[i]));

@@ -17,7 +17,9 @@
 #include "sizing/size_limits.hpp"
 #include "sizing/size_rules.hpp"
 #include "surfaces/chart.hpp"
+#include "surfaces/fundamental_forms.hpp"
 #include "surfaces/surface.hpp"
+#include "surfaces/surface_reader.hpp"
 
 namespace surfmesh {
 
@@ -35,7 +37,10 @@ struct OuterLimits {
     bool are_targets;                          // sizes within them count as asked for
 };
 
-class SurfaceLaw final : public NodeLaw {
+/// I^(1/2) in the scaled plane, whose axes run at ``rates``.
+[[nodiscard]] SizeTensor root_of_form(const FundamentalForms& forms, Point2 rates);
+
+class SurfaceLaw : public NodeLaw {
   public:
     SurfaceLaw(const Surface& surface, Chart chart, SizeRules rules, std::optional<Rims> rims,
                OuterLimits outer);
@@ -47,7 +52,38 @@ class SurfaceLaw final : public NodeLaw {
     [[nodiscard]] const Chart& chart() const { return chart_; }
     [[nodiscard]] const SizeRules& rules() const { return rules_; }
 
+  protected:
+    /// Call work(place, size) for those of some places that lie on a side of the rectangle.
+    template <class Work>
+    void at_side(std::size_t side, std::span<const Point2> xy, const Work& work) {
+        Array<Point2> uv;
+        Array<std::size_t> rows;
+        for (std::size_t i = 0; i < xy.size(); ++i) {
+            if (!is_on_side(xy[i], side)) continue;
+            rows.push_back(i);
+            uv.push_back(chart_.to_uv(xy[i]));
+        }
+        if (rows.empty()) return;
+        SurfaceReader reader(surface_);
+        reader.read({uv.data(), uv.size()}, 2);
+        if (reader.failed()) {
+            status_.store(reader.status());
+            return;
+        }
+        const Point2 step = side % 2 == 0 ? Point2{1.0, 0.0} : Point2{0.0, 1.0};
+        for (std::size_t k = 0; k < rows.size(); ++k)
+            work(rows[k], rim_size(reader, k, step, rims_->chord));
+    }
+
+    const Surface& surface_;
+    Chart chart_;
+    SizeRules rules_;
+    std::optional<Rims> rims_;
+    OuterLimits outer_;
+    std::atomic<SurfaceStatus> status_ = SurfaceStatus::DONE;
+
   private:
+    [[nodiscard]] bool is_on_side(Point2 xy, std::size_t side) const;
     /// What rules are asked with.
     struct Places {
         Array<PrincipalCurvatures> curvature;
@@ -58,13 +94,6 @@ class SurfaceLaw final : public NodeLaw {
     void lower_at_rims(std::span<const Point2> xy, std::size_t first, FieldNodes& nodes);
     [[nodiscard]] bool lower_by_rules(const Places& places, FieldNodes& nodes) const;
     void bound(std::size_t first, std::size_t last, FieldNodes& nodes) const;
-
-    const Surface& surface_;
-    Chart chart_;
-    SizeRules rules_;
-    std::optional<Rims> rims_;
-    OuterLimits outer_;
-    std::atomic<SurfaceStatus> status_ = SurfaceStatus::DONE;
 };
 
 }  // namespace surfmesh

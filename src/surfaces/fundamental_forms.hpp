@@ -39,4 +39,13 @@ struct PrincipalCurvatures {
 /// k2; no digits are lost to a stretched (u, v).
 PrincipalCurvatures principal_curvatures(const FundamentalForms& forms);
 
+/// The same with unit tangents of space as steps of (u, v), at right angles to each other.
+///
+/// At umbilics d1 runs along u; at degenerate points they are (1, 0) and (0, 1).
+struct PrincipalDirections {
+    PrincipalCurvatures k;
+    Point2 d1, d2;
+};
+PrincipalDirections principal_directions(const FundamentalForms& forms);
+
 }  // namespace surfmesh

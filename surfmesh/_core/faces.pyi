@@ -144,13 +144,16 @@ class FaceEnd(enum.Enum):
     There is no box, no positive sizes, or more cells are needed than are allowed.
     """
 
-    RUNS_TWICE = 2
+    TUBES = 2
+    """It may have thin tubes, which are meshed by themselves."""
+
+    RUNS_TWICE = 3
     """A segment runs twice the same way."""
 
-    PATCH_FAILED = 3
+    PATCH_FAILED = 4
     """See ``patch``."""
 
-    NOT_JOINED = 4
+    NOT_JOINED = 5
     """At the non-manifold points of ``patch``."""
 
 class FaceMesh:
@@ -178,14 +181,97 @@ class FaceMesh:
     def segments(self) -> Annotated[NDArray[numpy.int32], dict(shape=(None, 2), writable=False)]:
         """(s, 2) int32 between these"""
 
-def mesh_face(surface: surfmesh._core.surfaces.Surface, chart: surfmesh._core.surfaces.Chart, background: surfmesh._core.fields.Background, polygons: FacePolygons, manner: tuple[float | None, float | None, float, bool, bool, bool]) -> FaceMesh:
-    """
-    Mesh a face with a given size field, without the interpreter.
+class FaceManner:
+    """How a face is meshed, whatever its sizes."""
 
-    manner: chord (model units), angle (degrees), min_size; whether to optimise, whether it is a first round, whether sizes depend on the direction.
+    def __init__(self, chord: float | None, angle: float | None, min_size: float, optimise: bool = True, first: bool = True, is_anisotropic: bool = False) -> None:
+        """
+        chord (model units), angle (degrees), min_size: what is asked for, with 0 for no least size. optimise: else only diagonals are chosen. first: the sizes come from no earlier round. is_anisotropic: they depend on the direction.
+        """
+
+class InwardFace:
+    """
+    A face with constant speeds |r_u|, |r_v|, whose sizes grow inward from those of its edges.
     """
 
-def mesh_inward(surface: surfmesh._core.surfaces.Surface, boundary: FaceBoundary, speeds: Sequence[float], largest: float, slope: float, manner: tuple[float | None, float | None, float, bool, bool, bool]) -> FaceMesh:
+    def __init__(self, surface: surfmesh._core.surfaces.Surface, boundary: FaceBoundary, speeds: Sequence[float], largest: float, slope: float, manner: FaceManner, look_for_tubes: bool = False) -> None:
+        """
+        Sizes grow by ``slope`` per length up to ``largest``. look_for_tubes: a face that may have thin tubes is not meshed, see FaceEnd.
+        """
+
+class FaceRows:
     """
-    The same on a surface with constant speeds |r_u|, |r_v|, whose sizes grow inward from those of its edges, by ``slope`` per length up to ``largest``.
+    Meshes of faces in rows: those of a face go up to its ends, from those of the face before it.
     """
+
+    @property
+    def face(self) -> Annotated[NDArray[numpy.int64], dict(shape=(None,))]:
+        """(k,) int64 numbers in the queue"""
+
+    @property
+    def point_end(self) -> Annotated[NDArray[numpy.int64], dict(shape=(None,))]:
+        """(k,) int64"""
+
+    @property
+    def triangle_end(self) -> Annotated[NDArray[numpy.int64], dict(shape=(None,))]:
+        """(k,) int64"""
+
+    @property
+    def corner_end(self) -> Annotated[NDArray[numpy.int64], dict(shape=(None,))]:
+        """(k,) int64"""
+
+    @property
+    def points(self) -> Annotated[NDArray[numpy.float64], dict(shape=(None, 3))]:
+        """(n, 3)"""
+
+    @property
+    def slots(self) -> Annotated[NDArray[numpy.int64], dict(shape=(None,))]:
+        """(n,) of the points: row in the boundary, -1 inside"""
+
+    @property
+    def sizes(self) -> Annotated[NDArray[numpy.float64], dict(shape=(None,))]:
+        """(n,) of the points"""
+
+    @property
+    def triangles(self) -> Annotated[NDArray[numpy.int32], dict(shape=(None, 3))]:
+        """(m, 3) of the face's own points"""
+
+    @property
+    def uv_triangles(self) -> Annotated[NDArray[numpy.int32], dict(shape=(None, 3))]:
+        """(m, 3) of the face's own corners"""
+
+    @property
+    def uv(self) -> Annotated[NDArray[numpy.float64], dict(shape=(None, 2))]:
+        """(k, 2) of the corners"""
+
+class FinishedFaces:
+    """Faces that a call of ``FaceQueue.work`` meshed."""
+
+    @property
+    def rows(self) -> FaceRows:
+        """Those that ask for nothing."""
+
+    @property
+    def others(self) -> list[tuple[int, FaceMesh]]:
+        """Number and mesh of every other face; they are handed out once."""
+
+    def __bool__(self) -> bool: ...
+
+class FaceQueue:
+    """Faces that any threads mesh one after the other, in their order."""
+
+    def __init__(self, faces: Sequence[InwardFace]) -> None: ...
+
+    def work(self, triangles: int) -> FinishedFaces:
+        """
+        Mesh faces that nobody has begun, without the interpreter, until so many triangles are made; nothing when none is left.
+        """
+
+    def stop(self) -> None:
+        """Begin no face any more, and finish none."""
+
+def mesh_face(surface: surfmesh._core.surfaces.Surface, chart: surfmesh._core.surfaces.Chart, background: surfmesh._core.fields.Background, polygons: FacePolygons, manner: FaceManner) -> FaceMesh:
+    """Mesh a face with a given size field, without the interpreter."""
+
+def mesh_inward(face: InwardFace) -> FaceMesh:
+    """Mesh a face whose sizes grow inward, without the interpreter."""

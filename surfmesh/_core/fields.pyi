@@ -154,14 +154,6 @@ class FieldBuilder:
         Raises what they raise. The status is done, too_many_triangles, too_many_cells or not_graded.
         """
 
-    def grade_anew(self) -> tuple[str, tuple[float, float], float]:
-        """
-        Grade the sizes of all nodes, as if they were new; returned as by refine.
-        """
-
-    def spread(self, size: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu')]) -> tuple[str, tuple[float, float], float]:
-        """Grade isotropic sizes (nodes,) in place; returned as by refine."""
-
     def nodes(self) -> tuple:
         """The twelve arrays of FieldNodes, as views; the jacobian (nodes, 6)."""
 

@@ -102,11 +102,20 @@ class Packing:
     def overlapping(self) -> int:
         """Circles of drawn radius placed although they overlap others."""
 
+    @property
+    def halves(self) -> int:
+        """2 where a box was packed in halves, else 0."""
+
 def pack(background: surfmesh._core.fields.Background, box: Sequence[float], origin: Sequence[float], expected: int, wanted: int, distance: float, watch: object | None = None) -> Packing:
     """
     Pack circles of the background's sizes from the origin (x, y) until the front has left the box (x0, y0, x1, y1).
 
     expected: about how many there will be. wanted: how many at most. distance: from the origin, at most. watch: called now and then with the number of circles so far; what it raises ends the packing. Read how it ended in ``status``.
+    """
+
+def pack_box(background: surfmesh._core.fields.Background, box: Sequence[float], expected: int, watch: object | None = None) -> Packing:
+    """
+    The same for all of a box, from its middle; where 50,000 circles or more are expected in two halves from a line of circles, side by side in the threads that are allowed. ``halves`` is 2 then, and there is no front.
     """
 
 def pack_discs(draw: object, box: Sequence[float], origin: Sequence[float], expected: int, wanted: int, distance: float, watch: object | None = None) -> Packing:

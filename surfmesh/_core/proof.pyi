@@ -15,6 +15,11 @@ def triangle_bounds(surface: surfmesh._core.surfaces.Surface, corners: Annotated
     Height over the plane; how far the piece leaves the sides 0, 1, 2 within it; how far it is from these at rims; shift within the plane; the whole distance point by point; how far corners are off. Triangles whose height, or distance at a rim (bit k of ``rims``: side k), is beyond ``limits`` are cut in four, ``depth`` times. corners_are_on_surface=False: the corners give the plane alone.
     """
 
+def curve_bounds(curve: surfmesh._core.surfaces.Curve, t: Annotated[NDArray[numpy.float64], dict(shape=(None, 2), order='C', device='cpu', writable=False)], ends: Annotated[NDArray[numpy.float64], dict(shape=(None, 2, 3), order='C', device='cpu', writable=False)]) -> Annotated[NDArray[numpy.float64], dict(shape=(None,))]:
+    """
+    (k,) how far pieces of a curve, from t[:, 0] to t[:, 1], and the segments between ``ends`` (k, 2, 3) are from each other at most; infinite where the curve has no bounds.
+    """
+
 def ring_bounds(corners: Annotated[NDArray[numpy.float64], dict(shape=(None, 3, 3), order='C', device='cpu', writable=False)], triangles: Annotated[NDArray[numpy.int32], dict(shape=(None, 3), order='C', device='cpu', writable=False)], twins: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], bounds: Annotated[NDArray[numpy.float64], dict(shape=(None, 10), order='C', device='cpu', writable=False)]) -> tuple[Annotated[NDArray[numpy.float64], dict(shape=(None,))], Annotated[NDArray[numpy.uint8], dict(shape=(None,))]]:
     """
     (m,) how far triangles and surface are from each other at most, both ways, each with its neighbours; (m,) whether it took them.

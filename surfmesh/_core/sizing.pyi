@@ -117,6 +117,35 @@ class SurfaceLaw(surfmesh._core.fields.NodeLaw):
     def nodes(self, xy: Annotated[NDArray[numpy.float64], dict(shape=(None, 2), order='C', device='cpu', writable=False)]) -> tuple:
         """The twelve arrays of FieldNodes at xy (n, 2) of the chart."""
 
+class StretchedLaw(SurfaceLaw):
+    """The same where sizes depend on the direction."""
+
+    def __init__(self, surface: surfmesh._core.surfaces.Surface, chart: surfmesh._core.surfaces.Chart, rules: SizeRules, rims: tuple[float, Sequence[bool], SizeLimits | None] | None = None, limits: tuple[SizeLimits, float, bool] | None = None, even: bool = False) -> None:
+        """Likewise. even: the curvatures are known to be the same everywhere."""
+
+BENDING: float = 0.7
+
+FANNING: float = 0.29
+
+ROUND: float = 1.5
+
+def limit_longer_sizes(builder: surfmesh._core.fields.FieldBuilder, law: StretchedLaw, chord: float) -> tuple[str, tuple[float, float], float]:
+    """
+    Lower long sizes of a refined field where directions change, and raise short ones where long ones are not reached; returned as by FieldBuilder.refine.
+    """
+
+def direction_rates(surface: surfmesh._core.surfaces.Surface, uv: Annotated[NDArray[numpy.float64], dict(shape=(None, 2), order='C', device='cpu', writable=False)], size: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)], along_first: Annotated[NDArray[numpy.uint8], dict(shape=(None,), order='C', device='cpu', writable=False)]) -> Annotated[NDArray[numpy.float64], dict(shape=(None, 2))]:
+    """
+    |K_t| and |k_n| (n, 2), 1 / model unit^2, at uv (n, 2); zero where they are not known.
+
+    size (n,): a length. along_first (n,): is t the first principal direction?
+    """
+
+def longest_along(rates: Annotated[NDArray[numpy.float64], dict(shape=(None, 2), order='C', device='cpu', writable=False)], k1: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)], k2: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)], size: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)], chord: float) -> Annotated[NDArray[numpy.float64], dict(shape=(None,))]:
+    """
+    Largest length (n,) of triangles that are size (n,) wide, at rates (n, 2); at least that.
+    """
+
 class BoundedFeatures(surfmesh._core.fields.HiddenFeatures):
     """Features between samples, where derivatives are bounded."""
 

@@ -49,7 +49,7 @@ def parse(argv: Sequence[str]) -> argparse.Namespace:
     """
     options = _parser().parse_args(_imprint_alone(_values_shielded(argv)))
     held = vars(options)
-    given = {name: held.pop(name) for name in _SIZES if name in held}
+    given = {name: held.pop(name) for name in (*_SIZES, "proof") if name in held}
     options.sizing = {name: value for name, value in given.items() if value is not None}
     options.reading = {name: held.pop(name) for name in _READING if name in held}
     return options
@@ -115,6 +115,10 @@ def _add_intersect(commands: _Commands) -> None:
         help="what is kept (default all); NAME=+OTHER, NAME=-OTHER or NAME=X,Y,Z: of an input the "
         "parts on one side, or nearest to a point; may be given several times",
     )  # fmt: skip
+    meet.add_argument(
+        "--coincident", choices=("refuse", "merge"), default="refuse",
+        help="patches of two inputs that coincide: an error (default), or one patch of both",
+    )  # fmt: skip
     _add_made(meet)
 
 
@@ -159,6 +163,10 @@ def _add_check(commands: _Commands) -> None:
         "--surface", metavar="INPUT", help="formula file, gallery name or CAD file it was made from"
     )
     _add_units(check)
+    check.add_argument(
+        "--prove", action="store_true",
+        help="bound the distance from the surface, both ways, with round-off",
+    )  # fmt: skip
     _add_second_opinion(check)
     _add_json(check)
 
@@ -258,6 +266,9 @@ def _add_sizes(parser: argparse.ArgumentParser) -> None:
     )
     for name, (kind, said) in _SIZES.items():
         sizes.add_argument(f"--{name.replace('_', '-')}", type=kind, help=said)
+    sizes.add_argument(
+        "--proof", action="store_const", const=True, help="prove that the chord holds"
+    )
     sizes.add_argument(
         "--sizes", metavar="TOML", help='sizes by selection: [sizes."fillet*"] chord = 0.01'
     )

@@ -63,7 +63,8 @@ def intersect(options: Namespace) -> bool:
     from surfmesh import api
 
     surfaces = [named_surface(name, options) for name in options.inputs]
-    return _made(api.intersect(surfaces, asked_keep(options.keep)), sizing, options)
+    model = api.intersect(surfaces, asked_keep(options.keep), coincident=options.coincident)
+    return _made(model, sizing, options)
 
 
 def _made(surface: Surface | CadModel, sizing: Sizes, options: Namespace) -> bool:
@@ -155,7 +156,8 @@ def check(options: Namespace) -> bool:
 
     from surfmesh.quality import check as checked
 
-    report = checked(found, second_opinion=options.second_opinion)
+    prove = True if options.prove else None
+    report = checked(found, second_opinion=options.second_opinion, prove=prove)
     if options.json:
         say_json(report.to_dict())
     else:

@@ -23,6 +23,7 @@ contacts: where the edges of each of two complexes meet the faces and edges of t
 touching: points where a curve touches a surface, or two surfaces, and the ways out of them.
 poles: where curves leave a pole of a surface.
 tracing: curves traced on two surfaces, from a start to the end that they come to.
+contact_curves: curves along which two surfaces touch, followed from end to end.
 branches: all branches of the curve in which two faces meet, closed ones too.
 curve_fitting: a traced branch as splines, in space and in both (u, v).
 arrangement: the curves on one face cut it into regions.

@@ -14,6 +14,7 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 
@@ -24,6 +25,9 @@ from surfmesh.intersection.tracing import place
 
 PARALLEL = 1e-6
 """Radians: half-edges that leave one place nearer to each other than that cannot be told apart."""
+
+BESIDE = 0.05
+"""Of the shortest of them: where half-edges with one tangent are told apart."""
 
 FLAT = 1e-12
 """Of the square of its box: a walk that encloses less goes there and back."""
@@ -45,6 +49,30 @@ class HalfEdge:
     end: object
     leaves: np.ndarray
     enters: np.ndarray
+    scale: np.ndarray
+
+    @cached_property
+    def length(self) -> float:
+        """About how far its middle is from its ends."""
+        first, middle, last = self.coedge.walk(np.array([0.0, 0.5, 1.0])) * self.scale
+        return float(min(np.linalg.norm(middle - first), np.linalg.norm(last - middle)))
+
+    def ahead(self, off: float) -> np.ndarray:
+        """The direction in which it leaves its start, or the chord to the place so far off."""
+        return self._chord(off, False) if off > 0.0 else self.leaves
+
+    def back(self, off: float) -> np.ndarray:
+        """The direction back from its end, or the chord to the place so far off."""
+        return self._chord(off, True) if off > 0.0 else -self.enters
+
+    def _chord(self, off: float, backwards: bool) -> np.ndarray:
+        low, high = 0.0, 0.5
+        for _ in range(60):
+            middle = 0.5 * (low + high)
+            at = np.array([1.0, 1.0 - middle] if backwards else [0.0, middle])
+            start, place_ = self.coedge.walk(at) * self.scale
+            low, high = (low, middle) if np.linalg.norm(place_ - start) > off else (middle, high)
+        return place_ - start
 
 
 def half_edge(coedge: CadCoedge, start: object, end: object, scale: np.ndarray) -> HalfEdge:
@@ -53,7 +81,7 @@ def half_edge(coedge: CadCoedge, start: object, end: object, scale: np.ndarray) 
     rates = rates * (coedge.p1 - coedge.p0)
     if coedge.reversed:
         rates = -rates[::-1]
-    return HalfEdge(coedge, start, end, rates[0] * scale, rates[1] * scale)
+    return HalfEdge(coedge, start, end, rates[0] * scale, rates[1] * scale, scale)
 
 
 def turn(first: np.ndarray, second: np.ndarray) -> float:
@@ -117,27 +145,39 @@ def _next(
     ways = leaving.get(half.end, [])
     if len(ways) == 1:
         return ways[0]
-    back = -half.enters
-    # clockwise from the way back; the twin itself last
-    turns = [turn(halves[k].leaves, back) for k in ways]
-    for place_, k in enumerate(ways):
-        twin = halves[k].coedge.edge == half.coedge.edge and (
-            halves[k].coedge.reversed != half.coedge.reversed
-        )
-        if min(turns[place_], 2.0 * math.pi - turns[place_]) < PARALLEL and twin:
-            turns[place_] = 2.0 * math.pi
-    order = np.argsort(turns)
-    if not len(order):
+    if not ways:
         raise SurfaceError(f"{face.surface.name}: a curve on it ends at no other")
-    best = turns[order[0]]
-    close = best < PARALLEL or (len(order) > 1 and turns[order[1]] - best < PARALLEL)
-    if close:
+    # clockwise from the way back; the twin itself last
+    turns = _turns(half, [halves[k] for k in ways], 0.0)
+    if _are_close(turns):  # they leave with one tangent: by where they are a little further on
+        shortest = min(halves[k].length for k in ways)
+        turns = _turns(half, [halves[k] for k in ways], BESIDE * min(shortest, half.length))
+    order = np.argsort(turns)
+    if _are_close(turns):
         where = half.coedge.walk(np.array([1.0]))
         raise SurfaceError(
             f"{face.surface.name}: curves on it touch at "
             f"{place(face.surface.evaluate(where, 0)[0][0])}; move one of the surfaces"
         )
     return ways[int(order[0])]
+
+
+def _turns(half: HalfEdge, ways: Sequence[HalfEdge], off: float) -> np.ndarray:
+    """Clockwise angles from the way back to each way that leaves the end of a half-edge: of the
+    tangents, or of the chords to places so far off. The twin itself is a whole turn off."""
+    back = half.back(off)
+    turns = np.array([turn(way.ahead(off), back) for way in ways])
+    for k, way in enumerate(ways):
+        if way.coedge.edge == half.coedge.edge and way.coedge.reversed != half.coedge.reversed:
+            if min(turns[k], 2.0 * math.pi - turns[k]) < PARALLEL:
+                turns[k] = 2.0 * math.pi
+    return turns
+
+
+def _are_close(turns: np.ndarray) -> bool:
+    """Can the first one not be told from the next, or from the way back?"""
+    order = np.sort(turns)
+    return bool(order[0] < PARALLEL or (len(order) > 1 and order[1] - order[0] < PARALLEL))
 
 
 def _ring(walk: Loop, scale: np.ndarray) -> np.ndarray:

@@ -17,17 +17,19 @@ the condition on normals.) A point on no branch so far starts a new one.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 
 import numpy as np
 
 from surfmesh.cad.model.cad_model import CadFace
 from surfmesh.errors import SurfaceError
+from surfmesh.geometry.differential.projection import closest_point
 from surfmesh.intersection.bounds import Boxes, cross_surely, overlap
 from surfmesh.intersection.cells import FaceCells, Numbered, Pairs
+from surfmesh.intersection.contact_curves import ContactTracer, pulled_into_contact, touches_there
 from surfmesh.intersection.newton import Pulled, pulled_onto_both, uv_directions
 from surfmesh.intersection.regions import Region
-from surfmesh.intersection.touching import Touch, touch_of_surfaces
+from surfmesh.intersection.touching import branch_ways
 from surfmesh.intersection.tracing import End, Trace, Tracer, place
 
 SMALLEST = 1e-6
@@ -38,6 +40,21 @@ LEVELS, MOST_PAIRS = 26, 6000
 
 BESIDE = 2e-3
 """Of the diagonal: so near to a branch point or a pole the surfaces meet in its curves alone."""
+
+NEAR_CONTACT = 0.01
+"""Of the diagonal: so near to a curve along which they touch the surfaces meet in it alone."""
+
+BESIDE_CONTACTS = 8
+"""Times MOST_PAIRS, where such curves are known: their cells are small before they are done."""
+
+MOST_TANGENCIES = 40
+"""Rounds in which tangencies are looked for."""
+
+RING = 1e-3
+"""Of the (u, v) box: so far around a place surfaces coincide that are one."""
+
+SAME = 1e-8
+"""Of the diagonal: surfaces so near to each other coincide."""
 
 TRIED = 64
 """Undecided pairs that branch points are looked for from."""
@@ -65,6 +82,7 @@ class FacePair:
         self.size, self.gap = size, gap
         extent = min(_extent(cells[0]), _extent(cells[1]))
         self.tracer = Tracer(self.a, self.b, FIRST_STEP * extent, gap)
+        self.contact_tracer = ContactTracer(self.a, self.b, FIRST_STEP * extent, 10.0 * gap)
         self.traces: list[Trace] = []
         self.known: list[Trace] = []
         """Edges that both faces have, which are parts of their common curve."""
@@ -75,45 +93,110 @@ class FacePair:
     def all_branches(self, ends: Sequence[End]) -> list[Trace]:
         """Branches from all ``ends``, then closed ones. Raises ``SurfaceError``: see `Tracer`."""
         for start in ends:
-            if start.used:
+            if start.used or start.touches:
                 continue
             start.used = True
-            trace = self.tracer.trace(start, ends)
+            trace = self.tracer.trace(start, [end for end in ends if not end.touches])
             assert trace.end is not None  # noqa: S101  an open one
             trace.end.used = True
             self.traces.append(trace)
         self._find_closed()
         return self.traces
 
-    def branch_points(self) -> list[Touch]:
-        """Points in the inside of both faces in which the surfaces have one tangent plane.
+    def contacts_from(self, ends: Sequence[End]) -> Iterator[Trace]:
+        """Curves along which the surfaces touch, from those of the ends where one starts."""
+        touching = [end for end in ends if end.touches]
+        for start in touching:
+            if not start.used:
+                start.used = True
+                trace = self.contact_tracer.trace(start, touching)
+                assert trace.end is not None  # noqa: S101  an open one
+                trace.end.used = True
+                yield trace
 
-        Raises ``SurfaceError`` where they touch along a curve or a patch.
+    def closed_contact(self, found: Pulled) -> Trace:
+        """The closed curve through a place along which the surfaces touch."""
+        way = branch_ways(self.a, self.b, found.uv_a, found.uv_b)[1][0]
+        start = End(-1, found.uv_a, found.uv_b, found.point, way, touches=True)
+        end = End(-1, found.uv_a, found.uv_b, found.point, -way, touches=True)
+        return self.contact_tracer.trace(start, [end], closed=True)
+
+    def tangencies(self) -> Iterator[tuple[str, Pulled]]:
+        """Places, in the inside of both faces or beside their borders, where the surfaces have one
+        tangent plane: "cross", "touch" in a point, "along" a curve.
+
+        What is found is done with once it is in ``singular`` or among ``known``; where both are
+        ``is_one_surface`` nothing more is said. Raises ``SurfaceError`` where surfaces come near
+        each other without any of these.
         """
-        pairs = self._undecided(lambda pairs: np.ones(len(pairs), bool))
-        if not len(pairs):
-            return []
-        middle = pairs.middles
-        points = self.a.evaluate(middle[:, :2], 0)[0]
-        found: list[Touch] = []
-        rows = np.unique(np.linspace(0, len(pairs) - 1, min(len(pairs), TRIED)).astype(int))
-        for k in rows:
-            if any(np.linalg.norm(t.point - points[k]) <= BESIDE * self.size for t in found):
-                continue
-            touch = touch_of_surfaces(self.a, self.b, middle[k])
-            apart = [np.linalg.norm(t.point - touch.point) for t in found]
-            if touch.found and touch.gap <= 10.0 * self.gap:
-                if all(distance > TRACED * self.size for distance in apart):
-                    found.append(touch)
-        far = np.ones(len(pairs), bool)
-        for point in [*(touch.point for touch in found), *self.singular]:
-            far &= np.linalg.norm(points - point, axis=1) > BESIDE * self.size
-        self._refuse(pairs.kept(far))
-        return [touch for touch in found if self._is_in_both(touch)]
+        for _ in range(MOST_TANGENCIES):
+            pairs = self._undecided(lambda pairs: np.ones(len(pairs), bool))
+            if not len(pairs):
+                return
+            said = False
+            for what, found in self._explained(pairs):
+                said = True
+                if what == "flat":
+                    self.is_one_surface = True
+                    return
+                yield what, found
+            if not said:
+                self._refuse(pairs)
+                return
 
-    def _is_in_both(self, touch: Touch) -> bool:
-        uv_a, uv_b = touch.place[None, :2], touch.place[None, 2:]
+    def _explained(self, pairs: Pairs) -> Iterator[tuple[str, Pulled]]:
+        """The tangencies that undecided pairs lead to, each kind of place once."""
+        middle = pairs.middles
+        rows = np.unique(np.linspace(0, len(pairs) - 1, min(len(pairs), TRIED)).astype(int))
+        found = pulled_into_contact(self.a, self.b, middle[rows, :2], middle[rows, 2:])
+        fine = touches_there(self.a, self.b, found, 10.0 * self.gap)
+        seen: list[np.ndarray] = []
+        for k in np.flatnonzero(fine):
+            one = Pulled(*(column[k] for column in found))
+            done = [np.linalg.norm(point - one.point) for point in [*seen, *self.singular]]
+            if any(distance <= TRACED * self.size for distance in done):
+                continue
+            if self._is_beside_contact(one.point[None], 0.5 * NEAR_CONTACT * self.size)[0]:
+                continue
+            what, _ = branch_ways(self.a, self.b, one.uv_a, one.uv_b)
+            if what == "flat" and not self._is_one_around(one):
+                continue
+            if what == "along" and not self._are_surely_in_both(one):
+                continue
+            seen.append(one.point)
+            yield what, one
+            if what in ("along", "flat"):
+                return
+
+    def _is_one_around(self, found: Pulled) -> bool:
+        """Do the surfaces coincide around a place?"""
+        angle = np.arange(8) * (0.25 * np.pi)
+        ring = np.column_stack([np.cos(angle), np.sin(angle)])
+        uv = found.uv_a + RING * self.cells_a.width * ring
+        points = self.a.evaluate(uv, 0)[0]
+        guess = np.repeat(found.uv_b[None], len(uv), axis=0)
+        distance = closest_point(self.b, points, guess, 12, 0.0)[1]
+        return bool((distance <= SAME * self.size).all())
+
+    def _is_beside_contact(self, points: np.ndarray, reach: float) -> np.ndarray:
+        """Of points (n, 3), do they lie so near to a curve along which the surfaces touch?"""
+        near = np.zeros(len(points), bool)
+        for trace in self.known:
+            if trace.touches:
+                for k in range(0, len(points), 4096):  # not all distances at a time
+                    step = points[k : k + 4096, None] - trace.points
+                    near[k : k + 4096] |= np.einsum("nmi,nmi->nm", step, step).min(1) <= reach**2
+        return near
+
+    def are_in_both(self, found: Pulled) -> bool:
+        """Does one place lie within both faces?"""
+        uv_a, uv_b = found.uv_a[None], found.uv_b[None]
         return bool(self.region_a.inside(uv_a)[0] and self.region_b.inside(uv_b)[0])
+
+    def _are_surely_in_both(self, found: Pulled) -> bool:
+        uv_a, uv_b = found.uv_a[None], found.uv_b[None]
+        inside = self.region_a.surely_inside(uv_a) & self.region_b.surely_inside(uv_b)
+        return bool(inside[0])
 
     def _find_closed(self) -> None:
         self._refuse(self._undecided(self._answered))
@@ -138,7 +221,8 @@ class FacePair:
             if not len(pairs):
                 break
             sizes = one.size(rows), other.size(rows)
-            if max(sizes) < SMALLEST * self.size or len(pairs) > MOST_PAIRS:
+            most = BESIDE_CONTACTS * MOST_PAIRS if self._touches else MOST_PAIRS
+            if max(sizes) < SMALLEST * self.size or len(pairs) > most:
                 break
             pairs = pairs.halved(*sizes)
         return pairs
@@ -149,7 +233,20 @@ class FacePair:
         for point in self.singular:
             reach = np.maximum(np.abs(boxes.low[i] - point), np.abs(boxes.high[i] - point))
             near |= np.linalg.norm(reach, axis=1) <= BESIDE * self.size
+        if self._touches:
+            low, high = boxes.low, boxes.high
+            room = 0.5 * np.linalg.norm(high - low, axis=1)
+            reach = NEAR_CONTACT * self.size
+            small = np.flatnonzero(room <= 0.5 * reach)
+            beside = np.zeros(len(low), bool)
+            middles = 0.5 * (low[small] + high[small])
+            beside[small] = self._is_beside_contact(middles, 0.5 * reach)
+            near |= beside[i]
         return near
+
+    @property
+    def _touches(self) -> bool:
+        return any(trace.touches for trace in self.known)
 
     def _refuse(self, pairs: Pairs) -> None:
         """Name the place of pairs that are neither apart nor cross."""

@@ -19,6 +19,7 @@ from surfmesh.intersection.cells import EdgePieces, FaceCells
 from surfmesh.intersection.complex import Complex
 from surfmesh.intersection.edge_meetings import meetings, nearest_on_edge
 from surfmesh.intersection.elementary_distances import distance_to_elementary
+from surfmesh.intersection.pcurve_fitting import nearest_on_surface
 from surfmesh.intersection.piercings import crossings
 from surfmesh.intersection.regions import Region
 
@@ -27,6 +28,10 @@ SAME = 1e-8
 
 LOOKED_AT = np.linspace(0.0, 1.0, 23)
 """Fractions of an edge at which it is compared with a surface."""
+
+
+BESIDE = 0.01
+"""Of an edge: how far off a touch it is looked whether the edge lies on the surface there."""
 
 
 class Boxes(NamedTuple):
@@ -50,6 +55,12 @@ class Side:
         """For each edge the nodes within it, each with its fraction."""
         self.inner: list[dict[int, list[np.ndarray]]] = [{} for _ in whole.patches]
         """For each face the nodes in its inside, each with its places in (u, v)."""
+
+    def add_inner(self, face: int, node: int, uv: np.ndarray) -> None:
+        """A node lies in the inside of a face."""
+        places = self.inner[face].setdefault(node, [])
+        if not any(np.abs(uv - known).max() < 1e-6 for known in places):
+            places.append(uv)
 
     def faces_near(self, boxes: Boxes, k: int) -> Iterator[int]:
         """Faces whose boxes meet box k of ``boxes``."""
@@ -114,17 +125,24 @@ class Contacts:
         if found.along is not None:
             self._lies_on(own, number, other, face)
             self.unsure.append((own, number, other, face, found.along))
-        for t, uv, point in zip(found.fraction, found.uv, found.point):
-            met = self._edge_there(other, face, point)
+        for t, uv, point, touches in zip(found.fraction, found.uv, found.point, found.touches):
+            if touches and found.along is not None and self._goes_on(edge, other, face, float(t)):
+                continue
+            met = self.edge_there(other, face, point)
             if met is None and not self.is_inside(other, face, uv):
                 continue
             node = self._cut(own, number, float(t), point)
             if met is not None:
                 self._cut(other, *met, self.vertices[node].point)
-                continue
-            places = other.inner[face].setdefault(node, [])
-            if not any(np.abs(uv - known).max() < 1e-6 for known in places):
-                places.append(uv)
+            else:
+                other.add_inner(face, node, uv)
+
+    def _goes_on(self, edge: CadEdge, other: Side, face: int, t: float) -> bool:
+        """Does an edge lie on a surface on both sides of a touch as well?"""
+        beside = np.clip([t - BESIDE, t + BESIDE], 0.0, 1.0)
+        surface = other.whole.patches[face].face.surface
+        away = nearest_on_surface(surface, edge.evaluate(beside, 0)[0])[1]
+        return bool((away <= self.same + edge.tolerance).all())
 
     def _lies_on(self, own: Side, number: int, other: Side, face: int) -> None:
         """An edge lies on a surface, or a part of it does: it comes in and out of the face where it
@@ -161,8 +179,8 @@ class Contacts:
         side.cuts[number].setdefault(node, fraction)
         return node
 
-    def _edge_there(self, side: Side, face: int, point: np.ndarray) -> tuple[int, float] | None:
-        """The edge of a face through a point, and the fraction; None for none."""
+    def edge_there(self, side: Side, face: int, point: np.ndarray) -> tuple[int, float] | None:
+        """The edge of a face through a point (3,), and the fraction; None for none."""
         for coedge in side.whole.patches[face].face.coedges:
             number = coedge.edge
             low, high = side.edge_boxes.low[number], side.edge_boxes.high[number]

@@ -14,6 +14,7 @@ import numpy as np
 from surfmesh.errors import SurfaceError
 from surfmesh.geometry.cad_surfaces.face_surface import FaceSurface
 from surfmesh.geometry.cad_surfaces.nurbs import BSplineCurve
+from surfmesh.intersection.contact_curves import pulled_into_contact
 from surfmesh.intersection.newton import pulled_onto_both
 from surfmesh.intersection.tracing import Trace, place
 
@@ -53,7 +54,7 @@ def fitted(trace: Trace, a: FaceSurface, b: FaceSurface, size: float) -> FittedC
     spline = _through(s, columns, trace.closed)
     best: FittedCurve | None = None
     for count in COUNTS:
-        s, columns = _evenly(spline, s[-1], columns[[0, -1]], count, a, b)
+        s, columns = _evenly(spline, s[-1], columns[[0, -1]], count, a, b, trace.touches)
         spline = _through(s, columns, trace.closed)
         made = _measured(spline, s, a, b, trace.closed)
         if best is None or made.deviation < best.deviation:
@@ -88,6 +89,7 @@ def _through(s: np.ndarray, columns: np.ndarray, closed: bool):
 
 def _evenly(
     spline, length: float, ends: np.ndarray, count: int, a: FaceSurface, b: FaceSurface,
+    touches: bool,
 ) -> tuple[np.ndarray, np.ndarray]:  # fmt: skip
     """Points at equal lengths along a spline (count + 1,), pulled onto both surfaces; the lengths
     from the start."""
@@ -109,7 +111,8 @@ def _evenly(
     t[0], t[-1] = 0.0, length
     guess, way = spline(t), spline(t, 1)[:, :3]
     way /= np.linalg.norm(way, axis=1)[:, None]
-    found = pulled_onto_both(a, b, guess[:, 3:5], guess[:, 5:7], way, guess[:, :3])
+    pulled = pulled_into_contact if touches else pulled_onto_both
+    found = pulled(a, b, guess[:, 3:5], guess[:, 5:7], way, guess[:, :3])
     columns = np.hstack([found.point, found.uv_a, found.uv_b])
     columns[[0, -1]] = ends
     return np.linspace(0.0, s[-1], count + 1), columns

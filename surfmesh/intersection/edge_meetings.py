@@ -34,6 +34,9 @@ AROUND = 0.05
 PARALLEL = 1e-9
 """Sine between lines that never cross."""
 
+TANGENT = 1e-6
+"""Sine between edges below which they touch."""
+
 STEPS = 20
 TRIED = 12
 """Undecided pairs that a touch is looked for from."""
@@ -164,30 +167,37 @@ class _Halving:
         """For each pair, has it, or nearly, a place? Those are kept."""
         t, s = self._middles(i, j, level)
         width = 1.0 / (len(self.pieces[0].start()) * 2.0**level)
-        answered = np.zeros(len(i), bool)
-        for k in range(len(i)):
-            at = self._pulled(t[k], s[k])
-            if at is None:
-                continue
-            off = max(abs(at[0] - t[k]), abs(at[1] - s[k]))
-            if off <= (0.5 + AROUND) * width + 1e-12:
-                answered[k] = True
-                self._add(*at)
+        at_a, at_b, crosses = self._pulled(t, s)
+        off = np.maximum(np.abs(at_a - t), np.abs(at_b - s))
+        answered = crosses & (off <= (0.5 + AROUND) * width + 1e-12)
+        for k in np.flatnonzero(answered):
+            self._add(float(at_a[k]), float(at_b[k]))
         return answered
 
-    def _pulled(self, t: float, s: float) -> tuple[float, float] | None:
-        """Where they cross, from a guess; None for nowhere."""
+    def _pulled(self, t: np.ndarray, s: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+        """Fractions (n,) of both near guesses where they come nearest to each other by Newton's
+        method, and whether they cross there."""
+        rates = [edge.t1 - edge.t0 for edge in (self.a, self.b)]
         for _ in range(STEPS):
-            p, p1 = self._at(self.a, t, 1)
-            q, q1 = self._at(self.b, s, 1)
-            step = np.linalg.lstsq(np.stack([p1, -q1], axis=1), p - q, rcond=1e-12)[0]
-            after_t, after_s = min(max(t - step[0], 0.0), 1.0), min(max(s - step[1], 0.0), 1.0)
-            moved = max(abs(after_t - t), abs(after_s - s))
+            p, p1 = self.a.evaluate(t, 1)
+            q, q1 = self.b.evaluate(s, 1)
+            p1, q1, gap = p1 * rates[0], q1 * rates[1], p - q
+            e, f, g = (np.einsum("ij,ij->i", x, y) for x, y in ((p1, p1), (p1, q1), (q1, q1)))
+            x, y = (np.einsum("ij,ij->i", way, gap) for way in (p1, q1))
+            square = np.maximum(e * g - f * f, 1e-14 * e * g + 1e-300)  # nearly parallel: small
+            after_t = np.clip(t - (g * x - f * y) / square, 0.0, 1.0)
+            after_s = np.clip(s - (f * x - e * y) / square, 0.0, 1.0)
+            moved = np.maximum(np.abs(after_t - t), np.abs(after_s - s)).max(initial=0.0)
             t, s = after_t, after_s
             if moved < 1e-15:
                 break
-        gap = np.linalg.norm(self._at(self.a, t, 0)[0] - self._at(self.b, s, 0)[0])
-        return (float(t), float(s)) if gap <= self.reach else None
+        p, p1 = self.a.evaluate(t, 1)
+        q, q1 = self.b.evaluate(s, 1)
+        speed = np.linalg.norm(p1, axis=1) * np.linalg.norm(q1, axis=1)
+        sine = np.linalg.norm(np.cross(p1, q1), axis=1) / np.maximum(speed, 1e-300)
+        # near a touch gaps are small all along
+        gap = np.linalg.norm(p - q, axis=1)
+        return t, s, (sine > TANGENT) & (gap <= self.reach * sine)
 
     @staticmethod
     def _at(edge: CadEdge, t: float, order: int) -> list[np.ndarray]:

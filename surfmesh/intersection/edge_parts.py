@@ -24,7 +24,7 @@ from surfmesh.intersection.contacts import Contacts, Side, label
 from surfmesh.intersection.edge_meetings import nearest_on_edge
 from surfmesh.intersection.newton import unit_normals
 from surfmesh.intersection.pcurve_fitting import as_edge_runs, followed, nearest_on_surface
-from surfmesh.intersection.poles import fraction_at_pole, ways_out_of_pole
+from surfmesh.intersection.poles import contact_at_pole, fraction_at_pole, ways_out_of_pole
 from surfmesh.intersection.tracing import place
 
 QUARTERS = np.array([0.25, 0.5, 0.75])
@@ -64,6 +64,8 @@ class EdgeParts:
         self.leaving: dict[tuple[int, bool], tuple[np.ndarray | None, np.ndarray | None, int]] = {}
         """Where a part of a degenerate edge starts, or starts when walked backwards, the curve
         that leaves the pole: its way (3,), its rate (2,) in (u, v), the face it is common with."""
+        self.touched_poles: list[tuple[int, int, int, int]] = []
+        """Side and face of a pole that a face of the other side touches, that face, the node."""
         self._between: dict[frozenset[int], list[int]] = {}
         """Parts of the first side by their nodes."""
         self._made: dict[tuple[int, int, int], CadCoedge] = {}
@@ -174,7 +176,12 @@ class EdgeParts:
             return None
         if not self.contacts.is_inside(other, face, uv[1]):
             return None
-        return followed(edge, surface, uv[1])
+        places = followed(edge, surface, uv[1])
+        for node, at in ((edge.start, places[0]), (edge.end, places[-1])):
+            point = self.contacts.vertices[node].point
+            if self.contacts.edge_there(other, face, point) is None:
+                other.add_inner(face, node, at)
+        return places
 
     def _require_explained(
         self, own: Side, number: int, other: Side, face: int, parts: list[Piece]
@@ -210,7 +217,11 @@ class EdgeParts:
         other = self.contacts.sides[1 - which]
         for k, inner in enumerate(other.inner):
             for uv in inner.get(node, []):
-                normal = unit_normals(other.whole.patches[k].face.surface, uv[None])[0]
+                across = other.whole.patches[k].face.surface
+                normal = unit_normals(across, uv[None])[0]
+                same = self.contacts.same
+                if contact_at_pole(face.surface, coedge, normal, across, same) != "leaves":
+                    self.touched_poles.append((which, face_number, k, node))
                 along = self._seam_lies_in(which, side, face, node, 1 - which, k)
                 for out in ways_out_of_pole(face.surface, coedge, normal, along):
                     if all(abs(out.fraction - known[0]) > ONE_PLACE for known in leaving):

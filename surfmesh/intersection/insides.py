@@ -73,9 +73,11 @@ class Body:
                 return None
             if not len(found.uv):
                 continue
-            if (region.distance(found.uv) <= 0.0).any() or (found.fraction < 1e-9).any():
+            inside = region.inside(found.uv)
+            near = region.distance(found.uv) <= 0.0
+            if near.any() or (inside & (found.fraction < 1e-9)).any():
                 return None
-            total += int(region.inside(found.uv).sum())
+            total += int(inside.sum())
         return total
 
     def _are_on_ray(self, point: np.ndarray, way: np.ndarray) -> np.ndarray:

@@ -44,7 +44,7 @@ def intersected(
     _refuse_units(models)
     size = _size(models)
     keeping = Keeping(keep, names, models, size)
-    whole = joined(
+    whole, remarks = joined(
         [Complex.of(model, k, names[k]) for k, model in enumerate(models)],
         size,
         coincident == "merge",
@@ -77,7 +77,7 @@ def intersected(
                 for number, name in enumerate(names)
             ),
         ),
-        healing=(*_remarks(models, names), *_loose_curves(models, edges, size)),
+        healing=(*_remarks(models, names), *remarks, *_loose_curves(models, edges, size)),
         source=called,
         tags=_tags(keeping, patches, names, models),
     )

@@ -21,15 +21,16 @@ from surfmesh.intersection.arrangement import regions
 from surfmesh.intersection.borders import FaceBorder, Image
 from surfmesh.intersection.branches import FacePair
 from surfmesh.intersection.complex import Complex, Patch, measured_length, with_seams_marked
+from surfmesh.intersection.contact_curves import pulled_into_contact
 from surfmesh.intersection.contacts import Contacts
 from surfmesh.intersection.curve_fitting import FittedCurve, fitted
 from surfmesh.intersection.edge_parts import EdgeParts, Lying
 from surfmesh.intersection.elementary_distances import are_one_surface
-from surfmesh.intersection.newton import pulled_onto_both, unit_normals, uv_directions
+from surfmesh.intersection.newton import Pulled, pulled_onto_both, unit_normals, uv_directions
 from surfmesh.intersection.overlaps import Overlaps
 from surfmesh.intersection.pcurve_fitting import pcurve_along
 from surfmesh.intersection.regions import polygon_of
-from surfmesh.intersection.touching import Touch, branch_ways
+from surfmesh.intersection.touching import branch_ways
 from surfmesh.intersection.tracing import End, Trace, place
 
 GAP = 1e-11
@@ -41,7 +42,7 @@ TANGENT = 1e-5
 LOOSEST = 1e-6
 """Of the diagonal: so near a curve must follow an edge that lies on a face."""
 
-KNOWN = 65
+KNOWN = 257
 """Places of a common edge that is known before."""
 
 PROBED = 1e-3
@@ -59,6 +60,8 @@ class Meeting:
         self.contacts = Contacts(p, q, size)
         self.parts = EdgeParts(self.contacts)
         self.edges = self.parts.edges
+        self.remarks: list[str] = []
+        """Sentences on contacts that leave both as they are."""
         self.coincident: list[tuple[int, int]] = []
         """Faces of the one and the other side on one surface."""
         self.borders = [
@@ -121,28 +124,59 @@ class Meeting:
         )  # fmt: skip
         pair.known = [trace for edge in a.shared_with(b) for trace in self._known(edge, a, b)]
         pair.singular = self._poles(a, j) + self._poles(b, i)
-        touches = pair.branch_points()
+        pair.singular += [
+            self.contacts.vertices[node].point
+            for which, face, across, node in self.parts.touched_poles
+            if (face, across) == ((i, j), (j, i))[which]
+        ]
+        nodes = sorted(a.images.keys() & b.images.keys())
+        ends = [end for node in nodes for end in self._ends(pair, node, a, b, i, j)]
+        for trace in pair.contacts_from(ends):
+            self._add_contact(pair, trace, a, b)
+        for what, found in pair.tangencies():
+            if what == "along":
+                self._add_contact(pair, pair.closed_contact(found), a, b)
+                continue
+            pair.singular.append(found.point)
+            if what == "cross" and pair.are_in_both(found):
+                node = self._add_branch_point(found, a, b)
+                if node not in nodes:
+                    ends += self._ends(pair, node, a, b, i, j)
+            elif what == "touch" and pair.are_in_both(found):
+                self.remarks.append(
+                    f"{a.face.surface.name} and {b.face.surface.name} touch at "
+                    f"{place(found.point)}, where nothing is cut"
+                )
         if pair.is_one_surface:
             self.coincident.append((i, j))
             return
-        for touch in touches:
-            self._add_branch_point(touch, a, b)
-        nodes = sorted(a.images.keys() & b.images.keys())
-        ends = [end for node in nodes for end in self._ends(node, a, b, i, j)]
         pair.singular += [end.point for end in ends if end.singular]
         for trace in pair.all_branches(ends):
             made = fitted(trace, a.face.surface, b.face.surface, self.size)
             self._add_curve(trace, made, a, b)
+
+    def _add_contact(self, pair: FacePair, trace: Trace, a: FaceBorder, b: FaceBorder) -> None:
+        """A curve along which two faces touch."""
+        number = len(self.edges)
+        made = fitted(trace, a.face.surface, b.face.surface, self.size)
+        self._add_curve(trace, made, a, b)
+        pair.known += self._known(number, a, b)
 
     def _known(self, number: int, a: FaceBorder, b: FaceBorder) -> list[Trace]:
         """An edge that both faces have, as a trace on both."""
         edge = self.edges[number]
         fraction = np.linspace(0.0, 1.0, KNOWN)
         points = edge.evaluate(fraction, 0)[0]
-        return [
-            Trace(points, one.uv(fraction), other.uv(fraction), None, None)
-            for one in a.uses(number) for other in b.uses(number)
-        ]  # fmt: skip
+        traces = []
+        for one in a.uses(number):
+            for other in b.uses(number):
+                uv_a, uv_b = one.uv(fraction), other.uv(fraction)
+                cross = np.cross(
+                    unit_normals(a.face.surface, uv_a), unit_normals(b.face.surface, uv_b)
+                )
+                touches = bool(np.linalg.norm(cross, axis=1)[1:-1].max() <= TANGENT)
+                traces.append(Trace(points, uv_a, uv_b, None, None, touches))
+        return traces
 
     def _poles(self, border: FaceBorder, other: int) -> list[np.ndarray]:
         """Poles of a face through which another face of the other side passes."""
@@ -152,27 +186,32 @@ class Meeting:
             if any(image.other == other and image.way is not None for image in images)
         ]
 
-    def _add_branch_point(self, touch: Touch, a: FaceBorder, b: FaceBorder) -> None:
-        """A node where two faces touch, unless there is one."""
-        node = self.contacts.node_at(touch.point)
-        for border, uv in ((a, touch.place[:2]), (b, touch.place[2:])):
+    def _add_branch_point(self, found: Pulled, a: FaceBorder, b: FaceBorder) -> int:
+        """The node where curves of two faces cross, a new one unless there is one."""
+        node = self.contacts.node_at(found.point)
+        for border, uv in ((a, found.uv_a), (b, found.uv_b)):
             if node not in border.images:
                 border.images[node] = [Image((node, 0, "inside"), uv)]
+        return node
 
-    def _ends(self, node: int, a: FaceBorder, b: FaceBorder, i: int, j: int) -> list[End]:
+    def _ends(
+        self, pair: FacePair, node: int, a: FaceBorder, b: FaceBorder, i: int, j: int
+    ) -> list[End]:
         """Where branches of a pair of faces start in a node, each with its way into both."""
         found = []
         point = self.contacts.vertices[node].point
         for one in a.images[node]:
             for other in b.images[node]:
                 if one.is_pole or other.is_pole:
-                    ways, singular = _ways_at_pole(one, other, i, j), True
+                    what, ways = "pole", _ways_at_pole(one, other, i, j)
                 else:
-                    ways, singular = _ways(a.face.surface, b.face.surface, one.uv, other.uv, point)
+                    what, ways = _ways(a.face.surface, b.face.surface, one.uv, other.uv)
+                if what in ("touch", "along", "flat"):
+                    pair.singular.append(point)
                 for way in ways:
                     end = End(
-                        node, one.uv, other.uv, point, way, one.key, other.key, singular,
-                        one.rate, other.rate,
+                        node, one.uv, other.uv, point, way, one.key, other.key,
+                        what in ("pole", "cross"), one.rate, other.rate, what == "along",
                     )  # fmt: skip
                     if self._leads_into_both(end, a, b, one, other):
                         found.append(end)
@@ -190,7 +229,8 @@ class Meeting:
         if a.edges_along(one, along_a) & b.edges_along(other, along_b):
             return False
         step = PROBED * min(a.extent, b.extent)
-        ahead = pulled_onto_both(
+        pulled = pulled_into_contact if end.touches else pulled_onto_both
+        ahead = pulled(
             a.face.surface, b.face.surface, (one.uv + step * along_a)[None],
             (other.uv + step * along_b)[None], end.way[None], (end.point + step * end.way)[None],
         )  # fmt: skip
@@ -244,20 +284,15 @@ def _part_of_face(face: CadFace, loops: Sequence[tuple[CadCoedge, ...]]) -> CadF
 
 
 def _ways(
-    a: FaceSurface, b: FaceSurface, uv_a: np.ndarray, uv_b: np.ndarray, point: np.ndarray
-) -> tuple[list[np.ndarray], bool]:
-    """The directions (3,) of common curves in a common point; is it a branch point?"""
+    a: FaceSurface, b: FaceSurface, uv_a: np.ndarray, uv_b: np.ndarray
+) -> tuple[str, list[np.ndarray]]:
+    """The directions (3,) of common curves in a common point: where the surfaces are "transversal",
+    else as of ``branch_ways``."""
     cross = np.cross(unit_normals(a, uv_a[None])[0], unit_normals(b, uv_b[None])[0])
     sine = float(np.linalg.norm(cross))
     if sine >= TANGENT:
-        return [cross / sine, -cross / sine], False
-    what, ways = branch_ways(a, b, uv_a, uv_b)
-    if what == "cross":
-        return ways, True
-    raise SurfaceError(
-        f"{a.name} and {b.name} touch {'along a curve through' if what == 'along' else 'at'} "
-        f"{place(point)}: such contacts are not intersected; move or change one of them"
-    )
+        return "transversal", [cross / sine, -cross / sine]
+    return branch_ways(a, b, uv_a, uv_b)
 
 
 def _ways_at_pole(one: Image, other: Image, i: int, j: int) -> list[np.ndarray]:
@@ -269,11 +304,15 @@ def _ways_at_pole(one: Image, other: Image, i: int, j: int) -> list[np.ndarray]:
     return []
 
 
-def joined(complexes: Sequence[Complex], size: float, merge: bool) -> Complex:
+def joined(
+    complexes: Sequence[Complex], size: float, merge: bool
+) -> tuple[Complex, tuple[str, ...]]:
     """All complexes cut by each other, one after the other: so three faces through a point have
     it as a vertex, as the third cuts the edge of the first two there. merge: what coincides
-    becomes one patch, else it is refused."""
-    whole = complexes[0]
+    becomes one patch, else it is refused. With sentences on contacts that leave all as it is."""
+    whole, remarks = complexes[0], []
     for other in complexes[1:]:
-        whole = Meeting(whole, other, size, merge).joined()
-    return whole
+        meeting = Meeting(whole, other, size, merge)
+        whole = meeting.joined()
+        remarks += meeting.remarks
+    return whole, tuple(dict.fromkeys(remarks))

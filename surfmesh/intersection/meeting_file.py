@@ -33,12 +33,14 @@ def load_meeting_file(path: str | Path) -> CadModel:
     path = Path(path)
     entries = TomlEntries(path)
     names = entries.value("intersect", (list,))
-    known = {"name", "description", "intersect", "keep", *map(str, names)}
+    known = {"name", "description", "intersect", "keep", "coincident", *map(str, names)}
     entries.refuse_unknown(entries.content, known, "")
     surfaces = [_surface(entries, name) for name in names]
     keep = entries.value("keep", (str, dict), default="all")
+    coincident = entries.value("coincident", (str,), default="refuse")
+    name = entries.value("name", (str,), default=path.stem)
     try:
-        return intersected(surfaces, keep, name=entries.value("name", (str,), default=path.stem))
+        return intersected(surfaces, keep, name, coincident)
     except SurfaceError as error:
         raise SurfaceError(f"{path}: {error}") from None
 

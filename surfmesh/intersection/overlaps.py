@@ -22,6 +22,9 @@ from surfmesh.intersection.pcurve_fitting import nearest_on_surface
 from surfmesh.intersection.regions import Region
 from surfmesh.intersection.tracing import place
 
+WELL_WITHIN = 1e-3
+"""Of the (u, v) box: nearer to its border nothing is said of a point."""
+
 
 class Overlaps:
     """coincident: pairs of faces of both sides on one surface. merge: else they are refused."""
@@ -43,18 +46,32 @@ class Overlaps:
         ours, theirs = [list(parts) for parts in first], [list(parts) for parts in second]
         for i, j in self.coincident:
             for k, part in enumerate(ours[i]):
-                if not part.face.loops:
-                    continue
-                point, uv = self._point(part)
-                there, distance = nearest_on_surface(
-                    self.contacts.sides[1].whole.patches[j].face.surface, point[None]
-                )
-                if distance[0] > 10.0 * self.contacts.same:
-                    continue
-                if not self.contacts.is_inside(self.contacts.sides[1], j, there[0]):
-                    continue
-                ours[i][k] = self._merged(part, uv, theirs[j], there[0], point)
+                found = self._on_other(part, j)
+                if found is not None:
+                    uv, point, there = found
+                    ours[i][k] = self._merged(part, uv, theirs[j], there, point)
         return [patch for parts in (*ours, *theirs) for patch in parts]
+
+    def _on_other(self, part: Patch, j: int) -> tuple[np.ndarray, np.ndarray, np.ndarray] | None:
+        """A place within a part, the point and its place on face j of the other side, in which it
+        lies; None where it does not. Raises ``SurfaceError`` where it lies there in part."""
+        side = self.contacts.sides[1]
+        region = Region(part.face)
+        places = region.interior_points()
+        best = int(np.argmax(region.distance(places)))
+        points = part.face.surface.evaluate(places, 0)[0]
+        other = side.whole.patches[j].face.surface
+        there, distance = nearest_on_surface(other, points)
+        inside = np.array([self.contacts.is_inside(side, j, uv) for uv in there])
+        on = inside & (distance <= 10.0 * self.contacts.same)
+        sure = (region.distance(places) > WELL_WITHIN) & (side.regions[j].distance(there) > 0.0)
+        if on[best] and not on[sure & inside].all():
+            off = points[sure & inside & ~on][0]
+            raise SurfaceError(
+                f"{part.face.surface.name} and {other.name} coincide at {place(points[best])} and "
+                f"not at {place(off)}, and no edge lies between: cut one of them there"
+            )
+        return (places[best], points[best], there[best]) if on[best] else None
 
     def _merged(
         self, part: Patch, uv: np.ndarray, others: list[Patch], there: np.ndarray,
@@ -95,8 +112,3 @@ class Overlaps:
         return Counter(
             coedge.edge for coedge in patch.face.coedges if not self.edges[coedge.edge].degenerate
         )
-
-    def _point(self, patch: Patch) -> tuple[np.ndarray, np.ndarray]:
-        """A point within a patch, and its place."""
-        uv = Region(patch.face).interior_point()
-        return patch.face.surface.evaluate(uv[None], 0)[0][0], uv

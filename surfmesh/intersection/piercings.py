@@ -13,7 +13,7 @@ from typing import NamedTuple
 import numpy as np
 
 from surfmesh.cad.model.cad_model import CadEdge
-from surfmesh.intersection.bounds import overlap, pierces_surely
+from surfmesh.intersection.bounds import Boxes, overlap, pierces_surely
 from surfmesh.intersection.cells import EdgePieces, FaceCells, Numbered, Pairs
 from surfmesh.intersection.newton import Curve, pulled_onto_curve, unit_normals
 from surfmesh.intersection.touching import touch_of_curve
@@ -61,10 +61,13 @@ def crossings(edge: CadEdge, cells: FaceCells, same: float) -> Crossings:
     """
     pairs = Pairs.of(EdgePieces(edge), cells)
     found = _Found(same, cells.width)
+    reach = same + edge.tolerance
     for _ in range(LEVELS):
         own = Numbered(pairs.one, pairs.a, pairs.level_a)
         other = Numbered(cells, pairs.b, pairs.level_b)
-        meet = np.flatnonzero(overlap(own.boxes, own.of, other.boxes, other.of, other.cones))
+        meet = np.flatnonzero(
+            overlap(_wider(own.boxes, reach), own.of, other.boxes, other.of, other.cones)
+        )
         pairs = pairs.kept(meet)
         if not len(pairs):
             return found.crossings(None)
@@ -88,8 +91,10 @@ def _touched(edge: CadEdge, pairs: Pairs, found: _Found) -> np.ndarray | None:
     near: list[np.ndarray] = []
     for k in rows:
         touch = touch_of_curve(by_fraction(edge), pairs.other.surface, middle[k])
-        if touch.found and touch.gap <= 0.01 * found.same:
-            near.append(touch.point)
+        if not touch.found or touch.gap > found.same:
+            continue
+        near.append(touch.point)
+        if touch.gap <= 0.01 * found.same or not found.is_near(touch.point):
             found.add(touch.place[0], touch.place[1:], touch.point, touches=True)
     far = np.ones(len(points), bool)
     for point in near:
@@ -115,12 +120,19 @@ def _answered(edge: CadEdge, pairs: Pairs, found: _Found) -> np.ndarray:
     t, uv, point, gap = pulled_onto_curve(edge, cells.surface, middle[:, 0], middle[:, 1:])
     off = np.abs(np.column_stack([t, uv]) - middle) - half * (1.0 + 2.0 * AROUND)
     near = (off <= 1e-12 * np.array([1.0, *cells.width])).all(axis=1)
-    there = near & (gap <= 0.01 * found.same)
+    # an end may come short of the surface by its tolerance
+    ends = ((t == 0.0) | (t == 1.0)) & (gap <= found.same + edge.tolerance)
+    there = near & (ends | (gap <= 0.01 * found.same))
     sine = np.abs(_sines(edge, cells, t, uv))
-    crosses = (sine > TANGENT) & (gap <= found.same * sine)  # near a touch gaps are small all along
+    # near a touch gaps are small all along
+    crosses = (sine > TANGENT) & (ends | (gap <= found.same * sine))
     for k in np.flatnonzero(there & crosses):
         found.add(t[k], uv[k], point[k])
     return there & crosses
+
+
+def _wider(boxes: Boxes, room: float) -> Boxes:
+    return Boxes(boxes.low - room, boxes.high + room, boxes.corners, boxes.sag + room)
 
 
 def _sines(edge: CadEdge, cells: FaceCells, t: np.ndarray, uv: np.ndarray) -> np.ndarray:
@@ -153,6 +165,10 @@ class _Found:
         self.uv.append(uv)
         self.point.append(point)
         self.touches.append(touches)
+
+    def is_near(self, point: np.ndarray) -> bool:
+        """Is a place known so near that it is what touches there?"""
+        return any(np.linalg.norm(other - point) <= BESIDE * self.same for other in self.point)
 
     def crossings(self, along: np.ndarray | None) -> Crossings:
         order = np.argsort(self.fraction, kind="stable")

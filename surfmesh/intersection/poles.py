@@ -16,6 +16,7 @@ import numpy as np
 from surfmesh.cad.model.cad_model import CadCoedge
 from surfmesh.errors import SurfaceError
 from surfmesh.geometry.cad_surfaces.face_surface import FaceSurface
+from surfmesh.intersection.pcurve_fitting import nearest_on_surface
 from surfmesh.intersection.tracing import place
 
 SAMPLES = 257
@@ -25,6 +26,13 @@ NEAR_END = 1e-7
 
 BESIDE = 1e-2
 """Of the length of the side: places so near to it are on it."""
+
+
+TOUCHED = 1e-6
+"""Sine between a surface through a pole and the tangent plane there: one that touches it."""
+
+RING, RING_SAMPLES = 1e-3, 32
+"""Of the range that leads out of a pole: where it is looked on which side the other surface is."""
 
 
 class WayOut(NamedTuple):
@@ -40,8 +48,8 @@ def ways_out_of_pole(
 ) -> list[WayOut]:
     """All places of a degenerate side where a curve on a surface with this normal (3,) leaves.
 
-    along_edges: those that leave along the next edges are these edges, and left out. Raises
-    ``SurfaceError`` where one leaves along an edge otherwise, or the surface touches the pole.
+    None where the other surface touches the pole. along_edges: those that leave along the next
+    edges are these edges, and left out; else ``SurfaceError`` is raised for them.
     """
     ends = coedge.uv(np.array([0.0, 1.0]))
     axis = int(np.argmin(np.abs(ends[1] - ends[0])))  # the parameter that leads out
@@ -58,10 +66,8 @@ def ways_out_of_pole(
     ways = out(fractions)
     heights = ways @ normal
     size = np.linalg.norm(ways, axis=1).max()
-    if np.abs(heights).max() < 1e-6 * size:
-        raise SurfaceError(
-            f"{surface.name} is touched at its pole {place(surface.evaluate(ends[:1])[0][0])}"
-        )
+    if np.abs(heights).max() < TOUCHED * size:
+        return []
     found = []
     for k in np.flatnonzero((heights[:-1] > 0.0) != (heights[1:] > 0.0)):
         t = _root(height, fractions[k], fractions[k + 1])
@@ -78,6 +84,36 @@ def ways_out_of_pole(
         rate[axis] = inward / speed
         found.append(WayOut(float(t), way / speed, rate))
     return found
+
+
+def contact_at_pole(
+    surface: FaceSurface, coedge: CadCoedge, normal: np.ndarray, other: FaceSurface, same: float
+) -> str:
+    """What a surface with this normal (3,) does at a pole that it passes through: "leaves" it in
+    curves, or touches it: "touch" in the pole alone, "flat" on a patch.
+
+    Raises ``SurfaceError`` where it touches and goes through.
+    """
+    ends = coedge.uv(np.array([0.0, 1.0]))
+    axis = int(np.argmin(np.abs(ends[1] - ends[0])))
+    low, high = surface.domain[axis]
+    uv = coedge.uv((np.arange(RING_SAMPLES) + 0.5) / RING_SAMPLES)
+    pole, *rates = surface.evaluate(uv, 1)
+    ways = rates[axis]
+    if np.abs(ways @ normal).max() >= TOUCHED * np.linalg.norm(ways, axis=1).max():
+        return "leaves"
+    uv[:, axis] += RING * (high - low) * (1.0 if uv[0, axis] - low < high - uv[0, axis] else -1.0)
+    points = surface.evaluate(uv, 0)[0]
+    foot, distance = nearest_on_surface(other, points)
+    up = np.einsum("ij,j->i", points - other.evaluate(foot, 0)[0], normal)
+    if (distance <= same).all():
+        return "flat"
+    if (up > same).all() or (up < -same).all():
+        return "touch"
+    raise SurfaceError(
+        f"{surface.name} and {other.name} touch at the pole {place(pole[0])} of the first and go "
+        "through each other there; move or change one of them"
+    )
 
 
 def fraction_at_pole(coedge: CadCoedge, uv: np.ndarray) -> float | None:

@@ -78,16 +78,19 @@ class Region:
 
     def interior_point(self) -> np.ndarray:
         """(2,) a point well within: of a few on lines across, the one farthest from the loops."""
+        points = self.interior_points()
+        # not the very middle: symmetric parts have other surfaces through it
+        return points[int(np.argmax(self.distance(points)))]
+
+    def interior_points(self) -> np.ndarray:
+        """(n, 2) some points inside, on lines across."""
         low = np.minimum(self.start.min(axis=0), self.end.min(axis=0))
         high = np.maximum(self.start.max(axis=0), self.end.max(axis=0))
         candidates = []
         for cut in (0.5, 0.382, 0.618, 0.213, 0.787, 0.09, 0.91):
             for axis in (0, 1):
                 candidates.append(self._spans(axis, low[axis] + cut * (high - low)[axis]))
-        points = np.concatenate(candidates) * self.scale
-        distance = self.distance(points)
-        # not the very middle: symmetric parts have other surfaces through it
-        return points[int(np.argmax(distance))]
+        return np.concatenate(candidates) * self.scale
 
     def _spans(self, axis: int, value: float) -> np.ndarray:
         """Points off the middle of the spans of a line that lie inside: (n, 2), scaled."""

@@ -31,10 +31,8 @@ from surfmesh.geometry.cad_surfaces.sheet_surface import SheetSurface
 from surfmesh.geometry.differential.sides import SideTopology, find_sides
 from surfmesh.geometry.inside_loops import nesting_depth
 from surfmesh.geometry.surface import Surface, surface_label
+from surfmesh.intersection.complex import measured_length
 from surfmesh.intersection.contents import region_area, region_cone
-
-CHORDS = 257
-"""Points that the length of a side is measured with."""
 
 TOLERANCE = 1e-10
 """Of the diagonal: sides that join, and edges on their surface."""
@@ -153,16 +151,11 @@ class _Sheet:
 
     def _add_edge(self, line: Line, length: float, start: int, end: int, degenerate: bool) -> None:
         curve = None if degenerate else CurveOnSurface(self.under, line, 0.0, 1.0)
-        measured = 0.0
-        if curve is not None:
-            points = curve.evaluate(np.linspace(0.0, length, CHORDS))[0]
-            measured = float(np.linalg.norm(np.diff(points, axis=0), axis=1).sum())
-        self.edges.append(
-            CadEdge(
-                curve=curve, t0=0.0, t1=length, start=start, end=end, tolerance=self.tolerance,
-                degenerate=degenerate, name="", length=measured,
-            )
+        edge = CadEdge(
+            curve=curve, t0=0.0, t1=length, start=start, end=end, tolerance=self.tolerance,
+            degenerate=degenerate, name="", length=0.0,
         )  # fmt: skip
+        self.edges.append(edge if degenerate else replace(edge, length=measured_length(edge)))
 
     def _polygons(self) -> tuple[tuple[CadCoedge, ...], ...]:
         """Trimming polygons: an edge a segment; outer ones counter-clockwise."""

@@ -106,7 +106,8 @@ def branch_ways(
     a: FaceSurface, b: FaceSurface, uv_a: np.ndarray, uv_b: np.ndarray
 ) -> tuple[str, list[np.ndarray]]:
     """What two surfaces do where they have one tangent plane: "cross" with the four unit
-    directions (3,) in which their curves leave, "touch" in a point, or "along" a curve."""
+    directions (3,) in which their curves leave, "touch" in a point, "along" a curve with its two
+    directions, or "flat", where they do not bend apart: they may be one surface."""
     _, ru, rv = (value[0] for value in a.evaluate(uv_a[None], 1))
     normal = np.cross(ru, rv)
     normal /= np.linalg.norm(normal)
@@ -116,8 +117,11 @@ def branch_ways(
     values, axes = np.linalg.eigh(bent)
     size = np.abs(values).max()
     curved = max(np.abs(_second(a, uv_a, normal, frame)).max(), size)
-    if size <= FLAT * curved or np.abs(values).min() <= FLAT * size:
-        return "along", []
+    if size <= FLAT * curved:
+        return "flat", []
+    if np.abs(values).min() <= FLAT * size:
+        way = axes[:, int(np.argmin(np.abs(values)))] @ frame
+        return "along", [way, -way]
     if values[0] * values[1] > 0.0:
         return "touch", []
     slope = np.sqrt(-values[0] / values[1])

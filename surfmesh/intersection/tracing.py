@@ -24,7 +24,7 @@ class End:
     way: (3,) unit direction into both faces. node: its number; image_a, image_b: which of the
     places in (u, v) of the faces it is. singular: a branch point, or a pole of a surface, where
     no normal tells the way. rate_a, rate_b: (2,) of u and v along the way, where the surfaces do
-    not say.
+    not say. touches: the surfaces have one tangent plane along the curve that leaves.
     """
 
     node: int
@@ -37,6 +37,7 @@ class End:
     singular: bool = False
     rate_a: np.ndarray | None = None
     rate_b: np.ndarray | None = None
+    touches: bool = False
     used: bool = field(default=False, compare=False)
 
 
@@ -44,7 +45,8 @@ class End:
 class Trace:
     """Points of a branch (n, 3), their (u, v) on both surfaces (n, 2); start and end.
 
-    A closed branch has its first point once more at the end, and no ends.
+    A closed branch has its first point once more at the end, and no ends. touches: the surfaces
+    have one tangent plane all along.
     """
 
     points: np.ndarray
@@ -52,6 +54,7 @@ class Trace:
     uv_b: np.ndarray
     start: End | None
     end: End | None
+    touches: bool = False
 
     @property
     def closed(self) -> bool:

@@ -62,16 +62,41 @@ def sweep(folder: Path) -> list[Path]:
     return removed
 
 
+def held(mark: Path) -> FileIO:
+    """A file that is there, open and locked until it is closed: its folder is in use.
+
+    Raises ``OSError``.
+    """
+    file = FileIO(os.open(mark, os.O_RDWR | _FLAGS), "r+")
+    _locked(file.fileno())
+    file.write(_machine().encode())
+    return file
+
+
+def is_left(mark: Path) -> bool:
+    """Did the process that ``held`` a file end without removing its folder? Judged as in ``sweep``,
+    a change of the folder counts too. Not where it cannot be looked at."""
+    with suppress(OSError), FileIO(os.open(mark, os.O_RDWR | _FLAGS), "r+") as file:
+        here = file.read(8) == _machine().encode()
+        return _is_left(file.fileno(), here, os.stat(mark.parent).st_mtime)
+    return False
+
+
+def _is_left(descriptor: int, here: bool, changed: float = 0.0) -> bool:
+    """Does nobody write the open file any more? changed: when it was, at least."""
+    found = os.fstat(descriptor)
+    own = not hasattr(os, "geteuid") or found.st_uid == os.geteuid()
+    old = time.time() - max(found.st_mtime, changed) > AGE
+    free = _locked(descriptor)
+    return own and free is not False and (old or (here and bool(free)))
+
+
 def _removed(path: str, here: bool) -> bool:
     if not stat.S_ISREG(os.lstat(path).st_mode):
         return False
     descriptor = os.open(path, os.O_RDWR | _FLAGS)
     try:
-        found = os.fstat(descriptor)
-        own = not hasattr(os, "geteuid") or found.st_uid == os.geteuid()
-        old = time.time() - found.st_mtime > AGE
-        free = _locked(descriptor)
-        if not own or free is False or not (old or (here and free)):
+        if not _is_left(descriptor, here):
             return False
         if fcntl is not None:
             os.unlink(path)  # while the lock is ours: nobody begins to write it

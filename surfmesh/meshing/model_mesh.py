@@ -33,6 +33,7 @@ from surfmesh.meshing.finishing.edge_collapse import LEAST, simplified
 from surfmesh.meshing.patch.refinement_loop import MAX_ROUNDS, refined_in_rounds
 from surfmesh.meshing.processors import allowed_threads
 from surfmesh.meshing.progress import Progress, Stopwatch
+from surfmesh.meshing.solids.crowded_chords import with_crowded_chords_cut
 from surfmesh.meshing.solids.joining import joined_mesh, limits_where_crowded
 from surfmesh.meshing.solids.model_findings import (
     not_refined,
@@ -68,7 +69,10 @@ def mesh_model(
     """
     if strict:
         require_all_read(model)
-    how = _How(optimise, strict, workers or FaceWorkers(), rounds, Stopwatch(progress))
+    watch, workers = Stopwatch(progress), workers or FaceWorkers()
+    if watch.counts_work:  # which ends at the same face everywhere
+        workers = replace(workers, at_once=1)
+    how = _How(optimise, strict, workers, rounds, watch)
     asked = model_sizing(model, sizing)
     aims = VolumeAims(model, asked.base.volume)
 
@@ -145,6 +149,7 @@ class _Rounds:
                 mesh = self._joined()
         if self.how.strict:
             require_all_meshed(self.model, self.faces)
+        mesh = with_crowded_chords_cut(self.model, mesh)
         mesh = mesh.replaced(promises=self.wanted.promises(len(self.faces)))
         return mesh.with_warnings(*not_refined(not_refined_yet))
 

@@ -24,8 +24,14 @@ from surfmesh.meshing.boundary.kink_segments import sides_met, with_kinks
 from surfmesh.meshing.estimate.estimation import Estimate, field_triangles, require_field_within
 from surfmesh.meshing.estimate.trial_mesh import WHOLE, counts_within_budget
 from surfmesh.meshing.estimate.trial_patches import triangles_per_unit
-from surfmesh.meshing.patch.patch_mesh import mesh_patch
-from surfmesh.meshing.patch.refinement_loop import StagnationCheck, refined_in_rounds
+from surfmesh.meshing.patch.patch_mesh import PatchMesh, mesh_patch
+from surfmesh.meshing.patch.proof_requests import requests_for_proof
+from surfmesh.meshing.patch.refinement_loop import (
+    MAX_ROUNDS,
+    MAX_ROUNDS_FOR_PROOF,
+    StagnationCheck,
+    refined_in_rounds,
+)
 from surfmesh.meshing.patch.size_requests import joined
 from surfmesh.meshing.progress import Progress, Stopwatch
 from surfmesh.result.surface_mesh import SurfaceMesh
@@ -91,7 +97,8 @@ class _Rounds:
 
     def mesh(self) -> SurfaceMesh:
         """The mesh of the last round. Raises ``MeshingError`` where its sides are not joined."""
-        mesh, bad = refined_in_rounds(self._round, SizeLimits.joined_with)
+        rounds = MAX_ROUNDS_FOR_PROOF if self.sizing.proof else MAX_ROUNDS
+        mesh, bad = refined_in_rounds(self._round, SizeLimits.joined_with, rounds)
         if len(bad):
             place = ", ".join(f"{x:.6g}" for x in mesh.points[bad[0]])
             raise MeshingError(
@@ -156,8 +163,20 @@ class _Rounds:
             one_sided=sides.one_sided and not len(surface.loops),
             facts=known_facts(surface),
         )
-        requests = joined(*patch.requests, patch.limits_for_seams(FINER))
+        unjoined, unproved = patch.limits_for_seams(FINER), self._unproved(patch)
+        requests = joined(*patch.requests, unjoined, unproved)
         return mesh, requests, patch.space.non_manifold
+
+    def _unproved(self, patch: PatchMesh) -> SizeLimits | None:
+        """What is asked for where the chord is not proved to hold."""
+        space, roots = patch.space, patch.metric_root_3d
+        if not self.optimise or len(space.non_manifold):
+            return None
+        corners = space.uv_triangles
+        return requests_for_proof(
+            self.surface, self.sizing, space.points, space.triangles, patch.uv[corners],
+            patch.sizes, None if roots is None else roots[corners[:, 0]],
+        )  # fmt: skip
 
     def _boundary(self, field: SizeField) -> BoundaryLoops:
         if not self.kinks:

@@ -12,8 +12,8 @@ from surfmesh.errors import Cancelled
 Progress = Callable[[str, float], object]
 """Called with the name of the stage and the fraction of the work done, 0 to 1, never falling.
 
-Called when a stage starts, before each pass of the optimiser and before each face of a CAD model,
-in the thread that meshes. Returning False (not None) stops the work with ``Cancelled``; what it
+Called when a stage starts, before each pass of the optimiser and when faces of a CAD model are
+done, in the thread that meshes. Returning False (not None) stops the work with ``Cancelled``; what it
 raises comes through.
 """
 
@@ -80,6 +80,11 @@ class Stopwatch:
             self._tell(self._done + _NEARER * max(0.0, last - self._done))
         else:
             self._tell(first + within * (last - first))
+
+    @property
+    def counts_work(self) -> bool:
+        """Is there a ``WorkBudget``?"""
+        return isinstance(self._progress, WorkBudget)
 
     def spend(self, units: int) -> None:
         """Take work that was done from a ``WorkBudget``, if there is one."""

@@ -13,6 +13,7 @@ from surfmesh.quality.figures.accuracy import (
 from surfmesh.quality.figures.area_and_volume import AreaAndVolume
 from surfmesh.quality.figures.counts import Counts
 from surfmesh.quality.figures.figures import Figures
+from surfmesh.quality.figures.proof import ProofFigures
 from surfmesh.quality.figures.provenance import Provenance, options_of
 from surfmesh.quality.figures.shape import FoldFigures, ShapeFigures
 from surfmesh.quality.figures.sizes import SizeFigures
@@ -44,7 +45,7 @@ class Report(Figures):
         return summary(self)
 
 
-def check(mesh: SurfaceMesh, *, second_opinion: bool = False) -> Report:
+def check(mesh: SurfaceMesh, *, second_opinion: bool = False, prove: bool | None = None) -> Report:
     """Look at everything that can be said of ``mesh``: topology, self-intersection, shape,
     sizes, deviation, each of them against the model where that is known.
 
@@ -52,12 +53,17 @@ def check(mesh: SurfaceMesh, *, second_opinion: bool = False) -> Report:
     volume, shapes, beside ours in ``report.second_opinion``. Where they disagree by more than
     rounding the mesh is not clean.
 
+    prove=True bounds how far mesh and surfaces are from each other at most, both ways, in
+    ``report.proof``: see docs/proof.md. None: where ``Sizing(proof=True)`` was asked for, and a
+    triangle that is not proved is a problem then.
+
     Raises ``ValueError`` when its indices are out of range; everything else that is wrong is
     in ``report.problems``.
     """
     start = perf_counter()
     measured = Measurements(mesh)
-    report = _report(measured)
+    promised = mesh.sizing is not None and mesh.sizing.proof
+    report = _report(measured, promised if prove is None else prove)
     del measured
     return_free_memory(len(mesh.triangles))
     report = replace(report, seconds={**mesh.seconds, "check": perf_counter() - start})
@@ -76,7 +82,7 @@ def with_second_opinion(report: Report, mesh: SurfaceMesh) -> Report:
     )
 
 
-def _report(measured: Measurements) -> Report:
+def _report(measured: Measurements, prove: bool) -> Report:
     """All that can be said without the time that it took."""
     mesh, shapes, fit = measured.mesh, measured.shapes, measured.deviation
     faces = by_face(measured)
@@ -98,8 +104,9 @@ def _report(measured: Measurements) -> Report:
         area_and_volume=AreaAndVolume.of(measured),
         by_face=faces,
         by_solid=measured.solids,
+        proof=ProofFigures.of(measured) if prove else None,
         provenance=Provenance.of(measured),
         seconds=mesh.seconds,
-        findings=(*problems(measured, faces), *remarks(measured)),
+        findings=(*problems(measured, faces, prove), *remarks(measured, prove)),
         options=options_of(mesh.sizing),
     )

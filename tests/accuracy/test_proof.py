@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from surfmesh.quality.measures.triangle_distances import triangle_distances
+from surfmesh._core.space import triangle_distances
 
 import surfmesh as sm
 from surfmesh.accuracy.proof import FaceTriangles, proved_distances, twins_of

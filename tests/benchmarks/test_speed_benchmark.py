@@ -58,11 +58,14 @@ def test_medians_and_shape():
     assert found["triangles"] == 1 and found["alpha_min"] == pytest.approx(1.0)
 
 
-def test_what_is_missed_is_counted(tmp_path):
-    from speed import SECTIONS, Figures, _show
+def test_figures_are_printed_at_once_and_what_is_missed_is_counted(tmp_path, capsys):
+    from speed import Figures
     from wanted import Wanted
 
     figures = Figures(tmp_path)
-    for value in (1.0, 3.0, None):
-        figures.add(Wanted("times as fast", least=2.0), value)
-    assert _show(next(iter(SECTIONS)), figures) == 1
+    for value, mark in ((1.0, "MISSED"), (3.0, "met"), (None, "")):
+        figures.add(Wanted("times as fast", least=2.0), value, "said [of it]")
+        line = capsys.readouterr().out
+        assert "times as fast" in line and ">= 2.000" in line and "said [of it]" in line
+        assert ("MISSED" in line, "met" in line) == (mark == "MISSED", mark == "met")
+    assert figures.missed == 1

@@ -48,6 +48,8 @@ KEYWORDS: dict[str, bytes] = {
     ".vtu": b"VTKFile UnstructuredGrid Piece Points Cells DataArray PointData CellData FieldData "
     b"AppendedData ascii binary appended base64 raw Int8 UInt8 Int32 Int64 UInt64 Float32 Float64 "
     b"String connectivity offsets types LittleEndian BigEndian vtkZLibDataCompressor UInt32",
+    ".pvtu": b"VTKFile PUnstructuredGrid Piece Source PPoints PCells PDataArray PPointData "
+    b"PCellData FieldData DataArray GlobalPointIds GlobalCellIds ascii Int32 Float64 ../",
     ".vtp": b"VTKFile PolyData Piece Points Polys Strips Verts Lines DataArray ascii binary "
     b"appended base64 raw Int32 Int64 UInt64 Float32 Float64 connectivity offsets NumberOfPolys",
     ".stl": b"solid facet normal outer loop vertex endloop endfacet endsolid",
@@ -85,7 +87,8 @@ KEYWORDS: dict[str, bytes] = {
     "sizes": b"sizes chord size min_size max_size angle growth anisotropy volume gap sources near "
     b"lines ball box radius width axis reach = [sizes.\"*\"] [[sizes.\"*\".sources]]",
 }  # fmt: skip
-XML = (".vtu", ".vtp", ".xdmf", ".3mf", "drawing")
+KEYWORDS[".pvtu piece"] = KEYWORDS[".vtu"] + b" GlobalPointIds GlobalCellIds vtkGhostType"
+XML = (".vtu", ".vtp", ".pvtu", ".pvtu piece", ".xdmf", ".3mf", "drawing")
 BINARY_ONLY = (".med", ".glb")
 OF_MODELS = (
     "extreme_number", "changed_count", "line_dropped", "line_doubled", "keyword", "odd_text",
@@ -160,7 +163,7 @@ def _changes(kind: str) -> list[str]:
         found += ["lines_mixed", "keyword", "keyword", "odd_text", "words_swapped", "record"]
     if kind in XML:
         found += ["attribute", "attribute", "tag_dropped", "nested", "entities", "tag_doubled"]
-    if kind in (".vtu", ".vtp"):
+    if kind in (".vtu", ".vtp", ".pvtu", ".pvtu piece"):
         found += ["groups_array", "base64_block"]
     if kind == ".3mf":
         found = ["bits", "extreme_bytes", "dropped", "members", "members"] + ["model"] * 12

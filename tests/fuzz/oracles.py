@@ -14,7 +14,7 @@ from pathlib import Path
 from typing import Any
 
 from fuzz.mutations import MARK, Mutant
-from fuzz.seed_files import CAD, MESHES, originals
+from fuzz.seed_files import CAD, MESHES, in_pieces, originals
 
 OPEN_ENDED = (".obj", ".inp", ".off", ".ply")  # of other programs: their last number may be cut
 LONGEST = 1000  # characters of a message
@@ -47,6 +47,28 @@ def _mesh(path: Path, found: Mutant) -> str:
     return (
         f"{mesh}; {broken or 'sound'}{_saved(mesh, path.with_name('again' + [*FORMATS][number]))}"
     )
+
+
+def _index(path: Path, found: Mutant) -> str:
+    """A damaged index beside good pieces."""
+    _put_pieces(path.parent)
+    return _mesh(path, found._replace(changes=()))
+
+
+def _piece(path: Path, found: Mutant) -> str:
+    """A damaged piece beside good ones, below a good index."""
+    _put_pieces(path.parent)
+    whole = originals(".pvtu piece")[found.source]
+    place = next(name for name, data in in_pieces().items() if data == whole)
+    (path.parent / place).write_bytes(found.data)
+    index = (path.parent / place).parent.name.removesuffix(".pieces")
+    return _mesh(path.with_name(index), found._replace(changes=()))
+
+
+def _put_pieces(folder: Path) -> None:
+    for name, data in in_pieces().items():
+        (folder / name).parent.mkdir(exist_ok=True)
+        (folder / name).write_bytes(data)
 
 
 def _held_together(mesh: Any) -> None:
@@ -213,6 +235,8 @@ _INPUTS = {
 
 TRIED: dict[str, Callable[[Path, Mutant], str]] = {
     **dict.fromkeys(MESHES, _mesh),
+    ".pvtu": _index,
+    ".pvtu piece": _piece,
     **dict.fromkeys(CAD, _cad),
     **{f"{kind} in a child": _cad_in_child for kind in CAD},
     "surface": _surface,

@@ -17,7 +17,9 @@ MESHES = (".vtu", ".vtp", ".stl", ".obj", ".ply", ".glb", ".msh", ".inp", ".bdf"
           ".med", ".3mf")  # fmt: skip
 CAD = ("step", "iges", "brep")
 TEXTS = ("surface", "domain", "drawing", "sizes")
+PIECES = (".pvtu", ".pvtu piece")  # of a mesh in several files: the index, and one of the others
 EXTENSION = {kind: f".{kind}" for kind in CAD} | {kind: ".toml" for kind in TEXTS}
+EXTENSION |= {".pvtu": ".pvtu", ".pvtu piece": ".vtu"}
 EXTENSION |= {"drawing": ".svg"} | {kind: kind for kind in MESHES}
 
 DRAWINGS = (
@@ -58,6 +60,12 @@ def originals(kind: str) -> tuple[bytes, ...]:
     """The files of one kind, the smallest first."""
     if kind in MESHES:
         made = [*_by_surfmesh(kind), *_by_others(kind)]
+    elif kind in PIECES:
+        made = [
+            data
+            for name, data in in_pieces().items()
+            if (name == Path(name).name) == (kind == PIECES[0])
+        ]
     elif kind in CAD:
         made = list(_by_cadquery(kind))
     else:
@@ -101,6 +109,21 @@ def _saved(mesh: SurfaceMesh, extension: str, **options: bool) -> bytes:
 
     with TemporaryDirectory() as folder:
         return mesh.save(Path(folder, f"mesh{extension}"), **options).read_bytes()
+
+
+@cache
+def in_pieces() -> dict[str, bytes]:
+    """Two indices with their pieces, by their paths below one folder."""
+    from tempfile import TemporaryDirectory
+    from unittest.mock import patch
+
+    from surfmesh.io import pvtu
+
+    with TemporaryDirectory() as folder, patch.object(pvtu, "LARGEST", 12):
+        for name, mesh in (("blocks", two_blocks()), ("torus", torus())):
+            mesh.save(Path(folder, f"{name}.pvtu"))
+        paths = sorted(path for path in Path(folder).rglob("*") if path.is_file())
+        return {path.relative_to(folder).as_posix(): path.read_bytes() for path in paths}
 
 
 def _by_surfmesh(extension: str) -> Iterator[bytes]:

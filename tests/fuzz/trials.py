@@ -25,9 +25,9 @@ from typing import NamedTuple
 from fuzz.command_lines import command_line
 from fuzz.mutations import Mutant, mutant
 from fuzz.oracles import LONGEST, TRIED, Partial, Wrong
-from fuzz.seed_files import CAD, EXTENSION, MESHES, TEXTS, originals
+from fuzz.seed_files import CAD, EXTENSION, MESHES, PIECES, TEXTS, originals
 
-KINDS = (*MESHES, *CAD, *TEXTS, "command")
+KINDS = (*MESHES, *PIECES, *CAD, *TEXTS, "command")
 FAULTS = ("crashed", "hung", "traceback", "memory", "noise", "wrong", "partial")
 PROCESSOR_SECONDS = 60  # far beyond what any takes: what uses more hangs
 CAD_SECONDS = 4  # before a CAD file is left to the child of read_cad

@@ -124,15 +124,6 @@ def test_surfaces_apart_stay_as_they_are():
     assert not common_edges(model)
 
 
-def test_contacts_are_refused_with_the_place():
-    bowl = sm.ParametricSurface("u", "v", "u**2 + v**2", u=(-1, 1.1), v=(-1, 1), name="bowl")
-    with pytest.raises(SurfaceError, match="bowl and plane touch at"):
-        sm.intersect([bowl, plane("0.0")])
-    again = sm.ParametricSurface("2*u", "v", "4*u**2 + v**2", u=(-1, 1), v=(-1, 1), name="again")
-    with pytest.raises(SurfaceError, match=r"lies on|touch"):
-        sm.intersect([bowl, again])
-
-
 def test_sides_are_kept_by_sign_and_by_point():
     pair = [sphere(name="ball"), plane("0.25 + 0.01*u", name="floor")]
     whole = sm.intersect(pair)

@@ -2,6 +2,8 @@
 
 import os
 import signal
+import subprocess
+import sys
 from concurrent.futures import ProcessPoolExecutor, ThreadPoolExecutor
 from multiprocessing import get_context
 from pathlib import Path
@@ -15,7 +17,7 @@ import pytest
 import surfmesh as sm
 from surfmesh import partitioned_mesh
 from surfmesh.errors import FileFormatError, MeshingError, SizingError
-from surfmesh.io import pvtu, read
+from surfmesh.io import leftovers, pvtu, read
 from surfmesh.meshing.faces import partitions
 from surfmesh.partitioned_mesh import mesh_into_pieces
 
@@ -103,17 +105,34 @@ def test_processes(model, tmp_path):
 
 
 def test_workers_that_do_not_share_the_folder_are_told(model, tmp_path, monkeypatch):
-    made = partitions.FaceStore.made_in
+    def elsewhere(mark):
+        file = leftovers.held(mark)
+        mark.unlink()
+        return file
 
-    def elsewhere(place):
-        store = made(place)
-        Path(store.folder, partitions.MARK).unlink()
-        return store
-
-    monkeypatch.setattr(partitions.FaceStore, "made_in", elsewhere)
+    monkeypatch.setattr(partitioned_mesh, "held", elsewhere)
     with ThreadPoolExecutor(1) as executor, pytest.raises(MeshingError, match="share"):
         mesh_into_pieces(tmp_path / "part.pvtu", model, SIZE, executor)
     assert list(tmp_path.iterdir()) == []
+
+
+def test_faces_of_killed_callers_are_swept(model, tmp_path):
+    """A caller that ends without a word leaves its folder; one that lives keeps it."""
+    script = (
+        "import os, sys; from pathlib import Path; from surfmesh.io import pvtu, leftovers\n"
+        "from surfmesh.meshing.faces.partitions import FaceStore\n"
+        "store = FaceStore.made_in(pvtu.folder_of(Path(sys.argv[1])))\n"
+        "held = leftovers.held(store.mark); Path(store.folder, 'face.npz').touch(); os._exit(9)"
+    )
+    target = tmp_path / "part.pvtu"
+    subprocess.run([sys.executable, "-c", script, str(target)], check=False)
+    (left,) = partitions.FaceStore.all_in(pvtu.folder_of(target))
+    alive = partitions.FaceStore.made_in(pvtu.folder_of(target))
+    with leftovers.held(alive.mark), ThreadPoolExecutor(1) as executor:
+        found = mesh_into_pieces(target, model, SIZE, executor)
+        assert not Path(left.folder).exists() and alive.mark.is_file()
+    alive.remove()
+    require_same(read(found.path), sm.mesh(model, SIZE), tmp_path)
 
 
 def test_a_failure_leaves_the_old_mesh(model, tmp_path, monkeypatch):

@@ -13,8 +13,7 @@ import numpy as np
 from surfmesh.geometry.differential.fundamental_forms import curvatures
 from surfmesh.meshing.explain.askers import DEFAULT, Askers, bound_row, words
 from surfmesh.meshing.explain.size_row import EXACT, SizeRow, deciding
-from surfmesh.sizing.field.size_law import Local, SizeLaw
-from surfmesh.sizing.field.two_sizes import TwoSizes
+from surfmesh.sizing.field.size_law import FieldNodes, Local, SizeLaw
 from surfmesh.sizing.rules.rule import CurvatureRule, PlaceRule, Rule
 from surfmesh.sizing.rules.size_rules import Bound, SizeRules
 
@@ -62,16 +61,17 @@ def rulings(law: SizeLaw, askers: Askers, uv: np.ndarray) -> tuple[Ruling, Rulin
     local = law.local(law.chart.to_plane(uv[None]))
     every = curvatures(local.forms)
     k = _curvatures(local)
-    found, along_first = law.by_principal_directions(local, every)
+    found = law.after(rims=0)(local.at.xy)
     ratio = law.sizing.anisotropy
-    axes = (1, 0) if along_first[0] else (0, 1)  # principal directions: across, along
+    first, second = law.rules.principal(every.k1, every.k2)[0]
+    axes = (1, 0) if first > second else (0, 1)  # principal directions: across, along
     rows = [principal_rows(law.rules, askers, k, axis, local.at.points, ratio) for axis in axes]
     sizes = _both(found)
     winners = [
         _winner(own, size, other, law.rules, k)
         for own, size, other in zip(rows, sizes, reversed(sizes))
     ]
-    for rule in law.directed:
+    for number, rule in enumerate(law.directed):
         at, limits = rule.limits(local.at)
         if not len(at):
             continue
@@ -79,7 +79,7 @@ def rulings(law: SizeLaw, askers: Askers, uv: np.ndarray) -> tuple[Ruling, Rulin
             size = float(limits.along(local.at.points, direction[None, None])[0, 0])
             if np.isfinite(size):
                 own.append(SizeRow(askers.key_of(rule), words(rule), max(size, law.clamp[0])))
-        found.lower_at(at, limits, law.clamp[0])
+        found = law.after(rims=number + 1)(local.at.xy)
         for side, size in enumerate(_both(found)):
             if size < sizes[side] * (1.0 - EXACT):
                 winners[side] = SizeRow(askers.key_of(rule), words(rule), size)
@@ -170,10 +170,10 @@ def _curvatures(local: Local) -> tuple[float, float] | None:
     return float(k.k1[0]), float(k.k2[0])
 
 
-def _both(found: TwoSizes) -> tuple[float, float]:
+def _both(found: FieldNodes) -> tuple[float, float]:
     return float(found.size[0]), float(found.long[0])
 
 
-def _directions(found: TwoSizes) -> tuple[np.ndarray, np.ndarray]:
+def _directions(found: FieldNodes) -> tuple[np.ndarray, np.ndarray]:
     """(3,), (3,) that the shorter and the longer size hold along."""
     return np.cross(found.normal[0], found.along[0]), found.along[0]

@@ -14,6 +14,8 @@ tube_triangles: the long triangles of thin tips and necks, put beside the mesh o
     a face.
 strip_triangulation: faces without inside: triangles between the nodes of two sides that face
     each other.
+inward_faces: faces whose sizes the core grows inward from their edges.
+face_queue: ordinary faces, which the core meshes one after the other without the interpreter.
 partitions: meshes of faces that stay in files which all workers see.
 face_workers: who meshes the faces: this thread, threads of this process, or any executor.
 opposite_faces: two sides of a wall thinner than the chord: meshed once, so that they do not cross.

@@ -32,20 +32,16 @@ from surfmesh.meshing.faces.face_repair import (
     no_point,
     untangled_job,
 )
+from surfmesh.meshing.faces.inward_faces import inward_face, manner_of
 from surfmesh.meshing.faces.strip_triangulation import strip_mesh
 from surfmesh.meshing.faces.thin_tubes import without_tubes
 from surfmesh.meshing.faces.tube_limits import seam_limits
 from surfmesh.meshing.faces.tube_triangles import with_tubes
 from surfmesh.meshing.patch.patch_mesh import patch_error
+from surfmesh.meshing.patch.proof_requests import requests_for_proof
 from surfmesh.meshing.patch.size_requests import SizeRequests, joined
-from surfmesh.sizing.field.boundary_field import (
-    boundary_field,
-    has_boundary_field,
-    largest_size,
-    speeds_of,
-)
+from surfmesh.sizing.field.boundary_field import boundary_field, has_boundary_field
 from surfmesh.sizing.field.size_field import SizeField, size_field
-from surfmesh.sizing.options.sizing import Sizing
 from surfmesh.sizing.rules.size_limits import SizeLimits, along_lines
 
 logger = logging.getLogger(__name__)
@@ -86,14 +82,19 @@ def _mesh_parts(job: FaceJob) -> FaceMesh:
     return mesh if mesh.failure else with_tubes(job, rest, mesh, tubes, slots)
 
 
-def _mesh_rest(job: FaceJob) -> FaceMesh:
+def continued(job: FaceJob, begun: core.FaceMesh) -> FaceMesh:
+    """What becomes of a face that the core has begun, by ``inward_face``."""
+    return mesh_face(job) if begun.end == FaceEnd.TUBES else _mesh_rest(job, begun)
+
+
+def _mesh_rest(job: FaceJob, begun: core.FaceMesh | None = None) -> FaceMesh:
     """Mesh a face without thin tips and necks, or what is left of one."""
     try:
         strip = strip_mesh(job)
         if strip is not None:
             return strip
         try:
-            return _never_empty(job, _meshed(job))
+            return _never_empty(job, _meshed(job, begun=begun))
         except SurfaceError:
             if job.exact is not None and job.exact.fault:
                 return FaceMesh(failure=job.exact.fault, unmeshable=True)
@@ -151,9 +152,11 @@ def edge_refinement(job: FaceJob) -> SizeLimits | None:
     return sizes_along_edges(job.sizing, coarse)
 
 
-def _meshed(job: FaceJob, unfold: bool = True) -> FaceMesh:
+def _meshed(
+    job: FaceJob, unfold: bool = True, begun: core.FaceMesh | None = None
+) -> FaceMesh:  # fmt: skip
     """unfold: ask for smaller sizes at folds. In space, edges that cross do so at any size."""
-    made = _made(job)
+    made = _made(job, begun)
     patch, gradient = made.patch, job.sizing.gradient
     mapped = patch.mapped
     if made.end == FaceEnd.NOT_JOINED:
@@ -166,59 +169,37 @@ def _meshed(job: FaceJob, unfold: bool = True) -> FaceMesh:
         )
     chord, folds, angle = SizeRequests.of(patch.requests, gradient)
     along = sizes_along_edges(job.sizing, made.coarse)  # the edges follow them from now on
+    roots = patch.metric_root_3d if job.sizing.is_anisotropic else None
+    unproved = None
+    if job.optimise and job.sizing.proof:
+        corners = mapped.uv_triangles
+        unproved = requests_for_proof(
+            job.surface, job.sizing, mapped.points, mapped.triangles, mapped.uv[corners],
+            mapped.sizes, None if roots is None else roots[corners[:, 0]],
+        )  # fmt: skip
+        unproved = None if unproved is None else replace(unproved, uv=None)
     return FaceMesh(
         mapped.points, made.slots, mapped.triangles, mapped.uv, mapped.uv_triangles, mapped.sizes,
-        patch.metric_root_3d if job.sizing.is_anisotropic else None,
-        joined(angle, folds if unfold else None, chord, along),
+        roots, joined(angle, folds if unfold else None, chord, along, unproved),
     )  # fmt: skip
 
 
-def _made(job: FaceJob) -> core.FaceMesh:
+def _made(job: FaceJob, made: core.FaceMesh | None) -> core.FaceMesh:
     """What the core makes of a face; what failed is raised, but for sides that are not joined."""
-    made = _grown_and_meshed(job) if _can_grow_inward(job) else None
+    inward = inward_face(job) if made is None else None
+    if inward is not None:
+        made = core.mesh_inward(inward)
     if made is None or made.end == FaceEnd.UNPREPARED:
         surface, field = face_field(job)
         made = core.mesh_face(
             as_core_surface(surface), field.chart.core, field.background, _polygons(job, field),
-            _manner(job, field.sizing),
+            manner_of(job, field.sizing),
         )  # fmt: skip
     if made.end == FaceEnd.RUNS_TWICE:
         raise SurfaceError(f"the boundary of {job.surface.name!r} runs twice the same way")
     if made.end == FaceEnd.PATCH_FAILED:
         raise patch_error(made.patch, made.uv, made.segments, job.surface)
     return made
-
-
-def _can_grow_inward(job: FaceJob) -> bool:
-    """Does the core know all of a face's sizes: those of its edges and one that bounds them?"""
-    sizing = job.sizing
-    return (
-        job.limits is None
-        and not sizing.is_anisotropic
-        and not (sizing.chord is None and sizing.angle is None and sizing.size is None)
-        and has_boundary_field(job.surface, sizing)
-        and not job.boundary.has_degenerate
-    )
-
-
-def _grown_and_meshed(job: FaceJob) -> core.FaceMesh | None:
-    """A plane or a cylinder with the sizes of its edges, grown inward; None without a box."""
-    surface, sizing, domain = job.surface, job.sizing, job.boundary.box
-    if not all(first < last for first, last in domain):
-        return None
-    return core.mesh_inward(
-        as_core_surface(surface), job.boundary, speeds_of(surface),
-        largest_size(surface, sizing, domain), sizing.gradient, _manner(job, sizing),
-    )  # fmt: skip
-
-
-def _manner(
-    job: FaceJob, sizing: Sizing
-) -> tuple[float | None, float | None, float, bool, bool, bool]:
-    return (
-        sizing.chord, sizing.angle, sizing.min_size or 0.0,
-        job.optimise, job.limits is None, sizing.is_anisotropic,
-    )  # fmt: skip
 
 
 def face_field(job: FaceJob) -> tuple[FaceSurface, SizeField]:

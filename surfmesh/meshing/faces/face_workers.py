@@ -8,15 +8,16 @@ A face is meshed from plain arrays and knows nothing of the others, so that its 
 whoever makes it, and when.
 """
 
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from concurrent.futures import BrokenExecutor, Executor, Future, ThreadPoolExecutor
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from heapq import heappop, heappush
 from queue import SimpleQueue
 
 from surfmesh.errors import MeshingError
 from surfmesh.meshing.faces.face_data import FaceJob, FaceMesh
 from surfmesh.meshing.faces.face_mesh import mesh_face
+from surfmesh.meshing.faces.face_queue import FaceQueue
 from surfmesh.meshing.faces.partitions import FaceStore
 from surfmesh.meshing.processors import allowed_threads
 
@@ -30,6 +31,9 @@ FACE_WORK = 400
 
 WITHIN_ONE = 0.7
 """What a thread does within a face that several mesh, of what it does on one of its own."""
+
+AT_ONCE = 10_000
+"""Triangles that a thread makes before it hands them over: some hundredths of a second."""
 
 LITTLE = 20_000
 """Work in all, in triangles, that threads are not begun for: some hundredths of a second."""
@@ -45,78 +49,90 @@ class FaceWorkers:
     """Instead of threads: processes, or other machines. Jobs and meshes are pickled."""
     store: FaceStore | None = None
     """Where the meshes of faces stay; None: with the caller."""
+    at_once: int = AT_ONCE
+    """Triangles that a thread makes before the caller hears of them; at least a face."""
 
-    @property
-    def work(self) -> Callable[[FaceJob], FaceMesh]:
-        """What is done for each face."""
-        return mesh_face if self.store is None else self.store.meshed
+    def work(self, job: FaceJob) -> FaceMesh:
+        """Mesh a face."""
+        return self.kept(mesh_face(job))
 
     def kept(self, mesh: FaceMesh) -> FaceMesh:
         """A mesh that the caller has made of others, as ``meshed`` gives it."""
         return mesh if self.store is None else self.store.kept(mesh)
 
     def meshed(self, jobs: list[FaceJob]) -> Iterator[tuple[int, FaceMesh]]:
-        """The number and the mesh of each job; by threads in the order in which they are done.
+        """The number and the mesh of each job, in the order in which they are done.
 
         Where the iterator is closed early, what has not begun is not done. Raises
         ``MeshingError`` when the executor has lost its workers.
         """
-        work = list(map(expected_work, jobs))
         if self.executor is not None:
-            yield from _by_executor(self.executor, jobs, BATCHES, self.work)
-        elif self.threads > 1 and sum(work) > LITTLE:
-            yield from self._by_threads(jobs, work)
-        else:
-            yield from enumerate(map(self.work, jobs))
+            yield from _by_executor(self.executor, jobs, BATCHES, replace(self, executor=None))
+            return
+        work = list(map(expected_work, jobs))
+        waiting = sorted(range(len(jobs)), key=lambda k: (-work[k], k))
+        threads = self.threads if sum(work) > LITTLE else 1
+        if threads > 1 and self._is_to_be_shared(work[waiting[0]], sum(work)):
+            largest = waiting.pop(0)
+            with allowed_threads(threads):
+                mesh = self.work(jobs[largest])
+            yield largest, mesh
+        queue = FaceQueue(jobs, waiting)
+        if threads > 1:
+            yield from self._by_threads(jobs, queue, len(waiting))
+            return
+        yield from ((k, self.work(jobs[k])) for k in queue.left)
+        while made := queue.work(self.at_once):
+            yield from ((k, self.kept(mesh)) for k, mesh in made)
 
     def _is_to_be_shared(self, largest: float, whole: float) -> bool:
         """Is all done sooner where threads work on the largest face together, then on the rest?"""
         shared = largest / (WITHIN_ONE * self.threads) + (whole - largest) / self.threads
         return largest > max(shared, whole / self.threads)
 
-    def _by_threads(self, jobs: list[FaceJob], work: list[float]) -> Iterator[tuple[int, FaceMesh]]:
-        """Most work first; what would keep one thread busy for long after all has all threads."""
-        waiting = sorted(range(len(jobs)), key=lambda k: (work[k], -k))  # the last is taken first
-        if self._is_to_be_shared(work[waiting[-1]], sum(work)):
-            largest = waiting.pop()
-            with allowed_threads(self.threads):
-                mesh = self.work(jobs[largest])
-            yield largest, mesh
-        done: SimpleQueue[tuple[int, FaceMesh] | BaseException] = SimpleQueue()
-        left = len(waiting)
+    def _by_threads(
+        self, jobs: list[FaceJob], queue: FaceQueue, left: int
+    ) -> Iterator[tuple[int, FaceMesh]]:
+        """What the core does not mesh by itself is begun before all others. left: how many jobs."""
+        waiting = queue.left[::-1]  # the last is taken first
+        done: SimpleQueue[list[tuple[int, FaceMesh]] | BaseException] = SimpleQueue()
+
+        def next_ones() -> list[tuple[int, FaceMesh]]:
+            try:
+                k = waiting.pop()
+            except IndexError:  # none is left
+                return [(k, self.kept(mesh)) for k, mesh in queue.work(self.at_once)]
+            return [(k, self.work(jobs[k]))]
 
         def take_all() -> None:
-            while True:
-                try:
-                    k = waiting.pop()
-                except IndexError:  # none is left
-                    return
-                try:
-                    done.put((k, self.work(jobs[k])))
-                except BaseException as error:
-                    done.put(error)
-                    return
+            try:
+                while made := next_ones():
+                    done.put(made)
+            except BaseException as error:
+                done.put(error)
 
         with ThreadPoolExecutor(self.threads) as pool:
             try:
-                for _ in range(min(self.threads, left)):
+                for _ in range(self.threads):
                     pool.submit(take_all)
-                for _ in range(left):
+                while left:
                     found = done.get()
                     if isinstance(found, BaseException):
                         raise found
-                    yield found
+                    left -= len(found)
+                    yield from found
             finally:
                 waiting.clear()
+                queue.stop()
 
 
 def _by_executor(
-    executor: Executor, jobs: list[FaceJob], batches: int, work: Callable[[FaceJob], FaceMesh]
+    executor: Executor, jobs: list[FaceJob], batches: int, workers: FaceWorkers
 ) -> Iterator[tuple[int, FaceMesh]]:
     futures: dict[int, tuple[Future[list[FaceMesh]], int]] = {}
     try:
         for batch in batches_of(list(map(expected_work, jobs)), batches):
-            future = executor.submit(_mesh_batch, work, [jobs[k] for k in batch])
+            future = executor.submit(_mesh_batch, workers, [jobs[k] for k in batch])
             futures.update({k: (future, place) for place, k in enumerate(batch)})
         for k in range(len(jobs)):
             future, place = futures[k]
@@ -128,8 +144,10 @@ def _by_executor(
             future.cancel()
 
 
-def _mesh_batch(work: Callable[[FaceJob], FaceMesh], jobs: list[FaceJob]) -> list[FaceMesh]:
-    return list(map(work, jobs))
+def _mesh_batch(workers: FaceWorkers, jobs: list[FaceJob]) -> list[FaceMesh]:
+    """By another process, with one thread."""
+    made = dict(replace(workers, threads=1).meshed(jobs))
+    return [made[k] for k in range(len(jobs))]
 
 
 def expected_work(job: FaceJob) -> float:

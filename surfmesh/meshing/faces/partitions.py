@@ -9,6 +9,7 @@ read again by whoever writes the partitions.
 import hashlib
 import io
 import os
+import re
 import secrets
 from dataclasses import dataclass, fields, replace
 from pathlib import Path
@@ -22,6 +23,8 @@ from surfmesh.meshing.faces.face_mesh import mesh_face
 
 MARK = "shared"
 """A file that the caller puts into the folder: who does not see it sees another folder."""
+
+_NAME = re.compile(r"faces-[0-9a-f]{16}")
 
 ARRAYS = ("points", "slots", "triangles", "uv_points", "uv_triangles", "sizes", "inverse_sizes")
 
@@ -67,6 +70,17 @@ class FaceStore:
         (folder / MARK).touch()
         return cls(str(folder.resolve()))
 
+    @classmethod
+    def all_in(cls, place: Path) -> list[Self]:
+        """Those that were made in ``place`` and are there, of whatever process."""
+        names = (entry for entry in place.glob("faces-*") if _NAME.fullmatch(entry.name))
+        return [cls(str(folder)) for folder in names if (folder / MARK).is_file()]
+
+    @property
+    def mark(self) -> Path:
+        """The file that says that the folder is there."""
+        return Path(self.folder, MARK)
+
     def meshed(self, job: FaceJob) -> FaceMesh:
         """Mesh a face and keep it."""
         return self.kept(mesh_face(job))
@@ -86,7 +100,7 @@ class FaceStore:
         # the same face has the same name, whoever makes it, and however often
         path = Path(self.folder, f"{hashlib.sha256(data).hexdigest()[:32]}.npz")
         try:
-            if not Path(self.folder, MARK).is_file():
+            if not self.mark.is_file():
                 raise FileNotFoundError(2, "it is not there")
             temporary = path.with_suffix(f".{os.getpid()}-{secrets.token_hex(4)}")
             temporary.write_bytes(data)

@@ -12,6 +12,9 @@ from typing import TypeVar
 MAX_ROUNDS = 8
 """How often everything that depends on refined sizes is done again, at most."""
 
+MAX_ROUNDS_FOR_PROOF = 16
+"""The same where the chord is to be proved: bounds are to hold for every triangle."""
+
 MAX_STALLED_ROUNDS = 2
 """A face is meshed again for its own refinements until so many rounds running were stalled."""
 

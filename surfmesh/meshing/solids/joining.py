@@ -219,19 +219,15 @@ def _between_shared_nodes(mesh: SurfaceMesh) -> np.ndarray:
     return mesh.triangles[shared[mesh.triangles].sum(axis=1) > 1]
 
 
-def limits_where_crowded(
-    model: CadModel, mesh: SurfaceMesh, sizing: Sizing
-) -> dict[int, SizeLimits]:
-    """Smaller sizes, by face, where faces made the same chord between their common nodes.
-
-    Along an edge of the model there are as many triangles as it has uses.
-    """
+def crowded_chords(model: CadModel, mesh: SurfaceMesh) -> np.ndarray:
+    """Edges (k, 2) of triangles between common nodes that more triangles have than should: along
+    an edge of the model as many as it has uses, elsewhere two."""
     if mesh.edge_segments is None or not len(mesh.edge_segments):
-        return {}
+        return np.empty((0, 2), np.int64)
     table = connect(_between_shared_nodes(mesh))
     crowded = table.uses > 2
     if not crowded.any():
-        return {}
+        return np.empty((0, 2), np.int64)
     code = np.array([len(mesh.points), 1], np.int64)
     along, place = np.unique(np.sort(mesh.edge_segments, axis=1) @ code, return_inverse=True)
     users = np.bincount(model_arrays(model).coedge_edge, minlength=len(model.edges))
@@ -240,9 +236,16 @@ def limits_where_crowded(
     row = np.minimum(np.searchsorted(along, keys), len(along) - 1)
     most = np.where(along[row] == keys, np.maximum(allowed[row], 2), 2)
     bad = np.flatnonzero(table.uses > most)
-    if not len(bad):
+    return table.edges[bad]
+
+
+def limits_where_crowded(
+    model: CadModel, mesh: SurfaceMesh, sizing: Sizing
+) -> dict[int, SizeLimits]:
+    """Smaller sizes, by face, where faces made the same chord between their common nodes."""
+    ends = crowded_chords(model, mesh).ravel()
+    if not len(ends):
         return {}
-    ends = table.edges[bad].ravel()
     assert mesh.sizes is not None  # noqa: S101 for mypy: every mesh of a model has them
     limits = SizeLimits(mesh.points[ends], FINER * mesh.sizes[ends], sizing.gradient)
     at = np.isin(mesh.triangles, ends).any(axis=1)

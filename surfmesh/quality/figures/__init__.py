@@ -8,6 +8,7 @@ sizes: edge lengths, against the target sizes and against each other.
 accuracy: how closely the mesh follows its surfaces.
 area_and_volume: area and volume beside those of the model.
 provenance: what a mesh was made with, and a fingerprint of what came out.
+proof: what is proved of the mesh; filled in on request.
 second_opinion: what other libraries say; ``opinion`` fills it in.
 figures: all parts and findings together, each figure as an attribute, and as JSON.
 

@@ -19,6 +19,7 @@ from surfmesh.quality.figures.accuracy import (
 from surfmesh.quality.figures.area_and_volume import AreaAndVolume
 from surfmesh.quality.figures.counts import Counts
 from surfmesh.quality.figures.part import Part
+from surfmesh.quality.figures.proof import ProofFigures
 from surfmesh.quality.figures.provenance import Provenance, plain
 from surfmesh.quality.figures.second_opinion import SecondOpinion
 from surfmesh.quality.figures.shape import FoldFigures, ShapeFigures
@@ -72,6 +73,7 @@ class Figures:
     area_and_volume: AreaAndVolume
     by_face: tuple[FaceRow, ...]
     by_solid: tuple[SolidRow, ...]
+    proof: ProofFigures | None = None  # distances that are proved; None: not asked
     second_opinion: SecondOpinion | None = None  # of trimesh and PyVista; None: not asked
     provenance: Provenance
     seconds: Mapping[str, float]  # by stage

@@ -5,6 +5,7 @@ known_surfaces: a mesh whose surfaces and corner parameters are known.
 
 Connectivity and shape:
 topology: what kind of surface the triangles form: closed, manifold, oriented, in how many pieces.
+proved_topology: is the mesh homeomorphic to what it was made of, and more? By exact predicates.
 against_model: edges and vertices that are not as the model has them: more triangles, or more fans.
 shape: shape of the triangles in 3D: alpha, radius ratio, angles, areas; the volume they enclose.
 narrow: triangles of faces narrower than the chord: counted apart, as good shape is not owed there.
@@ -30,6 +31,7 @@ surface_to_mesh: how far the true surface lies from the mesh: the other half of 
 hidden_search: what may hide between the samples of a triangle or of a rim, by interval arithmetic.
 unseen: what no sample of the mesh has seen: features narrower than its triangles, proved absent
     or not.
+proof: how far mesh and surfaces are from each other at most, proved, on request.
 area_and_volume: how much area and volume a mesh loses or wins by its deviation from the surface.
 
 Triangles that meet:

@@ -27,6 +27,8 @@ from surfmesh.quality.measures.lengths import (
     size_growth,
 )
 from surfmesh.quality.measures.loose_edges import LooseEdges, loose_edges
+from surfmesh.quality.measures.proof import Proof, proof
+from surfmesh.quality.measures.proved_topology import Answer, homeomorphic, isotopic
 from surfmesh.quality.measures.self_intersection import meeting_pairs
 from surfmesh.quality.measures.shape import Shapes, enclosed_volume, metric_alpha, shapes
 from surfmesh.quality.measures.solids import shares_faces
@@ -133,6 +135,27 @@ class Measurements:
         if self.known is None or self.deviation_both_ways is None:
             return None
         return unseen(self.known, self.deviation_both_ways, self.tolerances, LISTED)
+
+    @cached_property
+    def proof(self) -> Proof | None:
+        """What bounds say of both, where the report is asked to prove."""
+        fit = self.deviation_both_ways
+        return (
+            None if self.known is None or fit is None else proof(self.known, fit, self.tolerances)
+        )
+
+    @cached_property
+    def homeomorphic(self) -> Answer:
+        """Mesh and surface, or model."""
+        if self.known is None:
+            return Answer(None, "no surface is known")
+        return homeomorphic(self.known, self.topology, self.unexpected)
+
+    @cached_property
+    def isotopic(self) -> Answer:
+        """Likewise, by a deformation of space."""
+        meets = None if self.meeting is None else len(self.meeting)
+        return isotopic(self.homeomorphic, meets, self.crosses_itself)
 
     @cached_property
     def chord_check(self) -> ToleranceCheck | None:

@@ -19,7 +19,13 @@ BAR = 50  # characters of the longest bar of a histogram
 def certificate(report: Figures) -> str:
     """Every part of ``report``; long lists of faces are cut, the JSON has them all."""
     parts = [summary(report), _faces(report), _solids(report), _worst(report), _folded(report)]
-    parts += [_second_opinion(report), _meeting(report), _bodies(report), _histograms(report)]
+    parts += [
+        _not_proved(report),
+        _second_opinion(report),
+        _meeting(report),
+        _bodies(report),
+        _histograms(report),
+    ]
     parts += [_healing(report), _origin(report)]
     return "\n\n".join(part for part in parts if part)
 
@@ -141,6 +147,25 @@ def _meeting(report: Figures) -> str:
     ]
     head = ("triangle", "meets", "face", "and face", "at")
     return _table("self-intersections", head, rows)
+
+
+def _not_proved(report: Figures) -> str:
+    """Faces some of whose triangles are not proved to keep to their chord."""
+    rows = () if report.proof is None else report.proof.not_proved
+    if not rows:
+        return ""
+    head = ("face", "name", "triangles", "of", "bound", "because")
+    return _table(
+        "not proved",
+        head,
+        [
+            (
+                str(row.face), row.name[:32], f"{row.triangles:,}", f"{row.of:,}", _g(row.bound),
+                row.because,
+            )
+            for row in rows
+        ],
+    )  # fmt: skip
 
 
 def _second_opinion(report: Figures) -> str:

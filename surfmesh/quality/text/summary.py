@@ -4,6 +4,7 @@ import textwrap
 
 from surfmesh.errors import printable
 from surfmesh.quality.figures.figures import Figures
+from surfmesh.quality.figures.proof import ProofFigures
 from surfmesh.quality.figures.second_opinion import SecondOpinion
 from surfmesh.quality.measures.places import count_in_words, place_in_words
 
@@ -53,6 +54,8 @@ def summary(report: Figures) -> str:
     if report.above_growth_share is not None:
         rows.append(("", _growth(report)))
     rows.append(("deviation", _deviation(report)))
+    if report.proof is not None:
+        rows.append(("proved", _proof(report.proof)))
     if report.angle is not None and report.angle_max is not None:
         rows.append(("turning", _dihedral_angles(report)))
     if report.second_opinion is not None:
@@ -195,6 +198,19 @@ def _dihedral_angles(report: Figures) -> str:
         f"largest {report.angle_max:.4g}° between neighbours ({report.angle:.4g}° asked for); "
         f"at {place}"
     )
+
+
+def _proof(found: ProofFigures) -> str:
+    share = 100 * found.proved_share
+    words = [f"{share:.4g} % of the triangles, both ways; largest bound {found.bound_max:.4g}"]
+    if found.bound_over_sampled is not None:
+        words.append(f"{found.bound_over_sampled:.3f} times what samples say")
+    if found.edges_bound_max is not None:
+        words.append(f"edges {found.edges_bound_max:.4g}")
+    if found.edges_without_bound:
+        words.append(f"{found.edges_without_bound:,} segments of edges without a bound")
+    words.append(f"homeomorphic: {found.homeomorphic}")
+    return ", ".join(words[:-1]) + f"; {words[-1]}; isotopic: {found.isotopic}"
 
 
 def _second_opinion(opinion: SecondOpinion) -> str:

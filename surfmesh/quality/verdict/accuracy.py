@@ -4,6 +4,8 @@ import math
 from collections.abc import Iterator
 from dataclasses import dataclass
 
+import numpy as np
+
 from surfmesh.quality.measures.measurements import Measurements
 from surfmesh.quality.measures.places import (
     as_point,
@@ -120,6 +122,45 @@ class FeaturesUnseen(Problem):
 
 
 @dataclass(frozen=True, kw_only=True)
+class DistanceNotProved(Problem):
+    """Triangles whose distance is not proved to keep to the chord, as ``proof`` asks."""
+
+    kind: Kind = Kind.PROOF
+    count: int
+    bound: float  # the largest; infinite where there is none
+    triangle: int  # that has it
+
+    @property
+    def text(self) -> str:
+        """How many, and where the bound is largest."""
+        most = f"up to {self.bound:.4g}" if math.isfinite(self.bound) else "no bound"
+        return (
+            f"the distance of {count_in_words(self.count, 'triangle')} is not proved to keep to "
+            f"the chord ({most}); worst triangle {self.triangle} at {place_in_words(self.place)}"
+        )
+
+
+@dataclass(frozen=True, kw_only=True)
+class WithoutBounds(Remark):
+    """Faces of which nothing can be proved."""
+
+    kind: Kind = Kind.PROOF
+    faces: tuple[int, ...]
+    name: str  # of the first
+
+    @property
+    def text(self) -> str:
+        """Which, and why."""
+        first = face_in_words(self.faces[0], self.name)
+        more = f" and {len(self.faces) - 1} more" if len(self.faces) > 1 else ""
+        return (
+            f"nothing is proved of {first}{more}: its surface bounds nothing over boxes of (u, v), "
+            "as a function of the caller or an offset does not; formulas, elementary and spline "
+            "surfaces do"
+        )
+
+
+@dataclass(frozen=True, kw_only=True)
 class MinSizeForbids(Remark):
     """A ``min_size`` that keeps faces from what was asked for."""
 
@@ -214,6 +255,30 @@ def features_unseen(measured: Measurements) -> Iterator[Problem]:
             first=possible,
             place=None if possible is None else possible.point,
         )
+
+
+def not_proved(measured: Measurements) -> Iterator[Problem]:
+    """Triangles beyond the chord by their bounds; faces without any are remarks of their own."""
+    found = measured.proof
+    if found is None:
+        return
+    left = ~found.is_proved & ~np.isin(measured.mesh.face_ids, found.without_bounds)
+    if not left.any():
+        return
+    worst = int(np.flatnonzero(left)[np.argmax(found.bound[left])])
+    mesh = measured.mesh
+    yield DistanceNotProved(
+        count=int(np.count_nonzero(left)), bound=float(found.bound[worst]), triangle=worst,
+        place=as_point(mesh.points[mesh.triangles[worst]].mean(axis=0)),
+    )  # fmt: skip
+
+
+def without_bounds(measured: Measurements) -> Iterator[Remark]:
+    """Faces of which nothing can be proved."""
+    found = measured.proof
+    if found is not None and found.without_bounds:
+        first = found.without_bounds[0]
+        yield WithoutBounds(faces=found.without_bounds, name=measured.mesh.face_name(first))
 
 
 def min_size_forbids(measured: Measurements) -> Iterator[Remark]:

@@ -25,6 +25,7 @@ class Kind(Enum):
     SURFACE_DEVIATION = auto()  # of the surface from the mesh
     DIHEDRAL_ANGLE = auto()
     BETWEEN_SAMPLES = auto()  # features narrower than the triangles
+    PROOF = auto()  # of the distance, where it was asked for
     SELF_INTERSECTION = auto()
     OVERLAP = auto()
     CONTACT = auto()  # bodies that touch or lie near, faces that were not sewn

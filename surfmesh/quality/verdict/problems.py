@@ -6,6 +6,7 @@ from surfmesh.quality.verdict.accuracy import (
     angle_exceeded,
     deviation_exceeded,
     features_unseen,
+    not_proved,
     surface_deviation_exceeded,
 )
 from surfmesh.quality.verdict.area_and_volume import (
@@ -20,8 +21,10 @@ from surfmesh.quality.verdict.triangles import bad_triangles
 from surfmesh.result.findings import FindingKind
 
 
-def problems(measured: Measurements, faces: tuple[FaceRow, ...]) -> tuple[Problem, ...]:
-    """faces: the figures of each."""
+def problems(
+    measured: Measurements, faces: tuple[FaceRow, ...], prove: bool = False
+) -> tuple[Problem, ...]:
+    """faces: the figures of each. prove: bounds are asked for."""
     mesh, found = measured.mesh, list[Problem]()
     if not len(mesh.triangles):
         found.append(Fault(kind=Kind.NO_TRIANGLES, words="the mesh has no triangles"))
@@ -39,6 +42,8 @@ def problems(measured: Measurements, faces: tuple[FaceRow, ...]) -> tuple[Proble
     found += (one for one in volumes_exceeded(measured) if isinstance(one, VolumeExceeded))
     found += surface_deviation_exceeded(measured)
     found += features_unseen(measured)
+    if prove and measured.mesh.sizing is not None and measured.mesh.sizing.proof:
+        found += not_proved(measured)
     found += angle_exceeded(measured)
     found += self_intersections(measured)
     found += overlaps(measured)

@@ -1,6 +1,5 @@
 """The size field of a surface: the least of all rules, graded.
 
-two_sizes: two sizes at each place, along two directions, and how limits lower them.
 size_law: the ungraded target sizes at points of one surface, with what a size field stores there.
 small_sizes: where on a surface small sizes lie that samples of it may miss.
 field_builder: the background of a size field: sizes graded on a balanced quadtree.

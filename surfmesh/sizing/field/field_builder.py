@@ -32,9 +32,6 @@ LONGEST_ROW = 2048
 POLE_DISTANCE = 0.9
 """In edges: the first ring of triangles around a pole lies about there."""
 
-REACHED = 1.1
-"""How much more than the reached ratio of the two sizes the shorter one leaves room for."""
-
 FAR_BEYOND = 2.0
 """Times the limit of triangles: so many are not asked for by mistake of a coarse sampling."""
 
@@ -95,10 +92,11 @@ class FieldBuilder:
 
     def background(self) -> Background:
         """Raises ``SizingError`` when the sizes need an unreasonable number of cells."""
-        self._require_done(self.core.refine(*self._asked()))
-        if isinstance(self.law, SizeLaw) and self.law.sizing.is_anisotropic:
-            if not has_even_curvature(self.surface):
-                self._limit_longer_sizes(self.law, self._nodes)
+        asked, hidden = self._asked()
+        self._require_done(self.core.refine(asked, hidden))
+        if isinstance(asked, core_sizing.StretchedLaw) and not has_even_curvature(self.surface):
+            chord = self.law.sizing.chord or 0.0
+            self._require_done(core_sizing.limit_longer_sizes(self.core, asked, chord))
         self._blunt_poles()
         return self.core.background()
 
@@ -161,25 +159,6 @@ class FieldBuilder:
             "that place out of the domain"
         )
 
-    def _limit_longer_sizes(self, law: SizeLaw, nodes: FieldNodes) -> None:
-        """Lower long sizes where directions change, raise short ones where long are not reached.
-
-        The width of a triangle is then known: it is at most what growth allows in any metric.
-        """
-        size, long = nodes.asked.T.copy()
-        width = size.copy()
-        self._require_done(self.core.spread(width))
-        long = np.minimum(long, law.longest_along(nodes, width))
-        self._grade_anew(nodes, size, long)
-        ratio = REACHED * nodes.long / nodes.size
-        size = law.regained(nodes, ratio)
-        self._grade_anew(nodes, size, np.minimum(long, ratio * size))
-
-    def _grade_anew(self, nodes: FieldNodes, size: np.ndarray, long: np.ndarray) -> None:
-        """Gradation of other sizes, as if all nodes were new."""
-        nodes.size[:], nodes.long[:] = size, long
-        self._require_done(self.core.grade_anew())
-
     def _asked(self) -> tuple:
         """The law, and where features may hide, as the core asks for them."""
         law = self.law
@@ -190,7 +169,7 @@ class FieldBuilder:
         hidden = core_sizing.BoundedFeatures(
             in_core, law.sizing.angle is not None, law.sizing.chord
         )
-        return law if law.sizing.is_anisotropic else in_core, hidden
+        return in_core, hidden
 
     def _blunt_poles(self) -> None:
         """Cap the stretch near sides that are one point in space.

@@ -12,15 +12,12 @@ from surfmesh.geometry.core_surface import as_core_surface
 from surfmesh.geometry.differential.chart import Chart
 from surfmesh.geometry.differential.fundamental_forms import (
     FundamentalForms,
-    PrincipalCurvatures,
     curvatures,
     forms_from_derivatives,
 )
 from surfmesh.geometry.surface import Surface
-from surfmesh.sizing.field.two_sizes import TwoSizes
-from surfmesh.sizing.metric_roots import symmetric_root
 from surfmesh.sizing.options.sizing import Sizing
-from surfmesh.sizing.rules.direction_rates import ROUND, direction_rates, longest_along
+from surfmesh.sizing.rules.direction_rates import ROUND, has_even_curvature, longest_along
 from surfmesh.sizing.rules.rim_rule import LoopRule, RimRule, Rims
 from surfmesh.sizing.rules.rule import DirectedRule, Places, Rule
 from surfmesh.sizing.rules.size_limits import SizeLimits
@@ -75,13 +72,6 @@ class FieldNodes(NamedTuple):
     @property
     def is_anisotropic(self) -> bool:
         return len(self.long) > 0
-
-
-def root_of_form(forms: FundamentalForms, rates: np.ndarray) -> np.ndarray:
-    """I^(1/2) (n, 3) in the scaled plane, whose axes run at ``rates`` (n, 2)."""
-    du, dv = rates.T
-    e, f, g = forms.E * du * du, forms.F * du * dv, forms.G * dv * dv
-    return symmetric_root(e, f, g, np.sqrt(np.maximum(e * g - f * f, 0.0)))
 
 
 class Local(NamedTuple):
@@ -144,10 +134,14 @@ class SizeLaw:
         k = curvatures(forms)
         return np.where(forms.degenerate, self.clamp[1], self.rules.shorter(k.k1, k.k2))
 
+    def after(self, rims: int) -> "SizeLaw":
+        """What the rules say, and the first of the directed ones, without limits."""
+        own = self.without_limits()
+        own.directed = self.directed[:rims]
+        return own
+
     def __call__(self, xy: np.ndarray) -> FieldNodes:
         """Nodes at xy (n, 2) of the chart."""
-        if self.sizing.is_anisotropic:
-            return self._anisotropic(self.local(xy))
         nodes = FieldNodes(*self.in_core().nodes(np.ascontiguousarray(xy, float)))
         return nodes._replace(jacobian=nodes.jacobian.reshape(-1, 3, 2))
 
@@ -155,15 +149,17 @@ class SizeLaw:
         """The same law as the core asks it. It lives as long as the caller keeps it."""
         rims = limits = None
         if self.directed and self.sizing.chord is not None:
-            near_loops = None if self.loop_limits is None else self.loop_limits.core
+            loops = [rule.near_loops for rule in self.directed if isinstance(rule, LoopRule)]
             sides = [rule.side for rule in self.directed if isinstance(rule, RimRule)]
+            near_loops = loops[0].core if loops else None
             rims = self.sizing.chord, [side in sides for side in range(4)], near_loops
         if self.limits is not None:
             are_targets = self.limits.uv is None
             limits = self.limits.core, self._least(self.limits), are_targets
-        return core.SurfaceLaw(
-            as_core_surface(self.surface), self.chart.core, self.rules.core, rims, limits
-        )
+        asked = as_core_surface(self.surface), self.chart.core, self.rules.core, rims, limits
+        if self.sizing.is_anisotropic:
+            return core.StretchedLaw(*asked, has_even_curvature(self.surface))
+        return core.SurfaceLaw(*asked)
 
     def local(self, xy: np.ndarray) -> "Local":
         """What the rules are asked with, at xy (n, 2) of the chart."""
@@ -182,63 +178,12 @@ class SizeLaw:
         for directed in self.directed:
             yield directed, directed.sizes(local.at)
 
-    def _anisotropic(self, local: "Local") -> FieldNodes:
-        """Two sizes along the principal directions, or as limits have them."""
-        k = curvatures(local.forms)
-        found, along_first = self.by_principal_directions(local, k)
-        for rule in self.directed:
-            found.lower_at(*rule.limits(local.at), self.clamp[0])
-        own = found
-        if self.limits is not None:
-            found = own.limited(self.limits, self._least(self.limits))
-            if self.limits.uv is None:
-                own = found
-        rates = local.rates
-        jacobian = np.stack([local.ru * rates[:, :1], local.rv * rates[:, 1:]], axis=2)
-        return FieldNodes(
-            found.size, own.size, root_of_form(local.forms, rates), local.forms.normal,
-            local.at.points, found.long, own.long, found.along, jacobian,
-            np.stack([found.size, found.long], axis=1), np.stack([k.k1, k.k2], axis=1),
-            direction_rates(self.surface, local.at.uv, k, along_first, found.size),
-        )  # fmt: skip
-
-    def by_principal_directions(
-        self, local: "Local", k: PrincipalCurvatures
-    ) -> tuple[TwoSizes, np.ndarray]:
-        """What the rules allow but those of rims; and whether ``along`` is the first direction."""
-        forms = local.forms
-        sizes = self.rules.principal(k.k1, k.k2)
-        along_first = sizes[:, 0] > sizes[:, 1]
-        direction = np.where(along_first[:, None], k.d1, k.d2)
-        along = direction[:, :1] * local.ru + direction[:, 1:] * local.rv
-        along[forms.degenerate] = [1.0, 0.0, 0.0]
-        sizes[forms.degenerate] = self.clamp[1]
-        along /= np.linalg.norm(along, axis=1)[:, None]
-        by_place = np.maximum(self.rules.from_place(local.at.points), self.clamp[0])
-        sizes = np.minimum(sizes, by_place[:, None])  # holds in every direction
-        found = TwoSizes(
-            local.at.points, forms.normal, along, sizes.min(axis=1), sizes.max(axis=1),
-            self.sizing.anisotropy,
-        )  # fmt: skip
-        return found, along_first
-
     def longest_along(self, nodes: FieldNodes, size: np.ndarray) -> np.ndarray:
         """Largest ``long`` (n,) where principal directions change, of triangles that are ``size``
         (n,) wide."""
         k1, k2 = nodes.curvature.T
         bound = longest_along(nodes.direction_rates, k1, k2, size, self.sizing.chord or 0.0)
         return np.where(nodes.asked[:, 1] > ROUND * nodes.asked[:, 0], bound, np.inf)
-
-    def regained(self, nodes: FieldNodes, ratio: np.ndarray) -> np.ndarray:
-        """Sizes (n,) across ``along`` where no more than a ``ratio`` (n,) is made use of.
-
-        What a long edge takes of the chord where both curvatures are alike is free again.
-        """
-        k1, k2 = nodes.curvature.T
-        asked = self.rules.principal(k1, k2).min(axis=1)
-        size = self.rules.principal(k1, k2, ratio).min(axis=1)
-        untouched = nodes.asked[:, 0] >= asked  # by laws and limits
-        return np.where(untouched, np.maximum(nodes.asked[:, 0], size), nodes.asked[:, 0])
 
     def _least(self, limits: SizeLimits) -> float:
         """No limit goes below it; sizes that edges have been cut with hold as they are."""

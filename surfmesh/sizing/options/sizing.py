@@ -59,6 +59,10 @@ class Sizing:
     faces are made finer until it holds, by whatever else they are sized. Nothing is done for
     volumes unasked; the report states their errors."""
 
+    proof: bool = False
+    """Prove that ``chord`` holds: triangles that bounds do not show to be near enough are made
+    smaller until they do, or the report says which are not proved. See docs/proof.md."""
+
     sources: tuple[SizeLaw, ...] = ()
     """Local sizes: ``Near``, ``InBall``, ``InBox``, ``SizeCloud``, or callables of points
     (n, 3) -> (n,), infinite where nothing is asked for. The smallest holds."""
@@ -108,6 +112,10 @@ class Sizing:
         object.__setattr__(self, "limit", int(positive("limit", self.limit)))
         if self.volume is not None and self.volume >= 1.0:
             raise SizingError(f"volume is a relative error below 1, not {self.volume:g}")
+        if not isinstance(self.proof, bool):
+            raise SizingError(f"proof is True or False, not {shown(self.proof)}")
+        if self.proof and self.chord is None:
+            raise SizingError("proof needs a chord: it is the distance that is to be proved")
         if self.angle is not None and self.angle > 90.0:
             raise SizingError(f"angle must be at most 90 degrees, not {self.angle:g}")
         if self.min_size and self.max_size and self.min_size > self.max_size:

@@ -22,7 +22,7 @@ def size_along(
     k = curvatures(forms)
     sizes = rules.principal(k.k1, k.k2)
     shorter, along_first = sizes.min(axis=1), sizes[:, 0] > sizes[:, 1]
-    rates = direction_rates(surface, uv, k, along_first, shorter)
+    rates = direction_rates(surface, uv, along_first, shorter)
     bound = longest_along(rates, k.k1, k.k2, shorter, rules.sizing.chord or 0.0)
     stretched = sizes.max(axis=1) > ROUND * shorter
     sizes = np.where(stretched[:, None], np.minimum(sizes, bound[:, None]), sizes)

@@ -17,7 +17,7 @@ O, X, Y, Z = np.zeros(3), *np.eye(3)
 SURFACE = plane(((0.0, 1.0), (0.0, 1.0)), O, X, Y)
 TURN = 2.0 * np.pi
 CORNERS = np.array([[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]])
-PLAIN = None, None, 0.0, True, True, False
+PLAIN = core.FaceManner(None, None, 0.0)
 
 
 def square(size=0.25, parts=4):
@@ -89,9 +89,13 @@ def test_what_is_no_boundary_is_refused():
         )
 
 
+def inward(boundary, largest):
+    return core.mesh_inward(core.InwardFace(SURFACE, boundary, (1.0, 1.0), largest, 0.2, PLAIN))
+
+
 def test_a_square_is_meshed_between_its_nodes():
     boundary = square()
-    made = core.mesh_inward(SURFACE, boundary, (1.0, 1.0), 1.0, 0.2, PLAIN)
+    made = inward(boundary, 1.0)
     assert made.end == FaceEnd.DONE and not len(made.coarse.sizes)
     mapped, slots = made.patch.mapped, made.slots
     known = slots >= 0
@@ -103,15 +107,13 @@ def test_a_square_is_meshed_between_its_nodes():
 
 
 def test_segments_far_longer_than_the_sizes_inside_are_named():
-    made = core.mesh_inward(SURFACE, square(0.5, 1), (1.0, 1.0), 0.1, 0.2, PLAIN)
+    made = inward(square(0.5, 1), 0.1)
     middles = 0.5 * (CORNERS + np.roll(CORNERS, -1, axis=0))
     assert np.allclose(made.coarse.points[:, :2], middles) and (made.coarse.sizes <= 0.1).all()
 
 
 def test_sizes_that_are_none_are_a_status():
-    assert core.mesh_inward(SURFACE, square(-1.0), (1.0, 1.0), 1.0, 0.2, PLAIN).end == (
-        FaceEnd.UNPREPARED
-    )
+    assert inward(square(-1.0), 1.0).end == FaceEnd.UNPREPARED
 
 
 def test_a_loop_that_runs_twice_is_a_status():

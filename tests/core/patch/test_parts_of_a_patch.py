@@ -73,7 +73,7 @@ def test_a_surface_with_a_chord_is_the_same_for_any_number_of_threads():
 
 
 def test_what_a_hook_raises_stops_the_threads_too():
-    passes = []
+    passes: list[None] = []
 
     def before_pass():
         passes.append(None)

@@ -13,7 +13,7 @@ from surfmesh.meshing.estimate import model_estimate, trial_mesh
 from surfmesh.meshing.estimate.estimation import field_triangles
 from surfmesh.meshing.estimate.face_counts import counts_of_faces
 from surfmesh.meshing.estimate.trial_patches import triangles_per_unit
-from surfmesh.meshing.faces import face_workers
+from surfmesh.meshing.faces.face_queue import FaceQueue
 from surfmesh.sizing.field.metric_area import box_area, metric_area
 from surfmesh.sizing.field.size_field import size_field
 
@@ -112,8 +112,14 @@ def test_a_trial_that_needs_too_much_work_is_given_up(monkeypatch):
 def test_the_work_of_a_model_is_counted_face_by_face(monkeypatch, budget, faces_meshed):
     """Six faces, each of some 400 units: no clock decides where the trial ends."""
     model = sm.from_cadquery(cq.Workplane().box(1, 1, 1))
-    mesh_face, meshed = face_workers.mesh_face, []
-    monkeypatch.setattr(face_workers, "mesh_face", lambda job: meshed.append(job) or mesh_face(job))
+    work, meshed = FaceQueue.work, []
+
+    def counted(queue, triangles):
+        made = work(queue, triangles)
+        meshed.extend(made)
+        return made
+
+    monkeypatch.setattr(FaceQueue, "work", counted)
     monkeypatch.setattr(trial_mesh, "BUDGET", budget)
     found = counts(model, 1.0)
     assert len(meshed) == faces_meshed

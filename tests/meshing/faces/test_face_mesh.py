@@ -7,11 +7,17 @@ import pytest
 
 import surfmesh as sm
 from surfmesh.errors import MeshingError, SurfaceError
-from surfmesh.meshing.faces import face_mesh
+from surfmesh.meshing.faces import face_mesh, face_queue
+
+
+@pytest.fixture(autouse=True)
+def none_by_the_core(monkeypatch):
+    """Every face is meshed by ``mesh_face`` from its beginning."""
+    monkeypatch.setattr(face_queue, "_ordinary", lambda job: None)
 
 
 def test_an_internal_error_leaves_its_traceback_in_the_log(monkeypatch, caplog):
-    def broken(job):
+    def broken(job, **how):
         raise IndexError("no such slot")
 
     monkeypatch.setattr(face_mesh, "_meshed", broken)
@@ -25,10 +31,10 @@ def refused_at_the_top(monkeypatch, mistake):
     """A unit box without its top, whose corners are where ``mistake`` of a job is raised."""
     real = face_mesh._meshed
 
-    def broken(job, unfold=True):
+    def broken(job, **how):
         if all(piece.points[:, 2].min() > 0.4 for loop in job.loops for piece in loop):
             raise mistake(job)
-        return real(job, unfold)
+        return real(job, **how)
 
     monkeypatch.setattr(face_mesh, "_meshed", broken)
     model = sm.from_cadquery(cq.Workplane().box(1, 1, 1))

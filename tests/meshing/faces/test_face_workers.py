@@ -20,7 +20,7 @@ from hypothesis import strategies as st
 import surfmesh as sm
 from surfmesh._core import allow_threads
 from surfmesh.errors import Cancelled, MeshingError
-from surfmesh.meshing.faces import face_workers
+from surfmesh.meshing.faces import face_queue, face_workers
 from surfmesh.meshing.faces.face_workers import FaceWorkers, batches_of
 from surfmesh.meshing.model_mesh import _Unmeshed
 
@@ -57,6 +57,11 @@ def threads_for_all(monkeypatch):
     monkeypatch.setattr(face_workers, "LITTLE", 0)
 
 
+@pytest.fixture
+def none_by_the_core(monkeypatch):
+    monkeypatch.setattr(face_queue, "_ordinary", lambda job: None)
+
+
 ARRAYS = "points triangles uv_points uv_triangles face_ids sizes edge_segments vertex_ids".split()
 
 
@@ -69,7 +74,9 @@ def test_threads_change_no_byte(sizing, threads_for_all):
             assert getattr(first, name).tobytes() == getattr(mesh, name).tobytes(), name
 
 
-def test_one_large_face_has_all_threads_and_others_one_each(threads_for_all, monkeypatch):
+def test_one_large_face_has_all_threads_and_others_one_each(
+    threads_for_all, none_by_the_core, monkeypatch
+):
     def mesh_face(job):
         allowed = allow_threads(1)
         allow_threads(allowed)
@@ -84,7 +91,7 @@ def test_one_large_face_has_all_threads_and_others_one_each(threads_for_all, mon
     assert dict(FaceWorkers(2).meshed(even)) == dict.fromkeys(range(5), (40, 1))
 
 
-def test_what_goes_wrong_in_a_thread_comes_out(threads_for_all, monkeypatch):
+def test_what_goes_wrong_in_a_thread_comes_out(threads_for_all, none_by_the_core, monkeypatch):
     def broken(job):
         raise MemoryError("no room")
 
@@ -93,7 +100,7 @@ def test_what_goes_wrong_in_a_thread_comes_out(threads_for_all, monkeypatch):
         sm.mesh(part(), SIZE, jobs=2)
 
 
-def test_threads_end_when_the_caller_stops(threads_for_all, monkeypatch):
+def test_threads_end_when_the_caller_stops(threads_for_all, none_by_the_core, monkeypatch):
     made = []
 
     def mesh_face(job):

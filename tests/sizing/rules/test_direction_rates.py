@@ -25,7 +25,7 @@ TUBE = ParametricSurface("cos(u)", "sin(u)", "v", u=TURN, v=(0, 9))
 def rates_and_curvatures(surface, uv, size=0.01):
     _, *derivatives = surface.evaluate(uv, 2)
     k = curvatures(forms_from_derivatives(*derivatives))
-    rates = direction_rates(surface, uv, k, np.abs(k.k1) < np.abs(k.k2), np.full(len(uv), size))
+    rates = direction_rates(surface, uv, np.abs(k.k1) < np.abs(k.k2), np.full(len(uv), size))
     return rates, k
 
 

@@ -1,0 +1,119 @@
+"""Accuracy proved: how much of each mesh, how tight, at what cost, and against points at random.
+
+    python benchmarks/accuracy.py                          the gallery at diag/1000 and diag/10000
+    python benchmarks/accuracy.py --names torus wavy       some of it
+    python benchmarks/accuracy.py --parts a.step b.iges    CAD files too, at diag/1000
+    python benchmarks/accuracy.py --proof                  sizes made smaller until it is
+
+A line each, as soon as it is measured: triangles; the share proved to keep to the chord both ways;
+largest bound / chord; median of bound / sampled distance; processor time of the proof over that of
+the mesh; the largest distance of random points both ways / chord, by VTK's closest triangle and the
+core's closest point, and how many of them are beyond the bounds.
+"""
+
+import single_thread  # noqa: F401  (before numpy)
+
+# isort: split
+import argparse
+import time
+from collections import Counter
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+import surfmesh as sm
+from surfmesh.errors import SurfmeshError
+from surfmesh.geometry.differential.projection import closest_point
+from surfmesh.quality.measures.measurements import Measurements
+from surfmesh.result.surface_mesh import SurfaceMesh
+
+FRACTIONS = (1_000, 10_000)
+POINTS = 20_000
+ROUNDING = 1e-9  # of the chord, of the independent look
+
+
+class Looked(NamedTuple):
+    """The largest distances at random points, and how many are beyond what is proved."""
+
+    from_mesh: float
+    from_surface: float
+    above: int
+
+
+def main() -> None:
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("--names", nargs="*", help="of the gallery; all by default")
+    parser.add_argument("--parts", nargs="*", default=[], help="CAD files")
+    parser.add_argument("--proof", action="store_true", help="Sizing(proof=True)")
+    options = parser.parse_args()
+    print(f"{'':24s} {'diag/':>6s} {'triangles':>9s} {'proved':>8s} {'bound':>6s} "
+          f"{'tight':>6s} {'cpu':>5s} {'random points':>15s} {'above':>5s}")  # fmt: skip
+    for name in sm.gallery() if options.names is None else options.names:
+        surface = sm.load(name)
+        if isinstance(surface, sm.PlanarDomain):
+            continue
+        diagonal = float(np.linalg.norm(np.ptp(sm.mesh(surface).points, axis=0)))
+        for fraction in FRACTIONS:
+            show(name, surface, diagonal / fraction, fraction, options.proof)
+    for path in options.parts:
+        model = sm.load(path)
+        name = path.rsplit("/", 1)[-1][-24:]
+        show(name, model, model.diagonal / FRACTIONS[0], FRACTIONS[0], options.proof)
+
+
+def show(name: str, thing: object, chord: float, fraction: int, proof: bool) -> None:
+    """One line."""
+    start = time.process_time()
+    try:
+        mesh = sm.mesh(thing, sm.Sizing(chord=chord, proof=proof), strict=False, jobs=1)
+    except SurfmeshError as error:
+        print(f"{name:24s} {fraction:6d} {error}", flush=True)
+        return
+    meshed = time.process_time() - start
+    measured = Measurements(mesh)
+    if measured.deviation_both_ways is None:  # measured before the clock starts
+        return
+    start = time.process_time()
+    found = measured.proof
+    proved = time.process_time() - start
+    if found is None:
+        return
+    looked = at_random(mesh, found.bound)
+    open_faces = np.unique(mesh.face_ids[~found.is_proved])
+    kinds = Counter(getattr(mesh.surfaces[k], "kind", "formula") for k in open_faces)
+    left = " ".join(f"{kind} {count}" for kind, count in sorted(kinds.items()))
+    tight = float("nan") if found.over_sampled is None else found.over_sampled
+    share = 100 * found.is_proved.mean()
+    print(f"{name:24s} {fraction:6d} {len(mesh.triangles):9,d} {share:7.3f}% "
+          f"{found.bound.max() / chord:6.3f} {tight:6.3f} {proved / meshed:5.2f} "
+          f"{looked.from_surface / chord:7.3f} {looked.from_mesh / chord:7.3f} {looked.above:5d} "
+          f"{left and 'faces left: ' + left}", flush=True)  # fmt: skip
+
+
+def at_random(mesh: SurfaceMesh, bound: NDArray[np.float64]) -> Looked:
+    """Points of the surface over triangles, and of the triangles, drawn by number."""
+    rng = np.random.default_rng(17)
+    triangle = rng.integers(0, len(mesh.triangles), POINTS)
+    weights = rng.dirichlet((1.0, 1.0, 1.0), POINTS)
+    uv = np.einsum("kc,kcd->kd", weights, mesh.uv[triangle])
+    flat = np.einsum("kc,kcd->kd", weights, mesh.points[mesh.triangles[triangle]])
+    points, back = np.empty((POINTS, 3)), np.empty(POINTS)
+    for number in np.unique(mesh.face_ids[triangle]):
+        rows = np.flatnonzero(mesh.face_ids[triangle] == number)
+        surface = mesh.surfaces[number]
+        points[rows] = surface.evaluate(uv[rows], 0)[0]
+        back[rows] = closest_point(surface, flat[rows], uv[rows], 20)[1]
+    cells = mesh.to_pyvista()
+    _, nearest = cells.find_closest_cell(points, return_closest_point=True)
+    there = np.linalg.norm(points - nearest, axis=1)
+    at_vertex = np.zeros(len(mesh.points))
+    np.maximum.at(at_vertex, mesh.triangles.ravel(), np.repeat(bound, 3))
+    around = at_vertex[mesh.triangles[triangle]].max(axis=1)
+    slack = ROUNDING * float(np.median(bound)) + 1e-12 * float(np.abs(mesh.points).max())
+    above = (there > bound[triangle] + slack) | (back > around + slack)
+    return Looked(float(back.max()), float(there.max()), int(np.count_nonzero(above)))
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,148 @@
+#include "packing/packing_in_halves.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <mutex>
+#include <utility>
+
+#include "fields/coverage.hpp"
+#include "packing/half_packing.hpp"
+#include "packing/line_of_circles.hpp"
+#include "values/threads.hpp"
+
+namespace surfmesh {
+namespace {
+
+constexpr double LONGEST_LINE = 20.0;  // circles on it, over the root of all that are expected
+constexpr int BISECTIONS = 12;         // for the place of the line
+// Of the box's width: how far ``behind`` lies off the line. Flat, so that no circle gets beyond the
+// edges between it and the ends of the line, which is some circles longer than the box is wide
+constexpr double BEHIND = 1e-3;
+constexpr double BEYOND_LINE = 1e-6;  // of that: the box reaches over the line, or it might miss it
+
+PackingLimits limits_of(Point2 origin, Point2 low, Point2 high) {
+    return {origin, low, high, std::numeric_limits<double>::infinity(), std::int64_t{1} << 62};
+}
+
+/// A watch that both halves ask, with the circles of both.
+class SharedWatch {
+  public:
+    explicit SharedWatch(const Watch& watch) : watch_(watch) {}
+
+    Watch of_half(int half) {
+        if (!watch_) return {};
+        return [this, half](Vertex circles) {
+            const std::lock_guard alone(mutex_);
+            circles_[half] = circles;
+            goes_on_ = goes_on_ && watch_(circles_[0] + circles_[1]);
+            return goes_on_;
+        };
+    }
+
+  private:
+    const Watch& watch_;
+    std::mutex mutex_;
+    Vertex circles_[2] = {0, 0};
+    bool goes_on_ = true;
+};
+
+/// The coordinate that halves what there is to be packed; ``area(x)``: up to x.
+template <class Area>
+double halving(double low, double high, Area area) {
+    const double half = 0.5 * area(high);
+    for (int step = 0; step < BISECTIONS; ++step) {
+        const double middle = 0.5 * (low + high);
+        (area(middle) < half ? low : high) = middle;
+    }
+    return 0.5 * (low + high);
+}
+
+struct LaidLine {
+    Line line;
+    Array<Circle> circles;
+};
+
+/// The line with fewer circles of the two along the axes; without any where there is none.
+LaidLine line_through(const Background& background, Point2 low, Point2 high, std::size_t most) {
+    const Point2 centre = 0.5 * (low + high);
+    const double x = halving(
+        low.x, high.x, [&](double upper) { return metric_area_of_box(background, upper, high.y); });
+    const double y = halving(
+        low.y, high.y, [&](double upper) { return metric_area_of_box(background, high.x, upper); });
+    const Line across{{centre.x, y}, {1.0, 0.0}}, upward{{x, centre.y}, {0.0, 1.0}};
+    Array<Circle> first = circles_along(background, across, low, high, most);
+    Array<Circle> second = circles_along(background, upward, low, high, most);
+    if (first.empty() || (!second.empty() && second.size() < first.size()))
+        return {upward, std::move(second)};
+    return {across, std::move(first)};
+}
+
+/// The half on the left of the line.
+Packing pack_half(const Background& background, Array<Circle> circles, const Line& line, Point2 low,
+                  Point2 high, std::size_t room, const Watch& watch) {
+    const Point2 left{-line.direction.y, line.direction.x};
+    const Point2 first = circles[0].centre;
+    const Point2 last = circles.back().centre;
+    const double off = BEHIND * norm(last - first);
+    const Point2 behind = 0.5 * (first + last) - off * left;
+    // the box as far as a little to the right of the line
+    const Point2 bound = line.through - BEYOND_LINE * off * left;
+    if (left.x > 0.0) low.x = bound.x;
+    if (left.x < 0.0) high.x = bound.x;
+    if (left.y > 0.0) low.y = bound.y;
+    if (left.y < 0.0) high.y = bound.y;
+    Packing p = empty_packing(limits_of(line.through, low, high), room);
+    const Circle closing{behind, background.size_at(behind.x, behind.y)};
+    p.end = {start_along(p, {circles.data(), circles.size()}, closing), line.through};
+    if (p.end.status == PackingStatus::finished) p.end = advance_front(p, background, watch);
+    p.heap = {};
+    p.waiting = {};
+    return p;
+}
+
+/// Both halves, side by side. ``counts.halves`` is 0 where they make no whole.
+Packing pack_halves(const Background& background, const LaidLine& laid, Point2 low, Point2 high,
+                    std::size_t expected, const Watch& watch) {
+    SharedWatch shared(watch);
+    Packing halves[2];
+    for_each_block(2, 1, [&](std::size_t n, std::size_t) {
+        Array<Circle> circles(laid.circles);
+        Line line = laid.line;
+        if (n == 1) {
+            std::reverse(circles.begin(), circles.end());
+            line.direction = -1.0 * line.direction;
+        }
+        const std::size_t room = n == 0 ? expected : expected / 2;  // the other goes to the first
+        halves[n] = pack_half(background, std::move(circles), line, low, high, room,
+                              shared.of_half(static_cast<int>(n)));
+    });
+    Packing& whole = halves[0];
+    whole.counts.halves = 0;
+    for (const Packing& half : halves) {
+        if (half.end.status == PackingStatus::finished) continue;
+        whole.end = half.end;
+        return std::move(whole);
+    }
+    if (join_halves(whole, halves[1], static_cast<Vertex>(laid.circles.size())))
+        whole.counts.halves = 2;
+    return std::move(whole);
+}
+
+}  // namespace
+
+Packing pack_box(const Background& background, Point2 low, Point2 high, std::size_t expected,
+                 const Watch& watch) {
+    if (expected >= CIRCLES_FOR_HALVES) {
+        const auto most =
+            static_cast<std::size_t>(LONGEST_LINE * std::sqrt(static_cast<double>(expected)));
+        const LaidLine laid = line_through(background, low, high, most);
+        if (!laid.circles.empty()) {
+            Packing made = pack_halves(background, laid, low, high, expected, watch);
+            if (made.counts.halves == 2 || made.end.status == PackingStatus::stopped) return made;
+        }
+    }
+    return pack(background, limits_of(0.5 * (low + high), low, high), expected, watch);
+}
+
+}  // namespace surfmesh

@@ -1,0 +1,24 @@
+// A box of the plane is packed: from its middle, or, where it is large, from a line both ways.
+//
+// The line goes through the box where it has as much to be packed on one side as on the other, along
+// the axis that needs fewer circles. Circles stand on it each touching the next; the fronts of both
+// halves grow away from it, side by side where there are two threads. Neither looks at the other,
+// and whether there are halves depends on how many circles are expected alone: the same circles
+// for any number of threads.
+#pragma once
+
+#include "packing/packing.hpp"
+
+namespace surfmesh {
+
+/// From so many circles on a box is packed in halves.
+inline constexpr std::size_t CIRCLES_FOR_HALVES = 50'000;
+
+/// Pack circles until the front has left the box. ``watch`` is asked by one thread at a time.
+///
+/// ``counts.halves`` says whether it was done in halves; then there is no front at the end. A box in
+/// which no line can be laid, or whose halves make no convex whole, is packed from its middle.
+[[nodiscard]] Packing pack_box(const Background& background, Point2 low, Point2 high,
+                               std::size_t expected, const Watch& watch = {});
+
+}  // namespace surfmesh

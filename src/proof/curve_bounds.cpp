@@ -1,0 +1,80 @@
+#include "proof/curve_bounds.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "surfaces/outward.hpp"
+
+namespace surfmesh {
+namespace {
+
+constexpr double ROUNDING = 0x1p-46;  // relative, more than that of any sum here
+constexpr std::array<Point3, 3> AXES = {{{1.0, 0.0, 0.0}, {0.0, 1.0, 0.0}, {0.0, 0.0, 1.0}}};
+
+double root_of_squares(const std::array<double, 3>& x) {
+    return std::sqrt(x[0] * x[0] + x[1] * x[1] + x[2] * x[2]) * (1.0 + ROUNDING);
+}
+
+struct CurvePoint {
+    Point3 value;
+    double error;
+};
+
+/// c(t) about a point, and how far that is off at most.
+CurvePoint point_at(const Curve& curve, double t, Point3 about) {
+    std::array<double, 3> middle{}, off{};
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        std::array<Interval, 3> c;
+        if (!curve.enclose_along({t, t}, AXES[axis], about, c)) return {about, intervals::INFINITE};
+        middle[axis] = 0.5 * (c[0].lo + c[0].hi);
+        off[axis] = c[0].hi - c[0].lo;  // half of it, and as much for the rounding of the middle
+    }
+    return {{middle[0], middle[1], middle[2]}, root_of_squares(off)};
+}
+
+/// From the segment between the origin and ``end``.
+double distance_to_segment(Point3 x, Point3 end) {
+    const double length = dot(end, end);
+    const double t = length > 0.0 ? std::clamp(dot(x, end) / length, 0.0, 1.0) : 0.0;
+    return norm(x - t * end) + ROUNDING * (norm(x) + norm(end));
+}
+
+/// The largest |c''| from one parameter to another.
+double largest_bend(const Curve& curve, double first, double last) {
+    std::array<double, 3> most{};
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        std::array<Interval, 3> c;
+        if (!curve.enclose_along({first, last}, AXES[axis], {0.0, 0.0, 0.0}, c))
+            return intervals::INFINITE;
+        most[axis] = outward::magnitude(c[2]);
+    }
+    return root_of_squares(most);
+}
+
+}  // namespace
+
+Array<double> curve_bounds(const Curve& curve, std::span<const ParameterEnds> t,
+                           std::span<const SegmentEnds> ends, int parts) {
+    Array<double> found(t.size());
+    for (std::size_t i = 0; i < t.size(); ++i) {
+        const Point3 start = ends[i][0], end = ends[i][1] - start;
+        const double step = (t[i][1] - t[i][0]) / parts;
+        double most = 0.0, bend = 0.0, off = 0.0, from = t[i][0];
+        for (int part = 0; part <= parts; ++part) {
+            const double to = part == parts ? t[i][1] : t[i][0] + step * part;
+            const auto [x, error] = point_at(curve, to, start);
+            if (part == 0) off = norm(x) + error;
+            if (part == parts) off = std::max(off, norm(x - end) + error);
+            most = std::max(most, distance_to_segment(x, end) + error);
+            if (part > 0)
+                bend = std::max(bend, largest_bend(curve, std::min(from, to), std::max(from, to)));
+            from = to;
+        }
+        const double sag = step != 0.0 ? 0.125 * (step * step) * bend : 0.0;
+        const double bound = (most + sag * (1.0 + ROUNDING) + off) * (1.0 + ROUNDING);
+        found[i] = bound <= intervals::INFINITE ? bound : intervals::INFINITE;
+    }
+    return found;
+}
+
+}  // namespace surfmesh

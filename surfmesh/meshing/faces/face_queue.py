@@ -1,0 +1,74 @@
+"""Ordinary faces, which the core meshes one after the other without the interpreter.
+
+jobs -> inward faces, most work first -> FaceQueue of the core -> rows of arrays -> face meshes
+                                            |
+                                            +-> what is out of the ordinary goes on in face_mesh.py
+"""
+
+from collections.abc import Iterable, Sequence
+
+from surfmesh._core import faces as core
+from surfmesh.meshing.faces.face_data import FaceJob, FaceMesh
+from surfmesh.meshing.faces.face_mesh import continued
+from surfmesh.meshing.faces.inward_faces import inward_face
+
+
+class FaceQueue:
+    """Faces that the core meshes, whoever calls for the next ones."""
+
+    def __init__(self, jobs: Sequence[FaceJob], order: Iterable[int]) -> None:
+        """order: numbers of the jobs, as they are to be begun; others than inward ones are left."""
+        self._jobs = jobs
+        self._numbers: list[int] = []
+        """Of the jobs that it takes."""
+        self.left: list[int] = []
+        """Of the jobs that it does not take, in their order."""
+        faces = []
+        for number in order:
+            face = _ordinary(jobs[number])
+            if face is None:
+                self.left.append(number)
+            else:
+                self._numbers.append(number)
+                faces.append(face)
+        self._core = core.FaceQueue(faces)
+
+    def work(self, triangles: int) -> list[tuple[int, FaceMesh]]:
+        """The numbers and meshes of the next jobs, until so many triangles are made; none when
+        nothing is left."""
+        finished = self._core.work(triangles)
+        made = _in_rows(finished.rows)
+        made += [(face, continued(self._jobs[self._numbers[face]], begun))
+                 for face, begun in finished.others]  # fmt: skip
+        return [(self._numbers[face], mesh) for face, mesh in made]
+
+    def stop(self) -> None:
+        """Nothing is begun any more, and what is under way is given up."""
+        self._core.stop()
+
+
+def _ordinary(job: FaceJob) -> core.InwardFace | None:
+    """A job as the core takes it; None where it needs another way from the start."""
+    if job.narrow is not None or (job.exact is not None and job.exact.at_once):
+        return None
+    try:
+        return inward_face(job, look_for_tubes=True)
+    except Exception:  # face_mesh.py comes upon it again, and puts it into words
+        return None
+
+
+def _in_rows(rows: core.FaceRows) -> list[tuple[int, FaceMesh]]:
+    """Numbers in the queue and meshes of the faces that ask for nothing."""
+    points, slots, sizes, uv = rows.points, rows.slots, rows.sizes, rows.uv
+    triangles, uv_triangles = rows.triangles, rows.uv_triangles
+    found = []
+    p = t = c = 0
+    ends = zip(rows.point_end.tolist(), rows.triangle_end.tolist(), rows.corner_end.tolist())
+    for face, (point, triangle, corner) in zip(rows.face.tolist(), ends):
+        mesh = FaceMesh(
+            points[p:point], slots[p:point], triangles[t:triangle], uv[c:corner],
+            uv_triangles[t:triangle], sizes[p:point],
+        )  # fmt: skip
+        found.append((face, mesh))
+        p, t, c = point, triangle, corner
+    return found

@@ -1,0 +1,93 @@
+r"""Chords that two faces made between the same nodes are cut in all faces but one.
+
+  a               a          Where two faces have one tangent plane and their common edges leave
+ / \             /|\         a node at a narrow angle, both put one triangle into the corner, of
+p---q   -->     p-m-q        whatever size. A new vertex amid the chord p q, on the face that
+ \ /             \|/         bends more, tells them apart.
+  b               b
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+
+from surfmesh.cad.model.cad_model import CadModel
+from surfmesh.meshing.solids.joining import crowded_chords
+from surfmesh.result.surface_mesh import SurfaceMesh
+
+
+def with_crowded_chords_cut(model: CadModel, mesh: SurfaceMesh) -> SurfaceMesh:
+    """The mesh with the chords cut that more faces use than should: the same mesh if none are.
+
+    Left as they are: chords on the border of one of the faces.
+    """
+    chords = crowded_chords(model, mesh)
+    for first, last in np.sort(chords, axis=1).tolist():
+        mesh = _cut_in_all_but_one(mesh, first, last)
+    return mesh
+
+
+class _Chord(NamedTuple):
+    """Of one face: its two triangles there, the places (2, 2) in (u, v) of the ends in both by
+    number, the place amid them and the point there."""
+
+    two: np.ndarray
+    ends: np.ndarray
+    uv: np.ndarray
+    point: np.ndarray
+
+
+def _cut_in_all_but_one(mesh: SurfaceMesh, first: int, last: int) -> SurfaceMesh:
+    at = (mesh.triangles == first).any(axis=1) & (mesh.triangles == last).any(axis=1)
+    users = np.flatnonzero(at)
+    faces = mesh.face_ids[users]
+    found = [
+        chord for face in np.unique(faces).tolist()
+        if (chord := _chord(mesh, face, users[faces == face], first, last)) is not None
+    ]  # fmt: skip
+    # the flattest stays as it is: the others leave its plane
+    amid = mesh.points[[first, last]].mean(axis=0)
+    found.sort(key=lambda chord: float(np.linalg.norm(chord.point - amid)))
+    for chord in found[1:]:
+        mesh = _cut(mesh, chord, first, last)
+    return mesh
+
+
+def _chord(mesh: SurfaceMesh, face: int, two: np.ndarray, first: int, last: int) -> _Chord | None:
+    """None on the border of a face, and where its triangles lie on two sides of a seam."""
+    assert mesh.uv_points is not None and mesh.uv_triangles is not None  # noqa: S101
+    if len(two) != 2:
+        return None
+    corners, images = mesh.triangles[two], mesh.uv_triangles[two]
+    ends = np.array([images[corners == node] for node in (first, last)])
+    if (ends[:, 0] != ends[:, 1]).any():
+        return None
+    uv = mesh.uv_points[ends[:, 0]].mean(axis=0)
+    return _Chord(two, ends, uv, mesh.surfaces[face].evaluate(uv[None], 0)[0])
+
+
+def _cut(mesh: SurfaceMesh, chord: _Chord, first: int, last: int) -> SurfaceMesh:
+    """A vertex amid a chord of two triangles of a face; the new triangles come last."""
+    assert mesh.uv_points is not None and mesh.uv_triangles is not None  # noqa: S101
+    two, ends = chord.two, chord.ends
+    corners, images = mesh.triangles, mesh.uv_triangles
+    new, new_uv = len(mesh.points), len(mesh.uv_points)
+    triangles = np.vstack([corners, np.where(corners[two] == first, new, corners[two])])
+    triangles[two] = np.where(corners[two] == last, new, corners[two])
+    images = np.vstack([images, np.where(images[two] == ends[0, 0], new_uv, images[two])])
+    images[two] = np.where(images[two] == ends[1, 0], new_uv, images[two])
+    sizes, roots, solids = mesh.sizes, mesh.metric_root_3d, mesh.solid_ids
+    return mesh.replaced(
+        points=np.vstack([mesh.points, chord.point]),
+        triangles=triangles,
+        uv_points=np.vstack([mesh.uv_points, chord.uv]),
+        uv_triangles=images,
+        face_ids=np.append(mesh.face_ids, mesh.face_ids[two]),
+        solid_ids=None if solids is None else np.vstack([solids, solids[two]]),
+        sizes=None if sizes is None else np.append(sizes, sizes[[first, last]].mean()),
+        metric_root_3d=(
+            None if roots is None else np.vstack([roots, roots[ends[:, 0]].mean(axis=0)])
+        ),
+    )

@@ -1,0 +1,103 @@
+"""How far mesh and surfaces are from each other at most, proved: face by face, edge by edge.
+
+The bounds are those of ``accuracy.proof``. They say nothing of faces whose surface bounds nothing,
+such as a function of the caller; these are named.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from surfmesh._core.proof import curve_bounds
+from surfmesh.accuracy.proof import FaceTriangles, proved_distances, twins_of
+from surfmesh.quality.measures.deviation import Deviation
+from surfmesh.quality.measures.known_surfaces import KnownSurfaces, Rows
+from surfmesh.quality.measures.tolerances import CHORD_SLACK, Tolerances
+from surfmesh.result.connectivity import connect
+from surfmesh.result.mesh_parts import EdgeLinks
+from surfmesh.result.surface_mesh import SurfaceMesh
+
+CLOSELY = 1.05
+"""Times the sampled distance: how near it is worth to look where no chord was asked for."""
+
+COMPARED = 0.3
+"""Of the largest sampled distance: triangles that lie nearer say little about the bounds."""
+
+
+class Proof(NamedTuple):
+    """Distances in model units; infinite: nothing is proved."""
+
+    bound: NDArray[np.float64]  # (m,) of each triangle and its piece of the surface, both ways
+    limit: NDArray[np.float64]  # (m,) the chord of its face; infinite: none was asked for
+    without_bounds: tuple[int, ...]  # faces whose surface bounds nothing
+    edge_bound: NDArray[np.float64]  # (k,) of segments of CAD edges and their curves
+    over_sampled: float | None  # median of bound / sampled distance, where that is large
+
+    @property
+    def is_proved(self) -> NDArray[np.bool_]:
+        """(m,) within the chord, or at all where none was asked for."""
+        return np.isfinite(self.bound) & (self.bound <= self.limit * (1.0 + CHORD_SLACK))
+
+
+def proof(known: KnownSurfaces, fit: Deviation, tolerances: Tolerances) -> Proof:
+    """Of all triangles, with ``fit``, what samples say both ways."""
+    mesh = known.mesh
+    limit = tolerances.at(tolerances.chord, mesh.face_ids)
+    sampled = CLOSELY * fit.by_triangle.max(initial=0.0)
+    near = np.where(np.isfinite(limit), limit, sampled if np.isfinite(sampled) else 0.0)
+    bound, without = np.full(len(mesh.triangles), np.inf), []
+    for number, rows in _by_face(mesh):
+        found = proved_distances(mesh.surfaces[number], _face(known, rows), near[rows])
+        if found is None:
+            without.append(number)
+        else:
+            bound[rows] = found
+    edges = np.empty(0) if mesh.edge_links is None else _edge_bounds(mesh, mesh.edge_links)
+    return Proof(bound, limit, tuple(without), edges, _over_sampled(bound, fit.by_triangle))
+
+
+def _by_face(mesh: SurfaceMesh) -> Iterator[tuple[int, Rows]]:
+    """Number and triangles of each face that has some."""
+    order = np.argsort(mesh.face_ids, kind="stable")
+    starts = np.flatnonzero(np.diff(mesh.face_ids[order], prepend=-1))
+    for rows in np.split(order, starts[1:]):
+        if len(rows):
+            yield int(mesh.face_ids[rows[0]]), rows
+
+
+def _face(known: KnownSurfaces, rows: Rows) -> FaceTriangles:
+    """The triangles of one face by themselves: edges to other faces are rims."""
+    _, vertices = np.unique(known.mesh.triangles[rows], return_inverse=True)
+    triangles = vertices.reshape(-1, 3).astype(np.int32)
+    table = connect(triangles)
+    twins = twins_of(table.half_edges, table.uses, len(rows))
+    return FaceTriangles(known.points(rows), np.ascontiguousarray(known.uv(rows)), triangles, twins)
+
+
+def _edge_bounds(mesh: SurfaceMesh, links: EdgeLinks) -> NDArray[np.float64]:
+    """Of the segments of edges whose curve is known."""
+    if links.edge_parameters is None or not links.edge_curves:
+        return np.empty(0)
+    found = np.full(len(links.edge_segments), np.inf)
+    for number in np.unique(links.edge_ids).tolist():
+        edge = links.edge_curves[number] if number < len(links.edge_curves) else None
+        rows = np.flatnonzero(links.edge_ids == number)
+        if edge is None or edge.curve is None:
+            continue
+        t = edge.t0 + links.edge_parameters[rows] * (edge.t1 - edge.t0)
+        ends = mesh.points[links.edge_segments[rows]]
+        found[rows] = curve_bounds(edge.curve.core, np.ascontiguousarray(t), ends)
+    return found
+
+
+def _over_sampled(bound: NDArray[np.float64], sampled: NDArray[np.float64]) -> float | None:
+    """Median of bound / sampled distance of the triangles that are among the farthest."""
+    most = sampled.max(initial=0.0)
+    if not 0.0 < most < np.inf:
+        return None
+    some = np.isfinite(bound) & (sampled > COMPARED * most)
+    return float(np.median(bound[some] / sampled[some])) if some.any() else None

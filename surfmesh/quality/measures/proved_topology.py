@@ -1,0 +1,103 @@
+"""Is the mesh homeomorphic to its surface or model? Answered by counting and exact predicates.
+
+Each face of the mesh, cut open along its seams as in (u, v), has to consist of discs with holes
+whose triangles all run the same way round there: then it is the face it stands for, and faces and
+seams are joined by number as those of the model are. See docs/proof.md.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from surfmesh._core.triangulation import first_not_ccw
+from surfmesh.quality.measures.against_model import Unexpected
+from surfmesh.quality.measures.known_surfaces import KnownSurfaces, Rows
+from surfmesh.quality.measures.places import face_in_words
+from surfmesh.quality.measures.topology import Topology, topology
+from surfmesh.result.surface_mesh import SurfaceMesh
+
+
+@dataclass(frozen=True)
+class Answer:
+    """Yes, no, or not known; with the reason."""
+
+    answer: bool | None
+    because: str
+
+    def __str__(self) -> str:
+        word = "unknown" if self.answer is None else "yes" if self.answer else "no"
+        return f"{word}: {self.because}" if self.because else word
+
+
+def homeomorphic(known: KnownSurfaces, whole: Topology, unexpected: Unexpected) -> Answer:
+    """Of the mesh and what it was made of."""
+    mesh = known.mesh
+    order = np.argsort(mesh.face_ids, kind="stable")
+    starts = np.flatnonzero(np.diff(mesh.face_ids[order], prepend=-1))
+    for rows in np.split(order, starts[1:]):
+        reason = _not_a_disc(known, rows)
+        if reason:
+            number = int(mesh.face_ids[rows[0]])
+            where = face_in_words(number, mesh.face_name(number))
+            return Answer(None, f"{where}: {reason}" if len(mesh.surfaces) > 1 else reason)
+    missing = len(mesh.surfaces) - len(np.unique(mesh.face_ids))
+    if missing:
+        return Answer(False, f"{missing} of {len(mesh.surfaces)} faces have no triangles")
+    odd = unexpected.crowded_edges, unexpected.bare_edges, unexpected.pinched_vertices
+    if any(map(len, (*odd, unexpected.joined_vertices))):
+        return Answer(False, "edges or vertices are not shared as in the model")
+    exact = None if mesh.facts is None else mesh.facts.euler
+    if exact is not None and exact != whole.euler:
+        return Answer(False, f"the Euler number is {whole.euler}, of the model {exact}")
+    discs = "every face is a disc with its holes in (u, v)"
+    return Answer(True, f"{discs}, and they are joined by number as in the model")
+
+
+def isotopic(same: Answer, meeting: int | None, crosses_itself: bool) -> Answer:
+    """Is the mesh the surface but for a deformation of space? meeting: pairs of its triangles."""
+    if same.answer is not True:
+        return Answer(same.answer, "it is not known to be homeomorphic")
+    if crosses_itself:
+        return Answer(None, "the surface crosses itself")
+    if meeting is None:
+        return Answer(None, "whether triangles meet is not known")
+    if meeting:
+        return Answer(False, f"{meeting} pairs of its triangles meet")
+    return Answer(None, "how near the surface comes to itself is not bounded")
+
+
+def _not_a_disc(known: KnownSurfaces, rows: Rows) -> str:
+    """Why the triangles of a face are no disc with holes in (u, v); empty where they are."""
+    corners = known.corners.uv_triangles[rows]
+    used, triangles = np.unique(corners, return_inverse=True)
+    uv, triangles = known.corners.uv_points[used], triangles.reshape(-1, 3)
+    if not np.isfinite(uv).all():
+        return "its parameters are not finite"
+    if not _run_one_way(uv, triangles):
+        return "triangles do not all run the same way round in (u, v)"
+    flat = topology(_plane_mesh(uv, triangles))
+    if not flat.manifold:
+        return "its triangles only touch in (u, v)"
+    if flat.euler != 2 * flat.components - flat.boundary_loops:  # each has at most 2 less its loops
+        return f"it has {flat.boundary_loops} boundary loops, and the Euler number {flat.euler}"
+    loops = len(known.mesh.surfaces[int(known.mesh.face_ids[rows[0]])].loops)
+    if loops and loops != flat.boundary_loops:
+        return f"it has {flat.boundary_loops} boundary loops instead of {loops}"
+    return ""
+
+
+def _run_one_way(uv: NDArray[np.float64], triangles: NDArray[np.int64]) -> bool:
+    """Exactly; the faces of a solid may run either way."""
+    xy = np.ascontiguousarray(uv)
+    ccw = np.ascontiguousarray(triangles, np.int64)
+    if first_not_ccw(xy, ccw) < 0:
+        return True
+    return first_not_ccw(xy, np.ascontiguousarray(ccw[:, ::-1])) < 0
+
+
+def _plane_mesh(uv: NDArray[np.float64], triangles: NDArray[np.int64]) -> SurfaceMesh:
+    flat = np.concatenate([uv, np.zeros((len(uv), 1))], axis=1)
+    return SurfaceMesh(points=flat, triangles=triangles.astype(np.int32))
