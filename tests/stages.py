@@ -29,5 +29,5 @@ def patch_state(domain, surface, chart, field, before_pass=None):
         domain.t, domain.node[used], domain.same[used], domain.on_kinks,
         domain.points[used] if len(domain.points) else None,
         as_core_surface(surface), chart.core, field.background,
-        sizing.chord, sizing.angle, sizing.min_size or 0.0, before_pass,
+        sizing.chord, sizing.angle, sizing.min_size or 0.0, None, before_pass,
     )  # fmt: skip

@@ -96,14 +96,18 @@ void bind_manner(nb::module_& m) {
         .def(
             "__init__",
             [](FaceManner* made, std::optional<double> chord, std::optional<double> angle,
-               double min_size, bool optimise, bool first, bool is_anisotropic) {
-                new (made) FaceManner{{chord, angle, min_size}, optimise, first, is_anisotropic};
+               double min_size, bool optimise, bool first, bool is_anisotropic,
+               std::optional<double> slope) {
+                new (made)
+                    FaceManner{{chord, angle, min_size, slope}, optimise, first, is_anisotropic};
             },
             nb::arg("chord").none(), nb::arg("angle").none(), nb::arg("min_size"),
             nb::arg("optimise") = true, nb::arg("first") = true, nb::arg("is_anisotropic") = false,
+            nb::arg("slope") = nb::none(),
             "chord (model units), angle (degrees), min_size: what is asked for, with 0 for no "
             "least size. optimise: else only diagonals are chosen. first: the sizes come from no "
-            "earlier round. is_anisotropic: they depend on the direction.");
+            "earlier round. is_anisotropic: they depend on the direction. slope: growth per "
+            "length that such sizes are graded to on the mesh.");
 }
 
 InwardFace inward_face(std::shared_ptr<Surface> surface, std::shared_ptr<FaceBoundary> boundary,

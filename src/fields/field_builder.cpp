@@ -34,10 +34,6 @@ constexpr int MAX_ROUNDS = 60;
 // directions turn on a surface as steep as a wall sizes may creep.
 constexpr std::int64_t MOST_VISITS = 60'000'000;
 
-// Of the slope, where sizes are stretched: they grow along edges and diagonals of cells, and such
-// ways are up to 8 % longer than the straight ones.
-constexpr double STRAIGHT = 0.97;
-
 constexpr std::size_t MANY_CELLS = 100'000;  // made before the triangles are counted
 
 constexpr FieldOutcome DONE_WELL{FieldStatus::done, {0.0, 0.0}, 0.0};
@@ -138,7 +134,6 @@ FieldOutcome FieldBuilder::spread(std::span<double> size) { return spread(size, 
 FieldOutcome FieldBuilder::spread(std::span<double> size, bool stretched) {
     GradedSizes graded{size, {}, {}, {}, {}, all(nodes.point), all(changed_), plan_.slope};
     if (stretched) {
-        graded.slope *= STRAIGHT;
         graded.longer = all(nodes.longer);
         graded.along = all(nodes.along);
         graded.normal = all(nodes.normal);

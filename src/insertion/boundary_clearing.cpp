@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "triangulation/local_operations.hpp"
+#include "values/threads.hpp"
 
 namespace surfmesh {
 namespace {
@@ -13,6 +14,7 @@ namespace {
 constexpr double BAD_SHAPE = 0.7;
 constexpr int SWEEPS = 8;
 constexpr double BETTER_BY = 1e-3;
+constexpr std::size_t BLOCK = 1 << 15;  // triangles measured together
 
 /// Metric distance of vertex v from the segment of half-edge e.
 double distance_to_edge(const Triangulation& t, HalfEdge e, Vertex v) {
@@ -112,10 +114,12 @@ Cleared clear_boundary(Triangulation& t, std::span<const Segment> segments, Arra
 
 std::int64_t swap_bad(Triangulation& t) {
     Array<double> shape(t.region.size(), 1.0);
-    for (Triangle k = 0; k < t.triangles(); ++k)
-        if (t.region[k] == INSIDE)
-            shape[k] =
-                triangle_shape(t.xy, t.size, t.tri[3 * k], t.tri[3 * k + 1], t.tri[3 * k + 2]);
+    for_each_block(t.region.size(), BLOCK, [&](std::size_t first, std::size_t last) {
+        for (auto k = static_cast<Triangle>(first); k < static_cast<Triangle>(last); ++k)
+            if (t.region[k] == INSIDE)
+                shape[k] =
+                    triangle_shape(t.xy, t.size, t.tri[3 * k], t.tri[3 * k + 1], t.tri[3 * k + 2]);
+    });
     std::int64_t total = 0;
     for (int sweep = 0; sweep < SWEEPS; ++sweep) {
         std::int64_t swaps = 0;

@@ -101,8 +101,9 @@ void add_box(CellBounds& bounds, std::span<const Point3> corners, Point3 sag) {
         size = larger(size, absolute(corner));
         bounds.corners.push_back(corner);
     }
-    const double rounding = ROUNDING * std::max({size.x, size.y, size.z});
-    const Point3 wider{known(sag.x) + rounding, known(sag.y) + rounding, known(sag.z) + rounding};
+    // of the largest coordinate: a slab along a slanted axis adds up what all of them lose
+    const double lost = ROUNDING * std::max({size.x, size.y, size.z});
+    const Point3 wider{known(sag.x) + lost, known(sag.y) + lost, known(sag.z) + lost};
     bounds.sag.push_back(wider);
     bounds.low.push_back(low - wider);
     bounds.high.push_back(high + wider);

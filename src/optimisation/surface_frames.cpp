@@ -76,8 +76,20 @@ ShapeParts shape_parts(const SurfaceFrames& s, Vertex a, Vertex b, Vertex c) {
 
 }  // namespace
 
-SurfaceFrames::SurfaceFrames(std::size_t vertices, bool anisotropic) : is_anisotropic(anisotropic) {
+SurfaceFrames::SurfaceFrames(std::size_t vertices, bool anisotropic, std::size_t room)
+    : is_anisotropic(anisotropic) {
+    reserve(std::max(vertices, room));
     resize(vertices);
+}
+
+void SurfaceFrames::reserve(std::size_t room) {
+    point.reserve(room);
+    tangent_map.reserve(room);
+    normal.reserve(room);
+    size.reserve(room);
+    scale.reserve(room);
+    drift.reserve(room);
+    if (is_anisotropic) metric_root.reserve(room);
 }
 
 void SurfaceFrames::resize(std::size_t vertices) {

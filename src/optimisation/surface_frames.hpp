@@ -50,10 +50,14 @@ struct SurfaceFrames {
     RefinementLimits limits;
 
     SurfaceFrames() = default;
-    SurfaceFrames(std::size_t vertices, bool anisotropic);
+    /// room: for so many vertices, if that is more.
+    SurfaceFrames(std::size_t vertices, bool anisotropic, std::size_t room = 0);
 
     /// Room for vertices up to number ``vertices``; a new one has scale 1 and no frame yet.
     void resize(std::size_t vertices);
+
+  private:
+    void reserve(std::size_t room);
 };
 
 /// r, r_x and r_y: a point of the surface, and its derivatives by the coordinates of the plane.

@@ -15,7 +15,7 @@ namespace surfmesh {
 namespace {
 
 constexpr double LONGEST_LINE = 20.0;  // circles on it, over the root of all that are expected
-constexpr int BISECTIONS = 12;         // for the place of the line
+constexpr int BISECTIONS = 7;          // for the place of the line
 // Of the box's width: how far ``behind`` lies off the line. Flat, so that no circle gets beyond the
 // edges between it and the ends of the line, which is some circles longer than the box is wide
 constexpr double BEHIND = 1e-3;
@@ -63,19 +63,23 @@ struct LaidLine {
     Array<Circle> circles;
 };
 
-/// The line with fewer circles of the two along the axes; without any where there is none.
+/// The line along the axis that needs fewer circles in the middle of the box.
 LaidLine line_through(const Background& background, Point2 low, Point2 high, std::size_t most) {
-    const Point2 centre = 0.5 * (low + high);
-    const double x = halving(
-        low.x, high.x, [&](double upper) { return metric_area_of_box(background, upper, high.y); });
-    const double y = halving(
-        low.y, high.y, [&](double upper) { return metric_area_of_box(background, high.x, upper); });
-    const Line across{{centre.x, y}, {1.0, 0.0}}, upward{{x, centre.y}, {0.0, 1.0}};
-    Array<Circle> first = circles_along(background, across, low, high, most);
-    Array<Circle> second = circles_along(background, upward, low, high, most);
-    if (first.empty() || (!second.empty() && second.size() < first.size()))
-        return {upward, std::move(second)};
-    return {across, std::move(first)};
+    Line line{0.5 * (low + high), {1.0, 0.0}};
+    const std::size_t across = circles_along(background, line, low, high, most).size();
+    line.direction = {0.0, 1.0};
+    const std::size_t upward = circles_along(background, line, low, high, most).size();
+    if (upward == 0 || (across != 0 && across <= upward)) {
+        line.direction = {1.0, 0.0};
+        line.through.y = halving(low.y, high.y, [&](double upper) {
+            return metric_area_of_box(background, high.x, upper);
+        });
+    } else {
+        line.through.x = halving(low.x, high.x, [&](double upper) {
+            return metric_area_of_box(background, upper, high.y);
+        });
+    }
+    return {line, circles_along(background, line, low, high, most)};
 }
 
 /// The half on the left of the line.

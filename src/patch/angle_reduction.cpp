@@ -71,6 +71,7 @@ void reduce_dihedrals(PatchState& state) {
         }
         lower_sizes_at(state, found, angle_limit(angle, ANGLE_MARGIN),
                        last ? LAST_ANGLE_SCALE : LEAST_ANGLE_SCALE);
+        state.hold_growth(false);
         state.split(longest);
         state.smooth();
         state.smooth();

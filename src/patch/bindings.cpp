@@ -95,12 +95,12 @@ void construct(BoundPatch* made, Triangulation& t, const Numbers& node, const Nu
                const Numbers& on_kinks, const std::optional<Points3>& points,
                const Surface& surface, const Chart& chart, const Background& background,
                std::optional<double> chord, std::optional<double> angle, double min_size,
-               const nb::object& before_pass) {
+               std::optional<double> slope, const nb::object& before_pass) {
     require_domain(t);
     BoundaryNodes nodes = nodes_of(t, node, same, on_kinks, points);
     std::shared_ptr<PassHook> hook;
     if (!before_pass.is_none()) hook = std::make_shared<PassHook>(PassHook{before_pass, {}});
-    PatchSetting setting{surface, chart, background, {chord, angle, min_size}, {}};
+    PatchSetting setting{surface, chart, background, {chord, angle, min_size, slope}, {}};
     if (hook) setting.before_pass = [hook] { return (*hook)(); };
     auto patch = [&] {
         const nb::gil_scoped_release released;
@@ -207,8 +207,9 @@ void bind_state(nb::class_<BoundPatch>& c) {
     c.def("__init__", &construct, nb::arg("t"), nb::arg("node"), nb::arg("same"),
           nb::arg("on_kinks"), nb::arg("points").none(), nb::arg("surface"), nb::arg("chart"),
           nb::arg("background"), nb::arg("chord") = nb::none(), nb::arg("angle") = nb::none(),
-          nb::arg("min_size") = 0.0, nb::arg("before_pass") = nb::none(), nb::keep_alive<1, 2>(),
-          nb::keep_alive<1, 7>(), nb::keep_alive<1, 8>(), nb::keep_alive<1, 9>(),
+          nb::arg("min_size") = 0.0, nb::arg("slope") = nb::none(),
+          nb::arg("before_pass") = nb::none(), nb::keep_alive<1, 2>(), nb::keep_alive<1, 7>(),
+          nb::keep_alive<1, 8>(), nb::keep_alive<1, 9>(),
           "t: of the domain, changed in place. node, same (k,): vertices of the boundary's nodes, "
           "and of those they coincide with in space. on_kinks (j,): vertices where the surface has "
           "two normals. points (k, 3): where the nodes lie; None: on the surface.\nchord (model "

@@ -22,6 +22,7 @@ inline constexpr double LEAST_OF_CHORD = 0.5;
 struct AskedAccuracy {
     std::optional<double> chord, angle;
     double min_size = 0.0;
+    std::optional<double> slope = {};  // growth per length that sizes lowered here are graded to
 };
 
 /// Radius below which a surface is said to bend sharply: no triangle is small enough there.

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "optimisation/collapse.hpp"
+#include "optimisation/scale_gradation.hpp"
 #include "optimisation/smoothing.hpp"
 #include "optimisation/splits.hpp"
 #include "optimisation/swaps.hpp"
@@ -70,7 +71,8 @@ void read_mean_slopes(SurfaceReader& surface, std::span<const Point2> uv, Array<
 PatchState::PatchState(Triangulation& triangulation, BoundaryNodes nodes,
                        const PatchSetting& setting)
     : t(triangulation),
-      frames(t.xy.size(), !setting.background.metric_root_3d.empty()),
+      frames(t.xy.size(), setting.background.is_anisotropic(),
+             most_vertices(t.xy.size(), setting.background.is_anisotropic())),
       marks(t.xy.size()),
       nodes_(std::move(nodes)),
       setting_(setting),
@@ -222,6 +224,11 @@ void PatchState::split(double longest) {
 int PatchState::split_farthest(std::span<const Triangle> triangles) {
     if (stopped()) return 0;
     return set_new(split_far_edges(t, frames, marks, triangles));
+}
+
+int PatchState::hold_growth(bool around_all) {
+    if (!is_anisotropic() || !asked().slope || stopped()) return 0;
+    return grade_scales(t, frames, marks, *asked().slope, around_all);
 }
 
 void PatchState::end_passes() {

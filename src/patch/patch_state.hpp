@@ -107,6 +107,10 @@ class PatchState {
     ///
     /// All other vertices stay where they are. Returns how many were split.
     int split_farthest(std::span<const Triangle> triangles);
+    /// Where sizes depend on the direction: lower them further around vertices whose sizes are
+    /// lowered, or around all, until they grow along no edge by more than is asked. Returns how
+    /// many were lowered.
+    int hold_growth(bool around_all);
     /// Free what only passes need; the frames keep their scales.
     void end_passes();
 

@@ -60,6 +60,15 @@ void relax(PatchState& state) {
     smooth_and_swap(state);
 }
 
+/// Between the ways that the size field is graded along, the metric may turn faster than sizes grow.
+void hold_growth(PatchState& state) {
+    if (state.hold_growth(true) == 0) return;
+    state.split();
+    state.smooth();
+    state.smooth();
+    state.swap();
+}
+
 /// Passes for the worst triangles alone.
 void improve_worst(PatchState& state) {
     state.marks.active.fill(0);
@@ -118,6 +127,7 @@ Unmended optimise(PatchState& state, bool first) {
     }
     state.settle();
     state.kept_drift = 0.0;
+    hold_growth(state);
     reduce_dihedrals(state);
     Array<Triangle> far = approach_surface(state, first);
     if (state.stopped()) return {};

@@ -19,6 +19,7 @@ constexpr double SUSPECT = 0.7;
 // estimate is for triangles small beside the features.
 constexpr std::size_t FEW_TRIANGLES = 20'000;
 constexpr double FLAT = 1e-9;
+constexpr std::size_t BLOCK = 1 << 15;  // triangles looked through together
 
 constexpr double MANY_FAR = 0.02;  // of the triangles
 constexpr int CHORD_ROUNDS = 10, STRETCHED_CHORD_ROUNDS = 4, SPLIT_ROUNDS = 6;
@@ -75,10 +76,11 @@ class Changes {
 Triangles suspects_by_estimate(const PatchState& state, double chord) {
     const Array<double> estimate = estimate_deviations(state.t, state.frames);
     const double least = (estimate.size() > FEW_TRIANGLES ? SUSPECT : FLAT) * chord;
-    Triangles found;
-    for (Triangle k = 0; k < state.t.triangles(); ++k)
-        if (estimate[k] > least) found.push_back(k);
-    return found;
+    return collect_by_blocks<Triangle>(
+        estimate.size(), BLOCK, [&](std::size_t first, std::size_t last, Triangles& found) {
+            for (auto k = static_cast<Triangle>(first); k < static_cast<Triangle>(last); ++k)
+                if (estimate[k] > least) found.push_back(k);
+        });
 }
 
 /// Split edges of the triangles ``far`` where they are too far; returns those left.
@@ -111,6 +113,7 @@ Triangles approach_surface(PatchState& state, bool first) {
         if (shrink_far(state.t, state.frames, state.marks, all(suspects),
                        {error.data(), error.size()}, limit) == 0)
             break;
+        state.hold_growth(false);
         Changes changes(state);
         state.split();
         for (int pass = 0; pass < 2; ++pass) {

@@ -26,20 +26,11 @@
 #include <cstdint>
 #include <span>
 
-#include "proof/triangle_bounds.hpp"
+#include "proof/triangle_ring.hpp"
 #include "values/array.hpp"
 #include "values/conventions.hpp"
 
 namespace surfmesh {
-
-/// The triangles of one face: corners, parameters, vertices (3 m), opposite half-edges (3 m), and
-/// what is proved of them so far.
-struct ProofMesh {
-    std::span<const SpaceCorners> corners;
-    std::span<const PlaneCorners> uv;
-    std::span<const std::int32_t> vertices, twins;
-    std::span<const TriangleBounds> bounds;
-};
 
 /// Triangles of the (u, v) plane between two neighbours whose parameters differ at a pole. In space
 /// two of their corners are one, so that the mesh has none; each belongs to a triangle beside it.

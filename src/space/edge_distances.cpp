@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "values/threads.hpp"
+
 namespace surfmesh {
 namespace {
 
@@ -89,9 +91,39 @@ void lower_gaps(const SampledEdges& sampled, const Segments& runs, std::int64_t 
     }
 }
 
+/// Of each edge the faces that use it, in their order.
+struct FacesOfEdges {
+    Array<std::int64_t> first;  // of the edges, and how many there are
+    Array<std::int64_t> faces;
+};
+
+FacesOfEdges faces_of_edges(const SampledEdges& sampled) {
+    FacesOfEdges found{Array<std::int64_t>(sampled.first.size(), 0),
+                       Array<std::int64_t>(sampled.edges.size(), 0)};
+    for (const std::int64_t edge : sampled.edges) ++found.first[edge + 1];
+    for (std::size_t e = 1; e < found.first.size(); ++e) found.first[e] += found.first[e - 1];
+    Array<std::int64_t> place = found.first;
+    for (std::size_t face = 0; face + 1 < sampled.first_of_face.size(); ++face)
+        for (std::int64_t k = sampled.first_of_face[face]; k < sampled.first_of_face[face + 1]; ++k)
+            found.faces[place[sampled.edges[k]]++] = static_cast<std::int64_t>(face);
+    return found;
+}
+
+/// Lower the gaps of the samples of edge a to their distances from the other edges of a face.
+void lower_gaps_in_face(const SampledEdges& sampled, const Segments& runs, std::int64_t a,
+                        std::int64_t face, double farthest, EdgeGaps& found) {
+    for (std::int64_t k = sampled.first_of_face[face]; k < sampled.first_of_face[face + 1]; ++k) {
+        const std::int64_t b = sampled.edges[k];
+        if (a != b && !have_common_vertex(sampled.ends[a], sampled.ends[b]) &&
+            squared_distance_between(found.boxes[a], found.boxes[b]) < farthest)
+            lower_gaps(sampled, runs, a, b, found);
+    }
+}
+
 }  // namespace
 
 EdgeGaps edge_gaps(const SampledEdges& sampled) {
+    constexpr std::size_t BLOCK = 64;  // edges that a thread takes at a time
     const Segments runs = runs_of_segments(sampled);
     EdgeGaps found{Array<double>(sampled.points.size(), INFINITE), {}};
     Array<double> farthest;  // squares of the largest reach of each edge
@@ -104,16 +136,13 @@ EdgeGaps edge_gaps(const SampledEdges& sampled) {
             largest = std::max(largest, reach);
         farthest.push_back(largest * largest);
     }
-    for (std::size_t face = 0; face + 1 < sampled.first_of_face.size(); ++face) {
-        const auto start = static_cast<std::size_t>(sampled.first_of_face[face]);
-        const auto count = static_cast<std::size_t>(sampled.first_of_face[face + 1]) - start;
-        const std::span<const std::int64_t> own = sampled.edges.subspan(start, count);
-        for (const std::int64_t a : own)
-            for (const std::int64_t b : own)
-                if (a != b && !have_common_vertex(sampled.ends[a], sampled.ends[b]) &&
-                    squared_distance_between(found.boxes[a], found.boxes[b]) < farthest[a])
-                    lower_gaps(sampled, runs, a, b, found);
-    }
+    const FacesOfEdges uses = faces_of_edges(sampled);
+    for_each_block(farthest.size(), BLOCK, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t a = begin; a < end; ++a)
+            for (std::int64_t k = uses.first[a]; k < uses.first[a + 1]; ++k)
+                lower_gaps_in_face(sampled, runs, static_cast<std::int64_t>(a), uses.faces[k],
+                                   farthest[a], found);
+    });
     return found;
 }
 

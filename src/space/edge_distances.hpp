@@ -24,7 +24,8 @@ struct EdgeGaps {
     Array<Box3> boxes;  // of the edges, around their samples
 };
 
-/// Distance of each sample from the edges that share a face with its own but no vertex.
+/// Distance of each sample from the edges that share a face with its own but no vertex. By threads,
+/// edge by edge: the gaps of an edge are lowered in the order of its faces.
 EdgeGaps edge_gaps(const SampledEdges& sampled);
 
 }  // namespace surfmesh

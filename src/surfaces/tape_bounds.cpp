@@ -291,6 +291,23 @@ void run_outward(const Instruction& step, const Slots& slots, std::size_t n) {
         for (std::size_t k = 0; k < n; ++k) o.out[k] = outward::widened(o.out[k], ulps);
 }
 
+/// Which instructions the outputs from ``first`` on depend on.
+Array<std::uint8_t> needed_for(const Tape& tape, std::size_t first) {
+    const std::span<const Instruction> steps = tape.instructions();
+    const std::size_t slots = tape.inputs() + tape.constants().size() + tape.registers();
+    if (first == 0) return Array<std::uint8_t>(steps.size(), 1);
+    Array<std::uint8_t> live(slots, 0), needed(steps.size(), 0);
+    for (const std::int32_t output : tape.outputs().subspan(first)) live[output] = 1;
+    for (std::size_t k = steps.size(); k-- > 0;) {
+        const Instruction& step = steps[k];
+        if (live[step.target] == 0) continue;
+        needed[static_cast<std::ptrdiff_t>(k)] = 1;
+        live[step.target] = 0;  // what it held before is not read any more, but by itself
+        for (const std::int32_t operand : step.operands) live[operand] = 1;
+    }
+    return needed;
+}
+
 /// Which numbers tapes are run in, and what becomes of their outputs.
 struct Arithmetic {
     Interval (*constant)(double);
@@ -307,6 +324,7 @@ void bounds_in(const Arithmetic& arithmetic, const Tape& tape, std::span<const d
     const std::span<const std::int32_t> outputs = tape.outputs();
     if (first >= outputs.size()) return;
     const std::size_t stride = outputs.size() - first;
+    const Array<std::uint8_t> needed = needed_for(tape, first);
     const Slots slots(tape, lanes);
     auto constant = static_cast<std::int32_t>(inputs);
     for (const double value : tape.constants())
@@ -320,7 +338,9 @@ void bounds_in(const Arithmetic& arithmetic, const Tape& tape, std::span<const d
                 input[k] = {lo[from], hi[from]};
             }
         }
-        for (const Instruction& step : tape.instructions()) arithmetic.run(step, slots, n, kinks);
+        for (std::size_t k = 0; k < needed.size(); ++k)
+            if (needed[static_cast<std::ptrdiff_t>(k)] != 0)
+                arithmetic.run(tape.instructions()[k], slots, n, kinks);
         for (std::size_t k = 0; k < stride; ++k) {
             const Interval* found = slots[outputs[first + k]];
             for (std::size_t i = 0; i < n; ++i) {

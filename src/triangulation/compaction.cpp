@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "triangulation/space_filling_order.hpp"
+#include "values/threads.hpp"
 
 namespace surfmesh {
 namespace {
@@ -11,6 +12,8 @@ namespace {
 /// it does not fit into the memory near a processor, and is worth a second one.
 constexpr Triangle LARGE = 50'000;
 constexpr std::size_t VERTICES_OF_PART = 32'768;  // about
+constexpr std::size_t BLOCK = 1 << 15;            // vertices or triangles copied together
+constexpr std::size_t ROOM = 16;                  // there is room for this part more, as for splits
 
 /// The vertices that triangles inside use, in the order they will have.
 Array<Vertex> vertices_inside(const Triangulation& t, Triangle triangles) {
@@ -40,12 +43,17 @@ Array<Triangle> number_by_vertex(const Triangulation& t, const Array<Vertex>& ve
         return std::min({vertex_number[t.tri[3 * k]], vertex_number[t.tri[3 * k + 1]],
                          vertex_number[t.tri[3 * k + 2]]});
     };
+    Array<Triangle> number(t.region.size(), NIL);  // at first those vertices
+    for_each_block(t.region.size(), BLOCK, [&](std::size_t start, std::size_t end) {
+        for (auto k = static_cast<Triangle>(start); k < static_cast<Triangle>(end); ++k)
+            if (t.region[k] == INSIDE) number[k] = vertex_of(k);
+    });
     for (Triangle k = 0; k < t.triangles(); ++k)
-        if (t.region[k] == INSIDE) ++first[vertex_of(k) + 1];
+        if (t.region[k] == INSIDE) ++first[number[k] + 1];
     for (std::size_t v = 1; v < first.size(); ++v) first[v] += first[v - 1];
-    Array<Triangle> next(first), number(t.region.size(), NIL);
+    Array<Triangle> next(first);
     for (Triangle k = 0; k < t.triangles(); ++k)
-        if (t.region[k] == INSIDE) number[k] = next[vertex_of(k)]++;
+        if (t.region[k] == INSIDE) number[k] = next[number[k]]++;
     return number;
 }
 
@@ -66,16 +74,18 @@ Array<Part> parts_of(const Array<Triangle>& first) {
 void copy_triangles(const Triangulation& t, const Array<Triangle>& number,
                     DomainTriangulation& domain) {
     Triangulation& out = domain.t;
-    for (HalfEdge e = 0; e < 3 * t.triangles(); ++e) {
-        const Triangle n = number[e / 3];
-        if (n == NIL) continue;
-        const HalfEdge f = 3 * n + e % 3;
-        out.tri[f] = domain.vertex_number[t.tri[e]];
-        out.fixed[f] = t.fixed[e];
-        const HalfEdge twin = t.adj[e];
-        const Triangle m = twin >= 0 ? number[twin / 3] : NIL;
-        out.adj[f] = m != NIL ? 3 * m + twin % 3 : NIL;
-    }
+    for_each_block(t.region.size(), BLOCK, [&](std::size_t start, std::size_t end) {
+        for (auto k = static_cast<Triangle>(start); k < static_cast<Triangle>(end); ++k) {
+            if (number[k] == NIL) continue;
+            for (HalfEdge e = 3 * k, f = 3 * number[k]; e < 3 * k + 3; ++e, ++f) {
+                out.tri[f] = domain.vertex_number[t.tri[e]];
+                out.fixed[f] = t.fixed[e];
+                const HalfEdge twin = t.adj[e];
+                const Triangle m = twin >= 0 ? number[twin / 3] : NIL;
+                out.adj[f] = m != NIL ? 3 * m + twin % 3 : NIL;
+            }
+        }
+    });
 }
 
 }  // namespace
@@ -85,8 +95,18 @@ DomainTriangulation cut_inside(const Triangulation& t) {
         static_cast<Triangle>(std::count(t.region.begin(), t.region.end(), INSIDE));
     DomainTriangulation domain{{}, Array<Vertex>(t.xy.size(), NIL)};
     Triangulation& out = domain.t;
-    for (const Vertex v : vertices_inside(t, triangles))
-        domain.vertex_number[v] = out.add_vertex(t.xy[v], t.size[v]);
+    const Array<Vertex> inside = vertices_inside(t, triangles);
+    out.reserve(inside.size() + inside.size() / ROOM + 64);
+    out.fixed.reserve(2 * 3 * (inside.size() + inside.size() / ROOM));
+    out.xy.resize(inside.size());
+    out.size.resize(inside.size());
+    for_each_block(inside.size(), BLOCK, [&](std::size_t start, std::size_t end) {
+        for (std::size_t n = start; n < end; ++n) {
+            domain.vertex_number[inside[n]] = static_cast<Vertex>(n);
+            out.xy[n] = t.xy[inside[n]];
+            out.size[n] = t.size[inside[n]];
+        }
+    });
     const auto half_edges = 3 * static_cast<std::size_t>(triangles);
     out.tri.resize(half_edges);
     out.adj.resize(half_edges, NIL);

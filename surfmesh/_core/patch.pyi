@@ -163,7 +163,7 @@ class PatchState:
     A triangulated domain with its surface frames, and the passes of the optimiser on it.
     """
 
-    def __init__(self, t: surfmesh._core.triangulation.Triangulation, node: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], same: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], on_kinks: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], points: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)] | None, surface: surfmesh._core.surfaces.Surface, chart: surfmesh._core.surfaces.Chart, background: surfmesh._core.fields.Background, chord: float | None = None, angle: float | None = None, min_size: float = 0.0, before_pass: object | None = None) -> None:
+    def __init__(self, t: surfmesh._core.triangulation.Triangulation, node: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], same: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], on_kinks: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], points: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)] | None, surface: surfmesh._core.surfaces.Surface, chart: surfmesh._core.surfaces.Chart, background: surfmesh._core.fields.Background, chord: float | None = None, angle: float | None = None, min_size: float = 0.0, slope: float | None = None, before_pass: object | None = None) -> None:
         """
         t: of the domain, changed in place. node, same (k,): vertices of the boundary's nodes, and of those they coincide with in space. on_kinks (j,): vertices where the surface has two normals. points (k, 3): where the nodes lie; None: on the surface.
         chord (model units), angle (degrees): what is asked for. before_pass: called before each pass of smoothing; may raise to stop the work.
@@ -258,9 +258,9 @@ class PatchState:
 class PatchSettings:
     """What a patch is meshed on, and how."""
 
-    def __init__(self, surface: object, chart: object, background: object, chord: float | None = None, angle: float | None = None, min_size: float = 0.0, *, box: Sequence[float], expected: int, optimise: bool = True, first: bool = True, with_roots: bool = False, before_stage: object | None = None, while_packing: object | None = None, before_pass: object | None = None) -> None:
+    def __init__(self, surface: object, chart: object, background: object, chord: float | None = None, angle: float | None = None, min_size: float = 0.0, *, box: Sequence[float], expected: int, optimise: bool = True, first: bool = True, with_roots: bool = False, slope: float | None = None, before_stage: object | None = None, while_packing: object | None = None, before_pass: object | None = None) -> None:
         """
-        chord (model units), angle (degrees): what is asked for. box: x0, y0, x1, y1 of the plane that is packed, in which about ``expected`` circles have room. optimise: else only diagonals are chosen. first: the sizes come from no earlier round. with_roots: W of the vertices is wanted.
+        chord (model units), angle (degrees): what is asked for. box: x0, y0, x1, y1 of the plane that is packed, in which about ``expected`` circles have room. optimise: else only diagonals are chosen. first: the sizes come from no earlier round. with_roots: W of the vertices is wanted. slope: growth per length that stretched sizes are graded to on the mesh.
         before_stage is called with each PatchStage, while_packing now and then with the number of circles, before_pass before each pass of smoothing; what they raise stops the work and comes through.
         """
 

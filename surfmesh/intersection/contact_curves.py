@@ -19,15 +19,22 @@ from surfmesh.intersection.newton import Pulled, limits_of, unit_normals, uv_dir
 from surfmesh.intersection.touching import branch_ways
 from surfmesh.intersection.tracing import End, Trace, place
 
-TURN, STRAIGHTER, GROWN, AHEAD, ALIKE = 0.16, 0.08, 1.5, 1.6, 0.45
-"""Steps and ends, as those of curves that cross (``src/intersection/tracing.cpp``)."""
-
 STEPS = 30
 WEAK = 1e-7
 """Singular values below this part of the largest one are none: the way along the contact."""
 
 PARALLEL = 1e-6
 """Sine between the normals where surfaces touch."""
+
+TURN, STRAIGHTER = 0.16, 0.08
+"""Radians between ways of neighbouring places, at most; below the second, steps grow."""
+
+GROWN = 1.5
+AHEAD = 1.6
+"""Steps ahead in which ends are looked for."""
+
+ALIKE = 0.45
+"""Sine, and relative error in (u, v), within which an end lies straight ahead."""
 
 LEAST_STEP = 1e-5
 """Of the first step."""

@@ -56,33 +56,6 @@ def touch_of_curve(curve: Curve, surface: FaceSurface, place: np.ndarray) -> Tou
     return Touch(at, c, float(np.linalg.norm(c - r)), found)
 
 
-def touch_of_surfaces(a: FaceSurface, b: FaceSurface, place: np.ndarray) -> Touch:
-    """The place (u, v, s, t) near a guess (4,) where both have one normal and the line between
-    them is along it: (r_A - r_B) . r_A,u = (r_A - r_B) . r_A,v = 0,  N_A . r_B,s = N_A . r_B,t = 0.
-    """
-
-    def equations(at: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        r, ru, rv, ruu, ruv, rvv = (value[0] for value in a.evaluate(at[None, :2], 2))
-        q, qs, qt, qss, qst, qtt = (value[0] for value in b.evaluate(at[None, 2:], 2))
-        away, normal = r - q, np.cross(ru, rv)
-        normal_u = np.cross(ruu, rv) + np.cross(ru, ruv)
-        normal_v = np.cross(ruv, rv) + np.cross(ru, rvv)
-        value = np.array([away @ ru, away @ rv, normal @ qs, normal @ qt])
-        slope = np.array([
-            [ru @ ru + away @ ruu, rv @ ru + away @ ruv, -qs @ ru, -qt @ ru],
-            [ru @ rv + away @ ruv, rv @ rv + away @ rvv, -qs @ rv, -qt @ rv],
-            [normal_u @ qs, normal_v @ qs, normal @ qss, normal @ qst],
-            [normal_u @ qt, normal_v @ qt, normal @ qst, normal @ qtt],
-        ])  # fmt: skip
-        return value, slope
-
-    (low_a, high_a), (low_b, high_b) = limits_of(a), limits_of(b)
-    limits = np.concatenate([low_a, low_b]), np.concatenate([high_a, high_b])
-    at, found = _solved(equations, place, limits)
-    p, q = a.evaluate(at[None, :2], 0)[0][0], b.evaluate(at[None, 2:], 0)[0][0]
-    return Touch(at, 0.5 * (p + q), float(np.linalg.norm(p - q)), found)
-
-
 def _solved(
     equations: Callable[[np.ndarray], tuple[np.ndarray, np.ndarray]], place: np.ndarray,
     limits: tuple[np.ndarray, np.ndarray],

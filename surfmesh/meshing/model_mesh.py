@@ -17,7 +17,7 @@ import numpy as np
 
 from surfmesh.cad.model.cad_model import CadModel
 from surfmesh.errors import SizingError
-from surfmesh.meshing.edges.edge_nodes import EdgeNodes, cut_edges
+from surfmesh.meshing.edges.edge_nodes import CutEdges, cut_edges
 from surfmesh.meshing.edges.edge_sampling import sample_edges
 from surfmesh.meshing.edges.face_proximity import with_face_gaps
 from surfmesh.meshing.estimate.estimation import Estimate
@@ -92,7 +92,7 @@ class FacesApart(NamedTuple):
     rims: SurfaceMesh
     """Of each face the triangles at its boundary; what faces share has the numbers of the whole."""
     faces: list[FaceState]
-    nodes: list[EdgeNodes | None]
+    nodes: CutEdges
 
 
 def mesh_faces_apart(
@@ -136,8 +136,10 @@ class _Rounds:
                 self.samples = sample_edges(model, wanted)
             self.faces = face_states(model, self.samples, wanted)
             self.opposite = opposite_pairs(model, self.samples)
-        self.nodes: list[EdgeNodes | None] = []
+        self.nodes = CutEdges()
         self.not_refined: list[FaceState] = []
+        self.may_be_crowded = True
+        """May faces have made the same chord in the mesh that was joined last?"""
 
     def mesh(self) -> SurfaceMesh:
         """The mesh of the last round, with what could not be mended in it."""
@@ -147,9 +149,11 @@ class _Rounds:
             self._force_faces()
             with self.watch.stage("mapping"):
                 mesh = self._joined()
+            self.may_be_crowded = True
         if self.how.strict:
             require_all_meshed(self.model, self.faces)
-        mesh = with_crowded_chords_cut(self.model, mesh)
+        if self.may_be_crowded:
+            mesh = with_crowded_chords_cut(self.model, mesh)
         mesh = mesh.replaced(promises=self.wanted.promises(len(self.faces)))
         return mesh.with_warnings(*not_refined(not_refined_yet))
 
@@ -171,6 +175,7 @@ class _Rounds:
             with self.watch.stage("mapping"):
                 mesh = self._joined()
                 crowded = limits_where_crowded(self.model, mesh, self.wanted.base)
+            self.may_be_crowded = bool(crowded)
             for number, limit in crowded.items():
                 refinements[number] = limit.joined_with(refinements.get(number))
         self.not_refined = [self.faces[k] for k in sorted(asking | set(refinements))]

@@ -13,8 +13,8 @@ Progress = Callable[[str, float], object]
 """Called with the name of the stage and the fraction of the work done, 0 to 1, never falling.
 
 Called when a stage starts, before each pass of the optimiser and when faces of a CAD model are
-done, in the thread that meshes. Returning False (not None) stops the work with ``Cancelled``; what it
-raises comes through.
+done, in the thread that meshes. Returning False (not None) stops the work with ``Cancelled``; what
+it raises comes through.
 """
 
 _STAGES = {"sizing": 0.0, "packing": 0.2, "boundary": 0.4, "optimisation": 0.5, "mapping": 0.9}
@@ -74,6 +74,8 @@ class Stopwatch:
 
         within: fraction of the way to the next stage, 0 to 1; None: a little nearer to it.
         """
+        if self._progress is None:
+            return
         first = _STAGES[self._name]
         last = min([start for start in _STAGES.values() if start > first], default=1.0)
         if within is None:

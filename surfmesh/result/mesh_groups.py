@@ -35,7 +35,7 @@ class MeshGroups:
 
     def __post_init__(self) -> None:
         for name in ("face_names", "face_kinds", "solid_names", "edge_names"):
-            object.__setattr__(self, name, tuple(_printable(text) for text in getattr(self, name)))
+            object.__setattr__(self, name, _all_printable(tuple(getattr(self, name))))
         for name in ("face_colours", "solid_colours"):
             found = (c and tuple(map(float, c)) for c in getattr(self, name))
             object.__setattr__(self, name, tuple(found))
@@ -95,6 +95,12 @@ class MeshGroups:
     def solid_colour(self, solid: int) -> Colour | None:
         """The colour of a solid."""
         return _entry(self.solid_colours, solid)
+
+
+def _all_printable(texts: tuple) -> tuple[str, ...]:
+    if set(map(type, texts)) <= {str} and "".join(texts).isprintable():
+        return texts
+    return tuple(map(_printable, texts))
 
 
 def _printable(text: str | None) -> str:

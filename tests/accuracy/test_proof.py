@@ -4,9 +4,9 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from surfmesh._core.space import triangle_distances
 
 import surfmesh as sm
+from surfmesh._core.space import triangle_distances
 from surfmesh.accuracy.proof import FaceTriangles, proved_distances, twins_of
 from surfmesh.geometry.differential.projection import closest_point
 

@@ -32,3 +32,16 @@ def test_what_cannot_be_kept_is_said_in_one_line(tmp_path, capsys, keep, said):
     assert main(argv) == 2
     told = capsys.readouterr().err
     assert said in told and told.count("\n") == 1
+
+
+def test_patches_that_coincide_are_merged_on_request(tmp_path, capsys):
+    text = 'name = "{}"\nx = "u"\ny = "v"\nz = "0"\n[domain]\nu = {}\nv = [-1, 1]\n'
+    floors = [tmp_path / "one.toml", tmp_path / "other.toml"]
+    for path, span in zip(floors, ("[-1, 1]", "[0, 2]")):
+        path.write_text(text.format(path.stem, span))
+    argv = ["intersect", *map(str, floors), "-o", str(tmp_path / "a.vtu"), "--size", "0.3"]
+    assert main(argv) == 2
+    assert "coincide on a patch through" in capsys.readouterr().err
+    assert main([*argv, "--coincident", "merge", "--json"]) == 0
+    report = json.loads(capsys.readouterr().out)
+    assert report["clean"]

@@ -94,6 +94,20 @@ def test_boxes_on_a_lattice_have_their_volumes(one, other):
     assert volume(parts, "difference") == pytest.approx(sizes[0] - common, rel=1e-12)
 
 
+@settings(
+    max_examples=8, deadline=None, derandomize=True,
+    suppress_health_check=[HealthCheck.too_slow],
+)  # fmt: skip
+@given(st.integers(-1, 5), st.integers(-1, 5), st.integers(-2, 2), st.integers(1, 4),
+       st.sampled_from([0.5, 1.0, 1.5, 2.0]))  # fmt: skip
+def test_rods_on_a_lattice_have_their_volumes_with_a_plate(x, y, low, length, radius):
+    parts = [box((0, 0, 0), (4, 4, 2)), rod(x, y, low, low + length, radius)]
+    common = volume(parts, "common")
+    own = pi * radius**2 * length
+    assert volume(parts, "union") + common == pytest.approx(32.0 + own, rel=1e-9)
+    assert volume(parts, "difference") + common == pytest.approx(32.0, rel=1e-9)
+
+
 def test_three_boxes_share_a_corner():
     parts = [box((0, 0, 0), (1, 1, 1)), box((1, 0, 0), (2, 1, 1)), box((0, 1, 0), (2, 2, 1))]
     assert volume(parts, "union") == pytest.approx(4.0)

@@ -58,3 +58,14 @@ def test_faulty_files_are_refused_by_name(tmp_path, text, said):
     with pytest.raises(SurfaceError, match=said) as refused:
         sm.load(path)
     assert "cut.toml" in str(refused.value)
+
+
+def test_a_file_says_what_becomes_of_patches_that_coincide(tmp_path):
+    (tmp_path / "floor.toml").write_text(FLOOR)
+    path = tmp_path / "floors.toml"
+    head, again = 'intersect = ["floor.toml", "again"]\n', FLOOR.replace("[-2, 2]", "[-1, 3]")
+    path.write_text(f"{head}[again]\n{again}")
+    with pytest.raises(SurfaceError, match=r"coincide on a patch through \("):
+        sm.load(path)
+    path.write_text(f'{head}coincident = "merge"\n[again]\n{again}')
+    assert len(sm.load(path).faces) == 3

@@ -60,3 +60,20 @@ def test_a_line_on_a_plane_is_said_to_lie_there():
     flat = sm.ParametricSurface("u", "v", "0", u=(-3, 3), v=(-3, 3), name="flat")
     cells = FaceCells(as_model(flat, "flat").faces[0])
     assert crossings(straight((-2.0, 0.6, 0.0), (2.0, 0.1, 0.0)), cells, SAME).along is not None
+
+
+def test_an_edge_in_a_plane_through_zero_is_said_to_lie_there():
+    # all its coordinates across the plane are 0, and so was the room for rounding
+    wall = sm.ParametricSurface("u", "0", "v", u=(-3, 3.03), v=(-3, 3), name="wall")
+    tube = sm.ParametricSurface("cos(u)", "sin(u)", "v", u=(0, "2*pi"), v=(-2, 2), name="tube")
+    cells = FaceCells(as_model(wall, "wall").faces[0])
+    (seam,) = (edge for edge in as_model(tube, "tube").edges if edge.start != edge.end)
+    assert crossings(seam, cells, SAME).along is not None
+
+
+def test_an_edge_beside_a_surface_by_less_than_what_is_the_same_lies_there():
+    flat = sm.ParametricSurface("u", "v", "0", u=(-3, 3), v=(-3, 3), name="flat")
+    cells = FaceCells(as_model(flat, "flat").faces[0])
+    beside = straight((-2.0, 0.6, 0.3 * SAME), (2.0, 0.1, -0.3 * SAME))
+    assert crossings(beside, cells, SAME).along is not None
+    assert crossings(straight((-2.0, 0.6, 1e-6), (2.0, 0.1, 1e-6)), cells, SAME).along is None

@@ -68,17 +68,17 @@ class EdgesMet:
 
     def loops(self, face: TopoDS_Face, called: str) -> list[Loop]:
         """Of a face: around, there and back inside it; its edges are taken in."""
-        wires = [list(below(wire)) for wire in below(face) if wire.ShapeType() == TopAbs_WIRE]
+        found = [below(wire) for wire in below(face) if wire.ShapeType() == TopAbs_WIRE]
+        wires = [[TopoDS.Edge_s(shape) for shape in wire] for wire in found]
+        numbers = {id(edge): self.edge(edge, face) for wire in wires for edge in wire}
         uses: Counter[int] = Counter()
         for edge in (edge for wire in wires for edge in wire):
-            number = self.edge(TopoDS.Edge_s(edge), face)
-            uses[number] += 2 if edge.Orientation() == TopAbs_INTERNAL else 1
+            uses[numbers[id(edge)]] += 2 if edge.Orientation() == TopAbs_INTERNAL else 1
         loops, inside = [], []
         for wire in wires:
             around = []
-            for shape in wire:
-                edge = TopoDS.Edge_s(shape)
-                number = self.edge(edge, face)
+            for edge in wire:
+                number = numbers[id(edge)]
                 if edge.Orientation() == TopAbs_EXTERNAL:
                     self._remarks[f"{called}: an edge outside the face is left out"] += 1
                     continue

@@ -64,11 +64,13 @@ class ExactLoops:
 
     stated: str = ""
     """What was found wrong with them before."""
+    repeats: bool = True
+    """May an edge be walked twice the same way?"""
 
     @cached_property
     def at_once(self) -> str:
         """What is wrong with them at a glance: found when read, or an edge twice the same way."""
-        return self.stated or _Loops.doubled(self)
+        return self.stated or (_Loops.doubled(self) if self.repeats else "")
 
     @cached_property
     def fault(self) -> str:
@@ -92,13 +94,19 @@ def exact_loops(model: CadModel) -> list[ExactLoops]:
     np.maximum.at(highest, edge, arrays.coedge_face)
     shared = (lowest < highest)[edge]
     ways = [(start, end) for start, end in ends.tolist()]
+    way = 2 * (arrays.coedge_face * len(model.edges) + edge) + back
+    _, which, times = np.unique(way, return_inverse=True, return_counts=True)
+    repeats = np.zeros(len(model.faces), bool)
+    repeats[arrays.coedge_face[times[which.reshape(-1)] > 1]] = True
     tolerances, uses = arrays.tolerance[edge].tolist(), shared.tolist()
     return [
         ExactLoops(
             face.surface, tuple(face.loops), tuple(ways[a:b]), tuple(tolerances[a:b]),
-            tuple(uses[a:b]), face.fault,
+            tuple(uses[a:b]), face.fault, twice,
         )
-        for face, (a, b) in zip(model.faces, pairwise(arrays.first_of_face.tolist()))
+        for face, twice, (a, b) in zip(
+            model.faces, repeats.tolist(), pairwise(arrays.first_of_face.tolist())
+        )
     ]  # fmt: skip
 
 

@@ -44,9 +44,7 @@ def chained(coedges: Sequence[CadCoedge], edges: Sequence[CadEdge]) -> list[Loop
     The next coedge starts at the vertex where the last one ends. Where several do (both p-curves
     of a seam, a pole) it is the one that is nearest in (u, v).
     """
-    ends = walked(coedges, ENDS)  # (n, 2 ends, 2)
-    scale = np.maximum(np.ptp(ends.reshape(-1, 2), axis=0), 1e-300)
-    ends = (ends / scale).tolist()
+    ends: list[list[list[float]]] = []  # looked up where there is a choice
     leaving = defaultdict(list)
     for place, coedge in enumerate(coedges):
         leaving[start_of(coedge, edges)].append(place)
@@ -57,10 +55,16 @@ def chained(coedges: Sequence[CadCoedge], edges: Sequence[CadEdge]) -> list[Loop
         used[first], loop, home = True, [first], start_of(coedges[first], edges)
         while True:
             last = loop[-1]
-            vertex, (u, v) = end_of(coedges[last], edges), ends[last][1]
+            vertex = end_of(coedges[last], edges)
             ways = [p for p in leaving[vertex] if not used[p]] + [first] * (vertex == home)
-            if not ways:
-                break  # an open wire; `check` says so
+            if not ways or ways == [first]:
+                break  # closed, or an open wire; `check` says so
+            if len(ways) == 1:
+                used[ways[0]] = True
+                loop.append(ways[0])
+                continue
+            ends = ends or _scaled_ends(coedges)
+            u, v = ends[last][1]
             starts = [ends[place][0] for place in ways]
             steps = [max(abs(start[0] - u), abs(start[1] - v)) for start in starts]
             # touching itself, a wire falls into simple loops: home wins among equals
@@ -72,6 +76,12 @@ def chained(coedges: Sequence[CadCoedge], edges: Sequence[CadEdge]) -> list[Loop
             loop.append(after)
         loops.append(tuple(coedges[place] for place in loop))
     return loops
+
+
+def _scaled_ends(coedges: Sequence[CadCoedge]) -> list[list[list[float]]]:
+    """(n, 2 ends, 2) of coedges, in extents of all of them."""
+    ends = walked(coedges, ENDS)
+    return (ends / np.maximum(np.ptp(ends.reshape(-1, 2), axis=0), 1e-300)).tolist()
 
 
 def there_and_back(
@@ -121,11 +131,14 @@ def misdirected(loops: Sequence[Loop], closed: bool) -> list[int]:
     there and back, or come close to each other. closed: the surface is a sphere or the like, on
     which an outer loop that runs clockwise leaves all but its inside.
     """
-    samples = walked([coedge for loop in loops for coedge in loop], np.arange(SAMPLES) / SAMPLES)
-    ends = np.cumsum([len(loop) for loop in loops])[:-1]
-    rings = [ring.reshape(-1, 2) for ring in np.split(samples, ends)]
+    coedges = [coedge for loop in loops for coedge in loop]
+    to_ends = walked(coedges, np.arange(SAMPLES + 1) / SAMPLES)
+    samples, ends = to_ends[:, :-1], to_ends[:, [0, -1]]
+    last = np.cumsum([len(loop) for loop in loops]).tolist()
+    parts = [slice(start, end) for start, end in zip([0, *last], last)]
+    rings = [samples[part].reshape(-1, 2) for part in parts]
     extent = np.ptp(samples.reshape(-1, 2), axis=0)
-    if not (extent > 0.0).all() or not all(closes(loop, extent) for loop in loops):
+    if not (extent > 0.0).all() or not all(_meet(ends[part], extent) for part in parts):
         return []
     areas = np.array([ring_area(ring) for ring in rings]) / np.prod(extent)
     boxes = np.array([np.ptp(ring / extent, axis=0).max() for ring in rings])
@@ -155,7 +168,11 @@ def turned(loop: Loop) -> Loop:
 
 def closes(loop: Loop, extent: np.ndarray) -> bool:
     """Is it closed in (u, v), and not a way round a closed surface?"""
-    ends = walked(loop, ENDS)  # (n, 2 ends, 2)
+    return _meet(walked(loop, ENDS), extent)
+
+
+def _meet(ends: np.ndarray, extent: np.ndarray) -> bool:
+    """Do coedges with these ends (n, 2 ends, 2) follow each other in (u, v)?"""
     steps = next_ones(ends[:, 0]) - ends[:, 1]
     return bool((np.abs(steps) <= OPEN_FRACTION * extent).all())
 

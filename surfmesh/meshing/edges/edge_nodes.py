@@ -7,8 +7,7 @@
 What two faces share are these nodes, by number: the mesh is watertight because of it.
 """
 
-from collections.abc import Mapping
-from dataclasses import dataclass
+from collections.abc import Iterable, Mapping
 from typing import NamedTuple
 
 import numpy as np
@@ -37,8 +36,7 @@ CLOSED_SEGMENTS, TWIN_SEGMENTS = 3, 2
 between the same two vertices: their chords would be one edge of the mesh."""
 
 
-@dataclass(frozen=True)
-class EdgeNodes:
+class EdgeNodes(NamedTuple):
     """The nodes of one edge, from its start to its end."""
 
     t: np.ndarray
@@ -51,13 +49,27 @@ class EdgeNodes:
     """(n,) wanted edge lengths."""
 
 
+class CutEdges(list[EdgeNodes | None]):
+    """The nodes of all edges (None: one vertex), each by itself and in rows, edge after edge."""
+
+    def __init__(
+        self, nodes: Iterable[EdgeNodes | None] = (), first: np.ndarray | None = None,
+        rows: EdgeNodes | None = None,
+    ) -> None:  # fmt: skip
+        super().__init__(nodes)
+        self.first = np.zeros(1, np.int64) if first is None else first
+        """(e + 1,) rows of the edges; none of an edge that is one vertex."""
+        self.rows = rows or EdgeNodes(_NONE, np.empty((0, 3)), np.empty(0, np.int64), _NONE)
+        """Of all edges."""
+
+
 def cut_edges(
     model: CadModel,
     sizing: Sizing,
     samples: EdgeSamples,
     limits: Mapping[int, SizeLimits],
-    before: list[EdgeNodes | None] | None = None,
-) -> list[EdgeNodes | None]:
+    before: CutEdges | None = None,
+) -> CutEdges:
     """Nodes of every edge (None: one vertex); vertices keep their numbers, others follow.
 
     sizing: with the model's defaults filled in. limits: by face, from earlier rounds. before:
@@ -158,22 +170,31 @@ def _cut(
     return _Cuts(edges, first, t, points, found)
 
 
-def _numbered(
-    model: CadModel, cuts: _Cuts, before: list[EdgeNodes | None] | None
-) -> list[EdgeNodes | None]:
+def _numbered(model: CadModel, cuts: _Cuts, before: CutEdges | None) -> CutEdges:
     """The nodes of each edge. What has not changed keeps its nodes, others get new numbers."""
-    nodes = list(before or [None] * len(model.edges))
-    following = 1 + max([len(model.vertices) - 1, *(int(n.numbers.max()) for n in nodes if n)])
-    rows = list(zip(cuts.edges.tolist(), cuts.first[:-1].tolist(), cuts.first[1:].tolist()))
+    bounds = list(zip(cuts.first[:-1].tolist(), cuts.first[1:].tolist()))
+    edges = cuts.edges.tolist()
+    changed = np.ones(len(edges), bool)
     if before:
-        rows = [(edge, a, b) for edge, a, b in rows if not _is_same(nodes[edge], cuts, a, b)]
-    ends = model_arrays(model).mesh_ends[[edge for edge, _, _ in rows]].tolist()
-    for (edge, a, b), (start, end) in zip(rows, ends):
-        numbers = np.arange(following - 1, following + b - a - 1, dtype=np.int64)
-        numbers[0], numbers[-1] = start, end
-        nodes[edge] = EdgeNodes(cuts.t[a:b], cuts.points[a:b], numbers, cuts.sizes[a:b])
-        following += b - a - 2
-    return nodes
+        changed[:] = [not _is_same(before[edge], cuts, a, b) for edge, (a, b) in zip(edges, bounds)]
+    numbers = np.empty(len(cuts.t), np.int64)
+    count = np.diff(cuts.first)
+    ends = np.stack([cuts.first[:-1], cuts.first[1:] - 1], axis=1)
+    is_new = np.repeat(changed, count)
+    is_new[ends] = False
+    following = max(len(model.vertices), 1 + int(before.rows.numbers.max()) if before else 0)
+    numbers[is_new] = following + np.arange(int(is_new.sum()))
+    numbers[ends] = model_arrays(model).mesh_ends[cuts.edges]
+    nodes = list(before or [None] * len(model.edges))
+    for row, (edge, (a, b)) in enumerate(zip(edges, bounds)):
+        known = None if changed[row] else nodes[edge]
+        if known is None:
+            nodes[edge] = EdgeNodes(cuts.t[a:b], cuts.points[a:b], numbers[a:b], cuts.sizes[a:b])
+        else:
+            numbers[a:b] = known.numbers
+    every = np.zeros(len(model.edges), np.int64)
+    every[cuts.edges] = count
+    return CutEdges(nodes, offsets(every), EdgeNodes(cuts.t, cuts.points, numbers, cuts.sizes))
 
 
 def _is_same(nodes: EdgeNodes | None, cuts: _Cuts, first: int, last: int) -> bool:

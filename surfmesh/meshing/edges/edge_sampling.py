@@ -7,6 +7,8 @@ Made once for a model. What earlier rounds of meshing have found out, and the gr
 along edges and through vertices, comes later: see ``edge_nodes``.
 """
 
+from itertools import pairwise
+
 import numpy as np
 
 from surfmesh._core.space import edge_gaps
@@ -97,8 +99,9 @@ def _edges_of_faces(arrays: ModelArrays) -> tuple[np.ndarray, ...]:
     there = ~arrays.collapsed[arrays.coedge_edge]
     count = len(arrays.collapsed)
     both = np.unique(arrays.coedge_face[there] * count + arrays.coedge_edge[there])
-    first = np.searchsorted(both, np.arange(1, len(arrays.area)) * count)
-    return tuple(np.split(both % max(count, 1), first))
+    first = np.searchsorted(both, np.arange(len(arrays.area) + 1) * count).tolist()
+    edges = both % max(count, 1)
+    return tuple(edges[a:b] for a, b in pairwise(first))
 
 
 def _find_narrow(samples: EdgeSamples, rules: EdgeRules) -> None:

@@ -12,7 +12,7 @@ from surfmesh.cad.model.centres import cell_centres, inner_samples
 from surfmesh.cad.model.model_arrays import model_arrays, offsets
 from surfmesh.geometry.cad_surfaces.face_surface import FaceSurface
 from surfmesh.geometry.differential.fundamental_forms import curvatures, forms_from_derivatives
-from surfmesh.meshing.edges.edge_nodes import EdgeNodes
+from surfmesh.meshing.edges.edge_nodes import CutEdges
 from surfmesh.meshing.estimate.estimation import Estimate, face_triangles, require_within
 from surfmesh.meshing.estimate.face_counts import counts_of_faces
 from surfmesh.meshing.faces.face_data import FaceJob
@@ -40,7 +40,7 @@ def _count(job: FaceJob) -> float:
 
 
 def bounds(
-    model: CadModel, nodes: list[EdgeNodes | None], sizings: list[Sizing]
+    model: CadModel, nodes: CutEdges, sizings: list[Sizing]
 ) -> tuple[np.ndarray, np.ndarray]:
     """Triangles (f,) that each face has at least and at most, of its size requests at a few points.
 
@@ -74,13 +74,14 @@ def bounds(
     return least, most
 
 
-def quick_bound(model: CadModel, nodes: list[EdgeNodes | None], sizings: list[Sizing]) -> float:
+def quick_bound(model: CadModel, nodes: CutEdges, sizings: list[Sizing]) -> float:
     """Triangles of the whole model at most, of size requests at a few points of the faces' boxes,
     all faces at once; infinite where sizes depend on the place by a law."""
     arrays = model_arrays(model)
     edges = np.full(len(nodes), np.inf)
-    cut = np.flatnonzero([own is not None for own in nodes])
-    edges[cut] = [own.sizes.min() for own in nodes if own is not None]
+    cut = np.flatnonzero(np.diff(nodes.first))
+    if len(cut):
+        edges[cut] = np.minimum.reduceat(nodes.rows.sizes, nodes.first[cut])
     smallest = np.full(len(sizings), np.inf)
     np.minimum.at(smallest, arrays.coedge_face, edges[arrays.coedge_edge])
     by_sizing: dict[int, list[int]] = {}
@@ -116,7 +117,7 @@ def _least_by_curvature(surfaces: list[FaceSurface], allowed: SizeRules) -> np.n
 
 
 def require_model_within(
-    model: CadModel, jobs: Callable[[], list[FaceJob]], nodes: list[EdgeNodes | None],
+    model: CadModel, jobs: Callable[[], list[FaceJob]], nodes: CutEdges,
     sizings: list[Sizing], sizing: Sizing,
 ) -> None:  # fmt: skip
     """Raise ``SizingError`` with advice when a model would have more than ``sizing.limit``

@@ -9,7 +9,7 @@ from surfmesh._core.faces import face_boundaries
 from surfmesh.cad.model.cad_model import CadFace, CadModel
 from surfmesh.cad.model.loop_faults import ExactLoops, exact_loops
 from surfmesh.cad.model.model_arrays import model_arrays, offsets, rows_of
-from surfmesh.meshing.edges.edge_nodes import EdgeNodes
+from surfmesh.meshing.edges.edge_nodes import CutEdges, EdgeNodes
 from surfmesh.meshing.edges.edge_samples import EdgeSamples, NarrowFace
 from surfmesh.meshing.faces.face_data import FaceJob, FaceMesh
 from surfmesh.meshing.faces.face_sizings import face_sizings
@@ -57,8 +57,7 @@ class FaceState:
         return bool(self.mesh.failure) and not self.mesh.unmeshable
 
     def is_outdated(
-        self, limits: SizeLimits | None, nodes: list[EdgeNodes | None],
-        before: list[EdgeNodes | None],
+        self, limits: SizeLimits | None, nodes: CutEdges, before: CutEdges
     ) -> bool:  # fmt: skip
         """Do its limits or the nodes of its edges differ from those that it was meshed from?"""
         return (
@@ -84,7 +83,7 @@ def face_states(model: CadModel, samples: EdgeSamples, wanted: ModelSizing) -> l
 
 
 def face_jobs(
-    model: CadModel, faces: Sequence[FaceState], nodes: list[EdgeNodes | None],
+    model: CadModel, faces: Sequence[FaceState], nodes: CutEdges,
     limits: Mapping[int, SizeLimits] | None = None, optimise: bool = True,
 ) -> list[FaceJob]:  # fmt: skip
     """What some faces are meshed from when the edges have these nodes; limits: by face."""
@@ -107,31 +106,35 @@ def face_jobs(
 
 
 def _nodes(
-    model: CadModel, which: np.ndarray, nodes: list[EdgeNodes | None]
+    model: CadModel, which: np.ndarray, nodes: CutEdges
 ) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
     """uv, numbers, points and sizes of the nodes of some coedges, in the direction of the edges;
     of an edge that is a vertex, both ends. And where the rows of each coedge begin."""
     arrays = model_arrays(model)
-    cuts = [
-        nodes[edge] or _point_nodes(model, arrays.vertex, edge)
-        for edge in arrays.coedge_edge[which].tolist()
-    ]
-    first = offsets(np.array([len(cut.t) for cut in cuts], np.int64))
-    t = np.concatenate([np.empty(0), *(cut.t for cut in cuts)])
-    sizes = np.concatenate([np.empty(0), *(cut.sizes for cut in cuts)])
-    numbers = np.concatenate([np.empty(0, np.int64), *(cut.numbers for cut in cuts)])
-    points = np.concatenate([np.empty((0, 3)), *(cut.points for cut in cuts)])
-    uv = np.ascontiguousarray(arrays.pcurves.points(which, first, t)[:, :2])
-    return uv, numbers, points, sizes, first
+    edges = arrays.coedge_edge[which]
+    first, rows = nodes.first, nodes.rows
+    vertices = np.unique(edges[first[edges + 1] == first[edges]]).tolist()
+    if vertices:  # behind the others
+        place, count = first[:-1].copy(), np.diff(first)
+        place[vertices] = first[-1] + 2 * np.arange(len(vertices))
+        count[vertices] = 2
+        more = [_point_nodes(model, arrays.vertex, edge) for edge in vertices]
+        rows = EdgeNodes(*(np.concatenate(part) for part in zip(rows, *more)))
+    else:
+        place, count = first[:-1], np.diff(first)
+    own = offsets(count[edges])
+    at = np.repeat(place[edges] - own[:-1], count[edges]) + np.arange(own[-1])
+    uv = np.ascontiguousarray(arrays.pcurves.points(which, own, rows.t[at])[:, :2])
+    return uv, rows.numbers[at], rows.points[at], rows.sizes[at], own
 
 
 def _uses(
-    model: CadModel, which: np.ndarray, nodes: list[EdgeNodes | None]
+    model: CadModel, which: np.ndarray, nodes: CutEdges
 ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Of some coedges: are they reversed, are they one point, the tolerance of their edges."""
     arrays = model_arrays(model)
     edges = arrays.coedge_edge[which]
-    is_point = np.array([nodes[edge] is None for edge in edges.tolist()], np.uint8)
+    is_point = (nodes.first[edges + 1] == nodes.first[edges]).view(np.uint8)
     return arrays.coedge_reversed[which].view(np.uint8), is_point, arrays.tolerance[edges]
 
 

@@ -26,7 +26,7 @@ def manner_of(job: FaceJob, sizing: Sizing) -> FaceManner:
     """How a face is meshed with these sizes."""
     return FaceManner(
         sizing.chord, sizing.angle, sizing.min_size or 0.0,
-        job.optimise, job.limits is None, sizing.is_anisotropic,
+        job.optimise, job.limits is None, sizing.is_anisotropic, sizing.gradient,
     )  # fmt: skip
 
 

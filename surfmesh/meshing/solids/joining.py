@@ -13,7 +13,7 @@ from surfmesh.cad.model.cad_model import CadModel
 from surfmesh.cad.model.facts import model_facts
 from surfmesh.cad.model.model_arrays import model_arrays, offsets
 from surfmesh.errors import MeshingError
-from surfmesh.meshing.edges.edge_nodes import EdgeNodes
+from surfmesh.meshing.edges.edge_nodes import CutEdges
 from surfmesh.meshing.faces.face_data import FaceMesh
 from surfmesh.meshing.faces.face_state import FaceState
 from surfmesh.meshing.solids.groups import groups_of
@@ -28,7 +28,7 @@ FINER = 0.6
 
 
 def joined_mesh(
-    model: CadModel, faces: list[FaceState], nodes: list[EdgeNodes | None], vertex: np.ndarray,
+    model: CadModel, faces: list[FaceState], nodes: CutEdges, vertex: np.ndarray,
     sizing: Sizing, seconds: Mapping[str, float],
 ) -> SurfaceMesh:  # fmt: skip
     """One mesh of all faces that have triangles; what is missing is among its findings.
@@ -86,15 +86,14 @@ class _Shared(NamedTuple):
     sizes: np.ndarray  # (s,) infinite where nothing is known
 
 
-def _shared_nodes(model: CadModel, nodes: list[EdgeNodes | None]) -> _Shared:
-    cuts = [cut for cut in nodes if cut is not None]
-    numbers = _in_one([cut.numbers for cut in cuts], np.empty(0, np.int64))
+def _shared_nodes(model: CadModel, nodes: CutEdges) -> _Shared:
+    _, places, numbers, wanted = nodes.rows
     corners = model_arrays(model).corners
     points = np.zeros((max(len(corners), int(numbers.max(initial=-1)) + 1), 3))
     points[: len(corners)] = corners
-    points[numbers] = _in_one([cut.points for cut in cuts], np.empty((0, 3)))
+    points[numbers] = places
     sizes = np.full(len(points), np.inf)
-    np.minimum.at(sizes, numbers, _in_one([cut.sizes for cut in cuts], np.empty(0)))
+    np.minimum.at(sizes, numbers, wanted)
     return _Shared(points, sizes)
 
 
@@ -152,10 +151,6 @@ def _in_one_row(
     return found
 
 
-def _in_one(parts: list[np.ndarray], nothing: np.ndarray) -> np.ndarray:
-    return np.concatenate([nothing, *parts])
-
-
 def metric_roots(mesh: FaceMesh) -> np.ndarray:
     """Of the ``uv_points`` of a face (n, 6), also of one whose sizes are the same all ways."""
     if mesh.inverse_sizes is not None:
@@ -173,19 +168,16 @@ class _EdgeSegments(NamedTuple):
     parameters: np.ndarray  # (k, 2) of their ends, 0 to 1
 
 
-def _edge_segments(nodes: list[EdgeNodes | None], rank: np.ndarray) -> _EdgeSegments:
+def _edge_segments(nodes: CutEdges, rank: np.ndarray) -> _EdgeSegments:
     """Those whose nodes are all used; rank: vertex of the mesh by number of the node, or -1."""
-    edges = [(number, cut) for number, cut in enumerate(nodes) if cut is not None]
-    if not edges:
-        return _EdgeSegments(np.empty((0, 2), np.int64), np.empty(0, np.int64), np.empty((0, 2)))
-    first = offsets(np.array([len(cut.t) for _, cut in edges]))
-    is_start = np.ones(first[-1], bool)
-    is_start[first[1:] - 1] = False
+    count = np.diff(nodes.first)
+    is_start = np.ones(len(nodes.rows.t), bool)
+    is_start[nodes.first[1:][count > 0] - 1] = False
     start = np.flatnonzero(is_start)
     pairs = np.stack([start, start + 1], axis=1)
-    segments = rank[np.concatenate([cut.numbers for _, cut in edges])[pairs]]
-    ids = np.repeat(np.array([number for number, _ in edges]), np.diff(first) - 1)
-    parameters = np.concatenate([cut.t for _, cut in edges])[pairs]
+    segments = rank[nodes.rows.numbers[pairs]]
+    ids = np.repeat(np.arange(len(nodes)), np.maximum(count - 1, 0))
+    parameters = nodes.rows.t[pairs]
     there = (segments >= 0).all(axis=1)
     return _EdgeSegments(segments[there], ids[there], parameters[there])
 

@@ -122,8 +122,8 @@ def speeds_of(surface: Surface) -> tuple[float, float]:
 def largest_size(surface: Surface, sizing: Sizing, domain: Domain) -> float:
     """What all rules allow on a plane or a cylinder over a box of its parameters."""
     radius = surface.radius if isinstance(surface, Cylinder) else None
-    reach = 2.0 * _extent(surface, domain)  # the diagonal is no longer
-    found = _largest_within(sizing, radius, 2.0 ** math.ceil(math.log2(reach)))
+    _, exponent = math.frexp(_extent(surface, domain))
+    found = _largest_within(sizing, radius, 2.0 ** (exponent + 1))  # the diagonal is no longer
     if found is not None:
         return found
     return _allowed(SizeRules.of(sizing, _diagonal(surface, sizing, domain)), radius)

@@ -91,3 +91,16 @@ def test_edges_out_of_reach_of_a_limit_stay_the_same_objects(plate):
     assert len(np.unique(numbers)) == len(numbers)
     near = [k for k, e in enumerate(model.edges) if 0 in (e.start, e.end)]
     assert set(near) <= set(changed)
+    for cuts in (before, after):  # edge after edge in rows
+        assert cuts.first.tolist() == np.cumsum([0, *(len(cut.t) for cut in cuts)]).tolist()
+        for place, row in enumerate(cuts.rows):
+            assert np.array_equal(row, np.concatenate([cut[place] for cut in cuts]))
+
+
+def test_an_edge_that_is_one_vertex_has_no_rows():
+    model = sm.from_cadquery(cq.Workplane().sphere(1))
+    sizing = model_sizing(model, sm.Sizing(size=0.5))
+    cuts = cut_edges(model, sizing.base, sample_edges(model, sizing), {})
+    empty = [cut is None for cut in cuts]
+    assert any(empty) and not all(empty)
+    assert np.array_equal(np.diff(cuts.first) == 0, empty)

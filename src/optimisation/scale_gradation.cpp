@@ -1,0 +1,59 @@
+#include "optimisation/scale_gradation.hpp"
+
+#include <algorithm>
+
+namespace surfmesh {
+namespace {
+
+constexpr int SWEEPS = 20;         // at most: sizes spread by an edge and more in each
+constexpr double BEYOND = 1.08;    // times the slope: sizes are not lowered for less
+constexpr double LOWERED = 0.999;  // a scale below it is none of rounding
+
+double size_along(const SurfaceFrames& s, Vertex v, Point3 step, double length) {
+    if (!s.is_anisotropic) return s.size[v];
+    return length / norm(apply(s.metric_root[v], step));
+}
+
+/// The factor on the sizes of b that lets them grow from a by no more than the slope; 1 where they
+/// hardly do.
+double factor_on(const SurfaceFrames& s, Vertex a, Vertex b, double slope) {
+    const Point3 step = s.point[b] - s.point[a];
+    const double length = norm(step), rise = slope * length;
+    if (!(length > 0.0)) return 1.0;
+    const double of_a = size_along(s, a, step, length), of_b = size_along(s, b, step, length);
+    return of_b > of_a + BEYOND * rise ? (of_a + rise) / of_b : 1.0;
+}
+
+}  // namespace
+
+int grade_scales(const Triangulation& t, SurfaceFrames& s, VertexMarks& marks, double slope,
+                 bool around_all) {
+    Array<std::uint8_t> from(t.xy.size(), 0), found(t.xy.size(), 0);
+    for (Vertex v = 0; v < t.vertices(); ++v) from[v] = around_all || s.scale[v] < LOWERED ? 1 : 0;
+    int count = 0;
+    for (int sweep = 0; sweep < SWEEPS; ++sweep) {
+        Array<std::uint8_t> lowered(t.xy.size(), 0);
+        const int before = count;
+        const auto hold = [&](Vertex a, Vertex b) {
+            if (from[a] == 0) return;
+            const double factor = factor_on(s, a, b, slope);
+            if (!(factor < 1.0)) return;
+            shorten(s, b, factor);
+            marks.active[b] = lowered[b] = found[b] = 1;
+            ++count;
+        };
+        for (Triangle k = 0; k < t.triangles(); ++k) {
+            if (t.region[k] == DEAD) continue;
+            for (HalfEdge e = 3 * k; e < 3 * k + 3; ++e) {
+                const Vertex a = t.tri[e], b = t.tri[next_half_edge(e)];
+                hold(a, b);
+                if (t.adj[e] < 0) hold(b, a);  // the other side has its own half-edge
+            }
+        }
+        if (count == before) break;
+        from = std::move(lowered);
+    }
+    return static_cast<int>(std::count(found.begin(), found.end(), 1));
+}
+
+}  // namespace surfmesh

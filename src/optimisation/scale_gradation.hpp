@@ -1,0 +1,19 @@
+// Gradation of sizes that the optimiser has lowered below those of the size field.
+//
+// In: vertices, some with a scale below one, as triangles there were too far from the surface or
+// bent too much. Out: around these, or around all, sizes are lowered until along no edge they grow
+// faster than `slope` per length; the vertices are marked active. Compared are sizes in the
+// direction of the edge. What a scale lowers is the whole metric.
+#pragma once
+
+#include "optimisation/surface_frames.hpp"
+#include "optimisation/vertex_marks.hpp"
+#include "triangulation/triangulation.hpp"
+
+namespace surfmesh {
+
+/// Returns how many vertices were lowered. around_all: else around those with a scale below one.
+int grade_scales(const Triangulation& t, SurfaceFrames& s, VertexMarks& marks, double slope,
+                 bool around_all);
+
+}  // namespace surfmesh

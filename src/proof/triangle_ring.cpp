@@ -1,0 +1,139 @@
+#include "proof/triangle_ring.hpp"
+
+#include <cmath>
+
+namespace surfmesh {
+namespace {
+
+constexpr double LEAST_COSINE = 0.5;  // of 60 degrees
+constexpr double FLATTEST = 0x1p-20;  // tilt of a normal
+
+TrianglePlane plane_of(const SpaceCorners& p, double corner) {
+    const Point3 a = p[1] - p[0], b = p[2] - p[0], n = cross(a, b);
+    const double area = norm(n), longest = std::max({norm(a), norm(b), norm(p[2] - p[1])});
+    const double tilt = (32.0 * 0x1p-53 * longest * longest + 8.0 * corner * longest) / area;
+    return {p[0], (1.0 / area) * n, tilt < FLATTEST ? tilt : intervals::INFINITE};
+}
+
+double turn(Point2 a, Point2 b, Point2 c) {
+    return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
+}
+
+/// Of two segments; zero where they cross.
+double distance_of_segments(Point2 a, Point2 b, Point2 c, Point2 d) {
+    if (turn(a, b, c) * turn(a, b, d) <= 0.0 && turn(c, d, a) * turn(c, d, b) <= 0.0) return 0.0;
+    return std::min({distance_to_segment(a, c, d), distance_to_segment(b, c, d),
+                     distance_to_segment(c, a, b), distance_to_segment(d, a, b)});
+}
+
+}  // namespace
+
+TriangleRing::TriangleRing(const ProofMesh& mesh)
+    : mesh_(mesh), mark_(mesh.corners.size(), -1), is_turned_(mesh.corners.size(), 0) {
+    std::int32_t count = 0;
+    for (const std::int32_t v : mesh.vertices) count = std::max(count, v + 1);
+    first_.resize(static_cast<std::size_t>(count) + 1, 0);
+    for (const std::int32_t v : mesh.vertices) ++first_[v + 1];
+    for (std::int32_t v = 0; v < count; ++v) first_[v + 1] += first_[v];
+    at_vertex_.resize(mesh.vertices.size());
+    Array<std::int32_t> next(first_);
+    for (std::size_t h = 0; h < mesh.vertices.size(); ++h)
+        at_vertex_[next[mesh.vertices[h]]++] = static_cast<std::int32_t>(h / 3);
+}
+
+bool TriangleRing::take(std::int32_t other) {
+    if (count_ == MOST) return false;
+    Neighbour& member = ring_[count_++];
+    const SpaceCorners& p = mesh_.corners[other];
+    const TriangleBounds& bounds = mesh_.bounds[other];
+    member.plane = plane_of(p, bounds.corner);
+    if (!(member.plane.tilt < FLATTEST) || !(bounds.whole < intervals::INFINITE)) return false;
+    const TrianglePlane& own = ring_[0].plane;
+    const double slack = own.tilt + member.plane.tilt + ROUNDING;
+    const double cosine = dot(own.normal, member.plane.normal);
+    is_turned_[other] = cosine < 0.0 ? 1 : 0;  // on one-sided surfaces
+    member.cosine = std::abs(cosine) - slack;
+    member.sine = norm(cross(own.normal, member.plane.normal)) + slack;
+    if (!(member.cosine > LEAST_COSINE)) return false;
+    for (std::size_t k = 0; k < 3; ++k) member.corners[k] = seen(axes_, p[k] - origin_);
+    for (std::size_t k = 0; k < 3; ++k) {
+        const Point2 side = member.corners[(k + 1) % 3] - member.corners[k];
+        const double length = norm(side);
+        member.inward[k] = cosine < 0.0 ? Point2{side.y / length, -side.x / length}
+                                        : Point2{-side.y / length, side.x / length};
+        member.is_rim[k] = mesh_.twins[3 * static_cast<std::size_t>(other) + k] == NIL;
+        // the curve over a rim runs within the ends of its side then
+        if (member.is_rim[k] && !(bounds.shift + bounds.corner <= length)) return false;
+    }
+    mark_[other] = members_[0];
+    return true;
+}
+
+bool TriangleRing::begin(std::int32_t t) {
+    const SpaceCorners& p = mesh_.corners[t];
+    const TrianglePlane own = plane_of(p, mesh_.bounds[t].corner);
+    if (!(own.tilt < FLATTEST)) return false;
+    const Point3 along = p[1] - p[0], first = (1.0 / norm(along)) * along;
+    axes_ = {first, cross(own.normal, first)};
+    origin_ = p[0];
+    count_ = 0;
+    across_ = {};
+    ring_[0].plane = own;
+    longest_ = std::max({norm(along), norm(p[2] - p[1]), norm(p[0] - p[2])});
+    members_.clear();
+    members_.push_back(t);
+    return take(t);
+}
+
+bool TriangleRing::add_layer() {
+    const std::int32_t t = members_[0];
+    const std::size_t before = members_.size();
+    for (std::size_t k = 0; k < 3 * before; ++k) {
+        const std::int32_t member = members_[static_cast<std::ptrdiff_t>(k / 3)];
+        const std::int32_t v = mesh_.vertices[3 * static_cast<std::size_t>(member) + k % 3];
+        for (std::int32_t i = first_[v]; i < first_[v + 1]; ++i) {
+            const std::int32_t other = at_vertex_[i];
+            if (mark_[other] == t) continue;
+            members_.push_back(other);
+            if (!take(other)) return false;
+            for (std::size_t s = 0; s < 3; ++s) {
+                const std::int32_t twin = mesh_.twins[3 * static_cast<std::size_t>(t) + s];
+                if (twin != NIL && twin / 3 == other) across_[s] = count_ - 1;
+            }
+        }
+    }
+    free_ = free_around();
+    return true;
+}
+
+/// Do two members lie on the same side of their common side, as seen?
+bool TriangleRing::is_folded(std::size_t h) const {
+    const std::int32_t twin = mesh_.twins[h];
+    const bool run_alike = mesh_.vertices[h] == mesh_.vertices[twin];
+    return run_alike != (is_turned_[static_cast<std::ptrdiff_t>(h / 3)] != is_turned_[twin / 3]);
+}
+
+double TriangleRing::free_around() const {
+    const std::int32_t t = members_[0];
+    const auto& own = ring_[0].corners;
+    double nearest = 8.0 * longest_, shifted = 0.0;
+    for (const std::int32_t other : members_) {
+        const SpaceCorners& p = mesh_.corners[other];
+        for (std::size_t k = 0; k < 3; ++k) {
+            const std::int32_t twin = mesh_.twins[3 * static_cast<std::size_t>(other) + k];
+            if (twin == NIL) continue;
+            if (mark_[twin / 3] == t) {
+                if (is_folded(3 * static_cast<std::size_t>(other) + k)) return 0.0;
+                continue;
+            }
+            const Point2 a = seen(axes_, p[k] - origin_), b = seen(axes_, p[(k + 1) % 3] - origin_);
+            for (std::size_t s = 0; s < 3; ++s)
+                nearest = std::min(nearest, distance_of_segments(own[s], own[(s + 1) % 3], a, b));
+            shifted =
+                std::max(shifted, 0.25 * mesh_.bounds[other].shift + mesh_.bounds[other].corner);
+        }
+    }
+    return (1.0 - ROUNDING) * nearest - (1.0 + ROUNDING) * shifted - ROUNDING * longest_;
+}
+
+}  // namespace surfmesh

@@ -1,0 +1,98 @@
+// A triangle with those around it, as seen along its normal.
+//
+// In: the triangles of one face, their bounds so far; a triangle. Out: its plane and axes; those
+// around it, layer by layer, each with its plane and its shadow on that of the triangle; how far
+// the boundary of them all, but for rims, is from the triangle, less what the surface's curve over
+// it is shifted by. Said to be of no use where a normal is turned by more than 60 degrees, where
+// shadows fold, or where nothing is bounded.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <span>
+
+#include "proof/triangle_bounds.hpp"
+#include "values/array.hpp"
+#include "values/conventions.hpp"
+
+namespace surfmesh {
+
+/// The triangles of one face: corners, parameters, vertices (3 m), opposite half-edges (3 m), and
+/// what is proved of them so far.
+struct ProofMesh {
+    std::span<const SpaceCorners> corners;
+    std::span<const PlaneCorners> uv;
+    std::span<const std::int32_t> vertices, twins;
+    std::span<const TriangleBounds> bounds;
+};
+
+/// A plane through a triangle.
+struct TrianglePlane {
+    Point3 point, normal;
+    double tilt;  // by how much the normal may be wrong
+};
+
+/// Two directions across a normal.
+using Axes2 = std::array<Point3, 2>;
+
+inline Point2 seen(const Axes2& axes, Point3 x) { return {dot(axes[0], x), dot(axes[1], x)}; }
+
+inline double distance_to_segment(Point2 x, Point2 a, Point2 b) {
+    const Point2 along = b - a;
+    const double length = dot(along, along);
+    const double t = length > 0.0 ? std::clamp(dot(x - a, along) / length, 0.0, 1.0) : 0.0;
+    return norm(x - a - t * along);
+}
+
+/// One of the triangles around, as seen along the normal of the triangle that is looked at.
+struct Neighbour {
+    TrianglePlane plane;
+    std::array<Point2, 3> corners, inward;  // unit normals of its sides, to the inside
+    double cosine, sine;
+    std::array<bool, 3> is_rim;  // of the sides
+    bool is_near;                // may a cell lie over it?
+};
+
+class TriangleRing {
+  public:
+    static constexpr double ROUNDING = 0x1p-45;  // relative, more than that of any sum here
+
+    explicit TriangleRing(const ProofMesh& mesh);
+
+    /// Begin anew with one triangle alone; false where no statement is made with it.
+    bool begin(std::int32_t t);
+    /// Take all that share a vertex with those so far; false where no statement holds with them.
+    bool add_layer();
+
+    [[nodiscard]] std::size_t count() const { return count_; }
+    [[nodiscard]] Neighbour& operator[](std::size_t member) { return ring_[member]; }
+    [[nodiscard]] const Neighbour& operator[](std::size_t member) const { return ring_[member]; }
+    /// The member over the triangle's own side; 0: none.
+    [[nodiscard]] std::size_t across(std::size_t side) const { return across_[side]; }
+    /// How far the boundary, but for rims, is from the triangle, less what it is shifted by.
+    [[nodiscard]] double free() const { return free_; }
+    [[nodiscard]] double longest() const { return longest_; }
+    /// A point as seen from the triangle.
+    [[nodiscard]] Point2 foot(Point3 x) const { return seen(axes_, x - origin_); }
+
+  private:
+    static constexpr std::size_t MOST = 80;
+
+    bool take(std::int32_t other);
+    [[nodiscard]] bool is_folded(std::size_t h) const;
+    [[nodiscard]] double free_around() const;
+
+    ProofMesh mesh_;
+    Array<std::int32_t> first_, at_vertex_;  // triangles at each vertex, one after the other
+    Array<std::int32_t> mark_, members_;
+    Array<std::uint8_t> is_turned_;  // the normal, against that of the triangle
+    std::array<Neighbour, MOST> ring_{};
+    std::size_t count_ = 0;
+    std::array<std::size_t, 3> across_{};
+    Axes2 axes_{};
+    Point3 origin_{};
+    double free_ = 0.0, longest_ = 0.0;
+};
+
+}  // namespace surfmesh
