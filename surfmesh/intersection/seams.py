@@ -3,7 +3,8 @@
 A seam is an edge that meshes must follow. Where another surface runs into it at a small angle, as a
 wing's root along the seam of a fuselage, triangles between both are slivers. A surface that is
 periodic may be cut open anywhere else: its domain is moved by a part of the period to where the
-seam is clear of all other surfaces. Seams that cross others wherever they are stay.
+seam is clear of all other surfaces. Seams that cross others wherever they are stay, and those that
+lie on another all along.
 
     u0      u1                     u0 + s     u1 + s
     +-------+                      +----------+
@@ -70,7 +71,10 @@ def _moved(surface: ParametricSurface, others: Sequence[Samples]) -> ParametricS
         joins = sides.partner[first] == (first + 2) % 4 and not sides.reversed[first]
         if not joins or not _is_periodic(surface, axis):
             continue
-        room = np.array([_clearance(surface, axis, k / PLACES, others) for k in range(PLACES)])
+        near = [_distances(surface, axis, k / PLACES, others) for k in range(PLACES)]
+        if any(own.max() <= 1.0 for own in near[0]):
+            continue  # the seam is the curve itself
+        room = np.array([min((own.min() for own in each), default=np.inf) for each in near])
         best = int(np.argmax(room))
         if room[0] < 1.0 <= room[best]:
             surface = surface.with_domain(_shifted(surface.domain, axis, best / PLACES))
@@ -90,21 +94,22 @@ def _is_periodic(surface: Surface, axis: int) -> bool:
     )  # fmt: skip
 
 
-def _clearance(
+def _distances(
     surface: Surface, axis: int, part: float, others: Sequence[Samples]
-) -> float:  # fmt: skip
-    """How far a seam is from samples of the others, in parts of the distances between these."""
+) -> list[np.ndarray]:  # fmt: skip
+    """For each of the others, how far points of a seam are from its samples, in parts of the
+    distances between these."""
     (low, high), along = surface.domain[axis], surface.domain[1 - axis]
     uv = np.empty((ALONG, 2))
     uv[:, axis], uv[:, 1 - axis] = low + part * (high - low), np.linspace(*along, ALONG)
     seam = surface.evaluate(uv, 0)[0]
-    clearance = np.inf
+    found = []
     for points, apart in others:
         middle = points.mean(axis=0)
         p, q = seam - middle, points - middle
         square = (p**2).sum(axis=1)[:, None] + (q**2).sum(axis=1) - 2.0 * p @ q.T
-        clearance = min(clearance, float(np.sqrt(max(square.min(), 0.0))) / max(apart, 1e-300))
-    return clearance
+        found.append(np.sqrt(np.maximum(square.min(axis=1), 0.0)) / max(apart, 1e-300))
+    return found
 
 
 def _shifted(domain: Domain, axis: int, part: float) -> Domain:
