@@ -119,21 +119,23 @@ def mesh(
     jobs: int | None = None,
     executor: Executor | None = None,
     order: int = 1,
+    **sizes: Any,
 ) -> SurfaceMesh:
     """Triangulate a surface, or a CAD model (or whatever CadQuery object makes one).
 
     sizing: what is wanted; a number is a uniform edge length; None takes the defaults of the
-    surface's formula file, or sensible ones. optimise=False gives the raw packing with its
-    boundary, as in the paper. progress: called with (stage, fraction done); when it returns False
-    the work stops. strict=False: faces of a CAD model that cannot be meshed are left out and
-    listed in the mesh's ``warnings``. simplify=True: tiny edges of a CAD model are collapsed,
-    those below ``min_size`` or a two-thousandth of the diagonal; lines of a planar domain that
-    are finer than the sizes are thinned; topology is kept. jobs: how
-    many threads mesh, faces of a CAD model at once or within one; by default as many as this
-    process may use processors. The mesh is the same with any number of them. executor: meshes
-    faces instead, in other processes or on other machines: any of ``concurrent.futures``, or
-    ``dask.distributed.Client(...).get_executor()``. order=2: nodes
-    amid the edges too, on the true curves and surfaces (``mesh.mid_points``).
+    surface's formula file, or sensible ones. Options of ``Sizing`` may be given by name instead:
+    ``mesh(part, chord=0.1)``, ``mesh(part, triangles=50_000)``. optimise=False gives the raw
+    packing with its boundary, as in the paper. progress: called with (stage, fraction done); when
+    it returns False the work stops. strict=False: faces of a CAD model that cannot be meshed are
+    left out and listed in the mesh's ``warnings``. simplify=True: tiny edges of a CAD model are
+    collapsed, those below ``min_size`` or a two-thousandth of the diagonal; lines of a planar
+    domain that are finer than the sizes are thinned; topology is kept. jobs: how many threads mesh,
+    faces of a CAD model at once or within one; by default as many as this process may use
+    processors. The mesh is the same with any number of them. executor: meshes faces instead, in
+    other processes or on other machines: any of ``concurrent.futures``, or
+    ``dask.distributed.Client(...).get_executor()``. order=2: nodes amid the edges too, on the true
+    curves and surfaces (``mesh.mid_points``).
 
     Stages and their seconds go to the log ``surfmesh`` at level INFO, the mesh's warnings at
     WARNING. Safe to call from several threads at once.
@@ -144,6 +146,32 @@ def mesh(
     if order not in (1, 2):
         raise SizingError(f"order is {shown(order)}: meshes are of order 1 or 2")
     model = _model_or_surface(surface)
+    wanted = _options(sizing, sizes)
+
+    def made_with(own: Sizes) -> SurfaceMesh:
+        return _mesh_once(model, own, optimise, progress, strict, simplify, jobs, executor)
+
+    if isinstance(wanted, Sizing) and wanted.triangles is not None:
+        from surfmesh.meshing.triangle_count import mesh_with_count
+
+        made = mesh_with_count(
+            wanted, _diagonal(model), lambda own: estimate(model, own).triangles, made_with
+        )
+    else:
+        made = made_with(wanted)
+    if order == 2:
+        from surfmesh.meshing.finishing.second_order import of_second_order
+
+        made = of_second_order(made)
+    return_free_memory(len(made.triangles))
+    return _logged(made, model)
+
+
+def _mesh_once(
+    model: Surface | CadModel, sizing: Sizes, optimise: bool, progress: Progress | None,
+    strict: bool, simplify: bool, jobs: int | None, executor: Executor | None,
+) -> SurfaceMesh:  # fmt: skip
+    """The mesh of first order for given sizes, by the driver of what is to be meshed."""
     from surfmesh.meshing.processors import allowed_threads, processors
 
     threads = processors() if jobs is None else jobs
@@ -152,23 +180,52 @@ def mesh(
         from surfmesh.meshing.model_mesh import mesh_model
 
         workers = FaceWorkers(threads, executor)
-        made = mesh_model(model, sizing, optimise, progress, strict, simplify, workers)
-    elif _is_domain(model):
+        return mesh_model(model, sizing, optimise, progress, strict, simplify, workers)
+    if _is_domain(model):
         from surfmesh.meshing.planar_mesh import mesh_planar
 
         with allowed_threads(threads):
-            made = mesh_planar(model, _one_sizing(model, sizing), optimise, progress, simplify)
-    else:
-        from surfmesh.meshing.parametric_mesh import mesh_parametric
+            return mesh_planar(model, _one_sizing(model, sizing), optimise, progress, simplify)
+    from surfmesh.meshing.parametric_mesh import mesh_parametric
 
-        with allowed_threads(threads):
-            made = mesh_parametric(model, _one_sizing(model, sizing), optimise, progress)
-    if order == 2:
-        from surfmesh.meshing.finishing.second_order import of_second_order
+    with allowed_threads(threads):
+        return mesh_parametric(model, _one_sizing(model, sizing), optimise, progress)
 
-        made = of_second_order(made)
-    return_free_memory(len(made.triangles))
-    return _logged(made, model)
+
+def _options(sizing: Sizes, by_name: Mapping[str, Any]) -> Sizes:
+    """Sizes as they are given, or by the names of options; one ``Sizing`` where they are options.
+
+    Raises ``SizingError`` for both, for an unknown name and for numbers that contradict.
+    """
+    if by_name:
+        if sizing is not None:
+            raise SizingError(f"sizes are given twice: as sizing, and as {', '.join(by_name)}")
+        return Sizing.of(by_name)
+    if isinstance(sizing, Mapping) and not _by_selection(sizing):
+        return Sizing.of(sizing)
+    return sizing
+
+
+def _with_sizes(model: Surface | CadModel, sizing: Sizes) -> Sizes:
+    """The same where a number of triangles is asked for: with the sizes that are to give it."""
+    wanted = _options(sizing, {})
+    if not isinstance(wanted, Sizing) or wanted.triangles is None:
+        return sizing
+    from surfmesh.meshing.triangle_count import sizing_for_count
+
+    return sizing_for_count(wanted, _diagonal(model), lambda own: estimate(model, own).triangles)[0]
+
+
+def _diagonal(model: Surface | CadModel) -> float:
+    """Of the bounding box, of a surface by a grid of points."""
+    if not isinstance(model, Surface):
+        return model.diagonal
+    from surfmesh.geometry.boxes import diagonal
+
+    grid = [np.linspace(low, high, 33) for low, high in model.domain]
+    uv = np.stack(np.meshgrid(*grid), axis=-1).reshape(-1, 2)
+    points = model.evaluate(uv, 0)[0]
+    return diagonal(points[np.isfinite(points).all(axis=1)])
 
 
 def intersect(
@@ -227,6 +284,7 @@ def estimate(surface: Surface | CadModel | Any, sizing: Sizes = None) -> Estimat
     ``mesh`` raises for sizes that cannot be met, but for their limit.
     """
     model = _model_or_surface(surface)
+    sizing = _with_sizes(model, sizing)
     if not isinstance(model, Surface):
         from surfmesh.meshing.model_mesh import estimate_model
 
@@ -251,6 +309,7 @@ def explain(
     ``mesh`` raises for sizes that cannot be met, and ``SizingError`` for what is no point.
     """
     model = _model_or_surface(surface)
+    sizing = _with_sizes(model, sizing)
     if not isinstance(model, Surface):
         from surfmesh.meshing.model_mesh import explain_size
 

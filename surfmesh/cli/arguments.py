@@ -376,6 +376,7 @@ _SIZES: dict[str, tuple[Callable[[str], float], str]] = {  # options of Sizing
     "anisotropy": (_positive, "largest stretch; 1 is isotropic"),
     "volume": (_positive, "largest relative error of solids' volumes"),
     "gap": (_positive, "triangles across thin faces and gaps"),
+    "triangles": (_whole(4), "about so many in all, instead of chord, angle, size"),
     "limit": (_whole(1), "most triangles (default 20 million)"),
 }
 _READING = ("units", "imprint", "sew", "time_limit", "memory_limit", "isolate")  # options of load

@@ -8,6 +8,7 @@ faces: one face of a CAD model, and what is done where it is narrow, thin or fau
 solids: faces joined, groups, volumes.
 finishing: second order, and short edges collapsed.
 estimate: how many triangles there will be.
+triangle_count: sizes for a wanted number of triangles.
 explain: which rule decides the size at a point.
 processors: how many there are, and how many threads a call of the core may use.
 progress: stages, their seconds, and a caller who may stop the work.

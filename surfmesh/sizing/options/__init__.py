@@ -1,6 +1,7 @@
 """What the user asks for.
 
 sizing: what the user asks for: one frozen set of options.
+other_words: what other programs call these options.
 defaults: what holds where nothing is asked for.
 positive: what counts as a size: a finite number above zero.
 sources: local sizes: near points and lines, within boxes and balls, from another mesh.

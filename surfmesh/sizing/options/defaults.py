@@ -2,6 +2,7 @@
 bounding box, model units."""
 
 from surfmesh._core import patch
+from surfmesh.errors import SizingError
 from surfmesh.sizing.options.sizing import Sizing
 
 DEFAULT_CHORD = 1e-3
@@ -28,7 +29,15 @@ fold."""
 
 
 def with_default_chord(sizing: Sizing, diagonal: float) -> Sizing:
-    """Sizes that follow from something: ``DEFAULT_CHORD`` where nothing is asked for."""
+    """Sizes that follow from something: ``DEFAULT_CHORD`` where nothing is asked for.
+
+    Raises ``SizingError`` for a number of triangles, which only a whole mesh has.
+    """
+    if sizing.triangles is not None:
+        raise SizingError(
+            f"triangles={sizing.triangles:,} is met by mesh, estimate and explain, for everything "
+            "together; here give a chord or a size"
+        )
     if sizing.chord is None and sizing.angle is None and sizing.size is None:
         return sizing.replaced(chord=DEFAULT_CHORD * diagonal)
     return sizing

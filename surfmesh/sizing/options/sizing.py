@@ -7,11 +7,15 @@ from typing import Any
 import numpy as np
 
 from surfmesh.errors import SizingError, shown
+from surfmesh.sizing.options.other_words import own_word
 from surfmesh.sizing.options.positive import positive
 from surfmesh.sizing.options.sources import checked_sizes, source_sizes
 
 MOST_STRETCHED = 1e6
 """Largest ratio of two sizes: beyond it areas are round-off."""
+
+FEWEST = 4
+"""Triangles that may be asked for: those of a tetrahedron."""
 
 SizeLaw = Callable[[np.ndarray], np.ndarray]
 
@@ -58,6 +62,11 @@ class Sizing:
     """Largest relative error of the volume of each closed solid of a CAD model, as 0.005: curved
     faces are made finer until it holds, by whatever else they are sized. Nothing is done for
     volumes unasked; the report states their errors."""
+
+    triangles: int | None = None
+    """About so many triangles in all, within 5 %: the sizes that nothing else decides are scaled
+    until the mesh has them. In place of ``chord``, ``angle``, ``size`` and ``volume``, which say
+    how fine the whole is, too."""
 
     proof: bool = False
     """Prove that ``chord`` holds: triangles that bounds do not show to be near enough are made
@@ -110,11 +119,13 @@ class Sizing:
             if not 1e-3 <= self.gap <= 1000.0:
                 raise SizingError(f"gap is a number of triangles, 0.001 to 1000, not {self.gap:g}")
         object.__setattr__(self, "limit", int(positive("limit", self.limit)))
+        if self.triangles is not None:
+            self._check_triangles()
         if self.volume is not None and self.volume >= 1.0:
             raise SizingError(f"volume is a relative error below 1, not {self.volume:g}")
         if not isinstance(self.proof, bool):
             raise SizingError(f"proof is True or False, not {shown(self.proof)}")
-        if self.proof and self.chord is None:
+        if self.proof and self.chord is None and self.triangles is None:
             raise SizingError("proof needs a chord: it is the distance that is to be proved")
         if self.angle is not None and self.angle > 90.0:
             raise SizingError(f"angle must be at most 90 degrees, not {self.angle:g}")
@@ -127,6 +138,17 @@ class Sizing:
                 raise SizingError(f"size {self.size:g} is below min_size {self.min_size:g}")
             if self.max_size and self.size > self.max_size:
                 raise SizingError(f"size {self.size:g} is above max_size {self.max_size:g}")
+
+    def _check_triangles(self) -> None:
+        asked = positive("triangles", self.triangles)
+        if asked != int(asked) or asked < FEWEST:
+            raise SizingError(f"triangles is a whole number from {FEWEST}, not {asked:g}")
+        object.__setattr__(self, "triangles", int(asked))
+        for name in ("chord", "angle", "size", "volume"):
+            if getattr(self, name) is not None:
+                raise SizingError(f"triangles and {name} both say how fine the mesh is: give one")
+        if self.limit < asked:
+            raise SizingError(f"triangles {int(asked):,} is above limit {self.limit:,}")
 
     @property
     def is_anisotropic(self) -> bool:
@@ -177,8 +199,15 @@ class Sizing:
             known = {f.name for f in fields(cls)}
             for name in given:
                 if name not in known:
-                    raise SizingError(f"unknown size option {name!r}; known: {sorted(known)}")
+                    raise SizingError(_unknown(name, sorted(known)))
             return cls(**given)
         if isinstance(given, (int, float)) or callable(given):
             return cls(size=given)
         raise SizingError(f"sizes are a number, a Sizing or a mapping, not {type(given).__name__}")
+
+
+def _unknown(name: object, known: list[str]) -> str:
+    word = own_word(name) if isinstance(name, str) else None
+    if word is None:
+        return f"unknown size option {shown(name)}; known: {known}"
+    return f"unknown size option {shown(name)}: here it is called {word!r}"

@@ -16,6 +16,10 @@ from surfmesh.sizing.rules.curvature_size import (
 )
 from surfmesh.sizing.rules.rule import CurvatureRule, CurveSamples
 
+CORNER_RESERVE = 0.5
+"""Fraction of ``chord`` that a segment may use which passes a corner of a polygonal curve: it may
+pass more than one."""
+
 KINK = 0.02
 """Radians: smaller angles between the pieces of a curve are no corners."""
 
@@ -68,6 +72,6 @@ class ChordRule(CurvatureRule):
         known = np.maximum.reduce([k[:-2], k[1:-1], k[2:]])
         corner = angle > np.maximum(KINK, known * (length[1:] + length[:-1]))
         sizes = np.full(len(curve.points), np.inf)
-        sizes[1:-1][corner] = 4.0 * DEVIATION_RESERVE * self.chord / angle[corner]
+        sizes[1:-1][corner] = 4.0 * CORNER_RESERVE * self.chord / angle[corner]
         sizes[curve.first[:-1]] = sizes[curve.first[1:] - 1] = np.inf  # from one curve to the next
         return sizes
