@@ -7,6 +7,7 @@ namespace {
 
 constexpr int SWEEPS = 20;         // at most: sizes spread by an edge and more in each
 constexpr double BEYOND = 1.08;    // times the slope: sizes are not lowered for less
+constexpr double KEPT = 1.02;      // and then to this: what is lowered lowers its neighbours
 constexpr double LOWERED = 0.999;  // a scale below it is none of rounding
 
 double size_along(const SurfaceFrames& s, Vertex v, Point3 step, double length) {
@@ -21,7 +22,7 @@ double factor_on(const SurfaceFrames& s, Vertex a, Vertex b, double slope) {
     const double length = norm(step), rise = slope * length;
     if (!(length > 0.0)) return 1.0;
     const double of_a = size_along(s, a, step, length), of_b = size_along(s, b, step, length);
-    return of_b > of_a + BEYOND * rise ? (of_a + rise) / of_b : 1.0;
+    return of_b > of_a + BEYOND * rise ? (of_a + KEPT * rise) / of_b : 1.0;
 }
 
 }  // namespace

@@ -16,7 +16,7 @@ from surfmesh.sizing.rules.curvature_size import (
 )
 from surfmesh.sizing.rules.rule import CurvatureRule, CurveSamples
 
-CORNER_RESERVE = 0.5
+CORNER_RESERVE = 0.52
 """Fraction of ``chord`` that a segment may use which passes a corner of a polygonal curve: it may
 pass more than one."""
 
