@@ -146,14 +146,16 @@ def mesh(
     if order not in (1, 2):
         raise SizingError(f"order is {shown(order)}: meshes are of order 1 or 2")
     model = _model_or_surface(surface)
-    wanted = _options(sizing, sizes)
+    wanted = _options(model, _by_name(sizing, sizes))
 
     def made_with(own: Sizes) -> SurfaceMesh:
         return _mesh_once(model, own, optimise, progress, strict, simplify, jobs, executor)
 
     if isinstance(wanted, Sizing) and wanted.triangles is not None:
+        from surfmesh.meshing.progress import OneProgress
         from surfmesh.meshing.triangle_count import mesh_with_count
 
+        progress = progress and OneProgress(progress)
         made = mesh_with_count(
             wanted, _diagonal(model), lambda own: estimate(model, own).triangles, made_with
         )
@@ -185,32 +187,39 @@ def _mesh_once(
         from surfmesh.meshing.planar_mesh import mesh_planar
 
         with allowed_threads(threads):
-            return mesh_planar(model, _one_sizing(model, sizing), optimise, progress, simplify)
+            return mesh_planar(model, Sizing.of(sizing), optimise, progress, simplify)
     from surfmesh.meshing.parametric_mesh import mesh_parametric
 
     with allowed_threads(threads):
-        return mesh_parametric(model, _one_sizing(model, sizing), optimise, progress)
+        return mesh_parametric(model, Sizing.of(sizing), optimise, progress)
 
 
-def _options(sizing: Sizes, by_name: Mapping[str, Any]) -> Sizes:
-    """Sizes as they are given, or by the names of options; one ``Sizing`` where they are options.
+def _by_name(sizing: Sizes, options: Mapping[str, Any]) -> Sizes:
+    """Sizes as they are given, or options of ``Sizing`` by name; ``SizingError`` for both."""
+    if not options:
+        return sizing
+    if sizing is not None:
+        raise SizingError(f"sizes are given twice: as sizing, and as {', '.join(options)}")
+    return Sizing.of(options)
 
-    Raises ``SizingError`` for both, for an unknown name and for numbers that contradict.
+
+def _options(model: Surface | CadModel, sizing: Sizes) -> Sizes:
+    """One ``Sizing``, unless sizes of a CAD model are given by selection, by a law or not at all.
+
+    Raises ``SizingError`` for an unknown option and for numbers that contradict.
     """
-    if by_name:
-        if sizing is not None:
-            raise SizingError(f"sizes are given twice: as sizing, and as {', '.join(by_name)}")
-        return Sizing.of(by_name)
+    if isinstance(model, Surface):
+        return _one_sizing(model, sizing)
     if isinstance(sizing, Mapping) and not _by_selection(sizing):
         return Sizing.of(sizing)
     return sizing
 
 
 def _with_sizes(model: Surface | CadModel, sizing: Sizes) -> Sizes:
-    """The same where a number of triangles is asked for: with the sizes that are to give it."""
-    wanted = _options(sizing, {})
+    """As ``_options``; where a number of triangles is asked for, the sizes that are to give it."""
+    wanted = _options(model, sizing)
     if not isinstance(wanted, Sizing) or wanted.triangles is None:
-        return sizing
+        return wanted
     from surfmesh.meshing.triangle_count import sizing_for_count
 
     return sizing_for_count(wanted, _diagonal(model), lambda own: estimate(model, own).triangles)[0]
@@ -292,10 +301,10 @@ def estimate(surface: Surface | CadModel | Any, sizing: Sizes = None) -> Estimat
     if _is_domain(model):
         from surfmesh.meshing.planar_mesh import estimate_planar
 
-        return estimate_planar(model, _one_sizing(model, sizing))
+        return estimate_planar(model, Sizing.of(sizing))
     from surfmesh.meshing.parametric_mesh import estimate_parametric
 
-    return estimate_parametric(model, _one_sizing(model, sizing))
+    return estimate_parametric(model, Sizing.of(sizing))
 
 
 def explain(
@@ -316,8 +325,7 @@ def explain(
         return explain_size(model, sizing, _place(point))
     from surfmesh.meshing.parametric_mesh import explain_parametric
 
-    wanted = _one_sizing(model, sizing)
-    return explain_parametric(model, wanted, _place(point))
+    return explain_parametric(model, Sizing.of(sizing), _place(point))
 
 
 def _place(point: Sequence[float]) -> NDArray[np.float64]:

@@ -37,6 +37,17 @@ class WorkBudget:
         return self.left >= 0
 
 
+class OneProgress:
+    """A progress callback for a mesh that is made several times: what it was told never falls."""
+
+    def __init__(self, progress: Progress) -> None:
+        self._progress, self._done = progress, 0.0
+
+    def __call__(self, stage: str, done: float) -> object:
+        self._done = max(self._done, done)
+        return self._progress(stage, self._done)
+
+
 class Stopwatch:
     """Seconds per stage; tells the progress callback and the log where the work is."""
 

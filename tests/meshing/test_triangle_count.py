@@ -27,6 +27,17 @@ def test_model_has_so_many_triangles():
     assert sm.check(mesh).clean
 
 
+def test_progress_never_falls():
+    told = []
+    sm.mesh(sm.load("two_peaks"), triangles=2000, progress=lambda _, done: told.append(done))
+    assert told == sorted(told)
+
+
+def test_sizes_of_everything_of_a_formula():
+    mesh = sm.mesh(sm.load("torus"), {"*": sm.Sizing(triangles=2000)})
+    assert len(mesh.triangles) == pytest.approx(2000, rel=0.05)
+
+
 def test_stretched_sizes():
     mesh = sm.mesh(sm.load("torus"), triangles=2000, anisotropy=4.0)
     assert len(mesh.triangles) == pytest.approx(2000, rel=0.05)
