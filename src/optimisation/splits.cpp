@@ -67,7 +67,7 @@ bool is_long(const Triangulation& t, const SurfaceFrames& s, const VertexMarks& 
     if (a >= first || t.adj[e] <= e || t.fixed[e] != 0 || t.region[e / 3] == DEAD) return false;
     const Vertex b = t.tri[t.adj[e]];
     if (b >= first || (marks.active[a] == 0 && marks.active[b] == 0)) return false;
-    return edge_length(s, a, b) > longest;
+    return is_longer(s, a, b, longest);
 }
 
 /// The triangles with an edge to be split, as they are before any is.
