@@ -95,15 +95,13 @@ SquaredOffset squared_offset(Point3 point, Point3 foot, Point3 ru, Point3 rv) {
 }
 
 /// The offsets at one sample of triangles of a block, from ``offsets`` on.
-template <class Triangles>
 void measure_at(SurfaceReader& surface, const Chart& chart, const TriangleBlock& block,
-                const Triangles& triangles, const BarycentricWeights& w, Array<Point2>& uv,
+                const Array<std::int32_t>& triangles, const BarycentricWeights& w,
                 std::span<SquaredOffset> offsets) {
     const std::size_t count = triangles.size();
-    uv.resize(count);
-    for (std::size_t k = 0; k < count; ++k)
-        uv[k] = chart.to_uv(at_weights(block.xy[triangles[k]], w));
-    surface.read(all(uv), 1);
+    Array<Point2> xy(count);
+    for (std::size_t k = 0; k < count; ++k) xy[k] = at_weights(block.xy[triangles[k]], w);
+    surface.read(all(chart.to_uv(all(xy))), 1);
     for (std::size_t k = 0; k < count; ++k)
         offsets[k] = squared_offset(at_weights(block.corners[triangles[k]], w), surface[0][k],
                                     surface[1][k], surface[2][k]);
@@ -131,11 +129,10 @@ FewSamples look_at_few(SurfaceReader& surface, const Chart& chart, const Triangl
                        double limit) {
     const std::size_t count = block.corners.size();
     FewSamples found{Array<SquaredOffset>(FEW_SAMPLES.size() * count), {}};
-    Array<Point2> uv;
     Array<std::int32_t> every(count);
     std::iota(every.begin(), every.end(), 0);
     for (std::size_t n = 0; n < FEW_SAMPLES.size(); ++n)
-        measure_at(surface, chart, block, every, FEW_SAMPLES[n], uv,
+        measure_at(surface, chart, block, every, FEW_SAMPLES[n],
                    {found.offsets.data() + n * count, count});
     for (std::size_t i = 0; i < count; ++i) {
         double largest = 0.0, across = 0.0;
@@ -206,10 +203,9 @@ void look_at_many(SurfaceReader& surface, const Chart& chart, const TriangleBloc
     for (std::size_t n = 0; n < FEW_SAMPLES.size(); ++n)
         for (std::size_t k = 0; k < close.size(); ++k)
             judge(k, few.offsets[n * block.corners.size() + close[k]], FEW_SAMPLES[n]);
-    Array<Point2> uv;
     Array<SquaredOffset> offsets(close.size());
     for (const BarycentricWeights& w : OTHER_SAMPLES) {
-        measure_at(surface, chart, block, close, w, uv, {offsets.data(), offsets.size()});
+        measure_at(surface, chart, block, close, w, {offsets.data(), offsets.size()});
         for (std::size_t k = 0; k < close.size(); ++k) judge(k, offsets[k], w);
     }
     for (std::size_t k = 0; k < close.size(); ++k) block.error[close[k]] = std::sqrt(largest[k]);
