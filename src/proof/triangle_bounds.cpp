@@ -45,9 +45,13 @@ TriangleFrame frame_of(const SpaceCorners& p, double corner, RimSides rims) {
     return frame;
 }
 
-/// Suprema of |d . r''(e, e)| for the three sides e, along the three axes d.
+using BySide = std::array<double, 3>;
+
+/// Suprema of |d . r''(e, e)| for the three sides e, along the three axes d; along the normal, the
+/// last of them, those of either sign too.
 struct SideBends {
-    std::array<std::array<double, 3>, 3> by_axis{};  // [axis][side]
+    std::array<BySide, 3> by_axis{};  // [axis][side]
+    BySide up{-intervals::INFINITE, -intervals::INFINITE, -intervals::INFINITE}, down = up;
 };
 
 void join(SideBends& all, const Bends& bends, const PlaneCorners& uv) {
@@ -70,17 +74,24 @@ void join(SideBends& all, const Bends& bends, const PlaneCorners& uv) {
             const double found =
                 most <= intervals::INFINITE ? most + ROUNDING * size : intervals::INFINITE;
             all.by_axis[d][k] = std::max(all.by_axis[d][k], found);
+            if (d < 2) continue;
+            const double up = a.hi + b.hi + c.hi, down = -(a.lo + b.lo + c.lo);
+            const bool known = found < intervals::INFINITE;
+            all.up[k] = std::max(all.up[k], known ? up + ROUNDING * size : found);
+            all.down[k] = std::max(all.down[k], known ? down + ROUNDING * size : found);
         }
     }
 }
 
-/// The largest of l_0 l_1 a + l_1 l_2 b + l_2 l_0 c over the simplex, for numbers >= 0.
+/// The largest of l_0 l_1 a + l_1 l_2 b + l_2 l_0 c over the simplex; never less than 0.
 ///
 /// Inside it is a b c / D with D = 2 (ab + bc + ca) - (a^2 + b^2 + c^2) where each number is less
-/// than the sum of the others; else on the side of the largest, a quarter of that.
+/// than the sum of the others; else on the side of the largest, a quarter of that. A number below 0
+/// is the curvature along its side, upwards: there is no largest value inside then.
 double largest_on_simplex(double a, double b, double c) {
-    const double most = std::max({a, b, c});
+    const double most = std::max({a, b, c, 0.0});
     if (!(most < intervals::INFINITE)) return intervals::INFINITE;
+    if (std::min({a, b, c}) <= 0.0) return 0.25 * most;
     if (2.0 * most >= (a + b + c) * (1.0 + 1e-9)) return 0.25 * most;
     const double x = a / most, y = b / most, z = c / most;
     const double D = 2.0 * (x * y + y * z + z * x) - (x * x + y * y + z * z);
@@ -91,12 +102,15 @@ double largest_on_simplex(double a, double b, double c) {
 }
 
 TriangleBounds bounds_from(const SideBends& bends, const TriangleFrame& frame, double corner) {
-    std::array<double, 3> normal{}, size{};
-    std::array<std::array<double, 3>, 3> across{};  // [side left][side]
+    BySide normal{}, size{}, up{}, down{};
+    std::array<BySide, 3> across{};  // [side left][side]
     for (std::size_t e = 0; e < 3; ++e) {
         const double x = bends.by_axis[0][e], y = bends.by_axis[1][e], z = bends.by_axis[2][e];
         size[e] = std::sqrt(x * x + y * y + z * z) * (1.0 + frame.tilt * 4.0 + ROUNDING);
-        normal[e] = z + (frame.tilt + ROUNDING) * size[e];
+        const double tilted = (frame.tilt + ROUNDING) * size[e];
+        normal[e] = z + tilted;
+        up[e] = bends.up[e] + tilted;
+        down[e] = bends.down[e] + tilted;
         for (std::size_t k = 0; k < 3; ++k) {
             const Point2 side = frame.sides[k];  // across it: (-y, x)
             across[k][e] = std::abs(side.y) * x + std::abs(side.x) * y +
@@ -104,21 +118,28 @@ TriangleBounds bounds_from(const SideBends& bends, const TriangleFrame& frame, d
         }
     }
     TriangleBounds found{};
-    found.height = 0.5 * largest_on_simplex(normal[0], normal[1], normal[2]);
+    found.height = 0.5 * std::max(largest_on_simplex(up[0], up[1], up[2]),
+                                  largest_on_simplex(down[0], down[1], down[2]));
     found.whole = 0.5 * largest_on_simplex(size[0], size[1], size[2]);
     found.shift = 0.5 * std::max({size[0], size[1], size[2]});
+    found.bend = 0.5 * std::max({normal[0], normal[1], normal[2]});
     found.corner = corner;
+    found.cell_height = found.height;
+    found.cell_whole = found.whole;
     for (std::size_t k = 0; k < 3; ++k) {
         const std::size_t i = (k + 1) % 3, j = (k + 2) % 3;
         const double out = across[k][k], inner = std::max(across[k][i], across[k][j]);
         const double reserve = frame.heights[k] - 0.5 * std::max(out, inner);
         found.outward[k] = 0.125 * out;
+        found.inner[k] = 0.5 * inner;
         // beyond the side l_k <= l_i l_j out / (2 reserve), which adds so much to its height
-        const double more = reserve > 0.0 ? out * std::max(normal[i], normal[j]) / (2.0 * reserve)
-                                          : intervals::INFINITE;
-        const double height = 0.125 * (normal[k] + (out > 0.0 ? more : 0.0));
+        found.steep[k] =
+            reserve > 0.0 ? std::max(normal[i], normal[j]) / (2.0 * reserve) : intervals::INFINITE;
+        const double more = out > 0.0 ? out * found.steep[k] : 0.0;
+        found.beside[k] = 0.125 * (normal[k] + more);
         found.rim[k] =
-            std::sqrt(height * height + found.outward[k] * found.outward[k]) * (1.0 + ROUNDING);
+            std::sqrt(found.beside[k] * found.beside[k] + found.outward[k] * found.outward[k]) *
+            (1.0 + ROUNDING);
     }
     return found;
 }
