@@ -55,6 +55,11 @@ struct ProofRequest {
     std::span<const RimSides> rims;
     // false: the corners give the plane alone, and r(u_i) lies elsewhere
     bool corners_are_on_surface;
+
+    [[nodiscard]] ProofRequest part(std::size_t start, std::size_t count) const {
+        return {corners.subspan(start, count), uv.subspan(start, count),
+                limits.subspan(start, count), rims.subspan(start, count), corners_are_on_surface};
+    }
 };
 
 /// Bounds of each triangle into ``out``. Those beyond their limit, by height or at a rim, are cut
