@@ -4,6 +4,7 @@
 // axes, and its TriangleBounds. Nothing is changed.
 #pragma once
 
+#include <algorithm>
 #include <array>
 
 #include "proof/triangle_bounds.hpp"
@@ -39,5 +40,12 @@ PieceSize size_from(const SideBends& bends, const TriangleFrame& frame);
 
 /// Infinite bounds, where nothing is known, make what they bound infinite.
 TriangleBounds bounds_from(const SideBends& bends, const TriangleFrame& frame, double corner);
+
+/// Of two bounds of one triangle: a height from either, all else from that whose cells are lower.
+inline TriangleBounds lower_of(const TriangleBounds& a, const TriangleBounds& b) {
+    TriangleBounds found = b.cell_whole < a.cell_whole ? b : a;
+    found.height = std::min(a.height, b.height);
+    return found;
+}
 
 }  // namespace surfmesh

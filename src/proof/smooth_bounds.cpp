@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdint>
 
+#include "proof/corner_bends.hpp"
 #include "surfaces/outward.hpp"
 
 namespace surfmesh {
@@ -12,7 +13,7 @@ namespace {
 
 constexpr double ROUNDING = 0x1p-46;   // relative, more than that of any short sum here
 constexpr std::int32_t TOGETHER = 32;  // triangles over one cell, at first
-constexpr double LITTLE = 0.02;        // of the height: rho that is good enough
+constexpr double LITTLE = 0.04;        // of the height: rho that is good enough
 constexpr double LITTLE_OF_LIMIT = 0.005;
 constexpr double WORTH =
     1.5;  // how much less fourth derivatives are over one triangle: else no cuts
@@ -75,39 +76,26 @@ struct CornerBends {
 
 CornerBends corner_bends(const std::array<const SecondJet*, 3>& jets, const PlaneCorners& uv,
                          const Directions& axes) {
+    const SideWeights weight = weights_of(uv);
     CornerBends found{};
-    std::array<std::array<double, 3>, 3> weight{};  // [side][uu, uv, vv]
-    for (std::size_t k = 0; k < 3; ++k) {
-        const Point2 e = uv[(k + 1) % 3] - uv[k];
-        weight[k] = {e.x * e.x, 2.0 * e.x * e.y, e.y * e.y};
-    }
-    for (std::size_t m = 0; m < 3; ++m) {
-        const SecondJet& jet = *jets[m];
+    for (std::size_t m = 0; m < 3; ++m)
         for (std::size_t k = 0; k < 3; ++k) {
-            Point3 bend{0.0, 0.0, 0.0};
-            double off = 0.0;
-            for (std::size_t n = 0; n < 3; ++n) {
-                const auto& [value, error] = jet[n + 1];
-                bend = bend + weight[k][n] * value;
-                const double size = std::abs(value.x) + std::abs(value.y) + std::abs(value.z);
-                off += std::abs(weight[k][n]) * (2.0 * error + ROUNDING * size);
-            }
+            const auto [bend, error] = bend_of(*jets[m], weight[k]);
             for (std::size_t d = 0; d < 3; ++d) found.value[d][k][m] = dot(axes[d], bend);
-            found.error[k] = std::max(found.error[k], off);
+            found.error[k] = std::max(found.error[k], error * (1.0 + ROUNDING));
         }
-    }
     return found;
 }
 
 constexpr BySide UNKNOWN_SIDES = {NONE, NONE, NONE};
-constexpr std::array<BySide, 3> UNKNOWN_PARTS = {UNKNOWN_SIDES, UNKNOWN_SIDES, UNKNOWN_SIDES};
+constexpr FourthParts UNKNOWN_PARTS = {UNKNOWN_SIDES, UNKNOWN_SIDES, UNKNOWN_SIDES};
 
 /// rho of each side along each axis.
-std::array<BySide, 3> fourth_parts(const FourthMagnitudes& most, const PlaneCorners& uv,
-                                   const Directions& axes) {
+FourthParts fourth_parts(const FourthMagnitudes& most, const PlaneCorners& uv,
+                         const Directions& axes) {
     std::array<Point2, 3> e;
     for (std::size_t k = 0; k < 3; ++k) e[k] = uv[(k + 1) % 3] - uv[k];
-    std::array<BySide, 3> found{};
+    FourthParts found{};
     for (std::size_t k = 0; k < 3; ++k)
         for (std::size_t l = k; l < 3; ++l) {
             const auto [a, b] = e[k];
@@ -134,7 +122,7 @@ std::array<BySide, 3> fourth_parts(const FourthMagnitudes& most, const PlaneCorn
 }
 
 /// What bounds_from wants: averaged as the integrals are, or the suprema over the triangle.
-SideBends side_bends(const CornerBends& corner, const std::array<BySide, 3>& rho, bool averaged) {
+SideBends side_bends(const CornerBends& corner, const FourthParts& rho, bool averaged) {
     SideBends found;
     for (std::size_t d = 0; d < 3; ++d)
         for (std::size_t k = 0; k < 3; ++k) {
@@ -169,10 +157,12 @@ ParameterBox hull_of(std::span<const std::int32_t> group, std::span<const PlaneC
 class SmoothBounds {
   public:
     SmoothBounds(const FourthDerivatives& surface, const ProofRequest& asked,
-                 std::span<TriangleBounds> out, std::span<std::uint8_t> is_good)
+                 std::span<TriangleBounds> out, std::span<FourthParts> rho,
+                 std::span<std::uint8_t> is_good)
         : surface_(surface),
           asked_(asked),
           out_(out),
+          rho_(rho),
           is_good_(is_good),
           places_(asked.uv),
           jets_(places_.all().size()),
@@ -196,6 +186,7 @@ class SmoothBounds {
     const FourthDerivatives& surface_;
     ProofRequest asked_;
     std::span<TriangleBounds> out_;
+    std::span<FourthParts> rho_;
     std::span<std::uint8_t> is_good_;
     Places places_;
     Array<SecondJet> jets_;
@@ -219,14 +210,10 @@ void SmoothBounds::prepare() {
         off_[t] = off;
         frames_[t] = frame_of(asked_.corners[t], off, asked_.rims[t]);
         out_[t] = UNKNOWN;
+        rho_[t] = UNKNOWN_PARTS;
         out_[t].corner = off;
     }
-    for (std::size_t i = 0; i < jets_.size(); ++i) {
-        double size = 0.0;
-        for (const auto& [value, error] : jets_[i])
-            size += std::abs(value.x) + std::abs(value.y) + std::abs(value.z) + error;
-        is_known_[i] = size < intervals::INFINITE ? 1 : 0;
-    }
+    for (std::size_t i = 0; i < jets_.size(); ++i) is_known_[i] = is_known(jets_[i]) ? 1 : 0;
 }
 
 std::array<SmoothBounds::Group, 2> SmoothBounds::halves_of(Group group) const {
@@ -268,7 +255,7 @@ bool SmoothBounds::look_at(std::int32_t t, const FourthMagnitudes& most) {
         jets[k] = &jets_[place];
     }
     const TriangleFrame& frame = frames_[t];
-    const std::array<BySide, 3> rho = fourth_parts(most, asked_.uv[t], frame.axes);
+    const FourthParts rho = fourth_parts(most, asked_.uv[t], frame.axes);
     if (!(rho[0][0] < NONE)) return false;
     const CornerBends corner = corner_bends(jets, asked_.uv[t], frame.axes);
     TriangleBounds found = bounds_from(side_bends(corner, rho, true), frame, off_[t]);
@@ -278,12 +265,15 @@ bool SmoothBounds::look_at(std::int32_t t, const FourthMagnitudes& most) {
     found.cell_whole = whole;
     const double part = std::max({rho[2][0], rho[2][1], rho[2][2]}) / 6.0;
     const double least = std::max(LITTLE * found.height, LITTLE_OF_LIMIT * asked_.limits[t]);
-    if (found.height < out_[t].height || found.whole < out_[t].whole) out_[t] = found;
-    is_good_[t] = part <= least ? 1 : 0;
-    return is_good_[t] != 0;
+    if (rho[2][0] + rho[2][1] + rho[2][2] < rho_[t][2][0] + rho_[t][2][1] + rho_[t][2][2]) {
+        out_[t] = found;
+        rho_[t] = rho;
+    }
+    if (part <= least) is_good_[t] = 1;
+    return part <= least;
 }
 
-/// Could smaller cells show less? By one of a group's triangles.
+/// Could smaller cells show less? They do for one of a group's triangles, if so.
 bool is_worth(const FourthMagnitudes& all, const FourthMagnitudes& one) {
     for (std::size_t n = 0; n < all.size(); ++n) {
         const double a = all[n].x + all[n].y + all[n].z, b = one[n].x + one[n].y + one[n].z;
@@ -314,7 +304,9 @@ SurfaceStatus SmoothBounds::run() {
         for (std::size_t k = 0; k < groups.size(); ++k) {
             const auto row = static_cast<std::ptrdiff_t>(2 * k);
             const Group group = groups[row / 2];
-            const bool worth = group.size() > 1 && is_worth(most[row], most[row + 1]);
+            const std::int32_t middle = group[group.size() / 2];
+            const bool worth = group.size() > 1 && is_worth(most[row], most[row + 1]) &&
+                               look_at(middle, most[row + 1]);
             const auto bad = std::partition(group.begin(), group.end(),
                                             [&](std::int32_t t) { return look_at(t, most[row]); });
             const Group rest(bad, group.end());
@@ -332,8 +324,9 @@ SurfaceStatus SmoothBounds::run() {
 }  // namespace
 
 SurfaceStatus smooth_bounds(const FourthDerivatives& surface, const ProofRequest& asked,
-                            std::span<TriangleBounds> out, std::span<std::uint8_t> is_good) {
-    return SmoothBounds(surface, asked, out, is_good).run();
+                            std::span<TriangleBounds> out, std::span<FourthParts> rho,
+                            std::span<std::uint8_t> is_good) {
+    return SmoothBounds(surface, asked, out, rho, is_good).run();
 }
 
 }  // namespace surfmesh

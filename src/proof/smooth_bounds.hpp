@@ -16,8 +16,7 @@
 // Corners are computed once, fourth derivatives over cells that many triangles share: those are
 // multiplied by the fourth power of their size.
 //
-// In: triangles, their frames. Out: suprema along their sides, as averaged above, and within cells
-// of them; how much of that rho is. Infinite where there is nothing. Nothing is changed.
+// In: triangles. Out: their bounds, and rho; infinite where there are none. Nothing is changed.
 #pragma once
 
 #include <span>
@@ -28,8 +27,12 @@
 
 namespace surfmesh {
 
-/// Bounds into ``out``; is_good (m,): 1 where rho is so little of them that cuts would not help.
+/// rho of a triangle's sides along its axes: [axis][side].
+using FourthParts = std::array<BySide, 3>;
+
+/// Bounds into ``out``, rho into ``rho``; is_good (m,): 1 where that is a small part of them.
 SurfaceStatus smooth_bounds(const FourthDerivatives& surface, const ProofRequest& asked,
-                            std::span<TriangleBounds> out, std::span<std::uint8_t> is_good);
+                            std::span<TriangleBounds> out, std::span<FourthParts> rho,
+                            std::span<std::uint8_t> is_good);
 
 }  // namespace surfmesh

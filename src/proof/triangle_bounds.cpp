@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "proof/grid_bounds.hpp"
 #include "proof/side_bends.hpp"
 #include "proof/smooth_bounds.hpp"
 #include "surfaces/outward.hpp"
@@ -169,48 +170,74 @@ SurfaceStatus bounds_by_cells(const Surface& surface, const ProofRequest& asked,
     return SurfaceStatus::DONE;
 }
 
-/// Some of the triangles, by themselves.
-struct SomeTriangles {
-    Array<std::int32_t> which;
+/// Bounds by cells of ``which`` triangles, where they are lower.
+SurfaceStatus bounds_of_some(const Surface& surface, const ProofRequest& asked, int depth,
+                             const Array<std::int32_t>& which, std::span<TriangleBounds> out) {
     Array<SpaceCorners> corners;
     Array<PlaneCorners> uv;
     Array<double> limits;
     Array<RimSides> rims;
-
-    void take(const ProofRequest& asked, std::size_t t) {
-        which.push_back(static_cast<std::int32_t>(t));
+    for (const std::int32_t number : which) {
+        const auto t = static_cast<std::size_t>(number);
         corners.push_back(asked.corners[t]);
         uv.push_back(asked.uv[t]);
         limits.push_back(asked.limits[t]);
         rims.push_back(asked.rims[t]);
     }
-};
+    const auto all = [](const auto& array) { return std::span(array.data(), array.size()); };
+    Array<TriangleBounds> found(which.size());
+    const auto status = bounds_by_cells(
+        surface, {all(corners), all(uv), all(limits), all(rims), asked.corners_are_on_surface},
+        depth, all(found));
+    if (status != SurfaceStatus::DONE) return status;
+    for (std::size_t k = 0; k < which.size(); ++k) {
+        const auto row = static_cast<std::ptrdiff_t>(k);
+        TriangleBounds& known = out[static_cast<std::size_t>(which[row])];
+        known = lower_of(known, found[row]);
+    }
+    return status;
+}
 
-/// Cells are for those where the surface is not smooth enough for the size of the triangle.
+/// Is rho a large part of what is known, on the finest grid?
+bool is_vague(const TriangleBounds& bounds, const FourthParts& rho) {
+    constexpr double LARGE = 0.1, FINEST = 1.0 / 64.0;
+    double most = 0.0;
+    for (const BySide& along : rho) most = std::max({most, along[0], along[1], along[2]});
+    return most / 6.0 * FINEST > LARGE * bounds.cell_whole;
+}
+
+/// By corners and fourth derivatives; by a grid of points where they say too little, and by cells
+/// where they say nothing.
 SurfaceStatus bounds_of_smooth(const Surface& surface, const FourthDerivatives& fourth,
                                const ProofRequest& asked, int depth,
                                std::span<TriangleBounds> out) {
+    constexpr double STAYS =
+        0.5;  // of the least height: else ring_bounds.hpp may need a closer look
     Array<std::uint8_t> is_good(out.size());
-    auto status = smooth_bounds(fourth, asked, out, {is_good.data(), is_good.size()});
+    Array<FourthParts> rho(out.size());
+    auto status = smooth_bounds(fourth, asked, out, {rho.data(), rho.size()},
+                                {is_good.data(), is_good.size()});
     if (status == SurfaceStatus::UNKNOWN) return bounds_by_cells(surface, asked, depth, out);
     if (status != SurfaceStatus::DONE) return status;
-    SomeTriangles rest;
-    for (std::size_t t = 0; t < out.size(); ++t)
-        if (is_good[static_cast<std::ptrdiff_t>(t)] == 0 &&
+    Array<std::int32_t> open, unknown;
+    for (std::size_t t = 0; t < out.size(); ++t) {
+        if (is_good[static_cast<std::ptrdiff_t>(t)] != 0) continue;
+        const auto number = static_cast<std::int32_t>(t);
+        if (!(out[t].whole < intervals::INFINITE)) {
+            unknown.push_back(number);
+            continue;
+        }
+        const TriangleFrame frame = frame_of(asked.corners[t], out[t].corner, asked.rims[t]);
+        const double least = std::min({frame.heights[0], frame.heights[1], frame.heights[2]});
+        if (out[t].shift > STAYS * least ||
             !is_within(out[t], asked.rims[t], asked.limits[t] - out[t].corner))
-            rest.take(asked, t);
-    Array<TriangleBounds> found(rest.which.size());
-    const auto all = [](const auto& array) { return std::span(array.data(), array.size()); };
-    status = bounds_by_cells(surface,
-                             {all(rest.corners), all(rest.uv), all(rest.limits), all(rest.rims),
-                              asked.corners_are_on_surface},
-                             depth, all(found));
-    for (std::size_t k = 0; k < rest.which.size(); ++k) {
-        const auto row = static_cast<std::ptrdiff_t>(k);
-        TriangleBounds& known = out[static_cast<std::size_t>(rest.which[row])];
-        if (!(known.height <= found[row].height)) known = found[row];
+            open.push_back(number);
     }
-    return status;
+    status = lower_by_grid(fourth, asked, {rho.data(), rho.size()}, open, out);
+    if (status != SurfaceStatus::DONE) return status;
+    for (const std::int32_t t : open)
+        if (is_vague(out[static_cast<std::size_t>(t)], rho[t])) unknown.push_back(t);
+    return bounds_of_some(surface, asked, depth, unknown, out);
 }
 
 }  // namespace
