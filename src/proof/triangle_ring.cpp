@@ -136,4 +136,22 @@ double TriangleRing::free_around() const {
     return (1.0 - ROUNDING) * nearest - (1.0 + ROUNDING) * shifted - ROUNDING * longest_;
 }
 
+double TriangleRing::apart(std::size_t member) const {
+    const auto &own = ring_[0].corners, &other = ring_[member].corners;
+    double least = intervals::INFINITE;
+    for (std::size_t s = 0; s < 3; ++s)
+        for (std::size_t k = 0; k < 3; ++k)
+            least = std::min(least, distance_of_segments(own[s], own[(s + 1) % 3], other[k],
+                                                         other[(k + 1) % 3]));
+    return std::max(0.0, (1.0 - ROUNDING) * least - ROUNDING * longest_);
+}
+
+bool TriangleRing::is_within(std::size_t member) const {
+    for (std::size_t k = 0; k < 3; ++k) {
+        const std::int32_t twin = mesh_.twins[3 * static_cast<std::size_t>(number(member)) + k];
+        if (twin != NIL && mark_[twin / 3] != members_[0]) return false;
+    }
+    return true;
+}
+
 }  // namespace surfmesh
