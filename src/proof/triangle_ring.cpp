@@ -28,6 +28,20 @@ double distance_of_segments(Point2 a, Point2 b, Point2 c, Point2 d) {
 
 }  // namespace
 
+Array<std::int32_t> parted_half_edges(std::span<const PlaneCorners> uv,
+                                      std::span<const std::int32_t> twins) {
+    Array<std::int32_t> found;
+    const auto differ = [](Point2 a, Point2 b) { return a.x != b.x || a.y != b.y; };
+    for (std::size_t h = 0; h < twins.size(); ++h) {
+        if (twins[h] <= static_cast<std::int32_t>(h)) continue;
+        const auto twin = static_cast<std::size_t>(twins[h]);
+        const PlaneCorners &a = uv[h / 3], &b = uv[twin / 3];
+        if (differ(a[h % 3], b[(twin % 3 + 1) % 3]) || differ(a[(h % 3 + 1) % 3], b[twin % 3]))
+            found.push_back(static_cast<std::int32_t>(h));
+    }
+    return found;
+}
+
 TriangleRing::TriangleRing(const ProofMesh& mesh)
     : mesh_(mesh), mark_(mesh.corners.size(), -1), is_turned_(mesh.corners.size(), 0) {
     std::int32_t count = 0;

@@ -54,6 +54,11 @@ struct Neighbour {
     bool is_near;                // may a cell lie over it?
 };
 
+/// Half-edges with a twin after them whose ends have other (u, v) in the twin's triangle: seams, and
+/// sides that end in a pole.
+Array<std::int32_t> parted_half_edges(std::span<const PlaneCorners> uv,
+                                      std::span<const std::int32_t> twins);
+
 class TriangleRing {
   public:
     static constexpr double ROUNDING = 0x1p-45;  // relative, more than that of any sum here
