@@ -25,7 +25,7 @@ from surfmesh.geometry.number_range import RANGE
 from surfmesh.geometry.surface import Surface
 from surfmesh.result.surface_mesh import SurfaceMesh
 from surfmesh.sizing.options.distance_size import default_options
-from surfmesh.sizing.options.sizing import SizeLaw, Sizing
+from surfmesh.sizing.options.sizing import BALANCED, SizeLaw, Sizing
 
 if TYPE_CHECKING:
     from concurrent.futures import Executor
@@ -158,6 +158,8 @@ def mesh(
         raise SizingError(f"jobs is {shown(jobs)}: at least one thread; None takes all processors")
     model = _model_or_surface(surface)
     wanted = _options(model, _by_name(sizing, sizes))
+    if order == 2 and _is_balanced(wanted):
+        raise SizingError("nodes of order 2 lie on the surface: vertices cannot be balanced too")
 
     def made_with(own: Sizes) -> SurfaceMesh:
         return _mesh_once(model, own, optimise, progress, strict, simplify, jobs, executor)
@@ -224,6 +226,15 @@ def _options(model: Surface | CadModel, sizing: Sizes) -> Sizes:
     if isinstance(sizing, Mapping) and not _by_selection(sizing):
         return Sizing.of(sizing)
     return sizing
+
+
+def _is_balanced(sizing: Sizes) -> bool:
+    """Are vertices to be balanced?"""
+    if isinstance(sizing, Mapping):
+        sizing = sizing.get("*")
+        if isinstance(sizing, Mapping):
+            return sizing.get("vertices") == BALANCED
+    return isinstance(sizing, Sizing) and sizing.is_balanced
 
 
 def _with_sizes(model: Surface | CadModel, sizing: Sizes) -> Sizes:

@@ -49,7 +49,7 @@ def parse(argv: Sequence[str]) -> argparse.Namespace:
     """
     options = _parser().parse_args(_imprint_alone(_values_shielded(argv)))
     held = vars(options)
-    given = {name: held.pop(name) for name in (*_SIZES, "proof") if name in held}
+    given = {name: held.pop(name) for name in (*_SIZES, "proof", "vertices") if name in held}
     options.sizing = {name: value for name, value in given.items() if value is not None}
     options.reading = {name: held.pop(name) for name in _READING if name in held}
     return options
@@ -285,6 +285,10 @@ def _add_sizes(parser: argparse.ArgumentParser) -> None:
     sizes.add_argument(
         "--proof", action="store_const", const=True, help="prove that the chord holds"
     )
+    sizes.add_argument(
+        "--vertices", choices=("on_surface", "balanced"),
+        help="balanced: off the surface, so that it lies on both sides and volumes are kept",
+    )  # fmt: skip
     sizes.add_argument(
         "--sizes", metavar="TOML", help='sizes by selection: [sizes."fillet*"] chord = 0.01'
     )
