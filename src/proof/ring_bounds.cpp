@@ -6,11 +6,11 @@
 namespace surfmesh {
 namespace {
 
-constexpr double ROUNDING = 0x1p-46;     // relative, more than that of any sum here
-constexpr double LARGEST_COSINE = -0.5;  // of 120 degrees
-constexpr double STEEPEST = 0.766;       // the sine of 50 degrees
-constexpr double LARGEST_SHIFT = 0.25;   // of the smallest height
-constexpr double FLATTEST = 0x1p-20;     // tilt of a normal
+constexpr double RING_ROUNDING = 0x1p-46;   // relative, more than that of any sum here
+constexpr double LARGEST_COSINE = -0.5;     // of 120 degrees
+constexpr double STEEPEST = 0.766;          // the sine of 50 degrees
+constexpr double LARGEST_SHIFT = 0.25;      // of the smallest height
+constexpr double STEEPEST_FRAME = 0x1p-20;  // tilt of a normal
 
 /// What is known of a triangle's shape, in numbers that are on the safe side.
 struct Shape {
@@ -32,7 +32,7 @@ Shape shape_of(const SpaceCorners& p, const TriangleBounds& bounds) {
     const Point3 n = cross(side[0], side[1]);
     const double area = norm(n), longest = std::max({length[0], length[1], length[2]});
     shape.tilt = (32.0 * 0x1p-53 * longest * longest + 8.0 * bounds.corner * longest) / area;
-    if (!(shape.tilt < FLATTEST)) return shape;
+    if (!(shape.tilt < STEEPEST_FRAME)) return shape;
     shape.normal = (1.0 / area) * n;
     shape.height = area / longest * (1.0 - 4.0 * shape.tilt);
     shape.least_sine = 1.0;
@@ -62,13 +62,14 @@ double cost_of_side(const Shape& own, const Shape& other, const TriangleBounds& 
     if (!other.is_good) return intervals::INFINITE;
     const double sign = run_alike ? -1.0 : 1.0;
     if (!(sign * dot(own.normal, other.normal) > 0.0)) return intervals::INFINITE;
-    const double sine = norm(cross(own.normal, other.normal)) + own.tilt + other.tilt + ROUNDING;
+    const double sine =
+        norm(cross(own.normal, other.normal)) + own.tilt + other.tilt + RING_ROUNDING;
     if (!(sine < STEEPEST)) return intervals::INFINITE;
-    const double cosine = std::sqrt(1.0 - sine * sine) * (1.0 - ROUNDING);
+    const double cosine = std::sqrt(1.0 - sine * sine) * (1.0 - RING_ROUNDING);
     if (!(bounds.shift <= own.height * other.least_sine * cosine)) return intervals::INFINITE;
     const double over = bounds.height + bounds.outward[k] * (sine / cosine);
     const double under = bounds.height * (1.0 + sine * sine) / cosine + bounds.outward[k] * sine;
-    return std::max(over, under) * (1.0 + ROUNDING);
+    return std::max(over, under) * (1.0 + RING_ROUNDING);
 }
 
 }  // namespace
@@ -99,7 +100,7 @@ RingBounds ring_bounds(std::span<const SpaceCorners> corners,
         found.by_ring[t] = most <= own.whole ? 1 : 0;
         const double bound = std::min(most, own.whole) + corner;
         found.bound[t] =
-            bound <= intervals::INFINITE ? bound * (1.0 + ROUNDING) : intervals::INFINITE;
+            bound <= intervals::INFINITE ? bound * (1.0 + RING_ROUNDING) : intervals::INFINITE;
     }
     return found;
 }

@@ -8,9 +8,9 @@
 namespace surfmesh {
 namespace {
 
-constexpr std::size_t BLOCK = 1024;   // triangles looked at together
-constexpr double ROUNDING = 0x1p-47;  // relative, more than that of any short sum here
-constexpr double TILTED = 0.1;        // a normal known no better says nothing
+constexpr std::size_t BLOCK = 1024;         // triangles looked at together
+constexpr double BOUND_ROUNDING = 0x1p-47;  // relative, more than that of any short sum here
+constexpr double TILTED = 0.1;              // a normal known no better says nothing
 
 /// A triangle's own axes: along its first side, across it within its plane, and its normal.
 struct TriangleFrame {
@@ -68,7 +68,7 @@ void join(SideBends& all, const Bends& bends, const PlaneCorners& uv) {
                 std::max(std::abs(a.lo + b.lo + c.lo), std::abs(a.hi + b.hi + c.hi));
             // nan where infinities meet
             const double found =
-                most <= intervals::INFINITE ? most + ROUNDING * size : intervals::INFINITE;
+                most <= intervals::INFINITE ? most + BOUND_ROUNDING * size : intervals::INFINITE;
             all.by_axis[d][k] = std::max(all.by_axis[d][k], found);
         }
     }
@@ -95,12 +95,12 @@ TriangleBounds bounds_from(const SideBends& bends, const TriangleFrame& frame, d
     std::array<std::array<double, 3>, 3> across{};  // [side left][side]
     for (std::size_t e = 0; e < 3; ++e) {
         const double x = bends.by_axis[0][e], y = bends.by_axis[1][e], z = bends.by_axis[2][e];
-        size[e] = std::sqrt(x * x + y * y + z * z) * (1.0 + frame.tilt * 4.0 + ROUNDING);
-        normal[e] = z + (frame.tilt + ROUNDING) * size[e];
+        size[e] = std::sqrt(x * x + y * y + z * z) * (1.0 + frame.tilt * 4.0 + BOUND_ROUNDING);
+        normal[e] = z + (frame.tilt + BOUND_ROUNDING) * size[e];
         for (std::size_t k = 0; k < 3; ++k) {
             const Point2 side = frame.sides[k];  // across it: (-y, x)
             across[k][e] = std::abs(side.y) * x + std::abs(side.x) * y +
-                           (4.0 * frame.tilt + ROUNDING) * size[e];
+                           (4.0 * frame.tilt + BOUND_ROUNDING) * size[e];
         }
     }
     TriangleBounds found{};
@@ -117,8 +117,8 @@ TriangleBounds bounds_from(const SideBends& bends, const TriangleFrame& frame, d
         const double more = reserve > 0.0 ? out * std::max(normal[i], normal[j]) / (2.0 * reserve)
                                           : intervals::INFINITE;
         const double height = 0.125 * (normal[k] + (out > 0.0 ? more : 0.0));
-        found.rim[k] =
-            std::sqrt(height * height + found.outward[k] * found.outward[k]) * (1.0 + ROUNDING);
+        found.rim[k] = std::sqrt(height * height + found.outward[k] * found.outward[k]) *
+                       (1.0 + BOUND_ROUNDING);
     }
     return found;
 }
@@ -201,7 +201,7 @@ SurfaceStatus corner_errors(const Surface& surface, std::span<const SpaceCorners
         for (std::size_t k = 0; k < 3; ++k) {
             const auto& [value, off] = found[3 * t + k];
             // each coordinate is off: twice that covers their root sum of squares
-            const double away = norm(corners[t][k] - value) * (1.0 + ROUNDING) + 2.0 * off;
+            const double away = norm(corners[t][k] - value) * (1.0 + BOUND_ROUNDING) + 2.0 * off;
             error[t] = std::max(error[t], away <= intervals::INFINITE ? away : intervals::INFINITE);
         }
     return status;
