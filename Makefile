@@ -133,7 +133,7 @@ $(LOWEST)/bin/python:
 	@$(LOWEST_PYTHON) -m venv $(LOWEST)
 
 $(VENV)/.installed: pyproject.toml $(CONSTRAINTS) CMakeLists.txt $(SOURCES) | $(VENV)/bin/python
-	$(call install,$(VENV),$(CONSTRAINTS),.)
+	$(call install,$(VENV),$(CONSTRAINTS),.[cad,view])
 
 $(VENV)/.installed-%: pyproject.toml $(CONSTRAINTS) CMakeLists.txt $(SOURCES) | $(VENV)/bin/python
 	$(call install,$(VENV),$(CONSTRAINTS),.[$*])
