@@ -75,7 +75,9 @@ class Changes {
 
 Triangles suspects_by_estimate(const PatchState& state, double chord) {
     const Array<double> estimate = estimate_deviations(state.t, state.frames);
-    const double least = (estimate.size() > FEW_TRIANGLES ? FAR_ESTIMATE : FLAT) * chord;
+    const double part =
+        state.asked().is_width ? 0.5 * FAR_ESTIMATE : FAR_ESTIMATE;  // seen on one side
+    const double least = (estimate.size() > FEW_TRIANGLES ? part : FLAT) * chord;
     return collect_by_blocks<Triangle>(estimate.size(), TRIANGLES_TOGETHER,
                                        [&](std::size_t first, std::size_t last, Triangles& found) {
                                            for (auto k = static_cast<Triangle>(first);
