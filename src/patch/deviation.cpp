@@ -218,7 +218,8 @@ Array<double> triangle_widths(SurfaceReader& surface, const Chart& chart,
                               std::span<const SpaceTriangle> corners,
                               std::span<const PlaneTriangle> xy, Array<double> deviation) {
     surface.for_each_block(
-        corners.size(), BLOCK, [&](SurfaceReader& reader, std::size_t first, std::size_t last) {
+        corners.size(), SAMPLED_TOGETHER,
+        [&](SurfaceReader& reader, std::size_t first, std::size_t last) {
             const std::size_t count = last - first;
             Array<double> high(count, 0.0), low(count, 0.0);  // the corners are on the surface
             Array<Point2> uv(count);
