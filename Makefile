@@ -110,7 +110,7 @@ bench: $(VENV)/.installed-bench ## the figures, gmsh beside them
 
 constraints: $(VENV)/.installed-install ## constraints*.txt anew: the newest versions, and the lowest
 	$(COMPILE) --upgrade --universal --all-extras pyproject.toml -o constraints.txt
-	$(COMPILE) --upgrade --resolution lowest-direct --extra test pyproject.toml \
+	$(COMPILE) --upgrade --resolution lowest-direct --extra cad --extra view --extra test pyproject.toml \
 	    -o constraints-lowest.txt
 
 licences: $(VENV)/.installed-dev $(VENV)/.installed-bench ## licences of all that is installed
