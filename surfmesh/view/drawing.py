@@ -2,9 +2,13 @@
 
 from typing import NamedTuple, TypedDict
 
+import numpy as np
+
 from surfmesh.result.surface_mesh import SurfaceMesh
-from surfmesh.view.colouring import Colouring, colouring
-from surfmesh.view.legend import title_of, with_edges
+from surfmesh.view.colour_maps import map_of
+from surfmesh.view.colouring import CURVATURES, HUES, Colouring, colouring
+from surfmesh.view.faces_apart import faces_apart
+from surfmesh.view.legend import named_faces, title_of, with_edges
 from surfmesh.view.lines import Lines
 from surfmesh.view.overlays import overlays
 
@@ -43,11 +47,25 @@ def drawing(
     title: str | None = None,
 ) -> Drawing:
     """The drawing of ``mesh``; options and errors as of ``plot``."""
+    drawn = faces_apart(mesh) if by in CURVATURES else mesh
     return Drawing(
-        mesh,
-        colouring(mesh, by),
+        drawn,
+        colouring(drawn, by),
         overlays(mesh, by, draw_circles=circles, directions=directions, worst=worst),
         title_of(mesh) if title is None else title,
         with_edges(mesh, edges, circles),
         size,
     )
+
+
+def face_legend(drawn: Drawing) -> list[tuple[int, str, str]]:
+    """Number, name and colour of the faces that have names, where colours tell faces apart."""
+    colours = drawn.colours
+    if not colours.hues:
+        return []
+    shares = (np.arange(colours.hues) + 0.5) / colours.hues
+    table = map_of(colours)(shares, bytes=True)[:, :3].tolist()
+    return [
+        (face, name, "#{:02x}{:02x}{:02x}".format(*table[face % HUES]))
+        for face, name in named_faces(drawn.mesh)
+    ]
