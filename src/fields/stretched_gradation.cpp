@@ -13,7 +13,7 @@ constexpr double LONGER_FIRST = 16.0;
 // towards the rest in many visits.
 constexpr double ENOUGH_ALONG = 0.98;
 
-double squared(double x) { return x * x; }
+double square_of(double x) { return x * x; }
 
 bool is_zero(Point3 n) { return n.x == 0.0 && n.y == 0.0 && n.z == 0.0; }
 
@@ -72,7 +72,7 @@ StretchedGradation::AxisMetric StretchedGradation::carried(const StretchedNode& 
 /// The same questions without divisions, each with a margin that rounding does not reach.
 bool StretchedGradation::surely_allows(const StretchedNode& a, const StretchedNode& b, Point3 step,
                                        double onward, double grown, double turned) {
-    constexpr double SURE = 1.0 - 1e-10;
+    constexpr double SURE = 1.0 - 1e-10, SPARE = 1e-4;
     const Point2 axis = carried_axis(a, b);
     const double xx = axis.x * axis.x, yy = axis.y * axis.y, square = xx + yy;
     if (!(square > 0.0)) return false;
@@ -81,11 +81,12 @@ bool StretchedGradation::surely_allows(const StretchedNode& a, const StretchedNo
     const double along = SURE * square * b.by_longer, left = SURE * square * b.by_shorter;
     if (!(of_along <= along * grown && of_left <= left * grown)) return false;
     const double spare_along = along * turned - of_along, spare_left = left * turned - of_left;
-    if (!(spare_along > 0.0 && spare_left > 0.0)) return false;
+    // with digits left for their product
+    if (!(spare_along > SPARE * along && spare_left > SPARE * left)) return false;
     const double mixed = axis.x * axis.y * (a.by_shorter - a.by_longer);
     if (!(mixed * mixed <= SURE * (spare_along * spare_left))) return false;
-    const double aside = squared(dot(step, a.left)), across = onward + aside;
-    const double by_along = squared(dot(step, b.along)), by_left = squared(dot(step, b.left));
+    const double aside = square_of(dot(step, a.left)), across = onward + aside;
+    const double by_along = square_of(dot(step, b.along)), by_left = square_of(dot(step, b.left));
     return (by_along * b.by_longer + by_left * b.by_shorter) * across * SURE >=
            (onward * a.by_longer + aside * a.by_shorter) * (by_along + by_left);
 }
@@ -98,8 +99,8 @@ bool StretchedGradation::surely_allows(const StretchedNode& a, const StretchedNo
 void StretchedGradation::hold_along(const StretchedNode& a, const StretchedNode& b, double most,
                                     AxisMetric& m) const {
     const Point3 step = b.point - a.point;
-    const double onward = squared(dot(step, a.along)), aside = squared(dot(step, a.left));
-    double along = squared(dot(step, b.along)), left = squared(dot(step, b.left));
+    const double onward = square_of(dot(step, a.along)), aside = square_of(dot(step, a.left));
+    double along = square_of(dot(step, b.along)), left = square_of(dot(step, b.left));
     const double across = onward + aside, sum = along + left;
     if (!(across > 0.0 && sum > 0.0)) return;  // the way leads off the surface
     const double square = onward * a.by_longer + aside * a.by_shorter;
@@ -133,7 +134,7 @@ double StretchedGradation::bind(const StretchedNode& a, Node number) {
     const double least_of_a = std::min(a.size, a.longer);
     if (longest <= least_of_a) return 0.0;
     const Point3 step = b.point - a.point;
-    const double onward = squared(dot(step, a.along));
+    const double onward = square_of(dot(step, a.along));
     const double aside = std::max(dot(step, step) - onward, 0.0);
     const double l = std::sqrt(onward * a.by_longer + aside * a.by_shorter);
     const double growth = 1.0 + s_.slope * l, least = growth * least_of_a;
@@ -143,12 +144,15 @@ double StretchedGradation::bind(const StretchedNode& a, Node number) {
         return longest / least - 1.0;
     }
     const double turning = 1.0 + TURN_SLOPE * s_.slope * l;
-    if (surely_allows(a, b, step, onward, growth * growth, turning * turning)) return 0.0;
+    const bool is_round = !s_.round.empty() && s_.round[number] != 0;
+    if (!(is_round && b.by_longer > b.by_shorter) &&
+        surely_allows(a, b, step, onward, growth * growth, turning * turning))
+        return 0.0;
     const AxisMetric of_a = carried(a, b);
-    const double f = 1.0 / squared(turning), g = 1.0 / (growth * growth);
+    const double f = 1.0 / square_of(turning), g = 1.0 / (growth * growth);
     AxisMetric m{std::max(b.by_longer, g * of_a.along), std::max(b.by_shorter, g * of_a.left), 0.0};
     // no direction needs less than the smallest size of a, grown
-    const double most = 1.0 / (least * least), mixed = squared(f * of_a.mixed);
+    const double most = 1.0 / (least * least), mixed = square_of(f * of_a.mixed);
     double need = 0.0;
     if (m.left > f * of_a.left)  // not between two images of one point
         need = std::min(f * of_a.along + mixed / (m.left - f * of_a.left), most);
@@ -158,7 +162,7 @@ double StretchedGradation::bind(const StretchedNode& a, Node number) {
         m.left = std::max(m.left, std::min(f * of_a.left + mixed / over, most));
     }
     hold_along(a, b, most, m);
-    if (m.along > m.left && !s_.round.empty() && s_.round[number] != 0) m.left = m.along;
+    if (m.along > m.left && is_round) m.left = m.along;
     if (m.along == b.by_longer && m.left == b.by_shorter) return 0.0;
     const double longer = std::min(1.0 / std::sqrt(m.along), lb);
     const double shorter = std::min(1.0 / std::sqrt(m.left), hb);

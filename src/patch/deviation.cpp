@@ -20,7 +20,7 @@ constexpr double CLOSE_FOOT = 0.02;  // the same of a triangle's height: 0.2 % o
 constexpr double NEAR_LIMIT = 0.75;  // of the limit: from there the few samples do not suffice
 constexpr int STEPS = 12;     // of a projection, at most: where speeds change fast guesses are poor
 constexpr int FEW_STEPS = 4;  // in the mesher, where triangles are small and guesses near
-constexpr std::size_t BLOCK = 2048;  // triangles looked at together
+constexpr std::size_t SAMPLED_TOGETHER = 2048;  // triangles looked at together
 
 /// Points seen from the tangent planes at uv.
 Array<TangentPlaneOffset> offsets(SurfaceReader& surface, std::span<const Point3> points,
@@ -214,6 +214,36 @@ void look_at_many(SurfaceReader& surface, const Chart& chart, const TriangleBloc
 
 }  // namespace
 
+Array<double> triangle_widths(SurfaceReader& surface, const Chart& chart,
+                              std::span<const SpaceTriangle> corners,
+                              std::span<const PlaneTriangle> xy, Array<double> deviation) {
+    surface.for_each_block(
+        corners.size(), SAMPLED_TOGETHER,
+        [&](SurfaceReader& reader, std::size_t first, std::size_t last) {
+            const std::size_t count = last - first;
+            Array<double> high(count, 0.0), low(count, 0.0);  // the corners are on the surface
+            Array<Point2> uv(count);
+            for (const BarycentricWeights& w : FEW_SAMPLES) {
+                for (std::size_t i = 0; i < count; ++i)
+                    uv[i] = chart.to_uv(at_weights(xy[first + i], w));
+                reader.read(all(uv), 1);
+                for (std::size_t i = 0; i < count; ++i) {
+                    const Point3 point = at_weights(corners[first + i], w);
+                    const TangentPlaneOffset found =
+                        tangent_plane_offset(point, {reader[0][i], reader[1][i], reader[2][i]});
+                    const double along = dot(found.normal, point - reader[0][i]);
+                    high[i] = std::max(high[i], along);
+                    low[i] = std::min(low[i], along);
+                }
+            }
+            for (std::size_t i = 0; i < count; ++i) {
+                double& found = deviation[first + i];
+                found += std::min(high[i], -low[i]);  // of the side that has less
+            }
+        });
+    return deviation;
+}
+
 PointDeviations point_deviations(SurfaceReader& surface, std::span<const Point3> points,
                                  std::span<const Point2> uv, std::span<const double> size) {
     const Array<TangentPlaneOffset> found = offsets(surface, points, uv);
@@ -252,7 +282,7 @@ Array<double> triangle_deviations(SurfaceReader& surface, const Chart& chart,
                                   std::span<const SpaceTriangle> corners,
                                   std::span<const PlaneTriangle> xy, double limit) {
     Array<double> error(corners.size(), 0.0);
-    surface.for_each_block(corners.size(), BLOCK,
+    surface.for_each_block(corners.size(), SAMPLED_TOGETHER,
                            [&](SurfaceReader& reader, std::size_t first, std::size_t last) {
                                const std::size_t count = last - first;
                                const TriangleBlock block{corners.subspan(first, count),

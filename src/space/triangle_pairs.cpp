@@ -1,6 +1,7 @@
 #include "space/triangle_pairs.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 
 #include "space/orient_space.hpp"
@@ -151,17 +152,32 @@ struct SharedCorners {
     std::size_t before[2] = {0, 0}, last[2] = {0, 0};
 };
 
-SharedCorners shared_corners(const Triangle3& s, const Triangle3& t) {
+/// The bits of a coordinate; 0 and -0, which are one place, have the same.
+std::uint64_t bits_of(double x) { return std::bit_cast<std::uint64_t>(x + 0.0); }
+
+std::uint32_t key_of(Point3 p) {
+    constexpr std::uint64_t ODD = 0x9E3779B97F4A7C15;  // 2^64 over the golden ratio: bits spread
+    const std::uint64_t mixed = ((bits_of(p.x) * ODD ^ bits_of(p.y)) * ODD ^ bits_of(p.z)) * ODD;
+    return static_cast<std::uint32_t>(mixed >> 32);
+}
+
+/// Found by their keys, and looked at where these are the same.
+SharedCorners shared_corners(const KeyedTriangle& s, const KeyedTriangle& t) {
+    unsigned alike = 0;  // bit 3 k + n: the keys of corner k of s and of corner n of t
+    for (unsigned k = 0; k < 3; ++k)
+        for (unsigned n = 0; n < 3; ++n)
+            alike |= static_cast<unsigned>(s.keys[k] == t.keys[n]) << (3 * k + n);
     SharedCorners shared;
-    for (std::size_t k = 0; k < 3; ++k)
-        for (std::size_t n = 0; n < 3; ++n)
-            if (are_same(s[k], t[n])) {
-                ++shared.count;
-                std::copy(shared.last, shared.last + 2, shared.before);
-                shared.last[0] = k;
-                shared.last[1] = n;
-                break;
-            }
+    for (unsigned done = 3; alike != 0; alike &= alike - 1) {
+        const auto bit = static_cast<unsigned>(std::countr_zero(alike));
+        const unsigned k = bit / 3, n = bit % 3;
+        if (k == done || !are_same(s.corners[k], t.corners[n])) continue;
+        ++shared.count;
+        std::copy(shared.last, shared.last + 2, shared.before);
+        shared.last[0] = k;
+        shared.last[1] = n;
+        done = k;
+    }
     return shared;
 }
 
@@ -194,8 +210,12 @@ bool are_folded(const CommonSide& side, int axis) {
 
 }  // namespace
 
-bool triangles_meet(const Triangle3& s, const Triangle3& t) {
-    const SharedCorners shared = shared_corners(s, t);
+KeyedTriangle::KeyedTriangle(const Triangle3& given)
+    : corners(given), keys{key_of(given[0]), key_of(given[1]), key_of(given[2])} {}
+
+bool triangles_meet(const KeyedTriangle& one, const KeyedTriangle& other) {
+    const Triangle3 &s = one.corners, &t = other.corners;
+    const SharedCorners shared = shared_corners(one, other);
     const std::size_t a = shared.last[0], d = shared.last[1];
     const Point3 b = s[next(a)], c = s[(a + 2) % 3], e = t[next(d)], f = t[(d + 2) % 3];
     if (shared.count == 0 && (are_parted_by(s, t) || are_parted_by(t, s))) return false;
