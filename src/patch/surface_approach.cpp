@@ -13,13 +13,13 @@ namespace surfmesh {
 namespace {
 
 // Fraction of ``chord`` from which the estimate of a triangle's deviation is not trusted.
-constexpr double SUSPECT = 0.7;
+constexpr double FAR_ESTIMATE = 0.7;
 
 // Up to so many all are measured whose estimate is no round-off, as a fraction of ``chord``: the
 // estimate is for triangles small beside the features.
 constexpr std::size_t FEW_TRIANGLES = 20'000;
 constexpr double FLAT = 1e-9;
-constexpr std::size_t BLOCK = 1 << 15;  // triangles looked through together
+constexpr std::size_t TRIANGLES_TOGETHER = 1 << 15;  // triangles looked through together
 
 constexpr double MANY_FAR = 0.02;  // of the triangles
 constexpr int CHORD_ROUNDS = 10, STRETCHED_CHORD_ROUNDS = 4, SPLIT_ROUNDS = 6;
@@ -30,7 +30,7 @@ constexpr double TOLERATED = 0.995, SPLIT_MARGIN = 0.98;
 
 using Triangles = Array<Triangle>;
 
-std::span<const Triangle> all(const Triangles& triangles) {
+std::span<const Triangle> every(const Triangles& triangles) {
     return {triangles.data(), triangles.size()};
 }
 
@@ -75,13 +75,15 @@ class Changes {
 
 Triangles suspects_by_estimate(const PatchState& state, double chord) {
     const Array<double> estimate = estimate_deviations(state.t, state.frames);
-    const double part = state.asked().is_width ? 0.5 * SUSPECT : SUSPECT;  // seen on one side
+    const double part =
+        state.asked().is_width ? 0.5 * FAR_ESTIMATE : FAR_ESTIMATE;  // seen on one side
     const double least = (estimate.size() > FEW_TRIANGLES ? part : FLAT) * chord;
-    return collect_by_blocks<Triangle>(
-        estimate.size(), BLOCK, [&](std::size_t first, std::size_t last, Triangles& found) {
-            for (auto k = static_cast<Triangle>(first); k < static_cast<Triangle>(last); ++k)
-                if (estimate[k] > least) found.push_back(k);
-        });
+    return collect_by_blocks<Triangle>(estimate.size(), TRIANGLES_TOGETHER,
+                                       [&](std::size_t first, std::size_t last, Triangles& found) {
+                                           for (auto k = static_cast<Triangle>(first);
+                                                k < static_cast<Triangle>(last); ++k)
+                                               if (estimate[k] > least) found.push_back(k);
+                                       });
 }
 
 /// Split edges of the triangles ``far`` where they are too far; returns those left.
@@ -94,9 +96,9 @@ Triangles split_far(PatchState& state, Triangles far, double chord, bool first) 
     const Triangles at_first = many ? far : Triangles{};
     for (int round = 0; round < SPLIT_ROUNDS && !state.stopped(); ++round) {
         Changes changes(state);
-        if (state.split_farthest(all(far)) == 0) break;
+        if (state.split_farthest(every(far)) == 0) break;
         const Triangles suspects = joined(changes.triangles(), far);
-        far = above(suspects, deviations(state, all(suspects), chord), SPLIT_MARGIN * chord);
+        far = above(suspects, deviations(state, every(suspects), chord), SPLIT_MARGIN * chord);
     }
     return many ? at_first : far;
 }
@@ -110,8 +112,8 @@ Triangles approach_surface(PatchState& state, bool first) {
     const int rounds = state.is_anisotropic() ? STRETCHED_CHORD_ROUNDS : CHORD_ROUNDS;
     for (int round = 0; round < rounds && !state.stopped(); ++round) {
         if (suspects.empty()) return suspects;
-        const Array<double> error = deviations(state, all(suspects), chord);
-        if (shrink_far(state.t, state.frames, state.marks, all(suspects),
+        const Array<double> error = deviations(state, every(suspects), chord);
+        if (shrink_far(state.t, state.frames, state.marks, every(suspects),
                        {error.data(), error.size()}, limit) == 0)
             break;
         state.hold_growth(false);
@@ -124,7 +126,7 @@ Triangles approach_surface(PatchState& state, bool first) {
         state.swap();
         suspects = joined(changes.triangles(), above(suspects, error, limit));
     }
-    const Array<double> error = deviations(state, all(suspects), chord);
+    const Array<double> error = deviations(state, every(suspects), chord);
     if (!state.is_anisotropic()) return above(suspects, error, TOLERATED * chord);
     return split_far(state, above(suspects, error, SPLIT_MARGIN * chord), chord, first);
 }

@@ -9,9 +9,9 @@
 namespace surfmesh {
 namespace {
 
-constexpr double ROUNDING = 0x1p-45;     // relative, more than that of any sum here
-constexpr double FOR_NEIGHBOURS = 0.99;  // of the limit, as they add a little
-constexpr std::size_t BLOCK = 256;       // triangles at a time
+constexpr double GRID_ROUNDING = 0x1p-45;  // relative, more than that of any sum here
+constexpr double FOR_NEIGHBOURS = 0.99;    // of the limit, as they add a little
+constexpr std::size_t GRID_BLOCK = 256;    // triangles at a time
 constexpr std::array<std::size_t, 2> SIDES = {4, 8};
 
 /// The largest height of points over a triangle's plane, on the safe side.
@@ -23,12 +23,12 @@ class Highest {
         const Point3 x = point.value - p_[0];
         const double size = std::abs(x.x) + std::abs(x.y) + std::abs(x.z);
         most_ = std::max(most_, std::abs(dot(frame_.axes[2], x)) + 2.0 * point.error +
-                                    (frame_.tilt + ROUNDING) * size);
+                                    (frame_.tilt + GRID_ROUNDING) * size);
     }
     [[nodiscard]] double height(const PlaneCorners& uv, const TriangleBounds& bounds) const {
         const double longest =
             std::max({norm(p_[1] - p_[0]), norm(p_[2] - p_[1]), norm(p_[0] - p_[2])});
-        const double place = ROUNDING * 0x1p-6 * (norm(p_[0]) + longest);
+        const double place = GRID_ROUNDING * 0x1p-6 * (norm(p_[0]) + longest);
         return most_ + rounded_part(uv) * (longest + 4.0 * bounds.shift) + place + bounds.corner;
     }
 
@@ -61,7 +61,7 @@ struct Grid {
                 const auto [bend, error] = bend_of(jet, weight[k]);
                 for (std::size_t d = 0; d < 3; ++d) {
                     const double value = dot(frame.axes[d], bend);
-                    const double more = rho[d][k] / (n * n) + error * (1.0 + ROUNDING);
+                    const double more = rho[d][k] / (n * n) + error * (1.0 + GRID_ROUNDING);
                     found.by_axis[d][k] = std::max(found.by_axis[d][k], std::abs(value) + more);
                     if (d < 2) continue;
                     found.up[k] = std::max(found.up[k], value + more);
@@ -107,7 +107,7 @@ SurfaceStatus lower_some(const FourthDerivatives& surface, const ProofRequest& a
         TriangleBounds found = bounds_from(grid.bends(rho[t]), frame, out[t].corner);
         const double cell = std::min(found.cell_height, out[t].cell_height);
         const double most = asked.corners_are_on_surface ? grid.highest(found) : found.height;
-        found.height = std::min(found.height, (most + scale * cell) * (1.0 + ROUNDING));
+        found.height = std::min(found.height, (most + scale * cell) * (1.0 + GRID_ROUNDING));
         out[t] = lower_of(out[t], found);
         if (is_open(out[t], most, frame, asked.limits[t])) left.push_back(which[k]);
     }
@@ -130,7 +130,7 @@ SurfaceStatus lower_some_heights(const Surface& surface, const ProofRequest& ask
         for (const EnclosedPoint& point : std::span(points.data() + k * count, count))
             highest.take(point);
         const double most = highest.height(asked.uv[t], out[t]);
-        const double found = (most + scale * out[t].cell_height) * (1.0 + ROUNDING);
+        const double found = (most + scale * out[t].cell_height) * (1.0 + GRID_ROUNDING);
         if (found < out[t].height) out[t].height = found;
         if (is_open(out[t], most, frame, asked.limits[t])) left.push_back(which[k]);
     }
@@ -142,8 +142,8 @@ template <class LowerSome>
 SurfaceStatus with_grids(Array<std::int32_t>& which, LowerSome lower) {
     for (const std::size_t side : SIDES) {
         Array<std::int32_t> left;
-        for (std::size_t start = 0; start < which.size(); start += BLOCK) {
-            const std::size_t count = std::min(BLOCK, which.size() - start);
+        for (std::size_t start = 0; start < which.size(); start += GRID_BLOCK) {
+            const std::size_t count = std::min(GRID_BLOCK, which.size() - start);
             const auto status =
                 lower(side, std::span<const std::int32_t>(which.data() + start, count), left);
             if (status != SurfaceStatus::DONE) return status;

@@ -9,8 +9,8 @@
 namespace surfmesh {
 namespace {
 
-constexpr std::uint32_t CELLS = 1u << 20;  // along each side of the grid
-constexpr std::size_t BLOCK = 1 << 16;     // points whose places are found together
+constexpr std::uint32_t CELLS = 1u << 20;         // along each side of the grid
+constexpr std::size_t PLACES_TOGETHER = 1 << 16;  // points whose places are found together
 
 struct Placed {
     std::uint64_t along;  // the curve
@@ -72,12 +72,12 @@ Array<Vertex> along_hilbert_curve(std::span<const Point2> points, std::span<cons
     if (some.empty()) return order;
     const Grid grid = grid_over(points, some);
     Array<Placed> placed(some.size());
-    for_each_block(some.size(), BLOCK, [&](std::size_t first, std::size_t last) {
+    for_each_block(some.size(), PLACES_TOGETHER, [&](std::size_t first, std::size_t last) {
         for (std::size_t k = first; k < last; ++k)
             placed[k] = {grid.place(points[some[k]]), some[k]};
         std::sort(placed.data() + first, placed.data() + last, is_before);
     });
-    for (std::size_t width = BLOCK; width < some.size(); width *= 2) {
+    for (std::size_t width = PLACES_TOGETHER; width < some.size(); width *= 2) {
         for_each_block(some.size(), 2 * width, [&](std::size_t first, std::size_t last) {
             if (first + width >= last) return;
             std::inplace_merge(placed.data() + first, placed.data() + first + width,
