@@ -62,6 +62,8 @@ void bind_formulas_of_sizes(nb::module_& m) {
         nb::arg("k1"), nb::arg("k2"), "c (n,) with deviation = c h^2.");
     m.def("chord_size", &at_each<chord_size>, nb::arg("k1"), nb::arg("k2"), nb::arg("chord"),
           "Edge length (n,) at which triangles stay within chord.");
+    m.def("quadratic_chord_size", &at_each<quadratic_chord_size>, nb::arg("k1"), nb::arg("k2"),
+          nb::arg("chord"), "Edge length (n,) at which quadratic triangles stay within chord.");
     m.def("angle_size", &at_each<angle_size>, nb::arg("k1"), nb::arg("k2"), nb::arg("angle"),
           "Edge length (n,) at which dihedral angles are at most angle (degrees).");
     m.def("normal_deviation_size", &at_each<normal_deviation_size>, nb::arg("k1"), nb::arg("k2"),
@@ -104,6 +106,8 @@ void bind_rules(nb::module_& m) {
     nb::class_<CurvatureRule>(m, "CurvatureRule", "Sizes that follow from the curvature.");
     nb::class_<PlaceRule>(m, "PlaceRule", "Sizes that depend on the place alone.");
     nb::class_<ChordRule, CurvatureRule>(m, "ChordRule").def(nb::init<double>(), nb::arg("chord"));
+    nb::class_<QuadraticChordRule, CurvatureRule>(m, "QuadraticChordRule")
+        .def(nb::init<double>(), nb::arg("chord"));
     nb::class_<AngleRule, CurvatureRule>(m, "AngleRule")
         .def(nb::init<double, double>(), nb::arg("angle"), nb::arg("finest"),
              "angle: degrees. finest: nothing smaller is asked for, model units.");

@@ -28,6 +28,9 @@ def deviation_factor(k1: Annotated[NDArray[numpy.float64], dict(shape=(None,), o
 def chord_size(k1: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)], k2: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)], chord: float) -> Annotated[NDArray[numpy.float64], dict(shape=(None,))]:
     """Edge length (n,) at which triangles stay within chord."""
 
+def quadratic_chord_size(k1: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)], k2: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)], chord: float) -> Annotated[NDArray[numpy.float64], dict(shape=(None,))]:
+    """Edge length (n,) at which quadratic triangles stay within chord."""
+
 def angle_size(k1: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)], k2: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)], angle: float) -> Annotated[NDArray[numpy.float64], dict(shape=(None,))]:
     """Edge length (n,) at which dihedral angles are at most angle (degrees)."""
 
@@ -58,6 +61,9 @@ class PlaceRule:
     """Sizes that depend on the place alone."""
 
 class ChordRule(CurvatureRule):
+    def __init__(self, chord: float) -> None: ...
+
+class QuadraticChordRule(CurvatureRule):
     def __init__(self, chord: float) -> None: ...
 
 class AngleRule(CurvatureRule):

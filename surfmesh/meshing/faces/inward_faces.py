@@ -25,7 +25,7 @@ def inward_face(job: FaceJob, look_for_tubes: bool = False) -> InwardFace | None
 def manner_of(job: FaceJob, sizing: Sizing) -> FaceManner:
     """How a face is meshed with these sizes."""
     return FaceManner(
-        sizing.chord, sizing.angle, sizing.min_size or 0.0,
+        sizing.straight_chord, sizing.angle, sizing.min_size or 0.0,
         job.optimise, job.limits is None, sizing.is_anisotropic, sizing.gradient,
     )  # fmt: skip
 

@@ -18,6 +18,7 @@ from numpy.typing import NDArray
 from surfmesh.cad.model.cad_model import CadEdge
 from surfmesh.geometry.differential.projection import closest_point
 from surfmesh.geometry.surface import Surface
+from surfmesh.meshing.finishing.mid_nodes import slid_nodes
 from surfmesh.result.mesh_parts import EdgeLinks, Parametrisation
 from surfmesh.result.quadratic_triangles import edge_rows, least_jacobians, six_nodes
 from surfmesh.result.surface_mesh import SurfaceMesh
@@ -42,6 +43,8 @@ def of_second_order(mesh: SurfaceMesh) -> SurfaceMesh:
         fixed |= boundary
     if mesh.edge_links is not None:
         fixed[_on_curves(mesh, mesh.edge_links, middles)] = True
+    if mesh.sizing is not None and mesh.sizing.is_curved and mesh.surfaces:
+        middles = slid_nodes(mesh, middles, fixed)
     straight = _straightened(mesh, middles, fixed)
     notes = [f"{straight} edges of order 2 are straight, lest triangles fold"] if straight else []
     return mesh.replaced(

@@ -29,8 +29,13 @@ class SolidRow:
     volume_error: float | None
 
 
-def by_solid(mesh: SurfaceMesh, shape: Shapes) -> tuple[SolidRow, ...]:
-    """Rows of all solids; a face between two of them counts for both. None without solid_ids."""
+def by_solid(
+    mesh: SurfaceMesh, shape: Shapes, bulges: NDArray[np.float64] | None = None
+) -> tuple[SolidRow, ...]:
+    """Rows of all solids; a face between two of them counts for both. None without solid_ids.
+
+    bulges: (m,) volume between each triangle, if it is curved, and its straight one.
+    """
     if mesh.solid_ids is None:
         return ()
     exact = mesh.facts.solids if mesh.facts is not None else ()
@@ -44,6 +49,10 @@ def by_solid(mesh: SurfaceMesh, shape: Shapes) -> tuple[SolidRow, ...]:
     apex = _first_corners(mesh.points[corners[:, 0]], solid, count)[solid]
     a, b, c = (mesh.points[corner] - apex for corner in corners.T)
     volume = np.bincount(solid, np.einsum("ij,ij->i", a, np.cross(b, c)) / 6.0, count)
+
+    if bulges is not None:
+        outwards = np.where((corners == mesh.triangles[rows]).all(axis=1), 1.0, -1.0)
+        volume += np.bincount(solid, outwards * bulges[rows], count)
 
     vertices, edges, opened = solid_counts(around, solid, len(mesh.points), count)
     euler = vertices - edges + triangles

@@ -72,6 +72,11 @@ class Sizing:
     """Prove that ``chord`` holds: triangles that bounds do not show to be near enough are made
     smaller until they do, or the report says which are not proved. See docs/proof.md."""
 
+    order: int = 1
+    """2: quadratic triangles, with nodes amid their edges on the true curves and surfaces. Then
+    ``chord`` is the distance of the curved triangles, which are far larger, unless ``anisotropy``,
+    ``volume`` or ``proof`` is asked for: these are of straight triangles, and so are sizes then."""
+
     sources: tuple[SizeLaw, ...] = ()
     """Local sizes: ``Near``, ``InBall``, ``InBox``, ``SizeCloud``, or callables of points
     (n, 3) -> (n,), infinite where nothing is asked for. The smallest holds."""
@@ -123,6 +128,8 @@ class Sizing:
             self._check_triangles()
         if self.volume is not None and self.volume >= 1.0:
             raise SizingError(f"volume is a relative error below 1, not {self.volume:g}")
+        if self.order not in (1, 2):
+            raise SizingError(f"order is {shown(self.order)}: meshes are of order 1 or 2")
         if not isinstance(self.proof, bool):
             raise SizingError(f"proof is True or False, not {shown(self.proof)}")
         if self.proof and self.chord is None and self.triangles is None:
@@ -154,6 +161,18 @@ class Sizing:
     def is_anisotropic(self) -> bool:
         """Do the sizes depend on the direction?"""
         return self.anisotropy > 1.0 and (self.chord is not None or self.angle is not None)
+
+    @property
+    def is_curved(self) -> bool:
+        """Is ``chord`` that of quadratic triangles, and not of the straight ones between their
+        corners?"""
+        of_straight = self.is_anisotropic or self.volume is not None or self.proof
+        return self.order == 2 and self.chord is not None and not of_straight
+
+    @property
+    def straight_chord(self) -> float | None:
+        """``chord`` where it is that of straight triangles."""
+        return None if self.is_curved else self.chord
 
     @property
     def gradient(self) -> float:

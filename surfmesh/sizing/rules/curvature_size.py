@@ -39,6 +39,12 @@ def chord_size(k1: np.ndarray, k2: np.ndarray, chord: float | np.ndarray) -> np.
     return _each(core.chord_size, k1, k2, float(chord))
 
 
+def quadratic_chord_size(k1: np.ndarray, k2: np.ndarray, chord: float) -> np.ndarray:
+    """Edge length at which quadratic triangles stay within ``chord`` where the curvature does not
+    change; never below 2 ``chord``."""
+    return _each(core.quadratic_chord_size, k1, k2, chord)
+
+
 def dihedral_factor(k1: np.ndarray, k2: np.ndarray) -> np.ndarray:
     """c with angle = c h (radians) between two triangles of side h that share an edge: the largest
     over all directions of the edge, of which ``angle_size`` keeps a reserve."""
