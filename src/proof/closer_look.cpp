@@ -76,7 +76,8 @@ class Looker {
             if (found < bound) bound = found;
             // more cells take away what is between them, and no more
             const double scale = 1.0 / static_cast<double>(std::size_t{1} << (2 * level));
-            const double between = scale * (piece_.bounds.height + 2.0 * piece_.bounds.whole);
+            const double between =
+                scale * (piece_.bounds.cell_height + 2.0 * piece_.bounds.cell_whole);
             const bool is_hopeless = found < intervals::INFINITE && found - 40.0 * between > limit;
             if (bound <= limit || is_hopeless) break;
         }
@@ -129,7 +130,7 @@ SurfaceStatus Looker::look_point_by_point(std::int32_t t, double limit, int leve
                 most = std::max(most, norm(points_[k].value - flat) + 2.0 * points_[k].error);
             }
         const double size = norm(p[0]) + norm(p[1]) + norm(p[2]);
-        const double between = bounds_[t].whole / (n * n);
+        const double between = bounds_[t].cell_whole / (n * n);
         const double found = most * (1.0 + ROUNDING) + between + ROUNDING * 0x1p-4 * size +
                              rounded_uv_ * ring_.longest();
         bound = std::min(bound, found);
@@ -219,7 +220,7 @@ SurfaceStatus Looker::bound_by_cells(int level, double& found) {
     inside_.resize(ring_.count() * count);
     farthest_ = 0.0;
     for (std::size_t k = 0; k < count; ++k) feet_[k] = ring_.foot(points_[k].value);
-    for (std::size_t m = 0; m < ring_.count(); ++m) measure(m, scale * piece_.bounds.whole);
+    for (std::size_t m = 0; m < ring_.count(); ++m) measure(m, scale * piece_.bounds.cell_whole);
     for (std::size_t k = 0; k < count; ++k) {
         const auto& own = inside_[k];
         if (std::min({own[0], own[1], own[2]}) >= 0.0) continue;
@@ -229,7 +230,7 @@ SurfaceStatus Looker::bound_by_cells(int level, double& found) {
                                                   distance_to_segment(feet_[k], c[2], c[0])}));
     }
     found = intervals::INFINITE;
-    farthest_ += scale * piece_.bounds.whole + (ROUNDING + rounded_uv_) * ring_.longest();
+    farthest_ += scale * piece_.bounds.cell_whole + (ROUNDING + rounded_uv_) * ring_.longest();
     if (!(farthest_ < ring_.free())) return SurfaceStatus::DONE;
     found = highest(side, scale) * (1.0 + ROUNDING);
     if (piece_.is_own) found = std::max(found, farthest_at_rims(side, scale));
@@ -275,7 +276,7 @@ double Looker::beyond_rim(const Neighbour& member, std::size_t m, std::size_t s,
 double Looker::height_of(const Cell& cell, double scale) const {
     const std::size_t count = uv_.size();
     const double rounded = (ROUNDING + rounded_uv_) * ring_.longest();
-    const double grown = scale * piece_.bounds.whole + rounded;
+    const double grown = scale * piece_.bounds.cell_whole + rounded;
     const auto& [a, b, c] = cell;
     double most = 0.0, from_rim = intervals::INFINITE, own = 0.0;
     bool leaves = false;
@@ -285,7 +286,8 @@ double Looker::height_of(const Cell& cell, double scale) const {
         if (!member.is_near && !has_rim) continue;
         const double* height = height_.data() + m * count;
         const std::array<double, 3>* inside = inside_.data() + m * count;
-        const double sag = scale * (piece_.bounds.height + 2.0 * member.sine * piece_.bounds.whole);
+        const double sag =
+            scale * (piece_.bounds.cell_height + 2.0 * member.sine * piece_.bounds.cell_whole);
         const double high = std::max({height[a], height[b], height[c]}) + sag + rounded;
         if (m == 0) own = high;
         // a foot along this member's normal is off by so much
@@ -335,7 +337,8 @@ double Looker::farthest_at_rims(std::size_t side, double scale) const {
         }
     }
     const double rounded = (ROUNDING + rounded_uv_) * ring_.longest();
-    return most > 0.0 ? most + scale * piece_.bounds.whole + piece_.bounds.corner + rounded : 0.0;
+    return most > 0.0 ? most + scale * piece_.bounds.cell_whole + piece_.bounds.corner + rounded
+                      : 0.0;
 }
 
 }  // namespace

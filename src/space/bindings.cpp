@@ -1,11 +1,14 @@
 #include <nanobind/stl/pair.h>
+#include <nanobind/stl/tuple.h>
 
 #include <algorithm>
 #include <string>
+#include <tuple>
 
 #include "binding/arrays.hpp"
 #include "space/box_tree.hpp"
 #include "space/edge_distances.hpp"
+#include "space/edge_table.hpp"
 #include "space/measure.hpp"
 #include "space/orient_space.hpp"
 #include "space/triangle_distance.hpp"
@@ -23,6 +26,10 @@ template <>
 struct Row<TriangleShape> : RowOf<double, 5> {};
 template <>
 struct Row<TangentPlaneOffset> : RowOf<double, 7> {};
+template <>
+struct Row<EdgeTable::Ends> : RowOf<std::int32_t, 2> {};
+template <>
+struct Row<EdgeTable::Sides> : RowOf<std::int32_t, 2> {};
 template <>
 struct Row<Box3> : RowOf<double, 6> {};
 
@@ -90,6 +97,23 @@ void bind_triangle_pairs(nb::module_& m) {
         "Pairs (k, 2) of triangles that meet where they should not, the lower first.\n\ncorners: "
         "(3 m, 3), finite; quick where near triangles are near in the row. The search ends after "
         "the leaf with which there are ``most`` pairs or more.");
+}
+
+void bind_edge_table(nb::module_& m) {
+    m.def(
+        "edge_table",
+        [](const Triangles& triangles) {
+            EdgeTable table;
+            {
+                const nb::gil_scoped_release released;
+                table = edge_table(rows<TriangleCorners>(triangles));
+            }
+            return std::tuple(view(table.edges), view(table.half_edges), view(table.uses));
+        },
+        nb::arg("triangles"),
+        "Edges (ne, 2) of triangles (m, 3), the lower vertex first, in order; the first two "
+        "half-edges (ne, 2) along each, -1 where there is one; by how many triangles each is used "
+        "(ne,). Half-edge 3 t + k runs from corner k of triangle t.");
 }
 
 void bind_edge_gaps(nb::module_& m) {
@@ -235,6 +259,7 @@ void bind_distances(nb::module_& m) {
 void bind_space(nb::module_& m) {
     m.doc() = "What is measured and decided in space: shapes, distances, triangles that meet.";
     bind_triangle_pairs(m);
+    bind_edge_table(m);
     bind_edge_gaps(m);
     bind_shapes(m);
     bind_distances(m);

@@ -56,13 +56,6 @@ def cosines_with_surface(surface: surfmesh._core.surfaces.Surface, corners: Anno
     NaN where there is no normal.
     """
 
-def on_crease(surface: surfmesh._core.surfaces.Surface, uv: Annotated[NDArray[numpy.float64], dict(shape=(None, 2, 3, 2), order='C', device='cpu', writable=False)], alike: Annotated[NDArray[numpy.uint8], dict(shape=(None,), order='C', device='cpu', writable=False)], angle: float, diagonal: float) -> Annotated[NDArray[numpy.uint8], dict(shape=(None,))]:
-    """
-    Which edges (k,) lie on a crease, at an apex, or as good as at one: 0 and 1.
-
-    uv: (k, 2, 3, 2) of the corners of both triangles, the ends of the edge first. alike: (k,) whether both begin at one end. As good as at an apex: curved so much that ``angle`` (degrees) would ask for less than the finest size, a fraction of the diagonal.
-    """
-
 def identify_seams(tri: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], adj: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], region: Annotated[NDArray[numpy.uint8], dict(shape=(None,), order='C', device='cpu', writable=False)], vertices: int, node: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], segments: Annotated[NDArray[numpy.int32], dict(shape=(None, 2), order='C', device='cpu', writable=False)], identity: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)]) -> tuple[Annotated[NDArray[numpy.int32], dict(shape=(None,))], Annotated[NDArray[numpy.int32], dict(shape=(None,))], Annotated[NDArray[numpy.int64], dict(shape=(None,))], Annotated[NDArray[numpy.int64], dict(shape=(None,))]]:
     """
     The triangles in space of a domain, whose boundary nodes may be one point there.

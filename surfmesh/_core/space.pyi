@@ -32,6 +32,11 @@ def meeting_triangles(corners: Annotated[NDArray[numpy.float64], dict(shape=(Non
     corners: (3 m, 3), finite; quick where near triangles are near in the row. The search ends after the leaf with which there are ``most`` pairs or more.
     """
 
+def edge_table(triangles: Annotated[NDArray[numpy.int32], dict(shape=(None, 3), order='C', device='cpu', writable=False)]) -> tuple[Annotated[NDArray[numpy.int32], dict(shape=(None, 2))], Annotated[NDArray[numpy.int32], dict(shape=(None, 2))], Annotated[NDArray[numpy.int32], dict(shape=(None,))]]:
+    """
+    Edges (ne, 2) of triangles (m, 3), the lower vertex first, in order; the first two half-edges (ne, 2) along each, -1 where there is one; by how many triangles each is used (ne,). Half-edge 3 t + k runs from corner k of triangle t.
+    """
+
 def edge_gaps(points: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)], reach: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)], first: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], ends: Annotated[NDArray[numpy.int64], dict(shape=(None, 2), order='C', device='cpu', writable=False)], edges: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], first_of_face: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)]) -> tuple[Annotated[NDArray[numpy.float64], dict(shape=(None,))], Annotated[NDArray[numpy.float64], dict(shape=(None, 6))]]:
     """
     Distance (n,) of each sample from the edges that share a face with its own but no vertex, and boxes (e, 6) around the edges, rows (low, high).

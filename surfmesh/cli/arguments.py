@@ -143,6 +143,15 @@ def _add_made(mesh: argparse.ArgumentParser) -> None:
     )
     mesh.add_argument("--ascii", action="store_true", help="an .stl as text, solids by name")
     mesh.add_argument(
+        "--solids",
+        choices=("solids", "faces"),
+        default="",
+        help="an .stl with a solid for each face",
+    )
+    mesh.add_argument(
+        "--target", choices=("abaqus", "calculix"), default="", help="whose elements an .inp names"
+    )
+    mesh.add_argument(
         "--jobs", type=_whole(1, 1000), help="threads that mesh (default: all processors)"
     )
     mesh.add_argument(

@@ -134,7 +134,7 @@ class Measurements:
         """Of the mesh from its surfaces."""
         if self.is_curved and self.known is not None:
             return curved_deviation(self.known, self.shapes.area)
-        return deviation(self.mesh, self.shapes.area) if self.finite else None
+        return deviation(self.mesh, self.shapes.area, self.known) if self.finite else None
 
     @cached_property
     def surface_deviation(self) -> SurfaceDeviation | None:
@@ -199,7 +199,9 @@ class Measurements:
     @cached_property
     def dihedral_angles(self) -> DihedralAngles | None:
         """Within faces."""
-        return angles_within_faces(self.mesh, self.tolerances.angle) if self.finite else None
+        if not self.finite:
+            return None
+        return angles_within_faces(self.mesh, self.tolerances.angle, self.known)
 
     @cached_property
     def angle_check(self) -> ToleranceCheck | None:
