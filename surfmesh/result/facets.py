@@ -25,6 +25,14 @@ class Facets(NamedTuple):
     triangles: NDArray[np.int32]  # (k, 3)
     parent: NDArray[np.int32]  # (k,) the triangle of the mesh
 
+    def interpolated(self, mesh: SurfaceMesh, values: NDArray[np.float64]) -> NDArray[np.float64]:
+        """(n,) at the points, linear in the triangles of the mesh; values: at its points."""
+        first, second = values[mesh.edges].T
+        parts = np.arange(1, PARTS) / PARTS
+        along = first[:, None] * (1.0 - parts) + second[:, None] * parts
+        within = values[mesh.triangles] @ _inner_weights().T
+        return np.concatenate([values, along.ravel(), within.ravel()])
+
 
 def facets(mesh: SurfaceMesh) -> Facets:
     """Of a mesh of second order, on its curved triangles."""
@@ -37,12 +45,10 @@ def facets(mesh: SurfaceMesh) -> Facets:
         here = (1 - s) * (1 - 2 * s) * ends[:, 0] + s * (2 * s - 1) * ends[:, 1]
         along.append(here + 4 * s * (1 - s) * middle)
     grid = [(i, j) for j in range(PARTS + 1) for i in range(PARTS + 1 - j)]
-    inner = [(i, j) for i, j in grid if i and j and i + j < PARTS]
-    weights = np.array([(PARTS - i - j, i, j) for i, j in inner]) / PARTS
-    within = points_on(mesh.nodes[mesh.elements], weights)
+    within = points_on(mesh.nodes[mesh.elements], _inner_weights())
     points = np.concatenate([mesh.points, np.stack(along, axis=1).reshape(-1, 3),
                              within.reshape(-1, 3)])  # fmt: skip
-    numbers = _numbers(mesh, grid, inner, count)
+    numbers = _numbers(mesh, grid, count)
     rows = {place: k for k, place in enumerate(grid)}
     pattern = [(rows[i, j], rows[i + 1, j], rows[i, j + 1]) for i, j in grid if i + j < PARTS]
     pattern += [
@@ -54,16 +60,24 @@ def facets(mesh: SurfaceMesh) -> Facets:
     return Facets(points, triangles.astype(np.int32), parent)
 
 
-def _numbers(
-    mesh: SurfaceMesh, grid: list[tuple[int, int]], inner: list[tuple[int, int]], count: int
-) -> NDArray[np.int64]:
+def _inner() -> list[tuple[int, int]]:
+    """Steps towards corners 1 and 2 of the points within a triangle."""
+    steps = range(1, PARTS)
+    return [(i, j) for j in steps for i in steps if i + j < PARTS]
+
+
+def _inner_weights() -> NDArray[np.float64]:
+    return np.array([(PARTS - i - j, i, j) for i, j in _inner()]) / PARTS
+
+
+def _numbers(mesh: SurfaceMesh, grid: list[tuple[int, int]], count: int) -> NDArray[np.int64]:
     """(m, g) points at the places of the grid over each triangle: i steps towards corner 1, j
     towards corner 2."""
     corners = mesh.triangles.astype(np.int64)
     edge = mesh.elements[:, 3:].astype(np.int64) - count
     forward = corners == mesh.edges[edge][:, :, 0]  # does its side run as the edge does?
     first_inner = count + (PARTS - 1) * len(mesh.edges)
-    found = np.empty((len(corners), len(grid)), np.int64)
+    inner, found = _inner(), np.empty((len(corners), len(grid)), np.int64)
     for k, (i, j) in enumerate(grid):
         weights = (PARTS - i - j, i, j)
         if PARTS in weights:

@@ -1,11 +1,13 @@
 """One picture before it is drawn: colours, lines over them, title and size, however it is drawn."""
 
+from dataclasses import replace
 from typing import NamedTuple, TypedDict
 
+from surfmesh.result.facets import facets
 from surfmesh.result.surface_mesh import SurfaceMesh
 from surfmesh.view.colouring import Colouring, colouring
 from surfmesh.view.legend import title_of, with_edges
-from surfmesh.view.lines import Lines
+from surfmesh.view.lines import Lines, sides
 from surfmesh.view.overlays import overlays
 
 
@@ -43,7 +45,7 @@ def drawing(
     title: str | None = None,
 ) -> Drawing:
     """The drawing of ``mesh``; options and errors as of ``plot``."""
-    return Drawing(
+    drawn = Drawing(
         mesh,
         colouring(mesh, by),
         overlays(mesh, by, draw_circles=circles, directions=directions, worst=worst),
@@ -51,3 +53,18 @@ def drawing(
         with_edges(mesh, edges, circles),
         size,
     )
+    return drawn if mesh.mid_points is None else _curved(drawn)
+
+
+def _curved(drawn: Drawing) -> Drawing:
+    """Of quadratic triangles: their facets, with their own sides as lines."""
+    mesh, colours = drawn.mesh, drawn.colours
+    flat = facets(mesh)
+    values = colours.values[flat.parent]
+    if colours.per_vertex:
+        values = flat.interpolated(mesh, colours.values)
+    lines = [sides(mesh), *drawn.lines] if drawn.edges else drawn.lines
+    return drawn._replace(
+        mesh=SurfaceMesh(points=flat.points, triangles=flat.triangles),
+        colours=replace(colours, values=values), lines=lines, edges=False,
+    )  # fmt: skip
