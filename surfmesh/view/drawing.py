@@ -60,9 +60,10 @@ def _curved(drawn: Drawing) -> Drawing:
     """Of quadratic triangles: their facets, with their own sides as lines."""
     mesh, colours = drawn.mesh, drawn.colours
     flat = facets(mesh)
-    values = colours.values[flat.parent]
     if colours.per_vertex:
         values = flat.interpolated(mesh, colours.values)
+    else:
+        values = colours.values[flat.parent]
     lines = [sides(mesh), *drawn.lines] if drawn.edges else drawn.lines
     return drawn._replace(
         mesh=SurfaceMesh(points=flat.points, triangles=flat.triangles),
