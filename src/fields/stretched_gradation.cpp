@@ -72,7 +72,7 @@ StretchedGradation::AxisMetric StretchedGradation::carried(const StretchedNode& 
 /// The same questions without divisions, each with a margin that rounding does not reach.
 bool StretchedGradation::surely_allows(const StretchedNode& a, const StretchedNode& b, Point3 step,
                                        double onward, double grown, double turned) {
-    constexpr double SURE = 1.0 - 1e-10;
+    constexpr double SURE = 1.0 - 1e-10, SPARE = 1e-4;
     const Point2 axis = carried_axis(a, b);
     const double xx = axis.x * axis.x, yy = axis.y * axis.y, square = xx + yy;
     if (!(square > 0.0)) return false;
@@ -81,7 +81,8 @@ bool StretchedGradation::surely_allows(const StretchedNode& a, const StretchedNo
     const double along = SURE * square * b.by_longer, left = SURE * square * b.by_shorter;
     if (!(of_along <= along * grown && of_left <= left * grown)) return false;
     const double spare_along = along * turned - of_along, spare_left = left * turned - of_left;
-    if (!(spare_along > 0.0 && spare_left > 0.0)) return false;
+    // with digits left for their product
+    if (!(spare_along > SPARE * along && spare_left > SPARE * left)) return false;
     const double mixed = axis.x * axis.y * (a.by_shorter - a.by_longer);
     if (!(mixed * mixed <= SURE * (spare_along * spare_left))) return false;
     const double aside = squared(dot(step, a.left)), across = onward + aside;
@@ -143,7 +144,10 @@ double StretchedGradation::bind(const StretchedNode& a, Node number) {
         return longest / least - 1.0;
     }
     const double turning = 1.0 + TURN_SLOPE * s_.slope * l;
-    if (surely_allows(a, b, step, onward, growth * growth, turning * turning)) return 0.0;
+    const bool is_round = !s_.round.empty() && s_.round[number] != 0;
+    if (!(is_round && b.by_longer > b.by_shorter) &&
+        surely_allows(a, b, step, onward, growth * growth, turning * turning))
+        return 0.0;
     const AxisMetric of_a = carried(a, b);
     const double f = 1.0 / squared(turning), g = 1.0 / (growth * growth);
     AxisMetric m{std::max(b.by_longer, g * of_a.along), std::max(b.by_shorter, g * of_a.left), 0.0};
@@ -158,7 +162,7 @@ double StretchedGradation::bind(const StretchedNode& a, Node number) {
         m.left = std::max(m.left, std::min(f * of_a.left + mixed / over, most));
     }
     hold_along(a, b, most, m);
-    if (m.along > m.left && !s_.round.empty() && s_.round[number] != 0) m.left = m.along;
+    if (m.along > m.left && is_round) m.left = m.along;
     if (m.along == b.by_longer && m.left == b.by_shorter) return 0.0;
     const double longer = std::min(1.0 / std::sqrt(m.along), lb);
     const double shorter = std::min(1.0 / std::sqrt(m.left), hb);

@@ -55,7 +55,7 @@ int activate_bad(const Triangulation& t, const SurfaceFrames& s, VertexMarks& ma
             for (auto k = static_cast<Triangle>(first); k < static_cast<Triangle>(last); ++k) {
                 if (t.region[k] == DEAD) continue;
                 const Vertex a = t.tri[3 * k], b = t.tri[3 * k + 1], c = t.tri[3 * k + 2];
-                if (!is_collapsed(s, a, b, c) && triangle_shape(s, a, b, c) < least)
+                if (!is_collapsed(s, a, b, c) && is_shape_below(s, a, b, c, least))
                     found.push_back(k);
             }
         });

@@ -50,10 +50,10 @@ int grade_scales(const Triangulation& t, SurfaceFrames& s, VertexMarks& marks, d
             ++count;
         };
         for (Triangle k = 0; k < t.triangles(); ++k) {
+            if (t.region[k] == DEAD) continue;
             if (from[t.tri[3 * k]] == 0 && from[t.tri[3 * k + 1]] == 0 &&
                 from[t.tri[3 * k + 2]] == 0)
                 continue;
-            if (t.region[k] == DEAD) continue;
             for (HalfEdge e = 3 * k; e < 3 * k + 3; ++e) {
                 const Vertex a = t.tri[e], b = t.tri[next_half_edge(e)];
                 hold(a, b);

@@ -214,6 +214,35 @@ void look_at_many(SurfaceReader& surface, const Chart& chart, const TriangleBloc
 
 }  // namespace
 
+Array<double> triangle_widths(SurfaceReader& surface, const Chart& chart,
+                              std::span<const SpaceTriangle> corners,
+                              std::span<const PlaneTriangle> xy, Array<double> deviation) {
+    surface.for_each_block(
+        corners.size(), BLOCK, [&](SurfaceReader& reader, std::size_t first, std::size_t last) {
+            const std::size_t count = last - first;
+            Array<double> high(count, 0.0), low(count, 0.0);  // the corners are on the surface
+            Array<Point2> uv(count);
+            for (const BarycentricWeights& w : FEW_SAMPLES) {
+                for (std::size_t i = 0; i < count; ++i)
+                    uv[i] = chart.to_uv(at_weights(xy[first + i], w));
+                reader.read(all(uv), 1);
+                for (std::size_t i = 0; i < count; ++i) {
+                    const Point3 point = at_weights(corners[first + i], w);
+                    const TangentPlaneOffset found =
+                        tangent_plane_offset(point, {reader[0][i], reader[1][i], reader[2][i]});
+                    const double along = dot(found.normal, point - reader[0][i]);
+                    high[i] = std::max(high[i], along);
+                    low[i] = std::min(low[i], along);
+                }
+            }
+            for (std::size_t i = 0; i < count; ++i) {
+                double& found = deviation[first + i];
+                found += std::min(high[i], -low[i]);  // of the side that has less
+            }
+        });
+    return deviation;
+}
+
 PointDeviations point_deviations(SurfaceReader& surface, std::span<const Point3> points,
                                  std::span<const Point2> uv, std::span<const double> size) {
     const Array<TangentPlaneOffset> found = offsets(surface, points, uv);

@@ -75,7 +75,8 @@ class Changes {
 
 Triangles suspects_by_estimate(const PatchState& state, double chord) {
     const Array<double> estimate = estimate_deviations(state.t, state.frames);
-    const double least = (estimate.size() > FEW_TRIANGLES ? SUSPECT : FLAT) * chord;
+    const double part = state.asked().is_width ? 0.5 * SUSPECT : SUSPECT;  // seen on one side
+    const double least = (estimate.size() > FEW_TRIANGLES ? part : FLAT) * chord;
     return collect_by_blocks<Triangle>(
         estimate.size(), BLOCK, [&](std::size_t first, std::size_t last, Triangles& found) {
             for (auto k = static_cast<Triangle>(first); k < static_cast<Triangle>(last); ++k)

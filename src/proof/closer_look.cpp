@@ -4,6 +4,8 @@
 #include <bit>
 #include <cmath>
 
+#include "proof/covering.hpp"
+
 namespace surfmesh {
 namespace {
 
@@ -24,8 +26,16 @@ using Cell = std::array<std::size_t, 3>;
 
 class Looker {
   public:
-    Looker(const Surface& surface, const ProofMesh& mesh, const PoleGaps& gaps)
-        : surface_(surface), mesh_(mesh), gaps_(gaps), bounds_(mesh.bounds), ring_(mesh) {}
+    /// rings_alone: not point by point.
+    Looker(const Surface& surface, const ProofMesh& mesh, const PoleGaps& gaps, bool rings_alone)
+        : surface_(surface),
+          mesh_(mesh),
+          gaps_(gaps),
+          bounds_(mesh.bounds),
+          ring_(mesh),
+          rings_alone_(rings_alone),
+          layers_(mesh.corners.size(), 0),
+          over_ring_(mesh.corners.size(), intervals::INFINITE) {}
 
     SurfaceStatus compute_first(std::span<const std::int32_t> which, Array<EnclosedPoint>& points);
 
@@ -36,16 +46,31 @@ class Looker {
         for (Array<EnclosedPoint>& known : known_) known.clear();
         known_[FIRST_LEVEL] = Array<EnclosedPoint>(first);
         if (!ring_.begin(t)) return SurfaceStatus::DONE;
-        if (const auto status = look_point_by_point(t, limit, levels, bound);
-            status != SurfaceStatus::DONE)
-            return status;
+        if (!rings_alone_)
+            if (const auto status = look_point_by_point(t, limit, levels, bound);
+                status != SurfaceStatus::DONE)
+                return status;
         for (int layer = 0; layer < LAYERS && !(bound <= limit); ++layer) {
             if (!ring_.add_layer()) return SurfaceStatus::DONE;
             if (!(ring_.free() > 0.0)) continue;
-            const auto status = look_with_ring(t, limit, levels, bound);
+            double found = intervals::INFINITE;
+            const auto status = look_with_ring(t, limit, levels, found);
             if (status != SurfaceStatus::DONE) return status;
+            over_ring_[t] = std::min(over_ring_[t], found);
+            if (!(found < bound)) continue;
+            bound = found;
+            layers_[t] = static_cast<std::uint8_t>(layer + 1);
         }
         return SurfaceStatus::DONE;
+    }
+    /// At all of these, those that have a bound already too.
+    SurfaceStatus look_at_all(std::span<const std::int32_t> which, std::span<const double> limits,
+                              int levels, std::span<double> bound);
+
+    [[nodiscard]] LookedAt looked_at(const Array<double>& without) const {
+        return {{layers_.data(), layers_.size()},
+                {over_ring_.data(), over_ring_.size()},
+                {without.data(), without.size()}};
     }
 
   private:
@@ -65,7 +90,7 @@ class Looker {
                 return status;
             most = std::max(most, found);
         }
-        bound = std::min(bound, most);
+        bound = most;
         return SurfaceStatus::DONE;
     }
     SurfaceStatus look_at_piece(double limit, int levels, double& bound) {
@@ -100,6 +125,9 @@ class Looker {
     PoleGaps gaps_;
     std::span<const TriangleBounds> bounds_;
     TriangleRing ring_;
+    bool rings_alone_;
+    Array<std::uint8_t> layers_;  // of triangles around, with which a bound holds
+    Array<double> over_ring_;     // heights over those around
     Piece piece_{};
     std::int32_t triangle_ = NIL;  // that is looked at
     Array<Point2> uv_, feet_;
@@ -341,25 +369,46 @@ double Looker::farthest_at_rims(std::size_t side, double scale) const {
                       : 0.0;
 }
 
+SurfaceStatus Looker::look_at_all(std::span<const std::int32_t> which,
+                                  std::span<const double> limits, int levels,
+                                  std::span<double> bound) {
+    Array<EnclosedPoint> points;
+    for (std::size_t start = 0; start < which.size(); start += TOGETHER) {
+        const std::span some = which.subspan(start, std::min(TOGETHER, which.size() - start));
+        if (const auto status = compute_first(some, points); status != SurfaceStatus::DONE)
+            return status;
+        const std::size_t each = points.size() / some.size();
+        for (std::size_t k = 0; k < some.size(); ++k) {
+            const auto t = static_cast<std::size_t>(some[k]);
+            const auto status =
+                look(some[k], {points.data() + k * each, each}, limits[t], levels, bound[t]);
+            if (status != SurfaceStatus::DONE) return status;
+        }
+    }
+    return SurfaceStatus::DONE;
+}
+
 }  // namespace
 
 SurfaceStatus look_closer(const Surface& surface, const ProofMesh& mesh, const PoleGaps& gaps,
                           std::span<const std::int32_t> which, std::span<const double> limits,
                           int levels, std::span<double> bound) {
-    Looker looker(surface, mesh, gaps);
-    Array<EnclosedPoint> points;
-    for (std::size_t start = 0; start < which.size(); start += TOGETHER) {
-        const std::span some = which.subspan(start, std::min(TOGETHER, which.size() - start));
-        if (const auto status = looker.compute_first(some, points); status != SurfaceStatus::DONE)
-            return status;
-        const std::size_t each = points.size() / some.size();
-        for (std::size_t k = 0; k < some.size(); ++k) {
-            const std::int32_t t = some[k];
-            const auto status =
-                looker.look(t, {points.data() + k * each, each}, limits[t], levels, bound[t]);
-            if (status != SurfaceStatus::DONE) return status;
-        }
-    }
+    Looker looker(surface, mesh, gaps, false);
+    Array<double> without{std::span<const double>(bound)};  // rings
+    auto status = looker.look_at_all(which, limits, levels, bound);
+    if (status != SurfaceStatus::DONE) return status;
+    for (std::size_t t = 0; t < bound.size(); ++t)
+        if (looker.looked_at(without).layers[t] == 0) without[t] = bound[t];
+    const Array<std::int32_t> others =
+        covering_triangles(mesh, looker.looked_at(without), limits, bound);
+    Array<double> unknown(bound.size(), intervals::INFINITE);
+    Looker again(surface, mesh, gaps, true);
+    status = again.look_at_all({others.data(), others.size()}, limits, levels,
+                               {unknown.data(), unknown.size()});
+    if (status != SurfaceStatus::DONE) return status;
+    LookedAt looked = looker.looked_at(without);
+    looked.over_ring = again.looked_at(without).over_ring;
+    count_covering(mesh, looked, bound);
     return SurfaceStatus::DONE;
 }
 

@@ -62,15 +62,17 @@ struct Side {
 
 /// Where the piece's foot is beyond the side, l_b from its start a at least this far along:
 ///
-///     l_b (|ab| - rho |ac| cos- - S (1 + rho))      rho: l_c <= l_a l_b rho there
+///     l_b (|ab| - rho |ac| cos- - S - rho S')     rho: l_c <= l_a l_b rho there
 ///
-/// Without the l_b; l_b, and the angle at the other end, for the distance from b.
+/// with S of the side itself and S' of the others, along it. Without the l_b; l_a, and the angle at
+/// the other end, for the distance from b.
 double along(const Side& side, bool from_start) {
     const double moved = 4.0 * side.outward();
     const double reserve = side.height() - std::max(moved, side.bounds.inner[side.k]);
     if (!(reserve > 0.0)) return -intervals::INFINITE;
     const double rho = moved / reserve, back = std::max(0.0, -side.foot(from_start));
-    return side.shape.length[side.k] * CERTAIN - rho * back - side.bounds.shift * (1.0 + rho);
+    return side.shape.length[side.k] * CERTAIN - side.bounds.along[side.k] -
+           rho * (back + side.bounds.others[side.k]);
 }
 
 /// What a rim costs; infinite where the feet beyond it may lie beyond its ends.

@@ -54,7 +54,7 @@ PieceSize size_from(const SideBends& bends, const TriangleFrame& frame) {
 
 TriangleBounds bounds_from(const SideBends& bends, const TriangleFrame& frame, double corner) {
     BySide normal{}, size{}, up{}, down{};
-    std::array<BySide, 3> across{};  // [side left][side]
+    std::array<BySide, 3> across{}, along{};  // [side left][side]
     for (std::size_t e = 0; e < 3; ++e) {
         const double x = bends.by_axis[0][e], y = bends.by_axis[1][e], z = bends.by_axis[2][e];
         size[e] = size_along(bends, e, frame);
@@ -64,8 +64,9 @@ TriangleBounds bounds_from(const SideBends& bends, const TriangleFrame& frame, d
         down[e] = bends.down[e] + tilted;
         for (std::size_t k = 0; k < 3; ++k) {
             const Point2 side = frame.sides[k];  // across it: (-y, x)
-            across[k][e] = std::abs(side.y) * x + std::abs(side.x) * y +
-                           (4.0 * frame.tilt + ROUNDING) * size[e];
+            const double more = (4.0 * frame.tilt + ROUNDING) * size[e];
+            across[k][e] = std::abs(side.y) * x + std::abs(side.x) * y + more;
+            along[k][e] = std::abs(side.x) * x + std::abs(side.y) * y + more;
         }
     }
     TriangleBounds found{};
@@ -78,6 +79,8 @@ TriangleBounds bounds_from(const SideBends& bends, const TriangleFrame& frame, d
     found.cell_whole = found.whole;
     for (std::size_t k = 0; k < 3; ++k) {
         const std::size_t i = (k + 1) % 3, j = (k + 2) % 3;
+        found.along[k] = 0.5 * along[k][k];
+        found.others[k] = 0.5 * std::max(along[k][i], along[k][j]);
         const double out = across[k][k], inner = std::max(across[k][i], across[k][j]);
         const double reserve = frame.heights[k] - 0.5 * std::max(out, inner);
         found.outward[k] = 0.125 * out;

@@ -28,6 +28,8 @@ constexpr TriangleBounds UNKNOWN = {.height = NONE,
                                     .inner = {NONE, NONE, NONE},
                                     .beside = {NONE, NONE, NONE},
                                     .steep = {NONE, NONE, NONE},
+                                    .along = {NONE, NONE, NONE},
+                                    .others = {NONE, NONE, NONE},
                                     .bend = NONE,
                                     .cell_height = NONE,
                                     .cell_whole = NONE};

@@ -145,14 +145,27 @@ SurfaceStatus bounds_of_block(const Surface& surface, const ProofRequest& asked,
     for (int level = 0; !parts.empty(); ++level) {
         if (const auto status = block.look_at(parts, level == 0); status != SurfaceStatus::DONE)
             return status;
-        Array<Part> finer;
+        Array<std::int32_t> open;
         for (const Part& part : parts) {
             const std::int32_t t = part.triangle;
+            if (!open.empty() && open.back() == t) continue;  // its parts come together
+            const double height = level == 0 ? intervals::INFINITE : out[t].height;
             out[t] = bounds_from(block.bends[t], block.frames[t], off[t]);
+            out[t].height = std::min(out[t].height, height);
             // a kink on a line of the cut would be missed: what has no bound at first has none
-            const bool may_cut = level < depth && out[t].whole < intervals::INFINITE;
-            if (!may_cut || is_within(out[t], rims[t], limits[t] - off[t])) continue;
-            for (const PlaneCorners& quarter : cut(part.uv)) finer.push_back({quarter, t});
+            if (level < depth && out[t].whole < intervals::INFINITE &&
+                !is_within(out[t], rims[t], limits[t] - off[t]))
+                open.push_back(t);
+        }
+        if (level == 0 && on_surface)
+            if (const auto status = lower_heights(surface, asked, open, out);
+                status != SurfaceStatus::DONE)
+                return status;
+        Array<Part> finer;
+        for (const Part& part : parts) {
+            if (!std::binary_search(open.begin(), open.end(), part.triangle)) continue;
+            for (const PlaneCorners& quarter : cut(part.uv))
+                finer.push_back({quarter, part.triangle});
         }
         parts = std::move(finer);
     }

@@ -39,6 +39,8 @@ struct TriangleBounds {
     std::array<double, 3> inner;   // d . r''(e, e) / 2 across side k, of the other two sides e
     std::array<double, 3> beside;  // height of the piece where it lies beyond side k
     std::array<double, 3> steep;   // what a distance inside side k adds to that, of the distance
+    std::array<double, 3> along;   // d . r''(e, e) / 2 along side k, of itself
+    std::array<double, 3> others;  // and the larger of the other two
     double bend;                   // the largest of n . r''(e, e) / 2
     // for the 4^j cells that the piece is cut into, times 4^-j: height and distance point by point
     double cell_height, cell_whole;

@@ -42,6 +42,12 @@ double quadratic_chord_size(PrincipalCurvatures k, double chord) {
     return most(std::sqrt(std::sqrt(fourth)), 2.0 * chord);
 }
 
+double share_of_width(PrincipalCurvatures k, double ratio) {
+    const double b = balance(k, ratio);
+    const double one_sided = most(0.125, (1.0 + b) / 12.0);
+    return one_sided / most(one_sided, SQRT3 * (1.0 - b) / 16.0);
+}
+
 double angle_size(PrincipalCurvatures k, double angle) {
     // both may be infinite
     const double mean = k.k1 == -k.k2 ? 0.0 : k.k1 + k.k2;

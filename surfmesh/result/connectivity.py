@@ -18,8 +18,6 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from surfmesh._core.space import edge_table
-
 
 class Connectivity(NamedTuple):
     """The unique edges of a mesh and who shares them. Half-edges as in the module's docstring."""
@@ -41,4 +39,6 @@ def connect(triangles: NDArray[np.int32]) -> Connectivity:
 
     Triangles with a repeated corner give loops (a, a), which are edges like any other here.
     """
+    from surfmesh._core.space import edge_table  # late: files are looked at without the core
+
     return Connectivity(*edge_table(triangles))
