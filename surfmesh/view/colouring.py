@@ -7,7 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from surfmesh.geometry.differential.fundamental_forms import PrincipalCurvatures, curvatures, forms
-from surfmesh.quality.measures.deviation import deviation
+from surfmesh.quality.measures.measurements import Measurements
 from surfmesh.quality.measures.shape import shapes
 from surfmesh.result.surface_mesh import SurfaceMesh
 from surfmesh.view.legend import unit_of
@@ -87,7 +87,7 @@ def _by_size(mesh: SurfaceMesh) -> Colouring:
 
 
 def _by_deviation(mesh: SurfaceMesh) -> Colouring:
-    found = deviation(mesh, shapes(mesh).area)
+    found = Measurements(mesh).deviation
     if found is None:
         raise ValueError("cannot colour by 'deviation': the mesh carries no surface")
     round_off = 1e-12 * float(np.abs(mesh.points).max(initial=1e-300))  # flat faces: no scale

@@ -6,6 +6,7 @@ smeared over the triangles beside it.
 
 import numpy as np
 
+from surfmesh.result.quadratic_triangles import edge_rows
 from surfmesh.result.surface_mesh import SurfaceMesh
 
 
@@ -18,15 +19,16 @@ def faces_apart(mesh: SurfaceMesh) -> SurfaceMesh:
     vertices = kept[:, 1]
     copy = np.zeros(len(mesh.points), np.int64)
     copy[vertices[::-1]] = np.arange(len(vertices))[::-1]
-    links = {}
-    if mesh.edge_segments is not None:
-        links["edge_segments"] = copy[mesh.edge_segments]
-    if mesh.vertex_ids is not None:
-        links["vertex_ids"] = np.where(mesh.vertex_ids >= 0, copy[mesh.vertex_ids], -1)
-    return mesh.replaced(
+    segments, ids = mesh.edge_segments, mesh.vertex_ids
+    apart = mesh.replaced(
         points=mesh.points[vertices],
         triangles=corners.reshape(-1, 3),
         sizes=None if mesh.sizes is None else mesh.sizes[vertices],
         mid_points=None,
-        **links,
+        edge_segments=None if segments is None else copy[segments],
+        vertex_ids=None if ids is None else np.where(ids >= 0, copy[ids], -1),
     )
+    if mesh.mid_points is None:
+        return apart
+    rows = edge_rows(mesh.connectivity, vertices[apart.edges])
+    return apart.replaced(mid_points=mesh.mid_points[rows])
