@@ -15,7 +15,8 @@ namespace {
 constexpr double NEAR_FOOT = 0.05;
 constexpr double ON_SURFACE = 1e-9;  // of the size: a vertex this near to r(u, v) is on it
 constexpr double FAR_FOOT = 0.2;     // of the longest side: r(u, v) so far across says nothing
-constexpr double NEAR_LIMIT = 0.75;  // of the limit: from there the few samples do not suffice
+constexpr double NEAR_LIMIT = 0.94;  // of the limit: from there the few samples do not suffice
+constexpr double UNSURE = 2.0;       // times what they miss a quadric by, the error of their peak
 constexpr int STEPS = 12;     // of a projection, at most: where speeds change fast guesses are poor
 constexpr int FEW_STEPS = 4;  // in the mesher, where triangles are small and guesses near
 constexpr std::size_t BLOCK = 2048;  // triangles looked at together
@@ -85,26 +86,54 @@ double longest_side(const SpaceTriangle& t) {
     return std::max({norm(t[0] - t[1]), norm(t[1] - t[2]), norm(t[2] - t[0])});
 }
 
-/// Fill in the distances at a few samples; the triangles that need a closer look.
+/// Heights of the surface over a triangle: in the middles of the sides, and at the centroid.
+using FewHeights = std::array<double, FEW_SAMPLES.size()>;
+
+/// Over a quadric the height is 4 (a l1 l2 + b l2 l3 + c l3 l1), with a, b and c those in the
+/// middles of the sides: its largest absolute value in the triangle.
+double peak_of_quadric(double a, double b, double c) {
+    const double on_side = std::max({std::abs(a), std::abs(b), std::abs(c)});
+    // where the gradient is alike in all directions: l1, l2, l3 as these three
+    const double l1 = b * (a + c - b), l2 = c * (a + b - c), l3 = a * (b + c - a);
+    const double sum = l1 + l2 + l3;
+    const bool inside =
+        sum > 0.0 ? l1 > 0.0 && l2 > 0.0 && l3 > 0.0 : l1 < 0.0 && l2 < 0.0 && l3 < 0.0;
+    return inside ? std::max(on_side, std::abs(4.0 * a * b * c / sum)) : on_side;
+}
+
+/// The largest distance between and at few samples, with an allowance for what is no quadric.
+double peak_of_few(const FewHeights& h) {
+    const double at_centroid = 4.0 / 9.0 * (h[0] + h[1] + h[2]);
+    return std::max(peak_of_quadric(h[0], h[1], h[2]), std::abs(h[3])) +
+           UNSURE * std::abs(h[3] - at_centroid);
+}
+
+/// Fill in the distances as a few samples have them; the triangles that need a closer look.
 Array<std::int32_t> look_at_few(SurfaceReader& surface, const Chart& chart,
                                 const TriangleBlock& block, double limit) {
     const std::size_t count = block.corners.size();
     Array<Point2> uv(count);
+    Array<FewHeights> height(count);
     Array<std::uint8_t> unreliable(count, 0);
-    for (const BarycentricWeights& w : FEW_SAMPLES) {
+    for (std::size_t k = 0; k < FEW_SAMPLES.size(); ++k) {
+        const BarycentricWeights& w = FEW_SAMPLES[k];
         for (std::size_t i = 0; i < count; ++i) uv[i] = chart.to_uv(at_weights(block.xy[i], w));
         surface.read(all(uv), 1);
         for (std::size_t i = 0; i < count; ++i) {
-            const TangentPlaneOffset found = tangent_plane_offset(
-                at_weights(block.corners[i], w), {surface[0][i], surface[1][i], surface[2][i]});
-            block.error[i] = std::max(block.error[i], found.along);
+            const Point3 point = at_weights(block.corners[i], w);
+            const TangentPlaneOffset found =
+                tangent_plane_offset(point, {surface[0][i], surface[1][i], surface[2][i]});
+            const bool below = dot(found.normal, point - surface[0][i]) < 0.0;
+            height[i][k] = below ? -found.along : found.along;
             if (found.across > FAR_FOOT * longest_side(block.corners[i])) unreliable[i] = 1;
         }
     }
     Array<std::int32_t> close;
-    for (std::size_t i = 0; i < count; ++i)
+    for (std::size_t i = 0; i < count; ++i) {
+        block.error[i] = peak_of_few(height[i]);
         if (unreliable[i] || block.error[i] > NEAR_LIMIT * limit)
             close.push_back(static_cast<std::int32_t>(i));
+    }
     return close;
 }
 
