@@ -16,7 +16,7 @@ from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from surfmesh import errors, io, view
-    from surfmesh.api import estimate, explain, intersect, load, mesh, show
+    from surfmesh.api import check, estimate, explain, intersect, load, mesh, show
     from surfmesh.cad.cadquery.from_cadquery import from_cadquery
     from surfmesh.cad.model.cad_model import CadModel
     from surfmesh.circle_packing import CirclePacking, pack
@@ -25,7 +25,7 @@ if TYPE_CHECKING:
     from surfmesh.geometry.functions.numeric import NumericSurface
     from surfmesh.geometry.planar.planar_domain import PlanarDomain
     from surfmesh.partitioned_mesh import PartitionedMesh, mesh_into_pieces
-    from surfmesh.quality import Report, check
+    from surfmesh.quality import Report
     from surfmesh.result.surface_mesh import SurfaceMesh
     from surfmesh.sizing.options.distance_size import DistanceSize
     from surfmesh.sizing.options.radius_laws import TensorField, UniformRadius
@@ -55,7 +55,7 @@ _HOMES = {
     "SurfaceMesh": "surfmesh.result.surface_mesh",
     "TensorField": "surfmesh.sizing.options.radius_laws",
     "UniformRadius": "surfmesh.sizing.options.radius_laws",
-    "check": "surfmesh.quality",
+    "check": "surfmesh.api",
     "estimate": "surfmesh.api",
     "explain": "surfmesh.api",
     "from_cadquery": "surfmesh.cad.cadquery.from_cadquery",
@@ -120,4 +120,4 @@ def __getattr__(name: str) -> Any:
 
 
 def __dir__() -> list[str]:
-    return sorted({*globals(), *__all__})
+    return sorted(__all__)

@@ -25,7 +25,7 @@ from surfmesh.geometry.number_range import RANGE
 from surfmesh.geometry.surface import Surface
 from surfmesh.result.surface_mesh import SurfaceMesh
 from surfmesh.sizing.options.distance_size import default_options
-from surfmesh.sizing.options.sizing import SizeLaw, Sizing
+from surfmesh.sizing.options.sizing import BALANCED, SizeLaw, Sizing
 
 if TYPE_CHECKING:
     from concurrent.futures import Executor
@@ -35,6 +35,7 @@ if TYPE_CHECKING:
     from surfmesh.meshing.estimate.estimation import Estimate
     from surfmesh.meshing.explain.explanation import Explanation
     from surfmesh.meshing.progress import Progress
+    from surfmesh.quality import Report
 
 logger = logging.getLogger(__name__)
 Sizes: TypeAlias = Sizing | float | SizeLaw | Mapping[str, Any] | None
@@ -87,6 +88,10 @@ def load(
             return reading.model()
     if joins:
         raise CadError(f"imprint and sew are for CAD models, and {place.name} holds none")
+    if units is not None:
+        raise CadError(
+            f"units are those of a CAD file; {place.name} is none, its lengths have none"
+        )
     if place.suffix == "" and not place.exists():
         place = _of_gallery(str(path))
     if place.suffix.lower() == ".toml" and sets_key(place, "intersect"):
@@ -102,9 +107,13 @@ def _of_gallery(name: str) -> Path:
     if name not in known:
         from surfmesh.intersection.meeting_file import meeting_gallery
 
-        known = meeting_gallery()
+        known = known | meeting_gallery()
     if name not in known:
-        raise FileFormatError(f"no file and no gallery surface called {name!r}")
+        from difflib import get_close_matches
+
+        close = get_close_matches(name, known, n=1)
+        hint = f"; did you mean {close[0]!r}?" if close else ""
+        raise FileFormatError(f"no file and no gallery surface called {name!r}{hint}")
     return known[name]
 
 
@@ -123,19 +132,19 @@ def mesh(
 ) -> SurfaceMesh:
     """Triangulate a surface, or a CAD model (or whatever CadQuery object makes one).
 
-    sizing: what is wanted; a number is a uniform edge length; None takes the defaults of the
-    surface's formula file, or sensible ones. Options of ``Sizing`` may be given by name instead:
-    ``mesh(part, chord=0.1)``, ``mesh(part, triangles=50_000)``. optimise=False gives the raw
-    packing with its boundary, as in the paper. progress: called with (stage, fraction done); when
-    it returns False the work stops. strict=False: faces of a CAD model that cannot be meshed are
-    left out and listed in the mesh's ``warnings``. simplify=True: tiny edges of a CAD model are
-    collapsed, those below ``min_size`` or a two-thousandth of the diagonal; lines of a planar
-    domain that are finer than the sizes are thinned; topology is kept. jobs: how many threads mesh,
-    faces of a CAD model at once or within one; by default as many as this process may use
-    processors. The mesh is the same with any number of them. executor: meshes faces instead, in
-    other processes or on other machines: any of ``concurrent.futures``, or
-    ``dask.distributed.Client(...).get_executor()``. order=2: nodes amid the edges too, on the true
-    curves and surfaces (``mesh.mid_points``).
+    surface: one of these, or the path of a file or a name of the gallery, for ``load``. sizing:
+    what is wanted; a number is a uniform edge length; None takes the defaults of the surface's
+    formula file, or sensible ones. Options of ``Sizing`` may be given by name instead: ``mesh(part,
+    chord=0.1)``, ``mesh(part, triangles=50_000)``. optimise=False gives the raw packing with its
+    boundary, as in the paper. progress: called with (stage, fraction done); when it returns False
+    the work stops. strict=False: faces of a CAD model that cannot be meshed are left out and listed
+    in the mesh's ``warnings``. simplify=True: tiny edges of a CAD model are collapsed, those below
+    ``min_size`` or a two-thousandth of the diagonal; lines of a planar domain that are finer than
+    the sizes are thinned; topology is kept. jobs: how many threads mesh, faces of a CAD model at
+    once or within one; by default as many as this process may use processors. The mesh is the same
+    with any number of them. executor: meshes faces instead, in other processes or on other
+    machines: any of ``concurrent.futures``, or ``dask.distributed.Client(...).get_executor()``.
+    order=2: nodes amid the edges too, on the true curves and surfaces (``mesh.mid_points``).
 
     Stages and their seconds go to the log ``surfmesh`` at level INFO, the mesh's warnings at
     WARNING. Safe to call from several threads at once.
@@ -145,8 +154,12 @@ def mesh(
     """
     if order not in (1, 2):
         raise SizingError(f"order is {shown(order)}: meshes are of order 1 or 2")
+    if jobs is not None and not (isinstance(jobs, int) and jobs >= 1):
+        raise SizingError(f"jobs is {shown(jobs)}: at least one thread; None takes all processors")
     model = _model_or_surface(surface)
     wanted = _options(model, _by_name(sizing, sizes))
+    if order == 2 and _is_balanced(wanted):
+        raise SizingError("nodes of order 2 lie on the surface: vertices cannot be balanced too")
 
     def made_with(own: Sizes) -> SurfaceMesh:
         return _mesh_once(model, own, optimise, progress, strict, simplify, jobs, executor)
@@ -213,6 +226,15 @@ def _options(model: Surface | CadModel, sizing: Sizes) -> Sizes:
     if isinstance(sizing, Mapping) and not _by_selection(sizing):
         return Sizing.of(sizing)
     return sizing
+
+
+def _is_balanced(sizing: Sizes) -> bool:
+    """Are vertices to be balanced?"""
+    if isinstance(sizing, Mapping):
+        sizing = sizing.get("*")
+        if isinstance(sizing, Mapping):
+            return sizing.get("vertices") == BALANCED
+    return isinstance(sizing, Sizing) and sizing.is_balanced
 
 
 def _with_sizes(model: Surface | CadModel, sizing: Sizes) -> Sizes:
@@ -328,6 +350,32 @@ def explain(
     return explain_parametric(model, Sizing.of(sizing), _place(point))
 
 
+def check(
+    mesh: SurfaceMesh | str | Path, *, second_opinion: bool = False, prove: bool | None = None
+) -> Report:  # fmt: skip
+    """Look at everything that can be said of a mesh, or of the mesh in a file: topology,
+    self-intersection, shape, sizes, deviation, each of them against the model where that is known.
+
+    second_opinion=True asks trimesh and PyVista too for what they know of: topology, area,
+    volume, shapes, beside ours in ``report.second_opinion``. Where they disagree by more than
+    rounding the mesh is not clean.
+
+    prove=True bounds how far mesh and surfaces are from each other at most, both ways, in
+    ``report.proof``: see docs/proof.md. None: where ``Sizing(proof=True)`` was asked for, and a
+    triangle that is not proved is a problem then.
+
+    Raises ``ValueError`` when its indices are out of range, ``FileFormatError`` for a file that
+    holds no mesh; everything else that is wrong is in ``report.problems``.
+    """
+    from surfmesh import io, quality
+
+    if isinstance(mesh, (str, Path)):
+        mesh = io.read(mesh)
+    if not isinstance(mesh, SurfaceMesh):
+        raise FileFormatError(f"a mesh or the path of one is needed, not {shown(mesh)}")
+    return quality.check(mesh, second_opinion=second_opinion, prove=prove)
+
+
 def _place(point: Sequence[float]) -> NDArray[np.float64]:
     """The point as an array (3,)."""
     try:
@@ -342,13 +390,18 @@ def _place(point: Sequence[float]) -> NDArray[np.float64]:
 
 
 def _model_or_surface(thing: Any) -> Surface | CadModel:
-    """What is to be meshed; of an object of CadQuery its model."""
+    """What is to be meshed; of a path or a name what ``load`` gives, of CadQuery the model."""
+    if isinstance(thing, (str, Path)):
+        return load(thing)
     # a class that nobody has imported has no instances
     home = sys.modules.get("surfmesh.cad.model.cad_model")
     if isinstance(thing, Surface) or (home is not None and isinstance(thing, home.CadModel)):
         return thing
     if not _is_cad(thing):
-        raise SurfaceError(f"cannot mesh a {type(thing).__name__}: a Surface is needed")
+        raise SurfaceError(
+            f"cannot mesh a {type(thing).__name__}: a surface, a CAD model, a CadQuery object or "
+            "the path of a file is needed"
+        )
     from surfmesh.cad.cadquery.from_cadquery import from_cadquery
 
     return from_cadquery(thing)

@@ -191,6 +191,22 @@ void bind_builder(nb::module_& m) {
           "int32: of each loop; loops (f,) int32: of each face.");
 }
 
+void bind_numbers(nb::module_& m) {
+    m.def(
+        "numbers_of",
+        [](const std::vector<const FaceBoundary*>& boundaries) {
+            Array<std::int64_t> numbers, first(1, 0);
+            for (const FaceBoundary* boundary : boundaries) {
+                if (boundary == nullptr) throw nb::type_error("None is no boundary");
+                for (const std::int64_t number : boundary->numbers) numbers.push_back(number);
+                first.push_back(static_cast<std::int64_t>(numbers.size()));
+            }
+            return std::pair(view(numbers), view(first));
+        },
+        nb::arg("boundaries"),
+        "Those of the nodes of many boundaries in one row, and where each begins.");
+}
+
 void bind_polygons(nb::module_& m) {
     nb::class_<FacePolygons>(m, "FacePolygons",
                              "Loops as closed polygons: each coedge without its last node.")
@@ -226,6 +242,7 @@ void bind_polygons(nb::module_& m) {
 void bind_boundaries(nb::module_& m) {
     bind_boundary(m);
     bind_builder(m);
+    bind_numbers(m);
     bind_polygons(m);
 }
 

@@ -93,6 +93,9 @@ struct Background {
     [[nodiscard]] MetricRoot3 metric_root_3d_at(double x, double y) const;
     /// The wanted edge length h in space, the shorter of two, from the interpolated 1 / h.
     [[nodiscard]] double scalar_size_at(double x, double y) const;
+    /// The same where the leaf is known; W only where sizes are anisotropic.
+    [[nodiscard]] double scalar_size(const LeafWeights& at) const;
+    [[nodiscard]] MetricRoot3 metric_root_3d_of(const LeafWeights& at) const;
 };
 
 /// H = A^-1 with its eigenvalues capped at `largest` (those of A floored at 1 / largest).
@@ -145,19 +148,24 @@ inline SizeTensor Background::size_at(double x, double y) const {
 }
 
 inline MetricRoot3 Background::metric_root_3d_at(double x, double y) const {
+    if (is_anisotropic()) return metric_root_3d_of(leaf(x, y));
+    const double inverse = 1.0 / scalar_size_at(x, y);
+    return {inverse, 0.0, 0.0, inverse, 0.0, inverse};
+}
+
+inline MetricRoot3 Background::metric_root_3d_of(const LeafWeights& at) const {
     const Array<MetricRoot3>& w = metric_root_3d;
-    if (w.empty()) {
-        const double inverse = 1.0 / scalar_size_at(x, y);
-        return {inverse, 0.0, 0.0, inverse, 0.0, inverse};
-    }
-    const LeafWeights at = leaf(x, y);
     return {at.mean([&](Node n) { return w[n].xx; }), at.mean([&](Node n) { return w[n].xy; }),
             at.mean([&](Node n) { return w[n].xz; }), at.mean([&](Node n) { return w[n].yy; }),
             at.mean([&](Node n) { return w[n].yz; }), at.mean([&](Node n) { return w[n].zz; })};
 }
 
 inline double Background::scalar_size_at(double x, double y) const {
-    return 1.0 / leaf(x, y).mean([&](Node n) { return metric_root[n].inverse_size; });
+    return scalar_size(leaf(x, y));
+}
+
+inline double Background::scalar_size(const LeafWeights& at) const {
+    return 1.0 / at.mean([&](Node n) { return metric_root[n].inverse_size; });
 }
 
 inline SizeTensor invert(SizeTensor a, double largest) {

@@ -11,6 +11,13 @@ namespace surfmesh {
 /// Gauss are exact, also in a leaf that the rectangle cuts.
 [[nodiscard]] double metric_area_of_box(const Background& background, double x1, double y1);
 
+enum class Axis : std::uint8_t { x, y };
+
+/// The coordinate along the axis from ``low`` to the corner ``upper`` up to which half the metric
+/// area of the box lies, by so many bisections.
+[[nodiscard]] double halving_coordinate(const Background& background, Axis axis, double low,
+                                        Point2 upper, int bisections);
+
 /// About how many circles cover the rectangle: its metric area over that of a circle's share,
 /// sqrt(3) / 2, and some more.
 [[nodiscard]] std::size_t expected_circles(const Background& background, Point2 upper);

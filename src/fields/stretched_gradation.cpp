@@ -44,21 +44,51 @@ void StretchedGradation::visit(Node p, SizeQueue& queue) {
     }
 }
 
-/// The metric of a in the axes of b.
+/// The direction ``along`` of a in the axes of b, not of length one.
 ///
 /// Turned with the normal by the smallest rotation. Normals may be opposite across a joint.
-StretchedGradation::AxisMetric StretchedGradation::carried(const StretchedNode& a,
-                                                           const StretchedNode& b) {
+Point2 StretchedGradation::carried_axis(const StretchedNode& a, const StretchedNode& b) {
     const double c = dot(a.normal, b.normal), sign = c >= 0.0 ? 1.0 : -1.0;
     const double k = sign * dot(a.along, b.normal) / (1.0 + std::abs(c));
     const Point3 turned = a.along - k * (a.normal + sign * b.normal);
-    const double x = dot(turned, b.along), y = dot(turned, b.left);
+    return {dot(turned, b.along), dot(turned, b.left)};
+}
+
+/// The metric of a in the axes of b.
+StretchedGradation::AxisMetric StretchedGradation::carried(const StretchedNode& a,
+                                                           const StretchedNode& b) {
+    const auto [x, y] = carried_axis(a, b);
     const double square = x * x + y * y;
     if (square == 0.0) return {a.by_longer, a.by_shorter, 0.0};
     const double by_along = x * x / square, by_left = y * y / square;
     return {by_along * a.by_longer + by_left * a.by_shorter,
             by_left * a.by_longer + by_along * a.by_shorter,
             (x * y / square) * (a.by_shorter - a.by_longer)};
+}
+
+/// Does the metric of b surely contain that of a, grown by the squares of both factors, so that
+/// ``bind`` would change nothing?
+///
+/// The same questions without divisions, each with a margin that rounding does not reach.
+bool StretchedGradation::surely_allows(const StretchedNode& a, const StretchedNode& b, Point3 step,
+                                       double onward, double grown, double turned) {
+    constexpr double SURE = 1.0 - 1e-10, SPARE = 1e-4;
+    const Point2 axis = carried_axis(a, b);
+    const double xx = axis.x * axis.x, yy = axis.y * axis.y, square = xx + yy;
+    if (!(square > 0.0)) return false;
+    const double of_along = xx * a.by_longer + yy * a.by_shorter;  // times the square
+    const double of_left = yy * a.by_longer + xx * a.by_shorter;
+    const double along = SURE * square * b.by_longer, left = SURE * square * b.by_shorter;
+    if (!(of_along <= along * grown && of_left <= left * grown)) return false;
+    const double spare_along = along * turned - of_along, spare_left = left * turned - of_left;
+    // with digits left for their product
+    if (!(spare_along > SPARE * along && spare_left > SPARE * left)) return false;
+    const double mixed = axis.x * axis.y * (a.by_shorter - a.by_longer);
+    if (!(mixed * mixed <= SURE * (spare_along * spare_left))) return false;
+    const double aside = squared(dot(step, a.left)), across = onward + aside;
+    const double by_along = squared(dot(step, b.along)), by_left = squared(dot(step, b.left));
+    return (by_along * b.by_longer + by_left * b.by_shorter) * across * SURE >=
+           (onward * a.by_longer + aside * a.by_shorter) * (by_along + by_left);
 }
 
 /// Raise the metric of b along, or left where the way from a goes across, not above `most`, until
@@ -113,8 +143,13 @@ double StretchedGradation::bind(const StretchedNode& a, Node number) {
         set(b, std::min(hb, least), std::min(lb, least));
         return longest / least - 1.0;
     }
+    const double turning = 1.0 + TURN_SLOPE * s_.slope * l;
+    const bool is_round = !s_.round.empty() && s_.round[number] != 0;
+    if (!(is_round && b.by_longer > b.by_shorter) &&
+        surely_allows(a, b, step, onward, growth * growth, turning * turning))
+        return 0.0;
     const AxisMetric of_a = carried(a, b);
-    const double f = 1.0 / squared(1.0 + TURN_SLOPE * s_.slope * l), g = 1.0 / (growth * growth);
+    const double f = 1.0 / squared(turning), g = 1.0 / (growth * growth);
     AxisMetric m{std::max(b.by_longer, g * of_a.along), std::max(b.by_shorter, g * of_a.left), 0.0};
     // no direction needs less than the smallest size of a, grown
     const double most = 1.0 / (least * least), mixed = squared(f * of_a.mixed);
@@ -127,7 +162,7 @@ double StretchedGradation::bind(const StretchedNode& a, Node number) {
         m.left = std::max(m.left, std::min(f * of_a.left + mixed / over, most));
     }
     hold_along(a, b, most, m);
-    if (m.along > m.left && !s_.round.empty() && s_.round[number] != 0) m.left = m.along;
+    if (m.along > m.left && is_round) m.left = m.along;
     if (m.along == b.by_longer && m.left == b.by_shorter) return 0.0;
     const double longer = std::min(1.0 / std::sqrt(m.along), lb);
     const double shorter = std::min(1.0 / std::sqrt(m.left), hb);

@@ -12,7 +12,8 @@ bool has_short_edge(const Triangulation& t, const SurfaceFrames& s, Vertex v, Ha
                     double shortest) {
     HalfEdge e = start;
     do {
-        if (edge_length(s, v, t.tri[next_half_edge(e)]) < shortest) return true;
+        const Vertex p = t.tri[next_half_edge(e)];
+        if (!is_longer(s, v, p, shortest) && edge_length(s, v, p) < shortest) return true;
         e = rotate_ccw(t, e);
     } while (e != start);
     return false;

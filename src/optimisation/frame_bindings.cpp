@@ -104,7 +104,7 @@ void bind_frames(nb::module_& m) {
                 throw nb::value_error("the background has no metric_root_3d");
             for (std::size_t k = 0; k < vertices.shape(0); ++k) {
                 set_size(t, s, background, vertices(k));
-                set_frame(t, s, background, vertices(k),
+                set_frame(t, s, vertices(k),
                           {rows<Point3>(r)[k], rows<Point3>(rx)[k], rows<Point3>(ry)[k]}, largest);
             }
         },

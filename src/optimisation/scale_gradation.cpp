@@ -10,18 +10,24 @@ constexpr double BEYOND = 1.08;    // times the slope: sizes are not lowered for
 constexpr double KEPT = 1.02;      // and then to this: what is lowered lowers its neighbours
 constexpr double LOWERED = 0.999;  // a scale below it is none of rounding
 
-double size_along(const SurfaceFrames& s, Vertex v, Point3 step, double length) {
-    if (!s.is_anisotropic) return s.size[v];
-    return length / norm(apply(s.metric_root[v], step));
-}
-
 /// The factor on the sizes of b that lets them grow from a by no more than the slope; 1 where they
 /// hardly do.
 double factor_on(const SurfaceFrames& s, Vertex a, Vertex b, double slope) {
     const Point3 step = s.point[b] - s.point[a];
-    const double length = norm(step), rise = slope * length;
+    double of_a = s.size[a], of_b = s.size[b], length = 0.0;
+    if (s.is_anisotropic) {
+        const Point3 at_a = apply(s.metric_root[a], step), at_b = apply(s.metric_root[b], step);
+        const double square_a = dot(at_a, at_a), square_b = dot(at_b, at_b);
+        if (square_a <= square_b) return 1.0;  // no larger at b
+        length = norm(step);
+        of_a = length / std::sqrt(square_a);
+        of_b = length / std::sqrt(square_b);
+    } else {
+        if (of_b <= of_a) return 1.0;
+        length = norm(step);
+    }
+    const double rise = slope * length;
     if (!(length > 0.0)) return 1.0;
-    const double of_a = size_along(s, a, step, length), of_b = size_along(s, b, step, length);
     return of_b > of_a + BEYOND * rise ? (of_a + KEPT * rise) / of_b : 1.0;
 }
 
@@ -45,6 +51,9 @@ int grade_scales(const Triangulation& t, SurfaceFrames& s, VertexMarks& marks, d
         };
         for (Triangle k = 0; k < t.triangles(); ++k) {
             if (t.region[k] == DEAD) continue;
+            if (from[t.tri[3 * k]] == 0 && from[t.tri[3 * k + 1]] == 0 &&
+                from[t.tri[3 * k + 2]] == 0)
+                continue;
             for (HalfEdge e = 3 * k; e < 3 * k + 3; ++e) {
                 const Vertex a = t.tri[e], b = t.tri[next_half_edge(e)];
                 hold(a, b);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstring>
 
 #include "triangulation/parts.hpp"
 
@@ -229,6 +230,20 @@ bool move(Triangulation& t, SurfaceFrames& s, const MovingVertex& m) {
     return false;
 }
 
+/// The first active vertex from v on, or ``end``.
+Vertex next_active(const VertexMarks& marks, Vertex v, Vertex end) {
+    constexpr Vertex MANY = 8;  // looked at together
+    std::uint64_t several = 0;
+    static_assert(sizeof several == MANY);
+    while (v + MANY <= end) {
+        std::memcpy(&several, marks.active.data() + v, MANY);
+        if (several != 0) break;
+        v += MANY;
+    }
+    while (v < end && marks.active[v] == 0) ++v;
+    return v;
+}
+
 /// A pass over vertices: what it works on, and how far it goes.
 struct SmoothingPass {
     Triangulation& t;
@@ -282,8 +297,11 @@ void smooth(Triangulation& t, SurfaceFrames& s, const Stars& stars, VertexMarks&
         count_parts(t), 1, [&](std::size_t n, std::size_t, Array<Vertex>& own) {
             const Part part = part_of(t, n);
             MovingVertex m;
-            for (m.v = part.first_vertex; m.v < part.end_vertex; ++m.v)
+            m.v = part.first_vertex;
+            while ((m.v = next_active(marks, m.v, part.end_vertex)) < part.end_vertex) {
                 if (!stars.is_shared(m.v)) pass.visit(m, own);
+                ++m.v;
+            }
         });
     if (t.parts.empty()) return;
     MovingVertex m;

@@ -67,7 +67,12 @@ bool is_long(const Triangulation& t, const SurfaceFrames& s, const VertexMarks& 
     if (a >= first || t.adj[e] <= e || t.fixed[e] != 0 || t.region[e / 3] == DEAD) return false;
     const Vertex b = t.tri[t.adj[e]];
     if (b >= first || (marks.active[a] == 0 && marks.active[b] == 0)) return false;
-    return edge_length(s, a, b) > longest;
+    return is_longer(s, a, b, longest);
+}
+
+bool is_active(const Triangulation& t, const VertexMarks& marks, Triangle k) {
+    return marks.active[t.tri[3 * k]] || marks.active[t.tri[3 * k + 1]] ||
+           marks.active[t.tri[3 * k + 2]];
 }
 
 /// The triangles with an edge to be split, as they are before any is.
@@ -78,6 +83,7 @@ Array<Triangle> with_long_edge(const Triangulation& t, const SurfaceFrames& s,
         t.region.size(), BLOCK, [&](std::size_t first, std::size_t last, Array<Triangle>& own) {
             for (auto k = static_cast<Triangle>(first); k < static_cast<Triangle>(last); ++k) {
                 const HalfEdge e = 3 * k;
+                if (t.region[k] == DEAD || !is_active(t, marks, k)) continue;
                 if (is_long(t, s, marks, e, end, longest) ||
                     is_long(t, s, marks, e + 1, end, longest) ||
                     is_long(t, s, marks, e + 2, end, longest))
@@ -127,6 +133,7 @@ Vertex split_long_edges(Triangulation& t, SurfaceFrames& s, VertexMarks& marks, 
     const Vertex first = t.vertices();
     const Triangle end = t.triangles();
     const auto split_edges_of = [&](Triangle k) {
+        if (t.region[k] == DEAD || !is_active(t, marks, k)) return;
         for (HalfEdge e = 3 * k; e < 3 * k + 3; ++e)
             if (is_long(t, s, marks, e, first, longest)) halve(t, s, marks, e);
     };

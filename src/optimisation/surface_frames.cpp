@@ -102,8 +102,8 @@ void SurfaceFrames::resize(std::size_t vertices) {
     if (is_anisotropic) metric_root.resize(vertices);
 }
 
-void set_frame(Triangulation& t, SurfaceFrames& s, const Background& background, Vertex v,
-               const SurfacePoint& at, double largest) {
+void set_frame(Triangulation& t, SurfaceFrames& s, Vertex v, const SurfacePoint& at,
+               double largest) {
     const double h = s.size[v];
     double e = dot(at.rx, at.rx), g = dot(at.ry, at.ry);
     const double f = dot(at.rx, at.ry);
@@ -124,9 +124,6 @@ void set_frame(Triangulation& t, SurfaceFrames& s, const Background& background,
     const auto over_h = [h](Point3 a) { return Point3{a.x / h, a.y / h, a.z / h}; };
     s.tangent_map[v] = {over_h(m.xx * at.rx + m.xy * at.ry), over_h(m.xy * at.rx + m.yy * at.ry)};
     if (!s.is_anisotropic) return;
-    const MetricRoot3 w = background.metric_root_3d_at(t.xy[v].x, t.xy[v].y);
-    const double by = s.scale[v];
-    s.metric_root[v] = {w.xx / by, w.xy / by, w.xz / by, w.yy / by, w.yz / by, w.zz / by};
     stretch(t, s, v, {scale * (e + root), scale * f, scale * (g + root)});
 }
 

@@ -65,17 +65,22 @@ struct SurfacePoint {
     Point3 r, rx, ry;
 };
 
-/// Set the wanted length at v from the size field.
+/// Set the wanted length at v, and W where it depends on the direction, from the size field.
 inline void set_size(const Triangulation& t, SurfaceFrames& s, const Background& background,
                      Vertex v) {
-    s.size[v] = s.scale[v] * background.scalar_size_at(t.xy[v].x, t.xy[v].y);
+    const LeafWeights at = background.leaf(t.xy[v].x, t.xy[v].y);
+    s.size[v] = s.scale[v] * background.scalar_size(at);
+    if (!s.is_anisotropic) return;
+    const MetricRoot3 w = background.metric_root_3d_of(at);
+    const double by = s.scale[v];
+    s.metric_root[v] = {w.xx / by, w.xy / by, w.xz / by, w.yy / by, w.yz / by, w.zz / by};
 }
 
-/// Set the frame of vertex v, whose size is set, and its size tensor to the exact H = h I^(-1/2).
+/// Set the frame of vertex v, whose size and W are set, and its size tensor to the exact H = h I^(-1/2).
 ///
 /// Near a degenerate point the eigenvalues of I^(-1/2) are capped at ``largest``.
-void set_frame(Triangulation& t, SurfaceFrames& s, const Background& background, Vertex v,
-               const SurfacePoint& at, double largest);
+void set_frame(Triangulation& t, SurfaceFrames& s, Vertex v, const SurfacePoint& at,
+               double largest);
 
 /// The step in space, along the tangent plane of v, that looks like ``step`` there.
 Point3 lift(const SurfaceFrames& s, Vertex v, Point2 step);
@@ -113,6 +118,23 @@ inline double edge_length(const SurfaceFrames& s, Vertex v, Vertex p) {
     const double first = norm(apply(s.metric_root[v], d));
     const double second = norm(apply(s.metric_root[p], d));
     return 2.0 * first * second / std::max(first + second, 1e-300);
+}
+
+/// Is the edge longer than ``length``, as ``edge_length`` gives it? Squares tell, as a rule.
+inline bool is_longer(const SurfaceFrames& s, Vertex v, Vertex p, double length) {
+    constexpr double LESS = 1.0 - 1e-12, MORE = 1.0 + 1e-12;  // rounding does not count beyond
+    const Point3 d = s.point[p] - s.point[v];
+    if (s.is_anisotropic) {  // between the lengths that the two ends see
+        const Point3 at_v = apply(s.metric_root[v], d), at_p = apply(s.metric_root[p], d);
+        const double first = dot(at_v, at_v), second = dot(at_p, at_p), square = length * length;
+        if (std::min(first, second) > MORE * square) return true;
+        if (std::max(first, second) < LESS * square) return false;
+    } else {
+        const double half = 0.5 * length * (s.size[v] + s.size[p]), square = dot(d, d);
+        if (square > MORE * (half * half)) return true;
+        if (square < LESS * (half * half)) return false;
+    }
+    return edge_length(s, v, p) > length;
 }
 
 /// Height of p over the tangent plane of v: half the normal curvature times length^2.

@@ -47,17 +47,6 @@ class SharedWatch {
     bool goes_on_ = true;
 };
 
-/// The coordinate that halves what there is to be packed; ``area(x)``: up to x.
-template <class Area>
-double halving(double low, double high, Area area) {
-    const double half = 0.5 * area(high);
-    for (int step = 0; step < BISECTIONS; ++step) {
-        const double middle = 0.5 * (low + high);
-        (area(middle) < half ? low : high) = middle;
-    }
-    return 0.5 * (low + high);
-}
-
 struct LaidLine {
     Line line;
     Array<Circle> circles;
@@ -71,13 +60,9 @@ LaidLine line_through(const Background& background, Point2 low, Point2 high, std
     const std::size_t upward = circles_along(background, line, low, high, most).size();
     if (upward == 0 || (across != 0 && across <= upward)) {
         line.direction = {1.0, 0.0};
-        line.through.y = halving(low.y, high.y, [&](double upper) {
-            return metric_area_of_box(background, high.x, upper);
-        });
+        line.through.y = halving_coordinate(background, Axis::y, low.y, high, BISECTIONS);
     } else {
-        line.through.x = halving(low.x, high.x, [&](double upper) {
-            return metric_area_of_box(background, upper, high.y);
-        });
+        line.through.x = halving_coordinate(background, Axis::x, low.x, high, BISECTIONS);
     }
     return {line, circles_along(background, line, low, high, most)};
 }

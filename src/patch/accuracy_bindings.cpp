@@ -1,7 +1,6 @@
 #include <nanobind/stl/pair.h>
 
 #include "binding/arrays.hpp"
-#include "patch/creases.hpp"
 #include "patch/deviation.hpp"
 #include "patch/folds.hpp"
 #include "patch/limits.hpp"
@@ -19,8 +18,6 @@ using SpaceTriangles =
     nb::ndarray<const double, nb::shape<-1, 3, 3>, nb::c_contig, nb::device::cpu>;
 using PlaneTriangles =
     nb::ndarray<const double, nb::shape<-1, 3, 2>, nb::c_contig, nb::device::cpu>;
-using EdgeCorners =
-    nb::ndarray<const double, nb::shape<-1, 2, 3, 2>, nb::c_contig, nb::device::cpu>;
 
 template <class T, class Given>
 std::span<const T> shaped_rows(const Given& array) {
@@ -110,21 +107,6 @@ void bind_accuracy(nb::module_& m) {
         nb::arg("surface"), nb::arg("corners"), nb::arg("uv"),
         "Of the angles (n,) between triangles (n, 3, 3) and the surface's normals at uv (n, 2).\n\n"
         "NaN where there is no normal.");
-    m.def(
-        "on_crease",
-        [](const Surface& surface, const EdgeCorners& uv, const Vector<std::uint8_t>& alike,
-           double angle, double diagonal) {
-            require_rows(alike.shape(0), uv.shape(0), "alike");
-            return view(measured(surface, [&](SurfaceReader& reader) {
-                return on_crease(reader, shaped_rows<CornersBesideEdge>(uv),
-                                 rows<std::uint8_t>(alike), angle, diagonal);
-            }));
-        },
-        nb::arg("surface"), nb::arg("uv"), nb::arg("alike"), nb::arg("angle"), nb::arg("diagonal"),
-        "Which edges (k,) lie on a crease, at an apex, or as good as at one: 0 and 1.\n\n"
-        "uv: (k, 2, 3, 2) of the corners of both triangles, the ends of the edge first. alike: "
-        "(k,) whether both begin at one end. As good as at an apex: curved so much that ``angle`` "
-        "(degrees) would ask for less than the finest size, a fraction of the diagonal.");
 }
 
 }  // namespace surfmesh::binding

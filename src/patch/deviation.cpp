@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "elementary_functions/power.hpp"
 #include "patch/samples.hpp"
@@ -15,8 +16,8 @@ namespace {
 constexpr double NEAR_FOOT = 0.05;
 constexpr double ON_SURFACE = 1e-9;  // of the size: a vertex this near to r(u, v) is on it
 constexpr double FAR_FOOT = 0.2;     // of the longest side: r(u, v) so far across says nothing
-constexpr double NEAR_LIMIT = 0.94;  // of the limit: from there the few samples do not suffice
-constexpr double UNSURE = 2.0;       // times what they miss a quadric by, the error of their peak
+constexpr double CLOSE_FOOT = 0.02;  // the same of a triangle's height: 0.2 % of d
+constexpr double NEAR_LIMIT = 0.88;  // of the limit: a quadric may be 4.2 % farther between samples
 constexpr int STEPS = 12;     // of a projection, at most: where speeds change fast guesses are poor
 constexpr int FEW_STEPS = 4;  // in the mesher, where triangles are small and guesses near
 constexpr std::size_t BLOCK = 2048;  // triangles looked at together
@@ -82,89 +83,165 @@ struct TriangleBlock {
     std::span<double> error;
 };
 
-double longest_side(const SpaceTriangle& t) {
-    return std::max({norm(t[0] - t[1]), norm(t[1] - t[2]), norm(t[2] - t[0])});
+/// Of a sample, squared: its distance along the normal at its foot, and from the foot itself.
+struct SquaredOffset {
+    double along, whole;
+};
+
+SquaredOffset squared_offset(Point3 point, Point3 foot, Point3 ru, Point3 rv) {
+    const Point3 n = cross(ru, rv), gap = point - foot;
+    const double squared = dot(n, n), whole = dot(gap, gap), high = dot(gap, n);
+    return {squared > 0.0 ? high * high / squared : whole, whole};
 }
 
-/// Heights of the surface over a triangle: in the middles of the sides, and at the centroid.
-using FewHeights = std::array<double, FEW_SAMPLES.size()>;
-
-/// Over a quadric the height is 4 (a l1 l2 + b l2 l3 + c l3 l1), with a, b and c those in the
-/// middles of the sides: its largest absolute value in the triangle.
-double peak_of_quadric(double a, double b, double c) {
-    const double on_side = std::max({std::abs(a), std::abs(b), std::abs(c)});
-    // where the gradient is alike in all directions: l1, l2, l3 as these three
-    const double l1 = b * (a + c - b), l2 = c * (a + b - c), l3 = a * (b + c - a);
-    const double sum = l1 + l2 + l3;
-    const bool inside =
-        sum > 0.0 ? l1 > 0.0 && l2 > 0.0 && l3 > 0.0 : l1 < 0.0 && l2 < 0.0 && l3 < 0.0;
-    return inside ? std::max(on_side, std::abs(4.0 * a * b * c / sum)) : on_side;
+/// The offsets at one sample of triangles of a block, from ``offsets`` on.
+void measure_at(SurfaceReader& surface, const Chart& chart, const TriangleBlock& block,
+                const Array<std::int32_t>& triangles, const BarycentricWeights& w,
+                std::span<SquaredOffset> offsets) {
+    const std::size_t count = triangles.size();
+    Array<Point2> xy(count);
+    for (std::size_t k = 0; k < count; ++k) xy[k] = at_weights(block.xy[triangles[k]], w);
+    surface.read(all(chart.to_uv(all(xy))), 1);
+    for (std::size_t k = 0; k < count; ++k)
+        offsets[k] = squared_offset(at_weights(block.corners[triangles[k]], w), surface[0][k],
+                                    surface[1][k], surface[2][k]);
 }
 
-/// The largest distance between and at few samples, with an allowance for what is no quadric.
-double peak_of_few(const FewHeights& h) {
-    const double at_centroid = 4.0 / 9.0 * (h[0] + h[1] + h[2]);
-    return std::max(peak_of_quadric(h[0], h[1], h[2]), std::abs(h[3])) +
-           UNSURE * std::abs(h[3] - at_centroid);
-}
+/// Squares of the longest side and of the height over it.
+struct SquaredExtent {
+    double longest, height;
 
-/// Fill in the distances as a few samples have them; the triangles that need a closer look.
-Array<std::int32_t> look_at_few(SurfaceReader& surface, const Chart& chart,
-                                const TriangleBlock& block, double limit) {
-    const std::size_t count = block.corners.size();
-    Array<Point2> uv(count);
-    Array<FewHeights> height(count);
-    Array<std::uint8_t> unreliable(count, 0);
-    for (std::size_t k = 0; k < FEW_SAMPLES.size(); ++k) {
-        const BarycentricWeights& w = FEW_SAMPLES[k];
-        for (std::size_t i = 0; i < count; ++i) uv[i] = chart.to_uv(at_weights(block.xy[i], w));
-        surface.read(all(uv), 1);
-        for (std::size_t i = 0; i < count; ++i) {
-            const Point3 point = at_weights(block.corners[i], w);
-            const TangentPlaneOffset found =
-                tangent_plane_offset(point, {surface[0][i], surface[1][i], surface[2][i]});
-            const bool below = dot(found.normal, point - surface[0][i]) < 0.0;
-            height[i][k] = below ? -found.along : found.along;
-            if (found.across > FAR_FOOT * longest_side(block.corners[i])) unreliable[i] = 1;
-        }
+    explicit SquaredExtent(const SpaceTriangle& t) {
+        const Point3 a = t[1] - t[0], b = t[2] - t[0], c = t[2] - t[1], n = cross(a, b);
+        longest = std::max({dot(a, a), dot(b, b), dot(c, c)});
+        height = longest > 0.0 ? dot(n, n) / longest : 0.0;
     }
+};
+
+/// Offsets of the triangles of a block at the first samples, row by row, and who needs more.
+struct FewSamples {
+    Array<SquaredOffset> offsets;
     Array<std::int32_t> close;
+};
+
+/// Fill in the distances at a few samples.
+FewSamples look_at_few(SurfaceReader& surface, const Chart& chart, const TriangleBlock& block,
+                       double limit) {
+    const std::size_t count = block.corners.size();
+    FewSamples found{Array<SquaredOffset>(FEW_SAMPLES.size() * count), {}};
+    Array<std::int32_t> every(count);
+    std::iota(every.begin(), every.end(), 0);
+    for (std::size_t n = 0; n < FEW_SAMPLES.size(); ++n)
+        measure_at(surface, chart, block, every, FEW_SAMPLES[n],
+                   {found.offsets.data() + n * count, count});
     for (std::size_t i = 0; i < count; ++i) {
-        block.error[i] = peak_of_few(height[i]);
-        if (unreliable[i] || block.error[i] > NEAR_LIMIT * limit)
-            close.push_back(static_cast<std::int32_t>(i));
+        double largest = 0.0, across = 0.0;
+        for (std::size_t n = 0; n < FEW_SAMPLES.size(); ++n) {
+            const SquaredOffset& at = found.offsets[n * count + i];
+            largest = std::max(largest, at.along);
+            across = std::max(across, at.whole - at.along);
+        }
+        block.error[i] = std::sqrt(largest);
+        const double far = FAR_FOOT * FAR_FOOT * SquaredExtent(block.corners[i]).longest;
+        if (!(across <= far) || !(block.error[i] <= NEAR_LIMIT * limit))
+            found.close.push_back(static_cast<std::int32_t>(i));
     }
-    return close;
+    return found;
 }
 
-/// Fill in the distances of triangles at many samples, each with its nearest point.
-void look_at_many(SurfaceReader& surface, const Chart& chart, const TriangleBlock& block,
-                  const Array<std::int32_t>& close, double limit) {
+/// Samples whose nearest points are searched for.
+struct Searches {
     Array<Point3> points;
     Array<Point2> uv;
     Array<std::int64_t> triangle;
+
+    void add(const Chart& chart, const TriangleBlock& block, std::int32_t i,
+             const BarycentricWeights& w, std::size_t k) {
+        points.push_back(at_weights(block.corners[i], w));
+        uv.push_back(chart.to_uv(at_weights(block.xy[i], w)));
+        triangle.push_back(static_cast<std::int64_t>(k));
+    }
+};
+
+/// Raise the distances of triangles to those of the searches.
+void search(SurfaceReader& surface, const Chart& chart, const TriangleBlock& block,
+            const Array<std::int32_t>& close, const Searches& left, double limit) {
+    if (left.points.empty()) return;
     Array<ParameterTriangle> corners;
-    for (std::size_t k = 0; k < close.size(); ++k) {
-        const std::int32_t i = close[k];
-        for (const BarycentricWeights& w : DENSE_SAMPLES) {
-            points.push_back(at_weights(block.corners[i], w));
-            uv.push_back(chart.to_uv(at_weights(block.xy[i], w)));
-            triangle.push_back(static_cast<std::int64_t>(k));
-        }
+    for (const std::int32_t i : close)
         corners.push_back({chart.to_uv(block.xy[i][0]), chart.to_uv(block.xy[i][1]),
                            chart.to_uv(block.xy[i][2])});
-        block.error[i] = 0.0;
-    }
     const ClosestPoints found =
-        closest_points_in_triangles(surface, all(points), all(uv), all(corners), all(triangle),
-                                    CHORD_MARGIN * limit, FEW_STEPS);
-    for (std::size_t k = 0; k < points.size(); ++k) {
-        double& error = block.error[close[triangle[k]]];
+        closest_points_in_triangles(surface, all(left.points), all(left.uv), all(corners),
+                                    all(left.triangle), CHORD_MARGIN * limit, FEW_STEPS);
+    for (std::size_t k = 0; k < left.points.size(); ++k) {
+        double& error = block.error[close[left.triangle[k]]];
         error = std::max(error, found.distance[k]);
     }
 }
 
+/// Fill in the distances of the triangles ``few.close`` at many samples.
+///
+/// What is surely within the margin of the limit needs no search: the foot is as near, or it is
+/// near enough for its tangent plane to say so.
+void look_at_many(SurfaceReader& surface, const Chart& chart, const TriangleBlock& block,
+                  const FewSamples& few, double limit) {
+    const Array<std::int32_t>& close = few.close;
+    const double within = CHORD_MARGIN * limit * CHORD_MARGIN * limit;
+    Array<double> largest(close.size(), 0.0), near(close.size());
+    for (std::size_t k = 0; k < close.size(); ++k)
+        near[k] = CLOSE_FOOT * CLOSE_FOOT * SquaredExtent(block.corners[close[k]]).height;
+    Searches left;
+    const auto judge = [&](std::size_t k, const SquaredOffset& at, const BarycentricWeights& w) {
+        if (at.whole <= within)
+            largest[k] = std::max(largest[k], at.along);
+        else if (at.along <= within && at.whole - at.along <= near[k])
+            largest[k] = std::max(largest[k], at.along);
+        else
+            left.add(chart, block, close[k], w, k);
+    };
+    for (std::size_t n = 0; n < FEW_SAMPLES.size(); ++n)
+        for (std::size_t k = 0; k < close.size(); ++k)
+            judge(k, few.offsets[n * block.corners.size() + close[k]], FEW_SAMPLES[n]);
+    Array<SquaredOffset> offsets(close.size());
+    for (const BarycentricWeights& w : OTHER_SAMPLES) {
+        measure_at(surface, chart, block, close, w, {offsets.data(), offsets.size()});
+        for (std::size_t k = 0; k < close.size(); ++k) judge(k, offsets[k], w);
+    }
+    for (std::size_t k = 0; k < close.size(); ++k) block.error[close[k]] = std::sqrt(largest[k]);
+    search(surface, chart, block, close, left, limit);
+}
+
 }  // namespace
+
+Array<double> triangle_widths(SurfaceReader& surface, const Chart& chart,
+                              std::span<const SpaceTriangle> corners,
+                              std::span<const PlaneTriangle> xy, Array<double> deviation) {
+    surface.for_each_block(
+        corners.size(), BLOCK, [&](SurfaceReader& reader, std::size_t first, std::size_t last) {
+            const std::size_t count = last - first;
+            Array<double> high(count, 0.0), low(count, 0.0);  // the corners are on the surface
+            Array<Point2> uv(count);
+            for (const BarycentricWeights& w : FEW_SAMPLES) {
+                for (std::size_t i = 0; i < count; ++i)
+                    uv[i] = chart.to_uv(at_weights(xy[first + i], w));
+                reader.read(all(uv), 1);
+                for (std::size_t i = 0; i < count; ++i) {
+                    const Point3 point = at_weights(corners[first + i], w);
+                    const TangentPlaneOffset found =
+                        tangent_plane_offset(point, {reader[0][i], reader[1][i], reader[2][i]});
+                    const double along = dot(found.normal, point - reader[0][i]);
+                    high[i] = std::max(high[i], along);
+                    low[i] = std::min(low[i], along);
+                }
+            }
+            for (std::size_t i = 0; i < count; ++i) {
+                double& found = deviation[first + i];
+                found += std::min(high[i], -low[i]);  // of the side that has less
+            }
+        });
+    return deviation;
+}
 
 PointDeviations point_deviations(SurfaceReader& surface, std::span<const Point3> points,
                                  std::span<const Point2> uv, std::span<const double> size) {
@@ -204,15 +281,16 @@ Array<double> triangle_deviations(SurfaceReader& surface, const Chart& chart,
                                   std::span<const SpaceTriangle> corners,
                                   std::span<const PlaneTriangle> xy, double limit) {
     Array<double> error(corners.size(), 0.0);
-    surface.for_each_block(
-        corners.size(), BLOCK, [&](SurfaceReader& reader, std::size_t first, std::size_t last) {
-            const std::size_t count = last - first;
-            const TriangleBlock block{corners.subspan(first, count),
-                                      xy.subspan(first, count),
-                                      {error.data() + first, count}};
-            const Array<std::int32_t> close = look_at_few(reader, chart, block, limit);
-            if (!close.empty()) look_at_many(reader, chart, block, close, limit);
-        });
+    surface.for_each_block(corners.size(), BLOCK,
+                           [&](SurfaceReader& reader, std::size_t first, std::size_t last) {
+                               const std::size_t count = last - first;
+                               const TriangleBlock block{corners.subspan(first, count),
+                                                         xy.subspan(first, count),
+                                                         {error.data() + first, count}};
+                               const FewSamples few = look_at_few(reader, chart, block, limit);
+                               if (!few.close.empty())
+                                   look_at_many(reader, chart, block, few, limit);
+                           });
     return error;
 }
 

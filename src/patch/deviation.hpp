@@ -49,4 +49,10 @@ Array<double> triangle_deviations(SurfaceReader& surface, const Chart& chart,
                                   std::span<const SpaceTriangle> corners,
                                   std::span<const PlaneTriangle> xy, double limit);
 
+/// The width of the band between parallels of the surface that each triangle needs, seen from the
+/// tangent planes at four samples; ``deviation`` where it lies on one side, as it was found.
+Array<double> triangle_widths(SurfaceReader& surface, const Chart& chart,
+                              std::span<const SpaceTriangle> corners,
+                              std::span<const PlaneTriangle> xy, Array<double> deviation);
+
 }  // namespace surfmesh

@@ -1,6 +1,7 @@
 #include "patch/findings.hpp"
 
 #include <algorithm>
+#include <utility>
 
 #include "optimisation/marked_triangles.hpp"
 #include "patch/creases.hpp"
@@ -70,8 +71,12 @@ Array<double> deviations(PatchState& state, std::span<const Triangle> triangles,
         corners.push_back(corners_in_space(state, k));
         xy.push_back(corners_in_plane(state, k));
     }
-    return triangle_deviations(state.surface(), state.chart(), {corners.data(), corners.size()},
-                               {xy.data(), xy.size()}, chord);
+    const std::span<const SpaceTriangle> in_space{corners.data(), corners.size()};
+    const std::span<const PlaneTriangle> in_plane{xy.data(), xy.size()};
+    Array<double> found =
+        triangle_deviations(state.surface(), state.chart(), in_space, in_plane, chord);
+    if (!state.asked().is_width) return found;
+    return triangle_widths(state.surface(), state.chart(), in_space, in_plane, std::move(found));
 }
 
 Array<Triangle> find_folds(PatchState& state) {

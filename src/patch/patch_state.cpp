@@ -134,8 +134,8 @@ void PatchState::set_block(SurfaceReader& reader, std::span<const Vertex> vertic
     reader.read({uv.data(), uv.size()}, 1);
     for (std::size_t k = 0; k < vertices.size(); ++k) {
         const Point3 du = on_kink ? ru[k] : reader[1][k], dv = on_kink ? rv[k] : reader[2][k];
-        set_frame(t, frames, setting_.background, vertices[k],
-                  {reader[0][k], rates[k].x * du, rates[k].y * dv}, largest_);
+        set_frame(t, frames, vertices[k], {reader[0][k], rates[k].x * du, rates[k].y * dv},
+                  largest_);
     }
 }
 

@@ -1,6 +1,7 @@
 // Barycentric places at which triangles are looked at.
 #pragma once
 
+#include <algorithm>
 #include <array>
 
 namespace surfmesh {
@@ -27,6 +28,16 @@ inline constexpr auto DENSE_SAMPLES = [] {
             samples[count++] = {double(i) / DENSE_GRID, double(j) / DENSE_GRID,
                                 double(k) / DENSE_GRID};
         }
+    return samples;
+}();
+
+/// The dense samples that are not among the few.
+inline constexpr auto OTHER_SAMPLES = [] {
+    std::array<BarycentricWeights, DENSE_SAMPLES.size() - FEW_SAMPLES.size()> samples{};
+    std::size_t count = 0;
+    for (const BarycentricWeights& w : DENSE_SAMPLES)
+        if (std::find(FEW_SAMPLES.begin(), FEW_SAMPLES.end(), w) == FEW_SAMPLES.end())
+            samples[count++] = w;
     return samples;
 }();
 

@@ -86,8 +86,9 @@ class Changes {
 
 Triangles suspects_by_estimate(const PatchState& state, double chord) {
     const Array<double> estimate = estimate_deviations(state.t, state.frames);
-    const double suspect = state.is_anisotropic() ? SUSPECT_STRETCHED : SUSPECT;
-    const double least = (estimate.size() > FEW_TRIANGLES ? suspect : FLAT) * chord;
+    const double one_sided = state.is_anisotropic() ? SUSPECT_STRETCHED : SUSPECT;
+    const double part = state.asked().is_width ? 0.5 * one_sided : one_sided;
+    const double least = (estimate.size() > FEW_TRIANGLES ? part : FLAT) * chord;
     return collect_by_blocks<Triangle>(
         estimate.size(), BLOCK, [&](std::size_t first, std::size_t last, Triangles& found) {
             for (auto k = static_cast<Triangle>(first); k < static_cast<Triangle>(last); ++k)

@@ -106,6 +106,15 @@ auto closer(const Surface& surface, const Corners3& corners, const Corners2& uv,
     return view(found);
 }
 
+auto parted(const Corners2& uv, const Vector<std::int32_t>& twins) {
+    const std::size_t count = uv.shape(0);
+    require_rows(twins.shape(0), 3 * count, "twins");
+    for (const std::int32_t twin : rows<std::int32_t>(twins))
+        if (twin < NIL || (twin >= 0 && static_cast<std::size_t>(twin) >= 3 * count))
+            throw nb::value_error("twins has an index that is out of range");
+    return view(parted_half_edges(rows<PlaneCorners>(uv), rows<std::int32_t>(twins)));
+}
+
 using Segments3 = nb::ndarray<const double, nb::shape<-1, 2, 3>, nb::c_contig, nb::device::cpu>;
 
 auto bounds_of_curve(const Curve& curve, const Matrix<double, 2>& t, const Segments3& ends) {
@@ -127,16 +136,20 @@ void bind_proof(nb::module_& m) {
     m.def("triangle_bounds", &bounds_of, nb::arg("surface"), nb::arg("corners"), nb::arg("uv"),
           nb::arg("limits"), nb::arg("rims"), nb::arg("depth"),
           nb::arg("corners_are_on_surface") = true,
-          "Of triangles with corners (m, 3, 3) and parameters (m, 3, 2): (m, 10) lengths, or None "
+          "Of triangles with corners (m, 3, 3) and parameters (m, 3, 2): (m, 28) lengths, or None "
           "where the surface has no bounds.\n\nHeight over the plane; how far the piece leaves "
           "the sides 0, 1, 2 within it; how far it is from these at rims; shift within the plane; "
-          "the whole distance point by point; how far corners are off. Triangles whose height, or "
+          "the whole distance point by point; how far corners are off; what ring_bounds asks of "
+          "sides, and look_closer of cells. Triangles whose height, or "
           "distance at a rim (bit k of ``rims``: side k), is beyond ``limits`` are cut in four, "
           "``depth`` times. corners_are_on_surface=False: the corners give the plane alone.");
     m.def("curve_bounds", &bounds_of_curve, nb::arg("curve"), nb::arg("t"), nb::arg("ends"),
           "(k,) how far pieces of a curve, from t[:, 0] to t[:, 1], and the segments between "
           "``ends`` (k, 2, 3) are from each other at most; infinite where the curve has no "
           "bounds.");
+    m.def("parted_half_edges", &parted, nb::arg("uv"), nb::arg("twins"),
+          "(k,) half-edges with a twin after them whose ends have other parameters in the twin's "
+          "triangle, as at seams.\n\nuv: (m, 3, 2); twins: (3 m,), -1 at rims.");
     m.def("ring_bounds", &around, nb::arg("corners"), nb::arg("triangles"), nb::arg("twins"),
           nb::arg("bounds"),
           "(m,) how far triangles and surface are from each other at most, both ways, each with "

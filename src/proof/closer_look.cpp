@@ -4,6 +4,8 @@
 #include <bit>
 #include <cmath>
 
+#include "proof/covering.hpp"
+
 namespace surfmesh {
 namespace {
 
@@ -24,8 +26,16 @@ using Cell = std::array<std::size_t, 3>;
 
 class Looker {
   public:
-    Looker(const Surface& surface, const ProofMesh& mesh, const PoleGaps& gaps)
-        : surface_(surface), mesh_(mesh), gaps_(gaps), bounds_(mesh.bounds), ring_(mesh) {}
+    /// rings_alone: not point by point.
+    Looker(const Surface& surface, const ProofMesh& mesh, const PoleGaps& gaps, bool rings_alone)
+        : surface_(surface),
+          mesh_(mesh),
+          gaps_(gaps),
+          bounds_(mesh.bounds),
+          ring_(mesh),
+          rings_alone_(rings_alone),
+          layers_(mesh.corners.size(), 0),
+          over_ring_(mesh.corners.size(), intervals::INFINITE) {}
 
     SurfaceStatus compute_first(std::span<const std::int32_t> which, Array<EnclosedPoint>& points);
 
@@ -36,16 +46,31 @@ class Looker {
         for (Array<EnclosedPoint>& known : known_) known.clear();
         known_[FIRST_LEVEL] = Array<EnclosedPoint>(first);
         if (!ring_.begin(t)) return SurfaceStatus::DONE;
-        if (const auto status = look_point_by_point(t, limit, levels, bound);
-            status != SurfaceStatus::DONE)
-            return status;
+        if (!rings_alone_)
+            if (const auto status = look_point_by_point(t, limit, levels, bound);
+                status != SurfaceStatus::DONE)
+                return status;
         for (int layer = 0; layer < LAYERS && !(bound <= limit); ++layer) {
             if (!ring_.add_layer()) return SurfaceStatus::DONE;
             if (!(ring_.free() > 0.0)) continue;
-            const auto status = look_with_ring(t, limit, levels, bound);
+            double found = intervals::INFINITE;
+            const auto status = look_with_ring(t, limit, levels, found);
             if (status != SurfaceStatus::DONE) return status;
+            over_ring_[t] = std::min(over_ring_[t], found);
+            if (!(found < bound)) continue;
+            bound = found;
+            layers_[t] = static_cast<std::uint8_t>(layer + 1);
         }
         return SurfaceStatus::DONE;
+    }
+    /// At all of these, those that have a bound already too.
+    SurfaceStatus look_at_all(std::span<const std::int32_t> which, std::span<const double> limits,
+                              int levels, std::span<double> bound);
+
+    [[nodiscard]] LookedAt looked_at(const Array<double>& without) const {
+        return {{layers_.data(), layers_.size()},
+                {over_ring_.data(), over_ring_.size()},
+                {without.data(), without.size()}};
     }
 
   private:
@@ -65,7 +90,7 @@ class Looker {
                 return status;
             most = std::max(most, found);
         }
-        bound = std::min(bound, most);
+        bound = most;
         return SurfaceStatus::DONE;
     }
     SurfaceStatus look_at_piece(double limit, int levels, double& bound) {
@@ -76,7 +101,8 @@ class Looker {
             if (found < bound) bound = found;
             // more cells take away what is between them, and no more
             const double scale = 1.0 / static_cast<double>(std::size_t{1} << (2 * level));
-            const double between = scale * (piece_.bounds.height + 2.0 * piece_.bounds.whole);
+            const double between =
+                scale * (piece_.bounds.cell_height + 2.0 * piece_.bounds.cell_whole);
             const bool is_hopeless = found < intervals::INFINITE && found - 40.0 * between > limit;
             if (bound <= limit || is_hopeless) break;
         }
@@ -99,6 +125,9 @@ class Looker {
     PoleGaps gaps_;
     std::span<const TriangleBounds> bounds_;
     TriangleRing ring_;
+    bool rings_alone_;
+    Array<std::uint8_t> layers_;  // of triangles around, with which a bound holds
+    Array<double> over_ring_;     // heights over those around
     Piece piece_{};
     std::int32_t triangle_ = NIL;  // that is looked at
     Array<Point2> uv_, feet_;
@@ -129,7 +158,7 @@ SurfaceStatus Looker::look_point_by_point(std::int32_t t, double limit, int leve
                 most = std::max(most, norm(points_[k].value - flat) + 2.0 * points_[k].error);
             }
         const double size = norm(p[0]) + norm(p[1]) + norm(p[2]);
-        const double between = bounds_[t].whole / (n * n);
+        const double between = bounds_[t].cell_whole / (n * n);
         const double found = most * (1.0 + ROUNDING) + between + ROUNDING * 0x1p-4 * size +
                              rounded_uv_ * ring_.longest();
         bound = std::min(bound, found);
@@ -219,7 +248,7 @@ SurfaceStatus Looker::bound_by_cells(int level, double& found) {
     inside_.resize(ring_.count() * count);
     farthest_ = 0.0;
     for (std::size_t k = 0; k < count; ++k) feet_[k] = ring_.foot(points_[k].value);
-    for (std::size_t m = 0; m < ring_.count(); ++m) measure(m, scale * piece_.bounds.whole);
+    for (std::size_t m = 0; m < ring_.count(); ++m) measure(m, scale * piece_.bounds.cell_whole);
     for (std::size_t k = 0; k < count; ++k) {
         const auto& own = inside_[k];
         if (std::min({own[0], own[1], own[2]}) >= 0.0) continue;
@@ -229,7 +258,7 @@ SurfaceStatus Looker::bound_by_cells(int level, double& found) {
                                                   distance_to_segment(feet_[k], c[2], c[0])}));
     }
     found = intervals::INFINITE;
-    farthest_ += scale * piece_.bounds.whole + (ROUNDING + rounded_uv_) * ring_.longest();
+    farthest_ += scale * piece_.bounds.cell_whole + (ROUNDING + rounded_uv_) * ring_.longest();
     if (!(farthest_ < ring_.free())) return SurfaceStatus::DONE;
     found = highest(side, scale) * (1.0 + ROUNDING);
     if (piece_.is_own) found = std::max(found, farthest_at_rims(side, scale));
@@ -275,7 +304,7 @@ double Looker::beyond_rim(const Neighbour& member, std::size_t m, std::size_t s,
 double Looker::height_of(const Cell& cell, double scale) const {
     const std::size_t count = uv_.size();
     const double rounded = (ROUNDING + rounded_uv_) * ring_.longest();
-    const double grown = scale * piece_.bounds.whole + rounded;
+    const double grown = scale * piece_.bounds.cell_whole + rounded;
     const auto& [a, b, c] = cell;
     double most = 0.0, from_rim = intervals::INFINITE, own = 0.0;
     bool leaves = false;
@@ -285,7 +314,8 @@ double Looker::height_of(const Cell& cell, double scale) const {
         if (!member.is_near && !has_rim) continue;
         const double* height = height_.data() + m * count;
         const std::array<double, 3>* inside = inside_.data() + m * count;
-        const double sag = scale * (piece_.bounds.height + 2.0 * member.sine * piece_.bounds.whole);
+        const double sag =
+            scale * (piece_.bounds.cell_height + 2.0 * member.sine * piece_.bounds.cell_whole);
         const double high = std::max({height[a], height[b], height[c]}) + sag + rounded;
         if (m == 0) own = high;
         // a foot along this member's normal is off by so much
@@ -335,7 +365,27 @@ double Looker::farthest_at_rims(std::size_t side, double scale) const {
         }
     }
     const double rounded = (ROUNDING + rounded_uv_) * ring_.longest();
-    return most > 0.0 ? most + scale * piece_.bounds.whole + piece_.bounds.corner + rounded : 0.0;
+    return most > 0.0 ? most + scale * piece_.bounds.cell_whole + piece_.bounds.corner + rounded
+                      : 0.0;
+}
+
+SurfaceStatus Looker::look_at_all(std::span<const std::int32_t> which,
+                                  std::span<const double> limits, int levels,
+                                  std::span<double> bound) {
+    Array<EnclosedPoint> points;
+    for (std::size_t start = 0; start < which.size(); start += TOGETHER) {
+        const std::span some = which.subspan(start, std::min(TOGETHER, which.size() - start));
+        if (const auto status = compute_first(some, points); status != SurfaceStatus::DONE)
+            return status;
+        const std::size_t each = points.size() / some.size();
+        for (std::size_t k = 0; k < some.size(); ++k) {
+            const auto t = static_cast<std::size_t>(some[k]);
+            const auto status =
+                look(some[k], {points.data() + k * each, each}, limits[t], levels, bound[t]);
+            if (status != SurfaceStatus::DONE) return status;
+        }
+    }
+    return SurfaceStatus::DONE;
 }
 
 }  // namespace
@@ -343,20 +393,22 @@ double Looker::farthest_at_rims(std::size_t side, double scale) const {
 SurfaceStatus look_closer(const Surface& surface, const ProofMesh& mesh, const PoleGaps& gaps,
                           std::span<const std::int32_t> which, std::span<const double> limits,
                           int levels, std::span<double> bound) {
-    Looker looker(surface, mesh, gaps);
-    Array<EnclosedPoint> points;
-    for (std::size_t start = 0; start < which.size(); start += TOGETHER) {
-        const std::span some = which.subspan(start, std::min(TOGETHER, which.size() - start));
-        if (const auto status = looker.compute_first(some, points); status != SurfaceStatus::DONE)
-            return status;
-        const std::size_t each = points.size() / some.size();
-        for (std::size_t k = 0; k < some.size(); ++k) {
-            const std::int32_t t = some[k];
-            const auto status =
-                looker.look(t, {points.data() + k * each, each}, limits[t], levels, bound[t]);
-            if (status != SurfaceStatus::DONE) return status;
-        }
-    }
+    Looker looker(surface, mesh, gaps, false);
+    Array<double> without{std::span<const double>(bound)};  // rings
+    auto status = looker.look_at_all(which, limits, levels, bound);
+    if (status != SurfaceStatus::DONE) return status;
+    for (std::size_t t = 0; t < bound.size(); ++t)
+        if (looker.looked_at(without).layers[t] == 0) without[t] = bound[t];
+    const Array<std::int32_t> others =
+        covering_triangles(mesh, looker.looked_at(without), limits, bound);
+    Array<double> unknown(bound.size(), intervals::INFINITE);
+    Looker again(surface, mesh, gaps, true);
+    status = again.look_at_all({others.data(), others.size()}, limits, levels,
+                               {unknown.data(), unknown.size()});
+    if (status != SurfaceStatus::DONE) return status;
+    LookedAt looked = looker.looked_at(without);
+    looked.over_ring = again.looked_at(without).over_ring;
+    count_covering(mesh, looked, bound);
     return SurfaceStatus::DONE;
 }
 

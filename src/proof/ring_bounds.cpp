@@ -6,68 +6,108 @@
 namespace surfmesh {
 namespace {
 
-constexpr double ROUNDING = 0x1p-46;     // relative, more than that of any sum here
-constexpr double LARGEST_COSINE = -0.5;  // of 120 degrees
-constexpr double STEEPEST = 0.766;       // the sine of 50 degrees
-constexpr double LARGEST_SHIFT = 0.25;   // of the smallest height
-constexpr double FLATTEST = 0x1p-20;     // tilt of a normal
+constexpr double ROUNDING = 0x1p-46;    // relative, more than that of any sum here
+constexpr double STEEPEST = 0.766;      // the sine of 50 degrees
+constexpr double FLATTEST = 0x1p-20;    // tilt of a normal
+constexpr double CERTAIN = 1.0 - 1e-5;  // lengths are less sure than that by far, with such tilts
 
 /// What is known of a triangle's shape, in numbers that are on the safe side.
 struct Shape {
     Point3 normal;
-    double tilt;        // by how much the normal may be wrong
-    double height;      // the smallest
-    double least_sine;  // of its angles
-    bool is_good;       // shape and shift are as the statement needs them
+    double tilt;  // by how much the normal may be wrong
+    // of side k, from corner k on: its length, the height of the third corner over it, and how far
+    // along it that lies
+    std::array<double, 3> length, height, foot;
+    bool is_known;
 };
 
 Shape shape_of(const SpaceCorners& p, const TriangleBounds& bounds) {
     Shape shape{};
     std::array<Point3, 3> side;
-    std::array<double, 3> length{};
     for (std::size_t k = 0; k < 3; ++k) {
         side[k] = p[(k + 1) % 3] - p[k];
-        length[k] = norm(side[k]);
+        shape.length[k] = norm(side[k]);
     }
     const Point3 n = cross(side[0], side[1]);
-    const double area = norm(n), longest = std::max({length[0], length[1], length[2]});
+    const double area = norm(n);
+    const double longest = std::max({shape.length[0], shape.length[1], shape.length[2]});
     shape.tilt = (32.0 * 0x1p-53 * longest * longest + 8.0 * bounds.corner * longest) / area;
     if (!(shape.tilt < FLATTEST)) return shape;
+    shape.is_known = true;
     shape.normal = (1.0 / area) * n;
-    shape.height = area / longest * (1.0 - 4.0 * shape.tilt);
-    shape.least_sine = 1.0;
-    bool is_blunt = false;
     for (std::size_t k = 0; k < 3; ++k) {
-        const double product = length[k] * length[(k + 2) % 3];
-        const double cosine = -dot(side[k], side[(k + 2) % 3]) / product;
-        is_blunt = is_blunt || !(cosine > LARGEST_COSINE + 1e-6);
-        shape.least_sine = std::min(shape.least_sine, area / product * (1.0 - 4.0 * shape.tilt));
+        shape.height[k] = area / shape.length[k] * CERTAIN;
+        shape.foot[k] = -dot(side[(k + 2) % 3], side[k]) / shape.length[k];
     }
-    shape.is_good = !is_blunt && bounds.shift <= LARGEST_SHIFT * shape.height;
     return shape;
 }
 
-struct HalfEdges {
-    std::span<const std::int32_t> vertices, twins;
+/// A triangle at one of its sides.
+struct Side {
+    const Shape& shape;
+    const TriangleBounds& bounds;
+    std::size_t k;
 
-    /// Do both triangles run the same way along their side, as on one-sided surfaces?
-    [[nodiscard]] bool run_alike(std::size_t h, std::size_t twin) const {
-        return vertices[h] == vertices[twin];
+    [[nodiscard]] double height() const { return shape.height[k]; }
+    [[nodiscard]] double outward() const { return bounds.outward[k]; }
+    /// How far along the side the third corner lies, from one end or the other.
+    [[nodiscard]] double foot(bool from_start) const {
+        return from_start ? shape.foot[k] : shape.length[k] - shape.foot[k];
+    }
+    /// Height of the piece where its foot is beyond the side, or inside by no more than that.
+    [[nodiscard]] double height_beside(double inside) const {
+        return std::min(bounds.height, bounds.beside[k] + bounds.steep[k] * inside);
     }
 };
 
+/// Where the piece's foot is beyond the side, l_b from its start a at least this far along:
+///
+///     l_b (|ab| - rho |ac| cos- - S - rho S')     rho: l_c <= l_a l_b rho there
+///
+/// with S of the side itself and S' of the others, along it. Without the l_b; l_a, and the angle at
+/// the other end, for the distance from b.
+double along(const Side& side, bool from_start) {
+    const double moved = 4.0 * side.outward();
+    const double reserve = side.height() - std::max(moved, side.bounds.inner[side.k]);
+    if (!(reserve > 0.0)) return -intervals::INFINITE;
+    const double rho = moved / reserve, back = std::max(0.0, -side.foot(from_start));
+    return side.shape.length[side.k] * CERTAIN - side.bounds.along[side.k] -
+           rho * (back + side.bounds.others[side.k]);
+}
+
+/// What a rim costs; infinite where the feet beyond it may lie beyond its ends.
+double cost_of_rim(const Side& own) {
+    const bool ends = along(own, true) >= 0.0 && along(own, false) >= 0.0;
+    return ends ? own.bounds.rim[own.k] : intervals::INFINITE;
+}
+
+/// Do feet beyond the side lie over the neighbour? Beyond by o <= l_b 4 s, they are within its
+/// angle A at a where they are o cot A along the side.
+bool are_over(const Side& own, const Side& other, double cosine, bool run_alike) {
+    const double apex = other.height() * cosine;
+    for (const bool from_start : {true, false}) {
+        const double beside = std::max(0.0, other.foot(from_start == run_alike));
+        if (!(along(own, from_start) >= 4.0 * own.outward() * beside / apex / CERTAIN))
+            return false;
+    }
+    return true;
+}
+
 /// What the side to a neighbour costs; infinite where the statement does not hold with it.
-double cost_of_side(const Shape& own, const Shape& other, const TriangleBounds& bounds,
-                    std::size_t k, bool run_alike) {
-    if (!other.is_good) return intervals::INFINITE;
-    const double sign = run_alike ? -1.0 : 1.0;
-    if (!(sign * dot(own.normal, other.normal) > 0.0)) return intervals::INFINITE;
-    const double sine = norm(cross(own.normal, other.normal)) + own.tilt + other.tilt + ROUNDING;
+double cost_of_side(const Side& own, const Side& other, bool run_alike) {
+    if (!other.shape.is_known) return intervals::INFINITE;
+    const Point3 &n = own.shape.normal, &m = other.shape.normal;
+    if (!((run_alike ? -1.0 : 1.0) * dot(n, m) > 0.0)) return intervals::INFINITE;
+    const double sine = norm(cross(n, m)) + own.shape.tilt + other.shape.tilt + ROUNDING;
     if (!(sine < STEEPEST)) return intervals::INFINITE;
-    const double cosine = std::sqrt(1.0 - sine * sine) * (1.0 - ROUNDING);
-    if (!(bounds.shift <= own.height * other.least_sine * cosine)) return intervals::INFINITE;
-    const double over = bounds.height + bounds.outward[k] * (sine / cosine);
-    const double under = bounds.height * (1.0 + sine * sine) / cosine + bounds.outward[k] * sine;
+    const double cosine = std::sqrt(1.0 - sine * sine) * (1.0 - ROUNDING), tangent = sine / cosine;
+    // seen along n, the curves over the neighbour's other sides stay beyond this one
+    if (!(other.bounds.inner[other.k] + other.bounds.bend * tangent <= other.height()))
+        return intervals::INFINITE;
+    if (!are_over(own, other, cosine, run_alike)) return intervals::INFINITE;
+    const double over = own.height_beside(0.0) + own.outward() * tangent;
+    const double high = other.height_beside(other.bounds.height * tangent);
+    const double under = std::max(high / cosine, high * cosine + other.outward() * sine);
     return std::max(over, under) * (1.0 + ROUNDING);
 }
 
@@ -77,26 +117,27 @@ RingBounds ring_bounds(std::span<const SpaceCorners> corners,
                        std::span<const std::int32_t> vertices, std::span<const std::int32_t> twins,
                        std::span<const TriangleBounds> bounds) {
     const std::size_t count = corners.size();
-    const HalfEdges half_edges{vertices, twins};
     Array<Shape> shapes(count);
     for (std::size_t t = 0; t < count; ++t) shapes[t] = shape_of(corners[t], bounds[t]);
     RingBounds found{Array<double>(count), Array<std::uint8_t>(count)};
     for (std::size_t t = 0; t < count; ++t) {
         const TriangleBounds& own = bounds[t];
-        double most = shapes[t].is_good ? own.height : intervals::INFINITE, corner = own.corner;
-        for (std::size_t k = 0; k < 3; ++k) {
+        double most = shapes[t].is_known ? own.height : intervals::INFINITE, corner = own.corner;
+        for (std::size_t k = 0; k < 3 && most < own.whole; ++k) {
+            const Side side{shapes[t], own, k};
             const std::int32_t twin = twins[3 * t + k];
             if (twin == NIL) {
-                most = std::max(most, own.rim[k]);
+                most = std::max(most, cost_of_rim(side));
                 continue;
             }
             const auto other = static_cast<std::size_t>(twin / 3);
-            most = std::max(most, cost_of_side(shapes[t], shapes[other], own, k,
-                                               half_edges.run_alike(
-                                                   3 * t + k, static_cast<std::size_t>(twin))));
+            const bool run_alike = vertices[3 * t + k] == vertices[twin];
+            const Side across{shapes[other], bounds[other], static_cast<std::size_t>(twin % 3)};
+            most = std::max(
+                most, other == t ? intervals::INFINITE : cost_of_side(side, across, run_alike));
             corner = std::max(corner, bounds[other].corner);
         }
-        found.by_ring[t] = most <= own.whole ? 1 : 0;
+        found.by_ring[t] = most < own.whole ? 1 : 0;
         const double bound = std::min(most, own.whole) + corner;
         found.bound[t] =
             bound <= intervals::INFINITE ? bound * (1.0 + ROUNDING) : intervals::INFINITE;

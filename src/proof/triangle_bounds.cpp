@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "proof/grid_bounds.hpp"
+#include "proof/side_bends.hpp"
+#include "proof/smooth_bounds.hpp"
 #include "surfaces/outward.hpp"
 
 namespace surfmesh {
@@ -10,45 +13,6 @@ namespace {
 
 constexpr std::size_t BLOCK = 1024;   // triangles looked at together
 constexpr double ROUNDING = 0x1p-47;  // relative, more than that of any short sum here
-constexpr double TILTED = 0.1;        // a normal known no better says nothing
-
-/// A triangle's own axes: along its first side, across it within its plane, and its normal.
-struct TriangleFrame {
-    Directions axes;
-    std::array<Point2, 3> sides;  // directions of the sides in the first two axes, unit
-    std::array<double, 3> heights;
-    double tilt;  // by how much the axes may be wrong
-};
-
-/// The first axis along the first rim, across which nothing is given away then.
-TriangleFrame frame_of(const SpaceCorners& p, double corner, RimSides rims) {
-    TriangleFrame frame{};
-    const std::size_t first_side = rims & 1 ? 0 : rims & 2 ? 1 : rims & 4 ? 2 : 0;
-    const Point3 along_side = p[(first_side + 1) % 3] - p[first_side];
-    const Point3 a = p[1] - p[0], b = p[2] - p[0], n = cross(a, b);
-    const double area = norm(n), length = norm(along_side);
-    const double longest = std::max({norm(a), norm(b), norm(p[2] - p[1])});
-    frame.tilt = (32.0 * 0x1p-53 * longest * longest + 8.0 * corner * longest) / area;
-    if (!(frame.tilt < TILTED)) {
-        frame.tilt = TILTED;
-        frame.axes = {{{1.0, 0.0, 0.0}, {0.0, 1.0, 0.0}, {0.0, 0.0, 1.0}}};
-        return frame;
-    }
-    const Point3 normal = (1.0 / area) * n, first = (1.0 / length) * along_side;
-    frame.axes = {first, cross(normal, first), normal};
-    for (std::size_t k = 0; k < 3; ++k) {
-        const Point3 side = p[(k + 1) % 3] - p[k];
-        const double size = norm(side);
-        frame.sides[k] = {dot(side, frame.axes[0]) / size, dot(side, frame.axes[1]) / size};
-        frame.heights[k] = area / size * (1.0 - 4.0 * frame.tilt);
-    }
-    return frame;
-}
-
-/// Suprema of |d . r''(e, e)| for the three sides e, along the three axes d.
-struct SideBends {
-    std::array<std::array<double, 3>, 3> by_axis{};  // [axis][side]
-};
 
 void join(SideBends& all, const Bends& bends, const PlaneCorners& uv) {
     for (std::size_t k = 0; k < 3; ++k) {
@@ -70,57 +34,13 @@ void join(SideBends& all, const Bends& bends, const PlaneCorners& uv) {
             const double found =
                 most <= intervals::INFINITE ? most + ROUNDING * size : intervals::INFINITE;
             all.by_axis[d][k] = std::max(all.by_axis[d][k], found);
+            if (d < 2) continue;
+            const double up = a.hi + b.hi + c.hi, down = -(a.lo + b.lo + c.lo);
+            const bool known = found < intervals::INFINITE;
+            all.up[k] = std::max(all.up[k], known ? up + ROUNDING * size : found);
+            all.down[k] = std::max(all.down[k], known ? down + ROUNDING * size : found);
         }
     }
-}
-
-/// The largest of l_0 l_1 a + l_1 l_2 b + l_2 l_0 c over the simplex, for numbers >= 0.
-///
-/// Inside it is a b c / D with D = 2 (ab + bc + ca) - (a^2 + b^2 + c^2) where each number is less
-/// than the sum of the others; else on the side of the largest, a quarter of that.
-double largest_on_simplex(double a, double b, double c) {
-    const double most = std::max({a, b, c});
-    if (!(most < intervals::INFINITE)) return intervals::INFINITE;
-    if (2.0 * most >= (a + b + c) * (1.0 + 1e-9)) return 0.25 * most;
-    const double x = a / most, y = b / most, z = c / most;
-    const double D = 2.0 * (x * y + y * z + z * x) - (x * x + y * y + z * z);
-    constexpr double ILL_CONDITIONED = 1e-6, SLACK = 1e-9;
-    if (!(D > ILL_CONDITIONED)) return most / 3.0 * (1.0 + SLACK);
-    const double inside = x * y * z / D * (1.0 + SLACK);
-    return most * std::clamp(inside, 0.25, (1.0 / 3.0) * (1.0 + SLACK));
-}
-
-TriangleBounds bounds_from(const SideBends& bends, const TriangleFrame& frame, double corner) {
-    std::array<double, 3> normal{}, size{};
-    std::array<std::array<double, 3>, 3> across{};  // [side left][side]
-    for (std::size_t e = 0; e < 3; ++e) {
-        const double x = bends.by_axis[0][e], y = bends.by_axis[1][e], z = bends.by_axis[2][e];
-        size[e] = std::sqrt(x * x + y * y + z * z) * (1.0 + frame.tilt * 4.0 + ROUNDING);
-        normal[e] = z + (frame.tilt + ROUNDING) * size[e];
-        for (std::size_t k = 0; k < 3; ++k) {
-            const Point2 side = frame.sides[k];  // across it: (-y, x)
-            across[k][e] = std::abs(side.y) * x + std::abs(side.x) * y +
-                           (4.0 * frame.tilt + ROUNDING) * size[e];
-        }
-    }
-    TriangleBounds found{};
-    found.height = 0.5 * largest_on_simplex(normal[0], normal[1], normal[2]);
-    found.whole = 0.5 * largest_on_simplex(size[0], size[1], size[2]);
-    found.shift = 0.5 * std::max({size[0], size[1], size[2]});
-    found.corner = corner;
-    for (std::size_t k = 0; k < 3; ++k) {
-        const std::size_t i = (k + 1) % 3, j = (k + 2) % 3;
-        const double out = across[k][k], inner = std::max(across[k][i], across[k][j]);
-        const double reserve = frame.heights[k] - 0.5 * std::max(out, inner);
-        found.outward[k] = 0.125 * out;
-        // beyond the side l_k <= l_i l_j out / (2 reserve), which adds so much to its height
-        const double more = reserve > 0.0 ? out * std::max(normal[i], normal[j]) / (2.0 * reserve)
-                                          : intervals::INFINITE;
-        const double height = 0.125 * (normal[k] + (out > 0.0 ? more : 0.0));
-        found.rim[k] =
-            std::sqrt(height * height + found.outward[k] * found.outward[k]) * (1.0 + ROUNDING);
-    }
-    return found;
 }
 
 ParameterBox box_of(const PlaneCorners& uv) {
@@ -212,8 +132,10 @@ SurfaceStatus bounds_of_block(const Surface& surface, const ProofRequest& asked,
     const auto& [corners, uv, limits, rims, on_surface] = asked;
     const std::size_t count = corners.size();
     Array<double> off(count, 0.0);
-    if (const auto status = corner_errors(surface, corners, uv, off); status != SurfaceStatus::DONE)
-        return status;
+    if (on_surface)
+        if (const auto status = corner_errors(surface, corners, uv, off);
+            status != SurfaceStatus::DONE)
+            return status;
     Block block{surface, uv, Array<TriangleFrame>(count), Array<SideBends>(count)};
     Array<Part> parts;
     for (std::size_t t = 0; t < count; ++t) {
@@ -237,20 +159,98 @@ SurfaceStatus bounds_of_block(const Surface& surface, const ProofRequest& asked,
     return SurfaceStatus::DONE;
 }
 
+SurfaceStatus bounds_by_cells(const Surface& surface, const ProofRequest& asked, int depth,
+                              std::span<TriangleBounds> out) {
+    for (std::size_t start = 0; start < asked.corners.size(); start += BLOCK) {
+        const std::size_t count = std::min(BLOCK, asked.corners.size() - start);
+        const auto status =
+            bounds_of_block(surface, asked.part(start, count), depth, out.subspan(start, count));
+        if (status != SurfaceStatus::DONE) return status;
+    }
+    return SurfaceStatus::DONE;
+}
+
+/// Bounds by cells of ``which`` triangles, where they are lower.
+SurfaceStatus bounds_of_some(const Surface& surface, const ProofRequest& asked, int depth,
+                             const Array<std::int32_t>& which, std::span<TriangleBounds> out) {
+    Array<SpaceCorners> corners;
+    Array<PlaneCorners> uv;
+    Array<double> limits;
+    Array<RimSides> rims;
+    for (const std::int32_t number : which) {
+        const auto t = static_cast<std::size_t>(number);
+        corners.push_back(asked.corners[t]);
+        uv.push_back(asked.uv[t]);
+        limits.push_back(asked.limits[t]);
+        rims.push_back(asked.rims[t]);
+    }
+    const auto all = [](const auto& array) { return std::span(array.data(), array.size()); };
+    Array<TriangleBounds> found(which.size());
+    const auto status = bounds_by_cells(
+        surface, {all(corners), all(uv), all(limits), all(rims), asked.corners_are_on_surface},
+        depth, all(found));
+    if (status != SurfaceStatus::DONE) return status;
+    for (std::size_t k = 0; k < which.size(); ++k) {
+        const auto row = static_cast<std::ptrdiff_t>(k);
+        TriangleBounds& known = out[static_cast<std::size_t>(which[row])];
+        known = lower_of(known, found[row]);
+    }
+    return status;
+}
+
+/// Is rho a large part of what is known, on the finest grid?
+bool is_vague(const TriangleBounds& bounds, const FourthParts& rho) {
+    constexpr double LARGE = 0.1, FINEST = 1.0 / 64.0;
+    double most = 0.0;
+    for (const BySide& along : rho) most = std::max({most, along[0], along[1], along[2]});
+    return most / 6.0 * FINEST > LARGE * bounds.cell_whole;
+}
+
+/// By corners and fourth derivatives; by a grid of points where they say too little, and by cells
+/// where they say nothing.
+SurfaceStatus bounds_of_smooth(const Surface& surface, const FourthDerivatives& fourth,
+                               const ProofRequest& asked, int depth,
+                               std::span<TriangleBounds> out) {
+    constexpr double STAYS =
+        0.5;  // of the least height: else ring_bounds.hpp may need a closer look
+    Array<std::uint8_t> is_good(out.size());
+    Array<FourthParts> rho(out.size());
+    auto status = smooth_bounds(fourth, asked, out, {rho.data(), rho.size()},
+                                {is_good.data(), is_good.size()});
+    if (status == SurfaceStatus::UNKNOWN) return bounds_by_cells(surface, asked, depth, out);
+    if (status != SurfaceStatus::DONE) return status;
+    Array<std::int32_t> open, unknown;
+    for (std::size_t t = 0; t < out.size(); ++t) {
+        if (is_good[static_cast<std::ptrdiff_t>(t)] != 0) continue;
+        const auto number = static_cast<std::int32_t>(t);
+        if (!(out[t].whole < intervals::INFINITE)) {
+            unknown.push_back(number);
+            continue;
+        }
+        const TriangleFrame frame = frame_of(asked.corners[t], out[t].corner, asked.rims[t]);
+        const double least = std::min({frame.heights[0], frame.heights[1], frame.heights[2]});
+        if (out[t].shift > STAYS * least ||
+            !is_within(out[t], asked.rims[t], asked.limits[t] - out[t].corner))
+            open.push_back(number);
+    }
+    status = lower_by_grid(fourth, asked, {rho.data(), rho.size()}, open, out);
+    if (status != SurfaceStatus::DONE) return status;
+    for (const std::int32_t t : open)
+        if (is_vague(out[static_cast<std::size_t>(t)], rho[t])) unknown.push_back(t);
+    return bounds_of_some(surface, asked, depth, unknown, out);
+}
+
 }  // namespace
 
 SurfaceStatus triangle_bounds(const Surface& surface, const ProofRequest& asked, int depth,
                               std::span<TriangleBounds> out) {
-    for (std::size_t start = 0; start < asked.corners.size(); start += BLOCK) {
-        const std::size_t count = std::min(BLOCK, asked.corners.size() - start);
-        const ProofRequest block{
-            .corners = asked.corners.subspan(start, count),
-            .uv = asked.uv.subspan(start, count),
-            .limits = asked.limits.subspan(start, count),
-            .rims = asked.rims.subspan(start, count),
-            .corners_are_on_surface = asked.corners_are_on_surface,
-        };
-        const auto status = bounds_of_block(surface, block, depth, out.subspan(start, count));
+    const auto* fourth = dynamic_cast<const FourthDerivatives*>(&surface);
+    if (fourth == nullptr) return bounds_by_cells(surface, asked, depth, out);
+    constexpr std::size_t AT_ONCE = 1 << 16;  // triangles whose corners are kept
+    for (std::size_t start = 0; start < out.size(); start += AT_ONCE) {
+        const std::size_t count = std::min(AT_ONCE, out.size() - start);
+        const auto status = bounds_of_smooth(surface, *fourth, asked.part(start, count), depth,
+                                             out.subspan(start, count));
         if (status != SurfaceStatus::DONE) return status;
     }
     return SurfaceStatus::DONE;

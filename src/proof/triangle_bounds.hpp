@@ -35,6 +35,15 @@ struct TriangleBounds {
     double shift;                   // the largest of |r''(e, e)| / 2: how far points move within
     double whole;                   // of |r - L|, whatever the shapes
     double corner;                  // how far a corner is off r(u_i)
+    // what a side has to do with: of ring_bounds.hpp
+    std::array<double, 3> inner;   // d . r''(e, e) / 2 across side k, of the other two sides e
+    std::array<double, 3> beside;  // height of the piece where it lies beyond side k
+    std::array<double, 3> steep;   // what a distance inside side k adds to that, of the distance
+    std::array<double, 3> along;   // d . r''(e, e) / 2 along side k, of itself
+    std::array<double, 3> others;  // and the larger of the other two
+    double bend;                   // the largest of n . r''(e, e) / 2
+    // for the 4^j cells that the piece is cut into, times 4^-j: height and distance point by point
+    double cell_height, cell_whole;
 };
 
 /// Bit k: side k is a rim of the surface, or of a face.
@@ -48,6 +57,11 @@ struct ProofRequest {
     std::span<const RimSides> rims;
     // false: the corners give the plane alone, and r(u_i) lies elsewhere
     bool corners_are_on_surface;
+
+    [[nodiscard]] ProofRequest part(std::size_t start, std::size_t count) const {
+        return {corners.subspan(start, count), uv.subspan(start, count),
+                limits.subspan(start, count), rims.subspan(start, count), corners_are_on_surface};
+    }
 };
 
 /// Bounds of each triangle into ``out``. Those beyond their limit, by height or at a rim, are cut

@@ -28,6 +28,20 @@ double distance_of_segments(Point2 a, Point2 b, Point2 c, Point2 d) {
 
 }  // namespace
 
+Array<std::int32_t> parted_half_edges(std::span<const PlaneCorners> uv,
+                                      std::span<const std::int32_t> twins) {
+    Array<std::int32_t> found;
+    const auto differ = [](Point2 a, Point2 b) { return a.x != b.x || a.y != b.y; };
+    for (std::size_t h = 0; h < twins.size(); ++h) {
+        if (twins[h] <= static_cast<std::int32_t>(h)) continue;
+        const auto twin = static_cast<std::size_t>(twins[h]);
+        const PlaneCorners &a = uv[h / 3], &b = uv[twin / 3];
+        if (differ(a[h % 3], b[(twin % 3 + 1) % 3]) || differ(a[(h % 3 + 1) % 3], b[twin % 3]))
+            found.push_back(static_cast<std::int32_t>(h));
+    }
+    return found;
+}
+
 TriangleRing::TriangleRing(const ProofMesh& mesh)
     : mesh_(mesh), mark_(mesh.corners.size(), -1), is_turned_(mesh.corners.size(), 0) {
     std::int32_t count = 0;
@@ -134,6 +148,24 @@ double TriangleRing::free_around() const {
         }
     }
     return (1.0 - ROUNDING) * nearest - (1.0 + ROUNDING) * shifted - ROUNDING * longest_;
+}
+
+double TriangleRing::apart(std::size_t member) const {
+    const auto &own = ring_[0].corners, &other = ring_[member].corners;
+    double least = intervals::INFINITE;
+    for (std::size_t s = 0; s < 3; ++s)
+        for (std::size_t k = 0; k < 3; ++k)
+            least = std::min(least, distance_of_segments(own[s], own[(s + 1) % 3], other[k],
+                                                         other[(k + 1) % 3]));
+    return std::max(0.0, (1.0 - ROUNDING) * least - ROUNDING * longest_);
+}
+
+bool TriangleRing::is_within(std::size_t member) const {
+    for (std::size_t k = 0; k < 3; ++k) {
+        const std::int32_t twin = mesh_.twins[3 * static_cast<std::size_t>(number(member)) + k];
+        if (twin != NIL && mark_[twin / 3] != members_[0]) return false;
+    }
+    return true;
 }
 
 }  // namespace surfmesh

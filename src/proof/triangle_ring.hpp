@@ -54,6 +54,11 @@ struct Neighbour {
     bool is_near;                // may a cell lie over it?
 };
 
+/// Half-edges with a twin after them whose ends have other (u, v) in the twin's triangle: seams, and
+/// sides that end in a pole.
+Array<std::int32_t> parted_half_edges(std::span<const PlaneCorners> uv,
+                                      std::span<const std::int32_t> twins);
+
 class TriangleRing {
   public:
     static constexpr double ROUNDING = 0x1p-45;  // relative, more than that of any sum here
@@ -68,6 +73,13 @@ class TriangleRing {
     [[nodiscard]] std::size_t count() const { return count_; }
     [[nodiscard]] Neighbour& operator[](std::size_t member) { return ring_[member]; }
     [[nodiscard]] const Neighbour& operator[](std::size_t member) const { return ring_[member]; }
+    [[nodiscard]] std::int32_t number(std::size_t member) const {
+        return members_[static_cast<std::ptrdiff_t>(member)];
+    }
+    /// How far a member is from the triangle, as seen.
+    [[nodiscard]] double apart(std::size_t member) const;
+    /// Do all triangles across a member's sides belong to the ring?
+    [[nodiscard]] bool is_within(std::size_t member) const;
     /// The member over the triangle's own side; 0: none.
     [[nodiscard]] std::size_t across(std::size_t side) const { return across_[side]; }
     /// How far the boundary, but for rims, is from the triangle, less what it is shifted by.

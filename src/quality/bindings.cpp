@@ -1,10 +1,15 @@
+#include <nanobind/stl/pair.h>
 #include <nanobind/stl/tuple.h>
 
 #include <tuple>
 #include <vector>
 
 #include "binding/arrays.hpp"
+#include "quality/enclosed_volumes.hpp"
+#include "quality/explained_losses.hpp"
+#include "quality/face_creases.hpp"
 #include "quality/mesh_deviation.hpp"
+#include "quality/sampled_surface.hpp"
 #include "quality/solid_counts.hpp"
 #include "quality/surface_points.hpp"
 #include "quality/triangle_stars.hpp"
@@ -14,6 +19,8 @@ namespace surfmesh::binding {
 
 template <>
 struct Row<float> : RowOf<float, 1> {};
+template <>
+struct Row<Weights> : RowOf<double, 3> {};
 
 namespace {
 
@@ -64,6 +71,29 @@ void bind_surface_points(nb::module_& m) {
         "Points (n, 3) of the surfaces of faces (n,) at uv (n, 2); at order 1 r_u and r_v too.");
 }
 
+MeasuredMesh measured_mesh(const std::vector<const Surface*>& surfaces, const Points3& points,
+                           const Triangles& triangles, const Points2& uv,
+                           const Triangles& uv_triangles, const Numbers& faces) {
+    require_rows(uv_triangles.shape(0), triangles.shape(0), "uv_triangles");
+    require_rows(faces.shape(0), triangles.shape(0), "faces");
+    return {surfaces,
+            rows<Point3>(points),
+            rows<TriangleCorners>(triangles),
+            rows<Point2>(uv),
+            rows<TriangleCorners>(uv_triangles),
+            rows<std::int32_t>(faces)};
+}
+
+/// All numbers in a mesh are in range.
+void require_mesh(const MeasuredMesh& mesh) {
+    const auto numbers = [](std::span<const TriangleCorners> rows) {
+        return std::span(reinterpret_cast<const Vertex*>(rows.data()), 3 * rows.size());
+    };
+    require_indices(numbers(mesh.triangles), mesh.points.size(), "triangles");
+    require_indices(numbers(mesh.uv_triangles), mesh.uv.size(), "uv_triangles");
+    require_indices(mesh.faces, mesh.surfaces.size(), "faces");
+}
+
 void bind_mesh_deviation(nb::module_& m) {
     m.def(
         "mesh_deviation",
@@ -71,12 +101,10 @@ void bind_mesh_deviation(nb::module_& m) {
            const Points2& uv, const Triangles& uv_triangles, const Numbers& faces,
            const Matrix<std::int32_t, 2>& edges, const Vector<double>& area) {
             const std::vector<const Surface*> all = surfaces_of(surfaces);
-            const std::size_t count = triangles.shape(0);
-            require_corners(triangles, points.shape(0), "triangles");
-            require_rows(uv_triangles.shape(0), count, "uv_triangles");
-            require_corners(uv_triangles, uv.shape(0), "uv_triangles");
-            require_rows(faces.shape(0), count, "faces");
-            require_indices(rows<std::int32_t>(faces), all.size(), "faces");
+            const MeasuredMesh mesh =
+                measured_mesh(all, points, triangles, uv, uv_triangles, faces);
+            require_mesh(mesh);
+            const std::size_t count = mesh.triangles.size();
             require_rows(area.shape(0), count, "area");
             const std::span<const EdgeSides> sides{reinterpret_cast<const EdgeSides*>(edges.data()),
                                                    edges.shape(0)};
@@ -86,12 +114,6 @@ void bind_mesh_deviation(nb::module_& m) {
                     side.twin >= end)
                     throw nb::value_error("edges has a half-edge that is out of range");
             }
-            const MeasuredMesh mesh{all,
-                                    rows<Point3>(points),
-                                    rows<TriangleCorners>(triangles),
-                                    rows<Point2>(uv),
-                                    rows<TriangleCorners>(uv_triangles),
-                                    rows<std::int32_t>(faces)};
             MeshDeviation found;
             {
                 const nb::gil_scoped_release released;
@@ -106,6 +128,81 @@ void bind_mesh_deviation(nb::module_& m) {
         "the surfaces of faces (m,): the largest distance (m,) at vertices, middles and centroid, "
         "the mean of its square (m,), the cosine (m,) between the normals, 1 where one is missing."
         "\n\nedges (k, 2): half-edges and those that share what is found, or -1; area (m,).");
+}
+
+/// The triangles (k,) of a mesh are numbers of rows, and their rows are in range.
+void require_triangles(const MeasuredMesh& mesh, std::span<const std::int32_t> triangles) {
+    require_indices(triangles, mesh.triangles.size(), "triangle");
+    const auto require_corners_of = [](const TriangleCorners& t, std::size_t count,
+                                       const char* what) {
+        require_indices(std::span(&t.a, 3), count, what);
+    };
+    for (const std::int32_t t : triangles) {
+        require_corners_of(mesh.triangles[t], mesh.points.size(), "triangles");
+        require_corners_of(mesh.uv_triangles[t], mesh.uv.size(), "uv_triangles");
+        require_indices(mesh.faces.subspan(t, 1), mesh.surfaces.size(), "faces");
+    }
+}
+
+void bind_samples(nb::module_& m) {
+    m.def(
+        "sampled_surface",
+        [](const nb::list& surfaces, const Points3& points, const Triangles& triangles,
+           const Points2& uv, const Triangles& uv_triangles, const Numbers& faces,
+           const Numbers& triangle, const Numbers& rule, const Matrix<double, 3>& weights) {
+            const std::vector<const Surface*> all = surfaces_of(surfaces);
+            const MeasuredMesh mesh =
+                measured_mesh(all, points, triangles, uv, uv_triangles, faces);
+            require_triangles(mesh, rows<std::int32_t>(triangle));
+            require_rows(rule.shape(0), triangle.shape(0), "rule");
+            require_indices(rows<std::int32_t>(rule), weights.shape(0), "rule");
+            SampledSurface found;
+            {
+                const nb::gil_scoped_release released;
+                found = sampled_surface(mesh, rows<std::int32_t>(triangle),
+                                        rows<std::int32_t>(rule), rows<Weights>(weights));
+            }
+            if (found.failed >= 0) raise_failure(*all[found.failed], SurfaceStatus::FAILED);
+            return std::tuple(view(found.uv), view(found.points), view(found.distance));
+        },
+        nb::arg("surfaces"), nb::arg("points"), nb::arg("triangles"), nb::arg("uv"),
+        nb::arg("uv_triangles"), nb::arg("faces"), nb::arg("triangle"), nb::arg("rule"),
+        nb::arg("weights"),
+        "Parameters (k, 2) at barycentric weights[rule] (w, 3) of triangles (k,), the points (k, "
+        "3) of the surfaces there, and how far (k,) these are from the triangle.\n\nThe mesh is as "
+        "for ``mesh_deviation``; only the triangles that are asked for are looked at.");
+}
+
+void bind_creases(nb::module_& m) {
+    m.def(
+        "face_creases",
+        [](const nb::list& surfaces, const Points3& points, const Triangles& triangles,
+           const Points2& uv, const Triangles& uv_triangles, const Numbers& faces,
+           const Matrix<std::int32_t, 2>& edges, const Vector<double>& angle) {
+            const std::vector<const Surface*> all = surfaces_of(surfaces);
+            const MeasuredMesh mesh =
+                measured_mesh(all, points, triangles, uv, uv_triangles, faces);
+            require_mesh(mesh);
+            require_indices(std::span(edges.data(), edges.size()), 3 * mesh.triangles.size(),
+                            "edges");
+            require_rows(angle.shape(0), all.size(), "angle");
+            const std::span<const HalfEdgePair> pairs{
+                reinterpret_cast<const HalfEdgePair*>(edges.data()), edges.shape(0)};
+            FaceCreases found;
+            {
+                const nb::gil_scoped_release released;
+                found = face_creases(mesh, pairs, rows<double>(angle));
+            }
+            if (found.failed >= 0) raise_failure(*all[found.failed], SurfaceStatus::FAILED);
+            return view(found.bent);
+        },
+        nb::arg("surfaces"), nb::arg("points"), nb::arg("triangles"), nb::arg("uv"),
+        nb::arg("uv_triangles"), nb::arg("faces"), nb::arg("edges"), nb::arg("angle"),
+        "Which edges (k,) within faces lie on a crease of their surface, at an apex, or as good as "
+        "at one: 0 and 1.\n\nThe mesh is as for ``mesh_deviation``; edges (k, 2): the half-edges "
+        "on both sides; angle (f,): what is asked for of each face, degrees. As good as at an "
+        "apex: curved so much that this angle would ask for less than the finest size, a fraction "
+        "of the diagonal of the face's triangles.");
 }
 
 void bind_stars(nb::module_& m) {
@@ -184,14 +281,57 @@ void bind_solids(nb::module_& m) {
         "way as the other.");
 }
 
+void bind_area_and_volume(nb::module_& m) {
+    m.def(
+        "enclosed_volumes",
+        [](const Points3& points, const Triangles& triangles, const Numbers& solid,
+           const Points3& apexes) {
+            require_corners(triangles, points.shape(0), "triangles");
+            require_rows(solid.shape(0), triangles.shape(0), "solid");
+            require_indices(rows<std::int32_t>(solid), apexes.shape(0), "solid");
+            Array<double> found;
+            {
+                const nb::gil_scoped_release released;
+                found = enclosed_volumes(rows<Point3>(points), rows<TriangleCorners>(triangles),
+                                         rows<std::int32_t>(solid), rows<Point3>(apexes));
+            }
+            return view(found);
+        },
+        nb::arg("points"), nb::arg("triangles"), nb::arg("solid"), nb::arg("apexes"),
+        "Volumes (s,) that triangles (k, 3) around solid (k,), facing outwards, enclose.\n\n"
+        "apexes (s, 3): a point near each solid, which the tetrahedra share that are summed up.");
+    m.def(
+        "explained_losses",
+        [](const Points3& points, const Triangles& triangles, const Vector<double>& area,
+           const Vector<double>& distance, double slant) {
+            require_corners(triangles, points.shape(0), "triangles");
+            require_rows(area.shape(0), triangles.shape(0), "area");
+            require_rows(distance.shape(0), triangles.shape(0), "distance");
+            ExplainedLosses found;
+            {
+                const nb::gil_scoped_release released;
+                found = explained_losses(rows<Point3>(points), rows<TriangleCorners>(triangles),
+                                         rows<double>(area), rows<double>(distance), slant);
+            }
+            return std::pair(view(found.area), view(found.volume));
+        },
+        nb::arg("points"), nb::arg("triangles"), nb::arg("area"), nb::arg("distance"),
+        nb::arg("slant"),
+        "Area and volume (m,) that triangles (m, 3) of an area (m,) lose or win by their distance "
+        "(m,) from the surface.\n\nslant: of (distance / height)^2, what the area may differ by.");
+}
+
 }  // namespace
 
 void bind_quality(nb::module_& m) {
     m.doc() = "What a report measures of a finished mesh: its distance from its surfaces and back.";
     bind_surface_points(m);
     bind_mesh_deviation(m);
+    bind_samples(m);
+    bind_creases(m);
     bind_stars(m);
     bind_solids(m);
+    bind_area_and_volume(m);
 }
 
 }  // namespace surfmesh::binding

@@ -63,6 +63,19 @@ void bind_formulas_of_sizes(nb::module_& m) {
         nb::arg("k1"), nb::arg("k2"), "c (n,) with deviation = c h^2.");
     m.def("chord_size", &at_each<chord_size>, nb::arg("k1"), nb::arg("k2"), nb::arg("chord"),
           "Edge length (n,) at which triangles stay within chord.");
+    m.def(
+        "share_of_width",
+        [](const Numbers& k1, const Numbers& k2, const Numbers& ratio) {
+            require_rows(k2.shape(0), k1.shape(0), "k2");
+            require_rows(ratio.shape(0), k1.shape(0), "ratio");
+            Array<double> found(k1.shape(0));
+            for (std::size_t i = 0; i < found.size(); ++i)
+                found[i] = share_of_width(pair_at(k1, k2, i), ratio.data()[i]);
+            return view(found);
+        },
+        nb::arg("k1"), nb::arg("k2"), nb::arg("ratio"),
+        "Fraction (n,) of a chord that may be used where it is the width of the band that a "
+        "triangle needs.");
     m.def("angle_size", &at_each<angle_size>, nb::arg("k1"), nb::arg("k2"), nb::arg("angle"),
           "Edge length (n,) at which dihedral angles are at most angle (degrees).");
     m.def("normal_deviation_size", &at_each<normal_deviation_size>, nb::arg("k1"), nb::arg("k2"),
@@ -104,7 +117,9 @@ void bind_formulas_of_sizes(nb::module_& m) {
 void bind_rules(nb::module_& m) {
     nb::class_<CurvatureRule>(m, "CurvatureRule", "Sizes that follow from the curvature.");
     nb::class_<PlaceRule>(m, "PlaceRule", "Sizes that depend on the place alone.");
-    nb::class_<ChordRule, CurvatureRule>(m, "ChordRule").def(nb::init<double>(), nb::arg("chord"));
+    nb::class_<ChordRule, CurvatureRule>(m, "ChordRule")
+        .def(nb::init<double, bool>(), nb::arg("chord"), nb::arg("is_width") = false,
+             "is_width: chord is that of the whole band that a triangle needs.");
     nb::class_<AngleRule, CurvatureRule>(m, "AngleRule")
         .def(nb::init<double, double>(), nb::arg("angle"), nb::arg("finest"),
              "angle: degrees. finest: nothing smaller is asked for, model units.");

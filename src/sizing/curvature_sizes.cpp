@@ -39,6 +39,12 @@ double chord_size(PrincipalCurvatures k, double chord) {
     return most(std::sqrt(deviation_reserve(k) * chord / deviation_factor(k)), 2.0 * chord);
 }
 
+double share_of_width(PrincipalCurvatures k, double ratio) {
+    const double b = balance(k, ratio);
+    const double one_sided = most(0.125, (1.0 + b) / 12.0);
+    return one_sided / most(one_sided, SQRT3 * (1.0 - b) / 16.0);
+}
+
 double angle_size(PrincipalCurvatures k, double angle) {
     // both may be infinite
     const double mean = k.k1 == -k.k2 ? 0.0 : k.k1 + k.k2;

@@ -48,6 +48,14 @@ double deviation_reserve(PrincipalCurvatures k);
 /// Never less than 2 ``chord``: a smaller triangle is within ``chord`` whatever the curvature.
 double chord_size(PrincipalCurvatures k, double chord);
 
+/// Fraction of a chord that the rules below may use where that is the width of the band around the
+/// surface that a triangle needs: all of it where the surface bends one way.
+///
+/// On a saddle an equilateral triangle lies on both sides, its edges by h^2 kn / 8. The normal
+/// curvatures along its three edges differ by sqrt(3) |k1 - k2| / 2 at most, in directions 120
+/// degrees apart. For two sizes with a ``ratio`` it is the same in their metric.
+double share_of_width(PrincipalCurvatures k, double ratio = 1.0);
+
 /// Edge length at which dihedral angles are at most ``angle`` (degrees), with a reserve.
 ///
 /// Across an edge along t, with n at right angles to it, the slope of linear interpolation of

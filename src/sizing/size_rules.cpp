@@ -15,16 +15,24 @@ double ratio_of(std::span<const double> ratio, std::size_t i) {
 
 }  // namespace
 
+double ChordRule::factor(PrincipalCurvatures k, double ratio) const {
+    return is_width_ ? std::sqrt(share_of_width(k, ratio)) : 1.0;
+}
+
 bool ChordRule::sizes(std::span<const PrincipalCurvatures> k, std::span<double> out) const {
-    for (std::size_t i = 0; i < k.size(); ++i) out[i] = chord_size(k[i], chord_);
+    for (std::size_t i = 0; i < k.size(); ++i)
+        out[i] = factor(k[i], 1.0) * chord_size(k[i], chord_);
     return true;
 }
 
 bool ChordRule::principal_sizes(std::span<const PrincipalCurvatures> k,
                                 std::span<const double> ratio,
                                 std::span<PrincipalSizes> out) const {
-    for (std::size_t i = 0; i < k.size(); ++i)
-        out[i] = principal_chord_sizes(k[i], chord_, ratio_of(ratio, i));
+    for (std::size_t i = 0; i < k.size(); ++i) {
+        const auto [first, second] = principal_chord_sizes(k[i], chord_, ratio_of(ratio, i));
+        const double part = factor(k[i], ratio_of(ratio, i));
+        out[i] = {part * first, part * second};
+    }
     return true;
 }
 

@@ -42,16 +42,20 @@ class PlaceRule {
     [[nodiscard]] virtual std::exception_ptr take_failure() const { return {}; }
 };
 
-/// ``chord``, model units.
+/// ``chord``, model units. is_width: of the whole band that a triangle needs, where it may move to
+/// lie in the middle of it.
 class ChordRule final : public CurvatureRule {
   public:
-    explicit ChordRule(double chord) : chord_(chord) {}
+    explicit ChordRule(double chord, bool is_width = false) : chord_(chord), is_width_(is_width) {}
     bool sizes(std::span<const PrincipalCurvatures> k, std::span<double> out) const override;
     bool principal_sizes(std::span<const PrincipalCurvatures> k, std::span<const double> ratio,
                          std::span<PrincipalSizes> out) const override;
 
   private:
+    /// On the sizes: they go with the root of the chord.
+    [[nodiscard]] double factor(PrincipalCurvatures k, double ratio) const;
     double chord_;
+    bool is_width_;
 };
 
 /// ``angle``, degrees; nothing below ``finest``, model units, is asked for.

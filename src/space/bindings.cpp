@@ -1,11 +1,14 @@
 #include <nanobind/stl/pair.h>
+#include <nanobind/stl/tuple.h>
 
 #include <algorithm>
 #include <string>
+#include <tuple>
 
 #include "binding/arrays.hpp"
 #include "space/box_tree.hpp"
 #include "space/edge_distances.hpp"
+#include "space/edge_table.hpp"
 #include "space/measure.hpp"
 #include "space/orient_space.hpp"
 #include "space/triangle_distance.hpp"
@@ -23,6 +26,10 @@ template <>
 struct Row<TriangleShape> : RowOf<double, 5> {};
 template <>
 struct Row<TangentPlaneOffset> : RowOf<double, 7> {};
+template <>
+struct Row<EdgeTable::Ends> : RowOf<std::int32_t, 2> {};
+template <>
+struct Row<EdgeTable::Sides> : RowOf<std::int32_t, 2> {};
 template <>
 struct Row<Box3> : RowOf<double, 6> {};
 
@@ -51,45 +58,44 @@ void bind_triangle_pairs(nb::module_& m) {
         [](const Points3& corners) {
             require_rows(corners.shape(0), 6, "corners");
             const auto triangles = rows<Point3>(corners);
-            return triangles_meet({triangles[0], triangles[1], triangles[2]},
-                                  {triangles[3], triangles[4], triangles[5]});
+            return triangles_meet(KeyedTriangle({triangles[0], triangles[1], triangles[2]}),
+                                  KeyedTriangle({triangles[3], triangles[4], triangles[5]}));
         },
         nb::arg("corners"),
         "Do two triangles, the rows of (6, 3), finite, meet where they should not?");
     m.def(
-        "curve_places",
-        [](const Points3& points, const Triangles& triangles,
-           const nb::ndarray<const double, nb::shape<3>, nb::c_contig, nb::device::cpu>& low,
-           double scale) {
-            require_corners(triangles, points.shape(0));
-            Array<std::int64_t> places;
-            {
-                const nb::gil_scoped_release released;
-                places = curve_places(rows<Point3>(points), rows<TriangleCorners>(triangles),
-                                      {low.data()[0], low.data()[1], low.data()[2]}, scale);
-            }
-            return view(places);
-        },
-        nb::arg("points"), nb::arg("triangles"), nb::arg("low"), nb::arg("scale"),
-        "Place (m,) of each triangle's centroid along the Z-order curve through a box.\n\n"
-        "points (n, 3), finite; triangles (m, 3); low (3,): corner of the box; scale: 2^20 over "
-        "its longest side, a little less.");
-    m.def(
         "meeting_triangles",
-        [](const Points3& corners, std::size_t most) {
-            if (corners.shape(0) % 3 != 0) throw nb::value_error("corners has 3 rows a triangle");
+        [](const Points3& points, const Triangles& triangles, std::size_t most) {
+            require_corners(triangles, points.shape(0));
             Array<MeetingTriangles> found;
             {
                 const nb::gil_scoped_release released;
-                const auto* triangles = reinterpret_cast<const Triangle3*>(corners.data());
-                found = meeting_triangles({triangles, corners.shape(0) / 3}, most);
+                found =
+                    meeting_triangles(rows<Point3>(points), rows<TriangleCorners>(triangles), most);
             }
             return view(found);
         },
-        nb::arg("corners"), nb::arg("most"),
-        "Pairs (k, 2) of triangles that meet where they should not, the lower first.\n\ncorners: "
-        "(3 m, 3), finite; quick where near triangles are near in the row. The search ends after "
-        "the leaf with which there are ``most`` pairs or more.");
+        nb::arg("points"), nb::arg("triangles"), nb::arg("most"),
+        "Pairs (k, 2) of triangles that meet where they should not, the lower first.\n\npoints "
+        "(n, 3), finite; triangles (m, 3). The search ends where there are ``most`` pairs or a few "
+        "more.");
+}
+
+void bind_edge_table(nb::module_& m) {
+    m.def(
+        "edge_table",
+        [](const Triangles& triangles) {
+            EdgeTable table;
+            {
+                const nb::gil_scoped_release released;
+                table = edge_table(rows<TriangleCorners>(triangles));
+            }
+            return std::tuple(view(table.edges), view(table.half_edges), view(table.uses));
+        },
+        nb::arg("triangles"),
+        "Edges (ne, 2) of triangles (m, 3), the lower vertex first, in order; the first two "
+        "half-edges (ne, 2) along each, -1 where there is one; by how many triangles each is used "
+        "(ne,). Half-edge 3 t + k runs from corner k of triangle t.");
 }
 
 void bind_edge_gaps(nb::module_& m) {
@@ -235,6 +241,7 @@ void bind_distances(nb::module_& m) {
 void bind_space(nb::module_& m) {
     m.doc() = "What is measured and decided in space: shapes, distances, triangles that meet.";
     bind_triangle_pairs(m);
+    bind_edge_table(m);
     bind_edge_gaps(m);
     bind_shapes(m);
     bind_distances(m);

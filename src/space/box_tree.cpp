@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <limits>
+#include <numeric>
+#include <utility>
+#include <vector>
 
 namespace surfmesh {
 namespace {
@@ -23,48 +26,115 @@ std::int64_t bits_of(double x) {
     return x > 0.0 ? static_cast<std::int64_t>(std::min(x, 0x1p20 - 1.0)) : 0;
 }
 
-/// A box in space, borders included; without an inside where it holds nothing.
+/// Coordinates in the box of the points, from 0 to 2^20 along its longest side. Rounding keeps the
+/// order of any two: boxes with a point in common have one in these coordinates too.
+struct Frame {
+    Point3 low;
+    double scale;  // 0: no sides, or too long ones; then all is at 0
+
+    Point3 operator()(Point3 p) const {
+        if (scale == 0.0) return {0.0, 0.0, 0.0};
+        return scale * (p - low);
+    }
+};
+
+Frame frame_around(std::span<const Point3> points) {
+    constexpr double INFINITE = std::numeric_limits<double>::infinity();
+    Point3 low{INFINITE, INFINITE, INFINITE}, high{-INFINITE, -INFINITE, -INFINITE};
+    for (const Point3 p : points) {
+        low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
+        high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
+    }
+    const Point3 sides = high - low;
+    const double extent = std::max(std::max(sides.x, sides.y), sides.z);
+    const bool has_scale = extent > 0.0 && extent < INFINITE;
+    return {low, has_scale ? (0x1p20 - 1.0) / extent : 0.0};
+}
+
+/// A box, borders included; without an inside where it holds nothing. The fourth numbers make it
+/// two of the processor's vectors.
 struct Bounds {
-    double low[3], high[3];
+    float low[4], high[4];
 
     static Bounds nothing() {
-        constexpr double INFINITE = std::numeric_limits<double>::infinity();
-        return {{INFINITE, INFINITE, INFINITE}, {-INFINITE, -INFINITE, -INFINITE}};
+        constexpr float INFINITE = std::numeric_limits<float>::infinity();
+        return {{INFINITE, INFINITE, INFINITE, 0.0F}, {-INFINITE, -INFINITE, -INFINITE, 0.0F}};
     }
     void add(const Bounds& other) {
-        for (int k = 0; k < 3; ++k) {
+        for (int k = 0; k < 4; ++k) {
             low[k] = std::min(low[k], other.low[k]);
             high[k] = std::max(high[k], other.high[k]);
         }
     }
-    void add(Point3 p) { add({{p.x, p.y, p.z}, {p.x, p.y, p.z}}); }
+    void add(Point3 p) {
+        const auto x = static_cast<float>(p.x), y = static_cast<float>(p.y),
+                   z = static_cast<float>(p.z);
+        add({{x, y, z, 0.0F}, {x, y, z, 0.0F}});
+    }
 };
 
-/// All six comparisons, without a branch: which of them decides cannot be foretold.
+/// All comparisons, without a branch: which of them decides cannot be foretold.
 bool overlap(const Bounds& a, const Bounds& b) {
-    bool all = true;
-    for (int k = 0; k < 3; ++k)
-        all &= static_cast<int>(a.low[k] <= b.high[k]) & static_cast<int>(b.low[k] <= a.high[k]);
-    return all;
+    int apart = 0;
+    for (int k = 0; k < 4; ++k)
+        apart |= static_cast<int>(a.low[k] > b.high[k]) | static_cast<int>(b.low[k] > a.high[k]);
+    return apart == 0;
 }
 
-/// The boxes around triangles, and around what lies below each node of the tree over them.
+/// The triangles in the order of the tree and their boxes, and those around what lies below each
+/// node over them.
 struct BoxTree {
+    Array<std::int32_t> order;  // numbers of the triangles
+    std::vector<KeyedTriangle> triangles;
     Array<Bounds> boxes;
     Array<Bounds> nodes;
     std::size_t leaves = 1;
-    int depth = 0;
 };
 
-BoxTree tree_over(std::span<const Triangle3> triangles) {
-    BoxTree tree;
-    while (tree.leaves * LEAF < triangles.size()) {
-        tree.leaves *= 2;
-        ++tree.depth;
+/// Place of each triangle's centroid along the Z-order curve through the box of the points.
+Array<std::int64_t> curve_places(std::span<const Point3> points,
+                                 std::span<const TriangleCorners> triangles, const Frame& frame) {
+    Array<std::int64_t> places;
+    places.reserve(triangles.size());
+    for (const TriangleCorners& t : triangles) {
+        const Point3 sum = frame(points[t.a]) + frame(points[t.b]) + frame(points[t.c]);
+        std::int64_t place = 0;
+        int bit = 0;
+        for (const double s : {sum.x, sum.y, sum.z}) place |= spread(bits_of(s / 3.0)) << bit++;
+        places.push_back(place);
     }
+    return places;
+}
+
+/// The numbers of places in their order, equal ones as they are: a digit after the other.
+Array<std::int32_t> sorted_numbers(const Array<std::int64_t>& places) {
+    constexpr int BITS = 12, ALL_BITS = 60;
+    constexpr std::int64_t DIGITS = 1 << BITS;
+    Array<std::int32_t> order(places.size()), next(places.size());
+    std::iota(order.begin(), order.end(), 0);
+    for (int shift = 0; shift < ALL_BITS; shift += BITS) {
+        const auto digit = [&](std::int32_t i) { return places[i] >> shift & (DIGITS - 1); };
+        Array<std::size_t> first(DIGITS + 1, 0);
+        for (const std::int32_t i : order) ++first[digit(i) + 1];
+        for (std::int64_t d = 0; d < DIGITS; ++d) first[d + 1] += first[d];
+        for (const std::int32_t i : order) next[first[digit(i)]++] = i;
+        std::swap(order, next);
+    }
+    return order;
+}
+
+BoxTree tree_over(std::span<const Point3> points, std::span<const TriangleCorners> triangles) {
+    BoxTree tree;
+    while (tree.leaves * LEAF < triangles.size()) tree.leaves *= 2;
+    const Frame frame = frame_around(points);
+    tree.order = sorted_numbers(curve_places(points, triangles, frame));
+    tree.triangles.reserve(triangles.size());
     tree.boxes.resize(triangles.size(), Bounds::nothing());
-    for (std::size_t t = 0; t < triangles.size(); ++t)
-        for (const Point3 corner : triangles[t]) tree.boxes[t].add(corner);
+    for (std::size_t k = 0; k < triangles.size(); ++k) {
+        const TriangleCorners& t = triangles[tree.order[k]];
+        tree.triangles.emplace_back(Triangle3{points[t.a], points[t.b], points[t.c]});
+        for (const Point3 corner : tree.triangles[k].corners) tree.boxes[k].add(frame(corner));
+    }
     tree.nodes.resize(2 * tree.leaves - 1, Bounds::nothing());
     for (std::size_t node = tree.nodes.size(); node-- > 0;) {
         if (node + 1 >= tree.leaves) {
@@ -89,68 +159,64 @@ Leaf leaf_of(std::size_t number, std::size_t triangles) {
     return {first, std::min(first + LEAF, triangles)};
 }
 
-/// Add the pairs of two leaves that meet; of one leaf with itself each pair once.
-void add_meetings_of(std::span<const Triangle3> triangles, const BoxTree& tree, std::size_t own,
-                     std::size_t other, Array<MeetingTriangles>& found) {
-    const Leaf here = leaf_of(own, triangles.size()), there = leaf_of(other, triangles.size());
-    const Bounds& around = tree.nodes[tree.leaves - 1 + other];
-    for (std::size_t s = here.first; s < here.end; ++s) {
-        if (!overlap(tree.boxes[s], around)) continue;
-        for (std::size_t t = std::max(there.first, s + 1); t < there.end; ++t)
-            if (overlap(tree.boxes[s], tree.boxes[t]) && triangles_meet(triangles[s], triangles[t]))
-                found.push_back({static_cast<std::int32_t>(s), static_cast<std::int32_t>(t)});
-    }
-}
+/// Looks for pairs below two nodes, numbered by one more than in the heap: 2 k and 2 k + 1 are the
+/// children of k.
+class Search {
+  public:
+    Search(const BoxTree& tree, std::size_t most) : tree_(tree), most_(most) {}
 
-/// Add the pairs of a leaf's triangles and those after them that meet.
-void add_meetings(std::span<const Triangle3> triangles, const BoxTree& tree, std::size_t leaf,
-                  Array<MeetingTriangles>& found) {
-    const std::size_t own = tree.leaves + leaf;  // by one more than its node, as is ``node``
-    const Bounds box = tree.nodes[own - 1];
-    std::size_t node = 1;
-    int above = tree.depth;  // levels down to the leaves
-    while (true) {
-        // what ends before the own leaf has met it already
-        const bool near = node >= own >> above && overlap(box, tree.nodes[node - 1]);
-        if (near && above > 0) {
-            node *= 2;
-            --above;
-            continue;
-        }
-        if (near) add_meetings_of(triangles, tree, leaf, node - tree.leaves, found);
-        while (node % 2 == 1 && node > 1) {  // done with a right child: up
-            node /= 2;
-            ++above;
-        }
-        if (node == 1) return;
-        ++node;
+    Array<MeetingTriangles> run() {
+        if (most_ > 0) below(1);
+        return std::move(found_);
     }
-}
+
+  private:
+    [[nodiscard]] bool is_done() const { return found_.size() >= most_; }
+    [[nodiscard]] const Bounds& box(std::size_t node) const { return tree_.nodes[node - 1]; }
+
+    /// What lies below a node, with itself.
+    void below(std::size_t node) {
+        if (node >= tree_.leaves) return in_leaves(node, node);
+        below(2 * node);
+        between(2 * node, 2 * node + 1);
+        below(2 * node + 1);
+    }
+
+    /// What lies below one node with what lies below another, of the same level.
+    void between(std::size_t one, std::size_t other) {
+        if (is_done() || !overlap(box(one), box(other))) return;
+        if (one >= tree_.leaves) return in_leaves(one, other);
+        for (const std::size_t a : {2 * one, 2 * one + 1})
+            for (const std::size_t b : {2 * other, 2 * other + 1}) between(a, b);
+    }
+
+    /// The pairs of two leaves that meet; of one leaf with itself each pair once.
+    void in_leaves(std::size_t own, std::size_t other) {
+        if (is_done()) return;
+        const Leaf here = leaf_of(own - tree_.leaves, tree_.triangles.size());
+        const Leaf there = leaf_of(other - tree_.leaves, tree_.triangles.size());
+        for (std::size_t s = here.first; s < here.end; ++s) {
+            if (!overlap(tree_.boxes[s], box(other))) continue;
+            for (std::size_t t = std::max(there.first, s + 1); t < there.end; ++t)
+                if (overlap(tree_.boxes[s], tree_.boxes[t]) &&
+                    triangles_meet(tree_.triangles[s], tree_.triangles[t]))
+                    found_.push_back({std::min(tree_.order[s], tree_.order[t]),
+                                      std::max(tree_.order[s], tree_.order[t])});
+        }
+    }
+
+    const BoxTree& tree_;
+    std::size_t most_;
+    Array<MeetingTriangles> found_;
+};
 
 }  // namespace
 
-Array<std::int64_t> curve_places(std::span<const Point3> points,
-                                 std::span<const TriangleCorners> triangles, Point3 low,
-                                 double scale) {
-    Array<std::int64_t> places;
-    places.reserve(triangles.size());
-    for (const TriangleCorners& t : triangles) {
-        Point3 sum{0.0, 0.0, 0.0};
-        for (const Vertex v : {t.a, t.b, t.c}) sum = sum + scale * (points[v] - low);
-        std::int64_t place = 0;
-        int bit = 0;
-        for (const double s : {sum.x, sum.y, sum.z}) place |= spread(bits_of(s / 3.0)) << bit++;
-        places.push_back(place);
-    }
-    return places;
-}
-
-Array<MeetingTriangles> meeting_triangles(std::span<const Triangle3> triangles, std::size_t most) {
-    const BoxTree tree = tree_over(triangles);
-    Array<MeetingTriangles> found;
-    for (std::size_t leaf = 0; leaf * LEAF < triangles.size() && found.size() < most; ++leaf)
-        add_meetings(triangles, tree, leaf, found);
-    return found;
+Array<MeetingTriangles> meeting_triangles(std::span<const Point3> points,
+                                          std::span<const TriangleCorners> triangles,
+                                          std::size_t most) {
+    const BoxTree tree = tree_over(points, triangles);
+    return Search(tree, most).run();
 }
 
 }  // namespace surfmesh

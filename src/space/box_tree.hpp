@@ -7,6 +7,9 @@
 //            1         2            the leaves are the last 2^depth nodes, each holds LEAF
 //           / \       / \           triangles in their order; the last leaves may be empty
 //          3   4     5   6
+//
+// What lies below two nodes of one level is compared where their boxes have a point in common,
+// child with child, and what lies below one node with itself.
 #pragma once
 
 #include <cstdint>
@@ -22,22 +25,17 @@ struct TriangleCorners {
     Vertex a, b, c;
 };
 
-/// Place of each triangle's centroid along the Z-order curve through a box.
-///
-/// low: corner of the box of the points; scale: 2^20 over its longest side, a little less. All
-/// coordinates are finite.
-Array<std::int64_t> curve_places(std::span<const Point3> points,
-                                 std::span<const TriangleCorners> triangles, Point3 low,
-                                 double scale);
-
 struct MeetingTriangles {
     std::int32_t first, second;
 };
 
-/// Pairs of triangles that meet where they should not (``triangles_meet``), the lower first.
+/// Pairs of triangles that meet where they should not (``triangles_meet``), the lower first, in
+/// no order that means anything.
 ///
-/// Each leaf is compared with itself and those after it. The search ends after the leaf with which
-/// there are ``most`` pairs or more.
-Array<MeetingTriangles> meeting_triangles(std::span<const Triangle3> triangles, std::size_t most);
+/// All coordinates are finite. The search ends with the two leaves where there are ``most`` pairs
+/// or more.
+Array<MeetingTriangles> meeting_triangles(std::span<const Point3> points,
+                                          std::span<const TriangleCorners> triangles,
+                                          std::size_t most);
 
 }  // namespace surfmesh

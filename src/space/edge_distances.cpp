@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <vector>
 
 #include "values/threads.hpp"
 
@@ -68,27 +69,38 @@ Segments runs_of_segments(const SampledEdges& sampled) {
     return found;
 }
 
-/// Lower the gaps of the samples of edge a to their distances from edge b.
-void lower_gaps(const SampledEdges& sampled, const Segments& runs, std::int64_t a, std::int64_t b,
-                EdgeGaps& found) {
+/// Lower the gap of one sample to its distance from edge b.
+void lower_gap(const SampledEdges& sampled, const Segments& runs, std::int64_t p, std::int64_t b,
+               EdgeGaps& found) {
     const std::int64_t end = sampled.first[b + 1] - 1;
-    for (std::int64_t p = sampled.first[a]; p < sampled.first[a + 1]; ++p) {
-        const Point3 point = sampled.points[p];
-        const double reach = std::min(found.gap[p], sampled.reach[p]);
-        double nearest = reach * reach;
-        if (squared_distance(found.boxes[b], point) >= nearest) continue;
-        std::int64_t box = runs.first_box[b];
-        for (std::int64_t run = sampled.first[b]; run < end; run += RUN, ++box) {
-            if (squared_distance(runs.boxes[box], point) >= nearest) continue;
-            for (std::int64_t s = run; s < std::min(run + RUN, end); ++s) {
-                const double here = squared_distance(runs.segments[s], point);
-                if (here < nearest) {
-                    nearest = here;
-                    found.gap[p] = std::sqrt(here);
-                }
+    const Point3 point = sampled.points[p];
+    const double reach = std::min(found.gap[p], sampled.reach[p]);
+    double nearest = reach * reach;
+    if (squared_distance(found.boxes[b], point) >= nearest) return;
+    std::int64_t box = runs.first_box[b];
+    for (std::int64_t run = sampled.first[b]; run < end; run += RUN, ++box) {
+        if (squared_distance(runs.boxes[box], point) >= nearest) continue;
+        for (std::int64_t s = run; s < std::min(run + RUN, end); ++s) {
+            const double here = squared_distance(runs.segments[s], point);
+            if (here < nearest) {
+                nearest = here;
+                found.gap[p] = std::sqrt(here);
             }
         }
     }
+}
+
+/// Lower the gaps of the samples of edge a, run by run; farthest: square of their largest reach.
+void lower_gaps(const SampledEdges& sampled, const Segments& runs, std::int64_t a, std::int64_t b,
+                double farthest, EdgeGaps& found) {
+    const std::int64_t end = sampled.first[a + 1] - 1;
+    std::int64_t box = runs.first_box[a];
+    for (std::int64_t run = sampled.first[a]; run < end; run += RUN, ++box) {
+        if (squared_distance_between(runs.boxes[box], found.boxes[b]) >= farthest) continue;
+        const std::int64_t last = run + RUN < end ? run + RUN - 1 : end;
+        for (std::int64_t p = run; p <= last; ++p) lower_gap(sampled, runs, p, b, found);
+    }
+    if (sampled.first[a] == end) lower_gap(sampled, runs, end, b, found);
 }
 
 /// Of each edge the faces that use it, in their order.
@@ -109,14 +121,87 @@ FacesOfEdges faces_of_edges(const SampledEdges& sampled) {
     return found;
 }
 
+/// Which edges of a face may be near one of them: those whose boxes begin within a band along the
+/// longest axis of the face, and those that are long themselves.
+class NearEdges {
+  public:
+    NearEdges(const SampledEdges& sampled, const Array<Box3>& boxes, std::int64_t face)
+        : first_(sampled.first_of_face[face]), end_(sampled.first_of_face[face + 1]) {
+        if (end_ - first_ < FEW || !choose_axis(sampled, boxes)) return;
+        for (std::int64_t k = first_; k < end_; ++k) {
+            const Box3& box = boxes[sampled.edges[k]];
+            const double low = along(box.low), length = along(box.high) - low;
+            if (!(length < LONG * extent_)) {  // a box of no samples has no length
+                long_.push_back(k);
+                continue;
+            }
+            longest_ = std::max(longest_, length);
+            begins_.push_back({low, k});
+        }
+        std::sort(begins_.begin(), begins_.end(), [](const Begin& one, const Begin& other) {
+            return one.at < other.at || (one.at == other.at && one.row < other.row);
+        });
+    }
+
+    /// Rows of the face's edges, rising: all that may be nearer to the box than ``reach``.
+    void of(const Box3& box, double reach, Array<std::int64_t>& rows) const {
+        rows.clear();
+        if (begins_.empty()) {
+            for (std::int64_t k = first_; k < end_; ++k) rows.push_back(k);
+            return;
+        }
+        const double away = SURELY * (reach + longest_) + ROUNDING * extent_;
+        const double from = along(box.low) - away, to = along(box.high) + away;
+        auto begin = std::lower_bound(begins_.begin(), begins_.end(), from,
+                                      [](const Begin& b, double at) { return b.at < at; });
+        for (; begin != begins_.end() && begin->at <= to; ++begin) rows.push_back(begin->row);
+        for (const std::int64_t k : long_) rows.push_back(k);
+        std::sort(rows.begin(), rows.end());
+    }
+
+  private:
+    static constexpr std::int64_t FEW = 48;  // edges that are looked at one by one
+    static constexpr double LONG = 0.05;     // of the face: longer edges widen no band
+    static constexpr double SURELY = 1.0 + 1e-9, ROUNDING = 1e-9;
+
+    struct Begin {
+        double at;
+        std::int64_t row;
+    };
+
+    [[nodiscard]] double along(Point3 p) const { return axis_ == 0 ? p.x : axis_ == 1 ? p.y : p.z; }
+
+    /// The longest axis of the face; whether it has any length.
+    bool choose_axis(const SampledEdges& sampled, const Array<Box3>& boxes) {
+        Box3 whole{{INFINITE, INFINITE, INFINITE}, {-INFINITE, -INFINITE, -INFINITE}};
+        for (std::int64_t k = first_; k < end_; ++k) {
+            const Box3& box = boxes[sampled.edges[k]];
+            whole.low = {std::min(whole.low.x, box.low.x), std::min(whole.low.y, box.low.y),
+                         std::min(whole.low.z, box.low.z)};
+            whole.high = {std::max(whole.high.x, box.high.x), std::max(whole.high.y, box.high.y),
+                          std::max(whole.high.z, box.high.z)};
+        }
+        const Point3 size = whole.high - whole.low;
+        axis_ = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
+        extent_ = along(size);
+        return extent_ > 0.0 && std::isfinite(extent_);
+    }
+
+    std::int64_t first_, end_;
+    int axis_ = 0;
+    double extent_ = 0.0, longest_ = 0.0;
+    Array<Begin> begins_;       // in their order along the axis
+    Array<std::int64_t> long_;  // rows
+};
+
 /// Lower the gaps of the samples of edge a to their distances from the other edges of a face.
 void lower_gaps_in_face(const SampledEdges& sampled, const Segments& runs, std::int64_t a,
-                        std::int64_t face, double farthest, EdgeGaps& found) {
-    for (std::int64_t k = sampled.first_of_face[face]; k < sampled.first_of_face[face + 1]; ++k) {
+                        std::span<const std::int64_t> rows, double farthest, EdgeGaps& found) {
+    for (const std::int64_t k : rows) {
         const std::int64_t b = sampled.edges[k];
         if (a != b && !have_common_vertex(sampled.ends[a], sampled.ends[b]) &&
             squared_distance_between(found.boxes[a], found.boxes[b]) < farthest)
-            lower_gaps(sampled, runs, a, b, found);
+            lower_gaps(sampled, runs, a, b, farthest, found);
     }
 }
 
@@ -137,11 +222,19 @@ EdgeGaps edge_gaps(const SampledEdges& sampled) {
         farthest.push_back(largest * largest);
     }
     const FacesOfEdges uses = faces_of_edges(sampled);
+    std::vector<NearEdges> near;
+    near.reserve(sampled.first_of_face.size());
+    for (std::size_t face = 0; face + 1 < sampled.first_of_face.size(); ++face)
+        near.emplace_back(sampled, found.boxes, static_cast<std::int64_t>(face));
     for_each_block(farthest.size(), BLOCK, [&](std::size_t begin, std::size_t end) {
+        Array<std::int64_t> rows;
         for (std::size_t a = begin; a < end; ++a)
-            for (std::int64_t k = uses.first[a]; k < uses.first[a + 1]; ++k)
-                lower_gaps_in_face(sampled, runs, static_cast<std::int64_t>(a), uses.faces[k],
-                                   farthest[a], found);
+            for (std::int64_t k = uses.first[a]; k < uses.first[a + 1]; ++k) {
+                near[static_cast<std::size_t>(uses.faces[k])].of(found.boxes[a],
+                                                                 std::sqrt(farthest[a]), rows);
+                lower_gaps_in_face(sampled, runs, static_cast<std::int64_t>(a),
+                                   {rows.data(), rows.size()}, farthest[a], found);
+            }
     });
     return found;
 }

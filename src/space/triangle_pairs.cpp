@@ -1,6 +1,7 @@
 #include "space/triangle_pairs.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 
 #include "space/orient_space.hpp"
@@ -151,6 +152,22 @@ struct SharedCorners {
     std::size_t before[2] = {0, 0}, last[2] = {0, 0};
 };
 
+/// The bits of a coordinate; 0 and -0, which are one place, have the same.
+std::uint64_t bits_of(double x) { return std::bit_cast<std::uint64_t>(x + 0.0); }
+
+std::uint32_t key_of(Point3 p) {
+    constexpr std::uint64_t ODD = 0x9E3779B97F4A7C15;  // 2^64 over the golden ratio: bits spread
+    const std::uint64_t mixed = ((bits_of(p.x) * ODD ^ bits_of(p.y)) * ODD ^ bits_of(p.z)) * ODD;
+    return static_cast<std::uint32_t>(mixed >> 32);
+}
+
+bool may_share(const KeyedTriangle& s, const KeyedTriangle& t) {
+    bool any = false;
+    for (const std::uint32_t k : s.keys)
+        any |= (k == t.keys[0]) | (k == t.keys[1]) | (k == t.keys[2]);
+    return any;
+}
+
 SharedCorners shared_corners(const Triangle3& s, const Triangle3& t) {
     SharedCorners shared;
     for (std::size_t k = 0; k < 3; ++k)
@@ -194,8 +211,12 @@ bool are_folded(const CommonSide& side, int axis) {
 
 }  // namespace
 
-bool triangles_meet(const Triangle3& s, const Triangle3& t) {
-    const SharedCorners shared = shared_corners(s, t);
+KeyedTriangle::KeyedTriangle(const Triangle3& given)
+    : corners(given), keys{key_of(given[0]), key_of(given[1]), key_of(given[2])} {}
+
+bool triangles_meet(const KeyedTriangle& one, const KeyedTriangle& other) {
+    const Triangle3 &s = one.corners, &t = other.corners;
+    const SharedCorners shared = may_share(one, other) ? shared_corners(s, t) : SharedCorners{};
     const std::size_t a = shared.last[0], d = shared.last[1];
     const Point3 b = s[next(a)], c = s[(a + 2) % 3], e = t[next(d)], f = t[(d + 2) % 3];
     if (shared.count == 0 && (are_parted_by(s, t) || are_parted_by(t, s))) return false;

@@ -13,6 +13,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 
 #include "values/point.hpp"
 
@@ -20,7 +21,16 @@ namespace surfmesh {
 
 using Triangle3 = std::array<Point3, 3>;
 
+/// A triangle with a number for each corner, by its place: corners at one place have one number,
+/// and others seldom the same, so that most pairs of corners are told apart at once.
+struct KeyedTriangle {
+    explicit KeyedTriangle(const Triangle3& given);
+
+    Triangle3 corners;
+    std::array<std::uint32_t, 3> keys;
+};
+
 /// Do two triangles with finite corners meet where they should not?
-bool triangles_meet(const Triangle3& s, const Triangle3& t);
+bool triangles_meet(const KeyedTriangle& s, const KeyedTriangle& t);
 
 }  // namespace surfmesh

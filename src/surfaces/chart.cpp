@@ -14,18 +14,61 @@ namespace {
 constexpr int INVERSION_STEPS = 6;
 
 /// The parameter or the bent one, and its derivative by x: cubic Hermite interpolation.
-ValueAndRate knotted(const ChartAxis& axis, double x) {
-    if (axis.knots.size() == 2) return {axis.knots[0] + x * axis.slopes[0], axis.slopes[0]};
-    const auto cells = static_cast<std::int64_t>(axis.knots.size()) - 1;
-    const double step = axis.extent / static_cast<double>(cells);
-    const double inside = std::min(std::max(0.0, x), axis.extent);  // 0 for what is no number
-    const std::int64_t i = std::min(static_cast<std::int64_t>(inside / step), cells - 1);
-    const double t = inside / step - static_cast<double>(i);
-    const double m = step * axis.slopes[i], n = step * axis.slopes[i + 1];
-    const double d = axis.knots[i + 1] - axis.knots[i];
-    const double b = 3.0 * d - 2.0 * m - n, c = m + n - 2.0 * d;
-    const double rate = (m + t * (2.0 * b + 3.0 * t * c)) / step;
-    return {axis.knots[i] + t * (m + t * (b + t * c)) + (x - inside) * rate, rate};
+class Knots {
+  public:
+    explicit Knots(const ChartAxis& axis)
+        : axis_(axis),
+          cells_(static_cast<std::int64_t>(axis.knots.size()) - 1),
+          step_(axis.extent / static_cast<double>(cells_)) {}
+
+    [[nodiscard]] bool are_even() const { return cells_ == 1; }
+    [[nodiscard]] ValueAndRate at(double x) const {
+        if (are_even()) return {axis_.knots[0] + x * axis_.slopes[0], axis_.slopes[0]};
+        const double inside = std::min(std::max(0.0, x), axis_.extent);  // 0 for what is no number
+        const Cubic cubic(*this, inside);
+        const double rate = cubic.rate() / step_;
+        return {cubic.value() + (x - inside) * rate, rate};
+    }
+    /// The same without the rate, which only points outside need.
+    [[nodiscard]] double value_at(double x) const {
+        if (are_even() || !(x >= 0.0 && x <= axis_.extent)) return at(x).value;
+        return Cubic(*this, x).value() + 0.0;
+    }
+
+  private:
+    /// Between two knots, t from one to the other.
+    struct Cubic {
+        double first, t, m, b, c;
+
+        Cubic(const Knots& k, double inside) {
+            const double place = inside / k.step_;
+            const std::int64_t i = std::min(static_cast<std::int64_t>(place), k.cells_ - 1);
+            t = place - static_cast<double>(i);
+            m = k.step_ * k.axis_.slopes[i];
+            first = k.axis_.knots[i];
+            const double n = k.step_ * k.axis_.slopes[i + 1], d = k.axis_.knots[i + 1] - first;
+            b = 3.0 * d - 2.0 * m - n;
+            c = m + n - 2.0 * d;
+        }
+        [[nodiscard]] double value() const { return first + t * (m + t * (b + t * c)); }
+        [[nodiscard]] double rate() const { return m + t * (2.0 * b + 3.0 * t * c); }
+    };
+
+    const ChartAxis& axis_;
+    std::int64_t cells_;
+    double step_;
+};
+
+/// Fill in one parameter of many points.
+template <class Coordinate>
+void fill_parameters(const ChartAxis& axis, std::span<const Point2> xy, Coordinate coordinate,
+                     Array<Point2>& uv) {
+    const Knots knots(axis);
+    const bool bent = !axis.pieces.empty();
+    for (std::size_t i = 0; i < xy.size(); ++i) {
+        const double value = knots.value_at(xy[i].*coordinate);
+        uv[i].*coordinate = bent ? unbent(axis.pieces, value) : value;
+    }
 }
 
 /// The piece that holds s, or the nearest one.
@@ -72,7 +115,7 @@ double rate_of_bending(const Array<BentPiece>& pieces, double s) {
 }
 
 ValueAndRate ChartAxis::parameter(double x) const {
-    const ValueAndRate found = knotted(*this, x);
+    const ValueAndRate found = Knots(*this).at(x);
     if (pieces.empty()) return found;
     return {unbent(pieces, found.value), found.rate * rate_of_bending(pieces, found.value)};
 }
@@ -82,8 +125,9 @@ double ChartAxis::coordinate(double given) const {
     if (given == knots[0]) return 0.0;
     double x = piecewise_linear(*this, given);
     if (knots.size() == 2) return x;
+    const Knots by_knots(*this);
     for (int k = 0; k < INVERSION_STEPS; ++k) {
-        const ValueAndRate at = knotted(*this, x);
+        const ValueAndRate at = by_knots.at(x);
         x = clipped(x - (at.value - given) / at.rate, 0.0, extent);
     }
     return x;
@@ -96,7 +140,8 @@ ChartPoint Chart::at(Point2 xy) const {
 
 Array<Point2> Chart::to_uv(std::span<const Point2> xy) const {
     Array<Point2> uv(xy.size());
-    for (std::size_t i = 0; i < xy.size(); ++i) uv[i] = to_uv(xy[i]);
+    fill_parameters(u, xy, &Point2::x, uv);
+    fill_parameters(v, xy, &Point2::y, uv);
     return uv;
 }
 

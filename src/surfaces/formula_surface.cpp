@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "surfaces/tape_evaluation.hpp"
+#include "surfaces/tape_majorants.hpp"
 
 namespace surfmesh {
 namespace {
@@ -37,6 +38,12 @@ void evaluate_moved(const Tape& tape, const Moved& moved, std::size_t n, std::sp
     for (std::size_t k = 1; k < derivatives; ++k)
         for (std::size_t i = 0; i < count; ++i)
             out[k * n + static_cast<std::size_t>(moved.points[i])] = found[k * count + i];
+}
+
+/// The middle of a box; half of it is wide, and as much again for the rounding of the middle.
+EnclosedPoint enclosed(Point3 lower, Point3 upper) {
+    const Point3 wide = upper - lower;
+    return {0.5 * (lower + upper), std::max({wide.x, wide.y, wide.z})};
 }
 
 /// Is a derivative of point i not finite?
@@ -150,11 +157,7 @@ SurfaceStatus FormulaSurface::enclose(std::span<const Point2> uv,
     Array<Point3> lower(uv.size()), upper(uv.size());
     enclosures(*tapes_[0], as_numbers(uv), as_numbers(uv), 0,
                as_numbers({lower.data(), lower.size()}), as_numbers({upper.data(), upper.size()}));
-    for (std::size_t i = 0; i < uv.size(); ++i) {
-        const Point3 middle = 0.5 * (lower[i] + upper[i]), wide = upper[i] - lower[i];
-        // half of it, and as much again for the rounding of the middle
-        out[i] = {middle, std::max({wide.x, wide.y, wide.z})};
-    }
+    for (std::size_t i = 0; i < uv.size(); ++i) out[i] = enclosed(lower[i], upper[i]);
     return SurfaceStatus::DONE;
 }
 
@@ -184,6 +187,36 @@ SurfaceStatus FormulaSurface::enclose_bends(std::span<const ParameterBox> cells,
             out[i].vv[d] = along(directions[i][d], second[2]);
         }
     }
+    return SurfaceStatus::DONE;
+}
+
+SurfaceStatus FormulaSurface::enclose_second(std::span<const Point2> uv,
+                                             std::span<SecondJet> out) const {
+    if (tapes_[2] == nullptr) return SurfaceStatus::UNKNOWN;
+    Array<Point3> lower(6 * uv.size()), upper(6 * uv.size());
+    enclosures(*tapes_[2], as_numbers(uv), as_numbers(uv), 0,
+               as_numbers({lower.data(), lower.size()}), as_numbers({upper.data(), upper.size()}));
+    constexpr std::array<std::size_t, 4> WHICH = {0, 3, 4, 5};
+    for (std::size_t i = 0; i < uv.size(); ++i)
+        for (std::size_t k = 0; k < 4; ++k)
+            out[i][k] = enclosed(lower[6 * i + WHICH[k]], upper[6 * i + WHICH[k]]);
+    return SurfaceStatus::DONE;
+}
+
+SurfaceStatus FormulaSurface::fourth_magnitudes(std::span<const ParameterBox> cells,
+                                                std::span<FourthMagnitudes> out) const {
+    if (tapes_[0] == nullptr) return SurfaceStatus::UNKNOWN;
+    Array<Point2> low(cells.size()), high(cells.size());
+    for (std::size_t i = 0; i < cells.size(); ++i) {
+        low[i] = cells[i].low;
+        high[i] = cells[i].high;
+    }
+    Array<std::array<double, 5>> found(3 * cells.size());
+    fourth_derivatives(*tapes_[0], as_numbers({low.data(), low.size()}),
+                       as_numbers({high.data(), high.size()}), {found.data(), found.size()});
+    for (std::size_t i = 0; i < cells.size(); ++i)
+        for (std::size_t k = 0; k < 5; ++k)
+            out[i][k] = {found[3 * i][k], found[3 * i + 1][k], found[3 * i + 2][k]};
     return SurfaceStatus::DONE;
 }
 

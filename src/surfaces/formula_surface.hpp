@@ -9,6 +9,7 @@
 #include <array>
 #include <memory>
 
+#include "surfaces/fourth_derivatives.hpp"
 #include "surfaces/surface.hpp"
 #include "surfaces/tape.hpp"
 #include "surfaces/tape_bounds.hpp"
@@ -26,7 +27,7 @@ struct SpeedLimits {
     [[nodiscard]] double kept_off(double u) const;
 };
 
-class FormulaSurface final : public Surface {
+class FormulaSurface final : public Surface, public FourthDerivatives {
   public:
     using Tapes = std::array<std::shared_ptr<const Tape>, 3>;
 
@@ -46,6 +47,10 @@ class FormulaSurface final : public Surface {
     SurfaceStatus enclose_bends(std::span<const ParameterBox> cells,
                                 std::span<const Directions> directions,
                                 std::span<Bends> out) const override;
+    SurfaceStatus enclose_second(std::span<const Point2> uv,
+                                 std::span<SecondJet> out) const override;
+    SurfaceStatus fourth_magnitudes(std::span<const ParameterBox> cells,
+                                    std::span<FourthMagnitudes> out) const override;
 
   private:
     SurfaceStatus bounds_from(std::size_t first, Kinks kinks, std::span<const ParameterBox> cells,

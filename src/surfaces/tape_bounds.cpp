@@ -263,34 +263,6 @@ Interval known_phase(Interval a, Interval found) {
     return std::abs(a.lo) < FARTHEST && std::abs(a.hi) < FARTHEST ? found : Interval{-1.0, 1.0};
 }
 
-/// One instruction with its result rounded outwards.
-void run_outward(const Instruction& step, const Slots& slots, std::size_t n) {
-    const auto [a, b, c] = step.operands;
-    const Operands o{slots[step.target], slots[a], slots[b], slots[c], n};
-    if (step.operation == Operation::DIVIDE) return each_pair(o, outward::divide);
-    if (is_bessel(step.operation)) {  // a middle, and a slope from there
-        constexpr double ROUNDING = 0x1p-47;
-        run(step, slots, n, Kinks::UNBOUNDED);
-        return each_pair({o.out, o.out, o.a, o.a, n}, [](Interval found, Interval) {
-            return Interval{found.lo - ROUNDING, found.hi + ROUNDING};
-        });
-    }
-    const bool wave = step.operation == Operation::SIN || step.operation == Operation::COS;
-    if (wave) {
-        const bool is_sine = step.operation == Operation::SIN;
-        return each(o, [is_sine](Interval angle) {
-            const Interval found = is_sine ? intervals::sin(angle) : intervals::cos(angle);
-            return outward::widened(known_phase(angle, found), 1.0);
-        });
-    }
-    run(step, slots, n, Kinks::UNBOUNDED);
-    const double ulps = ulps_of(step);
-    if (ulps == 0.5)
-        for (std::size_t k = 0; k < n; ++k) o.out[k] = outward::rounded(o.out[k]);
-    else if (ulps > 0.0)
-        for (std::size_t k = 0; k < n; ++k) o.out[k] = outward::widened(o.out[k], ulps);
-}
-
 /// Which instructions the outputs from ``first`` on depend on.
 Array<std::uint8_t> needed_for(const Tape& tape, std::size_t first) {
     const std::span<const Instruction> steps = tape.instructions();
@@ -354,6 +326,38 @@ void bounds_in(const Arithmetic& arithmetic, const Tape& tape, std::span<const d
 
 }  // namespace
 
+void run_outward(const Instruction& step, const TapeSlots<Interval>& slots, std::size_t n) {
+    const auto [a, b, c] = step.operands;
+    const Operands o{slots[step.target], slots[a], slots[b], slots[c], n};
+    if (step.operation == Operation::DIVIDE) return each_pair(o, outward::divide);
+    if (is_bessel(step.operation)) {  // a middle, and a slope from there
+        constexpr double ROUNDING = 0x1p-47;
+        run(step, slots, n, Kinks::UNBOUNDED);
+        return each_pair({o.out, o.out, o.a, o.a, n}, [](Interval found, Interval) {
+            return Interval{found.lo - ROUNDING, found.hi + ROUNDING};
+        });
+    }
+    const bool wave = step.operation == Operation::SIN || step.operation == Operation::COS;
+    if (wave) {
+        const bool is_sine = step.operation == Operation::SIN;
+        return each(o, [is_sine](Interval angle) {
+            const Interval found = is_sine ? intervals::sin(angle) : intervals::cos(angle);
+            return outward::widened(known_phase(angle, found), 1.0);
+        });
+    }
+    run(step, slots, n, Kinks::UNBOUNDED);
+    const double ulps = ulps_of(step);
+    if (ulps == 0.5)
+        for (std::size_t k = 0; k < n; ++k) o.out[k] = outward::rounded(o.out[k]);
+    else if (ulps > 0.0)
+        for (std::size_t k = 0; k < n; ++k) o.out[k] = outward::widened(o.out[k], ulps);
+}
+
+Interval outward_constant(double x) {
+    const bool whole = x == std::floor(x) && std::abs(x) < 0x1p53;
+    return whole ? Interval{x, x} : outward::widened({x, x}, 4.0);
+}
+
 void bounds(const Tape& tape, std::span<const double> lo, std::span<const double> hi, Kinks kinks,
             std::size_t first, std::span<double> lower, std::span<double> upper) {
     constexpr Arithmetic NEAREST = {[](double x) { return Interval{x, x}; }, run, widened};
@@ -362,15 +366,10 @@ void bounds(const Tape& tape, std::span<const double> lo, std::span<const double
 
 void enclosures(const Tape& tape, std::span<const double> lo, std::span<const double> hi,
                 std::size_t first, std::span<double> lower, std::span<double> upper) {
-    constexpr Arithmetic OUTWARD = {
-        [](double x) {
-            const bool whole = x == std::floor(x) && std::abs(x) < 0x1p53;
-            return whole ? Interval{x, x} : outward::widened({x, x}, 4.0);
-        },
-        [](const Instruction& step, const Slots& slots, std::size_t n, Kinks) {
-            run_outward(step, slots, n);
-        },
-        [](Interval found) { return found; }};
+    constexpr Arithmetic OUTWARD = {outward_constant,
+                                    [](const Instruction& step, const Slots& slots, std::size_t n,
+                                       Kinks) { run_outward(step, slots, n); },
+                                    [](Interval found) { return found; }};
     bounds_in(OUTWARD, tape, lo, hi, Kinks::UNBOUNDED, first, lower, upper);
 }
 

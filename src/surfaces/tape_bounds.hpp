@@ -27,4 +27,8 @@ void bounds(const Tape& tape, std::span<const double> lo, std::span<const double
 void enclosures(const Tape& tape, std::span<const double> lo, std::span<const double> hi,
                 std::size_t first, std::span<double> lower, std::span<double> upper);
 
+/// One instruction over n cells, its result rounded outwards; a constant as it is taken there.
+void run_outward(const Instruction& step, const TapeSlots<Interval>& slots, std::size_t n);
+Interval outward_constant(double x);
+
 }  // namespace surfmesh

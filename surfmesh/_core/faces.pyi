@@ -100,6 +100,11 @@ def face_boundaries(uv: Annotated[NDArray[numpy.float64], dict(shape=(None, 2), 
     uv (n, 2), numbers, points (n, 3), sizes: of the nodes of all coedges, face after face, in the direction of the edges. first (c + 1,): rows of the coedges. is_reversed, is_degenerate, tolerance (c,): of the coedges. coedges (l,) int32: of each loop; loops (f,) int32: of each face.
     """
 
+def numbers_of(boundaries: Sequence[FaceBoundary]) -> tuple[Annotated[NDArray[numpy.int64], dict(shape=(None,))], Annotated[NDArray[numpy.int64], dict(shape=(None,))]]:
+    """
+    Those of the nodes of many boundaries in one row, and where each begins.
+    """
+
 class FacePolygons:
     """Loops as closed polygons: each coedge without its last node."""
 

@@ -56,13 +56,6 @@ def cosines_with_surface(surface: surfmesh._core.surfaces.Surface, corners: Anno
     NaN where there is no normal.
     """
 
-def on_crease(surface: surfmesh._core.surfaces.Surface, uv: Annotated[NDArray[numpy.float64], dict(shape=(None, 2, 3, 2), order='C', device='cpu', writable=False)], alike: Annotated[NDArray[numpy.uint8], dict(shape=(None,), order='C', device='cpu', writable=False)], angle: float, diagonal: float) -> Annotated[NDArray[numpy.uint8], dict(shape=(None,))]:
-    """
-    Which edges (k,) lie on a crease, at an apex, or as good as at one: 0 and 1.
-
-    uv: (k, 2, 3, 2) of the corners of both triangles, the ends of the edge first. alike: (k,) whether both begin at one end. As good as at an apex: curved so much that ``angle`` (degrees) would ask for less than the finest size, a fraction of the diagonal.
-    """
-
 def identify_seams(tri: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], adj: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], region: Annotated[NDArray[numpy.uint8], dict(shape=(None,), order='C', device='cpu', writable=False)], vertices: int, node: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], segments: Annotated[NDArray[numpy.int32], dict(shape=(None, 2), order='C', device='cpu', writable=False)], identity: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)]) -> tuple[Annotated[NDArray[numpy.int32], dict(shape=(None,))], Annotated[NDArray[numpy.int32], dict(shape=(None,))], Annotated[NDArray[numpy.int64], dict(shape=(None,))], Annotated[NDArray[numpy.int64], dict(shape=(None,))]]:
     """
     The triangles in space of a domain, whose boundary nodes may be one point there.
@@ -258,9 +251,9 @@ class PatchState:
 class PatchSettings:
     """What a patch is meshed on, and how."""
 
-    def __init__(self, surface: object, chart: object, background: object, chord: float | None = None, angle: float | None = None, min_size: float = 0.0, *, box: Sequence[float], expected: int, optimise: bool = True, first: bool = True, with_roots: bool = False, slope: float | None = None, before_stage: object | None = None, while_packing: object | None = None, before_pass: object | None = None) -> None:
+    def __init__(self, surface: object, chart: object, background: object, chord: float | None = None, angle: float | None = None, min_size: float = 0.0, *, box: Sequence[float], expected: int, optimise: bool = True, first: bool = True, with_roots: bool = False, slope: float | None = None, is_width: bool = False, before_stage: object | None = None, while_packing: object | None = None, before_pass: object | None = None) -> None:
         """
-        chord (model units), angle (degrees): what is asked for. box: x0, y0, x1, y1 of the plane that is packed, in which about ``expected`` circles have room. optimise: else only diagonals are chosen. first: the sizes come from no earlier round. with_roots: W of the vertices is wanted. slope: growth per length that stretched sizes are graded to on the mesh.
+        chord (model units), angle (degrees): what is asked for. box: x0, y0, x1, y1 of the plane that is packed, in which about ``expected`` circles have room. optimise: else only diagonals are chosen. first: the sizes come from no earlier round. with_roots: W of the vertices is wanted. slope: growth per length that stretched sizes are graded to on the mesh. is_width: chord is that of the whole band that a triangle needs.
         before_stage is called with each PatchStage, while_packing now and then with the number of circles, before_pass before each pass of smoothing; what they raise stops the work and comes through.
         """
 

@@ -20,6 +20,20 @@ def mesh_deviation(surfaces: list, points: Annotated[NDArray[numpy.float64], dic
     edges (k, 2): half-edges and those that share what is found, or -1; area (m,).
     """
 
+def sampled_surface(surfaces: list, points: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)], triangles: Annotated[NDArray[numpy.int32], dict(shape=(None, 3), order='C', device='cpu', writable=False)], uv: Annotated[NDArray[numpy.float64], dict(shape=(None, 2), order='C', device='cpu', writable=False)], uv_triangles: Annotated[NDArray[numpy.int32], dict(shape=(None, 3), order='C', device='cpu', writable=False)], faces: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], triangle: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], rule: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], weights: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)]) -> tuple[Annotated[NDArray[numpy.float64], dict(shape=(None, 2))], Annotated[NDArray[numpy.float64], dict(shape=(None, 3))], Annotated[NDArray[numpy.float64], dict(shape=(None,))]]:
+    """
+    Parameters (k, 2) at barycentric weights[rule] (w, 3) of triangles (k,), the points (k, 3) of the surfaces there, and how far (k,) these are from the triangle.
+
+    The mesh is as for ``mesh_deviation``; only the triangles that are asked for are looked at.
+    """
+
+def face_creases(surfaces: list, points: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)], triangles: Annotated[NDArray[numpy.int32], dict(shape=(None, 3), order='C', device='cpu', writable=False)], uv: Annotated[NDArray[numpy.float64], dict(shape=(None, 2), order='C', device='cpu', writable=False)], uv_triangles: Annotated[NDArray[numpy.int32], dict(shape=(None, 3), order='C', device='cpu', writable=False)], faces: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], edges: Annotated[NDArray[numpy.int32], dict(shape=(None, 2), order='C', device='cpu', writable=False)], angle: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)]) -> Annotated[NDArray[numpy.uint8], dict(shape=(None,))]:
+    """
+    Which edges (k,) within faces lie on a crease of their surface, at an apex, or as good as at one: 0 and 1.
+
+    The mesh is as for ``mesh_deviation``; edges (k, 2): the half-edges on both sides; angle (f,): what is asked for of each face, degrees. As good as at an apex: curved so much that this angle would ask for less than the finest size, a fraction of the diagonal of the face's triangles.
+    """
+
 class TriangleStars:
     """The triangles at each vertex, and distances of points from them."""
 
@@ -42,4 +56,18 @@ def solid_counts(triangles: Annotated[NDArray[numpy.int32], dict(shape=(None, 3)
     Vertices, edges and open edges (s,) of each of so many solids, by triangles (k, 3) around solid (k,), facing outwards.
 
     An edge is open where it is not run along as often one way as the other.
+    """
+
+def enclosed_volumes(points: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)], triangles: Annotated[NDArray[numpy.int32], dict(shape=(None, 3), order='C', device='cpu', writable=False)], solid: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], apexes: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)]) -> Annotated[NDArray[numpy.float64], dict(shape=(None,))]:
+    """
+    Volumes (s,) that triangles (k, 3) around solid (k,), facing outwards, enclose.
+
+    apexes (s, 3): a point near each solid, which the tetrahedra share that are summed up.
+    """
+
+def explained_losses(points: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)], triangles: Annotated[NDArray[numpy.int32], dict(shape=(None, 3), order='C', device='cpu', writable=False)], area: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)], distance: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)], slant: float) -> tuple[Annotated[NDArray[numpy.float64], dict(shape=(None,))], Annotated[NDArray[numpy.float64], dict(shape=(None,))]]:
+    """
+    Area and volume (m,) that triangles (m, 3) of an area (m,) lose or win by their distance (m,) from the surface.
+
+    slant: of (distance / height)^2, what the area may differ by.
     """

@@ -12,9 +12,9 @@ import surfmesh._core.fields
 import surfmesh._core.surfaces
 
 
-DEVIATION_RESERVE: float = 0.8
+DEVIATION_RESERVE: float = 0.78
 
-ALIKE_RESERVE: float = 0.84
+ALIKE_RESERVE: float = 0.82
 
 ROUND_RESERVE: float = 0.78
 
@@ -29,6 +29,11 @@ def deviation_factor(k1: Annotated[NDArray[numpy.float64], dict(shape=(None,), o
 
 def chord_size(k1: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)], k2: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)], chord: float) -> Annotated[NDArray[numpy.float64], dict(shape=(None,))]:
     """Edge length (n,) at which triangles stay within chord."""
+
+def share_of_width(k1: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)], k2: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)], ratio: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)]) -> Annotated[NDArray[numpy.float64], dict(shape=(None,))]:
+    """
+    Fraction (n,) of a chord that may be used where it is the width of the band that a triangle needs.
+    """
 
 def angle_size(k1: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)], k2: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)], angle: float) -> Annotated[NDArray[numpy.float64], dict(shape=(None,))]:
     """Edge length (n,) at which dihedral angles are at most angle (degrees)."""
@@ -60,7 +65,8 @@ class PlaceRule:
     """Sizes that depend on the place alone."""
 
 class ChordRule(CurvatureRule):
-    def __init__(self, chord: float) -> None: ...
+    def __init__(self, chord: float, is_width: bool = False) -> None:
+        """is_width: chord is that of the whole band that a triangle needs."""
 
 class AngleRule(CurvatureRule):
     def __init__(self, angle: float, finest: float) -> None:

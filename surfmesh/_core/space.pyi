@@ -18,18 +18,16 @@ def triangles_meet(corners: Annotated[NDArray[numpy.float64], dict(shape=(None, 
     Do two triangles, the rows of (6, 3), finite, meet where they should not?
     """
 
-def curve_places(points: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)], triangles: Annotated[NDArray[numpy.int32], dict(shape=(None, 3), order='C', device='cpu', writable=False)], low: Annotated[NDArray[numpy.float64], dict(shape=(3), order='C', device='cpu', writable=False)], scale: float) -> Annotated[NDArray[numpy.int64], dict(shape=(None,))]:
-    """
-    Place (m,) of each triangle's centroid along the Z-order curve through a box.
-
-    points (n, 3), finite; triangles (m, 3); low (3,): corner of the box; scale: 2^20 over its longest side, a little less.
-    """
-
-def meeting_triangles(corners: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)], most: int) -> Annotated[NDArray[numpy.int32], dict(shape=(None, 2))]:
+def meeting_triangles(points: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)], triangles: Annotated[NDArray[numpy.int32], dict(shape=(None, 3), order='C', device='cpu', writable=False)], most: int) -> Annotated[NDArray[numpy.int32], dict(shape=(None, 2))]:
     """
     Pairs (k, 2) of triangles that meet where they should not, the lower first.
 
-    corners: (3 m, 3), finite; quick where near triangles are near in the row. The search ends after the leaf with which there are ``most`` pairs or more.
+    points (n, 3), finite; triangles (m, 3). The search ends where there are ``most`` pairs or a few more.
+    """
+
+def edge_table(triangles: Annotated[NDArray[numpy.int32], dict(shape=(None, 3), order='C', device='cpu', writable=False)]) -> tuple[Annotated[NDArray[numpy.int32], dict(shape=(None, 2))], Annotated[NDArray[numpy.int32], dict(shape=(None, 2))], Annotated[NDArray[numpy.int32], dict(shape=(None,))]]:
+    """
+    Edges (ne, 2) of triangles (m, 3), the lower vertex first, in order; the first two half-edges (ne, 2) along each, -1 where there is one; by how many triangles each is used (ne,). Half-edge 3 t + k runs from corner k of triangle t.
     """
 
 def edge_gaps(points: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)], reach: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)], first: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], ends: Annotated[NDArray[numpy.int64], dict(shape=(None, 2), order='C', device='cpu', writable=False)], edges: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], first_of_face: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)]) -> tuple[Annotated[NDArray[numpy.float64], dict(shape=(None,))], Annotated[NDArray[numpy.float64], dict(shape=(None, 6))]]:

@@ -90,12 +90,10 @@ def twins_of(
 
 def _gaps(surface: Surface, face: FaceTriangles) -> Gaps:
     """Where the parameters of neighbours differ along their side, and not only by a seam."""
-    first = np.flatnonzero(face.twins > np.arange(len(face.twins)))
+    first = proof.parted_half_edges(face.uv, face.twins)
+    if not len(first):
+        return Gaps(np.empty((0, 3, 2)), np.empty(0, np.int32), np.empty(0, np.intp))
     second = face.twins[first]
-    place = np.ascontiguousarray(face.uv).view(complex)[:, :, 0]  # two numbers compared as one
-    start, end = place.reshape(-1), place[:, (1, 2, 0)].reshape(-1)
-    differ = (start[first] != end[second]) | (end[first] != start[second])
-    first, second = first[differ], second[differ]
     starts, ends = face.uv.reshape(-1, 2), face.uv[:, (1, 2, 0)].reshape(-1, 2)
     vertex = face.vertices.reshape(-1)
     alike = (vertex[first] == vertex[second])[:, None]

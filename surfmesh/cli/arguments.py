@@ -49,7 +49,7 @@ def parse(argv: Sequence[str]) -> argparse.Namespace:
     """
     options = _parser().parse_args(_imprint_alone(_values_shielded(argv)))
     held = vars(options)
-    given = {name: held.pop(name) for name in (*_SIZES, "proof") if name in held}
+    given = {name: held.pop(name) for name in (*_SIZES, "proof", "vertices") if name in held}
     options.sizing = {name: value for name, value in given.items() if value is not None}
     options.reading = {name: held.pop(name) for name in _READING if name in held}
     return options
@@ -93,8 +93,8 @@ def _parser() -> _Parser:
 
 def _add_mesh(commands: _Commands) -> None:
     mesh = commands.add_parser("mesh", help="mesh a surface, check it, write it")
-    mesh.add_argument("input", nargs="?", metavar="INPUT", help="formula file or gallery name")
-    mesh.add_argument("-o", "--output", required=True, metavar="OUT", help="mesh file to write")
+    mesh.add_argument("input", nargs="?", metavar="INPUT", help=_MODEL)
+    mesh.add_argument("-o", "--output", required=True, metavar="OUT", help=_OUT)
     formulas = mesh.add_argument_group("a surface by formulas in u and v, instead of INPUT")
     for axis in "xyz":
         formulas.add_argument(f"--{axis}", metavar="FORMULA")
@@ -109,7 +109,7 @@ def _add_mesh(commands: _Commands) -> None:
 def _add_intersect(commands: _Commands) -> None:
     meet = commands.add_parser("intersect", help="mesh surfaces and models that cut each other")
     meet.add_argument("inputs", nargs="+", metavar="INPUT", help=_MODEL)
-    meet.add_argument("-o", "--output", required=True, metavar="OUT", help="mesh file to write")
+    meet.add_argument("-o", "--output", required=True, metavar="OUT", help=_OUT)
     meet.add_argument(
         "--keep", action="append", default=[], metavar="all|union|difference|common|NAME=SIDE",
         help="what is kept (default all); NAME=+OTHER, NAME=-OTHER or NAME=X,Y,Z: of an input the "
@@ -139,6 +139,15 @@ def _add_made(mesh: argparse.ArgumentParser) -> None:
         "--flip", action="store_true", help="turn the mesh over: a closed surface that faces inward"
     )
     mesh.add_argument("--ascii", action="store_true", help="an .stl as text, solids by name")
+    mesh.add_argument(
+        "--solids",
+        choices=("solids", "faces"),
+        default="",
+        help="an .stl with a solid for each face",
+    )
+    mesh.add_argument(
+        "--target", choices=("abaqus", "calculix"), default="", help="whose elements an .inp names"
+    )
     mesh.add_argument(
         "--jobs", type=_whole(1, 1000), help="threads that mesh (default: all processors)"
     )
@@ -256,8 +265,15 @@ def _add_gallery(commands: _Commands) -> None:
 _COLOURS = (
     "alpha", "quality", "angle", "size", "deviation", "face", "curvature", "gaussian", "mean"
 )  # fmt: skip
-_MODEL = "CAD file, formula file or gallery name"
-_ANYTHING = "mesh file, CAD file, formula file or gallery name"
+_MODEL = (
+    "CAD file (.step, .stp, .iges, .igs, .brep), formula file (.toml), drawing (.svg), program "
+    "with CadQuery (.py, with --run-python) or gallery name"
+)
+_ANYTHING = f"mesh file, {_MODEL}"
+_OUT = (
+    "mesh file to write: .vtu .vtp .pvtu .stl .obj .ply .glb .3mf .off .msh .mesh .inp .bdf .su2 "
+    ".xdmf .med"
+)
 
 
 def _add_sizes(parser: argparse.ArgumentParser) -> None:
@@ -269,6 +285,10 @@ def _add_sizes(parser: argparse.ArgumentParser) -> None:
     sizes.add_argument(
         "--proof", action="store_const", const=True, help="prove that the chord holds"
     )
+    sizes.add_argument(
+        "--vertices", choices=("on_surface", "balanced"),
+        help="balanced: off the surface, so that it lies on both sides and volumes are kept",
+    )  # fmt: skip
     sizes.add_argument(
         "--sizes", metavar="TOML", help='sizes by selection: [sizes."fillet*"] chord = 0.01'
     )
@@ -282,6 +302,10 @@ def _add_cad(parser: argparse.ArgumentParser) -> None:
 
 
 def _add_units(parser: argparse.ArgumentParser) -> None:
+    parser.add_argument(
+        "--run-python", action="store_true",
+        help="run a program that you trust (.py) and take the CadQuery object that it calls result",
+    )  # fmt: skip
     parser.add_argument(
         "--units", help="of the lengths of a CAD model: um, mm (default), cm, m, in"
     )

@@ -92,7 +92,8 @@ def _made(surface: Surface | CadModel, sizing: Sizes, options: Namespace) -> boo
         report = checked(result, second_opinion=options.second_opinion)
         progress("write", 0.95)
         start = perf_counter()
-        files = {"mesh": str(save(result, options.output, ascii=options.ascii))}
+        chosen = {name: getattr(options, name) for name in ("ascii", "solids", "target")}
+        files = {"mesh": str(save(result, options.output, **chosen))}
         report = replace(report, seconds={**report.seconds, "write": perf_counter() - start})
         with naming(files):
             if options.picture:

@@ -125,6 +125,8 @@ def named_surface(name: str, options: Namespace) -> Surface | CadModel:
     from surfmesh.geometry.files.surface_file import gallery as surfaces
     from surfmesh.intersection.meeting_file import meeting_gallery
 
+    if Path(name).suffix.lower() == ".py" and Path(name).is_file():
+        return _of_program(Path(name), options)
     if Path(name).is_file():
         return api.load(name, **options.reading)
     known = surfaces() | meeting_gallery()
@@ -133,6 +135,21 @@ def named_surface(name: str, options: Namespace) -> Surface | CadModel:
     close = get_close_matches(name, known, n=1)
     hint = f"did you mean '{close[0]}'?" if close else "'surfmesh gallery' lists what there is"
     raise SurfaceError(f"'{name}' is neither a file nor a surface of the gallery; {hint}")
+
+
+def _of_program(path: Path, options: Namespace) -> CadModel:
+    """The model that a Python program makes, where the user has allowed to run it."""
+    if not options.run_python:
+        raise SurfaceError(
+            f"'{path}' is a Python program, which may do anything: --run-python runs it and meshes "
+            "the CadQuery object that it calls result"
+        )
+    from surfmesh.plugins.script_models import model_of_script
+
+    reading = options.reading
+    return model_of_script(
+        path, units=reading["units"], imprint=reading["imprint"], sew=reading["sew"]
+    )
 
 
 def shown_mesh(options: Namespace, progress: ProgressBar) -> SurfaceMesh:

@@ -54,7 +54,10 @@ def require_outputs(options: Namespace) -> None:
     """Raise FileFormatError for a file of the ``mesh`` command that could not be written."""
     from surfmesh.io.formats import require_writable
 
-    require_writable(options.output, *([".stl"] if options.ascii else []))
+    for name, extension in (("ascii", ".stl"), ("solids", ".stl"), ("target", ".inp")):
+        if getattr(options, name):
+            require_writable(options.output, extension)
+    require_writable(options.output)
     wanted = (options.picture, ".png"), (options.report, ".json", ".html")
     for path, *extensions in (*wanted, (options.manifest, ".json")):
         if path:

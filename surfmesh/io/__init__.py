@@ -3,8 +3,8 @@
 formats: which module writes and reads which extension, and the verbs ``save`` and ``read``.
 atomic, leftovers: a file is written in full or not at all, and what is left when that is killed.
 asked_date: the date that files carry when one is asked for.
-stl, obj, off, ply, glb, threemf, vtk_xml, xdmf, msh, inp, bdf, med: one format each, ``write``
-    and ``read``.
+stl, obj, off, ply, glb, threemf, vtk_xml, xdmf, msh, inp, bdf, med, su2, medit: one format each,
+    ``write`` and ``read``.
 pvtu: a mesh in several .vtu files and an index of them.
 ply_reading, msh_reading, vtk_xml_reading, lz4_block, xml_writing: parts of these.
 to_trimesh, to_meshio: as meshes of other libraries, for what is not written here.
@@ -17,7 +17,7 @@ found_mesh, numbers_of_groups: what is asked of a mesh from a file before anybod
 manifests: what files were made with, and their hashes, for another machine to compare.
 
 Others use what is named below and ``atomic``, ``formats``, ``vtk_xml``, ``to_trimesh`` and
-``to_meshio``.
+``to_meshio``; tetrahedra are written with parts of ``msh``, ``inp`` and ``xml_writing``.
 """
 
 from typing import TYPE_CHECKING, Any

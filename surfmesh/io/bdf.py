@@ -1,8 +1,10 @@
 """Nastran bulk data: GRID*, CTRIA3 or CTRIA6; the property of an element is its face.
 
 Names of properties stand in comments as HyperMesh writes them, sets of elements for solids in
-the case control section. Properties and materials are left to the user. A coordinate has 16
-characters, thus 15 digits between 0.001 and 1 and 11 at least.
+the case control section, what else is known of faces and edges in comments before ENDDATA.
+Properties are shells of thickness 1 of one material with a modulus of 1, so that all references
+are met; both are there to be replaced. A coordinate has 16 characters, thus 15 digits between
+0.001 and 1 and 11 at least.
 Format: MSC Nastran Quick Reference Guide, "Bulk Data Entries".
 """
 
@@ -27,20 +29,23 @@ def write(mesh: SurfaceMesh, path: Path) -> None:
     groups = mesh.groups
     with open(path, "w", encoding="ascii", errors="replace", newline="\n") as file:
         file.write(f"$ surfmesh{', unit ' + groups.unit if groups.unit else ''}\n")
-        file.writelines(f"$ {line}\n" for line in group_lines(mesh, numbered=True))
         file.write("CEND\n")
         for solid, members in _solids(mesh):
             file.write(f"$ SET {solid + 1}: {groups.solid_label(solid)}\n")
             file.writelines(f"{line}\n" for line in _set_lines(solid + 1, members))
         file.write("BEGIN BULK\n")
+        file.write("$ placeholders: thickness 1.0, Young's modulus 1.0, Poisson's ratio 0.3\n")
+        file.write(f"MAT1    {1:8d}{1.0:8}{'':8}{0.3:8}\n")
         for face in np.unique(mesh.face_ids).tolist():
             file.write(f'$HMNAME COMP{face + 1:20d}"{groups.face_label(face)}"\n')
+            file.write(f"PSHELL  {face + 1:8d}{1:8d}{1.0:8}{1:8d}\n")
         for number, (x, y, z) in enumerate(mesh.nodes.tolist(), 1):
             file.write(f"GRID*   {number:16d}{'':16}{real(x):>16}{real(y):>16}*\n")
             file.write(f"*       {real(z):>16}\n")
         rows = np.column_stack((np.arange(len(mesh.triangles)), mesh.face_ids, mesh.elements)) + 1
         card = CARD[mesh.order]
         file.writelines(card + "".join(f"{i:8d}" for i in row) + "\n" for row in rows.tolist())
+        file.writelines(f"$ {line}\n" for line in group_lines(mesh, numbered=True))
         file.write("ENDDATA\n")
 
 

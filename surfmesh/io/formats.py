@@ -27,6 +27,8 @@ FORMATS = {
     ".off": "surfmesh.io.off",
     ".med": "surfmesh.io.med",
     ".3mf": "surfmesh.io.threemf",
+    ".su2": "surfmesh.io.su2",
+    ".mesh": "surfmesh.io.medit",
 }
 
 IN_PIECES = {".pvtu": "surfmesh.io.pvtu"}
@@ -36,10 +38,15 @@ IN_PIECES = {".pvtu": "surfmesh.io.pvtu"}
 SECOND_ORDER = (".vtu", ".pvtu", ".msh", ".inp", ".bdf", ".xdmf", ".med")
 """Formats that hold nodes amid edges."""
 
+CHOICES = {"solids": (".stl", ("solids", "faces")), "target": (".inp", ("abaqus", "calculix"))}
+"""Options of ``save`` for one format each, and the words that they take."""
+
 LONGEST = 400  # characters of a refusal beside the path: it may quote what is in the file
 
 
-def save(mesh: SurfaceMesh, path: str | Path, *, ascii: bool = False) -> Path:
+def save(
+    mesh: SurfaceMesh, path: str | Path, *, ascii: bool = False, solids: str = "", target: str = ""
+) -> Path:  # fmt: skip
     """Write ``mesh`` to ``path``; all of it or nothing. Returns the path.
 
     Points are in double precision but for .stl and .glb (single), .inp (20 characters) and .bdf
@@ -49,8 +56,13 @@ def save(mesh: SurfaceMesh, path: str | Path, *, ascii: bool = False) -> Path:
     sizes that depend on the direction and what was promised of the faces are in .vtu and .vtp;
     nodes of order 2 in .vtu, .msh, .inp, .bdf, .xdmf and .med (needs meshio and h5py), the other
     formats hold the corners alone, which a ``UserWarning`` says. .pvtu is an index of several .vtu
-    files in a folder beside it, cut between faces, for meshes too large for one. ascii: .stl as
-    text, one body with a name for each solid.
+    files in a folder beside it, cut between faces, for meshes too large for one.
+
+    ascii: .stl as text, one body with a name for each solid. solids: ``"faces"``, for .stl: text,
+    one body for each name of a face, as programs that read patches from it want. target:
+    ``"calculix"``, for .inp of order 2, writes S6; without it STRI65 stands there, as Abaqus and
+    meshio know it. .su2 of a planar domain has triangles as elements and named edges as markers,
+    of a surface in space markers alone.
 
     Raises ``FileFormatError`` for an extension that is not known, a folder that is not
     there, a place that cannot be written, a mesh without triangles.
@@ -67,12 +79,29 @@ def save(mesh: SurfaceMesh, path: str | Path, *, ascii: bool = False) -> Path:
         )
     if ascii and not hasattr(module, "write_ascii"):
         raise FileFormatError(f"{path}: only .stl has an ASCII form to choose; leave ascii out")
+    chosen = _chosen(path, solids=solids, target=target)
     if path.suffix.lower() in IN_PIECES:
         module.save(mesh, path)
         return path
     with replacing(path) as temporary:
-        (module.write_ascii if ascii else module.write)(mesh, temporary)
+        if ascii or "solids" in chosen:
+            module.write_ascii(mesh, temporary, **chosen)
+        else:
+            module.write(mesh, temporary, **chosen)
     return path
+
+
+def _chosen(path: Path, **options: str) -> dict[str, str]:
+    """The options that were given. Raises ``FileFormatError`` where one has no meaning."""
+    given = {name: word for name, word in options.items() if word}
+    for name, word in given.items():
+        extension, words = CHOICES[name]
+        if path.suffix.lower() != extension:
+            raise FileFormatError(f"{path}: {name} is a choice of {extension} alone; leave it out")
+        if word not in words:
+            known = " or ".join(map(repr, words))
+            raise FileFormatError(f"{path}: {name} must be {known}, not {word!r}")
+    return given
 
 
 def read(path: str | Path) -> SurfaceMesh:

@@ -53,7 +53,7 @@ def group_fields(
     Marks of comments before it are passed over. triangles: the number m of them; face_ids: (m,)
     where the format has them. A text that is damaged, or of another mesh, raises ValueError.
     """
-    marked = (line.removeprefix("comment").lstrip("$#* ") for line in lines)
+    marked = (line.removeprefix("comment").lstrip("$#*% ") for line in lines)
     pieces = [line.removeprefix(MARK).strip() for line in marked if line.startswith(MARK)]
     if not pieces:
         return {}

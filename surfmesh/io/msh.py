@@ -14,6 +14,7 @@ volumes       one entity a solid, bounded by its faces, without elements. Their 
 $surfmesh     colours, kinds, unit; Gmsh reads and writes it as an attribute of the model
 """
 
+from collections.abc import Mapping
 from pathlib import Path
 from typing import BinaryIO, NamedTuple
 
@@ -29,10 +30,11 @@ from surfmesh.result.surface_mesh import SurfaceMesh
 __all__ = ["read", "write"]
 
 LINE, TRIANGLE = {1: 1, 2: 8}, {1: 2, 2: 9}  # gmsh's numbers of element types, by order
+TETRAHEDRON = {1: 4, 2: 11}
 
 
 class _Entity(NamedTuple):
-    """Of dimension 0, 1 or 2: its elements, rows of nodes."""
+    """Of dimension 0 to 3: its elements, rows of nodes."""
 
     dimension: int
     number: int
@@ -40,61 +42,89 @@ class _Entity(NamedTuple):
     elements: NDArray  # (k, corners)
     tags: NDArray  # (k,) from 1
     group: int  # physical; 0: none
-    bounds: NDArray  # numbers of the entities around it
+    bounds: NDArray  # tags of the entities around it; of faces that look inwards with a minus
 
 
-def write(mesh: SurfaceMesh, path: Path) -> None:
-    nodes = mesh.nodes
-    edge_groups, face_groups, names = _groups(mesh)
-    entities = [*_vertices(mesh), *_curves(mesh, edge_groups), *_surfaces(mesh, face_groups)]
-    count, used = len(mesh.triangles), len(mesh.triangles)
-    for at, entity in enumerate(entities):
-        if entity.dimension == 1:
-            tags = used + 1 + np.arange(len(entity.elements))
-            entities[at] = entity._replace(tags=tags)
-            used += len(entity.elements)
+def write(mesh: SurfaceMesh, path: Path, volumes: bool = True) -> None:
+    """volumes: with entities for solids, which Gmsh leaves empty whatever it is asked."""
+    solids = _volumes(mesh) if volumes else []
     with open(path, "wb") as file:
-        _section(file, "MeshFormat", b"4.1 1 8\n" + _ints(1) + b"\n")
-        _section(file, "PhysicalNames", "\n".join([str(len(names)), *names, ""]).encode())
-        file.write(b"$Entities\n")
-        volumes = _volumes(mesh)
-        of = [sum(entity.dimension == d for entity in entities) for d in range(3)]
-        file.write(_sizes(*of, len(volumes)))
-        for entity in entities:
-            file.write(_described(entity, nodes))
-        box = _box(nodes)
-        for number, faces in volumes:
-            file.write(_ints(number + 1) + box + _sizes(0) + _sizes(len(faces)) + _ints(*faces))
-        file.write(b"\n$EndEntities\n")
-
-        file.write(b"$Nodes\n" + _sizes(len(entities), len(nodes), 1, len(nodes)))
-        free = np.ones(len(nodes), bool)  # a node belongs to one entity, the first of these
-        for entity in entities:
-            own = np.unique(entity.elements)
-            own = own[free[own]]
-            free[own] = False
-            file.write(_ints(entity.dimension, entity.number + 1, 0) + _sizes(len(own)))
-            file.write((own + 1).astype("<u8").tobytes() + nodes[own].astype("<f8").tobytes())
-        file.write(b"\n$EndNodes\n")
-
-        blocks = [entity for d in (2, 1) for entity in entities if entity.dimension == d]
-        file.write(b"$Elements\n" + _sizes(len(blocks), used, 1, used))
-        for entity in blocks:  # triangles first, as meshio takes values by this order
-            file.write(_ints(entity.dimension, entity.number + 1, entity.kind))
-            file.write(_sizes(len(entity.elements)))
-            rows = np.column_stack((entity.tags, entity.elements + 1))
-            file.write(rows.astype("<u8").tobytes())
-        file.write(b"\n$EndElements\n")
-        _section(file, ATTRIBUTE, "\n".join([*group_lines(mesh), ""]).encode())
-
+        used = _write_model(file, mesh, mesh.nodes, solids)
         if mesh.node_sizes is not None:
             _section(file, "NodeData", _values("size", mesh.node_sizes))
         # meshio wants a value for every element, in the order of the tags: lines get a 1
-        shape = np.concatenate((alpha(mesh), np.ones(used - count)))
+        shape = np.concatenate((alpha(mesh), np.ones(used - len(mesh.triangles))))
         _section(file, "ElementData", _values("alpha", shape))
 
 
-def _groups(mesh: SurfaceMesh) -> tuple[dict[int, int], dict[int, int], list[str]]:
+def write_filled(
+    mesh: SurfaceMesh, nodes: NDArray, filled: Mapping[int, NDArray], path: Path
+) -> None:
+    """A surface and the tetrahedra (k, 4 or 10) in its solids, by the numbers of these.
+
+    nodes: those of the surface first. Middles of edges are in the order of VTK.
+    """
+    with open(path, "wb") as file:
+        order = [0, 1, 2, 3, 4, 5, 6, 7, 9, 8]  # gmsh's, of the columns of VTK
+        solids = []
+        for entity in _volumes(mesh):
+            rows = filled.get(entity.number, np.empty((0, 4), int))
+            kind = TETRAHEDRON[1 if rows.shape[1] == 4 else 2]
+            rows = rows[:, order[: rows.shape[1]]]
+            solids.append(entity._replace(elements=rows, kind=kind, group=entity.number + 1))
+        _write_model(file, mesh, nodes, solids)
+
+
+def _write_model(file: BinaryIO, mesh: SurfaceMesh, nodes: NDArray, solids: list[_Entity]) -> int:
+    """All but values at nodes and elements. Returns the number of elements."""
+    edge_groups, face_groups, names = _groups(mesh, [solid.number for solid in solids])
+    entities = [*_vertices(mesh), *_curves(mesh, edge_groups), *_surfaces(mesh, face_groups)]
+    entities += solids
+    used = len(mesh.triangles)
+    for at, entity in enumerate(entities):
+        if entity.dimension in (1, 3):
+            tags = used + 1 + np.arange(len(entity.elements))
+            entities[at] = entity._replace(tags=tags)
+            used += len(entity.elements)
+    _section(file, "MeshFormat", b"4.1 1 8\n" + _ints(1) + b"\n")
+    _section(file, "PhysicalNames", "\n".join([str(len(names)), *names, ""]).encode())
+    file.write(b"$Entities\n")
+    file.write(_sizes(*(sum(entity.dimension == d for entity in entities) for d in range(4))))
+    for entity in entities:
+        file.write(_described(entity, nodes))
+    file.write(b"\n$EndEntities\n")
+    _write_nodes(file, nodes, entities)
+    # triangles first, as meshio takes values by this order; no block without elements
+    blocks = [entity for d in (2, 1, 3) for entity in entities if entity.dimension == d]
+    blocks = [entity for entity in blocks if len(entity.elements)]
+    file.write(b"$Elements\n" + _sizes(len(blocks), used, 1, used))
+    for entity in blocks:
+        file.write(_ints(entity.dimension, entity.number + 1, entity.kind))
+        file.write(_sizes(len(entity.elements)))
+        rows = np.column_stack((entity.tags, entity.elements + 1))
+        file.write(rows.astype("<u8").tobytes())
+    file.write(b"\n$EndElements\n")
+    _section(file, ATTRIBUTE, "\n".join([*group_lines(mesh), ""]).encode())
+    return used
+
+
+def _write_nodes(file: BinaryIO, nodes: NDArray, entities: list[_Entity]) -> None:
+    """A node belongs to one entity, the first that has it."""
+    with_nodes = [entity for entity in entities if len(entity.elements)]
+    file.write(b"$Nodes\n" + _sizes(len(with_nodes), len(nodes), 1, len(nodes)))
+    free = np.ones(len(nodes), bool)
+    for entity in with_nodes:
+        own = np.unique(entity.elements)
+        own = own[free[own]]
+        free[own] = False
+        file.write(_ints(entity.dimension, entity.number + 1, 0) + _sizes(len(own)))
+        file.write((own + 1).astype("<u8").tobytes() + nodes[own].astype("<f8").tobytes())
+    file.write(b"\n$EndNodes\n")
+
+
+def _groups(
+    mesh: SurfaceMesh, solids: list[int]
+) -> tuple[dict[int, int], dict[int, int], list[str]]:  # fmt: skip
     """Physical tags of edges and faces by their numbers, and the lines of $PhysicalNames.
 
     The tag of a name is the first number that has it, plus one.
@@ -115,12 +145,18 @@ def _groups(mesh: SurfaceMesh) -> tuple[dict[int, int], dict[int, int], list[str
                 lines.append(f'{dimension} {number + 1} "{_quoted(name)}"')
             table[number] = tags[name]
         found.append(table)
-    solids = [number for number, _ in _volumes(mesh)]
-    labels = [groups.solid_label(number) for number in solids]
-    for number, called in zip(solids, labels):
-        name = f"{called} {number}" if labels.count(called) > 1 else called
+    for number, name in names_of_solids(mesh, solids):
         lines.append(f'3 {number + 1} "{_quoted(name)}"')
     return found[0], found[1], lines
+
+
+def names_of_solids(mesh: SurfaceMesh, solids: list[int]) -> list[tuple[int, str]]:
+    """Solids and their names, with the number where several have one: Gmsh wants each but once."""
+    labels = [mesh.groups.solid_label(number) for number in solids]
+    return [
+        (number, f"{called} {number}" if labels.count(called) > 1 else called)
+        for number, called in zip(solids, labels)
+    ]
 
 
 def _vertices(mesh: SurfaceMesh) -> list[_Entity]:
@@ -149,7 +185,7 @@ def _surfaces(mesh: SurfaceMesh, groups: dict[int, int]) -> list[_Entity]:
     elements, kind = mesh.elements, TRIANGLE[mesh.order]
     return [
         _Entity(2, face, kind, elements[members], members + 1, groups[face],
-                around.get(face, np.empty(0, int)))
+                around.get(face, np.empty(0, int)) + 1)
         for face, members in _members(mesh.face_ids)
     ]  # fmt: skip
 
@@ -169,12 +205,14 @@ def _edges_of_faces(mesh: SurfaceMesh) -> dict[int, NDArray]:
     return {face: used[members, 1] for face, members in _members(used[:, 0])}
 
 
-def _volumes(mesh: SurfaceMesh) -> list[tuple[int, list[int]]]:
-    """Solids and the signed tags of the faces around them: minus where the face looks inwards."""
+def _volumes(mesh: SurfaceMesh) -> list[_Entity]:
+    """Solids, without elements."""
     behind, before = solids_of_faces(mesh).T
+    none = np.empty(0, int)
     return [
-        (solid, [*(np.flatnonzero(behind == solid) + 1).tolist(),
-                 *(-np.flatnonzero(before == solid) - 1).tolist()])
+        _Entity(3, solid, 0, np.empty((0, 4), int), none, 0,
+                np.concatenate((np.flatnonzero(behind == solid) + 1,
+                                -np.flatnonzero(before == solid) - 1)))
         for solid in np.unique((behind, before)).tolist()
         if solid >= 0
     ]  # fmt: skip
@@ -193,8 +231,9 @@ def _described(entity: _Entity, nodes: NDArray) -> bytes:
     text = _ints(entity.number + 1)
     if entity.dimension == 0:
         return text + nodes[entity.elements[0]].astype("<f8").tobytes() + _sizes(0)
-    text += _box(nodes[entity.elements.reshape(-1)]) + _sizes(len(group)) + _ints(*group)
-    return text + _sizes(len(entity.bounds)) + _ints(*(entity.bounds + 1))
+    own = entity.elements.reshape(-1)
+    text += _box(nodes[own] if len(own) else nodes) + _sizes(len(group)) + _ints(*group)
+    return text + _sizes(len(entity.bounds)) + _ints(*entity.bounds)
 
 
 def _box(points: NDArray) -> bytes:

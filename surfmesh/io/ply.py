@@ -1,6 +1,8 @@
-"""Binary PLY in double precision, with ``size`` on vertices, ``face_id`` and ``alpha`` on faces.
+"""Binary PLY in double precision, with ``size`` on vertices.
 
-Colours are those of faces, red, green and blue; names and the rest stand in comments.
+Faces have their corners and, where there are colours, red, green and blue. Nothing else is put on
+them, as meshio reads no binary file whose faces have more than their corners. Numbers of faces,
+names and the rest stand in comments.
 """
 
 from pathlib import Path
@@ -11,11 +13,10 @@ from surfmesh.errors import FileFormatError
 from surfmesh.io.colours import NO_COLOUR, triangle_colours
 from surfmesh.io.group_record import group_fields, group_lines
 from surfmesh.io.ply_reading import read_ply
-from surfmesh.quality.measures.shape import alpha
 from surfmesh.result.surface_mesh import SurfaceMesh
 
 VERTEX = [("x", "<f8"), ("y", "<f8"), ("z", "<f8")]
-FACE = [("count", "u1"), ("corners", "<i4", 3), ("face_id", "<i4"), ("alpha", "<f8")]
+FACE = [("count", "u1"), ("corners", "<i4", 3)]
 COLOUR = [("red", "u1"), ("green", "u1"), ("blue", "u1")]
 
 
@@ -32,7 +33,6 @@ def write(mesh: SurfaceMesh, path: Path) -> None:
         for channel, (name, _) in enumerate(COLOUR):
             faces[name] = np.where(colours[:, channel] < 0, NO_COLOUR, colours[:, channel])
     faces["count"], faces["corners"] = 3, mesh.triangles
-    faces["face_id"], faces["alpha"] = mesh.face_ids, alpha(mesh)
     header = [
         "ply",
         "format binary_little_endian 1.0",
@@ -42,8 +42,6 @@ def write(mesh: SurfaceMesh, path: Path) -> None:
         *(f"property double {name}" for name in vertices.dtype.names or ()),
         f"element face {len(faces)}",
         "property list uchar int vertex_indices",
-        "property int face_id",
-        "property double alpha",
         *(f"property uchar {name}" for name, _ in channels),
         "end_header",
     ]
@@ -64,10 +62,10 @@ def read(path: Path) -> SurfaceMesh:
     elif corners.shape[1] != 3:
         raise FileFormatError(f"{path}: holds faces that are not triangles")
     face_ids = found.face.get("face_id")
+    fields = group_fields(found.lines, len(corners), face_ids)
     return SurfaceMesh(
         points=np.column_stack([found.vertex[axis] for axis in "xyz"]),
         triangles=corners,
         sizes=found.vertex.get("size"),
-        face_ids=face_ids,
-        **group_fields(found.lines, len(corners), face_ids),
+        **{"face_ids": face_ids} | fields,
     )

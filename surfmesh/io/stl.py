@@ -1,20 +1,24 @@
 """STL: three corners a triangle, nothing shared.
 
 Binary: float32, one body. ASCII: 17 digits, one ``solid`` with a name for each solid of the
-mesh; a face between two solids is in both, once each way round.
+mesh, a face between two solids in both, once each way round; or one for each name of a face, as
+OpenFOAM's snappyHexMesh and surfaceCheck take patches.
 """
 
+from collections.abc import Iterator
 from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
 
 from surfmesh.errors import FileFormatError
+from surfmesh.io.group_record import unique_labels
 from surfmesh.io.welding import welded
 from surfmesh.result.mesh_groups import MeshGroups
 from surfmesh.result.surface_mesh import SurfaceMesh
 
 RECORD = np.dtype([("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("attribute", "<u2")])
+LONGEST = 80  # characters of a name of faces: letters, digits, "_", "-" and "."
 HEADER = 80  # bytes, and four for the number of triangles
 LINES = 10_000  # triangles formatted together
 FACET = (
@@ -34,27 +38,45 @@ def write(mesh: SurfaceMesh, path: Path) -> None:
         file.write(records.data)  # tofile() hides a full disk
 
 
-def write_ascii(mesh: SurfaceMesh, path: Path) -> None:
+def write_ascii(mesh: SurfaceMesh, path: Path, solids: str = "solids") -> None:
     normals, corners = _normals(mesh), mesh.points[mesh.triangles].reshape(-1, 9)
-    solids = np.full((len(corners), 2), -1) if mesh.solid_ids is None else mesh.solid_ids
+    backwards = corners[:, [6, 7, 8, 3, 4, 5, 0, 1, 2]]
     with open(path, "w", encoding="utf-8", newline="\n") as file:
-        for solid in np.unique(solids).tolist():
-            if solid < 0:
-                own, turned = (solids < 0).all(axis=1), np.zeros(len(corners), bool)
-            else:
-                own, turned = (solids == solid).any(axis=1), solids[:, 0] != solid
-            if not own.any():
-                continue
-            name = mesh.groups.solid_label(solid) if solid >= 0 else "surface"
+        for name, own, turned in _by_face(mesh) if solids == "faces" else _by_solid(mesh):
             name = " ".join(name.split()).replace("endsolid", "end-solid")
             file.write(f"solid {name}\n")
             sign = np.where(turned, -1.0, 1.0)[:, None]
-            backwards = corners[:, [6, 7, 8, 3, 4, 5, 0, 1, 2]]
             rows = np.hstack((sign * normals, np.where(turned[:, None], backwards, corners)))[own]
             for start in range(0, len(rows), LINES):
                 block = rows[start : start + LINES]
                 file.write((FACET * len(block)) % tuple(block.ravel().tolist()))
             file.write(f"endsolid {name}\n")
+
+
+Body = tuple[str, NDArray, NDArray]  # its name, which triangles it has, which of them are turned
+
+
+def _by_solid(mesh: SurfaceMesh) -> Iterator[Body]:
+    """Bodies of solids, and of what belongs to none."""
+    count = len(mesh.triangles)
+    sides = np.full((count, 2), -1) if mesh.solid_ids is None else mesh.solid_ids
+    free = np.all(sides < 0, axis=1)
+    if free.any():
+        yield "surface", free, np.zeros(count, bool)
+    for solid in np.unique(sides[sides >= 0]).tolist():
+        behind, before = (np.equal(side, solid) for side in sides.T)
+        yield mesh.groups.solid_label(solid), behind | before, ~behind
+
+
+def _by_face(mesh: SurfaceMesh) -> Iterator[Body]:
+    """Bodies of the names of faces: faces of one name together."""
+    faces, own_face = np.unique(mesh.face_ids, return_inverse=True)
+    names: dict[str, list[int]] = {}
+    for at, face in enumerate(faces.tolist()):
+        names.setdefault(mesh.groups.face_label(face), []).append(at)
+    labels = unique_labels(names, LONGEST, allowed="-.")
+    for label, members in zip(labels, names.values()):
+        yield label, np.isin(own_face.reshape(-1), members), np.zeros(len(own_face), bool)
 
 
 def _normals(mesh: SurfaceMesh) -> NDArray[np.float64]:

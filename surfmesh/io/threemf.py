@@ -52,7 +52,7 @@ UNIX = 3  # the system that a zip says it was made on
 VERTEX, TRIANGLE, OBJECT, MESH, METADATA = (
     f"{CORE}}}{name}" for name in ("vertex", "triangle", "object", "mesh", "metadata")
 )
-TRIANGLE_SET, RANGE = (f"{SETS}}}{name}" for name in ("triangleset", "refrange"))
+TRIANGLE_SET, REF, RANGE = (f"{SETS}}}{name}" for name in ("triangleset", "ref", "refrange"))
 MOST_ENTRIES = 10_000  # files in the archive; pictures and textures are some
 MATERIALS = 1  # the id of the one group of materials; objects follow
 
@@ -168,8 +168,10 @@ def _write_object(
     file.write("</triangles>\n<t:trianglesets>\n")
     for face, start, end in zip(faces, starts.tolist(), ends.tolist()):
         label = quoteattr(groups.face_label(face))
-        file.write(f'<t:triangleset name={label} identifier="face-{face}">')
-        file.write(f'<t:refrange startindex="{start}" endindex="{end - 1}"/></t:triangleset>\n')
+        file.write(f'<t:triangleset name={label} identifier="face-{face}">\n')
+        # one by one: lib3mf does not know ranges
+        write_rows(file, '<t:ref index="%d"/>\n', np.arange(start, end)[:, None])
+        file.write("</t:triangleset>\n")
     file.write("</t:trianglesets>\n</mesh></object>\n")
 
 
@@ -283,12 +285,22 @@ class _Model:
         elif tag == TRIANGLE_SET:
             number = attributes.get("identifier", "").partition("-")[2]
             self.face = int(number) if number.isdecimal() else -1  # other programs' say nothing
+        elif tag == REF and self.bodies and self.face >= 0:
+            self._add(int(get("index")))
         elif tag == RANGE and self.bodies and self.face >= 0:
             span = self.face, int(get("startindex")), int(get("endindex")) + 1
             self.bodies[-1].sets.append(span)
         elif tag == METADATA and attributes.get("name") == "s:groups" and not self.record:
             self.recording = True
         self.open.append(tag)
+
+    def _add(self, triangle: int) -> None:
+        """One triangle more of the set that is open."""
+        sets = self.bodies[-1].sets
+        if sets and sets[-1][0] == self.face and sets[-1][2] == triangle:
+            sets[-1] = self.face, sets[-1][1], triangle + 1
+        else:
+            sets.append((self.face, triangle, triangle + 1))
 
     def end(self, tag: str) -> None:
         self.open.pop()

@@ -18,7 +18,8 @@ from numpy.typing import NDArray
 BLOCK = 1 << 15  # bytes compressed together, as in VTK
 LEVEL = 5  # of zlib, as in VTK
 KINDS = {"f8": "Float64", "i4": "Int32", "i8": "Int64", "u1": "UInt8"}
-TRIANGLE, QUADRATIC_TRIANGLE = 5, 22  # VTK's numbers of cells
+CELL_TYPES = {3: 5, 6: 22, 4: 10, 10: 24}
+"""VTK's numbers of triangles and tetrahedra, straight and quadratic, by their nodes."""
 
 Arrays = Mapping[str, NDArray]
 POINT_IDS, CELL_IDS = "GlobalPointIds", "GlobalCellIds"
@@ -29,16 +30,16 @@ class Content(NamedTuple):
     """What a file holds: one piece of cells that have as many corners each."""
 
     points: NDArray  # (n, 3) float
-    cells: NDArray  # (m, 3) or (m, 6) int
+    cells: NDArray  # (m, 3), (m, 6), (m, 4) or (m, 10) int
     of_points: Arrays  # (n,) or (n, k)
     of_cells: Arrays  # (m,) or (m, k)
     of_all: Arrays  # field data, of any length
 
 
 def write_grid(content: Content, path: Path) -> None:
-    """A .vtu file: an unstructured grid of triangles of three or of six nodes."""
+    """A .vtu file: an unstructured grid of triangles or of tetrahedra."""
     count, corners = content.cells.shape
-    kind = TRIANGLE if corners == 3 else QUADRATIC_TRIANGLE
+    kind = CELL_TYPES[corners]
     cells = _runs(content.cells, np.int64) | {"types": np.full(count, kind, np.uint8)}
     counts = {"Points": len(content.points), "Cells": count}
     _write(path, "UnstructuredGrid", content, counts, {"Cells": cells})

@@ -29,6 +29,11 @@ from surfmesh.meshing.faces.face_mesh import edge_refinement
 from surfmesh.meshing.faces.face_state import FaceState, face_jobs, face_states
 from surfmesh.meshing.faces.face_workers import FACE_WORK, FaceWorkers
 from surfmesh.meshing.faces.opposite_faces import copied, opposite_pairs
+from surfmesh.meshing.finishing.balanced_rounds import (
+    balanced_in_rounds,
+    solids_of_model,
+    widened_model,
+)
 from surfmesh.meshing.finishing.edge_collapse import LEAST, simplified
 from surfmesh.meshing.patch.refinement_loop import MAX_ROUNDS, refined_in_rounds
 from surfmesh.meshing.processors import allowed_threads
@@ -43,6 +48,7 @@ from surfmesh.meshing.solids.model_findings import (
 from surfmesh.meshing.solids.volumes import VolumeAims
 from surfmesh.result.surface_mesh import SurfaceMesh
 from surfmesh.sizing.options.model_sizing import ModelSizing, model_sizing
+from surfmesh.sizing.options.sizing import ON_SURFACE
 from surfmesh.sizing.rules.size_limits import SizeLimits
 from surfmesh.sizing.rules.volume_rule import with_volume_rule
 
@@ -74,6 +80,14 @@ def mesh_model(
         workers = replace(workers, at_once=1)
     how = _How(optimise, strict, workers, rounds, watch)
     asked = model_sizing(model, sizing)
+    if asked.base.is_balanced:
+        return _balanced(model, asked, how, simplify)
+    mesh = _with_volumes(model, asked, how)
+    return simplified(mesh, asked.base.min_size or LEAST * model.diagonal) if simplify else mesh
+
+
+def _with_volumes(model: CadModel, asked: ModelSizing, how: _How) -> SurfaceMesh:
+    """The mesh whose sizes keep the volumes that are asked for."""
     aims = VolumeAims(model, asked.base.volume)
 
     def one_round(by_solid: Mapping[int, float]) -> tuple[SurfaceMesh, dict[int, float]]:
@@ -82,8 +96,25 @@ def mesh_model(
         mesh = _Rounds(model, wanted, how).mesh()
         return mesh, aims.lowered_after(mesh, by_solid)
 
-    mesh = refined_in_rounds(one_round, lambda lower, _: lower, MAX_VOLUME_ROUNDS)
-    return simplified(mesh, asked.base.min_size or LEAST * model.diagonal) if simplify else mesh
+    return refined_in_rounds(one_round, lambda lower, _: lower, MAX_VOLUME_ROUNDS)
+
+
+def _balanced(model: CadModel, asked: ModelSizing, how: _How, simplify: bool) -> SurfaceMesh:
+    """The mesh with its vertices off the surface, which gives solids their volumes."""
+    wide = widened_model(asked)
+    shortest = asked.base.min_size or LEAST * model.diagonal
+
+    def on_surface(limits: Mapping[int, SizeLimits]) -> SurfaceMesh:
+        with how.watch.stage("sizing"):
+            wanted = _with_model_rules(model, wide)
+        mesh = _Rounds(model, wanted, how).mesh(limits)
+        return simplified(mesh, shortest) if simplify else mesh
+
+    def chords(mesh: SurfaceMesh) -> np.ndarray:
+        return np.array([asked.of_face(k).chord or np.inf for k in range(len(mesh.surfaces))])
+
+    mesh = balanced_in_rounds(on_surface, chords, solids_of_model)
+    return mesh.replaced(sizing=asked.base, promises=asked.promises(len(mesh.surfaces)))
 
 
 class FacesApart(NamedTuple):
@@ -109,6 +140,8 @@ def mesh_faces_apart(
     asked = model_sizing(model, sizing)
     if asked.base.volume is not None:
         raise SizingError("volume needs the whole mesh: it cannot be kept of one in partitions")
+    if asked.base.is_balanced:
+        raise SizingError("vertices are balanced in a whole mesh: not in one in partitions")
     with how.watch.stage("sizing"):
         wanted = _with_model_rules(model, asked)
     rounds = _Rounds(model, wanted, how)
@@ -141,9 +174,12 @@ class _Rounds:
         self.may_be_crowded = True
         """May faces have made the same chord in the mesh that was joined last?"""
 
-    def mesh(self) -> SurfaceMesh:
-        """The mesh of the last round, with what could not be mended in it."""
-        mesh = refined_in_rounds(self._round, SizeLimits.joined_with, self.how.rounds)
+    def mesh(self, limits: Mapping[int, SizeLimits] | None = None) -> SurfaceMesh:
+        """The mesh of the last round, with what could not be mended in it.
+
+        limits: of sizes by face, known from the start.
+        """
+        mesh = refined_in_rounds(self._round, SizeLimits.joined_with, self.how.rounds, limits)
         not_refined_yet = self.not_refined
         if mesh is None or any(state.may_be_forced for state in self.faces):
             self._force_faces()
@@ -227,6 +263,10 @@ class _Rounds:
 def estimate_model(model: CadModel, sizing: Any) -> Estimate:
     """Triangles and memory of ``mesh_model``. Raises ``SizingError`` for requests that cannot be
     met."""
+    asked = model_sizing(model, sizing)
+    if asked.base.is_balanced:  # what is made first, with its vertices on the surface
+        wide = widened_model(asked)
+        sizing = replace(wide, base=wide.base.replaced(vertices=ON_SURFACE))
     before = _Unmeshed(model, sizing)
     stretched = before.wanted.is_anisotropic
     counts = model_counts(model, before.jobs)
@@ -258,7 +298,9 @@ class _Unmeshed:
     """All that precedes the first mesh of a model: samples of its edges, its faces, their jobs."""
 
     def __init__(self, model: CadModel, sizing: Any) -> None:
-        self.wanted = _with_model_rules(model, model_sizing(model, sizing))
+        asked = model_sizing(model, sizing)
+        asked = widened_model(asked) if asked.base.is_balanced else asked
+        self.wanted = _with_model_rules(model, asked)
         self.samples = sample_edges(model, self.wanted)
         self.faces = face_states(model, self.samples, self.wanted)
         nodes = cut_edges(model, self.wanted.base, self.samples, {})

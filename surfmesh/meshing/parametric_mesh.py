@@ -24,6 +24,12 @@ from surfmesh.meshing.boundary.kink_segments import sides_met, with_kinks
 from surfmesh.meshing.estimate.estimation import Estimate, field_triangles, require_field_within
 from surfmesh.meshing.estimate.trial_mesh import WHOLE, counts_within_budget
 from surfmesh.meshing.estimate.trial_patches import triangles_per_unit
+from surfmesh.meshing.finishing.balanced_rounds import (
+    WIDER,
+    balanced_in_rounds,
+    solids_of_surface,
+    widened_surface,
+)
 from surfmesh.meshing.patch.patch_mesh import PatchMesh, mesh_patch
 from surfmesh.meshing.patch.proof_requests import requests_for_proof
 from surfmesh.meshing.patch.refinement_loop import (
@@ -36,7 +42,7 @@ from surfmesh.meshing.patch.size_requests import joined
 from surfmesh.meshing.progress import Progress, Stopwatch
 from surfmesh.result.surface_mesh import SurfaceMesh
 from surfmesh.sizing.field.size_field import SizeField, size_field
-from surfmesh.sizing.options.sizing import Sizing
+from surfmesh.sizing.options.sizing import ON_SURFACE, Sizing
 from surfmesh.sizing.rules.rim_rule import Rims
 from surfmesh.sizing.rules.size_limits import SizeLimits
 
@@ -59,13 +65,34 @@ def mesh_parametric(
     Where triangles are folded, farther from the surface than ``chord`` or meet at more than
     ``angle`` after the optimiser has done what it can, or sides cannot be joined, the sizes are
     lowered and everything is done again. With ``optimise=False`` only joined sides are looked at.
+    Vertices are moved off the surface last, where they are to be balanced.
     Raises ``SizingError``, ``SurfaceError`` or ``MeshingError`` with the place and the reason.
     """
     watch = Stopwatch(progress)
+    if not sizing.is_balanced:
+        return _on_surface(surface, sizing, optimise, watch, {})
+    wide = widened_surface(surface, sizing)
+    chord = np.inf if wide.chord is None else wide.chord / WIDER
+    mesh = balanced_in_rounds(
+        lambda limits: _on_surface(surface, wide, optimise, watch, limits),
+        lambda _: np.array([chord]),
+        solids_of_surface,
+    )
+    made = mesh.sizing
+    assert made is not None  # noqa: S101  for mypy: as every mesh that is made here
+    asked = made.replaced(chord=None if np.isinf(chord) else chord, volume=sizing.volume)
+    return mesh.replaced(sizing=asked)
+
+
+def _on_surface(
+    surface: Surface, sizing: Sizing, optimise: bool, watch: Stopwatch,
+    limits: Mapping[int, SizeLimits],
+) -> SurfaceMesh:  # fmt: skip
+    """The mesh with its vertices on the surface, its sizes within limits that are known before."""
     with watch.stage("sizing"):
         part, sides, cusps = _without_cusps(surface, sizing)
         rounds = _Rounds(part, sides, sizing, optimise, watch)
-    mesh = rounds.mesh()
+    mesh = rounds.mesh(limits)
     return closed_at(mesh, surface, cusps) if cusps else mesh
 
 
@@ -95,10 +122,13 @@ class _Rounds:
         self._stagnation, self._cells = StagnationCheck(), 0
         self._latest: tuple[SurfaceMesh, np.ndarray] | None = None
 
-    def mesh(self) -> SurfaceMesh:
-        """The mesh of the last round. Raises ``MeshingError`` where its sides are not joined."""
+    def mesh(self, limits: Mapping[int, SizeLimits]) -> SurfaceMesh:
+        """The mesh of the last round. Raises ``MeshingError`` where its sides are not joined.
+
+        limits: of sizes, known from the start.
+        """
         rounds = MAX_ROUNDS_FOR_PROOF if self.sizing.proof else MAX_ROUNDS
-        mesh, bad = refined_in_rounds(self._round, SizeLimits.joined_with, rounds)
+        mesh, bad = refined_in_rounds(self._round, SizeLimits.joined_with, rounds, limits)
         if len(bad):
             place = ", ".join(f"{x:.6g}" for x in mesh.points[bad[0]])
             raise MeshingError(
@@ -187,6 +217,8 @@ class _Rounds:
 
 def estimate_parametric(surface: Surface, sizing: Sizing) -> Estimate:
     """Triangles and memory of ``mesh_parametric``. Raises as it does."""
+    if sizing.is_balanced:
+        sizing = widened_surface(surface, sizing).replaced(vertices=ON_SURFACE)
     part, sides, _ = _without_cusps(surface, sizing)
     field = size_field(part, sizing, sides, rims=Rims(part, sides))
     loops = _loops(part)
@@ -203,6 +235,8 @@ def estimate_parametric(surface: Surface, sizing: Sizing) -> Estimate:
 
 def explain_parametric(surface: Surface, sizing: Sizing, point: np.ndarray) -> Explanation:
     """Which size rule decides at the point of the surface that is nearest to ``point`` (3,)."""
+    if sizing.is_balanced:
+        sizing = widened_surface(surface, sizing)
     sides = find_sides(surface)
     field = size_field(surface, sizing, sides, rims=Rims(surface, sides))
     from surfmesh.meshing.explain.explanation import explain_surface

@@ -23,7 +23,9 @@ class Connectivity(NamedTuple):
     """The unique edges of a mesh and who shares them. Half-edges as in the module's docstring."""
 
     edges: NDArray[np.int32]  # (ne, 2) vertex numbers, the smaller first
-    half_edges: NDArray[np.int32]  # (ne, 2) the first two that run along each edge, or -1
+    half_edges: NDArray[
+        np.int32
+    ]  # (ne, 2) the first two that run along each edge, the lower first, or -1
     uses: NDArray[np.int32]  # (ne,) how many triangles use each edge: 1 on a boundary
 
     @property
@@ -33,24 +35,10 @@ class Connectivity(NamedTuple):
 
 
 def connect(triangles: NDArray[np.int32]) -> Connectivity:
-    """Connectivity of ``triangles``, (m, 3) vertex numbers; one sort of 3 m keys.
+    """Connectivity of ``triangles``, (m, 3) vertex numbers.
 
     Triangles with a repeated corner give loops (a, a), which are edges like any other here.
     """
-    count = 3 * len(triangles)
-    starts, ends = triangles.reshape(-1), triangles[:, (1, 2, 0)].reshape(-1)
-    keys = np.minimum(starts, ends).astype(np.int64)
-    keys *= int(starts.max(initial=-1)) + 1
-    keys += np.maximum(starts, ends)
-    order = np.argsort(keys).astype(np.int32)
-    keys = keys[order]
+    from surfmesh._core.space import edge_table  # late: files are looked at without the core
 
-    first = np.flatnonzero(np.diff(keys, prepend=-1)).astype(np.int32)
-    del keys
-    uses = np.diff(first, append=np.int32(count)).astype(np.int32)
-    half_edges = np.empty((len(first), 2), np.int32)
-    half_edges[:, 0] = order[first]
-    half_edges[:, 1] = np.where(uses > 1, order[np.minimum(first + 1, count - 1)], -1)
-    edges = np.column_stack((starts[half_edges[:, 0]], ends[half_edges[:, 0]]))
-    edges.sort(axis=1)
-    return Connectivity(edges, half_edges, uses)
+    return Connectivity(*edge_table(triangles))

@@ -43,6 +43,8 @@ from surfmesh.result.mesh_parts import EdgeLinks, ModelLinks, Parametrisation, R
 from surfmesh.result.quadratic_triangles import edge_rows, node_values, six_nodes
 
 if TYPE_CHECKING:
+    from types import ModuleType
+
     import meshio
     import pyvista
     import trimesh
@@ -54,6 +56,7 @@ if TYPE_CHECKING:
     from surfmesh.quality.verdict.worst import WorstTriangle
     from surfmesh.result.model_facts import ModelFacts
     from surfmesh.sizing.options.sizing import Sizing
+    from surfmesh.volume import VolumeMesh
 
 
 @dataclass(frozen=True, eq=False, repr=False, init=False, kw_only=True)
@@ -302,11 +305,13 @@ class SurfaceMesh(Arrays):
 
         return worst_triangles(self, count)
 
-    def save(self, path: str | Path, *, ascii: bool = False) -> Path:
+    def save(
+        self, path: str | Path, *, ascii: bool = False, solids: str = "", target: str = ""
+    ) -> Path:  # fmt: skip
         """Write to ``path``, format by extension; see ``surfmesh.io.save``."""
         from surfmesh.io import save
 
-        return save(self, path, ascii=ascii)
+        return save(self, path, ascii=ascii, solids=solids, target=target)
 
     def manifest(self, *files: str | Path) -> Manifest:
         """Versions, options and hashes of the mesh and of ``files`` it was written to, for
@@ -339,6 +344,23 @@ class SurfaceMesh(Arrays):
         from surfmesh.view import show
 
         show(self, by=by, **options)
+
+    def to_gmsh(self, name: str = "surfmesh") -> ModuleType:
+        """Add a model to Gmsh that ``gmsh.model.mesh.generate(3)`` fills; returns ``gmsh``.
+
+        See ``surfmesh.volume.gmsh_model.to_gmsh``.
+        """
+        from surfmesh.volume.gmsh_model import to_gmsh
+
+        return to_gmsh(self, name)
+
+    def tetrahedralize(
+        self, engine: str = "tetgen", *, size: float | None = None, order: int | None = None
+    ) -> VolumeMesh:  # fmt: skip
+        """Tetrahedra inside the solids; see ``surfmesh.volume.tetrahedralize``."""
+        from surfmesh.volume import tetrahedralize
+
+        return tetrahedralize(self, engine, size=size, order=order)
 
     def plot(self, path: str | Path, by: str = "alpha", **options: Any) -> Path:
         """Write a PNG without a display; see ``surfmesh.view.plot``."""

@@ -10,7 +10,6 @@ from surfmesh._core.patch import (
     triangle_deviations,
     vertex_deviations,
 )
-from surfmesh.accuracy.dihedral import corners_beside
 from surfmesh.accuracy.folds import cosines_with_surface
 from surfmesh.accuracy.samples import DENSE
 from surfmesh.geometry.core_surface import as_core_surface
@@ -74,9 +73,3 @@ def test_cosines_know_which_side_is_up():
     assert cosines_with_surface(SPHERE, turned, uv.mean(axis=1)).max() < -0.99
     flat = np.repeat(corners[:, :1], 3, axis=1)  # no area: no normal
     assert np.isnan(cosines_with_surface(SPHERE, flat, uv.mean(axis=1))).all()
-
-
-def test_corners_beside_an_edge_begin_with_its_ends():
-    triangles = np.array([[0, 1, 2], [3, 1, 0]])  # half-edges 0 and 4 are 0-1 and 1-0
-    beside = triangles.ravel()[corners_beside(np.array([[0, 4]]))]
-    assert beside.tolist() == [[[0, 1, 2], [1, 0, 3]]]

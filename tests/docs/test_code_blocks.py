@@ -11,6 +11,7 @@ import re
 import shlex
 import subprocess
 import sys
+from importlib import import_module
 from pathlib import Path
 
 import cadquery as cq
@@ -25,6 +26,7 @@ PAGES = [ROOT / "README.md", ROOT / "CONTRIBUTING.md", *sorted((ROOT / "docs").g
 FOLDERS = ("surfmesh", "tests", "benchmarks", "docs", "notebooks", "tools")
 FILES = [str(path.relative_to(ROOT)) for name in FOLDERS for path in (ROOT / name).rglob("*.py")]
 FENCE = re.compile(r"^```([^\n]*)\n(.*?)^```$", re.MULTILINE | re.DOTALL)
+NEEDED = {"to-a-solver": ("tetgen", "gmsh")}
 SHOWN_ONLY = {"", "text", "{toctree}", "{eval-rst}"}
 SQUARE = '<svg xmlns="http://www.w3.org/2000/svg"><path d="M0 0 H4 V3 H0 Z"/></svg>'
 
@@ -51,6 +53,11 @@ def folder(tmp_path, monkeypatch):
 
 @pytest.mark.parametrize("page", PAGES, ids=lambda page: page.stem)
 def test_the_code_of_a_page_runs(page, folder):
+    for package in NEEDED.get(page.stem, ()):
+        try:
+            import_module(package)
+        except (ImportError, OSError) as error:  # OSError: a library of the system is missing
+            pytest.skip(f"{package}: {error}")
     names = {"__name__": f"docs.{page.stem}"}
     for language, code, line in blocks(page):
         if language == "python":

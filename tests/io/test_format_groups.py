@@ -1,7 +1,11 @@
 """Groups in files: faces, names, colours, kinds, solids, unit, edges; nodes of order 2."""
 
 import dataclasses
+import os
 import pickle
+import shutil
+import subprocess
+from pathlib import Path
 
 import cadquery as cq
 import numpy as np
@@ -382,3 +386,72 @@ def test_numbers_in_columns_keep_their_digits(value):
     from surfmesh.io.bdf import _number
 
     assert _number(card) == pytest.approx(value, rel=2e-10, abs=1e-99)
+
+
+def test_stl_with_a_body_for_each_name_of_a_face(boxes, tmp_path):
+    trimesh = pytest.importorskip("trimesh")
+    path = boxes.save(tmp_path / "boxes.stl", solids="faces")
+    bodies = [line.split()[1] for line in path.read_text().splitlines() if line.startswith("solid")]
+    assert len(bodies) == len(set(bodies)) == 11 and "top" in bodies  # two faces have one name
+    assert len(trimesh.load(path, force="mesh").faces) == len(boxes.triangles)
+
+
+def test_openfoam_finds_the_patches_of_a_solid(tmp_path):
+    home = Path("/usr/share/openfoam")  # as Debian's package has it; nothing else sets the variable
+    if shutil.which("surfaceCheck") is None:
+        pytest.skip("surfaceCheck is not installed (Debian: openfoam)")
+    part = cq.Workplane().box(1, 1, 1).faces(">Z").tag("lid").end()
+    path = sm.mesh(part, 0.4).save(tmp_path / "box.stl", solids="faces")
+    environment = os.environ | ({"WM_PROJECT_DIR": str(home)} if home.is_dir() else {})
+    command = [shutil.which("surfaceCheck") or "", path.name]
+    told = subprocess.run(
+        command, capture_output=True, text=True, cwd=tmp_path, env=environment
+    ).stdout
+    assert "Surface has no illegal triangles" in told and "Surface is closed" in told
+    assert "lid" in told and "face_4" in told
+
+
+def test_second_order_by_target(boxes, tmp_path):
+    curved = dataclasses.replace(boxes, mid_points=boxes.points[boxes.edges].mean(axis=1))
+    for target, kind in (("", "STRI65"), ("abaqus", "STRI65"), ("calculix", "S6")):
+        path = curved.save(tmp_path / "boxes.inp", target=target)
+        assert f"TYPE={kind}," in path.read_text() and read(path).order == 2
+    for extension, options in ((".vtu", {"target": "calculix"}), (".inp", {"solids": "faces"})):
+        with pytest.raises(FileFormatError, match="alone"):
+            boxes.save(tmp_path / f"boxes{extension}", **options)
+    with pytest.raises(FileFormatError, match="'abaqus' or 'calculix', not 'ansys'"):
+        boxes.save(tmp_path / "boxes.inp", target="ansys")
+
+
+def test_names_of_faces_are_sets_and_surfaces_of_inp(boxes, tmp_path):
+    text = boxes.save(tmp_path / "boxes.inp").read_text()
+    assert text.count("*SURFACE, NAME=top, TYPE=ELEMENT\ntop, SPOS\n") == 1
+    assert text.count("*NSET, NSET=top\n") == 1 and text.count("*NSET, NSET=top_2\n") == 1
+    assert text.splitlines()[1].startswith("*NODE") and MARK in text.splitlines()[-1]
+
+
+def test_a_file_without_its_last_comments_is_cut(boxes, tmp_path):
+    for extension in (".inp", ".su2"):
+        path = boxes.save(tmp_path / f"boxes{extension}")
+        path.write_text("".join(row for row in path.open() if MARK not in row))
+        with pytest.raises(FileFormatError, match="is cut"):
+            read(path)
+
+
+def test_a_planar_domain_has_two_dimensions_in_su2(tmp_path):
+    curved = grid(Saddle(), 2)
+    flat = np.where([True, True, False], curved.points, 0.0)
+    mesh = dataclasses.replace(curved, points=flat)
+    path = mesh.save(tmp_path / "flat.su2")
+    assert "NDIME= 2" in path.read_text() and "MARKER_TAG= boundary" in path.read_text()
+    found = read(path)
+    np.testing.assert_array_equal(found.triangles, mesh.triangles)
+    meshio = pytest.importorskip("meshio")
+    assert meshio.read(path).points.shape == (9, 2)
+
+
+def test_pynastran_finds_all_references(boxes, tmp_path):
+    bdf = pytest.importorskip("pyNastran.bdf.bdf")
+    model = bdf.read_bdf(boxes.save(tmp_path / "boxes.bdf"), xref=True, debug=None)
+    assert len(model.elements) == len(boxes.triangles) and len(model.properties) == 12
+    assert {element.pid_ref.mid1_ref.mid for element in model.elements.values()} == {1}

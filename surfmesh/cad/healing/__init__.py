@@ -1,6 +1,7 @@
 """What is mended before a shape becomes plain data: faults of files, loose and touching parts.
 
 shape_healing: repair of what files get wrong, by OCP's shape healing; every change is put in words.
+validity: whether OCP's checker finds nothing wrong with a shape.
 creases: faces whose surface has creases inside are cut along them.
 sphere_poles: spheres are turned where an edge passes a pole: there its p-curve in (u, v) leaps by
     half a turn.

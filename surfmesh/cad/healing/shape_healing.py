@@ -40,6 +40,7 @@ from OCP.TopoDS import (
 
 from surfmesh.cad.healing.creases import creased, cut_along_creases
 from surfmesh.cad.healing.sphere_poles import passed_poles, with_turned_spheres
+from surfmesh.cad.healing.validity import is_valid
 from surfmesh.cad.parts import Part
 from surfmesh.cad.sub_shapes import below, box_diagonal, edges_of, faces_of, unique
 from surfmesh.errors import CadError
@@ -71,9 +72,7 @@ def healed(part: Part, heal: bool = True) -> Part:
     bare = [face for face in faces_of(part.shape) if _is_bare(face)]
     curveless = [edge for edge in edges_of(part.shape) if _lacks_curve(edge)]
     passed = passed_poles(part) if heal else []
-    wrong = heal and (
-        bool(passed) or _lacks_pcurve(part.shape) or not BRepCheck_Analyzer(part.shape).IsValid()
-    )
+    wrong = heal and (bool(passed) or _lacks_pcurve(part.shape) or not is_valid(part.shape))
     if not (bare or curveless or wrong):
         return _uncreased(part) if heal else part
     part = _copied(part)

@@ -67,6 +67,11 @@ class ExactLoops:
     repeats: bool = True
     """May an edge be walked twice the same way?"""
 
+    @property
+    def may_be_wrong(self) -> bool:
+        """Is ``at_once`` to be asked for?"""
+        return bool(self.stated) or self.repeats
+
     @cached_property
     def at_once(self) -> str:
         """What is wrong with them at a glance: found when read, or an edge twice the same way."""

@@ -10,7 +10,7 @@ from collections.abc import Iterable, Sequence
 from surfmesh._core import faces as core
 from surfmesh.meshing.faces.face_data import FaceJob, FaceMesh
 from surfmesh.meshing.faces.face_mesh import continued
-from surfmesh.meshing.faces.inward_faces import inward_face
+from surfmesh.meshing.faces.inward_faces import InwardFaces
 
 
 class FaceQueue:
@@ -23,9 +23,9 @@ class FaceQueue:
         """Of the jobs that it takes."""
         self.left: list[int] = []
         """Of the jobs that it does not take, in their order."""
-        faces = []
+        faces, inward = [], InwardFaces()
         for number in order:
-            face = _ordinary(jobs[number])
+            face = _ordinary(jobs[number], inward)
             if face is None:
                 self.left.append(number)
             else:
@@ -47,12 +47,13 @@ class FaceQueue:
         self._core.stop()
 
 
-def _ordinary(job: FaceJob) -> core.InwardFace | None:
+def _ordinary(job: FaceJob, inward: InwardFaces) -> core.InwardFace | None:
     """A job as the core takes it; None where it needs another way from the start."""
-    if job.narrow is not None or (job.exact is not None and job.exact.at_once):
+    exact = job.exact
+    if job.narrow is not None or (exact is not None and exact.may_be_wrong and exact.at_once):
         return None
     try:
-        return inward_face(job, look_for_tubes=True)
+        return inward.face(job, look_for_tubes=True)
     except Exception:  # face_mesh.py comes upon it again, and puts it into words
         return None
 

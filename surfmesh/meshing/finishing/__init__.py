@@ -1,7 +1,13 @@
-"""What may be done to a finished mesh: six nodes a triangle, short edges collapsed.
+"""What may be done to a finished mesh: six nodes a triangle, vertices balanced,
+short edges collapsed.
 
 second_order: a node amid every edge of a mesh, on the true curve or surface, one for all its
     triangles.
+signed_distances: how far triangles lie from their surfaces, and on which side.
+vertex_sites: vertices as their faces see them, steps that move them by given lengths.
+kept_volumes: steps that give solids their exact volumes.
+balanced_vertices: vertices off their surfaces, which then lie on both sides of the triangles.
+balanced_rounds: meshes of that kind, sizes for nearly twice the chord and smaller where need be.
 edge_collapse: short edges of a finished mesh, collapsed: tiny edges and slivers of a CAD model
     go away.
 """

@@ -31,17 +31,12 @@ def of_second_order(mesh: SurfaceMesh) -> SurfaceMesh:
     """``mesh`` with ``mid_points``; what had to be straightened is said in its ``warnings``."""
     start = perf_counter()
     middles = mesh.points[mesh.edges].mean(axis=1)
-    fixed = np.zeros(len(middles), bool)  # on curves
     if mesh.surfaces and mesh.parametrisation is not None:
-        boundary = mesh.connectivity.uses == 1
-        for surface, own, first, second in _by_surface(mesh, mesh.parametrisation, ~boundary):
+        within = mesh.connectivity.uses != 1
+        for surface, own, first, second in _by_surface(mesh, mesh.parametrisation, within):
             guess = 0.5 * (first + second)
             middles[own] = closest_point(surface, middles[own], guess, STEPS)[2]
-        for surface, own, first, second in _by_surface(mesh, mesh.parametrisation, boundary):
-            middles[own] = _halfway(partial(_on_surface, surface, first, second), len(own))
-        fixed |= boundary
-    if mesh.edge_links is not None:
-        fixed[_on_curves(mesh, mesh.edge_links, middles)] = True
+    fixed = put_on_curves(mesh, middles)
     straight = _straightened(mesh, middles, fixed)
     notes = [f"{straight} edges of order 2 are straight, lest triangles fold"] if straight else []
     return mesh.replaced(
@@ -49,6 +44,19 @@ def of_second_order(mesh: SurfaceMesh) -> SurfaceMesh:
         warnings=(*mesh.warnings, *notes),
         seconds={**mesh.seconds, "order 2": perf_counter() - start},
     )
+
+
+def put_on_curves(mesh: SurfaceMesh, middles: NDArray[np.float64]) -> NDArray[np.bool_]:
+    """Puts nodes amid edges (ne, 3) on the curves that these stand for, on the boundary and along
+    CAD edges; returns which edges (ne,) lie there."""
+    fixed = np.zeros(len(middles), bool)
+    if mesh.surfaces and mesh.parametrisation is not None:
+        fixed |= mesh.connectivity.uses == 1
+        for surface, own, first, second in _by_surface(mesh, mesh.parametrisation, fixed):
+            middles[own] = _halfway(partial(_on_surface, surface, first, second), len(own))
+    if mesh.edge_links is not None:
+        fixed[_on_curves(mesh, mesh.edge_links, middles)] = True
+    return fixed
 
 
 def _by_surface(

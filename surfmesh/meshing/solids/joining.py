@@ -9,6 +9,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from surfmesh._core.faces import numbers_of
 from surfmesh.cad.model.cad_model import CadModel
 from surfmesh.cad.model.facts import model_facts
 from surfmesh.cad.model.model_arrays import model_arrays, offsets
@@ -111,14 +112,13 @@ class _Joined(NamedTuple):
 def _joined(shared: _Shared, faces: list[FaceState], turned: np.ndarray) -> _Joined:
     """With the inner points of face after face; turned: (f,) of all faces of the model."""
     meshes = [state.mesh for state in faces]
-    names = [state.job.boundary.numbers for state in faces]
-    first_name = offsets(np.array([len(own) for own in names], np.int64))
+    names, first_name = numbers_of([state.job.boundary for state in faces])
     count = np.array([len(mesh.points) for mesh in meshes])
     slots = np.concatenate([mesh.slots for mesh in meshes])
     inside = slots < 0
     own = np.empty(len(slots), np.int64)
     on_edges = (slots + np.repeat(first_name[:-1], count))[~inside]
-    own[~inside] = np.concatenate(names)[on_edges]
+    own[~inside] = names[on_edges]
     own[inside] = len(shared.points) + np.arange(int(inside.sum()))
     points = np.concatenate([mesh.points for mesh in meshes])
     sizes = np.concatenate([mesh.sizes for mesh in meshes])
@@ -201,14 +201,26 @@ def orientation(model: CadModel) -> tuple[np.ndarray, np.ndarray]:
     return turned ^ inward, solids
 
 
-def _between_shared_nodes(mesh: SurfaceMesh) -> np.ndarray:
-    """Corners (m, 3) of the triangles with two nodes or more that faces may share: all edges that
-    more than one face can use are among theirs."""
+def _shared_vertices(mesh: SurfaceMesh) -> np.ndarray:
+    """(n,) bool: vertices that faces may share. All edges that more than one face can use are
+    between two of them."""
     shared = np.zeros(len(mesh.points), bool)
     shared[mesh.edge_segments] = True
     assert mesh.vertex_ids is not None  # noqa: S101 for mypy: every mesh of a model has them
     shared[mesh.vertex_ids[mesh.vertex_ids >= 0]] = True
-    return mesh.triangles[shared[mesh.triangles].sum(axis=1) > 1]
+    return shared
+
+
+def _may_be_crowded(mesh: SurfaceMesh, shared: np.ndarray) -> bool:
+    """Is an edge between two shared vertices used more than twice?"""
+    a, b, c = mesh.triangles.T
+    at_a, at_b, at_c = shared[a], shared[b], shared[c]
+    keys = []
+    for one, other, is_shared in ((a, b, at_a & at_b), (b, c, at_b & at_c), (c, a, at_c & at_a)):
+        start, end = one[is_shared].astype(np.int64), other[is_shared].astype(np.int64)
+        keys.append(np.minimum(start, end) * len(shared) + np.maximum(start, end))
+    key = np.sort(np.concatenate(keys))
+    return bool((key[2:] == key[:-2]).any())
 
 
 def crowded_chords(model: CadModel, mesh: SurfaceMesh) -> np.ndarray:
@@ -216,7 +228,10 @@ def crowded_chords(model: CadModel, mesh: SurfaceMesh) -> np.ndarray:
     an edge of the model as many as it has uses, elsewhere two."""
     if mesh.edge_segments is None or not len(mesh.edge_segments):
         return np.empty((0, 2), np.int64)
-    table = connect(_between_shared_nodes(mesh))
+    shared = _shared_vertices(mesh)
+    if not _may_be_crowded(mesh, shared):
+        return np.empty((0, 2), np.int64)
+    table = connect(mesh.triangles[shared[mesh.triangles].sum(axis=1) > 1])
     crowded = table.uses > 2
     if not crowded.any():
         return np.empty((0, 2), np.int64)

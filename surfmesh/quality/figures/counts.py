@@ -33,6 +33,6 @@ class Counts(Part):
 
 
 def _names(mesh: SurfaceMesh) -> str:
-    names = list(dict.fromkeys(mesh.face_name(i) for i in range(len(mesh.surfaces))))
+    names = list(dict.fromkeys(map(mesh.groups.face_label, range(len(mesh.surfaces)))))
     more = len(names) - SHOWN
     return ", ".join(names[:SHOWN]) + (f" and {more} more" if more > 0 else "")

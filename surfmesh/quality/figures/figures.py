@@ -6,7 +6,7 @@ report.alpha_mean           the same
 """
 
 import json
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, fields
 from typing import Any, Generic, Self, TypeVar, overload
 
@@ -25,8 +25,8 @@ from surfmesh.quality.figures.second_opinion import SecondOpinion
 from surfmesh.quality.figures.shape import FoldFigures, ShapeFigures
 from surfmesh.quality.figures.sizes import SizeFigures
 from surfmesh.quality.figures.topology import ContactFigures, TopologyFigures
-from surfmesh.quality.measures.by_face import FaceRow
 from surfmesh.quality.measures.by_solid import SolidRow
+from surfmesh.quality.measures.face_rows import FaceRow
 from surfmesh.quality.measures.histograms import Histogram
 from surfmesh.quality.measures.tolerances import UnattainableTolerance
 from surfmesh.quality.verdict.finding import Finding, Problem, Remark
@@ -71,7 +71,7 @@ class Figures:
     dihedral_angles: DihedralFigures
     limits: tuple[UnattainableTolerance, ...]  # where a min_size of the user's forbids one of both
     area_and_volume: AreaAndVolume
-    by_face: tuple[FaceRow, ...]
+    by_face: Sequence[FaceRow]
     by_solid: tuple[SolidRow, ...]
     proof: ProofFigures | None = None  # distances that are proved; None: not asked
     second_opinion: SecondOpinion | None = None  # of trimesh and PyVista; None: not asked

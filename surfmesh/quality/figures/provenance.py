@@ -5,7 +5,7 @@ import math
 import platform
 import re
 import sys
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import asdict, dataclass, fields, is_dataclass
 from functools import cache
 from importlib.metadata import PackageNotFoundError, version
@@ -84,10 +84,10 @@ def plain(value: Any) -> Any:
     """``value`` as JSON knows it; callables and other objects by their repr."""
     if isinstance(value, Mapping):
         return {str(key): plain(item) for key, item in value.items()}
-    if isinstance(value, (list, tuple, np.ndarray)):
-        return [plain(item) for item in value]
     if value is None or isinstance(value, (bool, str)):
         return value
+    if isinstance(value, (Sequence, np.ndarray)):
+        return [plain(item) for item in value]
     if isinstance(value, (int, np.integer)):
         return int(value)
     if isinstance(value, (float, np.floating)):

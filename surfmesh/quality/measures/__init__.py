@@ -42,7 +42,8 @@ true_depth: how deep the corners of facets lie within the true body of other fac
 bodies: bodies of a model that overlap, and those that touch without a common face.
 
 measurements: all of these of one mesh, each when it is first asked for.
-by_face: the figures of each face: one row a face, in the order of the faces.
+face_rows: a row of figures a face, made when it is asked for.
+by_face: the figures of each face, in the order of the faces.
 
 ``shape``, ``deviation`` and ``tolerances`` are used by ``io`` and ``view`` too.
 """

@@ -13,6 +13,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from surfmesh._core.quality import explained_losses
 from surfmesh.quality.measures.penetration import edge_sagittas
 from surfmesh.quality.measures.topology import half_edges_along
 from surfmesh.result.quadratic_triangles import edge_rows
@@ -41,12 +42,8 @@ def explained(
     mesh: SurfaceMesh, area: NDArray[np.float64], by_triangle: NDArray[np.float64]
 ) -> Explained:
     """area: (m,) of the triangles; by_triangle: (m,) their distances from the surface."""
-    corners = mesh.points[mesh.triangles]
-    sides = np.linalg.norm(corners - np.roll(corners, -1, axis=1), axis=2)
-    height = 2.0 * area / np.maximum(sides.max(axis=1), np.finfo(float).tiny)
-    slant = by_triangle / np.maximum(height, np.finfo(float).tiny)
-    lost = area * np.minimum(SLANT * slant**2, 1.0)
-    return Explained(lost, _along_rims(mesh, by_triangle), area * by_triangle)
+    lost, volume = explained_losses(mesh.points, mesh.triangles, area, by_triangle, SLANT)
+    return Explained(lost, _along_rims(mesh, by_triangle), volume)
 
 
 def _along_rims(mesh: SurfaceMesh, by_triangle: NDArray[np.float64]) -> NDArray[np.float64]:

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from surfmesh._core.quality import solid_counts
+from surfmesh._core.quality import enclosed_volumes, solid_counts
 from surfmesh.quality.measures.shape import Shapes
 from surfmesh.quality.measures.solids import around_solids
 from surfmesh.result.surface_mesh import SurfaceMesh
@@ -38,13 +38,10 @@ def by_solid(mesh: SurfaceMesh, shape: Shapes) -> tuple[SolidRow, ...]:
     if not count:
         return ()
     around, rows, solid = around_solids(mesh)
-    corners = around.astype(np.int64)
     triangles = np.bincount(solid, minlength=count)
     area = np.bincount(solid, shape.area[rows], count)
-    apex = _first_corners(mesh.points[corners[:, 0]], solid, count)[solid]
-    a, b, c = (mesh.points[corner] - apex for corner in corners.T)
-    volume = np.bincount(solid, np.einsum("ij,ij->i", a, np.cross(b, c)) / 6.0, count)
-
+    apexes = _first_corners(mesh.points[around[:, 0]], solid, count)
+    volume = enclosed_volumes(mesh.points, around, solid, apexes)
     vertices, edges, opened = solid_counts(around, solid, len(mesh.points), count)
     euler = vertices - edges + triangles
     closed = [bool(triangles[k] > 0 and opened[k] == 0) for k in range(count)]

@@ -36,19 +36,19 @@ class Deviation(NamedTuple):
     uv: tuple[float, float]  # parameters of the nearest surface point
 
 
-def deviation(mesh: SurfaceMesh, area: NDArray[np.float64]) -> Deviation | None:
+def deviation(
+    mesh: SurfaceMesh, area: NDArray[np.float64], known: KnownSurfaces | None = None
+) -> Deviation | None:
     """Distance of ``mesh`` from its surfaces, or None when it carries none, or not for all faces.
 
     ``area``: (m,) areas of the triangles, the weights of the mean square. Between samples
     the distance is not bounded: it is smooth, and the densest look is where it is largest.
+    known: the mesh on its surfaces, where that is at hand.
     """
-    known = KnownSurfaces.of(mesh)
+    known = known or KnownSurfaces.of(mesh)
     if known is None:
         return None
-    by_triangle, mean_square, cosine = mesh_deviation(
-        known.core_surfaces, mesh.points, mesh.triangles, known.corners.uv_points,
-        known.corners.uv_triangles, mesh.face_ids, _measured_edges(mesh), area,
-    )  # fmt: skip
+    by_triangle, mean_square, cosine = mesh_deviation(*known.arrays, _measured_edges(mesh), area)
     if mesh.turned_faces is not None:
         cosine[mesh.turned_faces[mesh.face_ids]] *= -1.0
     total = float(area.sum())

@@ -6,14 +6,12 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from surfmesh._core.quality import face_creases
 from surfmesh.accuracy.dihedral import (
     SLACK,
-    corners_beside,
     dihedral_angles,
-    on_crease,
 )
-from surfmesh.geometry.boxes import diagonal
-from surfmesh.quality.measures.known_surfaces import KnownSurfaces, rows_of_faces
+from surfmesh.quality.measures.known_surfaces import KnownSurfaces
 from surfmesh.quality.measures.places import Point, as_point
 from surfmesh.result.surface_mesh import SurfaceMesh
 from surfmesh.sizing.options.defaults import DEFAULT_ANGLE
@@ -32,7 +30,9 @@ class DihedralAngles(NamedTuple):
 
 
 def angles_within_faces(
-    mesh: SurfaceMesh, limits: NDArray[np.float64] | None = None
+    mesh: SurfaceMesh,
+    limits: NDArray[np.float64] | None = None,
+    known: KnownSurfaces | None = None,
 ) -> DihedralAngles | None:
     """Angles within the faces of ``mesh``; None where its surfaces are not known.
 
@@ -40,8 +40,9 @@ def angles_within_faces(
     at a crease where two of its sides meet, or at an apex: where an angle is larger than asked
     for (or than 45 degrees) the normals of the surface on both sides are compared. limits: by
     face number, or one for all, what was asked for, infinite for nothing; None: by ``sizing``.
+    known: the mesh on its surfaces, where that is at hand.
     """
-    known = KnownSurfaces.of(mesh)
+    known = known or KnownSurfaces.of(mesh)
     if known is None:
         return None
     table = mesh.connectivity
@@ -56,15 +57,9 @@ def angles_within_faces(
     limits = np.where(np.isfinite(limits), limits, DEFAULT_ANGLE)
     limits = np.broadcast_to(limits, len(mesh.surfaces)) if len(limits) == 1 else limits
     large = np.flatnonzero(angles > limits[faces] * (1 + SLACK))
-    own = dict(rows_of_faces(mesh.face_ids)) if len(large) else {}
-    for face, here in rows_of_faces(faces[large]):
-        here = large[here]
-        beside = corners_beside(pairs[here])
-        uv = known.corners.uv_points[known.corners.uv_triangles.ravel()[beside]]
-        vertices = mesh.triangles.ravel()[beside]
-        size = diagonal(mesh.points[mesh.triangles[own[face]].ravel()])
-        creased = on_crease(mesh.surfaces[face], vertices, uv, float(limits[face]), size)
-        angles[here[creased]] = 0.0
+    if len(large):
+        creased = face_creases(*known.arrays, pairs[large], np.ascontiguousarray(limits))
+        angles[large[creased.view(bool)]] = 0.0
     return DihedralAngles(edges, faces, angles)
 
 

@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from surfmesh._core.quality import surface_points
+from surfmesh._core.quality import sampled_surface, surface_points
 from surfmesh._core.space import interpolate
 from surfmesh._core.surfaces import Surface as CoreSurface
 from surfmesh.geometry.core_surface import as_core_surface
@@ -73,6 +73,30 @@ class KnownSurfaces:
     def core_surfaces(self) -> list[CoreSurface]:
         """Those of the mesh, as the core has them."""
         return [as_core_surface(surface) for surface in self.mesh.surfaces]
+
+    @property
+    def arrays(
+        self,
+    ) -> tuple[
+        list[CoreSurface], NDArray[np.float64], NDArray[np.int32], NDArray[np.float64],
+        NDArray[np.int32], NDArray[np.int32],
+    ]:  # fmt: skip
+        """Surfaces, points, triangles, parameters, triangles of these, faces: what the core takes
+        as a mesh on its surfaces."""
+        mesh, corners = self.mesh, self.corners
+        return (
+            self.core_surfaces, mesh.points, mesh.triangles, corners.uv_points,
+            corners.uv_triangles, mesh.face_ids,
+        )  # fmt: skip
+
+    def sampled(
+        self, triangle: Rows, rule: NDArray[np.int32], weights: NDArray[np.float64]
+    ) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]]:
+        """Parameters (k, 2) at ``weights[rule]`` of ``triangle``, both (k,), the points (k, 3) of
+        the surfaces there, and how far (k,) these are from the triangle."""
+        return sampled_surface(
+            *self.arrays, triangle.astype(np.int32, copy=False), rule, np.ascontiguousarray(weights)
+        )
 
     def points_at(self, faces: Rows, uv: NDArray[np.float64]) -> NDArray[np.float64]:
         """(k, 3) of the surfaces of ``faces`` (k,) at uv (k, 2)."""

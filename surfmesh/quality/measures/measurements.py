@@ -113,7 +113,7 @@ class Measurements:
     @cached_property
     def deviation(self) -> Deviation | None:
         """Of the mesh from its surfaces."""
-        return deviation(self.mesh, self.shapes.area) if self.finite else None
+        return deviation(self.mesh, self.shapes.area, self.known) if self.finite else None
 
     @cached_property
     def surface_deviation(self) -> SurfaceDeviation | None:
@@ -174,7 +174,9 @@ class Measurements:
     @cached_property
     def dihedral_angles(self) -> DihedralAngles | None:
         """Within faces."""
-        return angles_within_faces(self.mesh, self.tolerances.angle) if self.finite else None
+        if not self.finite:
+            return None
+        return angles_within_faces(self.mesh, self.tolerances.angle, self.known)
 
     @cached_property
     def angle_check(self) -> ToleranceCheck | None:

@@ -62,6 +62,10 @@ def proof(known: KnownSurfaces, fit: Deviation, tolerances: Tolerances) -> Proof
 
 def _by_face(mesh: SurfaceMesh) -> Iterator[tuple[int, Rows]]:
     """Number and triangles of each face that has some."""
+    first = int(mesh.face_ids[0])
+    if (mesh.face_ids == first).all():
+        yield first, np.arange(len(mesh.triangles))
+        return
     order = np.argsort(mesh.face_ids, kind="stable")
     starts = np.flatnonzero(np.diff(mesh.face_ids[order], prepend=-1))
     for rows in np.split(order, starts[1:]):
@@ -71,9 +75,13 @@ def _by_face(mesh: SurfaceMesh) -> Iterator[tuple[int, Rows]]:
 
 def _face(known: KnownSurfaces, rows: Rows) -> FaceTriangles:
     """The triangles of one face by themselves: edges to other faces are rims."""
-    _, vertices = np.unique(known.mesh.triangles[rows], return_inverse=True)
-    triangles = vertices.reshape(-1, 3).astype(np.int32)
-    table = connect(triangles)
+    mesh = known.mesh
+    if len(rows) == len(mesh.triangles) and len(mesh.points) <= 3 * len(rows):
+        triangles, table = np.ascontiguousarray(mesh.triangles, np.int32), mesh.connectivity
+    else:
+        _, vertices = np.unique(mesh.triangles[rows], return_inverse=True)
+        triangles = vertices.reshape(-1, 3).astype(np.int32)
+        table = connect(triangles)
     twins = twins_of(table.half_edges, table.uses, len(rows))
     return FaceTriangles(known.points(rows), np.ascontiguousarray(known.uv(rows)), triangles, twins)
 

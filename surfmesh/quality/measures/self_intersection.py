@@ -9,12 +9,11 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from surfmesh._core.space import curve_places, meeting_triangles
+from surfmesh._core.space import meeting_triangles
 from surfmesh.quality.measures.places import Point, as_point
 from surfmesh.result.surface_mesh import SurfaceMesh
 
 MOST = 200_000  # pairs looked for: a mesh with more of them is broken beyond counting
-_BITS = 20  # of the space-filling curve, on each axis
 
 
 @dataclass(frozen=True)
@@ -34,9 +33,7 @@ def meeting_pairs(mesh: SurfaceMesh) -> NDArray[np.int32]:
     """
     if len(mesh.triangles) < 2:
         return np.empty((0, 2), np.int32)
-    order = _along_a_curve(mesh)
-    corners = mesh.points[mesh.triangles[order]].reshape(-1, 3)
-    pairs = np.sort(order[meeting_triangles(corners, MOST)], axis=1)
+    pairs = meeting_triangles(mesh.points, mesh.triangles, MOST)
     a, b = np.sort(mesh.triangles[pairs], axis=2).transpose(1, 0, 2)
     pairs = pairs[(a != b).any(axis=1)]
     return pairs[np.lexsort(pairs.T[::-1])][:MOST]
@@ -50,12 +47,3 @@ def located(mesh: SurfaceMesh, pairs: NDArray[np.int32]) -> tuple[MeetingPair, .
         MeetingPair((a, b), (int(mesh.face_ids[a]), int(mesh.face_ids[b])), as_point(place))
         for (a, b), place in zip(pairs.tolist(), (low + high) / 2)
     )
-
-
-def _along_a_curve(mesh: SurfaceMesh) -> NDArray[np.int32]:
-    """The triangles in an order in which near ones are seldom far apart."""
-    low, high = mesh.points.min(axis=0), mesh.points.max(axis=0)
-    extent = float((high - low).max())
-    scale = (2**_BITS - 1) / extent if extent > 0 else 0.0
-    places = curve_places(mesh.points, mesh.triangles, low, scale)
-    return np.argsort(places, kind="stable").astype(np.int32)

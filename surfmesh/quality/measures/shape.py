@@ -5,6 +5,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from surfmesh._core.quality import enclosed_volumes
 from surfmesh._core.space import triangle_shapes
 from surfmesh.accuracy.shape import mean_ratio
 from surfmesh.quality.measures.lengths import stretched
@@ -31,7 +32,7 @@ def shapes(mesh: SurfaceMesh) -> Shapes:
     """Shape of every triangle of ``mesh``."""
     values = triangle_shapes(mesh.points, mesh.triangles)
     values[:, 3:] *= 180.0 / np.pi
-    return Shapes(*values.T)
+    return Shapes(*np.ascontiguousarray(values.T))
 
 
 def alpha(mesh: SurfaceMesh) -> NDArray[np.float64]:
@@ -64,8 +65,5 @@ def enclosed_volume(mesh: SurfaceMesh) -> float:
     Sum of the signed tetrahedra to one point (divergence theorem).
     """
     apex = mesh.points.mean(axis=0)
-    total = 0.0
-    for start in range(0, len(mesh.triangles), BLOCK):
-        a, b, c = (mesh.points[corner] - apex for corner in mesh.triangles[start:][:BLOCK].T)
-        total += float(np.einsum("ij,ij->", a, np.cross(b, c)))
-    return total / 6.0
+    whole = np.zeros(len(mesh.triangles), np.int32)
+    return float(enclosed_volumes(mesh.points, mesh.triangles, whole, apex[None])[0])

@@ -210,15 +210,18 @@ class _Search:
         """At points over triangles (k,), at the barycentric ``weights[rule]``."""
         if not len(triangle):
             return
-        uv = self.known.sample_uv(triangle, rule, weights)
-        points = self.known.points_at(self.mesh.face_ids[triangle], uv)
-        self.look_at(points, uv, triangle, at_rim)
+        uv, points, distance = self.known.sampled(triangle, rule, weights)
+        self._take(points, uv, triangle, distance, at_rim)
 
     def look_at(self, points: NDArray, uv: NDArray, triangle: NDArray, at_rim: bool) -> None:
         """At points (k, 3) of the surface, with parameters (k, 2) over triangles (k,)."""
-        if not len(triangle):
-            return
-        distance = self._stars.distances(points, triangle)
+        if len(triangle):
+            self._take(points, uv, triangle, self._stars.distances(points, triangle), at_rim)
+
+    def _take(
+        self, points: NDArray, uv: NDArray, triangle: NDArray, distance: NDArray, at_rim: bool
+    ) -> None:
+        """Points (k, 3) at distances (k,) from triangles (k,): what they say of these."""
         distance[~np.isfinite(distance)] = 0.0  # where a formula has no value
         known = self._refine(points, uv, triangle, distance)
         np.maximum.at(self.by_triangle, triangle, distance)

@@ -201,9 +201,14 @@ def _longest(corners: NDArray) -> NDArray[np.float64]:
 def _beside_poles(known: KnownSurfaces, triangles: Rows) -> NDArray[np.bool_]:
     """(k,) triangles with a corner at a side that is one point: there others were dropped."""
     mesh = known.mesh
-    pairs = np.stack([mesh.triangles.ravel(), known.corners.uv_triangles.ravel()], axis=1)
-    vertex = np.unique(pairs, axis=0)[:, 0]
-    images = np.bincount(vertex, minlength=len(mesh.points))
+    vertex, uv = mesh.triangles.ravel(), known.corners.uv_triangles.ravel()
+    vertex_of = np.full(len(known.corners.uv_points), -1, np.int32)
+    vertex_of[uv] = vertex
+    if (vertex_of[uv] == vertex).all():  # as a rule parameters belong to one vertex
+        images = np.bincount(vertex_of[vertex_of >= 0], minlength=len(mesh.points))
+    else:
+        pairs = np.unique(vertex.astype(np.int64) * len(vertex_of) + uv)
+        images = np.bincount(pairs // len(vertex_of), minlength=len(mesh.points))
     many = images[mesh.triangles[triangles]] > 4  # a corner of two seams has four
     return np.any(many, axis=1)
 

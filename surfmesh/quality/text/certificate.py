@@ -5,7 +5,7 @@ from collections.abc import Sequence
 from surfmesh.errors import printable
 from surfmesh.quality.figures.figures import Figures
 from surfmesh.quality.figures.second_opinion import figure_in_words
-from surfmesh.quality.measures.by_face import FaceRow
+from surfmesh.quality.measures.face_rows import FaceRow
 from surfmesh.quality.measures.folds import FoldedTriangle
 from surfmesh.quality.measures.places import place_in_words
 from surfmesh.quality.text.summary import summary

@@ -10,7 +10,7 @@ import numpy as np
 
 from surfmesh.geometry.surface import surface_kind
 from surfmesh.quality.measures.area_and_volume import Explained
-from surfmesh.quality.measures.by_face import FaceRow
+from surfmesh.quality.measures.face_rows import FaceRows
 from surfmesh.quality.measures.measurements import Measurements
 from surfmesh.quality.measures.places import face_in_words, more_in_words
 from surfmesh.quality.measures.solids import solids_beside
@@ -20,6 +20,7 @@ from surfmesh.result.surface_mesh import SurfaceMesh
 
 INEXACT = {"plane": 1e-3, "cylinder": 1e-3, "cone": 1e-3, "sphere": 1e-3, "torus": 1e-3}
 OTHERWISE = 0.02  # relative errors of exact figures by the kind of a face
+NEARLY = 1e-6  # relative: what is looked at closely before it is judged
 LEAST = 1e-6  # of the area of all: what a face may miss unsaid
 
 
@@ -110,7 +111,7 @@ class MinSizeForbidsVolume(Remark):
         )
 
 
-def unexplained(measured: Measurements, faces: tuple[FaceRow, ...]) -> Iterator[Problem]:
+def unexplained(measured: Measurements, faces: FaceRows) -> Iterator[Problem]:
     """Volumes of solids, and areas of faces, or of the whole where those are not known."""
     found = measured.explained
     if found is not None:
@@ -141,21 +142,22 @@ def _volumes(measured: Measurements, found: Explained) -> Iterator[Problem]:
         yield replace(worst, more=more_in_words(bad, "; so have {} more"))
 
 
-def _areas(
-    measured: Measurements, found: Explained, faces: tuple[FaceRow, ...]
-) -> Iterator[Problem]:
-    known = [
-        (row, row.area_exact)
-        for row in faces
-        if row.area_exact is not None and row.area_error is not None
-    ]
-    if not known:
+def _areas(measured: Measurements, found: Explained, faces: FaceRows) -> Iterator[Problem]:
+    area_exact = faces.area_exact
+    known = np.flatnonzero(np.isfinite(area_exact))
+    if not len(known):
         yield from _whole_area(measured, found, faces)
         return
     allowed = np.bincount(measured.mesh.face_ids, found.area, len(found.rims)) + found.rims
-    least = LEAST * sum(exact for _, exact in known)
+    least = LEAST * sum(area_exact[known].tolist())
+    errors = np.abs(faces.area - area_exact)[known]
+    least_allowed = (
+        allowed[faces.numbers[known]] + min(INEXACT.values()) * area_exact[known] + least
+    )
+    suspects = known[errors > (1.0 - NEARLY) * least_allowed]
     bad: list[tuple[float, AreaUnexplained]] = []
-    for row, exact in known:
+    for k in suspects.tolist():
+        row, exact = faces[k], float(area_exact[k])
         error, explained = abs(row.area - exact), float(allowed[row.face])
         if error > explained + _inexact(row.kind) * exact + least:
             called = face_in_words(row.face, row.name)
@@ -168,13 +170,11 @@ def _areas(
         yield replace(worst, more=more_in_words(bad, "; {} more have not that of the model"))
 
 
-def _whole_area(
-    measured: Measurements, found: Explained, faces: tuple[FaceRow, ...]
-) -> Iterator[Problem]:
+def _whole_area(measured: Measurements, found: Explained, faces: FaceRows) -> Iterator[Problem]:
     exact = measured.facts.area
     if not exact or not faces:
         return
-    area, allowed = sum(row.area for row in faces), float(found.area.sum() + found.rims.sum())
+    area, allowed = sum(faces.area.tolist()), float(found.area.sum() + found.rims.sum())
     if abs(area - exact) > allowed + INEXACT["plane"] * exact:
         yield AreaUnexplained(face="", found=area, exact=exact, explained=allowed, more="")
 

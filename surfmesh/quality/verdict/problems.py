@@ -1,6 +1,6 @@
 """Why a mesh is not clean: everything that is wrong, in the order in which it is said."""
 
-from surfmesh.quality.measures.by_face import FaceRow
+from surfmesh.quality.measures.face_rows import FaceRows
 from surfmesh.quality.measures.measurements import Measurements
 from surfmesh.quality.verdict.accuracy import (
     angle_exceeded,
@@ -21,9 +21,7 @@ from surfmesh.quality.verdict.triangles import bad_triangles
 from surfmesh.result.findings import FindingKind
 
 
-def problems(
-    measured: Measurements, faces: tuple[FaceRow, ...], prove: bool = False
-) -> tuple[Problem, ...]:
+def problems(measured: Measurements, faces: FaceRows, prove: bool = False) -> tuple[Problem, ...]:
     """faces: the figures of each. prove: bounds are asked for."""
     mesh, found = measured.mesh, list[Problem]()
     if not len(mesh.triangles):

@@ -5,7 +5,6 @@ each point of known size the sizes grow with the distance. See src/fields/source
 """
 
 import math
-from functools import lru_cache
 
 import numpy as np
 
@@ -123,14 +122,13 @@ def largest_size(surface: Surface, sizing: Sizing, domain: Domain) -> float:
     """What all rules allow on a plane or a cylinder over a box of its parameters."""
     radius = surface.radius if isinstance(surface, Cylinder) else None
     _, exponent = math.frexp(_extent(surface, domain))
-    found = _largest_within(sizing, radius, 2.0 ** (exponent + 1))  # the diagonal is no longer
+    found = largest_within(sizing, radius, 2.0 ** (exponent + 1))  # the diagonal is no longer
     if found is not None:
         return found
     return _allowed(SizeRules.of(sizing, _diagonal(surface, sizing, domain)), radius)
 
 
-@lru_cache(maxsize=1024)
-def _largest_within(sizing: Sizing, radius: float | None, reach: float) -> float | None:
+def largest_within(sizing: Sizing, radius: float | None, reach: float) -> float | None:
     """The same where it does not depend on the diagonal, for any up to ``reach``: no size falls
     as the diagonal grows."""
     low, high = (_allowed(SizeRules.of(sizing, diagonal), radius) for diagonal in (0.0, reach))

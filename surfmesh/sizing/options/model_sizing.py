@@ -23,7 +23,9 @@ from surfmesh.errors import SizingError, shown
 from surfmesh.sizing.options.defaults import with_defaults
 from surfmesh.sizing.options.sizing import Sizing
 
-OF_THE_MODEL = ("growth", "anisotropy", "limit", "gap_faces", "volume", "triangles", "proof")
+OF_THE_MODEL = (
+    "growth", "anisotropy", "limit", "gap_faces", "volume", "triangles", "proof", "vertices",
+)  # fmt: skip
 """Options that cannot differ from selection to selection."""
 
 

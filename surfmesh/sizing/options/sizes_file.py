@@ -88,6 +88,8 @@ def _source(entry: dict[str, Any]) -> Source:
 def _require_numbers(table: dict[str, Any]) -> None:
     """Text is no number, and neither is true."""
     for name, value in table.items():
+        if name == "vertices":
+            continue  # a word, which Sizing looks at
         flag = name in ("gap_faces", "proof")
         if isinstance(value, bool) != flag or not isinstance(value, (int, float)):
             what = "true or false" if flag else "a number"

@@ -17,6 +17,9 @@ MOST_STRETCHED = 1e6
 FEWEST = 4
 """Triangles that may be asked for: those of a tetrahedron."""
 
+ON_SURFACE, BALANCED = "on_surface", "balanced"
+"""Where vertices lie."""
+
 SizeLaw = Callable[[np.ndarray], np.ndarray]
 
 
@@ -71,6 +74,13 @@ class Sizing:
     proof: bool = False
     """Prove that ``chord`` holds: triangles that bounds do not show to be near enough are made
     smaller until they do, or the report says which are not proved. See docs/proof.md."""
+
+    vertices: str = ON_SURFACE
+    """Where they lie: "on_surface", or "balanced": they move along the normals until the surface
+    lies on both sides of the triangles, and closed solids have their exact volumes. ``chord`` holds
+    as ever, with fewer triangles where the surface bends one way: up to half as many. Planes stay
+    planes, common edges stay common. For volumes, as in neutronics or 3D printing; where nodes have
+    to lie on the surface, leave it. Nothing moves in planar domains."""
 
     sources: tuple[SizeLaw, ...] = ()
     """Local sizes: ``Near``, ``InBall``, ``InBox``, ``SizeCloud``, or callables of points
@@ -127,6 +137,11 @@ class Sizing:
             raise SizingError(f"proof is True or False, not {shown(self.proof)}")
         if self.proof and self.chord is None and self.triangles is None:
             raise SizingError("proof needs a chord: it is the distance that is to be proved")
+        if self.vertices not in (ON_SURFACE, BALANCED):
+            known = f"{ON_SURFACE!r} or {BALANCED!r}"
+            raise SizingError(f"vertices is {known}, not {shown(self.vertices)}")
+        if self.proof and self.is_balanced:
+            raise SizingError("proof needs vertices on the surface: they cannot be balanced too")
         if self.angle is not None and self.angle > 90.0:
             raise SizingError(f"angle must be at most 90 degrees, not {self.angle:g}")
         if self.min_size and self.max_size and self.min_size > self.max_size:
@@ -154,6 +169,11 @@ class Sizing:
     def is_anisotropic(self) -> bool:
         """Do the sizes depend on the direction?"""
         return self.anisotropy > 1.0 and (self.chord is not None or self.angle is not None)
+
+    @property
+    def is_balanced(self) -> bool:
+        """Do vertices move off the surface?"""
+        return self.vertices == BALANCED
 
     @property
     def gradient(self) -> float:

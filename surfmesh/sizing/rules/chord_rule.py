@@ -9,14 +9,17 @@ from surfmesh._core import elementary_functions
 from surfmesh._core import sizing as core_sizing
 from surfmesh.sizing.options.sizing import Sizing
 from surfmesh.sizing.rules.curvature_size import (
+    STRAIGHT_RESERVE,
     chord_size,
     principal_chord_sizes,
+    share_of_width,
 )
 from surfmesh.sizing.rules.rule import CurvatureRule, CurveSamples
 
 CURVE_RESERVE = 0.9
-"""Fraction of ``chord`` that a segment of an edge may use. Edges are cut, none of their segments is
-longer than asked for; the rest is for curvature that grows along one."""
+"""Fraction of ``chord`` that a segment of an edge may use where sizes are isotropic. Edges are cut,
+none of their segments is longer than asked for; the rest is for curvature that grows along one.
+Stretched triangles beside an edge use as much of it as they do elsewhere."""
 
 CORNER_RESERVE = 0.52
 """The same where a segment passes the corner of a polygonal curve: it may pass more than one."""
@@ -33,29 +36,41 @@ class ChordRule(CurvatureRule):
     chord: float
     """Model units."""
     is_anisotropic: bool = field(default=False, compare=False)
+    is_width: bool = field(default=False, compare=False)
+    """It is that of the whole band around the surface that a triangle needs: vertices move to the
+    middle of it."""
 
     @classmethod
     def asked_for(cls, sizing: Sizing, diagonal: float) -> Iterator["ChordRule"]:
         if sizing.chord is not None:
-            yield cls(sizing.chord, sizing.is_anisotropic)
+            yield cls(sizing.chord, sizing.is_anisotropic, sizing.is_balanced)
 
     def __str__(self) -> str:
         return f"chord {self.chord:g}"
 
     @property
     def core(self) -> core_sizing.CurvatureRule:
-        return core_sizing.ChordRule(self.chord)
+        return core_sizing.ChordRule(self.chord, self.is_width)
 
     def sizes(self, k1: np.ndarray, k2: np.ndarray) -> np.ndarray:
-        return chord_size(k1, k2, self.chord)
+        return self._factor(k1, k2, 1.0) * chord_size(k1, k2, self.chord)
 
     def principal_sizes(
         self, k1: np.ndarray, k2: np.ndarray, ratio: np.ndarray | float
     ) -> np.ndarray:
-        return np.stack(principal_chord_sizes(k1, k2, self.chord, ratio), axis=1)
+        factor = self._factor(k1, k2, ratio)
+        both = principal_chord_sizes(k1, k2, self.chord, ratio)
+        return np.stack([factor * size for size in both], axis=1)
+
+    def _factor(
+        self, k1: np.ndarray, k2: np.ndarray, ratio: np.ndarray | float
+    ) -> np.ndarray | float:
+        """On the sizes: they go with the root of the chord."""
+        return np.sqrt(share_of_width(k1, k2, ratio)) if self.is_width else 1.0
 
     def sizes_on_curve(self, curve: CurveSamples) -> np.ndarray:
-        left = np.maximum(CURVE_RESERVE * self.chord - curve.tolerance, LEAST_LEFT * self.chord)
+        reserve = STRAIGHT_RESERVE if self.is_anisotropic else CURVE_RESERVE
+        left = np.maximum(reserve * self.chord - curve.tolerance, LEAST_LEFT * self.chord)
         with np.errstate(divide="ignore", over="ignore"):
             own = np.sqrt(8.0 * left / curve.curvature)
         return np.minimum(np.maximum(own, 2.0 * self.chord), self._at_corners(curve))

@@ -39,6 +39,14 @@ def chord_size(k1: np.ndarray, k2: np.ndarray, chord: float | np.ndarray) -> np.
     return _each(core.chord_size, k1, k2, float(chord))
 
 
+def share_of_width(k1: np.ndarray, k2: np.ndarray, ratio: np.ndarray | float) -> np.ndarray:
+    """Fraction of a chord that may be used where it is the width of the band around the surface
+    that a triangle needs: all of it where the surface bends one way. ratio: of two sizes."""
+    first, second = _rows(k1, k2)
+    found = core.share_of_width(first.ravel(), second.ravel(), _each_of(ratio, first).ravel())
+    return found.reshape(first.shape)
+
+
 def dihedral_factor(k1: np.ndarray, k2: np.ndarray) -> np.ndarray:
     """c with angle = c h (radians) between two triangles of side h that share an edge: the largest
     over all directions of the edge, of which ``angle_size`` keeps a reserve."""

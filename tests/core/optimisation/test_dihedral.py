@@ -5,7 +5,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from surfmesh.accuracy.dihedral import dihedral_angles, on_crease
+from surfmesh.accuracy.dihedral import dihedral_angles
 from surfmesh.quality.measures.dihedral import angles_within_faces, largest_angle
 from surfmesh.result.connectivity import connect
 from surfmesh.result.surface_mesh import SurfaceMesh
@@ -104,8 +104,6 @@ def roof_mesh(surface, angle):
 
 
 def test_creases_of_the_surface_are_no_fault():
-    uv = np.array([[[[0, 0], [1, 0], [0, 1]], [[1, 0], [0, 0], [0, -1]]]], float) / 2
-    assert on_crease(Roof(1.0), np.array([[[0, 1, 2], [1, 0, 3]]]), uv, 10.0, 1.0)[0]
     assert angles_within_faces(roof_mesh(Roof(1.0), 10.0)).angles.max() == 0.0
     bent = roof_mesh(Roof(0.0), 10.0)  # on a plane it is one
     turns = angles_within_faces(bent)

@@ -126,7 +126,7 @@ def test_bounds_of_small_triangles_are_tight(name):
 
 
 def test_each_cut_makes_bounds_no_worse():
-    surface = SURFACES["waves"]
+    surface = SURFACES["bicubic"]
     uv, corners = triangles(0.0, 2, surface)
     whole = [bounds_of(surface, corners, uv, depth)[:, 8] for depth in range(4)]
     assert all((b <= a * (1 + 1e-12)).all() for a, b in pairwise(whole))
@@ -134,7 +134,7 @@ def test_each_cut_makes_bounds_no_worse():
 
 
 def test_triangles_within_their_limit_are_not_cut():
-    surface = SURFACES["waves"]
+    surface = SURFACES["bicubic"]
     uv, corners = triangles(0.0, 2, surface)
     assert (bounds_of(surface, corners, uv, 3, np.inf) == bounds_of(surface, corners, uv, 0)).all()
 

@@ -113,10 +113,10 @@ def test_many_pairs():
     points[:, 2] = -points[:, :2].sum(axis=1)
     mesh = SurfaceMesh(points=points.reshape(-1, 3), triangles=np.arange(3 * count).reshape(-1, 3))
     assert len(meeting_pairs(mesh)) == count * (count - 1) // 2
-    corners = points.reshape(-1, 3)
-    in_a_leaf = 4  # the search ends after a leaf
-    assert len(meeting_triangles(corners, 1000)) in range(1000, 1000 + in_a_leaf * count)
-    assert len(meeting_triangles(corners, 0)) == 0
+    in_two_leaves = 16  # the search ends after them
+    found = meeting_triangles(mesh.points, mesh.triangles, 1000)
+    assert len(found) in range(1000, 1000 + in_two_leaves)
+    assert len(meeting_triangles(mesh.points, mesh.triangles, 0)) == 0
 
 
 def test_wrong_shapes_are_refused():
@@ -124,5 +124,10 @@ def test_wrong_shapes_are_refused():
         triangles_meet(np.zeros((5, 3)))
     with pytest.raises(ValueError, match="corners has 3 rows instead of 4"):
         orient_space(np.zeros((3, 3)))
-    with pytest.raises(ValueError, match="3 rows a triangle"):
-        meeting_triangles(np.zeros((5, 3)), 10)
+    with pytest.raises(ValueError, match="out of range"):
+        meeting_triangles(np.zeros((2, 3)), np.array([[0, 1, 2]], np.int32), 10)
+
+
+def test_zero_and_minus_zero_are_one_place():
+    """Neighbours whose common corner has zeros of both signs touch there, and do not meet."""
+    assert not meet(FLAT, [(-0.0, -0.0, 0.0), (-1.0, 0.0, -0.0), (0.0, -1.0, 0.0)])

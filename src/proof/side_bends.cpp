@@ -1,0 +1,125 @@
+#include "proof/side_bends.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace surfmesh {
+namespace {
+
+constexpr double ROUNDING = 0x1p-47;  // relative, more than that of any short sum here
+constexpr double TILTED = 0.1;        // a normal known no better says nothing
+constexpr double ANY_WAY = 1.0;       // along an axis there is no more than in all then
+
+/// The largest of l_0 l_1 a + l_1 l_2 b + l_2 l_0 c over the simplex; never less than 0.
+///
+/// Inside it is a b c / D with D = 2 (ab + bc + ca) - (a^2 + b^2 + c^2) where each number is less
+/// than the sum of the others; else on the side of the largest, a quarter of that. A number below 0
+/// is the curvature along its side, upwards: there is no largest value inside then.
+double largest_on_simplex(double a, double b, double c) {
+    const double most = std::max({a, b, c, 0.0});
+    if (!(most < intervals::INFINITE)) return intervals::INFINITE;
+    if (std::min({a, b, c}) <= 0.0) return 0.25 * most;
+    if (2.0 * most >= (a + b + c) * (1.0 + 1e-9)) return 0.25 * most;
+    const double x = a / most, y = b / most, z = c / most;
+    const double D = 2.0 * (x * y + y * z + z * x) - (x * x + y * y + z * z);
+    constexpr double ILL_CONDITIONED = 1e-6, SLACK = 1e-9;
+    if (!(D > ILL_CONDITIONED)) return most / 3.0 * (1.0 + SLACK);
+    const double inside = x * y * z / D * (1.0 + SLACK);
+    return most * std::clamp(inside, 0.25, (1.0 / 3.0) * (1.0 + SLACK));
+}
+
+double height_of(const BySide& up, const BySide& down) {
+    return 0.5 * std::max(largest_on_simplex(up[0], up[1], up[2]),
+                          largest_on_simplex(down[0], down[1], down[2]));
+}
+
+/// |r''(e, e)|, on the safe side.
+double size_along(const SideBends& bends, std::size_t e, const TriangleFrame& frame) {
+    const double x = bends.by_axis[0][e], y = bends.by_axis[1][e], z = bends.by_axis[2][e];
+    return std::sqrt(x * x + y * y + z * z) * (1.0 + 4.0 * std::min(frame.tilt, TILTED) + ROUNDING);
+}
+
+}  // namespace
+
+PieceSize size_from(const SideBends& bends, const TriangleFrame& frame) {
+    BySide size{}, up{}, down{};
+    for (std::size_t e = 0; e < 3; ++e) {
+        size[e] = size_along(bends, e, frame);
+        const double tilted = (frame.tilt + ROUNDING) * size[e];
+        up[e] = bends.up[e] + tilted;
+        down[e] = bends.down[e] + tilted;
+    }
+    return {height_of(up, down), 0.5 * largest_on_simplex(size[0], size[1], size[2])};
+}
+
+TriangleBounds bounds_from(const SideBends& bends, const TriangleFrame& frame, double corner) {
+    BySide normal{}, size{}, up{}, down{};
+    std::array<BySide, 3> across{}, along{};  // [side left][side]
+    for (std::size_t e = 0; e < 3; ++e) {
+        const double x = bends.by_axis[0][e], y = bends.by_axis[1][e], z = bends.by_axis[2][e];
+        size[e] = size_along(bends, e, frame);
+        const double tilted = (frame.tilt + ROUNDING) * size[e];
+        normal[e] = z + tilted;
+        up[e] = bends.up[e] + tilted;
+        down[e] = bends.down[e] + tilted;
+        for (std::size_t k = 0; k < 3; ++k) {
+            const Point2 side = frame.sides[k];  // across it: (-y, x)
+            const double more = (4.0 * frame.tilt + ROUNDING) * size[e];
+            across[k][e] = std::abs(side.y) * x + std::abs(side.x) * y + more;
+            along[k][e] = std::abs(side.x) * x + std::abs(side.y) * y + more;
+        }
+    }
+    TriangleBounds found{};
+    found.height = height_of(up, down);
+    found.whole = 0.5 * largest_on_simplex(size[0], size[1], size[2]);
+    found.shift = 0.5 * std::max({size[0], size[1], size[2]});
+    found.bend = 0.5 * std::max({normal[0], normal[1], normal[2]});
+    found.corner = corner;
+    found.cell_height = found.height;
+    found.cell_whole = found.whole;
+    for (std::size_t k = 0; k < 3; ++k) {
+        const std::size_t i = (k + 1) % 3, j = (k + 2) % 3;
+        found.along[k] = 0.5 * along[k][k];
+        found.others[k] = 0.5 * std::max(along[k][i], along[k][j]);
+        const double out = across[k][k], inner = std::max(across[k][i], across[k][j]);
+        const double reserve = frame.heights[k] - 0.5 * std::max(out, inner);
+        found.outward[k] = 0.125 * out;
+        found.inner[k] = 0.5 * inner;
+        // beyond the side l_k <= l_i l_j out / (2 reserve), which adds so much to its height
+        found.steep[k] =
+            reserve > 0.0 ? std::max(normal[i], normal[j]) / (2.0 * reserve) : intervals::INFINITE;
+        const double more = out > 0.0 ? out * found.steep[k] : 0.0;
+        found.beside[k] = 0.125 * (normal[k] + more);
+        found.rim[k] =
+            std::sqrt(found.beside[k] * found.beside[k] + found.outward[k] * found.outward[k]) *
+            (1.0 + ROUNDING);
+    }
+    return found;
+}
+
+/// The first axis along the first rim, across which nothing is given away then.
+TriangleFrame frame_of(const SpaceCorners& p, double corner, RimSides rims) {
+    TriangleFrame frame{};
+    const std::size_t first_side = rims & 1 ? 0 : rims & 2 ? 1 : rims & 4 ? 2 : 0;
+    const Point3 along_side = p[(first_side + 1) % 3] - p[first_side];
+    const Point3 a = p[1] - p[0], b = p[2] - p[0], n = cross(a, b);
+    const double area = norm(n), length = norm(along_side);
+    const double longest = std::max({norm(a), norm(b), norm(p[2] - p[1])});
+    frame.tilt = (32.0 * 0x1p-53 * longest * longest + 8.0 * corner * longest) / area;
+    if (!(frame.tilt < TILTED)) {
+        frame.tilt = ANY_WAY;
+        frame.axes = {{{1.0, 0.0, 0.0}, {0.0, 1.0, 0.0}, {0.0, 0.0, 1.0}}};
+        return frame;
+    }
+    const Point3 normal = (1.0 / area) * n, first = (1.0 / length) * along_side;
+    frame.axes = {first, cross(normal, first), normal};
+    for (std::size_t k = 0; k < 3; ++k) {
+        const Point3 side = p[(k + 1) % 3] - p[k];
+        const double size = norm(side);
+        frame.sides[k] = {dot(side, frame.axes[0]) / size, dot(side, frame.axes[1]) / size};
+        frame.heights[k] = area / size * (1.0 - 4.0 * frame.tilt);
+    }
+    return frame;
+}
+
+}  // namespace surfmesh

@@ -1,0 +1,334 @@
+#include "proof/smooth_bounds.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstdint>
+
+#include "proof/corner_bends.hpp"
+#include "surfaces/outward.hpp"
+
+namespace surfmesh {
+namespace {
+
+constexpr double ROUNDING = 0x1p-46;   // relative, more than that of any short sum here
+constexpr std::int32_t TOGETHER = 32;  // triangles over one cell, at first
+constexpr double LITTLE = 0.04;        // of the height: rho that is good enough
+constexpr double LITTLE_OF_LIMIT = 0.005;
+constexpr double WORTH =
+    1.5;  // how much less fourth derivatives are over one triangle: else no cuts
+
+constexpr double NONE = intervals::INFINITE;
+constexpr TriangleBounds UNKNOWN = {.height = NONE,
+                                    .outward = {NONE, NONE, NONE},
+                                    .rim = {NONE, NONE, NONE},
+                                    .shift = NONE,
+                                    .whole = NONE,
+                                    .corner = NONE,
+                                    .inner = {NONE, NONE, NONE},
+                                    .beside = {NONE, NONE, NONE},
+                                    .steep = {NONE, NONE, NONE},
+                                    .along = {NONE, NONE, NONE},
+                                    .others = {NONE, NONE, NONE},
+                                    .bend = NONE,
+                                    .cell_height = NONE,
+                                    .cell_whole = NONE};
+
+/// Each place of the (u, v) plane once, though many triangles have it.
+class Places {
+  public:
+    explicit Places(std::span<const PlaneCorners> uv) : of_corner_(3 * uv.size()) {
+        const std::size_t slots = std::bit_ceil(6 * uv.size() + 1);
+        Array<std::int32_t> table(slots, -1);
+        for (std::size_t h = 0; h < 3 * uv.size(); ++h) {
+            const Point2 p = uv[h / 3][h % 3];
+            std::size_t slot = hash(p) & (slots - 1);
+            while (table[slot] >= 0 && !same(all_[table[slot]], p)) slot = (slot + 1) & (slots - 1);
+            if (table[slot] < 0) {
+                table[slot] = static_cast<std::int32_t>(all_.size());
+                all_.push_back(p);
+            }
+            of_corner_[h] = table[slot];
+        }
+    }
+    [[nodiscard]] std::span<const Point2> all() const { return {all_.data(), all_.size()}; }
+    [[nodiscard]] std::int32_t at(std::size_t t, std::size_t k) const {
+        return of_corner_[3 * t + k];
+    }
+
+  private:
+    static bool same(Point2 a, Point2 b) { return a.x == b.x && a.y == b.y; }
+    static std::uint64_t hash(Point2 p) {
+        const auto x = std::bit_cast<std::uint64_t>(p.x + 0.0);  // -0 is 0
+        const auto y = std::bit_cast<std::uint64_t>(p.y + 0.0);
+        std::uint64_t mixed = (x ^ (y << 1 | y >> 63)) * 0x9e3779b97f4a7c15U;
+        mixed ^= mixed >> 29;
+        return (mixed * 0xbf58476d1ce4e5b9U) >> 20;
+    }
+
+    Array<std::int32_t> of_corner_;
+    Array<Point2> all_;
+};
+
+/// r''(e, e) of one triangle's sides at its corners: by axis, side and corner; and their errors.
+struct CornerBends {
+    std::array<std::array<BySide, 3>, 3> value;
+    BySide error;  // by side
+};
+
+CornerBends corner_bends(const std::array<const SecondJet*, 3>& jets, const PlaneCorners& uv,
+                         const Directions& axes) {
+    const SideWeights weight = weights_of(uv);
+    CornerBends found{};
+    for (std::size_t m = 0; m < 3; ++m)
+        for (std::size_t k = 0; k < 3; ++k) {
+            const auto [bend, error] = bend_of(*jets[m], weight[k]);
+            for (std::size_t d = 0; d < 3; ++d) found.value[d][k][m] = dot(axes[d], bend);
+            found.error[k] = std::max(found.error[k], error * (1.0 + ROUNDING));
+        }
+    return found;
+}
+
+constexpr BySide UNKNOWN_SIDES = {NONE, NONE, NONE};
+constexpr FourthParts UNKNOWN_PARTS = {UNKNOWN_SIDES, UNKNOWN_SIDES, UNKNOWN_SIDES};
+
+/// rho of each side along each axis.
+FourthParts fourth_parts(const FourthMagnitudes& most, const PlaneCorners& uv,
+                         const Directions& axes) {
+    std::array<Point2, 3> e;
+    for (std::size_t k = 0; k < 3; ++k) e[k] = uv[(k + 1) % 3] - uv[k];
+    FourthParts found{};
+    for (std::size_t k = 0; k < 3; ++k)
+        for (std::size_t l = k; l < 3; ++l) {
+            const auto [a, b] = e[k];
+            const auto [c, d] = e[l];
+            const double both = b * c + a * d;
+            const std::array<double, 5> weight = {
+                a * a * c * c, std::abs(2.0 * a * c * both),
+                a * a * d * d + b * b * c * c + 4.0 * std::abs(a * b * c * d),
+                std::abs(2.0 * b * d * both), b * b * d * d};
+            Point3 size{0.0, 0.0, 0.0};
+            for (std::size_t n = 0; n < 5; ++n)
+                if (weight[n] > 0.0) size = size + weight[n] * most[n];
+            if (!(size.x + size.y + size.z < NONE)) return UNKNOWN_PARTS;
+            for (std::size_t axis = 0; axis < 3; ++axis) {
+                const Point3& x = axes[axis];
+                const double along =
+                    (std::abs(x.x) * size.x + std::abs(x.y) * size.y + std::abs(x.z) * size.z) *
+                    ((1.0 + ROUNDING) / 6.0);
+                found[axis][k] = std::max(found[axis][k], along);
+                found[axis][l] = std::max(found[axis][l], along);
+            }
+        }
+    return found;
+}
+
+/// What bounds_from wants: averaged as the integrals are, or the suprema over the triangle.
+SideBends side_bends(const CornerBends& corner, const FourthParts& rho, bool averaged) {
+    SideBends found;
+    for (std::size_t d = 0; d < 3; ++d)
+        for (std::size_t k = 0; k < 3; ++k) {
+            const BySide& g = corner.value[d][k];
+            const double a = g[k], b = g[(k + 1) % 3], c = g[(k + 2) % 3];
+            constexpr double THIRD = 1.0 / 3.0;
+            const BySide values =
+                averaged ? BySide{THIRD * (2.0 * a + b), THIRD * (a + 2.0 * b), THIRD * (a + b + c)}
+                         : g;
+            const double more = rho[d][k] + corner.error[k];
+            const double up = std::max({values[0], values[1], values[2]}) + more;
+            const double down = more - std::min({values[0], values[1], values[2]});
+            found.by_axis[d][k] = std::max(up, down);
+            if (d == 2) {
+                found.up[k] = up;
+                found.down[k] = down;
+            }
+        }
+    return found;
+}
+
+ParameterBox hull_of(std::span<const std::int32_t> group, std::span<const PlaneCorners> uv) {
+    ParameterBox box{uv[group[0]][0], uv[group[0]][0]};
+    for (const std::int32_t t : group)
+        for (const Point2 p : uv[t]) {
+            box.low = {std::min(box.low.x, p.x), std::min(box.low.y, p.y)};
+            box.high = {std::max(box.high.x, p.x), std::max(box.high.y, p.y)};
+        }
+    return box;
+}
+
+class SmoothBounds {
+  public:
+    SmoothBounds(const FourthDerivatives& surface, const ProofRequest& asked,
+                 std::span<TriangleBounds> out, std::span<FourthParts> rho,
+                 std::span<std::uint8_t> is_good)
+        : surface_(surface),
+          asked_(asked),
+          out_(out),
+          rho_(rho),
+          is_good_(is_good),
+          places_(asked.uv),
+          jets_(places_.all().size()),
+          is_known_(jets_.size()),
+          frames_(asked.uv.size()),
+          off_(asked.uv.size()),
+          order_(asked.uv.size()) {}
+
+    SurfaceStatus run();
+
+  private:
+    using Group = std::span<std::int32_t>;
+
+    void prepare();
+    /// The triangles of a group, by their places along its longer side.
+    [[nodiscard]] std::array<Group, 2> halves_of(Group group) const;
+    void divide(Group group);
+    /// False: rho is too large, or nothing is known.
+    bool look_at(std::int32_t t, const FourthMagnitudes& most);
+
+    const FourthDerivatives& surface_;
+    ProofRequest asked_;
+    std::span<TriangleBounds> out_;
+    std::span<FourthParts> rho_;
+    std::span<std::uint8_t> is_good_;
+    Places places_;
+    Array<SecondJet> jets_;
+    Array<std::uint8_t> is_known_;
+    Array<TriangleFrame> frames_;
+    Array<double> off_;
+    Array<std::int32_t> order_;
+    Array<Group> groups_;
+};
+
+void SmoothBounds::prepare() {
+    for (std::size_t t = 0; t < asked_.uv.size(); ++t) {
+        order_[t] = static_cast<std::int32_t>(t);
+        is_good_[t] = 0;
+        double off = 0.0;
+        for (std::size_t k = 0; k < 3 && asked_.corners_are_on_surface; ++k) {
+            const auto& [value, error] = jets_[places_.at(t, k)][0];
+            const double away = norm(asked_.corners[t][k] - value) * (1.0 + ROUNDING) + 2.0 * error;
+            off = std::max(off, away <= intervals::INFINITE ? away : intervals::INFINITE);
+        }
+        off_[t] = off;
+        frames_[t] = frame_of(asked_.corners[t], off, asked_.rims[t]);
+        out_[t] = UNKNOWN;
+        rho_[t] = UNKNOWN_PARTS;
+        out_[t].corner = off;
+    }
+    for (std::size_t i = 0; i < jets_.size(); ++i) is_known_[i] = is_known(jets_[i]) ? 1 : 0;
+}
+
+std::array<SmoothBounds::Group, 2> SmoothBounds::halves_of(Group group) const {
+    const ParameterBox box = hull_of(group, asked_.uv);
+    // sides in (u, v) are compared as the triangles lie in space
+    double along_u = 0.0, along_v = 0.0;
+    for (const Point2 p : asked_.uv[group[0]]) {
+        along_u = std::max(along_u, std::abs(p.x - asked_.uv[group[0]][0].x));
+        along_v = std::max(along_v, std::abs(p.y - asked_.uv[group[0]][0].y));
+    }
+    const bool by_u = (box.high.x - box.low.x) * along_v >= (box.high.y - box.low.y) * along_u;
+    const auto place = [&](std::int32_t t) {
+        const PlaneCorners& p = asked_.uv[t];
+        return by_u ? p[0].x + p[1].x + p[2].x : p[0].y + p[1].y + p[2].y;
+    };
+    const auto half = static_cast<std::ptrdiff_t>(group.size() / 2);
+    std::nth_element(group.begin(), group.begin() + half, group.end(),
+                     [&](std::int32_t a, std::int32_t b) {
+                         const double x = place(a), y = place(b);
+                         return x < y || (x == y && a < b);
+                     });
+    const auto middle = static_cast<std::size_t>(half);
+    return {group.first(middle), group.subspan(middle)};
+}
+
+void SmoothBounds::divide(Group group) {
+    if (group.size() <= TOGETHER) {
+        groups_.push_back(group);
+        return;
+    }
+    for (const Group half : halves_of(group)) divide(half);
+}
+
+bool SmoothBounds::look_at(std::int32_t t, const FourthMagnitudes& most) {
+    std::array<const SecondJet*, 3> jets{};
+    for (std::size_t k = 0; k < 3; ++k) {
+        const std::int32_t place = places_.at(static_cast<std::size_t>(t), k);
+        if (is_known_[place] == 0) return false;
+        jets[k] = &jets_[place];
+    }
+    const TriangleFrame& frame = frames_[t];
+    const FourthParts rho = fourth_parts(most, asked_.uv[t], frame.axes);
+    if (!(rho[0][0] < NONE)) return false;
+    const CornerBends corner = corner_bends(jets, asked_.uv[t], frame.axes);
+    TriangleBounds found = bounds_from(side_bends(corner, rho, true), frame, off_[t]);
+    if (!(found.whole < intervals::INFINITE)) return false;
+    const auto [height, whole] = size_from(side_bends(corner, rho, false), frame);
+    found.cell_height = height;
+    found.cell_whole = whole;
+    const double part = std::max({rho[2][0], rho[2][1], rho[2][2]}) / 6.0;
+    const double least = std::max(LITTLE * found.height, LITTLE_OF_LIMIT * asked_.limits[t]);
+    if (rho[2][0] + rho[2][1] + rho[2][2] < rho_[t][2][0] + rho_[t][2][1] + rho_[t][2][2]) {
+        out_[t] = found;
+        rho_[t] = rho;
+    }
+    if (part <= least) is_good_[t] = 1;
+    return part <= least;
+}
+
+/// Could smaller cells show less? They do for one of a group's triangles, if so.
+bool is_worth(const FourthMagnitudes& all, const FourthMagnitudes& one) {
+    for (std::size_t n = 0; n < all.size(); ++n) {
+        const double a = all[n].x + all[n].y + all[n].z, b = one[n].x + one[n].y + one[n].z;
+        if (!(a <= WORTH * b)) return b < NONE;
+    }
+    return false;
+}
+
+SurfaceStatus SmoothBounds::run() {
+    auto status = surface_.enclose_second(places_.all(), {jets_.data(), jets_.size()});
+    if (status != SurfaceStatus::DONE) return status;
+    prepare();
+    divide({order_.data(), order_.size()});
+    Array<ParameterBox> cells;
+    Array<FourthMagnitudes> most;
+    while (!groups_.empty()) {
+        cells.clear();
+        for (const Group group : groups_) {
+            cells.push_back(hull_of(group, asked_.uv));
+            cells.push_back(hull_of(group.subspan(group.size() / 2, 1), asked_.uv));
+        }
+        most.resize(cells.size());
+        status =
+            surface_.fourth_magnitudes({cells.data(), cells.size()}, {most.data(), most.size()});
+        if (status != SurfaceStatus::DONE) return status;
+        const Array<Group> groups = std::move(groups_);
+        groups_ = Array<Group>();
+        for (std::size_t k = 0; k < groups.size(); ++k) {
+            const auto row = static_cast<std::ptrdiff_t>(2 * k);
+            const Group group = groups[row / 2];
+            const std::int32_t middle = group[group.size() / 2];
+            const bool worth = group.size() > 1 && is_worth(most[row], most[row + 1]) &&
+                               look_at(middle, most[row + 1]);
+            const auto bad = std::partition(group.begin(), group.end(),
+                                            [&](std::int32_t t) { return look_at(t, most[row]); });
+            const Group rest(bad, group.end());
+            if (rest.empty() || !worth) continue;
+            if (rest.size() == 1) {
+                groups_.push_back(rest);
+                continue;
+            }
+            for (const Group half : halves_of(rest)) groups_.push_back(half);
+        }
+    }
+    return status;
+}
+
+}  // namespace
+
+SurfaceStatus smooth_bounds(const FourthDerivatives& surface, const ProofRequest& asked,
+                            std::span<TriangleBounds> out, std::span<FourthParts> rho,
+                            std::span<std::uint8_t> is_good) {
+    return SmoothBounds(surface, asked, out, rho, is_good).run();
+}
+
+}  // namespace surfmesh

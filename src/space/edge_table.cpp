@@ -1,0 +1,71 @@
+#include "space/edge_table.hpp"
+
+#include <algorithm>
+#include <tuple>
+
+namespace surfmesh {
+namespace {
+
+constexpr std::int64_t SPARSE = 8;  // times as many vertices as corners: they are not counted
+
+struct EdgeUse {
+    Vertex lower, higher;
+    std::int32_t half_edge;
+};
+
+bool is_before(const EdgeUse& a, const EdgeUse& b) {
+    return std::tie(a.lower, a.higher, a.half_edge) < std::tie(b.lower, b.higher, b.half_edge);
+}
+
+/// Call work(use) for all half-edges, in their order.
+template <class Work>
+void for_each_use(std::span<const TriangleCorners> triangles, const Work& work) {
+    std::int32_t half_edge = 0;
+    for (const TriangleCorners& t : triangles)
+        for (const auto& [a, b] : {std::pair(t.a, t.b), std::pair(t.b, t.c), std::pair(t.c, t.a)})
+            work(EdgeUse{std::min(a, b), std::max(a, b), half_edge++});
+}
+
+/// The half-edges edge by edge: counted by their lower vertex, then sorted at each vertex.
+Array<EdgeUse> sorted_uses(std::span<const TriangleCorners> triangles) {
+    std::int64_t low = 0, high = 0;
+    for_each_use(triangles, [&](const EdgeUse& use) {
+        low = std::min<std::int64_t>(low, use.lower);
+        high = std::max<std::int64_t>(high, use.higher);
+    });
+    const auto count = static_cast<std::int64_t>(3 * triangles.size());
+    const bool is_sparse = high - low > SPARSE * count;
+    const auto place = [&](Vertex v) { return is_sparse ? 0 : v - low; };
+    Array<std::size_t> first(is_sparse ? 2 : high - low + 2, 0);
+    for_each_use(triangles, [&](const EdgeUse& use) { ++first[place(use.lower) + 1]; });
+    for (std::size_t v = 1; v < first.size(); ++v) first[v] += first[v - 1];
+    Array<std::size_t> next = first;
+    Array<EdgeUse> uses(count);
+    for_each_use(triangles, [&](const EdgeUse& use) { uses[next[place(use.lower)]++] = use; });
+    for (std::size_t v = 0; v + 1 < first.size(); ++v)
+        std::sort(uses.begin() + first[v], uses.begin() + first[v + 1], is_before);
+    return uses;
+}
+
+}  // namespace
+
+EdgeTable edge_table(std::span<const TriangleCorners> triangles) {
+    const Array<EdgeUse> uses = sorted_uses(triangles);
+    EdgeTable table;
+    table.edges.reserve(uses.size() / 2);
+    table.half_edges.reserve(uses.size() / 2);
+    table.uses.reserve(uses.size() / 2);
+    for (std::size_t k = 0; k < uses.size();) {
+        const EdgeUse& one = uses[k];
+        std::size_t end = k + 1;
+        while (end < uses.size() && uses[end].lower == one.lower && uses[end].higher == one.higher)
+            ++end;
+        table.edges.push_back({one.lower, one.higher});
+        table.half_edges.push_back({one.half_edge, end > k + 1 ? uses[k + 1].half_edge : NIL});
+        table.uses.push_back(static_cast<std::int32_t>(end - k));
+        k = end;
+    }
+    return table;
+}
+
+}  // namespace surfmesh

@@ -1,0 +1,39 @@
+// Surfaces that bound their fourth derivatives: how far their second ones are from linear.
+//
+// In: points, or cells of the (u, v) plane. Out: r and its second derivatives at points with all
+// round-off in their errors; the largest absolute values of the fourth ones over cells, by
+// coordinate, infinite where they are not known. Nothing is changed.
+#pragma once
+
+#include <array>
+#include <span>
+
+#include "surfaces/surface.hpp"
+
+namespace surfmesh {
+
+/// r, r_uu, r_uv, r_vv.
+using SecondJet = std::array<EnclosedPoint, 4>;
+
+/// Of r_uuuu, r_uuuv, r_uuvv, r_uvvv, r_vvvv.
+using FourthMagnitudes = std::array<Point3, 5>;
+
+class FourthDerivatives {
+  public:
+    virtual ~FourthDerivatives() = default;
+
+    /// UNKNOWN where there are none.
+    virtual SurfaceStatus enclose_second(std::span<const Point2> uv,
+                                         std::span<SecondJet> out) const = 0;
+    virtual SurfaceStatus fourth_magnitudes(std::span<const ParameterBox> cells,
+                                            std::span<FourthMagnitudes> out) const = 0;
+
+  protected:
+    FourthDerivatives() = default;
+    FourthDerivatives(const FourthDerivatives&) = default;
+    FourthDerivatives(FourthDerivatives&&) = default;
+    FourthDerivatives& operator=(const FourthDerivatives&) = default;
+    FourthDerivatives& operator=(FourthDerivatives&&) = default;
+};
+
+}  // namespace surfmesh

@@ -1,0 +1,220 @@
+"""Meshes whose vertices are balanced: sizes for nearly twice the chord, smaller where need be.
+
+    sizes for 1.9 chord ->  mesh on the surface  ->  vertices balanced  ->  farther than chord?
+          ^                                                                       |
+          +------------------------- smaller sizes there -------------------------+
+
+Where the surface bends one way, as all convex and hollow faces do, half the deviation is won. On a
+saddle triangles lie on both sides from the start, and nearly nothing is.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from surfmesh.accuracy.samples import DENSE
+from surfmesh.geometry.boxes import diagonal
+from surfmesh.geometry.quadrature import gauss_rule
+from surfmesh.geometry.surface import Surface
+from surfmesh.meshing.finishing.balanced_vertices import balanced
+from surfmesh.meshing.finishing.kept_volumes import Solid
+from surfmesh.meshing.finishing.second_order import put_on_curves
+from surfmesh.meshing.finishing.signed_distances import PLACES, signed_distances
+from surfmesh.result.surface_mesh import SurfaceMesh
+from surfmesh.sizing.options.defaults import with_default_chord
+from surfmesh.sizing.options.model_sizing import ModelSizing
+from surfmesh.sizing.options.sizing import Sizing
+from surfmesh.sizing.rules.size_limits import SizeLimits
+
+WIDER = 1.9
+"""Times the chord: what sizes are made for. Twice would leave no room where neighbours differ."""
+
+STALLED = 3
+"""After so many rounds that have brought the farthest place no nearer no more are made; the report
+says what is left."""
+
+KEPT = 0.99
+"""Of the chord: what is let pass at the places that are looked at."""
+
+SUSPECT = 0.9
+"""Of the chord: from there triangles are looked at as closely as the report does."""
+
+AMID = 1.04
+"""Times the distance of a rim in the middle of its chord: with ends that have moved by different
+lengths it is a little larger beside it."""
+
+FINER, FINEST, COARSEST = 0.9, 0.5, 0.9
+"""Times the size at which the deviation, which falls with its square, would be the chord; bounds
+of the factor in one round."""
+
+CELLS, COARSER_CELLS, POINTS = 48, 32, 6
+"""Each way, of the rules for a volume, whose results are compared."""
+
+SAME_VOLUME = 1e-8
+"""Relative difference of the two up to which the volume is known."""
+
+_LOOKED_AT = np.concatenate([np.eye(3), PLACES])
+
+
+def widened(sizing: Sizing) -> Sizing:
+    """What a mesh is made with whose vertices are balanced afterwards: its volumes are kept then,
+    whatever its sizes."""
+    chord = None if sizing.chord is None else WIDER * sizing.chord
+    return sizing.replaced(chord=chord, volume=None)
+
+
+def widened_surface(surface: Surface, sizing: Sizing) -> Sizing:
+    """The same of one surface, with the default chord where nothing else is asked for."""
+    grid = [np.linspace(low, high, 33) for low, high in surface.domain]
+    points = surface.evaluate(np.stack(np.meshgrid(*grid), axis=-1).reshape(-1, 2), 0)[0]
+    extent = diagonal(points[np.isfinite(points).all(axis=1)])
+    return widened(with_default_chord(sizing, extent))
+
+
+def widened_model(asked: ModelSizing) -> ModelSizing:
+    """The same of all faces, edges and vertices of a model."""
+
+    def every(own: Mapping[int, Sizing]) -> dict[int, Sizing]:
+        return {number: widened(sizing) for number, sizing in own.items()}
+
+    return replace(
+        asked,
+        base=widened(asked.base), stated=widened(asked.stated), faces=every(asked.faces),
+        edges=every(asked.edges), vertices=every(asked.vertices),
+        entries=tuple(entry._replace(sizing=widened(entry.sizing)) for entry in asked.entries),
+    )  # fmt: skip
+
+
+def balanced_in_rounds(
+    on_surface: Callable[[Mapping[int, SizeLimits]], SurfaceMesh],
+    chords: Callable[[SurfaceMesh], NDArray[np.float64]],
+    solids: Callable[[SurfaceMesh], list[Solid]],
+) -> SurfaceMesh:
+    """The mesh of the round whose farthest place is nearest, beside its chord.
+
+    on_surface: a mesh with its vertices on the surface, within limits of the sizes by face. chords:
+    (f,) that its faces are to keep to, infinite for none. solids: whose volumes are kept.
+    """
+    known: dict[int, SizeLimits] = {}
+    nearest, stalled = math.inf, 0
+    while stalled < STALLED:
+        mesh = on_surface(known)
+        moved = balanced(mesh, chords(mesh), solids(mesh))
+        worst = 0.0
+        found: dict[int, SizeLimits] = {}
+        if moved is not mesh:
+            worst, found = _refinements(moved, mesh.points, chords(mesh))
+        if worst < nearest:
+            best, nearest, stalled = moved, worst, 0
+        else:
+            stalled += 1
+        if not found:
+            break
+        known |= {face: more.joined_with(known.get(face)) for face, more in found.items()}
+    return best
+
+
+def _refinements(
+    mesh: SurfaceMesh, before: NDArray[np.float64], chords: NDArray[np.float64]
+) -> tuple[float, dict[int, SizeLimits]]:
+    """The largest distance of triangles and rims over the chord of their face, and smaller sizes
+    where that is more than one.
+
+    before: points (n, 3) on the surface.
+    """
+    assert mesh.sizes is not None and mesh.uv is not None and mesh.sizing is not None  # noqa: S101
+    size, chord = mesh.sizes[mesh.triangles].mean(axis=1), chords[mesh.face_ids]
+    reached = np.abs(signed_distances(mesh, mesh.points, _LOOKED_AT)).max(axis=1)
+    suspects = np.flatnonzero(reached > SUSPECT * chord)
+    closely = np.abs(signed_distances(mesh, mesh.points, DENSE, suspects))
+    reached[suspects] = closely.max(axis=1, initial=0.0)
+    target = size.copy()
+    for triangles, distance, length in _at_rims(mesh, before):
+        np.maximum.at(reached, triangles, distance)
+        far = distance > KEPT * chord[triangles]  # rims may be cut finer than what lies beside them
+        np.minimum.at(target, triangles[far], length[far])
+    bad = reached > KEPT * chord
+    target[bad] *= np.clip(FINER * np.sqrt(chord[bad] / reached[bad]), FINEST, COARSEST)
+    bad &= target >= (mesh.sizing.min_size or 0.0)
+    roots, corners = mesh.metric_root_3d, mesh.uv_triangles
+    found: dict[int, SizeLimits] = {}
+    for face in np.unique(mesh.face_ids[bad]).tolist():
+        own = np.flatnonzero(bad & (mesh.face_ids == face)).repeat(3)
+        at = np.arange(len(own)) % 3  # at the corners: amid the triangles they would grow again
+        tensors = None
+        if roots is not None and corners is not None:
+            tensors = roots[corners[own, at]] * (size / target)[own, None]
+        found[face] = SizeLimits(
+            mesh.points[mesh.triangles[own, at]],
+            target[own],
+            mesh.sizing.gradient,
+            uv=mesh.uv[own, at],
+            metric_root_3d=tensors,
+        )
+    return float((reached / chord).max()), found
+
+
+def _at_rims(
+    mesh: SurfaceMesh, before: NDArray[np.float64]
+) -> Iterator[tuple[NDArray[np.int64], NDArray[np.float64], NDArray[np.float64]]]:
+    """Triangles (k,) beside curves, how far their sides lie from these, and how long they are: of
+    those on one side of the curves, and then on the other."""
+    middles = mesh.points[mesh.edges].mean(axis=1)
+    chord_middles = middles.copy()
+    on = np.flatnonzero(put_on_curves(mesh, middles))
+    ends = mesh.edges[on]
+    moved = np.linalg.norm(mesh.points - before, axis=1)[ends].max(axis=1)
+    sagitta = AMID * np.linalg.norm((middles - chord_middles)[on], axis=1)
+    length = np.linalg.norm(mesh.points[ends[:, 1]] - mesh.points[ends[:, 0]], axis=1)
+    for half_edges in mesh.connectivity.half_edges[on].T:
+        there = half_edges >= 0
+        yield half_edges[there] // 3, np.maximum(sagitta, moved)[there], length[there]
+
+
+def solids_of_model(mesh: SurfaceMesh) -> list[Solid]:
+    """The closed solids of a model, all of whose faces are meshed."""
+    facts, beside = mesh.facts, mesh.solid_ids
+    if facts is None or beside is None:
+        return []
+    found = []
+    for number, solid in enumerate(facts.solids):
+        sign = (beside[:, 0] == number).astype(float) - (beside[:, 1] == number)
+        if solid.closed and solid.volume > 0.0 and sign.any() and _is_closed(mesh, sign):
+            found.append(Solid(sign, solid.volume))
+    return found
+
+
+def _is_closed(mesh: SurfaceMesh, sign: NDArray[np.float64]) -> bool:
+    """Does each edge have as many of the triangles one way as the other?"""
+    start, end = mesh.triangles.ravel(), np.roll(mesh.triangles, -1, axis=1).ravel()
+    low, high = np.minimum(start, end).astype(np.int64), np.maximum(start, end)
+    _, edge = np.unique(low * len(mesh.points) + high, return_inverse=True)
+    along = np.where(start < end, 1.0, -1.0) * sign.repeat(3)
+    return not np.bincount(edge.ravel(), along).any()
+
+
+def solids_of_surface(mesh: SurfaceMesh) -> list[Solid]:
+    """What one closed surface encloses, where its volume is known or the rule finds it."""
+    if mesh.one_sided or not _is_closed(mesh, np.ones(len(mesh.triangles))):
+        return []
+    (surface,) = mesh.surfaces
+    fine, coarse = (_enclosed(surface, cells) for cells in (CELLS, COARSER_CELLS))
+    known = None if mesh.facts is None else mesh.facts.volume
+    if known is None and not abs(fine - coarse) <= SAME_VOLUME * abs(fine):
+        return []
+    sign = 1.0 if fine > 0.0 else -1.0
+    return [Solid(np.full(len(mesh.triangles), sign), abs(fine) if known is None else known)]
+
+
+def _enclosed(surface: Surface, cells: int) -> float:
+    """A third of the integral of r . (r_u x r_v) over (u, v), by Gauss's rule."""
+    (u, wu), (v, wv) = (gauss_rule(low, high, cells, POINTS) for low, high in surface.domain)
+    uv = np.stack(np.meshgrid(u, v, indexing="ij"), axis=-1).reshape(-1, 2)
+    point, ru, rv = surface.evaluate(uv, 1)
+    rate = np.einsum("ij,ij->i", point, np.cross(ru, rv))
+    return float((rate * np.outer(wu, wv).ravel()).sum()) / 3.0
