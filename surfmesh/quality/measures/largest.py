@@ -8,20 +8,22 @@ MORE = 2  # times as many as are wanted lie above the bound that these give, abo
 
 
 def largest(values: NDArray[np.float64], count: int) -> NDArray[np.intp]:
-    """Numbers of the ``count`` largest of values (n,), in no order; NaN is larger than all."""
-    few = values[::STEP]
-    above = MORE * count // STEP + 1
-    if 0 < above < len(few) and not np.isnan(values).any():
-        some = np.flatnonzero(values >= np.partition(few, len(few) - above)[len(few) - above])
-        if count <= len(some) < len(values) // 2:
-            return some[_parted(values[some], count)]
-    return _parted(values, count)
+    """Numbers of the ``count`` largest of values (n,), rising; of equal ones those that come
+    first. NaN is as large as infinity."""
+    if not 0 < count < len(values):
+        return np.arange(min(max(count, 0), len(values)))
+    if np.isnan(values).any():
+        values = np.where(np.isnan(values), np.inf, values)
+    some = np.flatnonzero(values >= _bound(values[::STEP], MORE * count // STEP + 1))
+    if len(some) < count:
+        some = np.arange(len(values))
+    least = _bound(values[some], count)
+    above = some[values[some] > least]
+    equal = some[values[some] == least]
+    return np.sort(np.concatenate([above, equal[: count - len(above)]]))
 
 
-def _parted(values: NDArray[np.float64], count: int) -> NDArray[np.intp]:
-    first = len(values) - count
-    return (
-        np.argpartition(values, first)[first:]
-        if 0 < count < len(values)
-        else np.arange(max(first, 0), len(values))
-    )
+def _bound(values: NDArray[np.float64], count: int) -> float:
+    """The smallest of the ``count`` largest, or of all where there are no more."""
+    first = max(len(values) - count, 0)
+    return float(np.partition(values, first)[first])

@@ -77,7 +77,7 @@ def surface_deviation(
         search.look(*_on_rims(mesh), at_rim=True)
     worth = np.maximum(fit.by_triangle, search.by_triangle)
     chosen = min(count, max(SECOND_LOOK, count // 250))
-    worst = np.sort(largest(worth, chosen)).astype(np.int32)
+    worst = largest(worth, chosen).astype(np.int32)
     search.look(*_over(worst, CLOSELY))
     return search.result()
 
