@@ -59,17 +59,16 @@ Array<double> curve_bounds(const Curve& curve, std::span<const ParameterEnds> t,
     for (std::size_t i = 0; i < t.size(); ++i) {
         const Point3 start = ends[i][0], end = ends[i][1] - start;
         const double step = (t[i][1] - t[i][0]) / parts;
-        double most = 0.0, bend = 0.0, off = 0.0, from = t[i][0];
+        double most = 0.0, off = 0.0;
         for (int part = 0; part <= parts; ++part) {
             const double to = part == parts ? t[i][1] : t[i][0] + step * part;
             const auto [x, error] = point_at(curve, to, start);
             if (part == 0) off = norm(x) + error;
             if (part == parts) off = std::max(off, norm(x - end) + error);
             most = std::max(most, distance_to_segment(x, end) + error);
-            if (part > 0)
-                bend = std::max(bend, largest_bend(curve, std::min(from, to), std::max(from, to)));
-            from = to;
         }
+        const double bend =
+            largest_bend(curve, std::min(t[i][0], t[i][1]), std::max(t[i][0], t[i][1]));
         const double sag = step != 0.0 ? 0.125 * (step * step) * bend : 0.0;
         const double bound = (most + sag * (1.0 + CURVE_ROUNDING) + off) * (1.0 + CURVE_ROUNDING);
         found[i] = bound <= intervals::INFINITE ? bound : intervals::INFINITE;

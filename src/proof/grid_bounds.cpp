@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "proof/corner_bends.hpp"
+#include "proof/triangle_grid.hpp"
 
 namespace surfmesh {
 namespace {
@@ -12,18 +13,6 @@ constexpr double GRID_ROUNDING = 0x1p-45;  // relative, more than that of any su
 constexpr double FOR_NEIGHBOURS = 0.99;    // of the limit, as they add a little
 constexpr std::size_t GRID_BLOCK = 256;    // triangles at a time
 constexpr std::array<std::size_t, 2> SIDES = {4, 8};
-
-std::size_t points_of(std::size_t side) { return (side + 1) * (side + 2) / 2; }
-
-/// Rounding of (u, v) moves points by this part of what the triangle moves them by.
-double rounded_part(const PlaneCorners& uv) {
-    const auto part = [](double x, double y, double z) {
-        const double size = std::max({std::abs(x), std::abs(y), std::abs(z)});
-        const double range = std::max({x, y, z}) - std::min({x, y, z});
-        return range > 0.0 ? 0x1p-49 * size / range : 0.0;
-    };
-    return part(uv[0].x, uv[1].x, uv[2].x) + part(uv[0].y, uv[1].y, uv[2].y);
-}
 
 /// The largest height of points over a triangle's plane, on the safe side.
 class Highest {
@@ -85,15 +74,8 @@ struct Grid {
 
 Array<Point2> places_of(const ProofRequest& asked, std::span<const std::int32_t> which,
                         std::size_t side) {
-    const double n = static_cast<double>(side);
     Array<Point2> uv;
-    for (const std::int32_t t : which)
-        for (std::size_t i = 0; i <= side; ++i)
-            for (std::size_t j = 0; i + j <= side; ++j) {
-                const double a = static_cast<double>(i) / n, b = static_cast<double>(j) / n;
-                const PlaneCorners& c = asked.uv[static_cast<std::size_t>(t)];
-                uv.push_back((1.0 - a - b) * c[0] + a * c[1] + b * c[2]);
-            }
+    for (const std::int32_t t : which) append_grid(asked.uv[static_cast<std::size_t>(t)], side, uv);
     return uv;
 }
 
@@ -117,7 +99,8 @@ SurfaceStatus lower_some(const FourthDerivatives& surface, const ProofRequest& a
     if (status != SurfaceStatus::DONE) return status;
     for (std::size_t k = 0; k < which.size(); ++k) {
         const auto t = static_cast<std::size_t>(which[k]);
-        const std::span<const SecondJet> points{jets.data() + k * points_of(side), points_of(side)};
+        const std::span<const SecondJet> points{jets.data() + k * points_of_grid(side),
+                                                points_of_grid(side)};
         if (!std::all_of(points.begin(), points.end(), is_known)) continue;
         const TriangleFrame frame = frame_of(asked.corners[t], out[t].corner, asked.rims[t]);
         const Grid grid{points, asked.corners[t], asked.uv[t], frame, n};
@@ -143,7 +126,7 @@ SurfaceStatus lower_some_heights(const Surface& surface, const ProofRequest& ask
         const auto t = static_cast<std::size_t>(which[k]);
         const TriangleFrame frame = frame_of(asked.corners[t], out[t].corner, asked.rims[t]);
         Highest highest(asked.corners[t], frame);
-        const std::size_t count = points_of(side);
+        const std::size_t count = points_of_grid(side);
         for (const EnclosedPoint& point : std::span(points.data() + k * count, count))
             highest.take(point);
         const double most = highest.height(asked.uv[t], out[t]);

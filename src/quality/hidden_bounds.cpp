@@ -7,12 +7,12 @@
 namespace surfmesh {
 namespace {
 
-constexpr std::size_t HIDDEN_TOGETHER = 1024;  // triangles looked at together
+constexpr std::size_t HIDDEN_BLOCK = 1024;  // triangles looked at together
 constexpr std::size_t BOUNDS = 1 + BOUNDED_DERIVATIVES;
 constexpr std::size_t UU = 3;  // of the bounds of a cell: r_uu, r_uv, r_vv from there
 
-/// The larger of two, NaN where one of them is: then nothing is bounded.
-double larger_bound(double a, double b) { return b > a || b != b ? b : a; }
+/// The larger_or_nan of two, NaN where one of them is: then nothing is bounded.
+double larger_or_nan(double a, double b) { return b > a || b != b ? b : a; }
 double smaller(double a, double b) { return b < a || b != b ? b : a; }
 
 /// Bound of |n . x| for x between two bounds; times 0 infinity is 0 too, as x is finite.
@@ -26,7 +26,7 @@ double largest_along(Point3 lower, Point3 upper, Point3 n) {
     add(lower.x, upper.x, n.x);
     add(lower.y, upper.y, n.y);
     add(lower.z, upper.z, n.z);
-    return larger_bound(std::abs(low), std::abs(high));
+    return larger_or_nan(std::abs(low), std::abs(high));
 }
 
 ParameterBox box_of(const ParameterTriangle& t) {
@@ -46,10 +46,10 @@ std::array<ParameterTriangle, 4> in_four(const ParameterTriangle& t) {
 
 /// Most of l0 l1 a + l1 l2 b + l2 l0 c for barycentric l: within the triangle, or amid an edge.
 double most_between(double a, double b, double c) {
-    const double amid = larger_bound(larger_bound(a, b), c) / 4.0;
+    const double amid = larger_or_nan(larger_or_nan(a, b), c) / 4.0;
     if (!(a * (b + c - a) > 0.0 && b * (c + a - b) > 0.0 && c * (a + b - c) > 0.0)) return amid;
     const double inner = 2.0 * (a * b + b * c + c * a) - a * a - b * b - c * c;
-    return larger_bound(inner > 0.0 ? a * b * c / inner : 0.0, amid);
+    return larger_or_nan(inner > 0.0 ? a * b * c / inner : 0.0, amid);
 }
 
 /// A part of a triangle.
@@ -91,9 +91,9 @@ class Search {
     /// Call work(some parts) block after block, with the bounds over their boxes.
     template <class Work>
     void in_blocks(const Array<Part>& parts, const Work& work) {
-        for (std::size_t k = 0; k < parts.size(); k += HIDDEN_TOGETHER) {
+        for (std::size_t k = 0; k < parts.size(); k += HIDDEN_BLOCK) {
             const std::span<const Part> some{parts.data() + k,
-                                             std::min(HIDDEN_TOGETHER, parts.size() - k)};
+                                             std::min(HIDDEN_BLOCK, parts.size() - k)};
             cells_.clear();
             for (const Part& part : some) cells_.push_back(box_of(part.uv));
             lower_.resize(BOUNDS * some.size());
@@ -149,7 +149,7 @@ class Search {
         double height = 0.0;
         std::array<double, 3> bend;  // along each edge
         for (std::size_t k = 0; k < 3; ++k) {
-            height = larger_bound(height, std::abs(dot(corners_[3 * i + k] - corner, n)));
+            height = larger_or_nan(height, std::abs(dot(corners_[3 * i + k] - corner, n)));
             bend[k] = bend_along(i, part.uv[(k + 1) % 3] - part.uv[k], n);
         }
         const double bound = 0.5 * most_between(bend[0], bend[1], bend[2]);
@@ -166,11 +166,11 @@ class Search {
             for (const auto& [factor, from, to] :
                  {std::array{times.x, a.x, b.x}, std::array{times.y, a.y, b.y},
                   std::array{times.z, a.z, b.z}}) {
-                high += larger_bound(factor * from, factor * to);
+                high += larger_or_nan(factor * from, factor * to);
                 low += smaller(factor * from, factor * to);
             }
         }
-        return larger_bound(high, -low);
+        return larger_or_nan(high, -low);
     }
 
     const Surface& surface_;

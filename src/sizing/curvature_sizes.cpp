@@ -32,6 +32,16 @@ double chord_size(PrincipalCurvatures k, double chord) {
     return most(std::sqrt(DEVIATION_RESERVE * chord / deviation_factor(k)), 2.0 * chord);
 }
 
+double quartic_factor(PrincipalCurvatures k) {
+    return 1.75 * most(0.0020, 0.0003 + 0.0082 * balance(k, 1.0));
+}
+
+double quadratic_chord_size(PrincipalCurvatures k, double chord) {
+    const double large = most(std::abs(k.k1), std::abs(k.k2));
+    const double fourth = chord / (quartic_factor(k) * large * large * large);
+    return most(std::sqrt(std::sqrt(fourth)), 2.0 * chord);
+}
+
 double share_of_width(PrincipalCurvatures k, double ratio) {
     const double b = balance(k, ratio);
     const double one_sided = most(0.125, (1.0 + b) / 12.0);

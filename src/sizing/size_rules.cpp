@@ -36,6 +36,22 @@ bool ChordRule::principal_sizes(std::span<const PrincipalCurvatures> k,
     return true;
 }
 
+bool QuadraticChordRule::sizes(std::span<const PrincipalCurvatures> k,
+                               std::span<double> out) const {
+    for (std::size_t i = 0; i < k.size(); ++i) out[i] = quadratic_chord_size(k[i], chord_);
+    return true;
+}
+
+bool QuadraticChordRule::principal_sizes(std::span<const PrincipalCurvatures> k,
+                                         std::span<const double> /*ratio*/,
+                                         std::span<PrincipalSizes> out) const {
+    for (std::size_t i = 0; i < k.size(); ++i) {
+        const double size = quadratic_chord_size(k[i], chord_);
+        out[i] = {size, size};
+    }
+    return true;
+}
+
 bool AngleRule::sizes(std::span<const PrincipalCurvatures> k, std::span<double> out) const {
     for (std::size_t i = 0; i < k.size(); ++i) out[i] = most(angle_size(k[i], angle_), finest_);
     return true;

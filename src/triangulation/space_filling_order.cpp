@@ -29,14 +29,16 @@ bool is_before(const Placed& a, const Placed& b) {
 std::uint64_t place_along(std::uint32_t x, std::uint32_t y) {
     std::uint64_t place = 0;
     for (std::uint32_t side = CELLS / 2; side > 0; side /= 2) {
-        const bool right = (x & side) != 0, upper = (y & side) != 0;
-        place = 4 * place + (right ? (upper ? 2 : 3) : (upper ? 1 : 0));
-        if (upper) continue;
-        if (right) {
-            x = CELLS - 1 - x;
-            y = CELLS - 1 - y;
-        }
-        std::swap(x, y);
+        const std::uint32_t right = (x & side) != 0, upper = (y & side) != 0;
+        place = 4 * place + ((3 * right) ^ upper);
+        // without branches, which nothing foretells: CELLS - 1 - x where lower right, and the two
+        // swapped where lower
+        const std::uint32_t lower = upper - 1, mirrored = (CELLS - 1) & lower & (0 - right);
+        x ^= mirrored;
+        y ^= mirrored;
+        const std::uint32_t difference = (x ^ y) & lower;
+        x ^= difference;
+        y ^= difference;
     }
     return place;
 }

@@ -28,6 +28,9 @@ def deviation_factor(k1: Annotated[NDArray[numpy.float64], dict(shape=(None,), o
 def chord_size(k1: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)], k2: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)], chord: float) -> Annotated[NDArray[numpy.float64], dict(shape=(None,))]:
     """Edge length (n,) at which triangles stay within chord."""
 
+def quadratic_chord_size(k1: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)], k2: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)], chord: float) -> Annotated[NDArray[numpy.float64], dict(shape=(None,))]:
+    """Edge length (n,) at which quadratic triangles stay within chord."""
+
 def share_of_width(k1: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)], k2: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)], ratio: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)]) -> Annotated[NDArray[numpy.float64], dict(shape=(None,))]:
     """
     Fraction (n,) of a chord that may be used where it is the width of the band that a triangle needs.
@@ -65,6 +68,9 @@ class PlaceRule:
 class ChordRule(CurvatureRule):
     def __init__(self, chord: float, is_width: bool = False) -> None:
         """is_width: chord is that of the whole band that a triangle needs."""
+
+class QuadraticChordRule(CurvatureRule):
+    def __init__(self, chord: float) -> None: ...
 
 class AngleRule(CurvatureRule):
     def __init__(self, angle: float, finest: float) -> None:

@@ -38,6 +38,7 @@ from surfmesh.meshing.finishing.balanced_rounds import (
     solids_of_model,
     widened_model,
 )
+from surfmesh.meshing.finishing.curved_requests import requests_for_curved
 from surfmesh.meshing.finishing.edge_collapse import LEAST, simplified
 from surfmesh.meshing.patch.refinement_loop import MAX_ROUNDS, refined_in_rounds
 from surfmesh.meshing.processors import allowed_threads
@@ -216,10 +217,21 @@ class _Rounds:
                 mesh = self._joined()
                 crowded = limits_where_crowded(self.model, mesh, self.wanted.base)
             self.may_be_crowded = bool(crowded)
-            for number, limit in crowded.items():
-                refinements[number] = limit.joined_with(refinements.get(number))
+            for more in (crowded, {} if crowded else self._too_far(mesh, limits)):
+                for number, limit in more.items():
+                    refinements[number] = limit.joined_with(refinements.get(number))
         self.not_refined = [self.faces[k] for k in sorted(asking | set(refinements))]
         return mesh, refinements
+
+    def _too_far(
+        self, mesh: SurfaceMesh, limits: Mapping[int, SizeLimits]
+    ) -> dict[int, SizeLimits]:
+        """Smaller sizes, by face, where quadratic triangles keep not to the chord."""
+        if not self.wanted.base.is_curved or not self.how.optimise:
+            return {}
+        faces = [self.wanted.of_face(k) for k in range(len(self.model.faces))]
+        chords = np.array([face.chord for face in faces], float)
+        return requests_for_curved(mesh, chords, self.wanted.base.gradient, limits)
 
     def _cut_edges(self, limits: Mapping[int, SizeLimits]) -> None:
         first = not self.nodes
