@@ -5,12 +5,12 @@
 namespace surfmesh {
 namespace {
 
-constexpr double FIRST_RADIUS = 0.08, LAST_RADIUS = 0.01;  // of the search, in unit lengths
-constexpr double LONGEST_WAY = 0.3;                        // in all, unit lengths
-constexpr double GAIN = 0.02;  // least part of the excess that a step takes away
-constexpr double DIAGONAL = 0.70710678118654752;
-constexpr Point2 WAYS[] = {{1.0, 0.0},  {DIAGONAL, DIAGONAL},   {0.0, 1.0},  {-DIAGONAL, DIAGONAL},
-                           {-1.0, 0.0}, {-DIAGONAL, -DIAGONAL}, {0.0, -1.0}, {DIAGONAL, -DIAGONAL}};
+constexpr double FIRST_STEP = 0.08, LAST_STEP = 0.01;  // of the search, in unit lengths
+constexpr double LONGEST_MOVE = 0.3;                   // in all, unit lengths
+constexpr double LEAST_STEP_GAIN = 0.02;  // least part of the excess that a step takes away
+constexpr double SLANT = 0.70710678118654752;
+constexpr Point2 STEPS[] = {{1.0, 0.0},  {SLANT, SLANT},   {0.0, 1.0},  {-SLANT, SLANT},
+                            {-1.0, 0.0}, {-SLANT, -SLANT}, {0.0, -1.0}, {SLANT, -SLANT}};
 
 double square_above(double ratio) { return ratio > 1.0 ? (ratio - 1.0) * (ratio - 1.0) : 0.0; }
 
@@ -35,7 +35,7 @@ double excess(const Triangulation& t, const SurfaceFrames& s, Vertex v, HalfEdge
 }
 
 // Of the product of the diagonal: a smaller determinant says that the neighbours lie on two lines.
-constexpr double DEGENERATE = 1e-6;
+constexpr double ON_TWO_LINES = 1e-6;
 
 /// Height of the surface over the tangent plane: (xx x^2 + 2 xy x y + yy y^2) / 2, in unit lengths
 /// along the plane and model units off it.
@@ -65,15 +65,15 @@ Quadric quadric_at(const Triangulation& t, const SurfaceFrames& s, Vertex v, Hal
     const double cxx = yy * zz - yz * yz, cxy = xz * yz - xy * zz, cxz = xy * yz - xz * yy;
     const double cyy = xx * zz - xz * xz, cyz = xy * xz - xx * yz, czz = xx * yy - xy * xy;
     const double det = xx * cxx + xy * cxy + xz * cxz;
-    if (!(det > DEGENERATE * xx * yy * zz)) return {0.0, 0.0, 0.0};
+    if (!(det > ON_TWO_LINES * xx * yy * zz)) return {0.0, 0.0, 0.0};
     return {(cxx * rx + cxy * ry + cxz * rz) / det, (cxy * rx + cyy * ry + cyz * rz) / det,
             (cxz * rx + cyz * ry + czz * rz) / det};
 }
 
 /// Where a vertex is, and the way it came from where it was.
-class Position {
+class StarPosition {
   public:
-    Position(const Triangulation& t, const SurfaceFrames& s, Vertex v, HalfEdge start)
+    StarPosition(const Triangulation& t, const SurfaceFrames& s, Vertex v, HalfEdge start)
         : v_(v),
           xy_(t.xy[v]),
           point_(s.point[v]),
@@ -110,21 +110,21 @@ double move_to_best(Triangulation& t, SurfaceFrames& s, Vertex v, HalfEdge start
                     StarBounds bounds) {
     double now = excess(t, s, v, start, bounds);
     if (!(now > 0.0) || now == INFINITY || is_zero(s.normal[v])) return 0.0;
-    const Position from(t, s, v, start);
+    const StarPosition from(t, s, v, start);
     Point2 way = {0.0, 0.0};
-    for (double radius = FIRST_RADIUS; radius >= LAST_RADIUS && now > 0.0;) {
+    for (double radius = FIRST_STEP; radius >= LAST_STEP && now > 0.0;) {
         Point2 best_way = way;
-        double best = (1.0 - GAIN) * now;
-        for (const Point2 direction : WAYS) {
+        double best = (1.0 - LEAST_STEP_GAIN) * now;
+        for (const Point2 direction : STEPS) {
             const Point2 trial = way + radius * direction;
-            if (norm(trial) > LONGEST_WAY) continue;
+            if (norm(trial) > LONGEST_MOVE) continue;
             from.place(t, s, trial);
             const double found = excess(t, s, v, start, bounds);
             if (!(found < best)) continue;
             best = found;
             best_way = trial;
         }
-        if (best < (1.0 - GAIN) * now)
+        if (best < (1.0 - LEAST_STEP_GAIN) * now)
             now = best;
         else
             radius *= 0.5;

@@ -13,7 +13,7 @@ namespace surfmesh {
 namespace {
 
 // Fraction of ``chord`` from which the estimate of a triangle's deviation is not trusted.
-constexpr double SUSPECT = 0.82, SUSPECT_STRETCHED = 0.7;
+constexpr double SUSPECT_PART = 0.82, SUSPECT_PART_STRETCHED = 0.7;
 
 // Up to so many all are measured whose estimate is no round-off, as a fraction of ``chord``: the
 // estimate is for triangles small beside the features.
@@ -86,7 +86,7 @@ class Changes {
 
 Triangles suspects_by_estimate(const PatchState& state, double chord) {
     const Array<double> estimate = estimate_deviations(state.t, state.frames);
-    const double one_sided = state.is_anisotropic() ? SUSPECT_STRETCHED : SUSPECT;
+    const double one_sided = state.is_anisotropic() ? SUSPECT_PART_STRETCHED : SUSPECT_PART;
     const double part = state.asked().is_width ? 0.5 * one_sided : one_sided;
     const double least = (estimate.size() > FEW_TRIANGLES ? part : FLAT) * chord;
     return collect_by_blocks<Triangle>(estimate.size(), TRIANGLES_TOGETHER,
