@@ -2,13 +2,13 @@
 
     python benchmarks/speed.py [--only SECTION ...] [--quick | --large] [--json PATH]
 
-Sections: start, cad, plane, surfaces, checks, stretched, cores, memory. Everything is timed in processes of
-its own with one thread, as processor time, which other work on the machine hardly changes; medians
-of three. Only ``cores`` looks at the clock on the wall. Beside each figure stands what is wanted of
-it, printed as soon as it is measured; the exit status is 1 when something is missed. ``--large``
-adds a million triangles of each surface, four million on two cores and ten million in one mesh;
-``--quick`` does everything once and leaves the model of 978 faces out. On that netgen, which takes
-minutes, is not asked.
+Sections: start, cad, plane, surfaces, checks, stretched, cores, memory. Everything is timed in
+processes of its own with one thread, as processor time, which other work on the machine hardly
+changes; medians of three. Only ``cores`` looks at the clock on the wall. Beside each figure stands
+what is wanted of it, printed as soon as it is measured; the exit status is 1 when something is
+missed. ``--large`` adds a million triangles of each surface, four million on two cores and ten
+million in one mesh; ``--quick`` does everything once and leaves the model of 978 faces out. On that
+netgen, which takes minutes, is not asked.
 """
 
 import single_thread  # noqa: F401  (before numpy)

@@ -67,7 +67,7 @@ def wavy(folder: Path) -> None:
     _meshed("wavy", sm.Sizing(chord=WAVY_CHORD, growth=1.15), folder, paper=0.951)
 
 
-TWO_PEAKS_CHORD, WAVY_CHORD = 0.0048, 0.0476
+TWO_PEAKS_CHORD, WAVY_CHORD = 0.0039, 0.0385
 
 
 def _meshed(name: str, sizing: sm.Sizing | None, folder: Path, paper: float) -> None:

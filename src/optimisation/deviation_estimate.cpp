@@ -8,7 +8,6 @@ namespace {
 constexpr std::size_t ESTIMATED_TOGETHER = 1 << 14;  // triangles estimated together
 
 constexpr double SMALLEST_SHRINK = 0.85;  // least factor by which one round lowers a wanted size
-constexpr double SMALLEST_SCALE = 0.6;    // what is not near enough then needs another field
 
 }  // namespace
 
@@ -24,8 +23,8 @@ Array<double> estimate_deviations(const Triangulation& t, const SurfaceFrames& s
 }
 
 int shrink_far(const Triangulation& t, SurfaceFrames& s, VertexMarks& marks,
-               std::span<const Triangle> triangles, std::span<const double> deviation,
-               double limit) {
+               std::span<const Triangle> triangles, std::span<const double> deviation, double limit,
+               double smallest) {
     int far = 0;
     for (std::size_t k = 0; k < triangles.size(); ++k) {
         if (deviation[k] <= limit) continue;
@@ -33,7 +32,7 @@ int shrink_far(const Triangulation& t, SurfaceFrames& s, VertexMarks& marks,
         const double factor = std::max(std::sqrt(limit / deviation[k]), SMALLEST_SHRINK);
         for (HalfEdge e = 3 * triangles[k]; e < 3 * triangles[k] + 3; ++e) {
             const Vertex v = t.tri[e];
-            if (s.scale[v] * factor >= SMALLEST_SCALE) shorten(s, v, factor);
+            if (s.scale[v] * factor >= smallest) shorten(s, v, factor);
             marks.active[v] = 1;
         }
     }

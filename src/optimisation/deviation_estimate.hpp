@@ -8,16 +8,19 @@
 
 namespace surfmesh {
 
+/// What is not near enough with so small a scale of its sizes needs another field.
+inline constexpr double SMALLEST_SCALE = 0.6;
+
 /// Second-order estimate of each triangle's distance from the surface, 0 for a dead one.
 Array<double> estimate_deviations(const Triangulation& t, const SurfaceFrames& s);
 
 /// Ask for smaller edges where the ``deviation`` of ``triangles`` exceeds ``limit``.
 ///
 /// The sizes of their corners are scaled by what deviation, of second order in the size, needs;
-/// they become active. Returns the number of such triangles.
+/// they become active. No scale comes below ``smallest``. Returns the number of such triangles.
 int shrink_far(const Triangulation& t, SurfaceFrames& s, VertexMarks& marks,
-               std::span<const Triangle> triangles, std::span<const double> deviation,
-               double limit);
+               std::span<const Triangle> triangles, std::span<const double> deviation, double limit,
+               double smallest = SMALLEST_SCALE);
 
 /// Scale the wanted lengths at ``vertices`` by ``factors``, down to ``smallest`` of what they were.
 ///

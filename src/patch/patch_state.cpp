@@ -194,6 +194,13 @@ void PatchState::raise_worst(double least) {
     renew_frames(all(moved), kept_drift);
 }
 
+void PatchState::bring_nearer(std::span<const Triangle> triangles, StarBounds bounds) {
+    if (stopped()) return;
+    find_stars();
+    surfmesh::bring_nearer(t, frames, stars, marks, triangles, bounds, moved);
+    renew_frames(all(moved), kept_drift);
+}
+
 void PatchState::swap(double good) {
     if (stopped()) return;
     const int made = swap_for_shape(t, frames, shape, marks, good, SWEEPS);
@@ -225,6 +232,10 @@ void PatchState::split(double longest) {
 int PatchState::split_farthest(std::span<const Triangle> triangles) {
     if (stopped()) return 0;
     return set_new(split_far_edges(t, frames, marks, triangles));
+}
+
+void PatchState::allow_splits() {
+    frames.limits.most_vertices = most_vertices(t.xy.size(), is_anisotropic());
 }
 
 int PatchState::hold_growth(bool around_all) {

@@ -10,6 +10,7 @@
 #include <optional>
 
 #include "fields/background.hpp"
+#include "optimisation/closer_stars.hpp"
 #include "optimisation/stars.hpp"
 #include "optimisation/surface_frames.hpp"
 #include "optimisation/vertex_marks.hpp"
@@ -95,6 +96,8 @@ class PatchState {
     int smooth(double stiffness = STIFFNESS);
     /// Raise the smallest alpha around triangles below ``least`` by moves of their free corners.
     void raise_worst(double least);
+    /// Move the free corners of the triangles until their stars keep the bounds, or are nearer.
+    void bring_nearer(std::span<const Triangle> triangles, StarBounds bounds);
     /// Swap edges of triangles below the alpha ``good`` while that raises the smaller one.
     void swap(double good = GOOD_SHAPE);
     /// Swap edges that bring the degrees of their four vertices nearer to six.
@@ -107,6 +110,8 @@ class PatchState {
     ///
     /// All other vertices stay where they are. Returns how many were split.
     int split_farthest(std::span<const Triangle> triangles);
+    /// Let the patch grow by its part once more, whatever splits have used of it so far.
+    void allow_splits();
     /// Where sizes depend on the direction: lower them further around vertices whose sizes are
     /// lowered, or around all, until they grow along no edge by more than is asked. Returns how
     /// many were lowered.

@@ -46,6 +46,7 @@ auto principal_at_each(const Numbers& k1, const Numbers& k2, double number, cons
 
 void bind_formulas_of_sizes(nb::module_& m) {
     m.attr("DEVIATION_RESERVE") = DEVIATION_RESERVE;
+    m.attr("ALIKE_RESERVE") = ALIKE_RESERVE;
     m.attr("ROUND_RESERVE") = ROUND_RESERVE;
     m.attr("BENT_RESERVE") = BENT_RESERVE;
     m.attr("STRETCHED_RESERVE") = STRETCHED_RESERVE;

@@ -28,8 +28,15 @@ double deviation_factor(PrincipalCurvatures k) {
     return most(std::abs(k.k1 + k.k2) / 12.0, most(std::abs(k.k1), std::abs(k.k2)) / 8.0);
 }
 
+double deviation_reserve(PrincipalCurvatures k) {
+    const double first = std::abs(k.k1), second = std::abs(k.k2);
+    const double alike = least(first, second) / most(first, second);
+    if (!(alike <= 1.0)) return DEVIATION_RESERVE;  // both 0, or infinite
+    return DEVIATION_RESERVE + (ALIKE_RESERVE - DEVIATION_RESERVE) * alike;
+}
+
 double chord_size(PrincipalCurvatures k, double chord) {
-    return most(std::sqrt(DEVIATION_RESERVE * chord / deviation_factor(k)), 2.0 * chord);
+    return most(std::sqrt(deviation_reserve(k) * chord / deviation_factor(k)), 2.0 * chord);
 }
 
 double quartic_factor(PrincipalCurvatures k) {

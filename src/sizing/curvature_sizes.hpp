@@ -14,9 +14,11 @@
 
 namespace surfmesh {
 
-/// Fraction of ``chord`` that a unit triangle may use: real triangles are up to 1.26 times as
-/// large as the unit one (circumradius), and deviation grows with the square.
-inline constexpr double DEVIATION_RESERVE = 0.62;
+/// Fraction of ``chord`` that a unit triangle may use: where the surface is curved one way only, and
+/// where both ways alike. Deviation grows with the square of the circumradius; the few triangles
+/// that are too large are brought nearer one by one. Curved one way, all triangles may have an edge
+/// that runs that way; else few lie worst.
+inline constexpr double DEVIATION_RESERVE = 0.78, ALIKE_RESERVE = 0.82;
 
 /// Fraction of ``angle`` that two unit triangles may be bent by: on a sphere, where all edges are
 /// alike and some triangles are larger; and for what depends on the direction, as few edges lie
@@ -37,6 +39,9 @@ constexpr double most(double a, double b) { return a >= b || a != a ? a : b; }
 
 /// c with deviation = c h^2, for principal curvatures in 1 / model unit.
 double deviation_factor(PrincipalCurvatures k);
+
+/// Between the two by the ratio of the curvatures, whatever their signs.
+double deviation_reserve(PrincipalCurvatures k);
 
 /// Edge length at which triangles stay within ``chord`` of the surface.
 ///

@@ -153,11 +153,12 @@ struct SharedCorners {
 };
 
 /// The bits of a coordinate; 0 and -0, which are one place, have the same.
-std::uint64_t bits_of(double x) { return std::bit_cast<std::uint64_t>(x + 0.0); }
+std::uint64_t unsigned_bits_of(double x) { return std::bit_cast<std::uint64_t>(x + 0.0); }
 
 std::uint32_t key_of(Point3 p) {
     constexpr std::uint64_t ODD = 0x9E3779B97F4A7C15;  // 2^64 over the golden ratio: bits spread
-    const std::uint64_t mixed = ((bits_of(p.x) * ODD ^ bits_of(p.y)) * ODD ^ bits_of(p.z)) * ODD;
+    const std::uint64_t mixed =
+        ((unsigned_bits_of(p.x) * ODD ^ unsigned_bits_of(p.y)) * ODD ^ unsigned_bits_of(p.z)) * ODD;
     return static_cast<std::uint32_t>(mixed >> 32);
 }
 

@@ -6,19 +6,19 @@
 namespace surfmesh {
 namespace {
 
-double sign(double x) { return x > 0.0 ? 1.0 : x < 0.0 ? -1.0 : x; }
+double sign_of(double x) { return x > 0.0 ? 1.0 : x < 0.0 ? -1.0 : x; }
 
 /// From the lengths and slopes of the step at the end and of the next one.
 double end_slope(double h0, double h1, double m0, double m1) {
     const double parabola = ((2.0 * h0 + h1) * m0 - h0 * m1) / (h0 + h1);
-    if (sign(parabola) != sign(m0)) return 0.0;
-    if (sign(m0) != sign(m1) && std::abs(parabola) > 3.0 * std::abs(m0)) return 3.0 * m0;
+    if (sign_of(parabola) != sign_of(m0)) return 0.0;
+    if (sign_of(m0) != sign_of(m1) && std::abs(parabola) > 3.0 * std::abs(m0)) return 3.0 * m0;
     return parabola;
 }
 
 /// Slope at a point between two steps.
 double inner_slope(double before, double after, double left, double right) {
-    if (sign(left) != sign(right) || left == 0.0 || right == 0.0) return 0.0;
+    if (sign_of(left) != sign_of(right) || left == 0.0 || right == 0.0) return 0.0;
     const double first = 2.0 * after + before, second = after + 2.0 * before;
     const double mean = (first / left + second / right) / (first + second);
     return 1.0 / mean;

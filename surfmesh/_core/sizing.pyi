@@ -12,7 +12,9 @@ import surfmesh._core.fields
 import surfmesh._core.surfaces
 
 
-DEVIATION_RESERVE: float = 0.62
+DEVIATION_RESERVE: float = 0.78
+
+ALIKE_RESERVE: float = 0.82
 
 ROUND_RESERVE: float = 0.78
 
@@ -50,7 +52,7 @@ def principal_chord_sizes(k1: Annotated[NDArray[numpy.float64], dict(shape=(None
 def principal_angle_sizes(k1: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)], k2: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)], angle: float, ratio: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)]) -> tuple[Annotated[NDArray[numpy.float64], dict(shape=(None,))], Annotated[NDArray[numpy.float64], dict(shape=(None,))]]:
     """Edge lengths (n,), (n,) along the directions of k1 and k2, likewise."""
 
-RIM_RESERVE: float = 0.8
+RIM_RESERVE: float = 0.88
 
 LEAST_RIM: float = 2.0
 

@@ -10,7 +10,7 @@ SOURCES = Path(__file__).parents[2] / "src"
 ROOMS = sorted({path.parent for path in SOURCES.glob("*/*.cpp")})
 CONSTANT = re.compile(r"^(?:static )?constexpr (?:[\w:<>, ]+?) (\w+)(?:\[\w*\])? ?[={]")
 TYPE = re.compile(r"^(?:struct|class|enum class) (\w+).*\{")
-FUNCTION = re.compile(r"^(?!namespace|template)[\w:<>&*, ]+ \w+\([^;]*\{")
+FUNCTION = re.compile(r"^(?=\w)(?!namespace|template)[\w:<>&*, ]+ (\w+\([^;)]*)[^;]*\{")
 ALIAS = re.compile(r"^using (\w+) = (.*);")  # twice the same is allowed
 TWINS = re.compile(r"tape_\w+")  # for numbers and for intervals: each by itself, see CMakeLists.txt
 
@@ -31,8 +31,8 @@ def local_names(path: Path) -> dict[str, str]:
                 names[found.group(1)] = path.name
             elif found := ALIAS.match(line):
                 names[found.group(1)] = found.group(2)
-            elif FUNCTION.match(line):
-                names[line] = path.name
+            elif found := FUNCTION.match(line):  # with its arguments: overloads are allowed
+                names[found.group(1)] = path.name
     return names
 
 

@@ -20,8 +20,8 @@ PAPER = {
     "wavy": (40000, 1.105738, 0.951014, 0.6),
 }
 SIZINGS = {
-    "two_peaks": sm.Sizing(chord=0.0048, growth=1.15),
-    "wavy": sm.Sizing(chord=0.0476, growth=1.15),
+    "two_peaks": sm.Sizing(chord=0.0039, growth=1.15),
+    "wavy": sm.Sizing(chord=0.0385, growth=1.15),
 }
 smooth_ones = pytest.mark.parametrize("name", PAPER)
 

@@ -214,7 +214,8 @@ class EdgeRules:
         if not len(bent) or not rules.by_curvature:
             return
         own, rows = courses.chosen(bent)
-        curve = CurveSamples(own.points, own.curvature, own.first)
+        tolerance = np.repeat(self.arrays.tolerance[own.edges], np.diff(own.first))
+        curve = CurveSamples(own.points, own.curvature, own.first, tolerance)
         for rule in rules.by_curvature:
             yield Demand(rule, rows, rule.sizes_on_curve(curve), None, (curve.curvature,))
 

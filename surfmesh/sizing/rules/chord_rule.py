@@ -9,7 +9,6 @@ from surfmesh._core import elementary_functions
 from surfmesh._core import sizing as core_sizing
 from surfmesh.sizing.options.sizing import Sizing
 from surfmesh.sizing.rules.curvature_size import (
-    DEVIATION_RESERVE,
     STRAIGHT_RESERVE,
     chord_size,
     principal_chord_sizes,
@@ -17,9 +16,16 @@ from surfmesh.sizing.rules.curvature_size import (
 )
 from surfmesh.sizing.rules.rule import CurvatureRule, CurveSamples
 
+CURVE_RESERVE = 0.9
+"""Fraction of ``chord`` that a segment of an edge may use where sizes are isotropic. Edges are cut,
+none of their segments is longer than asked for; the rest is for curvature that grows along one.
+Stretched triangles beside an edge use as much of it as they do elsewhere."""
+
 CORNER_RESERVE = 0.52
-"""Fraction of ``chord`` that a segment may use which passes a corner of a polygonal curve: it may
-pass more than one."""
+"""The same where a segment passes the corner of a polygonal curve: it may pass more than one."""
+
+LEAST_LEFT = 0.25
+"""Fraction of ``chord`` that it has in any case, however far edges lie from their surfaces."""
 
 KINK = 0.02
 """Radians: smaller angles between the pieces of a curve are no corners."""
@@ -63,9 +69,10 @@ class ChordRule(CurvatureRule):
         return np.sqrt(share_of_width(k1, k2, ratio)) if self.is_width else 1.0
 
     def sizes_on_curve(self, curve: CurveSamples) -> np.ndarray:
-        reserve = STRAIGHT_RESERVE if self.is_anisotropic else DEVIATION_RESERVE
+        reserve = STRAIGHT_RESERVE if self.is_anisotropic else CURVE_RESERVE
+        left = np.maximum(reserve * self.chord - curve.tolerance, LEAST_LEFT * self.chord)
         with np.errstate(divide="ignore", over="ignore"):
-            own = np.sqrt(8.0 * reserve * self.chord / curve.curvature)
+            own = np.sqrt(8.0 * left / curve.curvature)
         return np.minimum(np.maximum(own, 2.0 * self.chord), self.at_corners(curve))
 
     def at_corners(self, curve: CurveSamples) -> np.ndarray:

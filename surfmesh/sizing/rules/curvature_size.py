@@ -13,8 +13,8 @@ import numpy as np
 
 from surfmesh._core import sizing as core
 
-DEVIATION_RESERVE = core.DEVIATION_RESERVE  # 0.62
-"""Share of ``chord`` that a unit triangle may use."""
+DEVIATION_RESERVE, ALIKE_RESERVE = core.DEVIATION_RESERVE, core.ALIKE_RESERVE  # 0.78, 0.82
+"""Share of ``chord`` that a unit triangle may use: curved one way only, and both ways alike."""
 
 ROUND_RESERVE, BENT_RESERVE = core.ROUND_RESERVE, core.BENT_RESERVE  # 0.78, 0.94
 """Share of ``angle`` that two unit triangles may be bent by: on a sphere; and for what depends on

@@ -21,6 +21,7 @@ class CurveSamples(NamedTuple):
     points: np.ndarray  # (n, 3)
     curvature: np.ndarray  # (n,) 1 / model unit; 0 where it is straight or not known
     first: np.ndarray  # (c + 1,) where each curve begins, and n
+    tolerance: np.ndarray  # (n,) model units: so near the surfaces lie that meet there
 
 
 class Rule:

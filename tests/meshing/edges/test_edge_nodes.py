@@ -50,6 +50,26 @@ def test_gaps_are_those_of_all_pairs(seed):
     assert np.array_equal(boxes, [[*p.min(axis=0), *p.max(axis=0)] for p in own])
 
 
+def test_gaps_in_a_face_of_many_edges_are_those_of_all_pairs():
+    """Most of them short, some as long as the face, some of many samples, beside each other."""
+    draw = np.random.default_rng(4)
+    counts = draw.choice([2, 3, 12], size=60, p=[0.6, 0.3, 0.1])
+    first = np.cumsum([0, *counts])
+    parts = [
+        draw.uniform(0.0, (1.0, 5.0, 20.0))
+        + draw.normal(scale=3.0 if k % 9 == 0 else 0.1, size=(n, 3))
+        for k, n in enumerate(counts)
+    ]
+    points = np.concatenate(parts)
+    size = draw.uniform(0.1, 2.0, size=first[-1])
+    ends = np.stack([2 * np.arange(60), 2 * np.arange(60) + 1], axis=1)
+    edges, first_of_face = draw.permutation(60), np.array([0, 60])
+    gap, _ = edge_gaps(points, size, first, ends, edges, first_of_face)
+    expected = naive_gaps(points, size, first, ends, edges, first_of_face)
+    assert np.isfinite(expected).any() and np.isinf(expected).any()
+    assert np.allclose(gap, expected, rtol=1e-12, equal_nan=True)
+
+
 @pytest.fixture(scope="module")
 def plate():
     """A slot 0.2 from the long side of a plate."""

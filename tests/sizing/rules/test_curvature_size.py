@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 from surfmesh.sizing.rules.curvature_size import (
+    ALIKE_RESERVE,
     DEVIATION_RESERVE,
     angle_size,
     chord_size,
@@ -49,8 +50,10 @@ def test_on_a_sphere_it_is_a_sixth():
 def test_chord_size_keeps_a_reserve_for_larger_triangles():
     k1, k2 = np.random.default_rng(1).normal(size=(2, 50))
     h = chord_size(k1, k2, 1e-4)
-    np.testing.assert_allclose(deviation_factor(k1, k2) * h**2, DEVIATION_RESERVE * 1e-4)
-    assert 0.5 < DEVIATION_RESERVE < 1.0
+    alike = np.minimum(abs(k1), abs(k2)) / np.maximum(abs(k1), abs(k2))
+    reserve = DEVIATION_RESERVE + (ALIKE_RESERVE - DEVIATION_RESERVE) * alike
+    np.testing.assert_allclose(deviation_factor(k1, k2) * h**2, reserve * 1e-4)
+    assert 0.5 < DEVIATION_RESERVE < ALIKE_RESERVE < 1.0
 
 
 def test_limits():

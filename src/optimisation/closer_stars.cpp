@@ -1,0 +1,160 @@
+#include "optimisation/closer_stars.hpp"
+
+#include <cmath>
+
+namespace surfmesh {
+namespace {
+
+constexpr double FIRST_RADIUS = 0.08, LAST_RADIUS = 0.01;  // of the search, in unit lengths
+constexpr double LONGEST_WAY = 0.3;                        // in all, unit lengths
+constexpr double GAIN = 0.02;  // least part of the excess that a step takes away
+constexpr double DIAGONAL = 0.70710678118654752;
+constexpr Point2 WAYS[] = {{1.0, 0.0},  {DIAGONAL, DIAGONAL},   {0.0, 1.0},  {-DIAGONAL, DIAGONAL},
+                           {-1.0, 0.0}, {-DIAGONAL, -DIAGONAL}, {0.0, -1.0}, {DIAGONAL, -DIAGONAL}};
+
+double square_above(double ratio) { return ratio > 1.0 ? (ratio - 1.0) * (ratio - 1.0) : 0.0; }
+
+/// The squares of what the triangles around v exceed their bounds by: 0 where all keep them,
+/// infinite where one is not positive in the plane or is turned over.
+double excess(const Triangulation& t, const SurfaceFrames& s, Vertex v, HalfEdge start,
+              StarBounds bounds) {
+    double sum = 0.0;
+    HalfEdge e = start;
+    do {
+        const Vertex p = t.tri[next_half_edge(e)], q = t.tri[prev_half_edge(e)];
+        if (orient(t.xy, v, p, q) <= 0.0) return INFINITY;
+        sum += square_above(triangle_deviation(s, v, p, q) / bounds.farthest);
+        if (!coincide(s, p, q)) {
+            const double shape = triangle_shape(s, v, p, q);
+            if (!(shape > 0.0)) return INFINITY;
+            sum += square_above(bounds.least / shape);
+        }
+        e = rotate_ccw(t, e);
+    } while (e != start);
+    return sum;
+}
+
+// Of the product of the diagonal: a smaller determinant says that the neighbours lie on two lines.
+constexpr double DEGENERATE = 1e-6;
+
+/// Height of the surface over the tangent plane: (xx x^2 + 2 xy x y + yy y^2) / 2, in unit lengths
+/// along the plane and model units off it.
+struct Quadric {
+    double xx, xy, yy;
+};
+
+/// The quadric through the neighbours of v, least squares; a plane where they determine none.
+Quadric quadric_at(const Triangulation& t, const SurfaceFrames& s, Vertex v, HalfEdge start) {
+    // the normal equations (xx xy xz; xy yy yz; xz yz zz) (quadric) = (rx ry rz)
+    double xx = 0.0, xy = 0.0, xz = 0.0, yy = 0.0, yz = 0.0, zz = 0.0, rx = 0.0, ry = 0.0, rz = 0.0;
+    for_each_in_star(t, start, [&](HalfEdge e) {
+        const Vertex p = t.tri[next_half_edge(e)];
+        const Point2 step = chord(s, v, p);
+        const double x = step.x * step.x, y = 2.0 * step.x * step.y, z = step.y * step.y;
+        const double twice = 2.0 * rise(s, v, p);
+        xx += x * x;
+        xy += x * y;
+        xz += x * z;
+        yy += y * y;
+        yz += y * z;
+        zz += z * z;
+        rx += x * twice;
+        ry += y * twice;
+        rz += z * twice;
+    });
+    const double cxx = yy * zz - yz * yz, cxy = xz * yz - xy * zz, cxz = xy * yz - xz * yy;
+    const double cyy = xx * zz - xz * xz, cyz = xy * xz - xx * yz, czz = xx * yy - xy * xy;
+    const double det = xx * cxx + xy * cxy + xz * cxz;
+    if (!(det > DEGENERATE * xx * yy * zz)) return {0.0, 0.0, 0.0};
+    return {(cxx * rx + cxy * ry + cxz * rz) / det, (cxy * rx + cyy * ry + cyz * rz) / det,
+            (cxz * rx + cyz * ry + czz * rz) / det};
+}
+
+/// Where a vertex is, and the way it came from where it was.
+class Position {
+  public:
+    Position(const Triangulation& t, const SurfaceFrames& s, Vertex v, HalfEdge start)
+        : v_(v),
+          xy_(t.xy[v]),
+          point_(s.point[v]),
+          normal_(s.normal[v]),
+          form_(quadric_at(t, s, v, start)) {}
+
+    void place(Triangulation& t, SurfaceFrames& s, Point2 way) const {
+        const SizeTensor h = t.size[v_];
+        t.xy[v_] = {xy_.x + h.xx * way.x + h.xy * way.y, xy_.y + h.xy * way.x + h.yy * way.y};
+        const Point2 slope = {form_.xx * way.x + form_.xy * way.y,
+                              form_.xy * way.x + form_.yy * way.y};
+        const double height = 0.5 * (slope.x * way.x + slope.y * way.y);
+        s.point[v_] = point_ + lift(s, v_, way) + height * normal_;
+        const TangentMap& b = s.tangent_map[v_];
+        const Point3 n = normal_ - slope.x * b.x - slope.y * b.y;
+        const double length = norm(n);
+        s.normal[v_] = length > 0.0 ? 1.0 / length * n : normal_;
+    }
+    void put_back(Triangulation& t, SurfaceFrames& s) const {
+        t.xy[v_] = xy_;
+        s.point[v_] = point_;
+        s.normal[v_] = normal_;
+    }
+
+  private:
+    Vertex v_;
+    Point2 xy_;
+    Point3 point_, normal_;
+    Quadric form_;
+};
+
+/// Move v until its star keeps its bounds, or to where it is best; the length of its way.
+double move_to_best(Triangulation& t, SurfaceFrames& s, Vertex v, HalfEdge start,
+                    StarBounds bounds) {
+    double now = excess(t, s, v, start, bounds);
+    if (!(now > 0.0) || now == INFINITY || is_zero(s.normal[v])) return 0.0;
+    const Position from(t, s, v, start);
+    Point2 way = {0.0, 0.0};
+    for (double radius = FIRST_RADIUS; radius >= LAST_RADIUS && now > 0.0;) {
+        Point2 best_way = way;
+        double best = (1.0 - GAIN) * now;
+        for (const Point2 direction : WAYS) {
+            const Point2 trial = way + radius * direction;
+            if (norm(trial) > LONGEST_WAY) continue;
+            from.place(t, s, trial);
+            const double found = excess(t, s, v, start, bounds);
+            if (!(found < best)) continue;
+            best = found;
+            best_way = trial;
+        }
+        if (best < (1.0 - GAIN) * now)
+            now = best;
+        else
+            radius *= 0.5;
+        way = best_way;
+    }
+    if (way.x == 0.0 && way.y == 0.0)
+        from.put_back(t, s);
+    else
+        from.place(t, s, way);
+    return norm(way);
+}
+
+}  // namespace
+
+void bring_nearer(Triangulation& t, SurfaceFrames& s, const Stars& stars, VertexMarks& marks,
+                  std::span<const Triangle> triangles, StarBounds bounds, Array<Vertex>& moved) {
+    moved.clear();
+    for (const Triangle k : triangles) {
+        if (t.region[k] == DEAD) continue;
+        for (HalfEdge e = 3 * k; e < 3 * k + 3; ++e) {
+            const Vertex v = t.tri[e];
+            if (stars.frozen[v] != 0 || stars.start[v] == NIL) continue;
+            const double length = move_to_best(t, s, v, stars.start[v], bounds);
+            if (length == 0.0) continue;
+            s.drift[v] += length;
+            marks.active[v] = 0;
+            marks.dirty[v] = 1;
+            moved.push_back(v);
+        }
+    }
+}
+
+}  // namespace surfmesh
