@@ -157,7 +157,8 @@ def mesh(
     if jobs is not None and not (isinstance(jobs, int) and jobs >= 1):
         raise SizingError(f"jobs is {shown(jobs)}: at least one thread; None takes all processors")
     model = _model_or_surface(surface)
-    wanted, order = _of_order(_options(model, _by_name(sizing, sizes)), order)
+    asked, order = _of_order(_by_name(sizing, sizes), order)
+    wanted = _options(model, asked)
 
     def made_with(own: Sizes) -> SurfaceMesh:
         return _mesh_once(model, own, optimise, progress, strict, simplify, jobs, executor)
@@ -207,15 +208,31 @@ def _mesh_once(
 
 
 def _of_order(sizing: Sizes, order: int | None) -> tuple[Sizes, int]:
-    """The sizes with the order that is asked for beside them, or with their own; and the order."""
+    """The sizes with the order that is asked for beside them, or with their own; and the order.
+
+    Where no chord is asked for, sizes are those of straight triangles, whatever the order.
+    """
+    if isinstance(sizing, Mapping) and not _by_selection(sizing):
+        sizing = Sizing.of(sizing)
+    of_all = sizing.get("*") if isinstance(sizing, Mapping) else sizing
+    own = _stated(of_all, "order")
     if order is None:
-        of_all = sizing.get("*") if isinstance(sizing, Mapping) else sizing
-        return sizing, Sizing.of(of_all).order if isinstance(of_all, (Sizing, Mapping)) else 1
+        order = 1 if own is None else own
     if order not in (1, 2):
         raise SizingError(f"order is {shown(order)}: meshes are of order 1 or 2")
+    every = sizing.values() if isinstance(sizing, Mapping) else [sizing]
+    of_sizes = order if any(_stated(one, "chord") is not None for one in every) else 1
+    if of_sizes == (own or 1):
+        return sizing, order
+    wanted = Sizing.of(of_all).replaced(order=of_sizes)
+    return {**sizing, "*": wanted} if isinstance(sizing, Mapping) else wanted, order
+
+
+def _stated(sizing: Any, name: str) -> Any:
+    """An option of sizes that may be given by name; None where it is not there."""
     if isinstance(sizing, Mapping):
-        return {**sizing, "*": Sizing.of(sizing.get("*")).replaced(order=order)}, order
-    return Sizing.of(sizing).replaced(order=order), order
+        return sizing.get(name)
+    return getattr(sizing, name) if isinstance(sizing, Sizing) else None
 
 
 def _by_name(sizing: Sizes, options: Mapping[str, Any]) -> Sizes:

@@ -145,6 +145,8 @@ def mesh_faces_apart(
     asked = model_sizing(model, sizing)
     if asked.base.volume is not None:
         raise SizingError("volume needs the whole mesh: it cannot be kept of one in partitions")
+    if asked.base.order == 2:
+        raise SizingError("a mesh in partitions is of order 1: leave order out")
     if asked.base.is_balanced:
         raise SizingError("vertices are balanced in a whole mesh: not in one in partitions")
     with how.watch.stage("sizing"):

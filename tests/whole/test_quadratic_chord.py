@@ -58,6 +58,15 @@ def test_order_may_stand_in_the_sizing():
         sm.Sizing(order=3)
 
 
+def test_without_a_chord_sizes_are_those_of_straight_triangles():
+    torus = sm.load("torus")
+    for sizes in (None, sm.Sizing(size=0.5)):
+        straight, curved = sm.mesh(torus, sizes), sm.mesh(torus, sizes, order=2)
+        np.testing.assert_array_equal(straight.points, curved.points)
+        assert curved.order == 2
+    assert sm.mesh(torus, sm.Sizing(size=0.5, order=2)).order == 2
+
+
 @pytest.mark.parametrize("more", [{"volume": 0.05}, {"anisotropy": 4.0}])
 def test_what_is_of_straight_triangles_is_sized_by_them(more):
     part = sm.from_cadquery(cq.Workplane().cylinder(2.0, 1.0))
