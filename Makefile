@@ -70,6 +70,7 @@ sanitize: $(VENV)/.installed-dev ## tests of the core under address and undefine
 	mkdir -p $(SANITIZED) && ln -sfn $(filter-out surfmesh/_core%,$(wildcard $(CURDIR)/surfmesh/*)) $(SANITIZED)
 	rm -f $(SANITIZED)/_core*
 	PATH="$(abspath $(BIN)):$$PATH" cmake -S . -B build/sanitize -G Ninja -DSURFMESH_SANITIZE=ON \
+	    -DSURFMESH_UNITY=ON \
 	    -DPython_EXECUTABLE=$(abspath $(BIN)/python) -DSURFMESH_MODULE=$(abspath $(SANITIZED)) >/dev/null
 	PATH="$(abspath $(BIN)):$$PATH" cmake --build build/sanitize
 	LD_PRELOAD="$(PRELOADED)" ASAN_OPTIONS=detect_leaks=0 PYTHONPATH=build/sanitize/package \
@@ -80,6 +81,7 @@ races: $(VENV)/.installed-dev ## tests of what threads of one call do, under the
 	mkdir -p $(RACES) && ln -sfn $(filter-out surfmesh/_core%,$(wildcard $(CURDIR)/surfmesh/*)) $(RACES)
 	rm -f $(RACES)/_core*
 	PATH="$(abspath $(BIN)):$$PATH" cmake -S . -B build/races -G Ninja -DSURFMESH_RACES=ON \
+	    -DSURFMESH_UNITY=ON \
 	    -DPython_EXECUTABLE=$(abspath $(BIN)/python) -DSURFMESH_MODULE=$(abspath $(RACES)) >/dev/null
 	PATH="$(abspath $(BIN)):$$PATH" cmake --build build/races
 	LD_PRELOAD="$(shell $(or $(CXX),c++) -print-file-name=libtsan.so)" TSAN_OPTIONS=halt_on_error=1 \
@@ -108,7 +110,7 @@ bench: $(VENV)/.installed-bench ## the figures, gmsh beside them
 
 constraints: $(VENV)/.installed-install ## constraints*.txt anew: the newest versions, and the lowest
 	$(COMPILE) --upgrade --universal --all-extras pyproject.toml -o constraints.txt
-	$(COMPILE) --upgrade --resolution lowest-direct --extra test pyproject.toml \
+	$(COMPILE) --upgrade --resolution lowest-direct --extra cad --extra view --extra test pyproject.toml \
 	    -o constraints-lowest.txt
 
 licences: $(VENV)/.installed-dev $(VENV)/.installed-bench ## licences of all that is installed
@@ -131,7 +133,7 @@ $(LOWEST)/bin/python:
 	@$(LOWEST_PYTHON) -m venv $(LOWEST)
 
 $(VENV)/.installed: pyproject.toml $(CONSTRAINTS) CMakeLists.txt $(SOURCES) | $(VENV)/bin/python
-	$(call install,$(VENV),$(CONSTRAINTS),.)
+	$(call install,$(VENV),$(CONSTRAINTS),.[cad,view])
 
 $(VENV)/.installed-%: pyproject.toml $(CONSTRAINTS) CMakeLists.txt $(SOURCES) | $(VENV)/bin/python
 	$(call install,$(VENV),$(CONSTRAINTS),.[$*])

@@ -2,7 +2,7 @@
 
     python benchmarks/speed.py [--only SECTION ...] [--quick | --large] [--json PATH]
 
-Sections: start, cad, plane, surfaces, stretched, cores, memory. Everything is timed in processes of
+Sections: start, cad, plane, surfaces, checks, stretched, cores, memory. Everything is timed in processes of
 its own with one thread, as processor time, which other work on the machine hardly changes; medians
 of three. Only ``cores`` looks at the clock on the wall. Beside each figure stands what is wanted of
 it, printed as soon as it is measured; the exit status is 1 when something is missed. ``--large``
@@ -43,6 +43,7 @@ STRETCH = 8.0
 SURFACE_SPEED, PLANE_SPEED = 300e3, 400e3
 TARGET_SHAPE = {"alpha_mean": 0.993, "alpha_p01": 0.94, "alpha_min": 0.85}
 PER_FACE = 3.0  # times as fast as gmsh
+CHECK_SHARES = {"check": 0.20, "estimate": 0.15}  # of the time of the mesh
 
 
 @dataclass
@@ -230,6 +231,24 @@ def stages_text(stages: dict) -> str:
     return ", ".join(f"{name} {seconds / whole:.0%}" for name, seconds in stages.items())
 
 
+def checks(figures: Figures) -> None:
+    """`check` and `estimate`: processor time over that of the mesh"""
+    models = speed_parts.FACES if figures.times > 1 else speed_parts.FACES[:-1]
+    for faces in (*models, None):
+        file = str(speed_parts.written(figures.folder, faces))
+        name = f"{faces} faces" if faces else f"{speed_parts.LOFTS} lofts"
+        add_checks(figures, name, figures.ask("checked_model", file=file, size=CAD_SIZE))
+    for name, chord in CHORDS.items():
+        sizing = {"chord": chord, "growth": GROWTH}
+        add_checks(figures, name, figures.ask("checked_surface", name=name, sizing=sizing))
+
+
+def add_checks(figures: Figures, name: str, found: dict) -> None:
+    for what, most in CHECK_SHARES.items() if "error" not in found else ():
+        row = Wanted(f"{name}: {what} over mesh", most=most, digits=2)
+        figures.add(row, found[what] / found["mesh"], f"mesh {found['mesh']:.3f} s")
+
+
 def stretched(figures: Figures) -> None:
     """sizes that depend on the direction: processor time a triangle over the isotropic one"""
     for name, chord in CHORDS.items():
@@ -280,7 +299,8 @@ def memory(figures: Figures) -> None:
 
 
 SECTIONS: dict[str, Callable[[Figures], None]] = {
-    section.__name__: section for section in (start, cad, plane, surfaces, stretched, cores, memory)
+    section.__name__: section
+    for section in (start, cad, plane, surfaces, checks, stretched, cores, memory)
 }
 
 

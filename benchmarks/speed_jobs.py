@@ -241,9 +241,36 @@ def cores_surfmesh(request: dict) -> dict:
     return {"one": one, "two": two, "ratio": one / two, "triangles": len(mesh.triangles)}
 
 
+# what is asked of a surface or a model before and after it is meshed: seconds of all three
+
+
+def checked_model(request: dict) -> dict:
+    return checked(request, sm.load(request["file"]), sm.Sizing(size=request["size"]))
+
+
+def checked_surface(request: dict) -> dict:
+    return checked(request, sm.load(request["name"]), sm.Sizing(**request["sizing"]))
+
+
+def checked(request: dict, subject: Any, sizing: sm.Sizing) -> dict:
+    found: dict[str, list[float]] = {"mesh": [], "check": [], "estimate": []}
+    for _ in range(request["times"] + 1):
+        start = time.process_time()
+        mesh = sm.mesh(subject, sizing, jobs=1)
+        meshed = time.process_time()
+        sm.check(mesh)
+        checked = time.process_time()
+        sm.estimate(subject, sizing)
+        done = time.process_time()
+        for name, seconds in zip(found, (meshed - start, checked - meshed, done - checked)):
+            found[name].append(seconds)
+    return {name: statistics.median(every[1:]) for name, every in found.items()}
+
+
 JOBS = (
     cad_surfmesh, cad_gmsh, cad_netgen, plane_surfmesh, plane_triangle, plane_gmsh,
     surface_surfmesh, memory_surfmesh, cores_surfmesh,
+    checked_model, checked_surface,
 )  # fmt: skip
 
 

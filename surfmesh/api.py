@@ -25,7 +25,7 @@ from surfmesh.geometry.number_range import RANGE
 from surfmesh.geometry.surface import Surface
 from surfmesh.result.surface_mesh import SurfaceMesh
 from surfmesh.sizing.options.distance_size import default_options
-from surfmesh.sizing.options.sizing import BALANCED, SizeLaw, Sizing
+from surfmesh.sizing.options.sizing import SizeLaw, Sizing
 
 if TYPE_CHECKING:
     from concurrent.futures import Executor
@@ -127,7 +127,7 @@ def mesh(
     simplify: bool = False,
     jobs: int | None = None,
     executor: Executor | None = None,
-    order: int = 1,
+    order: int | None = None,
     **sizes: Any,
 ) -> SurfaceMesh:
     """Triangulate a surface, or a CAD model (or whatever CadQuery object makes one).
@@ -144,7 +144,9 @@ def mesh(
     once or within one; by default as many as this process may use processors. The mesh is the same
     with any number of them. executor: meshes faces instead, in other processes or on other
     machines: any of ``concurrent.futures``, or ``dask.distributed.Client(...).get_executor()``.
-    order=2: nodes amid the edges too, on the true curves and surfaces (``mesh.mid_points``).
+    order=2: nodes amid the edges too, on the true curves and surfaces (``mesh.mid_points``);
+    ``chord`` is then that of the curved triangles, of which far fewer are needed. None:
+    ``Sizing.order``, 1 by default.
 
     Stages and their seconds go to the log ``surfmesh`` at level INFO, the mesh's warnings at
     WARNING. Safe to call from several threads at once.
@@ -152,14 +154,10 @@ def mesh(
     Raises ``SizingError``, ``SurfaceError`` or ``MeshingError`` with the place and the reason,
     ``Cancelled`` when ``progress`` said so.
     """
-    if order not in (1, 2):
-        raise SizingError(f"order is {shown(order)}: meshes are of order 1 or 2")
     if jobs is not None and not (isinstance(jobs, int) and jobs >= 1):
         raise SizingError(f"jobs is {shown(jobs)}: at least one thread; None takes all processors")
     model = _model_or_surface(surface)
-    wanted = _options(model, _by_name(sizing, sizes))
-    if order == 2 and _is_balanced(wanted):
-        raise SizingError("nodes of order 2 lie on the surface: vertices cannot be balanced too")
+    wanted, order = _of_order(_options(model, _by_name(sizing, sizes)), order)
 
     def made_with(own: Sizes) -> SurfaceMesh:
         return _mesh_once(model, own, optimise, progress, strict, simplify, jobs, executor)
@@ -200,11 +198,24 @@ def _mesh_once(
         from surfmesh.meshing.planar_mesh import mesh_planar
 
         with allowed_threads(threads):
-            return mesh_planar(model, Sizing.of(sizing), optimise, progress, simplify)
+            straight = Sizing.of(sizing).replaced(order=1)  # outlines are polygons
+            return mesh_planar(model, straight, optimise, progress, simplify)
     from surfmesh.meshing.parametric_mesh import mesh_parametric
 
     with allowed_threads(threads):
         return mesh_parametric(model, Sizing.of(sizing), optimise, progress)
+
+
+def _of_order(sizing: Sizes, order: int | None) -> tuple[Sizes, int]:
+    """The sizes with the order that is asked for beside them, or with their own; and the order."""
+    if order is None:
+        of_all = sizing.get("*") if isinstance(sizing, Mapping) else sizing
+        return sizing, Sizing.of(of_all).order if isinstance(of_all, (Sizing, Mapping)) else 1
+    if order not in (1, 2):
+        raise SizingError(f"order is {shown(order)}: meshes are of order 1 or 2")
+    if isinstance(sizing, Mapping):
+        return {**sizing, "*": Sizing.of(sizing.get("*")).replaced(order=order)}, order
+    return Sizing.of(sizing).replaced(order=order), order
 
 
 def _by_name(sizing: Sizes, options: Mapping[str, Any]) -> Sizes:
@@ -226,15 +237,6 @@ def _options(model: Surface | CadModel, sizing: Sizes) -> Sizes:
     if isinstance(sizing, Mapping) and not _by_selection(sizing):
         return Sizing.of(sizing)
     return sizing
-
-
-def _is_balanced(sizing: Sizes) -> bool:
-    """Are vertices to be balanced?"""
-    if isinstance(sizing, Mapping):
-        sizing = sizing.get("*")
-        if isinstance(sizing, Mapping):
-            return sizing.get("vertices") == BALANCED
-    return isinstance(sizing, Sizing) and sizing.is_balanced
 
 
 def _with_sizes(model: Surface | CadModel, sizing: Sizes) -> Sizes:

@@ -5,6 +5,8 @@ loop), and what to do about it. Each is also the builtin that a caller would exp
 """
 
 import re
+from collections.abc import Iterator
+from contextlib import contextmanager
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:  # errors import nothing
@@ -47,6 +49,23 @@ class SurfmeshError(Exception):
 
     where: "NDArray[np.float64] | None" = None
     """(u, v) or (k, 2): the places in the parameter plane, where these are known."""
+
+
+class MissingExtraError(SurfmeshError, ImportError):
+    """A library is not there that comes with an extra, as in ``pip install 'surfmesh[view]'``."""
+
+
+@contextmanager
+def needs(extra: str, what: str) -> Iterator[None]:
+    """Imports of libraries that come with an extra: MissingExtraError where one is not there.
+
+    what: for whom they are, the beginning of the message.
+    """
+    try:
+        yield
+    except ModuleNotFoundError as error:
+        message = f"{what} needs {error.name}: pip install 'surfmesh[{extra}]'"
+        raise MissingExtraError(message, name=error.name) from None
 
 
 class SurfaceError(SurfmeshError, ValueError):

@@ -86,7 +86,7 @@ def build_editable(folder: str, settings: dict | None = None, metadata: str | No
 def _build_in_place() -> None:
     """The core into the package's folder, by CMake."""
     built = HERE / "build" / f"editable-{sys.implementation.cache_tag}"
-    made_with = [f"-DPython_EXECUTABLE={sys.executable}"]
+    made_with = [f"-DPython_EXECUTABLE={sys.executable}", "-DSURFMESH_UNITY=ON"]
     made_with += filter(None, os.environ.get("SKBUILD_CMAKE_ARGS", "").split(";"))
     if shutil.which("ninja"):
         made_with += ["-G", "Ninja"]
@@ -126,6 +126,7 @@ def _compiler() -> Iterator[None]:
             "CMAKE_RANLIB": _command(Path(folder), "ranlib"),
         }
         given = [f"-D{name}={path.as_posix()}" for name, path in tools.items()]
+        given.append("-DCMAKE_DISABLE_PRECOMPILE_HEADERS=ON")  # zig refuses
         os.environ["SKBUILD_CMAKE_ARGS"] = ";".join([*filter(None, [before]), *given])
         try:
             yield

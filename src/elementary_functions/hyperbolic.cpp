@@ -12,7 +12,7 @@ namespace surfmesh::elementary {
 namespace {
 
 constexpr double NAN_RESULT = std::numeric_limits<double>::quiet_NaN();
-constexpr double INFINITE = std::numeric_limits<double>::infinity();
+constexpr double INFINITE_RESULT = std::numeric_limits<double>::infinity();
 
 /// e^x / 2, for 1 <= x: what is lost in rounding counts where little cancels.
 RoundedNumber half_of_exp(double x) {
@@ -45,7 +45,7 @@ double log_of_twice(double x) {
 double sinh(double x) {
     const double size = std::abs(x);
     if (size <= 1.0) return x == 0.0 ? x : small_sinh(x).high;
-    if (!(size <= HIGHEST_EXPONENT)) return std::isnan(x) ? x : std::copysign(INFINITE, x);
+    if (!(size <= HIGHEST_EXPONENT)) return std::isnan(x) ? x : std::copysign(INFINITE_RESULT, x);
     const RoundedNumber half = half_of_exp(size);
     return std::copysign(half.high - (0.25 / half.high - half.low), x);
 }
@@ -53,7 +53,7 @@ double sinh(double x) {
 double cosh(double x) {
     const double size = std::abs(x);
     if (size <= 1.0) return small_cosh(x).high;
-    if (!(size <= HIGHEST_EXPONENT)) return std::isnan(x) ? x : INFINITE;
+    if (!(size <= HIGHEST_EXPONENT)) return std::isnan(x) ? x : INFINITE_RESULT;
     const RoundedNumber half = half_of_exp(size);
     return half.high + (0.25 / half.high + half.low);
 }
@@ -91,7 +91,7 @@ double acosh(double x) {
 double atanh(double x) {
     const double size = std::abs(x);
     if (x == 0.0) return x;
-    if (!(size < 1.0)) return size == 1.0 ? std::copysign(INFINITE, x) : NAN_RESULT;
+    if (!(size < 1.0)) return size == 1.0 ? std::copysign(INFINITE_RESULT, x) : NAN_RESULT;
     if (size <= 0.17) {
         const double z = x * x;
         return x + x * z * (0.5 * polynomial(LOGARITHM, z));

@@ -124,11 +124,11 @@ void require_finished(const FieldBuilder& builder) {
 using Sides = std::pair<std::array<int, 4>, std::array<bool, 4>>;
 using Places = nb::ndarray<const std::int64_t, nb::shape<-1, 3>, nb::c_contig, nb::device::cpu>;
 
-void construct(FieldBuilder* builder, std::pair<std::int32_t, std::int32_t> grid,
-               std::pair<double, double> extent, std::pair<double, double> root_step, double slope,
-               double largest, const Sides& sides, const Places& sources, bool known_sizes,
-               bool counts_triangles, double free_cells, double most_triangles,
-               std::pair<bool, bool> looks_for_hidden) {
+void construct_builder(FieldBuilder* builder, std::pair<std::int32_t, std::int32_t> grid,
+                       std::pair<double, double> extent, std::pair<double, double> root_step,
+                       double slope, double largest, const Sides& sides, const Places& sources,
+                       bool known_sizes, bool counts_triangles, double free_cells,
+                       double most_triangles, std::pair<bool, bool> looks_for_hidden) {
     const auto [nx, ny] = grid;
     if (nx < 1 || ny < 1 || std::int64_t{nx} * ny > (1 << 20))
         throw nb::value_error("grid is not positive, or has more than 2^20 root cells");
@@ -168,7 +168,7 @@ void bind_field_builder(nb::module_& m) {
     nb::class_<HiddenFeatures>(m, "HiddenFeatures",
                                "Where a surface may have features between the nodes of a cell.");
     nb::class_<FieldBuilder> c(m, "FieldBuilder", "Makes the background of one size field.");
-    c.def("__init__", &construct, nb::arg("grid"), nb::arg("extent"), nb::arg("root_step"),
+    c.def("__init__", &construct_builder, nb::arg("grid"), nb::arg("extent"), nb::arg("root_step"),
           nb::arg("slope"), nb::arg("largest"), nb::arg("sides"), nb::arg("sources"),
           nb::arg("known_sizes"), nb::arg("counts_triangles"), nb::arg("free_cells"),
           nb::arg("most_triangles"), nb::arg("looks_for_hidden"),

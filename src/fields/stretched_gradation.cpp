@@ -13,7 +13,7 @@ constexpr double LONGER_FIRST = 16.0;
 // towards the rest in many visits.
 constexpr double ENOUGH_ALONG = 0.98;
 
-double squared(double x) { return x * x; }
+double square_of(double x) { return x * x; }
 
 bool is_zero(Point3 n) { return n.x == 0.0 && n.y == 0.0 && n.z == 0.0; }
 
@@ -85,8 +85,8 @@ bool StretchedGradation::surely_allows(const StretchedNode& a, const StretchedNo
     if (!(spare_along > SPARE * along && spare_left > SPARE * left)) return false;
     const double mixed = axis.x * axis.y * (a.by_shorter - a.by_longer);
     if (!(mixed * mixed <= SURE * (spare_along * spare_left))) return false;
-    const double aside = squared(dot(step, a.left)), across = onward + aside;
-    const double by_along = squared(dot(step, b.along)), by_left = squared(dot(step, b.left));
+    const double aside = square_of(dot(step, a.left)), across = onward + aside;
+    const double by_along = square_of(dot(step, b.along)), by_left = square_of(dot(step, b.left));
     return (by_along * b.by_longer + by_left * b.by_shorter) * across * SURE >=
            (onward * a.by_longer + aside * a.by_shorter) * (by_along + by_left);
 }
@@ -99,8 +99,8 @@ bool StretchedGradation::surely_allows(const StretchedNode& a, const StretchedNo
 void StretchedGradation::hold_along(const StretchedNode& a, const StretchedNode& b, double most,
                                     AxisMetric& m) const {
     const Point3 step = b.point - a.point;
-    const double onward = squared(dot(step, a.along)), aside = squared(dot(step, a.left));
-    double along = squared(dot(step, b.along)), left = squared(dot(step, b.left));
+    const double onward = square_of(dot(step, a.along)), aside = square_of(dot(step, a.left));
+    double along = square_of(dot(step, b.along)), left = square_of(dot(step, b.left));
     const double across = onward + aside, sum = along + left;
     if (!(across > 0.0 && sum > 0.0)) return;  // the way leads off the surface
     const double square = onward * a.by_longer + aside * a.by_shorter;
@@ -134,7 +134,7 @@ double StretchedGradation::bind(const StretchedNode& a, Node number) {
     const double least_of_a = std::min(a.size, a.longer);
     if (longest <= least_of_a) return 0.0;
     const Point3 step = b.point - a.point;
-    const double onward = squared(dot(step, a.along));
+    const double onward = square_of(dot(step, a.along));
     const double aside = std::max(dot(step, step) - onward, 0.0);
     const double l = std::sqrt(onward * a.by_longer + aside * a.by_shorter);
     const double growth = 1.0 + s_.slope * l, least = growth * least_of_a;
@@ -149,10 +149,10 @@ double StretchedGradation::bind(const StretchedNode& a, Node number) {
         surely_allows(a, b, step, onward, growth * growth, turning * turning))
         return 0.0;
     const AxisMetric of_a = carried(a, b);
-    const double f = 1.0 / squared(turning), g = 1.0 / (growth * growth);
+    const double f = 1.0 / square_of(turning), g = 1.0 / (growth * growth);
     AxisMetric m{std::max(b.by_longer, g * of_a.along), std::max(b.by_shorter, g * of_a.left), 0.0};
     // no direction needs less than the smallest size of a, grown
-    const double most = 1.0 / (least * least), mixed = squared(f * of_a.mixed);
+    const double most = 1.0 / (least * least), mixed = square_of(f * of_a.mixed);
     double need = 0.0;
     if (m.left > f * of_a.left)  // not between two images of one point
         need = std::min(f * of_a.along + mixed / (m.left - f * of_a.left), most);

@@ -10,10 +10,10 @@ namespace surfmesh {
 namespace {
 
 constexpr double PI = 3.141592653589793;
-constexpr double SAMPLED = 2.0;     // times the largest second derivative of the samples
-constexpr double ROUNDING = 1e-13;  // of the coordinates: boxes are so much wider
-constexpr double TINY = 1e-300;     // no length is less
-constexpr std::size_t GRID = 4;     // samples each way of a cell
+constexpr double SAMPLED = 2.0;          // times the largest second derivative of the samples
+constexpr double ROUNDING = 1e-13;       // of the coordinates: boxes are so much wider
+constexpr double LEAST_LENGTH = 1e-300;  // no length is less
+constexpr std::size_t GRID = 4;          // samples each way of a cell
 constexpr std::size_t CURVE_GRID = 5;
 constexpr std::size_t CORNERS = 4;
 
@@ -24,7 +24,7 @@ Point3 smaller(Point3 a, Point3 b) {
 Point3 larger(Point3 a, Point3 b) {
     return {std::max(a.x, b.x), std::max(a.y, b.y), std::max(a.z, b.z)};
 }
-Point3 unit(Point3 p) { return (1.0 / std::max(norm(p), TINY)) * p; }
+Point3 unit(Point3 p) { return (1.0 / std::max(norm(p), LEAST_LENGTH)) * p; }
 
 double known(double sag) {
     return std::isfinite(sag) ? sag : std::numeric_limits<double>::infinity();
@@ -86,9 +86,9 @@ Cone cone_of(Point3 r_u, Point3 r_v, Point2 width, const SecondDerivatives& bend
     const double change_u = norm(0.5 * (width.x * bends.uu + width.y * bends.uv));
     const double change_v = norm(0.5 * (width.x * bends.uv + width.y * bends.vv));
     const double change = change_u * norm(r_v) + norm(r_u) * change_v + change_u * change_v;
-    const Point3 axis = (1.0 / std::max(size, TINY)) * normal;
+    const Point3 axis = (1.0 / std::max(size, LEAST_LENGTH)) * normal;
     if (std::isnan(change)) return {axis, PI};
-    const double part = change / std::max(size, TINY);
+    const double part = change / std::max(size, LEAST_LENGTH);
     return {axis, size > 0.0 && part < 1.0 ? elementary::asin(part) : 0.5 * PI};
 }
 
@@ -188,7 +188,7 @@ CellBounds bound_pieces(const CurvePiece& piece, std::span<const ParameterRange>
         add_box(found, std::span<const Point3>(corner[0]).subspan(2 * i, 2),
                 (width * width / 8.0) * bent);
         const Point3 way = rate * middle[1][i];
-        const double part = 0.5 * width * norm(bent) / std::max(norm(way), TINY);
+        const double part = 0.5 * width * norm(bent) / std::max(norm(way), LEAST_LENGTH);
         found.axis.push_back(unit(way));
         found.angle.push_back(part < 1.0 ? elementary::asin(part) : 0.5 * PI);
     }

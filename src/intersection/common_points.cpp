@@ -8,11 +8,11 @@
 namespace surfmesh {
 namespace {
 
-constexpr double BEYOND = 0.02;     // of the domain: how far steps may leave it
-constexpr double SINGULAR = 1e-13;  // |det| of a system with unit columns: no single solution
-constexpr double SLIGHTLY = 1e-14;  // added to J J^T, so that it can be solved where they touch
-constexpr double TINY = 1e-300;     // no speed is less
-constexpr double STILL = 1e-14;     // of the coordinates: steps that are none
+constexpr double BEYOND = 0.02;         // of the domain: how far steps may leave it
+constexpr double SINGULAR = 1e-13;      // |det| of a system with unit columns: no single solution
+constexpr double SLIGHTLY = 1e-14;      // added to J J^T, so that it can be solved where they touch
+constexpr double LEAST_SPEED = 1e-300;  // no speed is less
+constexpr double STILL = 1e-14;         // of the coordinates: steps that are none
 constexpr double CURVE_STILL = 1e-15;
 
 double kept_within(double x, double low, double high) { return std::min(std::max(x, low), high); }
@@ -39,7 +39,7 @@ Linearisation linearised(const MeetingSurfaces& surfaces, std::size_t row,
         {a[1][row], a[2][row], -1.0 * b[1][row], -1.0 * b[2][row]}, {}, a[0][row] - b[0][row]};
     double longest = 0.0;
     for (std::size_t k = 0; k < 4; ++k) {
-        found.speed[k] = std::max(norm(found.column[k]), TINY);
+        found.speed[k] = std::max(norm(found.column[k]), LEAST_SPEED);
         if (widths != nullptr) longest = std::max(longest, found.speed[k] * (*widths)[k]);
     }
     for (std::size_t k = 0; k < 4; ++k) {
@@ -169,7 +169,7 @@ std::array<double, 3> piercing_step(Point3 gap, const std::array<Point3, 3>& col
     SquareMatrix<3> matrix{};
     std::array<double, 3> speed{}, step{gap.x, gap.y, gap.z};
     for (std::size_t k = 0; k < 3; ++k) {
-        speed[k] = std::max(norm(column[k]), TINY);
+        speed[k] = std::max(norm(column[k]), LEAST_SPEED);
         matrix[0][k] = column[k].x / speed[k];
         matrix[1][k] = column[k].y / speed[k];
         matrix[2][k] = column[k].z / speed[k];

@@ -19,7 +19,7 @@ constexpr double FLAT = 1e-7;   // sine of the angle between tangent planes: sur
 constexpr double SHORTEST = 0.8, LONGEST = 1.25;  // of the step: how far it may lead
 constexpr double SAME = 1e-6;                     // of the distance: an end as near as the best
 constexpr std::size_t MOST_POINTS = 20000, FEWEST = 3;
-constexpr double TINY = 1e-300;
+constexpr double LEAST_SINE = 1e-300;
 
 /// A point of a branch with its places.
 struct BranchPoint {
@@ -91,7 +91,7 @@ class BranchTracer {
         read({found.uv_a[0], found.uv_b[0]}, 1);
         const Point3 cross_ = cross(unit_normal(surfaces_.a, 0), unit_normal(surfaces_.b, 0));
         const double sine = norm(cross_);
-        Point3 tangent = (1.0 / std::max(sine, TINY)) * cross_;
+        Point3 tangent = (1.0 / std::max(sine, LEAST_SINE)) * cross_;
         if (dot(tangent, way_) < 0.0) tangent = -1.0 * tangent;
         const double length = norm(found.point[0] - here_.point);
         const bool fits = sine > FLAT && dot(tangent, way_) > elementary::cos(TURN) &&
@@ -196,14 +196,14 @@ class BranchTracer {
 
 Point3 unit_normal(const SurfaceReader& surface, std::size_t row) {
     const Point3 normal = cross(surface[1][row], surface[2][row]);
-    return (1.0 / std::max(norm(normal), TINY)) * normal;
+    return (1.0 / std::max(norm(normal), LEAST_SINE)) * normal;
 }
 
 Point2 rates_along(const SurfaceReader& surface, std::size_t row, Point3 way) {
     const Point3 r_u = surface[1][row], r_v = surface[2][row];
     const double e = dot(r_u, r_u), f = dot(r_u, r_v), g = dot(r_v, r_v);
     const double a = dot(r_u, way), b = dot(r_v, way);
-    const double determinant = std::max(e * g - f * f, TINY);
+    const double determinant = std::max(e * g - f * f, LEAST_SINE);
     return {(g * a - f * b) / determinant, (e * b - f * a) / determinant};
 }
 

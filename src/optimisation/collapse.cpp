@@ -6,7 +6,7 @@
 namespace surfmesh {
 namespace {
 
-constexpr std::size_t BLOCK = 1 << 13;  // vertices looked at together
+constexpr std::size_t COLLAPSES_TOGETHER = 1 << 13;  // vertices looked at together
 
 bool has_short_edge(const Triangulation& t, const SurfaceFrames& s, Vertex v, HalfEdge start,
                     double shortest) {
@@ -24,7 +24,8 @@ bool has_short_edge(const Triangulation& t, const SurfaceFrames& s, Vertex v, Ha
 int collapse_short_edges(Triangulation& t, const SurfaceFrames& s, Stars& stars, VertexMarks& marks,
                          double shortest, int few) {
     const Array<Vertex> found = collect_by_blocks<Vertex>(
-        t.xy.size(), BLOCK, [&](std::size_t first, std::size_t last, Array<Vertex>& own) {
+        t.xy.size(), COLLAPSES_TOGETHER,
+        [&](std::size_t first, std::size_t last, Array<Vertex>& own) {
             for (auto v = static_cast<Vertex>(first); v < static_cast<Vertex>(last); ++v) {
                 const HalfEdge start = stars.start[v];
                 if (start == NIL || stars.frozen[v] != 0) continue;

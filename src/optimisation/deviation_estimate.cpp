@@ -5,7 +5,7 @@
 namespace surfmesh {
 namespace {
 
-constexpr std::size_t BLOCK = 1 << 14;  // triangles estimated together
+constexpr std::size_t ESTIMATED_TOGETHER = 1 << 14;  // triangles estimated together
 
 constexpr double SMALLEST_SHRINK = 0.85;  // least factor by which one round lowers a wanted size
 
@@ -13,7 +13,7 @@ constexpr double SMALLEST_SHRINK = 0.85;  // least factor by which one round low
 
 Array<double> estimate_deviations(const Triangulation& t, const SurfaceFrames& s) {
     Array<double> deviation(t.region.size(), 0.0);
-    for_each_block(t.region.size(), BLOCK, [&](std::size_t first, std::size_t last) {
+    for_each_block(t.region.size(), ESTIMATED_TOGETHER, [&](std::size_t first, std::size_t last) {
         for (auto k = static_cast<Triangle>(first); k < static_cast<Triangle>(last); ++k)
             if (t.region[k] != DEAD)
                 deviation[k] =

@@ -10,7 +10,7 @@ namespace {
 
 // squared sine of the angle between two sides, or one at a pole: only rounding
 constexpr double NO_AREA = 1e-24;
-constexpr std::size_t BLOCK = 3 << 14;  // half-edges looked at together
+constexpr std::size_t HALF_EDGES_TOGETHER = 3 << 14;  // half-edges looked at together
 
 }  // namespace
 
@@ -29,7 +29,8 @@ DihedralAngles find_dihedrals_over(const Triangulation& t, const Array<Point3>& 
         double angle;
     };
     const Array<Found> over = collect_by_blocks<Found>(
-        t.tri.size(), BLOCK, [&](std::size_t first, std::size_t last, Array<Found>& own) {
+        t.tri.size(), HALF_EDGES_TOGETHER,
+        [&](std::size_t first, std::size_t last, Array<Found>& own) {
             for (auto e = static_cast<HalfEdge>(first); e < static_cast<HalfEdge>(last); ++e) {
                 const HalfEdge f = t.adj[e];
                 if (f <= e || t.region[e / 3] == DEAD || t.region[f / 3] == DEAD) continue;

@@ -5,7 +5,7 @@
 namespace surfmesh {
 namespace {
 
-constexpr std::size_t BLOCK = 1 << 14;  // triangles looked at together
+constexpr std::size_t MARKED_TOGETHER = 1 << 14;  // triangles looked at together
 
 /// Is triangle abc turned against the normals at its corners?
 bool is_folded(const SurfaceFrames& s, Vertex a, Vertex b, Vertex c, double least, double at_apex) {
@@ -27,7 +27,7 @@ bool is_folded(const SurfaceFrames& s, Vertex a, Vertex b, Vertex c, double leas
 Array<std::uint8_t> find_folded(const Triangulation& t, const SurfaceFrames& s, double least,
                                 double at_apex) {
     Array<std::uint8_t> folded(t.region.size(), 0);
-    for_each_block(t.region.size(), BLOCK, [&](std::size_t first, std::size_t last) {
+    for_each_block(t.region.size(), MARKED_TOGETHER, [&](std::size_t first, std::size_t last) {
         for (auto k = static_cast<Triangle>(first); k < static_cast<Triangle>(last); ++k) {
             const Vertex a = t.tri[3 * k], b = t.tri[3 * k + 1], c = t.tri[3 * k + 2];
             if (t.region[k] == DEAD || is_collapsed(s, a, b, c)) continue;
@@ -39,7 +39,8 @@ Array<std::uint8_t> find_folded(const Triangulation& t, const SurfaceFrames& s, 
 
 Array<Triangle> triangles_at(const Triangulation& t, const Array<std::uint8_t>& vertices) {
     return collect_by_blocks<Triangle>(
-        t.region.size(), BLOCK, [&](std::size_t first, std::size_t last, Array<Triangle>& found) {
+        t.region.size(), MARKED_TOGETHER,
+        [&](std::size_t first, std::size_t last, Array<Triangle>& found) {
             for (auto k = static_cast<Triangle>(first); k < static_cast<Triangle>(last); ++k) {
                 if (t.region[k] == DEAD) continue;
                 if (vertices[t.tri[3 * k]] || vertices[t.tri[3 * k + 1]] ||
@@ -51,11 +52,12 @@ Array<Triangle> triangles_at(const Triangulation& t, const Array<std::uint8_t>& 
 
 int activate_bad(const Triangulation& t, const SurfaceFrames& s, VertexMarks& marks, double least) {
     const Array<Triangle> bad = collect_by_blocks<Triangle>(
-        t.region.size(), BLOCK, [&](std::size_t first, std::size_t last, Array<Triangle>& found) {
+        t.region.size(), MARKED_TOGETHER,
+        [&](std::size_t first, std::size_t last, Array<Triangle>& found) {
             for (auto k = static_cast<Triangle>(first); k < static_cast<Triangle>(last); ++k) {
                 if (t.region[k] == DEAD) continue;
                 const Vertex a = t.tri[3 * k], b = t.tri[3 * k + 1], c = t.tri[3 * k + 2];
-                if (!is_collapsed(s, a, b, c) && triangle_shape(s, a, b, c) < least)
+                if (!is_collapsed(s, a, b, c) && is_shape_below(s, a, b, c, least))
                     found.push_back(k);
             }
         });

@@ -5,7 +5,7 @@
 namespace surfmesh {
 namespace {
 
-constexpr std::size_t BLOCK = 1 << 14;  // triangles looked at together
+constexpr std::size_t SPLITS_TOGETHER = 1 << 14;  // triangles looked at together
 
 double middle(double a, double b) { return 0.5 * (a + b); }
 Point3 middle(Point3 a, Point3 b) { return 0.5 * (a + b); }
@@ -80,7 +80,8 @@ Array<Triangle> with_long_edge(const Triangulation& t, const SurfaceFrames& s,
                                const VertexMarks& marks, double longest) {
     const Vertex end = t.vertices();
     return collect_by_blocks<Triangle>(
-        t.region.size(), BLOCK, [&](std::size_t first, std::size_t last, Array<Triangle>& own) {
+        t.region.size(), SPLITS_TOGETHER,
+        [&](std::size_t first, std::size_t last, Array<Triangle>& own) {
             for (auto k = static_cast<Triangle>(first); k < static_cast<Triangle>(last); ++k) {
                 const HalfEdge e = 3 * k;
                 if (t.region[k] == DEAD || !is_active(t, marks, k)) continue;

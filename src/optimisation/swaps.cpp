@@ -8,8 +8,8 @@
 namespace surfmesh {
 namespace {
 
-constexpr std::size_t BLOCK = 1 << 14;  // triangles measured together
-constexpr double SWAP_GAIN = 1e-3;      // smallest betterment of the worse alpha for a swap
+constexpr std::size_t SWAPS_TOGETHER = 1 << 14;  // triangles measured together
+constexpr double SWAP_GAIN = 1e-3;  // smallest betterment of the worse alpha for a swap
 
 /// The corners of the two triangles at an edge that is not on the border: a-b-c and b-a-d.
 struct Quadrilateral {
@@ -159,7 +159,7 @@ struct DegreeSwaps {
 void measure_dirty(const Triangulation& t, const SurfaceFrames& s, const VertexMarks& marks,
                    Array<double>& shape) {
     shape.resize(t.region.size(), 1.0);
-    for_each_block(t.region.size(), BLOCK, [&](std::size_t first, std::size_t last) {
+    for_each_block(t.region.size(), SWAPS_TOGETHER, [&](std::size_t first, std::size_t last) {
         for (auto k = static_cast<Triangle>(first); k < static_cast<Triangle>(last); ++k)
             if (t.region[k] != DEAD && is_dirty(t, marks, k))
                 shape[k] = triangle_shape(s, t.tri[3 * k], t.tri[3 * k + 1], t.tri[3 * k + 2]);

@@ -7,7 +7,7 @@
 namespace surfmesh {
 namespace {
 
-constexpr std::size_t BLOCK = 1 << 14;  // triangles looked at together
+constexpr std::size_t SHAPES_TOGETHER = 1 << 14;  // triangles looked at together
 
 constexpr double FIRST_RADIUS = 0.16, LAST_RADIUS = 0.02;  // of the search, in unit lengths
 constexpr double LONGEST_WAY = 0.5;                        // in all, unit lengths
@@ -78,7 +78,8 @@ double move_to_best(Triangulation& t, SurfaceFrames& s, Vertex v, HalfEdge start
 /// The triangles with alpha below ``least``, as they are before any is changed.
 Array<Triangle> triangles_below(const Triangulation& t, const SurfaceFrames& s, double least) {
     return collect_by_blocks<Triangle>(
-        t.region.size(), BLOCK, [&](std::size_t first, std::size_t last, Array<Triangle>& own) {
+        t.region.size(), SHAPES_TOGETHER,
+        [&](std::size_t first, std::size_t last, Array<Triangle>& own) {
             for (auto k = static_cast<Triangle>(first); k < static_cast<Triangle>(last); ++k)
                 if (t.region[k] != DEAD &&
                     is_shape_below(s, t.tri[3 * k], t.tri[3 * k + 1], t.tri[3 * k + 2], least))

@@ -18,7 +18,7 @@ constexpr double LONGEST_LINE = 20.0;  // circles on it, over the root of all th
 constexpr int BISECTIONS = 7;          // for the place of the line
 // Of the box's width: how far ``behind`` lies off the line. Flat, so that no circle gets beyond the
 // edges between it and the ends of the line, which is some circles longer than the box is wide
-constexpr double BEHIND = 1e-3;
+constexpr double BEHIND_LAST_CIRCLE = 1e-3;
 constexpr double BEYOND_LINE = 1e-6;  // of that: the box reaches over the line, or it might miss it
 
 PackingLimits limits_of(Point2 origin, Point2 low, Point2 high) {
@@ -73,7 +73,7 @@ Packing pack_half(const Background& background, Array<Circle> circles, const Lin
     const Point2 left{-line.direction.y, line.direction.x};
     const Point2 first = circles[0].centre;
     const Point2 last = circles.back().centre;
-    const double off = BEHIND * norm(last - first);
+    const double off = BEHIND_LAST_CIRCLE * norm(last - first);
     const Point2 behind = 0.5 * (first + last) - off * left;
     // the box as far as a little to the right of the line
     const Point2 bound = line.through - BEYOND_LINE * off * left;

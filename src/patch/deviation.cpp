@@ -20,7 +20,7 @@ constexpr double CLOSE_FOOT = 0.02;  // the same of a triangle's height: 0.2 % o
 constexpr double NEAR_LIMIT = 0.88;  // of the limit: a quadric may be 4.2 % farther between samples
 constexpr int STEPS = 12;     // of a projection, at most: where speeds change fast guesses are poor
 constexpr int FEW_STEPS = 4;  // in the mesher, where triangles are small and guesses near
-constexpr std::size_t BLOCK = 2048;  // triangles looked at together
+constexpr std::size_t SAMPLED_TOGETHER = 2048;  // triangles looked at together
 
 /// Points seen from the tangent planes at uv.
 Array<TangentPlaneOffset> offsets(SurfaceReader& surface, std::span<const Point3> points,
@@ -218,7 +218,8 @@ Array<double> triangle_widths(SurfaceReader& surface, const Chart& chart,
                               std::span<const SpaceTriangle> corners,
                               std::span<const PlaneTriangle> xy, Array<double> deviation) {
     surface.for_each_block(
-        corners.size(), BLOCK, [&](SurfaceReader& reader, std::size_t first, std::size_t last) {
+        corners.size(), SAMPLED_TOGETHER,
+        [&](SurfaceReader& reader, std::size_t first, std::size_t last) {
             const std::size_t count = last - first;
             Array<double> high(count, 0.0), low(count, 0.0);  // the corners are on the surface
             Array<Point2> uv(count);
@@ -281,7 +282,7 @@ Array<double> triangle_deviations(SurfaceReader& surface, const Chart& chart,
                                   std::span<const SpaceTriangle> corners,
                                   std::span<const PlaneTriangle> xy, double limit) {
     Array<double> error(corners.size(), 0.0);
-    surface.for_each_block(corners.size(), BLOCK,
+    surface.for_each_block(corners.size(), SAMPLED_TOGETHER,
                            [&](SurfaceReader& reader, std::size_t first, std::size_t last) {
                                const std::size_t count = last - first;
                                const TriangleBlock block{corners.subspan(first, count),

@@ -5,7 +5,7 @@
 namespace surfmesh {
 namespace {
 
-constexpr std::size_t BLOCK = 1 << 12;  // points put into space together
+constexpr std::size_t POINTS_TOGETHER = 1 << 12;  // points put into space together
 
 }  // namespace
 
@@ -15,7 +15,7 @@ MappedPatch map_to_space(PatchState& state, std::span<const Point2> node_uv,
     const Triangulation& t = state.t;
     MappedPatch found;
     found.uv.resize(t.xy.size());
-    for_each_block(t.xy.size(), BLOCK, [&](std::size_t first, std::size_t last) {
+    for_each_block(t.xy.size(), POINTS_TOGETHER, [&](std::size_t first, std::size_t last) {
         for (std::size_t v = first; v < last; ++v) found.uv[v] = state.chart().to_uv(t.xy[v]);
     });
     for (std::size_t k = 0; k < node_uv.size(); ++k) found.uv[state.nodes().vertex[k]] = node_uv[k];
@@ -29,7 +29,8 @@ MappedPatch map_to_space(PatchState& state, std::span<const Point2> node_uv,
     found.sizes.resize(vertex.size());
     found.points.resize(vertex.size());
     state.surface().for_each_block(
-        vertex.size(), BLOCK, [&](SurfaceReader& reader, std::size_t first, std::size_t last) {
+        vertex.size(), POINTS_TOGETHER,
+        [&](SurfaceReader& reader, std::size_t first, std::size_t last) {
             Array<Point2> places;
             for (std::size_t k = first; k < last; ++k) {
                 const std::int64_t v = vertex[k];

@@ -14,9 +14,9 @@ namespace surfmesh {
 namespace {
 
 constexpr int FEW = 4;  // an interior vertex with at most this many triangles is removed
-constexpr double LEAST_FOR_DEGREE = 0.4;  // worst alpha that a swap for degrees may leave
-constexpr int SWEEPS = 8;                 // of swaps over all edges, at most
-constexpr std::size_t BLOCK = 1 << 12;    // vertices put on the surface together
+constexpr double LEAST_FOR_DEGREE = 0.4;            // worst alpha that a swap for degrees may leave
+constexpr int SWEEPS = 8;                           // of swaps over all edges, at most
+constexpr std::size_t VERTICES_TOGETHER = 1 << 12;  // vertices put on the surface together
 
 // Of the domain: how far from a kink its two sides are looked at, and in which directions.
 constexpr double BESIDE_KINK = 1e-6;
@@ -107,7 +107,7 @@ Array<Vertex> PatchState::identified() const {
 }
 
 void PatchState::set_frames(std::span<const Vertex> vertices) {
-    for_each_block(vertices.size(), BLOCK, [&](std::size_t first, std::size_t last) {
+    for_each_block(vertices.size(), VERTICES_TOGETHER, [&](std::size_t first, std::size_t last) {
         for (const Vertex v : vertices.subspan(first, last - first))
             set_size(t, frames, setting_.background, v);
     });
@@ -116,7 +116,7 @@ void PatchState::set_frames(std::span<const Vertex> vertices) {
 
 /// The same where sizes are those of the places already.
 void PatchState::set_sized_frames(std::span<const Vertex> vertices, bool on_kink) {
-    surface_.for_each_block(vertices.size(), BLOCK,
+    surface_.for_each_block(vertices.size(), VERTICES_TOGETHER,
                             [&](SurfaceReader& reader, std::size_t first, std::size_t last) {
                                 set_block(reader, vertices.subspan(first, last - first), on_kink);
                             });
@@ -140,11 +140,12 @@ void PatchState::set_block(SurfaceReader& reader, std::span<const Vertex> vertic
 }
 
 void PatchState::renew_frames(std::span<const Vertex> vertices, double drift) {
-    const Array<Vertex> far = collect_by_blocks<Vertex>(
-        vertices.size(), BLOCK, [&](std::size_t first, std::size_t last, Array<Vertex>& own) {
-            for (const Vertex v : vertices.subspan(first, last - first))
-                if (frames.drift[v] > drift) own.push_back(v);
-        });
+    const Array<Vertex> far =
+        collect_by_blocks<Vertex>(vertices.size(), VERTICES_TOGETHER,
+                                  [&](std::size_t first, std::size_t last, Array<Vertex>& own) {
+                                      for (const Vertex v : vertices.subspan(first, last - first))
+                                          if (frames.drift[v] > drift) own.push_back(v);
+                                  });
     set_frames(all(far));
 }
 

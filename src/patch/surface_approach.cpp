@@ -19,7 +19,7 @@ constexpr double SUSPECT = 0.82, SUSPECT_STRETCHED = 0.7;
 // estimate is for triangles small beside the features.
 constexpr std::size_t FEW_TRIANGLES = 20'000;
 constexpr double FLAT = 1e-9;
-constexpr std::size_t BLOCK = 1 << 15;  // triangles looked through together
+constexpr std::size_t TRIANGLES_TOGETHER = 1 << 15;  // triangles looked through together
 
 constexpr double MANY_FAR = 0.05, MANY_FAR_STRETCHED = 0.02;  // of the triangles
 constexpr int CHORD_ROUNDS = 4, STRETCHED_CHORD_ROUNDS = 4, SPLIT_ROUNDS = 6;
@@ -41,7 +41,7 @@ constexpr double LEAST_SHAPE = 0.72;  // alpha that moves keep to or restore
 
 using Triangles = Array<Triangle>;
 
-std::span<const Triangle> all(const Triangles& triangles) {
+std::span<const Triangle> every(const Triangles& triangles) {
     return {triangles.data(), triangles.size()};
 }
 
@@ -89,11 +89,12 @@ Triangles suspects_by_estimate(const PatchState& state, double chord) {
     const double one_sided = state.is_anisotropic() ? SUSPECT_STRETCHED : SUSPECT;
     const double part = state.asked().is_width ? 0.5 * one_sided : one_sided;
     const double least = (estimate.size() > FEW_TRIANGLES ? part : FLAT) * chord;
-    return collect_by_blocks<Triangle>(
-        estimate.size(), BLOCK, [&](std::size_t first, std::size_t last, Triangles& found) {
-            for (auto k = static_cast<Triangle>(first); k < static_cast<Triangle>(last); ++k)
-                if (estimate[k] > least) found.push_back(k);
-        });
+    return collect_by_blocks<Triangle>(estimate.size(), TRIANGLES_TOGETHER,
+                                       [&](std::size_t first, std::size_t last, Triangles& found) {
+                                           for (auto k = static_cast<Triangle>(first);
+                                                k < static_cast<Triangle>(last); ++k)
+                                               if (estimate[k] > least) found.push_back(k);
+                                       });
 }
 
 bool is_many(const PatchState& state, const Triangles& far) {
@@ -107,8 +108,8 @@ Triangles shrink_in_rounds(PatchState& state, Triangles suspects, double chord, 
                            bool splits) {
     const double limit = CHORD_MARGIN * chord;
     for (int round = 0; round < rounds && !suspects.empty() && !state.stopped(); ++round) {
-        const Array<double> error = deviations(state, all(suspects), chord);
-        if (shrink_far(state.t, state.frames, state.marks, all(suspects),
+        const Array<double> error = deviations(state, every(suspects), chord);
+        if (shrink_far(state.t, state.frames, state.marks, every(suspects),
                        {error.data(), error.size()}, limit,
                        splits ? SMALLEST_SCALE : STEERED_SCALE) == 0)
             break;
@@ -122,25 +123,25 @@ Triangles shrink_in_rounds(PatchState& state, Triangles suspects, double chord, 
         state.swap();
         suspects = joined(changes.triangles(), above(suspects, error, limit));
     }
-    return above(suspects, deviations(state, all(suspects), chord), SPLIT_MARGIN * chord);
+    return above(suspects, deviations(state, every(suspects), chord), SPLIT_MARGIN * chord);
 }
 
 /// Move corners of the triangles ``far`` until those around are near; returns those left.
 Triangles move_far(PatchState& state, Triangles far, double chord, int rounds) {
     for (int round = 0; round < rounds && !far.empty() && !state.stopped(); ++round) {
         Changes changes(state);
-        state.bring_nearer(all(far), {ESTIMATE_MARGIN * chord, LEAST_SHAPE});
+        state.bring_nearer(every(far), {ESTIMATE_MARGIN * chord, LEAST_SHAPE});
         if (state.moved.empty()) break;
         changes.add_moved();
         const Triangles suspects = joined(changes.triangles(), far);
-        far = above(suspects, deviations(state, all(suspects), chord), SPLIT_MARGIN * chord);
+        far = above(suspects, deviations(state, every(suspects), chord), SPLIT_MARGIN * chord);
     }
     return far;
 }
 
 /// The farthest of the triangles: those in the upper half of what they exceed the limit by.
 Triangles farthest_of(PatchState& state, const Triangles& far, double chord) {
-    const Array<double> error = deviations(state, all(far), chord);
+    const Array<double> error = deviations(state, every(far), chord);
     double most = 0.0;
     for (const double e : error) most = std::max(most, e);
     const double limit = SPLIT_MARGIN * chord;
@@ -154,7 +155,7 @@ Triangles insert_far(PatchState& state, Triangles far, double chord) {
     for (int round = 0; round < INSERTION_ROUNDS && !far.empty() && !state.stopped(); ++round) {
         Changes changes(state);
         state.marks.active.fill(0);
-        if (state.split_farthest(all(farthest_of(state, far, chord))) == 0) break;
+        if (state.split_farthest(every(farthest_of(state, far, chord))) == 0) break;
         for (int pass = 0; pass < 2 && round < SMOOTHED_ROUNDS; ++pass) {
             state.swap();
             state.smooth();
@@ -162,7 +163,7 @@ Triangles insert_far(PatchState& state, Triangles far, double chord) {
         }
         state.swap();
         const Triangles suspects = joined(changes.triangles(), far);
-        far = above(suspects, deviations(state, all(suspects), chord), SPLIT_MARGIN * chord);
+        far = above(suspects, deviations(state, every(suspects), chord), SPLIT_MARGIN * chord);
         far = move_far(state, std::move(far), chord, MOVES_AFTER_INSERTION);
     }
     return far;
@@ -178,9 +179,9 @@ Triangles split_far(PatchState& state, Triangles far, double chord, bool first) 
     const Triangles at_first = many ? far : Triangles{};
     for (int round = 0; round < SPLIT_ROUNDS && !state.stopped(); ++round) {
         Changes changes(state);
-        if (state.split_farthest(all(far)) == 0) break;
+        if (state.split_farthest(every(far)) == 0) break;
         const Triangles suspects = joined(changes.triangles(), far);
-        far = above(suspects, deviations(state, all(suspects), chord), SPLIT_MARGIN * chord);
+        far = above(suspects, deviations(state, every(suspects), chord), SPLIT_MARGIN * chord);
     }
     return many ? at_first : far;
 }
@@ -198,7 +199,7 @@ Triangles approach_surface(PatchState& state, bool first) {
     if (first && is_many(state, far)) return far;
     state.allow_splits();
     far = insert_far(state, std::move(far), chord);
-    return above(far, deviations(state, all(far), chord), TOLERATED * chord);
+    return above(far, deviations(state, every(far), chord), TOLERATED * chord);
 }
 
 }  // namespace surfmesh

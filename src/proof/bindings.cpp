@@ -118,7 +118,7 @@ auto parted(const Corners2& uv, const Vector<std::int32_t>& twins) {
 using Segments3 = nb::ndarray<const double, nb::shape<-1, 2, 3>, nb::c_contig, nb::device::cpu>;
 
 auto bounds_of_curve(const Curve& curve, const Matrix<double, 2>& t, const Segments3& ends) {
-    constexpr int PARTS = 8;
+    constexpr int PARTS = 4;
     require_rows(ends.shape(0), t.shape(0), "ends");
     if (curve.dimension() != 3) throw nb::value_error("the curve must lie in space");
     Array<double> found;

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "proof/covering.hpp"
+#include "proof/triangle_grid.hpp"
 
 namespace surfmesh {
 namespace {
@@ -117,7 +118,6 @@ class Looker {
     [[nodiscard]] double beyond_rim(const Neighbour& member, std::size_t m, std::size_t s,
                                     const Cell& cell, double grown, double beside) const;
     [[nodiscard]] double over_side(std::size_t m, double own, const Cell& cell, double grown) const;
-    void grid_of(const PlaneCorners& uv, std::size_t side);
     SurfaceStatus compute_points(std::size_t side);
 
     const Surface& surface_;
@@ -167,27 +167,11 @@ SurfaceStatus Looker::look_point_by_point(std::int32_t t, double limit, int leve
     return SurfaceStatus::DONE;
 }
 
-/// The grid with ``side`` cells along a side of a triangle of the (u, v) plane.
-void Looker::grid_of(const PlaneCorners& uv, std::size_t side) {
-    uv_.clear();
-    const double n = static_cast<double>(side);
-    for (std::size_t i = 0; i <= side; ++i)
-        for (std::size_t j = 0; i + j <= side; ++j) {
-            const double a = static_cast<double>(i) / n, b = static_cast<double>(j) / n;
-            uv_.push_back((1.0 - a - b) * uv[0] + a * uv[1] + b * uv[2]);
-        }
-}
-
 /// The points of the grid of the piece.
 SurfaceStatus Looker::compute_points(std::size_t side) {
-    const PlaneCorners& uv = piece_.uv;
-    grid_of(uv, side);
-    const auto part = [](double x, double y, double z) {  // of the range that rounding may move by
-        const double size = std::max({std::abs(x), std::abs(y), std::abs(z)});
-        const double range = std::max({x, y, z}) - std::min({x, y, z});
-        return range > 0.0 ? 0x1p-50 * size / range : 0.0;
-    };
-    rounded_uv_ = part(uv[0].x, uv[1].x, uv[2].x) + part(uv[0].y, uv[1].y, uv[2].y);
+    uv_.clear();
+    append_grid(piece_.uv, side, uv_);
+    rounded_uv_ = rounded_part(piece_.uv);
     points_.resize(uv_.size());
     const std::size_t level = std::bit_width(side) - 1;
     if (piece_.is_own && known_[level].size() == uv_.size()) {
@@ -203,10 +187,7 @@ SurfaceStatus Looker::compute_points(std::size_t side) {
 SurfaceStatus Looker::compute_first(std::span<const std::int32_t> which,
                                     Array<EnclosedPoint>& points) {
     Array<Point2> uv;
-    for (const std::int32_t t : which) {
-        grid_of(mesh_.uv[t], std::size_t{1} << FIRST_LEVEL);
-        for (const Point2 place : uv_) uv.push_back(place);
-    }
+    for (const std::int32_t t : which) append_grid(mesh_.uv[t], std::size_t{1} << FIRST_LEVEL, uv);
     points.resize(uv.size());
     return surface_.enclose({uv.data(), uv.size()}, {points.data(), points.size()});
 }

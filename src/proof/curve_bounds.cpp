@@ -8,11 +8,11 @@
 namespace surfmesh {
 namespace {
 
-constexpr double ROUNDING = 0x1p-46;  // relative, more than that of any sum here
+constexpr double CURVE_ROUNDING = 0x1p-46;  // relative, more than that of any sum here
 constexpr std::array<Point3, 3> AXES = {{{1.0, 0.0, 0.0}, {0.0, 1.0, 0.0}, {0.0, 0.0, 1.0}}};
 
 double root_of_squares(const std::array<double, 3>& x) {
-    return std::sqrt(x[0] * x[0] + x[1] * x[1] + x[2] * x[2]) * (1.0 + ROUNDING);
+    return std::sqrt(x[0] * x[0] + x[1] * x[1] + x[2] * x[2]) * (1.0 + CURVE_ROUNDING);
 }
 
 struct CurvePoint {
@@ -36,7 +36,7 @@ CurvePoint point_at(const Curve& curve, double t, Point3 about) {
 double distance_to_segment(Point3 x, Point3 end) {
     const double length = dot(end, end);
     const double t = length > 0.0 ? std::clamp(dot(x, end) / length, 0.0, 1.0) : 0.0;
-    return norm(x - t * end) + ROUNDING * (norm(x) + norm(end));
+    return norm(x - t * end) + CURVE_ROUNDING * (norm(x) + norm(end));
 }
 
 /// The largest |c''| from one parameter to another.
@@ -59,19 +59,18 @@ Array<double> curve_bounds(const Curve& curve, std::span<const ParameterEnds> t,
     for (std::size_t i = 0; i < t.size(); ++i) {
         const Point3 start = ends[i][0], end = ends[i][1] - start;
         const double step = (t[i][1] - t[i][0]) / parts;
-        double most = 0.0, bend = 0.0, off = 0.0, from = t[i][0];
+        double most = 0.0, off = 0.0;
         for (int part = 0; part <= parts; ++part) {
             const double to = part == parts ? t[i][1] : t[i][0] + step * part;
             const auto [x, error] = point_at(curve, to, start);
             if (part == 0) off = norm(x) + error;
             if (part == parts) off = std::max(off, norm(x - end) + error);
             most = std::max(most, distance_to_segment(x, end) + error);
-            if (part > 0)
-                bend = std::max(bend, largest_bend(curve, std::min(from, to), std::max(from, to)));
-            from = to;
         }
+        const double bend =
+            largest_bend(curve, std::min(t[i][0], t[i][1]), std::max(t[i][0], t[i][1]));
         const double sag = step != 0.0 ? 0.125 * (step * step) * bend : 0.0;
-        const double bound = (most + sag * (1.0 + ROUNDING) + off) * (1.0 + ROUNDING);
+        const double bound = (most + sag * (1.0 + CURVE_ROUNDING) + off) * (1.0 + CURVE_ROUNDING);
         found[i] = bound <= intervals::INFINITE ? bound : intervals::INFINITE;
     }
     return found;

@@ -22,4 +22,8 @@ SurfaceStatus lower_by_grid(const FourthDerivatives& surface, const ProofRequest
                             std::span<const FourthParts> rho, Array<std::int32_t>& which,
                             std::span<TriangleBounds> out);
 
+/// The same with points alone, of surfaces without fourth derivatives: heights only.
+SurfaceStatus lower_heights(const Surface& surface, const ProofRequest& asked,
+                            Array<std::int32_t>& which, std::span<TriangleBounds> out);
+
 }  // namespace surfmesh

@@ -6,9 +6,9 @@
 namespace surfmesh {
 namespace {
 
-constexpr double ROUNDING = 0x1p-46;    // relative, more than that of any sum here
-constexpr double STEEPEST = 0.766;      // the sine of 50 degrees
-constexpr double FLATTEST = 0x1p-20;    // tilt of a normal
+constexpr double RING_ROUNDING = 0x1p-46;   // relative, more than that of any sum here
+constexpr double STEEPEST = 0.766;          // the sine of 50 degrees
+constexpr double STEEPEST_FRAME = 0x1p-20;  // tilt of a normal
 constexpr double CERTAIN = 1.0 - 1e-5;  // lengths are less sure than that by far, with such tilts
 
 /// What is known of a triangle's shape, in numbers that are on the safe side.
@@ -32,7 +32,7 @@ Shape shape_of(const SpaceCorners& p, const TriangleBounds& bounds) {
     const double area = norm(n);
     const double longest = std::max({shape.length[0], shape.length[1], shape.length[2]});
     shape.tilt = (32.0 * 0x1p-53 * longest * longest + 8.0 * bounds.corner * longest) / area;
-    if (!(shape.tilt < FLATTEST)) return shape;
+    if (!(shape.tilt < STEEPEST_FRAME)) return shape;
     shape.is_known = true;
     shape.normal = (1.0 / area) * n;
     for (std::size_t k = 0; k < 3; ++k) {
@@ -98,9 +98,10 @@ double cost_of_side(const Side& own, const Side& other, bool run_alike) {
     if (!other.shape.is_known) return intervals::INFINITE;
     const Point3 &n = own.shape.normal, &m = other.shape.normal;
     if (!((run_alike ? -1.0 : 1.0) * dot(n, m) > 0.0)) return intervals::INFINITE;
-    const double sine = norm(cross(n, m)) + own.shape.tilt + other.shape.tilt + ROUNDING;
+    const double sine = norm(cross(n, m)) + own.shape.tilt + other.shape.tilt + RING_ROUNDING;
     if (!(sine < STEEPEST)) return intervals::INFINITE;
-    const double cosine = std::sqrt(1.0 - sine * sine) * (1.0 - ROUNDING), tangent = sine / cosine;
+    const double cosine = std::sqrt(1.0 - sine * sine) * (1.0 - RING_ROUNDING),
+                 tangent = sine / cosine;
     // seen along n, the curves over the neighbour's other sides stay beyond this one
     if (!(other.bounds.inner[other.k] + other.bounds.bend * tangent <= other.height()))
         return intervals::INFINITE;
@@ -108,7 +109,7 @@ double cost_of_side(const Side& own, const Side& other, bool run_alike) {
     const double over = own.height_beside(0.0) + own.outward() * tangent;
     const double high = other.height_beside(other.bounds.height * tangent);
     const double under = std::max(high / cosine, high * cosine + other.outward() * sine);
-    return std::max(over, under) * (1.0 + ROUNDING);
+    return std::max(over, under) * (1.0 + RING_ROUNDING);
 }
 
 }  // namespace
@@ -140,7 +141,7 @@ RingBounds ring_bounds(std::span<const SpaceCorners> corners,
         found.by_ring[t] = most < own.whole ? 1 : 0;
         const double bound = std::min(most, own.whole) + corner;
         found.bound[t] =
-            bound <= intervals::INFINITE ? bound * (1.0 + ROUNDING) : intervals::INFINITE;
+            bound <= intervals::INFINITE ? bound * (1.0 + RING_ROUNDING) : intervals::INFINITE;
     }
     return found;
 }

@@ -6,9 +6,9 @@
 namespace surfmesh {
 namespace {
 
-constexpr double ROUNDING = 0x1p-47;  // relative, more than that of any short sum here
-constexpr double TILTED = 0.1;        // a normal known no better says nothing
-constexpr double ANY_WAY = 1.0;       // along an axis there is no more than in all then
+constexpr double SIDE_ROUNDING = 0x1p-47;  // relative, more than that of any short sum here
+constexpr double TILTED = 0.1;             // a normal known no better says nothing
+constexpr double ANY_WAY = 1.0;            // along an axis there is no more than in all then
 
 /// The largest of l_0 l_1 a + l_1 l_2 b + l_2 l_0 c over the simplex; never less than 0.
 ///
@@ -36,7 +36,8 @@ double height_of(const BySide& up, const BySide& down) {
 /// |r''(e, e)|, on the safe side.
 double size_along(const SideBends& bends, std::size_t e, const TriangleFrame& frame) {
     const double x = bends.by_axis[0][e], y = bends.by_axis[1][e], z = bends.by_axis[2][e];
-    return std::sqrt(x * x + y * y + z * z) * (1.0 + 4.0 * std::min(frame.tilt, TILTED) + ROUNDING);
+    return std::sqrt(x * x + y * y + z * z) *
+           (1.0 + 4.0 * std::min(frame.tilt, TILTED) + SIDE_ROUNDING);
 }
 
 }  // namespace
@@ -45,7 +46,7 @@ PieceSize size_from(const SideBends& bends, const TriangleFrame& frame) {
     BySide size{}, up{}, down{};
     for (std::size_t e = 0; e < 3; ++e) {
         size[e] = size_along(bends, e, frame);
-        const double tilted = (frame.tilt + ROUNDING) * size[e];
+        const double tilted = (frame.tilt + SIDE_ROUNDING) * size[e];
         up[e] = bends.up[e] + tilted;
         down[e] = bends.down[e] + tilted;
     }
@@ -58,13 +59,13 @@ TriangleBounds bounds_from(const SideBends& bends, const TriangleFrame& frame, d
     for (std::size_t e = 0; e < 3; ++e) {
         const double x = bends.by_axis[0][e], y = bends.by_axis[1][e], z = bends.by_axis[2][e];
         size[e] = size_along(bends, e, frame);
-        const double tilted = (frame.tilt + ROUNDING) * size[e];
+        const double tilted = (frame.tilt + SIDE_ROUNDING) * size[e];
         normal[e] = z + tilted;
         up[e] = bends.up[e] + tilted;
         down[e] = bends.down[e] + tilted;
         for (std::size_t k = 0; k < 3; ++k) {
             const Point2 side = frame.sides[k];  // across it: (-y, x)
-            const double more = (4.0 * frame.tilt + ROUNDING) * size[e];
+            const double more = (4.0 * frame.tilt + SIDE_ROUNDING) * size[e];
             across[k][e] = std::abs(side.y) * x + std::abs(side.x) * y + more;
             along[k][e] = std::abs(side.x) * x + std::abs(side.y) * y + more;
         }
@@ -92,7 +93,7 @@ TriangleBounds bounds_from(const SideBends& bends, const TriangleFrame& frame, d
         found.beside[k] = 0.125 * (normal[k] + more);
         found.rim[k] =
             std::sqrt(found.beside[k] * found.beside[k] + found.outward[k] * found.outward[k]) *
-            (1.0 + ROUNDING);
+            (1.0 + SIDE_ROUNDING);
     }
     return found;
 }

@@ -11,9 +11,9 @@
 namespace surfmesh {
 namespace {
 
-constexpr double ROUNDING = 0x1p-46;   // relative, more than that of any short sum here
-constexpr std::int32_t TOGETHER = 32;  // triangles over one cell, at first
-constexpr double LITTLE = 0.04;        // of the height: rho that is good enough
+constexpr double SMOOTH_ROUNDING = 0x1p-46;   // relative, more than that of any short sum here
+constexpr std::int32_t SMOOTH_TOGETHER = 32;  // triangles over one cell, at first
+constexpr double LITTLE = 0.04;               // of the height: rho that is good enough
 constexpr double LITTLE_OF_LIMIT = 0.005;
 constexpr double WORTH =
     1.5;  // how much less fourth derivatives are over one triangle: else no cuts
@@ -84,7 +84,7 @@ CornerBends corner_bends(const std::array<const SecondJet*, 3>& jets, const Plan
         for (std::size_t k = 0; k < 3; ++k) {
             const auto [bend, error] = bend_of(*jets[m], weight[k]);
             for (std::size_t d = 0; d < 3; ++d) found.value[d][k][m] = dot(axes[d], bend);
-            found.error[k] = std::max(found.error[k], error * (1.0 + ROUNDING));
+            found.error[k] = std::max(found.error[k], error * (1.0 + SMOOTH_ROUNDING));
         }
     return found;
 }
@@ -115,7 +115,7 @@ FourthParts fourth_parts(const FourthMagnitudes& most, const PlaneCorners& uv,
                 const Point3& x = axes[axis];
                 const double along =
                     (std::abs(x.x) * size.x + std::abs(x.y) * size.y + std::abs(x.z) * size.z) *
-                    ((1.0 + ROUNDING) / 6.0);
+                    ((1.0 + SMOOTH_ROUNDING) / 6.0);
                 found[axis][k] = std::max(found[axis][k], along);
                 found[axis][l] = std::max(found[axis][l], along);
             }
@@ -206,7 +206,8 @@ void SmoothBounds::prepare() {
         double off = 0.0;
         for (std::size_t k = 0; k < 3 && asked_.corners_are_on_surface; ++k) {
             const auto& [value, error] = jets_[places_.at(t, k)][0];
-            const double away = norm(asked_.corners[t][k] - value) * (1.0 + ROUNDING) + 2.0 * error;
+            const double away =
+                norm(asked_.corners[t][k] - value) * (1.0 + SMOOTH_ROUNDING) + 2.0 * error;
             off = std::max(off, away <= intervals::INFINITE ? away : intervals::INFINITE);
         }
         off_[t] = off;
@@ -242,7 +243,7 @@ std::array<SmoothBounds::Group, 2> SmoothBounds::halves_of(Group group) const {
 }
 
 void SmoothBounds::divide(Group group) {
-    if (group.size() <= TOGETHER) {
+    if (group.size() <= SMOOTH_TOGETHER) {
         groups_.push_back(group);
         return;
     }

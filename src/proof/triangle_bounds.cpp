@@ -11,8 +11,8 @@
 namespace surfmesh {
 namespace {
 
-constexpr std::size_t BLOCK = 1024;   // triangles looked at together
-constexpr double ROUNDING = 0x1p-47;  // relative, more than that of any short sum here
+constexpr std::size_t BLOCK = 1024;         // triangles looked at together
+constexpr double BOUND_ROUNDING = 0x1p-47;  // relative, more than that of any short sum here
 
 void join(SideBends& all, const Bends& bends, const PlaneCorners& uv) {
     for (std::size_t k = 0; k < 3; ++k) {
@@ -32,13 +32,13 @@ void join(SideBends& all, const Bends& bends, const PlaneCorners& uv) {
                 std::max(std::abs(a.lo + b.lo + c.lo), std::abs(a.hi + b.hi + c.hi));
             // nan where infinities meet
             const double found =
-                most <= intervals::INFINITE ? most + ROUNDING * size : intervals::INFINITE;
+                most <= intervals::INFINITE ? most + BOUND_ROUNDING * size : intervals::INFINITE;
             all.by_axis[d][k] = std::max(all.by_axis[d][k], found);
             if (d < 2) continue;
             const double up = a.hi + b.hi + c.hi, down = -(a.lo + b.lo + c.lo);
             const bool known = found < intervals::INFINITE;
-            all.up[k] = std::max(all.up[k], known ? up + ROUNDING * size : found);
-            all.down[k] = std::max(all.down[k], known ? down + ROUNDING * size : found);
+            all.up[k] = std::max(all.up[k], known ? up + BOUND_ROUNDING * size : found);
+            all.down[k] = std::max(all.down[k], known ? down + BOUND_ROUNDING * size : found);
         }
     }
 }
@@ -121,7 +121,7 @@ SurfaceStatus corner_errors(const Surface& surface, std::span<const SpaceCorners
         for (std::size_t k = 0; k < 3; ++k) {
             const auto& [value, off] = found[3 * t + k];
             // each coordinate is off: twice that covers their root sum of squares
-            const double away = norm(corners[t][k] - value) * (1.0 + ROUNDING) + 2.0 * off;
+            const double away = norm(corners[t][k] - value) * (1.0 + BOUND_ROUNDING) + 2.0 * off;
             error[t] = std::max(error[t], away <= intervals::INFINITE ? away : intervals::INFINITE);
         }
     return status;
@@ -145,14 +145,27 @@ SurfaceStatus bounds_of_block(const Surface& surface, const ProofRequest& asked,
     for (int level = 0; !parts.empty(); ++level) {
         if (const auto status = block.look_at(parts, level == 0); status != SurfaceStatus::DONE)
             return status;
-        Array<Part> finer;
+        Array<std::int32_t> open;
         for (const Part& part : parts) {
             const std::int32_t t = part.triangle;
+            if (!open.empty() && open.back() == t) continue;  // its parts come together
+            const double height = level == 0 ? intervals::INFINITE : out[t].height;
             out[t] = bounds_from(block.bends[t], block.frames[t], off[t]);
+            out[t].height = std::min(out[t].height, height);
             // a kink on a line of the cut would be missed: what has no bound at first has none
-            const bool may_cut = level < depth && out[t].whole < intervals::INFINITE;
-            if (!may_cut || is_within(out[t], rims[t], limits[t] - off[t])) continue;
-            for (const PlaneCorners& quarter : cut(part.uv)) finer.push_back({quarter, t});
+            if (level < depth && out[t].whole < intervals::INFINITE &&
+                !is_within(out[t], rims[t], limits[t] - off[t]))
+                open.push_back(t);
+        }
+        if (level == 0 && on_surface)
+            if (const auto status = lower_heights(surface, asked, open, out);
+                status != SurfaceStatus::DONE)
+                return status;
+        Array<Part> finer;
+        for (const Part& part : parts) {
+            if (!std::binary_search(open.begin(), open.end(), part.triangle)) continue;
+            for (const PlaneCorners& quarter : cut(part.uv))
+                finer.push_back({quarter, part.triangle});
         }
         parts = std::move(finer);
     }

@@ -8,6 +8,7 @@
 #include "quality/enclosed_volumes.hpp"
 #include "quality/explained_losses.hpp"
 #include "quality/face_creases.hpp"
+#include "quality/hidden_bounds.hpp"
 #include "quality/mesh_deviation.hpp"
 #include "quality/sampled_surface.hpp"
 #include "quality/solid_counts.hpp"
@@ -21,6 +22,8 @@ template <>
 struct Row<float> : RowOf<float, 1> {};
 template <>
 struct Row<Weights> : RowOf<double, 3> {};
+template <>
+struct Row<Bounded> : RowOf<std::uint8_t, 1> {};
 
 namespace {
 
@@ -281,6 +284,43 @@ void bind_solids(nb::module_& m) {
         "way as the other.");
 }
 
+void bind_hidden_bounds(nb::module_& m) {
+    using PlaneTriangles =
+        nb::ndarray<const double, nb::shape<-1, 3, 2>, nb::c_contig, nb::device::cpu>;
+    m.def(
+        "hidden_bounds",
+        [](const Surface& surface, const PlaneTriangles& uv, const Points3& corner,
+           const Points3& normal, const Vector<double>& tolerance, const Vector<double>& seen,
+           int levels) {
+            const std::size_t count = uv.shape(0);
+            require_rows(corner.shape(0), count, "corner");
+            require_rows(normal.shape(0), count, "normal");
+            require_rows(tolerance.shape(0), count, "tolerance");
+            require_rows(seen.shape(0), count, "seen");
+            if (levels < 0 || levels > 9) throw nb::value_error("levels is from 0 to 9");
+            const SampledTriangles triangles{
+                {reinterpret_cast<const ParameterTriangle*>(uv.data()), count},
+                rows<Point3>(corner),
+                rows<Point3>(normal),
+                rows<double>(tolerance),
+                rows<double>(seen)};
+            HiddenBounds found;
+            {
+                const nb::gil_scoped_release released;
+                found = hidden_bounds(surface, triangles, levels);
+            }
+            raise_failure(surface, found.status);
+            return view(found.bounded);
+        },
+        nb::arg("surface"), nb::arg("uv"), nb::arg("corner"), nb::arg("normal"),
+        nb::arg("tolerance"), nb::arg("seen"), nb::arg("levels"),
+        "Over which triangles (k, 3, 2) of (u, v) the surface surely hides nothing: 2 where its "
+        "second derivatives over their box say so at once, 1 where those over parts of them do, "
+        "cut in four up to ``levels`` times, else 0.\n\ncorner (k, 3): one corner of each in "
+        "space; normal (k, 3), of length 1; tolerance (k,): what may hide; seen (k,): the largest "
+        "distance at the corners, in the middles of the sides and at the centroid.");
+}
+
 void bind_area_and_volume(nb::module_& m) {
     m.def(
         "enclosed_volumes",
@@ -331,6 +371,7 @@ void bind_quality(nb::module_& m) {
     bind_creases(m);
     bind_stars(m);
     bind_solids(m);
+    bind_hidden_bounds(m);
     bind_area_and_volume(m);
 }
 

@@ -9,7 +9,7 @@ namespace {
 constexpr double TINY = std::numeric_limits<double>::min();  // no division by zero
 
 /// The larger of two, NaN where one of them is.
-double larger(double a, double b) { return b > a || b != b ? b : a; }
+double larger_of(double a, double b) { return b > a || b != b ? b : a; }
 
 }  // namespace
 
@@ -21,9 +21,10 @@ ExplainedLosses explained_losses(std::span<const Point3> points,
     for (std::size_t k = 0; k < triangles.size(); ++k) {
         const TriangleCorners& t = triangles[k];
         const Point3 a = points[t.a], b = points[t.b], c = points[t.c];
-        const double longest = larger(larger(norm(a - b), norm(b - c)), norm(c - a));
-        const double height = 2.0 * area[k] / larger(longest, TINY);
-        const double ratio = distance[k] / larger(height, TINY), square = slant * (ratio * ratio);
+        const double longest = larger_of(larger_of(norm(a - b), norm(b - c)), norm(c - a));
+        const double height = 2.0 * area[k] / larger_of(longest, TINY);
+        const double ratio = distance[k] / larger_of(height, TINY),
+                     square = slant * (ratio * ratio);
         lost.area[k] = area[k] * (square > 1.0 ? 1.0 : square);
         lost.volume[k] = area[k] * distance[k];
     }

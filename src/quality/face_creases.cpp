@@ -20,7 +20,9 @@ struct Box {
     }
 };
 
-Vertex corner(const TriangleCorners& t, std::size_t k) { return k == 0 ? t.a : k == 1 ? t.b : t.c; }
+Vertex corner_of(const TriangleCorners& t, std::size_t k) {
+    return k == 0 ? t.a : k == 1 ? t.b : t.c;
+}
 
 /// The boxes around the triangles of those faces that have edges.
 Array<Box> boxes_of(const MeasuredMesh& mesh, const ByFace& edges) {
@@ -38,12 +40,12 @@ Array<Box> boxes_of(const MeasuredMesh& mesh, const ByFace& edges) {
 ParameterTriangle from_half_edge(const MeasuredMesh& mesh, HalfEdge e) {
     const TriangleCorners& t = mesh.uv_triangles[e / 3];
     ParameterTriangle found;
-    for (std::size_t k = 0; k < 3; ++k) found[k] = mesh.uv[corner(t, (e % 3 + k) % 3)];
+    for (std::size_t k = 0; k < 3; ++k) found[k] = mesh.uv[corner_of(t, (e % 3 + k) % 3)];
     return found;
 }
 
 Vertex start_of(const MeasuredMesh& mesh, HalfEdge e) {
-    return corner(mesh.triangles[e / 3], e % 3);
+    return corner_of(mesh.triangles[e / 3], e % 3);
 }
 
 }  // namespace

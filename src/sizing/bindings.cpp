@@ -63,6 +63,8 @@ void bind_formulas_of_sizes(nb::module_& m) {
         nb::arg("k1"), nb::arg("k2"), "c (n,) with deviation = c h^2.");
     m.def("chord_size", &at_each<chord_size>, nb::arg("k1"), nb::arg("k2"), nb::arg("chord"),
           "Edge length (n,) at which triangles stay within chord.");
+    m.def("quadratic_chord_size", &at_each<quadratic_chord_size>, nb::arg("k1"), nb::arg("k2"),
+          nb::arg("chord"), "Edge length (n,) at which quadratic triangles stay within chord.");
     m.def(
         "share_of_width",
         [](const Numbers& k1, const Numbers& k2, const Numbers& ratio) {
@@ -120,6 +122,8 @@ void bind_rules(nb::module_& m) {
     nb::class_<ChordRule, CurvatureRule>(m, "ChordRule")
         .def(nb::init<double, bool>(), nb::arg("chord"), nb::arg("is_width") = false,
              "is_width: chord is that of the whole band that a triangle needs.");
+    nb::class_<QuadraticChordRule, CurvatureRule>(m, "QuadraticChordRule")
+        .def(nb::init<double>(), nb::arg("chord"));
     nb::class_<AngleRule, CurvatureRule>(m, "AngleRule")
         .def(nb::init<double, double>(), nb::arg("angle"), nb::arg("finest"),
              "angle: degrees. finest: nothing smaller is asked for, model units.");

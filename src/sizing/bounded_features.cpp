@@ -11,7 +11,7 @@ namespace surfmesh {
 namespace {
 
 constexpr double HIDDEN_RISE = 0.25;  // of ``chord``: what rises less within a cell is no feature
-constexpr std::size_t BLOCK = 512;    // cells of which bounds are taken at a time
+constexpr std::size_t CELLS_TOGETHER = 512;  // cells of which bounds are taken at a time
 
 Array<ParameterBox> boxes_of(const Chart& chart, const SeenCells& cells, std::size_t first,
                              std::size_t count) {
@@ -58,7 +58,7 @@ std::exception_ptr BoundedFeatures::take_failure() {
 bool BoundedFeatures::find(const SeenCells& cells, bool deep, std::span<std::uint8_t> found) {
     const std::size_t count = cells.low.size();
     Array<double> k(count), possible(count);
-    for_each_block(count, BLOCK, [&](std::size_t first, std::size_t last) {
+    for_each_block(count, CELLS_TOGETHER, [&](std::size_t first, std::size_t last) {
         bound_curvature(cells, first, {k.data() + first, last - first});
     });
     std::fill(found.begin(), found.end(), std::uint8_t{0});
@@ -117,7 +117,7 @@ void BoundedFeatures::bound_curvature(const SeenCells& cells, std::size_t first,
 /// the chord: by the mean value or by its values, which hold across kinks and jumps too.
 void BoundedFeatures::keep_rising(const SeenCells& cells, std::span<const std::int32_t> some,
                                   std::span<std::uint8_t> found) {
-    for_each_block(some.size(), BLOCK, [&](std::size_t first, std::size_t last) {
+    for_each_block(some.size(), CELLS_TOGETHER, [&](std::size_t first, std::size_t last) {
         const std::size_t count = last - first;
         Array<ParameterBox> boxes(count);
         for (std::size_t i = 0; i < count; ++i)

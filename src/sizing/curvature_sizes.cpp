@@ -8,6 +8,8 @@ namespace {
 // Largest ratio of two sizes of which no more than the square is taken.
 constexpr double LARGEST_RATIO = 1e100;
 
+constexpr double SADDLE_RESERVE = 0.72;  // where the curvatures are opposite
+
 constexpr double SQRT3 = 1.7320508075688772;
 
 double sign(double x) { return x > 0.0 ? 1.0 : x < 0.0 ? -1.0 : x; }
@@ -32,11 +34,23 @@ double deviation_reserve(PrincipalCurvatures k) {
     const double first = std::abs(k.k1), second = std::abs(k.k2);
     const double alike = least(first, second) / most(first, second);
     if (!(alike <= 1.0)) return DEVIATION_RESERVE;  // both 0, or infinite
+    // on saddles free rims bend more than the surface: with larger sizes inside, fields fall to them
+    if (k.k1 * k.k2 < 0.0) return DEVIATION_RESERVE + (SADDLE_RESERVE - DEVIATION_RESERVE) * alike;
     return DEVIATION_RESERVE + (ALIKE_RESERVE - DEVIATION_RESERVE) * alike;
 }
 
 double chord_size(PrincipalCurvatures k, double chord) {
     return most(std::sqrt(deviation_reserve(k) * chord / deviation_factor(k)), 2.0 * chord);
+}
+
+double quartic_factor(PrincipalCurvatures k) {
+    return 1.75 * most(0.0020, 0.0003 + 0.0082 * balance(k, 1.0));
+}
+
+double quadratic_chord_size(PrincipalCurvatures k, double chord) {
+    const double large = most(std::abs(k.k1), std::abs(k.k2));
+    const double fourth = chord / (quartic_factor(k) * large * large * large);
+    return most(std::sqrt(std::sqrt(fourth)), 2.0 * chord);
 }
 
 double share_of_width(PrincipalCurvatures k, double ratio) {

@@ -48,6 +48,17 @@ double deviation_reserve(PrincipalCurvatures k);
 /// Never less than 2 ``chord``: a smaller triangle is within ``chord`` whatever the curvature.
 double chord_size(PrincipalCurvatures k, double chord);
 
+/// c with deviation = c k^3 h^4 of quadratic triangles whose nodes lie on the surface, where k, the
+/// larger curvature, and b, the signed ratio of both, do not change.
+///
+/// Of equilateral triangles .0020 up to b = .2 (cylinders: an arc alone has 1/512) and .0003 + .0082
+/// b beyond (tori at their equators, spheres), times 1.75 for the longest edges of a mesh.
+double quartic_factor(PrincipalCurvatures k);
+
+/// Edge length at which quadratic triangles stay within ``chord`` of a surface whose curvature does
+/// not change; never less than 2 ``chord``.
+double quadratic_chord_size(PrincipalCurvatures k, double chord);
+
 /// Fraction of a chord that the rules below may use where that is the width of the band around the
 /// surface that a triangle needs: all of it where the surface bends one way.
 ///

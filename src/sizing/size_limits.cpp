@@ -11,7 +11,7 @@
 namespace surfmesh {
 namespace {
 
-constexpr double INFINITE = std::numeric_limits<double>::infinity();
+constexpr double UNLIMITED = std::numeric_limits<double>::infinity();
 constexpr double TINY = std::numeric_limits<double>::min();
 
 /// Square of |W e|.
@@ -45,7 +45,7 @@ SizeLimits::SizeLimits(std::span<const Point3> points, std::span<const double> s
     : tree_(points), sizes_(sizes), slope_(slope), metric_root_3d_(metric_root_3d) {}
 
 double SizeLimits::Here::least() const {
-    double least = INFINITE;
+    double least = UNLIMITED;
     for (std::size_t k = 0; k < count_; ++k)
         least =
             std::min(least, limits_.sizes_[near_[k].number] + limits_.slope_ * near_[k].distance);
@@ -54,7 +54,7 @@ double SizeLimits::Here::least() const {
 
 double SizeLimits::Here::along(Point3 direction) const {
     if (limits_.metric_root_3d_.empty()) return least();
-    double least = INFINITE;
+    double least = UNLIMITED;
     for (std::size_t k = 0; k < count_; ++k) {
         const double square = square_along(limits_.metric_root_3d_[near_[k].number], direction);
         const double inverse = std::max(std::sqrt(square), TINY);
@@ -66,7 +66,7 @@ double SizeLimits::Here::along(Point3 direction) const {
 SizeLimits::Tightest SizeLimits::Here::tightest(Point3 normal) const {
     const Point3 first = across(normal), second = cross(normal, first);
     if (limits_.metric_root_3d_.empty()) return {least(), first};
-    Tightest found{INFINITE, first};
+    Tightest found{UNLIMITED, first};
     double best_b = 0.0, best_half = 0.0;
     for (std::size_t k = 0; k < count_; ++k) {
         const MetricRoot3& w = limits_.metric_root_3d_[near_[k].number];

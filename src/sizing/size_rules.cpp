@@ -7,7 +7,7 @@
 namespace surfmesh {
 namespace {
 
-constexpr double INFINITE = std::numeric_limits<double>::infinity();
+constexpr double NO_RULE = std::numeric_limits<double>::infinity();
 
 double ratio_of(std::span<const double> ratio, std::size_t i) {
     return ratio.size() == 1 ? ratio[0] : ratio[i];
@@ -32,6 +32,22 @@ bool ChordRule::principal_sizes(std::span<const PrincipalCurvatures> k,
         const auto [first, second] = principal_chord_sizes(k[i], chord_, ratio_of(ratio, i));
         const double part = factor(k[i], ratio_of(ratio, i));
         out[i] = {part * first, part * second};
+    }
+    return true;
+}
+
+bool QuadraticChordRule::sizes(std::span<const PrincipalCurvatures> k,
+                               std::span<double> out) const {
+    for (std::size_t i = 0; i < k.size(); ++i) out[i] = quadratic_chord_size(k[i], chord_);
+    return true;
+}
+
+bool QuadraticChordRule::principal_sizes(std::span<const PrincipalCurvatures> k,
+                                         std::span<const double> /*ratio*/,
+                                         std::span<PrincipalSizes> out) const {
+    for (std::size_t i = 0; i < k.size(); ++i) {
+        const double size = quadratic_chord_size(k[i], chord_);
+        out[i] = {size, size};
     }
     return true;
 }
@@ -75,7 +91,7 @@ bool ConstantSize::sizes(std::span<const Point3> points, std::span<double> out) 
 bool SizeRules::from_curvature(std::span<const PrincipalCurvatures> k,
                                std::span<double> out) const {
     Array<double> own(k.size());
-    std::fill(out.begin(), out.end(), INFINITE);
+    std::fill(out.begin(), out.end(), NO_RULE);
     for (const auto& rule : by_curvature) {
         if (!rule->sizes(k, {own.data(), own.size()})) return false;
         for (std::size_t i = 0; i < k.size(); ++i) out[i] = least(out[i], own[i]);
@@ -95,7 +111,7 @@ bool SizeRules::shorter(std::span<const PrincipalCurvatures> k, std::span<double
 bool SizeRules::principal(std::span<const PrincipalCurvatures> k, std::span<const double> ratio,
                           std::span<PrincipalSizes> out) const {
     Array<PrincipalSizes> own(k.size());
-    std::fill(out.begin(), out.end(), PrincipalSizes{INFINITE, INFINITE});
+    std::fill(out.begin(), out.end(), PrincipalSizes{NO_RULE, NO_RULE});
     for (const auto& rule : by_curvature) {
         if (!rule->principal_sizes(k, ratio, {own.data(), own.size()})) return false;
         for (std::size_t i = 0; i < k.size(); ++i)
@@ -117,7 +133,7 @@ bool SizeRules::principal(std::span<const PrincipalCurvatures> k, std::span<cons
 
 bool SizeRules::from_place(std::span<const Point3> points, std::span<double> out) const {
     Array<double> own(points.size());
-    std::fill(out.begin(), out.end(), INFINITE);
+    std::fill(out.begin(), out.end(), NO_RULE);
     for (const auto& rule : by_place) {
         if (!rule->sizes(points, {own.data(), own.size()})) return false;
         for (std::size_t i = 0; i < points.size(); ++i) out[i] = least(out[i], own[i]);

@@ -58,6 +58,18 @@ class ChordRule final : public CurvatureRule {
     bool is_width_;
 };
 
+/// ``chord`` of quadratic triangles, model units: the same in all directions.
+class QuadraticChordRule final : public CurvatureRule {
+  public:
+    explicit QuadraticChordRule(double chord) : chord_(chord) {}
+    bool sizes(std::span<const PrincipalCurvatures> k, std::span<double> out) const override;
+    bool principal_sizes(std::span<const PrincipalCurvatures> k, std::span<const double> ratio,
+                         std::span<PrincipalSizes> out) const override;
+
+  private:
+    double chord_;
+};
+
 /// ``angle``, degrees; nothing below ``finest``, model units, is asked for.
 class AngleRule final : public CurvatureRule {
   public:

@@ -8,7 +8,7 @@
 namespace surfmesh {
 namespace {
 
-constexpr std::size_t BLOCK = 1024;  // places that are read at a time
+constexpr std::size_t STRETCHED_TOGETHER = 1024;  // places that are read at a time
 
 // How much more than the reached ratio of the two sizes the shorter one leaves room for.
 constexpr double REACHED = 1.1;
@@ -45,7 +45,7 @@ bool StretchedLaw::ask(std::span<const Point2> xy, FieldNodes& nodes) {
                   Array<PrincipalCurvatures>(count), Array<std::uint8_t>(count),
                   Array<std::uint8_t>(count)};
     Array<PlaceTangents> tangents(count);
-    for_each_block(count, BLOCK, [&](std::size_t first, std::size_t last) {
+    for_each_block(count, STRETCHED_TOGETHER, [&](std::size_t first, std::size_t last) {
         read(xy.subspan(first, last - first), first, nodes, places, all(tangents));
     });
     Array<TwoSizes> found(count);
@@ -58,7 +58,7 @@ bool StretchedLaw::ask(std::span<const Point2> xy, FieldNodes& nodes) {
     nodes.asked.resize(count);
     nodes.curvature.resize(count);
     nodes.turn_rates.resize(count);
-    for_each_block(count, BLOCK, [&](std::size_t first, std::size_t last) {
+    for_each_block(count, STRETCHED_TOGETHER, [&](std::size_t first, std::size_t last) {
         const std::span<TwoSizes> own = all(found).subspan(first, last - first);
         if (rims_) lower_at_rims(xy.subspan(first, own.size()), first, nodes, own);
         fill(first, places, own, nodes);

@@ -9,7 +9,7 @@
 namespace surfmesh {
 namespace {
 
-constexpr std::size_t BLOCK = 1024;  // places that are read at a time
+constexpr std::size_t PLACES_TOGETHER = 1024;  // places that are read at a time
 
 }  // namespace
 
@@ -43,11 +43,11 @@ bool SurfaceLaw::ask(std::span<const Point2> xy, FieldNodes& nodes) {
     nodes.normal.resize(count);
     nodes.point.resize(count);
     Places places{Array<PrincipalCurvatures>(count), Array<std::uint8_t>(count)};
-    for_each_block(count, BLOCK, [&](std::size_t first, std::size_t last) {
+    for_each_block(count, PLACES_TOGETHER, [&](std::size_t first, std::size_t last) {
         read(xy.subspan(first, last - first), first, nodes, places);
     });
     if (status_ != SurfaceStatus::DONE || !lower_by_rules(places, nodes)) return false;
-    for_each_block(count, BLOCK, [&](std::size_t first, std::size_t last) {
+    for_each_block(count, PLACES_TOGETHER, [&](std::size_t first, std::size_t last) {
         if (rims_) lower_at_rims(xy.subspan(first, last - first), first, nodes);
         bound(first, last, nodes);
     });

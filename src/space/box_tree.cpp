@@ -9,8 +9,8 @@
 namespace surfmesh {
 namespace {
 
-// triangles in a leaf: a test of four boxes costs what a level of the tree does
-constexpr std::size_t LEAF = 4;
+// triangles in a leaf: a test of eight boxes costs what a level or two of the tree do
+constexpr std::size_t LEAF = 8;
 
 /// The 20 bits of x, two zeros after each.
 std::int64_t spread(std::int64_t x) {

@@ -161,24 +161,23 @@ std::uint32_t key_of(Point3 p) {
     return static_cast<std::uint32_t>(mixed >> 32);
 }
 
-bool may_share(const KeyedTriangle& s, const KeyedTriangle& t) {
-    bool any = false;
-    for (const std::uint32_t k : s.keys)
-        any |= (k == t.keys[0]) | (k == t.keys[1]) | (k == t.keys[2]);
-    return any;
-}
-
-SharedCorners shared_corners(const Triangle3& s, const Triangle3& t) {
+/// Found by their keys, and looked at where these are the same.
+SharedCorners shared_corners(const KeyedTriangle& s, const KeyedTriangle& t) {
+    unsigned alike = 0;  // bit 3 k + n: the keys of corner k of s and of corner n of t
+    for (unsigned k = 0; k < 3; ++k)
+        for (unsigned n = 0; n < 3; ++n)
+            alike |= static_cast<unsigned>(s.keys[k] == t.keys[n]) << (3 * k + n);
     SharedCorners shared;
-    for (std::size_t k = 0; k < 3; ++k)
-        for (std::size_t n = 0; n < 3; ++n)
-            if (are_same(s[k], t[n])) {
-                ++shared.count;
-                std::copy(shared.last, shared.last + 2, shared.before);
-                shared.last[0] = k;
-                shared.last[1] = n;
-                break;
-            }
+    for (unsigned done = 3; alike != 0; alike &= alike - 1) {
+        const auto bit = static_cast<unsigned>(std::countr_zero(alike));
+        const unsigned k = bit / 3, n = bit % 3;
+        if (k == done || !are_same(s.corners[k], t.corners[n])) continue;
+        ++shared.count;
+        std::copy(shared.last, shared.last + 2, shared.before);
+        shared.last[0] = k;
+        shared.last[1] = n;
+        done = k;
+    }
     return shared;
 }
 
@@ -216,7 +215,7 @@ KeyedTriangle::KeyedTriangle(const Triangle3& given)
 
 bool triangles_meet(const KeyedTriangle& one, const KeyedTriangle& other) {
     const Triangle3 &s = one.corners, &t = other.corners;
-    const SharedCorners shared = may_share(one, other) ? shared_corners(s, t) : SharedCorners{};
+    const SharedCorners shared = shared_corners(one, other);
     const std::size_t a = shared.last[0], d = shared.last[1];
     const Point3 b = s[next(a)], c = s[(a + 2) % 3], e = t[next(d)], f = t[(d + 2) % 3];
     if (shared.count == 0 && (are_parted_by(s, t) || are_parted_by(t, s))) return false;

@@ -20,7 +20,7 @@ namespace {
 
 using Table = nb::ndarray<const double, nb::ndim<2>, nb::c_contig, nb::device::cpu>;
 using SharedCurve = std::shared_ptr<Curve>;
-using Limits = std::pair<double, double>;
+using ParameterLimits = std::pair<double, double>;
 
 constexpr int MOST_DERIVATIVES = 8;  // guards against orders that are a mistake
 
@@ -40,8 +40,8 @@ Point3 vector_of(const Numbers& values, int dimension) {
     return padded(values.data(), dimension);
 }
 
-nb::ndarray<nb::numpy, double, nb::ndim<3>> evaluate(const Curve& curve, const Numbers& t,
-                                                     int order) {
+nb::ndarray<nb::numpy, double, nb::ndim<3>> evaluate_curve(const Curve& curve, const Numbers& t,
+                                                           int order) {
     if (order < 0 || order > MOST_DERIVATIVES)
         throw nb::value_error("the order of derivatives is out of range");
     const std::size_t dimension = static_cast<std::size_t>(curve.dimension());
@@ -94,9 +94,9 @@ SharedCurve conic(ConicKind kind, const Numbers& origin, const Numbers& x, const
     return std::make_shared<Conic>(dimension, kind, axes, major, minor);
 }
 
-SharedCurve spline(const Numbers& knots, const Table& control,
-                   const std::optional<Numbers>& weights, const std::optional<Limits>& limits,
-                   double period) {
+SharedCurve spline_curve(const Numbers& knots, const Table& control,
+                         const std::optional<Numbers>& weights,
+                         const std::optional<ParameterLimits>& limits, double period) {
     const int dimension = checked_dimension(control.shape(1));
     checked_degree(numbers(knots), control.shape(0));
     if (weights) require_rows(weights->shape(0), control.shape(0), "weights");
@@ -104,14 +104,15 @@ SharedCurve spline(const Numbers& knots, const Table& control,
     for (std::size_t i = 0; i < points.size(); ++i)
         points[i] = padded(control.data() + i * control.shape(1), dimension);
     constexpr double NOWHERE = std::numeric_limits<double>::quiet_NaN();
-    const auto [first, last] = limits.value_or(Limits(NOWHERE, NOWHERE));
+    const auto [first, last] = limits.value_or(ParameterLimits(NOWHERE, NOWHERE));
     return std::make_shared<SplineCurve>(
         dimension, numbers(knots), std::span<const Point3>(points.data(), points.size()),
         weights ? numbers(*weights) : std::span<const double>(), SplineLimits{first, last, period});
 }
 
 SharedCurve offset(const SharedCurve& curve, double distance,
-                   const std::optional<Vector3>& direction, const std::optional<Limits>& limits) {
+                   const std::optional<Vector3>& direction,
+                   const std::optional<ParameterLimits>& limits) {
     if (direction.has_value() != (curve->dimension() == 3))
         throw nb::value_error("an offset curve has a direction in space, and none in the plane");
     std::optional<CurveLimits> part;
@@ -161,7 +162,7 @@ std::size_t checked_degree(std::span<const double> knots, std::size_t control) {
 void bind_curves(nb::module_& m) {
     nb::class_<Curve>(m, "Curve", "A map from a parameter into space or into the (u, v) plane.")
         .def_prop_ro("dimension", &Curve::dimension, "2 or 3")
-        .def("evaluate", &evaluate, nb::arg("t"), nb::arg("order") = 0,
+        .def("evaluate", &evaluate_curve, nb::arg("t"), nb::arg("order") = 0,
              "(n,) -> (order + 1, n, dimension): c, c', c'', ...");
     m.def(
         "points_on", &points_on, nb::arg("curves"), nb::arg("t"),
@@ -195,8 +196,8 @@ void bind_curves(nb::module_& m) {
         },
         nb::arg("origin"), nb::arg("x"), nb::arg("y"), nb::arg("focal"),
         "origin + t^2 / (4 focal) x + t y");
-    m.def("spline_curve", &spline, nb::arg("knots"), nb::arg("control"), nb::arg("weights").none(),
-          nb::arg("limits").none(), nb::arg("period"),
+    m.def("spline_curve", &spline_curve, nb::arg("knots"), nb::arg("control"),
+          nb::arg("weights").none(), nb::arg("limits").none(), nb::arg("period"),
           "control (n, 2) or (n, 3); weights (n,) or None; limits: first and last parameter of the "
           "part in use, at whose ends the derivatives are those inside; period: 0 for none.");
     m.def("offset_curve", &offset, nb::arg("curve"), nb::arg("distance"),

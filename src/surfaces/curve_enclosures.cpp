@@ -12,8 +12,8 @@
 namespace surfmesh {
 namespace {
 
-constexpr double ROUNDING = 0x1p-48;  // more than any of the short sums below, of their terms
-constexpr std::size_t HIGHEST = 25;   // degree
+constexpr double ROUNDING = 0x1p-48;        // more than any of the short sums below, of their terms
+constexpr std::size_t HIGHEST_DEGREE = 25;  // degree
 
 double size_of(Point3 a) { return std::abs(a.x) + std::abs(a.y) + std::abs(a.z); }
 
@@ -74,7 +74,7 @@ bool SplineCurve::enclose_along(Interval t, Point3 w, Point3 about,
     using namespace outward;
     Array<SpanPart> parts;
     const std::size_t degree = basis_.degree();
-    if (degree > HIGHEST || !weights_.empty() || !split_at_knots(basis_, t.lo, t.hi, parts))
+    if (degree > HIGHEST_DEGREE || !weights_.empty() || !split_at_knots(basis_, t.lo, t.hi, parts))
         return false;
     Array<Homogeneous> control(degree + 1), line(degree + 1);
     bool first = true;

@@ -12,20 +12,20 @@
 namespace surfmesh {
 namespace {
 
-constexpr double PI = 3.141592653589793;
+constexpr double HALF_TURN = 3.141592653589793;
 
-Point3 absolute(Point3 p) { return {std::abs(p.x), std::abs(p.y), std::abs(p.z)}; }
+Point3 size_by_coordinate(Point3 p) { return {std::abs(p.x), std::abs(p.y), std::abs(p.z)}; }
 
-double hypotenuse(double a, double b) { return std::sqrt(a * a + b * b); }
+double radius_of(double a, double b) { return std::sqrt(a * a + b * b); }
 
 /// The largest |cos t x + sin t y| by coordinate.
 Point3 amplitude(Point3 x, Point3 y) {
-    return {hypotenuse(x.x, y.x), hypotenuse(x.y, y.y), hypotenuse(x.z, y.z)};
+    return {radius_of(x.x, y.x), radius_of(x.y, y.y), radius_of(x.z, y.z)};
 }
 
 /// The largest |cos| between two angles.
 double largest_cosine(double low, double high) {
-    if (std::floor(high / PI) >= std::ceil(low / PI)) return 1.0;
+    if (std::floor(high / HALF_TURN) >= std::ceil(low / HALF_TURN)) return 1.0;
     return std::max(std::abs(elementary::cos(low)), std::abs(elementary::cos(high)));
 }
 
@@ -38,7 +38,8 @@ std::array<double, 4> largest_radii(const Profile& profile, double low, double h
         return {std::max(radius(low), radius(high)), std::abs(profile.outwards), 0.0, 0.0};
     }
     const double cosine = std::abs(profile.tube) * largest_cosine(low, high);
-    const double sine = std::abs(profile.tube) * largest_cosine(low - 0.5 * PI, high - 0.5 * PI);
+    const double sine =
+        std::abs(profile.tube) * largest_cosine(low - 0.5 * HALF_TURN, high - 0.5 * HALF_TURN);
     return {std::abs(profile.radius) + cosine, sine, cosine, sine};
 }
 
@@ -57,7 +58,8 @@ SurfaceStatus Surface::derivative_magnitudes(std::span<const ParameterBox> cells
         out[i * count] = {0.0, 0.0, 0.0};
         for (std::size_t k = 1; k < count; ++k) {
             const auto from = static_cast<std::ptrdiff_t>(i * BOUNDED_DERIVATIVES + k - 1);
-            const Point3 low = absolute(lower[from]), high = absolute(upper[from]);
+            const Point3 low = size_by_coordinate(lower[from]),
+                         high = size_by_coordinate(upper[from]);
             out[i * count + k] = {std::max(low.x, high.x), std::max(low.y, high.y),
                                   std::max(low.z, high.z)};
         }
@@ -70,8 +72,8 @@ SurfaceStatus Plane::derivative_magnitudes(std::span<const ParameterBox> cells, 
     const std::size_t count = derivative_count(order);
     std::fill(out.begin(), out.end(), Point3{0.0, 0.0, 0.0});
     for (std::size_t i = 0; i < cells.size(); ++i) {
-        out[i * count + 1] = absolute(frame_.x);
-        out[i * count + 2] = absolute(frame_.y);
+        out[i * count + 1] = size_by_coordinate(frame_.x);
+        out[i * count + 2] = size_by_coordinate(frame_.y);
     }
     return SurfaceStatus::DONE;
 }
@@ -93,7 +95,7 @@ SurfaceStatus TurnedProfile::derivative_magnitudes(std::span<const ParameterBox>
                 value = std::abs(profile_.tube) * amplitude(around, frame_.z);
             else
                 value = radii[static_cast<std::size_t>(l)] * around +
-                        (l == 1 ? std::abs(profile_.upwards) : 0.0) * absolute(frame_.z);
+                        (l == 1 ? std::abs(profile_.upwards) : 0.0) * size_by_coordinate(frame_.z);
         }
     }
     return SurfaceStatus::DONE;
@@ -115,7 +117,7 @@ SurfaceStatus ExtrusionSurface::derivative_magnitudes(std::span<const ParameterB
             const auto [k, l] = DERIVATIVES[number];
             const std::size_t from = i * rows + static_cast<std::size_t>(k);
             if (l == 0) out[i * count + number] = curve[static_cast<std::ptrdiff_t>(from)];
-            if (number == 2) out[i * count + number] = absolute(direction_);
+            if (number == 2) out[i * count + number] = size_by_coordinate(direction_);
         }
     return SurfaceStatus::DONE;
 }
@@ -135,7 +137,7 @@ SurfaceStatus RevolutionSurface::derivative_magnitudes(std::span<const Parameter
                                        {curve.data(), curve.size()}))
         return SurfaceStatus::UNKNOWN;
     const CurveValues middle(*curve_, {middles.data(), middles.size()}, 0);
-    const Point3 axis = absolute(axis_);
+    const Point3 axis = size_by_coordinate(axis_);
     const auto beside = [](double a) { return std::sqrt(std::max(0.0, 1.0 - a * a)); };
     const Point3 around{beside(axis.x), beside(axis.y), beside(axis.z)};
     for (std::size_t i = 0; i < cells.size(); ++i) {

@@ -10,7 +10,7 @@
 namespace surfmesh {
 namespace {
 
-constexpr std::size_t CHUNK = 64;  // parameters whose sines are computed at a time
+constexpr std::size_t PARAMETERS_AT_ONCE = 64;  // parameters whose sines are computed at a time
 
 }  // namespace
 
@@ -46,9 +46,9 @@ void Conic::compute_functions(std::span<const double> t, std::span<double> f,
 
 void Conic::evaluate(std::span<const double> t, int order, std::span<Point3> out) const {
     const auto& [origin, x, y] = axes_;
-    std::array<double, CHUNK> first{}, second{};
-    for (std::size_t start = 0; start < t.size(); start += CHUNK) {
-        const std::size_t count = std::min(CHUNK, t.size() - start);
+    std::array<double, PARAMETERS_AT_ONCE> first{}, second{};
+    for (std::size_t start = 0; start < t.size(); start += PARAMETERS_AT_ONCE) {
+        const std::size_t count = std::min(PARAMETERS_AT_ONCE, t.size() - start);
         compute_functions(t.subspan(start, count), {first.data(), count}, {second.data(), count});
         for (std::size_t i = 0; i < count; ++i) {
             double f = first[i], g = second[i];

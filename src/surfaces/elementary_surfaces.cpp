@@ -7,13 +7,13 @@
 namespace surfmesh {
 namespace {
 
-constexpr std::size_t CHUNK = 128;  // points whose sines are computed at a time
+constexpr std::size_t POINTS_AT_ONCE = 128;  // points whose sines are computed at a time
 
 /// Sines and cosines of a chunk of parameters.
 struct Turns {
-    std::array<double, CHUNK> sine, cosine;
+    std::array<double, POINTS_AT_ONCE> sine, cosine;
 
-    void compute(const std::array<double, CHUNK>& angle, std::size_t count) {
+    void compute(const std::array<double, POINTS_AT_ONCE>& angle, std::size_t count) {
         elementary::sincos({angle.data(), count}, {sine.data(), count}, {cosine.data(), count});
     }
 };
@@ -59,10 +59,10 @@ SurfaceStatus TurnedProfile::evaluate(std::span<const Point2> uv, int order,
                                       std::span<Point3> out) const {
     const std::size_t derivatives = derivative_count(order);
     const auto& [origin, x, y, z] = frame_;
-    std::array<double, CHUNK> angle;
+    std::array<double, POINTS_AT_ONCE> angle;
     Turns u, v;
-    for (std::size_t start = 0; start < uv.size(); start += CHUNK) {
-        const std::size_t count = std::min(CHUNK, uv.size() - start);
+    for (std::size_t start = 0; start < uv.size(); start += POINTS_AT_ONCE) {
+        const std::size_t count = std::min(POINTS_AT_ONCE, uv.size() - start);
         for (std::size_t i = 0; i < count; ++i) angle[i] = uv[start + i].x;
         u.compute(angle, count);
         if (profile_.is_circle) {

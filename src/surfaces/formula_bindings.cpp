@@ -141,9 +141,9 @@ void bind_tape(nb::module_& m) {
 }
 
 using SharedTape = std::shared_ptr<Tape>;
-using Limits = std::tuple<std::vector<double>, std::vector<double>, std::vector<double>>;
+using PieceLimits = std::tuple<std::vector<double>, std::vector<double>, std::vector<double>>;
 
-SpeedLimits speed_limits(const Limits& given) {
+SpeedLimits speed_limits(const PieceLimits& given) {
     const auto& [places, lowest, highest] = given;
     const std::size_t pieces = places.empty() ? 0 : places.size() - 1;
     if (lowest.size() != pieces || highest.size() != pieces)
@@ -173,7 +173,8 @@ void bind_formula_surface(nb::module_& m) {
         .def(
             "__init__",
             [](FormulaSurface* self, const std::vector<SharedTape>& tapes,
-               const std::pair<Ends, Ends>& domain, const std::pair<Limits, Limits>& limits) {
+               const std::pair<Ends, Ends>& domain,
+               const std::pair<PieceLimits, PieceLimits>& limits) {
                 const auto& [u, v] = domain;
                 std::construct_at(
                     self, surface_tapes(tapes),

@@ -6,7 +6,7 @@ namespace surfmesh {
 namespace {
 
 // |N| over the squared longer tangent, both per domain: poles
-constexpr double DEGENERATE = 1e-10;
+constexpr double DEGENERATE_NORMAL = 1e-10;
 constexpr double POLE_NUDGE = 1e-4;  // of the domain: second derivatives of n keep half their
                                      // digits there
 
@@ -60,7 +60,7 @@ constexpr std::array<Point3 Field::*, 6> IN_SEQUENCE = {&Field::value, &Field::u
 bool OffsetSurface::is_pole(Point3 r_u, Point3 r_v) const {
     const Point2 wide = domain_.high - domain_.low;
     const Point3 a = wide.x * r_u, b = wide.y * r_v;
-    return !(norm(cross(a, b)) > DEGENERATE * std::max(dot(a, a), dot(b, b)));
+    return !(norm(cross(a, b)) > DEGENERATE_NORMAL * std::max(dot(a, a), dot(b, b)));
 }
 
 /// At one pole; out: derivative_count(order) values.
@@ -75,7 +75,8 @@ SurfaceStatus OffsetSurface::evaluate_at_pole(Point2 uv, int order, std::span<Po
     Point3 normal = inwards.x * N.u + inwards.y * N.v;
     const Point3 second = inwards.x * inwards.x * N.uu + 2.0 * inwards.x * inwards.y * N.uv +
                           inwards.y * inwards.y * N.vv;
-    const bool vanishes = !(dot(normal, normal) > DEGENERATE * DEGENERATE * dot(second, second));
+    const bool vanishes =
+        !(dot(normal, normal) > DEGENERATE_NORMAL * DEGENERATE_NORMAL * dot(second, second));
     if (vanishes) normal = second;
     const double length = norm(normal);
     const Point3 r_at_pole = r[0] + divided(distance_ * normal, length > 0.0 ? length : 1.0);

@@ -14,7 +14,8 @@ namespace {
 constexpr double INSIDE = 1e-3;
 constexpr int SIDES = 4, HALVES = 14;
 constexpr std::size_t SAMPLES = (SIDES + 1) * (SIDES + 2) / 2;
-constexpr double TURN = 20.0 * (3.141592653589793 / 180.0);  // what turns less triangles follow
+constexpr double SHARP_TURN =
+    20.0 * (3.141592653589793 / 180.0);  // what turns less triangles follow
 
 struct Sample {
     Point2 uv;
@@ -74,7 +75,7 @@ struct Turn {
 
 /// Is a turn made between two points on a circle of less than ``radius``?
 bool is_made_within(double radius, const Turn& between, double turn) {
-    return turn > TURN && norm(between.q.point - between.p.point) < radius * turn;
+    return turn > SHARP_TURN && norm(between.q.point - between.p.point) < radius * turn;
 }
 
 /// The neighbouring samples whose normals differ most, and whether any sample is sharp.
@@ -95,7 +96,8 @@ void halve(SurfaceReader& surface, Array<Turn>& turns, double radius, Array<std:
     Array<Sample> middles;
     std::size_t kept = 0;
     for (const Turn& t : turns)
-        if (!found[t.triangle] && angle_between(t.p.normal, t.q.normal) > TURN) turns[kept++] = t;
+        if (!found[t.triangle] && angle_between(t.p.normal, t.q.normal) > SHARP_TURN)
+            turns[kept++] = t;
     turns.resize(kept);
     for (const Turn& t : turns) middles.push_back({0.5 * (t.p.uv + t.q.uv), {}, {}, false});
     look(surface, {middles.data(), middles.size()}, radius);

@@ -29,7 +29,7 @@ Homogeneous operator-(const Homogeneous& a, const Homogeneous& b) {
 }
 Homogeneous operator*(double s, const Homogeneous& a) { return {s * a.point, s * a.weight}; }
 
-Point3 absolute(Point3 p) { return {std::abs(p.x), std::abs(p.y), std::abs(p.z)}; }
+Point3 control_size(Point3 p) { return {std::abs(p.x), std::abs(p.y), std::abs(p.z)}; }
 
 Point3 larger(Point3 a, Point3 b) {
     return {std::max(a.x, b.x), std::max(a.y, b.y), std::max(a.z, b.z)};
@@ -45,11 +45,11 @@ struct ControlNet {
     }
 };
 
-/// The largest absolute values of a net's points and weights.
+/// The largest control_size values of a net's points and weights.
 Homogeneous magnitude_of(const ControlNet& net) {
     Homogeneous found{{0.0, 0.0, 0.0}, 0.0};
     for (const Homogeneous& own : net.points) {
-        found.point = larger(found.point, absolute(own.point));
+        found.point = larger(found.point, control_size(own.point));
         found.weight = std::max(found.weight, std::abs(own.weight));
     }
     return found;
@@ -73,7 +73,7 @@ ControlNet derived(const ControlNet& net, const SplineBasis& basis, std::int64_t
 /// Magnitudes of the derivatives of w r and w, in the sequence of the surface's.
 using Magnitudes = std::array<Homogeneous, 10>;
 
-constexpr std::size_t number_of(int by_u, int by_v) {
+constexpr std::size_t derivative_number(int by_u, int by_v) {
     const int total = by_u + by_v;
     return static_cast<std::size_t>(total * (total + 1) / 2 + by_v);
 }
@@ -90,8 +90,8 @@ void divide_by_weight(const Magnitudes& part, double least, std::size_t count,
             double inner = outer;
             for (int j = 0; j <= l; ++j) {
                 if (i + j > 0)
-                    value =
-                        value + inner * part[number_of(i, j)].weight * r[number_of(k - i, l - j)];
+                    value = value + inner * part[derivative_number(i, j)].weight *
+                                        r[derivative_number(k - i, l - j)];
                 inner = inner * (l - j) / (j + 1);
             }
             outer = outer * (k - i) / (i + 1);
@@ -174,7 +174,7 @@ SurfaceStatus SplineSurface::derivative_magnitudes(std::span<const ParameterBox>
             ControlNet both = net;
             for (int l = 0; k + l <= order; ++l) {
                 if (l > 0) both = derived(both, v_, column, l - 1, false);
-                part[number_of(k, l)] = magnitude_of(both);
+                part[derivative_number(k, l)] = magnitude_of(both);
             }
         }
         divide_by_weight(part, least, count, out.subspan(cell * count, count));
@@ -200,12 +200,12 @@ bool SplineCurve::derivative_magnitudes(std::span<const ParameterRange> ranges, 
         Magnitudes part{};
         for (int k = 0; k <= order; ++k) {
             if (k > 0) net = derived(net, basis_, row, k - 1, true);
-            part[number_of(k, 0)] = magnitude_of(net);
+            part[derivative_number(k, 0)] = magnitude_of(net);
         }
         std::array<Point3, 10> found{};
         divide_by_weight(part, least, derivative_count(order), found);
         for (int k = 0; k <= order; ++k)
-            out[range * count + static_cast<std::size_t>(k)] = found[number_of(k, 0)];
+            out[range * count + static_cast<std::size_t>(k)] = found[derivative_number(k, 0)];
     }
     return true;
 }

@@ -12,11 +12,11 @@
 namespace surfmesh {
 namespace {
 
-constexpr double ROUNDING = 0x1p-46;  // more than any of the sums below, of their terms
+constexpr double SWEPT_ROUNDING = 0x1p-46;  // more than any of the sums below, of their terms
 
-double size_of(Point3 a) { return std::abs(a.x) + std::abs(a.y) + std::abs(a.z); }
+double sum_of_sizes(Point3 a) { return std::abs(a.x) + std::abs(a.y) + std::abs(a.z); }
 
-Interval wider(Interval a, double margin) { return {a.lo - margin, a.hi + margin}; }
+Interval widened_by(Interval a, double margin) { return {a.lo - margin, a.hi + margin}; }
 
 /// a cos u + b sin u for ranges of a and b: linear in these, so extreme at their ends.
 Interval wave_of(Interval a, Interval b, Interval u) {
@@ -46,7 +46,7 @@ SurfaceStatus enclose_by(const Surface& surface, const Curve& curve, bool along_
         const double t = along_v ? uv[i].y : uv[i].x;
         std::array<double, 3> most;
         if (!size_along_axes(curve, {t, t}, {0.0, 0.0, 0.0}, most)) return SurfaceStatus::UNKNOWN;
-        out[i] = {r[i], ROUNDING * (size + 32.0 * most[0] + std::abs(uv[i].y))};
+        out[i] = {r[i], SWEPT_ROUNDING * (size + 32.0 * most[0] + std::abs(uv[i].y))};
     }
     return status;
 }
@@ -76,7 +76,7 @@ SurfaceStatus ExtrusionSurface::enclose_bends(std::span<const ParameterBox> cell
 
 SurfaceStatus RevolutionSurface::enclose(std::span<const Point2> uv,
                                          std::span<EnclosedPoint> out) const {
-    return enclose_by(*this, *curve_, true, size_of(origin_), uv, out);
+    return enclose_by(*this, *curve_, true, sum_of_sizes(origin_), uv, out);
 }
 
 SurfaceStatus RevolutionSurface::enclose_bends(std::span<const ParameterBox> cells,
@@ -96,12 +96,12 @@ SurfaceStatus RevolutionSurface::enclose_bends(std::span<const ParameterBox> cel
                 !curve_->enclose_along(v, along_axis, origin_, h))
                 return SurfaceStatus::UNKNOWN;
             const auto margin = [&](std::size_t order) {  // the vectors are rounded
-                return ROUNDING * size[order];
+                return SWEPT_ROUNDING * size[order];
             };
-            const Interval value = wider(wave_of(a[0], b[0], u), margin(0));
+            const Interval value = widened_by(wave_of(a[0], b[0], u), margin(0));
             out[i].uu[k] = intervals::negative(value);
-            out[i].uv[k] = wider(wave_of(b[1], intervals::negative(a[1]), u), margin(1));
-            out[i].vv[k] = wider(add(h[2], wave_of(a[2], b[2], u)), margin(2));
+            out[i].uv[k] = widened_by(wave_of(b[1], intervals::negative(a[1]), u), margin(1));
+            out[i].vv[k] = widened_by(add(h[2], wave_of(a[2], b[2], u)), margin(2));
         }
     }
     return SurfaceStatus::DONE;

@@ -70,7 +70,7 @@ void bind_predicates(nb::module_& m) {
 
 void bind_segments(nb::module_& m) {
     m.attr("CROSSING") = CROSSING;
-    m.attr("BLOCK") = BLOCK;
+    m.attr("BLOCK") = SEGMENT_BLOCK;
     m.def(
         "find_meetings",
         [](const Points2& points, const Matrix<std::int64_t, 2>& segments,

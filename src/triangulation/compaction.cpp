@@ -10,9 +10,9 @@ namespace {
 
 /// From so many triangles on a domain is numbered along a space-filling curve and cut into parts:
 /// it does not fit into the memory near a processor, and is worth a second one.
-constexpr Triangle LARGE = 50'000;
+constexpr Triangle LARGE_TRIANGULATION = 50'000;
 constexpr std::size_t VERTICES_OF_PART = 32'768;  // about
-constexpr std::size_t BLOCK = 1 << 15;            // vertices or triangles copied together
+constexpr std::size_t COPIED_TOGETHER = 1 << 15;  // vertices or triangles copied together
 constexpr std::size_t ROOM = 16;                  // there is room for this part more, as for splits
 
 /// The vertices that triangles inside use, in the order they will have.
@@ -23,7 +23,7 @@ Array<Vertex> vertices_inside(const Triangulation& t, Triangle triangles) {
     Array<Vertex> inside;
     for (Vertex v = 0; v < t.vertices(); ++v)
         if (used[v]) inside.push_back(v);
-    if (triangles < LARGE) return inside;
+    if (triangles < LARGE_TRIANGULATION) return inside;
     return along_hilbert_curve({t.xy.data(), t.xy.size()}, {inside.data(), inside.size()});
 }
 
@@ -44,7 +44,7 @@ Array<Triangle> number_by_vertex(const Triangulation& t, const Array<Vertex>& ve
                          vertex_number[t.tri[3 * k + 2]]});
     };
     Array<Triangle> number(t.region.size(), NIL);  // at first those vertices
-    for_each_block(t.region.size(), BLOCK, [&](std::size_t start, std::size_t end) {
+    for_each_block(t.region.size(), COPIED_TOGETHER, [&](std::size_t start, std::size_t end) {
         for (auto k = static_cast<Triangle>(start); k < static_cast<Triangle>(end); ++k)
             if (t.region[k] == INSIDE) number[k] = vertex_of(k);
     });
@@ -74,7 +74,7 @@ Array<Part> parts_of(const Array<Triangle>& first) {
 void copy_triangles(const Triangulation& t, const Array<Triangle>& number,
                     DomainTriangulation& domain) {
     Triangulation& out = domain.t;
-    for_each_block(t.region.size(), BLOCK, [&](std::size_t start, std::size_t end) {
+    for_each_block(t.region.size(), COPIED_TOGETHER, [&](std::size_t start, std::size_t end) {
         for (auto k = static_cast<Triangle>(start); k < static_cast<Triangle>(end); ++k) {
             if (number[k] == NIL) continue;
             for (HalfEdge e = 3 * k, f = 3 * number[k]; e < 3 * k + 3; ++e, ++f) {
@@ -100,7 +100,7 @@ DomainTriangulation cut_inside(const Triangulation& t) {
     out.fixed.reserve(2 * 3 * (inside.size() + inside.size() / ROOM));
     out.xy.resize(inside.size());
     out.size.resize(inside.size());
-    for_each_block(inside.size(), BLOCK, [&](std::size_t start, std::size_t end) {
+    for_each_block(inside.size(), COPIED_TOGETHER, [&](std::size_t start, std::size_t end) {
         for (std::size_t n = start; n < end; ++n) {
             domain.vertex_number[inside[n]] = static_cast<Vertex>(n);
             out.xy[n] = t.xy[inside[n]];
@@ -113,7 +113,7 @@ DomainTriangulation cut_inside(const Triangulation& t) {
     out.fixed.resize(half_edges);
     out.region.resize(half_edges / 3, 0);
     out.mark.resize(half_edges / 3, 0);
-    if (triangles < LARGE) {
+    if (triangles < LARGE_TRIANGULATION) {
         copy_triangles(t, number_triangles(t), domain);
         return domain;
     }

@@ -93,7 +93,7 @@ double squared_distance(const Box3& box, Point3 p) {
 Array<double> distances(std::span<const Point3> points, std::span<const Segment3> segments,
                         std::span<const Box3> boxes, std::span<const Box3> groups) {
     const auto end_of_block = [](std::size_t block, std::size_t count) {
-        return std::min<std::size_t>(BLOCK * (block + 1), count);
+        return std::min<std::size_t>(SEGMENT_BLOCK * (block + 1), count);
     };
     Array<double> found(points.size());
     std::size_t nearest = 0;  // neighbouring points often have the same nearest segment
@@ -102,9 +102,11 @@ Array<double> distances(std::span<const Point3> points, std::span<const Segment3
         double best = squared_distance(segments[nearest], p);
         for (std::size_t group = 0; group < groups.size(); ++group) {
             if (squared_distance(groups[group], p) >= best) continue;
-            for (std::size_t box = BLOCK * group; box < end_of_block(group, boxes.size()); ++box) {
+            for (std::size_t box = SEGMENT_BLOCK * group; box < end_of_block(group, boxes.size());
+                 ++box) {
                 if (squared_distance(boxes[box], p) >= best) continue;
-                for (std::size_t s = BLOCK * box; s < end_of_block(box, segments.size()); ++s) {
+                for (std::size_t s = SEGMENT_BLOCK * box; s < end_of_block(box, segments.size());
+                     ++s) {
                     const double here = squared_distance(segments[s], p);
                     if (here < best) {
                         best = here;

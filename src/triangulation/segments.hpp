@@ -50,14 +50,14 @@ struct Box3 {
 };
 
 /// Segments that share a bounding box in ``distances``, and boxes that share a larger one.
-inline constexpr std::int64_t BLOCK = 16;
+inline constexpr std::int64_t SEGMENT_BLOCK = 16;
 
 double squared_distance(const Segment3& segment, Point3 p);
 double squared_distance(const Box3& box, Point3 p);
 
 /// Distance of each point to the nearest segment.
 ///
-/// boxes: each bounds BLOCK segments in a row. groups: each bounds BLOCK boxes in a row.
+/// boxes: each bounds SEGMENT_BLOCK segments in a row. groups: each bounds SEGMENT_BLOCK boxes in a row.
 Array<double> distances(std::span<const Point3> points, std::span<const Segment3> segments,
                         std::span<const Box3> boxes, std::span<const Box3> groups);
 

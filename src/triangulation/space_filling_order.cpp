@@ -9,8 +9,8 @@
 namespace surfmesh {
 namespace {
 
-constexpr std::uint32_t CELLS = 1u << 20;  // along each side of the grid
-constexpr std::size_t BLOCK = 1 << 16;     // points whose places are found together
+constexpr std::uint32_t CELLS = 1u << 20;         // along each side of the grid
+constexpr std::size_t PLACES_TOGETHER = 1 << 16;  // points whose places are found together
 
 struct Placed {
     std::uint64_t along;  // the curve
@@ -29,14 +29,16 @@ bool is_before(const Placed& a, const Placed& b) {
 std::uint64_t place_along(std::uint32_t x, std::uint32_t y) {
     std::uint64_t place = 0;
     for (std::uint32_t side = CELLS / 2; side > 0; side /= 2) {
-        const bool right = (x & side) != 0, upper = (y & side) != 0;
-        place = 4 * place + (right ? (upper ? 2 : 3) : (upper ? 1 : 0));
-        if (upper) continue;
-        if (right) {
-            x = CELLS - 1 - x;
-            y = CELLS - 1 - y;
-        }
-        std::swap(x, y);
+        const std::uint32_t right = (x & side) != 0, upper = (y & side) != 0;
+        place = 4 * place + ((3 * right) ^ upper);
+        // without branches, which nothing foretells: CELLS - 1 - x where lower right, and the two
+        // swapped where lower
+        const std::uint32_t lower = upper - 1, mirrored = (CELLS - 1) & lower & (0 - right);
+        x ^= mirrored;
+        y ^= mirrored;
+        const std::uint32_t difference = (x ^ y) & lower;
+        x ^= difference;
+        y ^= difference;
     }
     return place;
 }
@@ -72,12 +74,12 @@ Array<Vertex> along_hilbert_curve(std::span<const Point2> points, std::span<cons
     if (some.empty()) return order;
     const Grid grid = grid_over(points, some);
     Array<Placed> placed(some.size());
-    for_each_block(some.size(), BLOCK, [&](std::size_t first, std::size_t last) {
+    for_each_block(some.size(), PLACES_TOGETHER, [&](std::size_t first, std::size_t last) {
         for (std::size_t k = first; k < last; ++k)
             placed[k] = {grid.place(points[some[k]]), some[k]};
         std::sort(placed.data() + first, placed.data() + last, is_before);
     });
-    for (std::size_t width = BLOCK; width < some.size(); width *= 2) {
+    for (std::size_t width = PLACES_TOGETHER; width < some.size(); width *= 2) {
         for_each_block(some.size(), 2 * width, [&](std::size_t first, std::size_t last) {
             if (first + width >= last) return;
             std::inplace_merge(placed.data() + first, placed.data() + first + width,

@@ -7,6 +7,8 @@ from typing import Annotated
 import numpy
 from numpy.typing import NDArray
 
+import surfmesh._core.surfaces
+
 
 def surface_points(surfaces: list, faces: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], uv: Annotated[NDArray[numpy.float64], dict(shape=(None, 2), order='C', device='cpu', writable=False)], order: int) -> tuple:
     """
@@ -56,6 +58,13 @@ def solid_counts(triangles: Annotated[NDArray[numpy.int32], dict(shape=(None, 3)
     Vertices, edges and open edges (s,) of each of so many solids, by triangles (k, 3) around solid (k,), facing outwards.
 
     An edge is open where it is not run along as often one way as the other.
+    """
+
+def hidden_bounds(surface: surfmesh._core.surfaces.Surface, uv: Annotated[NDArray[numpy.float64], dict(shape=(None, 3, 2), order='C', device='cpu', writable=False)], corner: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)], normal: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)], tolerance: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)], seen: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)], levels: int) -> Annotated[NDArray[numpy.uint8], dict(shape=(None,))]:
+    """
+    Over which triangles (k, 3, 2) of (u, v) the surface surely hides nothing: 2 where its second derivatives over their box say so at once, 1 where those over parts of them do, cut in four up to ``levels`` times, else 0.
+
+    corner (k, 3): one corner of each in space; normal (k, 3), of length 1; tolerance (k,): what may hide; seen (k,): the largest distance at the corners, in the middles of the sides and at the centroid.
     """
 
 def enclosed_volumes(points: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)], triangles: Annotated[NDArray[numpy.int32], dict(shape=(None, 3), order='C', device='cpu', writable=False)], solid: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], apexes: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)]) -> Annotated[NDArray[numpy.float64], dict(shape=(None,))]:

@@ -30,6 +30,9 @@ def deviation_factor(k1: Annotated[NDArray[numpy.float64], dict(shape=(None,), o
 def chord_size(k1: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)], k2: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)], chord: float) -> Annotated[NDArray[numpy.float64], dict(shape=(None,))]:
     """Edge length (n,) at which triangles stay within chord."""
 
+def quadratic_chord_size(k1: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)], k2: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)], chord: float) -> Annotated[NDArray[numpy.float64], dict(shape=(None,))]:
+    """Edge length (n,) at which quadratic triangles stay within chord."""
+
 def share_of_width(k1: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)], k2: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)], ratio: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)]) -> Annotated[NDArray[numpy.float64], dict(shape=(None,))]:
     """
     Fraction (n,) of a chord that may be used where it is the width of the band that a triangle needs.
@@ -49,7 +52,7 @@ def principal_chord_sizes(k1: Annotated[NDArray[numpy.float64], dict(shape=(None
 def principal_angle_sizes(k1: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)], k2: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)], angle: float, ratio: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)]) -> tuple[Annotated[NDArray[numpy.float64], dict(shape=(None,))], Annotated[NDArray[numpy.float64], dict(shape=(None,))]]:
     """Edge lengths (n,), (n,) along the directions of k1 and k2, likewise."""
 
-RIM_RESERVE: float = 0.88
+RIM_RESERVE: float = 0.95
 
 LEAST_RIM: float = 2.0
 
@@ -67,6 +70,9 @@ class PlaceRule:
 class ChordRule(CurvatureRule):
     def __init__(self, chord: float, is_width: bool = False) -> None:
         """is_width: chord is that of the whole band that a triangle needs."""
+
+class QuadraticChordRule(CurvatureRule):
+    def __init__(self, chord: float) -> None: ...
 
 class AngleRule(CurvatureRule):
     def __init__(self, angle: float, finest: float) -> None:

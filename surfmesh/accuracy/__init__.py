@@ -4,6 +4,7 @@ Plain arrays of points, triangles and parameters; neither a mesh nor a triangula
 
 samples: barycentric places at which triangles are looked at.
 deviation: the distance of points, and of triangles, from the true surface.
+curved_triangles: the same of quadratic triangles, and of arcs from their curves.
 folds: angles between the normals of triangles and surface, and which of them the surface makes.
 shape: the mean ratio of triangles, alpha, by their edge vectors.
 proof: the same distances both ways as proved bounds, of one face.

@@ -133,7 +133,10 @@ def _add_made(mesh: argparse.ArgumentParser) -> None:
         help="collapse tiny edges of a CAD model; thin lines of a planar domain",
     )
     mesh.add_argument(
-        "--order", type=_whole(1, 2), metavar="1|2", default=1, help="2: nodes amid the edges too"
+        "--order",
+        type=_whole(1, 2),
+        metavar="1|2",
+        help="2: nodes amid the edges too; --chord is then that of the curved triangles",
     )
     mesh.add_argument(
         "--flip", action="store_true", help="turn the mesh over: a closed surface that faces inward"

@@ -22,7 +22,7 @@ def executor_of(address: str | None) -> Iterator[Executor | None]:
     try:
         from distributed import Client
     except ImportError:
-        raise MeshingError("--scheduler needs Dask: pip install surfmesh[cluster]") from None
+        raise MeshingError("--scheduler needs Dask: pip install 'surfmesh[cluster]'") from None
     try:
         client = Client(address, timeout=PATIENCE, set_as_default=False)
     except (OSError, ValueError, TypeError) as error:

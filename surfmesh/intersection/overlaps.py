@@ -12,8 +12,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from surfmesh.cad.healing.origins import AND
-from surfmesh.cad.model.cad_model import CadEdge
+from surfmesh.cad.model.cad_model import AND, CadEdge
 from surfmesh.errors import SurfaceError
 from surfmesh.intersection.complex import Origin, Patch
 from surfmesh.intersection.contacts import Contacts

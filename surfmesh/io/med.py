@@ -15,7 +15,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from surfmesh.errors import FileFormatError
+from surfmesh.errors import FileFormatError, needs
 from surfmesh.io.group_record import group_fields, group_lines, solids_of_faces
 from surfmesh.io.hdf5_bounds import require_bounded
 from surfmesh.result.mesh_groups import MeshGroups
@@ -29,12 +29,9 @@ NAME = 80  # characters of a group
 
 
 def _libraries(path: Path) -> tuple[ModuleType, ModuleType]:
-    try:
+    with needs("med", path.suffix):
         import h5py
         import meshio.med
-    except ImportError as error:
-        need = f"{path}: .med needs {error.name}: pip install meshio h5py"
-        raise FileFormatError(need) from None
     return meshio, h5py
 
 

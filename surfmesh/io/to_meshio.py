@@ -2,6 +2,7 @@
 
 from typing import TYPE_CHECKING
 
+from surfmesh.errors import needs
 from surfmesh.quality.measures.shape import alpha
 from surfmesh.result.quadratic_triangles import node_values
 from surfmesh.result.surface_mesh import SurfaceMesh
@@ -13,13 +14,11 @@ if TYPE_CHECKING:
 def to_meshio(mesh: SurfaceMesh) -> "meshio.Mesh":
     """meshio.Mesh with point data ``size``, cell data ``face_id``, ``alpha`` and ``solid_id``.
 
-    Cells are ``triangle``, or ``triangle6`` for order 2. Raises ``ImportError`` that says what to
-    install when meshio is not there.
+    Cells are ``triangle``, or ``triangle6`` for order 2. Raises ``MissingExtraError`` where meshio
+    is not there.
     """
-    try:
+    with needs("med", "to_meshio"):
         import meshio
-    except ImportError:
-        raise ImportError("to_meshio needs meshio: pip install meshio") from None
     cells = {"face_id": [mesh.face_ids.copy()], "alpha": [alpha(mesh)]}
     if mesh.solid_ids is not None:
         cells["solid_id"] = [mesh.solid_ids.copy()]

@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
+from surfmesh.errors import needs
 from surfmesh.io.colours import NO_COLOUR, triangle_colours
 from surfmesh.io.group_record import CAD_NUMBERS, as_cad_numbers, cad_numbers
 from surfmesh.io.vtk_xml_reading import VtkContent, read_vtk
@@ -45,7 +46,8 @@ def to_pyvista(mesh: SurfaceMesh) -> "pyvista.PolyData":
     ``colour`` (red, green, blue of 0..255). Arrays are copies: the mesh stays immutable whatever
     is done to the result.
     """
-    import pyvista
+    with needs("view", "to_pyvista"):
+        import pyvista
 
     data = pyvista.PolyData.from_regular_faces(mesh.points.copy(), mesh.triangles)
     if mesh.sizes is not None:

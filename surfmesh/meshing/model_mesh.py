@@ -21,7 +21,11 @@ from surfmesh.meshing.edges.edge_nodes import CutEdges, cut_edges
 from surfmesh.meshing.edges.edge_sampling import sample_edges
 from surfmesh.meshing.edges.face_proximity import with_face_gaps
 from surfmesh.meshing.estimate.estimation import Estimate
-from surfmesh.meshing.estimate.model_estimate import model_counts, require_model_within
+from surfmesh.meshing.estimate.model_estimate import (
+    model_counts,
+    quick_bound,
+    require_model_within,
+)
 from surfmesh.meshing.estimate.trial_faces import ratios
 from surfmesh.meshing.estimate.trial_mesh import ROUNDS as TRIAL_ROUNDS
 from surfmesh.meshing.estimate.trial_mesh import WHOLE, WHOLE_STRETCHED, counts_within_budget
@@ -34,6 +38,7 @@ from surfmesh.meshing.finishing.balanced_rounds import (
     solids_of_model,
     widened_model,
 )
+from surfmesh.meshing.finishing.curved_requests import requests_for_curved
 from surfmesh.meshing.finishing.edge_collapse import LEAST, simplified
 from surfmesh.meshing.patch.refinement_loop import MAX_ROUNDS, refined_in_rounds
 from surfmesh.meshing.processors import allowed_threads
@@ -212,10 +217,21 @@ class _Rounds:
                 mesh = self._joined()
                 crowded = limits_where_crowded(self.model, mesh, self.wanted.base)
             self.may_be_crowded = bool(crowded)
-            for number, limit in crowded.items():
-                refinements[number] = limit.joined_with(refinements.get(number))
+            for more in (crowded, {} if crowded else self._too_far(mesh, limits)):
+                for number, limit in more.items():
+                    refinements[number] = limit.joined_with(refinements.get(number))
         self.not_refined = [self.faces[k] for k in sorted(asking | set(refinements))]
         return mesh, refinements
+
+    def _too_far(
+        self, mesh: SurfaceMesh, limits: Mapping[int, SizeLimits]
+    ) -> dict[int, SizeLimits]:
+        """Smaller sizes, by face, where quadratic triangles keep not to the chord."""
+        if not self.wanted.base.is_curved or not self.how.optimise:
+            return {}
+        faces = [self.wanted.of_face(k) for k in range(len(self.model.faces))]
+        chords = np.array([face.chord for face in faces], float)
+        return requests_for_curved(mesh, chords, self.wanted.base.gradient, limits)
 
     def _cut_edges(self, limits: Mapping[int, SizeLimits]) -> None:
         first = not self.nodes
@@ -269,13 +285,17 @@ def estimate_model(model: CadModel, sizing: Any) -> Estimate:
         sizing = replace(wide, base=wide.base.replaced(vertices=ON_SURFACE))
     before = _Unmeshed(model, sizing)
     stretched = before.wanted.is_anisotropic
-    counts = model_counts(model, before.jobs)
-    if counts.sum() <= (WHOLE_STRETCHED if stretched else WHOLE):
+    whole = WHOLE_STRETCHED if stretched else WHOLE
+    small = quick_bound(model, before.nodes, [face.sizing for face in before.faces]) <= whole
+    counts = np.empty(0) if small else model_counts(model, before.jobs)
+    if small or counts.sum() <= whole:
         made = counts_within_budget(lambda budget: mesh_model(
             model, sizing, progress=budget, strict=False, rounds=TRIAL_ROUNDS
         ))  # fmt: skip
         if made is not None:
             return Estimate.of(made, stretched, model=True)
+    if small:
+        counts = model_counts(model, before.jobs)
     return Estimate.of(counts * ratios(before.jobs, counts), stretched, model=True)
 
 
@@ -309,3 +329,4 @@ class _Unmeshed:
             limits = {k: more for k, job in enumerate(self.jobs) if (more := edge_refinement(job))}
             nodes = cut_edges(model, self.wanted.base, self.samples, limits, nodes)
             self.jobs = face_jobs(model, self.faces, nodes, limits)
+        self.nodes = nodes

@@ -30,6 +30,7 @@ from surfmesh.meshing.finishing.balanced_rounds import (
     solids_of_surface,
     widened_surface,
 )
+from surfmesh.meshing.finishing.curved_requests import requests_for_curved
 from surfmesh.meshing.patch.patch_mesh import PatchMesh, mesh_patch
 from surfmesh.meshing.patch.proof_requests import requests_for_proof
 from surfmesh.meshing.patch.refinement_loop import (
@@ -127,7 +128,8 @@ class _Rounds:
 
         limits: of sizes, known from the start.
         """
-        rounds = MAX_ROUNDS_FOR_PROOF if self.sizing.proof else MAX_ROUNDS
+        each_counts = self.sizing.proof or self.sizing.is_curved
+        rounds = MAX_ROUNDS_FOR_PROOF if each_counts else MAX_ROUNDS
         mesh, bad = refined_in_rounds(self._round, SizeLimits.joined_with, rounds, limits)
         if len(bad):
             place = ", ".join(f"{x:.6g}" for x in mesh.points[bad[0]])
@@ -154,13 +156,13 @@ class _Rounds:
             loops, name = _loops(self.surface), self.surface.name
             require_field_within(self.sizing.limit, field, loops, name)
         try:
-            mesh, refinement, bad = self._meshed(field)
+            mesh, refinement, bad = self._meshed(field, limits)
         except (SurfaceError, MeshingError) as error:
             if not self.kinks:
                 raise
             self.kinks = []
             self.not_followed = [f"no edges follow the kinks of {name!r}: {error}"]
-            mesh, refinement, bad = self._meshed(field)
+            mesh, refinement, bad = self._meshed(field, limits)
         self._latest = mesh, bad
         self.watch.spend(len(mesh.triangles))
         if refinement is None or not _can_shrink(field, refinement):
@@ -172,7 +174,9 @@ class _Rounds:
             return self._latest, {}
         return self._latest, {0: refinement}
 
-    def _meshed(self, field: SizeField) -> tuple[SurfaceMesh, SizeLimits | None, np.ndarray]:
+    def _meshed(
+        self, field: SizeField, known: Mapping[int, SizeLimits]
+    ) -> tuple[SurfaceMesh, SizeLimits | None, np.ndarray]:
         """The mesh for one size field; the sizes it requests; points where sides are not joined."""
         surface, sides = self.surface, self.sides
         with self.watch.stage("sizing"):
@@ -194,7 +198,7 @@ class _Rounds:
             facts=known_facts(surface),
         )
         unjoined, unproved = patch.limits_for_seams(FINER), self._unproved(patch)
-        requests = joined(*patch.requests, unjoined, unproved)
+        requests = joined(*patch.requests, unjoined, unproved, self._too_far(mesh, patch, known))
         return mesh, requests, patch.space.non_manifold
 
     def _unproved(self, patch: PatchMesh) -> SizeLimits | None:
@@ -207,6 +211,17 @@ class _Rounds:
             self.surface, self.sizing, space.points, space.triangles, patch.uv[corners],
             patch.sizes, None if roots is None else roots[corners[:, 0]],
         )  # fmt: skip
+
+    def _too_far(
+        self, mesh: SurfaceMesh, patch: PatchMesh, known: Mapping[int, SizeLimits]
+    ) -> SizeLimits | None:
+        """What is asked for where quadratic triangles keep not to the chord."""
+        chord = self.sizing.chord
+        if chord is None or not self.sizing.is_curved or len(patch.space.non_manifold):
+            return None
+        if not self.optimise:
+            return None
+        return requests_for_curved(mesh, np.array([chord]), self.sizing.gradient, known).get(0)
 
     def _boundary(self, field: SizeField) -> BoundaryLoops:
         if not self.kinks:

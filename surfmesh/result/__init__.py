@@ -16,6 +16,8 @@ mesh_parts: what a mesh holds besides points and triangles: Parametrisation, Mod
 mesh_fields: all fields by one name each: keywords of a mesh, and its attributes.
 invariants: what has to hold of every mesh: the first thing that does not.
 surface_mesh: the result: an immutable triangle mesh on one or more surfaces.
+curved_fit: how far the quadratic triangles of a mesh lie from its surfaces, arcs from its curves.
+facets: quadratic triangles as flat ones.
 
 Others use all of them but mesh_part, mesh_fields and invariants; mesh_part is for what adds
 triangles to a mesh too.

@@ -54,6 +54,20 @@ def node_values(values: NDArray[np.float64], edges: NDArray) -> NDArray[np.float
     return np.concatenate((values, values[edges].mean(axis=1)))
 
 
+def derivatives(
+    nodes: NDArray[np.float64], weights: NDArray[np.float64]
+) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]]:
+    """Derivatives (m, q, 3) by s and by t, and points, at weights (q, 3) of nodes (m, 6, 3)."""
+    r, s, t = weights.T
+    corners = weights * (2.0 * weights - 1.0)
+    functions = np.column_stack([corners, 4.0 * r * s, 4.0 * s * t, 4.0 * t * r])
+    found = (np.einsum("qk,mkd->mqd", rows, nodes) for rows in (
+        weights @ _ALONG_S, weights @ _ALONG_T, functions,
+    ))  # fmt: skip
+    along_s, along_t, points = found
+    return along_s, along_t, points
+
+
 def least_jacobians(nodes: NDArray[np.float64], elements: NDArray) -> NDArray[np.float64]:
     """(m,) below the Jacobian of each six-node triangle, seen along the normal of its corners.
 

@@ -334,7 +334,7 @@ class SurfaceMesh(Arrays):
         return to_trimesh(self)
 
     def to_meshio(self) -> meshio.Mesh:
-        """As a meshio.Mesh; ``ImportError`` that says what to install without meshio."""
+        """As a meshio.Mesh; ``MissingExtraError`` without meshio."""
         from surfmesh.io.to_meshio import to_meshio
 
         return to_meshio(self)

@@ -1,6 +1,7 @@
 """Pictures of a mesh: PNG files without a display, interactive windows, reports in HTML.
 
 vertex_parameters: one surface and one (u, v) for every vertex.
+faces_apart: vertices doubled where faces meet, for what jumps there.
 colouring, colour_maps: what a mesh can be coloured by, and the colours.
 lines, overlays: lines over the colours, and which of them are drawn.
 legend, camera: what is written around them, and from where the mesh is looked at.

@@ -6,6 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 FROM = np.array([0.62, -1.0, 0.72])  # from the front right, above
+FROM_ABOVE = np.array([0.0, -1e-3, 1.0])  # all but: y is upwards in the picture
 
 
 class Camera(NamedTuple):
@@ -44,9 +45,11 @@ def framed(points: NDArray[np.float64], aspect: float, margin: float = 0.06) -> 
 def direction_of(points: NDArray[np.float64]) -> NDArray[np.float64]:
     """(3,) unit vector towards the eye.
 
-    A surface that is almost flat is looked at more from above (from its flat side).
+    A planar domain is looked at from above, and a surface that is almost flat more from there.
     """
     extent = np.ptp(points, axis=0)
+    if extent[2] == 0.0:
+        return FROM_ABOVE / np.linalg.norm(FROM_ABOVE)
     direction = FROM.copy()
     if extent[2] < 0.05 * extent[:2].max():
         direction[2] = 2.2

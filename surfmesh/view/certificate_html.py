@@ -102,7 +102,8 @@ def _figures(values: Mapping[str, Any]) -> str:
             for name, value in zip(names, found)
         ]
         if found[0] is not None:
-            said = words.format(*map(_said, found))
+            none = names[0] == "above_growth_share" and not values[names[0]]
+            said = "none" if none else words.format(*map(_said, found))
             rows.append(f'<tr><th>{title}</th><td class="number">{escape(said)}</td></tr>')
     return f"<table>{''.join(rows)}</table>"
 

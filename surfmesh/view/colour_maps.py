@@ -1,14 +1,22 @@
 """The matplotlib map behind a colouring."""
 
-import numpy as np
-from matplotlib import colormaps
-from matplotlib.colors import Colormap, ListedColormap
+from typing import TYPE_CHECKING
 
+import numpy as np
+
+from surfmesh.errors import needs
 from surfmesh.view.colouring import Colouring
 
+if TYPE_CHECKING:
+    from matplotlib.colors import Colormap
 
-def map_of(colours: Colouring) -> Colormap:
+
+def map_of(colours: Colouring) -> "Colormap":
     """A continuous map, or the hues that occur."""
+    with needs("view", "a coloured mesh"):
+        from matplotlib import colormaps
+        from matplotlib.colors import ListedColormap
+
     found = colormaps[colours.colours]
     return ListedColormap(found(np.arange(colours.hues))) if colours.hues else found
 

@@ -7,7 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from surfmesh.geometry.differential.fundamental_forms import PrincipalCurvatures, curvatures, forms
-from surfmesh.quality.measures.deviation import deviation
+from surfmesh.quality.measures.measurements import Measurements
 from surfmesh.quality.measures.shape import shapes
 from surfmesh.result.surface_mesh import SurfaceMesh
 from surfmesh.view.legend import unit_of
@@ -87,7 +87,7 @@ def _by_size(mesh: SurfaceMesh) -> Colouring:
 
 
 def _by_deviation(mesh: SurfaceMesh) -> Colouring:
-    found = deviation(mesh, shapes(mesh).area)
+    found = Measurements(mesh).deviation
     if found is None:
         raise ValueError("cannot colour by 'deviation': the mesh carries no surface")
     round_off = 1e-12 * float(np.abs(mesh.points).max(initial=1e-300))  # flat faces: no scale
@@ -117,7 +117,11 @@ def _by_mean_curvature(mesh: SurfaceMesh, found: PrincipalCurvatures) -> Colouri
 
 
 def _vertex_curvatures(mesh: SurfaceMesh) -> PrincipalCurvatures | None:
-    """Curvatures at the vertices of ``mesh``, each on one of its faces."""
+    """Curvatures at the vertices of ``mesh``, each on one of its faces.
+
+    Normals are those of the triangles: where a face is turned over, so are the signs, and convex
+    fillets of a solid have all one sign.
+    """
     place = vertex_parameters(mesh)
     if place is None:
         return None
@@ -126,7 +130,12 @@ def _vertex_curvatures(mesh: SurfaceMesh) -> PrincipalCurvatures | None:
     for number, surface in enumerate(mesh.surfaces):
         mine = place.face == number
         if mine.any():
-            for values, part in zip(whole, curvatures(forms(surface, place.uv[mine]))):
+            found = curvatures(forms(surface, place.uv[mine]))
+            if mesh.turned_faces is not None and mesh.turned_faces[number]:
+                found = PrincipalCurvatures(
+                    -found.k2, -found.k1, found.d2, found.d1, found.gaussian, -found.mean
+                )
+            for values, part in zip(whole, found):
                 values[mine] = part
     return whole
 
@@ -158,6 +167,9 @@ _COLOURINGS = {
     "face": _by_face,
 }
 _CURVATURES = {"curvature": _by_curvature, "gaussian": _by_gaussian, "mean": _by_mean_curvature}
+
+CURVATURES = tuple(_CURVATURES)
+"""Names of what may jump from face to face."""
 
 COLOURS = (*_COLOURINGS, *_CURVATURES)
 """Names that ``colouring`` knows; "quality" is alpha."""

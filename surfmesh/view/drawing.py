@@ -1,11 +1,17 @@
 """One picture before it is drawn: colours, lines over them, title and size, however it is drawn."""
 
+from dataclasses import replace
 from typing import NamedTuple, TypedDict
 
+import numpy as np
+
+from surfmesh.result.facets import facets
 from surfmesh.result.surface_mesh import SurfaceMesh
-from surfmesh.view.colouring import Colouring, colouring
-from surfmesh.view.legend import title_of, with_edges
-from surfmesh.view.lines import Lines
+from surfmesh.view.colour_maps import map_of
+from surfmesh.view.colouring import CURVATURES, HUES, Colouring, colouring
+from surfmesh.view.faces_apart import faces_apart
+from surfmesh.view.legend import named_faces, title_of, with_edges
+from surfmesh.view.lines import Lines, sides
 from surfmesh.view.overlays import overlays
 
 
@@ -43,11 +49,44 @@ def drawing(
     title: str | None = None,
 ) -> Drawing:
     """The drawing of ``mesh``; options and errors as of ``plot``."""
-    return Drawing(
-        mesh,
-        colouring(mesh, by),
+    shown = faces_apart(mesh) if by in CURVATURES else mesh
+    drawn = Drawing(
+        shown,
+        colouring(shown, by),
         overlays(mesh, by, draw_circles=circles, directions=directions, worst=worst),
         title_of(mesh) if title is None else title,
         with_edges(mesh, edges, circles),
         size,
     )
+    return drawn if shown.mid_points is None else _curved(drawn)
+
+
+def _curved(drawn: Drawing) -> Drawing:
+    """Of quadratic triangles: their facets, with their own sides as lines."""
+    mesh, colours = drawn.mesh, drawn.colours
+    flat = facets(mesh)
+    if colours.per_vertex:
+        values = flat.interpolated(mesh, colours.values)
+    else:
+        values = colours.values[flat.parent]
+    lines = [sides(mesh), *drawn.lines] if drawn.edges else drawn.lines
+    return drawn._replace(
+        mesh=SurfaceMesh(
+            points=flat.points, triangles=flat.triangles, face_ids=mesh.face_ids[flat.parent],
+            groups=mesh.groups,
+        ),
+        colours=replace(colours, values=values), lines=lines, edges=False,
+    )  # fmt: skip
+
+
+def face_legend(drawn: Drawing) -> list[tuple[int, str, str]]:
+    """Number, name and colour of the faces that have names, where colours tell faces apart."""
+    colours = drawn.colours
+    if not colours.hues:
+        return []
+    shares = (np.arange(colours.hues) + 0.5) / colours.hues
+    table = map_of(colours)(shares, bytes=True)[:, :3].tolist()
+    return [
+        (face, name, "#{:02x}{:02x}{:02x}".format(*table[face % HUES]))
+        for face, name in named_faces(drawn.mesh)
+    ]

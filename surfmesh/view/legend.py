@@ -9,6 +9,8 @@ from surfmesh.quality.measures.shape import alpha
 from surfmesh.result.surface_mesh import SurfaceMesh
 
 EDGES_UP_TO = 25_000  # triangles; more would paint the surface black
+NAMED = 3  # solids that a title lists
+LISTED = 16  # names of faces beside their colours
 INK = "#202428"
 
 
@@ -23,11 +25,24 @@ def title_of(mesh: SurfaceMesh) -> str:
 
 
 def name_of(mesh: SurfaceMesh) -> str:
-    """The name of its only surface, or how many faces there are; empty when nothing is known."""
+    """The names of its solids, or of its only surface, or how many faces there are; empty when
+    nothing is known.
+    """
+    solids = [name for name in dict.fromkeys(mesh.groups.solid_names) if name]
+    if solids:
+        return ", ".join(solids) if len(solids) <= NAMED else f"{len(solids):,} solids"
     names = list(dict.fromkeys(surface.name for surface in mesh.surfaces))
     if len(names) == 1:
         return names[0]
     return f"{len(mesh.surfaces):,} faces" if names else ""
+
+
+def named_faces(mesh: SurfaceMesh) -> list[tuple[int, str]]:
+    """Numbers and names of faces that have one, the first ``LISTED``."""
+    used = set(np.unique(mesh.face_ids).tolist())
+    names = enumerate(mesh.groups.face_names)
+    found = [(face, name) for face, name in names if name and face in used]
+    return found[:LISTED]
 
 
 def unit_of(mesh: SurfaceMesh, count: int = 2) -> str:

@@ -7,6 +7,8 @@ from numpy.typing import NDArray
 
 from surfmesh.geometry.differential.fundamental_forms import curvatures, forms
 from surfmesh.quality.measures.shape import shapes
+from surfmesh.result.facets import PARTS
+from surfmesh.result.quadratic_triangles import edge_rows
 from surfmesh.result.surface_mesh import SurfaceMesh
 from surfmesh.sizing.metric_roots import unpacked
 from surfmesh.view.vertex_parameters import vertex_parameters
@@ -28,7 +30,27 @@ class Lines(NamedTuple):
 
 def model_edges(mesh: SurfaceMesh) -> Lines:
     """The edges of the CAD model; without one, the boundary and where faces meet."""
-    return Lines("model edges", mesh.points[model_edge_pairs(mesh)], "#101418", 3.0)
+    return Lines("model edges", pieces_of(mesh, model_edge_pairs(mesh)), "#101418", 3.0)
+
+
+def sides(mesh: SurfaceMesh) -> Lines:
+    """All sides of triangles."""
+    return Lines("sides", pieces_of(mesh, mesh.edges), "#202428", 1.0)
+
+
+def pieces_of(mesh: SurfaceMesh, pairs: NDArray[np.int32]) -> NDArray[np.float64]:
+    """(k, 2, 3) straight pieces of the edges between vertices (p, 2): one of each, and where they
+    are curved ``PARTS``."""
+    ends = mesh.points[pairs]
+    if mesh.mid_points is None or not len(pairs):
+        return ends
+    row = edge_rows(mesh.connectivity, pairs)
+    middle = np.where((row >= 0)[:, None], mesh.mid_points[row], ends.mean(axis=1))
+    s = np.linspace(0.0, 1.0, PARTS + 1)
+    weights = np.stack([(1 - s) * (1 - 2 * s), 4 * s * (1 - s), s * (2 * s - 1)], axis=1)
+    nodes = np.stack([ends[:, 0], middle, ends[:, 1]], axis=1)
+    points = np.einsum("sk,pkd->psd", weights, nodes)
+    return np.stack([points[:, :-1], points[:, 1:]], axis=2).reshape(-1, 2, 3)
 
 
 def model_edge_pairs(mesh: SurfaceMesh) -> NDArray[np.int32]:
@@ -111,8 +133,8 @@ def worst_triangles(mesh: SurfaceMesh, count: int) -> tuple[Lines, NDArray[np.in
     """The sides of the ``count`` triangles of smallest alpha, and their numbers, worst first."""
     alpha = shapes(mesh).alpha
     worst = np.argsort(alpha, kind="stable")[:count]
-    sides = mesh.triangles[worst][:, [[0, 1], [1, 2], [2, 0]]].reshape(-1, 2)
-    return Lines("worst triangles", mesh.points[sides], "#e01010", 4.0), worst
+    around = mesh.triangles[worst][:, [[0, 1], [1, 2], [2, 0]]].reshape(-1, 2)
+    return Lines("worst triangles", pieces_of(mesh, around), "#e01010", 4.0), worst
 
 
 def _centred(middle: NDArray, half: NDArray) -> NDArray:

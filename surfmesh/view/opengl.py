@@ -5,6 +5,8 @@ import os
 import sys
 from functools import cache
 
+from surfmesh.errors import needs
+
 SURFACELESS = 0x31DD  # EGL_PLATFORM_SURFACELESS_MESA
 FIRST_WITH_EGL = (9, 4)  # versions of VTK; older wheels draw on an X display alone
 
@@ -30,7 +32,8 @@ def can_draw() -> bool:
 
 
 def _vtk_version() -> tuple[int, int]:
-    from vtkmodules.vtkCommonCore import vtkVersion
+    with needs("view", "a picture"):
+        from vtkmodules.vtkCommonCore import vtkVersion
 
     version = vtkVersion()
     return version.GetVTKMajorVersion(), version.GetVTKMinorVersion()

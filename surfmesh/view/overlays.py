@@ -27,4 +27,4 @@ def overlays(
 
 def legend(layers: list[Lines]) -> list[Lines]:
     """Those that need a word: what is black is an edge."""
-    return [layer for layer in layers if layer.name != "model edges"]
+    return [layer for layer in layers if layer.name not in ("model edges", "sides")]

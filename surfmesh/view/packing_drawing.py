@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from surfmesh.errors import FileFormatError, SizingError
+from surfmesh.errors import FileFormatError, SizingError, needs
 from surfmesh.io.atomic import replacing
 from surfmesh.view.legend import INK
 
@@ -27,10 +27,11 @@ def draw_packing(packing: "CirclePacking", path: str | Path, show: str = "both")
     another extension or a place that cannot be written, ``SizingError`` for an unknown
     ``show``.
     """
-    from matplotlib import rc_context
-    from matplotlib.backends.backend_agg import FigureCanvasAgg
-    from matplotlib.collections import EllipseCollection, LineCollection
-    from matplotlib.figure import Figure
+    with needs("view", "a drawing"):
+        from matplotlib import rc_context
+        from matplotlib.backends.backend_agg import FigureCanvasAgg
+        from matplotlib.collections import EllipseCollection, LineCollection
+        from matplotlib.figure import Figure
 
     path = Path(path)
     if path.suffix.lower() not in FORMATS:

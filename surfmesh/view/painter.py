@@ -15,14 +15,12 @@ from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
 from surfmesh.geometry.boxes import diagonal
-from surfmesh.result.surface_mesh import SurfaceMesh
 from surfmesh.view.camera import Camera, framed
 from surfmesh.view.colour_maps import map_of
-from surfmesh.view.drawing import Drawing
+from surfmesh.view.drawing import Drawing, face_legend
 from surfmesh.view.legend import INK
 from surfmesh.view.overlays import legend
 
-AMBIENT = 0.35  # light from everywhere; the rest comes from the eye
 DOTS_PER_INCH = 100
 HAIRLINE = 0.25  # points
 NEARER = 0.012  # of the mesh's diagonal: lines hide what is less than this before them
@@ -45,8 +43,10 @@ def paint(drawn: Drawing, file: BinaryIO) -> None:
     axes.set_aspect("equal")
     axes.axis("off")
     figure.text(0.02, 0.955, drawn.title, color=INK, fontsize=11)
-    for row, layer in enumerate(legend(drawn.lines), 1):
-        figure.text(0.02, 0.955 - 0.03 * row, layer.name, color=layer.colour, fontsize=9)
+    said = [(layer.name, layer.colour) for layer in legend(drawn.lines)]
+    said += [(f"{face}: {name}", colour) for face, name, colour in face_legend(drawn)]
+    for row, (text, colour) in enumerate(said, 1):
+        figure.text(0.02, 0.955 - 0.03 * row, text, color=colour, fontsize=9)
     bar = figure.colorbar(
         scale, cax=figure.add_axes((0.25, 0.075, 0.5, 0.025)), orientation="horizontal"
     )
@@ -63,7 +63,6 @@ def _painted(drawn: Drawing, camera: Camera, scale: ScalarMappable) -> PolyColle
     values = colours.within
     values = values[triangles].mean(axis=1) if colours.per_vertex else values
     faces = scale.to_rgba(values)
-    faces[:, :3] *= (AMBIENT + (1 - AMBIENT) * _facing(mesh, camera))[:, None]
     # its own colour closes the hairlines
     rims = np.tile(to_rgba(INK), (len(faces), 1)) if drawn.edges else faces
     widths = np.full(len(faces), HAIRLINE)
@@ -93,11 +92,3 @@ def _seen(points: NDArray, camera: Camera) -> tuple[NDArray, NDArray]:
     relative = points - camera.centre
     across, along = relative @ camera.right, relative @ camera.up
     return np.stack((across, along), axis=-1), relative @ camera.towards
-
-
-def _facing(mesh: SurfaceMesh, camera: Camera) -> NDArray:
-    """(m,) cosine between the line of sight and the normals of the triangles, either way."""
-    a, b, c = (mesh.points[corner] for corner in mesh.triangles.T)
-    normals = np.cross(b - a, c - a)
-    lengths = np.linalg.norm(normals, axis=1)
-    return np.abs(normals @ camera.towards) / np.where(lengths > 0, lengths, 1.0)

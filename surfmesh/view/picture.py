@@ -4,7 +4,7 @@ from io import BytesIO
 from pathlib import Path
 from typing import Unpack
 
-from surfmesh.errors import FileFormatError
+from surfmesh.errors import FileFormatError, needs
 from surfmesh.io.atomic import replacing
 from surfmesh.result.surface_mesh import SurfaceMesh
 from surfmesh.view.drawing import Drawing, Look, drawing
@@ -48,9 +48,10 @@ def plot(
 
 
 def _render(drawn: Drawing, file: BytesIO) -> None:
-    import pyvista
+    with needs("view", "a picture"):
+        import pyvista
 
-    from surfmesh.view.scene import scene
+        from surfmesh.view.scene import scene
 
     with pyvista.vtk_verbosity("off"):  # it says on the console that there is no display
         plotter = scene(drawn, off_screen=True)
@@ -61,6 +62,7 @@ def _render(drawn: Drawing, file: BytesIO) -> None:
 
 
 def _paint(drawn: Drawing, file: BytesIO) -> None:
-    from surfmesh.view.painter import paint
+    with needs("view", "a picture"):
+        from surfmesh.view.painter import paint
 
     paint(drawn, file)

@@ -6,7 +6,7 @@ import pyvista
 from surfmesh.io.vtk_xml import to_pyvista
 from surfmesh.view.camera import framed
 from surfmesh.view.colour_maps import map_of
-from surfmesh.view.drawing import Drawing
+from surfmesh.view.drawing import Drawing, face_legend
 from surfmesh.view.legend import INK
 from surfmesh.view.lines import Lines
 from surfmesh.view.overlays import legend
@@ -38,10 +38,7 @@ def scene(drawn: Drawing, *, off_screen: bool) -> pyvista.Plotter:
         edge_color=INK,
         edge_opacity=0.55,
         line_width=0.7 * unit,
-        lighting=True,
-        ambient=0.4,
-        diffuse=0.65,
-        specular=0.0,
+        lighting=False,  # colours are those of the bar
         scalar_bar_args={
             "title": colours.title + "\n",
             "color": INK,
@@ -59,6 +56,7 @@ def scene(drawn: Drawing, *, off_screen: bool) -> pyvista.Plotter:
     for layer in drawn.lines:
         _add_lines(plotter, layer, layer.width * unit * SMOOTHED)
     _add_words(plotter, drawn, unit)
+    plotter.add_axes(color=INK, line_width=2, viewport=(0.0, 0.0, 0.16, 0.16))
     _set_camera(plotter, drawn)
     if drawn.edges or drawn.lines:
         plotter.enable_anti_aliasing("ssaa")
@@ -68,6 +66,7 @@ def scene(drawn: Drawing, *, off_screen: bool) -> pyvista.Plotter:
 def _add_words(plotter: pyvista.Plotter, drawn: Drawing, unit: float) -> None:
     layers = legend(drawn.lines)
     said = [(drawn.title, INK), *((layer.name, layer.colour) for layer in layers)]
+    said += [(f"{face}: {name}", colour) for face, name, colour in face_legend(drawn)]
     for row, (text, colour) in enumerate(said):
         plotter.add_text(
             text,
@@ -79,7 +78,9 @@ def _add_words(plotter: pyvista.Plotter, drawn: Drawing, unit: float) -> None:
 
 
 def _set_camera(plotter: pyvista.Plotter, drawn: Drawing) -> None:
-    camera = framed(drawn.mesh.points, drawn.size[0] / drawn.size[1], margin=0.22)
+    flat = not np.ptp(drawn.mesh.points[:, 2])
+    margin = 0.32 if flat else 0.22  # what is seen from above fills the picture up to its corners
+    camera = framed(drawn.mesh.points, drawn.size[0] / drawn.size[1], margin=margin)
     centre = camera.centre - BAR * camera.half_height * camera.up
     eye = centre + camera.distance * camera.towards
     plotter.camera_position = [tuple(eye), tuple(centre), tuple(camera.up)]

@@ -4,7 +4,7 @@ import os
 import sys
 from typing import Unpack
 
-from surfmesh.errors import SurfmeshError
+from surfmesh.errors import SurfmeshError, needs
 from surfmesh.result.surface_mesh import SurfaceMesh
 from surfmesh.view.drawing import Look, drawing
 from surfmesh.view.overlays import SHAPES
@@ -25,7 +25,8 @@ def show(mesh: SurfaceMesh, **look: Unpack[Look]) -> None:
     if sys.platform == "linux" and not any(map(os.environ.get, displays)):
         raise SurfmeshError("there is no display to open a window on; write a picture instead")
 
-    from surfmesh.view.scene import scene
+    with needs("view", "a window"):
+        from surfmesh.view.scene import scene
 
     scene(drawing(mesh, SIZE, **look), off_screen=False).show()
 

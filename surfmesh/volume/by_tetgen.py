@@ -3,7 +3,7 @@
 import numpy as np
 from numpy.typing import NDArray
 
-from surfmesh.errors import MeshingError
+from surfmesh.errors import MeshingError, needs
 from surfmesh.result.surface_mesh import SurfaceMesh
 
 RADIUS_TO_EDGE = 1.4  # of a tetrahedron that is refined: circumscribed radius over shortest edge
@@ -30,10 +30,8 @@ def fill(mesh: SurfaceMesh, size: float | None) -> tuple[NDArray, NDArray]:
 
 def _filled(points: NDArray, triangles: NDArray, options: dict) -> tuple[NDArray, NDArray]:
     """Points, the given ones first, and tetrahedra; nothing is inserted on triangles and edges."""
-    try:
+    with needs("volume", "engine='tetgen'"):
         import tetgen
-    except ImportError:
-        raise ImportError("engine='tetgen' needs tetgen: pip install tetgen") from None
     work = tetgen.TetGen(points.copy(), triangles.astype(np.int32))
     try:
         work.tetrahedralize(

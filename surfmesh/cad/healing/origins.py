@@ -8,11 +8,9 @@ from typing import Protocol
 from OCP.TopAbs import TopAbs_FACE, TopAbs_SHELL, TopAbs_SOLID
 from OCP.TopoDS import TopoDS_Shape
 
+from surfmesh.cad.model.cad_model import AND
 from surfmesh.cad.parts import Detail, Part, Tag
 from surfmesh.cad.sub_shapes import ByShape, Numbering, each
-
-AND = " + "
-"""Between the names of what was made of several."""
 
 
 class History(Protocol):

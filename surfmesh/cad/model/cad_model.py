@@ -25,6 +25,8 @@ from surfmesh.cad.model.invariants import broken
 from surfmesh.geometry.cad_surfaces.curves import CoreCurve
 from surfmesh.geometry.cad_surfaces.face_surface import FaceSurface
 
+AND = " + "  # between the names of what was made of several
+
 Colour = tuple[float, float, float]
 
 

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from weakref import WeakKeyDictionary
+
 import numpy as np
 
 from surfmesh.cad.model.cad_model import CadEdge, CadFace, CadModel
@@ -12,6 +14,8 @@ COLLAPSED = 2e-6
 
 LOOSE = 20.0
 """And than so many tolerances of the edge and its ends."""
+
+_KNOWN: WeakKeyDictionary[CadModel, tuple[bool, ...]] = WeakKeyDictionary()  # asked for often
 
 
 def collapses(model: CadModel, edge: CadEdge) -> bool:
@@ -27,16 +31,18 @@ def collapses(model: CadModel, edge: CadEdge) -> bool:
     return edge.degenerate or edge.length <= min(COLLAPSED * model.diagonal, LOOSE * loose)
 
 
-def collapsed_edges(model: CadModel) -> list[bool]:
+def collapsed_edges(model: CadModel) -> tuple[bool, ...]:
     """For each edge whether it collapses."""
-    return [collapses(model, edge) for edge in model.edges]
+    if model not in _KNOWN:
+        _KNOWN[model] = tuple(collapses(model, edge) for edge in model.edges)
+    return _KNOWN[model]
 
 
 def vertex_numbers(model: CadModel) -> np.ndarray:
     """For each CAD vertex the first one that tiny edges join it to, mostly itself."""
     number = np.arange(len(model.vertices))
-    for edge in model.edges:
-        if edge.start != edge.end and collapses(model, edge):
+    for edge, collapsed in zip(model.edges, collapsed_edges(model)):
+        if collapsed and edge.start != edge.end:
             ends = number[edge.start], number[edge.end]
             if ends[0] != ends[1]:
                 number[number == max(ends)] = min(ends)

@@ -13,7 +13,7 @@ from surfmesh.cad.model.cad_model import CadFace, CadModel
 from surfmesh.cad.model.collapsed_edges import collapsed_edges, vanishes, vertex_numbers
 from surfmesh.cad.model.curve_samples import walked
 from surfmesh.cad.model.incidence import SAME_PLACE, edge_uses, vertex_fans
-from surfmesh.cad.model.invariants import signed_area
+from surfmesh.cad.model.invariants import signed_areas
 from surfmesh.cad.model.loops import closes
 from surfmesh.result.model_facts import FaceFacts, ModelFacts, SolidFacts
 
@@ -29,12 +29,11 @@ def model_facts(model: CadModel) -> ModelFacts:
 
 def _model_facts(model: CadModel) -> ModelFacts:
     solids = []
-    number = vertex_numbers(model)
-    collapsed = collapsed_edges(model)
+    numbers = _EulerNumbers(model)
     for solid in model.solids:
         faces = {face for shell in solid.shells for face, _ in shell}
         area = math.fsum(model.faces[face].area for face in faces)
-        euler = _euler_number(model, faces, number, collapsed)
+        euler = numbers.of(faces)
         solids.append(SolidFacts(solid.name, area, solid.volume, euler, solid.closed))
     return ModelFacts(
         source=model.source,
@@ -42,7 +41,7 @@ def _model_facts(model: CadModel) -> ModelFacts:
         unit=model.unit,
         area=model.area,
         volume=model.volume if model.solids else None,
-        euler=_euler_number(model, range(len(model.faces)), number, collapsed),
+        euler=numbers.of(range(len(model.faces))),
         faces=tuple(FaceFacts(face.kind, face.area) for face in model.faces),
         solids=tuple(solids),
         edge_uses=edge_uses(model),
@@ -59,25 +58,37 @@ def euler_number(model: CadModel, faces: Iterable[int]) -> int:
     A seam is one edge, a degenerate edge only its vertex: so a sphere has two vertices, one
     edge and one face. So is an edge that the mesh has as one vertex, being tiny.
     """
-    return _euler_number(model, faces, vertex_numbers(model), collapsed_edges(model))
+    return _EulerNumbers(model).of(faces)
 
 
-def _euler_number(
-    model: CadModel, faces: Iterable[int], number: np.ndarray, collapsed: list[bool]
-) -> int:
-    """number: ``vertex_numbers(model)``. collapsed: ``collapsed_edges(model)``."""
-    of_vertex = number.tolist()
-    vertices, edges = set(), set()
-    inside = 0
-    for face in (model.faces[k] for k in faces):
-        for coedge in face.coedges:
-            edge = model.edges[coedge.edge]
-            vertices |= {of_vertex[edge.start], of_vertex[edge.end]}
-            if not collapsed[coedge.edge]:
-                edges.add(coedge.edge)
-        if not vanishes(model, face):
-            inside += 2 * _pieces(model, face) - _borders(model, face, number)
-    return len(vertices) - len(edges) + inside
+class _EulerNumbers:
+    """Those of any faces of a model; what a face adds inside is found once."""
+
+    def __init__(self, model: CadModel) -> None:
+        self.model = model
+        self._number = vertex_numbers(model).tolist()
+        self._collapsed = collapsed_edges(model)
+        self._inside: dict[int, int] = {}
+
+    def of(self, faces: Iterable[int]) -> int:
+        """V - E + F, see ``euler_number``."""
+        vertices, edges = set(), set()
+        inside = 0
+        for number in faces:
+            for coedge in self.model.faces[number].coedges:
+                edge = self.model.edges[coedge.edge]
+                vertices |= {self._number[edge.start], self._number[edge.end]}
+                if not self._collapsed[coedge.edge]:
+                    edges.add(coedge.edge)
+            if number not in self._inside:
+                self._inside[number] = self._inside_of(self.model.faces[number])
+            inside += self._inside[number]
+        return len(vertices) - len(edges) + inside
+
+    def _inside_of(self, face: CadFace) -> int:
+        if vanishes(self.model, face):
+            return 0
+        return 2 * _pieces(self.model, face) - _borders(self.model, face, self._number)
 
 
 def _pieces(model: CadModel, face: CadFace) -> int:
@@ -91,26 +102,27 @@ def _pieces(model: CadModel, face: CadFace) -> int:
     extent = np.ptp(np.array(face.surface.domain), axis=1)
     uses = Counter(vertex for own in ends for vertex in own)
     return 1 + sum(
-        closes(loop, extent)
-        and signed_area(loop) > 0.0
+        area > 0.0
         and all(uses[vertex] == 1 for vertex in own)
         and max(Counter(c.edge for c in loop).values()) == 1
-        for loop, own in zip(face.loops[1:], ends[1:])
+        and closes(loop, extent)
+        for loop, own, area in zip(face.loops[1:], ends[1:], signed_areas(face.loops[1:]))
     )
 
 
-def _borders(model: CadModel, face: CadFace, number: np.ndarray) -> int:
+def _borders(model: CadModel, face: CadFace, number: list[int]) -> int:
     """Number of loops, those that touch in a vertex counted as one."""
     if len(face.loops) < 2:
         return len(face.loops)
     (u0, u1), (v0, v1) = face.surface.domain
     near = SAME_PLACE * np.array([u1 - u0, v1 - v0])
+    starts = iter(walked(list(face.coedges), np.zeros(1))[:, 0])
     passed: dict[int, list[tuple[int, np.ndarray]]] = {}
     of = list(range(len(face.loops)))
     for loop, coedges in enumerate(face.loops):
-        for coedge, place in zip(coedges, walked(coedges, np.zeros(1))[:, 0]):
+        for coedge, place in zip(coedges, starts):
             edge = model.edges[coedge.edge]
-            vertex = int(number[edge.end if coedge.reversed else edge.start])
+            vertex = number[edge.end if coedge.reversed else edge.start]
             for other, there in passed.setdefault(vertex, []):
                 if of[other] != of[loop] and (np.abs(place - there) <= near).all():
                     joined = of[other], of[loop]

@@ -12,12 +12,15 @@ vertex as many fans: two boxes that share a corner have two there.
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from typing import NamedTuple
 
 import numpy as np
 
 from surfmesh.cad.model.cad_model import CadCoedge, CadFace, CadModel
 from surfmesh.cad.model.collapsed_edges import collapsed_edges, vanishes, vertex_numbers
+from surfmesh.cad.model.curve_samples import walked
+from surfmesh.cad.model.invariants import ENDS
 from surfmesh.geometry.components import components
 
 SAME_PLACE = 0.01  # of the (u, v) box: (u, v) of one vertex are as near, or a seam apart
@@ -34,6 +37,7 @@ class _Passage(NamedTuple):
     into: CadCoedge
     out_of: CadCoedge
     direct: bool  # without an edge between that is but a point
+    place: np.ndarray  # (2,) in (u, v) of the face, from where it goes on
 
     @property
     def ends(self) -> tuple[End, End]:
@@ -56,11 +60,15 @@ def vertex_fans(model: CadModel) -> tuple[int, ...]:
     number, collapsed = vertex_numbers(model), collapsed_edges(model)
     joined: list[tuple[End, End]] = []
     lone = [0] * len(model.vertices)
+    of_vertex = number.tolist()
 
+    starts = walked([coedge for face in model.faces for coedge in face.coedges], ENDS[:1])[:, 0]
+    last = 0
     for face in model.faces:
+        first, last = last, last + sum(map(len, face.loops))
         if vanishes(model, face):
             continue
-        passages, points = _passages(model, face, number, collapsed)
+        passages, points = _passages(model, face, of_vertex, collapsed, starts[first:last])
         for vertex in set(points) - {passage.vertex for passage in passages}:
             lone[vertex] += 1
         joined += _sectors(face, passages)
@@ -73,19 +81,26 @@ def vertex_fans(model: CadModel) -> tuple[int, ...]:
 
 
 def _passages(
-    model: CadModel, face: CadFace, number: np.ndarray, collapsed: list[bool]
-) -> tuple[list[_Passage], list[int]]:
-    """Where the loops of a face go through vertices, and the vertices that are loops of theirs."""
+    model: CadModel, face: CadFace, number: list[int], collapsed: Sequence[bool],
+    starts: np.ndarray,
+) -> tuple[list[_Passage], list[int]]:  # fmt: skip
+    """Where the loops of a face go through vertices, and the vertices that are loops of theirs.
+
+    starts: (c, 2) where its coedges are entered, in (u, v).
+    """
     passages, points = [], []
+    first = 0
     for loop in face.loops:
         real = [k for k, c in enumerate(loop) if not collapsed[c.edge]]
         if not real and loop:
-            points.append(int(number[model.edges[loop[0].edge].start]))
+            points.append(number[model.edges[loop[0].edge].start])
         for k, following in zip(real, real[1:] + real[:1]):
             edge = model.edges[loop[k].edge]
-            vertex = int(number[edge.start if loop[k].reversed else edge.end])
+            vertex = number[edge.start if loop[k].reversed else edge.end]
             direct = (following - k) % len(loop) == 1 % len(loop)
-            passages.append(_Passage(vertex, loop[k], loop[following], direct))
+            place = starts[first + following]
+            passages.append(_Passage(vertex, loop[k], loop[following], direct, place))
+        first += len(loop)
     return passages, points
 
 
@@ -110,7 +125,7 @@ def _by_place(face: CadFace, group: list[_Passage]) -> list[list[_Passage]]:
     near = SAME_PLACE * np.array([u1 - u0, v1 - v0])
     parts: list[tuple[np.ndarray, list[_Passage]]] = []
     for passage in group:
-        place = passage.out_of.walk(np.zeros(1))[0]
+        place = passage.place
         for there, part in parts:
             if (np.abs(place - there) <= near).all():
                 part.append(passage)

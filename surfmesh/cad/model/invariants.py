@@ -39,6 +39,13 @@ def signed_area(loop: tuple[CadCoedge, ...], samples: int = 24) -> float:
     return ring_area(walked(loop, np.arange(samples) / samples).reshape(-1, 2))
 
 
+def signed_areas(loops: Sequence[tuple[CadCoedge, ...]], samples: int = 24) -> list[float]:
+    """``signed_area`` of each loop of a face."""
+    rings = walked([c for loop in loops for c in loop], np.arange(samples) / samples)
+    last = np.cumsum([len(loop) for loop in loops]).tolist()
+    return [ring_area(rings[a:b].reshape(-1, 2)) for a, b in zip([0, *last], last)]
+
+
 def ring_area(ring: np.ndarray) -> float:
     """Area that a polygon (k, 2) runs round, positive counter-clockwise."""
     u, v = (ring - ring.mean(axis=0)).T

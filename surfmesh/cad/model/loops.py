@@ -10,7 +10,7 @@ import numpy as np
 
 from surfmesh.cad.model.cad_model import CadCoedge, CadEdge
 from surfmesh.cad.model.curve_samples import next_ones, walked
-from surfmesh.cad.model.invariants import ENDS, OPEN_FRACTION, ring_area, signed_area
+from surfmesh.cad.model.invariants import ENDS, OPEN_FRACTION, ring_area, signed_areas
 from surfmesh.geometry.inside_loops import nesting_depth
 
 Loop = tuple[CadCoedge, ...]
@@ -119,7 +119,7 @@ def outer_first(loops: Sequence[Loop]) -> tuple[Loop, ...]:
     """The loop with the largest counter-clockwise area in (u, v) comes first."""
     if len(loops) < 2:
         return tuple(loops)
-    outer = int(np.argmax([signed_area(loop) for loop in loops]))
+    outer = int(np.argmax(signed_areas(loops)))
     return (*loops[outer : outer + 1], *loops[:outer], *loops[outer + 1 :])
 
 

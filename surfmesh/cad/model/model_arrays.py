@@ -14,7 +14,7 @@ import numpy as np
 
 from surfmesh._core.edges import CurvePieces
 from surfmesh.cad.model.cad_model import CadCoedge, CadModel
-from surfmesh.cad.model.collapsed_edges import collapses, vertex_numbers
+from surfmesh.cad.model.collapsed_edges import collapsed_edges, vertex_numbers
 
 _KNOWN: WeakKeyDictionary[CadModel, ModelArrays] = WeakKeyDictionary()  # asked for every round
 
@@ -69,7 +69,7 @@ class ModelArrays:
             np.array([(edge.start, edge.end) for edge in edges], np.int64).reshape(-1, 2),
             np.array([edge.length for edge in edges], float),
             np.array([edge.is_straight for edge in edges], bool),
-            np.array([collapses(model, edge) for edge in edges], bool),
+            np.array(collapsed_edges(model), bool),
             np.array([edge.tolerance for edge in edges], float),
             _pieces(curves, [(edge.t0, edge.t1) for edge in edges]),
             coedges,

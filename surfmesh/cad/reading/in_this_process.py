@@ -30,7 +30,7 @@ def model_of_file(
         load_ocp()
         from surfmesh.cad.reading.readers import read_here
     except ImportError as error:
-        raise CadError(f"OCP cannot be imported ({error}); pip install cadquery-ocp") from None
+        raise CadError(f"CAD files need OCP ({error}): pip install 'surfmesh[cad]'") from None
     once_loaded()
     try:
         with _silent():

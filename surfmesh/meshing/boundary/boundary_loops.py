@@ -263,7 +263,7 @@ def cut_rim(
     None becomes shorter than about ``min_size``.
     """
     t, uv = cut_line(field, start, end, minimum)
-    chord = field.sizing.chord
+    chord = field.sizing.straight_chord
     if chord is None:
         return t, uv
     least = field.sizing.min_size or 0.0

@@ -74,7 +74,7 @@ def cut_kink(surface: Any, guides: Guides, line: KinkLine, field: SizeField) -> 
     """Points (n + 1, 2) of a line at equal metric lengths near 1, on the kink, ends included."""
     fine, length = _metric(line, field)
     pieces = max(CLOSED_SEGMENTS if line.closed else 1, round(length[-1]))
-    chord = field.sizing.chord
+    chord = field.sizing.straight_chord
     for _ in range(DOUBLINGS):
         points = _spread(guides, line, fine, length, pieces)
         if chord is None or _sag(surface, guides, line, fine, length, points) <= SAG * chord:

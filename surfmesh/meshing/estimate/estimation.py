@@ -50,15 +50,22 @@ class Estimate:
     """Triangles on each face; one entry for a single surface."""
     memory: int
     """Bytes at the peak of meshing, the program included."""
+    mesh_memory: int = 0
+    """Bytes of that which the mesh takes, and the work on it: what the program has anyway is not
+    among them."""
 
     def __str__(self) -> str:
-        return f"about {self.triangles:,} triangles, {size_in_words(self.memory)} of memory"
+        own, whole = size_in_words(self.mesh_memory), size_in_words(self.memory)
+        return (
+            f"about {self.triangles:,} triangles, {own} of memory at the peak, {whole} with the "
+            "program"
+        )
 
     def to_dict(self) -> dict:
         """Plain data for JSON."""
         return {
             "triangles": self.triangles, "memory_bytes": self.memory,
-            "by_face": list(self.by_face),
+            "mesh_memory_bytes": self.mesh_memory, "by_face": list(self.by_face),
         }  # fmt: skip
 
     @classmethod
@@ -71,7 +78,8 @@ class Estimate:
         loaded = max(LOADED + (CAD_LOADED if "OCP" in sys.modules else 0), _resident())
         bytes_each = MODEL_RESULT if model else RESULT
         work = STRETCHED_WORK if stretched else WORK
-        return cls(total, counts, loaded + bytes_each * total + work * most)
+        own = bytes_each * total + work * most
+        return cls(total, counts, loaded + own, own)
 
 
 def _resident() -> int:

@@ -10,7 +10,8 @@ holds a quantile of all triangles; planes and curved faces are two populations.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
+from itertools import pairwise
 from typing import Any
 
 import numpy as np
@@ -61,9 +62,8 @@ def _classes(jobs: list[FaceJob], areas: np.ndarray) -> tuple[list[int], np.ndar
     first: list[int] = []
     class_of = np.empty(len(jobs), int)
     loops = _loops_in_figures(jobs)
-    for number, (job, area) in enumerate(zip(jobs, areas.tolist())):
-        own = tuple(sorted(next(loops) for _ in job.boundary.loop_end))
-        key = _likeness(job, area, own) or number
+    for number, (job, area) in enumerate(zip(jobs, _rounded(areas).tolist())):
+        key = _likeness(job, area, loops[number]) or number
         if key not in known:
             known[key] = len(first)
             first.append(number)
@@ -71,18 +71,19 @@ def _classes(jobs: list[FaceJob], areas: np.ndarray) -> tuple[list[int], np.ndar
     return first, class_of
 
 
-def _likeness(job: FaceJob, area: float, loops: tuple) -> Any:
+def _likeness(job: FaceJob, area: float, loops: bytes) -> Any:
     """What alike faces have in common; None where the place of a face counts too."""
     if job.limits is not None or job.sizing.has_law or job.sizing.sources:
         return None
-    return job.surface.kind, job.sizing, job.narrow is not None, _rounded(area), loops
+    return job.surface.kind, job.sizing, job.narrow is not None, area, loops
 
 
-def _loops_in_figures(jobs: list[FaceJob]) -> Iterator[tuple[int, str, str]]:
-    """Of each loop of all jobs how many nodes, how long, and the sum of the sizes there."""
+def _loops_in_figures(jobs: list[FaceJob]) -> list[bytes]:
+    """Of each job, of its loops in one order: how many nodes, how long, and the sum of the sizes
+    there, all rounded, as bytes that are the same where these are."""
     boundaries = [job.boundary for job in jobs]
     if not boundaries:
-        return iter(())
+        return []
     start = offsets(np.array(list(map(len, boundaries))))
     ends = [own.piece_end[own.loop_end - 1] + at for own, at in zip(boundaries, start.tolist())]
     first = np.concatenate([[0], *ends])
@@ -91,13 +92,21 @@ def _loops_in_figures(jobs: list[FaceJob]) -> Iterator[tuple[int, str, str]]:
     step = np.zeros(len(points))
     step[1:] = np.linalg.norm(np.diff(points, axis=0), axis=1)
     step[first[:-1]] = 0.0  # from one loop to the next
-    lengths = np.add.reduceat(step, first[:-1]).tolist()
-    sums = np.add.reduceat(np.where(np.isfinite(sizes), sizes, 0.0), first[:-1]).tolist()
-    return zip(np.diff(first).tolist(), map(_rounded, lengths), map(_rounded, sums))
+    lengths = _rounded(np.add.reduceat(step, first[:-1]))
+    sums = _rounded(np.add.reduceat(np.where(np.isfinite(sizes), sizes, 0.0), first[:-1]))
+    count = np.diff(first).astype(float)
+    loops = np.array(list(map(len, ends)))
+    order = np.lexsort((sums, lengths, count, np.repeat(np.arange(len(jobs)), loops)))
+    rows = np.column_stack([count, lengths, sums])[order]
+    last = np.cumsum(loops).tolist()
+    return [rows[a:b].tobytes() for a, b in pairwise([0, *last])]
 
 
-def _rounded(value: float) -> str:
-    return f"{value:.{DIGITS - 1}e}"
+def _rounded(values: np.ndarray) -> np.ndarray:
+    """To ``DIGITS`` digits (n,)."""
+    size = np.where(values > 0.0, values, 1.0)
+    scale = 10.0 ** (DIGITS - 1 - np.floor(np.log10(size)))
+    return np.where(values > 0.0, np.rint(size * scale) / scale, values)
 
 
 def _rough(job: FaceJob, area: float) -> float:

@@ -207,11 +207,16 @@ def face_field(job: FaceJob) -> tuple[FaceSurface, SizeField]:
 
     Raises ``SizingError``.
     """
+    boundary = job.boundary
+    surface = job.surface.with_domain(boundary.box)
+    grows = has_boundary_field(surface, job.sizing)
+    if grows and len(boundary) and not boundary.has_degenerate and not job.sizing.is_anisotropic:
+        return surface, _grown_inward(surface, job, boundary.uv, boundary.points, boundary.sizes)
     pieces = [piece for loop in job.loops for piece in loop]
-    surface = job.surface.with_domain(job.boundary.box)
     real = [piece for piece in pieces if not piece.degenerate]
-    if real and has_boundary_field(surface, job.sizing):
-        field = _grown_inward(surface, job, real)
+    if real and grows:
+        rows = ([getattr(piece, name) for piece in real] for name in ("uv", "points", "sizes"))
+        field = _grown_inward(surface, job, *map(np.concatenate, rows))
         if not job.sizing.is_anisotropic or _agrees(field, real):
             return surface, field
     found = limits = job.limits
@@ -254,12 +259,14 @@ def _round_tubes(job: FaceJob) -> SizeLimits | None:
     )
 
 
-def _grown_inward(surface: Surface, job: FaceJob, real: list[CoedgeNodes]) -> SizeField:
-    """Sizes of a plane or a cylinder: those of its edges and of earlier rounds, grown inward."""
-    uv = np.concatenate([piece.uv for piece in real])
-    sizes = np.concatenate([piece.sizes for piece in real])
+def _grown_inward(
+    surface: Surface, job: FaceJob, uv: np.ndarray, points: np.ndarray, sizes: np.ndarray
+) -> SizeField:
+    """Sizes of a plane or a cylinder: those of its edges and of earlier rounds, grown inward.
+
+    uv (n, 2), points (n, 3), sizes (n,): of the nodes of its edges.
+    """
     if job.limits is not None:
-        points = np.concatenate([piece.points for piece in real])
         near = uv[_nearest(points, job.limits.points)]
         place = closest_point(surface, job.limits.points, near, PROJECTIONS)[0]
         uv = np.concatenate([uv, place])

@@ -95,6 +95,6 @@ def manner_of(job: FaceJob, sizing: Sizing) -> FaceManner:
 
 def _manner(sizing: Sizing, optimise: bool, is_first: bool) -> FaceManner:
     return FaceManner(
-        sizing.chord, sizing.angle, sizing.min_size or 0.0,
+        sizing.straight_chord, sizing.angle, sizing.min_size or 0.0,
         optimise, is_first, sizing.is_anisotropic, sizing.gradient,
     )  # fmt: skip

@@ -200,7 +200,4 @@ def _unit_normals(points: NDArray[np.float64], triangles: NDArray[np.int32]) -> 
 
 def _meeting(points: NDArray[np.float64], triangles: NDArray[np.int32]) -> NDArray[np.int32]:
     """(k, 2) numbers of triangles that meet where they share nothing."""
-    found: NDArray[np.int32] = np.sort(
-        meeting_triangles(points[triangles].reshape(-1, 3), MOST_MEETING), axis=1
-    )
-    return found
+    return meeting_triangles(points, triangles, MOST_MEETING)

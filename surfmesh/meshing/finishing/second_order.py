@@ -18,6 +18,7 @@ from numpy.typing import NDArray
 from surfmesh.cad.model.cad_model import CadEdge
 from surfmesh.geometry.differential.projection import closest_point
 from surfmesh.geometry.surface import Surface
+from surfmesh.meshing.finishing.mid_nodes import slid_nodes
 from surfmesh.result.mesh_parts import EdgeLinks, Parametrisation
 from surfmesh.result.quadratic_triangles import edge_rows, least_jacobians, six_nodes
 from surfmesh.result.surface_mesh import SurfaceMesh
@@ -37,6 +38,8 @@ def of_second_order(mesh: SurfaceMesh) -> SurfaceMesh:
             guess = 0.5 * (first + second)
             middles[own] = closest_point(surface, middles[own], guess, STEPS)[2]
     fixed = put_on_curves(mesh, middles)
+    if mesh.sizing is not None and mesh.sizing.is_curved and mesh.surfaces:
+        middles = slid_nodes(mesh, middles, fixed)
     straight = _straightened(mesh, middles, fixed)
     notes = [f"{straight} edges of order 2 are straight, lest triangles fold"] if straight else []
     return mesh.replaced(

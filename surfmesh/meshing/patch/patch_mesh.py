@@ -121,7 +121,7 @@ def _meshed(
     sizing, room = field.sizing, room_for_packing(field, chart, box)
     settings = core.PatchSettings(
         as_core_surface(surface), chart.core, field.background,
-        sizing.chord, sizing.angle, sizing.min_size or 0.0,
+        sizing.straight_chord, sizing.angle, sizing.min_size or 0.0,
         box=room.box, expected=room.expected, optimise=optimise, first=first,
         with_roots=sizing.is_anisotropic, slope=sizing.gradient, is_width=sizing.is_balanced,
         before_stage=None if begin is None else lambda stage: begin(STAGES[stage]),

@@ -116,6 +116,7 @@ class Figures:
     min_angle_deg = Figure(lambda report: report.shape.min_angle_deg)
     max_angle_deg = Figure(lambda report: report.shape.max_angle_deg)
     degenerate = Figure(lambda report: report.shape.degenerate)
+    jacobian_min = Figure(lambda report: report.shape.jacobian_min)
     folded = Figure(lambda report: report.folds.folded)
     inverted = Figure(lambda report: report.folds.inverted)
     folded_by_surface = Figure(lambda report: report.folds.folded_by_surface)

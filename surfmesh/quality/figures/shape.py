@@ -28,6 +28,8 @@ class ShapeFigures(Part):
     min_angle_deg: float
     max_angle_deg: float
     degenerate: int  # triangles with alpha below 1e-6
+    jacobian_min: float | None  # of quadratic triangles, over that of the straight ones, as seen
+    # along their normals: no less anywhere, by Bernstein bounds; None: they are straight
 
     @classmethod
     def of(cls, measured: Measurements) -> "ShapeFigures":
@@ -48,6 +50,11 @@ class ShapeFigures(Part):
             min_angle_deg=over(np.min, shape.min_angle),
             max_angle_deg=over(np.max, shape.max_angle),
             degenerate=int(np.count_nonzero(~(shape.alpha > DEGENERATE))),
+            jacobian_min=(
+                None
+                if measured.curved_shapes is None
+                else over(np.min, measured.curved_shapes.jacobian)
+            ),
         )
 
 

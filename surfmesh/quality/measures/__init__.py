@@ -7,6 +7,7 @@ Connectivity and shape:
 topology: what kind of surface the triangles form: closed, manifold, oriented, in how many pieces.
 proved_topology: is the mesh homeomorphic to what it was made of, and more? By exact predicates.
 against_model: edges and vertices that are not as the model has them: more triangles, or more fans.
+curved: quadratic triangles: area, volume, Jacobian, and their distance from the surface.
 shape: shape of the triangles in 3D: alpha, radius ratio, angles, areas; the volume they enclose.
 narrow: triangles of faces narrower than the chord: counted apart, as good shape is not owed there.
 lengths: edge lengths against the target sizes, and how fast they change from edge to edge.
@@ -19,6 +20,7 @@ pairs_of_ranges: ranges of places, one a row, written out as pairs.
 inward: closed surfaces whose triangles face their inside: their volume is negative.
 
 Accuracy:
+largest: the largest of many values, without sorting all of them.
 deviation: how far the mesh lies from the true surface, and which triangles face the wrong way.
 folds: triangles turned far from the surface's normals: by the mesher, by loose edges, by the
     surface.

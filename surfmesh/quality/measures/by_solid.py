@@ -29,8 +29,13 @@ class SolidRow:
     volume_error: float | None
 
 
-def by_solid(mesh: SurfaceMesh, shape: Shapes) -> tuple[SolidRow, ...]:
-    """Rows of all solids; a face between two of them counts for both. None without solid_ids."""
+def by_solid(
+    mesh: SurfaceMesh, shape: Shapes, bulges: NDArray[np.float64] | None = None
+) -> tuple[SolidRow, ...]:
+    """Rows of all solids; a face between two of them counts for both. None without solid_ids.
+
+    bulges: (m,) volume between each triangle, if it is curved, and its straight one.
+    """
     if mesh.solid_ids is None:
         return ()
     exact = mesh.facts.solids if mesh.facts is not None else ()
@@ -42,6 +47,9 @@ def by_solid(mesh: SurfaceMesh, shape: Shapes) -> tuple[SolidRow, ...]:
     area = np.bincount(solid, shape.area[rows], count)
     apexes = _first_corners(mesh.points[around[:, 0]], solid, count)
     volume = enclosed_volumes(mesh.points, around, solid, apexes)
+    if bulges is not None:
+        outwards = np.where((around == mesh.triangles[rows]).all(axis=1), 1.0, -1.0)
+        volume += np.bincount(solid, outwards * bulges[rows], count)
     vertices, edges, opened = solid_counts(around, solid, len(mesh.points), count)
     euler = vertices - edges + triangles
     closed = [bool(triangles[k] > 0 and opened[k] == 0) for k in range(count)]

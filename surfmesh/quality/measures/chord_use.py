@@ -10,7 +10,11 @@ from surfmesh.quality.measures.deviation import Deviation
 from surfmesh.quality.measures.known_surfaces import KnownSurfaces
 from surfmesh.quality.measures.tolerances import Tolerances
 from surfmesh.result.surface_mesh import SurfaceMesh
-from surfmesh.sizing.rules.curvature_size import chord_size, principal_chord_sizes
+from surfmesh.sizing.rules.curvature_size import (
+    chord_size,
+    principal_chord_sizes,
+    quadratic_chord_size,
+)
 
 SAMPLES = 20_000  # triangles that are looked at: a median is known to 1 % from so many
 DECIDED = 0.8  # of the size that chord allows from which it is said to decide
@@ -55,6 +59,8 @@ def _allowed(mesh: SurfaceMesh, face: int, uv: NDArray, chord: float) -> NDArray
     k = curvatures(forms)
     if mesh.sizing and mesh.sizing.is_anisotropic:
         size = np.minimum(*principal_chord_sizes(k.k1, k.k2, chord, mesh.sizing.anisotropy))
+    elif mesh.sizing and mesh.sizing.is_curved:
+        size = quadratic_chord_size(k.k1, k.k2, chord)
     else:
         size = chord_size(k.k1, k.k2, chord)
     return np.where(forms.degenerate | ~np.isfinite(size), np.inf, size)

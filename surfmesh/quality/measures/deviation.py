@@ -16,6 +16,7 @@ from surfmesh._core.quality import mesh_deviation
 from surfmesh.accuracy.deviation import STEPS, nearest_deviations
 from surfmesh.accuracy.samples import DENSE
 from surfmesh.quality.measures.known_surfaces import KnownSurfaces
+from surfmesh.quality.measures.largest import largest
 from surfmesh.quality.measures.places import Point, as_point, as_uv
 from surfmesh.result.surface_mesh import SurfaceMesh
 
@@ -92,7 +93,7 @@ def _second_look(
     """Sample the worst triangles densely, in place; return the worst place of all."""
     mesh, count = known.mesh, len(by_triangle)
     chosen = min(count, max(SECOND_LOOK, count // 250))
-    worst = np.argpartition(by_triangle, count - chosen)[count - chosen :].astype(np.int32)
+    worst = largest(by_triangle, chosen).astype(np.int32)
     chord = (mesh.sizing and mesh.sizing.chord) or np.inf
     best, found = -1.0, (0, (0.0, 0.0, 0.0), (0.0, 0.0))
     for face in np.unique(mesh.face_ids[worst]):

@@ -10,9 +10,7 @@ and e is 0 at the corners. Over a box of (u, v) with centre c and half widths a,
 
 Boxes are halved until the least of them is within the tolerance, or a point is found that is not.
 Before that, where the surface is smooth, nearly all triangles are bounded as they are or cut in
-four a few times: over a triangle with (u, v) edges d_ij linear interpolation of e errs by no more
-than 1/2 sum l_i l_j |e'' along d_ij|, l barycentric. Along an edge of a long thin triangle the
-second derivatives cancel as they do on the surface; over its box they would not.
+four a few times: ``src/quality/hidden_bounds.hpp``.
 
 Source: Moore, Kearfott, Cloud, "Introduction to Interval Analysis", SIAM 2009, chapter 6.
 """
@@ -32,7 +30,6 @@ from surfmesh.geometry.surface import BoundedSurface
 BLOCK = 1 << 13  # boxes looked at together
 ROUNDS = 60  # halvings of a triangle's box at most
 BOXES, BOXES_EACH = 100_000, 4  # most boxes in all: so many, and so many for each triangle
-LEVELS = 3  # a triangle is cut in four so often before boxes are tried
 NEARLY = 1.02  # of the tolerance: a box counts as within, so that halving comes to an end
 AHEAD = 16.0  # a box is at most so many times narrower across a place without bounds than along it
 NO_BOUND = 1e300  # what is more is infinite
@@ -95,77 +92,6 @@ class _Boxes:
             np.concatenate([self.lo, second_lo]),
             np.concatenate([first_hi, self.hi]),
         )
-
-
-def bounded_at_once(
-    surface: BoundedSurface, pieces: Pieces, seen: NDArray[np.float64]
-) -> NDArray[np.bool_]:
-    """(k,) triangles whose second derivatives alone say that nothing hides there.
-
-    seen: (k,) largest distance at the corners, in the middles of the sides and at the centroid.
-    """
-    bounded = np.zeros(len(pieces.uv), bool)
-    for start in range(0, len(bounded), BLOCK):
-        part = slice(start, start + BLOCK)
-        lo, hi = pieces.uv[part].min(axis=1), pieces.uv[part].max(axis=1)
-        lower, upper = surface.all_bounds(lo, hi)
-        (du, dv), normal = (hi - lo).T, pieces.normal[part]
-        with np.errstate(invalid="ignore", over="ignore"):
-            uu, uvs, vv = (largest_along(lower[:, k], upper[:, k], normal)[:, 0] for k in (3, 4, 5))
-            height = (du * du * uu + 2.0 * du * dv * uvs + dv * dv * vv) / 8.0
-            bounded[part] = seen[part] + 0.25 * height <= pieces.tolerance[part]
-    return bounded
-
-
-def bounded_in_parts(surface: BoundedSurface, pieces: Pieces) -> NDArray[np.bool_]:
-    """(k,) triangles within their tolerance by second derivatives along edges of their parts."""
-    bounded = np.ones(len(pieces.uv), bool)
-    piece, uv = np.arange(len(bounded)), pieces.uv
-    for level in range(LEVELS + 1):
-        within = np.empty(len(piece), bool)
-        for start in range(0, len(piece), BLOCK):
-            part = slice(start, start + BLOCK)
-            within[part] = _interpolated_within(surface, pieces, piece[part], uv[part])
-        bounded[piece[~within]] &= level < LEVELS
-        going = ~within & bounded[piece]
-        piece, uv = np.repeat(piece[going], 4), _in_four(uv[going])
-        if not len(piece):
-            break
-    return bounded
-
-
-def _interpolated_within(
-    surface: BoundedSurface, pieces: Pieces, piece: NDArray, uv: NDArray
-) -> NDArray[np.bool_]:
-    """(n,) do parts uv (n, 3, 2) of triangles keep to their tolerance?"""
-    normal = pieces.normal[piece, 0]
-    lower, upper = surface.all_bounds(uv.min(axis=1), uv.max(axis=1))
-    (r,) = surface.evaluate(uv.reshape(-1, 2), 0)
-    height = np.abs(
-        np.einsum("nij,nj->ni", r.reshape(-1, 3, 3) - pieces.corner[piece, None], normal)
-    )
-    du, dv = (uv[:, [1, 2, 0]] - uv).transpose(2, 0, 1)
-    weights = np.stack([du * du, 2.0 * du * dv, dv * dv], axis=2)  # (n, 3 edges, 3 derivatives)
-    with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
-        times = weights[..., None] * normal[:, None, None]
-        ends = times * lower[:, None, 3:6], times * upper[:, None, 3:6]
-        most = np.maximum(*ends).sum(axis=(2, 3)), np.minimum(*ends).sum(axis=(2, 3))
-        a, b, c = np.maximum(most[0], -most[1]).T
-        inner = 2.0 * (a * b + b * c + c * a) - a * a - b * b - c * c
-        peak = np.where(inner > 0.0, a * b * c / inner, 0.0)
-        # the largest of l0 l1 a + l1 l2 b + l2 l0 c is within, or amid an edge
-        inside = (a * (b + c - a) > 0.0) & (b * (c + a - b) > 0.0) & (c * (a + b - c) > 0.0)
-        amid = np.maximum.reduce([a, b, c]) / 4.0
-        bound = 0.5 * np.where(inside, np.maximum(peak, amid), amid)
-        return height.max(axis=1) + bound <= pieces.tolerance[piece]
-
-
-def _in_four(uv: NDArray) -> NDArray[np.float64]:
-    """Parts (4 n, 3, 2) of triangles (n, 3, 2), four after four."""
-    a, b, c = uv.transpose(1, 0, 2)
-    ab, bc, ca = 0.5 * (a + b), 0.5 * (b + c), 0.5 * (c + a)
-    parts = [(a, ab, ca), (ab, b, bc), (ca, bc, c), (ab, bc, ca)]
-    return np.stack([np.stack(part, axis=1) for part in parts], axis=1).reshape(-1, 3, 2)
 
 
 def search_triangles(

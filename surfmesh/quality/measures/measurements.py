@@ -14,6 +14,12 @@ from surfmesh.quality.measures.area_and_volume import Explained, explained, is_k
 from surfmesh.quality.measures.bodies import Bodies, bodies
 from surfmesh.quality.measures.by_solid import SolidRow, by_solid, volume_of_all
 from surfmesh.quality.measures.chord_use import ChordUse, chord_use
+from surfmesh.quality.measures.curved import (
+    CurvedShapes,
+    curved_deviation,
+    curved_shapes,
+    curved_surface_deviation,
+)
 from surfmesh.quality.measures.deviation import Deviation, deviation
 from surfmesh.quality.measures.dihedral import DihedralAngles, angles_within_faces
 from surfmesh.quality.measures.folds import Folds, folds
@@ -76,10 +82,23 @@ class Measurements:
         """What of the topology is not as in the model."""
         return unexpected(self.mesh, self.topology)
 
+    @property
+    def is_curved(self) -> bool:
+        """Are its triangles measured as quadratic ones? Proofs are of straight ones."""
+        sizing = self.mesh.sizing
+        proves = sizing is not None and sizing.proof
+        return self.mesh.order == 2 and self.finite and not self.broken and not proves
+
+    @cached_property
+    def curved_shapes(self) -> CurvedShapes | None:
+        """Of quadratic triangles."""
+        return curved_shapes(self.mesh) if self.is_curved else None
+
     @cached_property
     def shapes(self) -> Shapes:
-        """Of its triangles."""
-        return shapes(self.mesh)
+        """Of its triangles: alpha and angles of the straight ones between the corners."""
+        found, curved = shapes(self.mesh), self.curved_shapes
+        return found if curved is None else found._replace(area=curved.area)
 
     @cached_property
     def metric_alpha(self) -> NDArray[np.float64] | None:
@@ -113,6 +132,8 @@ class Measurements:
     @cached_property
     def deviation(self) -> Deviation | None:
         """Of the mesh from its surfaces."""
+        if self.is_curved and self.known is not None:
+            return curved_deviation(self.known, self.shapes.area)
         return deviation(self.mesh, self.shapes.area, self.known) if self.finite else None
 
     @cached_property
@@ -120,6 +141,8 @@ class Measurements:
         """Of the surfaces from the mesh."""
         if self.known is None or self.deviation is None:
             return None
+        if self.is_curved:
+            return curved_surface_deviation(self.known, self.deviation)
         return surface_deviation(self.known, self.deviation, self.tolerances)
 
     @cached_property
@@ -131,7 +154,9 @@ class Measurements:
 
     @cached_property
     def unseen(self) -> Unseen | None:
-        """What may lie between the samples of both."""
+        """What may lie between the samples of both; of quadratic triangles nobody knows."""
+        if self.is_curved:
+            return None
         if self.known is None or self.deviation_both_ways is None:
             return None
         return unseen(self.known, self.deviation_both_ways, self.tolerances, LISTED)
@@ -204,7 +229,10 @@ class Measurements:
     @cached_property
     def solids(self) -> tuple[SolidRow, ...]:
         """The figures of each solid."""
-        return by_solid(self.mesh, self.shapes) if self.finite else ()
+        if not self.finite:
+            return ()
+        curved = self.curved_shapes
+        return by_solid(self.mesh, self.shapes, None if curved is None else curved.volume)
 
     @cached_property
     def volume(self) -> float | None:
@@ -213,7 +241,10 @@ class Measurements:
             return None
         if shares_faces(self.mesh):
             return volume_of_all(self.solids)
-        return enclosed_volume(self.mesh) if self.topology.balanced else None
+        if not self.topology.balanced:
+            return None
+        curved = 0.0 if self.curved_shapes is None else float(self.curved_shapes.volume.sum())
+        return enclosed_volume(self.mesh) + curved
 
     @cached_property
     def explained(self) -> Explained | None:

@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from surfmesh._core.space import meeting_triangles
 from surfmesh.quality.measures.places import Point, as_point
+from surfmesh.result.facets import facets
 from surfmesh.result.surface_mesh import SurfaceMesh
 
 MOST = 200_000  # pairs looked for: a mesh with more of them is broken beyond counting
@@ -33,10 +34,20 @@ def meeting_pairs(mesh: SurfaceMesh) -> NDArray[np.int32]:
     """
     if len(mesh.triangles) < 2:
         return np.empty((0, 2), np.int32)
+    if mesh.order == 2 and not mesh.check():
+        return _meeting_curved(mesh)
     pairs = meeting_triangles(mesh.points, mesh.triangles, MOST)
     a, b = np.sort(mesh.triangles[pairs], axis=2).transpose(1, 0, 2)
     pairs = pairs[(a != b).any(axis=1)]
     return pairs[np.lexsort(pairs.T[::-1])][:MOST]
+
+
+def _meeting_curved(mesh: SurfaceMesh) -> NDArray[np.int32]:
+    """The same of quadratic triangles, by their facets."""
+    cut = facets(mesh)
+    pairs = meeting_triangles(cut.points, cut.triangles, MOST)
+    pairs = np.sort(cut.parent[pairs], axis=1)
+    return np.unique(pairs[pairs[:, 0] != pairs[:, 1]], axis=0)
 
 
 def located(mesh: SurfaceMesh, pairs: NDArray[np.int32]) -> tuple[MeetingPair, ...]:

@@ -26,6 +26,7 @@ from surfmesh.cad.model.cad_model import CadEdge
 from surfmesh.geometry.differential.projection import closest_point
 from surfmesh.quality.measures.deviation import BLOCK, Deviation
 from surfmesh.quality.measures.known_surfaces import KnownSurfaces
+from surfmesh.quality.measures.largest import largest
 from surfmesh.quality.measures.places import Point, as_point, as_uv
 from surfmesh.quality.measures.tolerances import CHORD_SLACK, Tolerances
 from surfmesh.result.quadratic_triangles import edge_rows
@@ -76,7 +77,7 @@ def surface_deviation(
         search.look(*_on_rims(mesh), at_rim=True)
     worth = np.maximum(fit.by_triangle, search.by_triangle)
     chosen = min(count, max(SECOND_LOOK, count // 250))
-    worst = np.sort(np.argpartition(worth, count - chosen)[count - chosen :]).astype(np.int32)
+    worst = largest(worth, chosen).astype(np.int32)
     search.look(*_over(worst, CLOSELY))
     return search.result()
 
@@ -168,8 +169,9 @@ def _look_along_curves(search: _Search, curves: _Curves, fit: Deviation) -> None
     for at_rim in (True, False):
         some = np.flatnonzero(free[segment] == at_rim)
         for block in _blocks(some, BLOCK // len(ALONG_RIM)):
-            triangle = np.repeat(over[segment[block]], len(ALONG_RIM))
-            uv = known.uv(triangle).mean(axis=1)  # about there
+            beside = over[segment[block]]
+            uv = np.repeat(known.uv(beside).mean(axis=1), len(ALONG_RIM), axis=0)  # about there
+            triangle = np.repeat(beside, len(ALONG_RIM))
             search.look_at(between[block].reshape(-1, 3), uv, triangle, at_rim)
 
 

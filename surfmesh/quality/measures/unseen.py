@@ -13,15 +13,14 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from surfmesh._core.quality import TriangleStars
+from surfmesh._core.quality import TriangleStars, hidden_bounds
+from surfmesh.geometry.core_surface import as_core_surface
 from surfmesh.geometry.surface import BoundedSurface
 from surfmesh.quality.measures.deviation import Deviation
 from surfmesh.quality.measures.hidden_search import (
     BOXES,
     BOXES_EACH,
     Pieces,
-    bounded_at_once,
-    bounded_in_parts,
     climb,
     search_rims,
     search_triangles,
@@ -46,6 +45,12 @@ RIM_SLACK = 2.0
 
 NEAREST = 3
 """Vertices whose triangles are looked at, beside a point's own and its neighbours."""
+
+LEVELS = 3
+"""A triangle is cut in four so often before boxes are tried."""
+
+AT_ONCE, IN_PARTS = 2, 1
+"""What ``hidden_bounds`` says of triangles that hide nothing; 0 of the others."""
 
 NO_AREA = 1e-12
 """Of the square of its longest side: a triangle without a normal."""
@@ -130,17 +135,19 @@ def _in_triangles(
     area = np.linalg.norm(normal, axis=1)
     some = area > NO_AREA * longest**2
     triangles, corners, uv = triangles[some], corners[some], uv[some]
-    normal = (normal[some] / area[some, None])[:, None]
+    normal = normal[some] / area[some, None]
     seen = fit.by_triangle[triangles]
     tolerance = SLACK * _expected(mesh, triangles, fit, tolerances, longest[some])
-    pieces = Pieces.of(uv, corners[:, 0], normal, tolerance)
-    left = np.flatnonzero(~bounded_at_once(surface, pieces, seen))
-    triangles, tolerance = triangles[left], tolerance[left]
-    pieces = Pieces.of(uv[left], corners[left, 0], normal[left], tolerance)
-    whole = _beside_poles(known, triangles)
-    hard = np.flatnonzero(whole | ~bounded_in_parts(surface, pieces))
-    left, triangles, whole = left[hard], triangles[hard], whole[hard]
-    pieces = Pieces.of(uv[left], corners[left, 0], normal[left], tolerance[hard])
+    bounded = hidden_bounds(
+        as_core_surface(surface), uv, np.ascontiguousarray(corners[:, 0]), normal, tolerance, seen,
+        LEVELS,
+    )  # fmt: skip
+    left = np.flatnonzero(bounded < AT_ONCE)
+    whole = _beside_poles(known, triangles[left]) if len(left) else np.empty(0, bool)
+    hard = np.flatnonzero(whole | (bounded[left] < IN_PARTS))
+    left, whole = left[hard], whole[hard]
+    triangles = triangles[left]
+    pieces = Pieces.of(uv[left], corners[left, 0], normal[left, None], tolerance[left])
     if len(left):
         around = _Around(mesh, triangles)
         budget = BOXES + BOXES_EACH * len(mesh.triangles)

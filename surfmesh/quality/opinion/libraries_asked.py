@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
+from surfmesh.errors import MissingExtraError, needs
 from surfmesh.quality.opinion.rounding_bounds import Placed
 
 if TYPE_CHECKING:
@@ -69,6 +70,8 @@ def _asked(make: Callable[[], Any], questions: Mapping[str, Callable[[Any], Any]
     with np.errstate(all="ignore"):  # quotients by a volume of zero, and the like
         try:
             made = make()
+        except MissingExtraError:
+            raise
         except Exception as error:  # whatever it is: the report says so
             return dict.fromkeys(questions, _failed(error))
         for name, question in questions.items():
@@ -108,7 +111,8 @@ def _runs_both_ways(tri: "trimesh.Trimesh") -> bool:
 
 
 def _polydata(mesh: Placed) -> "pyvista.PolyData":
-    import pyvista
+    with needs("view", "a second opinion"):
+        import pyvista
 
     return pyvista.PolyData.from_regular_faces(mesh.points.copy(), mesh.triangles)
 

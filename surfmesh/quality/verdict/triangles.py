@@ -80,10 +80,13 @@ class FoldedSurface(Remark):
 
 
 def bad_triangles(measured: Measurements) -> Iterator[Problem]:
-    """Those without area, then those turned over, then those turned more than 60 degrees."""
+    """Those without area or with a doubtful Jacobian, those turned over, those turned by 60°."""
     mesh, folds = measured.mesh, measured.folds
     flat = without_area(mesh, measured.shapes.alpha)
     yield from _triangles(mesh, flat, Kind.WITHOUT_AREA, "without area")
+    if measured.curved_shapes is not None:
+        turned = ~flat & ~(measured.curved_shapes.jacobian > 0.0)
+        yield from _triangles(mesh, turned, Kind.INVERTED, "whose Jacobian may change its sign")
     if folds is None:
         return
     folded = folds.by_mesh & ~folds.inverted

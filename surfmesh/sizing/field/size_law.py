@@ -97,10 +97,11 @@ class SizeLaw:
         self.follows_curvature = rules.follows_curvature
         self.directed: tuple[DirectedRule, ...] = ()
         """Rules that hold in some directions only: those of the rims."""
-        if rims is not None and self.sizing.chord is not None:
+        chord = self.sizing.straight_chord  # arcs of quadratic triangles are measured on the mesh
+        if rims is not None and chord is not None:
             self.directed = tuple(
                 rims.rules(
-                    chart, self.sizing.chord, self.sizing.gradient, self._by_surface,
+                    chart, chord, self.sizing.gradient, self._by_surface,
                     narrow=self.sizing.is_anisotropic,
                 )
             )  # fmt: skip
@@ -148,11 +149,12 @@ class SizeLaw:
     def in_core(self) -> core.SurfaceLaw:
         """The same law as the core asks it. It lives as long as the caller keeps it."""
         rims = limits = None
-        if self.directed and self.sizing.chord is not None:
+        chord = self.sizing.straight_chord
+        if self.directed and chord is not None:
             loops = [rule.near_loops for rule in self.directed if isinstance(rule, LoopRule)]
             sides = [rule.side for rule in self.directed if isinstance(rule, RimRule)]
             near_loops = loops[0].core if loops else None
-            rims = self.sizing.chord, [side in sides for side in range(4)], near_loops
+            rims = chord, [side in sides for side in range(4)], near_loops
         if self.limits is not None:
             are_targets = self.limits.uv is None
             limits = self.limits.core, self._least(self.limits), are_targets

@@ -24,7 +24,8 @@ from surfmesh.sizing.options.defaults import with_defaults
 from surfmesh.sizing.options.sizing import Sizing
 
 OF_THE_MODEL = (
-    "growth", "anisotropy", "limit", "gap_faces", "volume", "triangles", "proof", "vertices",
+    "growth", "anisotropy", "limit", "gap_faces", "volume", "triangles", "proof", "order",
+    "vertices",
 )  # fmt: skip
 """Options that cannot differ from selection to selection."""
 

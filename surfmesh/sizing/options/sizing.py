@@ -75,6 +75,11 @@ class Sizing:
     """Prove that ``chord`` holds: triangles that bounds do not show to be near enough are made
     smaller until they do, or the report says which are not proved. See docs/proof.md."""
 
+    order: int = 1
+    """2: quadratic triangles, with nodes amid their edges on the true curves and surfaces. Then
+    ``chord`` is the distance of the curved triangles, which are far larger, unless ``anisotropy``,
+    ``volume`` or ``proof`` is asked for: these are of straight triangles, and so are sizes then."""
+
     vertices: str = ON_SURFACE
     """Where they lie: "on_surface", or "balanced": they move along the normals until the surface
     lies on both sides of the triangles, and closed solids have their exact volumes. ``chord`` holds
@@ -133,6 +138,8 @@ class Sizing:
             self._check_triangles()
         if self.volume is not None and self.volume >= 1.0:
             raise SizingError(f"volume is a relative error below 1, not {self.volume:g}")
+        if self.order not in (1, 2):
+            raise SizingError(f"order is {shown(self.order)}: meshes are of order 1 or 2")
         if not isinstance(self.proof, bool):
             raise SizingError(f"proof is True or False, not {shown(self.proof)}")
         if self.proof and self.chord is None and self.triangles is None:
@@ -142,6 +149,10 @@ class Sizing:
             raise SizingError(f"vertices is {known}, not {shown(self.vertices)}")
         if self.proof and self.is_balanced:
             raise SizingError("proof needs vertices on the surface: they cannot be balanced too")
+        if self.order == 2 and self.is_balanced:
+            raise SizingError(
+                "nodes of order 2 lie on the surface: vertices cannot be balanced too"
+            )
         if self.angle is not None and self.angle > 90.0:
             raise SizingError(f"angle must be at most 90 degrees, not {self.angle:g}")
         if self.min_size and self.max_size and self.min_size > self.max_size:
@@ -169,6 +180,18 @@ class Sizing:
     def is_anisotropic(self) -> bool:
         """Do the sizes depend on the direction?"""
         return self.anisotropy > 1.0 and (self.chord is not None or self.angle is not None)
+
+    @property
+    def is_curved(self) -> bool:
+        """Is ``chord`` that of quadratic triangles, and not of the straight ones between their
+        corners?"""
+        of_straight = self.is_anisotropic or self.volume is not None or self.proof
+        return self.order == 2 and self.chord is not None and not of_straight
+
+    @property
+    def straight_chord(self) -> float | None:
+        """``chord`` where it is that of straight triangles."""
+        return None if self.is_curved else self.chord
 
     @property
     def is_balanced(self) -> bool:

@@ -3,6 +3,7 @@
 curvature_size: the edge length that a curvature allows.
 rule: what a size rule is: the edge length that it allows at a place, and words for it.
 chord_rule: ``chord``, of surfaces and of curves.
+quadratic_chord_rule: ``chord`` of quadratic triangles.
 angle_rule: ``angle``.
 default_angle_rule: the angle that holds where only a chord is asked for.
 size_rule: ``size``: a number, or a function of the place.

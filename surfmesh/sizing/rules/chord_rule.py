@@ -42,8 +42,8 @@ class ChordRule(CurvatureRule):
 
     @classmethod
     def asked_for(cls, sizing: Sizing, diagonal: float) -> Iterator["ChordRule"]:
-        if sizing.chord is not None:
-            yield cls(sizing.chord, sizing.is_anisotropic, sizing.is_balanced)
+        if sizing.straight_chord is not None:
+            yield cls(sizing.straight_chord, sizing.is_anisotropic, sizing.is_balanced)
 
     def __str__(self) -> str:
         return f"chord {self.chord:g}"
@@ -73,9 +73,9 @@ class ChordRule(CurvatureRule):
         left = np.maximum(reserve * self.chord - curve.tolerance, LEAST_LEFT * self.chord)
         with np.errstate(divide="ignore", over="ignore"):
             own = np.sqrt(8.0 * left / curve.curvature)
-        return np.minimum(np.maximum(own, 2.0 * self.chord), self._at_corners(curve))
+        return np.minimum(np.maximum(own, 2.0 * self.chord), self.at_corners(curve))
 
-    def _at_corners(self, curve: CurveSamples) -> np.ndarray:
+    def at_corners(self, curve: CurveSamples) -> np.ndarray:
         """Sizes (n,) that cut the corners of polygonal curves by ``chord``; infinite elsewhere.
 
         A corner is an angle between samples that the curvature there knows nothing of. A segment h

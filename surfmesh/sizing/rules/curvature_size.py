@@ -39,6 +39,12 @@ def chord_size(k1: np.ndarray, k2: np.ndarray, chord: float | np.ndarray) -> np.
     return _each(core.chord_size, k1, k2, float(chord))
 
 
+def quadratic_chord_size(k1: np.ndarray, k2: np.ndarray, chord: float) -> np.ndarray:
+    """Edge length at which quadratic triangles stay within ``chord`` where the curvature does not
+    change; never below 2 ``chord``."""
+    return _each(core.quadratic_chord_size, k1, k2, chord)
+
+
 def share_of_width(k1: np.ndarray, k2: np.ndarray, ratio: np.ndarray | float) -> np.ndarray:
     """Fraction of a chord that may be used where it is the width of the band around the surface
     that a triangle needs: all of it where the surface bends one way. ratio: of two sizes."""

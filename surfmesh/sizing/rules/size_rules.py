@@ -20,11 +20,14 @@ from surfmesh.sizing.options.sizing import Sizing
 from surfmesh.sizing.rules.angle_rule import AngleRule
 from surfmesh.sizing.rules.chord_rule import ChordRule
 from surfmesh.sizing.rules.default_angle_rule import DefaultAngleRule
+from surfmesh.sizing.rules.quadratic_chord_rule import QuadraticChordRule
 from surfmesh.sizing.rules.rule import CurvatureRule, PlaceRule, Rule
 from surfmesh.sizing.rules.size_rule import SizeRule
 from surfmesh.sizing.rules.source_rule import SourceRule
 
-RULES: tuple[type[Rule], ...] = (ChordRule, AngleRule, DefaultAngleRule, SizeRule, SourceRule)
+RULES: tuple[type[Rule], ...] = (
+    ChordRule, QuadraticChordRule, AngleRule, DefaultAngleRule, SizeRule, SourceRule,
+)  # fmt: skip
 """Every kind of rule, in the order in which they are heard."""
 
 

@@ -15,6 +15,8 @@ WEIGHTS = np.array(
     [(i, j, SIDE - i - j) for i in range(SIDE + 1) for j in range(SIDE + 1 - i)]
 ) / float(SIDE)
 
+CELL_HEIGHT = 26  # a column of the bounds; the last is that of whole cells
+
 X, Y, Z = np.eye(3)
 TURNED = np.linalg.qr(np.array([[1.0, 2.0, 0.3], [-0.4, 1.0, 0.7], [0.2, -0.5, 1.5]]))[0]
 BOX = ((-3.0, 3.0), (-3.0, 3.0))
@@ -49,6 +51,12 @@ SURFACES = {
     "bell": formula("u", "v", "exp(-u**2 - 2*v**2)"),
     "functions": formula("u + tanh(v)/3", "v*sqrt(3 + u)", "log(3 + u*v/2) + atan(u)*asinh(v)"),
     "powers": formula("u**3", "v + (3 + u)**0.7", "erf(v) + cosh(u/2) - 1/(4 + u)"),
+    "inverse functions": formula("asin(u/3)*4", "acos(v/3)*4", "atan2(v, u + 4) + atanh(u/4)"),
+    "roots": formula("u*sqrt(7 + u*v)/3", "v*cbrt(5 + u)", "1/(5 + u + v) + sinh(u/2)/3"),
+    "tangents": formula("tan(u/3)*2", "v + (3 + u)**(v/3)", "tanh(u*v) + acosh(4 + u) + cosh(v/2)"),
+    "of two kinds": formula(
+        "u", "max(v, v - 9)", "u*v*sign(u + 9) + min(u**2, u + 9)*abs(u + 9)/9"
+    ),
     "plane": surfaces.plane(BOX, X, TURNED[0], TURNED[1]),
     "cylinder": surfaces.cylinder(BOX, X, *TURNED, 1.3),
     "cone": surfaces.cone(BOX, X, *TURNED, 4.0, 0.4),
@@ -113,6 +121,34 @@ def test_no_sample_is_beyond_the_bounds(name, size, seed, depth):
 
 
 @pytest.mark.parametrize("name", SURFACES)
+@settings(max_examples=15, deadline=None)
+@given(size=number, seed=st.integers(0, 2**32 - 1))
+def test_no_cell_rises_farther_than_its_part(name, size, seed):
+    surface = SURFACES[name]
+    uv, corners = triangles(size, seed, surface)
+    height, whole = bounds_of(surface, corners, uv)[:, CELL_HEIGHT:].T / SIDE**2
+    rounding = 1e-13 * (1.0 + np.abs(corners).max())
+    normal = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+    area = np.linalg.norm(normal, axis=1)
+    longest = np.linalg.norm(corners - np.roll(corners, 1, axis=1), axis=2).max(axis=1)
+    good = area > 1e-3 * longest**2
+    normal[good] /= area[good, None]
+    draw = np.random.default_rng(seed)
+    for _ in range(4):  # a cell between points of the grid, and a point of it
+        i, j = draw.integers(0, SIDE, 2)
+        if i + j >= SIDE:
+            i, j = SIDE - 1 - i, SIDE - 1 - j
+        cell = np.array([(SIDE - i - j, i, j), (SIDE - 1 - i - j, i + 1, j),
+                         (SIDE - 1 - i - j, i, j + 1)]) / SIDE  # fmt: skip
+        inside = draw.dirichlet((1.0, 1.0, 1.0))
+        places = np.einsum("ck,mkd->mcd", np.vstack([cell, inside @ cell]), uv)
+        r = surface.evaluate(places.reshape(-1, 2), 0)[0].reshape(len(uv), 4, 3)
+        away = r[:, 3] - np.einsum("c,mcd->md", inside, r[:, :3])
+        assert (np.linalg.norm(away, axis=1) <= whole + rounding).all()
+        assert (np.abs(np.einsum("md,md->m", away, normal)) <= height + rounding)[good].all()
+
+
+@pytest.mark.parametrize("name", SURFACES)
 def test_bounds_of_small_triangles_are_tight(name):
     surface = SURFACES[name]
     uv, corners = triangles(0.7, 11, surface)
@@ -174,6 +210,31 @@ def test_a_function_of_the_caller_has_no_bounds():
     core = surfaces.CallbackSurface(surface)
     corners = core.evaluate(uv[0], 0)
     assert bounds_of(core, corners, uv) is None
+
+
+def test_smooth_formulas_are_bounded_to_the_second_order():
+    """Corners and fourth derivatives: what is given away falls with the square of the size."""
+    surface = SURFACES["waves"]
+    ratios = []
+    for size in (0.5, 0.75, 1.0):
+        uv, corners = triangles(size, 7, surface)
+        at = np.einsum("qk,mkd->mqd", WEIGHTS, uv)
+        points = surface.evaluate(at.reshape(-1, 2), 0)[0].reshape(len(uv), -1, 3)
+        flat = np.einsum("qk,mkd->mqd", WEIGHTS, corners)
+        away = np.linalg.norm(points - flat, axis=2).max(axis=1)
+        ratios.append(np.median(bounds_of(surface, corners, uv)[:, 8] / away))
+    assert ratios[2] < ratios[1] < ratios[0] and ratios[2] < 1.03
+
+
+def test_seams_are_where_parameters_of_neighbours_differ():
+    uv = np.array([[(0, 0), (1, 0), (0, 1)], [(1, 0), (1, 1), (0, 1)]], float)
+    twins = np.array([-1, 5, -1, -1, -1, 1], np.int32)
+    assert len(proof.parted_half_edges(uv, twins)) == 0
+    assert proof.parted_half_edges(uv + [[[0]], [[2]]], twins).tolist() == [1]
+    with pytest.raises(ValueError, match="twins"):
+        proof.parted_half_edges(uv, twins[:3])
+    with pytest.raises(ValueError, match="out of range"):
+        proof.parted_half_edges(uv, np.full(6, 6, np.int32))
 
 
 def test_given_arrays_are_looked_at():

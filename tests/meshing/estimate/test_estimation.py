@@ -149,3 +149,11 @@ def test_many_faces_are_counted_by_a_close_look_at_some():
         )
         assert len(looked) < min(most, len(model.faces))
         assert found.sum() == pytest.approx(every.sum(), rel=0.03)
+
+
+def test_memory_is_said_of_the_mesh_and_with_the_program():
+    small, large = (sm.estimate(sm.load("torus"), size) for size in (0.3, 0.03))
+    assert 0 < small.mesh_memory < large.mesh_memory < large.memory
+    assert small.mesh_memory < 10_000 * small.triangles
+    assert large.to_dict()["mesh_memory_bytes"] == large.mesh_memory
+    assert "of memory at the peak" in str(large) and "with the program" in str(large)

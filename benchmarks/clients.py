@@ -1,0 +1,289 @@
+"""What other programs make of our files: works, lost, seconds.
+
+    python benchmarks/clients.py [--only NAME ...]
+
+A part of two solids that share a face goes to each program that is installed; a program that is not
+is a row with the reason. CalculiX solves a cantilever as a solid and as a shell, and is set beside
+the theory of beams; capytaine, where it is installed, gives the added mass of a hemisphere in heave
+against panels (0.831 of the displaced mass at frequency zero, 0.5 at infinity: Hulme, J. Fluid
+Mech. 121, 1982). Debian: calculix-ccx, openfoam.
+"""
+
+import argparse
+import contextlib
+import io
+import os
+import re
+import shutil
+import subprocess
+import tempfile
+import warnings
+from collections.abc import Callable
+from pathlib import Path
+from time import process_time
+
+import cadquery as cq
+import numpy as np
+from rich.box import SIMPLE_HEAD
+from rich.markup import escape
+from rich.table import Table
+from tables import console
+
+import surfmesh as sm
+from surfmesh.io import FORMATS
+from surfmesh.result.surface_mesh import SurfaceMesh
+
+OPENFOAM = Path("/usr/share/openfoam")  # where Debian's package has its settings
+LENGTH, SIDE, FORCE, YOUNG, POISSON = 100.0, 10.0, 100.0, 210000.0, 0.3  # mm, N, MPa
+MEDIT = {"file_format": "medit"}
+
+
+def part() -> SurfaceMesh:
+    """Two blocks that share a face, one with a hole; names on two faces."""
+    from OCP.BOPAlgo import BOPAlgo_Builder
+
+    fuse = BOPAlgo_Builder()
+    fuse.AddArgument(cq.Workplane().box(4, 2, 2).faces(">Z").workplane().hole(1).val().wrapped)
+    fuse.AddArgument(cq.Workplane().box(2, 2, 2).translate((3, 0, 0)).val().wrapped)
+    fuse.Perform()
+    return sm.mesh(cq.Shape.cast(fuse.Shape()), 0.5)
+
+
+def gmsh_model(folder: Path) -> str:
+    import gmsh
+
+    mesh = part()
+    mesh.to_gmsh()
+    gmsh.model.mesh.generate(3)
+    counts = [len(gmsh.model.mesh.getElements(3, tag)[1][0]) for tag in (1, 2)]
+    groups = len(gmsh.model.getPhysicalGroups())
+    gmsh.finalize()
+    return f"to_gmsh, generate(3): {counts[0]} and {counts[1]} tetrahedra, {groups} physical groups"
+
+
+def engine(name: str) -> Callable[[Path], str]:
+    def fills(folder: Path) -> str:
+        mesh = sm.mesh(cq.Workplane().box(4, 2, 2), 0.5) if name == "ftetwild" else part()
+        found = mesh.tetrahedralize(name)
+        kept = "surface kept" if not found.warnings else "new surface"
+        return f"{len(found.elements)} tetrahedra, worst {found.shapes.min():.2f}, {kept}"
+
+    return fills
+
+
+def beam() -> tuple[SurfaceMesh, str, int]:
+    """The cantilever, the name of its solid, the number of nodes at its tip."""
+    shape = cq.Workplane().box(LENGTH, SIDE, SIDE, centered=(False, True, True))
+    shape = shape.faces("<X").tag("fixed").end().faces(">X").tag("tip").end()
+    mesh = sm.mesh(shape, 0.5 * SIDE, order=2)
+    tip = mesh.face_ids == mesh.groups.face_names.index("tip")
+    return mesh, mesh.groups.solid_label(0), len(np.unique(mesh.elements[tip]))
+
+
+def solved(folder: Path, mesh_file: str, section: str, loads: str) -> float:
+    """Mean displacement along z of the set of nodes ``tip``."""
+    (folder / "run.inp").write_text(
+        f"*INCLUDE, INPUT={mesh_file}\n*MATERIAL, NAME=STEEL\n*ELASTIC\n{YOUNG}, {POISSON}\n"
+        f"{section}*STEP\n*STATIC\n{loads}*NODE PRINT, NSET=tip\nU\n*END STEP\n"
+    )
+    subprocess.run(["ccx", "run"], cwd=folder, check=True, capture_output=True)
+    rows = [line.split() for line in (folder / "run.dat").read_text().splitlines()]
+    return float(np.mean([float(row[3]) for row in rows if len(row) == 4 and row[0].isdigit()]))
+
+
+def calculix_solid(folder: Path) -> str:
+    mesh, solid, loaded = beam()
+    mesh.tetrahedralize().save(folder / "beam.inp")
+    tip = solved(
+        folder, "beam.inp",
+        f"*SOLID SECTION, ELSET={solid}, MATERIAL=STEEL\n*BOUNDARY\nfixed, 1, 3\n",
+        f"*CLOAD\ntip, 3, {FORCE / loaded}\n",
+    )  # fmt: skip
+    shear = FORCE * LENGTH / (5 / 6 * YOUNG / (2 + 2 * POISSON) * SIDE**2)
+    theory = FORCE * LENGTH**3 / (3 * YOUNG * SIDE**4 / 12) + shear
+    return f"C3D10: tip {tip:.4f} mm, theory of beams {theory:.4f}"
+
+
+def calculix_shell(order: int) -> Callable[[Path], str]:
+    def solve(folder: Path) -> str:
+        plate = cq.Workplane().rect(LENGTH, SIDE).extrude(1.0).faces("<Z").val()
+        mesh = sm.mesh(plate, 2.5, order=order)
+        mesh = mesh.replaced(groups=_with_ends(mesh))
+        mesh.save(folder / "plate.inp", target="calculix")
+        thickness = 1.0
+        ends = [name for name in mesh.groups.edge_names if name == "tip"]
+        nodes = len(np.unique(mesh.edge_elements[np.isin(mesh.edge_ids, _edges(mesh, "tip"))]))
+        face = mesh.groups.face_label(0).replace(" ", "_")
+        tip = solved(
+            folder, "plate.inp",
+            f"*SHELL SECTION, ELSET={face}, MATERIAL=STEEL\n{thickness}\n"
+            "*BOUNDARY\nfixed, 1, 6\n",
+            f"*CLOAD\ntip, 3, {0.1 / nodes}\n",
+        )  # fmt: skip
+        theory = 0.1 * LENGTH**3 / (3 * YOUNG * SIDE * thickness**3 / 12)
+        kind = {1: "S3", 2: "S6"}[order]
+        return f"{kind}: tip {tip:.4f} mm, theory of beams {theory:.4f} ({len(ends)} named edge)"
+
+    return solve
+
+
+def _edges(mesh: SurfaceMesh, name: str) -> list[int]:
+    return [number for number, label in enumerate(mesh.groups.edge_names) if label == name]
+
+
+def _with_ends(mesh: SurfaceMesh):
+    """Groups whose edges at both ends along x are called ``fixed`` and ``tip``."""
+    from dataclasses import replace
+
+    names = []
+    for edge in range(len(mesh.groups.edge_names)):
+        x = mesh.points[mesh.edge_segments[mesh.edge_ids == edge], 0]
+        at = "fixed" if (x < -0.49 * LENGTH).all() else "tip" if (x > 0.49 * LENGTH).all() else ""
+        names.append(at)
+    return replace(mesh.groups, edge_names=tuple(names))
+
+
+def openfoam(folder: Path) -> str:
+    shape = cq.Workplane().box(4, 2, 2).faces(">Z").tag("lid").end()
+    sm.mesh(shape, 0.5).save(folder / "part.stl", solids="faces")
+    told = subprocess.run(
+        [_found("surfaceCheck"), "part.stl"], cwd=folder, capture_output=True, text=True,
+        env=os.environ | ({"WM_PROJECT_DIR": str(OPENFOAM)} if OPENFOAM.is_dir() else {}),
+    ).stdout  # fmt: skip
+    regions = re.search(r"in (\d+) region", told)
+    closed = "closed" if "Surface is closed" in told else "not closed"
+    lost = "" if "lid" in told else ", lost: names"
+    return f"surfaceCheck: {regions[1] if regions else 0} regions by name, {closed}{lost}"
+
+
+def _found(command: str) -> str:
+    path = shutil.which(command)
+    if path is None:
+        raise ImportError(f"{command} is not installed")
+    return path
+
+
+def meshio_all(folder: Path) -> str:
+    import meshio
+
+    mesh, lost = part(), []
+    for extension in FORMATS:
+        try:
+            path = mesh.save(folder / f"part{extension}")
+            with contextlib.redirect_stdout(io.StringIO()):
+                found = meshio.read(path, **(MEDIT if extension == ".mesh" else {}))
+            count = sum(len(block) for block in found.cells if block.type.startswith("triangle"))
+            if count != len(mesh.triangles):
+                lost.append(f"{extension} {count} of {len(mesh.triangles)} triangles")
+        except (Exception, SystemExit):  # it ends the program for what it does not know
+            lost.append(extension)
+    return "all formats" if not lost else f"all but {', '.join(lost)}"
+
+
+def trimesh_solid(folder: Path) -> str:
+    mesh = sm.mesh(cq.Workplane().box(4, 2, 2), 0.5)
+    found = mesh.to_trimesh()
+    return f"to_trimesh: watertight {found.is_watertight}, volume {found.volume:.6g}"
+
+
+def pyvista_grid(folder: Path) -> str:
+    grid = part().tetrahedralize().to_pyvista()
+    return f"to_pyvista: {grid.n_cells} tetrahedra, names {list(grid.field_data['solid_names'])}"
+
+
+def pynastran(folder: Path) -> str:
+    from pyNastran.bdf.bdf import read_bdf
+
+    model = read_bdf(part().save(folder / "part.bdf"), xref=True, debug=None)
+    return f"{len(model.elements)} elements, {len(model.properties)} properties, cross-referenced"
+
+
+def lib3mf(folder: Path) -> str:
+    from lib3mf import get_wrapper
+
+    path = sm.mesh(cq.Workplane().box(4, 2, 2), 0.5).save(folder / "part.3mf")
+    reader = get_wrapper().CreateModel().QueryReader("3mf")
+    reader.ReadFromFile(str(path))
+    return f"read with {reader.GetWarningCount()} warnings"
+
+
+def mmg(folder: Path) -> str:
+    import mmgpy
+
+    path = sm.mesh(cq.Workplane().box(4, 2, 2), 0.5).save(folder / "part.mesh")
+    found = mmgpy.read(path)
+    return f".mesh: {len(found.get_triangles())} triangles"
+
+
+def manifold(folder: Path) -> str:
+    import manifold3d
+
+    mesh = sm.mesh(cq.Workplane().box(4, 2, 2), 0.5)
+    arrays = manifold3d.Mesh(mesh.points.astype(np.float32), mesh.triangles.astype(np.uint32))
+    found = manifold3d.Manifold(arrays)
+    return f"{found.status().name}, volume {found.volume():.6g}"
+
+
+def capytaine(folder: Path) -> str:
+    import capytaine as cpt
+
+    told = []
+    for count in (200, 800):
+        ball = sm.ParametricSurface(
+            "cos(v)*cos(u)", "cos(v)*sin(u)", "sin(v)", u=(0, "2*pi"), v=("-pi/2", 0)
+        )
+        mesh = sm.mesh(ball, triangles=count)
+        quads = np.column_stack((mesh.triangles, mesh.triangles[:, 2]))
+        body = cpt.FloatingBody(cpt.Mesh(mesh.points, quads), name="hemisphere")
+        body.add_translation_dof(name="Heave")
+        mass = 2.0 / 3.0 * np.pi * 1000.0
+        solver, at = cpt.BEMSolver(), []
+        for omega in (0.0, np.inf):
+            problem = cpt.RadiationProblem(body=body, omega=omega, radiating_dof="Heave")
+            at.append(solver.solve(problem).added_masses["Heave"] / mass)
+        told.append(f"{len(mesh.triangles)} panels {at[0]:.3f} / {at[1]:.3f}")
+    return f"added mass at 0 / infinity: {', '.join(told)} (0.831 / 0.5)"
+
+
+CLIENTS: dict[str, Callable[[Path], str]] = {
+    "gmsh": gmsh_model,
+    "tetgen": engine("tetgen"),
+    "gmsh (fills)": engine("gmsh"),
+    "netgen": engine("netgen"),
+    "ftetwild": engine("ftetwild"),
+    "CalculiX solid": calculix_solid,
+    "CalculiX shell": calculix_shell(1),
+    "CalculiX shell, order 2": calculix_shell(2),
+    "OpenFOAM": openfoam,
+    "meshio": meshio_all,
+    "trimesh": trimesh_solid,
+    "PyVista": pyvista_grid,
+    "pyNastran": pynastran,
+    "lib3mf": lib3mf,
+    "mmg": mmg,
+    "manifold3d": manifold,
+    "capytaine": capytaine,
+}
+
+
+def main() -> None:
+    parser = argparse.ArgumentParser(description=(__doc__ or "").partition("\n")[0])
+    parser.add_argument("--only", nargs="+", default=list(CLIENTS), metavar="NAME")
+    options = parser.parse_args()
+    table = Table("program", "what came of it", "seconds", box=SIMPLE_HEAD)
+    for name in options.only:
+        start = process_time()
+        with tempfile.TemporaryDirectory() as folder, warnings.catch_warnings():
+            warnings.simplefilter("ignore")
+            try:
+                told = CLIENTS[name](Path(folder))
+            except (ImportError, OSError) as error:
+                told = f"not here: {error}"
+            except Exception as error:
+                told = f"FAILED: {type(error).__name__}: {error}"
+        table.add_row(name, escape(told), f"{process_time() - start:.1f}")
+    console.print(table)
+
+
+if __name__ == "__main__":
+    main()

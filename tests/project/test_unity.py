@@ -1,0 +1,46 @@
+"""Rooms of the core can be compiled as one file each: names of a file are unique in its room."""
+
+import re
+from collections import defaultdict
+from pathlib import Path
+
+import pytest
+
+SOURCES = Path(__file__).parents[2] / "src"
+ROOMS = sorted({path.parent for path in SOURCES.glob("*/*.cpp")})
+CONSTANT = re.compile(r"^(?:static )?constexpr (?:[\w:<>, ]+?) (\w+)(?:\[\w*\])? ?[={]")
+TYPE = re.compile(r"^(?:struct|class|enum class) (\w+).*\{")
+FUNCTION = re.compile(r"^(?!namespace|template)[\w:<>&*, ]+ \w+\([^;]*\{")
+ALIAS = re.compile(r"^using (\w+) = (.*);")  # twice the same is allowed
+TWINS = re.compile(r"tape_\w+")  # for numbers and for intervals: each by itself, see CMakeLists.txt
+
+
+def local_names(path: Path) -> dict[str, str]:
+    """Constants, types, aliases and functions at the left margin that other files do not see.
+
+    Each with what may not differ or, where nothing may stand twice, with the file.
+    """
+    names, hidden = {}, False
+    for line in path.read_text(encoding="utf-8").splitlines():
+        if re.match(r"namespace \{", line):
+            hidden = True
+        elif re.match(r"\}  // namespace$", line):
+            hidden = False
+        elif hidden:
+            if found := CONSTANT.match(line) or TYPE.match(line):
+                names[found.group(1)] = path.name
+            elif found := ALIAS.match(line):
+                names[found.group(1)] = found.group(2)
+            elif FUNCTION.match(line):
+                names[line] = path.name
+    return names
+
+
+@pytest.mark.parametrize("room", ROOMS, ids=lambda room: room.name)
+def test_names_of_a_file_are_unique_in_its_room(room):
+    meanings = defaultdict(set)
+    for path in sorted(room.glob("*.cpp")):
+        if not TWINS.match(path.stem):
+            for name, meaning in local_names(path).items():
+                meanings[path.stem.endswith("bindings"), name].add(meaning)
+    assert not {name: found for (_, name), found in meanings.items() if len(found) > 1}
