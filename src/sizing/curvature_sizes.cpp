@@ -8,6 +8,8 @@ namespace {
 // Largest ratio of two sizes of which no more than the square is taken.
 constexpr double LARGEST_RATIO = 1e100;
 
+constexpr double SADDLE_RESERVE = 0.72;  // where the curvatures are opposite
+
 constexpr double SQRT3 = 1.7320508075688772;
 
 double sign(double x) { return x > 0.0 ? 1.0 : x < 0.0 ? -1.0 : x; }
@@ -32,6 +34,8 @@ double deviation_reserve(PrincipalCurvatures k) {
     const double first = std::abs(k.k1), second = std::abs(k.k2);
     const double alike = least(first, second) / most(first, second);
     if (!(alike <= 1.0)) return DEVIATION_RESERVE;  // both 0, or infinite
+    // on saddles free rims bend more than the surface: with larger sizes inside, fields fall to them
+    if (k.k1 * k.k2 < 0.0) return DEVIATION_RESERVE + (SADDLE_RESERVE - DEVIATION_RESERVE) * alike;
     return DEVIATION_RESERVE + (ALIKE_RESERVE - DEVIATION_RESERVE) * alike;
 }
 

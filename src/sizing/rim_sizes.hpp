@@ -13,7 +13,7 @@ namespace surfmesh {
 
 /// Fraction of ``chord`` that an edge of the wanted length may sag by: a line is cut into equal
 /// edges, which are never much longer than wanted, unlike the sides of triangles.
-inline constexpr double RIM_RESERVE = 0.88;
+inline constexpr double RIM_RESERVE = 0.95;
 
 /// In ``chord``: a shorter edge is within ``chord`` of its arc, whatever the curvature.
 inline constexpr double LEAST_RIM = 2.0;

@@ -52,7 +52,7 @@ def principal_chord_sizes(k1: Annotated[NDArray[numpy.float64], dict(shape=(None
 def principal_angle_sizes(k1: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)], k2: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)], angle: float, ratio: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)]) -> tuple[Annotated[NDArray[numpy.float64], dict(shape=(None,))], Annotated[NDArray[numpy.float64], dict(shape=(None,))]]:
     """Edge lengths (n,), (n,) along the directions of k1 and k2, likewise."""
 
-RIM_RESERVE: float = 0.88
+RIM_RESERVE: float = 0.95
 
 LEAST_RIM: float = 2.0
 
