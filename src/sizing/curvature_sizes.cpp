@@ -8,7 +8,7 @@ namespace {
 // Largest ratio of two sizes of which no more than the square is taken.
 constexpr double LARGEST_RATIO = 1e100;
 
-constexpr double SADDLE_RESERVE = 0.72;  // where the curvatures are opposite
+constexpr double SADDLE_RESERVE = 0.7;  // where the curvatures are opposite
 
 constexpr double SQRT3 = 1.7320508075688772;
 

@@ -18,7 +18,7 @@ namespace surfmesh {
 /// where both ways alike. Deviation grows with the square of the circumradius; the few triangles
 /// that are too large are brought nearer one by one. Curved one way, all triangles may have an edge
 /// that runs that way; else few lie worst.
-inline constexpr double DEVIATION_RESERVE = 0.78, ALIKE_RESERVE = 0.82;
+inline constexpr double DEVIATION_RESERVE = 0.74, ALIKE_RESERVE = 0.78;
 
 /// Fraction of ``angle`` that two unit triangles may be bent by: on a sphere, where all edges are
 /// alike and some triangles are larger; and for what depends on the direction, as few edges lie

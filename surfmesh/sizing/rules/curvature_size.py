@@ -13,7 +13,7 @@ import numpy as np
 
 from surfmesh._core import sizing as core
 
-DEVIATION_RESERVE, ALIKE_RESERVE = core.DEVIATION_RESERVE, core.ALIKE_RESERVE  # 0.78, 0.82
+DEVIATION_RESERVE, ALIKE_RESERVE = core.DEVIATION_RESERVE, core.ALIKE_RESERVE  # 0.74, 0.78
 """Share of ``chord`` that a unit triangle may use: curved one way only, and both ways alike."""
 
 ROUND_RESERVE, BENT_RESERVE = core.ROUND_RESERVE, core.BENT_RESERVE  # 0.78, 0.94
