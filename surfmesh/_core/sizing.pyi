@@ -12,9 +12,9 @@ import surfmesh._core.fields
 import surfmesh._core.surfaces
 
 
-DEVIATION_RESERVE: float = 0.78
+DEVIATION_RESERVE: float = 0.74
 
-ALIKE_RESERVE: float = 0.82
+ALIKE_RESERVE: float = 0.78
 
 ROUND_RESERVE: float = 0.78
 

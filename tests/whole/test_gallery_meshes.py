@@ -250,8 +250,8 @@ def test_a_domain_smaller_than_the_size_is_still_meshed():
 
 
 def test_unknown_options_and_things_that_are_no_surface_are_refused():
-    with pytest.raises(sm.errors.SurfaceError, match="cannot mesh a str"):
-        sm.mesh("sphere")
+    with pytest.raises(sm.errors.SurfaceError, match="cannot mesh a int"):
+        sm.mesh(3)
     with pytest.raises(sm.errors.SizingError, match="unknown size option"):
         sm.mesh(sm.load("plane"), {"sise": 1})
 

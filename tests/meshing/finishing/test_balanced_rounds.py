@@ -16,7 +16,7 @@ def both(surface, **sizes):
 
 @pytest.mark.parametrize(
     ("name", "chord", "most"),
-    [("sphere", 0.005, 0.6), ("torus", 0.01, 0.6), ("catenoid", 0.01, 0.95)],
+    [("sphere", 0.005, 0.7), ("torus", 0.01, 0.7), ("catenoid", 0.01, 0.95)],
 )
 def test_fewer_triangles_hold_the_chord_on_both_sides(name, chord, most):
     plain, balanced = both(sm.load(name), chord=chord)
