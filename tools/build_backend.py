@@ -26,7 +26,7 @@ ZIG = "ziglang>=0.13"
 ANNOUNCEMENT = (
     "surfmesh: no C++ compiler was found (looked for $CXX, " + ", ".join(COMPILERS) + "). The core "
     "is built with zig from PyPI, a download of 100 MB and some minutes; a compiler of the system "
-    "takes half a minute"
+    "takes about a minute"
 )
 
 
