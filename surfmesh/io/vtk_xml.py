@@ -3,7 +3,8 @@
 Read by ``vtk_xml_reading``.
 
 Names and the like are the bytes of a JSON text in the field data ``surfmesh_groups``: arrays of
-strings hold ASCII alone, and meshio refuses a file that has one.
+strings hold ASCII alone, and meshio refuses a file that has one. For those who look, each name of a
+face, a solid and an edge is the name of a field array too, ``face top``, with its numbers.
 """
 
 import json
@@ -34,6 +35,7 @@ METRIC, METRIC_ROWS = "surfmesh_inverse_sizes", "inverse_size_row"
 wanted lengths) in field data, and the rows of the three corners of each triangle."""
 
 
+SHOWN = 200  # names that are arrays of their own; what is looked at one by one
 POINT_DATA, CELL_DATA = ("size",), ("face_id", "solid_id", "uv", METRIC_ROWS)
 FIELD_DATA = ("one_sided", GROUPS, METRIC, PROMISES, *CAD_NUMBERS)
 """The arrays that are read."""
@@ -54,6 +56,11 @@ def to_pyvista(mesh: SurfaceMesh) -> "pyvista.PolyData":
         data.point_data["size"] = mesh.sizes.copy()
     for name, values in _of_triangles(mesh).items():
         data.cell_data[name] = values.copy()
+    groups = mesh.groups
+    for kind, names in (("face", groups.face_names), ("solid", groups.solid_names)):
+        if any(names):
+            plain = [name.encode("ascii", "replace").decode() for name in names]  # VTK's limit
+            data.field_data[f"{kind}_names"] = plain
     data.set_active_scalars(None)
     return data
 
@@ -66,6 +73,18 @@ def _of_triangles(mesh: SurfaceMesh) -> dict[str, NDArray]:
     if colours is not None:
         found["colour"] = np.where(colours < 0, NO_COLOUR, colours).astype(np.uint8)
     return found
+
+
+def _numbers_by_name(groups: MeshGroups) -> dict[str, NDArray]:
+    """The numbers of what has a name, under this name."""
+    found: dict[str, list[int]] = {}
+    named = (groups.face_names, "face"), (groups.solid_names, "solid"), (groups.edge_names, "edge")
+    for names, kind in named:
+        for number, name in enumerate(names):
+            if name:
+                found.setdefault(f"{kind} {name}", []).append(number)
+    shown = list(found.items())[:SHOWN]
+    return {name: np.array(numbers, np.int32) for name, numbers in shown}
 
 
 def write(mesh: SurfaceMesh, path: Path) -> None:
@@ -88,6 +107,7 @@ def content_of(mesh: SurfaceMesh, grid: bool = True) -> Content:
     if promises is not None:
         field[PROMISES] = np.nan_to_num(promises)  # VTK's XML has no nan
     field |= {name: numbers for name, numbers in cad_numbers(mesh).items() if len(numbers)}
+    field |= _numbers_by_name(mesh.groups)
     points, cells, sizes = mesh.points, mesh.triangles, mesh.sizes
     if grid:
         points, cells, sizes = mesh.nodes, mesh.elements, mesh.node_sizes

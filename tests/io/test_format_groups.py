@@ -455,3 +455,15 @@ def test_pynastran_finds_all_references(boxes, tmp_path):
     model = bdf.read_bdf(boxes.save(tmp_path / "boxes.bdf"), xref=True, debug=None)
     assert len(model.elements) == len(boxes.triangles) and len(model.properties) == 12
     assert {element.pid_ref.mid1_ref.mid for element in model.elements.values()} == {1}
+
+
+def test_names_are_seen_in_paraview_and_pyvista(boxes, tmp_path):
+    pyvista = pytest.importorskip("pyvista")
+    for extension in (".vtu", ".vtp"):
+        found = pyvista.read(boxes.save(tmp_path / f"boxes{extension}"))
+        assert found.field_data["face top"].tolist() == [2, 3]
+        assert found.field_data["solid left part"].tolist() == [0]
+        assert found.field_data["edge rim"].tolist() == [0]
+    data = boxes.to_pyvista()
+    assert list(data.field_data["face_names"])[2] == "top"
+    assert list(data.field_data["solid_names"]) == ["left part", "right,part"]
