@@ -27,7 +27,7 @@ constexpr int MOVES = 4, INSERTION_ROUNDS = 10, SMOOTHED_ROUNDS = 6, MOVES_AFTER
 
 // Of ``chord``: what is let pass rather than go all the way round again. Between the samples of a
 // triangle the deviation may be a little larger than at them.
-constexpr double TOLERATED = 0.995, SPLIT_MARGIN = 0.98;
+constexpr double TOLERATED = 0.985, SPLIT_MARGIN = 0.97;
 
 // Of ``chord``: what moves aim at by the estimate, which knows sides and centroid: between them a
 // quadric is up to 4.2 % farther. And from where the farthest have vertices inserted before others.

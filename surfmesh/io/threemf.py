@@ -200,9 +200,10 @@ def read(path: Path) -> SurfaceMesh:
         if own.ndim != 1 or (len(own) and own.min() < 0):
             raise FileFormatError(f"{path}: the numbers of its vertices are damaged")
         nodes[own] = xyz
-        spans = [(start, end) for _, start, end in body.sets]
-        whole = all(0 <= start < end for start, end in spans)
-        if not whole or sum(end - start for start, end in spans) != len(rows):
+        spans = sorted((start, end) for _, start, end in body.sets)
+        starts, ends = [start for start, _ in spans], [end for _, end in spans]
+        once = len({face for face, _, _ in body.sets}) == len(spans)
+        if not once or [*starts, len(rows)] != [0, *ends] or any(a >= b for a, b in spans):
             raise FileFormatError(f"{path}: its triangle sets do not hold each triangle once")
         for face, start, end in body.sets:
             if face in solids:

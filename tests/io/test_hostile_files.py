@@ -256,8 +256,15 @@ def test_triangle_sets_of_3mf_hold_each_triangle_once(tmp_path, tetrahedron):
     with zipfile.ZipFile(path) as archive:
         model = archive.read("3D/3dmodel.model").decode()
     assert read(path).triangles.tolist() == tetrahedron.triangles.tolist()
-    for change in ('endindex="2"', 'endindex="9000000000"', 'endindex="-5"'):
-        threemf(path, model.replace('endindex="3"', change))
+    rows = "".join(f'<t:ref index="{k}"/>\n' for k in range(4))
+    ranged = '<t:refrange startindex="0" endindex="3"/>'
+    threemf(path, model.replace(rows, ranged))
+    assert read(path).triangles.tolist() == tetrahedron.triangles.tolist()
+    changes = [('index="3"', f'index="{k}"') for k in (2, 9_000_000_000, -5)]
+    changes += [(rows, ranged.replace("3", str(k))) for k in (2, 9_000_000_000, -5)]
+    for told, changed in changes:
+        assert told in model
+        threemf(path, model.replace(told, changed))
         with pytest.raises(FileFormatError, match="each triangle once"):
             read(path)
     threemf(path, model.replace('"points":4', '"points":9000000000').replace(

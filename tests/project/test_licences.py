@@ -56,7 +56,8 @@ def test_all_that_is_named_is_listed_once():
     assert direct >= {"numpy", "cadquery", "pyvista", "shapely", "pytest"}
     through = {package.name for package in found if not package.direct}
     assert through >= {"cadquery-ocp", "vtk", "llvmlite"}
-    assert all(package.wanted_by == "surfmesh" for package in found[:20])
+    own = [package for package in found if package.wanted_by == "surfmesh"]
+    assert len(own) > 5 and found[: len(own)] == own
 
 
 def test_an_ordinary_install_is_free_to_use():
