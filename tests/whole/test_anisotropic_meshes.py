@@ -111,7 +111,7 @@ def test_side_of_a_long_cad_cylinder(ratio, most):
 
 @pytest.mark.parametrize(
     "name, ratio, times", [
-        ("tube", 10.0, 9.0), ("ring", 5.0, 3.6), ("spring", 5.0, 3.6), ("spring", 100.0, 3.3),
+        ("tube", 10.0, 9.0), ("ring", 5.0, 3.5), ("spring", 5.0, 3.5), ("spring", 100.0, 3.3),
         ("wing", 20.0, 18.0), ("wing", 100.0, 60.0), ("two_peaks", 20.0, 2.8),
         ("ellipsoid", 10.0, 1.28), ("mobius", 10.0, 1.55), ("cone", 20.0, 2.2),
         ("fillets", 10.0, 2.7),
