@@ -83,7 +83,7 @@ class Sizing:
     vertices: str = ON_SURFACE
     """Where they lie: "on_surface", or "balanced": they move along the normals until the surface
     lies on both sides of the triangles, and closed solids have their exact volumes. ``chord`` holds
-    as ever, with fewer triangles where the surface bends one way: up to half as many. Planes stay
+    as ever, with fewer triangles where the surface bends one way: about two thirds. Planes stay
     planes, common edges stay common. For volumes, as in neutronics or 3D printing; where nodes have
     to lie on the surface, leave it. Nothing moves in planar domains."""
 
