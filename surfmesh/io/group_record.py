@@ -7,7 +7,7 @@ its own way too.
 
 import json
 import os
-from collections.abc import Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from pathlib import Path
 from typing import Any
 
@@ -112,6 +112,16 @@ def solids_of_faces(mesh: SurfaceMesh) -> NDArray[np.int32]:
     if mesh.solid_ids is not None:
         solids[mesh.face_ids] = mesh.solid_ids  # the same for all triangles of a face
     return solids
+
+
+def numbers_by_label(
+    numbers: Iterable[int], label: Callable[[int], str]
+) -> dict[str, list[int]]:  # fmt: skip
+    """The numbers that have each label, in their order: what has one name is one group in files."""
+    found: dict[str, list[int]] = {}
+    for number in numbers:
+        found.setdefault(label(number), []).append(number)
+    return found
 
 
 def unique_labels(labels: Iterable[str], longest: int, allowed: str = "") -> list[str]:

@@ -20,6 +20,7 @@ from surfmesh.io.group_record import (
     MARK,
     group_fields,
     group_lines,
+    numbers_by_label,
     require_last_line,
     unique_labels,
 )
@@ -97,9 +98,7 @@ def nodes_of_edges(mesh: SurfaceMesh, taken: list[str]) -> Iterator[tuple[str, N
     """
     if mesh.edge_ids is None:
         return
-    labels: dict[str, list[int]] = {}
-    for edge in np.unique(mesh.edge_ids).tolist():
-        labels.setdefault(mesh.groups.edge_label(edge), []).append(edge)
+    labels = numbers_by_label(np.unique(mesh.edge_ids).tolist(), mesh.groups.edge_label)
     names = unique_labels([*taken, *labels], NAME)[len(taken) :]
     for name, edges in zip(names, labels.values()):
         own = mesh.edge_elements[np.isin(mesh.edge_ids, edges)]

@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from surfmesh.errors import FileFormatError
-from surfmesh.io.group_record import unique_labels
+from surfmesh.io.group_record import numbers_by_label, unique_labels
 from surfmesh.io.welding import welded
 from surfmesh.result.mesh_groups import MeshGroups
 from surfmesh.result.surface_mesh import SurfaceMesh
@@ -70,13 +70,10 @@ def _by_solid(mesh: SurfaceMesh) -> Iterator[Body]:
 
 def _by_face(mesh: SurfaceMesh) -> Iterator[Body]:
     """Bodies of the names of faces: faces of one name together."""
-    faces, own_face = np.unique(mesh.face_ids, return_inverse=True)
-    names: dict[str, list[int]] = {}
-    for at, face in enumerate(faces.tolist()):
-        names.setdefault(mesh.groups.face_label(face), []).append(at)
+    names = numbers_by_label(np.unique(mesh.face_ids).tolist(), mesh.groups.face_label)
     labels = unique_labels(names, LONGEST, allowed="-.")
-    for label, members in zip(labels, names.values()):
-        yield label, np.isin(own_face.reshape(-1), members), np.zeros(len(own_face), bool)
+    for label, faces in zip(labels, names.values()):
+        yield label, np.isin(mesh.face_ids, faces), np.zeros(len(mesh.triangles), bool)
 
 
 def _normals(mesh: SurfaceMesh) -> NDArray[np.float64]:

@@ -19,6 +19,7 @@ from surfmesh.errors import FileFormatError
 from surfmesh.io.group_record import (
     group_fields,
     group_lines,
+    numbers_by_label,
     require_last_line,
     unique_labels,
 )
@@ -71,9 +72,7 @@ def _by_name(
     numbers: NDArray, label: Callable[[int], str], rows: NDArray
 ) -> Iterator[tuple[str, NDArray]]:  # fmt: skip
     """Names and rows, what has one name together."""
-    names: dict[str, list[int]] = {}
-    for number in np.unique(numbers).tolist():
-        names.setdefault(label(number), []).append(number)
+    names = numbers_by_label(np.unique(numbers).tolist(), label)
     for name, members in zip(unique_labels(names, LONGEST), names.values()):
         yield name, rows[np.isin(numbers, members)]
 

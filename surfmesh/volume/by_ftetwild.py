@@ -8,7 +8,7 @@ from scipy.spatial import cKDTree
 
 from surfmesh.errors import MeshingError
 from surfmesh.result.surface_mesh import SurfaceMesh
-from surfmesh.volume.solid_regions import CORNERS
+from surfmesh.volume.solid_regions import CORNERS, positive
 
 ENVELOPE = 1e-3  # of the diagonal: how far the new surface may be from the old one
 LEFT_BEHIND = "__tracked_surface.stl"  # which it writes into the working directory
@@ -36,7 +36,7 @@ def fill_near(
         left_behind.unlink(missing_ok=True)
     if not len(rows):
         raise MeshingError("fTetWild made no tetrahedra")
-    rows = _positive(points, rows.astype(np.int64))
+    rows = positive(points, rows.astype(np.int64))
     triangles = _outer_sides(rows)
     on = np.unique(triangles)
     rank = np.full(len(points), -1)
@@ -53,12 +53,6 @@ def fill_near(
     )  # fmt: skip
     warning = f"fTetWild made a new surface within {ENVELOPE:g} of the diagonal of the old one"
     return surface, points[np.concatenate((on, rest))], rank[rows], warning
-
-
-def _positive(points: NDArray, rows: NDArray) -> NDArray:
-    a, b, c, d = (points[corner] for corner in rows.T)
-    turned = np.einsum("ij,ij->i", np.cross(b - a, c - a), d - a) < 0.0
-    return np.where(turned[:, None], rows[:, [0, 2, 1, 3]], rows)
 
 
 def _outer_sides(rows: NDArray) -> NDArray:

@@ -15,6 +15,13 @@ CORNERS = np.array([(0, 2, 1), (0, 1, 3), (1, 2, 3), (2, 0, 3)])
 """Corners of the sides S1 .. S4, counter-clockwise from outside a positive tetrahedron."""
 
 
+def positive(points: NDArray, tetrahedra: NDArray) -> NDArray:
+    """Tetrahedra with two corners exchanged where they are turned."""
+    a, b, c, d = (points[corner] for corner in tetrahedra.T)
+    turned = np.einsum("ij,ij->i", np.cross(b - a, c - a), d - a) < 0.0
+    return np.where(turned[:, None], tetrahedra[:, [0, 2, 1, 3]], tetrahedra)
+
+
 def sides_of_triangles(
     tetrahedra: NDArray, triangles: NDArray
 ) -> tuple[NDArray[np.int64], NDArray[np.int64]]:

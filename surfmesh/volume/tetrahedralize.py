@@ -9,7 +9,7 @@ from surfmesh.errors import MeshingError
 from surfmesh.result.quadratic_triangles import edge_rows
 from surfmesh.result.surface_mesh import SurfaceMesh
 from surfmesh.volume.curved_tetrahedra import least_jacobians
-from surfmesh.volume.solid_regions import solids_of_tetrahedra
+from surfmesh.volume.solid_regions import positive, solids_of_tetrahedra
 from surfmesh.volume.volume_mesh import LEGS, VolumeMesh
 
 ENGINES = {
@@ -58,7 +58,7 @@ def tetrahedralize(
         warnings = (warning,)
     else:
         points, tetrahedra = module.fill(surface, size)
-    tetrahedra = _positive(points, tetrahedra)
+    tetrahedra = positive(points, tetrahedra)
     solids = np.asarray(surface.solid_ids)
     inside = solids_of_tetrahedra(tetrahedra, surface.triangles, solids)
     tetrahedra, own = tetrahedra[inside >= 0], inside[inside >= 0]
@@ -100,13 +100,6 @@ def _enclosed(mesh: SurfaceMesh, signs: NDArray) -> float:
     """Volume inside triangles, from the first point on; signs (m,): -1 for what is turned."""
     a, b, c = (mesh.points[corner] - mesh.points[0] for corner in mesh.triangles.T)
     return float((signs * np.einsum("ij,ij->i", np.cross(a, b), c)).sum() / 6.0)
-
-
-def _positive(points: NDArray, tetrahedra: NDArray) -> NDArray:
-    """Tetrahedra with two corners exchanged where they are turned."""
-    a, b, c, d = (points[corner] for corner in tetrahedra.T)
-    turned = np.einsum("ij,ij->i", np.cross(b - a, c - a), d - a) < 0.0
-    return np.where(turned[:, None], tetrahedra[:, [0, 2, 1, 3]], tetrahedra)
 
 
 def _used(points: NDArray, tetrahedra: NDArray, kept: int) -> tuple[NDArray, NDArray]:

@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 
 from surfmesh.errors import FileFormatError
 from surfmesh.io.atomic import replacing
-from surfmesh.io.group_record import unique_labels
+from surfmesh.io.group_record import numbers_by_label, unique_labels
 from surfmesh.io.inp import NAME, nodes_of_edges, write_elements, write_nodes, write_set
 from surfmesh.io.msh import write_filled
 from surfmesh.io.text_columns import write_rows
@@ -116,9 +116,7 @@ def _write_medit(mesh: VolumeMesh, path: Path) -> None:
 def _faces_by_name(mesh: VolumeMesh) -> Iterator[tuple[str, NDArray]]:
     """Names of faces and the rows of their triangles."""
     surface = mesh.surface
-    names: dict[str, list[int]] = {}
-    for face in np.unique(surface.face_ids).tolist():
-        names.setdefault(surface.groups.face_label(face), []).append(face)
+    names = numbers_by_label(np.unique(surface.face_ids).tolist(), surface.groups.face_label)
     for name, faces in names.items():
         yield name, np.flatnonzero(np.isin(surface.face_ids, faces))
 
