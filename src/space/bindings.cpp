@@ -16,6 +16,7 @@
 #include "space/orient_space.hpp"
 #include "space/triangle_distance.hpp"
 #include "space/triangle_pairs.hpp"
+#include "space/triangle_planes.hpp"
 
 namespace surfmesh::binding {
 
@@ -168,6 +169,22 @@ void bind_edge_gaps(nb::module_& m) {
 }
 
 void bind_shapes(nb::module_& m) {
+    m.def(
+        "triangle_planes",
+        [](const Points3& points, const Triangles& triangles, const Vector<std::int32_t>& chosen) {
+            require_corners(triangles, points.shape(0));
+            require_indices(rows<std::int32_t>(chosen), triangles.shape(0), "chosen");
+            TrianglePlanes found;
+            {
+                const nb::gil_scoped_release released;
+                found = triangle_planes(rows<Point3>(points), rows<TriangleCorners>(triangles),
+                                        rows<std::int32_t>(chosen));
+            }
+            return std::tuple(view(found.normal), view(found.twice_area), view(found.longest));
+        },
+        nb::arg("points"), nb::arg("triangles"), nb::arg("chosen"),
+        "Unit normals (k, 3), twice the areas (k,) and the longest sides (k,) of some triangles, "
+        "rows (k,) of (m, 3). A triangle without area has the normal zero.");
     m.def(
         "triangle_shapes",
         [](const Points3& points, const Triangles& triangles) {
