@@ -21,7 +21,7 @@ import numpy as np
 
 from surfmesh.errors import SizingError
 from surfmesh.meshing.faces.face_data import FaceJob
-from surfmesh.sizing.field.metric_area import TRIANGLES, inner_cells, metric_area
+from surfmesh.sizing.field.metric_area import TRIANGLES, metric_area
 from surfmesh.sizing.field.size_field import COUNTABLE, SizeField
 
 RESULT, MODEL_RESULT, WORK, STRETCHED_WORK = 150, 450, 80, 530
@@ -33,9 +33,6 @@ MANY = 10**15
 
 SHARP = 6.0
 """How sharply the count of a face changes from that of its boundary to that of its area."""
-
-BEYOND = 1e9
-"""More triangles than that are counted without a look at the cells that loops run through."""
 
 LOADED, CAD_LOADED = 250_000_000, 550_000_000
 """Bytes of the program itself, and of the CAD kernel where it lives in this process."""
@@ -102,11 +99,6 @@ def size_in_words(count: float) -> str:
 
 def field_triangles(field: SizeField, loops: Sequence[np.ndarray] | None = None) -> float:
     """Triangles over the field's rectangle, or inside ``loops`` (k, 2) in (u, v)."""
-    if loops is not None and field.expected_vertices() > BEYOND:
-        rings = [field.chart.to_plane(loop) for loop in loops]
-        rough = TRIANGLES * float(inner_cells(field, rings)[2].sum())
-        if rough > BEYOND:
-            return rough
     return TRIANGLES * metric_area(field, loops)
 
 
