@@ -76,8 +76,8 @@ def proved_distances(
     if beside is None:
         return np.full(count, np.inf)
     return proof.look_closer(
-        core, face.corners, face.uv, bends, face.vertices, face.twins, bounds, which, limits, LEVELS,
-        bound, gaps.uv, gaps.owners, beside,
+        core, face.corners, face.uv, bends, face.vertices, face.twins, bounds, which, limits,
+        LEVELS, bound, gaps.uv, gaps.owners, beside,
     )  # fmt: skip
 
 
