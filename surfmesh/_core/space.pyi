@@ -37,6 +37,11 @@ def edge_gaps(points: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), or
     points (n, 3): samples, of edge e those from first[e] to first[e + 1]; reach (n,): farther than this is not looked at, the distance is infinite. ends (e, 2): vertices; edges, first_of_face: those of each face in one row.
     """
 
+def edge_sags(points: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)], first: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)]) -> Annotated[NDArray[numpy.float64], dict(shape=(None,))]:
+    """
+    How far (e,) the segments between the samples of each edge lie off its curve, about, at most; points (n, 3), of edge e those from first[e] to first[e + 1].
+    """
+
 def triangle_shapes(points: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)], triangles: Annotated[NDArray[numpy.int32], dict(shape=(None, 3), order='C', device='cpu', writable=False)]) -> Annotated[NDArray[numpy.float64], dict(shape=(None, 5))]:
     """
     Shape (m, 5) of every triangle, measured in 3D: area; alpha = 4 sqrt(3) area / sum of squared edges; radius ratio 2 r_in / r_circum; smallest and largest angle in radians.
