@@ -12,7 +12,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from surfmesh._core import proof
+from surfmesh._core import proof, surfaces
 from surfmesh.geometry.core_surface import as_core_surface
 from surfmesh.geometry.surface import Surface
 
@@ -24,6 +24,9 @@ LEVELS = 4
 
 SAME = 1e-9
 """Of a side: the curves over it of two neighbours are the same, as at a seam."""
+
+WHOLE = 8
+"""A column of the bounds: of the distance point by point."""
 
 BITS = np.array([1, 2, 4], np.uint8)
 
@@ -55,7 +58,7 @@ def proved_distances(
     core = as_core_surface(surface)
     count = len(face.corners)
     rims = (BITS * (face.twins.reshape(-1, 3) < 0)).sum(axis=1).astype(np.uint8)
-    bounds = proof.triangle_bounds(core, face.corners, face.uv, limits, rims, DEPTH)
+    bends, bounds = _bounds(core, face, limits, rims)
     if bounds is None:
         return None
     gaps = _gaps(surface, face)
@@ -67,15 +70,44 @@ def proved_distances(
     if not len(which):
         return bound
     beside = proof.triangle_bounds(
-        core, face.corners[gaps.owners], gaps.uv, limits[gaps.owners],
+        core, face.corners[gaps.owners], gaps.uv, np.zeros_like(gaps.uv), limits[gaps.owners],
         np.zeros(len(gaps.owners), np.uint8), DEPTH, False,
     )  # fmt: skip
     if beside is None:
         return np.full(count, np.inf)
     return proof.look_closer(
-        core, face.corners, face.uv, face.vertices, face.twins, bounds, which, limits, LEVELS,
-        bound, gaps.uv, gaps.owners, beside,
+        core, face.corners, face.uv, bends, face.vertices, face.twins, bounds, which, limits,
+        LEVELS, bound, gaps.uv, gaps.owners, beside,
     )  # fmt: skip
+
+
+def _bounds(
+    core: surfaces.Surface,
+    face: FaceTriangles,
+    limits: NDArray[np.float64],
+    rims: NDArray[np.uint8],
+) -> tuple[NDArray[np.float64], NDArray[np.float64] | None]:
+    """Bends of the pieces' sides (m, 3, 2), and what is proved of triangles with them.
+
+    Where nothing is, as across a kink, pieces are straight: these are bounded by cells.
+    """
+    corners, uv, vertices, twins = face
+    bends = proof.curved_pieces(core, corners, uv, vertices, twins)
+    bounds = proof.triangle_bounds(core, corners, uv, bends, limits, rims, DEPTH)
+    if bounds is None:
+        return bends, None
+    is_unknown = ~np.isfinite(bounds[:, WHOLE])
+    while (is_unknown & bends.any(axis=(1, 2))).any():
+        straight = proof.straightened(
+            bends, corners, uv, vertices, twins, is_unknown.view(np.uint8)
+        )
+        rows = np.flatnonzero((straight != bends).any(axis=(1, 2)))
+        bends = straight
+        bounds[rows] = proof.triangle_bounds(
+            core, corners[rows], uv[rows], bends[rows], limits[rows], rims[rows], DEPTH
+        )
+        is_unknown = ~np.isfinite(bounds[:, WHOLE])
+    return bends, bounds
 
 
 def twins_of(

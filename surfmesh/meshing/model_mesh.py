@@ -21,6 +21,7 @@ from surfmesh.meshing.edges.edge_nodes import CutEdges, cut_edges
 from surfmesh.meshing.edges.edge_sampling import sample_edges
 from surfmesh.meshing.edges.face_proximity import with_face_gaps
 from surfmesh.meshing.estimate.estimation import Estimate
+from surfmesh.meshing.estimate.least_counts import least_of_model
 from surfmesh.meshing.estimate.model_estimate import (
     FaceFields,
     model_counts,
@@ -36,6 +37,7 @@ from surfmesh.meshing.faces.face_state import FaceState, face_jobs, face_states
 from surfmesh.meshing.faces.face_workers import FACE_WORK, FaceWorkers
 from surfmesh.meshing.faces.opposite_faces import copied, opposite_pairs
 from surfmesh.meshing.finishing.balanced_rounds import (
+    WIDER,
     balanced_in_rounds,
     solids_of_model,
     widened_model,
@@ -284,11 +286,13 @@ def estimate_model(model: CadModel, sizing: Any) -> Estimate:
     """Triangles and memory of ``mesh_model``. Raises ``SizingError`` for requests that cannot be
     met."""
     asked = model_sizing(model, sizing)
-    if asked.base.is_balanced:  # what is made first, with its vertices on the surface
+    balanced = asked.base.is_balanced
+    if balanced:  # what is made first, with its vertices on the surface
         wide = widened_model(asked)
         sizing = replace(wide, base=wide.base.replaced(vertices=ON_SURFACE))
     before = _Unmeshed(model, sizing)
     stretched = before.wanted.is_anisotropic
+    least = _least(before, balanced)
     whole = WHOLE_STRETCHED if stretched else WHOLE
     small, fields = before.bound <= whole, FaceFields()
     counts = np.empty(0) if small else model_counts(model, before.jobs, fields)
@@ -297,10 +301,20 @@ def estimate_model(model: CadModel, sizing: Any) -> Estimate:
             model, sizing, progress=budget, strict=False, rounds=TRIAL_ROUNDS
         ))  # fmt: skip
         if made is not None:
-            return Estimate.of(made, stretched, model=True)
+            return Estimate.of(made, stretched, True, least)
     if small:
         counts = model_counts(model, before.jobs, fields)
-    return Estimate.of(counts * ratios(before.jobs, counts, fields), stretched, model=True)
+    return Estimate.of(counts * ratios(before.jobs, counts, fields), stretched, True, least)
+
+
+def _least(before: _Unmeshed, balanced: bool) -> float | None:
+    """The fewest triangles that the chords of the faces allow; None without any."""
+    asked = [face.sizing.chord for face in before.faces]
+    chords = np.array([np.inf if chord is None else chord for chord in asked])
+    if before.wanted.base.is_curved or not np.isfinite(chords).any():
+        return None
+    chords /= WIDER if balanced else 1.0
+    return least_of_model(before.model, before.nodes, before.jobs, chords, balanced)
 
 
 def explain_size(model: CadModel, sizing: Any, point: np.ndarray) -> Explanation:

@@ -50,12 +50,26 @@ class Estimate:
     mesh_memory: int = 0
     """Bytes of that which the mesh takes, and the work on it: what the program has anyway is not
     among them."""
+    least_triangles: float | None = None
+    """Those of any shape that ``chord`` needs at least, as the report has it; None without a chord,
+    in planar domains, and where triangles are quadratic."""
+
+    @property
+    def efficiency(self) -> float | None:
+        """``least_triangles / triangles``."""
+        return None if self.least_triangles is None else self.least_triangles / self.triangles
 
     def __str__(self) -> str:
         own, whole = size_in_words(self.mesh_memory), size_in_words(self.memory)
+        times = ""
+        if self.least_triangles:
+            times = (
+                f"; {self.triangles / self.least_triangles:.3g} times the least that triangles of "
+                "any shape need for chord"
+            )
         return (
             f"about {self.triangles:,} triangles, {own} of memory at the peak, {whole} with the "
-            "program"
+            f"program{times}"
         )
 
     def to_dict(self) -> dict:
@@ -63,20 +77,22 @@ class Estimate:
         return {
             "triangles": self.triangles, "memory_bytes": self.memory,
             "mesh_memory_bytes": self.mesh_memory, "by_face": list(self.by_face),
+            "least_triangles": self.least_triangles, "efficiency": self.efficiency,
         }  # fmt: skip
 
     @classmethod
     def of(
-        cls, by_face: Sequence[float] | np.ndarray, stretched: bool = False, model: bool = False
-    ) -> Estimate:
-        """stretched: sizes depend on the direction."""
+        cls, by_face: Sequence[float] | np.ndarray, stretched: bool = False, model: bool = False,
+        least: float | None = None,
+    ) -> Estimate:  # fmt: skip
+        """stretched: sizes depend on the direction. least: ``least_triangles``."""
         counts = tuple(round(count) if count < COUNTABLE else int(COUNTABLE) for count in by_face)
         total, most = sum(counts), max(counts, default=0)
         loaded = max(LOADED + (CAD_LOADED if "OCP" in sys.modules else 0), _resident())
         bytes_each = MODEL_RESULT if model else RESULT
         work = STRETCHED_WORK if stretched else WORK
         own = bytes_each * total + work * most
-        return cls(total, counts, loaded + own, own)
+        return cls(total, counts, loaded + own, own, least)
 
 
 def _resident() -> int:

@@ -28,6 +28,7 @@ dihedral: dihedral angles between neighbouring triangles, where the surface itse
 tolerances: what was asked for of each face, where it does not hold, and where a ``min_size``
     forbids it.
 chord_use: how much of the allowed deviation a mesh uses: one much finer than needed uses little.
+least_triangles: how many triangles the chord needs at least.
 surface_to_mesh: how far the true surface lies from the mesh: the other half of the Hausdorff
     distance.
 hidden_search: what may hide between the samples of a triangle or of a rim, by interval arithmetic.

@@ -24,6 +24,7 @@ from surfmesh.quality.measures.deviation import Deviation, deviation
 from surfmesh.quality.measures.dihedral import DihedralAngles, angles_within_faces
 from surfmesh.quality.measures.folds import Folds, folds
 from surfmesh.quality.measures.known_surfaces import KnownSurfaces
+from surfmesh.quality.measures.least_triangles import LeastTriangles, least_triangles
 from surfmesh.quality.measures.lengths import (
     Growth,
     SizeGrowth,
@@ -195,6 +196,13 @@ class Measurements:
         if self.known is None or self.deviation is None:
             return None
         return chord_use(self.known, self.deviation, self.tolerances)
+
+    @cached_property
+    def least_triangles(self) -> LeastTriangles | None:
+        """How many the chord needs at least."""
+        if self.known is None or not self.finite:
+            return None
+        return least_triangles(self.known, self.shapes.area, self.tolerances)
 
     @cached_property
     def dihedral_angles(self) -> DihedralAngles | None:
