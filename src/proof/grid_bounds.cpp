@@ -74,8 +74,9 @@ Array<Point2> places_of(const ProofRequest& asked, std::span<const std::int32_t>
 }
 
 /// Could a lower bound of the cells bring it within its limit?
-bool is_open(const TriangleBounds& bounds, double points, const TriangleFrame& frame,
-             double asked) {
+bool is_open(const TriangleBounds& bounds, double points, const TriangleFrame& frame, double asked,
+             double slope) {
+    if (!(bounds.slope <= slope)) return true;
     if (bounds.whole + bounds.corner <= asked) return false;
     constexpr double STAYS = 0.25;  // of its heights: a piece does over its triangle then
     const double limit = FOR_NEIGHBOURS * asked;
@@ -108,7 +109,7 @@ SurfaceStatus lower_some(const FourthDerivatives& surface, const ProofRequest& a
         const double most = asked.corners_are_on_surface ? grid.highest(found) : found.height;
         found.height = std::min(found.height, (most + scale * cell) * (1.0 + GRID_ROUNDING));
         out[t] = lower_of(out[t], found);
-        if (is_open(out[t], most, frame, asked.limits[t])) left.push_back(which[k]);
+        if (is_open(out[t], most, frame, asked.limits[t], asked.slope)) left.push_back(which[k]);
     }
     return status;
 }
@@ -131,7 +132,7 @@ SurfaceStatus lower_some_heights(const Surface& surface, const ProofRequest& ask
         const double most = highest.height(asked.piece(t), out[t]);
         const double found = (most + scale * out[t].cell_height) * (1.0 + GRID_ROUNDING);
         if (found < out[t].height) out[t].height = found;
-        if (is_open(out[t], most, frame, asked.limits[t])) left.push_back(which[k]);
+        if (is_open(out[t], most, frame, asked.limits[t], asked.slope)) left.push_back(which[k]);
     }
     return status;
 }

@@ -222,7 +222,7 @@ bool SmoothBounds::look_at(std::int32_t t, const HighMagnitudes& most) {
         out_[t] = found;
         rho_[t] = rho;
     }
-    return part <= least || found.whole <= limit;
+    return part <= least || (found.whole <= limit && found.slope <= asked_.slope);
 }
 
 /// Could smaller cells show less? They do for one of a group's triangles, if so.

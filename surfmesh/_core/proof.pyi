@@ -8,11 +8,11 @@ from numpy.typing import NDArray
 import surfmesh._core.surfaces
 
 
-def triangle_bounds(surface: surfmesh._core.surfaces.Surface, corners: Annotated[NDArray[numpy.float64], dict(shape=(None, 3, 3), order='C', device='cpu', writable=False)], uv: Annotated[NDArray[numpy.float64], dict(shape=(None, 3, 2), order='C', device='cpu', writable=False)], bends: Annotated[NDArray[numpy.float64], dict(shape=(None, 3, 2), order='C', device='cpu', writable=False)], limits: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)], rims: Annotated[NDArray[numpy.uint8], dict(shape=(None,), order='C', device='cpu', writable=False)], depth: int, corners_are_on_surface: bool = True) -> Annotated[NDArray[numpy.float64], dict(shape=(None, 29))] | None:
+def triangle_bounds(surface: surfmesh._core.surfaces.Surface, corners: Annotated[NDArray[numpy.float64], dict(shape=(None, 3, 3), order='C', device='cpu', writable=False)], uv: Annotated[NDArray[numpy.float64], dict(shape=(None, 3, 2), order='C', device='cpu', writable=False)], bends: Annotated[NDArray[numpy.float64], dict(shape=(None, 3, 2), order='C', device='cpu', writable=False)], limits: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)], rims: Annotated[NDArray[numpy.uint8], dict(shape=(None,), order='C', device='cpu', writable=False)], depth: int, corners_are_on_surface: bool = True, slope: float = float('inf')) -> Annotated[NDArray[numpy.float64], dict(shape=(None, 29))] | None:
     """
     Of triangles with corners (m, 3, 3) and parameters (m, 3, 2): (m, 29) numbers, or None where the surface has no bounds.
 
-    Height over the plane; how far the piece leaves the sides 0, 1, 2 within it; how far it is from these at rims; shift within the plane; the whole distance point by point; how far corners are off; what ring_bounds asks of sides; the slope of that distance; what look_closer asks of cells. Triangles whose height, or distance at a rim (bit k of ``rims``: side k), is beyond ``limits`` are cut in four, ``depth`` times. bends (m, 3, 2): of ``curved_pieces``. corners_are_on_surface=False: the corners give the plane alone.
+    Height over the plane; how far the piece leaves the sides 0, 1, 2 within it; how far it is from these at rims; shift within the plane; the whole distance point by point; how far corners are off; what ring_bounds asks of sides; the slope of that distance; what look_closer asks of cells. Triangles whose height, or distance at a rim (bit k of ``rims``: side k), is beyond ``limits`` are cut in four, ``depth`` times. bends (m, 3, 2): of ``curved_pieces``. corners_are_on_surface=False: the corners give the plane alone. slope: what the slope of the distance should keep to, likewise.
     """
 
 def curved_pieces(surface: surfmesh._core.surfaces.Surface, corners: Annotated[NDArray[numpy.float64], dict(shape=(None, 3, 3), order='C', device='cpu', writable=False)], uv: Annotated[NDArray[numpy.float64], dict(shape=(None, 3, 2), order='C', device='cpu', writable=False)], triangles: Annotated[NDArray[numpy.int32], dict(shape=(None, 3), order='C', device='cpu', writable=False)], twins: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], middles: Annotated[NDArray[numpy.float64], dict(shape=(None, 3, 3), order='C', device='cpu', writable=False)] | None = None) -> Annotated[NDArray[numpy.float64], dict(shape=(None, 3, 2))]:
@@ -25,6 +25,13 @@ def curved_pieces(surface: surfmesh._core.surfaces.Surface, corners: Annotated[N
 def straightened(bends: Annotated[NDArray[numpy.float64], dict(shape=(None, 3, 2), order='C', device='cpu', writable=False)], corners: Annotated[NDArray[numpy.float64], dict(shape=(None, 3, 3), order='C', device='cpu', writable=False)], uv: Annotated[NDArray[numpy.float64], dict(shape=(None, 3, 2), order='C', device='cpu', writable=False)], triangles: Annotated[NDArray[numpy.int32], dict(shape=(None, 3), order='C', device='cpu', writable=False)], twins: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], is_bad: Annotated[NDArray[numpy.uint8], dict(shape=(None,), order='C', device='cpu', writable=False)]) -> Annotated[NDArray[numpy.float64], dict(shape=(None, 3, 2))]:
     """
     The same with straight sides of the triangles that have ``is_bad`` (m,).
+    """
+
+def prove_isotopy(points: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)], triangles: Annotated[NDArray[numpy.int32], dict(shape=(None, 3), order='C', device='cpu', writable=False)], away: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)], slope: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)]) -> tuple[int, int, int]:
+    """
+    Can the mesh be deformed into its surface? (0, -1, -1): it can; (1, v, -1): not known, as pieces may change too fast at vertex v; (2, s, t): triangles s and t may meet.
+
+    away: (m,) how far points of each triangle move at most; slope: (m,) how fast that changes.
     """
 
 def curve_bounds(curve: surfmesh._core.surfaces.Curve, t: Annotated[NDArray[numpy.float64], dict(shape=(None, 2), order='C', device='cpu', writable=False)], ends: Annotated[NDArray[numpy.float64], dict(shape=(None, 2, 3), order='C', device='cpu', writable=False)]) -> Annotated[NDArray[numpy.float64], dict(shape=(None,))]:
