@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "binding/arrays.hpp"
+#include "fields/area_within_loops.hpp"
 #include "fields/background.hpp"
 #include "fields/coverage.hpp"
 #include "fields/gradation.hpp"
@@ -127,6 +128,35 @@ void bind_background(nb::module_& m) {
     c.def("metric_area", &metric_area_of_box, nb::arg("x1"), nb::arg("y1"),
           nb::call_guard<nb::gil_scoped_release>(),
           "Integral of 1 / det H over [x0, x1] x [y0, y1], (x0, y0) the corner of the box.");
+    c.def(
+        "leaf_areas",
+        [](const Background& b, double x1, double y1) {
+            LeafAreas found = [&] {
+                const nb::gil_scoped_release released;
+                return leaf_areas(b, x1, y1);
+            }();
+            return std::tuple(view(found.low), view(found.step), view(found.area));
+        },
+        nb::arg("x1"), nb::arg("y1"),
+        "Of the leaves in the same rectangle: lower left corners (n, 2), sides (n, 2), metric "
+        "areas (n,).");
+    c.def(
+        "metric_area_within",
+        [](const Background& b, const Points2& corners, const Vector<std::int64_t>& first) {
+            const auto offsets = rows<std::int64_t>(first);
+            if (offsets.empty() || offsets.front() != 0 ||
+                offsets.back() != static_cast<std::int64_t>(corners.shape(0)) ||
+                !std::is_sorted(offsets.begin(), offsets.end()))
+                throw nb::value_error("first has no offsets of the corners");
+            if (!std::all_of(corners.data(), corners.data() + corners.size(),
+                             [](double x) { return std::isfinite(x); }))
+                throw nb::value_error("a corner of a loop is not finite");
+            const nb::gil_scoped_release released;
+            return metric_area_within(b, {rows<Point2>(corners), offsets});
+        },
+        nb::arg("corners"), nb::arg("first"),
+        "The same over what lies within an odd number of loops that do not cross.\n\n"
+        "corners (m, 2), finite, of loop k from first[k] to first[k + 1], not closed.");
     c.def(
         "expected_circles",
         [](const Background& b, double x1, double y1) { return expected_circles(b, {x1, y1}); },

@@ -65,6 +65,16 @@ double metric_area_of_box(const Background& b, double x1, double y1) {
     return total;
 }
 
+LeafAreas leaf_areas(const Background& b, double x1, double y1) {
+    LeafAreas found;
+    for_leaves(b, x1, y1, [&](const PlacedCell& leaf) {
+        found.low.push_back({leaf.x, leaf.y});
+        found.step.push_back({std::min(leaf.wide, x1 - leaf.x), std::min(leaf.high, y1 - leaf.y)});
+        found.area.push_back(area_within(b, leaf, x1, y1));
+    });
+    return found;
+}
+
 double halving_coordinate(const Background& b, Axis axis, double low, Point2 upper,
                           int bisections) {
     const bool is_x = axis == Axis::x;

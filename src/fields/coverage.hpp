@@ -11,6 +11,14 @@ namespace surfmesh {
 /// Gauss are exact, also in a leaf that the rectangle cuts.
 [[nodiscard]] double metric_area_of_box(const Background& background, double x1, double y1);
 
+struct LeafAreas {
+    Array<Point2> low, step;  // lower left corners, and width and height
+    Array<double> area;
+};
+
+/// Of the leaves in the same rectangle, cut off where it ends.
+[[nodiscard]] LeafAreas leaf_areas(const Background& background, double x1, double y1);
+
 enum class Axis : std::uint8_t { x, y };
 
 /// The coordinate along the axis from ``low`` to the corner ``upper`` up to which half the metric

@@ -9,6 +9,7 @@
 #include "quality/explained_losses.hpp"
 #include "quality/face_creases.hpp"
 #include "quality/hidden_bounds.hpp"
+#include "quality/mesh_arguments.hpp"
 #include "quality/mesh_deviation.hpp"
 #include "quality/sampled_surface.hpp"
 #include "quality/solid_counts.hpp"
@@ -18,6 +19,8 @@
 
 namespace surfmesh::binding {
 
+void bind_least_triangles(nb::module_& m);
+
 template <>
 struct Row<float> : RowOf<float, 1> {};
 template <>
@@ -26,16 +29,6 @@ template <>
 struct Row<Bounded> : RowOf<std::uint8_t, 1> {};
 
 namespace {
-
-using Triangles = Matrix<std::int32_t, 3>;
-using Numbers = Vector<std::int32_t>;
-
-std::vector<const Surface*> surfaces_of(const nb::list& given) {
-    std::vector<const Surface*> surfaces;
-    surfaces.reserve(given.size());
-    for (const nb::handle surface : given) surfaces.push_back(&nb::cast<const Surface&>(surface));
-    return surfaces;
-}
 
 void require_corners(const Triangles& triangles, std::size_t count, const char* what) {
     require_indices(std::span(triangles.data(), triangles.size()), count, what);
@@ -74,29 +67,6 @@ void bind_surface_points(nb::module_& m) {
         "Points (n, 3) of the surfaces of faces (n,) at uv (n, 2); at order 1 r_u and r_v too.");
 }
 
-MeasuredMesh measured_mesh(const std::vector<const Surface*>& surfaces, const Points3& points,
-                           const Triangles& triangles, const Points2& uv,
-                           const Triangles& uv_triangles, const Numbers& faces) {
-    require_rows(uv_triangles.shape(0), triangles.shape(0), "uv_triangles");
-    require_rows(faces.shape(0), triangles.shape(0), "faces");
-    return {surfaces,
-            rows<Point3>(points),
-            rows<TriangleCorners>(triangles),
-            rows<Point2>(uv),
-            rows<TriangleCorners>(uv_triangles),
-            rows<std::int32_t>(faces)};
-}
-
-/// All numbers in a mesh are in range.
-void require_mesh(const MeasuredMesh& mesh) {
-    const auto numbers = [](std::span<const TriangleCorners> rows) {
-        return std::span(reinterpret_cast<const Vertex*>(rows.data()), 3 * rows.size());
-    };
-    require_indices(numbers(mesh.triangles), mesh.points.size(), "triangles");
-    require_indices(numbers(mesh.uv_triangles), mesh.uv.size(), "uv_triangles");
-    require_indices(mesh.faces, mesh.surfaces.size(), "faces");
-}
-
 void bind_mesh_deviation(nb::module_& m) {
     m.def(
         "mesh_deviation",
@@ -107,16 +77,8 @@ void bind_mesh_deviation(nb::module_& m) {
             const MeasuredMesh mesh =
                 measured_mesh(all, points, triangles, uv, uv_triangles, faces);
             require_mesh(mesh);
-            const std::size_t count = mesh.triangles.size();
-            require_rows(area.shape(0), count, "area");
-            const std::span<const EdgeSides> sides{reinterpret_cast<const EdgeSides*>(edges.data()),
-                                                   edges.shape(0)};
-            for (const EdgeSides& side : sides) {
-                const auto end = static_cast<std::int64_t>(3 * count);
-                if (side.half_edge < 0 || side.half_edge >= end || side.twin < -1 ||
-                    side.twin >= end)
-                    throw nb::value_error("edges has a half-edge that is out of range");
-            }
+            require_rows(area.shape(0), mesh.triangles.size(), "area");
+            const std::span<const EdgeSides> sides = sides_of(edges, mesh.triangles.size());
             MeshDeviation found;
             {
                 const nb::gil_scoped_release released;
@@ -363,16 +325,20 @@ void bind_area_and_volume(nb::module_& m) {
 
 }  // namespace
 
+void bind_mesh_edges(nb::module_& m);
+
 void bind_quality(nb::module_& m) {
     m.doc() = "What a report measures of a finished mesh: its distance from its surfaces and back.";
     bind_surface_points(m);
     bind_mesh_deviation(m);
+    bind_least_triangles(m);
     bind_samples(m);
     bind_creases(m);
     bind_stars(m);
     bind_solids(m);
     bind_hidden_bounds(m);
     bind_area_and_volume(m);
+    bind_mesh_edges(m);
 }
 
 }  // namespace surfmesh::binding

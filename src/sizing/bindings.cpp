@@ -4,6 +4,7 @@
 
 #include "binding/arrays.hpp"
 #include "sizing/callback_rules.hpp"
+#include "sizing/least_counts.hpp"
 #include "sizing/rim_sizes.hpp"
 #include "sizing/size_rules.hpp"
 #include "surfaces/callback_surface.hpp"
@@ -116,6 +117,32 @@ void bind_formulas_of_sizes(nb::module_& m) {
         "speed.");
 }
 
+void bind_least_counts(nb::module_& m) {
+    m.def(
+        "least_densities",
+        [](const Numbers& k1, const Numbers& k2, double chord, bool balanced) {
+            require_rows(k2.shape(0), k1.shape(0), "k2");
+            Array<double> least(k1.shape(0)), equilateral(k1.shape(0));
+            for (std::size_t i = 0; i < least.size(); ++i) {
+                const LeastDensity found = least_density(pair_at(k1, k2, i), chord, balanced);
+                least[i] = found.least;
+                equilateral[i] = found.equilateral;
+            }
+            return std::pair(view(least), view(equilateral));
+        },
+        nb::arg("k1"), nb::arg("k2"), nb::arg("chord"), nb::arg("balanced"),
+        "The fewest triangles on a unit of area (n,) that chord allows, whatever their shape, and "
+        "the fewest equilateral ones (n,). balanced: vertices may lie off the surface.");
+    m.def(
+        "least_segments",
+        [](const Points3& line, bool closed, double chord, bool balanced) {
+            return least_segments(rows<Point3>(line), closed, chord, balanced);
+        },
+        nb::arg("line"), nb::arg("closed"), nb::arg("chord"), nb::arg("balanced"),
+        "The fewest segments that chord allows along a line with nodes (n, 3). closed: the first "
+        "node, which is not repeated, follows the last.");
+}
+
 void bind_rules(nb::module_& m) {
     nb::class_<CurvatureRule>(m, "CurvatureRule", "Sizes that follow from the curvature.");
     nb::class_<PlaceRule>(m, "PlaceRule", "Sizes that depend on the place alone.");
@@ -161,6 +188,7 @@ void bind_sizing(nb::module_& m) {
     m.doc() =
         "What sizes are asked for on one surface: rules, limits, and the law of a size field.";
     bind_formulas_of_sizes(m);
+    bind_least_counts(m);
     bind_rules(m);
     bind_size_limits(m);
     bind_size_laws(m);

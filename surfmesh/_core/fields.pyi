@@ -74,6 +74,18 @@ class Background:
         Integral of 1 / det H over [x0, x1] x [y0, y1], (x0, y0) the corner of the box.
         """
 
+    def leaf_areas(self, x1: float, y1: float) -> tuple[Annotated[NDArray[numpy.float64], dict(shape=(None, 2))], Annotated[NDArray[numpy.float64], dict(shape=(None, 2))], Annotated[NDArray[numpy.float64], dict(shape=(None,))]]:
+        """
+        Of the leaves in the same rectangle: lower left corners (n, 2), sides (n, 2), metric areas (n,).
+        """
+
+    def metric_area_within(self, corners: Annotated[NDArray[numpy.float64], dict(shape=(None, 2), order='C', device='cpu', writable=False)], first: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)]) -> float:
+        """
+        The same over what lies within an odd number of loops that do not cross.
+
+        corners (m, 2), finite, of loop k from first[k] to first[k + 1], not closed.
+        """
+
     def expected_circles(self, x1: float, y1: float) -> int:
         """About how many circles cover the same rectangle."""
 

@@ -61,6 +61,16 @@ def rim_sizes(surface: surfmesh._core.surfaces.Surface, uv: Annotated[NDArray[nu
     Sizes (n,) that the curvature of lines of (u, v) allows along them, at uv (n, 2) in the directions step (n, 2), and unit tangents (n, 3); infinite and zero where a line has no speed.
     """
 
+def least_densities(k1: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)], k2: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)], chord: float, balanced: bool) -> tuple[Annotated[NDArray[numpy.float64], dict(shape=(None,))], Annotated[NDArray[numpy.float64], dict(shape=(None,))]]:
+    """
+    The fewest triangles on a unit of area (n,) that chord allows, whatever their shape, and the fewest equilateral ones (n,). balanced: vertices may lie off the surface.
+    """
+
+def least_segments(line: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)], closed: bool, chord: float, balanced: bool) -> float:
+    """
+    The fewest segments that chord allows along a line with nodes (n, 3). closed: the first node, which is not repeated, follows the last.
+    """
+
 class CurvatureRule:
     """Sizes that follow from the curvature."""
 

@@ -22,8 +22,9 @@ from surfmesh.meshing.boundary.boundary_loops import BoundaryLoops, boundary_loo
 from surfmesh.meshing.boundary.cusps import Cusp, closed_at, find_cusps, without_cusps
 from surfmesh.meshing.boundary.kink_segments import sides_met, with_kinks
 from surfmesh.meshing.estimate.estimation import Estimate, field_triangles, require_field_within
+from surfmesh.meshing.estimate.least_counts import least_of_surface
 from surfmesh.meshing.estimate.trial_mesh import WHOLE, counts_within_budget
-from surfmesh.meshing.estimate.trial_patches import triangles_per_unit
+from surfmesh.meshing.estimate.trial_patches import SHARE, WIDE, plan_within, triangles_per_unit
 from surfmesh.meshing.finishing.balanced_rounds import (
     WIDER,
     balanced_in_rounds,
@@ -232,20 +233,26 @@ class _Rounds:
 
 def estimate_parametric(surface: Surface, sizing: Sizing) -> Estimate:
     """Triangles and memory of ``mesh_parametric``. Raises as it does."""
-    if sizing.is_balanced:
+    balanced = sizing.is_balanced
+    if balanced:
         sizing = widened_surface(surface, sizing).replaced(vertices=ON_SURFACE)
     part, sides, _ = _without_cusps(surface, sizing)
     field = size_field(part, sizing, sides, rims=Rims(part, sides))
     loops = _loops(part)
+    least = None
+    if field.sizing.chord is not None and not field.sizing.is_curved:
+        chord = field.sizing.chord / (WIDER if balanced else 1.0)
+        least = least_of_surface(part, field, sides, chord, balanced)
     asked = field_triangles(field, loops)
     if asked <= WHOLE:
         made = counts_within_budget(
             lambda budget: mesh_parametric(surface, sizing, progress=budget)
         )
         if made is not None:
-            return Estimate.of(made, field.is_anisotropic)
-    got = asked * (triangles_per_unit(part, field, loops) or 1.0)
-    return Estimate.of([got], field.is_anisotropic)
+            return Estimate.of(made, field.is_anisotropic, least=least)
+    plan = WIDE if field.is_anisotropic else plan_within(SHARE * asked)
+    each = None if plan is None else triangles_per_unit(part, field, loops, plan)
+    return Estimate.of([asked * (each or 1.0)], field.is_anisotropic, least=least)
 
 
 def explain_parametric(surface: Surface, sizing: Sizing, point: np.ndarray) -> Explanation:

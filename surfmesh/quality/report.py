@@ -9,6 +9,7 @@ from surfmesh.quality.figures.accuracy import (
     ChordUseFigures,
     DeviationFigures,
     DihedralFigures,
+    EfficiencyFigures,
 )
 from surfmesh.quality.figures.area_and_volume import AreaAndVolume
 from surfmesh.quality.figures.counts import Counts
@@ -108,6 +109,7 @@ def _report(measured: Measurements, prove: bool) -> Report:
         accuracy=DeviationFigures.of(measured),
         between_samples=BetweenSamples.of(measured),
         chord_use=ChordUseFigures.of(measured),
+        efficiency_of=EfficiencyFigures.of(measured),
         dihedral_angles=DihedralFigures.of(measured),
         limits=measured.limits,
         area_and_volume=AreaAndVolume.of(measured),

@@ -13,12 +13,13 @@ mesh_part: arrays that say of themselves what their rows stand for: how they are
     down to a part and numbered anew.
 mesh_parts: what a mesh holds besides points and triangles: Parametrisation, ModelLinks,
     EdgeLinks, Record.
-mesh_fields: all fields by one name each: keywords of a mesh, and its attributes.
+mesh_fields: all fields by one name each: keywords of a mesh.
+part_attributes: what the parts hold, as attributes of a mesh, each with its docstring.
 invariants: what has to hold of every mesh: the first thing that does not.
 surface_mesh: the result: an immutable triangle mesh on one or more surfaces.
 curved_fit: how far the quadratic triangles of a mesh lie from its surfaces, arcs from its curves.
 facets: quadratic triangles as flat ones.
 
-Others use all of them but mesh_part, mesh_fields and invariants; mesh_part is for what adds
-triangles to a mesh too.
+Others use all of them but mesh_part, mesh_fields, part_attributes and invariants; mesh_part is
+for what adds triangles to a mesh too.
 """

@@ -50,14 +50,25 @@ def facets(mesh: SurfaceMesh) -> Facets:
                              within.reshape(-1, 3)])  # fmt: skip
     numbers = _numbers(mesh, grid, count)
     rows = {place: k for k, place in enumerate(grid)}
-    pattern = [(rows[i, j], rows[i + 1, j], rows[i, j + 1]) for i, j in grid if i + j < PARTS]
-    pattern += [
-        (rows[i + 1, j], rows[i + 1, j + 1], rows[i, j + 1])
-        for i, j in grid if i + j < PARTS - 1
-    ]  # fmt: skip
+    pattern = [[rows[place] for place in corners] for corners in _pattern(PARTS)]
     triangles = numbers[:, np.array(pattern)].reshape(-1, 3)
     parent = np.repeat(np.arange(len(mesh.triangles), dtype=np.int32), len(pattern))
     return Facets(points, triangles.astype(np.int32), parent)
+
+
+def corner_weights(parts: int) -> NDArray[np.float64]:
+    """(parts**2, 3, 3) weights of the corners of a triangle at those of its flat ones."""
+    return np.array([[(parts - i - j, i, j) for i, j in one] for one in _pattern(parts)]) / parts
+
+
+def _pattern(parts: int) -> list[list[tuple[int, int]]]:
+    """The flat triangles of one, by steps of their corners towards its corners 1 and 2."""
+    places = [(i, j) for j in range(parts) for i in range(parts - j)]
+    up = [[(i, j), (i + 1, j), (i, j + 1)] for i, j in places]
+    down = [
+        [(i + 1, j), (i + 1, j + 1), (i, j + 1)] for i, j in places if i + j < parts - 1
+    ]  # fmt: skip
+    return up + down
 
 
 def _inner() -> list[tuple[int, int]]:

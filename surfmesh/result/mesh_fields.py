@@ -1,15 +1,14 @@
-"""The fields of a mesh and of its parts by one name each: as keywords, and as attributes."""
+"""The fields of a mesh and of its parts by one name each, as keywords."""
 
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
-from typing import TYPE_CHECKING, Any, Generic, Self, TypedDict, TypeVar, overload
+from typing import TYPE_CHECKING, TypedDict
 
 from numpy.typing import ArrayLike
 
 from surfmesh.result.findings import Finding
 from surfmesh.result.mesh_groups import MeshGroups
-from surfmesh.result.mesh_part import Arrays
 from surfmesh.result.mesh_parts import EdgeLinks, ModelLinks, Parametrisation, Record
 from surfmesh.result.model_facts import ModelFacts
 
@@ -17,28 +16,6 @@ if TYPE_CHECKING:
     from surfmesh.cad.model.cad_model import CadEdge
     from surfmesh.geometry.surface import Surface
     from surfmesh.sizing.options.sizing import Sizing
-
-Held = TypeVar("Held")
-
-
-class OfPart(Generic[Held]):
-    """An attribute of a part, read as one of the mesh; ``absent`` where there is no such part."""
-
-    def __init__(self, part: str, absent: Any = None) -> None:
-        self.part, self.absent, self.name = part, absent, ""
-
-    def __set_name__(self, owner: type, name: str) -> None:
-        self.name = name
-
-    @overload
-    def __get__(self, mesh: None, owner: type) -> Self: ...
-    @overload
-    def __get__(self, mesh: Arrays, owner: type) -> Held: ...
-    def __get__(self, mesh: Arrays | None, owner: type) -> Any:
-        if mesh is None:
-            return self
-        part = getattr(mesh, self.part)
-        return self.absent if part is None else getattr(part, self.name)
 
 
 class MeshFields(TypedDict, total=False):

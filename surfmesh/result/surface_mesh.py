@@ -12,27 +12,23 @@ while each triangle keeps the surface parameters of its corners on its own face.
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from dataclasses import dataclass, field, fields
 from functools import cached_property
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, ClassVar, Unpack
+from typing import TYPE_CHECKING, Any, Unpack
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from surfmesh.renamed import Renamed, new_names
 from surfmesh.result.connectivity import Connectivity, connect
-from surfmesh.result.findings import Finding
 from surfmesh.result.invariants import first_broken
-from surfmesh.result.mesh_fields import MeshFields, OfPart
-from surfmesh.result.mesh_groups import MeshGroups
+from surfmesh.result.mesh_fields import MeshFields
 from surfmesh.result.mesh_part import (
     EDGE,
     TRIANGLE,
     VERTEX,
     Arrays,
-    BoolArray,
     FloatArray,
     Int32Array,
     MeshPart,
@@ -40,6 +36,7 @@ from surfmesh.result.mesh_part import (
     rows,
 )
 from surfmesh.result.mesh_parts import EdgeLinks, ModelLinks, Parametrisation, Record
+from surfmesh.result.part_attributes import PartAttributes
 from surfmesh.result.quadratic_triangles import edge_rows, node_values, six_nodes
 
 if TYPE_CHECKING:
@@ -49,19 +46,22 @@ if TYPE_CHECKING:
     import pyvista
     import trimesh
 
-    from surfmesh.cad.model.cad_model import CadEdge
-    from surfmesh.geometry.surface import Surface
     from surfmesh.io import Manifest
     from surfmesh.quality.report import Report
     from surfmesh.quality.verdict.worst import WorstTriangle
-    from surfmesh.result.model_facts import ModelFacts
-    from surfmesh.sizing.options.sizing import Sizing
     from surfmesh.volume import VolumeMesh
 
 
 @dataclass(frozen=True, eq=False, repr=False, init=False, kw_only=True)
-class SurfaceMesh(Arrays):
+class SurfaceMesh(PartAttributes, Arrays):
     """Triangles on surfaces. Arrays are read-only; lengths are in model units.
+
+    points: (n, 3) vertices.
+    triangles: (m, 3) vertex numbers, counter-clockwise along r_u x r_v.
+    sizes: (n,) target edge length at each vertex, or None.
+    mid_points: (ne, 3) nodes amid ``edges``; None: order 1.
+    one_sided: no orientation exists (Moebius, Klein): none is demanded.
+    parametrisation, model_links, edge_links, record: the parts, whose fields are attributes too.
 
     ``SurfaceMesh(points=..., triangles=..., uv_points=..., face_ids=..., ...)`` takes the fields
     of all parts by their names, which are attributes of the mesh too, and whole parts.
@@ -71,39 +71,16 @@ class SurfaceMesh(Arrays):
     looked at by ``check`` alone, so that a broken mesh can be held and examined.
     """
 
-    points: FloatArray = field(metadata=rows(np.float64, VERTEX, 3))  # (n, 3) vertices
-    # (m, 3) vertex numbers, counter-clockwise along r_u x r_v
+    points: FloatArray = field(metadata=rows(np.float64, VERTEX, 3))
     triangles: Int32Array = field(metadata=rows(np.int32, TRIANGLE, 3, holds=VERTEX))
-    # (n,) target edge length at each vertex
     sizes: FloatArray | None = field(default=None, metadata=rows(np.float64, VERTEX))
-    # (ne, 3) nodes amid ``edges``; None: order 1
     mid_points: FloatArray | None = field(default=None, metadata=rows(np.float64, EDGE, 3))
-    one_sided: bool = False  # no orientation exists (Moebius, Klein): none is demanded
+    one_sided: bool = False
     parametrisation: Parametrisation | None = None
     model_links: ModelLinks
     edge_links: EdgeLinks | None = None
     record: Record
 
-    uv_points: ClassVar[OfPart[FloatArray | None]] = OfPart("parametrisation")
-    uv_triangles: ClassVar[OfPart[Int32Array | None]] = OfPart("parametrisation")
-    metric_root_3d: ClassVar[OfPart[FloatArray | None]] = OfPart("parametrisation")
-    face_ids: ClassVar[OfPart[Int32Array]] = OfPart("model_links")
-    surfaces: ClassVar[OfPart[tuple[Surface, ...]]] = OfPart("model_links")
-    turned_faces: ClassVar[OfPart[BoolArray | None]] = OfPart("model_links")
-    narrow_faces: ClassVar[OfPart[BoolArray | None]] = OfPart("model_links")
-    solid_ids: ClassVar[OfPart[Int32Array | None]] = OfPart("model_links")
-    vertex_ids: ClassVar[OfPart[Int32Array | None]] = OfPart("model_links")
-    groups: ClassVar[OfPart[MeshGroups]] = OfPart("model_links")
-    edge_segments: ClassVar[OfPart[Int32Array | None]] = OfPart("edge_links")
-    edge_ids: ClassVar[OfPart[Int32Array | None]] = OfPart("edge_links")
-    edge_parameters: ClassVar[OfPart[FloatArray | None]] = OfPart("edge_links")
-    edge_curves: ClassVar[OfPart[tuple[CadEdge, ...]]] = OfPart("edge_links", absent=())
-    sizing: ClassVar[OfPart[Sizing | None]] = OfPart("record")
-    promises: ClassVar[OfPart[FloatArray | None]] = OfPart("record")
-    facts: ClassVar[OfPart[ModelFacts | None]] = OfPart("record")
-    seconds: ClassVar[OfPart[Mapping[str, float]]] = OfPart("record")
-    warnings: ClassVar[OfPart[tuple[str, ...]]] = OfPart("record")
-    findings: ClassVar[OfPart[tuple[Finding, ...]]] = OfPart("record")
     inverse_sizes, edge_shares = Renamed("metric_root_3d"), Renamed("edge_parameters")
 
     def __init__(

@@ -20,7 +20,8 @@ from surfmesh.io.atomic import replacing
 from surfmesh.quality import Report, check
 from surfmesh.result.surface_mesh import SurfaceMesh
 from surfmesh.view.certificate_html import certificate_html
-from surfmesh.view.colouring import COLOURS, colourings_of
+from surfmesh.view.colouring import COLOURS, colourings_of, unknown_colouring
+from surfmesh.view.faces_apart import faces_apart
 from surfmesh.view.legend import name_of, require_drawable, title_of
 from surfmesh.view.page_data import SHOWN, page_data
 
@@ -72,11 +73,12 @@ def page(
     """
     by = "alpha" if by == "quality" else by
     if by not in COLOURS:
-        raise ValueError(f"cannot colour by {by!r}; known are {', '.join(COLOURS)}")
-    colourings = colourings_of(mesh)
+        raise ValueError(unknown_colouring(by))
+    drawn = faces_apart(mesh)  # curvature has a value for each face that meets in a vertex
+    colourings = colourings_of(drawn)
     if by not in colourings:
         raise ValueError(f"cannot colour by {by!r}: the mesh carries no data for it")
-    data = page_data(mesh, colourings, by, shown)
+    data = page_data(drawn, colourings, by, shown)
     title = title_of(mesh) if title is None else title
     heading = title if not name or name == name_of(mesh) else f"{name} - {title}"
     date = asked_date()

@@ -2,12 +2,13 @@
 
 import base64
 import gzip
-from collections.abc import Collection
+from collections.abc import Collection, Iterator
 from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
+from surfmesh.result.facets import PARTS, Facets, corner_weights, facets
 from surfmesh.result.surface_mesh import SurfaceMesh
 from surfmesh.view.camera import direction_of
 from surfmesh.view.colour_maps import table_of
@@ -15,13 +16,12 @@ from surfmesh.view.colouring import LABELS, Colouring
 from surfmesh.view.legend import unit_of
 from surfmesh.view.lines import (
     Lines,
-    model_edge_pairs,
     model_edges,
     principal_directions,
     worst_triangles,
 )
 
-SWITCHES = ("triangles", "circles", "model edges", "worst", "principal directions")
+SWITCHES = ("triangles", "light", "circles", "model edges", "worst", "principal directions")
 SHOWN = ("triangles", "model edges", "worst")
 """What of these is switched on when nothing else is said."""
 
@@ -43,14 +43,18 @@ def page_data(
     of ``SWITCHES`` is in ``shown``.
 
     Points are kept relative to the middle of the mesh, in halves of its largest extent: single
-    precision is then enough wherever the mesh lies and however small it is.
+    precision is then enough wherever the mesh lies and however small it is. Quadratic triangles
+    have their facets beside them, which are what is drawn.
     """
-    low, high = mesh.points.min(axis=0), mesh.points.max(axis=0)
+    flat = None if mesh.mid_points is None else facets(mesh)
+    points = mesh.points if flat is None else flat.points
+    low, high = points.min(axis=0), points.max(axis=0)
     centre = 0.5 * (low + high)
     scale = 0.5 * float((high - low).max()) or 1.0
     arrays = {
-        "points": ((mesh.points - centre) / scale).astype("<f4"),
+        "points": ((points - centre) / scale).astype("<f4"),
         "triangles": mesh.triangles.astype("<u4"),
+        **({} if flat is None else {"facets": flat.triangles.astype("<u4")}),
         "face_ids": np.maximum(mesh.face_ids, 0).astype("<u4"),
     }
     corners = mesh.parametrisation
@@ -61,30 +65,10 @@ def page_data(
         arrays["sizes"] = _rounded(mesh.sizes / scale)
     entries = []
     for key, found in colourings.items():
-        arrays[f"by {key}"] = _rounded(found.values)
-        entries.append(
-            {
-                "key": key,
-                "label": LABELS[key],
-                "title": found.title,
-                "array": f"by {key}",
-                "perVertex": found.per_vertex,
-                "limits": found.limits,
-                "logarithmic": found.logarithmic,
-                "hues": found.hues,
-                "map": table_of(found),
-            }
-        )
+        arrays[f"by {key}"] = _rounded(_values(mesh, found, flat))
+        entries.append(_menu_entry(key, found))
     lines = []
-    if len(model_edge_pairs(mesh)):
-        arrays["model edges"] = model_edge_pairs(mesh).astype("<u4")
-        look = model_edges(mesh)._replace(segments=np.empty((0, 2, 3)))
-        lines.append(_entry(look, "model edges") | {"pairs": True})
-    worst, _ = worst_triangles(mesh, MARKED)
-    crosses = principal_directions(mesh) if mesh.surfaces and mesh.uv_points is not None else ()
-    for layer, group in (
-        (worst, "worst"), *((layer, "principal directions") for layer in crosses)
-    ):  # fmt: skip
+    for layer, group in _layers(mesh):
         if len(layer.segments):
             arrays[layer.name] = ((layer.segments - centre) / scale).astype("<f4")
             lines.append(_entry(layer, group))
@@ -99,9 +83,40 @@ def page_data(
         "faceNames": [mesh.face_name(i) for i in range(int(mesh.face_ids.max()) + 1)],
         "colourings": entries,
         "lines": lines,
+        "shares": corner_weights(1 if flat is None else PARTS).ravel().tolist(),
         "arrays": listed,
     }
     return PageData(contents, packed)
+
+
+def _values(mesh: SurfaceMesh, found: Colouring, flat: Facets | None) -> NDArray:
+    """One a point that is drawn, or one a triangle of the mesh."""
+    if flat is None or not found.per_vertex:
+        return found.values
+    return flat.interpolated(mesh, found.values)
+
+
+def _menu_entry(key: str, found: Colouring) -> dict[str, Any]:
+    return {
+        "key": key,
+        "label": LABELS[key],
+        "title": found.title,
+        "array": f"by {key}",
+        "perVertex": found.per_vertex,
+        "limits": found.limits,
+        "logarithmic": found.logarithmic,
+        "hues": found.hues,
+        "map": table_of(found),
+    }
+
+
+def _layers(mesh: SurfaceMesh) -> Iterator[tuple[Lines, str]]:
+    """What is drawn over the triangles, and the switch that it belongs to."""
+    yield model_edges(mesh), "model edges"
+    yield worst_triangles(mesh, MARKED)[0], "worst"
+    if mesh.surfaces and mesh.uv_points is not None:
+        for layer in principal_directions(mesh):
+            yield layer, "principal directions"
 
 
 def _entry(layer: Lines, group: str) -> dict[str, Any]:
@@ -110,7 +125,6 @@ def _entry(layer: Lines, group: str) -> dict[str, Any]:
         "group": group,
         "colour": layer.colour,
         "width": 0.6 * layer.width,  # of a screen, where pictures are drawn larger
-        "pairs": False,
     }
 
 

@@ -124,3 +124,13 @@ def test_repr_and_notebook_table():
     mesh = grid(Saddle(), 2, warnings=["a < b"])
     assert repr(mesh) == "SurfaceMesh(9 points, 8 triangles, 1 face)"
     assert "saddle" in mesh._repr_html_() and "a &lt; b" in mesh._repr_html_()
+
+
+def test_every_public_attribute_says_what_it_is():
+    own = {name for name in dir(SurfaceMesh) if not name.startswith("_")}
+    shown = [getattr(SurfaceMesh, name) for name in sorted(own - {"inverse_sizes", "edge_shares"})]
+    assert all(getattr(item, "__doc__", None) or item is None for item in shown)
+    for name in ("points", "triangles", "sizes", "mid_points", "one_sided"):
+        assert f"{name}: " in SurfaceMesh.__doc__
+    assert "face that each triangle lies on" in SurfaceMesh.face_ids.__doc__
+    assert SurfaceMesh.face_ids.fset is None

@@ -6,6 +6,7 @@ import json
 import os
 import re
 import shutil
+from dataclasses import replace
 from html.parser import HTMLParser
 from io import BytesIO
 
@@ -75,8 +76,8 @@ def test_arrays_hold_the_mesh_wherever_it_lies(saddle, tmp_path):
     far = changed(saddle, points=1e-6 * saddle.points + (5e3, 0, -7e3))
     contents, arrays = arrays_of(page_of(far, tmp_path)[1])
     points = arrays["points"].reshape(-1, 3) * contents["scale"] + contents["centre"]
-    np.testing.assert_allclose(points, far.points, atol=1e-12, rtol=0)
-    np.testing.assert_array_equal(arrays["triangles"].reshape(-1, 3), far.triangles)
+    corners = points[arrays["triangles"].reshape(-1, 3)]  # vertices are apart by face
+    np.testing.assert_allclose(corners, far.points[far.triangles], atol=1e-12, rtol=0)
     np.testing.assert_array_equal(arrays["face_ids"], far.face_ids)
     assert [entry["key"] for entry in contents["colourings"]] == [
         "alpha", "angle", "size", "deviation", "face", "curvature", "gaussian", "mean"
@@ -91,6 +92,35 @@ def test_colour_values_keep_four_digits(saddle, tmp_path):
 
     assert corner == pytest.approx(colouring(saddle, "curvature").values.max(), rel=1.3e-4)
     assert len(entry["map"]) == 6 * 256
+
+
+def test_curvature_is_not_averaged_over_an_edge(tmp_path):
+    """Flat faces and fillets of radius 1: no vertex has a value between theirs."""
+    import cadquery as cq
+
+    mesh = sm.mesh(cq.Workplane().box(4, 4, 4).edges("|Z").fillet(1), 0.5)
+    _, arrays = arrays_of(page_of(mesh, tmp_path)[1])
+    assert len(arrays["points"]) > 3 * len(mesh.points)
+    means = np.abs(arrays["by mean"])[arrays["triangles"].reshape(-1, 3)]
+    flat = np.array([type(surface).__name__ == "Plane" for surface in mesh.surfaces])[mesh.face_ids]
+    assert 0 < flat.sum() < len(flat)
+    np.testing.assert_allclose(means[~flat], 0.5, rtol=1e-3)
+    np.testing.assert_allclose(means[flat], 0.0, atol=1e-9)
+
+
+def test_quadratic_triangles_are_flat_ones_on_their_curves(tmp_path):
+    mesh = sm.mesh(sm.load("sphere"), 0.8, order=2)
+    contents, arrays = arrays_of(page_of(mesh, tmp_path)[1])
+    points = arrays["points"].reshape(-1, 3) * contents["scale"] + contents["centre"]
+    flat = arrays["facets"].reshape(-1, 3)
+    parts = len(flat) // len(mesh.triangles)
+    assert parts == 16 and flat.max() < len(points)
+    shares = np.array(contents["shares"]).reshape(parts, 3, 3)
+    straight = np.einsum("pkc,mcx->mpkx", shares, mesh.points[mesh.triangles])
+    off = np.linalg.norm(points[flat.reshape(-1, parts, 3)] - straight, axis=-1)
+    longest = np.linalg.norm(mesh.points[mesh.edges[:, 0]] - mesh.points[mesh.edges[:, 1]], axis=1)
+    assert off.max() < 0.2 * longest.max()  # each near the place that its shares say
+    assert np.ptp(np.linalg.norm(points, axis=1)) < 0.01 * contents["scale"]
 
 
 def test_a_mesh_from_a_file_has_what_it_carries(tetrahedron, tmp_path):
@@ -281,6 +311,29 @@ def test_ellipses_where_sizes_have_a_direction(opened, tmp_path):
     before = picture(page)
     page.get_by_label("circles").check()
     assert np.abs(picture(page) - before).max(axis=-1).mean() > 0.01 and not faults
+
+
+def test_curved_triangles_are_picked_whole_beside_the_tools(opened, tmp_path):
+    mesh = sm.mesh(sm.load("sphere"), 0.8, order=2)
+    named = mesh.replaced(groups=replace(mesh.groups, face_names=("ball's skin",)))
+    open_page, faults = opened
+    page = open_page(html_report(named, tmp_path / "ball.html", by="face"))
+    assert page.inner_text("#bar-names").strip() == "0: ball's skin"
+    tools, box, bar = (
+        page.locator(name).bounding_box() for name in ("#tools", "#canvas", "#bar")
+    )  # fmt: skip
+    assert tools["y"] + tools["height"] <= box["y"] and box["y"] + box["height"] <= bar["y"]
+    x, y = box["x"] + box["width"] / 2, box["y"] + box["height"] / 2
+    page.mouse.click(x, y)
+    rows = dict(line.split("\t") for line in page.inner_text("#picked-text").splitlines())
+    assert 0 <= int(rows["triangle"]) < len(mesh.triangles)
+    place = np.array([float(value) for value in rows["point (model units)"].split(",")])
+    assert np.linalg.norm(place) == pytest.approx(1, abs=0.02)  # straight ones lie 0.1 deeper
+    corners = mesh.points[mesh.triangles[int(rows["triangle"])]]
+    assert np.linalg.norm(place - corners.mean(axis=0)) < 0.6
+    page.get_by_label("circles").check()
+    page.get_by_label("light").check()
+    assert coloured(picture(page)) > 0.1 and faults == []
 
 
 def test_the_table_of_faces_has_what_was_promised(tmp_path):

@@ -2,6 +2,7 @@
 
 estimation: how many triangles there will be, and how much memory they need, before all are packed.
 face_counts: the triangles of many faces, by a close look at some of them.
+least_counts: the fewest triangles that a chord allows.
 model_estimate: the triangles of a CAD model before it is meshed, and a bound that costs nothing.
 trial_faces: a few faces of a CAD model, or patches of them, meshed for real: how good the counts
     are.

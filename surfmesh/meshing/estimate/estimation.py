@@ -21,7 +21,7 @@ import numpy as np
 
 from surfmesh.errors import SizingError
 from surfmesh.meshing.faces.face_data import FaceJob
-from surfmesh.sizing.field.metric_area import TRIANGLES, inner_cells, metric_area
+from surfmesh.sizing.field.metric_area import TRIANGLES, metric_area
 from surfmesh.sizing.field.size_field import COUNTABLE, SizeField
 
 RESULT, MODEL_RESULT, WORK, STRETCHED_WORK = 150, 450, 80, 530
@@ -33,9 +33,6 @@ MANY = 10**15
 
 SHARP = 6.0
 """How sharply the count of a face changes from that of its boundary to that of its area."""
-
-BEYOND = 1e9
-"""More triangles than that are counted without a look at the cells that loops run through."""
 
 LOADED, CAD_LOADED = 250_000_000, 550_000_000
 """Bytes of the program itself, and of the CAD kernel where it lives in this process."""
@@ -53,12 +50,26 @@ class Estimate:
     mesh_memory: int = 0
     """Bytes of that which the mesh takes, and the work on it: what the program has anyway is not
     among them."""
+    least_triangles: float | None = None
+    """Those of any shape that ``chord`` needs at least, as the report has it; None without a chord,
+    in planar domains, and where triangles are quadratic."""
+
+    @property
+    def efficiency(self) -> float | None:
+        """``least_triangles / triangles``."""
+        return None if self.least_triangles is None else self.least_triangles / self.triangles
 
     def __str__(self) -> str:
         own, whole = size_in_words(self.mesh_memory), size_in_words(self.memory)
+        times = ""
+        if self.least_triangles:
+            times = (
+                f"; {self.triangles / self.least_triangles:.3g} times the least that triangles of "
+                "any shape need for chord"
+            )
         return (
             f"about {self.triangles:,} triangles, {own} of memory at the peak, {whole} with the "
-            "program"
+            f"program{times}"
         )
 
     def to_dict(self) -> dict:
@@ -66,20 +77,22 @@ class Estimate:
         return {
             "triangles": self.triangles, "memory_bytes": self.memory,
             "mesh_memory_bytes": self.mesh_memory, "by_face": list(self.by_face),
+            "least_triangles": self.least_triangles, "efficiency": self.efficiency,
         }  # fmt: skip
 
     @classmethod
     def of(
-        cls, by_face: Sequence[float] | np.ndarray, stretched: bool = False, model: bool = False
-    ) -> Estimate:
-        """stretched: sizes depend on the direction."""
+        cls, by_face: Sequence[float] | np.ndarray, stretched: bool = False, model: bool = False,
+        least: float | None = None,
+    ) -> Estimate:  # fmt: skip
+        """stretched: sizes depend on the direction. least: ``least_triangles``."""
         counts = tuple(round(count) if count < COUNTABLE else int(COUNTABLE) for count in by_face)
         total, most = sum(counts), max(counts, default=0)
         loaded = max(LOADED + (CAD_LOADED if "OCP" in sys.modules else 0), _resident())
         bytes_each = MODEL_RESULT if model else RESULT
         work = STRETCHED_WORK if stretched else WORK
         own = bytes_each * total + work * most
-        return cls(total, counts, loaded + own, own)
+        return cls(total, counts, loaded + own, own, least)
 
 
 def _resident() -> int:
@@ -102,11 +115,6 @@ def size_in_words(count: float) -> str:
 
 def field_triangles(field: SizeField, loops: Sequence[np.ndarray] | None = None) -> float:
     """Triangles over the field's rectangle, or inside ``loops`` (k, 2) in (u, v)."""
-    if loops is not None and field.expected_vertices() > BEYOND:
-        rings = [field.chart.to_plane(loop) for loop in loops]
-        rough = TRIANGLES * float(inner_cells(field, rings)[2].sum())
-        if rough > BEYOND:
-            return rough
     return TRIANGLES * metric_area(field, loops)
 
 

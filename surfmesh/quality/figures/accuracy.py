@@ -100,6 +100,32 @@ class ChordUseFigures(Part):
 
 
 @dataclass(frozen=True, kw_only=True)
+class EfficiencyFigures(Part):
+    """How many triangles there are beside the least that ``chord`` needs.
+
+    None where no chord was asked for, nothing is known, or triangles are quadratic. A mesh may have
+    fewer than the least: that holds for a small chord, not for a few triangles.
+    """
+
+    least_triangles: float | None  # of any shape and size: see measures/least_triangles.py
+    efficiency: float | None  # least_triangles / triangles
+    equilateral_triangles: float | None  # the same of equilateral ones, in directions at random;
+    # None too where sizes depend on the direction, and of balanced vertices
+
+    @classmethod
+    def of(cls, measured: Measurements) -> "EfficiencyFigures":
+        """Of the whole mesh."""
+        found, count = measured.least_triangles, len(measured.mesh.triangles)
+        if found is None:
+            return cls(least_triangles=None, efficiency=None, equilateral_triangles=None)
+        return cls(
+            least_triangles=found.least,
+            efficiency=found.least / count,
+            equilateral_triangles=found.equilateral,
+        )
+
+
+@dataclass(frozen=True, kw_only=True)
 class DihedralFigures(Part):
     """Angles between triangles that share an edge within a face, degrees."""
 

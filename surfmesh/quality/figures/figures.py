@@ -15,6 +15,7 @@ from surfmesh.quality.figures.accuracy import (
     ChordUseFigures,
     DeviationFigures,
     DihedralFigures,
+    EfficiencyFigures,
 )
 from surfmesh.quality.figures.area_and_volume import AreaAndVolume
 from surfmesh.quality.figures.counts import Counts
@@ -68,6 +69,7 @@ class Figures:
     accuracy: DeviationFigures
     between_samples: BetweenSamples
     chord_use: ChordUseFigures
+    efficiency_of: EfficiencyFigures
     dihedral_angles: DihedralFigures
     limits: tuple[UnattainableTolerance, ...]  # where a min_size of the user's forbids one of both
     area_and_volume: AreaAndVolume
@@ -154,6 +156,9 @@ class Figures:
     functions = Figure(lambda report: report.between_samples.functions)
     chord_used = Figure(lambda report: report.chord_use.chord_used)
     chord_decided_share = Figure(lambda report: report.chord_use.chord_decided_share)
+    least_triangles = Figure(lambda report: report.efficiency_of.least_triangles)
+    efficiency = Figure(lambda report: report.efficiency_of.efficiency)
+    equilateral_triangles = Figure(lambda report: report.efficiency_of.equilateral_triangles)
     angle = Figure(lambda report: report.dihedral_angles.angle)
     angle_max = Figure(lambda report: report.dihedral_angles.angle_max)
     angle_triangles = Figure(lambda report: report.dihedral_angles.angle_triangles)

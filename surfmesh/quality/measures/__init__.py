@@ -5,6 +5,7 @@ known_surfaces: a mesh whose surfaces and corner parameters are known.
 
 Connectivity and shape:
 topology: what kind of surface the triangles form: closed, manifold, oriented, in how many pieces.
+proved_isotopy: can the mesh be deformed into its surface through space?
 proved_topology: is the mesh homeomorphic to what it was made of, and more? By exact predicates.
 against_model: edges and vertices that are not as the model has them: more triangles, or more fans.
 curved: quadratic triangles: area, volume, Jacobian, and their distance from the surface.
@@ -28,6 +29,7 @@ dihedral: dihedral angles between neighbouring triangles, where the surface itse
 tolerances: what was asked for of each face, where it does not hold, and where a ``min_size``
     forbids it.
 chord_use: how much of the allowed deviation a mesh uses: one much finer than needed uses little.
+least_triangles: how many triangles the chord needs at least.
 surface_to_mesh: how far the true surface lies from the mesh: the other half of the Hausdorff
     distance.
 hidden_search: what may hide between the samples of a triangle or of a rim, by interval arithmetic.

@@ -24,6 +24,7 @@ from surfmesh.quality.measures.deviation import Deviation, deviation
 from surfmesh.quality.measures.dihedral import DihedralAngles, angles_within_faces
 from surfmesh.quality.measures.folds import Folds, folds
 from surfmesh.quality.measures.known_surfaces import KnownSurfaces
+from surfmesh.quality.measures.least_triangles import LeastTriangles, least_triangles
 from surfmesh.quality.measures.lengths import (
     Growth,
     SizeGrowth,
@@ -34,7 +35,8 @@ from surfmesh.quality.measures.lengths import (
 )
 from surfmesh.quality.measures.loose_edges import LooseEdges, loose_edges
 from surfmesh.quality.measures.proof import Proof, proof
-from surfmesh.quality.measures.proved_topology import Answer, homeomorphic, isotopic
+from surfmesh.quality.measures.proved_isotopy import isotopic
+from surfmesh.quality.measures.proved_topology import Answer, homeomorphic
 from surfmesh.quality.measures.self_intersection import meeting_pairs
 from surfmesh.quality.measures.shape import Shapes, enclosed_volume, metric_alpha, shapes
 from surfmesh.quality.measures.solids import shares_faces
@@ -180,7 +182,7 @@ class Measurements:
     def isotopic(self) -> Answer:
         """Likewise, by a deformation of space."""
         meets = None if self.meeting is None else len(self.meeting)
-        return isotopic(self.homeomorphic, meets, self.crosses_itself)
+        return isotopic(self.homeomorphic, meets, self.crosses_itself, self.known, self.proof)
 
     @cached_property
     def chord_check(self) -> ToleranceCheck | None:
@@ -195,6 +197,13 @@ class Measurements:
         if self.known is None or self.deviation is None:
             return None
         return chord_use(self.known, self.deviation, self.tolerances)
+
+    @cached_property
+    def least_triangles(self) -> LeastTriangles | None:
+        """How many the chord needs at least."""
+        if self.known is None or not self.finite:
+            return None
+        return least_triangles(self.known, self.shapes.area, self.tolerances)
 
     @cached_property
     def dihedral_angles(self) -> DihedralAngles | None:

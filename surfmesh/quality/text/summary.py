@@ -55,6 +55,8 @@ def summary(report: Figures) -> str:
     if report.above_growth_share is not None:
         rows.append(("", _growth(report)))
     rows.append(("deviation", _deviation(report)))
+    if report.least_triangles:
+        rows.append(("", _efficiency(report)))
     if report.proof is not None:
         rows.append(("proved", _proof(report.proof)))
     if report.angle is not None and report.angle_max is not None:
@@ -166,6 +168,19 @@ def _deviation(report: Figures) -> str:
         f"largest in triangle {report.deviation_triangle} at {place}{back}"
         f"{_between_samples(report)}"
     )
+
+
+def _efficiency(report: Figures) -> str:
+    """How many triangles there are beside those that the chord needs."""
+    least = report.least_triangles or 1.0
+    words = (
+        f"{report.triangles / least:.3g} times the least that triangles of any shape need for "
+        f"chord ({least:,.0f})"
+    )
+    if report.equilateral_triangles:
+        times = report.triangles / report.equilateral_triangles
+        words += f", {times:.3g} times what equilateral ones need"
+    return words
 
 
 def _of_chord(report: Figures, deviation: float) -> str:

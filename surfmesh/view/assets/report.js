@@ -1,7 +1,8 @@
 // The view of a mesh in the report: colours, lines, turning, picking. One mesh, no network.
 //
-// Triangles are drawn without shared vertices, so that corner i of triangle t is vertex 3 t + i:
-// the shader knows its barycentric coordinates and draws the sides and the circles itself.
+// Triangles are drawn without shared vertices, a curved one as `parts` flat ones, so that vertex v
+// belongs to triangle v / (3 parts): the shader knows its barycentric coordinates there, and draws
+// the sides and the circles of the triangle itself.
 "use strict";
 (async () => {
   const at = (id) => document.getElementById(id);
@@ -25,9 +26,10 @@
   }
 
   const { points, triangles } = arrays, count = triangles.length / 3;
+  const flat = arrays.facets || triangles, parts = flat.length / triangles.length || 1;
   const geometry = new THREE.BufferGeometry();
   geometry.setAttribute("position", new THREE.BufferAttribute(spread(points, 3), 3));
-  const shown = new Uint8Array(9 * count);
+  const shown = new Uint8Array(3 * flat.length);
   geometry.setAttribute("colour", new THREE.BufferAttribute(shown, 3, true));
   const material = surfaceMaterial();
   const mesh = new THREE.Mesh(geometry, material);
@@ -52,7 +54,7 @@
   menu.value = Math.max(0, contents.colourings.findIndex((entry) => entry.key === contents.by));
   colour(contents.colourings[menu.value]);
   look(contents.sight);
-  new ResizeObserver(resize).observe(at("view"));
+  new ResizeObserver(resize).observe(at("stage"));
   resize();
   followPointer();
   for (const button of document.querySelectorAll("button[data-triangle]")) {
@@ -75,11 +77,11 @@
     return found;
   }
 
-  // Values of vertices, `width` numbers each, at every corner of every triangle.
+  // Values of vertices, `width` numbers each, at every corner of every flat triangle.
   function spread(values, width) {
-    const out = new Float32Array(triangles.length * width);
-    for (let corner = 0; corner < triangles.length; corner++) {
-      for (let k = 0; k < width; k++) out[width * corner + k] = values[width * triangles[corner] + k];
+    const out = new Float32Array(flat.length * width);
+    for (let corner = 0; corner < flat.length; corner++) {
+      for (let k = 0; k < width; k++) out[width * corner + k] = values[width * flat[corner] + k];
     }
     return out;
   }
@@ -106,8 +108,8 @@
     const values = arrays[entry.array], table = new Uint8Array(entry.map.length / 2);
     for (let i = 0; i < table.length; i++) table[i] = parseInt(entry.map.slice(2 * i, 2 * i + 2), 16);
     const last = table.length / 3 - 1;
-    for (let corner = 0; corner < triangles.length; corner++) {
-      const value = values[entry.perVertex ? triangles[corner] : Math.floor(corner / 3)];
+    for (let corner = 0; corner < flat.length; corner++) {
+      const value = values[entry.perVertex ? flat[corner] : Math.floor(corner / (3 * parts))];
       const k = 3 * (entry.hues ? Math.round(value) : Math.round(share(entry, value) * last));
       shown[3 * corner] = table[k];
       shown[3 * corner + 1] = table[k + 1];
@@ -138,6 +140,19 @@
       mark.textContent = entry.hues ? i : brief(value);
       ticks.append(mark);
     }
+    at("bar-names").replaceChildren(...(entry.hues ? namesOfFaces(entry) : []));
+  }
+
+  // The faces that have names, each beside its colour; of many the first.
+  function namesOfFaces(entry) {
+    const named = contents.faceNames.map((name, face) => [name, face]);
+    const found = named.filter(([name, face]) => name !== `face ${face}`).slice(0, 16);
+    return found.map(([name, face]) => {
+      const word = document.createElement("span"), spot = document.createElement("i");
+      spot.style.background = `rgb(${hue(entry, face % entry.hues).join()})`;
+      word.append(spot, ` ${face}: ${name}`);
+      return word;
+    });
   }
 
   function brief(value) {
@@ -151,20 +166,22 @@
       glslVersion: THREE.GLSL3,
       side: THREE.DoubleSide,
       polygonOffset: true, polygonOffsetFactor: 1, polygonOffsetUnits: 4,
+      defines: { CORNERS: 3 * parts },
       uniforms: {
-        sides: { value: true }, circles: { value: false },
+        shares: { value: new Float32Array(contents.shares) },
+        sides: { value: true }, circles: { value: false }, lit: { value: false },
         picked: { value: -1 }, hovered: { value: -1 },
       },
       vertexShader: `
         in vec3 colour;
         in vec3 circle0, circle1, circle2;  // squared metric length within this triangle
+        uniform vec3 shares[CORNERS];  // of the corners of a triangle
         out vec3 tint, place, share;
         flat out vec3 around0, around1, around2;
         flat out int triangle;
         void main() {
-          int corner = gl_VertexID % 3;
-          triangle = gl_VertexID / 3;
-          share = vec3(corner == 0, corner == 1, corner == 2);
+          triangle = gl_VertexID / CORNERS;
+          share = shares[gl_VertexID % CORNERS];
           around0 = circle0; around1 = circle1; around2 = circle2;
           tint = colour;
           vec4 seen = modelViewMatrix * vec4(position, 1.0);
@@ -175,7 +192,7 @@
         in vec3 tint, place, share;
         flat in vec3 around0, around1, around2;
         flat in int triangle;
-        uniform bool sides, circles;
+        uniform bool sides, circles, lit;
         uniform int picked, hovered;
         out vec4 pixel;
         // how far outside of a circle: half the metric length is on it
@@ -184,7 +201,7 @@
         }
         void main() {
           vec3 normal = normalize(cross(dFdx(place), dFdy(place)));
-          float light = 0.58 + 0.42 * abs(normal.z);
+          float light = lit ? 0.58 + 0.42 * abs(normal.z) : 1.0;
           vec3 paint = tint;
           vec3 step = fwidth(share);
           if (circles) {
@@ -213,7 +230,7 @@
   // Corner 0 of a triangle measures s e01 + t e02 by A s^2 + B t^2 + 2 C s t, in wanted lengths.
   function addCircles() {
     if (geometry.attributes.circle0) return;
-    const forms = [0, 1, 2].map(() => new Float32Array(9 * count));
+    const forms = [0, 1, 2].map(() => new Float32Array(3 * flat.length));
     const e = [new THREE.Vector3(), new THREE.Vector3()];
     for (let t = 0; t < count; t++) {
       for (let i = 0; i < 3; i++) {
@@ -222,7 +239,7 @@
         e[1].subVectors(corner(t, (i + 2) % 3), here);
         for (const side of e) inWantedLengths(side, 3 * t + i);
         const form = [e[0].lengthSq(), e[1].lengthSq(), e[0].dot(e[1])];
-        for (let k = 0; k < 3; k++) forms[i].set(form, 9 * t + 3 * k);
+        for (let k = 0; k < 3 * parts; k++) forms[i].set(form, 9 * parts * t + 3 * k);
       }
     }
     forms.forEach((values, i) => {
@@ -241,13 +258,7 @@
   }
 
   function addLines(entry) {
-    const given = arrays[entry.array];
-    let ends = given;
-    if (entry.pairs) {
-      ends = new Float32Array(3 * given.length);
-      given.forEach((vertex, i) => { for (let k = 0; k < 3; k++) ends[3 * i + k] = points[3 * vertex + k]; });
-    }
-    const shape = new THREE.LineSegmentsGeometry().setPositions(ends);
+    const shape = new THREE.LineSegmentsGeometry().setPositions(arrays[entry.array]);
     const paint = new THREE.LineMaterial({ color: entry.colour, linewidth: entry.width });
     const lines = new THREE.LineSegments2(shape, paint);
     lines.visible = contents.shown.includes(entry.group);
@@ -276,6 +287,7 @@
 
   function addSwitches() {
     addSwitch("triangles", (on) => { material.uniforms.sides.value = on; });
+    addSwitch("light", (on) => { material.uniforms.lit.value = on; });
     if (arrays.sizes || arrays["inverse sizes"]) {
       addSwitch("circles", (on) => { if (on) addCircles(); material.uniforms.circles.value = on; });
     }
@@ -314,13 +326,9 @@
       point.fromArray(points, i).applyMatrix4(camera.matrixWorldInverse);
       low.min(point); high.max(point);
     }
-    // the room between the tools and the colour bar
-    const box = at("view").getBoundingClientRect(), width = Math.max(box.width, 1);
-    const above = at("tools").offsetHeight + 22, below = at("bar").offsetHeight + 28;
-    const height = Math.max(box.height, 1), room = Math.max(height - above - below, 0.3 * height);
-    const unit = Math.max((high.y - low.y) / room, (high.x - low.x) / (0.94 * width), 1e-12);
+    const { width, height } = stageSize();
+    const unit = Math.max((high.y - low.y) / (0.94 * height), (high.x - low.x) / (0.94 * width), 1e-12);
     const middle = new THREE.Vector3((low.x + high.x) / 2, (low.y + high.y) / 2, 0);
-    middle.y += 0.5 * unit * (above - below);
     middle.applyQuaternion(camera.quaternion);
     controls.target.copy(middle);
     camera.position.copy(middle).addScaledVector(towards, 10);
@@ -353,7 +361,7 @@
     const y = 1 - 2 * (event.clientY - box.top) / box.height;
     ray.setFromCamera(new THREE.Vector2(x, y), camera);
     const hit = ray.intersectObject(mesh)[0];
-    return hit ? { triangle: hit.faceIndex, point: hit.point } : null;
+    return hit ? { triangle: Math.floor(hit.faceIndex / parts), point: hit.point } : null;
   }
 
   // What is known of a triangle: [name, value] rows.
@@ -421,7 +429,7 @@
         const entries = whole ? contents.colourings : contents.colourings.filter(brief);
         note.textContent = known(hit.triangle, null, entries).map(([name, value]) => `${name}: ${value}`).join("\n");
         note.hidden = false;
-        const box = at("view").getBoundingClientRect();
+        const box = at("stage").getBoundingClientRect();
         const x = last.clientX - box.left, y = last.clientY - box.top;
         note.style.left = `${Math.min(x + 16, box.width - note.offsetWidth - 4)}px`;
         note.style.top = `${Math.min(y + 16, box.height - note.offsetHeight - 4)}px`;
@@ -435,8 +443,13 @@
 
   // ------------------------------------------------------------------ drawing
 
+  function stageSize() {
+    const { clientWidth, clientHeight } = at("stage");
+    return { width: Math.max(clientWidth, 1), height: Math.max(clientHeight, 1) };
+  }
+
   function resize() {
-    const { clientWidth: width, clientHeight: height } = at("view");
+    const { width, height } = stageSize();
     renderer.setPixelRatio(Math.min(devicePixelRatio, 2));
     renderer.setSize(width, height, false);
     camera.left = -width / height;

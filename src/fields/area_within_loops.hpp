@@ -1,0 +1,28 @@
+// The metric area that a background gives to what lies within loops: how many triangles fit there.
+//
+// In: loops of the scaled plane, in any direction, one within another by even-odd, that do not
+// cross. Out: the integral of 1 / det H over what they enclose of the background's box. The loops
+// are cut in halves with the box, down to the leaves, so that each corner is looked at once a level:
+//
+//     .-------.-------.      a half without loops is empty, one whose loops are its own border is
+//     |  .----|----.  |      integrated as a whole
+//     '--|----'----|--'
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+#include "fields/background.hpp"
+
+namespace surfmesh {
+
+/// Corners of loops in one row, not closed: those of loop k from first[k] to first[k + 1].
+struct PlaneLoops {
+    std::span<const Point2> corners;
+    std::span<const std::int64_t> first;
+};
+
+/// Corners are finite, or the result is no number.
+[[nodiscard]] double metric_area_within(const Background& background, const PlaneLoops& loops);
+
+}  // namespace surfmesh

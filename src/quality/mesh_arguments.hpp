@@ -1,0 +1,59 @@
+// A mesh on its surfaces as a caller hands it over: shapes and numbers are looked at, nothing is
+// copied.
+#pragma once
+
+#include <vector>
+
+#include "binding/arrays.hpp"
+#include "quality/measured_mesh.hpp"
+#include "surfaces/callback_surface.hpp"
+
+namespace surfmesh::binding {
+
+using Triangles = Matrix<std::int32_t, 3>;
+using Numbers = Vector<std::int32_t>;
+
+inline std::vector<const Surface*> surfaces_of(const nb::list& given) {
+    std::vector<const Surface*> surfaces;
+    surfaces.reserve(given.size());
+    for (const nb::handle surface : given) surfaces.push_back(&nb::cast<const Surface&>(surface));
+    return surfaces;
+}
+
+inline MeasuredMesh measured_mesh(const std::vector<const Surface*>& surfaces,
+                                  const Points3& points, const Triangles& triangles,
+                                  const Points2& uv, const Triangles& uv_triangles,
+                                  const Numbers& faces) {
+    require_rows(uv_triangles.shape(0), triangles.shape(0), "uv_triangles");
+    require_rows(faces.shape(0), triangles.shape(0), "faces");
+    return {surfaces,
+            rows<Point3>(points),
+            rows<TriangleCorners>(triangles),
+            rows<Point2>(uv),
+            rows<TriangleCorners>(uv_triangles),
+            rows<std::int32_t>(faces)};
+}
+
+/// All numbers in a mesh are in range.
+inline void require_mesh(const MeasuredMesh& mesh) {
+    const auto numbers = [](std::span<const TriangleCorners> rows) {
+        return std::span(reinterpret_cast<const Vertex*>(rows.data()), 3 * rows.size());
+    };
+    require_indices(numbers(mesh.triangles), mesh.points.size(), "triangles");
+    require_indices(numbers(mesh.uv_triangles), mesh.uv.size(), "uv_triangles");
+    require_indices(mesh.faces, mesh.surfaces.size(), "faces");
+}
+
+/// Both sides of edges (k, 2) of so many triangles, in range.
+inline std::span<const EdgeSides> sides_of(const Matrix<std::int32_t, 2>& edges,
+                                           std::size_t triangles) {
+    const std::span<const EdgeSides> sides{reinterpret_cast<const EdgeSides*>(edges.data()),
+                                           edges.shape(0)};
+    const auto end = static_cast<std::int64_t>(3 * triangles);
+    for (const EdgeSides& side : sides)
+        if (side.half_edge < 0 || side.half_edge >= end || side.twin < -1 || side.twin >= end)
+            throw nb::value_error("edges has a half-edge that is out of range");
+    return sides;
+}
+
+}  // namespace surfmesh::binding

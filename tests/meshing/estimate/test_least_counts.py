@@ -1,0 +1,42 @@
+"""The least number of triangles as an estimate foretells it, against the report's."""
+
+import cadquery as cq
+import pytest
+
+import surfmesh as sm
+
+
+@pytest.mark.parametrize(
+    "name, options",
+    [
+        ("torus", {"chord": 0.01}),
+        ("torus", {"chord": 0.01, "vertices": "balanced"}),
+        ("two_peaks", {"chord": 0.02, "anisotropy": 10}),
+        ("pierced_saddle", {"chord": 0.005}),
+        ("mobius", {"chord": 0.005}),
+        ("cylinder", {"chord": 0.002}),
+    ],
+)
+def test_of_formulas(name, options):
+    sizing = sm.Sizing(**options)
+    found, made = sm.estimate(sm.load(name), sizing), sm.check(sm.mesh(sm.load(name), sizing))
+    assert found.least_triangles == pytest.approx(made.least_triangles, rel=0.02)
+    assert found.efficiency == found.least_triangles / found.triangles
+    assert found.to_dict()["least_triangles"] == found.least_triangles
+    assert "times the least that triangles of any shape need" in str(found)
+
+
+def test_of_a_cad_model():
+    part = cq.Workplane().box(10, 10, 4).faces(">Z").hole(4).edges("|Z").fillet(1.5)
+    part = part.union(cq.Workplane().sphere(2).translate((0, 12, 0)))
+    sizing = sm.Sizing(chord=0.005)
+    model = sm.from_cadquery(part)
+    found, made = sm.estimate(model, sizing), sm.check(sm.mesh(model, sizing))
+    assert found.least_triangles == pytest.approx(made.least_triangles, rel=0.02)
+
+
+def test_nothing_is_foretold_without_a_chord_or_of_quadratic_triangles():
+    surface = sm.load("torus")
+    assert sm.estimate(surface, sm.Sizing(size=0.5)).efficiency is None
+    assert sm.estimate(surface, sm.Sizing(chord=0.01, order=2)).least_triangles is None
+    assert sm.estimate(sm.from_cadquery(cq.Workplane().box(1, 1, 1)), 0.3).efficiency is None
