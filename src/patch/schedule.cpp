@@ -31,8 +31,9 @@ constexpr double WORST_STIFFNESS = 0.3, SHAPE_STIFFNESS = 0.6;
 // are off the surface by about half its curvature times the square.
 constexpr double KEPT_DRIFT = 0.15, KEPT_DRIFT_STRETCHED = 0.1;
 
-// Stretched sizes are held to growth again where this part of the vertices had to be lowered.
-constexpr double MANY_LOWERED = 0.1;
+// Stretched sizes are held to growth again where this part of the vertices had to be lowered:
+// few surfaces. With less others get more triangles and hold it no better.
+constexpr double MANY_LOWERED = 0.3;
 constexpr int GROWTH_ROUNDS = 4;
 
 constexpr int WORST_PASSES = 4, SHAPE_PASSES = 3;
