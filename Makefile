@@ -8,6 +8,7 @@ BIN := $(VENV)/bin
 BUILD ?= build/dev
 SOURCES := $(shell find src -name '*.[ch]pp')
 LOWEST := .venv-lowest
+USED := .[cad,view]
 
 # what the lowest versions are tried with: all that calls the libraries, little of what is our own
 CORE := tests/geometry tests/sizing tests/result/test_surface_mesh.py tests/cli/test_cli.py \
@@ -133,7 +134,7 @@ $(LOWEST)/bin/python:
 	@$(LOWEST_PYTHON) -m venv $(LOWEST)
 
 $(VENV)/.installed: pyproject.toml $(CONSTRAINTS) CMakeLists.txt $(SOURCES) | $(VENV)/bin/python
-	$(call install,$(VENV),$(CONSTRAINTS),.[cad,view])
+	$(call install,$(VENV),$(CONSTRAINTS),$(USED))
 
 $(VENV)/.installed-%: pyproject.toml $(CONSTRAINTS) CMakeLists.txt $(SOURCES) | $(VENV)/bin/python
 	$(call install,$(VENV),$(CONSTRAINTS),.[$*])

@@ -245,12 +245,56 @@ def capytaine(folder: Path) -> str:
     return f"added mass at 0 / infinity: {', '.join(told)} (0.831 / 0.5)"
 
 
+def pins_in_a_plate() -> tuple[cq.Assembly, set[frozenset[str]]]:
+    """Nine pins in the holes of a plate, on a base; and which of them touch."""
+    places = [(x, y) for x in (-3, 0, 3) for y in (-3, 0, 3)]
+    plate = cq.Workplane().rect(10, 10).extrude(1).faces(">Z").workplane()
+    found = cq.Assembly().add(plate.pushPoints(places).hole(1.0), name="plate")
+    found.add(cq.Workplane().rect(10, 10).extrude(-1), name="base")
+    touching = {frozenset(("plate", "base"))}
+    for number, place in enumerate(places):
+        pin = cq.Workplane().center(*place).circle(0.5).extrude(1.5)
+        found.add(pin, name=f"pin {number}")
+        touching |= {frozenset((f"pin {number}", other)) for other in ("plate", "base")}
+    return found, touching
+
+
+def nested_shells() -> tuple[cq.Assembly, set[frozenset[str]]]:
+    """A ball within two shells."""
+    ball, middle, outer = (cq.Workplane().sphere(radius) for radius in (1, 2, 3))
+    found = cq.Assembly().add(ball, name="ball").add(middle.cut(ball), name="middle")
+    found.add(outer.cut(middle), name="outer")
+    return found, {frozenset(("ball", "middle")), frozenset(("middle", "outer"))}
+
+
+def imprint(folder: Path) -> str:
+    """Names that are kept, pairs of bodies with one common mesh, and tetrahedra on both sides."""
+    told = []
+    for make in (pins_in_a_plate, nested_shells):
+        assembly, touching = make()
+        mesh = sm.mesh(sm.from_cadquery(assembly, imprint=True), 0.5)
+        names = [child.name for child in assembly.children]
+        kept = sum(name in mesh.groups.solid_names for name in names)
+        common = mesh.solid_ids[(mesh.solid_ids >= 0).all(axis=1)]
+        pairs = {frozenset(mesh.groups.solid_names[i] for i in pair) for pair in common.tolist()}
+        filled = mesh.tetrahedralize()
+        clean = "clean" if mesh.report.clean else "NOT CLEAN"
+        told.append(
+            f"{make.__name__.replace('_', ' ')}: {kept} of {len(names)} names, "
+            f"{len(pairs & touching)} of {len(touching)} pairs conformal, "
+            f"{len(pairs - touching)} others, {clean}, "
+            f"{len(np.unique(filled.solid_ids))} solids filled"
+        )
+    return "; ".join(told)
+
+
 CLIENTS: dict[str, Callable[[Path], str]] = {
     "gmsh": gmsh_model,
     "tetgen": engine("tetgen"),
     "gmsh (fills)": engine("gmsh"),
     "netgen": engine("netgen"),
     "ftetwild": engine("ftetwild"),
+    "imprint": imprint,
     "CalculiX solid": calculix_solid,
     "CalculiX shell": calculix_shell(1),
     "CalculiX shell, order 2": calculix_shell(2),

@@ -62,7 +62,7 @@ void relax(PatchState& state) {
 
 /// Between the ways that the size field is graded along, the metric may turn faster than sizes grow.
 void hold_growth(PatchState& state) {
-    if (state.hold_growth(true) == 0) return;
+    if (!state.is_anisotropic() || state.hold_growth(true) == 0) return;
     state.split();
     state.smooth();
     state.smooth();

@@ -8,11 +8,30 @@ from numpy.typing import NDArray
 import surfmesh._core.surfaces
 
 
-def triangle_bounds(surface: surfmesh._core.surfaces.Surface, corners: Annotated[NDArray[numpy.float64], dict(shape=(None, 3, 3), order='C', device='cpu', writable=False)], uv: Annotated[NDArray[numpy.float64], dict(shape=(None, 3, 2), order='C', device='cpu', writable=False)], limits: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)], rims: Annotated[NDArray[numpy.uint8], dict(shape=(None,), order='C', device='cpu', writable=False)], depth: int, corners_are_on_surface: bool = True) -> Annotated[NDArray[numpy.float64], dict(shape=(None, 28))] | None:
+def triangle_bounds(surface: surfmesh._core.surfaces.Surface, corners: Annotated[NDArray[numpy.float64], dict(shape=(None, 3, 3), order='C', device='cpu', writable=False)], uv: Annotated[NDArray[numpy.float64], dict(shape=(None, 3, 2), order='C', device='cpu', writable=False)], bends: Annotated[NDArray[numpy.float64], dict(shape=(None, 3, 2), order='C', device='cpu', writable=False)], limits: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)], rims: Annotated[NDArray[numpy.uint8], dict(shape=(None,), order='C', device='cpu', writable=False)], depth: int, corners_are_on_surface: bool = True, slope: float = float('inf')) -> Annotated[NDArray[numpy.float64], dict(shape=(None, 29))] | None:
     """
-    Of triangles with corners (m, 3, 3) and parameters (m, 3, 2): (m, 28) lengths, or None where the surface has no bounds.
+    Of triangles with corners (m, 3, 3) and parameters (m, 3, 2): (m, 29) numbers, or None where the surface has no bounds.
 
-    Height over the plane; how far the piece leaves the sides 0, 1, 2 within it; how far it is from these at rims; shift within the plane; the whole distance point by point; how far corners are off; what ring_bounds asks of sides, and look_closer of cells. Triangles whose height, or distance at a rim (bit k of ``rims``: side k), is beyond ``limits`` are cut in four, ``depth`` times. corners_are_on_surface=False: the corners give the plane alone.
+    Height over the plane; how far the piece leaves the sides 0, 1, 2 within it; how far it is from these at rims; shift within the plane; the whole distance point by point; how far corners are off; what ring_bounds asks of sides; the slope of that distance; what look_closer asks of cells. Triangles whose height, or distance at a rim (bit k of ``rims``: side k), is beyond ``limits`` are cut in four, ``depth`` times. bends (m, 3, 2): of ``curved_pieces``. corners_are_on_surface=False: the corners give the plane alone. slope: what the slope of the distance should keep to, likewise.
+    """
+
+def curved_pieces(surface: surfmesh._core.surfaces.Surface, corners: Annotated[NDArray[numpy.float64], dict(shape=(None, 3, 3), order='C', device='cpu', writable=False)], uv: Annotated[NDArray[numpy.float64], dict(shape=(None, 3, 2), order='C', device='cpu', writable=False)], triangles: Annotated[NDArray[numpy.int32], dict(shape=(None, 3), order='C', device='cpu', writable=False)], twins: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], middles: Annotated[NDArray[numpy.float64], dict(shape=(None, 3, 3), order='C', device='cpu', writable=False)] | None = None) -> Annotated[NDArray[numpy.float64], dict(shape=(None, 3, 2))]:
+    """
+    (m, 3, 2) how far the middles of sides 0, 1, 2 are moved in (u, v), for pieces that are hardly shifted within their triangles; 0 on surfaces without fourth derivatives.
+
+    triangles: (m, 3) vertices; twins: (3 m,), -1 at rims; middles: (m, 3, 3) of the sides in space, where they are not straight.
+    """
+
+def straightened(bends: Annotated[NDArray[numpy.float64], dict(shape=(None, 3, 2), order='C', device='cpu', writable=False)], corners: Annotated[NDArray[numpy.float64], dict(shape=(None, 3, 3), order='C', device='cpu', writable=False)], uv: Annotated[NDArray[numpy.float64], dict(shape=(None, 3, 2), order='C', device='cpu', writable=False)], triangles: Annotated[NDArray[numpy.int32], dict(shape=(None, 3), order='C', device='cpu', writable=False)], twins: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], is_bad: Annotated[NDArray[numpy.uint8], dict(shape=(None,), order='C', device='cpu', writable=False)]) -> Annotated[NDArray[numpy.float64], dict(shape=(None, 3, 2))]:
+    """
+    The same with straight sides of the triangles that have ``is_bad`` (m,).
+    """
+
+def prove_isotopy(points: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)], triangles: Annotated[NDArray[numpy.int32], dict(shape=(None, 3), order='C', device='cpu', writable=False)], away: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)], slope: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)]) -> tuple[int, int, int]:
+    """
+    Can the mesh be deformed into its surface? (0, -1, -1): it can; (1, v, -1): not known, as pieces may change too fast at vertex v; (2, s, t): triangles s and t may meet.
+
+    away: (m,) how far points of each triangle move at most; slope: (m,) how fast that changes.
     """
 
 def curve_bounds(curve: surfmesh._core.surfaces.Curve, t: Annotated[NDArray[numpy.float64], dict(shape=(None, 2), order='C', device='cpu', writable=False)], ends: Annotated[NDArray[numpy.float64], dict(shape=(None, 2, 3), order='C', device='cpu', writable=False)]) -> Annotated[NDArray[numpy.float64], dict(shape=(None,))]:
@@ -27,14 +46,14 @@ def parted_half_edges(uv: Annotated[NDArray[numpy.float64], dict(shape=(None, 3,
     uv: (m, 3, 2); twins: (3 m,), -1 at rims.
     """
 
-def ring_bounds(corners: Annotated[NDArray[numpy.float64], dict(shape=(None, 3, 3), order='C', device='cpu', writable=False)], triangles: Annotated[NDArray[numpy.int32], dict(shape=(None, 3), order='C', device='cpu', writable=False)], twins: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], bounds: Annotated[NDArray[numpy.float64], dict(shape=(None, 28), order='C', device='cpu', writable=False)]) -> tuple[Annotated[NDArray[numpy.float64], dict(shape=(None,))], Annotated[NDArray[numpy.uint8], dict(shape=(None,))]]:
+def ring_bounds(corners: Annotated[NDArray[numpy.float64], dict(shape=(None, 3, 3), order='C', device='cpu', writable=False)], triangles: Annotated[NDArray[numpy.int32], dict(shape=(None, 3), order='C', device='cpu', writable=False)], twins: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], bounds: Annotated[NDArray[numpy.float64], dict(shape=(None, 29), order='C', device='cpu', writable=False)]) -> tuple[Annotated[NDArray[numpy.float64], dict(shape=(None,))], Annotated[NDArray[numpy.uint8], dict(shape=(None,))]]:
     """
     (m,) how far triangles and surface are from each other at most, both ways, each with its neighbours; (m,) whether it took them.
 
     triangles: (m, 3) vertices; twins: (3 m,) the opposite half-edge of each, -1 at rims; bounds: of ``triangle_bounds``.
     """
 
-def look_closer(surface: surfmesh._core.surfaces.Surface, corners: Annotated[NDArray[numpy.float64], dict(shape=(None, 3, 3), order='C', device='cpu', writable=False)], uv: Annotated[NDArray[numpy.float64], dict(shape=(None, 3, 2), order='C', device='cpu', writable=False)], triangles: Annotated[NDArray[numpy.int32], dict(shape=(None, 3), order='C', device='cpu', writable=False)], twins: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], bounds: Annotated[NDArray[numpy.float64], dict(shape=(None, 28), order='C', device='cpu', writable=False)], which: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], limits: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)], levels: int, bound: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)], gaps: Annotated[NDArray[numpy.float64], dict(shape=(None, 3, 2), order='C', device='cpu', writable=False)], gap_owners: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], gap_bounds: Annotated[NDArray[numpy.float64], dict(shape=(None, 28), order='C', device='cpu', writable=False)]) -> Annotated[NDArray[numpy.float64], dict(shape=(None,))]:
+def look_closer(surface: surfmesh._core.surfaces.Surface, corners: Annotated[NDArray[numpy.float64], dict(shape=(None, 3, 3), order='C', device='cpu', writable=False)], uv: Annotated[NDArray[numpy.float64], dict(shape=(None, 3, 2), order='C', device='cpu', writable=False)], bends: Annotated[NDArray[numpy.float64], dict(shape=(None, 3, 2), order='C', device='cpu', writable=False)], triangles: Annotated[NDArray[numpy.int32], dict(shape=(None, 3), order='C', device='cpu', writable=False)], twins: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], bounds: Annotated[NDArray[numpy.float64], dict(shape=(None, 29), order='C', device='cpu', writable=False)], which: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], limits: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)], levels: int, bound: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)], gaps: Annotated[NDArray[numpy.float64], dict(shape=(None, 3, 2), order='C', device='cpu', writable=False)], gap_owners: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], gap_bounds: Annotated[NDArray[numpy.float64], dict(shape=(None, 29), order='C', device='cpu', writable=False)]) -> Annotated[NDArray[numpy.float64], dict(shape=(None,))]:
     """
     The bounds ``bound`` (m,) of ``ring_bounds``, lower for those ``which`` (k,) of which a closer look at up to 4^levels cells each shows that.
 

@@ -5,6 +5,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from surfmesh._core import quality
 from surfmesh.quality.measures.places import Point, as_point
 from surfmesh.result.surface_mesh import SurfaceMesh
 from surfmesh.sizing.metric_roots import unpacked
@@ -16,12 +17,7 @@ BLOCK = 1 << 15  # edges looked at together, to stay within the cache
 
 def edge_lengths(mesh: SurfaceMesh) -> NDArray[np.float64]:
     """(ne,) length of every edge of ``mesh.edges`` in model units."""
-    lengths = np.empty(len(mesh.edges))
-    for start in range(0, len(lengths), BLOCK):
-        a, b = mesh.edges[start : start + BLOCK].T
-        step = mesh.points[b] - mesh.points[a]
-        lengths[start : start + BLOCK] = np.sqrt(np.einsum("ij,ij->i", step, step))
-    return lengths
+    return quality.edge_lengths(mesh.points, mesh.edges)
 
 
 def metric_lengths(mesh: SurfaceMesh, lengths: NDArray[np.float64]) -> NDArray[np.float64] | None:

@@ -35,7 +35,8 @@ from surfmesh.quality.measures.lengths import (
 )
 from surfmesh.quality.measures.loose_edges import LooseEdges, loose_edges
 from surfmesh.quality.measures.proof import Proof, proof
-from surfmesh.quality.measures.proved_topology import Answer, homeomorphic, isotopic
+from surfmesh.quality.measures.proved_isotopy import isotopic
+from surfmesh.quality.measures.proved_topology import Answer, homeomorphic
 from surfmesh.quality.measures.self_intersection import meeting_pairs
 from surfmesh.quality.measures.shape import Shapes, enclosed_volume, metric_alpha, shapes
 from surfmesh.quality.measures.solids import shares_faces
@@ -181,7 +182,7 @@ class Measurements:
     def isotopic(self) -> Answer:
         """Likewise, by a deformation of space."""
         meets = None if self.meeting is None else len(self.meeting)
-        return isotopic(self.homeomorphic, meets, self.crosses_itself)
+        return isotopic(self.homeomorphic, meets, self.crosses_itself, self.known, self.proof)
 
     @cached_property
     def chord_check(self) -> ToleranceCheck | None:
