@@ -347,14 +347,23 @@ class _Unmeshed:
         """Triangles at most, roughly."""
         self._first_nodes = nodes
 
-    @cached_property
+    @property
+    def nodes(self) -> CutEdges:
+        """Of the edges that ``jobs`` are made with."""
+        return self._cut[0]
+
+    @property
     def jobs(self) -> list[FaceJob]:
         """What the faces are meshed from in the first round, or in the second where sizes depend
         on the direction: long edges are cut again then, and many of them."""
+        return self._cut[1]
+
+    @cached_property
+    def _cut(self) -> tuple[CutEdges, list[FaceJob]]:
         model, nodes = self.model, self._first_nodes
         jobs = face_jobs(model, self.faces, nodes)
         if not self.wanted.is_anisotropic:
-            return jobs
+            return nodes, jobs
         limits = {k: more for k, job in enumerate(jobs) if (more := edge_refinement(job))}
         nodes = cut_edges(model, self.wanted.base, self.samples, limits, nodes)
-        return face_jobs(model, self.faces, nodes, limits)
+        return nodes, face_jobs(model, self.faces, nodes, limits)
