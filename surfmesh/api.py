@@ -18,8 +18,15 @@ from numpy.typing import NDArray
 from surfmesh._core import return_free_memory
 from surfmesh.cad.healing.joining import Joining
 from surfmesh.cad.reading.read_file import SUFFIXES, begun_reading
-from surfmesh.errors import CadError, FileFormatError, SizingError, SurfaceError, shown
-from surfmesh.geometry.files.surface_file import gallery, load_surface_file
+from surfmesh.errors import (
+    CadError,
+    FileFormatError,
+    SizingError,
+    SurfaceError,
+    did_you_mean,
+    shown,
+)
+from surfmesh.geometry.files.surface_file import OF_SURFACES, gallery, load_surface_file
 from surfmesh.geometry.files.toml_entries import sets_key
 from surfmesh.geometry.number_range import RANGE
 from surfmesh.geometry.surface import Surface
@@ -94,11 +101,23 @@ def load(
         )
     if place.suffix == "" and not place.exists():
         place = _of_gallery(str(path))
+    if place.suffix.lower() not in OF_SURFACES:
+        raise FileFormatError(_not_to_load(place))
     if place.suffix.lower() == ".toml" and sets_key(place, "intersect"):
         from surfmesh.intersection.meeting_file import load_meeting_file
 
         return load_meeting_file(place)
     return load_surface_file(place)
+
+
+def _not_to_load(place: Path) -> str:
+    from surfmesh.io import FORMATS
+
+    if place.suffix.lower() in FORMATS:
+        return f"{place}: holds a mesh, not a surface: check and surfmesh.io.read read it"
+    known = " ".join((*SUFFIXES, *OF_SURFACES))
+    found = f"extension '{place.suffix}' is not known" if place.suffix else "has no extension"
+    return f"{place}: {found}; surfaces and CAD models come from {known}, and from the gallery"
 
 
 def _of_gallery(name: str) -> Path:
@@ -109,10 +128,7 @@ def _of_gallery(name: str) -> Path:
 
         known = known | meeting_gallery()
     if name not in known:
-        from difflib import get_close_matches
-
-        close = get_close_matches(name, known, n=1)
-        hint = f"; did you mean {close[0]!r}?" if close else ""
+        hint = did_you_mean(name, known) or "; sm.gallery() lists what there is"
         raise FileFormatError(f"no file and no gallery surface called {name!r}{hint}")
     return known[name]
 
@@ -235,10 +251,16 @@ def _stated(sizing: Any, name: str) -> Any:
     return getattr(sizing, name) if isinstance(sizing, Sizing) else None
 
 
+_OF_LOAD = ("units", "imprint", "sew", "time_limit", "memory_limit", "isolate")
+
+
 def _by_name(sizing: Sizes, options: Mapping[str, Any]) -> Sizes:
     """Sizes as they are given, or options of ``Sizing`` by name; ``SizingError`` for both."""
     if not options:
         return sizing
+    for name in options:
+        if name in _OF_LOAD:
+            raise SizingError(f"{name} is an option of load: mesh(load(path, {name}=...))")
     if sizing is not None:
         raise SizingError(f"sizes are given twice: as sizing, and as {', '.join(options)}")
     return Sizing.of(options)
@@ -386,13 +408,22 @@ def check(
     Raises ``ValueError`` when its indices are out of range, ``FileFormatError`` for a file that
     holds no mesh; everything else that is wrong is in ``report.problems``.
     """
-    from surfmesh import io, quality
+    from surfmesh import quality
 
     if isinstance(mesh, (str, Path)):
-        mesh = io.read(mesh)
+        mesh = mesh_of_file(mesh)
     if not isinstance(mesh, SurfaceMesh):
         raise FileFormatError(f"a mesh or the path of one is needed, not {shown(mesh)}")
     return quality.check(mesh, second_opinion=second_opinion, prove=prove)
+
+
+def mesh_of_file(path: str | Path) -> SurfaceMesh:
+    """What ``surfmesh.io.read`` gives; ``FileFormatError`` says what to do with what is no mesh."""
+    from surfmesh.io import read
+
+    if Path(path).suffix.lower() in (*SUFFIXES, *OF_SURFACES) or str(path) in gallery():
+        raise FileFormatError(f"{path} is no mesh, but what one is made of: mesh it first")
+    return read(path)
 
 
 def _place(point: Sequence[float]) -> NDArray[np.float64]:
@@ -436,14 +467,10 @@ def _one_sizing(surface: Surface, sizing: Sizes) -> Sizing:
     """One set of options for the surface: those that it brings where none are given."""
     if sizing is None:
         sizing = default_options(surface) or None
-    if isinstance(sizing, Mapping) and set(sizing) == {"*"}:
-        sizing = sizing["*"]
-    elif isinstance(sizing, Mapping) and _by_selection(sizing):
-        if any(isinstance(own, (Sizing, Mapping)) for own in sizing.values()):
-            raise SizingError(
-                f"sizes by selection ({', '.join(map(repr, sizing))}) need a CAD model; a "
-                f"{type(surface).__name__} takes one Sizing, or '*' alone"
-            )
+    if isinstance(sizing, Mapping) and _by_selection(sizing):
+        from surfmesh.sizing.options.model_sizing import sizes_of_one_face
+
+        sizing = sizes_of_one_face(surface.name, sizing)
     made = Sizing.of(sizing)
     if made.volume is not None:
         raise SizingError(

@@ -5,7 +5,7 @@ loop), and what to do about it. Each is also the builtin that a caller would exp
 """
 
 import re
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
 from typing import TYPE_CHECKING
 
@@ -42,6 +42,14 @@ def shown(value: object, longest: int = 60) -> str:
         text = f"a {type(value).__name__}"
     text = printable(" ".join(text.split()))
     return text if len(text) <= longest else text[: longest - 3] + "..."
+
+
+def did_you_mean(name: str, known: Iterable[str]) -> str:
+    """The known name that is nearest to ``name``, as the end of a message; empty when none is."""
+    from difflib import get_close_matches
+
+    near = get_close_matches(name.lower(), known, n=1)
+    return f"; did you mean {near[0]!r}?" if near else ""
 
 
 class SurfmeshError(Exception):

@@ -18,8 +18,11 @@ constexpr int LAYERS = 2;             // of triangles around
 /// What is cut into cells: the triangle's own piece of the surface, or a gap beside it.
 struct Piece {
     PlaneCorners uv;
+    PlaneBends bend;
     TriangleBounds bounds;
     bool is_own;
+
+    [[nodiscard]] PlanePiece plane() const { return {uv, bend}; }
 };
 
 /// The corners of a cell, as rows of points.
@@ -46,11 +49,11 @@ class Looker {
         triangle_ = t;
         for (Array<EnclosedPoint>& known : known_) known.clear();
         known_[FIRST_LEVEL] = Array<EnclosedPoint>(first);
-        if (!ring_.begin(t)) return SurfaceStatus::DONE;
         if (!rings_alone_)
             if (const auto status = look_point_by_point(t, limit, levels, bound);
                 status != SurfaceStatus::DONE)
                 return status;
+        if (bound <= limit || !ring_.begin(t)) return SurfaceStatus::DONE;
         for (int layer = 0; layer < LAYERS && !(bound <= limit); ++layer) {
             if (!ring_.add_layer()) return SurfaceStatus::DONE;
             if (!(ring_.free() > 0.0)) continue;
@@ -78,14 +81,14 @@ class Looker {
     /// At the triangle's own piece, and at the gaps beside it.
     SurfaceStatus look_with_ring(std::int32_t t, double limit, int levels, double& bound) {
         double most = intervals::INFINITE;
-        piece_ = {mesh_.uv[t], bounds_[t], true};
+        piece_ = {mesh_.uv[t], mesh_.bends[t], bounds_[t], true};
         if (const auto status = look_at_piece(limit, levels, most); status != SurfaceStatus::DONE)
             return status;
         const auto first = std::lower_bound(gaps_.owner.begin(), gaps_.owner.end(), t);
         for (auto gap = first; gap != gaps_.owner.end() && *gap == t; ++gap) {
             const auto k = static_cast<std::size_t>(gap - gaps_.owner.begin());
             double found = intervals::INFINITE;
-            piece_ = {gaps_.uv[k], gaps_.bounds[k], false};
+            piece_ = {gaps_.uv[k], PlaneBends{}, gaps_.bounds[k], false};
             if (const auto status = look_at_piece(limit, levels, found);
                 status != SurfaceStatus::DONE)
                 return status;
@@ -143,8 +146,9 @@ class Looker {
 /// |r - L| at the corners of cells, and how far it may rise between them: both ways, by itself.
 SurfaceStatus Looker::look_point_by_point(std::int32_t t, double limit, int levels, double& bound) {
     if (std::binary_search(gaps_.owner.begin(), gaps_.owner.end(), t)) return SurfaceStatus::DONE;
-    piece_ = {mesh_.uv[t], bounds_[t], true};
+    piece_ = {mesh_.uv[t], mesh_.bends[t], bounds_[t], true};
     const SpaceCorners& p = mesh_.corners[t];
+    const double longest = std::max({norm(p[1] - p[0]), norm(p[2] - p[1]), norm(p[0] - p[2])});
     for (int level = int{FIRST_LEVEL}; level <= levels && !(bound <= limit); ++level) {
         const std::size_t side = std::size_t{1} << level;
         if (const auto status = compute_points(side); status != SurfaceStatus::DONE) return status;
@@ -160,7 +164,7 @@ SurfaceStatus Looker::look_point_by_point(std::int32_t t, double limit, int leve
         const double size = norm(p[0]) + norm(p[1]) + norm(p[2]);
         const double between = bounds_[t].cell_whole / (n * n);
         const double found = most * (1.0 + ROUNDING) + between + ROUNDING * 0x1p-4 * size +
-                             rounded_uv_ * ring_.longest();
+                             rounded_uv_ * (longest + 4.0 * bounds_[t].shift);
         bound = std::min(bound, found);
         if (most > limit) break;
     }
@@ -170,8 +174,8 @@ SurfaceStatus Looker::look_point_by_point(std::int32_t t, double limit, int leve
 /// The points of the grid of the piece.
 SurfaceStatus Looker::compute_points(std::size_t side) {
     uv_.clear();
-    append_grid(piece_.uv, side, uv_);
-    rounded_uv_ = rounded_part(piece_.uv);
+    append_grid(piece_.plane(), side, uv_);
+    rounded_uv_ = rounded_part(piece_.plane());
     points_.resize(uv_.size());
     const std::size_t level = std::bit_width(side) - 1;
     if (piece_.is_own && known_[level].size() == uv_.size()) {
@@ -187,7 +191,8 @@ SurfaceStatus Looker::compute_points(std::size_t side) {
 SurfaceStatus Looker::compute_first(std::span<const std::int32_t> which,
                                     Array<EnclosedPoint>& points) {
     Array<Point2> uv;
-    for (const std::int32_t t : which) append_grid(mesh_.uv[t], std::size_t{1} << FIRST_LEVEL, uv);
+    for (const std::int32_t t : which)
+        append_grid({mesh_.uv[t], mesh_.bends[t]}, std::size_t{1} << FIRST_LEVEL, uv);
     points.resize(uv.size());
     return surface_.enclose({uv.data(), uv.size()}, {points.data(), points.size()});
 }

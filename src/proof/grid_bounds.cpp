@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "proof/corner_bends.hpp"
+#include "proof/cell_bounds.hpp"
 #include "proof/triangle_grid.hpp"
 
 namespace surfmesh {
@@ -12,7 +12,7 @@ namespace {
 constexpr double GRID_ROUNDING = 0x1p-45;  // relative, more than that of any sum here
 constexpr double FOR_NEIGHBOURS = 0.99;    // of the limit, as they add a little
 constexpr std::size_t GRID_BLOCK = 256;    // triangles at a time
-constexpr std::array<std::size_t, 2> SIDES = {4, 8};
+constexpr std::array<std::size_t, 2> SIDES = {4, 8}, CUTS = {2, 4};
 
 /// The largest height of points over a triangle's plane, on the safe side.
 class Highest {
@@ -25,11 +25,11 @@ class Highest {
         most_ = std::max(most_, std::abs(dot(frame_.axes[2], x)) + 2.0 * point.error +
                                     (frame_.tilt + GRID_ROUNDING) * size);
     }
-    [[nodiscard]] double height(const PlaneCorners& uv, const TriangleBounds& bounds) const {
+    [[nodiscard]] double height(const PlanePiece& piece, const TriangleBounds& bounds) const {
         const double longest =
             std::max({norm(p_[1] - p_[0]), norm(p_[2] - p_[1]), norm(p_[0] - p_[2])});
         const double place = GRID_ROUNDING * 0x1p-6 * (norm(p_[0]) + longest);
-        return most_ + rounded_part(uv) * (longest + 4.0 * bounds.shift) + place + bounds.corner;
+        return most_ + rounded_part(piece) * (longest + 4.0 * bounds.shift) + place + bounds.corner;
     }
 
   private:
@@ -42,46 +42,43 @@ class Highest {
 struct Grid {
     std::span<const SecondJet> points;
     const SpaceCorners& corners;
-    const PlaneCorners& uv;
+    const PlanePiece& piece;
     const TriangleFrame& frame;
-    double n;
+    SpaceBends curved;
+    std::size_t n;
 
     [[nodiscard]] double highest(const TriangleBounds& bounds) const {
         Highest most(corners, frame);
         for (const SecondJet& jet : points) most.take(jet[0]);
-        return most.height(uv, bounds);
+        return most.height(piece, bounds);
     }
 
-    /// Suprema over the triangle.
-    [[nodiscard]] SideBends bends(const FourthParts& rho) const {
-        const SideWeights weight = weights_of(uv);
-        SideBends found;
-        for (const SecondJet& jet : points)
-            for (std::size_t k = 0; k < 3; ++k) {
-                const auto [bend, error] = bend_of(jet, weight[k]);
-                for (std::size_t d = 0; d < 3; ++d) {
-                    const double value = dot(frame.axes[d], bend);
-                    const double more = rho[d][k] / (n * n) + error * (1.0 + GRID_ROUNDING);
-                    found.by_axis[d][k] = std::max(found.by_axis[d][k], std::abs(value) + more);
-                    if (d < 2) continue;
-                    found.up[k] = std::max(found.up[k], value + more);
-                    found.down[k] = std::max(found.down[k], more - value);
-                }
-            }
-        return found;
+    /// Of its cells.
+    [[nodiscard]] BoundsOfCells cells(const FourthParts& rho) const {
+        constexpr std::size_t FINER = 4;
+        Array<PlaceJet> places;
+        const std::size_t last = points_of_grid(n) - 1;  // corners 0, 2, 1 of the triangle
+        const std::array<EnclosedPoint, 3> own = {points[0][0], points[last][0], points[n][0]};
+        for_grid(n, [&](const Barycentric& l) {
+            places.push_back(place_jet(points[places.size()], piece, l, frame.axes, own, curved));
+        });
+        return bounds_of_cells({places.data(), places.size()}, n, rho, frame, FINER);
     }
 };
 
 Array<Point2> places_of(const ProofRequest& asked, std::span<const std::int32_t> which,
                         std::size_t side) {
     Array<Point2> uv;
-    for (const std::int32_t t : which) append_grid(asked.uv[static_cast<std::size_t>(t)], side, uv);
+    for (const std::int32_t t : which)
+        append_grid(asked.piece(static_cast<std::size_t>(t)), side, uv);
     return uv;
 }
 
 /// Could a lower bound of the cells bring it within its limit?
-bool is_open(const TriangleBounds& bounds, double points, const TriangleFrame& frame,
-             double asked) {
+bool is_open(const TriangleBounds& bounds, double points, const TriangleFrame& frame, double asked,
+             double slope) {
+    if (!(bounds.slope <= slope)) return true;
+    if (bounds.whole + bounds.corner <= asked) return false;
     constexpr double STAYS = 0.25;  // of its heights: a piece does over its triangle then
     const double limit = FOR_NEIGHBOURS * asked;
     const double least = std::min({frame.heights[0], frame.heights[1], frame.heights[2]});
@@ -103,13 +100,20 @@ SurfaceStatus lower_some(const FourthDerivatives& surface, const ProofRequest& a
                                                 points_of_grid(side)};
         if (!std::all_of(points.begin(), points.end(), is_known)) continue;
         const TriangleFrame frame = frame_of(asked.corners[t], out[t].corner, asked.rims[t]);
-        const Grid grid{points, asked.corners[t], asked.uv[t], frame, n};
-        TriangleBounds found = bounds_from(grid.bends(rho[t]), frame, out[t].corner);
+        const PlanePiece piece = asked.piece(t);
+        const Grid grid{points, asked.corners[t], piece, frame, asked.curve(t), side};
+        const BoundsOfCells cells = grid.cells(rho[t]);
+        TriangleBounds found = bounds_from(cells.bends, frame, out[t].corner);
+        found.whole = std::min(found.whole, cells.whole);
+        found.slope = std::min(found.slope, cells.slope);
         const double cell = std::min(found.cell_height, out[t].cell_height);
         const double most = asked.corners_are_on_surface ? grid.highest(found) : found.height;
         found.height = std::min(found.height, (most + scale * cell) * (1.0 + GRID_ROUNDING));
         out[t] = lower_of(out[t], found);
-        if (is_open(out[t], most, frame, asked.limits[t])) left.push_back(which[k]);
+        const bool is_far = !(out[t].whole + out[t].corner <= asked.limits[t]);
+        if (asked.curved.empty() ? is_open(out[t], most, frame, asked.limits[t], asked.slope)
+                                 : is_far)
+            left.push_back(which[k]);
     }
     return status;
 }
@@ -129,18 +133,19 @@ SurfaceStatus lower_some_heights(const Surface& surface, const ProofRequest& ask
         const std::size_t count = points_of_grid(side);
         for (const EnclosedPoint& point : std::span(points.data() + k * count, count))
             highest.take(point);
-        const double most = highest.height(asked.uv[t], out[t]);
+        const double most = highest.height(asked.piece(t), out[t]);
         const double found = (most + scale * out[t].cell_height) * (1.0 + GRID_ROUNDING);
         if (found < out[t].height) out[t].height = found;
-        if (is_open(out[t], most, frame, asked.limits[t])) left.push_back(which[k]);
+        if (is_open(out[t], most, frame, asked.limits[t], asked.slope)) left.push_back(which[k]);
     }
     return status;
 }
 
 /// With the grids of one size after the other, some triangles at a time.
 template <class LowerSome>
-SurfaceStatus with_grids(Array<std::int32_t>& which, LowerSome lower) {
-    for (const std::size_t side : SIDES) {
+SurfaceStatus with_grids(Array<std::int32_t>& which, std::span<const std::size_t> sides,
+                         LowerSome lower) {
+    for (const std::size_t side : sides) {
         Array<std::int32_t> left;
         for (std::size_t start = 0; start < which.size(); start += GRID_BLOCK) {
             const std::size_t count = std::min(GRID_BLOCK, which.size() - start);
@@ -158,18 +163,20 @@ SurfaceStatus with_grids(Array<std::int32_t>& which, LowerSome lower) {
 SurfaceStatus lower_by_grid(const FourthDerivatives& surface, const ProofRequest& asked,
                             std::span<const FourthParts> rho, Array<std::int32_t>& which,
                             std::span<TriangleBounds> out) {
-    return with_grids(which, [&](std::size_t side, std::span<const std::int32_t> some,
-                                 Array<std::int32_t>& left) {
-        return lower_some(surface, asked, rho, side, some, out, left);
-    });
+    return with_grids(
+        which, CUTS,
+        [&](std::size_t side, std::span<const std::int32_t> some, Array<std::int32_t>& left) {
+            return lower_some(surface, asked, rho, side, some, out, left);
+        });
 }
 
 SurfaceStatus lower_heights(const Surface& surface, const ProofRequest& asked,
                             Array<std::int32_t>& which, std::span<TriangleBounds> out) {
-    return with_grids(which, [&](std::size_t side, std::span<const std::int32_t> some,
-                                 Array<std::int32_t>& left) {
-        return lower_some_heights(surface, asked, side, some, out, left);
-    });
+    return with_grids(
+        which, SIDES,
+        [&](std::size_t side, std::span<const std::int32_t> some, Array<std::int32_t>& left) {
+            return lower_some_heights(surface, asked, side, some, out, left);
+        });
 }
 
 }  // namespace surfmesh

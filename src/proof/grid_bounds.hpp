@@ -16,13 +16,13 @@
 
 namespace surfmesh {
 
-/// Of ``which`` triangles, with n = 4 and then 8 for those that are not within their limit; those
+/// Of ``which`` triangles, with n = 2 and then 4 for those that are not within their limit; those
 /// are left in it that lower bounds could bring there.
 SurfaceStatus lower_by_grid(const FourthDerivatives& surface, const ProofRequest& asked,
                             std::span<const FourthParts> rho, Array<std::int32_t>& which,
                             std::span<TriangleBounds> out);
 
-/// The same with points alone, of surfaces without fourth derivatives: heights only.
+/// The same with points alone and n = 4 and 8, of surfaces without fourth derivatives: heights only.
 SurfaceStatus lower_heights(const Surface& surface, const ProofRequest& asked,
                             Array<std::int32_t>& which, std::span<TriangleBounds> out);
 

@@ -10,11 +10,60 @@ constexpr double SIDE_ROUNDING = 0x1p-47;  // relative, more than that of any sh
 constexpr double TILTED = 0.1;             // a normal known no better says nothing
 constexpr double ANY_WAY = 1.0;            // along an axis there is no more than in all then
 
-/// The largest of l_0 l_1 a + l_1 l_2 b + l_2 l_0 c over the simplex; never less than 0.
+double height_of(const BySide& up, const BySide& down) {
+    return 0.5 * std::max(largest_on_simplex(up[0], up[1], up[2]),
+                          largest_on_simplex(down[0], down[1], down[2]));
+}
+
+/// |r''(e, e)|, on the safe side.
+double size_along(const SideBends& bends, std::size_t e, const TriangleFrame& frame) {
+    const double x = bends.by_axis[0][e], y = bends.by_axis[1][e], z = bends.by_axis[2][e];
+    return std::sqrt(x * x + y * y + z * z) *
+           (1.0 + 4.0 * std::min(frame.tilt, TILTED) + SIDE_ROUNDING);
+}
+
+/// |r - L| of height and of what lies within the plane, if that is less.
+double whole_from(const BySide& size, const BySide& within, double height) {
+    const double all = 0.5 * largest_on_simplex(size[0], size[1], size[2]);
+    const double flat = 0.5 * largest_on_simplex(within[0], within[1], within[2]);
+    return std::min(all, std::sqrt(height * height + flat * flat) * (1.0 + SIDE_ROUNDING));
+}
+
+/// Of sizes along the first two axes.
+BySide within_plane(const SideBends& bends, const BySide& size, const TriangleFrame& frame) {
+    BySide within{};
+    for (std::size_t e = 0; e < 3; ++e) {
+        const double x = bends.by_axis[0][e], y = bends.by_axis[1][e];
+        within[e] = std::sqrt(x * x + y * y) + 4.0 * (frame.tilt + SIDE_ROUNDING) * size[e];
+    }
+    return within;
+}
+
+/// The largest |(r' - L')(w)| for unit w. Along side k, from i to j, with m the third corner,
 ///
-/// Inside it is a b c / D with D = 2 (ab + bc + ca) - (a^2 + b^2 + c^2) where each number is less
-/// than the sum of the others; else on the side of the largest, a quarter of that. A number below 0
-/// is the curvature along its side, upwards: there is no largest value inside then.
+///     (r' - L')(x) e_k = int r''(x + s (u_i + t e_k - x))(x - u_i - t e_k, e_k),
+///
+/// convex in x, so largest at a corner: r''(e_k, e_k) / 2 at i and j, and at m, where
+/// x - u_i - t e_k = (1/2 - t) e_k - (e_im + e_jm) / 2, a quarter of it and half of the difference of
+/// those of the other sides.
+double slope_from(const SideBends& bends, const BySide& size, const TriangleFrame& frame) {
+    BySide part{};
+    for (std::size_t k = 0; k < 3; ++k) {
+        double squares = 0.0;
+        for (std::size_t d = 0; d < 3; ++d) squares += bends.differ[d][k] * bends.differ[d][k];
+        const double other = size[(k + 1) % 3] + size[(k + 2) % 3];
+        const double differ =
+            std::sqrt(squares) * (1.0 + 4.0 * std::min(frame.tilt, TILTED) + SIDE_ROUNDING) +
+            SIDE_ROUNDING * other;
+        const double most = std::max(0.5 * size[k], 0.25 * size[k] + 0.5 * std::min(differ, other));
+        if (!(frame.lengths[k] > 0.0)) return intervals::INFINITE;
+        part[k] = most / frame.lengths[k];
+    }
+    return slope_of(part, frame);
+}
+
+}  // namespace
+
 double largest_on_simplex(double a, double b, double c) {
     const double most = std::max({a, b, c, 0.0});
     if (!(most < intervals::INFINITE)) return intervals::INFINITE;
@@ -28,19 +77,17 @@ double largest_on_simplex(double a, double b, double c) {
     return most * std::clamp(inside, 0.25, (1.0 / 3.0) * (1.0 + SLACK));
 }
 
-double height_of(const BySide& up, const BySide& down) {
-    return 0.5 * std::max(largest_on_simplex(up[0], up[1], up[2]),
-                          largest_on_simplex(down[0], down[1], down[2]));
+double slope_of(const BySide& part, const TriangleFrame& frame) {
+    double slope = 0.0;
+    for (std::size_t k = 0; k < 3; ++k) {  // at corner k + 1, between sides k and k + 1
+        const Point2 a = frame.sides[k], b = frame.sides[(k + 1) % 3];
+        const double cosine = std::sqrt(std::max(0.0, 0.5 * (1.0 - dot(a, b)) - 4.0 * frame.tilt));
+        const double most = std::max(part[k], part[(k + 1) % 3]);
+        slope = std::max(slope, cosine > 0.0 ? most / cosine : intervals::INFINITE);
+    }
+    slope *= 1.0 + 0x1p-20;  // of lengths and cosines that are less exact
+    return slope <= intervals::INFINITE ? slope : intervals::INFINITE;
 }
-
-/// |r''(e, e)|, on the safe side.
-double size_along(const SideBends& bends, std::size_t e, const TriangleFrame& frame) {
-    const double x = bends.by_axis[0][e], y = bends.by_axis[1][e], z = bends.by_axis[2][e];
-    return std::sqrt(x * x + y * y + z * z) *
-           (1.0 + 4.0 * std::min(frame.tilt, TILTED) + SIDE_ROUNDING);
-}
-
-}  // namespace
 
 PieceSize size_from(const SideBends& bends, const TriangleFrame& frame) {
     BySide size{}, up{}, down{};
@@ -50,7 +97,9 @@ PieceSize size_from(const SideBends& bends, const TriangleFrame& frame) {
         up[e] = bends.up[e] + tilted;
         down[e] = bends.down[e] + tilted;
     }
-    return {height_of(up, down), 0.5 * largest_on_simplex(size[0], size[1], size[2])};
+    const double height = height_of(up, down);
+    return {height, whole_from(size, within_plane(bends, size, frame), height),
+            slope_from(bends, size, frame)};
 }
 
 TriangleBounds bounds_from(const SideBends& bends, const TriangleFrame& frame, double corner) {
@@ -72,7 +121,8 @@ TriangleBounds bounds_from(const SideBends& bends, const TriangleFrame& frame, d
     }
     TriangleBounds found{};
     found.height = height_of(up, down);
-    found.whole = 0.5 * largest_on_simplex(size[0], size[1], size[2]);
+    found.whole = whole_from(size, within_plane(bends, size, frame), found.height);
+    found.slope = slope_from(bends, size, frame);
     found.shift = 0.5 * std::max({size[0], size[1], size[2]});
     found.bend = 0.5 * std::max({normal[0], normal[1], normal[2]});
     found.corner = corner;
@@ -119,6 +169,7 @@ TriangleFrame frame_of(const SpaceCorners& p, double corner, RimSides rims) {
         const double size = norm(side);
         frame.sides[k] = {dot(side, frame.axes[0]) / size, dot(side, frame.axes[1]) / size};
         frame.heights[k] = area / size * (1.0 - 4.0 * frame.tilt);
+        frame.lengths[k] = size;
     }
     return frame;
 }

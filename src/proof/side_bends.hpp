@@ -17,7 +17,7 @@ namespace surfmesh {
 struct TriangleFrame {
     Directions axes;
     std::array<Point2, 3> sides;  // directions of the sides in the first two axes, unit
-    std::array<double, 3> heights;
+    std::array<double, 3> heights, lengths;
     double tilt;  // by how much the axes may be wrong
 };
 
@@ -30,13 +30,27 @@ using BySide = std::array<double, 3>;
 struct SideBends {
     std::array<BySide, 3> by_axis{};  // [axis][side]
     BySide up{-intervals::INFINITE, -intervals::INFINITE, -intervals::INFINITE}, down = up;
+    // of d . (r''(e, e) - r''(f, f)) for the two sides other than k: [axis][k]
+    std::array<BySide, 3> differ{};
 };
 
-/// How high and how far a piece is at most from a triangle.
+/// The largest of l_0 l_1 a + l_1 l_2 b + l_2 l_0 c over the simplex; never less than 0.
+///
+/// Inside it is a b c / D with D = 2 (ab + bc + ca) - (a^2 + b^2 + c^2) where each number is less
+/// than the sum of the others; else on the side of the largest, a quarter of that. A number below 0
+/// is the curvature along its side, upwards: there is no largest value inside then.
+double largest_on_simplex(double a, double b, double c);
+
+/// How high and how far a piece is at most from a triangle, point by point, and how fast that
+/// changes.
 struct PieceSize {
-    double height, whole;
+    double height, whole, slope;
 };
 PieceSize size_from(const SideBends& bends, const TriangleFrame& frame);
+
+/// From the largest |(r' - L')(e)| / |e| for the sides e to unit w: between the directions of two
+/// sides at an angle A it is at most the larger part over cos(A / 2).
+double slope_of(const BySide& part, const TriangleFrame& frame);
 
 /// Infinite bounds, where nothing is known, make what they bound infinite.
 TriangleBounds bounds_from(const SideBends& bends, const TriangleFrame& frame, double corner);
@@ -45,6 +59,8 @@ TriangleBounds bounds_from(const SideBends& bends, const TriangleFrame& frame, d
 inline TriangleBounds lower_of(const TriangleBounds& a, const TriangleBounds& b) {
     TriangleBounds found = b.cell_whole < a.cell_whole ? b : a;
     found.height = std::min(a.height, b.height);
+    found.whole = std::min(a.whole, b.whole);
+    found.slope = std::min(a.slope, b.slope);
     return found;
 }
 

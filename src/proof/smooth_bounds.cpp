@@ -5,16 +5,17 @@
 #include <cmath>
 #include <cstdint>
 
-#include "proof/corner_bends.hpp"
+#include "proof/cell_bounds.hpp"
 #include "surfaces/outward.hpp"
 
 namespace surfmesh {
 namespace {
 
 constexpr double SMOOTH_ROUNDING = 0x1p-46;   // relative, more than that of any short sum here
-constexpr std::int32_t SMOOTH_TOGETHER = 32;  // triangles over one cell, at first
+constexpr std::int32_t SMOOTH_TOGETHER = 12;  // triangles over one cell, at first
 constexpr double LITTLE = 0.04;               // of the height: rho that is good enough
 constexpr double LITTLE_OF_LIMIT = 0.005;
+constexpr std::size_t PLACES = 6;  // along a side, where |r - L| is looked at
 constexpr double WORTH =
     1.5;  // how much less fourth derivatives are over one triangle: else no cuts
 
@@ -31,6 +32,7 @@ constexpr TriangleBounds UNKNOWN = {.height = NONE,
                                     .along = {NONE, NONE, NONE},
                                     .others = {NONE, NONE, NONE},
                                     .bend = NONE,
+                                    .slope = NONE,
                                     .cell_height = NONE,
                                     .cell_whole = NONE};
 
@@ -70,102 +72,39 @@ class Places {
     Array<Point2> all_;
 };
 
-/// r''(e, e) of one triangle's sides at its corners: by axis, side and corner; and their errors.
-struct CornerBends {
-    std::array<std::array<BySide, 3>, 3> value;
-    BySide error;  // by side
-};
-
-CornerBends corner_bends(const std::array<const SecondJet*, 3>& jets, const PlaneCorners& uv,
-                         const Directions& axes) {
-    const SideWeights weight = weights_of(uv);
-    CornerBends found{};
-    for (std::size_t m = 0; m < 3; ++m)
+/// Of the pieces of a group, all of which lie in the domain.
+ParameterBox hull_of(std::span<const std::int32_t> group, const ProofRequest& asked,
+                     const ParameterBox& domain) {
+    ParameterBox box{asked.uv[group[0]][0], asked.uv[group[0]][0]};
+    const auto take = [&box](Point2 p) {
+        box.low = {std::min(box.low.x, p.x), std::min(box.low.y, p.y)};
+        box.high = {std::max(box.high.x, p.x), std::max(box.high.y, p.y)};
+    };
+    for (const std::int32_t t : group) {
+        const PlanePiece piece = asked.piece(static_cast<std::size_t>(t));
+        for (const Point2 p : piece.uv) take(p);
+        if (piece.is_straight()) continue;
         for (std::size_t k = 0; k < 3; ++k) {
-            const auto [bend, error] = bend_of(*jets[m], weight[k]);
-            for (std::size_t d = 0; d < 3; ++d) found.value[d][k][m] = dot(axes[d], bend);
-            found.error[k] = std::max(found.error[k], error * (1.0 + SMOOTH_ROUNDING));
+            const Point2 p = piece.control(k);
+            const Point2 off = {0x1p-48 * std::abs(p.x), 0x1p-48 * std::abs(p.y)};
+            const Point2 low = p - off, high = p + off;
+            take({std::max(low.x, domain.low.x), std::max(low.y, domain.low.y)});
+            take({std::min(high.x, domain.high.x), std::min(high.y, domain.high.y)});
         }
-    return found;
-}
-
-constexpr BySide UNKNOWN_SIDES = {NONE, NONE, NONE};
-constexpr FourthParts UNKNOWN_PARTS = {UNKNOWN_SIDES, UNKNOWN_SIDES, UNKNOWN_SIDES};
-
-/// rho of each side along each axis.
-FourthParts fourth_parts(const FourthMagnitudes& most, const PlaneCorners& uv,
-                         const Directions& axes) {
-    std::array<Point2, 3> e;
-    for (std::size_t k = 0; k < 3; ++k) e[k] = uv[(k + 1) % 3] - uv[k];
-    FourthParts found{};
-    for (std::size_t k = 0; k < 3; ++k)
-        for (std::size_t l = k; l < 3; ++l) {
-            const auto [a, b] = e[k];
-            const auto [c, d] = e[l];
-            const double both = b * c + a * d;
-            const std::array<double, 5> weight = {
-                a * a * c * c, std::abs(2.0 * a * c * both),
-                a * a * d * d + b * b * c * c + 4.0 * std::abs(a * b * c * d),
-                std::abs(2.0 * b * d * both), b * b * d * d};
-            Point3 size{0.0, 0.0, 0.0};
-            for (std::size_t n = 0; n < 5; ++n)
-                if (weight[n] > 0.0) size = size + weight[n] * most[n];
-            if (!(size.x + size.y + size.z < NONE)) return UNKNOWN_PARTS;
-            for (std::size_t axis = 0; axis < 3; ++axis) {
-                const Point3& x = axes[axis];
-                const double along =
-                    (std::abs(x.x) * size.x + std::abs(x.y) * size.y + std::abs(x.z) * size.z) *
-                    ((1.0 + SMOOTH_ROUNDING) / 6.0);
-                found[axis][k] = std::max(found[axis][k], along);
-                found[axis][l] = std::max(found[axis][l], along);
-            }
-        }
-    return found;
-}
-
-/// What bounds_from wants: averaged as the integrals are, or the suprema over the triangle.
-SideBends side_bends(const CornerBends& corner, const FourthParts& rho, bool averaged) {
-    SideBends found;
-    for (std::size_t d = 0; d < 3; ++d)
-        for (std::size_t k = 0; k < 3; ++k) {
-            const BySide& g = corner.value[d][k];
-            const double a = g[k], b = g[(k + 1) % 3], c = g[(k + 2) % 3];
-            constexpr double THIRD = 1.0 / 3.0;
-            const BySide values =
-                averaged ? BySide{THIRD * (2.0 * a + b), THIRD * (a + 2.0 * b), THIRD * (a + b + c)}
-                         : g;
-            const double more = rho[d][k] + corner.error[k];
-            const double up = std::max({values[0], values[1], values[2]}) + more;
-            const double down = more - std::min({values[0], values[1], values[2]});
-            found.by_axis[d][k] = std::max(up, down);
-            if (d == 2) {
-                found.up[k] = up;
-                found.down[k] = down;
-            }
-        }
-    return found;
-}
-
-ParameterBox hull_of(std::span<const std::int32_t> group, std::span<const PlaneCorners> uv) {
-    ParameterBox box{uv[group[0]][0], uv[group[0]][0]};
-    for (const std::int32_t t : group)
-        for (const Point2 p : uv[t]) {
-            box.low = {std::min(box.low.x, p.x), std::min(box.low.y, p.y)};
-            box.high = {std::max(box.high.x, p.x), std::max(box.high.y, p.y)};
-        }
+    }
     return box;
 }
 
 class SmoothBounds {
   public:
-    SmoothBounds(const FourthDerivatives& surface, const ProofRequest& asked,
-                 std::span<TriangleBounds> out, std::span<FourthParts> rho,
-                 std::span<std::uint8_t> is_good)
+    SmoothBounds(const FourthDerivatives& surface, const ParameterBox& domain,
+                 const ProofRequest& asked, std::span<TriangleBounds> out,
+                 std::span<FourthParts> rho)
         : surface_(surface),
+          domain_(domain),
           asked_(asked),
           out_(out),
           rho_(rho),
-          is_good_(is_good),
           places_(asked.uv),
           jets_(places_.all().size()),
           is_known_(jets_.size()),
@@ -183,13 +122,13 @@ class SmoothBounds {
     [[nodiscard]] std::array<Group, 2> halves_of(Group group) const;
     void divide(Group group);
     /// False: rho is too large, or nothing is known.
-    bool look_at(std::int32_t t, const FourthMagnitudes& most);
+    bool look_at(std::int32_t t, const HighMagnitudes& most);
 
     const FourthDerivatives& surface_;
+    ParameterBox domain_;
     ProofRequest asked_;
     std::span<TriangleBounds> out_;
     std::span<FourthParts> rho_;
-    std::span<std::uint8_t> is_good_;
     Places places_;
     Array<SecondJet> jets_;
     Array<std::uint8_t> is_known_;
@@ -202,7 +141,6 @@ class SmoothBounds {
 void SmoothBounds::prepare() {
     for (std::size_t t = 0; t < asked_.uv.size(); ++t) {
         order_[t] = static_cast<std::int32_t>(t);
-        is_good_[t] = 0;
         double off = 0.0;
         for (std::size_t k = 0; k < 3 && asked_.corners_are_on_surface; ++k) {
             const auto& [value, error] = jets_[places_.at(t, k)][0];
@@ -220,7 +158,7 @@ void SmoothBounds::prepare() {
 }
 
 std::array<SmoothBounds::Group, 2> SmoothBounds::halves_of(Group group) const {
-    const ParameterBox box = hull_of(group, asked_.uv);
+    const ParameterBox box = hull_of(group, asked_, domain_);
     // sides in (u, v) are compared as the triangles lie in space
     double along_u = 0.0, along_v = 0.0;
     for (const Point2 p : asked_.uv[group[0]]) {
@@ -250,7 +188,7 @@ void SmoothBounds::divide(Group group) {
     for (const Group half : halves_of(group)) divide(half);
 }
 
-bool SmoothBounds::look_at(std::int32_t t, const FourthMagnitudes& most) {
+bool SmoothBounds::look_at(std::int32_t t, const HighMagnitudes& most) {
     std::array<const SecondJet*, 3> jets{};
     for (std::size_t k = 0; k < 3; ++k) {
         const std::int32_t place = places_.at(static_cast<std::size_t>(t), k);
@@ -258,27 +196,40 @@ bool SmoothBounds::look_at(std::int32_t t, const FourthMagnitudes& most) {
         jets[k] = &jets_[place];
     }
     const TriangleFrame& frame = frames_[t];
-    const FourthParts rho = fourth_parts(most, asked_.uv[t], frame.axes);
+    const PlanePiece piece = asked_.piece(static_cast<std::size_t>(t));
+    const FourthParts rho = fourth_parts(most, piece, frame.axes);
     if (!(rho[0][0] < NONE)) return false;
-    const CornerBends corner = corner_bends(jets, asked_.uv[t], frame.axes);
-    TriangleBounds found = bounds_from(side_bends(corner, rho, true), frame, off_[t]);
+    std::array<PlaceJet, 3> places;
+    const std::array<EnclosedPoint, 3> own = {(*jets[0])[0], (*jets[1])[0], (*jets[2])[0]};
+    for (std::size_t k = 0; k < 3; ++k)
+        places[k] = place_jet(*jets[k], piece, AT_CORNERS[k], frame.axes, own,
+                              asked_.curve(static_cast<std::size_t>(t)));
+    TriangleBounds found =
+        bounds_from(averaged_bends({&places[0], &places[1], &places[2]}, rho), frame, off_[t]);
     if (!(found.whole < intervals::INFINITE)) return false;
-    const auto [height, whole] = size_from(side_bends(corner, rho, false), frame);
+    const double limit = asked_.limits[t] - off_[t];
+    // as rows of the grid are: corner 0, corner 2, corner 1
+    const std::array<PlaceJet, 3> rows = {places[0], places[2], places[1]};
+    const auto [bends, whole, steepest] =
+        bounds_of_cells(rows, 1, rho, frame, found.whole <= limit ? 1 : PLACES);
+    const auto [height, cell_whole, slope] = size_from(bends, frame);
     found.cell_height = height;
-    found.cell_whole = whole;
+    found.cell_whole = cell_whole;
+    found.slope = std::min(slope, steepest);
+    found.whole = std::min(found.whole, whole);
     const double part = std::max({rho[2][0], rho[2][1], rho[2][2]}) / 6.0;
     const double least = std::max(LITTLE * found.height, LITTLE_OF_LIMIT * asked_.limits[t]);
     if (rho[2][0] + rho[2][1] + rho[2][2] < rho_[t][2][0] + rho_[t][2][1] + rho_[t][2][2]) {
         out_[t] = found;
         rho_[t] = rho;
     }
-    if (part <= least) is_good_[t] = 1;
-    return part <= least;
+    return part <= least || (found.whole <= limit && found.slope <= asked_.slope);
 }
 
 /// Could smaller cells show less? They do for one of a group's triangles, if so.
-bool is_worth(const FourthMagnitudes& all, const FourthMagnitudes& one) {
-    for (std::size_t n = 0; n < all.size(); ++n) {
+bool is_worth(const HighMagnitudes& all, const HighMagnitudes& one) {
+    constexpr std::size_t FOURTH = 7;
+    for (std::size_t n = FOURTH; n < all.size(); ++n) {
         const double a = all[n].x + all[n].y + all[n].z, b = one[n].x + one[n].y + one[n].z;
         if (!(a <= WORTH * b)) return b < NONE;
     }
@@ -291,25 +242,22 @@ SurfaceStatus SmoothBounds::run() {
     prepare();
     divide({order_.data(), order_.size()});
     Array<ParameterBox> cells;
-    Array<FourthMagnitudes> most;
+    Array<HighMagnitudes> most;
     while (!groups_.empty()) {
         cells.clear();
         for (const Group group : groups_) {
-            cells.push_back(hull_of(group, asked_.uv));
-            cells.push_back(hull_of(group.subspan(group.size() / 2, 1), asked_.uv));
+            cells.push_back(hull_of(group, asked_, domain_));
+            cells.push_back(hull_of(group.subspan(group.size() / 2, 1), asked_, domain_));
         }
         most.resize(cells.size());
-        status =
-            surface_.fourth_magnitudes({cells.data(), cells.size()}, {most.data(), most.size()});
+        status = surface_.high_magnitudes({cells.data(), cells.size()}, {most.data(), most.size()});
         if (status != SurfaceStatus::DONE) return status;
         const Array<Group> groups = std::move(groups_);
         groups_ = Array<Group>();
         for (std::size_t k = 0; k < groups.size(); ++k) {
             const auto row = static_cast<std::ptrdiff_t>(2 * k);
             const Group group = groups[row / 2];
-            const std::int32_t middle = group[group.size() / 2];
-            const bool worth = group.size() > 1 && is_worth(most[row], most[row + 1]) &&
-                               look_at(middle, most[row + 1]);
+            const bool worth = group.size() > 1 && is_worth(most[row], most[row + 1]);
             const auto bad = std::partition(group.begin(), group.end(),
                                             [&](std::int32_t t) { return look_at(t, most[row]); });
             const Group rest(bad, group.end());
@@ -326,10 +274,10 @@ SurfaceStatus SmoothBounds::run() {
 
 }  // namespace
 
-SurfaceStatus smooth_bounds(const FourthDerivatives& surface, const ProofRequest& asked,
-                            std::span<TriangleBounds> out, std::span<FourthParts> rho,
-                            std::span<std::uint8_t> is_good) {
-    return SmoothBounds(surface, asked, out, rho, is_good).run();
+SurfaceStatus smooth_bounds(const FourthDerivatives& surface, const ParameterBox& domain,
+                            const ProofRequest& asked, std::span<TriangleBounds> out,
+                            std::span<FourthParts> rho) {
+    return SmoothBounds(surface, domain, asked, out, rho).run();
 }
 
 }  // namespace surfmesh

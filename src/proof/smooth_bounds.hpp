@@ -1,6 +1,6 @@
 // Bounds of triangles where the surface is smooth, by what it does at their corners.
 //
-// With f = d . r, x in the triangle and g_ij = d . r''(e_ij, e_ij), r - L is exactly
+// Of a bent piece r is r(psi) here (plane_piece.hpp). With f = d . r, x in the triangle and g_ij = d . r''(e_ij, e_ij), r - L is exactly
 //
 //     d . (L - r)(x) = sum_{i<j} l_i l_j  int int g_ij(x + s ((1 - t) u_i + t u_j - x)) s ds dt
 //
@@ -21,18 +21,16 @@
 
 #include <span>
 
-#include "proof/side_bends.hpp"
+#include "proof/fourth_parts.hpp"
 #include "surfaces/fourth_derivatives.hpp"
 #include "values/array.hpp"
 
 namespace surfmesh {
 
-/// rho of a triangle's sides along its axes: [axis][side].
-using FourthParts = std::array<BySide, 3>;
-
-/// Bounds into ``out``, rho into ``rho``; is_good (m,): 1 where that is a small part of them.
-SurfaceStatus smooth_bounds(const FourthDerivatives& surface, const ProofRequest& asked,
-                            std::span<TriangleBounds> out, std::span<FourthParts> rho,
-                            std::span<std::uint8_t> is_good);
+/// Bounds into ``out``, rho into ``rho``: over cells so small that |r - L| is within its limit, or rho
+/// a small part of the height, where that helps.
+SurfaceStatus smooth_bounds(const FourthDerivatives& surface, const ParameterBox& domain,
+                            const ProofRequest& asked, std::span<TriangleBounds> out,
+                            std::span<FourthParts> rho);
 
 }  // namespace surfmesh

@@ -14,31 +14,42 @@ namespace {
 constexpr std::size_t BLOCK = 1024;         // triangles looked at together
 constexpr double BOUND_ROUNDING = 0x1p-47;  // relative, more than that of any short sum here
 
+/// Of uu r_uu + uv r_uv + vv r_vv along a direction: how far up and down it may go.
+struct UpAndDown {
+    double up, down;
+
+    [[nodiscard]] double most() const { return std::max(up, down); }
+};
+
+UpAndDown weighted(const Bends& bends, std::size_t d, double uu, double uv, double vv) {
+    const auto term = [](double factor, Interval x) {
+        if (factor == 0.0) return Interval{0.0, 0.0};
+        return factor > 0.0 ? Interval{factor * x.lo, factor * x.hi}
+                            : Interval{factor * x.hi, factor * x.lo};
+    };
+    const Interval a = term(uu, bends.uu[d]), b = term(uv, bends.uv[d]), c = term(vv, bends.vv[d]);
+    const double size = outward::magnitude(a) + outward::magnitude(b) + outward::magnitude(c);
+    if (!(size < intervals::INFINITE)) return {intervals::INFINITE, intervals::INFINITE};
+    const double off = BOUND_ROUNDING * size;
+    return {a.hi + b.hi + c.hi + off, off - (a.lo + b.lo + c.lo)};
+}
+
 void join(SideBends& all, const Bends& bends, const PlaneCorners& uv) {
+    std::array<std::array<double, 3>, 3> weight{};
     for (std::size_t k = 0; k < 3; ++k) {
         const Point2 e = uv[(k + 1) % 3] - uv[k];
-        const double uu = e.x * e.x, both = 2.0 * e.x * e.y, vv = e.y * e.y;
+        weight[k] = {e.x * e.x, 2.0 * e.x * e.y, e.y * e.y};
+    }
+    for (std::size_t k = 0; k < 3; ++k) {
+        const auto &own = weight[k], &a = weight[(k + 1) % 3], &b = weight[(k + 2) % 3];
         for (std::size_t d = 0; d < 3; ++d) {
-            const auto term = [](double factor, Interval x) {
-                if (factor == 0.0) return Interval{0.0, 0.0};
-                return factor > 0.0 ? Interval{factor * x.lo, factor * x.hi}
-                                    : Interval{factor * x.hi, factor * x.lo};
-            };
-            const Interval a = term(uu, bends.uu[d]), b = term(both, bends.uv[d]),
-                           c = term(vv, bends.vv[d]);
-            const double size =
-                outward::magnitude(a) + outward::magnitude(b) + outward::magnitude(c);
-            const double most =
-                std::max(std::abs(a.lo + b.lo + c.lo), std::abs(a.hi + b.hi + c.hi));
-            // nan where infinities meet
-            const double found =
-                most <= intervals::INFINITE ? most + BOUND_ROUNDING * size : intervals::INFINITE;
-            all.by_axis[d][k] = std::max(all.by_axis[d][k], found);
+            const UpAndDown found = weighted(bends, d, own[0], own[1], own[2]);
+            const double differ = weighted(bends, d, a[0] - b[0], a[1] - b[1], a[2] - b[2]).most();
+            all.by_axis[d][k] = std::max(all.by_axis[d][k], found.most());
+            all.differ[d][k] = std::max(all.differ[d][k], differ);
             if (d < 2) continue;
-            const double up = a.hi + b.hi + c.hi, down = -(a.lo + b.lo + c.lo);
-            const bool known = found < intervals::INFINITE;
-            all.up[k] = std::max(all.up[k], known ? up + BOUND_ROUNDING * size : found);
-            all.down[k] = std::max(all.down[k], known ? down + BOUND_ROUNDING * size : found);
+            all.up[k] = std::max(all.up[k], found.up);
+            all.down[k] = std::max(all.down[k], found.down);
         }
     }
 }
@@ -103,7 +114,8 @@ struct Block {
 };
 
 /// Neighbours add a little to the height.
-bool is_within(const TriangleBounds& bounds, RimSides rims, double limit) {
+bool is_within(const TriangleBounds& bounds, RimSides rims, double limit, double slope) {
+    if (!(bounds.slope <= slope)) return false;
     constexpr double FOR_NEIGHBOURS = 0.99;
     for (std::size_t k = 0; k < 3; ++k)
         if ((rims >> k & 1) != 0 && !(bounds.rim[k] <= limit)) return false;
@@ -129,7 +141,7 @@ SurfaceStatus corner_errors(const Surface& surface, std::span<const SpaceCorners
 
 SurfaceStatus bounds_of_block(const Surface& surface, const ProofRequest& asked, int depth,
                               std::span<TriangleBounds> out) {
-    const auto& [corners, uv, limits, rims, on_surface] = asked;
+    const auto& [corners, uv, bends, limits, rims, on_surface, slope, curved] = asked;
     const std::size_t count = corners.size();
     Array<double> off(count, 0.0);
     if (on_surface)
@@ -154,7 +166,7 @@ SurfaceStatus bounds_of_block(const Surface& surface, const ProofRequest& asked,
             out[t].height = std::min(out[t].height, height);
             // a kink on a line of the cut would be missed: what has no bound at first has none
             if (level < depth && out[t].whole < intervals::INFINITE &&
-                !is_within(out[t], rims[t], limits[t] - off[t]))
+                !is_within(out[t], rims[t], limits[t] - off[t], slope))
                 open.push_back(t);
         }
         if (level == 0 && on_surface)
@@ -183,25 +195,39 @@ SurfaceStatus bounds_by_cells(const Surface& surface, const ProofRequest& asked,
     return SurfaceStatus::DONE;
 }
 
+/// Some triangles of those that are asked for.
+struct SomeTriangles {
+    Array<SpaceCorners> corners;
+    Array<PlaneCorners> uv;
+    Array<PlaneBends> bends;
+    Array<double> limits;
+    Array<RimSides> rims;
+
+    SomeTriangles(const ProofRequest& asked, const Array<std::int32_t>& which) {
+        for (const std::int32_t number : which) {
+            const auto t = static_cast<std::size_t>(number);
+            corners.push_back(asked.corners[t]);
+            uv.push_back(asked.uv[t]);
+            bends.push_back(asked.bends[t]);
+            limits.push_back(asked.limits[t]);
+            rims.push_back(asked.rims[t]);
+        }
+    }
+    [[nodiscard]] ProofRequest request(const ProofRequest& asked) const {
+        const auto all = [](const auto& array) { return std::span(array.data(), array.size()); };
+        return {all(corners), all(uv),   all(bends),
+                all(limits),  all(rims), asked.corners_are_on_surface,
+                asked.slope,  {}};
+    }
+};
+
 /// Bounds by cells of ``which`` triangles, where they are lower.
 SurfaceStatus bounds_of_some(const Surface& surface, const ProofRequest& asked, int depth,
                              const Array<std::int32_t>& which, std::span<TriangleBounds> out) {
-    Array<SpaceCorners> corners;
-    Array<PlaneCorners> uv;
-    Array<double> limits;
-    Array<RimSides> rims;
-    for (const std::int32_t number : which) {
-        const auto t = static_cast<std::size_t>(number);
-        corners.push_back(asked.corners[t]);
-        uv.push_back(asked.uv[t]);
-        limits.push_back(asked.limits[t]);
-        rims.push_back(asked.rims[t]);
-    }
-    const auto all = [](const auto& array) { return std::span(array.data(), array.size()); };
+    const SomeTriangles some(asked, which);
     Array<TriangleBounds> found(which.size());
-    const auto status = bounds_by_cells(
-        surface, {all(corners), all(uv), all(limits), all(rims), asked.corners_are_on_surface},
-        depth, all(found));
+    const auto status =
+        bounds_by_cells(surface, some.request(asked), depth, {found.data(), found.size()});
     if (status != SurfaceStatus::DONE) return status;
     for (std::size_t k = 0; k < which.size(); ++k) {
         const auto row = static_cast<std::ptrdiff_t>(k);
@@ -219,38 +245,40 @@ bool is_vague(const TriangleBounds& bounds, const FourthParts& rho) {
     return most / 6.0 * FINEST > LARGE * bounds.cell_whole;
 }
 
-/// By corners and fourth derivatives; by a grid of points where they say too little, and by cells
-/// where they say nothing.
+/// Point by point or by height.
+bool is_near(const TriangleBounds& bounds, const ProofRequest& asked, std::size_t t) {
+    const double limit = asked.limits[t] - bounds.corner;
+    if (bounds.whole <= limit) return bounds.slope <= asked.slope;
+    return asked.curved.empty() && is_within(bounds, asked.rims[t], limit, asked.slope);
+}
+
+/// By corners and fourth derivatives; by a grid of points where they say too little, and by cells,
+/// of straight pieces, where they say nothing.
 SurfaceStatus bounds_of_smooth(const Surface& surface, const FourthDerivatives& fourth,
                                const ProofRequest& asked, int depth,
                                std::span<TriangleBounds> out) {
-    constexpr double STAYS =
-        0.5;  // of the least height: else ring_bounds.hpp may need a closer look
-    Array<std::uint8_t> is_good(out.size());
     Array<FourthParts> rho(out.size());
-    auto status = smooth_bounds(fourth, asked, out, {rho.data(), rho.size()},
-                                {is_good.data(), is_good.size()});
+    auto status = smooth_bounds(fourth, surface.domain(), asked, out, {rho.data(), rho.size()});
+    if (status == SurfaceStatus::UNKNOWN && !asked.curved.empty()) return status;
     if (status == SurfaceStatus::UNKNOWN) return bounds_by_cells(surface, asked, depth, out);
     if (status != SurfaceStatus::DONE) return status;
     Array<std::int32_t> open, unknown;
     for (std::size_t t = 0; t < out.size(); ++t) {
-        if (is_good[static_cast<std::ptrdiff_t>(t)] != 0) continue;
         const auto number = static_cast<std::int32_t>(t);
-        if (!(out[t].whole < intervals::INFINITE)) {
+        if (!(out[t].whole < intervals::INFINITE))
             unknown.push_back(number);
-            continue;
-        }
-        const TriangleFrame frame = frame_of(asked.corners[t], out[t].corner, asked.rims[t]);
-        const double least = std::min({frame.heights[0], frame.heights[1], frame.heights[2]});
-        if (out[t].shift > STAYS * least ||
-            !is_within(out[t], asked.rims[t], asked.limits[t] - out[t].corner))
+        else if (!is_near(out[t], asked, t))
             open.push_back(number);
     }
     status = lower_by_grid(fourth, asked, {rho.data(), rho.size()}, open, out);
     if (status != SurfaceStatus::DONE) return status;
     for (const std::int32_t t : open)
         if (is_vague(out[static_cast<std::size_t>(t)], rho[t])) unknown.push_back(t);
-    return bounds_of_some(surface, asked, depth, unknown, out);
+    if (!asked.curved.empty()) return status;
+    Array<std::int32_t> straight;
+    for (const std::int32_t t : unknown)
+        if (asked.piece(static_cast<std::size_t>(t)).is_straight()) straight.push_back(t);
+    return bounds_of_some(surface, asked, depth, straight, out);
 }
 
 }  // namespace
@@ -258,6 +286,7 @@ SurfaceStatus bounds_of_smooth(const Surface& surface, const FourthDerivatives& 
 SurfaceStatus triangle_bounds(const Surface& surface, const ProofRequest& asked, int depth,
                               std::span<TriangleBounds> out) {
     const auto* fourth = dynamic_cast<const FourthDerivatives*>(&surface);
+    if (fourth == nullptr && !asked.curved.empty()) return SurfaceStatus::UNKNOWN;
     if (fourth == nullptr) return bounds_by_cells(surface, asked, depth, out);
     constexpr std::size_t AT_ONCE = 1 << 16;  // triangles whose corners are kept
     for (std::size_t start = 0; start < out.size(); start += AT_ONCE) {

@@ -23,6 +23,7 @@ namespace surfmesh {
 struct ProofMesh {
     std::span<const SpaceCorners> corners;
     std::span<const PlaneCorners> uv;
+    std::span<const PlaneBends> bends;
     std::span<const std::int32_t> vertices, twins;
     std::span<const TriangleBounds> bounds;
 };

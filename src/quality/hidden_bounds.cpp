@@ -7,7 +7,8 @@
 namespace surfmesh {
 namespace {
 
-constexpr std::size_t HIDDEN_BLOCK = 1024;  // triangles looked at together
+constexpr std::size_t HIDDEN_BLOCK = 1024;                    // triangles looked at together
+constexpr std::size_t LARGEST_GROUP = 8, SMALLEST_GROUP = 2;  // of triangles, over one box
 constexpr std::size_t BOUNDS = 1 + BOUNDED_DERIVATIVES;
 constexpr std::size_t UU = 3;  // of the bounds of a cell: r_uu, r_uv, r_vv from there
 
@@ -33,6 +34,11 @@ ParameterBox box_of(const ParameterTriangle& t) {
     return {
         {std::min(std::min(t[0].x, t[1].x), t[2].x), std::min(std::min(t[0].y, t[1].y), t[2].y)},
         {std::max(std::max(t[0].x, t[1].x), t[2].x), std::max(std::max(t[0].y, t[1].y), t[2].y)}};
+}
+
+ParameterBox around(const ParameterBox& a, const ParameterBox& b) {
+    return {{std::min(a.low.x, b.low.x), std::min(a.low.y, b.low.y)},
+            {std::max(a.high.x, b.high.x), std::max(a.high.y, b.high.y)}};
 }
 
 /// A triangle cut in four by the middles of its sides.
@@ -66,11 +72,12 @@ class Search {
     }
 
     HiddenBounds run(int levels) {
+        const Array<Part> left = left_by_groups();
         Array<Part> parts;
-        for (std::size_t k = 0; k < triangles_.uv.size(); ++k)
-            parts.push_back({static_cast<std::int32_t>(k), triangles_.uv[k]});
-        in_blocks(parts, [&](std::span<const Part> some) { at_once(some); });
-        for (int level = 0; level <= levels && !parts.empty(); ++level) {
+        in_blocks(left, [&](std::span<const Part> some) {
+            at_once(some, levels > 0 ? &parts : nullptr);
+        });
+        for (int level = 1; level <= levels && !parts.empty(); ++level) {
             Array<Part> open;
             for (const Part& part : parts)
                 if (is_open(part.triangle)) open.push_back(part);
@@ -88,6 +95,54 @@ class Search {
         return found_.bounded[triangle] == Bounded::IN_PARTS;
     }
 
+    /// Look at triangles that follow each other, as a rule neighbours, over one box around them:
+    /// what it says holds for the box of each. Those that it leaves; groups get smaller where it
+    /// leaves many.
+    Array<Part> left_by_groups() {
+        Array<Part> left;
+        std::size_t group = LARGEST_GROUP;
+        const std::size_t count = triangles_.uv.size();
+        for (std::size_t first = 0; first < count; first += HIDDEN_BLOCK) {
+            const std::size_t end = std::min(first + HIDDEN_BLOCK, count), before = left.size();
+            if (group > 1 && !bound_groups(first, end, group)) group = 1;
+            for (std::size_t k = first; k < end; ++k) {
+                const bool flat =
+                    group > 1 && bends_little(k, box_of(triangles_.uv[k]), (k - first) / group);
+                if (flat)
+                    found_.bounded[k] = Bounded::AT_ONCE;
+                else
+                    left.push_back({static_cast<std::int32_t>(k), triangles_.uv[k]});
+            }
+            if (2 * (left.size() - before) > end - first)
+                group = std::max(group / 2, SMALLEST_GROUP);
+        }
+        return left;
+    }
+
+    /// Bounds over the boxes around groups of triangles.
+    bool bound_groups(std::size_t first, std::size_t end, std::size_t group) {
+        cells_.clear();
+        for (std::size_t k = first; k < end; ++k) {
+            const ParameterBox box = box_of(triangles_.uv[k]);
+            if ((k - first) % group == 0)
+                cells_.push_back(box);
+            else
+                cells_.back() = around(cells_.back(), box);
+        }
+        return bound_cells();
+    }
+
+    /// Bounds over ``cells_``; false where the surface has failed.
+    bool bound_cells() {
+        lower_.resize(BOUNDS * cells_.size());
+        upper_.resize(BOUNDS * cells_.size());
+        if (found_.status == SurfaceStatus::DONE)
+            found_.status = surface_.all_bounds({cells_.data(), cells_.size()},
+                                                {lower_.data(), BOUNDS * cells_.size()},
+                                                {upper_.data(), BOUNDS * cells_.size()});
+        return found_.status == SurfaceStatus::DONE;
+    }
+
     /// Call work(some parts) block after block, with the bounds over their boxes.
     template <class Work>
     void in_blocks(const Array<Part>& parts, const Work& work) {
@@ -96,31 +151,37 @@ class Search {
                                              std::min(HIDDEN_BLOCK, parts.size() - k)};
             cells_.clear();
             for (const Part& part : some) cells_.push_back(box_of(part.uv));
-            lower_.resize(BOUNDS * some.size());
-            upper_.resize(BOUNDS * some.size());
-            if (found_.status == SurfaceStatus::DONE)
-                found_.status = surface_.all_bounds({cells_.data(), cells_.size()},
-                                                    {lower_.data(), lower_.size()},
-                                                    {upper_.data(), upper_.size()});
-            if (found_.status == SurfaceStatus::DONE) work(some);
+            if (bound_cells()) work(some);
         }
     }
 
-    void at_once(std::span<const Part> some) {
+    /// Triangles over their own boxes; those that are left are cut, by the same bounds.
+    void at_once(std::span<const Part> some, Array<Part>* next) {
+        Array<Part> open;
         for (std::size_t i = 0; i < some.size(); ++i) {
-            const std::int32_t k = some[i].triangle;
-            const Point3 n = triangles_.normal[k];
-            const Point2 d = cells_[i].high - cells_[i].low;
-            std::array<double, 3> bends;
-            for (std::size_t j = 0; j < 3; ++j)
-                bends[j] =
-                    largest_along(lower_[BOUNDS * i + UU + j], upper_[BOUNDS * i + UU + j], n);
-            const double height =
-                (d.x * d.x * bends[0] + 2.0 * d.x * d.y * bends[1] + d.y * d.y * bends[2]) / 8.0;
-            found_.bounded[k] = triangles_.seen[k] + 0.25 * height <= triangles_.tolerance[k]
-                                    ? Bounded::AT_ONCE
-                                    : Bounded::IN_PARTS;
+            const bool flat = bends_little(some[i].triangle, cells_[i], i);
+            found_.bounded[some[i].triangle] = flat ? Bounded::AT_ONCE : Bounded::IN_PARTS;
+            if (flat) continue;
+            for (auto* bounds : {&lower_, &upper_})
+                std::copy_n(bounds->begin() + BOUNDS * i, BOUNDS,
+                            bounds->begin() + BOUNDS * open.size());
+            open.push_back(some[i]);
         }
+        if (!open.empty()) interpolated({open.data(), open.size()}, next);
+    }
+
+    /// Is triangle k, whose box this is, within its tolerance by the bounds of a cell around it?
+    [[nodiscard]] bool bends_little(std::size_t k, const ParameterBox& box,
+                                    std::size_t cell) const {
+        const Point3 n = triangles_.normal[k];
+        const Point2 d = box.high - box.low;
+        std::array<double, 3> bends;
+        for (std::size_t j = 0; j < 3; ++j)
+            bends[j] =
+                largest_along(lower_[BOUNDS * cell + UU + j], upper_[BOUNDS * cell + UU + j], n);
+        const double height =
+            (d.x * d.x * bends[0] + 2.0 * d.x * d.y * bends[1] + d.y * d.y * bends[2]) / 8.0;
+        return triangles_.seen[k] + 0.25 * height <= triangles_.tolerance[k];
     }
 
     /// Where parts are not within the tolerance they are cut in four; without ``next`` they fail.

@@ -1,7 +1,9 @@
+#include <nanobind/stl/optional.h>
 #include <nanobind/stl/pair.h>
 #include <nanobind/stl/tuple.h>
 
 #include <algorithm>
+#include <optional>
 #include <string>
 #include <tuple>
 
@@ -9,10 +11,12 @@
 #include "space/box_tree.hpp"
 #include "space/edge_distances.hpp"
 #include "space/edge_table.hpp"
+#include "space/graph_patches.hpp"
 #include "space/measure.hpp"
 #include "space/orient_space.hpp"
 #include "space/triangle_distance.hpp"
 #include "space/triangle_pairs.hpp"
+#include "space/triangle_planes.hpp"
 
 namespace surfmesh::binding {
 
@@ -36,10 +40,18 @@ struct Row<Box3> : RowOf<double, 6> {};
 namespace {
 
 using Triangles = Matrix<std::int32_t, 3>;
+using HalfEdges = Matrix<std::int32_t, 2>;
 using Indices = Vector<std::int64_t>;
 
 void require_corners(const Triangles& triangles, std::size_t points) {
     require_indices(std::span(triangles.data(), triangles.size()), points, "triangles");
+}
+
+void require_patches(const Vector<std::int32_t>& patches, std::size_t triangles) {
+    require_rows(patches.shape(0), triangles, "patches");
+    for (const std::int32_t patch : rows<std::int32_t>(patches))
+        if (patch < NIL || patch >= static_cast<std::int64_t>(triangles))
+            throw nb::value_error("patches has a number that is out of range");
 }
 
 void bind_triangle_pairs(nb::module_& m) {
@@ -58,27 +70,48 @@ void bind_triangle_pairs(nb::module_& m) {
         [](const Points3& corners) {
             require_rows(corners.shape(0), 6, "corners");
             const auto triangles = rows<Point3>(corners);
-            return triangles_meet(KeyedTriangle({triangles[0], triangles[1], triangles[2]}),
-                                  KeyedTriangle({triangles[3], triangles[4], triangles[5]}));
+            return triangles_meet(keyed({triangles[0], triangles[1], triangles[2]}),
+                                  keyed({triangles[3], triangles[4], triangles[5]}));
         },
         nb::arg("corners"),
         "Do two triangles, the rows of (6, 3), finite, meet where they should not?");
     m.def(
-        "meeting_triangles",
-        [](const Points3& points, const Triangles& triangles, std::size_t most) {
+        "graph_patches",
+        [](const Points3& points, const Triangles& triangles, const HalfEdges& half_edges) {
             require_corners(triangles, points.shape(0));
+            Array<std::int32_t> patches;
+            {
+                const nb::gil_scoped_release released;
+                const auto corners = rows<TriangleCorners>(triangles);
+                const Array<HalfEdge> twins =
+                    opposite_half_edges(corners, rows<EdgeTable::Sides>(half_edges));
+                patches =
+                    graph_patches(rows<Point3>(points), corners, {twins.data(), twins.size()});
+            }
+            return view(patches);
+        },
+        nb::arg("points"), nb::arg("triangles"), nb::arg("half_edges"),
+        "The number (m,) of each triangle's patch that cannot meet itself, -1 where none is proved."
+        "\n\npoints (n, 3), finite; triangles (m, 3); half_edges (ne, 2) as of ``edge_table``.");
+    m.def(
+        "meeting_triangles",
+        [](const Points3& points, const Triangles& triangles, std::size_t most,
+           const std::optional<Vector<std::int32_t>>& patches) {
+            require_corners(triangles, points.shape(0));
+            if (patches) require_patches(*patches, triangles.shape(0));
             Array<MeetingTriangles> found;
             {
                 const nb::gil_scoped_release released;
-                found =
-                    meeting_triangles(rows<Point3>(points), rows<TriangleCorners>(triangles), most);
+                found = meeting_triangles(
+                    rows<Point3>(points), rows<TriangleCorners>(triangles),
+                    patches ? rows<std::int32_t>(*patches) : std::span<const std::int32_t>{}, most);
             }
             return view(found);
         },
-        nb::arg("points"), nb::arg("triangles"), nb::arg("most"),
+        nb::arg("points"), nb::arg("triangles"), nb::arg("most"), nb::arg("patches") = nb::none(),
         "Pairs (k, 2) of triangles that meet where they should not, the lower first.\n\npoints "
         "(n, 3), finite; triangles (m, 3). The search ends where there are ``most`` pairs or a few "
-        "more.");
+        "more. patches (m,): those of one number that is not -1 do not meet (``graph_patches``).");
 }
 
 void bind_edge_table(nb::module_& m) {
@@ -98,20 +131,19 @@ void bind_edge_table(nb::module_& m) {
         "(ne,). Half-edge 3 t + k runs from corner k of triangle t.");
 }
 
+void require_offsets(const Indices& offsets, std::size_t last, const char* what) {
+    const auto values = rows<std::int64_t>(offsets);
+    if (values.empty() || values.front() != 0 || values.back() != static_cast<std::int64_t>(last) ||
+        !std::is_sorted(values.begin(), values.end()))
+        throw nb::value_error((std::string(what) + " are no offsets").c_str());
+}
+
 void bind_edge_gaps(nb::module_& m) {
     m.def(
         "edge_gaps",
         [](const Points3& points, const Vector<double>& reach, const Indices& first,
            const Matrix<std::int64_t, 2>& ends, const Indices& edges,
            const Indices& first_of_face) {
-            const auto require_offsets = [](const Indices& offsets, std::size_t last,
-                                            const char* what) {
-                const auto values = rows<std::int64_t>(offsets);
-                if (values.empty() || values.front() != 0 ||
-                    values.back() != static_cast<std::int64_t>(last) ||
-                    !std::is_sorted(values.begin(), values.end()))
-                    throw nb::value_error((std::string(what) + " are no offsets").c_str());
-            };
             require_rows(reach.shape(0), points.shape(0), "reach");
             require_offsets(first, points.shape(0), "first");
             require_rows(ends.shape(0), first.shape(0) - 1, "ends");
@@ -133,9 +165,39 @@ void bind_edge_gaps(nb::module_& m) {
         "those from first[e] to first[e + 1]; reach (n,): farther than this is not looked at, the "
         "distance is infinite. ends (e, 2): vertices; edges, first_of_face: those of each face in "
         "one row.");
+    m.def(
+        "edge_sags",
+        [](const Points3& points, const Indices& first) {
+            require_offsets(first, points.shape(0), "first");
+            Array<double> found;
+            {
+                const nb::gil_scoped_release released;
+                found = sags(rows<Point3>(points), rows<std::int64_t>(first));
+            }
+            return view(found);
+        },
+        nb::arg("points"), nb::arg("first"),
+        "How far (e,) the segments between the samples of each edge lie off its curve, about, at "
+        "most; points (n, 3), of edge e those from first[e] to first[e + 1].");
 }
 
 void bind_shapes(nb::module_& m) {
+    m.def(
+        "triangle_planes",
+        [](const Points3& points, const Triangles& triangles, const Vector<std::int32_t>& chosen) {
+            require_corners(triangles, points.shape(0));
+            require_indices(rows<std::int32_t>(chosen), triangles.shape(0), "chosen");
+            TrianglePlanes found;
+            {
+                const nb::gil_scoped_release released;
+                found = triangle_planes(rows<Point3>(points), rows<TriangleCorners>(triangles),
+                                        rows<std::int32_t>(chosen));
+            }
+            return std::tuple(view(found.normal), view(found.twice_area), view(found.longest));
+        },
+        nb::arg("points"), nb::arg("triangles"), nb::arg("chosen"),
+        "Unit normals (k, 3), twice the areas (k,) and the longest sides (k,) of some triangles, "
+        "rows (k,) of (m, 3). A triangle without area has the normal zero.");
     m.def(
         "triangle_shapes",
         [](const Points3& points, const Triangles& triangles) {

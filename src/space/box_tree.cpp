@@ -1,10 +1,14 @@
 #include "space/box_tree.hpp"
 
 #include <algorithm>
+#include <array>
+#include <bit>
 #include <limits>
 #include <numeric>
 #include <utility>
 #include <vector>
+
+#include "space/triangle_pairs.hpp"
 
 namespace surfmesh {
 namespace {
@@ -22,9 +26,13 @@ std::int64_t spread(std::int64_t x) {
 }
 
 /// A coordinate along the curve as an integer of 20 bits.
-std::int64_t bits_of(double x) {
-    return x > 0.0 ? static_cast<std::int64_t>(std::min(x, 0x1p20 - 1.0)) : 0;
+std::int64_t bits_of(float x) {
+    return x > 0.0F ? static_cast<std::int64_t>(std::min(x, 0x1p20F - 1.0F)) : 0;
 }
+
+struct FramePoint {
+    float x, y, z;
+};
 
 /// Coordinates in the box of the points, from 0 to 2^20 along its longest side. Rounding keeps the
 /// order of any two: boxes with a point in common have one in these coordinates too.
@@ -32,9 +40,10 @@ struct Frame {
     Point3 low;
     double scale;  // 0: no sides, or too long ones; then all is at 0
 
-    Point3 operator()(Point3 p) const {
-        if (scale == 0.0) return {0.0, 0.0, 0.0};
-        return scale * (p - low);
+    FramePoint operator()(Point3 p) const {
+        if (scale == 0.0) return {0.0F, 0.0F, 0.0F};
+        const Point3 q = scale * (p - low) + Point3{0.0, 0.0, 0.0};  // no -0: see ``overlap``
+        return {static_cast<float>(q.x), static_cast<float>(q.y), static_cast<float>(q.z)};
     }
 };
 
@@ -66,42 +75,65 @@ struct Bounds {
             high[k] = std::max(high[k], other.high[k]);
         }
     }
-    void add(Point3 p) {
-        const auto x = static_cast<float>(p.x), y = static_cast<float>(p.y),
-                   z = static_cast<float>(p.z);
-        add({{x, y, z, 0.0F}, {x, y, z, 0.0F}});
-    }
+    void add(FramePoint p) { add({{p.x, p.y, p.z, 0.0F}, {p.x, p.y, p.z, 0.0F}}); }
 };
 
-/// All comparisons, without a branch: which of them decides cannot be foretold.
+/// All comparisons at once, by the signs of differences, of equal ones +0 as none of them is -0:
+/// which comparison decides cannot be foretold.
 bool overlap(const Bounds& a, const Bounds& b) {
-    int apart = 0;
+    std::int32_t signs = 0;
     for (int k = 0; k < 4; ++k)
-        apart |= static_cast<int>(a.low[k] > b.high[k]) | static_cast<int>(b.low[k] > a.high[k]);
-    return apart == 0;
+        signs |= std::bit_cast<std::int32_t>(b.high[k] - a.low[k]) |
+                 std::bit_cast<std::int32_t>(a.high[k] - b.low[k]);
+    return signs >= 0;
 }
 
-/// The triangles in the order of the tree and their boxes, and those around what lies below each
-/// node over them.
-struct BoxTree {
-    Array<std::int32_t> order;  // numbers of the triangles
-    std::vector<KeyedTriangle> triangles;
-    Array<Bounds> boxes;
-    Array<Bounds> nodes;
-    std::size_t leaves = 1;
+/// The triangles of a leaf: from the first to before the last; of one patch, or all of none.
+struct Leaf {
+    std::size_t first, end;
+    std::int32_t patch;
 };
 
+/// A patch of all of several things: ANY of none, NIL where it is not one.
+constexpr std::int32_t ANY = -2;
+std::int32_t common_patch(std::int32_t a, std::int32_t b) {
+    return a == ANY ? b : b == ANY || a == b ? a : NIL;
+}
+
+/// What lies below a node.
+struct Node {
+    Bounds box = Bounds::nothing();
+    std::int32_t patch = ANY;  // of all triangles; NIL: not of one
+};
+
+/// The triangles in the order of the tree and their boxes, and the nodes over them.
+struct BoxTree {
+    Array<std::int32_t> order;  // numbers of the triangles
+    Array<Bounds> boxes;
+    Array<Leaf> leaves;
+    std::vector<Node> nodes;
+    std::size_t first_leaf = 1;  // number of its node; as many leaves have room
+};
+
+Array<FramePoint> in_frame(std::span<const Point3> points) {
+    const Frame frame = frame_around(points);
+    Array<FramePoint> framed;
+    framed.reserve(points.size());
+    for (const Point3 p : points) framed.push_back(frame(p));
+    return framed;
+}
+
 /// Place of each triangle's centroid along the Z-order curve through the box of the points.
-Array<std::int64_t> curve_places(std::span<const Point3> points,
-                                 std::span<const TriangleCorners> triangles, const Frame& frame) {
+Array<std::int64_t> curve_places(const Array<FramePoint>& points,
+                                 std::span<const TriangleCorners> triangles) {
     Array<std::int64_t> places;
     places.reserve(triangles.size());
     for (const TriangleCorners& t : triangles) {
-        const Point3 sum = frame(points[t.a]) + frame(points[t.b]) + frame(points[t.c]);
-        std::int64_t place = 0;
-        int bit = 0;
-        for (const double s : {sum.x, sum.y, sum.z}) place |= spread(bits_of(s / 3.0)) << bit++;
-        places.push_back(place);
+        const FramePoint &a = points[t.a], &b = points[t.b], &c = points[t.c];
+        constexpr float THIRD = 1.0F / 3.0F;
+        places.push_back(spread(bits_of((a.x + b.x + c.x) * THIRD)) |
+                         spread(bits_of((a.y + b.y + c.y) * THIRD)) << 1 |
+                         spread(bits_of((a.z + b.z + c.z) * THIRD)) << 2);
     }
     return places;
 }
@@ -123,47 +155,86 @@ Array<std::int32_t> sorted_numbers(const Array<std::int64_t>& places) {
     return order;
 }
 
-BoxTree tree_over(std::span<const Point3> points, std::span<const TriangleCorners> triangles) {
+/// Gather the triangles of each patch where the first of them is, those of none likewise.
+Array<std::int32_t> patch_by_patch(const Array<std::int32_t>& order,
+                                   std::span<const std::int32_t> patches) {
+    if (patches.empty()) return order;
+    const std::int32_t most = *std::max_element(patches.begin(), patches.end());
+    Array<std::size_t> count(most + 2, 0), next(most + 2, 0);  // of those of none: first
+    for (const std::int32_t patch : patches) ++count[patch + 1];
+    Array<std::int32_t> gathered(order.size());
+    std::size_t first = 0;
+    for (const std::int32_t t : order) {
+        const std::int32_t k = patches[t] + 1;
+        if (count[k] > 0) {
+            next[k] = first;
+            first += count[k];
+            count[k] = 0;
+        }
+        gathered[next[k]++] = t;
+    }
+    return gathered;
+}
+
+/// Leaves over the triangles, none of them across the end of a patch.
+Array<Leaf> leaves_over(const Array<std::int32_t>& order, std::span<const std::int32_t> patches) {
+    const auto patch_of = [&](std::size_t k) { return patches.empty() ? NIL : patches[order[k]]; };
+    Array<Leaf> leaves;
+    for (std::size_t k = 0; k < order.size();) {
+        Leaf leaf{k, k + 1, patch_of(k)};
+        while (leaf.end < std::min(k + LEAF, order.size()) && patch_of(leaf.end) == leaf.patch)
+            ++leaf.end;
+        leaves.push_back(leaf);
+        k = leaf.end;
+    }
+    return leaves;
+}
+
+/// The nodes over the leaves, from these up. Node k is that before the k-th: 1 is the root.
+void add_nodes(BoxTree& tree) {
+    while (tree.first_leaf < tree.leaves.size()) tree.first_leaf *= 2;
+    tree.nodes.resize(2 * tree.first_leaf);
+    for (std::size_t k = 0; k < tree.leaves.size(); ++k) {
+        Node& node = tree.nodes[tree.first_leaf + k];
+        node.patch = tree.leaves[k].patch;
+        for (std::size_t t = tree.leaves[k].first; t < tree.leaves[k].end; ++t)
+            node.box.add(tree.boxes[t]);
+    }
+    for (std::size_t k = tree.first_leaf; k-- > 1;) {
+        const Node &one = tree.nodes[2 * k], &other = tree.nodes[2 * k + 1];
+        tree.nodes[k] = one;
+        tree.nodes[k].box.add(other.box);
+        tree.nodes[k].patch = common_patch(one.patch, other.patch);
+    }
+}
+
+BoxTree tree_over(std::span<const Point3> points, std::span<const TriangleCorners> triangles,
+                  std::span<const std::int32_t> patches) {
     BoxTree tree;
-    while (tree.leaves * LEAF < triangles.size()) tree.leaves *= 2;
-    const Frame frame = frame_around(points);
-    tree.order = sorted_numbers(curve_places(points, triangles, frame));
-    tree.triangles.reserve(triangles.size());
+    const Array<FramePoint> framed = in_frame(points);
+    tree.order = patch_by_patch(sorted_numbers(curve_places(framed, triangles)), patches);
+    tree.leaves = leaves_over(tree.order, patches);
     tree.boxes.resize(triangles.size(), Bounds::nothing());
     for (std::size_t k = 0; k < triangles.size(); ++k) {
         const TriangleCorners& t = triangles[tree.order[k]];
-        tree.triangles.emplace_back(Triangle3{points[t.a], points[t.b], points[t.c]});
-        for (const Point3 corner : tree.triangles[k].corners) tree.boxes[k].add(frame(corner));
+        for (const Vertex corner : {t.a, t.b, t.c}) tree.boxes[k].add(framed[corner]);
     }
-    tree.nodes.resize(2 * tree.leaves - 1, Bounds::nothing());
-    for (std::size_t node = tree.nodes.size(); node-- > 0;) {
-        if (node + 1 >= tree.leaves) {
-            const std::size_t first = (node + 1 - tree.leaves) * LEAF;
-            for (std::size_t t = first; t < std::min(first + LEAF, triangles.size()); ++t)
-                tree.nodes[node].add(tree.boxes[t]);
-        } else {
-            tree.nodes[node].add(tree.nodes[2 * node + 1]);
-            tree.nodes[node].add(tree.nodes[2 * node + 2]);
-        }
-    }
+    add_nodes(tree);
     return tree;
 }
 
-/// The triangles of a leaf: from the first to before the last.
-struct Leaf {
-    std::size_t first, end;
-};
-
-Leaf leaf_of(std::size_t number, std::size_t triangles) {
-    const std::size_t first = std::min(number * LEAF, triangles);
-    return {first, std::min(first + LEAF, triangles)};
-}
-
-/// Looks for pairs below two nodes, numbered by one more than in the heap: 2 k and 2 k + 1 are the
-/// children of k.
+/// Looks for pairs below two nodes: 2 k and 2 k + 1 are the children of k.
 class Search {
   public:
-    Search(const BoxTree& tree, std::size_t most) : tree_(tree), most_(most) {}
+    Search(std::span<const Point3> points, std::span<const TriangleCorners> triangles,
+           std::span<const std::int32_t> patches, std::size_t most)
+        : points_(points),
+          triangles_(triangles),
+          tree_(tree_over(points, triangles, patches)),
+          most_(most) {
+        keys_.reserve(points.size());
+        for (const Point3 p : points) keys_.push_back(corner_key(p));
+    }
 
     Array<MeetingTriangles> run() {
         if (most_ > 0) below(1);
@@ -172,11 +243,17 @@ class Search {
 
   private:
     [[nodiscard]] bool is_done() const { return found_.size() >= most_; }
-    [[nodiscard]] const Bounds& box(std::size_t node) const { return tree_.nodes[node - 1]; }
+    [[nodiscard]] const Bounds& box(std::size_t node) const { return tree_.nodes[node].box; }
+    /// Do all triangles below two nodes belong to one patch?
+    [[nodiscard]] bool are_of_one_patch(std::size_t one, std::size_t other) const {
+        const std::int32_t patch = tree_.nodes[one].patch;
+        return patch != NIL && patch == tree_.nodes[other].patch;
+    }
 
     /// What lies below a node, with itself.
     void below(std::size_t node) {
-        if (node >= tree_.leaves) return in_leaves(node, node);
+        if (are_of_one_patch(node, node)) return;
+        if (node >= tree_.first_leaf) return in_leaves(node, node);
         below(2 * node);
         between(2 * node, 2 * node + 1);
         below(2 * node + 1);
@@ -184,28 +261,49 @@ class Search {
 
     /// What lies below one node with what lies below another, of the same level.
     void between(std::size_t one, std::size_t other) {
-        if (is_done() || !overlap(box(one), box(other))) return;
-        if (one >= tree_.leaves) return in_leaves(one, other);
+        if (is_done() || !overlap(box(one), box(other)) || are_of_one_patch(one, other)) return;
+        if (one >= tree_.first_leaf) return in_leaves(one, other);
         for (const std::size_t a : {2 * one, 2 * one + 1})
             for (const std::size_t b : {2 * other, 2 * other + 1}) between(a, b);
+    }
+
+    [[nodiscard]] Leaf leaf(std::size_t node) const {
+        const std::size_t number = node - tree_.first_leaf;
+        return number < tree_.leaves.size() ? tree_.leaves[number] : Leaf{0, 0, NIL};
     }
 
     /// The pairs of two leaves that meet; of one leaf with itself each pair once.
     void in_leaves(std::size_t own, std::size_t other) {
         if (is_done()) return;
-        const Leaf here = leaf_of(own - tree_.leaves, tree_.triangles.size());
-        const Leaf there = leaf_of(other - tree_.leaves, tree_.triangles.size());
-        for (std::size_t s = here.first; s < here.end; ++s) {
-            if (!overlap(tree_.boxes[s], box(other))) continue;
-            for (std::size_t t = std::max(there.first, s + 1); t < there.end; ++t)
-                if (overlap(tree_.boxes[s], tree_.boxes[t]) &&
-                    triangles_meet(tree_.triangles[s], tree_.triangles[t]))
-                    found_.push_back({std::min(tree_.order[s], tree_.order[t]),
-                                      std::max(tree_.order[s], tree_.order[t])});
+        const Leaf here = leaf(own), there = leaf(other);
+        std::array<std::size_t, LEAF> near;  // of the other leaf: those in the box of this one
+        std::size_t count = 0;
+        for (std::size_t t = there.first; t < there.end; ++t)
+            if (overlap(tree_.boxes[t], box(own))) near[count++] = t;
+        for (std::size_t s = here.first; s < here.end && count > 0; ++s)
+            if (overlap(tree_.boxes[s], box(other))) with_near(s, {near.data(), count});
+    }
+
+    /// The pairs of one triangle with those of ``near`` that come after it.
+    void with_near(std::size_t s, std::span<const std::size_t> near) {
+        const std::int32_t a = tree_.order[s];
+        const KeyedTriangle own = keyed(a);
+        for (const std::size_t t : near) {
+            if (t <= s || !overlap(tree_.boxes[s], tree_.boxes[t])) continue;
+            const std::int32_t b = tree_.order[t];
+            if (triangles_meet(own, keyed(b))) found_.push_back({std::min(a, b), std::max(a, b)});
         }
     }
 
-    const BoxTree& tree_;
+    [[nodiscard]] KeyedTriangle keyed(std::int32_t triangle) const {
+        const TriangleCorners& t = triangles_[triangle];
+        return {{points_[t.a], points_[t.b], points_[t.c]}, {keys_[t.a], keys_[t.b], keys_[t.c]}};
+    }
+
+    std::span<const Point3> points_;
+    std::span<const TriangleCorners> triangles_;
+    BoxTree tree_;
+    Array<std::uint32_t> keys_;  // of the points
     std::size_t most_;
     Array<MeetingTriangles> found_;
 };
@@ -214,9 +312,8 @@ class Search {
 
 Array<MeetingTriangles> meeting_triangles(std::span<const Point3> points,
                                           std::span<const TriangleCorners> triangles,
-                                          std::size_t most) {
-    const BoxTree tree = tree_over(points, triangles);
-    return Search(tree, most).run();
+                                          std::span<const std::int32_t> patches, std::size_t most) {
+    return Search(points, triangles, patches, most).run();
 }
 
 }  // namespace surfmesh

@@ -9,21 +9,19 @@
 //          3   4     5   6
 //
 // What lies below two nodes of one level is compared where their boxes have a point in common,
-// child with child, and what lies below one node with itself.
+// child with child, and what lies below one node with itself; but not where all of it belongs to one
+// patch that cannot meet itself (graph_patches.hpp).
 #pragma once
 
 #include <cstdint>
 #include <span>
 
-#include "space/triangle_pairs.hpp"
+#include "space/triangle_corners.hpp"
 #include "values/array.hpp"
 #include "values/conventions.hpp"
+#include "values/point.hpp"
 
 namespace surfmesh {
-
-struct TriangleCorners {
-    Vertex a, b, c;
-};
 
 struct MeetingTriangles {
     std::int32_t first, second;
@@ -32,10 +30,10 @@ struct MeetingTriangles {
 /// Pairs of triangles that meet where they should not (``triangles_meet``), the lower first, in
 /// no order that means anything.
 ///
-/// All coordinates are finite. The search ends with the two leaves where there are ``most`` pairs
-/// or more.
+/// All coordinates are finite. patches: a number for each triangle, or NIL; those of one number do
+/// not meet. The search ends with the two leaves where there are ``most`` pairs or more.
 Array<MeetingTriangles> meeting_triangles(std::span<const Point3> points,
                                           std::span<const TriangleCorners> triangles,
-                                          std::size_t most);
+                                          std::span<const std::int32_t> patches, std::size_t most);
 
 }  // namespace surfmesh

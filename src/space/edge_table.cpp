@@ -47,6 +47,14 @@ Array<EdgeUse> sorted_uses(std::span<const TriangleCorners> triangles) {
     return uses;
 }
 
+/// From where to where a half-edge runs.
+std::pair<Vertex, Vertex> ends_of(std::span<const TriangleCorners> triangles, std::int32_t e) {
+    const TriangleCorners& t = triangles[e / 3];
+    return e % 3 == 0   ? std::pair(t.a, t.b)
+           : e % 3 == 1 ? std::pair(t.b, t.c)
+                        : std::pair(t.c, t.a);
+}
+
 }  // namespace
 
 EdgeTable edge_table(std::span<const TriangleCorners> triangles) {
@@ -66,6 +74,21 @@ EdgeTable edge_table(std::span<const TriangleCorners> triangles) {
         k = end;
     }
     return table;
+}
+
+Array<std::int32_t> opposite_half_edges(std::span<const TriangleCorners> triangles,
+                                        std::span<const EdgeTable::Sides> sides) {
+    const auto count = static_cast<std::int32_t>(3 * triangles.size());
+    Array<std::int32_t> opposite(3 * triangles.size(), NIL);
+    for (const auto& [e, f] : sides) {
+        if (e < 0 || f < 0 || e >= count || f >= count || e == f) continue;
+        const auto [a, b] = ends_of(triangles, e);
+        if (opposite[e] != NIL || opposite[f] != NIL || std::pair(b, a) != ends_of(triangles, f))
+            continue;
+        opposite[e] = f;
+        opposite[f] = e;
+    }
+    return opposite;
 }
 
 }  // namespace surfmesh

@@ -8,7 +8,7 @@
 #include <cstdint>
 #include <span>
 
-#include "space/box_tree.hpp"
+#include "space/triangle_corners.hpp"
 #include "values/array.hpp"
 
 namespace surfmesh {
@@ -26,5 +26,11 @@ struct EdgeTable {
 };
 
 EdgeTable edge_table(std::span<const TriangleCorners> triangles);
+
+/// Of each half-edge the one beside it that runs the other way, or NIL.
+///
+/// sides: of the table of these triangles; those that do not run along one edge are left out.
+Array<std::int32_t> opposite_half_edges(std::span<const TriangleCorners> triangles,
+                                        std::span<const EdgeTable::Sides> sides);
 
 }  // namespace surfmesh

@@ -155,13 +155,6 @@ struct SharedCorners {
 /// The bits of a coordinate; 0 and -0, which are one place, have the same.
 std::uint64_t unsigned_bits_of(double x) { return std::bit_cast<std::uint64_t>(x + 0.0); }
 
-std::uint32_t key_of(Point3 p) {
-    constexpr std::uint64_t ODD = 0x9E3779B97F4A7C15;  // 2^64 over the golden ratio: bits spread
-    const std::uint64_t mixed =
-        ((unsigned_bits_of(p.x) * ODD ^ unsigned_bits_of(p.y)) * ODD ^ unsigned_bits_of(p.z)) * ODD;
-    return static_cast<std::uint32_t>(mixed >> 32);
-}
-
 /// Found by their keys, and looked at where these are the same.
 SharedCorners shared_corners(const KeyedTriangle& s, const KeyedTriangle& t) {
     unsigned alike = 0;  // bit 3 k + n: the keys of corner k of s and of corner n of t
@@ -211,8 +204,16 @@ bool are_folded(const CommonSide& side, int axis) {
 
 }  // namespace
 
-KeyedTriangle::KeyedTriangle(const Triangle3& given)
-    : corners(given), keys{key_of(given[0]), key_of(given[1]), key_of(given[2])} {}
+std::uint32_t corner_key(Point3 p) {
+    constexpr std::uint64_t ODD = 0x9E3779B97F4A7C15;  // 2^64 over the golden ratio: bits spread
+    const std::uint64_t mixed =
+        ((unsigned_bits_of(p.x) * ODD ^ unsigned_bits_of(p.y)) * ODD ^ unsigned_bits_of(p.z)) * ODD;
+    return static_cast<std::uint32_t>(mixed >> 32);
+}
+
+KeyedTriangle keyed(const Triangle3& corners) {
+    return {corners, {corner_key(corners[0]), corner_key(corners[1]), corner_key(corners[2])}};
+}
 
 bool triangles_meet(const KeyedTriangle& one, const KeyedTriangle& other) {
     const Triangle3 &s = one.corners, &t = other.corners;

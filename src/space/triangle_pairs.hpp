@@ -24,11 +24,12 @@ using Triangle3 = std::array<Point3, 3>;
 /// A triangle with a number for each corner, by its place: corners at one place have one number,
 /// and others seldom the same, so that most pairs of corners are told apart at once.
 struct KeyedTriangle {
-    explicit KeyedTriangle(const Triangle3& given);
-
     Triangle3 corners;
     std::array<std::uint32_t, 3> keys;
 };
+
+std::uint32_t corner_key(Point3 p);
+KeyedTriangle keyed(const Triangle3& corners);
 
 /// Do two triangles with finite corners meet where they should not?
 bool triangles_meet(const KeyedTriangle& s, const KeyedTriangle& t);

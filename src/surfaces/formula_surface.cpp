@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "surfaces/tape_evaluation.hpp"
-#include "surfaces/tape_majorants.hpp"
+#include "surfaces/tape_taylor.hpp"
 
 namespace surfmesh {
 namespace {
@@ -196,26 +196,25 @@ SurfaceStatus FormulaSurface::enclose_second(std::span<const Point2> uv,
     Array<Point3> lower(6 * uv.size()), upper(6 * uv.size());
     enclosures(*tapes_[2], as_numbers(uv), as_numbers(uv), 0,
                as_numbers({lower.data(), lower.size()}), as_numbers({upper.data(), upper.size()}));
-    constexpr std::array<std::size_t, 4> WHICH = {0, 3, 4, 5};
     for (std::size_t i = 0; i < uv.size(); ++i)
-        for (std::size_t k = 0; k < 4; ++k)
-            out[i][k] = enclosed(lower[6 * i + WHICH[k]], upper[6 * i + WHICH[k]]);
+        for (std::size_t k = 0; k < 6; ++k)
+            out[i][k] = enclosed(lower[6 * i + k], upper[6 * i + k]);
     return SurfaceStatus::DONE;
 }
 
-SurfaceStatus FormulaSurface::fourth_magnitudes(std::span<const ParameterBox> cells,
-                                                std::span<FourthMagnitudes> out) const {
+SurfaceStatus FormulaSurface::high_magnitudes(std::span<const ParameterBox> cells,
+                                              std::span<HighMagnitudes> out) const {
     if (tapes_[0] == nullptr) return SurfaceStatus::UNKNOWN;
     Array<Point2> low(cells.size()), high(cells.size());
     for (std::size_t i = 0; i < cells.size(); ++i) {
         low[i] = cells[i].low;
         high[i] = cells[i].high;
     }
-    Array<std::array<double, 5>> found(3 * cells.size());
-    fourth_derivatives(*tapes_[0], as_numbers({low.data(), low.size()}),
-                       as_numbers({high.data(), high.size()}), {found.data(), found.size()});
+    Array<std::array<double, HIGH_DERIVATIVES>> found(3 * cells.size());
+    high_derivatives(*tapes_[0], as_numbers({low.data(), low.size()}),
+                     as_numbers({high.data(), high.size()}), {found.data(), found.size()});
     for (std::size_t i = 0; i < cells.size(); ++i)
-        for (std::size_t k = 0; k < 5; ++k)
+        for (std::size_t k = 0; k < HIGH_DERIVATIVES; ++k)
             out[i][k] = {found[3 * i][k], found[3 * i + 1][k], found[3 * i + 2][k]};
     return SurfaceStatus::DONE;
 }

@@ -18,11 +18,18 @@ def triangles_meet(corners: Annotated[NDArray[numpy.float64], dict(shape=(None, 
     Do two triangles, the rows of (6, 3), finite, meet where they should not?
     """
 
-def meeting_triangles(points: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)], triangles: Annotated[NDArray[numpy.int32], dict(shape=(None, 3), order='C', device='cpu', writable=False)], most: int) -> Annotated[NDArray[numpy.int32], dict(shape=(None, 2))]:
+def graph_patches(points: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)], triangles: Annotated[NDArray[numpy.int32], dict(shape=(None, 3), order='C', device='cpu', writable=False)], half_edges: Annotated[NDArray[numpy.int32], dict(shape=(None, 2), order='C', device='cpu', writable=False)]) -> Annotated[NDArray[numpy.int32], dict(shape=(None,))]:
+    """
+    The number (m,) of each triangle's patch that cannot meet itself, -1 where none is proved.
+
+    points (n, 3), finite; triangles (m, 3); half_edges (ne, 2) as of ``edge_table``.
+    """
+
+def meeting_triangles(points: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)], triangles: Annotated[NDArray[numpy.int32], dict(shape=(None, 3), order='C', device='cpu', writable=False)], most: int, patches: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)] | None = None) -> Annotated[NDArray[numpy.int32], dict(shape=(None, 2))]:
     """
     Pairs (k, 2) of triangles that meet where they should not, the lower first.
 
-    points (n, 3), finite; triangles (m, 3). The search ends where there are ``most`` pairs or a few more.
+    points (n, 3), finite; triangles (m, 3). The search ends where there are ``most`` pairs or a few more. patches (m,): those of one number that is not -1 do not meet (``graph_patches``).
     """
 
 def edge_table(triangles: Annotated[NDArray[numpy.int32], dict(shape=(None, 3), order='C', device='cpu', writable=False)]) -> tuple[Annotated[NDArray[numpy.int32], dict(shape=(None, 2))], Annotated[NDArray[numpy.int32], dict(shape=(None, 2))], Annotated[NDArray[numpy.int32], dict(shape=(None,))]]:
@@ -35,6 +42,16 @@ def edge_gaps(points: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), or
     Distance (n,) of each sample from the edges that share a face with its own but no vertex, and boxes (e, 6) around the edges, rows (low, high).
 
     points (n, 3): samples, of edge e those from first[e] to first[e + 1]; reach (n,): farther than this is not looked at, the distance is infinite. ends (e, 2): vertices; edges, first_of_face: those of each face in one row.
+    """
+
+def edge_sags(points: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)], first: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)]) -> Annotated[NDArray[numpy.float64], dict(shape=(None,))]:
+    """
+    How far (e,) the segments between the samples of each edge lie off its curve, about, at most; points (n, 3), of edge e those from first[e] to first[e + 1].
+    """
+
+def triangle_planes(points: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)], triangles: Annotated[NDArray[numpy.int32], dict(shape=(None, 3), order='C', device='cpu', writable=False)], chosen: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)]) -> tuple[Annotated[NDArray[numpy.float64], dict(shape=(None, 3))], Annotated[NDArray[numpy.float64], dict(shape=(None,))], Annotated[NDArray[numpy.float64], dict(shape=(None,))]]:
+    """
+    Unit normals (k, 3), twice the areas (k,) and the longest sides (k,) of some triangles, rows (k,) of (m, 3). A triangle without area has the normal zero.
     """
 
 def triangle_shapes(points: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)], triangles: Annotated[NDArray[numpy.int32], dict(shape=(None, 3), order='C', device='cpu', writable=False)]) -> Annotated[NDArray[numpy.float64], dict(shape=(None, 5))]:

@@ -7,6 +7,7 @@ from collections.abc import Callable, Sequence
 from typing import NoReturn, TypeAlias
 
 from surfmesh.cli.terminal import complain
+from surfmesh.errors import did_you_mean
 
 _VALUES = {  # option -> values it takes, which may begin with a minus
     "--x": 1, "--y": 1, "--z": 1, "--u": 2, "--v": 2, "--at": 3, "--origin": 2, "--box": 4,
@@ -35,8 +36,22 @@ differ, 2 bad input, 3 an error in surfmesh itself"""
 class _Parser(argparse.ArgumentParser):
     def error(self, message: str) -> NoReturn:
         """One line, where argparse would print the usage too."""
-        complain(f"{message} (see {self.prog} --help)")
+        complain(f"{message}{_meant(message)} (see {self.prog} --help)")
         self.exit(2)
+
+
+def _meant(message: str) -> str:
+    """The option that is meant by another program's name of it, or by nearly its own."""
+    found = re.match(r"unrecognized arguments: --([\w-]+)", message)
+    if found is None:
+        return ""
+    from surfmesh.sizing.options.other_words import own_word
+
+    word = own_word(found[1])
+    if word is not None:
+        return f": here it is called --{word.replace('_', '-')}"
+    near = did_you_mean(found[1], [name.replace("_", "-") for name in _SIZES])
+    return near.replace("'", "--", 1).replace("'", "")
 
 
 _Commands: TypeAlias = "argparse._SubParsersAction[_Parser]"
@@ -76,7 +91,7 @@ def _imprint_alone(argv: Sequence[str]) -> list[str]:
 def _parser() -> _Parser:
     parser = _Parser(
         prog="surfmesh",
-        description="Triangle meshes of curved surfaces, checked against the true surface.",
+        description=_DESCRIPTION,
         epilog=_EXAMPLES,
         formatter_class=argparse.RawDescriptionHelpFormatter,
     )
@@ -170,7 +185,7 @@ def _add_made(mesh: argparse.ArgumentParser) -> None:
 
 def _add_check(commands: _Commands) -> None:
     check = commands.add_parser("check", help="report on a mesh file")
-    check.add_argument("input", metavar="MESH", help="mesh file")
+    check.add_argument("input", metavar="MESH", help="mesh file, as mesh writes it")
     check.add_argument(
         "--surface", metavar="INPUT", help="formula file, gallery name or CAD file it was made from"
     )
@@ -273,10 +288,13 @@ _MODEL = (
     "with CadQuery (.py, with --run-python) or gallery name"
 )
 _ANYTHING = f"mesh file, {_MODEL}"
-_OUT = (
-    "mesh file to write: .vtu .vtp .pvtu .stl .obj .ply .glb .3mf .off .msh .mesh .inp .bdf .su2 "
-    ".xdmf .med"
-)
+_FORMATS = ".vtu .vtp .pvtu .stl .obj .ply .glb .3mf .off .msh .mesh .inp .bdf .su2 .xdmf .med"
+_OUT = f"mesh file to write: {_FORMATS}"
+_DESCRIPTION = f"""Triangle meshes of curved surfaces, checked against the true surface.
+
+In:  .step .stp .iges .igs .brep (CAD models), .toml (formulas, planar domains), .svg (drawings),
+     .py (CadQuery, with --run-python), or a name of the gallery
+Out: {_FORMATS}"""
 
 
 def _add_sizes(parser: argparse.ArgumentParser) -> None:

@@ -133,11 +133,11 @@ def _mesh_in_pieces(
 
 def check(options: Namespace) -> bool:
     """Report on a mesh file, against its surface when that is named."""
-    from surfmesh.io import read
+    from surfmesh.api import mesh_of_file
 
     if options.surface:
         with surface_begun(options.surface, options) as surface_wanted:
-            found = read(options.input)
+            found = mesh_of_file(options.input)
             if found.uv_points is None:
                 raise FileFormatError(
                     f"{options.input}: carries no (u, v) to compare it with a surface; "
@@ -151,7 +151,7 @@ def check(options: Namespace) -> bool:
         from surfmesh.result.model_facts import ModelFacts, file_sha256
 
         source = Path(options.input)
-        found = read(options.input).replaced(
+        found = mesh_of_file(options.input).replaced(
             facts=ModelFacts(source=source.name, sha256=file_sha256(source))
         )
 

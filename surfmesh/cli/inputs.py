@@ -5,13 +5,12 @@ from __future__ import annotations
 from argparse import Namespace
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
-from difflib import get_close_matches
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from surfmesh.cad.reading.read_file import SUFFIXES, begun_reading
 from surfmesh.cli.progress import ProgressBar
-from surfmesh.errors import SurfaceError, printable
+from surfmesh.errors import SurfaceError, did_you_mean, printable
 
 if TYPE_CHECKING:
     from surfmesh.cad.model.cad_model import CadModel
@@ -132,9 +131,10 @@ def named_surface(name: str, options: Namespace) -> Surface | CadModel:
     known = surfaces() | meeting_gallery()
     if name in known:
         return api.load(known[name], **options.reading)
-    close = get_close_matches(name, known, n=1)
-    hint = f"did you mean '{close[0]}'?" if close else "'surfmesh gallery' lists what there is"
-    raise SurfaceError(f"'{name}' is neither a file nor a surface of the gallery; {hint}")
+    if Path(name).suffix:
+        raise SurfaceError(f"{name}: no such file")
+    hint = did_you_mean(name, known) or "; 'surfmesh gallery' lists what there is"
+    raise SurfaceError(f"'{name}' is neither a file nor a surface of the gallery{hint}")
 
 
 def _of_program(path: Path, options: Namespace) -> CadModel:

@@ -159,7 +159,15 @@ def _home(path: Path) -> str:
     except KeyError:
         known = " ".join(homes)
         found = f"extension '{path.suffix}' is not known" if path.suffix else "has no extension"
-        raise FileFormatError(f"{path}: {found}; known are {known}") from None
+        other = _OTHERS.get(path.suffix.lower(), "")
+        raise FileFormatError(f"{path}: {found}; known are {known}{other}") from None
+
+
+_OTHERS = {
+    ".html": "; a report is written by surfmesh.view.html_report, or by 'surfmesh report'",
+    ".png": "; a picture is written by mesh.plot, or by --picture",
+}
+"""What else a place may be meant for."""
 
 
 def _brief(error: Exception) -> str:

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from surfmesh.errors import did_you_mean, shown
 from surfmesh.geometry.differential.fundamental_forms import PrincipalCurvatures, curvatures, forms
 from surfmesh.quality.measures.measurements import Measurements
 from surfmesh.quality.measures.shape import shapes
@@ -48,11 +49,16 @@ def colouring(mesh: SurfaceMesh, by: str) -> Colouring:
     if by in _COLOURINGS:
         return _COLOURINGS[by](mesh)
     if by not in _CURVATURES:
-        raise ValueError(f"cannot colour by {by!r}; known are {', '.join(COLOURS)}")
+        raise ValueError(unknown_colouring(by))
     found = _vertex_curvatures(mesh)
     if found is None:
         raise ValueError(f"cannot colour by {by!r}: the mesh carries no surface")
     return _CURVATURES[by](mesh, found)
+
+
+def unknown_colouring(by: object) -> str:
+    known = ", ".join(COLOURS)
+    return f"cannot colour by {shown(by)}; known are {known}{did_you_mean(str(by), COLOURS)}"
 
 
 def colourings_of(mesh: SurfaceMesh) -> dict[str, Colouring]:

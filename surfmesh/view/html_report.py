@@ -20,7 +20,7 @@ from surfmesh.io.atomic import replacing
 from surfmesh.quality import Report, check
 from surfmesh.result.surface_mesh import SurfaceMesh
 from surfmesh.view.certificate_html import certificate_html
-from surfmesh.view.colouring import COLOURS, colourings_of
+from surfmesh.view.colouring import COLOURS, colourings_of, unknown_colouring
 from surfmesh.view.faces_apart import faces_apart
 from surfmesh.view.legend import name_of, require_drawable, title_of
 from surfmesh.view.page_data import SHOWN, page_data
@@ -73,7 +73,7 @@ def page(
     """
     by = "alpha" if by == "quality" else by
     if by not in COLOURS:
-        raise ValueError(f"cannot colour by {by!r}; known are {', '.join(COLOURS)}")
+        raise ValueError(unknown_colouring(by))
     drawn = faces_apart(mesh)  # curvature has a value for each face that meets in a vertex
     colourings = colourings_of(drawn)
     if by not in colourings:

@@ -3,6 +3,7 @@
 import json
 import subprocess
 import sys
+from contextlib import suppress
 from dataclasses import replace
 
 import numpy as np
@@ -141,6 +142,25 @@ def test_mistakes_give_2_one_line_and_no_file(argv, stand_in, tmp_path, capsys):
     assert printed.out == ""
     assert printed.err.startswith("surfmesh: ") and printed.err.count("\n") == 1
     assert not list(tmp_path.iterdir())
+
+
+@pytest.mark.parametrize(
+    "argv, said",
+    [
+        ("mesh wavy -o a.vtu --hausd 0.1", "here it is called --chord"),
+        ("mesh wavy -o a.vtu --chrod 0.1", "did you mean --chord?"),
+        ("mesh wawy -o a.vtu", "did you mean 'wavy'?"),
+        ("mesh none.step -o a.vtu", "none.step: no such file"),
+        ("mesh wavy -o a.png", "a picture is written by mesh.plot, or by --picture"),
+        ("check wavy", "what one is made of: mesh it first"),
+        ("mesh wavy -o a.vtu --units m", "its lengths have none"),
+    ],
+)
+def test_mistakes_are_told_with_what_to_do(argv, said, tmp_path, capsys, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    with suppress(SystemExit):
+        main(argv.split())
+    assert said in capsys.readouterr().err
 
 
 def test_failures_of_the_mesher_leave_nothing(tmp_path, capsys, monkeypatch):

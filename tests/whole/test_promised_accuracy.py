@@ -75,3 +75,12 @@ def test_growth_on_the_result():
     graded = (1 + slope / 2) / (1 - slope / 2)
     assert graded < report.growth_p99 < 1.45 * graded
     assert report.growth_max < 1.45 / 0.66 * graded
+
+
+@pytest.mark.parametrize("anisotropy, chord", [(1, 1e-3), (8, 5e-4)])
+def test_chord_is_kept_where_triangles_are_measured_only_when_they_come_near_it(anisotropy, chord):
+    """More than 20,000 triangles: from there the mesher remembers what it has measured."""
+    made = mesh(load("two_peaks"), Sizing(chord=chord, anisotropy=anisotropy))
+    report = check(made)
+    assert len(made.triangles) > 20_000
+    assert 0.9 * report.chord < report.deviation_max <= report.chord

@@ -84,10 +84,21 @@ def test_refused(block, case):
             verb(block, sizes)
 
 
-def test_selections_need_a_model():
-    with pytest.raises(SizingError, match="need a CAD model"):
-        sm.mesh(sm.load("sphere"), {"lid": sm.Sizing(size=1.0)})
-    assert sm.estimate(sm.load("sphere"), {"*": 0.5}).triangles > 0
+def test_a_surface_is_one_face_by_its_name():
+    sphere = sm.load("sphere")
+    assert sm.estimate(sphere, {"*": 0.5}).triangles > 0
+    coarse, fine = (sm.mesh(sphere, {"*": 0.5, "sph*": size}) for size in (0.9, 0.25))
+    assert len(coarse.triangles) == len(sm.mesh(sphere, 0.5).triangles)  # the smallest holds
+    assert len(fine.triangles) == len(sm.mesh(sphere, 0.25).triangles)
+    for sizes, message in (
+        ({"lid": sm.Sizing(size=1.0)}, "a surface is one face, which 'sphere', '\\*' or 'face:0'"),
+        ({"*": 0.5, "type:plane": 0.1}, "sizes of 'type:plane': .* selected on CAD models"),
+        ({"chrod": 0.1}, "unknown size option 'chrod'; did you mean 'chord'"),
+        ({"hausd": 0.1}, "here it is called 'chord'"),
+        ({"sphere": {"growth": 1.5}}, "growth holds for the whole model"),
+    ):
+        with pytest.raises(SizingError, match=message):
+            sm.mesh(sphere, sizes)
 
 
 def test_small_sources_are_seen_in_the_middle_of_faces_and_edges():

@@ -9,6 +9,9 @@ from surfmesh.geometry.files.formula_file import gallery_folder, load_formula_fi
 from surfmesh.geometry.files.toml_entries import sets_key
 from surfmesh.geometry.surface import Surface
 
+OF_SURFACES = (".toml", ".svg")
+"""Extensions of files that hold a surface or a planar domain."""
+
 
 def load_surface_file(path: str | Path) -> Surface:
     """The surface of a ``.toml`` or ``.svg`` file; a TOML file with ``outer`` is a domain.
@@ -17,7 +20,7 @@ def load_surface_file(path: str | Path) -> Surface:
     """
     path = Path(path)
     extension = path.suffix.lower()
-    if extension not in (".toml", ".svg"):
+    if extension not in OF_SURFACES:
         raise FileFormatError(
             f"cannot read {path.name!r}: surfaces come from .toml files, domains from .toml or .svg"
         )

@@ -1,6 +1,7 @@
 """Triangles that meet where they share nothing: every pair, by an exact test.
 
-Near pairs come from a tree of boxes; the test is that of ``src/space/triangle_pairs.hpp``. What
+Near pairs come from a tree of boxes; the test is that of ``src/space/triangle_pairs.hpp``. Patches
+that are proved not to meet themselves are skipped within (``src/space/graph_patches.hpp``). What
 only comes near, or touches in a corner at the very same place, does not meet.
 """
 
@@ -9,8 +10,9 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from surfmesh._core.space import meeting_triangles
+from surfmesh._core.space import graph_patches, meeting_triangles
 from surfmesh.quality.measures.places import Point, as_point
+from surfmesh.result.connectivity import Connectivity, connect
 from surfmesh.result.facets import facets
 from surfmesh.result.surface_mesh import SurfaceMesh
 
@@ -36,16 +38,25 @@ def meeting_pairs(mesh: SurfaceMesh) -> NDArray[np.int32]:
         return np.empty((0, 2), np.int32)
     if mesh.order == 2 and not mesh.check():
         return _meeting_curved(mesh)
-    pairs = meeting_triangles(mesh.points, mesh.triangles, MOST)
+    pairs = _meeting(mesh.points, mesh.triangles, mesh.connectivity)
     a, b = np.sort(mesh.triangles[pairs], axis=2).transpose(1, 0, 2)
     pairs = pairs[(a != b).any(axis=1)]
     return pairs[np.lexsort(pairs.T[::-1])][:MOST]
 
 
+def _meeting(
+    points: NDArray[np.float64], triangles: NDArray[np.int32], table: Connectivity
+) -> NDArray[np.int32]:
+    """(k, 2) pairs in no order; patches that are graphs over a plane are not looked at within."""
+    return meeting_triangles(
+        points, triangles, MOST, graph_patches(points, triangles, table.half_edges)
+    )
+
+
 def _meeting_curved(mesh: SurfaceMesh) -> NDArray[np.int32]:
     """The same of quadratic triangles, by their facets."""
     cut = facets(mesh)
-    pairs = meeting_triangles(cut.points, cut.triangles, MOST)
+    pairs = _meeting(cut.points, cut.triangles, connect(cut.triangles))
     pairs = np.sort(cut.parent[pairs], axis=1)
     return np.unique(pairs[pairs[:, 0] != pairs[:, 1]], axis=0)
 

@@ -14,6 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from surfmesh._core.quality import TriangleStars, hidden_bounds
+from surfmesh._core.space import triangle_planes
 from surfmesh.geometry.core_surface import as_core_surface
 from surfmesh.geometry.surface import BoundedSurface
 from surfmesh.quality.measures.deviation import Deviation
@@ -129,25 +130,21 @@ def _in_triangles(
     known: KnownSurfaces, surface: BoundedSurface, triangles: Rows, fit: Deviation,
     tolerances: Tolerances,
 ) -> tuple[Rows, Pieces]:  # fmt: skip
-    mesh, corners, uv = known.mesh, known.points(triangles), known.uv(triangles)
-    normal = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
-    longest = _longest(corners)
-    area = np.linalg.norm(normal, axis=1)
+    mesh = known.mesh
+    normal, area, longest = triangle_planes(mesh.points, mesh.triangles, triangles.astype(np.int32))
     some = area > NO_AREA * longest**2
-    triangles, corners, uv = triangles[some], corners[some], uv[some]
-    normal = normal[some] / area[some, None]
+    if not some.all():
+        triangles, normal, longest = triangles[some], normal[some], longest[some]
+    uv, corner = known.uv(triangles), mesh.points[mesh.triangles[triangles, 0]]
     seen = fit.by_triangle[triangles]
-    tolerance = SLACK * _expected(mesh, triangles, fit, tolerances, longest[some])
-    bounded = hidden_bounds(
-        as_core_surface(surface), uv, np.ascontiguousarray(corners[:, 0]), normal, tolerance, seen,
-        LEVELS,
-    )  # fmt: skip
+    tolerance = SLACK * _expected(mesh, triangles, fit, tolerances, longest)
+    bounded = hidden_bounds(as_core_surface(surface), uv, corner, normal, tolerance, seen, LEVELS)
     left = np.flatnonzero(bounded < AT_ONCE)
     whole = _beside_poles(known, triangles[left]) if len(left) else np.empty(0, bool)
     hard = np.flatnonzero(whole | (bounded[left] < IN_PARTS))
     left, whole = left[hard], whole[hard]
     triangles = triangles[left]
-    pieces = Pieces.of(uv[left], corners[left, 0], normal[left, None], tolerance[left])
+    pieces = Pieces.of(uv[left], corner[left], normal[left, None], tolerance[left])
     if len(left):
         around = _Around(mesh, triangles)
         budget = BOXES + BOXES_EACH * len(mesh.triangles)

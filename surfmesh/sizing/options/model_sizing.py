@@ -13,6 +13,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field, fields
 from difflib import get_close_matches
+from fnmatch import fnmatchcase
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -21,6 +22,7 @@ from surfmesh.cad.model.cad_model import CadModel
 from surfmesh.cad.selection.selection import EVERYTHING, Selection, select
 from surfmesh.errors import SizingError, shown
 from surfmesh.sizing.options.defaults import with_defaults
+from surfmesh.sizing.options.other_words import own_word
 from surfmesh.sizing.options.sizing import Sizing
 
 OF_THE_MODEL = (
@@ -108,6 +110,28 @@ def model_sizing(model: CadModel, given: Any) -> ModelSizing:
         entries=tuple(entries),
         stated=base,
     )
+
+
+def sizes_of_one_face(name: str, given: Mapping[Any, Any]) -> Sizing:
+    """Sizes by selection for a surface without a CAD model: one face, which "*", its name (or a
+    pattern of it) and "face:0" select. All that apply hold, as on the faces of a model.
+
+    Raises ``SizingError`` for a key that selects nothing and sizes that contradict each other.
+    """
+    found = [(EVERYTHING, Sizing.of(given.get(EVERYTHING)))]
+    for key, value in given.items():
+        if key == EVERYTHING:
+            continue
+        if not isinstance(key, str) or not (key == "face:0" or fnmatchcase(name, key)):
+            if own_word(str(key)) or get_close_matches(str(key), _OPTIONS, 1):
+                Sizing.of({key: value})  # an option, not a selection: it says which is meant
+            called = f"{name!r}, '*'" if name else "'*'"
+            raise SizingError(
+                f"sizes of {shown(key)}: a surface is one face, which {called} or 'face:0' "
+                "selects; kinds, places and edges are selected on CAD models"
+            )
+        found.append((key, _own_sizes(key, value)))
+    return combined(found)
 
 
 def is_by_selection(given: Any) -> bool:

@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 
-from surfmesh.errors import SizingError, shown
+from surfmesh.errors import SizingError, did_you_mean, shown
 from surfmesh.sizing.options.other_words import own_word
 from surfmesh.sizing.options.positive import positive
 from surfmesh.sizing.options.sources import checked_sizes, source_sizes
@@ -252,5 +252,6 @@ class Sizing:
 def _unknown(name: object, known: list[str]) -> str:
     word = own_word(name) if isinstance(name, str) else None
     if word is None:
-        return f"unknown size option {shown(name)}; known: {known}"
+        near = did_you_mean(str(name), known)
+        return f"unknown size option {shown(name)}{near or '; known are ' + ', '.join(known)}"
     return f"unknown size option {shown(name)}: here it is called {word!r}"

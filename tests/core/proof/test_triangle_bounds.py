@@ -15,7 +15,8 @@ WEIGHTS = np.array(
     [(i, j, SIDE - i - j) for i in range(SIDE + 1) for j in range(SIDE + 1 - i)]
 ) / float(SIDE)
 
-CELL_HEIGHT = 26  # a column of the bounds; the last is that of whole cells
+SLOPE = 26
+CELL_HEIGHT = 27  # a column of the bounds; the last is that of whole cells
 
 X, Y, Z = np.eye(3)
 TURNED = np.linalg.qr(np.array([[1.0, 2.0, 0.3], [-0.4, 1.0, 0.7], [0.2, -0.5, 1.5]]))[0]
@@ -84,10 +85,16 @@ def triangles(draw_size, seed, surface):
     return uv, surface.evaluate(uv.reshape(-1, 2), 0)[0].reshape(-1, 3, 3)
 
 
-def bounds_of(surface, corners, uv, depth=2, limit=0.0):
+def bounds_of(surface, corners, uv, depth=2, limit=0.0, bends=None):
     count = len(uv)
     return proof.triangle_bounds(
-        surface, corners, uv, np.full(count, limit), np.zeros(count, np.uint8), depth
+        surface,
+        corners,
+        uv,
+        0 * uv if bends is None else bends,
+        np.full(count, limit),
+        np.zeros(count, np.uint8),
+        depth,
     )
 
 
@@ -118,6 +125,52 @@ def test_no_sample_is_beyond_the_bounds(name, size, seed, depth):
         on_side = WEIGHTS[:, (side + 2) % 3] == 0.0
         across = np.abs(np.einsum("mqd,md->mq", away[:, on_side], inward)).max(axis=1)
         assert (across <= found[:, 1 + side] + rounding)[good].all()
+
+
+def places_of(uv, bends, weights):
+    """(m, q, 2) of pieces with bent sides, at barycentric weights (q, 3); their derivatives along
+    sides 0 and 1."""
+    ends = [(k, (k + 1) % 3) for k in range(3)]
+    at = np.einsum("qk,mkd->mqd", weights, uv)
+    along = [np.repeat((uv[:, j] - uv[:, i])[:, None], len(weights), axis=1) for i, j in ends[:2]]
+    for k, (i, j) in enumerate(ends):
+        at += 4 * np.einsum("q,md->mqd", weights[:, i] * weights[:, j], bends[:, k])
+        for side in (0, 1):
+            w = np.zeros(3)
+            w[side], w[side + 1] = -1.0, 1.0
+            rate = w[i] * weights[:, j] + weights[:, i] * w[j]
+            along[side] = along[side] + 4 * np.einsum("q,md->mqd", rate, bends[:, k])
+    return at, along
+
+
+@pytest.mark.parametrize("name", [name for name in SURFACES if "of two" not in name][:8])
+@settings(max_examples=30, deadline=None)
+@given(size=st.floats(0.3, 1.0), seed=st.integers(0, 2**32 - 1), bent=st.floats(0.0, 0.12),
+       limit=st.sampled_from([0.0, 1e-3, 1e9]))  # fmt: skip
+def test_pieces_with_bent_sides_keep_to_their_bounds(name, size, seed, bent, limit):
+    """Distance, and how fast it changes."""
+    surface = SURFACES[name]
+    uv, corners = triangles(size, seed, surface)
+    longest = np.linalg.norm(uv - np.roll(uv, 1, axis=1), axis=2).min(axis=1)
+    draw = np.random.default_rng(seed)
+    bends = bent * longest[:, None, None] * draw.uniform(-1, 1, uv.shape)
+    found = bounds_of(surface, corners, uv, 2, limit, bends)
+    at, along = places_of(uv, bends, WEIGHTS)
+    inside = (np.abs(at) <= 2.0).all(axis=(1, 2))  # of the domain
+    r, r_u, r_v = surface.evaluate(at.reshape(-1, 2), 1)
+    shape = (len(uv), -1, 3)
+    away = r.reshape(shape) - np.einsum("qk,mkd->mqd", WEIGHTS, corners)
+    rounding = 1e-13 * (1.0 + np.abs(r).max())
+    assert (np.linalg.norm(away, axis=2).max(axis=1) <= found[:, 8] + rounding)[inside].all()
+    sides = np.stack([corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 1]], axis=2)
+    good = inside & (np.linalg.cond(sides) < 1e3)
+    rates = np.stack([
+        (r_u * step.reshape(-1, 2)[:, :1] + r_v * step.reshape(-1, 2)[:, 1:]).reshape(shape)
+        for step in along
+    ], axis=3) - sides[:, None]  # fmt: skip
+    _, triangular = np.linalg.qr(sides[good])
+    slope = np.linalg.norm(rates[good] @ np.linalg.inv(triangular)[:, None], ord=2, axis=(2, 3))
+    assert (slope.max(axis=1) <= found[good, SLOPE] * (1 + 1e-9) + 1e-8).all()
 
 
 @pytest.mark.parametrize("name", SURFACES)
@@ -241,7 +294,7 @@ def test_given_arrays_are_looked_at():
     surface = SURFACES["plane"]
     uv, corners = triangles(0.5, 3, surface)
     with pytest.raises(ValueError, match="limits"):
-        proof.triangle_bounds(surface, corners, uv, np.zeros(2), np.zeros(6, np.uint8), 1)
+        proof.triangle_bounds(surface, corners, uv, 0 * uv, np.zeros(2), np.zeros(6, np.uint8), 1)
     with pytest.raises(ValueError, match="depth"):
         bounds_of(surface, corners, uv, 99)
     found = bounds_of(surface, corners, uv)

@@ -65,3 +65,20 @@ def test_without_bounds_nothing_is_bounded():
             hidden_bounds(as_core_surface(Plain()), *given[:-1], wrong, 3)
     with pytest.raises(ValueError):
         hidden_bounds(as_core_surface(Plain()), *given, 99)
+
+
+@pytest.mark.parametrize("name", ["torus", "wavy"])
+def test_neighbours_looked_at_together_are_bounded_as_one_by_one(name):
+    mesh = sm.mesh(sm.load(name), sm.Sizing(chord=0.02))
+    corners = mesh.points[mesh.triangles]
+    uv = mesh.parametrisation.uv_points[mesh.parametrisation.uv_triangles]
+    normal = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+    normal /= np.linalg.norm(normal, axis=1)[:, None]
+    tolerance = np.full(len(uv), 0.026) * np.random.default_rng(0).choice([1.0, 0.3], len(uv))
+    seen = 0.3 * tolerance
+    corner = corners[:, 0].copy()
+    found = hidden_bounds(mesh.surfaces[0].core, uv, corner, normal, tolerance, seen, 3)
+    pieces = Pieces.of(uv, corner, normal[:, None], tolerance)
+    at_once = slow.bounded_at_once(mesh.surfaces[0], pieces, seen)
+    assert ((found == 2) == at_once).all()
+    assert at_once.any() and not at_once.all()

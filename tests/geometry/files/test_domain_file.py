@@ -79,7 +79,7 @@ def test_files_are_told_apart(tmp_path):
     path.write_text('<svg xmlns="http://www.w3.org/2000/svg"><rect width="2" height="3"/></svg>')
     assert load(path).area == pytest.approx(6.0)
     assert isinstance(load("plane"), sm.ParametricSurface)
-    with pytest.raises(FileFormatError, match=r"domains from .toml or .svg"):
+    with pytest.raises(FileFormatError, match=r"CAD models come from \.step .* \.toml \.svg"):
         load(tmp_path / "drawing.dxf")
 
 

@@ -65,7 +65,7 @@ def test_what_has_no_bounds_is_named():
 
 
 def test_sizes_are_made_smaller_until_the_chord_is_proved():
-    surface, chord = sm.load("monkey_saddle"), 0.005
+    surface, chord = sm.load("two_peaks"), 0.1
     before = sm.mesh(surface, sm.Sizing(chord=chord))
     mesh = sm.mesh(surface, sm.Sizing(chord=chord, proof=True))
     assert sm.check(before, prove=True).proof.proved_share < 1.0

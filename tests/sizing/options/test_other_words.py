@@ -26,5 +26,5 @@ def test_chord_has_many_names(word):
 
 def test_an_unknown_word():
     assert own_word("colour") is None
-    with pytest.raises(SizingError, match="known:"):
+    with pytest.raises(SizingError, match="known are"):
         Sizing.of({"colour": 1})

@@ -49,7 +49,7 @@ def test_of():
     assert Sizing.of(3) == Sizing(size=3.0)
     assert Sizing.of({"chord": 0.1, "growth": 2}) == Sizing(chord=0.1, growth=2.0)
     assert Sizing.of(abs).size is abs
-    with pytest.raises(SizingError, match=r"unknown size option 'chrod'; known: .*'chord'"):
+    with pytest.raises(SizingError, match="unknown size option 'chrod'; did you mean 'chord'"):
         Sizing.of({"chrod": 1})
     with pytest.raises(SizingError, match="sizes are a number, a Sizing or a mapping, not str"):
         Sizing.of("0.1")

@@ -1,0 +1,43 @@
+// How far triangles are from the surface, while vertices move and edges change.
+//
+// In: a patch, and the distance that is allowed. Out: which triangles have to be measured, and what
+// samples on the true surface say. The estimate from the tangent planes is off by a factor that
+// hardly changes where a triangle moves a little: it is kept with each triangle that was measured.
+// So after small moves only those are measured whose estimate times the factor comes near to what
+// is allowed; never measured ones as soon as the bare estimate does. What a triangle was is
+// forgotten when it gets other corners.
+#pragma once
+
+#include "patch/patch_state.hpp"
+
+namespace surfmesh {
+
+class TrackedDeviations {
+  public:
+    TrackedDeviations(PatchState& state, double chord);
+
+    /// All triangles that have to be measured.
+    [[nodiscard]] Array<Triangle> suspects() const;
+    /// Distances of the triangles by samples.
+    Array<double> measure(const Array<Triangle>& triangles);
+
+    /// Changes count from here on.
+    void start_round();
+    /// The vertices that the last pass of the patch has moved.
+    void add_moved();
+    /// Of the triangles with a vertex that has moved, or with one of a triangle that has changed,
+    /// those that have to be measured; and ``others``.
+    Array<Triangle> changed(const Array<Triangle>& others);
+
+  private:
+    [[nodiscard]] bool is_suspect(Triangle k) const;
+
+    PatchState& state_;
+    double chord_;
+    double suspect_, suspect_once_measured_;  // estimates from which triangles are measured
+    Array<float> factor_;                     // measured over estimated; 0: not measured
+    Array<Vertex> before_;                    // corners at the start of the round
+    Array<std::uint8_t> is_changed_;          // vertices
+};
+
+}  // namespace surfmesh

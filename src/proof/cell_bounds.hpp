@@ -1,0 +1,37 @@
+// What the corners of a triangle, or of the n^2 cells that it is cut into, say of R within.
+//
+//        o         g_k = R''(e_k, e_k) is linear between the corners of a cell but for rho / n^2,
+//      o   o       R - L is that of the corners and the integrals of g_k over n^2 (smooth_bounds.hpp),
+//    o   o   o     R' - L' is that of the corners and what third derivatives add.
+//
+// In: R with two derivatives at the corners of cells, rho. Out: how far R is from the triangle
+// through r(u_i) at most, how fast that changes, and suprema of g_k. Nothing is changed.
+#pragma once
+
+#include <array>
+#include <span>
+
+#include "proof/place_jets.hpp"
+#include "values/array.hpp"
+
+namespace surfmesh {
+
+/// Side k of a cell, from corner k on, runs along side k of the triangle, or against all three.
+using CellCorners = std::array<const PlaceJet*, 3>;
+
+/// Averaged as the integrals of smooth_bounds.hpp are, of one cell alone.
+SideBends averaged_bends(const CellCorners& corner, const FourthParts& rho);
+
+struct BoundsOfCells {
+    SideBends bends;  // suprema
+    double whole;     // |R - L|
+    double slope;     // the largest |(R' - L')(w)| for unit w
+};
+
+/// places: of the grid with n cells along a side; within each cell |R - L| is looked at in
+/// ``finer``^2 more.
+BoundsOfCells bounds_of_cells(std::span<const PlaceJet> places, std::size_t n,
+                              const FourthParts& rho, const TriangleFrame& frame,
+                              std::size_t finer);
+
+}  // namespace surfmesh

@@ -1,0 +1,161 @@
+#include "proof/curved_pieces.hpp"
+
+#include <cmath>
+
+#include "surfaces/fourth_derivatives.hpp"
+#include "values/conventions.hpp"
+
+namespace surfmesh {
+namespace {
+
+constexpr int MIDDLE_STEPS = 2;          // of Newton's method, from the middle
+constexpr double LEAST_JACOBIAN = 0.05;  // of that of the straight triangle
+constexpr double THINNEST = 1e-10;       // whose Jacobian is more than round-off
+constexpr int HALVINGS = 3;
+
+/// The middle of one side, on its way.
+struct Middle {
+    std::size_t half_edge;
+    Point2 start, step;  // of the side
+    Point3 target;
+    bool slides;
+    Point2 place;
+};
+
+double turn(Point2 a, Point2 b) { return a.x * b.y - a.y * b.x; }
+
+/// Is the Jacobian of psi positive everywhere? By its Bernstein coefficients.
+bool is_regular(const PlanePiece& piece) {
+    const Point2 a = piece.uv[1] - piece.uv[0], b = piece.uv[2] - piece.uv[1];
+    const double straight = turn(a, b), least = LEAST_JACOBIAN * straight * straight;
+    if (!(std::abs(straight) > THINNEST * norm(a) * norm(b))) return false;
+    std::array<Point2, 3> first{}, second{};
+    for (std::size_t m = 0; m < 3; ++m) {
+        first[m] = piece.along(0, AT_CORNERS[m]);
+        second[m] = piece.along(1, AT_CORNERS[m]);
+    }
+    for (std::size_t m = 0; m < 3; ++m)
+        for (std::size_t n = m; n < 3; ++n) {
+            const double both = 0.5 * (turn(first[m], second[n]) + turn(first[n], second[m]));
+            if (!(both * straight > least)) return false;
+        }
+    return true;
+}
+
+/// A step towards the target, within the plane that touches the surface.
+void move(Middle& middle, Point3 r, Point3 r_u, Point3 r_v) {
+    const Point3 way = middle.target - r;
+    Point2 step;
+    if (middle.slides) {
+        const Point3 along = middle.step.x * r_u + middle.step.y * r_v;
+        step = (dot(way, along) / dot(along, along)) * middle.step;
+    } else {
+        const double E = dot(r_u, r_u), F = dot(r_u, r_v), G = dot(r_v, r_v);
+        const double x = dot(way, r_u), y = dot(way, r_v), area = E * G - F * F;
+        step = {(G * x - F * y) / area, (E * y - F * x) / area};
+    }
+    middle.place = middle.place + step;
+}
+
+/// Do both triangles have the same parameters along their side?
+bool are_joined(const FaceSides& face, std::size_t h, std::size_t twin) {
+    const PlaneCorners &a = face.uv[h / 3], &b = face.uv[twin / 3];
+    const Point2 start = a[h % 3], end = a[(h % 3 + 1) % 3];
+    const Point2 from = b[twin % 3], to = b[(twin % 3 + 1) % 3];
+    return start.x == to.x && start.y == to.y && end.x == from.x && end.y == from.y;
+}
+
+Array<Middle> middles_of(const FaceSides& face, std::span<const SpaceCorners> targets) {
+    Array<Middle> found;
+    for (std::size_t h = 0; h < face.twins.size(); ++h) {
+        const std::int32_t twin = face.twins[h];
+        if (twin != NIL && twin < static_cast<std::int32_t>(h)) continue;
+        const bool slides = twin == NIL || !are_joined(face, h, static_cast<std::size_t>(twin));
+        const PlaneCorners& uv = face.uv[h / 3];
+        const Point2 start = uv[h % 3], step = uv[(h % 3 + 1) % 3] - start;
+        const SpaceCorners& p = face.corners[h / 3];
+        const Point3 target =
+            targets.empty() ? 0.5 * (p[h % 3] + p[(h % 3 + 1) % 3]) : targets[h / 3][h % 3];
+        found.push_back({h, start, step, target, slides, start + 0.5 * step});
+    }
+    return found;
+}
+
+/// Bends of both triangles at a side.
+void place(const Middle& middle, const FaceSides& face, std::span<PlaneBends> bends) {
+    const std::size_t h = middle.half_edge;
+    const std::int32_t twin = face.twins[h];
+    Point2 bend = middle.place - (middle.start + 0.5 * middle.step);
+    if (!(std::abs(bend.x) + std::abs(bend.y) <= norm(middle.step))) bend = {0.0, 0.0};
+    double part = 0.0;
+    if (middle.slides) {
+        const double length = dot(middle.step, middle.step);
+        part = length > 0.0 ? dot(bend, middle.step) / length : 0.0;
+        bend = part * middle.step;
+    }
+    bends[h / 3][h % 3] = bend;
+    if (twin == NIL) return;
+    const auto other = static_cast<std::size_t>(twin);
+    if (middle.slides) {
+        const bool run_alike = face.vertices[h] == face.vertices[other];
+        const PlaneCorners& uv = face.uv[other / 3];
+        const Point2 step = uv[(other % 3 + 1) % 3] - uv[other % 3];
+        bend = (run_alike ? part : -part) * step;
+    }
+    bends[other / 3][other % 3] = bend;
+}
+
+void scale_sides(const FaceSides& face, std::size_t t, double factor, std::span<PlaneBends> bends) {
+    for (std::size_t k = 0; k < 3; ++k) {
+        bends[t][k] = factor * bends[t][k];
+        const std::int32_t twin = face.twins[3 * t + k];
+        if (twin == NIL) continue;
+        const auto other = static_cast<std::size_t>(twin);
+        if (other / 3 != t) bends[other / 3][other % 3] = factor * bends[other / 3][other % 3];
+    }
+}
+
+/// Less bends where a Jacobian is not positive, and at last none.
+void make_regular(const FaceSides& face, std::span<PlaneBends> bends) {
+    Array<std::size_t> bad;
+    for (int round = 0;; ++round) {
+        bad.clear();
+        for (std::size_t t = 0; t < bends.size(); ++t) {
+            const PlanePiece piece{face.uv[t], bends[t]};
+            if (!piece.is_straight() && !is_regular(piece)) bad.push_back(t);
+        }
+        if (bad.empty()) return;
+        for (const std::size_t t : bad) scale_sides(face, t, round < HALVINGS ? 0.5 : 0.0, bends);
+    }
+}
+
+}  // namespace
+
+SurfaceStatus curved_pieces(const Surface& surface, const FaceSides& face,
+                            std::span<const SpaceCorners> middles, Array<PlaneBends>& bends) {
+    bends = Array<PlaneBends>(face.uv.size(), PlaneBends{});
+    if (dynamic_cast<const FourthDerivatives*>(&surface) == nullptr) return SurfaceStatus::DONE;
+    Array<Middle> all = middles_of(face, middles);
+    Array<Point2> uv(all.size());
+    SurfaceValues values;
+    for (int step = 0; step < MIDDLE_STEPS; ++step) {
+        for (std::size_t i = 0; i < all.size(); ++i) uv[i] = all[i].place;
+        if (const auto status = values.evaluate(surface, {uv.data(), uv.size()}, 1);
+            status != SurfaceStatus::DONE)
+            return status;
+        for (std::size_t i = 0; i < all.size(); ++i)
+            move(all[i], values[0][i], values[1][i], values[2][i]);
+    }
+    for (const Middle& middle : all) place(middle, face, {bends.data(), bends.size()});
+    make_regular(face, {bends.data(), bends.size()});
+    return SurfaceStatus::DONE;
+}
+
+void straighten(const FaceSides& face, std::span<const std::uint8_t> is_bad,
+                std::span<PlaneBends> bends) {
+    for (std::size_t t = 0; t < bends.size(); ++t)
+        if (is_bad[t] != 0) scale_sides(face, t, 0.0, bends);
+    make_regular(face, bends);
+}
+
+}  // namespace surfmesh

@@ -1,0 +1,93 @@
+#include "proof/place_jets.hpp"
+
+namespace surfmesh {
+namespace {
+
+constexpr double JET_ROUNDING = 0x1p-44;  // relative, more than that of any sum here
+
+/// R'(e_k) at a place, and how far it is off at most.
+EnclosedPoint along_side(const SecondJet& jet, const PlanePiece& piece, std::size_t k,
+                         const Barycentric& l) {
+    const Point2 p = piece.along(k, l);
+    const SideWeight weight = weight_of(piece, k, l);
+    const double u = std::sqrt(weight.size[2]), v = std::sqrt(weight.size[4]);
+    EnclosedPoint found{p.x * jet[1].value + p.y * jet[2].value, 0.0};
+    const auto size = [](const EnclosedPoint& x) {
+        return 2.0 * x.error +
+               JET_ROUNDING * (std::abs(x.value.x) + std::abs(x.value.y) + std::abs(x.value.z));
+    };
+    found.error = (u * size(jet[1]) + v * size(jet[2])) * (1.0 + JET_ROUNDING);
+    return found;
+}
+
+/// Less what the quadratic triangle adds to the straight one.
+void take_curved(PlaceJet& jet, const SpaceBends& curved, const Barycentric& l,
+                 const Directions& axes) {
+    Point3 away{0.0, 0.0, 0.0};
+    double size = 0.0;
+    for (std::size_t k = 0; k < 3; ++k) {
+        const Point3 bend = curved[k];
+        away = away + 4.0 * l[k] * l[(k + 1) % 3] * bend;
+        size += 8.0 * (std::abs(bend.x) + std::abs(bend.y) + std::abs(bend.z));
+    }
+    for (std::size_t d = 0; d < 3; ++d) {
+        jet.away[d] -= dot(axes[d], away);
+        for (std::size_t k = 0; k < 3; ++k) {
+            const std::size_t i = (k + 1) % 3, j = (k + 2) % 3;
+            const Point3 along =
+                4.0 * ((l[k] - l[i]) * curved[k] + l[j] * curved[i] - l[j] * curved[j]);
+            jet.bends.value[d][k] += 8.0 * dot(axes[d], curved[k]);
+            jet.slope[d][k] -= dot(axes[d], along);
+        }
+    }
+    for (std::size_t k = 0; k < 3; ++k) {
+        jet.bends.error[k] += JET_ROUNDING * size;
+        jet.slope_error[k] += JET_ROUNDING * size;
+    }
+    jet.away_error += 0x1p-50 * size;
+}
+
+double size_of(Point3 x) { return std::abs(x.x) + std::abs(x.y) + std::abs(x.z); }
+
+}  // namespace
+
+void join(SideBends& all, const PlaceBends& there, const FourthParts& more) {
+    for (std::size_t d = 0; d < 3; ++d)
+        for (std::size_t k = 0; k < 3; ++k) {
+            const std::size_t i = (k + 1) % 3, j = (k + 2) % 3;
+            const double value = there.value[d][k], off = more[d][k] + there.error[k];
+            all.by_axis[d][k] = std::max(all.by_axis[d][k], std::abs(value) + off);
+            const double differ = std::abs(there.value[d][i] - there.value[d][j]);
+            const double both = more[d][i] + there.error[i] + more[d][j] + there.error[j];
+            all.differ[d][k] = std::max(all.differ[d][k], differ + both);
+            if (d < 2) continue;
+            all.up[k] = std::max(all.up[k], value + off);
+            all.down[k] = std::max(all.down[k], off - value);
+        }
+}
+
+PlaceJet place_jet(const SecondJet& jet, const PlanePiece& piece, const Barycentric& l,
+                   const Directions& axes, const std::array<EnclosedPoint, 3>& corners,
+                   const SpaceBends& curved) {
+    PlaceJet found{};
+    found.bends = place_bends(jet, piece, l, axes);
+    Point3 flat{0.0, 0.0, 0.0};
+    double error = jet[0].error, size = size_of(jet[0].value);
+    for (std::size_t k = 0; k < 3; ++k) {
+        const EnclosedPoint &from = corners[k], &to = corners[(k + 1) % 3];
+        const Point3 side = to.value - from.value;
+        const auto [slope, off] = along_side(jet, piece, k, l);
+        for (std::size_t d = 0; d < 3; ++d) found.slope[d][k] = dot(axes[d], slope - side);
+        found.slope_error[k] =
+            off + 2.0 * (from.error + to.error) + JET_ROUNDING * (size_of(side) + size_of(slope));
+        flat = flat + l[k] * from.value;
+        error += from.error;
+        size += size_of(from.value);
+    }
+    for (std::size_t d = 0; d < 3; ++d) found.away[d] = dot(axes[d], jet[0].value - flat);
+    found.away_error = 2.0 * error + 0x1p-50 * size;
+    take_curved(found, curved, l, axes);
+    return found;
+}
+
+}  // namespace surfmesh

@@ -1,0 +1,141 @@
+#include "space/graph_patches.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "space/rim_sweep.hpp"
+#include "triangulation/predicates.hpp"
+
+namespace surfmesh {
+namespace {
+
+// of a normal: so much of it is along the axis of its patch, about 84 degrees away at most
+constexpr double ALONG_AXIS = 0.1;
+// triangles of a patch at least: to compare so few pair by pair costs less
+constexpr std::size_t FEWEST = 6;
+
+/// A way to look at space: along an axis, from before or behind.
+struct View {
+    int axis;
+    bool from_behind;
+
+    [[nodiscard]] Point2 operator()(Point3 p) const {
+        const Point2 seen = axis == 0   ? Point2{p.y, p.z}
+                            : axis == 1 ? Point2{p.z, p.x}
+                                        : Point2{p.x, p.y};
+        return from_behind ? Point2{seen.y, seen.x} : seen;
+    }
+    /// What of a normal comes towards the eye.
+    [[nodiscard]] double towards(Point3 n) const {
+        const double along = axis == 0 ? n.x : axis == 1 ? n.y : n.z;
+        return from_behind ? -along : along;
+    }
+};
+
+/// The one that a normal comes towards most.
+View view_of(Point3 n) {
+    const double x = std::abs(n.x), y = std::abs(n.y), z = std::abs(n.z);
+    const int axis = x >= y && x >= z ? 0 : y >= z ? 1 : 2;
+    return {axis, (axis == 0 ? n.x : axis == 1 ? n.y : n.z) < 0.0};
+}
+
+class PatchSearch {
+  public:
+    PatchSearch(std::span<const Point3> points, std::span<const TriangleCorners> triangles,
+                std::span<const HalfEdge> twins)
+        : points_(points),
+          triangles_(triangles),
+          twins_(twins),
+          patch_(triangles.size(), NIL),
+          grown_(triangles.size(), NIL) {}
+
+    Array<std::int32_t> run() {
+        for (std::size_t t = 0; t < triangles_.size(); ++t) {
+            if (grown_[t] != NIL) continue;
+            const Point3 n = normal(t);
+            const View view = view_of(n);
+            grow(static_cast<std::int32_t>(t), view);
+            prove({members_.data(), members_.size()}, view);
+        }
+        return std::move(patch_);
+    }
+
+  private:
+    [[nodiscard]] Point3 normal(std::size_t t) const {
+        const TriangleCorners& k = triangles_[t];
+        return cross(points_[k.b] - points_[k.a], points_[k.c] - points_[k.a]);
+    }
+
+    /// Does a triangle face the eye, surely and not too steeply?
+    [[nodiscard]] bool faces(std::size_t t, const View& view) const {
+        const Point3 n = normal(t);
+        const double towards = view.towards(n);
+        if (!(towards > 0.0 && towards * towards >= ALONG_AXIS * ALONG_AXIS * dot(n, n)))
+            return false;
+        const TriangleCorners& k = triangles_[t];
+        return orient(view(points_[k.a]), view(points_[k.b]), view(points_[k.c])) > 0.0;
+    }
+
+    /// Fill ``members_``, across edges, with triangles that face the eye and are in no patch.
+    void grow(std::int32_t seed, const View& view) {
+        members_.clear();
+        members_.push_back(seed);
+        grown_[seed] = seed;
+        if (!faces(seed, view)) return members_.clear();
+        for (std::size_t k = 0; k < members_.size(); ++k)
+            for (std::int32_t side = 0; side < 3; ++side) {
+                const HalfEdge twin = twins_[3 * members_[k] + side];
+                if (twin == NIL || grown_[twin / 3] != NIL || !faces(twin / 3, view)) continue;
+                grown_[twin / 3] = seed;
+                members_.push_back(twin / 3);
+            }
+    }
+
+    /// Number triangles as a patch if it is one, else those of both halves: where it winds round an
+    /// axis, parts of it may be.
+    void prove(std::span<const std::int32_t> members, const View& view) {
+        if (members.size() < FEWEST) return;
+        const std::int32_t number = patches_++;
+        for (const std::int32_t t : members) patch_[t] = number;
+        if (is_simple(members, view)) return;
+        for (const std::int32_t t : members) patch_[t] = NIL;
+        const std::size_t half = members.size() / 2;
+        prove(members.first(half), view);
+        prove(members.subspan(half), view);
+    }
+
+    /// Is the rim of triangles that have a number of their own simple?
+    bool is_simple(std::span<const std::int32_t> members, const View& view) {
+        rim_.clear();
+        for (const std::int32_t t : members) {
+            const TriangleCorners& c = triangles_[t];
+            const Vertex corner[] = {c.a, c.b, c.c};
+            for (std::int32_t side = 0; side < 3; ++side) {
+                const HalfEdge twin = twins_[3 * t + side];
+                if (twin != NIL && patch_[twin / 3] == patch_[t]) continue;
+                const Vertex start = corner[side], end = corner[(side + 1) % 3];
+                rim_.push_back({start, end, view(points_[start]), view(points_[end])});
+            }
+        }
+        return is_simple_rim({rim_.data(), rim_.size()});
+    }
+
+    std::span<const Point3> points_;
+    std::span<const TriangleCorners> triangles_;
+    std::span<const HalfEdge> twins_;
+    Array<std::int32_t> patch_;    // of each triangle, proved
+    Array<std::int32_t> grown_;    // the seed of each triangle
+    Array<std::int32_t> members_;  // of the patch that is grown
+    Array<RimEdge> rim_;
+    std::int32_t patches_ = 0;
+};
+
+}  // namespace
+
+Array<std::int32_t> graph_patches(std::span<const Point3> points,
+                                  std::span<const TriangleCorners> triangles,
+                                  std::span<const HalfEdge> twins) {
+    return PatchSearch(points, triangles, twins).run();
+}
+
+}  // namespace surfmesh

@@ -1,0 +1,82 @@
+#include "surfaces/tape_taylor.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "surfaces/tape_bounds.hpp"
+#include "surfaces/taylor_coefficients.hpp"
+
+namespace surfmesh {
+namespace {
+
+using taylor::Coefficients;
+using taylor::Operand;
+
+constexpr std::size_t LANES = 32;        // cells at a time: their series stay in the cache
+constexpr double WIDER = 1.0 + 0x1p-30;  // of a hundred operations for each of many instructions
+
+void run(const Instruction& step, const TapeSlots<Interval>& ranges,
+         const TapeSlots<Coefficients>& series, std::size_t n) {
+    std::array<Coefficients, LANES> found;
+    for (std::size_t i = 0; i < n; ++i) {
+        std::array<Operand, 3> operands;
+        for (std::size_t k = 0; k < 3; ++k) {
+            const std::int32_t slot = step.operands[k];
+            operands[k] = {ranges[slot][i], series[slot][i]};
+        }
+        found[i] = taylor::of(step, operands);
+    }
+    run_outward(step, ranges, n);  // which may write what was read
+    std::copy_n(found.begin(), n, series[step.target]);
+}
+
+/// Taylor coefficients times their factorials.
+std::array<double, 12> derivatives_of(const Coefficients& series) {
+    constexpr std::array<double, 12> FACTORIALS = {2.0, 1.0,  2.0, 6.0, 2.0, 2.0,
+                                                   6.0, 24.0, 6.0, 4.0, 6.0, 24.0};
+    constexpr std::size_t SECOND = 2;  // after those of the first order
+    std::array<double, 12> found{};
+    for (std::size_t k = 0; k < found.size(); ++k) {
+        const double most = std::abs(series.mid[SECOND + k]) + series.rad[SECOND + k];
+        const double size = most * (FACTORIALS[k] * WIDER);
+        found[k] = size < intervals::INFINITE ? size : intervals::INFINITE;
+    }
+    return found;
+}
+
+}  // namespace
+
+void high_derivatives(const Tape& tape, std::span<const double> lo, std::span<const double> hi,
+                      std::span<std::array<double, 12>> out) {
+    const std::size_t outputs = tape.outputs().size();
+    constexpr double NONE = intervals::INFINITE;
+    std::array<double, 12> unknown{};
+    unknown.fill(NONE);
+    std::fill(out.begin(), out.end(), unknown);
+    if (tape.inputs() != 2 || lo.empty()) return;
+    const std::size_t count = lo.size() / 2, lanes = std::min(count, LANES);
+    const TapeSlots<Interval> ranges(tape, lanes);
+    const TapeSlots<Coefficients> series(tape, lanes);
+    for (std::size_t k = 0; k < tape.constants().size(); ++k) {
+        const auto slot = static_cast<std::int32_t>(2 + k);
+        std::fill_n(ranges[slot], lanes, outward_constant(tape.constants()[k]));
+        std::fill_n(series[slot], lanes, Coefficients{});
+    }
+    for (std::int32_t input = 0; input < 2; ++input) {
+        Coefficients itself{};
+        itself.mid[static_cast<std::size_t>(input)] = 1.0;
+        std::fill_n(series[input], lanes, itself);
+    }
+    for (std::size_t start = 0; start < count; start += lanes) {
+        const std::size_t n = std::min(lanes, count - start);
+        for (std::size_t i = 0; i < 2 * n; ++i)
+            ranges[static_cast<std::int32_t>(i % 2)][i / 2] = {lo[2 * start + i],
+                                                               hi[2 * start + i]};
+        for (const Instruction& step : tape.instructions()) run(step, ranges, series, n);
+        for (std::size_t k = 0; k < outputs; ++k)
+            for (std::size_t i = 0; i < n; ++i)
+                out[(start + i) * outputs + k] = derivatives_of(series[tape.outputs()[k]][i]);
+    }
+}
+
+}  // namespace surfmesh
