@@ -197,8 +197,15 @@ class SurfaceMesh(PartAttributes, Arrays):
             return np.empty((0, 1 + self.order), np.int32)
         if self.order == 1:
             return self.edge_segments
-        middles = len(self.points) + edge_rows(self.connectivity, self.edge_segments)
+        middles = len(self.points) + self.edge_segment_rows
         return np.column_stack((self.edge_segments, middles))
+
+    @cached_property
+    def edge_segment_rows(self) -> NDArray[np.int64]:
+        """(k,) rows of ``edges`` of the segments on CAD edges; -1: no edge of a triangle."""
+        if self.edge_segments is None:
+            return np.empty(0, np.int64)
+        return edge_rows(self.connectivity, self.edge_segments)
 
     def face_name(self, face: int) -> str:
         """Name of face number ``face``, or ``face 3`` when it has none."""
