@@ -142,10 +142,16 @@ def test_many_faces_are_counted_by_a_close_look_at_some():
         model = sm.from_cadquery(shape)
         before = model_mesh._Unmeshed(model, 0.15)
         areas = np.array([face.area for face in model.faces])
-        count = partial(model_estimate.face_count, fields=model_estimate.FaceFields())
+        fields = model_estimate.FaceFields()
+        count = partial(model_estimate.face_count, fields=fields)
         every = np.array([count(job) for job in before.jobs])
         looked.clear()
-        found = counts_of_faces(before.jobs, areas, lambda job: looked.append(job) or count(job))
+
+        def counted(job, count=count):
+            looked.append(job)
+            return count(job)
+
+        found = counts_of_faces(before.jobs, areas, counted)
         assert len(looked) < min(most, len(model.faces))
         assert found.sum() == pytest.approx(every.sum(), rel=0.03)
 
