@@ -143,15 +143,14 @@ def test_many_faces_are_counted_by_a_close_look_at_some():
         before = model_mesh._Unmeshed(model, 0.15)
         areas = np.array([face.area for face in model.faces])
         fields = model_estimate.FaceFields()
-        count = partial(model_estimate.face_count, fields=fields)
-        every = np.array([count(job) for job in before.jobs])
+        every = np.array([model_estimate.face_count(job, fields) for job in before.jobs])
         looked.clear()
 
-        def counted(job, count=count):
+        def count(job, fields=fields):
             looked.append(job)
-            return count(job)
+            return model_estimate.face_count(job, fields)
 
-        found = counts_of_faces(before.jobs, areas, counted)
+        found = counts_of_faces(before.jobs, areas, count)
         assert len(looked) < min(most, len(model.faces))
         assert found.sum() == pytest.approx(every.sum(), rel=0.03)
 
