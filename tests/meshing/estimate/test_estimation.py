@@ -1,5 +1,7 @@
 """What ``estimate`` says beforehand against the meshes: small, stretched, thin, large."""
 
+from functools import partial
+
 import cadquery as cq
 import numpy as np
 import pytest
