@@ -290,8 +290,6 @@ def _joined(order: _PieceOrder) -> tuple[SurfaceMesh, NDArray, NDArray, NDArray]
         own = np.empty(len(mesh.points), np.int64)
         own[~inside] = np.searchsorted(order.numbers, face.names[mesh.slots[~inside]])
         own[inside] = point + np.arange(inner)
-        size = mesh.sizes.copy()
-        size[~inside] = order.sizes[own[~inside]]
         turn = [0, 2, 1] if face.turned else [0, 1, 2]
         numbers.append(face.first_point + np.arange(inner))
         points.append(mesh.points[inside])
@@ -299,7 +297,7 @@ def _joined(order: _PieceOrder) -> tuple[SurfaceMesh, NDArray, NDArray, NDArray]
         triangles.append(own[mesh.triangles][:, turn])
         uv_points.append(mesh.uv_points)
         uv_triangles.append(corner + mesh.uv_triangles[:, turn].astype(np.int64))
-        roots += [metric_roots(mesh, size)] if order.stretched else []
+        roots += [metric_roots(mesh)] if order.stretched else []
         corners.append(face.first_corner + np.arange(len(mesh.uv_points)))
         cells.append(face.first_triangle + np.arange(len(mesh.triangles)))
         point, corner = point + inner, corner + len(mesh.uv_points)

@@ -4,7 +4,7 @@
 CAD vertices       nodes of edges        inner points of face after face
 """
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Mapping
 from typing import NamedTuple
 
 import numpy as np
@@ -68,9 +68,7 @@ def joined_mesh(
         sizes=np.where(np.isfinite(sizes), sizes, model.diagonal)[used],
         groups=groups_of(model),
         metric_root_3d=(
-            np.concatenate([metric_roots(*each) for each in joined.with_sizes(there)])
-            if is_stretched
-            else None
+            np.concatenate([metric_roots(state.mesh) for state in there]) if is_stretched else None
         ),
         sizing=sizing,
         seconds=seconds,
@@ -109,15 +107,6 @@ class _Joined(NamedTuple):
     face_ids: np.ndarray
     uv_points: np.ndarray
     uv_triangles: np.ndarray
-    own: np.ndarray  # of the points of face after face: their rows
-
-    def with_sizes(self, faces: list[FaceState]) -> Iterator[tuple[FaceMesh, np.ndarray]]:
-        """The faces with the sizes of their points here."""
-        first = 0
-        for state in faces:
-            last = first + len(state.mesh.points)
-            yield state.mesh, self.sizes[self.own[first:last]]
-            first = last
 
 
 def _joined(shared: _Shared, faces: list[FaceState], turned: np.ndarray) -> _Joined:
@@ -146,7 +135,6 @@ def _joined(shared: _Shared, faces: list[FaceState], turned: np.ndarray) -> _Joi
         np.repeat(numbers, triangles),
         np.concatenate([mesh.uv_points for mesh in meshes]),
         _in_one_row([mesh.uv_triangles for mesh in meshes], images, triangles, back),
-        own,
     )
 
 
@@ -163,15 +151,12 @@ def _in_one_row(
     return found
 
 
-def metric_roots(mesh: FaceMesh, sizes: np.ndarray) -> np.ndarray:
-    """Of the ``uv_points`` of a face (n, 6), also of one whose sizes are the same all ways.
-
-    sizes: (k,) of its points in the whole mesh. Edges of a narrow face may have none of their own.
-    """
+def metric_roots(mesh: FaceMesh) -> np.ndarray:
+    """Of the ``uv_points`` of a face (n, 6), also of one whose sizes are the same all ways."""
     if mesh.inverse_sizes is not None:
         return mesh.inverse_sizes
     size = np.ones(len(mesh.uv_points))
-    size[mesh.uv_triangles] = sizes[mesh.triangles]
+    size[mesh.uv_triangles] = mesh.sizes[mesh.triangles]
     return np.array([1.0, 0.0, 0.0, 1.0, 0.0, 1.0]) / size[:, None]
 
 
