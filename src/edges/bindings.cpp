@@ -10,6 +10,7 @@
 #include "edges/edge_courses.hpp"
 #include "edges/edge_cutting.hpp"
 #include "edges/edge_gradation.hpp"
+#include "edges/gradation_over_faces.hpp"
 
 namespace surfmesh::binding {
 namespace {
@@ -174,6 +175,30 @@ void bind_gradation(nb::module_& m) {
         "Sizes (n,) that grow by no more than slope times the way along edges and through "
         "vertices.\n\npoints (n, 3), sizes (n,): samples, of edge e those from first[e] to "
         "first[e + 1]; ends (e, 2): vertices; steps between samples count as least_step at least.");
+    m.def(
+        "graded_over_faces",
+        [](const Points3& points, const Numbers& sizes, const Indices& first,
+           const Matrix<std::int64_t, 2>& ends, std::size_t vertices, const Indices& first_of_face,
+           const Indices& edges_of_face, double slope, double least_step) {
+            const EdgeNetwork edges = checked_network(points, first, ends, vertices);
+            require_rows(sizes.shape(0), points.shape(0), "sizes");
+            if (first_of_face.shape(0) == 0) throw nb::value_error("first_of_face is empty");
+            require_offsets(first_of_face, first_of_face.shape(0) - 1, edges_of_face.shape(0),
+                            "first_of_face");
+            require_indices(rows<std::int64_t>(edges_of_face), ends.shape(0), "edges_of_face");
+            Array<double> found;
+            {
+                const nb::gil_scoped_release released;
+                found = graded_over_faces(
+                    edges, {rows<std::int64_t>(first_of_face), rows<std::int64_t>(edges_of_face)},
+                    rows<double>(sizes), slope, least_step);
+            }
+            return view(found);
+        },
+        nb::arg("points"), nb::arg("sizes"), nb::arg("first"), nb::arg("ends"), nb::arg("vertices"),
+        nb::arg("first_of_face"), nb::arg("edges_of_face"), nb::arg("slope"), nb::arg("least_step"),
+        "The same where sizes grow straight across faces too.\n\nedges_of_face (k,): each once, "
+        "those of face f from first_of_face[f] to first_of_face[f + 1].");
     m.def(
         "cut_to_metric_length",
         [](const CurvePieces& curves, const Points3& points, const Numbers& fraction,

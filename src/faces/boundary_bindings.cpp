@@ -7,10 +7,14 @@
 
 #include "binding/arrays.hpp"
 #include "faces/boundary_builder.hpp"
+#include "faces/loop_figures.hpp"
 #include "insertion/boundary_arguments.hpp"
 #include "surfaces/callback_surface.hpp"
 
 namespace surfmesh::binding {
+
+template <>
+struct Row<LoopFigures> : RowOf<double, 3> {};
 namespace {
 
 using Ids = Vector<std::int64_t>;
@@ -205,6 +209,21 @@ void bind_numbers(nb::module_& m) {
         },
         nb::arg("boundaries"),
         "Those of the nodes of many boundaries in one row, and where each begins.");
+    m.def(
+        "loop_figures",
+        [](const std::vector<const FaceBoundary*>& boundaries) {
+            Array<LoopFigures> figures;
+            Array<std::int64_t> first(1, 0);
+            for (const FaceBoundary* boundary : boundaries) {
+                if (boundary == nullptr) throw nb::type_error("None is no boundary");
+                for (const LoopFigures& own : loop_figures(*boundary)) figures.push_back(own);
+                first.push_back(static_cast<std::int64_t>(figures.size()));
+            }
+            return std::pair(view(figures), view(first));
+        },
+        nb::arg("boundaries"),
+        "Of the loops of many boundaries: nodes, length of the polygon, sum of the finite sizes "
+        "(l, 3); and where those of each boundary begin.");
 }
 
 void bind_polygons(nb::module_& m) {

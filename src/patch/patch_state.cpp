@@ -239,7 +239,7 @@ void PatchState::allow_splits() {
 }
 
 int PatchState::hold_growth(bool around_all) {
-    if (!is_anisotropic() || !asked().slope || stopped()) return 0;
+    if (!asked().slope || stopped()) return 0;
     return grade_scales(t, frames, marks, *asked().slope, around_all);
 }
 

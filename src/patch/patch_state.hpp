@@ -112,9 +112,8 @@ class PatchState {
     int split_farthest(std::span<const Triangle> triangles);
     /// Let the patch grow by its part once more, whatever splits have used of it so far.
     void allow_splits();
-    /// Where sizes depend on the direction: lower them further around vertices whose sizes are
-    /// lowered, or around all, until they grow along no edge by more than is asked. Returns how
-    /// many were lowered.
+    /// Lower sizes further around vertices whose sizes are lowered, or around all, until they grow
+    /// along no edge by more than is asked. Returns how many were lowered.
     int hold_growth(bool around_all);
     /// Free what only passes need; the frames keep their scales.
     void end_passes();

@@ -325,6 +325,8 @@ void bind_area_and_volume(nb::module_& m) {
 
 }  // namespace
 
+void bind_mesh_edges(nb::module_& m);
+
 void bind_quality(nb::module_& m) {
     m.doc() = "What a report measures of a finished mesh: its distance from its surfaces and back.";
     bind_surface_points(m);
@@ -336,6 +338,7 @@ void bind_quality(nb::module_& m) {
     bind_solids(m);
     bind_hidden_bounds(m);
     bind_area_and_volume(m);
+    bind_mesh_edges(m);
 }
 
 }  // namespace surfmesh::binding

@@ -131,20 +131,19 @@ void bind_edge_table(nb::module_& m) {
         "(ne,). Half-edge 3 t + k runs from corner k of triangle t.");
 }
 
+void require_offsets(const Indices& offsets, std::size_t last, const char* what) {
+    const auto values = rows<std::int64_t>(offsets);
+    if (values.empty() || values.front() != 0 || values.back() != static_cast<std::int64_t>(last) ||
+        !std::is_sorted(values.begin(), values.end()))
+        throw nb::value_error((std::string(what) + " are no offsets").c_str());
+}
+
 void bind_edge_gaps(nb::module_& m) {
     m.def(
         "edge_gaps",
         [](const Points3& points, const Vector<double>& reach, const Indices& first,
            const Matrix<std::int64_t, 2>& ends, const Indices& edges,
            const Indices& first_of_face) {
-            const auto require_offsets = [](const Indices& offsets, std::size_t last,
-                                            const char* what) {
-                const auto values = rows<std::int64_t>(offsets);
-                if (values.empty() || values.front() != 0 ||
-                    values.back() != static_cast<std::int64_t>(last) ||
-                    !std::is_sorted(values.begin(), values.end()))
-                    throw nb::value_error((std::string(what) + " are no offsets").c_str());
-            };
             require_rows(reach.shape(0), points.shape(0), "reach");
             require_offsets(first, points.shape(0), "first");
             require_rows(ends.shape(0), first.shape(0) - 1, "ends");
@@ -166,6 +165,20 @@ void bind_edge_gaps(nb::module_& m) {
         "those from first[e] to first[e + 1]; reach (n,): farther than this is not looked at, the "
         "distance is infinite. ends (e, 2): vertices; edges, first_of_face: those of each face in "
         "one row.");
+    m.def(
+        "edge_sags",
+        [](const Points3& points, const Indices& first) {
+            require_offsets(first, points.shape(0), "first");
+            Array<double> found;
+            {
+                const nb::gil_scoped_release released;
+                found = sags(rows<Point3>(points), rows<std::int64_t>(first));
+            }
+            return view(found);
+        },
+        nb::arg("points"), nb::arg("first"),
+        "How far (e,) the segments between the samples of each edge lie off its curve, about, at "
+        "most; points (n, 3), of edge e those from first[e] to first[e + 1].");
 }
 
 void bind_shapes(nb::module_& m) {

@@ -69,16 +69,20 @@ Segments runs_of_segments(const SampledEdges& sampled) {
     return found;
 }
 
-/// Lower the gap of one sample to its distance from edge b.
+/// Runs of one edge, of their numbers in a row the first sample and the box.
+struct RunOfEdge {
+    std::int64_t sample, box;
+};
+
+/// Lower the gap of one sample to its distance from some runs of edge b.
 void lower_gap(const SampledEdges& sampled, const Segments& runs, std::int64_t p, std::int64_t b,
-               EdgeGaps& found) {
+               std::span<const RunOfEdge> near, EdgeGaps& found) {
     const std::int64_t end = sampled.first[b + 1] - 1;
     const Point3 point = sampled.points[p];
     const double reach = std::min(found.gap[p], sampled.reach[p]);
     double nearest = reach * reach;
     if (squared_distance(found.boxes[b], point) >= nearest) return;
-    std::int64_t box = runs.first_box[b];
-    for (std::int64_t run = sampled.first[b]; run < end; run += RUN, ++box) {
+    for (const auto [run, box] : near) {
         if (squared_distance(runs.boxes[box], point) >= nearest) continue;
         for (std::int64_t s = run; s < std::min(run + RUN, end); ++s) {
             const double here = squared_distance(runs.segments[s], point);
@@ -90,17 +94,36 @@ void lower_gap(const SampledEdges& sampled, const Segments& runs, std::int64_t p
     }
 }
 
+/// The runs of edge b that are not surely farther from a box than ``farthest``, squared.
+void near_runs(const SampledEdges& sampled, const Segments& runs, std::int64_t b, const Box3& from,
+               double farthest, Array<RunOfEdge>& near) {
+    constexpr double SURELY = 1.0 + 1e-9;  // round-off decides nothing
+    near.clear();
+    std::int64_t box = runs.first_box[b];
+    for (std::int64_t run = sampled.first[b]; run < sampled.first[b + 1] - 1; run += RUN, ++box)
+        if (!(squared_distance_between(runs.boxes[box], from) > SURELY * farthest))
+            near.push_back({run, box});
+}
+
 /// Lower the gaps of the samples of edge a, run by run; farthest: square of their largest reach.
 void lower_gaps(const SampledEdges& sampled, const Segments& runs, std::int64_t a, std::int64_t b,
                 double farthest, EdgeGaps& found) {
+    Array<RunOfEdge> near;
+    const auto lower = [&](std::int64_t p) {
+        lower_gap(sampled, runs, p, b, {near.data(), near.size()}, found);
+    };
     const std::int64_t end = sampled.first[a + 1] - 1;
     std::int64_t box = runs.first_box[a];
     for (std::int64_t run = sampled.first[a]; run < end; run += RUN, ++box) {
         if (squared_distance_between(runs.boxes[box], found.boxes[b]) >= farthest) continue;
+        near_runs(sampled, runs, b, runs.boxes[box], farthest, near);
+        if (near.empty()) continue;
         const std::int64_t last = run + RUN < end ? run + RUN - 1 : end;
-        for (std::int64_t p = run; p <= last; ++p) lower_gap(sampled, runs, p, b, found);
+        for (std::int64_t p = run; p <= last; ++p) lower(p);
     }
-    if (sampled.first[a] == end) lower_gap(sampled, runs, end, b, found);
+    if (sampled.first[a] != end) return;
+    near_runs(sampled, runs, b, found.boxes[a], farthest, near);
+    lower(end);
 }
 
 /// Of each edge the faces that use it, in their order.
@@ -236,6 +259,17 @@ EdgeGaps edge_gaps(const SampledEdges& sampled) {
                                    {rows.data(), rows.size()}, farthest[a], found);
             }
     });
+    return found;
+}
+
+Array<double> sags(std::span<const Point3> points, std::span<const std::int64_t> first) {
+    Array<double> found;
+    for (std::size_t e = 0; e + 1 < first.size(); ++e) {
+        double largest = 0.0;
+        for (std::int64_t p = first[e] + 1; p < first[e + 1] - 1; ++p)
+            largest = std::max(largest, norm(points[p + 1] - 2.0 * points[p] + points[p - 1]));
+        found.push_back(largest / 8.0);
+    }
     return found;
 }
 

@@ -28,4 +28,8 @@ struct EdgeGaps {
 /// edge by edge: the gaps of an edge are lowered in the order of its faces.
 EdgeGaps edge_gaps(const SampledEdges& sampled);
 
+/// How far the segments between the samples of each edge lie off its curve, about, at most: an
+/// eighth of the largest second difference; first: see there.
+Array<double> sags(std::span<const Point3> points, std::span<const std::int64_t> first);
+
 }  // namespace surfmesh

@@ -105,6 +105,11 @@ def numbers_of(boundaries: Sequence[FaceBoundary]) -> tuple[Annotated[NDArray[nu
     Those of the nodes of many boundaries in one row, and where each begins.
     """
 
+def loop_figures(boundaries: Sequence[FaceBoundary]) -> tuple[Annotated[NDArray[numpy.float64], dict(shape=(None, 3))], Annotated[NDArray[numpy.int64], dict(shape=(None,))]]:
+    """
+    Of the loops of many boundaries: nodes, length of the polygon, sum of the finite sizes (l, 3); and where those of each boundary begin.
+    """
+
 class FacePolygons:
     """Loops as closed polygons: each coedge without its last node."""
 

@@ -87,3 +87,38 @@ def explained_losses(points: Annotated[NDArray[numpy.float64], dict(shape=(None,
 
     slant: of (distance / height)^2, what the area may differ by.
     """
+
+def edge_lengths(points: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)], edges: Annotated[NDArray[numpy.int32], dict(shape=(None, 2), order='C', device='cpu', writable=False)]) -> Annotated[NDArray[numpy.float64], dict(shape=(None,))]:
+    """Length (k,) of edges (k, 2) between points (n, 3)."""
+
+def edges_of_faces(half_edges: Annotated[NDArray[numpy.int32], dict(shape=(None, 2), order='C', device='cpu', writable=False)], faces: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)]) -> Annotated[NDArray[numpy.int32], dict(shape=(None, 2))]:
+    """
+    Edges for ``mesh_deviation``: half_edges (ne, 2) as they are within a face; of those between two faces (m,) of triangles the first, and at the end the second.
+    """
+
+def angles_within_faces(points: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)], triangles: Annotated[NDArray[numpy.int32], dict(shape=(None, 3), order='C', device='cpu', writable=False)], faces: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], half_edges: Annotated[NDArray[numpy.int32], dict(shape=(None, 2), order='C', device='cpu', writable=False)], uses: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)]) -> tuple[Annotated[NDArray[numpy.int64], dict(shape=(None,))], Annotated[NDArray[numpy.int32], dict(shape=(None,))], Annotated[NDArray[numpy.float64], dict(shape=(None,))]]:
+    """
+    Numbers (k,) of the edges between two triangles of one face, that face (k,), and the angle (k,) between their normals, degrees.
+
+    points (n, 3), triangles (m, 3), faces (m,); half_edges (ne, 2) and uses (ne,) of the edge table.
+    """
+
+def rim_losses(points: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)], triangles: Annotated[NDArray[numpy.int32], dict(shape=(None, 3), order='C', device='cpu', writable=False)], half_edges: Annotated[NDArray[numpy.int32], dict(shape=(None, 2), order='C', device='cpu', writable=False)], sagitta: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)], distance: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)], sharpest: float) -> Annotated[NDArray[numpy.float64], dict(shape=(None,))]:
+    """
+    Area (k,) that rims lose: length times the larger of sagitta (k,) and the distance (m,) of their triangles over the sine between these, not below ``sharpest``.
+
+    half_edges (k, 2): of each rim, -1 in the second column for one that is not.
+    """
+
+def triangle_fans(triangles: Annotated[NDArray[numpy.int32], dict(shape=(None, 3), order='C', device='cpu', writable=False)], vertices: int, half_edges: Annotated[NDArray[numpy.int32], dict(shape=(None, 2), order='C', device='cpu', writable=False)]) -> Annotated[NDArray[numpy.int64], dict(shape=(None,))]:
+    """
+    Fans (n,) of triangles (m, 3) at each vertex. half_edges (k, 2): pairs that join their triangles along an edge, whichever way they run; -1 in the second column: none.
+    """
+
+def clashing_edges(triangles: Annotated[NDArray[numpy.int32], dict(shape=(None, 3), order='C', device='cpu', writable=False)], half_edges: Annotated[NDArray[numpy.int32], dict(shape=(None, 2), order='C', device='cpu', writable=False)], uses: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)]) -> Annotated[NDArray[numpy.int32], dict(shape=(None,))]:
+    """
+    Numbers (k,) of the edges whose two triangles run along them the same way.
+    """
+
+def has_repeated_triangles(triangles: Annotated[NDArray[numpy.int32], dict(shape=(None, 3), order='C', device='cpu', writable=False)], vertices: int) -> bool:
+    """Have two triangles (m, 3) the same three corners, in any order?"""

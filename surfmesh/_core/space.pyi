@@ -44,6 +44,11 @@ def edge_gaps(points: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), or
     points (n, 3): samples, of edge e those from first[e] to first[e + 1]; reach (n,): farther than this is not looked at, the distance is infinite. ends (e, 2): vertices; edges, first_of_face: those of each face in one row.
     """
 
+def edge_sags(points: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)], first: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)]) -> Annotated[NDArray[numpy.float64], dict(shape=(None,))]:
+    """
+    How far (e,) the segments between the samples of each edge lie off its curve, about, at most; points (n, 3), of edge e those from first[e] to first[e + 1].
+    """
+
 def triangle_planes(points: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)], triangles: Annotated[NDArray[numpy.int32], dict(shape=(None, 3), order='C', device='cpu', writable=False)], chosen: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)]) -> tuple[Annotated[NDArray[numpy.float64], dict(shape=(None, 3))], Annotated[NDArray[numpy.float64], dict(shape=(None,))], Annotated[NDArray[numpy.float64], dict(shape=(None,))]]:
     """
     Unit normals (k, 3), twice the areas (k,) and the longest sides (k,) of some triangles, rows (k,) of (m, 3). A triangle without area has the normal zero.

@@ -25,8 +25,9 @@ LEVELS = 4
 SAME = 1e-9
 """Of a side: the curves over it of two neighbours are the same, as at a seam."""
 
-WHOLE = 8
-"""A column of the bounds: of the distance point by point."""
+WHOLE, CORNER, SLOPE = 8, 9, 26
+"""Columns of the bounds: the distance point by point, how far corners are off, and how fast the
+distance changes."""
 
 BITS = np.array([1, 2, 4], np.uint8)
 
@@ -40,6 +41,15 @@ class FaceTriangles(NamedTuple):
     twins: NDArray[np.int32]  # (3 m,) the opposite half-edge within the face, -1 at its rims
 
 
+class FaceProof(NamedTuple):
+    """What is proved of m triangles. Lengths in model units; infinite where nothing is."""
+
+    bound: NDArray[np.float64]  # (m,) triangle and surface are within it, both ways
+    away: NDArray[np.float64]  # (m,) |r - L|, point by point
+    slope: NDArray[np.float64]  # (m,) the largest |(r' - L')(w)| for unit w
+    is_joined: bool  # pieces of neighbours have the same curve over their side, everywhere
+
+
 class Gaps(NamedTuple):
     """Triangles of (u, v) that are none in space, between neighbours at a pole."""
 
@@ -49,36 +59,63 @@ class Gaps(NamedTuple):
 
 
 def proved_distances(
-    surface: Surface, face: FaceTriangles, limits: NDArray[np.float64]
-) -> NDArray[np.float64] | None:
-    """(m,) how far triangles and surface are from each other at most; None without bounds.
+    surface: Surface, face: FaceTriangles, limits: NDArray[np.float64], slope: float = np.inf
+) -> FaceProof | None:
+    """How far triangles and surface are from each other at most; None without bounds.
 
-    limits: (m,) how near it is worth to look. Infinite where nothing is proved.
+    limits: (m,) how near it is worth to look; slope: likewise, of how fast |r - L| changes.
     """
     core = as_core_surface(surface)
-    count = len(face.corners)
     rims = (BITS * (face.twins.reshape(-1, 3) < 0)).sum(axis=1).astype(np.uint8)
-    bends, bounds = _bounds(core, face, limits, rims)
+    bends, bounds = _bounds(core, face, limits, rims, slope)
     if bounds is None:
         return None
     gaps = _gaps(surface, face)
+    away = bounds[:, WHOLE] + bounds[:, CORNER]
+    changes = bounds[:, SLOPE] + 4.0 * bounds[:, CORNER] / _least_heights(face.corners)
+    is_joined = not len(gaps.owners) and not len(gaps.unknown)
     if len(gaps.unknown):
         bounds[gaps.unknown] = np.inf
     bound, _ = proof.ring_bounds(face.corners, face.vertices, face.twins, bounds)
     bound[gaps.owners] = np.inf
     which = np.flatnonzero(~(bound <= limits)).astype(np.int32)
     if not len(which):
-        return bound
+        return FaceProof(bound, away, changes, is_joined)
     beside = proof.triangle_bounds(
         core, face.corners[gaps.owners], gaps.uv, np.zeros_like(gaps.uv), limits[gaps.owners],
         np.zeros(len(gaps.owners), np.uint8), DEPTH, False,
     )  # fmt: skip
     if beside is None:
-        return np.full(count, np.inf)
-    return proof.look_closer(
-        core, face.corners, face.uv, bends, face.vertices, face.twins, bounds, which, limits, LEVELS,
-        bound, gaps.uv, gaps.owners, beside,
+        nothing = np.full(len(bound), np.inf)
+        return FaceProof(nothing, nothing, nothing, is_joined)
+    bound = proof.look_closer(
+        core, face.corners, face.uv, bends, face.vertices, face.twins, bounds, which, limits,
+        LEVELS, bound, gaps.uv, gaps.owners, beside,
     )  # fmt: skip
+    return FaceProof(bound, away, changes, is_joined)
+
+
+def proved_curved(
+    surface: Surface, face: FaceTriangles, middles: NDArray[np.float64], limits: NDArray[np.float64]
+) -> NDArray[np.float64] | None:
+    """(m,) how far quadratic triangles and surface are from each other at most, point by point.
+
+    middles: (m, 3, 3) nodes of sides 0, 1, 2. None without bounds; infinite where there is none.
+    """
+    core = as_core_surface(surface)
+    corners, uv, vertices, twins = face
+    bends = proof.curved_pieces(core, corners, uv, vertices, twins, middles)
+    curved = middles - 0.5 * (corners + corners[:, (1, 2, 0)])
+    rims = np.zeros(len(corners), np.uint8)
+    bounds = proof.triangle_bounds(
+        core, corners, uv, bends, limits, rims, DEPTH, curved=np.ascontiguousarray(curved)
+    )
+    if bounds is None:
+        return None
+    bound = bounds[:, WHOLE] + bounds[:, CORNER]
+    gaps = _gaps(surface, face)
+    bound[gaps.owners] = bound[gaps.unknown] = np.inf
+    return bound
 
 
 def _bounds(
@@ -86,6 +123,7 @@ def _bounds(
     face: FaceTriangles,
     limits: NDArray[np.float64],
     rims: NDArray[np.uint8],
+    slope: float,
 ) -> tuple[NDArray[np.float64], NDArray[np.float64] | None]:
     """Bends of the pieces' sides (m, 3, 2), and what is proved of triangles with them.
 
@@ -93,21 +131,29 @@ def _bounds(
     """
     corners, uv, vertices, twins = face
     bends = proof.curved_pieces(core, corners, uv, vertices, twins)
-    bounds = proof.triangle_bounds(core, corners, uv, bends, limits, rims, DEPTH)
+    bounds = proof.triangle_bounds(core, corners, uv, bends, limits, rims, DEPTH, slope=slope)
     if bounds is None:
         return bends, None
     is_unknown = ~np.isfinite(bounds[:, WHOLE])
     while (is_unknown & bends.any(axis=(1, 2))).any():
-        straight = proof.straightened(
-            bends, corners, uv, vertices, twins, is_unknown.view(np.uint8)
-        )
+        bad = is_unknown.view(np.uint8)
+        straight = proof.straightened(bends, corners, uv, vertices, twins, bad)
         rows = np.flatnonzero((straight != bends).any(axis=(1, 2)))
         bends = straight
         bounds[rows] = proof.triangle_bounds(
-            core, corners[rows], uv[rows], bends[rows], limits[rows], rims[rows], DEPTH
-        )
+            core, corners[rows], uv[rows], bends[rows], limits[rows], rims[rows], DEPTH,
+            slope=slope,
+        )  # fmt: skip
         is_unknown = ~np.isfinite(bounds[:, WHOLE])
     return bends, bounds
+
+
+def _least_heights(corners: NDArray[np.float64]) -> NDArray[np.float64]:
+    """(m,) over the longest side."""
+    sides = corners[:, (1, 2, 0)] - corners
+    longest = np.sqrt((sides**2).sum(axis=2).max(axis=1))
+    area = np.linalg.norm(np.cross(sides[:, 0], sides[:, 1]), axis=1)
+    return np.maximum(area / np.maximum(longest, 1e-300), 1e-300)
 
 
 def twins_of(

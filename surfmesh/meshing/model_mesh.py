@@ -10,7 +10,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
-from functools import partial
+from functools import cached_property, partial
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
@@ -23,6 +23,7 @@ from surfmesh.meshing.edges.face_proximity import with_face_gaps
 from surfmesh.meshing.estimate.estimation import Estimate
 from surfmesh.meshing.estimate.least_counts import least_of_model
 from surfmesh.meshing.estimate.model_estimate import (
+    FaceFields,
     model_counts,
     quick_bound,
     require_model_within,
@@ -30,6 +31,7 @@ from surfmesh.meshing.estimate.model_estimate import (
 from surfmesh.meshing.estimate.trial_faces import ratios
 from surfmesh.meshing.estimate.trial_mesh import ROUNDS as TRIAL_ROUNDS
 from surfmesh.meshing.estimate.trial_mesh import WHOLE, WHOLE_STRETCHED, counts_within_budget
+from surfmesh.meshing.faces.face_data import FaceJob
 from surfmesh.meshing.faces.face_mesh import edge_refinement
 from surfmesh.meshing.faces.face_state import FaceState, face_jobs, face_states
 from surfmesh.meshing.faces.face_workers import FACE_WORK, FaceWorkers
@@ -292,8 +294,8 @@ def estimate_model(model: CadModel, sizing: Any) -> Estimate:
     stretched = before.wanted.is_anisotropic
     least = _least(before, balanced)
     whole = WHOLE_STRETCHED if stretched else WHOLE
-    small = quick_bound(model, before.nodes, [face.sizing for face in before.faces]) <= whole
-    counts = np.empty(0) if small else model_counts(model, before.jobs)
+    small, fields = before.bound <= whole, FaceFields()
+    counts = np.empty(0) if small else model_counts(model, before.jobs, fields)
     if small or counts.sum() <= whole:
         made = counts_within_budget(lambda budget: mesh_model(
             model, sizing, progress=budget, strict=False, rounds=TRIAL_ROUNDS
@@ -301,8 +303,8 @@ def estimate_model(model: CadModel, sizing: Any) -> Estimate:
         if made is not None:
             return Estimate.of(made, stretched, True, least)
     if small:
-        counts = model_counts(model, before.jobs)
-    return Estimate.of(counts * ratios(before.jobs, counts), stretched, True, least)
+        counts = model_counts(model, before.jobs, fields)
+    return Estimate.of(counts * ratios(before.jobs, counts, fields), stretched, True, least)
 
 
 def _least(before: _Unmeshed, balanced: bool) -> float | None:
@@ -341,9 +343,27 @@ class _Unmeshed:
         self.samples = sample_edges(model, self.wanted)
         self.faces = face_states(model, self.samples, self.wanted)
         nodes = cut_edges(model, self.wanted.base, self.samples, {})
-        self.jobs = face_jobs(model, self.faces, nodes)
-        if self.wanted.is_anisotropic:  # long edges are cut again, and many of them
-            limits = {k: more for k, job in enumerate(self.jobs) if (more := edge_refinement(job))}
-            nodes = cut_edges(model, self.wanted.base, self.samples, limits, nodes)
-            self.jobs = face_jobs(model, self.faces, nodes, limits)
-        self.nodes = nodes
+        self.bound = quick_bound(model, nodes, [state.sizing for state in self.faces])
+        """Triangles at most, roughly."""
+        self._first_nodes = nodes
+
+    @property
+    def nodes(self) -> CutEdges:
+        """Of the edges that ``jobs`` are made with."""
+        return self._cut[0]
+
+    @property
+    def jobs(self) -> list[FaceJob]:
+        """What the faces are meshed from in the first round, or in the second where sizes depend
+        on the direction: long edges are cut again then, and many of them."""
+        return self._cut[1]
+
+    @cached_property
+    def _cut(self) -> tuple[CutEdges, list[FaceJob]]:
+        model, nodes = self.model, self._first_nodes
+        jobs = face_jobs(model, self.faces, nodes)
+        if not self.wanted.is_anisotropic:
+            return nodes, jobs
+        limits = {k: more for k, job in enumerate(jobs) if (more := edge_refinement(job))}
+        nodes = cut_edges(model, self.wanted.base, self.samples, limits, nodes)
+        return nodes, face_jobs(model, self.faces, nodes, limits)

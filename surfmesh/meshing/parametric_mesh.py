@@ -24,7 +24,7 @@ from surfmesh.meshing.boundary.kink_segments import sides_met, with_kinks
 from surfmesh.meshing.estimate.estimation import Estimate, field_triangles, require_field_within
 from surfmesh.meshing.estimate.least_counts import least_of_surface
 from surfmesh.meshing.estimate.trial_mesh import WHOLE, counts_within_budget
-from surfmesh.meshing.estimate.trial_patches import triangles_per_unit
+from surfmesh.meshing.estimate.trial_patches import SHARE, WIDE, plan_within, triangles_per_unit
 from surfmesh.meshing.finishing.balanced_rounds import (
     WIDER,
     balanced_in_rounds,
@@ -250,8 +250,9 @@ def estimate_parametric(surface: Surface, sizing: Sizing) -> Estimate:
         )
         if made is not None:
             return Estimate.of(made, field.is_anisotropic, least=least)
-    got = asked * (triangles_per_unit(part, field, loops) or 1.0)
-    return Estimate.of([got], field.is_anisotropic, least=least)
+    plan = WIDE if field.is_anisotropic else plan_within(SHARE * asked)
+    each = None if plan is None else triangles_per_unit(part, field, loops, plan)
+    return Estimate.of([asked * (each or 1.0)], field.is_anisotropic, least=least)
 
 
 def explain_parametric(surface: Surface, sizing: Sizing, point: np.ndarray) -> Explanation:

@@ -30,7 +30,7 @@ def first_broken(
     if len(repeated):
         bad = int(repeated[0])
         return f"triangle {bad} = {triangles[bad].tolist()} repeats a corner"
-    twin = _first_duplicate(triangles)
+    twin = _first_duplicate(triangles, len(points))
     if twin is not None:
         return f"triangles {twin[0]} and {twin[1]} have the same corners"
     used = np.zeros(len(points), bool)
@@ -51,8 +51,12 @@ def _outside(name: str, indices: Int32Array, limit: int) -> str | None:
     return f"{name}[{bad}] = {indices[bad].tolist()} is outside 0..{limit - 1}"
 
 
-def _first_duplicate(triangles: Int32Array) -> tuple[int, int] | None:
+def _first_duplicate(triangles: Int32Array, vertices: int) -> tuple[int, int] | None:
     """Two triangles with the same three corners in any order, or None."""
+    from surfmesh._core.quality import has_repeated_triangles  # late, as in ``connect``
+
+    if not has_repeated_triangles(triangles, vertices):
+        return None
     a, b, c = triangles.astype(np.int64).T
     low, high = np.minimum(np.minimum(a, b), c), np.maximum(np.maximum(a, b), c)
     middle = a + b + c - low - high

@@ -28,12 +28,16 @@ def fill_near(
     options = {} if size is None else {"edge_length_abs": float(size)}
     left_behind = Path(LEFT_BEHIND)
     kept = left_behind.exists()
-    points, rows = pytetwild.tetrahedralize(
-        mesh.points.copy(), mesh.triangles.astype(np.int32), epsilon=ENVELOPE, num_threads=1,
-        **options,
-    )  # fmt: skip
-    if not kept:
-        left_behind.unlink(missing_ok=True)
+    try:
+        points, rows = pytetwild.tetrahedralize(
+            mesh.points.copy(), mesh.triangles.astype(np.int32), epsilon=ENVELOPE, num_threads=1,
+            **options,
+        )  # fmt: skip
+    except RuntimeError as error:
+        raise MeshingError(f"fTetWild: {error}") from None
+    finally:
+        if not kept:
+            left_behind.unlink(missing_ok=True)
     if not len(rows):
         raise MeshingError("fTetWild made no tetrahedra")
     rows = positive(points, rows.astype(np.int64))

@@ -8,22 +8,24 @@ from surfmesh.result.surface_mesh import SurfaceMesh
 from surfmesh.volume.gmsh_model import own_model
 
 TETRAHEDRON = 4  # Gmsh's type of element
-LARGEST = "Mesh.MeshSizeMax"
+LARGEST, RENUMBER = "Mesh.MeshSizeMax", "Mesh.Renumber"
 
 
 def fill(mesh: SurfaceMesh, size: float | None) -> tuple[NDArray, NDArray]:
     """Points, those of the mesh first, and tetrahedra inside the solids."""
     corners = mesh if mesh.order == 1 else mesh.replaced(mid_points=None)
     with own_model(corners) as gmsh:
-        before = gmsh.option.getNumber(LARGEST)
+        before = {name: gmsh.option.getNumber(name) for name in (LARGEST, RENUMBER)}
         try:
+            gmsh.option.setNumber(RENUMBER, 0)  # else nodes are numbered anew, entity by entity
             if size is not None:
                 gmsh.option.setNumber(LARGEST, size)
             gmsh.model.mesh.generate(3)
         except Exception as error:  # gmsh raises nothing more special
             raise MeshingError(f"Gmsh: {error}") from None
         finally:
-            gmsh.option.setNumber(LARGEST, before)
+            for name, value in before.items():
+                gmsh.option.setNumber(name, value)
         tags, places, _ = gmsh.model.mesh.getNodes()
         _, rows = gmsh.model.mesh.getElementsByType(TETRAHEDRON)
     if not len(rows):

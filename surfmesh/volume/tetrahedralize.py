@@ -8,8 +8,8 @@ from numpy.typing import NDArray
 from surfmesh.errors import MeshingError
 from surfmesh.result.quadratic_triangles import edge_rows
 from surfmesh.result.surface_mesh import SurfaceMesh
-from surfmesh.volume.curved_tetrahedra import least_jacobians
 from surfmesh.volume.solid_regions import positive, solids_of_tetrahedra
+from surfmesh.volume.untangling import untangled
 from surfmesh.volume.volume_mesh import LEGS, VolumeMesh
 
 ENGINES = {
@@ -36,7 +36,8 @@ def tetrahedralize(
     accepts any surface but makes a new one near it, which the mesh's ``warnings`` say. size:
     largest edge inside, in model units; without it tetrahedra grow as the engine lets them.
     order: 2 for middles of edges, those of the surface where it has some; default: that of the
-    mesh. Tetrahedra whose Jacobian is not proved positive are counted in ``warnings``.
+    mesh. Where a curved surface turns tetrahedra inside out, inner nodes move and some tetrahedra
+    are split; those whose Jacobian is not proved positive then are counted in ``warnings``.
 
     Regions are those of ``solid_ids``; a mesh without solids that is closed is one. Every triangle
     is found again as a side of a tetrahedron on the side where its solid lies, and volumes agree
@@ -69,10 +70,10 @@ def tetrahedralize(
     else:
         surface = surface if surface.order == 2 else _with_middles(surface)
         nodes, elements = _ten_nodes(surface, points, tetrahedra)
-        turned = int((least_jacobians(nodes, elements) <= 0.0).sum())
-        if turned:
+        nodes, elements, own, left = untangled(nodes, elements, own, len(surface.nodes))
+        if left:
             warnings += (
-                f"{turned} curved tetrahedra may be turned inside out in a part: their Jacobian "
+                f"{left} curved tetrahedra may be turned inside out in a part: their Jacobian "
                 "is not proved positive; finer triangles there mend it",
             )
     found = VolumeMesh(

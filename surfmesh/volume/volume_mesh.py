@@ -2,7 +2,7 @@
 
 The nodes of the surface keep their numbers, so that its faces, edges and names say the same here:
 
-    nodes: [ surface.nodes | inner points | inner middles of edges ]
+    nodes: [ surface.nodes | inner points | inner middles of edges | those of split tetrahedra ]
 
 A tetrahedron is positive: corner 3 lies to the left of the triangle 0, 1, 2, which thus is seen
 counter-clockwise from inside. Middles of edges follow the corners, of 01, 12, 20, 03, 13, 23: the

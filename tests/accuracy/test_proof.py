@@ -26,7 +26,8 @@ def face_of(mesh):
 
 def proved(mesh, limit):
     surface = mesh.surfaces[0]
-    return proved_distances(surface, face_of(mesh), np.full(len(mesh.triangles), float(limit)))
+    found = proved_distances(surface, face_of(mesh), np.full(len(mesh.triangles), float(limit)))
+    return None if found is None else found.bound
 
 
 def around(mesh, bound):

@@ -10,8 +10,12 @@ import pytest
 import surfmesh as sm
 from surfmesh.errors import FileFormatError, MeshingError
 from surfmesh.volume import ENGINES
-from surfmesh.volume.curved_tetrahedra import least_jacobians
+from surfmesh.volume.by_ftetwild import LEFT_BEHIND
+from surfmesh.volume.curved_tetrahedra import gradients, jacobians, least_jacobians
+from surfmesh.volume.solid_regions import CORNERS as SIDES
 from surfmesh.volume.solid_regions import sides_of_triangles, solids_of_tetrahedra
+from surfmesh.volume.untangling import Untangled
+from surfmesh.volume.untangling import _split as in_four
 from surfmesh.volume.volume_mesh import LEGS
 
 PACKAGES = {"tetgen": "tetgen", "gmsh": "gmsh", "netgen": "netgen", "ftetwild": "pytetwild"}
@@ -64,6 +68,70 @@ def test_curved_middles_are_those_of_the_surface():
     found = fills(mesh, "tetgen")
     np.testing.assert_array_equal(found.nodes[: len(mesh.nodes)], mesh.nodes)
     assert np.isin(mesh.elements, found.elements).all()
+
+
+def drilled(chord):
+    shape = cq.Workplane().box(6, 4, 3).edges("|Z").fillet(1).faces(">Z").workplane().hole(1.5)
+    return sm.mesh(shape, sm.Sizing(chord=chord), order=2)
+
+
+@pytest.mark.parametrize("engine", ["tetgen", "gmsh", "netgen"])
+def test_curved_tetrahedra_are_turned_right_from_within(engine, monkeypatch):
+    """Some of each engine are inside out as they come; the surface stays to the last bit."""
+    mesh = drilled(0.2)
+    with monkeypatch.context() as patch:
+        patch.setattr("surfmesh.volume.untangling.ROUNDS", 0)
+        given = fills(mesh, engine)
+    turned = int((least_jacobians(given.nodes, given.elements) <= 0.0).sum())
+    assert (f"{turned} curved tetrahedra" in "".join(given.warnings)) == (turned > 0)
+    found = fills(mesh, engine)
+    assert least_jacobians(found.nodes, found.elements).min() > 0.0 and not found.warnings
+    np.testing.assert_array_equal(found.nodes[: len(mesh.nodes)], mesh.nodes)
+    assert found.volume == pytest.approx(given.volume, rel=1e-12)
+    assert (found.face_sides[:, 0] >= 0).all()
+
+
+def test_a_split_tetrahedron_is_four_with_its_sides():
+    nodes = STRAIGHT.copy()
+    nodes[5] += (0.1, 0.1, -0.05)  # curved edges stay
+    whole = np.arange(10)[None]
+    solids = np.array([7], np.int32)
+    found = in_four(Untangled(nodes, whole, solids, 1), np.array([True]))
+    assert len(found.elements) == 4 and (found.solid_ids == 7).all()
+    assert least_jacobians(found.nodes, found.elements).min() > 0.0
+    np.testing.assert_array_equal(found.nodes[:10], nodes)
+    assert jacobians(found.nodes[found.elements]).mean(axis=1).sum() == pytest.approx(
+        jacobians(nodes[whole]).mean(), rel=1e-12
+    )  # the mean of the coefficients is six times the volume
+    behind, before = sides_of_triangles(found.elements[:, :4], np.array(SIDES))
+    assert sorted((behind // 4).tolist()) == [0, 1, 2, 3] and (before == -1).all()
+
+
+def test_slopes_of_jacobians_are_those_of_differences():
+    random = np.random.default_rng(5)
+    places = STRAIGHT[None] + 0.05 * random.normal(size=(3, 10, 3))
+    weights = random.normal(size=(3, 20))
+    step = random.normal(size=places.shape)
+    ahead, behind = (
+        (weights * jacobians(places + h * step)).sum() for h in (1e-5, -1e-5)
+    )  # fmt: skip
+    slope = (gradients(places, weights) * step).sum()
+    assert slope == pytest.approx((ahead - behind) / 2e-5, rel=1e-8)
+
+
+def test_ftetwild_leaves_nothing_behind(boxes, tmp_path, monkeypatch):
+    pytetwild = pytest.importorskip("pytetwild")
+    monkeypatch.chdir(tmp_path)
+
+    def fails(*_, **__):
+        (tmp_path / LEFT_BEHIND).write_text("solid")
+        raise RuntimeError("no tetrahedra")
+
+    monkeypatch.setattr(pytetwild, "tetrahedralize", fails)
+    one = sm.mesh(sm.load("ellipsoid"), 0.8)
+    with pytest.raises(MeshingError, match="fTetWild: no tetrahedra"):
+        one.tetrahedralize("ftetwild")
+    assert not list(tmp_path.iterdir())
 
 
 def test_a_new_surface_is_said_to_be_new(boxes):

@@ -14,7 +14,7 @@ from collections import deque
 
 import numpy as np
 
-from surfmesh._core.space import edge_gaps
+from surfmesh._core.space import edge_gaps, edge_sags
 from surfmesh.cad.model.cad_model import CadModel
 from surfmesh.cad.model.model_arrays import model_arrays, offsets
 from surfmesh.meshing.edges.edge_samples import EdgeSamples, MateRun
@@ -99,7 +99,7 @@ def _near_pairs(model: CadModel, samples: EdgeSamples) -> list[tuple[int, int, i
     points, first = samples.points, samples.first
     if len(points) < 3:
         return []
-    ends, sag = model_arrays(model).mesh_ends, _sags(samples)
+    ends, sag = model_arrays(model).mesh_ends, edge_sags(points, first)
     by_width: dict[float, list[int]] = {}
     for face, width in enumerate(samples.narrow_width.tolist()):
         if width > 0.0 and face not in samples.narrow and len(samples.edges_of_face[face]) > 1:
@@ -124,18 +124,6 @@ def _near_pairs(model: CadModel, samples: EdgeSamples) -> list[tuple[int, int, i
                 meets = (ends[own, :, None] == ends[a]).any(axis=(1, 2))
                 found += [(face, a, b) for b in own[close & ~meets].tolist()]
     return found
-
-
-def _sags(samples: EdgeSamples) -> np.ndarray:
-    """How far (e,) the segments between samples lie off their edges, at most."""
-    points, first = samples.points, samples.first
-    bend = np.zeros(len(points))
-    bend[1:-1] = np.linalg.norm(points[2:] - 2.0 * points[1:-1] + points[:-2], axis=1)
-    there = np.flatnonzero(first[:-1] < first[1:])
-    bend[first[there]] = bend[first[there + 1] - 1] = 0.0  # from one edge to the next
-    sag = np.zeros(len(first) - 1)
-    sag[there] = np.maximum.reduceat(bend, first[there]) / 8.0
-    return sag
 
 
 def _edge_chain(samples: EdgeSamples, edge: int) -> Chain:

@@ -1,8 +1,8 @@
 """The edges of a CAD model, each cut once for all its faces.
 
-    target sizes at samples of edges -> graded along edges and through vertices -> cut to unit
-    (edge_samples), limits of           (Dijkstra over all samples of the        metric length
-    earlier rounds                       model; it is a shortest path)
+    target sizes at samples of edges -> graded along edges, through vertices -> cut to unit
+    (edge_samples), limits of           and across faces (shortest paths         metric length
+    earlier rounds                      over all samples of the model)
 
 What two faces share are these nodes, by number: the mesh is watertight because of it.
 """
@@ -12,7 +12,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from surfmesh._core.edges import cut_to_metric_length, graded_along_edges
+from surfmesh._core.edges import cut_to_metric_length, graded_over_faces
 from surfmesh.cad.model.cad_model import CadModel
 from surfmesh.cad.model.model_arrays import model_arrays, offsets
 from surfmesh.errors import SizingError
@@ -102,11 +102,13 @@ def cut_edges(
 def _graded(
     model: CadModel, samples: EdgeSamples, target_size: np.ndarray, sizing: Sizing
 ) -> np.ndarray:
-    """Sizes (n,) at the samples: the target size of any sample plus the slope times the way."""
+    """Sizes (n,) at the samples: the target size of any sample plus the slope times the way, along
+    edges and straight across faces."""
     arrays = model_arrays(model)
-    return graded_along_edges(
+    first_of_face, edges_of_face = samples.edges_of_wide_faces
+    return graded_over_faces(
         samples.points, target_size, samples.first, arrays.mesh_ends, len(arrays.corners),
-        sizing.gradient, LEAST_STEP * model.diagonal,
+        first_of_face, edges_of_face, sizing.gradient, LEAST_STEP * model.diagonal,
     )  # fmt: skip
 
 

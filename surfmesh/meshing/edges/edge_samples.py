@@ -1,10 +1,12 @@
 """What is known of the edges of a model before they are cut: samples, narrow faces, mates."""
 
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 
 from surfmesh.cad.model.cad_model import CadModel
+from surfmesh.cad.model.model_arrays import offsets
 
 
 @dataclass(frozen=True)
@@ -75,6 +77,13 @@ class EdgeSamples:
     def is_anisotropic(self) -> bool:
         """Do sizes depend on the direction?"""
         return len(self.tangent) > 0
+
+    @cached_property
+    def edges_of_wide_faces(self) -> tuple[np.ndarray, np.ndarray]:
+        """(w + 1,) where the edges of each face that is not narrow begin, and these (k,)."""
+        wide = [own for face, own in enumerate(self.edges_of_face) if face not in self.narrow]
+        first = offsets(np.array([len(own) for own in wide], np.int64))
+        return first, np.concatenate([np.empty(0, np.int64), *wide])
 
     def of(self, edge: int) -> slice:
         """The samples of one edge."""

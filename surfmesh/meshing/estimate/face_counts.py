@@ -11,12 +11,11 @@ holds a quantile of all triangles; planes and curved faces are two populations.
 from __future__ import annotations
 
 from collections.abc import Callable
-from itertools import pairwise
 from typing import Any
 
 import numpy as np
 
-from surfmesh.cad.model.model_arrays import offsets
+from surfmesh._core.faces import loop_figures
 from surfmesh.meshing.estimate.estimation import combined
 from surfmesh.meshing.faces.face_data import FaceJob
 from surfmesh.sizing.field.metric_area import TRIANGLES
@@ -80,26 +79,13 @@ def _likeness(job: FaceJob, area: float, loops: bytes) -> Any:
 
 def _loops_in_figures(jobs: list[FaceJob]) -> list[bytes]:
     """Of each job, of its loops in one order: how many nodes, how long, and the sum of the sizes
-    there, all rounded, as bytes that are the same where these are."""
-    boundaries = [job.boundary for job in jobs]
-    if not boundaries:
+    there, rounded, as bytes that are the same where these are."""
+    if not jobs:
         return []
-    start = offsets(np.array(list(map(len, boundaries))))
-    ends = [own.piece_end[own.loop_end - 1] + at for own, at in zip(boundaries, start.tolist())]
-    first = np.concatenate([[0], *ends])
-    points = np.concatenate([own.points for own in boundaries])
-    sizes = np.concatenate([own.sizes for own in boundaries])
-    step = np.zeros(len(points))
-    step[1:] = np.linalg.norm(np.diff(points, axis=0), axis=1)
-    step[first[:-1]] = 0.0  # from one loop to the next
-    lengths = _rounded(np.add.reduceat(step, first[:-1]))
-    sums = _rounded(np.add.reduceat(np.where(np.isfinite(sizes), sizes, 0.0), first[:-1]))
-    count = np.diff(first).astype(float)
-    loops = np.array(list(map(len, ends)))
-    order = np.lexsort((sums, lengths, count, np.repeat(np.arange(len(jobs)), loops)))
-    rows = np.column_stack([count, lengths, sums])[order]
-    last = np.cumsum(loops).tolist()
-    return [rows[a:b].tobytes() for a, b in pairwise([0, *last])]
+    figures, first = loop_figures([job.boundary for job in jobs])
+    rows = np.column_stack([figures[:, 0], _rounded(figures[:, 1]), _rounded(figures[:, 2])])
+    order = np.lexsort((*rows.T[::-1], np.repeat(np.arange(len(jobs)), np.diff(first))))
+    return [own.tobytes() for own in np.split(rows[order], first[1:-1])]
 
 
 def _rounded(values: np.ndarray) -> np.ndarray:

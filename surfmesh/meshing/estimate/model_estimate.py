@@ -19,6 +19,7 @@ from surfmesh.meshing.faces.face_data import FaceJob
 from surfmesh.meshing.faces.face_mesh import face_field
 from surfmesh.meshing.faces.strip_triangulation import strip_mesh
 from surfmesh.sizing.field.metric_area import TRIANGLES
+from surfmesh.sizing.field.size_field import SizeField
 from surfmesh.sizing.options.sizing import Sizing
 from surfmesh.sizing.rules.direction_rates import has_even_curvature
 from surfmesh.sizing.rules.size_rules import SizeRules
@@ -27,16 +28,29 @@ FEW = 9
 """Points each way of a grid on a face."""
 
 
-def model_counts(model: CadModel, jobs: list[FaceJob]) -> np.ndarray:
+class FaceFields:
+    """Size fields of faces, each made once."""
+
+    def __init__(self) -> None:
+        self._known: dict[int, tuple[FaceJob, tuple[FaceSurface, SizeField]]] = {}
+
+    def __call__(self, job: FaceJob) -> tuple[FaceSurface, SizeField]:
+        if id(job) not in self._known:
+            self._known[id(job)] = job, face_field(job)
+        return self._known[id(job)][1]
+
+
+def model_counts(model: CadModel, jobs: list[FaceJob], fields: FaceFields) -> np.ndarray:
     """Triangles on each face (f,) in the first round. Raises ``SizingError`` where a size field
     cannot be made."""
-    return counts_of_faces(jobs, np.array([face.area for face in model.faces]), _count)
+    areas = np.array([face.area for face in model.faces])
+    return counts_of_faces(jobs, areas, lambda job: face_count(job, fields))
 
 
-def _count(job: FaceJob) -> float:
+def face_count(job: FaceJob, fields: FaceFields) -> float:
     """Of one face; of a narrow one those between its sides, which cost nothing to make."""
     strip = strip_mesh(job)
-    return face_triangles(job, face_field(job)[1]) if strip is None else len(strip.triangles)
+    return face_triangles(job, fields(job)[1]) if strip is None else len(strip.triangles)
 
 
 def bounds(
@@ -129,5 +143,5 @@ def require_model_within(
         return
     names = [face.label(number) for number, face in enumerate(model.faces)]
     require_within(sizing.limit, Estimate.of(least), names)
-    counts = model_counts(model, jobs())
+    counts = model_counts(model, jobs(), FaceFields())
     require_within(sizing.limit, Estimate.of(counts, model=True), names)

@@ -1,28 +1,54 @@
 """A few faces of a CAD model, or patches of them, meshed for real: how good the counts are.
 
 A face is chosen as often as it holds a quantile of all triangles, so that the mean of what is
-found is that of all triangles. Planes and curved faces are two populations.
+found is that of all triangles. Planes and curved faces are two populations. As many faces are
+tried as cost no more than a share of the mesh.
 """
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import replace
+from typing import NamedTuple
 
 import numpy as np
 
-from surfmesh.meshing.estimate.trial_patches import triangles_per_unit
+from surfmesh.geometry.cad_surfaces.face_surface import FaceSurface
+from surfmesh.meshing.estimate.trial_patches import (
+    SHARE,
+    SMALL_PATCH,
+    PatchPlan,
+    triangles_per_unit,
+)
 from surfmesh.meshing.faces.face_data import FaceJob
-from surfmesh.meshing.faces.face_mesh import face_field, mesh_face
+from surfmesh.meshing.faces.face_mesh import mesh_face
 from surfmesh.meshing.patch.refinement_loop import refined_in_rounds
+from surfmesh.sizing.field.size_field import SizeField
 from surfmesh.sizing.rules.size_limits import SizeLimits
 
-FACES = 8
-"""Faces of each population."""
+FieldOf = Callable[[FaceJob], tuple[FaceSurface, SizeField]]
 
-SMALL, MEDIUM, PATCHES = 1500, 8000, 2
-"""Triangles of a face that is meshed as a whole, or when no patch fits in; patches of a larger
-one."""
+SMALL = 1500
+"""Triangles of a face that is meshed as a whole."""
+
+
+class _Plan(NamedTuple):
+    """What is made on trial."""
+
+    faces: int
+    patch: PatchPlan
+    """On a face that is not small."""
+
+    def cost(self, counts: np.ndarray) -> float:
+        """In triangles, where faces of so many are chosen."""
+        return float(np.where(counts <= SMALL, counts, self.patch.cost).sum())
+
+
+_PLANS = (
+    _Plan(8, PatchPlan(2, 1000)),
+    *(_Plan(faces, PatchPlan(1, SMALL_PATCH)) for faces in (8, 4, 2, 1)),
+)
+"""From the best on."""
 
 ROUNDS = 3
 """How often the face is meshed at most, with the smaller sizes that it asks for."""
@@ -31,28 +57,32 @@ SPREAD = (0.5, 2.5)
 """What lies beyond is no ratio but a face that fails."""
 
 
-def ratios(jobs: list[FaceJob], counts: np.ndarray) -> np.ndarray:
-    """Factors (f,) on the estimated ``counts`` (f,) of the faces."""
+def ratios(jobs: list[FaceJob], counts: np.ndarray, field: FieldOf) -> np.ndarray:
+    """Factors (f,) on the estimated ``counts`` (f,) of the faces. field: of a job."""
     found = np.ones(len(jobs))
-    plane = np.array([job.surface.kind == "plane" for job in jobs])
-    for of in (np.flatnonzero(plane), np.flatnonzero(~plane)):
+    # on a plane the optimiser has nothing to split where sizes are the same all ways
+    stretched = np.array([job.sizing.is_anisotropic for job in jobs], bool)
+    plane = np.array([job.surface.kind == "plane" for job in jobs], bool)
+    most = SHARE * counts.sum() if not stretched.any() else np.inf
+    for of in (np.flatnonzero(plane & stretched), np.flatnonzero(~plane)):
         sums = np.cumsum(counts[of])
         if not len(of) or not sums[-1] > 0.0:
             continue
-        at = (np.arange(FACES) + 0.5) / FACES * sums[-1]
-        chosen, times = np.unique(of[np.searchsorted(sums, at)], return_counts=True)
-        of_chosen = np.array([_ratio(jobs[face], float(counts[face])) for face in chosen.tolist()])
-        found[of] = np.average(of_chosen, weights=times)
+        for plan in _PLANS:
+            at = (np.arange(plan.faces) + 0.5) / plan.faces * sums[-1]
+            chosen, times = np.unique(of[np.searchsorted(sums, at)], return_counts=True)
+            if plan.cost(counts[chosen]) <= most:
+                each = [_ratio(jobs[k], float(counts[k]), plan.patch, field) for k in chosen]
+                found[of] = np.average(each, weights=times)
+                break
     return found
 
 
-def _ratio(job: FaceJob, count: float) -> float:
+def _ratio(job: FaceJob, count: float, plan: PatchPlan, field: FieldOf) -> float:
     """Triangles got for each of ``count``; 1 where that cannot be found out."""
     if count > SMALL:
-        loops = job.rings
-        found = triangles_per_unit(*face_field(job), loops, PATCHES)
-        if found is not None or count > MEDIUM:
-            return 1.0 if found is None else float(np.clip(found, *SPREAD))
+        per_unit = triangles_per_unit(*field(job), job.rings, plan)
+        return 1.0 if per_unit is None else float(np.clip(per_unit, *SPREAD))
     made = 0
 
     def one_round(limits: Mapping[int, SizeLimits]) -> tuple[int, dict[int, SizeLimits]]:

@@ -13,6 +13,7 @@ collapses short edges. How many it does of each depends on the surface; a few pa
 from __future__ import annotations
 
 from collections.abc import Sequence
+from typing import NamedTuple
 
 import numpy as np
 
@@ -24,15 +25,43 @@ from surfmesh.meshing.patch.patch_mesh import mesh_patch
 from surfmesh.sizing.field.metric_area import TRIANGLES, box_area, inner_cells
 from surfmesh.sizing.field.size_field import SizeField
 
-PATCH, SMALL_PATCH, PATCHES = 1000, 300, 4
-"""Triangles of a patch, about, and of one where that does not fit; how many patches."""
+SMALL_PATCH = 300
+"""Triangles of a patch, about, where a larger one does not fit in or would cost too much."""
+
+SHARE = 0.06
+"""Of the triangles that are asked for, so many are made on trial; more where sizes depend on the
+direction, of which the area tells less."""
+
+
+class PatchPlan(NamedTuple):
+    """How many patches are made of one face."""
+
+    patches: int
+    triangles: int
+    """Of each, about."""
+
+    @property
+    def cost(self) -> int:
+        """In triangles."""
+        return self.patches * self.triangles
+
+
+WIDE = PatchPlan(4, 1000)
+PLANS = (WIDE, PatchPlan(4, SMALL_PATCH), PatchPlan(2, SMALL_PATCH))
+"""From the best on."""
+
+
+def plan_within(triangles: float) -> PatchPlan | None:
+    """The best plan that makes no more triangles; None: there is none."""
+    return next((plan for plan in PLANS if plan.cost <= triangles), None)
+
 
 SMALLEST = 200
 """A patch that the sides of the face cut down to fewer tells nothing."""
 
 
 def triangles_per_unit(
-    surface: Surface, field: SizeField, loops: Sequence[np.ndarray] | None, patches: int = PATCHES
+    surface: Surface, field: SizeField, loops: Sequence[np.ndarray] | None, plan: PatchPlan = WIDE
 ) -> float | None:
     """Triangles got for each that the field asks for; None where no patch fits in the loops.
 
@@ -40,8 +69,8 @@ def triangles_per_unit(
     """
     total = got = 0.0
     rings = None if loops is None else [field.chart.to_plane(loop) for loop in loops]
-    for centre in _centres(field, rings, patches):
-        box = _patch(field, centre, PATCH)
+    for centre in _centres(field, rings, plan.patches):
+        box = _patch(field, centre, plan.triangles)
         if rings is not None and not _is_within(rings, box):
             box = _patch(field, centre, SMALL_PATCH)
             if not _is_within(rings, box):

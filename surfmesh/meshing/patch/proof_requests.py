@@ -36,9 +36,10 @@ def requests_for_proof(
     twins = twins_of(table.half_edges, table.uses, len(vertices))
     corners = np.ascontiguousarray(points[vertices])
     face = FaceTriangles(corners, np.ascontiguousarray(uv), vertices, twins)
-    bound = proved_distances(surface, face, np.full(len(vertices), sizing.chord))
-    if bound is None:
+    found = proved_distances(surface, face, np.full(len(vertices), sizing.chord))
+    if found is None:
         return None
+    bound = found.bound
     # where nothing is bounded, as at an apex, smaller triangles would be no better
     left = np.flatnonzero((bound > sizing.chord) & np.isfinite(bound))
     if not len(left):

@@ -5,6 +5,7 @@ known_surfaces: a mesh whose surfaces and corner parameters are known.
 
 Connectivity and shape:
 topology: what kind of surface the triangles form: closed, manifold, oriented, in how many pieces.
+proved_isotopy: can the mesh be deformed into its surface through space?
 proved_topology: is the mesh homeomorphic to what it was made of, and more? By exact predicates.
 against_model: edges and vertices that are not as the model has them: more triangles, or more fans.
 curved: quadratic triangles: area, volume, Jacobian, and their distance from the surface.

@@ -13,7 +13,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from surfmesh._core.quality import explained_losses
+from surfmesh._core import quality
 from surfmesh.quality.measures.penetration import edge_sagittas
 from surfmesh.quality.measures.topology import half_edges_along
 from surfmesh.result.quadratic_triangles import edge_rows
@@ -42,7 +42,7 @@ def explained(
     mesh: SurfaceMesh, area: NDArray[np.float64], by_triangle: NDArray[np.float64]
 ) -> Explained:
     """area: (m,) of the triangles; by_triangle: (m,) their distances from the surface."""
-    lost, volume = explained_losses(mesh.points, mesh.triangles, area, by_triangle, SLANT)
+    lost, volume = quality.explained_losses(mesh.points, mesh.triangles, area, by_triangle, SLANT)
     lost = np.minimum(lost + area * by_triangle * _bends(mesh), area)
     return Explained(lost, _along_rims(mesh, by_triangle), volume)
 
@@ -72,31 +72,27 @@ def _along_rims(mesh: SurfaceMesh, by_triangle: NDArray[np.float64]) -> NDArray[
         on = row >= 0
         np.maximum.at(sagitta, row[on], edge_sagittas(mesh, links)[on])
         rim[row[on]] = True
-    half_edges = table.half_edges[rim]
-    triangles, two = half_edges // 3, half_edges[:, 1] >= 0
-    length = np.linalg.norm(np.diff(mesh.points[mesh.edges[rim]], axis=1)[:, 0], axis=1)
-    beside = by_triangle[triangles]
-    beside[:, 1] = np.where(two, beside[:, 1], 0.0)
-    slanted = beside.max(axis=1) / np.where(two, _sines(mesh, triangles), 1.0)
-    lost = length * np.minimum(np.maximum(sagitta[rim], slanted), length)
-    half_edge, row = half_edges_along(mesh, mesh.edges[rim])
+    lost = quality.rim_losses(
+        mesh.points, mesh.triangles, table.half_edges[rim], sagitta[rim], by_triangle, SHARPEST
+    )
+    half_edge, row = _all_half_edges(mesh, np.flatnonzero(rim))
     faces = mesh.face_ids[half_edge // 3]
     return np.bincount(faces, lost[row], int(mesh.face_ids.max(initial=0)) + 1).astype(float)
 
 
-def _sines(mesh: SurfaceMesh, pairs: NDArray[np.int32]) -> NDArray[np.float64]:
-    """(k,) of the angles between two triangles, not below ``SHARPEST``.
-
-    Where faces meet at an angle their common edge lies farther from its chord than they do:
-
-          face  |  /        the distance of the chord from one face over the sine
-                | /  edge   of the angle is that from the edge within the other
-          chord o'
-    """
-    corners = mesh.points[mesh.triangles[pairs]]
-    normal = np.cross(corners[:, :, 1] - corners[:, :, 0], corners[:, :, 2] - corners[:, :, 0])
-    size = np.maximum(np.linalg.norm(normal, axis=2).prod(axis=1), np.finfo(float).tiny)
-    return np.maximum(np.linalg.norm(np.cross(normal[:, 0], normal[:, 1]), axis=1) / size, SHARPEST)
+def _all_half_edges(
+    mesh: SurfaceMesh, edges: NDArray[np.intp]
+) -> tuple[NDArray[np.int64], NDArray[np.intp]]:
+    """All half-edges along some edges, in their order, and the places of these in ``edges``."""
+    table = mesh.connectivity
+    crowded = np.flatnonzero(table.uses[edges] > 2)
+    more, row = half_edges_along(mesh, mesh.edges[edges[crowded]])
+    pairs = table.half_edges[edges].astype(np.int64)
+    pairs[crowded] = -1
+    place, side = np.nonzero(pairs >= 0)
+    half_edges = np.concatenate([pairs[place, side], more])
+    order = np.argsort(half_edges)
+    return half_edges[order], np.concatenate([place, crowded[row]])[order]
 
 
 def _rim_sagittas(mesh: SurfaceMesh, rim: NDArray[np.bool_]) -> NDArray[np.float64]:

@@ -12,7 +12,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from surfmesh._core.quality import mesh_deviation
+from surfmesh._core.quality import edges_of_faces, mesh_deviation
 from surfmesh.accuracy.deviation import STEPS, nearest_deviations
 from surfmesh.accuracy.samples import DENSE
 from surfmesh.quality.measures.known_surfaces import KnownSurfaces
@@ -68,14 +68,7 @@ def _measured_edges(mesh: SurfaceMesh) -> NDArray[np.int32]:
     pairs = mesh.connectivity.half_edges
     if len(mesh.surfaces) == 1:
         return pairs
-    first, second = mesh.face_ids[pairs // 3].T
-    between = (pairs[:, 1] >= 0) & (first != second)
-    again = pairs[between]
-    once = pairs.copy()
-    once[between, 1] = -1
-    return np.concatenate([once, np.column_stack([again[:, 1], np.full(len(again), -1)])]).astype(
-        np.int32, copy=False
-    )
+    return edges_of_faces(pairs, mesh.face_ids)
 
 
 def _blocks(members: NDArray, length: int = BLOCK) -> Iterator[NDArray]:

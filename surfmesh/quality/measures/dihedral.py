@@ -6,11 +6,8 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from surfmesh._core.quality import face_creases
-from surfmesh.accuracy.dihedral import (
-    SLACK,
-    dihedral_angles,
-)
+from surfmesh._core import quality
+from surfmesh.accuracy.dihedral import SLACK
 from surfmesh.quality.measures.known_surfaces import KnownSurfaces
 from surfmesh.quality.measures.places import Point, as_point
 from surfmesh.result.surface_mesh import SurfaceMesh
@@ -46,19 +43,17 @@ def angles_within_faces(
     if known is None:
         return None
     table = mesh.connectivity
-    first, second = table.half_edges.T
-    inner = (table.uses == 2) & (mesh.face_ids[first // 3] == mesh.face_ids[second // 3])
-    edges = np.flatnonzero(inner)
-    pairs = table.half_edges[edges]
-    angles = np.degrees(dihedral_angles(mesh.points, mesh.triangles, pairs))
-    faces = mesh.face_ids[pairs[:, 0] // 3]
+    edges, faces, angles = quality.angles_within_faces(
+        mesh.points, mesh.triangles, mesh.face_ids, table.half_edges, table.uses
+    )
     if limits is None:
         limits = np.array([(mesh.sizing and mesh.sizing.angle) or np.inf])
     limits = np.where(np.isfinite(limits), limits, DEFAULT_ANGLE)
     limits = np.broadcast_to(limits, len(mesh.surfaces)) if len(limits) == 1 else limits
     large = np.flatnonzero(angles > limits[faces] * (1 + SLACK))
     if len(large):
-        creased = face_creases(*known.arrays, pairs[large], np.ascontiguousarray(limits))
+        pairs = table.half_edges[edges[large]]
+        creased = quality.face_creases(*known.arrays, pairs, np.ascontiguousarray(limits))
         angles[large[creased.view(bool)]] = 0.0
     return DihedralAngles(edges, faces, angles)
 

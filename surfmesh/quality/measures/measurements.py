@@ -35,7 +35,8 @@ from surfmesh.quality.measures.lengths import (
 )
 from surfmesh.quality.measures.loose_edges import LooseEdges, loose_edges
 from surfmesh.quality.measures.proof import Proof, proof
-from surfmesh.quality.measures.proved_topology import Answer, homeomorphic, isotopic
+from surfmesh.quality.measures.proved_isotopy import isotopic
+from surfmesh.quality.measures.proved_topology import Answer, homeomorphic
 from surfmesh.quality.measures.self_intersection import meeting_pairs
 from surfmesh.quality.measures.shape import Shapes, enclosed_volume, metric_alpha, shapes
 from surfmesh.quality.measures.solids import shares_faces
@@ -85,7 +86,7 @@ class Measurements:
 
     @property
     def is_curved(self) -> bool:
-        """Are its triangles measured as quadratic ones? Proofs are of straight ones."""
+        """Are its triangles measured as quadratic ones? ``proof`` sizes straight ones."""
         sizing = self.mesh.sizing
         proves = sizing is not None and sizing.proof
         return self.mesh.order == 2 and self.finite and not self.broken and not proves
@@ -167,7 +168,9 @@ class Measurements:
         """What bounds say of both, where the report is asked to prove."""
         fit = self.deviation_both_ways
         return (
-            None if self.known is None or fit is None else proof(self.known, fit, self.tolerances)
+            None
+            if self.known is None or fit is None
+            else proof(self.known, fit, self.tolerances, self.is_curved)
         )
 
     @cached_property
@@ -181,7 +184,7 @@ class Measurements:
     def isotopic(self) -> Answer:
         """Likewise, by a deformation of space."""
         meets = None if self.meeting is None else len(self.meeting)
-        return isotopic(self.homeomorphic, meets, self.crosses_itself)
+        return isotopic(self.homeomorphic, meets, self.crosses_itself, self.known, self.proof)
 
     @cached_property
     def chord_check(self) -> ToleranceCheck | None:

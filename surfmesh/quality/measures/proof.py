@@ -13,7 +13,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from surfmesh._core.proof import curve_bounds
-from surfmesh.accuracy.proof import FaceTriangles, proved_distances, twins_of
+from surfmesh.accuracy.proof import (
+    FaceProof,
+    FaceTriangles,
+    proved_curved,
+    proved_distances,
+    twins_of,
+)
 from surfmesh.quality.measures.deviation import Deviation
 from surfmesh.quality.measures.known_surfaces import KnownSurfaces, Rows
 from surfmesh.quality.measures.tolerances import CHORD_SLACK, Tolerances
@@ -36,6 +42,7 @@ class Proof(NamedTuple):
     without_bounds: tuple[int, ...]  # faces whose surface bounds nothing
     edge_bound: NDArray[np.float64]  # (k,) of segments of CAD edges and their curves
     over_sampled: float | None  # median of bound / sampled distance, where that is large
+    moves: FaceProof | None  # from the mesh to its surface, where it has one face
 
     @property
     def is_proved(self) -> NDArray[np.bool_]:
@@ -43,21 +50,48 @@ class Proof(NamedTuple):
         return np.isfinite(self.bound) & (self.bound <= self.limit * (1.0 + CHORD_SLACK))
 
 
-def proof(known: KnownSurfaces, fit: Deviation, tolerances: Tolerances) -> Proof:
-    """Of all triangles, with ``fit``, what samples say both ways."""
+def proof(known: KnownSurfaces, fit: Deviation, tolerances: Tolerances, is_curved: bool) -> Proof:
+    """Of all triangles, with ``fit``, what samples say both ways. is_curved: of quadratic ones."""
     mesh = known.mesh
     limit = tolerances.at(tolerances.chord, mesh.face_ids)
     sampled = CLOSELY * fit.by_triangle.max(initial=0.0)
     near = np.where(np.isfinite(limit), limit, sampled if np.isfinite(sampled) else 0.0)
     bound, without = np.full(len(mesh.triangles), np.inf), []
+    moves: list[FaceProof] = []
     for number, rows in _by_face(mesh):
-        found = proved_distances(mesh.surfaces[number], _face(known, rows), near[rows])
+        surface, face = mesh.surfaces[number], _face(known, rows)
+        if is_curved:
+            curved = proved_curved(surface, face, _middles(mesh, rows), near[rows])
+            if curved is None:
+                without.append(number)
+            else:
+                bound[rows] = curved
+            continue
+        found = proved_distances(surface, face, near[rows])
         if found is None:
             without.append(number)
         else:
-            bound[rows] = found
+            bound[rows] = found.bound
+            moves.append(found)
     edges = np.empty(0) if mesh.edge_links is None else _edge_bounds(mesh, mesh.edge_links)
-    return Proof(bound, limit, tuple(without), edges, _over_sampled(bound, fit.by_triangle))
+    one = moves[0] if len(moves) == 1 and len(moves[0].bound) == len(bound) else None
+    return Proof(bound, limit, tuple(without), edges, _over_sampled(bound, fit.by_triangle), one)
+
+
+def moves_of(known: KnownSurfaces, slope: float) -> FaceProof | None:
+    """How far and how fast triangles move to the surface, of a mesh of one face.
+
+    slope: how slow it is worth to look for.
+    """
+    mesh = known.mesh
+    face = _face(known, np.arange(len(mesh.triangles)))
+    limits = np.full(len(mesh.triangles), np.inf)
+    return proved_distances(mesh.surfaces[int(mesh.face_ids[0])], face, limits, slope)
+
+
+def _middles(mesh: SurfaceMesh, rows: Rows) -> NDArray[np.float64]:
+    """(k, 3, 3) nodes of the sides of some quadratic triangles."""
+    return np.ascontiguousarray(mesh.nodes[mesh.elements[rows, 3:]])
 
 
 def _by_face(mesh: SurfaceMesh) -> Iterator[tuple[int, Rows]]:

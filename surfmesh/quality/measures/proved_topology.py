@@ -56,19 +56,6 @@ def homeomorphic(known: KnownSurfaces, whole: Topology, unexpected: Unexpected) 
     return Answer(True, f"{discs}, and they are joined by number as in the model")
 
 
-def isotopic(same: Answer, meeting: int | None, crosses_itself: bool) -> Answer:
-    """Is the mesh the surface but for a deformation of space? meeting: pairs of its triangles."""
-    if same.answer is not True:
-        return Answer(same.answer, "it is not known to be homeomorphic")
-    if crosses_itself:
-        return Answer(None, "the surface crosses itself")
-    if meeting is None:
-        return Answer(None, "whether triangles meet is not known")
-    if meeting:
-        return Answer(False, f"{meeting} pairs of its triangles meet")
-    return Answer(None, "how near the surface comes to itself is not bounded")
-
-
 def _not_a_disc(known: KnownSurfaces, rows: Rows) -> str:
     """Why the triangles of a face are no disc with holes in (u, v); empty where they are."""
     corners = known.corners.uv_triangles[rows]

@@ -1,14 +1,13 @@
 """What kind of surface the triangles form: closed, manifold, oriented, in how many pieces."""
 
-from typing import Any, NamedTuple, TypeVar
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
+from surfmesh._core import quality
 from surfmesh.geometry.components import components
 from surfmesh.result.surface_mesh import SurfaceMesh
-
-AnyInt = TypeVar("AnyInt", bound=np.integer[Any])
 
 
 class Topology(NamedTuple):
@@ -86,10 +85,8 @@ def _count(labels: NDArray[np.int32], members: NDArray) -> int:
 
 def _clashing(mesh: SurfaceMesh) -> NDArray[np.int32]:
     """Edges whose two half-edges start at the same end."""
-    table, corners = mesh.connectivity, mesh.triangles.reshape(-1)
-    same = corners[table.half_edges[:, 0]] == corners[table.half_edges[:, 1]]
-    same &= table.uses == 2
-    return np.flatnonzero(same).astype(np.int32)
+    table = mesh.connectivity
+    return quality.clashing_edges(mesh.triangles, table.half_edges, table.uses)
 
 
 def half_edges_along(
@@ -136,23 +133,10 @@ def _fans(mesh: SurfaceMesh, crowded: tuple[NDArray, NDArray]) -> NDArray[np.int
     The half-edges 3t+i and 3s+j of one edge, whichever way they run, join the corners at
     each end of it; those of an edge of three or more triangles one after the other.
     """
-    table, corners = mesh.connectivity, mesh.triangles.reshape(-1)
-    here, there = table.half_edges[table.uses == 2].T
+    pairs = mesh.connectivity.half_edges
     half_edges, edges = (array.astype(np.int32) for array in crowded)
-    along = np.flatnonzero(edges[1:] == edges[:-1])
-    here = np.concatenate([here, half_edges[along]])
-    there = np.concatenate([there, half_edges[along + 1]])
-    links = np.empty((2 * len(here), 2), np.int32)
-    links[0::2, 0], links[1::2, 0] = here, _next(here)
-    same = corners[here] == corners[there]
-    there_end = _next(there)
-    links[0::2, 1] = np.where(same, there, there_end)
-    links[1::2, 1] = np.where(same, there_end, there)
-    labels = components(len(corners), links)
-    del links
-    heads = corners[labels == np.arange(len(corners), dtype=np.int32)]
-    return np.bincount(heads, minlength=len(mesh.points))
-
-
-def _next(half_edge: NDArray[AnyInt]) -> NDArray[AnyInt]:
-    return half_edge + np.where(half_edge % 3 == 2, np.int32(-2), np.int32(1))
+    if len(edges):
+        along = np.flatnonzero(edges[1:] == edges[:-1])
+        chains = np.stack([half_edges[along], half_edges[along + 1]], axis=1)
+        pairs = np.concatenate([pairs[mesh.connectivity.uses == 2], chains])
+    return quality.triangle_fans(mesh.triangles, len(mesh.points), pairs)

@@ -142,11 +142,15 @@ def test_many_faces_are_counted_by_a_close_look_at_some():
         model = sm.from_cadquery(shape)
         before = model_mesh._Unmeshed(model, 0.15)
         areas = np.array([face.area for face in model.faces])
-        every = np.array([model_estimate._count(job) for job in before.jobs])
+        fields = model_estimate.FaceFields()
+        every = np.array([model_estimate.face_count(job, fields) for job in before.jobs])
         looked.clear()
-        found = counts_of_faces(
-            before.jobs, areas, lambda job: looked.append(job) or model_estimate._count(job)
-        )
+
+        def count(job, fields=fields):
+            looked.append(job)
+            return model_estimate.face_count(job, fields)
+
+        found = counts_of_faces(before.jobs, areas, count)
         assert len(looked) < min(most, len(model.faces))
         assert found.sum() == pytest.approx(every.sum(), rel=0.03)
 

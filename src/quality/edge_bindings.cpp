@@ -1,0 +1,162 @@
+#include <nanobind/stl/tuple.h>
+
+#include <tuple>
+
+#include "binding/arrays.hpp"
+#include "quality/mesh_edges.hpp"
+#include "quality/triangle_fans.hpp"
+
+namespace surfmesh::binding {
+
+template <>
+struct Row<EdgeSides> : RowOf<std::int32_t, 2> {};
+
+namespace {
+
+using VertexTriples = Matrix<std::int32_t, 3>;
+using SidePairs = Matrix<std::int32_t, 2>;
+
+std::span<const Vertex> all_numbers(const VertexTriples& triangles) {
+    return {triangles.data(), triangles.size()};
+}
+
+/// Half-edges of so many triangles; NIL may stand in the second column.
+std::span<const EdgeTable::Sides> sides_of(const SidePairs& half_edges, std::size_t triangles) {
+    const std::span<const EdgeTable::Sides> sides{
+        reinterpret_cast<const EdgeTable::Sides*>(half_edges.data()), half_edges.shape(0)};
+    const auto end = static_cast<std::int64_t>(3 * triangles);
+    for (const auto& [first, second] : sides)
+        if (first < 0 || first >= end || second < NIL || second >= end)
+            throw nb::value_error("half_edges has an index that is out of range");
+    return sides;
+}
+
+void bind_lengths(nb::module_& m) {
+    m.def(
+        "edge_lengths",
+        [](const Points3& points, const SidePairs& edges) {
+            require_indices(std::span(edges.data(), edges.size()), points.shape(0), "edges");
+            const std::span<const EdgeTable::Ends> ends{
+                reinterpret_cast<const EdgeTable::Ends*>(edges.data()), edges.shape(0)};
+            Array<double> lengths;
+            {
+                const nb::gil_scoped_release released;
+                lengths = edge_lengths(rows<Point3>(points), ends);
+            }
+            return view(lengths);
+        },
+        nb::arg("points"), nb::arg("edges"), "Length (k,) of edges (k, 2) between points (n, 3).");
+    m.def(
+        "edges_of_faces",
+        [](const SidePairs& half_edges, const Vector<std::int32_t>& faces) {
+            const auto sides = sides_of(half_edges, faces.shape(0));
+            Array<EdgeSides> seen;
+            {
+                const nb::gil_scoped_release released;
+                seen = edges_of_faces(sides, rows<std::int32_t>(faces));
+            }
+            return view(seen);
+        },
+        nb::arg("half_edges"), nb::arg("faces"),
+        "Edges for ``mesh_deviation``: half_edges (ne, 2) as they are within a face; of those "
+        "between two faces (m,) of triangles the first, and at the end the second.");
+}
+
+void bind_angles(nb::module_& m) {
+    m.def(
+        "angles_within_faces",
+        [](const Points3& points, const VertexTriples& triangles, const Vector<std::int32_t>& faces,
+           const SidePairs& half_edges, const Vector<std::int32_t>& uses) {
+            require_indices(all_numbers(triangles), points.shape(0), "triangles");
+            require_rows(faces.shape(0), triangles.shape(0), "faces");
+            require_rows(uses.shape(0), half_edges.shape(0), "uses");
+            const auto sides = sides_of(half_edges, triangles.shape(0));
+            AnglesWithinFaces found;
+            {
+                const nb::gil_scoped_release released;
+                found =
+                    angles_within_faces(rows<Point3>(points), rows<TriangleCorners>(triangles),
+                                        rows<std::int32_t>(faces), sides, rows<std::int32_t>(uses));
+            }
+            return std::tuple(view(found.edges), view(found.faces), view(found.degrees));
+        },
+        nb::arg("points"), nb::arg("triangles"), nb::arg("faces"), nb::arg("half_edges"),
+        nb::arg("uses"),
+        "Numbers (k,) of the edges between two triangles of one face, that face (k,), and the "
+        "angle (k,) between their normals, degrees.\n\npoints (n, 3), triangles (m, 3), faces "
+        "(m,); half_edges (ne, 2) and uses (ne,) of the edge table.");
+    m.def(
+        "rim_losses",
+        [](const Points3& points, const VertexTriples& triangles, const SidePairs& half_edges,
+           const Vector<double>& sagitta, const Vector<double>& distance, double sharpest) {
+            require_indices(all_numbers(triangles), points.shape(0), "triangles");
+            require_rows(sagitta.shape(0), half_edges.shape(0), "sagitta");
+            require_rows(distance.shape(0), triangles.shape(0), "distance");
+            const auto sides = sides_of(half_edges, triangles.shape(0));
+            Array<double> lost;
+            {
+                const nb::gil_scoped_release released;
+                lost = rim_losses(rows<Point3>(points), rows<TriangleCorners>(triangles), sides,
+                                  rows<double>(sagitta), rows<double>(distance), sharpest);
+            }
+            return view(lost);
+        },
+        nb::arg("points"), nb::arg("triangles"), nb::arg("half_edges"), nb::arg("sagitta"),
+        nb::arg("distance"), nb::arg("sharpest"),
+        "Area (k,) that rims lose: length times the larger of sagitta (k,) and the distance (m,) "
+        "of their triangles over the sine between these, not below ``sharpest``.\n\nhalf_edges "
+        "(k, 2): of each rim, -1 in the second column for one that is not.");
+}
+
+void bind_fans(nb::module_& m) {
+    m.def(
+        "triangle_fans",
+        [](const VertexTriples& triangles, std::size_t vertices, const SidePairs& half_edges) {
+            require_indices(all_numbers(triangles), vertices, "triangles");
+            const auto sides = sides_of(half_edges, triangles.shape(0));
+            Array<std::int64_t> fans;
+            {
+                const nb::gil_scoped_release released;
+                fans = triangle_fans(rows<TriangleCorners>(triangles), vertices, sides);
+            }
+            return view(fans);
+        },
+        nb::arg("triangles"), nb::arg("vertices"), nb::arg("half_edges"),
+        "Fans (n,) of triangles (m, 3) at each vertex. half_edges (k, 2): pairs that join their "
+        "triangles along an edge, whichever way they run; -1 in the second column: none.");
+    m.def(
+        "clashing_edges",
+        [](const VertexTriples& triangles, const SidePairs& half_edges,
+           const Vector<std::int32_t>& uses) {
+            require_rows(uses.shape(0), half_edges.shape(0), "uses");
+            const auto sides = sides_of(half_edges, triangles.shape(0));
+            Array<std::int32_t> clashing;
+            {
+                const nb::gil_scoped_release released;
+                clashing = clashing_edges(rows<TriangleCorners>(triangles), sides,
+                                          rows<std::int32_t>(uses));
+            }
+            return view(clashing);
+        },
+        nb::arg("triangles"), nb::arg("half_edges"), nb::arg("uses"),
+        "Numbers (k,) of the edges whose two triangles run along them the same way.");
+    m.def(
+        "has_repeated_triangles",
+        [](const VertexTriples& triangles, std::size_t vertices) {
+            require_indices(all_numbers(triangles), vertices, "triangles");
+            const nb::gil_scoped_release released;
+            return has_repeated_triangles(rows<TriangleCorners>(triangles), vertices);
+        },
+        nb::arg("triangles"), nb::arg("vertices"),
+        "Have two triangles (m, 3) the same three corners, in any order?");
+}
+
+}  // namespace
+
+void bind_mesh_edges(nb::module_& m) {
+    bind_lengths(m);
+    bind_angles(m);
+    bind_fans(m);
+}
+
+}  // namespace surfmesh::binding

@@ -1,0 +1,95 @@
+#include "quality/mesh_edges.hpp"
+
+#include <algorithm>
+#include <limits>
+#include <numbers>
+
+#include "optimisation/dihedral.hpp"
+
+namespace surfmesh {
+namespace {
+
+constexpr double NO_SIZE = std::numeric_limits<double>::min();  // no division by zero
+
+/// The larger of two, NaN where one of them is.
+double larger_number(double a, double b) { return b > a || b != b ? b : a; }
+
+Point3 normal_of(std::span<const Point3> points, const TriangleCorners& t) {
+    return cross(points[t.b] - points[t.a], points[t.c] - points[t.a]);
+}
+
+/// Corner e % 3 of triangle e / 3.
+Vertex corner_of_half_edge(std::span<const TriangleCorners> triangles, HalfEdge e) {
+    const TriangleCorners& t = triangles[e / 3];
+    return e % 3 == 0 ? t.a : e % 3 == 1 ? t.b : t.c;
+}
+
+}  // namespace
+
+Array<double> edge_lengths(std::span<const Point3> points, std::span<const EdgeTable::Ends> edges) {
+    Array<double> lengths;
+    lengths.reserve(edges.size());
+    for (const auto& [a, b] : edges) lengths.push_back(norm(points[b] - points[a]));
+    return lengths;
+}
+
+Array<EdgeSides> edges_of_faces(std::span<const EdgeTable::Sides> half_edges,
+                                std::span<const std::int32_t> faces) {
+    Array<EdgeSides> seen, again;
+    seen.reserve(half_edges.size());
+    for (const auto& [first, second] : half_edges) {
+        const bool is_between = second != NIL && faces[first / 3] != faces[second / 3];
+        seen.push_back({first, is_between ? NIL : second});
+        if (is_between) again.push_back({second, NIL});
+    }
+    for (const EdgeSides& sides : again) seen.push_back(sides);
+    return seen;
+}
+
+AnglesWithinFaces angles_within_faces(std::span<const Point3> points,
+                                      std::span<const TriangleCorners> triangles,
+                                      std::span<const std::int32_t> faces,
+                                      std::span<const EdgeTable::Sides> half_edges,
+                                      std::span<const std::int32_t> uses) {
+    constexpr double DEGREES = 180.0 / std::numbers::pi;
+    AnglesWithinFaces found;
+    found.edges.reserve(half_edges.size());
+    found.faces.reserve(half_edges.size());
+    found.degrees.reserve(half_edges.size());
+    for (std::size_t k = 0; k < half_edges.size(); ++k) {
+        const auto [e, f] = half_edges[k];
+        if (uses[k] != 2 || f == NIL || faces[e / 3] != faces[f / 3]) continue;
+        const auto at = [&](HalfEdge h) { return points[corner_of_half_edge(triangles, h)]; };
+        const double angle = dihedral_angle(at(e), at(next_half_edge(e)), at(prev_half_edge(e)),
+                                            at(prev_half_edge(f)));
+        found.edges.push_back(static_cast<std::int64_t>(k));
+        found.faces.push_back(faces[e / 3]);
+        found.degrees.push_back(angle * DEGREES);
+    }
+    return found;
+}
+
+Array<double> rim_losses(std::span<const Point3> points, std::span<const TriangleCorners> triangles,
+                         std::span<const EdgeTable::Sides> sides, std::span<const double> sagitta,
+                         std::span<const double> distance, double sharpest) {
+    Array<double> lost(sides.size());
+    for (std::size_t k = 0; k < sides.size(); ++k) {
+        const auto [e, f] = sides[k];
+        const Point3 start = points[corner_of_half_edge(triangles, e)];
+        const double length =
+            norm(points[corner_of_half_edge(triangles, next_half_edge(e))] - start);
+        double slanted = larger_number(distance[e / 3], 0.0);
+        if (f != NIL) {
+            const Point3 m = normal_of(points, triangles[e / 3]);
+            const Point3 n = normal_of(points, triangles[f / 3]);
+            const double size = larger_number(norm(m) * norm(n), NO_SIZE);
+            const double sine = larger_number(norm(cross(m, n)) / size, sharpest);
+            slanted = larger_number(distance[e / 3], distance[f / 3]) / sine;
+        }
+        const double off = larger_number(sagitta[k], slanted);
+        lost[k] = length * (off < length || off != off ? off : length);
+    }
+    return lost;
+}
+
+}  // namespace surfmesh

@@ -1,0 +1,51 @@
+// Edges of a finished mesh: their lengths, from which faces they are looked at, the angles across
+// them, and what the rims of faces lose.
+//
+// In: points, triangles and the edge table (space/edge_table.hpp): the ends of each edge, the first
+// two half-edges along it, by how many triangles it is used. Nothing changes.
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+#include "quality/measured_mesh.hpp"
+#include "space/edge_table.hpp"
+#include "values/array.hpp"
+
+namespace surfmesh {
+
+Array<double> edge_lengths(std::span<const Point3> points, std::span<const EdgeTable::Ends> edges);
+
+/// Half-edges for ``mesh_deviation``: each edge within a face once; between two faces from the
+/// first of them, and after all others from the second.
+Array<EdgeSides> edges_of_faces(std::span<const EdgeTable::Sides> half_edges,
+                                std::span<const std::int32_t> faces);
+
+/// The edges between two triangles of one face, the face of each, and the angle there, degrees.
+struct AnglesWithinFaces {
+    Array<std::int64_t> edges;
+    Array<std::int32_t> faces;
+    Array<double> degrees;
+};
+
+AnglesWithinFaces angles_within_faces(std::span<const Point3> points,
+                                      std::span<const TriangleCorners> triangles,
+                                      std::span<const std::int32_t> faces,
+                                      std::span<const EdgeTable::Sides> half_edges,
+                                      std::span<const std::int32_t> uses);
+
+/// Area that each rim may lose: its length times how far its curve may lie from it, at most its
+/// length.
+///
+/// Where faces meet at an angle their common edge lies farther from its chord than they do:
+///
+///       face  |  /        the distance of the chord from one face over the sine
+///             | /  edge   of the angle, not below ``sharpest``, is that from the
+///       chord o'          edge within the other
+///
+/// sides: of each rim, NIL for one that is not; sagitta: of each; distance: of the triangles.
+Array<double> rim_losses(std::span<const Point3> points, std::span<const TriangleCorners> triangles,
+                         std::span<const EdgeTable::Sides> sides, std::span<const double> sagitta,
+                         std::span<const double> distance, double sharpest);
+
+}  // namespace surfmesh

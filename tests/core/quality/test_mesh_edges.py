@@ -1,0 +1,100 @@
+"""Edges, fans and repeated triangles of a mesh: the core against numpy."""
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from surfmesh._core import quality
+from surfmesh._core.optimisation import dihedral_angles
+from surfmesh.geometry.components import components
+from surfmesh.result.connectivity import connect
+
+seeds = st.integers(0, 2**31)
+
+
+def soup(seed, count=40, vertices=14):
+    """Triangles at random on few vertices: crowded edges, clashes, repeats; and their table."""
+    rng = np.random.default_rng(seed)
+    triangles = np.argsort(rng.random((count, vertices)), axis=1)[:, :3].astype(np.int32)
+    points = rng.normal(size=(vertices, 3))
+    return rng, points, triangles, connect(triangles)
+
+
+@given(seeds)
+def test_fans_join_corners_across_edges_of_two(seed):
+    _, points, triangles, table = soup(seed)
+    corners = triangles.ravel()
+    here, there = table.half_edges[table.uses == 2].T
+    after = np.where(np.arange(len(corners)) % 3 == 2, -2, 1) + np.arange(len(corners))
+    same = corners[here] == corners[there]
+    links = np.concatenate([
+        np.stack([here, np.where(same, there, after[there])], axis=1),
+        np.stack([after[here], np.where(same, after[there], there)], axis=1),
+    ])  # fmt: skip
+    labels = components(len(corners), links)
+    heads = corners[labels == np.arange(len(corners))]
+    found = quality.triangle_fans(triangles, len(points), table.half_edges[table.uses == 2])
+    assert (found == np.bincount(heads, minlength=len(points))).all()
+    clashing = quality.clashing_edges(triangles, table.half_edges, table.uses)
+    assert clashing.tolist() == np.flatnonzero(table.uses == 2)[same].tolist()
+
+
+@given(seeds)
+def test_repeated_triangles_are_seen_whatever_their_order(seed):
+    _, points, triangles, _ = soup(seed, 12, 20)
+    several = len(np.unique(np.sort(triangles, axis=1), axis=0)) < len(triangles)
+    assert quality.has_repeated_triangles(triangles, len(points)) is several
+    again = np.concatenate([triangles, triangles[5:6, [2, 0, 1]]])
+    assert quality.has_repeated_triangles(again, len(points))
+
+
+@settings(max_examples=20)
+@given(seeds)
+def test_lengths_angles_and_faces_are_those_of_numpy(seed):
+    rng, points, triangles, table = soup(seed)
+    a, b = points[table.edges].transpose(1, 0, 2)
+    lengths = quality.edge_lengths(points, table.edges)
+    assert np.allclose(lengths, np.linalg.norm(b - a, axis=1), rtol=1e-15)
+    faces = rng.integers(0, 3, len(triangles)).astype(np.int32)
+    first, second = faces[table.half_edges // 3].T
+    within = np.flatnonzero((table.uses == 2) & (first == second))
+    edges, own, degrees = quality.angles_within_faces(
+        points, triangles, faces, table.half_edges, table.uses
+    )
+    assert edges.tolist() == within.tolist() and own.tolist() == first[within].tolist()
+    wanted = np.degrees(dihedral_angles(points, triangles, table.half_edges[within]))
+    assert degrees.tolist() == wanted.tolist()
+    seen = quality.edges_of_faces(table.half_edges, faces)
+    between = (table.half_edges[:, 1] >= 0) & (first != second)
+    assert seen[: len(table.edges), 0].tolist() == table.half_edges[:, 0].tolist()
+    assert ((seen[: len(table.edges), 1] < 0) == (between | (table.half_edges[:, 1] < 0))).all()
+    assert seen[len(table.edges) :, 0].tolist() == table.half_edges[between, 1].tolist()
+
+
+def test_rims_lose_their_length_times_the_farther_of_sagitta_and_slanted_distance():
+    points = np.array([(0, 0, 0), (2, 0, 0), (1, 1, 0), (1, 0, 1)], float)
+    triangles = np.array([(0, 1, 2), (1, 0, 3)], np.int32)  # at a right angle
+    sides = np.array([(0, 3), (1, -1), (0, 3), (2, -1)], np.int32)
+    sagitta, far = np.array([0.1, 0.2, 0.0, 9.0]), np.array([0.01, 0.05])
+    root = 2.0**0.5
+    lost = quality.rim_losses(points, triangles, sides, sagitta, far, 0.1)
+    assert lost == pytest.approx([0.2, 0.2 * root, 0.1, 2.0])  # never more than its length squared
+    flat = np.array([(0, 0, 0), (2, 0, 0), (1, 1, 0), (1, -1, 0)], float)
+    (lost,) = quality.rim_losses(flat, triangles, sides[2:3], sagitta[2:3], far, 0.1)
+    assert lost == pytest.approx(2.0 * 0.05 / 0.1)
+
+
+def test_what_is_out_of_range_is_refused():
+    _, points, triangles, table = soup(1)
+    wrong = np.array([[0, 3 * len(triangles)]], np.int32)
+    for call in (
+        lambda: quality.triangle_fans(triangles, len(points), wrong),
+        lambda: quality.triangle_fans(triangles, 3, table.half_edges),
+        lambda: quality.edges_of_faces(wrong, np.zeros(len(triangles), np.int32)),
+        lambda: quality.edge_lengths(points[:2], table.edges),
+        lambda: quality.has_repeated_triangles(triangles, 2),
+        lambda: quality.clashing_edges(triangles, table.half_edges, table.uses[1:]),
+    ):
+        with pytest.raises(ValueError):
+            call()

@@ -1,0 +1,128 @@
+"""A mesh is isotopic to its surface only where no two of its points can meet on their way."""
+
+import numpy as np
+import pytest
+
+import surfmesh as sm
+from surfmesh._core.proof import prove_isotopy
+from surfmesh.accuracy.proof import FaceTriangles, twins_of
+from surfmesh.geometry.core_surface import as_core_surface
+from tests.core.proof.test_triangle_bounds import places_of
+
+HOLDS, BENT, NEAR = 0, 1, 2
+
+
+def answer(surface, chord):
+    mesh = sm.mesh(surface, sm.Sizing(chord=chord), strict=False)
+    return mesh, sm.check(mesh, prove=True).proof.isotopic
+
+
+@pytest.mark.parametrize("name, chord", [("torus", 0.02), ("helicoid", 0.01), ("mobius", 0.01)])
+def test_simple_surfaces_are(name, chord):
+    mesh, found = answer(sm.load(name), chord)
+    assert found.answer is True and "than they are apart" in found.because
+    moves_less_than_apart(mesh)
+
+
+def moves_less_than_apart(mesh):
+    """By random pairs of points: of the same triangle, of neighbours, of any."""
+    from surfmesh._core.proof import curved_pieces
+
+    triangles = np.ascontiguousarray(mesh.triangles)
+    table = mesh.connectivity
+    corners = np.ascontiguousarray(mesh.points[triangles])
+    twins = twins_of(table.half_edges, table.uses, len(triangles))
+    face = FaceTriangles(corners, np.ascontiguousarray(mesh.uv), triangles, twins)
+    bends = curved_pieces(as_core_surface(mesh.surfaces[0]), *face)
+    draw = np.random.default_rng(5)
+    weights = draw.dirichlet((1.0, 1.0, 1.0), 3)
+    at, _ = places_of(face.uv, bends, weights)
+    x = np.einsum("qk,mkd->mqd", weights, corners)
+    r = mesh.surfaces[0].evaluate(at.reshape(-1, 2), 0)[0].reshape(x.shape)
+    h, m = r - x, len(triangles)
+    one = np.repeat(np.arange(m), 3)
+    beside = np.where(twins >= 0, twins // 3, one)
+    for a, b in ((one, one), (one, beside), (one, draw.integers(0, m, len(one)))):
+        p, q = draw.integers(0, 3, (2, len(a)))
+        apart = np.linalg.norm(x[a, p] - x[b, q], axis=1)
+        assert (np.linalg.norm(h[a, p] - h[b, q], axis=1) <= apart).all()
+
+
+def roll(gap, turns=2.0):
+    """A sheet rolled up, so far from itself."""
+    radius = f"(1 + {gap}*u/(2*pi))"
+    return sm.ParametricSurface(
+        f"{radius}*cos(u)", f"{radius}*sin(u)", "v", u=(0, 2 * np.pi * turns), v=(0, 1)
+    )
+
+
+def test_sheets_that_nearly_touch_are_not():
+    _, found = answer(roll(0.02), 0.015)
+    assert found.answer is not True
+    _, found = answer(roll(0.02), 0.002)
+    assert found.answer is True
+
+
+def test_a_tiny_hole_is_not_before_triangles_are_small():
+    """Of a torus whose hole is as small as its chord."""
+    thick = sm.ParametricSurface(
+        "(1 + 0.95*cos(v))*cos(u)", "(1 + 0.95*cos(v))*sin(u)", "0.95*sin(v)",
+        u=(0, 2 * np.pi), v=(0, 2 * np.pi),
+    )  # fmt: skip
+    mesh, found = answer(thick, 0.05)
+    mesh, found = answer(thick, 0.05)
+    assert sm.check(mesh, prove=True).proof.homeomorphic.answer is True
+    assert found.answer is not True
+    _, found = answer(thick, 0.002)
+    assert found.answer is True
+
+
+def test_what_crosses_itself_is_not():
+    eight = sm.ParametricSurface("sin(u)", "sin(2*u)", "v", u=(0, 2 * np.pi), v=(0, 1))
+    for chord in (0.05, 0.005):
+        _, found = answer(eight, chord)
+        assert found.answer is not True
+
+
+def test_poles_and_several_faces_are_left_open():
+    _, found = answer(sm.load("sphere"), 0.02)
+    assert found.answer is None and "pole" in found.because
+
+
+FLAT = np.array([(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0)], float)
+
+
+@pytest.mark.parametrize("away, fault", [(0.049, HOLDS), (0.051, NEAR)])
+def test_two_sheets_a_tenth_apart(away, fault):
+    points = np.concatenate([FLAT, FLAT + (0, 0, 0.1)])
+    triangles = np.array([(0, 1, 2), (0, 2, 3), (4, 5, 6), (4, 6, 7)], np.int32)
+    found = prove_isotopy(points, triangles, np.full(4, away), np.full(4, 0.3))
+    assert found[0] == fault
+    if fault:
+        assert {found[1] // 2, found[2] // 2} == {0, 1}
+
+
+def test_stars():
+    triangles = np.array([(0, 1, 2), (0, 2, 3)], np.int32)
+
+    def fault(points, slope):
+        return prove_isotopy(points, triangles, np.zeros(2), np.full(2, slope))[0]
+
+    assert fault(FLAT, 0.99) == HOLDS and fault(FLAT, 1.0) == BENT
+    half_closed = FLAT.copy()
+    half_closed[3] = (0.9, 0.5, 0.8)  # folded over along the diagonal
+    assert fault(half_closed, 0.9) == BENT
+    over = FLAT.copy()
+    over[3] = (1.0, 0.1, 0.0)  # on the other one
+    assert fault(over, 0.001) == BENT
+    inwards = FLAT.copy()
+    inwards[2] = (0.2, 0.2, 0.0)  # the quadrilateral has a corner inwards
+    assert fault(inwards, 0.6) == HOLDS and fault(inwards, 0.95) == BENT
+
+
+def test_shapes_are_looked_at():
+    triangles = np.array([(0, 1, 2)], np.int32)
+    with pytest.raises(ValueError, match="slope"):
+        prove_isotopy(FLAT, triangles, np.zeros(1), np.zeros(2))
+    with pytest.raises(ValueError, match="out of range"):
+        prove_isotopy(FLAT, triangles + 2, np.zeros(1), np.zeros(1))
