@@ -93,6 +93,7 @@ class FieldBuilder {
     [[nodiscard]] FieldOutcome spread(std::span<double> size);
     /// All nodes count as new to the gradation.
     void touch_all() { changed_.fill(number_); }
+    void touch(Node n) { changed_[n] = number_; }
     /// Every leaf is split once more, onto its test nodes.
     [[nodiscard]] Background background();
 

@@ -71,7 +71,7 @@ StretchedGradation::AxisMetric StretchedGradation::carried(const StretchedNode& 
 ///
 /// The same questions without divisions, each with a margin that rounding does not reach.
 bool StretchedGradation::surely_allows(const StretchedNode& a, const StretchedNode& b, Point3 step,
-                                       double onward, double grown, double turned) {
+                                       double onward, double grown, double turned) const {
     constexpr double SURE = 1.0 - 1e-10, SPARE = 1e-4;
     const Point2 axis = carried_axis(a, b);
     const double xx = axis.x * axis.x, yy = axis.y * axis.y, square = xx + yy;
@@ -87,8 +87,12 @@ bool StretchedGradation::surely_allows(const StretchedNode& a, const StretchedNo
     if (!(mixed * mixed <= SURE * (spare_along * spare_left))) return false;
     const double aside = square_of(dot(step, a.left)), across = onward + aside;
     const double by_along = square_of(dot(step, b.along)), by_left = square_of(dot(step, b.left));
-    return (by_along * b.by_longer + by_left * b.by_shorter) * across * SURE >=
-           (onward * a.by_longer + aside * a.by_shorter) * (by_along + by_left);
+    const double square_of_a = onward * a.by_longer + aside * a.by_shorter;
+    const double of_b = (by_along * b.by_longer + by_left * b.by_shorter) * across * SURE;
+    const double of_a = square_of_a * (by_along + by_left);
+    if (of_b >= of_a) return true;  // no larger along the way than at a
+    const double longer_way = 1.0 + s_.slope * std::sqrt(square_of_a);
+    return of_b * (longer_way * longer_way) >= ENOUGH_ALONG * of_a;
 }
 
 /// Raise the metric of b along, or left where the way from a goes across, not above `most`, until

@@ -38,9 +38,8 @@ class StretchedGradation {
 
     double bind(const StretchedNode& a, Node number);
     static void set(StretchedNode& node, double size, double longer);
-    [[nodiscard]] static bool surely_allows(const StretchedNode& a, const StretchedNode& b,
-                                            Point3 step, double onward, double grown,
-                                            double turned);
+    [[nodiscard]] bool surely_allows(const StretchedNode& a, const StretchedNode& b, Point3 step,
+                                     double onward, double grown, double turned) const;
     [[nodiscard]] static Point2 carried_axis(const StretchedNode& a, const StretchedNode& b);
     [[nodiscard]] static AxisMetric carried(const StretchedNode& a, const StretchedNode& b);
     void hold_along(const StretchedNode& a, const StretchedNode& b, double most,

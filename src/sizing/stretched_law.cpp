@@ -199,12 +199,12 @@ FieldOutcome limit_longer_sizes(FieldBuilder& builder, const StretchedLaw& law, 
     builder.touch_all();
     if (const FieldOutcome done = builder.spread(all(width)); done.status != FieldStatus::done)
         return done;
-    for (std::size_t n = 0; n < count; ++n) {
+    for (std::size_t n = 0; n < count; ++n) {  // what is graded already grows from few of them
         longer[n] = least(nodes.asked[n].second, longest_at(nodes, n, width[n], chord));
-        nodes.size[n] = nodes.asked[n].first;
+        if (!(longer[n] < nodes.longer[n])) continue;
         nodes.longer[n] = longer[n];
+        builder.touch(static_cast<Node>(n));
     }
-    builder.touch_all();
     if (const FieldOutcome done = builder.grade_nodes(); done.status != FieldStatus::done)
         return done;
     for (std::size_t n = 0; n < count; ++n) ratio[n] = REACHED * nodes.longer[n] / nodes.size[n];
