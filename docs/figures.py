@@ -165,6 +165,22 @@ def on_the_surface(folder: Path) -> None:
     raw.plot(folder / "on_the_surface.png", by="size", circles=True, size=(1000, 750))
 
 
+def bracket(folder: Path) -> None:
+    """A CAD part of which some faces have names, for the README."""
+    import cadquery as cq
+
+    side = [(0, 0), (60, 0), (60, 8), (8, 8), (8, 45), (0, 45)]
+    part = cq.Workplane("XZ").polyline(side).close().extrude(15, both=True)
+    part = part.edges("|Y").edges("not(<X or >X)").fillet(5)
+    bolts = cq.Workplane().pushPoints([(25, 7), (25, -7), (48, 7), (48, -7)]).circle(3).extrude(10)
+    part = part.cut(bolts).cut(cq.Workplane("YZ").center(0, 30).circle(7).extrude(10))
+    part = part.faces(cq.NearestToPointSelector((36, 0, 8))).tag("seat").end()
+    part = part.faces(cq.NearestToPointSelector((4, 0, 30))).tag("bore").end()
+    mesh = sm.mesh(part, sm.Sizing(chord=0.1, max_size=5))
+    title = f"bracket: {len(mesh.triangles):,} triangles, watertight; faces by number"
+    mesh.plot(folder / "bracket.png", by="face", worst=0, title=title, size=(1200, 900))
+
+
 def stretched(folder: Path) -> None:
     """A plate with fillets and holes within one chord: isotropic, and at ratio 20."""
     import cadquery as cq
@@ -214,8 +230,8 @@ def meeting_examples(folder: Path) -> None:
 
 
 FIGURES = (
-    packing_steps, pushing_out, random_radii, boundary, on_the_surface, stretched, meeting,
-    meeting_examples,
+    packing_steps, pushing_out, random_radii, boundary, on_the_surface, bracket, stretched,
+    meeting, meeting_examples,
 )  # fmt: skip
 
 

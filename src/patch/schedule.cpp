@@ -31,6 +31,11 @@ constexpr double WORST_STIFFNESS = 0.3, SHAPE_STIFFNESS = 0.6;
 // are off the surface by about half its curvature times the square.
 constexpr double KEPT_DRIFT = 0.15, KEPT_DRIFT_STRETCHED = 0.1;
 
+// Stretched sizes are held to growth again where this part of the vertices had to be lowered:
+// few surfaces. With less others get more triangles and hold it no better.
+constexpr double MANY_LOWERED = 0.3;
+constexpr int GROWTH_ROUNDS = 4;
+
 constexpr int WORST_PASSES = 4, SHAPE_PASSES = 3;
 
 void smooth_and_swap(PatchState& state) {
@@ -62,11 +67,16 @@ void relax(PatchState& state) {
 
 /// Between the ways that the size field is graded along, the metric may turn faster than sizes grow.
 void hold_growth(PatchState& state) {
-    if (!state.is_anisotropic() || state.hold_growth(true) == 0) return;
-    state.split();
-    state.smooth();
-    state.smooth();
-    state.swap();
+    if (!state.is_anisotropic()) return;
+    for (int round = 0; round < GROWTH_ROUNDS; ++round) {
+        const int lowered = state.hold_growth(true);
+        if (lowered == 0) return;
+        state.split();
+        state.smooth();
+        state.smooth();
+        state.swap();
+        if (lowered < MANY_LOWERED * static_cast<double>(state.t.xy.size())) return;
+    }
 }
 
 /// Passes for the worst triangles alone.

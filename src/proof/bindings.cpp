@@ -28,13 +28,15 @@ std::optional<NewBoundRows> bounds_of(const Surface& surface, const Corners3& co
                                       const Corners2& uv, const Corners2& bends,
                                       const Vector<double>& limits,
                                       const Vector<std::uint8_t>& rims, int depth,
-                                      bool corners_are_on_surface, double slope) {
+                                      bool corners_are_on_surface, double slope,
+                                      const std::optional<Corners3>& curved) {
     constexpr int DEEPEST = 12;
     const std::size_t count = corners.shape(0);
     require_rows(uv.shape(0), count, "uv");
     require_rows(bends.shape(0), count, "bends");
     require_rows(limits.shape(0), count, "limits");
     require_rows(rims.shape(0), count, "rims");
+    if (curved) require_rows(curved->shape(0), count, "curved");
     if (depth < 0 || depth > DEEPEST) throw nb::value_error("depth is 0 to 12");
     Array<TriangleBounds> found(count);
     SurfaceStatus status;
@@ -43,7 +45,8 @@ std::optional<NewBoundRows> bounds_of(const Surface& surface, const Corners3& co
         status = triangle_bounds(
             surface,
             {rows<SpaceCorners>(corners), rows<PlaneCorners>(uv), rows<PlaneBends>(bends),
-             rows<double>(limits), rows<std::uint8_t>(rims), corners_are_on_surface, slope},
+             rows<double>(limits), rows<std::uint8_t>(rims), corners_are_on_surface, slope,
+             curved ? rows<SpaceBends>(*curved) : std::span<const SpaceBends>()},
             depth, {found.data(), found.size()});
     }
     raise_failure(surface, status);
@@ -214,19 +217,24 @@ auto isotopy(const Points3& points, const Matrix<std::int32_t, 3>& triangles,
 
 void bind_proof(nb::module_& m) {
     m.doc() = "Proved bounds of the distance between triangles and surfaces.";
-    m.def("triangle_bounds", &bounds_of, nb::arg("surface"), nb::arg("corners"), nb::arg("uv"),
-          nb::arg("bends"), nb::arg("limits"), nb::arg("rims"), nb::arg("depth"),
-          nb::arg("corners_are_on_surface") = true, nb::arg("slope") = intervals::INFINITE,
-          "Of triangles with corners (m, 3, 3) and parameters (m, 3, 2): (m, 29) numbers, or None "
-          "where the surface has no bounds.\n\nHeight over the plane; how far the piece leaves "
-          "the sides 0, 1, 2 within it; how far it is from these at rims; shift within the plane; "
-          "the whole distance point by point; how far corners are off; what ring_bounds asks of "
-          "sides; the slope of that distance; what look_closer asks of cells. Triangles whose "
-          "height, or "
-          "distance at a rim (bit k of ``rims``: side k), is beyond ``limits`` are cut in four, "
-          "``depth`` times. bends (m, 3, 2): of ``curved_pieces``. corners_are_on_surface=False: "
-          "the corners give the plane alone. "
-          "slope: what the slope of the distance should keep to, likewise.");
+    m.def(
+        "triangle_bounds", &bounds_of, nb::arg("surface"), nb::arg("corners"), nb::arg("uv"),
+        nb::arg("bends"), nb::arg("limits"), nb::arg("rims"), nb::arg("depth"),
+        nb::arg("corners_are_on_surface") = true, nb::arg("slope") = intervals::INFINITE,
+        nb::arg("curved") = nb::none(),
+        "Of triangles with corners (m, 3, 3) and parameters (m, 3, 2): (m, 29) numbers, or None "
+        "where the surface has no bounds.\n\nHeight over the plane; how far the piece leaves "
+        "the sides 0, 1, 2 within it; how far it is from these at rims; shift within the plane; "
+        "the whole distance point by point; how far corners are off; what ring_bounds asks of "
+        "sides; the slope of that distance; what look_closer asks of cells. Triangles whose "
+        "height, or "
+        "distance at a rim (bit k of ``rims``: side k), is beyond ``limits`` are cut in four, "
+        "``depth`` times. bends (m, 3, 2): of ``curved_pieces``. corners_are_on_surface=False: "
+        "the corners give the plane alone. "
+        "slope: what the slope of the distance should keep to, likewise. curved (m, 3, 3): how far "
+        "middles of the sides of quadratic triangles are from those of straight ones; then the "
+        "whole "
+        "distance alone is meant, and infinite on surfaces without fourth derivatives.");
     m.def("curved_pieces", &curved, nb::arg("surface"), nb::arg("corners"), nb::arg("uv"),
           nb::arg("triangles"), nb::arg("twins"), nb::arg("middles") = nb::none(),
           "(m, 3, 2) how far the middles of sides 0, 1, 2 are moved in (u, v), for pieces that are "

@@ -44,6 +44,7 @@ struct Grid {
     const SpaceCorners& corners;
     const PlanePiece& piece;
     const TriangleFrame& frame;
+    SpaceBends curved;
     std::size_t n;
 
     [[nodiscard]] double highest(const TriangleBounds& bounds) const {
@@ -59,7 +60,7 @@ struct Grid {
         const std::size_t last = points_of_grid(n) - 1;  // corners 0, 2, 1 of the triangle
         const std::array<EnclosedPoint, 3> own = {points[0][0], points[last][0], points[n][0]};
         for_grid(n, [&](const Barycentric& l) {
-            places.push_back(place_jet(points[places.size()], piece, l, frame.axes, own));
+            places.push_back(place_jet(points[places.size()], piece, l, frame.axes, own, curved));
         });
         return bounds_of_cells({places.data(), places.size()}, n, rho, frame, FINER);
     }
@@ -100,7 +101,7 @@ SurfaceStatus lower_some(const FourthDerivatives& surface, const ProofRequest& a
         if (!std::all_of(points.begin(), points.end(), is_known)) continue;
         const TriangleFrame frame = frame_of(asked.corners[t], out[t].corner, asked.rims[t]);
         const PlanePiece piece = asked.piece(t);
-        const Grid grid{points, asked.corners[t], piece, frame, side};
+        const Grid grid{points, asked.corners[t], piece, frame, asked.curve(t), side};
         const BoundsOfCells cells = grid.cells(rho[t]);
         TriangleBounds found = bounds_from(cells.bends, frame, out[t].corner);
         found.whole = std::min(found.whole, cells.whole);
@@ -109,7 +110,10 @@ SurfaceStatus lower_some(const FourthDerivatives& surface, const ProofRequest& a
         const double most = asked.corners_are_on_surface ? grid.highest(found) : found.height;
         found.height = std::min(found.height, (most + scale * cell) * (1.0 + GRID_ROUNDING));
         out[t] = lower_of(out[t], found);
-        if (is_open(out[t], most, frame, asked.limits[t], asked.slope)) left.push_back(which[k]);
+        const bool is_far = !(out[t].whole + out[t].corner <= asked.limits[t]);
+        if (asked.curved.empty() ? is_open(out[t], most, frame, asked.limits[t], asked.slope)
+                                 : is_far)
+            left.push_back(which[k]);
     }
     return status;
 }

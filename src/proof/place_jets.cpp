@@ -20,6 +20,33 @@ EnclosedPoint along_side(const SecondJet& jet, const PlanePiece& piece, std::siz
     return found;
 }
 
+/// Less what the quadratic triangle adds to the straight one.
+void take_curved(PlaceJet& jet, const SpaceBends& curved, const Barycentric& l,
+                 const Directions& axes) {
+    Point3 away{0.0, 0.0, 0.0};
+    double size = 0.0;
+    for (std::size_t k = 0; k < 3; ++k) {
+        const Point3 bend = curved[k];
+        away = away + 4.0 * l[k] * l[(k + 1) % 3] * bend;
+        size += 8.0 * (std::abs(bend.x) + std::abs(bend.y) + std::abs(bend.z));
+    }
+    for (std::size_t d = 0; d < 3; ++d) {
+        jet.away[d] -= dot(axes[d], away);
+        for (std::size_t k = 0; k < 3; ++k) {
+            const std::size_t i = (k + 1) % 3, j = (k + 2) % 3;
+            const Point3 along =
+                4.0 * ((l[k] - l[i]) * curved[k] + l[j] * curved[i] - l[j] * curved[j]);
+            jet.bends.value[d][k] += 8.0 * dot(axes[d], curved[k]);
+            jet.slope[d][k] -= dot(axes[d], along);
+        }
+    }
+    for (std::size_t k = 0; k < 3; ++k) {
+        jet.bends.error[k] += JET_ROUNDING * size;
+        jet.slope_error[k] += JET_ROUNDING * size;
+    }
+    jet.away_error += 0x1p-50 * size;
+}
+
 double size_of(Point3 x) { return std::abs(x.x) + std::abs(x.y) + std::abs(x.z); }
 
 }  // namespace
@@ -40,7 +67,8 @@ void join(SideBends& all, const PlaceBends& there, const FourthParts& more) {
 }
 
 PlaceJet place_jet(const SecondJet& jet, const PlanePiece& piece, const Barycentric& l,
-                   const Directions& axes, const std::array<EnclosedPoint, 3>& corners) {
+                   const Directions& axes, const std::array<EnclosedPoint, 3>& corners,
+                   const SpaceBends& curved) {
     PlaceJet found{};
     found.bends = place_bends(jet, piece, l, axes);
     Point3 flat{0.0, 0.0, 0.0};
@@ -58,6 +86,7 @@ PlaceJet place_jet(const SecondJet& jet, const PlanePiece& piece, const Barycent
     }
     for (std::size_t d = 0; d < 3; ++d) found.away[d] = dot(axes[d], jet[0].value - flat);
     found.away_error = 2.0 * error + 0x1p-50 * size;
+    take_curved(found, curved, l, axes);
     return found;
 }
 

@@ -82,8 +82,10 @@ struct PlaceJet {
     double away_error;
 };
 
-/// corners: r(u_i).
+/// corners: r(u_i); curved: how far the middles of the sides of a quadratic triangle are moved, which R is
+/// compared with then instead of the straight one.
 PlaceJet place_jet(const SecondJet& jet, const PlanePiece& piece, const Barycentric& l,
-                   const Directions& axes, const std::array<EnclosedPoint, 3>& corners);
+                   const Directions& axes, const std::array<EnclosedPoint, 3>& corners,
+                   const SpaceBends& curved);
 
 }  // namespace surfmesh

@@ -23,6 +23,7 @@ namespace surfmesh {
 using SpaceCorners = std::array<Point3, 3>;
 using PlaneCorners = std::array<Point2, 3>;
 using PlaneBends = std::array<Point2, 3>;
+using SpaceBends = std::array<Point3, 3>;  // likewise, of the sides of a curved triangle
 using Barycentric = std::array<double, 3>;
 
 struct PlanePiece {

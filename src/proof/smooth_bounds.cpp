@@ -202,7 +202,8 @@ bool SmoothBounds::look_at(std::int32_t t, const HighMagnitudes& most) {
     std::array<PlaceJet, 3> places;
     const std::array<EnclosedPoint, 3> own = {(*jets[0])[0], (*jets[1])[0], (*jets[2])[0]};
     for (std::size_t k = 0; k < 3; ++k)
-        places[k] = place_jet(*jets[k], piece, AT_CORNERS[k], frame.axes, own);
+        places[k] = place_jet(*jets[k], piece, AT_CORNERS[k], frame.axes, own,
+                              asked_.curve(static_cast<std::size_t>(t)));
     TriangleBounds found =
         bounds_from(averaged_bends({&places[0], &places[1], &places[2]}, rho), frame, off_[t]);
     if (!(found.whole < intervals::INFINITE)) return false;

@@ -141,7 +141,7 @@ SurfaceStatus corner_errors(const Surface& surface, std::span<const SpaceCorners
 
 SurfaceStatus bounds_of_block(const Surface& surface, const ProofRequest& asked, int depth,
                               std::span<TriangleBounds> out) {
-    const auto& [corners, uv, bends, limits, rims, on_surface, slope] = asked;
+    const auto& [corners, uv, bends, limits, rims, on_surface, slope, curved] = asked;
     const std::size_t count = corners.size();
     Array<double> off(count, 0.0);
     if (on_surface)
@@ -217,7 +217,7 @@ struct SomeTriangles {
         const auto all = [](const auto& array) { return std::span(array.data(), array.size()); };
         return {all(corners), all(uv),   all(bends),
                 all(limits),  all(rims), asked.corners_are_on_surface,
-                asked.slope};
+                asked.slope,  {}};
     }
 };
 
@@ -246,9 +246,10 @@ bool is_vague(const TriangleBounds& bounds, const FourthParts& rho) {
 }
 
 /// Point by point or by height.
-bool is_near(const TriangleBounds& bounds, RimSides rims, double limit, double slope) {
-    if (bounds.whole <= limit) return bounds.slope <= slope;
-    return is_within(bounds, rims, limit, slope);
+bool is_near(const TriangleBounds& bounds, const ProofRequest& asked, std::size_t t) {
+    const double limit = asked.limits[t] - bounds.corner;
+    if (bounds.whole <= limit) return bounds.slope <= asked.slope;
+    return asked.curved.empty() && is_within(bounds, asked.rims[t], limit, asked.slope);
 }
 
 /// By corners and fourth derivatives; by a grid of points where they say too little, and by cells,
@@ -258,6 +259,7 @@ SurfaceStatus bounds_of_smooth(const Surface& surface, const FourthDerivatives& 
                                std::span<TriangleBounds> out) {
     Array<FourthParts> rho(out.size());
     auto status = smooth_bounds(fourth, surface.domain(), asked, out, {rho.data(), rho.size()});
+    if (status == SurfaceStatus::UNKNOWN && !asked.curved.empty()) return status;
     if (status == SurfaceStatus::UNKNOWN) return bounds_by_cells(surface, asked, depth, out);
     if (status != SurfaceStatus::DONE) return status;
     Array<std::int32_t> open, unknown;
@@ -265,13 +267,14 @@ SurfaceStatus bounds_of_smooth(const Surface& surface, const FourthDerivatives& 
         const auto number = static_cast<std::int32_t>(t);
         if (!(out[t].whole < intervals::INFINITE))
             unknown.push_back(number);
-        else if (!is_near(out[t], asked.rims[t], asked.limits[t] - out[t].corner, asked.slope))
+        else if (!is_near(out[t], asked, t))
             open.push_back(number);
     }
     status = lower_by_grid(fourth, asked, {rho.data(), rho.size()}, open, out);
     if (status != SurfaceStatus::DONE) return status;
     for (const std::int32_t t : open)
         if (is_vague(out[static_cast<std::size_t>(t)], rho[t])) unknown.push_back(t);
+    if (!asked.curved.empty()) return status;
     Array<std::int32_t> straight;
     for (const std::int32_t t : unknown)
         if (asked.piece(static_cast<std::size_t>(t)).is_straight()) straight.push_back(t);
@@ -283,6 +286,7 @@ SurfaceStatus bounds_of_smooth(const Surface& surface, const FourthDerivatives& 
 SurfaceStatus triangle_bounds(const Surface& surface, const ProofRequest& asked, int depth,
                               std::span<TriangleBounds> out) {
     const auto* fourth = dynamic_cast<const FourthDerivatives*>(&surface);
+    if (fourth == nullptr && !asked.curved.empty()) return SurfaceStatus::UNKNOWN;
     if (fourth == nullptr) return bounds_by_cells(surface, asked, depth, out);
     constexpr std::size_t AT_ONCE = 1 << 16;  // triangles whose corners are kept
     for (std::size_t start = 0; start < out.size(); start += AT_ONCE) {

@@ -59,7 +59,12 @@ struct ProofRequest {
     // false: the corners give the plane alone, and r(u_i) lies elsewhere
     bool corners_are_on_surface;
     double slope;  // what slopes should keep to
+    // of quadratic triangles; none: they are straight
+    std::span<const SpaceBends> curved;
 
+    [[nodiscard]] SpaceBends curve(std::size_t t) const {
+        return curved.empty() ? SpaceBends{} : curved[t];
+    }
     [[nodiscard]] PlanePiece piece(std::size_t t) const { return {uv[t], bends[t]}; }
 
     [[nodiscard]] ProofRequest part(std::size_t start, std::size_t count) const {
@@ -69,11 +74,12 @@ struct ProofRequest {
                 limits.subspan(start, count),
                 rims.subspan(start, count),
                 corners_are_on_surface,
-                slope};
+                slope,
+                curved.empty() ? curved : curved.subspan(start, count)};
     }
 };
 
-/// Bounds of each triangle into ``out``. Those beyond their limit, by height or at a rim, or beyond
+/// Bounds of each triangle into ``out``; of quadratic ones ``whole`` alone. Those beyond their limit, by height or at a rim, or beyond
 /// the slope, are cut further, at most ``depth`` times. FAILED and UNKNOWN as the surface says.
 SurfaceStatus triangle_bounds(const Surface& surface, const ProofRequest& asked, int depth,
                               std::span<TriangleBounds> out);

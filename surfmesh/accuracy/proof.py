@@ -95,6 +95,29 @@ def proved_distances(
     return FaceProof(bound, away, changes, is_joined)
 
 
+def proved_curved(
+    surface: Surface, face: FaceTriangles, middles: NDArray[np.float64], limits: NDArray[np.float64]
+) -> NDArray[np.float64] | None:
+    """(m,) how far quadratic triangles and surface are from each other at most, point by point.
+
+    middles: (m, 3, 3) nodes of sides 0, 1, 2. None without bounds; infinite where there is none.
+    """
+    core = as_core_surface(surface)
+    corners, uv, vertices, twins = face
+    bends = proof.curved_pieces(core, corners, uv, vertices, twins, middles)
+    curved = middles - 0.5 * (corners + corners[:, (1, 2, 0)])
+    rims = np.zeros(len(corners), np.uint8)
+    bounds = proof.triangle_bounds(
+        core, corners, uv, bends, limits, rims, DEPTH, curved=np.ascontiguousarray(curved)
+    )
+    if bounds is None:
+        return None
+    bound = bounds[:, WHOLE] + bounds[:, CORNER]
+    gaps = _gaps(surface, face)
+    bound[gaps.owners] = bound[gaps.unknown] = np.inf
+    return bound
+
+
 def _bounds(
     core: surfaces.Surface,
     face: FaceTriangles,

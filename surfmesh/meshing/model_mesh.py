@@ -347,24 +347,23 @@ class _Unmeshed:
         """Triangles at most, roughly."""
         self._first_nodes = nodes
 
-    @cached_property
-    def _cut(self) -> tuple[CutEdges, dict[int, SizeLimits]]:
-        """The edges and the limits of the first round, or of the second where sizes depend on the
-        direction: long edges are cut again then, and many of them."""
-        nodes = self._first_nodes
-        if not self.wanted.is_anisotropic:
-            return nodes, {}
-        jobs = face_jobs(self.model, self.faces, nodes)
-        limits = {k: more for k, job in enumerate(jobs) if (more := edge_refinement(job))}
-        return cut_edges(self.model, self.wanted.base, self.samples, limits, nodes), limits
-
     @property
     def nodes(self) -> CutEdges:
-        """Where the edges are cut."""
+        """Of the edges that ``jobs`` are made with."""
         return self._cut[0]
 
-    @cached_property
+    @property
     def jobs(self) -> list[FaceJob]:
-        """What the faces are meshed from."""
-        nodes, limits = self._cut
-        return face_jobs(self.model, self.faces, nodes, limits)
+        """What the faces are meshed from in the first round, or in the second where sizes depend
+        on the direction: long edges are cut again then, and many of them."""
+        return self._cut[1]
+
+    @cached_property
+    def _cut(self) -> tuple[CutEdges, list[FaceJob]]:
+        model, nodes = self.model, self._first_nodes
+        jobs = face_jobs(model, self.faces, nodes)
+        if not self.wanted.is_anisotropic:
+            return nodes, jobs
+        limits = {k: more for k, job in enumerate(jobs) if (more := edge_refinement(job))}
+        nodes = cut_edges(model, self.wanted.base, self.samples, limits, nodes)
+        return nodes, face_jobs(model, self.faces, nodes, limits)

@@ -26,7 +26,8 @@ class SizeFigures(Part):
     # depend on the direction
     growth_p99: float
     growth: float | None  # asked for: the largest ratio of neighbouring sizes
-    above_growth_share: float | None  # edges whose ends have target sizes that differ by more
+    above_growth_share: float | None  # edges whose ends have target sizes that differ by more than
+    # 1.1 times what growth allows
     size_growth_max: float | None  # largest such difference over what growth allows: 1 is allowed
     size_growth_point: Point | None  # middle of that edge
 

@@ -11,7 +11,8 @@ from surfmesh.result.surface_mesh import SurfaceMesh
 from surfmesh.sizing.metric_roots import unpacked
 
 QUASI_UNIT = (0.5**0.5, 2.0**0.5)  # metric lengths that conform to the target sizes
-GROWTH_SLACK = 0.01  # relative: sizes are interpolated between the nodes of the field
+GROWTH_SLACK = 0.1  # relative: sizes are interpolated between the nodes of the field, and grow with
+# the distance on the surface, which is longer than the edge
 BLOCK = 1 << 15  # edges looked at together, to stay within the cache
 
 
@@ -89,7 +90,7 @@ def growth(mesh: SurfaceMesh, lengths: NDArray[np.float64]) -> Growth:
 class SizeGrowth(NamedTuple):
     """By how much the target sizes at the two ends of an edge differ, over what is allowed."""
 
-    fraction: float  # of the edges, those along which it is more than allowed
+    fraction: float  # of the edges, those along which it is more than a tenth above that
     largest: float  # 1 is allowed
     point: Point  # middle of that edge
 

@@ -86,7 +86,7 @@ class Measurements:
 
     @property
     def is_curved(self) -> bool:
-        """Are its triangles measured as quadratic ones? Proofs are of straight ones."""
+        """Are its triangles measured as quadratic ones? ``proof`` sizes straight ones."""
         sizing = self.mesh.sizing
         proves = sizing is not None and sizing.proof
         return self.mesh.order == 2 and self.finite and not self.broken and not proves
@@ -168,7 +168,9 @@ class Measurements:
         """What bounds say of both, where the report is asked to prove."""
         fit = self.deviation_both_ways
         return (
-            None if self.known is None or fit is None else proof(self.known, fit, self.tolerances)
+            None
+            if self.known is None or fit is None
+            else proof(self.known, fit, self.tolerances, self.is_curved)
         )
 
     @cached_property

@@ -13,7 +13,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from surfmesh._core.proof import curve_bounds
-from surfmesh.accuracy.proof import FaceProof, FaceTriangles, proved_distances, twins_of
+from surfmesh.accuracy.proof import (
+    FaceProof,
+    FaceTriangles,
+    proved_curved,
+    proved_distances,
+    twins_of,
+)
 from surfmesh.quality.measures.deviation import Deviation
 from surfmesh.quality.measures.known_surfaces import KnownSurfaces, Rows
 from surfmesh.quality.measures.tolerances import CHORD_SLACK, Tolerances
@@ -44,8 +50,8 @@ class Proof(NamedTuple):
         return np.isfinite(self.bound) & (self.bound <= self.limit * (1.0 + CHORD_SLACK))
 
 
-def proof(known: KnownSurfaces, fit: Deviation, tolerances: Tolerances) -> Proof:
-    """Of all triangles, with ``fit``, what samples say both ways."""
+def proof(known: KnownSurfaces, fit: Deviation, tolerances: Tolerances, is_curved: bool) -> Proof:
+    """Of all triangles, with ``fit``, what samples say both ways. is_curved: of quadratic ones."""
     mesh = known.mesh
     limit = tolerances.at(tolerances.chord, mesh.face_ids)
     sampled = CLOSELY * fit.by_triangle.max(initial=0.0)
@@ -53,7 +59,15 @@ def proof(known: KnownSurfaces, fit: Deviation, tolerances: Tolerances) -> Proof
     bound, without = np.full(len(mesh.triangles), np.inf), []
     moves: list[FaceProof] = []
     for number, rows in _by_face(mesh):
-        found = proved_distances(mesh.surfaces[number], _face(known, rows), near[rows])
+        surface, face = mesh.surfaces[number], _face(known, rows)
+        if is_curved:
+            curved = proved_curved(surface, face, _middles(mesh, rows), near[rows])
+            if curved is None:
+                without.append(number)
+            else:
+                bound[rows] = curved
+            continue
+        found = proved_distances(surface, face, near[rows])
         if found is None:
             without.append(number)
         else:
@@ -73,6 +87,11 @@ def moves_of(known: KnownSurfaces, slope: float) -> FaceProof | None:
     face = _face(known, np.arange(len(mesh.triangles)))
     limits = np.full(len(mesh.triangles), np.inf)
     return proved_distances(mesh.surfaces[int(mesh.face_ids[0])], face, limits, slope)
+
+
+def _middles(mesh: SurfaceMesh, rows: Rows) -> NDArray[np.float64]:
+    """(k, 3, 3) nodes of the sides of some quadratic triangles."""
+    return np.ascontiguousarray(mesh.nodes[mesh.elements[rows, 3:]])
 
 
 def _by_face(mesh: SurfaceMesh) -> Iterator[tuple[int, Rows]]:

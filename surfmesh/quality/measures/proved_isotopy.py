@@ -35,6 +35,8 @@ def isotopic(
         return Answer(False, f"{meeting} pairs of its triangles meet")
     if known is None or found is None:
         return Answer(None, "nothing is proved of its distance from the surface")
+    if found.moves is None and known.mesh.order == 2:
+        return Answer(None, "its triangles are curved")
     if len(known.mesh.surfaces) > 1:
         return Answer(None, "its faces are joined within tolerances only")
     reason = _not_moved(known, found.moves)

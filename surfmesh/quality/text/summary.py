@@ -6,6 +6,7 @@ from surfmesh.errors import printable
 from surfmesh.quality.figures.figures import Figures
 from surfmesh.quality.figures.proof import ProofFigures
 from surfmesh.quality.figures.second_opinion import SecondOpinion
+from surfmesh.quality.measures.lengths import GROWTH_SLACK
 from surfmesh.quality.measures.places import count_in_words, place_in_words
 
 WIDTH = 92
@@ -138,13 +139,13 @@ def _in_the_metric(report: Figures) -> list[tuple[str, str]]:
 
 
 def _growth(report: Figures) -> str:
-    allowed = f"growth {report.growth:g} allows"
+    allowed = f"{1.0 + GROWTH_SLACK:g} times what growth {report.growth:g} allows"
     if not report.above_growth_share:
         return f"wanted sizes differ along no edge by more than {allowed}"
     place = place_in_words(report.size_growth_point, 4)
     return (
         f"wanted sizes differ along {100 * report.above_growth_share:.2g} % of them by more than "
-        f"{allowed}, up to {report.size_growth_max:.3g} times as much at {place}"
+        f"{allowed}, up to {report.size_growth_max:.3g} times at {place}"
     )
 
 
