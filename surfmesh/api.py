@@ -293,10 +293,9 @@ def _diagonal(model: Surface | CadModel) -> float:
     if not isinstance(model, Surface):
         return model.diagonal
     from surfmesh.geometry.boxes import diagonal
+    from surfmesh.geometry.parameter_grid import parameter_grid
 
-    grid = [np.linspace(low, high, 33) for low, high in model.domain]
-    uv = np.stack(np.meshgrid(*grid), axis=-1).reshape(-1, 2)
-    points = model.evaluate(uv, 0)[0]
+    points = model.evaluate(parameter_grid(model.domain, 33), 0)[0]
     return diagonal(points[np.isfinite(points).all(axis=1)])
 
 
