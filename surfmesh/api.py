@@ -170,7 +170,7 @@ def mesh(
     Raises ``SizingError``, ``SurfaceError`` or ``MeshingError`` with the place and the reason,
     ``Cancelled`` when ``progress`` said so.
     """
-    if jobs is not None and not (isinstance(jobs, int) and jobs >= 1):
+    if jobs is not None and (isinstance(jobs, bool) or not isinstance(jobs, int) or jobs < 1):
         raise SizingError(f"jobs is {shown(jobs)}: at least one thread; None takes all processors")
     model = _model_or_surface(surface)
     asked, order = _of_order(_by_name(sizing, sizes), order)

@@ -40,6 +40,7 @@ from surfmesh.result.part_attributes import PartAttributes
 from surfmesh.result.quadratic_triangles import edge_rows, node_values, six_nodes
 
 if TYPE_CHECKING:
+    from collections.abc import Mapping
     from types import ModuleType
 
     import meshio
@@ -337,6 +338,12 @@ class SurfaceMesh(PartAttributes, Arrays):
         from surfmesh.volume.gmsh_model import to_gmsh
 
         return to_gmsh(self, name)
+
+    def save_dagmc(self, path: str | Path, materials: str | Mapping[str, str]) -> Path:
+        """Write a .h5m for DAGMC with the materials of solids; see ``surfmesh.io.dagmc``."""
+        from surfmesh.io.dagmc import save_dagmc
+
+        return save_dagmc(self, path, materials)
 
     def tetrahedralize(
         self, engine: str = "tetgen", *, size: float | None = None, order: int | None = None
