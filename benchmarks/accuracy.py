@@ -143,7 +143,8 @@ def at_random(mesh: SurfaceMesh, bound: NDArray[np.float64]) -> Looked:
     np.maximum.at(at_vertex, mesh.triangles.ravel(), np.repeat(bound, 3))
     around = at_vertex[mesh.triangles[triangle]].max(axis=1)
     slack = ROUNDING * float(np.median(bound)) + 1e-12 * float(np.abs(mesh.points).max())
-    above = (there > bound[triangle] + slack) | (back > around + slack)
+    # a point over the straight triangle of (u, v) may be of the bent piece of one beside it
+    above = (there > around + slack) | (back > around + slack)
     return Looked(float(back.max()), float(there.max()), int(np.count_nonzero(above)))
 
 

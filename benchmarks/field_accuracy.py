@@ -15,6 +15,7 @@ from target_count import sizing_for
 
 import surfmesh as sm
 from surfmesh.geometry.differential.fundamental_forms import curvatures, forms_from_derivatives
+from surfmesh.geometry.parameter_grid import parameter_grid
 from surfmesh.geometry.surface import Surface
 from surfmesh.sizing.options.defaults import DEFAULT_ANGLE, DEFAULT_MAX_SIZE, LEAST_OF_CHORD
 from surfmesh.sizing.rules.curvature_size import angle_size, chord_size
@@ -108,8 +109,7 @@ def _exact(surface: Surface, uv: np.ndarray, sizing: dict) -> tuple[np.ndarray, 
 
 def _coarsest(surface: Surface) -> float:
     """The largest size when no ``max_size`` is asked for."""
-    grid = [np.linspace(a, b, 17) for a, b in surface.domain]
-    (points,) = surface.evaluate(np.stack(np.meshgrid(*grid), axis=-1).reshape(-1, 2), 0)
+    (points,) = surface.evaluate(parameter_grid(surface.domain, 17), 0)
     return DEFAULT_MAX_SIZE * float(np.linalg.norm(np.ptp(points, axis=0)))
 
 

@@ -2,13 +2,14 @@
 
     python benchmarks/speed.py [--only SECTION ...] [--quick | --large] [--json PATH]
 
-Sections: start, cad, plane, surfaces, checks, stretched, cores, memory. Everything is timed in
-processes of its own with one thread, as processor time, which other work on the machine hardly
-changes; medians of three. Only ``cores`` looks at the clock on the wall. Beside each figure stands
-what is wanted of it, printed as soon as it is measured; the exit status is 1 when something is
-missed. ``--large`` adds a million triangles of each surface, four million on two cores and ten
-million in one mesh; ``--quick`` does everything once and leaves the model of 978 faces out. On that
-netgen, which takes minutes, is not asked.
+Sections: install, start, cad, plane, surfaces, checks, stretched, cores, memory. Everything is
+timed in processes of its own with one thread, as processor time, which other work on the machine
+hardly changes; medians of three. Only ``cores`` and ``install`` look at the clock on the wall.
+Beside each figure stands what is wanted of it, printed as soon as it is measured; the exit status
+is 1 when something is missed. ``install`` runs only when it is asked for: it compiles the core
+from nothing. ``--large`` adds a million triangles of each surface, four million on two cores and
+ten million in one mesh; ``--quick`` does everything once and leaves the model of 978 faces out. On
+that netgen, which takes minutes, is not asked.
 """
 
 import single_thread  # noqa: F401  (before numpy)
@@ -27,6 +28,7 @@ from collections.abc import Callable
 from dataclasses import dataclass, field
 from pathlib import Path
 
+import speed_install
 import speed_jobs
 import speed_parts
 from rich.markup import escape
@@ -82,7 +84,7 @@ def main() -> int:
     options = _options()
     missed, results = 0, {}
     with tempfile.TemporaryDirectory(prefix="surfmesh-") as folder:
-        for name in options.only or SECTIONS:
+        for name in options.only or [name for name in SECTIONS if name != "install"]:
             figures = Figures(Path(folder), options.large, 1 if options.quick else 3)
             heading(f"{name}: {SECTIONS[name].__doc__}")
             SECTIONS[name](figures)
@@ -101,6 +103,18 @@ def _options() -> argparse.Namespace:
     parser.add_argument("--quick", action="store_true", help="once, and no large model")
     parser.add_argument("--json", metavar="PATH", help="write everything as one JSON object")
     return parser.parse_args()
+
+
+def install(figures: Figures) -> None:
+    """seconds on the wall of `make mesh` in a fresh copy with an empty environment, once"""
+    most = {"build": 60.0}
+    try:
+        found = speed_install.install(figures.folder, TIMEOUT)
+    except (RuntimeError, ValueError, OSError, subprocess.SubprocessError) as error:
+        figures.add(Wanted("make mesh failed"), None, str(error))
+        return
+    for part, seconds in found.items():
+        figures.add(Wanted(f"make mesh: {part}", most=most.get(part), digits=1), seconds)
 
 
 # start: whole commands, each with its children
@@ -300,7 +314,7 @@ def memory(figures: Figures) -> None:
 
 SECTIONS: dict[str, Callable[[Figures], None]] = {
     section.__name__: section
-    for section in (start, cad, plane, surfaces, checks, stretched, cores, memory)
+    for section in (install, start, cad, plane, surfaces, checks, stretched, cores, memory)
 }
 
 

@@ -12,6 +12,7 @@ from collections.abc import Callable
 import numpy as np
 
 import surfmesh as sm
+from surfmesh.geometry.parameter_grid import parameter_grid
 from surfmesh.geometry.surface import Surface
 
 TOLERANCE = 0.04  # relative, of the count
@@ -23,9 +24,7 @@ LARGEST_ANGLE = 90.0  # degrees
 
 def diagonal(surface: Surface) -> float:
     """Of the bounding box of a grid of points."""
-    grid = [np.linspace(a, b, 33) for a, b in surface.domain]
-    uv = np.stack(np.meshgrid(*grid), axis=-1).reshape(-1, 2)
-    (points,) = surface.evaluate(uv, 0)
+    (points,) = surface.evaluate(parameter_grid(surface.domain, 33), 0)
     return float(np.linalg.norm(np.ptp(points, axis=0)))
 
 

@@ -15,6 +15,7 @@ from scipy.spatial import cKDTree
 import surfmesh as sm
 from surfmesh.cad.model.cad_model import CadModel
 from surfmesh.geometry.differential.projection import closest_point
+from surfmesh.geometry.parameter_grid import parameter_grid
 
 GUIDES = 6  # places nearby that a search starts from
 MORE_GUIDES = 40  # for what seems to lie too far away: the other side of a wall may be nearer
@@ -43,8 +44,7 @@ def true_surface(model: CadModel) -> TrueSurface:
         points.append(model.faces[number].surface.evaluate(uv[-1], 0)[0])
         faces.append(np.full(len(uv[-1]), number))
     for number in set(range(len(model.faces))) - set(np.unique(mesh.face_ids).tolist()):
-        sides = [np.linspace(a, b, GRID) for a, b in model.faces[number].surface.domain]
-        grid = np.stack(np.meshgrid(*sides), axis=-1).reshape(-1, 2)
+        grid = parameter_grid(model.faces[number].surface.domain, GRID)
         points.append(model.faces[number].surface.evaluate(grid, 0)[0])
         uv.append(grid)
         faces.append(np.full(len(grid), number))

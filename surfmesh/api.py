@@ -170,7 +170,7 @@ def mesh(
     Raises ``SizingError``, ``SurfaceError`` or ``MeshingError`` with the place and the reason,
     ``Cancelled`` when ``progress`` said so.
     """
-    if jobs is not None and not (isinstance(jobs, int) and jobs >= 1):
+    if jobs is not None and (isinstance(jobs, bool) or not isinstance(jobs, int) or jobs < 1):
         raise SizingError(f"jobs is {shown(jobs)}: at least one thread; None takes all processors")
     model = _model_or_surface(surface)
     asked, order = _of_order(_by_name(sizing, sizes), order)
@@ -293,10 +293,9 @@ def _diagonal(model: Surface | CadModel) -> float:
     if not isinstance(model, Surface):
         return model.diagonal
     from surfmesh.geometry.boxes import diagonal
+    from surfmesh.geometry.parameter_grid import parameter_grid
 
-    grid = [np.linspace(low, high, 33) for low, high in model.domain]
-    uv = np.stack(np.meshgrid(*grid), axis=-1).reshape(-1, 2)
-    points = model.evaluate(uv, 0)[0]
+    points = model.evaluate(parameter_grid(model.domain, 33), 0)[0]
     return diagonal(points[np.isfinite(points).all(axis=1)])
 
 

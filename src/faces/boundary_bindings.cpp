@@ -8,6 +8,7 @@
 #include "binding/arrays.hpp"
 #include "faces/boundary_builder.hpp"
 #include "faces/loop_figures.hpp"
+#include "faces/triangles_in_a_row.hpp"
 #include "insertion/boundary_arguments.hpp"
 #include "surfaces/callback_surface.hpp"
 
@@ -226,6 +227,30 @@ void bind_numbers(nb::module_& m) {
         "(l, 3); and where those of each boundary begin.");
 }
 
+void bind_triangles(nb::module_& m) {
+    m.def(
+        "triangles_in_a_row",
+        [](const std::vector<Matrix<std::int32_t, 3>>& parts, const Vector<std::int64_t>& points,
+           const Vector<std::uint8_t>& turned) {
+            require_rows(points.shape(0), parts.size(), "points");
+            require_rows(turned.shape(0), parts.size(), "turned");
+            std::vector<TrianglesOfFace> faces;
+            for (std::size_t k = 0; k < parts.size(); ++k)
+                faces.push_back({{parts[k].data(), parts[k].size()}, points(k), turned(k) != 0});
+            Array<std::int64_t> row;
+            {
+                const nb::gil_scoped_release released;
+                row = triangles_in_a_row(faces);
+            }
+            const std::size_t shape[] = {row.size() / 3, 3};
+            return nb::ndarray<nb::numpy, std::int64_t, nb::shape<-1, 3>>(row.data(), 2, shape,
+                                                                          owner_of(row));
+        },
+        nb::arg("parts"), nb::arg("points"), nb::arg("turned"),
+        "Triangles (m, 3) int64 of all parts, each (k, 3) int32, their corners numbered on by the "
+        "points (p,) of the parts before; those of parts in turned (p,) uint8 turn over.");
+}
+
 void bind_polygons(nb::module_& m) {
     nb::class_<FacePolygons>(m, "FacePolygons",
                              "Loops as closed polygons: each coedge without its last node.")
@@ -262,6 +287,7 @@ void bind_boundaries(nb::module_& m) {
     bind_boundary(m);
     bind_builder(m);
     bind_numbers(m);
+    bind_triangles(m);
     bind_polygons(m);
 }
 

@@ -2,15 +2,13 @@
 
 #include <cmath>
 
+#include "optimisation/best_way.hpp"
+
 namespace surfmesh {
 namespace {
 
-constexpr double FIRST_STEP = 0.08, LAST_STEP = 0.01;  // of the search, in unit lengths
-constexpr double LONGEST_MOVE = 0.3;                   // in all, unit lengths
+constexpr WayLimits APPROACH_LIMITS{0.08, 0.01, 0.3};
 constexpr double LEAST_STEP_GAIN = 0.02;  // least part of the excess that a step takes away
-constexpr double SLANT = 0.70710678118654752;
-constexpr Point2 STEPS[] = {{1.0, 0.0},  {SLANT, SLANT},   {0.0, 1.0},  {-SLANT, SLANT},
-                            {-1.0, 0.0}, {-SLANT, -SLANT}, {0.0, -1.0}, {SLANT, -SLANT}};
 
 double square_above(double ratio) { return ratio > 1.0 ? (ratio - 1.0) * (ratio - 1.0) : 0.0; }
 
@@ -108,28 +106,16 @@ class StarPosition {
 /// Move v until its star keeps its bounds, or to where it is best; the length of its way.
 double move_to_best(Triangulation& t, SurfaceFrames& s, Vertex v, HalfEdge start,
                     StarBounds bounds) {
-    double now = excess(t, s, v, start, bounds);
+    const double now = excess(t, s, v, start, bounds);
     if (!(now > 0.0) || now == INFINITY || is_zero(s.normal[v])) return 0.0;
     const StarPosition from(t, s, v, start);
-    Point2 way = {0.0, 0.0};
-    for (double radius = FIRST_STEP; radius >= LAST_STEP && now > 0.0;) {
-        Point2 best_way = way;
-        double best = (1.0 - LEAST_STEP_GAIN) * now;
-        for (const Point2 direction : STEPS) {
-            const Point2 trial = way + radius * direction;
-            if (norm(trial) > LONGEST_MOVE) continue;
-            from.place(t, s, trial);
-            const double found = excess(t, s, v, start, bounds);
-            if (!(found < best)) continue;
-            best = found;
-            best_way = trial;
-        }
-        if (best < (1.0 - LEAST_STEP_GAIN) * now)
-            now = best;
-        else
-            radius *= 0.5;
-        way = best_way;
-    }
+    const auto energy_at = [&](Point2 trial) {
+        from.place(t, s, trial);
+        return excess(t, s, v, start, bounds);
+    };
+    const Point2 way = find_best_way(APPROACH_LIMITS, now, 0.0, energy_at, [](double energy) {
+        return (1.0 - LEAST_STEP_GAIN) * energy;
+    });
     if (way.x == 0.0 && way.y == 0.0)
         from.put_back(t, s);
     else
@@ -148,11 +134,7 @@ void bring_nearer(Triangulation& t, SurfaceFrames& s, const Stars& stars, Vertex
             const Vertex v = t.tri[e];
             if (stars.frozen[v] != 0 || stars.start[v] == NIL) continue;
             const double length = move_to_best(t, s, v, stars.start[v], bounds);
-            if (length == 0.0) continue;
-            s.drift[v] += length;
-            marks.active[v] = 0;
-            marks.dirty[v] = 1;
-            moved.push_back(v);
+            record_move(s, marks, v, length, moved);
         }
     }
 }

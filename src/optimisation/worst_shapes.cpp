@@ -1,7 +1,6 @@
 #include "optimisation/worst_shapes.hpp"
 
-#include <cmath>
-
+#include "optimisation/best_way.hpp"
 #include "values/threads.hpp"
 
 namespace surfmesh {
@@ -9,12 +8,8 @@ namespace {
 
 constexpr std::size_t SHAPES_TOGETHER = 1 << 14;  // triangles looked at together
 
-constexpr double FIRST_RADIUS = 0.16, LAST_RADIUS = 0.02;  // of the search, in unit lengths
-constexpr double LONGEST_WAY = 0.5;                        // in all, unit lengths
-constexpr double GAIN = 2e-3;                              // least gain of alpha for a step
-constexpr double DIAGONAL = 0.70710678118654752;
-constexpr Point2 WAYS[] = {{1.0, 0.0},  {DIAGONAL, DIAGONAL},   {0.0, 1.0},  {-DIAGONAL, DIAGONAL},
-                           {-1.0, 0.0}, {-DIAGONAL, -DIAGONAL}, {0.0, -1.0}, {DIAGONAL, -DIAGONAL}};
+constexpr WayLimits RAISING_LIMITS{0.16, 0.02, 0.5};
+constexpr double GAIN = 2e-3;  // least gain of alpha for a step
 
 /// The smallest alpha in the star of v; -1 where a triangle is not positive in the plane.
 double smallest_shape(const Triangulation& t, const SurfaceFrames& s, Vertex v, HalfEdge start) {
@@ -51,26 +46,12 @@ class Position {
 /// its way, unit lengths.
 double move_to_best(Triangulation& t, SurfaceFrames& s, Vertex v, HalfEdge start, double least) {
     const Position from(t, s, v);
-    Point2 way = {0.0, 0.0};
-    double shape = smallest_shape(t, s, v, start);
-    for (double radius = FIRST_RADIUS; radius >= LAST_RADIUS && shape < least;) {
-        Point2 best_way = way;
-        double best = shape + GAIN;
-        for (const Point2 direction : WAYS) {
-            const Point2 trial = way + radius * direction;
-            if (norm(trial) > LONGEST_WAY) continue;
-            from.place(t, s, trial);
-            const double found = smallest_shape(t, s, v, start);
-            if (!(found > best)) continue;
-            best = found;
-            best_way = trial;
-        }
-        if (best > shape + GAIN)
-            shape = best;
-        else
-            radius *= 0.5;
-        way = best_way;
-    }
+    const auto energy_at = [&](Point2 trial) {
+        from.place(t, s, trial);
+        return -smallest_shape(t, s, v, start);
+    };
+    const Point2 way = find_best_way(RAISING_LIMITS, -smallest_shape(t, s, v, start), -least,
+                                     energy_at, [](double energy) { return energy - GAIN; });
     from.place(t, s, way);
     return norm(way);
 }
@@ -98,11 +79,7 @@ void raise_worst(Triangulation& t, SurfaceFrames& s, const Stars& stars, VertexM
             if (is_collapsed(s, a, b, c) || !is_shape_below(s, a, b, c, least)) break;
             if (stars.frozen[v] != 0 || stars.start[v] == NIL) continue;
             const double length = move_to_best(t, s, v, stars.start[v], least);
-            if (length == 0.0) continue;
-            s.drift[v] += length;
-            marks.active[v] = 0;
-            marks.dirty[v] = 1;
-            moved.push_back(v);
+            record_move(s, marks, v, length, moved);
         }
     };
     if (t.parts.empty()) {

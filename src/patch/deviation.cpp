@@ -22,6 +22,23 @@ constexpr int STEPS = 12;     // of a projection, at most: where speeds change f
 constexpr int FEW_STEPS = 4;  // in the mesher, where triangles are small and guesses near
 constexpr std::size_t SAMPLED_TOGETHER = 2048;  // triangles looked at together
 
+/// Of a point from the tangent plane at a place of the surface: its normal, zero where there is
+/// none, and the distances along it and across.
+struct NormalOffset {
+    Point3 normal;
+    double along, across;
+};
+
+/// As ``tangent_plane_offset`` has it, without the step that few points take.
+NormalOffset normal_offset(Point3 point, Point3 foot, Point3 ru, Point3 rv) {
+    const Point3 n = cross(ru, rv), d = point - foot;
+    const double length = norm(n), squared = dot(d, d);
+    if (!(length > 0.0)) return {{0.0, 0.0, 0.0}, std::sqrt(squared), std::sqrt(squared)};
+    const Point3 normal = {n.x / length, n.y / length, n.z / length};
+    const double along = dot(d, normal);
+    return {normal, std::abs(along), std::sqrt(std::max(squared - along * along, 0.0))};
+}
+
 /// Points seen from the tangent planes at uv.
 Array<TangentPlaneOffset> offsets(SurfaceReader& surface, std::span<const Point3> points,
                                   std::span<const Point2> uv) {
@@ -45,20 +62,21 @@ std::span<const T> all(const Array<T>& values) {
     return {values.data(), values.size()};
 }
 
-/// uv, moved by the steps of their offsets and kept within the domain.
+/// uv of some points, moved by the steps of their offsets and kept within the domain.
 Array<Point2> a_step_further(const ParameterBox& box, std::span<const Point2> uv,
                              const Array<TangentPlaneOffset>& found,
                              const Array<std::int32_t>& which) {
     Array<Point2> nearer;
-    for (const std::int32_t i : which) {
-        const Point2 to = uv[i] + found[i].step;
+    for (std::size_t k = 0; k < which.size(); ++k) {
+        const Point2 to = uv[which[k]] + found[k].step;
         nearer.push_back({std::min(std::max(to.x, box.low.x), box.high.x),
                           std::min(std::max(to.y, box.low.y), box.high.y)});
     }
     return nearer;
 }
 
-/// Look again at the points ``far`` a Newton step further: those that are left.
+/// Look again at the points ``far``, whose offsets these are, a Newton step further: those that are
+/// left.
 Array<std::int32_t> look_again(SurfaceReader& surface, std::span<const Point3> points,
                                std::span<const Point2> uv, std::span<const double> size,
                                const Array<TangentPlaneOffset>& found,
@@ -70,7 +88,7 @@ Array<std::int32_t> look_again(SurfaceReader& surface, std::span<const Point3> p
         const std::int32_t i = far[k];
         distance[i] = again[k].along;
         const bool better = elementary::hypot(again[k].along, again[k].across) <=
-                            elementary::hypot(found[i].along, found[i].across);
+                            elementary::hypot(found[k].along, found[k].across);
         if (!(again[k].across <= NEAR_FOOT * size[i] && better)) left.push_back(i);
     }
     return left;
@@ -246,13 +264,20 @@ Array<double> triangle_widths(SurfaceReader& surface, const Chart& chart,
 
 PointDeviations point_deviations(SurfaceReader& surface, std::span<const Point3> points,
                                  std::span<const Point2> uv, std::span<const double> size) {
-    const Array<TangentPlaneOffset> found = offsets(surface, points, uv);
-    PointDeviations result{Array<double>(points.size()), Array<Point3>(points.size())};
+    surface.read(uv, 1);
+    PointDeviations result;
+    result.distance.reserve(points.size());
+    result.normal.reserve(points.size());
     Array<std::int32_t> far;
+    Array<TangentPlaneOffset> found;  // of those
     for (std::size_t i = 0; i < points.size(); ++i) {
-        result.distance[i] = found[i].along;
-        result.normal[i] = found[i].normal;
-        if (!(found[i].across <= NEAR_FOOT * size[i])) far.push_back(static_cast<std::int32_t>(i));
+        const Point3 &foot = surface[0][i], &ru = surface[1][i], &rv = surface[2][i];
+        const NormalOffset offset = normal_offset(points[i], foot, ru, rv);
+        result.distance.push_back(offset.along);
+        result.normal.push_back(offset.normal);
+        if (offset.across <= NEAR_FOOT * size[i]) continue;
+        far.push_back(static_cast<std::int32_t>(i));
+        found.push_back(tangent_plane_offset(points[i], {foot, ru, rv}));
     }
     if (!far.empty()) far = look_again(surface, points, uv, size, found, far, result.distance);
     if (far.empty()) return result;

@@ -15,8 +15,13 @@ double rise(const BySide& least) {
 /// One cell after the other.
 class Cells {
   public:
-    Cells(std::size_t n, const FourthParts& rho, const TriangleFrame& frame, std::size_t finer)
-        : scale_(1.0 / static_cast<double>(n)), rho_(rho), frame_(frame), finer_(finer) {}
+    Cells(std::size_t n, const FourthParts& rho, const TriangleFrame& frame, std::size_t finer,
+          bool with_slope)
+        : scale_(1.0 / static_cast<double>(n)),
+          rho_(rho),
+          frame_(frame),
+          finer_(finer),
+          with_slope_(with_slope) {}
 
     /// direction: -1 where its sides run against those of the triangle.
     void take(const CellCorners& corner, double direction) {
@@ -25,14 +30,19 @@ class Cells {
         for (BySide& along : more)
             for (double& part : along) part *= scale_ * scale_;
         for (const PlaceJet* there : corner) join(bends, there->bends, more);
-        const double between =
-            size_from(bends, frame_).whole * scale_ * scale_ / static_cast<double>(finer_ * finer_);
-        whole_ = std::max(whole_, farthest(corner) + between);
-        for (std::size_t k = 0; k < 3; ++k)
+        if (finer_ > 0) {
+            const double part = scale_ * scale_ / static_cast<double>(finer_ * finer_);
+            const double between = size_from(bends, frame_).whole * part;
+            whole_ = std::max(whole_, farthest(corner) + between);
+        } else {
+            whole_ = intervals::INFINITE;
+        }
+        for (std::size_t k = 0; k < 3 && with_slope_; ++k)
             slope_[k] = std::max(slope_[k], steepest(corner, k, direction));
-        for (const PlaceJet* there : corner) join(bends_, there->bends, more);
+        take_larger(bends_, bends);
     }
     [[nodiscard]] BoundsOfCells found() const {
+        if (!with_slope_) return {bends_, whole_, intervals::INFINITE};
         BySide part{};
         for (std::size_t k = 0; k < 3; ++k) {
             if (!(frame_.lengths[k] > 0.0)) return {bends_, whole_, intervals::INFINITE};
@@ -49,6 +59,7 @@ class Cells {
     const FourthParts& rho_;
     const TriangleFrame& frame_;
     std::size_t finer_;
+    bool with_slope_;
     SideBends bends_;
     double whole_ = 0.0;
     BySide slope_{};
@@ -152,9 +163,9 @@ SideBends averaged_bends(const CellCorners& corner, const FourthParts& rho) {
 }
 
 BoundsOfCells bounds_of_cells(std::span<const PlaceJet> places, std::size_t n,
-                              const FourthParts& rho, const TriangleFrame& frame,
-                              std::size_t finer) {
-    Cells cells(n, rho, frame, finer);
+                              const FourthParts& rho, const TriangleFrame& frame, std::size_t finer,
+                              bool with_slope) {
+    Cells cells(n, rho, frame, finer, with_slope);
     const auto row = [n](std::size_t i) { return i * (n + 1) - i * (i - 1) / 2; };
     for (std::size_t i = 0; i < n; ++i)
         for (std::size_t j = 0; i + j < n; ++j) {

@@ -29,9 +29,9 @@ struct BoundsOfCells {
 };
 
 /// places: of the grid with n cells along a side; within each cell |R - L| is looked at in
-/// ``finer``^2 more.
+/// ``finer``^2 more; 0: that is left infinite. with_slope: else it is left infinite.
 BoundsOfCells bounds_of_cells(std::span<const PlaceJet> places, std::size_t n,
-                              const FourthParts& rho, const TriangleFrame& frame,
-                              std::size_t finer);
+                              const FourthParts& rho, const TriangleFrame& frame, std::size_t finer,
+                              bool with_slope);
 
 }  // namespace surfmesh

@@ -54,7 +54,7 @@ struct Grid {
     }
 
     /// Of its cells.
-    [[nodiscard]] BoundsOfCells cells(const FourthParts& rho) const {
+    [[nodiscard]] BoundsOfCells cells(const FourthParts& rho, bool with_slope) const {
         constexpr std::size_t FINER = 4;
         Array<PlaceJet> places;
         const std::size_t last = points_of_grid(n) - 1;  // corners 0, 2, 1 of the triangle
@@ -62,7 +62,7 @@ struct Grid {
         for_grid(n, [&](const Barycentric& l) {
             places.push_back(place_jet(points[places.size()], piece, l, frame.axes, own, curved));
         });
-        return bounds_of_cells({places.data(), places.size()}, n, rho, frame, FINER);
+        return bounds_of_cells({places.data(), places.size()}, n, rho, frame, FINER, with_slope);
     }
 };
 
@@ -102,7 +102,7 @@ SurfaceStatus lower_some(const FourthDerivatives& surface, const ProofRequest& a
         const TriangleFrame frame = frame_of(asked.corners[t], out[t].corner, asked.rims[t]);
         const PlanePiece piece = asked.piece(t);
         const Grid grid{points, asked.corners[t], piece, frame, asked.curve(t), side};
-        const BoundsOfCells cells = grid.cells(rho[t]);
+        const BoundsOfCells cells = grid.cells(rho[t], asked.slope < intervals::INFINITE);
         TriangleBounds found = bounds_from(cells.bends, frame, out[t].corner);
         found.whole = std::min(found.whole, cells.whole);
         found.slope = std::min(found.slope, cells.slope);

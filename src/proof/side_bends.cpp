@@ -89,6 +89,17 @@ double slope_of(const BySide& part, const TriangleFrame& frame) {
     return slope <= intervals::INFINITE ? slope : intervals::INFINITE;
 }
 
+void take_larger(SideBends& all, const SideBends& other) {
+    for (std::size_t k = 0; k < 3; ++k) {
+        for (std::size_t d = 0; d < 3; ++d) {
+            all.by_axis[d][k] = std::max(all.by_axis[d][k], other.by_axis[d][k]);
+            all.differ[d][k] = std::max(all.differ[d][k], other.differ[d][k]);
+        }
+        all.up[k] = std::max(all.up[k], other.up[k]);
+        all.down[k] = std::max(all.down[k], other.down[k]);
+    }
+}
+
 PieceSize size_from(const SideBends& bends, const TriangleFrame& frame) {
     BySide size{}, up{}, down{};
     for (std::size_t e = 0; e < 3; ++e) {
@@ -98,8 +109,7 @@ PieceSize size_from(const SideBends& bends, const TriangleFrame& frame) {
         down[e] = bends.down[e] + tilted;
     }
     const double height = height_of(up, down);
-    return {height, whole_from(size, within_plane(bends, size, frame), height),
-            slope_from(bends, size, frame)};
+    return {height, whole_from(size, within_plane(bends, size, frame), height)};
 }
 
 TriangleBounds bounds_from(const SideBends& bends, const TriangleFrame& frame, double corner) {

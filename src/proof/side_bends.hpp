@@ -41,10 +41,12 @@ struct SideBends {
 /// is the curvature along its side, upwards: there is no largest value inside then.
 double largest_on_simplex(double a, double b, double c);
 
-/// How high and how far a piece is at most from a triangle, point by point, and how fast that
-/// changes.
+/// Of both.
+void take_larger(SideBends& all, const SideBends& other);
+
+/// How high and how far a piece is at most from a triangle, point by point.
 struct PieceSize {
-    double height, whole, slope;
+    double height, whole;
 };
 PieceSize size_from(const SideBends& bends, const TriangleFrame& frame);
 

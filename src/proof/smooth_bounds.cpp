@@ -199,11 +199,15 @@ bool SmoothBounds::look_at(std::int32_t t, const HighMagnitudes& most) {
     const PlanePiece piece = asked_.piece(static_cast<std::size_t>(t));
     const FourthParts rho = fourth_parts(most, piece, frame.axes);
     if (!(rho[0][0] < NONE)) return false;
-    std::array<PlaceJet, 3> places;
+    std::array<PlaceJet, 3> places{};
     const std::array<EnclosedPoint, 3> own = {(*jets[0])[0], (*jets[1])[0], (*jets[2])[0]};
+    const bool with_slope = asked_.slope < NONE;
     for (std::size_t k = 0; k < 3; ++k)
-        places[k] = place_jet(*jets[k], piece, AT_CORNERS[k], frame.axes, own,
-                              asked_.curve(static_cast<std::size_t>(t)));
+        if (with_slope || !asked_.curved.empty())
+            places[k] = place_jet(*jets[k], piece, AT_CORNERS[k], frame.axes, own,
+                                  asked_.curve(static_cast<std::size_t>(t)));
+        else  // at corners R is L
+            places[k].bends = place_bends(*jets[k], piece, AT_CORNERS[k], frame.axes);
     TriangleBounds found =
         bounds_from(averaged_bends({&places[0], &places[1], &places[2]}, rho), frame, off_[t]);
     if (!(found.whole < intervals::INFINITE)) return false;
@@ -211,11 +215,11 @@ bool SmoothBounds::look_at(std::int32_t t, const HighMagnitudes& most) {
     // as rows of the grid are: corner 0, corner 2, corner 1
     const std::array<PlaceJet, 3> rows = {places[0], places[2], places[1]};
     const auto [bends, whole, steepest] =
-        bounds_of_cells(rows, 1, rho, frame, found.whole <= limit ? 1 : PLACES);
-    const auto [height, cell_whole, slope] = size_from(bends, frame);
+        bounds_of_cells(rows, 1, rho, frame, found.whole <= limit ? 0 : PLACES, with_slope);
+    const auto [height, cell_whole] = size_from(bends, frame);
     found.cell_height = height;
     found.cell_whole = cell_whole;
-    found.slope = std::min(slope, steepest);
+    found.slope = steepest;
     found.whole = std::min(found.whole, whole);
     const double part = std::max({rho[2][0], rho[2][1], rho[2][2]}) / 6.0;
     const double least = std::max(LITTLE * found.height, LITTLE_OF_LIMIT * asked_.limits[t]);
@@ -266,7 +270,13 @@ SurfaceStatus SmoothBounds::run() {
                 groups_.push_back(rest);
                 continue;
             }
-            for (const Group half : halves_of(rest)) groups_.push_back(half);
+            for (const Group half : halves_of(rest)) {
+                if (half.size() == 1) {
+                    groups_.push_back(half);
+                    continue;
+                }
+                for (const Group quarter : halves_of(half)) groups_.push_back(quarter);
+            }
         }
     }
     return status;

@@ -12,7 +12,7 @@
 namespace surfmesh {
 namespace {
 
-constexpr std::size_t BLOCK = 4096;  // places looked at together
+constexpr std::size_t BLOCK = 1024;  // places looked at together
 constexpr double VERTEX_WEIGHT = 1.0 / 20.0, MIDDLE_WEIGHT = 2.0 / 15.0,
                  CENTROID_WEIGHT = 9.0 / 20.0;
 

@@ -21,25 +21,29 @@ Array<ParameterBox> boxes_of(const Chart& chart, const SeenCells& cells, std::si
     return boxes;
 }
 
-double farther(double a, double b) { return most(std::abs(a), std::abs(b)); }
+struct Range {
+    double least, most;
+};
 
-/// Bound of |n . x| for x between two corners of a box, times a scale; the lanes as of numpy.
-double largest_along(Point3 low, Point3 high, double scale, Point3 n) {
-    const Point3 x{farther(low.x, high.x) * scale, farther(low.y, high.y) * scale,
-                   farther(low.z, high.z) * scale};
-    return lane_dot(x, {std::abs(n.x), std::abs(n.y), std::abs(n.z)});
-}
-
-/// Width of the interval of n . x for x between two corners of a box.
-double width_along(Point3 low, Point3 high, Point3 n) {
+/// n . x for x between two corners of a box. Parts of opposite sign cancel: of a small box little
+/// more is left than the values in it.
+Range range_along(Point3 low, Point3 high, Point3 n) {
     const auto part = [](double normal, double a, double b) {  // times infinity is 0: x is finite
         return normal == 0.0 ? 0.0 : normal * (normal > 0.0 ? a : b);
     };
-    const double least_of_all =
-        part(n.x, low.x, high.x) + part(n.y, low.y, high.y) + part(n.z, low.z, high.z);
-    const double most_of_all =
-        part(n.x, high.x, low.x) + part(n.y, high.y, low.y) + part(n.z, high.z, low.z);
-    return most_of_all - least_of_all;
+    return {part(n.x, low.x, high.x) + part(n.y, low.y, high.y) + part(n.z, low.z, high.z),
+            part(n.x, high.x, low.x) + part(n.y, high.y, low.y) + part(n.z, high.z, low.z)};
+}
+
+/// Bound of |n . x| for x between two corners of a box.
+double largest_along(Point3 low, Point3 high, Point3 n) {
+    const Range range = range_along(low, high, n);
+    return most(std::abs(range.least), std::abs(range.most));
+}
+
+double width_along(Point3 low, Point3 high, Point3 n) {
+    const Range range = range_along(low, high, n);
+    return range.most - range.least;
 }
 
 double smaller_number(double a, double b) {
@@ -99,7 +103,8 @@ void BoundedFeatures::bound_curvature(const SeenCells& cells, std::size_t first,
         double form[3];  // |L|, |M|, |N| at most
         for (std::size_t j = 0; j < 3; ++j) {
             const std::size_t row = BOUNDED_DERIVATIVES * i + 2 + j;
-            form[j] = largest_along(lower[row], upper[row], scale[j], cells.normal[cell]);
+            form[j] =
+                std::abs(scale[j]) * largest_along(lower[row], upper[row], cells.normal[cell]);
         }
         double e = 0.0, g = 0.0;
         for (std::size_t node = 0; node < 9; ++node) {

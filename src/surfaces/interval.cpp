@@ -1,5 +1,6 @@
 #include "surfaces/interval.hpp"
 
+#include <bit>
 #include <numbers>
 
 #include "elementary_functions/hyperbolic.hpp"
@@ -20,7 +21,7 @@ constexpr Interval WHOLE_LINE{-INFINITE, INFINITE};
 /// x^n for n >= 2, as tapes compute it at points.
 double repeated(double x, std::int32_t n) {
     double result = 1.0;
-    for (int bit = 30; bit >= 0; --bit) {
+    for (int bit = std::bit_width(static_cast<std::uint32_t>(n)) - 1; bit >= 0; --bit) {
         result *= result;
         if (n >> bit & 1) result *= x;
     }

@@ -110,6 +110,11 @@ def loop_figures(boundaries: Sequence[FaceBoundary]) -> tuple[Annotated[NDArray[
     Of the loops of many boundaries: nodes, length of the polygon, sum of the finite sizes (l, 3); and where those of each boundary begin.
     """
 
+def triangles_in_a_row(parts: Sequence[Annotated[NDArray[numpy.int32], dict(shape=(None, 3), order='C', device='cpu', writable=False)]], points: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], turned: Annotated[NDArray[numpy.uint8], dict(shape=(None,), order='C', device='cpu', writable=False)]) -> Annotated[NDArray[numpy.int64], dict(shape=(None, 3))]:
+    """
+    Triangles (m, 3) int64 of all parts, each (k, 3) int32, their corners numbered on by the points (p,) of the parts before; those of parts in turned (p,) uint8 turn over.
+    """
+
 class FacePolygons:
     """Loops as closed polygons: each coedge without its last node."""
 

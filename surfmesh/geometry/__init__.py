@@ -13,6 +13,7 @@ files           formula files and domain files (surface_file, formula_file, know
 differential    forms, curvatures, charts, sides, closest points (all of it)
 inside_loops    which points lie within loops, and how many loops lie around a loop
 boxes           boxes around points
+parameter_grid  a grid of parameters all over a domain
 components      which things hang together
 quadrature      Gauss's rule on an interval
 number_range    which numbers can be computed with

@@ -21,6 +21,7 @@ import numpy as np
 from surfmesh.cad.model.cad_model import CadModel
 from surfmesh.geometry.differential.sides import find_sides
 from surfmesh.geometry.formulas.parametric import ParametricSurface
+from surfmesh.geometry.parameter_grid import parameter_grid
 from surfmesh.geometry.surface import Domain, Surface
 
 PLACES = 16
@@ -55,9 +56,7 @@ def _samples(thing: Any) -> Samples:
     for surface in surfaces:
         if not isinstance(surface, Surface):
             continue  # refused later
-        (u0, u1), (v0, v1) = surface.domain
-        uv = np.stack(np.meshgrid(np.linspace(u0, u1, grid), np.linspace(v0, v1, grid)), axis=-1)
-        own = surface.evaluate(uv.reshape(-1, 2), 0)[0].reshape(grid, grid, 3)
+        own = surface.evaluate(parameter_grid(surface.domain, grid), 0)[0].reshape(grid, grid, 3)
         steps = np.diff(own, axis=0), np.diff(own, axis=1)
         apart = max(apart, *(float(np.linalg.norm(step, axis=-1).max()) for step in steps))
         points.append(own.reshape(-1, 3))

@@ -30,6 +30,7 @@ from surfmesh.geometry.cad_surfaces.curves import Line
 from surfmesh.geometry.cad_surfaces.sheet_surface import SheetSurface
 from surfmesh.geometry.differential.sides import SideTopology, find_sides
 from surfmesh.geometry.inside_loops import nesting_depth
+from surfmesh.geometry.parameter_grid import parameter_grid
 from surfmesh.geometry.surface import Surface, surface_label
 from surfmesh.intersection.complex import measured_length
 from surfmesh.intersection.contents import region_area, region_cone
@@ -65,8 +66,7 @@ class _Sheet:
         self.under = SheetSurface(basis=surface, domain=surface.domain, name=name)
         self.vertices: list[CadVertex] = []
         self.edges: list[CadEdge] = []
-        grid = [np.linspace(*span, 17) for span in surface.domain]
-        points = self.under.evaluate(np.stack(np.meshgrid(*grid), axis=-1).reshape(-1, 2))[0]
+        points = self.under.evaluate(parameter_grid(surface.domain, 17))[0]
         self.size = float(np.linalg.norm(np.ptp(points, axis=0)))
         self.tolerance = TOLERANCE * self.size
         self.loops_given = tuple(surface.loops)

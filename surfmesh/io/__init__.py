@@ -5,6 +5,7 @@ atomic, leftovers: a file is written in full or not at all, and what is left whe
 asked_date: the date that files carry when one is asked for.
 stl, obj, off, ply, glb, threemf, vtk_xml, xdmf, msh, inp, bdf, med, su2, medit: one format each,
     ``write`` and ``read``.
+dagmc: solids with materials for DAGMC (.h5m), through another library; written only.
 pvtu: a mesh in several .vtu files and an index of them.
 ply_reading, msh_reading, vtk_xml_reading, lz4_block, xml_writing: parts of these.
 to_trimesh, to_meshio: as meshes of other libraries, for what is not written here.

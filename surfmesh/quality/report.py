@@ -47,20 +47,7 @@ class Report(Figures):
 
 
 def check(mesh: SurfaceMesh, *, second_opinion: bool = False, prove: bool | None = None) -> Report:
-    """Look at everything that can be said of ``mesh``: topology, self-intersection, shape,
-    sizes, deviation, each of them against the model where that is known.
-
-    second_opinion=True asks trimesh and PyVista too for what they know of: topology, area,
-    volume, shapes, beside ours in ``report.second_opinion``. Where they disagree by more than
-    rounding the mesh is not clean.
-
-    prove=True bounds how far mesh and surfaces are from each other at most, both ways, in
-    ``report.proof``: see docs/proof.md. None: where ``Sizing(proof=True)`` was asked for, and a
-    triangle that is not proved is a problem then.
-
-    Raises ``ValueError`` when its indices are out of range; everything else that is wrong is
-    in ``report.problems``.
-    """
+    """The report of ``mesh``, as ``surfmesh.check`` says (api.py)."""
     start = perf_counter()
     measured = Measurements(mesh)
     promised = mesh.sizing is not None and mesh.sizing.proof

@@ -40,6 +40,7 @@ from surfmesh.result.part_attributes import PartAttributes
 from surfmesh.result.quadratic_triangles import edge_rows, node_values, six_nodes
 
 if TYPE_CHECKING:
+    from collections.abc import Mapping
     from types import ModuleType
 
     import meshio
@@ -196,8 +197,15 @@ class SurfaceMesh(PartAttributes, Arrays):
             return np.empty((0, 1 + self.order), np.int32)
         if self.order == 1:
             return self.edge_segments
-        middles = len(self.points) + edge_rows(self.connectivity, self.edge_segments)
+        middles = len(self.points) + self.edge_segment_rows
         return np.column_stack((self.edge_segments, middles))
+
+    @cached_property
+    def edge_segment_rows(self) -> NDArray[np.int64]:
+        """(k,) rows of ``edges`` of the segments on CAD edges; -1: no edge of a triangle."""
+        if self.edge_segments is None:
+            return np.empty(0, np.int64)
+        return edge_rows(self.connectivity, self.edge_segments)
 
     def face_name(self, face: int) -> str:
         """Name of face number ``face``, or ``face 3`` when it has none."""
@@ -330,6 +338,12 @@ class SurfaceMesh(PartAttributes, Arrays):
         from surfmesh.volume.gmsh_model import to_gmsh
 
         return to_gmsh(self, name)
+
+    def save_dagmc(self, path: str | Path, materials: str | Mapping[str, str]) -> Path:
+        """Write a .h5m for DAGMC with the materials of solids; see ``surfmesh.io.dagmc``."""
+        from surfmesh.io.dagmc import save_dagmc
+
+        return save_dagmc(self, path, materials)
 
     def tetrahedralize(
         self, engine: str = "tetgen", *, size: float | None = None, order: int | None = None

@@ -8,6 +8,7 @@ import numpy as np
 
 from surfmesh.quality import Report
 from surfmesh.quality.measures.shape import shapes
+from surfmesh.quality.text.summary import ROUNDING
 from surfmesh.result.surface_mesh import SurfaceMesh
 from surfmesh.view.colouring import Colouring
 from surfmesh.view.histogram import histogram
@@ -54,6 +55,7 @@ _FIGURES = (  # title, fields, how they are said; a row whose first field is not
     ),
     ("folded, inverted", ("folded", "inverted"), "{}, {} triangles"),
 )
+_DISTANCES = ("deviation_max", "deviation_rms", "surface_deviation_max")
 _OF_FACES = (  # title, field of its row
     ("face", "face"), ("name", "name"), ("kind", "kind"), ("triangles", "triangles"),
     ("area", "area"), ("exact", "area_exact"),
@@ -92,7 +94,7 @@ def _figures(values: Mapping[str, Any]) -> str:
     """The rows that a reader looks for first."""
     rows = []
     for title, names, words in _FIGURES:
-        found = [values.get(name) for name in names]
+        found = [_beyond_rounding(name, values) for name in names]
         found = [
             f"{value:.2%}"
             if name.endswith("_share") and value is not None
@@ -106,6 +108,14 @@ def _figures(values: Mapping[str, Any]) -> str:
             said = "none" if none else words.format(*map(_said, found))
             rows.append(f'<tr><th>{title}</th><td class="number">{escape(said)}</td></tr>')
     return f"<table>{''.join(rows)}</table>"
+
+
+def _beyond_rounding(name: str, values: Mapping[str, Any]) -> Any:
+    """The value; of a distance 0 where it is rounding beside the edges."""
+    value, shortest = values.get(name), values.get("edge_min")
+    if value is None or shortest is None or name not in _DISTANCES:
+        return value
+    return value if value > ROUNDING * shortest else 0.0
 
 
 def _worst(mesh: SurfaceMesh) -> str:

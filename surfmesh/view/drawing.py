@@ -14,6 +14,8 @@ from surfmesh.view.legend import named_faces, title_of, with_edges
 from surfmesh.view.lines import Lines, sides
 from surfmesh.view.overlays import overlays
 
+READABLE = 0.45  # the lightest that letters on white may be; 1: white
+
 
 class Look(TypedDict, total=False):
     """What is asked of a picture; see ``plot``."""
@@ -80,12 +82,16 @@ def _curved(drawn: Drawing) -> Drawing:
 
 
 def face_legend(drawn: Drawing) -> list[tuple[int, str, str]]:
-    """Number, name and colour of the faces that have names, where colours tell faces apart."""
+    """Number, name and colour of the faces that have names, where colours tell faces apart; pale
+    colours darker, to be read on white."""
     colours = drawn.colours
     if not colours.hues:
         return []
     shares = (np.arange(colours.hues) + 0.5) / colours.hues
-    table = map_of(colours)(shares, bytes=True)[:, :3].tolist()
+    shades = map_of(colours)(shares)[:, :3]
+    light = shades @ (0.2126, 0.7152, 0.0722)  # as it is seen
+    shades *= (READABLE / np.maximum(light, READABLE))[:, None]
+    table = np.round(255 * shades).astype(int).tolist()
     return [
         (face, name, "#{:02x}{:02x}{:02x}".format(*table[face % HUES]))
         for face, name in named_faces(drawn.mesh)

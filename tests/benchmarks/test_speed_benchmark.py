@@ -69,3 +69,24 @@ def test_figures_are_printed_at_once_and_what_is_missed_is_counted(tmp_path, cap
         assert "times as fast" in line and ">= 2.000" in line and "said [of it]" in line
         assert ("MISSED" in line, "met" in line) == (mark == "MISSED", mark == "met")
     assert figures.missed == 1
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="make is played by a script")
+def test_an_installation_is_timed_part_by_part(tmp_path, monkeypatch):
+    import speed_install
+
+    sources, commands = tmp_path / "sources", tmp_path / "commands"
+    for folder in (sources / "build", commands):
+        folder.mkdir(parents=True)
+    log = "build/editable-test/.ninja_log"
+    make = commands / "make"
+    make.write_text(
+        f"#!/bin/sh\nmkdir -p build/editable-test\n"
+        f"printf '# ninja log v6\\n0\\t2\\t0\\ta\\tb\\n1\\t4\\t0\\tc\\td\\n' > {log}\n"
+    )
+    make.chmod(0o755)
+    monkeypatch.setattr(speed_install, "HERE", sources)
+    monkeypatch.setenv("PATH", str(commands), prepend=":")
+    found = speed_install.install(tmp_path, 60.0)
+    assert list(found) == ["build", "install", "mesh"]
+    assert found["build"] == 0.004 and min(found.values()) > 0.0

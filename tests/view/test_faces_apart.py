@@ -1,5 +1,7 @@
 """Curvature jumps where faces meet, and has one sign on all that is convex."""
 
+from dataclasses import replace
+
 import cadquery as cq
 import numpy as np
 import pytest
@@ -36,6 +38,10 @@ def test_names_of_faces_stand_beside_their_colours(rounded):
     drawn = drawing(rounded, (400, 300), by="face")
     assert [name for _, name, _ in face_legend(drawn)] == ["top"]
     assert face_legend(drawing(rounded, (400, 300))) == []
+    pale = drawn.mesh.replaced(groups=replace(drawn.mesh.groups, face_names=("a", "b", "c", "d")))
+    colours = [colour for _, _, colour in face_legend(drawn._replace(mesh=pale))]
+    for red, green, blue in ([int(c[i : i + 2], 16) / 255 for i in (1, 3, 5)] for c in colours):
+        assert 0.2126 * red + 0.7152 * green + 0.0722 * blue < 0.46  # read on white
     assert drawn.title.startswith("workplane: ")
 
 

@@ -8,6 +8,7 @@ import numpy as np
 
 from surfmesh.cad.model.cad_model import CadEdge, CadFace, CadVertex
 from surfmesh.cad.model.curve_samples import next_ones, points_of, walked
+from surfmesh.geometry.parameter_grid import parameter_grid
 
 EDGE_FRACTIONS = np.linspace(0.0, 1.0, 17)
 GRID = 9  # points each way in the (u, v) box of a face; eight intervals meet the axes of a sphere
@@ -37,8 +38,7 @@ def _inside(face: CadFace) -> np.ndarray:
     """(n, 2) grid points of the (u, v) box that lie inside the loops, by crossings to the left."""
     if face.kind == "plane":
         return np.empty((0, 2))
-    lines = [np.linspace(first, last, GRID) for first, last in face.surface.domain]
-    grid = np.stack(np.meshgrid(*lines, indexing="ij"), axis=-1).reshape(-1, 2)
+    grid = parameter_grid(face.surface.domain, GRID)
     crossings = np.zeros(len(grid), int)
     for loop in face.loops:
         corners = walked(loop, EDGE_FRACTIONS[:-1]).reshape(-1, 2)

@@ -21,6 +21,7 @@ from surfmesh.geometry.differential.sides import SideTopology
 from surfmesh.geometry.files.known_facts import known_facts
 from surfmesh.geometry.formulas.parametric import ParametricSurface
 from surfmesh.geometry.functions.numeric import NumericSurface
+from surfmesh.geometry.parameter_grid import parameter_grid
 from surfmesh.geometry.surface import Surface
 from surfmesh.result.mesh_part import TRIANGLE, Renumbering
 from surfmesh.result.surface_mesh import SurfaceMesh
@@ -121,9 +122,7 @@ def _target_width(surface: Surface, sizing: Sizing) -> float:
             edge = max(edge, sizing.size)
             chord = 0.0
         else:
-            grid = [np.linspace(first, last, 9) for first, last in surface.domain]
-            uv = np.stack(np.meshgrid(*grid), axis=-1).reshape(-1, 2)
-            extent = np.ptp(surface.evaluate(uv)[0], axis=0)
+            extent = np.ptp(surface.evaluate(parameter_grid(surface.domain, 9))[0], axis=0)
             chord = DEFAULT_CHORD * float(np.linalg.norm(extent))
     return max(chord, FEWEST * edge / (2.0 * np.pi))
 

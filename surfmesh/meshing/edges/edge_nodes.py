@@ -89,14 +89,22 @@ def cut_edges(
     if samples.mates:
         target_size = target_size.copy() if target_size is samples.target_size else target_size
         lower_to_mates(samples, samples.mates, target_size)
-    size = grade(model, samples, target_size, sizing)
+    size = graded = grade(model, samples, target_size, sizing)
+    if samples.hidden.any():
+        size = graded.copy()
     for number in np.flatnonzero(samples.hidden).tolist():  # no neighbour hears of them
         size[samples.of(number)] = target_size[samples.of(number)]
     if samples.mates:
         lower_to_mates(samples, samples.mates, size)
     fewest = _fewest(model, samples)
     mated = MatedCuts(model, samples, size, fewest).cut()
-    return _numbered(model, _cut(model, samples, size, fewest, mated, sizing.limit), before)
+    cuts = _cut(model, samples, size, fewest, mated, sizing.limit)
+    for row in np.flatnonzero(samples.hidden[cuts.edges]).tolist():  # but they hear of them
+        own, at = samples.of(cuts.edges[row]), slice(cuts.first[row], cuts.first[row + 1])
+        cuts.sizes[at] = np.minimum(
+            cuts.sizes[at], np.interp(cuts.t[at], samples.t[own], graded[own])
+        )
+    return _numbered(model, cuts, before)
 
 
 def _graded(

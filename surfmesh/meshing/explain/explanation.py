@@ -19,6 +19,7 @@ from surfmesh.cad.model.cad_model import CadModel
 from surfmesh.cad.model.centres import inner_samples
 from surfmesh.cad.selection.selection import EVERYTHING
 from surfmesh.errors import printable
+from surfmesh.geometry.parameter_grid import parameter_grid
 from surfmesh.geometry.surface import Surface, surface_label
 from surfmesh.meshing.edges.edge_rules import EdgeRules
 from surfmesh.meshing.edges.edge_samples import EdgeSamples
@@ -33,7 +34,6 @@ from surfmesh.meshing.explain.axis_sizes import (
 )
 from surfmesh.meshing.explain.nearest_place import (
     GRID,
-    grid,
     nearest_on_model,
     nearest_on_surface,
 )
@@ -135,7 +135,7 @@ def explain_surface(
     surface: Surface, sizing: Sizing, field: SizeField, point: np.ndarray
 ) -> Explanation:
     """On one surface; ``field``: what ``sizing`` makes of it."""
-    places = grid(surface, GRID)
+    places = parameter_grid(surface.domain, GRID)
     uv, away, foot = nearest_on_surface(surface, point, places)
     askers = Askers(((EVERYTHING, sizing),))
     law = _rules_alone(field)

@@ -9,6 +9,7 @@ from surfmesh.cad.model.centres import boundary_polygons, inner_samples
 from surfmesh.errors import SizingError
 from surfmesh.geometry.differential.projection import closest_point
 from surfmesh.geometry.inside_loops import is_inside
+from surfmesh.geometry.parameter_grid import parameter_grid
 from surfmesh.geometry.surface import Surface
 from surfmesh.meshing.edges.edge_samples import EdgeSamples
 
@@ -34,7 +35,9 @@ def nearest_on_model(
     for _, number in sorted(order)[:NEAR_FACES]:
         face = model.faces[number]
         rings = boundary_polygons(face)
-        uv, away, foot = nearest_on_surface(face.surface, point, grid(face.surface, GRID))
+        uv, away, foot = nearest_on_surface(
+            face.surface, point, parameter_grid(face.surface.domain, GRID)
+        )
         if not is_inside(rings, uv[None])[0]:
             uv, away, foot = _on_rings(face.surface, rings, point)
         if best is None or away < best[0]:
@@ -69,10 +72,3 @@ def nearest_on_surface(
     guess = guesses[np.linalg.norm(points - point, axis=1).argmin()]
     uv, away, foot = closest_point(surface, point[None], guess[None], PROJECTIONS, 0.0)
     return uv[0], float(away[0]), foot[0]
-
-
-def grid(surface: Surface, count: int) -> np.ndarray:
-    """(count^2, 2) parameters all over the domain."""
-    (u0, u1), (v0, v1) = surface.domain
-    u, v = np.linspace(u0, u1, count), np.linspace(v0, v1, count)
-    return np.stack(np.meshgrid(u, v), axis=-1).reshape(-1, 2)

@@ -3,6 +3,7 @@
 import numpy as np
 
 from surfmesh.cad.model.cad_model import CadFace, CadModel
+from surfmesh.geometry.parameter_grid import parameter_grid
 from surfmesh.meshing.edges.edge_samples import EdgeSamples
 from surfmesh.sizing.options.model_sizing import ModelSizing
 from surfmesh.sizing.options.sizing import Sizing
@@ -33,9 +34,8 @@ def face_sizings(model: CadModel, samples: EdgeSamples, wanted: ModelSizing) -> 
 
 def face_box(face: CadFace, points: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Corners (3,), (3,) of a box around a face; points: (n, 3) of its edges."""
-    (u0, u1), (v0, v1) = face.surface.domain
-    grid = np.stack(np.meshgrid(np.linspace(u0, u1, GRID), np.linspace(v0, v1, GRID)), axis=-1)
-    places = np.concatenate([face.surface.evaluate(grid.reshape(-1, 2), 0)[0], points])
+    grid = parameter_grid(face.surface.domain, GRID)
+    places = np.concatenate([face.surface.evaluate(grid, 0)[0], points])
     low, high = places.min(axis=0), places.max(axis=0)
     away = MARGIN * float(np.linalg.norm(high - low))
     return low - away, high + away

@@ -19,6 +19,7 @@ from numpy.typing import NDArray
 
 from surfmesh.accuracy.samples import DENSE
 from surfmesh.geometry.boxes import diagonal
+from surfmesh.geometry.parameter_grid import parameter_grid
 from surfmesh.geometry.quadrature import gauss_rule
 from surfmesh.geometry.surface import Surface
 from surfmesh.meshing.finishing.balanced_vertices import balanced
@@ -70,8 +71,7 @@ def widened(sizing: Sizing) -> Sizing:
 
 def widened_surface(surface: Surface, sizing: Sizing) -> Sizing:
     """The same of one surface, with the default chord where nothing else is asked for."""
-    grid = [np.linspace(low, high, 33) for low, high in surface.domain]
-    points = surface.evaluate(np.stack(np.meshgrid(*grid), axis=-1).reshape(-1, 2), 0)[0]
+    points = surface.evaluate(parameter_grid(surface.domain, 33), 0)[0]
     extent = diagonal(points[np.isfinite(points).all(axis=1)])
     return widened(with_default_chord(sizing, extent))
 

@@ -9,10 +9,10 @@ from typing import NamedTuple
 
 import numpy as np
 
-from surfmesh._core.faces import numbers_of
+from surfmesh._core.faces import numbers_of, triangles_in_a_row
 from surfmesh.cad.model.cad_model import CadModel
 from surfmesh.cad.model.facts import model_facts
-from surfmesh.cad.model.model_arrays import model_arrays, offsets
+from surfmesh.cad.model.model_arrays import model_arrays
 from surfmesh.errors import MeshingError
 from surfmesh.meshing.edges.edge_nodes import CutEdges
 from surfmesh.meshing.faces.face_data import FaceMesh
@@ -125,8 +125,8 @@ def _joined(shared: _Shared, faces: list[FaceState], turned: np.ndarray) -> _Joi
     np.minimum.at(shared.sizes, own[~inside], sizes[~inside])  # poles have no edge of a size
     triangles = np.array([len(mesh.triangles) for mesh in meshes])
     numbers = np.array([state.number for state in faces], np.int32)
-    back = np.repeat(turned[numbers], triangles)
-    corners = _in_one_row([mesh.triangles for mesh in meshes], count, triangles, back)
+    back = turned[numbers].view(np.uint8)
+    corners = triangles_in_a_row([mesh.triangles for mesh in meshes], count, back)
     images = np.array([len(mesh.uv_points) for mesh in meshes])
     return _Joined(
         np.concatenate([shared.points, points[inside]]),
@@ -134,21 +134,8 @@ def _joined(shared: _Shared, faces: list[FaceState], turned: np.ndarray) -> _Joi
         own[corners],
         np.repeat(numbers, triangles),
         np.concatenate([mesh.uv_points for mesh in meshes]),
-        _in_one_row([mesh.uv_triangles for mesh in meshes], images, triangles, back),
+        triangles_in_a_row([mesh.uv_triangles for mesh in meshes], images, back),
     )
-
-
-def _in_one_row(
-    parts: list[np.ndarray], points: np.ndarray, triangles: np.ndarray, back: np.ndarray
-) -> np.ndarray:
-    """Triangles (m, 3) int64 of parts, numbered on; of which those in ``back`` (m,) turn over.
-
-    points, triangles: how many each part has.
-    """
-    found = np.concatenate(parts).astype(np.int64)
-    found += np.repeat(offsets(points)[:-1], triangles)[:, None]
-    found[back, 1:] = found[back, 2:0:-1]
-    return found
 
 
 def metric_roots(mesh: FaceMesh) -> np.ndarray:

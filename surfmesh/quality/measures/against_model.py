@@ -12,7 +12,6 @@ from numpy.typing import NDArray
 from surfmesh.quality.measures.topology import Topology
 from surfmesh.result.mesh_parts import EdgeLinks
 from surfmesh.result.model_facts import ModelFacts
-from surfmesh.result.quadratic_triangles import edge_rows
 from surfmesh.result.surface_mesh import SurfaceMesh
 
 
@@ -72,7 +71,7 @@ class _Model(NamedTuple):
     def uses(self, mesh: SurfaceMesh) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
         """How often faces use each edge of the mesh (ne,), and how many edges of the model lie
         there (ne,): 0 within a face, two where a face between them has vanished."""
-        row = edge_rows(mesh.connectivity, self.links.edge_segments)
+        row = mesh.edge_segment_rows
         there, count = row >= 0, len(mesh.edges)
         uses = np.array(self.facts.edge_uses, np.int64)[self.links.edge_ids[there]]
         total = np.bincount(row[there], uses, count).astype(np.int64)

@@ -16,7 +16,6 @@ from numpy.typing import NDArray
 from surfmesh._core import quality
 from surfmesh.quality.measures.penetration import edge_sagittas
 from surfmesh.quality.measures.topology import half_edges_along
-from surfmesh.result.quadratic_triangles import edge_rows
 from surfmesh.result.surface_mesh import SurfaceMesh
 
 SLANT = 16.0  # of (d / h)^2: what a triangle's area may differ by, of its own
@@ -68,7 +67,7 @@ def _along_rims(mesh: SurfaceMesh, by_triangle: NDArray[np.float64]) -> NDArray[
     if links is None or not len(links.edge_segments):
         sagitta[rim] = _rim_sagittas(mesh, rim)
     else:
-        row = edge_rows(table, links.edge_segments)
+        row = mesh.edge_segment_rows
         on = row >= 0
         np.maximum.at(sagitta, row[on], edge_sagittas(mesh, links)[on])
         rim[row[on]] = True

@@ -45,7 +45,7 @@ def by_solid(
     around, rows, solid = around_solids(mesh)
     triangles = np.bincount(solid, minlength=count)
     area = np.bincount(solid, shape.area[rows], count)
-    apexes = _first_corners(mesh.points[around[:, 0]], solid, count)
+    apexes = _first_corners(mesh, around, solid, count)
     volume = enclosed_volumes(mesh.points, around, solid, apexes)
     if bulges is not None:
         outwards = np.where((around == mesh.triangles[rows]).all(axis=1), 1.0, -1.0)
@@ -74,11 +74,13 @@ def by_solid(
     )
 
 
-def _first_corners(points: NDArray, solid: NDArray, count: int) -> NDArray[np.float64]:
+def _first_corners(
+    mesh: SurfaceMesh, around: NDArray[np.int32], solid: NDArray[np.int32], count: int
+) -> NDArray[np.float64]:
     """(count, 3) a point of each solid: volumes to one far away cancel in rounding."""
-    found = np.zeros((count, 3))
-    found[solid[::-1]] = points[::-1]  # the last that is written stays: the first
-    return found
+    first = np.full(count, -1)
+    first[solid[::-1]] = np.arange(len(solid))[::-1]  # the last that is written stays: the first
+    return np.where(first[:, None] < 0, 0.0, mesh.points[around[first, 0]])
 
 
 def relative_error(found: float | None, exact: float | None) -> float | None:

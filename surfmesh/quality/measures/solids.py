@@ -27,6 +27,8 @@ def solids_beside(mesh: SurfaceMesh) -> NDArray[np.int32]:
 def around_solids(mesh: SurfaceMesh) -> AroundSolids:
     """Those behind which a solid lies, then those before which one lies, turned over."""
     behind, before = solids_beside(mesh).T
+    if len(behind) and behind.min() >= 0 and before.max() < 0:  # as a rule
+        return AroundSolids(mesh.triangles, np.arange(len(behind)), behind.copy())
     ahead, against = np.flatnonzero(behind >= 0), np.flatnonzero(before >= 0)
     rows = np.concatenate([ahead, against])
     solid = np.concatenate([behind[ahead], before[against]])

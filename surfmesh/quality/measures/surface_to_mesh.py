@@ -29,7 +29,6 @@ from surfmesh.quality.measures.known_surfaces import KnownSurfaces
 from surfmesh.quality.measures.largest import largest
 from surfmesh.quality.measures.places import Point, as_point, as_uv
 from surfmesh.quality.measures.tolerances import CHORD_SLACK, Tolerances
-from surfmesh.result.quadratic_triangles import edge_rows
 from surfmesh.result.surface_mesh import SurfaceMesh
 
 ALONG_RIM = np.arange(1, 8) / 8.0  # along each free edge
@@ -152,7 +151,7 @@ def _look_along_curves(search: _Search, curves: _Curves, fit: Deviation) -> None
     """
     known = search.known
     mesh = known.mesh
-    rows = edge_rows(mesh.connectivity, curves.segments)
+    rows = mesh.edge_segment_rows
     first, second = mesh.connectivity.half_edges[np.maximum(rows, 0)].T // 3
     free = second < 0
     farther = ~free & (fit.by_triangle[second] > fit.by_triangle[first])

@@ -10,6 +10,7 @@ from surfmesh.quality.measures.lengths import GROWTH_SLACK
 from surfmesh.quality.measures.places import count_in_words, place_in_words
 
 WIDTH = 92
+ROUNDING = 1e-10  # of a length, or of a hundredth: what is less is said to be none
 _SHOWN_PROBLEMS, _SHOWN_WARNINGS, _SHOWN_STAGES = 5, 3, 8
 
 
@@ -113,7 +114,8 @@ def _size(report: Figures) -> str:
         words.append(f"{name} {found:.7g}")
         if exact:
             off = 100 * (abs(found) - abs(exact)) / abs(exact)
-            words[-1] += f" (exact {exact:.7g}, {off:+.2g} %)"
+            said = f"{off:+.2g} %" if abs(off) > ROUNDING else "to rounding"
+            words[-1] += f" (exact {exact:.7g}, {said})"
     return ", ".join(words) + (f" in {report.unit}" if report.unit else "")
 
 
@@ -152,6 +154,9 @@ def _growth(report: Figures) -> str:
 def _deviation(report: Figures) -> str:
     if report.deviation_max is None:
         return "not known: the mesh carries no surface to compare with"
+    farthest = max(report.deviation_max, report.surface_deviation_max or 0.0)
+    if report.edge_min is not None and farthest <= ROUNDING * report.edge_min:
+        return f"none beyond rounding{_between_samples(report)}"
     used = ""
     if report.chord_used is not None:
         used = f"median {100 * report.chord_used:.0f} % of chord where it decides the size; "

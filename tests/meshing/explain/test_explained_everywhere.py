@@ -13,10 +13,11 @@ import pytest
 import surfmesh as sm
 from surfmesh.cad.reading.readers import read_here
 from surfmesh.geometry.differential.sides import find_sides
+from surfmesh.geometry.parameter_grid import parameter_grid
 from surfmesh.meshing.edges.edge_rules import EdgeRules
 from surfmesh.meshing.explain import explanation
 from surfmesh.meshing.explain.axis_sizes import LOWERED
-from surfmesh.meshing.explain.nearest_place import GRID, grid, nearest_on_model, nearest_on_surface
+from surfmesh.meshing.explain.nearest_place import GRID, nearest_on_model, nearest_on_surface
 from surfmesh.meshing.explain.origins import EdgePlaces
 from surfmesh.meshing.model_mesh import _Unmeshed
 from surfmesh.sizing.field.size_field import size_field
@@ -116,7 +117,7 @@ def test_on_the_gallery():
     for case in cases if POINTS else few:
         surface, sizing, field = of_surface(*case)
         of_surface.cache_clear()
-        places = grid(surface, GRID)
+        places = parameter_grid(surface.domain, GRID)
         for _ in range(-(-POINTS // (2 * len(cases))) or FEW):
             point = surface.evaluate(inside(surface, rng)[None], 0)[0][0]
             found = explanation.explain_surface(surface, sizing, field, point)

@@ -24,7 +24,8 @@ def plate(n):
 
 def test_a_hole_has_as_many_triangles_whatever_the_number_of_holes():
     sizing = sm.Sizing(chord=0.1, max_size=4)
-    each = [len(sm.mesh(plate(n), sizing).triangles) / n**2 for n in (2, 5)]
+    # so many that the outline, which is finer beside holes, counts for little
+    each = [len(sm.mesh(plate(n), sizing).triangles) / n**2 for n in (5, 10)]
     assert each[1] == pytest.approx(each[0], rel=0.1)
 
 

@@ -295,3 +295,12 @@ def test_the_exit_status_tells_of_self_intersection(tmp_path, capsys):
         together(ball, shifted(ball, shift, 0.1, 0)).save(path)
         assert main(["check", path]) == status
         assert ("the mesh intersects itself" in capsys.readouterr().out) == bool(status)
+
+
+def test_rounding_is_called_rounding():
+    """A box has flat faces: no 2.7e-16 is said of them, in words or on the page."""
+    report = sm.check(sm.mesh(cq.Workplane().box(4, 2, 2), 0.5))
+    said = str(report)
+    assert "deviation  none beyond rounding" in said and "e-1" not in said
+    assert "volume 16 (exact 16, to rounding)" in said
+    assert 0.0 <= report.deviation_max < 1e-15
