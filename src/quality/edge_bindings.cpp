@@ -21,7 +21,8 @@ std::span<const Vertex> all_numbers(const VertexTriples& triangles) {
 }
 
 /// Half-edges of so many triangles; NIL may stand in the second column.
-std::span<const EdgeTable::Sides> sides_of(const SidePairs& half_edges, std::size_t triangles) {
+std::span<const EdgeTable::Sides> half_edge_pairs(const SidePairs& half_edges,
+                                                  std::size_t triangles) {
     const std::span<const EdgeTable::Sides> sides{
         reinterpret_cast<const EdgeTable::Sides*>(half_edges.data()), half_edges.shape(0)};
     const auto end = static_cast<std::int64_t>(3 * triangles);
@@ -49,7 +50,7 @@ void bind_lengths(nb::module_& m) {
     m.def(
         "edges_of_faces",
         [](const SidePairs& half_edges, const Vector<std::int32_t>& faces) {
-            const auto sides = sides_of(half_edges, faces.shape(0));
+            const auto sides = half_edge_pairs(half_edges, faces.shape(0));
             Array<EdgeSides> seen;
             {
                 const nb::gil_scoped_release released;
@@ -70,7 +71,7 @@ void bind_angles(nb::module_& m) {
             require_indices(all_numbers(triangles), points.shape(0), "triangles");
             require_rows(faces.shape(0), triangles.shape(0), "faces");
             require_rows(uses.shape(0), half_edges.shape(0), "uses");
-            const auto sides = sides_of(half_edges, triangles.shape(0));
+            const auto sides = half_edge_pairs(half_edges, triangles.shape(0));
             AnglesWithinFaces found;
             {
                 const nb::gil_scoped_release released;
@@ -92,7 +93,7 @@ void bind_angles(nb::module_& m) {
             require_indices(all_numbers(triangles), points.shape(0), "triangles");
             require_rows(sagitta.shape(0), half_edges.shape(0), "sagitta");
             require_rows(distance.shape(0), triangles.shape(0), "distance");
-            const auto sides = sides_of(half_edges, triangles.shape(0));
+            const auto sides = half_edge_pairs(half_edges, triangles.shape(0));
             Array<double> lost;
             {
                 const nb::gil_scoped_release released;
@@ -113,7 +114,7 @@ void bind_fans(nb::module_& m) {
         "triangle_fans",
         [](const VertexTriples& triangles, std::size_t vertices, const SidePairs& half_edges) {
             require_indices(all_numbers(triangles), vertices, "triangles");
-            const auto sides = sides_of(half_edges, triangles.shape(0));
+            const auto sides = half_edge_pairs(half_edges, triangles.shape(0));
             Array<std::int64_t> fans;
             {
                 const nb::gil_scoped_release released;
@@ -129,7 +130,7 @@ void bind_fans(nb::module_& m) {
         [](const VertexTriples& triangles, const SidePairs& half_edges,
            const Vector<std::int32_t>& uses) {
             require_rows(uses.shape(0), half_edges.shape(0), "uses");
-            const auto sides = sides_of(half_edges, triangles.shape(0));
+            const auto sides = half_edge_pairs(half_edges, triangles.shape(0));
             Array<std::int32_t> clashing;
             {
                 const nb::gil_scoped_release released;
