@@ -31,6 +31,17 @@ double factor_on(const SurfaceFrames& s, Vertex a, Vertex b, double slope) {
     return of_b > of_a + BEYOND * rise ? (of_a + KEPT * rise) / of_b : 1.0;
 }
 
+/// Call ``visit`` with the ends of the edges of triangle k, the way that it has them; the other way
+/// too where no other triangle has it.
+template <class Visit>
+void for_each_way(const Triangulation& t, Triangle k, Visit visit) {
+    for (HalfEdge e = 3 * k; e < 3 * k + 3; ++e) {
+        const Vertex a = t.tri[e], b = t.tri[next_half_edge(e)];
+        visit(a, b);
+        if (t.adj[e] < 0) visit(b, a);
+    }
+}
+
 }  // namespace
 
 int grade_scales(const Triangulation& t, SurfaceFrames& s, VertexMarks& marks, double slope,
@@ -54,16 +65,36 @@ int grade_scales(const Triangulation& t, SurfaceFrames& s, VertexMarks& marks, d
             if (from[t.tri[3 * k]] == 0 && from[t.tri[3 * k + 1]] == 0 &&
                 from[t.tri[3 * k + 2]] == 0)
                 continue;
-            for (HalfEdge e = 3 * k; e < 3 * k + 3; ++e) {
-                const Vertex a = t.tri[e], b = t.tri[next_half_edge(e)];
-                hold(a, b);
-                if (t.adj[e] < 0) hold(b, a);  // the other side has its own half-edge
-            }
+            for_each_way(t, k, hold);
         }
         if (count == before) break;
         from = std::move(lowered);
     }
     return static_cast<int>(std::count(found.begin(), found.end(), 1));
+}
+
+void restore_scales(const Triangulation& t, SurfaceFrames& s, std::span<const Vertex> vertices,
+                    double slope) {
+    Array<double> least(t.xy.size(), 0.0);  // what the restored are lowered to; 0 for all others
+    for (const Vertex v : vertices) {
+        if (!(s.scale[v] < LOWERED)) continue;
+        least[v] = s.size[v];
+        shorten(s, v, 1.0 / s.scale[v]);
+    }
+    for (int sweep = 0; sweep < SWEEPS; ++sweep) {
+        bool changes = false;
+        const auto hold = [&](Vertex a, Vertex b) {
+            if (!(least[b] > 0.0)) return;
+            const double grown = s.size[a] + slope * norm(s.point[b] - s.point[a]);
+            const double size = std::max(grown, least[b]);
+            if (!(size < s.size[b])) return;
+            shorten(s, b, size / s.size[b]);
+            changes = true;
+        };
+        for (Triangle k = 0; k < t.triangles(); ++k)
+            if (t.region[k] != DEAD) for_each_way(t, k, hold);
+        if (!changes) break;
+    }
 }
 
 }  // namespace surfmesh

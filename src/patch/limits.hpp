@@ -23,8 +23,9 @@ struct AskedAccuracy {
     std::optional<double> chord, angle;
     double min_size = 0.0;
     std::optional<double> slope = {};  // growth per length that sizes lowered here are graded to
-    bool is_width = false;  // ``chord`` is that of the whole band around the surface that a
-                            // triangle needs, on one side or on both
+    bool is_width = false;       // ``chord`` is that of the whole band around the surface that a
+                                 // triangle needs, on one side or on both
+    bool keeps_lowered = false;  // nodes of the boundary keep sizes that were lowered there
 };
 
 /// Radius below which a surface is said to bend sharply: no triangle is small enough there.

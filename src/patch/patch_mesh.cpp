@@ -81,6 +81,7 @@ void PatchWork::optimise_and_map() {
         const Unmended left = optimise(state, task_.first);
         const Array<std::uint8_t> off = off_surface(state);
         if (!state.stopped()) made_.requests = size_requests(state, left, {off.data(), off.size()});
+        state.restore_nodes();
     } else {
         choose_diagonals(state);
     }

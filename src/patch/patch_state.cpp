@@ -243,6 +243,13 @@ int PatchState::hold_growth(bool around_all) {
     return grade_scales(t, frames, marks, *asked().slope, around_all);
 }
 
+void PatchState::restore_nodes() {
+    if (!asked().slope || asked().is_width || asked().keeps_lowered || is_anisotropic() ||
+        stopped())
+        return;
+    restore_scales(t, frames, {nodes_.vertex.data(), nodes_.vertex.size()}, *asked().slope);
+}
+
 void PatchState::end_passes() {
     const bool is_anisotropic = frames.is_anisotropic;
     Array<double> scale = std::move(frames.scale);

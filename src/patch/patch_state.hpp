@@ -115,6 +115,12 @@ class PatchState {
     /// Lower sizes further around vertices whose sizes are lowered, or around all, until they grow
     /// along no edge by more than is asked. Returns how many were lowered.
     int hold_growth(bool around_all);
+    /// Give the nodes of the boundary back the sizes that its segments were cut by, as far as sizes
+    /// grow to them from inside. A smaller one there only steers the passes: segments stay as long
+    /// as they are, and patches beyond know nothing of it. Where sizes depend on the direction
+    /// all stays: there edges are split by the smaller ones. So it does on request or where ``chord`` is a width:
+    /// rounds that move vertices off the surface go on from sizes as they are lowered.
+    void restore_nodes();
     /// Free what only passes need; the frames keep their scales.
     void end_passes();
 

@@ -38,6 +38,16 @@ def test_growth_from_holes_to_the_edges_of_a_plate(ratio):
         assert report.size_growth_max < 1.3  # 3.2 where rims do not hear of holes
 
 
+def test_growth_beside_fillets():
+    """What steers triangles of a fillet that are too far is no size of the nodes on its rim."""
+    cq = pytest.importorskip("cadquery")
+    plate = cq.Workplane().box(12, 7.2, 4.5).edges("|Z").fillet(3).faces(">Z").edges().fillet(1.5)
+    mesh = sm.mesh(plate, sm.Sizing(chord=0.04))
+    report = require_growth(mesh)  # 0.012 of the edges where it is
+    assert report.clean
+    assert report.size_growth_max < 1.3  # and 1.8
+
+
 @pytest.mark.parametrize("ratio", [1.0, 4.0])
 @pytest.mark.parametrize(
     "name",

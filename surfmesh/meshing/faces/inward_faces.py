@@ -97,4 +97,5 @@ def _manner(sizing: Sizing, optimise: bool, is_first: bool) -> FaceManner:
     return FaceManner(
         sizing.straight_chord, sizing.angle, sizing.min_size or 0.0,
         optimise, is_first, sizing.is_anisotropic, sizing.gradient,
+        keeps_lowered=sizing.is_balanced,
     )  # fmt: skip
