@@ -117,9 +117,9 @@ class PatchState {
     int hold_growth(bool around_all);
     /// Give the nodes of the boundary back the sizes that its segments were cut by, as far as sizes
     /// grow to them from inside. A smaller one there only steers the passes: segments stay as long
-    /// as they are, and patches beyond know nothing of it. Where sizes depend on the direction
-    /// all stays: there edges are split by the smaller ones. So it does on request or where ``chord`` is a width:
-    /// rounds that move vertices off the surface go on from sizes as they are lowered.
+    /// as they are, and patches beyond know nothing of it. Lowered sizes stay where they depend on
+    /// the direction, as edges are split by them, and where vertices may leave the surface, as
+    /// the rounds that move them go on from there.
     void restore_nodes();
     /// Free what only passes need; the frames keep their scales.
     void end_passes();
