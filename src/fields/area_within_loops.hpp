@@ -9,18 +9,10 @@
 //     '--|----'----|--'
 #pragma once
 
-#include <cstdint>
-#include <span>
-
 #include "fields/background.hpp"
+#include "values/plane_loops.hpp"
 
 namespace surfmesh {
-
-/// Corners of loops in one row, not closed: those of loop k from first[k] to first[k + 1].
-struct PlaneLoops {
-    std::span<const Point2> corners;
-    std::span<const std::int64_t> first;
-};
 
 /// Corners are finite, or the result is no number.
 [[nodiscard]] double metric_area_within(const Background& background, const PlaneLoops& loops);

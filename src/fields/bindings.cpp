@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "binding/arrays.hpp"
+#include "binding/loop_arguments.hpp"
 #include "fields/area_within_loops.hpp"
 #include "fields/background.hpp"
 #include "fields/coverage.hpp"
@@ -143,16 +144,9 @@ void bind_background(nb::module_& m) {
     c.def(
         "metric_area_within",
         [](const Background& b, const Points2& corners, const Vector<std::int64_t>& first) {
-            const auto offsets = rows<std::int64_t>(first);
-            if (offsets.empty() || offsets.front() != 0 ||
-                offsets.back() != static_cast<std::int64_t>(corners.shape(0)) ||
-                !std::is_sorted(offsets.begin(), offsets.end()))
-                throw nb::value_error("first has no offsets of the corners");
-            if (!std::all_of(corners.data(), corners.data() + corners.size(),
-                             [](double x) { return std::isfinite(x); }))
-                throw nb::value_error("a corner of a loop is not finite");
+            const PlaneLoops loops = plane_loops(corners, first);
             const nb::gil_scoped_release released;
-            return metric_area_within(b, {rows<Point2>(corners), offsets});
+            return metric_area_within(b, loops);
         },
         nb::arg("corners"), nb::arg("first"),
         "The same over what lies within an odd number of loops that do not cross.\n\n"

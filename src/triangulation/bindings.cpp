@@ -1,10 +1,8 @@
 #include <nanobind/stl/array.h>
 #include <nanobind/stl/pair.h>
 
-#include <algorithm>
-#include <cmath>
-
 #include "binding/arrays.hpp"
+#include "binding/loop_arguments.hpp"
 #include "triangulation/compaction.hpp"
 #include "triangulation/exact_sums.hpp"
 #include "triangulation/inside_loops.hpp"
@@ -38,18 +36,11 @@ void bind_predicates(nb::module_& m) {
     m.def(
         "inside_loops",
         [](const Points2& corners, const Vector<std::int64_t>& first, const Points2& points) {
-            const auto offsets = rows<std::int64_t>(first);
-            if (offsets.empty() || offsets.front() != 0 ||
-                offsets.back() != static_cast<std::int64_t>(corners.shape(0)) ||
-                !std::is_sorted(offsets.begin(), offsets.end()))
-                throw nb::value_error("first has no offsets of the corners");
-            if (!std::all_of(corners.data(), corners.data() + corners.size(),
-                             [](double x) { return std::isfinite(x); }))
-                throw nb::value_error("a corner of a loop is not finite");
+            const PlaneLoops loops = plane_loops(corners, first);
             Array<std::uint8_t> found;
             {
                 const nb::gil_scoped_release released;
-                found = inside_loops({rows<Point2>(corners), offsets}, rows<Point2>(points));
+                found = inside_loops(loops, rows<Point2>(points));
             }
             return view(found);
         },

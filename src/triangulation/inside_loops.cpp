@@ -68,7 +68,7 @@ class Sweep {
 
 }  // namespace
 
-Array<std::uint8_t> inside_loops(const Loops& loops, std::span<const Point2> points) {
+Array<std::uint8_t> inside_loops(const PlaneLoops& loops, std::span<const Point2> points) {
     Array<std::uint8_t> inside(points.size());
     Array<std::size_t> upwards;
     upwards.reserve(points.size());

@@ -11,17 +11,11 @@
 #include <span>
 
 #include "values/array.hpp"
-#include "values/point.hpp"
+#include "values/plane_loops.hpp"
 
 namespace surfmesh {
 
-/// Corners of loops in one row, not closed: those of loop k from first[k] to first[k + 1].
-struct Loops {
-    std::span<const Point2> corners;
-    std::span<const std::int64_t> first;
-};
-
 /// 1 for each point within an odd number of loops; loops of fewer than three corners hold nothing.
-Array<std::uint8_t> inside_loops(const Loops& loops, std::span<const Point2> points);
+Array<std::uint8_t> inside_loops(const PlaneLoops& loops, std::span<const Point2> points);
 
 }  // namespace surfmesh
