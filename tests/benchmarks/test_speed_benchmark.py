@@ -81,7 +81,7 @@ def test_an_installation_is_timed_part_by_part(tmp_path, monkeypatch):
     log = "build/editable-test/.ninja_log"
     make = commands / "make"
     make.write_text(
-        f"#!/bin/sh\nmkdir -p build/editable-test\n"
+        f"#!/bin/sh\nmkdir -p build/editable-test\nsleep 0.1\n"
         f"printf '# ninja log v6\\n0\\t2\\t0\\ta\\tb\\n1\\t4\\t0\\tc\\td\\n' > {log}\n"
     )
     make.chmod(0o755)
