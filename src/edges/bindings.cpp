@@ -204,12 +204,15 @@ void bind_gradation(nb::module_& m) {
         [](const CurvePieces& curves, const Points3& points, const Numbers& fraction,
            const Numbers& sizes, const Indices& first, const Matrix<std::int64_t, 2>& ends,
            const Points3& corners, const Indices& which, const Indices& fewest,
-           const Indices& first_given, const Numbers& given, double most) {
+           const Indices& first_given, const Numbers& given, const Numbers& chord,
+           const Numbers& shortest, double most) {
             const EdgeNetwork edges = checked_network(points, first, ends, corners.shape(0));
             require_rows(fraction.shape(0), points.shape(0), "fraction");
             require_rows(sizes.shape(0), points.shape(0), "sizes");
             require_rows(curves.size(), ends.shape(0), "curves");
             require_rows(fewest.shape(0), which.shape(0), "fewest");
+            require_rows(chord.shape(0), which.shape(0), "chord");
+            require_rows(shortest.shape(0), which.shape(0), "shortest");
             require_offsets(first_given, which.shape(0), given.shape(0), "first_given");
             require_indices(rows<std::int64_t>(which), ends.shape(0), "which");
             for (const std::int64_t edge : rows<std::int64_t>(which))
@@ -222,24 +225,27 @@ void bind_gradation(nb::module_& m) {
             CutEdges found;
             {
                 const nb::gil_scoped_release released;
-                found = cut_to_metric_length(
-                    curves, edges, rows<double>(fraction), rows<double>(sizes),
-                    rows<Point3>(corners),
-                    {rows<std::int64_t>(which), rows<std::int64_t>(fewest),
-                     rows<std::int64_t>(first_given), rows<double>(given), most});
+                found = cut_to_metric_length(curves, edges, rows<double>(fraction),
+                                             rows<double>(sizes), rows<Point3>(corners),
+                                             {rows<std::int64_t>(which), rows<std::int64_t>(fewest),
+                                              rows<std::int64_t>(first_given), rows<double>(given),
+                                              rows<double>(chord), rows<double>(shortest), most});
             }
             return std::tuple(view(found.first), view(found.t), view(found.points),
                               view(found.sizes), found.refused, found.pieces);
         },
         nb::arg("curves"), nb::arg("points"), nb::arg("fraction"), nb::arg("sizes"),
         nb::arg("first"), nb::arg("ends"), nb::arg("corners"), nb::arg("which"), nb::arg("fewest"),
-        nb::arg("first_given"), nb::arg("given"), nb::arg("most"),
+        nb::arg("first_given"), nb::arg("given"), nb::arg("chord"), nb::arg("shortest"),
+        nb::arg("most"),
         "Nodes of the edges in which (k,): offsets (k + 1,), fractions t (m,), points (m, 3), "
         "sizes "
         "(m,); and the row of an edge of more than ``most`` pieces with their number, or -1.\n\n"
         "points (n, 3), fraction (n,), sizes (n,): samples, of edge e those from first[e] to "
         "first[e + 1]; ends (e, 2): rows of corners (v, 3). fewest (k,): pieces. given: the nodes "
-        "of row i from first_given[i] to first_given[i + 1], none where they are to be found.");
+        "of row i from first_given[i] to first_given[i + 1], none where they are to be found. "
+        "chord (k,): what a found piece may sag by at most, infinite for nothing, unless its chord "
+        "is no longer than shortest (k,).");
 }
 
 }  // namespace

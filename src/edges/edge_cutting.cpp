@@ -3,8 +3,15 @@
 #include <algorithm>
 #include <cmath>
 
+#include "edges/rim_sags.hpp"
+
 namespace surfmesh {
 namespace {
+
+constexpr int RIM_ROUNDS = 8;            // how often an edge is cut anew
+constexpr double RIM_MARGIN = 0.98;      // what is aimed at, as a fraction of the chord
+constexpr std::size_t MANY_PIECES = 64;  // from so many on those that sag too much are halved
+constexpr double LARGEST_FACTOR = 2.0;   // of the number of pieces, in one round
 
 /// Values of a piecewise linear function, at places that rise: (at[i], value[i]), constant beyond.
 class Interpolation {
@@ -30,9 +37,9 @@ class Interpolation {
 
 class Cutting {
   public:
-    Cutting(const EdgeNetwork& edges, std::span<const double> fraction,
+    Cutting(const CurvePieces& curves, const EdgeNetwork& edges, std::span<const double> fraction,
             std::span<const double> sizes, const CutRequests& asked)
-        : edges_(edges), fraction_(fraction), sizes_(sizes), asked_(asked) {
+        : curves_(curves), edges_(edges), fraction_(fraction), sizes_(sizes), asked_(asked) {
         found_.first.push_back(0);
     }
 
@@ -67,21 +74,82 @@ class Cutting {
         const double pieces = given > 0 ? static_cast<double>(given - 1)
                                         : std::max(static_cast<double>(asked_.fewest[k]),
                                                    std::nearbyint(metric_.back()));
-        if (!(pieces <= asked_.most)) {
-            found_.refused = static_cast<std::int64_t>(k);
-            found_.pieces = pieces;
-            return false;
-        }
-        if (given > 0)
+        if (!(pieces <= asked_.most)) return refuse(k, pieces);
+        const std::size_t start = found_.t.size();
+        if (given > 0) {
             for (std::int64_t i = asked_.first_given[k]; i < asked_.first_given[k + 1]; ++i)
                 found_.t.push_back(asked_.given[i]);
-        else
+        } else {
             divide(edge, static_cast<std::size_t>(pieces));
+            if (!keep_to_chord(k, start)) return false;
+        }
         Interpolation size(of(fraction_, edge), of(sizes_, edge));
         for (std::size_t i = found_.sizes.size(); i < found_.t.size(); ++i)
             found_.sizes.push_back(size(found_.t.data()[i]));
         found_.first.push_back(static_cast<std::int64_t>(found_.t.size()));
         return true;
+    }
+
+    bool refuse(std::size_t k, double pieces) {
+        found_.refused = static_cast<std::int64_t>(k);
+        found_.pieces = pieces;
+        return false;
+    }
+
+    /// Cut the row whose nodes begin at ``start`` into more pieces while one of them sags by more
+    /// than is allowed; false where there are too many then.
+    bool keep_to_chord(std::size_t k, std::size_t start) {
+        if (!std::isfinite(asked_.chord[k])) return true;
+        const double most = RIM_MARGIN * asked_.chord[k];
+        for (int round = 0; round < RIM_ROUNDS; ++round) {
+            measure_sags(asked_.which[k], start);
+            const std::size_t pieces = sags_.sag.size();
+            double largest = 0.0;
+            std::size_t far = 0;
+            for (std::size_t i = 0; i < pieces; ++i) {
+                if (!is_far(k, i)) continue;
+                largest = std::max(largest, sags_.sag[i]);
+                ++far;
+            }
+            if (far == 0) return true;
+            if (4 * far > pieces && pieces < MANY_PIECES) {
+                const double factor = std::min(std::sqrt(largest / most), LARGEST_FACTOR);
+                found_.t.resize(start);
+                divide(asked_.which[k],
+                       static_cast<std::size_t>(std::ceil(factor * static_cast<double>(pieces))));
+            } else {
+                halve(k, start);
+            }
+            const auto now = static_cast<double>(found_.t.size() - start - 1);
+            if (!(now <= asked_.most)) return refuse(k, now);
+        }
+        return true;
+    }
+
+    bool is_far(std::size_t k, std::size_t piece) const {
+        return sags_.sag.data()[piece] > RIM_MARGIN * asked_.chord[k] &&
+               sags_.length.data()[piece] > asked_.shortest[k];
+    }
+
+    void measure_sags(std::int64_t edge, std::size_t start) {
+        const double t0 = curves_.t0.data()[edge], range = curves_.t1.data()[edge] - t0;
+        parameters_.clear();
+        for (std::size_t i = start; i < found_.t.size(); ++i)
+            parameters_.push_back(t0 + found_.t.data()[i] * range);
+        rim_sags(*curves_.curves[static_cast<std::size_t>(edge)],
+                 {parameters_.data(), parameters_.size()}, sags_);
+    }
+
+    /// A node in the middle of each piece that sags too much.
+    void halve(std::size_t k, std::size_t start) {
+        before_.clear();
+        for (std::size_t i = start; i < found_.t.size(); ++i) before_.push_back(found_.t[i]);
+        found_.t.resize(start);
+        for (std::size_t i = 0; i + 1 < before_.size(); ++i) {
+            found_.t.push_back(before_[i]);
+            if (is_far(k, i)) found_.t.push_back(0.5 * (before_[i] + before_[i + 1]));
+        }
+        found_.t.push_back(before_.back());
     }
 
     /// Add the nodes of so many pieces of equal metric length.
@@ -95,10 +163,12 @@ class Cutting {
         }
     }
 
+    const CurvePieces& curves_;
     const EdgeNetwork& edges_;
     std::span<const double> fraction_, sizes_;
     const CutRequests& asked_;
-    Array<double> metric_;
+    Array<double> metric_, parameters_, before_;
+    RimSags sags_;
     CutEdges found_;
 };
 
@@ -107,7 +177,7 @@ class Cutting {
 CutEdges cut_to_metric_length(const CurvePieces& curves, const EdgeNetwork& edges,
                               std::span<const double> fraction, std::span<const double> sizes,
                               std::span<const Point3> corners, const CutRequests& asked) {
-    CutEdges found = Cutting(edges, fraction, sizes, asked).nodes();
+    CutEdges found = Cutting(curves, edges, fraction, sizes, asked).nodes();
     if (found.refused >= 0) return found;
     found.points = points_on(
         curves,

@@ -3,6 +3,9 @@
 //     samples with sizes       metric length along the edge       nodes at equal steps of it
 //     o--o--o--o--o       ->   0 .. m, sum of 2 |dx| / (h + h')   ->   o------o------o
 //
+// A few pieces may be half as long again as wanted, and between samples an edge may bend more: it
+// is cut into more of them while one sags by more than is allowed.
+//
 // In: samples of the edges (edge_gradation.hpp), the fewest pieces of each, and for some edges the
 // nodes themselves. Out: nodes of all edges in one row, ends included. Ends lie on the vertices.
 #pragma once
@@ -21,7 +24,9 @@ struct CutRequests {
     std::span<const std::int64_t> fewest;       // pieces
     std::span<const std::int64_t> first_given;  // where their given nodes begin, if they have any
     std::span<const double> given;              // fractions, from 0 to 1
-    double most;                                // pieces of one edge
+    std::span<const double> chord;  // what a piece may sag by; infinite where nothing is asked for
+    std::span<const double> shortest;  // chords of pieces that are not cut for their sag
+    double most;                       // pieces of one edge
 };
 
 struct CutEdges {

@@ -1,5 +1,6 @@
 """chord, angle and growth are kept, and not by much more than was asked for."""
 
+import cadquery as cq
 import numpy as np
 import pytest
 
@@ -84,3 +85,23 @@ def test_chord_is_kept_where_triangles_are_measured_only_when_they_come_near_it(
     report = check(made)
     assert len(made.triangles) > 20_000
     assert 0.9 * report.chord < report.deviation_max <= report.chord
+
+
+def cut_cone():
+    """A cone whose hyperbolas, where a slot cuts it, bend much more at one end."""
+    slot = cq.Workplane().box(1.0, 20.0, 2.6).translate((0.8, 0.0, 0.0))
+    return cq.Workplane(cq.Solid.makeCone(1.6, 0.0, 4.2)).cut(slot)
+
+
+def cut_torus():
+    block = cq.Workplane().box(5, 5, 5).translate((2.0, 3.0, 1.0))
+    return cq.Workplane(cq.Solid.makeTorus(4.0, 1.4)).cut(block)
+
+
+@pytest.mark.parametrize("part", [cut_cone, cut_torus])
+@pytest.mark.parametrize("share", [1 / 120, 1 / 300, 1 / 1000])
+def test_edges_of_uneven_curvature_keep_to_the_chord(part, share):
+    model = from_cadquery(part())
+    chord = share * model.diagonal
+    report = check(mesh(model, chord=chord))
+    assert report.surface_deviation_max <= chord and not report.problems

@@ -168,7 +168,8 @@ def _cut(
     first_given = offsets(np.array([len(t) for t in given] or np.zeros(len(edges)), np.int64))
     first, t, points, found, refused, pieces = cut_to_metric_length(
         arrays.curves, samples.points, samples.t, sizes, samples.first, arrays.mesh_ends,
-        arrays.corners, edges, fewest[edges], first_given, np.concatenate([_NONE, *given]), limit,
+        arrays.corners, edges, fewest[edges], first_given, np.concatenate([_NONE, *given]),
+        np.where(samples.tiny, np.inf, samples.chord)[edges], samples.shortest[edges], limit,
     )  # fmt: skip
     if refused >= 0:
         number = int(edges[refused])

@@ -27,6 +27,9 @@ NARROWEST = 5e-4
 """Gaps narrower and edges shorter than this fraction of the diagonal do not ask for still smaller
 sizes by themselves: the mesh would be flooded by what is too small to matter."""
 
+SPARED = 1.4
+"""Of ``min_size``: shorter segments are not cut because they sag."""
+
 
 class Demand(NamedTuple):
     """What one rule asks for along edges."""
@@ -165,6 +168,19 @@ class EdgeRules:
             size[rows] = np.minimum(size[rows], least)
             floor[rows] = np.minimum(floor[rows], own.rules.clamp[0])
         return np.maximum(size, floor, out=size)
+
+    def sags(self) -> tuple[np.ndarray, np.ndarray]:
+        """What segments of each edge (e,) may sag by at most, infinite where nothing is asked of
+        it or it is straight; and how long a segment is that is not cut for it."""
+        count = len(self.model.edges)
+        chord, shortest = np.full(count, np.inf), np.zeros(count)
+        for own in self._hearings(np.flatnonzero(~self.arrays.straight & ~self.arrays.collapsed)):
+            edges, allowed = np.array(own.edges, np.int64), own.sizing.straight_chord
+            if allowed is not None:
+                chord[edges] = np.minimum(chord[edges], allowed)
+            least = SPARED * (own.sizing.min_size or 0.0)
+            shortest[edges] = np.maximum(shortest[edges], least)
+        return chord, np.maximum(shortest, chord)
 
     def at_vertex(self, number: int) -> float:
         """Largest size at a vertex of which something is asked."""

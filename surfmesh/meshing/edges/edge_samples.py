@@ -54,6 +54,10 @@ class EdgeSamples:
     """(n, 3) unit; empty where sizes do not depend on the direction."""
     total_curvature: np.ndarray
     """(e,) integral of the curvature along each edge, radians."""
+    chord: np.ndarray
+    """(e,) what a segment of each edge may sag by at most; infinite where nothing is asked for."""
+    shortest: np.ndarray
+    """(e,) segments no longer than this are not cut for their sag."""
     has_twin: np.ndarray
     """(e,) bool: the edge is curved, and another one joins the same two vertices."""
     vertex: np.ndarray

@@ -64,6 +64,7 @@ def sample_edges(model: CadModel, sizing: ModelSizing) -> EdgeSamples:
         rules.target_size(courses),
         courses.tangent if sizing.is_anisotropic else np.empty((0, 3)),
         total_curvature,
+        *rules.sags(),
         _has_twin(arrays, total_curvature),
         arrays.vertex,
         _edges_of_faces(arrays),

@@ -63,7 +63,7 @@ def test_pieces_have_the_same_metric_length():
     given_t = np.array([0.0, 0.3, 1.0])  # of the third edge
     start, found_t, places, found, refused, _ = cut_to_metric_length(
         curves, points, fraction, sizes, first, ends, corners, which, np.full(4, 2),
-        np.array([0, 0, 0, 3, 3]), given_t, 1e6,
+        np.array([0, 0, 0, 3, 3]), given_t, np.full(4, np.inf), np.zeros(4), 1e6,
     )  # fmt: skip
     assert refused == -1
     for edge in range(4):
@@ -92,9 +92,56 @@ def test_too_many_pieces_are_refused_by_their_row():
     sizes = np.r_[np.full(33, 10.0), np.full(33, 1e-9)]
     found = cut_to_metric_length(
         curves, points, fraction, sizes, first, np.zeros((2, 2), int), np.zeros((1, 3)), which,
-        np.ones(2, int), np.zeros(3, int), np.empty(0), 1000.0,
+        np.ones(2, int), np.zeros(3, int), np.empty(0), np.full(2, np.inf), np.zeros(2), 1000.0,
     )  # fmt: skip
     assert found[4] == 1 and found[5] > 1e6
+
+
+def cut_ellipse(semi_axes, size, chord, shortest=0.0, samples=33, most=1e6):
+    """Nodes of three quarters of an ellipse, how far its pieces sag, what is refused."""
+    curve = surfaces.ellipse(np.zeros(3), np.eye(3)[0], np.eye(3)[1], *semi_axes)
+    pieces = CurvePieces([curve], np.zeros(1), np.array([1.5 * np.pi]))
+    which, first, t = np.array([0]), np.array([0, samples]), np.linspace(0.0, 1.0, samples)
+    points = edge_courses(pieces, which, first, t, np.zeros(1, np.uint8))[0]
+    _, found, nodes, _, refused, _ = cut_to_metric_length(
+        pieces, points, t, np.full(samples, size), first, np.array([[0, 1]]), points[[0, -1]],
+        which, np.ones(1, int), np.zeros(2, int), np.empty(0), np.array([chord]),
+        np.array([shortest]), most,
+    )  # fmt: skip
+    if refused >= 0:
+        return nodes, np.empty(0), refused
+    between = (found[:-1, None] + np.diff(found)[:, None] * np.linspace(0.0, 1.0, 33)).ravel()
+    arcs = pieces.points(np.array([0]), np.array([0, len(between)]), between)
+    ways = arcs.reshape(-1, 33, 3) - nodes[:-1, None]
+    chords = np.diff(nodes, axis=0)[:, None]
+    share = (ways * chords).sum(axis=2) / (chords * chords).sum(axis=2)
+    sags = np.linalg.norm(ways - np.clip(share, 0.0, 1.0)[..., None] * chords, axis=2).max(axis=1)
+    return nodes, sags, refused
+
+
+@given(
+    narrow=st.floats(0.05, 1.0), size=st.floats(0.1, 5.0), chord=st.sampled_from([0.1, 0.01, 1e-3])
+)
+def test_no_piece_sags_by_more_than_its_chord(narrow, size, chord):
+    nodes, sags, refused = cut_ellipse((1.0, narrow), size, chord)
+    assert refused == -1 and sags.max() <= chord
+    free, _, _ = cut_ellipse((1.0, narrow), size, np.inf)
+    assert len(nodes) >= len(free)
+
+
+def test_where_no_piece_sags_too_much_none_is_added():
+    nodes, sags, _ = cut_ellipse((1.0, 0.5), 0.1, 1.0)
+    assert len(nodes) == len(cut_ellipse((1.0, 0.5), 0.1, np.inf)[0]) and sags.max() < 0.01
+
+
+def test_short_pieces_may_sag():
+    nodes, sags, _ = cut_ellipse((1.0, 0.2), 0.5, 1e-3, shortest=0.4)
+    lengths = np.linalg.norm(np.diff(nodes, axis=0), axis=1)
+    assert sags.max() > 1e-3 and lengths[sags > 1e-3].max() <= 0.4
+
+
+def test_pieces_for_the_chord_are_counted_too():
+    assert cut_ellipse((1.0, 1.0), 0.5, 1e-6, most=100.0)[2] == 0
 
 
 def test_circles_turn_by_their_angle():
