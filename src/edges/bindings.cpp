@@ -11,6 +11,7 @@
 #include "edges/edge_cutting.hpp"
 #include "edges/edge_gradation.hpp"
 #include "edges/gradation_over_faces.hpp"
+#include "edges/rim_sags.hpp"
 
 namespace surfmesh::binding {
 namespace {
@@ -98,7 +99,21 @@ void bind_pieces(nb::module_& m) {
             },
             nb::arg("which"), nb::arg("first"), nb::arg("fraction"),
             "Points (n, 3), with z = 0 of curves in the plane, at fractions (n,) of the ranges of "
-            "pieces which (k,); of row i those from first[i] to first[i + 1].");
+            "pieces which (k,); of row i those from first[i] to first[i + 1].")
+        .def(
+            "sags",
+            [](const CurvePieces& pieces, std::int64_t which, const Numbers& fraction) {
+                const std::int64_t piece[] = {which};
+                require_indices(std::span<const std::int64_t>(piece), pieces.size(), "which");
+                if (!pieces.curves[static_cast<std::size_t>(which)] || fraction.size() < 2)
+                    throw nb::value_error("a piece with a curve, and two nodes at least");
+                RimSags found;
+                rim_sags(pieces, which, rows<double>(fraction), found);
+                return std::pair(view(found.sag), view(found.length));
+            },
+            nb::arg("which"), nb::arg("fraction"),
+            "How far one piece lies from the chords (n,) between fractions (n + 1,) of its range, "
+            "at a quarter, the middle and three quarters of each, and how long these are.");
 }
 
 void bind_courses(nb::module_& m) {

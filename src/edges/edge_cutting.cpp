@@ -102,7 +102,8 @@ class Cutting {
         if (!std::isfinite(asked_.chord[k])) return true;
         const double most = RIM_MARGIN * asked_.chord[k];
         for (int round = 0; round < RIM_ROUNDS; ++round) {
-            measure_sags(asked_.which[k], start);
+            rim_sags(curves_, asked_.which[k], {found_.t.data() + start, found_.t.size() - start},
+                     sags_);
             const std::size_t pieces = sags_.sag.size();
             double largest = 0.0;
             std::size_t far = 0;
@@ -129,15 +130,6 @@ class Cutting {
     bool is_far(std::size_t k, std::size_t piece) const {
         return sags_.sag.data()[piece] > RIM_MARGIN * asked_.chord[k] &&
                sags_.length.data()[piece] > asked_.shortest[k];
-    }
-
-    void measure_sags(std::int64_t edge, std::size_t start) {
-        const double t0 = curves_.t0.data()[edge], range = curves_.t1.data()[edge] - t0;
-        parameters_.clear();
-        for (std::size_t i = start; i < found_.t.size(); ++i)
-            parameters_.push_back(t0 + found_.t.data()[i] * range);
-        rim_sags(*curves_.curves[static_cast<std::size_t>(edge)],
-                 {parameters_.data(), parameters_.size()}, sags_);
     }
 
     /// A node in the middle of each piece that sags too much.
@@ -167,7 +159,7 @@ class Cutting {
     const EdgeNetwork& edges_;
     std::span<const double> fraction_, sizes_;
     const CutRequests& asked_;
-    Array<double> metric_, parameters_, before_;
+    Array<double> metric_, before_;
     RimSags sags_;
     CutEdges found_;
 };

@@ -18,20 +18,24 @@ double distance_to_chord(Point3 point, Point3 start, Point3 chord, double square
 
 }  // namespace
 
-void rim_sags(const Curve& curve, std::span<const double> t, RimSags& found) {
-    const std::size_t pieces = t.size() - 1;
-    Array<double> places;
-    for (std::size_t i = 0; i < pieces; ++i) {
-        places.push_back(t[i]);
-        for (const double share : BETWEEN) places.push_back(t[i] + share * (t[i + 1] - t[i]));
+void rim_sags(const CurvePieces& curves, std::int64_t edge, std::span<const double> fraction,
+              RimSags& found) {
+    const double t0 = curves.t0[edge], range = curves.t1[edge] - t0;
+    const std::size_t segments = fraction.size() - 1;
+    Array<double> t;
+    for (std::size_t i = 0; i < segments; ++i) {
+        const double from = t0 + fraction[i] * range, to = t0 + fraction[i + 1] * range;
+        t.push_back(from);
+        for (const double share : BETWEEN) t.push_back(from + share * (to - from));
     }
-    places.push_back(t[pieces]);
-    Array<Point3> points(places.size());
-    curve.evaluate({places.data(), places.size()}, 0, {points.data(), points.size()});
+    t.push_back(t0 + fraction[segments] * range);
+    Array<Point3> points(t.size());
+    curves.curves[static_cast<std::size_t>(edge)]->evaluate({t.data(), t.size()}, 0,
+                                                            {points.data(), points.size()});
 
     found.sag.clear();
     found.length.clear();
-    for (std::size_t i = 0; i < pieces; ++i) {
+    for (std::size_t i = 0; i < segments; ++i) {
         const Point3* own = points.data() + STEP * i;
         const Point3 chord = own[STEP] - own[0];
         const double squared = std::max(dot(chord, chord), std::numeric_limits<double>::min());

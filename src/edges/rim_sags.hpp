@@ -1,21 +1,23 @@
-// How far the pieces of a curve lie from their chords.
+// How far an edge lies from the chords between its nodes.
 //
 //           .--- curve ---.           sag: the largest distance from the chord, at a quarter, the
-//     node o-- chord of it --o node   middle and three quarters of the piece's parameters
+//     node o-- chord of it --o node   middle and three quarters of the parameters between
 #pragma once
 
+#include <cstdint>
 #include <span>
 
-#include "surfaces/curve.hpp"
+#include "edges/curve_pieces.hpp"
 #include "values/array.hpp"
 
 namespace surfmesh {
 
 struct RimSags {
-    Array<double> sag, length;  // of the pieces; length: of the chord
+    Array<double> sag, length;  // of the segments; length: of the chord
 };
 
-/// Of the pieces between parameters t that follow each other.
-void rim_sags(const Curve& curve, std::span<const double> t, RimSags& found);
+/// Of the segments of an edge between nodes; fraction (2 or more): of its range, rising.
+void rim_sags(const CurvePieces& curves, std::int64_t edge, std::span<const double> fraction,
+              RimSags& found);
 
 }  // namespace surfmesh

@@ -19,6 +19,11 @@ class CurvePieces:
         Points (n, 3), with z = 0 of curves in the plane, at fractions (n,) of the ranges of pieces which (k,); of row i those from first[i] to first[i + 1].
         """
 
+    def sags(self, which: int, fraction: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)]) -> tuple[Annotated[NDArray[numpy.float64], dict(shape=(None,))], Annotated[NDArray[numpy.float64], dict(shape=(None,))]]:
+        """
+        How far one piece lies from the chords (n,) between fractions (n + 1,) of its range, at a quarter, the middle and three quarters of each, and how long these are.
+        """
+
 def edge_courses(pieces: CurvePieces, which: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], first: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], fraction: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)], straight: Annotated[NDArray[numpy.uint8], dict(shape=(None,), order='C', device='cpu', writable=False)]) -> tuple[Annotated[NDArray[numpy.float64], dict(shape=(None, 3))], Annotated[NDArray[numpy.float64], dict(shape=(None, 3))], Annotated[NDArray[numpy.float64], dict(shape=(None,))], Annotated[NDArray[numpy.float64], dict(shape=(None,))]]:
     """
     Points and unit tangents (n, 3), curvature (n,) along pieces which (k,) at fractions (n,) of their ranges, and the integral of the curvature (k,), radians.

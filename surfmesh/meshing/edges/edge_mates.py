@@ -274,4 +274,17 @@ class MatedCuts:
             np.interp(a + (b - a) * np.arange(1, n) / n, metric, t)
             for a, b, n in zip(ends[:-1], ends[1:], pieces.tolist())
         ]
-        return np.unique(np.concatenate([self.t[edge], *cut]))
+        return self._within_chord(edge, np.unique(np.concatenate([self.t[edge], *cut])))
+
+    def _within_chord(self, edge: int, t: np.ndarray) -> np.ndarray:
+        """The parameters with one more in the middle of each segment that sags by more than the
+        chord: feet divide an edge at will, so that some are half as long again as wanted."""
+        if self.samples.tiny[edge] or not np.isfinite(self.samples.chord[edge]):
+            return t
+        for _ in range(SWEEPS):
+            sag, length = model_arrays(self.model).curves.sags(edge, t)
+            far = (sag > self.samples.chord[edge]) & (length > self.samples.shortest[edge])
+            if not far.any():
+                break
+            t = np.sort(np.concatenate([t, 0.5 * (t[:-1] + t[1:])[far]]))
+        return t

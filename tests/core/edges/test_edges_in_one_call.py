@@ -140,6 +140,17 @@ def test_short_pieces_may_sag():
     assert sags.max() > 1e-3 and lengths[sags > 1e-3].max() <= 0.4
 
 
+def test_a_circle_sags_as_it_is_known_to():
+    circle = surfaces.ellipse(np.zeros(3), np.eye(3)[0], np.eye(3)[1], 2.0, 2.0)
+    pieces = CurvePieces([None, circle], np.zeros(2), np.array([0.0, np.pi]))
+    sag, length = pieces.sags(1, np.array([0.0, 0.5, 0.75, 1.0]))
+    half = np.array([0.25, 0.125, 0.125]) * np.pi
+    assert np.allclose(sag, 2.0 - 2.0 * np.cos(half)) and np.allclose(length, 4.0 * np.sin(half))
+    for which, fraction in ((0, [0.0, 1.0]), (2, [0.0, 1.0]), (1, [0.0])):
+        with pytest.raises(ValueError):
+            pieces.sags(which, np.array(fraction))
+
+
 def test_pieces_for_the_chord_are_counted_too():
     assert cut_ellipse((1.0, 1.0), 0.5, 1e-6, most=100.0)[2] == 0
 
