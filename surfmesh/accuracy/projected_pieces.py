@@ -52,8 +52,11 @@ class _Turned(NamedTuple):
     rounding: float  # of lengths
 
 
-def projected(surface: Surface, corners: Array, uv: Array) -> Moved | None:
-    """Of triangles with corners (m, 3, 3) at uv (m, 3, 2); None where pieces may not tile."""
+def projected(surface: Surface, corners: Array, uv: Array, limits: Array) -> Moved | None:
+    """Of triangles with corners (m, 3, 3) at uv (m, 3, 2); None where pieces may not tile.
+
+    limits: (m,) how near it is worth to look.
+    """
     shape = _shape(surface, corners)
     if shape is None or not _are_at_their_places(surface, corners, uv):
         return None
@@ -80,13 +83,10 @@ def projected(surface: Surface, corners: Array, uv: Array) -> Moved | None:
     if not (cosine > 0.0).all():
         return None
     height = shape.points[:, :, 2] * shape.sine + shape.rest
-    inside = (height - towards * shape.cosine).max(axis=1)
-    for k in range(3):
-        toward_side = _towards_nearest(shape, across[:, k], across[:, (k + 1) % 3], height[:, k],
-                                       height[:, (k + 1) % 3])  # fmt: skip
-        along = np.einsum("mkc,mc->mk", across, toward_side)
-        inside = np.minimum(inside, (height - along * shape.cosine).max(axis=1))
     outside = (distance * shape.cosine - height).max(axis=1)
+    inside = (height - towards * shape.cosine).max(axis=1)
+    far = np.flatnonzero(inside > limits - shape.rounding)
+    inside[far] = _inside_by_sides(shape, across[far], height[far], inside[far])
     away = np.maximum(np.maximum(outside, inside), 0.0) + shape.rounding
     least = np.maximum(towards.min(axis=1) - shape.rounding, 0.0)
     with np.errstate(divide="ignore"):
@@ -118,6 +118,16 @@ def _shape(surface: Surface, corners: Array) -> _Turned | None:
     if sine * points[:, :, 2].sum() < 0.0:  # the other half of the cone
         sine = -sine
     return _Turned(points, 1.0, cosine, sine, 0.0, rounding + 8.0 * ROUNDING * abs(apex))
+
+
+def _inside_by_sides(shape: _Turned, across: Array, height: Array, inside: Array) -> Array:
+    """(m,) how far triangles reach inside, by the innermost points of their sides too."""
+    for k in range(3):
+        j = (k + 1) % 3
+        ends = across[:, k], across[:, j], height[:, k], height[:, j]
+        along = np.einsum("mkc,mc->mk", across, _towards_nearest(shape, *ends))
+        inside = np.minimum(inside, (height - along * shape.cosine).max(axis=1))
+    return inside
 
 
 def _towards_nearest(shape: _Turned, a: Array, b: Array, low: Array, high: Array) -> Array:

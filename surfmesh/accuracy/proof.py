@@ -67,7 +67,7 @@ def proved_distances(
 
     limits: (m,) how near it is worth to look; slope: likewise, of how fast |r - L| changes.
     """
-    moved = projected(surface, face.corners, face.uv)
+    moved = projected(surface, face.corners, face.uv, limits)
     if moved is not None:
         return FaceProof(moved.away, moved.away, moved.slope, True)
     core = as_core_surface(surface)
