@@ -2,14 +2,15 @@
 
     python benchmarks/accuracy.py                          the gallery at diag/1000 and diag/10000
     python benchmarks/accuracy.py --names torus wavy       some of it
-    python benchmarks/accuracy.py --parts a.step b.iges    CAD files too, at diag/1000
+    python benchmarks/accuracy.py --parts a.step b.iges    CAD files too, at diag/1000 or --fraction
     python benchmarks/accuracy.py --proof                  sizes made smaller until it is
     python benchmarks/accuracy.py --efficiency             triangles over the least, instead
 
 A line each, as soon as it is measured: triangles; the share proved to keep to the chord both ways;
 largest bound / chord; median of bound / sampled distance; processor time of the proof over that of
 the mesh; the largest distance of random points both ways / chord, by VTK's closest triangle and the
-core's closest point, and how many of them are beyond the bounds.
+core's closest point, and how many of them are beyond the bounds. Of CAD files there is a table by
+kind of surface in the end: faces, those not proved; triangles, those without bound; share proved.
 
 With --efficiency: triangles of an isotropic mesh and of one stretched up to 100, each over the
 least of any shape and the isotropic over what equilateral ones need; mean alpha; the largest
@@ -31,6 +32,7 @@ import surfmesh as sm
 from surfmesh.errors import SurfmeshError
 from surfmesh.geometry.differential.projection import closest_point
 from surfmesh.quality.measures.measurements import Measurements
+from surfmesh.quality.measures.proof import Proof
 from surfmesh.result.surface_mesh import SurfaceMesh
 
 FRACTIONS = (1_000, 10_000)
@@ -50,6 +52,7 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--names", nargs="*", help="of the gallery; all by default")
     parser.add_argument("--parts", nargs="*", default=[], help="CAD files")
+    parser.add_argument("--fraction", type=int, default=FRACTIONS[0], help="of CAD files: diag/...")
     parser.add_argument("--proof", action="store_true", help="Sizing(proof=True)")
     parser.add_argument("--efficiency", action="store_true", help="triangles over the least")
     options = parser.parse_args()
@@ -65,29 +68,39 @@ def main() -> None:
         diagonal = float(np.linalg.norm(np.ptp(sm.mesh(surface).points, axis=0)))
         for fraction in FRACTIONS:
             show(name, surface, diagonal / fraction, fraction, options.proof)
+    kinds: dict[str, NDArray[np.int64]] = {}
     for path in options.parts:
         model = sm.load(path)
         name = path.rsplit("/", 1)[-1][-24:]
-        show(name, model, model.diagonal / FRACTIONS[0], FRACTIONS[0], options.proof)
+        found = show(
+            name, model, model.diagonal / options.fraction, options.fraction, options.proof
+        )
+        for kind, row in found.items():
+            kinds[kind] = kinds.get(kind, np.zeros_like(row)) + row
+    for kind, (faces, left, triangles, proved, unbounded) in sorted(kinds.items()):
+        print(f"{kind:12s} {faces:6,d} faces, {left:4,d} left {triangles:10,d} triangles, "
+              f"{unbounded:6,d} without bound {100 * proved / triangles:8.3f} %")  # fmt: skip
 
 
-def show(name: str, thing: object, chord: float, fraction: int, proof: bool) -> None:
-    """One line."""
+def show(
+    name: str, thing: object, chord: float, fraction: int, proof: bool
+) -> dict[str, NDArray[np.int64]]:
+    """One line. Counts by kind of surface: faces, not proved; triangles, proved, without bound."""
     start = time.process_time()
     try:
         mesh = sm.mesh(thing, sm.Sizing(chord=chord, proof=proof), strict=False, jobs=1)
     except SurfmeshError as error:
         print(f"{name:24s} {fraction:6d} {error}", flush=True)
-        return
+        return {}
     meshed = time.process_time() - start
     measured = Measurements(mesh)
     if measured.deviation_both_ways is None:  # measured before the clock starts
-        return
+        return {}
     start = time.process_time()
     found = measured.proof
     proved = time.process_time() - start
     if found is None:
-        return
+        return {}
     looked = at_random(mesh, found.bound)
     open_faces = np.unique(mesh.face_ids[~found.is_proved])
     kinds = Counter(getattr(mesh.surfaces[k], "kind", "formula") for k in open_faces)
@@ -98,6 +111,19 @@ def show(name: str, thing: object, chord: float, fraction: int, proof: bool) -> 
           f"{found.bound.max() / chord:6.3f} {tight:6.3f} {proved / meshed:5.2f} "
           f"{looked.from_surface / chord:7.3f} {looked.from_mesh / chord:7.3f} {looked.above:5d} "
           f"{left and 'faces left: ' + left}", flush=True)  # fmt: skip
+    return by_kind(mesh, found)
+
+
+def by_kind(mesh: SurfaceMesh, found: Proof) -> dict[str, NDArray[np.int64]]:
+    """Faces, those not proved; triangles, those proved, those without any bound."""
+    kinds: dict[str, NDArray[np.int64]] = {}
+    for number in np.unique(mesh.face_ids).tolist():
+        own = mesh.face_ids == number
+        good, unbounded = found.is_proved[own], ~np.isfinite(found.bound[own])
+        row = np.array([1, not good.all(), len(good), good.sum(), unbounded.sum()], np.int64)
+        kind = getattr(mesh.surfaces[number], "kind", "formula")
+        kinds[kind] = kinds.get(kind, np.zeros_like(row)) + row
+    return kinds
 
 
 def show_efficiency(names: list[str] | None, parts: list[str]) -> None:

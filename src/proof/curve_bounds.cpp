@@ -24,7 +24,7 @@ struct CurvePoint {
 CurvePoint point_at(const Curve& curve, double t, Point3 about) {
     std::array<double, 3> middle{}, off{};
     for (std::size_t axis = 0; axis < 3; ++axis) {
-        std::array<Interval, 3> c;
+        CurveAlong c;
         if (!curve.enclose_along({t, t}, AXES[axis], about, c)) return {about, intervals::INFINITE};
         middle[axis] = 0.5 * (c[0].lo + c[0].hi);
         off[axis] = c[0].hi - c[0].lo;  // half of it, and as much for the rounding of the middle
@@ -39,16 +39,20 @@ double distance_to_segment(Point3 x, Point3 end) {
     return norm(x - t * end) + CURVE_ROUNDING * (norm(x) + norm(end));
 }
 
-/// The largest |c''| from one parameter to another.
-double largest_bend(const Curve& curve, double first, double last) {
-    std::array<double, 3> most{};
+/// How far a part of the curve is from its chord at most: a quarter of dt times the largest jump of
+/// c' at creases, and an eighth of dt^2 times the largest |c''|.
+double sag_of(const Curve& curve, double first, double last, double step) {
+    std::array<double, 3> bend{}, jump{};
     for (std::size_t axis = 0; axis < 3; ++axis) {
-        std::array<Interval, 3> c;
+        CurveAlong c;
         if (!curve.enclose_along({first, last}, AXES[axis], {0.0, 0.0, 0.0}, c))
             return intervals::INFINITE;
-        most[axis] = outward::magnitude(c[2]);
+        bend[axis] = outward::magnitude(c[2]);
+        jump[axis] = c.jump;
     }
-    return root_of_squares(most);
+    if (step == 0.0) return 0.0;
+    return 0.125 * (step * step) * root_of_squares(bend) +
+           0.25 * std::abs(step) * root_of_squares(jump);
 }
 
 }  // namespace
@@ -67,9 +71,8 @@ Array<double> curve_bounds(const Curve& curve, std::span<const ParameterEnds> t,
             if (part == parts) off = std::max(off, norm(x - end) + error);
             most = std::max(most, distance_to_segment(x, end) + error);
         }
-        const double bend =
-            largest_bend(curve, std::min(t[i][0], t[i][1]), std::max(t[i][0], t[i][1]));
-        const double sag = step != 0.0 ? 0.125 * (step * step) * bend : 0.0;
+        const double sag =
+            sag_of(curve, std::min(t[i][0], t[i][1]), std::max(t[i][0], t[i][1]), step);
         const double bound = (most + sag * (1.0 + CURVE_ROUNDING) + off) * (1.0 + CURVE_ROUNDING);
         found[i] = bound <= intervals::INFINITE ? bound : intervals::INFINITE;
     }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "proof/crease_bends.hpp"
 #include "proof/grid_bounds.hpp"
 #include "proof/side_bends.hpp"
 #include "proof/smooth_bounds.hpp"
@@ -89,6 +90,7 @@ struct Block {
     std::span<const PlaneCorners> uv;
     Array<TriangleFrame> frames;
     Array<SideBends> bends;
+    Array<CreaseJumps> jumps;
 
     SurfaceStatus look_at(const Array<Part>& parts, bool exact) {
         Array<ParameterBox> cells;
@@ -108,6 +110,8 @@ struct Block {
         for (std::size_t k = 0; k < parts.size(); ++k) {
             const std::int32_t t = parts[k].triangle;
             join(bends[t], found[k], uv[t]);
+            // over the whole triangle at once: a path may meet creases of several parts
+            if (exact) jumps[t] = {found[k].jump_u, found[k].jump_v};
         }
         return status;
     }
@@ -148,7 +152,8 @@ SurfaceStatus bounds_of_block(const Surface& surface, const ProofRequest& asked,
         if (const auto status = corner_errors(surface, corners, uv, off);
             status != SurfaceStatus::DONE)
             return status;
-    Block block{surface, uv, Array<TriangleFrame>(count), Array<SideBends>(count)};
+    Block block{surface, uv, Array<TriangleFrame>(count), Array<SideBends>(count),
+                Array<CreaseJumps>(count)};
     Array<Part> parts;
     for (std::size_t t = 0; t < count; ++t) {
         block.frames[t] = frame_of(corners[t], off[t], rims[t]);
@@ -162,7 +167,8 @@ SurfaceStatus bounds_of_block(const Surface& surface, const ProofRequest& asked,
             const std::int32_t t = part.triangle;
             if (!open.empty() && open.back() == t) continue;  // its parts come together
             const double height = level == 0 ? intervals::INFINITE : out[t].height;
-            out[t] = bounds_from(block.bends[t], block.frames[t], off[t]);
+            out[t] =
+                bounds_with_creases(block.bends[t], block.jumps[t], uv[t], block.frames[t], off[t]);
             out[t].height = std::min(out[t].height, height);
             // a kink on a line of the cut would be missed: what has no bound at first has none
             if (level < depth && out[t].whole < intervals::INFINITE &&

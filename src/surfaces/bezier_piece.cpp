@@ -6,32 +6,44 @@
 namespace surfmesh {
 namespace {
 
-constexpr double BEYOND = 1e-6;        // of the knots' range: how far a range may leave it
-constexpr double AT_THE_KNOT = 1e-12;  // of it: an end of the range so near to a crease lies there
+// of the outermost span: how far a range may leave it, so that 1 + 2 of it to the power of the
+// degrees is within the margin of ``restriction_error``
+constexpr double BEYOND = 0x1p-8;
+constexpr double AT_THE_KNOT = 1e-12;  // of the knots' range: an end so near to a crease lies there
+constexpr double NARROW = 0x1p-12;     // of a span: differences of coefficients would be round-off
 
-}  // namespace
+struct KnotRange {
+    double first, last;
+};
 
-bool split_at_knots(const SplineBasis& basis, double first, double last, Array<SpanPart>& parts) {
-    parts.clear();
+/// A part, made wider within its span if it is narrow, on the side where it does not end in a knot.
+SpanPart part_of(std::span<const double> knots, std::size_t span, KnotRange part,
+                 bool after_crease) {
+    const double low = knots[span], high = knots[span + 1], least = NARROW * (high - low);
+    auto [first, last] = part;
+    if (const double width = last - first; width > 0.0 && width < least) {
+        if (last >= high)
+            first = std::max(std::min(first, low), last - least);
+        else
+            last = std::min(high, first + least);
+    }
+    return {static_cast<std::int64_t>(span), first, last, part.last - part.first, after_crease};
+}
+
+/// The parts of a range between two knots; false at a jump.
+bool split_within(const SplineBasis& basis, KnotRange range, bool after_crease,
+                  Array<SpanPart>& parts) {
     const std::span<const double> knots = basis.knots();
     const std::size_t degree = basis.degree(), end = knots.size() - degree - 1;
-    const double start = knots[degree], stop = knots[end], slack = BEYOND * (stop - start);
-    const double period = basis.period(), near = AT_THE_KNOT * (stop - start);
-    if (!(first <= last)) return false;
-    if (period > 0.0 && (first < start || last > stop)) {
-        const double shift = period * std::floor((0.5 * (first + last) - start) / period);
-        first -= shift;
-        last -= shift;
-    }
-    if (first < start - slack || last > stop + slack) return false;
+    const double near = AT_THE_KNOT * (knots[end] - knots[degree]);
+    auto [from, last] = range;
     std::size_t span = degree;
-    while (span + 1 < end && (knots[span + 1] <= first || knots[span] == knots[span + 1])) ++span;
-    double from = first;
+    while (span + 1 < end && (knots[span + 1] <= from || knots[span] == knots[span + 1])) ++span;
     for (;;) {
         std::size_t next = span + 1;  // the first knot of the next span, and how often it is there
         const double knot = knots[next];
         if (!(knot < last) || next >= end) {  // the last part
-            parts.push_back({static_cast<std::int64_t>(span), from, last});
+            parts.push_back(part_of(knots, span, {from, last}, after_crease));
             return true;
         }
         std::size_t count = 1;
@@ -42,16 +54,57 @@ bool split_at_knots(const SplineBasis& basis, double first, double last, Array<S
         if (count >= degree) {
             if (last - knot <= near)
                 last = std::max(from, knot);
-            else if (knot - from > near)
-                return false;
-            else
+            else if (knot - from <= near)
                 from = knot;
+            else if (count > degree)
+                return false;
         }
-        if (from < knot) parts.push_back({static_cast<std::int64_t>(span), from, knot});
+        if (from < knot) {
+            parts.push_back(part_of(knots, span, {from, knot}, after_crease));
+            after_crease = count >= degree;
+        }
         if (last <= knot) return true;
         from = std::max(from, knot);
         span = next;
     }
+}
+
+/// May the polynomials of the outermost spans go on so far?
+bool is_near_knots(const SplineBasis& basis, KnotRange range) {
+    const std::span<const double> knots = basis.knots();
+    const std::size_t degree = basis.degree(), end = knots.size() - degree - 1;
+    std::size_t first = degree, last = end - 1;
+    while (first + 1 < end && knots[first] == knots[first + 1]) ++first;
+    while (last > degree && knots[last] == knots[last + 1]) --last;
+    return range.first >= knots[degree] - BEYOND * (knots[first + 1] - knots[first]) &&
+           range.last <= knots[end] + BEYOND * (knots[last + 1] - knots[last]);
+}
+
+}  // namespace
+
+bool split_at_knots(const SplineBasis& basis, double first, double last, Array<SpanPart>& parts) {
+    parts.clear();
+    const std::span<const double> knots = basis.knots();
+    const std::size_t degree = basis.degree(), end = knots.size() - degree - 1;
+    const double start = knots[degree], stop = knots[end], near = AT_THE_KNOT * (stop - start);
+    const double period = basis.period();
+    if (!(first <= last)) return false;
+    if (!(period > 0.0) || (first >= start && last <= stop))
+        return is_near_knots(basis, {first, last}) &&
+               split_within(basis, {first, last}, false, parts);
+    const double shift = period * std::floor((0.5 * (first + last) - start) / period);
+    first -= shift;
+    last -= shift;
+    const bool before = first<start - near, after = last> stop + near;
+    if (before && after) return false;
+    const KnotRange inside = {std::max(first, start), std::min(last, stop)};
+    if (before)
+        return first + period > start &&
+               split_within(basis, {first + period, stop}, false, parts) &&
+               split_within(basis, inside, true, parts);
+    return split_within(basis, inside, false, parts) &&
+           (!after ||
+            (last - period < stop && split_within(basis, {start, last - period}, true, parts)));
 }
 
 void restrict_to(const SplineBasis& basis, const SpanPart& part, Homogeneous* control,

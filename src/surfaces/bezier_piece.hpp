@@ -20,11 +20,14 @@ namespace surfmesh {
 /// A part of a parameter's range within one span.
 struct SpanPart {
     std::int64_t span;
-    double first, last;
+    double first, last;  // of the polynomial: more than the part where that is narrow for its span
+    double width;        // of the part itself
+    bool
+        after_crease;  // a knot as often as the degree, or a seam, is between this and the last one
 };
 
-/// The parts of a range, brought back by whole periods; false where it holds a crease (a knot as
-/// often as the degree) inside, or leaves the knots.
+/// The parts of a range, in their sequence, brought back by whole periods; false where it holds a
+/// jump (a knot more often than the degree) inside, or leaves the knots by much.
 [[nodiscard]] bool split_at_knots(const SplineBasis& basis, double first, double last,
                                   Array<SpanPart>& parts);
 

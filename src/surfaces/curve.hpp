@@ -18,6 +18,16 @@ struct ParameterRange {
     double first, last;
 };
 
+/// Ranges of w . (c - about), w . c' and w . c'' for a vector w; and how much w . c' jumps at creases,
+/// in absolute value and in all.
+struct CurveAlong {
+    std::array<Interval, 3> order;
+    double jump = 0.0;
+
+    Interval& operator[](std::size_t k) { return order[k]; }
+    const Interval& operator[](std::size_t k) const { return order[k]; }
+};
+
 class Curve {
   public:
     virtual ~Curve() = default;
@@ -37,10 +47,9 @@ class Curve {
         return false;
     }
 
-    /// Proved bounds of w . (c - about), w . c' and w . c'' over a range of t, for a vector w;
-    /// false where none are known.
+    /// Proved bounds over a range of t; false where none are known.
     [[nodiscard]] virtual bool enclose_along(Interval /*t*/, Point3 /*w*/, Point3 /*about*/,
-                                             std::array<Interval, 3>& /*out*/) const {
+                                             CurveAlong& /*out*/) const {
         return false;
     }
 

@@ -23,7 +23,7 @@ class Line final : public Curve {
     [[nodiscard]] bool derivative_magnitudes(std::span<const ParameterRange> ranges, int order,
                                              std::span<Point3> out) const override;
     [[nodiscard]] bool enclose_along(Interval t, Point3 w, Point3 about,
-                                     std::array<Interval, 3>& out) const override;
+                                     CurveAlong& out) const override;
 
   private:
     int dimension_;
@@ -47,7 +47,7 @@ class Conic final : public Curve {
     [[nodiscard]] bool derivative_magnitudes(std::span<const ParameterRange> ranges, int order,
                                              std::span<Point3> out) const override;
     [[nodiscard]] bool enclose_along(Interval t, Point3 w, Point3 about,
-                                     std::array<Interval, 3>& out) const override;
+                                     CurveAlong& out) const override;
 
   private:
     [[nodiscard]] Point2 on_parabola(double t, int derivative) const;

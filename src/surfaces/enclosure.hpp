@@ -25,15 +25,19 @@ struct EnclosedPoint {
 /// Three directions, of at most unit length but for rounding.
 using Directions = std::array<Point3, 3>;
 
-/// Bounds of second derivatives along the three directions.
+/// Bounds of second derivatives along the three directions; and of how much r_u and r_v jump, in
+/// absolute value and in all, at the creases u = const and v = const of a cell that is gone through.
 struct Bends {
     std::array<Interval, 3> uu, uv, vv;
+    std::array<double, 3> jump_u{}, jump_v{};
 };
 
 inline constexpr Interval UNBOUNDED{-intervals::INFINITE, intervals::INFINITE};
 inline constexpr Bends UNBOUNDED_BENDS = {{UNBOUNDED, UNBOUNDED, UNBOUNDED},
                                           {UNBOUNDED, UNBOUNDED, UNBOUNDED},
-                                          {UNBOUNDED, UNBOUNDED, UNBOUNDED}};
+                                          {UNBOUNDED, UNBOUNDED, UNBOUNDED},
+                                          {},
+                                          {}};
 
 /// A vector that lies in a box.
 struct BoxedVector {

@@ -6,6 +6,7 @@
 // would else be small differences of large coordinates.
 #pragma once
 
+#include "surfaces/bezier_piece.hpp"
 #include "surfaces/curve.hpp"
 #include "surfaces/spline_basis.hpp"
 
@@ -26,9 +27,11 @@ class SplineCurve final : public Curve {
     [[nodiscard]] bool derivative_magnitudes(std::span<const ParameterRange> ranges, int order,
                                              std::span<Point3> out) const override;
     [[nodiscard]] bool enclose_along(Interval t, Point3 w, Point3 about,
-                                     std::array<Interval, 3>& out) const override;
+                                     CurveAlong& out) const override;
 
   private:
+    double coefficients(const SpanPart& part, Point3 about, std::span<Homogeneous> control) const;
+
     int dimension_;
     SplineBasis basis_;
     Array<Point3> control_;

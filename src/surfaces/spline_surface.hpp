@@ -38,9 +38,21 @@ class SplineSurface final : public FaceSurface {
     template <int order, bool rational>
     void evaluate_as(std::span<const Point2> uv, std::span<Point3> out) const;
 
+    struct Work;
+    struct PartOfCell {
+        const SpanPart &u, &v;
+    };
+
+    Bends bends_of_parts(const Directions& directions, Work& work) const;
     Bends bends_of_part(const SpanPart& u, const SpanPart& v, const Directions& directions,
-                        Array<Homogeneous>& control, Array<Homogeneous>& line, Array<double>& along,
-                        Array<double>& weights) const;
+                        Work& work) const;
+    std::array<double, 3> jumps_between(const PartOfCell& before, const PartOfCell& after,
+                                        bool along_u, const Directions& directions,
+                                        Work& work) const;
+    [[nodiscard]] Point3 middle_of(const PartOfCell& part) const;
+    [[nodiscard]] std::int64_t corner_of(const PartOfCell& part) const;
+    double coefficients(const PartOfCell& part, Point3 about, Array<Homogeneous>& control,
+                        Array<Homogeneous>& line) const;
 
     SplineBasis u_, v_;
     std::int64_t columns_;

@@ -52,6 +52,17 @@ class RevolutionSurface final : public FaceSurface {
                                 std::span<Bends> out) const override;
 
   private:
+    struct CurveRoundings {
+        std::array<double, 3> order;
+        double jump;
+    };
+    struct BendsAlong {
+        Interval uu, uv, vv;
+        double jump_v;
+    };
+    bool enclose_along(Interval u, Interval v, Point3 d, const CurveRoundings& off,
+                       BendsAlong& out) const;
+
     std::shared_ptr<const Curve> curve_;
     Point3 origin_, axis_;
 };

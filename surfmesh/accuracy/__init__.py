@@ -8,5 +8,6 @@ curved_triangles: the same of quadratic triangles, and of arcs from their curves
 folds: angles between the normals of triangles and surface, and which of them the surface makes.
 shape: the mean ratio of triangles, alpha, by their edge vectors.
 proof: the same distances both ways as proved bounds, of one face.
+projected_pieces: those of spheres, cylinders and cones, by their nearest points.
 dihedral: angles between neighbouring triangles, and which of them the surface makes.
 """

@@ -5,6 +5,7 @@ bounds over boxes -> of each triangle -> with its neighbours -> a closer look wh
 
 The work is done in the core (src/proof), with round-off in the bounds; docs/proof.md says what is
 proved, and why. Here it is seen which sides are rims, and where a pole leaves a gap in (u, v).
+Spheres, cylinders and cones have shorter bounds (``projected_pieces``).
 """
 
 from typing import NamedTuple
@@ -13,6 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from surfmesh._core import proof, surfaces
+from surfmesh.accuracy.projected_pieces import projected
 from surfmesh.geometry.core_surface import as_core_surface
 from surfmesh.geometry.surface import Surface
 
@@ -65,6 +67,9 @@ def proved_distances(
 
     limits: (m,) how near it is worth to look; slope: likewise, of how fast |r - L| changes.
     """
+    moved = projected(surface, face.corners, face.uv, limits)
+    if moved is not None:
+        return FaceProof(moved.away, moved.away, moved.slope, True)
     core = as_core_surface(surface)
     rims = (BITS * (face.twins.reshape(-1, 3) < 0)).sum(axis=1).astype(np.uint8)
     bends, bounds = _bounds(core, face, limits, rims, slope)

@@ -24,15 +24,28 @@ BOX = ((-3.0, 3.0), (-3.0, 3.0))
 rng = np.random.default_rng(5)
 
 
-def spline(degrees, inner, weights, seed=0):
+def spline(degrees, inner, weights, seed=0, domain=((0.0, 1.0), (0.0, 1.0))):
+    """inner: knots inside, of both; or of each."""
     draw = np.random.default_rng(seed)
-    knots = [np.concatenate([[0.0] * (p + 1), inner, [1.0] * (p + 1)]) for p in degrees]
+    inner = inner if isinstance(inner, tuple) else (inner, inner)
+    knots = [
+        np.concatenate([[0.0] * (p + 1), own, [1.0] * (p + 1)]) for p, own in zip(degrees, inner)
+    ]
     shape = [len(k) - p - 1 for k, p in zip(knots, degrees)]
     grid = np.stack(np.meshgrid(*(np.linspace(0, 2, n) for n in shape), indexing="ij"), axis=-1)
     control = np.concatenate([grid, draw.normal(0, 0.3, (*shape, 1))], axis=2)
     w = draw.uniform(0.5, 2.0, shape) if weights else None
-    domain = ((0.0, 1.0), (0.0, 1.0))
     return surfaces.spline_surface(domain, *knots, control, w, (0.0, 0.0))
+
+
+def periodic(seed=0):
+    """A spline that goes on as it began, along u."""
+    draw = np.random.default_rng(seed)
+    control = draw.normal(0, 1, (4, 3, 3))[[2, 3, 0, 1, 2, 3, 0]] + [0, 0, 3]
+    knots, other = np.arange(11) / 4 - 0.75, np.array([0, 0, 0, 1, 1, 1.0])
+    return surfaces.spline_surface(
+        ((0.5, 1.5), (0.0, 1.0)), knots, other, control, None, (1.0, 0.0)
+    )
 
 
 def formula(x, y, z):
@@ -43,6 +56,12 @@ ELLIPSE = surfaces.ellipse(np.array([1.0, 2.0, 0.0]), X, Z, 0.7, 0.4)
 CURVE = surfaces.spline_curve(
     np.array([0, 0, 0, 0, 0.4, 1, 1, 1, 1.0]), rng.normal(0, 1, (5, 3)) + [3, 0, 0], None,
     None, 0.0,
+)  # fmt: skip
+ARCS = surfaces.spline_curve(  # three quarters of a circle, and a straight end
+    np.array([0, 0, 0, 0.25, 0.25, 0.5, 0.5, 0.75, 0.75, 1, 1, 1]),
+    np.array([[4, 0, 0], [4, 1, 0], [3, 1, 0], [2, 1, 0], [2, 0, 0], [2, -1, 0], [3, -1, 0],
+              [4, -1, 0], [5, -2, 0.0]]),
+    np.array([1, 0.5**0.5, 1, 0.5**0.5, 1, 0.5**0.5, 1, 0.9, 1]), None, 0.0,
 )  # fmt: skip
 UNIT = ((0.0, 1.0), (0.0, 1.0))
 
@@ -66,6 +85,13 @@ SURFACES = {
     "bicubic": spline((3, 3), [0.3, 0.55, 0.8], False),
     "rational": spline((3, 2), [0.4], True),
     "bilinear and quintic": spline((1, 5), [], True, 3),
+    "creased": spline((2, 3), ([0.4, 0.4, 0.7], [0.5, 0.5, 0.5]), False, 4),
+    "creased and rational": spline((3, 2), ([0.3, 0.3, 0.3], [0.4, 0.6, 0.6]), True, 5),
+    "short spans": spline((3, 2), ([0.4, 0.4 + 1e-9], [0.5, 0.5 + 1e-7]), True, 6),
+    "beyond its knots": spline((3, 2), [0.4], True, 7, ((-1e-3, 1.001), (-1e-3, 1.001))),
+    "periodic": periodic(),
+    "extruded arcs": surfaces.extrusion(UNIT, ARCS, Z),
+    "turned arcs": surfaces.revolution(UNIT, ARCS, np.zeros(3), Y),
     "extrusion": surfaces.extrusion(UNIT, CURVE, Y),
     "revolution": surfaces.revolution(BOX, ELLIPSE, -3 * X, Y),
     "turned spline": surfaces.revolution(UNIT, CURVE, np.zeros(3), Z),
@@ -244,17 +270,40 @@ def test_a_kink_within_a_triangle_has_no_bound():
     assert np.isinf(found[0]) and found[1] < 1e-12
 
 
-def test_a_crease_of_a_spline_within_a_triangle_has_no_bound():
-    knots = np.array([0, 0, 0, 0.5, 0.5, 1, 1, 1.0])
-    other = np.array([0, 0, 1, 1.0])
-    control = np.zeros((5, 2, 3))
-    control[..., 0], control[..., 1] = np.linspace(0, 1, 5)[:, None], np.arange(2)
-    control[2, :, 2] = 1.0
-    surface = surfaces.spline_surface(UNIT, knots, other, control, None, (0.0, 0.0))
+def ridge(knots):
+    """A roof over the square, as a spline of the second degree along u with these knots."""
+    control = np.zeros((len(knots) - 3, 2, 3))
+    control[..., 0] = np.linspace(0, 1, len(control))[:, None]
+    control[..., 1] = np.arange(2)
+    control[len(control) // 2, :, 2] = 1.0
+    return surfaces.spline_surface(UNIT, knots, np.array([0, 0, 1, 1.0]), control, None, (0.0, 0.0))
+
+
+def test_a_crease_of_a_spline_within_a_triangle_counts_by_its_angle():
+    surface = ridge(np.array([0, 0, 0, 0.5, 0.5, 1, 1, 1.0]))
     uv = np.array([[(0.4, 0), (0.6, 0), (0.4, 0.3)], [(0.5, 0), (0.7, 0), (0.5, 0.3)]], float)
     corners = surface.evaluate(uv.reshape(-1, 2), 0)[0].reshape(-1, 3, 3)
     found = bounds_of(surface, corners, uv)[:, 8]
-    assert np.isinf(found[0]) and found[1] < 0.2
+    away = 1.0 - corners[0, 0, 2]  # of the top from the chord
+    assert away < found[0] < 1.35 * away and found[1] < 0.2
+
+
+def test_a_jump_of_a_spline_within_a_triangle_has_no_bound():
+    surface = ridge(np.array([0, 0, 0, 0.5, 0.5, 0.5, 1, 1, 1.0]))
+    uv = np.array([[(0.4, 0), (0.6, 0), (0.4, 0.3)]], float)
+    corners = surface.evaluate(uv.reshape(-1, 2), 0)[0].reshape(-1, 3, 3)
+    assert np.isinf(bounds_of(surface, corners, uv)[0, 8])
+
+
+def test_a_spline_that_only_looks_creased_by_its_knots_is_bounded_as_a_smooth_one():
+    """An arc of 180 degrees in two parts, whose weights are creased too, extruded."""
+    surface = SURFACES["extruded arcs"]
+    uv = np.array([[(0.249, 0), (0.251, 0), (0.25, 0.1)]], float)
+    corners = surface.evaluate(uv.reshape(-1, 2), 0)[0].reshape(-1, 3, 3)
+    at = np.einsum("qk,mkd->mqd", WEIGHTS, uv)
+    flat = np.einsum("qk,mkd->mqd", WEIGHTS, corners)[0]
+    away = np.linalg.norm(surface.evaluate(at[0], 0)[0] - flat, axis=1).max()
+    assert away < bounds_of(surface, corners, uv)[0, 8] < 1.1 * away
 
 
 def test_a_function_of_the_caller_has_no_bounds():

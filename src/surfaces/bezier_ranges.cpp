@@ -1,0 +1,49 @@
+#include "surfaces/bezier_ranges.hpp"
+
+namespace surfmesh {
+namespace {
+
+/// A derivative along u or v that no width goes with is multiplied by a width of 0 in the end.
+double per(double width) { return width > 0.0 ? 1.0 / width : 0.0; }
+
+}  // namespace
+
+Interval value_range(const BezierNumbers& c) {
+    NumberRange found;
+    for (std::size_t i = 0; i < c.rows * c.columns; ++i) found.take(c.values[i]);
+    return found.scaled(1.0, c.error);
+}
+
+Interval derivative_range(const BezierNumbers& c, std::size_t k, std::size_t l) {
+    NumberRange found;
+    const auto along_u = [&](std::size_t i, std::size_t j) {
+        if (k == 0) return c.at(i, j);
+        if (k == 1) return c.at(i + 1, j) - c.at(i, j);
+        return (c.at(i + 2, j) - c.at(i + 1, j)) - (c.at(i + 1, j) - c.at(i, j));
+    };
+    for (std::size_t i = 0; i + k < c.rows; ++i)
+        for (std::size_t j = 0; j + l < c.columns; ++j)
+            found.take(l == 0   ? along_u(i, j)
+                       : l == 1 ? along_u(i, j + 1) - along_u(i, j)
+                                : (along_u(i, j + 2) - along_u(i, j + 1)) -
+                                      (along_u(i, j + 1) - along_u(i, j)));
+    const auto p = static_cast<double>(c.rows - 1), q = static_cast<double>(c.columns - 1);
+    double factor = 1.0;
+    if (k > 0) factor *= p * per(c.width_u);
+    if (k > 1) factor *= (p - 1.0) * per(c.width_u);
+    if (l > 0) factor *= q * per(c.width_v);
+    if (l > 1) factor *= (q - 1.0) * per(c.width_v);
+    return found.scaled(factor, 4.0 * c.error);  // at most four ends, of a second difference
+}
+
+Interval quotient_slope(Interval a_u, Interval w_u, Interval s, Interval w) {
+    using namespace outward;
+    return divide(subtract(a_u, multiply(w_u, s)), w);
+}
+
+double quotient_error(double error_of_a, double error_of_w, double largest, double least_weight) {
+    if (!(least_weight > 2.0 * error_of_w)) return intervals::INFINITE;
+    return 4.0 * (error_of_a + error_of_w * largest / least_weight) / least_weight;
+}
+
+}  // namespace surfmesh
