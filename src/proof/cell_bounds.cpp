@@ -12,15 +12,68 @@ double rise(const BySide& least) {
     return 0.5 * largest_on_simplex(-least[0], -least[1], -least[2]);
 }
 
+/// What R - L is made of at places of a cell: values at its corners, and g_k there by side and corner,
+///
+///     l_k,    l_i l_j (l_c + [c is i or j])        with i and j the ends of side k.
+template <std::size_t FINER>
+struct PlaceWeights {
+    static constexpr std::size_t COUNT = (FINER + 1) * (FINER + 2) / 2;
+    std::array<std::array<double, COUNT>, 3> value{};
+    std::array<std::array<std::array<double, COUNT>, 3>, 3> bend{};  // [side][corner]
+
+    constexpr PlaceWeights() {
+        std::size_t place = 0;
+        for (std::size_t a = 0; a <= FINER; ++a)
+            for (std::size_t b = 0; a + b <= FINER; ++b, ++place) {
+                const std::array<std::size_t, 3> parts = {FINER - a - b, a, b};
+                for (std::size_t k = 0; k < 3; ++k) {
+                    const std::size_t i = k, j = (k + 1) % 3;
+                    value[k][place] = part(parts[k]);
+                    for (std::size_t c = 0; c < 3; ++c)
+                        bend[k][c][place] = part(parts[i]) * part(parts[j]) *
+                                            (part(parts[c]) + (c == i || c == j ? 1.0 : 0.0));
+                }
+            }
+    }
+
+  private:
+    static constexpr double part(std::size_t n) {
+        return static_cast<double>(n) / static_cast<double>(FINER);
+    }
+};
+
+/// The largest square of R - L at places of a cell; scale: of g_k.
+template <std::size_t FINER>
+double largest_square(const CellCorners& corner, double scale) {
+    static constexpr PlaceWeights<FINER> WEIGHTS;
+    constexpr std::size_t COUNT = PlaceWeights<FINER>::COUNT;
+    std::array<double, COUNT> squares{};
+    for (std::size_t d = 0; d < 3; ++d) {
+        std::array<double, COUNT> away{};
+        const auto add = [&away](double factor, const std::array<double, COUNT>& weights) {
+            for (std::size_t p = 0; p < COUNT; ++p) away[p] += factor * weights[p];
+        };
+        for (std::size_t c = 0; c < 3; ++c) {
+            add(corner[c]->away[d], WEIGHTS.value[c]);
+            for (std::size_t k = 0; k < 3; ++k)
+                add(-scale * corner[c]->bends.value[d][k], WEIGHTS.bend[k][c]);
+        }
+        for (std::size_t p = 0; p < COUNT; ++p) squares[p] += away[p] * away[p];
+    }
+    double most = 0.0;
+    for (const double square : squares) most = std::max(most, square);
+    return most;
+}
+
 /// One cell after the other.
 class Cells {
   public:
-    Cells(std::size_t n, const FourthParts& rho, const TriangleFrame& frame, std::size_t finer,
+    Cells(std::size_t n, const FourthParts& rho, const TriangleFrame& frame, CellPlaces places,
           bool with_slope)
         : scale_(1.0 / static_cast<double>(n)),
           rho_(rho),
           frame_(frame),
-          finer_(finer),
+          places_(places),
           with_slope_(with_slope) {}
 
     /// direction: -1 where its sides run against those of the triangle.
@@ -30,13 +83,10 @@ class Cells {
         for (BySide& along : more)
             for (double& part : along) part *= scale_ * scale_;
         for (const PlaceJet* there : corner) join(bends, there->bends, more);
-        if (finer_ > 0) {
-            const double part = scale_ * scale_ / static_cast<double>(finer_ * finer_);
-            const double between = size_from(bends, frame_).whole * part;
-            whole_ = std::max(whole_, farthest(corner) + between);
-        } else {
+        if (places_ == CellPlaces::NONE)
             whole_ = intervals::INFINITE;
-        }
+        else
+            whole_ = std::max(whole_, farthest(corner, size_from(bends, frame_).whole));
         for (std::size_t k = 0; k < 3 && with_slope_; ++k)
             slope_[k] = std::max(slope_[k], steepest(corner, k, direction));
         take_larger(bends_, bends);
@@ -52,41 +102,28 @@ class Cells {
     }
 
   private:
-    [[nodiscard]] double farthest(const CellCorners& corner) const;
+    [[nodiscard]] double farthest(const CellCorners& corner, double rises) const;
     [[nodiscard]] double steepest(const CellCorners& corner, std::size_t k, double direction) const;
 
     double scale_;
     const FourthParts& rho_;
     const TriangleFrame& frame_;
-    std::size_t finer_;
+    CellPlaces places_;
     bool with_slope_;
     SideBends bends_;
     double whole_ = 0.0;
     BySide slope_{};
 };
 
-/// |R - L| at places of the cell.
-double Cells::farthest(const CellCorners& corner) const {
+/// |R - L| at places of the cell, and what it rises by between them; rises: by how much over the
+/// whole triangle, from one corner of a cell to the next.
+double Cells::farthest(const CellCorners& corner, double rises) const {
+    constexpr std::size_t FEW = 4, MANY = 6;  // along a side
     const double square = scale_ * scale_;
-    double most = 0.0;
-    for_grid(finer_, [&](const Barycentric& l) {
-        double squares = 0.0;
-        for (std::size_t d = 0; d < 3; ++d) {
-            double away = 0.0, bent = 0.0;
-            for (std::size_t k = 0; k < 3; ++k) {
-                // g_k at (x + u_i + u_j) / 3, i and j the ends of side k
-                const std::size_t i = k, j = (k + 1) % 3, m = (k + 2) % 3;
-                const double g = (l[i] + 1.0) * corner[i]->bends.value[d][k] +
-                                 (l[j] + 1.0) * corner[j]->bends.value[d][k] +
-                                 l[m] * corner[m]->bends.value[d][k];
-                bent += l[i] * l[j] * g;
-                away += l[k] * corner[k]->away[d];
-            }
-            away -= bent * square / 6.0;
-            squares += away * away;
-        }
-        most = std::max(most, squares);
-    });
+    const bool is_few = places_ == CellPlaces::FEW;
+    const double finer = static_cast<double>(is_few ? FEW : MANY);
+    const double most = is_few ? largest_square<FEW>(corner, square / 6.0)
+                               : largest_square<MANY>(corner, square / 6.0);
     double off = 0.0, size = 0.0, away = 0.0;
     for (std::size_t d = 0; d < 3; ++d) {
         double part = 0.0;
@@ -105,7 +142,7 @@ double Cells::farthest(const CellCorners& corner) const {
         for (const double x : there->away) size = std::max(size, std::abs(x));
     }
     return (std::sqrt(most) + std::sqrt(off) * square / 6.0) * (1.0 + 4.0 * frame_.tilt) + away +
-           CELL_ROUNDING * size;
+           CELL_ROUNDING * size + rises * square / (finer * finer);
 }
 
 /// The largest |D|, D = R'(e_k) - L'(e_k): within half of sum l_i l_j R'''(e_k, e_ij, e_ij) / n^2 of
@@ -163,9 +200,9 @@ SideBends averaged_bends(const CellCorners& corner, const FourthParts& rho) {
 }
 
 BoundsOfCells bounds_of_cells(std::span<const PlaceJet> places, std::size_t n,
-                              const FourthParts& rho, const TriangleFrame& frame, std::size_t finer,
+                              const FourthParts& rho, const TriangleFrame& frame, CellPlaces within,
                               bool with_slope) {
-    Cells cells(n, rho, frame, finer, with_slope);
+    Cells cells(n, rho, frame, within, with_slope);
     const auto row = [n](std::size_t i) { return i * (n + 1) - i * (i - 1) / 2; };
     for (std::size_t i = 0; i < n; ++i)
         for (std::size_t j = 0; i + j < n; ++j) {

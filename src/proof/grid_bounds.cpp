@@ -55,14 +55,14 @@ struct Grid {
 
     /// Of its cells.
     [[nodiscard]] BoundsOfCells cells(const FourthParts& rho, bool with_slope) const {
-        constexpr std::size_t FINER = 4;
         Array<PlaceJet> places;
         const std::size_t last = points_of_grid(n) - 1;  // corners 0, 2, 1 of the triangle
         const std::array<EnclosedPoint, 3> own = {points[0][0], points[last][0], points[n][0]};
         for_grid(n, [&](const Barycentric& l) {
             places.push_back(place_jet(points[places.size()], piece, l, frame.axes, own, curved));
         });
-        return bounds_of_cells({places.data(), places.size()}, n, rho, frame, FINER, with_slope);
+        return bounds_of_cells({places.data(), places.size()}, n, rho, frame, CellPlaces::FEW,
+                               with_slope);
     }
 };
 

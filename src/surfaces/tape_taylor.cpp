@@ -18,14 +18,11 @@ constexpr double WIDER = 1.0 + 0x1p-30;  // of a hundred operations for each of 
 void run(const Instruction& step, const TapeSlots<Interval>& ranges,
          const TapeSlots<Coefficients>& series, std::size_t n) {
     std::array<Coefficients, LANES> found;
-    for (std::size_t i = 0; i < n; ++i) {
-        std::array<Operand, 3> operands;
-        for (std::size_t k = 0; k < 3; ++k) {
-            const std::int32_t slot = step.operands[k];
-            operands[k] = {ranges[slot][i], series[slot][i]};
-        }
-        found[i] = taylor::of(step, operands);
-    }
+    const auto [a, b, c] = step.operands;
+    for (std::size_t i = 0; i < n; ++i)
+        found[i] = taylor::of(step, {{{ranges[a][i], series[a][i]},
+                                      {ranges[b][i], series[b][i]},
+                                      {ranges[c][i], series[c][i]}}});
     run_outward(step, ranges, n);  // which may write what was read
     std::copy_n(found.begin(), n, series[step.target]);
 }

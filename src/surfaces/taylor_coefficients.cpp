@@ -77,22 +77,27 @@ void add_terms(const Coefficients& a, const Coefficients& b, const Sizes& size,
     for (std::size_t j = 0; j <= N; ++j) row(j, std::make_index_sequence<M + 1>());
 }
 
-/// The product of two series without their values.
-Coefficients product(const Coefficients& a, const Coefficients& b) {
+/// The product of two series without their values, up to an order; size: of b.
+template <std::size_t HIGHEST = ORDER>
+Coefficients product(const Coefficients& a, const Coefficients& b, const Sizes& size) {
     Coefficients found{};
-    const Sizes size = sizes_of(b);
     add_terms<1, 1>(a, b, size, found);
-    add_terms<1, 2>(a, b, size, found);
-    add_terms<2, 1>(a, b, size, found);
-    add_terms<1, 3>(a, b, size, found);
-    add_terms<2, 2>(a, b, size, found);
-    add_terms<3, 1>(a, b, size, found);
+    if constexpr (HIGHEST >= 3) {
+        add_terms<1, 2>(a, b, size, found);
+        add_terms<2, 1>(a, b, size, found);
+    }
+    if constexpr (HIGHEST >= 4) {
+        add_terms<1, 3>(a, b, size, found);
+        add_terms<2, 2>(a, b, size, found);
+        add_terms<3, 1>(a, b, size, found);
+    }
     return found;
 }
 
+template <std::size_t HIGHEST = ORDER>
 void add(Coefficients& a, Ball factor, const Coefficients& b) {
     const double most = std::abs(factor.mid) * (1.0 + SERIES_ROUNDING) + factor.rad;
-    for (std::size_t k = 0; k < COUNT; ++k) {
+    for (std::size_t k = 0; k < number(HIGHEST + 1, 0); ++k) {
         const double mid = std::abs(b.mid[k]);
         a.rad[k] += SERIES_ROUNDING * (std::abs(a.mid[k]) + most * mid) + factor.rad * mid +
                     most * b.rad[k];
@@ -113,7 +118,7 @@ Coefficients sum(const Coefficients& a, double sign, const Coefficients& b) {
 }
 
 Coefficients multiply(const Operand& a, const Operand& b) {
-    Coefficients found = product(a.coefficients, b.coefficients);
+    Coefficients found = product(a.coefficients, b.coefficients, sizes_of(b.coefficients));
     add(found, ball_of(a.range), b.coefficients);
     add(found, ball_of(b.range), a.coefficients);
     return not_zero(found);
@@ -124,13 +129,18 @@ using Slopes = std::array<Ball, ORDER>;
 
 constexpr Slopes UNKNOWN_SLOPES = {ANY_NUMBER, ANY_NUMBER, ANY_NUMBER, ANY_NUMBER};
 
+/// By Horner's rule; a has no value, so that what is multiplied by it n times more is wanted up to
+/// the order 4 - n alone.
 Coefficients composed(const Slopes& f, const Coefficients& a) {
+    const Sizes size = sizes_of(a);
     Coefficients found{};
-    add(found, f[3], a);
-    for (const std::size_t k : {2, 1, 0}) {
-        found = product(found, a);
-        add(found, f[k], a);
-    }
+    add<1>(found, f[3], a);
+    found = product<2>(found, a, size);
+    add<2>(found, f[2], a);
+    found = product<3>(found, a, size);
+    add<3>(found, f[1], a);
+    found = product(found, a, size);
+    add(found, f[0], a);
     return not_zero(found);
 }
 
@@ -304,10 +314,10 @@ Coefficients power_of(const Operand& a, const Operand& b) {
     if (!(a.range.lo > 0.0)) return unknown();
     const Interval range = outward::widened(
         intervals::increasing(a.range, [](double x) { return elementary::log(x); }, 0.0), 3.0);
-    const Operand log = {range, composed(of_logarithm(a.range), a.coefficients)};
-    const Operand exponent = {outward::multiply(b.range, range), multiply(b, log)};
+    const Coefficients log = composed(of_logarithm(a.range), a.coefficients);
+    const Coefficients exponent = multiply(b, {range, log});
     const Instruction exponential{Operation::EXP, 0, {0, 0, 0}, 0};
-    return composed(slopes_of(exponential, exponent.range), exponent.coefficients);
+    return composed(slopes_of(exponential, outward::multiply(b.range, range)), exponent);
 }
 
 /// The argument of x + i y: the imaginary part of its logarithm, by absolute values.
@@ -344,9 +354,8 @@ Coefficients of(const Instruction& step, const std::array<Operand, 3>& operands)
         case Operation::MULTIPLY:
             return multiply(a, b);
         case Operation::DIVIDE: {
-            const Operand inverse = {outward::reciprocal(b.range),
-                                     composed(of_power(b.range, -1.0), b.coefficients)};
-            return multiply(a, inverse);
+            const Coefficients inverse = composed(of_power(b.range, -1.0), b.coefficients);
+            return multiply(a, {outward::reciprocal(b.range), inverse});
         }
         case Operation::NEGATIVE:
             return negative(a.coefficients);

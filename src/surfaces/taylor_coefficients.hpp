@@ -28,10 +28,10 @@ struct Coefficients {
     std::array<double, COUNT> mid, rad;
 };
 
-/// Of what one instruction reads: its range, and its coefficients.
+/// Of what one instruction reads: its range, and its coefficients, which lie elsewhere.
 struct Operand {
     Interval range;
-    Coefficients coefficients;
+    const Coefficients& coefficients;
 };
 
 /// The coefficients of what an instruction makes of up to three operands.
