@@ -76,6 +76,8 @@ class Cells {
           places_(places),
           with_slope_(with_slope) {}
 
+    /// |R - L| at a corner of cells, of which all are taken before these.
+    void take_corner(const PlaceJet& there) { whole_ = std::max(whole_, away_of(there)); }
     /// direction: -1 where its sides run against those of the triangle.
     void take(const CellCorners& corner, double direction) {
         SideBends bends;
@@ -86,7 +88,7 @@ class Cells {
         if (places_ == CellPlaces::NONE)
             whole_ = intervals::INFINITE;
         else
-            whole_ = std::max(whole_, farthest(corner, size_from(bends, frame_).whole));
+            look_within(corner, size_from(bends, frame_).whole * scale_ * scale_);
         for (std::size_t k = 0; k < 3 && with_slope_; ++k)
             slope_[k] = std::max(slope_[k], steepest(corner, k, direction));
         take_larger(bends_, bends);
@@ -102,6 +104,18 @@ class Cells {
     }
 
   private:
+    /// rises: from the plane through |R - L| at its corners.
+    void look_within(const CellCorners& corner, double rises) {
+        double most = 0.0;
+        for (const PlaceJet* there : corner) most = std::max(most, away_of(*there));
+        if (most + rises <= whole_) return;
+        whole_ = std::max(whole_, farthest(corner, rises));
+    }
+    [[nodiscard]] double away_of(const PlaceJet& there) const {
+        const auto& [x, y, z] = there.away;
+        return std::sqrt(x * x + y * y + z * z) * (1.0 + 4.0 * frame_.tilt + CELL_ROUNDING) +
+               there.away_error;
+    }
     [[nodiscard]] double farthest(const CellCorners& corner, double rises) const;
     [[nodiscard]] double steepest(const CellCorners& corner, std::size_t k, double direction) const;
 
@@ -115,8 +129,7 @@ class Cells {
     BySide slope_{};
 };
 
-/// |R - L| at places of the cell, and what it rises by between them; rises: by how much over the
-/// whole triangle, from one corner of a cell to the next.
+/// |R - L| at places of the cell, and what it rises by between them, which falls with their square.
 double Cells::farthest(const CellCorners& corner, double rises) const {
     constexpr std::size_t FEW = 4, MANY = 6;  // along a side
     const double square = scale_ * scale_;
@@ -142,7 +155,7 @@ double Cells::farthest(const CellCorners& corner, double rises) const {
         for (const double x : there->away) size = std::max(size, std::abs(x));
     }
     return (std::sqrt(most) + std::sqrt(off) * square / 6.0) * (1.0 + 4.0 * frame_.tilt) + away +
-           CELL_ROUNDING * size + rises * square / (finer * finer);
+           CELL_ROUNDING * size + rises / (finer * finer);
 }
 
 /// The largest |D|, D = R'(e_k) - L'(e_k): within half of sum l_i l_j R'''(e_k, e_ij, e_ij) / n^2 of
@@ -203,6 +216,8 @@ BoundsOfCells bounds_of_cells(std::span<const PlaceJet> places, std::size_t n,
                               const FourthParts& rho, const TriangleFrame& frame, CellPlaces within,
                               bool with_slope) {
     Cells cells(n, rho, frame, within, with_slope);
+    if (within != CellPlaces::NONE)
+        for (const PlaceJet& there : places) cells.take_corner(there);
     const auto row = [n](std::size_t i) { return i * (n + 1) - i * (i - 1) / 2; };
     for (std::size_t i = 0; i < n; ++i)
         for (std::size_t j = 0; i + j < n; ++j) {

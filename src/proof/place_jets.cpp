@@ -49,6 +49,18 @@ void take_curved(PlaceJet& jet, const SpaceBends& curved, const Barycentric& l,
 
 double size_of(Point3 x) { return std::abs(x.x) + std::abs(x.y) + std::abs(x.z); }
 
+/// R'(e_k) less the side of the triangle through ``corners``.
+void take_slope(PlaceJet& found, const SecondJet& jet, const PlanePiece& piece, std::size_t k,
+                const Barycentric& l, const Directions& axes,
+                const std::array<EnclosedPoint, 3>& corners) {
+    const EnclosedPoint &from = corners[k], &to = corners[(k + 1) % 3];
+    const Point3 side = to.value - from.value;
+    const auto [slope, off] = along_side(jet, piece, k, l);
+    for (std::size_t d = 0; d < 3; ++d) found.slope[d][k] = dot(axes[d], slope - side);
+    found.slope_error[k] =
+        off + 2.0 * (from.error + to.error) + JET_ROUNDING * (size_of(side) + size_of(slope));
+}
+
 }  // namespace
 
 void join(SideBends& all, const PlaceBends& there, const FourthParts& more) {
@@ -68,25 +80,22 @@ void join(SideBends& all, const PlaceBends& there, const FourthParts& more) {
 
 PlaceJet place_jet(const SecondJet& jet, const PlanePiece& piece, const Barycentric& l,
                    const Directions& axes, const std::array<EnclosedPoint, 3>& corners,
-                   const SpaceBends& curved) {
+                   const SpaceBends& curved, bool with_slope) {
     PlaceJet found{};
     found.bends = place_bends(jet, piece, l, axes);
     Point3 flat{0.0, 0.0, 0.0};
     double error = jet[0].error, size = size_of(jet[0].value);
     for (std::size_t k = 0; k < 3; ++k) {
-        const EnclosedPoint &from = corners[k], &to = corners[(k + 1) % 3];
-        const Point3 side = to.value - from.value;
-        const auto [slope, off] = along_side(jet, piece, k, l);
-        for (std::size_t d = 0; d < 3; ++d) found.slope[d][k] = dot(axes[d], slope - side);
-        found.slope_error[k] =
-            off + 2.0 * (from.error + to.error) + JET_ROUNDING * (size_of(side) + size_of(slope));
+        const EnclosedPoint& from = corners[k];
+        if (with_slope) take_slope(found, jet, piece, k, l, axes, corners);
         flat = flat + l[k] * from.value;
         error += from.error;
         size += size_of(from.value);
     }
     for (std::size_t d = 0; d < 3; ++d) found.away[d] = dot(axes[d], jet[0].value - flat);
     found.away_error = 2.0 * error + 0x1p-50 * size;
-    take_curved(found, curved, l, axes);
+    if (std::any_of(curved.begin(), curved.end(), [](Point3 x) { return size_of(x) != 0.0; }))
+        take_curved(found, curved, l, axes);
     return found;
 }
 

@@ -83,9 +83,9 @@ struct PlaceJet {
 };
 
 /// corners: r(u_i); curved: how far the middles of the sides of a quadratic triangle are moved, which R is
-/// compared with then instead of the straight one.
+/// compared with then instead of the straight one. with_slope: else R' is left out.
 PlaceJet place_jet(const SecondJet& jet, const PlanePiece& piece, const Barycentric& l,
                    const Directions& axes, const std::array<EnclosedPoint, 3>& corners,
-                   const SpaceBends& curved);
+                   const SpaceBends& curved, bool with_slope);
 
 }  // namespace surfmesh

@@ -85,7 +85,7 @@ double slope_of(const BySide& part, const TriangleFrame& frame) {
         const double most = std::max(part[k], part[(k + 1) % 3]);
         slope = std::max(slope, cosine > 0.0 ? most / cosine : intervals::INFINITE);
     }
-    slope *= 1.0 + 0x1p-20;  // of lengths and cosines that are less exact
+    slope = slope * (1.0 + 0x1p-20) + frame.turn;  // of lengths and cosines that are less exact
     return slope <= intervals::INFINITE ? slope : intervals::INFINITE;
 }
 
@@ -167,6 +167,7 @@ TriangleFrame frame_of(const SpaceCorners& p, double corner, RimSides rims) {
     const double area = norm(n), length = norm(along_side);
     const double longest = std::max({norm(a), norm(b), norm(p[2] - p[1])});
     frame.tilt = (32.0 * 0x1p-53 * longest * longest + 8.0 * corner * longest) / area;
+    frame.turn = 4.0 * corner * longest / area;  // over the least height
     if (!(frame.tilt < TILTED)) {
         frame.tilt = ANY_WAY;
         frame.axes = {{{1.0, 0.0, 0.0}, {0.0, 1.0, 0.0}, {0.0, 0.0, 1.0}}};

@@ -1,11 +1,11 @@
 #include "proof/smooth_bounds.hpp"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <cstdint>
 
 #include "proof/cell_bounds.hpp"
+#include "proof/distinct_places.hpp"
 #include "surfaces/outward.hpp"
 
 namespace surfmesh {
@@ -34,42 +34,6 @@ constexpr TriangleBounds UNKNOWN = {.height = NONE,
                                     .slope = NONE,
                                     .cell_height = NONE,
                                     .cell_whole = NONE};
-
-/// Each place of the (u, v) plane once, though many triangles have it.
-class Places {
-  public:
-    explicit Places(std::span<const PlaneCorners> uv) : of_corner_(3 * uv.size()) {
-        const std::size_t slots = std::bit_ceil(6 * uv.size() + 1);
-        Array<std::int32_t> table(slots, -1);
-        for (std::size_t h = 0; h < 3 * uv.size(); ++h) {
-            const Point2 p = uv[h / 3][h % 3];
-            std::size_t slot = hash(p) & (slots - 1);
-            while (table[slot] >= 0 && !same(all_[table[slot]], p)) slot = (slot + 1) & (slots - 1);
-            if (table[slot] < 0) {
-                table[slot] = static_cast<std::int32_t>(all_.size());
-                all_.push_back(p);
-            }
-            of_corner_[h] = table[slot];
-        }
-    }
-    [[nodiscard]] std::span<const Point2> all() const { return {all_.data(), all_.size()}; }
-    [[nodiscard]] std::int32_t at(std::size_t t, std::size_t k) const {
-        return of_corner_[3 * t + k];
-    }
-
-  private:
-    static bool same(Point2 a, Point2 b) { return a.x == b.x && a.y == b.y; }
-    static std::uint64_t hash(Point2 p) {
-        const auto x = std::bit_cast<std::uint64_t>(p.x + 0.0);  // -0 is 0
-        const auto y = std::bit_cast<std::uint64_t>(p.y + 0.0);
-        std::uint64_t mixed = (x ^ (y << 1 | y >> 63)) * 0x9e3779b97f4a7c15U;
-        mixed ^= mixed >> 29;
-        return (mixed * 0xbf58476d1ce4e5b9U) >> 20;
-    }
-
-    Array<std::int32_t> of_corner_;
-    Array<Point2> all_;
-};
 
 /// A triangle, and three times its middle in (u, v).
 struct Member {
@@ -104,11 +68,10 @@ ParameterBox hull_of(std::span<const Member> group, const ProofRequest& asked,
     return box;
 }
 
-/// What is left of a group, the derivatives over its cell, and one of its triangles.
+/// What is left of a group, and the derivatives over its cell.
 struct Unproved {
     Group rest;
     HighMagnitudes most;
-    Member one;
 };
 
 class SmoothBounds {
@@ -121,7 +84,7 @@ class SmoothBounds {
           asked_(asked),
           out_(out),
           rho_(rho),
-          places_(asked.uv),
+          places_({asked.uv.empty() ? nullptr : asked.uv[0].data(), 3 * asked.uv.size()}),
           jets_(places_.all().size()),
           is_known_(jets_.size()),
           members_(asked.uv.size()) {}
@@ -135,6 +98,8 @@ class SmoothBounds {
     void divide(Group group);
     /// False: rho is too large, or nothing is known.
     bool look_at(std::int32_t t, const HighMagnitudes& most);
+    /// Of the triangles in (u, v), whose derivatives differ least.
+    [[nodiscard]] const Member& smallest_of(std::span<const Member> group) const;
     /// Groups that are left, where smaller cells help.
     SurfaceStatus cut_further(std::span<const Unproved> all);
 
@@ -143,7 +108,7 @@ class SmoothBounds {
     ProofRequest asked_;
     std::span<TriangleBounds> out_;
     std::span<FourthParts> rho_;
-    Places places_;
+    DistinctPlaces places_;
     Array<SecondJet> jets_;
     Array<std::uint8_t> is_known_;
     Array<Member> members_;
@@ -156,7 +121,7 @@ void SmoothBounds::prepare() {
         members_[t] = {p[0] + p[1] + p[2], static_cast<std::int32_t>(t)};
         double off = 0.0;
         for (std::size_t k = 0; k < 3 && asked_.corners_are_on_surface; ++k) {
-            const auto& [value, error] = jets_[places_.at(t, k)][0];
+            const auto& [value, error] = jets_[places_.at(3 * t + k)][0];
             const double away =
                 norm(asked_.corners[t][k] - value) * (1.0 + SMOOTH_ROUNDING) + 2.0 * error;
             off = std::max(off, away <= intervals::INFINITE ? away : intervals::INFINITE);
@@ -205,7 +170,7 @@ void SmoothBounds::divide(Group group) {
 bool SmoothBounds::look_at(std::int32_t t, const HighMagnitudes& most) {
     std::array<const SecondJet*, 3> jets{};
     for (std::size_t k = 0; k < 3; ++k) {
-        const std::int32_t place = places_.at(static_cast<std::size_t>(t), k);
+        const std::int32_t place = places_.at(3 * static_cast<std::size_t>(t) + k);
         if (is_known_[place] == 0) return false;
         jets[k] = &jets_[place];
     }
@@ -220,7 +185,7 @@ bool SmoothBounds::look_at(std::int32_t t, const HighMagnitudes& most) {
     for (std::size_t k = 0; k < 3; ++k)
         if (with_slope || !asked_.curved.empty())
             places[k] = place_jet(*jets[k], piece, AT_CORNERS[k], frame.axes, own,
-                                  asked_.curve(static_cast<std::size_t>(t)));
+                                  asked_.curve(static_cast<std::size_t>(t)), with_slope);
         else  // at corners R is L
             places[k].bends = place_bends(*jets[k], piece, AT_CORNERS[k], frame.axes);
     TriangleBounds found =
@@ -246,7 +211,7 @@ bool SmoothBounds::look_at(std::int32_t t, const HighMagnitudes& most) {
     return part <= least || (found.whole <= limit && found.slope <= asked_.slope);
 }
 
-/// Could smaller cells show less? They do for one of a group's triangles, if so.
+/// Could smaller cells show less? They do for the smallest of a group's triangles, if so.
 bool is_worth(const HighMagnitudes& all, const HighMagnitudes& one) {
     constexpr std::size_t FOURTH = 7;
     for (std::size_t n = FOURTH; n < all.size(); ++n) {
@@ -256,9 +221,21 @@ bool is_worth(const HighMagnitudes& all, const HighMagnitudes& one) {
     return false;
 }
 
+const Member& SmoothBounds::smallest_of(std::span<const Member> group) const {
+    const auto size_of = [this](const Member& member) {
+        const PlaneCorners& p = asked_.uv[static_cast<std::size_t>(member.triangle)];
+        return std::max({norm(p[1] - p[0]), norm(p[2] - p[1]), norm(p[0] - p[2])});
+    };
+    const Member* found = &group[0];
+    for (const Member& member : group)
+        if (size_of(member) < size_of(*found)) found = &member;
+    return *found;
+}
+
 SurfaceStatus SmoothBounds::cut_further(std::span<const Unproved> all) {
     Array<ParameterBox> cells;
-    for (const Unproved& left : all) cells.push_back(hull_of({&left.one, 1}, asked_, domain_));
+    for (const Unproved& left : all)
+        cells.push_back(hull_of({&smallest_of(left.rest), 1}, asked_, domain_));
     Array<HighMagnitudes> most(cells.size());
     const auto status =
         surface_.high_magnitudes({cells.data(), cells.size()}, {most.data(), most.size()});
@@ -289,8 +266,9 @@ SurfaceStatus SmoothBounds::run() {
     Array<ParameterBox> cells;
     Array<HighMagnitudes> most;
     Array<Unproved> left;
-    for (std::size_t start = 0; start < groups_.size(); start += AT_ONCE) {
-        const std::size_t count = std::min(AT_ONCE, groups_.size() - start);
+    std::size_t count = 0;
+    for (std::size_t start = 0; start < groups_.size(); start += count) {
+        count = std::min(AT_ONCE, groups_.size() - start);
         const auto group_of = [&](std::size_t k) {
             return groups_[static_cast<std::ptrdiff_t>(start + k)];
         };
@@ -304,12 +282,11 @@ SurfaceStatus SmoothBounds::run() {
         for (std::size_t k = 0; k < count; ++k) {
             const Group group = group_of(k);
             const HighMagnitudes& over = most[static_cast<std::ptrdiff_t>(k)];
-            const Member one = group[group.size() / 2];
             const auto bad = std::partition(
                 group.begin(), group.end(),
                 [&](const Member& member) { return look_at(member.triangle, over); });
             if (bad != group.end() && group.size() > 1)
-                left.push_back({Group(bad, group.end()), over, one});
+                left.push_back({Group(bad, group.end()), over});
         }
         status = cut_further({left.data(), left.size()});  // at the end of the groups
         if (status != SurfaceStatus::DONE) return status;
