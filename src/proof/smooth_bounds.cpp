@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <utility>
 
 #include "proof/cell_bounds.hpp"
 #include "proof/distinct_places.hpp"
@@ -96,12 +97,13 @@ class SmoothBounds {
     /// The triangles of a group, by their places along its longer side.
     [[nodiscard]] std::array<Group, 2> halves_of(Group group) const;
     void divide(Group group);
-    /// False: rho is too large, or nothing is known.
+    /// False: rho is too large, or nothing is known. What is known already is kept if it is better.
     bool look_at(std::int32_t t, const HighMagnitudes& most);
-    /// Of the triangles in (u, v), whose derivatives differ least.
-    [[nodiscard]] const Member& smallest_of(std::span<const Member> group) const;
+    /// The smallest triangle in (u, v) first: derivatives differ least there.
+    void put_smallest_first(Group group) const;
     /// Groups that are left, where smaller cells help.
     SurfaceStatus cut_further(std::span<const Unproved> all);
+    void cut(Group group);
 
     const FourthDerivatives& surface_;
     ParameterBox domain_;
@@ -194,9 +196,10 @@ bool SmoothBounds::look_at(std::int32_t t, const HighMagnitudes& most) {
     const double limit = asked_.limits[t] - off;
     // as rows of the grid are: corner 0, corner 2, corner 1
     const std::array<PlaceJet, 3> rows = {places[0], places[2], places[1]};
+    const CellPlaces within = found.whole <= limit ? CellPlaces::NONE : CellPlaces::MANY;
     const auto [bends, whole, steepest] =
         bounds_of_cells(rows, 1, rho, frame,
-                        found.whole <= limit ? CellPlaces::NONE : CellPlaces::MANY, with_slope);
+                        {within, asked_.curved.empty() ? limit : intervals::INFINITE}, with_slope);
     const auto [height, cell_whole] = size_from(bends, frame);
     found.cell_height = height;
     found.cell_whole = cell_whole;
@@ -221,38 +224,44 @@ bool is_worth(const HighMagnitudes& all, const HighMagnitudes& one) {
     return false;
 }
 
-const Member& SmoothBounds::smallest_of(std::span<const Member> group) const {
+void SmoothBounds::put_smallest_first(Group group) const {
     const auto size_of = [this](const Member& member) {
         const PlaneCorners& p = asked_.uv[static_cast<std::size_t>(member.triangle)];
         return std::max({norm(p[1] - p[0]), norm(p[2] - p[1]), norm(p[0] - p[2])});
     };
-    const Member* found = &group[0];
-    for (const Member& member : group)
-        if (size_of(member) < size_of(*found)) found = &member;
-    return *found;
+    for (Member& member : group.subspan(1))
+        if (size_of(member) < size_of(group[0])) std::swap(group[0], member);
+}
+
+void SmoothBounds::cut(Group group) {
+    if (group.size() == 1) {
+        groups_.push_back(group);
+        return;
+    }
+    for (const Group half : halves_of(group)) {
+        if (half.size() == 1) {
+            groups_.push_back(half);
+            continue;
+        }
+        for (const Group quarter : halves_of(half)) groups_.push_back(quarter);
+    }
 }
 
 SurfaceStatus SmoothBounds::cut_further(std::span<const Unproved> all) {
     Array<ParameterBox> cells;
-    for (const Unproved& left : all)
-        cells.push_back(hull_of({&smallest_of(left.rest), 1}, asked_, domain_));
+    for (const Unproved& left : all) {
+        put_smallest_first(left.rest);
+        cells.push_back(hull_of(left.rest.first(1), asked_, domain_));
+    }
     Array<HighMagnitudes> most(cells.size());
     const auto status =
         surface_.high_magnitudes({cells.data(), cells.size()}, {most.data(), most.size()});
     for (std::size_t k = 0; k < all.size() && status == SurfaceStatus::DONE; ++k) {
         const Group rest = all[k].rest;
-        if (!is_worth(all[k].most, most[static_cast<std::ptrdiff_t>(k)])) continue;
-        if (rest.size() == 1) {
-            groups_.push_back(rest);
-            continue;
-        }
-        for (const Group half : halves_of(rest)) {
-            if (half.size() == 1) {
-                groups_.push_back(half);
-                continue;
-            }
-            for (const Group quarter : halves_of(half)) groups_.push_back(quarter);
-        }
+        const HighMagnitudes& over_one = most[static_cast<std::ptrdiff_t>(k)];
+        if (!is_worth(all[k].most, over_one)) continue;
+        look_at(rest[0].triangle, over_one);  // there is no less of it to look at
+        if (rest.size() > 1) cut(rest.subspan(1));
     }
     return status;
 }
