@@ -84,7 +84,7 @@ class Cells {
         FourthParts more = rho_;
         for (BySide& along : more)
             for (double& part : along) part *= scale_ * scale_;
-        for (const PlaceJet* there : corner) join(bends, there->bends, more);
+        for (const PlaceJet* there : corner) join(bends, there->bends, more, with_slope_);
         if (within_.places == CellPlaces::NONE || whole_ > within_.limit)
             whole_ = intervals::INFINITE;
         else

@@ -109,9 +109,9 @@ SurfaceStatus lower_some(const FourthDerivatives& surface, const ProofRequest& a
         // of quadratic triangles this is all that is known
         const double limit =
             asked.curved.empty() ? asked.limits[t] - out[t].corner : intervals::INFINITE;
-        const BoundsOfCells cells =
-            grid.cells(rho[t], limit, asked.slope < intervals::INFINITE);
-        TriangleBounds found = bounds_from(cells.bends, frame, out[t].corner);
+        const bool with_slope = asked.slope < intervals::INFINITE;
+        const BoundsOfCells cells = grid.cells(rho[t], limit, with_slope);
+        TriangleBounds found = bounds_from(cells.bends, frame, out[t].corner, with_slope);
         found.whole = std::min(found.whole, cells.whole);
         found.slope = std::min(found.slope, cells.slope);
         const double cell = std::min(found.cell_height, out[t].cell_height);

@@ -63,18 +63,21 @@ void take_slope(PlaceJet& found, const SecondJet& jet, const PlanePiece& piece, 
 
 }  // namespace
 
-void join(SideBends& all, const PlaceBends& there, const FourthParts& more) {
-    for (std::size_t d = 0; d < 3; ++d)
+void join(SideBends& all, const PlaceBends& there, const FourthParts& more, bool with_slope) {
+    for (std::size_t k = 0; k < 3; ++k) {
+        for (std::size_t d = 0; d < 3; ++d)
+            all.by_axis[d][k] = std::max(all.by_axis[d][k], std::abs(there.value[d][k]) +
+                                                                (more[d][k] + there.error[k]));
+        const double value = there.value[2][k], off = more[2][k] + there.error[k];
+        all.up[k] = std::max(all.up[k], value + off);
+        all.down[k] = std::max(all.down[k], off - value);
+    }
+    for (std::size_t d = 0; d < 3 && with_slope; ++d)
         for (std::size_t k = 0; k < 3; ++k) {
             const std::size_t i = (k + 1) % 3, j = (k + 2) % 3;
-            const double value = there.value[d][k], off = more[d][k] + there.error[k];
-            all.by_axis[d][k] = std::max(all.by_axis[d][k], std::abs(value) + off);
             const double differ = std::abs(there.value[d][i] - there.value[d][j]);
             const double both = more[d][i] + there.error[i] + more[d][j] + there.error[j];
             all.differ[d][k] = std::max(all.differ[d][k], differ + both);
-            if (d < 2) continue;
-            all.up[k] = std::max(all.up[k], value + off);
-            all.down[k] = std::max(all.down[k], off - value);
         }
 }
 

@@ -112,7 +112,8 @@ PieceSize size_from(const SideBends& bends, const TriangleFrame& frame) {
     return {height, whole_from(size, within_plane(bends, size, frame), height)};
 }
 
-TriangleBounds bounds_from(const SideBends& bends, const TriangleFrame& frame, double corner) {
+TriangleBounds bounds_from(const SideBends& bends, const TriangleFrame& frame, double corner,
+                           bool with_slope) {
     BySide normal{}, size{}, up{}, down{};
     std::array<BySide, 3> across{}, along{};  // [side left][side]
     for (std::size_t e = 0; e < 3; ++e) {
@@ -132,7 +133,7 @@ TriangleBounds bounds_from(const SideBends& bends, const TriangleFrame& frame, d
     TriangleBounds found{};
     found.height = height_of(up, down);
     found.whole = whole_from(size, within_plane(bends, size, frame), found.height);
-    found.slope = slope_from(bends, size, frame);
+    found.slope = with_slope ? slope_from(bends, size, frame) : intervals::INFINITE;
     found.shift = 0.5 * std::max({size[0], size[1], size[2]});
     found.bend = 0.5 * std::max({normal[0], normal[1], normal[2]});
     found.corner = corner;

@@ -55,8 +55,10 @@ PieceSize size_from(const SideBends& bends, const TriangleFrame& frame);
 /// sides at an angle A it is at most the larger part over cos(A / 2).
 double slope_of(const BySide& part, const TriangleFrame& frame);
 
-/// Infinite bounds, where nothing is known, make what they bound infinite.
-TriangleBounds bounds_from(const SideBends& bends, const TriangleFrame& frame, double corner);
+/// Infinite bounds, where nothing is known, make what they bound infinite; so does with_slope=false
+/// of the slope, for which ``differ`` is asked.
+TriangleBounds bounds_from(const SideBends& bends, const TriangleFrame& frame, double corner,
+                           bool with_slope);
 
 /// Of two bounds of one triangle: a height from either, all else from that whose cells are lower.
 inline TriangleBounds lower_of(const TriangleBounds& a, const TriangleBounds& b) {

@@ -191,7 +191,7 @@ bool SmoothBounds::look_at(std::int32_t t, const HighMagnitudes& most) {
         else  // at corners R is L
             places[k].bends = place_bends(*jets[k], piece, AT_CORNERS[k], frame.axes);
     TriangleBounds found =
-        bounds_from(averaged_bends({&places[0], &places[1], &places[2]}, rho), frame, off);
+        bounds_from(averaged_bends({&places[0], &places[1], &places[2]}, rho), frame, off, false);
     if (!(found.whole < intervals::INFINITE)) return false;
     const double limit = asked_.limits[t] - off;
     // as rows of the grid are: corner 0, corner 2, corner 1

@@ -162,7 +162,7 @@ SurfaceStatus bounds_of_block(const Surface& surface, const ProofRequest& asked,
             const std::int32_t t = part.triangle;
             if (!open.empty() && open.back() == t) continue;  // its parts come together
             const double height = level == 0 ? intervals::INFINITE : out[t].height;
-            out[t] = bounds_from(block.bends[t], block.frames[t], off[t]);
+            out[t] = bounds_from(block.bends[t], block.frames[t], off[t], true);
             out[t].height = std::min(out[t].height, height);
             // a kink on a line of the cut would be missed: what has no bound at first has none
             if (level < depth && out[t].whole < intervals::INFINITE &&
