@@ -68,7 +68,7 @@ double largest_square(const CellCorners& corner, double scale) {
 /// One cell after the other.
 class Cells {
   public:
-    Cells(std::size_t n, const FourthParts& rho, const TriangleFrame& frame, WithinCells within,
+    Cells(std::size_t n, const FourthParts& rho, const TriangleFrame& frame, CellPlaces within,
           bool with_slope)
         : scale_(1.0 / static_cast<double>(n)),
           rho_(rho),
@@ -85,7 +85,7 @@ class Cells {
         for (BySide& along : more)
             for (double& part : along) part *= scale_ * scale_;
         for (const PlaceJet* there : corner) join(bends, there->bends, more, with_slope_);
-        if (within_.places == CellPlaces::NONE || whole_ > within_.limit)
+        if (within_ == CellPlaces::NONE)
             whole_ = intervals::INFINITE;
         else
             look_within(corner, size_from(bends, frame_).whole * scale_ * scale_);
@@ -122,7 +122,7 @@ class Cells {
     double scale_;
     const FourthParts& rho_;
     const TriangleFrame& frame_;
-    WithinCells within_;
+    CellPlaces within_;
     bool with_slope_;
     SideBends bends_;
     double whole_ = 0.0;
@@ -131,8 +131,12 @@ class Cells {
 
 /// |R - L| at places of the cell, and what it rises by between them, which falls with their square.
 double Cells::farthest(const CellCorners& corner, double rises) const {
-    constexpr std::size_t LEAST = 3, FEW = 4, MANY = 6;  // along a side
+    constexpr std::size_t FEW = 4, MANY = 6;  // along a side
     const double square = scale_ * scale_, scale = square / 6.0;
+    const bool is_few = within_ == CellPlaces::FEW;
+    const double finer = static_cast<double>(is_few ? FEW : MANY);
+    const double most =
+        is_few ? largest_square<FEW>(corner, scale) : largest_square<MANY>(corner, scale);
     double off = 0.0, size = 0.0, away = 0.0;
     for (std::size_t d = 0; d < 3; ++d) {
         double part = 0.0;
@@ -150,17 +154,8 @@ double Cells::farthest(const CellCorners& corner, double rises) const {
         away = std::max(away, there->away_error);
         for (const double x : there->away) size = std::max(size, std::abs(x));
     }
-    const auto at_places = [&](double most) {
-        return (std::sqrt(most) + std::sqrt(off) * scale) * (1.0 + 4.0 * frame_.tilt) + away +
-               CELL_ROUNDING * size;
-    };
-    if (!(at_places(largest_square<LEAST>(corner, scale)) <= within_.limit))
-        return intervals::INFINITE;
-    const bool is_few = within_.places == CellPlaces::FEW;
-    const double finer = static_cast<double>(is_few ? FEW : MANY);
-    return at_places(is_few ? largest_square<FEW>(corner, scale)
-                            : largest_square<MANY>(corner, scale)) +
-           rises / (finer * finer);
+    return (std::sqrt(most) + std::sqrt(off) * scale) * (1.0 + 4.0 * frame_.tilt) + away +
+           CELL_ROUNDING * size + rises / (finer * finer);
 }
 
 /// The largest |D|, D = R'(e_k) - L'(e_k): within half of sum l_i l_j R'''(e_k, e_ij, e_ij) / n^2 of
@@ -218,10 +213,10 @@ SideBends averaged_bends(const CellCorners& corner, const FourthParts& rho) {
 }
 
 BoundsOfCells bounds_of_cells(std::span<const PlaceJet> places, std::size_t n,
-                              const FourthParts& rho, const TriangleFrame& frame, WithinCells within,
+                              const FourthParts& rho, const TriangleFrame& frame, CellPlaces within,
                               bool with_slope) {
     Cells cells(n, rho, frame, within, with_slope);
-    if (within.places != CellPlaces::NONE)
+    if (within != CellPlaces::NONE)
         for (const PlaceJet& there : places) cells.take_corner(there);
     const auto row = [n](std::size_t i) { return i * (n + 1) - i * (i - 1) / 2; };
     for (std::size_t i = 0; i < n; ++i)

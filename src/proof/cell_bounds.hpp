@@ -31,15 +31,9 @@ struct BoundsOfCells {
 /// Where |R - L| is looked at within a cell: nowhere, which leaves it infinite, or at a grid of places.
 enum class CellPlaces { NONE, FEW, MANY };
 
-/// Once |R - L| is seen to be beyond the limit, it is left infinite too.
-struct WithinCells {
-    CellPlaces places;
-    double limit;
-};
-
 /// places: of the grid with n cells along a side. with_slope: else it is left infinite.
 BoundsOfCells bounds_of_cells(std::span<const PlaceJet> places, std::size_t n,
-                              const FourthParts& rho, const TriangleFrame& frame, WithinCells within,
+                              const FourthParts& rho, const TriangleFrame& frame, CellPlaces within,
                               bool with_slope);
 
 }  // namespace surfmesh

@@ -55,7 +55,7 @@ struct Grid {
     }
 
     /// Of its cells.
-    [[nodiscard]] BoundsOfCells cells(const FourthParts& rho, double limit, bool with_slope) const {
+    [[nodiscard]] BoundsOfCells cells(const FourthParts& rho, bool with_slope) const {
         Array<PlaceJet> places;
         places.reserve(points.size());
         const std::size_t last = points_of_grid(n) - 1;  // corners 0, 2, 1 of the triangle
@@ -64,8 +64,8 @@ struct Grid {
             places.push_back(
                 place_jet(points[places.size()], piece, l, frame.axes, own, curved, with_slope));
         });
-        return bounds_of_cells({places.data(), places.size()}, n, rho, frame,
-                               {CellPlaces::FEW, limit}, with_slope);
+        return bounds_of_cells({places.data(), places.size()}, n, rho, frame, CellPlaces::FEW,
+                               with_slope);
     }
 };
 
@@ -105,12 +105,10 @@ SurfaceStatus lower_some(const FourthDerivatives& surface, const ProofRequest& a
         if (!std::all_of(points.begin(), points.end(), is_known)) continue;
         const TriangleFrame frame = frame_of(asked.corners[t], out[t].corner, asked.rims[t]);
         const PlanePiece piece = asked.piece(t);
-        const Grid grid{{points.data(), points.size()}, asked.corners[t], piece, frame, asked.curve(t), side};
-        // of quadratic triangles this is all that is known
-        const double limit =
-            asked.curved.empty() ? asked.limits[t] - out[t].corner : intervals::INFINITE;
+        const Grid grid{
+            {points.data(), points.size()}, asked.corners[t], piece, frame, asked.curve(t), side};
         const bool with_slope = asked.slope < intervals::INFINITE;
-        const BoundsOfCells cells = grid.cells(rho[t], limit, with_slope);
+        const BoundsOfCells cells = grid.cells(rho[t], with_slope);
         TriangleBounds found = bounds_from(cells.bends, frame, out[t].corner, with_slope);
         found.whole = std::min(found.whole, cells.whole);
         found.slope = std::min(found.slope, cells.slope);

@@ -66,8 +66,8 @@ void take_slope(PlaceJet& found, const SecondJet& jet, const PlanePiece& piece, 
 void join(SideBends& all, const PlaceBends& there, const FourthParts& more, bool with_slope) {
     for (std::size_t k = 0; k < 3; ++k) {
         for (std::size_t d = 0; d < 3; ++d)
-            all.by_axis[d][k] = std::max(all.by_axis[d][k], std::abs(there.value[d][k]) +
-                                                                (more[d][k] + there.error[k]));
+            all.by_axis[d][k] = std::max(
+                all.by_axis[d][k], std::abs(there.value[d][k]) + (more[d][k] + there.error[k]));
         const double value = there.value[2][k], off = more[2][k] + there.error[k];
         all.up[k] = std::max(all.up[k], value + off);
         all.down[k] = std::max(all.down[k], off - value);

@@ -41,7 +41,8 @@ inline PlaceBends place_bends(const SecondJet& jet, const PlanePiece& piece, con
     std::array<double, 5> off{};
     for (std::size_t n = 0; n < 5; ++n) {
         const auto& [value, error] = jet[n + 1];
-        off[n] = 2.0 * error + ROUNDING * (std::abs(value.x) + std::abs(value.y) + std::abs(value.z));
+        off[n] =
+            2.0 * error + ROUNDING * (std::abs(value.x) + std::abs(value.y) + std::abs(value.z));
     }
     PlaceBends found{};
     for (std::size_t k = 0; k < 3; ++k) {

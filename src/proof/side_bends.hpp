@@ -18,8 +18,8 @@ struct TriangleFrame {
     Directions axes;
     std::array<Point2, 3> sides;  // directions of the sides in the first two axes, unit
     std::array<double, 3> heights, lengths;
-    double tilt;   // by how much the axes may be wrong
-    double turn;   // how much faster |r - L| may change as corners are off
+    double tilt;  // by how much the axes may be wrong
+    double turn;  // how much faster |r - L| may change as corners are off
 };
 
 TriangleFrame frame_of(const SpaceCorners& p, double corner, RimSides rims);

@@ -99,8 +99,6 @@ class SmoothBounds {
     void divide(Group group);
     /// False: rho is too large, or nothing is known. What is known already is kept if it is better.
     bool look_at(std::int32_t t, const HighMagnitudes& most);
-    /// The smallest triangle in (u, v) first: derivatives differ least there.
-    void put_smallest_first(Group group) const;
     /// Groups that are left, where smaller cells help.
     SurfaceStatus cut_further(std::span<const Unproved> all);
     void cut(Group group);
@@ -197,9 +195,7 @@ bool SmoothBounds::look_at(std::int32_t t, const HighMagnitudes& most) {
     // as rows of the grid are: corner 0, corner 2, corner 1
     const std::array<PlaceJet, 3> rows = {places[0], places[2], places[1]};
     const CellPlaces within = found.whole <= limit ? CellPlaces::NONE : CellPlaces::MANY;
-    const auto [bends, whole, steepest] =
-        bounds_of_cells(rows, 1, rho, frame,
-                        {within, asked_.curved.empty() ? limit : intervals::INFINITE}, with_slope);
+    const auto [bends, whole, steepest] = bounds_of_cells(rows, 1, rho, frame, within, with_slope);
     const auto [height, cell_whole] = size_from(bends, frame);
     found.cell_height = height;
     found.cell_whole = cell_whole;
@@ -214,23 +210,18 @@ bool SmoothBounds::look_at(std::int32_t t, const HighMagnitudes& most) {
     return part <= least || (found.whole <= limit && found.slope <= asked_.slope);
 }
 
-/// Could smaller cells show less? They do for the smallest of a group's triangles, if so.
+/// Could smaller cells show less? They do for one of a group's triangles, if so.
 bool is_worth(const HighMagnitudes& all, const HighMagnitudes& one) {
     constexpr std::size_t FOURTH = 7;
     for (std::size_t n = FOURTH; n < all.size(); ++n) {
         const double a = all[n].x + all[n].y + all[n].z, b = one[n].x + one[n].y + one[n].z;
-        if (!(a <= WORTH * b)) return b < NONE;
+        if (!(a <= WORTH * b)) return true;
     }
     return false;
 }
 
-void SmoothBounds::put_smallest_first(Group group) const {
-    const auto size_of = [this](const Member& member) {
-        const PlaneCorners& p = asked_.uv[static_cast<std::size_t>(member.triangle)];
-        return std::max({norm(p[1] - p[0]), norm(p[2] - p[1]), norm(p[0] - p[2])});
-    };
-    for (Member& member : group.subspan(1))
-        if (size_of(member) < size_of(group[0])) std::swap(group[0], member);
+bool is_finite(const HighMagnitudes& most) {
+    return std::all_of(most.begin(), most.end(), [](Point3 x) { return x.x + x.y + x.z < NONE; });
 }
 
 void SmoothBounds::cut(Group group) {
@@ -250,20 +241,26 @@ void SmoothBounds::cut(Group group) {
 SurfaceStatus SmoothBounds::cut_further(std::span<const Unproved> all) {
     Array<ParameterBox> cells;
     for (const Unproved& left : all) {
-        put_smallest_first(left.rest);
+        std::swap(left.rest[0], left.rest[left.rest.size() / 2]);
         cells.push_back(hull_of(left.rest.first(1), asked_, domain_));
     }
     Array<HighMagnitudes> most(cells.size());
     const auto status =
         surface_.high_magnitudes({cells.data(), cells.size()}, {most.data(), most.size()});
-    for (std::size_t k = 0; k < all.size() && status == SurfaceStatus::DONE; ++k) {
-        const Group rest = all[k].rest;
+    if (status != SurfaceStatus::DONE) return status;
+    Array<Unproved> others;
+    for (std::size_t k = 0; k < all.size(); ++k) {
+        const Group rest = all[k].rest.subspan(1);
         const HighMagnitudes& over_one = most[static_cast<std::ptrdiff_t>(k)];
+        if (!is_finite(over_one)) {  // which says nothing of the others
+            if (!rest.empty()) others.push_back({rest, all[k].most});
+            continue;
+        }
         if (!is_worth(all[k].most, over_one)) continue;
-        look_at(rest[0].triangle, over_one);  // there is no less of it to look at
-        if (rest.size() > 1) cut(rest.subspan(1));
+        look_at(all[k].rest[0].triangle, over_one);  // there is no less of it to look at
+        if (!rest.empty()) cut(rest);
     }
-    return status;
+    return others.empty() ? status : cut_further({others.data(), others.size()});
 }
 
 SurfaceStatus SmoothBounds::run() {
@@ -291,9 +288,9 @@ SurfaceStatus SmoothBounds::run() {
         for (std::size_t k = 0; k < count; ++k) {
             const Group group = group_of(k);
             const HighMagnitudes& over = most[static_cast<std::ptrdiff_t>(k)];
-            const auto bad = std::partition(
-                group.begin(), group.end(),
-                [&](const Member& member) { return look_at(member.triangle, over); });
+            const auto bad = std::partition(group.begin(), group.end(), [&](const Member& member) {
+                return look_at(member.triangle, over);
+            });
             if (bad != group.end() && group.size() > 1)
                 left.push_back({Group(bad, group.end()), over});
         }

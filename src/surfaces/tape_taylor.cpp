@@ -24,9 +24,7 @@ Array<Variables> variables_of(const Tape& tape) {
     Array<Variables> found;
     for (const Instruction& step : tape.instructions()) {
         const std::uint8_t first = of_slot[step.operands[0]];
-        found.push_back(first == U   ? Variables::U
-                        : first == V ? Variables::V
-                                     : Variables::BOTH);
+        found.push_back(first == U ? Variables::U : first == V ? Variables::V : Variables::BOTH);
         std::uint8_t all = NOTHING;
         const int count = operation_kinds()[static_cast<std::size_t>(step.operation)].operands;
         for (int k = 0; k < count; ++k) all |= of_slot[step.operands[static_cast<std::size_t>(k)]];

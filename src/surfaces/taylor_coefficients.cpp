@@ -72,8 +72,7 @@ void add_terms(const Coefficients& a, const Coefficients& b, const Sizes& size,
     const auto term = [&](std::size_t j, std::size_t i) {
         const double mid = a.mid[FROM + j], rad = a.rad[FROM + j];
         found.mid[INTO + j + i] += mid * b.mid[OTHER + i];
-        found.rad[INTO + j + i] +=
-            std::abs(mid) * size.rad[OTHER + i] + rad * size.both[OTHER + i];
+        found.rad[INTO + j + i] += std::abs(mid) * size.rad[OTHER + i] + rad * size.both[OTHER + i];
     };
     const auto row = [&]<std::size_t... I>(std::size_t j, std::index_sequence<I...>) {
         (term(j, I), ...);
