@@ -12,31 +12,83 @@ double rise(const BySide& least) {
     return 0.5 * largest_on_simplex(-least[0], -least[1], -least[2]);
 }
 
+/// What R - L is made of at places of a cell: values at its corners, and g_k there by side and corner,
+///
+///     l_k,    l_i l_j (l_c + [c is i or j])        with i and j the ends of side k.
+template <std::size_t FINER>
+struct PlaceWeights {
+    static constexpr std::size_t COUNT = (FINER + 1) * (FINER + 2) / 2;
+    std::array<std::array<double, COUNT>, 3> value{};
+    std::array<std::array<std::array<double, COUNT>, 3>, 3> bend{};  // [side][corner]
+
+    constexpr PlaceWeights() {
+        std::size_t place = 0;
+        for (std::size_t a = 0; a <= FINER; ++a)
+            for (std::size_t b = 0; a + b <= FINER; ++b, ++place) {
+                const std::array<std::size_t, 3> parts = {FINER - a - b, a, b};
+                for (std::size_t k = 0; k < 3; ++k) {
+                    const std::size_t i = k, j = (k + 1) % 3;
+                    value[k][place] = part(parts[k]);
+                    for (std::size_t c = 0; c < 3; ++c)
+                        bend[k][c][place] = part(parts[i]) * part(parts[j]) *
+                                            (part(parts[c]) + (c == i || c == j ? 1.0 : 0.0));
+                }
+            }
+    }
+
+  private:
+    static constexpr double part(std::size_t n) {
+        return static_cast<double>(n) / static_cast<double>(FINER);
+    }
+};
+
+/// The largest square of R - L at places of a cell; scale: of g_k.
+template <std::size_t FINER>
+double largest_square(const CellCorners& corner, double scale) {
+    static constexpr PlaceWeights<FINER> WEIGHTS;
+    constexpr std::size_t COUNT = PlaceWeights<FINER>::COUNT;
+    std::array<double, COUNT> squares{};
+    for (std::size_t d = 0; d < 3; ++d) {
+        std::array<double, COUNT> away{};
+        const auto add = [&away](double factor, const std::array<double, COUNT>& weights) {
+            for (std::size_t p = 0; p < COUNT; ++p) away[p] += factor * weights[p];
+        };
+        for (std::size_t c = 0; c < 3; ++c) {
+            add(corner[c]->away[d], WEIGHTS.value[c]);
+            for (std::size_t k = 0; k < 3; ++k)
+                add(-scale * corner[c]->bends.value[d][k], WEIGHTS.bend[k][c]);
+        }
+        for (std::size_t p = 0; p < COUNT; ++p) squares[p] += away[p] * away[p];
+    }
+    double most = 0.0;
+    for (const double square : squares) most = std::max(most, square);
+    return most;
+}
+
 /// One cell after the other.
 class Cells {
   public:
-    Cells(std::size_t n, const FourthParts& rho, const TriangleFrame& frame, std::size_t finer,
+    Cells(std::size_t n, const FourthParts& rho, const TriangleFrame& frame, CellPlaces within,
           bool with_slope)
         : scale_(1.0 / static_cast<double>(n)),
           rho_(rho),
           frame_(frame),
-          finer_(finer),
+          within_(within),
           with_slope_(with_slope) {}
 
+    /// |R - L| at a corner of cells, of which all are taken before these.
+    void take_corner(const PlaceJet& there) { whole_ = std::max(whole_, away_of(there)); }
     /// direction: -1 where its sides run against those of the triangle.
     void take(const CellCorners& corner, double direction) {
         SideBends bends;
         FourthParts more = rho_;
         for (BySide& along : more)
             for (double& part : along) part *= scale_ * scale_;
-        for (const PlaceJet* there : corner) join(bends, there->bends, more);
-        if (finer_ > 0) {
-            const double part = scale_ * scale_ / static_cast<double>(finer_ * finer_);
-            const double between = size_from(bends, frame_).whole * part;
-            whole_ = std::max(whole_, farthest(corner) + between);
-        } else {
+        for (const PlaceJet* there : corner) join(bends, there->bends, more, with_slope_);
+        if (within_ == CellPlaces::NONE)
             whole_ = intervals::INFINITE;
-        }
+        else
+            look_within(corner, size_from(bends, frame_).whole * scale_ * scale_);
         for (std::size_t k = 0; k < 3 && with_slope_; ++k)
             slope_[k] = std::max(slope_[k], steepest(corner, k, direction));
         take_larger(bends_, bends);
@@ -52,41 +104,39 @@ class Cells {
     }
 
   private:
-    [[nodiscard]] double farthest(const CellCorners& corner) const;
+    /// rises: from the plane through |R - L| at its corners.
+    void look_within(const CellCorners& corner, double rises) {
+        double most = 0.0;
+        for (const PlaceJet* there : corner) most = std::max(most, away_of(*there));
+        if (most + rises <= whole_) return;
+        whole_ = std::max(whole_, farthest(corner, rises));
+    }
+    [[nodiscard]] double away_of(const PlaceJet& there) const {
+        const auto& [x, y, z] = there.away;
+        return std::sqrt(x * x + y * y + z * z) * (1.0 + 4.0 * frame_.tilt + CELL_ROUNDING) +
+               there.away_error;
+    }
+    [[nodiscard]] double farthest(const CellCorners& corner, double rises) const;
     [[nodiscard]] double steepest(const CellCorners& corner, std::size_t k, double direction) const;
 
     double scale_;
     const FourthParts& rho_;
     const TriangleFrame& frame_;
-    std::size_t finer_;
+    CellPlaces within_;
     bool with_slope_;
     SideBends bends_;
     double whole_ = 0.0;
     BySide slope_{};
 };
 
-/// |R - L| at places of the cell.
-double Cells::farthest(const CellCorners& corner) const {
-    const double square = scale_ * scale_;
-    double most = 0.0;
-    for_grid(finer_, [&](const Barycentric& l) {
-        double squares = 0.0;
-        for (std::size_t d = 0; d < 3; ++d) {
-            double away = 0.0, bent = 0.0;
-            for (std::size_t k = 0; k < 3; ++k) {
-                // g_k at (x + u_i + u_j) / 3, i and j the ends of side k
-                const std::size_t i = k, j = (k + 1) % 3, m = (k + 2) % 3;
-                const double g = (l[i] + 1.0) * corner[i]->bends.value[d][k] +
-                                 (l[j] + 1.0) * corner[j]->bends.value[d][k] +
-                                 l[m] * corner[m]->bends.value[d][k];
-                bent += l[i] * l[j] * g;
-                away += l[k] * corner[k]->away[d];
-            }
-            away -= bent * square / 6.0;
-            squares += away * away;
-        }
-        most = std::max(most, squares);
-    });
+/// |R - L| at places of the cell, and what it rises by between them, which falls with their square.
+double Cells::farthest(const CellCorners& corner, double rises) const {
+    constexpr std::size_t FEW = 4, MANY = 6;  // along a side
+    const double square = scale_ * scale_, scale = square / 6.0;
+    const bool is_few = within_ == CellPlaces::FEW;
+    const double finer = static_cast<double>(is_few ? FEW : MANY);
+    const double most =
+        is_few ? largest_square<FEW>(corner, scale) : largest_square<MANY>(corner, scale);
     double off = 0.0, size = 0.0, away = 0.0;
     for (std::size_t d = 0; d < 3; ++d) {
         double part = 0.0;
@@ -104,8 +154,8 @@ double Cells::farthest(const CellCorners& corner) const {
         away = std::max(away, there->away_error);
         for (const double x : there->away) size = std::max(size, std::abs(x));
     }
-    return (std::sqrt(most) + std::sqrt(off) * square / 6.0) * (1.0 + 4.0 * frame_.tilt) + away +
-           CELL_ROUNDING * size;
+    return (std::sqrt(most) + std::sqrt(off) * scale) * (1.0 + 4.0 * frame_.tilt) + away +
+           CELL_ROUNDING * size + rises / (finer * finer);
 }
 
 /// The largest |D|, D = R'(e_k) - L'(e_k): within half of sum l_i l_j R'''(e_k, e_ij, e_ij) / n^2 of
@@ -163,9 +213,11 @@ SideBends averaged_bends(const CellCorners& corner, const FourthParts& rho) {
 }
 
 BoundsOfCells bounds_of_cells(std::span<const PlaceJet> places, std::size_t n,
-                              const FourthParts& rho, const TriangleFrame& frame, std::size_t finer,
+                              const FourthParts& rho, const TriangleFrame& frame, CellPlaces within,
                               bool with_slope) {
-    Cells cells(n, rho, frame, finer, with_slope);
+    Cells cells(n, rho, frame, within, with_slope);
+    if (within != CellPlaces::NONE)
+        for (const PlaceJet& there : places) cells.take_corner(there);
     const auto row = [n](std::size_t i) { return i * (n + 1) - i * (i - 1) / 2; };
     for (std::size_t i = 0; i < n; ++i)
         for (std::size_t j = 0; i + j < n; ++j) {

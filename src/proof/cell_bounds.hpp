@@ -28,10 +28,12 @@ struct BoundsOfCells {
     double slope;     // the largest |(R' - L')(w)| for unit w
 };
 
-/// places: of the grid with n cells along a side; within each cell |R - L| is looked at in
-/// ``finer``^2 more; 0: that is left infinite. with_slope: else it is left infinite.
+/// Where |R - L| is looked at within a cell: nowhere, which leaves it infinite, or at a grid of places.
+enum class CellPlaces { NONE, FEW, MANY };
+
+/// places: of the grid with n cells along a side. with_slope: else it is left infinite.
 BoundsOfCells bounds_of_cells(std::span<const PlaceJet> places, std::size_t n,
-                              const FourthParts& rho, const TriangleFrame& frame, std::size_t finer,
+                              const FourthParts& rho, const TriangleFrame& frame, CellPlaces within,
                               bool with_slope);
 
 }  // namespace surfmesh

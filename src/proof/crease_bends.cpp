@@ -35,8 +35,8 @@ SideBends with_creases(const SideBends& smooth, const CreaseJumps& jumps, const 
 TriangleBounds bounds_with_creases(const SideBends& smooth, const CreaseJumps& jumps,
                                    const PlaneCorners& uv, const TriangleFrame& frame,
                                    double corner) {
-    if (!jumps.any()) return bounds_from(smooth, frame, corner);
-    TriangleBounds found = bounds_from(with_creases(smooth, jumps, uv, 1.0), frame, corner);
+    if (!jumps.any()) return bounds_from(smooth, frame, corner, true);
+    TriangleBounds found = bounds_from(with_creases(smooth, jumps, uv, 1.0), frame, corner, true);
     const PieceSize cell = size_from(with_creases(smooth, jumps, uv, FINEST_CELLS), frame);
     found.cell_height = cell.height;
     found.cell_whole = cell.whole;

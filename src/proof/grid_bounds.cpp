@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "proof/cell_bounds.hpp"
+#include "proof/distinct_places.hpp"
 #include "proof/triangle_grid.hpp"
 
 namespace surfmesh {
@@ -11,7 +12,7 @@ namespace {
 
 constexpr double GRID_ROUNDING = 0x1p-45;  // relative, more than that of any sum here
 constexpr double FOR_NEIGHBOURS = 0.99;    // of the limit, as they add a little
-constexpr std::size_t GRID_BLOCK = 256;    // triangles at a time
+constexpr std::size_t GRID_BLOCK = 1024;   // triangles at a time
 constexpr std::array<std::size_t, 2> SIDES = {4, 8}, CUTS = {2, 4};
 
 /// The largest height of points over a triangle's plane, on the safe side.
@@ -55,14 +56,16 @@ struct Grid {
 
     /// Of its cells.
     [[nodiscard]] BoundsOfCells cells(const FourthParts& rho, bool with_slope) const {
-        constexpr std::size_t FINER = 4;
         Array<PlaceJet> places;
+        places.reserve(points.size());
         const std::size_t last = points_of_grid(n) - 1;  // corners 0, 2, 1 of the triangle
         const std::array<EnclosedPoint, 3> own = {points[0][0], points[last][0], points[n][0]};
         for_grid(n, [&](const Barycentric& l) {
-            places.push_back(place_jet(points[places.size()], piece, l, frame.axes, own, curved));
+            places.push_back(
+                place_jet(points[places.size()], piece, l, frame.axes, own, curved, with_slope));
         });
-        return bounds_of_cells({places.data(), places.size()}, n, rho, frame, FINER, with_slope);
+        return bounds_of_cells({places.data(), places.size()}, n, rho, frame, CellPlaces::FEW,
+                               with_slope);
     }
 };
 
@@ -91,19 +94,22 @@ SurfaceStatus lower_some(const FourthDerivatives& surface, const ProofRequest& a
                          Array<std::int32_t>& left) {
     const double n = static_cast<double>(side), scale = 1.0 / (n * n);
     const Array<Point2> uv = places_of(asked, which, side);
-    Array<SecondJet> jets(uv.size());
-    const auto status = surface.enclose_second({uv.data(), uv.size()}, {jets.data(), jets.size()});
+    const DistinctPlaces places({uv.data(), uv.size()});
+    Array<SecondJet> jets(places.all().size()), points(points_of_grid(side));
+    const auto status = surface.enclose_second(places.all(), {jets.data(), jets.size()});
     if (status != SurfaceStatus::DONE) return status;
     for (std::size_t k = 0; k < which.size(); ++k) {
         const auto t = static_cast<std::size_t>(which[k]);
-        const std::span<const SecondJet> points{jets.data() + k * points_of_grid(side),
-                                                points_of_grid(side)};
+        for (std::size_t i = 0; i < points.size(); ++i)
+            points.begin()[i] = jets[places.at(k * points.size() + i)];
         if (!std::all_of(points.begin(), points.end(), is_known)) continue;
         const TriangleFrame frame = frame_of(asked.corners[t], out[t].corner, asked.rims[t]);
         const PlanePiece piece = asked.piece(t);
-        const Grid grid{points, asked.corners[t], piece, frame, asked.curve(t), side};
-        const BoundsOfCells cells = grid.cells(rho[t], asked.slope < intervals::INFINITE);
-        TriangleBounds found = bounds_from(cells.bends, frame, out[t].corner);
+        const Grid grid{
+            {points.data(), points.size()}, asked.corners[t], piece, frame, asked.curve(t), side};
+        const bool with_slope = asked.slope < intervals::INFINITE;
+        const BoundsOfCells cells = grid.cells(rho[t], with_slope);
+        TriangleBounds found = bounds_from(cells.bends, frame, out[t].corner, with_slope);
         found.whole = std::min(found.whole, cells.whole);
         found.slope = std::min(found.slope, cells.slope);
         const double cell = std::min(found.cell_height, out[t].cell_height);

@@ -49,44 +49,56 @@ void take_curved(PlaceJet& jet, const SpaceBends& curved, const Barycentric& l,
 
 double size_of(Point3 x) { return std::abs(x.x) + std::abs(x.y) + std::abs(x.z); }
 
+/// R'(e_k) less the side of the triangle through ``corners``.
+void take_slope(PlaceJet& found, const SecondJet& jet, const PlanePiece& piece, std::size_t k,
+                const Barycentric& l, const Directions& axes,
+                const std::array<EnclosedPoint, 3>& corners) {
+    const EnclosedPoint &from = corners[k], &to = corners[(k + 1) % 3];
+    const Point3 side = to.value - from.value;
+    const auto [slope, off] = along_side(jet, piece, k, l);
+    for (std::size_t d = 0; d < 3; ++d) found.slope[d][k] = dot(axes[d], slope - side);
+    found.slope_error[k] =
+        off + 2.0 * (from.error + to.error) + JET_ROUNDING * (size_of(side) + size_of(slope));
+}
+
 }  // namespace
 
-void join(SideBends& all, const PlaceBends& there, const FourthParts& more) {
-    for (std::size_t d = 0; d < 3; ++d)
+void join(SideBends& all, const PlaceBends& there, const FourthParts& more, bool with_slope) {
+    for (std::size_t k = 0; k < 3; ++k) {
+        for (std::size_t d = 0; d < 3; ++d)
+            all.by_axis[d][k] = std::max(
+                all.by_axis[d][k], std::abs(there.value[d][k]) + (more[d][k] + there.error[k]));
+        const double value = there.value[2][k], off = more[2][k] + there.error[k];
+        all.up[k] = std::max(all.up[k], value + off);
+        all.down[k] = std::max(all.down[k], off - value);
+    }
+    for (std::size_t d = 0; d < 3 && with_slope; ++d)
         for (std::size_t k = 0; k < 3; ++k) {
             const std::size_t i = (k + 1) % 3, j = (k + 2) % 3;
-            const double value = there.value[d][k], off = more[d][k] + there.error[k];
-            all.by_axis[d][k] = std::max(all.by_axis[d][k], std::abs(value) + off);
             const double differ = std::abs(there.value[d][i] - there.value[d][j]);
             const double both = more[d][i] + there.error[i] + more[d][j] + there.error[j];
             all.differ[d][k] = std::max(all.differ[d][k], differ + both);
-            if (d < 2) continue;
-            all.up[k] = std::max(all.up[k], value + off);
-            all.down[k] = std::max(all.down[k], off - value);
         }
 }
 
 PlaceJet place_jet(const SecondJet& jet, const PlanePiece& piece, const Barycentric& l,
                    const Directions& axes, const std::array<EnclosedPoint, 3>& corners,
-                   const SpaceBends& curved) {
+                   const SpaceBends& curved, bool with_slope) {
     PlaceJet found{};
     found.bends = place_bends(jet, piece, l, axes);
     Point3 flat{0.0, 0.0, 0.0};
     double error = jet[0].error, size = size_of(jet[0].value);
     for (std::size_t k = 0; k < 3; ++k) {
-        const EnclosedPoint &from = corners[k], &to = corners[(k + 1) % 3];
-        const Point3 side = to.value - from.value;
-        const auto [slope, off] = along_side(jet, piece, k, l);
-        for (std::size_t d = 0; d < 3; ++d) found.slope[d][k] = dot(axes[d], slope - side);
-        found.slope_error[k] =
-            off + 2.0 * (from.error + to.error) + JET_ROUNDING * (size_of(side) + size_of(slope));
+        const EnclosedPoint& from = corners[k];
+        if (with_slope) take_slope(found, jet, piece, k, l, axes, corners);
         flat = flat + l[k] * from.value;
         error += from.error;
         size += size_of(from.value);
     }
     for (std::size_t d = 0; d < 3; ++d) found.away[d] = dot(axes[d], jet[0].value - flat);
     found.away_error = 2.0 * error + 0x1p-50 * size;
-    take_curved(found, curved, l, axes);
+    if (std::any_of(curved.begin(), curved.end(), [](Point3 x) { return size_of(x) != 0.0; }))
+        take_curved(found, curved, l, axes);
     return found;
 }
 

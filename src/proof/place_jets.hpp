@@ -28,20 +28,6 @@ inline SideWeight weight_of(const PlanePiece& piece, std::size_t k, const Baryce
              most.y * most.y}};
 }
 
-/// R''(e, e), and how far it is off at most.
-inline EnclosedPoint bend_of(const SecondJet& jet, const SideWeight& weight) {
-    constexpr double ROUNDING = 0x1p-46;  // relative, more than that of any short sum here
-    EnclosedPoint found{{0.0, 0.0, 0.0}, 0.0};
-    for (std::size_t n = 0; n < 5; ++n) {
-        if (weight.size[n] == 0.0) continue;
-        const auto& [value, error] = jet[n + 1];
-        found.value = found.value + weight.value[n] * value;
-        const double size = std::abs(value.x) + std::abs(value.y) + std::abs(value.z);
-        found.error += weight.size[n] * (2.0 * error + ROUNDING * size);
-    }
-    return found;
-}
-
 /// R''(e, e) of three sides e along three axes, with bounds of how far they are off; what suprema
 /// over a triangle are made of.
 struct PlaceBends {
@@ -51,18 +37,31 @@ struct PlaceBends {
 
 inline PlaceBends place_bends(const SecondJet& jet, const PlanePiece& piece, const Barycentric& l,
                               const Directions& axes) {
-    constexpr double ROUNDING = 0x1p-46;
+    constexpr double ROUNDING = 0x1p-46;  // relative, more than that of any short sum here
+    std::array<double, 5> off{};
+    for (std::size_t n = 0; n < 5; ++n) {
+        const auto& [value, error] = jet[n + 1];
+        off[n] =
+            2.0 * error + ROUNDING * (std::abs(value.x) + std::abs(value.y) + std::abs(value.z));
+    }
     PlaceBends found{};
     for (std::size_t k = 0; k < 3; ++k) {
-        const auto [bend, error] = bend_of(jet, weight_of(piece, k, l));
+        const SideWeight weight = weight_of(piece, k, l);
+        Point3 bend{0.0, 0.0, 0.0};
+        double error = 0.0;
+        for (std::size_t n = 0; n < 5; ++n) {
+            bend = bend + weight.value[n] * jet[n + 1].value;
+            error += weight.size[n] * off[n];
+        }
         for (std::size_t d = 0; d < 3; ++d) found.value[d][k] = dot(axes[d], bend);
         found.error[k] = error * (1.0 + ROUNDING);
     }
     return found;
 }
 
-/// ``all`` joined with what is there; more: what may be added, by axis and side.
-void join(SideBends& all, const PlaceBends& there, const FourthParts& more);
+/// ``all`` joined with what is there; more: what may be added, by axis and side. with_slope: else
+/// differences between sides are left out.
+void join(SideBends& all, const PlaceBends& there, const FourthParts& more, bool with_slope);
 
 /// Is all of it finite?
 inline bool is_known(const SecondJet& jet) {
@@ -83,9 +82,9 @@ struct PlaceJet {
 };
 
 /// corners: r(u_i); curved: how far the middles of the sides of a quadratic triangle are moved, which R is
-/// compared with then instead of the straight one.
+/// compared with then instead of the straight one. with_slope: else R' is left out.
 PlaceJet place_jet(const SecondJet& jet, const PlanePiece& piece, const Barycentric& l,
                    const Directions& axes, const std::array<EnclosedPoint, 3>& corners,
-                   const SpaceBends& curved);
+                   const SpaceBends& curved, bool with_slope);
 
 }  // namespace surfmesh

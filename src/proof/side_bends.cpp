@@ -85,7 +85,7 @@ double slope_of(const BySide& part, const TriangleFrame& frame) {
         const double most = std::max(part[k], part[(k + 1) % 3]);
         slope = std::max(slope, cosine > 0.0 ? most / cosine : intervals::INFINITE);
     }
-    slope *= 1.0 + 0x1p-20;  // of lengths and cosines that are less exact
+    slope = slope * (1.0 + 0x1p-20) + frame.turn;  // of lengths and cosines that are less exact
     return slope <= intervals::INFINITE ? slope : intervals::INFINITE;
 }
 
@@ -112,7 +112,8 @@ PieceSize size_from(const SideBends& bends, const TriangleFrame& frame) {
     return {height, whole_from(size, within_plane(bends, size, frame), height)};
 }
 
-TriangleBounds bounds_from(const SideBends& bends, const TriangleFrame& frame, double corner) {
+TriangleBounds bounds_from(const SideBends& bends, const TriangleFrame& frame, double corner,
+                           bool with_slope) {
     BySide normal{}, size{}, up{}, down{};
     std::array<BySide, 3> across{}, along{};  // [side left][side]
     for (std::size_t e = 0; e < 3; ++e) {
@@ -132,7 +133,7 @@ TriangleBounds bounds_from(const SideBends& bends, const TriangleFrame& frame, d
     TriangleBounds found{};
     found.height = height_of(up, down);
     found.whole = whole_from(size, within_plane(bends, size, frame), found.height);
-    found.slope = slope_from(bends, size, frame);
+    found.slope = with_slope ? slope_from(bends, size, frame) : intervals::INFINITE;
     found.shift = 0.5 * std::max({size[0], size[1], size[2]});
     found.bend = 0.5 * std::max({normal[0], normal[1], normal[2]});
     found.corner = corner;
@@ -167,6 +168,7 @@ TriangleFrame frame_of(const SpaceCorners& p, double corner, RimSides rims) {
     const double area = norm(n), length = norm(along_side);
     const double longest = std::max({norm(a), norm(b), norm(p[2] - p[1])});
     frame.tilt = (32.0 * 0x1p-53 * longest * longest + 8.0 * corner * longest) / area;
+    frame.turn = 4.0 * corner * longest / area;  // over the least height
     if (!(frame.tilt < TILTED)) {
         frame.tilt = ANY_WAY;
         frame.axes = {{{1.0, 0.0, 0.0}, {0.0, 1.0, 0.0}, {0.0, 0.0, 1.0}}};

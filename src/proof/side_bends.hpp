@@ -19,6 +19,7 @@ struct TriangleFrame {
     std::array<Point2, 3> sides;  // directions of the sides in the first two axes, unit
     std::array<double, 3> heights, lengths;
     double tilt;  // by how much the axes may be wrong
+    double turn;  // how much faster |r - L| may change as corners are off
 };
 
 TriangleFrame frame_of(const SpaceCorners& p, double corner, RimSides rims);
@@ -54,8 +55,10 @@ PieceSize size_from(const SideBends& bends, const TriangleFrame& frame);
 /// sides at an angle A it is at most the larger part over cos(A / 2).
 double slope_of(const BySide& part, const TriangleFrame& frame);
 
-/// Infinite bounds, where nothing is known, make what they bound infinite.
-TriangleBounds bounds_from(const SideBends& bends, const TriangleFrame& frame, double corner);
+/// Infinite bounds, where nothing is known, make what they bound infinite; so does with_slope=false
+/// of the slope, for which ``differ`` is asked.
+TriangleBounds bounds_from(const SideBends& bends, const TriangleFrame& frame, double corner,
+                           bool with_slope);
 
 /// Of two bounds of one triangle: a height from either, all else from that whose cells are lower.
 inline TriangleBounds lower_of(const TriangleBounds& a, const TriangleBounds& b) {

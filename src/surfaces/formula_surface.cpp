@@ -192,13 +192,19 @@ SurfaceStatus FormulaSurface::enclose_bends(std::span<const ParameterBox> cells,
 
 SurfaceStatus FormulaSurface::enclose_second(std::span<const Point2> uv,
                                              std::span<SecondJet> out) const {
+    constexpr std::size_t AT_ONCE = 4 * TAPE_BLOCK;  // whose bounds stay in the cache
     if (tapes_[2] == nullptr) return SurfaceStatus::UNKNOWN;
-    Array<Point3> lower(6 * uv.size()), upper(6 * uv.size());
-    enclosures(*tapes_[2], as_numbers(uv), as_numbers(uv), 0,
-               as_numbers({lower.data(), lower.size()}), as_numbers({upper.data(), upper.size()}));
-    for (std::size_t i = 0; i < uv.size(); ++i)
-        for (std::size_t k = 0; k < 6; ++k)
-            out[i][k] = enclosed(lower[6 * i + k], upper[6 * i + k]);
+    Array<Point3> lower, upper;
+    for (std::size_t start = 0; start < uv.size(); start += AT_ONCE) {
+        const auto some = uv.subspan(start, std::min(AT_ONCE, uv.size() - start));
+        lower.resize(6 * some.size());
+        upper.resize(6 * some.size());
+        enclosures(*tapes_[2], as_numbers(some), as_numbers(some), 0,
+                   as_numbers({lower.data(), lower.size()}),
+                   as_numbers({upper.data(), upper.size()}));
+        for (std::size_t i = 0; i < 6 * some.size(); ++i)
+            out[start + i / 6][i % 6] = enclosed(lower[i], upper[i]);
+    }
     return SurfaceStatus::DONE;
 }
 

@@ -43,7 +43,7 @@ bool holds_phase(Interval a, double phase) {
 /// Range of a wave of period 2 pi with a crest (+1) at `crest` and a trough half way on.
 Interval wave(Interval a, double (*f)(double), double crest) {
     if (!std::isfinite(a.lo) || !std::isfinite(a.hi)) return {-1.0, 1.0};
-    const double first = f(a.lo), last = f(a.hi);
+    const double first = f(a.lo), last = a.hi == a.lo ? first : f(a.hi);
     return {holds_phase(a, crest + 0.5 * TAU) ? -1.0 : smaller(first, last),
             holds_phase(a, crest) ? 1.0 : larger(first, last)};
 }

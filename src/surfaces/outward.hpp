@@ -38,9 +38,17 @@ inline Interval widened(Interval a, double ulps) {
 inline Interval rounded(Interval a) { return intervals::known(below(a.lo), above(a.hi)); }
 
 inline Interval exactly(double x) { return {x, x}; }
-inline Interval add(Interval a, Interval b) { return rounded(intervals::add(a, b)); }
-inline Interval subtract(Interval a, Interval b) { return rounded(intervals::subtract(a, b)); }
-inline Interval multiply(Interval a, Interval b) { return rounded(intervals::multiply(a, b)); }
+inline Interval add(Interval a, Interval b) { return rounded({a.lo + b.lo, a.hi + b.hi}); }
+inline Interval subtract(Interval a, Interval b) { return rounded({a.lo - b.hi, a.hi - b.lo}); }
+
+/// Where a product is not a number, or they are infinite of both signs, so is their sum.
+inline Interval multiply(Interval a, Interval b) {
+    const double p = a.lo * b.lo, q = a.lo * b.hi, r = a.hi * b.lo, s = a.hi * b.hi;
+    const double sum = (p + q) + (r + s);
+    const Interval found = rounded(
+        {std::min(std::min(p, q), std::min(r, s)), std::max(std::max(p, q), std::max(r, s))});
+    return sum == sum ? found : Interval{-intervals::INFINITE, intervals::INFINITE};
+}
 inline Interval reciprocal(Interval a) { return rounded(intervals::reciprocal(a)); }
 inline Interval divide(Interval a, Interval b) { return multiply(a, reciprocal(b)); }
 

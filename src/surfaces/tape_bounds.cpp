@@ -218,8 +218,8 @@ Interval widened(Interval a) {
     return {a.lo - margin, a.hi + margin};
 }
 
-/// By how many ulps an operation's computed ends are off at most: their headers say how exact the
-/// elementary functions are.
+/// By how many ulps a function's computed ends are off at most: their headers say how exact the
+/// elementary functions are. Sums and products are rounded as they are made.
 double ulps_of(const Instruction& step) {
     switch (step.operation) {
         case Operation::NEGATIVE:
@@ -237,9 +237,6 @@ double ulps_of(const Instruction& step) {
         case Operation::TREAD:
         case Operation::CUT:
             return 0.0;
-        case Operation::ADD:
-        case Operation::SUBTRACT:
-        case Operation::MULTIPLY:
         case Operation::RECIPROCAL:
         case Operation::SQRT:
             return 0.5;
@@ -329,6 +326,9 @@ void bounds_in(const Arithmetic& arithmetic, const Tape& tape, std::span<const d
 void run_outward(const Instruction& step, const TapeSlots<Interval>& slots, std::size_t n) {
     const auto [a, b, c] = step.operands;
     const Operands o{slots[step.target], slots[a], slots[b], slots[c], n};
+    if (step.operation == Operation::ADD) return each_pair(o, outward::add);
+    if (step.operation == Operation::SUBTRACT) return each_pair(o, outward::subtract);
+    if (step.operation == Operation::MULTIPLY) return each_pair(o, outward::multiply);
     if (step.operation == Operation::DIVIDE) return each_pair(o, outward::divide);
     if (is_bessel(step.operation)) {  // a middle, and a slope from there
         constexpr double ROUNDING = 0x1p-47;

@@ -65,39 +65,58 @@ Sizes sizes_of(const Coefficients& a) {
 }
 
 /// What terms of orders N and M give of their product.
-template <std::size_t N, std::size_t M>
+template <Variables V, std::size_t N, std::size_t M>
 void add_terms(const Coefficients& a, const Coefficients& b, const Sizes& size,
                Coefficients& found) {
     constexpr std::size_t FROM = number(N, 0), OTHER = number(M, 0), INTO = number(N + M, 0);
-    const auto row = [&]<std::size_t... I>(std::size_t j, std::index_sequence<I...>) {
-        const double mid = a.mid[FROM + j], rad = a.rad[FROM + j], most = std::abs(mid);
-        ((found.mid[INTO + j + I] += mid * b.mid[OTHER + I]), ...);
-        ((found.rad[INTO + j + I] += most * size.rad[OTHER + I] + rad * size.both[OTHER + I]), ...);
+    const auto term = [&](std::size_t j, std::size_t i) {
+        const double mid = a.mid[FROM + j], rad = a.rad[FROM + j];
+        found.mid[INTO + j + i] += mid * b.mid[OTHER + i];
+        found.rad[INTO + j + i] += std::abs(mid) * size.rad[OTHER + i] + rad * size.both[OTHER + i];
     };
-    for (std::size_t j = 0; j <= N; ++j) row(j, std::make_index_sequence<M + 1>());
+    const auto row = [&]<std::size_t... I>(std::size_t j, std::index_sequence<I...>) {
+        (term(j, I), ...);
+    };
+    if constexpr (V == Variables::U)
+        term(0, 0);
+    else if constexpr (V == Variables::V)
+        term(N, M);
+    else
+        for (std::size_t j = 0; j <= N; ++j) row(j, std::make_index_sequence<M + 1>());
 }
 
-/// The product of two series without their values.
-Coefficients product(const Coefficients& a, const Coefficients& b) {
+/// The product of two series without their values, up to an order; size: of b.
+template <Variables V, std::size_t HIGHEST = ORDER>
+Coefficients product(const Coefficients& a, const Coefficients& b, const Sizes& size) {
     Coefficients found{};
-    const Sizes size = sizes_of(b);
-    add_terms<1, 1>(a, b, size, found);
-    add_terms<1, 2>(a, b, size, found);
-    add_terms<2, 1>(a, b, size, found);
-    add_terms<1, 3>(a, b, size, found);
-    add_terms<2, 2>(a, b, size, found);
-    add_terms<3, 1>(a, b, size, found);
+    add_terms<V, 1, 1>(a, b, size, found);
+    if constexpr (HIGHEST >= 3) {
+        add_terms<V, 1, 2>(a, b, size, found);
+        add_terms<V, 2, 1>(a, b, size, found);
+    }
+    if constexpr (HIGHEST >= 4) {
+        add_terms<V, 1, 3>(a, b, size, found);
+        add_terms<V, 2, 2>(a, b, size, found);
+        add_terms<V, 3, 1>(a, b, size, found);
+    }
     return found;
 }
 
+template <Variables V = Variables::BOTH, std::size_t HIGHEST = ORDER>
 void add(Coefficients& a, Ball factor, const Coefficients& b) {
     const double most = std::abs(factor.mid) * (1.0 + SERIES_ROUNDING) + factor.rad;
-    for (std::size_t k = 0; k < COUNT; ++k) {
+    const auto term = [&](std::size_t k) {
         const double mid = std::abs(b.mid[k]);
         a.rad[k] += SERIES_ROUNDING * (std::abs(a.mid[k]) + most * mid) + factor.rad * mid +
                     most * b.rad[k];
         a.mid[k] += factor.mid * b.mid[k];
-    }
+    };
+    if constexpr (V == Variables::U)
+        for (std::size_t k = 1; k <= HIGHEST; ++k) term(number(k, 0));
+    else if constexpr (V == Variables::V)
+        for (std::size_t k = 1; k <= HIGHEST; ++k) term(number(0, k));
+    else
+        for (std::size_t k = 0; k < number(HIGHEST + 1, 0); ++k) term(k);
 }
 
 /// What has underflowed is not 0.
@@ -113,7 +132,8 @@ Coefficients sum(const Coefficients& a, double sign, const Coefficients& b) {
 }
 
 Coefficients multiply(const Operand& a, const Operand& b) {
-    Coefficients found = product(a.coefficients, b.coefficients);
+    Coefficients found =
+        product<Variables::BOTH>(a.coefficients, b.coefficients, sizes_of(b.coefficients));
     add(found, ball_of(a.range), b.coefficients);
     add(found, ball_of(b.range), a.coefficients);
     return not_zero(found);
@@ -124,14 +144,32 @@ using Slopes = std::array<Ball, ORDER>;
 
 constexpr Slopes UNKNOWN_SLOPES = {ANY_NUMBER, ANY_NUMBER, ANY_NUMBER, ANY_NUMBER};
 
-Coefficients composed(const Slopes& f, const Coefficients& a) {
+/// By Horner's rule; a has no value, so that what is multiplied by it n times more is wanted up to
+/// the order 4 - n alone.
+template <Variables V>
+Coefficients composed_of(const Slopes& f, const Coefficients& a) {
+    const Sizes size = sizes_of(a);
     Coefficients found{};
-    add(found, f[3], a);
-    for (const std::size_t k : {2, 1, 0}) {
-        found = product(found, a);
-        add(found, f[k], a);
-    }
+    add<V, 1>(found, f[3], a);
+    found = product<V, 2>(found, a, size);
+    add<V, 2>(found, f[2], a);
+    found = product<V, 3>(found, a, size);
+    add<V, 3>(found, f[1], a);
+    found = product<V, 4>(found, a, size);
+    add<V, 4>(found, f[0], a);
     return not_zero(found);
+}
+
+Coefficients composed(const Slopes& f, const Coefficients& a,
+                      Variables variables = Variables::BOTH) {
+    switch (variables) {
+        case Variables::U:
+            return composed_of<Variables::U>(f, a);
+        case Variables::V:
+            return composed_of<Variables::V>(f, a);
+        default:
+            return composed_of<Variables::BOTH>(f, a);
+    }
 }
 
 double least_magnitude(Interval a) {
@@ -298,16 +336,16 @@ bool is_constant(const Operand& a) {
 Coefficients power_of(const Operand& a, const Operand& b) {
     if (is_constant(b) && b.range.lo == b.range.hi) {
         const bool whole = b.range.lo == std::floor(b.range.lo);
-        return a.range.lo > 0.0 || whole ? composed(of_power(a.range, b.range.lo), a.coefficients)
-                                         : unknown();
+        if (!(a.range.lo > 0.0) && !whole) return unknown();
+        return composed(of_power(a.range, b.range.lo), a.coefficients, a.variables);
     }
     if (!(a.range.lo > 0.0)) return unknown();
     const Interval range = outward::widened(
         intervals::increasing(a.range, [](double x) { return elementary::log(x); }, 0.0), 3.0);
-    const Operand log = {range, composed(of_logarithm(a.range), a.coefficients)};
-    const Operand exponent = {outward::multiply(b.range, range), multiply(b, log)};
+    const Coefficients log = composed(of_logarithm(a.range), a.coefficients);
+    const Coefficients exponent = multiply(b, {range, log});
     const Instruction exponential{Operation::EXP, 0, {0, 0, 0}, 0};
-    return composed(slopes_of(exponential, exponent.range), exponent.coefficients);
+    return composed(slopes_of(exponential, outward::multiply(b.range, range)), exponent);
 }
 
 /// The argument of x + i y: the imaginary part of its logarithm, by absolute values.
@@ -344,9 +382,8 @@ Coefficients of(const Instruction& step, const std::array<Operand, 3>& operands)
         case Operation::MULTIPLY:
             return multiply(a, b);
         case Operation::DIVIDE: {
-            const Operand inverse = {outward::reciprocal(b.range),
-                                     composed(of_power(b.range, -1.0), b.coefficients)};
-            return multiply(a, inverse);
+            const Coefficients inverse = composed(of_power(b.range, -1.0), b.coefficients);
+            return multiply(a, {outward::reciprocal(b.range), inverse});
         }
         case Operation::NEGATIVE:
             return negative(a.coefficients);
@@ -364,7 +401,7 @@ Coefficients of(const Instruction& step, const std::array<Operand, 3>& operands)
         case Operation::ANGLE:
             return angle_of(a, b);
         default:
-            return composed(slopes_of(step, a.range), a.coefficients);
+            return composed(slopes_of(step, a.range), a.coefficients, a.variables);
     }
 }
 

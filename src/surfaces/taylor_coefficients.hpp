@@ -15,6 +15,7 @@
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
 
 #include "surfaces/interval.hpp"
 #include "surfaces/tape.hpp"
@@ -28,10 +29,14 @@ struct Coefficients {
     std::array<double, COUNT> mid, rad;
 };
 
-/// Of what one instruction reads: its range, and its coefficients.
+/// What a number depends on: other coefficients are 0, and need not be looked at.
+enum class Variables : std::uint8_t { U, V, BOTH };
+
+/// Of what one instruction reads: its range, and its coefficients, which lie elsewhere.
 struct Operand {
     Interval range;
-    Coefficients coefficients;
+    const Coefficients& coefficients;
+    Variables variables = Variables::BOTH;
 };
 
 /// The coefficients of what an instruction makes of up to three operands.

@@ -31,8 +31,6 @@ WHOLE, CORNER, SLOPE = 8, 9, 26
 """Columns of the bounds: the distance point by point, how far corners are off, and how fast the
 distance changes."""
 
-BITS = np.array([1, 2, 4], np.uint8)
-
 
 class FaceTriangles(NamedTuple):
     """The triangles of one face. Half-edge 3 t + k runs from corner k of triangle t to k + 1."""
@@ -71,13 +69,13 @@ def proved_distances(
     if moved is not None:
         return FaceProof(moved.away, moved.away, moved.slope, True)
     core = as_core_surface(surface)
-    rims = (BITS * (face.twins.reshape(-1, 3) < 0)).sum(axis=1).astype(np.uint8)
+    rims = np.packbits(face.twins.reshape(-1, 3) < 0, axis=1, bitorder="little")[:, 0]
     bends, bounds = _bounds(core, face, limits, rims, slope)
     if bounds is None:
         return None
     gaps = _gaps(surface, face)
     away = bounds[:, WHOLE] + bounds[:, CORNER]
-    changes = bounds[:, SLOPE] + 4.0 * bounds[:, CORNER] / _least_heights(face.corners)
+    changes = bounds[:, SLOPE].copy()
     is_joined = not len(gaps.owners) and not len(gaps.unknown)
     if len(gaps.unknown):
         bounds[gaps.unknown] = np.inf
@@ -140,7 +138,7 @@ def _bounds(
     if bounds is None:
         return bends, None
     is_unknown = ~np.isfinite(bounds[:, WHOLE])
-    while (is_unknown & bends.any(axis=(1, 2))).any():
+    while bends[is_unknown].any():
         bad = is_unknown.view(np.uint8)
         straight = proof.straightened(bends, corners, uv, vertices, twins, bad)
         rows = np.flatnonzero((straight != bends).any(axis=(1, 2)))
@@ -151,14 +149,6 @@ def _bounds(
         )  # fmt: skip
         is_unknown = ~np.isfinite(bounds[:, WHOLE])
     return bends, bounds
-
-
-def _least_heights(corners: NDArray[np.float64]) -> NDArray[np.float64]:
-    """(m,) over the longest side."""
-    sides = corners[:, (1, 2, 0)] - corners
-    longest = np.sqrt((sides**2).sum(axis=2).max(axis=1))
-    area = np.linalg.norm(np.cross(sides[:, 0], sides[:, 1]), axis=1)
-    return np.maximum(area / np.maximum(longest, 1e-300), 1e-300)
 
 
 def twins_of(
@@ -174,32 +164,41 @@ def twins_of(
 def _gaps(surface: Surface, face: FaceTriangles) -> Gaps:
     """Where the parameters of neighbours differ along their side, and not only by a seam."""
     first = proof.parted_half_edges(face.uv, face.twins)
-    if not len(first):
-        return Gaps(np.empty((0, 3, 2)), np.empty(0, np.int32), np.empty(0, np.intp))
-    second = face.twins[first]
-    starts, ends = face.uv.reshape(-1, 2), face.uv[:, (1, 2, 0)].reshape(-1, 2)
+    a, b = _sides(face, first), _sides(face, face.twins[first])
     vertex = face.vertices.reshape(-1)
-    alike = (vertex[first] == vertex[second])[:, None]
-    a = np.stack([starts[first], ends[first]], axis=1)
-    b = np.stack([
-        np.where(alike, starts[second], ends[second]),
-        np.where(alike, ends[second], starts[second]),
-    ], axis=1)  # fmt: skip
-    same = (a == b).all(axis=2)
-    odd = np.flatnonzero(~same.all(axis=1))
+    against = vertex[first] != vertex[face.twins[first]]
+    b[against] = b[against, ::-1]
+    odd = np.flatnonzero((a != b).any(axis=(1, 2)))
     if len(odd):
         odd = odd[~_are_one_curve(surface, a[odd], b[odd])]
-    fixed = np.where(_is_pole(surface, a[odd], b[odd], 0), 1, 0)
+    if not len(odd):
+        return Gaps(np.empty((0, 3, 2)), np.empty(0, np.int32), np.empty(0, np.intp))
+    first, a, b = first[odd], a[odd], b[odd]
+    fixed = np.where(_is_pole(surface, a, b, 0), 1, 0)
     row = np.arange(len(odd))
-    shift = a[odd][row, fixed] - b[odd][row, fixed]  # a seam that ends at the pole
-    one, other = a[odd][row, 1 - fixed], b[odd][row, 1 - fixed] + shift
-    uv = np.stack([a[odd][row, fixed], one, other], axis=1)
-    good = _is_pole(surface, a[odd], b[odd], 1 - fixed) & _goes_on(surface, uv, shift)
-    at_pole, rest, uv = odd[good], odd[~good], uv[good]
-    owners = np.minimum(first[at_pole], second[at_pole]) // 3
+    shift = a[row, fixed] - b[row, fixed]  # a seam that ends at the pole
+    uv = np.stack([a[row, fixed], a[row, 1 - fixed], b[row, 1 - fixed] + shift], axis=1)
+    good = _is_pole(surface, a, b, 1 - fixed) & _goes_on(surface, uv, shift)
+    owners = np.minimum(first, face.twins[first])[good] // 3
     order = np.argsort(owners, kind="stable")
-    unknown = np.unique(np.concatenate([first[rest], second[rest]]) // 3)
-    return Gaps(np.ascontiguousarray(uv[order]), owners[order].astype(np.int32), unknown)
+    unknown = np.unique(np.concatenate([first[~good], face.twins[first[~good]]]) // 3)
+    return Gaps(np.ascontiguousarray(uv[good][order]), owners[order].astype(np.int32), unknown)
+
+
+def _sides(face: FaceTriangles, half_edges: NDArray[np.int32]) -> NDArray[np.float64]:
+    """(k, 2, 2) parameters of the ends of half-edges."""
+    triangle, side = half_edges // 3, half_edges % 3
+    return np.stack([face.uv[triangle, side], face.uv[triangle, (side + 1) % 3]], axis=1)
+
+
+def _points(surface: Surface, *uv: NDArray[np.float64]) -> NDArray[np.float64]:
+    """(n, k, 3) points of the surface at n times (k, 2) places."""
+    (points,) = surface.evaluate(np.concatenate(uv), 0)
+    return points.reshape(len(uv), -1, 3)
+
+
+def _distances(a: NDArray[np.float64], b: NDArray[np.float64]) -> NDArray[np.float64]:
+    return np.asarray(np.linalg.norm(a - b, axis=-1))
 
 
 def _is_pole(
@@ -208,14 +207,10 @@ def _is_pole(
     """(k,) are ends a and b (k, 2, 2) there one point, as is what lies between them?"""
     rows = np.arange(len(a))
     one, other = a[rows, end], b[rows, end]
-    apart = np.zeros(len(a))
-    (first,) = surface.evaluate(one, 0)
-    for t in (0.25, 0.5, 0.75, 1.0):
-        (point,) = surface.evaluate((1.0 - t) * one + t * other, 0)
-        apart = np.maximum(apart, np.linalg.norm(point - first, axis=1))
-    (start,), (finish,) = surface.evaluate(a[:, 0], 0), surface.evaluate(a[:, 1], 0)
-    length = np.linalg.norm(finish - start, axis=1)
-    return (apart <= SAME * length) & (one != other).any(axis=1)
+    between = [(1.0 - t) * one + t * other for t in (0.25, 0.5, 0.75, 1.0)]
+    start, finish, first, *rest = _points(surface, a[:, 0], a[:, 1], one, *between)
+    apart = _distances(np.stack(rest), first).max(axis=0)
+    return (apart <= SAME * _distances(finish, start)) & (one != other).any(axis=1)
 
 
 def _goes_on(
@@ -223,19 +218,15 @@ def _goes_on(
 ) -> NDArray[np.bool_]:
     """(k,) is the surface the same over triangles uv (k, 3, 2) and ``shift`` (k, 2) away?"""
     middle = uv.mean(axis=1)
-    (here,), (there,) = surface.evaluate(middle, 0), surface.evaluate(middle - shift, 0)
-    (start,), (end,) = surface.evaluate(uv[:, 0], 0), surface.evaluate(uv[:, 1], 0)
-    return np.linalg.norm(here - there, axis=1) <= SAME * np.linalg.norm(end - start, axis=1)
+    here, there, start, end = _points(surface, middle, middle - shift, uv[:, 0], uv[:, 1])
+    return _distances(here, there) <= SAME * _distances(end, start)
 
 
 def _are_one_curve(
     surface: Surface, a: NDArray[np.float64], b: NDArray[np.float64]
 ) -> NDArray[np.bool_]:
     """(k,) do two straight lines of (u, v), ends a and b (k, 2, 2), lie on each other in space?"""
-    apart = np.zeros(len(a))
-    for t in (0.25, 0.5, 0.75):
-        (one,) = surface.evaluate((1.0 - t) * a[:, 0] + t * a[:, 1], 0)
-        (other,) = surface.evaluate((1.0 - t) * b[:, 0] + t * b[:, 1], 0)
-        apart = np.maximum(apart, np.linalg.norm(one - other, axis=1))
-    (start,), (end,) = surface.evaluate(a[:, 0], 0), surface.evaluate(a[:, 1], 0)
-    return apart <= SAME * np.linalg.norm(end - start, axis=1)
+    lines = [(1.0 - t) * x[:, 0] + t * x[:, 1] for x in (a, b) for t in (0.25, 0.5, 0.75)]
+    start, end, *rest = _points(surface, a[:, 0], a[:, 1], *lines)
+    apart = _distances(np.stack(rest[:3]), np.stack(rest[3:])).max(axis=0)
+    return apart <= SAME * _distances(end, start)

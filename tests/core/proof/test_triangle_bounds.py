@@ -228,6 +228,16 @@ def test_no_cell_rises_farther_than_its_part(name, size, seed):
 
 
 @pytest.mark.parametrize("name", SURFACES)
+def test_bounds_of_few_triangles_together_are_those_of_each_alone(name):
+    """Derivatives over a cell of all say little of each: it is cut, though there is but one."""
+    surface = SURFACES[name]
+    uv, corners = triangles(0.7, 11, surface)
+    together = bounds_of(surface, corners, uv)[:, 8]
+    alone = [bounds_of(surface, corners[k : k + 1], uv[k : k + 1])[0, 8] for k in range(len(uv))]
+    assert (together <= 1.05 * np.array(alone) + 1e-15).all()
+
+
+@pytest.mark.parametrize("name", SURFACES)
 def test_bounds_of_small_triangles_are_tight(name):
     surface = SURFACES[name]
     uv, corners = triangles(0.7, 11, surface)
