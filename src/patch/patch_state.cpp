@@ -74,6 +74,7 @@ PatchState::PatchState(Triangulation& triangulation, BoundaryNodes nodes,
       frames(t.xy.size(), setting.background.is_anisotropic(),
              most_vertices(t.xy.size(), setting.background.is_anisotropic())),
       marks(t.xy.size()),
+      still(frames.is_anisotropic ? STILL_STRETCHED : STILL),
       nodes_(std::move(nodes)),
       setting_(setting),
       surface_(setting.surface),
@@ -181,7 +182,7 @@ int PatchState::smooth(double stiffness) {
     if (!stopped() && setting_.before_pass) cancelled_ = !setting_.before_pass();
     if (stopped()) return 0;
     find_stars();
-    surfmesh::smooth(t, frames, stars, marks, stiffness, moved);
+    surfmesh::smooth(t, frames, stars, marks, stiffness, still, moved);
     renew_frames(all(moved), kept_drift);
     ++passes;
     return static_cast<int>(moved.size());

@@ -63,6 +63,7 @@ class PatchState {
     Array<double> shape;      // alpha of the triangles, as swaps have last seen it
     Array<Vertex> moved;      // by the last pass of smoothing
     double kept_drift = 0.0;  // what a vertex may move, in unit lengths, before it is put back
+    double still;             // what it has to move by for its neighbours to go on, unit lengths
     int swaps = 0, collapses = 0, splits = 0, passes = 0;
 
     [[nodiscard]] const AskedAccuracy& asked() const { return setting_.asked; }

@@ -31,6 +31,10 @@ constexpr double WORST_STIFFNESS = 0.3, SHAPE_STIFFNESS = 0.6;
 // are off the surface by about half its curvature times the square.
 constexpr double KEPT_DRIFT = 0.15, KEPT_DRIFT_STRETCHED = 0.1;
 
+// Stretched meshes still move when they are settled. What is then lowered or split wakes those
+// around it; with a smaller distance most of the mesh would be awake after a few rounds.
+constexpr double STILL_SETTLED = 0.04;
+
 // Stretched sizes are held to growth again where this part of the vertices had to be lowered:
 // few surfaces. With less others get more triangles and hold it no better.
 constexpr double MANY_LOWERED = 0.3;
@@ -137,6 +141,7 @@ Unmended optimise(PatchState& state, bool first) {
     }
     state.settle();
     state.kept_drift = 0.0;
+    if (state.is_anisotropic()) state.still = STILL_SETTLED;
     hold_growth(state);
     reduce_dihedrals(state);
     Array<Triangle> far = approach_surface(state, first);
