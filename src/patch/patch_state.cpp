@@ -217,6 +217,16 @@ void PatchState::swap_for_degree() {
     swaps += made;
 }
 
+int PatchState::swap_at_border(double bad) {
+    if (stopped() || shape.size() < t.region.size()) return 0;
+    find_stars();
+    const int made =
+        surfmesh::swap_at_border(t, frames, stars, marks, shape, bad, LEAST_FOR_DEGREE);
+    stars_known_ = stars_known_ && made == 0;
+    swaps += made;
+    return made;
+}
+
 void PatchState::collapse() {
     if (stopped()) return;
     find_stars();

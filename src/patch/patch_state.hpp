@@ -103,6 +103,8 @@ class PatchState {
     void swap(double good = GOOD_SHAPE);
     /// Swap edges that bring the degrees of their four vertices nearer to six.
     void swap_for_degree();
+    /// The same at triangles below the alpha ``bad`` on straight borders; returns the swaps made.
+    int swap_at_border(double bad);
     /// Remove interior vertices with a short edge, or with few triangles.
     void collapse();
     /// Split interior edges of active vertices longer than ``longest``.

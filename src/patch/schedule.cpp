@@ -20,7 +20,7 @@ constexpr double BAD_SHAPE = 0.72;
 // In the end this part of the triangles is raised to the alpha of the others, within limits: below
 // the first is always bad, above the second always good. Their neighbours lose what they gain.
 constexpr double WORST_PART = 0.0005, RAISED[] = {0.65, 0.86};
-constexpr int RAISING_PASSES = 3;
+constexpr int RAISING_PASSES = 3, BORDER_PASSES = 4;
 
 constexpr double LEFT_OVER = 0.7;  // below this alpha, what packing or boundary have left over
 
@@ -105,10 +105,19 @@ double shape_of_worst_part(const PatchState& state) {
     return *nth;
 }
 
+/// Bring degrees along the border to what they should be at triangles below the alpha ``least``.
+void mend_border(PatchState& state, double least) {
+    if (state.swap_at_border(least) == 0) return;
+    for (int pass = 0; pass < BORDER_PASSES; ++pass)
+        if (state.smooth(SHAPE_STIFFNESS) == 0) break;
+    state.swap(least);
+}
+
 /// Raise the smallest alpha of the few worst triangles, whatever their edges.
 void raise_worst(PatchState& state) {
     if (state.stopped() || state.shape.size() < state.t.region.size()) return;
     const double least = std::clamp(shape_of_worst_part(state), RAISED[0], RAISED[1]);
+    mend_border(state, least);
     for (int pass = 0; pass < RAISING_PASSES; ++pass) {
         state.raise_worst(least);
         if (state.moved.empty()) break;
