@@ -36,7 +36,7 @@ struct FieldNodes {
     Array<PlaneJacobian> jacobian;
     Array<NumberPair> asked;       // size and longer before gradation
     Array<NumberPair> curvature;   // principal curvatures
-    Array<NumberPair> turn_rates;  // at which `along` fans out and bends
+    Array<NumberPair> turn_rates;  // at which `along` fans out and bends; 0 where it hardly counts
 
     [[nodiscard]] std::size_t count() const { return size.size(); }
     [[nodiscard]] bool is_anisotropic() const { return !longer.empty(); }

@@ -25,14 +25,14 @@ class SizeQueue {
         waits_with_[node] = size;
         seeds_.push_back({size, node});
     }
-    void start() { std::sort(seeds_.begin(), seeds_.end(), is_before); }
+    void start() { std::sort(seeds_.begin(), seeds_.end(), IsBefore()); }
     /// A node is lowered to a size, by a relative change.
     void lowered(Node node, double size, double change) {
         unspread_[node] += change;
         if (unspread_[node] <= tolerance_ || !(size < waits_with_[node])) return;
         waits_with_[node] = size;
         heap_.push_back({size, node});
-        std::push_heap(heap_.begin(), heap_.end(), is_after);
+        std::push_heap(heap_.begin(), heap_.end(), IsAfter());
     }
     /// The next node to be spread, or NIL.
     Node take() {
@@ -53,17 +53,22 @@ class SizeQueue {
         double size;
         Node node;
     };
-    static bool is_before(const Entry& a, const Entry& b) {
-        return a.size < b.size || (a.size == b.size && a.node < b.node);
-    }
-    static bool is_after(const Entry& a, const Entry& b) { return is_before(b, a); }
+    // Objects rather than functions: sorts and heaps take their calls in.
+    struct IsBefore {
+        bool operator()(const Entry& a, const Entry& b) const {
+            return a.size < b.size || (a.size == b.size && a.node < b.node);
+        }
+    };
+    struct IsAfter {
+        bool operator()(const Entry& a, const Entry& b) const { return IsBefore()(b, a); }
+    };
 
     /// The smaller of the first seed and the top of the heap, taken out.
     Entry first() {
         const bool is_seed = next_ < seeds_.size();
-        if (is_seed && (heap_.empty() || is_before(seeds_[next_], heap_[0])))
+        if (is_seed && (heap_.empty() || IsBefore()(seeds_[next_], heap_[0])))
             return seeds_[next_++];
-        std::pop_heap(heap_.begin(), heap_.end(), is_after);
+        std::pop_heap(heap_.begin(), heap_.end(), IsAfter());
         return heap_.pop_back();
     }
 

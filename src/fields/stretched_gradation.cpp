@@ -17,6 +17,53 @@ double square_of(double x) { return x * x; }
 
 bool is_zero(Point3 n) { return n.x == 0.0 && n.y == 0.0 && n.z == 0.0; }
 
+/// The direction ``along`` of a in the axes of b, times 1 + |c| for the cosine c between the normals.
+///
+/// Turned with the normal by the smallest rotation. Normals may be opposite across a joint.
+Point2 carried_axis(const StretchedNode& a, const StretchedNode& b) {
+    const double c = dot(a.normal, b.normal), sign = c >= 0.0 ? 1.0 : -1.0;
+    const Point3 turned = (1.0 + std::abs(c)) * a.along -
+                          sign * dot(a.along, b.normal) * (a.normal + sign * b.normal);
+    return {dot(turned, b.along), dot(turned, b.left)};
+}
+
+/// The way from one node to another, and its squares in the axes of the first.
+struct Way {
+    Point3 step;
+    double onward;          // squared, along
+    double grown, turning;  // squares of the factors on sizes and on the metric as a whole
+};
+
+/// Does the metric of b surely contain that of a, grown by the squares of both factors, so that
+/// ``bind`` would change nothing?
+///
+/// The same questions without divisions, each with a margin that rounding does not reach.
+bool surely_allows(const StretchedNode& a, const StretchedNode& b, const Way& way, double slope) {
+    constexpr double SURE = 1.0 - 1e-10, SPARE = 1e-4;
+    const Point2 axis = carried_axis(a, b);
+    const double xx = axis.x * axis.x, yy = axis.y * axis.y, square = xx + yy;
+    if (!(square > 0.0)) return false;
+    const double of_along = xx * a.by_longer + yy * a.by_shorter;  // times the square
+    const double of_left = yy * a.by_longer + xx * a.by_shorter;
+    const double along = SURE * square * b.by_longer, left = SURE * square * b.by_shorter;
+    if (!(of_along <= along * way.grown && of_left <= left * way.grown)) return false;
+    const double spare_along = along * way.turning - of_along;
+    const double spare_left = left * way.turning - of_left;
+    // with digits left for their product
+    if (!(spare_along > SPARE * along && spare_left > SPARE * left)) return false;
+    const double mixed = axis.x * axis.y * (a.by_shorter - a.by_longer);
+    if (!(mixed * mixed <= SURE * (spare_along * spare_left))) return false;
+    const double aside = square_of(dot(way.step, a.left)), across = way.onward + aside;
+    const double by_along = square_of(dot(way.step, b.along));
+    const double by_left = square_of(dot(way.step, b.left));
+    const double square_of_a = way.onward * a.by_longer + aside * a.by_shorter;
+    const double of_b = (by_along * b.by_longer + by_left * b.by_shorter) * across * SURE;
+    const double of_a = square_of_a * (by_along + by_left);
+    if (of_b >= of_a) return true;  // no larger along the way than at a
+    const double longer_way = 1.0 + slope * std::sqrt(square_of_a);
+    return of_b * (longer_way * longer_way) >= ENOUGH_ALONG * of_a;
+}
+
 }  // namespace
 
 StretchedGradation::StretchedGradation(const GradedSizes& sizes, const NodeNeighbours& neighbours,
@@ -44,16 +91,6 @@ void StretchedGradation::visit(Node p, SizeQueue& queue) {
     }
 }
 
-/// The direction ``along`` of a in the axes of b, not of length one.
-///
-/// Turned with the normal by the smallest rotation. Normals may be opposite across a joint.
-Point2 StretchedGradation::carried_axis(const StretchedNode& a, const StretchedNode& b) {
-    const double c = dot(a.normal, b.normal), sign = c >= 0.0 ? 1.0 : -1.0;
-    const double k = sign * dot(a.along, b.normal) / (1.0 + std::abs(c));
-    const Point3 turned = a.along - k * (a.normal + sign * b.normal);
-    return {dot(turned, b.along), dot(turned, b.left)};
-}
-
 /// The metric of a in the axes of b.
 StretchedGradation::AxisMetric StretchedGradation::carried(const StretchedNode& a,
                                                            const StretchedNode& b) {
@@ -64,35 +101,6 @@ StretchedGradation::AxisMetric StretchedGradation::carried(const StretchedNode& 
     return {by_along * a.by_longer + by_left * a.by_shorter,
             by_left * a.by_longer + by_along * a.by_shorter,
             (x * y / square) * (a.by_shorter - a.by_longer)};
-}
-
-/// Does the metric of b surely contain that of a, grown by the squares of both factors, so that
-/// ``bind`` would change nothing?
-///
-/// The same questions without divisions, each with a margin that rounding does not reach.
-bool StretchedGradation::surely_allows(const StretchedNode& a, const StretchedNode& b, Point3 step,
-                                       double onward, double grown, double turned) const {
-    constexpr double SURE = 1.0 - 1e-10, SPARE = 1e-4;
-    const Point2 axis = carried_axis(a, b);
-    const double xx = axis.x * axis.x, yy = axis.y * axis.y, square = xx + yy;
-    if (!(square > 0.0)) return false;
-    const double of_along = xx * a.by_longer + yy * a.by_shorter;  // times the square
-    const double of_left = yy * a.by_longer + xx * a.by_shorter;
-    const double along = SURE * square * b.by_longer, left = SURE * square * b.by_shorter;
-    if (!(of_along <= along * grown && of_left <= left * grown)) return false;
-    const double spare_along = along * turned - of_along, spare_left = left * turned - of_left;
-    // with digits left for their product
-    if (!(spare_along > SPARE * along && spare_left > SPARE * left)) return false;
-    const double mixed = axis.x * axis.y * (a.by_shorter - a.by_longer);
-    if (!(mixed * mixed <= SURE * (spare_along * spare_left))) return false;
-    const double aside = square_of(dot(step, a.left)), across = onward + aside;
-    const double by_along = square_of(dot(step, b.along)), by_left = square_of(dot(step, b.left));
-    const double square_of_a = onward * a.by_longer + aside * a.by_shorter;
-    const double of_b = (by_along * b.by_longer + by_left * b.by_shorter) * across * SURE;
-    const double of_a = square_of_a * (by_along + by_left);
-    if (of_b >= of_a) return true;  // no larger along the way than at a
-    const double longer_way = 1.0 + s_.slope * std::sqrt(square_of_a);
-    return of_b * (longer_way * longer_way) >= ENOUGH_ALONG * of_a;
 }
 
 /// Raise the metric of b along, or left where the way from a goes across, not above `most`, until
@@ -150,7 +158,7 @@ double StretchedGradation::bind(const StretchedNode& a, Node number) {
     const double turning = 1.0 + TURN_SLOPE * s_.slope * l;
     const bool is_round = !s_.round.empty() && s_.round[number] != 0;
     if (!(is_round && b.by_longer > b.by_shorter) &&
-        surely_allows(a, b, step, onward, growth * growth, turning * turning))
+        surely_allows(a, b, {step, onward, growth * growth, turning * turning}, s_.slope))
         return 0.0;
     const AxisMetric of_a = carried(a, b);
     const double f = 1.0 / square_of(turning), g = 1.0 / (growth * growth);

@@ -15,6 +15,13 @@
 
 namespace surfmesh {
 
+/// A node with its sizes along and at right angles, the other axis of its tangent plane being left.
+struct StretchedNode {
+    Point3 point, normal, along, left;
+    double longer, size;
+    double by_longer, by_shorter;  // 1 / longer^2, 1 / size^2
+};
+
 class StretchedGradation {
   public:
     StretchedGradation(const GradedSizes& sizes, const NodeNeighbours& neighbours,
@@ -30,17 +37,9 @@ class StretchedGradation {
     struct AxisMetric {
         double along, left, mixed;
     };
-    struct StretchedNode {
-        Point3 point, normal, along, left;
-        double longer, size;           // along and at right angles
-        double by_longer, by_shorter;  // 1 / longer^2, 1 / size^2
-    };
 
     double bind(const StretchedNode& a, Node number);
     static void set(StretchedNode& node, double size, double longer);
-    [[nodiscard]] bool surely_allows(const StretchedNode& a, const StretchedNode& b, Point3 step,
-                                     double onward, double grown, double turned) const;
-    [[nodiscard]] static Point2 carried_axis(const StretchedNode& a, const StretchedNode& b);
     [[nodiscard]] static AxisMetric carried(const StretchedNode& a, const StretchedNode& b);
     void hold_along(const StretchedNode& a, const StretchedNode& b, double most,
                     AxisMetric& m) const;

@@ -121,7 +121,8 @@ void bind_smoothing(nb::module_& m) {
             require_stars(t, stars);
             require_marks(t, marks);
             Array<Vertex> moved;
-            smooth(t, s, stars, marks, stiffness, moved);
+            smooth(t, s, stars, marks, stiffness, s.is_anisotropic ? STILL_STRETCHED : STILL,
+                   moved);
             return view(moved);
         },
         nb::arg("t"), nb::arg("frames"), nb::arg("stars"), nb::arg("marks"), nb::arg("stiffness"),

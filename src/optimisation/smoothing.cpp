@@ -12,9 +12,9 @@ namespace {
 
 constexpr double LEAST_SHAPE = 0.6;   // a move may lower the worst alpha, but not below this
 constexpr double LONGEST_STEP = 0.3;  // of the wanted edge length
-// A vertex that moves less (unit lengths) leaves its neighbours alone. Newton steps are taken
-// longer, so that passes settle sooner; not where sizes depend on the direction
-constexpr double STILL = 0.03, STILL_STRETCHED = 0.02, OVER_RELAXATION = 1.2;
+// Newton steps are taken longer, so that passes settle sooner; not where sizes depend on the
+// direction.
+constexpr double OVER_RELAXATION = 1.2;
 constexpr double SMALLEST_MOVE = 1e-4;  // in unit lengths: shorter steps are not made
 constexpr double GOOD_IN_PLANE = 0.72;  // alpha in the tangent plane: space is not asked
 constexpr double HALF_INVERSE_ROOT_3 = 0.28867513459481287;
@@ -27,14 +27,14 @@ using Numbers = std::array<double, CHUNK>;
 struct StarPart {
     std::size_t count = 0;
     Numbers px, py, qx, qy;
-    Numbers scale;  // mean size of the ends of p, in units of that of v
+    Numbers seen;  // from the far end of p: its size; the square of its length where p is stretched
 
-    void add(Point2 p, Point2 q, double mean_size) {
+    void add(Point2 p, Point2 q, double from_far_end) {
         px[count] = p.x;
         py[count] = p.y;
         qx[count] = q.x;
         qy[count] = q.y;
-        scale[count++] = mean_size;
+        seen[count++] = from_far_end;
     }
     /// Fill the rest with the first edge, to be computed for nothing.
     void fill() {
@@ -43,7 +43,7 @@ struct StarPart {
             py[k] = py[0];
             qx[k] = qx[0];
             qy[k] = qy[0];
-            scale[k] = scale[0];
+            seen[k] = seen[0];
         }
     }
 };
@@ -52,6 +52,19 @@ struct StarPart {
 void areas(const StarPart& part, Numbers& area) {
     for (std::size_t k = 0; k < CHUNK; ++k)
         area[k] = part.px[k] * part.qy[k] - part.py[k] * part.qx[k];
+}
+
+/// Mean sizes of the ends of the edges p, in the direction of each, in units of that of v.
+void mean_sizes(const StarPart& part, const SurfaceFrames& s, Vertex v, Numbers& scale) {
+    if (!s.is_anisotropic) {
+        const double size = s.size[v];
+        for (std::size_t k = 0; k < CHUNK; ++k) scale[k] = 0.5 * (1.0 + part.seen[k] / size);
+        return;
+    }
+    for (std::size_t k = 0; k < CHUNK; ++k) {
+        const double px = part.px[k], py = part.py[k], d = std::sqrt(px * px + py * py);
+        scale[k] = 0.5 * (1.0 + d / std::max(std::sqrt(part.seen[k]), 1e-3 * d));
+    }
 }
 
 /// What single triangles and edges add to the gradient and the Hessian.
@@ -63,12 +76,12 @@ struct EnergyTerms {
 ///
 /// One division gives the reciprocals of the area, of the length d of p and of the mean size:
 /// each is that of their product times the two others.
-void energy_terms(const StarPart& part, const Numbers& area, double stiffness, EnergyTerms& e,
-                  Numbers& inverse_alpha) {
+void energy_terms(const StarPart& part, const Numbers& area, const Numbers& scale, double stiffness,
+                  EnergyTerms& e, Numbers& inverse_alpha) {
     for (std::size_t k = 0; k < CHUNK; ++k) {
         const double px = part.px[k], py = part.py[k], qx = part.qx[k], qy = part.qy[k];
         const double square = px * px + py * py, d = std::sqrt(square);
-        const double d_scale = d * part.scale[k];
+        const double d_scale = d * scale[k];
         const double all = 1.0 / (area[k] * d_scale);
         const double i = all * d_scale;
         const double total = 2.0 * (square + qx * qx + qy * qy - px * qx - py * qy);
@@ -78,10 +91,10 @@ void energy_terms(const StarPart& part, const Numbers& area, double stiffness, E
         const double c = HALF_INVERSE_ROOT_3 * i * f, both = 2.0 * total;
         inverse_alpha[k] = f;
 
-        const double over_d = all * area[k] * part.scale[k], over_scale = all * area[k] * d;
+        const double over_d = all * area[k] * scale[k], over_scale = all * area[k] * d;
         const double nx = px * over_d, ny = py * over_d;
         const double stiff = 2.0 * stiffness * over_scale * over_scale;
-        const double pull = stiff * (d - part.scale[k]);
+        const double pull = stiff * (d - scale[k]);
         const double bend = pull * over_d;
         const double across = 0.5 * (bend + std::abs(bend));  // its maximum with 0, exactly
         const double along = stiff - across;
@@ -97,14 +110,15 @@ void energy_terms(const StarPart& part, const Numbers& area, double stiffness, E
 struct Energy {
     double gx = 0.0, gy = 0.0, a11 = 0.0, a12 = 0.0, a22 = 0.0, inverse_alpha = 0.0;
 
-    /// Add a part of the star; false where a triangle is turned over.
-    bool add(StarPart& part, double stiffness) {
+    /// Add a part of the star of v; false where a triangle is turned over.
+    bool add(StarPart& part, const SurfaceFrames& s, Vertex v, double stiffness) {
         EnergyTerms terms;
-        Numbers inverse, area;
+        Numbers inverse, area, scale;
         part.fill();
         areas(part, area);
         if (!(*std::min_element(area.begin(), area.end()) > 0.0)) return false;
-        energy_terms(part, area, stiffness, terms, inverse);
+        mean_sizes(part, s, v, scale);
+        energy_terms(part, area, scale, stiffness, terms, inverse);
         for (std::size_t k = 0; k < part.count; ++k) {
             inverse_alpha = std::max(inverse_alpha, inverse[k]);
             gx += terms.gx[k];
@@ -126,11 +140,11 @@ struct Energy {
     }
 };
 
-/// The mean size of p and v, in units of that of v, along the edge from v to p.
-double mean_size(const SurfaceFrames& s, Vertex v, Vertex p, Point2 edge) {
-    if (!s.is_anisotropic) return 0.5 * (1.0 + s.size[p] / s.size[v]);
-    const double d = norm(edge);
-    return 0.5 * (1.0 + d / std::max(norm(chord(s, p, v)), 1e-3 * d));
+/// What ``mean_sizes`` need of the far end of the edge from v to p.
+double seen_from_far_end(const SurfaceFrames& s, Vertex v, Vertex p) {
+    if (!s.is_anisotropic) return s.size[p];
+    const Point2 back = chord(s, p, v);
+    return dot(back, back);
 }
 
 /// Is a triangle at v not positive, or one of less alpha than ``least``?
@@ -170,7 +184,7 @@ void find_step(const Triangulation& t, const SurfaceFrames& s, double stiffness,
     do {
         if (part.count == CHUNK) {
             m.whole = false;
-            if (!energy.add(part, stiffness)) return;
+            if (!energy.add(part, s, v, stiffness)) return;
             part.count = 0;
         }
         const HalfEdge before = prev_half_edge(e);
@@ -183,11 +197,11 @@ void find_step(const Triangulation& t, const SurfaceFrames& s, double stiffness,
             continue;
         }
         m.ring[part.count] = p;
-        part.add(to_p, to_q, mean_size(s, v, p, to_p));
+        part.add(to_p, to_q, seen_from_far_end(s, v, p));
         p = q;
         to_p = to_q;
     } while (e != m.start);
-    if (part.count > 0 && !energy.add(part, stiffness)) return;
+    if (part.count > 0 && !energy.add(part, s, v, stiffness)) return;
     m.ring[part.count] = p;
     m.by = {energy.step(), std::min(1.0, 1.0 / energy.inverse_alpha)};
 }
@@ -285,14 +299,9 @@ NewtonStep newton_step(const Triangulation& t, const SurfaceFrames& s, Vertex v,
 }
 
 void smooth(Triangulation& t, SurfaceFrames& s, const Stars& stars, VertexMarks& marks,
-            double stiffness, Array<Vertex>& moved) {
-    const SmoothingPass pass{t,
-                             s,
-                             stars,
-                             marks,
-                             stiffness,
-                             s.is_anisotropic ? 1.0 : OVER_RELAXATION,
-                             s.is_anisotropic ? STILL_STRETCHED : STILL};
+            double stiffness, double still, Array<Vertex>& moved) {
+    const double longer = s.is_anisotropic ? 1.0 : OVER_RELAXATION;
+    const SmoothingPass pass{t, s, stars, marks, stiffness, longer, still};
     moved = collect_by_blocks<Vertex>(
         count_parts(t), 1, [&](std::size_t n, std::size_t, Array<Vertex>& own) {
             const Part part = part_of(t, n);

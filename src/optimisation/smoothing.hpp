@@ -12,6 +12,9 @@
 
 namespace surfmesh {
 
+/// A vertex that moves less, in unit lengths, leaves its neighbours alone.
+inline constexpr double STILL = 0.03, STILL_STRETCHED = 0.02;
+
 /// A step in the unit tangent plane, and the smallest alpha of the star before it.
 struct NewtonStep {
     Point2 step;
@@ -30,9 +33,9 @@ NewtonStep newton_step(const Triangulation& t, const SurfaceFrames& s, Vertex v,
 /// Move every active vertex by one Newton step; the vertices that moved go to ``moved``.
 ///
 /// A move that would turn a triangle over, or make a bad star worse, is not made. Vertices that
-/// have moved noticeably, and their neighbours, stay active. In a large domain the parts are done
+/// have moved by more than ``still``, and their neighbours, stay active. In a large domain the parts are done
 /// side by side, then the vertices whose stars lie in several.
 void smooth(Triangulation& t, SurfaceFrames& s, const Stars& stars, VertexMarks& marks,
-            double stiffness, Array<Vertex>& moved);
+            double stiffness, double still, Array<Vertex>& moved);
 
 }  // namespace surfmesh

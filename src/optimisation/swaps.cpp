@@ -9,6 +9,7 @@ namespace surfmesh {
 namespace {
 
 constexpr std::size_t SWAPS_TOGETHER = 1 << 14;  // triangles measured together
+constexpr double STRAIGHT = 0.97;   // cosine of the angle that a border may turn by: 14 degrees
 constexpr double SWAP_GAIN = 1e-3;  // smallest betterment of the worse alpha for a swap
 
 /// The corners of the two triangles at an edge that is not on the border: a-b-c and b-a-d.
@@ -112,6 +113,20 @@ struct ShapeSwaps {
     }
 };
 
+/// Is the start of e on the border, with both its border edges nearly in one line?
+bool is_on_straight_border(const Triangulation& t, const SurfaceFrames& s, HalfEdge e) {
+    HalfEdge first = e, last = prev_half_edge(e);  // the border edges that leave it and end there
+    while (t.adj[first] >= 0) {
+        first = next_half_edge(t.adj[first]);
+        if (first == e) return false;
+    }
+    while (t.adj[last] >= 0) last = prev_half_edge(t.adj[last]);
+    const Vertex v = t.tri[e];
+    const Point2 onward = chord(s, v, t.tri[next_half_edge(first)]);
+    const Point2 back = chord(s, v, t.tri[last]);
+    return dot(onward, back) < -STRAIGHT * norm(onward) * norm(back);
+}
+
 /// Swaps that bring degrees nearer to six, and what they work on.
 struct DegreeSwaps {
     Triangulation& t;
@@ -126,8 +141,38 @@ struct DegreeSwaps {
         if (inner < 13 || inner - degree[q.c] - degree[q.d] < 3) return false;
         if (stars.frozen[q.a] || stars.frozen[q.b] || stars.frozen[q.c] || stars.frozen[q.d])
             return false;
+        return is_good_enough(e, q);
+    }
+
+    [[nodiscard]] bool is_good_enough(HalfEdge e, const Quadrilateral& q) const {
         return triangle_shape(s, q.a, q.d, q.c) > least &&
                triangle_shape(s, q.b, q.c, q.d) > least && may_swap(t, s, e);
+    }
+
+    /// Triangles of v beyond those of a regular vertex inside, or on a straight border.
+    [[nodiscard]] int excess(Vertex v) const {
+        return stars.degree[v] - (stars.frozen[v] != 0 ? 3 : 6);
+    }
+
+    /// The same where some of the four are frozen, all those on a straight border.
+    [[nodiscard]] bool is_wanted_at_border(HalfEdge e, const Quadrilateral& q) const {
+        const int inner = excess(q.a) + excess(q.b);
+        if (inner < 1 || inner - excess(q.c) - excess(q.d) < 3) return false;
+        for (const Vertex v : {q.a, q.b, q.c, q.d})
+            if (stars.frozen[v] != 0 && !is_on_straight_border(t, s, stars.start[v])) return false;
+        return is_good_enough(e, q);
+    }
+
+    void swap(HalfEdge e, const Quadrilateral& q) const {
+        const HalfEdge f = t.adj[e];
+        swap_edge(t, e);
+        stars.degree[q.a] -= 1;
+        stars.degree[q.b] -= 1;
+        stars.degree[q.c] += 1;
+        stars.degree[q.d] += 1;
+        touch(marks, q);
+        for (const Triangle k : {e / 3, f / 3})
+            for (HalfEdge own = 3 * k; own < 3 * k + 3; ++own) stars.start[t.tri[own]] = own;
     }
 
     /// Swap edges of triangle k with others within the part; returns the swaps made.
@@ -142,12 +187,7 @@ struct DegreeSwaps {
             }
             const Quadrilateral q = corners_around(t, e);
             if (!is_wanted(e, q)) continue;
-            swap_edge(t, e);
-            stars.degree[q.a] -= 1;
-            stars.degree[q.b] -= 1;
-            stars.degree[q.c] += 1;
-            stars.degree[q.d] += 1;
-            touch(marks, q);
+            swap(e, q);
             ++swaps;
         }
         if (waits) left.push_back(k);
@@ -201,6 +241,27 @@ int swap_for_degree(Triangulation& t, const SurfaceFrames& s, Stars& stars, Vert
     for (const Triangle k : left)
         if (t.region[k] != DEAD) total += swaps.swap_within(whole_of(t), k, none);
     return total;
+}
+
+int swap_at_border(Triangulation& t, const SurfaceFrames& s, Stars& stars, VertexMarks& marks,
+                   const Array<double>& shape, double bad, double least) {
+    const DegreeSwaps swaps{t, s, stars, marks, least};
+    int made = 0;
+    for (Triangle k = 0; k < t.triangles(); ++k) {
+        if (!(shape[k] < bad) || t.region[k] == DEAD) continue;
+        if (!stars.frozen[t.tri[3 * k]] && !stars.frozen[t.tri[3 * k + 1]] &&
+            !stars.frozen[t.tri[3 * k + 2]])
+            continue;
+        for (HalfEdge e = 3 * k; e < 3 * k + 3; ++e) {
+            if (t.adj[e] < 0 || t.fixed[e] != 0) continue;
+            const Quadrilateral q = corners_around(t, e);
+            if (!swaps.is_wanted_at_border(e, q)) continue;
+            swaps.swap(e, q);
+            ++made;
+            break;
+        }
+    }
+    return made;
 }
 
 }  // namespace surfmesh

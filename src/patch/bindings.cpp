@@ -155,6 +155,15 @@ void bind_passes(nb::class_<BoundPatch>& c) {
         [](BoundPatch& p) { p.run_pass([](PatchState& s) { s.swap_for_degree(); }); },
         "Swap edges that bring the degrees of their four vertices nearer to six.");
     c.def(
+        "swap_at_border",
+        [](BoundPatch& p, double bad) {
+            return p.run([&](PatchState& s) { return s.swap_at_border(bad); });
+        },
+        nb::arg("bad"),
+        "The same at triangles below the alpha ``bad`` on straight borders, where vertices of "
+        "three "
+        "triangles are regular. Returns the swaps made.");
+    c.def(
         "collapse", [](BoundPatch& p) { p.run_pass([](PatchState& s) { s.collapse(); }); },
         "Remove interior vertices with a short edge, or with few triangles.");
     c.def(

@@ -74,6 +74,7 @@ PatchState::PatchState(Triangulation& triangulation, BoundaryNodes nodes,
       frames(t.xy.size(), setting.background.is_anisotropic(),
              most_vertices(t.xy.size(), setting.background.is_anisotropic())),
       marks(t.xy.size()),
+      still(frames.is_anisotropic ? STILL_STRETCHED : STILL),
       nodes_(std::move(nodes)),
       setting_(setting),
       surface_(setting.surface),
@@ -181,7 +182,7 @@ int PatchState::smooth(double stiffness) {
     if (!stopped() && setting_.before_pass) cancelled_ = !setting_.before_pass();
     if (stopped()) return 0;
     find_stars();
-    surfmesh::smooth(t, frames, stars, marks, stiffness, moved);
+    surfmesh::smooth(t, frames, stars, marks, stiffness, still, moved);
     renew_frames(all(moved), kept_drift);
     ++passes;
     return static_cast<int>(moved.size());
@@ -214,6 +215,16 @@ void PatchState::swap_for_degree() {
     const int made = surfmesh::swap_for_degree(t, frames, stars, marks, LEAST_FOR_DEGREE);
     stars_known_ = stars_known_ && made == 0;
     swaps += made;
+}
+
+int PatchState::swap_at_border(double bad) {
+    if (stopped() || shape.size() < t.region.size()) return 0;
+    find_stars();
+    const int made =
+        surfmesh::swap_at_border(t, frames, stars, marks, shape, bad, LEAST_FOR_DEGREE);
+    stars_known_ = stars_known_ && made == 0;
+    swaps += made;
+    return made;
 }
 
 void PatchState::collapse() {

@@ -63,6 +63,7 @@ class PatchState {
     Array<double> shape;      // alpha of the triangles, as swaps have last seen it
     Array<Vertex> moved;      // by the last pass of smoothing
     double kept_drift = 0.0;  // what a vertex may move, in unit lengths, before it is put back
+    double still;             // what it has to move by for its neighbours to go on, unit lengths
     int swaps = 0, collapses = 0, splits = 0, passes = 0;
 
     [[nodiscard]] const AskedAccuracy& asked() const { return setting_.asked; }
@@ -102,6 +103,8 @@ class PatchState {
     void swap(double good = GOOD_SHAPE);
     /// Swap edges that bring the degrees of their four vertices nearer to six.
     void swap_for_degree();
+    /// The same at triangles below the alpha ``bad`` on straight borders; returns the swaps made.
+    int swap_at_border(double bad);
     /// Remove interior vertices with a short edge, or with few triangles.
     void collapse();
     /// Split interior edges of active vertices longer than ``longest``.

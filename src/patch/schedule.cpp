@@ -20,7 +20,7 @@ constexpr double BAD_SHAPE = 0.72;
 // In the end this part of the triangles is raised to the alpha of the others, within limits: below
 // the first is always bad, above the second always good. Their neighbours lose what they gain.
 constexpr double WORST_PART = 0.0005, RAISED[] = {0.65, 0.86};
-constexpr int RAISING_PASSES = 3;
+constexpr int RAISING_PASSES = 3, BORDER_PASSES = 4;
 
 constexpr double LEFT_OVER = 0.7;  // below this alpha, what packing or boundary have left over
 
@@ -30,6 +30,10 @@ constexpr double WORST_STIFFNESS = 0.3, SHAPE_STIFFNESS = 0.6;
 // Vertices that have moved by less, in unit lengths, keep their frames until all is settled: they
 // are off the surface by about half its curvature times the square.
 constexpr double KEPT_DRIFT = 0.15, KEPT_DRIFT_STRETCHED = 0.1;
+
+// Stretched meshes still move when they are settled. What is then lowered or split wakes those
+// around it; with a smaller distance most of the mesh would be awake after a few rounds.
+constexpr double STILL_SETTLED = 0.04;
 
 // Stretched sizes are held to growth again where this part of the vertices had to be lowered:
 // few surfaces. With less others get more triangles and hold it no better.
@@ -101,10 +105,19 @@ double shape_of_worst_part(const PatchState& state) {
     return *nth;
 }
 
+/// Bring degrees along the border to what they should be at triangles below the alpha ``least``.
+void mend_border(PatchState& state, double least) {
+    if (state.swap_at_border(least) == 0) return;
+    for (int pass = 0; pass < BORDER_PASSES; ++pass)
+        if (state.smooth(SHAPE_STIFFNESS) == 0) break;
+    state.swap(least);
+}
+
 /// Raise the smallest alpha of the few worst triangles, whatever their edges.
 void raise_worst(PatchState& state) {
     if (state.stopped() || state.shape.size() < state.t.region.size()) return;
     const double least = std::clamp(shape_of_worst_part(state), RAISED[0], RAISED[1]);
+    mend_border(state, least);
     for (int pass = 0; pass < RAISING_PASSES; ++pass) {
         state.raise_worst(least);
         if (state.moved.empty()) break;
@@ -137,6 +150,7 @@ Unmended optimise(PatchState& state, bool first) {
     }
     state.settle();
     state.kept_drift = 0.0;
+    if (state.is_anisotropic()) state.still = STILL_SETTLED;
     hold_growth(state);
     reduce_dihedrals(state);
     Array<Triangle> far = approach_surface(state, first);

@@ -64,7 +64,9 @@ Array<double> TrackedDeviations::measure(const Array<Triangle>& triangles) {
 }
 
 void TrackedDeviations::start_round() {
-    before_ = state_.t.tri;
+    const Array<Vertex>& now = state_.t.tri;  // into the memory of the round before
+    before_.resize(now.size());
+    std::copy(now.begin(), now.end(), before_.begin());
     is_changed_.fill(0);
 }
 

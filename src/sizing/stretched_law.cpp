@@ -23,6 +23,9 @@ std::span<const T> all(const Array<T>& array) {
     return {array.data(), array.size()};
 }
 
+/// Do two sizes, the shorter one first, differ by so much that their directions matter?
+bool is_stretched(NumberPair asked) { return asked.second > ROUND * asked.first; }
+
 /// The shorter of two sizes that the rules allow at some curvatures, for ratios of the two at most.
 bool shorter_of_principal(const SizeRules& rules, std::span<const PrincipalCurvatures> k,
                           std::span<const double> ratio, std::span<double> out) {
@@ -143,7 +146,6 @@ void StretchedLaw::lower_at_rims(std::span<const Point2> xy, std::size_t first,
 /// Nodes of these sizes within outer limits, and how fast their directions turn.
 void StretchedLaw::fill(std::size_t first, const Places& places, std::span<const TwoSizes> found,
                         FieldNodes& nodes) {
-    Array<RatePlace> rate_places;
     for (std::size_t i = 0; i < found.size(); ++i) {
         const std::size_t node = first + i;
         const TwoSizes& own = found[i];
@@ -159,13 +161,26 @@ void StretchedLaw::fill(std::size_t first, const Places& places, std::span<const
         nodes.asked[node] = {held.size, held.longer};
         nodes.curvature[node] = {places.curvature[node].k1, places.curvature[node].k2};
         nodes.turn_rates[node] = {0.0, 0.0};
-        rate_places.push_back(
-            {places.uv[node], places.principal[node], places.along_first[node] != 0, held.size});
     }
-    if (even_) return;
-    const SurfaceStatus status =
-        direction_rates(surface_, all(rate_places), {&nodes.turn_rates[first], found.size()});
+    if (!even_) find_turn_rates(first, found.size(), places, nodes);
+}
+
+/// How fast the directions of nodes turn, where that can matter: see ``longest_at``.
+void StretchedLaw::find_turn_rates(std::size_t first, std::size_t count, const Places& places,
+                                   FieldNodes& nodes) {
+    Array<std::size_t> stretched;
+    Array<RatePlace> rate_places;
+    for (std::size_t node = first; node < first + count; ++node) {
+        if (!is_stretched(nodes.asked[node])) continue;
+        stretched.push_back(node);
+        rate_places.push_back({places.uv[node], places.principal[node],
+                               places.along_first[node] != 0, nodes.size[node]});
+    }
+    if (stretched.empty()) return;
+    Array<NumberPair> rates(stretched.size());
+    const SurfaceStatus status = direction_rates(surface_, all(rate_places), all(rates));
     if (status != SurfaceStatus::DONE) status_.store(status);
+    for (std::size_t i = 0; i < stretched.size(); ++i) nodes.turn_rates[stretched[i]] = rates[i];
 }
 
 bool StretchedLaw::regained(const FieldNodes& nodes, std::span<const double> ratio,
@@ -185,8 +200,7 @@ bool StretchedLaw::regained(const FieldNodes& nodes, std::span<const double> rat
 }
 
 double longest_at(const FieldNodes& nodes, std::ptrdiff_t node, double size, double chord) {
-    const auto [first, second] = nodes.asked[node];
-    if (!(second > ROUND * first)) return std::numeric_limits<double>::infinity();
+    if (!is_stretched(nodes.asked[node])) return std::numeric_limits<double>::infinity();
     const auto [k1, k2] = nodes.curvature[node];
     return longest_along(nodes.turn_rates[node], {k1, k2}, size, chord);
 }

@@ -50,6 +50,8 @@ class StretchedLaw final : public SurfaceLaw {
                        std::span<TwoSizes> found);
     void fill(std::size_t first, const Places& places, std::span<const TwoSizes> found,
               FieldNodes& nodes);
+    void find_turn_rates(std::size_t first, std::size_t count, const Places& places,
+                         FieldNodes& nodes);
 
     bool even_;
 };

@@ -216,6 +216,11 @@ class PatchState:
         Swap edges that bring the degrees of their four vertices nearer to six.
         """
 
+    def swap_at_border(self, bad: float) -> int:
+        """
+        The same at triangles below the alpha ``bad`` on straight borders, where vertices of three triangles are regular. Returns the swaps made.
+        """
+
     def collapse(self) -> None:
         """Remove interior vertices with a short edge, or with few triangles."""
 

@@ -16,9 +16,12 @@ from surfmesh._core.optimisation import (
 )
 from surfmesh._core.patch import LONGEST, SHORTEST
 from surfmesh.api import load
+from surfmesh.api import mesh as mesh_of
 from surfmesh.geometry.differential.sides import find_sides
+from surfmesh.geometry.planar.planar_domain import PlanarDomain
 from surfmesh.meshing.boundary.boundary_loops import boundary_loops
 from surfmesh.meshing.patch.packing import packed
+from surfmesh.quality.measures.shape import shapes as alphas
 from surfmesh.sizing.field.size_field import size_field
 from surfmesh.sizing.options.sizing import Sizing
 
@@ -117,6 +120,42 @@ def test_the_worst_triangles_are_raised_and_none_gets_worse_than_they_were():
     assert after.min() > before.min() - 0.01  # they were put back on the surface since
     assert check_domain(state.t, 1) is None
     assert (state.t.xy[domain.node] == nodes).all()
+
+
+def irregularity(state, corner):
+    """Sum of the squares by which degrees miss 6 inside and 3 on the border, corners left out."""
+    n = state.t.vertices
+    state.find_stars()
+    wrong = counted_degrees(state.t)[:n] - np.where(state.stars.frozen[:n] != 0, 3, 6)
+    wrong[(counted_degrees(state.t)[:n] == 0)] = 0
+    wrong[corner] = 0
+    return (wrong**2).sum()
+
+
+def test_swaps_at_a_border_bring_degrees_nearer_to_three_and_six():
+    state, domain = state_of()
+    state.swap()
+    state.smooth()
+    state.swap()
+    nodes = state.t.xy[domain.node].copy()
+    corner = domain.node[np.isin(nodes, [nodes.min(), *nodes.max(axis=0)]).all(axis=1)]
+    before = irregularity(state, corner)
+    assert state.swap_at_border(1.0) > 0
+    assert irregularity(state, corner) < before
+    assert check_domain(state.t, 1) is None
+    assert (state.t.xy[domain.node] == nodes).all()
+    assert state.swap_at_border(0.0) == 0
+
+
+def test_border_vertices_of_four_and_two_triangles_do_not_stay():
+    """Side by side on the side of a square they held the smallest alpha at 0.862."""
+    square = PlanarDomain([[0, 0], [1, 0], [1, 1], [0, 1]])
+
+    def sizes(p):
+        return 0.005 * (1.0 + 4.0 * np.hypot(*(p - 0.5).T) / np.sqrt(0.5))
+
+    mesh = mesh_of(square, Sizing(size=sizes, growth=1.1))
+    assert alphas(mesh).alpha.min() > 0.87
 
 
 def counted_degrees(t):
