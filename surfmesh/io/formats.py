@@ -165,6 +165,7 @@ def _home(path: Path) -> str:
 
 _OTHERS = {
     ".html": "; a report is written by surfmesh.view.html_report, or by 'surfmesh report'",
+    ".h5m": "; DAGMC, which needs materials too: mesh.save_dagmc(path, materials)",
     ".png": "; a picture is written by mesh.plot, or by --picture",
 }
 """What else a place may be meant for."""

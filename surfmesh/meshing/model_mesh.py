@@ -110,12 +110,11 @@ def _with_volumes(model: CadModel, asked: ModelSizing, how: _How) -> SurfaceMesh
 
 def _balanced(model: CadModel, asked: ModelSizing, how: _How, simplify: bool) -> SurfaceMesh:
     """The mesh with its vertices off the surface, which gives solids their volumes."""
-    wide = widened_model(asked)
     shortest = asked.base.min_size or LEAST * model.diagonal
 
-    def on_surface(limits: Mapping[int, SizeLimits]) -> SurfaceMesh:
+    def on_surface(wider: float, limits: Mapping[int, SizeLimits]) -> SurfaceMesh:
         with how.watch.stage("sizing"):
-            wanted = _with_model_rules(model, wide)
+            wanted = _with_model_rules(model, widened_model(asked, wider))
         mesh = _Rounds(model, wanted, how).mesh(limits)
         return simplified(mesh, shortest) if simplify else mesh
 

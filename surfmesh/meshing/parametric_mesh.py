@@ -29,7 +29,8 @@ from surfmesh.meshing.finishing.balanced_rounds import (
     WIDER,
     balanced_in_rounds,
     solids_of_surface,
-    widened_surface,
+    widened,
+    with_chord_of_surface,
 )
 from surfmesh.meshing.finishing.curved_requests import requests_for_curved
 from surfmesh.meshing.patch.patch_mesh import PatchMesh, mesh_patch
@@ -73,10 +74,10 @@ def mesh_parametric(
     watch = Stopwatch(progress)
     if not sizing.is_balanced:
         return _on_surface(surface, sizing, optimise, watch, {})
-    wide = widened_surface(surface, sizing)
-    chord = np.inf if wide.chord is None else wide.chord / WIDER
+    own = with_chord_of_surface(surface, sizing)
+    chord = np.inf if own.chord is None else own.chord
     mesh = balanced_in_rounds(
-        lambda limits: _on_surface(surface, wide, optimise, watch, limits),
+        lambda wider, limits: _on_surface(surface, widened(own, wider), optimise, watch, limits),
         lambda _: np.array([chord]),
         solids_of_surface,
     )
@@ -235,7 +236,7 @@ def estimate_parametric(surface: Surface, sizing: Sizing) -> Estimate:
     """Triangles and memory of ``mesh_parametric``. Raises as it does."""
     balanced = sizing.is_balanced
     if balanced:
-        sizing = widened_surface(surface, sizing).replaced(vertices=ON_SURFACE)
+        sizing = widened(with_chord_of_surface(surface, sizing)).replaced(vertices=ON_SURFACE)
     part, sides, _ = _without_cusps(surface, sizing)
     field = size_field(part, sizing, sides, rims=Rims(part, sides))
     loops = _loops(part)
@@ -258,7 +259,7 @@ def estimate_parametric(surface: Surface, sizing: Sizing) -> Estimate:
 def explain_parametric(surface: Surface, sizing: Sizing, point: np.ndarray) -> Explanation:
     """Which size rule decides at the point of the surface that is nearest to ``point`` (3,)."""
     if sizing.is_balanced:
-        sizing = widened_surface(surface, sizing)
+        sizing = widened(with_chord_of_surface(surface, sizing))
     sides = find_sides(surface)
     field = size_field(surface, sizing, sides, rims=Rims(surface, sides))
     from surfmesh.meshing.explain.explanation import explain_surface

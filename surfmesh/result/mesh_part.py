@@ -72,61 +72,58 @@ class Renumbering(NamedTuple):
         return cls(kept, number if becomes is None else number[becomes])
 
 
-@dataclass(frozen=True, eq=False, kw_only=True)
-class Arrays:
-    """Arrays that belong together. Each is converted where it has to be, and read-only."""
+def array_fields(holder: Any) -> Iterator[tuple[str, Rows]]:
+    """Names of the arrays of a dataclass, or of one of its kind, and what they hold."""
+    return ((item.name, item.metadata[_KEY]) for item in fields(holder) if _KEY in item.metadata)
 
-    @classmethod
-    def array_fields(cls) -> Iterator[tuple[str, Rows]]:
-        """Names of the arrays, and what they hold."""
-        return ((item.name, item.metadata[_KEY]) for item in fields(cls) if _KEY in item.metadata)
 
-    def fit(self, counts: Mapping[str, int]) -> dict[str, int]:
-        """Check all shapes; of kinds not among ``counts`` the first array says how many there are.
+def fit(holder: Any, counts: Mapping[str, int]) -> dict[str, int]:
+    """Check the shapes of the arrays of ``holder``; each is converted where it has to be, and made
+    read-only. Of kinds not among ``counts`` the first array says how many there are.
 
-        Returns all counts. Raises ``ValueError`` when shapes do not agree or an array is missing.
-        """
-        known = dict(counts)
-        needed = {item.name for item in fields(self) if item.default is MISSING}
-        held = {name: getattr(self, name) for name, _ in self.array_fields()}
-        for name, kind in self.array_fields():
-            if held[name] is not None:
-                array = kind.fitted(name, held[name], known)
-                object.__setattr__(self, name, array)
-                if kind.of != ANY:
-                    known.setdefault(kind.of, len(array))
-            elif name in needed:
-                given = next(
-                    (other for other, value in held.items() if value is not None), "nothing"
-                )
-                raise ValueError(f"{given} given without {name}")
-        return known
+    Returns all counts. Raises ``ValueError`` when shapes do not agree or an array is missing.
+    """
+    known = dict(counts)
+    needed = {item.name for item in fields(holder) if item.default is MISSING}
+    held = {name: getattr(holder, name) for name, _ in array_fields(holder)}
+    for name, kind in array_fields(holder):
+        if held[name] is not None:
+            array = kind.fitted(name, held[name], known)
+            object.__setattr__(holder, name, array)
+            if kind.of != ANY:
+                known.setdefault(kind.of, len(array))
+        elif name in needed:
+            given = next((other for other, value in held.items() if value is not None), "nothing")
+            raise ValueError(f"{given} given without {name}")
+    return known
 
-    def arrays_renumbered(self, kinds: Mapping[str, Renumbering]) -> dict[str, Any]:
-        """By name the arrays that change: their rows, or their numbers, are of ``kinds``."""
-        changes: dict[str, Any] = {}
-        for name, kind in self.array_fields():
-            value = getattr(self, name)
-            if value is None:
-                continue
-            if kind.of in kinds:
-                changes[name] = value = value[kinds[kind.of].rows]
-            number = kinds[kind.holds].number if kind.holds and kind.holds in kinds else None
-            if number is not None:
-                changes[name] = np.where(value >= 0, number[value], -1)
-        return changes
+
+def renumbered_arrays(holder: Any, kinds: Mapping[str, Renumbering]) -> dict[str, Any]:
+    """By name the arrays of ``holder`` that change: their rows, or their numbers, are of
+    ``kinds``."""
+    changes: dict[str, Any] = {}
+    for name, kind in array_fields(holder):
+        value = getattr(holder, name)
+        if value is None:
+            continue
+        if kind.of in kinds:
+            changes[name] = value = value[kinds[kind.of].rows]
+        number = kinds[kind.holds].number if kind.holds and kind.holds in kinds else None
+        if number is not None:
+            changes[name] = np.where(value >= 0, number[value], -1)
+    return changes
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
-class MeshPart(Arrays):
+class MeshPart:
     """A part of a mesh, which holds its own arrays to their shapes."""
 
     def __post_init__(self) -> None:
-        self.fit({})
+        fit(self, {})
 
     def renumbered(self, kinds: Mapping[str, Renumbering]) -> Self:
         """The part with every array that is of ``kinds``, or holds their numbers, changed so."""
-        return replace(self, **self.arrays_renumbered(kinds))
+        return replace(self, **renumbered_arrays(self, kinds))
 
 
 def _within_int32(name: str, value: ArrayLike) -> NDArray[Any]:

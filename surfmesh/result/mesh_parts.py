@@ -30,6 +30,7 @@ from surfmesh.result.mesh_part import (
     Int32Array,
     MeshPart,
     Renumbering,
+    fit,
     rows,
 )
 from surfmesh.result.quadratic_triangles import edge_rows
@@ -95,7 +96,7 @@ class ModelLinks(MeshPart):
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "surfaces", tuple(self.surfaces))
-        self.fit({FACE: len(self.surfaces)})
+        fit(self, {FACE: len(self.surfaces)})
         if self.groups is None:
             object.__setattr__(self, "groups", MeshGroups.of_surfaces(self.surfaces))
 
@@ -129,7 +130,7 @@ class EdgeLinks(MeshPart):
         )
         if segments != numbers:
             raise ValueError(f"has {segments} segments of edges and {numbers} numbers")
-        self.fit({})
+        fit(self, {})
 
     def on_edges(self, table: Connectivity, vertices: Renumbering) -> Self:
         """Those that are edges of ``table`` still, between vertices numbered anew."""
@@ -154,7 +155,7 @@ class Record(MeshPart):
     findings: tuple[Finding, ...] = ()  # those of the warnings that are about one face, as records
 
     def __post_init__(self) -> None:
-        self.fit({})
+        fit(self, {})
         for name in ("warnings", "findings"):
             object.__setattr__(self, name, tuple(getattr(self, name)))
         object.__setattr__(self, "seconds", dict(self.seconds))

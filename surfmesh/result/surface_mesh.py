@@ -28,11 +28,13 @@ from surfmesh.result.mesh_part import (
     EDGE,
     TRIANGLE,
     VERTEX,
-    Arrays,
     FloatArray,
     Int32Array,
     MeshPart,
     Renumbering,
+    array_fields,
+    fit,
+    renumbered_arrays,
     rows,
 )
 from surfmesh.result.mesh_parts import EdgeLinks, ModelLinks, Parametrisation, Record
@@ -54,7 +56,7 @@ if TYPE_CHECKING:
 
 
 @dataclass(frozen=True, eq=False, repr=False, init=False, kw_only=True)
-class SurfaceMesh(PartAttributes, Arrays):
+class SurfaceMesh(PartAttributes):
     """Triangles on surfaces. Arrays are read-only; lengths are in model units.
 
     points: (n, 3) vertices.
@@ -93,13 +95,13 @@ class SurfaceMesh(PartAttributes, Arrays):
         own |= {"one_sided": found.pop("one_sided", False)}
         for name, value in own.items():
             object.__setattr__(self, name, value)
-        counts = self.fit({})
+        counts = fit(self, {})
         if self.mid_points is not None:
-            self.fit(counts | {EDGE: len(self.edges)})
+            fit(self, counts | {EDGE: len(self.edges)})
         for name, kind in _PARTS.items():
             part = self._part_of(kind, found.pop(name, None), found)
             if part is not None:
-                part.fit(counts)
+                fit(part, counts)
             object.__setattr__(self, name, part)
         if found:
             raise TypeError(f"a SurfaceMesh has no {', '.join(found)}")
@@ -122,7 +124,7 @@ class SurfaceMesh(PartAttributes, Arrays):
                 return None
             if held.get("uv_points") is not None and held.get("uv_triangles") is None:
                 held["uv_triangles"] = self.triangles
-            held = dict.fromkeys(name for name, _ in kind.array_fields()) | held
+            held = dict.fromkeys(name for name, _ in array_fields(kind)) | held
         return kind(**held)
 
     def replaced(
@@ -241,7 +243,7 @@ class SurfaceMesh(PartAttributes, Arrays):
         kinds = {TRIANGLE: Renumbering(left), VERTEX: vertices}
         corners = parametrisation or self.parametrisation
         part = self.replaced(
-            **self.arrays_renumbered(kinds) | {"mid_points": None, "edge_links": None},
+            **renumbered_arrays(self, kinds) | {"mid_points": None, "edge_links": None},
             parametrisation=None if corners is None else corners.of_triangles(left),
             model_links=self.model_links.renumbered(kinds),
         )

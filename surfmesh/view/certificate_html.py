@@ -82,7 +82,7 @@ def certificate_html(mesh: SurfaceMesh, report: Report, colourings: dict[str, Co
             _folded(f"Notes ({len(report.warnings)})", f"<ul>{notes}</ul>") if notes else "",
             _folded("Histograms", histograms, is_open=True),
             _folded("Worst triangles", _worst(mesh), is_open=True),
-            _folded("Faces", _faces(values["by_face"])) if len(report.by_face) > 1 else "",
+            _folded("Faces", _faces(values["by_face"], values)) if len(report.by_face) > 1 else "",
             _folded("Options", _table(values.get("options") or {}), is_open=True),
             _folded("Every figure", _table(figures)),
             _folded("As text", f"<pre>{escape(str(report))}</pre>"),
@@ -111,8 +111,10 @@ def _figures(values: Mapping[str, Any]) -> str:
 
 
 def _beyond_rounding(name: str, values: Mapping[str, Any]) -> Any:
-    """The value; of a distance 0 where it is rounding beside the edges."""
+    """The value; 0 where it is rounding: of a distance beside the edges, of a turn in degrees."""
     value, shortest = values.get(name), values.get("edge_min")
+    if name == "angle_max" and value is not None:
+        return value if value > ROUNDING else 0.0
     if value is None or shortest is None or name not in _DISTANCES:
         return value
     return value if value > ROUNDING * shortest else 0.0
@@ -137,10 +139,14 @@ def _worst(mesh: SurfaceMesh) -> str:
     return f"<table class='worst'><thead>{head}</thead><tbody>{''.join(rows)}</tbody></table>"
 
 
-def _faces(rows: list[Mapping[str, Any]]) -> str:
-    """What was reached on each face beside what was asked of it."""
+def _faces(rows: list[Mapping[str, Any]], whole: Mapping[str, Any]) -> str:
+    """What was reached on each face beside what was asked of it.
+
+    whole: the figures of the mesh, whose shortest edge says what of a distance is rounding.
+    """
+    made = [{**row, "edge_min": whole["edge_min"]} for row in rows if row["triangles"]]
     return _records(
-        [{title: row[name] for title, name in _OF_FACES} for row in rows if row["triangles"]]
+        [{title: _beyond_rounding(name, row) for title, name in _OF_FACES} for row in made]
     )
 
 

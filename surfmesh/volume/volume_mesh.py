@@ -30,11 +30,19 @@ LEGS = np.array([(0, 1), (1, 2), (2, 0), (0, 3), (1, 3), (2, 3)])
 
 @dataclass(frozen=True, eq=False, repr=False, kw_only=True)
 class VolumeMesh:
-    """Tetrahedra, by solids, and the surface around them. Lengths are in model units."""
+    """Tetrahedra, by solids, and the surface around them. Lengths are in model units.
 
-    nodes: NDArray[np.float64]  # (n, 3), those of the surface first
-    elements: NDArray[np.int32]  # (k, 4), or (k, 10) for order 2
-    solid_ids: NDArray[np.int32]  # (k,) the solid of each
+    nodes: (n, 3) float, those of the surface first.
+    elements: (k, 4) int32 rows of ``nodes``, or (k, 10) for order 2.
+    solid_ids: (k,) int32 the solid of each tetrahedron, as ``surface.solid_ids`` numbers them.
+    surface: the triangles that were filled, with their names.
+    engine: who made the tetrahedra.
+    warnings: what the user should know of them, as that the surface is a new one.
+    """
+
+    nodes: NDArray[np.float64]
+    elements: NDArray[np.int32]
+    solid_ids: NDArray[np.int32]
     surface: SurfaceMesh
     engine: str = ""
     warnings: tuple[str, ...] = ()

@@ -97,6 +97,7 @@ def test_obj_of_other_programs(tmp_path):
 @pytest.mark.parametrize(
     ("name", "said"),
     [
+        ("mesh.h5m", "mesh.save_dagmc(path, materials)"),
         ("mesh.foo", "extension '.foo' is not known; known are .vtu .vtp"),
         ("mesh", "has no extension"),
         ("nowhere/mesh.vtu", "does not exist"),

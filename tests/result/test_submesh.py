@@ -17,6 +17,7 @@ from surfmesh.result.mesh_part import (
     SEGMENT,
     TRIANGLE,
     VERTEX,
+    array_fields,
 )
 from surfmesh.result.surface_mesh import SurfaceMesh
 
@@ -41,7 +42,7 @@ def held(mesh):
 
 def test_every_array_says_what_its_rows_are(rich):
     for name, value, owner in held(rich):
-        declared = name in dict(owner.array_fields())
+        declared = name in dict(array_fields(owner))
         assert declared == isinstance(value, np.ndarray), f"{name}: declare it with rows(...)"
 
 
@@ -61,7 +62,7 @@ def test_every_array_is_cut_down_and_numbered_anew(rich):
     }  # fmt: skip
     assert len(part.edge_ids) < len(rich.edge_ids)
     for name, value, owner in held(part):
-        kind = dict(owner.array_fields()).get(name)
+        kind = dict(array_fields(owner)).get(name)
         if kind is not None:
             assert len(value) == counts[kind.of], name
             if kind.holds:

@@ -345,3 +345,12 @@ def test_the_table_of_faces_has_what_was_promised(tmp_path):
     table = text[text.index("<summary>Faces</summary>") :]
     assert "<th>angle °</th>" in table and "<th>stated limit</th>" in table
     assert "min_size 1 keeps face" in table and '<td class="number">5</td>' in table
+
+
+def test_the_table_of_faces_has_no_rounding(tmp_path):
+    import cadquery as cq
+
+    box = cq.Workplane().box(3, 2, 1).rotate((0, 0, 0), (1, 2, 3), 33)
+    text = html_report(sm.mesh(box, 0.5), tmp_path / "box.html").read_text(encoding="utf-8")
+    table = text[text.index("<summary>Faces</summary>") :]
+    assert not re.search(r"\de-\d\d", table[: table.index("</table>")])

@@ -36,8 +36,13 @@ WIDER = 1.9
 """Times the chord: what sizes are made for. Twice would leave no room where neighbours differ."""
 
 STALLED = 3
-"""After so many rounds that have brought the farthest place no nearer no more are made; the report
-says what is left."""
+"""After so many rounds that have brought the farthest place no nearer, nor left fewer places that
+are too far, no more are made as they were."""
+
+TIGHTER, TIGHTENED, NEARLY = 0.96, 2, 1.1
+"""Then all sizes are made for this times as much, so often at most, where the farthest place is
+nearer than so many chords: each round had a few new ones that just exceed it. Else, and after that,
+the report says what is left."""
 
 KEPT = 0.99
 """Of the chord: what is let pass at the places that are looked at."""
@@ -62,59 +67,65 @@ SAME_VOLUME = 1e-8
 _LOOKED_AT = np.concatenate([np.eye(3), PLACES])
 
 
-def widened(sizing: Sizing) -> Sizing:
+def widened(sizing: Sizing, wider: float = WIDER) -> Sizing:
     """What a mesh is made with whose vertices are balanced afterwards: its volumes are kept then,
     whatever its sizes."""
-    chord = None if sizing.chord is None else WIDER * sizing.chord
+    chord = None if sizing.chord is None else wider * sizing.chord
     return sizing.replaced(chord=chord, volume=None)
 
 
-def widened_surface(surface: Surface, sizing: Sizing) -> Sizing:
-    """The same of one surface, with the default chord where nothing else is asked for."""
+def with_chord_of_surface(surface: Surface, sizing: Sizing) -> Sizing:
+    """``sizing`` with the default chord of a surface where nothing else is asked for."""
     points = surface.evaluate(parameter_grid(surface.domain, 33), 0)[0]
     extent = diagonal(points[np.isfinite(points).all(axis=1)])
-    return widened(with_default_chord(sizing, extent))
+    return with_default_chord(sizing, extent)
 
 
-def widened_model(asked: ModelSizing) -> ModelSizing:
-    """The same of all faces, edges and vertices of a model."""
+def widened_model(asked: ModelSizing, wider: float = WIDER) -> ModelSizing:
+    """``widened`` of all faces, edges and vertices of a model."""
 
     def every(own: Mapping[int, Sizing]) -> dict[int, Sizing]:
-        return {number: widened(sizing) for number, sizing in own.items()}
+        return {number: widened(sizing, wider) for number, sizing in own.items()}
 
     return replace(
         asked,
-        base=widened(asked.base), stated=widened(asked.stated), faces=every(asked.faces),
-        edges=every(asked.edges), vertices=every(asked.vertices),
-        entries=tuple(entry._replace(sizing=widened(entry.sizing)) for entry in asked.entries),
+        base=widened(asked.base, wider), stated=widened(asked.stated, wider),
+        faces=every(asked.faces), edges=every(asked.edges), vertices=every(asked.vertices),
+        entries=tuple(
+            entry._replace(sizing=widened(entry.sizing, wider)) for entry in asked.entries
+        ),
     )  # fmt: skip
 
 
 def balanced_in_rounds(
-    on_surface: Callable[[Mapping[int, SizeLimits]], SurfaceMesh],
+    on_surface: Callable[[float, Mapping[int, SizeLimits]], SurfaceMesh],
     chords: Callable[[SurfaceMesh], NDArray[np.float64]],
     solids: Callable[[SurfaceMesh], list[Solid]],
 ) -> SurfaceMesh:
     """The mesh of the round whose farthest place is nearest, beside its chord.
 
-    on_surface: a mesh with its vertices on the surface, within limits of the sizes by face. chords:
-    (f,) that its faces are to keep to, infinite for none. solids: whose volumes are kept.
+    on_surface: a mesh with its vertices on the surface, sized for so many chords and within limits
+    of the sizes by face. chords: (f,) that its faces are to keep to, infinite for none. solids:
+    whose volumes are kept.
     """
     known: dict[int, SizeLimits] = {}
-    nearest, stalled = math.inf, 0
+    nearest, fewest, stalled, tightened = math.inf, math.inf, 0, 0
     while stalled < STALLED:
-        mesh = on_surface(known)
+        mesh = on_surface(WIDER * TIGHTER**tightened, known)
         moved = balanced(mesh, chords(mesh), solids(mesh))
         worst = 0.0
         found: dict[int, SizeLimits] = {}
         if moved is not mesh:
             worst, found = _refinements(moved, mesh.points, chords(mesh))
+        left = sum(len(more.sizes) for more in found.values())
+        stalled = 0 if worst < nearest or left < fewest else stalled + 1
         if worst < nearest:
-            best, nearest, stalled = moved, worst, 0
-        else:
-            stalled += 1
+            best, nearest = moved, worst
+        fewest = min(fewest, left)
         if not found:
             break
+        if stalled == STALLED and nearest < NEARLY and tightened < TIGHTENED:
+            fewest, stalled, tightened = math.inf, 0, tightened + 1
         known |= {face: more.joined_with(known.get(face)) for face, more in found.items()}
     return best
 

@@ -15,6 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from surfmesh._core.space import meeting_triangles
+from surfmesh.accuracy.samples import DENSE
 from surfmesh.meshing.finishing.kept_volumes import Solid, Volumes, vector_areas, volume_within
 from surfmesh.meshing.finishing.second_order import put_on_curves
 from surfmesh.meshing.finishing.signed_distances import PLACES, signed_distances
@@ -32,6 +33,9 @@ EXACT = 1e-9
 
 AIMED = 0.96
 """Of the chord: what is as good as no distance."""
+
+SUSPECT = 0.9
+"""Of the chord: from there triangles are looked at as closely as the report does."""
 
 SMOOTH = 0.85
 """Cosine between two pieces of a rim from which their common vertex is no corner."""
@@ -59,7 +63,8 @@ def balanced(mesh: SurfaceMesh, chords: NDArray[np.float64], solids: list[Solid]
     steps = Steps(sites, len(mesh.points))
     known = [solid for solid in solids if _is_explained(mesh, distances, solid)]
     volumes = Volumes(mesh, sites, steps, known)
-    moves = steps.of(_lengths(mesh, distances, chords, volumes))
+    unseen = _unseen(mesh, distances, chords)
+    moves = steps.of(_lengths(mesh, distances, unseen, chords, volumes))
     moves += _along_rims(mesh, steps)
     factor = _allowed(mesh, moves)
     points = mesh.points + factor[:, None] * moves
@@ -80,9 +85,24 @@ def _is_explained(mesh: SurfaceMesh, distances: NDArray[np.float64], solid: Soli
     return abs(missing) <= explained + EXACT * solid.volume
 
 
+def _unseen(
+    mesh: SurfaceMesh, distances: NDArray[np.float64], chords: NDArray[np.float64]
+) -> NDArray[np.float64]:
+    """(m, 2) by how much triangles lie farther above and below their surfaces between the places
+    where ``distances`` (m, q) were taken: of those that have to move for their chord."""
+    found = np.zeros((len(distances), 2))
+    far = np.abs(distances).max(axis=1) > SUSPECT * chords[mesh.face_ids]
+    suspects = np.flatnonzero(far)
+    closely = signed_distances(mesh, mesh.points, DENSE, suspects)
+    for side, sign in enumerate((1.0, -1.0)):
+        known = np.maximum((sign * distances[suspects]).max(axis=1), 0.0)
+        found[suspects, side] = np.maximum((sign * closely).max(axis=1) - known, 0.0)
+    return found
+
+
 def _lengths(
-    mesh: SurfaceMesh, distances: NDArray[np.float64], chords: NDArray[np.float64],
-    volumes: Volumes,
+    mesh: SurfaceMesh, distances: NDArray[np.float64], unseen: NDArray[np.float64],
+    chords: NDArray[np.float64], volumes: Volumes,
 ) -> NDArray[np.float64]:  # fmt: skip
     """What sites (s,) are to move by along their normals.
 
@@ -108,7 +128,7 @@ def _lengths(
     for _ in range(ROUNDS):
         rise = sites.slope * steps.reached(steps.of(lengths))[sites.of_corner]
         reached = np.hstack([distances + rise @ PLACES.T, rise])
-        top, bottom = star.extremes(reached)
+        top, bottom = star.extremes(reached, unseen)
         middle = 0.5 * (top + bottom)
         beyond = np.maximum(top - within, 0.0) + np.minimum(bottom + within, 0.0)
         lengths -= RELAXED * np.where(top - bottom > 2.0 * within, middle, beyond)
@@ -130,10 +150,12 @@ class _Star:
         self.count = np.bincount(corners)
 
     def extremes(
-        self, reached: NDArray[np.float64]
+        self, reached: NDArray[np.float64], unseen: NDArray[np.float64]
     ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-        """The largest and the smallest (s,) of distances (m, q), along the normal of each site."""
-        high, low = reached.max(axis=1)[:, None], reached.min(axis=1)[:, None]
+        """The largest and the smallest (s,) of distances (m, q), and of what is unseen (m, 2)
+        beyond them, along the normal of each site."""
+        high = (reached.max(axis=1) + unseen[:, 0])[:, None]
+        low = (reached.min(axis=1) - unseen[:, 1])[:, None]
         top = np.where(self.against, -low, high).ravel()[self.order]
         bottom = np.where(self.against, -high, low).ravel()[self.order]
         return np.maximum.reduceat(top, self.starts), np.minimum.reduceat(bottom, self.starts)
@@ -169,15 +191,19 @@ def _along_rims(mesh: SurfaceMesh, steps: Steps) -> NDArray[np.float64]:
 
 
 def _allowed(mesh: SurfaceMesh, moves: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Factors (n,) on the moves, lest triangles turn over or meet."""
+    """Factors (n,) on the moves, lest triangles turn over or meet.
+
+    Where a surface crosses itself by nature, other triangles meet there after any move.
+    """
     factor = np.ones(len(moves))
+    may_cross = mesh.facts is not None and mesh.facts.crosses_itself
     before = _unit_normals(mesh.points, mesh.triangles)
     known = None
     for trial in range(TRIALS + 1):
         points = mesh.points + factor[:, None] * moves
         cosine = np.einsum("ij,ij->i", before, _unit_normals(points, mesh.triangles))
         bad = mesh.triangles[cosine < TURNED].ravel()
-        if not len(bad):
+        if not len(bad) and not may_cross:
             pairs = _meeting(points, mesh.triangles)
             if len(pairs) and known is None:
                 known = {tuple(pair) for pair in _meeting(mesh.points, mesh.triangles).tolist()}

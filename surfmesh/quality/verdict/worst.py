@@ -4,6 +4,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from surfmesh.errors import shown
 from surfmesh.quality.measures.places import Point, as_point
 from surfmesh.quality.measures.shape import Shapes, shapes
 from surfmesh.result.surface_mesh import SurfaceMesh
@@ -28,10 +29,13 @@ def worst_triangles(
 ) -> tuple[WorstTriangle, ...]:
     """The ``count`` triangles of the smallest alpha, the worst first.
 
-    shape: ``shapes(mesh)`` where it is known already.
+    shape: ``shapes(mesh)`` where it is known already. Raises ``TypeError`` for a count that is no
+    whole number.
     """
+    if isinstance(count, bool) or not isinstance(count, (int, np.integer)):
+        raise TypeError(f"count is a number of triangles, as in worst(20), not {shown(count)}")
     shape = shapes(mesh) if shape is None else shape
-    count = min(max(count, 0), len(mesh.triangles))
+    count = min(max(int(count), 0), len(mesh.triangles))
     if not count:
         return ()
     last = np.partition(shape.alpha, count - 1)[count - 1]

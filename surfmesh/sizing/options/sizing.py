@@ -2,7 +2,8 @@
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, fields, replace
-from typing import Any
+from functools import wraps
+from typing import Any, TypeVar
 
 import numpy as np
 
@@ -21,8 +22,25 @@ ON_SURFACE, BALANCED = "on_surface", "balanced"
 """Where vertices lie."""
 
 SizeLaw = Callable[[np.ndarray], np.ndarray]
+_Options = TypeVar("_Options")
 
 
+def _with_known_names(options: type[_Options]) -> type[_Options]:
+    """A dataclass that says in one line what is wrong with the name of an option."""
+    made = options.__init__
+
+    @wraps(made)
+    def __init__(self: _Options, *args: Any, **given: Any) -> None:
+        if args:
+            raise SizingError("sizes are given by name, as in Sizing(chord=0.01), Sizing(size=0.1)")
+        _require_known(given)
+        made(self, **given)
+
+    options.__init__ = __init__  # type: ignore[assignment, method-assign]  # says more
+    return options
+
+
+@_with_known_names
 @dataclass(frozen=True, kw_only=True)
 class Sizing:
     """The wanted mesh. All lengths are in model units, all options hold at once.
@@ -239,19 +257,21 @@ class Sizing:
         if isinstance(given, cls):
             return given
         if isinstance(given, Mapping):
-            known = {f.name for f in fields(cls)}
-            for name in given:
-                if name not in known:
-                    raise SizingError(_unknown(name, sorted(known)))
+            _require_known(given)
             return cls(**given)
         if isinstance(given, (int, float)) or callable(given):
             return cls(size=given)
         raise SizingError(f"sizes are a number, a Sizing or a mapping, not {type(given).__name__}")
 
 
-def _unknown(name: object, known: list[str]) -> str:
-    word = own_word(name) if isinstance(name, str) else None
-    if word is None:
-        near = did_you_mean(str(name), known)
-        return f"unknown size option {shown(name)}{near or '; known are ' + ', '.join(known)}"
-    return f"unknown size option {shown(name)}: here it is called {word!r}"
+def _require_known(given: Mapping[Any, Any]) -> None:
+    """Raises ``SizingError`` for a name that is no option, with ours for other programs' words."""
+    known = sorted(option.name for option in fields(Sizing))
+    for name in given:
+        if name in known:
+            continue
+        word = own_word(name) if isinstance(name, str) else None
+        if word is not None:
+            raise SizingError(f"unknown size option {shown(name)}: here it is called {word!r}")
+        near = did_you_mean(str(name), known) or f"; known are {', '.join(known)}"
+        raise SizingError(f"unknown size option {shown(name)}{near}")

@@ -182,6 +182,8 @@ def test_worst_triangles(plate):
         assert found.face == plate.face_ids[found.triangle]
     assert plate.worst(3) == worst[:3] and plate.worst(0) == ()
     assert len(plate.worst(10**6)) == len(plate.triangles)
+    with pytest.raises(TypeError, match=r"as in worst\(20\), not 'a'"):
+        plate.worst("a")
 
 
 def test_folded_triangles_are_named():

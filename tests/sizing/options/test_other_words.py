@@ -22,6 +22,15 @@ def test_chord_has_many_names(word):
     assert own_word(word) == "chord"
     with pytest.raises(SizingError, match="'chord'"):
         Sizing.of({word: 0.1})
+    with pytest.raises(SizingError, match="'chord'"):
+        Sizing(**{word: 0.1})
+
+
+def test_names_are_needed():
+    with pytest.raises(SizingError, match=r"Sizing\(size=0.1\)"):
+        Sizing(0.1)
+    with pytest.raises(SizingError, match="did you mean 'anisotropy'"):
+        Sizing(anisotrpy=2)
 
 
 def test_an_unknown_word():
