@@ -32,8 +32,8 @@ MANY = 10**15
 """Triangles: more are told in powers of ten."""
 
 COARSENESS = 2.0
-"""Of the size field of a surface of formulas: a quarter to a third of the cells, and its area is
-wrong by less than a hundredth; from 2.5 on small patches are no longer like the mesh, and from 4 on
+"""Of the size field of a surface of formulas: a third to a half of the cells where it bends much,
+and its area is wrong by less than a hundredth; from 2.5 on small patches are no longer like the mesh, and from 4 on
 what lies about an apex is missed."""
 
 SHARP = 6.0
