@@ -174,8 +174,12 @@ class GradationOverFaces {
             const auto own = faces_.edges.subspan(
                 static_cast<std::size_t>(faces_.first[f]),
                 static_cast<std::size_t>(faces_.first[f + 1] - faces_.first[f]));
+            double coarsest = 0.0;
+            for (const std::int64_t edge : own)
+                coarsest = std::max(coarsest, ranges_[static_cast<std::size_t>(edge)].largest);
             for (const std::int64_t from : own) {
                 if (lowered_[from] < round) continue;
+                if (!(ranges_[static_cast<std::size_t>(from)].smallest < coarsest)) continue;
                 for (const std::int64_t to : own)  // by itself an edge is graded already
                     if (to != from &&
                         grow(static_cast<std::size_t>(from), static_cast<std::size_t>(to))) {

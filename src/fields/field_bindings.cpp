@@ -128,10 +128,12 @@ void construct_builder(FieldBuilder* builder, std::pair<std::int32_t, std::int32
                        std::pair<double, double> extent, std::pair<double, double> root_step,
                        double slope, double largest, const Sides& sides, const Places& sources,
                        bool known_sizes, bool counts_triangles, double free_cells,
-                       double most_triangles, std::pair<bool, bool> looks_for_hidden) {
+                       double most_triangles, std::pair<bool, bool> looks_for_hidden,
+                       double coarseness) {
     const auto [nx, ny] = grid;
     if (nx < 1 || ny < 1 || std::int64_t{nx} * ny > (1 << 20))
         throw nb::value_error("grid is not positive, or has more than 2^20 root cells");
+    if (!(coarseness >= 1.0)) throw nb::value_error("coarseness is below 1");
     for (int side = 0; side < 4; ++side)
         if (const int other = sides.first[side];
             other < -1 || other > 3 || other == side || (other >= 0 && sides.first[other] != side))
@@ -149,7 +151,8 @@ void construct_builder(FieldBuilder* builder, std::pair<std::int32_t, std::int32
                    free_cells,
                    most_triangles,
                    looks_for_hidden.first,
-                   looks_for_hidden.second};
+                   looks_for_hidden.second,
+                   coarseness};
     for (std::size_t k = 0; k < sources.shape(0); ++k) {
         const SmallSource source{sources(k, 0), sources(k, 1), sources(k, 2)};
         if (source.x < 0 || source.y < 0 || source.x >> GRID_DEPTH >= nx ||
@@ -171,7 +174,7 @@ void bind_field_builder(nb::module_& m) {
     c.def("__init__", &construct_builder, nb::arg("grid"), nb::arg("extent"), nb::arg("root_step"),
           nb::arg("slope"), nb::arg("largest"), nb::arg("sides"), nb::arg("sources"),
           nb::arg("known_sizes"), nb::arg("counts_triangles"), nb::arg("free_cells"),
-          nb::arg("most_triangles"), nb::arg("looks_for_hidden"),
+          nb::arg("most_triangles"), nb::arg("looks_for_hidden"), nb::arg("coarseness") = 1.0,
           "grid: root cells along x and y. extent: of the scaled plane. root_step: width and "
           "height of a root cell. slope: growth of the size per length. largest: size in the "
           "scaled plane above which none counts.\nsides: of each the one that it is joined with, "
@@ -180,7 +183,8 @@ void bind_field_builder(nb::module_& m) {
           "size have such cells. counts_triangles: beyond free_cells, cells may not be many more "
           "than triangles. "
           "most_triangles: more are refused, or inf.\nlooks_for_hidden: features between the "
-          "nodes are looked for at all, and in deep cells.");
+          "nodes are looked for at all, and in deep cells. coarseness: times the error that a cell "
+          "may have for a mesh, at least 1.");
     c.def("refine", &refine_by, nb::arg("law"), nb::arg("hidden"),
           "Split cells until the field is accurate: status, place, and number of triangles or "
           "cells.\n\nlaw, hidden: of the core, or callables: law(xy (n, 2)) -> the twelve arrays "

@@ -178,8 +178,8 @@ void FieldBuilder::mark_inaccurate(std::int32_t seen, std::span<std::uint8_t> sp
         const PatchError found = patch_error(metric_roots(patch), step, plan_.largest);
         const bool graded = is_graded(patch);
         const double finest = graded && plan_.known_sizes ? coarse : FINEST_EXTENT;
-        if (found.error > (graded ? GRADED_ERROR : TEST_ERROR) && found.extent > finest)
-            split[k] = 1;
+        const double most = plan_.coarseness * (graded ? GRADED_ERROR : TEST_ERROR);
+        if (found.error > most && found.extent > finest) split[k] = 1;
     }
 }
 

@@ -65,6 +65,7 @@ struct FieldPlan {
     double free_cells;      // so many are allowed before cells are held to triangles
     double most_triangles;  // so many are not asked for by mistake; infinite: not looked at
     bool looks_for_hidden, looks_deep;
+    double coarseness;  // times the error that a cell may have for a mesh: more makes fewer cells
 };
 
 enum class FieldStatus {

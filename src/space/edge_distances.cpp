@@ -12,24 +12,17 @@ namespace {
 
 constexpr double INFINITE = std::numeric_limits<double>::infinity();
 
-/// Each sample with the next one of its edge; the last one is a point.
-Array<Segment3> segments_between(const SampledEdges& sampled) {
-    Array<Segment3> segments;
-    segments.reserve(sampled.points.size());
-    for (std::size_t e = 0; e + 1 < sampled.first.size(); ++e)
-        for (std::int64_t p = sampled.first[e]; p < sampled.first[e + 1]; ++p)
-            segments.push_back(
-                {sampled.points[p], sampled.points[std::min(p + 1, sampled.first[e + 1] - 1)]});
-    return segments;
+constexpr Box3 NO_BOX{{INFINITE, INFINITE, INFINITE}, {-INFINITE, -INFINITE, -INFINITE}};
+
+void widen(Box3& box, Point3 low, Point3 high) {
+    box.low = {std::min(box.low.x, low.x), std::min(box.low.y, low.y), std::min(box.low.z, low.z)};
+    box.high = {std::max(box.high.x, high.x), std::max(box.high.y, high.y),
+                std::max(box.high.z, high.z)};
 }
 
 Box3 box_around(std::span<const Point3> points) {
-    Box3 box{{INFINITE, INFINITE, INFINITE}, {-INFINITE, -INFINITE, -INFINITE}};
-    for (const Point3 p : points) {
-        box.low = {std::min(box.low.x, p.x), std::min(box.low.y, p.y), std::min(box.low.z, p.z)};
-        box.high = {std::max(box.high.x, p.x), std::max(box.high.y, p.y),
-                    std::max(box.high.z, p.z)};
-    }
+    Box3 box = NO_BOX;
+    for (const Point3 p : points) widen(box, p, p);
     return box;
 }
 
@@ -47,24 +40,31 @@ double squared_distance_between(const Box3& a, const Box3& b) {
            apart(a.low.z, a.high.z, b.low.z, b.high.z);
 }
 
-/// Segments of all edges, and boxes around RUN of them in a row.
-struct Segments {
-    Array<Segment3> segments;
+/// Boxes around the edges, and around RUN segments of each in a row.
+struct EdgeRuns {
     Array<Box3> boxes;              // of the runs of all edges
     Array<std::int64_t> first_box;  // of each edge
+    Array<Box3> of_edges;
 };
 
 constexpr std::int64_t RUN = 8;
 
-Segments runs_of_segments(const SampledEdges& sampled) {
-    Segments found{segments_between(sampled), {}, {}};
+EdgeRuns runs_of_edges(const SampledEdges& sampled) {
+    EdgeRuns found;
+    found.boxes.reserve(sampled.points.size() / RUN + sampled.first.size());
     for (std::size_t e = 0; e + 1 < sampled.first.size(); ++e) {
+        const std::int64_t first = sampled.first[e], end = sampled.first[e + 1];
         found.first_box.push_back(static_cast<std::int64_t>(found.boxes.size()));
-        for (std::int64_t p = sampled.first[e]; p < sampled.first[e + 1] - 1; p += RUN) {
-            const std::int64_t last = std::min(p + RUN, sampled.first[e + 1] - 1);
-            found.boxes.push_back(box_around(sampled.points.subspan(
-                static_cast<std::size_t>(p), static_cast<std::size_t>(last - p + 1))));
+        Box3 whole = NO_BOX;
+        if (end == first + 1) widen(whole, sampled.points[first], sampled.points[first]);
+        for (std::int64_t p = first; p < end - 1; p += RUN) {
+            const std::int64_t last = std::min(p + RUN, end - 1);
+            const Box3 run = box_around(sampled.points.subspan(
+                static_cast<std::size_t>(p), static_cast<std::size_t>(last - p + 1)));
+            widen(whole, run.low, run.high);
+            found.boxes.push_back(run);
         }
+        found.of_edges.push_back(whole);
     }
     return found;
 }
@@ -74,28 +74,36 @@ struct RunOfEdge {
     std::int64_t sample, box;
 };
 
-/// Lower the gap of one sample to its distance from some runs of edge b.
-void lower_gap(const SampledEdges& sampled, const Segments& runs, std::int64_t p, std::int64_t b,
-               std::span<const RunOfEdge> near, EdgeGaps& found) {
+/// Lower the gap of one sample to its distance from some runs of edge b. nearest_run: among them
+/// that of the sample before, which is looked at first, since most others lie farther; then its own.
+void lower_gap(const SampledEdges& sampled, const EdgeRuns& runs, std::int64_t p, std::int64_t b,
+               std::span<const RunOfEdge> near, std::size_t& nearest_run, EdgeGaps& found) {
     const std::int64_t end = sampled.first[b + 1] - 1;
     const Point3 point = sampled.points[p];
     const double reach = std::min(found.gap[p], sampled.reach[p]);
     double nearest = reach * reach;
     if (squared_distance(found.boxes[b], point) >= nearest) return;
-    for (const auto [run, box] : near) {
-        if (squared_distance(runs.boxes[box], point) >= nearest) continue;
+    const auto look_at = [&](std::size_t k) {
+        const auto [run, box] = near[k];
+        if (squared_distance(runs.boxes[box], point) >= nearest) return;
         for (std::int64_t s = run; s < std::min(run + RUN, end); ++s) {
-            const double here = squared_distance(runs.segments[s], point);
+            const double here =
+                squared_distance(Segment3{sampled.points[s], sampled.points[s + 1]}, point);
             if (here < nearest) {
                 nearest = here;
-                found.gap[p] = std::sqrt(here);
+                nearest_run = k;
             }
         }
-    }
+    };
+    const std::size_t first = nearest_run;
+    look_at(first);
+    for (std::size_t k = 0; k < near.size(); ++k)
+        if (k != first) look_at(k);
+    if (nearest < reach * reach) found.gap[p] = std::sqrt(nearest);
 }
 
 /// The runs of edge b that are not surely farther from a box than ``farthest``, squared.
-void near_runs(const SampledEdges& sampled, const Segments& runs, std::int64_t b, const Box3& from,
+void near_runs(const SampledEdges& sampled, const EdgeRuns& runs, std::int64_t b, const Box3& from,
                double farthest, Array<RunOfEdge>& near) {
     constexpr double SURELY = 1.0 + 1e-9;  // round-off decides nothing
     near.clear();
@@ -106,11 +114,12 @@ void near_runs(const SampledEdges& sampled, const Segments& runs, std::int64_t b
 }
 
 /// Lower the gaps of the samples of edge a, run by run; farthest: square of their largest reach.
-void lower_gaps(const SampledEdges& sampled, const Segments& runs, std::int64_t a, std::int64_t b,
+void lower_gaps(const SampledEdges& sampled, const EdgeRuns& runs, std::int64_t a, std::int64_t b,
                 double farthest, EdgeGaps& found) {
     Array<RunOfEdge> near;
+    std::size_t nearest_run = 0;
     const auto lower = [&](std::int64_t p) {
-        lower_gap(sampled, runs, p, b, {near.data(), near.size()}, found);
+        lower_gap(sampled, runs, p, b, {near.data(), near.size()}, nearest_run, found);
     };
     const std::int64_t end = sampled.first[a + 1] - 1;
     std::int64_t box = runs.first_box[a];
@@ -118,12 +127,14 @@ void lower_gaps(const SampledEdges& sampled, const Segments& runs, std::int64_t 
         if (squared_distance_between(runs.boxes[box], found.boxes[b]) >= farthest) continue;
         near_runs(sampled, runs, b, runs.boxes[box], farthest, near);
         if (near.empty()) continue;
+        nearest_run = 0;
         const std::int64_t last = run + RUN < end ? run + RUN - 1 : end;
         for (std::int64_t p = run; p <= last; ++p) lower(p);
     }
     if (sampled.first[a] != end) return;
     near_runs(sampled, runs, b, found.boxes[a], farthest, near);
-    lower(end);
+    nearest_run = 0;
+    if (!near.empty()) lower(end);
 }
 
 /// Of each edge the faces that use it, in their order.
@@ -218,7 +229,7 @@ class NearEdges {
 };
 
 /// Lower the gaps of the samples of edge a to their distances from the other edges of a face.
-void lower_gaps_in_face(const SampledEdges& sampled, const Segments& runs, std::int64_t a,
+void lower_gaps_in_face(const SampledEdges& sampled, const EdgeRuns& runs, std::int64_t a,
                         std::span<const std::int64_t> rows, double farthest, EdgeGaps& found) {
     for (const std::int64_t k : rows) {
         const std::int64_t b = sampled.edges[k];
@@ -232,13 +243,12 @@ void lower_gaps_in_face(const SampledEdges& sampled, const Segments& runs, std::
 
 EdgeGaps edge_gaps(const SampledEdges& sampled) {
     constexpr std::size_t BLOCK = 64;  // edges that a thread takes at a time
-    const Segments runs = runs_of_segments(sampled);
-    EdgeGaps found{Array<double>(sampled.points.size(), INFINITE), {}};
+    const EdgeRuns runs = runs_of_edges(sampled);
+    EdgeGaps found{Array<double>(sampled.points.size(), INFINITE), runs.of_edges};
     Array<double> farthest;  // squares of the largest reach of each edge
     for (std::size_t e = 0; e + 1 < sampled.first.size(); ++e) {
         const auto start = static_cast<std::size_t>(sampled.first[e]);
         const auto count = static_cast<std::size_t>(sampled.first[e + 1]) - start;
-        found.boxes.push_back(box_around(sampled.points.subspan(start, count)));
         double largest = 0.0;
         for (const double reach : sampled.reach.subspan(start, count))
             largest = std::max(largest, reach);

@@ -150,12 +150,12 @@ class HiddenFeatures:
 class FieldBuilder:
     """Makes the background of one size field."""
 
-    def __init__(self, grid: tuple[int, int], extent: tuple[float, float], root_step: tuple[float, float], slope: float, largest: float, sides: tuple[Sequence[int], Sequence[bool]], sources: Annotated[NDArray[numpy.int64], dict(shape=(None, 3), order='C', device='cpu', writable=False)], known_sizes: bool, counts_triangles: bool, free_cells: float, most_triangles: float, looks_for_hidden: tuple[bool, bool]) -> None:
+    def __init__(self, grid: tuple[int, int], extent: tuple[float, float], root_step: tuple[float, float], slope: float, largest: float, sides: tuple[Sequence[int], Sequence[bool]], sources: Annotated[NDArray[numpy.int64], dict(shape=(None, 3), order='C', device='cpu', writable=False)], known_sizes: bool, counts_triangles: bool, free_cells: float, most_triangles: float, looks_for_hidden: tuple[bool, bool], coarseness: float = 1.0) -> None:
         """
         grid: root cells along x and y. extent: of the scaled plane. root_step: width and height of a root cell. slope: growth of the size per length. largest: size in the scaled plane above which none counts.
         sides: of each the one that it is joined with, or -1, and whether it runs against it. sources (k, 3): x, y of small sizes on the grid of GRID_DEPTH, and how deep the cell there shall be.
         known_sizes: points of known size have such cells. counts_triangles: beyond free_cells, cells may not be many more than triangles. most_triangles: more are refused, or inf.
-        looks_for_hidden: features between the nodes are looked for at all, and in deep cells.
+        looks_for_hidden: features between the nodes are looked for at all, and in deep cells. coarseness: times the error that a cell may have for a mesh, at least 1.
         """
 
     def refine(self, law: object, hidden: object) -> tuple[str, tuple[float, float], float]:

@@ -289,7 +289,7 @@ def estimate_model(model: CadModel, sizing: Any) -> Estimate:
     if balanced:  # what is made first, with its vertices on the surface
         wide = widened_model(asked)
         sizing = replace(wide, base=wide.base.replaced(vertices=ON_SURFACE))
-    before = _Unmeshed(model, sizing)
+    before = _Unmeshed(model, sizing, few=True)
     stretched = before.wanted.is_anisotropic
     least = _least(before, balanced)
     whole = WHOLE_STRETCHED if stretched else WHOLE
@@ -334,12 +334,14 @@ def _with_model_rules(
 class _Unmeshed:
     """All that precedes the first mesh of a model: samples of its edges, its faces, their jobs."""
 
-    def __init__(self, model: CadModel, sizing: Any) -> None:
+    def __init__(self, model: CadModel, sizing: Any, few: bool = False) -> None:
+        """few: samples of edges, see ``sample_edges``, where sizes are the same all ways."""
         asked = model_sizing(model, sizing)
         asked = widened_model(asked) if asked.base.is_balanced else asked
         self.model = model
         self.wanted = _with_model_rules(model, asked)
-        self.samples = sample_edges(model, self.wanted)
+        few = few and not self.wanted.is_anisotropic
+        self.samples = sample_edges(model, self.wanted, few)
         self.faces = face_states(model, self.samples, self.wanted)
         nodes = cut_edges(model, self.wanted.base, self.samples, {})
         self.bound = quick_bound(model, nodes, [state.sizing for state in self.faces])

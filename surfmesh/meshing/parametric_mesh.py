@@ -21,7 +21,12 @@ from surfmesh.geometry.surface import Surface
 from surfmesh.meshing.boundary.boundary_loops import BoundaryLoops, boundary_loops
 from surfmesh.meshing.boundary.cusps import Cusp, closed_at, find_cusps, without_cusps
 from surfmesh.meshing.boundary.kink_segments import sides_met, with_kinks
-from surfmesh.meshing.estimate.estimation import Estimate, field_triangles, require_field_within
+from surfmesh.meshing.estimate.estimation import (
+    COARSENESS,
+    Estimate,
+    field_triangles,
+    require_field_within,
+)
 from surfmesh.meshing.estimate.least_counts import least_of_surface
 from surfmesh.meshing.estimate.trial_mesh import WHOLE, counts_within_budget
 from surfmesh.meshing.estimate.trial_patches import SHARE, WIDE, plan_within, triangles_per_unit
@@ -238,7 +243,7 @@ def estimate_parametric(surface: Surface, sizing: Sizing) -> Estimate:
     if balanced:
         sizing = widened(with_chord_of_surface(surface, sizing)).replaced(vertices=ON_SURFACE)
     part, sides, _ = _without_cusps(surface, sizing)
-    field = size_field(part, sizing, sides, rims=Rims(part, sides))
+    field = size_field(part, sizing, sides, rims=Rims(part, sides), coarseness=COARSENESS)
     loops = _loops(part)
     least = None
     if field.sizing.chord is not None and not field.sizing.is_curved:

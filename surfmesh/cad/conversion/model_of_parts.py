@@ -18,6 +18,7 @@ from surfmesh.cad.model.loop_faults import fault_of_pieces
 from surfmesh.cad.model.near_poles import pcurves_at_near_poles
 from surfmesh.cad.model.singular_cuts import cut_at_singular_lines
 from surfmesh.cad.model.tolerances import (
+    Measured,
     curves_on_their_faces,
     listed,
     pcurves_that_follow,
@@ -69,11 +70,12 @@ def _model_of_placed(
     if path is not None:
         walk.left_out += unread_bodies(path)
     healing = _in_words(walk, root)
+    measured = Measured(walk.edges, walk.vertices, walk.faces)
     if heal:
-        healing += pcurves_that_follow(walk.edges, walk.vertices, walk.faces, unit)
+        healing += pcurves_that_follow(measured, unit)
         healing += pcurves_at_near_poles(walk.edges, walk.vertices, walk.faces)
-        healing += curves_on_their_faces(walk.edges, walk.vertices, walk.faces, unit)
-    healing += tolerances_that_hold(walk.edges, walk.vertices, walk.faces, unit)
+        healing += curves_on_their_faces(measured, unit)
+    healing += tolerances_that_hold(measured, unit)
     _fault_split_faces(walk, root)
     model = CadModel(
         vertices=tuple(walk.vertices),

@@ -48,7 +48,7 @@ def signed_areas(loops: Sequence[tuple[CadCoedge, ...]], samples: int = 24) -> l
 
 def ring_area(ring: np.ndarray) -> float:
     """Area that a polygon (k, 2) runs round, positive counter-clockwise."""
-    u, v = (ring - ring.mean(axis=0)).T
+    u, v = (ring - ring.sum(axis=0) / len(ring)).T
     return 0.5 * float(u @ next_ones(v) - v @ next_ones(u))
 
 

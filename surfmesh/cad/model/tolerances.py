@@ -8,6 +8,8 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from dataclasses import replace
+from operator import is_
+from typing import Any
 
 import numpy as np
 
@@ -39,12 +41,30 @@ def deviations(
     return np.split(distances_to_edges(edges, vertices, every, np.concatenate(on_faces)), ends)
 
 
-def pcurves_that_follow(
-    edges: list[CadEdge], vertices: list[CadVertex], faces: list[CadFace], unit: str
-) -> list[str]:
+class Measured:
+    """``deviations`` of lists that change in place: measured anew once an entry is another."""
+
+    def __init__(
+        self, edges: list[CadEdge], vertices: list[CadVertex], faces: list[CadFace]
+    ) -> None:
+        self.edges, self.vertices, self.faces = edges, vertices, faces
+        self._of: list[Any] = []
+        self._found: list[np.ndarray] = []
+
+    def deviations(self) -> list[np.ndarray]:
+        """What ``deviations`` says of the lists as they are now."""
+        entries = [*self.edges, *self.vertices, *self.faces]
+        if len(entries) != len(self._of) or not all(map(is_, entries, self._of)):
+            self._of = entries
+            self._found = deviations(self.edges, self.vertices, self.faces)
+        return self._found
+
+
+def pcurves_that_follow(measured: Measured, unit: str) -> list[str]:
     """Replace, in place, p-curves that deviate from their edge by more than the file states."""
+    edges, faces = measured.edges, measured.faces
     replaced, worst = set(), 0.0
-    for number, distances in enumerate(deviations(edges, vertices, faces)):
+    for number, distances in enumerate(measured.deviations()):
         face, better = faces[number], {}
         for coedge, distance in zip(face.coedges, distances):
             edge = edges[coedge.edge]
@@ -69,16 +89,15 @@ def pcurves_that_follow(
     ]
 
 
-def curves_on_their_faces(
-    edges: list[CadEdge], vertices: list[CadVertex], faces: list[CadFace], unit: str
-) -> list[str]:
+def curves_on_their_faces(measured: Measured, unit: str) -> list[str]:
     """Replace, in place, curves that deviate from their faces where p-curves agree.
 
     The border of a single face lies on that face, whatever the file says.
     """
+    edges = measured.edges
     users: dict[int, list[tuple[CadFace, CadCoedge]]] = {}
     loose: dict[int, float] = {}
-    for face, distances in zip(faces, deviations(edges, vertices, faces)):
+    for face, distances in zip(measured.faces, measured.deviations()):
         for coedge, distance in zip(face.coedges, distances):
             edge = edges[coedge.edge]
             users.setdefault(coedge.edge, []).append((face, coedge))
@@ -112,19 +131,18 @@ def curves_on_their_faces(
     ]
 
 
-def tolerances_that_hold(
-    edges: list[CadEdge], vertices: list[CadVertex], faces: list[CadFace], unit: str
-) -> list[str]:
+def tolerances_that_hold(measured: Measured, unit: str) -> list[str]:
     """Raise tolerances, in place, to what is measured: of edges from their p-curves, of vertices.
 
     Files state what was measured at a few points of an edge; in between it may be worse.
     """
-    measured = np.array([edge.tolerance for edge in edges])
-    users = [coedge.edge for face in faces for coedge in face.coedges]
-    np.maximum.at(measured, users, np.concatenate(deviations(edges, vertices, faces)))
+    edges, vertices = measured.edges, measured.vertices
     stated = np.array([edge.tolerance for edge in edges])
-    for number in np.flatnonzero(measured > stated):
-        edges[number] = replace(edges[number], tolerance=float(measured[number]))
+    users = [coedge.edge for face in measured.faces for coedge in face.coedges]
+    true = stated.copy()
+    np.maximum.at(true, users, np.concatenate(measured.deviations()))
+    for number in np.flatnonzero(true > stated):
+        edges[number] = replace(edges[number], tolerance=float(true[number]))
     real = [edge for edge in edges if edge.curve is not None]
     places = points_of(real, ENDS)
     gaps = np.linalg.norm(places - _ends_of(real, vertices), axis=2)
@@ -136,13 +154,13 @@ def tolerances_that_hold(
             gap = float(np.linalg.norm(point - known.point))
             if gap > known.tolerance:
                 vertices[vertex] = replace(known, tolerance=gap * (1.0 + NOISE))
-    far = np.flatnonzero(measured > REPORTED * stated)
+    far = np.flatnonzero(true > REPORTED * stated)
     if not len(far):
         return []
-    worst = far[np.argmax(measured[far])]
+    worst = far[np.argmax(true[far])]
     return [
         f"{len(far)} edge{'s lie' if len(far) > 1 else ' lies'} further off the faces than "
-        f"the file states, edge {worst} most: {measured[worst]:.2g} {unit} instead of "
+        f"the file states, edge {worst} most: {true[worst]:.2g} {unit} instead of "
         f"{stated[worst]:.2g}; tolerances raised"
     ]
 

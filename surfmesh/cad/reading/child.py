@@ -14,6 +14,7 @@ from pathlib import Path
 from typing import Any
 
 from surfmesh.cad.reading import ocp_import
+from surfmesh.cad.reading.collector import paused
 from surfmesh.cad.reading.lifeline import end_with
 from surfmesh.cad.reading.limits import MORE_MEMORY
 
@@ -30,7 +31,8 @@ def main() -> None:
         nowhere = os.open(os.devnull, os.O_WRONLY)
         os.dup2(nowhere, 1)  # OCP talks
         answer = answer_to(wanted, load_ocp)
-        pickle.dump(answer, result, protocol=pickle.HIGHEST_PROTOCOL)
+        with paused():
+            pickle.dump(answer, result, protocol=pickle.HIGHEST_PROTOCOL)
     sys.stderr.flush()
     os._exit(0)
 

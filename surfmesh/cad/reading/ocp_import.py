@@ -11,7 +11,6 @@ again and again: it waits until they are there.
 from __future__ import annotations
 
 import ctypes
-import gc
 import importlib.util
 import sys
 import threading
@@ -19,6 +18,8 @@ from collections.abc import Callable
 from contextlib import suppress
 from importlib.machinery import EXTENSION_SUFFIXES
 from pathlib import Path
+
+from surfmesh.cad.reading.collector import paused
 
 
 def begun() -> Callable[[], None]:
@@ -40,13 +41,8 @@ def begun() -> Callable[[], None]:
 
 def import_ocp() -> None:
     """Import OCP. Raises ImportError when it is not there."""
-    collects = gc.isenabled()
-    gc.disable()
-    try:
+    with paused():
         import OCP  # noqa: F401
-    finally:
-        if collects:
-            gc.enable()
 
 
 def _load() -> None:

@@ -26,6 +26,7 @@ from pathlib import Path
 from typing import IO, TYPE_CHECKING, Any, Self
 
 from surfmesh.cad.healing.joining import Joining
+from surfmesh.cad.reading.collector import paused
 from surfmesh.cad.reading.limits import MORE_MEMORY, MORE_TIME, Limits, peak_megabytes
 from surfmesh.cad.units import checked_unit
 from surfmesh.errors import CadError
@@ -213,7 +214,8 @@ class Child:
             reason += f"; {MORE_MEMORY}" if "memory" in reason.lower() else ""
             raise CadError(f"{self.name} made the CAD reader fail: {reason}")
         self._result.seek(0)
-        return pickle.load(self._result)  # noqa: S301 our own child's, in a file without a name
+        with paused():
+            return pickle.load(self._result)  # noqa: S301 our own child's, in a file without a name
 
     def _ended(self) -> tuple[int, float]:
         """How it ended, minus the number of the signal that ended it, and its peak in MB."""

@@ -46,12 +46,15 @@ HIDDEN, MOST_HALVINGS, MOST_SAMPLES = 0.7, 30, 20_000
 """Between samples, laws may ask for this fraction of the sizes there; how hard that is pursued."""
 
 
-def sample_edges(model: CadModel, sizing: ModelSizing) -> EdgeSamples:
-    """Samples of all edges. Raises ``SizingError`` for laws that give no sizes."""
+def sample_edges(model: CadModel, sizing: ModelSizing, few: bool = False) -> EdgeSamples:
+    """Samples of all edges. Raises ``SizingError`` for laws that give no sizes.
+
+    few: circles have as many as straight edges: enough for an estimate, as they bend evenly.
+    """
     rules = EdgeRules(model, sizing)
     arrays = rules.arrays
     edges = np.flatnonzero(~arrays.collapsed)
-    fractions = _fractions(rules, edges)
+    fractions = _fractions(rules, edges, few)
     first = offsets(np.array([len(own) for own in fractions], np.int64))
     courses = Courses.of(arrays, edges, first, np.concatenate([np.empty(0), *fractions]))
     count, total_curvature = np.zeros((2, len(model.edges)))
@@ -81,10 +84,14 @@ def sample_edges(model: CadModel, sizing: ModelSizing) -> EdgeSamples:
     return samples
 
 
-def _fractions(rules: EdgeRules, edges: np.ndarray) -> list[np.ndarray]:
+def _fractions(rules: EdgeRules, edges: np.ndarray, few: bool) -> list[np.ndarray]:
     """Of the parameter ranges of the edges, where they are sampled."""
     wanted = rules.wanted
-    grids = [_STRAIGHT if line else _CURVED for line in rules.arrays.straight[edges].tolist()]
+    even = rules.arrays.straight[edges].tolist()
+    if few:
+        curves = [rules.model.edges[edge].curve for edge in edges.tolist()]
+        even = [getattr(curve, "kind", "") in ("line", "circle") for curve in curves]
+    grids = [_STRAIGHT if bends_evenly else _CURVED for bends_evenly in even]
     if not any(
         own.has_law for own in (wanted.base, *wanted.faces.values(), *wanted.edges.values())
     ):

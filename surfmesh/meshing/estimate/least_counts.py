@@ -29,7 +29,8 @@ from surfmesh.sizing.field.metric_area import inner_cells
 from surfmesh.sizing.field.size_field import SizeField
 
 CELLS = 4096
-"""Cells of a size field are cut until there are so many."""
+"""Cells of a size field are cut until there are so many; where there are four times as many, four
+of them are looked at together."""
 
 FEW = 12
 """Points each way of a grid on a CAD face."""
@@ -67,6 +68,8 @@ def _over_cells(
     surface: Surface, field: SizeField, loops: Sequence[np.ndarray], chord: float, balanced: bool
 ) -> float:
     low, step, _ = inner_cells(field, None)
+    if len(low) > 4 * CELLS:
+        low, step = _in_fours(low, step)
     parts = max(int(np.ceil(np.sqrt(CELLS / max(len(low), 1)))), 1)
     step = np.repeat(step / parts, parts**2, axis=0)
     middle = np.repeat(low, parts**2, axis=0) + np.tile(
@@ -81,6 +84,13 @@ def _over_cells(
     k = curvatures(forms_from_derivatives(ru, rv, *second))
     density = least_densities(k.k1, k.k2, chord, balanced)[0]
     return float((density * area)[np.isfinite(area)].sum())
+
+
+def _in_fours(low: np.ndarray, step: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Corners and sides of the cells that the leaves are the quarters of: as a background is made
+    its leaves come in fours, one after the other."""
+    corners = low.reshape(-1, 4, 2).min(axis=1)
+    return corners, (low + step).reshape(-1, 4, 2).max(axis=1) - corners
 
 
 def least_of_model(

@@ -15,7 +15,6 @@ import numpy as np
 
 from surfmesh.geometry.cad_surfaces.face_surface import FaceSurface
 from surfmesh.meshing.estimate.trial_patches import (
-    SHARE,
     SMALL_PATCH,
     PatchPlan,
     triangles_per_unit,
@@ -49,6 +48,10 @@ _PLANS = (
     *(_Plan(faces, PatchPlan(1, SMALL_PATCH)) for faces in (8, 4, 2, 1)),
 )
 """From the best on."""
+
+SHARE = 0.06
+"""Of the triangles that are asked for, so many are made on trial: faces differ more than the parts
+of one; more where sizes depend on the direction."""
 
 ROUNDS = 3
 """How often the face is meshed at most, with the smaller sizes that it asks for."""

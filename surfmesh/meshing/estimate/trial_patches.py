@@ -28,9 +28,9 @@ from surfmesh.sizing.field.size_field import SizeField
 SMALL_PATCH = 300
 """Triangles of a patch, about, where a larger one does not fit in or would cost too much."""
 
-SHARE = 0.06
-"""Of the triangles that are asked for, so many are made on trial; more where sizes depend on the
-direction, of which the area tells less."""
+SHARE = 0.03
+"""Of the triangles that a surface of formulas is asked for, so many are made on trial; more where
+sizes depend on the direction, of which the area tells less."""
 
 
 class PatchPlan(NamedTuple):
@@ -47,7 +47,7 @@ class PatchPlan(NamedTuple):
 
 
 WIDE = PatchPlan(4, 1000)
-PLANS = (WIDE, PatchPlan(4, SMALL_PATCH), PatchPlan(2, SMALL_PATCH))
+PLANS = (WIDE, PatchPlan(4, 500), PatchPlan(4, SMALL_PATCH), PatchPlan(2, SMALL_PATCH))
 """From the best on."""
 
 

@@ -59,8 +59,10 @@ FREE_CELLS = 200_000
 class FieldBuilder:
     """Makes one background."""
 
-    def __init__(self, law: SizeLaw | TensorLaw, sides: SideTopology | None = None) -> None:
-        """sides: which of the domain are joined."""
+    def __init__(
+        self, law: SizeLaw | TensorLaw, sides: SideTopology | None = None, coarseness: float = 1.0
+    ) -> None:  # fmt: skip
+        """sides: which of the domain are joined. coarseness: see ``size_field``."""
         self.surface = surface = law.surface
         self.sides = sides
         self.chart = law.chart
@@ -88,6 +90,7 @@ class FieldBuilder:
                 self._is_of_formulas and law.follows_curvature,  # splines bound nothing
                 law.sizing.chord is not None,
             ),
+            coarseness=coarseness,
         )
 
     def background(self) -> Background:

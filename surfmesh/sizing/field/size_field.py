@@ -78,18 +78,20 @@ def size_field(
     limits: SizeLimits | None = None,
     rims: Rims | None = None,
     chart: Chart | None = None,
+    coarseness: float = 1.0,
 ) -> SizeField:
     """Build the background for ``surface``; ``sides`` tells which sides are joined.
 
     ``limits``: upper bounds of the size near points, from an earlier round. ``rims``: where the
     surface ends, of a surface of formulas: the edges of a CAD model are cut before its faces.
-    ``chart``: of the surface; None: it is made.
+    ``chart``: of the surface; None: it is made. ``coarseness``: sizes between nodes may be wrong by
+    so many times more than in a field for a mesh.
 
     Raises ``SizingError`` when a size law gives something else than positive numbers, or when
     the wanted sizes need an unreasonable number of cells.
     """
     law = SizeLaw.of(surface, sizing, limits, rims, chart)
-    return SizeField(law.chart, FieldBuilder(law, sides).background(), law)
+    return SizeField(law.chart, FieldBuilder(law, sides, coarseness).background(), law)
 
 
 def plane_field(

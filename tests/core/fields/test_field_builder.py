@@ -56,6 +56,17 @@ def test_smooth_sizes_are_met():
     np.testing.assert_allclose(field.scalar_sizes(xy), size(*xy.T), rtol=0.02)
 
 
+def test_a_coarse_field_has_fewer_cells_and_about_the_same_area():
+    def size(x, y):
+        return 0.03 * np.exp(np.sin(9 * x) + x * y)
+
+    fine, coarse = (built(size, slope=9.0, coarseness=times) for times in (1.0, 4.0))
+    assert 2 * len(coarse.child) < len(fine.child)
+    assert coarse.metric_area(1.0, 1.0) == pytest.approx(fine.metric_area(1.0, 1.0), rel=0.01)
+    with pytest.raises(ValueError, match="coarseness"):
+        builder_of(coarseness=0.5)
+
+
 def test_a_dent_is_graded_and_the_tree_balanced():
     def size(x, y):
         return np.where(np.hypot(x - 0.4, y - 0.3) < 0.03, 0.004, 0.1)

@@ -124,3 +124,14 @@ def test_an_edge_that_is_one_vertex_has_no_rows():
     empty = [cut is None for cut in cuts]
     assert any(empty) and not all(empty)
     assert np.array_equal(np.diff(cuts.first) == 0, empty)
+
+
+def test_an_estimate_looks_at_circles_as_at_straight_edges():
+    model = sm.from_cadquery(cq.Workplane().box(4, 4, 1).faces(">Z").hole(1))
+    sizing = model_sizing(model, sm.Sizing(size=0.3))
+    every, few = (sample_edges(model, sizing, few) for few in (False, True))
+    kinds = np.array([edge.curve.kind for edge in model.edges])
+    assert set(np.diff(every.first)[kinds == "circle"]) == {129}
+    assert set(np.diff(few.first)) == {33}
+    nodes = [cut_edges(model, sizing.base, samples, {}) for samples in (every, few)]
+    assert [len(cut.t) for cut in nodes[0]] == [len(cut.t) for cut in nodes[1]]
