@@ -36,6 +36,13 @@ def sampled_surface(surfaces: list, points: Annotated[NDArray[numpy.float64], di
     The mesh is as for ``mesh_deviation``; only the triangles that are asked for are looked at.
     """
 
+def dense_deviation(surfaces: list, points: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)], triangles: Annotated[NDArray[numpy.int32], dict(shape=(None, 3), order='C', device='cpu', writable=False)], uv: Annotated[NDArray[numpy.float64], dict(shape=(None, 2), order='C', device='cpu', writable=False)], uv_triangles: Annotated[NDArray[numpy.int32], dict(shape=(None, 3), order='C', device='cpu', writable=False)], faces: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], triangle: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], weights: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)], limit: float, steps: int) -> tuple[Annotated[NDArray[numpy.float64], dict(shape=(None,))], int, list[float], list[float]]:
+    """
+    Largest distance (k,) of points of triangles (k,), at barycentric weights (w, 3), from the nearest point of the surface; of the farthest of all its triangle, place and parameters.
+
+    The mesh is as for ``mesh_deviation``; limit, steps: as for ``closest_points_in_triangles``.
+    """
+
 def face_creases(surfaces: list, points: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)], triangles: Annotated[NDArray[numpy.int32], dict(shape=(None, 3), order='C', device='cpu', writable=False)], uv: Annotated[NDArray[numpy.float64], dict(shape=(None, 2), order='C', device='cpu', writable=False)], uv_triangles: Annotated[NDArray[numpy.int32], dict(shape=(None, 3), order='C', device='cpu', writable=False)], faces: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], edges: Annotated[NDArray[numpy.int32], dict(shape=(None, 2), order='C', device='cpu', writable=False)], angle: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)]) -> Annotated[NDArray[numpy.uint8], dict(shape=(None,))]:
     """
     Which edges (k,) within faces lie on a crease of their surface, at an apex, or as good as at one: 0 and 1.

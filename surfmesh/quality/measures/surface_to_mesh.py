@@ -24,13 +24,14 @@ from surfmesh._core.quality import TriangleStars
 from surfmesh._core.space import triangle_distances
 from surfmesh.cad.model.cad_model import CadEdge
 from surfmesh.geometry.differential.projection import closest_point
-from surfmesh.quality.measures.deviation import BLOCK, Deviation
+from surfmesh.quality.measures.deviation import Deviation
 from surfmesh.quality.measures.known_surfaces import KnownSurfaces
 from surfmesh.quality.measures.largest import largest
 from surfmesh.quality.measures.places import Point, as_point, as_uv
 from surfmesh.quality.measures.tolerances import CHORD_SLACK, Tolerances
 from surfmesh.result.surface_mesh import SurfaceMesh
 
+BLOCK = 1 << 15  # samples looked at together: the temporaries stay within the cache
 ALONG_RIM = np.arange(1, 8) / 8.0  # along each free edge
 WITHIN = np.array([(4, 1, 1), (1, 4, 1), (1, 1, 4)]) / 6.0  # barycentric, over every triangle
 _GRID = 6
