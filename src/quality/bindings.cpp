@@ -359,6 +359,7 @@ void bind_area_and_volume(nb::module_& m) {
 }  // namespace
 
 void bind_mesh_edges(nb::module_& m);
+void bind_figures(nb::module_& m);
 
 void bind_quality(nb::module_& m) {
     m.doc() = "What a report measures of a finished mesh: its distance from its surfaces and back.";
@@ -373,6 +374,7 @@ void bind_quality(nb::module_& m) {
     bind_hidden_bounds(m);
     bind_area_and_volume(m);
     bind_mesh_edges(m);
+    bind_figures(m);
 }
 
 }  // namespace surfmesh::binding

@@ -39,8 +39,7 @@ struct DensePoints {
     }
     [[nodiscard]] ClosestPoints nearest(SurfaceReader& surface, double limit, int steps) const {
         return closest_points_in_triangles(surface, {points.data(), points.size()},
-                                           {uv.data(), uv.size()},
-                                           {corners.data(), corners.size()},
+                                           {uv.data(), uv.size()}, {corners.data(), corners.size()},
                                            {row.data(), row.size()}, limit, steps);
     }
 };

@@ -23,8 +23,8 @@ struct FarPlace {
 };
 
 struct DenseDeviation {
-    Array<double> largest;  // of each triangle that is looked at
-    FarPlace farthest;      // face by face, the first of equals
+    Array<double> largest;     // of each triangle that is looked at
+    FarPlace farthest;         // face by face, the first of equals
     std::int32_t failed = -1;  // number of a surface, then nothing else counts
 };
 
