@@ -108,10 +108,13 @@ void bind_read_only_array(nb::class_<Owner>& c, const char* name, Array<T> Owner
 /// Refuse indices outside 0 .. count - 1; ``what`` names the argument.
 template <class Number>
 void require_indices(std::span<const Number> indices, std::size_t count, const char* what) {
-    for (const Number index : indices)
-        if (index < 0 || static_cast<std::size_t>(index) >= count)
-            throw nb::value_error(
-                (std::string(what) + " has an index that is out of range").c_str());
+    Number least = 0, most = -1;  // no branch that depends on data: several are looked at at once
+    for (const Number index : indices) {
+        least = index < least ? index : least;
+        most = index > most ? index : most;
+    }
+    if (least < 0 || (most >= 0 && static_cast<std::size_t>(most) >= count))
+        throw nb::value_error((std::string(what) + " has an index that is out of range").c_str());
 }
 
 /// Refuse what does not have the wanted number of rows.

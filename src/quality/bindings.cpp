@@ -1,10 +1,13 @@
+#include <nanobind/stl/array.h>
 #include <nanobind/stl/pair.h>
 #include <nanobind/stl/tuple.h>
 
+#include <array>
 #include <tuple>
 #include <vector>
 
 #include "binding/arrays.hpp"
+#include "quality/dense_deviation.hpp"
 #include "quality/enclosed_volumes.hpp"
 #include "quality/explained_losses.hpp"
 #include "quality/face_creases.hpp"
@@ -136,6 +139,36 @@ void bind_samples(nb::module_& m) {
         "Parameters (k, 2) at barycentric weights[rule] (w, 3) of triangles (k,), the points (k, "
         "3) of the surfaces there, and how far (k,) these are from the triangle.\n\nThe mesh is as "
         "for ``mesh_deviation``; only the triangles that are asked for are looked at.");
+}
+
+void bind_dense_deviation(nb::module_& m) {
+    m.def(
+        "dense_deviation",
+        [](const nb::list& surfaces, const Points3& points, const Triangles& triangles,
+           const Points2& uv, const Triangles& uv_triangles, const Numbers& faces,
+           const Numbers& triangle, const Matrix<double, 3>& weights, double limit, int steps) {
+            const std::vector<const Surface*> all = surfaces_of(surfaces);
+            const MeasuredMesh mesh =
+                measured_mesh(all, points, triangles, uv, uv_triangles, faces);
+            require_triangles(mesh, rows<std::int32_t>(triangle));
+            DenseDeviation found;
+            {
+                const nb::gil_scoped_release released;
+                found = dense_deviation(mesh, rows<std::int32_t>(triangle), rows<Weights>(weights),
+                                        limit, steps);
+            }
+            if (found.failed >= 0) raise_failure(*all[found.failed], SurfaceStatus::FAILED);
+            const auto& [t, p, q, distance] = found.farthest;
+            return std::tuple(view(found.largest), t, std::array{p.x, p.y, p.z},
+                              std::array{q.x, q.y});
+        },
+        nb::arg("surfaces"), nb::arg("points"), nb::arg("triangles"), nb::arg("uv"),
+        nb::arg("uv_triangles"), nb::arg("faces"), nb::arg("triangle"), nb::arg("weights"),
+        nb::arg("limit"), nb::arg("steps"),
+        "Largest distance (k,) of points of triangles (k,), at barycentric weights (w, 3), from "
+        "the nearest point of the surface; of the farthest of all its triangle, place and "
+        "parameters.\n\nThe mesh is as for ``mesh_deviation``; limit, steps: as for "
+        "``closest_points_in_triangles``.");
 }
 
 void bind_creases(nb::module_& m) {
@@ -326,6 +359,7 @@ void bind_area_and_volume(nb::module_& m) {
 }  // namespace
 
 void bind_mesh_edges(nb::module_& m);
+void bind_figures(nb::module_& m);
 
 void bind_quality(nb::module_& m) {
     m.doc() = "What a report measures of a finished mesh: its distance from its surfaces and back.";
@@ -333,12 +367,14 @@ void bind_quality(nb::module_& m) {
     bind_mesh_deviation(m);
     bind_least_triangles(m);
     bind_samples(m);
+    bind_dense_deviation(m);
     bind_creases(m);
     bind_stars(m);
     bind_solids(m);
     bind_hidden_bounds(m);
     bind_area_and_volume(m);
     bind_mesh_edges(m);
+    bind_figures(m);
 }
 
 }  // namespace surfmesh::binding

@@ -3,6 +3,7 @@
 #include <tuple>
 
 #include "binding/arrays.hpp"
+#include "quality/mesh_arguments.hpp"
 #include "quality/mesh_edges.hpp"
 #include "quality/triangle_fans.hpp"
 
@@ -20,18 +21,6 @@ std::span<const Vertex> all_numbers(const VertexTriples& triangles) {
     return {triangles.data(), triangles.size()};
 }
 
-/// Half-edges of so many triangles; NIL may stand in the second column.
-std::span<const EdgeTable::Sides> half_edge_pairs(const SidePairs& half_edges,
-                                                  std::size_t triangles) {
-    const std::span<const EdgeTable::Sides> sides{
-        reinterpret_cast<const EdgeTable::Sides*>(half_edges.data()), half_edges.shape(0)};
-    const auto end = static_cast<std::int64_t>(3 * triangles);
-    for (const auto& [first, second] : sides)
-        if (first < 0 || first >= end || second < NIL || second >= end)
-            throw nb::value_error("half_edges has an index that is out of range");
-    return sides;
-}
-
 void bind_lengths(nb::module_& m) {
     m.def(
         "edge_lengths",
@@ -47,6 +36,23 @@ void bind_lengths(nb::module_& m) {
             return view(lengths);
         },
         nb::arg("points"), nb::arg("edges"), "Length (k,) of edges (k, 2) between points (n, 3).");
+    m.def(
+        "edge_extremes",
+        [](const SidePairs& edges, const Vector<double>& lengths, std::size_t vertices) {
+            require_indices(std::span(edges.data(), edges.size()), vertices, "edges");
+            require_rows(lengths.shape(0), edges.shape(0), "lengths");
+            const std::span<const EdgeTable::Ends> ends{
+                reinterpret_cast<const EdgeTable::Ends*>(edges.data()), edges.shape(0)};
+            EdgeExtremes found;
+            {
+                const nb::gil_scoped_release released;
+                found = edge_extremes(ends, rows<double>(lengths), vertices);
+            }
+            return std::tuple(view(found.longest), view(found.shortest));
+        },
+        nb::arg("edges"), nb::arg("lengths"), nb::arg("vertices"),
+        "Length (n,) of the longest and of the shortest of edges (k, 2), of lengths (k,), at each "
+        "vertex; 0 and infinite where there is none.");
     m.def(
         "edges_of_faces",
         [](const SidePairs& half_edges, const Vector<std::int32_t>& faces) {

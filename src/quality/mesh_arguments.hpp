@@ -6,6 +6,7 @@
 
 #include "binding/arrays.hpp"
 #include "quality/measured_mesh.hpp"
+#include "space/edge_table.hpp"
 #include "surfaces/callback_surface.hpp"
 
 namespace surfmesh::binding {
@@ -53,6 +54,18 @@ inline std::span<const EdgeSides> sides_of(const Matrix<std::int32_t, 2>& edges,
     for (const EdgeSides& side : sides)
         if (side.half_edge < 0 || side.half_edge >= end || side.twin < -1 || side.twin >= end)
             throw nb::value_error("edges has a half-edge that is out of range");
+    return sides;
+}
+
+/// Half-edges of so many triangles, in range; NIL may stand in the second column.
+inline std::span<const EdgeTable::Sides> half_edge_pairs(const Matrix<std::int32_t, 2>& half_edges,
+                                                         std::size_t triangles) {
+    const std::span<const EdgeTable::Sides> sides{
+        reinterpret_cast<const EdgeTable::Sides*>(half_edges.data()), half_edges.shape(0)};
+    const auto end = static_cast<std::int64_t>(3 * triangles);
+    for (const auto& [first, second] : sides)
+        if (first < 0 || first >= end || second < NIL || second >= end)
+            throw nb::value_error("half_edges has an index that is out of range");
     return sides;
 }
 

@@ -33,6 +33,19 @@ Array<double> edge_lengths(std::span<const Point3> points, std::span<const EdgeT
     return lengths;
 }
 
+EdgeExtremes edge_extremes(std::span<const EdgeTable::Ends> edges, std::span<const double> lengths,
+                           std::size_t vertices) {
+    EdgeExtremes found{Array<double>(vertices, 0.0),
+                       Array<double>(vertices, std::numeric_limits<double>::infinity())};
+    for (std::size_t k = 0; k < edges.size(); ++k)
+        for (const Vertex v : {edges[k].lower, edges[k].higher}) {
+            const double length = lengths[k];
+            found.longest[v] = larger_number(found.longest[v], length);
+            if (length < found.shortest[v] || length != length) found.shortest[v] = length;
+        }
+    return found;
+}
+
 Array<EdgeSides> edges_of_faces(std::span<const EdgeTable::Sides> half_edges,
                                 std::span<const std::int32_t> faces) {
     Array<EdgeSides> seen, again;

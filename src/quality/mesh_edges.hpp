@@ -16,6 +16,14 @@ namespace surfmesh {
 
 Array<double> edge_lengths(std::span<const Point3> points, std::span<const EdgeTable::Ends> edges);
 
+/// The longest and the shortest edge at each vertex, NaN where one is: 0 and infinite without edges.
+struct EdgeExtremes {
+    Array<double> longest, shortest;
+};
+
+EdgeExtremes edge_extremes(std::span<const EdgeTable::Ends> edges, std::span<const double> lengths,
+                           std::size_t vertices);
+
 /// Half-edges for ``mesh_deviation``: each edge within a face once; between two faces from the
 /// first of them, and after all others from the second.
 Array<EdgeSides> edges_of_faces(std::span<const EdgeTable::Sides> half_edges,

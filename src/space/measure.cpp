@@ -2,11 +2,28 @@
 
 #include <algorithm>
 #include <cmath>
+#include <tuple>
+#include <utility>
 
 #include "elementary_functions/inverse_trigonometric.hpp"
 
 namespace surfmesh {
 namespace {
+
+/// The least and the largest of the angles atan2(twice_area, x), (y), (z). They fall as x, y, z rise:
+/// where these are clearly apart the one between needs no arc tangent.
+std::pair<double, double> extreme_angles(double twice_area, double x, double y, double z) {
+    constexpr double CLEARLY = 1e-9;  // of the largest: what rounding of an angle cannot bridge
+    const double low = std::min(std::min(x, y), z), high = std::max(std::max(x, y), z);
+    const double between = std::max(std::min(x, y), std::min(std::max(x, y), z));
+    const double apart = CLEARLY * high;
+    if (between > 0.0 && high - between > apart && between - low > apart)
+        return {elementary::atan2(twice_area, high), elementary::atan2(twice_area, low)};
+    const double at_x = elementary::atan2(twice_area, x);
+    const double at_y = elementary::atan2(twice_area, y);
+    const double at_z = elementary::atan2(twice_area, z);
+    return {std::min(std::min(at_x, at_y), at_z), std::max(std::max(at_x, at_y), at_z)};
+}
 
 TriangleShape triangle_shape(Point3 a, Point3 b, Point3 c) {
     const Point3 ab = b - a, ac = c - a, bc = c - b;
@@ -22,11 +39,8 @@ TriangleShape triangle_shape(Point3 a, Point3 b, Point3 c) {
     if (product > 0.0)  // r_in = 2 A / perimeter, r_circum = abc / 4 A
         shape.radius_ratio = 4.0 * twice_area * twice_area / product;
     // products of edges, not the law of cosines: its squares cancel in needles
-    const double at_a = elementary::atan2(twice_area, dot(ab, ac));
-    const double at_b = elementary::atan2(twice_area, -dot(ab, bc));
-    const double at_c = elementary::atan2(twice_area, dot(ac, bc));
-    shape.least_angle = std::min(std::min(at_a, at_b), at_c);
-    shape.largest_angle = std::max(std::max(at_a, at_b), at_c);
+    std::tie(shape.least_angle, shape.largest_angle) =
+        extreme_angles(twice_area, dot(ab, ac), -dot(ab, bc), dot(ac, bc));
     return shape;
 }
 

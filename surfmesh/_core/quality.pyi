@@ -36,6 +36,13 @@ def sampled_surface(surfaces: list, points: Annotated[NDArray[numpy.float64], di
     The mesh is as for ``mesh_deviation``; only the triangles that are asked for are looked at.
     """
 
+def dense_deviation(surfaces: list, points: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)], triangles: Annotated[NDArray[numpy.int32], dict(shape=(None, 3), order='C', device='cpu', writable=False)], uv: Annotated[NDArray[numpy.float64], dict(shape=(None, 2), order='C', device='cpu', writable=False)], uv_triangles: Annotated[NDArray[numpy.int32], dict(shape=(None, 3), order='C', device='cpu', writable=False)], faces: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], triangle: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], weights: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)], limit: float, steps: int) -> tuple[Annotated[NDArray[numpy.float64], dict(shape=(None,))], int, list[float], list[float]]:
+    """
+    Largest distance (k,) of points of triangles (k,), at barycentric weights (w, 3), from the nearest point of the surface; of the farthest of all its triangle, place and parameters.
+
+    The mesh is as for ``mesh_deviation``; limit, steps: as for ``closest_points_in_triangles``.
+    """
+
 def face_creases(surfaces: list, points: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)], triangles: Annotated[NDArray[numpy.int32], dict(shape=(None, 3), order='C', device='cpu', writable=False)], uv: Annotated[NDArray[numpy.float64], dict(shape=(None, 2), order='C', device='cpu', writable=False)], uv_triangles: Annotated[NDArray[numpy.int32], dict(shape=(None, 3), order='C', device='cpu', writable=False)], faces: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], edges: Annotated[NDArray[numpy.int32], dict(shape=(None, 2), order='C', device='cpu', writable=False)], angle: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)]) -> Annotated[NDArray[numpy.uint8], dict(shape=(None,))]:
     """
     Which edges (k,) within faces lie on a crease of their surface, at an apex, or as good as at one: 0 and 1.
@@ -91,6 +98,11 @@ def explained_losses(points: Annotated[NDArray[numpy.float64], dict(shape=(None,
 def edge_lengths(points: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)], edges: Annotated[NDArray[numpy.int32], dict(shape=(None, 2), order='C', device='cpu', writable=False)]) -> Annotated[NDArray[numpy.float64], dict(shape=(None,))]:
     """Length (k,) of edges (k, 2) between points (n, 3)."""
 
+def edge_extremes(edges: Annotated[NDArray[numpy.int32], dict(shape=(None, 2), order='C', device='cpu', writable=False)], lengths: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)], vertices: int) -> tuple[Annotated[NDArray[numpy.float64], dict(shape=(None,))], Annotated[NDArray[numpy.float64], dict(shape=(None,))]]:
+    """
+    Length (n,) of the longest and of the shortest of edges (k, 2), of lengths (k,), at each vertex; 0 and infinite where there is none.
+    """
+
 def edges_of_faces(half_edges: Annotated[NDArray[numpy.int32], dict(shape=(None, 2), order='C', device='cpu', writable=False)], faces: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)]) -> Annotated[NDArray[numpy.int32], dict(shape=(None, 2))]:
     """
     Edges for ``mesh_deviation``: half_edges (ne, 2) as they are within a face; of those between two faces (m,) of triangles the first, and at the end the second.
@@ -122,3 +134,23 @@ def clashing_edges(triangles: Annotated[NDArray[numpy.int32], dict(shape=(None, 
 
 def has_repeated_triangles(triangles: Annotated[NDArray[numpy.int32], dict(shape=(None, 3), order='C', device='cpu', writable=False)], vertices: int) -> bool:
     """Have two triangles (m, 3) the same three corners, in any order?"""
+
+def face_shapes(faces: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], area: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)], alpha: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)], count: int) -> tuple[Annotated[NDArray[numpy.int64], dict(shape=(None,))], Annotated[NDArray[numpy.float64], dict(shape=(None,))], Annotated[NDArray[numpy.float64], dict(shape=(None,))], Annotated[NDArray[numpy.float64], dict(shape=(None,))]]:
+    """
+    Of ``count`` faces the triangles, the area, the sum of alpha and the least alpha, (count,) each, infinite without a triangle; by triangles of faces (m,), area (m,), alpha (m,).
+    """
+
+def face_distances(faces: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], distance: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)], mean_square: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)], area: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)], marked: Annotated[NDArray[numpy.uint8], dict(shape=(None,), order='C', device='cpu', writable=False)], count: int) -> tuple[Annotated[NDArray[numpy.float64], dict(shape=(None,))], Annotated[NDArray[numpy.int32], dict(shape=(None,))], Annotated[NDArray[numpy.float64], dict(shape=(None,))], Annotated[NDArray[numpy.int64], dict(shape=(None,))]]:
+    """
+    Of ``count`` faces the largest distance, the first triangle where it is, the sum of mean square times area, and how many triangles are marked, not 0, (count,) each; by triangles of faces (m,), all others (m,).
+    """
+
+def face_edge_means(faces: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], half_edges: Annotated[NDArray[numpy.int32], dict(shape=(None, 2), order='C', device='cpu', writable=False)], values: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)], count: int) -> Annotated[NDArray[numpy.float64], dict(shape=(None,))]:
+    """
+    Mean (count,) of values (k,) over the edges of each face, 0 where there is none; half_edges (k, 2): the triangles beside them are of faces (m,), -1 in the second column for none. An edge between two faces counts for both.
+    """
+
+def binned_counts(values: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)], low: float, high: float, bins: int) -> Annotated[NDArray[numpy.int64], dict(shape=(None,))]:
+    """
+    How many of values (k,) lie in each of ``bins`` equal bins from low to high: others in those at the ends, what is not finite in none.
+    """

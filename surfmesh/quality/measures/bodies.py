@@ -20,7 +20,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from surfmesh._core.space import triangle_distances
-from surfmesh.geometry.boxes import diagonal
+from surfmesh.geometry.boxes import box, diagonal
 from surfmesh.quality.measures.by_solid import SolidRow
 from surfmesh.quality.measures.inside import inside
 from surfmesh.quality.measures.known_surfaces import KnownSurfaces
@@ -207,7 +207,7 @@ class _Solid(NamedTuple):
     """The triangles of a solid, facing outwards, and points to look at beside its faces."""
 
     corners: NDArray[np.float64]  # (m, 3, 3)
-    low: NDArray[np.float64]
+    low: NDArray[np.float64]  # (3,) of the box around them
     high: NDArray[np.float64]
     probes: NDArray[np.float64]  # (k, 3) middles of triangles that bound no other solid
     outwards: NDArray[np.float64]  # (k, 3) unit normals there
@@ -215,10 +215,40 @@ class _Solid(NamedTuple):
     most: float  # anywhere
 
 
+class _Solids:
+    """Solids of a mesh and their boxes; the rest of one is found when it is first asked for."""
+
+    def __init__(self, mesh: SurfaceMesh, numbers: list[int], allowed: NDArray[np.float64]) -> None:
+        of, rows = solids_beside(mesh).ravel(), np.repeat(np.arange(len(mesh.triangles)), 2)
+        members, rows = _grouped(of[of >= 0], int(of.max()) + 1), rows[of >= 0]
+        self._mesh, self._numbers, self._allowed = mesh, numbers, allowed
+        self._rows = [rows[members[number]] for number in numbers]
+        boxes = [box(mesh.points[mesh.triangles[own].ravel()]) for own in self._rows]
+        self._low, self._high = (np.array(side) for side in zip(*boxes))
+        self._found: dict[int, _Solid] = {}
+
+    def __getitem__(self, number: int) -> _Solid:
+        if number not in self._found:
+            k = self._numbers.index(number)
+            self._found[number] = _solid(
+                self._mesh, number, self._rows[k], (self._low[k], self._high[k]), self._allowed
+            )
+        return self._found[number]
+
+    def near(self, number: int, margin: float) -> list[int]:
+        """The others whose boxes come within a margin of that of ``number``."""
+        k = self._numbers.index(number)
+        near = (self._low[k] <= self._high + margin).all(axis=1)
+        near &= (self._low <= self._high[k] + margin).all(axis=1)
+        near[k] = False
+        return [self._numbers[i] for i in np.flatnonzero(near)]
+
+
 def _solid(
-    mesh: SurfaceMesh, number: int, rows: NDArray[np.intp], allowed: NDArray[np.float64]
-) -> _Solid:
-    """rows: its triangles."""
+    mesh: SurfaceMesh, number: int, rows: NDArray[np.intp], sides: tuple[NDArray, NDArray],
+    allowed: NDArray[np.float64],
+) -> _Solid:  # fmt: skip
+    """rows: its triangles; sides: low and high of the box around them."""
     corners = mesh.points[mesh.triangles[rows]]
     normal = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
     normal[solids_beside(mesh)[rows, 0] != number] *= -1.0
@@ -229,7 +259,7 @@ def _solid(
     alone = (solids_beside(mesh)[rows[order]] >= 0).sum(axis=1) == 1
     chosen = order[(rank < PROBES) & (size[order] > 0.0) & alone]
     return _Solid(
-        corners, corners.min(axis=(0, 1)), corners.max(axis=(0, 1)),
+        corners, *sides,
         corners[chosen].mean(axis=1), normal[chosen] / size[chosen, None], allowed[rows[chosen]],
         float(allowed[rows].max()),
     )  # fmt: skip
@@ -244,17 +274,10 @@ def _without_crossing(
     closed = [row.solid for row in solids if row.closed]
     if len(closed) < 2:
         return {}
-    of, rows = solids_beside(mesh).ravel(), np.repeat(np.arange(len(mesh.triangles)), 2)
-    members = _grouped(of[of >= 0], int(of.max()) + 1)
-    rows = rows[of >= 0]
-    parts = {number: _solid(mesh, number, rows[members[number]], allowed) for number in closed}
-    low = np.array([parts[number].low for number in closed])
-    high = np.array([parts[number].high for number in closed])
+    parts = _Solids(mesh, closed, allowed)
     more: dict[tuple[int, int], BodyPair] = {}
-    for k, number in enumerate(closed):
-        near = (low[k] <= high + least).all(axis=1) & (low <= high[k] + least).all(axis=1)
-        near[k] = False
-        for other in (closed[i] for i in np.flatnonzero(near)):
+    for number in closed:
+        for other in parts.near(number, least):
             key = (min(number, other), max(number, other))
             known = more.get(key, found.get(key))
             if known is not None and known.kind == OVERLAP:

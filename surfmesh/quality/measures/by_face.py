@@ -5,6 +5,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from surfmesh._core import quality as core
 from surfmesh.quality.measures.face_rows import (
     FaceColumns,
     FaceDeviations,
@@ -33,9 +34,9 @@ def by_face(measured: Measurements) -> FaceRows:
     elif len(faces) and not 0 <= faces.min() <= faces.max() < len(numbers):
         return FaceRows()
     count, exact = len(numbers), measured.facts.faces
-    alpha_min = np.full(count, np.inf)
-    np.fmin.at(alpha_min, faces, shape.alpha)
-    size, target = _sizes(mesh, faces, count, measured.lengths)
+    rows = faces.astype(np.int32, copy=False)
+    triangles, area, alpha_sum, alpha_min = core.face_shapes(rows, shape.area, shape.alpha, count)
+    size, target = _sizes(mesh, rows, count, measured.lengths)
     limits: dict[int, list[str]] = {}
     for limit in measured.limits:
         limits.setdefault(limit.face, []).append(str(limit))
@@ -44,13 +45,13 @@ def by_face(measured: Measurements) -> FaceRows:
             mesh=mesh,
             numbers=numbers,
             known=[exact[face] if 0 <= face < len(exact) else None for face in numbers.tolist()],
-            triangles=np.bincount(faces, minlength=count),
-            area=_sums(faces, shape.area, count),
-            alpha_sum=_sums(faces, shape.alpha, count),
+            triangles=triangles,
+            area=area,
+            alpha_sum=alpha_sum,
             alpha_min=alpha_min,
             size=size,
             target=target,
-            fits=_deviations(measured, faces, count),
+            fits=_deviations(measured, rows, count),
             dihedrals=_dihedrals(measured, count),
             chords=tolerances.of_each(tolerances.chord, numbers),
             angles=tolerances.of_each(tolerances.angle, numbers),
@@ -60,22 +61,22 @@ def by_face(measured: Measurements) -> FaceRows:
 
 
 def _deviations(
-    measured: Measurements, faces: NDArray[np.integer[Any]], count: int
+    measured: Measurements, faces: NDArray[np.int32], count: int
 ) -> FaceDeviations | None:
     fit, folds = measured.deviation, measured.folds
     if fit is None or folds is None:
         return None
-    largest, worst = np.zeros(count), np.zeros(count, np.intp)
-    np.maximum.at(largest, faces, fit.by_triangle)
-    at = np.flatnonzero(fit.by_triangle == largest[faces])[::-1]
-    worst[faces[at]] = at  # the first of equals
+    far = exceeds_chord(measured.tolerances, measured.mesh, fit)
+    largest, worst, square, above = core.face_distances(
+        faces, fit.by_triangle, fit.mean_square, measured.shapes.area, far.view(np.uint8), count
+    )
     return FaceDeviations(
         largest,
         worst,
         measured.mesh.points[measured.mesh.triangles[worst]].mean(axis=1),
-        square=_sums(faces, measured.shapes.area * fit.mean_square, count),
-        above=_sums(faces, exceeds_chord(measured.tolerances, measured.mesh, fit), count),
-        folded=_sums(faces, folds.by_mesh, count),
+        square=square,
+        above=above,
+        folded=np.bincount(faces[folds.by_mesh], minlength=count),
     )
 
 
@@ -85,31 +86,18 @@ def _dihedrals(measured: Measurements, count: int) -> FaceDihedrals | None:
         return None
     largest = np.zeros(count)
     np.maximum.at(largest, found.faces, found.angles)
-    above = _sums(found.faces, exceeds_angle(measured.tolerances, found), count)
+    above = np.bincount(found.faces[exceeds_angle(measured.tolerances, found)], minlength=count)
     return FaceDihedrals(largest, above, np.bincount(found.faces, minlength=count))
 
 
-def _sums(faces: NDArray[np.integer[Any]], values: NDArray[Any], count: int) -> NDArray[np.float64]:
-    """(f,) of values (k,) on each face."""
-    return np.bincount(faces, values, count).astype(np.float64, copy=False)
-
-
 def _sizes(
-    mesh: SurfaceMesh, faces: NDArray[np.integer[Any]], count: int, lengths: NDArray[np.float64]
+    mesh: SurfaceMesh, faces: NDArray[np.int32], count: int, lengths: NDArray[np.float64]
 ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     """Mean length of the edges of each face, and mean target size of them."""
-    table = mesh.connectivity
-    first = faces[table.half_edges[:, 0] // 3]
-    second = faces[np.maximum(table.half_edges[:, 1], 0) // 3]
-    both = np.flatnonzero((table.half_edges[:, 1] >= 0) & (second != first))
-    second = second[both]
-
-    def mean(values: NDArray[np.float64]) -> NDArray[np.float64]:
-        total = np.bincount(first, values, count) + np.bincount(second, values[both], count)
-        return total / np.maximum(number, 1)
-
-    number = np.bincount(first, minlength=count) + np.bincount(second, minlength=count)
+    sides = mesh.connectivity.half_edges
+    reached = core.face_edge_means(faces, sides, lengths, count)
     if mesh.sizes is None:
-        return mean(lengths), np.zeros(count)
+        return reached, np.zeros(count)
     a, b = mesh.edges.T
-    return mean(lengths), mean((mesh.sizes[a] + mesh.sizes[b]) / 2)
+    wanted = (mesh.sizes[a] + mesh.sizes[b]) / 2
+    return reached, core.face_edge_means(faces, sides, wanted, count)

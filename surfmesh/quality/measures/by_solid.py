@@ -8,6 +8,7 @@ from numpy.typing import NDArray
 from surfmesh._core.quality import enclosed_volumes, solid_counts
 from surfmesh.quality.measures.shape import Shapes
 from surfmesh.quality.measures.solids import around_solids
+from surfmesh.quality.measures.topology import Topology
 from surfmesh.result.surface_mesh import SurfaceMesh
 
 
@@ -30,11 +31,15 @@ class SolidRow:
 
 
 def by_solid(
-    mesh: SurfaceMesh, shape: Shapes, bulges: NDArray[np.float64] | None = None
+    mesh: SurfaceMesh,
+    shape: Shapes,
+    topo: Topology,
+    bulges: NDArray[np.float64] | None = None,
 ) -> tuple[SolidRow, ...]:
     """Rows of all solids; a face between two of them counts for both. None without solid_ids.
 
-    bulges: (m,) volume between each triangle, if it is curved, and its straight one.
+    topo: of the whole mesh. bulges: (m,) volume between each triangle, if it is curved, and its
+    straight one.
     """
     if mesh.solid_ids is None:
         return ()
@@ -50,9 +55,12 @@ def by_solid(
     if bulges is not None:
         outwards = np.where((around == mesh.triangles[rows]).all(axis=1), 1.0, -1.0)
         volume += np.bincount(solid, outwards * bulges[rows], count)
-    vertices, edges, opened = solid_counts(around, solid, len(mesh.points), count)
-    euler = vertices - edges + triangles
-    closed = [bool(triangles[k] > 0 and opened[k] == 0) for k in range(count)]
+    if count == 1 and around is mesh.triangles:  # the whole mesh: it has been counted
+        euler, closed = np.array([topo.euler]), [topo.balanced]
+    else:
+        vertices, edges, opened = solid_counts(around, solid, len(mesh.points), count)
+        euler = vertices - edges + triangles
+        closed = [bool(triangles[k] > 0 and opened[k] == 0) for k in range(count)]
     exact_area = [exact[k].area if k < len(exact) else None for k in range(count)]
     exact_volume = [exact[k].volume if k < len(exact) else None for k in range(count)]
     return tuple(

@@ -44,7 +44,7 @@ def chord_use(known: KnownSurfaces, fit: Deviation, tolerances: Tolerances) -> C
     faces = mesh.face_ids[chosen]
     for face in np.unique(faces):
         here = np.flatnonzero(faces == face)
-        uv = known.uv(chosen[here]).mean(axis=1)
+        uv = known.middle_uv(chosen[here])
         chord = tolerances.one(tolerances.chord, int(face))
         if chord is not None:
             decided[here] = target[here] >= DECIDED * _allowed(mesh, int(face), uv, chord)

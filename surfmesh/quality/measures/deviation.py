@@ -6,21 +6,19 @@ the surface, not to the image r(u, v) of the interpolated parameters. The worst 
 sampled densely.
 """
 
-from collections.abc import Iterator
 from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-from surfmesh._core.quality import edges_of_faces, mesh_deviation
-from surfmesh.accuracy.deviation import STEPS, nearest_deviations
+from surfmesh._core.quality import dense_deviation, edges_of_faces, mesh_deviation
+from surfmesh.accuracy.deviation import STEPS
 from surfmesh.accuracy.samples import DENSE
 from surfmesh.quality.measures.known_surfaces import KnownSurfaces
 from surfmesh.quality.measures.largest import largest
-from surfmesh.quality.measures.places import Point, as_point, as_uv
+from surfmesh.quality.measures.places import Point
 from surfmesh.result.surface_mesh import SurfaceMesh
 
-BLOCK = 1 << 15  # samples looked at together: the temporaries stay within the cache
 SECOND_LOOK = 400  # triangles sampled densely, or one in 250 if that is more
 
 
@@ -71,11 +69,6 @@ def _measured_edges(mesh: SurfaceMesh) -> NDArray[np.int32]:
     return edges_of_faces(pairs, mesh.face_ids)
 
 
-def _blocks(members: NDArray, length: int = BLOCK) -> Iterator[NDArray]:
-    for start in range(0, len(members), length):
-        yield members[start : start + length]
-
-
 def _dot(a: NDArray, b: NDArray) -> float:
     return float(np.einsum("i,i->", a, b))  # no BLAS, whose threads cost more than they gain
 
@@ -88,19 +81,7 @@ def _second_look(
     chosen = min(count, max(SECOND_LOOK, count // 250))
     worst = largest(by_triangle, chosen).astype(np.int32)
     chord = (mesh.sizing and mesh.sizing.chord) or np.inf
-    best, found = -1.0, (0, (0.0, 0.0, 0.0), (0.0, 0.0))
-    for face in np.unique(mesh.face_ids[worst]):
-        for block in _blocks(worst[mesh.face_ids[worst] == face], BLOCK // len(DENSE)):
-            triangle = np.repeat(block, len(DENSE))
-            rule = np.tile(np.arange(len(DENSE), dtype=np.int32), len(block))
-            points, uv = known.samples(triangle, rule, DENSE)
-            row = np.repeat(np.arange(len(block)), len(DENSE))
-            foot_uv, distance = nearest_deviations(
-                mesh.surfaces[face], points, uv, known.uv(block), row, chord, STEPS
-            )
-            by_triangle[block] = distance.reshape(len(block), -1).max(axis=1)
-            top = int(distance.argmax())
-            if distance[top] > best:
-                best = float(distance[top])
-                found = (int(triangle[top]), as_point(points[top]), as_uv(foot_uv[top]))
-    return found
+    by_triangle[worst], triangle, point, uv = dense_deviation(
+        *known.arrays, worst, DENSE, chord, STEPS
+    )
+    return triangle, (point[0], point[1], point[2]), (uv[0], uv[1])

@@ -46,18 +46,18 @@ class FaceDeviations(NamedTuple):
     """By face (f,)."""
 
     largest: NDArray[np.float64]
-    worst: NDArray[np.intp]  # the triangle where that is
+    worst: NDArray[np.int32]  # the triangle where that is
     places: NDArray[np.float64]  # (f, 3) the centroids of these
     square: NDArray[np.float64]  # mean square times area
-    above: NDArray[np.float64]  # triangles farther away than the chord
-    folded: NDArray[np.float64]  # triangles
+    above: NDArray[np.int64]  # triangles farther away than the chord
+    folded: NDArray[np.intp]  # triangles
 
 
 class FaceDihedrals(NamedTuple):
     """By face (f,)."""
 
     largest: NDArray[np.float64]
-    above: NDArray[np.float64]  # edges
+    above: NDArray[np.intp]  # edges
     edges: NDArray[np.intp]  # within the face
 
 
@@ -68,7 +68,7 @@ class FaceColumns:
     mesh: SurfaceMesh
     numbers: NDArray[np.integer[Any]]
     known: list[FaceFacts | None]
-    triangles: NDArray[np.intp]
+    triangles: NDArray[np.int64]
     area: NDArray[np.float64]
     alpha_sum: NDArray[np.float64]
     alpha_min: NDArray[np.float64]

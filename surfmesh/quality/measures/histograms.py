@@ -5,6 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from surfmesh._core.quality import binned_counts
 from surfmesh.quality.measures.shape import Shapes
 
 BINS = {"alpha": 20, "min_angle_deg": 20, "max_angle_deg": 20, "length": 25, "deviation": 20}
@@ -40,8 +41,6 @@ def histograms(
 
 def _counted(name: str, values: NDArray[np.float64], low: float, high: float) -> Histogram:
     bins = BINS[name]
-    known = values[np.isfinite(values)]
-    place = np.clip((known - low) * (bins / (high - low)), 0, bins - 1).astype(np.int8)
-    counts = np.bincount(place, minlength=bins)
+    counts = binned_counts(values, low, high, bins)
     edges = np.round(np.linspace(low, high, bins + 1), 12)
     return Histogram(tuple(edges.tolist()), tuple(counts.tolist()))

@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 
 from surfmesh.geometry.boxes import diagonal
 from surfmesh.quality.measures.inside import inside
-from surfmesh.quality.measures.solids import solids_beside
+from surfmesh.quality.measures.solids import bounds_none
 from surfmesh.quality.measures.topology import Topology, vertex_components
 from surfmesh.result.surface_mesh import SurfaceMesh
 
@@ -22,7 +22,7 @@ def inward_pieces(
     """Volumes (k,) of closed pieces of no solid that face their inside, a point of the first,
     and how many closed pieces there are."""
     none = np.empty(0), np.zeros(3), 0
-    free = (solids_beside(mesh) < 0).all(axis=1)
+    free = bounds_none(mesh)
     if not free.any():
         return none
     labels = vertex_components(mesh)

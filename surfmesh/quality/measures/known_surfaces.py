@@ -42,6 +42,11 @@ class KnownSurfaces:
         """(k, 3, 2) parameters of the corners of some triangles."""
         return self.corners.uv_points[self.corners.uv_triangles[triangles]]
 
+    def middle_uv(self, triangles: Rows) -> NDArray[np.float64]:
+        """(k, 2) the means of these."""
+        a, b, c = (self.corners.uv_points[k] for k in self.corners.uv_triangles[triangles].T)
+        return (a + b + c) / 3.0
+
     def points(self, triangles: Rows) -> NDArray[np.float64]:
         """(k, 3, 3) their corners."""
         return self.mesh.points[self.mesh.triangles[triangles]]

@@ -74,11 +74,7 @@ class Growth(NamedTuple):
 
 def growth(mesh: SurfaceMesh, lengths: NDArray[np.float64]) -> Growth:
     """Ratio of the lengths of edges that share a vertex."""
-    longest = np.zeros(len(mesh.points))
-    shortest = np.full(len(mesh.points), np.inf)
-    for end in mesh.edges.T:
-        np.maximum.at(longest, end, lengths)
-        np.minimum.at(shortest, end, lengths)
+    longest, shortest = quality.edge_extremes(mesh.edges, lengths, len(mesh.points))
     used = (shortest > 0) & (longest < np.inf)  # no edge, no finite length
     used &= longest > 0
     if not used.any():

@@ -243,7 +243,8 @@ class Measurements:
         if not self.finite:
             return ()
         curved = self.curved_shapes
-        return by_solid(self.mesh, self.shapes, None if curved is None else curved.volume)
+        bulges = None if curved is None else curved.volume
+        return by_solid(self.mesh, self.shapes, self.topology, bulges)
 
     @cached_property
     def volume(self) -> float | None:

@@ -145,7 +145,8 @@ def distances_allowed(
     if links is not None and len(links.edge_segments):
         sagitta = edge_sagittas(mesh, links)
         np.maximum.at(at_vertex, links.edge_segments.ravel(), np.repeat(sagitta, 2))
-    return at_vertex[mesh.triangles].max(axis=1)
+    a, b, c = (at_vertex[corner] for corner in mesh.triangles.T)
+    return np.maximum(np.maximum(a, b), c)
 
 
 def edge_sagittas(mesh: SurfaceMesh, links: EdgeLinks) -> NDArray[np.float64]:

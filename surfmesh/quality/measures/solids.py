@@ -24,6 +24,18 @@ def solids_beside(mesh: SurfaceMesh) -> NDArray[np.int32]:
     return mesh.solid_ids
 
 
+def bounds_solid(mesh: SurfaceMesh, solid: int) -> NDArray[np.bool_]:
+    """(m,) does a solid lie behind or before a triangle?"""
+    behind, before = solids_beside(mesh).T
+    return (behind == solid) | (before == solid)
+
+
+def bounds_none(mesh: SurfaceMesh) -> NDArray[np.bool_]:
+    """(m,) is a triangle of no solid?"""
+    behind, before = solids_beside(mesh).T
+    return (behind < 0) & (before < 0)
+
+
 def around_solids(mesh: SurfaceMesh) -> AroundSolids:
     """Those behind which a solid lies, then those before which one lies, turned over."""
     behind, before = solids_beside(mesh).T
@@ -52,4 +64,5 @@ def solid_mesh(mesh: SurfaceMesh, solid: int) -> SurfaceMesh:
 
 def shares_faces(mesh: SurfaceMesh) -> bool:
     """Do two solids of the model have a face in common?"""
-    return mesh.solid_ids is not None and bool((mesh.solid_ids >= 0).all(axis=1).any())
+    behind, before = solids_beside(mesh).T
+    return bool(((behind >= 0) & (before >= 0)).any())

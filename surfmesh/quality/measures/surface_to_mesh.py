@@ -24,13 +24,14 @@ from surfmesh._core.quality import TriangleStars
 from surfmesh._core.space import triangle_distances
 from surfmesh.cad.model.cad_model import CadEdge
 from surfmesh.geometry.differential.projection import closest_point
-from surfmesh.quality.measures.deviation import BLOCK, Deviation
+from surfmesh.quality.measures.deviation import Deviation
 from surfmesh.quality.measures.known_surfaces import KnownSurfaces
 from surfmesh.quality.measures.largest import largest
 from surfmesh.quality.measures.places import Point, as_point, as_uv
 from surfmesh.quality.measures.tolerances import CHORD_SLACK, Tolerances
 from surfmesh.result.surface_mesh import SurfaceMesh
 
+BLOCK = 1 << 15  # samples looked at together: the temporaries stay within the cache
 ALONG_RIM = np.arange(1, 8) / 8.0  # along each free edge
 WITHIN = np.array([(4, 1, 1), (1, 4, 1), (1, 1, 4)]) / 6.0  # barycentric, over every triangle
 _GRID = 6
@@ -162,14 +163,16 @@ def _look_along_curves(search: _Search, curves: _Curves, fit: Deviation) -> None
     points, there = curves.points(by_edge, t)
     nodes = mesh.points[curves.segments[by_edge]]
     length = np.linalg.norm(nodes[:, 1] - nodes[:, 0], axis=1)
-    from_curve = np.linalg.norm(points[:, [0, -1]] - nodes, axis=2).max(axis=1)
+    from_curve = np.maximum(
+        *(np.linalg.norm(points[:, end] - nodes[:, end], axis=1) for end in (0, -1))
+    )
     good = np.flatnonzero(there & (from_curve <= ON_CURVE * length))
     between, segment = points[good, 1:-1], by_edge[good]
     for at_rim in (True, False):
         some = np.flatnonzero(free[segment] == at_rim)
         for block in _blocks(some, BLOCK // len(ALONG_RIM)):
             beside = over[segment[block]]
-            uv = np.repeat(known.uv(beside).mean(axis=1), len(ALONG_RIM), axis=0)  # about there
+            uv = np.repeat(known.middle_uv(beside), len(ALONG_RIM), axis=0)  # about there
             triangle = np.repeat(beside, len(ALONG_RIM))
             search.look_at(between[block].reshape(-1, 3), uv, triangle, at_rim)
 

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from surfmesh.geometry.differential.projection import closest_point
 from surfmesh.quality.measures.known_surfaces import KnownSurfaces, Rows
 from surfmesh.quality.measures.penetration import plane_weights
-from surfmesh.quality.measures.solids import solids_beside
+from surfmesh.quality.measures.solids import bounds_solid, solids_beside
 from surfmesh.result.surface_mesh import SurfaceMesh
 
 PROBES, NEAREST = 400, 8  # points of a solid's faces, and triangles of the other beside each
@@ -70,7 +70,7 @@ def true_depth_of_faces(
     from scipy.spatial import cKDTree
 
     mesh, beside = known.mesh, solids_beside(known.mesh)
-    rows = [np.flatnonzero((beside == solid).any(axis=1)) for solid in solids]
+    rows = [np.flatnonzero(bounds_solid(mesh, solid)) for solid in solids]
     middles = [mesh.points[mesh.triangles[own]].mean(axis=1) for own in rows]
     best = NOWHERE
     for k in (0, 1):
@@ -91,7 +91,7 @@ def true_depth_of_faces(
         pairs = np.stack([own, base], axis=1)
         facing = outward[0] * outward[1] * _cosines(mesh, pairs) < FACING
         own, base, outwards = own[facing], base[facing], outward[1][facing]
-        uv = known.uv(own).mean(axis=1)
+        uv = known.middle_uv(own)
         points = known.points_at(mesh.face_ids[own], uv)
         limit = allowed[own] + allowed[base] + least
         found = _deepest(known, _Looked(points, own, uv, base, outwards, limit))

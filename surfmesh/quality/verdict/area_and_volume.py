@@ -13,7 +13,7 @@ from surfmesh.quality.measures.area_and_volume import Explained
 from surfmesh.quality.measures.face_rows import FaceRows
 from surfmesh.quality.measures.measurements import Measurements
 from surfmesh.quality.measures.places import face_in_words, more_in_words
-from surfmesh.quality.measures.solids import solids_beside
+from surfmesh.quality.measures.solids import bounds_solid
 from surfmesh.quality.verdict.connectivity import solid_in_words
 from surfmesh.quality.verdict.finding import Kind, Problem, Remark
 from surfmesh.result.surface_mesh import SurfaceMesh
@@ -125,7 +125,7 @@ def _volumes(measured: Measurements, found: Explained) -> Iterator[Problem]:
     for row in measured.solids:
         if row.volume is None or row.volume_exact is None or row.volume_error is None:
             continue
-        own = (solids_beside(mesh) == row.solid).any(axis=1)
+        own = bounds_solid(mesh, row.solid)
         allowed = float(found.volume[own].sum()) / row.volume_exact
         inexact = [
             _inexact(kinds[face].kind if face < len(kinds) else "")
@@ -213,5 +213,5 @@ def _curved_size(mesh: SurfaceMesh, solid: int) -> float:
     if mesh.sizes is None or mesh.solid_ids is None or not mesh.surfaces:
         return np.inf
     curved = np.array([surface_kind(surface) != "plane" for surface in mesh.surfaces])
-    of = (mesh.solid_ids == solid).any(axis=1) & curved[mesh.face_ids]
+    of = bounds_solid(mesh, solid) & curved[mesh.face_ids]
     return float(mesh.sizes[mesh.triangles[of]].mean()) if of.any() else np.inf

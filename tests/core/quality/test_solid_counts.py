@@ -2,10 +2,13 @@
 
 import numpy as np
 import pytest
+from handmade_meshes import icosphere
 from hypothesis import given
 from hypothesis import strategies as st
 
 from surfmesh._core.quality import solid_counts
+from surfmesh.quality.measures.topology import topology
+from surfmesh.result.surface_mesh import SurfaceMesh
 
 
 def slow(triangles, solid, solids):
@@ -36,3 +39,20 @@ def test_what_is_out_of_range_is_refused():
     for triangles, solid in ((one, [1]), (one + 1, [0]), (one, [0, 0]), (one, [-1])):
         with pytest.raises(ValueError):
             solid_counts(triangles, np.array(solid, np.int32), 3, 1)
+
+
+@given(st.integers(0, 2**31))
+def test_one_solid_of_all_triangles_is_counted_as_the_mesh(seed):
+    """So ``by_solid`` takes it: the same Euler number, and closed where the mesh is balanced."""
+    draw = np.random.default_rng(seed)
+    triangles = icosphere(1).triangles.copy()
+    for _ in range(draw.integers(0, 3)):  # turned over, or all corners moved to others
+        k = draw.integers(0, len(triangles))
+        triangles[k] = draw.choice((triangles[k][::-1], draw.permutation(12)[:3]))
+    mesh = SurfaceMesh(points=icosphere(1).points, triangles=triangles)
+    found = topology(mesh)
+    (vertices,), (edges,), (opened,) = solid_counts(
+        triangles, np.zeros(len(triangles), np.int32), len(mesh.points), 1
+    )
+    assert found.euler == vertices - edges + len(triangles)
+    assert found.balanced == (opened == 0)

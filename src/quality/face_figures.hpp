@@ -1,0 +1,41 @@
+// The figures of each face in one pass over the triangles, or over the edges, of a finished mesh.
+//
+// In: the face of each triangle, a number from 0 on, and what is known of each triangle or edge.
+// Out: sums and extremes of each face, added up in the order of the triangles or edges.
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+#include "quality/measured_mesh.hpp"
+#include "space/edge_table.hpp"
+#include "values/array.hpp"
+
+namespace surfmesh {
+
+struct FaceShapes {
+    Array<std::int64_t> triangles;
+    Array<double> area, alpha_sum, alpha_min;  // alpha_min is infinite where there is no triangle
+};
+
+FaceShapes face_shapes(std::span<const std::int32_t> faces, std::span<const double> area,
+                       std::span<const double> alpha, std::size_t count);
+
+struct FaceDistances {
+    Array<double> largest;       // NaN where one is, 0 without triangles
+    Array<std::int32_t> worst;   // the first triangle where that is; 0 where there is none
+    Array<double> square;        // mean square times area, summed up
+    Array<std::int64_t> marked;  // how many triangles are
+};
+
+/// marked: of each triangle, not 0 where it counts.
+FaceDistances face_distances(std::span<const std::int32_t> faces, std::span<const double> distance,
+                             std::span<const double> mean_square, std::span<const double> area,
+                             std::span<const std::uint8_t> marked, std::size_t count);
+
+/// The mean of a value over the edges of each face; an edge between two faces counts for both.
+Array<double> face_edge_means(std::span<const std::int32_t> faces,
+                              std::span<const EdgeTable::Sides> half_edges,
+                              std::span<const double> values, std::size_t count);
+
+}  // namespace surfmesh
