@@ -119,6 +119,28 @@ def test_the_worst_triangles_are_raised_and_none_gets_worse_than_they_were():
     assert (state.t.xy[domain.node] == nodes).all()
 
 
+@pytest.mark.parametrize("way, more", [("remove_worst", -2), ("insert_at_worst", 2)])
+def test_a_vertex_less_or_more_betters_the_worst_triangles(way, more):
+    state, domain = state_of()
+    state.swap()
+    state.smooth()
+    state.swap()
+    t, nodes, before = state.t, state.t.xy[domain.node].copy(), shapes(state)
+    border = {e for e, h in half_edges(t).items() if t.adj[h] == NIL}
+    least = float(np.quantile(before, 0.1))
+    count = t.vertices
+    getattr(state, way)(least)
+    after = shapes(state)
+    changes = (len(after) - len(before)) // more
+    assert changes > 0 and len(after) == len(before) + more * changes
+    assert (t.vertices > count) == (more > 0)
+    assert (after < least).sum() < (before < least).sum()
+    assert after.min() > before.min() - 0.01  # a new vertex was put on the surface since
+    assert check_domain(t, 1) is None
+    assert (t.xy[domain.node] == nodes).all()
+    assert {e for e, h in half_edges(t).items() if t.adj[h] == NIL} == border
+
+
 def counted_degrees(t):
     return np.bincount(corners(t)[live_triangles(t)].ravel(), minlength=len(t.xy))
 
