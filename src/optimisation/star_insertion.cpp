@@ -2,6 +2,7 @@
 
 #include "optimisation/best_way.hpp"
 #include "optimisation/splits.hpp"
+#include "optimisation/worst_stars.hpp"
 #include "triangulation/local_operations.hpp"
 
 namespace surfmesh {
@@ -9,7 +10,6 @@ namespace {
 
 constexpr WayLimits INSERTION_LIMITS{0.16, 0.02, 0.5};
 constexpr double INSERTION_GAIN = 0.04;  // least gain of the smallest alpha for a vertex more
-constexpr double FOLDED = 0.2;           // a star with less lies at a fold: its shapes mean nothing
 constexpr double WAY_GAIN = 2e-3;        // least gain of alpha for a step of it
 constexpr double SHORTEST_SPOKE = 0.25;  // metric length of edges to it
 constexpr std::size_t MOST_SPOKES = 8;

@@ -6,7 +6,6 @@ namespace surfmesh {
 namespace {
 
 constexpr double FILLING_GAIN = 0.02;  // least gain of the smallest alpha for a vertex to go
-constexpr double FOLDED = 0.2;         // a star with less lies at a fold: its shapes mean nothing
 constexpr double REFUSED = -1.0;       // alpha of a triangle that must not be
 
 /// The star of one vertex, and how it would be filled.

@@ -20,6 +20,9 @@
 
 namespace surfmesh {
 
+/// A star with a triangle of less alpha lies at a fold: what its shapes are like means nothing.
+inline constexpr double FOLDED = 0.2;
+
 /// What the triangles may be like that fill the star of a vertex.
 struct FillingLimits {
     double longest;   // edge, metric length
