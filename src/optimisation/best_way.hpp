@@ -48,6 +48,24 @@ Point2 find_best_way(const WayLimits& limits, double energy, double enough,
     return way;
 }
 
+/// Where a vertex is, and the way it came from where it was.
+class Position {
+  public:
+    Position(const Triangulation& t, const SurfaceFrames& s, Vertex v)
+        : v_(v), xy_(t.xy[v]), point_(s.point[v]) {}
+
+    void place(Triangulation& t, SurfaceFrames& s, Point2 way) const {
+        const SizeTensor h = t.size[v_];
+        t.xy[v_] = {xy_.x + h.xx * way.x + h.xy * way.y, xy_.y + h.xy * way.x + h.yy * way.y};
+        s.point[v_] = point_ + lift(s, v_, way);
+    }
+
+  private:
+    Vertex v_;
+    Point2 xy_;
+    Point3 point_;
+};
+
 /// v has moved by ``length``, unit lengths: it rests until something else moves.
 inline void record_move(SurfaceFrames& s, VertexMarks& marks, Vertex v, double length,
                         Array<Vertex>& moved) {

@@ -14,22 +14,13 @@ MetricRoot3 middle(const MetricRoot3& a, const MetricRoot3& b) {
             middle(a.yy, b.yy), middle(a.yz, b.yz), middle(a.zz, b.zz)};
 }
 
-/// Split the edge e in the middle; what is known at the new vertex is taken from its ends.
+/// Split the edge e in the middle.
 void halve(Triangulation& t, SurfaceFrames& s, VertexMarks& marks, HalfEdge e) {
     if (t.xy.size() >= s.limits.most_vertices) return;
     const Vertex a = t.tri[e], b = t.tri[t.adj[e]];
     const Vertex p = split_edge(t, e, 0.5 * (t.xy[a] + t.xy[b]));
     if (p == NIL) return;
-    s.resize(t.xy.size());
-    marks.resize(t.xy.size());
-    s.point[p] = middle(s.point[a], s.point[b]);
-    s.tangent_map[p] = s.tangent_map[a];
-    s.normal[p] = s.normal[a];
-    t.size[p] = t.size[a];
-    s.scale[p] = middle(s.scale[a], s.scale[b]);
-    s.size[p] = middle(s.size[a], s.size[b]);
-    if (s.is_anisotropic) s.metric_root[p] = middle(s.metric_root[a], s.metric_root[b]);
-    marks.touch(p);
+    set_between(t, s, marks, p, a, b);
     marks.touch(a);
     marks.touch(b);
 }
@@ -94,6 +85,20 @@ Array<Triangle> with_long_edge(const Triangulation& t, const SurfaceFrames& s,
 }
 
 }  // namespace
+
+void set_between(Triangulation& t, SurfaceFrames& s, VertexMarks& marks, Vertex p, Vertex a,
+                 Vertex b) {
+    s.resize(t.xy.size());
+    marks.resize(t.xy.size());
+    s.point[p] = middle(s.point[a], s.point[b]);
+    s.tangent_map[p] = s.tangent_map[a];
+    s.normal[p] = s.normal[a];
+    t.size[p] = t.size[a];
+    s.scale[p] = middle(s.scale[a], s.scale[b]);
+    s.size[p] = middle(s.size[a], s.size[b]);
+    if (s.is_anisotropic) s.metric_root[p] = middle(s.metric_root[a], s.metric_root[b]);
+    marks.touch(p);
+}
 
 Vertex split_edge(Triangulation& t, HalfEdge e, Point2 place) {
     const HalfEdge f = t.adj[e];

@@ -25,6 +25,10 @@ namespace surfmesh {
 /// Returns the vertex, or NIL when a triangle would not be positive.
 Vertex split_edge(Triangulation& t, HalfEdge e, Point2 place);
 
+/// Tell the new vertex p what is known in the middle between a and b; it is active and dirty.
+void set_between(Triangulation& t, SurfaceFrames& s, VertexMarks& marks, Vertex p, Vertex a,
+                 Vertex b);
+
 /// Split interior edges of active vertices longer than ``longest``.
 ///
 /// In a large domain those of vertices that become active on the way wait for the next call.

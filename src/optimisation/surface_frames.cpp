@@ -175,4 +175,12 @@ bool is_shape_below(const SurfaceFrames& s, Vertex a, Vertex b, Vertex c, double
     return triangle_shape(s, a, b, c) < least;  // near the bound, to the last bit
 }
 
+bool follows(const Triangulation& t, const SurfaceFrames& s, Vertex v, Vertex p) {
+    if (is_zero(s.normal[p])) return true;
+    const Point2 in_space = chord(s, v, p);
+    const Point2 in_plane = solve(t.size[v], t.xy[p] - t.xy[v]);
+    return dot(in_space, in_plane) > 0.0 &&
+           dot(in_plane, in_plane) < 16.0 * dot(in_space, in_space);
+}
+
 }  // namespace surfmesh

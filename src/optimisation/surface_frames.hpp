@@ -150,6 +150,12 @@ inline bool coincide(const SurfaceFrames& s, Vertex p, Vertex q) {
     return a.x == b.x && a.y == b.y && a.z == b.z;
 }
 
+/// Does the chord from v to p run as the edge in the plane does?
+///
+/// It does not when the edge goes round a closed surface and the chord takes the short cut.
+/// Nothing can be said at a degenerate point.
+bool follows(const Triangulation& t, const SurfaceFrames& s, Vertex v, Vertex p);
+
 /// Do any two corners of triangle abc coincide? Then it is an edge in space.
 inline bool is_collapsed(const SurfaceFrames& s, Vertex a, Vertex b, Vertex c) {
     return coincide(s, a, b) || coincide(s, b, c) || coincide(s, c, a);

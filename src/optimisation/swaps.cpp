@@ -22,18 +22,6 @@ Quadrilateral corners_around(const Triangulation& t, HalfEdge e) {
     return {t.tri[e], t.tri[f], t.tri[prev_half_edge(e)], t.tri[prev_half_edge(f)]};
 }
 
-/// Does the chord from v to p run as the edge in the plane does?
-///
-/// It does not when the edge goes round a closed surface and the chord takes the short cut.
-/// Nothing can be said at a degenerate point.
-bool follows(const Triangulation& t, const SurfaceFrames& s, Vertex v, Vertex p) {
-    if (is_zero(s.normal[p])) return true;
-    const Point2 in_space = chord(s, v, p);
-    const Point2 in_plane = solve(t.size[v], t.xy[p] - t.xy[v]);
-    return dot(in_space, in_plane) > 0.0 &&
-           dot(in_plane, in_plane) < 16.0 * dot(in_space, in_space);
-}
-
 /// Is the swap of e valid in the plane, and the new edge short in the plane as in space?
 bool may_swap(const Triangulation& t, const SurfaceFrames& s, HalfEdge e) {
     if (!is_convex(t, e)) return false;

@@ -24,24 +24,6 @@ double smallest_shape(const Triangulation& t, const SurfaceFrames& s, Vertex v, 
     return smallest;
 }
 
-/// Where a vertex is, and the way it came from where it was.
-class Position {
-  public:
-    Position(const Triangulation& t, const SurfaceFrames& s, Vertex v)
-        : v_(v), xy_(t.xy[v]), point_(s.point[v]) {}
-
-    void place(Triangulation& t, SurfaceFrames& s, Point2 way) const {
-        const SizeTensor h = t.size[v_];
-        t.xy[v_] = {xy_.x + h.xx * way.x + h.xy * way.y, xy_.y + h.xy * way.x + h.yy * way.y};
-        s.point[v_] = point_ + lift(s, v_, way);
-    }
-
-  private:
-    Vertex v_;
-    Point2 xy_;
-    Point3 point_;
-};
-
 /// Move v until no triangle of its star is below ``least``, or to where it is best; the length of
 /// its way, unit lengths.
 double move_to_best(Triangulation& t, SurfaceFrames& s, Vertex v, HalfEdge start, double least) {

@@ -167,6 +167,26 @@ void bind_passes(nb::class_<BoundPatch>& c) {
         "collapse", [](BoundPatch& p) { p.run_pass([](PatchState& s) { s.collapse(); }); },
         "Remove interior vertices with a short edge, or with few triangles.");
     c.def(
+        "remove_worst",
+        [](BoundPatch& p, double least) {
+            p.run([&](PatchState& s) {
+                s.remove_worst(least);
+                return true;
+            });
+        },
+        nb::arg("least"),
+        "Remove corners of triangles below ``least`` where that raises the smallest alpha around.");
+    c.def(
+        "insert_at_worst",
+        [](BoundPatch& p, double least) {
+            p.run([&](PatchState& s) {
+                s.insert_at_worst(least);
+                return true;
+            });
+        },
+        nb::arg("least"),
+        "Add vertices at triangles below ``least`` where that raises the smallest alpha around.");
+    c.def(
         "split",
         [](BoundPatch& p, double longest) {
             p.run([&](PatchState& s) {

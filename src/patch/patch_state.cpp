@@ -1,5 +1,6 @@
 #include "patch/patch_state.hpp"
 
+#include <limits>
 #include <numeric>
 #include <utility>
 
@@ -7,8 +8,10 @@
 #include "optimisation/scale_gradation.hpp"
 #include "optimisation/smoothing.hpp"
 #include "optimisation/splits.hpp"
+#include "optimisation/star_insertion.hpp"
 #include "optimisation/swaps.hpp"
 #include "optimisation/worst_shapes.hpp"
+#include "optimisation/worst_stars.hpp"
 
 namespace surfmesh {
 namespace {
@@ -233,6 +236,26 @@ void PatchState::collapse() {
     const int made = collapse_short_edges(t, frames, stars, marks, SHORTEST, FEW);
     stars_known_ = stars_known_ && made == 0;
     collapses += made;
+}
+
+void PatchState::remove_worst(double least) {
+    if (stopped() || shape.size() < t.region.size()) return;
+    find_stars();
+    const FillingLimits limits{LONGEST,
+                               asked().chord.value_or(std::numeric_limits<double>::infinity())};
+    const int made = surfmesh::remove_worst(t, frames, stars, marks, shape, least, limits);
+    stars_known_ = stars_known_ && made == 0;
+    collapses += made;
+}
+
+void PatchState::insert_at_worst(double least) {
+    if (stopped() || shape.size() < t.region.size()) return;
+    const Vertex first = surfmesh::insert_at_worst(t, frames, marks, shape, least);
+    if (set_new(first) == 0) return;
+    find_stars();
+    const int removed = remove_bad_stars(t, frames, stars, marks, first, least);
+    stars_known_ = removed == 0;
+    splits -= removed;
 }
 
 void PatchState::split(double longest) {

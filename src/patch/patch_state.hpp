@@ -107,6 +107,10 @@ class PatchState {
     int swap_at_border(double bad);
     /// Remove interior vertices with a short edge, or with few triangles.
     void collapse();
+    /// Remove corners of triangles below ``least`` where that raises the smallest alpha around.
+    void remove_worst(double least);
+    /// Add vertices at triangles below ``least`` where that raises the smallest alpha around.
+    void insert_at_worst(double least);
     /// Split interior edges of active vertices longer than ``longest``.
     void split(double longest = LONGEST);
     /// Split the edge of each of the triangles that lies farthest from the surface.

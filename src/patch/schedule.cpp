@@ -22,6 +22,9 @@ constexpr double BAD_SHAPE = 0.72;
 constexpr double WORST_PART = 0.0005, RAISED[] = {0.65, 0.86};
 constexpr int RAISING_PASSES = 3, BORDER_PASSES = 4;
 
+// Triangles below this alpha lose a corner where what it leaves can be filled with better ones.
+constexpr double FILLED_ANEW = 0.82;
+
 constexpr double LEFT_OVER = 0.7;  // below this alpha, what packing or boundary have left over
 
 // Weight of unit edges in the passes for the worst triangles, and in those for all shapes.
@@ -142,7 +145,9 @@ Unmended optimise(PatchState& state, bool first) {
     state.kept_drift = state.is_anisotropic() ? KEPT_DRIFT_STRETCHED : KEPT_DRIFT;
     relax(state);
     if (state.stopped()) return {};
+    if (!state.is_anisotropic()) state.remove_worst(FILLED_ANEW);
     improve_worst(state);
+    if (!state.is_anisotropic()) state.insert_at_worst(BAD_SHAPE);
     // it leaves all vertices moving, and so dihedral angles
     if (!state.is_anisotropic()) {
         smooth_for_shape(state);

@@ -5,59 +5,10 @@
 namespace surfmesh {
 namespace {
 
-/// Corner i of the polygon whose outer half-edges are in the rim; n of them are left.
-Vertex corner(const Triangulation& t, int n, int i) { return t.tri[next_half_edge(t.rim[i % n])]; }
-
-/// Is the corner after rim vertex i positive, with no other rim vertex in its triangle?
-bool is_ear(const Triangulation& t, int n, int i) {
-    const Vertex p = corner(t, n, i), q = corner(t, n, i + 1), r = corner(t, n, i + 2);
-    if (orient(t.xy, p, q, r) <= 0.0) return false;
-    for (int k = 3; k < n; ++k) {
-        const Vertex w = corner(t, n, i + k);
-        if (orient(t.xy, p, q, w) >= 0.0 && orient(t.xy, q, r, w) >= 0.0 &&
-            orient(t.xy, r, p, w) >= 0.0)
-            return false;
-    }
-    return true;
-}
-
-/// The ear of best shape of the rim; every simple polygon has one.
-int best_ear(const Triangulation& t, int n) {
-    int best = NIL;
-    double best_shape = -1.0;
-    for (int i = 0; i < n; ++i) {
-        if (!is_ear(t, n, i)) continue;
-        const double found =
-            triangle_shape(t.xy, t.size, corner(t, n, i), corner(t, n, i + 1), corner(t, n, i + 2));
-        if (found > best_shape) {
-            best = i;
-            best_shape = found;
-        }
-    }
-    return best;
-}
-
-void attach(Triangulation& t, HalfEdge e, HalfEdge outer) {
-    t.adj[e] = outer;
-    t.adj[outer] = e;
-    t.fixed[e] = t.fixed[outer];
-}
-
-/// Outer twins of the star of e's start into the rim, its triangles into the cavity.
-bool collect_star(Triangulation& t, HalfEdge e) {
-    t.rim.clear();
-    t.cavity.clear();
-    HalfEdge f = e;
-    do {
-        if (t.tri[next_half_edge(f)] < 0 || t.fixed[f] != 0) return false;
-        const HalfEdge outer = t.adj[next_half_edge(f)];
-        if (outer < 0) return false;
-        t.rim.push_back(outer);
-        t.cavity.push_back(f / 3);
-        f = rotate_ccw(t, f);
-        if (f == NIL) return false;  // a star that ends at the border
-    } while (f != e);
-    return t.rim.size() >= 3;
+void attach(Triangulation& t, HalfEdge e, const RimEdge& rim) {
+    t.adj[e] = rim.outer;
+    if (rim.outer >= 0) t.adj[rim.outer] = e;
+    t.fixed[e] = rim.fixed;
 }
 
 }  // namespace
@@ -92,30 +43,86 @@ void swap_edge(Triangulation& t, HalfEdge e) {
     t.adj[f1] = e1;
 }
 
-HalfEdge remove_vertex(Triangulation& t, HalfEdge e) {
-    if (!collect_star(t, e)) return NIL;
-    auto n = static_cast<int>(t.rim.size());
-    int slots = n;
-    while (true) {
-        const int i = n == 3 ? 0 : best_ear(t, n);
-        const int j = (i + 1) % n, k = (i + 2) % n;
-        const Vertex p = corner(t, n, i), q = corner(t, n, j), r = corner(t, n, k);
-        const HalfEdge s = 3 * t.cavity[--slots];
-        t.tri[s] = p;
-        t.tri[s + 1] = q;
-        t.tri[s + 2] = r;
-        attach(t, s, t.rim[i]);
-        attach(t, s + 1, t.rim[j]);
-        if (n == 3) {
-            attach(t, s + 2, t.rim[k]);
-            for (int dead = 0; dead < slots; ++dead) t.region[t.cavity[dead]] = DEAD;
-            return s;
-        }
-        t.fixed[s + 2] = 0;
-        t.rim[i] = s + 2;
-        for (int m = j; m < n - 1; ++m) t.rim[m] = t.rim[m + 1];
-        --n;
+bool take_star(const Triangulation& t, HalfEdge e, StarPolygon& polygon) {
+    polygon.rim.clear();
+    polygon.triangles.clear();
+    HalfEdge f = e;
+    do {
+        const HalfEdge opposite = next_half_edge(f);
+        if (t.tri[opposite] < 0 || t.fixed[f] != 0) return false;
+        polygon.rim.push_back({t.tri[opposite], t.adj[opposite], t.fixed[opposite]});
+        polygon.triangles.push_back(f / 3);
+        f = rotate_ccw(t, f);
+        if (f == NIL) return false;  // a star that ends at the border
+    } while (f != e);
+    return polygon.rim.size() >= 3;
+}
+
+bool is_ear(const Triangulation& t, std::span<const Vertex> corners, std::size_t i) {
+    const std::size_t n = corners.size();
+    const Vertex p = corners[i], q = corners[(i + 1) % n], r = corners[(i + 2) % n];
+    if (orient(t.xy, p, q, r) <= 0.0) return false;
+    for (std::size_t k = 3; k < n; ++k) {
+        const Vertex w = corners[(i + k) % n];
+        if (orient(t.xy, p, q, w) >= 0.0 && orient(t.xy, q, r, w) >= 0.0 &&
+            orient(t.xy, r, p, w) >= 0.0)
+            return false;
     }
+    return true;
+}
+
+HalfEdge fill_polygon(Triangulation& t, const StarPolygon& polygon, const Ears& ears) {
+    Array<RimEdge> rim(polygon.rim);
+    std::size_t slots = polygon.triangles.size();
+    HalfEdge s = NIL;
+    for (const std::size_t i : ears.first) {
+        const std::size_t n = rim.size(), j = (i + 1) % n, k = (i + 2) % n;
+        s = 3 * polygon.triangles[--slots];
+        t.tri[s] = rim[i].start;
+        t.tri[s + 1] = rim[j].start;
+        t.tri[s + 2] = rim[k].start;
+        attach(t, s, rim[i]);
+        attach(t, s + 1, rim[j]);
+        if (n == 3) {
+            attach(t, s + 2, rim[k]);
+        } else {
+            rim[i] = {rim[i].start, s + 2, 0};
+            t.fixed[s + 2] = 0;
+            erase(rim, j);
+        }
+    }
+    for (std::size_t dead = 0; dead < slots; ++dead) t.region[polygon.triangles[dead]] = DEAD;
+    return s;
+}
+
+void fill_star(Triangulation& t, const StarPolygon& polygon, Vertex v) {
+    Array<Triangle> slots(polygon.triangles);
+    while (slots.size() < polygon.rim.size()) {
+        slots.push_back(t.add_triangle());
+        t.region[slots.back()] = t.region[slots[0]];
+    }
+    const std::size_t n = slots.size();
+    for (std::size_t k = 0; k < n; ++k) {
+        const HalfEdge s = 3 * slots[k];
+        t.tri[s] = polygon.rim[k].start;
+        t.tri[s + 1] = polygon.rim[(k + 1) % n].start;
+        t.tri[s + 2] = v;
+        attach(t, s, polygon.rim[k]);
+        t.adj[s + 1] = 3 * slots[(k + 1) % n] + 2;
+        t.adj[s + 2] = 3 * slots[(k + n - 1) % n] + 1;
+        t.fixed[s + 1] = t.fixed[s + 2] = 0;
+    }
+}
+
+HalfEdge remove_vertex(Triangulation& t, HalfEdge e) {
+    StarPolygon polygon;
+    if (!take_star(t, e, polygon)) return NIL;
+    for (const RimEdge& edge : polygon.rim)
+        if (edge.outer < 0) return NIL;
+    const auto shape = [&](Vertex p, Vertex q, Vertex r) {
+        return triangle_shape(t.xy, t.size, p, q, r);
+    };
+    return fill_polygon(t, polygon, best_ears(t, polygon, shape));
 }
 
 }  // namespace surfmesh

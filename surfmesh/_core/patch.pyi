@@ -224,6 +224,16 @@ class PatchState:
     def collapse(self) -> None:
         """Remove interior vertices with a short edge, or with few triangles."""
 
+    def remove_worst(self, least: float) -> None:
+        """
+        Remove corners of triangles below ``least`` where that raises the smallest alpha around.
+        """
+
+    def insert_at_worst(self, least: float) -> None:
+        """
+        Add vertices at triangles below ``least`` where that raises the smallest alpha around.
+        """
+
     def split(self, longest: float = 1.45) -> None:
         """Split interior edges of active vertices that are longer."""
 

@@ -278,3 +278,10 @@ def test_thirty_thousand_segments_far_shorter_than_the_size():
     mesh = sm.mesh(domain, 0.1)
     assert len(mesh.boundary_edges) == n and sm.check(mesh).euler == 1
     assert areas(mesh).sum() == pytest.approx(0.5 * n * np.sin(2.0 * np.pi / n), rel=1e-9)
+
+
+@pytest.mark.parametrize("width, height", [(2.356, 4.0), (2.3, 5.0)])
+def test_between_the_sides_of_a_strip_there_is_no_vertex_too_many(width, height):
+    """A vertex between the short side and the next row made triangles of alpha 0.71."""
+    mesh = meshed(sm.PlanarDomain(SQUARE * [width, height]), 1.0)
+    assert alpha(mesh).min() > 0.76

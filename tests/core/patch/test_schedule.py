@@ -158,6 +158,36 @@ def test_border_vertices_of_four_and_two_triangles_do_not_stay():
     assert alphas(mesh).alpha.min() > 0.87
 
 
+def test_corners_of_bad_triangles_go_where_that_betters_their_stars():
+    state, domain = state_of()
+    state.swap()
+    state.smooth()
+    state.swap()
+    before, nodes = shapes(state), state.t.xy[domain.node].copy()
+    least = float(np.quantile(before, 0.1))
+    state.remove_worst(least)
+    after = shapes(state)
+    assert 0 < (len(before) - len(after)) < 0.1 * len(before)
+    assert (after < least).sum() < (before < least).sum()
+    assert after.min() >= before.min()
+    assert check_domain(state.t, 1) is None
+    assert (state.t.xy[domain.node] == nodes).all()
+
+
+def test_vertices_added_at_bad_triangles_keep_the_invariants():
+    """Of all that are tried here many go again, as they are elsewhere once on the surface."""
+    state, domain = state_of()
+    state.swap()
+    state.smooth()
+    t, nodes, before = state.t, state.t.xy[domain.node].copy(), shapes(state)
+    border = {e for e, h in half_edges(t).items() if t.adj[h] == NIL}
+    state.insert_at_worst(float(np.quantile(before, 0.1)))
+    assert len(shapes(state)) > len(before)
+    assert check_domain(t, 1) is None
+    assert (t.xy[domain.node] == nodes).all()
+    assert {e for e, h in half_edges(t).items() if t.adj[h] == NIL} == border
+
+
 def counted_degrees(t):
     return np.bincount(corners(t)[live_triangles(t)].ravel(), minlength=len(t.xy))
 

@@ -1,0 +1,121 @@
+#include "optimisation/worst_stars.hpp"
+
+#include "triangulation/local_operations.hpp"
+
+namespace surfmesh {
+namespace {
+
+constexpr double FILLING_GAIN = 0.02;  // least gain of the smallest alpha for a vertex to go
+constexpr double REFUSED = -1.0;       // alpha of a triangle that must not be
+
+/// The star of one vertex, and how it would be filled.
+class StarRemoval {
+  public:
+    StarRemoval(Triangulation& t, const SurfaceFrames& s, Stars& stars, VertexMarks& marks,
+                const FillingLimits& limits)
+        : t_(t), s_(s), stars_(stars), marks_(marks), limits_(limits) {}
+
+    /// Remove v if the triangles in its place are better. Not beside one that has gone before.
+    bool remove_if_better(Vertex v) {
+        if (!take(v)) return false;
+        const double before = smallest_shape();
+        if (!(before > FOLDED)) return false;
+        const Ears ears = best_ears(
+            t_, polygon_, [&](Vertex p, Vertex q, Vertex r) { return shape_if_allowed(p, q, r); });
+        if (!(ears.worst > before + FILLING_GAIN)) return false;
+        fill(v, ears);
+        return true;
+    }
+
+    /// Remove v if a triangle of its star is below ``least``.
+    bool remove_if_bad(Vertex v, double least) {
+        if (!take(v) || !(smallest_shape() < least)) return false;
+        fill(v, best_ears(t_, polygon_, [&](Vertex p, Vertex q, Vertex r) {
+                 return triangle_shape(s_, p, q, r);
+             }));
+        return true;
+    }
+
+  private:
+    [[nodiscard]] bool take(Vertex v) {
+        const HalfEdge start = stars_.start[v];
+        return start != NIL && stars_.frozen[v] == 0 && take_star(t_, start, polygon_);
+    }
+
+    void fill(Vertex v, const Ears& ears) {
+        fill_polygon(t_, polygon_, ears);
+        for (const RimEdge& edge : polygon_.rim) {
+            marks_.touch(edge.start);
+            stars_.start[edge.start] = NIL;
+        }
+        stars_.start[v] = NIL;
+    }
+
+    [[nodiscard]] double smallest_shape() const {
+        double smallest = 1.0;
+        for (const Triangle k : polygon_.triangles) smallest = std::min(smallest, shape_of(k));
+        return smallest;
+    }
+
+    [[nodiscard]] double shape_of(Triangle k) const {
+        return triangle_shape(s_, t_.tri[3 * k], t_.tri[3 * k + 1], t_.tri[3 * k + 2]);
+    }
+
+    /// No edge may join two vertices of the boundary, go the short way round, or be too long.
+    [[nodiscard]] bool is_allowed(Vertex p, Vertex q) const {
+        if (stars_.frozen[p] != 0 && stars_.frozen[q] != 0) return false;
+        return follows(t_, s_, p, q) && follows(t_, s_, q, p) &&
+               !is_longer(s_, p, q, limits_.longest);
+    }
+
+    [[nodiscard]] double shape_if_allowed(Vertex p, Vertex q, Vertex r) const {
+        if (!(triangle_deviation(s_, p, q, r) <= limits_.farthest)) return REFUSED;
+        if (!is_on_rim(p, q) && !is_allowed(p, q)) return REFUSED;
+        if (!is_on_rim(q, r) && !is_allowed(q, r)) return REFUSED;
+        if (!is_on_rim(r, p) && !is_allowed(r, p)) return REFUSED;
+        return triangle_shape(s_, p, q, r);
+    }
+
+    [[nodiscard]] bool is_on_rim(Vertex p, Vertex q) const {
+        const std::size_t n = polygon_.rim.size();
+        for (std::size_t k = 0; k < n; ++k)
+            if (polygon_.rim[k].start == p) return polygon_.rim[(k + 1) % n].start == q;
+        return false;
+    }
+
+    Triangulation& t_;
+    const SurfaceFrames& s_;
+    Stars& stars_;
+    VertexMarks& marks_;
+    const FillingLimits& limits_;
+    StarPolygon polygon_;
+};
+
+}  // namespace
+
+int remove_worst(Triangulation& t, const SurfaceFrames& s, Stars& stars, VertexMarks& marks,
+                 const Array<double>& shape, double least, const FillingLimits& limits) {
+    StarRemoval removal(t, s, stars, marks, limits);
+    int removed = 0;
+    for (Triangle k = 0; k < t.triangles(); ++k) {
+        if (t.region[k] == DEAD || !(shape[k] < least)) continue;
+        if (is_collapsed(s, t.tri[3 * k], t.tri[3 * k + 1], t.tri[3 * k + 2])) continue;
+        for (HalfEdge e = 3 * k; e < 3 * k + 3; ++e)
+            if (removal.remove_if_better(t.tri[e])) {
+                ++removed;
+                break;
+            }
+    }
+    return removed;
+}
+
+int remove_bad_stars(Triangulation& t, const SurfaceFrames& s, Stars& stars, VertexMarks& marks,
+                     Vertex first, double least) {
+    const FillingLimits none{};
+    StarRemoval removal(t, s, stars, marks, none);
+    int removed = 0;
+    for (Vertex v = first; v < t.vertices(); ++v) removed += removal.remove_if_bad(v, least);
+    return removed;
+}
+
+}  // namespace surfmesh
