@@ -83,7 +83,7 @@ class CirclePacking:
     """(k,) int32, the circles of the generation front, counter-clockwise."""
     statistics: PackingStatistics
 
-    def check(self) -> str | None:
+    def broken_invariant(self) -> str | None:
         """The first broken invariant in words, or None.
 
         Every triangle is positively oriented, exactly; the whole is a topological disc, and

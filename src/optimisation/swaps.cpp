@@ -142,8 +142,11 @@ struct DegreeSwaps {
         return stars.degree[v] - (stars.frozen[v] != 0 ? 3 : 6);
     }
 
-    /// The same where some of the four are frozen, all those on a straight border.
+    /// The same where some of the four are frozen, all those on a straight border. The new edge
+    /// joins no two of these: a triangle with three corners on boundaries is flat where they are,
+    /// and lies in a face beyond that is tangent there.
     [[nodiscard]] bool is_wanted_at_border(HalfEdge e, const Quadrilateral& q) const {
+        if (stars.frozen[q.c] != 0 && stars.frozen[q.d] != 0) return false;
         const int inner = excess(q.a) + excess(q.b);
         if (inner < 1 || inner - excess(q.c) - excess(q.d) < 3) return false;
         for (const Vertex v : {q.a, q.b, q.c, q.d})

@@ -30,9 +30,11 @@ class StarRemoval {
     /// Remove v if a triangle of its star is below ``least``.
     bool remove_if_bad(Vertex v, double least) {
         if (!take(v) || !(smallest_shape() < least)) return false;
-        fill(v, best_ears(t_, polygon_, [&](Vertex p, Vertex q, Vertex r) {
-                 return triangle_shape(s_, p, q, r);
-             }));
+        const Ears ears = best_ears(t_, polygon_, [&](Vertex p, Vertex q, Vertex r) {
+            return joins_boundaries(p, q, r) ? REFUSED : triangle_shape(s_, p, q, r);
+        });
+        if (!(ears.worst > REFUSED)) return false;
+        fill(v, ears);
         return true;
     }
 
@@ -74,6 +76,15 @@ class StarRemoval {
         if (!is_on_rim(q, r) && !is_allowed(q, r)) return REFUSED;
         if (!is_on_rim(r, p) && !is_allowed(r, p)) return REFUSED;
         return triangle_shape(s_, p, q, r);
+    }
+
+    /// Would an edge within the polygon join two vertices of the boundary?
+    [[nodiscard]] bool joins_boundaries(Vertex p, Vertex q, Vertex r) const {
+        const auto joins = [&](Vertex a, Vertex b) {
+            return stars_.frozen[a] != 0 && stars_.frozen[b] != 0 && !is_on_rim(a, b) &&
+                   !is_on_rim(b, a);
+        };
+        return joins(p, q) || joins(q, r) || joins(r, p);
     }
 
     [[nodiscard]] bool is_on_rim(Vertex p, Vertex q) const {

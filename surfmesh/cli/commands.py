@@ -144,7 +144,7 @@ def check(options: Namespace) -> bool:
                     "save it as .vtu or .vtp"
                 )
             found = on_surface(found, surface_wanted())
-        broken = found.check()
+        broken = found.broken_invariant()
         if broken:
             raise FileFormatError(f"{options.input}: {broken}")
     else:
@@ -296,7 +296,7 @@ def pack(options: Namespace) -> bool:
     found = packed(
         law, options.origin, count=options.count, distance=options.distance, box=options.box
     )
-    broken = found.check()
+    broken = found.broken_invariant()
     figures = found.statistics.to_dict()
     if options.output:
         found.plot(options.output, options.show)

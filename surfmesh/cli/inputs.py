@@ -198,7 +198,7 @@ def _facing(found: SurfaceMesh) -> SurfaceMesh:
     import numpy as np
 
     corners = found.parametrisation
-    if found.check() or not len(found.triangles) or corners is None:
+    if found.broken_invariant() or not len(found.triangles) or corners is None:
         return found
     count = len(found.triangles)
     rows = np.unique(np.linspace(0, count - 1, min(count, _LOOKED_AT)).astype(int))

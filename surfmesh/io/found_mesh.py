@@ -21,7 +21,7 @@ def usable(path: Path, mesh: SurfaceMesh) -> SurfaceMesh:
         raise FileFormatError(f"{path}: there are no triangles in it")
     for name in ("points", "mid_points", "uv_points", "sizes", "metric_root_3d"):
         _require_finite(path, name, getattr(mesh, name))
-    broken = mesh.check()
+    broken = mesh.broken_invariant()
     if broken and "is outside" in broken:
         raise FileFormatError(f"{path}: {broken}")
     n = len(mesh.points)

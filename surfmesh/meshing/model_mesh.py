@@ -47,7 +47,10 @@ from surfmesh.meshing.finishing.edge_collapse import LEAST, simplified
 from surfmesh.meshing.patch.refinement_loop import MAX_ROUNDS, refined_in_rounds
 from surfmesh.meshing.processors import allowed_threads
 from surfmesh.meshing.progress import Progress, Stopwatch
-from surfmesh.meshing.solids.crowded_chords import with_crowded_chords_cut
+from surfmesh.meshing.solids.crowded_chords import (
+    with_crowded_chords_cut,
+    with_flat_corners_cut,
+)
 from surfmesh.meshing.solids.joining import joined_mesh, limits_where_crowded
 from surfmesh.meshing.solids.model_findings import (
     not_refined,
@@ -200,6 +203,7 @@ class _Rounds:
             require_all_meshed(self.model, self.faces)
         if self.may_be_crowded:
             mesh = with_crowded_chords_cut(self.model, mesh)
+        mesh = with_flat_corners_cut(self.model, mesh)
         mesh = mesh.replaced(promises=self.wanted.promises(len(self.faces)))
         return mesh.with_warnings(*not_refined(not_refined_yet))
 

@@ -10,7 +10,7 @@ def first_broken(
     points: FloatArray, triangles: Int32Array, sizes: FloatArray | None,
     mid_points: FloatArray | None, corners: Parametrisation | None, links: ModelLinks,
 ) -> str | None:  # fmt: skip
-    """The first broken invariant of a mesh, or None; see ``SurfaceMesh.check``."""
+    """The first broken invariant of a mesh, or None; see ``SurfaceMesh.broken_invariant``."""
     outside = _outside("triangles", triangles, len(points))
     if outside is None and corners is not None:
         outside = _outside("uv_triangles", corners.uv_triangles, len(corners.uv_points))

@@ -213,11 +213,11 @@ class SurfaceMesh(PartAttributes):
         """Name of face number ``face``, or ``face 3`` when it has none."""
         return self.groups.face_label(face)
 
-    def check(self) -> str | None:
+    def broken_invariant(self) -> str | None:
         """The first broken invariant in words, or None: indices in range, all finite, no
         corner twice in a triangle, no triangle twice, every vertex used, faces known.
 
-        Says nothing of shape or of the surface: that is ``surfmesh.check(mesh)``.
+        Says nothing of shape or of the surface: that is ``check``.
         """
         return first_broken(
             self.points, self.triangles, self.sizes, self.mid_points, self.parametrisation,
@@ -279,12 +279,17 @@ class SurfaceMesh(PartAttributes):
             model_links=self.model_links.flipped(),
         )
 
-    @cached_property
-    def report(self) -> Report:
-        """The certificate: ``surfmesh.check(mesh)``, made when it is first asked for."""
+    def check(self, *, second_opinion: bool = False, prove: bool | None = None) -> Report:
+        """The certificate: shape, sizes, topology, the distance from the surfaces; see
+        ``surfmesh.check``."""
         from surfmesh.quality.report import check
 
-        return check(self)
+        return check(self, second_opinion=second_opinion, prove=prove)
+
+    @cached_property
+    def report(self) -> Report:
+        """``mesh.check()``, made when it is first asked for."""
+        return self.check()
 
     def worst(self, count: int = 20) -> tuple[WorstTriangle, ...]:
         """The triangles of the smallest alpha, the worst first, with face and position."""

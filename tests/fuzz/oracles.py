@@ -36,7 +36,7 @@ def _mesh(path: Path, found: Mutant) -> str:
     mesh = read(path)
     _held_together(mesh)
     report = check(mesh)
-    broken = mesh.check()
+    broken = mesh.broken_invariant()
     if broken and report.clean:
         raise Wrong(f"the report is clean, but {broken}")
     report.to_text()
@@ -72,7 +72,7 @@ def _put_pieces(folder: Path) -> None:
 
 
 def _held_together(mesh: Any) -> None:
-    """What mesh.check() takes for granted: arrays that belong to these points and triangles."""
+    """What broken_invariant() takes for granted: arrays that belong to these points, triangles."""
     points, triangles = len(mesh.points), len(mesh.triangles)
     if not triangles:
         raise Wrong("there are no triangles")

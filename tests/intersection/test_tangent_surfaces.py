@@ -47,7 +47,7 @@ def called(one, other):
 def met(one, other):
     """Both, called a and b, as a checked model with a clean mesh."""
     model = sm.intersect(called(one, other))
-    assert not model.check()
+    assert not model.broken_invariant()
     report = sm.check(sm.mesh(model, 0.4))
     assert report.clean, report.problems
     return model
@@ -83,7 +83,7 @@ def test_the_seam_of_a_body_lies_in_a_plane():
     rod = cq.Workplane().circle(1.0).extrude(2.0)
     wall = sm.ParametricSurface("u", "0", "v", u=(-2, 2.1), v=(-1, 3), name="wall")
     model = sm.intersect([rod, wall], keep={"wall": "-0"})
-    assert not model.check()
+    assert not model.broken_invariant()
     (inside,) = (face for face in model.faces if face.name == "wall")
     assert inside.area == pytest.approx(4.0, rel=1e-9)
     seam = [k for k, edge in enumerate(model.edges) if len(model.faces_of_edge(k)) == 3]
@@ -128,7 +128,7 @@ POINTS = {
 def test_a_touch_in_a_point_leaves_both_as_they_are(name):
     one, other = POINTS[name]
     model = sm.intersect(called(one, other))
-    assert not model.check() and len(model.faces) == 2
+    assert not model.broken_invariant() and len(model.faces) == 2
     if "pole" not in name:
         assert any("a and b touch at (" in sentence for sentence in model.healing)
 

@@ -44,7 +44,7 @@ def test_connectivity_of_numbers_that_are_none():
 def test_no_triangles():
     mesh = SurfaceMesh(points=np.empty((0, 3)), triangles=np.empty((0, 3)))
     assert mesh.edges.shape == (0, 2)
-    assert mesh.check() is None
+    assert mesh.broken_invariant() is None
 
 
 def test_arrays_are_read_only_and_typed(saddle):
@@ -88,12 +88,12 @@ def test_shapes_must_agree():
 )
 def test_check_names_the_first_broken_invariant(change, said):
     mesh = SurfaceMesh(**({"points": np.eye(3), "triangles": [(0, 1, 2)]} | change))
-    assert mesh.check().startswith(said)
+    assert mesh.broken_invariant().startswith(said)
 
 
 def test_sound_meshes_pass(saddle, tetrahedron, moebius_band):
     for mesh in (saddle, tetrahedron, moebius_band):
-        assert mesh.check() is None
+        assert mesh.broken_invariant() is None
 
 
 def test_conversions_merge_nothing(saddle):

@@ -249,7 +249,7 @@ class CadModel:
         """Of all solids."""
         return math.fsum(solid.volume for solid in self.solids)
 
-    def check(self) -> str:
+    def broken_invariant(self) -> str:
         """The first broken invariant in words; empty when all is well."""
         return next(broken(self), "")
 

@@ -59,7 +59,7 @@ class SideTopology:
         """(u, v) of a side's own parameter: t (n,) in [0, 1] -> (n, 2), ends exact."""
         return side_points(self.domain, side, t)
 
-    def check(self) -> str:
+    def broken_invariant(self) -> str:
         """The first broken invariant in words, or "" when all hold."""
         for side, partner in enumerate(self.partner):
             if partner < 0:

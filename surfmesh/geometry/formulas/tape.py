@@ -50,7 +50,7 @@ class Tape:
             self.inputs, self.constants, self.instructions, self.registers, self.outputs
         )
 
-    def check(self) -> str:
+    def broken_invariant(self) -> str:
         """The first broken invariant in words, or "" when all hold."""
         try:
             surfaces.Tape(

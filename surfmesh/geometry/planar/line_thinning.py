@@ -144,7 +144,7 @@ def _with_segments(
 
 def _require_alike(graph: SegmentGraph, made: SegmentGraph, distance: float) -> None:
     """Raise DomainError unless both have the same regions, with the same points in them."""
-    broken = made.check()
+    broken = made.broken_invariant()
     faces = [len(bounded_faces(one)[0]) for one in (graph, made)]
     if broken is None and faces[0] == faces[1]:
         around = [loops_around(one, one.points[one.lone_points]) for one in (graph, made)]

@@ -57,7 +57,7 @@ class SegmentGraph:
         """Where a segment comes from, as in "outer loop 0, segment 3"."""
         return _origin(self.labels, self.label_start, int(self.given[segment]))
 
-    def check(self) -> str | None:
+    def broken_invariant(self) -> str | None:
         """The first broken invariant in words, or None."""
         n, s = len(self.points), len(self.segments)
         if not np.isfinite(self.points).all():

@@ -14,8 +14,11 @@ from typing import NamedTuple
 import numpy as np
 
 from surfmesh.cad.model.cad_model import CadModel
-from surfmesh.meshing.solids.joining import crowded_chords
+from surfmesh.meshing.solids.joining import crowded_chords, shared_vertices
 from surfmesh.result.surface_mesh import SurfaceMesh
+
+IN_ONE_PLANE = 1e-9
+"""Sine of the angle up to which an edge lies in the plane of a triangle."""
 
 
 def with_crowded_chords_cut(model: CadModel, mesh: SurfaceMesh) -> SurfaceMesh:
@@ -27,6 +30,77 @@ def with_crowded_chords_cut(model: CadModel, mesh: SurfaceMesh) -> SurfaceMesh:
     for first, last in np.sort(chords, axis=1).tolist():
         mesh = _cut_in_all_but_one(mesh, first, last)
     return mesh
+
+
+def with_flat_corners_cut(model: CadModel, mesh: SurfaceMesh) -> SurfaceMesh:
+    """The mesh with those chords cut whose triangle alone fills a corner of its face and lies in
+    the plane of the triangles that another face has in the same corner: they would overlap."""
+    for face, corner, first, last in _lone_corners(model, mesh):
+        if _lies_in_plane_beside(model, mesh, face, corner, first, last):
+            users = np.flatnonzero(
+                (mesh.triangles == first).any(axis=1) & (mesh.triangles == last).any(axis=1)
+            )
+            chord = _chord(mesh, face, users[mesh.face_ids[users] == face], first, last)
+            mesh = mesh if chord is None else _cut(mesh, chord, first, last)
+    return mesh
+
+
+class _LoneCorner(NamedTuple):
+    """A triangle with two sides on edges of the model: between them a face has no other."""
+
+    face: int
+    corner: int
+    first: int
+    last: int
+
+
+def _lone_corners(model: CadModel, mesh: SurfaceMesh) -> list[_LoneCorner]:
+    """Those where another face has both edges too."""
+    if mesh.edge_segments is None or not len(mesh.edge_segments):
+        return []
+    rows = np.flatnonzero(shared_vertices(mesh)[mesh.triangles].all(axis=1))
+    count = np.int64(len(mesh.points))
+    ends = np.sort(mesh.edge_segments, axis=1).astype(np.int64)
+    keys = ends[:, 0] * count + ends[:, 1]
+    order = np.argsort(keys, kind="stable")
+    corners = mesh.triangles[rows]
+    sides = np.sort(np.stack([corners, np.roll(corners, -1, axis=1)], axis=2), axis=2)
+    wanted = sides[:, :, 0].astype(np.int64) * count + sides[:, :, 1]
+    place = np.minimum(np.searchsorted(keys[order], wanted), len(keys) - 1)
+    is_on_edge = keys[order][place] == wanted
+    assert mesh.edge_ids is not None  # noqa: S101 for mypy: it comes with edge_segments
+    edges = mesh.edge_ids[order[place]]
+    found = []
+    for row in np.flatnonzero(is_on_edge.sum(axis=1) == 2).tolist():
+        free = int(np.flatnonzero(~is_on_edge[row])[0])  # the side from corner free on
+        one, two = (int(edges[row, (free + k) % 3]) for k in (1, 2))
+        face = int(mesh.face_ids[rows[row]])
+        if set(model.faces_of_edge(one)) & set(model.faces_of_edge(two)) - {face}:
+            first, last, corner = (int(corners[row, (free + k) % 3]) for k in range(3))
+            found.append(_LoneCorner(face, corner, first, last))
+    return found
+
+
+def _lies_in_plane_beside(
+    model: CadModel, mesh: SurfaceMesh, face: int, corner: int, first: int, last: int
+) -> bool:
+    """Has another face an edge from the corner that lies in the triangle's plane, between its
+    sides?"""
+    beside = np.flatnonzero((mesh.triangles == corner).any(axis=1) & (mesh.face_ids != face))
+    of_first = set(mesh.face_ids[beside[(mesh.triangles[beside] == first).any(axis=1)]].tolist())
+    of_both = of_first & set(
+        mesh.face_ids[beside[(mesh.triangles[beside] == last).any(axis=1)]].tolist()
+    )
+    around = beside[np.isin(mesh.face_ids[beside], list(of_both))]
+    others = np.setdiff1d(mesh.triangles[around], [corner, first, last])
+    a, b = mesh.points[first] - mesh.points[corner], mesh.points[last] - mesh.points[corner]
+    ways = mesh.points[others] - mesh.points[corner]
+    normal = np.cross(a, b)
+    size = np.linalg.norm(normal) * np.linalg.norm(ways, axis=1)
+    is_flat = np.abs((ways * normal).sum(axis=1)) <= IN_ONE_PLANE * size
+    after_first = (np.cross(a, ways) * normal).sum(axis=1) > 0.0
+    before_last = (np.cross(ways, b) * normal).sum(axis=1) > 0.0
+    return bool((is_flat & after_first & before_last).any())
 
 
 class _Chord(NamedTuple):

@@ -188,7 +188,7 @@ def orientation(model: CadModel) -> tuple[np.ndarray, np.ndarray]:
     return turned ^ inward, solids
 
 
-def _shared_vertices(mesh: SurfaceMesh) -> np.ndarray:
+def shared_vertices(mesh: SurfaceMesh) -> np.ndarray:
     """(n,) bool: vertices that faces may share. All edges that more than one face can use are
     between two of them."""
     shared = np.zeros(len(mesh.points), bool)
@@ -215,7 +215,7 @@ def crowded_chords(model: CadModel, mesh: SurfaceMesh) -> np.ndarray:
     an edge of the model as many as it has uses, elsewhere two."""
     if mesh.edge_segments is None or not len(mesh.edge_segments):
         return np.empty((0, 2), np.int64)
-    shared = _shared_vertices(mesh)
+    shared = shared_vertices(mesh)
     if not _may_be_crowded(mesh, shared):
         return np.empty((0, 2), np.int64)
     table = connect(mesh.triangles[shared[mesh.triangles].sum(axis=1) > 1])

@@ -66,7 +66,7 @@ class Measurements:
     def __init__(self, mesh: SurfaceMesh) -> None:
         """Raises ``ValueError`` when indices are out of range."""
         self.mesh = mesh
-        self.broken = mesh.check()  # the first broken invariant, in words
+        self.broken = mesh.broken_invariant()  # the first broken invariant, in words
         if self.broken and not _are_in_range(mesh):
             raise ValueError(f"this is not a mesh: {self.broken}")
         self.finite = bool(np.isfinite(mesh.points).all())

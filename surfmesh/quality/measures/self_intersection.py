@@ -32,11 +32,11 @@ def meeting_pairs(mesh: SurfaceMesh) -> NDArray[np.int32]:
     """(k, 2) numbers of the triangles that meet, the lower first, in order; at most ``MOST``.
 
     Points must be finite, vertex numbers in range. A triangle without area meets nothing, and
-    two triangles on the same three vertices are left to ``mesh.check()``.
+    two triangles on the same three vertices are left to ``mesh.broken_invariant()``.
     """
     if len(mesh.triangles) < 2:
         return np.empty((0, 2), np.int32)
-    if mesh.order == 2 and not mesh.check():
+    if mesh.order == 2 and not mesh.broken_invariant():
         return _meeting_curved(mesh)
     pairs = _meeting(mesh.points, mesh.triangles, mesh.connectivity)
     a, b = np.sort(mesh.triangles[pairs], axis=2).transpose(1, 0, 2)

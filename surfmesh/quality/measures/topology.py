@@ -47,7 +47,7 @@ class Topology(NamedTuple):
 
 
 def topology(mesh: SurfaceMesh) -> Topology:
-    """Topology of ``mesh``; vertex numbers must be in range (``mesh.check()``)."""
+    """Topology of ``mesh``; vertex numbers must be in range (``mesh.broken_invariant()``)."""
     n, corners = len(mesh.points), mesh.triangles.reshape(-1)
     table = mesh.connectivity
     used = np.zeros(n, bool)

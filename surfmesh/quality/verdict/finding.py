@@ -11,7 +11,7 @@ class Kind(Enum):
     """What a finding is about."""
 
     NO_TRIANGLES = auto()
-    BROKEN_MESH = auto()  # an invariant of ``SurfaceMesh.check``
+    BROKEN_MESH = auto()  # an invariant of ``SurfaceMesh.broken_invariant``
     FACE_MISSING = auto()
     SOLID_OPEN = auto()
     EULER_NUMBER = auto()

@@ -22,7 +22,7 @@ PI = math.pi
 
 def model_of(obj, **options):
     model = from_cadquery(obj, **options)
-    assert model.check() == ""
+    assert model.broken_invariant() == ""
     return model
 
 
@@ -150,7 +150,7 @@ def test_a_hole_that_runs_the_wrong_way_is_turned_and_told():
     assert model.area == pytest.approx(16 - PI)
     assert model.healing == ("face 0: loop orientation reversed",)
     # the caller's own shape is as it was
-    assert "second outer loop" in from_cadquery(face, heal=False).check()
+    assert "second outer loop" in from_cadquery(face, heal=False).broken_invariant()
 
 
 def test_a_whole_sphere_without_edges_gets_its_natural_boundary():
@@ -231,7 +231,7 @@ def test_a_mirrored_place_changes_the_geometry():
     mirror.SetMirror(gp_Ax2(gp_Pnt(0, 0, 0), gp_Dir(1, 0, 0)))
     cone = cq.Solid.makeCone(3, 1, 4, cq.Vector(5, 0, 0)).wrapped
     model = assembled(Part("mirrored", cone, TopLoc_Location(mirror)), heal=True)
-    assert model.check() == ""
+    assert model.broken_invariant() == ""
     assert np.mean([vertex.point for vertex in model.vertices], axis=0)[0] < -4
     assert model.volume == pytest.approx(52 / 3 * PI)
 
@@ -252,7 +252,7 @@ def test_the_data_is_free_of_ocp(tmp_path):
     program = (
         "import pickle, sys\n"
         "model = pickle.load(open(sys.argv[1], 'rb'))\n"
-        "assert model.check() == '' and len(model.faces) == 7\n"
+        "assert model.broken_invariant() == '' and len(model.faces) == 7\n"
         "assert not any(m.split('.')[0] in ('OCP', 'cadquery') for m in sys.modules)\n"
     )
     subprocess.run([sys.executable, "-c", program, tmp_path / "model.pickle"], check=True)

@@ -70,7 +70,7 @@ CASES = {
 def test_exact_figures(name):
     bodies, volumes, faces, shared, area = CASES[name]
     model = sm.from_cadquery(bodies, imprint=True)
-    assert model.check() == ""
+    assert model.broken_invariant() == ""
     assert [solid.volume for solid in model.solids] == pytest.approx(volumes, rel=1e-7)
     assert all(solid.closed for solid in model.solids)
     held = [face for solid in model.solids for shell in solid.shells for face, _ in shell]
@@ -135,7 +135,7 @@ TOUCHING = {  # name: (bodies, what of them is shared)
 def test_bodies_that_touch_along_a_line_or_in_a_point(name):
     bodies, shared = TOUCHING[name]
     model = sm.from_cadquery(bodies, imprint=True)
-    assert model.check() == ""
+    assert model.broken_invariant() == ""
     assert model.healing[0] == f"imprinted: bodies share {shared}"
     mesh = sm.mesh(model, sm.Sizing(chord=0.1, max_size=2))
     report = sm.check(mesh)
@@ -151,7 +151,7 @@ def test_scaled_and_turned(scale):
     bodies = [box(4, 4, 4), box(2, 2, 2, (4, 1, 1)), box(4, 4, 1, (0, 0, -1))]
     bodies = [body.scale(scale).moved(turn) for body in bodies]
     model = sm.from_cadquery(bodies, imprint=True)
-    assert model.check() == ""
+    assert model.broken_invariant() == ""
     assert model.volume == pytest.approx(88 * scale**3)
     assert model.area == pytest.approx((96 + 24 + 48 - 4 - 16) * scale**2)
     assert len(model.faces) == 7 + 5 + 5
@@ -170,7 +170,7 @@ def test_nothing_is_lost_and_nothing_is_there_twice(corners, angle, radius):
     turn = cq.Location((0.3, 0.2, 0.1), (1, 2, 3), 37 * angle)
     bodies = [body.moved(turn) for body in bodies]
     model = sm.from_cadquery(bodies, imprint=True)
-    assert model.check() == "" and all(solid.closed for solid in model.solids)
+    assert model.broken_invariant() == "" and all(solid.closed for solid in model.solids)
     together = bodies[0].fuse(*bodies[1:]).Volume()
     assert model.volume == pytest.approx(together, rel=1e-6)
     for body, part in zip(bodies, model.tree.children):
@@ -210,7 +210,7 @@ def test_names_of_a_shared_face():
 
 def test_parts_colours_and_tags_of_an_assembly():
     model = sm.from_cadquery(named_assembly(), imprint=True)
-    assert model.check() == ""
+    assert model.broken_invariant() == ""
     assert [solid.name for solid in model.solids] == ["base", "low", "high"]
     assert [child.solids for child in model.tree.children] == [(0,), (1,), (2,)]
     lid, foot = (select(model, name).faces for name in ("lid", "foot"))
@@ -239,7 +239,7 @@ def test_an_assembly_from_a_step_file(tmp_path):
     path = tmp_path / "stack.step"
     named_assembly().export(str(path))
     model = sm.load(path, "m", imprint=True)
-    assert model.check() == ""
+    assert model.broken_invariant() == ""
     scale = 1e-3
     assert [solid.name for solid in model.solids] == ["base", "low", "high"]
     assert model.volume == pytest.approx((128 + 128) * scale**3)
@@ -263,7 +263,7 @@ def test_a_gap_is_closed_within_the_tolerance():
     assert apart.healing[0].startswith("imprinted: no two bodies touch within")
     for units, near in ((None, 1e-3), ("m", 1e-6)):
         model = sm.from_cadquery(bodies, imprint=near, units=units)
-        assert len(model.faces) == 11 and model.check() == ""
+        assert len(model.faces) == 11 and model.broken_invariant() == ""
 
 
 def test_the_callers_shapes_are_left_alone():

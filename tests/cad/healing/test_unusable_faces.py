@@ -113,7 +113,7 @@ def test_a_face_that_cannot_be_used(name):
     with pytest.raises(CadError, match=alone):
         sm.from_cadquery(make())
     model = sm.from_cadquery(compound(make(), box()))
-    assert model.check() == "" and len(model.faces) == 6
+    assert model.broken_invariant() == "" and len(model.faces) == 6
     assert model.volume == pytest.approx(1.0)
     with pytest.raises(MeshingError, match=rf"face 1 of 7.*{reason}.*strict=False"):
         sm.mesh(model, 1.0)
@@ -125,7 +125,7 @@ def test_a_face_that_cannot_be_used(name):
 
 def test_a_solid_with_a_face_that_cannot_be_used():
     model = sm.from_cadquery(box_with_a_side_of_triangles())
-    assert model.check() == "" and len(model.faces) == 5 and len(model.left_out) == 1
+    assert model.broken_invariant() == "" and len(model.faces) == 5 and len(model.left_out) == 1
     assert model.area == pytest.approx(5.0)
     assert "left out: face 1 of 6" in model.summary()
 
@@ -138,7 +138,7 @@ def test_what_is_empty_is_no_obstacle(make):
         TopoDS_Compound: BUILD.MakeCompound,
     }[make](empty)  # fmt: skip
     model = sm.from_cadquery(compound(empty, box()))
-    assert model.check() == "" and len(model.solids) == 1 and model.left_out == ()
+    assert model.broken_invariant() == "" and len(model.solids) == 1 and model.left_out == ()
     with pytest.raises(CadError, match="holds no faces"):
         sm.from_cadquery(empty)
 

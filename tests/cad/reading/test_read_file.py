@@ -30,7 +30,7 @@ def test_step_with_names_colours_and_places(tmp_path):
     path = tmp_path / "ünder world.step"  # neither blanks nor letters get in the way
     assembly().export(str(path))
     model = read_cad(path, units="cm")
-    assert model.check() == ""
+    assert model.broken_invariant() == ""
     assert (model.unit, model.file_unit, model.source) == ("cm", "mm", path.name)
     assert [child.name for child in model.tree.children] == ["here", "there"]
     assert model.tree.children[1].solids == (1,)

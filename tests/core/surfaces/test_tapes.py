@@ -161,20 +161,20 @@ BROKEN = {
 
 @pytest.mark.parametrize(("words", "step"), [(w, s) for w, steps in BROKEN.items() for s in steps])
 def test_broken_programs_are_refused(words, step):
-    assert GOOD.check() == ""
+    assert GOOD.broken_invariant() == ""
     broken = Tape(2, (1.0,), (Instruction(*step), *GOOD.instructions), 2, (4, 4, 4))
-    assert words in broken.check()
+    assert words in broken.broken_invariant()
     with pytest.raises(ValueError, match=words):
         broken.evaluate(np.zeros((1, 2)))
 
 
 def test_powers_that_overwrite_their_base_and_lost_outputs_are_refused():
     steps = (Instruction("sin", 2, (0,)), Instruction("integer_power", 2, (2,), 3))
-    assert "overwrites the base" in Tape(2, (), steps, 1, (2, 2, 2)).check()
+    assert "overwrites the base" in Tape(2, (), steps, 1, (2, 2, 2)).broken_invariant()
     for outputs in ((3, 2, 2), (-1, 2, 2), (7, 2, 2)):
-        assert "never written" in Tape(2, (), steps[:1], 2, outputs).check()
-    assert "too many slots" in Tape(-1, (), (), 0, ()).check()
-    assert "too many slots" in Tape(2, (), (), 2**31 - 1, ()).check()
+        assert "never written" in Tape(2, (), steps[:1], 2, outputs).broken_invariant()
+    assert "too many slots" in Tape(-1, (), (), 0, ()).broken_invariant()
+    assert "too many slots" in Tape(2, (), (), 2**31 - 1, ()).broken_invariant()
 
 
 def test_wrong_arguments_are_refused():

@@ -250,4 +250,4 @@ def test_any_text_is_a_formula_or_refused(text):
     except FormulaError as refused:
         assert 1 <= refused.column <= len(text) + 1
     else:
-        assert surface_tape([expression] * 3, (U, V), 2).check() == ""
+        assert surface_tape([expression] * 3, (U, V), 2).broken_invariant() == ""

@@ -27,7 +27,7 @@ def graph_of(outer=(SQUARE,), holes=(), constraints=(), points=(), split=True):
     lines += [Line(f"constraint {k}", np.array(c, float)) for k, c in enumerate(constraints)]
     lines += [Line(f"point {k}", np.array([p], float)) for k, p in enumerate(points)]
     graph = segment_graph(lines, [False] * len(outer) + [True] * len(holes), split)
-    assert graph.check() is None
+    assert graph.broken_invariant() is None
     return graph
 
 
@@ -263,7 +263,7 @@ def test_check_names_what_is_broken():
         (dict(loop_segments=graph.loop_segments[:3]), "is not closed"),
         (dict(segments=crossed, loop_segments=graph.loop_segments[:0]), "a point is not used|ends"),
     ):
-        assert re.search(words, replace(graph, **broken).check())
+        assert re.search(words, replace(graph, **broken).broken_invariant())
     moved = graph.points.copy()
     moved[graph.lone_points] = (0.5, 0.0)
-    assert "other than at a common end" in replace(graph, points=moved).check()
+    assert "other than at a common end" in replace(graph, points=moved).broken_invariant()
