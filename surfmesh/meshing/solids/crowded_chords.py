@@ -58,9 +58,17 @@ def _lone_corners(model: CadModel, mesh: SurfaceMesh) -> list[_LoneCorner]:
     """Those where another face has both edges too."""
     if mesh.edge_segments is None or not len(mesh.edge_segments):
         return []
-    rows = np.flatnonzero(shared_vertices(mesh)[mesh.triangles].all(axis=1))
+    assert mesh.vertex_ids is not None and mesh.edge_ids is not None  # noqa: S101 for mypy
+    at_vertex = np.zeros(len(mesh.points), bool)
+    at_vertex[mesh.vertex_ids[mesh.vertex_ids >= 0]] = True
+    a, b, c = mesh.triangles.T
+    rows = np.flatnonzero(at_vertex[a] | at_vertex[b] | at_vertex[c])
+    rows = rows[shared_vertices(mesh)[mesh.triangles[rows]].all(axis=1)]
+    beside = np.flatnonzero(at_vertex[mesh.edge_segments].any(axis=1))
+    if not len(rows) or not len(beside):
+        return []
     count = np.int64(len(mesh.points))
-    ends = np.sort(mesh.edge_segments, axis=1).astype(np.int64)
+    ends = np.sort(mesh.edge_segments[beside], axis=1).astype(np.int64)
     keys = ends[:, 0] * count + ends[:, 1]
     order = np.argsort(keys, kind="stable")
     corners = mesh.triangles[rows]
@@ -68,8 +76,7 @@ def _lone_corners(model: CadModel, mesh: SurfaceMesh) -> list[_LoneCorner]:
     wanted = sides[:, :, 0].astype(np.int64) * count + sides[:, :, 1]
     place = np.minimum(np.searchsorted(keys[order], wanted), len(keys) - 1)
     is_on_edge = keys[order][place] == wanted
-    assert mesh.edge_ids is not None  # noqa: S101 for mypy: it comes with edge_segments
-    edges = mesh.edge_ids[order[place]]
+    edges = mesh.edge_ids[beside[order[place]]]
     found = []
     for row in np.flatnonzero(is_on_edge.sum(axis=1) == 2).tolist():
         free = int(np.flatnonzero(~is_on_edge[row])[0])  # the side from corner free on
