@@ -20,6 +20,7 @@ import numpy as np
 
 from surfmesh.cad.model.cad_model import CadCoedge, CadFace
 from surfmesh.errors import SurfaceError
+from surfmesh.geometry.small_matrices import norm, product
 from surfmesh.intersection.regions import polygon_of
 from surfmesh.intersection.tracing import place
 
@@ -55,7 +56,7 @@ class HalfEdge:
     def length(self) -> float:
         """About how far its middle is from its ends."""
         first, middle, last = self.coedge.walk(np.array([0.0, 0.5, 1.0])) * self.scale
-        return float(min(np.linalg.norm(middle - first), np.linalg.norm(last - middle)))
+        return float(min(norm(middle - first), norm(last - middle)))
 
     def ahead(self, off: float) -> np.ndarray:
         """The direction in which it leaves its start, or the chord to the place so far off."""
@@ -71,7 +72,7 @@ class HalfEdge:
             middle = 0.5 * (low + high)
             at = np.array([1.0, 1.0 - middle] if backwards else [0.0, middle])
             start, place_ = self.coedge.walk(at) * self.scale
-            low, high = (low, middle) if np.linalg.norm(place_ - start) > off else (middle, high)
+            low, high = (low, middle) if norm(place_ - start) > off else (middle, high)
         return place_ - start
 
 
@@ -186,7 +187,7 @@ def _ring(walk: Loop, scale: np.ndarray) -> np.ndarray:
 
 def _area(ring: np.ndarray) -> float:
     u, v = (ring - ring.mean(axis=0)).T
-    return 0.5 * float(u @ np.roll(v, -1) - v @ np.roll(u, -1))
+    return 0.5 * float(product(u, np.roll(v, -1)) - product(v, np.roll(u, -1)))
 
 
 def _is_slit(walk: Loop) -> bool:

@@ -24,6 +24,7 @@ import numpy as np
 from surfmesh.cad.model.cad_model import CadFace
 from surfmesh.errors import SurfaceError
 from surfmesh.geometry.differential.projection import closest_point
+from surfmesh.geometry.small_matrices import norm
 from surfmesh.intersection.bounds import Boxes, cross_surely, overlap
 from surfmesh.intersection.cells import FaceCells, Numbered, Pairs
 from surfmesh.intersection.contact_curves import ContactTracer, pulled_into_contact, touches_there
@@ -153,7 +154,7 @@ class FacePair:
         seen: list[np.ndarray] = []
         for k in np.flatnonzero(fine):
             one = Pulled(*(column[k] for column in found))
-            done = [np.linalg.norm(point - one.point) for point in [*seen, *self.singular]]
+            done = [norm(point - one.point) for point in [*seen, *self.singular]]
             if any(distance <= TRACED * self.size for distance in done):
                 continue
             if self._is_beside_contact(one.point[None], 0.5 * NEAR_CONTACT * self.size)[0]:
@@ -258,7 +259,7 @@ class FacePair:
             return
         points = self.a.evaluate(middle_a[inside], 0)[0]
         where = points[len(points) // 2]
-        spread = float(np.linalg.norm(np.ptp(points, axis=0)))
+        spread = float(norm(np.ptp(points, axis=0)))
         what = "at" if spread < 0.02 * self.size else "along a curve or patch through"
         raise SurfaceError(
             f"{self.a.name} and {self.b.name} touch {what} {place(where)}, or lie within "
@@ -330,4 +331,4 @@ def _extent(cells: FaceCells) -> float:
     line = np.linspace(0.0, 1.0, 9)
     uv = cells.low + np.stack(np.meshgrid(line, line), -1).reshape(-1, 2) * cells.width
     points = cells.surface.evaluate(uv, 0)[0]
-    return float(np.linalg.norm(np.ptp(points, axis=0)))
+    return float(norm(np.ptp(points, axis=0)))

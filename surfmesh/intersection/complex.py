@@ -10,6 +10,7 @@ from typing import NamedTuple
 import numpy as np
 
 from surfmesh.cad.model.cad_model import CadCoedge, CadEdge, CadFace, CadModel, CadVertex
+from surfmesh.geometry.small_matrices import product
 from surfmesh.intersection.contents import region_area
 
 
@@ -121,4 +122,4 @@ def measured_length(edge: CadEdge) -> float:
     fraction = (np.arange(PIECES)[:, None] + 0.5 * (GAUSS + 1.0)).ravel() / PIECES
     speed = np.linalg.norm(edge.evaluate(fraction, 1)[1], axis=1)
     weight = np.tile(0.5 * WEIGHTS, PIECES) / PIECES
-    return float(speed @ weight) * (edge.t1 - edge.t0)
+    return float(product(speed, weight)) * (edge.t1 - edge.t0)

@@ -15,6 +15,7 @@ import numpy as np
 
 from surfmesh.errors import SurfaceError
 from surfmesh.geometry.cad_surfaces.face_surface import FaceSurface
+from surfmesh.geometry.small_matrices import norm, product, pseudo_inverse
 from surfmesh.intersection.newton import Pulled, limits_of, unit_normals, uv_directions
 from surfmesh.intersection.touching import branch_ways
 from surfmesh.intersection.tracing import End, Trace, place
@@ -66,7 +67,7 @@ def pulled_into_contact(
             value = np.concatenate([value, ahead[:, None]], axis=1)
             slope = np.concatenate([slope, row], axis=1)
         speed = np.maximum(np.linalg.norm(slope, axis=1), 1e-300)
-        inverse = np.linalg.pinv(np.nan_to_num(slope / speed[:, None]), rcond=WEAK)
+        inverse = pseudo_inverse(np.nan_to_num(slope / speed[:, None]), WEAK)
         step = np.einsum("nij,nj->ni", inverse, np.nan_to_num(value)) / speed
         room = np.abs(step / (high - low)).max(axis=1)
         step /= np.maximum(1.0, 5.0 * room)[:, None]
@@ -141,7 +142,7 @@ class ContactTracer:
                 continue
             here, ahead = taken
             places.append(here)
-            if float(way @ ahead) > np.cos(STRAIGHTER):
+            if float(product(way, ahead)) > np.cos(STRAIGHTER):
                 step = min(step * GROWN, 4.0 * self.step)
             way = ahead
         raise SurfaceError(
@@ -156,7 +157,7 @@ class ContactTracer:
         uv_b = uv_b + step * uv_directions(self.b, uv_b[None], way[None])[0]
         through = (point + step * way)[None]
         found = pulled_into_contact(self.a, self.b, uv_a[None], uv_b[None], way[None], through)
-        length = np.linalg.norm(found.point[0] - point)
+        length = norm(found.point[0] - point)
         if not touches_there(self.a, self.b, found, self.gap)[0]:
             return None
         if not 0.8 * step < length < 1.25 * step:
@@ -164,8 +165,8 @@ class ContactTracer:
         what, ways = branch_ways(self.a, self.b, found.uv_a[0], found.uv_b[0])
         if what != "along":
             return None
-        ahead = ways[0] if float(ways[0] @ way) > 0.0 else -ways[0]
-        if float(ahead @ way) <= np.cos(TURN):
+        ahead = ways[0] if float(product(ways[0], way)) > 0.0 else -ways[0]
+        if float(product(ahead, way)) <= np.cos(TURN):
             return None
         return (found.point[0], found.uv_a[0], found.uv_b[0]), ahead
 
@@ -174,16 +175,16 @@ class ContactTracer:
         best, nearest = None, reach
         for end in ends:
             step = end.point - here[0]
-            distance = float(np.linalg.norm(step))
-            if end.used or not self.gap < distance <= nearest or float(step @ way) <= 0.0:
+            distance = float(norm(step))
+            if end.used or not self.gap < distance <= nearest or float(product(step, way)) <= 0.0:
                 continue
-            if np.linalg.norm(np.cross(step / distance, way)) > ALIKE:
+            if norm(np.cross(step / distance, way)) > ALIKE:
                 continue
             led = uv_directions(self.a, here[1][None], step[None])[0]
             other = uv_directions(self.b, here[2][None], step[None])[0]
             if not (_is_ahead(end.uv_a - here[1], led) and _is_ahead(end.uv_b - here[2], other)):
                 continue
-            if float(end.way @ way) < 0.0:
+            if float(product(end.way, way)) < 0.0:
                 best, nearest = end, distance
         return best
 
@@ -198,7 +199,7 @@ class ContactTracer:
             )
             found = pulled_into_contact(
                 self.a, self.b, uv_a[None], uv_b[None],
-                (chord / np.linalg.norm(chord))[None], point[None],
+                (chord / norm(chord))[None], point[None],
             )  # fmt: skip
             made.append((found.point[0], found.uv_a[0], found.uv_b[0]))
         return made
@@ -206,4 +207,4 @@ class ContactTracer:
 
 def _is_ahead(step: np.ndarray, led: np.ndarray) -> bool:
     """Is a step in (u, v) the one that the way in space leads along, not one over a seam?"""
-    return bool(np.linalg.norm(step - led) <= ALIKE * max(float(np.linalg.norm(step)), 1e-300))
+    return bool(norm(step - led) <= ALIKE * max(float(norm(step)), 1e-300))

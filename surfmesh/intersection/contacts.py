@@ -14,6 +14,7 @@ import numpy as np
 from surfmesh.cad.model.cad_model import CadEdge, CadVertex
 from surfmesh.geometry.cad_surfaces.elementary import Cone, Cylinder, Plane, Sphere, Torus
 from surfmesh.geometry.cad_surfaces.face_surface import FaceSurface
+from surfmesh.geometry.small_matrices import norm
 from surfmesh.intersection.bounds import Boxes as CellBoxes
 from surfmesh.intersection.cells import EdgePieces, FaceCells
 from surfmesh.intersection.complex import Complex
@@ -173,7 +174,7 @@ class Contacts:
         """The node where an edge is met: one of its ends, or a cut of it."""
         edge = side.whole.edges[number]
         for end in self.ends_of(side, edge):
-            if np.linalg.norm(self.vertices[end].point - point) <= self.same:
+            if norm(self.vertices[end].point - point) <= self.same:
                 return end
         node = self.node_at(point)
         side.cuts[number].setdefault(node, fraction)

@@ -16,6 +16,7 @@ from surfmesh._core import intersection
 from surfmesh.cad.model.cad_model import CadCoedge
 from surfmesh.geometry.cad_surfaces.nurbs import BSplineCurve, BSplineSurface
 from surfmesh.geometry.core_surface import as_core_surface
+from surfmesh.geometry.small_matrices import product
 from surfmesh.geometry.surface import Surface, surface_kind
 
 Loops = Sequence[Sequence[CadCoedge]]
@@ -95,7 +96,7 @@ class _Strips:
         strips = intersection.strip_integrals(
             self.core, self.fixed, uv, self.knots[0], *self.settings, self.origin
         )
-        return float(strips @ dv), float(np.abs(strips) @ np.abs(dv))
+        return float(product(strips, dv)), float(product(np.abs(strips), np.abs(dv)))
 
 
 def _knots(surface: Surface) -> tuple[np.ndarray, np.ndarray]:

@@ -13,6 +13,7 @@ from itertools import pairwise
 import numpy as np
 
 from surfmesh.cad.model.cad_model import CadEdge
+from surfmesh.geometry.small_matrices import least_squares, norm, product
 from surfmesh.intersection.bounds import Boxes, cross_surely
 from surfmesh.intersection.cells import EdgePieces, Numbered
 
@@ -51,16 +52,16 @@ def nearest_on_edge(edge: CadEdge, point: np.ndarray) -> tuple[float, float]:
     for _ in range(12):
         c, first, second = edge.evaluate(np.array([t]), 2)
         step, d1, d2 = c[0] - point, first[0] * rate, second[0] * rate**2
-        slope, bend = float(step @ d1), float(d1 @ d1 + step @ d2)
+        slope, bend = float(product(step, d1)), float(product(d1, d1) + product(step, d2))
         if not bend > 0.0:
-            bend = float(d1 @ d1)
+            bend = float(product(d1, d1))
         if not bend > 0.0:
             break
         after = min(max(t - slope / bend, 0.0), 1.0)
         moved, t = abs(after - t), after
         if moved < 1e-16:
             break
-    return float(t), float(np.linalg.norm(edge.evaluate(np.array([t]), 0)[0][0] - point))
+    return float(t), float(norm(edge.evaluate(np.array([t]), 0)[0][0] - point))
 
 
 def runs_along(one: CadEdge, other: CadEdge, first: float, last: float, reach: float) -> bool:
@@ -105,12 +106,12 @@ def _lines_cross(a: CadEdge, b: CadEdge, reach: float) -> list[tuple[float, floa
     (p, p1), (q, q1) = (edge.evaluate(np.array([0.0, 1.0]), 0)[0] for edge in (a, b))
     d, e = p1 - p, q1 - q
     across = np.cross(d, e)
-    square = float(across @ across)
-    if square <= (PARALLEL**2) * float(d @ d) * float(e @ e):
+    square = float(product(across, across))
+    if square <= (PARALLEL**2) * float(product(d, d)) * float(product(e, e)):
         return []
-    t = float(np.cross(q - p, e) @ across) / square
-    s = float(np.cross(q - p, d) @ across) / square
-    gap = float(np.linalg.norm(p + t * d - q - s * e))
+    t = float(product(np.cross(q - p, e), across)) / square
+    s = float(product(np.cross(q - p, d), across)) / square
+    gap = float(norm(p + t * d - q - s * e))
     return [(t, s)] if gap <= reach and 0.0 <= t <= 1.0 and 0.0 <= s <= 1.0 else []
 
 
@@ -219,24 +220,25 @@ class _Halving:
             p, p1, p2 = self._at(self.a, t, 2)
             q, q1, q2 = self._at(self.b, s, 2)
             away, across = p - q, np.cross(p1, q1)
-            value = np.array([away @ p1, *across])
+            value = np.array([product(away, p1), *across])
             slope = np.column_stack([
-                [p1 @ p1 + away @ p2, *np.cross(p2, q1)], [-q1 @ p1, *np.cross(p1, q2)]
+                [product(p1, p1) + product(away, p2), *np.cross(p2, q1)],
+                [-product(q1, p1), *np.cross(p1, q2)],
             ])  # fmt: skip
-            scale = np.array([np.linalg.norm(p1), *[np.linalg.norm(p1)] * 3])
-            step = np.linalg.lstsq(slope / scale[:, None], value / scale, rcond=1e-10)[0]
+            scale = np.array([norm(p1), *[norm(p1)] * 3])
+            step = least_squares(slope / scale[:, None], value / scale, 1e-10)
             after_t, after_s = min(max(t - step[0], 0.0), 1.0), min(max(s - step[1], 0.0), 1.0)
             moved = max(abs(after_t - t), abs(after_s - s))
             t, s = after_t, after_s
             if moved < 1e-15:
                 break
-        gap = np.linalg.norm(self._at(self.a, t, 0)[0] - self._at(self.b, s, 0)[0])
+        gap = norm(self._at(self.a, t, 0)[0] - self._at(self.b, s, 0)[0])
         return (float(t), float(s)) if gap <= self.reach else None
 
     def _add(self, t: float, s: float) -> None:
         point = self._at(self.a, t, 0)[0]
         for other, _ in self.found:
-            near = np.linalg.norm(self._at(self.a, other, 0)[0] - point) <= 100.0 * self.same
+            near = norm(self._at(self.a, other, 0)[0] - point) <= 100.0 * self.same
             if near and abs(other - t) < 1e-3:
                 return
         self.found.append((t, s))

@@ -12,6 +12,7 @@ import numpy as np
 
 from surfmesh.geometry.cad_surfaces.elementary import Cone, Cylinder, Plane, Sphere, Torus
 from surfmesh.geometry.cad_surfaces.face_surface import FaceSurface
+from surfmesh.geometry.small_matrices import product
 
 GRID = 7
 """Samples each way of a face, that lie on the other surface where both are one."""
@@ -21,10 +22,10 @@ def distance_to_elementary(surface: FaceSurface, points: np.ndarray) -> np.ndarr
     """(n,) of points (n, 3) from a surface of these five kinds, continued beyond its box."""
     assert isinstance(surface, (Plane, Cylinder, Cone, Sphere, Torus))  # noqa: S101
     step = points - surface.origin
-    h = step @ surface.z
+    h = product(step, surface.z)
     if isinstance(surface, Plane):
         return np.abs(h)
-    r = np.hypot(step @ surface.x, step @ surface.y)
+    r = np.hypot(product(step, surface.x), product(step, surface.y))
     if isinstance(surface, Cylinder):
         return np.abs(r - surface.radius)
     if isinstance(surface, Cone):  # of both halves the nearer one

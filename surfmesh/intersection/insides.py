@@ -13,6 +13,7 @@ import numpy as np
 from surfmesh.cad.model.cad_model import CadEdge, CadFace, CadModel
 from surfmesh.errors import SurfaceError
 from surfmesh.geometry.cad_surfaces.curves import Line
+from surfmesh.geometry.small_matrices import norm
 from surfmesh.intersection.cells import FaceCells
 from surfmesh.intersection.contacts import SAME
 from surfmesh.intersection.piercings import crossings
@@ -50,7 +51,7 @@ class Body:
     def holds(self, point: np.ndarray) -> bool:
         """Does a point lie inside? Raises ``SurfaceError`` where no ray decides."""
         for way in WAYS:
-            count = self._count(point, way / np.linalg.norm(way))
+            count = self._count(point, way / norm(way))
             if count is not None:
                 return count % 2 == 1
         raise SurfaceError(

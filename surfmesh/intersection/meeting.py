@@ -17,6 +17,7 @@ import numpy as np
 from surfmesh.cad.model.cad_model import CadCoedge, CadEdge, CadFace, CadVertex
 from surfmesh.errors import SurfaceError
 from surfmesh.geometry.cad_surfaces.face_surface import FaceSurface
+from surfmesh.geometry.small_matrices import norm
 from surfmesh.intersection.arrangement import regions
 from surfmesh.intersection.borders import FaceBorder, Image
 from surfmesh.intersection.branches import FacePair
@@ -289,7 +290,7 @@ def _ways(
     """The directions (3,) of common curves in a common point: where the surfaces are "transversal",
     else as of ``branch_ways``."""
     cross = np.cross(unit_normals(a, uv_a[None])[0], unit_normals(b, uv_b[None])[0])
-    sine = float(np.linalg.norm(cross))
+    sine = float(norm(cross))
     if sine >= TANGENT:
         return "transversal", [cross / sine, -cross / sine]
     return branch_ways(a, b, uv_a, uv_b)

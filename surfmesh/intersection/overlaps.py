@@ -14,6 +14,7 @@ import numpy as np
 
 from surfmesh.cad.model.cad_model import AND, CadEdge
 from surfmesh.errors import SurfaceError
+from surfmesh.geometry.small_matrices import product
 from surfmesh.intersection.complex import Origin, Patch
 from surfmesh.intersection.contacts import Contacts
 from surfmesh.intersection.newton import unit_normals
@@ -95,7 +96,7 @@ class Overlaps:
             unit_normals(face.surface, at[None])[0]
             for face, at in ((part.face, uv), (other.face, there))
         )
-        against = bool(one @ two < 0.0)
+        against = bool(product(one, two) < 0.0)
         also = tuple(
             Origin(o.source, o.original, o.against != against, o.reversed) for o in other.origins
         )

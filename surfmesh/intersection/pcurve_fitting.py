@@ -15,6 +15,7 @@ from surfmesh.geometry.cad_surfaces.curves import CoreCurve, Line
 from surfmesh.geometry.cad_surfaces.face_surface import FaceSurface
 from surfmesh.geometry.cad_surfaces.nurbs import BSplineCurve
 from surfmesh.geometry.differential.projection import closest_point
+from surfmesh.geometry.small_matrices import norm
 from surfmesh.intersection.newton import BEYOND
 
 GRID = 33
@@ -87,7 +88,7 @@ def pcurve_along(
     even = places[0] + fraction[:, None] * (places[-1] - places[0])
     if np.abs((places - even) / width).max() <= STRAIGHT:
         step = places[-1] - places[0]
-        length = float(np.linalg.norm(step))
+        length = float(norm(step))
         line = Line(places[0], step / length)
         return line, length, _deviation(edge, surface, line, length, 16)
     from scipy.interpolate import make_interp_spline  # heavy, and few need it

@@ -13,6 +13,7 @@ from typing import NamedTuple
 import numpy as np
 
 from surfmesh.cad.model.cad_model import CadEdge
+from surfmesh.geometry.small_matrices import norm
 from surfmesh.intersection.bounds import Boxes, overlap, pierces_surely
 from surfmesh.intersection.cells import EdgePieces, FaceCells, Numbered, Pairs
 from surfmesh.intersection.newton import Curve, pulled_onto_curve, unit_normals
@@ -158,7 +159,7 @@ class _Found:
     ) -> None:
         for k, other in enumerate(self.point):
             apart = np.abs((self.uv[k] - uv) / self.width).max()
-            near = np.linalg.norm(other - point) <= (100.0 if touches else 1.0) * self.same
+            near = norm(other - point) <= (100.0 if touches else 1.0) * self.same
             if near and abs(self.fraction[k] - fraction) < 1e-3 and apart < 1e-2:
                 return
         self.fraction.append(float(fraction))
@@ -168,7 +169,7 @@ class _Found:
 
     def is_near(self, point: np.ndarray) -> bool:
         """Is a place known so near that it is what touches there?"""
-        return any(np.linalg.norm(other - point) <= BESIDE * self.same for other in self.point)
+        return any(norm(other - point) <= BESIDE * self.same for other in self.point)
 
     def crossings(self, along: np.ndarray | None) -> Crossings:
         order = np.argsort(self.fraction, kind="stable")

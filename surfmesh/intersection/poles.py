@@ -16,6 +16,7 @@ import numpy as np
 from surfmesh.cad.model.cad_model import CadCoedge
 from surfmesh.errors import SurfaceError
 from surfmesh.geometry.cad_surfaces.face_surface import FaceSurface
+from surfmesh.geometry.small_matrices import norm, product
 from surfmesh.intersection.pcurve_fitting import nearest_on_surface
 from surfmesh.intersection.tracing import place
 
@@ -60,11 +61,11 @@ def ways_out_of_pole(
         return inward * surface.evaluate(coedge.uv(fraction), 1)[1 + axis]
 
     def height(fraction: float) -> float:
-        return float(out(np.array([fraction]))[0] @ normal)
+        return float(product(out(np.array([fraction]))[0], normal))
 
     fractions = np.linspace(0.0, 1.0, SAMPLES)
     ways = out(fractions)
-    heights = ways @ normal
+    heights = product(ways, normal)
     size = np.linalg.norm(ways, axis=1).max()
     if np.abs(heights).max() < TOUCHED * size:
         return []
@@ -79,7 +80,7 @@ def ways_out_of_pole(
                 f"{place(surface.evaluate(ends[:1])[0][0])}; turn one of the surfaces"
             )
         way = out(np.array([t]))[0]
-        speed = float(np.linalg.norm(way))
+        speed = float(norm(way))
         rate = np.zeros(2)
         rate[axis] = inward / speed
         found.append(WayOut(float(t), way / speed, rate))
@@ -100,7 +101,7 @@ def contact_at_pole(
     uv = coedge.uv((np.arange(RING_SAMPLES) + 0.5) / RING_SAMPLES)
     pole, *rates = surface.evaluate(uv, 1)
     ways = rates[axis]
-    if np.abs(ways @ normal).max() >= TOUCHED * np.linalg.norm(ways, axis=1).max():
+    if np.abs(product(ways, normal)).max() >= TOUCHED * np.linalg.norm(ways, axis=1).max():
         return "leaves"
     uv[:, axis] += RING * (high - low) * (1.0 if uv[0, axis] - low < high - uv[0, axis] else -1.0)
     points = surface.evaluate(uv, 0)[0]
@@ -120,7 +121,7 @@ def fraction_at_pole(coedge: CadCoedge, uv: np.ndarray) -> float | None:
     """Where on a degenerate side a place (2,) lies; None for elsewhere."""
     start, end = coedge.uv(np.array([0.0, 1.0]))
     step = end - start
-    fraction = float((uv - start) @ step / (step @ step))
+    fraction = float(product(uv - start, step) / (product(step, step)))
     off = np.abs(uv - start - fraction * step).max()
     return fraction if -1e-3 < fraction < 1.001 and off <= BESIDE * np.abs(step).max() else None
 

@@ -22,6 +22,7 @@ from surfmesh.cad.model.cad_model import CadModel
 from surfmesh.geometry.differential.sides import find_sides
 from surfmesh.geometry.formulas.parametric import ParametricSurface
 from surfmesh.geometry.parameter_grid import parameter_grid
+from surfmesh.geometry.small_matrices import product
 from surfmesh.geometry.surface import Domain, Surface
 
 PLACES = 16
@@ -106,7 +107,7 @@ def _distances(
     for points, apart in others:
         middle = points.mean(axis=0)
         p, q = seam - middle, points - middle
-        square = (p**2).sum(axis=1)[:, None] + (q**2).sum(axis=1) - 2.0 * p @ q.T
+        square = (p**2).sum(axis=1)[:, None] + (q**2).sum(axis=1) - product(2.0 * p, q.T)
         found.append(np.sqrt(np.maximum(square.min(axis=1), 0.0)) / max(apart, 1e-300))
     return found
 

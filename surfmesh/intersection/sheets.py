@@ -31,6 +31,7 @@ from surfmesh.geometry.cad_surfaces.sheet_surface import SheetSurface
 from surfmesh.geometry.differential.sides import SideTopology, find_sides
 from surfmesh.geometry.inside_loops import nesting_depth
 from surfmesh.geometry.parameter_grid import parameter_grid
+from surfmesh.geometry.small_matrices import norm
 from surfmesh.geometry.surface import Surface, surface_label
 from surfmesh.intersection.complex import measured_length
 from surfmesh.intersection.contents import region_area, region_cone
@@ -67,7 +68,7 @@ class _Sheet:
         self.vertices: list[CadVertex] = []
         self.edges: list[CadEdge] = []
         points = self.under.evaluate(parameter_grid(surface.domain, 17))[0]
-        self.size = float(np.linalg.norm(np.ptp(points, axis=0)))
+        self.size = float(norm(np.ptp(points, axis=0)))
         self.tolerance = TOLERANCE * self.size
         self.loops_given = tuple(surface.loops)
 
@@ -169,7 +170,7 @@ class _Sheet:
             for k in range(len(ring)):
                 after = (k + 1) % len(ring)
                 step = ring[after] - ring[k]
-                length = float(np.linalg.norm(step))
+                length = float(norm(step))
                 line = Line(ring[k], step / length)
                 self._add_edge(line, length, first + k, first + after, False)
                 coedges.append(CadCoedge(len(self.edges) - 1, False, line, 0.0, length, False))

@@ -9,6 +9,7 @@ import numpy as np
 from surfmesh.cad.model.cad_model import CadCoedge, CadModel
 from surfmesh.errors import SurfaceError
 from surfmesh.geometry.differential.projection import closest_point
+from surfmesh.geometry.small_matrices import norm, product
 from surfmesh.intersection.complex import Complex, Patch
 from surfmesh.intersection.insides import Body
 from surfmesh.intersection.newton import unit_normals
@@ -117,7 +118,7 @@ class Signs:
         normal = unit_normals(across.face.surface, cut.uv(MIDDLE))
         if across.face.reversed:
             normal = -normal
-        up = float(np.einsum("ij,ij->", left, normal)) / float(np.linalg.norm(tangent))
+        up = float(np.einsum("ij,ij->", left, normal)) / float(norm(tangent))
         return 0 if abs(up) < TANGENT else 1 if up > 0.0 else -1
 
     def _at_nearest(self, number: int, other: int) -> int:
@@ -138,6 +139,6 @@ class Signs:
             if distance[0] < nearest:
                 nearest = float(distance[0])
                 normal = unit_normals(face.surface, foot)[0]
-                up = float((point - place[0]) @ normal) * (-1.0 if face.reversed else 1.0)
+                up = float(product(point - place[0], normal)) * (-1.0 if face.reversed else 1.0)
                 best = 1 if up > 0.0 else -1
         return best

@@ -13,6 +13,13 @@ from typing import NamedTuple
 import numpy as np
 
 from surfmesh.geometry.cad_surfaces.face_surface import FaceSurface
+from surfmesh.geometry.small_matrices import (
+    least_squares,
+    norm,
+    product,
+    pseudo_inverse,
+    symmetric_axes,
+)
 from surfmesh.intersection.newton import Curve, limits_of
 
 STEPS = 20
@@ -41,11 +48,12 @@ def touch_of_curve(curve: Curve, surface: FaceSurface, place: np.ndarray) -> Tou
         away, normal = c - r, np.cross(ru, rv)
         normal_u = np.cross(ruu, rv) + np.cross(ru, ruv)
         normal_v = np.cross(ruv, rv) + np.cross(ru, rvv)
-        value = np.array([away @ ru, away @ rv, c1 @ normal])
+        value = np.array([product(away, ru), product(away, rv), product(c1, normal)])
+        mixed = product(away, ruv) - product(ru, rv)
         slope = np.array([
-            [c1 @ ru, -ru @ ru + away @ ruu, -rv @ ru + away @ ruv],
-            [c1 @ rv, -ru @ rv + away @ ruv, -rv @ rv + away @ rvv],
-            [c2 @ normal, c1 @ normal_u, c1 @ normal_v],
+            [product(c1, ru), product(away, ruu) - product(ru, ru), mixed],
+            [product(c1, rv), mixed, product(away, rvv) - product(rv, rv)],
+            [product(c2, normal), product(c1, normal_u), product(c1, normal_v)],
         ])  # fmt: skip
         return value, slope
 
@@ -53,7 +61,7 @@ def touch_of_curve(curve: Curve, surface: FaceSurface, place: np.ndarray) -> Tou
     limits = np.array([0.0, *low]), np.array([1.0, *high])
     at, found = _solved(equations, place, limits)
     c, r = curve(at[:1], 0)[0][0], surface.evaluate(at[None, 1:], 0)[0][0]
-    return Touch(at, c, float(np.linalg.norm(c - r)), found)
+    return Touch(at, c, float(norm(c - r)), found)
 
 
 def _solved(
@@ -67,7 +75,7 @@ def _solved(
         value, slope = equations(at)
         if not (np.isfinite(value).all() and np.isfinite(slope).all()):
             return at, False
-        step = np.linalg.lstsq(slope * width, value, rcond=1e-12)[0]
+        step = least_squares(slope * width, value, 1e-12)
         step /= max(1.0, 5.0 * float(np.abs(step).max()))
         at = np.clip(at - step * width, *limits)
         if np.abs(step).max() < 1e-13:
@@ -83,17 +91,17 @@ def branch_ways(
     directions, or "flat", where they do not bend apart: they may be one surface."""
     _, ru, rv = (value[0] for value in a.evaluate(uv_a[None], 1))
     normal = np.cross(ru, rv)
-    normal /= np.linalg.norm(normal)
-    first = ru / np.linalg.norm(ru)
+    normal /= norm(normal)
+    first = ru / norm(ru)
     frame = np.stack([first, np.cross(normal, first)])
     bent = _second(a, uv_a, normal, frame) - _second(b, uv_b, normal, frame)
-    values, axes = np.linalg.eigh(bent)
+    values, axes = symmetric_axes(bent)
     size = np.abs(values).max()
     curved = max(np.abs(_second(a, uv_a, normal, frame)).max(), size)
     if size <= FLAT * curved:
         return "flat", []
     if np.abs(values).min() <= FLAT * size:
-        way = axes[:, int(np.argmin(np.abs(values)))] @ frame
+        way = product(axes[:, int(np.argmin(np.abs(values)))], frame)
         return "along", [way, -way]
     if values[0] * values[1] > 0.0:
         return "touch", []
@@ -101,8 +109,8 @@ def branch_ways(
     ways = []
     for sign in (1.0, -1.0):
         way = axes[:, 0] + sign * slope * axes[:, 1]
-        way = way @ frame
-        way /= np.linalg.norm(way)
+        way = product(way, frame)
+        way /= norm(way)
         ways += [way, -way]
     return "cross", ways
 
@@ -112,6 +120,8 @@ def _second(
 ) -> np.ndarray:
     """Second derivatives (2, 2) of the height over the tangent plane, in its frame (2, 3)."""
     _, ru, rv, ruu, ruv, rvv = (value[0] for value in surface.evaluate(uv[None], 2))
-    form = np.array([[ruu @ normal, ruv @ normal], [ruv @ normal, rvv @ normal]])
-    inverse = np.linalg.inv(np.stack([frame @ ru, frame @ rv], axis=1))
-    return inverse.T @ form @ inverse
+    form = np.array(
+        [[product(ruu, normal), product(ruv, normal)], [product(ruv, normal), product(rvv, normal)]]
+    )
+    inverse = pseudo_inverse(np.stack([product(frame, ru), product(frame, rv)], axis=1), 0.0)
+    return product(product(inverse.T, form), inverse)

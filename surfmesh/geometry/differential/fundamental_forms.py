@@ -15,6 +15,7 @@ import numpy as np
 
 from surfmesh._core import elementary_functions
 from surfmesh.geometry.quadrature import gauss_rule
+from surfmesh.geometry.small_matrices import product
 from surfmesh.geometry.surface import Surface
 
 DEGENERATE = 1e-10  # |r_u x r_v| / (E + G): the sine of r_u and r_v times their ratio; below
@@ -119,8 +120,8 @@ def area(surface: Surface, cells: int = 64, points: int = 8) -> float:
     (u, u_weights), (v, v_weights) = (
         gauss_rule(first, last, cells, points) for first, last in surface.domain
     )
-    rows = [_density(surface, u, np.full(len(u), row)) @ u_weights for row in v]
-    return float(np.array(rows) @ v_weights)
+    rows = [product(_density(surface, u, np.full(len(u), row)), u_weights) for row in v]
+    return float(product(np.array(rows), v_weights))
 
 
 def _area_in_loop(surface: Surface, loop: np.ndarray, cells: int, points: int) -> float:
@@ -136,13 +137,13 @@ def _area_in_loop(surface: Surface, loop: np.ndarray, cells: int, points: int) -
             continue
         corners = start + t[:, None] * (end - start)
         strips = [_strip(surface, left, u, v, cells, points) for u, v in corners]
-        total += (end[1] - start[1]) * float(np.array(strips) @ weights)
+        total += (end[1] - start[1]) * float(product(np.array(strips), weights))
     return abs(total)
 
 
 def _strip(surface: Surface, left: float, u: float, v: float, cells: int, points: int) -> float:
     across, weights = gauss_rule(left, u, cells, points)
-    return float(_density(surface, across, np.full(len(across), v)) @ weights)
+    return float(product(_density(surface, across, np.full(len(across), v)), weights))
 
 
 def _density(surface: Surface, u: np.ndarray, v: np.ndarray) -> np.ndarray:

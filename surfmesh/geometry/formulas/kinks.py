@@ -21,6 +21,7 @@ from surfmesh.geometry.formulas.kink_tracing import (
     traced_lines,
 )
 from surfmesh.geometry.formulas.parametric import ParametricSurface
+from surfmesh.geometry.small_matrices import least_squares
 from surfmesh.geometry.surface import Surface
 
 _CORNERS = np.array([(i / 4.0, j / 4.0) for i in range(5) for j in range(5)])
@@ -125,7 +126,7 @@ def _meeting(
         determinant = slope[0, 0] * slope[1, 1] - slope[0, 1] * slope[1, 0]
         if not abs(determinant) > 1e-12 * np.prod(np.linalg.norm(slope, axis=1)):
             return None
-        found = found - np.linalg.solve(slope, g[:, 0]) * guides.width
+        found = found - least_squares(slope, g[:, 0], 0.0) * guides.width
         found = np.clip(found, guides.lo, guides.hi)
     apart = np.abs((found - place) / guides.width).max()
     return found if apart <= near else None

@@ -80,12 +80,20 @@ class Differences:
         nodes = np.clip(middle + step * offsets[:, None], first, last)  # round-off stays inside
         t = (x - middle) / step
         # rows: the Lagrange polynomials' coefficients, lowest first
-        basis: np.ndarray = np.linalg.inv(np.vander(offsets.astype(float), increasing=True)).T
+        basis = lagrange_polynomials(offsets)
         weights = []
         for derivative in range(3):
             weights.append(np.polynomial.polynomial.polyval(t, basis.T).T / step**derivative)
             basis = np.polynomial.polynomial.polyder(basis, axis=1)
         return nodes, tuple(weights)
+
+
+def lagrange_polynomials(nodes: np.ndarray) -> np.ndarray:
+    """Coefficients (n, n), lowest first, of the polynomials that are 1 at one of n whole numbers
+    and 0 at the others; each is rounded once."""
+    others = [np.delete(nodes, i) for i in range(len(nodes))]
+    polynomials = [np.polynomial.polynomial.polyfromroots(own) for own in others]
+    return np.array([p / np.prod(x - own) for p, x, own in zip(polynomials, nodes, others)])
 
 
 def chosen_differences(

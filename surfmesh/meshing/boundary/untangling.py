@@ -12,6 +12,7 @@ import numpy as np
 import shapely
 
 from surfmesh._core.triangulation import CROSSING, find_meetings
+from surfmesh.geometry.small_matrices import norm
 
 ROUNDS = 200
 CLEARANCE = 0.05
@@ -49,7 +50,7 @@ def untangled(nodes: np.ndarray, segments: np.ndarray, reach: np.ndarray) -> np.
             for p, (c, d) in _candidates(moved, ends, flag):
                 gap = clearance * min(length[pair].min(), beside[p], reach[p])
                 place = np.clip(_through(moved[p], moved[c], moved[d], gap), low, high)
-                far = np.linalg.norm(place - nodes[p]) / max(reach[p], 1e-300)
+                far = norm(place - nodes[p]) / max(reach[p], 1e-300)
                 if far < best and not np.array_equal(place, moved[p]):
                     best, node, target = far, p, place
             if node < 0 or best > 1.0:

@@ -8,6 +8,7 @@ right angles may differ by the largest ratio.
 
 import numpy as np
 
+from surfmesh.geometry.small_matrices import product
 from surfmesh.meshing.edges.polygon_lengths import lengths_along
 
 ROUNDS = 10
@@ -41,7 +42,7 @@ def graded_by_direction(
     tangent = np.asarray(ways).reshape(-1, 3)
     most_times = []  # (k, k) for each meeting: how much coarser the second may be than the first
     for group in meetings:
-        cosine = np.abs(tangent[group] @ tangent[group].T)
+        cosine = np.abs(product(tangent[group], tangent[group].T))
         times = np.minimum(ratio, 1.0 / np.maximum(cosine, RIGHT_ANGLE))
         most_times.append(np.maximum(times, 1.0))
     for _ in range(ROUNDS):

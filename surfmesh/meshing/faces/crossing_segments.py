@@ -10,6 +10,7 @@ import numpy as np
 
 from surfmesh._core.insertion import coincident_nodes
 from surfmesh.geometry.inside_loops import nesting_depth
+from surfmesh.geometry.small_matrices import product
 from surfmesh.meshing.boundary.untangling import meeting_pairs
 from surfmesh.meshing.faces.face_data import FaceJob
 from surfmesh.sizing.rules.size_limits import SizeLimits
@@ -59,7 +60,7 @@ def _misplaced(uv: np.ndarray, segments: np.ndarray, loop: np.ndarray) -> list[i
     found = []
     for number, deep in zip(real, depth.tolist()):
         x, y = (rings[number] - rings[number].mean(axis=0)).T
-        area = float(x @ np.roll(y, -1) - y @ np.roll(x, -1))
+        area = float(product(x, np.roll(y, -1)) - product(y, np.roll(x, -1)))
         if (area > 0.0) != (deep % 2 == 0):
             found.append(number)
     return found

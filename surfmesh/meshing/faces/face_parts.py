@@ -9,6 +9,7 @@ from dataclasses import replace
 import numpy as np
 
 from surfmesh.geometry.inside_loops import is_inside
+from surfmesh.geometry.small_matrices import product
 from surfmesh.meshing.faces.face_data import FaceJob, FaceMesh, boundary_of
 
 
@@ -47,7 +48,7 @@ def _groups(job: FaceJob) -> list[list[int]]:
 
 def _area(ring: np.ndarray) -> float:
     u, v = (ring - ring.mean(axis=0)).T
-    return 0.5 * float(u @ np.roll(v, -1) - v @ np.roll(u, -1))
+    return 0.5 * float(product(u, np.roll(v, -1)) - product(v, np.roll(u, -1)))
 
 
 def _together(parts: list[FaceMesh], slots: list[np.ndarray]) -> FaceMesh:

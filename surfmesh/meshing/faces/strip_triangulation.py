@@ -18,6 +18,7 @@ import numpy as np
 
 from surfmesh._core import elementary_functions
 from surfmesh.geometry.cad_surfaces.face_surface import FaceSurface
+from surfmesh.geometry.small_matrices import norm
 from surfmesh.geometry.surface import Surface
 from surfmesh.meshing.edges.polygon_lengths import fractions_along
 from surfmesh.meshing.faces.face_data import CoedgeNodes, FaceJob, FaceMesh
@@ -126,7 +127,7 @@ def rungs_between(first: np.ndarray, second: np.ndarray) -> np.ndarray:
         steps = []
         for a, b in ((1, 1), (1, 0), (0, 1)):
             if i + a < len(first) and j + b < len(second):
-                length = float(np.linalg.norm(first[i + a] - second[j + b]))
+                length = float(norm(first[i + a] - second[j + b]))
                 steps.append((length, a, b))
         _, a, b = min(steps, key=lambda step: step[0])
         i, j = i + a, j + b
@@ -221,8 +222,8 @@ def zipped(points: np.ndarray, left: np.ndarray, right: np.ndarray) -> list[tupl
         elif abs(s[i + 1] - t[j + 1]) > 1e-9:
             forward = bool(s[i + 1] < t[j + 1])
         else:  # the shorter diagonal
-            one = np.linalg.norm(points[left[i + 1]] - points[right[j]])
-            forward = bool(one <= np.linalg.norm(points[left[i]] - points[right[j + 1]]))
+            one = norm(points[left[i + 1]] - points[right[j]])
+            forward = bool(one <= norm(points[left[i]] - points[right[j + 1]]))
         if forward:
             triangles.append((int(left[i]), int(right[j]), int(left[i + 1])))
             i += 1

@@ -16,6 +16,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from surfmesh._core import elementary_functions, faces
+from surfmesh.geometry.small_matrices import norm
 from surfmesh.geometry.surface import Surface
 from surfmesh.meshing.edges.polygon_lengths import fractions_along
 from surfmesh.meshing.faces.face_data import CoedgeNodes, FaceJob, boundary_of
@@ -134,7 +135,7 @@ def _is_pointed(surface: Surface, one: CoedgeNodes, other: CoedgeNodes, levels: 
     as a tube does, and is it narrower than a blunt cone? A pole of a sphere is no tip."""
     ends = one.uv[-1 - levels], other.uv[levels]
     turn = _turn(surface, *ends)
-    reach = np.linalg.norm(other.points[levels] - other.points[0])
+    reach = norm(other.points[levels] - other.points[0])
     (way,) = _ways(surface, ends[0][None], ends[1][None])
     return turn >= LEAST_TURN and bool(way < BLUNT * turn * reach)
 

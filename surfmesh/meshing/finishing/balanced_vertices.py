@@ -16,6 +16,7 @@ from numpy.typing import NDArray
 
 from surfmesh._core.space import meeting_triangles
 from surfmesh.accuracy.samples import DENSE
+from surfmesh.geometry.small_matrices import product
 from surfmesh.meshing.finishing.kept_volumes import Solid, Volumes, vector_areas, volume_within
 from surfmesh.meshing.finishing.second_order import put_on_curves
 from surfmesh.meshing.finishing.signed_distances import PLACES, signed_distances
@@ -127,7 +128,7 @@ def _lengths(
     )
     for _ in range(ROUNDS):
         rise = sites.slope * steps.reached(steps.of(lengths))[sites.of_corner]
-        reached = np.hstack([distances + rise @ PLACES.T, rise])
+        reached = np.hstack([distances + product(rise, PLACES.T), rise])
         top, bottom = star.extremes(reached, unseen)
         middle = 0.5 * (top + bottom)
         beyond = np.maximum(top - within, 0.0) + np.minimum(bottom + within, 0.0)

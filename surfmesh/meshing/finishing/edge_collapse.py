@@ -16,6 +16,7 @@ import heapq
 import numpy as np
 
 from surfmesh.geometry.differential.projection import closest_point
+from surfmesh.geometry.small_matrices import norm
 from surfmesh.result.mesh_parts import Parametrisation
 from surfmesh.result.surface_mesh import SurfaceMesh
 
@@ -48,7 +49,7 @@ def simplified(mesh: SurfaceMesh, least: float) -> SurfaceMesh:
         for gone, kept in ((a, b), (b, a)):
             if work.may_collapse(gone, kept):
                 for near in work.collapse(gone, kept):
-                    far = float(np.linalg.norm(mesh.points[near] - mesh.points[kept]))
+                    far = float(norm(mesh.points[near] - mesh.points[kept]))
                     if far < least:
                         heapq.heappush(queue, (far, near, kept))
                 break

@@ -12,6 +12,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from surfmesh.geometry.small_matrices import least_squares, product
 from surfmesh.meshing.finishing.vertex_sites import Sites, Steps
 from surfmesh.result.surface_mesh import SurfaceMesh
 
@@ -45,7 +46,7 @@ class Volumes:
             room = np.where(lengths * lacks > 0.0, above, below)
             ways.append(lengths * np.maximum(room, 0.0))
         pushes = self._pushes(points, [self.steps.of(way) for way in ways], missing)
-        return np.asarray(pushes @ np.array(ways))
+        return np.asarray(product(pushes, np.array(ways)))
 
     def pushed(
         self, points: NDArray[np.float64], is_free: NDArray[np.bool_]
@@ -73,7 +74,7 @@ class Volumes:
             [_swept(area, way, self.triangles, solid.sign) for way in ways]
             for solid in self.solids
         ])  # fmt: skip
-        found: NDArray[np.float64] = np.linalg.lstsq(gained, missing, rcond=1e-9)[0]
+        found: NDArray[np.float64] = least_squares(gained, missing, 1e-9)
         return found
 
 

@@ -4,6 +4,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from surfmesh._core.space import tangent_plane_offsets
+from surfmesh.geometry.small_matrices import product
 from surfmesh.geometry.surface import Surface
 from surfmesh.result.surface_mesh import SurfaceMesh
 
@@ -33,8 +34,8 @@ def signed_distances(
         for start in range(0, len(rows), BLOCK):
             block = rows[start : start + BLOCK]
             own = some[block]
-            uv = places @ corners.uv_points[corners.uv_triangles[own]]
-            at = places @ points[mesh.triangles[own]]
+            uv = product(places, corners.uv_points[corners.uv_triangles[own]])
+            at = product(places, points[mesh.triangles[own]])
             found[block] = _along_normals(mesh.surfaces[face], at, uv)
     return found
 

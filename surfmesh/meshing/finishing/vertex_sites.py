@@ -16,6 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from surfmesh._core.space import tangent_plane_offsets
+from surfmesh.geometry.small_matrices import product, thin_svd
 from surfmesh.result.surface_mesh import SurfaceMesh
 
 FLAT = 1e-9  # of the mesh's extent: a face no farther from its triangles may be a plane
@@ -136,7 +137,7 @@ class Steps:
         along = np.einsum("ij,ij->i", left[one], normal[row])
         left[one] -= along[:, None] * normal[row]
         for vertex, rows, _ in self._groups:
-            _, s, v = np.linalg.svd(normal[rows], full_matrices=False)
+            _, s, v = thin_svd(normal[rows])
             kept = np.where(s > SPANNED, 1.0, 0.0)[:, :, None] * v
             left[vertex] -= np.einsum("gki,gkj,gj->gi", kept, kept, left[vertex])
         return left
@@ -145,10 +146,10 @@ class Steps:
 def _inverses(sites: Sites, rows: NDArray[np.int64]) -> NDArray[np.float64]:
     """(g, 3, k) from the lengths of k sites to the step of their vertex; rows: (g, k)."""
     normal, plane = sites.normal[rows], sites.is_plane[rows][:, :, None]
-    _, s, v = np.linalg.svd(np.where(plane, normal, 0.0), full_matrices=False)
+    _, s, v = thin_svd(np.where(plane, normal, 0.0))
     held = np.where(s > ALIKE, 1.0, 0.0)[:, :, None] * v
     free = np.eye(3) - np.einsum("gki,gkj->gij", held, held)
-    u, s, v = np.linalg.svd(np.where(plane, 0.0, normal) @ free, full_matrices=False)
+    u, s, v = thin_svd(product(np.where(plane, 0.0, normal), free))
     inverse = np.where(s > INDEPENDENT, 1.0 / np.maximum(s, INDEPENDENT), 0.0)
     found: NDArray[np.float64] = np.einsum("gki,gk,gjk->gij", v, inverse, u)
     return found
