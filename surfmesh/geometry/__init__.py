@@ -16,6 +16,7 @@ boxes           boxes around points
 parameter_grid  a grid of parameters all over a domain
 components      which things hang together
 quadrature      Gauss's rule on an interval
+interpolating_spline  splines through points
 small_matrices  products and decompositions of small matrices, the same bits on every processor
 number_range    which numbers can be computed with
 text_file       files of text, as they may come from anywhere

@@ -10,6 +10,7 @@ from typing import NamedTuple
 import numpy as np
 
 from surfmesh.cad.model.cad_model import CadCoedge, CadEdge, CadFace, CadModel, CadVertex
+from surfmesh.geometry.quadrature import unit_rule
 from surfmesh.geometry.small_matrices import product
 from surfmesh.intersection.contents import region_area
 
@@ -113,7 +114,7 @@ def part_of_edge(edge: CadEdge, first: float, last: float, start: int, end: int)
     return replace(made, length=measured_length(made))
 
 
-GAUSS, WEIGHTS = np.polynomial.legendre.leggauss(5)
+GAUSS, WEIGHTS = unit_rule(5)
 PIECES = 32
 
 

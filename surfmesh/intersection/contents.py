@@ -16,11 +16,12 @@ from surfmesh._core import intersection
 from surfmesh.cad.model.cad_model import CadCoedge
 from surfmesh.geometry.cad_surfaces.nurbs import BSplineCurve, BSplineSurface
 from surfmesh.geometry.core_surface import as_core_surface
+from surfmesh.geometry.quadrature import unit_rule
 from surfmesh.geometry.small_matrices import product
 from surfmesh.geometry.surface import Surface, surface_kind
 
 Loops = Sequence[Sequence[CadCoedge]]
-RULES = {count: np.polynomial.legendre.leggauss(count) for count in (3, 8)}
+RULES = {count: unit_rule(count) for count in (3, 8)}
 
 MANY = 24
 """Spans of a spline: with more of them each needs three places only."""

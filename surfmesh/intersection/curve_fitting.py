@@ -14,6 +14,8 @@ import numpy as np
 from surfmesh.errors import SurfaceError
 from surfmesh.geometry.cad_surfaces.face_surface import FaceSurface
 from surfmesh.geometry.cad_surfaces.nurbs import BSplineCurve
+from surfmesh.geometry.interpolating_spline import interpolating_spline
+from surfmesh.geometry.quadrature import unit_rule
 from surfmesh.geometry.small_matrices import product
 from surfmesh.intersection.contact_curves import pulled_into_contact
 from surfmesh.intersection.newton import pulled_onto_both
@@ -33,7 +35,7 @@ second derivative jumps are followed less closely than others; the edge's tolera
 BETWEEN = np.array([0.113, 0.31, 0.5, 0.69, 0.887])
 """Of a span: where splines are compared with the surfaces."""
 
-GAUSS, WEIGHTS = np.polynomial.legendre.leggauss(4)
+GAUSS, WEIGHTS = unit_rule(4)
 
 
 class FittedCurve(NamedTuple):
@@ -73,19 +75,17 @@ def fitted(trace: Trace, a: FaceSurface, b: FaceSurface, size: float) -> FittedC
 
 
 def _through(s: np.ndarray, columns: np.ndarray, closed: bool):
-    from scipy.interpolate import make_interp_spline  # heavy, and few need it
-
     degree = min(DEGREE, len(s) - 1)
     degree -= degree % 2 == 0
     if not closed:
-        return make_interp_spline(s, columns, k=degree)
+        return interpolating_spline(s, columns, degree)
     # a closed curve goes on smoothly: some points beyond both ends
     more = min(8, len(s) - 1)
     before, after = columns[-1 - more : -1], columns[1 : more + 1]
     around = np.concatenate([before, columns, after])
     length = s[-1]
     places = np.concatenate([s[-1 - more : -1] - length, s, s[1 : more + 1] + length])
-    return make_interp_spline(places, around, k=degree)
+    return interpolating_spline(places, around, degree)
 
 
 def _evenly(

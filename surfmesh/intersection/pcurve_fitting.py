@@ -15,6 +15,7 @@ from surfmesh.geometry.cad_surfaces.curves import CoreCurve, Line
 from surfmesh.geometry.cad_surfaces.face_surface import FaceSurface
 from surfmesh.geometry.cad_surfaces.nurbs import BSplineCurve
 from surfmesh.geometry.differential.projection import closest_point
+from surfmesh.geometry.interpolating_spline import interpolating_spline
 from surfmesh.geometry.small_matrices import norm
 from surfmesh.intersection.newton import BEYOND
 
@@ -91,9 +92,7 @@ def pcurve_along(
         length = float(norm(step))
         line = Line(places[0], step / length)
         return line, length, _deviation(edge, surface, line, length, 16)
-    from scipy.interpolate import make_interp_spline  # heavy, and few need it
-
-    spline: Callable[[np.ndarray], np.ndarray] = make_interp_spline(fraction, places, k=3)
+    spline: Callable[[np.ndarray], np.ndarray] = interpolating_spline(fraction, places, 3)
     best: CoreCurve | None = None
     nearest = np.inf
     for count in COUNTS:
@@ -101,7 +100,7 @@ def pcurve_along(
         points = edge.evaluate(fraction, 0)[0]
         uv = closest_point(surface, points, spline(fraction), STEPS, margin=BEYOND)[0]
         uv[[0, -1]] = places[[0, -1]]
-        made = make_interp_spline(fraction, uv, k=DEGREE)
+        made = interpolating_spline(fraction, uv, DEGREE)
         curve = BSplineCurve(made.t, made.c)
         off = _deviation(edge, surface, curve, 1.0, count)
         if off < nearest:

@@ -15,6 +15,7 @@ from surfmesh.cad.model.cad_model import CadCoedge, CadEdge
 from surfmesh.cad.model.invariants import ENDS
 from surfmesh.geometry.cad_surfaces.nurbs import BSplineCurve
 from surfmesh.geometry.differential.projection import closest_point
+from surfmesh.geometry.interpolating_spline import interpolating_spline
 from surfmesh.geometry.surface import Surface
 
 SPANS = (32, 128, 512)  # of the new p-curve, the first that is good enough
@@ -29,15 +30,13 @@ def follows(surface: Surface, edge: CadEdge, coedge: CadCoedge, reach: float) ->
     The ends stay where they were, so that loops stay closed. The same coedge when no p-curve is
     much better. The edge is not degenerate.
     """
-    from scipy.interpolate import make_interp_spline  # heavy, and few p-curves are made anew
-
     best, deviation = coedge, np.inf
     for spans in SPANS:
         fraction = np.linspace(0.0, 1.0, spans + 1)
         uv, _ = _closest(surface, edge, coedge, fraction)
         uv[[0, -1]] = coedge.uv(ENDS)
         parameters = coedge.p0 + fraction * (coedge.p1 - coedge.p0)
-        spline = make_interp_spline(parameters, uv, k=3)
+        spline = interpolating_spline(parameters, uv, 3)
         trial = replace(coedge, pcurve=BSplineCurve(spline.t, spline.c))
         between = np.sort(np.concatenate([fraction[:-1] + at / spans for at in BETWEEN]))
         trial_deviation = _deviation(surface, edge, trial, between)
