@@ -37,6 +37,8 @@ from surfmesh.result.surface_mesh import SurfaceMesh
 
 OPENFOAM = Path("/usr/share/openfoam")  # where Debian's package has its settings
 LENGTH, SIDE, FORCE, YOUNG, POISSON = 100.0, 10.0, 100.0, 210000.0, 0.3  # mm, N, MPa
+THIN_FORCE = 0.1  # on a strip of thickness 1
+THIN_TIP = THIN_FORCE * LENGTH**3 / (3 * YOUNG * SIDE / 12)
 MEDIT = {"file_format": "medit"}
 
 
@@ -82,10 +84,12 @@ def beam() -> tuple[SurfaceMesh, str, int]:
     return mesh, mesh.groups.solid_label(0), len(np.unique(mesh.elements[tip]))
 
 
-def solved(folder: Path, mesh_file: str, section: str, loads: str) -> float:
+def solved(
+    folder: Path, mesh_file: str, section: str, loads: str, ratio: float = POISSON
+) -> float:  # fmt: skip
     """Mean displacement along z of the set of nodes ``tip``."""
     (folder / "run.inp").write_text(
-        f"*INCLUDE, INPUT={mesh_file}\n*MATERIAL, NAME=STEEL\n*ELASTIC\n{YOUNG}, {POISSON}\n"
+        f"*INCLUDE, INPUT={mesh_file}\n*MATERIAL, NAME=STEEL\n*ELASTIC\n{YOUNG}, {ratio}\n"
         f"{section}*STEP\n*STATIC\n{loads}*NODE PRINT, NSET=tip\nU\n*END STEP\n"
     )
     subprocess.run(["ccx", "run"], cwd=folder, check=True, capture_output=True)
@@ -106,27 +110,31 @@ def calculix_solid(folder: Path) -> str:
     return f"C3D10: tip {tip:.4f} mm, theory of beams {theory:.4f}"
 
 
-def calculix_shell(order: int) -> Callable[[Path], str]:
-    def solve(folder: Path) -> str:
-        plate = cq.Workplane().rect(LENGTH, SIDE).extrude(1.0).faces("<Z").val()
-        mesh = sm.mesh(plate, 2.5, order=order)
-        mesh = mesh.replaced(groups=_with_ends(mesh))
-        mesh.save(folder / "plate.inp", target="calculix")
-        thickness = 1.0
-        ends = [name for name in mesh.groups.edge_names if name == "tip"]
-        nodes = len(np.unique(mesh.edge_elements[np.isin(mesh.edge_ids, _edges(mesh, "tip"))]))
-        face = mesh.groups.face_label(0).replace(" ", "_")
-        tip = solved(
-            folder, "plate.inp",
-            f"*SHELL SECTION, ELSET={face}, MATERIAL=STEEL\n{thickness}\n"
-            "*BOUNDARY\nfixed, 1, 6\n",
-            f"*CLOAD\ntip, 3, {0.1 / nodes}\n",
-        )  # fmt: skip
-        theory = 0.1 * LENGTH**3 / (3 * YOUNG * SIDE * thickness**3 / 12)
-        kind = {1: "S3", 2: "S6"}[order]
-        return f"{kind}: tip {tip:.4f} mm, theory of beams {theory:.4f} ({len(ends)} named edge)"
+def calculix_shell(folder: Path) -> str:
+    return f"S6: tip {shell_tip(folder, 2, 2.5, POISSON):.4f} mm, theory of beams {THIN_TIP:.4f}"
 
-    return solve
+
+def calculix_straight_shells(folder: Path) -> str:
+    """S3 is a wedge of linear functions to CalculiX. As its triangles shrink it tends to the theory
+    where Poisson's ratio is 0, and else to about (1 - ratio^2) of it: its thickness changes by one
+    figure, where bending thickens one side and thins the other."""
+    rows = []
+    for ratio in (POISSON, 0.0):
+        tips = ", ".join(f"{shell_tip(folder, 1, size, ratio):.4f}" for size in (2.5, 1.25, 0.625))
+        rows.append(f"ratio {ratio:g}: {tips}")
+    return f"S3 of sizes 2.5, 1.25, 0.625: tip {'; '.join(rows)} mm, theory of beams {THIN_TIP:.4f}"
+
+
+def shell_tip(folder: Path, order: int, size: float, ratio: float) -> float:
+    """Displacement of the free end of a strip of thickness 1 under ``THIN_FORCE``, in mm."""
+    strip = cq.Workplane().rect(LENGTH, SIDE).extrude(1.0).faces("<Z").val()
+    mesh = sm.mesh(strip, size, order=order)
+    mesh = mesh.replaced(groups=_with_ends(mesh))
+    mesh.save(folder / "plate.inp", target="calculix")
+    nodes = len(np.unique(mesh.edge_elements[np.isin(mesh.edge_ids, _edges(mesh, "tip"))]))
+    face = mesh.groups.face_label(0).replace(" ", "_")
+    section = f"*SHELL SECTION, ELSET={face}, MATERIAL=STEEL\n1.0\n*BOUNDARY\nfixed, 1, 6\n"
+    return solved(folder, "plate.inp", section, f"*CLOAD\ntip, 3, {THIN_FORCE / nodes}\n", ratio)
 
 
 def _edges(mesh: SurfaceMesh, name: str) -> list[int]:
@@ -307,8 +315,8 @@ CLIENTS: dict[str, Callable[[Path], str]] = {
     "ftetwild": engine("ftetwild"),
     "imprint": imprint,
     "CalculiX solid": calculix_solid,
-    "CalculiX shell": calculix_shell(1),
-    "CalculiX shell, order 2": calculix_shell(2),
+    "CalculiX shell": calculix_straight_shells,
+    "CalculiX shell, order 2": calculix_shell,
     "OpenFOAM": openfoam,
     "meshio": meshio_all,
     "trimesh": trimesh_solid,

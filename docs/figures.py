@@ -1,4 +1,4 @@
-"""The figures of docs/method.md, after those of Wang, Ming and Lo (2007), and of the guides.
+"""The figures of the README, of docs/method.md, after Wang, Ming and Lo (2007), and of the guides.
 
     python docs/figures.py [FOLDER]
 
@@ -229,8 +229,13 @@ def meeting_examples(folder: Path) -> None:
     plotter.close()
 
 
+def wavy(folder: Path) -> None:
+    """The gallery's wavy surface at its own sizes, coloured by shape: the README's picture."""
+    sm.mesh("wavy").plot(folder / "wavy.png")
+
+
 FIGURES = (
-    packing_steps, pushing_out, random_radii, boundary, on_the_surface, bracket, stretched,
+    wavy, packing_steps, pushing_out, random_radii, boundary, on_the_surface, bracket, stretched,
     meeting, meeting_examples,
 )  # fmt: skip
 

@@ -32,7 +32,7 @@ from surfmesh.geometry.number_range import RANGE
 from surfmesh.geometry.surface import Surface
 from surfmesh.result.surface_mesh import SurfaceMesh
 from surfmesh.sizing.options.distance_size import default_options
-from surfmesh.sizing.options.sizing import SizeLaw, Sizing
+from surfmesh.sizing.options.sizing import SizeLaw, Sizing, require_known
 
 if TYPE_CHECKING:
     from concurrent.futures import Executor
@@ -173,7 +173,7 @@ def mesh(
     if jobs is not None and (isinstance(jobs, bool) or not isinstance(jobs, int) or jobs < 1):
         raise SizingError(f"jobs is {shown(jobs)}: at least one thread; None takes all processors")
     model = _model_or_surface(surface)
-    asked, order = _of_order(_by_name(sizing, sizes), order)
+    asked, order = _of_order(_by_name(sizing, sizes, beside=_OF_MESH), order)
     wanted = _options(model, asked)
 
     def made_with(own: Sizes) -> SurfaceMesh:
@@ -252,10 +252,14 @@ def _stated(sizing: Any, name: str) -> Any:
 
 
 _OF_LOAD = ("units", "imprint", "sew", "time_limit", "memory_limit", "isolate")
+_OF_MESH = ("optimise", "progress", "strict", "simplify", "jobs", "executor")
 
 
-def _by_name(sizing: Sizes, options: Mapping[str, Any]) -> Sizes:
-    """Sizes as they are given, or options of ``Sizing`` by name; ``SizingError`` for both."""
+def _by_name(sizing: Sizes, options: Mapping[str, Any], beside: Sequence[str] = ()) -> Sizes:
+    """Sizes as they are given, or options of ``Sizing`` by name; ``SizingError`` for both.
+
+    beside: what else the caller takes by name, which may have been meant.
+    """
     if not options:
         return sizing
     for name in options:
@@ -263,6 +267,7 @@ def _by_name(sizing: Sizes, options: Mapping[str, Any]) -> Sizes:
             raise SizingError(f"{name} is an option of load: mesh(load(path, {name}=...))")
     if sizing is not None:
         raise SizingError(f"sizes are given twice: as sizing, and as {', '.join(options)}")
+    require_known(options, beside)
     return Sizing.of(options)
 
 
@@ -346,16 +351,19 @@ def intersect(
     )
 
 
-def estimate(surface: Surface | CadModel | Any, sizing: Sizes = None) -> Estimate:
+def estimate(
+    surface: Surface | CadModel | Any, sizing: Sizes = None, **sizes: Any
+) -> Estimate:  # fmt: skip
     """How many triangles ``mesh`` would make, and how much memory it would need.
 
+    Sizes are given as to ``mesh``, by name too: ``estimate(part, chord=0.1)``.
     Size fields are made and measured, of models with many faces those of some faces: of alike ones
     one, of many that differ a sample (``by_face`` is rougher there than the total). Of large meshes
     a few patches are made to learn from, up to some thousand triangles all are. Raises what
     ``mesh`` raises for sizes that cannot be met, but for their limit.
     """
     model = _model_or_surface(surface)
-    sizing = _with_sizes(model, sizing)
+    sizing = _with_sizes(model, _of_order(_by_name(sizing, sizes), None)[0])
     if not isinstance(model, Surface):
         from surfmesh.meshing.model_mesh import estimate_model
 

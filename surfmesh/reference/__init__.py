@@ -5,9 +5,7 @@ data passes:
 
 size_tensors: points, size tensors, and what is measured with them: length, shape, orientation.
 plane_triangulation: a triangulation of the whole plane, and its local changes.
-generation_front: the front, its moves, and where it ends (2.1, 2.2, 2.4).
-random_packing: circles whose radii are drawn at random (2.3).
-field_packing: circles whose sizes are read from a field (2.3).
+field_packing: circles of the sizes of a field, packed along the generation front (2).
 boundary_insertion: the five steps that cut a domain out (3).
 
 Points are complex numbers x + iy, indices start at 0, a size tensor H has the "circle"

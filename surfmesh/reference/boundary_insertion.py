@@ -75,15 +75,12 @@ def trace(plane: Triangulation, a: int, b: int) -> tuple[list[Edge], int, int]:
 
     Each edge runs from its right end to its left one; the last result is a neighbour of the vertex.
     """
-    start, end = plane.points[a], plane.points[b]
-    star = plane.around(a, next(w for v, w in plane.left if v == a))
-    turn = {w: plane.side(a, b, plane.points[w]) for w in star if w != NIL}
-    cut: list[Edge] = []
-    for right, left in zip(star, star[1:] + star[:1]):
-        if turn.get(right) == 0 and dot(plane.points[right] - start, end - start) > 0.0:
-            return [], right, a
-        if turn.get(right, 0) < 0 < turn.get(left, 0):
-            cut.append((right, left))
+    star, end = plane.around(a, next(w for v, w in plane.left if v == a)), plane.points[b]
+    ways = zip(star, star[1:] + star[:1])
+    right, left = next(w for w in ways if plane.side(a, w[0], end) >= 0 > plane.side(a, w[1], end))
+    if plane.side(a, right, end) == 0:
+        return [], right, a
+    cut = [(right, left)]
     while True:
         right, left = cut[-1]
         if (right, left) in plane.barriers:
@@ -129,14 +126,7 @@ def crowds(plane: Triangulation, a: int, b: int, v: int, nodes: set[int]) -> boo
 
 def swap_bad(plane: Triangulation, inside: list[int]) -> None:
     """Step 4: swap edges of badly shaped triangles while that betters the worse of two."""
-    shape = {t: plane.shape(*plane.triangles[t]) for t in inside}
-    for _ in range(SWEEPS):
-        for t in inside:
-            for i in range(3):
-                a, b = sides(plane.triangles[t])[i]
-                if shape[t] >= BAD_SHAPE or (a, b) in plane.barriers:
-                    continue
-                u, c, d = plane.left[b, a], plane.apex(a, b), plane.apex(b, a)
-                new = plane.shape(a, d, c), plane.shape(b, c, d)
-                if min(new) > min(shape[t], shape[u]) + 1e-3 and plane.swap(a, b):
-                    shape[t], shape[u] = new
+    for t in SWEEPS * inside:
+        for i in range(3):
+            if plane.shape(*plane.triangles[t]) < BAD_SHAPE:
+                plane.settle(*sides(plane.triangles[t])[i])

@@ -34,12 +34,9 @@ class Triangulation:
     def __init__(self, points: list[complex], sizes: list[SizeTensor]) -> None:
         """Of three points, counter-clockwise."""
         self.points, self.sizes = points, sizes
-        self.triangles: list[Triangle] = []
-        self.left: dict[Edge, int] = {}
+        self.triangles = [(0, 1, 2), (1, 0, NIL), (2, 1, NIL), (0, 2, NIL)]
+        self.left = {side: t for t in range(4) for side in sides(self.triangles[t])}
         self.barriers: set[Edge] = set()  # in both directions
-        for triangle in (0, 1, 2), (1, 0, NIL), (2, 1, NIL), (0, 2, NIL):
-            self.triangles.append(DEAD)
-            self.write(len(self.triangles) - 1, *triangle)
 
     def write(self, t: int, a: int, b: int, c: int) -> None:
         self.triangles[t] = a, b, c
@@ -69,17 +66,16 @@ class Triangulation:
         h, (a, b, c) = mean(*(self.sizes[v] for v in corners)), (self.points[v] for v in corners)
         return shape(h.solve(b - a), h.solve(c - a))
 
-    def locate(self, edge: Edge, p: complex, stop: bool = False) -> tuple[int, Edge | None]:
-        """Walk from an edge to the triangle of p; or, if asked to ``stop``, to a barrier.
+    def locate(self, edge: Edge, p: complex) -> tuple[int, Edge | None]:
+        """Walk from an edge to the triangle of p, or to the barrier before it.
 
         Of two ways on, which is tried first varies: no walk goes round for ever.
         """
         onward, dice = edge if self.side(*edge, p) < 0 else None, 12345
         while True:
-            if onward is not None:
-                if stop and onward in self.barriers:
-                    return NIL, onward
-                edge = onward[1], onward[0]
+            if onward in self.barriers:
+                return NIL, onward
+            edge = (onward[1], onward[0]) if onward else edge
             dice = (dice * 1103515245 + 12345) & 0x7FFFFFFF
             (a, b), c = edge, self.apex(*edge)
             ways = ((b, c), (c, a)) if dice & 0x10000 else ((c, a), (b, c))
@@ -140,6 +136,15 @@ class Triangulation:
         for t, old, new in (self.left.pop((a, b)), b, d), (self.left.pop((b, a)), a, c):
             self.write(t, *(new if v == old else v for v in self.triangles[t]))
         return True
+
+    def settle(self, a: int, b: int, below: float = 1.0) -> bool:
+        """Of the two diagonals at a-b take the one with the better worst shape, if that is low."""
+        if (a, b) in self.barriers:
+            return False
+        c, d = self.apex(a, b), self.apex(b, a)
+        old = min(self.shape(a, b, c), self.shape(b, a, d))
+        new = min(self.shape(a, d, c), self.shape(b, c, d))
+        return old <= below and new > old + 1e-3 and self.swap(a, b)
 
     def remove_vertex(self, v: int, first: int) -> Edge | None:
         """Triangulate the star of v, from its neighbour ``first`` on, without it: best ear first.

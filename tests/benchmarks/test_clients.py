@@ -10,6 +10,11 @@ pytest.importorskip("OCP", reason="the parts are CAD models: OCP is not installe
 BENCHMARKS = Path(__file__).resolve().parents[2] / "benchmarks"
 EXPECTED = {  # what the row says, and within which limits its numbers are
     "imprint": (r"(\d+) of 11 names, (\d+) of 19 pairs conformal, (\d+) others", (11, 19, 0), 0),
+    "CalculiX shell": (
+        r"ratio 0: .*, ([\d.]+) mm, theory of beams ([\d.]+)",
+        (0.1905, 0.1905),
+        0.05,
+    ),
     "CalculiX shell, order 2": (
         r"tip ([\d.]+) mm, theory of beams ([\d.]+)",
         (0.1905, 0.1905),

@@ -1,4 +1,4 @@
-"""docs/method.md shows functions of the reference: as they are there."""
+"""docs/method.md shows functions of the reference and of its twins: as they are there."""
 
 import ast
 import inspect
@@ -7,14 +7,14 @@ import textwrap
 from pathlib import Path
 
 import pytest
+from naive.random_packing import RandomPacking
 
-from surfmesh.reference import boundary_insertion, size_tensors
+from surfmesh.reference import boundary_insertion
 from surfmesh.reference.field_packing import FieldPacking
-from surfmesh.reference.generation_front import Front
-from surfmesh.reference.random_packing import RandomPacking
+from surfmesh.reference.plane_triangulation import Triangulation
 
 PAGE = Path(__file__).resolve().parents[2] / "docs" / "method.md"
-HOMES = (boundary_insertion, size_tensors, Front, FieldPacking, RandomPacking)
+HOMES = (boundary_insertion, Triangulation, FieldPacking, RandomPacking)
 
 
 def shown():

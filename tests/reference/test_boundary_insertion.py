@@ -6,14 +6,14 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 from naive.boundary_row import insert_row
+from naive.relaxed_packing import RelaxedPacking
 from stages import recovered
 
 from surfmesh.geometry.planar.planar_domain import PlanarRegion
 from surfmesh.meshing.boundary.boundary_loops import BoundaryLoops
 from surfmesh.meshing.patch.packing import packed_over
 from surfmesh.reference.boundary_insertion import insert_boundary
-from surfmesh.reference.field_packing import FieldPacking
-from surfmesh.reference.generation_front import Limits
+from surfmesh.reference.field_packing import FieldPacking, Limits
 from surfmesh.reference.size_tensors import SizeTensor, circle
 from surfmesh.sizing.field.size_field import plane_field
 
@@ -82,7 +82,7 @@ def slow_triangles(field, nodes, rim, lines):
     def size(p):
         return SizeTensor(*field.tensors(np.array([[p.real, p.imag]]))[0].tolist())
 
-    packing = FieldPacking(size, Limits(0.5 + 0.5j, box=(0j, 1 + 1j)))
+    packing = RelaxedPacking(size, Limits(0.5 + 0.5j, box=(0j, 1 + 1j)))
     packing.advance()
     insert_row(packing, size, nodes, [*rim, *lines, *((b, a) for a, b in lines)])
     triangles = insert_boundary(packing, size, nodes, rim, lines)

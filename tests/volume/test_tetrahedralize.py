@@ -15,7 +15,8 @@ from surfmesh.volume.curved_tetrahedra import gradients, jacobians, least_jacobi
 from surfmesh.volume.solid_regions import CORNERS as SIDES
 from surfmesh.volume.solid_regions import sides_of_triangles, solids_of_tetrahedra
 from surfmesh.volume.untangling import Untangled
-from surfmesh.volume.untangling import _split as in_four
+from surfmesh.volume.untangling import _split_edges as edges_split
+from surfmesh.volume.untangling import _split_in_four as in_four
 from surfmesh.volume.volume_mesh import LEGS
 
 PACKAGES = {"tetgen": "tetgen", "gmsh": "gmsh", "netgen": "netgen", "ftetwild": "pytetwild"}
@@ -105,6 +106,37 @@ def test_a_split_tetrahedron_is_four_with_its_sides():
     )  # the mean of the coefficients is six times the volume
     behind, before = sides_of_triangles(found.elements[:, :4], np.array(SIDES))
     assert sorted((behind // 4).tolist()) == [0, 1, 2, 3] and (before == -1).all()
+
+
+def test_the_tetrahedra_around_an_edge_are_two_each():
+    """Two of them share the edge 0-1, whose middle 4 becomes a corner of four."""
+    corners = np.array([(0, 0, 0), (0, 0, 2), (2, 0, 0), (0, 2, 0), (-2, 0, 0)], float)
+    whole = np.array([(0, 1, 2, 3, 5, 6, 7, 8, 9, 10), (1, 0, 4, 3, 5, 11, 12, 9, 8, 13)])
+    nodes = np.zeros((14, 3))
+    nodes[:5] = corners
+    for tetrahedron in whole:
+        nodes[tetrahedron[4:]] = corners[tetrahedron[LEGS]].mean(axis=1)
+    found = edges_split(Untangled(nodes, whole, np.array([7, 8], np.int32), 2), np.array([5]))
+    assert sorted(found.solid_ids.tolist()) == [7, 7, 8, 8]
+    assert len(found.nodes) == 14 + 5  # amid the edges to 0, 1, 2, 3 and 4, once each
+    assert least_jacobians(found.nodes, found.elements) == pytest.approx(
+        1.0
+    )  # straight, well turned
+    sizes = jacobians(found.nodes[found.elements]).mean(axis=1)
+    assert sizes == pytest.approx(np.full(4, jacobians(nodes[whole]).mean() / 2.0))
+
+
+@pytest.mark.parametrize("name, size", [("torus", 1.2), ("torus", 1.0), ("ellipsoid", 0.9)])
+def test_no_coarse_curved_tetrahedron_is_left_inside_out(name, size):
+    """Inner edges between corners of the surface left no room; 19, 34 and 1 were counted."""
+    mesh = sm.mesh(name, size, order=2)
+    found = fills(mesh, "tetgen")
+    assert not found.warnings
+    assert least_jacobians(found.nodes, found.elements).min() > 0.0 and found.volumes.min() > 0.0
+    np.testing.assert_array_equal(found.nodes[: len(mesh.nodes)], mesh.nodes)
+    legs, middles = found.elements[:, LEGS].reshape(-1, 2), found.elements[:, 4:].ravel()
+    edges = np.column_stack((np.sort(legs, axis=1), middles))
+    assert len(np.unique(edges, axis=0)) == len(np.unique(edges[:, :2], axis=0))  # one middle each
 
 
 def test_slopes_of_jacobians_are_those_of_differences():

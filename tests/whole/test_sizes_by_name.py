@@ -101,6 +101,18 @@ def test_a_surface_is_one_face_by_its_name():
             sm.mesh(sphere, sizes)
 
 
+def test_options_are_given_by_name():
+    torus = sm.load("torus")
+    for order in (1, 2):
+        known = sm.estimate(torus, sm.Sizing(chord=0.1, order=order)).triangles
+        assert sm.estimate(torus, chord=0.1, order=order).triangles == known
+    for verb in (sm.mesh, sm.estimate):
+        with pytest.raises(SizingError, match="given twice: as sizing, and as chord"):
+            verb(torus, 0.1, chord=0.1)
+    with pytest.raises(SizingError, match="'optimize'; did you mean 'optimise'"):
+        sm.mesh(torus, optimize=False)
+
+
 def test_small_sources_are_seen_in_the_middle_of_faces_and_edges():
     plate = sm.from_cadquery(cq.Workplane().box(1000, 1000, 5))
     inside, on_edge = [123.0, 77.0, 2.5], [500.0, 41.7, 2.5]

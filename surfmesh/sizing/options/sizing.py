@@ -1,6 +1,6 @@
 """What the user asks for: one frozen set of options."""
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, fields, replace
 from functools import wraps
 from typing import Any, TypeVar
@@ -33,7 +33,7 @@ def _with_known_names(options: type[_Options]) -> type[_Options]:
     def __init__(self: _Options, *args: Any, **given: Any) -> None:
         if args:
             raise SizingError("sizes are given by name, as in Sizing(chord=0.01), Sizing(size=0.1)")
-        _require_known(given)
+        require_known(given)
         made(self, **given)
 
     options.__init__ = __init__  # type: ignore[assignment, method-assign]  # says more
@@ -257,15 +257,18 @@ class Sizing:
         if isinstance(given, cls):
             return given
         if isinstance(given, Mapping):
-            _require_known(given)
+            require_known(given)
             return cls(**given)
         if isinstance(given, (int, float)) or callable(given):
             return cls(size=given)
         raise SizingError(f"sizes are a number, a Sizing or a mapping, not {type(given).__name__}")
 
 
-def _require_known(given: Mapping[Any, Any]) -> None:
-    """Raises ``SizingError`` for a name that is no option, with ours for other programs' words."""
+def require_known(given: Mapping[Any, Any], beside: Sequence[str] = ()) -> None:
+    """Raises ``SizingError`` for a name that is no option, with ours for other programs' words.
+
+    beside: what else the caller takes by name, which may have been meant.
+    """
     known = sorted(option.name for option in fields(Sizing))
     for name in given:
         if name in known:
@@ -273,5 +276,5 @@ def _require_known(given: Mapping[Any, Any]) -> None:
         word = own_word(name) if isinstance(name, str) else None
         if word is not None:
             raise SizingError(f"unknown size option {shown(name)}: here it is called {word!r}")
-        near = did_you_mean(str(name), known) or f"; known are {', '.join(known)}"
+        near = did_you_mean(str(name), (*known, *beside)) or f"; known are {', '.join(known)}"
         raise SizingError(f"unknown size option {shown(name)}{near}")

@@ -1,4 +1,4 @@
-"""Circles whose radii are drawn at random, each fitted in closed form (2.3).
+"""Circles whose radii are drawn at random, each fitted in closed form (2.3): a slow twin.
 
 Where a circle overlaps another, its support is pushed out along the front:
 
@@ -11,9 +11,9 @@ Where a circle overlaps another, its support is pushed out along the front:
 import math
 from collections.abc import Iterable, Iterator
 
-from surfmesh.reference.generation_front import Front, Limits
+from surfmesh.reference.field_packing import FieldPacking, Limits
 from surfmesh.reference.plane_triangulation import NIL, Edge
-from surfmesh.reference.size_tensors import circle, common_step, dot, length
+from surfmesh.reference.size_tensors import SizeTensor, circle, common_step, dot, length
 
 TOLERATED = 0.02  # overlap that is let pass, of the sum of the two radii
 LOOK_AHEAD = 32  # drawn radii among which one is sought that spans a wide gap
@@ -26,16 +26,19 @@ PLACED, CLOSED, USELESS = NIL, -2, -3  # what came of a trial; CLOSED: its polyg
 Circle = tuple[complex, float]
 
 
-class RandomPacking(Front):
+class RandomPacking(FieldPacking):
     def __init__(self, radii: Iterator[float], limits: Limits) -> None:
-        """Three circles of the drawn radii, touching each other about the origin (2.3.1)."""
         self.radii, self.drawn = radii, [next(radii) for _ in range(3)]
+        super().__init__(circle, limits)  # sizes are drawn: no field is asked
+
+    def first_three(self) -> tuple[list[complex], list[SizeTensor]]:
+        """Circles of the drawn radii, touching each other about the origin (2.3.1)."""
         ra, rb, rc = self.drawn
         p, q, d = ra + rc, rb + rc, ra + rb
         x = 0.5 * (d + (p - q) * (p + q) / d)
         corners = [0j, complex(d), complex(x, math.sqrt(max(p * p - x * x, 0.0)))]
-        shift = limits.origin - sum(corners) / 3.0
-        super().__init__([c + shift for c in corners], [circle(r) for r in self.drawn], limits)
+        shift = self.limits.origin - sum(corners) / 3.0
+        return [c + shift for c in corners], [circle(r) for r in self.drawn]
 
     def step(self, a: int, b: int) -> bool:
         r = self.draw(0.55 * self.gap(a, b))
