@@ -55,6 +55,7 @@ class Gaps(NamedTuple):
 
     uv: NDArray[np.float64]  # (g, 3, 2)
     owners: NDArray[np.int32]  # (g,) ascending
+    beside: NDArray[np.int32]  # (k,) triangles on either side of one
     unknown: NDArray[np.intp]  # triangles whose neighbours do not go on where they end
 
 
@@ -80,6 +81,8 @@ def proved_distances(
     if len(gaps.unknown):
         bounds[gaps.unknown] = np.inf
     bound, _ = proof.ring_bounds(face.corners, face.vertices, face.twins, bounds)
+    # a gap is none of the neighbours: with it point by point alone, or a closer look
+    bound[gaps.beside] = away[gaps.beside]
     bound[gaps.owners] = np.inf
     which = np.flatnonzero(~(bound <= limits)).astype(np.int32)
     if not len(which):
@@ -172,17 +175,22 @@ def _gaps(surface: Surface, face: FaceTriangles) -> Gaps:
     if len(odd):
         odd = odd[~_are_one_curve(surface, a[odd], b[odd])]
     if not len(odd):
-        return Gaps(np.empty((0, 3, 2)), np.empty(0, np.int32), np.empty(0, np.intp))
+        none = np.empty(0, np.int32)
+        return Gaps(np.empty((0, 3, 2)), none, none, np.empty(0, np.intp))
     first, a, b = first[odd], a[odd], b[odd]
     fixed = np.where(_is_pole(surface, a, b, 0), 1, 0)
     row = np.arange(len(odd))
     shift = a[row, fixed] - b[row, fixed]  # a seam that ends at the pole
     uv = np.stack([a[row, fixed], a[row, 1 - fixed], b[row, 1 - fixed] + shift], axis=1)
     good = _is_pole(surface, a, b, 1 - fixed) & _goes_on(surface, uv, shift)
-    owners = np.minimum(first, face.twins[first])[good] // 3
+    beside = np.stack([first, face.twins[first]])[:, good] // 3
+    owners = beside.min(axis=0)
     order = np.argsort(owners, kind="stable")
     unknown = np.unique(np.concatenate([first[~good], face.twins[first[~good]]]) // 3)
-    return Gaps(np.ascontiguousarray(uv[good][order]), owners[order].astype(np.int32), unknown)
+    return Gaps(
+        np.ascontiguousarray(uv[good][order]), owners[order].astype(np.int32),
+        np.unique(beside), unknown,
+    )  # fmt: skip
 
 
 def _sides(face: FaceTriangles, half_edges: NDArray[np.int32]) -> NDArray[np.float64]:
