@@ -7,7 +7,8 @@ from hypothesis import strategies as st
 
 import surfmesh as sm
 from surfmesh._core.space import triangle_distances
-from surfmesh.accuracy.proof import FaceTriangles, proved_distances, twins_of
+from surfmesh.accuracy.face_triangles import FaceTriangles, twins_of
+from surfmesh.accuracy.proof import proved_distances
 from surfmesh.geometry.differential.projection import closest_point
 
 SIDE = 6
