@@ -10,6 +10,7 @@
 #include "proof/curve_bounds.hpp"
 #include "proof/curved_pieces.hpp"
 #include "proof/isotopy.hpp"
+#include "proof/polar_pieces.hpp"
 #include "proof/ring_bounds.hpp"
 #include "proof/triangle_bounds.hpp"
 #include "surfaces/callback_surface.hpp"
@@ -192,6 +193,28 @@ auto bounds_of_curve(const Curve& curve, const Matrix<double, 2>& t, const Segme
     return view(found);
 }
 
+using NewMoves = nb::ndarray<nb::numpy, double, nb::shape<-1, 2>>;
+
+std::optional<NewMoves> moves_at_pole(const Surface& surface, const Corners3& corners,
+                                      const Corners2& base, bool is_v, double value) {
+    const std::size_t count = corners.shape(0);
+    require_rows(base.shape(0), count, "base");
+    const auto* derivatives = dynamic_cast<const FourthDerivatives*>(&surface);
+    if (derivatives == nullptr) return std::nullopt;
+    Array<PolarMove> found(count);
+    SurfaceStatus status;
+    {
+        const nb::gil_scoped_release released;
+        status = polar_moves(surface, *derivatives,
+                             {rows<SpaceCorners>(corners), rows<PlaneCorners>(base), {is_v, value}},
+                             {found.data(), found.size()});
+    }
+    raise_failure(surface, status);
+    if (status == SurfaceStatus::UNKNOWN) return std::nullopt;
+    const std::size_t shape[] = {count, 2};
+    return NewMoves(reinterpret_cast<double*>(found.data()), 2, shape, owner_of(found));
+}
+
 /// (0, -1, -1) where it holds.
 auto isotopy(const Points3& points, const Matrix<std::int32_t, 3>& triangles,
              const Vector<double>& away, const Vector<double>& slope) {
@@ -251,6 +274,12 @@ void bind_proof(nb::module_& m) {
         "pieces may change too fast at vertex v; (2, s, t): triangles s and t may meet.\n\n"
         "away: (m,) how far points of each triangle move at most; slope: (m,) how fast that "
         "changes.");
+    m.def("polar_moves", &moves_at_pole, nb::arg("surface"), nb::arg("corners"), nb::arg("base"),
+          nb::arg("is_v"), nb::arg("value"),
+          "(m, 2) how fast and how far points of triangles at a pole move to the surface at most, "
+          "along rays; None on surfaces without fourth derivatives.\n\ncorners (m, 3, 3): pole "
+          "first; base (m, 3, 2): Bezier points of the curve in (u, v) over the side from the "
+          "second corner to the third; is_v: the pole is where v, or u, has ``value``.");
     m.def("curve_bounds", &bounds_of_curve, nb::arg("curve"), nb::arg("t"), nb::arg("ends"),
           "(k,) how far pieces of a curve, from t[:, 0] to t[:, 1], and the segments between "
           "``ends`` (k, 2, 3) are from each other at most; infinite where the curve has no "

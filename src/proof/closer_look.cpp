@@ -25,21 +25,33 @@ struct Piece {
     [[nodiscard]] PlanePiece plane() const { return {uv, bend}; }
 };
 
+/// Distances point by point: the largest at points, and with what may lie between them.
+struct PointByPoint {
+    double at_points, bound;
+};
+
 /// The corners of a cell, as rows of points.
 using Cell = std::array<std::size_t, 3>;
 
 class Looker {
   public:
     /// rings_alone: not point by point.
-    Looker(const Surface& surface, const ProofMesh& mesh, const PoleGaps& gaps, bool rings_alone)
+    Looker(const Surface& surface, const ProofMesh& mesh, SideDistances& sides,
+           const PoleGaps& gaps, bool rings_alone)
         : surface_(surface),
           mesh_(mesh),
           gaps_(gaps),
           bounds_(mesh.bounds),
-          ring_(mesh),
+          ring_(mesh, sides),
           rings_alone_(rings_alone),
           layers_(mesh.corners.size(), 0),
-          over_ring_(mesh.corners.size(), intervals::INFINITE) {}
+          over_ring_(mesh.corners.size(), intervals::INFINITE),
+          whole_(mesh.corners.size()) {
+        for (std::size_t t = 0; t < whole_.size(); ++t) whole_[t] = bounds_[t].whole;
+        // a gap's interpolant is the side beside it
+        for (std::size_t k = 0; k < gaps.owner.size(); ++k)
+            whole_[gaps.owner[k]] = std::max(whole_[gaps.owner[k]], gaps.bounds[k].whole);
+    }
 
     SurfaceStatus compute_first(std::span<const std::int32_t> which, Array<EnclosedPoint>& points);
 
@@ -74,7 +86,8 @@ class Looker {
     [[nodiscard]] LookedAt looked_at(const Array<double>& without) const {
         return {{layers_.data(), layers_.size()},
                 {over_ring_.data(), over_ring_.size()},
-                {without.data(), without.size()}};
+                {without.data(), without.size()},
+                {whole_.data(), whole_.size()}};
     }
 
   private:
@@ -113,6 +126,9 @@ class Looker {
         return SurfaceStatus::DONE;
     }
     SurfaceStatus look_point_by_point(std::int32_t t, double limit, int levels, double& bound);
+    SurfaceStatus take_points(std::size_t side, PointByPoint& found);
+    [[nodiscard]] double farthest_from_linear(std::size_t side) const;
+    [[nodiscard]] double farthest_from_side() const;
     void measure(std::size_t m, double grown);
     SurfaceStatus bound_by_cells(int level, double& found);
     [[nodiscard]] double highest(std::size_t side, double scale) const;
@@ -131,6 +147,7 @@ class Looker {
     bool rings_alone_;
     Array<std::uint8_t> layers_;  // of triangles around, with which a bound holds
     Array<double> over_ring_;     // heights over those around
+    Array<double> whole_;         // point by point, of gaps too
     Piece piece_{};
     std::int32_t triangle_ = NIL;  // that is looked at
     Array<Point2> uv_, feet_;
@@ -143,32 +160,67 @@ class Looker {
     Array<std::array<double, 3>> inside_;
 };
 
-/// |r - L| at the corners of cells, and how far it may rise between them: both ways, by itself.
+/// |r - L| at the corners of cells, and how far it may rise between them: both ways, by itself. Gaps
+/// count by their distance from a side of the triangle.
 SurfaceStatus Looker::look_point_by_point(std::int32_t t, double limit, int levels, double& bound) {
-    if (std::binary_search(gaps_.owner.begin(), gaps_.owner.end(), t)) return SurfaceStatus::DONE;
-    piece_ = {mesh_.uv[t], mesh_.bends[t], bounds_[t], true};
-    const SpaceCorners& p = mesh_.corners[t];
-    const double longest = std::max({norm(p[1] - p[0]), norm(p[2] - p[1]), norm(p[0] - p[2])});
+    const auto [first, last] = std::equal_range(gaps_.owner.begin(), gaps_.owner.end(), t);
     for (int level = int{FIRST_LEVEL}; level <= levels && !(bound <= limit); ++level) {
         const std::size_t side = std::size_t{1} << level;
-        if (const auto status = compute_points(side); status != SurfaceStatus::DONE) return status;
-        double most = 0.0;
-        const double n = static_cast<double>(side);
-        std::size_t k = 0;
-        for (std::size_t i = 0; i <= side; ++i)
-            for (std::size_t j = 0; i + j <= side; ++j, ++k) {
-                const double a = static_cast<double>(i) / n, b = static_cast<double>(j) / n;
-                const Point3 flat = (1.0 - a - b) * p[0] + a * p[1] + b * p[2];
-                most = std::max(most, norm(points_[k].value - flat) + 2.0 * points_[k].error);
-            }
-        const double size = norm(p[0]) + norm(p[1]) + norm(p[2]);
-        const double between = bounds_[t].cell_whole / (n * n);
-        const double found = most * (1.0 + ROUNDING) + between + ROUNDING * 0x1p-4 * size +
-                             rounded_uv_ * (longest + 4.0 * bounds_[t].shift);
-        bound = std::min(bound, found);
-        if (most > limit) break;
+        PointByPoint found{0.0, 0.0};
+        piece_ = {mesh_.uv[t], mesh_.bends[t], bounds_[t], true};
+        if (const auto status = take_points(side, found); status != SurfaceStatus::DONE)
+            return status;
+        for (auto gap = first; gap != last; ++gap) {
+            const auto k = static_cast<std::size_t>(gap - gaps_.owner.begin());
+            piece_ = {gaps_.uv[k], PlaneBends{}, gaps_.bounds[k], false};
+            if (const auto status = take_points(side, found); status != SurfaceStatus::DONE)
+                return status;
+        }
+        bound = std::min(bound, found.bound);
+        if (found.at_points > limit) break;
     }
     return SurfaceStatus::DONE;
+}
+
+/// Of one piece, on a grid; ``found`` is raised.
+SurfaceStatus Looker::take_points(std::size_t side, PointByPoint& found) {
+    if (const auto status = compute_points(side); status != SurfaceStatus::DONE) return status;
+    const SpaceCorners& p = mesh_.corners[triangle_];
+    const double longest = std::max({norm(p[1] - p[0]), norm(p[2] - p[1]), norm(p[0] - p[2])});
+    const double size = norm(p[0]) + norm(p[1]) + norm(p[2]);
+    const double most = piece_.is_own ? farthest_from_linear(side) : farthest_from_side();
+    const double between = piece_.bounds.cell_whole / static_cast<double>(side * side);
+    const double all = most * (1.0 + ROUNDING) + between + ROUNDING * 0x1p-4 * size +
+                       rounded_uv_ * (longest + 4.0 * piece_.bounds.shift);
+    found.at_points = std::max(found.at_points, most);
+    found.bound = all <= intervals::INFINITE ? std::max(found.bound, all) : intervals::INFINITE;
+    return SurfaceStatus::DONE;
+}
+
+/// Of the points of the triangle's own piece, each from its own place in the triangle.
+double Looker::farthest_from_linear(std::size_t side) const {
+    const SpaceCorners& p = mesh_.corners[triangle_];
+    double most = 0.0;
+    std::size_t k = 0;
+    for_grid(side, [&](const Barycentric& l) {
+        const Point3 flat = l[0] * p[0] + l[1] * p[1] + l[2] * p[2];
+        most = std::max(most, norm(points_[k].value - flat) + 2.0 * points_[k].error);
+        ++k;
+    });
+    return most;
+}
+
+/// Of all points from one and the same side, which is convex.
+double Looker::farthest_from_side() const {
+    const SpaceCorners& p = mesh_.corners[triangle_];
+    double least = intervals::INFINITE;
+    for (std::size_t s = 0; s < 3; ++s) {
+        double most = 0.0;
+        for (const auto& [value, error] : points_)
+            most = std::max(most, distance_to_segment(value, p[s], p[(s + 1) % 3]) + 2.0 * error);
+        least = std::min(least, most);
+    }
+    return least;
 }
 
 /// The points of the grid of the piece.
@@ -379,22 +431,23 @@ SurfaceStatus Looker::look_at_all(std::span<const std::int32_t> which,
 SurfaceStatus look_closer(const Surface& surface, const ProofMesh& mesh, const PoleGaps& gaps,
                           std::span<const std::int32_t> which, std::span<const double> limits,
                           int levels, std::span<double> bound) {
-    Looker looker(surface, mesh, gaps, false);
+    SideDistances sides(surface, mesh);
+    Looker looker(surface, mesh, sides, gaps, false);
     Array<double> without{std::span<const double>(bound)};  // rings
     auto status = looker.look_at_all(which, limits, levels, bound);
     if (status != SurfaceStatus::DONE) return status;
     for (std::size_t t = 0; t < bound.size(); ++t)
         if (looker.looked_at(without).layers[t] == 0) without[t] = bound[t];
     const Array<std::int32_t> others =
-        covering_triangles(mesh, looker.looked_at(without), limits, bound);
+        covering_triangles(mesh, sides, looker.looked_at(without), limits, bound);
     Array<double> unknown(bound.size(), intervals::INFINITE);
-    Looker again(surface, mesh, gaps, true);
+    Looker again(surface, mesh, sides, gaps, true);
     status = again.look_at_all({others.data(), others.size()}, limits, levels,
                                {unknown.data(), unknown.size()});
     if (status != SurfaceStatus::DONE) return status;
     LookedAt looked = looker.looked_at(without);
     looked.over_ring = again.looked_at(without).over_ring;
-    count_covering(mesh, looked, bound);
+    count_covering(mesh, sides, looked, bound);
     return SurfaceStatus::DONE;
 }
 

@@ -21,11 +21,11 @@ bool for_covering(TriangleRing& ring, const ProofMesh& mesh, std::int32_t t, con
     }
     for (std::size_t m = 1; m < ring.count(); ++m) {
         const auto other = static_cast<std::size_t>(ring.number(m));
-        const TriangleBounds& bounds = mesh.bounds[other];
-        if (looked.layers[other] > 0 || ring.apart(m) > bounds.whole + bounds.corner) continue;
+        const double whole = looked.whole[other], corner = mesh.bounds[other].corner;
+        if (looked.layers[other] > 0 || ring.apart(m) > whole + corner) continue;
         // near to the triangles across its sides; to itself, if these are not all here
-        const double near = ring.is_within(m) ? looked.without[other] : bounds.whole;
-        const double away = near + bounds.corner;
+        const double near = ring.is_within(m) ? looked.without[other] : whole;
+        const double away = near + corner;
         const bool is_graph = !has_rim && away < ring.free();
         f(other, is_graph ? away / cosine * (1.0 + TriangleRing::ROUNDING) : intervals::INFINITE);
     }
@@ -34,10 +34,10 @@ bool for_covering(TriangleRing& ring, const ProofMesh& mesh, std::int32_t t, con
 
 }  // namespace
 
-Array<std::int32_t> covering_triangles(const ProofMesh& mesh, const LookedAt& looked,
-                                       std::span<const double> limits,
+Array<std::int32_t> covering_triangles(const ProofMesh& mesh, SideDistances& sides,
+                                       const LookedAt& looked, std::span<const double> limits,
                                        std::span<const double> bound) {
-    TriangleRing ring(mesh);
+    TriangleRing ring(mesh, sides);
     Array<std::uint8_t> is_wanted(bound.size(), 0);
     for (std::size_t t = 0; t < bound.size(); ++t) {
         if (looked.layers[t] == 0) continue;
@@ -54,8 +54,9 @@ Array<std::int32_t> covering_triangles(const ProofMesh& mesh, const LookedAt& lo
     return found;
 }
 
-void count_covering(const ProofMesh& mesh, const LookedAt& looked, std::span<double> bound) {
-    TriangleRing ring(mesh);
+void count_covering(const ProofMesh& mesh, SideDistances& sides, const LookedAt& looked,
+                    std::span<double> bound) {
+    TriangleRing ring(mesh, sides);
     Array<double> counted{std::span<const double>(bound)};
     for (std::size_t t = 0; t < bound.size(); ++t) {
         if (looked.layers[t] == 0) continue;

@@ -27,15 +27,17 @@ struct LookedAt {
     std::span<const std::uint8_t> layers;  // (m,) of triangles around, with which the bound holds
     std::span<const double> over_ring;     // (m,) heights of pieces over those around them
     std::span<const double> without;       // (m,) the bound without them
+    std::span<const double> whole;         // (m,) point by point, of gaps at poles too
 };
 
 /// Triangles that may cover those with rings, where what is known of them does not suffice.
-Array<std::int32_t> covering_triangles(const ProofMesh& mesh, const LookedAt& looked,
-                                       std::span<const double> limits,
+Array<std::int32_t> covering_triangles(const ProofMesh& mesh, SideDistances& sides,
+                                       const LookedAt& looked, std::span<const double> limits,
                                        std::span<const double> bound);
 
 /// bound (m,): raised where a piece covers a triangle around it from farther than both their bounds;
 /// without rings where that is not known.
-void count_covering(const ProofMesh& mesh, const LookedAt& looked, std::span<double> bound);
+void count_covering(const ProofMesh& mesh, SideDistances& sides, const LookedAt& looked,
+                    std::span<double> bound);
 
 }  // namespace surfmesh

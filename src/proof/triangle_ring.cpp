@@ -5,8 +5,9 @@
 namespace surfmesh {
 namespace {
 
-constexpr double LEAST_COSINE = 0.5;  // of 60 degrees
-constexpr double FLATTEST = 0x1p-20;  // tilt of a normal
+constexpr double LEAST_COSINE = 0.5;     // of 60 degrees
+constexpr double FLATTEST = 0x1p-20;     // tilt of a normal
+constexpr double LITTLE_SHIFTED = 0.25;  // of how far the boundary is: no need to look closer
 
 TrianglePlane plane_of(const SpaceCorners& p, double corner) {
     const Point3 a = p[1] - p[0], b = p[2] - p[0], n = cross(a, b);
@@ -42,8 +43,11 @@ Array<std::int32_t> parted_half_edges(std::span<const PlaneCorners> uv,
     return found;
 }
 
-TriangleRing::TriangleRing(const ProofMesh& mesh)
-    : mesh_(mesh), mark_(mesh.corners.size(), -1), is_turned_(mesh.corners.size(), 0) {
+TriangleRing::TriangleRing(const ProofMesh& mesh, SideDistances& sides)
+    : mesh_(mesh),
+      sides_(sides),
+      mark_(mesh.corners.size(), -1),
+      is_turned_(mesh.corners.size(), 0) {
     std::int32_t count = 0;
     for (const std::int32_t v : mesh.vertices) count = std::max(count, v + 1);
     first_.resize(static_cast<std::size_t>(count) + 1, 0);
@@ -127,19 +131,22 @@ bool TriangleRing::is_folded(std::size_t h) const {
     return run_alike != (is_turned_[static_cast<std::ptrdiff_t>(h / 3)] != is_turned_[twin / 3]);
 }
 
-double TriangleRing::free_around() const {
+double TriangleRing::free_around() {
     const std::int32_t t = members_[0];
     const auto& own = ring_[0].corners;
     double nearest = 8.0 * longest_, shifted = 0.0;
+    boundary_.clear();
     for (const std::int32_t other : members_) {
         const SpaceCorners& p = mesh_.corners[other];
         for (std::size_t k = 0; k < 3; ++k) {
-            const std::int32_t twin = mesh_.twins[3 * static_cast<std::size_t>(other) + k];
+            const std::size_t h = 3 * static_cast<std::size_t>(other) + k;
+            const std::int32_t twin = mesh_.twins[h];
             if (twin == NIL) continue;
             if (mark_[twin / 3] == t) {
-                if (is_folded(3 * static_cast<std::size_t>(other) + k)) return 0.0;
+                if (is_folded(h)) return 0.0;
                 continue;
             }
+            boundary_.push_back(h);
             const Point2 a = seen(axes_, p[k] - origin_), b = seen(axes_, p[(k + 1) % 3] - origin_);
             for (std::size_t s = 0; s < 3; ++s)
                 nearest = std::min(nearest, distance_of_segments(own[s], own[(s + 1) % 3], a, b));
@@ -147,7 +154,15 @@ double TriangleRing::free_around() const {
                 std::max(shifted, 0.25 * mesh_.bounds[other].shift + mesh_.bounds[other].corner);
         }
     }
+    if (shifted > LITTLE_SHIFTED * nearest) shifted = std::min(shifted, shifted_sides());
     return (1.0 - ROUNDING) * nearest - (1.0 + ROUNDING) * shifted - ROUNDING * longest_;
+}
+
+/// How far the curves over the boundary are from it.
+double TriangleRing::shifted_sides() {
+    double most = 0.0;
+    for (const std::size_t h : boundary_) most = std::max(most, sides_.at(h));
+    return most;
 }
 
 double TriangleRing::apart(std::size_t member) const {

@@ -12,21 +12,12 @@
 #include <cstdint>
 #include <span>
 
+#include "proof/side_distances.hpp"
 #include "proof/triangle_bounds.hpp"
 #include "values/array.hpp"
 #include "values/conventions.hpp"
 
 namespace surfmesh {
-
-/// The triangles of one face: corners, parameters, vertices (3 m), opposite half-edges (3 m), and
-/// what is proved of them so far.
-struct ProofMesh {
-    std::span<const SpaceCorners> corners;
-    std::span<const PlaneCorners> uv;
-    std::span<const PlaneBends> bends;
-    std::span<const std::int32_t> vertices, twins;
-    std::span<const TriangleBounds> bounds;
-};
 
 /// A plane through a triangle.
 struct TrianglePlane {
@@ -64,7 +55,7 @@ class TriangleRing {
   public:
     static constexpr double ROUNDING = 0x1p-45;  // relative, more than that of any sum here
 
-    explicit TriangleRing(const ProofMesh& mesh);
+    TriangleRing(const ProofMesh& mesh, SideDistances& sides);
 
     /// Begin anew with one triangle alone; false where no statement is made with it.
     bool begin(std::int32_t t);
@@ -94,9 +85,12 @@ class TriangleRing {
 
     bool take(std::int32_t other);
     [[nodiscard]] bool is_folded(std::size_t h) const;
-    [[nodiscard]] double free_around() const;
+    [[nodiscard]] double free_around();
+    [[nodiscard]] double shifted_sides();
 
     ProofMesh mesh_;
+    SideDistances& sides_;
+    Array<std::size_t> boundary_;            // half-edges of the ring, but for rims
     Array<std::int32_t> first_, at_vertex_;  // triangles at each vertex, one after the other
     Array<std::int32_t> mark_, members_;
     Array<std::uint8_t> is_turned_;  // the normal, against that of the triangle

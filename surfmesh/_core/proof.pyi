@@ -34,6 +34,13 @@ def prove_isotopy(points: Annotated[NDArray[numpy.float64], dict(shape=(None, 3)
     away: (m,) how far points of each triangle move at most; slope: (m,) how fast that changes.
     """
 
+def polar_moves(surface: surfmesh._core.surfaces.Surface, corners: Annotated[NDArray[numpy.float64], dict(shape=(None, 3, 3), order='C', device='cpu', writable=False)], base: Annotated[NDArray[numpy.float64], dict(shape=(None, 3, 2), order='C', device='cpu', writable=False)], is_v: bool, value: float) -> Annotated[NDArray[numpy.float64], dict(shape=(None, 2))] | None:
+    """
+    (m, 2) how fast and how far points of triangles at a pole move to the surface at most, along rays; None on surfaces without fourth derivatives.
+
+    corners (m, 3, 3): pole first; base (m, 3, 2): Bezier points of the curve in (u, v) over the side from the second corner to the third; is_v: the pole is where v, or u, has ``value``.
+    """
+
 def curve_bounds(curve: surfmesh._core.surfaces.Curve, t: Annotated[NDArray[numpy.float64], dict(shape=(None, 2), order='C', device='cpu', writable=False)], ends: Annotated[NDArray[numpy.float64], dict(shape=(None, 2, 3), order='C', device='cpu', writable=False)]) -> Annotated[NDArray[numpy.float64], dict(shape=(None,))]:
     """
     (k,) how far pieces of a curve, from t[:, 0] to t[:, 1], and the segments between ``ends`` (k, 2, 3) are from each other at most; infinite where the curve has no bounds.

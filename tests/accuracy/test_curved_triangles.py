@@ -5,7 +5,8 @@ import pytest
 
 import surfmesh as sm
 from surfmesh.accuracy.curved_triangles import WITHIN, arc_deviations, points_on, shape_functions
-from surfmesh.accuracy.proof import FaceTriangles, proved_curved, twins_of
+from surfmesh.accuracy.face_triangles import FaceTriangles, twins_of
+from surfmesh.accuracy.proof import proved_curved
 from surfmesh.geometry.differential.projection import closest_point
 
 

@@ -7,7 +7,8 @@ from hypothesis import strategies as st
 
 import surfmesh as sm
 from surfmesh._core.space import triangle_distances
-from surfmesh.accuracy.proof import FaceTriangles, proved_distances, twins_of
+from surfmesh.accuracy.face_triangles import FaceTriangles, twins_of
+from surfmesh.accuracy.proof import proved_distances
 from surfmesh.geometry.differential.projection import closest_point
 
 SIDE = 6
@@ -117,6 +118,56 @@ def test_poles_are_proved_with_the_gaps_between_neighbours():
     mesh = sm.mesh(sm.load("sphere"), sm.Sizing(chord=0.01))
     bound = proved(mesh, 0.01)
     assert (bound <= 0.01).all()
+
+
+def ellipsoid(a, b, c):
+    return sm.ParametricSurface(
+        f"{a}*sin(v)*cos(u)", f"{b}*sin(v)*sin(u)", f"{c}*cos(v)",
+        u=(0, 2 * np.pi), v=(0, np.pi),
+    )  # fmt: skip
+
+
+def revolved(radius, height, end):
+    return sm.ParametricSurface(
+        f"({radius})*cos(u)", f"({radius})*sin(u)", height, u=(0, 2 * np.pi), v=(0, end)
+    )
+
+
+WITH_POLES = {
+    "ellipsoid": (ellipsoid(0.9, 2.1, 1.134), 5.2 / 2250),
+    "thin ellipsoid": (ellipsoid(0.6, 2.5, 2.3), 0.05),
+    "cone": (sm.load("cone"), 0.02),
+    "lemon": (revolved("sin(v)", "v", np.pi), 0.02),
+    "paraboloid": (revolved("v", "v^2", 1.0), 0.003),
+    "teardrop": (revolved("sin(v)*sin(v/2)", "cos(v)", np.pi), 0.01),
+}
+
+
+@pytest.mark.parametrize("name", WITH_POLES)
+def test_triangles_at_poles_are_proved(name):
+    """Where they run far round it, and at an apex, where there is no plane that touches."""
+    surface, chord = WITH_POLES[name]
+    mesh = sm.mesh(surface, sm.Sizing(chord=chord, proof=True))
+    bound = proved(mesh, chord)
+    assert (bound <= chord).all()
+    poles = np.isin(mesh.uv_points[:, 1], surface.domain[1]) & (
+        np.bincount(mesh.uv_triangles.ravel(), minlength=len(mesh.uv_points)) > 0
+    )
+    at_poles = np.flatnonzero(poles[mesh.uv_triangles].any(axis=1))[:24]
+    most = around(mesh, bound)[at_poles] + 1e-9
+    assert (surface_to_mesh(mesh, at_poles) <= most).all()
+    assert (mesh_to_surface(mesh, at_poles) <= most).all()
+
+
+@settings(max_examples=5, deadline=None)
+@given(*[st.floats(0.6, 1.7)] * 3, st.sampled_from([400, 1000]))
+def test_ellipsoids_are_proved_without_more_triangles(a, b, c, parts):
+    surface = ellipsoid(a, b, c)
+    chord = 2.0 * np.linalg.norm([a, b, c]) / parts
+    without = sm.mesh(surface, sm.Sizing(chord=chord))
+    mesh = sm.mesh(surface, sm.Sizing(chord=chord, proof=True))
+    assert (proved(mesh, chord) <= chord).all()
+    assert len(mesh.triangles) < 1.1 * len(without.triangles)
 
 
 def test_a_piece_of_surface_that_is_missing_is_not_proved():

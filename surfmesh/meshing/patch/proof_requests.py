@@ -2,7 +2,8 @@
 
 import numpy as np
 
-from surfmesh.accuracy.proof import FaceTriangles, proved_distances, twins_of
+from surfmesh.accuracy.face_triangles import FaceTriangles, twins_of
+from surfmesh.accuracy.proof import proved_distances
 from surfmesh.geometry.surface import Surface
 from surfmesh.result.connectivity import connect
 from surfmesh.sizing.options.sizing import Sizing

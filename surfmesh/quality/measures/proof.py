@@ -13,13 +13,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from surfmesh._core.proof import curve_bounds
-from surfmesh.accuracy.proof import (
-    FaceProof,
-    FaceTriangles,
-    proved_curved,
-    proved_distances,
-    twins_of,
-)
+from surfmesh.accuracy.face_triangles import FaceTriangles, twins_of
+from surfmesh.accuracy.polar_pieces import joined_at_poles
+from surfmesh.accuracy.proof import FaceProof, proved_curved, proved_distances
 from surfmesh.quality.measures.deviation import Deviation
 from surfmesh.quality.measures.known_surfaces import KnownSurfaces, Rows
 from surfmesh.quality.measures.tolerances import CHORD_SLACK, Tolerances
@@ -86,7 +82,17 @@ def moves_of(known: KnownSurfaces, slope: float) -> FaceProof | None:
     mesh = known.mesh
     face = _face(known, np.arange(len(mesh.triangles)))
     limits = np.full(len(mesh.triangles), np.inf)
-    return proved_distances(mesh.surfaces[int(mesh.face_ids[0])], face, limits, slope)
+    found = proved_distances(mesh.surfaces[int(mesh.face_ids[0])], face, limits, slope)
+    return None if found is None else with_poles(known, found)
+
+
+def with_poles(known: KnownSurfaces, moves: FaceProof) -> FaceProof:
+    """The same with neighbours at poles joined, where they can be; of a mesh of one face."""
+    if moves.is_joined:
+        return moves
+    mesh = known.mesh
+    face = _face(known, np.arange(len(mesh.triangles)))
+    return joined_at_poles(mesh.surfaces[int(mesh.face_ids[0])], face, moves)
 
 
 def _middles(mesh: SurfaceMesh, rows: Rows) -> NDArray[np.float64]:

@@ -11,7 +11,7 @@ import numpy as np
 from surfmesh._core.proof import prove_isotopy
 from surfmesh.accuracy.proof import FaceProof
 from surfmesh.quality.measures.known_surfaces import KnownSurfaces
-from surfmesh.quality.measures.proof import Proof, moves_of
+from surfmesh.quality.measures.proof import Proof, moves_of, with_poles
 from surfmesh.quality.measures.proved_topology import Answer
 
 STEEP = 0.6
@@ -49,6 +49,7 @@ def _not_moved(known: KnownSurfaces, moves: FaceProof | None) -> str:
     """Why it is not known that the mesh can be moved to its surface; empty where it is."""
     if moves is None:
         return "its surface has no bounds over boxes of (u, v)"
+    moves = with_poles(known, moves)
     if not moves.is_joined:
         return "pieces of neighbours differ along a side that ends in a pole"
     fault, first, second = _fault(known, moves)
