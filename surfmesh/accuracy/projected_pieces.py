@@ -17,6 +17,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from surfmesh.geometry.cad_surfaces.elementary import Cone, Cylinder, Sphere
+from surfmesh.geometry.small_matrices import product
 from surfmesh.geometry.surface import Surface
 
 Array = NDArray[np.float64]
@@ -100,8 +101,8 @@ def _shape(surface: Surface, corners: Array) -> _Turned | None:
     if not isinstance(surface, Sphere | Cylinder | Cone):
         return None
     frame = np.stack([surface.x, surface.y, surface.z])
-    off = float(np.abs(frame @ frame.T - np.eye(3)).max())
-    points = (corners - surface.origin) @ frame.T
+    off = float(np.abs(product(frame, frame.T) - np.eye(3)).max())
+    points = product(corners - surface.origin, frame.T)
     radius = abs(surface.radius)
     sizes = (corners, surface.origin, points)
     size = radius + sum(float(np.abs(x).max(initial=0.0)) for x in sizes)

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
+from surfmesh.geometry.small_matrices import norm
+
 
 def box(points: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """The lowest and the highest coordinates of points (n, d), d each; n > 0.
@@ -20,4 +22,4 @@ def diagonal(points: np.ndarray) -> float:
         return 0.0
     low, high = box(points)
     extent = high - low
-    return float(np.hypot(*extent) if len(extent) == 2 else np.linalg.norm(extent))
+    return float(np.hypot(*extent) if len(extent) == 2 else norm(extent))

@@ -10,6 +10,7 @@ import numpy as np
 
 from surfmesh.cad.model.cad_model import CadCoedge, CadFace
 from surfmesh.errors import SurfaceError
+from surfmesh.geometry.small_matrices import norm
 from surfmesh.intersection.arrangement import HalfEdge, half_edge, turn
 from surfmesh.intersection.tracing import place
 
@@ -75,7 +76,7 @@ class FaceBorder:
         grid = np.stack(np.meshgrid(line, line), -1).reshape(-1, 2)
         points, r_u, r_v = surface.evaluate(box[:, 0] + grid * (box[:, 1] - box[:, 0]), 1)
         self.scale = np.array([np.linalg.norm(d, axis=1).mean() for d in (r_u, r_v)])
-        self.extent = float(np.linalg.norm(np.ptp(np.nan_to_num(points), axis=0)))
+        self.extent = norm(np.ptp(np.nan_to_num(points), axis=0))
         self.halves: list[HalfEdge] = []
         self.degenerate: set[int] = set()
         self.images: dict[int, list[Image]] = {}

@@ -259,7 +259,7 @@ class FacePair:
             return
         points = self.a.evaluate(middle_a[inside], 0)[0]
         where = points[len(points) // 2]
-        spread = float(norm(np.ptp(points, axis=0)))
+        spread = norm(np.ptp(points, axis=0))
         what = "at" if spread < 0.02 * self.size else "along a curve or patch through"
         raise SurfaceError(
             f"{self.a.name} and {self.b.name} touch {what} {place(where)}, or lie within "
@@ -331,4 +331,4 @@ def _extent(cells: FaceCells) -> float:
     line = np.linspace(0.0, 1.0, 9)
     uv = cells.low + np.stack(np.meshgrid(line, line), -1).reshape(-1, 2) * cells.width
     points = cells.surface.evaluate(uv, 0)[0]
-    return float(norm(np.ptp(points, axis=0)))
+    return norm(np.ptp(points, axis=0))

@@ -175,7 +175,7 @@ class ContactTracer:
         best, nearest = None, reach
         for end in ends:
             step = end.point - here[0]
-            distance = float(norm(step))
+            distance = norm(step)
             if end.used or not self.gap < distance <= nearest or float(product(step, way)) <= 0.0:
                 continue
             if norm(np.cross(step / distance, way)) > ALIKE:
@@ -207,4 +207,4 @@ class ContactTracer:
 
 def _is_ahead(step: np.ndarray, led: np.ndarray) -> bool:
     """Is a step in (u, v) the one that the way in space leads along, not one over a seam?"""
-    return bool(norm(step - led) <= ALIKE * max(float(norm(step)), 1e-300))
+    return bool(norm(step - led) <= ALIKE * max(norm(step), 1e-300))

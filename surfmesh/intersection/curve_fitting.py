@@ -98,7 +98,7 @@ def _evenly(
     half = 0.5 * np.diff(knots)
     at = 0.5 * (knots[1:] + knots[:-1])[:, None] + half[:, None] * GAUSS
     speed = np.linalg.norm(spline(at.ravel(), 1)[:, :3], axis=1).reshape(at.shape)
-    s = np.concatenate([[0.0], np.cumsum(half * (product(speed, WEIGHTS)))])
+    s = np.concatenate([[0.0], np.cumsum(half * product(speed, WEIGHTS))])
     t = np.interp(np.linspace(0.0, s[-1], count + 1), s, knots)
     for _ in range(3):  # to the equal lengths within rounding of the quadrature
         t = np.clip(t, 0.0, length)
@@ -106,7 +106,7 @@ def _evenly(
         part = 0.5 * (t - knots[k])
         inner = knots[k][:, None] + part[:, None] * (1.0 + GAUSS)
         rate = np.linalg.norm(spline(inner.ravel(), 1)[:, :3], axis=1).reshape(inner.shape)
-        reached = s[k] + part * (product(rate, WEIGHTS))
+        reached = s[k] + part * product(rate, WEIGHTS)
         here = np.linalg.norm(spline(t, 1)[:, :3], axis=1)
         t = t - (reached - np.linspace(0.0, s[-1], count + 1)) / here
     t[0], t[-1] = 0.0, length

@@ -61,7 +61,7 @@ def nearest_on_edge(edge: CadEdge, point: np.ndarray) -> tuple[float, float]:
         moved, t = abs(after - t), after
         if moved < 1e-16:
             break
-    return float(t), float(norm(edge.evaluate(np.array([t]), 0)[0][0] - point))
+    return float(t), norm(edge.evaluate(np.array([t]), 0)[0][0] - point)
 
 
 def runs_along(one: CadEdge, other: CadEdge, first: float, last: float, reach: float) -> bool:
@@ -111,7 +111,7 @@ def _lines_cross(a: CadEdge, b: CadEdge, reach: float) -> list[tuple[float, floa
         return []
     t = float(product(np.cross(q - p, e), across)) / square
     s = float(product(np.cross(q - p, d), across)) / square
-    gap = float(norm(p + t * d - q - s * e))
+    gap = norm(p + t * d - q - s * e)
     return [(t, s)] if gap <= reach and 0.0 <= t <= 1.0 and 0.0 <= s <= 1.0 else []
 
 

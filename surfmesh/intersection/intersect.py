@@ -15,6 +15,7 @@ from surfmesh.cad.model.cad_model import CadEdge, CadModel, CadNode, CadTag
 from surfmesh.cad.model.extent import diagonal
 from surfmesh.errors import SurfaceError, shown
 from surfmesh.geometry.cad_surfaces.face_surface import FaceSurface
+from surfmesh.geometry.small_matrices import norm
 from surfmesh.intersection.bounds import are_known
 from surfmesh.intersection.complex import Complex, compacted, with_areas
 from surfmesh.intersection.curve_fitting import NEAR
@@ -113,7 +114,7 @@ def _size(models: Sequence[CadModel]) -> float:
         box = np.array(face.surface.domain)
         points.append(face.surface.evaluate(box[:, 0] + grid * (box[:, 1] - box[:, 0]), 0)[0])
     every = np.concatenate(points)
-    return float(np.linalg.norm(np.ptp(every, axis=0)))
+    return norm(np.ptp(every, axis=0))
 
 
 def _remarks(models: Sequence[CadModel], names: Sequence[str]) -> tuple[str, ...]:

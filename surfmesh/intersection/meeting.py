@@ -290,7 +290,7 @@ def _ways(
     """The directions (3,) of common curves in a common point: where the surfaces are "transversal",
     else as of ``branch_ways``."""
     cross = np.cross(unit_normals(a, uv_a[None])[0], unit_normals(b, uv_b[None])[0])
-    sine = float(norm(cross))
+    sine = norm(cross)
     if sine >= TANGENT:
         return "transversal", [cross / sine, -cross / sine]
     return branch_ways(a, b, uv_a, uv_b)

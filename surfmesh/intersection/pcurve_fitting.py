@@ -89,7 +89,7 @@ def pcurve_along(
     even = places[0] + fraction[:, None] * (places[-1] - places[0])
     if np.abs((places - even) / width).max() <= STRAIGHT:
         step = places[-1] - places[0]
-        length = float(norm(step))
+        length = norm(step)
         line = Line(places[0], step / length)
         return line, length, _deviation(edge, surface, line, length, 16)
     spline: Callable[[np.ndarray], np.ndarray] = interpolating_spline(fraction, places, 3)

@@ -80,7 +80,7 @@ def ways_out_of_pole(
                 f"{place(surface.evaluate(ends[:1])[0][0])}; turn one of the surfaces"
             )
         way = out(np.array([t]))[0]
-        speed = float(norm(way))
+        speed = norm(way)
         rate = np.zeros(2)
         rate[axis] = inward / speed
         found.append(WayOut(float(t), way / speed, rate))
@@ -121,7 +121,7 @@ def fraction_at_pole(coedge: CadCoedge, uv: np.ndarray) -> float | None:
     """Where on a degenerate side a place (2,) lies; None for elsewhere."""
     start, end = coedge.uv(np.array([0.0, 1.0]))
     step = end - start
-    fraction = float(product(uv - start, step) / (product(step, step)))
+    fraction = float(product(uv - start, step) / product(step, step))
     off = np.abs(uv - start - fraction * step).max()
     return fraction if -1e-3 < fraction < 1.001 and off <= BESIDE * np.abs(step).max() else None
 

@@ -68,7 +68,7 @@ class _Sheet:
         self.vertices: list[CadVertex] = []
         self.edges: list[CadEdge] = []
         points = self.under.evaluate(parameter_grid(surface.domain, 17))[0]
-        self.size = float(norm(np.ptp(points, axis=0)))
+        self.size = norm(np.ptp(points, axis=0))
         self.tolerance = TOLERANCE * self.size
         self.loops_given = tuple(surface.loops)
 
@@ -170,7 +170,7 @@ class _Sheet:
             for k in range(len(ring)):
                 after = (k + 1) % len(ring)
                 step = ring[after] - ring[k]
-                length = float(norm(step))
+                length = norm(step)
                 line = Line(ring[k], step / length)
                 self._add_edge(line, length, first + k, first + after, False)
                 coedges.append(CadCoedge(len(self.edges) - 1, False, line, 0.0, length, False))

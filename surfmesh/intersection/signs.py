@@ -118,7 +118,7 @@ class Signs:
         normal = unit_normals(across.face.surface, cut.uv(MIDDLE))
         if across.face.reversed:
             normal = -normal
-        up = float(np.einsum("ij,ij->", left, normal)) / float(norm(tangent))
+        up = float(np.einsum("ij,ij->", left, normal)) / norm(tangent)
         return 0 if abs(up) < TANGENT else 1 if up > 0.0 else -1
 
     def _at_nearest(self, number: int, other: int) -> int:

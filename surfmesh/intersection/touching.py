@@ -61,7 +61,7 @@ def touch_of_curve(curve: Curve, surface: FaceSurface, place: np.ndarray) -> Tou
     limits = np.array([0.0, *low]), np.array([1.0, *high])
     at, found = _solved(equations, place, limits)
     c, r = curve(at[:1], 0)[0][0], surface.evaluate(at[None, 1:], 0)[0][0]
-    return Touch(at, c, float(norm(c - r)), found)
+    return Touch(at, c, norm(c - r), found)
 
 
 def _solved(

@@ -13,6 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from surfmesh.accuracy.curved_triangles import points_on
+from surfmesh.geometry.small_matrices import product
 from surfmesh.result.surface_mesh import SurfaceMesh
 
 PARTS = 4  # of a side
@@ -30,7 +31,7 @@ class Facets(NamedTuple):
         first, second = values[mesh.edges].T
         parts = np.arange(1, PARTS) / PARTS
         along = first[:, None] * (1.0 - parts) + second[:, None] * parts
-        within = values[mesh.triangles] @ _inner_weights().T
+        within = product(values[mesh.triangles], _inner_weights().T)
         return np.concatenate([values, along.ravel(), within.ravel()])
 
 

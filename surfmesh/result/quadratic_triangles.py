@@ -10,6 +10,7 @@
 import numpy as np
 from numpy.typing import NDArray
 
+from surfmesh.geometry.small_matrices import product
 from surfmesh.result.connectivity import Connectivity, connect
 
 # Derivatives of the six functions by s and t of (r, s, t), r = 1 - s - t, at the three corners.
@@ -64,7 +65,7 @@ def derivatives(
     corners = weights * (2.0 * weights - 1.0)
     functions = np.column_stack([corners, 4.0 * r * s, 4.0 * s * t, 4.0 * t * r])
     found = (np.einsum("qk,mkd->mqd", rows, nodes) for rows in (
-        weights @ _ALONG_S, weights @ _ALONG_T, functions,
+        product(weights, _ALONG_S), product(weights, _ALONG_T), functions,
     ))  # fmt: skip
     along_s, along_t, points = found
     return along_s, along_t, points
@@ -86,7 +87,7 @@ def least_jacobians(nodes: NDArray[np.float64], elements: NDArray) -> NDArray[np
     normal /= np.where(squared > 0.0, squared, 1.0)[:, None]
     # the derivatives are linear: their values at the corners say all
     along_s, along_t = (
-        (corners @ x.reshape(6, -1)).reshape(3, m, 3) for corners in (_ALONG_S, _ALONG_T)
+        product(corners, x.reshape(6, -1)).reshape(3, m, 3) for corners in (_ALONG_S, _ALONG_T)
     )
     least = np.full(m, np.inf)
     for a, b in ((0, 0), (1, 1), (2, 2), (0, 1), (1, 2), (2, 0)):

@@ -25,6 +25,27 @@ for name, size in {MESHES}.items():
     print(name, hashlib.sha256(mesh.points.tobytes() + mesh.triangles.tobytes()).hexdigest())
 """
 
+OTHER_MESHES = """
+import hashlib
+import cadquery as cq
+import surfmesh as sm
+saddle = sm.ParametricSurface("u", "v", "u*u - v*v", (-1, 1.1), (-1.2, 1), name="saddle")
+plane = sm.ParametricSurface("u", "v", "0", (-1.5, 1.515), (-1.5, 1.5), name="plane")
+turns = (0, "2*pi"), (0, "pi")
+ball = sm.ParametricSurface("sin(v)*cos(u)", "sin(v)*sin(u)", "cos(v)", *turns, name="ball")
+loft = cq.Workplane().rect(4, 3).workplane(offset=5).circle(1).loft()
+models = {
+    "touch": (sm.intersect([saddle, plane]), {"size": 0.3}),
+    "cross": (sm.intersect([ball, plane]), {"size": 0.4}),
+    "balanced": (sm.load("torus"), {"chord": 0.02, "vertices": "balanced"}),
+    "loft": (sm.from_cadquery(loft), {}),
+    "stretched": (sm.from_cadquery(loft), {"chord": 0.01, "anisotropy": 5}),
+}
+for name, (model, sizes) in models.items():
+    mesh = sm.mesh(model, **sizes)
+    print(name, hashlib.sha256(mesh.points.tobytes() + mesh.triangles.tobytes()).hexdigest())
+"""
+
 
 def dispatched() -> str:
     """The features beyond its baseline that numpy uses on this processor."""
@@ -34,9 +55,9 @@ def dispatched() -> str:
     return " ".join(feature for feature in umath.__cpu_dispatch__ if found.get(feature))
 
 
-def hashes(environment: dict[str, str]) -> dict[str, str]:
+def hashes(environment: dict[str, str], script: str = HASHES) -> dict[str, str]:
     run = subprocess.run(
-        [sys.executable, "-W", "ignore", "-c", HASHES],
+        [sys.executable, "-W", "ignore", "-c", script],
         env={**os.environ, **environment},
         capture_output=True,
         text=True,
@@ -52,6 +73,13 @@ def test_meshes_have_the_same_bytes_on_an_older_processor():
     older = hashes({**OLDER, "NPY_DISABLE_CPU_FEATURES": dispatched()})
     assert len(here) == len(MESHES)
     assert older == here
+
+
+@pytest.mark.skipif(platform.machine() != "x86_64", reason="features of x86-64 are switched off")
+@pytest.mark.parametrize("processor", ["Nehalem", "Haswell", "SkylakeX"])
+def test_models_are_the_same_whatever_blas_does(processor):
+    here = hashes({}, OTHER_MESHES)
+    assert len(here) == 5 and hashes({"OPENBLAS_CORETYPE": processor}, OTHER_MESHES) == here
 
 
 @pytest.mark.skipif(platform.machine() != "x86_64", reason="features of x86-64 are switched off")

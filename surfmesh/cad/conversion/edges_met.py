@@ -33,6 +33,7 @@ from surfmesh.cad.sub_shapes import Numbering, below
 from surfmesh.errors import CadError
 from surfmesh.geometry.cad_surfaces.curves import Curve
 from surfmesh.geometry.cad_surfaces.face_surface import FaceSurface
+from surfmesh.geometry.small_matrices import norm
 
 
 class EdgesMet:
@@ -193,7 +194,7 @@ class EdgesMet:
             raise CadError("a degenerate edge has no vertex; let the CAD system repair the model")
         tolerance = BRep_Tool.Tolerance_s(edge)
         points = curve.evaluate(np.array([t0, t1]), 0)[0]
-        meet = np.linalg.norm(points[1] - points[0]) <= 2.0 * tolerance
+        meet = norm(points[1] - points[0]) <= 2.0 * tolerance
         if start is None:
             alone = end is None and meet
             start = self._new_vertex(points[0], tolerance)

@@ -20,6 +20,7 @@ from surfmesh.cad.model.invariants import FRACTIONS
 from surfmesh.geometry.cad_surfaces.curve_on_surface import CurveOnSurface
 from surfmesh.geometry.cad_surfaces.curves import CoreCurve, Line
 from surfmesh.geometry.cad_surfaces.face_surface import FaceSurface
+from surfmesh.geometry.small_matrices import norm
 
 REACH = 0.4
 """Of the distance to the nearest edge or other vertex inside: that far the edge goes."""
@@ -79,7 +80,7 @@ def _within(uv: np.ndarray, surface: FaceSurface) -> np.ndarray:
 
 def _along_u(surface: FaceSurface, uv: np.ndarray, length: float) -> ShortEdge | None:
     r, r_u, _ = surface.evaluate(uv[None], 1)
-    speed = float(np.linalg.norm(r_u[0]))
+    speed = norm(r_u[0])
     if not speed > 0.0:
         return None
     low, high = surface.domain[0]
@@ -90,4 +91,4 @@ def _along_u(surface: FaceSurface, uv: np.ndarray, length: float) -> ShortEdge |
         return ShortEdge(Line(r[0], way * r_u[0] / speed), pcurve, end, end * speed)
     curve = CurveOnSurface(surface, pcurve, 0.0, 1.0)
     first, last = curve.evaluate(np.array([0.0, end]), 0)[0]
-    return ShortEdge(curve, pcurve, end, float(np.linalg.norm(last - first)))
+    return ShortEdge(curve, pcurve, end, norm(last - first))

@@ -23,6 +23,7 @@ from OCP.TopoDS import TopoDS, TopoDS_Edge, TopoDS_Face, TopoDS_Shape, TopoDS_Wi
 
 from surfmesh.cad.parts import Part
 from surfmesh.cad.sub_shapes import each, edges_of, faces_of
+from surfmesh.geometry.small_matrices import product
 
 NEAR = 0.02  # radians from a pole: an edge that comes so near passes it
 MERIDIAN = 1e-9  # of the radius: an edge within this of a plane through the axis does not
@@ -105,7 +106,7 @@ def _directions(edge: TopoDS_Edge, sphere: gp_Sphere) -> np.ndarray:
     centre = np.array(sphere.Location().Coord())
     at = np.linspace(curve.FirstParameter(), curve.LastParameter(), SAMPLES)
     points = np.array([curve.Value(float(t)).Coord() for t in at])
-    return (points - centre) @ frame.T / sphere.Radius()
+    return product(points - centre, frame.T) / sphere.Radius()
 
 
 def _passes(face: TopoDS_Face) -> bool:
@@ -149,7 +150,7 @@ def _on_turned_sphere(face: TopoDS_Face, other_side: bool = False) -> TopoDS_Fac
     axis = _axis_apart(way)
     place = sphere.Position()
     axes = (place.XDirection(), place.YDirection(), place.Direction())
-    x, y, z = axis @ np.array([[a.X(), a.Y(), a.Z()] for a in axes])
+    x, y, z = product(axis, np.array([[a.X(), a.Y(), a.Z()] for a in axes]))
     turned = gp_Ax3(sphere.Location(), gp_Dir(float(x), float(y), float(z)))
     if not place.Direct():
         turned.YReverse()
@@ -173,7 +174,7 @@ def _axis_apart(way: np.ndarray) -> np.ndarray:
     height, angle = 1.0 - k / DIRECTIONS, k * np.pi * (3.0 - 5.0**0.5)
     beside = np.sqrt(1.0 - height**2)
     tried = np.stack([beside * np.cos(angle), beside * np.sin(angle), height], axis=1)
-    return tried[np.abs(tried @ way.T).max(axis=1).argmin()]
+    return tried[np.abs(product(tried, way.T)).max(axis=1).argmin()]
 
 
 def _loops(edges: list[TopoDS_Edge]) -> list[list[TopoDS_Edge]]:

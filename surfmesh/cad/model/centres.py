@@ -17,6 +17,7 @@ import numpy as np
 from surfmesh.cad.model.cad_model import CadCoedge, CadEdge, CadFace, CadModel, CadSolid
 from surfmesh.geometry.inside_loops import is_inside
 from surfmesh.geometry.quadrature import gauss_rule
+from surfmesh.geometry.small_matrices import product
 
 STRAIGHT, CURVED = 2, 65
 """Samples along edges."""
@@ -45,7 +46,7 @@ def face_centre(face: CadFace) -> np.ndarray:
         weight, point, r_u, r_v = _across(face, coedge)
         weight = weight * np.linalg.norm(np.cross(r_u, r_v), axis=1)
         total += weight.sum()
-        moment += weight @ point
+        moment += product(weight, point)
     if abs(total) > 0.0:
         return moment / total
     (points,) = face.surface.evaluate(np.concatenate(boundary_polygons(face)), 0)
@@ -57,7 +58,7 @@ def face_area(face: CadFace) -> float:
     total = 0.0
     for coedge in face.coedges:
         weight, _, r_u, r_v = _across(face, coedge, ALONG)
-        total += float(weight @ np.linalg.norm(np.cross(r_u, r_v), axis=1))
+        total += float(product(weight, np.linalg.norm(np.cross(r_u, r_v), axis=1)))
     return abs(total)
 
 
@@ -80,7 +81,7 @@ def edge_centre(edge: CadEdge) -> np.ndarray:
     t, w = gauss_rule(0.0, 1.0, ALONG, POINTS)
     points, speed = edge.evaluate(t, 1)
     w = w * np.linalg.norm(speed, axis=1)
-    return w @ points / w.sum() if w.sum() > 0.0 else points.mean(axis=0)
+    return product(w, points) / w.sum() if w.sum() > 0.0 else points.mean(axis=0)
 
 
 def solid_centre(model: CadModel, solid: CadSolid) -> np.ndarray:
@@ -93,8 +94,8 @@ def solid_centre(model: CadModel, solid: CadSolid) -> np.ndarray:
             for coedge in face.coedges:
                 weight, point, r_u, r_v = _across(face, coedge)
                 normal = np.cross(r_u, r_v)
-                total += sign * (weight @ np.einsum("ij,ij->i", point, normal)) / 3.0
-                moment += sign * (weight @ (0.5 * point**2 * normal))
+                total += sign * float(product(weight, np.einsum("ij,ij->i", point, normal))) / 3.0
+                moment += sign * (product(weight, 0.5 * point**2 * normal))
     return moment / total if total else moment
 
 

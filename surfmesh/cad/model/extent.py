@@ -9,6 +9,7 @@ import numpy as np
 from surfmesh.cad.model.cad_model import CadEdge, CadFace, CadVertex
 from surfmesh.cad.model.curve_samples import next_ones, points_of, walked
 from surfmesh.geometry.parameter_grid import parameter_grid
+from surfmesh.geometry.small_matrices import norm
 
 EDGE_FRACTIONS = np.linspace(0.0, 1.0, 17)
 GRID = 9  # points each way in the (u, v) box of a face; eight intervals meet the axes of a sphere
@@ -27,7 +28,7 @@ def diagonal(
         if face.kind != "plane" and len(uv):
             boxes.append(_box(face.surface.evaluate(uv, 0)[0]))
     lo, hi = np.array(boxes).transpose(1, 0, 2)
-    return float(np.linalg.norm(hi.max(axis=0) - lo.min(axis=0)))
+    return norm(hi.max(axis=0) - lo.min(axis=0))
 
 
 def _box(points: np.ndarray) -> tuple[np.ndarray, np.ndarray]:

@@ -16,6 +16,7 @@ import numpy as np
 
 from surfmesh.cad.model.curve_samples import next_ones, points_of, uv_of, walked
 from surfmesh.geometry.inside_loops import nesting_depth
+from surfmesh.geometry.small_matrices import norm, product
 
 if TYPE_CHECKING:
     from surfmesh.cad.model.cad_model import CadCoedge, CadEdge, CadFace, CadModel, CadVertex, Shell
@@ -49,7 +50,7 @@ def signed_areas(loops: Sequence[tuple[CadCoedge, ...]], samples: int = 24) -> l
 def ring_area(ring: np.ndarray) -> float:
     """Area that a polygon (k, 2) runs round, positive counter-clockwise."""
     u, v = (ring - ring.sum(axis=0) / len(ring)).T
-    return 0.5 * float(u @ next_ones(v) - v @ next_ones(u))
+    return 0.5 * float(product(u, next_ones(v)) - product(v, next_ones(u)))
 
 
 def broken(model: CadModel) -> Iterator[str]:
@@ -98,7 +99,7 @@ def _broken_edge(model: CadModel, number: int, edge: CadEdge) -> Iterator[str]:
         return
     ends = edge.evaluate(ENDS, 0)[0]
     for point, vertex in zip(ends, (edge.start, edge.end)):
-        gap = float(np.linalg.norm(point - model.vertices[vertex].point))
+        gap = norm(point - model.vertices[vertex].point)
         if not gap <= model.vertices[vertex].tolerance + NOISE * model.diagonal:
             yield f"edge {number} ends {gap:.3g} {model.unit} from its vertex {vertex}"
 

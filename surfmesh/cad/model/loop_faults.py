@@ -25,6 +25,7 @@ from surfmesh.geometry.cad_surfaces.face_surface import FaceSurface
 from surfmesh.geometry.cad_surfaces.nurbs import BSplineCurve
 from surfmesh.geometry.inside_loops import is_inside, nesting_depth
 from surfmesh.geometry.planar.curve_contacts import Contact, PlaneCurve, closest, contacts
+from surfmesh.geometry.small_matrices import norm, product
 
 ROUND_PIECES, SPAN_PIECES, MOST_PIECES = 16, 4, 256
 """Pieces of conics, of each span of a spline, and at most, in which curves hardly bend."""
@@ -273,7 +274,7 @@ class _Loops:
     def _is_at(self, curve: int, fraction: tuple[float, float], end: int, reach: float) -> bool:
         """Is the end of the curve (0 or 1) within reach of its part between two fractions?"""
         at = np.array([fraction[end], float(end)])
-        return bool(np.linalg.norm(np.diff(self.curves[curve].evaluate(at), axis=0)) <= reach)
+        return bool(norm(np.diff(self.curves[curve].evaluate(at), axis=0)) <= reach)
 
     def _crossing(self, contact: Contact) -> float:
         """How deep the curves cross there, in model units; 0 where they do not, or hardly."""
@@ -327,7 +328,7 @@ class _Loops:
                 for _ in range(40):
                     middle = 0.5 * (low + high)
                     at = self.curves[curve].evaluate(np.array([middle]))[0]
-                    if np.linalg.norm(at - centre) >= radius:
+                    if norm(at - centre) >= radius:
                         high = middle
                     else:
                         low = middle
@@ -398,7 +399,7 @@ class _Loops:
             if other != number:
                 middle, back = self.curves[other].evaluate(half), self.curves[number].evaluate(half)
                 reach = 4.0 * max(self.near[number], self.tolerance[number])
-                if np.linalg.norm(middle - back) <= reach and not is_inside(rings, middle)[0]:
+                if norm(middle - back) <= reach and not is_inside(rings, middle)[0]:
                     return number
         return None
 
@@ -430,4 +431,4 @@ class _Loops:
 
 def _area(ring: np.ndarray) -> float:
     x, y = (ring - ring.mean(axis=0)).T
-    return 0.5 * float(x @ np.roll(y, -1) - y @ np.roll(x, -1))
+    return 0.5 * float(product(x, np.roll(y, -1)) - product(y, np.roll(x, -1)))

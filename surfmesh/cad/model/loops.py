@@ -12,6 +12,7 @@ from surfmesh.cad.model.cad_model import CadCoedge, CadEdge
 from surfmesh.cad.model.curve_samples import next_ones, walked
 from surfmesh.cad.model.invariants import ENDS, OPEN_FRACTION, ring_area, signed_areas
 from surfmesh.geometry.inside_loops import nesting_depth
+from surfmesh.geometry.small_matrices import product
 
 Loop = tuple[CadCoedge, ...]
 
@@ -158,7 +159,7 @@ def _sag_area(ring: np.ndarray) -> float:
     """By how much the area of a polygon (k, 2) may differ from that within its curves."""
     before, after = np.concatenate([ring[-1:], ring[:-1]]), next_ones(ring)
     sag = np.linalg.norm(ring - 0.5 * (before + after), axis=1)
-    return float(sag @ np.linalg.norm(after - before, axis=1))
+    return float(product(sag, np.linalg.norm(after - before, axis=1)))
 
 
 def turned(loop: Loop) -> Loop:

@@ -19,6 +19,7 @@ from surfmesh.geometry.boxes import diagonal
 from surfmesh.geometry.cad_surfaces.curves import Line
 from surfmesh.geometry.cad_surfaces.nurbs import BSplineCurve
 from surfmesh.geometry.differential.projection import closest_point
+from surfmesh.geometry.small_matrices import norm
 
 ZONE = 30.0  # times the extent of the side: nearer to the pole a p-curve is not believed
 SWING = 0.02  # of the face's box: less is no swing
@@ -101,7 +102,7 @@ def _straightened(
         coedges[place] = coedge
     first, last = ends[0][2], ends[1][2]
     step = last - first
-    length = float(np.linalg.norm(step))
+    length = norm(step)
     line = Line(first, step / max(length, np.finfo(float).tiny))
     coedges[at] = replace(coedges[at], reversed=False, pcurve=line, p0=0.0, p1=length)
     return True

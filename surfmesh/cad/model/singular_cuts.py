@@ -38,6 +38,7 @@ from surfmesh.geometry.cad_surfaces.curves import Line
 from surfmesh.geometry.cad_surfaces.singular_lines import SingularLine
 from surfmesh.geometry.inside_loops import is_inside
 from surfmesh.geometry.quadrature import gauss_rule
+from surfmesh.geometry.small_matrices import norm, product
 
 LOOSE = 1e-8  # of the model's diagonal: tolerance of a new vertex
 ASIDE = 0.01  # of an edge: so far from a line it is seen which of two p-curves lies to the right
@@ -131,7 +132,7 @@ class _Work:
         noise = NOISE * self.model.diagonal
         for number in [*sorted(known), *range(len(self.model.vertices), len(self.vertices))]:
             vertex = self.vertices[number]
-            if np.linalg.norm(vertex.point - point) <= vertex.tolerance + noise:
+            if norm(vertex.point - point) <= vertex.tolerance + noise:
                 return number
         self.vertices.append(CadVertex(point, LOOSE * self.model.diagonal))
         return len(self.vertices) - 1
@@ -321,7 +322,7 @@ def _length(edge: CadEdge, t0: float, t1: float) -> float:
     if edge.curve is None:
         return 0.0
     t, weights = gauss_rule(t0, t1, LENGTH_PANELS, 12)
-    return float(np.linalg.norm(edge.curve.evaluate(t, 1)[1], axis=1) @ weights)
+    return float(product(np.linalg.norm(edge.curve.evaluate(t, 1)[1], axis=1), weights))
 
 
 def _chains(loop: Loop, line: SingularLine, slack: float, above: bool) -> tuple[list[Loop], bool]:

@@ -20,6 +20,7 @@ from surfmesh.cad.model.loops import Loop
 from surfmesh.cad.model.pcurves import follows
 from surfmesh.geometry.cad_surfaces.curve_on_surface import CurveOnSurface
 from surfmesh.geometry.cad_surfaces.face_surface import FaceSurface
+from surfmesh.geometry.small_matrices import norm
 from surfmesh.geometry.surface import Domain
 
 REPORTED = 10.0  # times its tolerance: an edge that deviates by more is reported
@@ -151,7 +152,7 @@ def tolerances_that_hold(measured: Measured, unit: str) -> list[str]:
         edge = real[place]
         for vertex, point in zip((edge.start, edge.end), places[place]):
             known = vertices[vertex]
-            gap = float(np.linalg.norm(point - known.point))
+            gap = norm(point - known.point)
             if gap > known.tolerance:
                 vertices[vertex] = replace(known, tolerance=gap * (1.0 + NOISE))
     far = np.flatnonzero(true > REPORTED * stated)

@@ -24,6 +24,7 @@ from surfmesh.cad.model.cad_model import CadEdge, CadFace, CadModel, CadSolid, C
 from surfmesh.cad.model.centres import edge_centre, face_centre, solid_centre
 from surfmesh.errors import SizingError
 from surfmesh.geometry.number_range import RANGE
+from surfmesh.geometry.small_matrices import norm, product
 
 TOLERANCE = 1e-4
 """As CadQuery has it: radians and lengths alike; lengths at least SPREAD of the diagonal."""
@@ -123,11 +124,11 @@ class _Things:
             (u0, u1), (v0, v1) = item.surface.domain
             middle = np.array([[0.5 * (u0 + u1), 0.5 * (v0 + v1)]])
             _, r_u, r_v = item.surface.evaluate(middle, 1)
-            normal = np.cross(r_u[0], r_v[0]) / np.linalg.norm(np.cross(r_u[0], r_v[0]))
+            normal = np.cross(r_u[0], r_v[0]) / norm(np.cross(r_u[0], r_v[0]))
             return -normal if item.reversed != self._against.get(number, False) else normal
         if isinstance(item, CadEdge) and item.is_straight:
             _, tangent = item.evaluate(np.array([0.5]), 1)
-            return tangent[0] / np.linalg.norm(tangent[0])
+            return tangent[0] / norm(tangent[0])
         return None
 
     def of_kind(self, name: str) -> set[int]:
@@ -143,7 +144,7 @@ class _Things:
         """The index-th group of equal distance along a direction."""
         if not among:
             return set()
-        order = sorted((float(self.centre(k) @ along), k) for k in among)
+        order = sorted((float(product(self.centre(k), along)), k) for k in among)
         groups: list[list[int]] = [[]]
         start = order[0][0]
         for key, number in order:
@@ -275,9 +276,9 @@ def _direction(text: str) -> np.ndarray:
 
 
 def _sine(axis: np.ndarray, direction: np.ndarray) -> float:
-    return float(np.linalg.norm(np.cross(axis, direction)))
+    return norm(np.cross(axis, direction))
 
 
 def _angle(axis: np.ndarray, direction: np.ndarray) -> float:
-    cosine = axis @ direction / np.linalg.norm(axis) / np.linalg.norm(direction)
+    cosine = product(axis, direction) / norm(axis) / norm(direction)
     return math.acos(min(max(float(cosine), -1.0), 1.0))

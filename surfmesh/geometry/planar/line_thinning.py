@@ -17,6 +17,7 @@ import shapely
 from surfmesh.errors import DomainError
 from surfmesh.geometry.planar.domain_faces import bounded_faces, loops_around
 from surfmesh.geometry.planar.segment_graph import SegmentGraph
+from surfmesh.geometry.small_matrices import norm
 
 SMALL = 8.0
 """Closed lines that span less than so many distances keep three points that are far apart."""
@@ -96,7 +97,7 @@ def _from_corners(
     two = int(np.linalg.norm(place - place[one], axis=1).argmax())
     x, y = place[two] - place[one]
     three = int(np.abs(x * (place - place[one])[:, 1] - y * (place - place[one])[:, 0]).argmax())
-    is_small = np.linalg.norm(place[two] - place[one]) < small
+    is_small = norm(place[two] - place[one]) < small
     cuts = sorted({one, two, three}) if is_small else [one]
     turned = [*nodes[cuts[0] : -1], *nodes[: cuts[0] + 1]]
     segments = [*along[cuts[0] :], *along[: cuts[0]]]

@@ -22,6 +22,7 @@ from surfmesh.geometry.files.known_facts import known_facts
 from surfmesh.geometry.formulas.parametric import ParametricSurface
 from surfmesh.geometry.functions.numeric import NumericSurface
 from surfmesh.geometry.parameter_grid import parameter_grid
+from surfmesh.geometry.small_matrices import norm
 from surfmesh.geometry.surface import Surface
 from surfmesh.result.mesh_part import TRIANGLE, Renumbering
 from surfmesh.result.surface_mesh import SurfaceMesh
@@ -123,7 +124,7 @@ def _target_width(surface: Surface, sizing: Sizing) -> float:
             chord = 0.0
         else:
             extent = np.ptp(surface.evaluate(parameter_grid(surface.domain, 9))[0], axis=0)
-            chord = DEFAULT_CHORD * float(np.linalg.norm(extent))
+            chord = DEFAULT_CHORD * norm(extent)
     return max(chord, FEWEST * edge / (2.0 * np.pi))
 
 

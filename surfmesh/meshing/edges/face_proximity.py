@@ -16,6 +16,7 @@ from surfmesh.cad.model.cad_model import CadFace, CadModel
 from surfmesh.cad.model.centres import boundary_polygons, inner_samples
 from surfmesh.geometry.differential.projection import closest_point
 from surfmesh.geometry.inside_loops import is_inside
+from surfmesh.geometry.small_matrices import norm
 from surfmesh.meshing.edges.edge_sampling import NARROWEST, SLIVER
 from surfmesh.sizing.options.model_sizing import ModelSizing
 from surfmesh.sizing.rules.across_gaps import size_across
@@ -109,4 +110,4 @@ def with_face_gaps(model: CadModel, wanted: ModelSizing) -> ModelSizing:
 
 def _apart(one: tuple, other: tuple) -> float:
     """Distance of two boxes."""
-    return float(np.linalg.norm(np.maximum(np.maximum(one[0] - other[1], other[0] - one[1]), 0.0)))
+    return norm(np.maximum(np.maximum(one[0] - other[1], other[0] - one[1]), 0.0))

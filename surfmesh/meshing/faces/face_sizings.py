@@ -4,6 +4,7 @@ import numpy as np
 
 from surfmesh.cad.model.cad_model import CadFace, CadModel
 from surfmesh.geometry.parameter_grid import parameter_grid
+from surfmesh.geometry.small_matrices import norm
 from surfmesh.meshing.edges.edge_samples import EdgeSamples
 from surfmesh.sizing.options.model_sizing import ModelSizing
 from surfmesh.sizing.options.sizing import Sizing
@@ -37,5 +38,5 @@ def face_box(face: CadFace, points: np.ndarray) -> tuple[np.ndarray, np.ndarray]
     grid = parameter_grid(face.surface.domain, GRID)
     places = np.concatenate([face.surface.evaluate(grid, 0)[0], points])
     low, high = places.min(axis=0), places.max(axis=0)
-    away = MARGIN * float(np.linalg.norm(high - low))
+    away = MARGIN * norm(high - low)
     return low - away, high + away

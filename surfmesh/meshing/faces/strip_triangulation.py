@@ -127,7 +127,7 @@ def rungs_between(first: np.ndarray, second: np.ndarray) -> np.ndarray:
         steps = []
         for a, b in ((1, 1), (1, 0), (0, 1)):
             if i + a < len(first) and j + b < len(second):
-                length = float(norm(first[i + a] - second[j + b]))
+                length = norm(first[i + a] - second[j + b])
                 steps.append((length, a, b))
         _, a, b = min(steps, key=lambda step: step[0])
         i, j = i + a, j + b

@@ -49,7 +49,7 @@ def simplified(mesh: SurfaceMesh, least: float) -> SurfaceMesh:
         for gone, kept in ((a, b), (b, a)):
             if work.may_collapse(gone, kept):
                 for near in work.collapse(gone, kept):
-                    far = float(norm(mesh.points[near] - mesh.points[kept]))
+                    far = norm(mesh.points[near] - mesh.points[kept])
                     if far < least:
                         heapq.heappush(queue, (far, near, kept))
                 break

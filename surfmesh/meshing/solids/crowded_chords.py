@@ -14,6 +14,7 @@ from typing import NamedTuple
 import numpy as np
 
 from surfmesh.cad.model.cad_model import CadModel
+from surfmesh.geometry.small_matrices import norm
 from surfmesh.meshing.solids.joining import crowded_chords, shared_vertices
 from surfmesh.result.surface_mesh import SurfaceMesh
 
@@ -103,7 +104,7 @@ def _lies_in_plane_beside(
     a, b = mesh.points[first] - mesh.points[corner], mesh.points[last] - mesh.points[corner]
     ways = mesh.points[others] - mesh.points[corner]
     normal = np.cross(a, b)
-    size = np.linalg.norm(normal) * np.linalg.norm(ways, axis=1)
+    size = norm(normal) * np.linalg.norm(ways, axis=1)
     is_flat = np.abs((ways * normal).sum(axis=1)) <= IN_ONE_PLANE * size
     after_first = (np.cross(a, ways) * normal).sum(axis=1) > 0.0
     before_last = (np.cross(ways, b) * normal).sum(axis=1) > 0.0
@@ -130,7 +131,7 @@ def _cut_in_all_but_one(mesh: SurfaceMesh, first: int, last: int) -> SurfaceMesh
     ]  # fmt: skip
     # the flattest stays as it is: the others leave its plane
     amid = mesh.points[[first, last]].mean(axis=0)
-    found.sort(key=lambda chord: float(np.linalg.norm(chord.point - amid)))
+    found.sort(key=lambda chord: norm(chord.point - amid))
     for chord in found[1:]:
         mesh = _cut(mesh, chord, first, last)
     return mesh

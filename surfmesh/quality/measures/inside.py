@@ -6,6 +6,7 @@ Two rays in directions that no model is built along; both must find an odd numbe
 import numpy as np
 from numpy.typing import NDArray
 
+from surfmesh.geometry.small_matrices import norm, product
 from surfmesh.quality.measures.pairs_of_ranges import expanded
 
 _DIRECTIONS = ((0.2831, 0.3947, 0.8741), (-0.6173, 0.5519, 0.5607))
@@ -24,7 +25,7 @@ def inside(points: NDArray[np.float64], corners: NDArray[np.float64]) -> NDArray
 def _crossings(points: NDArray, corners: NDArray, direction: NDArray) -> NDArray[np.int64]:
     """How often the ray from each point goes through triangles."""
     frame = _frame(direction)
-    seen, at = corners @ frame, points @ frame
+    seen, at = product(corners, frame), product(points, frame)
     order = np.argsort(at[:, 0], kind="stable")
     low, high = seen.min(axis=1), seen.max(axis=1)
     first = np.searchsorted(at[order, 0], low[:, 0])
@@ -49,7 +50,7 @@ def _cross(a: NDArray, b: NDArray) -> NDArray:
 
 def _frame(direction: NDArray) -> NDArray:
     """Columns: two axes across the direction, and itself."""
-    z = direction / np.linalg.norm(direction)
+    z = direction / norm(direction)
     x = np.cross((0.0, 1.0, 0.0), z)
-    x /= np.linalg.norm(x)
+    x /= norm(x)
     return np.stack([x, np.cross(z, x), z], axis=1)

@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from surfmesh.geometry.differential.projection import closest_point
+from surfmesh.geometry.small_matrices import norm
 from surfmesh.quality.measures.known_surfaces import KnownSurfaces, Rows
 from surfmesh.quality.measures.penetration import plane_weights
 from surfmesh.quality.measures.solids import bounds_solid, solids_beside
@@ -129,7 +130,7 @@ def _deepest(known: KnownSurfaces, looked: _Looked) -> TrueDepth:
         if depth[worst] > best.depth:
             own = mesh.surfaces[int(mesh.face_ids[here.triangles[worst]])]
             (image,) = own.evaluate(here.uv[worst][None], 0)
-            deviation = float(np.linalg.norm(image[0] - here.points[worst]))
+            deviation = norm(image[0] - here.points[worst])
             best = TrueDepth(float(depth[worst]), here.points[worst], deviation)
     return best
 

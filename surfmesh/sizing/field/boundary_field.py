@@ -15,6 +15,7 @@ from surfmesh.geometry.cad_surfaces.elementary import Cylinder, Plane
 from surfmesh.geometry.core_surface import as_core_surface
 from surfmesh.geometry.differential.chart import Chart
 from surfmesh.geometry.planar.planar_domain import PlanarDomain
+from surfmesh.geometry.small_matrices import norm
 from surfmesh.geometry.surface import Domain, Surface
 from surfmesh.sizing.field.size_field import SizeField
 from surfmesh.sizing.field.size_law import SizeLaw
@@ -153,4 +154,4 @@ def _diagonal(surface: Surface, sizing: Sizing, domain: Domain) -> float:
     stated = sizing.max_size and (sizing.chord or sizing.angle or sizing.size)
     if stated:  # the finest size alone is left to the diagonal: that of the rectangle will do
         return _extent(surface, domain)
-    return float(np.linalg.norm(extent_over(as_core_surface(surface), *domain)))
+    return norm(extent_over(as_core_surface(surface), *domain))
