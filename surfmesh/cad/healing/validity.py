@@ -34,7 +34,7 @@ from OCP.TopoDS import TopoDS, TopoDS_Compound, TopoDS_Face, TopoDS_Shape
 
 from surfmesh.cad.sub_shapes import below, each, unique
 
-AT_ONCE = 24
+AT_ONCE = 12
 """Edges of holes that are checked together, or as many as the outer loop has."""
 
 SHORTER = 2.0
