@@ -44,6 +44,8 @@ def chained(coedges: Sequence[CadCoedge], edges: Sequence[CadEdge]) -> list[Loop
     The next coedge starts at the vertex where the last one ends. Where several do (both p-curves
     of a seam, a pole) it is the one that is nearest in (u, v).
     """
+    if len(coedges) == 1:
+        return [tuple(coedges)]
     ends: list[list[list[float]]] = []  # looked up where there is a choice
     leaving = defaultdict(list)
     for place, coedge in enumerate(coedges):

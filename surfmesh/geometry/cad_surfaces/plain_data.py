@@ -19,7 +19,8 @@ class PlainData:
         self.__dict__.update(values)
 
     def _given(self) -> dict[str, Any]:
-        return {name: getattr(self, name) for name in _names_given(type(self))}
+        kind: type = type(self)
+        return {name: getattr(self, name) for name in _names_given(kind)}
 
     def __reduce__(self) -> tuple:
         return _made, (type(self), {name: _light(v) for name, v in self._given().items()})
@@ -37,7 +38,7 @@ def frozen_array(values: Sequence | np.ndarray) -> np.ndarray:
 
 
 @cache
-def _names_given(kind: type[PlainData]) -> tuple[str, ...]:
+def _names_given(kind: type) -> tuple[str, ...]:
     return tuple(field.name for field in dataclasses.fields(kind) if field.init)
 
 
