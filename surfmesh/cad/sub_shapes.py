@@ -2,15 +2,23 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterable, Iterator
 from typing import Generic, TypeVar
 
 from OCP.Bnd import Bnd_Box
 from OCP.BRep import BRep_Builder
 from OCP.BRepBndLib import BRepBndLib
-from OCP.BRepGProp import BRepGProp
+from OCP.BRepGProp import BRepGProp, BRepGProp_Domain, BRepGProp_Face, BRepGProp_Vinert
+from OCP.gp import gp_Pnt
 from OCP.GProp import GProp_GProps
-from OCP.TopAbs import TopAbs_EDGE, TopAbs_FACE, TopAbs_FORWARD, TopAbs_ShapeEnum
+from OCP.TopAbs import (
+    TopAbs_EDGE,
+    TopAbs_FACE,
+    TopAbs_FORWARD,
+    TopAbs_REVERSED,
+    TopAbs_ShapeEnum,
+)
 from OCP.TopExp import TopExp, TopExp_Explorer
 from OCP.TopoDS import (
     TopoDS,
@@ -160,6 +168,25 @@ def content(shape: TopoDS_Shape, dimension: int, error: float | None = None) -> 
         integral = (BRepGProp.SurfaceProperties_s, BRepGProp.VolumeProperties_s)[dimension - 2]
         integral(shape, properties, *(() if error is None else (error,)))
     return properties.Mass()
+
+
+def volume_within(
+    faces: Iterable[TopoDS_Shape], errors: Iterable[float | None], middle: Iterable[float]
+) -> float:
+    """Volume of a solid with these faces, turned as it uses them, each with its own ``error``.
+
+    They are those of ``content``, relative to the cone of the face over ``middle``. Where faces do
+    not quite meet, the volume depends on that: ``content`` takes the mean of all vertices, each as
+    often as an edge of a face uses it.
+    """
+    about, parts = gp_Pnt(*middle), []
+    for face, error in zip(faces, errors):
+        if face.Orientation() in (TopAbs_FORWARD, TopAbs_REVERSED):
+            located = TopoDS.Face_s(face)
+            surface, domain = BRepGProp_Face(located), BRepGProp_Domain(located)
+            asked = () if error is None else (error,)
+            parts.append(BRepGProp_Vinert(surface, domain, about, *asked).Mass())
+    return math.fsum(parts)
 
 
 def said_by(error: Exception) -> str:

@@ -72,19 +72,20 @@ class EdgesMet:
         found = [below(wire) for wire in below(face) if wire.ShapeType() == TopAbs_WIRE]
         wires = [[TopoDS.Edge_s(shape) for shape in wire] for wire in found]
         numbers = {id(edge): self.edge(edge, face) for wire in wires for edge in wire}
+        ways = {id(edge): edge.Orientation() for wire in wires for edge in wire}
         uses: Counter[int] = Counter()
-        for edge in (edge for wire in wires for edge in wire):
-            uses[numbers[id(edge)]] += 2 if edge.Orientation() == TopAbs_INTERNAL else 1
+        for use, way in ways.items():
+            uses[numbers[use]] += 2 if way == TopAbs_INTERNAL else 1
         loops, inside = [], []
         for wire in wires:
             around = []
             for edge in wire:
-                number = numbers[id(edge)]
-                if edge.Orientation() == TopAbs_EXTERNAL:
+                number, way = numbers[id(edge)], ways[id(edge)]
+                if way == TopAbs_EXTERNAL:
                     self._remarks[f"{called}: an edge outside the face is left out"] += 1
                     continue
                 seam = uses[number] > 1
-                if edge.Orientation() == TopAbs_INTERNAL:
+                if way == TopAbs_INTERNAL:
                     edge = TopoDS.Edge_s(edge.Oriented(TopAbs_FORWARD))
                     forward = self._coedge(edge, face, number, seam, called)
                     inside.append((forward, replace(forward, reversed=True)))

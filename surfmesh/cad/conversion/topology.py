@@ -29,7 +29,6 @@ from OCP.TopoDS import TopoDS, TopoDS_Face, TopoDS_Shape
 from surfmesh.cad.conversion.convert import surface_of
 from surfmesh.cad.conversion.edges_met import EdgesMet
 from surfmesh.cad.model.cad_model import (
-    CadCoedge,
     CadEdge,
     CadFace,
     CadNode,
@@ -43,12 +42,12 @@ from surfmesh.cad.model.invariants import is_closed, signed_area
 from surfmesh.cad.model.loops import Loop, misdirected, outer_first, turned
 from surfmesh.cad.model.tolerances import joined
 from surfmesh.cad.parts import Details, Part, face_in_words
-from surfmesh.cad.sub_shapes import Numbering, below, content, each
+from surfmesh.cad.sub_shapes import Numbering, below, content, each, volume_within
 from surfmesh.errors import CadError, SurfmeshError
 from surfmesh.geometry.boxes import diagonal
 from surfmesh.geometry.surface import Domain
 
-# relative error of areas and volumes by adaptive integration, which is slow on splines
+# relative error of areas and volumes of faces by adaptive integration, which is slow on splines
 EXACT = 1e-8
 EXACT_FREE_FORM = 1e-6
 ELEMENTARY = {"plane", "cylinder", "cone", "sphere", "torus"}
@@ -151,9 +150,7 @@ class Walk:
         if not shells:
             self._remarks["a solid without faces is left out"] += 1
             return None
-        faces = [self.faces[face] for shell in shells for face, _ in shell]
-        coedges = (coedge for face in faces for coedge in face.coedges)
-        volume = _content(shape, 3, [face.kind for face in faces], coedges)
+        volume = self._volume(shape, shells)
         if volume < 0.0:
             self._remarks[f"solid {len(self.solids)} was inside out: its faces are turned"] += 1
             shells = [tuple((face, not against) for face, against in shell) for shell in shells]
@@ -171,15 +168,28 @@ class Walk:
         )
         return len(self.solids) - 1
 
+    def _volume(self, shape: TopoDS_Shape, shells: list[Shell]) -> float:
+        """Of a solid, negative inside out: each face integrated as it asks for."""
+        numbers = {face for shell in shells for face, _ in shell}
+        errors = {n: _error(self.faces[n].kind, self.faces[n].loops) for n in numbers}
+        extruded = any(self.faces[number].kind == "extrusion" for number in numbers)
+        if extruded or all(error is None for error in errors.values()):
+            return content(shape, 3)
+        faces = list(each(shape, TopAbs_FACE))
+        found = map(self._face_numbers.find, faces)
+        asked = [EXACT if number is None else errors.get(number, EXACT) for number in found]
+        return volume_within(faces, asked, self._points(shells).mean(axis=0))
+
     def _extent(self, shell: Shell) -> float:
         """Diagonal of the box of a shell's vertices: the outer shell has the largest."""
-        numbers = {
-            vertex
-            for face, _ in shell
-            for coedge in self.faces[face].coedges
-            for vertex in (self.edges[coedge.edge].start, self.edges[coedge.edge].end)
-        }
-        return diagonal(np.array([self.vertices[n].point for n in numbers]))
+        return diagonal(self._points([shell]))
+
+    def _points(self, shells: list[Shell]) -> np.ndarray:
+        """(n, 3) The vertices of shells, as often as coedges of faces start or end there."""
+        coedges = (c for shell in shells for n, _ in shell for c in self.faces[n].coedges)
+        edges = (self.edges[coedge.edge] for coedge in coedges)
+        ends = (vertex for edge in edges for vertex in (edge.start, edge.end))
+        return np.array([self.vertices[vertex].point for vertex in ends])
 
     def shell(self, shape: TopoDS_Shape, colour: Colour | None) -> Shell:
         """Faces of a shell; those that lie within a solid on both sides are taken apart."""
@@ -230,8 +240,7 @@ class Walk:
         if not loops:
             raise CadError("it has no edges; give the face its boundary in the CAD system")
         surface = surface_of(BRep_Tool.Surface_s(face), _box(face, loops, called), called)
-        coedges = (coedge for loop in loops for coedge in loop)
-        area = abs(_content(face, 2, [surface.kind], coedges))
+        area = _area(face, surface.kind, loops)
         closed = None not in surface.periods or surface.kind == "sphere"
         wrong = misdirected(loops, closed) if self.heal else []
         for place in wrong:
@@ -264,7 +273,7 @@ class Walk:
         for wire in below(face):
             if edges & {self._met.numbers.find(edge) for edge in each(wire, TopAbs_EDGE)}:
                 BRep_Builder().Add(alone, wire)
-        return abs(_content(alone, 2, [kind], loop))
+        return _area(alone, kind, [loop])
 
     def face_number(self, shape: TopoDS_Shape) -> int | None:
         """Number of a face that has been taken in."""
@@ -316,17 +325,19 @@ def _one_tag(parts: list[CadTag]) -> CadTag:
     return CadTag(parts[0].name, ", ".join(dict.fromkeys(p.held for p in parts)), **every)
 
 
-def _content(
-    shape: TopoDS_Shape, dimension: int, kinds: list[str], coedges: Iterable[CadCoedge]
-) -> float:
-    """Signed volume of a solid, area of a face, whose surfaces are of these kinds."""
-    if "extrusion" in kinds:  # there adaptive integration misses more than it says, up to 3 %
-        return content(shape, dimension)
-    if not ELEMENTARY.issuperset(kinds):
-        return content(shape, dimension, EXACT_FREE_FORM)
-    if all(coedge.pcurve.kind in SMOOTH for coedge in coedges):
-        return content(shape, dimension)
-    return content(shape, dimension, EXACT)
+def _area(face: TopoDS_Face, kind: str, loops: Iterable[Loop]) -> float:
+    """Of a face on a surface of this kind."""
+    return abs(content(face, 2, _error(kind, loops)))
+
+
+def _error(kind: str, loops: Iterable[Loop]) -> float | None:
+    """Relative, of the integral over a face within these loops; None: fixed Gauss points do."""
+    if kind == "extrusion":  # there adaptive integration misses more than it says, up to 3 %
+        return None
+    if kind not in ELEMENTARY:
+        return EXACT_FREE_FORM
+    smooth = all(coedge.pcurve.kind in SMOOTH for loop in loops for coedge in loop)
+    return None if smooth else EXACT
 
 
 def _is_flat(face: TopoDS_Face) -> bool:

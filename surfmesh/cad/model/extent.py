@@ -19,27 +19,26 @@ def diagonal(
     vertices: Sequence[CadVertex], edges: Sequence[CadEdge], faces: Sequence[CadFace]
 ) -> float:
     """Diagonal of the box around the points; a box of curved faces may be a little larger."""
-    boxes = [_box(np.array([vertex.point for vertex in vertices]))]
+    points = [np.array([vertex.point for vertex in vertices])]
     real = [edge for edge in edges if edge.curve is not None]
     if real:
-        boxes.append(_box(points_of(real, EDGE_FRACTIONS).reshape(-1, 3)))
+        points.append(points_of(real, EDGE_FRACTIONS).reshape(-1, 3))
+    every = np.concatenate(points)
+    lo, hi = every.min(axis=0), every.max(axis=0)
     for face in faces:
-        uv = _inside(face)
-        if face.kind != "plane" and len(uv):
-            boxes.append(_box(face.surface.evaluate(uv, 0)[0]))
-    lo, hi = np.array(boxes).transpose(1, 0, 2)
-    return norm(hi.max(axis=0) - lo.min(axis=0))
+        if face.kind == "plane":
+            continue
+        grid = parameter_grid(face.surface.domain, GRID)
+        on_grid = face.surface.evaluate(grid, 0)[0]
+        beyond = ~((on_grid >= lo) & (on_grid <= hi)).all(axis=1)
+        if beyond.any():
+            more = np.concatenate([[lo, hi], on_grid[_inside(face, grid) & beyond]])
+            lo, hi = more.min(axis=0), more.max(axis=0)
+    return norm(hi - lo)
 
 
-def _box(points: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    return points.min(axis=0), points.max(axis=0)
-
-
-def _inside(face: CadFace) -> np.ndarray:
-    """(n, 2) grid points of the (u, v) box that lie inside the loops, by crossings to the left."""
-    if face.kind == "plane":
-        return np.empty((0, 2))
-    grid = parameter_grid(face.surface.domain, GRID)
+def _inside(face: CadFace, grid: np.ndarray) -> np.ndarray:
+    """Which points (n, 2) of the (u, v) plane lie inside the loops, by crossings to the left."""
     crossings = np.zeros(len(grid), int)
     for loop in face.loops:
         corners = walked(loop, EDGE_FRACTIONS[:-1]).reshape(-1, 2)
@@ -48,4 +47,4 @@ def _inside(face: CadFace) -> np.ndarray:
         u, v = grid[:, :1], grid[:, 1:]
         spans = (v0 > v) != (v1 > v)
         crossings += (spans & (u0 + (v - v0) / rise * (u1 - u0) < u)).sum(axis=1)
-    return grid[crossings % 2 == 1]
+    return crossings % 2 == 1

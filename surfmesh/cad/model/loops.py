@@ -11,7 +11,7 @@ import numpy as np
 from surfmesh.cad.model.cad_model import CadCoedge, CadEdge
 from surfmesh.cad.model.curve_samples import next_ones, walked
 from surfmesh.cad.model.invariants import ENDS, OPEN_FRACTION, ring_area, signed_areas
-from surfmesh.geometry.inside_loops import nesting_depth
+from surfmesh.geometry.inside_loops import is_inside, nesting_depth
 from surfmesh.geometry.small_matrices import product
 
 Loop = tuple[CadCoedge, ...]
@@ -45,6 +45,8 @@ def chained(coedges: Sequence[CadCoedge], edges: Sequence[CadEdge]) -> list[Loop
     The next coedge starts at the vertex where the last one ends. Where several do (both p-curves
     of a seam, a pole) it is the one that is nearest in (u, v).
     """
+    if len(coedges) == 1:
+        return [tuple(coedges)]
     ends: list[list[list[float]]] = []  # looked up where there is a choice
     leaving = defaultdict(list)
     for place, coedge in enumerate(coedges):
@@ -138,6 +140,8 @@ def misdirected(loops: Sequence[Loop], closed: bool) -> list[int]:
     last = np.cumsum([len(loop) for loop in loops]).tolist()
     parts = [slice(start, end) for start, end in zip([0, *last], last)]
     rings = [samples[part].reshape(-1, 2) for part in parts]
+    if _seem_directed(rings):
+        return []
     extent = np.ptp(samples.reshape(-1, 2), axis=0)
     if not (extent > 0.0).all() or not all(_meet(ends[part], extent) for part in parts):
         return []
@@ -153,6 +157,18 @@ def misdirected(loops: Sequence[Loop], closed: bool) -> list[int]:
     if not wrong.any() or not _are_apart([ring / extent for ring in rings], boxes):
         return []
     return np.flatnonzero(wrong).tolist()
+
+
+def _seem_directed(rings: Sequence[np.ndarray]) -> bool:
+    """Do polygons (k, 2) that do not meet each other all run the right way round?
+
+    Then each lies with all its corners, of which one is looked at, within the same others; a
+    corner does not count as within its own polygon.
+    """
+    ahead = np.array([ring_area(ring) > 0.0 for ring in rings])
+    if len(rings) == 1:
+        return bool(ahead[0])
+    return bool((ahead != is_inside(rings, np.array([ring[0] for ring in rings]))).all())
 
 
 def _sag_area(ring: np.ndarray) -> float:

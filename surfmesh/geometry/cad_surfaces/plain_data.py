@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import dataclasses
 from collections.abc import Sequence
+from functools import cache
 from typing import Any
 
 import numpy as np
@@ -18,10 +19,11 @@ class PlainData:
         self.__dict__.update(values)
 
     def _given(self) -> dict[str, Any]:
-        return {f.name: getattr(self, f.name) for f in dataclasses.fields(self) if f.init}
+        kind: type = type(self)
+        return {name: getattr(self, name) for name in _names_given(kind)}
 
     def __reduce__(self) -> tuple:
-        return _made, (type(self), self._given())
+        return _made, (type(self), {name: _light(v) for name, v in self._given().items()})
 
     def __repr__(self) -> str:
         shown = (f"{name}={_shown(value)}" for name, value in self._given().items())
@@ -29,10 +31,21 @@ class PlainData:
 
 
 def frozen_array(values: Sequence | np.ndarray) -> np.ndarray:
-    """A read-only view of a float array of its own."""
-    view = np.array(values, dtype=float, order="C").view()
-    view.setflags(write=False)
-    return view
+    """A read-only float array of its own."""
+    array = np.array(values, dtype=float, order="C")
+    array.setflags(write=False)
+    return array
+
+
+@cache
+def _names_given(kind: type) -> tuple[str, ...]:
+    return tuple(field.name for field in dataclasses.fields(kind) if field.init)
+
+
+def _light(value: Any) -> Any:
+    """Points and directions as plain numbers, which travel faster; ``frozen_array`` takes them."""
+    small = isinstance(value, np.ndarray) and value.ndim == 1 and value.size <= 3
+    return tuple(value.tolist()) if small else value
 
 
 def _made(kind: type, fields: dict[str, Any]) -> PlainData:
