@@ -174,7 +174,7 @@ def _keeps_shape(
             half = _normal(corners)
             if not _area(places) * flat > LEAST_PART * flat * flat:
                 return False
-            if not half @ normal > LEAST_COSINE * float(_norm(half) * _norm(normal)):
+            if not (half * normal).sum() > LEAST_COSINE * float(_norm(half) * _norm(normal)):
                 return False
     return True
 

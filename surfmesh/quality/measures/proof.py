@@ -125,8 +125,8 @@ def _as_meshed(face: FaceTriangles) -> FaceTriangles:
 
     Their frames begin at the first side: so bounds are those that the mesher has seen.
     """
-    a, b, c = face.uv[:, 0], face.uv[:, 1], face.uv[:, 2]
-    if float(np.linalg.det(np.stack([b - a, c - a], axis=1)).sum()) >= 0.0:
+    (au, av), (bu, bv) = ((face.uv[:, k] - face.uv[:, 0]).T for k in (1, 2))
+    if float((au * bv - av * bu).sum()) >= 0.0:
         return face
     twins = face.twins.reshape(-1, 3)[:, ::-1].ravel()
     turned = 3 * (twins // 3) + 2 - twins % 3
