@@ -39,7 +39,7 @@ from surfmesh.meshing.finishing.balanced_rounds import (
 )
 from surfmesh.meshing.finishing.curved_requests import requests_for_curved
 from surfmesh.meshing.patch.patch_mesh import PatchMesh, mesh_patch
-from surfmesh.meshing.patch.proof_requests import requests_for_proof
+from surfmesh.meshing.patch.proved_patch import Patch, cut_until_proved
 from surfmesh.meshing.patch.refinement_loop import (
     MAX_ROUNDS,
     MAX_ROUNDS_FOR_PROOF,
@@ -191,33 +191,34 @@ class _Rounds:
         patch = mesh_patch(
             surface, self.chart, field, loops, optimise=self.optimise, watch=self.watch
         )
+        made, unproved = self._proved(patch)
         mesh = SurfaceMesh(
-            points=patch.space.points,
-            triangles=patch.space.triangles,
-            uv_points=patch.uv,
-            uv_triangles=patch.space.uv_triangles,
+            points=made.points,
+            triangles=made.triangles,
+            uv_points=made.uv,
+            uv_triangles=made.uv_triangles,
             surfaces=(surface,),
-            sizes=patch.sizes,
-            metric_root_3d=patch.metric_root_3d,
+            sizes=made.sizes,
+            metric_root_3d=made.roots,
             sizing=field.sizing,
             seconds=self.watch.seconds,
             one_sided=sides.one_sided and not len(surface.loops),
             facts=known_facts(surface),
         )
-        unjoined, unproved = patch.limits_for_seams(FINER), self._unproved(patch)
+        unjoined = patch.limits_for_seams(FINER)
         requests = joined(*patch.requests, unjoined, unproved, self._too_far(mesh, patch, known))
         return mesh, requests, patch.space.non_manifold
 
-    def _unproved(self, patch: PatchMesh) -> SizeLimits | None:
-        """What is asked for where the chord is not proved to hold."""
-        space, roots = patch.space, patch.metric_root_3d
-        if not self.optimise or len(space.non_manifold):
-            return None
-        corners = space.uv_triangles
-        return requests_for_proof(
-            self.surface, self.sizing, space.points, space.triangles, patch.uv[corners],
-            patch.sizes, None if roots is None else roots[corners[:, 0]],
+    def _proved(self, patch: PatchMesh) -> tuple[Patch, SizeLimits | None]:
+        """The triangles, and what is asked for where the chord is not proved to hold."""
+        space = patch.space
+        made = Patch(
+            space.points, space.triangles, patch.uv, space.uv_triangles, patch.sizes,
+            patch.metric_root_3d,
         )  # fmt: skip
+        if not self.optimise or len(space.non_manifold):
+            return made, None
+        return cut_until_proved(self.surface, self.sizing, made)
 
     def _too_far(
         self, mesh: SurfaceMesh, patch: PatchMesh, known: Mapping[int, SizeLimits]

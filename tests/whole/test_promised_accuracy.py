@@ -111,3 +111,12 @@ def test_edges_of_uneven_curvature_keep_to_the_chord(part, share):
     chord = share * model.diagonal
     report = check(mesh(model, chord=chord))
     assert report.surface_deviation_max <= chord
+
+
+def test_a_spline_part_is_refined_until_all_is_proved():
+    """After each round others were not proved: five when it was given up."""
+    circle = cq.Workplane().circle(6.61).workplane(offset=13.4)
+    model = from_cadquery(circle.rect(4.9, 3.01).loft())
+    report = check(mesh(model, Sizing(chord=model.diagonal / 1000, proof=True)))
+    assert report.clean, report.problems
+    assert report.proof.proved_share == 1.0 and report.proof.bound_max <= model.diagonal / 1000

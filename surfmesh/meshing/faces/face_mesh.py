@@ -38,7 +38,7 @@ from surfmesh.meshing.faces.thin_tubes import without_tubes
 from surfmesh.meshing.faces.tube_limits import seam_limits
 from surfmesh.meshing.faces.tube_triangles import with_tubes
 from surfmesh.meshing.patch.patch_mesh import patch_error
-from surfmesh.meshing.patch.proof_requests import requests_for_proof
+from surfmesh.meshing.patch.proved_patch import Patch, cut_until_proved
 from surfmesh.meshing.patch.size_requests import SizeRequests, joined
 from surfmesh.sizing.field.boundary_field import boundary_field, has_boundary_field
 from surfmesh.sizing.field.size_field import SizeField, size_field
@@ -64,7 +64,7 @@ def mesh_face(job: FaceJob) -> FaceMesh:
     reason = no_point(job) if job.boundary.has_degenerate else ""
     if reason and beyond_a_turn(job):
         return FaceMesh(failure=reason)
-    mesh = _mesh_parts(job)
+    mesh = _proved(job, _mesh_parts(job))
     return replace(mesh, failure=reason) if reason and mesh.failure else mesh
 
 
@@ -84,7 +84,27 @@ def _mesh_parts(job: FaceJob) -> FaceMesh:
 
 def continued(job: FaceJob, begun: core.FaceMesh) -> FaceMesh:
     """What becomes of a face that the core has begun, by ``inward_face``."""
-    return mesh_face(job) if begun.end == FaceEnd.TUBES else _mesh_rest(job, begun)
+    return mesh_face(job) if begun.end == FaceEnd.TUBES else _proved(job, _mesh_rest(job, begun))
+
+
+def _proved(job: FaceJob, mesh: FaceMesh) -> FaceMesh:
+    """With cuts, or smaller sizes asked for, where the chord is not proved to hold."""
+    if not (job.optimise and job.sizing.proof) or mesh.failure or mesh.remark:
+        return mesh
+    points, at_rim = mesh.points.copy(), mesh.slots >= 0
+    points[at_rim] = job.boundary.points[mesh.slots[at_rim]]  # as neighbours have them too
+    made = Patch(
+        points, mesh.triangles, mesh.uv_points, mesh.uv_triangles, mesh.sizes,
+        mesh.inverse_sizes,
+    )  # fmt: skip
+    patch, unproved = cut_until_proved(job.surface, job.sizing, made)
+    unproved = None if unproved is None else replace(unproved, uv=None)
+    return replace(
+        mesh, points=patch.points, triangles=patch.triangles, uv_points=patch.uv,
+        uv_triangles=patch.uv_triangles, sizes=patch.sizes, inverse_sizes=patch.roots,
+        slots=np.append(mesh.slots, np.full(len(patch.points) - len(mesh.points), -1)),
+        refinement=joined(mesh.refinement, unproved),
+    )  # fmt: skip
 
 
 def _mesh_rest(job: FaceJob, begun: core.FaceMesh | None = None) -> FaceMesh:
@@ -170,17 +190,9 @@ def _meshed(
     chord, folds, angle = SizeRequests.of(patch.requests, gradient)
     along = sizes_along_edges(job.sizing, made.coarse)  # the edges follow them from now on
     roots = patch.metric_root_3d if job.sizing.is_anisotropic else None
-    unproved = None
-    if job.optimise and job.sizing.proof:
-        corners = mapped.uv_triangles
-        unproved = requests_for_proof(
-            job.surface, job.sizing, mapped.points, mapped.triangles, mapped.uv[corners],
-            mapped.sizes, None if roots is None else roots[corners[:, 0]],
-        )  # fmt: skip
-        unproved = None if unproved is None else replace(unproved, uv=None)
     return FaceMesh(
         mapped.points, made.slots, mapped.triangles, mapped.uv, mapped.uv_triangles, mapped.sizes,
-        roots, joined(angle, folds if unfold else None, chord, along, unproved),
+        roots, joined(angle, folds if unfold else None, chord, along),
     )  # fmt: skip
 
 

@@ -5,7 +5,7 @@ Others call ``mesh_patch``, go round in ``refined_in_rounds``, and pack by thems
 
 packing: what circles are packed over; packing by itself; why a packing cannot go on.
 size_requests: upper bounds of the size, for another round, where the optimiser could not mend it.
-proof_requests: the same where the chord is not proved to hold.
+proved_patch: triangles are cut, or smaller sizes asked for, where the chord is not proved to hold.
 patch_mesh: all stages in one call of the core (src/patch), for every kind of boundary.
 refinement_loop: rounds with smaller sizes until nothing is to be mended, or smaller sizes are no
     help.

@@ -63,7 +63,7 @@ def proof(known: KnownSurfaces, fit: Deviation, tolerances: Tolerances, is_curve
             else:
                 bound[rows] = curved
             continue
-        found = proved_distances(surface, face, near[rows])
+        found = proved_distances(surface, _as_meshed(face), near[rows])
         if found is None:
             without.append(number)
         else:
@@ -124,6 +124,25 @@ def _face(known: KnownSurfaces, rows: Rows) -> FaceTriangles:
         table = connect(triangles)
     twins = twins_of(table.half_edges, table.uses, len(rows))
     return FaceTriangles(known.points(rows), np.ascontiguousarray(known.uv(rows)), triangles, twins)
+
+
+def _as_meshed(face: FaceTriangles) -> FaceTriangles:
+    """The triangles along r_u x r_v, also those of a face that is turned over in its model.
+
+    Their frames begin at the first side: so bounds are those that the mesher has seen.
+    """
+    (au, av), (bu, bv) = ((face.uv[:, k] - face.uv[:, 0]).T for k in (1, 2))
+    if float((au * bv - av * bu).sum()) >= 0.0:
+        return face
+    twins = face.twins.reshape(-1, 3)[:, ::-1].ravel()
+    turned = 3 * (twins // 3) + 2 - twins % 3
+    other_way = (0, 2, 1)
+    return FaceTriangles(
+        np.ascontiguousarray(face.corners[:, other_way]),
+        np.ascontiguousarray(face.uv[:, other_way]),
+        np.ascontiguousarray(face.vertices[:, other_way]),
+        np.where(twins < 0, twins, turned).astype(np.int32),
+    )
 
 
 def _edge_bounds(mesh: SurfaceMesh, links: EdgeLinks) -> NDArray[np.float64]:

@@ -13,10 +13,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from surfmesh._core.triangulation import first_not_ccw
+from surfmesh.geometry.components import components
 from surfmesh.quality.measures.against_model import Unexpected
 from surfmesh.quality.measures.known_surfaces import KnownSurfaces, Rows
 from surfmesh.quality.measures.places import face_in_words
 from surfmesh.quality.measures.topology import Topology, topology
+from surfmesh.result.connectivity import connect
 from surfmesh.result.surface_mesh import SurfaceMesh
 
 
@@ -66,6 +68,11 @@ def _not_a_disc(known: KnownSurfaces, rows: Rows) -> str:
     if not _run_one_way(uv, triangles):
         return "triangles do not all run the same way round in (u, v)"
     flat = topology(_plane_mesh(uv, triangles))
+    places = triangles == flat.pinched_vertices[:, None, None]
+    if len(flat.pinched_vertices) and _are_of_model(known.mesh, rows, places):
+        opened = topology(_plane_mesh(*_without_pinches(uv, triangles)))
+        if opened.components == flat.components:
+            flat = opened
     if not flat.manifold:
         return "its triangles only touch in (u, v)"
     if flat.euler != 2 * flat.components - flat.boundary_loops:  # each has at most 2 less its loops
@@ -74,6 +81,26 @@ def _not_a_disc(known: KnownSurfaces, rows: Rows) -> str:
     if loops and loops != flat.boundary_loops:
         return f"it has {flat.boundary_loops} boundary loops instead of {loops}"
     return ""
+
+
+def _are_of_model(mesh: SurfaceMesh, rows: Rows, places: NDArray[np.bool_]) -> bool:
+    """Are corners of a face (p, m, 3) at vertices of the model, where its loops may touch?"""
+    if mesh.vertex_ids is None:
+        return False
+    corners = mesh.triangles[rows][places.any(axis=0)]
+    return bool(np.isin(corners, mesh.vertex_ids[mesh.vertex_ids >= 0]).all())
+
+
+def _without_pinches(
+    uv: NDArray[np.float64], triangles: NDArray[np.int64]
+) -> tuple[NDArray[np.float64], NDArray[np.int64]]:
+    """With a place for each fan of triangles: what its boundary touches is joined by number."""
+    table = connect(np.ascontiguousarray(triangles, np.int32))
+    h, g = table.half_edges[table.uses == 2].T
+    after = [3 * (x // 3) + (x % 3 + 1) % 3 for x in (h, g)]
+    pairs = np.concatenate([np.stack([h, after[1]], axis=1), np.stack([after[0], g], axis=1)])
+    fans, corners = np.unique(components(triangles.size, pairs), return_inverse=True)
+    return uv[triangles.ravel()[fans]], corners.reshape(-1, 3)
 
 
 def _run_one_way(uv: NDArray[np.float64], triangles: NDArray[np.int64]) -> bool:

@@ -93,3 +93,22 @@ def test_prove_on_the_command_line(tmp_path, capsys):
     assert "proved" in capsys.readouterr().out
     assert main(["check", path, "--surface", "torus", "--prove"]) == 0
     assert "both ways; largest bound" in capsys.readouterr().out
+
+
+def test_bounds_are_the_same_where_a_face_is_turned_over():
+    mesh = sm.mesh(sm.load("monkey_saddle"), sm.Sizing(chord=0.03))
+    other_way = (0, 2, 1)
+    turned = mesh.replaced(
+        triangles=np.ascontiguousarray(mesh.triangles[:, other_way]),
+        uv_triangles=np.ascontiguousarray(mesh.uv_triangles[:, other_way]),
+    )
+    first, second = (sm.check(each, prove=True).proof for each in (mesh, turned))
+    assert first.bound_max == second.bound_max and first.proved == second.proved
+
+
+def test_a_face_whose_hole_touches_its_edge_at_a_vertex_is_a_disc_still():
+    outside = cq.Wire.makePolygon([(0, 0, 0), (4, 0, 0), (4, 4, 0), (0, 4, 0)], close=True)
+    hole = cq.Wire.makePolygon([(0, 0, 0), (1, 2, 0), (2, 1, 0)], close=True)
+    model = sm.from_cadquery(cq.Face.makeFromWires(outside, [hole]))
+    found = sm.check(sm.mesh(model, sm.Sizing(size=0.5)), prove=True).proof.homeomorphic
+    assert found.answer is True, found
