@@ -2,6 +2,7 @@
 
 #include <atomic>
 
+#include "optimisation/regular_degrees.hpp"
 #include "triangulation/local_operations.hpp"
 #include "triangulation/parts.hpp"
 
@@ -9,7 +10,6 @@ namespace surfmesh {
 namespace {
 
 constexpr std::size_t SWAPS_TOGETHER = 1 << 14;  // triangles measured together
-constexpr double STRAIGHT = 0.97;   // cosine of the angle that a border may turn by: 14 degrees
 constexpr double SWAP_GAIN = 1e-3;  // smallest betterment of the worse alpha for a swap
 
 /// The corners of the two triangles at an edge that is not on the border: a-b-c and b-a-d.
@@ -101,20 +101,6 @@ struct ShapeSwaps {
     }
 };
 
-/// Is the start of e on the border, with both its border edges nearly in one line?
-bool is_on_straight_border(const Triangulation& t, const SurfaceFrames& s, HalfEdge e) {
-    HalfEdge first = e, last = prev_half_edge(e);  // the border edges that leave it and end there
-    while (t.adj[first] >= 0) {
-        first = next_half_edge(t.adj[first]);
-        if (first == e) return false;
-    }
-    while (t.adj[last] >= 0) last = prev_half_edge(t.adj[last]);
-    const Vertex v = t.tri[e];
-    const Point2 onward = chord(s, v, t.tri[next_half_edge(first)]);
-    const Point2 back = chord(s, v, t.tri[last]);
-    return dot(onward, back) < -STRAIGHT * norm(onward) * norm(back);
-}
-
 /// Swaps that bring degrees nearer to six, and what they work on.
 struct DegreeSwaps {
     Triangulation& t;
@@ -137,18 +123,13 @@ struct DegreeSwaps {
                triangle_shape(s, q.b, q.c, q.d) > least && may_swap(t, s, e);
     }
 
-    /// Triangles of v beyond those of a regular vertex inside, or on a straight border.
-    [[nodiscard]] int excess(Vertex v) const {
-        return stars.degree[v] - (stars.frozen[v] != 0 ? 3 : 6);
-    }
-
     /// The same where some of the four are frozen, all those on a straight border. The new edge
     /// joins no two of these: a triangle with three corners on boundaries is flat where they are,
     /// and lies in a face beyond that is tangent there.
     [[nodiscard]] bool is_wanted_at_border(HalfEdge e, const Quadrilateral& q) const {
         if (stars.frozen[q.c] != 0 && stars.frozen[q.d] != 0) return false;
-        const int inner = excess(q.a) + excess(q.b);
-        if (inner < 1 || inner - excess(q.c) - excess(q.d) < 3) return false;
+        const int inner = excess(stars, q.a) + excess(stars, q.b);
+        if (inner < 1 || inner - excess(stars, q.c) - excess(stars, q.d) < 3) return false;
         for (const Vertex v : {q.a, q.b, q.c, q.d})
             if (stars.frozen[v] != 0 && !is_on_straight_border(t, s, stars.start[v])) return false;
         return is_good_enough(e, q);

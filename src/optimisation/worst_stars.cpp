@@ -1,12 +1,19 @@
 #include "optimisation/worst_stars.hpp"
 
+#include <numeric>
+
+#include "optimisation/regular_degrees.hpp"
 #include "triangulation/local_operations.hpp"
 
 namespace surfmesh {
 namespace {
 
-constexpr double FILLING_GAIN = 0.02;  // least gain of the smallest alpha for a vertex to go
-constexpr double REFUSED = -1.0;       // alpha of a triangle that must not be
+constexpr double FILLING_GAIN = 0.02;     // least gain of the smallest alpha for a vertex to go
+constexpr double LEAST_IRREGULAR = 0.65;  // triangles below are bad not by degrees alone
+constexpr double LEAST_UNSMOOTHED = 0.4;  // worst alpha where degrees are bettered by a removal
+constexpr int BORDER_WEIGHT = 2;          // of degrees on the border against those inside
+constexpr int LEAST_BETTERMENT = -3;      // of the sum of squares of what they miss
+constexpr double REFUSED = -1.0;          // alpha of a triangle that must not be
 
 /// The star of one vertex, and how it would be filled.
 class StarRemoval {
@@ -20,9 +27,18 @@ class StarRemoval {
         if (!take(v)) return false;
         const double before = smallest_shape();
         if (!(before > FOLDED)) return false;
-        const Ears ears = best_ears(
-            t_, polygon_, [&](Vertex p, Vertex q, Vertex r) { return shape_if_allowed(p, q, r); });
+        const Ears ears = ears_allowed();
         if (!(ears.worst > before + FILLING_GAIN)) return false;
+        fill(v, ears);
+        return true;
+    }
+
+    /// Remove v if it touches a straight border, and degrees around are nearer to regular without.
+    bool remove_if_irregular(Vertex v) {
+        if (!take(v) || !is_at_straight_border()) return false;
+        if (!(smallest_shape() > LEAST_IRREGULAR)) return false;
+        const Ears ears = ears_allowed();
+        if (!(ears.worst > LEAST_UNSMOOTHED) || !betters_degrees(ears)) return false;
         fill(v, ears);
         return true;
     }
@@ -51,6 +67,46 @@ class StarRemoval {
             stars_.start[edge.start] = NIL;
         }
         stars_.start[v] = NIL;
+    }
+
+    [[nodiscard]] Ears ears_allowed() const {
+        return best_ears(t_, polygon_,
+                         [&](Vertex p, Vertex q, Vertex r) { return shape_if_allowed(p, q, r); });
+    }
+
+    /// Is an edge of the rim on the border, which turns at none of the vertices around? Their stars
+    /// are as they were.
+    [[nodiscard]] bool is_at_straight_border() const {
+        bool touches = false;
+        for (const RimEdge& edge : polygon_.rim) {
+            const HalfEdge start = stars_.start[edge.start];
+            touches = touches || edge.outer < 0;
+            if (start == NIL) return false;
+            if (stars_.frozen[edge.start] != 0 && !is_on_straight_border(t_, s_, start))
+                return false;
+        }
+        return touches;
+    }
+
+    /// Do degrees miss those of regular vertices by a smaller sum of squares with the ears?
+    [[nodiscard]] bool betters_degrees(const Ears& ears) const {
+        Array<std::size_t> left(polygon_.rim.size());
+        std::iota(left.begin(), left.end(), std::size_t{0});
+        Array<int> gained;  // triangles of each vertex of the rim, those of the star off
+        gained.resize(left.size(), -2);
+        for (const std::size_t i : ears.first) {
+            const std::size_t n = left.size();
+            for (const std::size_t k : {i, i + 1, i + 2}) ++gained[left[k % n]];
+            if (n > 3) erase(left, (i + 1) % n);
+        }
+        int change = 0;
+        for (std::size_t k = 0; k < gained.size(); ++k) {
+            const Vertex v = polygon_.rim[k].start;
+            const int before = excess(stars_, v), after = before + gained[k];
+            change +=
+                (stars_.frozen[v] != 0 ? BORDER_WEIGHT : 1) * (after * after - before * before);
+        }
+        return change <= LEAST_BETTERMENT;
     }
 
     [[nodiscard]] double smallest_shape() const {
@@ -102,22 +158,37 @@ class StarRemoval {
     StarPolygon polygon_;
 };
 
-}  // namespace
-
-int remove_worst(Triangulation& t, const SurfaceFrames& s, Stars& stars, VertexMarks& marks,
-                 const Array<double>& shape, double least, const FillingLimits& limits) {
-    StarRemoval removal(t, s, stars, marks, limits);
+/// Call ``remove`` with the corners of triangles below ``least`` until one of each is gone; how many.
+template <class Remove>
+int remove_corners(const Triangulation& t, const SurfaceFrames& s, const Array<double>& shape,
+                   double least, Remove remove) {
     int removed = 0;
     for (Triangle k = 0; k < t.triangles(); ++k) {
         if (t.region[k] == DEAD || !(shape[k] < least)) continue;
         if (is_collapsed(s, t.tri[3 * k], t.tri[3 * k + 1], t.tri[3 * k + 2])) continue;
         for (HalfEdge e = 3 * k; e < 3 * k + 3; ++e)
-            if (removal.remove_if_better(t.tri[e])) {
+            if (remove(t.tri[e])) {
                 ++removed;
                 break;
             }
     }
     return removed;
+}
+
+}  // namespace
+
+int remove_worst(Triangulation& t, const SurfaceFrames& s, Stars& stars, VertexMarks& marks,
+                 const Array<double>& shape, double least, const FillingLimits& limits) {
+    StarRemoval removal(t, s, stars, marks, limits);
+    return remove_corners(t, s, shape, least,
+                          [&](Vertex v) { return removal.remove_if_better(v); });
+}
+
+int remove_at_border(Triangulation& t, const SurfaceFrames& s, Stars& stars, VertexMarks& marks,
+                     const Array<double>& shape, double bad, const FillingLimits& limits) {
+    StarRemoval removal(t, s, stars, marks, limits);
+    return remove_corners(t, s, shape, bad,
+                          [&](Vertex v) { return removal.remove_if_irregular(v); });
 }
 
 int remove_bad_stars(Triangulation& t, const SurfaceFrames& s, Stars& stars, VertexMarks& marks,

@@ -37,6 +37,17 @@ struct FillingLimits {
 int remove_worst(Triangulation& t, const SurfaceFrames& s, Stars& stars, VertexMarks& marks,
                  const Array<double>& shape, double least, const FillingLimits& limits);
 
+/// The same where they touch a straight border and the degrees of the vertices around, those on the
+/// border above all, get nearer to regular: three there, six inside. What is in their place is to
+/// be smoothed; moves of the border's neighbours alone do not get there.
+///
+///     --a---b---c--        the border: a and c have 4 triangles, b has 2; v has 6
+///       |\  |  /|
+///       | \ v / |          without v all three have 3
+///       p--...--q
+int remove_at_border(Triangulation& t, const SurfaceFrames& s, Stars& stars, VertexMarks& marks,
+                     const Array<double>& shape, double bad, const FillingLimits& limits);
+
 /// Remove free vertices from number ``first`` on with a triangle below ``least``: on the surface they
 /// are not where they seemed to be. Returns how many; stars must be found anew afterwards.
 int remove_bad_stars(Triangulation& t, const SurfaceFrames& s, Stars& stars, VertexMarks& marks,

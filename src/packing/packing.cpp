@@ -10,7 +10,6 @@
 namespace surfmesh {
 namespace {
 
-constexpr double CLOSE_BELOW = 1.40;  // fill a corner a, b, c straight away when l(a, c) is below
 constexpr double OVERLAP = 0.65;      // a circle nearer than this refuses the candidate
 constexpr double TANGENT_FROM = 0.8;  // metric radius at which a circle tangent to three is taken
 constexpr double TANGENT_TO = 1.25;
@@ -107,8 +106,8 @@ bool is_narrow_corner(const Packing& p, FrontEdge edge) {
     const Triangulation& t = p.t;
     const Vertex apex = outer_apex(p, edge.a);
     if (apex == NIL) return false;
-    if (apex == p.front.next(edge.b)) return edge_length(t.xy, t.size, edge.a, apex) < CLOSE_BELOW;
-    if (apex == p.front.prev(edge.a)) return edge_length(t.xy, t.size, apex, edge.b) < CLOSE_BELOW;
+    if (apex == p.front.next(edge.b)) return edge_length(t.xy, t.size, edge.a, apex) < p.narrow;
+    if (apex == p.front.prev(edge.a)) return edge_length(t.xy, t.size, apex, edge.b) < p.narrow;
     return false;
 }
 

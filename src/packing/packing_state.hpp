@@ -60,6 +60,7 @@ struct Packing {
     Array<double> radius;      // of the circles: got over wanted radius
     Array<double> drawn;       // the radius each circle is to have; none where a field says it
     PackingLimits limits;
+    double narrow = 1.40;  // a corner a, b, c is filled straight away when l(a, c) is below
     PackingCounts counts;
     PackingEnd end{PackingStatus::finished, {0.0, 0.0}};
     std::int64_t moves = 0;   // of the front since the waiting edges were last queued

@@ -164,6 +164,14 @@ void bind_passes(nb::class_<BoundPatch>& c) {
         "three "
         "triangles are regular. Returns the swaps made.");
     c.def(
+        "remove_at_border",
+        [](BoundPatch& p, double bad) {
+            return p.run([&](PatchState& s) { return s.remove_at_border(bad); });
+        },
+        nb::arg("bad"),
+        "Remove vertices beside straight borders, of triangles below the alpha ``bad``, without "
+        "which degrees are nearer to regular. Returns how many went.");
+    c.def(
         "collapse", [](BoundPatch& p) { p.run_pass([](PatchState& s) { s.collapse(); }); },
         "Remove interior vertices with a short edge, or with few triangles.");
     c.def(

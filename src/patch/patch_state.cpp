@@ -17,8 +17,9 @@ namespace surfmesh {
 namespace {
 
 constexpr int FEW = 4;  // an interior vertex with at most this many triangles is removed
-constexpr double LEAST_FOR_DEGREE = 0.4;            // worst alpha that a swap for degrees may leave
-constexpr int SWEEPS = 8;                           // of swaps over all edges, at most
+constexpr double LEAST_FOR_DEGREE = 0.4;    // worst alpha that a swap for degrees may leave
+constexpr double LONGEST_UNSMOOTHED = 1.7;  // edge where a vertex goes for the sake of degrees
+constexpr int SWEEPS = 8;                   // of swaps over all edges, at most
 constexpr std::size_t VERTICES_TOGETHER = 1 << 12;  // vertices put on the surface together
 
 // Of the domain: how far from a kink its two sides are looked at, and in which directions.
@@ -236,6 +237,17 @@ void PatchState::collapse() {
     const int made = collapse_short_edges(t, frames, stars, marks, SHORTEST, FEW);
     stars_known_ = stars_known_ && made == 0;
     collapses += made;
+}
+
+int PatchState::remove_at_border(double bad) {
+    if (stopped() || shape.size() < t.region.size()) return 0;
+    find_stars();
+    const FillingLimits limits{LONGEST_UNSMOOTHED,
+                               asked().chord.value_or(std::numeric_limits<double>::infinity())};
+    const int made = surfmesh::remove_at_border(t, frames, stars, marks, shape, bad, limits);
+    stars_known_ = stars_known_ && made == 0;
+    collapses += made;
+    return made;
 }
 
 void PatchState::remove_worst(double least) {

@@ -105,6 +105,9 @@ class PatchState {
     void swap_for_degree();
     /// The same at triangles below the alpha ``bad`` on straight borders; returns the swaps made.
     int swap_at_border(double bad);
+    /// Remove vertices beside straight borders, of triangles below the alpha ``bad``, without which
+    /// degrees are nearer to regular; returns how many went.
+    int remove_at_border(double bad);
     /// Remove interior vertices with a short edge, or with few triangles.
     void collapse();
     /// Remove corners of triangles below ``least`` where that raises the smallest alpha around.

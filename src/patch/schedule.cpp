@@ -110,7 +110,8 @@ double shape_of_worst_part(const PatchState& state) {
 
 /// Bring degrees along the border to what they should be at triangles below the alpha ``least``.
 void mend_border(PatchState& state, double least) {
-    if (state.swap_at_border(least) == 0) return;
+    const int swapped = state.swap_at_border(least);
+    if (state.remove_at_border(least) + swapped == 0) return;
     for (int pass = 0; pass < BORDER_PASSES; ++pass)
         if (state.smooth(SHAPE_STIFFNESS) == 0) break;
     state.swap(least);

@@ -221,6 +221,11 @@ class PatchState:
         The same at triangles below the alpha ``bad`` on straight borders, where vertices of three triangles are regular. Returns the swaps made.
         """
 
+    def remove_at_border(self, bad: float) -> int:
+        """
+        Remove vertices beside straight borders, of triangles below the alpha ``bad``, without which degrees are nearer to regular. Returns how many went.
+        """
+
     def collapse(self) -> None:
         """Remove interior vertices with a short edge, or with few triangles."""
 

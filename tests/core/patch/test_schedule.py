@@ -122,14 +122,14 @@ def test_the_worst_triangles_are_raised_and_none_gets_worse_than_they_were():
     assert (state.t.xy[domain.node] == nodes).all()
 
 
-def irregularity(state, corner):
+def irregularity(state, corner, border_weight=1):
     """Sum of the squares by which degrees miss 6 inside and 3 on the border, corners left out."""
     n = state.t.vertices
     state.find_stars()
     wrong = counted_degrees(state.t)[:n] - np.where(state.stars.frozen[:n] != 0, 3, 6)
     wrong[(counted_degrees(state.t)[:n] == 0)] = 0
     wrong[corner] = 0
-    return (wrong**2).sum()
+    return (np.where(state.stars.frozen[:n] != 0, border_weight, 1) * wrong**2).sum()
 
 
 def test_swaps_at_a_border_bring_degrees_nearer_to_three_and_six():
@@ -156,6 +156,32 @@ def test_border_vertices_of_four_and_two_triangles_do_not_stay():
 
     mesh = mesh_of(square, Sizing(size=sizes, growth=1.1))
     assert alphas(mesh).alpha.min() > 0.87
+
+
+def test_a_vertex_goes_where_a_border_has_one_too_many_beside_it():
+    state, domain = state_of("plane", size=0.05)
+    for step in ("swap", "smooth", "smooth", "swap", "smooth", "swap"):
+        getattr(state, step)()
+    nodes = state.t.xy[domain.node].copy()
+    corner = domain.node[np.isin(nodes, [nodes.min(), *nodes.max(axis=0)]).all(axis=1)]
+    live, before = len(live_triangles(state.t)), irregularity(state, corner, border_weight=2)
+    removed = state.remove_at_border(1.0)
+    assert removed > 0 and len(live_triangles(state.t)) == live - 2 * removed
+    assert irregularity(state, corner, border_weight=2) <= before - 3 * removed
+    assert check_domain(state.t, 1) is None
+    assert (state.t.xy[domain.node] == nodes).all()
+    assert state.remove_at_border(0.0) == 0
+
+
+def test_border_vertices_of_four_two_and_four_triangles_do_not_stay():
+    """Under a vertex with six they held the smallest alpha at 0.838; no swap betters them."""
+    square = PlanarDomain([[0, 0], [1, 0], [1, 1], [0, 1]])
+
+    def sizes(p):
+        return 0.005804797665875626 * (1.0 + 4.0 * np.hypot(p[:, 0] - 0.31, p[:, 1] - 0.5) / 0.7071)
+
+    mesh = mesh_of(square, Sizing(size=sizes, growth=1.1))
+    assert alphas(mesh).alpha.min() > 0.86
 
 
 def test_corners_of_bad_triangles_go_where_that_betters_their_stars():
