@@ -26,7 +26,7 @@ constexpr double ESTIMATE_MARGIN = 0.93, CLEARLY_FAR = 1.05;
 // longer be what edges are like.
 constexpr double STEERED_SCALE = 0.8;
 
-constexpr double LEAST_SHAPE = 0.72;  // alpha that moves keep to or restore
+constexpr double LEAST_SHAPE = 0.94;  // alpha that moves keep to or restore, where they can
 
 using Triangles = Array<Triangle>;
 
