@@ -80,11 +80,13 @@ def cut_until_proved(
         found = proved_distances(surface, face, np.full(len(face.corners), sizing.chord))
         if found is None:
             return patch, None
-        # where nothing is bounded, as at an apex, smaller triangles would be no better
-        left = np.flatnonzero((found.bound > sizing.chord) & np.isfinite(found.bound))
-        few = len(left) <= max(FEW, SHARE * len(found.bound))
+        most = max(FEW, SHARE * len(found.bound))
+        is_bounded = np.isfinite(found.bound)
+        left = np.flatnonzero(found.bound > sizing.chord)
+        # where much is not bounded, as over an offset, smaller triangles would be no better
+        left = left if np.count_nonzero(~is_bounded) <= most else left[is_bounded[left]]
         cut = None
-        if len(left) and few and passes < PASSES:
+        if 0 < len(left) <= most and passes < PASSES:
             worst_first = left[np.argsort(-found.bound[left], kind="stable")]
             cut = _farthest_sides(surface, patch, face, worst_first, sizing.min_size or 0.0)
         if cut is None:
