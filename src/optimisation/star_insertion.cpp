@@ -16,7 +16,7 @@ constexpr std::size_t MOST_SPOKES = 8;
 constexpr int ROUNDS = 2;  // of growing its star and moving it
 
 /// Put a value behind number k.
-void put_after(Array<RimEdge>& rim, std::size_t k, RimEdge value) {
+void put_after(Array<StarEdge>& rim, std::size_t k, StarEdge value) {
     rim.push_back(value);
     std::rotate(rim.begin() + k + 1, rim.end() - 1, rim.end());
 }
@@ -42,7 +42,7 @@ class NewStar {
             return false;
         }
         fill_star(t_, polygon_, v_);
-        for (const RimEdge& edge : polygon_.rim) marks_.touch(edge.start);
+        for (const StarEdge& edge : polygon_.rim) marks_.touch(edge.start);
         return true;
     }
 
@@ -58,14 +58,14 @@ class NewStar {
         }
     }
 
-    [[nodiscard]] RimEdge rim_edge(HalfEdge inner) const {
+    [[nodiscard]] StarEdge rim_edge(HalfEdge inner) const {
         return {t_.tri[inner], t_.adj[inner], t_.fixed[inner]};
     }
 
     /// Take triangles beyond the rim while that raises the smaller alpha of the pair, as swaps do.
     void grow() {
         for (std::size_t k = 0; k < polygon_.rim.size() && polygon_.rim.size() < MOST_SPOKES;) {
-            const RimEdge edge = polygon_.rim[k];
+            const StarEdge edge = polygon_.rim[k];
             if (edge.outer < 0 || edge.fixed != 0 || !takes(k)) {
                 ++k;
                 continue;
@@ -119,7 +119,7 @@ class NewStar {
             before = std::min(
                 before, triangle_shape(s_, t_.tri[3 * k], t_.tri[3 * k + 1], t_.tri[3 * k + 2]));
         if (!(before > FOLDED) || !(smallest_shape() > before + INSERTION_GAIN)) return false;
-        for (const RimEdge& edge : polygon_.rim) {
+        for (const StarEdge& edge : polygon_.rim) {
             const double length = norm(s_.point[edge.start] - s_.point[v_]);
             if (length < s_.limits.least_size || edge_length(s_, v_, edge.start) < SHORTEST_SPOKE)
                 return false;

@@ -62,7 +62,7 @@ class StarRemoval {
 
     void fill(Vertex v, const Ears& ears) {
         fill_polygon(t_, polygon_, ears);
-        for (const RimEdge& edge : polygon_.rim) {
+        for (const StarEdge& edge : polygon_.rim) {
             marks_.touch(edge.start);
             stars_.start[edge.start] = NIL;
         }
@@ -78,7 +78,7 @@ class StarRemoval {
     /// are as they were.
     [[nodiscard]] bool is_at_straight_border() const {
         bool touches = false;
-        for (const RimEdge& edge : polygon_.rim) {
+        for (const StarEdge& edge : polygon_.rim) {
             const HalfEdge start = stars_.start[edge.start];
             touches = touches || edge.outer < 0;
             if (start == NIL) return false;

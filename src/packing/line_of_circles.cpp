@@ -46,8 +46,8 @@ bool follow(const Background& background, const Circle& first, Point2 ray, doubl
 
 }  // namespace
 
-Array<Circle> circles_along(const Background& background, const Line& line, Point2 low, Point2 high,
-                            std::size_t most) {
+Array<Circle> circles_along(const Background& background, const StraightLine& line, Point2 low,
+                            Point2 high, std::size_t most) {
     const Circle middle = circle_at(background, line.through);
     const Point2 on = line.direction, back = -1.0 * on;
     const double far = 2.0 * norm(high - low);

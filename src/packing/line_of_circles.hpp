@@ -9,7 +9,7 @@
 namespace surfmesh {
 
 /// The line through the middle of a box in the direction of an axis: (1, 0) or (0, 1).
-struct Line {
+struct StraightLine {
     Point2 through, direction;
 };
 
@@ -17,7 +17,7 @@ struct Line {
 ///
 /// The first and the last touch none: they lie so far out that no circle that the box needs does.
 /// None where more than ``most`` would be needed, or where sizes are no numbers.
-Array<Circle> circles_along(const Background& background, const Line& line, Point2 low, Point2 high,
-                            std::size_t most);
+Array<Circle> circles_along(const Background& background, const StraightLine& line, Point2 low,
+                            Point2 high, std::size_t most);
 
 }  // namespace surfmesh

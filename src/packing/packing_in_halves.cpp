@@ -52,13 +52,13 @@ class SharedWatch {
 };
 
 struct LaidLine {
-    Line line;
+    StraightLine line;
     Array<Circle> circles;
 };
 
 /// The line along the axis that needs fewer circles in the middle of the box.
 LaidLine line_through(const Background& background, Point2 low, Point2 high, std::size_t most) {
-    Line line{0.5 * (low + high), {1.0, 0.0}};
+    StraightLine line{0.5 * (low + high), {1.0, 0.0}};
     const std::size_t across = circles_along(background, line, low, high, most).size();
     line.direction = {0.0, 1.0};
     const std::size_t upward = circles_along(background, line, low, high, most).size();
@@ -72,8 +72,8 @@ LaidLine line_through(const Background& background, Point2 low, Point2 high, std
 }
 
 /// The half on the left of the line.
-Packing pack_half(const Background& background, Array<Circle> circles, const Line& line, Point2 low,
-                  Point2 high, std::size_t room, const Watch& watch) {
+Packing pack_half(const Background& background, Array<Circle> circles, const StraightLine& line,
+                  Point2 low, Point2 high, std::size_t room, const Watch& watch) {
     const Point2 left{-line.direction.y, line.direction.x};
     const Point2 first = circles[0].centre;
     const Point2 last = circles.back().centre;
@@ -102,7 +102,7 @@ Packing pack_halves(const Background& background, const LaidLine& laid, Point2 l
     Packing halves[2];
     for_each_block(2, 1, [&](std::size_t n, std::size_t) {
         Array<Circle> circles(laid.circles);
-        Line line = laid.line;
+        StraightLine line = laid.line;
         if (n == 1) {
             std::reverse(circles.begin(), circles.end());
             line.direction = -1.0 * line.direction;

@@ -5,7 +5,7 @@
 namespace surfmesh {
 namespace {
 
-void attach(Triangulation& t, HalfEdge e, const RimEdge& rim) {
+void attach(Triangulation& t, HalfEdge e, const StarEdge& rim) {
     t.adj[e] = rim.outer;
     if (rim.outer >= 0) t.adj[rim.outer] = e;
     t.fixed[e] = rim.fixed;
@@ -72,7 +72,7 @@ bool is_ear(const Triangulation& t, std::span<const Vertex> corners, std::size_t
 }
 
 HalfEdge fill_polygon(Triangulation& t, const StarPolygon& polygon, const Ears& ears) {
-    Array<RimEdge> rim(polygon.rim);
+    Array<StarEdge> rim(polygon.rim);
     std::size_t slots = polygon.triangles.size();
     HalfEdge s = NIL;
     for (const std::size_t i : ears.first) {
@@ -117,7 +117,7 @@ void fill_star(Triangulation& t, const StarPolygon& polygon, Vertex v) {
 HalfEdge remove_vertex(Triangulation& t, HalfEdge e) {
     StarPolygon polygon;
     if (!take_star(t, e, polygon)) return NIL;
-    for (const RimEdge& edge : polygon.rim)
+    for (const StarEdge& edge : polygon.rim)
         if (edge.outer < 0) return NIL;
     const auto shape = [&](Vertex p, Vertex q, Vertex r) {
         return triangle_shape(t.xy, t.size, p, q, r);

@@ -26,7 +26,7 @@ namespace surfmesh {
 void swap_edge(Triangulation& t, HalfEdge e);
 
 /// An edge of the rim of a star, counter-clockwise: where it starts, and what is beyond.
-struct RimEdge {
+struct StarEdge {
     Vertex start;
     HalfEdge outer;  // NIL at the border
     std::uint8_t fixed;
@@ -34,7 +34,7 @@ struct RimEdge {
 
 /// The star of a vertex, to be triangulated without it.
 struct StarPolygon {
-    Array<RimEdge> rim;
+    Array<StarEdge> rim;
     Array<Triangle> triangles;  // whose slots may be used
 };
 
@@ -62,7 +62,7 @@ void erase(Array<T>& values, std::size_t k) {
 template <class Shape>
 Ears best_ears(const Triangulation& t, const StarPolygon& polygon, const Shape& shape) {
     Array<Vertex> corners;
-    for (const RimEdge& edge : polygon.rim) corners.push_back(edge.start);
+    for (const StarEdge& edge : polygon.rim) corners.push_back(edge.start);
     Ears ears;
     while (true) {
         const std::size_t n = corners.size();

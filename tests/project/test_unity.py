@@ -44,3 +44,17 @@ def test_names_of_a_file_are_unique_in_its_room(room):
             for name, meaning in local_names(path).items():
                 meanings[path.stem.endswith("bindings"), name].add(meaning)
     assert not {name: found for (_, name), found in meanings.items() if len(found) > 1}
+
+
+def test_types_that_others_see_have_one_meaning():
+    """Two types of one name in two rooms are one to the linker: what is made of one, such as an
+    array of it, would have the size of the other."""
+    places = defaultdict(set)
+    for path in sorted(SOURCES.rglob("*.?pp")):
+        hidden = False
+        for line in path.read_text(encoding="utf-8").splitlines():
+            hidden = not line.startswith("}  // namespace") and (hidden or line == "namespace {")
+            if not hidden and (found := re.match(r"(?:struct|class|enum class) (\w+)\b.*\{", line)):
+                if not re.match(r"(?:struct|class) \w+(?:::|<)", line):
+                    places[found.group(1)].add(path.relative_to(SOURCES).as_posix())
+    assert not {name: found for name, found in places.items() if len(found) > 1}
