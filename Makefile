@@ -75,7 +75,7 @@ sanitize: $(VENV)/.installed-dev ## tests of the core under address and undefine
 	    -DPython_EXECUTABLE=$(abspath $(BIN)/python) -DSURFMESH_MODULE=$(abspath $(SANITIZED)) >/dev/null
 	PATH="$(abspath $(BIN)):$$PATH" cmake --build build/sanitize
 	LD_PRELOAD="$(PRELOADED)" ASAN_OPTIONS=detect_leaks=0 PYTHONPATH=build/sanitize/package \
-	    $(BIN)/python -m pytest -q -p no:cacheprovider -n 2 tests/core
+	    $(BIN)/python -P -m pytest -q -p no:cacheprovider -n 2 tests/core
 
 RACES := build/races/package/surfmesh
 races: $(VENV)/.installed-dev ## tests of what threads of one call do, under the thread sanitizer
@@ -86,7 +86,7 @@ races: $(VENV)/.installed-dev ## tests of what threads of one call do, under the
 	    -DPython_EXECUTABLE=$(abspath $(BIN)/python) -DSURFMESH_MODULE=$(abspath $(RACES)) >/dev/null
 	PATH="$(abspath $(BIN)):$$PATH" cmake --build build/races
 	LD_PRELOAD="$(shell $(or $(CXX),c++) -print-file-name=libtsan.so)" TSAN_OPTIONS=halt_on_error=1 \
-	    PYTHONPATH=build/races/package $(BIN)/python -m pytest -q -x -p no:cacheprovider -n 0 \
+	    PYTHONPATH=build/races/package $(BIN)/python -P -m pytest -q -x -p no:cacheprovider -n 0 \
 	    tests/core/patch/test_parts_of_a_patch.py tests/core/packing/test_packing_in_halves.py
 
 fuzz: $(VENV)/.installed-dev ## hostile input by thousands: the table (SURFMESH_FUZZ=1000 a kind)

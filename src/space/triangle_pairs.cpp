@@ -218,6 +218,8 @@ KeyedTriangle keyed(const Triangle3& corners) {
 bool triangles_meet(const KeyedTriangle& one, const KeyedTriangle& other) {
     const Triangle3 &s = one.corners, &t = other.corners;
     const SharedCorners shared = shared_corners(one, other);
+    // two corners of s in one place, that of a corner of t: it has no area
+    if (shared.count > 1 && shared.before[1] == shared.last[1]) return false;
     const std::size_t a = shared.last[0], d = shared.last[1];
     const Point3 b = s[next(a)], c = s[(a + 2) % 3], e = t[next(d)], f = t[(d + 2) % 3];
     if (shared.count == 0 && (are_parted_by(s, t) || are_parted_by(t, s))) return false;
