@@ -171,3 +171,18 @@ def test_a_thin_strip_gets_triangles_of_its_own_width():
     area = 0.5 * np.linalg.norm(np.cross(b - a, c - a), axis=1)
     alpha = 4.0 * np.sqrt(3.0) * area / np.square(sides).sum(axis=(1, 2))
     assert (alpha < 0.3).mean() < 0.01
+
+
+def test_edges_that_end_beside_their_vertex_get_no_segment_without_length():
+    start, end = cq.Vector(0.0, 0.0, 0.0), cq.Vector(4.0, 0.0, 0.0)
+    beside = cq.Vector(2e-8, 0.0, 0.0)  # one vertex with the start, within its tolerance
+    above = cq.Vector(4.0, 0.08, 0.0)
+    sides = [
+        cq.Edge.makeLine(start, end),
+        cq.Edge.makeLine(above, end),
+        cq.Edge.makeThreePointArc(beside, cq.Vector(2.0, 0.02, 0.0), above),
+    ]
+    mesh = sm.mesh(cq.Face.makeFromWires(cq.Wire.assembleEdges(sides)), sm.Sizing(size=0.2))
+    assert sm.check(mesh).clean
+    lengths = np.linalg.norm(np.diff(mesh.points[mesh.edges], axis=1)[:, 0], axis=1)
+    assert lengths.min() > 1e-6

@@ -216,6 +216,7 @@ class MatedCuts:
         self._seen[id(run)] = len(own)
         reach = 0.5 * np.diff(run.t).max() if len(run.t) > 1 else 0.0
         own = own[(own >= run.t[0] - reach) & (own <= run.t[-1] + reach)]
+        own = own[~self._is_node_of(run.mate, run.edge, own)]
         if not len(own):
             return 0
         edge = self.model.edges[run.edge]
@@ -240,6 +241,13 @@ class MatedCuts:
         if added:
             self.t[run.mate] = np.unique(nodes)
         return len(added)
+
+    def _is_node_of(self, mate: int, edge: int, t: np.ndarray) -> np.ndarray:
+        """Which parameters (n,) of an edge are vertices that the mate has too: these are their own
+        feet, however far from the vertex its curves end."""
+        ends = model_arrays(self.model).mesh_ends
+        start, end = np.isin(ends[edge], ends[mate]).tolist()
+        return np.asarray(((t == 0.0) & start) | ((t == 1.0) & end))
 
     def _lengths(self, edge: int) -> np.ndarray:
         return lengths_along(self.samples.points[self.samples.of(edge)])
