@@ -20,6 +20,7 @@ from OCP.GC import GC_MakeLine
 from OCP.Geom import Geom_Plane, Geom_RectangularTrimmedSurface
 from OCP.Precision import Precision
 from OCP.ShapeAnalysis import ShapeAnalysis_ShapeTolerance
+from OCP.ShapeBuild import ShapeBuild_ReShape
 from OCP.ShapeExtend import ShapeExtend, ShapeExtend_MsgRegistrator
 from OCP.ShapeFix import ShapeFix_Face, ShapeFix_Shape
 from OCP.TopAbs import (
@@ -72,8 +73,8 @@ def healed(part: Part, heal: bool = True) -> Part:
     bare = [face for face in faces_of(part.shape) if _is_bare(face)]
     curveless = [edge for edge in edges_of(part.shape) if _lacks_curve(edge)]
     passed = passed_poles(part) if heal else []
-    wrong = heal and (bool(passed) or _lacks_pcurve(part.shape) or not is_valid(part.shape))
-    if not (bare or curveless or wrong):
+    wrong = heal and (_lacks_pcurve(part.shape) or not is_valid(part.shape))
+    if not (bare or curveless or wrong or passed):
         return _uncreased(part) if heal else part
     part = _copied(part)
     if curveless or wrong:
@@ -84,6 +85,8 @@ def healed(part: Part, heal: bool = True) -> Part:
         part = with_turned_spheres(part, passed_poles(part))
     if wrong:
         part = _repaired(_with_own_loops(part))
+    elif passed:
+        part = _with_faces_repaired(_with_own_loops(part))
     return _uncreased(part) if heal else part
 
 
@@ -188,16 +191,32 @@ def _on_a_copy(face: TopoDS_Face) -> TopoDS_Face:
     return own
 
 
+def _with_faces_repaired(part: Part) -> Part:
+    """The faces that lack p-curves repaired, all others as they are: the tools drop seams of faces
+    that are closed both ways. Where the part is not valid then, it is repaired as a whole."""
+    context = ShapeBuild_ReShape()
+    for face in faces_of(part.shape):
+        if any(BRep_Tool.CurveOnSurface_s(e, face, 0.0, 0.0) is None for e in edges_of(face)):
+            fix = ShapeFix_Shape(face)
+            fix.SetContext(context)
+            fix.SetMaxTolerance(_widest(part))
+            fix.Perform()
+    mended = part.mapped(context.Apply)
+    return mended if is_valid(mended.shape) else _repaired(part)
+
+
+def _widest(part: Part) -> float:
+    """The tolerance up to which the tools may raise others."""
+    known = ShapeAnalysis_ShapeTolerance().Tolerance(part.shape, 1)
+    return max(LARGEST_GAP * box_diagonal([part.shape], exact=False), known)
+
+
 def _repaired(part: Part) -> Part:
     ShapeExtend.Init_s()  # loads the texts of its messages
-    tolerances = ShapeAnalysis_ShapeTolerance()
-    reach = max(
-        LARGEST_GAP * box_diagonal([part.shape], exact=False), tolerances.Tolerance(part.shape, 1)
-    )
     fix = ShapeFix_Shape(part.shape)
     messages = ShapeExtend_MsgRegistrator()
     fix.SetMsgRegistrator(messages)
-    fix.SetMaxTolerance(reach)
+    fix.SetMaxTolerance(_widest(part))
     fix.Perform()
     context = fix.Context()
     said = messages.MapShape()  # some of it of shapes that are new

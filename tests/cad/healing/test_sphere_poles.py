@@ -87,3 +87,14 @@ def test_a_sphere_in_two_faces_comes_back_from_a_step_file(where, tmp_path):
     assert report.clean
     assert report.euler == 2
     assert report.area == pytest.approx(4.0 * math.pi * R * R, rel=0.04)
+
+
+def test_other_faces_keep_their_seams():
+    ring = cq.Solid.makeTorus(1.6, 0.87, cq.Vector(-2.45, 0.3, 0.1), cq.Vector(-0.2, 0.004, 1.0))
+    hole = cq.Workplane(origin=(-3.46, -2.13, -0.94)).transformed(rotate=(32.0, 4.0, 0.0))
+    part = cq.Workplane().box(3.47, 7.17, 3.88).union(cq.Workplane(obj=ring))
+    part = part.cut(hole.circle(1.18).extrude(4.6))
+    part = part.cut(cq.Workplane(origin=(0.78, 3.59, 2.65)).sphere(2.33))
+    mesh = sm.mesh(part, sm.Sizing(chord=0.05))
+    assert "passes a pole" in mesh.facts.healing[0]
+    assert sm.check(mesh).clean
