@@ -12,6 +12,10 @@ double rise(const BySide& least) {
     return 0.5 * largest_on_simplex(-least[0], -least[1], -least[2]);
 }
 
+double largest_error(const CellCorners& corner) {
+    return std::max({corner[0]->bends.error, corner[1]->bends.error, corner[2]->bends.error});
+}
+
 /// What R - L is made of at places of a cell: values at its corners, and g_k there by side and corner,
 ///
 ///     l_k,    l_i l_j (l_c + [c is i or j])        with i and j the ends of side k.
@@ -42,12 +46,19 @@ struct PlaceWeights {
     }
 };
 
-/// The largest square of R - L at places of a cell; scale: of g_k.
+template <std::size_t COUNT>
+double largest(const std::array<double, COUNT>& numbers) {
+    double most = 0.0;
+    for (const double x : numbers) most = std::max(most, x);
+    return most;
+}
+
+/// The largest |n . (R - L)| and |R - L| at places of a cell; scale: of g_k.
 template <std::size_t FINER>
-double largest_square(const CellCorners& corner, double scale) {
+PieceSize farthest_at_places(const CellCorners& corner, double scale) {
     static constexpr PlaceWeights<FINER> WEIGHTS;
     constexpr std::size_t COUNT = PlaceWeights<FINER>::COUNT;
-    std::array<double, COUNT> squares{};
+    std::array<double, COUNT> squares{}, heights{};  // of the last axis
     for (std::size_t d = 0; d < 3; ++d) {
         std::array<double, COUNT> away{};
         const auto add = [&away](double factor, const std::array<double, COUNT>& weights) {
@@ -58,11 +69,10 @@ double largest_square(const CellCorners& corner, double scale) {
             for (std::size_t k = 0; k < 3; ++k)
                 add(-scale * corner[c]->bends.value[d][k], WEIGHTS.bend[k][c]);
         }
-        for (std::size_t p = 0; p < COUNT; ++p) squares[p] += away[p] * away[p];
+        for (std::size_t p = 0; p < COUNT; ++p) heights[p] = away[p] * away[p];
+        for (std::size_t p = 0; p < COUNT; ++p) squares[p] += heights[p];
     }
-    double most = 0.0;
-    for (const double square : squares) most = std::max(most, square);
-    return most;
+    return {std::sqrt(largest(heights)), std::sqrt(largest(squares))};
 }
 
 /// One cell after the other.
@@ -76,8 +86,8 @@ class Cells {
           within_(within),
           with_slope_(with_slope) {}
 
-    /// |R - L| at a corner of cells, of which all are taken before these.
-    void take_corner(const PlaceJet& there) { whole_ = std::max(whole_, away_of(there)); }
+    /// R - L at a corner of cells, of which all are taken before these.
+    void take_corner(const PlaceJet& there) { take_farther(away_of(there)); }
     /// direction: -1 where its sides run against those of the triangle.
     void take(const CellCorners& corner, double direction) {
         SideBends bends;
@@ -86,37 +96,53 @@ class Cells {
             for (double& part : along) part *= scale_ * scale_;
         for (const PlaceJet* there : corner) join(bends, there->bends, more, with_slope_);
         if (within_ == CellPlaces::NONE)
-            whole_ = intervals::INFINITE;
+            away_ = {intervals::INFINITE, intervals::INFINITE};
         else
-            look_within(corner, size_from(bends, frame_).whole * scale_ * scale_);
+            look_within(corner, size_from(bends, frame_));
         for (std::size_t k = 0; k < 3 && with_slope_; ++k)
             slope_[k] = std::max(slope_[k], steepest(corner, k, direction));
         take_larger(bends_, bends);
     }
     [[nodiscard]] BoundsOfCells found() const {
-        if (!with_slope_) return {bends_, whole_, intervals::INFINITE};
+        BoundsOfCells all{bends_, away_, intervals::INFINITE};
+        if (!with_slope_) return all;
         BySide part{};
         for (std::size_t k = 0; k < 3; ++k) {
-            if (!(frame_.lengths[k] > 0.0)) return {bends_, whole_, intervals::INFINITE};
+            if (!(frame_.lengths[k] > 0.0)) return all;
             part[k] = slope_[k] / frame_.lengths[k];
         }
-        return {bends_, whole_, slope_of(part, frame_)};
+        all.slope = slope_of(part, frame_);
+        return all;
     }
 
   private:
-    /// rises: from the plane through |R - L| at its corners.
-    void look_within(const CellCorners& corner, double rises) {
-        double most = 0.0;
-        for (const PlaceJet* there : corner) most = std::max(most, away_of(*there));
-        if (most + rises <= whole_) return;
-        whole_ = std::max(whole_, farthest(corner, rises));
+    void take_farther(const PieceSize& there) {
+        away_.height = std::max(away_.height, there.height);
+        away_.whole = std::max(away_.whole, there.whole);
     }
-    [[nodiscard]] double away_of(const PlaceJet& there) const {
+    /// rises: from the plane through R - L at its corners, of cells as large as the triangle.
+    void look_within(const CellCorners& corner, const PieceSize& rises) {
+        PieceSize most{};
+        for (const PlaceJet* there : corner) {
+            const PieceSize away = away_of(*there);
+            most = {std::max(most.height, away.height), std::max(most.whole, away.whole)};
+        }
+        const double square = scale_ * scale_;
+        if (most.whole + square * rises.whole <= away_.whole &&
+            most.height + square * rises.height <= away_.height)
+            return;
+        take_farther(farthest(corner, {square * rises.height, square * rises.whole}));
+    }
+    [[nodiscard]] PieceSize away_of(const PlaceJet& there) const {
         const auto& [x, y, z] = there.away;
-        return std::sqrt(x * x + y * y + z * z) * (1.0 + 4.0 * frame_.tilt + CELL_ROUNDING) +
-               there.away_error;
+        return on_safe_side({std::abs(z), std::sqrt(x * x + y * y + z * z)}, there.away_error);
     }
-    [[nodiscard]] double farthest(const CellCorners& corner, double rises) const;
+    /// Along a normal, and in all, of what is measured along axes that are tilted.
+    [[nodiscard]] PieceSize on_safe_side(const PieceSize& size, double error) const {
+        const double whole = size.whole * (1.0 + 4.0 * frame_.tilt + CELL_ROUNDING) + error;
+        return {size.height + (frame_.tilt + CELL_ROUNDING) * whole + error, whole};
+    }
+    [[nodiscard]] PieceSize farthest(const CellCorners& corner, const PieceSize& rises) const;
     [[nodiscard]] double steepest(const CellCorners& corner, std::size_t k, double direction) const;
 
     double scale_;
@@ -125,37 +151,37 @@ class Cells {
     CellPlaces within_;
     bool with_slope_;
     SideBends bends_;
-    double whole_ = 0.0;
+    PieceSize away_{0.0, 0.0};
     BySide slope_{};
 };
 
-/// |R - L| at places of the cell, and what it rises by between them, which falls with their square.
-double Cells::farthest(const CellCorners& corner, double rises) const {
+/// R - L at places of the cell, and what it rises by between them, which falls with their square.
+PieceSize Cells::farthest(const CellCorners& corner, const PieceSize& rises) const {
     constexpr std::size_t FEW = 4, MANY = 6;  // along a side
     const double square = scale_ * scale_, scale = square / 6.0;
     const bool is_few = within_ == CellPlaces::FEW;
-    const double finer = static_cast<double>(is_few ? FEW : MANY);
-    const double most =
-        is_few ? largest_square<FEW>(corner, scale) : largest_square<MANY>(corner, scale);
-    double off = 0.0, size = 0.0, away = 0.0;
+    const double finer = is_few ? FEW * FEW : MANY * MANY;
+    PieceSize most =
+        is_few ? farthest_at_places<FEW>(corner, scale) : farthest_at_places<MANY>(corner, scale);
+    const double more = largest_error(corner);
+    double squares = 0.0, off = 0.0, size = 0.0, error = 0.0;
     for (std::size_t d = 0; d < 3; ++d) {
         double part = 0.0;
         for (std::size_t k = 0; k < 3; ++k) {
-            double error = 0.0;
-            for (const PlaceJet* there : corner) {
-                error = std::max(error, there->bends.error[k]);
+            for (const PlaceJet* there : corner)
                 size = std::max(size, std::abs(there->bends.value[d][k]));
-            }
-            part = std::max(part, square * rho_[d][k] + error);
+            part = std::max(part, square * rho_[d][k]);
         }
-        off += part * part;
+        off = scale * (part + more);  // of the normal in the end
+        squares += off * off;
     }
     for (const PlaceJet* there : corner) {
-        away = std::max(away, there->away_error);
+        error = std::max(error, there->away_error);
         for (const double x : there->away) size = std::max(size, std::abs(x));
     }
-    return (std::sqrt(most) + std::sqrt(off) * scale) * (1.0 + 4.0 * frame_.tilt) + away +
-           CELL_ROUNDING * size + rises / (finer * finer);
+    most = {most.height + off, most.whole + std::sqrt(squares)};
+    most = on_safe_side(most, error + CELL_ROUNDING * size);
+    return {most.height + rises.height / finer, most.whole + rises.whole / finer};
 }
 
 /// The largest |D|, D = R'(e_k) - L'(e_k): within half of sum l_i l_j R'''(e_k, e_ij, e_ij) / n^2 of
@@ -166,12 +192,12 @@ double Cells::steepest(const CellCorners& corner, std::size_t k, double directio
     const PlaceBends &from = corner[k]->bends, &to = corner[(k + 1) % 3]->bends;
     const double cube = scale_ * scale_ * scale_;
     double squares = 0.0, error = 0.0;
-    for (const PlaceJet* there : corner) error = std::max(error, there->slope_error[k]);
+    for (const PlaceJet* there : corner) error = std::max(error, there->slope_error);
     for (std::size_t d = 0; d < 3; ++d) {
         BySide least{}, lowest{};
         for (std::size_t i = 0; i < 3; ++i) {
             const double mean = direction * scale_ * (to.value[d][i] - from.value[d][i]);
-            const double off = scale_ * (to.error[i] + from.error[i]) + FARTHER * cube * rho_[d][i];
+            const double off = scale_ * (to.error + from.error) + FARTHER * cube * rho_[d][i];
             least[i] = mean - off;
             lowest[i] = -mean - off;
         }
@@ -189,6 +215,7 @@ double Cells::steepest(const CellCorners& corner, std::size_t k, double directio
 }  // namespace
 
 SideBends averaged_bends(const CellCorners& corner, const FourthParts& rho) {
+    const double error = largest_error(corner);
     SideBends found;
     for (std::size_t d = 0; d < 3; ++d)
         for (std::size_t k = 0; k < 3; ++k) {
@@ -198,8 +225,6 @@ SideBends averaged_bends(const CellCorners& corner, const FourthParts& rho) {
             constexpr double THIRD = 1.0 / 3.0;
             const BySide values = {THIRD * (2.0 * a + b), THIRD * (a + 2.0 * b),
                                    THIRD * (a + b + c)};
-            const double error = std::max(
-                {corner[0]->bends.error[k], corner[1]->bends.error[k], corner[2]->bends.error[k]});
             const double more = rho[d][k] + error;
             const double up = std::max({values[0], values[1], values[2]}) + more;
             const double down = more - std::min({values[0], values[1], values[2]});

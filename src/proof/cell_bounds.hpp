@@ -24,11 +24,11 @@ SideBends averaged_bends(const CellCorners& corner, const FourthParts& rho);
 
 struct BoundsOfCells {
     SideBends bends;  // suprema
-    double whole;     // |R - L|
+    PieceSize away;   // |n . (R - L)| and |R - L|
     double slope;     // the largest |(R' - L')(w)| for unit w
 };
 
-/// Where |R - L| is looked at within a cell: nowhere, which leaves it infinite, or at a grid of places.
+/// Where R - L is looked at within a cell: nowhere, which leaves it infinite, or at a grid of places.
 enum class CellPlaces { NONE, FEW, MANY };
 
 /// places: of the grid with n cells along a side. with_slope: else it is left infinite.

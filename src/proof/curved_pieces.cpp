@@ -8,7 +8,8 @@
 namespace surfmesh {
 namespace {
 
-constexpr int MIDDLE_STEPS = 2;          // of Newton's method, from the middle
+// of Newton's method, from the middle: to the nearest place, and to that of a node
+constexpr int TO_NEAREST = 1, TO_NODE = 2;
 constexpr double LEAST_JACOBIAN = 0.05;  // of that of the straight triangle
 constexpr double THINNEST = 1e-10;       // whose Jacobian is more than round-off
 constexpr int HALVINGS = 3;
@@ -138,7 +139,8 @@ SurfaceStatus curved_pieces(const Surface& surface, const FaceSides& face,
     Array<Middle> all = middles_of(face, middles);
     Array<Point2> uv(all.size());
     SurfaceValues values;
-    for (int step = 0; step < MIDDLE_STEPS; ++step) {
+    const int steps = middles.empty() ? TO_NEAREST : TO_NODE;
+    for (int step = 0; step < steps; ++step) {
         for (std::size_t i = 0; i < all.size(); ++i) uv[i] = all[i].place;
         if (const auto status = values.evaluate(surface, {uv.data(), uv.size()}, 1);
             status != SurfaceStatus::DONE)

@@ -6,93 +6,154 @@
 namespace surfmesh {
 namespace {
 
-constexpr double FOURTH_ROUNDING = 0x1p-46;  // relative, more than that of any short sum here
+constexpr double FOURTH_ROUNDING = 0x1p-46;  // relative, more than that of any sum of products here
+constexpr std::size_t PAIRS = 6,
+                      FOURTH = 7;  // of sides k <= l; the first of the fourth derivatives
+constexpr std::array<std::size_t, PAIRS> FIRST = {0, 0, 0, 1, 1, 2}, OTHER = {0, 1, 2, 1, 2, 2};
+
+/// Rows, so that pairs are computed side by side.
+using ByPair = std::array<double, PAIRS>;
+using Weights = std::array<ByPair, HIGH_DERIVATIVES>;
+
+/// Of p_a, p_b, q_aa, q_bb and q_ab of each pair of sides a and b: rows of u, rows of v.
+enum Step : std::size_t { A, B, AA, BB, AB, STEPS };
+struct Steps {
+    std::array<ByPair, STEPS> u, v;
+};
+
+void set_weights(const Steps& steps, Weights& of) {
+    const auto& [u, v] = steps;
+    for (std::size_t p = 0; p < PAIRS; ++p) {
+        const double au = u[A][p], av = v[A][p], bu = u[B][p], bv = v[B][p];
+        const double auu = au * au, auv = 2.0 * au * av, avv = av * av;
+        const double buu = bu * bu, buv = 2.0 * bu * bv, bvv = bv * bv;
+        of[7][p] = auu * buu;
+        of[8][p] = auu * buv + auv * buu;
+        of[9][p] = auu * bvv + auv * buv + avv * buu;
+        of[10][p] = auv * bvv + avv * buv;
+        of[11][p] = avv * bvv;
+        const double uu = 4.0 * au * bu, uv = 4.0 * (au * bv + av * bu), vv = 4.0 * av * bv;
+        const double aau = u[AA][p], aav = v[AA][p], bbu = u[BB][p], bbv = v[BB][p], abu = u[AB][p],
+                     abv = v[AB][p];
+        of[3][p] = auu * bbu + buu * aau + uu * abu;
+        of[4][p] = (auu * bbv + auv * bbu) + (buu * aav + buv * aau) + (uu * abv + uv * abu);
+        of[5][p] = (auv * bbv + avv * bbu) + (buv * aav + bvv * aau) + (uv * abv + vv * abu);
+        of[6][p] = avv * bbv + bvv * aav + vv * abv;
+        of[0][p] = aau * bbu + 2.0 * abu * abu;
+        of[1][p] = aau * bbv + aav * bbu + 4.0 * abu * abv;
+        of[2][p] = aav * bbv + 2.0 * abv * abv;
+    }
+}
 
 /// By coordinate.
 Point2 sizes_of_vector(Point2 a) { return {std::abs(a.x), std::abs(a.y)}; }
 
-/// What derivatives of r from the second to the fourth order are multiplied by; none is negative.
-struct HighWeights {
-    std::array<double, HIGH_DERIVATIVES> of{};
+/// psi'(e_k) over the piece.
+struct SideStep {
+    Point2 mid, rad;
+};
 
-    void add_second(double factor, Point2 a, Point2 b) {
-        of[0] += factor * (a.x * b.x);
-        of[1] += factor * (a.x * b.y + a.y * b.x);
-        of[2] += factor * (a.y * b.y);
+std::array<SideStep, 3> steps_along(const PlanePiece& piece, Point2 rounding) {
+    std::array<SideStep, 3> found{};
+    for (std::size_t k = 0; k < 3; ++k) {
+        Point2 low = piece.along(k, AT_CORNERS[0]), high = low;
+        for (std::size_t m = 1; m < 3; ++m) {
+            const Point2 e = piece.along(k, AT_CORNERS[m]);
+            low = {std::min(low.x, e.x), std::min(low.y, e.y)};
+            high = {std::max(high.x, e.x), std::max(high.y, e.y)};
+        }
+        found[k] = {0.5 * (low + high), 0.5 * (high - low) + rounding};
     }
-    void add_third(double factor, Point2 a, Point2 b, Point2 c) {
-        const double uu = factor * (a.x * b.x), uv = factor * (a.x * b.y + a.y * b.x),
-                     vv = factor * (a.y * b.y);
-        of[3] += uu * c.x;
-        of[4] += uu * c.y + uv * c.x;
-        of[5] += uv * c.y + vv * c.x;
-        of[6] += vv * c.y;
-    }
-    /// Along a twice and b twice.
-    void add_fourth(Point2 a, Point2 b) {
-        const double uu = a.x * a.x, uv = 2.0 * a.x * a.y, vv = a.y * a.y;
-        const double xx = b.x * b.x, xy = 2.0 * b.x * b.y, yy = b.y * b.y;
-        of[7] += uu * xx;
-        of[8] += uu * xy + uv * xx;
-        of[9] += uu * yy + uv * xy + vv * xx;
-        of[10] += uv * yy + vv * xy;
-        of[11] += vv * yy;
-    }
-    [[nodiscard]] Point3 times(const HighMagnitudes& most) const {
-        Point3 size{0.0, 0.0, 0.0};
-        for (std::size_t n = 0; n < HIGH_DERIVATIVES; ++n) size = size + of[n] * most[n];
-        return size;
+    return found;
+}
+
+struct StepBalls {
+    Steps mid, rad;
+
+    void set(Step step, std::size_t pair, Point2 middle, Point2 radius) {
+        mid.u[step][pair] = middle.x;
+        mid.v[step][pair] = middle.y;
+        rad.u[step][pair] = radius.x;
+        rad.v[step][pair] = radius.y;
     }
 };
 
-/// Bounds of |R''''(e_k, e_k, e_l, e_l)|.
-Point3 fourth_along(const HighMagnitudes& most, const PlanePiece& piece, bool is_straight,
-                    const std::array<Point2, 3>& along, std::size_t k, std::size_t l) {
-    const Point2 a = along[k], b = along[l];
-    HighWeights weights;
-    weights.add_fourth(a, b);
-    if (is_straight) return weights.times(most);
-    const Point2 aa = sizes_of_vector(piece.second(k, k)), bb = sizes_of_vector(piece.second(l, l)),
-                 ab = sizes_of_vector(piece.second(k, l));
-    weights.add_third(1.0, a, a, bb);
-    weights.add_third(1.0, b, b, aa);
-    weights.add_third(4.0, a, b, ab);
-    weights.add_second(1.0, aa, bb);
-    weights.add_second(2.0, ab, ab);
-    return weights.times(most);
+StepBalls steps_of(const PlanePiece& piece) {
+    Point2 rounding{0.0, 0.0};  // of sums that may cancel
+    for (const Point2 bend : piece.bend) rounding = rounding + 0x1p-46 * sizes_of_vector(bend);
+    const std::array<SideStep, 3> along = steps_along(piece, rounding);
+    StepBalls found;
+    for (std::size_t p = 0; p < PAIRS; ++p) {
+        const std::size_t k = FIRST[p], l = OTHER[p];
+        found.set(A, p, along[k].mid, along[k].rad);
+        found.set(B, p, along[l].mid, along[l].rad);
+        found.set(AA, p, piece.second(k, k), rounding);
+        found.set(BB, p, piece.second(l, l), rounding);
+        found.set(AB, p, piece.second(k, l), rounding);
+    }
+    return found;
+}
+
+/// Each |mid| + factor rad.
+Steps sizes_of(const StepBalls& steps, double factor) {
+    Steps found;
+    for (std::size_t k = 0; k < STEPS; ++k)
+        for (std::size_t p = 0; p < PAIRS; ++p) {
+            found.u[k][p] = std::abs(steps.mid.u[k][p]) + factor * steps.rad.u[k][p];
+            found.v[k][p] = std::abs(steps.mid.v[k][p]) + factor * steps.rad.v[k][p];
+        }
+    return found;
+}
+
+double sum_of_sizes(Point3 x) { return std::abs(x.x) + std::abs(x.y) + std::abs(x.z); }
+
+/// R'''' of each pair along each axis.
+struct FourthBalls {
+    std::array<ByPair, 3> mid{}, rad{};
+};
+
+/// Of the derivatives from ``first`` on.
+FourthBalls along_axes(const HighDerivatives& over, const PlanePiece& piece, std::size_t first,
+                       const Directions& axes) {
+    const StepBalls steps = steps_of(piece);
+    Weights mid, size, most;
+    set_weights(steps.mid, mid);
+    set_weights(sizes_of(steps, 0.0), size);
+    set_weights(sizes_of(steps, 1.0), most);
+    FourthBalls found;
+    for (std::size_t n = first; n < HIGH_DERIVATIVES; ++n) {
+        const Point3 x = over.mid[n], r = over.rad[n];
+        const double rounding = FOURTH_ROUNDING * (sum_of_sizes(x) + sum_of_sizes(r));
+        for (std::size_t d = 0; d < 3; ++d) {
+            const Point3 axis = axes[d];
+            const double along = dot(axis, x), less = std::abs(along);
+            const double all = less + rounding + std::abs(axis.x) * r.x + std::abs(axis.y) * r.y +
+                               std::abs(axis.z) * r.z;
+            for (std::size_t p = 0; p < PAIRS; ++p) {
+                found.mid[d][p] += mid[n][p] * along;
+                found.rad[d][p] += most[n][p] * all - size[n][p] * less;
+            }
+        }
+    }
+    return found;
 }
 
 }  // namespace
 
-FourthParts fourth_parts(const HighMagnitudes& most, const PlanePiece& piece,
+FourthParts fourth_parts(const HighDerivatives& over, const PlanePiece& piece,
                          const Directions& axes) {
-    constexpr double BENDS_ROUNDING = 1.0 + 0x1p-40;
-    std::array<Point2, 3> along{};  // the largest derivatives of psi, by coordinate
-    for (std::size_t k = 0; k < 3; ++k)
-        for (const Barycentric& corner : AT_CORNERS) {
-            const Point2 e = sizes_of_vector(piece.along(k, corner));
-            along[k] = {std::max(along[k].x, e.x), std::max(along[k].y, e.y)};
-        }
-    const bool is_straight = piece.is_straight();
-    if (!is_straight)  // which may cancel
-        for (Point2& e : along)
-            for (const Point2 bend : piece.bend)
-                e = BENDS_ROUNDING * e + 0x1p-40 * sizes_of_vector(bend);
+    const auto [mid, rad] = along_axes(over, piece, piece.is_straight() ? FOURTH : 0, axes);
     FourthParts found{};
-    for (std::size_t k = 0; k < 3; ++k)
-        for (std::size_t l = k; l < 3; ++l) {
-            const Point3 size = fourth_along(most, piece, is_straight, along, k, l);
-            if (!(size.x + size.y + size.z < intervals::INFINITE)) return UNKNOWN_PARTS;
-            for (std::size_t axis = 0; axis < 3; ++axis) {
-                const Point3& x = axes[axis];
-                const double part =
-                    (std::abs(x.x) * size.x + std::abs(x.y) * size.y + std::abs(x.z) * size.z) *
-                    ((1.0 + FOURTH_ROUNDING) / 6.0);
-                found[axis][k] = std::max(found[axis][k], part);
-                found[axis][l] = std::max(found[axis][l], part);
-            }
+    double all = 0.0;
+    for (std::size_t d = 0; d < 3; ++d)
+        for (std::size_t p = 0; p < PAIRS; ++p) {
+            const double part = (std::abs(mid[d][p]) + rad[d][p]) * ((1.0 + FOURTH_ROUNDING) / 6.0);
+            all += part;
+            double &one = found[d][FIRST[p]], &other = found[d][OTHER[p]];
+            one = std::max(one, part);
+            other = std::max(other, part);
         }
-    return found;
+    return all < intervals::INFINITE ? found : UNKNOWN_PARTS;
 }
 
 }  // namespace surfmesh

@@ -15,6 +15,16 @@ constexpr double FOR_NEIGHBOURS = 0.99;    // of the limit, as they add a little
 constexpr std::size_t GRID_BLOCK = 1024;   // triangles at a time
 constexpr std::array<std::size_t, 2> SIDES = {4, 8}, CUTS = {2, 4};
 
+double longest_side(const SpaceCorners& p) {
+    return std::max({norm(p[1] - p[0]), norm(p[2] - p[1]), norm(p[0] - p[2])});
+}
+
+/// How far points of the piece may lie from where they should, as their (u, v) are rounded.
+double moved_by_rounding(const SpaceCorners& p, const PlanePiece& piece,
+                         const TriangleBounds& bounds) {
+    return rounded_part(piece) * (longest_side(p) + 4.0 * bounds.shift);
+}
+
 /// The largest height of points over a triangle's plane, on the safe side.
 class Highest {
   public:
@@ -27,10 +37,8 @@ class Highest {
                                     (frame_.tilt + GRID_ROUNDING) * size);
     }
     [[nodiscard]] double height(const PlanePiece& piece, const TriangleBounds& bounds) const {
-        const double longest =
-            std::max({norm(p_[1] - p_[0]), norm(p_[2] - p_[1]), norm(p_[0] - p_[2])});
-        const double place = GRID_ROUNDING * 0x1p-6 * (norm(p_[0]) + longest);
-        return most_ + rounded_part(piece) * (longest + 4.0 * bounds.shift) + place + bounds.corner;
+        const double place = GRID_ROUNDING * 0x1p-6 * (norm(p_[0]) + longest_side(p_));
+        return most_ + moved_by_rounding(p_, piece, bounds) + place + bounds.corner;
     }
 
   private:
@@ -40,33 +48,37 @@ class Highest {
 };
 
 /// One triangle with the points of its grid.
-struct Grid {
-    std::span<const SecondJet> points;
-    const SpaceCorners& corners;
-    const PlanePiece& piece;
-    const TriangleFrame& frame;
-    SpaceBends curved;
-    std::size_t n;
-
-    [[nodiscard]] double highest(const TriangleBounds& bounds) const {
-        Highest most(corners, frame);
-        for (const SecondJet& jet : points) most.take(jet[0]);
-        return most.height(piece, bounds);
-    }
-
-    /// Of its cells.
-    [[nodiscard]] BoundsOfCells cells(const FourthParts& rho, bool with_slope) const {
-        Array<PlaceJet> places;
-        places.reserve(points.size());
-        const std::size_t last = points_of_grid(n) - 1;  // corners 0, 2, 1 of the triangle
+class Grid {
+  public:
+    Grid(std::span<const SecondJet> points, const PlanePiece& piece, const TriangleFrame& frame,
+         const SpaceBends& curved, std::size_t n, bool with_slope)
+        : n_(n), with_slope_(with_slope), frame_(frame) {
+        const std::size_t last = points.size() - 1;  // corners 0, 2, 1 of the triangle
         const std::array<EnclosedPoint, 3> own = {points[0][0], points[last][0], points[n][0]};
+        const PieceSteps steps(piece);
+        places_.reserve(points.size());
         for_grid(n, [&](const Barycentric& l) {
-            places.push_back(
-                place_jet(points[places.size()], piece, l, frame.axes, own, curved, with_slope));
+            places_.push_back(place_jet(points[places_.size()], piece, steps, l, frame.axes, own,
+                                        curved, with_slope));
         });
-        return bounds_of_cells({places.data(), places.size()}, n, rho, frame, CellPlaces::FEW,
-                               with_slope);
     }
+    /// Of its cells.
+    [[nodiscard]] BoundsOfCells cells(const FourthParts& rho) const {
+        return bounds_of_cells({places_.data(), places_.size()}, n_, rho, frame_, CellPlaces::FEW,
+                               with_slope_);
+    }
+    /// Over the triangle's plane, of its points.
+    [[nodiscard]] double highest() const {
+        double most = 0.0;
+        for (const PlaceJet& there : places_) most = std::max(most, std::abs(there.away[2]));
+        return most;
+    }
+
+  private:
+    std::size_t n_;
+    bool with_slope_;
+    const TriangleFrame& frame_;
+    Array<PlaceJet> places_;
 };
 
 Array<Point2> places_of(const ProofRequest& asked, std::span<const std::int32_t> which,
@@ -92,7 +104,6 @@ SurfaceStatus lower_some(const FourthDerivatives& surface, const ProofRequest& a
                          std::span<const FourthParts> rho, std::size_t side,
                          std::span<const std::int32_t> which, std::span<TriangleBounds> out,
                          Array<std::int32_t>& left) {
-    const double n = static_cast<double>(side), scale = 1.0 / (n * n);
     const Array<Point2> uv = places_of(asked, which, side);
     const DistinctPlaces places({uv.data(), uv.size()});
     Array<SecondJet> jets(places.all().size()), points(points_of_grid(side));
@@ -105,20 +116,20 @@ SurfaceStatus lower_some(const FourthDerivatives& surface, const ProofRequest& a
         if (!std::all_of(points.begin(), points.end(), is_known)) continue;
         const TriangleFrame frame = frame_of(asked.corners[t], out[t].corner, asked.rims[t]);
         const PlanePiece piece = asked.piece(t);
-        const Grid grid{
-            {points.data(), points.size()}, asked.corners[t], piece, frame, asked.curve(t), side};
         const bool with_slope = asked.slope < intervals::INFINITE;
-        const BoundsOfCells cells = grid.cells(rho[t], with_slope);
+        const Grid grid({points.data(), points.size()}, piece, frame, asked.curve(t), side,
+                        with_slope);
+        const BoundsOfCells cells = grid.cells(rho[t]);
         TriangleBounds found = bounds_from(cells.bends, frame, out[t].corner, with_slope);
-        found.whole = std::min(found.whole, cells.whole);
+        const double moved = moved_by_rounding(asked.corners[t], piece, found);
+        found.height = std::min(found.height, cells.away.height + moved);
+        found.whole = std::min(found.whole, cells.away.whole + moved);
         found.slope = std::min(found.slope, cells.slope);
-        const double cell = std::min(found.cell_height, out[t].cell_height);
-        const double most = asked.corners_are_on_surface ? grid.highest(found) : found.height;
-        found.height = std::min(found.height, (most + scale * cell) * (1.0 + GRID_ROUNDING));
         out[t] = lower_of(out[t], found);
         const bool is_far = !(out[t].whole + out[t].corner <= asked.limits[t]);
-        if (asked.curved.empty() ? is_open(out[t], most, frame, asked.limits[t], asked.slope)
-                                 : is_far)
+        if (asked.curved.empty()
+                ? is_open(out[t], grid.highest(), frame, asked.limits[t], asked.slope)
+                : is_far)
             left.push_back(which[k]);
     }
     return status;

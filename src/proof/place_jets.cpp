@@ -5,21 +5,6 @@ namespace {
 
 constexpr double JET_ROUNDING = 0x1p-44;  // relative, more than that of any sum here
 
-/// R'(e_k) at a place, and how far it is off at most.
-EnclosedPoint along_side(const SecondJet& jet, const PlanePiece& piece, std::size_t k,
-                         const Barycentric& l) {
-    const Point2 p = piece.along(k, l);
-    const SideWeight weight = weight_of(piece, k, l);
-    const double u = std::sqrt(weight.size[2]), v = std::sqrt(weight.size[4]);
-    EnclosedPoint found{p.x * jet[1].value + p.y * jet[2].value, 0.0};
-    const auto size = [](const EnclosedPoint& x) {
-        return 2.0 * x.error +
-               JET_ROUNDING * (std::abs(x.value.x) + std::abs(x.value.y) + std::abs(x.value.z));
-    };
-    found.error = (u * size(jet[1]) + v * size(jet[2])) * (1.0 + JET_ROUNDING);
-    return found;
-}
-
 /// Less what the quadratic triangle adds to the straight one.
 void take_curved(PlaceJet& jet, const SpaceBends& curved, const Barycentric& l,
                  const Directions& axes) {
@@ -40,25 +25,30 @@ void take_curved(PlaceJet& jet, const SpaceBends& curved, const Barycentric& l,
             jet.slope[d][k] -= dot(axes[d], along);
         }
     }
-    for (std::size_t k = 0; k < 3; ++k) {
-        jet.bends.error[k] += JET_ROUNDING * size;
-        jet.slope_error[k] += JET_ROUNDING * size;
-    }
+    jet.bends.error += JET_ROUNDING * size;
+    jet.slope_error += JET_ROUNDING * size;
     jet.away_error += 0x1p-50 * size;
 }
 
 double size_of(Point3 x) { return std::abs(x.x) + std::abs(x.y) + std::abs(x.z); }
 
-/// R'(e_k) less the side of the triangle through ``corners``.
-void take_slope(PlaceJet& found, const SecondJet& jet, const PlanePiece& piece, std::size_t k,
-                const Barycentric& l, const Directions& axes,
-                const std::array<EnclosedPoint, 3>& corners) {
-    const EnclosedPoint &from = corners[k], &to = corners[(k + 1) % 3];
-    const Point3 side = to.value - from.value;
-    const auto [slope, off] = along_side(jet, piece, k, l);
-    for (std::size_t d = 0; d < 3; ++d) found.slope[d][k] = dot(axes[d], slope - side);
-    found.slope_error[k] =
-        off + 2.0 * (from.error + to.error) + JET_ROUNDING * (size_of(side) + size_of(slope));
+/// R'(e_k) less the sides of the triangle through ``corners``.
+void take_slopes(PlaceJet& found, const SecondJet& jet, const PlanePiece& piece,
+                 const PieceSteps& steps, const Barycentric& l, const Directions& axes,
+                 const std::array<EnclosedPoint, 3>& corners) {
+    double size = 0.0, error = 0.0;
+    for (std::size_t k = 0; k < 3; ++k) {
+        const EnclosedPoint &from = corners[k], &to = corners[(k + 1) % 3];
+        const Point3 side = to.value - from.value;
+        const Point2 p = piece.along(k, l);
+        const Point3 slope = p.x * jet[1].value + p.y * jet[2].value;
+        for (std::size_t d = 0; d < 3; ++d) found.slope[d][k] = dot(axes[d], slope - side);
+        size = std::max(size, size_of(side) + size_of(slope));
+        error = std::max(error, 2.0 * (from.error + to.error));
+    }
+    const std::array<double, 5> off = rounding_of(jet, JET_ROUNDING);
+    found.slope_error = error + JET_ROUNDING * size +
+                        (steps.most.x * off[0] + steps.most.y * off[1]) * (1.0 + JET_ROUNDING);
 }
 
 }  // namespace
@@ -66,9 +56,9 @@ void take_slope(PlaceJet& found, const SecondJet& jet, const PlanePiece& piece, 
 void join(SideBends& all, const PlaceBends& there, const FourthParts& more, bool with_slope) {
     for (std::size_t k = 0; k < 3; ++k) {
         for (std::size_t d = 0; d < 3; ++d)
-            all.by_axis[d][k] = std::max(
-                all.by_axis[d][k], std::abs(there.value[d][k]) + (more[d][k] + there.error[k]));
-        const double value = there.value[2][k], off = more[2][k] + there.error[k];
+            all.by_axis[d][k] = std::max(all.by_axis[d][k],
+                                         std::abs(there.value[d][k]) + (more[d][k] + there.error));
+        const double value = there.value[2][k], off = more[2][k] + there.error;
         all.up[k] = std::max(all.up[k], value + off);
         all.down[k] = std::max(all.down[k], off - value);
     }
@@ -76,21 +66,22 @@ void join(SideBends& all, const PlaceBends& there, const FourthParts& more, bool
         for (std::size_t k = 0; k < 3; ++k) {
             const std::size_t i = (k + 1) % 3, j = (k + 2) % 3;
             const double differ = std::abs(there.value[d][i] - there.value[d][j]);
-            const double both = more[d][i] + there.error[i] + more[d][j] + there.error[j];
+            const double both = more[d][i] + there.error + more[d][j] + there.error;
             all.differ[d][k] = std::max(all.differ[d][k], differ + both);
         }
 }
 
-PlaceJet place_jet(const SecondJet& jet, const PlanePiece& piece, const Barycentric& l,
-                   const Directions& axes, const std::array<EnclosedPoint, 3>& corners,
-                   const SpaceBends& curved, bool with_slope) {
+PlaceJet place_jet(const SecondJet& jet, const PlanePiece& piece, const PieceSteps& steps,
+                   const Barycentric& l, const Directions& axes,
+                   const std::array<EnclosedPoint, 3>& corners, const SpaceBends& curved,
+                   bool with_slope) {
     PlaceJet found{};
-    found.bends = place_bends(jet, piece, l, axes);
+    found.bends = place_bends(jet, piece, steps, l, axes);
+    if (with_slope) take_slopes(found, jet, piece, steps, l, axes, corners);
     Point3 flat{0.0, 0.0, 0.0};
     double error = jet[0].error, size = size_of(jet[0].value);
     for (std::size_t k = 0; k < 3; ++k) {
         const EnclosedPoint& from = corners[k];
-        if (with_slope) take_slope(found, jet, piece, k, l, axes, corners);
         flat = flat + l[k] * from.value;
         error += from.error;
         size += size_of(from.value);

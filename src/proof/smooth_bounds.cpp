@@ -13,9 +13,9 @@ namespace surfmesh {
 namespace {
 
 constexpr double SMOOTH_ROUNDING = 0x1p-46;   // relative, more than that of any short sum here
-constexpr std::int32_t SMOOTH_TOGETHER = 12;  // triangles over one cell, at first
+constexpr std::int32_t SMOOTH_TOGETHER = 24;  // triangles over one cell, at first
 constexpr double LITTLE = 0.04;               // of the height: rho that is good enough
-constexpr double LITTLE_OF_LIMIT = 0.005;
+constexpr double OF_LIMIT = 1.0;  // what a grid of points leaves a small part of: grid_bounds.hpp
 constexpr double WORTH =
     1.5;  // how much less fourth derivatives are over one triangle: else no cuts
 
@@ -42,6 +42,8 @@ struct Member {
     std::int32_t triangle;
 };
 using Group = std::span<Member>;
+
+double along_normal(const FourthParts& rho) { return std::max({rho[2][0], rho[2][1], rho[2][2]}); }
 
 void widen(ParameterBox& box, Point2 p) {
     box.low = {std::min(box.low.x, p.x), std::min(box.low.y, p.y)};
@@ -72,7 +74,7 @@ ParameterBox hull_of(std::span<const Member> group, const ProofRequest& asked,
 /// What is left of a group, and the derivatives over its cell.
 struct Unproved {
     Group rest;
-    HighMagnitudes most;
+    HighDerivatives over;
 };
 
 class SmoothBounds {
@@ -88,17 +90,21 @@ class SmoothBounds {
           places_({asked.uv.empty() ? nullptr : asked.uv[0].data(), 3 * asked.uv.size()}),
           jets_(places_.all().size()),
           is_known_(jets_.size()),
+          off_(asked.uv.size(), 0.0),
+          part_(asked.uv.size(), NONE),
           members_(asked.uv.size()) {}
 
     SurfaceStatus run();
 
   private:
     void prepare();
+    /// Where nothing was found.
+    void leave_unknown();
     /// The triangles of a group, by their places along its longer side.
     [[nodiscard]] std::array<Group, 2> halves_of(Group group) const;
     void divide(Group group);
     /// False: rho is too large, or nothing is known. What is known already is kept if it is better.
-    bool look_at(std::int32_t t, const HighMagnitudes& most);
+    bool look_at(std::int32_t t, const HighDerivatives& over);
     /// Groups that are left, where smaller cells help.
     SurfaceStatus cut_further(std::span<const Unproved> all);
     void cut(Group group);
@@ -111,6 +117,7 @@ class SmoothBounds {
     DistinctPlaces places_;
     Array<SecondJet> jets_;
     Array<std::uint8_t> is_known_;
+    Array<double> off_, part_;  // how far corners are off; what rho is of the height, so far
     Array<Member> members_;
     Array<Group> groups_;
 };
@@ -119,18 +126,24 @@ void SmoothBounds::prepare() {
     for (std::size_t t = 0; t < asked_.uv.size(); ++t) {
         const PlaneCorners& p = asked_.uv[t];
         members_[t] = {p[0] + p[1] + p[2], static_cast<std::int32_t>(t)};
-        double off = 0.0;
+        double& off = off_.begin()[t];
         for (std::size_t k = 0; k < 3 && asked_.corners_are_on_surface; ++k) {
             const auto& [value, error] = jets_[places_.at(3 * t + k)][0];
             const double away =
                 norm(asked_.corners[t][k] - value) * (1.0 + SMOOTH_ROUNDING) + 2.0 * error;
             off = std::max(off, away <= intervals::INFINITE ? away : intervals::INFINITE);
         }
-        out_[t] = UNKNOWN;
-        rho_[t] = UNKNOWN_PARTS;
-        out_[t].corner = off;
     }
     for (std::size_t i = 0; i < jets_.size(); ++i) is_known_[i] = is_known(jets_[i]) ? 1 : 0;
+}
+
+void SmoothBounds::leave_unknown() {
+    for (std::size_t t = 0; t < out_.size(); ++t) {
+        if (part_.begin()[t] < NONE) continue;
+        out_[t] = UNKNOWN;
+        out_[t].corner = off_.begin()[t];
+        rho_[t] = UNKNOWN_PARTS;
+    }
 }
 
 std::array<Group, 2> SmoothBounds::halves_of(Group group) const {
@@ -167,61 +180,56 @@ void SmoothBounds::divide(Group group) {
     for (const Group half : halves_of(group)) divide(half);
 }
 
-bool SmoothBounds::look_at(std::int32_t t, const HighMagnitudes& most) {
+bool SmoothBounds::look_at(std::int32_t t, const HighDerivatives& over) {
     std::array<const SecondJet*, 3> jets{};
     for (std::size_t k = 0; k < 3; ++k) {
         const std::int32_t place = places_.at(3 * static_cast<std::size_t>(t) + k);
         if (is_known_[place] == 0) return false;
         jets[k] = &jets_[place];
     }
-    const double off = out_[t].corner;
+    const double off = off_[t];
     const TriangleFrame frame = frame_of(asked_.corners[t], off, asked_.rims[t]);
     const PlanePiece piece = asked_.piece(static_cast<std::size_t>(t));
-    const FourthParts rho = fourth_parts(most, piece, frame.axes);
+    const FourthParts rho = fourth_parts(over, piece, frame.axes);
     if (!(rho[0][0] < NONE)) return false;
+    const PieceSteps steps(piece);
     std::array<PlaceJet, 3> places{};
     const std::array<EnclosedPoint, 3> own = {(*jets[0])[0], (*jets[1])[0], (*jets[2])[0]};
     const bool with_slope = asked_.slope < NONE;
     for (std::size_t k = 0; k < 3; ++k)
         if (with_slope || !asked_.curved.empty())
-            places[k] = place_jet(*jets[k], piece, AT_CORNERS[k], frame.axes, own,
+            places[k] = place_jet(*jets[k], piece, steps, AT_CORNERS[k], frame.axes, own,
                                   asked_.curve(static_cast<std::size_t>(t)), with_slope);
         else  // at corners R is L
-            places[k].bends = place_bends(*jets[k], piece, AT_CORNERS[k], frame.axes);
+            places[k].bends = place_bends(*jets[k], piece, steps, AT_CORNERS[k], frame.axes);
     TriangleBounds found =
         bounds_from(averaged_bends({&places[0], &places[1], &places[2]}, rho), frame, off, false);
     if (!(found.whole < intervals::INFINITE)) return false;
     const double limit = asked_.limits[t] - off;
     // as rows of the grid are: corner 0, corner 2, corner 1
     const std::array<PlaceJet, 3> rows = {places[0], places[2], places[1]};
-    const CellPlaces within = found.whole <= limit ? CellPlaces::NONE : CellPlaces::MANY;
-    const auto [bends, whole, steepest] = bounds_of_cells(rows, 1, rho, frame, within, with_slope);
+    const double part = along_normal(rho) / 6.0;
+    const bool is_clear = found.whole <= limit || part > limit;  // places within say nothing more
+    const CellPlaces within = is_clear ? CellPlaces::NONE : CellPlaces::MANY;
+    const auto [bends, away, steepest] = bounds_of_cells(rows, 1, rho, frame, within, with_slope);
     const auto [height, cell_whole] = size_from(bends, frame);
     found.cell_height = height;
     found.cell_whole = cell_whole;
     found.slope = steepest;
-    found.whole = std::min(found.whole, whole);
-    const double part = std::max({rho[2][0], rho[2][1], rho[2][2]}) / 6.0;
-    const double least = std::max(LITTLE * found.height, LITTLE_OF_LIMIT * asked_.limits[t]);
-    if (rho[2][0] + rho[2][1] + rho[2][2] < rho_[t][2][0] + rho_[t][2][1] + rho_[t][2][2]) {
+    found.height = std::min(found.height, away.height);
+    found.whole = std::min(found.whole, away.whole);
+    const double least = std::max(LITTLE * found.height, OF_LIMIT * asked_.limits[t]);
+    if (part < part_[t]) {
         out_[t] = found;
         rho_[t] = rho;
+        part_[t] = part;
     }
     return part <= least || (found.whole <= limit && found.slope <= asked_.slope);
 }
 
-/// Could smaller cells show less? They do for one of a group's triangles, if so.
-bool is_worth(const HighMagnitudes& all, const HighMagnitudes& one) {
-    constexpr std::size_t FOURTH = 7;
-    for (std::size_t n = FOURTH; n < all.size(); ++n) {
-        const double a = all[n].x + all[n].y + all[n].z, b = one[n].x + one[n].y + one[n].z;
-        if (!(a <= WORTH * b)) return true;
-    }
-    return false;
-}
-
-bool is_finite(const HighMagnitudes& most) {
-    return std::all_of(most.begin(), most.end(), [](Point3 x) { return x.x + x.y + x.z < NONE; });
+bool is_finite(const HighDerivatives& over) {
+    return std::all_of(over.rad.begin(), over.rad.end(),
+                       [](Point3 x) { return x.x + x.y + x.z < NONE; });
 }
 
 void SmoothBounds::cut(Group group) {
@@ -244,33 +252,35 @@ SurfaceStatus SmoothBounds::cut_further(std::span<const Unproved> all) {
         std::swap(left.rest[0], left.rest[left.rest.size() / 2]);
         cells.push_back(hull_of(left.rest.first(1), asked_, domain_));
     }
-    Array<HighMagnitudes> most(cells.size());
+    Array<HighDerivatives> found(cells.size());
     const auto status =
-        surface_.high_magnitudes({cells.data(), cells.size()}, {most.data(), most.size()});
+        surface_.enclose_high({cells.data(), cells.size()}, {found.data(), found.size()});
     if (status != SurfaceStatus::DONE) return status;
     Array<Unproved> others;
     for (std::size_t k = 0; k < all.size(); ++k) {
         const Group rest = all[k].rest.subspan(1);
-        const HighMagnitudes& over_one = most[static_cast<std::ptrdiff_t>(k)];
+        const std::int32_t first = all[k].rest[0].triangle;
+        const HighDerivatives& over_one = found[static_cast<std::ptrdiff_t>(k)];
         if (!is_finite(over_one)) {  // which says nothing of the others
-            if (!rest.empty()) others.push_back({rest, all[k].most});
+            if (!rest.empty()) others.push_back({rest, all[k].over});
             continue;
         }
-        if (!is_worth(all[k].most, over_one)) continue;
-        look_at(all[k].rest[0].triangle, over_one);  // there is no less of it to look at
-        if (!rest.empty()) cut(rest);
+        const double before = part_[first];
+        look_at(first, over_one);  // there is no less of it to look at
+        // could smaller cells show less of others? They do for one, if so
+        if (!rest.empty() && !(before <= WORTH * part_[first])) cut(rest);
     }
     return others.empty() ? status : cut_further({others.data(), others.size()});
 }
 
 SurfaceStatus SmoothBounds::run() {
-    constexpr std::size_t AT_ONCE = 256;  // groups
+    constexpr std::size_t AT_ONCE = 32;  // groups
     auto status = surface_.enclose_second(places_.all(), {jets_.data(), jets_.size()});
     if (status != SurfaceStatus::DONE) return status;
     prepare();
     divide({members_.data(), members_.size()});
     Array<ParameterBox> cells;
-    Array<HighMagnitudes> most;
+    Array<HighDerivatives> found;
     Array<Unproved> left;
     std::size_t count = 0;
     for (std::size_t start = 0; start < groups_.size(); start += count) {
@@ -282,12 +292,12 @@ SurfaceStatus SmoothBounds::run() {
         left.clear();
         for (std::size_t k = 0; k < count; ++k)
             cells.push_back(hull_of(group_of(k), asked_, domain_));
-        most.resize(count);
-        status = surface_.high_magnitudes({cells.data(), count}, {most.data(), count});
+        found.resize(count);
+        status = surface_.enclose_high({cells.data(), count}, {found.data(), count});
         if (status != SurfaceStatus::DONE) return status;
         for (std::size_t k = 0; k < count; ++k) {
             const Group group = group_of(k);
-            const HighMagnitudes& over = most[static_cast<std::ptrdiff_t>(k)];
+            const HighDerivatives& over = found[static_cast<std::ptrdiff_t>(k)];
             const auto bad = std::partition(group.begin(), group.end(), [&](const Member& member) {
                 return look_at(member.triangle, over);
             });
@@ -297,6 +307,7 @@ SurfaceStatus SmoothBounds::run() {
         status = cut_further({left.data(), left.size()});  // at the end of the groups
         if (status != SurfaceStatus::DONE) return status;
     }
+    leave_unknown();
     return status;
 }
 

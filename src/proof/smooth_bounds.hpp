@@ -14,7 +14,8 @@
 //        u_i-o-o-u_j          the same lemma for g.
 //
 // Corners are computed once, fourth derivatives over cells that many triangles share: those are
-// multiplied by the fourth power of their size.
+// multiplied by the fourth power of their size. Where rho is so large that a grid of points
+// (grid_bounds.hpp), which leaves a 16th or 256th of it, would not do, cells are cut.
 //
 // In: triangles. Out: their bounds, and rho; infinite where there are none. Nothing is changed.
 #pragma once
@@ -27,8 +28,8 @@
 
 namespace surfmesh {
 
-/// Bounds into ``out``, rho into ``rho``: over cells so small that |r - L| is within its limit, or rho
-/// a small part of the height, where that helps.
+/// Bounds into ``out``, rho into ``rho``: over cells so small that |r - L| is within its limit, or what rho
+/// is of it, where that helps.
 SurfaceStatus smooth_bounds(const FourthDerivatives& surface, const ParameterBox& domain,
                             const ProofRequest& asked, std::span<TriangleBounds> out,
                             std::span<FourthParts> rho);

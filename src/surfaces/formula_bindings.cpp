@@ -11,6 +11,7 @@
 #include "binding/arrays.hpp"
 #include "surfaces/formula_surface.hpp"
 #include "surfaces/tape.hpp"
+#include "surfaces/tape_balls.hpp"
 #include "surfaces/tape_bounds.hpp"
 #include "surfaces/tape_evaluation.hpp"
 
@@ -107,6 +108,25 @@ std::pair<NewRows, NewRows> bound_tape(const Tape& tape, const Rows& lo, const R
     return std::pair(shaped(lower), shaped(upper));
 }
 
+std::pair<NewRows, NewRows> enclose_tape(const Tape& tape, const Rows& points) {
+    const std::span<const double> given = numbers(tape, points, "points");
+    const std::size_t shape[] = {points.shape(0), tape.outputs().size()};
+    Array<Ball> found(shape[0] * shape[1]);
+    Array<double> mid, rad;
+    {
+        const nb::gil_scoped_release released;
+        enclose_outputs(tape, given, {found.data(), found.size()});
+        for (const Ball& ball : found) {
+            mid.push_back(ball.mid);
+            rad.push_back(ball.rad);
+        }
+    }
+    const auto shaped = [&](const Array<double>& values) {
+        return NewRows(values.data(), 2, shape, nb::cast(view(values)));
+    };
+    return std::pair(shaped(mid), shaped(rad));
+}
+
 void bind_tape(nb::module_& m) {
     nb::list names;
     for (const OperationKind& kind : operation_kinds())
@@ -134,6 +154,9 @@ void bind_tape(nb::module_& m) {
         .def("evaluate", evaluate_tape, nb::arg("points"),
              "Outputs at points (n, inputs), three together: (m, n, 3).\n\n"
              "What is undefined comes out as nan or infinity.")
+        .def("enclose", enclose_tape, nb::arg("points"),
+             "Outputs at points (n, inputs), proved: each within rad of mid, both (n, outputs).\n\n"
+             "Constants are taken within four ulps; rad is infinite where nothing is known.")
         .def("bounds", bound_tape, nb::arg("lo"), nb::arg("hi"), nb::arg("kinks"),
              "Bounds over cells: lo, hi (n, inputs) -> lower, upper (n, outputs).\n\n"
              "Infinite where nothing is known. kinks: False leaves out what second derivatives "

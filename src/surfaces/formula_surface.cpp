@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "surfaces/tape_balls.hpp"
 #include "surfaces/tape_evaluation.hpp"
 #include "surfaces/tape_taylor.hpp"
 
@@ -40,10 +41,9 @@ void evaluate_moved(const Tape& tape, const Moved& moved, std::size_t n, std::sp
             out[k * n + static_cast<std::size_t>(moved.points[i])] = found[k * count + i];
 }
 
-/// The middle of a box; half of it is wide, and as much again for the rounding of the middle.
-EnclosedPoint enclosed(Point3 lower, Point3 upper) {
-    const Point3 wide = upper - lower;
-    return {0.5 * (lower + upper), std::max({wide.x, wide.y, wide.z})};
+/// Of three outputs of a tape.
+EnclosedPoint enclosed(const Ball* of) {
+    return {{of[0].mid, of[1].mid, of[2].mid}, std::max({of[0].rad, of[1].rad, of[2].rad})};
 }
 
 /// Is a derivative of point i not finite?
@@ -154,10 +154,9 @@ SurfaceStatus FormulaSurface::all_bounds(std::span<const ParameterBox> cells,
 SurfaceStatus FormulaSurface::enclose(std::span<const Point2> uv,
                                       std::span<EnclosedPoint> out) const {
     if (tapes_[0] == nullptr) return SurfaceStatus::UNKNOWN;
-    Array<Point3> lower(uv.size()), upper(uv.size());
-    enclosures(*tapes_[0], as_numbers(uv), as_numbers(uv), 0,
-               as_numbers({lower.data(), lower.size()}), as_numbers({upper.data(), upper.size()}));
-    for (std::size_t i = 0; i < uv.size(); ++i) out[i] = enclosed(lower[i], upper[i]);
+    Array<Ball> found(3 * uv.size());
+    enclose_outputs(*tapes_[0], as_numbers(uv), {found.data(), found.size()});
+    for (std::size_t i = 0; i < uv.size(); ++i) out[i] = enclosed(found.data() + 3 * i);
     return SurfaceStatus::DONE;
 }
 
@@ -194,34 +193,35 @@ SurfaceStatus FormulaSurface::enclose_second(std::span<const Point2> uv,
                                              std::span<SecondJet> out) const {
     constexpr std::size_t AT_ONCE = 4 * TAPE_BLOCK;  // whose bounds stay in the cache
     if (tapes_[2] == nullptr) return SurfaceStatus::UNKNOWN;
-    Array<Point3> lower, upper;
+    Array<Ball> found;
     for (std::size_t start = 0; start < uv.size(); start += AT_ONCE) {
         const auto some = uv.subspan(start, std::min(AT_ONCE, uv.size() - start));
-        lower.resize(6 * some.size());
-        upper.resize(6 * some.size());
-        enclosures(*tapes_[2], as_numbers(some), as_numbers(some), 0,
-                   as_numbers({lower.data(), lower.size()}),
-                   as_numbers({upper.data(), upper.size()}));
+        found.resize(18 * some.size());
+        enclose_outputs(*tapes_[2], as_numbers(some), {found.data(), found.size()});
         for (std::size_t i = 0; i < 6 * some.size(); ++i)
-            out[start + i / 6][i % 6] = enclosed(lower[i], upper[i]);
+            out[start + i / 6][i % 6] = enclosed(found.data() + 3 * i);
     }
     return SurfaceStatus::DONE;
 }
 
-SurfaceStatus FormulaSurface::high_magnitudes(std::span<const ParameterBox> cells,
-                                              std::span<HighMagnitudes> out) const {
+SurfaceStatus FormulaSurface::enclose_high(std::span<const ParameterBox> cells,
+                                           std::span<HighDerivatives> out) const {
     if (tapes_[0] == nullptr) return SurfaceStatus::UNKNOWN;
     Array<Point2> low(cells.size()), high(cells.size());
     for (std::size_t i = 0; i < cells.size(); ++i) {
         low[i] = cells[i].low;
         high[i] = cells[i].high;
     }
-    Array<std::array<double, HIGH_DERIVATIVES>> found(3 * cells.size());
+    Array<DerivativeBalls> found(3 * cells.size());
     high_derivatives(*tapes_[0], as_numbers({low.data(), low.size()}),
                      as_numbers({high.data(), high.size()}), {found.data(), found.size()});
-    for (std::size_t i = 0; i < cells.size(); ++i)
-        for (std::size_t k = 0; k < HIGH_DERIVATIVES; ++k)
-            out[i][k] = {found[3 * i][k], found[3 * i + 1][k], found[3 * i + 2][k]};
+    for (std::size_t i = 0; i < cells.size(); ++i) {
+        const DerivativeBalls &x = found[3 * i], &y = found[3 * i + 1], &z = found[3 * i + 2];
+        for (std::size_t k = 0; k < HIGH_DERIVATIVES; ++k) {
+            out[i].mid[k] = {x.mid[k], y.mid[k], z.mid[k]};
+            out[i].rad[k] = {x.rad[k], y.rad[k], z.rad[k]};
+        }
+    }
     return SurfaceStatus::DONE;
 }
 

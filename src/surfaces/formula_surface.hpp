@@ -49,8 +49,8 @@ class FormulaSurface final : public Surface, public FourthDerivatives {
                                 std::span<Bends> out) const override;
     SurfaceStatus enclose_second(std::span<const Point2> uv,
                                  std::span<SecondJet> out) const override;
-    SurfaceStatus high_magnitudes(std::span<const ParameterBox> cells,
-                                  std::span<HighMagnitudes> out) const override;
+    SurfaceStatus enclose_high(std::span<const ParameterBox> cells,
+                               std::span<HighDerivatives> out) const override;
 
   private:
     SurfaceStatus bounds_from(std::size_t first, Kinks kinks, std::span<const ParameterBox> cells,

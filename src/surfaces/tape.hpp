@@ -5,7 +5,8 @@
 //
 // Every instruction writes one register and reads slots. A tape is checked when it is made and
 // never changes: running it reads nothing that was not written and leaves its slots in no case.
-// Points run in tape_evaluation.hpp, cells of the (u, v) plane in tape_bounds.hpp.
+// Points run in tape_evaluation.hpp, with all round-off in tape_balls.hpp, cells of the (u, v) plane in
+// tape_bounds.hpp.
 #pragma once
 
 #include <array>

@@ -45,16 +45,25 @@ void run(const Instruction& step, Variables first, const TapeSlots<Interval>& ra
     std::copy_n(found.begin(), n, series[step.target]);
 }
 
+DerivativeBalls unknown() {
+    DerivativeBalls found{};
+    found.rad.fill(intervals::INFINITE);
+    return found;
+}
+
 /// Taylor coefficients times their factorials.
-std::array<double, 12> derivatives_of(const Coefficients& series) {
+DerivativeBalls derivatives_of(const Coefficients& series) {
     constexpr std::array<double, 12> FACTORIALS = {2.0, 1.0,  2.0, 6.0, 2.0, 2.0,
                                                    6.0, 24.0, 6.0, 4.0, 6.0, 24.0};
     constexpr std::size_t SECOND = 2;  // after those of the first order
-    std::array<double, 12> found{};
-    for (std::size_t k = 0; k < found.size(); ++k) {
-        const double most = std::abs(series.mid[SECOND + k]) + series.rad[SECOND + k];
-        const double size = most * (FACTORIALS[k] * WIDER);
-        found[k] = size < intervals::INFINITE ? size : intervals::INFINITE;
+    DerivativeBalls found = unknown();
+    for (std::size_t k = 0; k < FACTORIALS.size(); ++k) {
+        const double mid = series.mid[SECOND + k] * FACTORIALS[k];
+        const double rad =
+            series.rad[SECOND + k] * (FACTORIALS[k] * WIDER) + 0x1p-52 * std::abs(mid);
+        if (!(std::abs(mid) + rad < intervals::INFINITE)) continue;
+        found.mid[k] = mid;
+        found.rad[k] = rad;
     }
     return found;
 }
@@ -62,12 +71,9 @@ std::array<double, 12> derivatives_of(const Coefficients& series) {
 }  // namespace
 
 void high_derivatives(const Tape& tape, std::span<const double> lo, std::span<const double> hi,
-                      std::span<std::array<double, 12>> out) {
+                      std::span<DerivativeBalls> out) {
     const std::size_t outputs = tape.outputs().size();
-    constexpr double NONE = intervals::INFINITE;
-    std::array<double, 12> unknown{};
-    unknown.fill(NONE);
-    std::fill(out.begin(), out.end(), unknown);
+    std::fill(out.begin(), out.end(), unknown());
     if (tape.inputs() != 2 || lo.empty()) return;
     const std::size_t count = lo.size() / 2, lanes = std::min(count, LANES);
     const Array<Variables> first = variables_of(tape);

@@ -8,6 +8,7 @@
 #include "elementary_functions/hyperbolic.hpp"
 #include "elementary_functions/logarithm.hpp"
 #include "elementary_functions/power.hpp"
+#include "surfaces/ball.hpp"
 #include "surfaces/outward.hpp"
 
 namespace surfmesh::taylor {
@@ -21,11 +22,6 @@ constexpr double FUNCTION_OFF = 0x1p-45;     // more than what functions are off
 constexpr double SERIES_ROUNDING = 0x1p-47;  // of a sum of products, of the size of each
 constexpr double PHASE_OFF = 0x1p-40;        // of sines and cosines, whose phase is below FARTHEST
 constexpr double FARTHEST = 1e6;
-
-/// All numbers no farther than rad from mid.
-struct Ball {
-    double mid, rad;
-};
 
 constexpr Ball ANY_NUMBER = {0.0, INFINITE};
 
@@ -183,11 +179,21 @@ Slopes like_logarithm(double radius) {
             symmetric(x * x * x * x / 4.0)};
 }
 
+/// x^e for x >= 0: a product of few factors, or of a root's.
+double power_of_number(double x, double e) {
+    constexpr double MOST_FACTORS = 16.0;
+    const double size = std::abs(e), whole = std::floor(size), rest = size - whole;
+    if (!(size < MOST_FACTORS) || (rest != 0.0 && rest != 0.5)) return elementary::pow(x, e);
+    double found = rest == 0.5 ? std::sqrt(x) : 1.0;
+    for (double k = 0.0; k < whole; k += 1.0) found *= x;
+    return e < 0.0 ? 1.0 / found : found;
+}
+
 /// x^e over a range, e whole or x > 0; of either sign elsewhere.
 Ball power_range(Interval a, double e) {
     if (e == 0.0) return {1.0, 0.0};
     if (e == 1.0) return ball_of(a);
-    const auto raised = [e](double x) { return elementary::pow(x, e); };
+    const auto raised = [e](double x) { return power_of_number(x, e); };
     const double low = raised(least_magnitude(a)), high = raised(magnitude(a));
     const Interval size = {std::min(low, high), std::max(low, high)};
     if (a.lo > 0.0) return ball_of(size);

@@ -172,6 +172,13 @@ class Tape:
         What is undefined comes out as nan or infinity.
         """
 
+    def enclose(self, points: Annotated[NDArray[numpy.float64], dict(shape=(None, None), order='C', device='cpu', writable=False)]) -> tuple[Annotated[NDArray[numpy.float64], dict(shape=(None, None))], Annotated[NDArray[numpy.float64], dict(shape=(None, None))]]:
+        """
+        Outputs at points (n, inputs), proved: each within rad of mid, both (n, outputs).
+
+        Constants are taken within four ulps; rad is infinite where nothing is known.
+        """
+
     def bounds(self, lo: Annotated[NDArray[numpy.float64], dict(shape=(None, None), order='C', device='cpu', writable=False)], hi: Annotated[NDArray[numpy.float64], dict(shape=(None, None), order='C', device='cpu', writable=False)], kinks: bool) -> tuple[Annotated[NDArray[numpy.float64], dict(shape=(None, None))], Annotated[NDArray[numpy.float64], dict(shape=(None, None))]]:
         """
         Bounds over cells: lo, hi (n, inputs) -> lower, upper (n, outputs).
