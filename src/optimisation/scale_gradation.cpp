@@ -23,7 +23,8 @@ double factor_on(const SurfaceFrames& s, Vertex a, Vertex b, double slope) {
         of_a = length / std::sqrt(square_a);
         of_b = length / std::sqrt(square_b);
     } else {
-        if (of_b <= of_a) return 1.0;
+        const double most = BEYOND * slope, above = of_b - of_a;
+        if (!(above > 0.0) || above * above <= most * most * dot(step, step)) return 1.0;
         length = norm(step);
     }
     const double rise = slope * length;
@@ -39,6 +40,28 @@ void for_each_way(const Triangulation& t, Triangle k, Visit visit) {
         const Vertex a = t.tri[e], b = t.tri[next_half_edge(e)];
         visit(a, b);
         if (t.adj[e] < 0) visit(b, a);
+    }
+}
+
+/// Raise sizes that were lowered, around vertices that are marked and from there on, until none is
+/// smaller than its neighbour's less the slope times the way; none above that of the size field.
+void raise_towards(const Triangulation& t, SurfaceFrames& s, Array<std::uint8_t> from,
+                   double slope) {
+    for (int sweep = 0; sweep < SWEEPS; ++sweep) {
+        Array<std::uint8_t> raised(t.xy.size(), 0);
+        bool changes = false;
+        const auto raise = [&](Vertex a, Vertex b) {
+            if (from[a] == 0 || !(s.scale[b] < LOWERED)) return;
+            const double least = s.size[a] - slope * norm(s.point[b] - s.point[a]);
+            if (!(s.size[b] < LOWERED * least)) return;
+            shorten(s, b, std::min(least / s.size[b], 1.0 / s.scale[b]));
+            raised[b] = 1;
+            changes = true;
+        };
+        for (Triangle k = 0; k < t.triangles(); ++k)
+            if (t.region[k] != DEAD) for_each_way(t, k, raise);
+        if (!changes) return;
+        from = std::move(raised);
     }
 }
 
@@ -76,11 +99,14 @@ int grade_scales(const Triangulation& t, SurfaceFrames& s, VertexMarks& marks, d
 void restore_scales(const Triangulation& t, SurfaceFrames& s, std::span<const Vertex> vertices,
                     double slope) {
     Array<double> least(t.xy.size(), 0.0);  // what the restored are lowered to; 0 for all others
+    Array<std::uint8_t> restored(t.xy.size(), 0);
     for (const Vertex v : vertices) {
         if (!(s.scale[v] < LOWERED)) continue;
         least[v] = s.size[v];
+        restored[v] = 1;
         shorten(s, v, 1.0 / s.scale[v]);
     }
+    raise_towards(t, s, std::move(restored), slope);
     for (int sweep = 0; sweep < SWEEPS; ++sweep) {
         bool changes = false;
         const auto hold = [&](Vertex a, Vertex b) {

@@ -19,8 +19,9 @@ int grade_scales(const Triangulation& t, SurfaceFrames& s, VertexMarks& marks, d
                  bool around_all);
 
 /// Give ``vertices``, which do not move, back the sizes of the size field, as far as sizes grow to
-/// them along no edge faster than ``slope`` per length; none becomes smaller. For sizes that are the
-/// same all ways.
+/// them along no edge faster than ``slope`` per length; none becomes smaller. Sizes around them that
+/// were lowered rise with them, but not above those of the size field. For sizes that are the same
+/// all ways.
 void restore_scales(const Triangulation& t, SurfaceFrames& s, std::span<const Vertex> vertices,
                     double slope);
 

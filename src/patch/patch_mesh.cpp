@@ -82,6 +82,7 @@ void PatchWork::optimise_and_map() {
         const Array<std::uint8_t> off = off_surface(state);
         if (!state.stopped()) made_.requests = size_requests(state, left, {off.data(), off.size()});
         state.restore_nodes();
+        state.hold_growth(true);  // what has moved and was swapped last has other neighbours
     } else {
         choose_diagonals(state);
     }

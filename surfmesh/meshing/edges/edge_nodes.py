@@ -29,6 +29,10 @@ LARGEST_TURN_TINY = np.pi / 2.0
 LEAST_STEP = 1e-12
 """Of the diagonal: steps along edges are not taken to be shorter."""
 
+MATED_TURNS, LEAST_CHANGE = 3, 0.97
+"""How often sizes are graded and lowered to those of mates, at most; where that lowers none by this
+factor they agree."""
+
 _NONE = np.empty(0)
 
 CLOSED_SEGMENTS, TWIN_SEGMENTS = 3, 2
@@ -85,17 +89,7 @@ def cut_edges(
             else:
                 found = limit(samples.points[along])
             target_size[along] = np.minimum(target_size[along], found)
-    grade = _graded_by_direction if samples.is_anisotropic else _graded
-    if samples.mates:
-        target_size = target_size.copy() if target_size is samples.target_size else target_size
-        lower_to_mates(samples, samples.mates, target_size)
-    size = graded = grade(model, samples, target_size, sizing)
-    if samples.hidden.any():
-        size = graded.copy()
-    for number in np.flatnonzero(samples.hidden).tolist():  # no neighbour hears of them
-        size[samples.of(number)] = target_size[samples.of(number)]
-    if samples.mates:
-        lower_to_mates(samples, samples.mates, size)
+    size, graded = graded_with_mates(model, samples, target_size, sizing)
     fewest = _fewest(model, samples)
     mated = MatedCuts(model, samples, size, fewest).cut()
     cuts = _cut(model, samples, size, fewest, mated, sizing.limit)
@@ -105,6 +99,28 @@ def cut_edges(
             cuts.sizes[at], np.interp(cuts.t[at], samples.t[own], graded[own])
         )
     return _numbered(model, cuts, before)
+
+
+def graded_with_mates(
+    model: CadModel, samples: EdgeSamples, target_size: np.ndarray, sizing: Sizing
+) -> tuple[np.ndarray, np.ndarray]:
+    """Sizes (n,) at the samples that edges are cut by, and graded ones: graded, and lowered to
+    those of mates, by turns. They differ on hidden edges, of whose sizes no neighbour hears.
+
+    Once where sizes depend on the direction: there edges do not hear of each other across faces.
+    """
+    grade = _graded_by_direction if samples.is_anisotropic else _graded
+    if samples.mates:
+        target_size = target_size.copy()
+        lower_to_mates(samples, samples.mates, target_size)
+    for turns_left in reversed(range(1 if samples.is_anisotropic else MATED_TURNS)):
+        graded = grade(model, samples, target_size, sizing)
+        size = np.where(samples.is_hidden, target_size, graded)
+        lower_to_mates(samples, samples.mates, size)
+        if not turns_left or (size >= LEAST_CHANGE * graded).all():
+            break
+        target_size = np.minimum(target_size, size)
+    return size, graded
 
 
 def _graded(

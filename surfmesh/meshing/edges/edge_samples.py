@@ -89,6 +89,11 @@ class EdgeSamples:
         first = offsets(np.array([len(own) for own in wide], np.int64))
         return first, np.concatenate([np.empty(0, np.int64), *wide])
 
+    @cached_property
+    def is_hidden(self) -> np.ndarray:
+        """(n,) bool: the sample is of a hidden edge."""
+        return np.repeat(self.hidden, np.diff(self.first))
+
     def of(self, edge: int) -> slice:
         """The samples of one edge."""
         return slice(self.first[edge], self.first[edge + 1])

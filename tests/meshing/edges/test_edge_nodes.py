@@ -1,5 +1,7 @@
 """Edges of CAD models: what they ask for, and how they are cut."""
 
+from dataclasses import replace
+
 import cadquery as cq
 import numpy as np
 import pytest
@@ -8,7 +10,8 @@ from hypothesis import strategies as st
 
 import surfmesh as sm
 from surfmesh._core.space import edge_gaps
-from surfmesh.meshing.edges.edge_nodes import cut_edges
+from surfmesh.meshing.edges.edge_nodes import cut_edges, graded_with_mates
+from surfmesh.meshing.edges.edge_samples import MateRun
 from surfmesh.meshing.edges.edge_sampling import sample_edges
 from surfmesh.sizing.options.model_sizing import model_sizing
 from surfmesh.sizing.rules.size_limits import SizeLimits
@@ -135,3 +138,22 @@ def test_an_estimate_looks_at_circles_as_at_straight_edges():
     assert set(np.diff(few.first)) == {33}
     nodes = [cut_edges(model, sizing.base, samples, {}) for samples in (every, few)]
     assert [len(cut.t) for cut in nodes[0]] == [len(cut.t) for cut in nodes[1]]
+
+
+def test_sizes_lowered_to_those_of_a_mate_grow_from_there():
+    """They jumped where the mate ended: the mate had been graded, what was lowered to it not."""
+    model = sm.from_cadquery(cq.Workplane().box(40, 30, 20).val())
+    wanted = model_sizing(model, sm.Sizing(size=10.0))
+    samples = sample_edges(model, wanted)
+    ends = [{edge.start, edge.end} for edge in model.edges]
+    mate = next(k for k in range(1, 12) if not ends[k] & ends[0])
+    half = samples.t[samples.of(0)][:17]
+    run = MateRun(0, mate, half, half, np.full(17, 0.1))
+    samples = replace(samples, mates=[run])
+    samples.target_size[samples.of(mate)] = 0.5
+    sizes, graded = graded_with_mates(model, samples, samples.target_size, wanted.base)
+    own = samples.of(0)
+    step = np.linalg.norm(np.diff(samples.points[own], axis=0), axis=1)
+    assert np.allclose(sizes[own][samples.t[own] <= 0.5], 0.5)
+    assert (np.abs(np.diff(sizes[own])) <= 1.001 * wanted.base.gradient * step).all()
+    assert np.allclose(sizes, graded)
