@@ -17,8 +17,8 @@ import surfmesh as sm
 from surfmesh.geometry.differential.fundamental_forms import curvatures, forms_from_derivatives
 from surfmesh.geometry.parameter_grid import parameter_grid
 from surfmesh.geometry.surface import Surface
-from surfmesh.sizing.options.defaults import DEFAULT_ANGLE, DEFAULT_MAX_SIZE, LEAST_OF_CHORD
 from surfmesh.sizing.field.size_law import SizeLaw
+from surfmesh.sizing.options.defaults import DEFAULT_ANGLE, DEFAULT_MAX_SIZE, LEAST_OF_CHORD
 from surfmesh.sizing.rules.curvature_size import angle_size, chord_size, lattice_chord_size
 
 POINTS = 10_000
