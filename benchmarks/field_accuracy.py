@@ -17,8 +17,9 @@ import surfmesh as sm
 from surfmesh.geometry.differential.fundamental_forms import curvatures, forms_from_derivatives
 from surfmesh.geometry.parameter_grid import parameter_grid
 from surfmesh.geometry.surface import Surface
+from surfmesh.sizing.field.size_law import SizeLaw
 from surfmesh.sizing.options.defaults import DEFAULT_ANGLE, DEFAULT_MAX_SIZE, LEAST_OF_CHORD
-from surfmesh.sizing.rules.curvature_size import angle_size, chord_size
+from surfmesh.sizing.rules.curvature_size import angle_size, chord_size, lattice_chord_size
 
 POINTS = 10_000
 CLOUD_TRIANGLES = 10_000
@@ -97,8 +98,10 @@ def _exact(surface: Surface, uv: np.ndarray, sizing: dict) -> tuple[np.ndarray, 
     point, *derivatives = surface.evaluate(uv, 2)
     forms = forms_from_derivatives(*derivatives)
     k = curvatures(forms)
+    on_lattice = SizeLaw.of(surface, sm.Sizing(**sizing)).is_on_lattice
     with np.errstate(all="ignore"):
-        by_chord = chord_size(k.k1, k.k2, sizing["chord"])
+        allowed = lattice_chord_size if on_lattice else chord_size
+        by_chord = allowed(k.k1, k.k2, sizing["chord"])
         by_angle = angle_size(k.k1, k.k2, sizing.get("angle", DEFAULT_ANGLE))
         if "angle" not in sizing:
             by_angle = np.maximum(by_angle, LEAST_OF_CHORD * sizing["chord"])

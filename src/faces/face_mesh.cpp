@@ -108,7 +108,8 @@ FaceMesh mesh_face(const FaceField& field, const FacePolygons& polygons, const F
                          expected_circles(field.background, extent),
                          manner.optimise,
                          manner.first,
-                         manner.is_anisotropic};
+                         manner.is_anisotropic,
+                         manner.on_lattice};
     const Array<std::int64_t>& identity = loops.nodes.identity;
     const LoopBoundary boundary{{xy.data(), xy.size()},
                                 in_space.segments,

@@ -48,6 +48,7 @@ struct FaceManner {
     bool optimise = true;
     bool first = true;            // the sizes come from no earlier round
     bool is_anisotropic = false;  // sizes are asked for that depend on the direction
+    bool on_lattice = false;      // sizes are for a lattice laid along principal directions
 };
 
 /// A surface over the box of the face, its chart and size field.

@@ -57,9 +57,11 @@ PackingStatus start(Packing& p, const Circle (&circles)[3]) {
 PackingStatus start_at(Packing& p, const Background& background) {
     const Point2 origin = p.limits.origin;
     const SizeTensor h = background.size_at(origin.x, origin.y);
+    const Point2 turn = p.limits.edge ? unit_step(h, *p.limits.edge) : Point2{1.0, 0.0};
     Circle circles[3];
     for (int k = 0; k < 3; ++k) {
-        const Point2 c = START[k];
+        const Point2 s = START[k];
+        const Point2 c{turn.x * s.x - turn.y * s.y, turn.y * s.x + turn.x * s.y};
         const Point2 place{origin.x + h.xx * c.x + h.xy * c.y, origin.y + h.xy * c.x + h.yy * c.y};
         circles[k] = {place, background.size_at(place.x, place.y)};
     }
@@ -87,10 +89,11 @@ PackingStatus start_discs(Packing& p) {
 /// It shall when the segment meets the box (separating axes), and its middle lies within the
 /// largest distance from the origin.
 bool is_within(const Packing& p, FrontEdge edge) {
-    const auto& [origin, low, high, distance, wanted] = p.limits;
+    const PackingLimits& limits = p.limits;
+    const Point2 low = limits.low, high = limits.high;
     const Point2 a = p.t.xy[edge.a], b = p.t.xy[edge.b];
-    const Point2 d = 0.5 * (a + b) - origin;
-    if (d.x * d.x + d.y * d.y > distance * distance) return false;
+    const Point2 d = 0.5 * (a + b) - limits.origin;
+    if (d.x * d.x + d.y * d.y > limits.distance * limits.distance) return false;
     if (std::max(a.x, b.x) < low.x || std::min(a.x, b.x) > high.x || std::max(a.y, b.y) < low.y ||
         std::min(a.y, b.y) > high.y)
         return false;

@@ -23,6 +23,7 @@ constexpr double BEHIND_LAST_CIRCLE = 1e-3;
 // of along them adds up, to one part in twenty where sizes grow from a point on it: without this
 // mean alpha of such a square is .988, where it is .996 when packed from its middle
 constexpr double NARROW = 1.5;
+constexpr double SAME_ROWS = 0.95;    // cosine of six times an angle of 3 degrees
 constexpr double BEYOND_LINE = 1e-6;  // of that: the box reaches over the line, or it might miss it
 
 PackingLimits limits_of(Point2 origin, Point2 low, Point2 high) {
@@ -56,12 +57,27 @@ struct LaidLine {
     Array<Circle> circles;
 };
 
-/// The line along the axis that needs fewer circles in the middle of the box.
-LaidLine line_through(const Background& background, Point2 low, Point2 high, std::size_t most) {
+/// Are a row of circles along an axis and one along ``edge`` rows of the same lattice?
+bool are_rows_alike(SizeTensor h, Point2 axis, Point2 edge) {
+    const Point2 a = unit_step(h, axis), b = unit_step(h, edge);
+    const double cosine = dot(a, b), squared = cosine * cosine;  // of the angle between them
+    const double sixfold = squared * (squared * (32.0 * squared - 48.0) + 18.0) - 1.0;  // of 6 x it
+    return sixfold > SAME_ROWS;
+}
+
+/// The line along the axis that needs fewer circles in the middle of the box, of those with edges
+/// as they are to be; no circles where there is none.
+LaidLine line_through(const Background& background, Point2 low, Point2 high, std::size_t most,
+                      std::optional<Point2> edge) {
     StraightLine line{0.5 * (low + high), {1.0, 0.0}};
-    const std::size_t across = circles_along(background, line, low, high, most).size();
-    line.direction = {0.0, 1.0};
-    const std::size_t upward = circles_along(background, line, low, high, most).size();
+    const SizeTensor h = background.size_at(line.through.x, line.through.y);
+    const auto circles_on = [&](Point2 axis) {
+        line.direction = axis;
+        if (edge && !are_rows_alike(h, axis, *edge)) return std::size_t{0};
+        return circles_along(background, line, low, high, most).size();
+    };
+    const std::size_t across = circles_on({1.0, 0.0}), upward = circles_on({0.0, 1.0});
+    if (across == 0 && upward == 0) return {line, {}};
     if (upward == 0 || (across != 0 && across <= upward)) {
         line.direction = {1.0, 0.0};
         line.through.y = halving_coordinate(background, Axis::y, low.y, high, BISECTIONS);
@@ -126,17 +142,19 @@ Packing pack_halves(const Background& background, const LaidLine& laid, Point2 l
 }  // namespace
 
 Packing pack_box(const Background& background, Point2 low, Point2 high, std::size_t expected,
-                 const Watch& watch) {
+                 const Watch& watch, std::optional<Point2> edge) {
     if (expected >= CIRCLES_FOR_HALVES) {
         const auto most =
             static_cast<std::size_t>(LONGEST_LINE * std::sqrt(static_cast<double>(expected)));
-        const LaidLine laid = line_through(background, low, high, most);
+        const LaidLine laid = line_through(background, low, high, most, edge);
         if (!laid.circles.empty()) {
             Packing made = pack_halves(background, laid, low, high, expected, watch);
             if (made.counts.halves == 2 || made.end.status == PackingStatus::stopped) return made;
         }
     }
-    return pack(background, limits_of(0.5 * (low + high), low, high), expected, watch);
+    PackingLimits limits = limits_of(0.5 * (low + high), low, high);
+    limits.edge = edge;
+    return pack(background, limits, expected, watch);
 }
 
 }  // namespace surfmesh

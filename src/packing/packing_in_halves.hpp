@@ -7,6 +7,8 @@
 // for any number of threads.
 #pragma once
 
+#include <optional>
+
 #include "packing/packing.hpp"
 
 namespace surfmesh {
@@ -16,9 +18,12 @@ inline constexpr std::size_t CIRCLES_FOR_HALVES = 50'000;
 
 /// Pack circles until the front has left the box. ``watch`` is asked by one thread at a time.
 ///
+/// edge: a direction of the plane that edges are to have. The line runs along an axis on which they
+/// lie then; where there is none the box is packed from its middle.
 /// ``counts.halves`` says whether it was done in halves; then there is no front at the end. A box in
 /// which no line can be laid, or whose halves make no convex whole, is packed from its middle.
 [[nodiscard]] Packing pack_box(const Background& background, Point2 low, Point2 high,
-                               std::size_t expected, const Watch& watch = {});
+                               std::size_t expected, const Watch& watch = {},
+                               std::optional<Point2> edge = {});
 
 }  // namespace surfmesh

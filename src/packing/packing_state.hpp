@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <optional>
 
 #include "packing/edge_heap.hpp"
 #include "packing/front.hpp"
@@ -19,10 +20,17 @@ struct Circle {
 /// Where the packing starts, and what ends it.
 struct PackingLimits {
     Point2 origin;
-    Point2 low, high;     // corners of the box that the front has to leave
-    double distance;      // from the origin, infinite where there is no limit
-    std::int64_t wanted;  // number of circles
+    Point2 low, high;                 // corners of the box that the front has to leave
+    double distance;                  // from the origin, infinite where there is no limit
+    std::int64_t wanted;              // number of circles
+    std::optional<Point2> edge = {};  // direction of an edge of the first triangle
 };
+
+/// A direction d of the plane as a unit vector H^-1 d / |H^-1 d|; d is not zero.
+inline Point2 unit_step(SizeTensor h, Point2 d) {
+    const Point2 step = solve(h, d);
+    return (1.0 / norm(step)) * step;
+}
 
 /// What was done, in numbers.
 struct PackingCounts {

@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "packing/packing_in_halves.hpp"
+#include "patch/lattice_edge.hpp"
 #include "patch/schedule.hpp"
 
 namespace surfmesh {
@@ -46,8 +47,11 @@ class PatchWork {
 
 bool PatchWork::packed() {
     if (!begins(PatchStage::packing)) return false;
-    Packing packing =
-        pack_box(task_.background, task_.low, task_.high, task_.expected, hooks_.while_packing);
+    std::optional<Point2> edge;
+    if (task_.on_lattice)
+        edge = lattice_edge(task_.surface, task_.chart, 0.5 * (task_.low + task_.high));
+    Packing packing = pack_box(task_.background, task_.low, task_.high, task_.expected,
+                               hooks_.while_packing, edge);
     made_.packing = packing.end;
     made_.circles = packing.t.vertices();
     std::swap(plane_, packing.t);

@@ -47,6 +47,7 @@ struct PatchTask {
     bool optimise = true;     // else only diagonals are chosen
     bool first = true;        // the sizes come from no earlier round
     bool with_roots = false;  // W of the vertices is wanted
+    bool on_lattice = false;  // sizes are for a lattice laid along principal directions
 };
 
 enum class [[nodiscard]] PatchEnd : std::uint8_t {

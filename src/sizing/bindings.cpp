@@ -64,6 +64,8 @@ void bind_formulas_of_sizes(nb::module_& m) {
         nb::arg("k1"), nb::arg("k2"), "c (n,) with deviation = c h^2.");
     m.def("chord_size", &at_each<chord_size>, nb::arg("k1"), nb::arg("k2"), nb::arg("chord"),
           "Edge length (n,) at which triangles stay within chord.");
+    m.def("lattice_chord_size", &at_each<lattice_chord_size>, nb::arg("k1"), nb::arg("k2"),
+          nb::arg("chord"), "The same of a lattice laid where it deviates least.");
     m.def("quadratic_chord_size", &at_each<quadratic_chord_size>, nb::arg("k1"), nb::arg("k2"),
           nb::arg("chord"), "Edge length (n,) at which quadratic triangles stay within chord.");
     m.def(
@@ -147,8 +149,10 @@ void bind_rules(nb::module_& m) {
     nb::class_<CurvatureRule>(m, "CurvatureRule", "Sizes that follow from the curvature.");
     nb::class_<PlaceRule>(m, "PlaceRule", "Sizes that depend on the place alone.");
     nb::class_<ChordRule, CurvatureRule>(m, "ChordRule")
-        .def(nb::init<double, bool>(), nb::arg("chord"), nb::arg("is_width") = false,
-             "is_width: chord is that of the whole band that a triangle needs.");
+        .def(nb::init<double, bool, bool>(), nb::arg("chord"), nb::arg("is_width") = false,
+             nb::arg("on_lattice") = false,
+             "is_width: chord is that of the whole band that a triangle needs. on_lattice: edges "
+             "lie where they deviate least.");
     nb::class_<QuadraticChordRule, CurvatureRule>(m, "QuadraticChordRule")
         .def(nb::init<double>(), nb::arg("chord"));
     nb::class_<AngleRule, CurvatureRule>(m, "AngleRule")

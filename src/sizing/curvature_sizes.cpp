@@ -10,6 +10,9 @@ constexpr double LARGEST_RATIO = 1e100;
 
 constexpr double SADDLE_RESERVE = 0.7;  // where the curvatures are opposite
 
+// In the worst direction: where the lattice follows the rims and not the principal directions.
+constexpr double LATTICE_RESERVE = 0.81;
+
 constexpr double SQRT3 = 1.7320508075688772;
 
 double sign(double x) { return x > 0.0 ? 1.0 : x < 0.0 ? -1.0 : x; }
@@ -41,6 +44,10 @@ double deviation_reserve(PrincipalCurvatures k) {
 
 double chord_size(PrincipalCurvatures k, double chord) {
     return most(std::sqrt(deviation_reserve(k) * chord / deviation_factor(k)), 2.0 * chord);
+}
+
+double lattice_chord_size(PrincipalCurvatures k, double chord) {
+    return most(std::sqrt(LATTICE_RESERVE * chord / deviation_factor(k)), 2.0 * chord);
 }
 
 double quartic_factor(PrincipalCurvatures k) {

@@ -48,6 +48,10 @@ double deviation_reserve(PrincipalCurvatures k);
 /// Never less than 2 ``chord``: a smaller triangle is within ``chord`` whatever the curvature.
 double chord_size(PrincipalCurvatures k, double chord);
 
+/// The same where triangles form a lattice laid as ``lattice_edge`` (src/patch) has it: they use
+/// 0.6 to 0.7 of the chord, and only those along rims, whose rows lie as these do, come near to it.
+double lattice_chord_size(PrincipalCurvatures k, double chord);
+
 /// c with deviation = c k^3 h^4 of quadratic triangles whose nodes lie on the surface, where k, the
 /// larger curvature, and b, the signed ratio of both, do not change.
 ///

@@ -19,9 +19,12 @@ double ChordRule::factor(PrincipalCurvatures k, double ratio) const {
     return is_width_ ? std::sqrt(share_of_width(k, ratio)) : 1.0;
 }
 
+double ChordRule::size(PrincipalCurvatures k) const {
+    return on_lattice_ ? lattice_chord_size(k, chord_) : chord_size(k, chord_);
+}
+
 bool ChordRule::sizes(std::span<const PrincipalCurvatures> k, std::span<double> out) const {
-    for (std::size_t i = 0; i < k.size(); ++i)
-        out[i] = factor(k[i], 1.0) * chord_size(k[i], chord_);
+    for (std::size_t i = 0; i < k.size(); ++i) out[i] = factor(k[i], 1.0) * size(k[i]);
     return true;
 }
 

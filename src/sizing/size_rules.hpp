@@ -43,10 +43,12 @@ class PlaceRule {
 };
 
 /// ``chord``, model units. is_width: of the whole band that a triangle needs, where it may move to
-/// lie in the middle of it.
+/// lie in the middle of it. on_lattice: of isotropic triangles whose edges lie where they deviate
+/// least.
 class ChordRule final : public CurvatureRule {
   public:
-    explicit ChordRule(double chord, bool is_width = false) : chord_(chord), is_width_(is_width) {}
+    explicit ChordRule(double chord, bool is_width = false, bool on_lattice = false)
+        : chord_(chord), is_width_(is_width), on_lattice_(on_lattice) {}
     bool sizes(std::span<const PrincipalCurvatures> k, std::span<double> out) const override;
     bool principal_sizes(std::span<const PrincipalCurvatures> k, std::span<const double> ratio,
                          std::span<PrincipalSizes> out) const override;
@@ -54,8 +56,9 @@ class ChordRule final : public CurvatureRule {
   private:
     /// On the sizes: they go with the root of the chord.
     [[nodiscard]] double factor(PrincipalCurvatures k, double ratio) const;
+    [[nodiscard]] double size(PrincipalCurvatures k) const;
     double chord_;
-    bool is_width_;
+    bool is_width_, on_lattice_;
 };
 
 /// ``chord`` of quadratic triangles, model units: the same in all directions.

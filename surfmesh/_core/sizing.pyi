@@ -30,6 +30,9 @@ def deviation_factor(k1: Annotated[NDArray[numpy.float64], dict(shape=(None,), o
 def chord_size(k1: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)], k2: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)], chord: float) -> Annotated[NDArray[numpy.float64], dict(shape=(None,))]:
     """Edge length (n,) at which triangles stay within chord."""
 
+def lattice_chord_size(k1: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)], k2: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)], chord: float) -> Annotated[NDArray[numpy.float64], dict(shape=(None,))]:
+    """The same of a lattice laid where it deviates least."""
+
 def quadratic_chord_size(k1: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)], k2: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)], chord: float) -> Annotated[NDArray[numpy.float64], dict(shape=(None,))]:
     """Edge length (n,) at which quadratic triangles stay within chord."""
 
@@ -78,8 +81,10 @@ class PlaceRule:
     """Sizes that depend on the place alone."""
 
 class ChordRule(CurvatureRule):
-    def __init__(self, chord: float, is_width: bool = False) -> None:
-        """is_width: chord is that of the whole band that a triangle needs."""
+    def __init__(self, chord: float, is_width: bool = False, on_lattice: bool = False) -> None:
+        """
+        is_width: chord is that of the whole band that a triangle needs. on_lattice: edges lie where they deviate least.
+        """
 
 class QuadraticChordRule(CurvatureRule):
     def __init__(self, chord: float) -> None: ...

@@ -205,7 +205,7 @@ def _made(job: FaceJob, made: core.FaceMesh | None) -> core.FaceMesh:
         surface, field = face_field(job)
         made = core.mesh_face(
             as_core_surface(surface), field.chart.core, field.background, _polygons(job, field),
-            manner_of(job, field.sizing),
+            manner_of(job, field),
         )  # fmt: skip
     if made.end == FaceEnd.RUNS_TWICE:
         raise SurfaceError(f"the boundary of {job.surface.name!r} runs twice the same way")

@@ -11,10 +11,12 @@ from surfmesh.geometry.core_surface import as_core_surface
 from surfmesh.meshing.faces.face_data import FaceJob
 from surfmesh.sizing.field.boundary_field import (
     has_boundary_field,
+    has_room_for_lattice,
     largest_size,
     largest_within,
     speeds_of,
 )
+from surfmesh.sizing.field.size_field import SizeField
 from surfmesh.sizing.options.sizing import Sizing
 
 
@@ -45,16 +47,19 @@ class InwardFaces:
         (u0, u1), (v0, v1) = domain = boundary.box
         if not (u0 < u1 and v0 < v1):
             return None
-        speeds = speeds_of(surface)
-        largest = known.largest(
-            None if surface.kind == "plane" else speeds[0],
-            math.hypot(speeds[0] * (u1 - u0), speeds[1] * (v1 - v0)),
-        )
+        speeds, on_lattice = speeds_of(surface), False
+        radius = None if surface.kind == "plane" else speeds[0]
+        extent = math.hypot(speeds[0] * (u1 - u0), speeds[1] * (v1 - v0))
+        largest = known.largest(radius, extent)
         if largest is None:
             largest = largest_size(surface, sizing, domain)
+        elif radius is not None and has_room_for_lattice(surface, domain, largest):
+            larger = known.largest(radius, extent, True)
+            if larger is not None and larger > largest:
+                on_lattice, largest = True, larger
         return InwardFace(
             as_core_surface(surface), boundary, speeds, largest, known.slope,
-            known.manner(job.optimise), look_for_tubes and surface.kind != "plane",
+            known.manner(job.optimise, on_lattice), look_for_tubes and surface.kind != "plane",
         )  # fmt: skip
 
 
@@ -68,34 +73,38 @@ class _Sizes:
         bounds = sizing.chord, sizing.angle, sizing.size
         self.may_grow = not sizing.is_anisotropic and any(x is not None for x in bounds)
         """Does the core know all sizes: those of edges and one that bounds them?"""
-        self._manners: dict[bool, FaceManner] = {}
-        self._largest: dict[float | None, tuple[float, float | None]] = {}
+        self._manners: dict[tuple[bool, bool], FaceManner] = {}
+        self._largest: dict[tuple[float | None, bool], tuple[float, float | None]] = {}
 
-    def manner(self, optimise: bool) -> FaceManner:
+    def manner(self, optimise: bool, on_lattice: bool) -> FaceManner:
         """How a face is meshed in the first round."""
-        if optimise not in self._manners:
-            self._manners[optimise] = _manner(self.sizing, optimise, True)
-        return self._manners[optimise]
+        key = optimise, on_lattice
+        if key not in self._manners:
+            self._manners[key] = _manner(self.sizing, optimise, True, on_lattice)
+        return self._manners[key]
 
-    def largest(self, radius: float | None, extent: float) -> float | None:
+    def largest(
+        self, radius: float | None, extent: float, on_lattice: bool = False
+    ) -> float | None:
         """The largest size on a plane (None) or a cylinder up to so large; None where that
         depends on how large it is."""
-        reach, found = self._largest.get(radius, (0.0, None))
+        key = radius, on_lattice
+        reach, found = self._largest.get(key, (0.0, None))
         if not extent < reach:
             reach = 2.0 ** (math.frexp(extent)[1] + 1)  # the diagonal is no longer
-            found = largest_within(self.sizing, radius, reach)
-            self._largest[radius] = reach, found
+            found = largest_within(self.sizing, radius, reach, on_lattice)
+            self._largest[key] = reach, found
         return found
 
 
-def manner_of(job: FaceJob, sizing: Sizing) -> FaceManner:
-    """How a face is meshed with these sizes."""
-    return _manner(sizing, job.optimise, job.limits is None)
+def manner_of(job: FaceJob, field: SizeField) -> FaceManner:
+    """How a face is meshed with the sizes of this field."""
+    return _manner(field.sizing, job.optimise, job.limits is None, field.law.is_on_lattice)
 
 
-def _manner(sizing: Sizing, optimise: bool, is_first: bool) -> FaceManner:
+def _manner(sizing: Sizing, optimise: bool, is_first: bool, on_lattice: bool) -> FaceManner:
     return FaceManner(
         sizing.straight_chord, sizing.angle, sizing.min_size or 0.0,
         optimise, is_first, sizing.is_anisotropic, sizing.gradient,
-        keeps_lowered=sizing.is_balanced,
+        keeps_lowered=sizing.is_balanced, on_lattice=on_lattice,
     )  # fmt: skip

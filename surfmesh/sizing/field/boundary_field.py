@@ -20,6 +20,7 @@ from surfmesh.geometry.surface import Domain, Surface
 from surfmesh.sizing.field.size_field import SizeField
 from surfmesh.sizing.field.size_law import SizeLaw
 from surfmesh.sizing.options.sizing import Sizing
+from surfmesh.sizing.rules.principal_lattice import LEAST_ROWS
 from surfmesh.sizing.rules.size_rules import SizeRules
 
 _ISOTROPIC = (1.0, 0.0, 1.0)
@@ -71,6 +72,11 @@ def boundary_field(
     rules = SizeRules.of(sizing, _diagonal(surface, sizing, surface.domain))
     if isinstance(surface, Cylinder):
         largest = min(_allowed(rules, surface.radius), largest or math.inf)
+        on_lattice = rules.on_lattice()
+        if on_lattice and has_room_for_lattice(surface, surface.domain, largest):
+            larger = _allowed(on_lattice, surface.radius)
+            if larger > largest == _allowed(rules, surface.radius):
+                rules, largest = on_lattice, larger
     elif largest is None:
         largest = _allowed(rules, None)
     if not 0.0 < largest < math.inf:
@@ -129,11 +135,22 @@ def largest_size(surface: Surface, sizing: Sizing, domain: Domain) -> float:
     return _allowed(SizeRules.of(sizing, _diagonal(surface, sizing, domain)), radius)
 
 
-def largest_within(sizing: Sizing, radius: float | None, reach: float) -> float | None:
+def largest_within(
+    sizing: Sizing, radius: float | None, reach: float, on_lattice: bool = False
+) -> float | None:
     """The same where it does not depend on the diagonal, for any up to ``reach``: no size falls
-    as the diagonal grows."""
-    low, high = (_allowed(SizeRules.of(sizing, diagonal), radius) for diagonal in (0.0, reach))
+    as the diagonal grows. on_lattice: for triangles that form one."""
+    each = [SizeRules.of(sizing, diagonal) for diagonal in (0.0, reach)]
+    if on_lattice:
+        each = [rules.on_lattice() or rules for rules in each]
+    low, high = (_allowed(rules, radius) for rules in each)
     return low if 0.0 < low == high else None
+
+
+def has_room_for_lattice(surface: Surface, domain: Domain, size: float) -> bool:
+    """Has a plane or a cylinder over a box of its parameters enough rows of this size?"""
+    sides = (speed * (high - low) for speed, (low, high) in zip(speeds_of(surface), domain))
+    return min(sides) >= LEAST_ROWS * size
 
 
 def _allowed(rules: SizeRules, radius: float | None) -> float:

@@ -18,6 +18,7 @@ from surfmesh.geometry.differential.fundamental_forms import (
 from surfmesh.geometry.surface import Surface
 from surfmesh.sizing.options.sizing import Sizing
 from surfmesh.sizing.rules.direction_rates import ROUND, has_even_curvature, longest_along
+from surfmesh.sizing.rules.principal_lattice import keeps_lattice
 from surfmesh.sizing.rules.rim_rule import LoopRule, RimRule, Rims
 from surfmesh.sizing.rules.rule import DirectedRule, Places, Rule
 from surfmesh.sizing.rules.size_limits import SizeLimits
@@ -95,6 +96,8 @@ class SizeLaw:
         self.surface, self.chart, self.rules, self.limits = surface, chart, rules, limits
         self.sizing, self.clamp = rules.sizing, rules.clamp
         self.follows_curvature = rules.follows_curvature
+        self.is_on_lattice = rules.is_on_lattice
+        """Are sizes for a lattice that is laid along principal directions?"""
         self.directed: tuple[DirectedRule, ...] = ()
         """Rules that hold in some directions only: those of the rims."""
         chord = self.sizing.straight_chord  # arcs of quadratic triangles are measured on the mesh
@@ -114,8 +117,11 @@ class SizeLaw:
         """With the defaults that follow from the extent of the surface, and its chart."""
         (u0, u1), (v0, v1) = surface.domain
         (points,) = surface.evaluate(np.array([u0, v0]) + _GRID * np.array([u1 - u0, v1 - v0]), 0)
-        rules = SizeRules.of(sizing, diagonal(points))
-        return cls(surface, chart or Chart.of(surface), rules, limits, rims)
+        rules, chart = SizeRules.of(sizing, diagonal(points)), chart or Chart.of(surface)
+        on_lattice = rules.on_lattice()
+        if on_lattice is not None and keeps_lattice(surface, chart.extent, on_lattice):
+            rules = on_lattice
+        return cls(surface, chart, rules, limits, rims)
 
     def without_limits(self) -> "SizeLaw":
         """What the rules say by themselves."""
@@ -197,7 +203,7 @@ class SizeLaw:
 class TensorLaw:
     """Size tensors given over a plane, in the place of sizes that follow from a surface."""
 
-    follows_curvature = False
+    follows_curvature = is_on_lattice = False
     limits = loop_limits = None
 
     def __init__(

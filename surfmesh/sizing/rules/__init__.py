@@ -9,6 +9,7 @@ default_angle_rule: the angle that holds where only a chord is asked for.
 size_rule: ``size``: a number, or a function of the place.
 source_rule: ``sources``: local sizes near points and lines, in balls and boxes, across gaps.
 size_rules: all rules that hold on one surface, and the bounds that their least is kept within.
+principal_lattice: where a lattice of triangles keeps to principal directions and may be larger.
 size_limits: upper bounds of the size near points: where a round of meshing has found it too large.
 rim_rule: ``chord`` where a surface ends: the edge length that the curvature of a rim allows.
 direction_rates: how long an edge may be where the direction of low curvature changes.

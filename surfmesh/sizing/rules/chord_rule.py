@@ -11,6 +11,7 @@ from surfmesh.sizing.options.sizing import Sizing
 from surfmesh.sizing.rules.curvature_size import (
     STRAIGHT_RESERVE,
     chord_size,
+    lattice_chord_size,
     principal_chord_sizes,
     share_of_width,
 )
@@ -39,6 +40,8 @@ class ChordRule(CurvatureRule):
     is_width: bool = field(default=False, compare=False)
     """It is that of the whole band around the surface that a triangle needs: vertices move to the
     middle of it."""
+    on_lattice: bool = field(default=False, compare=False)
+    """Edges lie where they deviate least: see ``keeps_lattice``."""
 
     @classmethod
     def asked_for(cls, sizing: Sizing, diagonal: float) -> Iterator["ChordRule"]:
@@ -50,10 +53,11 @@ class ChordRule(CurvatureRule):
 
     @property
     def core(self) -> core_sizing.CurvatureRule:
-        return core_sizing.ChordRule(self.chord, self.is_width)
+        return core_sizing.ChordRule(self.chord, self.is_width, self.on_lattice)
 
     def sizes(self, k1: np.ndarray, k2: np.ndarray) -> np.ndarray:
-        return self._factor(k1, k2, 1.0) * chord_size(k1, k2, self.chord)
+        size = lattice_chord_size if self.on_lattice else chord_size
+        return self._factor(k1, k2, 1.0) * size(k1, k2, self.chord)
 
     def principal_sizes(
         self, k1: np.ndarray, k2: np.ndarray, ratio: np.ndarray | float

@@ -39,6 +39,11 @@ def chord_size(k1: np.ndarray, k2: np.ndarray, chord: float | np.ndarray) -> np.
     return _each(core.chord_size, k1, k2, float(chord))
 
 
+def lattice_chord_size(k1: np.ndarray, k2: np.ndarray, chord: float) -> np.ndarray:
+    """The same of triangles that form a lattice, laid where it deviates least."""
+    return _each(core.lattice_chord_size, k1, k2, chord)
+
+
 def quadratic_chord_size(k1: np.ndarray, k2: np.ndarray, chord: float) -> np.ndarray:
     """Edge length at which quadratic triangles stay within ``chord`` where the curvature does not
     change; never below 2 ``chord``."""

@@ -5,7 +5,7 @@ SizeRule, SourceRule, ...  -> sizes by place ------+-- least -> within ``bounds`
 """
 
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -82,6 +82,25 @@ class SizeRules:
         by_curvature = tuple(rule for rule in rules if isinstance(rule, CurvatureRule))
         by_place = tuple(rule for rule in rules if isinstance(rule, PlaceRule))
         return cls(sizing, by_curvature, by_place, tuple(bounds), (finest, coarsest), longest)
+
+    def on_lattice(self) -> "SizeRules | None":
+        """For triangles that form a lattice along principal directions; None where there is none.
+
+        Balanced vertices need a band whose width depends on all edges, and stretched triangles are
+        sized by their direction as it is.
+        """
+        sizing = self.sizing
+        if sizing.straight_chord is None or sizing.is_anisotropic or sizing.is_balanced:
+            return None
+        rules = tuple(
+            replace(rule, on_lattice=True) if isinstance(rule, ChordRule) else rule
+            for rule in self.by_curvature
+        )
+        return replace(self, by_curvature=rules)
+
+    @property
+    def is_on_lattice(self) -> bool:
+        return any(isinstance(rule, ChordRule) and rule.on_lattice for rule in self.by_curvature)
 
     @property
     def core(self) -> core_sizing.SizeRules:

@@ -10,7 +10,7 @@ from surfmesh.geometry.differential.sides import find_sides
 from surfmesh.geometry.formulas.parametric import ParametricSurface
 from surfmesh.sizing.field.size_field import size_field
 from surfmesh.sizing.options.sizing import Sizing
-from surfmesh.sizing.rules.curvature_size import chord_size
+from surfmesh.sizing.rules.curvature_size import chord_size, lattice_chord_size
 from surfmesh.sizing.rules.size_limits import SizeLimits
 
 
@@ -23,8 +23,9 @@ def exact(surface, field, xy):
     sizing = field.sizing
     _, ru, rv, *second = surface.evaluate(field.chart.to_uv(xy), 2)
     k = curvatures(forms_from_derivatives(ru, rv, *second))
+    allowed = lattice_chord_size if field.law.is_on_lattice else chord_size
     h = np.clip(
-        chord_size(k.k1, k.k2, sizing.chord), sizing.min_size or 0.0, sizing.max_size or np.inf
+        allowed(k.k1, k.k2, sizing.chord), sizing.min_size or 0.0, sizing.max_size or np.inf
     )
     rates = field.chart.rates(xy)
     return h, np.stack([ru * rates[:, :1], rv * rates[:, 1:]], axis=2)
