@@ -246,7 +246,8 @@ class _Rounds:
         first = not self.nodes
         model, sizing = self.model, self.wanted.base
         with self.watch.stage("sizing"):
-            self.nodes = cut_edges(model, sizing, self.samples, limits, self.nodes)
+            with allowed_threads(self.how.workers.threads):
+                self.nodes = cut_edges(model, sizing, self.samples, limits, self.nodes)
             if first:
                 jobs = partial(face_jobs, model, self.faces, self.nodes)
                 sizings = [state.sizing for state in self.faces]
@@ -282,7 +283,8 @@ class _Rounds:
 
     def _joined(self) -> SurfaceMesh:
         vertex, sizing, seconds = self.samples.vertex, self.wanted.base, self.watch.seconds
-        return joined_mesh(self.model, self.faces, self.nodes, vertex, sizing, seconds)
+        with allowed_threads(self.how.workers.threads):
+            return joined_mesh(self.model, self.faces, self.nodes, vertex, sizing, seconds)
 
 
 def estimate_model(model: CadModel, sizing: Any) -> Estimate:

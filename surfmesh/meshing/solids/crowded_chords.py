@@ -13,6 +13,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from surfmesh._core.faces import triangles_of_shared
 from surfmesh.cad.model.cad_model import CadModel
 from surfmesh.geometry.small_matrices import norm
 from surfmesh.meshing.solids.joining import crowded_chords, shared_vertices
@@ -62,9 +63,8 @@ def _lone_corners(model: CadModel, mesh: SurfaceMesh) -> list[_LoneCorner]:
     assert mesh.vertex_ids is not None and mesh.edge_ids is not None  # noqa: S101 for mypy
     at_vertex = np.zeros(len(mesh.points), bool)
     at_vertex[mesh.vertex_ids[mesh.vertex_ids >= 0]] = True
-    a, b, c = mesh.triangles.T
-    rows = np.flatnonzero(at_vertex[a] | at_vertex[b] | at_vertex[c])
-    rows = rows[shared_vertices(mesh)[mesh.triangles[rows]].all(axis=1)]
+    rows = triangles_of_shared(mesh.triangles, shared_vertices(mesh).view(np.uint8))
+    rows = rows[at_vertex[mesh.triangles[rows]].any(axis=1)]
     beside = np.flatnonzero(at_vertex[mesh.edge_segments].any(axis=1))
     if not len(rows) or not len(beside):
         return []
@@ -80,7 +80,7 @@ def _lone_corners(model: CadModel, mesh: SurfaceMesh) -> list[_LoneCorner]:
     edges = mesh.edge_ids[beside[order[place]]]
     found = []
     for row in np.flatnonzero(is_on_edge.sum(axis=1) == 2).tolist():
-        free = int(np.flatnonzero(~is_on_edge[row])[0])  # the side from corner free on
+        free = int(is_on_edge[row].argmin())  # the side from corner free on
         one, two = (int(edges[row, (free + k) % 3]) for k in (1, 2))
         face = int(mesh.face_ids[rows[row]])
         if set(model.faces_of_edge(one)) & set(model.faces_of_edge(two)) - {face}:
