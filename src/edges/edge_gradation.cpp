@@ -12,7 +12,7 @@
 namespace surfmesh {
 namespace {
 
-constexpr std::size_t EDGES_TOGETHER = 256, SAMPLES_TOGETHER = 16'384;
+constexpr std::size_t EDGES_TOGETHER = 256, SAMPLES_TOGETHER = 1 << 15;
 constexpr double INFINITE = std::numeric_limits<double>::infinity();
 
 class Gradation {

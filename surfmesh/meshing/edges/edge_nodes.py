@@ -51,13 +51,16 @@ class EdgeNodes(NamedTuple):
     """(n,) wanted edge lengths."""
 
 
+_NO_NODES = EdgeNodes(_NONE, np.empty((0, 3)), np.empty(0, np.int64), _NONE)
+
+
 @dataclass(frozen=True, eq=False)
 class CutEdges(Sequence[EdgeNodes | None]):
     """The nodes of all edges (None: one vertex), in rows, edge after edge."""
 
     first: np.ndarray = field(default_factory=lambda: np.zeros(1, np.int64))
     """(e + 1,) rows of the edges; none of an edge that is one vertex."""
-    rows: EdgeNodes = EdgeNodes(_NONE, np.empty((0, 3)), np.empty(0, np.int64), _NONE)
+    rows: EdgeNodes = _NO_NODES
     """Of all edges."""
     made: np.ndarray = field(default_factory=lambda: np.empty(0, np.int64))
     """(e,) the round in which the nodes of each edge were made, 0 for the first."""
@@ -69,7 +72,7 @@ class CutEdges(Sequence[EdgeNodes | None]):
     def __getitem__(self, edge: int) -> EdgeNodes | None: ...
     @overload
     def __getitem__(self, edge: slice) -> list[EdgeNodes | None]: ...
-    def __getitem__(self, edge: int | slice) -> EdgeNodes | None | list[EdgeNodes | None]:
+    def __getitem__(self, edge: int | slice) -> EdgeNodes | list[EdgeNodes | None] | None:
         if isinstance(edge, slice):
             return [self[k] for k in range(*edge.indices(len(self)))]
         a, b = int(self.first[edge]), int(self.first[edge + 1])

@@ -63,8 +63,8 @@ class _Sizes:
         """Kept, so that no other one gets its ``id``."""
         self.slope = sizing.gradient
         bounds = sizing.chord, sizing.angle, sizing.size
-        self.may_grow = (
-            not (sizing.is_anisotropic or sizing.has_law) and any(x is not None for x in bounds)
+        self.may_grow = not (sizing.is_anisotropic or sizing.has_law) and any(
+            x is not None for x in bounds
         )
         """Does the core know all sizes: those of edges and one that bounds them?"""
         self._manners: dict[bool, FaceManner] = {}
