@@ -7,8 +7,6 @@ Made once for a model. What earlier rounds of meshing have found out, and the gr
 along edges and through vertices, comes later: see ``edge_nodes``.
 """
 
-from itertools import pairwise
-
 import numpy as np
 
 from surfmesh._core.space import edge_gaps
@@ -70,7 +68,7 @@ def sample_edges(model: CadModel, sizing: ModelSizing, few: bool = False) -> Edg
         *rules.sags(),
         _has_twin(arrays, total_curvature),
         arrays.vertex,
-        _edges_of_faces(arrays),
+        arrays.edges_of_face,
         np.zeros(len(model.faces)),
         {},
         np.zeros(len(model.edges), bool),
@@ -100,16 +98,6 @@ def _fractions(rules: EdgeRules, edges: np.ndarray, few: bool) -> list[np.ndarra
         _with_hidden(rules.model.edges[edge], grid, rules.sizings_at(edge))
         for edge, grid in zip(edges.tolist(), grids)
     ]
-
-
-def _edges_of_faces(arrays: ModelArrays) -> tuple[np.ndarray, ...]:
-    """For each face the edges with samples, each once, rising."""
-    there = ~arrays.collapsed[arrays.coedge_edge]
-    count = len(arrays.collapsed)
-    both = np.unique(arrays.coedge_face[there] * count + arrays.coedge_edge[there])
-    first = np.searchsorted(both, np.arange(len(arrays.area) + 1) * count).tolist()
-    edges = both % max(count, 1)
-    return tuple(edges[a:b] for a, b in pairwise(first))
 
 
 def _find_narrow(samples: EdgeSamples, rules: EdgeRules) -> None:
