@@ -15,7 +15,7 @@ constexpr std::size_t BLOCK = 8;    // segments of an edge that are looked at to
 constexpr double CHANGE = 1e-3;     // relative: a size is not lowered for less
 constexpr double OF_SIZE = 0.25;    // samples are no farther apart than this part of a size,
 constexpr double MOST_STRIDE = 16;  // and each stands for no more of those that there are
-constexpr std::size_t EDGES_TOGETHER = 256;
+constexpr std::size_t THINNED_TOGETHER = 256;
 constexpr double INFINITE_SIZE = std::numeric_limits<double>::infinity();
 
 /// A bounding box.
@@ -95,7 +95,7 @@ struct ThinnedEdges {
 
     ThinnedEdges(const EdgeNetwork& edges, const Array<double>& all) {
         Array<std::int64_t> steps(edges.ends.size());
-        for_each_block(steps.size(), EDGES_TOGETHER, [&](std::size_t from, std::size_t to) {
+        for_each_block(steps.size(), THINNED_TOGETHER, [&](std::size_t from, std::size_t to) {
             for (std::size_t e = from; e < to; ++e)
                 steps.data()[e] = stride(edges, all, edges.first[e], edges.first[e + 1]);
         });

@@ -103,11 +103,11 @@ def _fractions(rules: EdgeRules, edges: np.ndarray, few: bool) -> list[np.ndarra
 def _find_narrow(samples: EdgeSamples, rules: EdgeRules) -> None:
     """Fill in what is narrow; edges of narrow faces do not hear the curvature across these."""
     model, sizing, arrays = rules.model, rules.wanted, rules.arrays
-    for own, faces in sizing.sets(len(model.faces)):
+    for own, numbers in sizing.sets(len(model.faces)):
         if not own.has_law:
-            samples.narrow_width[faces] = narrow_width(own, model.diagonal, np.empty((0, 3)))
+            samples.narrow_width[numbers] = narrow_width(own, model.diagonal, np.empty((0, 3)))
             continue
-        for number in faces.tolist():
+        for number in numbers.tolist():
             points = samples.points[samples.along(number)]
             samples.narrow_width[number] = narrow_width(own, model.diagonal, points)
     for number in may_be_narrow(arrays, samples.narrow_width).tolist():
