@@ -4,11 +4,15 @@
 #include <limits>
 #include <queue>
 #include <tuple>
+#include <utility>
 #include <vector>
+
+#include "values/threads.hpp"
 
 namespace surfmesh {
 namespace {
 
+constexpr std::size_t EDGES_TOGETHER = 256, SAMPLES_TOGETHER = 1 << 15;
 constexpr double INFINITE = std::numeric_limits<double>::infinity();
 
 class Gradation {
@@ -16,14 +20,19 @@ class Gradation {
     Gradation(const EdgeNetwork& edges, std::span<const double> sizes, double slope,
               double least_step)
         : edges_(edges), slope_(slope), way_(sizes.size()), step_(sizes.size()) {
-        for (std::size_t i = 0; i < sizes.size(); ++i) way_.data()[i] = sizes[i] / slope;
-        for (std::size_t i = 0; i + 1 < sizes.size(); ++i)
-            step_.data()[i] = std::max(norm(edges.points[i + 1] - edges.points[i]), least_step);
+        for_each_block(sizes.size(), SAMPLES_TOGETHER, [&](std::size_t begin, std::size_t end) {
+            for (std::size_t i = begin; i < end; ++i) way_.data()[i] = sizes[i] / slope;
+            for (std::size_t i = begin; i < end && i + 1 < sizes.size(); ++i)
+                step_.data()[i] = std::max(norm(edges.points[i + 1] - edges.points[i]), least_step);
+        });
     }
 
     Array<double> sizes() {
         link_vertices();
-        for (std::size_t e = 0; e < edges_.ends.size(); ++e) sweep_both_ways(e);
+        for_each_block(edges_.ends.size(), EDGES_TOGETHER, [&](std::size_t from, std::size_t to) {
+            for (std::size_t e = from; e < to; ++e) sweep_both_ways(e);
+        });
+        for (std::size_t e = 0; e < edges_.ends.size(); ++e) lower_vertices(e);
         for (std::size_t v = 0; v < edges_.vertices; ++v) queue_.push({at_vertex_[v], v});
         while (!queue_.empty()) {
             const auto [way, vertex] = queue_.top();
@@ -33,7 +42,7 @@ class Gradation {
                 grow_from(uses_[k], way);
         }
         for (double& way : way_) way = slope_ * way;
-        return way_;
+        return std::move(way_);
     }
 
   private:
@@ -64,13 +73,18 @@ class Gradation {
         }
     }
 
-    /// Lower what lies beside along one edge, and its vertices to its ends.
+    /// Lower what lies beside along one edge.
     void sweep_both_ways(std::size_t e) {
         if (is_empty(e)) return;
         for (std::int64_t i = first(e); i < last(e); ++i)
             way_[i + 1] = std::min(way_[i + 1], way_[i] + step_[i]);
         for (std::int64_t i = last(e); i > first(e); --i)
             way_[i - 1] = std::min(way_[i - 1], way_[i] + step_[i - 1]);
+    }
+
+    /// Lower the vertices of an edge to its ends.
+    void lower_vertices(std::size_t e) {
+        if (is_empty(e)) return;
         double& start = at_vertex_[edges_.ends[e].start];
         start = std::min(start, way_[first(e)]);
         double& end = at_vertex_[edges_.ends[e].end];

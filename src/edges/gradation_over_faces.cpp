@@ -1,9 +1,12 @@
 #include "edges/gradation_over_faces.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <vector>
+
+#include "values/threads.hpp"
 
 namespace surfmesh {
 namespace {
@@ -12,6 +15,7 @@ constexpr std::size_t BLOCK = 8;    // segments of an edge that are looked at to
 constexpr double CHANGE = 1e-3;     // relative: a size is not lowered for less
 constexpr double OF_SIZE = 0.25;    // samples are no farther apart than this part of a size,
 constexpr double MOST_STRIDE = 16;  // and each stands for no more of those that there are
+constexpr std::size_t THINNED_TOGETHER = 256;
 constexpr double INFINITE_SIZE = std::numeric_limits<double>::infinity();
 
 /// A bounding box.
@@ -47,6 +51,40 @@ struct SampleRange {
     }
 };
 
+/// Boxes in rows of numbers, so that several are looked at together.
+class SampleBoxes {
+  public:
+    [[nodiscard]] bool empty() const { return rows_[0].empty(); }
+    void clear() {
+        for (Array<double>& row : rows_) row.clear();
+    }
+    void add(const SampleBox& box) {
+        const double values[] = {box.low.x,  box.low.y,  box.low.z,
+                                 box.high.x, box.high.y, box.high.z};
+        for (std::size_t k = 0; k < 6; ++k) rows_[k].push_back(values[k]);
+    }
+
+    /// ``squared_way`` of each to one box.
+    const Array<double>& squared_ways(const SampleBox& to) {
+        const std::size_t count = rows_[0].size();
+        ways_.resize(count);
+        const double *lx = rows_[0].data(), *ly = rows_[1].data(), *lz = rows_[2].data();
+        const double *hx = rows_[3].data(), *hy = rows_[4].data(), *hz = rows_[5].data();
+        double* way = ways_.data();
+        for (std::size_t i = 0; i < count; ++i) {
+            const double x = std::max(std::max(to.low.x - hx[i], lx[i] - to.high.x), 0.0);
+            const double y = std::max(std::max(to.low.y - hy[i], ly[i] - to.high.y), 0.0);
+            const double z = std::max(std::max(to.low.z - hz[i], lz[i] - to.high.z), 0.0);
+            way[i] = x * x + y * y + z * z;
+        }
+        return ways_;
+    }
+
+  private:
+    std::array<Array<double>, 6> rows_;
+    Array<double> ways_;
+};
+
 /// Some of the samples of each edge, its ends among them.
 ///
 /// Samples lie as dense as curves may need; what grows across faces needs a few for each size.
@@ -56,11 +94,18 @@ struct ThinnedEdges {
     Array<double> sizes;
 
     ThinnedEdges(const EdgeNetwork& edges, const Array<double>& all) {
+        Array<std::int64_t> steps(edges.ends.size());
+        for_each_block(steps.size(), THINNED_TOGETHER, [&](std::size_t from, std::size_t to) {
+            for (std::size_t e = from; e < to; ++e)
+                steps.data()[e] = stride(edges, all, edges.first[e], edges.first[e + 1]);
+        });
+        row.reserve(all.size());
+        points.reserve(all.size());
+        sizes.reserve(all.size());
         first.push_back(0);
         for (std::size_t e = 0; e < edges.ends.size(); ++e) {
             const std::int64_t begin = edges.first[e], end = edges.first[e + 1];
-            const std::int64_t step = begin < end ? stride(edges, all, begin, end) : 1;
-            for (std::int64_t i = begin; i < end; i += step) add(edges, all, i);
+            for (std::int64_t i = begin; i < end; i += steps.data()[e]) add(edges, all, i);
             if (begin < end && row[row.size() - 1] != end - 1) add(edges, all, end - 1);
             first.push_back(static_cast<std::int64_t>(row.size()));
         }
@@ -92,9 +137,12 @@ struct ThinnedEdges {
         double longest = 0.0, smallest = INFINITE_SIZE;
         for (std::int64_t i = begin; i < end; ++i) {
             smallest = std::min(smallest, all[i]);
-            if (i > begin) longest = std::max(longest, norm(edges.points[i] - edges.points[i - 1]));
+            if (i == begin) continue;
+            const Point3 step = edges.points[i] - edges.points[i - 1];
+            longest = std::max(longest, dot(step, step));
         }
-        const double most = std::min(OF_SIZE * smallest / longest, MOST_STRIDE);  // nan: no length
+        const double most =  // nan: no length
+            std::min(OF_SIZE * smallest / std::sqrt(longest), MOST_STRIDE);
         return most > 1.0 ? static_cast<std::int64_t>(most) : 1;
     }
 };
@@ -177,16 +225,32 @@ class GradationOverFaces {
             double coarsest = 0.0;
             for (const std::int64_t edge : own)
                 coarsest = std::max(coarsest, ranges_[static_cast<std::size_t>(edge)].largest);
+            boxes_.clear();
             for (const std::int64_t from : own) {
                 if (lowered_[from] < round) continue;
-                if (!(ranges_[static_cast<std::size_t>(from)].smallest < coarsest)) continue;
-                for (const std::int64_t to : own)  // by itself an edge is graded already
-                    if (to != from &&
-                        grow(static_cast<std::size_t>(from), static_cast<std::size_t>(to))) {
-                        renew(static_cast<std::size_t>(to), round + 1);
-                        any = true;
-                    }
+                const SampleRange& source = ranges_[static_cast<std::size_t>(from)];
+                if (!(source.smallest < coarsest)) continue;
+                any = cross_face(own, from, coarsest - source.smallest, round) || any;
             }
+        }
+        return any;
+    }
+
+    /// The same from one edge of a face to its others, which ask for ``above`` more at most.
+    bool cross_face(std::span<const std::int64_t> own, std::int64_t from, double above, int round) {
+        if (boxes_.empty())
+            for (const std::int64_t edge : own)
+                boxes_.add(ranges_[static_cast<std::size_t>(edge)].box);
+        const Array<double>& ways =
+            boxes_.squared_ways(ranges_[static_cast<std::size_t>(from)].box);
+        bool any = false;
+        for (std::size_t k = 0; k < own.size(); ++k) {
+            if (!(slope_ * slope_ * ways.data()[k] < above * above)) continue;  // see may_lower
+            const std::int64_t to = own[k];
+            if (to == from) continue;  // by itself an edge is graded already
+            if (!grow(static_cast<std::size_t>(from), static_cast<std::size_t>(to))) continue;
+            renew(static_cast<std::size_t>(to), round + 1);
+            any = true;
         }
         return any;
     }
@@ -257,6 +321,7 @@ class GradationOverFaces {
     Array<std::int32_t> lowered_;      // of the edges: the last round that lowered one
     std::vector<SampleRange> ranges_;  // of the edges
     std::vector<SampleRange> blocks_;
+    SampleBoxes boxes_;                     // of the edges of one face
     std::vector<std::size_t> first_block_;  // of the edges
 };
 

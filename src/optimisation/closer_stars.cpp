@@ -1,8 +1,10 @@
 #include "optimisation/closer_stars.hpp"
 
 #include <cmath>
+#include <vector>
 
 #include "optimisation/best_way.hpp"
+#include "triangulation/parts.hpp"
 
 namespace surfmesh {
 namespace {
@@ -123,20 +125,37 @@ double move_to_best(Triangulation& t, SurfaceFrames& s, Vertex v, HalfEdge start
     return norm(way);
 }
 
-}  // namespace
-
-void bring_nearer(Triangulation& t, SurfaceFrames& s, const Stars& stars, VertexMarks& marks,
-                  std::span<const Triangle> triangles, StarBounds bounds, Array<Vertex>& moved) {
-    moved.clear();
+/// The free corners of ``triangles``, in their order: those whose stars lie in each part, and at
+/// last those whose stars lie in several.
+std::vector<Array<Vertex>> free_corners(const Triangulation& t, const Stars& stars,
+                                        std::span<const Triangle> triangles) {
+    const std::size_t parts = count_parts(t);
+    const Vertex each = t.parts.empty() ? t.vertices() : t.parts[0].end_vertex;
+    std::vector<Array<Vertex>> found(parts + 1);
     for (const Triangle k : triangles) {
         if (t.region[k] == DEAD) continue;
         for (HalfEdge e = 3 * k; e < 3 * k + 3; ++e) {
             const Vertex v = t.tri[e];
             if (stars.frozen[v] != 0 || stars.start[v] == NIL) continue;
-            const double length = move_to_best(t, s, v, stars.start[v], bounds);
-            record_move(s, marks, v, length, moved);
+            found[stars.is_shared(v) ? parts : static_cast<std::size_t>(v / each)].push_back(v);
         }
     }
+    return found;
+}
+
+}  // namespace
+
+void bring_nearer(Triangulation& t, SurfaceFrames& s, const Stars& stars, VertexMarks& marks,
+                  std::span<const Triangle> triangles, StarBounds bounds, Array<Vertex>& moved) {
+    const std::vector<Array<Vertex>> free = free_corners(t, stars, triangles);
+    const auto visit = [&](Vertex v, Array<Vertex>& own) {
+        record_move(s, marks, v, move_to_best(t, s, v, stars.start[v], bounds), own);
+    };
+    moved = collect_by_blocks<Vertex>(free.size() - 1, 1,
+                                      [&](std::size_t n, std::size_t, Array<Vertex>& own) {
+                                          for (const Vertex v : free[n]) visit(v, own);
+                                      });
+    for (const Vertex v : free.back()) visit(v, moved);
 }
 
 }  // namespace surfmesh

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "optimisation/marked_triangles.hpp"
+
 namespace surfmesh {
 namespace {
 
@@ -58,8 +60,7 @@ void raise_towards(const Triangulation& t, SurfaceFrames& s, Array<std::uint8_t>
             raised[b] = 1;
             changes = true;
         };
-        for (Triangle k = 0; k < t.triangles(); ++k)
-            if (t.region[k] != DEAD) for_each_way(t, k, raise);
+        for (const Triangle k : triangles_at(t, from)) for_each_way(t, k, raise);
         if (!changes) return;
         from = std::move(raised);
     }
@@ -83,13 +84,7 @@ int grade_scales(const Triangulation& t, SurfaceFrames& s, VertexMarks& marks, d
             marks.active[b] = lowered[b] = found[b] = 1;
             ++count;
         };
-        for (Triangle k = 0; k < t.triangles(); ++k) {
-            if (t.region[k] == DEAD) continue;
-            if (from[t.tri[3 * k]] == 0 && from[t.tri[3 * k + 1]] == 0 &&
-                from[t.tri[3 * k + 2]] == 0)
-                continue;
-            for_each_way(t, k, hold);
-        }
+        for (const Triangle k : triangles_at(t, from)) for_each_way(t, k, hold);
         if (count == before) break;
         from = std::move(lowered);
     }
@@ -99,14 +94,15 @@ int grade_scales(const Triangulation& t, SurfaceFrames& s, VertexMarks& marks, d
 void restore_scales(const Triangulation& t, SurfaceFrames& s, std::span<const Vertex> vertices,
                     double slope) {
     Array<double> least(t.xy.size(), 0.0);  // what the restored are lowered to; 0 for all others
-    Array<std::uint8_t> restored(t.xy.size(), 0);
+    Array<std::uint8_t> is_restored(t.xy.size(), 0);
     for (const Vertex v : vertices) {
         if (!(s.scale[v] < LOWERED)) continue;
+        is_restored[v] = 1;
         least[v] = s.size[v];
-        restored[v] = 1;
         shorten(s, v, 1.0 / s.scale[v]);
     }
-    raise_towards(t, s, std::move(restored), slope);
+    const Array<Triangle> around = triangles_at(t, is_restored);
+    raise_towards(t, s, std::move(is_restored), slope);
     for (int sweep = 0; sweep < SWEEPS; ++sweep) {
         bool changes = false;
         const auto hold = [&](Vertex a, Vertex b) {
@@ -117,8 +113,7 @@ void restore_scales(const Triangulation& t, SurfaceFrames& s, std::span<const Ve
             shorten(s, b, size / s.size[b]);
             changes = true;
         };
-        for (Triangle k = 0; k < t.triangles(); ++k)
-            if (t.region[k] != DEAD) for_each_way(t, k, hold);
+        for (const Triangle k : around) for_each_way(t, k, hold);
         if (!changes) break;
     }
 }

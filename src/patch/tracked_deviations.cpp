@@ -66,7 +66,9 @@ Array<double> TrackedDeviations::measure(const Array<Triangle>& triangles) {
 void TrackedDeviations::start_round() {
     const Array<Vertex>& now = state_.t.tri;  // into the memory of the round before
     before_.resize(now.size());
-    std::copy(now.begin(), now.end(), before_.begin());
+    for_each_block(now.size(), 3 * TRIANGLES_TOGETHER, [&](std::size_t first, std::size_t last) {
+        std::copy(now.begin() + first, now.begin() + last, before_.begin() + first);
+    });
     is_changed_.fill(0);
 }
 
@@ -79,15 +81,25 @@ Array<Triangle> TrackedDeviations::changed(const Array<Triangle>& others) {
     const Array<Vertex>& now = state_.t.tri;
     is_changed_.resize(state_.t.xy.size(), 0);
     factor_.resize(state_.t.region.size(), 0.0F);
-    for (std::size_t e = 0; e < now.size(); ++e) {
-        if (e < before_.size() && now[e] == before_[e]) continue;
+    const Array<HalfEdge> new_corners = collect_by_blocks<HalfEdge>(
+        now.size(), 3 * TRIANGLES_TOGETHER,
+        [&](std::size_t first, std::size_t last, Array<HalfEdge>& own) {
+            for (std::size_t e = first; e < last; ++e)
+                if (e >= before_.size() || now.data()[e] != before_.data()[e])
+                    own.push_back(static_cast<HalfEdge>(e));
+        });
+    for (const HalfEdge e : new_corners) {
         is_changed_[now[e]] = 1;
         factor_[e / 3] = 0.0F;
     }
-    Array<Triangle> found = triangles_at(state_.t, is_changed_);
-    Triangle* const end =
-        std::remove_if(found.begin(), found.end(), [&](Triangle k) { return !is_suspect(k); });
-    found.resize(static_cast<std::size_t>(end - found.begin()));
+    const Array<Triangle> around = triangles_at(state_.t, is_changed_);
+    const Array<Triangle> found =
+        collect_by_blocks<Triangle>(around.size(), TRIANGLES_TOGETHER,
+                                    [&](std::size_t first, std::size_t last, Array<Triangle>& own) {
+                                        for (std::size_t k = first; k < last; ++k)
+                                            if (is_suspect(around.data()[k]))
+                                                own.push_back(around.data()[k]);
+                                    });
     Array<Triangle> both(found.size() + others.size());
     Triangle* const last =
         std::set_union(found.begin(), found.end(), others.begin(), others.end(), both.begin());

@@ -110,10 +110,27 @@ def loop_figures(boundaries: Sequence[FaceBoundary]) -> tuple[Annotated[NDArray[
     Of the loops of many boundaries: nodes, length of the polygon, sum of the finite sizes (l, 3); and where those of each boundary begin.
     """
 
-def triangles_in_a_row(parts: Sequence[Annotated[NDArray[numpy.int32], dict(shape=(None, 3), order='C', device='cpu', writable=False)]], points: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], turned: Annotated[NDArray[numpy.uint8], dict(shape=(None,), order='C', device='cpu', writable=False)]) -> Annotated[NDArray[numpy.int64], dict(shape=(None, 3))]:
+def triangles_in_a_row(parts: Sequence[Annotated[NDArray[numpy.int32], dict(shape=(None, 3), order='C', device='cpu', writable=False)]], points: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], turned: Annotated[NDArray[numpy.uint8], dict(shape=(None,), order='C', device='cpu', writable=False)], names: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)] | None = None) -> Annotated[NDArray[numpy.int32], dict(shape=(None, 3))]:
     """
-    Triangles (m, 3) int64 of all parts, each (k, 3) int32, their corners numbered on by the points (p,) of the parts before; those of parts in turned (p,) uint8 turn over.
+    Triangles (m, 3) int32 of all parts, each (k, 3) int32, their corners numbered on by the points (p,) of the parts before; those of parts in turned (p,) uint8 turn over.
+
+    names: (n,) int32 of the points of all parts, for these numbers.
     """
+
+def are_corners(parts: Sequence[Annotated[NDArray[numpy.int32], dict(shape=(None, 3), order='C', device='cpu', writable=False)]], points: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)]) -> Annotated[NDArray[numpy.uint8], dict(shape=(None,))]:
+    """
+    Of the points of all parts in one row (n,) uint8: are they corners of a triangle?
+    """
+
+def has_crowded_side(triangles: Annotated[NDArray[numpy.int32], dict(shape=(None, 3), order='C', device='cpu', writable=False)], shared: Annotated[NDArray[numpy.uint8], dict(shape=(None,), order='C', device='cpu', writable=False)]) -> bool:
+    """
+    Is a side between two shared vertices used by more than two triangles (m, 3)?
+
+    shared: (n,) uint8, of the vertices.
+    """
+
+def triangles_of_shared(triangles: Annotated[NDArray[numpy.int32], dict(shape=(None, 3), order='C', device='cpu', writable=False)], shared: Annotated[NDArray[numpy.uint8], dict(shape=(None,), order='C', device='cpu', writable=False)]) -> Annotated[NDArray[numpy.int64], dict(shape=(None,))]:
+    """Numbers (k,) of the triangles (m, 3) whose corners are all shared."""
 
 class FacePolygons:
     """Loops as closed polygons: each coedge without its last node."""

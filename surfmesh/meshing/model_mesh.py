@@ -218,8 +218,8 @@ class _Rounds:
             if state.is_outdated(limits.get(state.number), self.nodes, before)
         ]  # fmt: skip
         self._mesh_faces(outdated, limits)
-        refinements = {s.number: s.refinement for s in self.faces if s.refinement is not None}
-        asking = {s.number for s in self.faces if s.mesh.refinement is not None}
+        asking = {s.number: s.refinement for s in self.faces if s.mesh.refinement is not None}
+        refinements = {number: found for number, found in asking.items() if found is not None}
         mesh = None
         if not refinements or any(len(state.mesh.triangles) for state in self.faces):
             with self.watch.stage("mapping"):
@@ -229,7 +229,7 @@ class _Rounds:
             for more in (crowded, {} if crowded else self._too_far(mesh, limits)):
                 for number, limit in more.items():
                     refinements[number] = limit.joined_with(refinements.get(number))
-        self.not_refined = [self.faces[k] for k in sorted(asking | set(refinements))]
+        self.not_refined = [self.faces[k] for k in sorted({*asking, *refinements})]
         return mesh, refinements
 
     def _too_far(
@@ -246,7 +246,8 @@ class _Rounds:
         first = not self.nodes
         model, sizing = self.model, self.wanted.base
         with self.watch.stage("sizing"):
-            self.nodes = cut_edges(model, sizing, self.samples, limits, self.nodes)
+            with allowed_threads(self.how.workers.threads):
+                self.nodes = cut_edges(model, sizing, self.samples, limits, self.nodes)
             if first:
                 jobs = partial(face_jobs, model, self.faces, self.nodes)
                 sizings = [state.sizing for state in self.faces]
@@ -261,7 +262,8 @@ class _Rounds:
             for count, (place, mesh) in enumerate(meshes, 1):
                 state = outdated[place]
                 state.take(mesh)
-                self.watch.spend(FACE_WORK + state.job.nodes + mesh.count)
+                if self.watch.counts_work:
+                    self.watch.spend(FACE_WORK + state.job.nodes + mesh.count)
                 self.watch.pulse(count / len(outdated))
             self._copy_opposite({state.number for state in outdated})
 
@@ -282,7 +284,8 @@ class _Rounds:
 
     def _joined(self) -> SurfaceMesh:
         vertex, sizing, seconds = self.samples.vertex, self.wanted.base, self.watch.seconds
-        return joined_mesh(self.model, self.faces, self.nodes, vertex, sizing, seconds)
+        with allowed_threads(self.how.workers.threads):
+            return joined_mesh(self.model, self.faces, self.nodes, vertex, sizing, seconds)
 
 
 def estimate_model(model: CadModel, sizing: Any) -> Estimate:

@@ -15,6 +15,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from itertools import pairwise
+from weakref import WeakKeyDictionary
 
 import numpy as np
 
@@ -89,8 +90,17 @@ class ExactLoops:
         return _Loops(self).touch()
 
 
+_KNOWN: WeakKeyDictionary[CadModel, list[ExactLoops]] = WeakKeyDictionary()
+
+
 def exact_loops(model: CadModel) -> list[ExactLoops]:
     """Of all faces of a model; vertices by the numbers that they have in a mesh."""
+    if model not in _KNOWN:
+        _KNOWN[model] = _exact_loops(model)
+    return _KNOWN[model]
+
+
+def _exact_loops(model: CadModel) -> list[ExactLoops]:
     arrays = model_arrays(model)
     edge, back = arrays.coedge_edge, arrays.coedge_reversed
     ends = np.where(back[:, None], arrays.mesh_ends[edge][:, ::-1], arrays.mesh_ends[edge])

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property
+from itertools import pairwise
 from weakref import WeakKeyDictionary
 
 import numpy as np
@@ -55,6 +56,16 @@ class ModelArrays:
     """(l + 1,) int64: coedges of each loop of all faces."""
     area: np.ndarray
     """(f,) of the faces, model units squared."""
+
+    @cached_property
+    def edges_of_face(self) -> tuple[np.ndarray, ...]:
+        """For each face its edges that are not collapsed, each once, rising."""
+        there = ~self.collapsed[self.coedge_edge]
+        count = len(self.collapsed)
+        both = np.unique(self.coedge_face[there] * count + self.coedge_edge[there])
+        first = np.searchsorted(both, np.arange(len(self.area) + 1) * count).tolist()
+        edges = both % max(count, 1)
+        return tuple(edges[a:b] for a, b in pairwise(first))
 
     @classmethod
     def of(cls, model: CadModel) -> ModelArrays:

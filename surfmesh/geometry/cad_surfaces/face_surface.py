@@ -76,7 +76,7 @@ class FaceSurface(PlainData):
 
     def with_domain(self, domain: Domain) -> Self:
         """The same surface over another box."""
-        return dataclasses.replace(self, domain=domain)
+        return self if domain == self.domain else dataclasses.replace(self, domain=domain)
 
 
 def parameter_pairs(uv: np.ndarray) -> np.ndarray:

@@ -100,13 +100,13 @@ def _near_pairs(model: CadModel, samples: EdgeSamples) -> list[tuple[int, int, i
     if len(points) < 3:
         return []
     ends, sag = model_arrays(model).mesh_ends, edge_sags(points, first)
-    by_width: dict[float, list[int]] = {}
-    for face, width in enumerate(samples.narrow_width.tolist()):
-        if width > 0.0 and face not in samples.narrow and len(samples.edges_of_face[face]) > 1:
-            by_width.setdefault(width, []).append(face)
+    several = np.array([len(own) > 1 for own in samples.edges_of_face], bool)
+    looked_at = np.flatnonzero(samples.is_wide & several & (samples.narrow_width > 0.0))
+    widths, seen = np.unique(samples.narrow_width[looked_at], return_index=True)
     owner = np.repeat(np.arange(len(model.edges)), np.diff(first))
     found = []
-    for width, faces in by_width.items():
+    for width in widths[np.argsort(seen)].tolist():  # in the order of their first faces
+        faces = looked_at[samples.narrow_width[looked_at] == width].tolist()
         edges = [samples.edges_of_face[face] for face in faces]
         start = offsets(np.array([len(own) for own in edges], np.int64))
         in_a_row = np.concatenate(edges)
@@ -115,8 +115,8 @@ def _near_pairs(model: CadModel, samples: EdgeSamples) -> list[tuple[int, int, i
         near = np.zeros(len(model.edges), bool)
         near[owner[np.isfinite(gap)]] = True
         low, high = boxes[:, :3], boxes[:, 3:]
-        several = np.add.reduceat(near[in_a_row], start[:-1], dtype=np.int64) > 1
-        for k in np.flatnonzero(several).tolist():
+        some = np.add.reduceat(near[in_a_row], start[:-1], dtype=np.int64) > 1
+        for k in np.flatnonzero(some).tolist():
             face, own = faces[k], edges[k][near[edges[k]]]
             for a in own.tolist():
                 apart = np.maximum(np.maximum(low[own] - high[a], low[a] - high[own]), 0.0)

@@ -7,14 +7,16 @@
 What two faces share are these nodes, by number: the mesh is watertight because of it.
 """
 
-from collections.abc import Iterable, Mapping
-from typing import NamedTuple
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from itertools import pairwise
+from typing import NamedTuple, overload
 
 import numpy as np
 
 from surfmesh._core.edges import cut_to_metric_length, graded_over_faces
 from surfmesh.cad.model.cad_model import CadModel
-from surfmesh.cad.model.model_arrays import model_arrays, offsets
+from surfmesh.cad.model.model_arrays import model_arrays, offsets, rows_of
 from surfmesh.errors import SizingError
 from surfmesh.meshing.edges.edge_gradation import graded_by_direction
 from surfmesh.meshing.edges.edge_mates import MatedCuts, lower_to_mates
@@ -53,18 +55,32 @@ class EdgeNodes(NamedTuple):
     """(n,) wanted edge lengths."""
 
 
-class CutEdges(list[EdgeNodes | None]):
-    """The nodes of all edges (None: one vertex), each by itself and in rows, edge after edge."""
+_NO_NODES = EdgeNodes(_NONE, np.empty((0, 3)), np.empty(0, np.int64), _NONE)
 
-    def __init__(
-        self, nodes: Iterable[EdgeNodes | None] = (), first: np.ndarray | None = None,
-        rows: EdgeNodes | None = None,
-    ) -> None:  # fmt: skip
-        super().__init__(nodes)
-        self.first = np.zeros(1, np.int64) if first is None else first
-        """(e + 1,) rows of the edges; none of an edge that is one vertex."""
-        self.rows = rows or EdgeNodes(_NONE, np.empty((0, 3)), np.empty(0, np.int64), _NONE)
-        """Of all edges."""
+
+@dataclass(frozen=True, eq=False)
+class CutEdges(Sequence[EdgeNodes | None]):
+    """The nodes of all edges (None: one vertex), in rows, edge after edge."""
+
+    first: np.ndarray = field(default_factory=lambda: np.zeros(1, np.int64))
+    """(e + 1,) rows of the edges; none of an edge that is one vertex."""
+    rows: EdgeNodes = _NO_NODES
+    """Of all edges."""
+    made: np.ndarray = field(default_factory=lambda: np.empty(0, np.int64))
+    """(e,) the round in which the nodes of each edge were made, 0 for the first."""
+
+    def __len__(self) -> int:
+        return len(self.first) - 1
+
+    @overload
+    def __getitem__(self, edge: int) -> EdgeNodes | None: ...
+    @overload
+    def __getitem__(self, edge: slice) -> list[EdgeNodes | None]: ...
+    def __getitem__(self, edge: int | slice) -> EdgeNodes | list[EdgeNodes | None] | None:
+        if isinstance(edge, slice):
+            return [self[k] for k in range(*edge.indices(len(self)))]
+        a, b = int(self.first[edge]), int(self.first[edge + 1])
+        return EdgeNodes(*(part[a:b] for part in self.rows)) if a < b else None
 
 
 def cut_edges(
@@ -77,7 +93,7 @@ def cut_edges(
     """Nodes of every edge (None: one vertex); vertices keep their numbers, others follow.
 
     sizing: with the model's defaults filled in. limits: by face, from earlier rounds. before:
-    the nodes of the last round; edges that have not changed since stay the same objects.
+    the nodes of the last round; edges that have not changed since keep them.
     """
     target_size = samples.target_size
     if limits:
@@ -198,30 +214,27 @@ def _cut(
 
 
 def _numbered(model: CadModel, cuts: _Cuts, before: CutEdges | None) -> CutEdges:
-    """The nodes of each edge. What has not changed keeps its nodes, others get new numbers."""
-    bounds = list(zip(cuts.first[:-1].tolist(), cuts.first[1:].tolist()))
-    edges = cuts.edges.tolist()
+    """What has not changed keeps its nodes, others get new numbers."""
+    edges, count = cuts.edges, np.diff(cuts.first)
     changed = np.ones(len(edges), bool)
     if before:
-        changed[:] = [not _is_same(before[edge], cuts, a, b) for edge, (a, b) in zip(edges, bounds)]
+        bounds = zip(edges.tolist(), pairwise(cuts.first.tolist()))
+        changed[:] = [not _is_same(before[edge], cuts, a, b) for edge, (a, b) in bounds]
     numbers = np.empty(len(cuts.t), np.int64)
-    count = np.diff(cuts.first)
     ends = np.stack([cuts.first[:-1], cuts.first[1:] - 1], axis=1)
     is_new = np.repeat(changed, count)
     is_new[ends] = False
     following = max(len(model.vertices), 1 + int(before.rows.numbers.max()) if before else 0)
     numbers[is_new] = following + np.arange(int(is_new.sum()))
-    numbers[ends] = model_arrays(model).mesh_ends[cuts.edges]
-    nodes = list(before or [None] * len(model.edges))
-    for row, (edge, (a, b)) in enumerate(zip(edges, bounds)):
-        known = None if changed[row] else nodes[edge]
-        if known is None:
-            nodes[edge] = EdgeNodes(cuts.t[a:b], cuts.points[a:b], numbers[a:b], cuts.sizes[a:b])
-        else:
-            numbers[a:b] = known.numbers
-    every = np.zeros(len(model.edges), np.int64)
-    every[cuts.edges] = count
-    return CutEdges(nodes, offsets(every), EdgeNodes(cuts.t, cuts.points, numbers, cuts.sizes))
+    numbers[ends] = model_arrays(model).mesh_ends[edges]
+    every, made = np.zeros((2, len(model.edges)), np.int64)
+    every[edges] = count
+    if before:
+        kept = edges[~changed]
+        numbers[np.repeat(~changed, count)] = before.rows.numbers[rows_of(before.first, kept)]
+        made[:] = before.made
+        made[edges[changed]] = 1 + before.made.max()
+    return CutEdges(offsets(every), EdgeNodes(cuts.t, cuts.points, numbers, cuts.sizes), made)
 
 
 def _is_same(nodes: EdgeNodes | None, cuts: _Cuts, first: int, last: int) -> bool:

@@ -163,10 +163,12 @@ class EdgeRules:
         longest = np.maximum(self.arrays.length[courses.edges], NARROWEST * self.model.diagonal)
         size, floor = np.repeat(longest, count), np.full(len(courses.fraction), np.inf)
         for own in self.demands(courses, left_out):
-            rows = slice(None) if own.rows is None else own.rows
-            least = own.least(len(size) if own.rows is None else len(own.rows))
-            size[rows] = np.minimum(size[rows], least)
-            floor[rows] = np.minimum(floor[rows], own.rules.clamp[0])
+            if own.rows is None:
+                np.minimum(size, own.least(len(size)), out=size)
+                np.minimum(floor, own.rules.clamp[0], out=floor)
+            else:
+                size[own.rows] = np.minimum(size[own.rows], own.least(len(own.rows)))
+                floor[own.rows] = np.minimum(floor[own.rows], own.rules.clamp[0])
         return np.maximum(size, floor, out=size)
 
     def sags(self) -> tuple[np.ndarray, np.ndarray]:

@@ -82,6 +82,13 @@ class EdgeSamples:
         """Do sizes depend on the direction?"""
         return len(self.tangent) > 0
 
+    @property
+    def is_wide(self) -> np.ndarray:
+        """(f,) bool: the faces that are not narrow."""
+        found = np.ones(len(self.narrow_width), bool)
+        found[list(self.narrow)] = False
+        return found
+
     @cached_property
     def edges_of_wide_faces(self) -> tuple[np.ndarray, np.ndarray]:
         """(w + 1,) where the edges of each face that is not narrow begin, and these (k,)."""

@@ -7,8 +7,6 @@ Made once for a model. What earlier rounds of meshing have found out, and the gr
 along edges and through vertices, comes later: see ``edge_nodes``.
 """
 
-from itertools import pairwise
-
 import numpy as np
 
 from surfmesh._core.space import edge_gaps
@@ -70,7 +68,7 @@ def sample_edges(model: CadModel, sizing: ModelSizing, few: bool = False) -> Edg
         *rules.sags(),
         _has_twin(arrays, total_curvature),
         arrays.vertex,
-        _edges_of_faces(arrays),
+        arrays.edges_of_face,
         np.zeros(len(model.faces)),
         {},
         np.zeros(len(model.edges), bool),
@@ -102,26 +100,16 @@ def _fractions(rules: EdgeRules, edges: np.ndarray, few: bool) -> list[np.ndarra
     ]
 
 
-def _edges_of_faces(arrays: ModelArrays) -> tuple[np.ndarray, ...]:
-    """For each face the edges with samples, each once, rising."""
-    there = ~arrays.collapsed[arrays.coedge_edge]
-    count = len(arrays.collapsed)
-    both = np.unique(arrays.coedge_face[there] * count + arrays.coedge_edge[there])
-    first = np.searchsorted(both, np.arange(len(arrays.area) + 1) * count).tolist()
-    edges = both % max(count, 1)
-    return tuple(edges[a:b] for a, b in pairwise(first))
-
-
 def _find_narrow(samples: EdgeSamples, rules: EdgeRules) -> None:
     """Fill in what is narrow; edges of narrow faces do not hear the curvature across these."""
     model, sizing, arrays = rules.model, rules.wanted, rules.arrays
-    known: dict[int, float] = {}  # by the sizing, where it is the same all over the model
-    for number in range(len(model.faces)):
-        own = sizing.of_face(number)
-        if own.has_law or id(own) not in known:
-            points = samples.points[samples.along(number)] if own.has_law else np.empty((0, 3))
-            known[id(own)] = narrow_width(own, model.diagonal, points)
-        samples.narrow_width[number] = known[id(own)]
+    for own, numbers in sizing.sets(len(model.faces)):
+        if not own.has_law:
+            samples.narrow_width[numbers] = narrow_width(own, model.diagonal, np.empty((0, 3)))
+            continue
+        for number in numbers.tolist():
+            points = samples.points[samples.along(number)]
+            samples.narrow_width[number] = narrow_width(own, model.diagonal, points)
     for number in may_be_narrow(arrays, samples.narrow_width).tolist():
         width = float(samples.narrow_width[number])
         found = narrow_face(model, model.faces[number], samples, width)
@@ -204,11 +192,12 @@ def _apply_gaps(model: CadModel, samples: EdgeSamples, sizing: ModelSizing) -> N
         return
     ends = model_arrays(model).mesh_ends
     by_sizes: dict[tuple[float | None, float, float], list[int]] = {}
-    for face in range(len(model.faces)):
-        if face in samples.narrow:
-            continue  # across it is nothing to be meshed, beside the end of one side neither
-        own, narrow = sizing.of_face(face), float(samples.narrow_width[face])
-        by_sizes.setdefault((own.gap, own.min_size or 0.0, narrow), []).append(face)
+    wide = samples.is_wide  # across others is nothing to be meshed, nor beside the end of one side
+    for own, numbers in sizing.sets(len(model.faces)):
+        some = numbers[wide[numbers]]
+        for narrow in np.unique(samples.narrow_width[some]).tolist():
+            same = some[samples.narrow_width[some] == narrow].tolist()
+            by_sizes.setdefault((own.gap, own.min_size or 0.0, narrow), []).extend(same)
     slope = sizing.base.gradient
     ratio = sizing.base.anisotropy if sizing.is_anisotropic else 1.0
     narrowest = NARROWEST * model.diagonal

@@ -16,14 +16,17 @@ from surfmesh.meshing.faces.inward_faces import InwardFaces
 class FaceQueue:
     """Faces that the core meshes, whoever calls for the next ones."""
 
-    def __init__(self, jobs: Sequence[FaceJob], order: Iterable[int]) -> None:
-        """order: numbers of the jobs, as they are to be begun; others than inward ones are left."""
+    def __init__(
+        self, jobs: Sequence[FaceJob], order: Iterable[int], inward: InwardFaces | None = None
+    ) -> None:  # fmt: skip
+        """order: numbers of the jobs, as they are to be begun; others than inward ones are left.
+        inward: what makes faces of them, where several queues do."""
         self._jobs = jobs
         self._numbers: list[int] = []
         """Of the jobs that it takes."""
         self.left: list[int] = []
         """Of the jobs that it does not take, in their order."""
-        faces, inward = [], InwardFaces()
+        faces, inward = [], inward or InwardFaces()
         for number in order:
             face = _ordinary(jobs[number], inward)
             if face is None:

@@ -18,19 +18,21 @@ MARGIN = 0.02
 
 def face_sizings(model: CadModel, samples: EdgeSamples, wanted: ModelSizing) -> list[Sizing]:
     """For each face; a plane that no source reaches needs no background but its edges."""
-    found = []
-    for number, face in enumerate(model.faces):
-        own = wanted.of_face(number)
-        if own.sources:
-            low, high = face_box(face, samples.points[samples.along(number)])
-            largest = own.max_size or np.inf
-            if isinstance(own.size, float):
-                largest = min(largest, own.size)
-            kept = reaching(own.sources, low, high, largest)
-            if len(kept) < len(own.sources):
-                own = own.replaced(sources=kept)
-        found.append(own)
+    found = [wanted.base] * len(model.faces)
+    for own, faces in wanted.sets(len(model.faces)):
+        for number in faces.tolist():
+            found[number] = _reaching(model, samples, own, number) if own.sources else own
     return found
+
+
+def _reaching(model: CadModel, samples: EdgeSamples, own: Sizing, number: int) -> Sizing:
+    """The sizes of one face with those of their sources that reach it."""
+    low, high = face_box(model.faces[number], samples.points[samples.along(number)])
+    largest = own.max_size or np.inf
+    if isinstance(own.size, float):
+        largest = min(largest, own.size)
+    kept = reaching(own.sources, low, high, largest)
+    return own.replaced(sources=kept) if len(kept) < len(own.sources) else own
 
 
 def face_box(face: CadFace, points: np.ndarray) -> tuple[np.ndarray, np.ndarray]:

@@ -63,7 +63,7 @@ class FaceState:
         return (
             not before
             or self.job.limits is not limits
-            or any(nodes[c.edge] is not before[c.edge] for c in self.face.coedges)
+            or any(nodes.made[c.edge] != before.made[c.edge] for c in self.face.coedges)
         )
 
     def take(self, mesh: FaceMesh) -> None:

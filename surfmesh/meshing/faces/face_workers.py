@@ -13,11 +13,13 @@ from concurrent.futures import BrokenExecutor, Executor, Future, ThreadPoolExecu
 from dataclasses import dataclass, replace
 from heapq import heappop, heappush
 from queue import SimpleQueue
+from threading import Event
 
 from surfmesh.errors import MeshingError
 from surfmesh.meshing.faces.face_data import FaceJob, FaceMesh
 from surfmesh.meshing.faces.face_mesh import mesh_face
 from surfmesh.meshing.faces.face_queue import FaceQueue
+from surfmesh.meshing.faces.inward_faces import InwardFaces
 from surfmesh.meshing.faces.partitions import FaceStore
 from surfmesh.meshing.processors import allowed_threads
 
@@ -34,6 +36,9 @@ WITHIN_ONE = 0.7
 
 AT_ONCE = 10_000
 """Triangles that a thread makes before it hands them over: some hundredths of a second."""
+
+BEGUN = 64
+"""Faces that threads begin with while the others are made ready."""
 
 LITTLE = 20_000
 """Work in all, in triangles, that threads are not begun for: some hundredths of a second."""
@@ -77,10 +82,10 @@ class FaceWorkers:
             with allowed_threads(threads):
                 mesh = self.work(jobs[largest])
             yield largest, mesh
-        queue = FaceQueue(jobs, waiting)
         if threads > 1:
-            yield from self._by_threads(jobs, queue, len(waiting))
+            yield from self._by_threads(jobs, waiting)
             return
+        queue = FaceQueue(jobs, waiting)
         yield from ((k, self.work(jobs[k])) for k in queue.left)
         while made := queue.work(self.at_once):
             yield from ((k, self.kept(mesh)) for k, mesh in made)
@@ -91,18 +96,29 @@ class FaceWorkers:
         return largest > max(shared, whole / self.threads)
 
     def _by_threads(
-        self, jobs: list[FaceJob], queue: FaceQueue, left: int
-    ) -> Iterator[tuple[int, FaceMesh]]:
-        """What the core does not mesh by itself is begun before all others. left: how many jobs."""
-        waiting = queue.left[::-1]  # the last is taken first
+        self, jobs: list[FaceJob], waiting: list[int]
+    ) -> Iterator[tuple[int, FaceMesh]]:  # fmt: skip
+        """waiting: jobs in their order. The first are begun before the others are made ready."""
+        inward = InwardFaces()
+        queues = [FaceQueue(jobs, waiting[:BEGUN], inward)]
+        single = queues[0].left[::-1]  # what the core does not mesh by itself; the last is next
+        is_ready = Event()
         done: SimpleQueue[list[tuple[int, FaceMesh]] | BaseException] = SimpleQueue()
 
         def next_ones() -> list[tuple[int, FaceMesh]]:
-            try:
-                k = waiting.pop()
-            except IndexError:  # none is left
-                return [(k, self.kept(mesh)) for k, mesh in queue.work(self.at_once)]
-            return [(k, self.work(jobs[k]))]
+            while True:
+                all_known = is_ready.is_set()
+                try:
+                    k = single.pop()
+                    return [(k, self.work(jobs[k]))]
+                except IndexError:  # none is left
+                    pass
+                for queue in queues:
+                    if made := queue.work(self.at_once):
+                        return [(k, self.kept(mesh)) for k, mesh in made]
+                if all_known:
+                    return []
+                is_ready.wait()
 
         def take_all() -> None:
             try:
@@ -115,6 +131,10 @@ class FaceWorkers:
             try:
                 for _ in range(self.threads):
                     pool.submit(take_all)
+                queues.append(FaceQueue(jobs, waiting[BEGUN:], inward))
+                single[:0] = queues[1].left[::-1]
+                is_ready.set()
+                left = len(waiting)
                 while left:
                     found = done.get()
                     if isinstance(found, BaseException):
@@ -122,8 +142,10 @@ class FaceWorkers:
                     left -= len(found)
                     yield from found
             finally:
-                waiting.clear()
-                queue.stop()
+                single.clear()
+                for queue in queues:
+                    queue.stop()
+                is_ready.set()
 
 
 def _by_executor(

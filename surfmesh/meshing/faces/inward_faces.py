@@ -10,7 +10,6 @@ from surfmesh._core.faces import FaceManner, InwardFace
 from surfmesh.geometry.core_surface import as_core_surface
 from surfmesh.meshing.faces.face_data import FaceJob
 from surfmesh.sizing.field.boundary_field import (
-    has_boundary_field,
     has_room_for_lattice,
     largest_size,
     largest_within,
@@ -42,8 +41,6 @@ class InwardFaces:
         boundary = job.boundary
         if not known.may_grow or boundary.has_degenerate:
             return None
-        if not has_boundary_field(surface, sizing):
-            return None
         (u0, u1), (v0, v1) = domain = boundary.box
         if not (u0 < u1 and v0 < v1):
             return None
@@ -71,7 +68,9 @@ class _Sizes:
         """Kept, so that no other one gets its ``id``."""
         self.slope = sizing.gradient
         bounds = sizing.chord, sizing.angle, sizing.size
-        self.may_grow = not sizing.is_anisotropic and any(x is not None for x in bounds)
+        self.may_grow = not (sizing.is_anisotropic or sizing.has_law) and any(
+            x is not None for x in bounds
+        )
         """Does the core know all sizes: those of edges and one that bounds them?"""
         self._manners: dict[tuple[bool, bool], FaceManner] = {}
         self._largest: dict[tuple[float | None, bool], tuple[float, float | None]] = {}

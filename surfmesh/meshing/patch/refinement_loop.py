@@ -61,13 +61,12 @@ def refined_in_rounds(
 class StagnationCheck:
     """Whether refinements of a face have helped so far, and have not made it far too large."""
 
-    def __init__(self) -> None:
-        self.is_unchanged = False
-        """Has the last round left as many places and triangles as the one before?"""
-        self._stalled = self._spreading = self._since_best = 0  # rounds running; see ``record``
-        self._places: float = math.inf
-        self._best: float = math.inf
-        self._triangles = self._nodes = self._first_nodes = 0
+    is_unchanged = False
+    """Has the last round left as many places and triangles as the one before?"""
+    _stalled = _spreading = _since_best = 0  # rounds running; see ``record``
+    _places: float = math.inf
+    _best: float = math.inf
+    _triangles = _nodes = _first_nodes = 0
 
     def record(self, places: int, triangles: int, failed: bool = False, nodes: int = 0) -> None:
         """What one round has left: places to be mended, triangles, nodes on the boundary."""

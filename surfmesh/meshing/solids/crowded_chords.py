@@ -13,7 +13,9 @@ from typing import NamedTuple
 
 import numpy as np
 
+from surfmesh._core.faces import triangles_of_shared
 from surfmesh.cad.model.cad_model import CadModel
+from surfmesh.cad.model.model_arrays import model_arrays
 from surfmesh.geometry.small_matrices import norm
 from surfmesh.meshing.solids.joining import crowded_chords, shared_vertices
 from surfmesh.result.surface_mesh import SurfaceMesh
@@ -62,9 +64,8 @@ def _lone_corners(model: CadModel, mesh: SurfaceMesh) -> list[_LoneCorner]:
     assert mesh.vertex_ids is not None and mesh.edge_ids is not None  # noqa: S101 for mypy
     at_vertex = np.zeros(len(mesh.points), bool)
     at_vertex[mesh.vertex_ids[mesh.vertex_ids >= 0]] = True
-    a, b, c = mesh.triangles.T
-    rows = np.flatnonzero(at_vertex[a] | at_vertex[b] | at_vertex[c])
-    rows = rows[shared_vertices(mesh)[mesh.triangles[rows]].all(axis=1)]
+    rows = triangles_of_shared(mesh.triangles, shared_vertices(mesh).view(np.uint8))
+    rows = rows[at_vertex[mesh.triangles[rows]].any(axis=1)]
     beside = np.flatnonzero(at_vertex[mesh.edge_segments].any(axis=1))
     if not len(rows) or not len(beside):
         return []
@@ -79,14 +80,27 @@ def _lone_corners(model: CadModel, mesh: SurfaceMesh) -> list[_LoneCorner]:
     is_on_edge = keys[order][place] == wanted
     edges = mesh.edge_ids[beside[order[place]]]
     found = []
-    for row in np.flatnonzero(is_on_edge.sum(axis=1) == 2).tolist():
-        free = int(np.flatnonzero(~is_on_edge[row])[0])  # the side from corner free on
+    may_have_both = _may_have_both(model, edges, mesh.face_ids[rows])
+    for row in np.flatnonzero((is_on_edge.sum(axis=1) == 2) & may_have_both).tolist():
+        free = int(is_on_edge[row].argmin())  # the side from corner free on
         one, two = (int(edges[row, (free + k) % 3]) for k in (1, 2))
         face = int(mesh.face_ids[rows[row]])
         if set(model.faces_of_edge(one)) & set(model.faces_of_edge(two)) - {face}:
             first, last, corner = (int(corners[row, (free + k) % 3]) for k in range(3))
             found.append(_LoneCorner(face, corner, first, last))
     return found
+
+
+def _may_have_both(model: CadModel, edges: np.ndarray, faces: np.ndarray) -> np.ndarray:
+    """(n,) bool: may a face beside each of ``faces`` (n,) have two of its edges (n, 3)? An edge of
+    two faces tells the other one."""
+    arrays = model_arrays(model)
+    lowest = np.full(len(model.edges), len(model.faces))
+    highest, uses = np.full(len(lowest), -1), np.bincount(arrays.coedge_edge, minlength=len(lowest))
+    np.minimum.at(lowest, arrays.coedge_edge, arrays.coedge_face)
+    np.maximum.at(highest, arrays.coedge_edge, arrays.coedge_face)
+    other = (lowest + highest)[edges] - faces[:, None]
+    return (other == np.roll(other, 1, axis=1)).any(axis=1) | (uses[edges] > 2).any(axis=1)
 
 
 def _lies_in_plane_beside(

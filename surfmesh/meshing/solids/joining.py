@@ -9,7 +9,12 @@ from typing import NamedTuple
 
 import numpy as np
 
-from surfmesh._core.faces import numbers_of, triangles_in_a_row
+from surfmesh._core.faces import (
+    are_corners,
+    has_crowded_side,
+    numbers_of,
+    triangles_in_a_row,
+)
 from surfmesh.cad.model.cad_model import CadModel
 from surfmesh.cad.model.facts import model_facts
 from surfmesh.cad.model.model_arrays import model_arrays
@@ -44,15 +49,12 @@ def joined_mesh(
         reasons = [state.reason for state in faces if state.reason]
         raise MeshingError(f"no face could be meshed: {'; '.join(reasons[:5])}")
     joined = _joined(_shared_nodes(model, nodes), there, turned)
-    points, sizes, triangles, face_ids = joined[:4]
-    used = np.zeros(len(points), bool)
-    used[triangles.ravel()] = True
-    rank = np.where(used, np.cumsum(used) - 1, -1)
+    face_ids, rank = joined.face_ids, joined.rank
     edges = _edge_segments(nodes, rank)
     findings = face_findings(faces, model.left_out)
     return SurfaceMesh(
-        points=points[used],
-        triangles=rank[triangles],
+        points=joined.points,
+        triangles=joined.triangles,
         uv_points=joined.uv_points,
         uv_triangles=joined.uv_triangles,
         face_ids=face_ids,
@@ -65,7 +67,7 @@ def joined_mesh(
         edge_parameters=edges.parameters,
         edge_curves=model.edges,
         vertex_ids=rank[vertex],
-        sizes=np.where(np.isfinite(sizes), sizes, model.diagonal)[used],
+        sizes=np.where(np.isfinite(joined.sizes), joined.sizes, model.diagonal),
         groups=groups_of(model),
         metric_root_3d=(
             np.concatenate([metric_roots(state.mesh) for state in there]) if is_stretched else None
@@ -99,8 +101,9 @@ def _shared_nodes(model: CadModel, nodes: CutEdges) -> _Shared:
 
 
 class _Joined(NamedTuple):
-    """The arrays of the whole mesh."""
+    """The arrays of the whole mesh, and what vertex (or -1) each number of a node is there."""
 
+    rank: np.ndarray
     points: np.ndarray
     sizes: np.ndarray
     triangles: np.ndarray
@@ -123,16 +126,19 @@ def _joined(shared: _Shared, faces: list[FaceState], turned: np.ndarray) -> _Joi
     points = np.concatenate([mesh.points for mesh in meshes])
     sizes = np.concatenate([mesh.sizes for mesh in meshes])
     np.minimum.at(shared.sizes, own[~inside], sizes[~inside])  # poles have no edge of a size
-    triangles = np.array([len(mesh.triangles) for mesh in meshes])
     numbers = np.array([state.number for state in faces], np.int32)
     back = turned[numbers].view(np.uint8)
-    corners = triangles_in_a_row([mesh.triangles for mesh in meshes], count, back)
+    corners = [mesh.triangles for mesh in meshes]
+    used = np.zeros(len(shared.points) + int(inside.sum()), bool)
+    used[own[are_corners(corners, count).view(bool)]] = True
+    rank = np.where(used, np.cumsum(used) - 1, -1)
     images = np.array([len(mesh.uv_points) for mesh in meshes])
     return _Joined(
-        np.concatenate([shared.points, points[inside]]),
-        np.concatenate([shared.sizes, sizes[inside]]),
-        own[corners],
-        np.repeat(numbers, triangles),
+        rank,
+        np.concatenate([shared.points, points[inside]])[used],
+        np.concatenate([shared.sizes, sizes[inside]])[used],
+        triangles_in_a_row(corners, count, back, rank[own].astype(np.int32)),
+        np.repeat(numbers, [len(part) for part in corners]),
         np.concatenate([mesh.uv_points for mesh in meshes]),
         triangles_in_a_row([mesh.uv_triangles for mesh in meshes], images, back),
     )
@@ -198,25 +204,13 @@ def shared_vertices(mesh: SurfaceMesh) -> np.ndarray:
     return shared
 
 
-def _may_be_crowded(mesh: SurfaceMesh, shared: np.ndarray) -> bool:
-    """Is an edge between two shared vertices used more than twice?"""
-    a, b, c = mesh.triangles.T
-    at_a, at_b, at_c = shared[a], shared[b], shared[c]
-    keys = []
-    for one, other, is_shared in ((a, b, at_a & at_b), (b, c, at_b & at_c), (c, a, at_c & at_a)):
-        start, end = one[is_shared].astype(np.int64), other[is_shared].astype(np.int64)
-        keys.append(np.minimum(start, end) * len(shared) + np.maximum(start, end))
-    key = np.sort(np.concatenate(keys))
-    return bool((key[2:] == key[:-2]).any())
-
-
 def crowded_chords(model: CadModel, mesh: SurfaceMesh) -> np.ndarray:
     """Edges (k, 2) of triangles between common nodes that more triangles have than should: along
     an edge of the model as many as it has uses, elsewhere two."""
     if mesh.edge_segments is None or not len(mesh.edge_segments):
         return np.empty((0, 2), np.int64)
     shared = shared_vertices(mesh)
-    if not _may_be_crowded(mesh, shared):
+    if not has_crowded_side(mesh.triangles, shared.view(np.uint8)):
         return np.empty((0, 2), np.int64)
     table = connect(mesh.triangles[shared[mesh.triangles].sum(axis=1) > 1])
     crowded = table.uses > 2

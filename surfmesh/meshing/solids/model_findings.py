@@ -42,15 +42,16 @@ def require_all_meshed(model: CadModel, faces: list[FaceState]) -> None:
 def face_findings(faces: list[FaceState], left_out: Sequence[str] = ()) -> list[Finding]:
     """What was left out when the model was read, then failures, then what lies off its surface."""
     missing, off = FindingKind.NOT_MESHED, FindingKind.OFF_SURFACE
-    meshes = [(state.mesh, state.number, state.label) for state in faces]
     found = [Finding(missing, sentence) for sentence in left_out]
     found += [
-        Finding(missing, mesh.failure, number, label, mesh.place)
-        for mesh, number, label in meshes
-        if mesh.failure
+        Finding(missing, state.mesh.failure, state.number, state.label, state.mesh.place)
+        for state in faces
+        if state.mesh.failure
     ]
     return found + [
-        Finding(off, mesh.remark, number, label) for mesh, number, label in meshes if mesh.remark
+        Finding(off, state.mesh.remark, state.number, state.label)
+        for state in faces
+        if state.mesh.remark
     ]
 
 

@@ -67,6 +67,17 @@ class ModelSizing:
         """All that is asked for on a face."""
         return self.faces.get(number, self.base)
 
+    def sets(self, count: int) -> list[tuple[Sizing, np.ndarray]]:
+        """Each set of sizes that some of ``count`` faces have, and the numbers of these, rising."""
+        others: dict[int, tuple[Sizing, list[int]]] = {}
+        of_base = np.ones(count, bool)
+        for number, own in sorted(self.faces.items(), key=lambda item: item[0]):
+            if own is not self.base:
+                others.setdefault(id(own), (own, []))[1].append(number)
+                of_base[number] = False
+        found = [(self.base, np.flatnonzero(of_base))] if of_base.any() else []
+        return found + [(own, np.array(numbers, np.int64)) for own, numbers in others.values()]
+
     def promises(self, count: int) -> np.ndarray | None:
         """(count, 3) chord, angle and min_size of the faces, nan for none; None: those of base."""
         if self.promised is not None:

@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 from surfmesh._core.edges import graded_along_edges, graded_over_faces
+from surfmesh.meshing.processors import allowed_threads
 
 SLOPE = 0.2
 LEAST_STEP = 1e-12
@@ -94,3 +95,17 @@ def test_wrong_faces_are_refused():
             points, np.ones(5), first, ends, 2, np.empty(0, np.int64), np.empty(0, np.int64),
             SLOPE, LEAST_STEP,
         )  # fmt: skip
+
+
+def test_sizes_are_the_same_with_any_number_of_threads():
+    rng = np.random.default_rng(11)
+    corners = rng.random((700, 3)) * (40.0, 40.0, 1.0)
+    points, first, ends = network(*(((c, c + rng.random(3)), 80) for c in corners))
+    sizes = np.repeat(rng.uniform(0.05, 3.0, 700), 80)
+    faces = np.array_split(rng.permutation(700), 9)
+    made = []
+    for threads in (1, 2, 7):
+        with allowed_threads(threads):
+            made.append(graded(points, first, ends, sizes, faces))
+    assert (made[0] < sizes).mean() > 0.5
+    assert all(np.array_equal(other, made[0]) for other in made[1:])

@@ -65,10 +65,12 @@ def none_by_the_core(monkeypatch):
 ARRAYS = "points triangles uv_points uv_triangles face_ids sizes edge_segments vertex_ids".split()
 
 
+@pytest.mark.parametrize("begun", [2, face_workers.BEGUN])
 @pytest.mark.parametrize("sizing", [sm.Sizing(size=SIZE), sm.Sizing(chord=0.01, anisotropy=4)])
-def test_threads_change_no_byte(sizing, threads_for_all):
+def test_threads_change_no_byte(sizing, begun, threads_for_all, monkeypatch):
+    monkeypatch.setattr(face_workers, "BEGUN", begun)
     model = sm.from_cadquery(part())
-    first, *others = [sm.mesh(model, sizing, jobs=jobs) for jobs in (1, 2, 3)]
+    first, *others = [sm.mesh(model, sizing, jobs=jobs) for jobs in (1, 2, 3, 7)]
     for mesh in others:
         for name in ARRAYS:
             assert getattr(first, name).tobytes() == getattr(mesh, name).tobytes(), name
@@ -98,6 +100,21 @@ def test_what_goes_wrong_in_a_thread_comes_out(threads_for_all, none_by_the_core
     monkeypatch.setattr(face_workers, "mesh_face", broken)
     with pytest.raises(MemoryError, match="no room"):
         sm.mesh(part(), SIZE, jobs=2)
+
+
+def test_threads_end_where_the_other_faces_cannot_be_made_ready(threads_for_all, monkeypatch):
+    class SecondFails(face_queue.FaceQueue):
+        def __init__(self, jobs, order, inward):
+            if len(order) != 2:
+                raise MemoryError("no room")
+            super().__init__(jobs, order, inward)
+
+    monkeypatch.setattr(face_workers, "BEGUN", 2)
+    monkeypatch.setattr(face_workers, "FaceQueue", SecondFails)
+    before = active_count()
+    with pytest.raises(MemoryError, match="no room"):
+        sm.mesh(part(), SIZE, jobs=2)
+    assert active_count() == before
 
 
 def test_threads_end_when_the_caller_stops(threads_for_all, none_by_the_core, monkeypatch):
