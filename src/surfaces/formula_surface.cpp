@@ -10,7 +10,8 @@
 namespace surfmesh {
 namespace {
 
-constexpr double NUDGE = 1e-9;  // of the domain: how far inwards derivatives are taken
+constexpr double NUDGE = 1e-9;     // of the domain: how far inwards derivatives are taken
+constexpr std::size_t SECOND = 9;  // the first number of second derivatives, after r, r_u and r_v
 
 std::span<const double> as_numbers(std::span<const Point2> uv) {
     static_assert(sizeof(Point2) == 2 * sizeof(double));
@@ -151,6 +152,11 @@ SurfaceStatus FormulaSurface::all_bounds(std::span<const ParameterBox> cells,
     return bounds_from(0, Kinks::UNBOUNDED, cells, lower, upper);
 }
 
+SurfaceStatus FormulaSurface::bend_bounds(std::span<const ParameterBox> cells,
+                                          std::span<Point3> lower, std::span<Point3> upper) const {
+    return bounds_from(SECOND, Kinks::UNBOUNDED, cells, lower, upper);
+}
+
 SurfaceStatus FormulaSurface::enclose(std::span<const Point2> uv,
                                       std::span<EnclosedPoint> out) const {
     if (tapes_[0] == nullptr) return SurfaceStatus::UNKNOWN;
@@ -164,7 +170,6 @@ SurfaceStatus FormulaSurface::enclose(std::span<const Point2> uv,
 SurfaceStatus FormulaSurface::enclose_bends(std::span<const ParameterBox> cells,
                                             std::span<const Directions> directions,
                                             std::span<Bends> out) const {
-    constexpr std::size_t FIRST = 9;  // after r, r_u and r_v
     if (tapes_[2] == nullptr) return SurfaceStatus::UNKNOWN;
     Array<Point2> low(cells.size()), high(cells.size());
     for (std::size_t i = 0; i < cells.size(); ++i) {
@@ -173,7 +178,7 @@ SurfaceStatus FormulaSurface::enclose_bends(std::span<const ParameterBox> cells,
     }
     Array<Point3> lower(3 * cells.size()), upper(3 * cells.size());
     enclosures(*tapes_[2], as_numbers({low.data(), low.size()}),
-               as_numbers({high.data(), high.size()}), FIRST,
+               as_numbers({high.data(), high.size()}), SECOND,
                as_numbers({lower.data(), lower.size()}), as_numbers({upper.data(), upper.size()}));
     for (std::size_t i = 0; i < cells.size(); ++i) {
         std::array<BoxedVector, 3> second;
