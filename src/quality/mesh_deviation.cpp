@@ -101,7 +101,7 @@ std::span<const T> all(const Array<T>& values) {
 /// The larger of two, NaN where one of them is.
 double larger(double a, double b) { return b > a || b != b ? b : a; }
 
-Vertex corner(const TriangleCorners& t, std::size_t k) { return k == 0 ? t.a : k == 1 ? t.b : t.c; }
+Vertex corner(const TriangleCorners& t, std::size_t k) { return std::span(&t.a, 3)[k]; }
 
 /// Call work(some members) block after block.
 template <class Work>

@@ -2,8 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <limits>
 #include <utility>
 
+#include "elementary_functions/bits.hpp"
 #include "surfaces/tape_evaluation.hpp"
 #include "surfaces/tape_taylor.hpp"
 
@@ -45,6 +48,14 @@ void evaluate_moved(const Tape& tape, const Moved& moved, std::size_t n, std::sp
 EnclosedPoint enclosed(Point3 lower, Point3 upper) {
     const Point3 wide = upper - lower;
     return {0.5 * (lower + upper), std::max({wide.x, wide.y, wide.z})};
+}
+
+/// Are all of these finite? Without a branch.
+bool are_finite(std::span<const double> numbers) {
+    std::uint64_t beyond = 0;
+    for (const double x : numbers)
+        beyond |= elementary::is_above(x, std::numeric_limits<double>::max());
+    return beyond >> 63 == 0;
 }
 
 /// Is a derivative of point i not finite?
@@ -107,6 +118,7 @@ SurfaceStatus FormulaSurface::evaluate(std::span<const Point2> uv, int order,
 void FormulaSurface::mend(const Tape& tape, std::span<const Point2> uv,
                           std::span<Point3> out) const {
     const std::size_t n = uv.size();
+    if (are_finite(as_numbers(out.subspan(n)))) return;
     Array<std::int64_t> broken;
     for (std::size_t i = 0; i < n; ++i)
         if (is_broken(out, n, i)) broken.push_back(static_cast<std::int64_t>(i));

@@ -204,6 +204,10 @@ class _Samples:
         """Points (n, 3) and parameters (n, 2) of some of them."""
         return self.points[rows], self.uv[rows]
 
+    def raise_to_largest(self, by_triangle: NDArray[np.float64]) -> None:
+        """Raise distances (m,) of all triangles to those of the samples."""
+        np.maximum.at(by_triangle, self.triangle, self.distance)
+
 
 @dataclass(frozen=True)
 class _SamplesAtWeights:
@@ -219,6 +223,13 @@ class _SamplesAtWeights:
         """Points (n, 3) and parameters (n, 2) of some of them."""
         uv, points, _ = self.known.sampled(self.triangle[rows], self.rule[rows], self.weights)
         return points, uv
+
+    def raise_to_largest(self, by_triangle: NDArray[np.float64]) -> None:
+        """Raise distances (m,) of all triangles to those of the samples, which follow each other
+        triangle by triangle."""
+        here = by_triangle[self.triangle[0] : self.triangle[-1] + 1]
+        for column in self.distance.reshape(len(here), -1).T:
+            np.maximum(here, column, out=here)
 
 
 class _Search:
@@ -268,7 +279,7 @@ class _Search:
         triangle, distance = samples.triangle, samples.distance
         distance[~np.isfinite(distance)] = 0.0  # where a formula has no value
         known = self._refine(samples)
-        np.maximum.at(self.by_triangle, triangle, distance)
+        samples.raise_to_largest(self.by_triangle)
         known = known[np.argsort(-distance[known], kind="stable")[:AMONG_ALL]]
         points, uv = samples.places(known)
         self.found += [
