@@ -10,7 +10,7 @@
 namespace surfmesh {
 namespace {
 
-constexpr std::size_t TRIANGLES_TOGETHER = 512;
+constexpr std::size_t SAMPLED_AT_ONCE = 512;
 
 /// Of a triangle at barycentric weights.
 Point2 place_of(const std::array<Point2, 3>& corners, const Weights& w) {
@@ -59,8 +59,8 @@ SurfaceDistances surface_distances(const MeasuredMesh& mesh, std::span<const Wei
     SurfaceValues values;
     for (std::size_t face = 0; face < mesh.surfaces.size(); ++face) {
         const auto members = sorted.of(face);
-        for (std::size_t k = 0; k < members.size(); k += TRIANGLES_TOGETHER) {
-            const auto some = members.subspan(k, std::min(TRIANGLES_TOGETHER, members.size() - k));
+        for (std::size_t k = 0; k < members.size(); k += SAMPLED_AT_ONCE) {
+            const auto some = members.subspan(k, std::min(SAMPLED_AT_ONCE, members.size() - k));
             places.clear();
             for (const std::int32_t t : some)
                 for (const Weights& w : weights) places.push_back(place_of(corners_of(mesh, t), w));
