@@ -11,15 +11,11 @@
 namespace surfmesh {
 namespace {
 
-// Of the triangle's size. With d near k h^2 / 8 for the distance to the tangent plane at a foot
-// that is off by s, the true distance differs by k s^2 / 2 = 4 d (s / h)^2: 1 % of d at this s / h.
-constexpr double NEAR_FOOT = 0.05;
 constexpr double ON_SURFACE = 1e-9;  // of the size: a vertex this near to r(u, v) is on it
 constexpr double FAR_FOOT = 0.2;     // of the longest side: r(u, v) so far across says nothing
 constexpr double CLOSE_FOOT = 0.02;  // the same of a triangle's height: 0.2 % of d
 constexpr double NEAR_LIMIT = 0.88;  // of the limit: a quadric may be 4.2 % farther between samples
-constexpr int STEPS = 12;     // of a projection, at most: where speeds change fast guesses are poor
-constexpr int FEW_STEPS = 4;  // in the mesher, where triangles are small and guesses near
+constexpr int FEW_STEPS = 4;         // in the mesher, where triangles are small and guesses near
 constexpr std::size_t SAMPLED_TOGETHER = 2048;  // triangles looked at together
 
 /// Of a point from the tangent plane at a place of the surface: its normal, zero where there is
@@ -282,7 +278,7 @@ PointDeviations point_deviations(SurfaceReader& surface, std::span<const Point3>
     if (!far.empty()) far = look_again(surface, points, uv, size, found, far, result.distance);
     if (far.empty()) return result;
     const ClosestPoints closest =
-        closest_points(surface, all(chosen(points, far)), all(chosen(uv, far)), STEPS);
+        closest_points(surface, all(chosen(points, far)), all(chosen(uv, far)), PROJECTION_STEPS);
     for (std::size_t k = 0; k < far.size(); ++k) result.distance[far[k]] = closest.distance[k];
     return result;
 }

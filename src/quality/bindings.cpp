@@ -28,8 +28,6 @@ template <>
 struct Row<float> : RowOf<float, 1> {};
 template <>
 struct Row<Weights> : RowOf<double, 3> {};
-template <>
-struct Row<Bounded> : RowOf<std::uint8_t, 1> {};
 
 namespace {
 
@@ -96,6 +94,30 @@ void bind_mesh_deviation(nb::module_& m) {
         "the surfaces of faces (m,): the largest distance (m,) at vertices, middles and centroid, "
         "the mean of its square (m,), the cosine (m,) between the normals, 1 where one is missing."
         "\n\nedges (k, 2): half-edges and those that share what is found, or -1; area (m,).");
+}
+
+void bind_surface_distances(nb::module_& m) {
+    m.def(
+        "surface_distances",
+        [](const nb::list& surfaces, const Points3& points, const Triangles& triangles,
+           const Points2& uv, const Triangles& uv_triangles, const Numbers& faces,
+           const Matrix<double, 3>& weights) {
+            const std::vector<const Surface*> all = surfaces_of(surfaces);
+            const MeasuredMesh mesh =
+                measured_mesh(all, points, triangles, uv, uv_triangles, faces);
+            require_mesh(mesh);
+            SurfaceDistances found;
+            {
+                const nb::gil_scoped_release released;
+                found = surface_distances(mesh, rows<Weights>(weights));
+            }
+            if (found.failed >= 0) raise_failure(*all[found.failed], SurfaceStatus::FAILED);
+            return view(found.distance);
+        },
+        nb::arg("surfaces"), nb::arg("points"), nb::arg("triangles"), nb::arg("uv"),
+        nb::arg("uv_triangles"), nb::arg("faces"), nb::arg("weights"),
+        "How far (m w,) points of the surfaces at barycentric weights (w, 3) over every triangle "
+        "are from it, triangle after triangle.\n\nThe mesh is as ``mesh_deviation`` takes it.");
 }
 
 /// The triangles (k,) of a mesh are numbers of rows, and their rows are in range.
@@ -280,40 +302,47 @@ void bind_solids(nb::module_& m) {
 }
 
 void bind_hidden_bounds(nb::module_& m) {
-    using PlaneTriangles =
-        nb::ndarray<const double, nb::shape<-1, 3, 2>, nb::c_contig, nb::device::cpu>;
     m.def(
         "hidden_bounds",
-        [](const Surface& surface, const PlaneTriangles& uv, const Points3& corner,
-           const Points3& normal, const Vector<double>& tolerance, const Vector<double>& seen,
-           int levels) {
-            const std::size_t count = uv.shape(0);
-            require_rows(corner.shape(0), count, "corner");
-            require_rows(normal.shape(0), count, "normal");
-            require_rows(tolerance.shape(0), count, "tolerance");
-            require_rows(seen.shape(0), count, "seen");
+        [](const Surface& surface, const Points3& points, const Triangles& triangles,
+           const Points2& uv, const Triangles& uv_triangles, const Numbers& rows_given,
+           const Vector<double>& tolerance, const Vector<double>& seen,
+           const Vector<std::uint8_t>& whole, int levels) {
+            const std::span<const std::int32_t> chosen = rows<std::int32_t>(rows_given);
+            require_rows(tolerance.shape(0), chosen.size(), "tolerance");
+            require_rows(seen.shape(0), chosen.size(), "seen");
+            require_rows(whole.shape(0), chosen.size(), "whole");
+            require_rows(uv_triangles.shape(0), triangles.shape(0), "uv_triangles");
             if (levels < 0 || levels > 9) throw nb::value_error("levels is from 0 to 9");
-            const SampledTriangles triangles{
-                {reinterpret_cast<const ParameterTriangle*>(uv.data()), count},
-                rows<Point3>(corner),
-                rows<Point3>(normal),
-                rows<double>(tolerance),
-                rows<double>(seen)};
+            require_indices(chosen, triangles.shape(0), "triangle");
+            require_corners(triangles, points.shape(0), "triangles");
+            require_corners(uv_triangles, uv.shape(0), "uv_triangles");
+            const MeasuredMesh mesh{{},
+                                    rows<Point3>(points),
+                                    rows<TriangleCorners>(triangles),
+                                    rows<Point2>(uv),
+                                    rows<TriangleCorners>(uv_triangles),
+                                    {}};
             HiddenBounds found;
             {
                 const nb::gil_scoped_release released;
-                found = hidden_bounds(surface, triangles, levels);
+                found = hidden_bounds(surface, mesh,
+                                      {chosen, rows<double>(tolerance), rows<double>(seen),
+                                       rows<std::uint8_t>(whole)},
+                                      levels);
             }
             raise_failure(surface, found.status);
             return view(found.bounded);
         },
-        nb::arg("surface"), nb::arg("uv"), nb::arg("corner"), nb::arg("normal"),
-        nb::arg("tolerance"), nb::arg("seen"), nb::arg("levels"),
-        "Over which triangles (k, 3, 2) of (u, v) the surface surely hides nothing: 2 where its "
-        "second derivatives over their box say so at once, 1 where those over parts of them do, "
-        "cut in four up to ``levels`` times, else 0.\n\ncorner (k, 3): one corner of each in "
-        "space; normal (k, 3), of length 1; tolerance (k,): what may hide; seen (k,): the largest "
-        "distance at the corners, in the middles of the sides and at the centroid.");
+        nb::arg("surface"), nb::arg("points"), nb::arg("triangles"), nb::arg("uv"),
+        nb::arg("uv_triangles"), nb::arg("triangle"), nb::arg("tolerance"), nb::arg("seen"),
+        nb::arg("whole"), nb::arg("levels"),
+        "Over which triangles (k,), rows of triangles (m, 3) of points (n, 3) and of uv_triangles "
+        "(m, 3) of uv (q, 2), the surface surely hides nothing: 1, or 0 where its second "
+        "derivatives do not say so, over triangles cut in four up to ``levels`` times either."
+        "\n\ntolerance (k,): what may hide; seen (k,): the largest distance at the corners, in "
+        "the middles of the sides and at the centroid; whole (k,): 1 where all of the box around "
+        "the triangle in (u, v) counts. Without area it hides nothing.");
 }
 
 void bind_area_and_volume(nb::module_& m) {
@@ -366,6 +395,7 @@ void bind_quality(nb::module_& m) {
     bind_surface_points(m);
     bind_mesh_deviation(m);
     bind_least_triangles(m);
+    bind_surface_distances(m);
     bind_samples(m);
     bind_dense_deviation(m);
     bind_creases(m);

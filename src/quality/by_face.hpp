@@ -6,6 +6,7 @@
 #pragma once
 
 #include <cstdint>
+#include <numeric>
 #include <span>
 
 #include "values/array.hpp"
@@ -24,6 +25,11 @@ struct ByFace {
 template <class FaceOf>
 ByFace by_face(std::size_t count, std::size_t faces, const FaceOf& face_of) {
     ByFace sorted{Array<std::int32_t>(count), Array<std::size_t>(faces + 1, 0)};
+    if (faces == 1) {
+        std::iota(sorted.members.begin(), sorted.members.end(), 0);
+        sorted.first[1] = count;
+        return sorted;
+    }
     for (std::size_t i = 0; i < count; ++i) ++sorted.first[face_of(i) + 1];
     for (std::size_t f = 0; f < faces; ++f) sorted.first[f + 1] += sorted.first[f];
     Array<std::size_t> next = sorted.first;

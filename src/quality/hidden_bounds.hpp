@@ -2,39 +2,42 @@
 // derivatives.
 //
 // Over a triangle T with normal n and corner p the surface lies e = n . (r - p) from the plane of T.
-// At once: over the box of T in (u, v) e bends by no more than its second derivatives there say. In
-// parts: T cut in four again and again; linear interpolation of e over a part with edges d_ij errs
-// by no more than 1/2 sum l_i l_j |e'' along d_ij|, l barycentric. Along an edge of a long thin
-// triangle the second derivatives cancel as they do on the surface; over its box they would not.
+// Linear interpolation of e over a triangle with edges d_ij errs by no more than
+// 1/2 sum l_i l_j |e'' along d_ij|, l barycentric. The samples of T are its corners and the middles
+// of its edges among others: between them it errs by a quarter of that, more than they have seen.
+// Bounds over a box around many triangles hold for each of them, so boxes get smaller where they
+// have to, down to that of T alone, over which e bends by no more than its second derivatives say.
+// What is left is cut in four again and again. Along an edge of a long thin triangle the second
+// derivatives cancel as they do on the surface; over its box they would not.
 //
 // In: triangles of one surface, what may hide over each, and what its samples have seen. Out: for
-// each which of both says that no more does. (Moore, Kearfott, Cloud, "Introduction to Interval
+// each whether bounds say that no more does. (Moore, Kearfott, Cloud, "Introduction to Interval
 // Analysis", SIAM 2009, chapter 6.)
 #pragma once
 
 #include <cstdint>
 #include <span>
 
+#include "quality/measured_mesh.hpp"
 #include "surfaces/closest_point.hpp"
-#include "surfaces/surface.hpp"
 #include "values/array.hpp"
 
 namespace surfmesh {
 
+/// Rows of a mesh on one surface. Those without area hide nothing.
 struct SampledTriangles {
-    std::span<const ParameterTriangle> uv;
-    std::span<const Point3> corner, normal;  // one of the corners; of length 1
-    std::span<const double> tolerance, seen;
+    std::span<const std::int32_t> rows;
+    std::span<const double> tolerance, seen;  // of each
+    std::span<const std::uint8_t> whole;      // 1: all of its box counts, not the triangle alone
 };
 
-enum class Bounded : std::uint8_t { NOT, IN_PARTS, AT_ONCE };
-
 struct HiddenBounds {
-    Array<Bounded> bounded;  // of each triangle
+    Array<std::uint8_t> bounded;  // of each triangle: 1 where nothing hides
     SurfaceStatus status = SurfaceStatus::DONE;
 };
 
 /// levels: a triangle is cut in four so often.
-HiddenBounds hidden_bounds(const Surface& surface, const SampledTriangles& triangles, int levels);
+HiddenBounds hidden_bounds(const Surface& surface, const MeasuredMesh& mesh,
+                           const SampledTriangles& triangles, int levels);
 
 }  // namespace surfmesh

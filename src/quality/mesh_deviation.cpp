@@ -7,12 +7,14 @@
 #include "patch/deviation.hpp"
 #include "patch/samples.hpp"
 #include "quality/by_face.hpp"
+#include "surfaces/closest_point.hpp"
 #include "values/conventions.hpp"
 
 namespace surfmesh {
 namespace {
 
 constexpr std::size_t BLOCK = 1024;  // places looked at together
+constexpr double ON_SURFACE = 1e-9;  // of the size: a vertex this near to r(u, v) is on it
 constexpr double VERTEX_WEIGHT = 1.0 / 20.0, MIDDLE_WEIGHT = 2.0 / 15.0,
                  CENTROID_WEIGHT = 9.0 / 20.0;
 
@@ -20,31 +22,86 @@ constexpr double VERTEX_WEIGHT = 1.0 / 20.0, MIDDLE_WEIGHT = 2.0 / 15.0,
 struct Places {
     Array<Point3> points;
     Array<Point2> uv;
-    Array<double> size;
+    Array<double> area, squared;  // of the triangle; distances squared, which are filled in
 
-    void clear() {
-        points.clear();
-        uv.clear();
-        size.clear();
-    }
-    /// A place of triangle t at barycentric weights.
-    void add(const MeasuredMesh& mesh, std::size_t t, const BarycentricWeights& w, double area) {
-        const TriangleCorners &k = mesh.triangles[t], &q = mesh.uv_triangles[t];
-        points.push_back(
-            at_weights<Point3>({mesh.points[k.a], mesh.points[k.b], mesh.points[k.c]}, w));
-        uv.push_back(at_weights<Point2>({mesh.uv[q.a], mesh.uv[q.b], mesh.uv[q.c]}, w));
-        size.push_back(std::sqrt(area));
-    }
-    template <class T>
-    static std::span<const T> all(const Array<T>& values) {
-        return {values.data(), values.size()};
+    void resize(std::size_t count) {
+        points.resize(count);
+        uv.resize(count);
+        area.resize(count);
+        squared.resize(count);
     }
 };
+
+/// Places whose feet are far: where to look again, and how far the feet were, squared.
+struct FarPlaces {
+    Array<std::int32_t> places;
+    Array<Point2> uv;
+    Array<double> whole;
+
+    void clear() {
+        places.clear();
+        uv.clear();
+        whole.clear();
+    }
+    void add(std::int32_t place, Point2 to, double squared) {
+        places.push_back(place);
+        uv.push_back(to);
+        whole.push_back(squared);
+    }
+};
+
+/// Of a point from a place of the surface, squared: its distance, that along the normal and the one
+/// across; all the same where there is no normal.
+struct Offset {
+    Point3 gap, normal;  // of any length
+    double squared;      // of the normal
+    double whole, along, across;
+
+    Offset(Point3 point, Point3 foot, Point3 ru, Point3 rv)
+        : gap(point - foot),
+          normal(cross(ru, rv)),
+          squared(dot(normal, normal)),
+          whole(dot(gap, gap)),
+          along(whole),
+          across(whole) {
+        if (!(squared > 0.0)) return;
+        const double high = dot(gap, normal);
+        along = high * high / squared;
+        across = whole - along;
+    }
+
+    /// In (u, v) to the foot of the point in the tangent plane.
+    [[nodiscard]] Point2 step(Point3 ru, Point3 rv) const {
+        if (!(squared > 0.0)) return {0.0, 0.0};
+        // (d x r_v) . n = du n . n for d = du r_u + dv r_v and n = r_u x r_v, likewise for dv
+        return {dot(cross(gap, rv), normal) / squared, dot(cross(ru, gap), normal) / squared};
+    }
+};
+
+Point2 within(const ParameterBox& box, Point2 p) {
+    return {std::min(std::max(p.x, box.low.x), box.high.x),
+            std::min(std::max(p.y, box.low.y), box.high.y)};
+}
+
+/// The middle of two corners, the centroid of three.
+template <class Point>
+Point middle(Point a, Point b) {
+    return 0.5 * a + 0.5 * b;
+}
+template <class Point>
+Point centroid(Point a, Point b, Point c) {
+    return at_weights<Point>({a, b, c}, CENTROID);
+}
+
+template <class T>
+std::span<const T> all(const Array<T>& values) {
+    return {values.data(), values.size()};
+}
 
 /// The larger of two, NaN where one of them is.
 double larger(double a, double b) { return b > a || b != b ? b : a; }
 
-Vertex corner(const TriangleCorners& t, std::size_t k) { return k == 0 ? t.a : k == 1 ? t.b : t.c; }
+Vertex corner(const TriangleCorners& t, std::size_t k) { return std::span(&t.a, 3)[k]; }
 
 /// Call work(some members) block after block.
 template <class Work>
@@ -103,89 +160,166 @@ class Measure {
     void at_vertices(SurfaceReader& surface, const Array<std::int32_t>& corners,
                      std::span<const std::int32_t> members) {
         in_blocks(members, [&](std::span<const std::int32_t> some) {
-            places_.clear();
-            for (const std::int32_t i : some) {
-                const std::size_t t = corners[i] / 3, k = corners[i] % 3;
-                places_.points.push_back(mesh_.points[corner(mesh_.triangles[t], k)]);
-                places_.uv.push_back(mesh_.uv[corner(mesh_.uv_triangles[t], k)]);
-                places_.size.push_back(std::sqrt(area_[t]));
+            places_.resize(some.size());
+            for (std::size_t j = 0; j < some.size(); ++j) {
+                const std::size_t t = corners[some[j]] / 3, k = corners[some[j]] % 3;
+                places_.points[j] = mesh_.points[corner(mesh_.triangles[t], k)];
+                places_.uv[j] = mesh_.uv[corner(mesh_.uv_triangles[t], k)];
+                places_.area[j] = area_[t];
             }
-            const Array<double> distance =
-                vertex_deviations(surface, Places::all(places_.points), Places::all(places_.uv),
-                                  Places::all(places_.size));
+            measure_vertices(surface);
             for (std::size_t j = 0; j < some.size(); ++j) {
                 const std::int32_t c = corners[some[j]];
-                at_vertex_[corner(mesh_.triangles[c / 3], c % 3)] = distance[j];
+                at_vertex_[corner(mesh_.triangles[c / 3], c % 3)] = places_.squared[j];
             }
         });
     }
 
     void at_middles(SurfaceReader& surface, std::span<const std::int32_t> members) {
         in_blocks(members, [&](std::span<const std::int32_t> some) {
-            places_.clear();
-            for (const std::int32_t e : some) {
-                const std::size_t t = edges_[e].half_edge / 3, side = edges_[e].half_edge % 3;
-                places_.add(mesh_, t, FEW_SAMPLES[side], area_[t]);
+            places_.resize(some.size());
+            for (std::size_t j = 0; j < some.size(); ++j) {
+                const std::size_t t = edges_[some[j]].half_edge / 3,
+                                  side = edges_[some[j]].half_edge % 3, next = (side + 1) % 3;
+                const TriangleCorners &k = mesh_.triangles[t], &q = mesh_.uv_triangles[t];
+                places_.points[j] =
+                    middle(mesh_.points[corner(k, side)], mesh_.points[corner(k, next)]);
+                places_.uv[j] = middle(mesh_.uv[corner(q, side)], mesh_.uv[corner(q, next)]);
+                places_.area[j] = area_[t];
             }
-            const PointDeviations found = measured(surface);
+            measure(surface);
             for (std::size_t j = 0; j < some.size(); ++j) {
                 const EdgeSides& sides = edges_[some[j]];
-                add(sides.half_edge / 3, found.distance[j], MIDDLE_WEIGHT);
-                if (sides.twin != NIL) add(sides.twin / 3, found.distance[j], MIDDLE_WEIGHT);
+                add(sides.half_edge / 3, places_.squared[j], MIDDLE_WEIGHT);
+                if (sides.twin != NIL) add(sides.twin / 3, places_.squared[j], MIDDLE_WEIGHT);
             }
         });
     }
 
     void at_centroids(SurfaceReader& surface, std::span<const std::int32_t> members) {
         in_blocks(members, [&](std::span<const std::int32_t> some) {
-            places_.clear();
-            for (const std::int32_t t : some) places_.add(mesh_, t, CENTROID, area_[t]);
-            const PointDeviations found = measured(surface);
+            places_.resize(some.size());
             for (std::size_t j = 0; j < some.size(); ++j) {
-                add(some[j], found.distance[j], CENTROID_WEIGHT);
-                found_.cosine[some[j]] = static_cast<float>(cosine(some[j], found.normal[j]));
+                const TriangleCorners &k = mesh_.triangles[some[j]],
+                                      &q = mesh_.uv_triangles[some[j]];
+                places_.points[j] =
+                    centroid(mesh_.points[k.a], mesh_.points[k.b], mesh_.points[k.c]);
+                places_.uv[j] = centroid(mesh_.uv[q.a], mesh_.uv[q.b], mesh_.uv[q.c]);
+                places_.area[j] = area_[some[j]];
             }
+            surface.read(all(places_.uv), 1);
+            for (std::size_t j = 0; j < some.size(); ++j)
+                found_.cosine[some[j]] =
+                    static_cast<float>(cosine(some[j], cross(surface[1][j], surface[2][j])));
+            measure_read(surface);
+            for (std::size_t j = 0; j < some.size(); ++j)
+                add(some[j], places_.squared[j], CENTROID_WEIGHT);
         });
     }
 
-    PointDeviations measured(SurfaceReader& surface) const {
-        return point_deviations(surface, Places::all(places_.points), Places::all(places_.uv),
-                                Places::all(places_.size));
+    void measure(SurfaceReader& surface) {
+        surface.read(all(places_.uv), 1);
+        measure_read(surface);
     }
 
-    void add(std::int32_t triangle, double distance, double weight) {
-        found_.mean_square[triangle] += weight * (distance * distance);
-        found_.largest[triangle] = larger(found_.largest[triangle], distance);
+    /// In the tangent planes at the feet that are read, where these are near, else in those a Newton
+    /// step further, else to the nearest point.
+    void measure_read(SurfaceReader& surface) {
+        const ParameterBox domain = surface.domain();
+        far_.clear();
+        for (std::size_t j = 0; j < places_.points.size(); ++j) {
+            const Offset offset(places_.points[j], surface[0][j], surface[1][j], surface[2][j]);
+            places_.squared[j] = offset.along;
+            if (is_near(offset, j)) continue;
+            const Point2 to = places_.uv[j] + offset.step(surface[1][j], surface[2][j]);
+            far_.add(static_cast<std::int32_t>(j), within(domain, to), offset.whole);
+        }
+        if (far_.places.empty()) return;
+        surface.read(all(far_.uv), 1);
+        left_.clear();
+        for (std::size_t k = 0; k < far_.places.size(); ++k) {
+            const std::int32_t j = far_.places[k];
+            const Offset offset(places_.points[j], surface[0][k], surface[1][k], surface[2][k]);
+            places_.squared[j] = offset.along;
+            if (!is_near(offset, j) || !(offset.whole <= far_.whole[k])) left_.push_back(j);
+        }
+        if (left_.empty()) return;
+        set_distances(closest_points(surface, all(chosen(places_.points)), all(chosen(places_.uv)),
+                                     PROJECTION_STEPS)
+                          .distance);
     }
 
+    [[nodiscard]] bool is_near(const Offset& offset, std::size_t j) const {
+        return offset.across <= NEAR_FOOT * NEAR_FOOT * places_.area[j];
+    }
+
+    /// The same of vertices, which should be r(u, v) itself.
+    void measure_vertices(SurfaceReader& surface) {
+        surface.read(all(places_.uv), 0);
+        left_.clear();
+        for (std::size_t j = 0; j < places_.points.size(); ++j) {
+            const Point3 gap = places_.points[j] - surface[0][j];
+            places_.squared[j] = dot(gap, gap);
+            if (!(places_.squared[j] <= ON_SURFACE * ON_SURFACE * places_.area[j]))
+                left_.push_back(static_cast<std::int32_t>(j));
+        }
+        if (left_.empty()) return;
+        Array<double> size = chosen(places_.area);
+        for (double& area : size) area = std::sqrt(area);
+        set_distances(vertex_deviations(surface, all(chosen(places_.points)),
+                                        all(chosen(places_.uv)), all(size)));
+    }
+
+    /// Of the places ``left_``.
+    template <class T>
+    [[nodiscard]] Array<T> chosen(const Array<T>& values) const {
+        Array<T> some;
+        some.reserve(left_.size());
+        for (const std::int32_t j : left_) some.push_back(values[j]);
+        return some;
+    }
+
+    void set_distances(const Array<double>& distance) {
+        for (std::size_t k = 0; k < left_.size(); ++k)
+            places_.squared[left_[k]] = distance[k] * distance[k];
+    }
+
+    void add(std::int32_t triangle, double squared, double weight) {
+        found_.mean_square[triangle] += weight * squared;
+        found_.largest[triangle] = larger(found_.largest[triangle], squared);
+    }
+
+    /// Between the normal of a triangle and one of any length.
     [[nodiscard]] double cosine(std::int32_t triangle, Point3 normal) const {
-        if (normal.x == 0.0 && normal.y == 0.0 && normal.z == 0.0) return 1.0;
+        const double squared = dot(normal, normal);
+        if (!(squared > 0.0)) return 1.0;
         const TriangleCorners& t = mesh_.triangles[triangle];
         const double length = 2.0 * area_[triangle];
         if (length == 0.0) return 1.0;
         const Point3 own =
             cross(mesh_.points[t.b] - mesh_.points[t.a], mesh_.points[t.c] - mesh_.points[t.a]);
-        return length > 0.0 ? dot(own, normal) / length : std::numeric_limits<double>::quiet_NaN();
+        return length > 0.0 ? dot(own, normal) / (length * std::sqrt(squared))
+                            : std::numeric_limits<double>::quiet_NaN();
     }
 
+    /// Distances of vertices, and all from their squares.
     void add_vertices() {
         for (std::size_t t = 0; t < mesh_.triangles.size(); ++t) {
-            double square = 0.0;
-            for (std::size_t k = 0; k < 3; ++k) {
-                const double distance = at_vertex_[corner(mesh_.triangles[t], k)];
-                square += distance * distance;
-                found_.largest[t] = larger(found_.largest[t], distance);
-            }
-            found_.mean_square[t] += VERTEX_WEIGHT * square;
+            const TriangleCorners& k = mesh_.triangles[t];
+            const double a = at_vertex_[k.a], b = at_vertex_[k.b], c = at_vertex_[k.c];
+            found_.mean_square[t] += VERTEX_WEIGHT * (a + b + c);
+            found_.largest[t] = std::sqrt(larger(larger(larger(found_.largest[t], a), b), c));
         }
     }
 
     const MeasuredMesh& mesh_;
     std::span<const EdgeSides> edges_;
     std::span<const double> area_;
-    Array<double> at_vertex_;
+    Array<double> at_vertex_;  // squares of distances, as those of triangles until the end
     MeshDeviation found_;
     Places places_;
+    FarPlaces far_;
+    Array<std::int32_t> left_;
 };
 
 }  // namespace

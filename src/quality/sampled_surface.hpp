@@ -21,8 +21,16 @@ struct SampledSurface {
     std::int32_t failed = -1;  // number of a surface, then nothing else counts
 };
 
+struct SurfaceDistances {
+    Array<double> distance;    // of w points over triangle t from w t on
+    std::int32_t failed = -1;  // number of a surface, then nothing else counts
+};
+
 SampledSurface sampled_surface(const MeasuredMesh& mesh, std::span<const std::int32_t> triangle,
                                std::span<const std::int32_t> rule,
                                std::span<const Weights> weights);
+
+/// The distances alone, of points at the same weights over every triangle.
+SurfaceDistances surface_distances(const MeasuredMesh& mesh, std::span<const Weights> weights);
 
 }  // namespace surfmesh

@@ -45,6 +45,21 @@ std::array<double, 4> largest_radii(const Profile& profile, double low, double h
 
 }  // namespace
 
+SurfaceStatus Surface::bend_bounds(std::span<const ParameterBox> cells, std::span<Point3> lower,
+                                   std::span<Point3> upper) const {
+    constexpr std::size_t ALL = 1 + BOUNDED_DERIVATIVES, BENT = 3;
+    Array<Point3> low(ALL * cells.size()), high(ALL * cells.size());
+    const SurfaceStatus status =
+        all_bounds(cells, {low.data(), low.size()}, {high.data(), high.size()});
+    if (status != SurfaceStatus::DONE) return status;
+    for (std::size_t i = 0; i < cells.size(); ++i) {
+        const std::size_t from = ALL * i + ALL - BENT;
+        std::copy_n(low.data() + from, BENT, lower.data() + BENT * i);
+        std::copy_n(high.data() + from, BENT, upper.data() + BENT * i);
+    }
+    return SurfaceStatus::DONE;
+}
+
 SurfaceStatus Surface::derivative_magnitudes(std::span<const ParameterBox> cells, int order,
                                              std::span<Point3> out) const {
     if (order > 2) return SurfaceStatus::UNKNOWN;

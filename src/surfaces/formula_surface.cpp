@@ -2,8 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <limits>
 #include <utility>
 
+#include "elementary_functions/bits.hpp"
 #include "surfaces/tape_balls.hpp"
 #include "surfaces/tape_evaluation.hpp"
 #include "surfaces/tape_taylor.hpp"
@@ -11,7 +14,8 @@
 namespace surfmesh {
 namespace {
 
-constexpr double NUDGE = 1e-9;  // of the domain: how far inwards derivatives are taken
+constexpr double NUDGE = 1e-9;     // of the domain: how far inwards derivatives are taken
+constexpr std::size_t SECOND = 9;  // the first number of second derivatives, after r, r_u and r_v
 
 std::span<const double> as_numbers(std::span<const Point2> uv) {
     static_assert(sizeof(Point2) == 2 * sizeof(double));
@@ -44,6 +48,14 @@ void evaluate_moved(const Tape& tape, const Moved& moved, std::size_t n, std::sp
 /// Of three outputs of a tape.
 EnclosedPoint enclosed(const Ball* of) {
     return {{of[0].mid, of[1].mid, of[2].mid}, std::max({of[0].rad, of[1].rad, of[2].rad})};
+}
+
+/// Are all of these finite? Without a branch.
+bool are_finite(std::span<const double> numbers) {
+    std::uint64_t beyond = 0;
+    for (const double x : numbers)
+        beyond |= elementary::is_above(x, std::numeric_limits<double>::max());
+    return beyond >> 63 == 0;
 }
 
 /// Is a derivative of point i not finite?
@@ -106,6 +118,7 @@ SurfaceStatus FormulaSurface::evaluate(std::span<const Point2> uv, int order,
 void FormulaSurface::mend(const Tape& tape, std::span<const Point2> uv,
                           std::span<Point3> out) const {
     const std::size_t n = uv.size();
+    if (are_finite(as_numbers(out.subspan(n)))) return;
     Array<std::int64_t> broken;
     for (std::size_t i = 0; i < n; ++i)
         if (is_broken(out, n, i)) broken.push_back(static_cast<std::int64_t>(i));
@@ -151,6 +164,11 @@ SurfaceStatus FormulaSurface::all_bounds(std::span<const ParameterBox> cells,
     return bounds_from(0, Kinks::UNBOUNDED, cells, lower, upper);
 }
 
+SurfaceStatus FormulaSurface::bend_bounds(std::span<const ParameterBox> cells,
+                                          std::span<Point3> lower, std::span<Point3> upper) const {
+    return bounds_from(SECOND, Kinks::UNBOUNDED, cells, lower, upper);
+}
+
 SurfaceStatus FormulaSurface::enclose(std::span<const Point2> uv,
                                       std::span<EnclosedPoint> out) const {
     if (tapes_[0] == nullptr) return SurfaceStatus::UNKNOWN;
@@ -163,7 +181,6 @@ SurfaceStatus FormulaSurface::enclose(std::span<const Point2> uv,
 SurfaceStatus FormulaSurface::enclose_bends(std::span<const ParameterBox> cells,
                                             std::span<const Directions> directions,
                                             std::span<Bends> out) const {
-    constexpr std::size_t FIRST = 9;  // after r, r_u and r_v
     if (tapes_[2] == nullptr) return SurfaceStatus::UNKNOWN;
     Array<Point2> low(cells.size()), high(cells.size());
     for (std::size_t i = 0; i < cells.size(); ++i) {
@@ -172,7 +189,7 @@ SurfaceStatus FormulaSurface::enclose_bends(std::span<const ParameterBox> cells,
     }
     Array<Point3> lower(3 * cells.size()), upper(3 * cells.size());
     enclosures(*tapes_[2], as_numbers({low.data(), low.size()}),
-               as_numbers({high.data(), high.size()}), FIRST,
+               as_numbers({high.data(), high.size()}), SECOND,
                as_numbers({lower.data(), lower.size()}), as_numbers({upper.data(), upper.size()}));
     for (std::size_t i = 0; i < cells.size(); ++i) {
         std::array<BoxedVector, 3> second;

@@ -43,6 +43,8 @@ class FormulaSurface final : public Surface, public FourthDerivatives {
                                     std::span<Point3> upper) const override;
     SurfaceStatus all_bounds(std::span<const ParameterBox> cells, std::span<Point3> lower,
                              std::span<Point3> upper) const override;
+    SurfaceStatus bend_bounds(std::span<const ParameterBox> cells, std::span<Point3> lower,
+                              std::span<Point3> upper) const override;
     SurfaceStatus enclose(std::span<const Point2> uv, std::span<EnclosedPoint> out) const override;
     SurfaceStatus enclose_bends(std::span<const ParameterBox> cells,
                                 std::span<const Directions> directions,

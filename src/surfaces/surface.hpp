@@ -68,6 +68,10 @@ class Surface {
         return SurfaceStatus::UNKNOWN;
     }
 
+    /// Of ``all_bounds`` those of r_uu, r_uv and r_vv alone, three a cell.
+    virtual SurfaceStatus bend_bounds(std::span<const ParameterBox> cells, std::span<Point3> lower,
+                                      std::span<Point3> upper) const;
+
     /// Bounds of the absolute values of all derivatives up to the order, 2 or 3, by coordinate:
     /// that of derivative k over cell i into out[derivative_count(order) i + k], of r itself 0.
     /// UNKNOWN where the surface has none. By default what ``derivative_bounds`` gives.

@@ -18,6 +18,9 @@ namespace {
 
 using Slots = TapeSlots<Interval>;
 
+constexpr std::size_t CELLS_TOGETHER =
+    64;  // a register of cells is 1 kB, a tape of them stays near
+
 /// What one instruction reads and writes: n intervals each.
 struct Operands {
     Interval* out;
@@ -33,6 +36,12 @@ void each(const Operands& o, Function f) {
 template <class Function>
 void each_pair(const Operands& o, Function f) {
     for (std::size_t k = 0; k < o.n; ++k) o.out[k] = f(o.a[k], o.b[k]);
+}
+
+/// A function at both ends of all intervals.
+void map_ends(const Operands& o, void (*f)(std::span<const double>, std::span<double>)) {
+    static_assert(sizeof(Interval) == 2 * sizeof(double));
+    f({reinterpret_cast<const double*>(o.a), 2 * o.n}, {reinterpret_cast<double*>(o.out), 2 * o.n});
 }
 
 void each_increasing(const Operands& o, double (*f)(double), double first = -intervals::INFINITE,
@@ -137,7 +146,10 @@ bool run_increasing(const Instruction& step, const Operands& o) {
             each_increasing(o, e::cbrt);
             return true;
         case Operation::EXP:
-            each_increasing(o, e::exp);
+            map_ends(o, e::exp);
+            each_pair({o.out, o.out, o.out, o.c, o.n}, [](Interval found, Interval) {
+                return intervals::known(found.lo, found.hi);
+            });
             return true;
         case Operation::LOG:
             each_increasing(o, e::log, 0.0);
@@ -289,7 +301,7 @@ void bounds_in(const Arithmetic& arithmetic, const Tape& tape, std::span<const d
                std::span<double> upper) {
     const std::size_t inputs = tape.inputs();
     const std::size_t count = inputs == 0 ? 0 : lo.size() / inputs;
-    const std::size_t lanes = std::min(count, TAPE_BLOCK);
+    const std::size_t lanes = std::min(count, CELLS_TOGETHER);
     const std::span<const std::int32_t> outputs = tape.outputs();
     if (first >= outputs.size()) return;
     const std::size_t stride = outputs.size() - first;

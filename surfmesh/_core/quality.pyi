@@ -29,6 +29,13 @@ def least_triangles(surfaces: list, points: Annotated[NDArray[numpy.float64], di
     The mesh is as for ``mesh_deviation``; edges (k, 2): both sides of every edge, or -1; area (m,); corner (n,): 1 where the lines around faces end. balanced: vertices may lie off the surface.
     """
 
+def surface_distances(surfaces: list, points: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)], triangles: Annotated[NDArray[numpy.int32], dict(shape=(None, 3), order='C', device='cpu', writable=False)], uv: Annotated[NDArray[numpy.float64], dict(shape=(None, 2), order='C', device='cpu', writable=False)], uv_triangles: Annotated[NDArray[numpy.int32], dict(shape=(None, 3), order='C', device='cpu', writable=False)], faces: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], weights: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)]) -> Annotated[NDArray[numpy.float64], dict(shape=(None,))]:
+    """
+    How far (m w,) points of the surfaces at barycentric weights (w, 3) over every triangle are from it, triangle after triangle.
+
+    The mesh is as ``mesh_deviation`` takes it.
+    """
+
 def sampled_surface(surfaces: list, points: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)], triangles: Annotated[NDArray[numpy.int32], dict(shape=(None, 3), order='C', device='cpu', writable=False)], uv: Annotated[NDArray[numpy.float64], dict(shape=(None, 2), order='C', device='cpu', writable=False)], uv_triangles: Annotated[NDArray[numpy.int32], dict(shape=(None, 3), order='C', device='cpu', writable=False)], faces: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], triangle: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], rule: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], weights: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)]) -> tuple[Annotated[NDArray[numpy.float64], dict(shape=(None, 2))], Annotated[NDArray[numpy.float64], dict(shape=(None, 3))], Annotated[NDArray[numpy.float64], dict(shape=(None,))]]:
     """
     Parameters (k, 2) at barycentric weights[rule] (w, 3) of triangles (k,), the points (k, 3) of the surfaces there, and how far (k,) these are from the triangle.
@@ -74,11 +81,11 @@ def solid_counts(triangles: Annotated[NDArray[numpy.int32], dict(shape=(None, 3)
     An edge is open where it is not run along as often one way as the other.
     """
 
-def hidden_bounds(surface: surfmesh._core.surfaces.Surface, uv: Annotated[NDArray[numpy.float64], dict(shape=(None, 3, 2), order='C', device='cpu', writable=False)], corner: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)], normal: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)], tolerance: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)], seen: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)], levels: int) -> Annotated[NDArray[numpy.uint8], dict(shape=(None,))]:
+def hidden_bounds(surface: surfmesh._core.surfaces.Surface, points: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)], triangles: Annotated[NDArray[numpy.int32], dict(shape=(None, 3), order='C', device='cpu', writable=False)], uv: Annotated[NDArray[numpy.float64], dict(shape=(None, 2), order='C', device='cpu', writable=False)], uv_triangles: Annotated[NDArray[numpy.int32], dict(shape=(None, 3), order='C', device='cpu', writable=False)], triangle: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], tolerance: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)], seen: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)], whole: Annotated[NDArray[numpy.uint8], dict(shape=(None,), order='C', device='cpu', writable=False)], levels: int) -> Annotated[NDArray[numpy.uint8], dict(shape=(None,))]:
     """
-    Over which triangles (k, 3, 2) of (u, v) the surface surely hides nothing: 2 where its second derivatives over their box say so at once, 1 where those over parts of them do, cut in four up to ``levels`` times, else 0.
+    Over which triangles (k,), rows of triangles (m, 3) of points (n, 3) and of uv_triangles (m, 3) of uv (q, 2), the surface surely hides nothing: 1, or 0 where its second derivatives do not say so, over triangles cut in four up to ``levels`` times either.
 
-    corner (k, 3): one corner of each in space; normal (k, 3), of length 1; tolerance (k,): what may hide; seen (k,): the largest distance at the corners, in the middles of the sides and at the centroid.
+    tolerance (k,): what may hide; seen (k,): the largest distance at the corners, in the middles of the sides and at the centroid; whole (k,): 1 where all of the box around the triangle in (u, v) counts. Without area it hides nothing.
     """
 
 def enclosed_volumes(points: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)], triangles: Annotated[NDArray[numpy.int32], dict(shape=(None, 3), order='C', device='cpu', writable=False)], solid: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], apexes: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)]) -> Annotated[NDArray[numpy.float64], dict(shape=(None,))]:

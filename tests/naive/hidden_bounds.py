@@ -25,6 +25,16 @@ def bounded_at_once(surface, pieces, seen):
     return bounded
 
 
+def bounded_between_samples(surface, pieces, seen):
+    """(k,) triangles whose second derivatives along their edges say so; ``seen`` as above."""
+    bounded = np.zeros(len(pieces.uv), bool)
+    for start in range(0, len(bounded), BLOCK):
+        part = slice(start, start + BLOCK)
+        bound = _interpolation_error(surface, pieces.uv[part], pieces.normal[part, 0])
+        bounded[part] = seen[part] + 0.25 * bound <= pieces.tolerance[part]
+    return bounded
+
+
 def bounded_in_parts(surface, pieces):
     """(k,) triangles within their tolerance by second derivatives along edges of their parts."""
     bounded = np.ones(len(pieces.uv), bool)
@@ -45,11 +55,17 @@ def bounded_in_parts(surface, pieces):
 def _interpolated_within(surface, pieces, piece: np.ndarray, uv: np.ndarray):
     """(n,) do parts uv (n, 3, 2) of triangles keep to their tolerance?"""
     normal = pieces.normal[piece, 0]
-    lower, upper = surface.all_bounds(uv.min(axis=1), uv.max(axis=1))
     (r,) = surface.evaluate(uv.reshape(-1, 2), 0)
     height = np.abs(
         np.einsum("nij,nj->ni", r.reshape(-1, 3, 3) - pieces.corner[piece, None], normal)
     )
+    bound = _interpolation_error(surface, uv, normal)
+    return height.max(axis=1) + bound <= pieces.tolerance[piece]
+
+
+def _interpolation_error(surface, uv: np.ndarray, normal: np.ndarray):
+    """(n,) by how much linear interpolation along normal (n, 3) errs at most over uv (n, 3, 2)."""
+    lower, upper = surface.all_bounds(uv.min(axis=1), uv.max(axis=1))
     du, dv = (uv[:, [1, 2, 0]] - uv).transpose(2, 0, 1)
     weights = np.stack([du * du, 2.0 * du * dv, dv * dv], axis=2)  # (n, 3 edges, 3 derivatives)
     with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
@@ -62,8 +78,7 @@ def _interpolated_within(surface, pieces, piece: np.ndarray, uv: np.ndarray):
         # the largest of l0 l1 a + l1 l2 b + l2 l0 c is within, or amid an edge
         inside = (a * (b + c - a) > 0.0) & (b * (c + a - b) > 0.0) & (c * (a + b - c) > 0.0)
         amid = np.maximum.reduce([a, b, c]) / 4.0
-        bound = 0.5 * np.where(inside, np.maximum(peak, amid), amid)
-        return height.max(axis=1) + bound <= pieces.tolerance[piece]
+        return 0.5 * np.where(inside, np.maximum(peak, amid), amid)
 
 
 def _in_four(uv: np.ndarray) -> np.ndarray:

@@ -5,7 +5,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from surfmesh.geometry.differential.fundamental_forms import curvatures, forms_from_derivatives
+from surfmesh._core.edges import curvatures_at
 from surfmesh.quality.measures.deviation import Deviation
 from surfmesh.quality.measures.known_surfaces import KnownSurfaces
 from surfmesh.quality.measures.tolerances import Tolerances
@@ -39,28 +39,29 @@ def chord_use(known: KnownSurfaces, fit: Deviation, tolerances: Tolerances) -> C
         return None
     step = -(-len(mesh.triangles) // SAMPLES)
     chosen = np.arange(0, len(mesh.triangles), step)
-    target = mesh.sizes[mesh.triangles[chosen]].mean(axis=1)
+    chosen = chosen[np.argsort(mesh.face_ids[chosen], kind="stable")]
+    a, b, c = (mesh.sizes[corner] for corner in mesh.triangles[chosen].T)
+    faces, first = np.unique(mesh.face_ids[chosen], return_index=True)
+    surfaces = [known.core_surfaces[face] for face in faces.tolist()]
+    first = np.append(first, len(chosen))
+    k1, k2, degenerate = curvatures_at(known.middle_uv(chosen), first.astype(np.int64), surfaces)
     decided = np.zeros(len(chosen), bool)
-    faces = mesh.face_ids[chosen]
-    for face in np.unique(faces):
-        here = np.flatnonzero(faces == face)
-        uv = known.middle_uv(chosen[here])
-        chord = tolerances.one(tolerances.chord, int(face))
-        if chord is not None:
-            decided[here] = target[here] >= DECIDED * _allowed(mesh, int(face), uv, chord)
-    used = fit.by_triangle[chosen[decided]] / tolerances.at(tolerances.chord, faces[decided])
+    for face, here in zip(faces.tolist(), map(slice, first[:-1], first[1:])):
+        chord = tolerances.one(tolerances.chord, face)
+        if chord is None:
+            continue
+        allowed = _allowed(mesh, k1[here], k2[here], chord)
+        bent = np.isfinite(allowed) & (degenerate[here] == 0)
+        decided[here] = bent & ((a[here] + b[here] + c[here]) / 3.0 >= DECIDED * allowed)
+    chord_of = tolerances.at(tolerances.chord, mesh.face_ids[chosen[decided]])
+    used = fit.by_triangle[chosen[decided]] / chord_of
     return ChordUse(float(decided.mean()), float(np.median(used)) if len(used) else None)
 
 
-def _allowed(mesh: SurfaceMesh, face: int, uv: NDArray, chord: float) -> NDArray[np.float64]:
-    """Size (n,) that the curvature at uv (n, 2) of a face allows; infinite where it is flat."""
-    _, ru, rv, *second = mesh.surfaces[face].evaluate(uv, 2)
-    forms = forms_from_derivatives(ru, rv, *second)
-    k = curvatures(forms)
+def _allowed(mesh: SurfaceMesh, k1: NDArray, k2: NDArray, chord: float) -> NDArray[np.float64]:
+    """Size (n,) that principal curvatures allow; infinite where they are 0."""
     if mesh.sizing and mesh.sizing.is_anisotropic:
-        size = np.minimum(*principal_chord_sizes(k.k1, k.k2, chord, mesh.sizing.anisotropy))
-    elif mesh.sizing and mesh.sizing.is_curved:
-        size = quadratic_chord_size(k.k1, k.k2, chord)
-    else:
-        size = chord_size(k.k1, k.k2, chord)
-    return np.where(forms.degenerate | ~np.isfinite(size), np.inf, size)
+        return np.minimum(*principal_chord_sizes(k1, k2, chord, mesh.sizing.anisotropy))
+    if mesh.sizing and mesh.sizing.is_curved:
+        return quadratic_chord_size(k1, k2, chord)
+    return chord_size(k1, k2, chord)

@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from surfmesh._core.quality import sampled_surface, surface_points
+from surfmesh._core.quality import sampled_surface, surface_distances, surface_points
 from surfmesh._core.space import interpolate
 from surfmesh._core.surfaces import Surface as CoreSurface
 from surfmesh.geometry.core_surface import as_core_surface
@@ -102,6 +102,11 @@ class KnownSurfaces:
         return sampled_surface(
             *self.arrays, triangle.astype(np.int32, copy=False), rule, np.ascontiguousarray(weights)
         )
+
+    def surface_distances(self, weights: NDArray[np.float64]) -> NDArray[np.float64]:
+        """How far (m w,) points of the surfaces at barycentric weights (w, 3) over every triangle
+        are from it, triangle after triangle."""
+        return surface_distances(*self.arrays, weights)
 
     def points_at(self, faces: Rows, uv: NDArray[np.float64]) -> NDArray[np.float64]:
         """(k, 3) of the surfaces of ``faces`` (k,) at uv (k, 2)."""

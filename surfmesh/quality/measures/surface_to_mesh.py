@@ -13,6 +13,7 @@ farthest few among all. Between the points nothing is bounded.
 from __future__ import annotations
 
 from collections.abc import Iterator
+from dataclasses import dataclass
 from functools import cached_property
 from typing import NamedTuple
 
@@ -67,9 +68,7 @@ def surface_deviation(
     mesh = known.mesh
     search = _Search(known, fit, tolerances)
     count = len(mesh.triangles)
-    length = BLOCK // len(WITHIN)
-    for start in range(0, count, length):
-        search.look(*_over(np.arange(start, min(start + length, count), dtype=np.int32), WITHIN))
+    search.look_everywhere(WITHIN)
     # after these, which tell what is not worth a search along flat faces
     if search.curves is not None:
         _look_along_curves(search, search.curves, fit)
@@ -192,6 +191,47 @@ class _Candidate(NamedTuple):
     at_rim: bool
 
 
+@dataclass(frozen=True)
+class _Samples:
+    """Points of the surface."""
+
+    triangle: NDArray[np.int32]  # (k,) that each is over
+    distance: NDArray[np.float64]  # (k,) from it; lowered where another triangle is nearer
+    points: NDArray[np.float64]  # (k, 3)
+    uv: NDArray[np.float64]  # (k, 2)
+
+    def places(self, rows: NDArray[np.intp]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+        """Points (n, 3) and parameters (n, 2) of some of them."""
+        return self.points[rows], self.uv[rows]
+
+    def raise_to_largest(self, by_triangle: NDArray[np.float64]) -> None:
+        """Raise distances (m,) of all triangles to those of the samples."""
+        np.maximum.at(by_triangle, self.triangle, self.distance)
+
+
+@dataclass(frozen=True)
+class _SamplesAtWeights:
+    """The same, each point made where it is asked for."""
+
+    triangle: NDArray[np.int32]
+    distance: NDArray[np.float64]
+    known: KnownSurfaces
+    rule: NDArray[np.int32]  # (k,)
+    weights: NDArray[np.float64]  # barycentric, those of ``rule`` for each
+
+    def places(self, rows: NDArray[np.intp]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+        """Points (n, 3) and parameters (n, 2) of some of them."""
+        uv, points, _ = self.known.sampled(self.triangle[rows], self.rule[rows], self.weights)
+        return points, uv
+
+    def raise_to_largest(self, by_triangle: NDArray[np.float64]) -> None:
+        """Raise distances (m,) of all triangles to those of the samples, which follow each other
+        triangle by triangle."""
+        here = by_triangle[self.triangle[0] : self.triangle[-1] + 1]
+        for column in self.distance.reshape(len(here), -1).T:
+            np.maximum(here, column, out=here)
+
+
 class _Search:
     """The distances over each triangle, and the points that are farthest."""
 
@@ -215,42 +255,55 @@ class _Search:
         if not len(triangle):
             return
         uv, points, distance = self.known.sampled(triangle, rule, weights)
-        self._take(points, uv, triangle, distance, at_rim)
+        self._take(_Samples(triangle, distance, points, uv), at_rim)
+
+    def look_everywhere(self, weights: NDArray) -> None:
+        """At points over all triangles, at the same barycentric weights."""
+        distance = self.known.surface_distances(weights)
+        length = len(weights) * (BLOCK // len(weights))
+        for start in range(0, len(distance), length):
+            block = distance[start : start + length]
+            triangle, rule = np.divmod(
+                np.arange(start, start + len(block), dtype=np.int32), np.int32(len(weights))
+            )
+            self._take(_SamplesAtWeights(triangle, block, self.known, rule, weights), at_rim=False)
 
     def look_at(self, points: NDArray, uv: NDArray, triangle: NDArray, at_rim: bool) -> None:
         """At points (k, 3) of the surface, with parameters (k, 2) over triangles (k,)."""
         if len(triangle):
-            self._take(points, uv, triangle, self._stars.distances(points, triangle), at_rim)
+            distance = self._stars.distances(points, triangle)
+            self._take(_Samples(triangle, distance, points, uv), at_rim)
 
-    def _take(
-        self, points: NDArray, uv: NDArray, triangle: NDArray, distance: NDArray, at_rim: bool
-    ) -> None:
-        """Points (k, 3) at distances (k,) from triangles (k,): what they say of these."""
+    def _take(self, samples: _Samples | _SamplesAtWeights, at_rim: bool) -> None:
+        """What samples say of the triangles that they are over."""
+        triangle, distance = samples.triangle, samples.distance
         distance[~np.isfinite(distance)] = 0.0  # where a formula has no value
-        known = self._refine(points, uv, triangle, distance)
-        np.maximum.at(self.by_triangle, triangle, distance)
+        known = self._refine(samples)
+        samples.raise_to_largest(self.by_triangle)
         known = known[np.argsort(-distance[known], kind="stable")[:AMONG_ALL]]
+        points, uv = samples.places(known)
         self.found += [
-            _Candidate(float(distance[k]), points[k], uv[k], int(triangle[k]), at_rim)
-            for k in known.tolist()
+            _Candidate(float(distance[k]), points[row], uv[row], int(triangle[k]), at_rim)
+            for row, k in enumerate(known.tolist())
         ]
 
-    def _refine(
-        self, points: NDArray, uv: NDArray, triangle: NDArray, distance: NDArray
-    ) -> NDArray:
-        """Lower the distances (k,), of the own triangles, to those of the nearest ones: where
-        they are beyond the chord, and where one of them may be the largest. Returns which."""
+    def _refine(self, samples: _Samples | _SamplesAtWeights) -> NDArray:
+        """Lower the distances, of the own triangles, to those of the nearest ones: where they are
+        beyond the chord, and where one of them may be the largest. Returns which."""
+        triangle, distance = samples.triangle, samples.distance
         done, length = np.zeros(len(distance), bool), FIRST_FEW
-        beyond = distance > self.enough[triangle]
+        beyond = np.flatnonzero(distance > self.enough[triangle])
         while True:
-            open_ = np.flatnonzero(~done & (distance > self.largest))
+            open_ = np.flatnonzero(distance > self.largest)
+            open_ = open_[~done[open_]]
             if len(open_) > length:
                 most = len(open_) - length
                 open_ = open_[np.argpartition(distance[open_], most)[most:]]
-            some = np.union1d(open_, np.flatnonzero(beyond & ~done))
+            some = np.union1d(open_, beyond[~done[beyond]]) if len(beyond) else np.sort(open_)
             if not len(some):
                 return np.flatnonzero(done)
-            distance[some] = self._nearest(points[some], uv[some], triangle[some], distance[some])
+            points, uv = samples.places(some)
+            distance[some] = self._nearest(points, uv, triangle[some], distance[some])
             done[some] = True
             self.largest = max(self.largest, float(distance[some].max()))
             length *= 4

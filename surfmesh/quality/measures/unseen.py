@@ -6,6 +6,7 @@ nothing more than its samples have seen, or named with its place: a feature was 
 be excluded.
 """
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any, NamedTuple
@@ -50,9 +51,6 @@ NEAREST = 3
 LEVELS = 3
 """A triangle is cut in four so often before boxes are tried."""
 
-AT_ONCE, IN_PARTS = 2, 1
-"""What ``hidden_bounds`` says of triangles that hide nothing; 0 of the others."""
-
 NO_AREA = 1e-12
 """Of the square of its longest side: a triangle without a normal."""
 
@@ -95,10 +93,10 @@ def unseen(
         return None
     found: list[tuple[Rows, Pieces]] = []
     for face, surface in bounded:
-        triangles = np.flatnonzero(mesh.face_ids == face)
+        triangles = np.flatnonzero(mesh.face_ids == face).astype(np.int32)
         if len(triangles):
             found.append(_in_triangles(known, surface, triangles, fit, tolerances))
-            found.append(_along_rims(known, surface, triangles, fit, tolerances))
+            found.append(_along_rims(known, surface, face, fit, tolerances))
     triangle = np.concatenate([t for t, _ in found] or [np.empty(0, np.int64)])
     reached = np.concatenate([p.reached for _, p in found] or [np.empty(0)])
     possible = np.concatenate([p.possible for _, p in found] or [np.empty(0)])
@@ -127,42 +125,42 @@ def _place(
 
 
 def _in_triangles(
-    known: KnownSurfaces, surface: BoundedSurface, triangles: Rows, fit: Deviation,
+    known: KnownSurfaces, surface: BoundedSurface, triangles: NDArray[np.int32], fit: Deviation,
     tolerances: Tolerances,
 ) -> tuple[Rows, Pieces]:  # fmt: skip
-    mesh = known.mesh
-    normal, area, longest = triangle_planes(mesh.points, mesh.triangles, triangles.astype(np.int32))
-    some = area > NO_AREA * longest**2
-    if not some.all():
-        triangles, normal, longest = triangles[some], normal[some], longest[some]
-    uv, corner = known.uv(triangles), mesh.points[mesh.triangles[triangles, 0]]
-    seen = fit.by_triangle[triangles]
-    tolerance = SLACK * _expected(mesh, triangles, fit, tolerances, longest)
-    bounded = hidden_bounds(as_core_surface(surface), uv, corner, normal, tolerance, seen, LEVELS)
-    left = np.flatnonzero(bounded < AT_ONCE)
-    whole = _beside_poles(known, triangles[left]) if len(left) else np.empty(0, bool)
-    hard = np.flatnonzero(whole | (bounded[left] < IN_PARTS))
-    left, whole = left[hard], whole[hard]
+    _, points, corners, uv_points, uv_corners, _ = known.arrays
+    expected = _expected(
+        known.mesh, triangles, fit, tolerances, lambda: _longest(known.points(triangles))
+    )
+    whole = _beside_poles(known, triangles)
+    bounded = hidden_bounds(
+        as_core_surface(surface), points, corners, uv_points, uv_corners, triangles,
+        SLACK * expected, fit.by_triangle[triangles], whole.view(np.uint8), LEVELS,
+    )  # fmt: skip
+    left = np.flatnonzero(bounded == 0)
     triangles = triangles[left]
-    pieces = Pieces.of(uv[left], corner[left], normal[left, None], tolerance[left])
+    normal, _, _ = triangle_planes(points, corners, triangles)
+    pieces = Pieces.of(
+        known.uv(triangles), points[corners[triangles, 0]], normal[:, None], SLACK * expected[left]
+    )
     if len(left):
-        around = _Around(mesh, triangles)
-        budget = BOXES + BOXES_EACH * len(mesh.triangles)
-        search_triangles(surface, pieces, whole, around.deviation, budget)
+        around = _Around(known.mesh, triangles)
+        budget = BOXES + BOXES_EACH * len(corners)
+        search_triangles(surface, pieces, whole[left], around.deviation, budget)
         climb(surface, pieces, around.deviation)
     bad = pieces.is_open
     return triangles[bad], Pieces(*(getattr(pieces, name)[bad] for name in vars(pieces)))
 
 
 def _along_rims(
-    known: KnownSurfaces, surface: BoundedSurface, triangles: Rows, fit: Deviation,
+    known: KnownSurfaces, surface: BoundedSurface, face: int, fit: Deviation,
     tolerances: Tolerances,
 ) -> tuple[Rows, Pieces]:  # fmt: skip
     """Segments of the free rims: in its own plane a triangle's rim may swing out unseen."""
     mesh = known.mesh
-    half_edges = mesh.connectivity.half_edges[mesh.connectivity.uses == 1, 0].astype(np.int64)
-    half_edges = half_edges[np.isin(half_edges // 3, triangles)]
-    triangle, side = np.divmod(half_edges, 3)
+    triangle, side = np.divmod(mesh.connectivity.half_edges[mesh.connectivity.uses == 1, 0], 3)
+    here = mesh.face_ids[triangle] == face
+    triangle, side = triangle[here], side[here]
     corners, uv = known.points(triangle), known.uv(triangle)
     row = np.arange(len(side))
     ends = corners[row, side], corners[row, (side + 1) % 3]
@@ -181,8 +179,8 @@ def _along_rims(
         (point,) = surface.evaluate(uv[:, 0] + t * (uv[:, 1] - uv[:, 0]), 0)
         from_chord = np.einsum("idj,ij->id", normal, point - start)
         seen = np.maximum(seen, np.linalg.norm(from_chord, axis=1))
-    expected = SLACK * _expected(mesh, triangle, fit, tolerances, length[some])
-    pieces = Pieces.of(uv, start, normal, np.maximum(expected, RIM_SLACK * seen))
+    expected = _expected(mesh, triangle, fit, tolerances, lambda: length[some])
+    pieces = Pieces.of(uv, start, normal, np.maximum(SLACK * expected, RIM_SLACK * seen))
     if len(uv):
         search_rims(surface, pieces, BOXES + BOXES_EACH * len(uv))
     bad = pieces.is_open
@@ -190,12 +188,17 @@ def _along_rims(
 
 
 def _expected(
-    mesh: SurfaceMesh, triangles: NDArray, fit: Deviation, tolerances: Tolerances, length: NDArray
-) -> NDArray[np.float64]:
+    mesh: SurfaceMesh, triangles: Rows, fit: Deviation, tolerances: Tolerances,
+    longest: Callable[[], NDArray[np.float64]],
+) -> NDArray[np.float64]:  # fmt: skip
     """(k,) the distance that is asked for, or that the samples have seen if it is more."""
     chord = tolerances.at(tolerances.chord, mesh.face_ids[triangles])
+    asked = np.maximum(chord, fit.by_triangle[triangles])
+    if np.isfinite(asked).all():
+        return asked
+    length = longest()
     without = PLAINLY * np.clip(fit.largest, SLIGHT * length, FOLLOWED * length)
-    return np.where(np.isfinite(chord), np.maximum(chord, fit.by_triangle[triangles]), without)
+    return np.where(np.isfinite(chord), asked, without)
 
 
 def _longest(corners: NDArray) -> NDArray[np.float64]:
@@ -213,7 +216,9 @@ def _beside_poles(known: KnownSurfaces, triangles: Rows) -> NDArray[np.bool_]:
     else:
         pairs = np.unique(vertex.astype(np.int64) * len(vertex_of) + uv)
         images = np.bincount(pairs // len(vertex_of), minlength=len(mesh.points))
-    many = images[mesh.triangles[triangles]] > 4  # a corner of two seams has four
+    if images.max(initial=0) <= 4:  # a corner of two seams has four
+        return np.zeros(len(triangles), bool)
+    many = images[mesh.triangles[triangles]] > 4
     return np.any(many, axis=1)
 
 

@@ -22,30 +22,60 @@ def triangles_on(name, seed, count=300):
     some = length > 1e-12
     sides = np.linalg.norm(corners[some] - corners[some][:, [1, 2, 0]], axis=2).max(axis=1)
     tolerance = sides * 10.0 ** draw.uniform(-3.0, 0.0, len(sides))
-    return surface, uv[some], corners[some, 0], normal[some] / length[some, None], tolerance
+    pieces = Pieces.of(
+        uv[some], corners[some, 0], normal[some, None] / length[some, None, None], tolerance
+    )
+    return surface, corners[some], pieces
+
+
+def bounded_by_core(surface, corners, pieces, seen, whole=False):
+    """Of triangles that share no corner."""
+    rows = np.arange(3 * len(corners), dtype=np.int32).reshape(-1, 3)
+    return hidden_bounds(
+        surface.core, corners.reshape(-1, 3), rows, pieces.uv.reshape(-1, 2), rows,
+        np.arange(len(rows), dtype=np.int32), pieces.tolerance, seen,
+        np.full(len(rows), whole, np.uint8), slow.LEVELS,
+    )  # fmt: skip
 
 
 @pytest.mark.parametrize("name", ["torus", "wavy", "two_peaks", "bad_speed", "cone"])
 @pytest.mark.parametrize("seed", range(3))
 def test_bounds_are_those_of_the_twin(name, seed):
-    surface, uv, corner, normal, tolerance = triangles_on(name, seed)
-    seen = 0.3 * tolerance
-    found = hidden_bounds(surface.core, uv, corner, normal, tolerance, seen, slow.LEVELS)
-    pieces = Pieces.of(uv, corner, normal[:, None], tolerance)
+    surface, corners, pieces = triangles_on(name, seed)
+    seen = 0.3 * pieces.tolerance
     at_once = slow.bounded_at_once(surface, pieces, seen)
+    between = slow.bounded_between_samples(surface, pieces, seen)
     in_parts = slow.bounded_in_parts(surface, pieces)
-    assert ((found == 2) == at_once).all()
-    assert ((found == 1) == (in_parts & ~at_once)).all()
-    assert len(set(found.tolist())) > 1
+    expected = at_once | between | in_parts
+    assert (bounded_by_core(surface, corners, pieces, seen) == expected).all()
+    assert (bounded_by_core(surface, corners, pieces, seen, whole=True) == at_once).all()
+    assert len(set(expected.tolist())) > 1
 
 
 def test_what_is_bounded_is_within_the_tolerance():
-    surface, uv, corner, normal, tolerance = triangles_on("wavy", 7)
-    found = hidden_bounds(surface.core, uv, corner, normal, tolerance, np.zeros(len(uv)), 3)
+    surface, corners, pieces = triangles_on("wavy", 7)
+    bounds = pieces.tolerance.copy()
     weights = np.random.default_rng(0).dirichlet(np.ones(3), 200)
-    for k in np.flatnonzero(found == 1):
-        points = surface.evaluate(weights @ uv[k], 0)[0]
-        assert np.abs((points - corner[k]) @ normal[k]).max() <= tolerance[k] * (1 + 1e-9)
+    samples = np.array([(3, 0, 0), (0, 3, 0), (0, 0, 3), (1.5, 1.5, 0), (0, 1.5, 1.5),
+                        (1.5, 0, 1.5), (1, 1, 1)]) / 3.0  # fmt: skip
+
+    def farthest(k, places):
+        points = surface.evaluate(places @ pieces.uv[k], 0)[0]
+        return np.abs((points - pieces.corner[k]) @ pieces.normal[k, 0]).max()
+
+    seen = np.array([farthest(k, samples) for k in range(len(corners))])
+    found = bounded_by_core(surface, corners, pieces, seen)
+    assert 0 < np.count_nonzero(found) < len(found)
+    for k in np.flatnonzero(found):
+        assert farthest(k, weights) <= bounds[k] * (1 + 1e-9)
+
+
+def test_without_area_nothing_hides():
+    surface, corners, pieces = triangles_on("wavy", 1, count=3)
+    corners[0] = corners[0, 0]
+    pieces.tolerance[:] = 0.0
+    found = bounded_by_core(surface, corners, pieces, np.ones(len(corners)))
+    assert found.tolist() == [1, *[0] * (len(corners) - 1)]
 
 
 def test_without_bounds_nothing_is_bounded():
@@ -57,14 +87,18 @@ def test_without_bounds_nothing_is_bounded():
 
     from surfmesh.geometry.core_surface import as_core_surface
 
-    one = np.ones(1)
-    given = np.eye(3)[None, :, :2].copy(), np.zeros((1, 3)), np.eye(3)[2:], one, one
-    assert hidden_bounds(as_core_surface(Plain()), *given, 3).tolist() == [0]
+    surface, one, row = as_core_surface(Plain()), np.ones(1), np.zeros(1, np.int32)
+    corners = np.arange(3, dtype=np.int32)[None]
+    mesh = np.eye(3), corners, np.eye(3)[:, :2].copy(), corners
+    none = np.zeros(1, np.uint8)
+    assert hidden_bounds(surface, *mesh, row, one, one, none, 3).tolist() == [0]
     for wrong in (one[:0], np.ones(2)):
         with pytest.raises(ValueError):
-            hidden_bounds(as_core_surface(Plain()), *given[:-1], wrong, 3)
+            hidden_bounds(surface, *mesh, row, one, wrong, none, 3)
     with pytest.raises(ValueError):
-        hidden_bounds(as_core_surface(Plain()), *given, 99)
+        hidden_bounds(surface, *mesh, row, one, one, none, 99)
+    with pytest.raises(ValueError):
+        hidden_bounds(surface, *mesh, row + 1, one, one, none, 3)
 
 
 @pytest.mark.parametrize("name", ["torus", "wavy"])
@@ -76,9 +110,11 @@ def test_neighbours_looked_at_together_are_bounded_as_one_by_one(name):
     normal /= np.linalg.norm(normal, axis=1)[:, None]
     tolerance = np.full(len(uv), 0.026) * np.random.default_rng(0).choice([1.0, 0.3], len(uv))
     seen = 0.3 * tolerance
-    corner = corners[:, 0].copy()
-    found = hidden_bounds(mesh.surfaces[0].core, uv, corner, normal, tolerance, seen, 3)
-    pieces = Pieces.of(uv, corner, normal[:, None], tolerance)
-    at_once = slow.bounded_at_once(mesh.surfaces[0], pieces, seen)
-    assert ((found == 2) == at_once).all()
+    pieces = Pieces.of(uv, corners[:, 0], normal[:, None], tolerance)
+    surface = mesh.surfaces[0]
+    at_once = slow.bounded_at_once(surface, pieces, seen)
+    assert (bounded_by_core(surface, corners, pieces, seen, whole=True) == at_once).all()
     assert at_once.any() and not at_once.all()
+    expected = at_once | slow.bounded_between_samples(surface, pieces, seen)
+    expected |= slow.bounded_in_parts(surface, pieces)
+    assert (bounded_by_core(surface, corners, pieces, seen) == expected).all()

@@ -10,6 +10,7 @@ from surfmesh._core.quality import (
     explained_losses,
     face_creases,
     sampled_surface,
+    surface_distances,
 )
 
 WEIGHTS = np.array([(0.5, 0.25, 0.25), (1.0, 0.0, 0.0)])
@@ -42,6 +43,13 @@ def test_samples_are_points_of_the_surface_and_their_distances(torus):
     slow = triangle_distances(points, torus.points[torus.triangles[triangle]])
     assert distance == pytest.approx(slow, abs=1e-12)
     assert distance[rule == 1].max() < 1e-12 < 1e-4 < distance[rule == 0].max()
+
+
+def test_distances_over_every_triangle_are_those_of_samples(torus):
+    count = len(torus.triangles)
+    triangle, rule = np.divmod(np.arange(2 * count, dtype=np.int32), np.int32(2))
+    _, _, expected = sampled_surface(**arrays(torus), triangle=triangle, rule=rule, weights=WEIGHTS)
+    assert (surface_distances(**arrays(torus), weights=WEIGHTS) == expected).all()
 
 
 def test_a_torus_has_no_crease_where_triangles_turn(torus):
@@ -78,6 +86,8 @@ def test_what_is_out_of_range_is_refused(torus):
             sampled_surface(**wrong, triangle=triangle, rule=triangle, weights=WEIGHTS)
         with pytest.raises(ValueError):
             face_creases(**wrong, edges=pairs, angle=np.ones(1))
+        with pytest.raises(ValueError):
+            surface_distances(**wrong, weights=WEIGHTS)
     for bad in (-1, len(right["triangles"])):
         with pytest.raises(ValueError):
             sampled_surface(**right, triangle=triangle + bad, rule=triangle, weights=WEIGHTS)
