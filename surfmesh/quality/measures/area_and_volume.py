@@ -42,18 +42,17 @@ def explained(
 ) -> Explained:
     """area: (m,) of the triangles; by_triangle: (m,) their distances from the surface."""
     lost, volume = quality.explained_losses(mesh.points, mesh.triangles, area, by_triangle, SLANT)
-    lost = np.minimum(lost + area * by_triangle * _bends(mesh), area)
+    if mesh.mid_points is not None:
+        lost = np.minimum(lost + area * by_triangle * _bends(mesh, mesh.mid_points), area)
     return Explained(lost, _along_rims(mesh, by_triangle), volume)
 
 
-def _bends(mesh: SurfaceMesh) -> NDArray[np.float64] | float:
+def _bends(mesh: SurfaceMesh, mid_points: NDArray[np.float64]) -> NDArray[np.float64]:
     """(m,) twice the largest curvature of the sides of quadratic triangles: a surface at a distance
-    has so much more area or less; straight ones have none."""
-    if mesh.mid_points is None:
-        return 0.0
+    has so much more area or less."""
     ends = mesh.points[mesh.edges]
     squared = ((ends[:, 1] - ends[:, 0]) ** 2).sum(axis=1)
-    bend = np.linalg.norm(mesh.mid_points - ends.mean(axis=1), axis=1)
+    bend = np.linalg.norm(mid_points - ends.mean(axis=1), axis=1)
     bent = 16.0 * bend / np.maximum(squared, np.finfo(float).tiny)
     return bent[mesh.elements[:, 3:] - len(mesh.points)].max(axis=1)
 

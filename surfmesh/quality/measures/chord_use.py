@@ -5,11 +5,10 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from surfmesh.geometry.differential.fundamental_forms import curvatures, forms_from_derivatives
+from surfmesh._core.edges import curvatures_at
 from surfmesh.quality.measures.deviation import Deviation
 from surfmesh.quality.measures.known_surfaces import KnownSurfaces
 from surfmesh.quality.measures.tolerances import Tolerances
-from surfmesh.result.surface_mesh import SurfaceMesh
 from surfmesh.sizing.rules.curvature_size import (
     chord_size,
     principal_chord_sizes,
@@ -42,25 +41,32 @@ def chord_use(known: KnownSurfaces, fit: Deviation, tolerances: Tolerances) -> C
     target = mesh.sizes[mesh.triangles[chosen]].mean(axis=1)
     decided = np.zeros(len(chosen), bool)
     faces = mesh.face_ids[chosen]
-    for face in np.unique(faces):
-        here = np.flatnonzero(faces == face)
-        uv = known.middle_uv(chosen[here])
-        chord = tolerances.one(tolerances.chord, int(face))
-        if chord is not None:
-            decided[here] = target[here] >= DECIDED * _allowed(mesh, int(face), uv, chord)
-    used = fit.by_triangle[chosen[decided]] / tolerances.at(tolerances.chord, faces[decided])
+    chord = tolerances.at(tolerances.chord, faces)
+    here = np.flatnonzero((known.in_plane[chosen] == 0) & (chord > 0.0) & np.isfinite(chord))
+    here = here[np.argsort(faces[here], kind="stable")]
+    if len(here):
+        decided[here] = target[here] >= DECIDED * _allowed(known, chosen[here], chord[here])
+    used = fit.by_triangle[chosen[decided]] / chord[decided]
     return ChordUse(float(decided.mean()), float(np.median(used)) if len(used) else None)
 
 
-def _allowed(mesh: SurfaceMesh, face: int, uv: NDArray, chord: float) -> NDArray[np.float64]:
-    """Size (n,) that the curvature at uv (n, 2) of a face allows; infinite where it is flat."""
-    _, ru, rv, *second = mesh.surfaces[face].evaluate(uv, 2)
-    forms = forms_from_derivatives(ru, rv, *second)
-    k = curvatures(forms)
-    if mesh.sizing and mesh.sizing.is_anisotropic:
-        size = np.minimum(*principal_chord_sizes(k.k1, k.k2, chord, mesh.sizing.anisotropy))
-    elif mesh.sizing and mesh.sizing.is_curved:
-        size = quadratic_chord_size(k.k1, k.k2, chord)
+def _allowed(
+    known: KnownSurfaces, triangles: NDArray[np.intp], chord: NDArray[np.float64]
+) -> NDArray[np.float64]:
+    """Size (n,) that the curvature at the middles of triangles (n,), face by face, allows for
+    ``chord`` (n,); infinite where it is flat."""
+    sizing = known.mesh.sizing
+    faces, first = np.unique(known.mesh.face_ids[triangles], return_index=True)
+    surfaces = [known.core_surfaces[face] for face in faces.tolist()]
+    ends = np.append(first, len(triangles)).astype(np.int64)
+    k1, k2, degenerate = curvatures_at(known.middle_uv(triangles), ends, surfaces)
+    if sizing and sizing.is_anisotropic:
+        size = np.minimum(*principal_chord_sizes(k1, k2, chord, sizing.anisotropy))
+    elif sizing and sizing.is_curved:
+        size = np.empty(len(chord))
+        for one in np.unique(chord).tolist():
+            some = chord == one
+            size[some] = quadratic_chord_size(k1[some], k2[some], one)
     else:
-        size = chord_size(k.k1, k.k2, chord)
-    return np.where(forms.degenerate | ~np.isfinite(size), np.inf, size)
+        size = chord_size(k1, k2, chord)
+    return np.where(degenerate.view(bool) | ~np.isfinite(size), np.inf, size)

@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from surfmesh._core.quality import sampled_surface, surface_points
+from surfmesh._core.quality import plane_triangles, sampled_surface, surface_points
 from surfmesh._core.space import interpolate
 from surfmesh._core.surfaces import Surface as CoreSurface
 from surfmesh.geometry.core_surface import as_core_surface
@@ -93,6 +93,12 @@ class KnownSurfaces:
             self.core_surfaces, mesh.points, mesh.triangles, corners.uv_points,
             corners.uv_triangles, mesh.face_ids,
         )  # fmt: skip
+
+    @cached_property
+    def in_plane(self) -> NDArray[np.uint8]:
+        """(m,) 1 for the triangles of planes whose corners are r(u, v) to rounding: between them
+        there is nothing to be seen."""
+        return plane_triangles(*self.arrays)
 
     def sampled(
         self, triangle: Rows, rule: NDArray[np.int32], weights: NDArray[np.float64]

@@ -20,8 +20,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from surfmesh._core.edges import CurvePieces
-from surfmesh._core.quality import TriangleStars
-from surfmesh._core.space import triangle_distances
+from surfmesh._core.quality import TriangleStars, segment_samples
 from surfmesh.cad.model.cad_model import CadEdge
 from surfmesh.geometry.differential.projection import closest_point
 from surfmesh.quality.measures.deviation import Deviation
@@ -67,9 +66,9 @@ def surface_deviation(
     mesh = known.mesh
     search = _Search(known, fit, tolerances)
     count = len(mesh.triangles)
-    length = BLOCK // len(WITHIN)
-    for start in range(0, count, length):
-        search.look(*_over(np.arange(start, min(start + length, count), dtype=np.int32), WITHIN))
+    curved = np.flatnonzero(known.in_plane == 0).astype(np.int32)  # elsewhere corners say all
+    for block in _blocks(curved, BLOCK // len(WITHIN)):
+        search.look(*_over(block, WITHIN))
     # after these, which tell what is not worth a search along flat faces
     if search.curves is not None:
         _look_along_curves(search, search.curves, fit)
@@ -78,7 +77,7 @@ def surface_deviation(
     worth = np.maximum(fit.by_triangle, search.by_triangle)
     chosen = min(count, max(SECOND_LOOK, count // 250))
     worst = largest(worth, chosen).astype(np.int32)
-    search.look(*_over(worst, CLOSELY))
+    search.look(*_over(worst[known.in_plane[worst] == 0], CLOSELY))
     return search.result()
 
 
@@ -124,24 +123,30 @@ class _Curves(NamedTuple):
             return None
         return cls(links.edge_segments, links.edge_ids, links.edge_parameters, links.edge_curves)
 
-    def points(
-        self, segments: NDArray[np.intp], t: NDArray[np.float64]
-    ) -> tuple[NDArray[np.float64], NDArray[np.bool_]]:
-        """(k, j, 3) at ``t`` (j,) of segments (k,), those of one edge one after the other; and
-        which (k,) have a curve at all."""
-        numbers = self.ids[segments]
+    def between(
+        self, segments: NDArray[np.intp], t: NDArray[np.float64], nodes: NDArray[np.float64]
+    ) -> tuple[NDArray[np.intp], NDArray[np.float64]]:
+        """Those of segments (k,) that may lie off their curves, and points (g j, 3) of these at
+        ``t`` (j,); nodes: (n, 3) of the mesh."""
         curves = [None if edge.curve is None else edge.curve.core for edge in self.edges]
-        known = np.array([*(curve is not None for curve in curves), False])
-        there = known[np.minimum(numbers, len(curves))]
-        start, end = self.ends[segments[there]].T[:, :, None]
-        which, count = np.unique(numbers[there], return_counts=True)
         limits = np.array([(edge.t0, edge.t1) for edge in self.edges], float).reshape(-1, 2)
-        pieces = CurvePieces(curves, *np.ascontiguousarray(limits.T))
-        first = np.cumsum([0, *(count * len(t))])
-        found = np.zeros((len(segments), len(t), 3))
-        places = pieces.points(which.astype(np.int64), first, (start + t * (end - start)).ravel())
-        found[there] = places.reshape(-1, len(t), 3)
-        return found, there
+        numbers = self.ids[segments]
+        there = segments[(numbers >= 0) & (numbers < len(curves))]
+        found, points = segment_samples(
+            curves, limits, self.ids[there], self.ends[there], self.segments[there], nodes, t,
+            ON_CURVE,
+        )  # fmt: skip
+        return there[found], points
+
+    def along(self, segment: int, t: NDArray[np.float64]) -> NDArray[np.float64] | None:
+        """(j, 3) at ``t`` (j,) of one segment; None where its edge has no curve."""
+        edge = self.edges[self.ids[segment]] if self.ids[segment] < len(self.edges) else None
+        if edge is None or edge.curve is None:
+            return None
+        start, end = self.ends[segment]
+        pieces = CurvePieces([edge.curve.core], np.array([edge.t0]), np.array([edge.t1]))
+        whole = np.array([0, len(t)])
+        return pieces.points(np.zeros(1, np.int64), whole, start + t * (end - start))
 
 
 def _look_along_curves(search: _Search, curves: _Curves, fit: Deviation) -> None:
@@ -157,21 +162,12 @@ def _look_along_curves(search: _Search, curves: _Curves, fit: Deviation) -> None
     free = second < 0
     farther = ~free & (fit.by_triangle[second] > fit.by_triangle[first])
     over = np.where(farther, second, first)
-    t = np.concatenate([[0.0], ALONG_RIM, [1.0]])
-    known_rows = np.flatnonzero(rows >= 0)
-    by_edge = known_rows[np.argsort(curves.ids[known_rows], kind="stable")]
-    points, there = curves.points(by_edge, t)
-    nodes = mesh.points[curves.segments[by_edge]]
-    length = np.linalg.norm(nodes[:, 1] - nodes[:, 0], axis=1)
-    from_curve = np.maximum(
-        *(np.linalg.norm(points[:, end] - nodes[:, end], axis=1) for end in (0, -1))
-    )
-    good = np.flatnonzero(there & (from_curve <= ON_CURVE * length))
-    between, segment = points[good, 1:-1], by_edge[good]
+    looked_at, between = curves.between(np.flatnonzero(rows >= 0), ALONG_RIM, mesh.points)
+    between = between.reshape(-1, len(ALONG_RIM), 3)
     for at_rim in (True, False):
-        some = np.flatnonzero(free[segment] == at_rim)
+        some = np.flatnonzero(free[looked_at] == at_rim)
         for block in _blocks(some, BLOCK // len(ALONG_RIM)):
-            beside = over[segment[block]]
+            beside = over[looked_at[block]]
             uv = np.repeat(known.middle_uv(beside), len(ALONG_RIM), axis=0)  # about there
             triangle = np.repeat(beside, len(ALONG_RIM))
             search.look_at(between[block].reshape(-1, 3), uv, triangle, at_rim)
@@ -320,7 +316,7 @@ class _Search:
         t = np.linspace(0.0, 1.0, ALONG)
         for k in range(3):
             segment = self._segments.get(frozenset((corners[k], corners[(k + 1) % 3])))
-            points = None if segment is None else curves.points(np.array([segment]), t)
+            points = None if segment is None else curves.along(segment, t)
             if segment is None or points is None:
                 continue
             ends = places[[k, (k + 1) % 3]]
@@ -328,7 +324,7 @@ class _Search:
                 ends = ends[::-1]
             guess = ends[0] + t[:, None] * (ends[1] - ends[0])
             surface = mesh.surfaces[mesh.face_ids[triangle]]
-            line = closest_point(surface, points[0], guess, PROJECTIONS)[0]
+            line = closest_point(surface, points, guess, PROJECTIONS)[0]
             line[0], line[-1] = ends
             if _crossings(places[(k + 2) % 3], uv, line) % 2:
                 return True
@@ -343,19 +339,7 @@ class _Search:
 
     def _among_all(self, point: NDArray, distance: float) -> float:
         """Of a point (3,) from the whole mesh, known to be no more than ``distance``."""
-        centre, radius = self._balls
-        near = np.linalg.norm(centre - point, axis=1) - radius < distance
-        corners = self.mesh.points[self.mesh.triangles[near]]
-        if not len(corners):
-            return distance
-        return min(distance, float(triangle_distances(point[None], corners).min()))
-
-    @cached_property
-    def _balls(self) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-        """Centroids (m, 3) of the triangles, and balls (m,) about them that hold the corners."""
-        corners = self.mesh.points[self.mesh.triangles]
-        centre = corners.mean(axis=1)
-        return centre, np.linalg.norm(corners - centre[:, None], axis=2).max(axis=1)
+        return self._stars.distance_from_all(tuple(point.tolist()), distance)
 
 
 def _crossings(start: NDArray, end: NDArray, line: NDArray) -> int:
