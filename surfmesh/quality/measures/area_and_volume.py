@@ -81,16 +81,14 @@ def _along_rims(mesh: SurfaceMesh, by_triangle: NDArray[np.float64]) -> NDArray[
 def _all_half_edges(
     mesh: SurfaceMesh, edges: NDArray[np.intp]
 ) -> tuple[NDArray[np.int64], NDArray[np.intp]]:
-    """All half-edges along some edges, in their order, and the places of these in ``edges``."""
+    """All half-edges along some edges, and the places of these in ``edges``."""
     table = mesh.connectivity
     crowded = np.flatnonzero(table.uses[edges] > 2)
     more, row = half_edges_along(mesh, mesh.edges[edges[crowded]])
     pairs = table.half_edges[edges].astype(np.int64)
     pairs[crowded] = -1
     place, side = np.nonzero(pairs >= 0)
-    half_edges = np.concatenate([pairs[place, side], more])
-    order = np.argsort(half_edges)
-    return half_edges[order], np.concatenate([place, crowded[row]])[order]
+    return np.concatenate([pairs[place, side], more]), np.concatenate([place, crowded[row]])
 
 
 def _rim_sagittas(mesh: SurfaceMesh, rim: NDArray[np.bool_]) -> NDArray[np.float64]:

@@ -237,13 +237,15 @@ class _Search:
         """Lower the distances (k,), of the own triangles, to those of the nearest ones: where
         they are beyond the chord, and where one of them may be the largest. Returns which."""
         done, length = np.zeros(len(distance), bool), FIRST_FEW
-        beyond = distance > self.enough[triangle]
+        beyond = np.flatnonzero(distance > self.enough[triangle])
         while True:
-            open_ = np.flatnonzero(~done & (distance > self.largest))
-            if len(open_) > length:
-                most = len(open_) - length
-                open_ = open_[np.argpartition(distance[open_], most)[most:]]
-            some = np.union1d(open_, np.flatnonzero(beyond & ~done))
+            some = np.flatnonzero(~done & (distance > self.largest))
+            if len(some) > length:
+                most = len(some) - length
+                some = np.sort(some[np.argpartition(distance[some], most)[most:]])
+            if len(beyond):  # all of them at once
+                some = np.union1d(some, beyond)
+                beyond = beyond[:0]
             if not len(some):
                 return np.flatnonzero(done)
             distance[some] = self._nearest(points[some], uv[some], triangle[some], distance[some])
