@@ -1,7 +1,7 @@
 """How far the mesh lies from the true surface, and which triangles face the wrong way.
 
 Samples are the vertices, the middles of the edges and the centroids, in one call of the core for
-all faces (``src/measures/mesh_deviation.hpp``). At each, the distance is to the nearest point of
+all faces (``src/quality/mesh_deviation.hpp``). At each, the distance is to the nearest point of
 the surface, not to the image r(u, v) of the interpolated parameters. The worst triangles are then
 sampled densely.
 """
