@@ -8,6 +8,14 @@
 
 namespace surfmesh {
 
+/// Sine and cosine of an angle, times the same positive number.
+struct DihedralTurn {
+    double across, along;
+};
+
+/// From the normal of a-b-c to that of b-a-d; none where one has no area.
+DihedralTurn dihedral_turn(Point3 a, Point3 b, Point3 c, Point3 d);
+
 /// Radians between the normals of a-b-c and b-a-d; 0 where one has no area.
 double dihedral_angle(Point3 a, Point3 b, Point3 c, Point3 d);
 

@@ -14,6 +14,7 @@
 #include "quality/hidden_bounds.hpp"
 #include "quality/mesh_arguments.hpp"
 #include "quality/mesh_deviation.hpp"
+#include "quality/plane_triangles.hpp"
 #include "quality/sampled_surface.hpp"
 #include "quality/solid_counts.hpp"
 #include "quality/surface_points.hpp"
@@ -23,6 +24,7 @@
 namespace surfmesh::binding {
 
 void bind_least_triangles(nb::module_& m);
+void bind_segments(nb::module_& m);
 
 template <>
 struct Row<float> : RowOf<float, 1> {};
@@ -73,51 +75,52 @@ void bind_mesh_deviation(nb::module_& m) {
         "mesh_deviation",
         [](const nb::list& surfaces, const Points3& points, const Triangles& triangles,
            const Points2& uv, const Triangles& uv_triangles, const Numbers& faces,
-           const Matrix<std::int32_t, 2>& edges, const Vector<double>& area) {
+           const Matrix<std::int32_t, 2>& edges, const Vector<double>& area,
+           const Vector<std::uint8_t>& in_plane) {
             const std::vector<const Surface*> all = surfaces_of(surfaces);
             const MeasuredMesh mesh =
                 measured_mesh(all, points, triangles, uv, uv_triangles, faces);
             require_mesh(mesh);
             require_rows(area.shape(0), mesh.triangles.size(), "area");
+            require_rows(in_plane.shape(0), mesh.triangles.size(), "in_plane");
             const std::span<const EdgeSides> sides = sides_of(edges, mesh.triangles.size());
             MeshDeviation found;
             {
                 const nb::gil_scoped_release released;
-                found = mesh_deviation(mesh, sides, rows<double>(area));
+                found =
+                    mesh_deviation(mesh, sides, rows<double>(area), rows<std::uint8_t>(in_plane));
             }
             if (found.failed >= 0) raise_failure(*all[found.failed], SurfaceStatus::FAILED);
             return std::tuple(view(found.largest), view(found.mean_square), view(found.cosine));
         },
         nb::arg("surfaces"), nb::arg("points"), nb::arg("triangles"), nb::arg("uv"),
         nb::arg("uv_triangles"), nb::arg("faces"), nb::arg("edges"), nb::arg("area"),
+        nb::arg("in_plane"),
         "Of triangles (m, 3) with uv_triangles (m, 3), rows of points (n, 3) and uv (q, 2), on "
         "the surfaces of faces (m,): the largest distance (m,) at vertices, middles and centroid, "
         "the mean of its square (m,), the cosine (m,) between the normals, 1 where one is missing."
-        "\n\nedges (k, 2): half-edges and those that share what is found, or -1; area (m,).");
-}
-
-void bind_surface_distances(nb::module_& m) {
+        "\n\nedges (k, 2): half-edges and those that share what is found, or -1; area (m,); "
+        "in_plane (m,): as ``plane_triangles`` has it.");
     m.def(
-        "surface_distances",
+        "plane_triangles",
         [](const nb::list& surfaces, const Points3& points, const Triangles& triangles,
-           const Points2& uv, const Triangles& uv_triangles, const Numbers& faces,
-           const Matrix<double, 3>& weights) {
+           const Points2& uv, const Triangles& uv_triangles, const Numbers& faces) {
             const std::vector<const Surface*> all = surfaces_of(surfaces);
             const MeasuredMesh mesh =
                 measured_mesh(all, points, triangles, uv, uv_triangles, faces);
             require_mesh(mesh);
-            SurfaceDistances found;
+            Array<std::uint8_t> found;
             {
                 const nb::gil_scoped_release released;
-                found = surface_distances(mesh, rows<Weights>(weights));
+                found = plane_triangles(mesh);
             }
-            if (found.failed >= 0) raise_failure(*all[found.failed], SurfaceStatus::FAILED);
-            return view(found.distance);
+            return view(found);
         },
         nb::arg("surfaces"), nb::arg("points"), nb::arg("triangles"), nb::arg("uv"),
-        nb::arg("uv_triangles"), nb::arg("faces"), nb::arg("weights"),
-        "How far (m w,) points of the surfaces at barycentric weights (w, 3) over every triangle "
-        "are from it, triangle after triangle.\n\nThe mesh is as ``mesh_deviation`` takes it.");
+        nb::arg("uv_triangles"), nb::arg("faces"),
+        "1 for each triangle (m,) of a plane whose corners are r(u, v) to a billionth of its size: "
+        "over it no point is farther from the plane, nor the plane from it; else 0.\n\nThe mesh "
+        "is as for ``mesh_deviation``.");
 }
 
 /// The triangles (k,) of a mesh are numbers of rows, and their rows are in range.
@@ -132,6 +135,32 @@ void require_triangles(const MeasuredMesh& mesh, std::span<const std::int32_t> t
         require_corners_of(mesh.uv_triangles[t], mesh.uv.size(), "uv_triangles");
         require_indices(mesh.faces.subspan(t, 1), mesh.surfaces.size(), "faces");
     }
+}
+
+void bind_surface_distances(nb::module_& m) {
+    m.def(
+        "surface_distances",
+        [](const nb::list& surfaces, const Points3& points, const Triangles& triangles,
+           const Points2& uv, const Triangles& uv_triangles, const Numbers& faces,
+           const Numbers& triangle, const Matrix<double, 3>& weights) {
+            const std::vector<const Surface*> all = surfaces_of(surfaces);
+            const MeasuredMesh mesh =
+                measured_mesh(all, points, triangles, uv, uv_triangles, faces);
+            require_mesh(mesh);
+            const std::span<const std::int32_t> chosen = rows<std::int32_t>(triangle);
+            require_triangles(mesh, chosen);
+            SurfaceDistances found;
+            {
+                const nb::gil_scoped_release released;
+                found = surface_distances(mesh, chosen, rows<Weights>(weights));
+            }
+            if (found.failed >= 0) raise_failure(*all[found.failed], SurfaceStatus::FAILED);
+            return view(found.distance);
+        },
+        nb::arg("surfaces"), nb::arg("points"), nb::arg("triangles"), nb::arg("uv"),
+        nb::arg("uv_triangles"), nb::arg("faces"), nb::arg("triangle"), nb::arg("weights"),
+        "How far (k w,) points of the surfaces at barycentric weights (w, 3) over triangles (k,) "
+        "are from them, triangle after triangle.\n\nThe mesh is as ``mesh_deviation`` takes it.");
 }
 
 void bind_samples(nb::module_& m) {
@@ -261,6 +290,14 @@ void bind_stars(nb::module_& m) {
             nb::arg("places"), nb::arg("triangle"), nb::arg("distance"),
             "The least of the distances (k,) known of places (k, 3) and those from the triangles "
             "that are met from triangle (k,) on, from neighbour to nearer neighbour.")
+        .def(
+            "distance_from_all",
+            [](const TriangleStars& stars, const std::array<double, 3>& place, double distance) {
+                const nb::gil_scoped_release released;
+                return stars.from_all({place[0], place[1], place[2]}, distance);
+            },
+            nb::arg("place"), nb::arg("distance"),
+            "The less of the distance known of a place and that from all triangles.")
         .def(
             "distances_from_stars",
             [](const TriangleStars& stars, const Points3& places,
@@ -397,6 +434,7 @@ void bind_quality(nb::module_& m) {
     bind_least_triangles(m);
     bind_surface_distances(m);
     bind_samples(m);
+    bind_segments(m);
     bind_dense_deviation(m);
     bind_creases(m);
     bind_stars(m);

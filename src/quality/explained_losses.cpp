@@ -1,6 +1,6 @@
 #include "quality/explained_losses.hpp"
 
-#include <algorithm>
+#include <cmath>
 #include <limits>
 
 namespace surfmesh {
@@ -21,7 +21,9 @@ ExplainedLosses explained_losses(std::span<const Point3> points,
     for (std::size_t k = 0; k < triangles.size(); ++k) {
         const TriangleCorners& t = triangles[k];
         const Point3 a = points[t.a], b = points[t.b], c = points[t.c];
-        const double longest = larger_of(larger_of(norm(a - b), norm(b - c)), norm(c - a));
+        const Point3 ab = b - a, bc = c - b, ca = a - c;
+        const double longest =
+            std::sqrt(larger_of(larger_of(dot(ab, ab), dot(bc, bc)), dot(ca, ca)));
         const double height = 2.0 * area[k] / larger_of(longest, TINY);
         const double ratio = distance[k] / larger_of(height, TINY),
                      square = slant * (ratio * ratio);

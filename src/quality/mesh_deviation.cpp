@@ -7,6 +7,7 @@
 #include "patch/deviation.hpp"
 #include "patch/samples.hpp"
 #include "quality/by_face.hpp"
+#include "quality/plane_triangles.hpp"
 #include "surfaces/closest_point.hpp"
 #include "values/conventions.hpp"
 
@@ -110,11 +111,28 @@ void in_blocks(std::span<const std::int32_t> members, const Work& work) {
         work(members.subspan(k, std::min(BLOCK, members.size() - k)));
 }
 
+/// Of points above a plane.
+class HeightAbove {
+  public:
+    explicit HeightAbove(const Frame& plane)
+        : origin_(plane.origin), normal_(cross(plane.x, plane.y)) {}
+
+    [[nodiscard]] Point3 normal() const { return normal_; }
+    double operator()(Point3 point) const { return dot(point - origin_, normal_); }
+
+  private:
+    Point3 origin_, normal_;
+};
+
 class Measure {
   public:
     Measure(const MeasuredMesh& mesh, std::span<const EdgeSides> edges,
-            std::span<const double> area)
-        : mesh_(mesh), edges_(edges), area_(area), at_vertex_(mesh.points.size(), 0.0) {
+            std::span<const double> area, std::span<const std::uint8_t> in_plane)
+        : mesh_(mesh),
+          edges_(edges),
+          area_(area),
+          in_plane_(in_plane),
+          at_vertex_(mesh.points.size(), 0.0) {
         found_.largest.resize(mesh.triangles.size(), 0.0);
         found_.mean_square.resize(mesh.triangles.size(), 0.0);
         found_.cosine.resize(mesh.triangles.size(), 1.0F);
@@ -133,8 +151,14 @@ class Measure {
         for (std::size_t face = 0; face < faces; ++face) {
             SurfaceReader surface(*mesh_.surfaces[face]);
             at_vertices(surface, corners, vertices.of(face));
-            at_middles(surface, middles.of(face));
-            at_centroids(surface, triangles.of(face));
+            if (const Frame* plane = plane_of(*mesh_.surfaces[face])) {
+                const HeightAbove height(*plane);
+                at_middles(surface, middles_in_plane(height, middles.of(face)));
+                at_centroids(surface, centroids_in_plane(height, triangles.of(face)));
+            } else {
+                at_middles(surface, middles.of(face));
+                at_centroids(surface, triangles.of(face));
+            }
             if (!surface.failed()) continue;
             found_.failed = static_cast<std::int32_t>(face);
             return std::move(found_);
@@ -188,11 +212,8 @@ class Measure {
                 places_.area[j] = area_[t];
             }
             measure(surface);
-            for (std::size_t j = 0; j < some.size(); ++j) {
-                const EdgeSides& sides = edges_[some[j]];
-                add(sides.half_edge / 3, places_.squared[j], MIDDLE_WEIGHT);
-                if (sides.twin != NIL) add(sides.twin / 3, places_.squared[j], MIDDLE_WEIGHT);
-            }
+            for (std::size_t j = 0; j < some.size(); ++j)
+                add_at_middle(edges_[some[j]], places_.squared[j]);
         });
     }
 
@@ -215,6 +236,47 @@ class Measure {
             for (std::size_t j = 0; j < some.size(); ++j)
                 add(some[j], places_.squared[j], CENTROID_WEIGHT);
         });
+    }
+
+    /// What triangles in a plane say of the middles of their edges. Returns the other edges.
+    std::span<const std::int32_t> middles_in_plane(const HeightAbove& height,
+                                                   std::span<const std::int32_t> members) {
+        others_.clear();
+        for (const std::int32_t e : members) {
+            const std::size_t t = edges_[e].half_edge / 3, side = edges_[e].half_edge % 3;
+            if (in_plane_[t] == 0) {
+                others_.push_back(e);
+                continue;
+            }
+            const TriangleCorners& corners = mesh_.triangles[t];
+            const double sum = height(mesh_.points[corner(corners, side)]) +
+                               height(mesh_.points[corner(corners, (side + 1) % 3)]);
+            add_at_middle(edges_[e], 0.25 * (sum * sum));
+        }
+        return all(others_);
+    }
+
+    /// The same of their centroids. Returns the other triangles.
+    std::span<const std::int32_t> centroids_in_plane(const HeightAbove& height,
+                                                     std::span<const std::int32_t> members) {
+        others_.clear();
+        for (const std::int32_t t : members) {
+            if (in_plane_[t] == 0) {
+                others_.push_back(t);
+                continue;
+            }
+            const TriangleCorners& k = mesh_.triangles[t];
+            const double sum =
+                height(mesh_.points[k.a]) + height(mesh_.points[k.b]) + height(mesh_.points[k.c]);
+            add(t, sum * sum / 9.0, CENTROID_WEIGHT);
+            found_.cosine[t] = static_cast<float>(cosine(t, height.normal()));
+        }
+        return all(others_);
+    }
+
+    void add_at_middle(const EdgeSides& sides, double squared) {
+        add(sides.half_edge / 3, squared, MIDDLE_WEIGHT);
+        if (sides.twin != NIL) add(sides.twin / 3, squared, MIDDLE_WEIGHT);
     }
 
     void measure(SurfaceReader& surface) {
@@ -315,7 +377,9 @@ class Measure {
     const MeasuredMesh& mesh_;
     std::span<const EdgeSides> edges_;
     std::span<const double> area_;
-    Array<double> at_vertex_;  // squares of distances, as those of triangles until the end
+    std::span<const std::uint8_t> in_plane_;
+    Array<double> at_vertex_;     // squares of distances, as those of triangles until the end
+    Array<std::int32_t> others_;  // of a plane: what is looked at as on any surface
     MeshDeviation found_;
     Places places_;
     FarPlaces far_;
@@ -325,8 +389,8 @@ class Measure {
 }  // namespace
 
 MeshDeviation mesh_deviation(const MeasuredMesh& mesh, std::span<const EdgeSides> edges,
-                             std::span<const double> area) {
-    return Measure(mesh, edges, area).run();
+                             std::span<const double> area, std::span<const std::uint8_t> in_plane) {
+    return Measure(mesh, edges, area, in_plane).run();
 }
 
 }  // namespace surfmesh

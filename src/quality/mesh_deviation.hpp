@@ -27,8 +27,9 @@ struct MeshDeviation {
     std::int32_t failed = -1;   // number of a surface that has failed, then nothing else counts
 };
 
-/// edges: within a face each edge once, between two faces from both.
+/// edges: within a face each edge once, between two faces from both. in_plane: 1 for triangles of
+/// ``plane_triangles``, whose corners say all.
 MeshDeviation mesh_deviation(const MeasuredMesh& mesh, std::span<const EdgeSides> edges,
-                             std::span<const double> area);
+                             std::span<const double> area, std::span<const std::uint8_t> in_plane);
 
 }  // namespace surfmesh

@@ -49,12 +49,14 @@ SampledSurface sampled_surface(const MeasuredMesh& mesh, std::span<const std::in
     return found;
 }
 
-SurfaceDistances surface_distances(const MeasuredMesh& mesh, std::span<const Weights> weights) {
+SurfaceDistances surface_distances(const MeasuredMesh& mesh,
+                                   std::span<const std::int32_t> triangles,
+                                   std::span<const Weights> weights) {
     SurfaceDistances found;
     const std::size_t each = weights.size();
-    found.distance.resize(each * mesh.triangles.size());
-    const ByFace sorted = by_face(mesh.triangles.size(), mesh.surfaces.size(),
-                                  [&](std::size_t t) { return mesh.faces[t]; });
+    found.distance.resize(each * triangles.size());
+    const ByFace sorted = by_face(triangles.size(), mesh.surfaces.size(),
+                                  [&](std::size_t row) { return mesh.faces[triangles[row]]; });
     Array<Point2> places;
     SurfaceValues values;
     for (std::size_t face = 0; face < mesh.surfaces.size(); ++face) {
@@ -62,15 +64,16 @@ SurfaceDistances surface_distances(const MeasuredMesh& mesh, std::span<const Wei
         for (std::size_t k = 0; k < members.size(); k += SAMPLED_AT_ONCE) {
             const auto some = members.subspan(k, std::min(SAMPLED_AT_ONCE, members.size() - k));
             places.clear();
-            for (const std::int32_t t : some)
-                for (const Weights& w : weights) places.push_back(place_of(corners_of(mesh, t), w));
+            for (const std::int32_t row : some)
+                for (const Weights& w : weights)
+                    places.push_back(place_of(corners_of(mesh, triangles[row]), w));
             if (values.evaluate(*mesh.surfaces[face], {places.data(), places.size()}, 0) !=
                 SurfaceStatus::DONE) {
                 found.failed = static_cast<std::int32_t>(face);
                 return found;
             }
             for (std::size_t i = 0; i < some.size(); ++i) {
-                const TriangleCorners& t = mesh.triangles[some[i]];
+                const TriangleCorners& t = mesh.triangles[triangles[some[i]]];
                 const DistanceToTriangle distance(
                     {mesh.points[t.a], mesh.points[t.b], mesh.points[t.c]});
                 for (std::size_t j = 0; j < each; ++j)

@@ -31,6 +31,8 @@ SampledSurface sampled_surface(const MeasuredMesh& mesh, std::span<const std::in
                                std::span<const Weights> weights);
 
 /// The distances alone, of points at the same weights over every triangle.
-SurfaceDistances surface_distances(const MeasuredMesh& mesh, std::span<const Weights> weights);
+SurfaceDistances surface_distances(const MeasuredMesh& mesh,
+                                   std::span<const std::int32_t> triangles,
+                                   std::span<const Weights> weights);
 
 }  // namespace surfmesh

@@ -6,6 +6,22 @@
 #include "space/triangle_distance.hpp"
 
 namespace surfmesh {
+namespace {
+
+/// How far x lies beyond the range of three numbers.
+double beyond(double x, double a, double b, double c) {
+    const double low = std::min(std::min(a, b), c), high = std::max(std::max(a, b), c);
+    return std::max(std::max(low - x, x - high), 0.0);
+}
+
+/// Squared distance of a place from the box of three points.
+double squared_from_box(Point3 place, Point3 a, Point3 b, Point3 c) {
+    const Point3 off = {beyond(place.x, a.x, b.x, c.x), beyond(place.y, a.y, b.y, c.y),
+                        beyond(place.z, a.z, b.z, c.z)};
+    return dot(off, off);
+}
+
+}  // namespace
 
 TriangleStars::TriangleStars(std::span<const Point3> points,
                              std::span<const TriangleCorners> triangles)
@@ -41,6 +57,16 @@ double TriangleStars::walk(Point3 place, std::int32_t triangle, double distance)
         distance = least;
         triangle = nearest;
     }
+}
+
+double TriangleStars::from_all(Point3 place, double distance) const {
+    for (std::size_t t = 0; t < corners_.size(); ++t) {
+        const TriangleCorners& k = corners_[t];
+        const double apart = squared_from_box(place, points_[k.a], points_[k.b], points_[k.c]);
+        if (apart >= distance * distance) continue;
+        distance = std::min(distance, from(place, static_cast<std::int32_t>(t)));
+    }
+    return distance;
 }
 
 double TriangleStars::from_stars(Point3 place, std::span<const std::int32_t> vertices) const {

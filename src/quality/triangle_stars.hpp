@@ -28,6 +28,8 @@ class TriangleStars {
     [[nodiscard]] double from(Point3 place, std::int32_t triangle) const;
     /// Distance from the triangle where the walk from ``triangle`` ends, if it is less.
     [[nodiscard]] double walk(Point3 place, std::int32_t triangle, double distance) const;
+    /// Distance from all triangles, if it is less.
+    [[nodiscard]] double from_all(Point3 place, double distance) const;
     /// Distance from the triangles at some vertices; infinite where there is none.
     [[nodiscard]] double from_stars(Point3 place, std::span<const std::int32_t> vertices) const;
 

@@ -27,6 +27,7 @@ struct Frame {
 class Plane final : public FaceSurface {
   public:
     Plane(const ParameterBox& domain, const Frame& frame) : FaceSurface(domain), frame_(frame) {}
+    [[nodiscard]] const Frame& frame() const { return frame_; }
     SurfaceStatus evaluate(std::span<const Point2> uv, int order,
                            std::span<Point3> out) const override;
     SurfaceStatus derivative_magnitudes(std::span<const ParameterBox> cells, int order,
@@ -53,6 +54,8 @@ class TurnedProfile final : public FaceSurface {
   public:
     TurnedProfile(const ParameterBox& domain, const Frame& frame, const Profile& profile)
         : FaceSurface(domain), frame_(frame), profile_(profile) {}
+    [[nodiscard]] const Frame& frame() const { return frame_; }
+    [[nodiscard]] const Profile& profile() const { return profile_; }
     SurfaceStatus evaluate(std::span<const Point2> uv, int order,
                            std::span<Point3> out) const override;
     SurfaceStatus derivative_magnitudes(std::span<const ParameterBox> cells, int order,

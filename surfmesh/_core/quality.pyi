@@ -2,6 +2,7 @@
 What a report measures of a finished mesh: its distance from its surfaces and back.
 """
 
+from collections.abc import Sequence
 from typing import Annotated
 
 import numpy
@@ -15,11 +16,18 @@ def surface_points(surfaces: list, faces: Annotated[NDArray[numpy.int32], dict(s
     Points (n, 3) of the surfaces of faces (n,) at uv (n, 2); at order 1 r_u and r_v too.
     """
 
-def mesh_deviation(surfaces: list, points: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)], triangles: Annotated[NDArray[numpy.int32], dict(shape=(None, 3), order='C', device='cpu', writable=False)], uv: Annotated[NDArray[numpy.float64], dict(shape=(None, 2), order='C', device='cpu', writable=False)], uv_triangles: Annotated[NDArray[numpy.int32], dict(shape=(None, 3), order='C', device='cpu', writable=False)], faces: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], edges: Annotated[NDArray[numpy.int32], dict(shape=(None, 2), order='C', device='cpu', writable=False)], area: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)]) -> tuple[Annotated[NDArray[numpy.float64], dict(shape=(None,))], Annotated[NDArray[numpy.float64], dict(shape=(None,))], Annotated[NDArray[numpy.float32], dict(shape=(None,))]]:
+def mesh_deviation(surfaces: list, points: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)], triangles: Annotated[NDArray[numpy.int32], dict(shape=(None, 3), order='C', device='cpu', writable=False)], uv: Annotated[NDArray[numpy.float64], dict(shape=(None, 2), order='C', device='cpu', writable=False)], uv_triangles: Annotated[NDArray[numpy.int32], dict(shape=(None, 3), order='C', device='cpu', writable=False)], faces: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], edges: Annotated[NDArray[numpy.int32], dict(shape=(None, 2), order='C', device='cpu', writable=False)], area: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)], in_plane: Annotated[NDArray[numpy.uint8], dict(shape=(None,), order='C', device='cpu', writable=False)]) -> tuple[Annotated[NDArray[numpy.float64], dict(shape=(None,))], Annotated[NDArray[numpy.float64], dict(shape=(None,))], Annotated[NDArray[numpy.float32], dict(shape=(None,))]]:
     """
     Of triangles (m, 3) with uv_triangles (m, 3), rows of points (n, 3) and uv (q, 2), on the surfaces of faces (m,): the largest distance (m,) at vertices, middles and centroid, the mean of its square (m,), the cosine (m,) between the normals, 1 where one is missing.
 
-    edges (k, 2): half-edges and those that share what is found, or -1; area (m,).
+    edges (k, 2): half-edges and those that share what is found, or -1; area (m,); in_plane (m,): as ``plane_triangles`` has it.
+    """
+
+def plane_triangles(surfaces: list, points: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)], triangles: Annotated[NDArray[numpy.int32], dict(shape=(None, 3), order='C', device='cpu', writable=False)], uv: Annotated[NDArray[numpy.float64], dict(shape=(None, 2), order='C', device='cpu', writable=False)], uv_triangles: Annotated[NDArray[numpy.int32], dict(shape=(None, 3), order='C', device='cpu', writable=False)], faces: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)]) -> Annotated[NDArray[numpy.uint8], dict(shape=(None,))]:
+    """
+    1 for each triangle (m,) of a plane whose corners are r(u, v) to a billionth of its size: over it no point is farther from the plane, nor the plane from it; else 0.
+
+    The mesh is as for ``mesh_deviation``.
     """
 
 def least_triangles(surfaces: list, points: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)], triangles: Annotated[NDArray[numpy.int32], dict(shape=(None, 3), order='C', device='cpu', writable=False)], uv: Annotated[NDArray[numpy.float64], dict(shape=(None, 2), order='C', device='cpu', writable=False)], uv_triangles: Annotated[NDArray[numpy.int32], dict(shape=(None, 3), order='C', device='cpu', writable=False)], faces: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], edges: Annotated[NDArray[numpy.int32], dict(shape=(None, 2), order='C', device='cpu', writable=False)], area: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)], chord: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)], corner: Annotated[NDArray[numpy.uint8], dict(shape=(None,), order='C', device='cpu', writable=False)], balanced: bool) -> tuple[Annotated[NDArray[numpy.float64], dict(shape=(None,))], Annotated[NDArray[numpy.float64], dict(shape=(None,))]]:
@@ -29,9 +37,9 @@ def least_triangles(surfaces: list, points: Annotated[NDArray[numpy.float64], di
     The mesh is as for ``mesh_deviation``; edges (k, 2): both sides of every edge, or -1; area (m,); corner (n,): 1 where the lines around faces end. balanced: vertices may lie off the surface.
     """
 
-def surface_distances(surfaces: list, points: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)], triangles: Annotated[NDArray[numpy.int32], dict(shape=(None, 3), order='C', device='cpu', writable=False)], uv: Annotated[NDArray[numpy.float64], dict(shape=(None, 2), order='C', device='cpu', writable=False)], uv_triangles: Annotated[NDArray[numpy.int32], dict(shape=(None, 3), order='C', device='cpu', writable=False)], faces: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], weights: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)]) -> Annotated[NDArray[numpy.float64], dict(shape=(None,))]:
+def surface_distances(surfaces: list, points: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)], triangles: Annotated[NDArray[numpy.int32], dict(shape=(None, 3), order='C', device='cpu', writable=False)], uv: Annotated[NDArray[numpy.float64], dict(shape=(None, 2), order='C', device='cpu', writable=False)], uv_triangles: Annotated[NDArray[numpy.int32], dict(shape=(None, 3), order='C', device='cpu', writable=False)], faces: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], triangle: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], weights: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)]) -> Annotated[NDArray[numpy.float64], dict(shape=(None,))]:
     """
-    How far (m w,) points of the surfaces at barycentric weights (w, 3) over every triangle are from it, triangle after triangle.
+    How far (k w,) points of the surfaces at barycentric weights (w, 3) over triangles (k,) are from them, triangle after triangle.
 
     The mesh is as ``mesh_deviation`` takes it.
     """
@@ -41,6 +49,13 @@ def sampled_surface(surfaces: list, points: Annotated[NDArray[numpy.float64], di
     Parameters (k, 2) at barycentric weights[rule] (w, 3) of triangles (k,), the points (k, 3) of the surfaces there, and how far (k,) these are from the triangle.
 
     The mesh is as for ``mesh_deviation``; only the triangles that are asked for are looked at.
+    """
+
+def segment_samples(curves: list, limits: Annotated[NDArray[numpy.float64], dict(shape=(None, 2), order='C', device='cpu', writable=False)], edges: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], ends: Annotated[NDArray[numpy.float64], dict(shape=(None, 2), order='C', device='cpu', writable=False)], segments: Annotated[NDArray[numpy.int32], dict(shape=(None, 2), order='C', device='cpu', writable=False)], points: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)], fractions: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)], on_curve: float) -> tuple[Annotated[NDArray[numpy.int32], dict(shape=(None,))], Annotated[NDArray[numpy.float64], dict(shape=(None, 3))]]:
+    """
+    Which segments (g,) may lie off the curves of their edges, and points (g j, 3) of these at fractions (j,) of the way.
+
+    curves: of the edges, None without one, from limits (e, 2) to limits; edges (k,) of the segments (k, 2), rows of points (n, 3), with ends (k, 2), fractions along the edge. Left out: segments on lines, and those whose nodes are farther from the curve than ``on_curve`` of their length.
     """
 
 def dense_deviation(surfaces: list, points: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)], triangles: Annotated[NDArray[numpy.int32], dict(shape=(None, 3), order='C', device='cpu', writable=False)], uv: Annotated[NDArray[numpy.float64], dict(shape=(None, 2), order='C', device='cpu', writable=False)], uv_triangles: Annotated[NDArray[numpy.int32], dict(shape=(None, 3), order='C', device='cpu', writable=False)], faces: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], triangle: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], weights: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)], limit: float, steps: int) -> tuple[Annotated[NDArray[numpy.float64], dict(shape=(None,))], int, list[float], list[float]]:
@@ -70,6 +85,9 @@ class TriangleStars:
         """
         The least of the distances (k,) known of places (k, 3) and those from the triangles that are met from triangle (k,) on, from neighbour to nearer neighbour.
         """
+
+    def distance_from_all(self, place: Sequence[float], distance: float) -> float:
+        """The less of the distance known of a place and that from all triangles."""
 
     def distances_from_stars(self, places: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)], vertices: Annotated[NDArray[numpy.int32], dict(shape=(None, None), order='C', device='cpu', writable=False)]) -> Annotated[NDArray[numpy.float64], dict(shape=(None,))]:
         """Distance (k,) of places (k, 3) from all triangles at vertices (k, j)."""

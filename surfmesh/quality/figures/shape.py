@@ -6,6 +6,7 @@ import numpy as np
 
 from surfmesh.quality.figures.part import Part, over
 from surfmesh.quality.measures.folds import FoldedTriangle, most_folded
+from surfmesh.quality.measures.largest import quantile
 from surfmesh.quality.measures.measurements import LISTED, Measurements
 from surfmesh.quality.measures.narrow import DEGENERATE, narrow_triangles
 
@@ -38,7 +39,7 @@ class ShapeFigures(Part):
         narrow = narrow_triangles(measured.mesh, shape.alpha)
         return cls(
             alpha_mean=over(np.mean, shape.alpha),
-            alpha_p01=over(lambda alpha: np.quantile(alpha, 0.01), shape.alpha),
+            alpha_p01=over(lambda alpha: quantile(alpha, 0.01), shape.alpha),
             alpha_min=over(np.min, shape.alpha),
             narrow_triangles=narrow.number,
             alpha_mean_elsewhere=narrow.alpha_mean_elsewhere,

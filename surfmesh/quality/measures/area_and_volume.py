@@ -42,18 +42,17 @@ def explained(
 ) -> Explained:
     """area: (m,) of the triangles; by_triangle: (m,) their distances from the surface."""
     lost, volume = quality.explained_losses(mesh.points, mesh.triangles, area, by_triangle, SLANT)
-    lost = np.minimum(lost + area * by_triangle * _bends(mesh), area)
+    if mesh.mid_points is not None:
+        lost = np.minimum(lost + area * by_triangle * _bends(mesh, mesh.mid_points), area)
     return Explained(lost, _along_rims(mesh, by_triangle), volume)
 
 
-def _bends(mesh: SurfaceMesh) -> NDArray[np.float64] | float:
+def _bends(mesh: SurfaceMesh, mid_points: NDArray[np.float64]) -> NDArray[np.float64]:
     """(m,) twice the largest curvature of the sides of quadratic triangles: a surface at a distance
-    has so much more area or less; straight ones have none."""
-    if mesh.mid_points is None:
-        return 0.0
+    has so much more area or less."""
     ends = mesh.points[mesh.edges]
     squared = ((ends[:, 1] - ends[:, 0]) ** 2).sum(axis=1)
-    bend = np.linalg.norm(mesh.mid_points - ends.mean(axis=1), axis=1)
+    bend = np.linalg.norm(mid_points - ends.mean(axis=1), axis=1)
     bent = 16.0 * bend / np.maximum(squared, np.finfo(float).tiny)
     return bent[mesh.elements[:, 3:] - len(mesh.points)].max(axis=1)
 
@@ -82,16 +81,14 @@ def _along_rims(mesh: SurfaceMesh, by_triangle: NDArray[np.float64]) -> NDArray[
 def _all_half_edges(
     mesh: SurfaceMesh, edges: NDArray[np.intp]
 ) -> tuple[NDArray[np.int64], NDArray[np.intp]]:
-    """All half-edges along some edges, in their order, and the places of these in ``edges``."""
+    """All half-edges along some edges, and the places of these in ``edges``."""
     table = mesh.connectivity
     crowded = np.flatnonzero(table.uses[edges] > 2)
     more, row = half_edges_along(mesh, mesh.edges[edges[crowded]])
     pairs = table.half_edges[edges].astype(np.int64)
     pairs[crowded] = -1
     place, side = np.nonzero(pairs >= 0)
-    half_edges = np.concatenate([pairs[place, side], more])
-    order = np.argsort(half_edges)
-    return half_edges[order], np.concatenate([place, crowded[row]])[order]
+    return np.concatenate([pairs[place, side], more]), np.concatenate([place, crowded[row]])
 
 
 def _rim_sagittas(mesh: SurfaceMesh, rim: NDArray[np.bool_]) -> NDArray[np.float64]:

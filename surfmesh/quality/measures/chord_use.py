@@ -9,7 +9,6 @@ from surfmesh._core.edges import curvatures_at
 from surfmesh.quality.measures.deviation import Deviation
 from surfmesh.quality.measures.known_surfaces import KnownSurfaces
 from surfmesh.quality.measures.tolerances import Tolerances
-from surfmesh.result.surface_mesh import SurfaceMesh
 from surfmesh.sizing.rules.curvature_size import (
     chord_size,
     principal_chord_sizes,
@@ -39,29 +38,35 @@ def chord_use(known: KnownSurfaces, fit: Deviation, tolerances: Tolerances) -> C
         return None
     step = -(-len(mesh.triangles) // SAMPLES)
     chosen = np.arange(0, len(mesh.triangles), step)
-    chosen = chosen[np.argsort(mesh.face_ids[chosen], kind="stable")]
-    a, b, c = (mesh.sizes[corner] for corner in mesh.triangles[chosen].T)
-    faces, first = np.unique(mesh.face_ids[chosen], return_index=True)
-    surfaces = [known.core_surfaces[face] for face in faces.tolist()]
-    first = np.append(first, len(chosen))
-    k1, k2, degenerate = curvatures_at(known.middle_uv(chosen), first.astype(np.int64), surfaces)
+    target = mesh.sizes[mesh.triangles[chosen]].mean(axis=1)
     decided = np.zeros(len(chosen), bool)
-    for face, here in zip(faces.tolist(), map(slice, first[:-1], first[1:])):
-        chord = tolerances.one(tolerances.chord, face)
-        if chord is None:
-            continue
-        allowed = _allowed(mesh, k1[here], k2[here], chord)
-        bent = np.isfinite(allowed) & (degenerate[here] == 0)
-        decided[here] = bent & ((a[here] + b[here] + c[here]) / 3.0 >= DECIDED * allowed)
-    chord_of = tolerances.at(tolerances.chord, mesh.face_ids[chosen[decided]])
-    used = fit.by_triangle[chosen[decided]] / chord_of
+    faces = mesh.face_ids[chosen]
+    chord = tolerances.at(tolerances.chord, faces)
+    here = np.flatnonzero((known.in_plane[chosen] == 0) & (chord > 0.0) & np.isfinite(chord))
+    here = here[np.argsort(faces[here], kind="stable")]
+    if len(here):
+        decided[here] = target[here] >= DECIDED * _allowed(known, chosen[here], chord[here])
+    used = fit.by_triangle[chosen[decided]] / chord[decided]
     return ChordUse(float(decided.mean()), float(np.median(used)) if len(used) else None)
 
 
-def _allowed(mesh: SurfaceMesh, k1: NDArray, k2: NDArray, chord: float) -> NDArray[np.float64]:
-    """Size (n,) that principal curvatures allow; infinite where they are 0."""
-    if mesh.sizing and mesh.sizing.is_anisotropic:
-        return np.minimum(*principal_chord_sizes(k1, k2, chord, mesh.sizing.anisotropy))
-    if mesh.sizing and mesh.sizing.is_curved:
-        return quadratic_chord_size(k1, k2, chord)
-    return chord_size(k1, k2, chord)
+def _allowed(
+    known: KnownSurfaces, triangles: NDArray[np.intp], chord: NDArray[np.float64]
+) -> NDArray[np.float64]:
+    """Size (n,) that the curvature at the middles of triangles (n,), face by face, allows for
+    ``chord`` (n,); infinite where it is flat."""
+    sizing = known.mesh.sizing
+    faces, first = np.unique(known.mesh.face_ids[triangles], return_index=True)
+    surfaces = [known.core_surfaces[face] for face in faces.tolist()]
+    ends = np.append(first, len(triangles)).astype(np.int64)
+    k1, k2, degenerate = curvatures_at(known.middle_uv(triangles), ends, surfaces)
+    if sizing and sizing.is_anisotropic:
+        size = np.minimum(*principal_chord_sizes(k1, k2, chord, sizing.anisotropy))
+    elif sizing and sizing.is_curved:
+        size = np.empty(len(chord))
+        for one in np.unique(chord).tolist():
+            some = chord == one
+            size[some] = quadratic_chord_size(k1[some], k2[some], one)
+    else:
+        size = chord_size(k1, k2, chord)
+    return np.where(degenerate.view(bool) | ~np.isfinite(size), np.inf, size)

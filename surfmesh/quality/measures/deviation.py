@@ -1,7 +1,7 @@
 """How far the mesh lies from the true surface, and which triangles face the wrong way.
 
 Samples are the vertices, the middles of the edges and the centroids, in one call of the core for
-all faces (``src/measures/mesh_deviation.hpp``). At each, the distance is to the nearest point of
+all faces (``src/quality/mesh_deviation.hpp``). At each, the distance is to the nearest point of
 the surface, not to the image r(u, v) of the interpolated parameters. The worst triangles are then
 sampled densely.
 """
@@ -47,7 +47,9 @@ def deviation(
     known = known or KnownSurfaces.of(mesh)
     if known is None:
         return None
-    by_triangle, mean_square, cosine = mesh_deviation(*known.arrays, _measured_edges(mesh), area)
+    by_triangle, mean_square, cosine = mesh_deviation(
+        *known.arrays, _measured_edges(mesh), area, known.in_plane
+    )
     if mesh.turned_faces is not None:
         cosine[mesh.turned_faces[mesh.face_ids]] *= -1.0
     total = float(area.sum())
@@ -80,6 +82,11 @@ def _second_look(
     mesh, count = known.mesh, len(by_triangle)
     chosen = min(count, max(SECOND_LOOK, count // 250))
     worst = largest(by_triangle, chosen).astype(np.int32)
+    in_plane = known.in_plane[worst] != 0
+    if in_plane.all():
+        in_plane[by_triangle[worst].argmax()] = False
+    by_triangle[worst[in_plane]] = 0.0  # what vertices say there is of the faces beside
+    worst = worst[~in_plane]
     chord = (mesh.sizing and mesh.sizing.chord) or np.inf
     by_triangle[worst], triangle, point, uv = dense_deviation(
         *known.arrays, worst, DENSE, chord, STEPS

@@ -11,7 +11,12 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from surfmesh._core.quality import sampled_surface, surface_distances, surface_points
+from surfmesh._core.quality import (
+    plane_triangles,
+    sampled_surface,
+    surface_distances,
+    surface_points,
+)
 from surfmesh._core.space import interpolate
 from surfmesh._core.surfaces import Surface as CoreSurface
 from surfmesh.geometry.core_surface import as_core_surface
@@ -94,6 +99,12 @@ class KnownSurfaces:
             corners.uv_triangles, mesh.face_ids,
         )  # fmt: skip
 
+    @cached_property
+    def in_plane(self) -> NDArray[np.uint8]:
+        """(m,) 1 for the triangles of planes whose corners are r(u, v) to rounding: between them
+        there is nothing to be seen."""
+        return plane_triangles(*self.arrays)
+
     def sampled(
         self, triangle: Rows, rule: NDArray[np.int32], weights: NDArray[np.float64]
     ) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]]:
@@ -103,10 +114,12 @@ class KnownSurfaces:
             *self.arrays, triangle.astype(np.int32, copy=False), rule, np.ascontiguousarray(weights)
         )
 
-    def surface_distances(self, weights: NDArray[np.float64]) -> NDArray[np.float64]:
-        """How far (m w,) points of the surfaces at barycentric weights (w, 3) over every triangle
-        are from it, triangle after triangle."""
-        return surface_distances(*self.arrays, weights)
+    def surface_distances(
+        self, triangle: NDArray[np.int32], weights: NDArray[np.float64]
+    ) -> NDArray[np.float64]:
+        """How far (k w,) points of the surfaces at barycentric weights (w, 3) over triangles (k,)
+        are from them, triangle after triangle."""
+        return surface_distances(*self.arrays, triangle, weights)
 
     def points_at(self, faces: Rows, uv: NDArray[np.float64]) -> NDArray[np.float64]:
         """(k, 3) of the surfaces of ``faces`` (k,) at uv (k, 2)."""

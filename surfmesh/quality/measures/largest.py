@@ -1,4 +1,4 @@
-"""The largest of many values, without sorting or parting all of them."""
+"""The largest of many values, without sorting or parting all of them; quantiles."""
 
 import numpy as np
 from numpy.typing import NDArray
@@ -21,6 +21,19 @@ def largest(values: NDArray[np.float64], count: int) -> NDArray[np.intp]:
     above = some[values[some] > least]
     equal = some[values[some] == least]
     return np.sort(np.concatenate([above, equal[: count - len(above)]]))
+
+
+def quantile(values: NDArray[np.float64], fraction: float) -> float:
+    """As ``np.quantile`` has it, of values (n,), n > 0, without what that does for any other case:
+    linear between two of them in their order, NaN where one is."""
+    place = fraction * (len(values) - 1)
+    before = int(place)
+    after = min(before + 1, len(values) - 1)
+    parted = np.partition(values, (before, after, len(values) - 1))
+    if np.isnan(parted[-1]):
+        return float("nan")
+    low, high, part = float(parted[before]), float(parted[after]), place - before
+    return low + (high - low) * part if part < 0.5 else high - (high - low) * (1.0 - part)
 
 
 def _bound(values: NDArray[np.float64], count: int) -> float:

@@ -21,8 +21,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from surfmesh._core.edges import CurvePieces
-from surfmesh._core.quality import TriangleStars
-from surfmesh._core.space import triangle_distances
+from surfmesh._core.quality import TriangleStars, segment_samples
 from surfmesh.cad.model.cad_model import CadEdge
 from surfmesh.geometry.differential.projection import closest_point
 from surfmesh.quality.measures.deviation import Deviation
@@ -68,7 +67,8 @@ def surface_deviation(
     mesh = known.mesh
     search = _Search(known, fit, tolerances)
     count = len(mesh.triangles)
-    search.look_everywhere(WITHIN)
+    curved = np.flatnonzero(known.in_plane == 0).astype(np.int32)  # elsewhere corners say all
+    search.look_over(curved, WITHIN)
     # after these, which tell what is not worth a search along flat faces
     if search.curves is not None:
         _look_along_curves(search, search.curves, fit)
@@ -77,7 +77,7 @@ def surface_deviation(
     worth = np.maximum(fit.by_triangle, search.by_triangle)
     chosen = min(count, max(SECOND_LOOK, count // 250))
     worst = largest(worth, chosen).astype(np.int32)
-    search.look(*_over(worst, CLOSELY))
+    search.look(*_over(worst[known.in_plane[worst] == 0], CLOSELY))
     return search.result()
 
 
@@ -123,24 +123,30 @@ class _Curves(NamedTuple):
             return None
         return cls(links.edge_segments, links.edge_ids, links.edge_parameters, links.edge_curves)
 
-    def points(
-        self, segments: NDArray[np.intp], t: NDArray[np.float64]
-    ) -> tuple[NDArray[np.float64], NDArray[np.bool_]]:
-        """(k, j, 3) at ``t`` (j,) of segments (k,), those of one edge one after the other; and
-        which (k,) have a curve at all."""
-        numbers = self.ids[segments]
+    def between(
+        self, segments: NDArray[np.intp], t: NDArray[np.float64], nodes: NDArray[np.float64]
+    ) -> tuple[NDArray[np.intp], NDArray[np.float64]]:
+        """Those of segments (k,) that may lie off their curves, and points (g j, 3) of these at
+        ``t`` (j,); nodes: (n, 3) of the mesh."""
         curves = [None if edge.curve is None else edge.curve.core for edge in self.edges]
-        known = np.array([*(curve is not None for curve in curves), False])
-        there = known[np.minimum(numbers, len(curves))]
-        start, end = self.ends[segments[there]].T[:, :, None]
-        which, count = np.unique(numbers[there], return_counts=True)
         limits = np.array([(edge.t0, edge.t1) for edge in self.edges], float).reshape(-1, 2)
-        pieces = CurvePieces(curves, *np.ascontiguousarray(limits.T))
-        first = np.cumsum([0, *(count * len(t))])
-        found = np.zeros((len(segments), len(t), 3))
-        places = pieces.points(which.astype(np.int64), first, (start + t * (end - start)).ravel())
-        found[there] = places.reshape(-1, len(t), 3)
-        return found, there
+        numbers = self.ids[segments]
+        there = segments[(numbers >= 0) & (numbers < len(curves))]
+        found, points = segment_samples(
+            curves, limits, self.ids[there], self.ends[there], self.segments[there], nodes, t,
+            ON_CURVE,
+        )  # fmt: skip
+        return there[found], points
+
+    def along(self, segment: int, t: NDArray[np.float64]) -> NDArray[np.float64] | None:
+        """(j, 3) at ``t`` (j,) of one segment; None where its edge has no curve."""
+        edge = self.edges[self.ids[segment]] if self.ids[segment] < len(self.edges) else None
+        if edge is None or edge.curve is None:
+            return None
+        start, end = self.ends[segment]
+        pieces = CurvePieces([edge.curve.core], np.array([edge.t0]), np.array([edge.t1]))
+        whole = np.array([0, len(t)])
+        return pieces.points(np.zeros(1, np.int64), whole, start + t * (end - start))
 
 
 def _look_along_curves(search: _Search, curves: _Curves, fit: Deviation) -> None:
@@ -156,21 +162,12 @@ def _look_along_curves(search: _Search, curves: _Curves, fit: Deviation) -> None
     free = second < 0
     farther = ~free & (fit.by_triangle[second] > fit.by_triangle[first])
     over = np.where(farther, second, first)
-    t = np.concatenate([[0.0], ALONG_RIM, [1.0]])
-    known_rows = np.flatnonzero(rows >= 0)
-    by_edge = known_rows[np.argsort(curves.ids[known_rows], kind="stable")]
-    points, there = curves.points(by_edge, t)
-    nodes = mesh.points[curves.segments[by_edge]]
-    length = np.linalg.norm(nodes[:, 1] - nodes[:, 0], axis=1)
-    from_curve = np.maximum(
-        *(np.linalg.norm(points[:, end] - nodes[:, end], axis=1) for end in (0, -1))
-    )
-    good = np.flatnonzero(there & (from_curve <= ON_CURVE * length))
-    between, segment = points[good, 1:-1], by_edge[good]
+    looked_at, between = curves.between(np.flatnonzero(rows >= 0), ALONG_RIM, mesh.points)
+    between = between.reshape(-1, len(ALONG_RIM), 3)
     for at_rim in (True, False):
-        some = np.flatnonzero(free[segment] == at_rim)
+        some = np.flatnonzero(free[looked_at] == at_rim)
         for block in _blocks(some, BLOCK // len(ALONG_RIM)):
-            beside = over[segment[block]]
+            beside = over[looked_at[block]]
             uv = np.repeat(known.middle_uv(beside), len(ALONG_RIM), axis=0)  # about there
             triangle = np.repeat(beside, len(ALONG_RIM))
             search.look_at(between[block].reshape(-1, 3), uv, triangle, at_rim)
@@ -227,9 +224,12 @@ class _SamplesAtWeights:
     def raise_to_largest(self, by_triangle: NDArray[np.float64]) -> None:
         """Raise distances (m,) of all triangles to those of the samples, which follow each other
         triangle by triangle."""
-        here = by_triangle[self.triangle[0] : self.triangle[-1] + 1]
-        for column in self.distance.reshape(len(here), -1).T:
-            np.maximum(here, column, out=here)
+        each = len(self.weights)
+        over = self.triangle[::each]
+        found = by_triangle[over]
+        for column in self.distance.reshape(-1, each).T:
+            np.maximum(found, column, out=found)
+        by_triangle[over] = found
 
 
 class _Search:
@@ -257,16 +257,13 @@ class _Search:
         uv, points, distance = self.known.sampled(triangle, rule, weights)
         self._take(_Samples(triangle, distance, points, uv), at_rim)
 
-    def look_everywhere(self, weights: NDArray) -> None:
-        """At points over all triangles, at the same barycentric weights."""
-        distance = self.known.surface_distances(weights)
-        length = len(weights) * (BLOCK // len(weights))
-        for start in range(0, len(distance), length):
-            block = distance[start : start + length]
-            triangle, rule = np.divmod(
-                np.arange(start, start + len(block), dtype=np.int32), np.int32(len(weights))
-            )
-            self._take(_SamplesAtWeights(triangle, block, self.known, rule, weights), at_rim=False)
+    def look_over(self, triangles: NDArray[np.int32], weights: NDArray) -> None:
+        """At points over triangles (k,), at the same barycentric weights (w, 3) of each."""
+        distance = self.known.surface_distances(triangles, weights)
+        for rows in _blocks(np.arange(len(triangles)), BLOCK // len(weights)):
+            own = distance[len(weights) * rows[0] : len(weights) * (rows[-1] + 1)]
+            triangle, rule, _ = _over(triangles[rows], weights)
+            self._take(_SamplesAtWeights(triangle, own, self.known, rule, weights), at_rim=False)
 
     def look_at(self, points: NDArray, uv: NDArray, triangle: NDArray, at_rim: bool) -> None:
         """At points (k, 3) of the surface, with parameters (k, 2) over triangles (k,)."""
@@ -294,12 +291,14 @@ class _Search:
         done, length = np.zeros(len(distance), bool), FIRST_FEW
         beyond = np.flatnonzero(distance > self.enough[triangle])
         while True:
-            open_ = np.flatnonzero(distance > self.largest)
-            open_ = open_[~done[open_]]
-            if len(open_) > length:
-                most = len(open_) - length
-                open_ = open_[np.argpartition(distance[open_], most)[most:]]
-            some = np.union1d(open_, beyond[~done[beyond]]) if len(beyond) else np.sort(open_)
+            some = np.flatnonzero(distance > self.largest)
+            some = some[~done[some]]
+            if len(some) > length:
+                most = len(some) - length
+                some = np.sort(some[np.argpartition(distance[some], most)[most:]])
+            if len(beyond):  # all of them at once
+                some = np.union1d(some, beyond)
+                beyond = beyond[:0]
             if not len(some):
                 return np.flatnonzero(done)
             points, uv = samples.places(some)
@@ -373,7 +372,7 @@ class _Search:
         t = np.linspace(0.0, 1.0, ALONG)
         for k in range(3):
             segment = self._segments.get(frozenset((corners[k], corners[(k + 1) % 3])))
-            points = None if segment is None else curves.points(np.array([segment]), t)
+            points = None if segment is None else curves.along(segment, t)
             if segment is None or points is None:
                 continue
             ends = places[[k, (k + 1) % 3]]
@@ -381,7 +380,7 @@ class _Search:
                 ends = ends[::-1]
             guess = ends[0] + t[:, None] * (ends[1] - ends[0])
             surface = mesh.surfaces[mesh.face_ids[triangle]]
-            line = closest_point(surface, points[0], guess, PROJECTIONS)[0]
+            line = closest_point(surface, points, guess, PROJECTIONS)[0]
             line[0], line[-1] = ends
             if _crossings(places[(k + 2) % 3], uv, line) % 2:
                 return True
@@ -396,19 +395,7 @@ class _Search:
 
     def _among_all(self, point: NDArray, distance: float) -> float:
         """Of a point (3,) from the whole mesh, known to be no more than ``distance``."""
-        centre, radius = self._balls
-        near = np.linalg.norm(centre - point, axis=1) - radius < distance
-        corners = self.mesh.points[self.mesh.triangles[near]]
-        if not len(corners):
-            return distance
-        return min(distance, float(triangle_distances(point[None], corners).min()))
-
-    @cached_property
-    def _balls(self) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-        """Centroids (m, 3) of the triangles, and balls (m,) about them that hold the corners."""
-        corners = self.mesh.points[self.mesh.triangles]
-        centre = corners.mean(axis=1)
-        return centre, np.linalg.norm(corners - centre[:, None], axis=2).max(axis=1)
+        return self._stars.distance_from_all(tuple(point.tolist()), distance)
 
 
 def _crossings(start: NDArray, end: NDArray, line: NDArray) -> int:

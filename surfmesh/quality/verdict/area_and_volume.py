@@ -129,7 +129,7 @@ def _volumes(measured: Measurements, found: Explained) -> Iterator[Problem]:
         allowed = float(found.volume[own].sum()) / row.volume_exact
         inexact = [
             _inexact(kinds[face].kind if face < len(kinds) else "")
-            for face in np.unique(mesh.face_ids[own]).tolist()
+            for face in np.flatnonzero(np.bincount(mesh.face_ids[own])).tolist()
         ]
         if abs(row.volume_error) > allowed + max(inexact):
             problem = VolumeUnexplained(

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from surfmesh.errors import shown
-from surfmesh.quality.measures.places import Point, as_point
+from surfmesh.quality.measures.places import Point
 from surfmesh.quality.measures.shape import Shapes, shapes
 from surfmesh.result.surface_mesh import SurfaceMesh
 
@@ -41,17 +41,13 @@ def worst_triangles(
     last = np.partition(shape.alpha, count - 1)[count - 1]
     worst = np.flatnonzero(shape.alpha <= last)  # ties: those of the smallest numbers
     worst = worst[np.argsort(shape.alpha[worst], kind="stable")][:count]
-    centroids = mesh.points[mesh.triangles[worst]].mean(axis=1)
-    return tuple(
-        WorstTriangle(
-            triangle=int(t),
-            alpha=float(shape.alpha[t]),
-            min_angle_deg=float(shape.min_angle[t]),
-            max_angle_deg=float(shape.max_angle[t]),
-            face=int(mesh.face_ids[t]),
-            name=mesh.face_name(int(mesh.face_ids[t])),
-            point=as_point(place),
-            corners=(int(a), int(b), int(c)),
-        )
-        for t, place, (a, b, c) in zip(worst, centroids, mesh.triangles[worst])
+    corners, faces = mesh.triangles[worst], mesh.face_ids[worst].tolist()
+    columns = (
+        worst.tolist(),
+        *(angle[worst].tolist() for angle in (shape.alpha, shape.min_angle, shape.max_angle)),
+        faces,
+        map(mesh.face_name, faces),
+        map(tuple, mesh.points[corners].mean(axis=1).tolist()),
+        map(tuple, corners.tolist()),
     )
+    return tuple(map(WorstTriangle, *columns))

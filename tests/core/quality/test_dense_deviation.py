@@ -38,3 +38,43 @@ def test_triangles_must_be_those_of_the_mesh(known):
     beyond = np.array([len(known.mesh.triangles)], np.int32)
     with pytest.raises(ValueError, match="out of range"):
         dense_deviation(*known.arrays, beyond, DENSE, 0.05, STEPS)
+
+
+def test_on_a_cylinder_it_finds_what_a_search_finds():
+    part = pytest.importorskip("cadquery").Workplane().circle(2.0).extrude(3.0)
+    known = KnownSurfaces.of(sm.mesh(part, sm.Sizing(size=0.7)))
+    mesh = known.mesh
+    chosen = np.arange(len(mesh.triangles), dtype=np.int32)
+    largest, triangle, point, uv = dense_deviation(*known.arrays, chosen, DENSE, 0.05, STEPS)
+    for face, surface in enumerate(mesh.surfaces):
+        here = chosen[mesh.face_ids == face]
+        rows = np.repeat(np.arange(len(here)), len(DENSE))
+        rule = np.tile(np.arange(len(DENSE), dtype=np.int32), len(here))
+        places, guesses = known.samples(here[rows], rule, DENSE)
+        _, distance = nearest_deviations(
+            surface, places, guesses, known.uv(here), rows, 0.05, STEPS
+        )
+        expected = distance.reshape(len(here), -1).max(axis=1)
+        np.testing.assert_allclose(largest[here], expected, rtol=1e-6, atol=1e-15)
+    assert largest[triangle] == largest.max() > 0.01
+    face = mesh.face_ids[triangle]
+    foot = mesh.surfaces[face].evaluate(np.array([uv]), 0)[0][0]
+    assert np.linalg.norm(foot - point) == pytest.approx(largest[triangle], rel=1e-6)
+
+
+def test_a_corner_off_a_cylinder_is_searched_for():
+    part = pytest.importorskip("cadquery").Workplane().circle(2.0).extrude(3.0)
+    mesh = sm.mesh(part, sm.Sizing(size=0.7))
+    round_face = next(k for k in range(3) if mesh.groups.face_kind(k) == "cylinder")
+    chosen = np.flatnonzero(mesh.face_ids == round_face).astype(np.int32)
+    uv = mesh.uv_points.copy()
+    corner = mesh.uv_triangles[chosen[0], 0]
+    uv[corner, 1] += 40.0  # far beyond the end of the cylinder
+    wrong = KnownSurfaces.of(mesh.replaced(uv_points=uv))
+    largest, *_ = dense_deviation(*wrong.arrays, chosen[:1], DENSE, 0.05, STEPS)
+    assert largest[0] >= 0.0 and np.isfinite(largest).all()
+    points = mesh.points.copy()
+    points[mesh.triangles[chosen[0], 0]] *= 1.5
+    off = KnownSurfaces.of(mesh.replaced(points=points))
+    largest, *_ = dense_deviation(*off.arrays, chosen[:1], DENSE, 0.05, STEPS)
+    assert largest[0] > 0.5

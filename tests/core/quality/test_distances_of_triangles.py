@@ -61,6 +61,7 @@ def given_mesh(**changes):
         "surfaces": [surface.core], "points": mesh.points, "triangles": mesh.triangles,
         "uv": known.uv_points, "uv_triangles": known.uv_triangles, "faces": mesh.face_ids,
         "edges": mesh.connectivity.half_edges, "area": np.ones(len(mesh.triangles)),
+        "in_plane": np.zeros(len(mesh.triangles), np.uint8),
     }  # fmt: skip
     return {**values, **changes}
 
@@ -71,8 +72,9 @@ def test_what_is_out_of_range_is_refused():
     for name in ("triangles", "uv_triangles", "faces", "edges"):
         with pytest.raises(ValueError):
             mesh_deviation(**{**right, name: right[name] + 100_000})
-    with pytest.raises(ValueError):
-        mesh_deviation(**{**right, "area": right["area"][1:]})
+    for name in ("area", "in_plane"):
+        with pytest.raises(ValueError):
+            mesh_deviation(**{**right, name: right[name][1:]})
     stars = TriangleStars(right["points"], right["triangles"])
     for wrong in (-1, len(right["triangles"])):
         with pytest.raises(ValueError):

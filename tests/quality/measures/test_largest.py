@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from surfmesh.quality.measures.largest import largest
+from surfmesh.quality.measures.largest import largest, quantile
 
 
 @pytest.mark.parametrize("size, count", [(0, 0), (5, 5), (40, 7), (9_000, 400), (9_000, 8_000)])
@@ -23,3 +23,12 @@ def test_they_are_those_of_a_sort(size, count, kind):
     as_sorted = np.where(np.isnan(values), np.inf, values)
     by_value = np.lexsort((np.arange(size), -as_sorted))  # of equal ones the first
     assert found.tolist() == sorted(by_value[:count].tolist())
+
+
+@pytest.mark.parametrize("size", [1, 2, 3, 100, 1001])
+@pytest.mark.parametrize("fraction", [0.0, 0.01, 0.37, 0.99, 1.0])
+def test_quantiles_are_those_of_numpy(size, fraction):
+    values = np.random.default_rng(size).normal(size=size)
+    assert quantile(values, fraction) == float(np.quantile(values, fraction))
+    values[size // 2] = np.nan
+    assert np.isnan(quantile(values, fraction))
