@@ -14,9 +14,11 @@ constexpr int HIDDEN_DEPTH = 6, DEEPEST_HIDDEN = 19;
 
 constexpr std::int64_t MOST_HIDDEN = 60'000;  // cells looked into beyond HIDDEN_DEPTH, at most
 
-// Error at the test nodes that a cell may have; the leaf, twice as fine, has a quarter of it, or
-// half at a kink. Where gradation decides, the field is a cone and all slopes are small.
-constexpr double TEST_ERROR = 0.03, GRADED_ERROR = 0.1;
+// Error that a leaf may have: of what its cell, twice as wide, has at the test nodes, the same
+// part that the cell has of its parent's: a quarter where the field is smooth, half at a kink. Where
+// gradation decides, the field is a cone and all slopes are small.
+constexpr double LEAF_ERROR = 0.015, GRADED_ERROR = 0.06, GRADED_STRETCHED = 0.075;
+constexpr double SMOOTH_PART = 0.25, KINK_PART = 0.5;
 constexpr double LOWERED = 0.98;  // of the target size: below it gradation decides
 
 // A cell narrower than this many edges is not split: no circle would notice. The same where sizes
@@ -49,6 +51,12 @@ std::span<const T> all(const Array<T>& array) {
     return {array.data(), array.size()};
 }
 
+/// The error of the leaves of a cell, told from its own and its parent's.
+double error_of_leaves(double own, double parents) {
+    const double part = parents > 0.0 ? own / parents : KINK_PART;
+    return own * std::clamp(part, SMOOTH_PART, KINK_PART);
+}
+
 /// The metric area at a node: 1 / det H.
 double density(SizeTensor metric_root) { return determinant(metric_root); }
 
@@ -57,6 +65,7 @@ double density(SizeTensor metric_root) { return determinant(metric_root); }
 FieldBuilder::FieldBuilder(FieldPlan plan) : plan_(std::move(plan)), cells_(plan_.grid) {
     fresh_.resize(cells_.leaves().size(), 1);
     deep_.resize(cells_.leaves().size(), 0);
+    error_.resize(cells_.leaves().size(), CellError{0.0, 0.0});
 }
 
 FieldOutcome FieldBuilder::refine(NodeLaw& law, HiddenFeatures& hidden) {
@@ -102,18 +111,25 @@ FieldOutcome FieldBuilder::refine(NodeLaw& law, HiddenFeatures& hidden) {
 void FieldBuilder::replace(const Marks& marks) {
     Array<Patch> patches;
     Array<std::uint8_t> deep, children;
+    Array<CellError> error, of_children;
     for (std::size_t k = 0; k < marks.split.size(); ++k) {
         if (marks.split[k] == 0) {
             patches.push_back(patches_[k]);
             deep.push_back(marks.deep[k]);
+            error.push_back(error_[k]);
         } else {
-            for (int q = 0; q < 4; ++q) children.push_back(marks.deep[k]);
+            for (int q = 0; q < 4; ++q) {
+                children.push_back(marks.deep[k]);
+                of_children.push_back({0.0, error_[k].own});
+            }
         }
     }
     for (const std::uint8_t value : children) deep.push_back(value);
+    for (const CellError value : of_children) error.push_back(value);
     before_ = std::move(patches_);
     patches_ = std::move(patches);
     deep_ = std::move(deep);
+    error_ = std::move(error);
     leaves_before_ = Array<FieldCell>(cells_.leaves());
     cells_.split(all(marks.split));
     fresh_ = Array<std::uint8_t>(patches_.size(), 0);
@@ -165,8 +181,9 @@ PatchRoots FieldBuilder::metric_roots(const Patch& patch) const {
 }
 
 /// Mark cells whose sizes have changed since a gradation and are not bilinear enough.
-void FieldBuilder::mark_inaccurate(std::int32_t seen, std::span<std::uint8_t> split) const {
+void FieldBuilder::mark_inaccurate(std::int32_t seen, std::span<std::uint8_t> split) {
     const double coarse = nodes.is_anisotropic() ? FINEST_STRETCHED : FINEST_GRADED;
+    const double graded_error = nodes.is_anisotropic() ? GRADED_STRETCHED : GRADED_ERROR;
     const auto leaves = cells_.leaves();
     for (std::size_t k = 0; k < leaves.size(); ++k) {
         const Patch& patch = patches_[k];
@@ -176,10 +193,12 @@ void FieldBuilder::mark_inaccurate(std::int32_t seen, std::span<std::uint8_t> sp
         const auto parts = static_cast<double>(std::int64_t{1} << leaves[k].depth);
         const Point2 step{plan_.root_step.x / parts, plan_.root_step.y / parts};
         const PatchError found = patch_error(metric_roots(patch), step, plan_.largest);
+        error_[k].own = found.error;
         const bool graded = is_graded(patch);
         const double finest = graded && plan_.known_sizes ? coarse : FINEST_EXTENT;
-        const double most = plan_.coarseness * (graded ? GRADED_ERROR : TEST_ERROR);
-        if (found.error > most && found.extent > finest) split[k] = 1;
+        const double most = plan_.coarseness * (graded ? graded_error : LEAF_ERROR);
+        if (error_of_leaves(found.error, error_[k].parents) > most && found.extent > finest)
+            split[k] = 1;
     }
 }
 

@@ -117,7 +117,7 @@ class FieldBuilder {
     [[nodiscard]] FieldOutcome spread(std::span<double> size, bool stretched);
     [[nodiscard]] FieldOutcome far_beyond() const;
     [[nodiscard]] FieldOutcome refused(std::span<const std::uint8_t> split) const;
-    void mark_inaccurate(std::int32_t seen, std::span<std::uint8_t> split) const;
+    void mark_inaccurate(std::int32_t seen, std::span<std::uint8_t> split);
     [[nodiscard]] bool is_graded(const Patch& patch) const;
     [[nodiscard]] PatchRoots metric_roots(const Patch& patch) const;
     [[nodiscard]] bool mark_hidden(HiddenFeatures& hidden, Marks& marks);
@@ -134,6 +134,10 @@ class FieldBuilder {
     Array<FieldCell> leaves_before_;
     Array<std::uint8_t> fresh_;  // leaves of this round
     Array<std::uint8_t> deep_;   // in search of what hides: they may be split further
+    struct CellError {
+        double own, parents;  // as ``patch_error`` has them; 0: not known
+    };
+    Array<CellError> error_;  // of the leaves
     NodeTable table_;
     Array<std::int64_t> key_;  // of the nodes
     struct SideNode {

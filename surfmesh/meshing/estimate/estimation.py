@@ -31,10 +31,9 @@ being worked on; measured, peak of the process for meshes of 0.2 to 1.9 million 
 MANY = 10**15
 """Triangles: more are told in powers of ten."""
 
-COARSENESS = 2.0
-"""Of the size field of a surface of formulas: a third to a half of the cells where it bends much,
-and its area is wrong by less than a hundredth; from 2.5 on small patches are no longer like the
-mesh, and from 4 on what lies about an apex is missed."""
+COARSENESS = 1.5
+"""Of the size field of a surface of formulas: fewer cells where it bends much. Over the gallery the
+estimate is off by .3 % in the mean and 3.4 % at most, as with 1.25."""
 
 SHARP = 6.0
 """How sharply the count of a face changes from that of its boundary to that of its area."""
