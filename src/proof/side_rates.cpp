@@ -9,7 +9,7 @@
 namespace surfmesh {
 namespace {
 
-constexpr std::size_t PARTS = 4;           // of a side
+constexpr std::size_t PARTS_OF_SIDE = 4;   // of a side
 constexpr double RATE_ROUNDING = 0x1p-30;  // relative: directions are as exact as the side is long
 
 /// The side's direction, and two across it.
@@ -63,10 +63,10 @@ SurfaceStatus side_rates(const Surface& surface, std::span<const std::array<Poin
     for (std::size_t i = 0; i < ends.size(); ++i) {
         const Directions along = directions_of(ends[i][1] - ends[i][0]);
         const auto [a, b] = uv[i];
-        for (std::size_t k = 0; k < PARTS; ++k) {
+        for (std::size_t k = 0; k < PARTS_OF_SIDE; ++k) {
             const auto at = [&](std::size_t n) {
-                const double t = static_cast<double>(n) / static_cast<double>(PARTS);
-                return n == PARTS ? b : (1.0 - t) * a + t * b;
+                const double t = static_cast<double>(n) / static_cast<double>(PARTS_OF_SIDE);
+                return n == PARTS_OF_SIDE ? b : (1.0 - t) * a + t * b;
             };
             boxes.push_back(box_between(at(k), at(k + 1)));
             directions.push_back(along);
@@ -81,7 +81,8 @@ SurfaceStatus side_rates(const Surface& surface, std::span<const std::array<Poin
         out[i] = {intervals::INFINITE, intervals::INFINITE};
         const double length = norm(ends[i][1] - ends[i][0]);
         if (status == SurfaceStatus::DONE && length > 0.0)
-            out[i] = rate_of({bends.data() + PARTS * i, PARTS}, uv[i][1] - uv[i][0], length);
+            out[i] = rate_of({bends.data() + PARTS_OF_SIDE * i, PARTS_OF_SIDE}, uv[i][1] - uv[i][0],
+                             length);
     }
     return SurfaceStatus::DONE;
 }

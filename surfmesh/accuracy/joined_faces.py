@@ -119,17 +119,17 @@ def _spread(
     slides = np.where(room > 0.0, sides.along / room, np.inf)
     leaves = np.where(room > 0.0, sides.across / room, np.inf)
     is_plane = (sides.normal != 0.0).any(axis=1)
-    slid, followed, far = np.zeros_like(slope), np.zeros_like(slope), np.zeros_like(away)
+    slid, followed, far = np.ones_like(slope), np.zeros_like(slope), np.zeros_like(away)
     heights, longest = _heights(corners), _lengths(corners).max(axis=1)
     for own, beside in (pairs, pairs[::-1]):
         t, half = sides.triangle[own], 0.5 * sides.length[own]
         of_own = np.where(is_plane[own], 0.0, slides[own])
         of_other = np.where(is_plane[own] & ~is_plane[beside], leaves[beside], 0.0)
         steep = (longest[t] + half) / heights[t, sides.side[own]]
-        np.add.at(slid, t, of_own * steep)
+        np.multiply.at(slid, t, 1.0 + of_own * steep)  # one after the other
         np.add.at(followed, t, of_other * steep)
-        np.add.at(far, t, half * (of_own * (1.0 + slope[t]) + of_other))
-    all_slope = (1.0 + slope) * (1.0 + slid) - 1.0 + followed
+        np.add.at(far, t, half * (of_own + of_other))
+    all_slope = (1.0 + slope) * slid - 1.0 + followed
     return (away + far) * (1.0 + ROUNDING), all_slope * (1.0 + ROUNDING)
 
 

@@ -29,6 +29,9 @@ STEEP = 0.6
 FINER = 3
 """How often triangles are cut whose pieces change too fast."""
 
+FEW, MANY = 100, 0.05
+"""Vertices, and of all, at which that is worth a try."""
+
 STEPS = (1, 2, 4)
 """In which vertices are moved onto the surface."""
 
@@ -83,40 +86,6 @@ def _with_poles(moves: FaceMoves) -> FaceMoves:
     return moves._replace(found=joined_at_poles(moves.surface, moves.face, moves.found))
 
 
-def _moved(mesh: SurfaceMesh, faces: list[FaceMoves]) -> Answer:
-    """Can the mesh be moved to its surface?"""
-    points = np.ascontiguousarray(mesh.points)
-    moves = joined(faces, len(points))
-    most = GAP * float(np.linalg.norm(np.ptp(points, axis=0)))
-    if (moves.gaps > most).any():
-        faces = [
-            _over_uv(face) if gap > most else face
-            for face, gap in zip(faces, moves.gaps, strict=True)
-        ]
-        moves = joined(faces, len(points))
-    if (moves.gaps > most).any():
-        return Answer(
-            None, f"pieces of two faces are {moves.gaps.max():.2g} apart along an edge of both"
-        )
-    fault, first, second = _fault(points, moves)
-    if fault == BENT:
-        faces = [_looked_at_closely(face) for face in faces]
-        moves = joined(faces, len(points))
-        fault, first, second = _fault(points, moves)
-    way = _Way(points, faces, moves)
-    for _ in range(FINER):
-        if fault != BENT:
-            break
-        finer = _finer(way)
-        if finer is None:
-            break
-        way = finer
-        fault, first, second = _fault(way.points, way.moves)
-    if fault == HOLDS:
-        return Answer(True, "no two points move to the surface by more than they are apart")
-    return Answer(None, _in_words(way, fault, first, second))
-
-
 class _Way(NamedTuple):
     """From the mesh to the surface: the last mesh on it so far, and how that moves."""
 
@@ -125,10 +94,57 @@ class _Way(NamedTuple):
     moves: AllMoves
 
 
-def _finer(way: _Way) -> _Way | None:
-    """The way by a mesh that is finer where pieces change too fast; None where there is none."""
+def _moved(mesh: SurfaceMesh, faces: list[FaceMoves]) -> Answer:
+    """Can the mesh be moved to its surface?"""
+    points = np.ascontiguousarray(mesh.points)
+    faces = _with_one_curve(faces, points)
+    way = _Way(points, faces, joined(faces, len(points)))
+    if (gap := way.moves.gaps.max()) > _most(points):
+        return Answer(None, f"pieces of two faces are {gap:.2g} apart along an edge of both")
+    fault = _fault(way)
+    if fault[0] == BENT:
+        still = np.zeros(len(way.moves.slope))
+        folded = bent_stars(points, way.moves.triangles, still)
+        if len(folded):
+            place = _place(points[folded[0]])
+            return Answer(None, f"seen along no direction triangles at {place} form a graph")
+        way = _looked_at_closely(way)
+        fault = _fault(way)
+    for _ in range(FINER):
+        finer = _finer(way) if fault[0] == BENT else None
+        if finer is None:
+            break
+        way = finer
+        fault = _fault(way)
+    if fault[0] == HOLDS:
+        return Answer(True, "no two points move to the surface by more than they are apart")
+    return Answer(None, _in_words(way, *fault))
+
+
+def _most(points: NDArray[np.float64]) -> float:
+    """How far pieces of two faces may be apart."""
+    return GAP * float(np.linalg.norm(np.ptp(points, axis=0)))
+
+
+def _with_one_curve(faces: list[FaceMoves], points: NDArray[np.float64]) -> list[FaceMoves]:
+    """With pieces over (u, v) where those by nearest points do not end in other faces."""
+    gaps = joined(faces, len(points)).gaps
+    is_far = gaps > _most(points)
+    return [_over_uv(face) if far else face for face, far in zip(faces, is_far, strict=True)]
+
+
+def _bent(way: _Way) -> NDArray[np.bool_]:
+    """(n,) vertices at which pieces change too fast."""
     is_bent = np.zeros(len(way.points), bool)
     is_bent[bent_stars(way.points, way.moves.triangles, way.moves.slope)] = True
+    return is_bent
+
+
+def _finer(way: _Way) -> _Way | None:
+    """The way by a mesh that is finer where pieces change too fast; None where there is none."""
+    is_bent = _bent(way)
+    if is_bent.sum() > max(FEW, MANY * len(is_bent)):
+        return None
     flat, moved, cuts, faces = [way.points], [way.points], [], []
     for face in way.faces:
         start = sum(map(len, flat))
@@ -177,9 +193,15 @@ def _moves_of(cut: FinerFace, by_normals: bool) -> FaceMoves | None:
     return _proved(FaceMoves(cut.surface, cut.face, cut.numbers, unknown), by_normals)
 
 
-def _looked_at_closely(moves: FaceMoves) -> FaceMoves:
-    """With slopes that are bounded as well as they can be."""
-    return _proved(moves, moves.found.bends is None) or moves
+def _looked_at_closely(way: _Way) -> _Way:
+    """With slopes that are bounded as well as they can be, of faces where they are too much."""
+    is_bent, faces = _bent(way), []
+    for face in way.faces:
+        found = None
+        if is_bent[face.numbers].any():
+            found = _proved(face, face.found.bends is None)
+        faces.append(found or face)
+    return _Way(way.points, faces, joined(faces, len(way.points)))
 
 
 def _proved(moves: FaceMoves, by_normals: bool) -> FaceMoves | None:
@@ -192,8 +214,9 @@ def _proved(moves: FaceMoves, by_normals: bool) -> FaceMoves | None:
     return moves if moves.found.is_joined else None
 
 
-def _fault(points: NDArray[np.float64], moves: AllMoves) -> tuple[int, int, int]:
-    return prove_isotopy(points, moves.triangles, moves.away, moves.slope)
+def _fault(way: _Way) -> tuple[int, int, int]:
+    moves = way.moves
+    return prove_isotopy(way.points, moves.triangles, moves.away, moves.slope)
 
 
 def _in_words(way: _Way, fault: int, first: int, second: int) -> str:
