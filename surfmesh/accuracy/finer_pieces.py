@@ -8,7 +8,8 @@ move linearly, and from there pieces change less.
         .' `.                .'|`.        m: amid a b
        a-----b     ->       a--m--b       m': the nearest point of the surface
 
-Sides at rims, and those that end in a pole, stay whole.
+Sides that end in a pole stay whole, and those at rims of the mesh; what is amid a side of two
+faces is said by both (``joined_faces``).
 """
 
 from typing import NamedTuple
@@ -19,7 +20,7 @@ from numpy.typing import NDArray
 from surfmesh._core.triangulation import first_not_ccw
 from surfmesh.accuracy.face_triangles import FaceTriangles
 from surfmesh.accuracy.gaps import gaps_of
-from surfmesh.accuracy.joined_faces import FaceMoves
+from surfmesh.accuracy.joined_faces import FaceMoves, SharedMiddles
 from surfmesh.accuracy.polar_pieces import Pole, poles
 from surfmesh.accuracy.projected_pieces import nearest
 from surfmesh.geometry.differential.projection import closest_point
@@ -50,22 +51,28 @@ def unmoved(moves: FaceMoves) -> FinerFace:
 
 
 def cut_around(
-    moves: FaceMoves, points: NDArray[np.float64], is_bent: NDArray[np.bool_], count: int
-) -> FinerFace | None:
+    moves: FaceMoves, points: NDArray[np.float64], is_bent: NDArray[np.bool_],
+    shared: SharedMiddles, count: int,
+) -> FinerFace | None:  # fmt: skip
     """With all sides of triangles at vertices that are bent cut, that can be; None without any.
 
-    points, is_bent: of the whole mesh's vertices; count: how many there are already.
+    points: of all vertices, those of ``shared`` with them, on the surface; is_bent: of the first of
+    them; count: how many there are with those of other faces.
     """
     surface, face, numbers, _ = moves
-    ends = poles(face, gaps_of(surface, face)) if is_bent[numbers].any() else []
-    sides = _sides_to_cut(face, ends, is_bent[numbers])
-    if not len(sides):
+    own = is_bent[numbers]
+    ends = poles(face, gaps_of(surface, face)) if own.any() else []
+    sides = _sides_to_cut(face, ends, own)
+    if not len(sides) and not len(shared.numbers):
         return None
     a, b = (numbers[face.vertices[sides // 3, (sides % 3 + k) % 3]] for k in (0, 1))
     flat = 0.5 * (points[a] + points[b])
     middle, moved = _middles(moves, sides, flat)
+    middle.reshape(-1, 2)[shared.half_edges] = shared.uv
     number = np.full(face.twins.shape, -1, np.int32)
-    number[sides] = number[face.twins[sides]] = len(numbers) + np.arange(len(sides))
+    first = len(numbers) + len(shared.numbers)
+    number[shared.half_edges] = len(numbers) + np.arange(len(shared.numbers))
+    number[sides] = number[face.twins[sides]] = first + np.arange(len(sides))
     rows, cut = _cut(number.reshape(-1, 3) >= 0)
     six = np.concatenate([face.vertices, number.reshape(-1, 3)], axis=1)
     triangles = np.ascontiguousarray(six[rows[:, None], cut], np.int32)
@@ -74,9 +81,10 @@ def cut_around(
         _place_amid(uv, triangles, pole)
     if not _run_alike(uv):
         return None
-    numbers = np.concatenate([numbers, count + np.arange(len(sides))])
-    after = np.concatenate([points[moves.numbers], moved])[triangles]
-    finer = FaceTriangles(np.ascontiguousarray(after), uv, triangles, _twins(triangles))
+    known = np.concatenate([numbers, shared.numbers])
+    corners = np.concatenate([points[known], moved])[triangles]
+    finer = FaceTriangles(np.ascontiguousarray(corners), uv, triangles, _twins(triangles))
+    numbers = np.concatenate([known, count + np.arange(len(sides))])
     return FinerFace(surface, finer, numbers, flat, moved)
 
 

@@ -68,6 +68,7 @@ class _Sides(NamedTuple):
     ends: NDArray[np.int64]  # (k, 2)
     length: Array  # (k,)
     piece: Array  # (k, 3, 3) over PLACES, less these
+    part: Array  # (k, 3) where that is, from end to end in (u, v)
     off: Array  # (k, 2) how far these are from the vertices
     normal: Array  # (k, 3) of a plane, else 0
     along: Array  # (k,) how fast the piece leaves the side at most, along it
@@ -183,10 +184,8 @@ def _sides_of(face: FaceMoves, start: int) -> _Sides:
     normal = np.tile(face.surface.z if is_plane else np.zeros(3), (len(half_edges), 1))
     off = np.linalg.norm(ends_of_piece - corners, axis=2)
     along, across = _rates(face, triangle, corners, uv) + off.sum(axis=1) / length
-    return _Sides(
-        triangle + start, side, ends, length, _over_places(face, corners, uv, ends_of_piece), off,
-        normal, along, across,
-    )  # fmt: skip
+    piece, part = _over_places(face, corners, uv, ends_of_piece)
+    return _Sides(triangle + start, side, ends, length, piece, part, off, normal, along, across)
 
 
 def _rates(face: FaceMoves, triangle: NDArray[np.intp], corners: Array, uv: Array) -> Array:
@@ -202,8 +201,11 @@ def _rates(face: FaceMoves, triangle: NDArray[np.intp], corners: Array, uv: Arra
     return np.asarray(rates.T)
 
 
-def _over_places(face: FaceMoves, corners: Array, uv: Array, ends: Array) -> Array:
-    """(k, 3, 3) where the piece, its ends (k, 2, 3) brought to the corners, is over PLACES."""
+def _over_places(face: FaceMoves, corners: Array, uv: Array, ends: Array) -> tuple[Array, Array]:
+    """(k, 3, 3) the piece, its ends (k, 2, 3) brought to the corners, over PLACES, less these.
+
+    And (k, 3) the part of the way between its ends.
+    """
     along = corners[:, 1] - corners[:, 0]
     square = np.einsum("kc,kc->k", along, along)[:, None]
     wanted = _along(corners, np.tile(PLACES, (len(uv), 1)))
@@ -220,7 +222,8 @@ def _over_places(face: FaceMoves, corners: Array, uv: Array, ends: Array) -> Arr
             places, value = off(t)
             step = np.where(value == before, 0.0, value * (t - last) / (value - before))
             last, before, t = t, value, t - step
-    return places
+        places, _ = off(t)
+    return places, t
 
 
 def _piece(face: FaceMoves, corners: Array, uv: Array, t: Array) -> Array:
@@ -231,6 +234,55 @@ def _piece(face: FaceMoves, corners: Array, uv: Array, t: Array) -> Array:
             return piece
     (points,) = face.surface.evaluate(np.ascontiguousarray(_along(uv, t).reshape(-1, 2)), 0)
     return points.reshape(*t.shape, 3)
+
+
+class SharedMiddles(NamedTuple):
+    """New vertices amid sides of two faces, as one of these has them."""
+
+    half_edges: NDArray[np.intp]  # (k,) of the face
+    uv: Array  # (k, 2)
+    numbers: NDArray[np.int64]  # (k,) of the vertices
+
+
+def shared_middles(
+    faces: list[FaceMoves], points: Array, is_bent: NDArray[np.bool_]
+) -> tuple[Array, Array, list[SharedMiddles]]:
+    """(n, 3) amid sides that end in a vertex that is bent, (n, 3) on both faces; and of each face.
+
+    Sides between planes need none.
+    """
+    sides = _sides(faces)
+    one, other = _pairs(sides)
+    is_plane = (sides.normal != 0.0).any(axis=1)
+    wanted = is_bent[sides.ends[one]].any(axis=1) & ~(is_plane[one] & is_plane[other])
+    one, other = one[wanted], other[wanted]
+    flat = points[sides.ends[one]].mean(axis=1)
+    weight = np.where(is_plane[one], 0.0, np.where(is_plane[other], 1.0, 0.5))[:, None]
+    moved = flat + weight * sides.piece[one, 1] + (1.0 - weight) * sides.piece[other, 1]
+    rows, number = np.concatenate([one, other]), np.tile(np.arange(len(one)), 2)
+    starts = np.cumsum([0, *(len(face.face.vertices) for face in faces)])
+    found = []
+    for face, first, end in zip(faces, starts[:-1], starts[1:], strict=True):
+        own = np.flatnonzero((sides.triangle[rows] >= first) & (sides.triangle[rows] < end))
+        row, k = rows[own], number[own]
+        half_edges = 3 * (sides.triangle[row] - first) + sides.side[row]
+        uv = _middle_uv(face, half_edges, sides.part[row, 1], moved[k])
+        found.append(SharedMiddles(half_edges, uv, len(points) + k))
+    return flat, moved, found
+
+
+def _middle_uv(face: FaceMoves, half_edges: NDArray[np.intp], part: Array, points: Array) -> Array:
+    """(k, 2) parameters of points on sides."""
+    surface = face.surface
+    if isinstance(surface, Plane):
+        away = points - surface.origin
+        return np.stack([(away * axis).sum(axis=1) for axis in (surface.x, surface.y)], axis=1)
+    triangle, side = half_edges // 3, half_edges % 3
+    at = np.stack([side, (side + 1) % 3], axis=1)
+    ends = face.triangles[triangle[:, None], at]
+    turned = ends[:, 0] > ends[:, 1]
+    at[turned] = at[turned, ::-1]
+    return _along(face.face.uv[triangle[:, None], at], part[:, None])[:, 0]
 
 
 def _along(ends: Array, t: Array) -> Array:

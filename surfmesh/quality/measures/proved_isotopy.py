@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from surfmesh._core.proof import bent_stars, prove_isotopy
 from surfmesh.accuracy.finer_pieces import FinerFace, cut_around, linear_moves, unmoved
-from surfmesh.accuracy.joined_faces import AllMoves, FaceMoves, joined
+from surfmesh.accuracy.joined_faces import AllMoves, FaceMoves, joined, shared_middles
 from surfmesh.accuracy.polar_pieces import joined_at_poles
 from surfmesh.accuracy.proof import FaceProof, proved_distances
 from surfmesh.quality.measures.known_surfaces import KnownSurfaces
@@ -145,12 +145,15 @@ def _finer(way: _Way) -> _Way | None:
     is_bent = _bent(way)
     if is_bent.sum() > max(FEW, MANY * len(is_bent)):
         return None
-    flat, moved, cuts, faces = [way.points], [way.points], [], []
-    for face in way.faces:
-        start = sum(map(len, flat))
-        cut = cut_around(face, way.points, is_bent, start)
+    amid, on_both, shared = shared_middles(way.faces, way.points, is_bent)
+    flat, moved, cuts, faces = [way.points, amid], [way.points, on_both], [], []
+    known = np.concatenate(moved)
+    for face, own in zip(way.faces, shared, strict=True):
+        cut = cut_around(face, known, is_bent, own, sum(map(len, flat)))
         found = None if cut is None else _moves_of(cut, face.found.bends is None)
         if cut is None or found is None:
+            if len(own.numbers):
+                return None  # both faces are cut there, or none
             faces.append(face)
             cuts.append(unmoved(face))
             continue
@@ -158,13 +161,13 @@ def _finer(way: _Way) -> _Way | None:
         moved.append(cut.moved)
         faces.append(found)
         cuts.append(cut)
-    if len(flat) == 1:
-        return None
     triangles = np.concatenate([cut.numbers[cut.face.vertices] for cut in cuts])
     start, end = np.concatenate(flat), np.concatenate(moved)
-    if not _is_moved(start, end, np.ascontiguousarray(triangles, np.int32)):
+    is_same = len(end) == len(way.points)
+    if is_same or not _is_moved(start, end, np.ascontiguousarray(triangles, np.int32)):
         return None
-    return _Way(end, faces, joined(faces, len(end)))
+    finer = _Way(end, faces, joined(faces, len(end)))
+    return finer if finer.moves.gaps.max() <= _most(end) else None
 
 
 def _is_moved(
