@@ -180,8 +180,9 @@ def _sides_of(face: FaceMoves, start: int) -> _Sides:
     corners, uv = face.face.corners[triangle[:, None], at], face.face.uv[triangle[:, None], at]
     length = np.linalg.norm(corners[:, 1] - corners[:, 0], axis=1)
     ends_of_piece = _piece(face, corners, uv, np.tile([0.0, 1.0], (len(uv), 1)))
-    is_plane = isinstance(face.surface, Plane)
-    normal = np.tile(face.surface.z if is_plane else np.zeros(3), (len(half_edges), 1))
+    normal = np.zeros((len(half_edges), 3))
+    if isinstance(face.surface, Plane):
+        normal += face.surface.z
     off = np.linalg.norm(ends_of_piece - corners, axis=2)
     along, across = _rates(face, triangle, corners, uv) + off.sum(axis=1) / length
     piece, part = _over_places(face, corners, uv, ends_of_piece)

@@ -106,9 +106,8 @@ def nearest(surface: Surface, points: Array) -> Array | None:
     unit = across / np.where(distance > 0.0, distance, 1.0)
     if not isinstance(surface, Cone):
         return np.asarray(points + (abs(surface.radius) - distance) * _in_space(surface, unit))
-    sine, cosine = float(np.sin(surface.angle)), float(np.cos(surface.angle))
-    height = local[..., 2:] + surface.radius / sine * cosine
-    sine = _sine(surface, local[..., 2:])
+    cosine, sine = float(np.cos(surface.angle)), _sine(surface, local[..., 2:])
+    height = local[..., 2:] + surface.radius / float(np.sin(surface.angle)) * cosine
     normal = cosine * unit - sine * np.array([0.0, 0.0, 1.0])
     return np.asarray(points + (height * sine - distance * cosine) * _in_space(surface, normal))
 
@@ -137,7 +136,7 @@ def slide_along(surface: Surface, ends: Array, away: Array) -> Array:
         unit = side / length[:, None]
         inner = np.maximum(distance.min(axis=1) - 0.5 * length, 0.0)
         outwards = across / distance[:, :, None]
-        cosine, sine = 1.0, np.zeros((len(ends), 1))
+        cosine, sine = 1.0, np.zeros(distance.shape)
         if isinstance(surface, Cone):
             cosine = float(np.cos(surface.angle))
             sine = _sine(surface, local[:, :, 2])

@@ -61,7 +61,7 @@ def proved_distances(
         return None
     away = bounds[:, WHOLE] + bounds[:, CORNER]
     changes = bounds[:, SLOPE].copy()
-    is_joined = not any(map(len, (gaps.owners, gaps.unknown, gaps.loose)))
+    is_joined = not (len(gaps.owners) or len(gaps.unknown) or len(gaps.loose))
     if len(gaps.unknown):
         bounds[gaps.unknown] = np.inf
     bound, _ = proof.ring_bounds(face.corners, face.vertices, face.twins, bounds)

@@ -97,8 +97,7 @@ class _Way(NamedTuple):
 def _moved(mesh: SurfaceMesh, faces: list[FaceMoves]) -> Answer:
     """Can the mesh be moved to its surface?"""
     points = np.ascontiguousarray(mesh.points)
-    faces = _with_one_curve(faces, points)
-    way = _Way(points, faces, joined(faces, len(points)))
+    way = _with_one_curve(_Way(points, faces, joined(faces, len(points))))
     if (gap := way.moves.gaps.max()) > _most(points):
         return Answer(None, f"pieces of two faces are {gap:.2g} apart along an edge of both")
     fault = _fault(way)
@@ -126,11 +125,13 @@ def _most(points: NDArray[np.float64]) -> float:
     return GAP * float(np.linalg.norm(np.ptp(points, axis=0)))
 
 
-def _with_one_curve(faces: list[FaceMoves], points: NDArray[np.float64]) -> list[FaceMoves]:
+def _with_one_curve(way: _Way) -> _Way:
     """With pieces over (u, v) where those by nearest points do not end in other faces."""
-    gaps = joined(faces, len(points)).gaps
-    is_far = gaps > _most(points)
-    return [_over_uv(face) if far else face for face, far in zip(faces, is_far, strict=True)]
+    is_far = way.moves.gaps > _most(way.points)
+    if not is_far.any():
+        return way
+    faces = [_over_uv(face) if far else face for face, far in zip(way.faces, is_far, strict=True)]
+    return _Way(way.points, faces, joined(faces, len(way.points)))
 
 
 def _bent(way: _Way) -> NDArray[np.bool_]:
