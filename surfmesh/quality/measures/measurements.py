@@ -36,7 +36,7 @@ from surfmesh.quality.measures.lengths import (
 from surfmesh.quality.measures.loose_edges import LooseEdges, loose_edges
 from surfmesh.quality.measures.proof import Proof, proof
 from surfmesh.quality.measures.proved_isotopy import isotopic
-from surfmesh.quality.measures.proved_topology import Answer, FaceKinds, face_kinds, homeomorphic
+from surfmesh.quality.measures.proved_topology import Answer, homeomorphic
 from surfmesh.quality.measures.self_intersection import meeting_pairs
 from surfmesh.quality.measures.shape import Shapes, enclosed_volume, metric_alpha, shapes
 from surfmesh.quality.measures.solids import shares_faces
@@ -174,22 +174,15 @@ class Measurements:
         )
 
     @cached_property
-    def face_kinds(self) -> FaceKinds | None:
-        """Are its faces discs with holes in (u, v)?"""
-        return None if self.known is None else face_kinds(self.known)
-
-    @cached_property
     def homeomorphic(self) -> Answer:
         """Mesh and surface, or model."""
-        if self.face_kinds is None:
+        if self.known is None:
             return Answer(None, "no surface is known")
-        return homeomorphic(self.mesh, self.face_kinds, self.topology, self.unexpected)
+        return homeomorphic(self.known, self.topology, self.unexpected)
 
     @cached_property
     def isotopic(self) -> Answer:
         """Likewise, by a deformation of space."""
-        if self.face_kinds is not None and self.face_kinds.turned:
-            return Answer(None, "pieces overlap in (u, v), where triangles are turned over")
         meets = None if self.meeting is None else len(self.meeting)
         return isotopic(self.homeomorphic, meets, self.crosses_itself, self.known, self.proof)
 

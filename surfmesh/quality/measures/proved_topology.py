@@ -10,7 +10,6 @@ docs/proof.md.
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -25,7 +24,6 @@ from surfmesh.result.connectivity import connect
 from surfmesh.result.surface_mesh import SurfaceMesh
 
 TOUCHES = "its triangles only touch in (u, v)"
-TURNED = "triangles do not all run the same way round in (u, v)"
 
 
 @dataclass(frozen=True)
@@ -40,20 +38,12 @@ class Answer:
         return f"{word}: {self.because}" if self.because else word
 
 
-class FaceKinds(NamedTuple):
-    """The first face that is no disc with holes of (u, v) for each reason, in words; or none."""
-
-    unlike: str  # it is no disc with holes
-    touching: str  # it touches itself
-    turned: str  # triangles are turned over, so that pieces overlap
-
-
-def face_kinds(known: KnownSurfaces) -> FaceKinds:
-    """Are all faces of the mesh discs with holes?"""
+def homeomorphic(known: KnownSurfaces, whole: Topology, unexpected: Unexpected) -> Answer:
+    """Of the mesh and what it was made of."""
     mesh = known.mesh
-    found = {TOUCHES: "", TURNED: ""}
     order = np.argsort(mesh.face_ids, kind="stable")
     starts = np.flatnonzero(np.diff(mesh.face_ids[order], prepend=-1))
+    touching = ""
     for rows in np.split(order, starts[1:]):
         reason = _not_a_disc(known, rows)
         if not reason:
@@ -61,18 +51,9 @@ def face_kinds(known: KnownSurfaces) -> FaceKinds:
         number = int(mesh.face_ids[rows[0]])
         where = face_in_words(number, mesh.face_name(number))
         in_words = f"{where}: {reason}" if len(mesh.surfaces) > 1 else reason
-        if reason not in found:
-            return FaceKinds(in_words, "", "")
-        found[reason] = found[reason] or in_words
-    return FaceKinds("", found[TOUCHES], found[TURNED])
-
-
-def homeomorphic(
-    mesh: SurfaceMesh, faces: FaceKinds, whole: Topology, unexpected: Unexpected
-) -> Answer:
-    """Of the mesh and what it was made of."""
-    if faces.unlike:
-        return Answer(None, faces.unlike)
+        if reason != TOUCHES:
+            return Answer(None, in_words)
+        touching = touching or in_words
     missing = len(mesh.surfaces) - len(np.unique(mesh.face_ids))
     if missing:
         return Answer(False, f"{missing} of {len(mesh.surfaces)} faces have no triangles")
@@ -82,14 +63,11 @@ def homeomorphic(
     exact = None if mesh.facts is None else mesh.facts.euler
     if exact is not None and exact != whole.euler:
         return Answer(False, f"the Euler number is {whole.euler}, of the model {exact}")
-    if faces.touching and not _is_classified(mesh, whole):
-        return Answer(None, faces.touching)
-    if faces.touching:
+    if touching and not _is_classified(mesh, whole):
+        return Answer(None, touching)
+    if touching:
         closed = "both are closed, in one piece, and have the same Euler number"
-        return Answer(True, f"{closed} ({faces.touching})")
-    if faces.turned:
-        discs = "every face is a disc with holes by its Euler number"
-        return Answer(True, f"{discs}, and they are joined by number ({faces.turned})")
+        return Answer(True, f"{closed} ({touching})")
     discs = "every face is a disc with its holes in (u, v)"
     return Answer(True, f"{discs}, and they are joined by number as in the model")
 
@@ -114,6 +92,8 @@ def _not_a_disc(known: KnownSurfaces, rows: Rows) -> str:
     uv, triangles = known.corners.uv_points[used], triangles.reshape(-1, 3)
     if not np.isfinite(uv).all():
         return "its parameters are not finite"
+    if not _run_one_way(uv, triangles):
+        return "triangles do not all run the same way round in (u, v)"
     flat = topology(_plane_mesh(uv, triangles))
     places = triangles == flat.pinched_vertices[:, None, None]
     if len(flat.pinched_vertices) and _are_of_model(known.mesh, rows, places):
@@ -121,15 +101,13 @@ def _not_a_disc(known: KnownSurfaces, rows: Rows) -> str:
         if opened.components == flat.components:
             flat = opened
     if not flat.manifold:
-        return TOUCHES if _run_one_way(uv, triangles) else f"{TOUCHES}, and are turned over"
+        return TOUCHES
     if flat.euler != 2 * flat.components - flat.boundary_loops:  # each has at most 2 less its loops
         return f"it has {flat.boundary_loops} boundary loops, and the Euler number {flat.euler}"
     loops = len(known.mesh.surfaces[int(known.mesh.face_ids[rows[0]])].loops)
     if loops and loops != flat.boundary_loops:
         return f"it has {flat.boundary_loops} boundary loops instead of {loops}"
-    if not flat.oriented:
-        return "its triangles run round it either way"
-    return "" if _run_one_way(uv, triangles) else TURNED
+    return ""
 
 
 def _are_of_model(mesh: SurfaceMesh, rows: Rows, places: NDArray[np.bool_]) -> bool:
