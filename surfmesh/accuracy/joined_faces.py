@@ -57,7 +57,6 @@ class AllMoves(NamedTuple):
     triangles: NDArray[np.int32]  # (m, 3)
     away: Array  # (m,) how far points move at most
     slope: Array  # (m,) how fast that changes at most
-    gaps: Array  # of each face: how far from pieces of others along their side, where looked at
 
 
 class _Sides(NamedTuple):
@@ -84,7 +83,6 @@ def joined(faces: list[FaceMoves], count: int) -> AllMoves:
     triangles = np.concatenate([face.triangles for face in faces])
     away = np.concatenate([face.found.away for face in faces])
     slope = np.concatenate([face.found.slope for face in faces])
-    gaps = np.zeros(len(faces))
     if len(faces) > 1:
         corners = np.concatenate([face.face.corners for face in faces])
         sides = _sides(faces)
@@ -94,8 +92,7 @@ def joined(faces: list[FaceMoves], count: int) -> AllMoves:
             away, slope = _spread(sides, pairs, corners, away + more_away, slope + more_slope)
         known = np.isfinite(away) & np.isfinite(slope)
         away, slope = np.where(known, away, np.inf), np.where(known, slope, np.inf)
-        gaps = _gaps(faces, sides, pairs)
-    return AllMoves(np.ascontiguousarray(triangles, np.int32), away, slope, gaps)
+    return AllMoves(np.ascontiguousarray(triangles, np.int32), away, slope)
 
 
 def _at_corners(
@@ -134,20 +131,26 @@ def _spread(
     return (away + far) * (1.0 + ROUNDING), all_slope * (1.0 + ROUNDING)
 
 
-def _gaps(faces: list[FaceMoves], sides: _Sides, pairs: _Pairs) -> Array:
-    """Between pieces of two faces over places of their side; beside a plane, from that."""
-    one, other = pairs
+def gaps_between(faces: list[FaceMoves]) -> Array:
+    """(f,) how far pieces are at most from those of other faces, over places of their sides.
+
+    Beside a plane, from that.
+    """
+    gaps = np.zeros(len(faces))
+    if len(faces) < 2:
+        return gaps
+    sides = _sides(faces, with_rates=False)
+    one, other = _pairs(sides)
     is_plane = (sides.normal != 0.0).any(axis=1)
     apart = sides.piece[one] - sides.piece[other]
     far = np.linalg.norm(apart, axis=2)
-    for own in pairs:
+    for own in (one, other):
         from_plane = np.abs(np.einsum("kqc,kc->kq", apart, sides.normal[own]))
         far = np.where(is_plane[own, None], from_plane, far)
     far[is_plane[one] & is_plane[other]] = 0.0
     number = np.repeat(np.arange(len(faces)), [len(face.face.vertices) for face in faces])
-    gaps = np.zeros(len(faces))
-    for own in pairs:
-        np.maximum.at(gaps, number[sides.triangle[own]], far.max(axis=1))
+    for own in (one, other):
+        np.maximum.at(gaps, number[sides.triangle[own]], far.max(axis=1, initial=0.0))
     return gaps
 
 
@@ -160,16 +163,16 @@ def _pairs(sides: _Sides) -> _Pairs:
     return order[pairs], order[pairs + 1]
 
 
-def _sides(faces: list[FaceMoves]) -> _Sides:
-    """Of all faces."""
+def _sides(faces: list[FaceMoves], with_rates: bool = True) -> _Sides:
+    """Of all faces. with_rates: else these are left 0."""
     rows, start = [], 0
     for face in faces:
-        rows.append(_sides_of(face, start))
+        rows.append(_sides_of(face, start, with_rates))
         start += len(face.face.vertices)
     return _Sides(*(np.concatenate(column) for column in zip(*rows, strict=True)))
 
 
-def _sides_of(face: FaceMoves, start: int) -> _Sides:
+def _sides_of(face: FaceMoves, start: int, with_rates: bool) -> _Sides:
     """Of one face, whose triangles are numbered from ``start`` on."""
     half_edges = np.flatnonzero(face.face.twins < 0)
     triangle, side = half_edges // 3, half_edges % 3
@@ -184,7 +187,9 @@ def _sides_of(face: FaceMoves, start: int) -> _Sides:
     if isinstance(face.surface, Plane):
         normal += face.surface.z
     off = np.linalg.norm(ends_of_piece - corners, axis=2)
-    along, across = _rates(face, triangle, corners, uv) + off.sum(axis=1) / length
+    along, across = np.zeros((2, len(uv)))
+    if with_rates:
+        along, across = _rates(face, triangle, corners, uv) + off.sum(axis=1) / length
     piece, part = _over_places(face, corners, uv, ends_of_piece)
     return _Sides(triangle + start, side, ends, length, piece, part, off, normal, along, across)
 
@@ -252,7 +257,7 @@ def shared_middles(
 
     Sides between planes need none.
     """
-    sides = _sides(faces)
+    sides = _sides(faces, with_rates=False)
     one, other = _pairs(sides)
     is_plane = (sides.normal != 0.0).any(axis=1)
     wanted = is_bent[sides.ends[one]].any(axis=1) & ~(is_plane[one] & is_plane[other])

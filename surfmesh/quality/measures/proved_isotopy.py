@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from surfmesh._core.proof import bent_stars, prove_isotopy
 from surfmesh.accuracy.finer_pieces import FinerFace, cut_around, linear_moves, unmoved
-from surfmesh.accuracy.joined_faces import AllMoves, FaceMoves, joined, shared_middles
+from surfmesh.accuracy.joined_faces import AllMoves, FaceMoves, gaps_between, joined, shared_middles
 from surfmesh.accuracy.polar_pieces import joined_at_poles
 from surfmesh.accuracy.proof import FaceProof, proved_distances
 from surfmesh.quality.measures.known_surfaces import KnownSurfaces
@@ -97,9 +97,10 @@ class _Way(NamedTuple):
 def _moved(mesh: SurfaceMesh, faces: list[FaceMoves]) -> Answer:
     """Can the mesh be moved to its surface?"""
     points = np.ascontiguousarray(mesh.points)
-    way = _with_one_curve(_Way(points, faces, joined(faces, len(points))))
-    if (gap := way.moves.gaps.max()) > _most(points):
+    faces, gap = _with_one_curve(faces, _most(points))
+    if gap > _most(points):
         return Answer(None, f"pieces of two faces are {gap:.2g} apart along an edge of both")
+    way = _Way(points, faces, joined(faces, len(points)))
     fault = _fault(way)
     if fault[0] == BENT:
         still = np.zeros(len(way.moves.slope))
@@ -125,13 +126,23 @@ def _most(points: NDArray[np.float64]) -> float:
     return GAP * float(np.linalg.norm(np.ptp(points, axis=0)))
 
 
-def _with_one_curve(way: _Way) -> _Way:
-    """With pieces over (u, v) where those by nearest points do not end in other faces."""
-    is_far = way.moves.gaps > _most(way.points)
+def _with_one_curve(faces: list[FaceMoves], most: float) -> tuple[list[FaceMoves], float]:
+    """With pieces over (u, v) where those by nearest points do not end in other faces.
+
+    And the largest gap that is left; where it is too large, nothing is proved of these.
+    """
+    is_far = gaps_between(faces) > most
     if not is_far.any():
-        return way
-    faces = [_over_uv(face) if far else face for face, far in zip(way.faces, is_far, strict=True)]
-    return _Way(way.points, faces, joined(faces, len(way.points)))
+        return faces, 0.0
+    tried = [
+        face._replace(found=face.found._replace(bends=np.empty((0, 3, 2)))) if far else face
+        for face, far in zip(faces, is_far, strict=True)
+    ]
+    gap = float(gaps_between(tried).max())
+    if gap > most:
+        return faces, gap
+    faces = [_over_uv(face) if far else face for face, far in zip(faces, is_far, strict=True)]
+    return faces, float(gaps_between(faces).max())
 
 
 def _bent(way: _Way) -> NDArray[np.bool_]:
@@ -168,7 +179,7 @@ def _finer(way: _Way) -> _Way | None:
     if is_same or not _is_moved(start, end, np.ascontiguousarray(triangles, np.int32)):
         return None
     finer = _Way(end, faces, joined(faces, len(end)))
-    return finer if finer.moves.gaps.max() <= _most(end) else None
+    return finer if gaps_between(faces).max() <= _most(end) else None
 
 
 def _is_moved(
