@@ -63,7 +63,7 @@ def isotopic(
     faces = [_with_poles(face) for face in moved_faces(known, found)]
     for face, number in zip(faces, (number for number, _ in found.moves), strict=True):
         if not face.found.is_joined:
-            reason = "pieces of neighbours differ along a side that ends in a pole"
+            reason = "pieces of neighbours differ along a side, at a pole or a seam"
             return Answer(None, _of_face(known.mesh, number, reason))
     return _moved(known.mesh, faces)
 
