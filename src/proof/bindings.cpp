@@ -12,6 +12,7 @@
 #include "proof/isotopy.hpp"
 #include "proof/polar_pieces.hpp"
 #include "proof/ring_bounds.hpp"
+#include "proof/side_rates.hpp"
 #include "proof/triangle_bounds.hpp"
 #include "surfaces/callback_surface.hpp"
 
@@ -215,9 +216,9 @@ std::optional<NewMoves> moves_at_pole(const Surface& surface, const Corners3& co
     return NewMoves(reinterpret_cast<double*>(found.data()), 2, shape, owner_of(found));
 }
 
-/// (0, -1, -1) where it holds.
-auto isotopy(const Points3& points, const Matrix<std::int32_t, 3>& triangles,
-             const Vector<double>& away, const Vector<double>& slope) {
+/// Every corner is a point, and each triangle has a number.
+MovedMesh moved_mesh(const Points3& points, const Matrix<std::int32_t, 3>& triangles,
+                     const Vector<double>& away, const Vector<double>& slope) {
     const std::size_t count = triangles.shape(0);
     require_rows(away.shape(0), count, "away");
     require_rows(slope.shape(0), count, "slope");
@@ -225,15 +226,53 @@ auto isotopy(const Points3& points, const Matrix<std::int32_t, 3>& triangles,
         if (triangles.data()[k] < 0 ||
             static_cast<std::size_t>(triangles.data()[k]) >= points.shape(0))
             throw nb::value_error("triangles has an index that is out of range");
+    return {rows<Point3>(points),
+            {triangles.data(), 3 * count},
+            rows<double>(away),
+            rows<double>(slope)};
+}
+
+/// (0, -1, -1) where it holds.
+auto isotopy(const Points3& points, const Matrix<std::int32_t, 3>& triangles,
+             const Vector<double>& away, const Vector<double>& slope) {
+    const MovedMesh mesh = moved_mesh(points, triangles, away, slope);
     IsotopyProof found{};
     {
         const nb::gil_scoped_release released;
-        found = prove_isotopy({rows<Point3>(points),
-                               {triangles.data(), 3 * count},
-                               rows<double>(away),
-                               rows<double>(slope)});
+        found = prove_isotopy(mesh);
     }
     return std::tuple(static_cast<int>(found.fault), found.first, found.second);
+}
+
+auto bent(const Points3& points, const Matrix<std::int32_t, 3>& triangles,
+          const Vector<double>& slope) {
+    const MovedMesh mesh = moved_mesh(points, triangles, slope, slope);
+    Array<std::int32_t> found;
+    {
+        const nb::gil_scoped_release released;
+        found = bent_stars(mesh);
+    }
+    return view(found);
+}
+
+using Sides3 = nb::ndarray<const double, nb::shape<-1, 2, 3>, nb::c_contig, nb::device::cpu>;
+using Sides2 = nb::ndarray<const double, nb::shape<-1, 2, 2>, nb::c_contig, nb::device::cpu>;
+
+NewMoves rates_of_sides(const Surface& surface, const Sides3& ends, const Sides2& uv) {
+    const std::size_t count = ends.shape(0);
+    require_rows(uv.shape(0), count, "uv");
+    Array<SideRate> found(count);
+    SurfaceStatus status;
+    {
+        const nb::gil_scoped_release released;
+        status = side_rates(surface,
+                            {reinterpret_cast<const std::array<Point3, 2>*>(ends.data()), count},
+                            {reinterpret_cast<const std::array<Point2, 2>*>(uv.data()), count},
+                            {found.data(), count});
+    }
+    raise_failure(surface, status);
+    const std::size_t shape[] = {count, 2};
+    return NewMoves(reinterpret_cast<double*>(found.data()), 2, shape, owner_of(found));
 }
 
 }  // namespace
@@ -274,6 +313,11 @@ void bind_proof(nb::module_& m) {
         "pieces may change too fast at vertex v; (2, s, t): triangles s and t may meet.\n\n"
         "away: (m,) how far points of each triangle move at most; slope: (m,) how fast that "
         "changes.");
+    m.def("bent_stars", &bent, nb::arg("points"), nb::arg("triangles"), nb::arg("slope"),
+          "(k,) vertices at which pieces may change too fast for their stars.");
+    m.def("side_rates", &rates_of_sides, nb::arg("surface"), nb::arg("ends"), nb::arg("uv"),
+          "(k, 2) how fast the curve over a straight side of (u, v) leaves the side at most, along "
+          "and across it; infinite without bounds.\n\nends: (k, 2, 3), uv: (k, 2, 2).");
     m.def("polar_moves", &moves_at_pole, nb::arg("surface"), nb::arg("corners"), nb::arg("base"),
           nb::arg("is_v"), nb::arg("value"),
           "(m, 2) how fast and how far points of triangles at a pole move to the surface at most, "

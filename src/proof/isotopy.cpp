@@ -203,6 +203,14 @@ void NearPairs::compare(std::int32_t s, std::int32_t t) {
 
 }  // namespace
 
+Array<std::int32_t> bent_stars(const MovedMesh& mesh) {
+    VertexStars stars(mesh);
+    Array<std::int32_t> found;
+    for (std::int32_t v = 0; v < stars.count(); ++v)
+        if (!(stars.change(v) < LESS_THAN_ONE)) found.push_back(v);
+    return found;
+}
+
 IsotopyProof prove_isotopy(const MovedMesh& mesh) {
     VertexStars stars(mesh);
     for (std::int32_t v = 0; v < stars.count(); ++v)

@@ -46,4 +46,7 @@ struct MovedMesh {
 
 [[nodiscard]] IsotopyProof prove_isotopy(const MovedMesh& mesh);
 
+/// All vertices where the first part is not known to hold.
+[[nodiscard]] Array<std::int32_t> bent_stars(const MovedMesh& mesh);
+
 }  // namespace surfmesh

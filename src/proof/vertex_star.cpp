@@ -108,14 +108,8 @@ double VertexStars::turned_inwards(std::int32_t v, Point3 n) const {
     return inwards + ANGLE_OFF;
 }
 
-double VertexStars::change(std::int32_t v) {
-    if (first_[v] == first_[v + 1]) return 0.0;  // no triangle has it
-    if (!put_in_order(v)) return intervals::INFINITE;
-    Point3 sum{0.0, 0.0, 0.0};
-    for (const Member& member : members_) sum = sum + member.normal;
-    const double size = norm(sum);
-    if (!(size > 0.0)) return intervals::INFINITE;
-    const Point3 n = (1.0 / size) * sum;
+/// Seen along n.
+double VertexStars::change_along(std::int32_t v, Point3 n) const {
     const double inwards = turned_inwards(v, n);
     if (!(inwards < HALF_TURN)) return intervals::INFINITE;
     double most = 0.0;
@@ -126,6 +120,42 @@ double VertexStars::change(std::int32_t v) {
     }
     const double straight = elementary::cos(0.5 * inwards) - ANGLE_OFF;
     return straight > 0.0 ? most / straight : intervals::INFINITE;
+}
+
+/// Nearer to the normal of the triangle that counts most as seen along n.
+Point3 VertexStars::turned_to_worst(Point3 n) const {
+    constexpr double PART = 0.25;
+    double most = -1.0;
+    Point3 worst = n;
+    for (const Member& member : members_) {
+        const double cosine = std::max(dot(n, member.normal), ANGLE_OFF);
+        const double slope = mesh_.slope[static_cast<std::size_t>(member.triangle)] + ANGLE_OFF;
+        if (slope / cosine > most) {
+            most = slope / cosine;
+            worst = member.normal;
+        }
+    }
+    const Point3 turned = n + PART * worst;
+    const double size = norm(turned);
+    return size > 0.0 ? (1.0 / size) * turned : n;
+}
+
+double VertexStars::change(std::int32_t v) {
+    constexpr double ENOUGH = 0.9;
+    constexpr int TURNS = 16;
+    if (first_[v] == first_[v + 1]) return 0.0;  // no triangle has it
+    if (!put_in_order(v)) return intervals::INFINITE;
+    Point3 sum{0.0, 0.0, 0.0};
+    for (const Member& member : members_) sum = sum + member.normal;
+    const double size = norm(sum);
+    if (!(size > 0.0)) return intervals::INFINITE;
+    Point3 n = (1.0 / size) * sum;
+    double least = change_along(v, n);
+    for (int turn = 0; turn < TURNS && !(least < ENOUGH); ++turn) {
+        n = turned_to_worst(n);
+        least = std::min(least, change_along(v, n));
+    }
+    return least;
 }
 
 }  // namespace surfmesh

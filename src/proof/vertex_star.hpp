@@ -1,6 +1,8 @@
 // The triangles at a vertex, seen along a normal: how much longer a path over them is than a straight
 // one.
 //
+// The normal is the mean of those of its triangles, or one that is nearer to the worst of them.
+//
 // In: a mesh, a vertex. Out: |x - y| times this bounds what h changes by between two points of the
 // star (isotopy.hpp); infinite where triangles do not lie round the vertex as those of a graph do.
 // Nothing is changed.
@@ -30,6 +32,8 @@ class VertexStars {
     [[nodiscard]] Member member_of(std::int32_t v, std::int32_t triangle) const;
     bool put_in_order(std::int32_t v);
     [[nodiscard]] double turned_inwards(std::int32_t v, Point3 n) const;
+    [[nodiscard]] double change_along(std::int32_t v, Point3 n) const;
+    [[nodiscard]] Point3 turned_to_worst(Point3 n) const;
 
     MovedMesh mesh_;
     Array<std::int32_t> first_, at_vertex_;

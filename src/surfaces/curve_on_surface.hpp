@@ -3,6 +3,9 @@
 //     c'  = r_u u' + r_v v'
 //     c'' = r_uu u'^2 + 2 r_uv u' v' + r_vv v'^2 + r_u u'' + r_v v''
 //
+// Bounds follow from those of p and of the surface over a box around p: its second derivatives, and
+// its first by how much it changes over the box.
+//
 // Derivatives beyond the second are no numbers, as is all where the surface cannot be evaluated.
 #pragma once
 
@@ -24,6 +27,8 @@ class CurveOnSurface final : public Curve {
     void evaluate(std::span<const double> t, int order, std::span<Point3> out) const override;
     [[nodiscard]] bool derivative_magnitudes(std::span<const ParameterRange> ranges, int order,
                                              std::span<Point3> out) const override;
+    [[nodiscard]] bool enclose_along(Interval t, Point3 w, Point3 about,
+                                     CurveAlong& out) const override;
 
   private:
     std::shared_ptr<const Surface> surface_;

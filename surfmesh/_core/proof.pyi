@@ -34,6 +34,16 @@ def prove_isotopy(points: Annotated[NDArray[numpy.float64], dict(shape=(None, 3)
     away: (m,) how far points of each triangle move at most; slope: (m,) how fast that changes.
     """
 
+def bent_stars(points: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)], triangles: Annotated[NDArray[numpy.int32], dict(shape=(None, 3), order='C', device='cpu', writable=False)], slope: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)]) -> Annotated[NDArray[numpy.int32], dict(shape=(None,))]:
+    """(k,) vertices at which pieces may change too fast for their stars."""
+
+def side_rates(surface: surfmesh._core.surfaces.Surface, ends: Annotated[NDArray[numpy.float64], dict(shape=(None, 2, 3), order='C', device='cpu', writable=False)], uv: Annotated[NDArray[numpy.float64], dict(shape=(None, 2, 2), order='C', device='cpu', writable=False)]) -> Annotated[NDArray[numpy.float64], dict(shape=(None, 2))]:
+    """
+    (k, 2) how fast the curve over a straight side of (u, v) leaves the side at most, along and across it; infinite without bounds.
+
+    ends: (k, 2, 3), uv: (k, 2, 2).
+    """
+
 def polar_moves(surface: surfmesh._core.surfaces.Surface, corners: Annotated[NDArray[numpy.float64], dict(shape=(None, 3, 3), order='C', device='cpu', writable=False)], base: Annotated[NDArray[numpy.float64], dict(shape=(None, 3, 2), order='C', device='cpu', writable=False)], is_v: bool, value: float) -> Annotated[NDArray[numpy.float64], dict(shape=(None, 2))] | None:
     """
     (m, 2) how fast and how far points of triangles at a pole move to the surface at most, along rays; None on surfaces without fourth derivatives.

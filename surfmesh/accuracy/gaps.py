@@ -13,6 +13,10 @@ SAME = 1e-9
 """Of a side: the curves over it of two neighbours are the same, as at a seam."""
 
 
+NEARLY = 1e-3
+"""Of a side: these curves differ by a sliver, as those of two faces of a model do."""
+
+
 class Gaps(NamedTuple):
     """Triangles of (u, v) that are none in space, between neighbours at a pole."""
 
@@ -20,6 +24,7 @@ class Gaps(NamedTuple):
     owners: NDArray[np.int32]  # (g,) ascending
     beside: NDArray[np.int32]  # (k,) triangles on either side of one
     unknown: NDArray[np.intp]  # triangles whose neighbours do not go on where they end
+    loose: NDArray[np.int32]  # half-edges over which those of two neighbours nearly agree
 
 
 def gaps_of(surface: Surface, face: FaceTriangles) -> Gaps:
@@ -30,11 +35,15 @@ def gaps_of(surface: Surface, face: FaceTriangles) -> Gaps:
     against = vertex[first] != vertex[face.twins[first]]
     b[against] = b[against, ::-1]
     odd = np.flatnonzero((a != b).any(axis=(1, 2)))
+    none = np.empty(0, np.int32)
+    loose = none
     if len(odd):
-        odd = odd[~_are_one_curve(surface, a[odd], b[odd])]
+        apart = _apart(surface, a[odd], b[odd])
+        is_loose = (apart > SAME) & (apart <= NEARLY)
+        loose = np.concatenate([first[odd[is_loose]], face.twins[first[odd[is_loose]]]])
+        odd = odd[~(apart <= NEARLY)]
     if not len(odd):
-        none = np.empty(0, np.int32)
-        return Gaps(np.empty((0, 3, 2)), none, none, np.empty(0, np.intp))
+        return Gaps(np.empty((0, 3, 2)), none, none, np.empty(0, np.intp), loose)
     first, a, b = first[odd], a[odd], b[odd]
     fixed = np.where(_is_pole(surface, a, b, 0), 1, 0)
     row = np.arange(len(odd))
@@ -47,7 +56,7 @@ def gaps_of(surface: Surface, face: FaceTriangles) -> Gaps:
     unknown = np.unique(np.concatenate([first[~good], face.twins[first[~good]]]) // 3)
     return Gaps(
         np.ascontiguousarray(uv[good][order]), owners[order].astype(np.int32),
-        np.unique(beside), unknown,
+        np.unique(beside), unknown, loose,
     )  # fmt: skip
 
 
@@ -88,11 +97,10 @@ def _goes_on(
     return _distances(here, there) <= SAME * _distances(end, start)
 
 
-def _are_one_curve(
-    surface: Surface, a: NDArray[np.float64], b: NDArray[np.float64]
-) -> NDArray[np.bool_]:
-    """(k,) do two straight lines of (u, v), ends a and b (k, 2, 2), lie on each other in space?"""
+def _apart(surface: Surface, a: NDArray[np.float64], b: NDArray[np.float64]) -> NDArray[np.float64]:
+    """(k,) how far two straight lines of (u, v), ends a and b (k, 2, 2), are apart, of a side."""
     lines = [(1.0 - t) * x[:, 0] + t * x[:, 1] for x in (a, b) for t in (0.25, 0.5, 0.75)]
     start, end, *rest = _points(surface, a[:, 0], a[:, 1], *lines)
     apart = _distances(np.stack(rest[:3]), np.stack(rest[3:])).max(axis=0)
-    return apart <= SAME * _distances(end, start)
+    with np.errstate(divide="ignore", invalid="ignore"):
+        return np.where(apart > 0.0, apart / _distances(end, start), 0.0)

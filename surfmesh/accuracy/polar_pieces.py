@@ -21,7 +21,7 @@ ALL_ROUND = 1e-9
 """Of the domain: what the triangles at a pole may leave of the side that is the pole."""
 
 
-class _Pole(NamedTuple):
+class Pole(NamedTuple):
     """A vertex, and the side of the domain that is there: where u, or v, has a value."""
 
     vertex: int
@@ -32,10 +32,10 @@ class _Pole(NamedTuple):
 def joined_at_poles(surface: Surface, face: FaceTriangles, found: FaceProof) -> FaceProof:
     """Slopes and distances with triangles at poles moved along rays, where they all can be."""
     gaps = gaps_of(surface, face)
-    if found.bends is None or len(gaps.unknown):
+    if found.bends is None or len(gaps.unknown) or len(gaps.loose):
         return found
     away, slope = found.away.copy(), found.slope.copy()
-    for pole in _poles(face, gaps):
+    for pole in poles(face, gaps):
         rows, corner = np.nonzero(face.vertices == pole.vertex)
         base = _bases(face, found.bends, rows, corner)
         if not _is_all_round(surface, face, pole, rows, corner):
@@ -49,13 +49,13 @@ def joined_at_poles(surface: Surface, face: FaceTriangles, found: FaceProof) -> 
     return found._replace(away=away, slope=slope, is_joined=True)
 
 
-def _poles(face: FaceTriangles, gaps: Gaps) -> list[_Pole]:
+def poles(face: FaceTriangles, gaps: Gaps) -> list[Pole]:
     """Of all gaps, each once."""
     at_pole = (face.uv[gaps.owners] == gaps.uv[:, None, 1]).all(axis=2)
     vertex = face.vertices[gaps.owners, at_pole.argmax(axis=1)].tolist()
     is_v = gaps.uv[:, 1, 1] == gaps.uv[:, 2, 1]
     value = np.where(is_v, gaps.uv[:, 1, 1], gaps.uv[:, 1, 0])
-    return sorted(set(map(_Pole, vertex, is_v.tolist(), value.tolist())))
+    return sorted(set(map(Pole, vertex, is_v.tolist(), value.tolist())))
 
 
 def _bases(
@@ -70,7 +70,7 @@ def _bases(
 
 
 def _is_all_round(
-    surface: Surface, face: FaceTriangles, pole: _Pole, rows: NDArray[np.intp],
+    surface: Surface, face: FaceTriangles, pole: Pole, rows: NDArray[np.intp],
     corner: NDArray[np.intp],
 ) -> bool:  # fmt: skip
     """Do the pieces of the triangles lie over all of the side that is the pole, once?

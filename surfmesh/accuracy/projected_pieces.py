@@ -96,6 +96,69 @@ def projected(surface: Surface, corners: Array, uv: Array, limits: Array) -> Mov
     return Moved(away, (bent + tilted) * (1.0 + ROUNDING) + ROUNDING)
 
 
+def nearest(surface: Surface, points: Array) -> Array | None:
+    """What points (..., 3) are moved to along the normals; None of other surfaces."""
+    if not isinstance(surface, Sphere | Cylinder | Cone):
+        return None
+    local = _in_frame(surface, points)
+    across = local * (1.0, 1.0, float(isinstance(surface, Sphere)))
+    distance = np.linalg.norm(across, axis=-1, keepdims=True)
+    unit = across / np.where(distance > 0.0, distance, 1.0)
+    if not isinstance(surface, Cone):
+        return np.asarray(points + (abs(surface.radius) - distance) * _in_space(surface, unit))
+    cosine, sine = float(np.cos(surface.angle)), _sine(surface, local[..., 2:])
+    height = local[..., 2:] + surface.radius / float(np.sin(surface.angle)) * cosine
+    normal = cosine * unit - sine * np.array([0.0, 0.0, 1.0])
+    return np.asarray(points + (height * sine - distance * cosine) * _in_space(surface, normal))
+
+
+def _in_space(surface: Sphere | Cylinder | Cone, vectors: Array) -> Array:
+    """Of the frame's coordinates (..., 3)."""
+    x, y, z = (vectors[..., k, None] for k in range(3))
+    return np.asarray(x * surface.x + y * surface.y + z * surface.z)
+
+
+def slide_along(surface: Surface, ends: Array, away: Array) -> Array:
+    """(k,) how fast points of segments with ends (k, 2, 3) move along these at most.
+
+    away: (k,) how far they move. x + s nu runs along the unit vector e of the segment with
+
+        1 - (nu . e)^2 + s cos a (rho' . e)        rho: from the axis, or centre; |rho'| <= 1 / d
+    """
+    if not isinstance(surface, Sphere | Cylinder | Cone):
+        return np.full(len(ends), np.inf)
+    local = _in_frame(surface, ends)
+    across = local * (1.0, 1.0, float(isinstance(surface, Sphere)))
+    distance = np.linalg.norm(across, axis=2)
+    side = local[:, 1] - local[:, 0]
+    length = np.linalg.norm(side, axis=1)
+    with np.errstate(divide="ignore", invalid="ignore"):
+        unit = side / length[:, None]
+        inner = np.maximum(distance.min(axis=1) - 0.5 * length, 0.0)
+        outwards = across / distance[:, :, None]
+        cosine, sine = 1.0, np.zeros(distance.shape)
+        if isinstance(surface, Cone):
+            cosine = float(np.cos(surface.angle))
+            sine = _sine(surface, local[:, :, 2])
+        along = cosine * np.einsum("kqc,kc->kq", outwards, unit) - sine * unit[:, 2:]
+        rate = (along * along).max(axis=1) + away / inner
+    return np.where(np.isfinite(rate), rate * (1.0 + 2.0**-20) + 2.0**-30, np.inf)
+
+
+def _in_frame(surface: Sphere | Cylinder | Cone, points: Array) -> Array:
+    """(..., 3) from the origin, along x, y, z."""
+    away = points - surface.origin
+    axes = (surface.x, surface.y, surface.z)
+    return np.stack([(away * axis).sum(axis=-1) for axis in axes], axis=-1)
+
+
+def _sine(cone: Cone, z: Array) -> Array:
+    """Of the half angle, with the sign that it has on its half of the cone."""
+    sine, cosine = float(np.sin(cone.angle)), float(np.cos(cone.angle))
+    height = z + cone.radius / sine * cosine
+    return np.where(sine * height < 0.0, -sine, sine)
+
+
 def _shape(surface: Surface, corners: Array) -> _Turned | None:
     """In the frame of the surface; None of another surface."""
     if not isinstance(surface, Sphere | Cylinder | Cone):

@@ -42,24 +42,26 @@ class FaceProof(NamedTuple):
 
 
 def proved_distances(
-    surface: Surface, face: FaceTriangles, limits: NDArray[np.float64], slope: float = np.inf
-) -> FaceProof | None:
+    surface: Surface, face: FaceTriangles, limits: NDArray[np.float64], slope: float = np.inf,
+    by_normals: bool = True,
+) -> FaceProof | None:  # fmt: skip
     """How far triangles and surface are from each other at most; None without bounds.
 
     limits: (m,) how near it is worth to look; slope: likewise, of how fast |r - L| changes.
+    by_normals: with the nearest points of surfaces whose pieces can be these.
     """
-    moved = projected(surface, face.corners, face.uv, limits)
+    moved = projected(surface, face.corners, face.uv, limits) if by_normals else None
     if moved is not None:
         return FaceProof(moved.away, moved.away, moved.slope, True, None)
-    core = as_core_surface(surface)
+    core, gaps = as_core_surface(surface), gaps_of(surface, face)
+    face = _with_rims(face, gaps.loose)
     rims = np.packbits(face.twins.reshape(-1, 3) < 0, axis=1, bitorder="little")[:, 0]
     bends, bounds = _bounds(core, face, limits, rims, slope)
     if bounds is None:
         return None
-    gaps = gaps_of(surface, face)
     away = bounds[:, WHOLE] + bounds[:, CORNER]
     changes = bounds[:, SLOPE].copy()
-    is_joined = not len(gaps.owners) and not len(gaps.unknown)
+    is_joined = not (len(gaps.owners) or len(gaps.unknown) or len(gaps.loose))
     if len(gaps.unknown):
         bounds[gaps.unknown] = np.inf
     bound, _ = proof.ring_bounds(face.corners, face.vertices, face.twins, bounds)
@@ -83,6 +85,15 @@ def proved_distances(
     return FaceProof(bound, away, changes, is_joined, bends)
 
 
+def _with_rims(face: FaceTriangles, half_edges: NDArray[np.int32]) -> FaceTriangles:
+    """Cut open along some sides."""
+    if not len(half_edges):
+        return face
+    twins = face.twins.copy()
+    twins[half_edges] = -1
+    return face._replace(twins=twins)
+
+
 def proved_curved(
     surface: Surface, face: FaceTriangles, middles: NDArray[np.float64], limits: NDArray[np.float64]
 ) -> NDArray[np.float64] | None:
@@ -102,7 +113,7 @@ def proved_curved(
         return None
     bound = bounds[:, WHOLE] + bounds[:, CORNER]
     gaps = gaps_of(surface, face)
-    bound[gaps.owners] = bound[gaps.unknown] = np.inf
+    bound[gaps.owners] = bound[gaps.unknown] = bound[gaps.loose // 3] = np.inf
     return bound
 
 

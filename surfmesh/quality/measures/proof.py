@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from surfmesh._core.proof import curve_bounds
 from surfmesh.accuracy.face_triangles import FaceTriangles, twins_of
-from surfmesh.accuracy.polar_pieces import joined_at_poles
+from surfmesh.accuracy.joined_faces import FaceMoves
 from surfmesh.accuracy.proof import FaceProof, proved_curved, proved_distances
 from surfmesh.quality.measures.deviation import Deviation
 from surfmesh.quality.measures.known_surfaces import KnownSurfaces, Rows
@@ -38,7 +38,7 @@ class Proof(NamedTuple):
     without_bounds: tuple[int, ...]  # faces whose surface bounds nothing
     edge_bound: NDArray[np.float64]  # (k,) of segments of CAD edges and their curves
     over_sampled: float | None  # median of bound / sampled distance, where that is large
-    moves: FaceProof | None  # from the mesh to its surface, where it has one face
+    moves: tuple[tuple[int, FaceProof], ...]  # by face: from the mesh to its surface
 
     @property
     def is_proved(self) -> NDArray[np.bool_]:
@@ -53,7 +53,7 @@ def proof(known: KnownSurfaces, fit: Deviation, tolerances: Tolerances, is_curve
     sampled = CLOSELY * fit.by_triangle.max(initial=0.0)
     near = np.where(np.isfinite(limit), limit, sampled if np.isfinite(sampled) else 0.0)
     bound, without = np.full(len(mesh.triangles), np.inf), []
-    moves: list[FaceProof] = []
+    moves: list[tuple[int, FaceProof]] = []
     for number, rows in _by_face(mesh):
         surface, face = mesh.surfaces[number], _face(known, rows)
         if is_curved:
@@ -68,31 +68,24 @@ def proof(known: KnownSurfaces, fit: Deviation, tolerances: Tolerances, is_curve
             without.append(number)
         else:
             bound[rows] = found.bound
-            moves.append(found)
+            moves.append((number, found))
     edges = np.empty(0) if mesh.edge_links is None else _edge_bounds(mesh, mesh.edge_links)
-    one = moves[0] if len(moves) == 1 and len(moves[0].bound) == len(bound) else None
-    return Proof(bound, limit, tuple(without), edges, _over_sampled(bound, fit.by_triangle), one)
+    over = _over_sampled(bound, fit.by_triangle)
+    return Proof(bound, limit, tuple(without), edges, over, tuple(moves))
 
 
-def moves_of(known: KnownSurfaces, slope: float) -> FaceProof | None:
-    """How far and how fast triangles move to the surface, of a mesh of one face.
-
-    slope: how slow it is worth to look for.
-    """
-    mesh = known.mesh
-    face = _face(known, np.arange(len(mesh.triangles)))
-    limits = np.full(len(mesh.triangles), np.inf)
-    found = proved_distances(mesh.surfaces[int(mesh.face_ids[0])], face, limits, slope)
-    return None if found is None else with_poles(known, found)
-
-
-def with_poles(known: KnownSurfaces, moves: FaceProof) -> FaceProof:
-    """The same with neighbours at poles joined, where they can be; of a mesh of one face."""
-    if moves.is_joined:
-        return moves
-    mesh = known.mesh
-    face = _face(known, np.arange(len(mesh.triangles)))
-    return joined_at_poles(mesh.surfaces[int(mesh.face_ids[0])], face, moves)
+def moved_faces(known: KnownSurfaces, found: Proof) -> list[FaceMoves]:
+    """How the triangles of each face move to its surface, as far as that is known."""
+    proved, faces = dict(found.moves), []
+    for number, rows in _by_face(known.mesh):
+        if number not in proved:
+            continue
+        face = _face(known, rows)
+        numbers = np.zeros(int(face.vertices.max()) + 1, np.int64)
+        numbers[face.vertices] = known.mesh.triangles[rows]
+        surface = known.mesh.surfaces[number]
+        faces.append(FaceMoves(surface, _as_meshed(face), numbers, proved[number]))
+    return faces
 
 
 def _middles(mesh: SurfaceMesh, rows: Rows) -> NDArray[np.float64]:

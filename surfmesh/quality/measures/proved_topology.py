@@ -2,7 +2,9 @@
 
 Each face of the mesh, cut open along its seams as in (u, v), has to consist of discs with holes
 whose triangles all run the same way round there: then it is the face it stands for, and faces and
-seams are joined by number as those of the model are. See docs/proof.md.
+seams are joined by number as those of the model are. Where a narrow face touches itself between two
+of its edges, all together may still be the closed surface that its Euler number says. See
+docs/proof.md.
 """
 
 from __future__ import annotations
@@ -20,6 +22,8 @@ from surfmesh.quality.measures.places import face_in_words
 from surfmesh.quality.measures.topology import Topology, topology
 from surfmesh.result.connectivity import connect
 from surfmesh.result.surface_mesh import SurfaceMesh
+
+TOUCHES = "its triangles only touch in (u, v)"
 
 
 @dataclass(frozen=True)
@@ -39,12 +43,17 @@ def homeomorphic(known: KnownSurfaces, whole: Topology, unexpected: Unexpected) 
     mesh = known.mesh
     order = np.argsort(mesh.face_ids, kind="stable")
     starts = np.flatnonzero(np.diff(mesh.face_ids[order], prepend=-1))
+    touching = ""
     for rows in np.split(order, starts[1:]):
         reason = _not_a_disc(known, rows)
-        if reason:
-            number = int(mesh.face_ids[rows[0]])
-            where = face_in_words(number, mesh.face_name(number))
-            return Answer(None, f"{where}: {reason}" if len(mesh.surfaces) > 1 else reason)
+        if not reason:
+            continue
+        number = int(mesh.face_ids[rows[0]])
+        where = face_in_words(number, mesh.face_name(number))
+        in_words = f"{where}: {reason}" if len(mesh.surfaces) > 1 else reason
+        if reason != TOUCHES:
+            return Answer(None, in_words)
+        touching = touching or in_words
     missing = len(mesh.surfaces) - len(np.unique(mesh.face_ids))
     if missing:
         return Answer(False, f"{missing} of {len(mesh.surfaces)} faces have no triangles")
@@ -54,8 +63,26 @@ def homeomorphic(known: KnownSurfaces, whole: Topology, unexpected: Unexpected) 
     exact = None if mesh.facts is None else mesh.facts.euler
     if exact is not None and exact != whole.euler:
         return Answer(False, f"the Euler number is {whole.euler}, of the model {exact}")
+    if touching and not _is_classified(mesh, whole):
+        return Answer(None, touching)
+    if touching:
+        closed = "both are closed, in one piece, and have the same Euler number"
+        return Answer(True, f"{closed} ({touching})")
     discs = "every face is a disc with its holes in (u, v)"
     return Answer(True, f"{discs}, and they are joined by number as in the model")
+
+
+def _is_classified(mesh: SurfaceMesh, whole: Topology) -> bool:
+    """Are mesh and model closed oriented surfaces in one piece, of one Euler number?"""
+    facts = mesh.facts
+    links = mesh.edge_links
+    if facts is None or links is None or len(facts.solids) != 1 or facts.euler != whole.euler:
+        return False
+    uses = np.array(facts.edge_uses)[np.unique(links.edge_ids)]  # others are points
+    of_model = facts.solids[0].closed and bool((uses == 2).all())
+    of_model = of_model and max(facts.vertex_fans, default=0) <= 1
+    is_closed = whole.closed and whole.manifold and whole.balanced
+    return of_model and is_closed and whole.components == 1
 
 
 def _not_a_disc(known: KnownSurfaces, rows: Rows) -> str:
@@ -74,7 +101,7 @@ def _not_a_disc(known: KnownSurfaces, rows: Rows) -> str:
         if opened.components == flat.components:
             flat = opened
     if not flat.manifold:
-        return "its triangles only touch in (u, v)"
+        return TOUCHES
     if flat.euler != 2 * flat.components - flat.boundary_loops:  # each has at most 2 less its loops
         return f"it has {flat.boundary_loops} boundary loops, and the Euler number {flat.euler}"
     loops = len(known.mesh.surfaces[int(known.mesh.face_ids[rows[0]])].loops)

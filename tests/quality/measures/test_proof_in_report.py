@@ -1,6 +1,7 @@
 """What the report proves, what it cannot, and that sizes are made smaller until it can."""
 
 import json
+from dataclasses import replace
 from pathlib import Path
 
 import cadquery as cq
@@ -11,6 +12,8 @@ import pytest
 import surfmesh as sm
 from surfmesh.cli import main
 from surfmesh.errors import SizingError
+from surfmesh.quality.measures.proved_topology import _is_classified
+from surfmesh.quality.measures.topology import topology
 
 SCHEMA = json.loads(
     (Path(__file__).parents[3] / "docs" / "report-schema.json").read_text(encoding="utf-8")
@@ -112,3 +115,16 @@ def test_a_face_whose_hole_touches_its_edge_at_a_vertex_is_a_disc_still():
     model = sm.from_cadquery(cq.Face.makeFromWires(outside, [hole]))
     found = sm.check(sm.mesh(model, sm.Sizing(size=0.5)), prove=True).proof.homeomorphic
     assert found.answer is True, found
+
+
+def test_what_closed_surfaces_are_is_known_by_their_euler_number(plate):
+    facts = plate.facts
+    assert _is_classified(plate, topology(plate))
+    for other in (
+        replace(facts, euler=facts.euler + 2),
+        replace(facts, solids=2 * facts.solids),
+        replace(facts, edge_uses=(1,) * len(facts.edge_uses)),
+        replace(facts, vertex_fans=(2,) * len(facts.vertex_fans)),
+    ):
+        mesh = plate.replaced(facts=other)
+        assert not _is_classified(mesh, topology(mesh))

@@ -63,18 +63,15 @@ def test_sheets_that_nearly_touch_are_not():
     assert found.answer is True
 
 
-def test_a_tiny_hole_is_not_before_triangles_are_small():
-    """Of a torus whose hole is as small as its chord."""
+def test_a_tiny_hole_is_seen_by_way_of_finer_triangles():
+    """Of a torus whose hole is as small as its chord: none of its stars is flat there."""
     thick = sm.ParametricSurface(
         "(1 + 0.95*cos(v))*cos(u)", "(1 + 0.95*cos(v))*sin(u)", "0.95*sin(v)",
         u=(0, 2 * np.pi), v=(0, 2 * np.pi),
     )  # fmt: skip
-    mesh, found = answer(thick, 0.05)
-    mesh, found = answer(thick, 0.05)
-    assert sm.check(mesh, prove=True).proof.homeomorphic.answer is True
-    assert found.answer is not True
-    _, found = answer(thick, 0.002)
-    assert found.answer is True
+    for chord in (0.05, 0.002):
+        _, found = answer(thick, chord)
+        assert found.answer is True
 
 
 def test_what_crosses_itself_is_not():
@@ -97,6 +94,59 @@ def test_a_ball_that_is_covered_twice_is_left_open():
     )
     _, found = answer(twice, 0.01)
     assert found.answer is not True
+
+
+@pytest.mark.parametrize("a, b, c", [(1.0, 1.5, 1.0), (1.0, 2.0, 1.2), (1.0, 3.0, 1.0)])
+def test_ellipsoids_are_by_way_of_finer_triangles_at_their_poles(a, b, c):
+    surface = sm.ParametricSurface(
+        f"{a}*sin(v)*cos(u)", f"{b}*sin(v)*sin(u)", f"{c}*cos(v)", u=(0, 2 * np.pi), v=(0, np.pi)
+    )
+    _, found = answer(surface, 0.01)
+    assert found.answer is True
+
+
+def test_cones_are_that_are_not_sharp():
+    def cone(radius):
+        return sm.ParametricSurface(
+            f"{radius}*v*cos(u)", f"{radius}*v*sin(u)", "v", u=(0, 2 * np.pi), v=(0, 1)
+        )
+
+    _, found = answer(cone(1.0), 0.003)
+    assert found.answer is True
+    _, found = answer(cone(0.2), 0.003)
+    assert found.answer is not True
+
+
+def solids():
+    cq = pytest.importorskip("cadquery")
+    box = cq.Workplane().box(3, 2, 1)
+    yield "box", box, True
+    yield "filleted box", box.edges().fillet(0.2), True
+    yield "hole", box.faces(">Z").workplane().hole(0.6), True
+    yield "cone", cq.Workplane().add(cq.Solid.makeCone(1, 0.3, 2)), True
+    yield "ends", cq.Workplane().add(cq.Solid.makeCylinder(1, 2)).edges().fillet(0.5), True
+    yield "chamfer", cq.Workplane().cylinder(2, 0.5).edges().chamfer(0.1), True
+    crossing = cq.Workplane("YZ").cylinder(3, 0.4)
+    yield "crossing", cq.Workplane().cylinder(3, 0.5).union(crossing), None
+
+
+def test_solids_are_where_their_faces_have_one_curve_over_their_sides():
+    for name, part, expected in solids():
+        model = sm.from_cadquery(part)
+        mesh = sm.mesh(model, sm.Sizing(chord=model.diagonal / 1000), jobs=1)
+        found = sm.check(mesh, prove=True).proof.isotopic
+        assert found.answer is expected, (name, found)
+        if expected is None:
+            assert "apart along an edge of both" in found.because
+
+
+def test_a_slot_narrower_than_the_chord_is_left_open():
+    cq = pytest.importorskip("cadquery")
+    slot = cq.Workplane().cylinder(2, 1.0).cut(cq.Workplane().cylinder(2, 0.5))
+    core = cq.Workplane().cylinder(2, 0.49999)
+    model = sm.from_cadquery(slot.add(core))
+    mesh = sm.mesh(model, sm.Sizing(chord=0.01), jobs=1, strict=False)
+    assert sm.check(mesh, prove=True).proof.isotopic.answer is not True
 
 
 FLAT = np.array([(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0)], float)
