@@ -2,19 +2,14 @@
 
 #include <algorithm>
 #include <array>
-#include <limits>
+
+#include "values/segment.hpp"
 
 namespace surfmesh {
 namespace {
 
 constexpr std::array<double, 3> BETWEEN = {0.25, 0.5, 0.75};
 constexpr std::size_t STEP = BETWEEN.size() + 1;  // places from one node to the next
-
-double distance_to_chord(Point3 point, Point3 start, Point3 chord, double squared) {
-    const Point3 way = point - start;
-    const double along = std::clamp(dot(way, chord) / squared, 0.0, 1.0);
-    return norm(way - along * chord);
-}
 
 }  // namespace
 
@@ -37,13 +32,11 @@ void rim_sags(const CurvePieces& curves, std::int64_t edge, std::span<const doub
     found.length.clear();
     for (std::size_t i = 0; i < segments; ++i) {
         const Point3* own = points.data() + STEP * i;
-        const Point3 chord = own[STEP] - own[0];
-        const double squared = std::max(dot(chord, chord), std::numeric_limits<double>::min());
         double sag = 0.0;
         for (std::size_t k = 1; k < STEP; ++k)
-            sag = std::max(sag, distance_to_chord(own[k], own[0], chord, squared));
+            sag = std::max(sag, distance_to_segment(own[k], own[0], own[STEP]));
         found.sag.push_back(sag);
-        found.length.push_back(norm(chord));
+        found.length.push_back(norm(own[STEP] - own[0]));
     }
 }
 

@@ -6,6 +6,7 @@
 
 #include "proof/covering.hpp"
 #include "proof/triangle_grid.hpp"
+#include "values/segment.hpp"
 
 namespace surfmesh {
 namespace {

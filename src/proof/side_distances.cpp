@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 
+#include "values/segment.hpp"
+
 namespace surfmesh {
 namespace {
 

@@ -10,7 +10,6 @@
 // asked for. Nothing is changed.
 #pragma once
 
-#include <algorithm>
 #include <cstdint>
 #include <span>
 
@@ -28,13 +27,6 @@ struct ProofMesh {
     std::span<const std::int32_t> vertices, twins;
     std::span<const TriangleBounds> bounds;
 };
-
-inline double distance_to_segment(Point3 x, Point3 a, Point3 b) {
-    const Point3 along = b - a;
-    const double length = dot(along, along);
-    const double t = length > 0.0 ? std::clamp(dot(x - a, along) / length, 0.0, 1.0) : 0.0;
-    return norm(x - a - t * along);
-}
 
 class SideDistances {
   public:

@@ -1,6 +1,9 @@
 #include "proof/triangle_ring.hpp"
 
+#include <algorithm>
 #include <cmath>
+
+#include "values/segment.hpp"
 
 namespace surfmesh {
 namespace {

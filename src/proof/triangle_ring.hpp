@@ -7,7 +7,6 @@
 // shadows fold, or where nothing is bounded.
 #pragma once
 
-#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <span>
@@ -29,13 +28,6 @@ struct TrianglePlane {
 using Axes2 = std::array<Point3, 2>;
 
 inline Point2 seen(const Axes2& axes, Point3 x) { return {dot(axes[0], x), dot(axes[1], x)}; }
-
-inline double distance_to_segment(Point2 x, Point2 a, Point2 b) {
-    const Point2 along = b - a;
-    const double length = dot(along, along);
-    const double t = length > 0.0 ? std::clamp(dot(x - a, along) / length, 0.0, 1.0) : 0.0;
-    return norm(x - a - t * along);
-}
 
 /// One of the triangles around, as seen along the normal of the triangle that is looked at.
 struct Neighbour {
