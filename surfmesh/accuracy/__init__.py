@@ -12,5 +12,7 @@ proof: the same distances both ways as proved bounds, of one face.
 gaps: where a pole leaves gaps in (u, v) between neighbours.
 polar_pieces: how triangles at a pole move to the surface, along rays.
 projected_pieces: those of spheres, cylinders and cones, by their nearest points.
+finer_pieces: finer meshes on the way to the surface, where triangles are large for how it bends.
+joined_faces: how triangles of several faces move to their surfaces together.
 dihedral: angles between neighbouring triangles, and which of them the surface makes.
 """
