@@ -3,22 +3,26 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from functools import partial
 
 import numpy as np
 
 from surfmesh._core.edges import curvatures_at
+from surfmesh._core.faces import metric_areas_inward
 from surfmesh.cad.model.cad_model import CadModel
 from surfmesh.cad.model.centres import cell_centres, inner_samples
 from surfmesh.cad.model.model_arrays import model_arrays, offsets
 from surfmesh.geometry.cad_surfaces.face_surface import FaceSurface
 from surfmesh.geometry.differential.fundamental_forms import curvatures, forms_from_derivatives
 from surfmesh.meshing.edges.edge_nodes import CutEdges
-from surfmesh.meshing.estimate.estimation import Estimate, face_triangles, require_within
+from surfmesh.meshing.estimate.estimation import Estimate, combined, require_within
 from surfmesh.meshing.estimate.face_counts import counts_of_faces
+from surfmesh.meshing.estimate.trial_mesh import LARGEST_TURN, is_one_round
 from surfmesh.meshing.faces.face_data import FaceJob
 from surfmesh.meshing.faces.face_mesh import face_field
+from surfmesh.meshing.faces.inward_faces import InwardFaces
 from surfmesh.meshing.faces.strip_triangulation import strip_mesh
-from surfmesh.sizing.field.metric_area import TRIANGLES
+from surfmesh.sizing.field.metric_area import TRIANGLES, metric_area
 from surfmesh.sizing.field.size_field import SizeField
 from surfmesh.sizing.options.sizing import Sizing
 from surfmesh.sizing.rules.direction_rates import has_even_curvature
@@ -26,6 +30,10 @@ from surfmesh.sizing.rules.size_rules import SizeRules
 
 FEW = 9
 """Points each way of a grid on a face."""
+
+
+FEW_BENT = 0.1
+"""Share of the triangles: what folds there become changes the whole by little."""
 
 
 class FaceFields:
@@ -43,14 +51,28 @@ class FaceFields:
 def model_counts(model: CadModel, jobs: list[FaceJob], fields: FaceFields) -> np.ndarray:
     """Triangles on each face (f,) in the first round. Raises ``SizingError`` where a size field
     cannot be made."""
-    areas = np.array([face.area for face in model.faces])
-    return counts_of_faces(jobs, areas, lambda job: face_count(job, fields))
+    return counts_of_faces(jobs, model_arrays(model).area, partial(counts_by_area, fields=fields))
 
 
-def face_count(job: FaceJob, fields: FaceFields) -> float:
-    """Of one face; of a narrow one those between its sides, which cost nothing to make."""
-    strip = strip_mesh(job)
-    return face_triangles(job, fields(job)[1]) if strip is None else len(strip.triangles)
+def counts_by_area(jobs: list[FaceJob], fields: FaceFields) -> np.ndarray:
+    """Triangles (f,) by the metric area within the loops of each face; on a narrow face those
+    between its sides, which cost nothing to make."""
+    strips = [strip_mesh(job) for job in jobs]
+    makes = InwardFaces()
+    inward = [None if strip else makes.face(job) for strip, job in zip(strips, jobs)]
+    areas = iter(metric_areas_inward([face for face in inward if face is not None]).tolist())
+    counts = np.empty(len(jobs))
+    for number, (job, strip, face) in enumerate(zip(jobs, strips, inward)):
+        if strip is not None:
+            counts[number] = len(strip.triangles)
+            continue
+        area = np.nan if face is None else next(areas)
+        if np.isnan(area):
+            area = metric_area(fields(job)[1], job.rings)
+        boundary = job.boundary
+        nodes = len(boundary) - len(boundary.piece_end)
+        counts[number] = combined(TRIANGLES * area, nodes, len(boundary.loop_end))
+    return counts
 
 
 def bounds(
@@ -118,6 +140,15 @@ def quick_bound(model: CadModel, nodes: CutEdges, sizings: list[Sizing]) -> floa
 
 def _least_by_curvature(surfaces: list[FaceSurface], allowed: SizeRules) -> np.ndarray:
     """The smallest size (k,) that the curvature of each surface asks for within its box."""
+    sizes, _, first = _by_curvature(surfaces, allowed)
+    return np.minimum.reduceat(sizes, first[:-1])
+
+
+def _by_curvature(
+    surfaces: list[FaceSurface], allowed: SizeRules
+) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Sizes and largest curvatures (n,) at points of the boxes of surfaces, and where those of each
+    begin (k + 1,)."""
     every = [1 if has_even_curvature(surface) else FEW for surface in surfaces]
     grids = {count: cell_centres(count) for count in set(every)}
     low, high = np.array([surface.domain for surface in surfaces]).transpose(2, 0, 1)
@@ -126,8 +157,32 @@ def _least_by_curvature(surfaces: list[FaceSurface], allowed: SizeRules) -> np.n
     k1, k2, degenerate = curvatures_at(
         np.concatenate(uv), first, [surface.core for surface in surfaces]
     )
-    sizes = np.where(degenerate.astype(bool), allowed.clamp[1], allowed.shorter(k1, k2))
-    return np.minimum.reduceat(sizes, first[:-1])
+    regular = ~degenerate.astype(bool)
+    sizes = np.full(len(k1), allowed.clamp[1])
+    if allowed.follows_curvature:
+        sizes = np.where(regular, allowed.shorter(k1, k2), sizes)
+    return sizes, np.where(regular, np.maximum(np.abs(k1), np.abs(k2)), 0.0), first
+
+
+def is_foreseen(model: CadModel, sizings: list[Sizing], counts: np.ndarray) -> bool:
+    """Is the mesh of the first round, of ``counts`` (f,) triangles, the last one?"""
+    every = {id(sizing): sizing for sizing in sizings}.values()
+    return all(map(is_one_round, every)) and bent_share(model, sizings, counts) <= FEW_BENT
+
+
+def bent_share(model: CadModel, sizings: list[Sizing], counts: np.ndarray) -> float:
+    """Of the triangles ``counts`` (f,): on faces where sizes are large for the curvature."""
+    bent = np.zeros(len(counts), bool)
+    by_sizing: dict[int, list[int]] = {}
+    for number, sizing in enumerate(sizings):
+        if model.faces[number].surface.kind != "plane":
+            by_sizing.setdefault(id(sizing), []).append(number)
+    for faces in by_sizing.values():
+        allowed = SizeRules.of(sizings[faces[0]], model.diagonal)
+        surfaces = [model.faces[face].surface for face in faces]
+        sizes, curvature, first = _by_curvature(surfaces, allowed)
+        bent[faces] = np.maximum.reduceat(sizes * curvature, first[:-1]) > LARGEST_TURN
+    return float(counts[bent].sum() / counts.sum())
 
 
 def require_model_within(
