@@ -61,7 +61,7 @@ from surfmesh.meshing.solids.model_findings import (
 from surfmesh.meshing.solids.volumes import VolumeAims
 from surfmesh.result.surface_mesh import SurfaceMesh
 from surfmesh.sizing.options.model_sizing import ModelSizing, model_sizing
-from surfmesh.sizing.options.sizing import ON_SURFACE
+from surfmesh.sizing.options.sizing import ON_SURFACE, Sizing
 from surfmesh.sizing.rules.size_limits import SizeLimits
 from surfmesh.sizing.rules.volume_rule import with_volume_rule
 
@@ -300,12 +300,11 @@ def estimate_model(model: CadModel, sizing: Any) -> Estimate:
     before = _Unmeshed(model, sizing, few=True)
     stretched = before.wanted.is_anisotropic
     least = _least(before, balanced)
-    sizings, fields = [state.sizing for state in before.faces], FaceFields()
-    whole = WHOLE_STRETCHED if stretched else WHOLE
+    whole, fields = WHOLE_STRETCHED if stretched else WHOLE, FaceFields()
     small, foreseen, counts = before.bound <= FEW, False, np.empty(0)
     if not small:
         counts = model_counts(model, before.jobs, fields)
-        foreseen = is_foreseen(model, sizings, counts)
+        foreseen = is_foreseen(before.jobs, model.diagonal, counts)
         small = counts.sum() <= (FEW if foreseen else whole)
     if small:
         made = counts_within_budget(lambda budget: mesh_model(
@@ -314,9 +313,13 @@ def estimate_model(model: CadModel, sizing: Any) -> Estimate:
         if made is not None:
             return Estimate.of(made, stretched, True, least)
         counts = counts if len(counts) else model_counts(model, before.jobs, fields)
-    if not foreseen or any(face.chord or face.angle for face in sizings):
+    if not foreseen or any(_follows_curvature(state.sizing) for state in before.faces):
         counts = counts * ratios(before.jobs, counts, fields)
     return Estimate.of(counts, stretched, True, least)
+
+
+def _follows_curvature(sizing: Sizing) -> bool:
+    return sizing.chord is not None or sizing.angle is not None
 
 
 def _least(before: _Unmeshed, balanced: bool) -> float | None:

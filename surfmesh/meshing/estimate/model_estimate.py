@@ -32,8 +32,11 @@ FEW = 9
 """Points each way of a grid on a face."""
 
 
-FEW_BENT = 0.1
-"""Share of the triangles: what folds there become changes the whole by little."""
+FEW_UNKNOWN = 0.25
+"""Share of the triangles: what becomes of those changes the whole by little."""
+
+THIN = 1.02, 1.3
+"""Triangles of a thin face for each that it has at least."""
 
 
 class FaceFields:
@@ -164,25 +167,43 @@ def _by_curvature(
     return sizes, np.where(regular, np.maximum(np.abs(k1), np.abs(k2)), 0.0), first
 
 
-def is_foreseen(model: CadModel, sizings: list[Sizing], counts: np.ndarray) -> bool:
-    """Is the mesh of the first round, of ``counts`` (f,) triangles, the last one?"""
-    every = {id(sizing): sizing for sizing in sizings}.values()
-    return all(map(is_one_round, every)) and bent_share(model, sizings, counts) <= FEW_BENT
+def is_foreseen(jobs: list[FaceJob], diagonal: float, counts: np.ndarray) -> bool:
+    """Is the mesh of the first round the last one, and are ``counts`` (f,) its triangles?
+
+    diagonal: of the model.
+    """
+    every = {id(job.sizing): job.sizing for job in jobs}.values()
+    if not all(map(is_one_round, every)):
+        return False
+    unknown = np.maximum(bent_counts(jobs, diagonal, counts), thin_counts(jobs, counts))
+    return float(unknown.sum()) <= FEW_UNKNOWN * float(counts.sum())
 
 
-def bent_share(model: CadModel, sizings: list[Sizing], counts: np.ndarray) -> float:
-    """Of the triangles ``counts`` (f,): on faces where sizes are large for the curvature."""
-    bent = np.zeros(len(counts), bool)
+def thin_counts(jobs: list[FaceJob], counts: np.ndarray) -> np.ndarray:
+    """Those of the triangles ``counts`` (f,): on faces that are about as wide as these, where neither
+    the boundary nor the area tells how many there are."""
+    boundaries = [job.boundary for job in jobs]
+    fewest = np.array([
+        len(b) - len(b.piece_end) + 2 * len(b.loop_end) - 4 for b in boundaries
+    ], float)  # fmt: skip
+    thin = (counts > THIN[0] * fewest) & (counts < THIN[1] * fewest)
+    return np.where(thin, counts, 0.0)
+
+
+def bent_counts(jobs: list[FaceJob], diagonal: float, counts: np.ndarray) -> np.ndarray:
+    """Those of the triangles ``counts`` (f,): on faces where sizes are large for the curvature, as many
+    as they may become."""
+    turns = np.zeros(len(counts))
     by_sizing: dict[int, list[int]] = {}
-    for number, sizing in enumerate(sizings):
-        if model.faces[number].surface.kind != "plane":
-            by_sizing.setdefault(id(sizing), []).append(number)
+    for number, job in enumerate(jobs):
+        if job.surface.kind != "plane":
+            by_sizing.setdefault(id(job.sizing), []).append(number)
     for faces in by_sizing.values():
-        allowed = SizeRules.of(sizings[faces[0]], model.diagonal)
-        surfaces = [model.faces[face].surface for face in faces]
+        allowed = SizeRules.of(jobs[faces[0]].sizing, diagonal)
+        surfaces = [jobs[face].surface for face in faces]
         sizes, curvature, first = _by_curvature(surfaces, allowed)
-        bent[faces] = np.maximum.reduceat(sizes * curvature, first[:-1]) > LARGEST_TURN
-    return float(counts[bent].sum() / counts.sum())
+        turns[faces] = np.maximum.reduceat(sizes * curvature, first[:-1])
+    return np.where(turns > LARGEST_TURN, counts * (turns / LARGEST_TURN) ** 2, 0.0)
 
 
 def require_model_within(

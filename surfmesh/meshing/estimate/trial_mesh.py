@@ -30,8 +30,8 @@ LARGEST_TURN = 1.1
 """Radians that the surface turns by along an edge. Beyond it triangles may be folded."""
 
 WHOLE, WHOLE_STRETCHED = 5_000, 10_000
-"""The same where the first round does not tell all; where sizes depend on the direction more, as edges that
-are made finer for one face have more triangles on the next."""
+"""The same where the first round does not tell all; where sizes depend on the direction more, as
+edges that are made finer for one face have more triangles on the next."""
 
 ROUNDS = 4
 """How often at most: what comes later are a few places."""
