@@ -23,6 +23,7 @@ from surfmesh.meshing.boundary.cusps import Cusp, closed_at, find_cusps, without
 from surfmesh.meshing.boundary.kink_segments import sides_met, with_kinks
 from surfmesh.meshing.estimate.estimation import (
     COARSENESS,
+    COARSENESS_STRETCHED,
     Estimate,
     field_triangles,
     require_field_within,
@@ -251,7 +252,8 @@ def estimate_parametric(surface: Surface, sizing: Sizing) -> Estimate:
     if balanced:
         sizing = widened(with_chord_of_surface(surface, sizing)).replaced(vertices=ON_SURFACE)
     part, sides, cusps = _without_cusps(surface, sizing)
-    field = size_field(part, sizing, sides, rims=Rims(part, sides), coarseness=COARSENESS)
+    coarseness = COARSENESS_STRETCHED if sizing.is_anisotropic else COARSENESS
+    field = size_field(part, sizing, sides, rims=Rims(part, sides), coarseness=coarseness)
     loops = _loops(part)
     least = None
     if field.sizing.chord is not None and not field.sizing.is_curved:

@@ -180,8 +180,8 @@ def is_foreseen(jobs: list[FaceJob], diagonal: float, counts: np.ndarray) -> boo
 
 
 def thin_counts(jobs: list[FaceJob], counts: np.ndarray) -> np.ndarray:
-    """Those of the triangles ``counts`` (f,): on faces that are about as wide as these, where neither
-    the boundary nor the area tells how many there are."""
+    """Those of the triangles ``counts`` (f,): on faces that are about as wide as
+    these, where neither the boundary nor the area tells how many there are."""
     boundaries = [job.boundary for job in jobs]
     fewest = np.array([
         len(b) - len(b.piece_end) + 2 * len(b.loop_end) - 4 for b in boundaries
@@ -191,8 +191,8 @@ def thin_counts(jobs: list[FaceJob], counts: np.ndarray) -> np.ndarray:
 
 
 def bent_counts(jobs: list[FaceJob], diagonal: float, counts: np.ndarray) -> np.ndarray:
-    """Those of the triangles ``counts`` (f,): on faces where sizes are large for the curvature, as many
-    as they may become."""
+    """Those of the triangles ``counts`` (f,): on faces where sizes are large for the
+    curvature, as many as they may become."""
     turns = np.zeros(len(counts))
     by_sizing: dict[int, list[int]] = {}
     for number, job in enumerate(jobs):
