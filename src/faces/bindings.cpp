@@ -235,6 +235,19 @@ void bind_work(nb::module_& m) {
                           [&](const PatchHooks& hooks) { return mesh_inward(face, hooks); });
         },
         nb::arg("face"), "Mesh a face whose sizes grow inward, without the interpreter.");
+    m.def(
+        "metric_areas_inward",
+        [](const std::vector<const InwardFace*>& faces) {
+            Array<double> areas;
+            for (const InwardFace* face : faces) {
+                if (face == nullptr) throw nb::type_error("None is no face");
+                areas.push_back(metric_area_inward(*face));
+            }
+            return view(areas);
+        },
+        nb::arg("faces"),
+        "The metric areas (f,) that such sizes give to what lies within the loops; no numbers "
+        "where there is no box, no positive sizes, or more cells are needed than are allowed.");
 }
 
 }  // namespace

@@ -1,9 +1,12 @@
 #include "faces/face_mesh.hpp"
 
 #include <cmath>
+#include <limits>
+#include <optional>
 #include <utility>
 
 #include "faces/surface_over_box.hpp"
+#include "fields/area_within_loops.hpp"
 #include "fields/coverage.hpp"
 #include "surfaces/chart_making.hpp"
 
@@ -44,6 +47,24 @@ bool are_sizes(const FaceBoundary& b) {
     for (const double size : b.sizes)
         if (!(size > 0.0)) return false;
     return true;
+}
+
+/// A face whose sizes are known inside.
+struct InwardField {
+    PlaneBox box;
+    Chart chart;
+    Background background;
+};
+
+/// Nothing where there is no box, no positive sizes, or more cells than are allowed.
+std::optional<InwardField> field_inward(const InwardFace& face) {
+    const FaceBoundary& boundary = *face.boundary;
+    const PlaneBox box = boundary.box();
+    if (!is_box(box) || !are_sizes(boundary)) return {};
+    Chart chart = uniform_chart(box, face.growth.speeds);
+    GrownTree grown = grown_inward(boundary, box, face.growth, chart.extent());
+    if (grown.status != TreeStatus::grown) return {};
+    return InwardField{box, std::move(chart), std::move(grown.background)};
 }
 
 /// Of the points: the rows of their nodes in the boundary.
@@ -146,13 +167,22 @@ FaceMesh mesh_inward(const InwardFace& face, const PatchHooks& hooks) {
     };
     if (face.look_for_tubes && may_have_tubes(*face.surface, boundary))
         return ended(FaceEnd::tubes);
-    const PlaneBox box = boundary.box();
-    if (!is_box(box) || !are_sizes(boundary)) return ended(FaceEnd::unprepared);
-    const Chart chart = uniform_chart(box, face.growth.speeds);
-    const GrownTree grown = grown_inward(boundary, box, face.growth, chart.extent());
-    if (grown.status != TreeStatus::grown) return ended(FaceEnd::unprepared);
-    const SurfaceOverBox over(*face.surface, {box.low, box.high});
-    return mesh_face({over, chart, grown.background}, polygons_of(boundary), face.manner, hooks);
+    const std::optional<InwardField> field = field_inward(face);
+    if (!field) return ended(FaceEnd::unprepared);
+    const SurfaceOverBox over(*face.surface, {field->box.low, field->box.high});
+    return mesh_face({over, field->chart, field->background}, polygons_of(boundary), face.manner,
+                     hooks);
+}
+
+double metric_area_inward(const InwardFace& face) {
+    const std::optional<InwardField> field = field_inward(face);
+    if (!field) return std::numeric_limits<double>::quiet_NaN();
+    const FacePolygons polygons = polygons_of(*face.boundary);
+    const Array<Point2> xy = field->chart.to_plane({polygons.uv.data(), polygons.uv.size()});
+    Array<std::int64_t> first(1, 0);
+    for (const std::int32_t length : polygons.lengths) first.push_back(first.back() + length);
+    return metric_area_within(field->background,
+                              {{xy.data(), xy.size()}, {first.data(), first.size()}});
 }
 
 }  // namespace surfmesh

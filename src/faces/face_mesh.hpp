@@ -79,6 +79,10 @@ struct InwardFace {
 
 [[nodiscard]] FaceMesh mesh_inward(const InwardFace& face, const PatchHooks& hooks);
 
+/// What the sizes of the same field ask for within the loops: see area_within_loops.hpp. No number
+/// where it cannot be made.
+[[nodiscard]] double metric_area_inward(const InwardFace& face);
+
 /// Loops whose segments may be far longer than the sizes beside them.
 struct SegmentsInSpace {
     std::span<const Point2> uv;

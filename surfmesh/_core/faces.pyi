@@ -307,3 +307,8 @@ def mesh_face(surface: surfmesh._core.surfaces.Surface, chart: surfmesh._core.su
 
 def mesh_inward(face: InwardFace) -> FaceMesh:
     """Mesh a face whose sizes grow inward, without the interpreter."""
+
+def metric_areas_inward(faces: Sequence[InwardFace]) -> Annotated[NDArray[numpy.float64], dict(shape=(None,))]:
+    """
+    The metric areas (f,) that such sizes give to what lies within the loops; no numbers where there is no box, no positive sizes, or more cells are needed than are allowed.
+    """

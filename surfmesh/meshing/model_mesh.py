@@ -24,13 +24,14 @@ from surfmesh.meshing.estimate.estimation import Estimate
 from surfmesh.meshing.estimate.least_counts import least_of_model
 from surfmesh.meshing.estimate.model_estimate import (
     FaceFields,
+    is_foreseen,
     model_counts,
     quick_bound,
     require_model_within,
 )
 from surfmesh.meshing.estimate.trial_faces import ratios
+from surfmesh.meshing.estimate.trial_mesh import FEW, WHOLE, WHOLE_STRETCHED, counts_within_budget
 from surfmesh.meshing.estimate.trial_mesh import ROUNDS as TRIAL_ROUNDS
-from surfmesh.meshing.estimate.trial_mesh import WHOLE, WHOLE_STRETCHED, counts_within_budget
 from surfmesh.meshing.faces.face_data import FaceJob
 from surfmesh.meshing.faces.face_mesh import edge_refinement
 from surfmesh.meshing.faces.face_state import FaceState, face_jobs, face_states
@@ -60,7 +61,7 @@ from surfmesh.meshing.solids.model_findings import (
 from surfmesh.meshing.solids.volumes import VolumeAims
 from surfmesh.result.surface_mesh import SurfaceMesh
 from surfmesh.sizing.options.model_sizing import ModelSizing, model_sizing
-from surfmesh.sizing.options.sizing import ON_SURFACE
+from surfmesh.sizing.options.sizing import ON_SURFACE, Sizing
 from surfmesh.sizing.rules.size_limits import SizeLimits
 from surfmesh.sizing.rules.volume_rule import with_volume_rule
 
@@ -299,18 +300,26 @@ def estimate_model(model: CadModel, sizing: Any) -> Estimate:
     before = _Unmeshed(model, sizing, few=True)
     stretched = before.wanted.is_anisotropic
     least = _least(before, balanced)
-    whole = WHOLE_STRETCHED if stretched else WHOLE
-    small, fields = before.bound <= whole, FaceFields()
-    counts = np.empty(0) if small else model_counts(model, before.jobs, fields)
-    if small or counts.sum() <= whole:
+    whole, fields = WHOLE_STRETCHED if stretched else WHOLE, FaceFields()
+    small, foreseen, counts = before.bound <= FEW, False, np.empty(0)
+    if not small:
+        counts = model_counts(model, before.jobs, fields)
+        foreseen = is_foreseen(before.jobs, model.diagonal, counts)
+        small = counts.sum() <= (FEW if foreseen else whole)
+    if small:
         made = counts_within_budget(lambda budget: mesh_model(
             model, sizing, progress=budget, strict=False, rounds=TRIAL_ROUNDS
         ))  # fmt: skip
         if made is not None:
             return Estimate.of(made, stretched, True, least)
-    if small:
-        counts = model_counts(model, before.jobs, fields)
-    return Estimate.of(counts * ratios(before.jobs, counts, fields), stretched, True, least)
+        counts = counts if len(counts) else model_counts(model, before.jobs, fields)
+    if not foreseen or any(_follows_curvature(state.sizing) for state in before.faces):
+        counts = counts * ratios(before.jobs, counts, fields)
+    return Estimate.of(counts, stretched, True, least)
+
+
+def _follows_curvature(sizing: Sizing) -> bool:
+    return sizing.chord is not None or sizing.angle is not None
 
 
 def _least(before: _Unmeshed, balanced: bool) -> float | None:

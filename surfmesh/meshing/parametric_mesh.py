@@ -23,12 +23,20 @@ from surfmesh.meshing.boundary.cusps import Cusp, closed_at, find_cusps, without
 from surfmesh.meshing.boundary.kink_segments import sides_met, with_kinks
 from surfmesh.meshing.estimate.estimation import (
     COARSENESS,
+    COARSENESS_STRETCHED,
     Estimate,
     field_triangles,
     require_field_within,
 )
 from surfmesh.meshing.estimate.least_counts import least_of_surface
-from surfmesh.meshing.estimate.trial_mesh import WHOLE, counts_within_budget
+from surfmesh.meshing.estimate.trial_mesh import (
+    FEW,
+    LARGEST_TURN,
+    WHOLE,
+    counts_within_budget,
+    is_one_round,
+    largest_turn,
+)
 from surfmesh.meshing.estimate.trial_patches import SHARE, WIDE, plan_within, triangles_per_unit
 from surfmesh.meshing.finishing.balanced_rounds import (
     WIDER,
@@ -243,15 +251,17 @@ def estimate_parametric(surface: Surface, sizing: Sizing) -> Estimate:
     balanced = sizing.is_balanced
     if balanced:
         sizing = widened(with_chord_of_surface(surface, sizing)).replaced(vertices=ON_SURFACE)
-    part, sides, _ = _without_cusps(surface, sizing)
-    field = size_field(part, sizing, sides, rims=Rims(part, sides), coarseness=COARSENESS)
+    part, sides, cusps = _without_cusps(surface, sizing)
+    coarseness = COARSENESS_STRETCHED if sizing.is_anisotropic else COARSENESS
+    field = size_field(part, sizing, sides, rims=Rims(part, sides), coarseness=coarseness)
     loops = _loops(part)
     least = None
     if field.sizing.chord is not None and not field.sizing.is_curved:
         chord = field.sizing.chord / (WIDER if balanced else 1.0)
         least = least_of_surface(part, field, sides, chord, balanced)
     asked = field_triangles(field, loops)
-    if asked <= WHOLE:
+    foreseen = not cusps and is_one_round(sizing) and largest_turn(part, field) <= LARGEST_TURN
+    if asked <= (FEW if foreseen else WHOLE):
         made = counts_within_budget(
             lambda budget: mesh_parametric(surface, sizing, progress=budget)
         )

@@ -28,19 +28,22 @@ DIGITS = 6
 
 
 def counts_of_faces(
-    jobs: list[FaceJob], areas: np.ndarray, count: Callable[[FaceJob], float]
+    jobs: list[FaceJob], areas: np.ndarray, count: Callable[[list[FaceJob]], np.ndarray]
 ) -> np.ndarray:
-    """Triangles (f,) on each face. areas: (f,) of the faces; count: looks closely at one."""
+    """Triangles (f,) on each face. areas: (f,) of the faces; count: looks closely at some."""
     first, class_of = _classes(jobs, areas)
     rough = np.array([_rough(jobs[face], areas[face]) for face in first], float)
     members = np.bincount(class_of, minlength=len(first))
     plane = np.array([jobs[face].surface.kind == "plane" for face in first], bool)
+    samples = [
+        (of, *_sample(of, (rough * members)[of])) for of in map(np.flatnonzero, (plane, ~plane))
+    ]
+    close = np.concatenate([chosen for _, chosen, _ in samples])
     counts = np.zeros(len(first))
-    for of in (np.flatnonzero(plane), np.flatnonzero(~plane)):
-        chosen, times = _sample(of, (rough * members)[of])
-        counts[chosen] = [count(jobs[first[number]]) for number in chosen.tolist()]
-        others = np.setdiff1d(of, chosen)
-        if len(others):
+    counts[close] = count([jobs[first[number]] for number in close.tolist()])
+    for of, chosen, times in samples:
+        if len(of) > len(chosen):
+            others = np.setdiff1d(of, chosen)
             factor = np.average(counts[chosen] / rough[chosen], weights=times)
             counts[others] = factor * rough[others]
     return counts[class_of]

@@ -3,22 +3,26 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from functools import partial
 
 import numpy as np
 
 from surfmesh._core.edges import curvatures_at
+from surfmesh._core.faces import metric_areas_inward
 from surfmesh.cad.model.cad_model import CadModel
 from surfmesh.cad.model.centres import cell_centres, inner_samples
 from surfmesh.cad.model.model_arrays import model_arrays, offsets
 from surfmesh.geometry.cad_surfaces.face_surface import FaceSurface
 from surfmesh.geometry.differential.fundamental_forms import curvatures, forms_from_derivatives
 from surfmesh.meshing.edges.edge_nodes import CutEdges
-from surfmesh.meshing.estimate.estimation import Estimate, face_triangles, require_within
+from surfmesh.meshing.estimate.estimation import Estimate, combined, require_within
 from surfmesh.meshing.estimate.face_counts import counts_of_faces
+from surfmesh.meshing.estimate.trial_mesh import LARGEST_TURN, is_one_round
 from surfmesh.meshing.faces.face_data import FaceJob
 from surfmesh.meshing.faces.face_mesh import face_field
+from surfmesh.meshing.faces.inward_faces import InwardFaces
 from surfmesh.meshing.faces.strip_triangulation import strip_mesh
-from surfmesh.sizing.field.metric_area import TRIANGLES
+from surfmesh.sizing.field.metric_area import TRIANGLES, metric_area
 from surfmesh.sizing.field.size_field import SizeField
 from surfmesh.sizing.options.sizing import Sizing
 from surfmesh.sizing.rules.direction_rates import has_even_curvature
@@ -26,6 +30,13 @@ from surfmesh.sizing.rules.size_rules import SizeRules
 
 FEW = 9
 """Points each way of a grid on a face."""
+
+
+FEW_UNKNOWN = 0.25
+"""Share of the triangles: what becomes of those changes the whole by little."""
+
+THIN = 1.02, 1.3
+"""Triangles of a thin face for each that it has at least."""
 
 
 class FaceFields:
@@ -43,14 +54,28 @@ class FaceFields:
 def model_counts(model: CadModel, jobs: list[FaceJob], fields: FaceFields) -> np.ndarray:
     """Triangles on each face (f,) in the first round. Raises ``SizingError`` where a size field
     cannot be made."""
-    areas = np.array([face.area for face in model.faces])
-    return counts_of_faces(jobs, areas, lambda job: face_count(job, fields))
+    return counts_of_faces(jobs, model_arrays(model).area, partial(counts_by_area, fields=fields))
 
 
-def face_count(job: FaceJob, fields: FaceFields) -> float:
-    """Of one face; of a narrow one those between its sides, which cost nothing to make."""
-    strip = strip_mesh(job)
-    return face_triangles(job, fields(job)[1]) if strip is None else len(strip.triangles)
+def counts_by_area(jobs: list[FaceJob], fields: FaceFields) -> np.ndarray:
+    """Triangles (f,) by the metric area within the loops of each face; on a narrow face those
+    between its sides, which cost nothing to make."""
+    strips = [strip_mesh(job) for job in jobs]
+    makes = InwardFaces()
+    inward = [None if strip else makes.face(job) for strip, job in zip(strips, jobs)]
+    areas = iter(metric_areas_inward([face for face in inward if face is not None]).tolist())
+    counts = np.empty(len(jobs))
+    for number, (job, strip, face) in enumerate(zip(jobs, strips, inward)):
+        if strip is not None:
+            counts[number] = len(strip.triangles)
+            continue
+        area = np.nan if face is None else next(areas)
+        if np.isnan(area):
+            area = metric_area(fields(job)[1], job.rings)
+        boundary = job.boundary
+        nodes = len(boundary) - len(boundary.piece_end)
+        counts[number] = combined(TRIANGLES * area, nodes, len(boundary.loop_end))
+    return counts
 
 
 def bounds(
@@ -118,6 +143,15 @@ def quick_bound(model: CadModel, nodes: CutEdges, sizings: list[Sizing]) -> floa
 
 def _least_by_curvature(surfaces: list[FaceSurface], allowed: SizeRules) -> np.ndarray:
     """The smallest size (k,) that the curvature of each surface asks for within its box."""
+    sizes, _, first = _by_curvature(surfaces, allowed)
+    return np.minimum.reduceat(sizes, first[:-1])
+
+
+def _by_curvature(
+    surfaces: list[FaceSurface], allowed: SizeRules
+) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Sizes and largest curvatures (n,) at points of the boxes of surfaces, and where those of each
+    begin (k + 1,)."""
     every = [1 if has_even_curvature(surface) else FEW for surface in surfaces]
     grids = {count: cell_centres(count) for count in set(every)}
     low, high = np.array([surface.domain for surface in surfaces]).transpose(2, 0, 1)
@@ -126,8 +160,50 @@ def _least_by_curvature(surfaces: list[FaceSurface], allowed: SizeRules) -> np.n
     k1, k2, degenerate = curvatures_at(
         np.concatenate(uv), first, [surface.core for surface in surfaces]
     )
-    sizes = np.where(degenerate.astype(bool), allowed.clamp[1], allowed.shorter(k1, k2))
-    return np.minimum.reduceat(sizes, first[:-1])
+    regular = ~degenerate.astype(bool)
+    sizes = np.full(len(k1), allowed.clamp[1])
+    if allowed.follows_curvature:
+        sizes = np.where(regular, allowed.shorter(k1, k2), sizes)
+    return sizes, np.where(regular, np.maximum(np.abs(k1), np.abs(k2)), 0.0), first
+
+
+def is_foreseen(jobs: list[FaceJob], diagonal: float, counts: np.ndarray) -> bool:
+    """Is the mesh of the first round the last one, and are ``counts`` (f,) its triangles?
+
+    diagonal: of the model.
+    """
+    every = {id(job.sizing): job.sizing for job in jobs}.values()
+    if not all(map(is_one_round, every)):
+        return False
+    unknown = np.maximum(bent_counts(jobs, diagonal, counts), thin_counts(jobs, counts))
+    return float(unknown.sum()) <= FEW_UNKNOWN * float(counts.sum())
+
+
+def thin_counts(jobs: list[FaceJob], counts: np.ndarray) -> np.ndarray:
+    """Those of the triangles ``counts`` (f,): on faces that are about as wide as
+    these, where neither the boundary nor the area tells how many there are."""
+    boundaries = [job.boundary for job in jobs]
+    fewest = np.array([
+        len(b) - len(b.piece_end) + 2 * len(b.loop_end) - 4 for b in boundaries
+    ], float)  # fmt: skip
+    thin = (counts > THIN[0] * fewest) & (counts < THIN[1] * fewest)
+    return np.where(thin, counts, 0.0)
+
+
+def bent_counts(jobs: list[FaceJob], diagonal: float, counts: np.ndarray) -> np.ndarray:
+    """Those of the triangles ``counts`` (f,): on faces where sizes are large for the
+    curvature, as many as they may become."""
+    turns = np.zeros(len(counts))
+    by_sizing: dict[int, list[int]] = {}
+    for number, job in enumerate(jobs):
+        if job.surface.kind != "plane":
+            by_sizing.setdefault(id(job.sizing), []).append(number)
+    for faces in by_sizing.values():
+        allowed = SizeRules.of(jobs[faces[0]].sizing, diagonal)
+        surfaces = [jobs[face].surface for face in faces]
+        sizes, curvature, first = _by_curvature(surfaces, allowed)
+        turns[faces] = np.maximum.reduceat(sizes * curvature, first[:-1])
+    return np.where(turns > LARGEST_TURN, counts * (turns / LARGEST_TURN) ** 2, 0.0)
 
 
 def require_model_within(

@@ -7,13 +7,16 @@ import numpy as np
 import pytest
 
 import surfmesh as sm
+from surfmesh._core.faces import metric_areas_inward
 from surfmesh.geometry.differential.sides import find_sides
 from surfmesh.meshing import model_mesh, parametric_mesh
 from surfmesh.meshing.estimate import model_estimate, trial_mesh
 from surfmesh.meshing.estimate.estimation import field_triangles
 from surfmesh.meshing.estimate.face_counts import counts_of_faces
 from surfmesh.meshing.estimate.trial_patches import triangles_per_unit
+from surfmesh.meshing.faces.face_mesh import face_field
 from surfmesh.meshing.faces.face_queue import FaceQueue
+from surfmesh.meshing.faces.inward_faces import InwardFaces
 from surfmesh.sizing.field.metric_area import box_area, metric_area
 from surfmesh.sizing.field.size_field import size_field
 
@@ -23,6 +26,7 @@ RING = np.stack([np.cos(t := np.linspace(0, 2 * np.pi, 200, endpoint=False)), np
 @pytest.fixture
 def nothing_is_small(monkeypatch):
     monkeypatch.setattr(parametric_mesh, "WHOLE", 0)
+    monkeypatch.setattr(parametric_mesh, "FEW", 0)
 
 
 @pytest.mark.parametrize(
@@ -94,6 +98,40 @@ def test_holes_that_the_volume_asks_to_be_finer_make_the_plate_finer_too():
     assert found.triangles == pytest.approx(len(mesh.triangles), rel=0.15)
 
 
+def no_mesh(*_, **__):
+    raise AssertionError("a mesh is made")
+
+
+@pytest.mark.parametrize("sizing", [sm.Sizing(size=0.6), sm.Sizing(chord=0.005)])
+def test_where_the_first_round_tells_all_no_mesh_is_made(monkeypatch, sizing):
+    plate = cq.Workplane().box(12, 9, 1).edges("|Z").fillet(2).faces(">Z").workplane().hole(3)
+    model = sm.from_cadquery(plate)
+    mesh = sm.mesh(model, sizing)
+    assert trial_mesh.FEW < len(mesh.triangles) < trial_mesh.WHOLE
+    monkeypatch.setattr(model_mesh, "mesh_model", no_mesh)
+    assert sm.estimate(model, sizing).triangles == pytest.approx(len(mesh.triangles), rel=0.06)
+
+
+def test_where_triangles_fold_at_first_a_small_mesh_is_made():
+    """A torus of sizes that are larger than its tube needs far more triangles than they say."""
+    model = sm.from_cadquery(cq.Workplane(obj=cq.Solid.makeTorus(20, 1)).box(30, 30, 0.5))
+    found, mesh = (make(model, sm.Sizing(size=2.5)) for make in (sm.estimate, sm.mesh))
+    assert found.triangles == pytest.approx(len(mesh.triangles), rel=0.1)
+    surface = sm.load("spring")
+    made = sm.mesh(surface, 1.5)
+    assert sm.estimate(surface, 1.5).triangles == pytest.approx(len(made.triangles), rel=0.02)
+
+
+def test_areas_in_the_core_are_those_of_the_size_fields():
+    plate = cq.Workplane().box(12, 9, 1).edges("|Z").fillet(2).faces(">Z").workplane().hole(3)
+    before = model_mesh._Unmeshed(sm.from_cadquery(plate), 0.6)
+    makes = InwardFaces()
+    areas = metric_areas_inward([makes.face(job) for job in before.jobs])
+    fields = [face_field(job)[1] for job in before.jobs]
+    wanted = [metric_area(field, job.rings) for field, job in zip(fields, before.jobs)]
+    assert areas == pytest.approx(wanted, rel=1e-12)
+
+
 def counts(subject, size):
     make = partial(sm.mesh, subject, size)
     return trial_mesh.counts_within_budget(lambda budget: make(progress=budget))
@@ -143,12 +181,12 @@ def test_many_faces_are_counted_by_a_close_look_at_some():
         before = model_mesh._Unmeshed(model, 0.15)
         areas = np.array([face.area for face in model.faces])
         fields = model_estimate.FaceFields()
-        every = np.array([model_estimate.face_count(job, fields) for job in before.jobs])
+        every = model_estimate.counts_by_area(before.jobs, fields)
         looked.clear()
 
-        def count(job, fields=fields):
-            looked.append(job)
-            return model_estimate.face_count(job, fields)
+        def count(jobs, fields=fields):
+            looked.extend(jobs)
+            return model_estimate.counts_by_area(jobs, fields)
 
         found = counts_of_faces(before.jobs, areas, count)
         assert len(looked) < min(most, len(model.faces))
