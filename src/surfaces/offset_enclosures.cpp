@@ -20,12 +20,66 @@ namespace {
 using outward::add, outward::subtract, outward::multiply, outward::exactly;
 using outward::dot, outward::cross;
 
+constexpr double FRAME_ROUNDING = 0x1p-40;  // more than the frame is off a rotation, several times
+
+double size_of(const BoxedVector& a) {
+    return outward::magnitude(a.x) + outward::magnitude(a.y) + outward::magnitude(a.z);
+}
+
+/// Unit vectors at right angles, the last of them the normal, to rounding; the axes at a pole.
+Directions frame_at(Point3 r_u, Point3 r_v) {
+    constexpr Directions AXES = {{{1.0, 0.0, 0.0}, {0.0, 1.0, 0.0}, {0.0, 0.0, 1.0}}};
+    const Point3 N = surfmesh::cross(r_u, r_v);
+    const double wide = norm(r_u), high = norm(N);
+    if (!(wide > 0.0) || !(high > 0.0)) return AXES;
+    const Point3 x = (1.0 / wide) * r_u, n = (1.0 / high) * N;
+    const Point3 y = surfmesh::cross(n, x);
+    // N of tangents that hardly differ may be anything
+    const bool is_right_angled = std::abs(surfmesh::dot(n, x)) < 0x1p-46;
+    return is_right_angled ? Directions{x, y, n} : AXES;
+}
+
+/// Directions by their coordinates in a frame.
+Directions in_frame(const Directions& frame, const Directions& directions) {
+    Directions found{};
+    for (std::size_t k = 0; k < 3; ++k) {
+        const Point3& d = directions[k];
+        found[k] = {surfmesh::dot(frame[0], d), surfmesh::dot(frame[1], d),
+                    surfmesh::dot(frame[2], d)};
+    }
+    return found;
+}
+
 Interval twice(Interval x) { return {2.0 * x.lo, 2.0 * x.hi}; }
 BoxedVector twice(const BoxedVector& a) { return {twice(a.x), twice(a.y), twice(a.z)}; }
 
-/// What is left of a vector across n, over a length.
+constexpr Interval SHARE{0.0, 1.0};
+
+Interval square_of(Interval x) { return outward::rounded(intervals::integer_power(x, 2)); }
+
+/// What is left of a vector across the unit vector n, over a length: its x is
+/// a_x (n_y^2 + n_z^2) - n_x (a_y n_y + a_z n_z), and so on.
 BoxedVector across(const BoxedVector& a, const BoxedVector& n, Interval per_length) {
-    return multiply(per_length, subtract(a, multiply(dot(n, a), n)));
+    const Interval x = square_of(n.x), y = square_of(n.y), z = square_of(n.z);
+    const Interval along_x = multiply(a.x, n.x), along_y = multiply(a.y, n.y),
+                   along_z = multiply(a.z, n.z);
+    const auto left = [](Interval own, Interval share, Interval n_own, Interval others) {
+        return subtract(multiply(own, outward::common(share, SHARE)), multiply(n_own, others));
+    };
+    return multiply(per_length, {left(a.x, add(y, z), n.x, add(along_y, along_z)),
+                                 left(a.y, add(z, x), n.y, add(along_z, along_x)),
+                                 left(a.z, add(x, y), n.z, add(along_x, along_y))});
+}
+
+/// N / |N| by its slopes p = N_x / N_z and q = N_y / N_z, where N_z is positive: (p, q, 1) over the
+/// root of 1 + p^2 + q^2.
+BoxedVector normal_by_slopes(const BoxedVector& N) {
+    const Interval per_z = outward::reciprocal(N.z);
+    const Interval p = multiply(N.x, per_z), q = multiply(N.y, per_z);
+    const Interval whole = add(exactly(1.0), add(square_of(p), square_of(q)));
+    const Interval root = outward::rounded(intervals::sqrt(whole));
+    const Interval z = outward::common(outward::reciprocal(root), SHARE);
+    return {multiply(p, z), multiply(q, z), z};
 }
 
 /// n = N / |N| with N = r_u x r_v.
@@ -41,7 +95,7 @@ bool unit_normal(const BoxedVector& r_u, const BoxedVector& r_v, UnitNormal& out
     if (!(length.lo > 0.0) || !(length.hi < intervals::INFINITE)) return false;
     out.per_length = outward::reciprocal(length);
     constexpr Interval UNIT{-1.0, 1.0};
-    const BoxedVector n = multiply(out.per_length, N);
+    const BoxedVector n = N.z.lo > 0.0 ? normal_by_slopes(N) : multiply(out.per_length, N);
     out.n = {outward::common(n.x, UNIT), outward::common(n.y, UNIT), outward::common(n.z, UNIT)};
     return true;
 }
@@ -104,6 +158,7 @@ Interval joined(Interval all, Interval more, bool is_first) {
 /// One cell of an offset surface, of which the parts are taken one after the other.
 class OffsetCell {
   public:
+    /// directions: in the frame of the boxes.
     OffsetCell(const PartBoxes& parts, const Directions& directions, double distance)
         : parts_(parts), directions_(directions), distance_(distance) {}
 
@@ -133,12 +188,18 @@ class OffsetCell {
     void take_bends(const DerivativeBoxes& r, const UnitNormal& unit, bool is_first) {
         const NormalDerivatives n = normal_derivatives(r, unit);
         const Interval uu = outward::square(n.u), uv = dot(n.u, n.v), vv = outward::square(n.v);
+        const Interval squares = add(uu, vv);
         for (std::size_t k = 0; k < 3; ++k) {
             const SplitDirection split(directions_[k], unit.n);
             const auto bent = [&](const BoxedVector& r_ij, const BoxedVector& n_ij,
                                   Interval product) {
-                return add(along(split.d, r_ij),
-                           multiply(exactly(distance_), split.along_second(n_ij, product)));
+                const Interval found =
+                    add(along(split.d, r_ij),
+                        multiply(exactly(distance_), split.along_second(n_ij, product)));
+                const double sizes =
+                    size_of(r_ij) +
+                    std::abs(distance_) * (size_of(n_ij) + outward::magnitude(squares));
+                return add(found, {-FRAME_ROUNDING * sizes, FRAME_ROUNDING * sizes});
             };
             found_.uu[k] = joined(found_.uu[k], bent(r[3], n.uu, uu), is_first);
             found_.uv[k] = joined(found_.uv[k], bent(r[4], n.uv, uv), is_first);
@@ -150,7 +211,8 @@ class OffsetCell {
         const BoxedVector of_normal = across(jump, unit.n, unit.per_length);
         for (std::size_t k = 0; k < 3; ++k) {
             const Interval x = multiply(exactly(distance_), along(directions_[k], of_normal));
-            most[k] = std::max(most[k], outward::magnitude(x));
+            const double off = FRAME_ROUNDING * std::abs(distance_) * size_of(of_normal);
+            most[k] = std::max(most[k], outward::magnitude(x) + off);
         }
     }
     static void add_up(const Array<std::uint8_t>& creases, const std::array<double, 3>& most,
@@ -210,11 +272,19 @@ SurfaceStatus OffsetSurface::enclose_bends(std::span<const ParameterBox> cells,
                                            std::span<Bends> out) const {
     const auto* third = dynamic_cast<const ThirdDerivatives*>(basis_.get());
     if (third == nullptr) return SurfaceStatus::UNKNOWN;
+    Array<Point2> middles;
+    for (const auto& [low, high] : cells) middles.push_back(0.5 * (low + high));
+    SurfaceValues middle;
+    if (const auto status = middle.evaluate(*basis_, {middles.data(), middles.size()}, 1);
+        status != SurfaceStatus::DONE)
+        return status;
     PartBoxes parts;
     for (std::size_t i = 0; i < cells.size(); ++i) {
         out[i] = UNBOUNDED_BENDS;
-        if (!third->enclose_third(cells[i], parts)) continue;
-        OffsetCell cell(parts, directions[i], distance_);
+        const Directions frame = frame_at(middle[1][i], middle[2][i]);
+        if (!third->enclose_third(cells[i], frame, parts)) continue;
+        const Directions own = in_frame(frame, directions[i]);
+        OffsetCell cell(parts, own, distance_);
         if (cell.look_at_parts()) out[i] = cell.found();
     }
     return SurfaceStatus::DONE;

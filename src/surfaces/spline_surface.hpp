@@ -35,7 +35,8 @@ class SplineSurface final : public FaceSurface, public ThirdDerivatives {
     SurfaceStatus enclose_bends(std::span<const ParameterBox> cells,
                                 std::span<const Directions> directions,
                                 std::span<Bends> out) const override;
-    [[nodiscard]] bool enclose_third(const ParameterBox& cell, PartBoxes& out) const override;
+    [[nodiscard]] bool enclose_third(const ParameterBox& cell, const Directions& directions,
+                                     PartBoxes& out) const override;
     [[nodiscard]] bool enclose_tangents(Point2 uv, TangentBoxes& out) const override;
 
   private:
@@ -59,7 +60,7 @@ class SplineSurface final : public FaceSurface, public ThirdDerivatives {
     double coefficients(const PartOfCell& part, Point3 about, Array<Homogeneous>& control,
                         Array<Homogeneous>& line) const;
 
-    DerivativeBoxes boxes_of_part(const SpanPart& u, const SpanPart& v, int order,
+    DerivativeBoxes boxes_of_part(const PartOfCell& part, const Directions& directions, int order,
                                   const BezierCorner* corner, ThirdWork& work) const;
 
     SplineBasis u_, v_;

@@ -21,6 +21,8 @@ constexpr std::size_t HIGHEST_OF_THIRD = 25;  // degree: what CAD kernels allow
 constexpr double LEAST_OF_SPAN = 0x1p-12;     // parts no narrower: differences would be round-off
 constexpr double NEAR_CREASE = 1e-12;         // of the knots' range: as near as split_at_knots says
 
+constexpr Directions AXES = {{{1.0, 0.0, 0.0}, {0.0, 1.0, 0.0}, {0.0, 0.0, 1.0}}};
+
 using DerivativeRanges = std::array<Interval, derivative_count(3)>;
 
 constexpr std::size_t number_of(std::size_t k, std::size_t l) {
@@ -150,11 +152,12 @@ struct SplineSurface::ThirdWork {
 };
 
 /// Over a part, of the derivatives up to the order; at a corner of it alone where that is given.
-DerivativeBoxes SplineSurface::boxes_of_part(const SpanPart& u, const SpanPart& v, int order,
-                                             const BezierCorner* corner, ThirdWork& work) const {
+DerivativeBoxes SplineSurface::boxes_of_part(const PartOfCell& part, const Directions& directions,
+                                             int order, const BezierCorner* corner,
+                                             ThirdWork& work) const {
     const std::size_t rows = u_.degree() + 1, columns = v_.degree() + 1, count = rows * columns;
     const bool rational = !weights_.empty();
-    const PartOfCell part{u, v};
+    const auto& [u, v] = part;
     const double largest = coefficients(part, middle_of(part), work.control, work.line);
     const double error = 2.0 * restriction_error(u_.degree() + v_.degree(), largest);
     const std::span<const Homogeneous> control(work.control.data(), count);
@@ -182,11 +185,12 @@ DerivativeBoxes SplineSurface::boxes_of_part(const SpanPart& u, const SpanPart& 
     }
     DerivativeBoxes boxes{};
     for (std::size_t axis = 0; axis < 3; ++axis) {
-        const double middle = axis == 0 ? about.x : axis == 1 ? about.y : about.z;
         NumberRange quotients;
         for (std::size_t k = 0; k < count; ++k) {
             const Homogeneous& x = control[k];
-            numbers[k] = rational ? x[axis] - x[3] * middle : x[axis];
+            Point3 at = {x[0], x[1], x[2]};
+            if (rational) at = at - x[3] * about;
+            numbers[k] = dot(directions[axis], at);
             if (rational && (corner == nullptr || k == at_corner))
                 quotients.take(numbers[k] / x[3]);
         }
@@ -202,7 +206,8 @@ DerivativeBoxes SplineSurface::boxes_of_part(const SpanPart& u, const SpanPart& 
     return boxes;
 }
 
-bool SplineSurface::enclose_third(const ParameterBox& cell, PartBoxes& out) const {
+bool SplineSurface::enclose_third(const ParameterBox& cell, const Directions& directions,
+                                  PartBoxes& out) const {
     if (std::max(u_.degree(), v_.degree()) > HIGHEST_OF_THIRD) return false;
     ThirdWork work(u_.degree() + 1, v_.degree() + 1);
     if (!split_at_knots(u_, cell.low.x, cell.high.x, work.u) ||
@@ -212,10 +217,11 @@ bool SplineSurface::enclose_third(const ParameterBox& cell, PartBoxes& out) cons
     out.parts_u = work.u.size();
     out.parts_v = work.v.size();
     out.boxes.clear();
-    for (const SpanPart& u : work.u)
-        for (const SpanPart& v : work.v)
-            out.boxes.push_back(
-                boxes_of_part(with_width(u_, u), with_width(v_, v), 3, nullptr, work));
+    for (const SpanPart& part_u : work.u)
+        for (const SpanPart& part_v : work.v) {
+            const SpanPart u = with_width(u_, part_u), v = with_width(v_, part_v);
+            out.boxes.push_back(boxes_of_part({u, v}, directions, 3, nullptr, work));
+        }
     return true;
 }
 
@@ -228,7 +234,7 @@ bool SplineSurface::enclose_tangents(Point2 uv, TangentBoxes& out) const {
         for (std::size_t j = 0; j < places_v.count; ++j) {
             const BezierCorner corner{places_u.from_last[i], places_v.from_last[j]};
             const DerivativeBoxes boxes =
-                boxes_of_part(places_u.part[i], places_v.part[j], 1, &corner, work);
+                boxes_of_part({places_u.part[i], places_v.part[j]}, AXES, 1, &corner, work);
             const TangentBoxes found{boxes[1], boxes[2]};
             out = i + j == 0
                       ? found

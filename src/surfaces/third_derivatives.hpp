@@ -33,8 +33,10 @@ class ThirdDerivatives {
   public:
     virtual ~ThirdDerivatives() = default;
 
-    /// False where nothing is known, and where a first derivative may jump within the cell.
-    [[nodiscard]] virtual bool enclose_third(const ParameterBox& cell, PartBoxes& out) const = 0;
+    /// Boxes along three directions. False where nothing is known, and where a first derivative may
+    /// jump within the cell.
+    [[nodiscard]] virtual bool enclose_third(const ParameterBox& cell, const Directions& directions,
+                                             PartBoxes& out) const = 0;
     [[nodiscard]] virtual bool enclose_tangents(Point2 uv, TangentBoxes& out) const = 0;
 
   protected:
