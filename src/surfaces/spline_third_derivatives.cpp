@@ -18,8 +18,8 @@ namespace surfmesh {
 namespace {
 
 constexpr std::size_t HIGHEST_OF_THIRD = 25;  // degree: what CAD kernels allow
-constexpr double LEAST_OF_SPAN = 0x1p-12;     // parts no narrower: differences would be round-off
-constexpr double NEAR_CREASE = 1e-12;         // of the knots' range: as near as split_at_knots says
+constexpr double LEAST_OF_SPAN = 0x1p-8;  // parts no narrower: third differences would be round-off
+constexpr double NEAR_CREASE = 1e-12;     // of the knots' range: as near as split_at_knots says
 
 constexpr Directions AXES = {{{1.0, 0.0, 0.0}, {0.0, 1.0, 0.0}, {0.0, 0.0, 1.0}}};
 
