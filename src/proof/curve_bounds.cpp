@@ -55,6 +55,42 @@ double sag_of(const Curve& curve, double first, double last, double step) {
            0.25 * std::abs(step) * root_of_squares(jump);
 }
 
+/// How far a part of the curve is at most from the segment between the origin and ``end``, by its
+/// ranges along the segment and across it: of use where c'' is large for what it does, as over the
+/// many spans of an approximation.
+double distance_by_ranges(const Curve& curve, double first, double last, Point3 start, Point3 end) {
+    const double length = norm(end);
+    if (!(length > 0.0)) return intervals::INFINITE;
+    const Point3 e = (1.0 / length) * end;
+    const Point3& apart = std::abs(e.x) < 0.6 ? AXES[0] : AXES[1];
+    const Point3 across = cross(e, apart), x = (1.0 / norm(across)) * across, y = cross(e, x);
+    std::array<double, 3> off{};
+    double size = length;
+    for (std::size_t k = 0; k < 3; ++k) {
+        CurveAlong c;
+        if (!curve.enclose_along({first, last}, k == 0 ? x : k == 1 ? y : e, start, c))
+            return intervals::INFINITE;
+        off[k] = k < 2 ? outward::magnitude(c[0]) : std::max({-c[0].lo, c[0].hi - length, 0.0});
+        size += outward::magnitude(c[0]);
+    }
+    return root_of_squares(off) + CURVE_ROUNDING * size;
+}
+
+/// Over all parts, between the same parameters as their ends are.
+double farthest_by_ranges(const Curve& curve, const ParameterEnds& t, int parts, Point3 start,
+                          Point3 end) {
+    const double step = (t[1] - t[0]) / parts;
+    double most = 0.0, from = t[0];
+    for (int part = 1; part <= parts; ++part) {
+        const double to = part == parts ? t[1] : t[0] + step * part;
+        const double there =
+            distance_by_ranges(curve, std::min(from, to), std::max(from, to), start, end);
+        most = std::max(most, there <= intervals::INFINITE ? there : intervals::INFINITE);
+        from = to;
+    }
+    return most;
+}
+
 }  // namespace
 
 Array<double> curve_bounds(const Curve& curve, std::span<const ParameterEnds> t,
@@ -73,7 +109,10 @@ Array<double> curve_bounds(const Curve& curve, std::span<const ParameterEnds> t,
         }
         const double sag =
             sag_of(curve, std::min(t[i][0], t[i][1]), std::max(t[i][0], t[i][1]), step);
-        const double bound = (most + sag * (1.0 + CURVE_ROUNDING) + off) * (1.0 + CURVE_ROUNDING);
+        double within = most + sag * (1.0 + CURVE_ROUNDING);
+        if (sag > most)
+            within = std::min(within, farthest_by_ranges(curve, t[i], parts, start, end));
+        const double bound = (within + off) * (1.0 + CURVE_ROUNDING);
         found[i] = bound <= intervals::INFINITE ? bound : intervals::INFINITE;
     }
     return found;

@@ -9,7 +9,7 @@ namespace surfmesh {
 namespace {
 
 constexpr double LEAST_COSINE = 0.5;     // of 60 degrees
-constexpr double FLATTEST = 0x1p-20;     // tilt of a normal
+constexpr double FLATTEST = 0x1p-13;     // tilt of a normal, which heights and angles have in them
 constexpr double LITTLE_SHIFTED = 0.25;  // of how far the boundary is: no need to look closer
 
 TrianglePlane plane_of(const SpaceCorners& p, double corner) {

@@ -36,6 +36,42 @@ Interval derivative_range(const BezierNumbers& c, std::size_t k, std::size_t l) 
     return found.scaled(factor, 4.0 * c.error);  // at most four ends, of a second difference
 }
 
+void derivative_ranges(const BezierNumbers& c, int order, const BezierCorner* corner,
+                       std::span<double> work, std::span<Interval> out) {
+    const std::size_t most = static_cast<std::size_t>(order), count = c.rows * c.columns;
+    const auto by_v = work.first(count), by_both = work.last(count);
+    std::copy_n(c.values, count, by_v.begin());
+    double factor_v = 1.0;
+    for (std::size_t l = 0; l <= most; ++l) {
+        std::copy(by_v.begin(), by_v.end(), by_both.begin());
+        double factor = factor_v;
+        for (std::size_t k = 0; k + l <= most; ++k) {
+            NumberRange found;
+            const std::size_t rows = c.rows > k ? c.rows - k : 0,
+                              columns = c.columns > l ? c.columns - l : 0;
+            const bool at_corner = corner != nullptr && rows > 0 && columns > 0;
+            if (at_corner)
+                found.take(by_both[(corner->last_u ? rows - 1 : 0) * c.columns +
+                                   (corner->last_v ? columns - 1 : 0)]);
+            for (std::size_t i = 0; i < rows && !at_corner; ++i)
+                for (std::size_t j = 0; j < columns; ++j) found.take(by_both[i * c.columns + j]);
+            // the errors of 2^(k + l) coefficients, and as much for the rounding of differences
+            const double error = static_cast<double>(std::size_t{2} << (k + l)) * c.error;
+            out[(k + l) * (k + l + 1) / 2 + l] = found.scaled(factor, error);
+            factor *= static_cast<double>(c.rows - 1 - std::min(k, c.rows - 1)) * per(c.width_u);
+            for (std::size_t i = 0; i + 1 < rows; ++i)
+                for (std::size_t j = 0; j < columns; ++j)
+                    by_both[i * c.columns + j] =
+                        by_both[(i + 1) * c.columns + j] - by_both[i * c.columns + j];
+        }
+        factor_v *=
+            static_cast<double>(c.columns - 1 - std::min(l, c.columns - 1)) * per(c.width_v);
+        for (std::size_t i = 0; i < c.rows; ++i)
+            for (std::size_t j = 0; j + l + 1 < c.columns; ++j)
+                by_v[i * c.columns + j] = by_v[i * c.columns + j + 1] - by_v[i * c.columns + j];
+    }
+}
+
 Interval quotient_slope(Interval a_u, Interval w_u, Interval s, Interval w) {
     using namespace outward;
     return divide(subtract(a_u, multiply(w_u, s)), w);

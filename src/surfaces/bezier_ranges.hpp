@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <span>
 
 #include "surfaces/outward.hpp"
 
@@ -46,6 +47,16 @@ Interval value_range(const BezierNumbers& c);
 
 /// k times along u, l times along v, each at most 2.
 Interval derivative_range(const BezierNumbers& c, std::size_t k, std::size_t l);
+
+/// A corner of a part: at its last u, at its last v.
+struct BezierCorner {
+    bool last_u, last_v;
+};
+
+/// All derivatives up to the order, at most 3, in their sequence (surface.hpp): over the part, which has
+/// widths, or at one of its corners. work: twice as many numbers as coefficients.
+void derivative_ranges(const BezierNumbers& c, int order, const BezierCorner* corner,
+                       std::span<double> work, std::span<Interval> out);
 
 /// The first derivative of s = A / w by that of A and of w, which is positive: (A_u - w_u s) / w.
 Interval quotient_slope(Interval a_u, Interval w_u, Interval s, Interval w);

@@ -30,6 +30,11 @@ class OffsetSurface final : public FaceSurface {
     /// To the second order, where the basis has them to the third.
     SurfaceStatus derivative_magnitudes(std::span<const ParameterBox> cells, int order,
                                         std::span<Point3> out) const override;
+    /// Where the basis bounds its derivatives to the third order; infinite where it may have no normal.
+    SurfaceStatus enclose(std::span<const Point2> uv, std::span<EnclosedPoint> out) const override;
+    SurfaceStatus enclose_bends(std::span<const ParameterBox> cells,
+                                std::span<const Directions> directions,
+                                std::span<Bends> out) const override;
     [[nodiscard]] std::exception_ptr take_failure() const override {
         return basis_->take_failure();
     }

@@ -16,6 +16,8 @@ namespace surfmesh {
 namespace {
 
 constexpr std::size_t HIGHEST_DEGREE = 25;  // what CAD kernels allow
+// parts so narrow for their range are counted by how much the first derivative changes over them
+constexpr double THIN_OF_RANGE = 0x1p-10;
 constexpr double ABOUT_ROUNDING = 0x1p-48;  // more than that of a dot product, of its terms
 constexpr std::array<Interval, 3> NO_RANGES = {UNBOUNDED, UNBOUNDED, UNBOUNDED};
 
@@ -74,6 +76,9 @@ bool SplineCurve::enclose_along(Interval t, Point3 w, Point3 about, CurveAlong& 
     const Point3 unit = size > 0.0 ? (1.0 / size) * w : w;
     Array<Homogeneous> control(degree + 1), before(degree + 1);
     out = CurveAlong{};
+    double whole = 0.0;
+    for (const SpanPart& part : parts) whole += part.width;
+    bool is_first = true;
     for (std::size_t n = 0; n < parts.size(); ++n) {
         const SpanPart& part = parts.data()[n];
         const Point3 middle = control_[part.span - static_cast<std::int64_t>(degree / 2)];
@@ -87,7 +92,13 @@ bool SplineCurve::enclose_along(Interval t, Point3 w, Point3 about, CurveAlong& 
         const double margin =
             ABOUT_ROUNDING * size * (sum_of_coordinates(middle) + sum_of_coordinates(about));
         found[0] = add(found[0], {dot(w, apart) - margin, dot(w, apart) + margin});
-        for (std::size_t k = 0; k < 3; ++k) out[k] = n == 0 ? found[k] : hull(out[k], found[k]);
+        for (std::size_t k = 0; k < 2; ++k) out[k] = n == 0 ? found[k] : hull(out[k], found[k]);
+        if (part.width < THIN_OF_RANGE * whole) {
+            out.jump += above(part.width * magnitude(found[2])) * (1.0 + 8.0 * ULP);
+        } else {
+            out[2] = is_first ? found[2] : hull(out[2], found[2]);
+            is_first = false;
+        }
         if (!part.after_crease) continue;
         const SpanPart& last = parts.data()[n - 1];
         const double most =

@@ -6,12 +6,14 @@
 #pragma once
 
 #include "surfaces/bezier_piece.hpp"
+#include "surfaces/bezier_ranges.hpp"
 #include "surfaces/face_surface.hpp"
 #include "surfaces/spline_basis.hpp"
+#include "surfaces/third_derivatives.hpp"
 
 namespace surfmesh {
 
-class SplineSurface final : public FaceSurface {
+class SplineSurface final : public FaceSurface, public ThirdDerivatives {
   public:
     /// control: rows of v, one for each control point along u. weights: one a control point, or
     /// none. At a crease that is a side of the domain, the derivatives are those inside.
@@ -33,12 +35,16 @@ class SplineSurface final : public FaceSurface {
     SurfaceStatus enclose_bends(std::span<const ParameterBox> cells,
                                 std::span<const Directions> directions,
                                 std::span<Bends> out) const override;
+    [[nodiscard]] bool enclose_third(const ParameterBox& cell, const Directions& directions,
+                                     PartBoxes& out) const override;
+    [[nodiscard]] bool enclose_tangents(Point2 uv, TangentBoxes& out) const override;
 
   private:
     template <int order, bool rational>
     void evaluate_as(std::span<const Point2> uv, std::span<Point3> out) const;
 
     struct Work;
+    struct ThirdWork;
     struct PartOfCell {
         const SpanPart &u, &v;
     };
@@ -53,6 +59,9 @@ class SplineSurface final : public FaceSurface {
     [[nodiscard]] std::int64_t corner_of(const PartOfCell& part) const;
     double coefficients(const PartOfCell& part, Point3 about, Array<Homogeneous>& control,
                         Array<Homogeneous>& line) const;
+
+    DerivativeBoxes boxes_of_part(const PartOfCell& part, const Directions& directions, int order,
+                                  const BezierCorner* corner, ThirdWork& work) const;
 
     SplineBasis u_, v_;
     std::int64_t columns_;

@@ -23,6 +23,7 @@ from surfmesh.geometry.cad_surfaces.curves import (
     Parabola,
 )
 from surfmesh.geometry.cad_surfaces.elementary import Cone, Cylinder, Plane, Sphere, Torus
+from surfmesh.geometry.cad_surfaces.elementary_offsets import elementary_offset
 from surfmesh.geometry.cad_surfaces.face_surface import FaceSurface
 from surfmesh.geometry.cad_surfaces.nurbs import BSplineCurve, BSplineSurface, bezier_knots
 from surfmesh.geometry.cad_surfaces.offset import OffsetCurve, OffsetSurface
@@ -152,7 +153,8 @@ def _revolution(surface: Geom.Geom_SurfaceOfRevolution, **face: Any) -> Revoluti
 
 def _offset_surface(surface: Geom.Geom_OffsetSurface, **face: Any) -> FaceSurface:
     basis = surface_of(surface.BasisSurface(), **face)
-    return OffsetSurface(basis, surface.Offset(), **face)
+    elementary = elementary_offset(basis, surface.Offset())
+    return elementary or OffsetSurface(basis, surface.Offset(), **face)
 
 
 def _net(surface: Any) -> tuple[np.ndarray, np.ndarray | None]:

@@ -6,6 +6,7 @@ face_surface: what the surfaces of CAD faces have in common: a parameter box, pe
 elementary: plane, cylinder, cone, sphere and torus, parametrised as CAD kernels do.
 nurbs: B-spline curves and surfaces, rational or not; Bezier ones are B-splines of one span.
 offset: curves and surfaces at a fixed distance from others, with exact derivatives.
+elementary_offsets: offsets of elementary surfaces that are elementary themselves.
 swept: surfaces that a curve sweeps: along a line, or round an axis.
 sheet_surface: a surface of formulas, or of a caller's function, as that under a face.
 curve_on_surface: a curve in space that a surface makes of a p-curve.

@@ -83,7 +83,7 @@ def cut_until_proved(
         most = max(FEW, SHARE * len(found.bound))
         is_bounded = np.isfinite(found.bound)
         left = np.flatnonzero(found.bound > sizing.chord)
-        # where much is not bounded, as over an offset, smaller triangles would be no better
+        # where much is not bounded, as at poles of offsets, smaller triangles would be no better
         left = left if np.count_nonzero(~is_bounded) <= most else left[is_bounded[left]]
         cut = None
         if 0 < len(left) <= most and passes < PASSES:

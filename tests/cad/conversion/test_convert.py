@@ -270,6 +270,12 @@ SURFACES = {
     "revolution": lambda: Geom.Geom_SurfaceOfRevolution(periodic_curve(2), gp_Ax1()),
     "offset": lambda: Geom.Geom_OffsetSurface(bezier_surface(True), 0.3),
     "offset of a periodic one": lambda: Geom.Geom_OffsetSurface(spline_torus(), -0.3),
+    "offset of a left-handed torus": lambda: Geom.Geom_OffsetSurface(
+        Geom.Geom_ToroidalSurface(left_handed(), 3.0, 1.0), 0.3
+    ),
+    "offset of a narrowing cone": lambda: Geom.Geom_OffsetSurface(
+        Geom.Geom_ConicalSurface(left_handed(), -0.4, 2.0), -0.3
+    ),
     "trimmed": lambda: trimmed(bezier_surface(True)),
     "trimmed, then offset": lambda: Geom.Geom_OffsetSurface(trimmed(bezier_surface(False)), 0.2),
     "extruded trimmed offset curve": lambda: Geom.Geom_SurfaceOfLinearExtrusion(

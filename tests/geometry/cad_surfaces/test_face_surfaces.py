@@ -9,6 +9,7 @@ import pytest
 from surfmesh.errors import SurfaceError
 from surfmesh.geometry.cad_surfaces.curves import Circle, Ellipse, Line
 from surfmesh.geometry.cad_surfaces.elementary import Cone, Cylinder, Plane, Sphere, Torus
+from surfmesh.geometry.cad_surfaces.elementary_offsets import elementary_offset
 from surfmesh.geometry.cad_surfaces.face_surface import DERIVATIVES
 from surfmesh.geometry.cad_surfaces.nurbs import BSplineCurve, BSplineSurface, bezier_knots
 from surfmesh.geometry.cad_surfaces.offset import OffsetSurface
@@ -162,6 +163,32 @@ def same(a, b, uv=None, order=3, swap=False):
         expected = [expected[number[l, k]] for k, l in DERIVATIVES[: len(found)]]
     for x, y in zip(found, expected):
         assert x == pytest.approx(y, abs=1e-11)
+
+
+@pytest.mark.parametrize("hand", [1.0, -1.0])
+@pytest.mark.parametrize("distance", [0.3, -0.3])
+def test_offsets_of_elementary_surfaces(hand, distance):
+    frame = FRAME | {"y": hand * Y}
+    for basis in (
+        Plane(**frame, domain=BOX),
+        Cylinder(**frame, radius=2.0, domain=BOX),
+        Cone(**frame, radius=2.0, angle=0.4, domain=BOX),
+        Cone(**frame, radius=2.0, angle=-0.4, domain=BOX),
+        Sphere(**frame, radius=2.0, domain=BOX),
+        Torus(**frame, radius=2.0, tube=0.5, domain=BOX),
+    ):
+        found = elementary_offset(basis, distance)
+        assert type(found) is type(basis)
+        same(found, OffsetSurface(basis, distance, domain=BOX), order=2)
+
+
+def test_offsets_that_are_turned_inside_out_stay_offsets():
+    cone = Cone(**FRAME, radius=0.5, angle=0.4, domain=((0.0, 1.0), (-2.0, 1.0)))
+    assert elementary_offset(cone, 0.1) is None  # through the apex
+    assert elementary_offset(Cone(**FRAME, radius=0.2, angle=0.4, domain=BOX), -0.4) is None
+    assert elementary_offset(Sphere(**FRAME, radius=0.5, domain=BOX), -0.6) is None
+    assert elementary_offset(Torus(**FRAME, radius=0.5, tube=0.6, domain=BOX), 0.1) is None
+    assert elementary_offset(spline(), 0.1) is None
 
 
 def test_swept_surfaces_that_are_elementary():

@@ -1,0 +1,150 @@
+"""Proved bounds of offsets of splines against samples of them."""
+
+import numpy as np
+import pytest
+
+from surfmesh._core import proof
+from surfmesh.accuracy.face_triangles import FaceTriangles
+from surfmesh.accuracy.proof import CORNER, WHOLE, proved_distances
+from surfmesh.geometry.cad_surfaces.curves import Circle
+from surfmesh.geometry.cad_surfaces.nurbs import BSplineSurface
+from surfmesh.geometry.cad_surfaces.offset import OffsetSurface
+from surfmesh.geometry.cad_surfaces.swept import ExtrusionSurface
+
+SIDE = 12
+WEIGHTS = np.array(
+    [(i, j, SIDE - i - j) for i in range(SIDE + 1) for j in range(SIDE + 1 - i)]
+) / float(SIDE)
+BOX = ((0.0, 3.0), (0.0, 3.0))
+
+
+def spline(degree=3, times=1, rational=False, seed=0, height=0.25):
+    """Three spans each way, their inner knots so often; nearly a graph over the plane."""
+    rng = np.random.default_rng(seed)
+    knots = [0.0] * (degree + 1) + [1.0] * times + [2.0] * times + [3.0] * (degree + 1)
+    count = len(knots) - degree - 1
+    along = np.linspace(0.0, 4.0, count)
+    x, y = np.meshgrid(along, along, indexing="ij")
+    control = np.stack([x, y, height * rng.normal(size=x.shape)], axis=-1)
+    turned = control @ np.linalg.qr(rng.normal(size=(3, 3)))[0]
+    weights = rng.uniform(0.7, 1.4, x.shape) if rational else None
+    return BSplineSurface(knots, knots, turned, weights, domain=BOX)
+
+
+SPLINES = {
+    "cubic": spline(),
+    "rational": spline(rational=True),
+    "with double knots": spline(times=2),
+    "quadratic": spline(degree=2, height=0.1),
+    "rational quadratic": spline(degree=2, rational=True, height=0.1),
+    "quintic": spline(degree=5, seed=3),
+}
+
+
+def triangles(count, size, seed=1):
+    rng = np.random.default_rng(seed)
+    uv = rng.uniform(0.0, 3.0, (count, 1, 2)) + size * rng.normal(size=(count, 3, 2))
+    return np.ascontiguousarray(np.clip(uv, 0.0, 3.0))
+
+
+def twins(rows):
+    """Half-edge k of triangle t is 3 t + k, from corner k on; -1: it has no twin."""
+    number = {(t[k], t[(k + 1) % 3]): 3 * i + k for i, t in enumerate(rows) for k in range(3)}
+    return np.array([number.get((b, a), -1) for a, b in number], np.int32)
+
+
+def bounds_of(surface, uv, corners, depth):
+    flat, rims = np.zeros_like(uv), np.zeros(len(uv), np.uint8)
+    limits = np.full(len(uv), 1e-12)
+    return np.asarray(proof.triangle_bounds(surface.core, corners, uv, flat, limits, rims, depth))
+
+
+@pytest.mark.parametrize("name", SPLINES)
+@pytest.mark.parametrize("distance", [0.2, -0.3])
+@pytest.mark.parametrize("size", [0.2, 0.02, 0.001])
+def test_points_keep_to_what_is_bounded(name, distance, size):
+    surface = OffsetSurface(SPLINES[name], distance, domain=BOX)
+    uv = triangles(150, size)
+    corners = surface.evaluate(uv.reshape(-1, 2), 0)[0].reshape(-1, 3, 3)
+    samples = np.einsum("qk,mkd->mqd", WEIGHTS, uv)
+    points = surface.evaluate(samples.reshape(-1, 2), 0)[0].reshape(len(uv), -1, 3)
+    away = points - np.einsum("qk,mkd->mqd", WEIGHTS, corners)
+    normal = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+    normal /= np.linalg.norm(normal, axis=1)[:, None]
+    whole = np.linalg.norm(away, axis=2).max(axis=1)
+    height = np.abs(np.einsum("mqd,md->mq", away, normal)).max(axis=1)
+    for depth in (0, 2):
+        found = bounds_of(surface, uv, corners, depth)
+        assert found[:, CORNER].max() < 1e-8
+        assert (height <= found[:, 0] + found[:, CORNER]).all()
+        assert (whole <= found[:, WHOLE] + found[:, CORNER]).all()
+        if size < 0.1:
+            assert np.median(found[:, WHOLE] / whole) < 8.0
+
+
+@pytest.mark.parametrize("name", ["cubic", "rational", "quintic"])
+def test_small_triangles_are_bounded_closely(name):
+    surface = OffsetSurface(SPLINES[name], 0.2, domain=BOX)
+    uv = triangles(60, 0.01)
+    corners = surface.evaluate(uv.reshape(-1, 2), 0)[0].reshape(-1, 3, 3)
+    middle = surface.evaluate(uv.mean(axis=1), 0)[0]
+    found = bounds_of(surface, uv, corners, 0)
+    away = np.linalg.norm(middle - corners.mean(axis=1), axis=1)
+    assert np.median(found[:, WHOLE] / away) < 2.0
+
+
+def test_nothing_is_known_where_the_basis_may_have_no_normal():
+    knots = [0.0] * 4 + [3.0] * 4
+    x, y = np.meshgrid(np.arange(4.0), np.arange(4.0), indexing="ij")
+    control = np.stack([x * y, y, 0.1 * x * x], axis=-1)  # one point for y = 0
+    surface = OffsetSurface(BSplineSurface(knots, knots, control, domain=BOX), 0.2, domain=BOX)
+    uv = np.array([[[1.0, 0.0], [2.0, 0.5], [1.0, 0.5]], [[1.0, 1.0], [1.5, 1.0], [1.0, 1.5]]])
+    corners = surface.evaluate(uv.reshape(-1, 2), 0)[0].reshape(-1, 3, 3)
+    found = bounds_of(surface, uv, corners, 2)
+    assert np.isfinite(found[:, WHOLE]).tolist() == [False, True]
+
+
+def test_a_crease_of_the_basis_has_no_bound():
+    creased = BSplineSurface(
+        [0.0, 0.0, 1.5, 3.0, 3.0], [0.0, 0.0, 3.0, 3.0],
+        [[[0, 0, 0], [0, 2, 0]], [[1, 0, 1], [1, 2, 1]], [[2, 0, 0], [2, 2, 0]]], domain=BOX,
+    )  # fmt: skip
+    surface = OffsetSurface(creased, 0.2, domain=BOX)
+    uv = np.array([[[1.0, 1.0], [2.0, 1.0], [1.0, 2.0]], [[0.2, 1.0], [1.2, 1.0], [0.2, 2.0]]])
+    corners = surface.evaluate(uv.reshape(-1, 2), 0)[0].reshape(-1, 3, 3)
+    found = bounds_of(surface, uv, corners, 2)
+    assert np.isfinite(found[:, WHOLE]).tolist() == [False, True]
+
+
+def test_offsets_of_other_surfaces_say_that_nothing_is_known():
+    tube = ExtrusionSurface(
+        Circle(np.zeros(3), np.eye(3)[0], np.eye(3)[1], 2.0), np.eye(3)[2], domain=BOX
+    )
+    surface = OffsetSurface(tube, 0.2, domain=BOX)
+    uv = triangles(1, 0.1)
+    corners = surface.evaluate(uv.reshape(-1, 2), 0)[0].reshape(-1, 3, 3)
+    flat, rims = np.zeros_like(uv), np.zeros(1, np.uint8)
+    assert proof.triangle_bounds(surface.core, corners, uv, flat, np.ones(1), rims, 2) is None
+
+
+def test_a_mild_offset_is_proved():
+    """A grid of triangles whose corners are off by what edges of CAD models are."""
+    surface = OffsetSurface(spline(height=0.15), 0.2, domain=BOX)
+    ticks = np.linspace(0.0, 3.0, 25)
+    u, v = np.meshgrid(ticks, ticks, indexing="ij")
+    places = np.column_stack([u.ravel(), v.ravel()])
+    first = (np.arange(24)[:, None] * 25 + np.arange(24)).ravel()
+    rows = np.concatenate([
+        np.column_stack([first, first + 25, first + 26]),
+        np.column_stack([first, first + 26, first + 1]),
+    ]).astype(np.int32)  # fmt: skip
+    points = surface.evaluate(places, 0)[0]
+    rng = np.random.default_rng(0)
+    points = points + 3e-7 * rng.uniform(-1.0, 1.0, points.shape)
+    face = FaceTriangles(
+        np.ascontiguousarray(points[rows]), np.ascontiguousarray(places[rows]), rows, twins(rows)
+    )
+    limit = np.linalg.norm(np.ptp(points, axis=0)) / 1000.0
+    found = proved_distances(surface, face, np.full(len(rows), limit))
+    assert found is not None
+    assert (found.bound <= limit).all()
