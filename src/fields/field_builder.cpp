@@ -16,8 +16,10 @@ constexpr std::int64_t MOST_HIDDEN = 60'000;  // cells looked into beyond HIDDEN
 
 // Error that a leaf may have: of what its cell, twice as wide, has at the test nodes, the same
 // part that the cell has of its parent's: a quarter where the field is smooth, half at a kink. Where
-// gradation decides, the field is a cone and all slopes are small.
-constexpr double LEAF_ERROR = 0.015, GRADED_ERROR = 0.06, GRADED_STRETCHED = 0.075;
+// gradation decides, the field is a cone and all slopes are small. Where directions turn the ratio of
+// both sizes counts as often: the same triangles come of a somewhat coarser field.
+constexpr double LEAF_ERROR = 0.015, LEAF_STRETCHED = 0.02;
+constexpr double GRADED_ERROR = 0.06, GRADED_STRETCHED = 0.075;
 constexpr double SMOOTH_PART = 0.25, KINK_PART = 0.5;
 constexpr double LOWERED = 0.98;  // of the target size: below it gradation decides
 
@@ -184,6 +186,7 @@ PatchRoots FieldBuilder::metric_roots(const Patch& patch) const {
 void FieldBuilder::mark_inaccurate(std::int32_t seen, std::span<std::uint8_t> split) {
     const double coarse = nodes.is_anisotropic() ? FINEST_STRETCHED : FINEST_GRADED;
     const double graded_error = nodes.is_anisotropic() ? GRADED_STRETCHED : GRADED_ERROR;
+    const double leaf_error = nodes.is_anisotropic() ? LEAF_STRETCHED : LEAF_ERROR;
     const auto leaves = cells_.leaves();
     for (std::size_t k = 0; k < leaves.size(); ++k) {
         const Patch& patch = patches_[k];
@@ -196,7 +199,7 @@ void FieldBuilder::mark_inaccurate(std::int32_t seen, std::span<std::uint8_t> sp
         error_[k].own = found.error;
         const bool graded = is_graded(patch);
         const double finest = graded && plan_.known_sizes ? coarse : FINEST_EXTENT;
-        const double most = plan_.coarseness * (graded ? graded_error : LEAF_ERROR);
+        const double most = plan_.coarseness * (graded ? graded_error : leaf_error);
         if (error_of_leaves(found.error, error_[k].parents) > most && found.extent > finest)
             split[k] = 1;
     }

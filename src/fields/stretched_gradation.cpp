@@ -68,24 +68,32 @@ bool surely_allows(const StretchedNode& a, const StretchedNode& b, const Way& wa
 
 StretchedGradation::StretchedGradation(const GradedSizes& sizes, const NodeNeighbours& neighbours,
                                        std::int32_t number)
-    : s_(sizes), neighbours_(neighbours), number_(number) {
+    : s_(sizes), neighbours_(neighbours), number_(number), place_(sizes.size.size(), NIL) {
     nodes_.reserve(s_.size.size());
-    for (std::size_t n = 0; n < s_.size.size(); ++n) {
+}
+
+/// A node with what is worked out of it: a gradation of few new nodes visits few.
+StretchedNode& StretchedGradation::node(Node n) {
+    if (place_[n] == NIL) {
+        place_[n] = static_cast<std::int32_t>(nodes_.size());
         const double h = s_.size[n], longer = s_.longer[n];
         nodes_.push_back({s_.point[n], s_.normal[n], s_.along[n], cross(s_.normal[n], s_.along[n]),
                           longer, h, 1.0 / (longer * longer), 1.0 / (h * h)});
     }
+    return nodes_[place_[n]];
 }
 
 void StretchedGradation::visit(Node p, SizeQueue& queue) {
     neighbours_.collect(p, around_);
     const bool is_new = s_.changed[p] >= number_;
+    const StretchedNode& from = node(p);
     for (const Node n : around_) {
         if (!is_new && s_.changed[n] < number_) continue;  // graded in an earlier round
-        const double change = bind(nodes_[p], n);
+        StretchedNode& to = node(n);
+        const double change = bind(from, to, !s_.round.empty() && s_.round[n] != 0);
         if (change == 0.0) continue;
-        s_.size[n] = nodes_[n].size;
-        s_.longer[n] = nodes_[n].longer;
+        s_.size[n] = to.size;
+        s_.longer[n] = to.longer;
         s_.changed[n] = number_;
         queue.lowered(n, key(n), change);
     }
@@ -140,8 +148,7 @@ void StretchedGradation::hold_along(const StretchedNode& a, const StretchedNode&
 /// size along `along` alone, as long as none smaller than the smallest of a, grown, is needed:
 /// principal directions stay what they are, and the size along one may become the shorter. Returns
 /// the relative change of b.
-double StretchedGradation::bind(const StretchedNode& a, Node number) {
-    StretchedNode& b = nodes_[number];
+double StretchedGradation::bind(const StretchedNode& a, StretchedNode& b, bool is_round) const {
     const double hb = b.size, lb = b.longer, longest = std::max(hb, lb);
     const double least_of_a = std::min(a.size, a.longer);
     if (longest <= least_of_a) return 0.0;
@@ -156,7 +163,6 @@ double StretchedGradation::bind(const StretchedNode& a, Node number) {
         return longest / least - 1.0;
     }
     const double turning = 1.0 + TURN_SLOPE * s_.slope * l;
-    const bool is_round = !s_.round.empty() && s_.round[number] != 0;
     if (!(is_round && b.by_longer > b.by_shorter) &&
         surely_allows(a, b, {step, onward, growth * growth, turning * turning}, s_.slope))
         return 0.0;

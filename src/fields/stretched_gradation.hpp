@@ -28,7 +28,7 @@ class StretchedGradation {
                        std::int32_t number);
 
     /// Sizes are spread in the order of the shorter ones.
-    [[nodiscard]] double key(Node n) const { return std::min(nodes_[n].size, nodes_[n].longer); }
+    [[nodiscard]] double key(Node n) const { return std::min(s_.size[n], s_.longer[n]); }
     [[nodiscard]] bool is_level(const Quarter& /*quarter*/) const { return false; }  // not known
     void visit(Node p, SizeQueue& queue);
 
@@ -38,7 +38,8 @@ class StretchedGradation {
         double along, left, mixed;
     };
 
-    double bind(const StretchedNode& a, Node number);
+    StretchedNode& node(Node n);
+    double bind(const StretchedNode& a, StretchedNode& b, bool is_round) const;
     static void set(StretchedNode& node, double size, double longer);
     [[nodiscard]] static AxisMetric carried(const StretchedNode& a, const StretchedNode& b);
     void hold_along(const StretchedNode& a, const StretchedNode& b, double most,
@@ -47,7 +48,8 @@ class StretchedGradation {
     GradedSizes s_;
     const NodeNeighbours& neighbours_;
     std::int32_t number_;
-    Array<StretchedNode> nodes_;
+    Array<StretchedNode> nodes_;  // those that have been asked for; they do not move
+    Array<std::int32_t> place_;   // of each node among them, or NIL
     Array<Node> around_;
 };
 

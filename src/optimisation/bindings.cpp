@@ -234,7 +234,7 @@ void bind_triangles(nb::module_& m) {
         [](const Triangulation& t, const SurfaceFrames& s, VertexMarks& marks, double least) {
             require_domain(t, s);
             require_marks(t, marks);
-            return activate_bad(t, s, marks, least);
+            return activate_bad(t, s, {}, marks, least);
         },
         nb::arg("t"), nb::arg("frames"), nb::arg("marks"), nb::arg("least"),
         "Make the corners of triangles with alpha below ``least`` active; returns how many.");

@@ -50,15 +50,21 @@ Array<Triangle> triangles_at(const Triangulation& t, const Array<std::uint8_t>& 
         });
 }
 
-int activate_bad(const Triangulation& t, const SurfaceFrames& s, VertexMarks& marks, double least) {
+int activate_bad(const Triangulation& t, const SurfaceFrames& s, std::span<const double> shape,
+                 VertexMarks& marks, double least) {
+    const auto is_bad = [&](std::size_t k, Vertex a, Vertex b, Vertex c) {
+        if (k < shape.size() && !marks.dirty[a] && !marks.dirty[b] && !marks.dirty[c])
+            return shape[k] < least;
+        return is_shape_below(s, a, b, c, least);
+    };
     const Array<Triangle> bad = collect_by_blocks<Triangle>(
         t.region.size(), MARKED_TOGETHER,
         [&](std::size_t first, std::size_t last, Array<Triangle>& found) {
-            for (auto k = static_cast<Triangle>(first); k < static_cast<Triangle>(last); ++k) {
+            for (std::size_t k = first; k < last; ++k) {
                 if (t.region[k] == DEAD) continue;
                 const Vertex a = t.tri[3 * k], b = t.tri[3 * k + 1], c = t.tri[3 * k + 2];
-                if (!is_collapsed(s, a, b, c) && is_shape_below(s, a, b, c, least))
-                    found.push_back(k);
+                if (is_bad(k, a, b, c) && !is_collapsed(s, a, b, c))
+                    found.push_back(static_cast<Triangle>(k));
             }
         });
     for (const Triangle k : bad)

@@ -1,6 +1,8 @@
 // Triangles by what is wrong with them, or by the marks of their corners.
 #pragma once
 
+#include <span>
+
 #include "optimisation/surface_frames.hpp"
 #include "optimisation/vertex_marks.hpp"
 
@@ -18,6 +20,9 @@ Array<std::uint8_t> find_folded(const Triangulation& t, const SurfaceFrames& s, 
 Array<Triangle> triangles_at(const Triangulation& t, const Array<std::uint8_t>& vertices);
 
 /// Make the corners of triangles with alpha below ``least`` active; returns how many there are.
-int activate_bad(const Triangulation& t, const SurfaceFrames& s, VertexMarks& marks, double least);
+///
+/// shape: alpha of the triangles that are not dirty, as swaps have seen it; or empty.
+int activate_bad(const Triangulation& t, const SurfaceFrames& s, std::span<const double> shape,
+                 VertexMarks& marks, double least);
 
 }  // namespace surfmesh

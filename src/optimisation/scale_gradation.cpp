@@ -1,6 +1,8 @@
 #include "optimisation/scale_gradation.hpp"
 
 #include <algorithm>
+#include <optional>
+#include <utility>
 
 #include "optimisation/marked_triangles.hpp"
 
@@ -45,25 +47,69 @@ void for_each_way(const Triangulation& t, Triangle k, Visit visit) {
     }
 }
 
+/// The half-edges that leave each vertex: of each the next one that leaves the same.
+class LeavingHalfEdges {
+  public:
+    explicit LeavingHalfEdges(const Triangulation& t)
+        : first_(t.xy.size(), NIL), next_(t.tri.size(), NIL) {
+        for (std::size_t k = 0; k < t.region.size(); ++k) {
+            if (t.region[k] == DEAD) continue;
+            for (auto e = static_cast<HalfEdge>(3 * k); e < static_cast<HalfEdge>(3 * k + 3); ++e) {
+                next_[e] = first_[t.tri[e]];
+                first_[t.tri[e]] = e;
+            }
+        }
+    }
+
+    /// The triangles at the vertices, in their order.
+    [[nodiscard]] Array<Triangle> triangles_at(const Array<Vertex>& vertices) const {
+        Array<Triangle> found;
+        for (const Vertex v : vertices)
+            for (HalfEdge e = first_[v]; e != NIL; e = next_[e]) found.push_back(e / 3);
+        std::sort(found.begin(), found.end());
+        found.resize(
+            static_cast<std::size_t>(std::unique(found.begin(), found.end()) - found.begin()));
+        return found;
+    }
+
+  private:
+    Array<HalfEdge> first_, next_;
+};
+
+/// Sweeps over the triangles at vertices whose sizes have changed in the sweep before.
+///
+/// ``change(a, b)`` changes the size of b by that of a, whose size has changed, and says so.
+template <class Change>
+void spread_scales(const Triangulation& t, Array<std::uint8_t> from, Change change) {
+    std::optional<LeavingHalfEdges> leaving;  // few change, after the first sweep
+    Array<Triangle> around = triangles_at(t, from);
+    for (int sweep = 0; sweep < SWEEPS; ++sweep) {
+        Array<std::uint8_t> is_changed(t.xy.size(), 0);
+        Array<Vertex> changed;
+        for (const Triangle k : around)
+            for_each_way(t, k, [&](Vertex a, Vertex b) {
+                if (from[a] == 0 || !change(a, b) || is_changed[b] != 0) return;
+                is_changed[b] = 1;
+                changed.push_back(b);
+            });
+        if (changed.empty()) return;
+        if (!leaving) leaving.emplace(t);
+        around = leaving->triangles_at(changed);
+        from = std::move(is_changed);
+    }
+}
+
 /// Raise sizes that were lowered, around vertices that are marked and from there on, until none is
 /// smaller than its neighbour's less the slope times the way; none above that of the size field.
 void raise_towards(const Triangulation& t, SurfaceFrames& s, Array<std::uint8_t> from,
                    double slope) {
-    for (int sweep = 0; sweep < SWEEPS; ++sweep) {
-        Array<std::uint8_t> raised(t.xy.size(), 0);
-        bool changes = false;
-        const auto raise = [&](Vertex a, Vertex b) {
-            if (from[a] == 0 || !(s.scale[b] < LOWERED)) return;
-            const double least = s.size[a] - slope * norm(s.point[b] - s.point[a]);
-            if (!(s.size[b] < LOWERED * least)) return;
-            shorten(s, b, std::min(least / s.size[b], 1.0 / s.scale[b]));
-            raised[b] = 1;
-            changes = true;
-        };
-        for (const Triangle k : triangles_at(t, from)) for_each_way(t, k, raise);
-        if (!changes) return;
-        from = std::move(raised);
-    }
+    spread_scales(t, std::move(from), [&](Vertex a, Vertex b) {
+        if (!(s.scale[b] < LOWERED)) return false;
+        const double least = s.size[a] - slope * norm(s.point[b] - s.point[a]);
+        if (!(s.size[b] < LOWERED * least)) return false;
+        shorten(s, b, std::min(least / s.size[b], 1.0 / s.scale[b]));
+        return true;
+    });
 }
 
 }  // namespace
@@ -72,22 +118,13 @@ int grade_scales(const Triangulation& t, SurfaceFrames& s, VertexMarks& marks, d
                  bool around_all) {
     Array<std::uint8_t> from(t.xy.size(), 0), found(t.xy.size(), 0);
     for (Vertex v = 0; v < t.vertices(); ++v) from[v] = around_all || s.scale[v] < LOWERED ? 1 : 0;
-    int count = 0;
-    for (int sweep = 0; sweep < SWEEPS; ++sweep) {
-        Array<std::uint8_t> lowered(t.xy.size(), 0);
-        const int before = count;
-        const auto hold = [&](Vertex a, Vertex b) {
-            if (from[a] == 0) return;
-            const double factor = factor_on(s, a, b, slope);
-            if (!(factor < 1.0)) return;
-            shorten(s, b, factor);
-            marks.active[b] = lowered[b] = found[b] = 1;
-            ++count;
-        };
-        for (const Triangle k : triangles_at(t, from)) for_each_way(t, k, hold);
-        if (count == before) break;
-        from = std::move(lowered);
-    }
+    spread_scales(t, std::move(from), [&](Vertex a, Vertex b) {
+        const double factor = factor_on(s, a, b, slope);
+        if (!(factor < 1.0)) return false;
+        shorten(s, b, factor);
+        marks.active[b] = found[b] = 1;
+        return true;
+    });
     return static_cast<int>(std::count(found.begin(), found.end(), 1));
 }
 

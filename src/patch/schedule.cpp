@@ -1,6 +1,7 @@
 #include "patch/schedule.hpp"
 
 #include <algorithm>
+#include <span>
 
 #include "optimisation/marked_triangles.hpp"
 #include "patch/angle_reduction.hpp"
@@ -90,7 +91,8 @@ void hold_growth(PatchState& state) {
 void improve_worst(PatchState& state) {
     state.marks.active.fill(0);
     for (int pass = 0; pass < WORST_PASSES; ++pass) {
-        if (activate_bad(state.t, state.frames, state.marks, BAD_SHAPE) == 0) break;
+        const std::span<const double> shape{state.shape.data(), state.shape.size()};
+        if (activate_bad(state.t, state.frames, shape, state.marks, BAD_SHAPE) == 0) break;
         state.smooth(WORST_STIFFNESS);
         state.swap();
     }

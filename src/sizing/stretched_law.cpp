@@ -222,11 +222,15 @@ FieldOutcome limit_longer_sizes(FieldBuilder& builder, const StretchedLaw& law, 
     if (const FieldOutcome done = builder.grade_nodes(); done.status != FieldStatus::done)
         return done;
     for (std::size_t n = 0; n < count; ++n) ratio[n] = REACHED * nodes.longer[n] / nodes.size[n];
-    if (!law.regained(nodes, all(ratio), all(nodes.size)))
-        return {FieldStatus::failed, {0.0, 0.0}, 0.0};
-    for (std::size_t n = 0; n < count; ++n)
-        nodes.longer[n] = least(longer[n], ratio[n] * nodes.size[n]);
-    builder.touch_all();
+    Array<double> size(count);
+    if (!law.regained(nodes, all(ratio), all(size))) return {FieldStatus::failed, {0.0, 0.0}, 0.0};
+    for (std::size_t n = 0; n < count; ++n) {
+        longer[n] = least(longer[n], ratio[n] * size[n]);
+        if (size[n] == nodes.size[n] && longer[n] == nodes.longer[n]) continue;  // graded as it is
+        nodes.size[n] = size[n];
+        nodes.longer[n] = longer[n];
+        builder.touch(static_cast<Node>(n));
+    }
     return builder.grade_nodes();
 }
 

@@ -2,13 +2,15 @@
 
 import numpy as np
 import pytest
+from scipy.spatial import cKDTree
 
 import surfmesh as sm
 from surfmesh._core import allow_threads
 from surfmesh._core.sizing import limit_longer_sizes
 from surfmesh.geometry.differential.fundamental_forms import curvatures
 from surfmesh.geometry.differential.sides import find_sides
-from surfmesh.sizing.field.size_law import SizeLaw
+from surfmesh.sizing.field.field_builder import FieldBuilder
+from surfmesh.sizing.field.size_law import FieldNodes, SizeLaw
 from surfmesh.sizing.rules.direction_rates import direction_rates
 from surfmesh.sizing.rules.rim_rule import Rims
 from surfmesh.sizing.rules.size_limits import SizeLimits, along_lines
@@ -99,9 +101,23 @@ def test_what_a_callers_function_raises_comes_through():
         law(places(law))
 
 
-def test_fields_that_are_not_refined_or_have_one_size_are_refused():
-    from surfmesh.sizing.field.field_builder import FieldBuilder
+@pytest.mark.parametrize("name", ["two_peaks", "wavy_sphere"])
+def test_fields_are_graded_where_longer_sizes_were_limited(name):
+    law = SizeLaw.of(sm.load(name), SIZING)
+    builder = FieldBuilder(law)
+    builder.background()
+    nodes, xy = FieldNodes(*builder.core.nodes()), builder.core.plane()
+    around = cKDTree(xy).query(xy, 4)[1]
+    a, b = np.repeat(around[:, 0], 3), around[:, 1:].ravel()
+    step = nodes.point[b] - nodes.point[a]
+    length = np.linalg.norm(step, axis=1)
+    way = step / np.maximum(length, 1e-300)[:, None]
+    of = [sizes_along(FieldNodes(*(x[k] for x in nodes)), way) for k in (a, b)]
+    allowed = of[0] + law.sizing.gradient * length
+    assert np.quantile(of[1] / allowed, 0.99) < 1.02
 
+
+def test_fields_that_are_not_refined_or_have_one_size_are_refused():
     surface = sm.load("torus")
     stretched = SizeLaw.of(surface, SIZING)
     builder = FieldBuilder(stretched)
