@@ -123,6 +123,11 @@ def explained_losses(points: Annotated[NDArray[numpy.float64], dict(shape=(None,
 def edge_lengths(points: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)], edges: Annotated[NDArray[numpy.int32], dict(shape=(None, 2), order='C', device='cpu', writable=False)]) -> Annotated[NDArray[numpy.float64], dict(shape=(None,))]:
     """Length (k,) of edges (k, 2) between points (n, 3)."""
 
+def edge_sizes(edges: Annotated[NDArray[numpy.int32], dict(shape=(None, 2), order='C', device='cpu', writable=False)], sizes: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)]) -> tuple[Annotated[NDArray[numpy.float64], dict(shape=(None,))], Annotated[NDArray[numpy.float64], dict(shape=(None,))]]:
+    """
+    Of the sizes (n,) at both ends of edges (k, 2): their mean (k,), and by how much (k,) they are apart.
+    """
+
 def edge_extremes(edges: Annotated[NDArray[numpy.int32], dict(shape=(None, 2), order='C', device='cpu', writable=False)], lengths: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)], vertices: int) -> tuple[Annotated[NDArray[numpy.float64], dict(shape=(None,))], Annotated[NDArray[numpy.float64], dict(shape=(None,))]]:
     """
     Length (n,) of the longest and of the shortest of edges (k, 2), of lengths (k,), at each vertex; 0 and infinite where there is none.
