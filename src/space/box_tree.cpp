@@ -267,6 +267,13 @@ BoxTree tree_over(std::span<const Point3> points, std::span<const TriangleCorner
     return tree;
 }
 
+/// Do all triangles belong to one patch? Most surfaces given by formulas do.
+bool are_one_patch(std::span<const std::int32_t> patches) {
+    if (patches.empty() || patches[0] == NIL) return false;
+    return std::all_of(patches.begin(), patches.end(),
+                       [&](std::int32_t patch) { return patch == patches[0]; });
+}
+
 /// Looks for pairs below two nodes: 2 k and 2 k + 1 are the children of k.
 class Search {
   public:
@@ -360,6 +367,7 @@ class Search {
 Array<MeetingTriangles> meeting_triangles(std::span<const Point3> points,
                                           std::span<const TriangleCorners> triangles,
                                           std::span<const std::int32_t> patches, std::size_t most) {
+    if (are_one_patch(patches)) return {};
     return Search(points, triangles, patches, most).run();
 }
 
