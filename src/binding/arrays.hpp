@@ -4,10 +4,13 @@
 #include <nanobind/nanobind.h>
 #include <nanobind/ndarray.h>
 
+#include <algorithm>
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <stdexcept>
 #include <string>
+#include <type_traits>
 
 #include "values/array.hpp"
 #include "values/point.hpp"
@@ -108,12 +111,14 @@ void bind_read_only_array(nb::class_<Owner>& c, const char* name, Array<T> Owner
 /// Refuse indices outside 0 .. count - 1; ``what`` names the argument.
 template <class Number>
 void require_indices(std::span<const Number> indices, std::size_t count, const char* what) {
-    Number least = 0, most = -1;  // no branch that depends on data: several are looked at at once
-    for (const Number index : indices) {
-        least = index < least ? index : least;
-        most = index > most ? index : most;
-    }
-    if (least < 0 || (most >= 0 && static_cast<std::size_t>(most) >= count))
+    // no branch that depends on data: several are looked at at once, by signs
+    using Unsigned = std::make_unsigned_t<Number>;
+    constexpr auto LARGEST = static_cast<std::size_t>(std::numeric_limits<Number>::max());
+    const auto last = static_cast<Unsigned>(std::min(count - 1, LARGEST));
+    Unsigned signs = count == 0 && !indices.empty() ? ~Unsigned{0} : 0;
+    for (const Number index : indices)
+        signs |= static_cast<Unsigned>(index) | (last - static_cast<Unsigned>(index));
+    if (static_cast<Number>(signs) < 0)
         throw nb::value_error((std::string(what) + " has an index that is out of range").c_str());
 }
 

@@ -37,6 +37,23 @@ void bind_lengths(nb::module_& m) {
         },
         nb::arg("points"), nb::arg("edges"), "Length (k,) of edges (k, 2) between points (n, 3).");
     m.def(
+        "edge_sizes",
+        [](const SidePairs& edges, const Vector<double>& sizes) {
+            require_indices(std::span(edges.data(), edges.size()), sizes.shape(0), "edges");
+            const std::span<const EdgeTable::Ends> ends{
+                reinterpret_cast<const EdgeTable::Ends*>(edges.data()), edges.shape(0)};
+            EdgeSizes found;
+            {
+                const nb::gil_scoped_release released;
+                found = edge_sizes(ends, rows<double>(sizes));
+            }
+            return std::tuple(view(found.mean), view(found.apart));
+        },
+        nb::arg("edges"), nb::arg("sizes"),
+        "Of the sizes (n,) at both ends of edges (k, 2): their mean (k,), and by how much (k,) "
+        "they "
+        "are apart.");
+    m.def(
         "edge_extremes",
         [](const SidePairs& edges, const Vector<double>& lengths, std::size_t vertices) {
             require_indices(std::span(edges.data(), edges.size()), vertices, "edges");

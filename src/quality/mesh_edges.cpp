@@ -1,6 +1,7 @@
 #include "quality/mesh_edges.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <numbers>
 
@@ -41,6 +42,17 @@ Array<double> edge_lengths(std::span<const Point3> points, std::span<const EdgeT
     lengths.reserve(edges.size());
     for (const auto& [a, b] : edges) lengths.push_back(norm(points[b] - points[a]));
     return lengths;
+}
+
+EdgeSizes edge_sizes(std::span<const EdgeTable::Ends> edges, std::span<const double> sizes) {
+    EdgeSizes found;
+    found.mean.reserve(edges.size());
+    found.apart.reserve(edges.size());
+    for (const auto& [a, b] : edges) {
+        found.mean.push_back(0.5 * (sizes[a] + sizes[b]));
+        found.apart.push_back(std::abs(sizes[a] - sizes[b]));
+    }
+    return found;
 }
 
 EdgeExtremes edge_extremes(std::span<const EdgeTable::Ends> edges, std::span<const double> lengths,

@@ -16,6 +16,12 @@ namespace surfmesh {
 
 Array<double> edge_lengths(std::span<const Point3> points, std::span<const EdgeTable::Ends> edges);
 
+/// The sizes at both ends of each edge: their mean, and by how much they are apart.
+struct EdgeSizes {
+    Array<double> mean, apart;
+};
+EdgeSizes edge_sizes(std::span<const EdgeTable::Ends> edges, std::span<const double> sizes);
+
 /// The longest and the shortest edge at each vertex, NaN where one is: 0 and infinite without edges.
 struct EdgeExtremes {
     Array<double> longest, shortest;

@@ -1,5 +1,9 @@
 #include "quality/segment_samples.hpp"
 
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
 #include <utility>
 
 #include "surfaces/elementary_curves.hpp"
@@ -21,6 +25,8 @@ class Sampling {
         const bool is_straight = dynamic_cast<const Line*>(curve) != nullptr;
         find_near(*curve, first, end, is_straight ? ON_LINE : -1.0);
         add_between(*curve);
+        const auto* conic = dynamic_cast<const Conic*>(curve);
+        add_arcs(conic != nullptr && conic->kind() == ConicKind::ELLIPSE);
     }
     SegmentSamples found() { return std::move(found_); }
 
@@ -38,6 +44,7 @@ class Sampling {
             for (const double fraction : {0.0, 1.0}) t_.push_back(parameter(k, fraction));
         const CurveValues at(curve, {t_.data(), t_.size()}, 0);
         near_.clear();
+        off_.clear();
         for (std::size_t k = first; k < end; ++k) {
             const Point3 a = all_.points[all_.nodes[k][0]], b = all_.points[all_.nodes[k][1]];
             const std::size_t row = 2 * (k - first);
@@ -46,8 +53,9 @@ class Sampling {
             const auto are_within = [&](double part) {
                 return start <= part * length && finish <= part * length;
             };
-            if (are_within(on_curve_) && !are_within(nearest))
-                near_.push_back(static_cast<std::int32_t>(k));
+            if (!are_within(on_curve_) || are_within(nearest)) continue;
+            near_.push_back(static_cast<std::int32_t>(k));
+            off_.push_back(std::max(start, finish));
         }
     }
 
@@ -62,11 +70,21 @@ class Sampling {
         for (const Point3& point : between[0]) found_.points.push_back(point);
     }
 
+    void add_arcs(bool is_ellipse) {
+        constexpr double INFINITE = std::numeric_limits<double>::infinity();
+        for (std::size_t row = 0; row < near_.size(); ++row) {
+            const double turn = parameter(near_[row], 1.0) - parameter(near_[row], 0.0);
+            const bool is_arc = is_ellipse && std::abs(turn) <= std::numbers::pi;
+            found_.off_arc.push_back(is_arc ? off_[row] : INFINITE);
+        }
+    }
+
     const EdgeSegments& all_;
     std::span<const double> fractions_;
     double on_curve_;
     Array<double> t_;
     Array<std::int32_t> near_;
+    Array<double> off_;  // of these: the larger distance of the two nodes from the curve
     SegmentSamples found_;
 };
 

@@ -32,6 +32,9 @@ struct EdgeSegments {
 struct SegmentSamples {
     Array<std::int32_t> segments;  // those that are looked at
     Array<Point3> points;          // of each, one a fraction
+    // the larger distance of its nodes from the curve where that is an ellipse, of which they are
+    // at most half a turn apart; else infinite
+    Array<double> off_arc;
 };
 
 /// on_curve: of the length of a segment; those whose nodes are farther off say nothing.

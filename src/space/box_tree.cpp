@@ -1,7 +1,6 @@
 #include "space/box_tree.hpp"
 
 #include <algorithm>
-#include <array>
 #include <bit>
 #include <limits>
 #include <numeric>
@@ -94,6 +93,48 @@ struct Leaf {
     std::int32_t patch;
 };
 
+/// The boxes of a leaf, coordinate by coordinate: all are compared with another at once. Those
+/// beyond its triangles have no inside.
+struct LeafBoxes {
+    float low[3][LEAF], high[3][LEAF];
+
+    LeafBoxes() {
+        constexpr float INFINITE = std::numeric_limits<float>::infinity();
+        for (std::size_t k = 0; k < 3; ++k) {
+            std::fill_n(low[k], LEAF, INFINITE);
+            std::fill_n(high[k], LEAF, -INFINITE);
+        }
+    }
+    void set(std::size_t place, const Bounds& box) {
+        for (std::size_t k = 0; k < 3; ++k) {
+            low[k][place] = box.low[k];
+            high[k][place] = box.high[k];
+        }
+    }
+    [[nodiscard]] Bounds operator[](std::size_t place) const {
+        return {{low[0][place], low[1][place], low[2][place], 0.0F},
+                {high[0][place], high[1][place], high[2][place], 0.0F}};
+    }
+};
+
+/// Bit k: has the k-th box of a leaf a point in common with another? By signs, as ``overlap``.
+std::uint32_t overlapping(const LeafBoxes& leaf, const Bounds& box) {
+    const auto sign = [](float x) { return std::bit_cast<std::int32_t>(x); };
+    const float low_x = box.low[0], low_y = box.low[1], low_z = box.low[2];
+    const float high_x = box.high[0], high_y = box.high[1], high_z = box.high[2];
+    constexpr std::int32_t BIT[LEAF] = {1, 2, 4, 8, 16, 32, 64, 128};
+    std::int32_t found[LEAF];  // four by four, as the processor does
+    for (std::size_t k = 0; k < LEAF; ++k) {
+        const std::int32_t signs = sign(leaf.high[0][k] - low_x) | sign(high_x - leaf.low[0][k]) |
+                                   sign(leaf.high[1][k] - low_y) | sign(high_y - leaf.low[1][k]) |
+                                   sign(leaf.high[2][k] - low_z) | sign(high_z - leaf.low[2][k]);
+        found[k] = ~(signs >> 31) & BIT[k];
+    }
+    std::int32_t both[LEAF / 2];
+    for (std::size_t k = 0; k < LEAF / 2; ++k) both[k] = found[k] | found[k + LEAF / 2];
+    return static_cast<std::uint32_t>(both[0] | both[1] | both[2] | both[3]);
+}
+
 /// A patch of all of several things: ANY of none, NIL where it is not one.
 constexpr std::int32_t ANY = -2;
 std::int32_t common_patch(std::int32_t a, std::int32_t b) {
@@ -109,8 +150,8 @@ struct Node {
 /// The triangles in the order of the tree and their boxes, and the nodes over them.
 struct BoxTree {
     Array<std::int32_t> order;  // numbers of the triangles
-    Array<Bounds> boxes;
     Array<Leaf> leaves;
+    std::vector<LeafBoxes> boxes;  // of each leaf
     std::vector<Node> nodes;
     std::size_t first_leaf = 1;  // number of its node; as many leaves have room
 };
@@ -197,8 +238,8 @@ void add_nodes(BoxTree& tree) {
     for (std::size_t k = 0; k < tree.leaves.size(); ++k) {
         Node& node = tree.nodes[tree.first_leaf + k];
         node.patch = tree.leaves[k].patch;
-        for (std::size_t t = tree.leaves[k].first; t < tree.leaves[k].end; ++t)
-            node.box.add(tree.boxes[t]);
+        const std::size_t count = tree.leaves[k].end - tree.leaves[k].first;
+        for (std::size_t place = 0; place < count; ++place) node.box.add(tree.boxes[k][place]);
     }
     for (std::size_t k = tree.first_leaf; k-- > 1;) {
         const Node &one = tree.nodes[2 * k], &other = tree.nodes[2 * k + 1];
@@ -214,13 +255,23 @@ BoxTree tree_over(std::span<const Point3> points, std::span<const TriangleCorner
     const Array<FramePoint> framed = in_frame(points);
     tree.order = patch_by_patch(sorted_numbers(curve_places(framed, triangles)), patches);
     tree.leaves = leaves_over(tree.order, patches);
-    tree.boxes.resize(triangles.size(), Bounds::nothing());
-    for (std::size_t k = 0; k < triangles.size(); ++k) {
-        const TriangleCorners& t = triangles[tree.order[k]];
-        for (const Vertex corner : {t.a, t.b, t.c}) tree.boxes[k].add(framed[corner]);
-    }
+    tree.boxes.resize(tree.leaves.size());
+    for (std::size_t k = 0; k < tree.leaves.size(); ++k)
+        for (std::size_t t = tree.leaves[k].first; t < tree.leaves[k].end; ++t) {
+            const TriangleCorners& corners = triangles[tree.order[t]];
+            Bounds box = Bounds::nothing();
+            for (const Vertex corner : {corners.a, corners.b, corners.c}) box.add(framed[corner]);
+            tree.boxes[k].set(t - tree.leaves[k].first, box);
+        }
     add_nodes(tree);
     return tree;
+}
+
+/// Do all triangles belong to one patch? Most surfaces given by formulas do.
+bool are_one_patch(std::span<const std::int32_t> patches) {
+    if (patches.empty() || patches[0] == NIL) return false;
+    return std::all_of(patches.begin(), patches.end(),
+                       [&](std::int32_t patch) { return patch == patches[0]; });
 }
 
 /// Looks for pairs below two nodes: 2 k and 2 k + 1 are the children of k.
@@ -255,42 +306,45 @@ class Search {
         if (are_of_one_patch(node, node)) return;
         if (node >= tree_.first_leaf) return in_leaves(node, node);
         below(2 * node);
-        between(2 * node, 2 * node + 1);
+        if (may_meet(2 * node, 2 * node + 1)) between(2 * node, 2 * node + 1);
         below(2 * node + 1);
     }
 
-    /// What lies below one node with what lies below another, of the same level.
-    void between(std::size_t one, std::size_t other) {
-        if (is_done() || !overlap(box(one), box(other)) || are_of_one_patch(one, other)) return;
-        if (one >= tree_.first_leaf) return in_leaves(one, other);
-        for (const std::size_t a : {2 * one, 2 * one + 1})
-            for (const std::size_t b : {2 * other, 2 * other + 1}) between(a, b);
+    [[nodiscard]] bool may_meet(std::size_t one, std::size_t other) const {
+        return overlap(box(one), box(other)) && !are_of_one_patch(one, other);
     }
 
-    [[nodiscard]] Leaf leaf(std::size_t node) const {
-        const std::size_t number = node - tree_.first_leaf;
-        return number < tree_.leaves.size() ? tree_.leaves[number] : Leaf{0, 0, NIL};
+    /// What lies below one node with what lies below another, of the same level, that may meet.
+    void between(std::size_t one, std::size_t other) {
+        if (is_done()) return;
+        if (one >= tree_.first_leaf) return in_leaves(one, other);
+        for (const std::size_t a : {2 * one, 2 * one + 1})
+            for (const std::size_t b : {2 * other, 2 * other + 1})
+                if (may_meet(a, b)) between(a, b);
     }
 
     /// The pairs of two leaves that meet; of one leaf with itself each pair once.
     void in_leaves(std::size_t own, std::size_t other) {
-        if (is_done()) return;
-        const Leaf here = leaf(own), there = leaf(other);
-        std::array<std::size_t, LEAF> near;  // of the other leaf: those in the box of this one
-        std::size_t count = 0;
-        for (std::size_t t = there.first; t < there.end; ++t)
-            if (overlap(tree_.boxes[t], box(own))) near[count++] = t;
-        for (std::size_t s = here.first; s < here.end && count > 0; ++s)
-            if (overlap(tree_.boxes[s], box(other))) with_near(s, {near.data(), count});
+        const std::size_t a = own - tree_.first_leaf, b = other - tree_.first_leaf;
+        if (is_done() || std::max(a, b) >= tree_.leaves.size()) return;
+        const LeafBoxes &here = tree_.boxes[a], &there = tree_.boxes[b];
+        const std::uint32_t near = overlapping(there, box(own));
+        if (near == 0) return;
+        for (std::uint32_t left = overlapping(here, box(other)); left != 0; left &= left - 1) {
+            const auto place = static_cast<std::size_t>(std::countr_zero(left));
+            const std::uint32_t later = own == other ? ~1U << place : ~0U;
+            const std::uint32_t found = near & later & overlapping(there, here[place]);
+            if (found != 0) look_at(tree_.leaves[a].first + place, tree_.leaves[b].first, found);
+        }
     }
 
-    /// The pairs of one triangle with those of ``near`` that come after it.
-    void with_near(std::size_t s, std::span<const std::size_t> near) {
+    /// One triangle with those at some places of a leaf: bits of ``places``.
+    void look_at(std::size_t s, std::size_t first, std::uint32_t places) {
         const std::int32_t a = tree_.order[s];
         const KeyedTriangle own = keyed(a);
-        for (const std::size_t t : near) {
-            if (t <= s || !overlap(tree_.boxes[s], tree_.boxes[t])) continue;
-            const std::int32_t b = tree_.order[t];
+        for (; places != 0; places &= places - 1) {
+            const auto place = static_cast<std::size_t>(std::countr_zero(places));
+            const std::int32_t b = tree_.order[first + place];
             if (triangles_meet(own, keyed(b))) found_.push_back({std::min(a, b), std::max(a, b)});
         }
     }
@@ -313,6 +367,7 @@ class Search {
 Array<MeetingTriangles> meeting_triangles(std::span<const Point3> points,
                                           std::span<const TriangleCorners> triangles,
                                           std::span<const std::int32_t> patches, std::size_t most) {
+    if (are_one_patch(patches)) return {};
     return Search(points, triangles, patches, most).run();
 }
 

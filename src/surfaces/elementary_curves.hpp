@@ -42,6 +42,8 @@ class Conic final : public Curve {
     Conic(int dimension, ConicKind kind, const Axes& axes, double major, double minor)
         : dimension_(dimension), kind_(kind), axes_(axes), major_(major), minor_(minor) {}
 
+    [[nodiscard]] ConicKind kind() const { return kind_; }
+
     [[nodiscard]] int dimension() const override { return dimension_; }
     void evaluate(std::span<const double> t, int order, std::span<Point3> out) const override;
     [[nodiscard]] bool derivative_magnitudes(std::span<const ParameterRange> ranges, int order,

@@ -98,6 +98,5 @@ def _sizes(
     reached = core.face_edge_means(faces, sides, lengths, count)
     if mesh.sizes is None:
         return reached, np.zeros(count)
-    a, b = mesh.edges.T
-    wanted = (mesh.sizes[a] + mesh.sizes[b]) / 2
+    wanted, _ = core.edge_sizes(mesh.edges, mesh.sizes)
     return reached, core.face_edge_means(faces, sides, wanted, count)

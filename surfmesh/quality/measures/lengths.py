@@ -31,13 +31,12 @@ def metric_lengths(mesh: SurfaceMesh, lengths: NDArray[np.float64]) -> NDArray[n
     if sizes is None:
         return None
     root = None if corners is None else corners.metric_root_3d
-    metric = 2.0 * lengths
+    if root is None or corners is None:
+        mean, _ = quality.edge_sizes(mesh.edges, sizes)
+        return lengths / mean
+    metric = np.empty(len(lengths))
     for begin in range(0, len(lengths), BLOCK):
         block = slice(begin, begin + BLOCK)
-        if root is None or corners is None:
-            a, b = mesh.edges[block].T
-            metric[block] /= sizes[a] + sizes[b]
-            continue
         first, second = _stretched_at_ends(mesh, root, corners.uv_triangles, block)
         total = first + second
         metric[block] = 2.0 * first * second / np.where(total > 0.0, total, 1.0)
@@ -115,17 +114,23 @@ def growth_of_edges(
     if sizes is None or not (lengths > 0.0).any() or not slope > 0.0:
         return None
     root = None if corners is None else corners.metric_root_3d
-    over = np.zeros(len(lengths))
+    if root is None or corners is None:
+        _, apart = quality.edge_sizes(mesh.edges, sizes)
+        return _finite(apart, slope * lengths)
+    over = np.empty(len(lengths))
     for begin in range(0, len(lengths), BLOCK):
         block = slice(begin, begin + BLOCK)
         length = lengths[block]
-        if root is None or corners is None:
-            a, b = mesh.edges[block].T
-            first, second = sizes[a], sizes[b]
-        else:  # an edge of length l is l / h long in the metric
-            with np.errstate(divide="ignore", invalid="ignore"):
-                ends = _stretched_at_ends(mesh, root, corners.uv_triangles, block)
-                first, second = (length / metric for metric in ends)
         with np.errstate(divide="ignore", invalid="ignore"):
-            over[block] = np.abs(first - second) / (slope * length)
-    return np.where(np.isfinite(over), over, 0.0)
+            ends = _stretched_at_ends(mesh, root, corners.uv_triangles, block)
+            first, second = (length / metric for metric in ends)  # l / h long in the metric
+            over[block] = _finite(np.abs(first - second), slope * length)
+    return over
+
+
+def _finite(a: NDArray[np.float64], b: NDArray[np.float64]) -> NDArray[np.float64]:
+    """(k,) quotients a / b; 0 where they are none."""
+    with np.errstate(divide="ignore", invalid="ignore"):
+        over = a / b
+    over[~np.isfinite(over)] = 0.0
+    return over

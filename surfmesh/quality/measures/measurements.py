@@ -39,7 +39,7 @@ from surfmesh.quality.measures.proved_isotopy import isotopic
 from surfmesh.quality.measures.proved_topology import Answer, homeomorphic
 from surfmesh.quality.measures.self_intersection import meeting_pairs
 from surfmesh.quality.measures.shape import Shapes, enclosed_volume, metric_alpha, shapes
-from surfmesh.quality.measures.solids import shares_faces
+from surfmesh.quality.measures.solids import is_one_solid, shares_faces
 from surfmesh.quality.measures.surface_to_mesh import (
     SurfaceDeviation,
     both_ways,
@@ -251,7 +251,7 @@ class Measurements:
         """Of what the mesh encloses; where solids share faces, the sum over the solids."""
         if not self.finite or self.broken:
             return None
-        if shares_faces(self.mesh):
+        if shares_faces(self.mesh) or (len(self.solids) == 1 and is_one_solid(self.mesh)):
             return volume_of_all(self.solids)
         if not self.topology.balanced:
             return None

@@ -33,6 +33,10 @@ from surfmesh.result.surface_mesh import SurfaceMesh
 
 BLOCK = 1 << 15  # samples looked at together: the temporaries stay within the cache
 ALONG_RIM = np.arange(1, 8) / 8.0  # along each free edge
+MIDDLE = np.array([0.5])
+# of an arc of an ellipse: what is farthest from its chord at the others of these, over the middle.
+# With c(t) = cos(t) U + sin(t) V about the middle they are (cos t - cos a) |U| from it at most
+BESIDE_MIDDLE = float(1.0 - np.min(np.abs(1.0 - 2.0 * ALONG_RIM[ALONG_RIM != MIDDLE])) ** 2)
 WITHIN = np.array([(4, 1, 1), (1, 4, 1), (1, 1, 4)]) / 6.0  # barycentric, over every triangle
 _GRID = 6
 CLOSELY = np.array(
@@ -125,18 +129,19 @@ class _Curves(NamedTuple):
 
     def between(
         self, segments: NDArray[np.intp], t: NDArray[np.float64], nodes: NDArray[np.float64]
-    ) -> tuple[NDArray[np.intp], NDArray[np.float64]]:
+    ) -> tuple[NDArray[np.intp], NDArray[np.float64], NDArray[np.float64]]:
         """Those of segments (k,) that may lie off their curves, and points (g j, 3) of these at
-        ``t`` (j,); nodes: (n, 3) of the mesh."""
+        ``t`` (j,); nodes: (n, 3) of the mesh. And how far (g,) the nodes of arcs of ellipses are
+        from these; infinite for others."""
         curves = [None if edge.curve is None else edge.curve.core for edge in self.edges]
         limits = np.array([(edge.t0, edge.t1) for edge in self.edges], float).reshape(-1, 2)
         numbers = self.ids[segments]
         there = segments[(numbers >= 0) & (numbers < len(curves))]
-        found, points = segment_samples(
+        found, points, off_arc = segment_samples(
             curves, limits, self.ids[there], self.ends[there], self.segments[there], nodes, t,
             ON_CURVE,
         )  # fmt: skip
-        return there[found], points
+        return there[found], points, off_arc
 
     def along(self, segment: int, t: NDArray[np.float64]) -> NDArray[np.float64] | None:
         """(j, 3) at ``t`` (j,) of one segment; None where its edge has no curve."""
@@ -153,6 +158,8 @@ def _look_along_curves(search: _Search, curves: _Curves, fit: Deviation) -> None
     """At points of the CAD edges between the nodes of their segments.
 
     They count for that one of two faces which is farther from the mesh itself: the round one.
+    The middle of each is looked at first: of an arc of an ellipse that settles the others, where
+    it is as far from the triangle as they may be from the segment, a side of the triangle.
     Where nodes lie off their curve, as after ``simplify``, what is between says nothing.
     """
     known = search.known
@@ -162,15 +169,30 @@ def _look_along_curves(search: _Search, curves: _Curves, fit: Deviation) -> None
     free = second < 0
     farther = ~free & (fit.by_triangle[second] > fit.by_triangle[first])
     over = np.where(farther, second, first)
-    looked_at, between = curves.between(np.flatnonzero(rows >= 0), ALONG_RIM, mesh.points)
+    segments, middles, off_arc = curves.between(np.flatnonzero(rows >= 0), MIDDLE, mesh.points)
+    ends = mesh.points[curves.segments[segments]]
+    height = np.linalg.norm(middles - (ends[:, 0] + ends[:, 1]) / 2.0, axis=1)
+    beside = BESIDE_MIDDLE * (height + off_arc) + off_arc
+    open_ones = [np.empty(0, np.intp)]
+    for at_rim in (True, False):
+        some = np.flatnonzero(free[segments] == at_rim)
+        for block in _blocks(some, BLOCK):
+            seen = search.look_at(middles[block], over[segments[block]], at_rim)
+            open_ones.append(segments[block[~(seen >= beside[block])]])
+    _look_between(search, curves, np.concatenate(open_ones), over, free)
+
+
+def _look_between(
+    search: _Search, curves: _Curves, segments: NDArray[np.intp], over: NDArray, free: NDArray
+) -> None:
+    """At all points of some segments, over triangles of these; free: those at rims."""
+    looked_at, between, _ = curves.between(np.sort(segments), ALONG_RIM, search.mesh.points)
     between = between.reshape(-1, len(ALONG_RIM), 3)
     for at_rim in (True, False):
         some = np.flatnonzero(free[looked_at] == at_rim)
         for block in _blocks(some, BLOCK // len(ALONG_RIM)):
-            beside = over[looked_at[block]]
-            uv = np.repeat(known.middle_uv(beside), len(ALONG_RIM), axis=0)  # about there
-            triangle = np.repeat(beside, len(ALONG_RIM))
-            search.look_at(between[block].reshape(-1, 3), uv, triangle, at_rim)
+            triangle = np.repeat(over[looked_at[block]], len(ALONG_RIM))
+            search.look_at(between[block].reshape(-1, 3), triangle, at_rim)
 
 
 def _blocks(members: NDArray, length: int) -> Iterator[NDArray]:
@@ -265,11 +287,17 @@ class _Search:
             triangle, rule, _ = _over(triangles[rows], weights)
             self._take(_SamplesAtWeights(triangle, own, self.known, rule, weights), at_rim=False)
 
-    def look_at(self, points: NDArray, uv: NDArray, triangle: NDArray, at_rim: bool) -> None:
-        """At points (k, 3) of the surface, with parameters (k, 2) over triangles (k,)."""
-        if len(triangle):
-            distance = self._stars.distances(points, triangle)
-            self._take(_Samples(triangle, distance, points, uv), at_rim)
+    def look_at(self, points: NDArray, triangle: NDArray, at_rim: bool) -> NDArray[np.float64]:
+        """At points (k, 3) of the surface over triangles (k,). Returns the distances (k,) from
+        these that stand: -1 where one may be the largest, or beyond the chord, or is lowered."""
+        if not len(triangle):
+            return np.empty(0)
+        distance = self._stars.distances(points, triangle)
+        uv = self.known.middle_uv(triangle)  # about there
+        own = distance.copy()
+        self._take(_Samples(triangle, distance, points, uv), at_rim)
+        stands = (own == distance) & (own <= self.largest) & (own <= self.enough[triangle])
+        return np.where(stands, own, -1.0)
 
     def _take(self, samples: _Samples | _SamplesAtWeights, at_rim: bool) -> None:
         """What samples say of the triangles that they are over."""

@@ -98,3 +98,15 @@ def test_what_is_out_of_range_is_refused():
     ):
         with pytest.raises(ValueError):
             call()
+
+
+@given(seeds)
+def test_sizes_at_the_ends_of_edges(seed):
+    rng, points, _, table = soup(seed)
+    sizes = rng.random(len(points))
+    mean, apart = quality.edge_sizes(table.edges, sizes)
+    first, second = sizes[table.edges].T
+    np.testing.assert_array_equal(mean, 0.5 * (first + second))
+    np.testing.assert_array_equal(apart, np.abs(first - second))
+    with pytest.raises(ValueError, match="edges"):
+        quality.edge_sizes(table.edges, sizes[:-3])

@@ -11,6 +11,8 @@ from hypothesis import strategies as st
 
 import surfmesh as sm
 from surfmesh._core.space import triangle_distances
+from surfmesh.quality.measures import surface_to_mesh
+from surfmesh.quality.measures.measurements import Measurements
 
 CELLS = 8
 
@@ -127,3 +129,43 @@ def test_edges_of_cad_sheets_are_looked_at_along_their_curves(ratio):
     tighter = mesh.sizing.replaced(chord=0.5 * sag)
     coarse = sm.check(replace(mesh, sizing=tighter, promises=None))
     assert not coarse.clean and "on a rim" in coarse.problems[0]
+
+
+@pytest.mark.parametrize("moved", [0.0, 1e-3, 0.03, 0.3])
+@pytest.mark.parametrize("squeezed", [1.0, 0.6])
+def test_middles_of_arcs_say_as_much_as_all_points_of_them(moved, squeezed, monkeypatch):
+    """On circles and ellipses, where vertices lie in their places and where they do not."""
+    plate = cq.Workplane().box(8, 6, 1).faces(">Z").workplane()
+    part = plate.ellipse(2, 2 * squeezed).cutThruAll().edges("|Z").fillet(1)
+    mesh = sm.mesh(part, sm.Sizing(size=0.8), jobs=1)
+    draw = np.random.default_rng(1)
+    nodes = draw.choice(len(mesh.points), 9, replace=False)
+    points = mesh.points.copy()
+    points[nodes] += moved * draw.normal(size=(9, 3))
+    mesh = mesh.replaced(points=points)
+    settled = Measurements(mesh).surface_deviation
+    looked_at = []
+    between = surface_to_mesh._look_between
+    monkeypatch.setattr(surface_to_mesh, "BESIDE_MIDDLE", np.inf)  # nothing is settled
+    monkeypatch.setattr(
+        surface_to_mesh,
+        "_look_between",
+        lambda search, curves, segments, *rest: (
+            looked_at.append(len(segments)),
+            between(search, curves, segments, *rest),
+        ),
+    )
+    everywhere = Measurements(mesh).surface_deviation
+    assert looked_at[0] > 30
+    np.testing.assert_allclose(settled.by_triangle, everywhere.by_triangle, rtol=1e-9, atol=1e-12)
+    assert settled.largest == pytest.approx(everywhere.largest, rel=1e-12)
+
+
+def test_most_arcs_are_settled_by_their_middles(monkeypatch):
+    part = cq.Workplane().circle(4).extrude(1).faces(">Z").workplane().hole(1)
+    mesh, looked_at = sm.mesh(part, sm.Sizing(size=0.5), jobs=1), []
+    monkeypatch.setattr(
+        surface_to_mesh, "_look_between", lambda *given: looked_at.append(len(given[2]))
+    )
+    assert Measurements(mesh).surface_deviation.largest > 0.0
+    assert 4 * looked_at[0] <= np.count_nonzero(mesh.edge_segment_rows >= 0)
