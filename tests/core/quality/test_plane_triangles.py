@@ -76,25 +76,26 @@ def test_distances_within_planes_are_those_of_a_search(mesh):
 def test_straight_edges_are_left_out_and_round_ones_looked_at(mesh):
     curves = _Curves.of(mesh)
     every = np.arange(len(curves.segments))
-    segments, points = curves.between(every, ALONG_RIM, mesh.points)
+    segments, points, off_arc = curves.between(every, ALONG_RIM, mesh.points)
     ends = mesh.points[curves.segments]
     is_round = np.abs(np.hypot(ends[..., 0], ends[..., 1]) - 0.75).max(axis=1) < 1e-9
     upright = np.abs(ends[:, 0, 2] - ends[:, 1, 2]) > 1e-9  # the seam
     np.testing.assert_array_equal(segments, np.flatnonzero(is_round & ~upright))
     assert points.shape == (len(segments) * len(ALONG_RIM), 3)
+    assert (off_arc < 1e-9).all()
     np.testing.assert_allclose(np.hypot(points[:, 0], points[:, 1]), 0.75, rtol=1e-12)
 
 
 def test_nodes_off_a_straight_edge_are_looked_at(mesh):
     curves = _Curves.of(mesh)
-    segments, _ = curves.between(np.arange(len(curves.segments)), ALONG_RIM, mesh.points)
+    segments, _, _ = curves.between(np.arange(len(curves.segments)), ALONG_RIM, mesh.points)
     straight = np.setdiff1d(np.arange(len(curves.segments)), segments)[0]
     points = mesh.points.copy()
     points[curves.segments[straight, 0]] += 1e-5
-    again, _ = curves.between(np.array([straight]), ALONG_RIM, points)
+    again, _, _ = curves.between(np.array([straight]), ALONG_RIM, points)
     assert again.tolist() == [straight]
     points[curves.segments[straight, 0]] += 1.0  # so far off it says nothing
-    again, _ = curves.between(np.array([straight]), ALONG_RIM, points)
+    again, _, _ = curves.between(np.array([straight]), ALONG_RIM, points)
     assert again.tolist() == []
 
 
