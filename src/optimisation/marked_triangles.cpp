@@ -50,8 +50,8 @@ Array<Triangle> triangles_at(const Triangulation& t, const Array<std::uint8_t>& 
         });
 }
 
-int activate_bad(const Triangulation& t, const SurfaceFrames& s, VertexMarks& marks, double least) {
-    const Array<Triangle> bad = collect_by_blocks<Triangle>(
+Array<Triangle> find_bad(const Triangulation& t, const SurfaceFrames& s, double least) {
+    return collect_by_blocks<Triangle>(
         t.region.size(), MARKED_TOGETHER,
         [&](std::size_t first, std::size_t last, Array<Triangle>& found) {
             for (auto k = static_cast<Triangle>(first); k < static_cast<Triangle>(last); ++k) {
@@ -61,6 +61,10 @@ int activate_bad(const Triangulation& t, const SurfaceFrames& s, VertexMarks& ma
                     found.push_back(k);
             }
         });
+}
+
+int activate_bad(const Triangulation& t, const SurfaceFrames& s, VertexMarks& marks, double least) {
+    const Array<Triangle> bad = find_bad(t, s, least);
     for (const Triangle k : bad)
         for (HalfEdge e = 3 * k; e < 3 * k + 3; ++e) marks.active[t.tri[e]] = 1;
     return static_cast<int>(bad.size());

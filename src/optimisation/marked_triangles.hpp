@@ -17,6 +17,9 @@ Array<std::uint8_t> find_folded(const Triangulation& t, const SurfaceFrames& s, 
 /// The triangles with a corner that is marked in ``vertices``, in their order.
 Array<Triangle> triangles_at(const Triangulation& t, const Array<std::uint8_t>& vertices);
 
+/// The triangles with alpha below ``least``, in their order; none that have no extent in space.
+Array<Triangle> find_bad(const Triangulation& t, const SurfaceFrames& s, double least);
+
 /// Make the corners of triangles with alpha below ``least`` active; returns how many there are.
 int activate_bad(const Triangulation& t, const SurfaceFrames& s, VertexMarks& marks, double least);
 

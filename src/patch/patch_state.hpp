@@ -25,6 +25,8 @@ inline constexpr double SHORTEST = 0.66, LONGEST = 1.45;
 
 /// Weight of unit edges against good shapes: 1 gives better shapes, 4 better lengths.
 inline constexpr double STIFFNESS = 2.0;
+/// The same in passes for all shapes, and after them.
+inline constexpr double SHAPE_STIFFNESS = 0.6;
 
 /// Triangles above this alpha keep their edges.
 inline constexpr double GOOD_SHAPE = 0.82;
