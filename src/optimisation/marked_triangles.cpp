@@ -50,6 +50,17 @@ Array<Triangle> triangles_at(const Triangulation& t, const Array<std::uint8_t>& 
         });
 }
 
+Array<Triangle> triangles_below(const Triangulation& t, const SurfaceFrames& s, double least) {
+    return collect_by_blocks<Triangle>(
+        t.region.size(), MARKED_TOGETHER,
+        [&](std::size_t first, std::size_t last, Array<Triangle>& found) {
+            for (auto k = static_cast<Triangle>(first); k < static_cast<Triangle>(last); ++k)
+                if (t.region[k] != DEAD &&
+                    is_shape_below(s, t.tri[3 * k], t.tri[3 * k + 1], t.tri[3 * k + 2], least))
+                    found.push_back(k);
+        });
+}
+
 int activate_bad(const Triangulation& t, const SurfaceFrames& s, std::span<const double> shape,
                  VertexMarks& marks, double least) {
     const auto is_bad = [&](std::size_t k, Vertex a, Vertex b, Vertex c) {

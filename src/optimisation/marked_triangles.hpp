@@ -19,6 +19,9 @@ Array<std::uint8_t> find_folded(const Triangulation& t, const SurfaceFrames& s, 
 /// The triangles with a corner that is marked in ``vertices``, in their order.
 Array<Triangle> triangles_at(const Triangulation& t, const Array<std::uint8_t>& vertices);
 
+/// The triangles with alpha below ``least``, in their order.
+Array<Triangle> triangles_below(const Triangulation& t, const SurfaceFrames& s, double least);
+
 /// Make the corners of triangles with alpha below ``least`` active; returns how many there are.
 ///
 /// shape: alpha of the triangles that are not dirty, as swaps have seen it; or empty.

@@ -1,12 +1,10 @@
 #include "optimisation/worst_shapes.hpp"
 
 #include "optimisation/best_way.hpp"
-#include "values/threads.hpp"
+#include "optimisation/marked_triangles.hpp"
 
 namespace surfmesh {
 namespace {
-
-constexpr std::size_t SHAPES_TOGETHER = 1 << 14;  // triangles looked at together
 
 constexpr WayLimits RAISING_LIMITS{0.16, 0.02, 0.5};
 constexpr double GAIN = 2e-3;  // least gain of alpha for a step
@@ -36,18 +34,6 @@ double move_to_best(Triangulation& t, SurfaceFrames& s, Vertex v, HalfEdge start
                                      energy_at, [](double energy) { return energy - GAIN; });
     from.place(t, s, way);
     return norm(way);
-}
-
-/// The triangles with alpha below ``least``, as they are before any is changed.
-Array<Triangle> triangles_below(const Triangulation& t, const SurfaceFrames& s, double least) {
-    return collect_by_blocks<Triangle>(
-        t.region.size(), SHAPES_TOGETHER,
-        [&](std::size_t first, std::size_t last, Array<Triangle>& own) {
-            for (auto k = static_cast<Triangle>(first); k < static_cast<Triangle>(last); ++k)
-                if (t.region[k] != DEAD &&
-                    is_shape_below(s, t.tri[3 * k], t.tri[3 * k + 1], t.tri[3 * k + 2], least))
-                    own.push_back(k);
-        });
 }
 
 }  // namespace

@@ -78,9 +78,9 @@ bool PatchWork::recovered() {
 
 void PatchWork::optimise_and_map() {
     if (task_.optimise && !begins(PatchStage::optimisation)) return;
-    PatchState state(
-        made_.domain.t, nodes_in_use(),
-        {task_.surface, task_.chart, task_.background, task_.asked, hooks_.before_pass});
+    PatchState state(made_.domain.t, nodes_in_use(),
+                     {task_.surface, task_.chart, task_.background, task_.asked, hooks_.before_pass,
+                      task_.on_lattice});
     if (task_.optimise) {
         const Unmended left = optimise(state, task_.first);
         const Array<std::uint8_t> off = off_surface(state);

@@ -25,6 +25,8 @@ inline constexpr double SHORTEST = 0.66, LONGEST = 1.45;
 
 /// Weight of unit edges against good shapes: 1 gives better shapes, 4 better lengths.
 inline constexpr double STIFFNESS = 2.0;
+/// The same in passes for all shapes, and after them.
+inline constexpr double SHAPE_STIFFNESS = 0.6;
 
 /// Triangles above this alpha keep their edges.
 inline constexpr double GOOD_SHAPE = 0.82;
@@ -44,6 +46,7 @@ struct PatchSetting {
     const Background& background;
     AskedAccuracy asked;
     std::function<bool()> before_pass;  // of smoothing: goes on if it says so; may be empty
+    bool on_lattice = false;            // triangles are laid along principal directions
 };
 
 enum class [[nodiscard]] PatchStatus {
@@ -71,6 +74,7 @@ class PatchState {
     [[nodiscard]] const Background& background() const { return setting_.background; }
     [[nodiscard]] const BoundaryNodes& nodes() const { return nodes_; }
     SurfaceReader& surface() { return surface_; }
+    [[nodiscard]] bool on_lattice() const { return setting_.on_lattice; }
     [[nodiscard]] bool is_anisotropic() const { return frames.is_anisotropic; }
 
     /// Whether to give up: no pass does anything any more.

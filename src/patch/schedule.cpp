@@ -28,8 +28,7 @@ constexpr double FILLED_ANEW = 0.82;
 
 constexpr double LEFT_OVER = 0.7;  // below this alpha, what packing or boundary have left over
 
-// Weight of unit edges in the passes for the worst triangles, and in those for all shapes.
-constexpr double WORST_STIFFNESS = 0.3, SHAPE_STIFFNESS = 0.6;
+constexpr double WORST_STIFFNESS = 0.3;  // of unit edges in the passes for the worst triangles
 
 // Vertices that have moved by less, in unit lengths, keep their frames until all is settled: they
 // are off the surface by about half its curvature times the square.

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "optimisation/deviation_estimate.hpp"
+#include "optimisation/marked_triangles.hpp"
 #include "patch/deviation.hpp"
 #include "patch/tracked_deviations.hpp"
 
@@ -27,6 +28,10 @@ constexpr double ESTIMATE_MARGIN = 0.93, CLEARLY_FAR = 1.05;
 constexpr double STEERED_SCALE = 0.8;
 
 constexpr double LEAST_SHAPE = 0.94;  // alpha that moves keep to or restore, where they can
+
+// In the end corners of triangles below the first alpha move once more, and those around lose no
+// more than they must, down to the second.
+constexpr double BAD_AT_LAST = 0.9, KEPT_AT_LAST = 0.98;
 
 using Triangles = Array<Triangle>;
 
@@ -58,6 +63,11 @@ class SurfaceApproach {
   private:
     Triangles shrink_in_rounds(int rounds, bool splits);
     Triangles move_far(Triangles far, int rounds);
+    Triangles raise_bad(Triangles far);
+    /// Where rims meet a lattice, far triangles are of bad shape too.
+    [[nodiscard]] double stiffness() const {
+        return state_.on_lattice() ? SHAPE_STIFFNESS : STIFFNESS;
+    }
     Triangles farthest_of(const Triangles& far);
     Triangles insert_far(Triangles far);
     Triangles split_far(Triangles far, bool first);
@@ -86,7 +96,7 @@ Triangles SurfaceApproach::shrink_in_rounds(int rounds, bool splits) {
         tracked_.start_round();
         if (splits) state_.split();
         for (int pass = 0; pass < 2; ++pass) {
-            state_.smooth();
+            state_.smooth(splits ? STIFFNESS : stiffness());
             tracked_.add_moved();
         }
         state_.swap();
@@ -105,6 +115,18 @@ Triangles SurfaceApproach::move_far(Triangles far, int rounds) {
         far = left_of(tracked_.changed(far));
     }
     return far;
+}
+
+/// Move corners of triangles of bad shape, be they ``far`` or not; returns those left that are far.
+Triangles SurfaceApproach::raise_bad(Triangles far) {
+    if (state_.stopped()) return far;
+    const Triangles bad = triangles_below(state_.t, state_.frames, BAD_AT_LAST);
+    if (bad.empty()) return far;
+    tracked_.start_round();
+    state_.bring_nearer(every(bad), {ESTIMATE_MARGIN * chord_, KEPT_AT_LAST});
+    if (state_.moved.empty()) return far;
+    tracked_.add_moved();
+    return move_far(left_of(tracked_.changed(far)), MOVES_AFTER_INSERTION);
 }
 
 /// The farthest of the triangles: those in the upper half of what they exceed the limit by.
@@ -126,7 +148,8 @@ Triangles SurfaceApproach::insert_far(Triangles far) {
         if (state_.split_farthest(every(farthest_of(far))) == 0) break;
         for (int pass = 0; pass < 2 && round < SMOOTHED_ROUNDS; ++pass) {
             state_.swap();
-            state_.smooth();
+            if (pass == 0 && state_.on_lattice()) state_.swap_for_degree();
+            state_.smooth(stiffness());
             tracked_.add_moved();
         }
         state_.swap();
@@ -160,6 +183,7 @@ Triangles SurfaceApproach::in_rounds(bool first) {
     if (first && is_many(state_, far)) return far;
     state_.allow_splits();
     far = insert_far(std::move(far));
+    if (state_.on_lattice()) far = raise_bad(std::move(far));
     return left_of(far, TOLERATED);
 }
 

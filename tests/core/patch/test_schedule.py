@@ -185,7 +185,7 @@ def test_border_vertices_of_four_two_and_four_triangles_do_not_stay():
 
 
 def test_corners_of_bad_triangles_go_where_that_betters_their_stars():
-    state, domain = state_of()
+    state, domain = state_of(chord=0.02, max_size=0.9, growth=1.3)
     state.swap()
     state.smooth()
     state.swap()
