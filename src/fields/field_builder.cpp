@@ -19,7 +19,7 @@ constexpr std::int64_t MOST_HIDDEN = 60'000;  // cells looked into beyond HIDDEN
 // gradation decides, the field is a cone and all slopes are small. Where directions turn the ratio of
 // both sizes counts as often: the same triangles come of a somewhat coarser field.
 constexpr double LEAF_ERROR = 0.015, LEAF_STRETCHED = 0.02;
-constexpr double GRADED_ERROR = 0.06, GRADED_STRETCHED = 0.075;
+constexpr double GRADED_ERROR = 0.06, GRADED_STRETCHED = 0.065;
 constexpr double SMOOTH_PART = 0.25, KINK_PART = 0.5;
 constexpr double LOWERED = 0.98;  // of the target size: below it gradation decides
 
