@@ -32,7 +32,7 @@ ParameterBox box_between(Point2 a, Point2 b) {
 /// The largest |d . r''(w, w)| over a part.
 double bend_along(const Bends& bends, std::size_t d, Point2 w) {
     using namespace outward;
-    const Interval u = exactly(w.x), v = exactly(w.y);
+    const Interval u = outward::exactly(w.x), v = outward::exactly(w.y);
     const Interval mixed = multiply(multiply(u, v), bends.uv[d]);
     return magnitude(add(add(multiply(multiply(u, u), bends.uu[d]), add(mixed, mixed)),
                          multiply(multiply(v, v), bends.vv[d])));

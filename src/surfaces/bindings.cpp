@@ -17,7 +17,7 @@ void bind_chart(nb::module_& m);
 
 namespace {
 
-using Interval = std::pair<double, double>;
+using LowHigh = std::pair<double, double>;
 using DerivativeArrays = nb::ndarray<nb::numpy, double, nb::shape<-1, -1, 3>>;
 using BoundArrays = nb::ndarray<nb::numpy, double, nb::shape<-1, 5, 3>>;
 
@@ -104,7 +104,7 @@ void bind_surface_class(nb::module_& m) {
             "domain",
             [](const Surface& surface) {
                 const auto [low, high] = surface.domain();
-                return std::pair(Interval(low.x, high.x), Interval(low.y, high.y));
+                return std::pair(LowHigh(low.x, high.x), LowHigh(low.y, high.y));
             },
             "((u0, u1), (v0, v1))")
         .def("evaluate", &evaluate, nb::arg("uv"), nb::arg("order") = 0,

@@ -12,11 +12,11 @@ namespace surfmesh {
 namespace {
 
 namespace nb = nanobind;
-using Numbers = nb::ndarray<const double, nb::c_contig, nb::device::cpu>;
+using NumberArray = nb::ndarray<const double, nb::c_contig, nb::device::cpu>;
 
 /// The rows of three numbers in an array of this shape; throws ValueError for any other.
 std::span<const Point3> checked_rows(nb::handle array, std::initializer_list<std::size_t> shape,
-                                     Numbers& kept) {
+                                     NumberArray& kept) {
     const auto fits = [&] {
         return kept.ndim() == shape.size() &&
                std::equal(shape.begin(), shape.end(), kept.shape_ptr(),
@@ -70,7 +70,7 @@ SurfaceStatus CallbackSurface::evaluate(std::span<const Point2> uv, int order,
         const nb::tuple results = checked_results(given, derivative_count(order));
         auto place = out.begin();
         for (const nb::handle result : results) {
-            Numbers kept;
+            NumberArray kept;
             const auto values = checked_rows(result, {uv.size(), 3}, kept);
             place = std::copy(values.begin(), values.end(), place);
         }
@@ -98,7 +98,7 @@ SurfaceStatus CallbackSurface::bounds_by(const char* method, std::span<const Par
         if (given.is_none()) return SurfaceStatus::UNKNOWN;
         const nb::tuple results = checked_results(given, 2);
         for (const auto& [number, out] : {std::pair{0, lower}, std::pair{1, upper}}) {
-            Numbers kept;
+            NumberArray kept;
             const auto values =
                 checked_rows(results[number], {cells.size(), lower.size() / cells.size(), 3}, kept);
             std::copy(values.begin(), values.end(), out.begin());

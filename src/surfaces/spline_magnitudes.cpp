@@ -19,15 +19,15 @@ namespace {
 constexpr double SLACK = 1e-12;  // of the knots' range: what rounding leaves beyond their ends
 
 /// A control point times its weight, and the weight.
-struct Homogeneous {
+struct WeightedPoint {
     Point3 point;
     double weight;
 };
 
-Homogeneous operator-(const Homogeneous& a, const Homogeneous& b) {
+WeightedPoint operator-(const WeightedPoint& a, const WeightedPoint& b) {
     return {a.point - b.point, a.weight - b.weight};
 }
-Homogeneous operator*(double s, const Homogeneous& a) { return {s * a.point, s * a.weight}; }
+WeightedPoint operator*(double s, const WeightedPoint& a) { return {s * a.point, s * a.weight}; }
 
 Point3 control_size(Point3 p) { return {std::abs(p.x), std::abs(p.y), std::abs(p.z)}; }
 
@@ -38,17 +38,17 @@ Point3 larger(Point3 a, Point3 b) {
 /// Control points of some spans both ways, rows of v.
 struct ControlNet {
     std::int64_t rows, columns;
-    Array<Homogeneous> points;
+    Array<WeightedPoint> points;
 
-    [[nodiscard]] Homogeneous at(std::int64_t i, std::int64_t j) const {
+    [[nodiscard]] WeightedPoint at(std::int64_t i, std::int64_t j) const {
         return points[i * columns + j];
     }
 };
 
 /// The largest control_size values of a net's points and weights.
-Homogeneous magnitude_of(const ControlNet& net) {
-    Homogeneous found{{0.0, 0.0, 0.0}, 0.0};
-    for (const Homogeneous& own : net.points) {
+WeightedPoint magnitude_of(const ControlNet& net) {
+    WeightedPoint found{{0.0, 0.0, 0.0}, 0.0};
+    for (const WeightedPoint& own : net.points) {
         found.point = larger(found.point, control_size(own.point));
         found.weight = std::max(found.weight, std::abs(own.weight));
     }
@@ -71,7 +71,7 @@ ControlNet derived(const ControlNet& net, const SplineBasis& basis, std::int64_t
 }
 
 /// Magnitudes of the derivatives of w r and w, in the sequence of the surface's.
-using Magnitudes = std::array<Homogeneous, 10>;
+using Magnitudes = std::array<WeightedPoint, 10>;
 
 constexpr std::size_t derivative_number(int by_u, int by_v) {
     const int total = by_u + by_v;
@@ -103,17 +103,17 @@ void divide_by_weight(const Magnitudes& part, double least, std::size_t count,
 
 /// Points of the net about the middle of their box; returns the least weight.
 double centre(ControlNet& net) {
-    const auto own = [](const Homogeneous& h) { return (1.0 / h.weight) * h.point; };
+    const auto own = [](const WeightedPoint& h) { return (1.0 / h.weight) * h.point; };
     Point3 low = own(net.points[0]), high = low;
     double least = net.points[0].weight;
-    for (const Homogeneous& h : net.points) {
+    for (const WeightedPoint& h : net.points) {
         const Point3 p = own(h);
         low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
         high = larger(high, p);
         least = std::min(least, h.weight);
     }
     const Point3 middle = 0.5 * (low + high);
-    for (Homogeneous& h : net.points) h.point = h.point - h.weight * middle;
+    for (WeightedPoint& h : net.points) h.point = h.point - h.weight * middle;
     return least;
 }
 

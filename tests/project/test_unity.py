@@ -46,6 +46,21 @@ def test_names_of_a_file_are_unique_in_its_room(room):
     assert not {name: found for (_, name), found in meanings.items() if len(found) > 1}
 
 
+@pytest.mark.parametrize("room", ROOMS, ids=lambda room: room.name)
+def test_types_of_a_file_have_no_name_that_its_room_has_for_others(room):
+    """What follows in the same file of several would not know which is meant."""
+    named = re.compile(r"^(?:using|struct|class|enum class) (\w+)\b(?: = |.*\{)")
+    seen = {
+        found.group(1)
+        for path in sorted(room.glob("*.hpp"))
+        for line in path.read_text(encoding="utf-8").splitlines()
+        if (found := named.match(line))
+    }
+    files = [path for path in sorted(room.glob("*.cpp")) if not TWINS.match(path.stem)]
+    both = seen & {name for path in files for name in local_names(path)}
+    assert not both
+
+
 def test_types_that_others_see_have_one_meaning():
     """Two types of one name in two rooms are one to the linker: what is made of one, such as an
     array of it, would have the size of the other."""
