@@ -70,6 +70,11 @@ void read_mean_slopes(SurfaceReader& surface, std::span<const Point2> uv, Array<
     }
 }
 
+/// Of stars that lose a vertex: edges up to ``longest``, no farther from the surface than asked.
+FillingLimits filling_limits(const AskedAccuracy& asked, double longest) {
+    return {longest, asked.chord.value_or(std::numeric_limits<double>::infinity())};
+}
+
 }  // namespace
 
 PatchState::PatchState(Triangulation& triangulation, BoundaryNodes nodes,
@@ -242,9 +247,8 @@ void PatchState::collapse() {
 int PatchState::remove_at_border(double bad) {
     if (stopped() || shape.size() < t.region.size()) return 0;
     find_stars();
-    const FillingLimits limits{LONGEST_UNSMOOTHED,
-                               asked().chord.value_or(std::numeric_limits<double>::infinity())};
-    const int made = surfmesh::remove_at_border(t, frames, stars, marks, shape, bad, limits);
+    const int made = surfmesh::remove_at_border(t, frames, stars, marks, shape, bad,
+                                                filling_limits(asked(), LONGEST_UNSMOOTHED));
     stars_known_ = stars_known_ && made == 0;
     collapses += made;
     return made;
@@ -253,9 +257,8 @@ int PatchState::remove_at_border(double bad) {
 void PatchState::remove_worst(double least) {
     if (stopped() || shape.size() < t.region.size()) return;
     find_stars();
-    const FillingLimits limits{LONGEST,
-                               asked().chord.value_or(std::numeric_limits<double>::infinity())};
-    const int made = surfmesh::remove_worst(t, frames, stars, marks, shape, least, limits);
+    const int made = surfmesh::remove_worst(t, frames, stars, marks, shape, least,
+                                            filling_limits(asked(), LONGEST));
     stars_known_ = stars_known_ && made == 0;
     collapses += made;
 }

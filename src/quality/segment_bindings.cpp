@@ -58,10 +58,9 @@ void bind_segments(nb::module_& m) {
         nb::arg("segments"), nb::arg("points"), nb::arg("fractions"), nb::arg("on_curve"),
         "Which segments (g,) may lie off the curves of their edges, and points (g j, 3) of these "
         "at fractions (j,) of the way; and how far (g,) their nodes are from the curve where it is "
-        "an "
-        "ellipse and they are at most half a turn apart, else infinity.\n\ncurves: of the edges, "
-        "None without one, from limits (e, "
-        "2) to limits; edges (k,) of the segments (k, 2), rows of points (n, 3), with ends (k, 2), "
+        "an ellipse and they are at most half a turn apart, else infinity.\n\ncurves: of the "
+        "edges, None without one, from limits (e, 2) to limits; edges (k,) of the segments (k, 2), "
+        "rows of points (n, 3), with ends (k, 2), "
         "fractions along the edge. Left out: segments on lines, and those whose nodes are farther "
         "from the curve than ``on_curve`` of their length.");
 }
