@@ -9,8 +9,6 @@ namespace surfmesh {
 namespace {
 
 constexpr double CURVE_ROUNDING = 0x1p-46;  // relative, more than that of any sum here
-constexpr std::array<Point3, 3> AXES = {{{1.0, 0.0, 0.0}, {0.0, 1.0, 0.0}, {0.0, 0.0, 1.0}}};
-
 double root_of_squares(const std::array<double, 3>& x) {
     return std::sqrt(x[0] * x[0] + x[1] * x[1] + x[2] * x[2]) * (1.0 + CURVE_ROUNDING);
 }

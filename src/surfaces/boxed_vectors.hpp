@@ -28,6 +28,17 @@ inline BoxedVector cross(const BoxedVector& a, const BoxedVector& b) {
             subtract(multiply(a.z, b.x), multiply(a.x, b.z)),
             subtract(multiply(a.x, b.y), multiply(a.y, b.x))};
 }
+/// The sum of the largest absolute values of the coordinates.
+inline double norm_1(const BoxedVector& a) {
+    return magnitude(a.x) + magnitude(a.y) + magnitude(a.z);
+}
+inline Interval& coordinate(BoxedVector& a, std::size_t axis) {
+    return axis == 0 ? a.x : axis == 1 ? a.y : a.z;
+}
+inline Interval coordinate(const BoxedVector& a, std::size_t axis) {
+    return axis == 0 ? a.x : axis == 1 ? a.y : a.z;
+}
+
 /// a . a, which is not negative.
 inline Interval square(const BoxedVector& a) {
     const auto of = [](Interval x) { return rounded(intervals::integer_power(x, 2)); };

@@ -5,9 +5,10 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <span>
 
-#include "surfaces/interval.hpp"
+#include "surfaces/enclosure.hpp"
 #include "values/array.hpp"
 #include "values/point.hpp"
 
@@ -26,6 +27,16 @@ struct CurveAlong {
 
     Interval& operator[](std::size_t k) { return order[k]; }
     const Interval& operator[](std::size_t k) const { return order[k]; }
+};
+
+/// Boxes of c - about, c', c'' and c''' along three directions.
+using CurveBoxes = std::array<BoxedVector, 4>;
+
+/// The parts of a range between knots, within each of which the curve is smooth; c'' may jump
+/// before some of them.
+struct CurveParts {
+    Array<CurveBoxes> boxes;
+    Array<std::uint8_t> jumps;
 };
 
 class Curve {
@@ -50,6 +61,17 @@ class Curve {
     /// Proved bounds over a range of t; false where none are known.
     [[nodiscard]] virtual bool enclose_along(Interval /*t*/, Point3 /*w*/, Point3 /*about*/,
                                              CurveAlong& /*out*/) const {
+        return false;
+    }
+
+    /// Proved boxes to the third order along directions of any length, over a range of t that may
+    /// have no length; false where none are known, and where c' may jump within the range.
+    [[nodiscard]] virtual bool enclose_third(Interval /*t*/, const Directions& /*directions*/,
+                                             Point3 /*about*/, CurveParts& /*out*/) const {
+        return false;
+    }
+    /// A proved box of c' at a parameter; at a crease, of both its sides.
+    [[nodiscard]] virtual bool enclose_tangent(double /*t*/, BoxedVector& /*out*/) const {
         return false;
     }
 

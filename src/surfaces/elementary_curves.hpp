@@ -24,6 +24,9 @@ class Line final : public Curve {
                                              std::span<Point3> out) const override;
     [[nodiscard]] bool enclose_along(Interval t, Point3 w, Point3 about,
                                      CurveAlong& out) const override;
+    [[nodiscard]] bool enclose_third(Interval t, const Directions& directions, Point3 about,
+                                     CurveParts& out) const override;
+    [[nodiscard]] bool enclose_tangent(double t, BoxedVector& out) const override;
 
   private:
     int dimension_;
@@ -50,6 +53,9 @@ class Conic final : public Curve {
                                              std::span<Point3> out) const override;
     [[nodiscard]] bool enclose_along(Interval t, Point3 w, Point3 about,
                                      CurveAlong& out) const override;
+    [[nodiscard]] bool enclose_third(Interval t, const Directions& directions, Point3 about,
+                                     CurveParts& out) const override;
+    [[nodiscard]] bool enclose_tangent(double t, BoxedVector& out) const override;
 
   private:
     [[nodiscard]] Point2 on_parabola(double t, int derivative) const;

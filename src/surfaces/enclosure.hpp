@@ -25,6 +25,8 @@ struct EnclosedPoint {
 /// Three directions, of at most unit length but for rounding.
 using Directions = std::array<Point3, 3>;
 
+inline constexpr Directions AXES = {{{1.0, 0.0, 0.0}, {0.0, 1.0, 0.0}, {0.0, 0.0, 1.0}}};
+
 /// Bounds of second derivatives along the three directions; and of how much r_u and r_v jump, in
 /// absolute value and in all, at the creases u = const and v = const of a cell that is gone through.
 struct Bends {

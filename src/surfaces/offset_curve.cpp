@@ -39,10 +39,8 @@ void make_unit(std::span<Point3> m, std::span<double> length) {
 
 }  // namespace
 
-Point3 OffsetCurve::sideways(Point3 tangent) const {
-    if (dimension() == 2) return {tangent.y, -tangent.x, 0.0};
-    return cross(tangent, direction_);
-}
+/// The vector that tangents are crossed with: in the plane, the normal of the plane.
+Point3 OffsetCurve::side() const { return dimension() == 2 ? Point3{0.0, 0.0, 1.0} : direction_; }
 
 /// A parameter near one where there is no tangent, inwards from the nearer end.
 double OffsetCurve::beside_cusp(double t) const {
@@ -56,16 +54,16 @@ void OffsetCurve::evaluate(std::span<const double> t, int order, std::span<Point
     const std::size_t count = t.size();
     const CurveValues c(*curve_, t, order + 1);
     double longest = 0.0;
-    for (const Point3 tangent : c[1]) longest = std::max(longest, norm(sideways(tangent)));
+    for (const Point3 tangent : c[1]) longest = std::max(longest, norm(cross(tangent, side())));
     const auto terms = static_cast<std::size_t>(order + 1);
     Array<Point3> m(terms);
     Array<double> lengths(terms);
     for (std::size_t i = 0; i < count; ++i) {
-        for (int k = 0; k <= order; ++k) m[k] = sideways(c[k + 1][i]);
+        for (int k = 0; k <= order; ++k) m[k] = cross(c[k + 1][i], side());
         if (!(norm(m[0]) > CUSP * longest)) {
             const double near = beside_cusp(t[i]);
             const CurveValues beside(*curve_, {&near, 1}, order + 1);
-            for (int k = 0; k <= order; ++k) m[k] = sideways(beside[k + 1][0]);
+            for (int k = 0; k <= order; ++k) m[k] = cross(beside[k + 1][0], side());
         }
         make_unit({m.data(), terms}, {lengths.data(), terms});
         for (int k = 0; k <= order; ++k)

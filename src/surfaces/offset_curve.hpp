@@ -1,6 +1,6 @@
 // A curve at a fixed distance from another, with exact derivatives:
 //
-//     c + d m / |m|     m = c' x a in space, (c'_y, -c'_x) in the plane
+//     c + d m / |m|     m = c' x a     in the plane a is its normal, and m (c'_y, -c'_x)
 //
 // Where that one has no tangent, the offset is that close by.
 //
@@ -28,9 +28,13 @@ class OffsetCurve final : public Curve {
 
     [[nodiscard]] int dimension() const override { return curve_->dimension(); }
     void evaluate(std::span<const double> t, int order, std::span<Point3> out) const override;
+    /// Where the curve bounds its derivatives to the third order, and has a tangent.
+    [[nodiscard]] bool enclose_along(Interval t, Point3 w, Point3 about,
+                                     CurveAlong& out) const override;
 
   private:
-    [[nodiscard]] Point3 sideways(Point3 tangent) const;
+    [[nodiscard]] Point3 side() const;
+    bool enclose_point(double t, Point3 w, Point3 about, Interval& out) const;
     [[nodiscard]] double beside_cusp(double t) const;
 
     std::shared_ptr<const Curve> curve_;

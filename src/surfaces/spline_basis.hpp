@@ -47,6 +47,7 @@ class SplineBasis {
     [[nodiscard]] std::size_t degree() const { return static_cast<std::size_t>(degree_); }
     [[nodiscard]] std::span<const double> knots() const { return {knots_.data(), knots_.size()}; }
     [[nodiscard]] double period() const { return limits_.period; }
+    [[nodiscard]] const SplineLimits& limits() const { return limits_; }
 
     /// At a knot that is an end of the part in use, the span lies inside.
     [[nodiscard]] KnotPlace locate(double t) const;

@@ -7,6 +7,7 @@
 #pragma once
 
 #include "surfaces/bezier_piece.hpp"
+#include "surfaces/bezier_ranges.hpp"
 #include "surfaces/curve.hpp"
 #include "surfaces/spline_basis.hpp"
 
@@ -28,9 +29,14 @@ class SplineCurve final : public Curve {
                                              std::span<Point3> out) const override;
     [[nodiscard]] bool enclose_along(Interval t, Point3 w, Point3 about,
                                      CurveAlong& out) const override;
+    [[nodiscard]] bool enclose_third(Interval t, const Directions& directions, Point3 about,
+                                     CurveParts& out) const override;
+    [[nodiscard]] bool enclose_tangent(double t, BoxedVector& out) const override;
 
   private:
     double coefficients(const SpanPart& part, Point3 about, std::span<Homogeneous> control) const;
+    [[nodiscard]] CurveBoxes boxes_of_part(const SpanPart& part, const Directions& directions,
+                                           Point3 about, int order, const BezierCorner* end) const;
 
     int dimension_;
     SplineBasis basis_;

@@ -21,8 +21,6 @@ constexpr double THIN_OF_RANGE = 0x1p-10;
 constexpr double ABOUT_ROUNDING = 0x1p-48;  // more than that of a dot product, of its terms
 constexpr std::array<Interval, 3> NO_RANGES = {UNBOUNDED, UNBOUNDED, UNBOUNDED};
 
-double sum_of_coordinates(Point3 a) { return std::abs(a.x) + std::abs(a.y) + std::abs(a.z); }
-
 /// Along a vector of size 1 at most, of coefficients about a point.
 std::array<Interval, 3> ranges_along(std::span<const Homogeneous> control, Point3 w, double width,
                                      double error, double largest, bool rational) {
@@ -61,7 +59,7 @@ double SplineCurve::coefficients(const SpanPart& part, Point3 about,
         const double w = weights_.empty() ? 1.0 : weights_[from];
         const Point3 x = w * (control_[from] - about);
         control[i] = {x.x, x.y, x.z, w};
-        largest = std::max(largest, sum_of_coordinates(x) + (weights_.empty() ? 0.0 : w));
+        largest = std::max(largest, norm_1(x) + (weights_.empty() ? 0.0 : w));
     }
     restrict_to(basis_, part, control.data(), 1, line.data());
     return largest;
@@ -72,7 +70,7 @@ bool SplineCurve::enclose_along(Interval t, Point3 w, Point3 about, CurveAlong& 
     Array<SpanPart> parts;
     const std::size_t degree = basis_.degree();
     if (degree > HIGHEST_DEGREE || !split_at_knots(basis_, t.lo, t.hi, parts)) return false;
-    const double size = sum_of_coordinates(w);
+    const double size = norm_1(w);
     const Point3 unit = size > 0.0 ? (1.0 / size) * w : w;
     Array<Homogeneous> control(degree + 1), before(degree + 1);
     out = CurveAlong{};
@@ -89,8 +87,7 @@ bool SplineCurve::enclose_along(Interval t, Point3 w, Point3 about, CurveAlong& 
                          !weights_.empty());
         for (Interval& range : found) range = widened(multiply(exactly(size), range), 8.0);
         const Point3 apart = middle - about;
-        const double margin =
-            ABOUT_ROUNDING * size * (sum_of_coordinates(middle) + sum_of_coordinates(about));
+        const double margin = ABOUT_ROUNDING * size * (norm_1(middle) + norm_1(about));
         found[0] = add(found[0], {dot(w, apart) - margin, dot(w, apart) + margin});
         for (std::size_t k = 0; k < 2; ++k) out[k] = n == 0 ? found[k] : hull(out[k], found[k]);
         if (part.width < THIN_OF_RANGE * whole) {

@@ -8,22 +8,10 @@
 
 #include "surfaces/outward.hpp"
 #include "surfaces/swept_surfaces.hpp"
+#include "surfaces/swept_waves.hpp"
 
 namespace surfmesh {
 namespace {
-
-constexpr double SWEPT_ROUNDING = 0x1p-46;  // more than any of the sums below, of their terms
-
-double sum_of_sizes(Point3 a) { return std::abs(a.x) + std::abs(a.y) + std::abs(a.z); }
-
-Interval widened_by(Interval a, double margin) { return {a.lo - margin, a.hi + margin}; }
-
-/// a cos u + b sin u for ranges of a and b: linear in these, so extreme at their ends.
-Interval wave_of(Interval a, Interval b, Interval u) {
-    using outward::hull;
-    return hull(hull(wave_range(a.lo, b.lo, u), wave_range(a.lo, b.hi, u)),
-                hull(wave_range(a.hi, b.lo, u), wave_range(a.hi, b.hi, u)));
-}
 
 /// Bounds of a curve by coordinates.
 struct CurveSize {
@@ -33,7 +21,6 @@ struct CurveSize {
 };
 
 bool size_along_axes(const Curve& curve, Interval t, Point3 about, CurveSize& size) {
-    constexpr std::array<Point3, 3> AXES = {{{1.0, 0.0, 0.0}, {0.0, 1.0, 0.0}, {0.0, 0.0, 1.0}}};
     size = CurveSize{};
     for (const Point3& axis : AXES) {
         CurveAlong c;
@@ -100,7 +87,7 @@ SurfaceStatus ExtrusionSurface::enclose_bends(std::span<const ParameterBox> cell
 
 SurfaceStatus RevolutionSurface::enclose(std::span<const Point2> uv,
                                          std::span<EnclosedPoint> out) const {
-    return enclose_by(*this, *curve_, true, sum_of_sizes(origin_), uv, out);
+    return enclose_by(*this, *curve_, true, norm_1(origin_), uv, out);
 }
 
 /// Along one direction.

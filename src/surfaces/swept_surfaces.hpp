@@ -13,10 +13,11 @@
 
 #include "surfaces/curve.hpp"
 #include "surfaces/face_surface.hpp"
+#include "surfaces/third_derivatives.hpp"
 
 namespace surfmesh {
 
-class ExtrusionSurface final : public FaceSurface {
+class ExtrusionSurface final : public FaceSurface, public ThirdDerivatives {
   public:
     /// The direction has unit length, so that v is a length.
     ExtrusionSurface(const ParameterBox& domain, std::shared_ptr<const Curve> curve,
@@ -30,13 +31,16 @@ class ExtrusionSurface final : public FaceSurface {
     SurfaceStatus enclose_bends(std::span<const ParameterBox> cells,
                                 std::span<const Directions> directions,
                                 std::span<Bends> out) const override;
+    [[nodiscard]] bool enclose_third(const ParameterBox& cell, const Directions& directions,
+                                     PartBoxes& out) const override;
+    [[nodiscard]] bool enclose_tangents(Point2 uv, TangentBoxes& out) const override;
 
   private:
     std::shared_ptr<const Curve> curve_;
     Point3 direction_;
 };
 
-class RevolutionSurface final : public FaceSurface {
+class RevolutionSurface final : public FaceSurface, public ThirdDerivatives {
   public:
     /// The axis has unit length; u is counter-clockwise seen against it.
     RevolutionSurface(const ParameterBox& domain, std::shared_ptr<const Curve> curve, Point3 origin,
@@ -50,6 +54,9 @@ class RevolutionSurface final : public FaceSurface {
     SurfaceStatus enclose_bends(std::span<const ParameterBox> cells,
                                 std::span<const Directions> directions,
                                 std::span<Bends> out) const override;
+    [[nodiscard]] bool enclose_third(const ParameterBox& cell, const Directions& directions,
+                                     PartBoxes& out) const override;
+    [[nodiscard]] bool enclose_tangents(Point2 uv, TangentBoxes& out) const override;
 
   private:
     struct CurveRoundings {

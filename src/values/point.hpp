@@ -27,5 +27,7 @@ constexpr Point3 cross(Point3 a, Point3 b) {
     return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
 inline double norm(Point3 a) { return std::sqrt(dot(a, a)); }
+/// The sum of the absolute values of the coordinates.
+inline double norm_1(Point3 a) { return std::abs(a.x) + std::abs(a.y) + std::abs(a.z); }
 
 }  // namespace surfmesh

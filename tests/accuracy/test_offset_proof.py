@@ -1,4 +1,4 @@
-"""Proved bounds of offsets of splines against samples of them."""
+"""Proved bounds of offsets of surfaces and curves against samples of them."""
 
 import numpy as np
 import pytest
@@ -6,10 +6,10 @@ import pytest
 from surfmesh._core import proof
 from surfmesh.accuracy.face_triangles import FaceTriangles
 from surfmesh.accuracy.proof import CORNER, WHOLE, proved_distances
-from surfmesh.geometry.cad_surfaces.curves import Circle
-from surfmesh.geometry.cad_surfaces.nurbs import BSplineSurface
-from surfmesh.geometry.cad_surfaces.offset import OffsetSurface
-from surfmesh.geometry.cad_surfaces.swept import ExtrusionSurface
+from surfmesh.geometry.cad_surfaces.curves import Circle, Ellipse, Hyperbola, Parabola
+from surfmesh.geometry.cad_surfaces.nurbs import BSplineCurve, BSplineSurface
+from surfmesh.geometry.cad_surfaces.offset import OffsetCurve, OffsetSurface
+from surfmesh.geometry.cad_surfaces.swept import ExtrusionSurface, RevolutionSurface
 
 SIDE = 12
 WEIGHTS = np.array(
@@ -63,7 +63,13 @@ def bounds_of(surface, uv, corners, depth):
 @pytest.mark.parametrize("distance", [0.2, -0.3])
 @pytest.mark.parametrize("size", [0.2, 0.02, 0.001])
 def test_points_keep_to_what_is_bounded(name, distance, size):
-    surface = OffsetSurface(SPLINES[name], distance, domain=BOX)
+    found, whole = bounded_triangles(OffsetSurface(SPLINES[name], distance, domain=BOX), size)
+    if size < 0.1:
+        assert np.median(found[:, WHOLE] / whole) < 8.0
+
+
+def bounded_triangles(surface, size):
+    """Bounds of random triangles, none below samples; and how far the samples are from them."""
     uv = triangles(150, size)
     corners = surface.evaluate(uv.reshape(-1, 2), 0)[0].reshape(-1, 3, 3)
     samples = np.einsum("qk,mkd->mqd", WEIGHTS, uv)
@@ -75,11 +81,10 @@ def test_points_keep_to_what_is_bounded(name, distance, size):
     height = np.abs(np.einsum("mqd,md->mq", away, normal)).max(axis=1)
     for depth in (0, 2):
         found = bounds_of(surface, uv, corners, depth)
-        assert found[:, CORNER].max() < 1e-8
+        assert found[:, CORNER].max() < 1e-7
         assert (height <= found[:, 0] + found[:, CORNER]).all()
         assert (whole <= found[:, WHOLE] + found[:, CORNER]).all()
-        if size < 0.1:
-            assert np.median(found[:, WHOLE] / whole) < 8.0
+    return found, whole
 
 
 @pytest.mark.parametrize("name", ["cubic", "rational", "quintic"])
@@ -116,13 +121,97 @@ def test_a_crease_of_the_basis_has_no_bound():
     assert np.isfinite(found[:, WHOLE]).tolist() == [False, True]
 
 
-def test_offsets_of_other_surfaces_say_that_nothing_is_known():
-    tube = ExtrusionSurface(
-        Circle(np.zeros(3), np.eye(3)[0], np.eye(3)[1], 2.0), np.eye(3)[2], domain=BOX
-    )
-    surface = OffsetSurface(tube, 0.2, domain=BOX)
+def turned(seed=0):
+    """An origin and three unit vectors at right angles, in general position."""
+    rng = np.random.default_rng(seed)
+    return rng.normal(size=3), *np.linalg.qr(rng.normal(size=(3, 3)))[0]
+
+
+def spline_curve(frame, degree=3, times=1, rational=False, seed=0):
+    """Three spans over [0, 3] in the plane of a frame, three away from its third axis at least."""
+    origin, x, y, _ = frame
+    rng = np.random.default_rng(seed)
+    knots = [0.0] * (degree + 1) + [1.0] * times + [2.0] * times + [3.0] * (degree + 1)
+    count = len(knots) - degree - 1
+    away = 3.5 + rng.uniform(-0.3, 0.3, count)
+    control = origin + away[:, None] * x + np.linspace(0.0, 4.0, count)[:, None] * y
+    weights = rng.uniform(0.7, 1.4, count) if rational else None
+    return BSplineCurve(np.array(knots), control, weights)
+
+
+FRAME = turned()
+CURVES = {
+    "spline": spline_curve(FRAME),
+    "rational spline": spline_curve(FRAME, rational=True),
+    "spline of double knots": spline_curve(FRAME, times=2),
+    "quadratic spline": spline_curve(FRAME, degree=2),
+    "ellipse": Ellipse(*FRAME[:3], 2.0, 1.2),
+    "hyperbola": Hyperbola(*FRAME[:3], 1.0, 1.5),
+    "parabola": Parabola(*FRAME[:3], 0.7),
+}
+
+
+@pytest.mark.parametrize("name", CURVES)
+@pytest.mark.parametrize("size", [0.2, 0.01])
+def test_offsets_of_extrusions_keep_to_what_is_bounded(name, size):
+    tube = ExtrusionSurface(CURVES[name], FRAME[3], domain=BOX)
+    for distance in (0.2, -0.3):
+        found, whole = bounded_triangles(OffsetSurface(tube, distance, domain=BOX), size)
+        assert np.median(found[:, WHOLE] / whole) < (3.0 if size < 0.1 else 100.0)
+
+
+@pytest.mark.parametrize("name", CURVES)
+@pytest.mark.parametrize("size", [0.2, 0.01])
+def test_offsets_of_revolutions_keep_to_what_is_bounded(name, size):
+    origin, x, y, _ = FRAME
+    turning = RevolutionSurface(CURVES[name], origin - 4.0 * x, y, domain=BOX)
+    for distance in (0.2, -0.3):
+        found, whole = bounded_triangles(OffsetSurface(turning, distance, domain=BOX), size)
+        assert np.median(found[:, WHOLE] / whole) < (8.0 if size < 0.1 else 100.0)
+
+
+@pytest.mark.parametrize("name", CURVES)
+@pytest.mark.parametrize("distance", [0.2, -0.3])
+def test_offset_curves_keep_to_what_is_bounded(name, distance):
+    curve = OffsetCurve(CURVES[name], distance, FRAME[3])
+    for length in (0.3, 0.01):
+        start = np.random.default_rng(2).uniform(0.0, 3.0 - length, 60)
+        t = np.stack([start, start + length], axis=1)
+        points = curve.evaluate(np.linspace(t[:, 0], t[:, 1], 200, axis=1).ravel(), 0)[0]
+        points = points.reshape(len(t), -1, 3)
+        ends = np.ascontiguousarray(points[:, (0, -1)])
+        side = (ends[:, 1] - ends[:, 0]) / np.linalg.norm(ends[:, 1] - ends[:, 0], axis=1)[:, None]
+        far = np.linalg.norm(np.cross(points - ends[:, :1], side[:, None]), axis=2).max(axis=1)
+        bound = proof.curve_bounds(curve.core, t, ends)
+        assert (far <= bound).all()
+        assert np.median(bound / far) < (2.0 if length < 0.1 else 8.0)
+
+
+def test_an_extruded_offset_curve_is_bounded():
+    curve = OffsetCurve(CURVES["spline"], 0.2, FRAME[3])
+    found, whole = bounded_triangles(ExtrusionSurface(curve, FRAME[3], domain=BOX), 0.02)
+    assert np.median(found[:, WHOLE] / whole) < 3.0
+
+
+def test_a_plane_offset_curve_is_that_of_space():
+    around = Circle(np.zeros(2), np.array([1.0, 0.0]), np.array([0.0, 1.0]), 2.0)
+    plane = OffsetCurve(around, 0.25).evaluate(np.linspace(0.0, 3.0, 7), 2)
+    space = OffsetCurve(Circle(np.zeros(3), *np.eye(3)[:2], 2.0), 0.25, np.eye(3)[2])
+    for flat, high in zip(plane, space.evaluate(np.linspace(0.0, 3.0, 7), 2), strict=True):
+        assert np.array_equal(flat, high[:, :2])
+
+
+def test_nothing_is_known_where_an_offset_curve_may_have_no_tangent():
+    point = BSplineCurve(np.array([0.0] * 4 + [3.0] * 4), np.array([[0.0, 0, 0]] * 4))
+    curve = OffsetCurve(point, 0.2, np.eye(3)[2])
+    found = proof.curve_bounds(curve.core, np.array([[0.0, 1.0]]), np.zeros((1, 2, 3)))
+    assert not np.isfinite(found).any()
+
+
+def test_an_offset_of_an_offset_says_that_nothing_is_known():
+    surface = OffsetSurface(OffsetSurface(SPLINES["cubic"], 0.1, domain=BOX), 0.2, domain=BOX)
     uv = triangles(1, 0.1)
-    corners = surface.evaluate(uv.reshape(-1, 2), 0)[0].reshape(-1, 3, 3)
+    corners = np.zeros((1, 3, 3))
     flat, rims = np.zeros_like(uv), np.zeros(1, np.uint8)
     assert proof.triangle_bounds(surface.core, corners, uv, flat, np.ones(1), rims, 2) is None
 

@@ -155,8 +155,8 @@ class WithoutBounds(Remark):
         more = f" and {len(self.faces) - 1} more" if len(self.faces) > 1 else ""
         return (
             f"nothing is proved of {first}{more}: its surface bounds nothing over boxes of (u, v), "
-            "as a function of the caller or an offset of a swept surface does not; formulas, "
-            "elementary and spline surfaces and offsets of these do"
+            "as a function of the caller does not; formulas, elementary, spline and swept surfaces "
+            "and offsets of these do"
         )
 
 
