@@ -96,7 +96,6 @@ void bind_formulas_of_sizes(nb::module_& m) {
 
 void bind_rim_sizes(nb::module_& m) {
     m.attr("RIM_RESERVE") = RIM_RESERVE;
-    m.attr("LEAST_RIM") = LEAST_RIM;
     m.def(
         "rim_sizes",
         [](const Surface& surface, const Points2& uv, const Points2& step, double chord) {
