@@ -43,8 +43,6 @@ def main() -> int:
         console.print("no CAD file or part has such a name")
         return 2
     heading(f"{len(places)} models, {platform.machine()}, load {os.getloadavg()[0]:.1f}")
-    if "ours" in options.meshers:
-        cad_meshers.warm_up()
     records = []
     out = open(options.json, "w", encoding="utf-8") if options.json else None
     try:

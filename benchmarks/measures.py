@@ -61,7 +61,7 @@ def measured(name: str, sizing: dict, repeats: int) -> dict:
 
 
 def packing_rate(name: str, sizing: dict, repeats: int) -> float:
-    """Triangles a second of the packing alone: room for its arrays and the kernel."""
+    """Triangles a second of the packing alone: its arrays and the call of the core."""
     field = field_of(sm.load(name), sizing)
     best = 0.0
     for _ in range(repeats):

@@ -67,7 +67,7 @@ def _options() -> argparse.Namespace:
 
 
 def _table_1(counts: list[int], results: dict) -> int:
-    sm.pack(sm.UniformRadius(1.0, 100.0), count=1000)  # compiled or loaded outside the clock
+    sm.pack(sm.UniformRadius(1.0, 100.0), count=1000)  # imports, outside the clock
     rows = {count: _random_packing(count) for count in counts}
     slope = float(np.polyfit(*np.log([[n, row["seconds"]] for n, row in rows.items()]).T, 1)[0])
     results["table_1"] = {"rows": rows, "slope": slope}

@@ -91,7 +91,7 @@ def _machine() -> dict:
 
 
 def _warm_up() -> None:
-    """All kernels compiled or loaded, SymPy imported."""
+    """Everything imported that a mesh and its report need, SymPy too."""
     for optimise in (True, False):
         sm.check(sm.mesh(sm.load("two_peaks"), sm.Sizing(chord=0.02), optimise=optimise))
 

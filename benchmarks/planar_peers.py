@@ -67,7 +67,7 @@ def size_law(plate: PlanarDomain, law: str, scale: float):
 
 def surfmesh(plate: PlanarDomain, law: str, scale: float) -> Triangles:
     sizes = scale if law == "uniform" else size_law(plate, law, scale)
-    sm.mesh(plate, 0.2)  # compiled or loaded outside the clock
+    sm.mesh(plate, 0.2)  # imports, outside the clock
 
     def progress(stage: str, share: float) -> None:
         print(f"  surfmesh: {stage} {share:.0%}", file=sys.stderr)

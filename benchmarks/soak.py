@@ -4,7 +4,7 @@
 
 Each is made, checked, written in one of the formats and read again; every tenth has its page
 written, every twentieth comes from a CAD file, and some inputs are refused on purpose. What the
-first 200 leave behind (caches, compiled code) is not growth.
+first 200 leave behind (caches, imported modules) is not growth.
 """
 
 import single_thread  # noqa: F401  (before numpy)

@@ -155,7 +155,7 @@ def gmsh_command() -> list[str] | None:
 
 
 def spent(command: list[str], times: int) -> float:
-    """Processor seconds of a command and its children, the median; modules stay compiled."""
+    """Processor seconds of a command and its children, the median; Python keeps its bytecode."""
     environment = {k: v for k, v in os.environ.items() if k != "PYTHONDONTWRITEBYTECODE"}
     seconds = []
     for _ in range(times):

@@ -10,7 +10,7 @@ import logging
 import sys
 from collections.abc import Mapping, Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, TypeAlias, TypeGuard
+from typing import TYPE_CHECKING, Any, TypeGuard
 
 import numpy as np
 from numpy.typing import NDArray
@@ -31,8 +31,8 @@ from surfmesh.geometry.files.toml_entries import sets_key
 from surfmesh.geometry.number_range import RANGE
 from surfmesh.geometry.surface import Surface
 from surfmesh.result.surface_mesh import SurfaceMesh
-from surfmesh.sizing.options.distance_size import default_options
-from surfmesh.sizing.options.sizing import SizeLaw, Sizing, require_known
+from surfmesh.sizing.options.given_sizes import Sizes, sizes_by_name, sizes_for, sizes_of_order
+from surfmesh.sizing.options.sizing import Sizing
 
 if TYPE_CHECKING:
     from concurrent.futures import Executor
@@ -45,8 +45,6 @@ if TYPE_CHECKING:
     from surfmesh.quality import Report
 
 logger = logging.getLogger(__name__)
-Sizes: TypeAlias = Sizing | float | SizeLaw | Mapping[str, Any] | None
-"""What sizes may be given as: options, an edge length, options by name or by selection."""
 
 
 def load(
@@ -170,11 +168,10 @@ def mesh(
     Raises ``SizingError``, ``SurfaceError`` or ``MeshingError`` with the place and the reason,
     ``Cancelled`` when ``progress`` said so.
     """
-    if jobs is not None and (isinstance(jobs, bool) or not isinstance(jobs, int) or jobs < 1):
-        raise SizingError(f"jobs is {shown(jobs)}: at least one thread; None takes all processors")
+    _require_threads(jobs)
     model = _model_or_surface(surface)
-    asked, order = _of_order(_by_name(sizing, sizes, beside=_OF_MESH), order)
-    wanted = _options(model, asked)
+    asked, order = sizes_of_order(sizes_by_name(sizing, sizes, beside=_OF_MESH), order)
+    wanted = sizes_for(model, asked)
 
     def made_with(own: Sizes) -> SurfaceMesh:
         return _mesh_once(model, own, optimise, progress, strict, simplify, jobs, executor)
@@ -195,6 +192,14 @@ def mesh(
         made = of_second_order(made)
     return_free_memory(len(made.triangles))
     return _logged(made, model)
+
+
+_OF_MESH = ("optimise", "progress", "strict", "simplify", "jobs", "executor")
+
+
+def _require_threads(jobs: Any) -> None:
+    if jobs is not None and (isinstance(jobs, bool) or not isinstance(jobs, int) or jobs < 1):
+        raise SizingError(f"jobs is {shown(jobs)}: at least one thread; None takes all processors")
 
 
 def _mesh_once(
@@ -223,69 +228,9 @@ def _mesh_once(
         return mesh_parametric(model, Sizing.of(sizing), optimise, progress)
 
 
-def _of_order(sizing: Sizes, order: int | None) -> tuple[Sizes, int]:
-    """The sizes with the order that is asked for beside them, or with their own; and the order.
-
-    Where no chord is asked for, sizes are those of straight triangles, whatever the order.
-    """
-    if isinstance(sizing, Mapping) and not _by_selection(sizing):
-        sizing = Sizing.of(sizing)
-    of_all = sizing.get("*") if isinstance(sizing, Mapping) else sizing
-    own = _stated(of_all, "order")
-    if order is None:
-        order = 1 if own is None else own
-    if order not in (1, 2):
-        raise SizingError(f"order is {shown(order)}: meshes are of order 1 or 2")
-    every = sizing.values() if isinstance(sizing, Mapping) else [sizing]
-    of_sizes = order if any(_stated(one, "chord") is not None for one in every) else 1
-    if of_sizes == (own or 1):
-        return sizing, order
-    wanted = Sizing.of(of_all).replaced(order=of_sizes)
-    return {**sizing, "*": wanted} if isinstance(sizing, Mapping) else wanted, order
-
-
-def _stated(sizing: Any, name: str) -> Any:
-    """An option of sizes that may be given by name; None where it is not there."""
-    if isinstance(sizing, Mapping):
-        return sizing.get(name)
-    return getattr(sizing, name) if isinstance(sizing, Sizing) else None
-
-
-_OF_LOAD = ("units", "imprint", "sew", "time_limit", "memory_limit", "isolate")
-_OF_MESH = ("optimise", "progress", "strict", "simplify", "jobs", "executor")
-
-
-def _by_name(sizing: Sizes, options: Mapping[str, Any], beside: Sequence[str] = ()) -> Sizes:
-    """Sizes as they are given, or options of ``Sizing`` by name; ``SizingError`` for both.
-
-    beside: what else the caller takes by name, which may have been meant.
-    """
-    if not options:
-        return sizing
-    for name in options:
-        if name in _OF_LOAD:
-            raise SizingError(f"{name} is an option of load: mesh(load(path, {name}=...))")
-    if sizing is not None:
-        raise SizingError(f"sizes are given twice: as sizing, and as {', '.join(options)}")
-    require_known(options, beside)
-    return Sizing.of(options)
-
-
-def _options(model: Surface | CadModel, sizing: Sizes) -> Sizes:
-    """One ``Sizing``, unless sizes of a CAD model are given by selection, by a law or not at all.
-
-    Raises ``SizingError`` for an unknown option and for numbers that contradict.
-    """
-    if isinstance(model, Surface):
-        return _one_sizing(model, sizing)
-    if isinstance(sizing, Mapping) and not _by_selection(sizing):
-        return Sizing.of(sizing)
-    return sizing
-
-
 def _with_sizes(model: Surface | CadModel, sizing: Sizes) -> Sizes:
-    """As ``_options``; where a number of triangles is asked for, the sizes that are to give it."""
-    wanted = _options(model, sizing)
+    """What ``mesh`` works with; where a number of triangles is asked for, sizes that give it."""
+    wanted = sizes_for(model, sizes_of_order(sizing, None)[0])
     if not isinstance(wanted, Sizing) or wanted.triangles is None:
         return wanted
     from surfmesh.meshing.triangle_count import sizing_for_count
@@ -364,7 +309,7 @@ def estimate(
     that cannot be met, but for their limit.
     """
     model = _model_or_surface(surface)
-    sizing = _with_sizes(model, _of_order(_by_name(sizing, sizes), None)[0])
+    sizing = _with_sizes(model, sizes_by_name(sizing, sizes))
     if not isinstance(model, Surface):
         from surfmesh.meshing.model_mesh import estimate_model
 
@@ -469,29 +414,6 @@ def _is_domain(thing: Any) -> TypeGuard[PlanarDomain]:
     """Without importing what only domains need."""
     home = sys.modules.get("surfmesh.geometry.planar.planar_domain")
     return home is not None and isinstance(thing, home.PlanarDomain)
-
-
-def _one_sizing(surface: Surface, sizing: Sizes) -> Sizing:
-    """One set of options for the surface: those that it brings where none are given."""
-    if sizing is None:
-        sizing = default_options(surface) or None
-    if isinstance(sizing, Mapping) and _by_selection(sizing):
-        from surfmesh.sizing.options.model_sizing import sizes_of_one_face
-
-        sizing = sizes_of_one_face(surface.name, sizing)
-    made = Sizing.of(sizing)
-    if made.volume is not None:
-        raise SizingError(
-            f"volume {made.volume:g}: volumes are kept of the closed solids of CAD models; of a "
-            f"{type(surface).__name__} ask for a chord"
-        )
-    return made
-
-
-def _by_selection(sizing: Mapping[str, Any]) -> bool:
-    from surfmesh.sizing.options.model_sizing import is_by_selection
-
-    return is_by_selection(sizing)
 
 
 def show(

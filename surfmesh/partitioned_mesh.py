@@ -97,14 +97,19 @@ class PartitionedMesh:
 
 
 def mesh_into_pieces(
-    path: Path, model: CadModel, sizing: Any, executor: Executor, *, optimise: bool = True,
+    path: str | Path, model: CadModel, sizing: Any, executor: Executor, *, optimise: bool = True,
     progress: Progress | None = None, strict: bool = True,
 ) -> PartitionedMesh:  # fmt: skip
     """Mesh a model into a .pvtu file in a folder that the workers of ``executor`` see too.
 
+    sizing, executor, optimise, progress, strict: as of ``mesh``, but for ``order=2`` and
+    ``triangles=``, which take the whole mesh. The pieces lie in a folder beside the file, one for
+    the faces of a worker; the index is written last.
+
     Raises ``MeshingError`` and ``SizingError`` as ``mesh`` does, and where the workers do not see
     the folder; ``FileFormatError`` where it cannot be written. The old mesh is then as it was.
     """
+    path = Path(path)
     folder = pvtu.folder_of(path)
     for left in FaceStore.all_in(folder):  # by callers that were killed
         if is_left(left.mark):

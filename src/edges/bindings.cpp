@@ -214,6 +214,9 @@ void bind_gradation(nb::module_& m) {
         nb::arg("first_of_face"), nb::arg("edges_of_face"), nb::arg("slope"), nb::arg("least_step"),
         "The same where sizes grow straight across faces too.\n\nedges_of_face (k,): each once, "
         "those of face f from first_of_face[f] to first_of_face[f + 1].");
+}
+
+void bind_cutting(nb::module_& m) {
     m.def(
         "cut_to_metric_length",
         [](const CurvePieces& curves, const Points3& points, const Numbers& fraction,
@@ -270,6 +273,7 @@ void bind_edges(nb::module_& m) {
     bind_pieces(m);
     bind_courses(m);
     bind_gradation(m);
+    bind_cutting(m);
 }
 
 }  // namespace surfmesh::binding

@@ -72,7 +72,7 @@ void bind_boundary(nb::module_& m) {
         c, "degenerate", &FaceBoundary::degenerate,
         "(p,) uint8 of the coedges: one point in space, cut when the metric is known");
     bind_read_only_array(c, "tolerance", &FaceBoundary::tolerance,
-                         "(p,) of the coedges: so near is the edge to its images, model units");
+                         "(p,) of the coedges: so near is the edge to its p-curves, model units");
     bind_read_only_array(c, "loop_end", &FaceBoundary::loop_end,
                          "(l,) int32 of the loops: the coedge after their last one");
     c.def_prop_ro("has_degenerate", &FaceBoundary::has_degenerate);
@@ -93,6 +93,9 @@ void bind_boundary(nb::module_& m) {
                                          b.attr("tolerance"), b.attr("loop_end")));
         },
         "So that it can be copied and sent to other processes.");
+}
+
+void bind_looks_at_a_face(nb::module_& m) {
     m.def("may_have_tubes", &may_have_tubes, nb::arg("surface"), nb::arg("boundary"),
           nb::call_guard<nb::gil_scoped_release>(),
           "Is there a pole, or a seam so near to itself all round that no ring of wanted edges "
@@ -111,8 +114,7 @@ void bind_boundary(nb::module_& m) {
         },
         nb::arg("surface"), nb::arg("u"), nb::arg("v"),
         "Width, depth and height of the bounding box of a plane or a cylinder over u (u0, u1) and "
-        "v (v0, v1), from points "
-        "of a coarse grid.");
+        "v (v0, v1), from points of a coarse grid.");
     m.attr("FEWEST_STEPS") = FEWEST_STEPS;
     m.attr("APART") = APART;
     m.attr("WAY_SAMPLES") = WAY_SAMPLES;
@@ -357,6 +359,7 @@ void bind_polygons(nb::module_& m) {
 
 void bind_boundaries(nb::module_& m) {
     bind_boundary(m);
+    bind_looks_at_a_face(m);
     bind_builder(m);
     bind_numbers(m);
     bind_triangles(m);

@@ -84,6 +84,39 @@ void bind_look_up(nb::class_<Background>& c, const char* name,
         nb::arg("xy"), doc);
 }
 
+void bind_areas(nb::class_<Background>& c) {
+    c.def("metric_area", &metric_area_of_box, nb::arg("x1"), nb::arg("y1"),
+          nb::call_guard<nb::gil_scoped_release>(),
+          "Integral of 1 / det H over [x0, x1] x [y0, y1], (x0, y0) the corner of the box.");
+    c.def(
+        "leaf_areas",
+        [](const Background& b, double x1, double y1) {
+            LeafAreas found = [&] {
+                const nb::gil_scoped_release released;
+                return leaf_areas(b, x1, y1);
+            }();
+            return std::tuple(view(found.low), view(found.step), view(found.area));
+        },
+        nb::arg("x1"), nb::arg("y1"),
+        "Of the leaves in the same rectangle: lower left corners (n, 2), sides (n, 2), metric "
+        "areas (n,).");
+    c.def(
+        "metric_area_within",
+        [](const Background& b, const Points2& corners, const Vector<std::int64_t>& first) {
+            const PlaneLoops loops = plane_loops(corners, first);
+            const nb::gil_scoped_release released;
+            return metric_area_within(b, loops);
+        },
+        nb::arg("corners"), nb::arg("first"),
+        "The same over what lies within an odd number of loops that do not cross.\n\n"
+        "corners (m, 2), finite, of loop k from first[k] to first[k + 1], not closed.");
+    c.def(
+        "expected_circles",
+        [](const Background& b, double x1, double y1) { return expected_circles(b, {x1, y1}); },
+        nb::arg("x1"), nb::arg("y1"), nb::call_guard<nb::gil_scoped_release>(),
+        "About how many circles cover the same rectangle.");
+}
+
 void bind_background(nb::module_& m) {
     nb::class_<Background> c(
         m, "Background", "Size tensors on a forest of quadtrees over a box of the scaled plane.");
@@ -117,6 +150,7 @@ void bind_background(nb::module_& m) {
                          "(nodes, 4): A = H^-1, and 1 / h");
     bind_read_only_array(c, "metric_root_3d", &Background::metric_root_3d,
                          "(nodes, 6): W, or (0, 6) where sizes are isotropic");
+    c.def_prop_ro("is_anisotropic", &Background::is_anisotropic);
     c.def(
         "__reduce__",
         [](nb::handle b) {
@@ -126,43 +160,13 @@ void bind_background(nb::module_& m) {
                                b.attr("metric_root"), b.attr("metric_root_3d")));
         },
         "So that it can be copied and sent to other processes.");
-    c.def("metric_area", &metric_area_of_box, nb::arg("x1"), nb::arg("y1"),
-          nb::call_guard<nb::gil_scoped_release>(),
-          "Integral of 1 / det H over [x0, x1] x [y0, y1], (x0, y0) the corner of the box.");
-    c.def(
-        "leaf_areas",
-        [](const Background& b, double x1, double y1) {
-            LeafAreas found = [&] {
-                const nb::gil_scoped_release released;
-                return leaf_areas(b, x1, y1);
-            }();
-            return std::tuple(view(found.low), view(found.step), view(found.area));
-        },
-        nb::arg("x1"), nb::arg("y1"),
-        "Of the leaves in the same rectangle: lower left corners (n, 2), sides (n, 2), metric "
-        "areas (n,).");
-    c.def(
-        "metric_area_within",
-        [](const Background& b, const Points2& corners, const Vector<std::int64_t>& first) {
-            const PlaneLoops loops = plane_loops(corners, first);
-            const nb::gil_scoped_release released;
-            return metric_area_within(b, loops);
-        },
-        nb::arg("corners"), nb::arg("first"),
-        "The same over what lies within an odd number of loops that do not cross.\n\n"
-        "corners (m, 2), finite, of loop k from first[k] to first[k + 1], not closed.");
-    c.def(
-        "expected_circles",
-        [](const Background& b, double x1, double y1) { return expected_circles(b, {x1, y1}); },
-        nb::arg("x1"), nb::arg("y1"), nb::call_guard<nb::gil_scoped_release>(),
-        "About how many circles cover the same rectangle.");
-    c.def_prop_ro("is_anisotropic", &Background::is_anisotropic);
     bind_look_up(c, "sizes", &sizes, "Size tensors H (n, 3) at points (n, 2).");
     bind_look_up(c, "metric_roots", &metric_roots, "A = H^-1 (n, 3) at points (n, 2).");
     bind_look_up(c, "scalar_sizes", &scalar_sizes,
                  "Wanted edge length in space (n,), the shorter of two, at points (n, 2).");
     bind_look_up(c, "metric_roots_3d", &metric_roots_3d,
                  "W (n, 6) at points (n, 2): Id / h where sizes are isotropic.");
+    bind_areas(c);
 }
 
 /// An array that is changed in place.
@@ -246,6 +250,9 @@ void bind_gradation(nb::module_& m) {
         "The same of two sizes: longer (nodes,) along the unit tangents along (nodes, 3), size at "
         "right angles to them.\n\nnormal (nodes, 3): unit, or zero where there is none. round: "
         "(nodes,) where longer stays the longer one, or (0,).");
+}
+
+void bind_patch_errors(nb::module_& m) {
     m.def(
         "patch_errors",
         [](const Patches& patches, const SizeTensors& metric_root, const Points2& step,
@@ -357,6 +364,7 @@ void bind_fields(nb::module_& m) {
     bind_background(m);
     bind_sources(m);
     bind_gradation(m);
+    bind_patch_errors(m);
     bind_field_builder(m);
 }
 

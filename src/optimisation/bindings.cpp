@@ -2,8 +2,6 @@
 #include <nanobind/stl/tuple.h>
 
 #include "binding/arrays.hpp"
-#include "optimisation/collapse.hpp"
-#include "optimisation/deviation_estimate.hpp"
 #include "optimisation/dihedral.hpp"
 #include "optimisation/marked_triangles.hpp"
 #include "optimisation/smoothing.hpp"
@@ -129,19 +127,7 @@ void bind_smoothing(nb::module_& m) {
         "Move every active vertex by one Newton step; returns the vertices that moved.");
 }
 
-void bind_collapse_and_splits(nb::module_& m) {
-    m.def(
-        "collapse_short_edges",
-        [](Triangulation& t, const SurfaceFrames& s, Stars& stars, VertexMarks& marks,
-           double shortest, int few) {
-            require_domain(t, s);
-            require_stars(t, stars);
-            require_marks(t, marks);
-            return collapse_short_edges(t, s, stars, marks, shortest, few);
-        },
-        nb::arg("t"), nb::arg("frames"), nb::arg("stars"), nb::arg("marks"), nb::arg("shortest"),
-        nb::arg("few"),
-        "Remove interior vertices with an edge below ``shortest`` or at most ``few`` triangles.");
+void bind_splits(nb::module_& m) {
     m.def(
         "split_edge",
         [](Triangulation& t, HalfEdge e, double x, double y) {
@@ -157,65 +143,6 @@ void bind_collapse_and_splits(nb::module_& m) {
         nb::arg("t"), nb::arg("e"), nb::arg("x"), nb::arg("y"),
         "Put a vertex at (x, y), on or near the interior edge e, and join it to four corners.\n\n"
         "Returns the vertex, or NIL when a triangle would not be positive.");
-    m.def(
-        "split_long_edges",
-        [](Triangulation& t, SurfaceFrames& s, VertexMarks& marks, double longest) {
-            require_domain(t, s);
-            require_marks(t, marks);
-            return split_long_edges(t, s, marks, longest);
-        },
-        nb::arg("t"), nb::arg("frames"), nb::arg("marks"), nb::arg("longest"),
-        "Split interior edges of active vertices longer than ``longest``: the first new vertex.");
-    m.def(
-        "split_far_edges",
-        [](Triangulation& t, SurfaceFrames& s, VertexMarks& marks, const Numbers& triangles) {
-            require_domain(t, s);
-            require_marks(t, marks);
-            require_indices(rows<Triangle>(triangles), t.region.size(), "triangles");
-            return split_far_edges(t, s, marks, rows<Triangle>(triangles));
-        },
-        nb::arg("t"), nb::arg("frames"), nb::arg("marks"), nb::arg("triangles"),
-        "Split, in each of the triangles (n,), the edge that lies farthest from the surface: the "
-        "first new vertex.");
-}
-
-void bind_sizes(nb::module_& m) {
-    m.def(
-        "estimate_deviations",
-        [](const Triangulation& t, const SurfaceFrames& s) {
-            require_domain(t, s);
-            return view(estimate_deviations(t, s));
-        },
-        nb::arg("t"), nb::arg("frames"),
-        "Second-order estimate (triangles,) of each triangle's distance from the surface.");
-    m.def(
-        "shrink_far",
-        [](const Triangulation& t, SurfaceFrames& s, VertexMarks& marks, const Numbers& triangles,
-           const Vector<double>& deviation, double limit) {
-            require_domain(t, s);
-            require_marks(t, marks);
-            require_indices(rows<Triangle>(triangles), t.region.size(), "triangles");
-            require_rows(deviation.shape(0), triangles.shape(0), "deviation");
-            return shrink_far(t, s, marks, rows<Triangle>(triangles), rows<double>(deviation),
-                              limit);
-        },
-        nb::arg("t"), nb::arg("frames"), nb::arg("marks"), nb::arg("triangles"),
-        nb::arg("deviation"), nb::arg("limit"),
-        "Ask for smaller edges where the deviation (n,) of triangles (n,) exceeds ``limit``: how "
-        "many there are.");
-    m.def(
-        "lower_sizes",
-        [](SurfaceFrames& s, VertexMarks& marks, const Numbers& vertices,
-           const Vector<double>& factors, double smallest) {
-            require_rows(marks.active.size(), s.point.size(), "marks");
-            require_indices(rows<Vertex>(vertices), s.point.size(), "vertices");
-            require_rows(factors.shape(0), vertices.shape(0), "factors");
-            return lower_sizes(s, marks, rows<Vertex>(vertices), rows<double>(factors), smallest);
-        },
-        nb::arg("frames"), nb::arg("marks"), nb::arg("vertices"), nb::arg("factors"),
-        nb::arg("smallest"),
-        "Scale the wanted lengths at vertices (n,), down to ``smallest`` of what they were: how "
-        "many were scaled.");
 }
 
 void bind_triangles(nb::module_& m) {
@@ -229,25 +156,6 @@ void bind_triangles(nb::module_& m) {
         "Which triangles (triangles,) are turned against the surface at one of their corners.\n\n"
         "``least``: cosine of the largest angle between the normals; ``at_apex``: the same where "
         "a corner has no normal.");
-    m.def(
-        "activate_bad",
-        [](const Triangulation& t, const SurfaceFrames& s, VertexMarks& marks, double least) {
-            require_domain(t, s);
-            require_marks(t, marks);
-            return activate_bad(t, s, {}, marks, least);
-        },
-        nb::arg("t"), nb::arg("frames"), nb::arg("marks"), nb::arg("least"),
-        "Make the corners of triangles with alpha below ``least`` active; returns how many.");
-    m.def(
-        "find_dihedrals_over",
-        [](const Triangulation& t, const SurfaceFrames& s, double limit) {
-            require_domain(t, s);
-            const DihedralAngles found = find_dihedrals_over(t, s.point, limit);
-            return std::pair(view(found.edges), view(found.angles));
-        },
-        nb::arg("t"), nb::arg("frames"), nb::arg("limit"),
-        "Half-edges (k, 2) across which triangles turn by more than ``limit`` (radians), and the "
-        "angles (k,).");
     m.def(
         "dihedral_angles",
         [](const Points3& points, const Matrix<std::int32_t, 3>& triangles,
@@ -275,13 +183,12 @@ void bind_triangles(nb::module_& m) {
 }  // namespace
 
 void bind_optimisation(nb::module_& m) {
-    m.doc() = "Swaps, smoothing, collapse and split, measured on the surface.";
+    m.doc() = "Swaps, smoothing and splits, measured on the surface.";
     bind_frames(m);
     bind_marks(m);
     bind_swaps(m);
     bind_smoothing(m);
-    bind_collapse_and_splits(m);
-    bind_sizes(m);
+    bind_splits(m);
     bind_triangles(m);
 }
 

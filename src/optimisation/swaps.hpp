@@ -33,8 +33,8 @@ int swap_for_degree(Triangulation& t, const SurfaceFrames& s, Stars& stars, Vert
 /// where vertices of three triangles are regular. Returns the swaps made.
 ///
 ///     ---c-----a---      the border: c has 2 triangles, a has 4; d inside has 5, b has 6
-///         \   /|\
-///          \ / | \       a-b becomes c-d: c and a have 3, d has 6, b has 5
+///         \   /|\        a-b becomes c-d:
+///          \ / | \       c and a have 3, d has 6, b has 5
 ///           b--d
 int swap_at_border(Triangulation& t, const SurfaceFrames& s, Stars& stars, VertexMarks& marks,
                    const Array<double>& shape, double bad, double least);

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "optimisation/deviation_estimate.hpp"
+#include "optimisation/size_reduction.hpp"
 #include "patch/findings.hpp"
 
 namespace surfmesh {

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <utility>
 
-#include "optimisation/deviation_estimate.hpp"
 #include "optimisation/marked_triangles.hpp"
+#include "optimisation/size_reduction.hpp"
 #include "patch/deviation.hpp"
 #include "patch/tracked_deviations.hpp"
 

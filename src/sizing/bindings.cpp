@@ -92,8 +92,10 @@ void bind_formulas_of_sizes(nb::module_& m) {
     m.def("principal_angle_sizes", &principal_at_each<principal_angle_sizes>, nb::arg("k1"),
           nb::arg("k2"), nb::arg("angle"), nb::arg("ratio"),
           "Edge lengths (n,), (n,) along the directions of k1 and k2, likewise.");
+}
+
+void bind_rim_sizes(nb::module_& m) {
     m.attr("RIM_RESERVE") = RIM_RESERVE;
-    m.attr("LEAST_RIM") = LEAST_RIM;
     m.def(
         "rim_sizes",
         [](const Surface& surface, const Points2& uv, const Points2& step, double chord) {
@@ -192,6 +194,7 @@ void bind_sizing(nb::module_& m) {
     m.doc() =
         "What sizes are asked for on one surface: rules, limits, and the law of a size field.";
     bind_formulas_of_sizes(m);
+    bind_rim_sizes(m);
     bind_least_counts(m);
     bind_rules(m);
     bind_size_limits(m);

@@ -101,6 +101,9 @@ void bind_stretched_law(nb::module_& m) {
         nb::arg("builder"), nb::arg("law"), nb::arg("chord"),
         "Lower long sizes of a refined field where directions change, and raise short ones where "
         "long ones are not reached; returned as by FieldBuilder.refine.");
+}
+
+void bind_direction_rates(nb::module_& m) {
     m.def(
         "direction_rates",
         [](const Surface& surface, const Points2& uv, const Vector<double>& size,
@@ -174,6 +177,7 @@ void bind_bounded_features(nb::module_& m) {
 void bind_size_laws(nb::module_& m) {
     bind_surface_law(m);
     bind_stretched_law(m);
+    bind_direction_rates(m);
     bind_bounded_features(m);
 }
 

@@ -54,9 +54,7 @@ Chart made_of(const Surface& surface, std::pair<bool, bool> steady,
     return made;
 }
 
-}  // namespace
-
-void bind_chart(nb::module_& m) {
+void bind_monotone_cubic(nb::module_& m) {
     m.def(
         "monotone_cubic",
         [](const Vector<double>& x, const Vector<double>& y, const Vector<double>& at) {
@@ -72,8 +70,10 @@ void bind_chart(nb::module_& m) {
         },
         nb::arg("x"), nb::arg("y"), nb::arg("at"),
         "Values and derivatives (m,) at ``at`` (m,) of a cubic through y (n,) at rising x (n,) "
-        "that "
-        "rises where they do.");
+        "that rises where they do.");
+}
+
+void bind_axes(nb::module_& m) {
     nb::class_<ChartAxis>(m, "ChartAxis",
                           "A monotone map between one parameter and its scaled coordinate.")
         .def(
@@ -107,6 +107,9 @@ void bind_chart(nb::module_& m) {
             nb::arg("x"),
             "The parameter (n,) at scaled coordinates x (n,), and its derivative by x (n,).\n\n"
             "Linear outside [0, extent], constant where the parameter is bent.");
+}
+
+void bind_charts_of_two_axes(nb::module_& m) {
     nb::class_<Chart>(m, "Chart", "(u, v) of a surface and the scaled plane, axis by axis.")
         .def(
             "__init__",
@@ -148,6 +151,14 @@ void bind_chart(nb::module_& m) {
             nb::arg("uv"),
             "uv (n, 2), bent parameters where there are some -> xy (n, 2).\n\nExact at the ends of "
             "the axes; what lies beyond is moved there.");
+}
+
+}  // namespace
+
+void bind_chart(nb::module_& m) {
+    bind_monotone_cubic(m);
+    bind_axes(m);
+    bind_charts_of_two_axes(m);
 }
 
 }  // namespace surfmesh::binding

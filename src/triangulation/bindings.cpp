@@ -245,7 +245,6 @@ void bind_triangulation(nb::module_& m) {
     m.doc() = "The triangulation of the plane, its predicates, and its local changes.";
     m.attr("TODO") = TODO;
     m.attr("DONE") = DONE;
-    m.attr("OUTSIDE") = OUTSIDE;
     m.attr("INSIDE") = INSIDE;
     m.attr("DEAD") = DEAD;
     bind_predicates(m);

@@ -47,7 +47,7 @@ class FaceBoundary:
 
     @property
     def tolerance(self) -> Annotated[NDArray[numpy.float64], dict(shape=(None,), writable=False)]:
-        """(p,) of the coedges: so near is the edge to its images, model units"""
+        """(p,) of the coedges: so near is the edge to its p-curves, model units"""
 
     @property
     def loop_end(self) -> Annotated[NDArray[numpy.int32], dict(shape=(None,), writable=False)]:

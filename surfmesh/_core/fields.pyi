@@ -66,8 +66,25 @@ class Background:
     def metric_root_3d(self) -> Annotated[NDArray[numpy.float64], dict(shape=(None, 6), writable=False)]:
         """(nodes, 6): W, or (0, 6) where sizes are isotropic"""
 
+    @property
+    def is_anisotropic(self) -> bool: ...
+
     def __reduce__(self) -> tuple:
         """So that it can be copied and sent to other processes."""
+
+    def sizes(self, xy: Annotated[NDArray[numpy.float64], dict(shape=(None, 2), order='C', device='cpu', writable=False)]) -> Annotated[NDArray[numpy.float64], dict(shape=(None, 3))]:
+        """Size tensors H (n, 3) at points (n, 2)."""
+
+    def metric_roots(self, xy: Annotated[NDArray[numpy.float64], dict(shape=(None, 2), order='C', device='cpu', writable=False)]) -> Annotated[NDArray[numpy.float64], dict(shape=(None, 3))]:
+        """A = H^-1 (n, 3) at points (n, 2)."""
+
+    def scalar_sizes(self, xy: Annotated[NDArray[numpy.float64], dict(shape=(None, 2), order='C', device='cpu', writable=False)]) -> Annotated[NDArray[numpy.float64], dict(shape=(None,))]:
+        """
+        Wanted edge length in space (n,), the shorter of two, at points (n, 2).
+        """
+
+    def metric_roots_3d(self, xy: Annotated[NDArray[numpy.float64], dict(shape=(None, 2), order='C', device='cpu', writable=False)]) -> Annotated[NDArray[numpy.float64], dict(shape=(None, 6))]:
+        """W (n, 6) at points (n, 2): Id / h where sizes are isotropic."""
 
     def metric_area(self, x1: float, y1: float) -> float:
         """
@@ -88,23 +105,6 @@ class Background:
 
     def expected_circles(self, x1: float, y1: float) -> int:
         """About how many circles cover the same rectangle."""
-
-    @property
-    def is_anisotropic(self) -> bool: ...
-
-    def sizes(self, xy: Annotated[NDArray[numpy.float64], dict(shape=(None, 2), order='C', device='cpu', writable=False)]) -> Annotated[NDArray[numpy.float64], dict(shape=(None, 3))]:
-        """Size tensors H (n, 3) at points (n, 2)."""
-
-    def metric_roots(self, xy: Annotated[NDArray[numpy.float64], dict(shape=(None, 2), order='C', device='cpu', writable=False)]) -> Annotated[NDArray[numpy.float64], dict(shape=(None, 3))]:
-        """A = H^-1 (n, 3) at points (n, 2)."""
-
-    def scalar_sizes(self, xy: Annotated[NDArray[numpy.float64], dict(shape=(None, 2), order='C', device='cpu', writable=False)]) -> Annotated[NDArray[numpy.float64], dict(shape=(None,))]:
-        """
-        Wanted edge length in space (n,), the shorter of two, at points (n, 2).
-        """
-
-    def metric_roots_3d(self, xy: Annotated[NDArray[numpy.float64], dict(shape=(None, 2), order='C', device='cpu', writable=False)]) -> Annotated[NDArray[numpy.float64], dict(shape=(None, 6))]:
-        """W (n, 6) at points (n, 2): Id / h where sizes are isotropic."""
 
 def grow_sizes(place: Annotated[NDArray[numpy.float64], dict(shape=(None, 2), order='C', device='cpu', writable=False)], size: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)], metric: tuple[float, float, float], slope: float, largest: float, box: tuple[float, float, float, float]) -> Background | None:
     """

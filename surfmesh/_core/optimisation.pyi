@@ -1,4 +1,4 @@
-"""Swaps, smoothing, collapse and split, measured on the surface."""
+"""Swaps, smoothing and splits, measured on the surface."""
 
 from typing import Annotated
 
@@ -139,11 +139,6 @@ def smooth(t: surfmesh._core.triangulation.Triangulation, frames: SurfaceFrames,
     Move every active vertex by one Newton step; returns the vertices that moved.
     """
 
-def collapse_short_edges(t: surfmesh._core.triangulation.Triangulation, frames: SurfaceFrames, stars: Stars, marks: VertexMarks, shortest: float, few: int) -> int:
-    """
-    Remove interior vertices with an edge below ``shortest`` or at most ``few`` triangles.
-    """
-
 def split_edge(t: surfmesh._core.triangulation.Triangulation, e: int, x: float, y: float) -> int:
     """
     Put a vertex at (x, y), on or near the interior edge e, and join it to four corners.
@@ -151,46 +146,11 @@ def split_edge(t: surfmesh._core.triangulation.Triangulation, e: int, x: float, 
     Returns the vertex, or NIL when a triangle would not be positive.
     """
 
-def split_long_edges(t: surfmesh._core.triangulation.Triangulation, frames: SurfaceFrames, marks: VertexMarks, longest: float) -> int:
-    """
-    Split interior edges of active vertices longer than ``longest``: the first new vertex.
-    """
-
-def split_far_edges(t: surfmesh._core.triangulation.Triangulation, frames: SurfaceFrames, marks: VertexMarks, triangles: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)]) -> int:
-    """
-    Split, in each of the triangles (n,), the edge that lies farthest from the surface: the first new vertex.
-    """
-
-def estimate_deviations(t: surfmesh._core.triangulation.Triangulation, frames: SurfaceFrames) -> Annotated[NDArray[numpy.float64], dict(shape=(None,))]:
-    """
-    Second-order estimate (triangles,) of each triangle's distance from the surface.
-    """
-
-def shrink_far(t: surfmesh._core.triangulation.Triangulation, frames: SurfaceFrames, marks: VertexMarks, triangles: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], deviation: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)], limit: float) -> int:
-    """
-    Ask for smaller edges where the deviation (n,) of triangles (n,) exceeds ``limit``: how many there are.
-    """
-
-def lower_sizes(frames: SurfaceFrames, marks: VertexMarks, vertices: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], factors: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)], smallest: float) -> int:
-    """
-    Scale the wanted lengths at vertices (n,), down to ``smallest`` of what they were: how many were scaled.
-    """
-
 def find_folded(t: surfmesh._core.triangulation.Triangulation, frames: SurfaceFrames, least: float, at_apex: float) -> Annotated[NDArray[numpy.uint8], dict(shape=(None,))]:
     """
     Which triangles (triangles,) are turned against the surface at one of their corners.
 
     ``least``: cosine of the largest angle between the normals; ``at_apex``: the same where a corner has no normal.
-    """
-
-def activate_bad(t: surfmesh._core.triangulation.Triangulation, frames: SurfaceFrames, marks: VertexMarks, least: float) -> int:
-    """
-    Make the corners of triangles with alpha below ``least`` active; returns how many.
-    """
-
-def find_dihedrals_over(t: surfmesh._core.triangulation.Triangulation, frames: SurfaceFrames, limit: float) -> tuple[Annotated[NDArray[numpy.int32], dict(shape=(None, 2))], Annotated[NDArray[numpy.float64], dict(shape=(None,))]]:
-    """
-    Half-edges (k, 2) across which triangles turn by more than ``limit`` (radians), and the angles (k,).
     """
 
 def dihedral_angles(points: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)], triangles: Annotated[NDArray[numpy.int32], dict(shape=(None, 3), order='C', device='cpu', writable=False)], half_edges: Annotated[NDArray[numpy.int32], dict(shape=(None, 2), order='C', device='cpu', writable=False)]) -> Annotated[NDArray[numpy.float64], dict(shape=(None,))]:

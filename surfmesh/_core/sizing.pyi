@@ -57,8 +57,6 @@ def principal_angle_sizes(k1: Annotated[NDArray[numpy.float64], dict(shape=(None
 
 RIM_RESERVE: float = 0.95
 
-LEAST_RIM: float = 2.0
-
 def rim_sizes(surface: surfmesh._core.surfaces.Surface, uv: Annotated[NDArray[numpy.float64], dict(shape=(None, 2), order='C', device='cpu', writable=False)], step: Annotated[NDArray[numpy.float64], dict(shape=(None, 2), order='C', device='cpu', writable=False)], chord: float) -> tuple[Annotated[NDArray[numpy.float64], dict(shape=(None,))], Annotated[NDArray[numpy.float64], dict(shape=(None, 3))]]:
     """
     Sizes (n,) that the curvature of lines of (u, v) allows along them, at uv (n, 2) in the directions step (n, 2), and unit tangents (n, 3); infinite and zero where a line has no speed.

@@ -11,8 +11,6 @@ TODO: int = 0
 
 DONE: int = 1
 
-OUTSIDE: int = 0
-
 INSIDE: int = 1
 
 DEAD: int = 255

@@ -106,15 +106,22 @@ def _parser() -> _Parser:
     return parser
 
 
+def _command(commands: _Commands, name: str, does: str) -> _Parser:
+    """One with a line of what it does, in the list of commands and above its own options."""
+    return commands.add_parser(name, help=does, description=f"{does[0].upper()}{does[1:]}.")
+
+
 def _add_mesh(commands: _Commands) -> None:
-    mesh = commands.add_parser("mesh", help="mesh a surface, check it, write it")
+    mesh = _command(commands, "mesh", "mesh a surface, check it, write it")
     mesh.add_argument("input", nargs="?", metavar="INPUT", help=_MODEL)
     mesh.add_argument("-o", "--output", required=True, metavar="OUT", help=_OUT)
     formulas = mesh.add_argument_group("a surface by formulas in u and v, instead of INPUT")
     for axis in "xyz":
-        formulas.add_argument(f"--{axis}", metavar="FORMULA")
+        formulas.add_argument(f"--{axis}", metavar="FORMULA", help="as u*cos(v)")
     for variable in "uv":
-        formulas.add_argument(f"--{variable}", nargs=2, metavar=("FROM", "TO"))
+        formulas.add_argument(
+            f"--{variable}", nargs=2, metavar=("FROM", "TO"), help="its range, as 0 2*pi"
+        )
     formulas.add_argument(
         "--param", action="append", default=[], metavar="NAME=VALUE", help="a named number"
     )
@@ -122,7 +129,7 @@ def _add_mesh(commands: _Commands) -> None:
 
 
 def _add_intersect(commands: _Commands) -> None:
-    meet = commands.add_parser("intersect", help="mesh surfaces and models that cut each other")
+    meet = _command(commands, "intersect", "mesh surfaces and models that cut each other")
     meet.add_argument("inputs", nargs="+", metavar="INPUT", help=_MODEL)
     meet.add_argument("-o", "--output", required=True, metavar="OUT", help=_OUT)
     meet.add_argument(
@@ -161,7 +168,7 @@ def _add_made(mesh: argparse.ArgumentParser) -> None:
         "--solids",
         choices=("solids", "faces"),
         default="",
-        help="an .stl with a solid for each face",
+        help="of an .stl: a solid for each solid of the model, or for each of its faces",
     )
     mesh.add_argument(
         "--target", choices=("abaqus", "calculix"), default="", help="whose elements an .inp names"
@@ -184,7 +191,7 @@ def _add_made(mesh: argparse.ArgumentParser) -> None:
 
 
 def _add_check(commands: _Commands) -> None:
-    check = commands.add_parser("check", help="report on a mesh file")
+    check = _command(commands, "check", "report on a mesh file")
     check.add_argument("input", metavar="MESH", help="mesh file, as mesh writes it")
     check.add_argument(
         "--surface", metavar="INPUT", help="formula file, gallery name or CAD file it was made from"
@@ -199,7 +206,7 @@ def _add_check(commands: _Commands) -> None:
 
 
 def _add_view(commands: _Commands) -> None:
-    view = commands.add_parser("view", help="show a mesh or a surface")
+    view = _command(commands, "view", "show a mesh or a surface")
     view.add_argument("input", metavar="INPUT", help=_ANYTHING)
     view.add_argument("-o", "--output", metavar="PNG", help="a picture instead of a window")
     view.add_argument("--by", default="alpha", choices=_COLOURS, help="colour")
@@ -213,7 +220,7 @@ def _add_view(commands: _Commands) -> None:
 
 
 def _add_report(commands: _Commands) -> None:
-    report = commands.add_parser("report", help="one HTML file: mesh, certificate, histograms")
+    report = _command(commands, "report", "one HTML file: mesh, certificate, histograms")
     report.add_argument("input", metavar="INPUT", help=_ANYTHING)
     report.add_argument("-o", "--output", required=True, metavar="HTML", help="file to write")
     report.add_argument("--by", default="alpha", choices=_COLOURS, help="colour at first")
@@ -224,7 +231,7 @@ def _add_report(commands: _Commands) -> None:
 
 
 def _add_compare(commands: _Commands) -> None:
-    compare = commands.add_parser("compare", help="compare a manifest with another, or with files")
+    compare = _command(commands, "compare", "compare a manifest with another, or with files")
     compare.add_argument("input", metavar="MANIFEST", help="what mesh --manifest wrote")
     compare.add_argument(
         "other",
@@ -236,7 +243,7 @@ def _add_compare(commands: _Commands) -> None:
 
 
 def _add_explain(commands: _Commands) -> None:
-    explain = commands.add_parser("explain", help="which rule decides the size at a point")
+    explain = _command(commands, "explain", "which rule decides the size at a point")
     explain.add_argument("input", metavar="INPUT", help=_MODEL)
     explain.add_argument(
         "--at", nargs=3, type=_number, required=True, metavar=("X", "Y", "Z"), help="the point"
@@ -247,7 +254,7 @@ def _add_explain(commands: _Commands) -> None:
 
 
 def _add_estimate(commands: _Commands) -> None:
-    estimate = commands.add_parser("estimate", help="triangles and memory, before meshing")
+    estimate = _command(commands, "estimate", "triangles and memory, before meshing")
     estimate.add_argument("input", metavar="INPUT", help=_MODEL)
     _add_sizes(estimate)
     _add_units(estimate)
@@ -255,14 +262,17 @@ def _add_estimate(commands: _Commands) -> None:
 
 
 def _add_pack(commands: _Commands) -> None:
-    pack = commands.add_parser("pack", help="pack circles over the plane, as in the paper")
+    pack = _command(commands, "pack", "pack circles over the plane, as in the paper")
     law = pack.add_mutually_exclusive_group(required=True)
     law.add_argument("--radius", type=_positive, help="one radius for all")
     law.add_argument(
         "--uniform", nargs=2, type=_positive, metavar=("LO", "HI"), help="random radii"
     )
     pack.add_argument("--seed", type=_whole(0), default=0, help="of the random radii (default 0)")
-    pack.add_argument("--origin", nargs=2, type=_number, default=(0.0, 0.0), metavar=("X", "Y"))
+    pack.add_argument(
+        "--origin", nargs=2, type=_number, default=(0.0, 0.0), metavar=("X", "Y"),
+        help="where the packing begins (default 0 0)",
+    )  # fmt: skip
     pack.add_argument("--count", type=_whole(1), help="stop at so many circles")
     pack.add_argument("--distance", type=_positive, help="stop at this distance from the origin")
     pack.add_argument(
@@ -276,7 +286,7 @@ def _add_pack(commands: _Commands) -> None:
 
 
 def _add_gallery(commands: _Commands) -> None:
-    gallery = commands.add_parser("gallery", help="list the ready-made surfaces")
+    gallery = _command(commands, "gallery", "list the ready-made surfaces")
     _add_json(gallery)
 
 
@@ -299,7 +309,8 @@ Out: {_FORMATS}"""
 
 def _add_sizes(parser: argparse.ArgumentParser) -> None:
     sizes = parser.add_argument_group(
-        "sizes, in model units; any of them sets aside the sizes that INPUT brings"
+        "sizes, in model units; any of them sets aside the sizes that INPUT brings; without any, "
+        "chord is a thousandth of the diagonal"
     )
     for name, (kind, said) in _SIZES.items():
         sizes.add_argument(f"--{name.replace('_', '-')}", type=kind, help=said)
@@ -328,7 +339,7 @@ def _add_units(parser: argparse.ArgumentParser) -> None:
         help="run a program that you trust (.py) and take the CadQuery object that it calls result",
     )  # fmt: skip
     parser.add_argument(
-        "--units", help="of the lengths of a CAD model: um, mm (default), cm, m, in"
+        "--units", help="of the lengths of a CAD model: um, mm (default), cm, m, in, ft"
     )
     parser.add_argument(
         "--imprint",
@@ -412,15 +423,15 @@ def _whole(least: int, most: int = 10**15) -> Callable[[str], int]:
 
 
 _SIZES: dict[str, tuple[Callable[[str], float], str]] = {  # options of Sizing
-    "chord": (_positive, "largest distance from the surface"),
+    "chord": (_positive, "largest distance between mesh and surface"),
     "angle": (_positive, "largest angle between neighbours, degrees"),
     "size": (_positive, "wanted edge length"),
     "min_size": (_positive, "no edge is wanted shorter"),
     "max_size": (_positive, "no edge is wanted longer"),
-    "growth": (_positive, "largest ratio of neighbouring sizes"),
-    "anisotropy": (_positive, "largest stretch; 1 is isotropic"),
-    "volume": (_positive, "largest relative error of solids' volumes"),
-    "gap": (_positive, "triangles across thin faces and gaps"),
+    "growth": (_positive, "largest ratio of neighbouring sizes (default 1.2)"),
+    "anisotropy": (_positive, "largest ratio of two sizes at a point (default 1: isotropic)"),
+    "volume": (_positive, "largest relative error of solids' volumes, as 0.005"),
+    "gap": (_positive, "at least so many triangles across thin faces and gaps"),
     "triangles": (_whole(4), "about so many in all, instead of chord, angle, size"),
     "limit": (_whole(1), "most triangles (default 20 million)"),
 }

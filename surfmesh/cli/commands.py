@@ -17,6 +17,7 @@ from surfmesh.cli.inputs import (
     called,
     named_surface,
     on_surface,
+    refuse_options_of_meshing,
     shown_mesh,
     surface_begun,
 )
@@ -148,6 +149,8 @@ def check(options: Namespace) -> bool:
         if broken:
             raise FileFormatError(f"{options.input}: {broken}")
     else:
+        refuse_options_of_meshing(options, "name what the mesh was made from, with --surface")
+
         from surfmesh.result.model_facts import ModelFacts, file_sha256
 
         source = Path(options.input)

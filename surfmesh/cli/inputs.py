@@ -152,11 +152,22 @@ def _of_program(path: Path, options: Namespace) -> CadModel:
     )
 
 
+def refuse_options_of_meshing(options: Namespace, reason: str) -> None:
+    """Raise SurfaceError for an option that says how a model is read or meshed, where none is."""
+    given = {**getattr(options, "sizing", {}), **options.reading, "run_python": options.run_python}
+    given |= {name: getattr(options, name, None) for name in ("sizes", "no_strict", "prove")}
+    given["no_isolate"] = not given.pop("isolate")
+    for name, value in given.items():
+        if value not in (None, False):
+            raise SurfaceError(f"--{name.replace('_', '-')} does nothing here: {reason}")
+
+
 def shown_mesh(options: Namespace, progress: ProgressBar) -> SurfaceMesh:
     """The mesh of INPUT: read from its file, or made of what is in it."""
     from surfmesh.io import FORMATS, IN_PIECES, read
 
     if Path(options.input).suffix.lower() in FORMATS | IN_PIECES:
+        refuse_options_of_meshing(options, f"{options.input} is a mesh already")
         return read(options.input)
     with surface_begun(options.input, options) as surface_wanted:
         sizing = asked_sizing(options)

@@ -55,8 +55,8 @@ def require_outputs(options: Namespace) -> None:
     from surfmesh.io.formats import require_writable
 
     for name, extension in (("ascii", ".stl"), ("solids", ".stl"), ("target", ".inp")):
-        if getattr(options, name):
-            require_writable(options.output, extension)
+        if getattr(options, name) and Path(options.output).suffix.lower() != extension:
+            raise FileFormatError(f"{options.output}: --{name} is for {extension} files alone")
     require_writable(options.output)
     wanted = (options.picture, ".png"), (options.report, ".json", ".html")
     for path, *extensions in (*wanted, (options.manifest, ".json")):

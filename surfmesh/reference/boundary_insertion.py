@@ -129,4 +129,4 @@ def swap_bad(plane: Triangulation, inside: list[int]) -> None:
     for t in SWEEPS * inside:
         for i in range(3):
             if plane.shape(*plane.triangles[t]) < BAD_SHAPE:
-                plane.settle(*sides(plane.triangles[t])[i])
+                plane.choose_diagonal(*sides(plane.triangles[t])[i])

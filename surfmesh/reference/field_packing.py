@@ -186,7 +186,7 @@ class FieldPacking(Triangulation):
         self.barriers -= {(a, b), (b, a)}
         self.link(a, v)
         self.link(v, b)
-        self.settle(b, a, GOOD_SHAPE)
+        self.choose_diagonal(b, a, GOOD_SHAPE)
         return v
 
     def close_corner(self, a: int, b: int) -> bool:
@@ -201,5 +201,5 @@ class FieldPacking(Triangulation):
         swapped = self.shape(b, a, c) >= GOOD_SHAPE
         if not swapped:
             for side in (b, a), (a, c), (c, b):  # of which a swap turns the next one
-                swapped = not swapped and self.settle(*side, GOOD_SHAPE)
+                swapped = not swapped and self.choose_diagonal(*side, GOOD_SHAPE)
         return True

@@ -137,7 +137,7 @@ class Triangulation:
             self.write(t, *(new if v == old else v for v in self.triangles[t]))
         return True
 
-    def settle(self, a: int, b: int, below: float = 1.0) -> bool:
+    def choose_diagonal(self, a: int, b: int, below: float = 1.0) -> bool:
         """Of the two diagonals at a-b take the one with the better worst shape, if that is low."""
         if (a, b) in self.barriers:
             return False

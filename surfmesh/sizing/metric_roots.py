@@ -26,10 +26,3 @@ def uniform(inverse_sizes: np.ndarray) -> np.ndarray:
     roots = np.zeros((len(inverse_sizes), 6))
     roots[:, DIAGONAL] = inverse_sizes[:, None]
     return roots
-
-
-def symmetric_root(e: np.ndarray, f: np.ndarray, g: np.ndarray, s: np.ndarray) -> np.ndarray:
-    """Square root (n, 3) of symmetric 2 x 2 matrices (e f; f g), s = sqrt(det)."""
-    # (I + s Id) / t, t^2 = tr I + 2 s
-    t = np.sqrt(np.maximum(e + g + 2.0 * s, np.finfo(float).tiny))
-    return np.stack([(e + s) / t, f / t, (g + s) / t], axis=1)

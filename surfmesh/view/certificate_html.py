@@ -23,10 +23,10 @@ _SAID = ("problems", "warnings", "options")  # have places of their own
 _NOT_KEPT = ("seconds",)  # differ every time, where the same mesh is to give the same page
 _FIGURES = (  # title, fields, how they are said; a row whose first field is not known is left out
     ("topology", ("closed", "manifold", "oriented"), "closed {}, manifold {}, oriented {}"),
-    ("crossings", ("self_intersections",), "{}"),
+    ("self-intersections", ("self_intersections",), "{}"),
     ("Euler number", ("euler",), "{}"),
     ("exact Euler number", ("euler_exact",), "{}"),
-    ("pieces, faces", ("components", "faces"), "{}, {}"),
+    ("components, faces", ("components", "faces"), "{}, {}"),
     ("area", ("area",), "{}"),
     ("exact area", ("area_exact",), "{}"),
     ("area off by", ("area_error",), "{}"),
@@ -45,9 +45,9 @@ _FIGURES = (  # title, fields, how they are said; a row whose first field is not
     ("edges as wanted", ("quasi_unit_share",), "{} within a factor sqrt 2"),
     ("distance from the surface", ("deviation_max", "deviation_rms"), "largest {}, rms {}"),
     ("distance of the surface from the mesh", ("surface_deviation_max",), "largest {}"),
-    ("distance asked for", ("chord",), "{}"),
-    ("turn between neighbours", ("angle_max",), "largest {}°"),
-    ("turn asked for", ("angle",), "{}°"),
+    ("chord asked for", ("chord",), "{}"),
+    ("dihedral angles", ("angle_max",), "largest {}°"),
+    ("angle asked for", ("angle",), "{}°"),
     (
         "sizes beyond growth",
         ("above_growth_share", "size_growth_max"),
@@ -59,7 +59,7 @@ _DISTANCES = ("deviation_max", "deviation_rms", "surface_deviation_max")
 _OF_FACES = (  # title, field of its row
     ("face", "face"), ("name", "name"), ("kind", "kind"), ("triangles", "triangles"),
     ("area", "area"), ("exact", "area_exact"),
-    ("distance", "deviation_max"), ("chord", "chord"), ("turn °", "angle_max"),
+    ("distance", "deviation_max"), ("chord", "chord"), ("dihedral °", "angle_max"),
     ("angle °", "angle"), ("smallest alpha", "alpha_min"), ("stated limit", "limit"),
 )  # fmt: skip
 
@@ -111,7 +111,7 @@ def _figures(values: Mapping[str, Any]) -> str:
 
 
 def _beyond_rounding(name: str, values: Mapping[str, Any]) -> Any:
-    """The value; 0 where it is rounding: of a distance beside the edges, of a turn in degrees."""
+    """The value; 0 where it is rounding: of a distance beside the edges, of an angle in degrees."""
     value, shortest = values.get(name), values.get("edge_min")
     if name == "angle_max" and value is not None:
         return value if value > ROUNDING else 0.0

@@ -53,7 +53,7 @@ def test_order_2_and_ascii_are_asked_for_by_name(tmp_path, capsys):
     assert main(["mesh", "plane", "--size", "0.5", "--order", "2", "-o", path]) == 0
     assert read(path).order == 2
     assert main(["mesh", "plane", "--size", "0.5", "--ascii", "-o", path]) == 2
-    assert "the extension must be .stl" in capsys.readouterr().err
+    assert "--ascii is for .stl files alone" in capsys.readouterr().err
     text = tmp_path / "a.stl"
     assert main(["mesh", "plane", "--size", "0.5", "--ascii", "-o", str(text)]) == 0
     assert text.read_text().startswith("solid ")
@@ -208,6 +208,25 @@ def test_report_is_one_html_file(stand_in, tmp_path, capsys):
     content = json.loads(capsys.readouterr().out)
     assert content["triangles"] == 18 and content["files"] == {"html": str(path)}
     assert sorted(entry.name for entry in tmp_path.iterdir()) == ["a.html", "b.stl"]
+
+
+@pytest.mark.parametrize(
+    ("argv", "said"),
+    [
+        (["check", "MESH", "--prove"], "--prove does nothing here: name what"),
+        (["check", "MESH", "--units", "mm"], "--units does nothing here: name what"),
+        (["report", "MESH", "-o", "a.html", "--chord", "1"], "--chord does nothing here: "),
+        (["view", "MESH", "-o", "a.png", "--no-isolate"], "--no-isolate does nothing here: "),
+    ],
+)
+def test_options_of_meshing_are_refused_where_the_mesh_is_there_already(
+    argv, said, tmp_path, capsys, monkeypatch
+):
+    """They were passed over without a word."""
+    monkeypatch.chdir(tmp_path)
+    grid(Saddle(), 3).save("b.stl")
+    assert main([word.replace("MESH", "b.stl") for word in argv]) == 2
+    assert said in capsys.readouterr().err and [*tmp_path.iterdir()] == [tmp_path / "b.stl"]
 
 
 def test_mesh_writes_its_report_as_html(stand_in, tmp_path):

@@ -100,7 +100,7 @@ def test_two_machines_one_of_them_killed_half_way(model, tmp_path):
 
 def test_processes(model, tmp_path):
     with ProcessPoolExecutor(2, mp_context=get_context("spawn")) as executor:
-        found = mesh_into_pieces(tmp_path / "part.pvtu", model, SIZE, executor)
+        found = mesh_into_pieces(str(tmp_path / "part.pvtu"), model, SIZE, executor)
     require_same(read(found.path), sm.mesh(model, SIZE), tmp_path)
 
 

@@ -21,7 +21,8 @@ def from_cadquery(
 
     A Workplane gives the solids and faces on its stack, and its tags as names: of what they held,
     or of what stands for it where later steps have cut, split or moved it. Lengths are taken as
-    millimetres; units: what they are wanted in. A list of such objects is an assembly.
+    millimetres; units: what they are wanted in. A list of such objects is an assembly. heal: faults
+    of shapes are mended first, and said in ``healing``; False takes shapes as they are.
 
     imprint: bodies that touch share their faces, which keep the names of both; a number is how
     near touches (True: by rounding alone). sew: loose faces whose edges lie as near as this are

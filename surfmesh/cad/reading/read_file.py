@@ -163,15 +163,6 @@ def _with_name(said: str, path: Path) -> str:
     return said if path.name in said else f"{path.name}: {said}"
 
 
-def answer_of(command: list[str], wanted: Mapping[str, Any], name: str, limits: Limits) -> Any:
-    """What a ``Child`` answers."""
-    child = Child(command, wanted, name, limits)
-    try:
-        return child.answer()
-    finally:
-        child.end()
-
-
 class Child:
     """A process that takes ``wanted`` as JSON and writes a pickle; it imposes limits on itself.
 

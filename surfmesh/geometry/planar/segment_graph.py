@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import NoReturn
 
 import numpy as np
 
@@ -109,14 +110,7 @@ def segment_graph(
     """
     points = np.concatenate([line.points for line in lines])
     _refuse_extremes(lines, points)
-    pieces, counts, first = [], [], 0
-    for line in lines:
-        index = first + np.arange(len(line.points))
-        after = np.roll(index, -1)
-        some = len(index) if line.closed else len(index) - 1
-        pieces.append(np.stack([index, after], axis=1)[:some])
-        counts.append(some)
-        first += len(index)
+    pieces, counts = _segments_given(lines)
     label_start = np.concatenate([[0], np.cumsum(counts)]).astype(np.int32)
     labels = tuple(line.label for line in lines)
     sizes = np.array([len(line.points) for line in lines])
@@ -130,17 +124,13 @@ def segment_graph(
             'end one of them there, or pass crossings="split"'
         )
 
-    found = noded(points, np.concatenate(pieces), stays, None if split else refusal, merge)
+    found = noded(points, pieces, stays, None if split else refusal, merge)
     segment, given = found.uses.T
     loop = np.repeat([line.loop for line in lines], counts)[given]
     loop_segments = _loop_segments(segment, loop)
-    for k in np.setdiff1d(np.arange(len(loop_is_hole)), loop_segments[:, 1]):
-        label = next(line.label for line in lines if line.loop == k)
-        raise DomainError(
-            f"{label} encloses no area: it runs to and fro along one line, or is smaller than "
-            f"{merge or MERGE:.3g}{'' if merge else ' of the domain'}, within which points are "
-            "merged; leave it out, or give it as a constraint"
-        )
+    without_area = np.setdiff1d(np.arange(len(loop_is_hole)), loop_segments[:, 1])
+    if len(without_area):
+        _refuse_loop_without_area(lines, int(without_area[0]), merge)
     _, first_use = np.unique(segment, return_index=True)
     arrays = {
         "points": found.points,
@@ -161,6 +151,27 @@ def segment_graph(
             f"{one} and {other} still meet after cutting; move apart what nearly touches there"
         )
     return graph
+
+
+def _segments_given(lines: Sequence[Line]) -> tuple[np.ndarray, list[int]]:
+    """Pairs of points (s, 2), numbered through all lines, and how many each line has."""
+    pieces, counts, first = [], [], 0
+    for line in lines:
+        index = first + np.arange(len(line.points))
+        some = len(index) if line.closed else len(index) - 1
+        pieces.append(np.stack([index, np.roll(index, -1)], axis=1)[:some])
+        counts.append(some)
+        first += len(index)
+    return np.concatenate(pieces), counts
+
+
+def _refuse_loop_without_area(lines: Sequence[Line], loop: int, merge: float) -> NoReturn:
+    label = next(line.label for line in lines if line.loop == loop)
+    raise DomainError(
+        f"{label} encloses no area: it runs to and fro along one line, or is smaller than "
+        f"{merge or MERGE:.3g}{'' if merge else ' of the domain'}, within which points are "
+        "merged; leave it out, or give it as a constraint"
+    )
 
 
 def _loop_segments(segment: np.ndarray, loop: np.ndarray) -> np.ndarray:

@@ -2,10 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cached_property
-from itertools import pairwise
 from typing import Any
 
 import numpy as np
@@ -125,13 +123,3 @@ class KnownSurfaces:
         """(k, 3) of the surfaces of ``faces`` (k,) at uv (k, 2)."""
         (points,) = surface_points(self.core_surfaces, faces.astype(np.int32, copy=False), uv, 0)
         return points
-
-
-def rows_of_faces(faces: Rows) -> Iterator[tuple[int, NDArray[np.intp]]]:
-    """Each face that occurs among ``faces`` (k,), and the rows where it does."""
-    if not len(faces):
-        return
-    order = np.argsort(faces, kind="stable")
-    starts = np.flatnonzero(np.diff(faces[order], prepend=-1))
-    for start, end in pairwise([*starts.tolist(), len(faces)]):
-        yield int(faces[order[start]]), order[start:end]

@@ -11,4 +11,5 @@ radius_laws: what ``pack`` may be given beside a number or a callable: random ra
 sizes_file: sizes by selection in a TOML file.
 model_sizing: sizes by name: selections of a CAD model, resolved to the sizes of each face, edge
     and vertex.
+given_sizes: the forms in which the verbs take sizes, and the options that are made of them.
 """

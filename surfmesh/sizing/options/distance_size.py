@@ -26,22 +26,17 @@ class DistanceSize:
              +--+-----+-------- d
                 0   reach
 
-    Raises SizingError for numbers that are not positive, and for a geometry that is not one of
-    those below.
+    geometry: what has a method ``distance`` (a PlanarDomain), or polylines: one array (k, 2) or
+    (k, 3) or several; a polyline of one point is that point. (p, 1, 3) are p points. near, far:
+    edge lengths at the geometry, and at ``reach`` and beyond. All in model units.
+
+    Raises ``SizingError`` for numbers that are not positive, and for other geometry.
     """
 
     geometry: Any
-    """What has a method ``distance`` (a PlanarDomain), or polylines: one array (k, 2) or (k, 3)
-    or several; a polyline of one point is that point. (p, 1, 3) are p points."""
-
     near: float
-    """Edge length at the geometry, model units."""
-
     far: float
-    """Edge length at ``reach`` and beyond."""
-
     reach: float
-    """Distance over which the size changes, model units."""
 
     def __post_init__(self) -> None:
         for name in ("near", "far", "reach"):
@@ -53,8 +48,8 @@ class DistanceSize:
 
     def __call__(self, points: np.ndarray) -> np.ndarray:
         """Wanted edge lengths (n,) at points (n, 3), or (n, 2) in the plane z = 0."""
-        share = np.minimum(self.distance(points) / self.reach, 1.0)
-        return self.near + share * (self.far - self.near)
+        fraction = np.minimum(self.distance(points) / self.reach, 1.0)
+        return self.near + fraction * (self.far - self.near)
 
     def distance(self, points: np.ndarray) -> np.ndarray:
         """Distance to the geometry, (n, 2) or (n, 3) -> (n,)."""

@@ -45,6 +45,11 @@ def _with_known_names(options: type[_Options]) -> type[_Options]:
 class Sizing:
     """The wanted mesh. All lengths are in model units, all options hold at once.
 
+    How near: ``chord``, ``angle``, ``volume``, ``proof``. How long: ``size``, ``min_size``,
+    ``max_size``, ``sources``, ``gap``, ``gap_faces``. How they change: ``growth``, ``anisotropy``.
+    How many: ``triangles``, ``limit``. Of what kind: ``order``, ``vertices``. Each has its own
+    lines where it is defined, and in docs/sizing.md.
+
     With nothing given the size follows from the surface: a chord error of a thousandth of its
     diagonal, at most a tenth of the diagonal. Raises ``SizingError`` for one that is not a
     positive number, or that contradicts another.
@@ -120,11 +125,7 @@ class Sizing:
     """A mesh that would have more triangles is refused before it is made."""
 
     def __post_init__(self) -> None:
-        for name in ("chord", "angle", "max_size"):
-            value = getattr(self, name)
-            if value is not None:
-                object.__setattr__(self, name, positive(name, value))
-        for name in ("min_size", "volume"):
+        for name in ("chord", "angle", "max_size", "min_size", "volume"):
             value = getattr(self, name)
             if value is not None:
                 object.__setattr__(self, name, positive(name, value))
@@ -156,6 +157,11 @@ class Sizing:
             self._check_triangles()
         if self.volume is not None and self.volume >= 1.0:
             raise SizingError(f"volume is a relative error below 1, not {self.volume:g}")
+        self._check_choices()
+        self._check_order_of_sizes()
+
+    def _check_choices(self) -> None:
+        """What excludes each other of ``order``, ``proof`` and ``vertices``."""
         if self.order not in (1, 2):
             raise SizingError(f"order is {shown(self.order)}: meshes are of order 1 or 2")
         if not isinstance(self.proof, bool):
@@ -171,6 +177,8 @@ class Sizing:
             raise SizingError(
                 "nodes of order 2 lie on the surface: vertices cannot be balanced too"
             )
+
+    def _check_order_of_sizes(self) -> None:
         if self.angle is not None and self.angle > 90.0:
             raise SizingError(f"angle must be at most 90 degrees, not {self.angle:g}")
         if self.min_size and self.max_size and self.min_size > self.max_size:

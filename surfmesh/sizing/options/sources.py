@@ -37,7 +37,12 @@ NEAREST = 4
 
 
 class Source:
-    """What all local sizes have in common: ``size`` that grows with the distance."""
+    """What all local sizes have in common: ``size`` that grows with the distance.
+
+    size: wanted edge length. growth: ratio of neighbouring sizes away from the geometry, above 1.
+    radius: up to this distance the size is ``size``. reach: farther away nothing is asked for;
+    None: as far as the sizes have grown. Lengths are in model units.
+    """
 
     size: float
     growth: float
@@ -46,6 +51,9 @@ class Source:
 
     def _check(self) -> None:
         object.__setattr__(self, "size", positive("size", self.size))
+        self._check_growth()
+
+    def _check_growth(self) -> None:
         object.__setattr__(self, "growth", positive("growth", self.growth))
         if self.growth <= 1.0:
             raise SizingError(f"growth must be above 1, not {self.growth:g}")
@@ -64,7 +72,7 @@ class Source:
         return sizes if self.reach is None else np.where(distance <= self.reach, sizes, np.inf)
 
     def distance(self, points: np.ndarray) -> np.ndarray:
-        """(n, 3) -> (n,)"""
+        """Distances (n,) of points (n, 3) from the geometry, model units."""
         raise NotImplementedError
 
     @cached_property
@@ -87,25 +95,19 @@ class Source:
 class Near(Source):
     """``size`` within ``radius`` of points or polylines, growing with the distance from there.
 
+    geometry: points (n, 3), a point (3,); or polylines: a list of arrays (k, 3). Two coordinates
+    are taken in the plane z = 0. lines=True joins points (n, 3) to one polyline. size: wanted edge
+    length. growth: ratio of neighbouring sizes away from it. reach: farther away nothing is asked
+    for; None: as far as the sizes have grown. Lengths are in model units.
+
     Raises ``SizingError`` for numbers that are not positive and for other geometry.
     """
 
     geometry: Any
-    """Points (n, 3), a point (3,); or polylines: a list of arrays (k, 3). Two coordinates are
-    taken in the plane z = 0. ``lines=True`` joins points (n, 3) to one polyline."""
-
     size: float
-    """Wanted edge length, model units."""
-
     growth: float = 1.2
-    """Ratio of neighbouring sizes away from it."""
-
     radius: float = 0.0
-    """Model units."""
-
     reach: float | None = None
-    """Farther away nothing is asked for, model units; None: as far as the sizes have grown."""
-
     lines: bool = False
 
     def __post_init__(self) -> None:
@@ -133,6 +135,7 @@ class Near(Source):
 
     @cached_property
     def marks(self) -> np.ndarray:
+        """(k, 3) points where the size is smallest."""
         length = sum(float(_steps(line).sum()) for line in self.geometry)
         step = max(MARK_STEP * max(self.size, self.radius), length / MOST_MARKS)
         found = []
@@ -150,18 +153,17 @@ class Near(Source):
 
 @dataclass(frozen=True, eq=False)
 class InBall(Source):
-    """``size`` in a ball, growing outside. Raises ``SizingError`` as ``Near`` does."""
+    """``size`` in the ball of ``radius`` about ``centre`` (3,), growing outside.
+
+    reach: distance from the centre beyond which nothing is asked for; None: no end. Otherwise as
+    ``Near``, ``SizingError`` included.
+    """
 
     centre: Sequence[float]
-    """(3,)"""
-
     radius: float
-    """Model units."""
-
     size: float
     growth: float = 1.2
     reach: float | None = None
-    """Distance from the centre beyond which nothing is asked for; None: no end."""
 
     def __post_init__(self) -> None:
         self._check()
@@ -173,6 +175,7 @@ class InBall(Source):
 
     @cached_property
     def marks(self) -> np.ndarray:
+        """(k, 3) points where the size is smallest."""
         return np.asarray(self.centre)[None]
 
     def __repr__(self) -> str:
@@ -181,18 +184,18 @@ class InBall(Source):
 
 @dataclass(frozen=True, eq=False)
 class InBox(Source):
-    """``size`` in a box along the axes, growing outside. Raises ``SizingError`` as ``Near``."""
+    """``size`` in a box along the axes, growing outside.
+
+    low, high: (3,) its corners with the smallest and the largest coordinates. reach: distance from
+    the box beyond which nothing is asked for; None: no end. Otherwise as ``Near``, ``SizingError``
+    included.
+    """
 
     low: Sequence[float]
-    """(3,) corner with the smallest coordinates, and"""
-
     high: Sequence[float]
-    """(3,) that with the largest."""
-
     size: float
     growth: float = 1.2
     reach: float | None = None
-    """Distance from the box beyond which nothing is asked for; None: no end."""
 
     radius = 0.0
 
@@ -213,6 +216,7 @@ class InBox(Source):
 
     @cached_property
     def marks(self) -> np.ndarray:
+        """(k, 3) points where the size is smallest."""
         low, high = self._extent()
         extent = high - low
         step = max(MARK_STEP * self.size, float(extent.max()) / 1000.0)
@@ -235,18 +239,16 @@ class InBox(Source):
 class SizeCloud(Source):
     """Sizes at points, growing from each: what another mesh, or a solver, has found.
 
+    points: (n, 3). sizes: (n,) wanted edge lengths. growth: ratio of neighbouring sizes away from
+    a point. reach: distance from a point beyond which it asks for nothing; None: no end.
+
     Raises ``SizingError`` for arrays of other shapes and sizes that are not positive.
     """
 
     points: np.ndarray
-    """(n, 3)"""
-
     sizes: np.ndarray
-    """(n,) model units."""
-
     growth: float = 1.2
     reach: float | None = None
-    """Distance from a point beyond which it asks for nothing; None: no end."""
 
     radius = 0.0
     _trees: list = field(default_factory=list, repr=False)
@@ -266,7 +268,7 @@ class SizeCloud(Source):
         object.__setattr__(self, "points", points)
         object.__setattr__(self, "sizes", sizes)
         object.__setattr__(self, "_trees", [])
-        self._check()
+        self._check_growth()
 
     @classmethod
     def of_mesh(cls, mesh: Any, factor: float = 1.0, growth: float = 1.2) -> SizeCloud:
@@ -286,13 +288,6 @@ class SizeCloud(Source):
     def size(self) -> float:  # type: ignore[override]  # of no other source it is a result
         """The smallest."""
         return float(self.sizes.min())
-
-    def _check(self) -> None:
-        object.__setattr__(self, "growth", positive("growth", self.growth))
-        if self.growth <= 1.0:
-            raise SizingError(f"growth must be above 1, not {self.growth:g}")
-        if self.reach is not None:
-            object.__setattr__(self, "reach", positive("reach", self.reach))
 
     def __call__(self, points: np.ndarray) -> np.ndarray:
         points = np.asarray(points, float)
@@ -319,6 +314,7 @@ class SizeCloud(Source):
 
     @cached_property
     def marks(self) -> np.ndarray:
+        """(k, 3) points where the size is smallest."""
         if len(self.points) <= MOST_MARKS:
             return self.points
         order = np.argsort(self.sizes, kind="stable")  # the smallest, and some of all

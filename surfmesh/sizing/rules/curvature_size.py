@@ -5,7 +5,6 @@ interpolation error of z, and two that share an edge are bent by the jump of its
 asks the core, ``explain``, edges and reports ask here: the same formulas.
 """
 
-import math
 from collections.abc import Callable
 from typing import Any
 
@@ -56,12 +55,6 @@ def share_of_width(k1: np.ndarray, k2: np.ndarray, ratio: np.ndarray | float) ->
     first, second = _rows(k1, k2)
     found = core.share_of_width(first.ravel(), second.ravel(), _each_of(ratio, first).ravel())
     return found.reshape(first.shape)
-
-
-def dihedral_factor(k1: np.ndarray, k2: np.ndarray) -> np.ndarray:
-    """c with angle = c h (radians) between two triangles of side h that share an edge: the largest
-    over all directions of the edge, of which ``angle_size`` keeps a reserve."""
-    return (0.5 * np.abs(k1 + k2) + np.abs(k1 - k2)) / math.sqrt(3.0)
 
 
 def angle_size(k1: np.ndarray, k2: np.ndarray, angle: float) -> np.ndarray:

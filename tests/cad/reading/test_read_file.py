@@ -14,7 +14,7 @@ cq = pytest.importorskip("cadquery")
 import shapes  # noqa: E402
 
 from surfmesh.cad.reading.limits import Limits  # noqa: E402
-from surfmesh.cad.reading.read_file import Child, answer_of, begun_reading, read_cad  # noqa: E402
+from surfmesh.cad.reading.read_file import Child, begun_reading, read_cad  # noqa: E402
 from surfmesh.errors import CadError  # noqa: E402
 
 
@@ -77,7 +77,7 @@ def test_the_time_limit(tmp_path):
 
 def test_a_child_that_waits_for_the_processor_is_not_ended(tmp_path):
     program = CHILD.format("import time; time.sleep(1.0); answer = 'read'")
-    assert answer_of([sys.executable, "-c", program], {}, "part.step", Limits(0.5, 100.0)) == "read"
+    assert answer_of([sys.executable, "-c", program], Limits(0.5, 100.0)) == "read"
 
 
 @pytest.mark.parametrize(
@@ -92,7 +92,15 @@ def test_limits_that_a_child_imposes_on_itself(program, words):
         pytest.skip("the system has no such limit")
     command = [sys.executable, "-c", CHILD.format(program)]
     with pytest.raises(CadError, match=words):
-        answer_of(command, {}, "part.step", Limits(0.2, 50.0))
+        answer_of(command, Limits(0.2, 50.0))
+
+
+def answer_of(command, limits):
+    child = Child(command, {}, "part.step", limits)
+    try:
+        return child.answer()
+    finally:
+        child.end()
 
 
 CHILD = """
@@ -139,7 +147,7 @@ def test_limits_that_are_none(tmp_path, monkeypatch, wrong):
 )
 def test_a_child_that_dies(program, words):
     with pytest.raises(CadError, match=words):
-        answer_of([sys.executable, "-c", program], {}, "part.step", Limits(30.0, 1000.0))
+        answer_of([sys.executable, "-c", program], Limits(30.0, 1000.0))
 
 
 @pytest.mark.skipif(sys.platform == "win32", reason="has no such signal")
@@ -155,9 +163,9 @@ def test_the_child_dies_with_its_parent(tmp_path):
     parent = tmp_path / "parent.py"
     parent.write_text(
         "import sys\n"
-        "from surfmesh.cad.reading.read_file import answer_of\n"
+        "from surfmesh.cad.reading.read_file import Child\n"
         "from surfmesh.cad.reading.limits import Limits\n"
-        f"answer_of([sys.executable, {str(child)!r}], {{}}, 'part.step', Limits(60.0, 1e3))\n"
+        f"Child([sys.executable, {str(child)!r}], {{}}, 'part.step', Limits(60.0, 1e3)).answer()\n"
     )
     where = {**os.environ, "TMPDIR": str(tmp_path)}
     process = subprocess.Popen([sys.executable, parent], env=where)
@@ -199,7 +207,7 @@ def test_nothing_is_left_behind(tmp_path, monkeypatch):
     monkeypatch.setattr("tempfile.tempdir", None)
     (tmp_path / "temporary").mkdir()
     with pytest.raises(CadError):
-        answer_of([sys.executable, "-c", "pass"], {}, "part.step", Limits(30.0, 1000.0))
+        answer_of([sys.executable, "-c", "pass"], Limits(30.0, 1000.0))
     assert list(Path(tmp_path, "temporary").iterdir()) == []
 
 

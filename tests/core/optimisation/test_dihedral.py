@@ -13,7 +13,7 @@ from surfmesh.sizing.options.sizing import Sizing
 from surfmesh.sizing.rules.curvature_size import (
     BENT_RESERVE,
     ROUND_RESERVE,
-    dihedral_factor,
+    angle_size,
     principal_angle_sizes,
 )
 
@@ -51,16 +51,18 @@ def test_triangles_without_area_turn_by_nothing():
 
 
 @pytest.mark.parametrize("ratio", [1.0, 0.5, 0.0, -0.4, -1.0])
-def test_factor_is_the_worst_edge_of_a_quadric(ratio):
+def test_angle_size_keeps_its_reserve_at_the_worst_edge_of_a_quadric(ratio):
     """Two equilateral triangles with corners on z = (x^2 + ratio y^2) / 2, in all directions."""
-    worst, h = 0.0, 1e-3
+    worst, h = 0.0, angle_size(np.ones(1), np.full(1, ratio), 0.1)[0]
     corners = h * np.array([[-0.5, 0], [0.5, 0], [0, 0.75**0.5], [0, -(0.75**0.5)]])
     for direction in np.linspace(0, np.pi, 181):
         c, s = np.cos(direction), np.sin(direction)
         xy = corners @ [[c, s], [-s, c]]
         points = np.column_stack([xy, xy**2 @ [0.5, 0.5 * ratio]])
         worst = max(worst, angles_of(points, [(0, 1, 2), (1, 0, 3)]).max())
-    assert dihedral_factor(np.ones(1), np.full(1, ratio))[0] == pytest.approx(worst / h, rel=1e-3)
+    mean, bent = 0.5 * (1.0 + ratio), 1.0 - ratio
+    reserve = (mean + bent) / (mean / ROUND_RESERVE + bent / BENT_RESERVE)
+    assert np.degrees(worst) == pytest.approx(0.1 * reserve, rel=1e-3)
 
 
 @pytest.mark.parametrize("k2", [1.0, 0.3, 0.0, -0.2, -1.0])

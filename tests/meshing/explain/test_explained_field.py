@@ -106,6 +106,13 @@ def test_a_saddle_has_the_default_angle_of_normals():
     assert found.target_size == pytest.approx(np.sqrt(3) * 0.75 * np.pi / 4, rel=1e-6)
 
 
+def test_order_2_without_a_chord_is_explained_by_the_sizes_it_is_meshed_with():
+    """It was explained by those of quadratic triangles, which need a chord of one's own."""
+    saddle = sm.ParametricSurface("u", "v", "u**2 - v**2", u=(-1, 1), v=(-1, 1))
+    straight = sm.explain(saddle, sm.Sizing(), (0, 0, 0))
+    assert str(sm.explain(saddle, sm.Sizing(order=2), (0, 0, 0))) == str(straight)
+
+
 def test_a_rim_says_that_it_decides():
     surface = sm.load("helicoid")
     corner = surface.evaluate(np.array([[surface.domain[0][1], 1.0]]), 0)[0][0]

@@ -1,4 +1,4 @@
-// How far triangles are from the surface by its tangent planes, and smaller sizes where too far.
+// Smaller wanted sizes where triangles lie too far from the surface, or at given vertices.
 #pragma once
 
 #include <span>
@@ -10,9 +10,6 @@ namespace surfmesh {
 
 /// What is not near enough with so small a scale of its sizes needs another field.
 inline constexpr double SMALLEST_SCALE = 0.6;
-
-/// Second-order estimate of each triangle's distance from the surface, 0 for a dead one.
-Array<double> estimate_deviations(const Triangulation& t, const SurfaceFrames& s);
 
 /// Ask for smaller edges where the ``deviation`` of ``triangles`` exceeds ``limit``.
 ///

@@ -1,26 +1,11 @@
-#include "optimisation/deviation_estimate.hpp"
-
-#include "values/threads.hpp"
+#include "optimisation/size_reduction.hpp"
 
 namespace surfmesh {
 namespace {
 
-constexpr std::size_t ESTIMATED_TOGETHER = 1 << 14;  // triangles estimated together
-
 constexpr double SMALLEST_SHRINK = 0.85;  // least factor by which one round lowers a wanted size
 
 }  // namespace
-
-Array<double> estimate_deviations(const Triangulation& t, const SurfaceFrames& s) {
-    Array<double> deviation(t.region.size(), 0.0);
-    for_each_block(t.region.size(), ESTIMATED_TOGETHER, [&](std::size_t first, std::size_t last) {
-        for (auto k = static_cast<Triangle>(first); k < static_cast<Triangle>(last); ++k)
-            if (t.region[k] != DEAD)
-                deviation[k] =
-                    triangle_deviation(s, t.tri[3 * k], t.tri[3 * k + 1], t.tri[3 * k + 2]);
-    });
-    return deviation;
-}
 
 int shrink_far(const Triangulation& t, SurfaceFrames& s, VertexMarks& marks,
                std::span<const Triangle> triangles, std::span<const double> deviation, double limit,
