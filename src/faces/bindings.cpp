@@ -16,6 +16,7 @@
 namespace surfmesh::binding {
 
 void bind_boundaries(nb::module_& m);
+void bind_joining(nb::module_& m);
 
 namespace {
 
@@ -260,6 +261,7 @@ void bind_faces(nb::module_& m) {
     bind_manner(m);
     bind_inward(m);
     bind_queue(m);
+    bind_joining(m);
     bind_work(m);
 }
 

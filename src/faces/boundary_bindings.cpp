@@ -1,18 +1,14 @@
 // The boundaries of faces as numpy has them.
-#include <nanobind/stl/optional.h>
 #include <nanobind/stl/pair.h>
 #include <nanobind/stl/tuple.h>
 #include <nanobind/stl/vector.h>
 
-#include <limits>
-#include <optional>
 #include <tuple>
 
 #include "binding/arrays.hpp"
 #include "faces/boundary_builder.hpp"
 #include "faces/loop_figures.hpp"
 #include "faces/shared_sides.hpp"
-#include "faces/triangles_in_a_row.hpp"
 #include "insertion/boundary_arguments.hpp"
 #include "surfaces/callback_surface.hpp"
 
@@ -202,20 +198,7 @@ void bind_builder(nb::module_& m) {
           "int32: of each loop; loops (f,) int32: of each face.");
 }
 
-void bind_numbers(nb::module_& m) {
-    m.def(
-        "numbers_of",
-        [](const std::vector<const FaceBoundary*>& boundaries) {
-            Array<std::int64_t> numbers, first(1, 0);
-            for (const FaceBoundary* boundary : boundaries) {
-                if (boundary == nullptr) throw nb::type_error("None is no boundary");
-                for (const std::int64_t number : boundary->numbers) numbers.push_back(number);
-                first.push_back(static_cast<std::int64_t>(numbers.size()));
-            }
-            return std::pair(view(numbers), view(first));
-        },
-        nb::arg("boundaries"),
-        "Those of the nodes of many boundaries in one row, and where each begins.");
+void bind_figures(nb::module_& m) {
     m.def(
         "loop_figures",
         [](const std::vector<const FaceBoundary*>& boundaries) {
@@ -231,66 +214,6 @@ void bind_numbers(nb::module_& m) {
         nb::arg("boundaries"),
         "Of the loops of many boundaries: nodes, length of the polygon, sum of the finite sizes "
         "(l, 3); and where those of each boundary begin.");
-}
-
-using PartsOfMesh = std::vector<Matrix<std::int32_t, 3>>;
-
-/// Parts whose corners are in range, of a mesh whose points int32 can count.
-std::vector<TrianglesOfFace> checked_parts(const PartsOfMesh& parts, const Ids& points) {
-    require_rows(points.shape(0), parts.size(), "points");
-    std::vector<TrianglesOfFace> faces;
-    std::int64_t all = 0;
-    for (std::size_t k = 0; k < parts.size(); ++k) {
-        faces.push_back({{parts[k].data(), parts[k].size()}, points(k), false});
-        if (points(k) < 0 || points(k) > std::numeric_limits<std::int32_t>::max())
-            throw nb::value_error("points are to be numbers of points");
-        require_indices(faces.back().corners, static_cast<std::size_t>(points(k)), "parts");
-        all += points(k);
-        if (all > std::numeric_limits<std::int32_t>::max())
-            throw nb::value_error("parts have more points than int32 can number");
-    }
-    return faces;
-}
-
-void bind_triangles(nb::module_& m) {
-    m.def(
-        "triangles_in_a_row",
-        [](const PartsOfMesh& parts, const Ids& points, const Bytes& turned,
-           const std::optional<Numbers>& names) {
-            auto faces = checked_parts(parts, points);
-            require_rows(turned.shape(0), parts.size(), "turned");
-            for (std::size_t k = 0; k < faces.size(); ++k) faces[k].is_turned = turned(k) != 0;
-            std::span<const std::int32_t> named;
-            if (names) {
-                std::int64_t all = 0;
-                for (const TrianglesOfFace& face : faces) all += face.points;
-                require_rows(names->shape(0), static_cast<std::size_t>(all), "names");
-                named = rows<std::int32_t>(*names);
-            }
-            Array<std::int32_t> row;
-            {
-                const nb::gil_scoped_release released;
-                row = triangles_in_a_row(faces, named);
-            }
-            return in_threes(row);
-        },
-        nb::arg("parts"), nb::arg("points"), nb::arg("turned"), nb::arg("names") = nb::none(),
-        "Triangles (m, 3) int32 of all parts, each (k, 3) int32, their corners numbered on by the "
-        "points (p,) of the parts before; those of parts in turned (p,) uint8 turn over.\n\n"
-        "names: (n,) int32 of the points of all parts, for these numbers.");
-    m.def(
-        "are_corners",
-        [](const PartsOfMesh& parts, const Ids& points) {
-            const auto faces = checked_parts(parts, points);
-            Array<std::uint8_t> found;
-            {
-                const nb::gil_scoped_release released;
-                found = are_corners(faces);
-            }
-            return view(found);
-        },
-        nb::arg("parts"), nb::arg("points"),
-        "Of the points of all parts in one row (n,) uint8: are they corners of a triangle?");
 }
 
 void bind_shared_sides(nb::module_& m) {
@@ -361,8 +284,7 @@ void bind_boundaries(nb::module_& m) {
     bind_boundary(m);
     bind_looks_at_a_face(m);
     bind_builder(m);
-    bind_numbers(m);
-    bind_triangles(m);
+    bind_figures(m);
     bind_shared_sides(m);
     bind_polygons(m);
 }

@@ -100,26 +100,9 @@ def face_boundaries(uv: Annotated[NDArray[numpy.float64], dict(shape=(None, 2), 
     uv (n, 2), numbers, points (n, 3), sizes: of the nodes of all coedges, face after face, in the direction of the edges. first (c + 1,): rows of the coedges. is_reversed, is_degenerate, tolerance (c,): of the coedges. coedges (l,) int32: of each loop; loops (f,) int32: of each face.
     """
 
-def numbers_of(boundaries: Sequence[FaceBoundary]) -> tuple[Annotated[NDArray[numpy.int64], dict(shape=(None,))], Annotated[NDArray[numpy.int64], dict(shape=(None,))]]:
-    """
-    Those of the nodes of many boundaries in one row, and where each begins.
-    """
-
 def loop_figures(boundaries: Sequence[FaceBoundary]) -> tuple[Annotated[NDArray[numpy.float64], dict(shape=(None, 3))], Annotated[NDArray[numpy.int64], dict(shape=(None,))]]:
     """
     Of the loops of many boundaries: nodes, length of the polygon, sum of the finite sizes (l, 3); and where those of each boundary begin.
-    """
-
-def triangles_in_a_row(parts: Sequence[Annotated[NDArray[numpy.int32], dict(shape=(None, 3), order='C', device='cpu', writable=False)]], points: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], turned: Annotated[NDArray[numpy.uint8], dict(shape=(None,), order='C', device='cpu', writable=False)], names: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)] | None = None) -> Annotated[NDArray[numpy.int32], dict(shape=(None, 3))]:
-    """
-    Triangles (m, 3) int32 of all parts, each (k, 3) int32, their corners numbered on by the points (p,) of the parts before; those of parts in turned (p,) uint8 turn over.
-
-    names: (n,) int32 of the points of all parts, for these numbers.
-    """
-
-def are_corners(parts: Sequence[Annotated[NDArray[numpy.int32], dict(shape=(None, 3), order='C', device='cpu', writable=False)]], points: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)]) -> Annotated[NDArray[numpy.uint8], dict(shape=(None,))]:
-    """
-    Of the points of all parts in one row (n,) uint8: are they corners of a triangle?
     """
 
 def has_crowded_side(triangles: Annotated[NDArray[numpy.int32], dict(shape=(None, 3), order='C', device='cpu', writable=False)], shared: Annotated[NDArray[numpy.uint8], dict(shape=(None,), order='C', device='cpu', writable=False)]) -> bool:
@@ -301,6 +284,57 @@ class FaceQueue:
 
     def stop(self) -> None:
         """Begin no face any more, and finish none."""
+
+class JoinedFaces:
+    """Faces as one mesh."""
+
+    @property
+    def rank(self) -> Annotated[NDArray[numpy.int64], dict(shape=(None,))]:
+        """
+        (s,) int64 of the shared nodes: their vertices, -1 for those of no triangle
+        """
+
+    @property
+    def points(self) -> Annotated[NDArray[numpy.float64], dict(shape=(None, 3))]:
+        """(n, 3) shared nodes first, then those inside face after face"""
+
+    @property
+    def sizes(self) -> Annotated[NDArray[numpy.float64], dict(shape=(None,))]:
+        """(n,) of the points: the least that is known"""
+
+    @property
+    def triangles(self) -> Annotated[NDArray[numpy.int32], dict(shape=(None, 3))]:
+        """(m, 3) of the points, face after face"""
+
+    @property
+    def face_ids(self) -> Annotated[NDArray[numpy.int32], dict(shape=(None,))]:
+        """(m,) int32 of the triangles"""
+
+    @property
+    def uv(self) -> Annotated[NDArray[numpy.float64], dict(shape=(None, 2))]:
+        """(k, 2) of the corners, face after face"""
+
+    @property
+    def uv_triangles(self) -> Annotated[NDArray[numpy.int32], dict(shape=(None, 3))]:
+        """(m, 3) of the corners"""
+
+class FaceJoiner:
+    """Joins meshes of faces, given one after the other."""
+
+    def __init__(self) -> None: ...
+
+    def add(self, points: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)], slots: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], sizes: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)], triangles: Annotated[NDArray[numpy.int32], dict(shape=(None, 3), order='C', device='cpu', writable=False)], uv: Annotated[NDArray[numpy.float64], dict(shape=(None, 2), order='C', device='cpu', writable=False)], uv_triangles: Annotated[NDArray[numpy.int32], dict(shape=(None, 3), order='C', device='cpu', writable=False)], boundary: FaceBoundary, face: int, is_turned: bool) -> None:
+        """
+        A face with points (n, 3), their slots (n,) in its boundary, -1 inside, and sizes (n,); with triangles (m, 3) of these, and as many of uv (k, 2). is_turned: its triangles turn over.
+        """
+
+    def add_row(self, rows: FaceRows, place: int, boundary: FaceBoundary, face: int, is_turned: bool) -> None:
+        """The same of the face at a place among the rows of a queue."""
+
+    def joined(self, points: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)], sizes: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)]) -> JoinedFaces:
+        """
+        All of them; points (s, 3), sizes (s,): of the nodes of boundaries by number.
+        """
 
 def mesh_face(surface: surfmesh._core.surfaces.Surface, chart: surfmesh._core.surfaces.Chart, background: surfmesh._core.fields.Background, polygons: FacePolygons, manner: FaceManner) -> FaceMesh:
     """Mesh a face with a given size field, without the interpreter."""

@@ -222,7 +222,7 @@ class _Rounds:
         asking = {s.number: s.refinement for s in self.faces if s.mesh.refinement is not None}
         refinements = {number: found for number, found in asking.items() if found is not None}
         mesh = None
-        if not refinements or any(len(state.mesh.triangles) for state in self.faces):
+        if not refinements or not all(state.mesh.is_empty for state in self.faces):
             with self.watch.stage("mapping"):
                 mesh = self._joined()
                 crowded = limits_where_crowded(self.model, mesh, self.wanted.base)

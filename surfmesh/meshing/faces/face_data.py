@@ -8,7 +8,7 @@ from typing import Any, NamedTuple, Self
 
 import numpy as np
 
-from surfmesh._core.faces import BoundaryBuilder, FaceBoundary
+from surfmesh._core.faces import BoundaryBuilder, FaceBoundary, FaceJoiner
 from surfmesh.cad.model.loop_faults import ExactLoops
 from surfmesh.geometry.cad_surfaces.face_surface import FaceSurface
 from surfmesh.meshing.edges.edge_samples import NarrowFace
@@ -182,6 +182,20 @@ class FaceMesh:
         """How many triangles the face has, wherever they are."""
         return len(self.triangles)
 
+    @property
+    def is_empty(self) -> bool:
+        """Has it no triangles?"""
+        return not len(self.triangles)
+
     def whole(self) -> "FaceMesh":
-        """With all of its arrays: see ``partitions``."""
+        """With all of its arrays, by itself: see ``partitions`` and ``face_in_rows``."""
         return self
+
+    def add_to(
+        self, joiner: FaceJoiner, boundary: FaceBoundary, face: int, is_turned: bool
+    ) -> None:
+        """Hand it over to be joined with others; boundary: of its job, face: its number."""
+        joiner.add(
+            self.points, self.slots, self.sizes, self.triangles, self.uv_points,
+            self.uv_triangles, boundary, face, is_turned,
+        )  # fmt: skip

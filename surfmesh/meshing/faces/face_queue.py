@@ -6,9 +6,11 @@ jobs -> inward faces, most work first -> FaceQueue of the core -> rows of arrays
 """
 
 from collections.abc import Iterable, Sequence
+from itertools import pairwise
 
 from surfmesh._core import faces as core
 from surfmesh.meshing.faces.face_data import FaceJob, FaceMesh
+from surfmesh.meshing.faces.face_in_rows import FaceInRows
 from surfmesh.meshing.faces.face_mesh import continued
 from surfmesh.meshing.faces.inward_faces import InwardFaces
 
@@ -63,16 +65,8 @@ def _ordinary(job: FaceJob, inward: InwardFaces) -> core.InwardFace | None:
 
 def _in_rows(rows: core.FaceRows) -> list[tuple[int, FaceMesh]]:
     """Numbers in the queue and meshes of the faces that ask for nothing."""
-    points, slots, sizes, uv = rows.points, rows.slots, rows.sizes, rows.uv
-    triangles, uv_triangles = rows.triangles, rows.uv_triangles
-    found = []
-    p = t = c = 0
-    ends = zip(rows.point_end.tolist(), rows.triangle_end.tolist(), rows.corner_end.tolist())
-    for face, (point, triangle, corner) in zip(rows.face.tolist(), ends):
-        mesh = FaceMesh(
-            points[p:point], slots[p:point], triangles[t:triangle], uv[c:corner],
-            uv_triangles[t:triangle], sizes[p:point],
-        )  # fmt: skip
-        found.append((face, mesh))
-        p, t, c = point, triangle, corner
-    return found
+    ends = pairwise([0, *rows.triangle_end.tolist()])
+    return [
+        (face, FaceInRows(rows, place, last - first))
+        for place, (face, (first, last)) in enumerate(zip(rows.face.tolist(), ends))
+    ]

@@ -85,9 +85,9 @@ class FaceStore:
 
         Raises ``MeshingError`` where the folder is not there, or cannot be written.
         """
-        if not len(mesh.triangles):
+        if mesh.is_empty:
             return mesh
-        mesh = _without_unused(mesh)
+        mesh = _without_unused(mesh.whole())
         held = {name: getattr(mesh, name) for name in ARRAYS}
         content = io.BytesIO()
         np.savez(content, **{name: values for name, values in held.items() if values is not None})

@@ -9,12 +9,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from surfmesh._core.faces import (
-    are_corners,
-    has_crowded_side,
-    numbers_of,
-    triangles_in_a_row,
-)
+from surfmesh._core.faces import FaceJoiner, JoinedFaces, has_crowded_side
 from surfmesh.cad.model.cad_model import CadModel
 from surfmesh.cad.model.facts import model_facts
 from surfmesh.cad.model.model_arrays import model_arrays
@@ -44,18 +39,18 @@ def joined_mesh(
     """
     turned, solids = orientation(model)
     is_stretched = any(state.mesh.inverse_sizes is not None for state in faces)
-    there = [state for state in faces if len(state.mesh.triangles)]
+    there = [state for state in faces if not state.mesh.is_empty]
     if not there:
         reasons = [state.reason for state in faces if state.reason]
         raise MeshingError(f"no face could be meshed: {'; '.join(reasons[:5])}")
     joined = _joined(_shared_nodes(model, nodes), there, turned)
-    face_ids, rank = joined.face_ids, joined.rank
+    face_ids, rank, sizes = joined.face_ids, joined.rank, joined.sizes
     edges = _edge_segments(nodes, rank)
     findings = face_findings(faces, model.left_out)
     return SurfaceMesh(
         points=joined.points,
         triangles=joined.triangles,
-        uv_points=joined.uv_points,
+        uv_points=joined.uv,
         uv_triangles=joined.uv_triangles,
         face_ids=face_ids,
         surfaces=tuple(face.surface for face in model.faces),
@@ -67,7 +62,7 @@ def joined_mesh(
         edge_parameters=edges.parameters,
         edge_curves=model.edges,
         vertex_ids=rank[vertex],
-        sizes=np.where(np.isfinite(joined.sizes), joined.sizes, model.diagonal),
+        sizes=np.where(np.isfinite(sizes), sizes, model.diagonal),
         groups=groups_of(model),
         metric_root_3d=(
             np.concatenate([metric_roots(state.mesh) for state in there]) if is_stretched else None
@@ -100,48 +95,13 @@ def _shared_nodes(model: CadModel, nodes: CutEdges) -> _Shared:
     return _Shared(points, sizes)
 
 
-class _Joined(NamedTuple):
-    """The arrays of the whole mesh, and what vertex (or -1) each number of a node is there."""
-
-    rank: np.ndarray
-    points: np.ndarray
-    sizes: np.ndarray
-    triangles: np.ndarray
-    face_ids: np.ndarray
-    uv_points: np.ndarray
-    uv_triangles: np.ndarray
-
-
-def _joined(shared: _Shared, faces: list[FaceState], turned: np.ndarray) -> _Joined:
+def _joined(shared: _Shared, faces: list[FaceState], turned: np.ndarray) -> JoinedFaces:
     """With the inner points of face after face; turned: (f,) of all faces of the model."""
-    meshes = [state.mesh for state in faces]
-    names, first_name = numbers_of([state.job.boundary for state in faces])
-    count = np.array([len(mesh.points) for mesh in meshes])
-    slots = np.concatenate([mesh.slots for mesh in meshes])
-    inside = slots < 0
-    own = np.empty(len(slots), np.int64)
-    on_edges = (slots + np.repeat(first_name[:-1], count))[~inside]
-    own[~inside] = names[on_edges]
-    own[inside] = len(shared.points) + np.arange(int(inside.sum()))
-    points = np.concatenate([mesh.points for mesh in meshes])
-    sizes = np.concatenate([mesh.sizes for mesh in meshes])
-    np.minimum.at(shared.sizes, own[~inside], sizes[~inside])  # poles have no edge of a size
-    numbers = np.array([state.number for state in faces], np.int32)
-    back = turned[numbers].view(np.uint8)
-    corners = [mesh.triangles for mesh in meshes]
-    used = np.zeros(len(shared.points) + int(inside.sum()), bool)
-    used[own[are_corners(corners, count).view(bool)]] = True
-    rank = np.where(used, np.cumsum(used) - 1, -1)
-    images = np.array([len(mesh.uv_points) for mesh in meshes])
-    return _Joined(
-        rank,
-        np.concatenate([shared.points, points[inside]])[used],
-        np.concatenate([shared.sizes, sizes[inside]])[used],
-        triangles_in_a_row(corners, count, back, rank[own].astype(np.int32)),
-        np.repeat(numbers, [len(part) for part in corners]),
-        np.concatenate([mesh.uv_points for mesh in meshes]),
-        triangles_in_a_row([mesh.uv_triangles for mesh in meshes], images, back),
-    )
+    joiner, is_turned = FaceJoiner(), turned.tolist()
+    for state in faces:
+        number = state.number
+        state.mesh.add_to(joiner, state.job.boundary, number, is_turned[number])
+    return joiner.joined(*shared)
 
 
 def metric_roots(mesh: FaceMesh) -> np.ndarray:

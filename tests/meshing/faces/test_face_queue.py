@@ -1,5 +1,7 @@
 """Ordinary faces meshed by the core in a queue: each as it is by itself."""
 
+import pickle
+from dataclasses import replace
 from threading import Thread
 
 import cadquery as cq
@@ -9,6 +11,7 @@ import pytest
 import surfmesh as sm
 from surfmesh._core import faces as core
 from surfmesh.meshing.faces import face_queue
+from surfmesh.meshing.faces.face_data import FaceMesh
 from surfmesh.meshing.faces.face_mesh import mesh_face
 from surfmesh.meshing.faces.face_queue import FaceQueue
 from surfmesh.meshing.faces.face_workers import FaceWorkers
@@ -119,3 +122,12 @@ def test_faces_that_are_none_are_refused(jobs):
             core.InwardFace(flat.surface.core, flat.boundary, speeds, largest, 0.2, manner)
     with pytest.raises(TypeError):
         core.FaceQueue([None])
+
+
+def test_a_face_in_rows_can_be_sent_and_stands_by_itself(jobs):
+    for mesh in worked(FaceQueue(jobs, range(len(jobs)))).values():
+        assert mesh.count == len(mesh.triangles) > 0 and not mesh.is_empty
+        sent = pickle.loads(pickle.dumps(mesh))
+        assert type(sent) is FaceMesh is type(mesh.whole())
+        require_same(sent, mesh)
+        assert replace(mesh.whole(), remark="seen").remark == "seen"
