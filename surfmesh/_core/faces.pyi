@@ -105,9 +105,9 @@ def numbers_of(boundaries: Sequence[FaceBoundary]) -> tuple[Annotated[NDArray[nu
     Those of the nodes of many boundaries in one row, and where each begins.
     """
 
-def loop_figures(boundaries: Sequence[FaceBoundary]) -> tuple[Annotated[NDArray[numpy.float64], dict(shape=(None, 3))], Annotated[NDArray[numpy.int64], dict(shape=(None,))]]:
+def loop_figures(boundaries: Sequence[FaceBoundary]) -> tuple[Annotated[NDArray[numpy.float64], dict(shape=(None, 4))], Annotated[NDArray[numpy.int64], dict(shape=(None,))]]:
     """
-    Of the loops of many boundaries: nodes, length of the polygon, sum of the finite sizes (l, 3); and where those of each boundary begin.
+    Of the loops of many boundaries: segments, length of the polygon, sum of the finite sizes and their number (l, 4); and where those of each boundary begin.
     """
 
 def triangles_in_a_row(parts: Sequence[Annotated[NDArray[numpy.int32], dict(shape=(None, 3), order='C', device='cpu', writable=False)]], points: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], turned: Annotated[NDArray[numpy.uint8], dict(shape=(None,), order='C', device='cpu', writable=False)], names: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)] | None = None) -> Annotated[NDArray[numpy.int32], dict(shape=(None, 3))]:

@@ -22,7 +22,9 @@ from surfmesh.meshing.edges.edge_sampling import sample_edges
 from surfmesh.meshing.edges.face_proximity import with_face_gaps
 from surfmesh.meshing.estimate.estimation import Estimate
 from surfmesh.meshing.estimate.least_counts import least_of_model
+from surfmesh.meshing.estimate.face_counts import Outlines
 from surfmesh.meshing.estimate.model_estimate import (
+    Bends,
     FaceFields,
     is_foreseen,
     model_counts,
@@ -303,8 +305,10 @@ def estimate_model(model: CadModel, sizing: Any) -> Estimate:
     whole, fields = WHOLE_STRETCHED if stretched else WHOLE, FaceFields()
     small, foreseen, counts = before.bound <= FEW, False, np.empty(0)
     if not small:
-        counts = model_counts(model, before.jobs, fields)
-        foreseen = is_foreseen(before.jobs, model.diagonal, counts)
+        outlines = Outlines.of(before.jobs)
+        counts = model_counts(model, before.jobs, outlines, fields)
+        sizings = [state.sizing for state in before.faces]
+        foreseen = is_foreseen(sizings, counts, outlines.fewest, before.bends)
         small = counts.sum() <= (FEW if foreseen else whole)
     if small:
         made = counts_within_budget(lambda budget: mesh_model(
@@ -312,7 +316,8 @@ def estimate_model(model: CadModel, sizing: Any) -> Estimate:
         ))  # fmt: skip
         if made is not None:
             return Estimate.of(made, stretched, True, least)
-        counts = counts if len(counts) else model_counts(model, before.jobs, fields)
+        if not len(counts):
+            counts = model_counts(model, before.jobs, Outlines.of(before.jobs), fields)
     if not foreseen or any(_follows_curvature(state.sizing) for state in before.faces):
         counts = counts * ratios(before.jobs, counts, fields)
     return Estimate.of(counts, stretched, True, least)
@@ -360,7 +365,9 @@ class _Unmeshed:
         self.samples = sample_edges(model, self.wanted, few)
         self.faces = face_states(model, self.samples, self.wanted)
         nodes = cut_edges(model, self.wanted.base, self.samples, {})
-        self.bound = quick_bound(model, nodes, [state.sizing for state in self.faces])
+        sizings = [state.sizing for state in self.faces]
+        self.bends = Bends.of(model, sizings)
+        self.bound = quick_bound(model, nodes, sizings, self.bends)
         """Triangles at most, roughly."""
         self._first_nodes = nodes
 
