@@ -18,7 +18,7 @@ constexpr double NEAR_SOURCE = 0.06;
 // Cells narrower than this many sizes are not split, however steep the growth.
 constexpr double FINEST_AT_SOURCE = 0.25, FINEST = 0.5;
 
-constexpr double ROUGHER = 4.0;  // factor on all of these for an estimate
+constexpr double ROUGHER = 2.0;  // factor on all of these for an estimate
 
 constexpr std::uint64_t NO_KEY = std::numeric_limits<std::uint64_t>::max();
 

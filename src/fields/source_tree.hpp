@@ -42,7 +42,7 @@ struct RootCells {
     std::int32_t nx, ny;
 };
 
-/// An estimate does with cells four times as rough, and with neighbours of any size.
+/// An estimate does with cells twice as rough, and with neighbours of any size.
 enum class Fineness { for_mesh, for_estimate };
 
 enum class TreeStatus {
