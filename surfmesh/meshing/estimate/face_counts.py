@@ -66,12 +66,21 @@ class Outlines(NamedTuple):
         return self.segments + 2.0 * self.loops - 4.0
 
 
+class FaceCounts(NamedTuple):
+    """Triangles of many faces."""
+
+    counts: np.ndarray
+    """(f,) on each."""
+    alike: np.ndarray
+    """(f,) the first face that each is like."""
+
+
 def counts_of_faces(
     jobs: list[FaceJob], areas: np.ndarray, outlines: Outlines,
-    count: Callable[[list[FaceJob]], np.ndarray],
-) -> np.ndarray:  # fmt: skip
-    """Triangles (f,) on each face. areas: (f,) of the faces; outlines: of all; count: looks
-    closely at some."""
+    count: Callable[[list[int]], np.ndarray],
+) -> FaceCounts:  # fmt: skip
+    """areas: (f,) of the faces; outlines: of all; count: triangles of some faces by their numbers,
+    of a closer look."""
     first, class_of = _classes(jobs, areas, outlines)
     inside = TRIANGLES * areas[first] / outlines.size[first] ** 2
     rough = np.maximum(combined(inside, outlines.fewest[first]), 1.0)
@@ -82,13 +91,13 @@ def counts_of_faces(
     ]
     close = np.concatenate([chosen for _, chosen, _ in samples])
     counts = np.zeros(len(first))
-    counts[close] = count([jobs[first[number]] for number in close.tolist()])
+    counts[close] = count(first[close].tolist())
     for of, chosen, times in samples:
         if len(of) > len(chosen):
             others = np.setdiff1d(of, chosen)
             factor = np.average(counts[chosen] / rough[chosen], weights=times)
             counts[others] = factor * rough[others]
-    return counts[class_of]
+    return FaceCounts(counts[class_of], first[class_of])
 
 
 def _sample(of: np.ndarray, weights: np.ndarray) -> tuple[np.ndarray, np.ndarray]:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from functools import partial
 from typing import NamedTuple, Self
 from weakref import WeakKeyDictionary
 
@@ -18,7 +17,7 @@ from surfmesh.geometry.cad_surfaces.face_surface import FaceSurface
 from surfmesh.geometry.differential.fundamental_forms import curvatures, forms_from_derivatives
 from surfmesh.meshing.edges.edge_nodes import CutEdges
 from surfmesh.meshing.estimate.estimation import Estimate, combined, require_within
-from surfmesh.meshing.estimate.face_counts import Outlines, counts_of_faces
+from surfmesh.meshing.estimate.face_counts import FaceCounts, Outlines, counts_of_faces
 from surfmesh.meshing.estimate.trial_mesh import LARGEST_TURN, is_one_round
 from surfmesh.meshing.faces.face_data import FaceJob
 from surfmesh.meshing.faces.face_mesh import face_field
@@ -29,6 +28,9 @@ from surfmesh.sizing.field.size_field import SizeField
 from surfmesh.sizing.options.sizing import Sizing
 from surfmesh.sizing.rules.direction_rates import has_even_curvature
 from surfmesh.sizing.rules.size_rules import SizeRules
+
+JobsOf = Callable[[Sequence[int]], list[FaceJob]]
+"""Of faces by their numbers."""
 
 FEW = 9
 """Points each way of a grid on a face."""
@@ -54,12 +56,17 @@ class FaceFields:
 
 
 def model_counts(
-    model: CadModel, jobs: list[FaceJob], outlines: Outlines, fields: FaceFields
-) -> np.ndarray:
-    """Triangles on each face (f,) in the first round. Raises ``SizingError`` where a size field
-    cannot be made."""
-    count = partial(counts_by_area, fields=fields)
-    return counts_of_faces(jobs, model_arrays(model).area, outlines, count)
+    model: CadModel, jobs: list[FaceJob], outlines: Outlines, refined: JobsOf, fields: FaceFields
+) -> FaceCounts:
+    """Triangles on each face before anything is known of a mesh. Raises ``SizingError`` where a
+    size field cannot be made.
+
+    jobs: of the first round; refined: what some are counted from.
+    """
+    return counts_of_faces(
+        jobs, model_arrays(model).area, outlines,
+        lambda numbers: counts_by_area(refined(numbers), fields),
+    )  # fmt: skip
 
 
 def counts_by_area(jobs: list[FaceJob], fields: FaceFields) -> np.ndarray:
@@ -239,5 +246,7 @@ def require_model_within(
     names = [face.label(number) for number, face in enumerate(model.faces)]
     require_within(sizing.limit, Estimate.of(least), names)
     every = jobs()
-    counts = model_counts(model, every, Outlines.of(every), FaceFields())
-    require_within(sizing.limit, Estimate.of(counts, model=True), names)
+    found = model_counts(
+        model, every, Outlines.of(every), lambda numbers: [every[k] for k in numbers], FaceFields()
+    )
+    require_within(sizing.limit, Estimate.of(found.counts, model=True), names)
